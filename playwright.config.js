@@ -6,17 +6,17 @@ export default defineConfig({
   outputDir: 'test-results/e2e',
   forbidOnly: true,
   fullyParallel: true,
-  // Tests wait for frames and timers: three at a time keep two cores busy.
+  // Tests often wait for frames and timers. Three workers therefore keep two processor cores busy.
   workers: '150%',
   reporter: 'list',
   use: {
     baseURL: process.env.SERVED_AT,
-    // Without a Chromium of this machine, Playwright's own.
+    // If this machine has no Chromium, Playwright uses its own.
     launchOptions: { executablePath: process.env.CHROME ?? findChrome(), args: CHROME_ARGUMENTS },
   },
   projects: [
-    // A page that stays keeps its process, with the scripts and the module that it has compiled: three quarters of what
-    // opening one costs. Between tests it is emptied; its history alone stays.
+    // Tests reuse one page, because the process of a page keeps compiled scripts and modules. A new page would take four times as long to
+    // open. Between tests Playwright empties the page, except for its history.
     { name: 'shared', grepInvert: /@fresh/, use: { reuseContext: true } },
     { name: 'fresh', grep: /@fresh/ },
   ],
@@ -24,7 +24,7 @@ export default defineConfig({
     command: 'node scripts/serve.mjs',
     env: { PORT: '0' },
     wait: { stdout: /The widgets are at (?<served_at>\S+)/ },
-    // Enough for a first build.
+    // Time limit in ms of the first build.
     timeout: 900_000,
     gracefulShutdown: { signal: 'SIGTERM', timeout: 5000 },
   },

@@ -1,5 +1,5 @@
 // `npm run bench`: measures the targets of doc/benchmarks.md in Node and in headless Chromium. It prints tables in Markdown, and writes the
-// measurements to build/bench.json. `-- --quick` measures fewer turns.
+// measurements to build/bench.json. `-- --quick` repeats each measurement less often.
 
 import { readFileSync, writeFileSync } from 'node:fs';
 import { cpus } from 'node:os';

@@ -5,9 +5,9 @@ import { join } from 'node:path';
 import { UserError, absolutePath, findProgram, mustRun, printStep, run } from './process.mjs';
 import { CACHE_DIRECTORY, installByApt } from './toolchain.mjs';
 
-/** Names of the full Chromium, which alone has a back-forward cache. */
+/** Names of the programs of the full Chromium. Only the full Chromium has a back-forward cache. */
 export const FULL_CHROME_NAMES = ['chromium', 'google-chrome', 'google-chrome-stable', 'chrome', 'chromium-browser'];
-/** Names of Chromium's programs. The headless program is preferred, because it takes a third less processor time. */
+/** Names of all programs of Chromium. The headless program is preferred, because it takes a third less processor time. */
 const CHROME_NAMES = ['chromium-headless-shell', ...FULL_CHROME_NAMES];
 const MACOS_CHROME_DIRECTORY = '/Applications/Google Chrome.app/Contents/MacOS';
 const MISSING_BROWSER_MESSAGE =
@@ -32,7 +32,7 @@ export const CHROME_ARGUMENTS = [
 /** Returns a browser with its driver, and installs what is missing. @returns {Promise<Browser>} */
 export async function ensureBrowser() {
   const browser = await ensureChrome();
-  // The pages are laid out for a font as wide as Arial. With DejaVu as the only font all text is a tenth wider.
+  // The layout of the pages assumes a font as wide as Arial. If DejaVu is the only font, all text is a tenth wider.
   if (findProgram('fc-match') !== undefined && findProgram('apt-get') !== undefined) {
     const { stdout: arialFamily } = await run('fc-match', ['--format', '%{family}', 'Arial'], { quiet: true, seconds: 30 });
     if (!/Arial|Liberation|Arimo|Helvetica/.test(arialFamily)) await installByApt(['fonts-liberation'], 'A font as wide as Arial is missing: install fonts-liberation.');
@@ -45,7 +45,7 @@ async function ensureChrome() {
   const existingBrowser = await checkPair(CHROME ?? findChrome(), CHROMEDRIVER ?? findProgram('chromedriver'));
   if (existingBrowser !== undefined) return existingBrowser;
   if (CHROME !== undefined || CHROMEDRIVER !== undefined) throw new UserError(MISSING_BROWSER_MESSAGE);
-  // On Ubuntu, packages of these names only point to a snap. A snap cannot be driven from here.
+  // On Ubuntu, packages with these names only install snaps. This script cannot drive the Chromium in a snap.
   const isDebian = existsSync('/etc/os-release') && /^ID=debian$/m.test(readFileSync('/etc/os-release', 'utf8'));
   if (isDebian) await installByApt(['chromium-headless-shell', 'chromium-driver'], MISSING_BROWSER_MESSAGE);
   const installedBrowser = isDebian ? await checkPair(findChrome(), findProgram('chromedriver')) : await installChromeForTesting();

@@ -32,8 +32,8 @@ const CORE_SOURCES = [
  * Brings dist/ up to date with the sources.
  *
  * @param {object} [options]
- * @param {boolean} [options.local] for a server on this machine: all figures share the whole core, compiled by the profile `web`
- *   and not shrunk, unless the modules to be published are there already
+ * @param {boolean} [options.local] true for a server on this machine. All figures then share the whole core, compiled with the profile
+ *   `web` and not shrunk, unless the modules for publication exist already.
  */
 export async function build({ local = false } = {}) {
   const coreHash = hashOfFiles(CORE_SOURCES);
@@ -43,7 +43,7 @@ export async function build({ local = false } = {}) {
   // Packages are installed before anything is compiled. Without a network the installation fails at once, whereas compiling takes minutes.
   await ensurePackages();
   await buildIfStale('build/core.sha256', compiledHash, coreProducts, () => buildCores(['motion'], local));
-  // The script imports packages and build/settings.js. A static import would fail in a bare clone.
+  // bundle.mjs imports npm packages and build/settings.js. A static import of bundle.mjs would fail in a bare clone.
   const { WIDGET_TAGS, bundle } = await import('./bundle.mjs');
   const figureProducts = WIDGET_TAGS.flatMap((widgetTag) => [`build/${widgetTag}.js`, `build/${widgetTag}.wasm`]);
   if (!local) await buildIfStale('build/figures.sha256', coreHash, figureProducts, () => buildCores(WIDGET_TAGS, false));
@@ -85,19 +85,19 @@ function isCurrent(stamp, sourceHash, products) {
 }
 
 /**
- * Builds cores, each a module and its glue.
+ * Builds cores. Each core is a WebAssembly module and its JavaScript glue.
  *
- * @param {string[]} coreNames "motion" for the whole core, or the tags of figures, whose cores have their own simulation alone
+ * @param {string[]} coreNames "motion" for the whole core, or tags of figures. The core of a figure contains only its own simulation.
  * @param {boolean} isLocal
  */
 async function buildCores(coreNames, isLocal) {
-  // The build waits for Rust first. Otherwise an error of other work would end the process before the message about missing Rust.
+  // The build waits for Rust first. Otherwise another failure would end the process before the message about missing Rust.
   const rustTools = await ensureRustForWasm();
   const [binderPromise, packagesPromise] = [ensureBindProgram(), ensurePackages(isLocal ? undefined : 'scripts')];
   printStep(`Compiling the core to WebAssembly (${rustTools.description}): ${coreNames.join(', ')}`);
   const finishPromises = [];
   for (const coreName of coreNames) {
-    // Cargo writes all cores to the same path. Each core is bound before the next is compiled, and is optimized meanwhile.
+    // Cargo writes all cores to one path. The glue of a core is therefore generated before the next core is compiled.
     const [modulePath, binderPath] = await settleAll([compileCore(rustTools, coreName, isLocal), binderPromise, packagesPromise]);
     await mustRun('wasm-bindgen failed: see above.', binderPath, [modulePath, absolutePath(`build/bound/${coreName}`)]);
     finishPromises.push(finishCore(coreName, isLocal));
@@ -115,7 +115,7 @@ async function buildCores(coreNames, isLocal) {
  * @param {Awaited<ReturnType<typeof ensureRustForWasm>>} rustTools
  * @param {string} name as in `buildCores`
  * @param {boolean} isLocal
- * @returns {Promise<string>} the path of the module as rustc leaves it
+ * @returns {Promise<string>} path of the module that rustc has written
  */
 async function compileCore(rustTools, name, isLocal) {
   const cargoPath = join(rustTools.bin, 'cargo');
@@ -138,10 +138,7 @@ async function compileCore(rustTools, name, isLocal) {
   return join(cargoMetadata.target_directory, `wasm32-unknown-unknown/${cargoProfile}/motion.wasm`);
 }
 
-/**
- * Writes build/settings.js. It has constants of the core for pages that have not loaded the core, and for scripts that generate types and
- * tables.
- */
+/** Writes build/settings.js, with constants of the core for pages that have not loaded it and for scripts that generate types. */
 async function writeSettings() {
   const { bin, env } = await ensureNativeRust();
   const cargoArguments = ['run', '--quiet', '--locked', '--example', 'declarations'];
@@ -162,7 +159,7 @@ async function writeSettings() {
  */
 function declarationsOf(settingsOfWidget) {
   const fieldKeys = settingsOfWidget.flatMap(([, { fields = [] }]) => fields.map((/** @type {any[]} */ [{ key }]) => key));
-  // A field of several groups, such as two poses, is called by the name of its group and its key.
+  // If several groups have a field of the same name, as two poses have, the group is part of the field's name.
   const isShared = (/** @type {string} */ fieldKey) => fieldKeys.indexOf(fieldKey) < fieldKeys.lastIndexOf(fieldKey);
   return settingsOfWidget.flatMap(([{ key, of, unit, sentence, each }, { type, allowed, nullable, weights, words, fields, minLength }, value]) => {
     const limits = { min: allowed?.start, max: allowed?.end };

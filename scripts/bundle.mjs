@@ -17,12 +17,12 @@ import { writeTypes } from './types.mjs';
 /** Tags of the elements. */
 export const WIDGET_TAGS = Object.keys(declared.settings);
 
-/** Name under which a bundle imports the bytes of the whole core, as a function that returns the bytes. */
+/** Name of the module with the bytes of the whole core. The module exports a function that returns the bytes. */
 const BYTES_MODULE_NAME = 'motion.bytes';
 
 /**
  * Placeholder for the name of the chunk that contains `MODULE_SOURCES.external`. The placeholder has the same length as the name, so that
- * source maps stay valid. Within dist/ the chunk's address ends with that name. In the output of a bundler it does not.
+ * source maps stay valid. The chunk's address ends with that name in dist/, but not in the output of a bundler.
  */
 const CHUNK_PLACEHOLDER = 'chunk-________.js';
 
@@ -53,8 +53,8 @@ const startWorkerSource = (workerPlace, fallbackStatement = '') =>
 /** Sources of the modules by which each kind of bundle replaces its import of the WebAssembly module. They export the cores with their glue. */
 const MODULE_SOURCES = {
   /**
-   * Text of the bytes with a character for each byte. The character's code, modulo 256, is the byte. Brotli and gzip compress this text
-   * almost as well as the module itself (7 % more bytes are transferred). Base64, or a module that is compressed already, would be larger.
+   * Module whose text contains one character for each byte. The character's code, modulo 256, is the byte. Brotli and gzip compress this
+   * text almost as well as the WebAssembly module (7 % more bytes are transferred). Base64 or compressed bytes would be larger.
    *
    * @param {Uint8Array} bytes
    * @param {RegExp} shiftedCharacters characters to whose code 256 is added
@@ -69,7 +69,7 @@ const MODULE_SOURCES = {
     );
   },
   /**
-   * Glue of the worker, without WebAssembly modules. The page sends a compiled module to the worker.
+   * Glue of the worker that reads logs, without WebAssembly modules. The page sends a compiled module to the worker.
    *
    * @param {string[]} widgetTags of the figures with logs that have a module of their own
    */
@@ -77,9 +77,9 @@ const MODULE_SOURCES = {
     const glueLines = ['motion', ...widgetTags].map((widgetTag, i) => [`import * as glue${i} from './${widgetTag}.js';`, `'${widgetTag}': { glue: async () => glue${i} }`]);
     return `${glueLines.map(([importLine]) => importLine).join('')} export default { ${glueLines.map(([, exportEntry]) => exportEntry).join(', ')} }; export function startWorker() {}`;
   },
-  /** The core without figures. Its bytes are in a separate script, which external.js shares. */
+  /** The core without elements. Its bytes are in a separate script, which external.js uses too. */
   core: () => `import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source: async () => (await import('${BYTES_MODULE_NAME}')).default() } }; export function startWorker() {}`,
-  /** The core together with its bytes. @param {boolean} isClassic */
+  /** The core and its bytes in one script. @param {boolean} isClassic */
   inlined: (isClassic) => `import source from '${BYTES_MODULE_NAME}'; import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source } };${isClassic ? 'export function startWorker() {}' : startWorkerSource('./')}`,
   /**
    * Bundlers such as Vite and webpack copy the file of `new URL(…, import.meta.url)`, and replace its address. Bundlers such as
@@ -123,9 +123,9 @@ function hashedFileOf(baseName, fileExtension, fileContents) {
 
 /** Characters of an inlined module to which 256 is added, because bundlers or minifiers of a page might damage these characters. */
 const SHIFTED_CHARACTERS = {
-  /** Characters that some minifiers escape with a backslash. */
+  /** Characters that some minifiers escape with a backslash. 256 is added to their codes in scripts in UTF-8. */
   utf8: /[^ -~\x80-\xff]|["$'\\`]/g,
-  /** Digits, because a digit after a zero could become part of an octal escape. Shifting all other characters too would double the size. */
+  /** Digits after a zero byte, which could become part of an octal escape. Shifting other characters too would double the size. */
   ascii: /(?<=\0)\d/g,
 };
 
@@ -192,7 +192,7 @@ export async function bundle({ tags = WIDGET_TAGS } = {}) {
             };
             onLoad({ filter: /\.wasm$/ }, () => ({ contents: moduleSources[bundleForm](), loader: 'js' }));
             if (buildOptions.platform === 'node') onResolve({ filter: /^\.\/core\.ts$/ }, () => ({ path: './core.js', external: true }));
-            // The scripts of these forms share the bytes of the core.
+            // Scripts of the form `core` or `external` import the bytes of the core from a shared chunk.
             const bytesPath = { core: `./chunks/${basename(bytesScript.path)}`, external: `./${basename(bytesScript.path)}`, inlined: undefined, worker: undefined }[bundleForm];
             onResolve({ filter: new RegExp(`^${BYTES_MODULE_NAME}$`) }, ({ path }) => (bytesPath ? { path: bytesPath, external: true } : { path, namespace: 'core' }));
             onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE_SOURCES.bytes(moduleBytes, SHIFTED_CHARACTERS[buildOptions.charset === 'ascii' ? 'ascii' : 'utf8']) }));

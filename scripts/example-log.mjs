@@ -29,7 +29,7 @@ const STEPS_PER_ROW = Math.round(ROW_INTERVAL / TIME_STEP);
  */
 const EXTRA_REFERENCE_TIME = 1;
 
-/** Seed of the noise; each leg has the next one. */
+/** Seed of the noise of the first leg. Each further leg has the next seed. */
 const NOISE_SEED = 1;
 
 /** Maximum accelerations of the robot, m/s² and rad/s². */
@@ -42,7 +42,7 @@ const DRIVE_SPEEDS = { v: 0.8, turn: 0.9 };
 
 /** Generates commands without end: straight drives, arcs, turns on the spot and pauses. @returns {Generator<Command>} */
 function* generateCommands() {
-  // Returns numbers of a low-discrepancy sequence by the golden ratio. They are between two limits and never repeat.
+  // Returns item `i` of a sequence that covers the range between two limits evenly. The golden ratio ensures that items never repeat.
   const spreadEvenly = (/** @type {number} */ i, /** @type {number} */ lowerLimit, /** @type {number} */ upperLimit) => lowerLimit + (upperLimit - lowerLimit) * ((i * 0.6180339887) % 1);
   for (let i = 1; ; i++) {
     const turnSign = i % 3 === 0 ? -1 : 1;

@@ -8,7 +8,7 @@ import { build } from './build.mjs';
 import { ROOT, mustRun, runAsScript } from './process.mjs';
 import { startServer } from './serve.mjs';
 
-/** Width of the figure, at which it shows a single picture, and the size of its font. */
+/** Width of the figure, at which the figure shows a single picture, and font size of the figure. */
 const FIGURE_WIDTH_PX = 690;
 const FONT_SIZE_PX = 24;
 

@@ -20,9 +20,7 @@ const PYTHON_KEYWORDS = new Set(
     'nonlocal not or pass raise return try while with yield').split(' '),
 );
 
-/**
- * Members of every widget of ipywidgets, which a trait of the same name would hide. tests/package/python.test.js looks for missing ones.
- */
+/** Members of every widget of ipywidgets, which a trait of the same name would hide. A test fails if a member is missing here. */
 const IPYWIDGET_MEMBERS = new Set(['close', 'comm', 'error', 'keys', 'layout', 'log', 'open', 'stats', 'tabbable', 'tooltip']);
 
 /**

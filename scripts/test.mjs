@@ -180,7 +180,7 @@ const TEST_PARTS = {
 
 /**
  * Lanes of parts. Lanes run side by side, so that no processor core is idle while a linker, a download, a frame or a test waits. Parts of a
- * lane run one after the other. If another part writes a directory, Cargo waits for it.
+ * lane run one after the other. Cargo itself waits while a part of another lane uses Cargo's directory.
  */
 const PART_LANES = [
   ['build', 'browser', ...(IS_NIGHTLY ? ['engines', 'embeddings'] : [])],
@@ -270,21 +270,17 @@ async function createNodeTestJob(testDirectory, programArgs, env) {
   const unknownName = programArgs.find((argument, i) => !argument.startsWith('-') && !programArgs[i - 1]?.startsWith('-') && !testFiles.some((path) => path.includes(argument)));
   if (unknownName !== undefined) throw new UserError(`"${unknownName}" is in no name of a test file; ${testDirectory} has ${testFiles.map((path) => path.slice(testDirectory.length + 1)).join(', ')}.`);
   const nodeOptions = programArgs.filter((argument) => !namedFiles.some((path) => path.includes(argument)));
-  // Node runs every test whose parent matches, and the parent of all tests is called "<root>".
+  // Node runs a test if the name of the test or of a parent matches. The root of all tests is named "<root>", and must not match.
   const tierOptions = IS_NIGHTLY ? [] : ['--test-name-pattern', '/^(?!<root>|.*@nightly)/'];
   await ensureBuilt();
-  // With the default number of processes a processor core stays idle.
+  // With Node's default number of processes a processor core stays idle.
   return createProgramJob([process.execPath, '--import', 'tsx', '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...tierOptions, ...nodeOptions, ...(namedFiles.length > 0 ? namedFiles : testFiles)], env);
 }
 
 /** Number of last lines of a failed program's output that are shown again below the summary, because they contain the errors. */
 const SHOWN_ERROR_LINES = 60;
 
-/**
- * Prints the outcomes, and returns true if all parts passed.
- *
- * @param {Outcome[]} partOutcomes
- */
+/** Prints the outcomes, and returns true if all parts passed. @param {Outcome[]} partOutcomes */
 function printSummary(partOutcomes) {
   printStep('Summary');
   console.log(`${[...toolVersions].join('; ')}\n`);

@@ -76,7 +76,7 @@ export const installByApt = (debianPackages, purposeSentence) => enqueueForApt(a
   printStep(`Installing ${debianPackages.join(' ')} by apt`);
   const [command, ...firstArguments] = [...rootCommand, 'env', 'DEBIAN_FRONTEND=noninteractive', 'apt-get'];
   await run(command, [...firstArguments, 'update', '-qq'], { seconds: 300 });
-  // Apt must not remove an installed package, and in particular no other Rust.
+  // Apt must not remove an installed package, in particular not another installation of Rust.
   const aptOptions = ['-y', '-qq', '--no-remove', '--no-install-recommends', '-o', 'DPkg::Lock::Timeout=300'];
   await mustRun(purposeSentence, command, [...firstArguments, 'install', ...aptOptions, ...debianPackages], { seconds: 900 });
 });

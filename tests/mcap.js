@@ -77,7 +77,7 @@ const COMPRESSORS = {
  * @typedef {object} Message
  * @property {string} topic
  * @property {string} type
- * @property {string} [schema] name of another type that is recorded for it
+ * @property {string} [schema] name of a wrong type that the recording states
  * @property {any} message
  * @property {number} t time at which it was recorded, s
  *

@@ -37,7 +37,7 @@ export const resultFunctions = {
     const { columns, rows } = configurations.picture;
     const readPictureOf = (/** @type {'plane' | 'twist'} */ viewName) =>
       simulation.picture(viewName, xMin, yMin, xMax, yMax, columns, rows, createRamps(1)).slice();
-    // The native digest leaves out the error of the area ratio.
+    // The native digest does not contain the standard error of the area ratio.
     const stats = { ...simulation.stats, areaRatioError: undefined };
     delete stats.areaRatioError;
     const simulationResults = {
@@ -184,7 +184,7 @@ export const resultFunctions = {
 const VIEWS = /** @type {const} */ (['plane', 'twist']);
 const SAMPLERS = /** @type {const} */ (['endpoint', 'whole-arc', 'sub-stepped']);
 
-/** Returns the multiples of `indexStep` below `count`. @type {(count: number, step: number) => number[]} */
+/** Returns the multiples of `indexStep` below `count`. @type {(count: number, indexStep: number) => number[]} */
 const everyNthIndexBelow = (count, indexStep) => Array.from({ length: Math.ceil(count / indexStep) }, (_, i) => i * indexStep);
 
 /** Returns colour ramps whose colours all differ, equal to those of configuration.rs. @param {number} count number of ramps */

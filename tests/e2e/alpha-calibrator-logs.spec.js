@@ -12,7 +12,7 @@ import { REDUCED_MOTION, dropFiles, readState, takeEvents, test, openDisclosures
 test.use(REDUCED_MOTION);
 testWithWarnings.use(REDUCED_MOTION);
 
-test('two tables of a user replace the simulated log, and a button brings it back', async ({ page }) => {
+test('two tables of a user replace the simulated log, and a button restores the simulated log', async ({ page }) => {
   const calibrator = await openCalibrator(page);
   const logTables = await simulatedTablesOf(calibrator);
   // The clock of the reference is an hour ahead.
@@ -57,7 +57,7 @@ test('two tables of a user replace the simulated log, and a button brings it bac
   await expect(captionOf(calibrator)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
 });
 
-test('results are those of the command line, to the last bit, and a recording whose topics the user chooses gives them too', async ({ page }) => {
+test('the figure and the command line give the same results to the last bit, also for a recording with topics chosen by the user', async ({ page }) => {
   const widget = await openCalibrator(page);
   await chooseTables(widget, { 'odometry.csv': readExampleTable('odometry'), 'reference.csv': readExampleTable('reference') });
   await expect(captionOf(widget)).toHaveText(/odometry\.csv, reference\.csv[.,]/);
@@ -84,7 +84,7 @@ test('results are those of the command line, to the last bit, and a recording wh
   for (const [i, cliAlpha] of cliResults.alphas.entries()) expect(Number(alphas[i]) / cliAlpha).toBeCloseTo(1, 9);
 });
 
-test('with the velocity model the commands of a file are used, with other models its poses @nightly', async ({ page }) => {
+test('the velocity model uses the commands of a file, and other models use the poses @nightly', async ({ page }) => {
   const widget = await openCalibrator(page, 'model="velocity"');
   await openDisclosures(widget);
   const readOdometryKeys = () => widget.evaluate((element) => Object.keys(/** @type {AlphaCalibratorElement} */ (element).log?.odometry ?? {}));
@@ -107,7 +107,7 @@ test('with the velocity model the commands of a file are used, with other models
   await selectModel('velocity', 'omega');
 });
 
-test('files of several drives are read together, and a user assigns roles that their names do not tell @nightly', async ({ page }) => {
+test('files of several drives are read together, and the user assigns the roles that file names leave open @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   const splitExampleTable = (/** @type {'odometry' | 'reference'} */ name) => {
     const [headerLine, ...rowLines] = readExampleTable(name).trim().split('\n');
@@ -123,7 +123,7 @@ test('files of several drives are read together, and a user assigns roles that t
   await expect(widget.locator('.found caption')).toHaveText(['Drive 1', 'Drive 2']);
 });
 
-test('names and units of columns that a table does not state are asked for, and the answer holds for that file', async ({ page }) => {
+test('the figure asks for missing names and units of columns, and the answer applies to that file only', async ({ page }) => {
   const widget = await openCalibrator(page);
   const rowsInMillimetres = exampleRowsOf('odometry').map(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw].join(','));
   const errorAlert = widget.getByRole('alert');
@@ -140,7 +140,7 @@ test('names and units of columns that a table does not state are asked for, and 
   await expect(widget.getByText('Warning: the reference is a localizer’s own estimate.').first()).toBeVisible();
 });
 
-test('the files of a dropped folder are one recording, and others are not used', async ({ page }) => {
+test('the files of a dropped folder are one recording, and files that do not belong to it are ignored', async ({ page }) => {
   const widget = await openCalibrator(page);
   const cameraRecording = await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } })));
   const base64Recordings = [await exampleRecordingWith(['/mocap/pose']), cameraRecording].map((recordingBytes) => recordingBytes.toString('base64'));
@@ -159,7 +159,7 @@ test('the files of a dropped folder are one recording, and others are not used',
   await expect(widget.locator('.choosers > p')).toHaveText([/^Not used: run_0\.db3-wal: it is a journal /, /^Not used: camera\.mcap: the topics are \/image /]);
 });
 
-test('a log without enough legs is refused, and the present log keeps its place and its name', async ({ page }) => {
+test('a log with too few legs is refused, and the figure still shows the previous log and its name', async ({ page }) => {
   const widget = await openCalibrator(page);
   await chooseTables(widget, { 'odometry.csv': readExampleTable('odometry'), 'reference.csv': readExampleTable('reference') });
   await expect(captionOf(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
@@ -174,7 +174,7 @@ test('a log without enough legs is refused, and the present log keeps its place 
   expect(await captionOf(widget).innerText()).toBe(captionBefore);
   expect((await readStats(widget)).alphas).toEqual(alphas);
   await expect(widget.locator('.drop-zone .present')).toHaveText('Results of odometry odometry.csv and reference reference.csv.');
-  // The results are marked as outdated, until the figure shows its opening log again.
+  // The results stay marked as outdated until the figure shows its simulated log again.
   await expect(widget.locator('.views')).toHaveCSS('filter', 'grayscale(1)');
   await widget.getByRole('button', { name: 'Start over' }).click();
   await expect(captionOf(widget)).toHaveText(/of the simulated log/);
@@ -199,7 +199,7 @@ const chooseLongTables = (widget) => widget.evaluate((element) => {
   return startTime;
 });
 
-test('a log is read and fitted in a worker, and the page stays free', async ({ page }) => {
+test('a log is read and fitted in a worker, so that the page stays responsive', async ({ page }) => {
   const widget = await openCalibrator(page);
   await page.evaluate(() => {
     const performanceEntries = /** @type {PerformanceEntry[]} */ ([]);
@@ -215,7 +215,7 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
     const taskDurations = recentEntries.filter(({ entryType }) => entryType === 'longtask').map(({ duration }) => duration);
     return { longestTaskShare: Math.max(0, ...taskDurations) / (performance.now() - startTime), layoutShifts: recentEntries.flatMap(({ value, hadRecentInput }) => (value && !hadRecentInput ? value : [])) };
   }, startTime);
-  // If the main thread read the log, a single task would take a third of the time.
+  // If the main thread read the log, a single task would take a third of the measured time.
   expect(longestTaskShare).toBeLessThan(0.2);
   // The Web Vitals call a layout unstable if its shift is 0.1 or more.
   expect(layoutShifts.reduce((shiftSum, layoutShift) => shiftSum + layoutShift, 0)).toBeLessThan(0.1);
@@ -234,7 +234,7 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
   await expect(widget.getByRole('alert')).toHaveText(/got "x"/);
 });
 
-testWithWarnings('where the page’s policy forbids workers, a log is read all the same @nightly', async ({ page }) => {
+testWithWarnings('a log is read even if the page’s security policy forbids workers @nightly', async ({ page }) => {
   await page.route('**/bare.html', (route) => route.fulfill({
     contentType: 'text/html',
     headers: { 'content-security-policy': "worker-src 'none'" },
@@ -248,7 +248,7 @@ testWithWarnings('where the page’s policy forbids workers, a log is read all t
   expect(page.workers()).toEqual([]);
 });
 
-test('reading a log can be stopped, and everything is as it was', async ({ page }) => {
+test('reading a log can be cancelled, which changes nothing in the figure', async ({ page }) => {
   const widget = await openCalibrator(page);
   const { odometry, reference } = await simulatedTablesOf(widget);
   await chooseTables(widget, { 'short-odom.csv': odometry, 'short-truth.csv': reference });
@@ -266,7 +266,7 @@ test('reading a log can be stopped, and everything is as it was', async ({ page 
   await expect.poll(() => page.workers().length).toBe(0);
 });
 
-test('another log replaces one that is being fitted, and the removal of the figure ends its worker until it returns', async ({ page }) => {
+test('a new log replaces a log that is being fitted, and a removed figure has no worker until it is inserted again', async ({ page }) => {
   const widget = await openCalibrator(page);
   const widgetHandle = await widget.elementHandle();
   const firedErrors = await widget.evaluate(async (element) => {
@@ -299,7 +299,7 @@ test('another log replaces one that is being fitted, and the removal of the figu
   expect(fittedDistance).toBe(0.5);
 });
 
-test('a log that a page gives is fitted, and is in no state; one that is refused leaves the present one', async ({ page }) => {
+test('a log set by the page is fitted and not saved in states, and a refused log leaves the previous log', async ({ page }) => {
   const widget = await openCalibrator(page);
   const stateBefore = await readState(widget);
   const captionBefore = await captionOf(widget).innerText();
@@ -344,7 +344,7 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
   await expect(captionOf(widget)).toHaveText(captionBefore);
 });
 
-test('a log without legs says so @nightly', async ({ page }) => {
+test('the figure reports that a log has no legs @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   await widget.evaluate((element) => {
     const standstillPoses = { t: [0, 1, 2, 3], x: [0, 0, 0, 0], y: [0, 0, 0, 0], theta: [0, 0, 0, 0] };

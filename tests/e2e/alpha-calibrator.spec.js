@@ -5,7 +5,7 @@ import { REDUCED_MOTION, readBox, waitForFrames, countPixelsOfRole, readState, t
 
 test.use(REDUCED_MOTION);
 
-test('opens with the simulated log, labelled as simulated, with its true α’s', async ({ page }) => {
+test('the figure opens with a simulated log, which is labelled as simulated, and shows its true α’s', async ({ page }) => {
   const widget = await openCalibrator(page);
   await expect(captionOf(widget)).toHaveText(/^✓ Trust\s+All 14 checks passed\. \d+ legs of the simulated log, \d outliers\.$/);
   await expect(widget.locator('.to-do')).toHaveText(/^Use the recommended α’s with legs of this length\. First multiply the odometry’s distances by 1\.0\d\d and turns by 0\.9\d\d: the α’s are those of the corrected robot\.$/);
@@ -18,7 +18,7 @@ test('opens with the simulated log, labelled as simulated, with its true α’s'
   expect(await widget.evaluate((element) => /** @type {any} */ (element).toCSV())).toMatch(/^# \{"element":"alpha-calibrator","model":/);
 });
 
-test('the true α’s are shown where the fit is of their rule and legs, and nowhere else', async ({ page }) => {
+test('the true α’s are shown only if the fit uses the rule and the leg length of the simulation', async ({ page }) => {
   const widget = await openCalibrator(page);
   await openDisclosures(widget);
   await widget.getByRole('radio', { name: 'AMCL of Nav2' }).check();
@@ -34,7 +34,7 @@ test('the true α’s are shown where the fit is of their rule and legs, and now
   expect(await readState(widget)).toMatchObject({ model: 'omnidirectional', rule: 'omni' });
 });
 
-test('the meaning of each α stands beside its numbers, and fits on a phone, in German and in a wide font', async ({ page }) => {
+test('the meaning of each α is shown next to its numbers, and fits on a phone, in German and in a wide font', async ({ page }) => {
   const widget = await openCalibrator(page, 'lang="de"');
   await expect(alphaRowsOf(widget).locator('th')).toHaveText(['α1 Drehrauschen durch Drehen', 'α2 Drehrauschen durch Fahren', 'α3 Streckenrauschen durch Fahren', 'α4 Streckenrauschen durch Drehen']);
   for (const [pageWidth, letterSpacing] of [[375, 0], [920, 0.1], [1280, 0], [1280, 0.1]]) {
@@ -47,7 +47,7 @@ test('the meaning of each α stands beside its numbers, and fits on a phone, in 
   }
 });
 
-test('outliers are ringed, and decide the fit where they are not set aside', async ({ page }) => {
+test('outliers are marked by rings, and change the fit strongly if they are not excluded', async ({ page }) => {
   const widget = await openCalibrator(page);
   await openDisclosures(widget);
   const statsBefore = await readStats(widget);
@@ -83,7 +83,7 @@ test('a systematic error that is not corrected is named in the advice', async ({
   await expect(widget.getByRole('row', { name: /mount yaw/ })).toContainText('not corrected');
 });
 
-test('every check has its value, the values that pass, and what to do where it failed', async ({ page }) => {
+test('every check shows its value and the range that passes, and a failed check shows what to do', async ({ page }) => {
   const widget = await openCalibrator(page, 'outliers="keep" lang="de"');
   await openDisclosures(widget);
   const { diagnostics: { checks } } = await readStats(widget);
@@ -95,7 +95,7 @@ test('every check has its value, the values that pass, and what to do where it f
   await expect(checkRows.filter({ hasText: 'Anzahl der Etappen' })).toContainText('≥ 100');
 });
 
-test('a leg is chosen in the picture, by its slider, and from one large residual to the next', async ({ page }) => {
+test('a leg is selected in the picture, by a slider, or by a button that leads to the next large residual', async ({ page }) => {
   const widget = await openCalibrator(page);
   const { worst } = await widget.evaluate((element) => /** @type {any} */ (element).viewModel);
   const nextResidualButton = widget.getByRole('button', { name: 'Next largest residual' });
@@ -129,7 +129,7 @@ test('an exported picture has a legend, and describes the verdict @nightly', asy
   for (const legendText of ['p > 0.5', 'p 0.05–0.5', 'p 0.001–0.05', 'p < 0.001']) expect(texts).toContain(legendText);
 });
 
-test('the lines for Nav2 have the numbers of the table, and are copied by the button beside the α’s', async ({ page, context }) => {
+test('the lines for Nav2 contain the numbers of the table, and the button next to the α’s copies them', async ({ page, context }) => {
   await context.grantPermissions(['clipboard-read', 'clipboard-write']);
   const widget = await openCalibrator(page, 'rule="nav2" distance="0.3"');
   await openDisclosures(widget);
@@ -149,7 +149,7 @@ test('the lines for Nav2 have the numbers of the table, and are copied by the bu
   await expect(widget.locator('textarea.yaml')).toHaveValue(nav2Yaml);
 });
 
-test('legs of a time, and how well the reference is known, are set by their sliders', async ({ page }) => {
+test('sliders set the duration of the legs and the noise of the reference', async ({ page }) => {
   const widget = await openCalibrator(page, 'rule="nav2"');
   await openDisclosures(widget);
   const statsBefore = await readStats(widget);
@@ -174,7 +174,7 @@ test('legs of a time, and how well the reference is known, are set by their slid
   expect(Number((await readStats(widget)).alphas[3])).toBeLessThan(0.9 * Number(statsBefore.alphas[3]));
 });
 
-test('for an α that a log does not determine, the table says why, and what to add', async ({ page }) => {
+test('the table states why a log does not determine an α, and which motions to add', async ({ page }) => {
   const widget = await openCalibrator(page);
   await widget.evaluate((element) => {
     const sampleCount = 2000;

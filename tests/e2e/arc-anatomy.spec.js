@@ -26,7 +26,7 @@ const headingHandleOf = (/** @type {Locator} */ widget) => widget.getByRole('sli
 const canvasOf = (/** @type {Locator} */ widget) => widget.locator('canvas.plane');
 const verdictOf = (/** @type {Locator} */ widget) => widget.locator('.verdict');
 
-test('opens off the arc, and says which factor is the worst', async ({ page }) => {
+test('the figure opens with the robot beside the commanded arc, and names the least likely factor', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   const { config, stats } = await readResults(widget);
   expect(config).toMatchObject({ start: { x: 0, y: 0, theta: 0 }, next: { x: 1.1, y: 0.5, theta: 1.1 }, command: { v: 1, omega: 0.5, dt: 1 } });
@@ -49,7 +49,7 @@ test('opens off the arc, and says which factor is the worst', async ({ page }) =
   for (const colorRole of ['prior', 'prediction', 'accent', 'truth']) expect(await countPixelsOfRole(canvasOf(widget), colorRole), colorRole).toBeGreaterThan(colorRole === 'accent' ? 10 : 20);
 });
 
-test('the robot is dragged and turned by its handles, under the pointer', async ({ page }) => {
+test('the robot’s handles move and turn the robot, and stay under the pointer', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   const centreBefore = await readCentre(bodyHandleOf(widget));
   await page.mouse.move(centreBefore.x + 4, centreBefore.y + 3);
@@ -88,7 +88,7 @@ test('the robot moves and turns by keyboard, and stops where the floor ends', as
   await expect(bodyHandleOf(widget)).toHaveAttribute('aria-valuetext', /The floor ends here$/);
 });
 
-test('the start moves and turns, the commanded arc with it, and the robot stays where it is found', async ({ page }) => {
+test('the handles of the start move the commanded arc, and the robot’s end pose stays', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   const [startHandle, startHeadingHandle] = ['Start', 'Heading at the start'].map((name) => widget.getByRole('slider', { name, exact: true }));
   const resultsBefore = await readResults(widget);
@@ -104,7 +104,7 @@ test('the start moves and turns, the commanded arc with it, and the robot stays 
   expect((await readResults(widget)).config.start.theta).toBe(Math.PI / 36);
 });
 
-test('the angle at a centre out of sight stands in the picture @nightly', async ({ page }) => {
+test('if a centre of rotation is outside the picture, its angle is labelled inside the picture @nightly', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   const readSVG = () => widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).toSVG());
   await widget.evaluate((element) => void Object.assign(element, { omega: 0.025, nextY: 0.012 }));
@@ -116,7 +116,7 @@ test('the angle at a centre out of sight stands in the picture @nightly', async 
   expect(Math.abs(labelYs[0] - labelYs[1])).toBeGreaterThan(12);
 });
 
-test('the whole wedge of the last turn is in a narrow picture', async ({ page }) => {
+test('a narrow picture contains the whole wedge of the final turn', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openArcAnatomy(page, 'preset="straight"');
   const [wedgeEndX, frameRightX] = await widget.evaluate((element) => {
@@ -126,7 +126,7 @@ test('the whole wedge of the last turn is in a narrow picture', async ({ page })
   expect(wedgeEndX).toBeLessThan(frameRightX);
 });
 
-test('as printed, a right turn loses p and the verdict says why, and a left turn does not', async ({ page }) => {
+test('with the formula as printed in the book, p is 0 after a right turn, and the verdict explains why', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   await openDisclosures(widget);
   const printedCheckbox = widget.getByRole('checkbox', { name: 'radius without sign, as printed' });
@@ -140,7 +140,7 @@ test('as printed, a right turn loses p and the verdict says why, and a left turn
   await expect(verdictOf(widget)).toContainText('fits worst');
 });
 
-test('each line of the table highlights its construction, and tells its value', async ({ page }) => {
+test('each line of the table highlights its construction in the picture, and its text contains its value', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   await openDisclosures(widget);
   const lineRadios = widget.locator('.lines input');
@@ -161,7 +161,7 @@ test('each line of the table highlights its construction, and tells its value', 
   expect(planePictures[9]).toBe(planePictures[0]);
 });
 
-test('heat maps of p and of the density are drawn below the arcs, with the contours of both', async ({ page }) => {
+test('heat maps of p and of the density are drawn below the arcs, with contours of both quantities', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   await openDisclosures(widget);
   const planePictures = [await readPicture(canvasOf(widget))];
@@ -174,7 +174,7 @@ test('heat maps of p and of the density are drawn below the arcs, with the conto
   expect(await widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).toSVG())).toContain('<image');
 });
 
-test('entries of the legend are the toggles of the lines', async ({ page }) => {
+test('entries of the legend show and hide the lines', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   expect(await countPixelsOfRole(canvasOf(widget), 'posterior')).toBe(0);
   // A toggle highlights its line while the pointer or the focus is on the toggle.
@@ -194,7 +194,7 @@ test('entries of the legend are the toggles of the lines', async ({ page }) => {
   await expect(widget).toHaveAttribute('overlays', 'chord');
 });
 
-test('a robot is drawn on each arc at the time that is chosen @nightly', async ({ page }) => {
+test('a robot is drawn on each arc at the time that the slider selects @nightly', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   const pictureAtEnd = await readPicture(canvasOf(widget));
   const timeSlider = widget.getByRole('slider', { name: 'time along the arc' });
@@ -217,7 +217,7 @@ test('the factors are exported as CSV', async ({ page }) => {
   );
 });
 
-test('exercise 1 is plotted: three forms, the crossover and the chapter’s threshold', async ({ page }) => {
+test('the plot of exercise 1 shows the errors of three formulas, their crossover and the chapter’s threshold', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   await openDisclosures(widget);
   const errorPlot = widget.locator('.plot');
@@ -225,7 +225,7 @@ test('exercise 1 is plotted: three forms, the crossover and the chapter’s thre
   await expect(errorPlot.locator('.marked')).toHaveText(['2·10⁻⁸/Δt', '10⁻⁶']);
 });
 
-test('without noise it says so, and draws no map @nightly', async ({ page }) => {
+test('without noise the figure says that there is none, and draws no heat map @nightly', async ({ page }) => {
   const widget = await openArcAnatomy(page, 'map="density" alpha5="0" alpha6="0"');
   await expect(verdictOf(widget)).toHaveText('The last turn γ̂ has zero variance but a non-zero residual, so p = 0.');
   await openDisclosures(widget);
@@ -243,10 +243,10 @@ test('a button plays the drive along the arcs', async ({ page }) => {
   await expect(widget.getByRole('button', { name: 'Play' })).toBeVisible();
 });
 
-test('a change of size while a slider plays is no step', async ({ page }) => {
+test('a resize during playback of a slider does not advance the slider', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const widget = await openArcAnatomy(page);
-  // After a change of size, the figure draws before any time has elapsed.
+  // After a change of its size, the figure draws again immediately. No time has elapsed since the previous frame.
   await widget.evaluate((element) => element.addEventListener('input', () => {
     /** @type {HTMLElement} */ (element).style.width = `${element.clientWidth - 1}px`;
   }));

@@ -22,7 +22,7 @@ async function readNumbersOfMarkedSample(widget) {
   return printedNumbers;
 }
 
-test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
+test('the cloud grows automatically, and can be paused and resumed', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   await pauseEarly(page, 'banana-machine');
   const widget = await openBanana(page);
@@ -37,13 +37,13 @@ test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
   await playButton.click();
   await widget.getByRole('button', { name: 'Pin' }).click();
   await expect.poll(async () => (await readBananaResults(widget)).shown, { timeout: 20_000 }).toBe(pausedResults.config.samples);
-  // Numbers that are pinned while the cloud grows are numbers of the whole cloud.
+  // Numbers that are pinned while the cloud grows must be those of the complete cloud.
   await expect(readoutValueOf(widget, 'cross-track skew')).toHaveText(/^(.+ ± .+) pinned: \1$/);
   await expect(playButton).toBeVisible();
   expect((await readPoses(widget)).slice(0, firstPoses.length)).toEqual(firstPoses);
 });
 
-test('opens with the whole cloud of the opening command, and shows the numbers of the simulation', async ({ page }) => {
+test('the figure opens with the whole cloud of the default command, and shows the statistics of the simulation', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
   const { config, shown: shownCount, stats, table } = await readBananaResults(widget);
   expect(config).toMatchObject({ model: 'velocity', noise: 'normal', command: { v: 1, omega: 0, dt: 2 }, alphas: OPENING_ALPHAS, isolate: null });
@@ -72,7 +72,7 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
   await expect(floorCanvas).toHaveAttribute('aria-label', /^On the floor: no ellipse fits\. Command: v = .*\. The cloud is bent: /);
 });
 
-test('Clear empties the cloud, Step adds a batch of the same robots', async ({ page }) => {
+test('Clear empties the cloud, and Step adds the same robots again, batch by batch', async ({ page }) => {
   const widget = await openBanana(page, 'samples="3000"');
   const [wholeCloud, wholeCloudPoses] = [await readBananaResults(widget), await readPoses(widget)];
   await widget.getByRole('button', { name: 'Clear' }).click();
@@ -114,7 +114,7 @@ test('each overlay has a toggle', async ({ page }) => {
   expect(await readPicture(floorCanvas)).toBe(pictureBefore);
 });
 
-test('a robot pointed at in one view is marked in both, with what it executed', async ({ page }) => {
+test('a robot under the pointer is marked in both views, with the motion that it executed', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page, 'preset="gentle"');
   const floorCanvas = widget.locator('canvas.plane');
   const twistCanvas = widget.locator('canvas.twist');
@@ -145,7 +145,7 @@ test('a robot pointed at in one view is marked in both, with what it executed', 
   expect(await countMarkPixels()).toEqual([0, 0]);
 });
 
-test('the sentence says what holds exactly for the model, and what the robots show', async ({ page }) => {
+test('the caption states the exact statistics of the model, and those of the robots', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page, 'preset="gentle"');
   const pressPreset = (/** @type {string} */ name) => widget.getByRole('button', { name, exact: true }).click();
   await expect(captionOf(widget)).toHaveText(/^The cloud is bent, with its tail to the right of the mean heading: skew −0\.4\d\d\s±\s0\.01\d, where any Gaussian in \(x, y\) has 0\.$/);
@@ -172,7 +172,7 @@ test('the sentence says what holds exactly for the model, and what the robots sh
   await expect(captionOf(widget)).toHaveText(/^Both sides are alike: skew [^.]*\.\d+\s±\s[\d.]+, exactly 0 by symmetry\.$/);
 });
 
-test('few robots do not show the lean; the Pivot’s bow-tie has its reason @nightly', async ({ page }) => {
+test('the caption explains the bow-tie shape of the preset Pivot, and claims no lean if there are few robots @nightly', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
   await widget.getByRole('button', { name: 'Pivot' }).click();
   const { table, config, stats: { exponential: { mean, cov } } } = await readBananaResults(widget);
@@ -189,7 +189,7 @@ test('few robots do not show the lean; the Pivot’s bow-tie has its reason @nig
   await expect(captionOf(widget)).toHaveText(new RegExp(`^Too few robots to show the lean: .*exactly −${Math.abs(tableOfFew.exact.crossTrackSkew).toFixed(3)}\\.$`));
 });
 
-test('a cloud that turns a full circle has no exponential coordinates, and says so @nightly', async ({ page }) => {
+test('the figure states that a cloud with full turns has no exponential coordinates @nightly', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
   await setSliders(widget, { omega: 2, dt: 3 });
   await expect(widget.locator('.note')).toContainText('there are no statistics in ξ');
@@ -198,7 +198,7 @@ test('a cloud that turns a full circle has no exponential coordinates, and says 
   await expect(widget.getByRole('row', { name: 'mean ξ along' }).getByRole('cell').last()).toHaveText('—');
 });
 
-test('the odometry model shows the noise of a marked robot’s legs, and has an option for reverse', async ({ page }) => {
+test('with the odometry model, the figure shows the noise of a marked robot’s three motions, and has an option for reverse drives', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page, 'preset="gentle"');
   await expect(widget.getByLabel('Reverse without half-turn noise')).toHaveCount(0);
   await widget.getByLabel('odometry').check();
@@ -236,7 +236,7 @@ test('captions and notes depend on the model and its noise', async ({ page }) =>
   await expect(widget.locator('.note')).toHaveCount(0);
 });
 
-test('the marked robot and Step follow the size of the cloud @nightly', async ({ page }) => {
+test('the range of the marked robot and the size of a step depend on the size of the cloud @nightly', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
   const robotField = widget.getByRole('spinbutton', { name: 'Robot' });
   const stepButton = widget.getByRole('button', { name: 'Step' });

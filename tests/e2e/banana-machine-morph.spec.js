@@ -5,7 +5,7 @@ test.use(REDUCED_MOTION);
 
 const countCalloutsOf = (/** @type {import('@playwright/test').Locator} */ widget) => widget.evaluate((element) => /** @type {any} */ (element).scene.callouts.length);
 
-test('one slider carries the floor to exponential coordinates and back, and callouts are on the floor alone', async ({ page }) => {
+test('a slider morphs the floor into exponential coordinates and back, and callouts appear on the floor only', async ({ page }) => {
   const widget = await openBanana(page);
   const floorCanvas = widget.locator('canvas.plane');
   const morphSlider = widget.getByRole('slider', { name: 'From the floor' });
@@ -22,7 +22,7 @@ test('one slider carries the floor to exponential coordinates and back, and call
   expect(floorPictures[3]).toBe(floorPictures[0]);
 });
 
-test('a preset brings back the floor, also the present one', async ({ page }) => {
+test('every preset ends the morph, even the preset that is selected already', async ({ page }) => {
   const widget = await openBanana(page);
   for (const name of ['Hard arc', 'Hard arc']) {
     await widget.getByRole('slider', { name: 'From the floor' }).fill('1');
@@ -31,7 +31,7 @@ test('a preset brings back the floor, also the present one', async ({ page }) =>
   }
 });
 
-test('Play carries the floor all the way', async ({ page }) => {
+test('Play moves the morph slider from the floor to exponential coordinates', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const widget = await openBanana(page, 'samples="1000"');
   const { sliderValues, buttonLabel } = await playSliderOf(widget, 'morph');
@@ -40,7 +40,7 @@ test('Play carries the floor all the way', async ({ page }) => {
   for (const [i, sliderValue] of sliderValues.entries()) expect(sliderValue).toBeGreaterThan(sliderValues[i - 1] ?? 0);
 });
 
-test('the end of the arc is moved where the morph shows it @nightly', async ({ page }) => {
+test('the handle at the end of the arc can be dragged during the morph @nightly', async ({ page }) => {
   const widget = await openBanana(page, 'morph="1"');
   const arcEndHandle = widget.locator('.handle');
   await arcEndHandle.press('ArrowUp');
@@ -58,7 +58,7 @@ test('the end of the arc is moved where the morph shows it @nightly', async ({ p
   expect(command.omega).toBeGreaterThan(0.01);
 });
 
-test('Pin keeps the numbers and outlines to compare with, and lets go of them', async ({ page }) => {
+test('Pin keeps numbers and outlines for comparison, and a second press removes them', async ({ page }) => {
   const widget = await openBanana(page);
   const pinButton = widget.getByRole('button', { name: 'Pin' });
   const areaReadout = widget.locator('.readouts div').filter({ hasText: 'area covered' });
@@ -127,7 +127,7 @@ test('callouts are hidden while the cloud is dragged under them @nightly', async
   await expect.poll(countCallouts).toBeGreaterThan(0);
 });
 
-test('a narrow figure has one picture, which shows both ends', async ({ page }) => {
+test('a narrow figure has a single picture, which shows both ends of the morph', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openBanana(page);
   await expect(widget.locator('canvas.twist')).toBeHidden();
@@ -137,10 +137,10 @@ test('a narrow figure has one picture, which shows both ends', async ({ page }) 
   expect(await readPicture(floorCanvas)).not.toBe(floorPicture);
 });
 
-test.describe('at first sight', () => {
+test.describe('when the figure first appears', () => {
   test.use({ isIntroductionSkipped: false });
 
-  test('robots drive once a session, until a key or the pointer is pressed', NEW_PAGE_TAG, async ({ page }) => {
+  test('an animation of driving robots runs once per session, until a key or the pointer is pressed', NEW_PAGE_TAG, async ({ page }) => {
     await page.emulateMedia({ reducedMotion: 'no-preference' });
     const countDrivingRobots = () => page.locator('banana-machine').evaluate((element) => /** @type {any} */ (element).cloud.driving?.robots);
     await showPage(page, '<banana-machine></banana-machine>');
@@ -153,7 +153,7 @@ test.describe('at first sight', () => {
     expect(await countDrivingRobots()).toBeUndefined();
   });
 
-  test('robots do not drive for a figure that a page has set @nightly', NEW_PAGE_TAG, async ({ page }) => {
+  test('the animation of driving robots does not run if the page has set the state of the figure @nightly', NEW_PAGE_TAG, async ({ page }) => {
     await page.emulateMedia({ reducedMotion: 'no-preference' });
     const widget = await openBanana(page, 'preset="gentle"');
     expect(await widget.evaluate((element) => /** @type {any} */ (element).cloud.driving)).toBeUndefined();

@@ -15,7 +15,7 @@ const visibleTwistShareOf = (widget) => widget.evaluate((element) => {
   return twists.filter(isInView).length / (twists.length / 3);
 });
 
-test('a drag keeps the scale under the handle, and that view zooms out after it', async ({ page }) => {
+test('the view keeps its scale while its handle is dragged, and zooms out at the end of the drag', async ({ page }) => {
   const widget = await openBanana(page, 'preset="banana"');
   const arcEndHandle = widget.getByRole('slider', { name: 'End of the commanded arc' });
   const readViewExtent = () => widget.evaluate((element) => ({ .../** @type {any} */ (element).pictures[0].view.extent }));
@@ -47,12 +47,12 @@ test('a drag keeps the scale under the handle, and that view zooms out after it'
   await expect.poll(readViewExtent).toEqual(extentBefore);
 });
 
-test('the view of exponential coordinates shows most robots also if turns near 2π make tails of kilometres', async ({ page }) => {
+test('the view of exponential coordinates shows most robots, even if turns near 2π produce coordinates of kilometres', async ({ page }) => {
   const widget = await openBanana(page, 'v="1.35" omega="2"');
   expect(await visibleTwistShareOf(widget)).toBeGreaterThan(0.94);
 });
 
-test('Home and End move the end of the arc to the ends of v, and no key scrolls the page', async ({ page }) => {
+test('the keys Home and End set v to the ends of its range, and no key of the handle scrolls the page', async ({ page }) => {
   const widget = await openBanana(page, 'style="margin-bottom: 3000px"');
   const arcEndHandle = widget.locator('.handle');
   await arcEndHandle.focus();
@@ -65,7 +65,7 @@ test('Home and End move the end of the arc to the ends of v, and no key scrolls 
   expect(await page.evaluate(() => scrollY)).toBe(100);
 });
 
-test('the ring says where the sliders end, to the eye and to the ear', async ({ page }) => {
+test('where the range of a slider ends, the handle shows and speaks that the sliders end', async ({ page }) => {
   const widget = await openBanana(page);
   const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
   const readHint = () => handle.evaluate((element) => getComputedStyle(element, '::before').content);
@@ -80,7 +80,7 @@ test('the ring says where the sliders end, to the eye and to the ear', async ({ 
   expect(await readHint()).toBe('none');
 });
 
-test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
+test('clicks and keys in the skew chart set ω', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page, GENTLE_PRESET);
   const omegaMarker = widget.getByRole('slider', { name: 'Commanded ω on the chart' });
   await omegaMarker.focus();
@@ -95,7 +95,7 @@ test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
   await expect(omegaMarker).toHaveAttribute('aria-valuetext', new RegExp(`skew −${Math.abs(table.exact.crossTrackSkew).toFixed(3)}`));
 });
 
-test('a dragged α moves the same robots, once a frame', async ({ page }) => {
+test('a change of an α moves the same robots, and updates the figure once per frame', async ({ page }) => {
   // All samples are in the first block, so that no later block changes the statistics.
   const widget = await openBananaWithDisclosures(page, `${GENTLE_PRESET} samples="20000"`);
   const resultsBefore = await readBananaResults(widget);
@@ -126,7 +126,7 @@ test('a dragged α moves the same robots, once a frame', async ({ page }) => {
   expect((await readBananaResults(widget)).config.alphas[0]).toBe(0.09);
 });
 
-test('Isolate leaves one α in effect, shows the others as off, and lets go again', async ({ page }) => {
+test('Isolate sets all α’s except one to 0, marks them as off, and can be switched off', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page, GENTLE_PRESET);
   const resultsBefore = await readBananaResults(widget);
   await widget.getByLabel('Isolate one').check();
@@ -142,7 +142,7 @@ test('Isolate leaves one α in effect, shows the others as off, and lets go agai
   await expect(widget.locator('.slider .value', { hasText: 'off' })).toHaveCount(0);
 });
 
-test('no slider moves under the finger when there is something to note', async ({ page }) => {
+test('sliders keep their position when a note appears or disappears', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openBananaWithDisclosures(page, GENTLE_PRESET);
   const omegaSlider = widget.locator('#omega');
@@ -160,7 +160,7 @@ test('no slider moves under the finger when there is something to note', async (
   expect(Math.abs((await readSliderTop()) - topBefore)).toBeLessThan(0.5);
 });
 
-test('a slider stays in its place when a text above it becomes shorter', async ({ page }) => {
+test('a slider keeps its position when a text above it becomes shorter', async ({ page }) => {
   await page.setViewportSize({ width: 700, height: 900 });
   const widget = await openBananaWithDisclosures(page);
   const readReadoutsHeight = () => widget.locator('.readouts').first().evaluate((element) => element.getBoundingClientRect().height);

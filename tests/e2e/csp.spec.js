@@ -42,7 +42,7 @@ async function openUnderPolicy(page, policy, pagePath) {
 /** Returns a policy that allows only the named Trusted Types policies. @param {string} policyNames */
 const policyWithTrustedTypes = (policyNames) => `${STRICT_POLICY}; require-trusted-types-for 'script'; trusted-types ${policyNames}`;
 
-test('a figure asks for nothing that a strict policy forbids, beside a Lit of the page that has its own Trusted Types policy', async ({ page, figureName }) => {
+test('a figure complies with a strict policy, even if the page has loaded another copy of Lit with its own Trusted Types policy', async ({ page, figureName }) => {
   // A copy of Lit that the page loads before the figures makes this Trusted Types policy.
   await page.addInitScript(() => void Reflect.get(window, 'trustedTypes').createPolicy('lit-html', { createHTML: (/** @type {string} */ htmlText) => htmlText }));
   const readViolations = await openUnderPolicy(page, policyWithTrustedTypes('lit-html motion-widgets'), `embed.html?widget=${figureName}`);
@@ -55,12 +55,12 @@ test('a figure asks for nothing that a strict policy forbids, beside a Lit of th
 });
 
 // The tests below expect messages of the browser in the console.
-testWithWarnings('a Trusted Types policy that is named as that of Lit is enough @nightly', async ({ page }) => {
+testWithWarnings('a figure runs if the page allows only the Trusted Types policy with Lit’s name @nightly', async ({ page }) => {
   await openUnderPolicy(page, policyWithTrustedTypes('lit-html'), 'embed.html?widget=banana-machine');
   await expect(page.locator('banana-machine canvas').first()).toBeVisible();
 });
 
-testWithWarnings('where no Trusted Types policy may be made, a sentence names the one that is missing @nightly', async ({ page }) => {
+testWithWarnings('if no Trusted Types policy is allowed, the figure names the policy that it needs @nightly', async ({ page }) => {
   const consoleWarning = page.waitForEvent('console', (consoleMessage) => consoleMessage.type() === 'warning' && consoleMessage.text().includes('lacks'));
   await openUnderPolicy(page, policyWithTrustedTypes("'none'"), 'embed.html?widget=banana-machine');
   const policyExplanation = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";
@@ -68,12 +68,12 @@ testWithWarnings('where no Trusted Types policy may be made, a sentence names th
   expect((await consoleWarning).text()).toContain(policyExplanation);
 });
 
-testWithWarnings('where WebAssembly is forbidden, a sentence names the directive that is missing', async ({ page }) => {
+testWithWarnings('if the policy forbids WebAssembly, the figure names the directive that it needs', async ({ page }) => {
   await openUnderPolicy(page, "script-src 'self'", 'embed.html?widget=banana-machine');
   await expect(page.locator('banana-machine').getByRole('alert')).toContainText("lacks 'wasm-unsafe-eval'");
 });
 
-testWithWarnings('where there is no WebAssembly, a sentence says that it cannot run, in the colours of the page', async ({ page }) => {
+testWithWarnings('in a browser without WebAssembly, the figure states in the page’s colours that it cannot run', async ({ page }) => {
   const pageErrors = /** @type {Error[]} */ ([]);
   page.on('pageerror', (pageError) => pageErrors.push(pageError));
   await page.addInitScript(() => void Reflect.deleteProperty(globalThis, 'WebAssembly'));
@@ -97,7 +97,7 @@ testWithWarnings('where there is no WebAssembly, a sentence says that it cannot 
   expect(schemesAndGrounds).toEqual(Array(2).fill(['dark', 'rgb(17,34,51)']));
 });
 
-testWithWarnings('where the module in a file of its own is forbidden, the embedded one is used, and a warning names the directive @nightly', async ({ page }) => {
+testWithWarnings('if the policy forbids fetching the module, the embedded module is used, and a warning names the directive @nightly', async ({ page }) => {
   const pageHtml = '<script type="module" src="./external.js"></script><banana-machine></banana-machine>';
   await page.route('**/external.html', (route) =>
     route.fulfill({ contentType: 'text/html', headers: { 'content-security-policy': STRICT_POLICY }, body: pageHtml }),
@@ -108,7 +108,7 @@ testWithWarnings('where the module in a file of its own is forbidden, the embedd
   expect((await consoleWarning).text()).toMatch(/\.wasm cannot be fetched .*connect-src/);
 });
 
-testWithWarnings('where WebAssembly may be compiled and not run, as in WebKit, so does one @nightly', async ({ page }) => {
+testWithWarnings('if WebAssembly may be compiled but not run, as in WebKit, the figure names the directive that it needs @nightly', async ({ page }) => {
   await page.addInitScript(() => {
     const throwCompileError = () => {
       throw new WebAssembly.CompileError("Refused to create a WebAssembly object because 'unsafe-eval' or 'wasm-unsafe-eval' is not allowed");

@@ -25,14 +25,14 @@ const plotOf = (/** @type {Locator} */ widget) => widget.locator('.ratios svg.pl
  * Returns the steps whose prediction is off by more than 5 %, as text for each component.
  *
  * @param {Locator} widget
- * @param {number} [recursionColumn] index of its column
+ * @param {number} [recursionColumn] index of the recursion's column
  */
 async function readMissedSteps(widget, recursionColumn = 0) {
   await openDisclosures(widget);
   return Promise.all([0, 2, 4].map((tableRow) => widget.locator('.folds tbody tr').nth(tableRow).locator('td').nth(recursionColumn).textContent()));
 }
 
-test('opens with the chapter’s 6 % along the track, and says that the lateral variance misses more before', async ({ page }) => {
+test('the figure opens with the chapter’s error of 6 % along the track, and states that the lateral variance is off earlier', async ({ page }) => {
   const widget = await openDeadReckoning(page);
   expect(await readConfig(widget)).toMatchObject({
     command: { v: 1, omega: 0.5, dt: 0.2 }, steps: 20, step: 20, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], compounding: 'chapter', samples: 50_000,
@@ -51,7 +51,7 @@ test('opens with the chapter’s 6 % along the track, and says that the lateral 
   }
 });
 
-test('the line of the chart walks along the path, from the keyboard too, and drives nobody', async ({ page }) => {
+test('the line in the chart selects a step by pointer or keyboard, and starts no new simulation', async ({ page }) => {
   const widget = await openDeadReckoning(page);
   const stepSlider = widget.getByRole('slider', { name: 'selected step', exact: true });
   const variancesBefore = await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).simulation.measured);
@@ -74,7 +74,7 @@ test('the line of the chart walks along the path, from the keyboard too, and dri
   expect((await readConfig(widget)).step).toBe(10);
 });
 
-test('with J_r, and to fourth order, every component is right', async ({ page }) => {
+test('with the right Jacobian J_r and fourth-order terms, every predicted variance is correct', async ({ page }) => {
   const widget = await openDeadReckoning(page);
   for (const [i, name] of ['with Jᵣ, the turn during a step', 'fourth order'].entries()) {
     await widget.getByRole('radio', { name }).check();
@@ -85,7 +85,7 @@ test('with J_r, and to fourth order, every component is right', async ({ page })
   expect((await readConfig(widget)).compounding).toBe('fourth-order');
 });
 
-test('entries of the legends hide curves and outlines', async ({ page }) => {
+test('entries of the legends show and hide curves and outlines', async ({ page }) => {
   const widget = await openDeadReckoning(page, 'overlays="lateral tolerance measured exponential"');
   await expect(widget.locator('[part=caption]')).toHaveText(/^At the end the predicted lateral variance is off by [−+][\d.]+\s%\. Before, the lateral one is /);
   await expect(plotOf(widget).locator('path.curve, circle')).toHaveCount(2);
@@ -98,7 +98,7 @@ test('entries of the legends hide curves and outlines', async ({ page }) => {
   expect(await readPicture(widget.locator('canvas.twist'))).not.toBe(twistPicture);
 });
 
-test('presets are paths, and tell which one it is', async ({ page }) => {
+test('presets set the path, and the button of the present path is marked', async ({ page }) => {
   const widget = await openDeadReckoning(page);
   const presetButtonOf = (/** @type {string} */ name) => widget.getByRole('button', { name });
   await expect(presetButtonOf('The chapter’s 20 steps')).toHaveAttribute('aria-pressed', 'true');
@@ -117,7 +117,7 @@ test('presets are paths, and tell which one it is', async ({ page }) => {
   await expect(widget).not.toHaveAttribute('preset');
 });
 
-test('more steps are shorter ones of the same path, seen from the same place', async ({ page }) => {
+test('more steps divide the same path into shorter steps, and the views stay', async ({ page }) => {
   const widget = await openDeadReckoning(page, 'step="10" samples="1000"');
   const commandedEndOf = (/** @type {Locator} */ deadReckoning) => deadReckoning.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).simulation.commanded.slice(-2)]);
   const [xBefore, yBefore] = await commandedEndOf(widget);
@@ -131,7 +131,7 @@ test('more steps are shorter ones of the same path, seen from the same place', a
   expect(Math.hypot(endX - xBefore, endY - yBefore)).toBeLessThan(1e-12);
 });
 
-test('with too few robots nothing is known, and without robots the caption says so @nightly', async ({ page }) => {
+test('with too few robots no step is judged, and without robots the caption says that there are none @nightly', async ({ page }) => {
   const widget = await openDeadReckoning(page, 'samples="1000"');
   await expect(captionOf(widget)).toHaveText('Too few robots to tell 5 %: the bands are wider than that.');
   expect(await readMissedSteps(widget)).toEqual(['too few', 'too few', 'too few']);
@@ -144,7 +144,7 @@ test('with too few robots nothing is known, and without robots the caption says 
   expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).simulation.shown)).toBe(7);
 });
 
-test('no noise has no ratio, and a fourth order without a covariance neither @nightly', async ({ page }) => {
+test('without noise, or if fourth-order terms leave no valid covariance, the figure shows no ratio @nightly', async ({ page }) => {
   const widget = await openDeadReckoning(page, 'samples="500" alpha1="0" alpha2="0" alpha3="0" alpha4="0" alpha5="0" alpha6="0"');
   await expect(captionOf(widget)).toHaveText(/^No noise:/);
   await expect(plotOf(widget)).toHaveAttribute('aria-label', /along the track —/);
@@ -153,7 +153,7 @@ test('no noise has no ratio, and a fourth order without a covariance neither @ni
   await expect(captionOf(widget)).toHaveText(/has left no covariance/);
 });
 
-test('a robot that is chosen by its number shows its path', async ({ page }) => {
+test('the path of a robot is shown if its number is entered', async ({ page }) => {
   const widget = await openDeadReckoning(page, 'step="20"');
   await openDisclosures(widget);
   const floorCanvas = widget.locator('canvas.plane');
@@ -165,7 +165,7 @@ test('a robot that is chosen by its number shows its path', async ({ page }) => 
   await expect(widget.locator('.marked output')).toContainText(`x ${endPose[0].toFixed(3)} m`);
 });
 
-test('CSV has a row a step', async ({ page }) => {
+test('the exported CSV has a row for each step', async ({ page }) => {
   const widget = await openDeadReckoning(page);
   const { text: csvText, measured, predicted } = await widget.evaluate((element) => {
     const { simulation } = /** @type {DeadReckoningElement} */ (element);
@@ -182,7 +182,7 @@ test('CSV has a row a step', async ({ page }) => {
   expect(valueAt(0, 'chapter_lateral_m2')).toBe(0);
 });
 
-test('a million robots answer with a block at once, and the others follow', async ({ page }) => {
+test('with a million robots, the results of the first block appear at once, and other blocks follow', async ({ page }) => {
   const widget = await openDeadReckoning(page);
   const [countInFirstBlock, finalCount] = await widget.evaluate(async (element) => {
     const deadReckoning = /** @type {any} */ (element);

@@ -8,7 +8,7 @@ import { REDUCED_MOTION, setProperty, waitForFrames, mountFigure, readProperty, 
 
 test.use(REDUCED_MOTION);
 
-test('attributes of every kind say how the figure opens', async ({ page }) => {
+test('attributes of every type set the opening state of a figure', async ({ page }) => {
   await showPage(
     page,
     `<banana-machine seed="11" samples="300" alpha4="0.125" model="odometry" noise="triangular" preset="hard" v="-0.5"
@@ -45,7 +45,7 @@ test('attributes of every kind say how the figure opens', async ({ page }) => {
   expect((await takeEvents(page)).map(({ name, target }) => [name, target])).toEqual(TWO_NAMES.map((name) => ['load', name]));
 });
 
-test('attributes stay as written until a setting changes, and then reflect it', async ({ page }) => {
+test('attributes stay as written until their setting changes, and then reflect the setting', async ({ page }) => {
   await showPage(page, '<banana-machine preset="hard" seed="3"></banana-machine><map-squeeze></map-squeeze>');
   const [banana, squeeze] = TWO_NAMES.map((name) => page.locator(name));
   await waitUntilReady(banana);
@@ -78,7 +78,7 @@ test('attributes stay as written until a setting changes, and then reflect it', 
   expect(await readAttributes(squeeze)).toEqual({ x: '3.3', conditioned: 'false' });
 });
 
-test('attributes follow the controls of a figure, and lead back to the default where they are removed', async ({ page, figureName }) => {
+test('controls of a figure change its attributes, and removing an attribute restores the default', async ({ page, figureName }) => {
   const widget = await mountFigure(page, figureName);
   const { sliderId, sliderValues: [firstValue, secondValue] } = FIGURE_FACTS[figureName];
   const defaultValue = await readProperty(widget, sliderId);
@@ -92,7 +92,7 @@ test('attributes follow the controls of a figure, and lead back to the default w
   expect(await readProperty(widget, sliderId)).toBe(defaultValue);
 });
 
-test('attributes that are refused are reported in the words of the core, and the last good value stays', async ({ page }) => {
+test('refused attributes are reported with the core’s error message, and the last valid value stays', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine', { attributes: 'v="fast" omega="0.7" model="walking" samples="0" overlays="ellipse stars"' });
   const errorMessages = (await takeEvents(page, ['error'])).map(({ message }) => message);
   expect(errorMessages).toEqual([
@@ -113,7 +113,7 @@ test('attributes that are refused are reported in the words of the core, and the
   expect(await readProperties()).toEqual([0.06, 1.5, 'velocity', 50000]);
 });
 
-test('elements in the table of doc/embedding/figures.md have the attributes that it shows', async ({ page, figureName }) => {
+test('elements have the attributes that the table of doc/embedding/figures.md shows', async ({ page, figureName }) => {
   const figuresDocument = readFileSync(new URL('../../doc/embedding/figures.md', import.meta.url), 'utf8');
   const tableExamples = [...figuresDocument.matchAll(/^\| [^|]* \| `<([a-z-]+)( [^`]*)>` \|$/gm)].map(([, name, attributes]) => ({ name, attributes }));
   expect(new Set(tableExamples.map(({ name }) => name)).size).toBe(ALL_NAMES.length);
@@ -128,10 +128,10 @@ test('elements in the table of doc/embedding/figures.md have the attributes that
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });
 
-/** Values of state fields that no attribute can set, or that several settings of one attribute form. */
+/** Fields of states that no single attribute can set. The map has no attribute, and the list of α's is set by two attributes. */
 const VALUES_WITHOUT_ATTRIBUTES = { 'map-squeeze': { map: null, alphas: [0.2, 0.2, 0.2, 0.2, 0.05, 0.05] } };
 
-testEach('code to embed opens the settings of a state, with its attributes in any order', async (page, name, isFull) => {
+testEach('the code to embed a figure reproduces the settings of its state, with the attributes in any order', async (page, name, isFull) => {
   await showPage(page, `<${name}></${name}>`);
   const widget = page.locator(name).first();
   await waitUntilReady(widget);
@@ -145,7 +145,7 @@ testEach('code to embed opens the settings of a state, with its attributes in an
       const reorderedCopy = document.createElement(element.localName);
       for (const { name, value } of [...embeddedCopy.attributes].reverse()) reorderedCopy.setAttribute(name, value);
       const loadPromises = [embeddedCopy, reorderedCopy].map((figureCopy) => new Promise((resolve) => figureCopy.addEventListener('load', resolve)));
-      // A figure in the window starts at once.
+      // A figure inside the window starts at once.
       for (const figureCopy of [embeddedCopy, reorderedCopy]) figureCopy.style.cssText = 'position: fixed; inset: 0';
       element.before(embeddedCopy, reorderedCopy);
       await Promise.all(loadPromises);
@@ -160,7 +160,7 @@ testEach('code to embed opens the settings of a state, with its attributes in an
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });
 
-test('a list that is written as text is taken up, and other text is reported', async ({ page }) => {
+test('a list property accepts a list written as text, and other text is reported', async ({ page }) => {
   await showPage(page, '');
   const errorMessage = await page.evaluate(async () => {
     const figureContainer = document.createElement('div');
@@ -174,7 +174,7 @@ test('a list that is written as text is taken up, and other text is reported', a
   for (const name of ['banana-machine', 'arc-anatomy']) await expect(page.locator(name)).toHaveJSProperty('alphas', [0.1, 0.2, 0.1, 0.1, 0, 0]);
 });
 
-test('properties that were set before the element was defined are taken up, in any order', async ({ page }) => {
+test('properties that were set before the element was defined are applied, in any order', async ({ page }) => {
   await showPage(page, '', { script: '' });
   const propertyValues = await page.evaluate(async () => {
     const map = { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] };
@@ -221,7 +221,7 @@ test('properties that are assigned their own value change nothing @nightly', asy
   expect(await takeEvents(page, ['stats', 'error', 'input', 'change'])).toEqual([]);
 });
 
-test('properties take effect at once and reflect, and those that a model lacks are null', async ({ page }) => {
+test('properties take effect at once and are reflected as attributes; properties that the model lacks are null', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine');
   expect(await setProperty(widget, 'omega', 1.1)).toBe('');
   expect(await widget.getAttribute('omega')).toBe('1.1');
@@ -233,7 +233,7 @@ test('properties take effect at once and reflect, and those that a model lacks a
   expect(await setProperty(widget, 'alpha5', 0.1)).toContain('alphas has length 5; allowed is an array of 4 numbers');
 });
 
-test('properties that are refused fire an error event that does not bubble, and warn in the console if nobody listens', async ({ page }) => {
+test('refused properties fire an error event that does not bubble; without a listener the console has a warning', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine');
   const firedMessages = await widget.evaluate((element) => {
     const firedMessages = /** @type {string[]} */ ([]);

@@ -27,7 +27,7 @@ const CONTAINERS_BY_NAME = {
   'positioned absolutely': '<div style="position: relative; height: 9000px"><X style="position: absolute"></X></div>',
 };
 
-test('a figure is as wide as it prefers, or as there is room, in every kind of box, before its script and after', NEW_PAGE_TAG, async ({ page, figureName }) => {
+test('a figure has its preferred width or the available width in every kind of container, before and after its script runs', NEW_PAGE_TAG, async ({ page, figureName }) => {
   const containerSections = Object.entries(CONTAINERS_BY_NAME).map(([containerName, htmlPattern]) => {
     const containerHtml = htmlPattern === 'X' ? '<X></X>' : htmlPattern;
     return `<section data-box="${containerName}" style="display: flow-root">${containerHtml.replace('<X', `<${figureName}`).replace('</X>', `</${figureName}>`)}</section>`;
@@ -62,7 +62,7 @@ const partBoxesOf = (page, figureName, pixelsPerEm) =>
     pixelsPerEm,
   );
 
-test('a figure is in proportion to the letters around it, whatever the font size of the root', async ({ page, figureName }) => {
+test('the size of a figure is proportional to the surrounding font size, and does not depend on the root’s font size', async ({ page, figureName }) => {
   const partLayouts = [];
   for (const [rootFontSize, fontSize] of [['100%', 16], ['62.5%', 24]]) {
     await page.setViewportSize({ width: 1400, height: 2400 });
@@ -118,7 +118,7 @@ for (const figureName of ['map-squeeze', 'dead-reckoning']) {
   });
 }
 
-test('tables of a figure scroll over the picture that stays in sight, unless a handle of it has the focus', async ({ page }) => {
+test('tables scroll over the sticky picture of a figure, unless a handle of the picture has the focus', async ({ page }) => {
   await page.setViewportSize({ width: 640, height: 400 });
   await showPage(page, '<dead-reckoning></dead-reckoning><div style="height: 2000px"></div>');
   const widget = page.locator('dead-reckoning');
@@ -145,7 +145,7 @@ test('tables of a figure scroll over the picture that stays in sight, unless a h
 test.describe('on a screen with two pixels a CSS pixel', () => {
   test.use({ deviceScaleFactor: 2 });
 
-  test('canvases have the pixels of the screen, also one that developer tools imitate', async ({ page, figureName }) => {
+  test('canvases have the pixel density of the screen, also of a screen that developer tools emulate', async ({ page, figureName }) => {
     await showPage(page, `<${figureName}></${figureName}>`);
     const widget = page.locator(figureName);
     await waitUntilReady(widget);

@@ -10,7 +10,7 @@ test.use(REDUCED_MOTION);
 /** @param {{ name: string }[]} recordedEvents */
 const eventNamesOf = (recordedEvents) => recordedEvents.map(({ name }) => name);
 
-test('a drag fires input at each step and one change at its end, composed, with the value', async ({ page }) => {
+test('a drag fires an input event at each step and one change event at its end, both composed', async ({ page }) => {
   await showPage(page, '<div id="host"></div>');
   await page.evaluate(() => {
     const shadowRoot = /** @type {Element} */ (document.querySelector('#host')).attachShadow({ mode: 'open' });
@@ -43,7 +43,7 @@ test('a drag fires input at each step and one change at its end, composed, with 
   expect(recordedEvents.some(([name]) => name === 'stats')).toBe(true);
 });
 
-/** Actions of a user other than dragging. All folds are open. @type {Record<Name, [string, (widget: Locator) => Promise<void>][]>} */
+/** Actions of a user other than dragging. All disclosures are open. @type {Record<Name, [string, (widget: Locator) => Promise<void>][]>} */
 const USER_ACTIONS = {
   'banana-machine': [
     ['preset', (widget) => widget.getByRole('button', { name: 'Hard arc' }).click()],
@@ -125,7 +125,7 @@ const USER_ACTIONS = {
   ],
 };
 
-testEach('a frame after an input event calls the core at most six times, and a release only for views that zoom in', async (page, name) => {
+testEach('a frame after an input event calls the core at most six times, and the end of a drag only to zoom views in', async (page, name) => {
   const widget = await mountFigure(page, name);
   await openDisclosures(widget);
   await waitUntilSettled(widget);
@@ -171,7 +171,7 @@ testEach('a frame after an input event calls the core at most six times, and a r
   expect((await takeCallsByFrame()).flat().filter((key) => !['picture', 'surface'].includes(key)), name).toEqual([]);
 });
 
-testEach('each control of a figure fires one input and one change', async (page, name) => {
+testEach('each control of a figure fires one input event and one change event', async (page, name) => {
   const widget = await mountFigure(page, name);
   await openDisclosures(widget);
   await takeEvents(page);
@@ -181,7 +181,7 @@ testEach('each control of a figure fires one input and one change', async (page,
   }
 });
 
-test('a handle that is dragged fires input at each step and one change', async ({ page, handleFigureName }) => {
+test('a dragged handle fires an input event at each step, and one change event', async ({ page, handleFigureName }) => {
   const widget = await mountFigure(page, handleFigureName);
   await takeEvents(page);
   const { x, y } = await readCentre(widget.locator('.handle').first());
@@ -197,7 +197,7 @@ test('a handle that is dragged fires input at each step and one change', async (
   expect(eventNamesOf(await takeEvents(page))).toEqual([]);
 });
 
-test('changes by the page fire stats alone, also out of sight', async ({ page, figureName }) => {
+test('changes by the page fire only stats events, even if the figure is out of sight', async ({ page, figureName }) => {
   await showPage(page, `<${figureName}></${figureName}><div style="height: 4000px"></div>`);
   const widget = page.locator(figureName);
   await waitUntilReady(widget);
@@ -220,7 +220,7 @@ test('changes by the page fire stats alone, also out of sight', async ({ page, f
   expect(await readState(widget)).toEqual(stateBefore);
 });
 
-test('events report changes alone, whatever is drawn and asked', async ({ page, figureName }) => {
+test('the pointer, a redraw and an export fire no input, change or stats event', async ({ page, figureName }) => {
   const widget = await mountFigure(page, figureName);
   await takeEvents(page, ['stats']);
   await widget.locator('canvas.plane').hover({ position: { x: 100, y: 100 } });
@@ -234,7 +234,7 @@ test('events report changes alone, whatever is drawn and asked', async ({ page, 
   expect(await takeEvents(page, ['input', 'change', 'stats'])).toEqual([]);
 });
 
-test('an arrow key or a space that a control used goes no further; any other key does', async ({ page }) => {
+test('the page receives all keys except arrow keys and spaces that a control has used', async ({ page }) => {
   const selectorsByFigure = {
     'arc-anatomy': ['.handle.body.start', '#omega', 'input[type=radio] >> nth=0'],
     'banana-machine': ['#chart-omega', '.to-present'],

@@ -33,7 +33,7 @@ async function showFigureFarBelow(page, figureName) {
 }
 
 for (const [sideOfFigure, originSelector, tabKey] of /** @type {const} */ ([['above', '#before', 'Tab'], ['below', '#after', 'Shift+Tab']])) {
-  test(`a figure that Tab reaches from ${sideOfFigure} before it has started has the focus where it would be`, async ({ page, figureName }) => {
+  test(`Tab from ${sideOfFigure} a figure that has not started focuses the same element as in a running figure`, async ({ page, figureName }) => {
     const widget = await showFigureFarBelow(page, figureName);
     const readFocusedHtml = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.outerHTML);
     await page.locator(originSelector).focus();
@@ -47,7 +47,7 @@ for (const [sideOfFigure, originSelector, tabKey] of /** @type {const} */ ([['ab
   });
 }
 
-test('a figure that starts after the user has moved the focus leaves it there @nightly', async ({ page, figureName }) => {
+test('a starting figure does not take the focus that the user has meanwhile moved elsewhere @nightly', async ({ page, figureName }) => {
   const allowModule = await holdRequests(page, '**/*.wasm');
   const widget = await showFigureFarBelow(page, figureName);
   const moduleRequest = page.waitForRequest(/\.wasm$/);

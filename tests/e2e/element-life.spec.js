@@ -39,7 +39,7 @@ const waitForSixFrames = (page) =>
     for (let i = 0; i < 6; i++) await new Promise(Reflect.get(window, 'quietFrame'));
   });
 
-test('figures far from the window fetch and compute nothing, and one module serves all', NEW_PAGE_TAG, async ({ page }) => {
+test('figures far from the window fetch and compute nothing, and all figures share one module', NEW_PAGE_TAG, async ({ page }) => {
   /** @type {string[]} */
   const fetchedPaths = [];
   page.on('request', (request) => fetchedPaths.push(new URL(request.url()).pathname));
@@ -69,7 +69,7 @@ test('a page with one figure fetches the module of that figure @nightly', async 
   }
 });
 
-test('a script that contains the module compiles it while it is evaluated, and no placeholder is rendered then', async ({ page }) => {
+test('a script that contains the module compiles the module at once, so that no placeholder is rendered', async ({ page }) => {
   await countFramesAndModules(page);
   // The two imports are evaluated in one task, so that the second script sees what the first has compiled.
   const countReaderUrl = 'data:text/javascript,window.compiledDuringScript = counts.compiled';
@@ -93,7 +93,7 @@ test('figures within six hundred pixels of the window start, and others do not',
   expect(await readProperty(squeezeFigures.nth(1), 'simulation')).toBe(undefined);
 });
 
-test('a cloud that is out of sight asks for no frames, and goes on growing where it was @nightly', async ({ page, cloudFigureName }) => {
+test('a cloud that is out of sight requests no frames, and resumes its growth when it is seen again @nightly', async ({ page, cloudFigureName }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   await countFramesAndModules(page);
   await showPage(page, `<${cloudFigureName}></${cloudFigureName}><div style="height: 6000px"></div>`);
@@ -119,7 +119,7 @@ test('a cloud that is out of sight asks for no frames, and goes on growing where
   await expect.poll(readShownCount, { timeout: 20_000 }).toBe(sampleCount);
 });
 
-test('settled waits for the figure and all of its samples, in sight and far from the window', async ({ page, cloudFigureName }) => {
+test('the promise `settled` waits for the figure and all its samples, in sight and far from the window', async ({ page, cloudFigureName }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   for (const heightAbove of [0, 6000]) {
     await showPage(page, `<div style="height: ${heightAbove}px"></div><${cloudFigureName}></${cloudFigureName}>`);
@@ -132,7 +132,7 @@ test('settled waits for the figure and all of its samples, in sight and far from
   }
 });
 
-test('settled waits for the text that follows a picture on a slow device', async ({ page }) => {
+test('the promise `settled` waits for texts that a slow device renders later than the picture', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine');
   const cdpSession = await page.context().newCDPSession(page);
   await cdpSession.send('Emulation.setCPUThrottlingRate', { rate: 6 });
@@ -149,7 +149,7 @@ test('settled waits for the text that follows a picture on a slow device', async
   expect(sliderSpeeds).toEqual([0.5, 1.5, 0.6]);
 });
 
-test('a cloud that is half grown stays so over a move and over a removal', async ({ page, cloudFigureName }) => {
+test('a partly grown cloud keeps its size if its figure is moved, or removed and inserted again', async ({ page, cloudFigureName }) => {
   await showPage(page, `<div id="a"><${cloudFigureName}></${cloudFigureName}></div><div id="b"></div>`);
   const widget = page.locator(cloudFigureName);
   await waitUntilReady(widget);
@@ -181,7 +181,7 @@ test('a cloud that is half grown stays so over a move and over a removal', async
   await expect.poll(() => readPicture(widget.locator('canvas.plane'))).toBe(pictureBefore);
 });
 
-test('folds, fields and height of a figure stay over a move and over a removal', async ({ page, figureName }) => {
+test('open disclosures, typed text and height are kept if a figure is moved, or removed and inserted again', async ({ page, figureName }) => {
   await showPage(page, `<div id="a"><${figureName}></${figureName}></div><div id="b"></div>`);
   const widget = page.locator(figureName);
   await waitUntilReady(widget);
@@ -209,11 +209,11 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   expect(await readOpenFolds()).toEqual(openFoldsBefore);
   await expect(fieldInDisclosure).toHaveValue(fieldInFold.value);
   await expect(foldDisclosures.nth(fieldInFold.disclosureIndex).locator('.folded')).not.toBeEmpty();
-  // The figure has its former height in the first and in the second frame.
+  // In the first and in the second frame the figure has the height that it had before.
   expect(heightsAfter).toEqual([heightBefore, heightBefore]);
 });
 
-test('a figure keeps what the user did in the moment before it was removed', async ({ page, figureName }) => {
+test('a figure keeps a change that the user made immediately before its removal', async ({ page, figureName }) => {
   const { sliderId, statePath, sliderValues: [sliderValue] } = FIGURE_FACTS[figureName];
   const widget = await mountFigure(page, figureName);
   const stateAfter = await widget.evaluate(async (element, [sliderId, sliderValue]) => {
@@ -227,7 +227,7 @@ test('a figure keeps what the user did in the moment before it was removed', asy
   expect(stateAfter).toHaveProperty(statePath, sliderValue);
 });
 
-test('a figure that is moved while a handle is held lets go of it, and fits its picture @nightly', async ({ page, handleFigureName }) => {
+test('moving a figure in the document ends the drag of its handle, and fits its picture @nightly', async ({ page, handleFigureName }) => {
   await showPage(page, `<div id="a" style="width: 1100px"><${handleFigureName}></${handleFigureName}></div><div id="b" style="width: 500px"></div>`);
   const widget = page.locator(handleFigureName);
   await waitUntilReady(widget);
@@ -252,7 +252,7 @@ test('a figure that is moved while a handle is held lets go of it, and fits its 
   await page.mouse.up();
 });
 
-test('a canvas that has got its context back is drawn again', async ({ page, figureName }) => {
+test('a canvas is drawn again after its lost context is restored', async ({ page, figureName }) => {
   const widget = await mountFigure(page, figureName);
   const planeCanvas = widget.locator('canvas.plane');
   const pictureBefore = await readPicture(planeCanvas);
@@ -268,7 +268,7 @@ test('a canvas that has got its context back is drawn again', async ({ page, fig
   expect(await readPicture(planeCanvas)).toBe(pictureBefore);
 });
 
-test('a figure that comes back is drawn on the screen again, even if it was removed during print', async ({ page, figureName }) => {
+test('a figure that is inserted again is drawn for the screen, even if it was removed during printing', async ({ page, figureName }) => {
   const widget = await mountFigure(page, figureName);
   await page.emulateMedia({ media: 'print' });
   const canvas = widget.locator('canvas.plane');
@@ -280,7 +280,7 @@ test('a figure that comes back is drawn on the screen again, even if it was remo
   await expect.poll(() => canvas.evaluate((element) => /** @type {HTMLCanvasElement} */ (element).width / element.clientWidth)).toBeCloseTo(1, 1);
 });
 
-test('a figure that was removed and comes back has no more observers, and does not draw its walls anew when it is seen again', NEW_PAGE_TAG, async ({ page }) => {
+test('a figure that was removed and inserted again has as many observers as before, and does not redraw its walls when it becomes visible', NEW_PAGE_TAG, async ({ page }) => {
   await page.addInitScript(() => {
     const frameAndModuleCounts = { observers: 0, paths: 0 };
     Object.assign(window, { counts: frameAndModuleCounts });
@@ -322,7 +322,7 @@ test('a figure that was removed and comes back has no more observers, and does n
   expect((await readCounts()).observers).toBe(countsBefore.observers);
 });
 
-test('a figure that was not displayed shows what was set meanwhile @nightly', async ({ page, figureName }) => {
+test('a figure shows changes that were made while `display: none` hid it @nightly', async ({ page, figureName }) => {
   await showPage(page, `<div id="box"><${figureName}></${figureName}></div>`);
   const widget = page.locator(figureName);
   await waitUntilReady(widget);
@@ -338,7 +338,7 @@ test('a figure that was not displayed shows what was set meanwhile @nightly', as
   await expect(widget).toHaveAttribute(FIGURE_FACTS[figureName].otherSetting[0].replace(/[A-Z]/g, (capitalLetter) => `-${capitalLetter.toLowerCase()}`), String(FIGURE_FACTS[figureName].otherSetting[1]));
 });
 
-test('a page that comes back from the back-forward cache is alive @nightly', async ({ baseURL }) => {
+test('a page that is restored from the back-forward cache works @nightly', async ({ baseURL }) => {
   const browser = await chromium.launch({
     executablePath: findChrome(FULL_CHROME_NAMES), args: CHROME_ARGUMENTS, ignoreDefaultArgs: ['--disable-back-forward-cache'],
   });
@@ -364,7 +364,7 @@ test('a page that comes back from the back-forward cache is alive @nightly', asy
   await browser.close();
 });
 
-test('figures that were removed leave no memory, no observers and no nodes @nightly', NEW_PAGE_TAG, async ({ page }) => {
+test('removed figures free their memory, observers and DOM nodes @nightly', NEW_PAGE_TAG, async ({ page }) => {
   test.setTimeout(200_000);
   await showPage(page, '<banana-machine></banana-machine>');
   await waitUntilReady(page.locator('banana-machine'));

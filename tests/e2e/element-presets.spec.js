@@ -3,7 +3,7 @@ import { REDUCED_MOTION, waitForFrames, mountFigure, readProperty, readState, te
 
 test.use(REDUCED_MOTION);
 
-test('a preset sets every setting but samples and seed, and is marked while all hold', async ({ page }) => {
+test('a preset sets all settings except samples and seed, and its button is marked while these settings hold', async ({ page }) => {
   const widget = await mountFigure(page, 'map-squeeze', { attributes: 'samples="50" seed="4"' });
   const presetButton = widget.locator('.presets button').nth(1);
   await presetButton.click();
@@ -15,7 +15,7 @@ test('a preset sets every setting but samples and seed, and is marked while all 
   expect(await Promise.all(['clearance', 'samples', 'seed'].map((settingKey) => readProperty(widget, settingKey)))).toEqual([0.13, 50, 4]);
 });
 
-test('Start over brings back the settings, the seed and the lines as the figure opened', async ({ page }) => {
+test('Start over restores the settings, the seed and the overlays with which the figure opened', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine', { attributes: 'preset="hard" samples="2000" seed="5" overlays="ellipse"' });
   const openingState = await readState(widget);
   await openDisclosures(widget);
@@ -30,7 +30,7 @@ test('Start over brings back the settings, the seed and the lines as the figure 
   await expect.poll(() => readState(widget)).toEqual(openingState);
 });
 
-test('a seed is typed, and one that is none is refused by a sentence', async ({ page, cloudFigureName }) => {
+test('a seed can be typed, and an invalid seed is refused with an error message', async ({ page, cloudFigureName }) => {
   const widget = await mountFigure(page, cloudFigureName);
   await openDisclosures(widget);
   const seedField = widget.getByRole('textbox', { name: 'seed', exact: true });

@@ -20,7 +20,7 @@ const THREE_FIGURES_HTML = `<banana-machine share></banana-machine>
   <banana-machine share id="second one"></banana-machine>
   <banana-machine></banana-machine>`;
 
-test('two widgets and an anchor share the fragment, and the link shows what was there', NEW_PAGE_TAG, async ({ page, context }) => {
+test('a link with the states of two figures and an anchor in its fragment restores both figures', NEW_PAGE_TAG, async ({ page, context }) => {
   await showPage(page, THREE_FIGURES_HTML, { fragment: '#what-to-try&theme=a%20b' });
   const [firstFigure, secondFigure, thirdFigure] = [0, 1, 2].map((i) => page.locator('banana-machine').nth(i));
   await firstFigure.scrollIntoViewIfNeeded();
@@ -61,7 +61,7 @@ test('two widgets and an anchor share the fragment, and the link shows what was 
   expect(await takeEvents(newPage, ['error', 'input', 'change'])).toEqual([]);
 });
 
-test('figures in shadow roots, closed ones too, have parts of their own in the fragment @nightly', NEW_PAGE_TAG, async ({ page }) => {
+test('figures in open and closed shadow roots have their own parts in the fragment of the address @nightly', NEW_PAGE_TAG, async ({ page }) => {
   await page.addInitScript(() => {
     for (const [hostTag, shadowMode] of [['open-host', 'open'], ['closed-host', 'closed']]) {
       customElements.define(hostTag, class extends HTMLElement {
@@ -83,7 +83,7 @@ test('figures in shadow roots, closed ones too, have parts of their own in the f
   ]);
 });
 
-test('a link leads to the figure that it was copied from, once; a reload leads nowhere', NEW_PAGE_TAG, async ({ page, context }) => {
+test('a link scrolls once to the figure from which it was copied, and a reload does not scroll', NEW_PAGE_TAG, async ({ page, context }) => {
   const gapHtml = '<p style="margin: 2000px 0">Between</p>';
   const pageBody = `${gapHtml}<banana-machine></banana-machine>${gapHtml}<banana-machine></banana-machine>${gapHtml}`;
   await showPage(page, pageBody);
@@ -127,7 +127,7 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
   expect(await page.evaluate(() => scrollY)).toBe(700);
 });
 
-test('a link that is broken is reported, and the figure opens as its attributes say', async ({ page }) => {
+test('a broken link is reported, and the figure opens with the settings of its attributes', async ({ page }) => {
   for (const brokenState of ['nonsense!', 'q1YqSy0qzszPU7JSMtAzUKoFAA']) {
     await page.goto('about:blank');
     const widget = await mountFigure(page, 'banana-machine', { attributes: 'share v="0.5"', fragment: `#banana-machine.1=${brokenState}` });
@@ -138,7 +138,7 @@ test('a link that is broken is reported, and the figure opens as its attributes 
   }
 });
 
-test('a page with a base of its own keeps its address @nightly', async ({ page }) => {
+test('a page with a <base> element keeps its own address @nightly', async ({ page }) => {
   const widget = await mountFigure(page, 'map-squeeze', { attributes: 'share', head: '<base href="/somewhere/else/">' });
   const readAddress = () => page.evaluate(() => location.href);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
@@ -150,7 +150,7 @@ test('a page with a base of its own keeps its address @nightly', async ({ page }
   expect(await readAddress()).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
 });
 
-test('a figure without share leaves the address alone, and opens its part of a link and keeps it up to date', NEW_PAGE_TAG, async ({ page, context, figureName }) => {
+test('a figure without the attribute share adds nothing to the address, but opens a linked state and updates that part of the address', NEW_PAGE_TAG, async ({ page, context, figureName }) => {
   const { sliderId, sliderValues, buttonLabel } = FIGURE_FACTS[figureName];
   const widget = await mountFigure(page, figureName, { fragment: '#elsewhere' });
   await widget.evaluate((element, [settingKey, settingValue]) => void Reflect.set(element, settingKey, settingValue), /** @type {const} */ ([sliderId, sliderValues[0]]));
@@ -176,7 +176,7 @@ test('a figure without share leaves the address alone, and opens its part of a l
   expect(await readState(newPage.locator(figureName))).toEqual(changedState);
 });
 
-test('a figure with share keeps its state in the address, and follows it', async ({ page, figureName }) => {
+test('a figure with the attribute share keeps its state in the address, and follows changes of the address', async ({ page, figureName }) => {
   const { sliderId, sliderValues, buttonLabel } = FIGURE_FACTS[figureName];
   await showPage(page, `<${figureName} share></${figureName}><p id="end">The end</p>`);
   const widget = page.locator(figureName);
@@ -222,7 +222,7 @@ test('copies a link, and the code to embed with the address of the script', asyn
   await expect(widget.getByText('Copied.')).toHaveCount(0);
 });
 
-  test('the message says what is not copied: the user’s map in the code to embed, and a large one in a link @nightly', async ({ page }) => {
+  test('messages state that the code to embed omits the user’s map, and that a link omits a large map @nightly', async ({ page }) => {
     const widget = await mountFigure(page, 'map-squeeze');
     await widget.getByText('Numbers and data').click();
     await widget.getByRole('button', { name: 'Copy embed code' }).click();
@@ -248,7 +248,7 @@ test('copies a link, and the code to embed with the address of the script', asyn
   });
 });
 
-test('the menu shows what the clipboard does not take @nightly', async ({ page }) => {
+test('the menu shows a link that the browser refuses to copy to the clipboard @nightly', async ({ page }) => {
   await page.addInitScript(() => Object.defineProperty(navigator, 'clipboard', { value: undefined }));
   // In a lower window, the open disclosure covers a part of the legend after the page has scrolled.
   await page.setViewportSize({ width: 1280, height: 1300 });
@@ -265,7 +265,7 @@ test('the code to embed names the script that defined the element', NEW_PAGE_TAG
   expect(embedCode).toContain(`<script defer src="${new URL(page.url()).origin}/motion-widgets.iife.js"></script>`);
 });
 
-test('the code to embed has the published script where that of the page is nothing to others @nightly', async ({ page }) => {
+test('the code to embed names the published script if other pages cannot load the script of this page @nightly', async ({ page }) => {
   await showPage(page, '', { script: '' });
   const embedCode = await page.evaluate(async () => {
     const scriptBlob = new Blob([await (await fetch('/motion-widgets.js')).text()], { type: 'text/javascript' });
@@ -275,7 +275,7 @@ test('the code to embed has the published script where that of the page is nothi
   expect(embedCode).toBe('<script type="module" src="https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/external.js"></script>\n<banana-machine></banana-machine>\n');
 });
 
-test('a frame shows the figure of its address, and sends its height', async ({ page, figureName }) => {
+test('an iframe shows the figure in its address, and reports its height to the page', async ({ page, figureName }) => {
   await page.addInitScript(() => {
     Object.assign(window, { heights: [] });
     addEventListener('message', ({ data }) => data?.type === 'motion-widgets:height' && Reflect.get(window, 'heights').push(data.height));

@@ -3,7 +3,7 @@ import { REDUCED_MOTION, setProperty, readBox, mountFigure, readProperty, showPa
 
 test.use(REDUCED_MOTION);
 
-test('a figure has the title above and the caption below that the page gives it', async ({ page, figureName }) => {
+test('a figure shows the page’s title above its picture and the page’s caption below it', async ({ page, figureName }) => {
   await showPage(page, `<${figureName} heading-level="3"><span slot="title">Figure 9.3 One command</span><p slot="caption">As <b>measured</b>.</p></${figureName}>`);
   const widget = page.locator(figureName);
   await waitUntilReady(widget);

@@ -6,7 +6,7 @@ import { REDUCED_MOTION, waitForFrames, mountFigure, showPage, readState, takeEv
 
 test.use(REDUCED_MOTION);
 
-testEach('random states go in and come out, and a second element in the same state is equal', async (page, figureName, isFull) => {
+testEach('a random state can be set and read back, and a second element in the same state has the same results', async (page, figureName, isFull) => {
   await showPage(page, `<${figureName} id="one"></${figureName}><div style="position: fixed; inset: 0 0 auto"><${figureName} id="two"></${figureName}></div>`);
   const [firstWidget, secondWidget] = ['#one', '#two'].map((elementSelector) => page.locator(elementSelector));
   await waitUntilReady(firstWidget);
@@ -26,7 +26,7 @@ testEach('random states go in and come out, and a second element in the same sta
   expect(await takeEvents(page, ['error', 'input', 'change'])).toEqual([]);
 });
 
-test('a state that is refused names the field, and changes nothing', async ({ page }) => {
+test('a refused state changes nothing, and the error message names the invalid field', async ({ page }) => {
   const refusedStates = /** @type {[string, object, string][]} */ ([
     ['banana-machine', { version: 2, speed: 1 }, 'RangeError: state.version is 2; allowed is 1'],
     ['banana-machine', { speed: 1 }, 'TypeError: state.speed is an unknown key; allowed are'],
@@ -56,12 +56,12 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
   }
 });
 
-test('a part of a state leaves the rest, and both models keep their noise', async ({ page }) => {
+test('a partial state changes only its own fields, and both models keep their α’s', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine');
   await openDisclosures(widget);
   await widget.locator('#alpha1').fill('0.15');
   await widget.getByLabel('odometry').check();
-  // In each model the slider of another α bends the cloud. That slider is in the element `.pair`.
+  // In each model a different α bends the cloud. The slider of that α is in the element `.pair`.
   await widget.locator('.pair #alpha2').fill('0.07');
   const stateBefore = /** @type {any} */ (await readState(widget));
   expect(stateBefore.alphas.velocity[0]).toBe(0.15);
@@ -71,7 +71,7 @@ test('a part of a state leaves the rest, and both models keep their noise', asyn
   expect(await widget.evaluate((element) => /** @type {AnyElement} */ (element).alphas[0])).toBe(0.15);
 });
 
-test('a property set right after a state holds, however long the state takes @nightly', async ({ page }) => {
+test('a property that is set right after a state takes effect, even if applying the state takes long @nightly', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine');
   await widget.evaluate((element) => {
     const bananaMachine = /** @type {any} */ (element);
@@ -82,7 +82,7 @@ test('a property set right after a state holds, however long the state takes @ni
   await expect.poll(() => readState(widget)).toMatchObject({ samples: 3e6, morph: 0.5 });
 });
 
-test('a state that comes while a slider plays is what is shown from then on @nightly', async ({ page }) => {
+test('a state that is set during playback of a slider replaces the playback @nightly', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const widget = await mountFigure(page, 'odometry-decomposer');
   await widget.evaluate((element) => element.addEventListener('input', () => {
@@ -95,7 +95,7 @@ test('a state that comes while a slider plays is what is shown from then on @nig
   expect(/** @type {any} */ (await readState(widget)).phase).toBe(1);
 });
 
-test('a state in part keeps the share of samples that are shown, and the mark that is among them @nightly', async ({ page, cloudFigureName }) => {
+test('a partial state keeps the fraction of shown samples, and the marked sample if it is shown @nightly', async ({ page, cloudFigureName }) => {
   const widget = await mountFigure(page, cloudFigureName, { attributes: 'samples="300"' });
   const statesAfter = await widget.evaluate((element) => {
     const figureElement = /** @type {AnyElement} */ (element);

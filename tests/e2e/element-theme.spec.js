@@ -66,7 +66,7 @@ for (const [sourceName, headHtml, scriptForScheme] of SCHEME_SOURCES) {
   });
 }
 
-test('a figure follows the system where the page does', async ({ page, figureName }) => {
+test('a figure follows the system’s colour scheme if the page does', async ({ page, figureName }) => {
   await page.emulateMedia({ colorScheme: 'dark' });
   const widget = await mountFigure(page, figureName, { head: '<style>:root { color-scheme: light dark }</style>' });
   expect(await readColorScheme(widget)).toBe('dark');
@@ -74,7 +74,7 @@ test('a figure follows the system where the page does', async ({ page, figureNam
   await expect.poll(() => readColorScheme(widget)).toBe('light');
 });
 
-test('a figure on the ground of any theme has its ink and letters, and enough contrast', async ({ page }) => {
+test('on the background of any theme, a figure has the page’s text colour and font, and enough contrast', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine', { head: "<style>body { font: 17px 'DejaVu Sans', sans-serif }</style>" });
   const { backgroundColor, fontFamily, fontSize } = await readSurfaceStyle(widget);
   expect({ backgroundColor, fontFamily, fontSize }).toEqual({ backgroundColor: 'rgba(0, 0, 0, 0)', fontFamily: '"DejaVu Sans", sans-serif', fontSize: '17px' });
@@ -92,7 +92,7 @@ test('a figure on the ground of any theme has its ink and letters, and enough co
   expect(svgText).toContain('<rect width="100%" height="100%" fill="rgb(244, 236, 216)"/>');
 });
 
-test('the ground is the nearest, through shadow roots and what is half transparent @nightly', async ({ page }) => {
+test('a figure uses the nearest opaque background, through shadow roots and translucent elements @nightly', async ({ page }) => {
   await showPage(page, '<div id="card" style="background: rgb(0 0 0 / 50%)"></div>', {
     head: '<style>body { background: rgb(200 100 50); color: white }</style>',
   });
@@ -109,7 +109,7 @@ test('the ground is the nearest, through shadow roots and what is half transpare
   await expect.poll(() => readPaperColor(widget)).toBe('#eeeeee');
 });
 
-test('a ground that fades arrives where the page does, also where the text has come before @nightly', async ({ page }) => {
+test('after a transition of the page’s background, a figure has the final colours, even if the text colour changed earlier @nightly', async ({ page }) => {
   await showPage(page, '<banana-machine></banana-machine>', {
     head: '<style>body { background: white; color: #222; transition: background-color 0.4s } .night body { background: #101418; color: #ddd }</style>',
   });
@@ -121,7 +121,7 @@ test('a ground that fades arrives where the page does, also where the text has c
   }
 });
 
-test('a light text on an image of the page asks for dark paper @nightly', async ({ page }) => {
+test('a figure within light text on a background image gets a dark background @nightly', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine', { head: '<style>body { background: linear-gradient(#222, #333); color: #eee }</style>' });
   expect((await readColours(widget, ['paper']))[0]).toEqual([18, 18, 18]);
 });
@@ -148,11 +148,11 @@ for (const [situationName, emulatedMedia, pageStyle] of BLACK_ON_DARK) {
   });
 }
 
-test('a theme other than that of the page gives a figure its own paper and ink @nightly', async ({ page }) => {
+test('a figure whose theme differs from the page’s has its own background and text colours @nightly', async ({ page }) => {
   const pageStyle = 'body { background: #fff; color: #333; --color-foreground-muted: #112233; --color-background-border: #445566 }';
   const widget = await mountFigure(page, 'banana-machine', { attributes: 'theme="dark"', head: `<style>${pageStyle}</style><link rel="stylesheet" href="/motion-widgets.css">` });
   expect(await readSurfaceStyle(widget)).toMatchObject({ backgroundColor: 'rgb(22, 24, 27)', color: 'rgb(235, 233, 227)', colorScheme: 'dark' });
-  // The page's colours for muted text and rules do not fit that background. The figure must not use them.
+  // The page's colours for muted text and rules do not suit the dark background of the figure. The figure must not use them.
   const pageColors = ['#112233', '#445566'];
   for (const pageColour of (await readColours(widget, ['muted', 'rule'])).map(hexOfColor)) expect(pageColors).not.toContain(pageColour);
   await widget.evaluate((element) => element.setAttribute('theme', 'light'));
@@ -169,7 +169,7 @@ const THEME_PROPERTIES = {
   Furo: ['--color-foreground-muted', '--color-background-border', '--header-height'],
 };
 
-test('the stylesheet adopts muted text, hairlines and header height of a theme, and --motion- properties override them', async ({ page }) => {
+test('the stylesheet adopts a theme’s colours of muted text and hairlines and its header height, and --motion- properties override them', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine', { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
   const readAdoptedStyle = async () => [
     ...(await readColours(widget, ['muted', 'rule'])).map(hexOfColor),
@@ -190,7 +190,7 @@ test('the stylesheet adopts muted text, hairlines and header height of a theme, 
   expect(await readAdoptedStyle()).toEqual(['#010203', '#040506', 7]);
 });
 
-test('a figure has the paper and ink of --motion-paper and --motion-ink', async ({ page, figureName }) => {
+test('--motion-paper and --motion-ink set the background and text colours of a figure', async ({ page, figureName }) => {
   const widget = await mountFigure(page, figureName, { attributes: 'style="--motion-paper: #102030; --motion-ink: #f0f0f0"', head: '<style>body { background: #fff; color: #000 }</style>' });
   // A page with light text on a dark background gets the dark palette.
   expect(await readSurfaceStyle(widget)).toMatchObject({ backgroundColor: 'rgb(16, 32, 48)', color: 'rgb(240, 240, 240)', colorScheme: 'dark' });
@@ -205,7 +205,7 @@ test('custom properties colour controls and canvases, also when they change', as
   expect(await widget.evaluate((element) => getComputedStyle(element).fontFamily)).toBe('monospace');
 });
 
-test('no control has custom properties of its own, which extensions that darken pages leave behind', async ({ page, figureName }) => {
+test('no control has inline custom properties, because browser extensions for dark mode would keep their old values', async ({ page, figureName }) => {
   const widget = await mountFigure(page, figureName);
   await openDisclosures(widget);
   expect(await widget.locator('.simulation [style*="--"]').count()).toBe(0);

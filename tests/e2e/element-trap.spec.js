@@ -25,7 +25,7 @@ const expectRestarted = (widget) =>
     return simulation !== undefined && simulation !== Reflect.get(window, 'trapped');
   })).toBe(true);
 
-test('a core that traps is restarted with the same state and picture, and no other element notices', async ({ page, figureName }) => {
+test('after a trap the core restarts with the same state and picture, and other elements are not affected', async ({ page, figureName }) => {
   const otherName = ALL_NAMES[(ALL_NAMES.indexOf(figureName) + 1) % ALL_NAMES.length];
   const { sliderId, sliderValues } = FIGURE_FACTS[figureName];
   await showPage(page, `<${figureName}></${figureName}><div style="position: fixed; top: 0; width: 300px; opacity: 0.5"><${otherName} id="other"></${otherName}></div>`);
@@ -55,7 +55,7 @@ test('a core that traps is restarted with the same state and picture, and no oth
   expect(await takeEvents(page, ['error', 'load'])).toHaveLength(1);
 });
 
-test('a core that traps twice without a picture between ends in a sentence @nightly', async ({ page }) => {
+test('if the core traps again before the next picture, the figure stops with an error message @nightly', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine');
   await takeEvents(page);
   await widget.evaluate((element) => {

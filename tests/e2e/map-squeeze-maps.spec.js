@@ -36,7 +36,7 @@ async function chooseFiles(widget, mapFiles) {
   await widget.getByLabel('Choose map files').setInputFiles(mapFiles);
 }
 
-test('a JSON floor plan takes the apartment’s place, and the robot finds room in it', async ({ page }) => {
+test('a JSON floor plan replaces the apartment, and the robot starts at a free place', async ({ page }) => {
   const widget = await openSqueeze(page);
   const pictureBefore = await readPicture(widget.locator('canvas.plane'));
   await widget.getByRole('button', { name: 'Open corridor' }).click();
@@ -57,7 +57,7 @@ test('a JSON floor plan takes the apartment’s place, and the robot finds room 
   expect(await readPicture(widget.locator('canvas.plane'))).toBe(pictureBefore);
 });
 
-test('a button leads back to the apartment, which has the presets', async ({ page }) => {
+test('a button restores the apartment and its presets', async ({ page }) => {
   const widget = await openSqueeze(page);
   await chooseFiles(widget, [makeMapFile('room.json', JSON.stringify(ROOM_PLAN))]);
   await expect(currentMapOf(widget)).toContainText('room.json');
@@ -106,7 +106,7 @@ test('unknown cells are hatched, and free or blocked as the user chooses', async
   expect(await readSqueezeResults(widget)).toEqual(resultsIfBlocked);
 });
 
-test('a floor plan can be written on the page', async ({ page }) => {
+test('a floor plan can be typed into a text field', async ({ page }) => {
   const widget = await openSqueeze(page);
   await openDisclosures(widget);
   const planField = widget.getByLabel('Or a floor plan here');
@@ -138,7 +138,7 @@ test('a map_server pair can be dropped on the widget', async ({ page }) => {
   expect(await countPixelsOfRole(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(1000);
 });
 
-test('the reason why a dropped map is refused is scrolled into view @nightly', async ({ page }) => {
+test('the error message about a refused map is scrolled into view @nightly', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openSqueeze(page);
   const resultsBefore = await readSqueezeResults(widget);
@@ -152,7 +152,7 @@ test('the reason why a dropped map is refused is scrolled into view @nightly', a
   await expect(currentMapOf(widget)).toContainText('The apartment');
 });
 
-test('a map that is refused is reported in a sentence, and the present map stays', async ({ page }) => {
+test('a refused map is reported in a sentence, and the previous map stays', async ({ page }) => {
   const imageFile = makePgmFile('room.pgm', ROOM_COLUMNS, ROOM_ROWS, isOnBorder);
   const roomYaml = makeYamlFile('room.yaml', YAML_FIELDS);
   const widget = await openSqueeze(page);
@@ -197,7 +197,7 @@ test('a map set by a page is shown, an equal one changes nothing, and an incompl
   ]);
 });
 
-test('a large map is opened with a message, and another map takes its place @nightly', async ({ page }) => {
+test('a message is shown while a large map is opened, and another map can replace it @nightly', async ({ page }) => {
   test.setTimeout(120_000);
   const widget = await openSqueeze(page);
   const gridSide = 4000;

@@ -44,7 +44,7 @@ test('the robot moves and turns by keyboard', async ({ page }) => {
   await expect(headingHandleOf(widget)).toHaveAttribute('aria-valuetext', `${start.theta.toFixed(2)} rad`);
 });
 
-test('the robot stays inside the map, and says so to the eye and to the ear', async ({ page }) => {
+test('the robot stops at the edge of the map, where a label and a spoken text say so', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { x, y } = await readCentre(bodyHandleOf(widget));
   const readEdgeLabel = async () => {
@@ -78,7 +78,7 @@ test('the robot stays inside the map, and says so to the eye and to the ear', as
   expect((await readSqueezeResults(widget)).config.start.x).toBe(0);
 });
 
-test('a robot that a key led into a wall is reported @nightly', async ({ page }) => {
+test('if a key moves the robot into a wall, the figure reports that @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   await widget.evaluate((element) => void Reflect.set(element, 'start', { x: 4.2, y: 2.6, theta: 0 }));
   expect((await readSqueezeResults(widget)).startFree).toBe(true);
@@ -90,7 +90,7 @@ test('a robot that a key led into a wall is reported @nightly', async ({ page })
   await expect(widget.locator('.verdict')).not.toContainText('start pose is in collision');
 });
 
-test('the sampler is chosen by name, and the readouts are those of the simulation', async ({ page }) => {
+test('the sampler is selected by its name, and the readouts show the results of the simulation', async ({ page }) => {
   const widget = await openSqueeze(page);
   const samplersByLabel = { Endpoint: 'endpoint', 'Whole arc': 'whole-arc' };
   await openDisclosures(widget);
@@ -110,7 +110,7 @@ test('the sampler is chosen by name, and the readouts are those of the simulatio
   }
 });
 
-test('the headline gives the share, and has words for none', async ({ page }) => {
+test('the headline states the share of samples through walls, and has its own sentences for none', async ({ page }) => {
   const widget = await openSqueeze(page);
   const resultHeadline = widget.locator('.headline');
   await expect(resultHeadline).toHaveText(/^3\d\.\d\u202f% of the accepted motions went through a wall$/);
@@ -128,7 +128,7 @@ test('the headline gives the share, and has words for none', async ({ page }) =>
   }
 });
 
-test('the table of costs has each sampler, and the share of a processor core follows from its time', async ({ page }) => {
+test('the table of costs lists each sampler, with its time and the share of a processor core', async ({ page }) => {
   const widget = await openSqueeze(page);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   await openDisclosures(widget);
@@ -146,7 +146,7 @@ test('the table of costs has each sampler, and the share of a processor core fol
   }
 });
 
-test('a wedged robot is reported with the number of draws @nightly', async ({ page }) => {
+test('for a robot without any free path, the figure states the number of attempts @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   const verdictNote = widget.locator('.verdict.note');
   await expect(verdictNote).toHaveCount(0);
@@ -179,7 +179,7 @@ test('a wedged robot is reported with the number of draws @nightly', async ({ pa
   await expect(widget.locator('p[role=status]')).toContainText('No sample was accepted');
 });
 
-test('a sample pointed at, or named, shows its verdict', async ({ page }) => {
+test('a sample under the pointer, or with an entered number, shows its verdict', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { verdicts, poses } = await readSqueezeResults(widget);
   const throughWallIndex = verdicts.indexOf(5);
@@ -209,7 +209,7 @@ test('a sample pointed at, or named, shows its verdict', async ({ page }) => {
   await expect(sampleField).toHaveValue(String(rightmostIndex + 1));
 });
 
-test('a marked motion that went through a wall has a leader to it, and no other has @nightly', async ({ page }) => {
+test('only a marked motion through a wall has a label at that wall @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { verdicts } = await readSqueezeResults(widget);
   const hasWallLabel = (/** @type {number | null} */ attemptIndex) => widget.evaluate((element, markedIndex) => {
@@ -221,7 +221,7 @@ test('a marked motion that went through a wall has a leader to it, and no other 
   expect(await hasWallLabel(verdicts.indexOf(7))).toBe(false);
 });
 
-test('the edge of a doorway and a wall are dragged, and Back to the apartment undoes it', async ({ page }) => {
+test('the edge of a doorway and a wall can be dragged, and Back to the apartment restores the walls', async ({ page }) => {
   const widget = await openSqueeze(page);
   const resultsBefore = await readSqueezeResults(widget);
   const dragHandle = async (/** @type {Locator} */ draggedHandle, /** @type {number} */ dx, /** @type {number} */ dy) => {
@@ -252,7 +252,7 @@ test('the edge of a doorway and a wall are dragged, and Back to the apartment un
   expect((await readSqueezeResults(widget)).walls).toEqual(resultsBefore.walls);
 });
 
-test('walls are moved by keyboard from one stop of Tab, and their handles are named', async ({ page }) => {
+test('all wall handles share one tab stop, have names, and move walls by arrow keys', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { walls } = await readSqueezeResults(widget);
   await bodyHandleOf(widget).focus();
@@ -270,7 +270,7 @@ test('walls are moved by keyboard from one stop of Tab, and their handles are na
   expect(await widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.classList.contains('handle') ?? false)).toBe(false);
 });
 
-test('the picture has a description, and a user’s change is announced', async ({ page }) => {
+test('the picture has a description, and a change by the user is announced to screen readers', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { stats } = await readSqueezeResults(widget);
   const planeCanvas = widget.locator('canvas.plane');
@@ -294,7 +294,7 @@ test('the picture has a description, and a user’s change is announced', async 
   await expect(planeCanvas).toHaveAttribute('aria-label', new RegExp(`all 600 motions are accepted; ${throughWall} of them, `));
 });
 
-test('either view is within the apartment, and a close one has the whole map beside it', async ({ page }) => {
+test('both views stay inside the apartment, and the close view has an overview of the whole map', async ({ page }) => {
   const widget = await openSqueeze(page);
   const mapOverview = widget.locator('.overview');
   await expect(mapOverview).toBeVisible();
@@ -328,7 +328,7 @@ test('each entry of the legend hides the marks that it names', async ({ page }) 
   await expect(outcomeLegend.getByLabel('unknown cells')).toHaveCount(0);
 });
 
-test('many samples are a density, those through a wall in a colour of their own', async ({ page }) => {
+test('many samples are drawn as a density, with a separate colour for samples that went through a wall', async ({ page }) => {
   const widget = await openSqueeze(page);
   const densityNote = widget.locator('.about');
   await expect(densityNote).toHaveCount(0);

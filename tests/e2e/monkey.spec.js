@@ -248,12 +248,12 @@ function readFaults(page, name) {
 
 test.use({ hasTouch: true });
 
-test('random actions leave every figure sound @nightly', NEW_PAGE_TAG, async ({ page }) => {
+test('random actions cause no fault in any figure @nightly', NEW_PAGE_TAG, async ({ page }) => {
   test.setTimeout(60_000 + EVENT_COUNT * 400);
   page.on('dialog', (dialog) => dialog.dismiss());
   await page.addInitScript(() => {
     Object.assign(window, { keptStates: [], unexpectedErrors: [] });
-    // The page refuses full screen, as many frames do, because a window in full screen cannot be resized.
+    // The page refuses full screen, as in many iframes, because a window in full screen cannot be resized.
     Element.prototype.requestFullscreen = () => Promise.reject(new TypeError('Fullscreen is not permitted'));
     // A refused value fires an `error` event, which is expected. Other errors are not expected.
     addEventListener('error', (errorEvent) => {

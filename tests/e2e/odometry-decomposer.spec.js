@@ -20,7 +20,7 @@ async function readResults(widget) {
 
 const sliderOf = (/** @type {Locator} */ widget, /** @type {string} */ sliderName) => widget.getByRole('slider', { name: sliderName, exact: true });
 
-test('the views have room for the arcs of the turns and for nearly every outcome', async ({ page }) => {
+test('the views contain the arcs of the turns and nearly all sampled poses', async ({ page }) => {
   await page.setViewportSize({ width: 656, height: 900 });
   const widget = await openDecomposer(page);
   await waitForFrames(page);
@@ -28,7 +28,7 @@ test('the views have room for the arcs of the turns and for nearly every outcome
     const { pictures, scene } = /** @type {any} */ (element);
     const outsideCounts = pictures.map((/** @type {any} */ { view: { extent } }) => Array.from({ length: scene.poses.length / 3 }, (_, i) => scene.poses.subarray(3 * i, 3 * i + 2))
       .filter(([x, y]) => x < extent.xMin || x > extent.xMax || y < extent.yMin || y > extent.yMax).length);
-    // `pixelsBelow` is the space below the end of the drive. At the end there is a ring with a radius of about 64 pixels for half a turn.
+    // `pixelsBelow` is the space below the end of the drive. A half turn at that end is drawn as a ring with a radius of about 64 pixels.
     const { view } = pictures[0];
     return { outsideCounts, pixelsBelow: view.plotArea.bottom - view.toPixelY(scene.linkage[7]) };
   });
@@ -52,7 +52,7 @@ test('the scale of the legs depends only on the size of the window @nightly', as
   await expect.poll(readLegScale).toBeCloseTo(scaleBefore, 6);
 });
 
-test('opens on Reverse, and presets set the reading', async ({ page }) => {
+test('the figure opens with the preset Reverse, and presets set the odometry readings', async ({ page }) => {
   const widget = await openDecomposer(page);
   const { config, shown } = await readResults(widget);
   expect(shown).toBe(config.samples);
@@ -68,7 +68,7 @@ test('opens on Reverse, and presets set the reading', async ({ page }) => {
   await expect(readoutValueOf(widget, 'Table 5.6 expects')).toHaveText('1.0 ×');
 });
 
-test('the picture names the spreads of two noise models, drawn to one scale', async ({ page }) => {
+test('the picture names the deviations of two noise models, which are drawn to the same scale', async ({ page }) => {
   const widget = await openDecomposer(page);
   const readPictureFacts = async () => {
     await waitForFrames(page);
@@ -87,7 +87,7 @@ test('the picture names the spreads of two noise models, drawn to one scale', as
   expect((await readPictureFacts()).names).toEqual(['by Table 5.6']);
 });
 
-test('the later pose moves by its body and turns by its heading', async ({ page }) => {
+test('the later pose has one handle that moves it and one that turns it', async ({ page }) => {
   const widget = await openDecomposer(page);
   const resultsBefore = await readResults(widget);
   const pictureBefore = await readPicture(widget.locator('canvas.plane'));
@@ -102,13 +102,13 @@ test('the later pose moves by its body and turns by its heading', async ({ page 
   expect(resultsAfterTurn.config.to.theta - resultsAfterMove.config.to.theta).toBeCloseTo(Math.PI / 36, 12);
 });
 
-test('a rule is chosen in the table, which has the deviations of each rule', async ({ page }) => {
+test('a noise rule is selected in the table, which shows the deviations of each rule', async ({ page }) => {
   const widget = await openDecomposer(page, 'preset="reverse"');
   const rowOf = (/** @type {string} */ name) => widget.locator('tbody tr').filter({ has: page.getByText(name, { exact: true }) });
   await expect(rowOf('Table 5.6').locator('td')).toHaveText(['0.517', '0.602', '0.534', '0.000', '0.626', '0.743']);
   await expect(rowOf('AMCL of Nav2').locator('td')).toHaveText(['0.131', '0.130', '0.126', '0.000', '0.161', '0.182']);
   await expect(rowOf('AMCL, omnidirectional').locator('td')).toHaveText(['0.000', '0.124', '0.125', '0.124', '0.124', '0.125']);
-  // Cells of the table that differ from the printed table are marked.
+  // Cells of the table are marked if they differ from the table printed in the book.
   await expect(rowOf('Table 5.6').locator('strong')).toHaveCount(0);
   await expect(rowOf('AMCL of Nav2').locator('strong')).toHaveText(['0.131', '0.130', '0.126', '0.161', '0.182']);
   const resultsBefore = await readResults(widget);
@@ -119,7 +119,7 @@ test('a rule is chosen in the table, which has the deviations of each rule', asy
   await expect(widget.locator('p[role=status]')).toContainText('The first rotation has the long lever');
 });
 
-test('on paper every rule has its name, and the chosen one stands out @nightly', async ({ page }) => {
+test('on paper every noise rule has its name, and the selected rule is highlighted @nightly', async ({ page }) => {
   const widget = await openDecomposer(page);
   const ruleLabelOf = (/** @type {string} */ rule) => widget.locator('.rules th').getByText(rule, { exact: true });
   await page.emulateMedia({ media: 'print' });
@@ -134,7 +134,7 @@ test('on paper every rule has its name, and the chosen one stands out @nightly',
   await expect(widget.getByText('triangular', { exact: true })).toBeHidden();
 });
 
-test('the frame drifts, and no outcome moves', async ({ page }) => {
+test('drift of the odometry frame does not move the sampled poses', async ({ page }) => {
   const widget = await openDecomposer(page);
   const resultsBefore = await readResults(widget);
   const legPictureBefore = await readPicture(widget.locator('canvas.plane'));
@@ -148,7 +148,7 @@ test('the frame drifts, and no outcome moves', async ({ page }) => {
   expect(await readPicture(widget.locator('canvas.world'))).not.toBe(worldPictureBefore);
 });
 
-test('the spread against the drive has the outcomes beside the curve', async ({ page }) => {
+test('the plot of the deviation against the drive compares the sampled poses with the exact curve', async ({ page }) => {
   const widget = await openDecomposer(page, 'preset="all"');
   await openDisclosures(widget);
   const deviationPlot = widget.locator('svg.plot');
@@ -159,7 +159,7 @@ test('the spread against the drive has the outcomes beside the curve', async ({ 
   await expect(deviationPlot.locator('circle')).toHaveCount(0);
 });
 
-test('the path is scrubbed, and is played to its end and again from its beginning', async ({ page }) => {
+test('a slider moves along the path, and Play runs it to its end and again from its beginning', async ({ page }) => {
   const widget = await openDecomposer(page, 'phase="2.8"');
   // Users who prefer reduced motion get no play button.
   await expect(widget.locator('.playable button')).toHaveCount(0);

@@ -36,7 +36,7 @@ const COLOR_SETTINGS = /** @type {[Parameters<Page['emulateMedia']>[0], string, 
   [{ colorScheme: 'light', forcedColors: 'none' }, 'lang="de"', 320],
 ]);
 
-testEach('a figure has no accessibility violations in any look', async (page, figureName, isFull) => {
+testEach('a figure has no accessibility violations in any colour scheme and width', async (page, figureName, isFull) => {
   for (const [emulatedMedia, attributes, figureWidth] of isFull ? COLOR_SETTINGS : COLOR_SETTINGS.slice(0, 2)) {
     await page.emulateMedia(emulatedMedia);
     await page.setViewportSize({ width: figureWidth, height: 812 });
@@ -45,7 +45,7 @@ testEach('a figure has no accessibility violations in any look', async (page, fi
   }
 });
 
-test('a figure keeps its roles, its tracks and its pressed button in forced colours', async ({ page }) => {
+test('in forced colours a figure keeps its colour roles, and its slider tracks and pressed button are visible', async ({ page }) => {
   await page.emulateMedia({ forcedColors: 'active' });
   const widget = await openBanana(page);
   for (const colorRole of ['prior', 'prediction', 'posterior', 'truth']) {
@@ -62,13 +62,14 @@ test('a figure keeps its roles, its tracks and its pressed button in forced colo
   expect(trackScreenshot.equals(await alpha5Slider.screenshot())).toBe(false);
 });
 
-testEach('Tab leads to every handle and control of a figure, once, and beyond', async (page, name) => {
+testEach('Tab reaches every handle and control of a figure exactly once, and then leaves the figure', async (page, name) => {
   const widget = await openWithDisclosures(page, name, { before: '<a id="before" href="#">Before</a>', after: '<a id="after" href="#">After</a>' });
   await widget.evaluate((element) => {
     const shadowRoot = /** @type {ShadowRoot} */ (element.shadowRoot);
     const tabStops = [...shadowRoot.querySelectorAll('button, input, select, textarea, summary, a[href], .handle')].filter((stopElement) => {
       const { type, name, checked } = /** @type {HTMLInputElement} */ (stopElement);
-      // The field of a slider is reached from the slider. Other radio buttons of a group are reached from the selected one.
+      // Tab skips the text field of a slider, which is reached from the slider. Tab also skips radio buttons whose group has a selected
+      // button.
       if (stopElement.matches(':disabled, .typed, [tabindex="-1"]') || !stopElement.checkVisibility({ visibilityProperty: true })) return false;
       return type !== 'radio' || checked || !shadowRoot.querySelector(`input[name="${name}"]:checked`);
     });
@@ -96,7 +97,7 @@ testEach('Tab leads to every handle and control of a figure, once, and beyond', 
   expect(reachedStops.length).toBe(stopCount + 1);
 });
 
-test('the focus stays near a control that goes or is disabled by its own action', async ({ page }) => {
+test('if a control removes or disables itself, a nearby control gets the focus', async ({ page }) => {
   const classOfFocusedGroup = (/** @type {Locator} */ widget) => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.closest('.buttons, section')?.className);
   await showPage(page, '<map-squeeze></map-squeeze>');
   const mapSqueeze = page.locator('map-squeeze');
@@ -113,7 +114,7 @@ test('the focus stays near a control that goes or is disabled by its own action'
   expect(await classOfFocusedGroup(mapSqueeze)).toBe('buttons');
 });
 
-test('sliders speak their value with its unit, and nothing is announced while one moves', async ({ page }) => {
+test('screen readers get the value of a slider with its unit, and no announcement while a slider moves', async ({ page }) => {
   const widget = await openBanana(page);
   const statusLine = widget.locator('p[role=status]');
   const speedSlider = widget.locator('#v');
@@ -135,7 +136,7 @@ test('sliders speak their value with its unit, and nothing is announced while on
   }
 });
 
-test('a figure has targets that are large enough for a finger', async ({ page, figureName }) => {
+test('the touch targets of a figure are large enough for a finger', async ({ page, figureName }) => {
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openWithDisclosures(page, figureName);
   const smallTargets = await widget.evaluate((element) =>
@@ -171,7 +172,7 @@ test.describe('a finger', () => {
   }
   const surroundingHtml = { before: '<div style="height: 300px"></div>', after: '<div style="height: 1500px"></div>' };
 
-  test('moves each handle of a figure and not the page', async ({ page, handleFigureName }) => {
+  test('moves each handle of a figure without scrolling the page', async ({ page, handleFigureName }) => {
     const widget = await openWithDisclosures(page, handleFigureName, surroundingHtml);
     for (const handleSelector of FIGURE_FACTS[handleFigureName].handleSelectors ?? []) {
       const figureHandle = widget.locator(handleSelector);
@@ -184,7 +185,7 @@ test.describe('a finger', () => {
     }
   });
 
-  test('that swipes over a picture or a slider scrolls the page and changes nothing', async ({ page, figureName }) => {
+  test('that swipes vertically over a picture or a slider scrolls the page, and changes no setting', async ({ page, figureName }) => {
     const widget = await openWithDisclosures(page, figureName, surroundingHtml);
     for (const swipedSelector of ['canvas.plane', `#${FIGURE_FACTS[figureName].sliderId}`]) {
       const swipedPart = widget.locator(swipedSelector);
@@ -199,7 +200,7 @@ test.describe('a finger', () => {
     }
   });
 
-  test('that taps sets the chart and marks a robot @nightly', async ({ page }) => {
+  test('that taps a chart sets ω, and one that taps a robot marks it @nightly', async ({ page }) => {
     const widget = await openWithDisclosures(page, 'banana-machine');
     const omegaChart = widget.locator('#chart-omega');
     await scrollToLowerHalf(omegaChart);
@@ -226,7 +227,7 @@ test.describe('a finger', () => {
   });
 });
 
-test('paper has the figure and its settings, in light colours, and nothing to press', async ({ page }) => {
+test('a printed figure has its picture and settings in light colours, and no controls', async ({ page }) => {
   await page.emulateMedia({ colorScheme: 'light' });
   const widget = await mountFigure(page, 'banana-machine', { head: '<style>:root { color-scheme: light dark }</style>' });
   const planeCanvas = widget.locator('canvas.plane');
@@ -266,7 +267,7 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
   }
 });
 
-test('paper has figures that were far from the window, with their pictures @nightly', async ({ page }) => {
+test('a printed page contains figures far from the window, with their pictures @nightly', async ({ page }) => {
   await showPage(page, '<banana-machine></banana-machine><div style="height: 3000px"></div><map-squeeze></map-squeeze>');
   await waitUntilReady(page.locator('banana-machine'));
   const farFigure = page.locator('map-squeeze');
@@ -299,7 +300,7 @@ test('a print shows the disclosures that the user opened, and no controls @night
   await expect(widget.locator(':is(button, input, summary, textarea):visible')).toHaveCount(0);
 });
 
-testEach('a figure with all folds open fits into 320 px', async (page, name, isFull) => {
+testEach('a figure with all disclosures open fits into a width of 320 px', async (page, name, isFull) => {
   await page.setViewportSize({ width: 320, height: 812 });
   const widget = await openWithDisclosures(page, name);
   /** Returns the widths of the page, and the elements beyond the right edge of the window that cannot be scrolled to. */
@@ -319,7 +320,7 @@ testEach('a figure with all folds open fits into 320 px', async (page, name, isF
   }
 });
 
-testEach('the help of a slider covers no slider of its group and no rule, and no outline crosses it', async (page, figureName) => {
+testEach('the help text of a slider covers no other slider and no separator line, and no focus outline crosses the text', async (page, figureName) => {
   const widget = await openWithDisclosures(page, figureName);
   for (const [width, figureLanguage] of /** @type {const} */ ([[320, 'en'], [700, 'de']])) {
     await page.setViewportSize({ width, height: 812 });

@@ -22,7 +22,7 @@ async function revealAnswer(betForm) {
   return (await betForm.getByRole('status').textContent())?.replaceAll('\u00a0', ' ') ?? '';
 }
 
-test('exercise 4: the shapes of the clouds of α₄ alone and α₆ alone are bet on', async ({ page }) => {
+test('exercise 4: after the user has bet on a shape, the figure shows the clouds with α₄ alone and α₆ alone', async ({ page }) => {
   const sectionArticle = await openSection(page, 'banana');
   const betForm = sectionArticle.locator('.shape-bet');
   const readIsolateAndOmega = () => sectionArticle.locator('banana-machine').evaluate((bananaMachine) => [Reflect.get(bananaMachine, 'isolate'), Reflect.get(bananaMachine, 'omega')]);
@@ -51,7 +51,7 @@ test('exercise 4: the shapes of the clouds of α₄ alone and α₆ alone are be
   expect(await readIsolateAndOmega()).toEqual([6, 0.5]);
 });
 
-test('exercise 5: noise alone stays below 40 %, and a curve does not', async ({ page }) => {
+test('exercise 5: noise alone leads less than 40 % of the motions through walls, and a curve more than 70 %', async ({ page }) => {
   const sectionArticle = await openSection(page, 'squeeze');
   const answerPercents = [];
   for (const betForm of await sectionArticle.locator('.bet').all()) {
@@ -66,7 +66,7 @@ test('exercise 5: noise alone stays below 40 %, and a curve does not', async ({ 
   expect(await sectionArticle.locator('map-squeeze').evaluate((figure) => Reflect.get(figure, 'omega'))).toBe(0.6);
 });
 
-test('exercise 7: the steps of both noises are bet on, and then the curve of the variance along the track is shown', async ({ page }) => {
+test('exercise 7: after the user has bet on the steps of both noises, the variance along the track is shown', async ({ page }) => {
   const sectionArticle = await openSection(page, 'reckoning');
   const curveCheckbox = sectionArticle.getByRole('checkbox', { name: 'along the track' });
   const stepsExplanation = sectionArticle.getByText('Does twice the σ halve the steps?');
@@ -83,7 +83,7 @@ test('exercise 7: the steps of both noises are bet on, and then the curve of the
   await expect(sectionArticle.getByText('predicted along-track variance', { exact: true })).toBeVisible();
 });
 
-test('on a phone, the picture that stays beside an item shows what the item sets', async ({ page }) => {
+test('on a phone, the sticky picture next to a gallery item shows the settings of the item', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 800 });
   const sectionArticle = await openSection(page, 'reckoning');
   const takePicture = () => sectionArticle.locator('dead-reckoning canvas').first().evaluate((canvasElement) => /** @type {HTMLCanvasElement} */ (canvasElement).toDataURL());

@@ -36,7 +36,7 @@ function describeSVG(page, svgText) {
   }, svgText);
 }
 
-test('CSV of the Banana Machine has the samples, and the settings that bring them back', async ({ page }) => {
+test('CSV of the Banana Machine contains the samples, and the settings that reproduce them', async ({ page }) => {
   const widget = await openBanana(page, 'samples="2000"');
   await widget.getByRole('button', { name: 'Hard arc' }).click();
   const { config, shown } = await readBananaResults(widget);
@@ -59,7 +59,7 @@ test('CSV of the Banana Machine has the samples, and the settings that bring the
   expect(recomputedPoses).toEqual(cloudPoses);
 });
 
-test('CSV of Map Squeeze has the verdicts, which add up to the readouts', async ({ page }) => {
+test('CSV of Map Squeeze contains the verdicts, whose counts equal the readouts', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { config, stats } = await readSqueezeResults(widget);
   const { settings, columns, rows } = parseCSV(await readCSV(widget));
@@ -70,7 +70,7 @@ test('CSV of Map Squeeze has the verdicts, which add up to the readouts', async 
   expect(rows.filter((row) => row[5] === 1 && row[4] === 0)).toHaveLength(stats.throughWall);
 });
 
-test('SVG is vectors with a title and a description: dots while they are few, else an image', async ({ page }) => {
+test('SVG has a title, a description and vector graphics; few samples are dots, and many samples are an image', async ({ page }) => {
   const widget = await openBanana(page);
   const floorCanvas = widget.locator('canvas.plane');
   await openDisclosures(widget);
@@ -101,7 +101,7 @@ test('SVG is vectors with a title and a description: dots while they are few, el
   expect(svgOfMap.paths).toBeGreaterThan(400);
 });
 
-test('PNG of a figure has twice the pixels and opaque paper', async ({ page, figureName }) => {
+test('PNG of a figure has twice the resolution and an opaque background', async ({ page, figureName }) => {
   await page.emulateMedia({ colorScheme: 'dark' });
   const widget = await mountFigure(page, figureName);
   const pngMeasures = await widget.evaluate(async (element) => {
@@ -123,7 +123,7 @@ test('PNG of a figure has twice the pixels and opaque paper', async ({ page, fig
   expect(pngMeasures.colours).toBeGreaterThan(50);
 });
 
-test('the menu saves files with names that say what they are, from the keyboard too', async ({ page }) => {
+test('the menu saves files with descriptive names, also by keyboard', async ({ page }) => {
   const widget = await openBanana(page, 'samples="2000"');
   await openDisclosures(widget);
   await widget.locator('.exports button').first().focus();
@@ -144,7 +144,7 @@ const HOSTILE_TEXT = ']]> --> <!-- <![CDATA[ </svg><script>alert(1)</script> & &
 // oxlint-disable-next-line no-control-regex
 const replaceForbiddenCharacters = (text) => text.replace(/[\0-\x08\x0b\x0c\x1f\ufffe\uffff\p{Cs}]/gu, '\ufffd');
 
-test('SVG is well-formed whatever the names of a page are @nightly', async ({ page }) => {
+test('SVG is well-formed even if names set by a page contain forbidden characters @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   await widget.evaluate(async (element, stateJson) => {
     // JSON keeps unpaired surrogates.

@@ -5,7 +5,7 @@ import { REDUCED_MOTION, readBox, waitForFrames, mountFigure, readPicture, readP
 
 test.use(REDUCED_MOTION);
 
-test('examples of the reference start when they are opened, and are what their code says', async ({ page }) => {
+test('examples on the reference page start when they are opened, and match the code next to them', async ({ page }) => {
   await page.goto('/reference.html');
   const exampleSections = page.locator('.example');
   await expect(exampleSections).toHaveCount(5);
@@ -27,10 +27,10 @@ test('examples of the reference start when they are opened, and are what their c
   }
 });
 
-/** Settings of gallery items that do not change the preset. */
+/** Settings of gallery items that belong to no preset. */
 const KEYS_OUTSIDE_PRESETS = ['preset', 'samples', 'overlays', 'line', 'morph'];
 
-testEach('each item sets the whole state that it describes, whatever was pressed before', async (page, name) => {
+testEach('each gallery item sets its complete state, independent of items pressed before', async (page, name) => {
   await page.goto('/');
   const figureArticle = page.locator('article', { has: page.locator(name) });
   const figureLocator = figureArticle.locator(name);
@@ -63,7 +63,7 @@ test('an entry of the legend highlights its curve in the chart', async ({ page }
   await expect(widget.locator('.plot .curve.unlit')).toHaveCount(2);
 });
 
-test('a term and an entry of the legend highlight their line in the picture', async ({ page }) => {
+test('a term in the text and an entry of the legend highlight their line in the picture', async ({ page }) => {
   await page.goto('/');
   const figureArticle = page.locator('#banana');
   const figure = figureArticle.locator('banana-machine');
@@ -84,7 +84,7 @@ test('a term and an entry of the legend highlight their line in the picture', as
   expect(await readPicture(planeCanvas)).toBe(highlightedPicture);
 });
 
-test('contents lead to every section', async ({ page }) => {
+test('the table of contents links to every section', async ({ page }) => {
   await page.goto('/');
   const contentsLinks = page.getByRole('navigation', { name: 'Contents' }).getByRole('link');
   const linkTargets = await contentsLinks.evaluateAll((linkElements) => linkElements.map((linkElement) => linkElement.getAttribute('href')));
@@ -92,7 +92,7 @@ test('contents lead to every section', async ({ page }) => {
 });
 
 for (const [pageWidth, pageHeight] of [[1280, 720], [375, 760]]) {
-  test(`a figure stands below its heading, and stays in sight while its items are read, ${pageWidth} px wide`, async ({ page }) => {
+  test(`a figure is below its heading, and remains visible next to its items, on a page ${pageWidth} px wide`, async ({ page }) => {
     await page.setViewportSize({ width: pageWidth, height: pageHeight });
     await page.goto('/');
     const figureArticle = page.locator('#banana');
@@ -124,7 +124,7 @@ test('nothing on the page moves while figures load', async ({ page }) => {
 });
 
 for (const pagePath of ['/', '/reference.html']) {
-  test(`nothing is inaccessible at ${pagePath}`, async ({ page }) => {
+  test(`the page ${pagePath} has no accessibility violations`, async ({ page }) => {
     await page.goto(pagePath);
     await expectAccessible(page, undefined, 'body > *');
   });

@@ -43,7 +43,7 @@ function readVisibleTexts(widget) {
   });
 }
 
-test('both catalogues have the same messages, with the same values in them', async () => {
+test('the English and German catalogues have the same messages with the same parameters', async () => {
   const [englishMessages, germanMessages] = (await Promise.all(['en', 'de'].map(loadCatalogue))).map((catalogue) => listMessages(catalogue));
   const messageShapesOf = (/** @type {[string, string | Function][]} */ catalogueMessages) =>
     catalogueMessages.map(([path, message]) => [path, typeof message, typeof message === 'function' ? message.length : 0]);
@@ -51,7 +51,7 @@ test('both catalogues have the same messages, with the same values in them', asy
   expect(englishMessages.length).toBeGreaterThan(200);
 });
 
-testEach('no English is left in a German figure', async (page, figureName) => {
+testEach('a German figure contains no English text', async (page, figureName) => {
   const [englishCatalogue, germanCatalogue] = await Promise.all(['en', 'de'].map(loadCatalogue));
   const germanTexts = new Set(listMessages(germanCatalogue).map(([, message]) => message));
   const englishTexts = listMessages(englishCatalogue)
@@ -72,7 +72,7 @@ testEach('no English is left in a German figure', async (page, figureName) => {
   expect(englishTexts.filter((part) => visibleTexts.some((visibleText) => visibleText === part || (part.includes(' ') && visibleText.includes(part))))).toEqual([]);
 });
 
-test('the nearest lang decides, also on the form of numbers; a language without words is English', async ({ page }) => {
+test('the nearest lang attribute sets language and number format; unknown languages fall back to English', async ({ page }) => {
   const widget = await openBanana(page);
   await page.addScriptTag({ type: 'module', url: '/de.js' });
   const expectPlayButton = (/** @type {string} */ buttonName) => expect(widget.getByRole('button', { name: buttonName, exact: true })).toBeVisible();
@@ -94,7 +94,7 @@ test('the nearest lang decides, also on the form of numbers; a language without 
   await expectPlayButton('Stichproben ziehen');
 });
 
-test('a page may replace words and add languages; a text that is no language is refused', async ({ page }) => {
+test('a page can replace messages and add languages; a text that is no language tag is refused', async ({ page }) => {
   const widget = await openBanana(page, 'preset="gentle"');
   await openDisclosures(widget);
   const refusalMessage = await page.evaluate(async () => {
@@ -120,7 +120,7 @@ test('a page may replace words and add languages; a text that is no language is 
   await expect(readoutValueOf(widget, 'cross-track skew')).toHaveText(/^−0\.\d{3}/);
 });
 
-test('a page from right to left has the same picture, and nothing beside its figure @nightly', async ({ page, figureName }) => {
+test('on a right-to-left page a figure has the same picture, and nothing overflows the figure @nightly', async ({ page, figureName }) => {
   const widget = await mountFigure(page, figureName);
   const planeCanvas = widget.locator('canvas.plane');
   const pictureBefore = await readPicture(planeCanvas);
@@ -134,7 +134,7 @@ test('a page from right to left has the same picture, and nothing beside its fig
   expect(Number(await firstSlider.inputValue())).toBeGreaterThan(valueBefore);
 });
 
-test('signs stand left of their numbers on a page from right to left, also among words from right to left', async ({ page, figureName }) => {
+test('signs are left of their numbers on a right-to-left page, even within right-to-left text', async ({ page, figureName }) => {
   const headHtml = '<script type="module">import { setMessages } from "/motion-widgets.js"; setMessages("he", { play: "נגן" })</script>';
   for (const [figureLanguage, textDirection, numberSelector] of [['en', 'ltr', '.simulation'], ['he', 'rtl', '.simulation :is(bdi, [dir=ltr])']]) {
     await showPage(page, `<div dir="rtl" lang="${figureLanguage}"><${figureName}><p slot="caption">נגן</p></${figureName}></div>`, { head: headHtml });
@@ -167,7 +167,7 @@ test('signs stand left of their numbers on a page from right to left, also among
   }
 });
 
-test('a page translator that replaces every text freezes none @nightly', async ({ page, figureName }) => {
+test('texts still change after a page translator has replaced every text node @nightly', async ({ page, figureName }) => {
   // A figure outside the viewport is not drawn. The two figures must therefore be visible.
   await page.setViewportSize({ width: 1280, height: 4000 });
   await showPage(page, `<${figureName} id="translated"></${figureName}><${figureName} id="other"></${figureName}>`);

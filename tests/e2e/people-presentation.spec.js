@@ -7,7 +7,7 @@ test.use({ ...REDUCED_MOTION, viewport: { width: 1920, height: 1080 } });
 /** Returns true if a presented figure fits without scrolling. @param {import('@playwright/test').Locator} widget */
 const fitsSurface = (widget) => widget.locator('.surface').evaluate((element) => element.scrollHeight <= element.clientHeight && element.scrollWidth <= element.clientWidth);
 
-test('the button fills the screen, C shows the controls, and Escape leaves', async ({ page }) => {
+test('the button presents the figure in full screen, C shows the controls, and Escape ends the presentation', async ({ page }) => {
   await showPage(page, '<div style="height: 300px"></div><banana-machine></banana-machine><div style="height: 3000px"></div>');
   const widget = page.locator('banana-machine');
   await waitUntilReady(widget);
@@ -38,10 +38,10 @@ test('the button fills the screen, C shows the controls, and Escape leaves', asy
   await expect(widget.getByRole('button', { name: 'Present' })).toBeInViewport();
 });
 
-test('without full screen the attribute fills the window, and the button leaves', async ({ page }) => {
+test('if full screen is refused, a presented figure fills the window, and the button ends the presentation', async ({ page }) => {
   await page.addInitScript(() => (Element.prototype.requestFullscreen = () => Promise.reject(new TypeError('refused'))));
   const widget = await mountFigure(page, 'banana-machine');
-  // Slides are scaled by a transform. Fixed boxes would be relative to that transform.
+  // Slides are scaled by a transform. An element with `position: fixed` would be placed relative to the transformed slide.
   await page.evaluate(() => (document.body.style.transform = 'scale(0.5)'));
   const boxBefore = await readBox(widget);
   await widget.evaluate((element) => void Object.assign(element, { presentation: true }));
@@ -62,7 +62,7 @@ test('without full screen the attribute fills the window, and the button leaves'
   await expect.poll(() => readBox(widget)).toEqual(boxBefore);
 });
 
-test('the keys 1 to 9 choose presets, and entering from the keyboard leads to a button', async ({ page }) => {
+test('the keys 1 to 9 select presets, and a presentation started by keyboard focuses a button', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine');
   await widget.getByRole('button', { name: 'Present' }).press('Enter');
   await expect(widget.getByRole('button', { name: 'C Controls' })).toBeFocused();
@@ -77,7 +77,7 @@ test('the keys 1 to 9 choose presets, and entering from the keyboard leads to a 
   await expect(widget).toHaveAttribute('preset', presetNames[0]);
 });
 
-test('the key 0 brings back the state in which the presentation began', async ({ page }) => {
+test('the key 0 restores the state in which the presentation began', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine');
   await widget.evaluate((element) => void Object.assign(element, { preset: 'hard', omega: 0.7 }));
   const preparedState = await readState(widget);
@@ -93,7 +93,7 @@ test('the key 0 brings back the state in which the presentation began', async ({
   expect(await statusLine.innerText()).toBe(await widget.locator('p[part=caption]').innerText());
 });
 
-test('a figure that opens in the presentation goes back to its opening @nightly', async ({ page }) => {
+test('the key 0 restores the opening state of a figure that starts within a presentation @nightly', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine', { attributes: 'preset="pivot" presentation' });
   await page.keyboard.press('1');
   await expect(widget).toHaveAttribute('preset', 'straight');
@@ -101,13 +101,13 @@ test('a figure that opens in the presentation goes back to its opening @nightly'
   await expect(widget).toHaveAttribute('preset', 'pivot');
 });
 
-test('Map Squeeze has its places and samplers before an audience', async ({ page }) => {
+test('a presented Map Squeeze has buttons for its places and samplers', async ({ page }) => {
   const widget = await mountFigure(page, 'map-squeeze', { attributes: 'presentation' });
   await expect(widget.getByRole('button', { name: 'Facing a wall' })).toBeInViewport();
   await expect(widget.getByRole('radio', { name: 'Whole arc' })).toBeInViewport();
 });
 
-test('the browser ends the presentation by a key of its own @nightly', async ({ page }) => {
+test('the browser’s own key for leaving full screen ends the presentation @nightly', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine');
   await widget.getByRole('button', { name: 'Present' }).click();
   await expect.poll(() => page.evaluate(() => document.fullscreenElement?.localName)).toBe('banana-machine');
@@ -115,7 +115,7 @@ test('the browser ends the presentation by a key of its own @nightly', async ({ 
   await expect(widget).not.toHaveAttribute('presentation');
 });
 
-testEach('a presented figure has large pictures and legible letters, with and without controls', async (page, name) => {
+testEach('a presented figure has large pictures and legible text, with and without controls', async (page, name) => {
   const widget = await mountFigure(page, name);
   await expect(widget.locator('[part~=caption]').first()).toBeVisible();
   const readFontSizes = () => widget.locator('canvas, .readouts dt').evaluateAll((textElements) => textElements.map((textElement) => parseFloat(getComputedStyle(textElement).fontSize)));
@@ -139,7 +139,7 @@ testEach('a presented figure has large pictures and legible letters, with and wi
   }
 });
 
-testEach('a figure presented on a phone has its pictures below their titles, and nothing over what follows', async (page, name) => {
+testEach('a figure presented on a phone has its pictures below their titles, and no part overlaps the next one', async (page, name) => {
   for (const viewport of [{ width: 375, height: 760 }, { width: 760, height: 375 }]) {
     await page.setViewportSize(viewport);
     const widget = await mountFigure(page, name, { attributes: 'presentation' });

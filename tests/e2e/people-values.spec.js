@@ -9,7 +9,7 @@ test.use(REDUCED_MOTION);
 /** Returns the help text of a slider. @param {Locator} widget @param {string} settingKey of the setting */
 const helpOf = (widget, settingKey) => widget.locator(`#${settingKey}-effect`);
 
-test('a digit on a slider leads into its value, Enter back, and the value may lie beyond the slider', async ({ page }) => {
+test('a digit typed on a slider edits its value, Enter returns to the slider, and the value may exceed the slider’s range', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
   const alpha1Slider = widget.locator('#alpha1');
   await alpha1Slider.focus();
@@ -32,7 +32,7 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
   await expect(helpOf(widget, 'alpha1')).not.toContainText('Ends at');
 });
 
-test('a value is typed with its unit, a true minus and few more decimals, and Escape takes it back', async ({ page }) => {
+test('a typed value may have its unit, a minus sign U+2212 and more decimals, and Escape cancels typing', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
   const valueInput = valueFieldOf(widget, 'v');
   await expect(helpOf(widget, 'v')).toHaveText('How far the robot drives: vΔt; below zero it backs up.');
@@ -50,7 +50,7 @@ test('a value is typed with its unit, a true minus and few more decimals, and Es
   await expect(widget.locator('#v')).toBeFocused();
   await expect(valueInput).toHaveValue('\u22122.125 m/s');
   expect(await readProperty(widget, 'v')).toBe(-2.125);
-  // Enter leads from the slider to its text field, and changes no value.
+  // Enter moves the focus from the slider to its text field, and changes no value.
   await takeEvents(page);
   await page.keyboard.press('Enter');
   await expect(valueInput).toBeFocused();
@@ -58,7 +58,7 @@ test('a value is typed with its unit, a true minus and few more decimals, and Es
   expect(await takeEvents(page)).toEqual([]);
 });
 
-test('a value that is refused is reported with the allowed range, and the last good one stays', async ({ page }) => {
+test('a refused value is reported with the allowed range, and the last valid value stays', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
   for (const [settingKey, typedText, expectedError] of [
     ['alpha1', ' -1 ', 'α₁ must be between 0 and 1\u202f000\u202f000 (got −1).'],
@@ -92,7 +92,7 @@ test('a value that is refused is reported with the allowed range, and the last g
   }
 });
 
-test('a change by the page leaves what is being typed @nightly', async ({ page }) => {
+test('a change by the page does not replace text that the user is typing @nightly', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
   const valueInput = valueFieldOf(widget, 'alpha1');
   const setAlpha1 = (/** @type {number} */ newAlpha1) => widget.evaluate(async (element, newAlpha1) => {
@@ -116,7 +116,7 @@ test('a change by the page leaves what is being typed @nightly', async ({ page }
   expect(await readProperty(widget, 'alpha1')).toBe(0.17);
 });
 
-test('German has a decimal comma, and takes a point too', async ({ page }) => {
+test('numbers in German have a decimal comma, and may be typed with a decimal point', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
   await page.addScriptTag({ type: 'module', url: '/de.js' });
   await page.evaluate(() => (document.documentElement.lang = 'de'));

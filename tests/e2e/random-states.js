@@ -48,7 +48,7 @@ export function createRandomStates(seed) {
       start: { x: drawNumber(1, 5), y: drawNumber(1, 3), theta: drawNumber(-3, 3) },
       alphas: drawAlphas(6),
       clearance: drawNumber(0, 0.2),
-      // The sampler 'whole-arc' draws all samples under any settings, so that each setting can change first.
+      // The sampler 'whole-arc' finds all samples under any other settings. Settings can therefore be applied in any order.
       sampler: 'whole-arc',
       steps: drawInteger(1, 64),
       view: drawItem(['whole', 'close']),

@@ -6,7 +6,7 @@ test.use(REDUCED_MOTION);
 /** Maximum difference between the reserved height and the height of a figure, em, in any font and at any width up to 80 em. */
 const MAX_HEIGHT_DIFFERENCE_EM = 8;
 
-testEach('the height reserved for a figure until its script is loaded is about that of the figure', async (page, figureName, isFull) => {
+testEach('the height reserved for a figure until its script is loaded is about the height of the figure', async (page, figureName, isFull) => {
   const pageWidths = isFull ? [320, 375, 414, 480, 560, 640, 700, 760, 900, 1024, 1280] : [375, 700, 1280];
   await showPage(page, '', {
     head: '<style>body { margin: 0; font: 16px "Liberation Serif", serif }</style>',
@@ -40,7 +40,7 @@ testEach('the height reserved for a figure until its script is loaded is about t
   expect(emptyHeightEm).toBeLessThan(MAX_HEIGHT_DIFFERENCE_EM);
 }, NEW_PAGE_TAG);
 
-test('a title and a caption move nothing when the script is loaded', async ({ page }) => {
+test('with a title and a caption, loading the script does not move the text below the figure', async ({ page }) => {
   const allowScript = await holdRequests(page, '**/motion-widgets.js');
   const pageBody = '<banana-machine><span slot="title">Figure 9.3</span><p slot="caption">Drag the ring.</p></banana-machine><p id="after">After</p>';
   const pageOpening = showPage(page, pageBody, { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
@@ -56,7 +56,7 @@ test('a title and a caption move nothing when the script is loaded', async ({ pa
   expect(await readTextTop()).toBe(topBefore);
 });
 
-testEach('a figure is no wider than a phone, the column of a book or a screen, also in a wide font, and at most a third higher than a screen', async (page, figureName) => {
+testEach('a figure fits the width of a phone, a book column and a screen in a wide font, and is at most a third higher than a screen', async (page, figureName) => {
   const widget = await mountFigure(page, figureName, { head: '<style>body { margin: 0 }</style>' });
   await expect(widget.locator('.folds')).toBeVisible();
   for (const width of [375, 480, 640, 900, 1280]) {

@@ -177,7 +177,7 @@ export function setProperty(widget, name, propertyValue) {
  * @param {Locator} widget
  * @param {string} key of the setting in a state, and class of its group
  * @param {number} [maxSteps] steps until it is paused
- * @returns {Promise<{ sliderValues: number[], buttonLabel: string }>} value at each step, and the label of the button at the first
+ * @returns {Promise<{ sliderValues: number[], buttonLabel: string }>} value at each step, and the label of the button at the first step
  */
 export function playSliderOf(widget, key, maxSteps = Infinity) {
   return widget.evaluate(

@@ -138,7 +138,7 @@ async function checkAwayAndBack(page, site) {
  */
 async function checkFromOtherPage(page, site) {
   await page.goto(addressOf(site, site.definition.pages.second ?? ''));
-  // When the network is idle, the platform's script handles links.
+  // The platform's script handles links only after it has loaded. By then the network is idle.
   await page.waitForLoadState('networkidle');
   await followLink(page, site, 'first');
   await untilLive(page, site);

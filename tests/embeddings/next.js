@@ -18,7 +18,8 @@ export default {
     {
       name: 'static export',
       async serve(directory, tools) {
-        // A static export has no partly static pages, which the example turns on. Its addresses suit any file server.
+        // A static export cannot contain partially prerendered pages, which the configuration of the example enables. Trailing slashes suit
+        // any file server.
         writeFileSync(join(directory, 'next.config.ts'), "export default { output: 'export', basePath: '/book', trailingSlash: true };\n");
         await tools.run('npm', ['run', 'build']);
         return serveFiles('out', '/book/')(directory, tools);
@@ -28,7 +29,7 @@ export default {
   pages: { first: '/', second: '/sensors' },
   go: (page, path) => page.getByRole('link', { name: path === '/' ? 'Motion' : 'Sensors' }).click(),
   dark: (page, isDark) => page.emulateMedia({ colorScheme: isDark ? 'dark' : 'light' }),
-  // When the user leaves a page, Next.js hides it, but keeps it in the document.
+  // After the user has left a page, Next.js keeps the page in the DOM and hides it. For that reason the selectors contain `:visible`.
   expected: [
     { selector: 'main:visible banana-machine >> nth=0', properties: { omega: 0.8, samples: 20000, alphas: [0.1, 0.05, 0.05, 0.1, 0.01, 0.01] } },
     { selector: 'main:visible banana-machine >> nth=1', properties: { omega: 0, alphas: [0.1, 0.1, 0.1, 0.1, 0, 0] } },

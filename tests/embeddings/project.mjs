@@ -48,7 +48,7 @@ import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
  *   starts a program in the copy and does not wait for its end
  */
 
-/** Environment variables that turn off telemetry and questions of the platforms. */
+/** Environment variables that turn off telemetry and interactive questions of the platforms. */
 const SILENT_ENVIRONMENT = {
   ASTRO_TELEMETRY_DISABLED: '1',
   NEXT_TELEMETRY_DISABLED: '1',
@@ -59,7 +59,7 @@ const SILENT_ENVIRONMENT = {
   FORCE_COLOR: '0',
 };
 
-/** Directory for this clone of the repository. Tests of other clones may run at the same time. */
+/** Directory of the packages and copies for this clone of the repository. Tests of other clones may run at the same time. */
 const SCRATCH_DIRECTORY = join(CACHE_DIRECTORY, 'embeddings', createHash('sha256').update(ROOT).digest('hex').slice(0, 8));
 
 /** Returns the names of all platforms. @returns {Promise<string[]>} */

@@ -62,7 +62,7 @@ async function testPlatforms(platformNames) {
   await build();
   const { chrome, version } = await ensureBrowser();
   mkdirSync(join(ROOT, 'test-results/embeddings'), { recursive: true });
-  // Going back leads to a page in the state in which it was left (back/forward cache).
+  // With the back/forward cache, going back restores a page in the state in which the user left it.
   const browser = await chromium.launch({ executablePath: chrome, args: CHROME_ARGUMENTS, ignoreDefaultArgs: ['--disable-back-forward-cache'] });
   /** @type {Outcome[]} */
   const outcomes = [];

@@ -27,7 +27,7 @@ export const serveFiles = (outputDirectory, basePath) => async (directory) => {
 /**
  * Starts the server of a platform, and waits until it answers.
  *
- * @param {(port: string, directory: string) => [command: string, args: string[], env?: Record<string, string>]} commandFor that starts it
+ * @param {(port: string, directory: string) => [command: string, args: string[], env?: Record<string, string>]} commandFor returns the command that starts the server
  * @param {string} [base] the path of the site, with a slash at both ends
  * @returns {import('./project.mjs').Serving['serve']}
  */
@@ -44,12 +44,12 @@ export const serveByProgram = (commandFor, base = '/') => async (directory, { st
     await platformServer.stop();
     throw error;
   }
-  // From here on, the server may end.
+  // From here on, an end of the server is no error.
   earlyEnd.catch(() => {});
   return { url, stop: platformServer.stop };
 };
 
-/** Returns a free port, which a temporary server has just left. */
+/** Returns a free port, which a temporary server has just released. */
 async function findFreePort() {
   const { address, close } = await startServer(ROOT, { port: 0 });
   close();

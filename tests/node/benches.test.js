@@ -5,12 +5,12 @@ import { test } from 'node:test';
 import { differencesFromCore } from '../../benches/check.js';
 import { importFreshModule } from './support.js';
 
-test('baseline has the statistics and the picture of the core', async () => {
+test('the baseline computes the same statistics and picture as the core', async () => {
   const core = await (await importFreshModule()).load();
   assert.deepEqual(differencesFromCore(core, 2000), []);
 });
 
-test('comparison finds a core with another skew', async () => {
+test('the comparison of baseline and core reports a different skew', async () => {
   const core = await (await importFreshModule()).load();
   class SimulationWithOtherSkew extends core.BananaMachine {
     get stats() {

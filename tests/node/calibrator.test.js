@@ -8,7 +8,7 @@ import { viewCornersOf } from '../../www/widgets/alpha-calibrator/pictures.ts';
 import { SIMULATED_LEGS, legClassesOf, isTruthComparable } from '../../www/widgets/alpha-calibrator/settings.ts';
 import { settings } from '../../build/settings.js';
 
-test('a leg has the class of its p-value, by as many noises as it shows', () => {
+test('the class of a leg follows from its p-value, with as many degrees of freedom as observed residuals', () => {
   const residuals = Float64Array.of(0, 0, 0, 0, 0, NaN, 0, NaN, NaN);
   const classesOf = (/** @type {number[]} */ ...squaredResiduals) => [...legClassesOf({ count: 3, squared: Float64Array.from(squaredResiduals), residuals })];
   // Quantiles of χ² with 3, 2 and 1 degrees of freedom, from tables.
@@ -18,11 +18,11 @@ test('a leg has the class of its p-value, by as many noises as it shows', () => 
   assert.deepEqual(classesOf(16.3, 13.9, 10.9), [3, 3, 3]);
 });
 
-test('a number in the format of files is printed as on screen', () => {
+test('numbers in the format of files are formatted for the screen', () => {
   assert.deepEqual(['-0.050', '1.0e-7', '≤ 2.3e-13'].map(localizeNumber), ['−0.050', '1.0·10⁻⁷', '≤ 2.3·10⁻¹³']);
 });
 
-test('numbers in files have the digits that the interval makes meaningful, and tiny ones an exponent', () => {
+test('numbers in files have the significant digits of their interval, and tiny numbers have an exponent', () => {
   for (const [estimateValue, interval, estimateText, rangeText] of /** @type {[number, [number, number], string, string][]} */ ([
     [0.0123, [0.01, 0.015], '0.0123', '0.0100 to 0.0150'],
     [2.34e-13, [1.8e-13, 2.9e-13], '2.3e-13', '1.8e-13 to 2.9e-13'],
@@ -37,7 +37,7 @@ test('numbers in files have the digits that the interval makes meaningful, and t
   assert.deepEqual([ends([0, Infinity]), ends([-Infinity, Infinity]), ends(null)], ['', '', '']);
 });
 
-test('an α that rounds to 0 is an upper bound, and not 0', () => {
+test('an α that rounds to 0 is shown as an upper bound instead of 0', () => {
   assert.deepEqual([formatAlphaOrBound(1e-7, [0, 0.0016]), formatAlphaOrBound(1e-7, [0, 0.0016], 2), formatAlphaOrBound(0.03, [0.024, 0.036], 2)], ['≤ 0.0016', '≤ 0.0032', '0.060']);
 });
 
@@ -59,7 +59,7 @@ const nav2LinesOf = (changedFields, otherFields) =>
   formatNav2Lines({ calibration: calibrationWith(changedFields), count: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, log: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...otherFields }, en.nav2)
     .map((nav2Line) => nav2Line.trim());
 
-test('lines for Nav2 have the recommended α’s, and the fitted ones in comments', () => {
+test('lines for Nav2 contain the recommended α’s, and the fitted α’s in comments', () => {
   assert.deepEqual(nav2LinesOf(), [
     'amcl:', 'ros__parameters:',
     '# 9 legs of 0.25 m or 0.2 rad of a.csv and b.csv, 2026-01-02',
@@ -72,7 +72,7 @@ test('lines for Nav2 have the recommended α’s, and the fitted ones in comment
   ]);
 });
 
-test('lines for Nav2 have no α that means nothing, and none at all where none is recommended', () => {
+test('lines for Nav2 omit α’s that are not identifiable, and all α’s if none is recommended', () => {
   assert.deepEqual([nav2LinesOf({ recommended: null }), adviseCorrection(calibrationWith({ recommended: null }), en.nav2)], [[], []]);
   assert.deepEqual(nav2LinesOf({}, { model: 'velocity' }), []);
   const exampleAlphas = [null, 1e-7, 103, 1e-8];
@@ -95,7 +95,7 @@ test('lines for Nav2 warn of failed checks, of another rule, and of a localizer 
   }
 });
 
-test('clocks that differ by more than synchronized ones are mentioned, and change no verdict', () => {
+test('a large clock offset is mentioned, and changes no verdict', () => {
   const unknown = { value: null, interval: null };
   const judgementWith = (/** @type {number} */ clockOffset) => judgementOf({
     stats: /** @type {any} */ ({
@@ -110,14 +110,14 @@ test('clocks that differ by more than synchronized ones are mentioned, and chang
   assert.deepEqual(judgementWith(-9.5).advice, [en.use]);
 });
 
-test('legs of the simulated log are those that the settings open with', () => {
+test('the leg settings of the simulated log equal the default settings', () => {
   const config = Object.fromEntries(settings['alpha-calibrator'].map((setting) => [setting.key, setting.default]));
   assert.deepEqual(SIMULATED_LEGS, { distance: config.distance, angle: config.angle });
   const hasTruth = (/** @type {object} */ changedFields) => isTruthComparable(/** @type {any} */ ({ truth: {}, fitted: { ...config, ...changedFields } }));
   assert.deepEqual([hasTruth({}), hasTruth({ distance: 0.3 }), hasTruth({ angle: 0.3 }), hasTruth({ duration: 1 }), hasTruth({ rule: 'nav2' })], [true, false, false, false, false]);
 });
 
-test('the picture of the path has room for the odometry, as far as the reference keeps half of it', () => {
+test('the picture of the path includes the odometry, as long as the reference fills half of the picture', () => {
   const viewCornersWith = (/** @type {number[]} */ ...odometryCoordinates) => viewCornersOf([0, 0, 0, 10, 4, 0], odometryCoordinates);
   assert.deepEqual(viewCornersWith(), [0, 0, 10, 4]);
   assert.deepEqual(viewCornersWith(5, -2, 12, 3), [0, -2, 12, 4]);

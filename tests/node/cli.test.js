@@ -53,7 +53,7 @@ async function readCoreOptions(args) {
 
 useLanguageOf(/** @type {any} */ ({ closest: () => ({ getAttribute: () => 'en' }) }));
 
-test('options reach the core', async () => {
+test('options of the command line are passed to the core', async () => {
   const { odometry, reference, ...fitOptions } = await readCoreOptions(LOG_ARGS);
   assert.deepEqual(fitOptions, { legs: { distance: 0.25, angle: 0.2 } });
   for (const coreLog of [...odometry, ...reference]) assert.deepEqual(Object.keys(coreLog), ['t', 'x', 'y', 'theta', 'breaks']);
@@ -64,7 +64,7 @@ test('options reach the core', async () => {
   assert.equal((await readCoreOptions([...LOG_ARGS, '--rule', 'omni'])).model, 'omnidirectional');
 });
 
-test('files without an option are recordings, paired where each is one table', async () => {
+test('files without an option are recordings, and single tables are paired as odometry and reference', async () => {
   const [odometryPath, referencePath] = [examplePathOf('odometry'), examplePathOf('reference')];
   const writeLaterCopy = (/** @type {string} */ copyName, /** @type {string} */ sourcePath) => writeInFolder(copyName, readFileSync(sourcePath, 'utf8').replaceAll(/^(\d+)/gm, (_, seconds) => `${Number(seconds) + 1000}`));
   const expectedOptions = await readCoreOptions(LOG_ARGS);
@@ -75,7 +75,7 @@ test('files without an option are recordings, paired where each is one table', a
   for (const coreLogs of [odometryLogs, referenceLogs]) assert.deepEqual(coreLogs.map((/** @type {any} */ { t }) => Math.floor(t[0] / 1000)), [0, 1]);
 });
 
-test('systematic errors are corrected or left in by name, all of them or single ones', async () => {
+test('the option --correct selects all, some or none of the systematic errors', async () => {
   const readCorrectOption = async (/** @type {string} */ args) => (await readCoreOptions([...LOG_ARGS, ...args.split(' ')])).correct;
   assert.deepEqual(await readCorrectOption('--no-correct mountYaw,leverArm --correct turnScale'), { mountYaw: false, leverArm: false, turnScale: true });
   const noCorrection = { clockOffset: false, mountYaw: false, leverArm: false, distanceScale: false, turnScale: false };
@@ -83,7 +83,7 @@ test('systematic errors are corrected or left in by name, all of them or single 
   assert.deepEqual(await readCorrectOption('--correct clockOffset --no-correct all'), { ...noCorrection, clockOffset: true });
 });
 
-test('a recording has both logs, by topics and frames that are clear or named', async () => {
+test('one recording can contain both logs, with topics and frames that are guessed or named', async () => {
   const odometryMessages = Array.from({ length: 40 }, (_, i) => {
     const t = 100 + i / 20;
     const poseStamped = { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(1.01 * i, 2, 0) };
@@ -117,7 +117,7 @@ test('a recording has both logs, by topics and frames that are clear or named', 
   ])) assert.equal((await runCalibrate(args)).err, expectedError);
 });
 
-test('bad input has the exit code 2 and a sentence', async () => {
+test('invalid input gives exit code 2 and an error message', async () => {
   const straightLogPath = writeInFolder('straight.csv', ['t,x,y,yaw', ...Array.from({ length: 2000 }, (_, i) => `${1_600_000_000 + i / 20},${i / 40},0,0`)].join('\n'));
   for (const [args, errorStart] of /** @type {[string[], string][]} */ ([
     [[examplePathOf('odometry')], 'odometry.csv: it has one log only, t, x, y, yaw, by name or type the odometry; give the reference too. Name both, '],
@@ -165,7 +165,7 @@ test('bad input has the exit code 2 and a sentence', async () => {
   }
 });
 
-test('a shell gets help and errors, and may close the pipe', () => {
+test('run in a shell, the command prints help and errors, and tolerates a closed pipe', () => {
   const runInShell = (/** @type {string[]} */ ...args) => spawnSync(process.execPath, [CLI_PATH, ...args], { encoding: 'utf8' });
   for (const helpOutput of [runInShell(), runInShell('calibrate', '--help')]) assert.deepEqual([helpOutput.status, helpOutput.stdout, helpOutput.stderr], [0, HELP, '']);
   const refusalOutput = runInShell('calibrate', '--odometry', 'no.csv', '--reference', 'no.csv');
@@ -177,7 +177,7 @@ test('a shell gets help and errors, and may close the pipe', () => {
   assert.match(outputOfPipedLog.stdout, /^stdin: table\n.*\n.* 4494 /);
 });
 
-test('a recording of the example has the truth in its intervals, and its JSON the keys of doc/calibration.md', async () => {
+test('the intervals for the example recording contain the true α’s, and the JSON output has the keys in doc/calibration.md', async () => {
   /** @type {import('../mcap.js').Message[]} */
   const messages = [];
   for (const [topic, name, type] of [['/odom', 'odometry', 'nav_msgs/msg/Odometry'], ['/truth', 'reference', 'geometry_msgs/msg/PoseStamped']]) {
@@ -199,19 +199,19 @@ test('a recording of the example has the truth in its intervals, and its JSON th
   assert.deepEqual(Object.keys(calibrationResult).filter((resultKey) => !jsonSection.includes(`\`${resultKey}\``)), []);
 });
 
-test('the report names the noise that is stated, and the outliers', async () => {
+test('the report names the stated reference noise, and the outliers', async () => {
   const { code: exitCode, out } = await runCalibrate([...LOG_ARGS, '--rule', 'nav2', '--reference-yaw-std', '0']);
   assert.equal(exitCode, 0);
   for (const linePattern of [/^reference yaw σ +0 rad +as stated$/m, /^outliers: 1 of \d+ legs, at \d+\.\d\d s after the start$/m]) assert.match(out, linePattern);
 });
 
-test('doc/calibration.md shows the report of the example', async () => {
+test('doc/calibration.md shows the report of the example log', async () => {
   const [, documentedReport] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n```text\n(.*?)\s*```\n/s) ?? [];
   const { out } = await runCalibrate(LOG_ARGS);
   assert.equal(documentedReport.replace(/\d{4}-\d\d-\d\d$/m, '2026-01-02'), out.trimEnd());
 });
 
-test('units are stated for both logs, or for each', async () => {
+test('units can be stated for both logs together or for each log', async () => {
   const [header, ...csvRows] = readFileSync(examplePathOf('odometry'), 'utf8').trim().split('\n');
   const scaledPath = writeInFolder('scaled.csv', [header, ...csvRows.map((csvRow) => csvRow.split(',').map((cell, i) => Number(cell) * [1000, 1000, 1000, 180 / Math.PI][i]).join(','))].join('\n'));
   const unitArgs = ['--time-unit', 'ms,s', '--length-unit', 'mm,m', '--angle-unit', 'deg,rad'];
@@ -223,7 +223,7 @@ test('units are stated for both logs, or for each', async () => {
   assert.match(refusalOutput.err, /^degrees\.csv: headings in rad would turn at .*; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit rad,deg\.$/m);
 });
 
-test('a folder gives its logs, and other files are skipped', async () => {
+test('logs in a folder are read, and its other files are skipped', async () => {
   const driveFolder = join(temporaryFolder, 'drive');
   mkdirSync(driveFolder);
   for (const [name, exampleName] of [['odom.csv', 'odometry'], ['truth.csv', 'reference'], ['._odom.csv', 'odometry'], ['run.db3-shm', 'odometry']]) writeFileSync(join(driveFolder, name), readFileSync(examplePathOf(exampleName)));
@@ -237,7 +237,7 @@ test('a folder gives its logs, and other files are skipped', async () => {
   assert.match(err, /^skipped: README\.md: it does not look like a log, .*\nskipped: camera\.mcap: the topics are \/image \(String\); .*\n$/);
 });
 
-test('a journal beside a recording is named, unless it is empty', async () => {
+test('a database journal next to a recording is reported, unless the journal is empty', async () => {
   for (const [journalHex, expectedMessage] of [['', ''], ['377f0682', 'skipped: odometry.db3-wal: it is a journal']]) {
     writeInFolder('odometry.db3-wal', Buffer.from(journalHex, 'hex'));
     const { code: exitCode, err } = await runCalibrate(['--odometry', writeInFolder('odometry.db3', readFileSync(examplePathOf('odometry'))), ...LOG_ARGS.slice(2)]);
@@ -260,7 +260,7 @@ const writeReversedReference = () => {
   return writeInFolder('other.csv', [header, ...rows.map(([t], i) => [t, ...rows[rows.length - 1 - i].slice(1)])].join('\n'));
 };
 
-test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async () => {
+test('--yaml prints only the lines for Nav2, and nothing for an unusable log', async () => {
   const { code: exitCode, out, err } = await runCalibrate([...LOG_ARGS, '--yaml', '--rule', 'nav2']);
   assert.equal(exitCode, 0);
   assert.match(out, /^amcl:\n {2}ros__parameters:\n[^]*\n {4}update_min_a: 0\.2\n$/);
@@ -268,7 +268,7 @@ test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async
   assert.match((await runCalibrate([...LOG_ARGS, '--yaml'])).err, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
   const swappedOutput = await runCalibrate(['--odometry', examplePathOf('reference'), '--reference', examplePathOf('odometry'), '--yaml']);
   assert.match(swappedOutput.err, /^Caution. Warning: by their names, the reference is odometry, .*: exchange the two\.$/m);
-  // The legs of a reference at 1 Hz are longer than asked.
+  // The legs of a reference at 1 Hz are longer than requested.
   const [header, ...rows] = readFileSync(examplePathOf('reference'), 'utf8').trim().split('\n');
   const sparsePath = writeInFolder('sparse.csv', [header, ...rows.filter((_, i) => i % 20 === 0)].join('\n'));
   const sparseOutput = await runCalibrate([...LOG_ARGS.slice(0, 3), sparsePath, '--yaml', '--rule', 'nav2']);
@@ -304,18 +304,18 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
     const drawnPaths = Array.from(panel.matchAll(/d="M([\d.]+),[^"]{40,}L([\d.]+),[^"]*" fill="none" stroke="([^"]*)" stroke-width="1.5"/g), ([, startX, endX, strokeColor]) => ({ from: Number(startX), to: Number(endX), color: strokeColor }));
     assert.ok(drawnPaths.every(({ from, to }) => isNear(from, axisLeft) && isNear(to, axisRight)), JSON.stringify(drawnPaths));
     assert.equal(new Set(drawnPaths.map(({ color }) => color)).size, 2);
-    // A disc is drawn from its left side.
+    // The path of a disc starts at its left side, 2 px from the centre.
     assert.ok(isNear(Number(/d="M([\d.]+),[\d.]+a2,2 /.exec(panel)?.[1]) + 2, axisLeft + 0.3 * (axisRight - axisLeft)));
   }
 });
 
-test('a terminal gets colours', async () => {
+test('output to a terminal has colours', async () => {
   let out = '';
   await run(['calibrate', ...LOG_ARGS], { load, print: (text) => (out += text), complain: assert.fail, isColored: true });
   assert.ok(out.includes('\n\x1b[32mTrust\x1b[0m. '), out);
 });
 
-test('inspect lists what is in a file, and the command to go on with', async () => {
+test('inspect lists the contents of a file, and suggests the next command', async () => {
   const inspectionOf = async (/** @type {string[]} */ inspectArguments, expectedExitCode = 0) => {
     let [outputText, errorText] = ['', ''];
     assert.equal(await run(['inspect', ...inspectArguments], { load, print: (text) => (outputText += text), complain: (text) => (errorText += text) }), expectedExitCode);
@@ -360,7 +360,7 @@ test('inspect lists what is in a file, and the command to go on with', async () 
   assert.deepEqual([inspection.missing.split(';')[0], inspection.command], ['positions.csv: gt (gt_x, gt_y) are positions without a heading', undefined]);
 });
 
-test('an unusable log has a sentence and no lines for Nav2', async () => {
+test('for an unusable log the command prints a reason and no lines for Nav2', async () => {
   const reversedPath = writeReversedReference();
   const { code: exitCode, out } = await runCalibrate([...LOG_ARGS.slice(0, 3), reversedPath]);
   assert.equal(exitCode, 3);
@@ -372,7 +372,7 @@ test('an unusable log has a sentence and no lines for Nav2', async () => {
   assert.doesNotMatch(out, /amcl:|not identifiable: /);
 });
 
-test('the report, the lines for Nav2 and the figure’s verdict agree whether the reference is a localizer’s', async () => {
+test('the report, the lines for Nav2 and the figure agree on whether a localizer made the reference', async () => {
   for (const [name, isLocalizer] of /** @type {const} */ ([['slam_pose', true], ['cartographer', true], ['truth_amcl', false]])) {
     const args = [...LOG_ARGS.slice(0, 3), writeInFolder(`${name}.csv`, readFileSync(examplePathOf('reference')))];
     const [{ out }, { out: jsonText }] = [await runCalibrate(args), await runCalibrate([...args, '--json'])];
@@ -390,7 +390,7 @@ test('the report advises against α’s that are too small because the odometry 
   assert.ok(!out.includes(en.useAnyway));
 });
 
-test('the report says what failed, what is lost, and what to drive', async () => {
+test('the report names failed checks, lost legs and unidentified α’s, and recommends motions', async () => {
   const { odometry: odometryLogs, reference, ...options } = await readCoreOptions(LOG_ARGS);
   const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: odometryLogs, reference });
   const { diagnostics, lost, persistence, systematicErrors } = calibration;

@@ -9,7 +9,7 @@ import { MAX_VALUE } from '../../www/logs/rows.ts';
 import { settings } from '../../build/settings.js';
 import { importFreshModule } from './support.js';
 
-test('importing and loading touch neither the DOM nor the network, and load gives one module', async () => {
+test('importing and loading use neither the DOM nor the network, and load always returns the same core', async () => {
   /** @type {string[]} */
   const accessedGlobals = [];
   const browserGlobals = ['document', 'window', 'customElements', 'fetch', 'XMLHttpRequest', 'WebSocket'];
@@ -32,7 +32,7 @@ test('importing and loading touch neither the DOM nor the network, and load give
   assert.deepEqual(accessedGlobals, []);
 });
 
-test('load takes bytes, a compiled module, or an address, and fails with a sentence', async () => {
+test('load accepts bytes, a compiled module or an address, and fails with a clear message', async () => {
   const moduleAddress = new URL('../../build/motion.wasm', import.meta.url);
   const moduleBytes = await readFile(moduleAddress);
   for (const moduleSource of [undefined, moduleBytes, new Uint8Array(moduleBytes).buffer, await WebAssembly.compile(moduleBytes), moduleAddress, moduleAddress.href]) {
@@ -47,7 +47,7 @@ test('load takes bytes, a compiled module, or an address, and fails with a sente
   assert.ok((await core.load()).BananaMachine, 'a failed load can be tried again');
 });
 
-test('a page finds every name of the contract', async () => {
+test('the core exports every public name', async () => {
   const motion = await (await importFreshModule()).load();
   const simulationNames = ['AlphaCalibrator', 'ArcAnatomy', 'BananaMachine', 'DeadReckoning', 'MapSqueeze', 'OdometryDecomposer'];
   const modelNames = ['OdometryModel', 'VelocityModel'];
@@ -62,7 +62,7 @@ test('a page finds every name of the contract', async () => {
   assert.deepEqual(Object.keys(motion.se2).sort(), se2FunctionNames);
 });
 
-test('a simulation opens with the settings that its declarations give', async () => {
+test('a new simulation has the default settings of its declarations', async () => {
   const motion = await (await importFreshModule()).load();
   for (const [widgetTag, declaredSettings] of Object.entries(settings)) {
     const SimulationClass = motion[toPascalCase(widgetTag)];
@@ -72,7 +72,7 @@ test('a simulation opens with the settings that its declarations give', async ()
   }
 });
 
-test('a simulation computes, refuses by class and message, and is freed', async () => {
+test('a simulation computes, rejects invalid input with an error class and message, and can be freed', async () => {
   const { BananaMachine, invertArc } = await (await importFreshModule()).load();
   const simulation = new BananaMachine({ command: { v: 1, omega: 0.5, dt: 1 }, alphas: [0.02, 0.02, 0.02, 0.02, 0, 0], samples: 100 });
   assert.equal(simulation.table.exact.crossTrackSkew.toFixed(5), '-0.30056');
@@ -84,7 +84,7 @@ test('a simulation computes, refuses by class and message, and is freed', async 
   assert.throws(() => simulation.stats, { name: 'TypeError', message: 'this BananaMachine was freed; create a new one.' });
 });
 
-test('calibrate takes all coordinates that readers of logs take, and no larger ones', async () => {
+test('calibrate accepts coordinates up to the same limit as the readers of logs', async () => {
   const { calibrate } = await (await importFreshModule()).load();
   const reference = { t: [0, 1], x: [0, 1], y: [0, 0], theta: [0, 0] };
   const odometryEndingAt = (/** @type {number} */ x) => ({ ...reference, x: [0, x] });

@@ -13,7 +13,7 @@ const readText = (/** @type {string} */ repositoryPath) => readFileSync(new URL(
 const configurationList = JSON.parse(readText('tests/digest/configurations.json'));
 const core = await (await importFreshModule()).load();
 
-/** Exports without a seed, and models that draw as in Rust. tests/web and tests/native cover these exports. */
+/** Exports without a seed, and the models, which draw the same samples as in Rust. tests/web and tests/native cover these exports. */
 const EXCLUDED_EXPORTS = new Set(['VelocityModel', 'OdometryModel', 'invertArc', 'decompose', 'propagate', 'se2', 'calibrate']);
 
 /** Classes of the simulations in core.js, by tag name. @type {Map<string, any>} */
@@ -25,13 +25,13 @@ const simulationClasses = new Map(
 
 const goldenDigest = readText('tests/digest/golden.txt');
 
-test('a seed gives the bits that it gave', async () => {
+test('the results of each seed equal the golden digest, to the last bit', async () => {
   const computedDigest = await computeDigest(core, configurationList);
   if (process.env.UPDATE_DIGEST) writeFileSync(new URL('../digest/golden.txt', import.meta.url), computedDigest);
   else assert.deepEqual(findDifferences(goldenDigest, computedDigest), []);
 });
 
-test('every widget and every class of the core has configurations, and every function is asked', () => {
+test('every widget and class of the core has configurations, and the digest calls every function', () => {
   const listedTags = [...readText('www/motion-widgets.ts').matchAll(/^import '\.\/widgets\/([\w-]+)\//gm)].map(([, widgetTag]) => widgetTag);
   assert.deepEqual(Object.keys(configurationList.widgets).sort(), listedTags.sort(), 'www/motion-widgets.ts');
   assert.deepEqual(Object.keys(configurationList.widgets).sort(), [...simulationClasses.keys()].sort(), 'core.js');
@@ -46,7 +46,7 @@ test('every widget and every class of the core has configurations, and every fun
 for (const [tag, { configurations }] of Object.entries(configurationList.widgets)) {
   const coveredValuesOf = (/** @type {string} */ settingKey) => new Set(Object.values(configurations).map((configuration) => JSON.stringify(configuration.settings[settingKey])));
 
-  test(`configurations of ${tag} take every setting, every word and every preset`, () => {
+  test(`configurations of ${tag} cover every setting, every keyword and every preset`, () => {
     for (const { key, type, words, nullable, default: defaultValue, in: groupKey } of settings[tag]) {
       if (groupKey) continue;
       const coveredValues = coveredValuesOf(key);
@@ -61,7 +61,7 @@ for (const [tag, { configurations }] of Object.entries(configurationList.widgets
     }
   });
 
-  test(`all that a simulation of ${tag} tells is in its digest`, () => {
+  test(`the digest of ${tag} contains every result of its simulation`, () => {
     const functionText = resultFunctions[tag].toString();
     const memberNames = Object.getOwnPropertyNames(simulationClasses.get(tag).prototype);
     const missingNames = memberNames.filter((name) => !MEMBERS_TESTED_ELSEWHERE.has(name) && !new RegExp(`\\b${name}\\b`).test(functionText));
@@ -69,7 +69,7 @@ for (const [tag, { configurations }] of Object.entries(configurationList.widgets
   });
 }
 
-test('every map is used, and what differs is named', () => {
+test('every map is used by a configuration, and a difference is reported with its name', () => {
   const usedMapNames = new Set(Object.values(configurationList.widgets['map-squeeze'].configurations).map(({ map }) => map));
   for (const map of Object.keys(configurationList.maps)) assert.ok(usedMapNames.has(map), map);
   assert.deepEqual(findDifferences('a/b poses:1 table:2\na/c poses:3\n', 'a/b poses:1 table:9\na/d poses:3\n'), [

@@ -20,7 +20,7 @@ const DOCUMENTED_LIMITS = [
   ['www/widgets/banana-machine/readouts.ts', 'MIN_GAIN', /or if the gain is more than (\S+) nats a robot/],
 ];
 
-test('doc/model.md and doc/statistics.md have the limits of the pages', () => {
+test('doc/model.md and doc/statistics.md state the same limits as the source code', () => {
   const documentTexts = `${readText('doc/model.md')}${readText('doc/statistics.md')}`.replace(/\s+/g, ' ');
   for (const [sourcePath, constantName, sentencePattern] of DOCUMENTED_LIMITS) {
     const [, limitText] = readText(sourcePath).match(new RegExp(`const ${constantName} = ([\\d._]+);`)) ?? [];
@@ -29,14 +29,14 @@ test('doc/model.md and doc/statistics.md have the limits of the pages', () => {
   }
 });
 
-test('README.md has the presets of each figure', () => {
+test('README.md lists the presets of each figure', () => {
   const readmeText = readText('README.md').replace(/\s+/g, ' ');
   for (const [widgetTag, presetsOfTag] of Object.entries(presets)) {
     if (presetsOfTag.length > 0) assert.ok(readmeText.includes(`\`${widgetTag}\` ${presetsOfTag.map(({ name }) => name).join(', ')}`), widgetTag);
   }
 });
 
-test('README of the example log has its true parameters', () => {
+test('the README of the example log states the true parameters', () => {
   const readmeText = readText('examples/calibration/README.md');
   const { alphas, mountYaw, clockOffset, distanceScale } = TRUE_MODEL;
   for (const expectedText of [`| ${alphas.join(', ')} |`, `| ${mountYaw} rad |`, `| ${clockOffset} s later |`, `| ${distanceScale} |`, `${LEG_LIMIT.distance} m`, `${LEG_LIMIT.angle} rad`]) {
@@ -44,7 +44,7 @@ test('README of the example log has its true parameters', () => {
   }
 });
 
-test('doc/reliability.md names files and commands that are there', () => {
+test('files and commands named in doc/reliability.md exist', () => {
   const reliabilityText = readText('doc/reliability.md');
   const { scripts } = JSON.parse(readText('package.json'));
   const commandNames = [...reliabilityText.matchAll(/`npm run ([\w:]+)/g)].map(([, name]) => name);
@@ -77,7 +77,7 @@ test('links of the documents lead to files and headings that exist', () => {
   }
 });
 
-test('documents are short, and long ones have a table of contents', () => {
+test('documents have a limited length, and long documents have a table of contents', () => {
   const linkedDocuments = linksOf(TEXT_BY_DOCUMENT.get('doc/README.md') ?? '').map(({ path }) => join('doc', path));
   for (const [documentPath, text] of TEXT_BY_DOCUMENT) {
     const lineCount = readText(documentPath).trimEnd().split('\n').length;

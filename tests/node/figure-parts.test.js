@@ -7,13 +7,13 @@ import { View } from '../../www/scene/view.ts';
 import { settings } from '../../build/settings.js';
 import { formatScaleRatios } from '../../www/widgets/dead-reckoning/pictures.ts';
 
-test('boolean attributes may be empty or "true", and lists may have any space', () => {
+test('boolean attributes may be empty or "true", and lists may contain any white space', () => {
   const { conditioned } = selectAttributes(propertiesOf(settings['map-squeeze']));
   assert.deepEqual(['false', 'true', ''].map((attributeText) => conditioned.converter.parse(attributeText)), [false, true, true]);
   assert.deepEqual([' linearized\n  command ', ''].map((text) => WORD_LIST_CONVERTER.parse(text)), [['linearized', 'command'], []]);
 });
 
-test('a view that was fitted to a tiny canvas zooms in on a larger one, and keeps its scale otherwise', () => {
+test('a view that was fitted to a tiny canvas zooms in after its canvas has grown; other views do not zoom in', () => {
   const view = new View();
   const fitTo = (/** @type {number} */ halfSize) => {
     view.fit({ xMin: -halfSize, xMax: halfSize, yMin: -halfSize, yMax: halfSize });
@@ -29,7 +29,7 @@ test('a view that was fitted to a tiny canvas zooms in on a larger one, and keep
   assert.equal(widthAfter, widthBefore);
 });
 
-test('the stretched axis has the factor of the scales, and none that is not seen', () => {
+test('the stretched axis is labelled with its scale factor, unless both scales are almost equal', () => {
   assert.deepEqual(formatScaleRatios({ scaleX: 100, scaleY: 720 }), ['', '7.2']);
   assert.deepEqual(formatScaleRatios({ scaleX: 1230, scaleY: 100 }), ['10', '']);
   assert.deepEqual(formatScaleRatios({ scaleX: 100, scaleY: 104 }), ['', '']);

@@ -28,7 +28,7 @@ function readFoundInputs(targetName) {
 }
 
 for (const [targetName, { corpus, run }] of Object.entries(fuzzTargets)) {
-  test(`${targetName}: every input gives a result or a sentence`, async () => {
+  test(`${targetName}: every input gives a result or an error message`, async () => {
     const nextRandom = createRandomGenerator(FUZZ_SEED);
     const allInputs = [...corpus, ...readFoundInputs(targetName)];
     /** Runs a target on an input, and returns true if the input is accepted. @param {Buffer<ArrayBuffer>} inputBytes */

@@ -1,4 +1,4 @@
-// Imports between the folders of www/. Only imports that doc/implementation-notes.md allows may exist. The linter finds circles of imports.
+// Imports between the folders of www/. Only imports that doc/implementation-notes.md allows may exist. The linter finds import cycles.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -26,12 +26,12 @@ const importPairs = Object.entries(metafile.inputs).flatMap(([importerPath, { im
   importPairs.filter(({ path }) => importerPath.startsWith('www/') && path.startsWith('www/')).map(({ path }) => /** @type {[string, string]} */ ([importerPath, path])),
 );
 
-test('all scripts of the page are looked at', () => {
+test('this test checks all scripts of the page', () => {
   assert.ok(importPairs.length > 150, `${importPairs.length} imports`);
   for (const layer of LAYERS) assert.ok(importPairs.some(([, importedPath]) => importedPath.startsWith(layer)), layer);
 });
 
-test('no import runs up, and none from one widget to another', () => {
+test('no file imports from a higher layer, and no widget imports from another widget', () => {
   const layerOf = (/** @type {string} */ path) => LAYERS.findIndex((layer) => path.startsWith(`${layer}/`));
   for (const [importer, imported] of importPairs) {
     const [importerLayer, importedLayer] = [layerOf(importer), layerOf(imported)];
@@ -41,7 +41,7 @@ test('no import runs up, and none from one widget to another', () => {
   }
 });
 
-test('readers of logs import neither the page, nor Node, nor the core', () => {
+test('readers of logs import neither page code, nor Node modules, nor the core', () => {
   const readerFiles = Object.entries(metafile.inputs).filter(([path]) => path.startsWith('www/logs/'));
   assert.ok(readerFiles.length > 5, `${readerFiles.length} files`);
   for (const [path, { imports }] of readerFiles) {
@@ -49,12 +49,12 @@ test('readers of logs import neither the page, nor Node, nor the core', () => {
   }
 });
 
-test('only core.ts touches the generated glue', () => {
+test('only core.ts imports the generated glue', () => {
   const coreImporters = Object.entries(metafile.inputs).filter(([, { imports }]) => imports.some(({ path }) => /^build\/motion/.test(path)));
   assert.deepEqual(coreImporters.map(([path]) => [dirname(path), path]), [['www', 'www/core.ts']]);
 });
 
-test('a widget is one class above the base, which is one above Lit', () => {
+test('the class of a widget directly extends the base class, which directly extends Lit’s class', () => {
   const sourceFiles = new Set(importPairs.flat());
   const classDeclarations = [...sourceFiles].flatMap((sourcePath) =>
     [...readFileSync(new URL(`../../${sourcePath}`, import.meta.url), 'utf8').matchAll(/\bclass (\w+)(?:<.+>)? extends (\w+)/g)].map(([, className, baseClassName]) => ({ file: sourcePath, name: className, base: baseClassName })),

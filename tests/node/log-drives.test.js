@@ -61,14 +61,14 @@ const CLEAR_ROLE_CASES = [
   [{ '/ecstatic/tf': 'tf', '/mocap': 'pose' }, '/ecstatic/tf odom base', '/mocap', [], { odometry: { frames: { parent: 'odom', child: 'base' } } }],
 ];
 
-test('odometry and reference are guessed by types, names and frames', () => {
+test('odometry and reference are guessed from types, names and frames', () => {
   for (const [series, odometry, reference, frames, userChoices] of CLEAR_ROLE_CASES) {
     const [drive] = planDrives([recordingWith(series, {}, frames)], userChoices).drives;
     assert.deepEqual([choiceTextOf(drive.odometry.choice), choiceTextOf(drive.reference.choice)], [odometry, reference]);
   }
 });
 
-test('groups of columns are guessed as topics are, and may be named without a separator', () => {
+test('groups of columns are guessed like topics, and may be named without the trailing separator', () => {
   const csvFields = /** @type {const} */ ({ name: 'run.csv', format: 'csv' });
   for (const [series, odometry, reference, userChoices] of /** @type {[Parameters<typeof recordingWith>[0], string, string, any?][]} */ ([
     [{ odom_: 'columns', gt_: 'columns' }, 'odom_', 'gt_'], [{ '': 'columns', gt_: 'columns' }, '', 'gt_'], [{ '': 'columns', _true: 'columns' }, '', '_true'], [{ '/truth': 'columns', '/odom': 'columns' }, '/odom', '/truth'],
@@ -79,7 +79,7 @@ test('groups of columns are guessed as topics are, and may be named without a se
   }
 });
 
-test('a question is asked where a role is not clear', async () => {
+test('ambiguous roles lead to a question', async () => {
   for (const [series, expectedSentence, askedWhat, logRole, expectedChoices, frames, userChoices] of /** @type {[Parameters<typeof recordingWith>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
     [{ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' }, 'it is not clear what the reference is: /odom (Odometry), /a (PoseStamped), /b (PoseStamped).', 'series', 'reference', ['/a', '/b']],
     [{ '/odom': 'odometry', '/wheel/odometry': 'odometry', '/mocap': 'pose' }, 'it is not clear what the odometry is: ', 'series', 'odometry'],
@@ -106,7 +106,7 @@ test('a question is asked where a role is not clear', async () => {
   }
 });
 
-test('several recordings are drives of their own, or give one log each', async () => {
+test('several recordings are separate drives, or each contains one log of the same drive', async () => {
   const recordingWithBothLogs = recordingWith({ '/odom': 'odometry', '/mocap': 'pose' });
   assert.equal(planDrives([recordingWithBothLogs, recordingWithBothLogs]).drives.length, 2);
   const { unpaired } = planDrives([recordingWith({ '/mocap': 'pose' }), recordingWith({ '/odom': 'odometry', '/cmd_vel': 'twist' })]);
@@ -152,7 +152,7 @@ test('logs of several drives are paired by their times, their names, or their or
   assert.deepEqual(await pairedNamesOf({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth_a.csv': 0, 'truth_b.csv': 0 }), [['odom1.csv', 'truth_a.csv'], ['odom2.csv', 'truth_b.csv']]);
 });
 
-test('two logs get one start, and none in common is noted', async () => {
+test('two logs get a common start time, and logs without common time are reported', async () => {
   const odometryTable = 't,x,y,yaw\n1700000000.25,0,0,0\n1700000009.5,0,0,0';
   const [overlappingDrive] = await readDrivesOf({ 'odom.csv': odometryTable, 'truth.csv': 't,x,y,yaw\n1700000003.125,0,0,0\n1700000008.5,0,0,0' });
   assert.equal(overlappingDrive.odometry.start, 1_700_000_000);
@@ -163,7 +163,7 @@ test('two logs get one start, and none in common is noted', async () => {
   assert.equal(summarySentencesOf(disjointDrive.reference, german.found).length, summarySentencesOf(overlappingDrive.reference, german.found).length + 1);
 });
 
-test('names of a localizer, and swapped ones, are noted', async () => {
+test('names that suggest a localizer, or swapped logs, are reported', async () => {
   const noteNamesOf = async (/** @type {string} */ odometry, /** @type {string} */ reference) => {
     const recordings = await openRecordings([odometry, reference].map((name, k) => new File([straightTableOf((i) => (i * (k + 1)) / 100)], name)));
     const [drive] = await readDrives(planDrives(recordings, { roles: new Map([[recordings[0], 'odometry'], [recordings[1], 'reference']]) }));
@@ -177,7 +177,7 @@ test('names of a localizer, and swapped ones, are noted', async () => {
   for (const [firstName, secondName] of [['wheels.csv', 'truth.csv'], ['odom.csv', 'reference-by-odom.csv'], ['a.csv', 'b.csv']]) assert.deepEqual(await noteNamesOf(firstName, secondName), [], firstName);
 });
 
-test('a frozen reference has breaks while the odometry moves on, and none while it stands', async () => {
+test('a frozen reference is interrupted only while the odometry moves', async () => {
   const odometryXAt = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;
   const movingOdometryTable = straightTableOf(odometryXAt);
   const referenceXAt = (/** @type {number} */ i) => 1.01 * odometryXAt(i);
@@ -198,7 +198,7 @@ test('a frozen reference has breaks while the odometry moves on, and none while 
   assert.equal((await readReference(frozenTable, commandTable)).summary.dropped.held?.count, 99);
 });
 
-test('logs with mirrored axes, and logs that differ by a unit of length, are refused', async () => {
+test('logs with mirrored axes, or with different units of length, are refused', async () => {
   const exampleHeadings = Array.from({ length: 1200 }, (_, i) => 2 * Math.sin(i / 60) + Math.cos(i / 23) + i / 300);
   const pathPoints = [[0, 0]];
   for (const [i, stepHeading] of exampleHeadings.entries()) pathPoints.push([pathPoints[i][0] + Math.cos(stepHeading) / 40, pathPoints[i][1] + Math.sin(stepHeading) / 40]);
@@ -226,7 +226,7 @@ test('logs with mirrored axes, and logs that differ by a unit of length, are ref
   }
 });
 
-test('a summary has the distance driven, units and how they were judged, dropped rows and gaps', async () => {
+test('a summary contains the driven distance, units and their evidence, dropped rows and gaps', async () => {
   const tableRows = Array.from({ length: 200 }, (_, i) => `${1_700_000_000_000 + 50 * i + (i > 100 ? 3000 : 0)},${i === 9 ? 'nan' : i / 100},${(i % 2) / 1000},${i / 2}`);
   const [{ reference }] = await readDrivesOf({ 'odom.csv': straightTableOf((i) => i / 90, 1_700_000_000), 'truth.csv': ['t,x,y,yaw_deg', ...tableRows].join('\n') });
   assert.equal(reference.summary.distance.toFixed(1), '2.0');

@@ -60,7 +60,7 @@ const SOURCES_BY_RECORDING: Record<string, Source[]> = {
 };
 
 for (const [name, sources] of Object.entries(SOURCES_BY_RECORDING)) {
-  test(`${name} has the rows of the tables to the last bit`, async () => {
+  test(`${name} contains the same rows as the tables, to the last bit`, async () => {
     const recording = await openRecording(...sources);
     assert.deepEqual(recording.series.map(({ name: topic, kind, count }) => [topic, kind, count]), [['/odom', 'poses', 100], ['/truth', 'poses', 100]]);
     const logs = await recording.read(BOTH_CHOICES);
@@ -95,13 +95,13 @@ for (const name of ['types.bag', 'types.mcap']) {
     const logs = await recording.read(['/cmd_vel', '/cmd_stamped', '/cmd_fused'].map((series) => ({ series })));
     for (const { data, name: topic } of logs) assert.deepEqual([[...(data as Commands).v], [...(data as Commands).omega]], expectedCommands, topic);
     assert.equal(logs[0].summary.clock, 'log time');
-    // Joints only turn, and are no candidates for a reference. A frame that is fixed to the moving base is a candidate.
+    // Frames of wheels only turn, and are no candidates for a reference. A frame that is fixed to the moving base is a candidate.
     const { frames: framePairs } = recording.series.find(({ name: topic }) => topic === '/tf') as Recording['series'][number];
     assert.deepEqual(framePairs?.map(({ parent, child }) => `${parent} → ${child}`), ['odom → base_link', 'odom → base_footprint']);
   });
 }
 
-test('a recording of which a file is missing is refused', async () => {
+test('a recording with a missing file is refused', async () => {
   for (const [partNumbers, missingParts] of [[[1], 'split0.mcap'], [[], 'split0.mcap, split1.mcap']] as const) {
     assert.equal(await catchRefusalSentence(openRecordings(filesOfSplitRecording(...partNumbers))), `drive/metadata.yaml: it describes a recording in ${missingParts}; give that file too, or the whole folder.`);
   }
@@ -126,7 +126,7 @@ const BLOCK_FINDERS: Record<string, (bytes: Buffer) => number[]> = {
 };
 
 for (const [name, findBlocks] of Object.entries(BLOCK_FINDERS)) {
-  test(`${name}: a damaged block loses its own rows, and a file that breaks off those from there on`, async () => {
+  test(`${name}: only the rows of a damaged block, or the rows after the end of a truncated file, are lost`, async () => {
     const lostRowsSoFar: number[] = [];
     for (const at of findBlocks(decompressFile(name))) {
       const log = await readDamagedOdometry(name, at);
@@ -146,10 +146,10 @@ for (const [name, findBlocks] of Object.entries(BLOCK_FINDERS)) {
   });
 }
 
-test('a database whose transaction was never finished has the messages of all its pages', async () => {
+test('all messages of a database with an unfinished transaction are read', async () => {
   const bytes = decompressFile('sqlite-sqlite.db3');
   const rootPage = integersFrom(0, bytes.length / 4096).map((pageStart) => 4096 * pageStart).find((at) => bytes[at] === 5) ?? 0;
-  // The overwritten number of pages and root of the messages are those before the transaction: an empty page.
+  // Overwrites the number of pages with 8, and the first page of the messages with an empty page. Both are as before the transaction.
   bytes.writeUInt32BE(8, 28);
   bytes.fill(0, rootPage, rootPage + 5)[rootPage] = 13;
   const log = await readOdometry(bytes, 'run.db3');
@@ -157,9 +157,9 @@ test('a database whose transaction was never finished has the messages of all it
   assert.match(summaryTextOf(log), /gaps: none\. notes: the file is incomplete: it ends in the middle of a row or record$/);
 });
 
-test('a damaged message is dropped, and a file of damaged headers or compression is refused', async () => {
+test('a damaged message is dropped, and a file with damaged headers or compression is refused', async () => {
   const name = 'mcap-messages-mcap-messages.mcap';
-  // The file has Zstandard frames with messages of the odometry and the reference in turns.
+  // The file contains messages in Zstandard frames. Messages of the odometry and the reference alternate.
   const log = await readDamagedOdometry(name, findPositions(decompressFile(name), '\\(\xb5/\xfd')[6] + 20);
   assert.deepEqual([rowIndicesOf(log), log.summary.dropped], [[...integersFrom(0, 3), ...integersFrom(4, 100)], { damaged: { count: 1, first: 4 } }]);
   const bagWithoutTopics = Buffer.from(decompressFile('none.bag').toString('latin1').replaceAll('topic=', 'topic-'), 'latin1');
@@ -167,7 +167,7 @@ test('a damaged message is dropped, and a file of damaged headers or compression
   assert.match(await catchRefusalSentence(readDamagedOdometry('sqlite-file-sqlite-file.db3.zstd', 4000)), /: it is damaged or incomplete \(.+\); copy it again from the robot\.$/);
 });
 
-test('LZ4 frames of another size are refused, and any damage to one with checksums', async () => {
+test('LZ4 frames of a wrong size are refused, and so are damaged frames with checksums', async () => {
   const bytes = decompressFile('lz4.mcap');
   // The header of the first chunk contains the size of its records, a checksum, the compression, and the size of the compressed frame.
   const namePosition = bytes.indexOf('lz4');
@@ -189,7 +189,7 @@ test('LZ4 frames of another size are refused, and any damage to one with checksu
   }
 });
 
-test('formats that are not read are refused with the cure, by their contents', async () => {
+test('unsupported formats are recognized by their contents, and refused with a command for conversion', async () => {
   const magicBytes: [keyof typeof UNSUPPORTED_FORMATS, string][] = [
     ['rosbag1', '#ROSBAG V1.2\n'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'], ['wal', '\x37\x7f\x06\x82'], ['zip', 'PK\x03\x04'],
     ['compressed', '\x1f\x8b\x08'], ['compressed', 'BZh9'], ['compressed', '\xfd7zXZ\0'], ['compressed', '\x04\x22\x4d\x18'], ['hdf5', '\x89HDF\r\n\x1a\n'], ['parquet', 'PAR1'],
@@ -198,7 +198,7 @@ test('formats that are not read are refused with the cure, by their contents', a
   assert.deepEqual(new Set(magicBytes.map(([format]) => format)), new Set(Object.keys(UNSUPPORTED_FORMATS)));
 });
 
-test('a recording without one whole message is incomplete, and the tool that repairs it is named', async () => {
+test('a recording without a complete message is refused, and the message names a repair tool', async () => {
   for (const [name, repairCommand] of [['none.bag', 'rosbag reindex'], ['unindexed.mcap', 'mcap recover'], ['sqlite-sqlite.db3', 'sqlite3 FILE .recover | sqlite3 NEW.db3']]) {
     for (const byteCount of [20, 200]) {
       const message = await catchRefusalSentence(openRecordings([createFile(decompressFile(name).slice(0, byteCount), name)]));
@@ -207,7 +207,7 @@ test('a recording without one whole message is incomplete, and the tool that rep
   }
 });
 
-test('files that are no recording are refused', async () => {
+test('files that are not recordings are refused', async () => {
   const emptyDatabase = Uint8Array.from({ length: 4096 }, (_, i) => 'SQLite format 3\0\x10'.charCodeAt(i) || 0);
   // The first page of the database is a leaf without tables.
   emptyDatabase[100] = 13;
@@ -228,21 +228,21 @@ const readLogsOf = async (messages: Message[], ...choices: LogChoice[]) => (awai
 const BASE_CHOICE = { series: '/tf', frames: { parent: 'odom', child: 'base_link' } };
 const movingTransformAt = (i: number) => transformMessageOf(timeAt(i), 'odom', 'base_footprint', i / 50, 0, 0);
 
-test('a transform that never changes is no log', async () => {
+test('a constant transform is not accepted as a log', async () => {
   const messages = mapSteps((i) => tfMessageAt(i, transformMessageOf(timeAt(i), 'odom', 'base_link', 1, 2, 0), transformMessageOf(timeAt(i), 'map', 'robot', i / 50, 0, 0)));
   assert.equal(await catchRefusalSentence(readLogsOf(messages, BASE_CHOICE)), 'run.mcap, topic /tf: the transform odom → base_link never changes, so it is no path of a robot; expected are frames that move, as map → robot.');
   const constantMessages = mapSteps((i) => tfMessageAt(i, transformMessageOf(timeAt(i), 'odom', 'base_link', 1, 2, 0)));
   assert.match(await catchRefusalSentence(readLogsOf(constantMessages, BASE_CHOICE)), /never changes, so it is no path of a robot; expected are frames that move\.$/);
 });
 
-test('a constant transform that is published more often than the moving one adds no rows', async () => {
+test('a constant transform that is published more often than the changing transform adds no rows', async () => {
   const messages = mapSteps((i) => [tfMessageAt(i, movingTransformAt(i)), ...[0.3, 0.6].map((timeOffset) => tfMessageAt(i + timeOffset, transformMessageOf(timeAt(i + timeOffset), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
   const [{ data }] = await readLogsOf(messages, BASE_CHOICE);
   assert.deepEqual([...data.t].map((t) => Math.round(20 * t)), [...Array(stepCount).keys()]);
   assert.deepEqual([...(data as Poses).x], mapSteps((i) => i / 50 + 0.5));
 });
 
-test('a topic of two types is refused', async () => {
+test('a topic with messages of two types is refused', async () => {
   const messages: Message[] = mapSteps((i) => {
     const message = { topic: '/odom', type: 'nav_msgs/msg/Odometry', t: timeAt(i), message: odometryMessageOf(timeAt(i), i / 50, 0, 0) };
     return i % 2 ? { ...message, schema: 'geometry_msgs/msg/PoseStamped' } : message;

@@ -92,7 +92,7 @@ test('an incomplete index is not used', async () => {
   assert.deepEqual((await readLog(mcapFileOf(bytes), { series: '/odom' })).data, logWithIndex.data);
 });
 
-test('stamps that begin at 0 are used; messages without stamps have the times of recording, which is reported', async () => {
+test('stamps that begin at 0 are used; messages without stamps get the recording times, with a note in the summary', async () => {
   const readLogWithStamps = async (/** @type {(i: number) => number} */ stampAt) => {
     const messages = createOdometryMessages(100, (i) => odometryMessageOf(stampAt(i), i, 0, 0)).map((message, i) => ({ ...message, t: 1_700_000_000 + i / 20 }));
     const log = await readLog(mcapFileOf(await recordingOf(messages)), { series: '/odom' });
@@ -109,7 +109,7 @@ test('stamps that begin at 0 are used; messages without stamps have the times of
   assert.deepEqual((await readLog(mcapFileOf(recordingWithoutHeader), { series: '/odom' })).data, unstampedLog.data);
 });
 
-test('poses that do not turn about Z are refused', async () => {
+test('poses with rotations about other axes than Z are refused', async () => {
   const messages = createOdometryMessages(100, (i) => {
     const message = odometryMessageOf(timeOf(i), 0, 0, 0);
     return { ...message, pose: { ...message.pose, pose: { position: { x: i / 100, y: 0, z: 0 }, orientation: { x: 0, y: Math.sin(i / 50), z: 0, w: Math.cos(i / 50) } } } };
@@ -125,7 +125,7 @@ test('unusable quaternions, numbers and times are left out', async () => {
   assert.deepEqual([...data.breaks], [3, 4, 8]);
 });
 
-test('messages that were written in any order are read in the order of their times', async () => {
+test('messages in any order are read in the order of their times', async () => {
   const messages = createOdometryMessages(200);
   const lateMessages = [...messages.slice(0, 50), messages[53], ...messages.slice(50, 53), ...messages.slice(54)];
   const shuffledMessages = messages.map((_, i) => messages[(i * 77) % 200]);
@@ -150,7 +150,7 @@ test('topics and frames that cannot be read are refused', async () => {
   ])) assert.equal(await catchRefusalSentence(readLog(mcapFile, logChoice)), expectedError);
 });
 
-test('a transform that never changes holds from the beginning, and a moving one from its first message', async () => {
+test('a static transform is valid from the beginning, and a changing transform from its first message', async () => {
   const messagesWith = (/** @type {(i: number) => number} */ mountX) => Array.from({ length: 60 }, (_, i) => [
     transformMessageOf(i / 10, 'world', 'marker', i / 20, 0, 0),
     ...(i % 3 === 0 && i >= 30 ? [transformMessageOf(i / 10, 'marker', 'base', mountX(i), 0, 0)] : []),
@@ -165,11 +165,11 @@ test('a transform that never changes holds from the beginning, and a moving one 
   const recalibratedFile = mcapFileOf(await recordingOf([...messagesWith(() => 0.5), ...staticTransformMessages].sort((messageA, messageB) => messageA.t - messageB.t)));
   const { data: { t } } = await readLog(recalibratedFile, { series: '/tf', frames: { parent: 'world', child: 'laser' } });
   assert.equal(t.length, 60);
-  // The pose is known from 3 s on. Its times are those of the transform to the robot's own frame.
+  // The pose is known from 3 s on. The log has the times of the transform whose child is the robot's own frame.
   assert.deepEqual(await readWith((i) => i / 100), [10, 3, 1.8, 10]);
 });
 
-test('positions without a heading are refused, by their type', async () => {
+test('positions without a heading are refused, and the message names their type', async () => {
   const pointMessages = Array.from({ length: 20 }, (_, i) => ({
     topic: '/prism', type: 'geometry_msgs/msg/PointStamped', t: i / 10, message: { header: { stamp: stampOf(i / 10), frame_id: 'world' }, point: { x: i / 20, y: 0, z: 0 } },
   }));
@@ -179,7 +179,7 @@ test('positions without a heading are refused, by their type', async () => {
   assert.match(await catchRefusalSentence(recording.read([{ series: '/prism' }])), /^run\.mcap, topic \/prism: geometry_msgs\/msg\/PointStamped are positions without a heading; /);
 });
 
-test('other recordings are refused', async () => {
+test('recordings with an unsupported compression or encoding, with too few messages or with too short ones are refused', async () => {
   const refusalOf = async (/** @type {Parameters<typeof recordingOf>[1]} */ recordingOptions, messages = createDriveMessages()) => catchRefusalSentence(readLog(mcapFileOf(await recordingOf(messages, recordingOptions)), { series: '/odom' }));
   assert.equal(await refusalOf({ compression: 'odd' }), 'run.mcap, topic /odom: it is damaged or incomplete (compression by snappy, not by zstd or lz4); copy it again from the robot, or try “mcap recover”.');
   assert.match(await refusalOf({ encoding: 'json' }), /^run\.mcap, topic \/odom: its type is “nav_msgs\/msg\/Odometry as json”; /);
@@ -192,7 +192,7 @@ test('other recordings are refused', async () => {
   assert.match(await refusalOf({}, shortMessages), /^run\.mcap, topic \/odom, message 1: it cannot be read \(.+\); expected is one of the topic's type\.$/);
 });
 
-test('chunks with another checksum or size than they state are not read', async () => {
+test('chunks with a wrong checksum or size are not read', async () => {
   const readReason = async (/** @type {Buffer<ArrayBuffer>} */ bytes) => /: it is damaged or incomplete \((.+)\); copy/.exec(await catchRefusalSentence(readLog(mcapFileOf(bytes), { series: '/odom' })))?.[1];
   const damagedBytes = await recordingOf(createOdometryMessages(20), { chunkSize: 1e6 });
   damagedBytes[damagedBytes.length >> 2] ^= 1;
@@ -210,7 +210,7 @@ test('chunks with another checksum or size than they state are not read', async 
   }
 });
 
-test('a file that is read in pieces has its bytes, one after the other, across pieces and after gaps', async () => {
+test('a file that is read in pieces gives the right bytes, across pieces and after skipped ranges', async () => {
   const nextRandom = createRandomGenerator(7);
   const bytes = Buffer.alloc(60e6, Buffer.from(Array.from({ length: 9973 }, () => nextRandom() * 256)));
   const readRange = readAhead(new File([bytes], 'run.mcap'));

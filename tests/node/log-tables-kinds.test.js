@@ -24,7 +24,7 @@ const circleTableOf = (cellsOf = (row) => row, headerLine = 't,x,y,yaw') => [hea
 const straightTableAt = (rowTimes) => ['t,x,y,yaw', ...rowTimes.map((t, i) => `${t},${i / 50},0,0`)].join('\n');
 const timesFrom = (/** @type {number} */ timeCount, startTime = 0) => Array.from({ length: timeCount }, (_, i) => startTime + i / 10);
 
-test('times of the present keep their microseconds, in every unit', async () => {
+test('present Unix times keep their microseconds, in every unit', async () => {
   const times = ['1699999999999999000', '1700000000000001000'];
   for (const [timeUnit, decimalDigits] of Object.entries({ ns: 0, us: 3, ms: 6, s: 9 })) {
     const [firstTime, secondTime] = times.map((time) => (decimalDigits ? `${time.slice(0, -decimalDigits)}.${time.slice(-decimalDigits)}` : time));
@@ -36,13 +36,13 @@ test('times of the present keep their microseconds, in every unit', async () => 
   }
 });
 
-test('numbers are the nearest doubles', async () => {
+test('numbers are read as the nearest doubles', async () => {
   const numberTexts = ['0.1', '-12345.6789012345', '1e-7', '123456789.012345678', '3.141592653589793238462643', '-0', '.5', '7.', '+4.', '2.2250738585072014e-308'];
   const { x } = (await readTable(['t,x,y,yaw', ...numberTexts.map((numberText, i) => `${i},${numberText},0,0`)].join('\n'), { lengthUnit: 'm' })).data;
   assert.deepEqual([...x], numberTexts.map(Number));
 });
 
-test('rows that cannot be used are dropped with the first line of each cause, and break the path', async () => {
+test('unusable rows are dropped and interrupt the path; the summary names the first line of each cause', async () => {
   const tableRows = ['0,0,0,0', '1,nan,0,0', '2,,0,0', '3,0,0,0', '3,1,0,0', '4,0,0,0', '5,0,inf,0', 'NaN,0,0,0', '6,0,0,0', '7,0', ...timesFrom(90, 8).map((t) => `${t},0,0,0`), '17,0', '17.1,0,0.0.1,0', '18,0,0,0', '19,0'];
   const { data, summary: { dropped, rows: count, notes } } = await readTable(`t,x,y,yaw\n${tableRows.join('\n')}`);
   assert.deepEqual([[...data.t], [...data.breaks]], [[0, 3, 4, 6, ...timesFrom(90, 8), 18], [1, 3, 4, 94]]);
@@ -53,7 +53,7 @@ test('rows that cannot be used are dropped with the first line of each cause, an
   assert.deepEqual(await Promise.all(cutShortCounts), [1, 0, 0]);
 });
 
-test('late rows are sorted; before and after a time far from all others the path has a gap', async () => {
+test('late rows are sorted, and an isolated time has gaps before and after it', async () => {
   const times = timesFrom(50);
   const { data, summary } = await readTable(straightTableAt([...times.slice(0, 20), times[22], times[20], times[21], ...times.slice(23)]));
   assert.deepEqual([[...data.t], [...data.breaks]], [times, []]);
@@ -66,7 +66,7 @@ test('late rows are sorted; before and after a time far from all others the path
   }
 });
 
-test('a log that is out of order everywhere is sorted, and one of two clocks in turns is not taken for it', async () => {
+test('a shuffled log is sorted, but a log with alternating times of two clocks is not', async () => {
   const [header, ...rowLines] = circleTableOf().split('\n');
   const rowOrder = rowLines.map((_, i) => (i * 301) % rowLines.length);
   for (const shuffleRange of [8, rowLines.length]) {
@@ -83,7 +83,7 @@ test('a log that is out of order everywhere is sorted, and one of two clocks in 
   assert.match(await catchRefusalSentence(readTable([header, ...rowsOfTwoClocks].join('\n'))), /^run\.csv, line 202: times go back by 4\.97 s and repeat those before;/);
 });
 
-test('a clock that was set back is refused', async () => {
+test('a log whose clock was set back is refused', async () => {
   for (const [firstTimes, nextTimes, expectedLine, expectedSeconds] of /** @type {[number[], number[], number, string][]} */ ([
     [timesFrom(200), timesFrom(100, 15), 202, '4\\.90'], [timesFrom(200), timesFrom(100, 15.04), 202, '4\\.86'], [timesFrom(60), timesFrom(140, 4.03), 62, '1\\.87'],
     [timesFrom(900), timesFrom(100, 89.6), 902, '0\\.300'],
@@ -96,7 +96,7 @@ test('a clock that was set back is refused', async () => {
   assert.equal((await readTable(twiceGiven + twiceGiven.slice(twiceGiven.indexOf('\n')))).data.t.length, 50);
 });
 
-test('a block of zeros in a table loses the row that it is in', async () => {
+test('zero bytes in a table remove only the row that contains them', async () => {
   const [header, ...rows] = circleTableOf().split('\n');
   for (const rowIndex of [100, 700]) {
     const { data, summary } = await readTable([header, ...rows.with(rowIndex, `${rows[rowIndex].slice(0, 9)}${'\0'.repeat(100_000)}${rows[rowIndex + 1].slice(5)}`)].join('\n'));
@@ -105,7 +105,7 @@ test('a block of zeros in a table loses the row that it is in', async () => {
   assert.match(await catchRefusalSentence(readTable([header, ...rows, '\0'.repeat(5_000_000)].join('\n'))), /^run\.csv, line 802: the line has more than 65536 bytes;/);
 });
 
-test('stamps of 0 drop their rows, and are no choice of the clock for the others', async () => {
+test('rows with the stamp 0 are dropped, and the other stamps are still used as the clock', async () => {
   const stampAt = (/** @type {number} */ i) => (i < 2 || i === 30 ? 0 : `${1_718_000_000 + Math.floor(i / 8)}${String((i % 8) * 125).padStart(3, '0')}000000`);
   const tableRows = Array.from({ length: 60 }, (_, i) => `${1_718_000_007 + i / 8},${stampAt(i)},${i / 20},0,0`);
   const { start, data, summary } = await readTable(['time,header.stamp,x,y,yaw', ...tableRows].join('\n'));
@@ -115,7 +115,7 @@ test('stamps of 0 drop their rows, and are no choice of the clock for the others
   assert.deepEqual([frozenStampLog.data.t.length, frozenStampLog.summary.clock, frozenStampLog.summary.columns?.t], [60, 'time', 'time']);
 });
 
-test('poses that a table repeats at the rate of another log are taken once', async () => {
+test('poses that a table repeats at the rate of another log are used once', async () => {
   const { data, summary } = await readTable(circleTableOf((row, i) => [row[0], ...CIRCLE_ROWS[i - (i % 5)].slice(1)]));
   assert.deepEqual([data.t.length, data.t[1], data.x[1]], [160, 0.25, CIRCLE_ROWS[5][1]]);
   assert.deepEqual([summary.dropped, [...data.breaks]], [{ repeated: { count: 640, first: 3 } }, []]);
@@ -127,7 +127,7 @@ test('poses that a table repeats at the rate of another log are taken once', asy
   assert.deepEqual([...republishedLog.data.t].slice(firstRows.length).map((t) => Math.round(20 * t)), [700, 710, 720, 730, 740, 750, 760, 770, 780, 790]);
 });
 
-test('pauses and jumps are found, and a heading that wraps is no jump', async () => {
+test('pauses and jumps are found, and a heading that wraps around is not a jump', async () => {
   // Five median steps are not long enough for a pause. Eight times the usual speed is not fast enough for a jump.
   const delayAt = (/** @type {number} */ i) => (i >= 50 ? 0.19 : 0) + (i >= 60 ? 0.21 : 0) + (i >= 100 ? 3 : 0);
   const offsetAt = (/** @type {number} */ i) => (i >= 150 ? 0.34 : 0) + (i >= 200 ? 0.36 : 0);
@@ -139,10 +139,10 @@ test('pauses and jumps are found, and a heading that wraps is no jump', async ()
   assert.equal((await readTable(circleTableOf())).summary.jumps.count, 0);
 });
 
-test('ordinary logs are neither of two paths nor in another unit', async () => {
+test('ordinary logs are not mistaken for two paths or for another unit', async () => {
   const wrapAngle = (/** @type {number} */ angle) => Math.atan2(Math.sin(angle), Math.cos(angle));
   for (const tableText of [
-    // Tables with few rows a round, vibrations, a single pose elsewhere, a robot that reverses on a curve, a car, and a unit in the column
+    // Tables with few rows per lap, vibrations, a single pose elsewhere, a robot that reverses on a curve, a car, and a unit in a column
     // name.
     circleTableOf((_, i) => [2 * i, Math.sin(i), -Math.cos(i), wrapAngle(i)]),
     circleTableOf(([t, , , yaw], i) => [t, (i % 2) / 25, 0, yaw]),
@@ -153,7 +153,7 @@ test('ordinary logs are neither of two paths nor in another unit', async () => {
   ]) assert.equal((await readTable(tableText)).summary.units.length.unit, 'm');
 });
 
-test('units are guessed from two signs', async () => {
+test('units are guessed from two pieces of evidence', async () => {
   const toDegrees = (/** @type {number} */ yaw) => (yaw * 180) / Math.PI;
   /** Tables with the units of time and angle that are expected. @type {[string, string, string][]} */
   const unitCases = [
@@ -190,13 +190,13 @@ const UNIT_QUESTIONS = [
   ['turn rates in degrees', ['t,v,omega', ...timesFrom(50).map((t) => `${t},0.5,30`)].join('\n'), /headings in rad would turn at 30\.0 rad\/s/, { angleUnit: 'deg' }, ['omega', Math.PI / 6]],
 ];
 
-test('times in minutes or hours are refused by their name', async () => {
+test('columns of times in minutes or hours are refused because of their name', async () => {
   for (const [header, unit] of [['t_min', 'min'], ['Time [hours]', 'h']]) assert.match(await catchRefusalSentence(readTable(circleTableOf(undefined, `${header},x,y,yaw`))), new RegExp(`^run\\.csv: the unit ${unit} of a column is not known`));
   assert.equal((await readTable(circleTableOf(([t, ...poseCells]) => [`0:00:${t.toFixed(3).padStart(6, '0')}`, ...poseCells], 'Time [HH:MM:SS],x,y,yaw'))).summary.units.time.by, 'date');
 });
 
 for (const [name, tableText, expectedMessage, options, [fieldName, expectedValue]] of UNIT_QUESTIONS) {
-  test(`asks about ${name}`, async () => {
+  test(`the reader asks about ${name}`, async () => {
     const refusalError = await catchRefusalError(readTable(tableText));
     assert.match(refusalError.message, expectedMessage);
     const [[questionedUnit, chosenUnit]] = Object.entries(options);
@@ -251,7 +251,7 @@ const REFUSED_TABLES = [
 ];
 
 for (const [name, tableText, expectedMessage, options] of REFUSED_TABLES) {
-  test(`refuses ${name}`, async () => {
+  test(`the reader refuses ${name}`, async () => {
     const refusalError = await catchRefusalError(readTable(tableText, options));
     assert.match(refusalError.message, expectedMessage);
     assert.match(refusalError.message, /; [a-z].+\.$/);
@@ -259,7 +259,7 @@ for (const [name, tableText, expectedMessage, options] of REFUSED_TABLES) {
   });
 }
 
-test('columns that are proposed for Y up give the path on the floor', async () => {
+test('the columns proposed for a table with Y up give the path on the floor', async () => {
   for (const positionOf of [(/** @type {number} */ x, /** @type {number} */ y) => [x, 0.1, y], (/** @type {number} */ x, /** @type {number} */ y) => [y, 0.1, x]]) {
     const tableText = circleTableOf(([t, x, y, yaw]) => [t, ...positionOf(x, y), yaw], 't,x,y,z,yaw');
     const { ask } = await catchRefusalError(readTable(tableText));
@@ -268,7 +268,7 @@ test('columns that are proposed for Y up give the path on the floor', async () =
   }
 });
 
-test('more rows than those of a day at 100 Hz are refused', async () => {
+test('a table with more rows than a day at 100 Hz is refused', async () => {
   const rows = Object.assign(new Rows({ file: 'run.csv' }), { count: 1e7 - 1 });
   const addRow = async () => rows.add({ time: 0, a: 0, b: 0, c: 0 }, 1);
   await addRow();
@@ -280,7 +280,7 @@ test('a file that has been moved is refused', async () => {
   assert.equal(await catchRefusalSentence(openRecordings([/** @type {any} */ (movedFile)])), `${'n'.repeat(40)}…: the file cannot be read (NotFoundError); expected is one that exists and may be read.`);
 });
 
-test('lines across the pieces of a large file are read whole', async () => {
+test('lines that span two pieces of a large file are read completely', async () => {
   const rows = Array.from({ length: 120_000 }, (_, i) => `${i},${i / 8},${'x'.repeat(i % 40)},0,0.125`);
   const { data } = await readTable(['t,x,note,y,yaw', ...rows].join('\n'));
   assert.deepEqual([...data.x], rows.map((_, i) => i / 8));

@@ -148,7 +148,7 @@ const READABLE_TABLES = [
 ];
 
 for (const { name, text, kind = 'poses', start = 0, series = [''], choice, options, says } of READABLE_TABLES) {
-  test(`reads ${name}`, async () => {
+  test(`the reader reads ${name}`, async () => {
     const [recording] = await openRecordings([new File([text], 'run.csv')], options);
     assert.deepEqual(recording.series.map((foundSeries) => foundSeries.name), series);
     const [log] = await recording.read([{ series: '', ...choice }]);

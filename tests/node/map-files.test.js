@@ -48,7 +48,7 @@ test('YAML features other than fields and values are refused at once', async () 
   assert.equal(Reflect.get({}, 'resolution'), undefined);
 });
 
-test('files that are not one map, or a plan that is not JSON, are refused with what is expected', async () => {
+test('files that are not exactly one map, and a plan that is not JSON, are refused with a message that states what is expected', async () => {
   const yamlFile = createMapYamlFile({ image: 'map.pgm' });
   const planFile = fileWith('plan.json', '{"bounds": [0, 0, 1, 1], "walls": []}');
   for (const fileSelection of [[yamlFile, PGM_FILE, planFile], [PGM_FILE], [yamlFile, PGM_FILE, fileWith('notes.txt', '')]]) {
@@ -58,7 +58,7 @@ test('files that are not one map, or a plan that is not JSON, are refused with w
   assert.match(await catchRefusalMessage([fileWith('plan.json', '{"bounds": [0, 0, 1, 1], "walls": [],}')]), /^plan\.json: .+; expected is \{"bounds"/);
 });
 
-test('a description is read as leniently as map_server reads it', async () => {
+test('a YAML map description is read as leniently as map_server reads it', async () => {
   const expectedSimulation = await simulationWithMap(createMapYamlFile({ image: 'map.pgm', origin: '[-1, 2, 0]', mode: 'trinary', negate: 1 }), PGM_FILE);
   for (const yaml of [
     'image: map.pgm\r\nresolution: "0.05"\r\norigin: ["-1.0", \'2\', 0]\r\nnegate: "1"\r\nmode: Trinary\r\n',
@@ -71,7 +71,7 @@ test('a PNG image may have any extension', async () => {
   assert.deepEqual(pngMap.grid, pgmMap.grid);
 });
 
-test('a value of any kind or length is refused by a sentence that can be read', async () => {
+test('invalid values of any type and length are refused with a readable message', async () => {
   const longText = 'x'.repeat(9e4);
   for (const yamlValue of [`"${longText}"`, `[${'[1], '.repeat(1e4)}]`, '{a: {b: [c]}}', 'null', 'true', '.nan', '1e999', '""']) {
     for (const fieldName of ['image', 'resolution', 'origin', 'negate', 'mode', 'occupied_thresh', 'free_thresh']) {
@@ -93,7 +93,7 @@ test('the size of a file is checked before the file is read', async () => {
   }
 });
 
-test('a damaged or too large PNG image is refused by a sentence', async () => {
+test('a damaged or too large PNG image is refused with an error message', async () => {
   const message = await catchRefusalMessage([createMapYamlFile(), fileWith('map.png', PNG_BYTES.subarray(0, 50))]);
   assert.match(message, /^map\.png: the PNG image is damaged or cut short before byte \d+ of 50; allowed is a complete one\.$/);
   const largeImage = Buffer.from(PNG_BYTES);

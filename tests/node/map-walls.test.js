@@ -15,12 +15,12 @@ const LOWER_WALL_INDEX = OUTER_WALLS.length;
 /** Returns the grip of a part of a wall. @param {string} gripPart @param {number} [wallIndex] index in WALLS */
 const gripOf = (gripPart, wallIndex = LOWER_WALL_INDEX) => gripsOf(ROOM).find((grip) => grip.part === gripPart && grip.wall === wallIndex);
 
-test('free ends and inner walls have grips, the shell and ends at other walls have none', () => {
+test('free wall ends and inner walls have drag handles; outer walls and ends at other walls have none', () => {
   const gripNames = gripsOf(ROOM).map(({ part, wall }) => `${part} ${(wall - LOWER_WALL_INDEX) / 4}`);
   assert.deepEqual(gripNames, ['to 0', 'side 0', 'from 1', 'side 1', 'side 2']);
 });
 
-test('a jamb goes along its wall, up to the other jamb and down to a stub', () => {
+test('the end of a wall at a doorway moves along the wall, as far as the other end of the doorway and down to a stub', () => {
   const grip = gripOf('to');
   assert.ok(grip);
   assert.deepEqual(grip.axis, [0, 1]);
@@ -28,7 +28,7 @@ test('a jamb goes along its wall, up to the other jamb and down to a stub', () =
   assert.deepEqual([0.5, 9, -9].map(jambAfter), [2, 2.45, 0.05]);
 });
 
-test('a wall goes across, and the wall that ends at it follows', () => {
+test('a dragged wall moves sideways, and a wall that ends at it follows', () => {
   const grip = gripOf('side');
   assert.ok(grip);
   const wallsAfter = moveWall(ROOM, grip, grip.axis[0] * 0.5);
@@ -36,7 +36,7 @@ test('a wall goes across, and the wall that ends at it follows', () => {
   assert.deepEqual([...wallsAfter.subarray(0, LOWER_WALL_INDEX)], OUTER_WALLS);
 });
 
-test('the contact is at the wall that the robot touches first, none on a path that keeps clear', () => {
+test('the contact is at the first wall that the robot touches; a collision-free path has no contact', () => {
   const [x, y] = findWallContact([1, 0.5, 5.9, 0.5], WALLS, 0.1) ?? [];
   assert.deepEqual([x, y], [3, 0.5]);
   assert.equal(findWallContact([1, 2, 5, 2], WALLS, 0.2), undefined);

@@ -14,7 +14,7 @@ const configurations = JSON.parse(readFileSync(new URL('configurations.json', DI
 const goldenDigest = readFileSync(new URL('golden.txt', DIGEST_DIRECTORY), 'utf8');
 
 for (const widgetTag of Object.keys(resultFunctions)) {
-  test(`the module of ${widgetTag} has its simulation alone, with the same bits`, async () => {
+  test(`the module of ${widgetTag} contains only its own simulation, with the same results`, async () => {
     const moduleNames = readdirSync(new URL('chunks', DIST_DIRECTORY)).filter((fileName) => fileName.startsWith(`${widgetTag}-`) && fileName.endsWith('.wasm'));
     assert.equal(moduleNames.length, 1, `one module for ${widgetTag}`);
     const { default: instantiateCore } = await import(`../../build/${widgetTag}.js`);

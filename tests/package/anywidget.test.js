@@ -91,7 +91,7 @@ const setTraits = async (page, changedTraits) => {
 /** Traits that every model of a notebook has besides the settings. */
 const KERNEL_TRAITS = { stats: null, error: '', _asked: 0, _shown: {} };
 
-test('traits become what the figure shows, by whichever of their names, and those without a value what it shows', async () => {
+test('the figure applies traits under either spelling of their names, and traits without a value get the figure’s value', async () => {
   const state = { ...KERNEL_TRAITS, widget: 'banana-machine', omega: 0.8, samples: '2000', reverse_aware: true, 'heading-level': 3, v: null, alphas: null, preset: null, lang: 'de' };
   const page = await openPageShowing(state, 'notebook');
   await untilComplete(page);
@@ -106,7 +106,7 @@ test('traits become what the figure shows, by whichever of their names, and thos
   await page.getByRole('button', { name: 'New seed' }).waitFor();
 });
 
-test('a trait with the underscore of a Python keyword sets the property of that name, and gets its value', async () => {
+test('a trait with a trailing underscore, as for Python keywords, is synchronized with the property without the underscore', async () => {
   const startPose = { x: 1, y: 2, theta: 0.5 };
   const page = await openPageShowing({ ...KERNEL_TRAITS, widget: 'odometry-decomposer', from_: startPose }, 'notebook');
   await page.locator('canvas').first().waitFor();
@@ -117,7 +117,7 @@ test('a trait with the underscore of a Python keyword sets the property of that 
   assert.deepEqual(traits.from_, figure.from);
 });
 
-test('a change of the model reaches the figure, what follows of it the model, and an equal value nobody', async () => {
+test('a change of the model is applied to the figure, resulting changes return to the model, and an equal value has no effect', async () => {
   const page = await openPageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, preset: null, omega: null, v: null, dt: null, command: null, isolate: null }, 'notebook');
   await untilComplete(page);
   await setTraits(page, { _asked: 1, preset: 'hard' });
@@ -143,7 +143,7 @@ test('a change of the model reaches the figure, what follows of it the model, an
   assert.deepEqual(log, [['command', { dt: 1.4, omega: 0.2, v: 0.5 }]]);
 });
 
-test('what is refused is said by the trait error, and the trait has the last good value again', async () => {
+test('a refused value is reported by the trait `error`, and its trait returns to the last valid value', async () => {
   const page = await openPageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, alphas: null }, 'notebook');
   await untilComplete(page);
   const { traits: { alphas } } = await readTraitsAndProperties(page, ['alphas']);
@@ -155,7 +155,7 @@ test('what is refused is said by the trait error, and the trait has the last goo
   assert.deepEqual((await readTraitsAndProperties(page, ['samples', 'error'])).traits, { samples: 200, error: '' });
 });
 
-test('in a book whose models keep nothing the figure is as live, and what is taken away leaves nothing @nightly', async () => {
+test('in a MyST book, whose models cannot save, the figure works, and a removed figure leaves no listeners @nightly', async () => {
   for (const hostKind of /** @type {const} */ (['book', 'notebook'])) {
     const page = await openPageShowing({ widget: 'map-squeeze', preset: 'corridor', samples: '300', view: 'whole' }, hostKind);
     await untilComplete(page);
@@ -178,7 +178,7 @@ test('in a book whose models keep nothing the figure is as live, and what is tak
   }
 });
 
-test('a model of no widget says what is allowed in the place of the figure @nightly', async () => {
+test('a model without a known widget shows the allowed widgets instead of a figure @nightly', async () => {
   for (const [widget, shownValue] of [[undefined, 'missing'], ['banana', '"banana"']]) {
     const page = await openPageShowing({ widget }, 'book');
     await page.getByText(`This cell shows no figure: widget is ${shownValue}; allowed is ${Object.keys(settings).join(' or ')}.`).waitFor();

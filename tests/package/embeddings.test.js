@@ -19,7 +19,7 @@ function linesOfFile(path) {
 for (const platformName of await findPlatformNames()) {
   const { heading, versions } = await loadPlatform(platformName);
 
-  test(`${heading}: the document has lines of the example, and the versions that were tried`, () => {
+  test(`${heading}: the document quotes the example, and states the tested versions`, () => {
     const tableRow = embeddingDocuments.split('\n').find((line) => line.startsWith(`| ${heading} |`));
     assert.ok(tableRow?.includes(` ${versions()} `), `The row "${heading}" of what was tried has to say ${versions()}.`);
     const documentSection = embeddingDocuments.split(/^## /m).find((text) => text.startsWith(`${heading}\n`)) ?? '';

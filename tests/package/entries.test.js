@@ -21,7 +21,7 @@ function outputOfNode(moduleSource) {
   return execFileSync(process.execPath, [scriptPath], { encoding: 'utf8' });
 }
 
-test('every script of the package can be imported in Node, and leaves no names behind', () => {
+test('every script of the package can be imported in Node, and defines no global variables', () => {
   const { exports } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
   const scriptNames = Object.keys(exports).filter((entryName) => /\.js$/.test(exports[entryName].default));
   const importNames = scriptNames.map((name) => join('motion-widgets', name));
@@ -45,7 +45,7 @@ test('the elements find the core in Node', () => {
   assert.equal(scriptOutput, '300 true false\n');
 });
 
-test('a server component is told that no browser would get the elements', () => {
+test('an import in a React server component fails with an explanation', () => {
   const scriptPath = join(installedProject.directory, 'server.mjs');
   writeFileSync(scriptPath, "import 'motion-widgets';");
   const { stderr } = spawnSync(process.execPath, ['--conditions=react-server', scriptPath], { encoding: 'utf8' });
@@ -93,7 +93,7 @@ const REACT_SOURCE = `
     }
 `;
 
-test('TypeScript knows the elements, the components of React and the core, however it resolves', () => {
+test('TypeScript finds the types of elements, React components and core under every module resolution', () => {
   writeFileSync(
     join(installedProject.directory, 'typed.ts'),
     `import 'motion-widgets';
@@ -151,7 +151,7 @@ async function openPageWith(scriptNames) {
 const DIST_PATH = '/node_modules/motion-widgets/dist/';
 const scriptTagOf = (/** @type {string} */ name) => `<script type="module" src="${DIST_PATH}${name}"></script>`;
 
-test('custom-elements.json says what the elements have', async () => {
+test('custom-elements.json lists the attributes, properties, events and parts of the elements', async () => {
   const { modules } = JSON.parse(readFileSync(packagedPathOf('dist/custom-elements.json'), 'utf8'));
   /** @type {any[]} */
   const declarations = modules[0].declarations;
@@ -191,7 +191,7 @@ test('custom-elements.json says what the elements have', async () => {
   }
 });
 
-test('external.js loads a widget when its tag is met, with the words that the page gave it before', async () => {
+test('external.js loads a widget when its tag appears, with messages that the page has set before', async () => {
   const page = await installedProject.browser.newPage();
   /** @type {string[]} */
   const requestedPaths = [];
@@ -236,19 +236,19 @@ test('doc/calibration.md describes every option of the command that the package 
   assert.deepEqual([...commandOptions].filter((commandOption) => commandOption !== '--help' && !calibrationDocument.includes(`\`${commandOption}`) && !calibrationDocument.includes(` ${commandOption}`)), []);
 });
 
-test('all that is released has one version', () => {
+test('all released packages have the same version', () => {
   const { version } = JSON.parse(readFileSync(packagedPathOf('package.json'), 'utf8'));
   for (const path of ['Cargo.toml', 'python/pyproject.toml']) {
     assert.equal(readFileSync(join(ROOT, path), 'utf8').match(/^version = "(.+)"$/m)?.[1], version, path);
   }
 });
 
-test('the classic script is ASCII: it means the same, whatever encoding its page has', () => {
+test('the classic script is ASCII, so that the encoding of its page has no effect', () => {
   const scriptBytes = readFileSync(join(ROOT, 'dist/motion-widgets.iife.js'));
   assert.equal(scriptBytes.find((scriptByte) => scriptByte > 127), undefined);
 });
 
-test('two copies of the bundle on a page get along @nightly', async () => {
+test('two copies of the bundle on a page cause no error @nightly', async () => {
   const classicScript = '<script defer src="/iframe/motion-widgets.iife.js"></script>';
   for (const otherScript of [classicScript, scriptTagOf('external.js?copy')]) {
     await openPageWith(scriptTagOf('external.js') + otherScript);
@@ -276,7 +276,7 @@ async function openWithoutModules(scriptTag) {
 
 const LOAD_ADVICE = "Copy motion.wasm from the package's dist/ into the site and give its address to load(), or leave the address out";
 
-test('where the file of a module cannot be had, the embedded one is used, and a warning names its address and the cure', async () => {
+test('if a module’s file cannot be fetched, the embedded module is used, and a warning names the address and the remedy', async () => {
   const { page, warnings } = await openWithoutModules(scriptTagOf('external.js'));
   await page.locator('banana-machine canvas').first().waitFor();
   assert.equal(warnings.length, 1);
@@ -284,7 +284,7 @@ test('where the file of a module cannot be had, the embedded one is used, and a 
   assert.ok(warnings[0].includes(LOAD_ADVICE));
 });
 
-test('an address that has no module is refused with the cure @nightly', async () => {
+test('an address without a module is refused, and the message names the remedy @nightly', async () => {
   const { page } = await openWithoutModules('');
   const loadPromise = page.evaluate(async (importAddress) => (await import(importAddress)).load('/none.wasm'), `${DIST_PATH}external.js`);
   await assert.rejects(loadPromise, (/** @type {Error} */ { message }) => message.includes('/none.wasm answers with text/html') && message.includes(LOAD_ADVICE));

@@ -12,11 +12,11 @@ import { openWithCloud, serveProject } from './support.js';
 
 const installedProject = serveProject(() => writeFileSync(join(installedProject.directory, 'main.js'), "import 'motion-widgets';\n"));
 
-test('a page with a module script', async () => {
+test('the example page with a module script shows its figure', async () => {
   await openWithCloud(installedProject, `${installedProject.address}plain/`);
 });
 
-test('a frame that takes the height of its widget', async () => {
+test('an iframe in the example adapts its height to its figure', async () => {
   const { page } = await openWithCloud(installedProject, `${installedProject.address}iframe/`);
   const readHeights = () =>
     page.evaluate(() => {
@@ -37,7 +37,7 @@ test('a frame that takes the height of its widget', async () => {
   }
 });
 
-test('a frame names what is wrong with its address @nightly', async () => {
+test('an iframe names the error in its address @nightly', async () => {
   const page = await installedProject.browser.newPage();
   for (const [urlQuery, expectedMessage] of [
     ['', /widget is missing; allowed is banana-machine or map-squeeze/],
@@ -50,7 +50,7 @@ test('a frame names what is wrong with its address @nightly', async () => {
   }
 });
 
-test('a classic script, from a server and from a disk', async () => {
+test('the example page with a classic script works from a server and from a disk', async () => {
   const fileAddress = pathToFileURL(join(installedProject.directory, 'classic-script/index.html')).href;
   for (const pageUrl of [`${installedProject.address}classic-script/`, fileAddress]) {
     const { requests } = await openWithCloud(installedProject, pageUrl);
@@ -58,7 +58,7 @@ test('a classic script, from a server and from a disk', async () => {
   }
 });
 
-test('the one file of a classroom, from a disk', async () => {
+test('the single-file page for classrooms works from a disk', async () => {
   const { href } = pathToFileURL(join(ROOT, 'dist/classroom.html'));
   assert.deepEqual((await openWithCloud(installedProject, href)).requests, [href]);
 });
@@ -85,7 +85,7 @@ const BUNDLERS = {
 };
 
 for (const [bundlerName, writeBundle] of Object.entries(BUNDLERS)) {
-  test(`${bundlerName}: a figure is live from the embedded module, and no file is asked for in vain${bundlerName.includes('chunks') ? '' : ' @nightly'}`, async () => {
+  test(`${bundlerName}: a figure runs with the embedded module, and no request fails${bundlerName.includes('chunks') ? '' : ' @nightly'}`, async () => {
     const directoryName = bundlerName.replaceAll(/\W+/g, '-');
     const outputDirectory = join(installedProject.directory, directoryName);
     mkdirSync(outputDirectory);

@@ -30,13 +30,13 @@ test('the package has at most 1.5 MB', () => {
   assert.ok(size <= 1_500_000, `${size} bytes`);
 });
 
-test('publint finds nothing', async () => {
+test('publint reports no problem', async () => {
   const { buffer } = readFileSync(tarballPath);
   const { messages } = await publint({ pack: { tarball: /** @type {ArrayBuffer} */ (buffer) }, strict: true });
   assert.deepEqual(messages.map((publintMessage) => formatMessage(publintMessage, packageManifest)), []);
 });
 
-test('Are the types wrong? finds nothing', () => {
+test('the tool "Are the types wrong?" reports no problem', () => {
   // Only the entry points of scripts have types.
   const entriesWithoutTypes = Object.keys(packageManifest.exports).filter((entryName) => /\.(css|wasm|json)$/.test(entryName));
   const attwPath = join(ROOT, 'node_modules/@arethetypeswrong/cli/dist/index.js');
@@ -47,7 +47,7 @@ test('Are the types wrong? finds nothing', () => {
   assert.match(stdout, /"motion-widgets\/core"/);
 });
 
-test('whoever wrote what the bundles carry is named, with the licence', () => {
+test('the licence file names every library in the bundles, with its licence', () => {
   const licenceText = readFileSync(join(ROOT, 'dist/LICENSE-third-party.txt'), 'utf8');
   const esbuildOutputs = JSON.parse(readFileSync(join(ROOT, 'build/outputs.json'), 'utf8'));
   const bundledPaths = Object.values(esbuildOutputs).flatMap(({ inputs }) => Object.keys(inputs).filter((path) => inputs[path].bytesInOutput > 0));

@@ -58,7 +58,7 @@ before(async () => {
 
 after(() => rmSync(temporaryDirectory, { recursive: true, force: true }));
 
-test('the wheel is imported, and a setting that is a keyword of Python has an underscore', () => {
+test('the installed package can be imported, and settings named like Python keywords have a trailing underscore', () => {
   const pythonLines = [
     'import json, motion_widgets as m',
     'figure = m.OdometryDecomposer(from_={"x": 1, "y": 2, "theta": 0.5})',
@@ -70,7 +70,7 @@ test('the wheel is imported, and a setting that is a keyword of Python has an un
   assert.deepEqual(figureState, { widget: 'odometry-decomposer', from_: { x: 1, y: 2, theta: 0.5 } });
 });
 
-test('no trait hides what every widget has', () => {
+test('no trait hides a member of every ipywidgets widget', () => {
   const pythonLines = [
     'import motion_widgets as m',
     'from motion_widgets._figure import Figure',
@@ -81,7 +81,7 @@ test('no trait hides what every widget has', () => {
   assert.equal(runPython(['-c', pythonLines.join('\n')], searchPath).trim(), '[]');
 });
 
-test('a value out of its range, and parts that are wrong or missing, are refused with what is allowed', () => {
+test('values out of range and groups with wrong or missing fields are refused, and the message states the allowed values', () => {
   const refusedCalls = [
     ['MapSqueeze(omega=2e6)', 'omega is 2000000.0; allowed is a number from -1000000 to 1000000'],
     ['MapSqueeze(steps=0)', 'steps is 0; allowed is a whole number from 1 to 1000'],
@@ -95,7 +95,7 @@ test('a value out of its range, and parts that are wrong or missing, are refused
   assert.deepEqual(runPython(['-c', pythonLines.join('\n')], searchPath).trim().split('\n'), refusedCalls.map(([, expectedMessage]) => expectedMessage));
 });
 
-test('what a figure reports is applied and echoed if the figure sent it and Python has not changed it since', () => {
+test('a setting reported by the figure is applied, unless Python has changed the setting since', () => {
   const pythonLines = [
     'import comm, json, motion_widgets as m',
     'from comm.base_comm import BaseComm',
@@ -111,11 +111,11 @@ test('what a figure reports is applied and echoed if the figure sent it and Pyth
   assert.deepEqual(JSON.parse(runPython(['-c', pythonLines.join('\n')], searchPath)), ['hard', 0.2, 1.4, [['_shown', 'dt']]]);
 });
 
-test('settings that were not given are None', () => {
+test('settings that the constructor did not receive are None', () => {
   assert.equal(runPython(['-c', 'import motion_widgets as m; f = m.MapSqueeze(); print({getattr(f, name) for name in m.MapSqueeze._settings})'], searchPath).trim(), '{None}');
 });
 
-test('names of generated code are those that its language allows', () => {
+test('names in generated Python and JavaScript code are valid', () => {
   assert.deepEqual(['reverseAware', 'lambda', 'log'].map(pythonNameOf), ['reverse_aware', 'lambda_', 'log_']);
   assert.throws(() => pythonNameOf('2d'), /2d cannot be the name of a trait/);
   assert.equal(toPascalCase('from'), 'From');

@@ -112,7 +112,7 @@ const readProperty = (name) => page.evaluate((propertyName) => /** @type {any} *
 /** Returns the events that the page received. @returns {Promise<[name: string, onFigure: boolean, message?: string][]>} */
 const readReceivedEvents = () => page.evaluate(() => /** @type {any} */ (globalThis).receivedEvents);
 
-test('a server sends what attributes say', () => {
+test('server rendering writes props as attributes', () => {
   const serverHtml = renderServerHtml({ omega: '0.8', overlays: ['command', 'ellipse'], reverseAware: true, headingLevel: '2', share: true, isolate: null });
   const [openingTag] = serverHtml.match(/<banana-machine[^>]*>/) ?? [];
   const expectedAttributes = { reverseAware: '', omega: '0.8', samples: '2000', overlays: 'command ellipse', share: '', 'heading-level': '2', class: 'wide' };
@@ -122,7 +122,7 @@ test('a server sends what attributes say', () => {
   assert.match(serverHtml, /<span slot="title">Figure 1<\/span>/);
 });
 
-test('what the server has sent is taken over, before its elements are there', async () => {
+test('React hydrates the server’s HTML before the elements are defined', async () => {
   await openPage('sent.html');
   await page.evaluate(() => /** @type {any} */ (globalThis).hydrate({ omega: 0.8 }));
   await untilComplete();
@@ -131,7 +131,7 @@ test('what the server has sent is taken over, before its elements are there', as
   assert.deepEqual((await readReceivedEvents())[0], ['onLoad', true]);
 });
 
-test('renderings keep the user’s changes, and properties and events do not trigger each other endlessly', async () => {
+test('a new rendering keeps the user’s changes, and properties and events do not cause an endless loop', async () => {
   await openPage('index.html');
   await page.evaluate(() => /** @type {any} */ (globalThis).show({}));
   await untilComplete();
@@ -150,7 +150,7 @@ test('renderings keep the user’s changes, and properties and events do not tri
   assert.equal(renderingCount, 0);
 });
 
-test('a refused prop calls onError, and a removed one restores the opening value @nightly', async () => {
+test('a refused prop calls onError, and removing a prop restores the opening value @nightly', async () => {
   await openPage('index.html');
   await page.evaluate(() => /** @type {any} */ (globalThis).show({ omega: 0.8, marked: 7, conditioned: false }));
   await untilComplete();

@@ -12,7 +12,7 @@ const builtSite = serveDirectory(() => {
   return join(ROOT, 'build/site');
 }, '/book/');
 
-test('pages fit a phone, load without complaints, and start their figures', async () => {
+test('pages of the site fit a phone, load without errors, and start their figures', async () => {
   const page = await builtSite.openPage({ viewport: { width: 375, height: 800 } });
   const pagePaths = filesOf('build/site').map((path) => path.slice('build/site/'.length)).filter((path) => /^(?!rust|classroom|embed\.).*html$/.test(path));
   let figureCount = 0;

@@ -59,7 +59,7 @@ const LIMITS_KB = {
 /** Widget whose module also contains all of motion::calibrate. */
 const CALIBRATOR_TAG = 'alpha-calibrator';
 
-test('what a page loads does not grow', () => {
+test('the files that a page loads stay within their size limits', () => {
   const widgetTags = Object.keys(settings);
   for (const tag of widgetTags) {
     const [pageLimit, moduleLimit] = tag === CALIBRATOR_TAG ? [LIMITS_KB.pageOfCalibrator, LIMITS_KB.moduleOfCalibrator] : [LIMITS_KB.page, LIMITS_KB.moduleOfWidget];
@@ -72,7 +72,7 @@ test('what a page loads does not grow', () => {
   assertSize('classic script', ['dist/motion-widgets.iife.js'], 1000 * LIMITS_KB.classicScript);
 });
 
-test('doc/embedding.md says these limits', () => {
+test('doc/embedding.md states the size limits', () => {
   const embeddingDocument = readFileSync(new URL('../../doc/embedding.md', import.meta.url), 'utf8');
   const statedLimits = embeddingDocument.slice(embeddingDocument.indexOf('## Sizes')).match(/(?<=^\|.*)\d+(?= kB)/gm);
   assert.deepEqual(statedLimits?.map(Number), Object.values(LIMITS_KB));

@@ -3,10 +3,10 @@
 
     pip install mpmath numpy && python3 generate.py
 
-Nothing here shares a formula with src/: Jacobians come from the series of the adjoint action, moments from
-quadrature at 40 digits, quantiles from the inverse error function. A column pair `name`, `name_lo` is one number, split into the
-nearest double and what that double leaves over, so that a test can measure errors far below one unit in the last
-place. The seed is fixed: running the script again gives the same files.
+This script shares no formula with src/: Jacobians come from the series of the adjoint action, moments from
+quadrature at 40 digits, quantiles from the inverse error function. The columns `name` and `name_lo` are one number: the
+nearest double and the remainder. Tests can thus measure errors far below one unit in the last place. The seed is fixed,
+so that the script always writes the same files.
 """
 
 import pathlib
@@ -22,7 +22,7 @@ table_rng = random.Random(2005)
 
 
 def high_precision_columns(*values, rest_format="%.3e"):
-    """High-precision numbers as two columns each, the nearest double and the rest."""
+    """Splits each high-precision number into two columns: the nearest double and the remainder."""
     return [cell for value in values for cell in (float(value), rest_format % float(value - mpf(float(value))))]
 
 
@@ -32,7 +32,7 @@ def write_table(name, header, rows):
     print(f"{name}: {len(rows)} rows, {len(text)} bytes")
 
 
-# ---------------------------------------------------------------------------------------------------- the group
+# ---------------------------------------------------------------------------------------------------- the group SE(2)
 
 def signed_log_uniform(low, high):
     exponent = table_rng.uniform(float(log(low, 10)), float(log(high, 10)))
@@ -40,7 +40,7 @@ def signed_log_uniform(low, high):
 
 
 def twists():
-    """Rotations log-uniform over 1e-12 .. π in equal strata, translations over seven decades, and the corners."""
+    """Twists: rotations log-uniform over 1e-12 .. π in equal strata, translations over seven decades, and extreme cases."""
     decades = float(log(pi, 10)) + 12.0
     count = 110
     for i in range(count):
@@ -54,7 +54,7 @@ def twists():
 
 
 def sinc_and_versine_ratio(omega):
-    """sin(ω)/ω and (1 − cos ω)/ω."""
+    """Returns sin(ω)/ω and (1 − cos ω)/ω."""
     if omega == 0:
         return mpf(1), mpf(0)
     with mp.workdps(740 if abs(omega) < 1e-100 else 100):
@@ -62,13 +62,13 @@ def sinc_and_versine_ratio(omega):
 
 
 def small_adjoint(xi):
-    """ad(ξ), for which ad(ξ) η is the Lie bracket [ξ, η]; twist order (v_x, v_y, ω)."""
+    """Matrix ad(ξ), for which ad(ξ) η is the Lie bracket [ξ, η]. A twist is (v_x, v_y, ω)."""
     a, b, w = xi
     return matrix([[0, -w, b], [w, 0, -a], [0, 0, 0]])
 
 
 def right_jacobian(xi):
-    """Σ (−ad ξ)^k / (k+1)!, Solà et al. (arXiv:1812.01537) eq. 41 as a series."""
+    """Right Jacobian Σ (−ad ξ)^k / (k+1)! of SE(2), eq. 41 of Solà et al. (arXiv:1812.01537) as a series."""
     ad = -small_adjoint(xi)
     term, total = mp.eye(3), mp.eye(3)
     for k in range(1, 90):
@@ -93,7 +93,7 @@ def group_tables():
         jacobian_entries = [m[e] for m in (jacobian, inverse_jacobian) for e in ((0, 0), (0, 1), (0, 2), (1, 2))]
         rows.append([*twist_floats, *high_precision_columns(x, y, *jacobian_entries)])
 
-        # The logarithm of the *rounded* pose, whose exact value is another number than ξ.
+        # The logarithm of the rounded pose differs from the twist ξ of the exact pose.
         px, py = mpf(float(x)), mpf(float(y))
         det = s * s + c * c
         log_rows.append([float(px), float(py), twist_floats[2], *high_precision_columns((s * px + c * py) / det, (s * py - c * px) / det)])
@@ -101,7 +101,7 @@ def group_tables():
     write_table("log.csv", ["x", "y", "w", "a", "a_lo", "b", "b_lo"], log_rows)
 
 
-# ----------------------------------------------------------------------------------------------------- the noise
+# ------------------------------------------------------------------------------------ the quantiles of the noise
 
 def quantile_table():
     probabilities = [10.0**-k for k in (300, 20, 16, 12, 9, 6, 4, 3, 2)]
@@ -121,7 +121,7 @@ def quantile_table():
 # --------------------------------------------------------------------------------------------------- the moments
 
 def expectation(kind, variance, f, singularity=mpf("inf")):
-    """E f(Z) for a zero-mean Z of this kind and variance."""
+    """E f(Z) for zero-mean noise Z with a distribution (`kind`) and a variance."""
     if variance == 0:
         return f(mpf(0))
     b = sqrt(variance)
@@ -142,9 +142,9 @@ def skewness(m1, m2, m3):
 
 
 def motion_moments(mean_length, variance, x_of, y_of, kind, angle_variance, heading, heading_variance):
-    """Moments of (x, y) = r (X(φ), Y(φ)) and of the heading, with r = `mean_length` + noise and φ noisy, independently.
+    """Moments of (x, y) = r (X(φ), Y(φ)) and of the heading. The length r = `mean_length` + noise and the angle φ are independent.
 
-    The heading is `heading` + φ + further symmetric noise, of variance `heading_variance` in all, and is not wrapped.
+    The heading is `heading` + φ + further symmetric noise, and is not wrapped. Its total variance is `heading_variance`.
     Third central moments of r vanish for both kinds of noise.
     """
     r1, r2, r3 = mean_length, mean_length**2 + variance, mean_length**3 + 3 * mean_length * variance
@@ -199,7 +199,7 @@ def moments_table():
 
 
 def exponential_skew(mean, cov):
-    """Cross-track skew of exp(ξ), ξ ~ N(mean, cov): given ω the position is Gaussian, and ω is integrated out."""
+    """Cross-track skew of exp(ξ), ξ ~ N(mean, cov). Given ω the position is Gaussian; quadrature integrates over ω."""
     m, s = [mpf(v) for v in mean], [[mpf(v) for v in row] for row in cov]
     omega_variance = s[2][2]
     regression_gain = [s[0][2] / omega_variance, s[1][2] / omega_variance] if omega_variance else [0, 0]
@@ -208,7 +208,7 @@ def exponential_skew(mean, cov):
     def raw_moment(order):
         def conditional_moment(t):
             sn, cs = sinc_and_versine_ratio(m[2] + t)
-            # d = −x sin h + y cos h as a row acting on (ξ_x, ξ_y)
+            # Row vector p for which the cross-track position −x sin h + y cos h is p · (ξ_x, ξ_y).
             p = [-sn * sin(m[2]) + cs * cos(m[2]), cs * sin(m[2]) + sn * cos(m[2])]
             mu = sum(p[i] * (m[i] + regression_gain[i] * t) for i in (0, 1))
             var = sum(p[i] * p[j] * residual_cov[i][j] for i in (0, 1) for j in (0, 1))
@@ -237,7 +237,7 @@ def exponential_skew_table():
 # ----------------------------------------------------------------------------------------------- likelihood gains
 
 def quadrature_rule(kind, end=6.6, step=0.2, parts=64):
-    """Nodes and weights for E f(Z), Z of unit variance: trapezoidal for the normal noise, Simpson's rule for the triangle."""
+    """Nodes and weights for E f(Z), Z of unit variance: trapezoidal rule for normal noise, Simpson's rule for triangular noise."""
     if kind == "normal":
         nodes = step * np.arange(-round(end / step), round(end / step) + 1)
         weights = np.exp(-0.5 * nodes**2)
@@ -249,7 +249,7 @@ def quadrature_rule(kind, end=6.6, step=0.2, parts=64):
 
 
 def arc_end(s, turn):
-    """The end of an arc as a complex number."""
+    """End of an arc with length s and a turn, as a complex number."""
     with np.errstate(invalid="ignore", divide="ignore"):
         return s * np.where(abs(turn) > 1e-9, (np.exp(1j * turn) - 1) / (1j * turn), 1 + 0.5j * turn)
 
@@ -265,14 +265,15 @@ def exp_pose(x, y, turn):
 
 
 def jacobian(f, point, step=1e-5):
-    """By central differences: the axes after those of the values are the components of f, and its arguments."""
+    """Jacobian of f by central differences. The last two axes are the components of f and the arguments of f."""
     argument_steps = step * np.eye(len(point)).reshape(len(point), len(point), *[1] * np.ndim(point[0]))
     return np.stack([(f(*(point + h)) - f(*(point - h))).T / (2 * step) for h in argument_steps], axis=-1)
 
 
 def exponential_outline_area(mean, cov, chords=128):
-    """The area inside the widget's outline of N(mean, cov) in exponential coordinates: that of the great circle of the 2σ
-    ellipsoid across the mean direction that leaves the place where it is. Loops count positively."""
+    """Area inside the outline that the widget draws of N(mean, cov) in exponential coordinates. The outline is the image of a
+    great circle of the 2σ ellipsoid. The circle is perpendicular to the mean direction in which the position does not change.
+    Loops of the outline count positively."""
     cov_root, noisy_axes = np.zeros((3, 3)), np.ix_(*[np.diag(cov) > 1e-20] * 2)
     cov_root[noisy_axes] = np.linalg.cholesky(cov[noisy_axes])
     twist_at = lambda u: mean + 2 * cov_root @ u
@@ -293,15 +294,16 @@ def exponential_outline_area(mean, cov, chords=128):
 
 
 def likelihood_gains(kind, alphas, v, omega, dt):
-    """Gain of pose and floor, and the ratio of areas, by their definitions: moments and mean logarithms by sums over all
-    combinations of noises, Jacobians by differences, which leave about nine digits."""
+    """Likelihood gains of pose and position, and the ratio of the outlines' areas, by their definitions. Moments and mean logarithms are
+    sums over all combinations of noises. Jacobians are differences with about nine correct digits."""
     sv, sw, sg = (dt * np.sqrt(alphas[i] * v * v + alphas[i + 1] * omega * omega) for i in (0, 2, 4))
-    # Three points have the first two moments of the length, and only those count.
+    # Three points with weights suffice for the length, because only its first two moments matter.
     s, ws = v * dt + sv * np.sqrt(3) * np.array([-1, 0, 1]), np.array([1, 4, 1]) / 6
     weighted_moments = lambda weights, *values: (np.average(values, -1, weights), np.cov(values, aweights=weights, ddof=0))
     log_det = lambda matrices: np.log(abs(np.linalg.det(matrices)))
 
-    # The arc to a place is the one of the nearest turn, which jumps half a circle off the command: finer steps.
+    # A position is assigned to the arc with the turn nearest to the command. This turn jumps half a circle off the command, so that the
+    # quadrature needs finer steps.
     z, wz = quadrature_rule(kind, 6.0, 0.001, 1000)
     turn, nearest_turn = omega * dt + sw * z, omega * dt + np.remainder(sw * z + np.pi, 2 * np.pi) - np.pi
     arc_length_ratio = np.divide(nearest_turn, turn, out=np.ones_like(turn), where=abs(turn - nearest_turn) > 1e-9)
@@ -322,7 +324,7 @@ def likelihood_gains(kind, alphas, v, omega, dt):
     mean_log_jacobian = np.average(log_det(jacobian(exp_pose, np.array([0.3 + 0 * theta, 0.2 + 0 * theta, theta]))), weights=weight)
 
     pose_gain = (log_det(cartesian_cov) - log_det(twist_cov)) / 2 - mean_log_jacobian if sg else np.inf
-    # E ln|length|
+    # Mean logarithm of the length.
     with mp.workdps(20):
         mean_log_length = float(expectation(kind, mpf(sv) ** 2, lambda z: log(abs(v * dt + z)), -mpf(v * dt)))
     floor_gain = (log_det(position_cov) - log_det(arc_cov)) / 2 - mean_log_length - mean_log_arc_jacobian
@@ -333,7 +335,7 @@ def likelihood_gains(kind, alphas, v, omega, dt):
 
 def gain_table():
     straight_alphas = (0.002, 0.002, 0.1, 0.1, 0.002, 0.002)
-    # Lengths that are known to a fortieth: far from 0, their mean logarithm is that of a series.
+    # With these α's the length has a standard deviation of 1/40. Far from 0, the code computes its mean logarithm by a series.
     precise_length_alphas = (0.0005, 0.0005, 0.05, 0.09, 0.01, 0.01)
     commands = [(1.0, 0.5, 1.0), (1.0, 1.2, 1.4), (1.0, 0.0, 2.0), (0.06, 1.5, 1.0), (-0.7, -1.1, 1.3)]
     alphas_and_commands = [(OPENING_ALPHAS, commands), (straight_alphas, commands[2:3]), (CANONICAL_ALPHAS, commands[:1]), (precise_length_alphas, commands[:1])]
@@ -346,10 +348,10 @@ def gain_table():
 # --------------------------------------------------------------------------------------------------- compounding
 
 def fourth_order_terms(p, q):
-    """Fourth-order part of Cov[log(exp(ξ) exp(η))], ξ ~ N(0, P), η ~ N(0, Q) independent.
+    """Fourth-order terms of Cov[log(exp(ξ) exp(η))] for independent ξ ~ N(0, P) and η ~ N(0, Q).
 
-    From log(exp ξ exp η) = ξ + η + [ξ,η]/2 + ([ξ,[ξ,η]] + [η,[η,ξ]])/12 + …, keeping the expectations that hold two
-    ξ and two η. Each expectation is spelled out over the basis instead of in matrix identities.
+    The terms follow from log(exp ξ exp η) = ξ + η + [ξ,η]/2 + ([ξ,[ξ,η]] + [η,[η,ξ]])/12 + … They are the expectations with two
+    factors ξ and two factors η. Each expectation is a sum over the basis, without matrix identities.
     """
     basis_twists = [matrix(e) for e in ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
     ad = [small_adjoint(e) for e in basis_twists]
@@ -359,7 +361,7 @@ def fourth_order_terms(p, q):
         if weight == 0:
             continue
         fourth_order_cov += weight / 4 * (ad[i] * basis_twists[k]) * (ad[j] * basis_twists[l]).T
-        # [ξ,[ξ,η]] ηᵀ and [η,[η,ξ]] ξᵀ with their transposes
+        # Terms of [ξ,[ξ,η]] ηᵀ and of [η,[η,ξ]] ξᵀ. Their transposes are added below.
         t = ad[i] * (ad[j] * basis_twists[k]) * basis_twists[l].T + ad[k] * (ad[l] * basis_twists[i]) * basis_twists[j].T
         fourth_order_cov += weight / 12 * (t + t.T)
     return fourth_order_cov
@@ -386,10 +388,10 @@ def compounding_table():
     write_table("compounding.csv", ["order", "caa", "cab", "caw", "cbb", "cbw", "cww"], rows)
 
 
-# ------------------------------------------------------------------------------------------------ twice the digits
+# ------------------------------------------------------------------------------------------ double-double arithmetic
 
 def double_double_table():
-    """Sine, cosine and sinc of doubles, each as two doubles: the nearest, and that of what it leaves."""
+    """Sine, cosine and sinc of doubles. Each result is two doubles: the nearest double and the remainder."""
     angle_rng = random.Random(1971)
     angles = [0.1, 0.5, 1.0, 1.5707963267948966, 3.141592653589793, 6.283185307179586, 6.0, 2.0**-30, 1e-300]
     angles += [10.0 ** angle_rng.uniform(-14, 0.79) for _ in range(60)]

@@ -12,7 +12,7 @@ RealNumber = Union[float, int]
 
 
 class Number(t.Float[Optional[float], Optional[RealNumber]]):
-    """Number in a range, also one of NumPy."""
+    """Number in a range. Numbers of NumPy are accepted too."""
 
     def __init__(self, min: float, max: float) -> None:
         super().__init__(None, allow_none=True, min=min, max=max)  # type: ignore[misc]
@@ -29,7 +29,7 @@ class Number(t.Float[Optional[float], Optional[RealNumber]]):
 
 
 class Whole(t.Int[Optional[int], Optional[RealNumber]]):
-    """Whole number in a range; 1e6 is a whole number."""
+    """Whole number in a range. The float 1e6 is accepted too."""
 
     def __init__(self, min: int, max: Optional[int] = None) -> None:
         super().__init__(None, allow_none=True, min=min, max=max)  # type: ignore[misc]
@@ -43,7 +43,7 @@ class Whole(t.Int[Optional[int], Optional[RealNumber]]):
 
 
 class Word(t.Enum[Optional[str]]):
-    """One of some words. Words of digits may be given as integers."""
+    """One of several words. A word that consists of digits may be given as an integer."""
 
     def __init__(self, *words: str) -> None:
         super().__init__(words, None, allow_none=True)
@@ -59,7 +59,7 @@ class Word(t.Enum[Optional[str]]):
 
 
 class Sequence(t.List[Any]):
-    """List of numbers or words, also from an array of NumPy."""
+    """List of numbers or words. Arrays of NumPy are accepted too."""
 
     _cast_types = (Iterable,)
 
@@ -71,7 +71,7 @@ class Sequence(t.List[Any]):
 
 
 class Group(t.Dict):  # type: ignore[type-arg]
-    """Numbers by name, all of which a figure needs."""
+    """Dict of named numbers. All of the names are required."""
 
     def __init__(self, **parts: Number) -> None:
         super().__init__(default_value=None, allow_none=True)

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Writes one drive in all formats of recordings, as their own libraries write them, for tests/node/log-formats.test.ts.
+"""Writes one drive in all formats of recordings, each by the library of the format, for tests/node/log-formats.test.ts.
 
     pip install rosbags mcap mcap-ros1-support mcap-ros2-support && python3 generate.py
 
-Numbers are multiples of 2⁻¹², so that the files are small. They are compressed by gzip, and kept as base64 in one file. Running the script again gives the same rows.
+Numbers are multiples of 2⁻¹², so that the files are small. recordings.json contains the files, compressed by gzip, as base64. The script
+always writes the same rows.
 """
 
 import base64
@@ -35,7 +36,7 @@ def round_to_4096ths(value):
 
 
 def generate_drive():
-    """Rows of odometry and reference: stamp in ns, x, y, qz, qw, v, omega."""
+    """Generates pairs of rows, one of the odometry and one of the reference: stamp in ns, x, y, qz, qw, v, omega."""
     x = y = theta = 0.0
     for i in range(ROW_COUNT):
         v, omega = 0.5 + 0.2 * math.sin(i / 9), 0.8 * math.sin(i / 23)
@@ -52,7 +53,7 @@ DRIVE_ROWS = list(generate_drive())
 
 
 class Messages:
-    """Messages of a ROS distribution about the rows."""
+    """Messages of the drive in the types of a ROS distribution."""
 
     def __init__(self, store):
         self.store = store
@@ -83,7 +84,7 @@ class Messages:
         return self('geometry_msgs/msg/TransformStamped', self.header(i, row[0], parent), child, transform)
 
     def logs(self):
-        """Odometry and reference: topic, type, message, time of recording."""
+        """Generates messages of odometry and reference: topic, type, message, time of recording."""
         covariance = np.zeros(36)
         for i, (odometry, reference) in enumerate(DRIVE_ROWS):
             pose = self('geometry_msgs/msg/PoseWithCovariance', self.pose(odometry), covariance)
@@ -94,7 +95,7 @@ class Messages:
             yield '/truth', 'geometry_msgs/msg/PoseStamped', message, reference[0] + 3_000_000
 
     def others(self):
-        """The odometry in messages of all other types that are read; a static transform comes last."""
+        """Generates the odometry in messages of all other types that the figure reads. The last message is a static transform."""
         covariance = np.zeros(36)
         for i, (row, _) in enumerate(DRIVE_ROWS[:40]):
             stamp = row[0]
@@ -157,7 +158,7 @@ def mcap(path, messages, compression, **options):
 
 
 def dict_of(message):
-    """A message as mcap-ros1-support and mcap-ros2-support take it."""
+    """Returns a message as the nested dicts that mcap-ros2-support expects."""
     if hasattr(message, '__dataclass_fields__'):
         names = [name for name in message.__dataclass_fields__ if not name.startswith('__')]
         return {name: dict_of(getattr(message, name)) for name in names}
@@ -175,7 +176,7 @@ def mcap_ros2(path, messages):
 
 
 def mcap_ros1(path, messages):
-    """Messages as genpy has them: of a class with the definition, and with a method that serializes them."""
+    """Writes objects like those of genpy: their class contains the definition of the type, and they can serialize themselves."""
 
     def as_genpy(kind, message):
         text, md5 = ROS1.store.generate_msgdef(kind)
@@ -191,7 +192,7 @@ def mcap_ros1(path, messages):
 
 
 def small_bag(path):
-    """Messages of the reference, without the padding of the header, as mutated inputs are cut at 4096 bytes."""
+    """Writes some messages of the reference, and removes the padding of the header. Fuzzing limits its inputs to 4096 bytes."""
     bag(path, [('/odom', *message[1:]) for message in list(ROS1.logs())[1:8:2]])
     data = bytearray(path.read_bytes())
     start = 13 + 4 + int.from_bytes(data[13:17], 'little')
@@ -204,7 +205,7 @@ def small_bag(path):
 
 
 def small_database(path):
-    """Messages of the reference in pages of 512 bytes, and a topic without messages."""
+    """Writes some messages of the reference in pages of 512 bytes, and a topic without messages."""
     database = sqlite3.connect(path)
     database.execute('PRAGMA page_size = 512')
     database.execute('CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, serialization_format TEXT)')
@@ -225,7 +226,7 @@ def table(path, column):
 
 
 def packed(path):
-    """Returns the name of a file, after that of its folder if it is in one, and its compressed contents."""
+    """Returns the name of a file and its compressed contents. The name begins with the name of the folder, if there is one."""
     name = path.name if path.parent == WORK else f'{path.parent.name}-{path.name}'
     return name, base64.b64encode(gzip.compress(path.read_bytes(), 9, mtime=0)).decode()
 

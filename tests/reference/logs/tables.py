@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Writes tables of one drive with pandas, as people save them, into tables.json.
+"""Writes tables of one drive into tables.json, in the forms in which people save tables with pandas.
 
     pip install pandas && python3 tables.py
 
-The drive is that of tests/node/log-tables.test.js: a circle of 1.25 m, 0.5 rad/s, 16 rows a second.
+The drive of tests/node/log-tables.test.js is a circle with a radius of 1.25 m at 0.5 rad/s, with 16 rows a second.
 """
 
 import json
@@ -22,7 +22,7 @@ for i in range(24):
 drive = pd.DataFrame(rows)
 dates = pd.to_datetime(START * 10**9 + (drive["t"] * 1e9).astype("int64"))
 
-# Two logs whose rows alternate, merged by their times: cells of the other log are empty.
+# Second log for a merged table, in which the rows of both logs alternate. In each row the cells of one log are empty.
 other = drive.assign(t=drive["t"] + 0.03, x=drive["x"] + 4)
 odometry = drive.set_index("t").add_prefix("odom_")
 

@@ -4,16 +4,16 @@
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { ROOT, UserError, filesOf, isProgram, runOnce, printStep, run } from './process.mjs';
+import { ROOT, UserError, filesOf, isProgram, memoize, printStep, run } from './process.mjs';
 import { CACHE_DIRECTORY, readManifestValue, ensureNativeRust } from './toolchain.mjs';
 
 const BINDGEN_CRATE = 'scripts/bind';
 
 /** Returns the path of the program that generates the glue of the core. The first call builds it. */
-export const ensureBindProgram = runOnce(() => compileProgram('bind', []));
+export const ensureBindProgram = memoize(() => compileProgram('bind', []));
 
 /** Returns the path of the program that runs WebAssembly tests in a browser. The first call builds it. */
-export const ensureTestRunner = runOnce(async () => {
+export const ensureTestRunner = memoize(async () => {
   // Most crates of the test runner are compiled for the glue generator already.
   await ensureBindProgram();
   return compileProgram('test-runner', ['--features', 'test-runner']);

@@ -2,13 +2,13 @@
 
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { UserError, absolutePath, findProgram, mustRun, printStep, run } from './process.mjs';
+import { UserError, absolutePath, findProgram, runOrThrow, printStep, run } from './process.mjs';
 import { CACHE_DIRECTORY, installByApt } from './toolchain.mjs';
 
 /** Names of the programs of the full Chromium. Only the full Chromium has a back-forward cache. */
-export const FULL_CHROME_NAMES = ['chromium', 'google-chrome', 'google-chrome-stable', 'chrome', 'chromium-browser'];
+export const FULL_CHROME_PROGRAM_NAMES = ['chromium', 'google-chrome', 'google-chrome-stable', 'chrome', 'chromium-browser'];
 /** Names of all programs of Chromium. The headless program is preferred, because it takes a third less processor time. */
-const CHROME_NAMES = ['chromium-headless-shell', ...FULL_CHROME_NAMES];
+const CHROME_PROGRAM_NAMES = ['chromium-headless-shell', ...FULL_CHROME_PROGRAM_NAMES];
 const MACOS_CHROME_DIRECTORY = '/Applications/Google Chrome.app/Contents/MacOS';
 const MISSING_BROWSER_MESSAGE =
   'Chromium and a chromedriver of the same version are missing: install both ' +
@@ -42,19 +42,19 @@ export async function ensureBrowser() {
 
 async function ensureChrome() {
   const { CHROME, CHROMEDRIVER } = process.env;
-  const existingBrowser = await checkPair(CHROME ?? findChrome(), CHROMEDRIVER ?? findProgram('chromedriver'));
+  const existingBrowser = await pairBrowserWithDriver(CHROME ?? findChrome(), CHROMEDRIVER ?? findProgram('chromedriver'));
   if (existingBrowser !== undefined) return existingBrowser;
   if (CHROME !== undefined || CHROMEDRIVER !== undefined) throw new UserError(MISSING_BROWSER_MESSAGE);
   // On Ubuntu, packages with these names only install snaps. This script cannot drive the Chromium in a snap.
   const isDebian = existsSync('/etc/os-release') && /^ID=debian$/m.test(readFileSync('/etc/os-release', 'utf8'));
   if (isDebian) await installByApt(['chromium-headless-shell', 'chromium-driver'], MISSING_BROWSER_MESSAGE);
-  const installedBrowser = isDebian ? await checkPair(findChrome(), findProgram('chromedriver')) : await installChromeForTesting();
+  const installedBrowser = isDebian ? await pairBrowserWithDriver(findChrome(), findProgram('chromedriver')) : await installChromeForTesting();
   if (installedBrowser === undefined) throw new UserError(MISSING_BROWSER_MESSAGE);
   return installedBrowser;
 }
 
 /** Returns the path of the first Chrome that is found. @param {string[]} [programNames] of programs, the preferred one first */
-export function findChrome(programNames = CHROME_NAMES) {
+export function findChrome(programNames = CHROME_PROGRAM_NAMES) {
   return (
     programNames.map((programName) => findProgram(programName)).find((programPath) => programPath !== undefined) ??
     findProgram('Google Chrome', [MACOS_CHROME_DIRECTORY])
@@ -68,7 +68,7 @@ export function findChrome(programNames = CHROME_NAMES) {
  * @param {string | undefined} driverPath
  * @returns {Promise<Browser | undefined>} undefined unless both run and are of one major version
  */
-async function checkPair(chromePath, driverPath) {
+async function pairBrowserWithDriver(chromePath, driverPath) {
   if (chromePath === undefined || driverPath === undefined) return undefined;
   const [chromeVersion, driverVersion] = await Promise.all([readVersion(chromePath), readVersion(driverPath)]);
   if (chromeVersion === undefined || chromeVersion.split('.')[0] !== driverVersion?.split('.')[0]) return undefined;
@@ -87,7 +87,7 @@ async function installChromeForTesting() {
   const pathsFile = join(browsersDirectory, 'paths.json');
   if (existsSync(pathsFile)) {
     const { chrome, driver } = JSON.parse(readFileSync(pathsFile, 'utf8'));
-    const existingBrowser = await checkPair(chrome, driver);
+    const existingBrowser = await pairBrowserWithDriver(chrome, driver);
     if (existingBrowser !== undefined) return existingBrowser;
   }
   printStep('Downloading Chrome for Testing');
@@ -96,11 +96,11 @@ async function installChromeForTesting() {
   if ((await readVersion(chrome)) === undefined) {
     // A downloaded Chrome does not include the system libraries with which it is linked.
     const installLibraries = [absolutePath('node_modules/@playwright/test/cli.js'), 'install-deps', 'chromium'];
-    await mustRun('Libraries that Chrome needs are missing: run `npx playwright install-deps chromium` and start again.', process.execPath, installLibraries, { seconds: 600 });
+    await runOrThrow('Libraries that Chrome needs are missing: run `npx playwright install-deps chromium` and start again.', process.execPath, installLibraries, { seconds: 600 });
   }
   const driver = await downloadProgram(browsersDirectory, `chromedriver@${await readVersion(chrome)}`);
   writeFileSync(pathsFile, JSON.stringify({ chrome, driver }));
-  return checkPair(chrome, driver);
+  return pairBrowserWithDriver(chrome, driver);
 }
 
 /** Downloads a program, and returns its path. @param {string} installDirectory @param {string} programAndVersion @returns {Promise<string | undefined>} */

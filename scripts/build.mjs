@@ -8,7 +8,7 @@ import { join } from 'node:path';
 import { ensureBindProgram } from './bindgen.mjs';
 import { EXAMPLE_LOGS, writeExampleLog } from './example-log.mjs';
 import { listCrates } from './licences.mjs';
-import { absolutePath, filesOf, mustRun, printStep, run, runAsScript, settleAll } from './process.mjs';
+import { absolutePath, filesOf, runOrThrow, printStep, run, runAsScript, settleAll } from './process.mjs';
 import { ensureNativeRust, ensurePackages, ensureRustForWasm } from './toolchain.mjs';
 
 const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'python', 'react', 'tables', 'types'].map((scriptName) => `scripts/${scriptName}.mjs`);
@@ -38,8 +38,8 @@ const CORE_SOURCES = [
 export async function build({ local = false } = {}) {
   const coreHash = hashOfFiles(CORE_SOURCES);
   const coreProducts = ['build/motion.js', 'build/motion.wasm', 'build/core.d.ts', 'build/crates.json', 'build/settings.js'];
-  const isPublishedCurrent = isCurrent('build/core.sha256', coreHash, coreProducts);
-  const compiledHash = local && !isPublishedCurrent ? `${coreHash} local` : coreHash;
+  const isPublishedCoreUpToDate = isUpToDate('build/core.sha256', coreHash, coreProducts);
+  const compiledHash = local && !isPublishedCoreUpToDate ? `${coreHash} local` : coreHash;
   // Packages are installed before anything is compiled. Without a network the installation fails at once, whereas compiling takes minutes.
   await ensurePackages();
   await buildIfStale('build/core.sha256', compiledHash, coreProducts, () => buildCores(['motion'], local));
@@ -47,7 +47,7 @@ export async function build({ local = false } = {}) {
   const { WIDGET_TAGS, bundle } = await import('./bundle.mjs');
   const figureProducts = WIDGET_TAGS.flatMap((widgetTag) => [`build/${widgetTag}.js`, `build/${widgetTag}.wasm`]);
   if (!local) await buildIfStale('build/figures.sha256', coreHash, figureProducts, () => buildCores(WIDGET_TAGS, false));
-  const tagsWithCore = compiledHash === coreHash && isCurrent('build/figures.sha256', coreHash, figureProducts) ? WIDGET_TAGS : [];
+  const tagsWithCore = compiledHash === coreHash && isUpToDate('build/figures.sha256', coreHash, figureProducts) ? WIDGET_TAGS : [];
   const pagesHash = hashOfFiles(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], compiledHash + tagsWithCore);
   await buildIfStale('build/pages.sha256', pagesHash, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], () => bundle({ tags: tagsWithCore }));
   await buildIfStale('build/example-log.sha256', hashOfFiles(['scripts/example-log.mjs'], coreHash), Object.values(EXAMPLE_LOGS), writeExampleLog);
@@ -69,7 +69,7 @@ function hashOfFiles(hashedPaths, hashSeed = '') {
  * @param {() => Promise<void>} buildProducts
  */
 async function buildIfStale(stampName, sourceHash, productPaths, buildProducts) {
-  if (isCurrent(stampName, sourceHash, productPaths)) return;
+  if (isUpToDate(stampName, sourceHash, productPaths)) return;
   mkdirSync(absolutePath('build'), { recursive: true });
   rmSync(absolutePath(stampName), { force: true });
   await buildProducts();
@@ -78,10 +78,10 @@ async function buildIfStale(stampName, sourceHash, productPaths, buildProducts) 
 
 /**
  * Returns true if the products were built from sources with this hash.
- * @param {string} stamp @param {string} sourceHash @param {string[]} products
+ * @param {string} stampPath @param {string} sourceHash @param {string[]} productPaths
  */
-function isCurrent(stamp, sourceHash, products) {
-  return [stamp, ...products].every((path) => existsSync(absolutePath(path))) && readFileSync(absolutePath(stamp), 'utf8') === sourceHash;
+function isUpToDate(stampPath, sourceHash, productPaths) {
+  return [stampPath, ...productPaths].every((path) => existsSync(absolutePath(path))) && readFileSync(absolutePath(stampPath), 'utf8') === sourceHash;
 }
 
 /**
@@ -93,16 +93,16 @@ function isCurrent(stamp, sourceHash, products) {
 async function buildCores(coreNames, isLocal) {
   // The build waits for Rust first. Otherwise another failure would end the process before the message about missing Rust.
   const rustTools = await ensureRustForWasm();
-  const [binderPromise, packagesPromise] = [ensureBindProgram(), ensurePackages(isLocal ? undefined : 'scripts')];
+  const [bindProgramPromise, packagesPromise] = [ensureBindProgram(), ensurePackages(isLocal ? undefined : 'scripts')];
   printStep(`Compiling the core to WebAssembly (${rustTools.description}): ${coreNames.join(', ')}`);
-  const finishPromises = [];
+  const completionPromises = [];
   for (const coreName of coreNames) {
     // Cargo writes all cores to one path. The glue of a core is therefore generated before the next core is compiled.
-    const [modulePath, binderPath] = await settleAll([compileCore(rustTools, coreName, isLocal), binderPromise, packagesPromise]);
-    await mustRun('wasm-bindgen failed: see above.', binderPath, [modulePath, absolutePath(`build/bound/${coreName}`)]);
-    finishPromises.push(finishCore(coreName, isLocal));
+    const [modulePath, bindProgramPath] = await settleAll([compileCore(rustTools, coreName, isLocal), bindProgramPromise, packagesPromise]);
+    await runOrThrow('wasm-bindgen failed: see above.', bindProgramPath, [modulePath, absolutePath(`build/bound/${coreName}`)]);
+    completionPromises.push(completeCore(coreName, isLocal));
   }
-  await settleAll(finishPromises);
+  await settleAll(completionPromises);
   if (!coreNames.includes('motion')) return;
   await writeSettings();
   copyFileSync(absolutePath('build/bound/motion/motion.d.ts'), absolutePath('build/core.d.ts'));
@@ -123,16 +123,16 @@ async function compileCore(rustTools, name, isLocal) {
   // contain paths. In a published module the paths of this machine are removed.
   const registrySources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
   const { stdout: sysroot } = await run(join(rustTools.bin, 'rustc'), ['--print', 'sysroot'], { env: rustTools.env, quiet: true });
-  const remapFlags = [registrySources, join(sysroot.trim(), 'lib/rustlib/src/rust')].map((path) => `"--remap-path-prefix=${path}="`);
-  const remapOption = `target.wasm32-unknown-unknown.rustflags=[${remapFlags}]`;
+  const pathRemovalFlags = [registrySources, join(sysroot.trim(), 'lib/rustlib/src/rust')].map((path) => `"--remap-path-prefix=${path}="`);
+  const pathRemovalOption = `target.wasm32-unknown-unknown.rustflags=[${pathRemovalFlags}]`;
   const cargoProfile = isLocal ? 'web' : 'release';
-  const cargoOptions = ['--quiet', '--locked', '--profile', cargoProfile, '--lib', '--crate-type', 'cdylib', ...(isLocal ? [] : ['--config', remapOption])];
+  const cargoOptions = ['--quiet', '--locked', '--profile', cargoProfile, '--lib', '--crate-type', 'cdylib', ...(isLocal ? [] : ['--config', pathRemovalOption])];
   const widgetOptions = name === 'motion' ? [] : ['--', '--cfg', 'widget', '--cfg', `widget="${name}"`];
-  await mustRun('The core does not compile: see the errors above.', cargoPath, ['rustc', ...cargoOptions, ...rustTools.target, ...widgetOptions], { env: rustTools.env });
-  const outputOfCargo = async (/** @type {string[]} */ ...cargoArguments) => (await run(cargoPath, [...cargoArguments, '--locked'], { env: rustTools.env, quiet: true })).stdout;
-  const cargoMetadata = JSON.parse(await outputOfCargo('metadata', '--format-version', '1'));
+  await runOrThrow('The core does not compile: see the errors above.', cargoPath, ['rustc', ...cargoOptions, ...rustTools.target, ...widgetOptions], { env: rustTools.env });
+  const readCargoOutput = async (/** @type {string[]} */ ...cargoArguments) => (await run(cargoPath, [...cargoArguments, '--locked'], { env: rustTools.env, quiet: true })).stdout;
+  const cargoMetadata = JSON.parse(await readCargoOutput('metadata', '--format-version', '1'));
   if (name === 'motion') {
-    const crateTree = await outputOfCargo('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
+    const crateTree = await readCargoOutput('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
     writeFileSync(absolutePath('build/crates.json'), JSON.stringify(listCrates(crateTree, cargoMetadata)));
   }
   return join(cargoMetadata.target_directory, `wasm32-unknown-unknown/${cargoProfile}/motion.wasm`);
@@ -142,12 +142,12 @@ async function compileCore(rustTools, name, isLocal) {
 async function writeSettings() {
   const { bin, env } = await ensureNativeRust();
   const cargoArguments = ['run', '--quiet', '--locked', '--example', 'declarations'];
-  const { stdout } = await mustRun('The settings could not be listed: see above.', join(bin, 'cargo'), cargoArguments, { env, quiet: true });
-  const [widgets, limits] = JSON.parse(stdout);
+  const { stdout } = await runOrThrow('The settings could not be listed: see above.', join(bin, 'cargo'), cargoArguments, { env, quiet: true });
+  const [widgets, otherConstants] = JSON.parse(stdout);
   const settings = Object.fromEntries(widgets.map((/** @type {any[]} */ [tag, settingsOfWidget]) => [tag, declarationsOf(settingsOfWidget)]));
   const presets = Object.fromEntries(widgets.map((/** @type {any[]} */ [tag, , presetsOfWidget]) => [tag, presetsOfWidget.map((/** @type {any[]} */ [name, settings]) => ({ name, settings }))]));
   const typeLines = "/** @typedef {import('../www/types.d.ts').Declaration} Declaration */\n\n/** @type {Record<string, Declaration[]>} */\n";
-  const constantLines = Object.entries({ settings, presets, ...limits }).map(([constantName, constantValue]) => `export const ${constantName} = ${JSON.stringify(constantValue, null, 1)};\n`);
+  const constantLines = Object.entries({ settings, presets, ...otherConstants }).map(([constantName, constantValue]) => `export const ${constantName} = ${JSON.stringify(constantValue, null, 1)};\n`);
   writeFileSync(absolutePath('build/settings.js'), typeLines + constantLines.join('\n'));
 }
 
@@ -160,17 +160,17 @@ async function writeSettings() {
 function declarationsOf(settingsOfWidget) {
   const fieldKeys = settingsOfWidget.flatMap(([, { fields = [] }]) => fields.map((/** @type {any[]} */ [{ key }]) => key));
   // If several groups have a field of the same name, as two poses have, the group is part of the field's name.
-  const isShared = (/** @type {string} */ fieldKey) => fieldKeys.indexOf(fieldKey) < fieldKeys.lastIndexOf(fieldKey);
+  const isInSeveralGroups = (/** @type {string} */ fieldKey) => fieldKeys.indexOf(fieldKey) < fieldKeys.lastIndexOf(fieldKey);
   return settingsOfWidget.flatMap(([{ key, of, unit, sentence, each }, { type, allowed, nullable, weights, words, fields, minLength }, value]) => {
     const limits = { min: allowed?.start, max: allowed?.end };
-    const numbers = type === 'numbers' && each ? value : [];
+    const listItems = type === 'numbers' && each ? value : [];
     return [
       { key, of: of ?? undefined, weights, type, words, fields: fields?.map((/** @type {any[]} */ [field]) => field.key), unit: unit || undefined, nullable, ...limits, default: value, sentence },
-      ...numbers.map((/** @type {number} */ number, /** @type {number} */ index) => (
-        { key: `alpha${index + 1}`, in: key, index, type: 'number', nullable: index >= minLength || undefined, ...limits, default: number, sentence: each }
+      ...listItems.map((/** @type {number} */ listItem, /** @type {number} */ index) => (
+        { key: `alpha${index + 1}`, in: key, index, type: 'number', nullable: index >= minLength || undefined, ...limits, default: listItem, sentence: each }
       )),
       ...(fields ?? []).map((/** @type {any[]} */ [field, { start: min, end: max }]) => ({
-        key: isShared(field.key) ? `${key}${field.key[0].toUpperCase()}${field.key.slice(1)}` : field.key, in: key, field: isShared(field.key) ? field.key : undefined,
+        key: isInSeveralGroups(field.key) ? `${key}${field.key[0].toUpperCase()}${field.key.slice(1)}` : field.key, in: key, field: isInSeveralGroups(field.key) ? field.key : undefined,
         type: 'number', unit: field.unit, min, max, default: value[field.key], sentence: each ? `${field.sentence} ${each}.` : field.sentence,
       })),
     ];
@@ -178,13 +178,13 @@ function declarationsOf(settingsOfWidget) {
 }
 
 /** Writes the module and the glue of a bound core. @param {string} name @param {boolean} local */
-async function finishCore(name, local) {
+async function completeCore(name, local) {
   copyFileSync(absolutePath(`build/bound/${name}/motion_bg.wasm`), absolutePath(`build/${name}.wasm`));
   if (!local) {
-    await silencePanics(`build/${name}.wasm`);
+    await replacePanicsByTraps(`build/${name}.wasm`);
     await optimizeModule(`build/${name}.wasm`);
   }
-  await writeGlue(name, local ? readBoundNames(name) : await shortenNames(name));
+  await writeGlue(name, local ? readGlueNames(name) : await shortenNames(name));
 }
 
 /**
@@ -192,7 +192,7 @@ async function finishCore(name, local) {
  *
  * @param {string} path of the module, with the names of its functions
  */
-async function silencePanics(path) {
+async function replacePanicsByTraps(path) {
   // The package name is a variable, because the package is installed for full builds only. The type checker would look for a constant name.
   const packageName = 'binaryen';
   const { default: binaryen } = await import(packageName);
@@ -219,7 +219,7 @@ const OPTIMIZER_PASSES = ['-O3', '--converge', '--rse', '--vacuum', '--coalesce-
 async function optimizeModule(path, optimizerPasses = OPTIMIZER_PASSES) {
   // Features that rustc enables by default for WebAssembly, and SIMD from .cargo/config.toml.
   const wasmFeatures = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
-  const { stdout } = await mustRun('wasm-opt failed: see above.', process.execPath, [
+  const { stdout } = await runOrThrow('wasm-opt failed: see above.', process.execPath, [
     absolutePath('node_modules/binaryen/bin/wasm-opt'), ...optimizerPasses, ...wasmFeatures.map((name) => `--enable-${name}`), absolutePath(path),
     '-o', absolutePath(path)], { quiet: true });
   return stdout;
@@ -234,7 +234,7 @@ async function optimizeModule(path, optimizerPasses = OPTIMIZER_PASSES) {
  */
 
 /** Returns the names that wasm-bindgen has given to imports and exports. @param {string} name of the core @returns {Names} */
-function readBoundNames(name) {
+function readGlueNames(name) {
   const wasmModule = new WebAssembly.Module(readFileSync(absolutePath(`build/${name}.wasm`)));
   return {
     imports: WebAssembly.Module.imports(wasmModule).map((importEntry) => [importEntry.module, importEntry.name, importEntry.name]),
@@ -282,14 +282,14 @@ async function writeGlue(name, glueNames) {
     plugins: [gluePlugin],
   });
   const shortNameByExport = new Map(glueNames.exports);
-  const shortExportOf = (/** @type {string} */ exportName) => shortNameByExport.get(exportName) ?? (() => { throw new Error(`The core of ${name} does not export ${exportName}.`); })();
-  const glueBody = outputFiles[0].text.replace(/^export \{[^}]*\};\s*$/m, '').replaceAll(/\bwasm\.(\w+)/g, (_, exportName) => `wasm.${shortExportOf(exportName)}`);
+  const shortNameOf = (/** @type {string} */ exportName) => shortNameByExport.get(exportName) ?? (() => { throw new Error(`The core of ${name} does not export ${exportName}.`); })();
+  const glueBody = outputFiles[0].text.replace(/^export \{[^}]*\};\s*$/m, '').replaceAll(/\bwasm\.(\w+)/g, (_, exportName) => `wasm.${shortNameOf(exportName)}`);
   const moduleLines = [
     'export default async (module) => {',
     glueBody,
     `const { exports } = await WebAssembly.instantiate(module, { '${glueNames.imports[0][0]}': { ${glueNames.imports.map(([, importName, exportName]) => `${exportName}: ${importName}`)} } });`,
     '__wbg_set_wasm(exports);',
-    `exports.${shortExportOf('__wbindgen_start')}();`,
+    `exports.${shortNameOf('__wbindgen_start')}();`,
     `return { ${exportNames} };`,
     '};',
   ];

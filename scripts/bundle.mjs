@@ -11,7 +11,7 @@ import { createManifest } from './manifest.mjs';
 import { ROOT, UserError, absolutePath, filesOf, printStep } from './process.mjs';
 import { writePython } from './python.mjs';
 import { writeComponents } from './react.mjs';
-import { withTables } from './tables.mjs';
+import { insertTables } from './tables.mjs';
 import { writeTypes } from './types.mjs';
 
 /** Tags of the elements. */
@@ -36,14 +36,14 @@ const LOG_WORKER_PATH = 'chunks/log-worker.js';
  * Returns the source of the function `startWorker`. Within dist/ `startWorker` finds the worker's script by a relative path. A page of
  * another origin starts the worker by a script of its own that imports the worker's script.
  *
- * @param {string} workerPlace path of dist/, relative to the bundle
+ * @param {string} distPath path of dist/, relative to the bundle
  * @param {string} [fallbackStatement] statement for a bundle that is part of another bundle
  */
-const startWorkerSource = (workerPlace, fallbackStatement = '') =>
+const startWorkerSource = (distPath, fallbackStatement = '') =>
   'export function startWorker() {' +
   '  const here = import.meta.url;' +
   `  if (here?.includes('${CHUNK_PLACEHOLDER}')) {` +
-  `    const url = new URL('${workerPlace}${LOG_WORKER_PATH}', here);` +
+  `    const url = new URL('${distPath}${LOG_WORKER_PATH}', here);` +
   '    const script = () => URL.createObjectURL(new Blob([`import ${JSON.stringify(url)}`], { type: "text/javascript" }));' +
   '    return new Worker(url.origin === location.origin ? url : script(), { type: "module" });' +
   '  }' +
@@ -204,15 +204,15 @@ export async function bundle({ tags = WIDGET_TAGS } = {}) {
               loader: 'js',
             }));
             onLoad({ filter: /[/\\](?:js-yaml|d3-array)\.mjs$/ }, ({ path }) => ({
-              contents: withPureConstants(readFileSync(path, 'utf8')),
+              contents: markConstantsPure(readFileSync(path, 'utf8')),
               loader: 'js',
             }));
             onLoad({ filter: /[/\\](?:zstddec-stream\.mjs|lit-html\.js)$/ }, ({ path }) => ({
-              contents: withReplacedPassages(readFileSync(path, 'utf8'), /** @type {keyof typeof REPLACED_PASSAGES} */ (basename(path))),
+              contents: replacePassages(readFileSync(path, 'utf8'), /** @type {keyof typeof REPLACED_PASSAGES} */ (basename(path))),
               loader: 'js',
             }));
             onLoad({ filter: /[/\\]www[/\\].+\.[jt]s$/ }, ({ path }) => ({
-              contents: withoutIndentation(withMinifiedStyles(readFileSync(path, 'utf8'))),
+              contents: removeIndentation(minifyStyles(readFileSync(path, 'utf8'))),
               loader: path.endsWith('.ts') ? 'ts' : 'js',
             }));
           },
@@ -247,14 +247,14 @@ export async function bundle({ tags = WIDGET_TAGS } = {}) {
   };
   for (const { path, contents, text } of bundleResults.flatMap(({ outputFiles }) => outputFiles)) {
     const outputContents = text.includes(CHUNK_PLACEHOLDER) ? text.replaceAll(CHUNK_PLACEHOLDER, basename(path, '.map')) : contents;
-    writeOutput(path, path.endsWith('.iife.js') ? withNonAsciiEscaped(text) : outputContents);
+    writeOutput(path, path.endsWith('.iife.js') ? escapeNonAscii(text) : outputContents);
   }
   const elementManifest = await createManifest();
   const elementDeclarations = elementManifest.modules.flatMap(({ declarations }) => declarations);
   const widgetDescriptions = await describeWidgets();
   for (const path of filesOf('www').filter((path) => /\.(html|css)$/.test(path))) {
     const text = readFileSync(absolutePath(path), 'utf8');
-    writeOutput(absolutePath(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elementDeclarations, widgetDescriptions) : text);
+    writeOutput(absolutePath(join('dist', relative('www', path))), path.endsWith('.html') ? insertTables(text, elementDeclarations, widgetDescriptions) : text);
   }
   const { createPreUpgradeCss } = await importTypeScript('www/ui/reserved-height.ts');
   // If scripts are disabled, no height is reserved.
@@ -264,8 +264,8 @@ export async function bundle({ tags = WIDGET_TAGS } = {}) {
   appendFileSync(absolutePath('dist/motion-widgets.css'), `\n:where(${WIDGET_TAGS}){margin-block:1em}\n${slideCss}\n${reservedHeightCss}\n`);
   writeOutput(absolutePath('dist/motion.wasm'), moduleBytes);
   for (const { path, contents } of [bytesScript, ...tags.map(moduleFileOf)]) writeOutput(absolutePath(path), contents);
-  const typingPaths = { core: 'www/types.d.ts', simulations: 'build/simulations.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts', solid: 'build/solid.d.ts', svelte: 'build/svelte.d.ts' };
-  for (const [name, path] of Object.entries(typingPaths)) writeOutput(absolutePath(`dist/${name}.d.ts`), withLocalImports(readFileSync(absolutePath(path), 'utf8')));
+  const declarationPaths = { core: 'www/types.d.ts', simulations: 'build/simulations.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts', solid: 'build/solid.d.ts', svelte: 'build/svelte.d.ts' };
+  for (const [name, path] of Object.entries(declarationPaths)) writeOutput(absolutePath(`dist/${name}.d.ts`), flattenImports(readFileSync(absolutePath(path), 'utf8')));
   writeOutput(absolutePath('dist/external.d.ts'), ELEMENT_DECLARATIONS);
   for (const name of ['de', 'motion-widgets.css']) writeOutput(absolutePath(`dist/${name}.d.ts`), 'export {};\n');
   chmodSync(absolutePath('dist/cli.js'), 0o755);
@@ -290,7 +290,7 @@ const STYLES_RE = new RegExp(String.raw`(?<=\b(?:css|unsafeCSS\()\x60)(?:[^\x60$
  *
  * @param {string} script
  */
-function withMinifiedStyles(script) {
+function minifyStyles(script) {
   return script.replace(STYLES_RE, (styleText) => {
     /** @type {string[]} */
     const templateExpressions = [];
@@ -305,7 +305,7 @@ function withMinifiedStyles(script) {
 }
 
 /** Removes the indentation of lines in HTML templates. Browsers show a line break with or without spaces in the same way. */
-const withoutIndentation = (/** @type {string} */ script) => script.replaceAll(/^ +(?=[<$@.?])/gm, '');
+const removeIndentation = (/** @type {string} */ script) => script.replaceAll(/^ +(?=[<$@.?])/gm, '');
 
 /**
  * Escapes non-ASCII characters in a script, because a classic script is read in the encoding of its page. The bundler leaves such
@@ -313,7 +313,7 @@ const withoutIndentation = (/** @type {string} */ script) => script.replaceAll(/
  *
  * @param {string} script
  */
-function withNonAsciiEscaped(script) {
+function escapeNonAscii(script) {
   return script.replaceAll(/[^\0-\x7f]/g, (codeUnit) => `\\u${codeUnit.charCodeAt(0).toString(16).padStart(4, '0')}`);
 }
 
@@ -338,7 +338,7 @@ function composeMinimalDeclarations() {
  *
  * @param {string} librarySource with each constant at the start of a line
  */
-function withPureConstants(librarySource) {
+function markConstantsPure(librarySource) {
   return librarySource
     .replaceAll(/^((?:var|const) \w+ = )((?:new |`|\w+[.(]).*);$/gm, '$1/* @__PURE__ */ (() => $2)();')
     .replaceAll(/^(var \w+ = )(?=\w+\(|new \w)/gm, '$1/* @__PURE__ */ ');
@@ -366,7 +366,7 @@ const REPLACED_PASSAGES = {
 };
 
 /** Returns a library with its `REPLACED_PASSAGES` replaced. @param {string} library @param {keyof typeof REPLACED_PASSAGES} name of its file */
-function withReplacedPassages(library, name) {
+function replacePassages(library, name) {
   return REPLACED_PASSAGES[name].reduce((text, [originalPassage, replacementPassage]) => {
     if (text.split(originalPassage).length !== 2) throw new Error(`${name} does not have ${originalPassage} once, but scripts/bundle.mjs replaces it.`);
     return text.replace(originalPassage, () => replacementPassage);
@@ -374,7 +374,7 @@ function withReplacedPassages(library, name) {
 }
 
 /** Adapts import paths in types to the published directory, in which all types are side by side. @param {string} typesSource */
-function withLocalImports(typesSource) {
+function flattenImports(typesSource) {
   return typesSource.replaceAll(/'\.\.\/build\/(\w+)\.d\.ts'/g, "'./$1.js'").replaceAll("'../www/types.d.ts'", "'./core.js'");
 }
 

@@ -5,7 +5,7 @@ import { pathToFileURL } from 'node:url';
 import { isDeepStrictEqual } from 'node:util';
 import { register } from 'tsx/esm/api';
 import { presets, settings } from '../build/settings.js';
-import { ROOT, absolutePath, runOnce } from './process.mjs';
+import { ROOT, absolutePath, memoize } from './process.mjs';
 
 // Node itself does not run TypeScript.
 register();
@@ -105,7 +105,7 @@ function numberTextOf(limitValue) {
 export const importTypeScript = (repositoryPath) => import(pathToFileURL(absolutePath(repositoryPath)).href);
 
 /** Returns the comments of the elements' classes by the names of the classes. */
-export const readClassComments = runOnce(async () => {
+export const readClassComments = memoize(async () => {
   // @ts-expect-error It comes without types.
   const { cli } = await import('@custom-elements-manifest/analyzer/cli.js');
   // With `noWrite` the analyzer returns the manifest. It writes only package.json, into which it puts the path of the manifest in dist/.
@@ -144,9 +144,9 @@ async function describeWidget(widgetTag) {
     if (declaration) {
       const defaultValue = declaration.default;
       const openingText = defaultValue === null ? undefined : String(defaultValue);
-      const shownDefault = typeof defaultValue === 'number' ? numberTextOf(defaultValue) : openingText;
-      const withoutRange = descriptionOf({ ...declaration, min: undefined }, shownDefault);
-      return { name: attributeName, type: typeTextOf(declaration), description: descriptionOf(declaration, shownDefault), opening: openingText, allowed: rangeTextOf(declaration), withoutRange };
+      const formattedDefault = typeof defaultValue === 'number' ? numberTextOf(defaultValue) : openingText;
+      const withoutRange = descriptionOf({ ...declaration, min: undefined }, formattedDefault);
+      return { name: attributeName, type: typeTextOf(declaration), description: descriptionOf(declaration, formattedDefault), opening: openingText, allowed: rangeTextOf(declaration), withoutRange };
     }
     const { words, coveredAttributes, property } = attributeDefinition;
     const elementField = elementFields[attributeName];
@@ -157,23 +157,23 @@ async function describeWidget(widgetTag) {
     const description = descriptionOf({ ...attributeDefinition, ...elementField, sentence: attributeSentences[attributeName] }, typeText);
     return { name: attributeName, property, type: nullable ? `${type} | null` : type, description, opening: typeText, allowed: elementField && rangeTextOf(elementField), withoutRange: description };
   };
-  const toItem = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
+  const toNamedDescription = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
 
-  const attributeList = Object.entries({ ...attributes, ...COMMON_ATTRS }).map((entry) => ({ ...describeAttribute(entry), isCommon: entry[0] in COMMON_ATTRS }));
+  const describedAttributes = Object.entries({ ...attributes, ...COMMON_ATTRS }).map((entry) => ({ ...describeAttribute(entry), isCommon: entry[0] in COMMON_ATTRS }));
   /** @type {Declaration[]} */
   const topLevelSettings = declarations.filter((/** @type {Declaration} */ declaration) => !declaration.in && !declaration.of);
   const groupFields = topLevelSettings.filter(({ key }) => !(key in attributes)).map(fieldOf);
   const classFields = elementClass.members
     .filter((/** @type {any} */ { kind, privacy, inheritedFrom }) => kind === 'field' && privacy === 'public' && !inheritedFrom)
     .map((/** @type {any} */ { name, description, readonly, type }) => ({ name, description: joinLines(description), readonly, type: type.text }));
-  const properties = [...groupFields, ...Object.entries(documentedProperties).map(toItem), ...classFields];
+  const properties = [...groupFields, ...Object.entries(documentedProperties).map(toNamedDescription), ...classFields];
   const documentedElementFields = Object.keys(elementFields).map((name) => {
-    const { type, description } = /** @type {Field} */ ([...attributeList, ...properties].find((describedField) => describedField.name === name) ?? {});
+    const { type, description } = /** @type {Field} */ ([...describedAttributes, ...properties].find((describedField) => describedField.name === name) ?? {});
     return { name, type, description };
   });
-  const stateFields = new Map([...topLevelSettings.map(fieldOf), ...documentedElementFields, ...Object.entries(documentedState).map(toItem)].map((stateField) => [stateField.name, stateField]));
+  const stateFields = new Map([...topLevelSettings.map(fieldOf), ...documentedElementFields, ...Object.entries(documentedState).map(toNamedDescription)].map((stateField) => [stateField.name, stateField]));
   for (const { name, type } of stateFields.values()) if (!type) throw new Error(`${widgetTag}: nothing says what ${name} is in its state.`);
-  return { tag: widgetTag, className: toPascalCase(widgetTag), attributes: attributeList, properties, state: [...stateFields.values()] };
+  return { tag: widgetTag, className: toPascalCase(widgetTag), attributes: describedAttributes, properties, state: [...stateFields.values()] };
 }
 
 /** Returns the description of a setting, or of a number of a group, as a field. @param {Declaration} declaration */

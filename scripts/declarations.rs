@@ -11,12 +11,12 @@ use serde_json::value::{RawValue, to_raw_value};
 
 fn main() -> serde_json::Result<()> {
     let widgets = [
-        describe::<banana::Settings>("banana-machine")?,
-        describe::<squeeze::Settings>("map-squeeze")?,
-        describe::<arc_anatomy::Settings>("arc-anatomy")?,
-        describe::<odometry_decomposer::Settings>("odometry-decomposer")?,
-        describe::<dead_reckoning::Settings>("dead-reckoning")?,
-        describe::<alpha_calibrator::Settings>("alpha-calibrator")?,
+        describe_widget::<banana::Settings>("banana-machine")?,
+        describe_widget::<squeeze::Settings>("map-squeeze")?,
+        describe_widget::<arc_anatomy::Settings>("arc-anatomy")?,
+        describe_widget::<odometry_decomposer::Settings>("odometry-decomposer")?,
+        describe_widget::<dead_reckoning::Settings>("dead-reckoning")?,
+        describe_widget::<alpha_calibrator::Settings>("alpha-calibrator")?,
     ];
     let banana::Settings { velocity_alphas, odometry_alphas, .. } = banana::Settings::DEFAULT;
     let constants = json!({
@@ -34,7 +34,7 @@ fn main() -> serde_json::Result<()> {
 
 /// Returns the tag of a widget, its settings and its presets as JSON. Each setting has its declaration, its type with what belongs to this
 /// type, and its default.
-fn describe<S: Rules>(tag: &'static str) -> serde_json::Result<Box<RawValue>> {
+fn describe_widget<S: Rules>(tag: &'static str) -> serde_json::Result<Box<RawValue>> {
     let mut settings = Vec::new();
     S::default().try_visit_settings(|declaration, setting| {
         let setting_type = match &setting {
@@ -66,11 +66,13 @@ fn describe<S: Rules>(tag: &'static str) -> serde_json::Result<Box<RawValue>> {
 /// Returns the minimum length of a list whose length depends on a preceding keyword, such as the motion model.
 fn min_length<S: Rules>(list_key: &str) -> usize {
     let mut min_length = usize::MAX;
-    S::default().visit_settings(&mut |changed, setting| {
+    S::default().visit_settings(&mut |keyword_declaration, setting| {
         let Setting::Keyword(keyword) = setting else { return };
         for word in keyword.all() {
             S::default().visit_settings(&mut |declaration, setting| match setting {
-                Setting::Keyword(keyword) if declaration.key == changed.key => assert!(keyword.set(word)),
+                Setting::Keyword(keyword) if declaration.key == keyword_declaration.key => {
+                    assert!(keyword.set(word))
+                }
                 Setting::Numbers(numbers, _) if declaration.key == list_key => {
                     min_length = min_length.min(numbers.len());
                 }

@@ -103,22 +103,22 @@ function simulateTruth(motion, measuredPoses) {
   const { se2 } = motion;
   const roundedPoses = measuredPoses.map(roundPose);
   const scalePosition = (/** @type {Pose} */ { x, y, theta }) => ({ x: TRUE_MODEL.distanceScale * x, y: TRUE_MODEL.distanceScale * y, theta });
-  const poseFromArray = (/** @type {[number, number, number]} */ [x, y, theta]) => ({ x, y, theta });
+  const toPose = (/** @type {[number, number, number]} */ [x, y, theta]) => ({ x, y, theta });
   const odometryModel = new motion.OdometryModel({ alphas: TRUE_MODEL.alphas });
   const truePoses = [scalePosition(measuredPoses[0])];
   const legEnds = findLegEnds(roundedPoses);
   for (const [legIndex, legEndRow] of legEnds.entries()) {
     if (legIndex === 0) continue;
     const legStartRow = legEnds[legIndex - 1];
-    const [legStart, legGoal] = [legStartRow, legEndRow].map((rowIndex) => scalePosition(poseFromArray(roundedPoses[rowIndex])));
+    const [legStart, legGoal] = [legStartRow, legEndRow].map((rowIndex) => scalePosition(toPose(roundedPoses[rowIndex])));
     const trueStart = truePoses[legStartRow];
     const [x, y, theta] = odometryModel.sample(motion.decompose(legStart, legGoal), trueStart, 1, NOISE_SEED + legIndex);
-    const motionFromStart = (/** @type {Pose} */ measuredPose) => se2.compose(se2.inverse(legStart), measuredPose);
-    const legError = se2.boxminus(se2.compose(se2.inverse(trueStart), { x, y, theta }), motionFromStart(legGoal));
+    const computeMotionFromStart = (/** @type {Pose} */ measuredPose) => se2.compose(se2.inverse(legStart), measuredPose);
+    const legError = se2.boxminus(se2.compose(se2.inverse(trueStart), { x, y, theta }), computeMotionFromStart(legGoal));
     for (let i = legStartRow + 1; i <= legEndRow; i++) {
       const legShare = (i - legStartRow) / (legEndRow - legStartRow);
       const smoothShare = legShare * legShare * (3 - 2 * legShare);
-      truePoses.push(se2.boxplus(se2.compose(trueStart, motionFromStart(scalePosition(measuredPoses[i]))), legError.map((errorComponent) => smoothShare * errorComponent)));
+      truePoses.push(se2.boxplus(se2.compose(trueStart, computeMotionFromStart(scalePosition(measuredPoses[i]))), legError.map((errorComponent) => smoothShare * errorComponent)));
     }
   }
   odometryModel.free();

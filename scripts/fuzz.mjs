@@ -4,7 +4,7 @@
 import { mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
-import { ROOT, UserError, mustRun, printStep, run, runAsScript } from './process.mjs';
+import { ROOT, UserError, runOrThrow, printStep, run, runAsScript } from './process.mjs';
 import { ensureNativeRust } from './toolchain.mjs';
 
 const FUZZ_TARGETS = readdirSync(join(ROOT, 'fuzz/corpus')).map((corpusFile) => corpusFile.replace(/\.txt$/, ''));
@@ -82,8 +82,8 @@ await runAsScript(import.meta.url, async () => {
   printStep(`${isKeepMode ? 'keep' : `${runs} inputs each, seed ${seed}`}: ${waitingTargets.join(', ')}`);
   const { bin, env } = await ensureNativeRust();
   const missingMessage = 'cargo-fuzz or a nightly Rust is missing: run `rustup toolchain install nightly` and `cargo install --locked cargo-fuzz`, and start again.';
-  await mustRun(missingMessage, join(bin, 'cargo'), ['+nightly', 'fuzz', '--version'], { env, quiet: true });
-  await mustRun('The targets do not compile: see above.', join(bin, 'cargo'), ['+nightly', 'fuzz', 'build', ...BUILD_OPTIONS], { env });
+  await runOrThrow(missingMessage, join(bin, 'cargo'), ['+nightly', 'fuzz', '--version'], { env, quiet: true });
+  await runOrThrow('The targets do not compile: see above.', join(bin, 'cargo'), ['+nightly', 'fuzz', 'build', ...BUILD_OPTIONS], { env });
   const runWaitingTargets = async () => {
     for (let fuzzTargetName = waitingTargets.shift(); fuzzTargetName !== undefined; fuzzTargetName = waitingTargets.shift()) {
       const targetRun = isKeepMode ? keepInputs(fuzzTargetName) : runFuzzTarget(fuzzTargetName, `${runs}`, `${seed}`);

@@ -30,14 +30,14 @@ export async function createManifest() {
     const name = `${className}Element`;
     const analyzedClass = classes.get(name);
     /** Replaces the general type names of the common class by those of the element's class. @param {string} typeText */
-    const withClassNames = (typeText) => ({ text: typeText.replace(/\bSimulation\b/, className).replace(/\bStateValues\b/, `${className}State`) });
-    const itemOf = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: withClassNames(type.text) }), description: description && joinLines(description) });
-    const documentedItems = (/** @type {any[]} */ memberItems) => memberItems.filter(({ description }) => description).map(itemOf);
+    const specializeType = (typeText) => ({ text: typeText.replace(/\bSimulation\b/, className).replace(/\bStateValues\b/, `${className}State`) });
+    const itemOf = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: specializeType(type.text) }), description: description && joinLines(description) });
+    const documentedItemsOf = (/** @type {any[]} */ memberItems) => memberItems.filter(({ description }) => description).map(itemOf);
     const memberOf = (/** @type {any} */ { kind, parameters, return: returnType, readonly, ...rest }) => ({
       kind,
       ...itemOf(rest),
       ...(parameters && { parameters: parameters.map(itemOf) }),
-      ...(kind === 'method' && returnType && { return: { type: withClassNames(returnType.type.text) } }),
+      ...(kind === 'method' && returnType && { return: { type: specializeType(returnType.type.text) } }),
       ...(readonly && { readonly }),
     });
     return {
@@ -60,10 +60,10 @@ export async function createManifest() {
           .filter((/** @type {any} */ { name, privacy }) => privacy === 'public' && !properties.some((property) => property.name === name))
           .map(memberOf),
       ],
-      events: documentedItems(analyzedClass.events),
-      slots: documentedItems(analyzedClass.slots),
-      cssParts: documentedItems(analyzedClass.cssParts),
-      cssProperties: documentedItems(analyzedClass.cssProperties),
+      events: documentedItemsOf(analyzedClass.events),
+      slots: documentedItemsOf(analyzedClass.slots),
+      cssParts: documentedItemsOf(analyzedClass.cssParts),
+      cssProperties: documentedItemsOf(analyzedClass.cssProperties),
     };
   });
   const modulePath = 'dist/external.js';

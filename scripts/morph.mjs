@@ -5,7 +5,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
-import { ROOT, mustRun, runAsScript } from './process.mjs';
+import { ROOT, runOrThrow, runAsScript } from './process.mjs';
 import { startServer } from './serve.mjs';
 
 /** Width of the figure, at which the figure shows a single picture, and font size of the figure. */
@@ -41,7 +41,7 @@ await runAsScript(import.meta.url, async () => {
       await page.screenshot({ path: framePath, clip: clipBox });
       frameArguments.push('-d', String(i % FRAME_COUNT === 0 ? FRAME_DURATIONS_MS.end : FRAME_DURATIONS_MS.each), framePath);
     }
-    await mustRun('img2webp is missing: install the package webp.', 'img2webp', ['-loop', '0', '-lossy', '-q', '50', '-m', '6', ...frameArguments, '-o', join(ROOT, 'doc/morph.webp')]);
+    await runOrThrow('img2webp is missing: install the package webp.', 'img2webp', ['-loop', '0', '-lossy', '-q', '50', '-m', '6', ...frameArguments, '-o', join(ROOT, 'doc/morph.webp')]);
   } finally {
     await browser.close();
     close();

@@ -31,7 +31,7 @@ function print(printedText, outputStream = process.stdout) {
  * @param {() => Promise<T>} doWork
  * @returns {Promise<T>} result of the work
  */
-export async function withCollectedOutput(doWork) {
+export async function collectOutputOf(doWork) {
   /** @type {string[]} */
   const outputTexts = [];
   try {
@@ -53,7 +53,7 @@ export function printStep(stepText) {
  * @param {() => Promise<T>} doWork
  * @returns {() => Promise<T>}
  */
-export function runOnce(doWork) {
+export function memoize(doWork) {
   /** @type {Promise<T> | undefined} */
   let resultPromise;
   return () => (resultPromise ??= doWork());
@@ -205,7 +205,7 @@ export function run(command, commandArguments, { env = {}, cwd = ROOT, seconds, 
  * @param {string[]} commandArguments
  * @param {RunOptions} [runOptions]
  */
-export async function mustRun(failureMessage, command, commandArguments, runOptions) {
+export async function runOrThrow(failureMessage, command, commandArguments, runOptions) {
   const runResult = await run(command, commandArguments, runOptions);
   if (!runResult.ok) {
     if (runOptions?.quiet) print(runResult.output, process.stderr);

@@ -76,7 +76,7 @@ async function createElementsSource() {
   ];
   for (const { className, tag, sentence, traits } of widgetClasses) {
     sourceLines.push('', '', '@t.signature_has_traits', `class ${className}(Figure):`, `    """${sentence}`, '');
-    for (const { name, description, trait } of traits) sourceLines.push(`    ${pythonNameOf(name)}:`, `        ${withPythonNames(description)}${wordSentenceOf(trait)}`);
+    for (const { name, description, trait } of traits) sourceLines.push(`    ${pythonNameOf(name)}:`, `        ${translateNamesToPython(description)}${describeAllowedWords(trait)}`);
     sourceLines.push('    """', '', `    widget = t.Unicode(${quotePython(tag)}, read_only=True).tag(sync=True)`);
     for (const { name, trait } of traits) sourceLines.push(`    ${pythonNameOf(name)} = ${trait}`);
   }
@@ -105,14 +105,14 @@ function traitCallOfSetting({ key, type, words: allowedWords = [], min, max }, t
     case 'boolean': return TRAITS_WITHOUT_RANGE.Bool;
     case 'word': return `Word(${allowedWords.map(quotePython).join(', ')})`;
     case 'group': {
-      const nameOf = (/** @type {Declaration} */ groupMember) => groupMember.field ?? groupMember.key;
-      return `Group(${settings[tag].filter((member) => member.in === key).map((member) => `${nameOf(member)}=${traitCallOfSetting(member, tag)}`).join(', ')})`;
+      const memberNameOf = (/** @type {Declaration} */ groupMember) => groupMember.field ?? groupMember.key;
+      return `Group(${settings[tag].filter((member) => member.in === key).map((member) => `${memberNameOf(member)}=${traitCallOfSetting(member, tag)}`).join(', ')})`;
     }
   }
 }
 
 /** Returns the words that a trait accepts, as a sentence. @param {string} trait */
-function wordSentenceOf(trait) {
+function describeAllowedWords(trait) {
   const [, sequencePrefix, allowedWords] = trait.match(/^(Sequence\()?Word\(([^)]+)\)/) ?? [];
   return allowedWords ? ` ${sequencePrefix ? 'Some' : 'One'} of ${allowedWords}.` : '';
 }
@@ -121,7 +121,7 @@ function wordSentenceOf(trait) {
 const PYTHON_CONSTANTS = { null: 'None', true: 'True', false: 'False' };
 
 /** Replaces names of properties and constants by their Python names. @param {string} description with properties in backticks */
-const withPythonNames = (description) =>
+const translateNamesToPython = (description) =>
   description.replaceAll(/`([a-z]+[A-Z]\w*)`/g, (_, name) => `\`${pythonNameOf(name)}\``).replaceAll(/\b(null|true|false)\b/g, (constantName) => PYTHON_CONSTANTS[constantName]);
 
 /** Returns a Python string literal. @param {string} stringValue */

@@ -4,7 +4,7 @@
 import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join, posix } from 'node:path';
 import { build } from './build.mjs';
-import { ROOT, UserError, filesOf, mustRun, printStep, runAsScript } from './process.mjs';
+import { ROOT, UserError, filesOf, runOrThrow, printStep, runAsScript } from './process.mjs';
 import { escapeHtml } from './tables.mjs';
 import { ensurePackages, ensureNativeRust } from './toolchain.mjs';
 
@@ -130,7 +130,7 @@ await runAsScript(import.meta.url, async () => {
   const rustTools = await ensureNativeRust();
   printStep('Documenting the crate');
   const docOptions = ['--quiet', '--locked', '--no-deps', '--lib', '--target-dir', join(ROOT, 'build/rustdoc')];
-  await mustRun('The crate is not documented: see above.', join(rustTools.bin, 'cargo'), ['doc', ...docOptions], { env: rustTools.env });
+  await runOrThrow('The crate is not documented: see above.', join(rustTools.bin, 'cargo'), ['doc', ...docOptions], { env: rustTools.env });
   printStep('Rendering the documents');
   rmSync(SITE_DIRECTORY, { recursive: true, force: true });
   cpSync(join(ROOT, 'dist'), SITE_DIRECTORY, { recursive: true, filter: (path) => !/(\.d\.ts|\.map|cli\.js|motion-widgets\.js)$/.test(path) });

@@ -15,20 +15,20 @@ const TABLE_BUILDERS = {
   attributes: (_, widgets) =>
     widgets
       .map(({ tag, attributes }) => {
-        const attributeRows = attributes.map((attributeDescription) => [codeHtml(attributeDescription.name), valuesHtml(attributeDescription), proseHtml(attributeDescription.withoutRange)]);
-        return tableHtml(tag, 'attribute', codeHtml(`<${tag}>`), ['attribute', 'values', 'description'], attributeRows);
+        const attributeRows = attributes.map((attributeDescription) => [renderCode(attributeDescription.name), renderValues(attributeDescription), renderProse(attributeDescription.withoutRange)]);
+        return renderTable(tag, 'attribute', renderCode(`<${tag}>`), ['attribute', 'values', 'description'], attributeRows);
       })
       .join('\n\n'),
-  events: (elements) => itemTableHtml(elements, 'event', 'Events; all bubble except <code>error</code>', ['event', 'fired when'], ({ events }) => events),
+  events: (elements) => renderItemTable(elements, 'event', 'Events; all bubble except <code>error</code>', ['event', 'fired when'], ({ events }) => events),
   methods: (elements) =>
-    itemTableHtml(elements, 'method', 'Methods', ['method', 'description'], ({ members }) =>
+    renderItemTable(elements, 'method', 'Methods', ['method', 'description'], ({ members }) =>
       members
         .filter(({ kind }) => kind === 'method')
         .map(({ name, parameters = [], description }) => ({ name: `${name}(${parameters.map((methodParameter) => methodParameter.name).join(', ')})`, description })),
     ),
-  slots: (elements) => itemTableHtml(elements, 'slot', 'Slots', ['slot', 'content'], ({ slots }) => slots),
-  properties: (elements) => itemTableHtml(elements, 'property', 'Custom properties', ['property', 'description'], ({ cssProperties }) => cssProperties),
-  parts: (elements) => itemTableHtml(elements, 'part', 'Parts, for <code>::part()</code>', ['part', 'description'], ({ cssParts }) => cssParts),
+  slots: (elements) => renderItemTable(elements, 'slot', 'Slots', ['slot', 'content'], ({ slots }) => slots),
+  properties: (elements) => renderItemTable(elements, 'property', 'Custom properties', ['property', 'description'], ({ cssProperties }) => cssProperties),
+  parts: (elements) => renderItemTable(elements, 'part', 'Parts, for <code>::part()</code>', ['part', 'description'], ({ cssParts }) => cssParts),
 };
 
 /**
@@ -38,7 +38,7 @@ const TABLE_BUILDERS = {
  * @param {Element[]} elements
  * @param {Widget[]} widgets
  */
-export function withTables(pageHtml, elements, widgets) {
+export function insertTables(pageHtml, elements, widgets) {
   return pageHtml.replaceAll(/^ *<!-- table of (\w+) -->$/gm, (_, name) => TABLE_BUILDERS[name](elements, widgets));
 }
 
@@ -51,15 +51,15 @@ export function withTables(pageHtml, elements, widgets) {
  * @param {string[]} columnHeadings
  * @param {(element: Element) => Item[]} itemsOfElement
  */
-function itemTableHtml(elements, kind, tableCaption, columnHeadings, itemsOfElement) {
+function renderItemTable(elements, kind, tableCaption, columnHeadings, itemsOfElement) {
   const itemsByName = new Map(elements.flatMap(itemsOfElement).map((elementItem) => [elementItem.name, elementItem]));
-  const elementsWithItem = (/** @type {string} */ name) => elements.filter((documentedElement) => itemsOfElement(documentedElement).some((elementItem) => elementItem.name === name));
+  const findElementsWithItem = (/** @type {string} */ name) => elements.filter((documentedElement) => itemsOfElement(documentedElement).some((elementItem) => elementItem.name === name));
   const itemRows = [...itemsByName.values()].map(({ name, description }) => {
-    const owningElements = elementsWithItem(name);
-    const ownersText = owningElements.length < elements.length ? ` Only ${owningElements.map(({ tagName }) => codeHtml(`<${tagName}>`)).join(' and ')}.` : '';
-    return [codeHtml(name), proseHtml(description) + ownersText];
+    const owningElements = findElementsWithItem(name);
+    const ownersText = owningElements.length < elements.length ? ` Only ${owningElements.map(({ tagName }) => renderCode(`<${tagName}>`)).join(' and ')}.` : '';
+    return [renderCode(name), renderProse(description) + ownersText];
   });
-  return tableHtml('both', kind, tableCaption, columnHeadings, itemRows);
+  return renderTable('both', kind, tableCaption, columnHeadings, itemRows);
 }
 
 /**
@@ -71,7 +71,7 @@ function itemTableHtml(elements, kind, tableCaption, columnHeadings, itemsOfElem
  * @param {string[]} columnHeadings
  * @param {string[][]} tableRows of HTML
  */
-function tableHtml(tableOwner, kind, tableCaption, columnHeadings, tableRows) {
+function renderTable(tableOwner, kind, tableCaption, columnHeadings, tableRows) {
   const headCells = columnHeadings.map((headingText) => `<th scope="col">${headingText}</th>`).join('');
   const bodyRows = tableRows.map(([name, ...rowCells]) => `            <tr><th scope="row">${name}</th>${rowCells.map((cellHtml) => `<td>${cellHtml}</td>`).join('')}</tr>`);
   return `        <table class="api" data-of="${tableOwner}" data-kind="${kind}">
@@ -84,18 +84,18 @@ ${bodyRows.join('\n')}
 }
 
 /** Returns the allowed values of an attribute. @param {import('./declarations.mjs').Attribute} attribute */
-function valuesHtml({ type, allowed }) {
-  const allowedWords = [...type.matchAll(/'([^']+)'/g)].map(([, allowedWord]) => codeHtml(allowedWord));
+function renderValues({ type, allowed }) {
+  const allowedWords = [...type.matchAll(/'([^']+)'/g)].map(([, allowedWord]) => renderCode(allowedWord));
   return allowedWords.length ? allowedWords.join(', ') : (allowed ?? type);
 }
 
 /** Returns text as HTML, with code between backticks marked up. @param {string} [proseText] */
-function proseHtml(proseText = '') {
+function renderProse(proseText = '') {
   return escapeHtml(proseText).replaceAll(/`([^`]+)`/g, '<code>$1</code>');
 }
 
 /** Returns text as an HTML code element. @param {string} text */
-function codeHtml(text) {
+function renderCode(text) {
   return `<code>${escapeHtml(text)}</code>`;
 }
 

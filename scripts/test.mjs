@@ -10,7 +10,7 @@ import { join } from 'node:path';
 import { ensureTestRunner } from './bindgen.mjs';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
-import { UserError, absolutePath, filesOf, withCollectedOutput, runOnce, printStep, run, runAsScript, settleAll } from './process.mjs';
+import { UserError, absolutePath, filesOf, collectOutputOf, memoize, printStep, run, runAsScript, settleAll } from './process.mjs';
 import { ensureLints, ensurePackages, ensureNativeRust, ensureRustForWasm } from './toolchain.mjs';
 
 /** @typedef {{ passed: number, failed: number, skipped: number }} Tally */
@@ -36,7 +36,7 @@ const TEST_WORKSPACES = IS_NIGHTLY ? ['tests', 'tests/package', 'tests/engines']
  * Builds dist/ and installs the packages of the tests. Daily tests use the common core in all figures. Nightly tests also use the core of
  * each figure.
  */
-const ensureBuilt = runOnce(() => settleAll([build({ local: !IS_NIGHTLY }), ...TEST_WORKSPACES.map((workspaceName) => ensurePackages(workspaceName))]));
+const ensureBuilt = memoize(() => settleAll([build({ local: !IS_NIGHTLY }), ...TEST_WORKSPACES.map((workspaceName) => ensurePackages(workspaceName))]));
 
 /** Versions of the tools that the parts of this test run have used so far. */
 const toolVersions = new Set([`Node ${process.versions.node}`]);
@@ -48,15 +48,15 @@ const toolVersions = new Set([`Node ${process.versions.node}`]);
  * @param {() => Promise<Tool>} ensureTool
  * @param {(tool: Tool) => string} versionOf
  */
-const withVersion = (ensureTool, versionOf) => runOnce(async () => {
+const recordVersionOf = (ensureTool, versionOf) => memoize(async () => {
   const tool = await ensureTool();
   toolVersions.add(versionOf(tool));
   return tool;
 });
 
-const ensureRust = withVersion(ensureNativeRust, ({ description }) => description);
-const ensureWasmRust = withVersion(ensureRustForWasm, ({ description }) => `for WebAssembly ${description}`);
-const ensureTestBrowser = withVersion(ensureBrowser, ({ version }) => `Chromium ${version}`);
+const ensureRust = recordVersionOf(ensureNativeRust, ({ description }) => description);
+const ensureWasmRust = recordVersionOf(ensureRustForWasm, ({ description }) => `for WebAssembly ${description}`);
+const ensureTestBrowser = recordVersionOf(ensureBrowser, ({ version }) => `Chromium ${version}`);
 
 /**
  * Returns a job that runs a program.
@@ -205,7 +205,7 @@ async function runParts(args) {
   const partOutcomes = [];
   await Promise.all(
     PART_LANES.map(async (partNames) => {
-      for (const partName of partNames) partOutcomes.push(await withCollectedOutput(() => runPart(partName, [])));
+      for (const partName of partNames) partOutcomes.push(await collectOutputOf(() => runPart(partName, [])));
     }),
   );
   return printSummary(partOutcomes);

@@ -5,7 +5,7 @@ import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { homedir } from 'node:os';
 import { delimiter, dirname, join } from 'node:path';
-import { ROOT, UserError, findProgram, mustRun, runOnce, printStep, createTaskQueue, run, runAsScript } from './process.mjs';
+import { ROOT, UserError, findProgram, runOrThrow, memoize, printStep, createTaskQueue, run, runAsScript } from './process.mjs';
 
 const WASM_TARGET = 'wasm32-unknown-unknown';
 const RUSTUP_BIN = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'bin');
@@ -51,7 +51,7 @@ async function installPackages(workspaceKey) {
   if (existsSync(stampFile) && readFileSync(stampFile, 'utf8') === lockHash) return;
   printStep(`Installing npm packages${workspaceKey === 'root' ? '' : ` of ${workspaceKey}`}`);
   // No package needs its install script. `npm ci` would remove the packages of the other workspaces.
-  await mustRun(
+  await runOrThrow(
     'The npm packages could not be installed: check that this machine reaches its npm registry and start again.',
     'npm',
     ['install', '--no-save', '--ignore-scripts', '--no-audit', '--no-fund', workspaceKey === 'root' ? '--workspaces=false' : `--workspace=${workspaceName}`],
@@ -78,7 +78,7 @@ export const installByApt = (debianPackages, purposeSentence) => enqueueForApt(a
   await run(command, [...firstArguments, 'update', '-qq'], { seconds: 300 });
   // Apt must not remove an installed package, in particular not another installation of Rust.
   const aptOptions = ['-y', '-qq', '--no-remove', '--no-install-recommends', '-o', 'DPkg::Lock::Timeout=300'];
-  await mustRun(purposeSentence, command, [...firstArguments, 'install', ...aptOptions, ...debianPackages], { seconds: 900 });
+  await runOrThrow(purposeSentence, command, [...firstArguments, 'install', ...aptOptions, ...debianPackages], { seconds: 900 });
 });
 
 /** Ensures that Python and pip, which build the Python package, are installed. */
@@ -96,7 +96,7 @@ export async function ensurePip() {
  */
 
 /** Finds or installs Rust for this machine: by rustup, or from Debian if rustup's server cannot be reached. */
-export const ensureNativeRust = runOnce(/** @returns {Promise<Rust>} */ async () => {
+export const ensureNativeRust = memoize(/** @returns {Promise<Rust>} */ async () => {
   let cargoPath = findProgram('cargo', [RUSTUP_BIN]);
   if (cargoPath === undefined) {
     if (!(await installRustup())) {
@@ -126,9 +126,9 @@ async function installRustup() {
  * Finds or installs Rust for WebAssembly. The standard library of the target comes from rustup. If rustup's server cannot be reached, Debian's
  * compiler builds that library from Debian's sources.
  */
-export const ensureRustForWasm = runOnce(/** @returns {Promise<Rust>} */ async () => {
+export const ensureRustForWasm = memoize(/** @returns {Promise<Rust>} */ async () => {
   const nativeToolchain = await ensureNativeRust();
-  if (nativeToolchain.bin !== DEBIAN_BIN && (await enqueueForRustup(() => hasTarget(nativeToolchain)))) {
+  if (nativeToolchain.bin !== DEBIAN_BIN && (await enqueueForRustup(() => hasWasmTarget(nativeToolchain)))) {
     return { ...nativeToolchain, target: ['--target', WASM_TARGET], description: `${nativeToolchain.description}, ${WASM_TARGET} of rustup` };
   }
   const missingMessage =
@@ -154,25 +154,25 @@ export const ensureRustForWasm = runOnce(/** @returns {Promise<Rust>} */ async (
  *
  * @param {Rust} native
  */
-async function hasTarget({ bin, env }) {
+async function hasWasmTarget({ bin, env }) {
   const sysrootRun = await run(join(bin, 'rustc'), ['--print', 'sysroot'], { env, quiet: true });
   if (existsSync(join(sysrootRun.stdout.trim(), 'lib/rustlib', WASM_TARGET))) return true;
   const rustupPath = findProgram('rustup', [bin]);
   if (rustupPath === undefined) return false;
   // Behind some firewalls rustup never returns. A daily probe detects such a firewall. It waits longer if Debian's packages cannot replace
   // rustup.
-  const unreachableMark = join(CACHE_DIRECTORY, 'rustup-unreachable');
+  const unreachableMarkPath = join(CACHE_DIRECTORY, 'rustup-unreachable');
   const canFallBack = findProgram('apt-get') !== undefined;
   const dayInMs = 24 * 3600 * 1000;
-  if (canFallBack && existsSync(unreachableMark) && Date.now() - statSync(unreachableMark).mtimeMs < dayInMs) return false;
+  if (canFallBack && existsSync(unreachableMarkPath) && Date.now() - statSync(unreachableMarkPath).mtimeMs < dayInMs) return false;
   printStep(`Asking rustup for ${WASM_TARGET}`);
-  const addTarget = () => run(rustupPath, ['target', 'add', WASM_TARGET], { env, seconds: canFallBack ? 60 : 600 });
-  const { ok, timedOut } = canFallBack && (await isServerSilent()) ? { ok: false, timedOut: true } : await addTarget();
+  const installWasmTarget = () => run(rustupPath, ['target', 'add', WASM_TARGET], { env, seconds: canFallBack ? 60 : 600 });
+  const { ok, timedOut } = canFallBack && (await isServerSilent()) ? { ok: false, timedOut: true } : await installWasmTarget();
   if (ok) return true;
   if (timedOut) {
     console.log('rustup does not answer.');
     mkdirSync(CACHE_DIRECTORY, { recursive: true });
-    writeFileSync(unreachableMark, '');
+    writeFileSync(unreachableMarkPath, '');
   }
   return false;
 }
@@ -241,7 +241,7 @@ export async function ensureLints({ bin, env }) {
   } else {
     const rustupPath = findProgram('rustup', [bin]);
     if (rustupPath === undefined) throw new UserError(missingMessage);
-    await enqueueForRustup(() => mustRun(missingMessage, rustupPath, ['component', 'add', 'rustfmt', 'clippy'], { env, seconds: 300 }));
+    await enqueueForRustup(() => runOrThrow(missingMessage, rustupPath, ['component', 'add', 'rustfmt', 'clippy'], { env, seconds: 300 }));
   }
   if (!(await hasLints())) throw new UserError(missingMessage);
 }

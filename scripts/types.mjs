@@ -55,7 +55,7 @@ function composeGroupInterfaces() {
     for (const { key, type } of declaredSettings) {
       if (type !== 'group') continue;
       const partFields = declaredSettings.filter((groupPart) => groupPart.in === key).map(fieldOf);
-      const interfaceText = asInterface(toPascalCase(key), partFields);
+      const interfaceText = interfaceOf(toPascalCase(key), partFields);
       if ((interfaceByGroup.get(key) ?? interfaceText) !== interfaceText) throw new Error(`${widgetTag}: ${key} is not the group that it is in another widget; call it otherwise.`);
       interfaceByGroup.set(key, interfaceText);
     }
@@ -65,7 +65,7 @@ function composeGroupInterfaces() {
 
 /** Returns the interface of a widget's settings. @param {string} widgetTag */
 function settingsInterfaceOf(widgetTag) {
-  return asInterface(`${toPascalCase(widgetTag)}Settings`, settings[widgetTag].filter((settingDeclaration) => !settingDeclaration.in && !settingDeclaration.of).map(fieldOf));
+  return interfaceOf(`${toPascalCase(widgetTag)}Settings`, settings[widgetTag].filter((settingDeclaration) => !settingDeclaration.in && !settingDeclaration.of).map(fieldOf));
 }
 
 /** Returns the type of a figure with the public members of its class. @param {import('./declarations.mjs').Widget[]} widgets */
@@ -74,10 +74,10 @@ async function composeFigureTypes([{ attributes }]) {
   /** @type {any[]} */
   const publicMembers = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
   /** Replaces the type of any widget by a type parameter. @param {{ type: { text: string } }} [typedItem] */
-  const typeTextIn = (typedItem) => (typedItem?.type.text ?? 'void').replace(/\bSimulation\['stats'\]/, 'Stats').replace(/\bStateValues\b/, 'State');
+  const specializedTypeOf = (typedItem) => (typedItem?.type.text ?? 'void').replace(/\bSimulation\['stats'\]/, 'Stats').replace(/\bStateValues\b/, 'State');
   const memberFields = publicMembers.map(({ kind, name, description, parameters = [], type, return: returnType, readonly }) => {
-    const parameterTexts = parameters.map((/** @type {any} */ methodParameter) => `${methodParameter.name}: ${typeTextIn(methodParameter)}`);
-    return { name: kind === 'method' ? `${name}(${parameterTexts.join(', ')})` : name, type: typeTextIn(kind === 'method' ? returnType : { type }), description: joinLines(description), readonly };
+    const parameterTexts = parameters.map((/** @type {any} */ methodParameter) => `${methodParameter.name}: ${specializedTypeOf(methodParameter)}`);
+    return { name: kind === 'method' ? `${name}(${parameterTexts.join(', ')})` : name, type: specializedTypeOf(kind === 'method' ? returnType : { type }), description: joinLines(description), readonly };
   });
   const commonFields = attributes.filter(({ isCommon }) => isCommon).map(({ property, ...rest }) => ({ ...rest, name: property ?? rest.name }));
   const eventFields = classes.get('FigureElement').events.map((/** @type {any} */ { name, type, description }) => {
@@ -85,9 +85,9 @@ async function composeFigureTypes([{ attributes }]) {
     return { name, type: typeText === 'CustomEvent' ? `CustomEvent<${name[0].toUpperCase()}${name.slice(1)}>` : typeText, description: joinLines(description) };
   });
   return (
-    `/** Events of an element for \`addEventListener\`; \`Stats\` are those of its class. */\n${asInterface('FigureEvents<Stats>', eventFields)}\n` +
+    `/** Events of an element for \`addEventListener\`; \`Stats\` are those of its class. */\n${interfaceOf('FigureEvents<Stats>', eventFields)}\n` +
     '/** Members of every element. */\n' +
-    asInterface('FigureElement<State extends FigureState, Stats>', [...commonFields, ...memberFields, ...LISTENER_FIELDS], 'HTMLElement')
+    interfaceOf('FigureElement<State extends FigureState, Stats>', [...commonFields, ...memberFields, ...LISTENER_FIELDS], 'HTMLElement')
   );
 }
 
@@ -110,9 +110,9 @@ function elementTypesOf({ tag, className, attributes, properties, state }) {
   // The members that every figure has are in FigureElement.
   const ownFields = attributes.filter(({ isCommon }) => !isCommon).map((attributeDescription) => ({ ...attributeDescription, isText: true }));
   return (
-    `${asInterface(`${className}State`, [widgetField, ...state], 'FigureState')}\n` +
+    `${interfaceOf(`${className}State`, [widgetField, ...state], 'FigureState')}\n` +
     `/** \`<${tag}>\`. Its attributes have the properties' names. */\n` +
-    asInterface(`${className}Element`, [...ownFields, ...properties], baseType)
+    interfaceOf(`${className}Element`, [...ownFields, ...properties], baseType)
   );
 }
 
@@ -126,7 +126,7 @@ function importLineOf(widgets) {
 
 /** Returns the types of the elements by tag. @param {import('./declarations.mjs').Widget[]} widgets */
 function tagTypesOf(widgets) {
-  const mapLines = widgets.map(({ tag, className }) => `    '${tag}': ${className}Element;\n`);
+  const tagMapLines = widgets.map(({ tag, className }) => `    '${tag}': ${className}Element;\n`);
   const tagLines = widgets.map(({ tag, className, attributes, properties }) => {
     const propertyNames = [...attributes.map(({ name, property = name }) => property), ...properties.filter(({ readonly }) => !readonly).map(({ name }) => name)];
     return `  '${tag}': TemplateValues<${className}Element, ${unionTypeOf(propertyNames)}>;\n`;
@@ -140,13 +140,13 @@ ${tagLines.join('')}}
 
 declare global {
   interface HTMLElementTagNameMap {
-${mapLines.join('')}  }
+${tagMapLines.join('')}  }
 }
 `;
 }
 
 /** Returns an interface of TypeScript. @param {string} interfaceName @param {Field[]} interfaceFields @param {string} [baseInterface] */
-function asInterface(interfaceName, interfaceFields, baseInterface) {
+function interfaceOf(interfaceName, interfaceFields, baseInterface) {
   const memberLines = interfaceFields.map(({ name: key, type, description, readonly, isText }) => {
     const commentText = description && `  /** ${description} */\n`;
     if (isText) return `${commentText}  get ${key}(): ${type};\n  set ${key}(value: ${type.replace(' | null', '')} | string | null | undefined);\n`;

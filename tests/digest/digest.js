@@ -49,7 +49,7 @@ export const resultFunctions = {
       contours: simulation.contours,
       curve: simulation.skewCurve(-3, 3, 25),
       samples: {
-        inspected: everyNthIndexBelow(shown, 501).map((sampleIndex) => ({ ...simulation.inspect(sampleIndex), heading: simulation.heading(sampleIndex) })),
+        inspected: listMultiplesBelow(shown, 501).map((sampleIndex) => ({ ...simulation.inspect(sampleIndex), heading: simulation.heading(sampleIndex) })),
         nearest: VIEWS.map((viewName) => simulation.nearest(viewName, 0.9, 0.2, 0.5, 0.3)),
         reaching: [[1, 0.5], [-0.3, 0.8], [0, 0], [2, -1.5]].map(([x, y]) => commandReaching(x, y, command)),
       },
@@ -77,7 +77,7 @@ export const resultFunctions = {
       statistics: { shown, startFree, openPlace, noise, stats },
       paths: {
         commanded: simulation.commanded,
-        driven: everyNthIndexBelow(shown, 101).map((sampleIndex) => simulation.path(sampleIndex)),
+        driven: listMultiplesBelow(shown, 101).map((sampleIndex) => simulation.path(sampleIndex)),
         nearest: simulation.nearest(2.1, 2.4, 0.5),
       },
       trials: SAMPLERS.map((sampler) => {
@@ -124,7 +124,7 @@ export const resultFunctions = {
       ways: { commanded: simulation.commanded, nominal: simulation.nominal },
       poses: { poses: simulation.poses, twists: simulation.twists, first: firstPoses },
       rollouts: {
-        driven: everyNthIndexBelow(shown, 501).map((index) => simulation.rollout(index)),
+        driven: listMultiplesBelow(shown, 501).map((index) => simulation.rollout(index)),
         nearest: simulation.nearest(config.command.v * config.command.dt * config.step, 0.1, 0.5),
       },
       outlines: simulation.outlines,
@@ -149,15 +149,15 @@ export const resultFunctions = {
       },
       legs,
       truth,
-      panels: ['turn', 'distance'].map((regressor) => simulation.panels(/** @type {'turn' | 'distance'} */ (regressor))),
+      panels: ['turn', 'distance'].map((predictor) => simulation.panels(/** @type {'turn' | 'distance'} */ (predictor))),
       leg: simulation.leg(5),
       nearest: simulation.nearest(0.5, 1, 3),
     };
     // The poses at the starts of the legs are the second log.
     const { count, times, odometry, reference } = legs;
-    const columnOfArray = (/** @type {Float64Array} */ flatArray, /** @type {number} */ itemSize, /** @type {number} */ columnOffset) =>
+    const columnOf = (/** @type {Float64Array} */ flatArray, /** @type {number} */ itemSize, /** @type {number} */ columnOffset) =>
       Float64Array.from({ length: count }, (_, leg) => flatArray[itemSize * leg + columnOffset]);
-    const legPoseColumnsOf = (/** @type {Float64Array} */ legPoses) => ({ t: columnOfArray(times, 2, 0), x: columnOfArray(legPoses, 6, 0), y: columnOfArray(legPoses, 6, 1), theta: columnOfArray(legPoses, 6, 2) });
+    const legPoseColumnsOf = (/** @type {Float64Array} */ legPoses) => ({ t: columnOf(times, 2, 0), x: columnOf(legPoses, 6, 0), y: columnOf(legPoses, 6, 1), theta: columnOf(legPoses, 6, 2) });
     if (count > 1) simulation.setLog(legPoseColumnsOf(odometry), legPoseColumnsOf(reference));
     const resultsOfLog = [simulation.fits, simulation.stats.alphas, simulation.stats.intervals];
     simulation.free();
@@ -185,7 +185,7 @@ const VIEWS = /** @type {const} */ (['plane', 'twist']);
 const SAMPLERS = /** @type {const} */ (['endpoint', 'whole-arc', 'sub-stepped']);
 
 /** Returns the multiples of `indexStep` below `count`. @type {(count: number, indexStep: number) => number[]} */
-const everyNthIndexBelow = (count, indexStep) => Array.from({ length: Math.ceil(count / indexStep) }, (_, i) => i * indexStep);
+const listMultiplesBelow = (count, indexStep) => Array.from({ length: Math.ceil(count / indexStep) }, (_, i) => i * indexStep);
 
 /** Returns colour ramps whose colours all differ, equal to those of configuration.rs. @param {number} count number of ramps */
 const createRamps = (count) => Uint8Array.from({ length: 1024 * count }, (_, byteOffset) => {

@@ -96,8 +96,8 @@ test('the velocity model uses the commands of a file, and other models use the p
   // The command of a row is driven until the next row.
   const odometryRows = exampleRowsOf('odometry');
   const rowsWithCommands = odometryRows.map(([t, x, y, yaw], i) => {
-    const [nextTime, toX, toY, toYaw] = odometryRows[i + 1] ?? [t + 1, x, y, yaw];
-    return [t, x, y, yaw, Math.hypot(toX - x, toY - y) / (nextTime - t), Math.atan2(Math.sin(toYaw - yaw), Math.cos(toYaw - yaw)) / (nextTime - t)].join(',');
+    const [nextTime, nextX, nextY, nextYaw] = odometryRows[i + 1] ?? [t + 1, x, y, yaw];
+    return [t, x, y, yaw, Math.hypot(nextX - x, nextY - y) / (nextTime - t), Math.atan2(Math.sin(nextYaw - yaw), Math.cos(nextYaw - yaw)) / (nextTime - t)].join(',');
   });
   await chooseTables(widget, { 'odom.csv': ['t,x,y,yaw,v,omega', ...rowsWithCommands].join('\n'), 'truth.csv': readExampleTable('reference') });
   await expect.poll(readOdometryKeys).toContain('omega');
@@ -185,13 +185,13 @@ test('a log with too few legs is refused, and the figure still shows the previou
 /** Chooses two tables of 15 minutes, and returns the time of the choice. @param {Locator} widget */
 const chooseLongTables = (widget) => widget.evaluate((element) => {
   const fileInput = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#log-files'));
-  const csvRowAt = (/** @type {number} */ i, /** @type {number} */ swayWidth) => {
+  const csvRowAt = (/** @type {number} */ i, /** @type {number} */ swayAmplitude) => {
     const [t, angle] = [i / 100, i / 400];
-    return [t, 3 * Math.sin(angle), 3 - 3 * Math.cos(angle) + swayWidth * Math.sin(7 * t), angle % 6].join(',');
+    return [t, 3 * Math.sin(angle), 3 - 3 * Math.cos(angle) + swayAmplitude * Math.sin(7 * t), angle % 6].join(',');
   };
   const { files, items } = new DataTransfer();
-  for (const [name, swayWidth] of /** @type {const} */ ([['odom.csv', 0], ['truth.csv', 0.02]])) {
-    items.add(new File([['t,x,y,yaw', ...Array.from({ length: 90_000 }, (_, i) => csvRowAt(i, swayWidth))].join('\n')], name));
+  for (const [name, swayAmplitude] of /** @type {const} */ ([['odom.csv', 0], ['truth.csv', 0.02]])) {
+    items.add(new File([['t,x,y,yaw', ...Array.from({ length: 90_000 }, (_, i) => csvRowAt(i, swayAmplitude))].join('\n')], name));
   }
   fileInput.files = files;
   const startTime = performance.now();
@@ -273,9 +273,9 @@ test('a new log replaces a log that is being fitted, and a removed figure has no
     const calibratorElement = /** @type {AlphaCalibratorElement & { settled: Promise<void> }} */ (element);
     const errorMessages = /** @type {string[]} */ ([]);
     calibratorElement.addEventListener('error', (errorEvent) => void errorMessages.push(/** @type {ErrorEvent} */ (errorEvent).message));
-    const poseColumnsOf = (/** @type {number} */ swayWidth) => {
+    const poseColumnsOf = (/** @type {number} */ swayAmplitude) => {
       const circleAngles = Float64Array.from({ length: 60_000 }, (_, i) => i / 400);
-      return { t: circleAngles.map((angle) => 4 * angle), x: circleAngles.map(Math.sin), y: circleAngles.map((angle) => swayWidth * Math.sin(28 * angle) - Math.cos(angle)), theta: circleAngles };
+      return { t: circleAngles.map((angle) => 4 * angle), x: circleAngles.map(Math.sin), y: circleAngles.map((angle) => swayAmplitude * Math.sin(28 * angle) - Math.cos(angle)), theta: circleAngles };
     };
     const [firstLog, secondLog] = ['first', 'second'].map((name) => ({ name, odometry: poseColumnsOf(0), reference: poseColumnsOf(0.02) }));
     calibratorElement.log = firstLog;

@@ -1,10 +1,8 @@
 import { expect } from '@playwright/test';
 import { REDUCED_MOTION, readCentre, waitForFrames, mountFigure, parseNumberIn, readPicture, countPixelsOfRole, playSliderOf, readoutValueOf, test, openDisclosures } from './support.js';
 
-/**
- * @import { Locator, Page } from '@playwright/test'
- * @import { ArcAnatomy } from '../../www/types.d.ts'
- */
+/** @import { Locator, Page } from '@playwright/test' */
+/** @import { ArcAnatomy } from '../../www/types.d.ts' */
 /** @typedef {HTMLElement & { simulation: ArcAnatomy, getState(): any, toCSV(): string, toSVG(): string }} ArcAnatomyElement */
 
 test.use(REDUCED_MOTION);

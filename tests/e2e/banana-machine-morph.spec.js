@@ -51,9 +51,9 @@ test('the handle at the end of the arc can be dragged during the morph @nightly'
   await widget.evaluate((element) => void Reflect.set(element, 'morph', 0.4));
   const [x, y] = /** @type {number[]} */ (await readProperty(widget, 'visibleArcEnd'));
   await arcEndHandle.press('ArrowUp');
-  const [seenX, seenY] = /** @type {number[]} */ (await readProperty(widget, 'visibleArcEnd'));
-  expect(seenX).toBeCloseTo(x, 9);
-  expect(seenY).toBeCloseTo(y + 0.02, 9);
+  const [shownX, shownY] = /** @type {number[]} */ (await readProperty(widget, 'visibleArcEnd'));
+  expect(shownX).toBeCloseTo(x, 9);
+  expect(shownY).toBeCloseTo(y + 0.02, 9);
   ({ command } = (await readBananaResults(widget)).config);
   expect(command.omega).toBeGreaterThan(0.01);
 });

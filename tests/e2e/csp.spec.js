@@ -40,12 +40,12 @@ async function openUnderPolicy(page, policy, pagePath) {
 }
 
 /** Returns a policy that allows only the named Trusted Types policies. @param {string} policyNames */
-const policyWithTrustedTypes = (policyNames) => `${STRICT_POLICY}; require-trusted-types-for 'script'; trusted-types ${policyNames}`;
+const trustedTypesPolicyOf = (policyNames) => `${STRICT_POLICY}; require-trusted-types-for 'script'; trusted-types ${policyNames}`;
 
 test('a figure complies with a strict policy, even if the page has loaded another copy of Lit with its own Trusted Types policy', async ({ page, figureName }) => {
   // A copy of Lit that the page loads before the figures makes this Trusted Types policy.
   await page.addInitScript(() => void Reflect.get(window, 'trustedTypes').createPolicy('lit-html', { createHTML: (/** @type {string} */ htmlText) => htmlText }));
-  const readViolations = await openUnderPolicy(page, policyWithTrustedTypes('lit-html motion-widgets'), `embed.html?widget=${figureName}`);
+  const readViolations = await openUnderPolicy(page, trustedTypesPolicyOf('lit-html motion-widgets'), `embed.html?widget=${figureName}`);
   const widget = page.locator(figureName);
   await waitUntilReady(widget);
   await openDisclosures(widget);
@@ -56,13 +56,13 @@ test('a figure complies with a strict policy, even if the page has loaded anothe
 
 // The tests below expect messages of the browser in the console.
 testWithWarnings('a figure runs if the page allows only the Trusted Types policy with Lit’s name @nightly', async ({ page }) => {
-  await openUnderPolicy(page, policyWithTrustedTypes('lit-html'), 'embed.html?widget=banana-machine');
+  await openUnderPolicy(page, trustedTypesPolicyOf('lit-html'), 'embed.html?widget=banana-machine');
   await expect(page.locator('banana-machine canvas').first()).toBeVisible();
 });
 
 testWithWarnings('if no Trusted Types policy is allowed, the figure names the policy that it needs @nightly', async ({ page }) => {
   const consoleWarning = page.waitForEvent('console', (consoleMessage) => consoleMessage.type() === 'warning' && consoleMessage.text().includes('lacks'));
-  await openUnderPolicy(page, policyWithTrustedTypes("'none'"), 'embed.html?widget=banana-machine');
+  await openUnderPolicy(page, trustedTypesPolicyOf("'none'"), 'embed.html?widget=banana-machine');
   const policyExplanation = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";
   await expect(page.locator('banana-machine')).toHaveText(`This interactive figure cannot run here. ${policyExplanation}`);
   expect((await consoleWarning).text()).toContain(policyExplanation);
@@ -83,7 +83,7 @@ testWithWarnings('in a browser without WebAssembly, the figure states in the pag
   const widget = page.locator('banana-machine');
   await expect(widget.getByRole('alert')).toContainText('This interactive figure cannot run here.');
   expect(pageErrors).toEqual([]);
-  const schemesAndGrounds = await widget.evaluate(async (element) => {
+  const schemesAndBackgrounds = await widget.evaluate(async (element) => {
     // A figure that is not visible yet has the same colours as a visible one.
     const farFigure = /** @type {HTMLElement} */ (element.cloneNode());
     farFigure.style.marginTop = '5000px';
@@ -94,7 +94,7 @@ testWithWarnings('in a browser without WebAssembly, the figure states in the pag
       return [surfaceStyle?.colorScheme, surfaceStyle?.getPropertyValue('--background')];
     });
   });
-  expect(schemesAndGrounds).toEqual(Array(2).fill(['dark', 'rgb(17,34,51)']));
+  expect(schemesAndBackgrounds).toEqual(Array(2).fill(['dark', 'rgb(17,34,51)']));
 });
 
 testWithWarnings('if the policy forbids fetching the module, the embedded module is used, and a warning names the directive @nightly', async ({ page }) => {

@@ -1,10 +1,8 @@
 import { expect } from '@playwright/test';
 import { REDUCED_MOTION, dragSlider, waitForFrames, mountFigure, readPicture, countPixelsOfRole, readoutValueOf, readoutDetailOf, test, openDisclosures, waitUntilSettled } from './support.js';
 
-/**
- * @import { Locator, Page } from '@playwright/test'
- * @import { DeadReckoning } from '../../www/types.d.ts'
- */
+/** @import { Locator, Page } from '@playwright/test' */
+/** @import { DeadReckoning } from '../../www/types.d.ts' */
 /** @typedef {HTMLElement & { simulation: DeadReckoning }} DeadReckoningElement */
 
 test.use(REDUCED_MOTION);
@@ -175,11 +173,11 @@ test('the exported CSV has a row for each step', async ({ page }) => {
   const [, headerLine, ...dataLines] = csvLines;
   const columnNames = headerLine.split(',');
   expect(dataLines).toHaveLength(20);
-  const valueAt = (/** @type {number} */ lineIndex, /** @type {string} */ name) => Number(dataLines[lineIndex].split(',')[columnNames.indexOf(name)]);
-  expect(valueAt(0, 'step')).toBe(1);
-  expect(valueAt(4, 'measured_lateral_m2')).toBe(measured[13]);
-  expect(valueAt(19, 'first_order_heading_rad2')).toBe(predicted[59]);
-  expect(valueAt(0, 'chapter_lateral_m2')).toBe(0);
+  const readCsvValue = (/** @type {number} */ lineIndex, /** @type {string} */ name) => Number(dataLines[lineIndex].split(',')[columnNames.indexOf(name)]);
+  expect(readCsvValue(0, 'step')).toBe(1);
+  expect(readCsvValue(4, 'measured_lateral_m2')).toBe(measured[13]);
+  expect(readCsvValue(19, 'first_order_heading_rad2')).toBe(predicted[59]);
+  expect(readCsvValue(0, 'chapter_lateral_m2')).toBe(0);
 });
 
 test('with a million robots, the results of the first block appear at once, and other blocks follow', async ({ page }) => {

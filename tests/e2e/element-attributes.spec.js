@@ -47,35 +47,35 @@ test('attributes of every type set the opening state of a figure', async ({ page
 
 test('attributes stay as written until their setting changes, and then reflect the setting', async ({ page }) => {
   await showPage(page, '<banana-machine preset="hard" seed="3"></banana-machine><map-squeeze></map-squeeze>');
-  const [banana, squeeze] = TWO_NAMES.map((name) => page.locator(name));
-  await waitUntilReady(banana);
-  await openDisclosures(banana);
+  const [bananaMachine, mapSqueeze] = TWO_NAMES.map((name) => page.locator(name));
+  await waitUntilReady(bananaMachine);
+  await openDisclosures(bananaMachine);
   const readAttributes = (/** @type {import('@playwright/test').Locator} */ widget) =>
     widget.evaluate((element) => Object.fromEntries([...element.attributes].map(({ name, value }) => [name, value])));
-  expect(await readAttributes(banana)).toEqual({ preset: 'hard', seed: '3' });
+  expect(await readAttributes(bananaMachine)).toEqual({ preset: 'hard', seed: '3' });
   // The preset "hard" does not apply after a change. Its values are then reflected as attributes.
   const alphaAttributes = { alpha1: '0.05', alpha2: '0.05', alpha3: '0.05', alpha4: '0.09', alpha5: '0.01', alpha6: '0.01' };
-  await banana.locator('#v').fill('0.5');
+  await bananaMachine.locator('#v').fill('0.5');
   await waitForFrames(page);
-  expect(await readAttributes(banana)).toEqual({ v: '0.5', omega: '1.2', dt: '1.4', seed: '3', ...alphaAttributes });
-  await banana.getByRole('button', { name: 'Pivot' }).click();
+  expect(await readAttributes(bananaMachine)).toEqual({ v: '0.5', omega: '1.2', dt: '1.4', seed: '3', ...alphaAttributes });
+  await bananaMachine.getByRole('button', { name: 'Pivot' }).click();
   await waitForFrames(page);
-  expect(await readAttributes(banana)).toEqual({ preset: 'pivot', v: '0.06', omega: '1.5', dt: '1', seed: '3', ...alphaAttributes });
-  await banana.getByLabel('Isolate one').check();
-  await banana.getByRole('checkbox', { name: 'linearized' }).check();
+  expect(await readAttributes(bananaMachine)).toEqual({ preset: 'pivot', v: '0.06', omega: '1.5', dt: '1', seed: '3', ...alphaAttributes });
+  await bananaMachine.getByLabel('Isolate one').check();
+  await bananaMachine.getByRole('checkbox', { name: 'linearized' }).check();
   await waitForFrames(page);
-  expect(await readAttributes(banana)).toMatchObject({ isolate: '4', overlays: 'command ellipse exponential linearized' });
-  await banana.getByLabel('Isolate one').uncheck();
+  expect(await readAttributes(bananaMachine)).toMatchObject({ isolate: '4', overlays: 'command ellipse exponential linearized' });
+  await bananaMachine.getByLabel('Isolate one').uncheck();
   await waitForFrames(page);
-  expect(await readAttributes(banana)).not.toHaveProperty('isolate');
+  expect(await readAttributes(bananaMachine)).not.toHaveProperty('isolate');
 
-  await squeeze.scrollIntoViewIfNeeded();
-  await waitUntilReady(squeeze);
-  await openDisclosures(squeeze);
-  await squeeze.getByRole('button', { name: 'Facing a wall' }).click();
-  await squeeze.getByLabel('Check samples against the map').uncheck();
+  await mapSqueeze.scrollIntoViewIfNeeded();
+  await waitUntilReady(mapSqueeze);
+  await openDisclosures(mapSqueeze);
+  await mapSqueeze.getByRole('button', { name: 'Facing a wall' }).click();
+  await mapSqueeze.getByLabel('Check samples against the map').uncheck();
   await waitForFrames(page);
-  expect(await readAttributes(squeeze)).toEqual({ x: '3.3', conditioned: 'false' });
+  expect(await readAttributes(mapSqueeze)).toEqual({ x: '3.3', conditioned: 'false' });
 });
 
 test('controls of a figure change its attributes, and removing an attribute restores the default', async ({ page, figureName }) => {
@@ -131,11 +131,11 @@ test('elements have the attributes that the table of doc/embedding/figures.md sh
 /** Fields of states that no single attribute can set. The map has no attribute, and the list of α's is set by two attributes. */
 const VALUES_WITHOUT_ATTRIBUTES = { 'map-squeeze': { map: null, alphas: [0.2, 0.2, 0.2, 0.2, 0.05, 0.05] } };
 
-testEach('the code to embed a figure reproduces the settings of its state, with the attributes in any order', async (page, name, isFull) => {
+testEach('the code to embed a figure reproduces the settings of its state, with the attributes in any order', async (page, name, isNightly) => {
   await showPage(page, `<${name}></${name}>`);
   const widget = page.locator(name).first();
   await waitUntilReady(widget);
-  for (const seed of isFull ? STATE_SEEDS : STATE_SEEDS.slice(0, 2)) {
+  for (const seed of isNightly ? STATE_SEEDS : STATE_SEEDS.slice(0, 2)) {
     const randomState = { ...createRandomStates(seed)[name], ...Reflect.get(VALUES_WITHOUT_ATTRIBUTES, name) };
     const [originalConfig, ...copiedConfigs] = await widget.evaluate(async (element, newState) => {
       /** @type {any} */ (element).setState(newState);

@@ -134,12 +134,12 @@ testEach('a frame after an input event calls the core at most six times, and the
     Object.assign(element, { callsByFrame });
     const { prototype } = /** @type {import('./support.js').AnyElement} */ (element).simulation.constructor;
     for (const [memberName, { get, value }] of Object.entries(Object.getOwnPropertyDescriptors(prototype))) {
-      const withRecordedCalls = (/** @type {Function} */ simulationMethod) => /** @this {unknown} */ function (/** @type {any[]} */ ...methodArguments) {
+      const recordCallsOf = (/** @type {Function} */ simulationMethod) => /** @this {unknown} */ function (/** @type {any[]} */ ...methodArguments) {
         /** @type {string[]} */ (callsByFrame.at(-1)).push(memberName);
         return simulationMethod.apply(this, methodArguments);
       };
-      if (get) Object.defineProperty(prototype, memberName, { get: withRecordedCalls(get) });
-      else if (!['constructor', '__destroy_into_raw'].includes(memberName)) Object.defineProperty(prototype, memberName, { value: withRecordedCalls(value) });
+      if (get) Object.defineProperty(prototype, memberName, { get: recordCallsOf(get) });
+      else if (!['constructor', '__destroy_into_raw'].includes(memberName)) Object.defineProperty(prototype, memberName, { value: recordCallsOf(value) });
     }
     const startNextFrame = () => {
       callsByFrame.push([]);

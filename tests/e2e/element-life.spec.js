@@ -1,5 +1,5 @@
 import { chromium, expect } from '@playwright/test';
-import { CHROME_ARGUMENTS, FULL_CHROME_NAMES, findChrome } from '../../scripts/browser.mjs';
+import { CHROME_ARGUMENTS, FULL_CHROME_PROGRAM_NAMES, findChrome } from '../../scripts/browser.mjs';
 import { ALL_NAMES, CLOUD_NAMES, FIGURE_FACTS, TWO_NAMES } from './figures.js';
 import { NEW_PAGE_TAG, REDUCED_MOTION, setProperty, readBox, readCentre, waitForFrames, mountFigure, readPicture, readProperty, showPage, readState, takeEvents, test, openDisclosures, waitUntilReady } from './support.js';
 
@@ -72,8 +72,8 @@ test('a page with one figure fetches the module of that figure @nightly', async 
 test('a script that contains the module compiles the module at once, so that no placeholder is rendered', async ({ page }) => {
   await countFramesAndModules(page);
   // The two imports are evaluated in one task, so that the second script sees what the first has compiled.
-  const countReaderUrl = 'data:text/javascript,window.compiledDuringScript = counts.compiled';
-  await showPage(page, '<banana-machine></banana-machine>', { script: `<script type="module">import '/motion-widgets.js'; import '${countReaderUrl}'</script>` });
+  const countRecorderUrl = 'data:text/javascript,window.compiledDuringScript = counts.compiled';
+  await showPage(page, '<banana-machine></banana-machine>', { script: `<script type="module">import '/motion-widgets.js'; import '${countRecorderUrl}'</script>` });
   await waitUntilReady(page.locator('banana-machine'));
   expect(await page.evaluate(() => Reflect.get(window, 'compiledDuringScript'))).toBe(1);
   const [hasSimulation, hasPlaceholder] = await page.evaluate(async () => {
@@ -340,7 +340,7 @@ test('a figure shows changes that were made while `display: none` hid it @nightl
 
 test('a page that is restored from the back-forward cache works @nightly', async ({ baseURL }) => {
   const browser = await chromium.launch({
-    executablePath: findChrome(FULL_CHROME_NAMES), args: CHROME_ARGUMENTS, ignoreDefaultArgs: ['--disable-back-forward-cache'],
+    executablePath: findChrome(FULL_CHROME_PROGRAM_NAMES), args: CHROME_ARGUMENTS, ignoreDefaultArgs: ['--disable-back-forward-cache'],
   });
   const page = await browser.newPage({ baseURL, reducedMotion: 'reduce' });
   await showPage(page, ALL_NAMES.map((name) => `<${name} share></${name}>`).join(''));

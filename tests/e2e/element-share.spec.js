@@ -144,9 +144,9 @@ test('a page with a <base> element keeps its own address @nightly', async ({ pag
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   await expect.poll(readAddress).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
   // A later state in the address replaces the earlier state.
-  const formerAddress = await readAddress();
+  const addressBefore = await readAddress();
   await widget.getByRole('button', { name: 'Open corridor' }).click();
-  await expect.poll(readAddress).not.toBe(formerAddress);
+  await expect.poll(readAddress).not.toBe(addressBefore);
   expect(await readAddress()).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
 });
 
@@ -184,18 +184,18 @@ test('a figure with the attribute share keeps its state in the address, and foll
   const readHash = () => page.evaluate(() => location.hash);
   await widget.locator(`#${sliderId}`).fill(String(sliderValues[0]));
   await expect.poll(readHash).toMatch(new RegExp(`^#${figureName}\\.1=[\\w-]+$`));
-  const [formerHash, stateBefore] = [await readHash(), await readState(widget)];
+  const [previousHash, stateBefore] = [await readHash(), await readState(widget)];
   await widget.getByRole('button', { name: buttonLabel, exact: true }).click();
-  await expect.poll(readHash).not.toBe(formerHash);
+  await expect.poll(readHash).not.toBe(previousHash);
   expect(await readState(widget)).not.toEqual(stateBefore);
-  await page.evaluate((fragment) => (location.hash = fragment), formerHash);
+  await page.evaluate((fragment) => (location.hash = fragment), previousHash);
   await expect.poll(() => readState(widget)).toEqual(stateBefore);
   await page.evaluate(() => (location.hash = '#end'));
   await waitForFrames(page);
   expect(await page.evaluate(() => document.querySelector(':target')?.id)).toBe('end');
   expect(await readState(widget)).toEqual(stateBefore);
   expect(await takeEvents(page, ['error'])).toEqual([]);
-  await page.evaluate((fragment) => (location.hash = fragment.slice(0, -9)), formerHash);
+  await page.evaluate((fragment) => (location.hash = fragment.slice(0, -9)), previousHash);
   await expect(widget.getByRole('alert')).toHaveText('This link cannot be read: it may be cut off. The figure stays as it was.');
   expect(await readState(widget)).toEqual(stateBefore);
 });

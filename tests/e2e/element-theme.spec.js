@@ -115,8 +115,8 @@ test('after a transition of the page’s background, a figure has the final colo
   });
   const widget = page.locator('banana-machine');
   await waitUntilReady(widget);
-  for (const [isNight, expectedPaper] of /** @type {const} */ ([[true, '#101418'], [false, '#ffffff']])) {
-    await page.evaluate((isNightClassOn) => document.documentElement.classList.toggle('night', isNightClassOn), isNight);
+  for (const [isNightThemeOn, expectedPaper] of /** @type {const} */ ([[true, '#101418'], [false, '#ffffff']])) {
+    await page.evaluate((isNightClassOn) => document.documentElement.classList.toggle('night', isNightClassOn), isNightThemeOn);
     await expect.poll(() => readPaperColor(widget)).toBe(expectedPaper);
   }
 });

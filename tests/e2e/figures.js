@@ -72,7 +72,7 @@ export const NAMES_WITH_HANDLES = ALL_NAMES.filter((figureName) => FIGURE_FACTS[
  * @param {string} testTitle of the test; a tag at its end has no effect
  * @param {Name[]} [candidateNames]
  */
-export function figureNameFor(testTitle, candidateNames = ALL_NAMES) {
+export function chooseFigureName(testTitle, candidateNames = ALL_NAMES) {
   let titleHash = 0;
   for (const character of testTitle.replace(/ @\w+$/, '')) titleHash = (53 * titleHash + character.charCodeAt(0)) % 65_521;
   return candidateNames[titleHash % candidateNames.length];

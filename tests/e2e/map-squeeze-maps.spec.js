@@ -3,10 +3,8 @@ import { expectAccessible } from './axe.js';
 import { makeMapFile, openSqueeze, makePgmFile, readSqueezeResults, makeYamlFile } from './squeeze-support.js';
 import { REDUCED_MOTION, dropFiles, waitForFrames, readPicture, countPixelsOfRole, test, openDisclosures } from './support.js';
 
-/**
- * @typedef {import('./squeeze-support.js').MapFile} MapFile
- * @typedef {import('@playwright/test').Locator} Locator
- */
+/** @typedef {import('./squeeze-support.js').MapFile} MapFile */
+/** @typedef {import('@playwright/test').Locator} Locator */
 
 test.use(REDUCED_MOTION);
 

@@ -2,9 +2,7 @@ import { expect } from '@playwright/test';
 import { openSqueeze, readSqueezeResults } from './squeeze-support.js';
 import { REDUCED_MOTION, readCentre, waitForFrames, parseNumberIn, readPicture, readoutValueOf, readState, test, openDisclosures } from './support.js';
 
-/**
- * @typedef {import('@playwright/test').Locator} Locator
- */
+/** @typedef {import('@playwright/test').Locator} Locator */
 
 test.use(REDUCED_MOTION);
 

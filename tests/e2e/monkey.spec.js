@@ -46,88 +46,88 @@ const DROPPED_FILES = [
 /** Returns a generator of random integers and of random list elements. @param {number} seed @returns {Random} */
 function createRandom(seed) {
   const drawUniform = createRandomGenerator(seed);
-  const drawBelow = (/** @type {number} */ limit) => Math.floor(limit * drawUniform());
-  return { integerBelow: drawBelow, itemOf: (itemList) => itemList[drawBelow(itemList.length)] };
+  const drawIntegerBelow = (/** @type {number} */ limit) => Math.floor(limit * drawUniform());
+  return { integerBelow: drawIntegerBelow, itemOf: (itemList) => itemList[drawIntegerBelow(itemList.length)] };
 }
 
 /** Scrolls a random part of a widget into view, and returns a random point in it. @param {Page} page @param {Random} randomSource @param {string} partSelector */
 async function findReachablePart(page, randomSource, partSelector) {
-  const [figureName, choiceIndex, x, y] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(1e6), randomSource.integerBelow(99) + 1, randomSource.integerBelow(99) + 1];
+  const [figureName, choiceNumber, x, y] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(1e6), randomSource.integerBelow(99) + 1, randomSource.integerBelow(99) + 1];
   const partBox = await page.evaluate(
-    ([figureName, partSelector, choiceIndex]) => {
-      const visibleParts = [...(document.querySelector(`${figureName}`)?.shadowRoot?.querySelectorAll(`${partSelector}`) ?? [])].filter((reachablePart) => reachablePart.checkVisibility());
-      const reachablePart = visibleParts[Number(choiceIndex) % visibleParts.length];
-      if (!reachablePart) return;
-      reachablePart.scrollIntoView({ block: 'nearest', behavior: 'instant' });
-      const { left, top, width, height } = reachablePart.getBoundingClientRect();
-      return { left, top, width, height, description: `${reachablePart.localName} ${reachablePart.id || reachablePart.className} ${reachablePart.textContent?.trim().slice(0, 20)}` };
+    ([figureName, partSelector, choiceNumber]) => {
+      const visibleParts = [...(document.querySelector(`${figureName}`)?.shadowRoot?.querySelectorAll(`${partSelector}`) ?? [])].filter((pointedPart) => pointedPart.checkVisibility());
+      const pointedPart = visibleParts[Number(choiceNumber) % visibleParts.length];
+      if (!pointedPart) return;
+      pointedPart.scrollIntoView({ block: 'nearest', behavior: 'instant' });
+      const { left, top, width, height } = pointedPart.getBoundingClientRect();
+      return { left, top, width, height, description: `${pointedPart.localName} ${pointedPart.id || pointedPart.className} ${pointedPart.textContent?.trim().slice(0, 20)}` };
     },
-    [figureName, partSelector, choiceIndex],
+    [figureName, partSelector, choiceNumber],
   );
   return partBox && { x: partBox.left + (partBox.width * x) / 100, y: partBox.top + (partBox.height * y) / 100, description: `${figureName} ${partBox.description}` };
 }
 
 /** @type {Record<string, Action>} */
 const RANDOM_ACTIONS = {
-  async click(page, randomSource) {
-    const reachablePart = await findReachablePart(page, randomSource, PART_SELECTOR);
-    if (reachablePart) await page.mouse.click(reachablePart.x, reachablePart.y, { clickCount: randomSource.itemOf([1, 1, 1, 2]) });
-    return `${reachablePart?.description}`;
+  async clickPart(page, randomSource) {
+    const pointedPart = await findReachablePart(page, randomSource, PART_SELECTOR);
+    if (pointedPart) await page.mouse.click(pointedPart.x, pointedPart.y, { clickCount: randomSource.itemOf([1, 1, 1, 2]) });
+    return `${pointedPart?.description}`;
   },
-  async tap(page, randomSource) {
-    const reachablePart = await findReachablePart(page, randomSource, PART_SELECTOR);
-    if (reachablePart) await page.touchscreen.tap(reachablePart.x, reachablePart.y);
-    return `${reachablePart?.description}`;
+  async tapPart(page, randomSource) {
+    const pointedPart = await findReachablePart(page, randomSource, PART_SELECTOR);
+    if (pointedPart) await page.touchscreen.tap(pointedPart.x, pointedPart.y);
+    return `${pointedPart?.description}`;
   },
-  async drag(page, randomSource) {
-    const reachablePart = await findReachablePart(page, randomSource, 'input[type=range], .handle, canvas');
-    if (!reachablePart) return 'nothing';
+  async dragPart(page, randomSource) {
+    const pointedPart = await findReachablePart(page, randomSource, 'input[type=range], .handle, canvas');
+    if (!pointedPart) return 'nothing';
     const dragOffset = [randomSource.integerBelow(400) - 200, randomSource.integerBelow(200) - 100];
-    await page.mouse.move(reachablePart.x, reachablePart.y);
+    await page.mouse.move(pointedPart.x, pointedPart.y);
     await page.mouse.down();
-    await page.mouse.move(reachablePart.x + dragOffset[0], reachablePart.y + dragOffset[1], { steps: 4 });
+    await page.mouse.move(pointedPart.x + dragOffset[0], pointedPart.y + dragOffset[1], { steps: 4 });
     // Sometimes another event happens during a drag.
     if (randomSource.integerBelow(4) > 0) await page.mouse.up();
-    return `${reachablePart.description} by ${dragOffset}`;
+    return `${pointedPart.description} by ${dragOffset}`;
   },
-  async key(page, randomSource) {
+  async pressKeys(page, randomSource) {
     const pressedKeys = Array.from({ length: 1 + randomSource.integerBelow(4) }, () => randomSource.itemOf(PRESSABLE_KEYS));
     for (const key of pressedKeys) await page.keyboard.press(key);
     return pressedKeys.join(' ');
   },
-  async type(page, randomSource) {
-    const reachablePart = await findReachablePart(page, randomSource, 'input:not([type=range], [type=checkbox], [type=radio]), textarea');
+  async typeText(page, randomSource) {
+    const pointedPart = await findReachablePart(page, randomSource, 'input:not([type=range], [type=checkbox], [type=radio]), textarea');
     const [typedText, endKey] = [randomSource.itemOf(TYPED_NUMBERS), randomSource.itemOf(['Enter', 'Tab', 'Escape'])];
-    if (reachablePart) {
-      await page.mouse.click(reachablePart.x, reachablePart.y, { clickCount: 3 });
+    if (pointedPart) {
+      await page.mouse.click(pointedPart.x, pointedPart.y, { clickCount: 3 });
       await page.keyboard.insertText(typedText);
       await page.keyboard.press(endKey);
     }
-    return `${reachablePart?.description}: ${JSON.stringify(typedText)} ${endKey}`;
+    return `${pointedPart?.description}: ${JSON.stringify(typedText)} ${endKey}`;
   },
-  async wheel(page, randomSource) {
+  async turnWheel(page, randomSource) {
     const scrollDelta = randomSource.integerBelow(2000) - 1000;
     await page.mouse.wheel(0, scrollDelta);
     return `${scrollDelta}`;
   },
-  async attribute(page, randomSource) {
-    const [figureName, choiceIndex, attributeText] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(1e6), randomSource.integerBelow(4) === 0 ? null : randomSource.itemOf(ATTRIBUTE_TEXTS)];
-    return page.evaluate(([name, choiceIndex, attributeText]) => {
+  async setAttribute(page, randomSource) {
+    const [figureName, choiceNumber, attributeText] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(1e6), randomSource.integerBelow(4) === 0 ? null : randomSource.itemOf(ATTRIBUTE_TEXTS)];
+    return page.evaluate(([name, choiceNumber, attributeText]) => {
       const attributeNames = [.../** @type {any} */ (customElements.get(`${name}`)).observedAttributes, 'lang', 'dir', 'id', 'hidden'];
-      const attributeName = attributeNames[Number(choiceIndex) % attributeNames.length];
+      const attributeName = attributeNames[Number(choiceNumber) % attributeNames.length];
       const figureElement = document.querySelector(`${name}`);
       if (attributeText === null) figureElement?.removeAttribute(attributeName);
       else figureElement?.setAttribute(attributeName, `${attributeText}`);
       return `${name} ${attributeName}=${attributeText}`;
-    }, [figureName, choiceIndex, attributeText]);
+    }, [figureName, choiceNumber, attributeText]);
   },
-  async resize(page, randomSource) {
+  async resizeWindow(page, randomSource) {
     const [width, height] = randomSource.itemOf(WINDOW_SIZES);
     await page.setViewportSize({ width, height });
     return `${width} × ${height}`;
   },
-  async media(page, randomSource) {
-    const mediaFeatures = { colorScheme: randomSource.itemOf(/** @type {const} */ (['light', 'dark'])), reducedMotion: randomSource.itemOf(/** @type {const} */ (['reduce', 'no-preference'])), mediaFeatures: randomSource.itemOf(/** @type {const} */ (['screen', 'screen', 'print'])) };
+  async emulateMedia(page, randomSource) {
+    const mediaFeatures = { colorScheme: randomSource.itemOf(/** @type {const} */ (['light', 'dark'])), reducedMotion: randomSource.itemOf(/** @type {const} */ (['reduce', 'no-preference'])), media: randomSource.itemOf(/** @type {const} */ (['screen', 'screen', 'print'])) };
     await page.emulateMedia(mediaFeatures);
     return JSON.stringify(mediaFeatures);
   },
@@ -136,16 +136,16 @@ const RANDOM_ACTIONS = {
     await page.evaluate((language) => (document.documentElement.lang = language), newLanguage);
     return newLanguage;
   },
-  async hash(page, randomSource) {
-    const [name, choiceIndex] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(4)];
-    return page.evaluate(async ([name, choiceIndex]) => {
+  async openFragment(page, randomSource) {
+    const [name, choiceNumber] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(4)];
+    return page.evaluate(async ([name, choiceNumber]) => {
       const shareLink = await /** @type {AnyElement} */ (document.querySelector(`${name}`)).shareLink();
       const { hash } = new URL(shareLink);
-      location.hash = [hash, hash.slice(0, -9), `#${name}.1=`, '#top'][Number(choiceIndex)];
+      location.hash = [hash, hash.slice(0, -9), `#${name}.1=`, '#top'][Number(choiceNumber)];
       return location.hash.slice(0, 60);
-    }, [name, choiceIndex]);
+    }, [name, choiceNumber]);
   },
-  async files(page, randomSource) {
+  async dropFiles(page, randomSource) {
     const files = randomSource.itemOf(DROPPED_FILES);
     await page.evaluate(async (files) => {
       const mapSection = document.querySelector('map-squeeze')?.shadowRoot?.querySelector('section');
@@ -155,9 +155,9 @@ const RANDOM_ACTIONS = {
     }, files.map(({ name, buffer }) => ({ name, bytes: [...buffer] })));
     return files.map(({ name }) => name).join(' ');
   },
-  async state(page, randomSource) {
-    const [name, choiceIndex, fieldIndex, newValue] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(3), randomSource.integerBelow(1e6), randomSource.itemOf([0, 1, -1, 0.5, 1e9, null, 'x', [], {}, true])];
-    return page.evaluate(([name, choiceIndex, fieldIndex, newValue]) => {
+  async setState(page, randomSource) {
+    const [name, choiceNumber, fieldIndex, newValue] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(3), randomSource.integerBelow(1e6), randomSource.itemOf([0, 1, -1, 0.5, 1e9, null, 'x', [], {}, true])];
+    return page.evaluate(([name, choiceNumber, fieldIndex, newValue]) => {
       const element = /** @type {any} */ (document.querySelector(`${name}`));
       const keptStates = /** @type {any} */ (window).keptStates;
       const state = element.getState();
@@ -165,14 +165,14 @@ const RANDOM_ACTIONS = {
       const { widget, version, ...fields } = state ?? {};
       const fieldNames = Object.keys(fields);
       const fieldName = fieldNames[Number(fieldIndex) % fieldNames.length];
-      const nextState = choiceIndex === 0 ? { widget, version, [fieldName]: newValue } : keptStates[Number(fieldIndex) % keptStates.length];
+      const nextState = choiceNumber === 0 ? { widget, version, [fieldName]: newValue } : keptStates[Number(fieldIndex) % keptStates.length];
       try {
         element.setState(nextState);
       } catch (error) {
         if (!(error instanceof TypeError || error instanceof RangeError)) throw error;
       }
-      return `${name} ${choiceIndex === 0 ? `${fieldName}: ${JSON.stringify(newValue)}` : 'a former state'}`;
-    }, [name, choiceIndex, fieldIndex, newValue]);
+      return `${name} ${choiceNumber === 0 ? `${fieldName}: ${JSON.stringify(newValue)}` : 'a former state'}`;
+    }, [name, choiceNumber, fieldIndex, newValue]);
   },
   /** Sets a small number of samples, because events are slow with millions of samples. */
   async reduceSamples(page, randomSource) {
@@ -182,23 +182,26 @@ const RANDOM_ACTIONS = {
       return `${figureName} ${sampleCount}`;
     }, [figureName, sampleCount]);
   },
-  async move(page, randomSource) {
-    const [name, choiceIndex] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(3)];
-    return page.evaluate(async ([name, choiceIndex]) => {
+  async moveFigure(page, randomSource) {
+    const [name, choiceNumber] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(3)];
+    return page.evaluate(async ([name, choiceNumber]) => {
       const element = document.querySelector(`${name}`);
       const moveMarker = document.createComment('');
       element?.after(moveMarker);
       const movedElement = /** @type {Element} */ (element);
       movedElement.remove();
-      if (choiceIndex === 1) await new Promise(requestAnimationFrame);
-      moveMarker.replaceWith(choiceIndex === 2 ? Object.assign(document.createElement(`${name}`), { id: movedElement.id }) : movedElement);
-      return `${name} ${['moved', 'taken away for a while', 'another one in its place'][Number(choiceIndex)]}`;
-    }, [name, choiceIndex]);
+      if (choiceNumber === 1) await new Promise(requestAnimationFrame);
+      moveMarker.replaceWith(choiceNumber === 2 ? Object.assign(document.createElement(`${name}`), { id: movedElement.id }) : movedElement);
+      return `${name} ${['moved', 'taken away for a while', 'another one in its place'][Number(choiceNumber)]}`;
+    }, [name, choiceNumber]);
   },
 };
 
 /** Relative frequencies of the random actions. @type {Record<string, number>} */
-const ACTION_FREQUENCIES = { click: 12, tap: 3, drag: 12, key: 8, type: 6, wheel: 3, attribute: 6, resize: 1, media: 1, changeLanguage: 1, hash: 1, files: 1, state: 2, reduceSamples: 4, move: 1 };
+const ACTION_FREQUENCIES = {
+  clickPart: 12, tapPart: 3, dragPart: 12, pressKeys: 8, typeText: 6, turnWheel: 3, setAttribute: 6, resizeWindow: 1, emulateMedia: 1, changeLanguage: 1, openFragment: 1, dropFiles: 1, setState: 2,
+  reduceSamples: 4, moveFigure: 1,
+};
 const WEIGHTED_ACTION_NAMES = Object.entries(ACTION_FREQUENCIES).flatMap(([actionName, frequency]) => Array(frequency).fill(actionName));
 
 /**

@@ -69,7 +69,7 @@ testEach('a German figure contains no English text', async (page, figureName) =>
   await openDisclosures(widget);
   const visibleTexts = await readVisibleTexts(widget);
   expect(visibleTexts.length).toBeGreaterThan(60);
-  expect(englishTexts.filter((part) => visibleTexts.some((visibleText) => visibleText === part || (part.includes(' ') && visibleText.includes(part))))).toEqual([]);
+  expect(englishTexts.filter((englishText) => visibleTexts.some((visibleText) => visibleText === englishText || (englishText.includes(' ') && visibleText.includes(englishText))))).toEqual([]);
 });
 
 test('the nearest lang attribute sets language and number format; unknown languages fall back to English', async ({ page }) => {

@@ -6,8 +6,8 @@ test.use(REDUCED_MOTION);
 /** Maximum difference between the reserved height and the height of a figure, em, in any font and at any width up to 80 em. */
 const MAX_HEIGHT_DIFFERENCE_EM = 8;
 
-testEach('the height reserved for a figure until its script is loaded is about the height of the figure', async (page, figureName, isFull) => {
-  const pageWidths = isFull ? [320, 375, 414, 480, 560, 640, 700, 760, 900, 1024, 1280] : [375, 700, 1280];
+testEach('the height reserved for a figure until its script is loaded is about the height of the figure', async (page, figureName, isNightly) => {
+  const pageWidths = isNightly ? [320, 375, 414, 480, 560, 640, 700, 760, 900, 1024, 1280] : [375, 700, 1280];
   await showPage(page, '', {
     head: '<style>body { margin: 0; font: 16px "Liberation Serif", serif }</style>',
     script: '<script type="module" src="/external.js"></script>',

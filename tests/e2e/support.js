@@ -5,7 +5,7 @@
  */
 
 import { expect, test as playwrightTest } from '@playwright/test';
-import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureNameFor } from './figures.js';
+import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, chooseFigureName } from './figures.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -32,12 +32,12 @@ import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureNameFor } from './fig
  */
 export const test = playwrightTest.extend({
   /* oxlint-disable no-empty-pattern */
-  figureName: async ({}, useFixture, { title }) => useFixture(figureNameFor(title)),
-  cloudFigureName: async ({}, use, { title }) => use(figureNameFor(title, CLOUD_NAMES)),
-  handleFigureName: async ({}, use, { title }) => use(figureNameFor(title, NAMES_WITH_HANDLES)),
+  figureName: async ({}, useFixture, { title }) => useFixture(chooseFigureName(title)),
+  cloudFigureName: async ({}, useFixture, { title }) => useFixture(chooseFigureName(title, CLOUD_NAMES)),
+  handleFigureName: async ({}, useFixture, { title }) => useFixture(chooseFigureName(title, NAMES_WITH_HANDLES)),
   /* oxlint-enable no-empty-pattern */
   isIntroductionSkipped: [true, { option: true }],
-  page: async ({ page, isIntroductionSkipped }, use) => {
+  page: async ({ page, isIntroductionSkipped }, useFixture) => {
     if (isIntroductionSkipped) await page.addInitScript(skipIntroduction);
     /** @type {string[]} */
     const consoleMessages = [];
@@ -45,7 +45,7 @@ export const test = playwrightTest.extend({
       if (['error', 'warning'].includes(consoleMessage.type())) consoleMessages.push(consoleMessage.text());
     });
     page.on('pageerror', (pageError) => consoleMessages.push(String(pageError)));
-    await use(page);
+    await useFixture(page);
     expect(consoleMessages).toEqual([]);
   },
 });
@@ -54,7 +54,7 @@ export const test = playwrightTest.extend({
  * Declares a test about all figures. Daily tests run it with one figure, chosen by the title. Nightly tests run it with each figure.
  *
  * @param {string} testTitle
- * @param {(page: Page, name: Name, isFull: boolean) => Promise<void>} testBody body of the test; `isFull` is true in nightly tests
+ * @param {(page: Page, name: Name, isNightly: boolean) => Promise<void>} testBody body of the test; `isNightly` is true in nightly tests
  * @param {{ tag?: string }} [testDetails]
  */
 export function testEach(testTitle, testBody, testDetails = {}) {

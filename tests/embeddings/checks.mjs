@@ -36,7 +36,7 @@ export async function runChecks(browser, servedSite) {
     await browserContext.close();
   }
   // An aborted request means that the browser has left the page.
-  const allowedPatterns = [/ net::ERR_ABORTED$/, ...(definition.allowed ?? []).map(({ message }) => message)];
+  const allowedPatterns = [/ net::ERR_ABORTED$/, ...(definition.allowedMessages ?? []).map(({ message }) => message)];
   const unexpectedMessages = [...new Set(consoleMessages)].filter((message) => !allowedPatterns.some((allowedPattern) => allowedPattern.test(message)));
   if (unexpectedMessages.length > 0) failedChecks.push(`console: ${unexpectedMessages.join('\n')}`);
   else passedCount++;
@@ -45,12 +45,12 @@ export async function runChecks(browser, servedSite) {
 
 /** Returns the checks of a site, by name. @param {Site} site @returns {NonNullable<import('./project.mjs').Serving['checks']>} */
 function checksOf({ definition, serving }) {
-  const { go, pages } = definition;
+  const { goToPage, pages } = definition;
   return {
     'first load': checkFirstLoad,
-    ...(go && { 'away and back': checkAwayAndBack }),
-    ...(go && pages.second && { 'from a page without figures': checkFromOtherPage }),
-    ...((serving.dark ?? definition.dark) && { 'dark mode': checkDarkMode }),
+    ...(goToPage && { 'away and back': checkAwayAndBack }),
+    ...(goToPage && pages.second && { 'from a page without figures': checkFromOtherPage }),
+    ...((serving.setDarkMode ?? definition.setDarkMode) && { 'dark mode': checkDarkMode }),
   };
 }
 
@@ -75,8 +75,8 @@ const addressOf = ({ url }, path) => new URL(path.replace(/^\//, ''), url).href;
 
 /** Waits until every figure has drawn its present settings. @param {Page} page @param {Site} site */
 export async function untilLive(page, { definition }) {
-  assert.ok(definition.expected.length > 0, 'No figure is expected.');
-  for (const { selector, properties } of definition.expected) {
+  assert.ok(definition.expectedFigures.length > 0, 'No figure is expected.');
+  for (const { selector, properties } of definition.expectedFigures) {
     const figureLocator = page.locator(selector);
     await figureLocator.waitFor({ state: 'attached' });
     // An element without height is not visible, so that a locator would wait for it.
@@ -119,8 +119,8 @@ async function checkFirstLoad(page, site) {
  * @param {'first' | 'second'} linkKind
  */
 async function followLink(page, { definition }, linkKind) {
-  await definition.go?.(page, definition.pages[linkKind] ?? linkKind);
-  await page.locator(definition.expected[0].selector).waitFor({ state: linkKind === 'first' ? 'attached' : 'detached' });
+  await definition.goToPage?.(page, definition.pages[linkKind] ?? linkKind);
+  await page.locator(definition.expectedFigures[0].selector).waitFor({ state: linkKind === 'first' ? 'attached' : 'detached' });
 }
 
 /** Follows a link away from the figures, and a link back to them. @type {(page: Page, site: Site) => Promise<void>} */
@@ -146,11 +146,11 @@ async function checkFromOtherPage(page, site) {
 
 /** Turns dark mode on and off again. @type {(page: Page, site: Site) => Promise<void>} */
 async function checkDarkMode(page, site) {
-  const setDark = site.serving.dark ?? site.definition.dark;
+  const setDarkMode = site.serving.setDarkMode ?? site.definition.setDarkMode;
   await checkFirstLoad(page, site);
   for (const isDark of [true, false]) {
-    await setDark?.(page, isDark);
-    await page.locator(site.definition.expected[0].selector).evaluate(untilScheme, isDark ? 'dark' : 'light');
+    await setDarkMode?.(page, isDark);
+    await page.locator(site.definition.expectedFigures[0].selector).evaluate(untilScheme, isDark ? 'dark' : 'light');
   }
 }
 

@@ -151,9 +151,9 @@ export default {
   heading: 'Jupyter',
   versions: () => pinnedVersionsOf('jupyter', 'jupyterlab', 'anywidget', 'nbconvert', 'voila'),
   python: true,
-  async install(directory, { run: execute, start, wheel }) {
+  async install(directory, { run: execute, start, pythonWheel }) {
     const toolsDirectory = pythonDirectoryOf(directory);
-    await installPythonPackages(directory, { run: execute, start }, [wheel]);
+    await installPythonPackages(directory, { run: execute, start }, [pythonWheel]);
     await execute('npm', ['install', '--prefix', toolsDirectory, '--ignore-scripts', '--no-audit', '--no-fund', '--loglevel', 'error', ...NPM_PACKAGES]);
     // JupyterLab would otherwise ask for permission to fetch news.
     const settingsDirectory = join(toolsDirectory, 'share/jupyter/lab/settings');
@@ -186,11 +186,11 @@ export default {
     { name: 'exported by nbconvert', serve: serveFiles('_build'), checks: EXPORT_CHECKS },
   ],
   pages: { first: 'motion.ipynb' },
-  expected: [
+  expectedFigures: [
     { selector: 'banana-machine', properties: ORIGINAL_SETTINGS },
     { selector: 'map-squeeze', properties: { preset: 'corridor', samples: 1000 } },
   ],
-  allowed: [
+  allowedMessages: [
     { message: /^(Unsatisfied version|No satisfying version)/, reason: 'Voilà is built with another JupyterLab.' },
     { message: /^Plugin .* (?:is taking too long to activate|took .* to activate)/, reason: 'JupyterLab on a busy machine.' },
     { message: /^Connection lost, reconnecting/, reason: 'The kernel is started again.' },

@@ -19,7 +19,7 @@ export default {
   heading: 'marimo',
   versions: () => pinnedVersionsOf('marimo', 'marimo', 'anywidget'),
   python: true,
-  install: (directory, tools) => installPythonPackages(directory, tools, [tools.wheel]),
+  install: (directory, tools) => installPythonPackages(directory, tools, [tools.pythonWheel]),
   servings: [
     {
       name: 'app',
@@ -28,5 +28,5 @@ export default {
     },
   ],
   pages: { first: '/' },
-  expected: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],
+  expectedFigures: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],
 };

@@ -27,10 +27,10 @@ export default {
     },
   ],
   pages: { first: '/', second: '/sensors' },
-  go: (page, path) => page.getByRole('link', { name: path === '/' ? 'Motion' : 'Sensors' }).click(),
-  dark: (page, isDark) => page.emulateMedia({ colorScheme: isDark ? 'dark' : 'light' }),
+  goToPage: (page, path) => page.getByRole('link', { name: path === '/' ? 'Motion' : 'Sensors' }).click(),
+  setDarkMode: (page, isDark) => page.emulateMedia({ colorScheme: isDark ? 'dark' : 'light' }),
   // After the user has left a page, Next.js keeps the page in the DOM and hides it. For that reason the selectors contain `:visible`.
-  expected: [
+  expectedFigures: [
     { selector: 'main:visible banana-machine >> nth=0', properties: { omega: 0.8, samples: 20000, alphas: [0.1, 0.05, 0.05, 0.1, 0.01, 0.01] } },
     { selector: 'main:visible banana-machine >> nth=1', properties: { omega: 0, alphas: [0.1, 0.1, 0.1, 0.1, 0, 0] } },
     { selector: 'main:visible map-squeeze', properties: { noise: 0.2, start: { x: 2.05, y: 2.6, theta: 1.5 } } },

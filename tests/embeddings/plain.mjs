@@ -19,9 +19,9 @@ import { serveFiles, serveByProgram } from './serving.mjs';
  * @property {string} [output] directory of the site, relative to the example; without it, `npm start` serves the site at PORT
  * @property {string} [base] path of the site
  * @property {string} [devBase] path of the site for authors
- * @property {string} [copies] directory into which an author copies the single files
- * @property {boolean} [lists] true if the page sets a property that is a list (`alphas`)
- * @property {'development'} [only] name of the only serving that works
+ * @property {string} [copyDirectory] directory into which an author copies the single files
+ * @property {boolean} [hasListProperty] true if the page sets a property that is a list (`alphas`)
+ * @property {'development'} [onlyServing] name of the only serving that works
  */
 
 /** Settings of the figure in the examples. */
@@ -30,18 +30,18 @@ const FIGURE_ALPHAS = [0.1, 0.05, 0.05, 0.1, 0.01, 0.01];
 
 /** @type {Record<string, Plain & Partial<Platform>>} */
 const PLATFORM_DEFINITIONS = {
-  vite: { heading: 'Vite', packages: ['vite'], output: 'dist', base: '/book/', go: undefined },
+  vite: { heading: 'Vite', packages: ['vite'], output: 'dist', base: '/book/', goToPage: undefined },
   angular: {
     heading: 'Angular',
     packages: ['@angular/core', '@angular/build'],
     output: 'dist/browser',
     base: '/book/',
-    lists: true,
+    hasListProperty: true,
     // The command line of Angular refuses older versions of Node.
     node: 24,
     pages: { first: '/' },
-    go: (page, pageName) => page.getByRole('button', { name: pageName === 'second' ? 'Sensors' : 'Motion' }).first().click(),
-    allowed: [
+    goToPage: (page, pageName) => page.getByRole('button', { name: pageName === 'second' ? 'Sensors' : 'Motion' }).first().click(),
+    allowedMessages: [
       { message: /\/vite-root\/motion\.wasm 404$/, reason: 'Its development server gives the module an address at which it has no file.' },
       { message: /^motion-widgets: the module embedded in a script is used\. .*\/vite-root\//, reason: 'The missing file of the module; the figure works without it.' },
     ],
@@ -53,30 +53,30 @@ const PLATFORM_DEFINITIONS = {
     base: '/book/',
     devBase: '/book/',
     pages: { first: '/motion.html', second: '/sensors.html' },
-    go: (page, path) => page.locator(`.VPSidebar a[href$="${path}"]`).click(),
-    async dark(page, isDark) {
+    goToPage: (page, path) => page.locator(`.VPSidebar a[href$="${path}"]`).click(),
+    async setDarkMode(page, isDark) {
       const htmlElement = page.locator('html');
       if ((await htmlElement.getAttribute('class'))?.includes('dark') !== isDark) await page.locator('.VPNavBarAppearance .VPSwitchAppearance').click();
     },
-    expected: [
+    expectedFigures: [
       { selector: 'banana-machine >> nth=0', properties: FIGURE_SETTINGS },
       { selector: 'banana-machine >> nth=1', properties: { omega: 0.3, samples: 5000, alphas: [0.1, 0.1, 0.1, 0.1, 0.01, 0.01] } },
       { selector: 'map-squeeze', properties: { samples: 1000 } },
     ],
   },
-  sveltekit: { heading: 'SvelteKit', packages: ['@sveltejs/kit', 'svelte'], output: 'build', lists: true, node: 24 },
-  nuxt: { heading: 'Nuxt', packages: ['nuxt'], output: '.output/public', lists: true, node: 24 },
+  sveltekit: { heading: 'SvelteKit', packages: ['@sveltejs/kit', 'svelte'], output: 'build', hasListProperty: true, node: 24 },
+  nuxt: { heading: 'Nuxt', packages: ['nuxt'], output: '.output/public', hasListProperty: true, node: 24 },
   // The production server of SolidStart answers every page with status 500, even pages without figures.
   solidstart: {
     heading: 'SolidStart',
     packages: ['@solidjs/start', 'solid-js'],
-    lists: true,
+    hasListProperty: true,
     node: 24,
-    only: 'development',
-    allowed: [{ message: /@jridgewell\/resolve-uri/, reason: 'Its development server bundles this package late, and loads the page again.' }],
+    onlyServing: 'development',
+    allowedMessages: [{ message: /@jridgewell\/resolve-uri/, reason: 'Its development server bundles this package late, and loads the page again.' }],
   },
-  'react-router': { heading: 'React Router', packages: ['react-router'], lists: true, node: 24 },
-  eleventy: { heading: 'Eleventy', packages: ['@11ty/eleventy'], output: '_site', base: '/book/', go: undefined },
+  'react-router': { heading: 'React Router', packages: ['react-router'], hasListProperty: true, node: 24 },
+  eleventy: { heading: 'Eleventy', packages: ['@11ty/eleventy'], output: '_site', base: '/book/', goToPage: undefined },
   hugo: {
     heading: 'Hugo',
     packages: ['hugo'],
@@ -91,9 +91,9 @@ const PLATFORM_DEFINITIONS = {
       { name: 'development', serve: serveByProgram((port, directory) => [pythonProgramPathOf(directory, 'hugo'), ['server', '--port', port, '--baseURL', '/']]) },
     ],
     pages: { first: '' },
-    go: undefined,
+    goToPage: undefined,
   },
-  observable: { heading: 'Observable Framework', packages: ['@observablehq/framework'], output: 'dist', base: '/book/', copies: 'src', go: undefined },
+  observable: { heading: 'Observable Framework', packages: ['@observablehq/framework'], output: 'dist', base: '/book/', copyDirectory: 'src', goToPage: undefined },
 };
 
 /** Copies the single-file scripts of a release into a directory. @param {string} directory */
@@ -103,21 +103,21 @@ export function copySingleFiles(directory) {
 }
 
 /** @type {[string, Platform][]} */
-const platformEntries = Object.entries(PLATFORM_DEFINITIONS).map(([name, { packages, output, base, devBase, copies, lists, only, ...more }]) => [name, {
+const platformEntries = Object.entries(PLATFORM_DEFINITIONS).map(([name, { packages, output, base, devBase, copyDirectory, hasListProperty, onlyServing, ...otherFields }]) => [name, {
   versions: () => pinnedVersionsOf(name, ...packages),
   install: installNpmPackages,
   async build(directory, { run }) {
-    if (copies) copySingleFiles(join(directory, copies));
+    if (copyDirectory) copySingleFiles(join(directory, copyDirectory));
     await run('npm', ['run', 'build']);
   },
   servings: [
     { name: 'production', serve: output ? serveFiles(output, base) : serveByProgram((port) => ['npm', ['start'], { PORT: port }]) },
     { name: 'development', serve: serveByProgram((port) => ['npm', ['run', 'dev', '--', '--port', port]], devBase) },
-  ].filter(({ name: servingName }) => !only || servingName === only),
+  ].filter(({ name: servingName }) => !onlyServing || servingName === onlyServing),
   pages: { first: '/', second: '/sensors' },
-  go: (page, path) => page.getByRole('link', { name: path === '/' ? 'Motion' : 'Sensors' }).first().click(),
-  expected: [{ selector: 'banana-machine', properties: { ...FIGURE_SETTINGS, ...(lists && { alphas: FIGURE_ALPHAS }) } }],
-  ...more,
+  goToPage: (page, path) => page.getByRole('link', { name: path === '/' ? 'Motion' : 'Sensors' }).first().click(),
+  expectedFigures: [{ selector: 'banana-machine', properties: { ...FIGURE_SETTINGS, ...(hasListProperty && { alphas: FIGURE_ALPHAS }) } }],
+  ...otherFields,
 }]);
 
 /** Plain platforms, by the name of the example. */

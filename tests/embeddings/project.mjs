@@ -9,7 +9,7 @@ import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, delimiter, join } from 'node:path';
-import { ROOT, mustRun, runOnce, printStep } from '../../scripts/process.mjs';
+import { ROOT, runOrThrow, memoize, printStep } from '../../scripts/process.mjs';
 import { startProgram } from './serving.mjs';
 import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
 
@@ -25,22 +25,22 @@ import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
  * @property {(directory: string, tools: Tools) => Promise<unknown>} [build]
  * @property {Serving[]} servings ways to serve the site; the first is that for users
  * @property {{ first: string, second?: string }} pages paths; the first has the figures
- * @property {(page: import('@playwright/test').Page, path: string) => Promise<unknown>} [go] clicks a link to a path,
+ * @property {(page: import('@playwright/test').Page, path: string) => Promise<unknown>} [goToPage] clicks a link to a path,
  *   or to "first" or "second" where both have one address
- * @property {(page: import('@playwright/test').Page, on: boolean) => Promise<unknown>} [dark] turns dark mode on or off
- * @property {ExpectedFigure[]} expected figures that the example contains
- * @property {{ message: RegExp, reason: string }[]} [allowed] messages of the console that the platform causes
+ * @property {(page: import('@playwright/test').Page, isDark: boolean) => Promise<unknown>} [setDarkMode] turns dark mode on or off
+ * @property {ExpectedFigure[]} expectedFigures figures that the example contains
+ * @property {{ message: RegExp, reason: string }[]} [allowedMessages] messages of the console that the platform causes
  *
  * @typedef {object} Serving
  * @property {string} name
  * @property {(directory: string, tools: Tools) => Promise<RunningServer>} serve
  * @property {Record<string, (page: import('@playwright/test').Page, site: import('./checks.mjs').Site) => Promise<void>>} [checks] for
  *   servings that are not sites, in place of the usual checks
- * @property {Platform['dark']} [dark] replaces that of the platform, if only some servings have dark mode
+ * @property {Platform['setDarkMode']} [setDarkMode] replaces that of the platform, if only some servings have dark mode
  *
  * @typedef {{ url: string, stop: () => unknown }} RunningServer
  * @typedef {{ selector: string, properties: Record<string, unknown> }} ExpectedFigure selector of a figure, and properties that it must have
- * @typedef {{ tarball: string, wheel: string }} PackagePaths paths of the packages; the wheel (Python) is empty for platforms without Python
+ * @typedef {{ npmTarball: string, pythonWheel: string }} PackagePaths paths of the packages; pythonWheel is empty for platforms without Python
  * @typedef {object} Tools
  * @property {(command: string, args: string[], env?: Record<string, string>) => Promise<string>} run runs a program in
  *   the copy, asserts that it succeeds, and returns its output
@@ -91,8 +91,8 @@ export function pinnedVersionsOf(exampleName, ...packageNames) {
 }
 
 /** Installs the npm packages of a platform. @param {string} _directory @param {Tools & PackagePaths} tools */
-export async function installNpmPackages(_directory, { run, tarball }) {
-  await run('npm', ['install', '--no-audit', '--no-fund', '--prefer-offline', '--loglevel', 'error', tarball]);
+export async function installNpmPackages(_directory, { run, npmTarball }) {
+  await run('npm', ['install', '--no-audit', '--no-fund', '--prefer-offline', '--loglevel', 'error', npmTarball]);
 }
 
 /**
@@ -110,28 +110,28 @@ export const pythonProgramPathOf = (directory, name) => join(pythonDirectoryOf(d
  *
  * @param {string} directory
  * @param {Tools} tools
- * @param {string[]} wheelPaths Python packages that are installed even if their versions have not changed
+ * @param {string[]} pythonWheelPaths Python packages that are installed even if their versions have not changed
  */
-export async function installPythonPackages(directory, { run }, wheelPaths) {
+export async function installPythonPackages(directory, { run }, pythonWheelPaths) {
   await run('python3', ['-m', 'venv', pythonDirectoryOf(directory)]);
   const pipPath = pythonProgramPathOf(directory, 'pip');
   const pipArguments = ['install', '--quiet', '--disable-pip-version-check'];
-  await run(pipPath, [...pipArguments, '--requirement', 'requirements.txt', ...wheelPaths]);
+  await run(pipPath, [...pipArguments, '--requirement', 'requirements.txt', ...pythonWheelPaths]);
   // The package may have changed although its version is the same.
-  if (wheelPaths.length > 0) await run(pipPath, [...pipArguments, '--force-reinstall', '--no-deps', ...wheelPaths]);
+  if (pythonWheelPaths.length > 0) await run(pipPath, [...pipArguments, '--force-reinstall', '--no-deps', ...pythonWheelPaths]);
 }
 
 /** Packs the present build as npm would publish it, and returns the path of the package. @param {string} directory */
-export function packInto(directory) {
+export function packNpmPackageInto(directory) {
   const packageName = execFileSync('npm', ['pack', ROOT, '--ignore-scripts', '--silent', '--pack-destination', directory], { encoding: 'utf8' });
   return join(directory, packageName.trim());
 }
 
 /** Packs the npm package once, and returns the path of the packed file. */
-const packTarball = runOnce(async () => packInto(makeEmptyDirectory('npm')));
+const packNpmPackage = memoize(async () => packNpmPackageInto(makeEmptyDirectory('npm')));
 
 /** Builds the wheel of the Python package once, and returns its path. */
-const buildWheel = runOnce(async () => {
+const buildPythonWheel = memoize(async () => {
   const directory = makeEmptyDirectory('python');
   execFileSync('python3', ['-m', 'pip', 'wheel', '--quiet', '--no-deps', '--wheel-dir', directory, join(ROOT, 'python')]);
   return join(directory, readdirSync(directory)[0]);
@@ -146,14 +146,14 @@ function makeEmptyDirectory(registryName) {
 }
 
 /** Returns the tools for a copy of an example. @param {string} directory @param {Record<string, string>} toolEnvironment @returns {Tools} */
-function toolsIn(directory, toolEnvironment) {
+function createTools(directory, toolEnvironment) {
   return {
     async run(command, commandArguments, moreOptions) {
       const errorMessage = `\`${[command, ...commandArguments].join(' ')}\` fails: see above.`;
       const runOptions = { cwd: directory, env: { ...toolEnvironment, ...moreOptions }, quiet: true, seconds: 900 };
-      return (await mustRun(errorMessage, command, commandArguments, runOptions)).output;
+      return (await runOrThrow(errorMessage, command, commandArguments, runOptions)).output;
     },
-    start: (command, args, more) => startProgram(command, args, { cwd: directory, env: { ...toolEnvironment, ...more } }),
+    start: (command, args, moreEnvironment) => startProgram(command, args, { cwd: directory, env: { ...toolEnvironment, ...moreEnvironment } }),
   };
 }
 
@@ -170,13 +170,13 @@ const KEPT_NAMES = ['node_modules', '.venv', '.installed'];
 export async function prepareExample(name, platformDefinition) {
   const exampleDirectory = join(ROOT, 'examples', name);
   const directory = join(SCRATCH_DIRECTORY, name);
-  const exampleTools = toolsIn(directory, { ...SILENT_ENVIRONMENT, ...(await environmentWithNode(platformDefinition)) });
+  const exampleTools = createTools(directory, { ...SILENT_ENVIRONMENT, ...(await ensureNode(platformDefinition)) });
   mkdirSync(directory, { recursive: true });
   for (const entryName of readdirSync(directory)) {
     if (!KEPT_NAMES.includes(entryName)) rmSync(join(directory, entryName), { recursive: true });
   }
   cpSync(exampleDirectory, directory, { recursive: true, filter: (path) => !KEPT_NAMES.includes(basename(path)) });
-  const packagePaths = { tarball: await packTarball(), wheel: platformDefinition.python ? await buildWheel() : '' };
+  const packagePaths = { npmTarball: await packNpmPackage(), pythonWheel: platformDefinition.python ? await buildPythonWheel() : '' };
   const pinFiles = ['package.json', 'requirements.txt'].map((fileName) => join(exampleDirectory, fileName)).filter((path) => existsSync(path));
   const packageHash = createHash('sha256');
   for (const path of [...pinFiles, ...Object.values(packagePaths).filter((path) => path !== '')]) packageHash.update(readFileSync(path));
@@ -207,13 +207,13 @@ function removeCaches(modulesDirectory) {
  * Returns an environment with the version of Node that a platform needs. That version is installed if the current one is older.
  * @param {Platform} definition @returns {Promise<Record<string, string>>}
  */
-async function environmentWithNode({ node = 0 }) {
+async function ensureNode({ node = 0 }) {
   if (Number.parseInt(process.versions.node) >= node) return {};
   const directory = join(SCRATCH_DIRECTORY, `node-${node}`);
   const nodeBinDirectory = join(directory, 'node_modules/node/bin');
   if (!existsSync(nodeBinDirectory)) {
     const missingMessage = `Node ${node} is needed and this is ${process.versions.node}: install it from nodejs.org.`;
-    await mustRun(missingMessage, 'npm', ['install', '--prefix', directory, '--no-audit', '--no-fund', `node@${node}`], { quiet: true, seconds: 300 });
+    await runOrThrow(missingMessage, 'npm', ['install', '--prefix', directory, '--no-audit', '--no-fund', `node@${node}`], { quiet: true, seconds: 300 });
   }
   return { PATH: [nodeBinDirectory, process.env.PATH].join(delimiter) };
 }

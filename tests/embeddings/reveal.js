@@ -24,5 +24,5 @@ export default {
   install: installNpmPackages,
   servings: [{ name: 'page', serve: serveFiles('.'), checks: SLIDE_CHECKS }],
   pages: { first: '/' },
-  expected: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],
+  expectedFigures: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],
 };

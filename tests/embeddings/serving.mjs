@@ -27,15 +27,15 @@ export const serveFiles = (outputDirectory, basePath) => async (directory) => {
 /**
  * Starts the server of a platform, and waits until it answers.
  *
- * @param {(port: string, directory: string) => [command: string, args: string[], env?: Record<string, string>]} commandFor returns the command that starts the server
+ * @param {(port: string, directory: string) => [command: string, args: string[], env?: Record<string, string>]} commandOf returns the command that starts the server
  * @param {string} [base] the path of the site, with a slash at both ends
  * @returns {import('./project.mjs').Serving['serve']}
  */
-export const serveByProgram = (commandFor, base = '/') => async (directory, { start }) => {
+export const serveByProgram = (commandOf, base = '/') => async (directory, { start }) => {
   const port = await findFreePort();
   const url = `http://localhost:${port}${base}`;
-  const platformServer = start(...commandFor(port, directory));
-  const earlyEnd = platformServer.ended.then(() => {
+  const platformServer = start(...commandOf(port, directory));
+  const earlyEnd = platformServer.whenEnded.then(() => {
     throw new Error(`The server has ended:\n${platformServer.output()}`);
   });
   try {
@@ -74,8 +74,8 @@ async function untilAnswered(url) {
  * @param {string} command
  * @param {string[]} commandArguments
  * @param {{ env?: Record<string, string>, cwd?: string }} [options]
- * @returns {{ output: () => string, said: (pattern: RegExp) => Promise<string>, ended: Promise<void>, stop: () => Promise<void> }}
- *   `output` returns the text printed so far; `said` waits for a match of a pattern and returns its first group; both other
+ * @returns {{ output: () => string, waitForOutput: (pattern: RegExp) => Promise<string>, whenEnded: Promise<void>, stop: () => Promise<void> }}
+ *   `output` returns the text printed so far; `waitForOutput` waits for a match of a pattern and returns its first group; both other
  *   promises are resolved when the program has ended
  */
 export function startProgram(command, commandArguments, { env = {}, cwd = ROOT } = {}) {
@@ -97,7 +97,7 @@ export function startProgram(command, commandArguments, { env = {}, cwd = ROOT }
   });
   return {
     output: () => outputText,
-    said: (outputPattern) =>
+    waitForOutput: (outputPattern) =>
       new Promise((resolve, reject) => {
         const checkOutput = () => {
           const outputMatch = outputText.match(outputPattern);
@@ -107,7 +107,7 @@ export function startProgram(command, commandArguments, { env = {}, cwd = ROOT }
         endPromise.then(() => reject(new Error(`${command} has ended:\n${outputText}`)));
         checkOutput();
       }),
-    ended: endPromise,
+    whenEnded: endPromise,
     stop() {
       if (groupId !== undefined) endGroup(groupId);
       return endPromise;

@@ -7,7 +7,7 @@ import { serveFiles } from './serving.mjs';
 
 /**
  * Functions that switch a theme between light and dark, by the theme's name. One of the themes has no switch.
- * @type {Record<string, import('./project.mjs').Platform['dark']>}
+ * @type {Record<string, import('./project.mjs').Platform['setDarkMode']>}
  */
 const DARK_SWITCH_OF_THEME = {
   async furo(page, isDark) {
@@ -15,9 +15,9 @@ const DARK_SWITCH_OF_THEME = {
     // The button cycles through light, dark, and the system's scheme.
     for (let i = 0; i < 3 && (await activeThemeMark.count()) === 0; i++) await page.locator('.theme-toggle').filter({ visible: true }).click();
   },
-  async pydata_sphinx_theme(page, on) {
+  async pydata_sphinx_theme(page, isDark) {
     await page.locator('.theme-switch-button').filter({ visible: true }).click();
-    await page.locator(`.theme-change-button[data-mode="${on ? 'dark' : 'light'}"]`).filter({ visible: true }).click();
+    await page.locator(`.theme-change-button[data-mode="${isDark ? 'dark' : 'light'}"]`).filter({ visible: true }).click();
   },
   sphinx_rtd_theme: undefined,
 };
@@ -37,9 +37,9 @@ export default {
       await run(pythonProgramPathOf(directory, 'sphinx-build'), [...sphinxArguments, '.', `_build/${theme}`]);
     }
   },
-  servings: themeNames.map((theme) => ({ name: theme, serve: serveFiles(`_build/${theme}`, '/a/book/'), dark: DARK_SWITCH_OF_THEME[theme] })),
+  servings: themeNames.map((theme) => ({ name: theme, serve: serveFiles(`_build/${theme}`, '/a/book/'), setDarkMode: DARK_SWITCH_OF_THEME[theme] })),
   pages: { first: 'index.html', second: 'map.html' },
-  go: (page, path) => page.locator(`a[href$="${path}"]`).filter({ visible: true }).first().click(),
-  expected: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],
-  allowed: [{ message: /^Got invalid theme mode: \. Resetting to auto\.$/, reason: 'pydata_sphinx_theme warns readers who have chosen no mode.' }],
+  goToPage: (page, path) => page.locator(`a[href$="${path}"]`).filter({ visible: true }).first().click(),
+  expectedFigures: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],
+  allowedMessages: [{ message: /^Got invalid theme mode: \. Resetting to auto\.$/, reason: 'pydata_sphinx_theme warns readers who have chosen no mode.' }],
 };

@@ -14,10 +14,10 @@ import { serveByProgram, startProgram } from '../embeddings/serving.mjs';
 import { ensureFirefox, ensureWebKit } from './programs.mjs';
 
 /**
- * @typedef {object} Engine
+ * @typedef {object} BrowserSession
  * @property {string} version
  * @property {(url: string) => Promise<unknown>} open resolved when the page is loaded
- * @property {<G, R>(work: (given: G) => R | Promise<R>, given: G) => Promise<R>} ask calls a function in the page; it has no access
+ * @property {<G, R>(work: (given: G) => R | Promise<R>, given: G) => Promise<R>} callInPage calls a function in the page; it has no access
  *   to variables around it, and its argument and result are JSON
  * @property {(points: [x: number, y: number][]) => Promise<unknown>} drag with the left button along points, in CSS pixels of the window
  * @property {(...keys: (keyof typeof KEY_CODES)[]) => Promise<unknown>} press keys one after the other, for the element with the focus
@@ -33,26 +33,26 @@ const SCRIPT_TIMEOUT_MS = 240_000;
 
 const KEY_CODES = { ArrowRight: Key.ARROW_RIGHT, ArrowLeft: Key.ARROW_LEFT, ArrowUp: Key.ARROW_UP, ArrowDown: Key.ARROW_DOWN };
 
-/** Starts Chromium. @returns {Promise<Engine>} */
+/** Starts Chromium. @returns {Promise<BrowserSession>} */
 async function startChromium() {
   const { chrome, driver } = await ensureBrowser();
   const chromeArguments = [...CHROME_ARGUMENTS, '--headless=new', '--force-prefers-reduced-motion'];
   return startBrowserByDriver(driver, {}, { browserName: 'chrome', 'goog:chromeOptions': { binary: chrome, args: chromeArguments } });
 }
 
-/** Starts Firefox. @returns {Promise<Engine>} */
+/** Starts Firefox. @returns {Promise<BrowserSession>} */
 async function startFirefox() {
   const { firefox, driver } = await ensureFirefox();
   const firefoxPreferences = { 'ui.prefersReducedMotion': 1 };
   return startBrowserByDriver(driver, {}, { browserName: 'firefox', 'moz:firefoxOptions': { binary: firefox, args: ['-headless'], prefs: firefoxPreferences } });
 }
 
-/** Starts WebKit's MiniBrowser on a virtual screen. @returns {Promise<Engine>} */
+/** Starts WebKit's MiniBrowser on a virtual screen. @returns {Promise<BrowserSession>} */
 async function startWebKit() {
   const { driver, display } = await ensureWebKit();
   // Xvfb takes the first free display number, and prints it when it is ready.
   const screenProcess = startProgram(display, ['-displayfd', '1', '-screen', '0', '1600x1200x24', '-nolisten', 'tcp']);
-  const displayNumber = await screenProcess.said(/^(\d+)\n/m);
+  const displayNumber = await screenProcess.waitForOutput(/^(\d+)\n/m);
   const configDirectory = mkdtempSync(join(tmpdir(), 'motion-engines-'));
   mkdirSync(join(configDirectory, 'gtk-3.0'));
   writeFileSync(join(configDirectory, 'gtk-3.0/settings.ini'), '[Settings]\ngtk-enable-animations=false\n');
@@ -71,7 +71,7 @@ async function startWebKit() {
  * @param {Record<string, string>} driverEnvironment
  * @param {object} browserCapabilities
  * @param {() => Promise<unknown>} [cleanUp] called after the driver has ended
- * @returns {Promise<Engine>}
+ * @returns {Promise<BrowserSession>}
  */
 async function startBrowserByDriver(driverPath, driverEnvironment, browserCapabilities, cleanUp = async () => {}) {
   const driverServer = await serveByProgram((port) => [driverPath, [`--port=${port}`], driverEnvironment], '/status')('', {
@@ -96,7 +96,7 @@ async function startBrowserByDriver(driverPath, driverEnvironment, browserCapabi
  * @param {string} driverUrl of the driver
  * @param {object} capabilities
  * @param {() => Promise<void>} stopDriver
- * @returns {Promise<Engine>}
+ * @returns {Promise<BrowserSession>}
  */
 async function openSession(driverUrl, capabilities, stopDriver) {
   const driverSession = await new Builder().usingServer(driverUrl).withCapabilities(new Capabilities(/** @type {any} */ (capabilities))).build();
@@ -108,7 +108,7 @@ async function openSession(driverUrl, capabilities, stopDriver) {
   return {
     version: (await driverSession.getCapabilities()).get('browserVersion'),
     open: (pageUrl) => driverSession.get(pageUrl),
-    async ask(pageFunction, functionArgument) {
+    async callInPage(pageFunction, functionArgument) {
       // A script of the page runs the function. Firefox runs scripts of WebDriver in a sandbox, whose arrays differ in type from arrays of
       // the page.
       const pageScript = `(async () => (${pageFunction})(${JSON.stringify(functionArgument) ?? 'undefined'}))().then((result) => [result], (error) => [null, \`\${error}\\n\${error.stack}\`])`;
@@ -140,5 +140,5 @@ async function openSession(driverUrl, capabilities, stopDriver) {
   };
 }
 
-/** Functions that start the engines, by the engine names of the command line. @type {Record<string, () => Promise<Engine>>} */
-export const engineStarters = { chromium: startChromium, firefox: startFirefox, webkit: startWebKit };
+/** Functions that start the engines, by the engine names of the command line. @type {Record<string, () => Promise<BrowserSession>>} */
+export const browserStarters = { chromium: startChromium, firefox: startFirefox, webkit: startWebKit };

@@ -13,7 +13,7 @@ import { findDifferences } from '../digest/digest.js';
 import { createSimulation, handlesByTag } from './figures.mjs';
 import { simulationStateOf } from './inside.js';
 
-/** @typedef {import('./browsers.mjs').Engine} Engine */
+/** @typedef {import('./browsers.mjs').BrowserSession} BrowserSession */
 
 /** Number of pointer moves of a drag. */
 const DRAG_STEPS = 8;
@@ -23,12 +23,12 @@ const MAX_COLOURS_OF_BLANK = 16;
 
 const readSource = (/** @type {string} */ repositoryPath) => readFileSync(join(ROOT, repositoryPath), 'utf8');
 
-/** Page in one engine. `ask` calls functions of inside.js in that page. */
-class EnginePage {
-  /** @param {string} engineName @param {Engine} engineSession @param {string} pageUrl */
-  constructor(engineName, engineSession, pageUrl) {
+/** Page in one engine. `callInPage` calls functions of inside.js in that page. */
+class BrowserPage {
+  /** @param {string} engineName @param {BrowserSession} browserSession @param {string} pageUrl */
+  constructor(engineName, browserSession, pageUrl) {
     this.name = engineName;
-    this.engine = engineSession;
+    this.session = browserSession;
     this.address = pageUrl;
   }
 
@@ -40,8 +40,8 @@ class EnginePage {
    * @param {Parameters<typeof import('./inside.js')[Name]>[0]} [functionArgument]
    * @returns {Promise<Awaited<ReturnType<typeof import('./inside.js')[Name]>>>}
    */
-  ask(functionName, functionArgument) {
-    return this.engine.ask(
+  callInPage(functionName, functionArgument) {
+    return this.session.callInPage(
       async ({ name, given }) => (await import(new URL('/tests/engines/inside.js', location.href).href))[name](given),
       { name: functionName, given: functionArgument },
     );
@@ -49,27 +49,27 @@ class EnginePage {
 
   /** Loads the page again. @param {string} [widgetTag] of a figure to scroll to and wait for */
   async open(widgetTag) {
-    await this.engine.open(this.address);
+    await this.session.open(this.address);
     if (widgetTag !== undefined) await this.untilSettled(widgetTag);
   }
 
   /** Waits until a figure has settled, and checks that no picture of the figure is blank. @param {string} widgetTag */
   async untilSettled(widgetTag) {
-    const { stats, samples } = await this.ask('untilSettled', widgetTag);
-    assert.equal(stats, samples, `The statistics are of ${stats} samples.`);
-    for (const colourCount of await this.ask('colourCountsOf', widgetTag)) assert.ok(colourCount > MAX_COLOURS_OF_BLANK, `A picture has ${colourCount} colours.`);
+    const { statisticsCount, requestedCount } = await this.callInPage('untilSettled', widgetTag);
+    assert.equal(statisticsCount, requestedCount, `The statistics are of ${statisticsCount} samples.`);
+    for (const colourCount of await this.callInPage('colourCountsOf', widgetTag)) assert.ok(colourCount > MAX_COLOURS_OF_BLANK, `A picture has ${colourCount} colours.`);
   }
 
   /** Writes a screenshot to a file. @param {string} screenshotName part of the file name */
-  async keepScreenshot(screenshotName) {
+  async saveScreenshot(screenshotName) {
     const screenshotDirectory = join(ROOT, 'test-results/engines');
     mkdirSync(screenshotDirectory, { recursive: true });
-    writeFileSync(join(screenshotDirectory, `${this.name}-${screenshotName}.png`), await this.engine.screenshot());
+    writeFileSync(join(screenshotDirectory, `${this.name}-${screenshotName}.png`), await this.session.screenshot());
   }
 
   /** Returns the new messages of the console. @returns {Promise<string[]>} */
   async takeRecordedErrors() {
-    const recordedMessages = await this.engine.ask(() => /** @type {string[]} */ (/** @type {any} */ (globalThis).recordedErrors.splice(0)), null);
+    const recordedMessages = await this.session.callInPage(() => /** @type {string[]} */ (/** @type {any} */ (globalThis).recordedErrors.splice(0)), null);
     return [...new Set(recordedMessages)];
   }
 }
@@ -78,12 +78,12 @@ class EnginePage {
  * Runs all checks in an engine.
  *
  * @param {string} name of the engine
- * @param {Engine} engine
+ * @param {BrowserSession} browserSession
  * @param {string} pageUrl
  * @returns {Promise<{ passed: number, failures: string[] }>}
  */
-export async function runChecks(name, engine, pageUrl) {
-  const page = new EnginePage(name, engine, pageUrl);
+export async function runChecks(name, browserSession, pageUrl) {
+  const page = new BrowserPage(name, browserSession, pageUrl);
   /** @type {string[]} */
   const failedChecks = [];
   let passedCount = 0;
@@ -96,101 +96,101 @@ export async function runChecks(name, engine, pageUrl) {
     } catch (error) {
       failedChecks.push(`${name}: ${checkName}: ${error instanceof Error ? error.message : error}`);
       console.log(`FAILED ${failedChecks.at(-1)}`);
-      await page.keepScreenshot('failed').catch(() => {});
+      await page.saveScreenshot('failed').catch(() => {});
     }
   };
 
   await runCheck('the digest', () => checkDigest(page));
   for (const tag of Object.keys(settings)) {
     await runCheck(`${tag} opens`, () => checkOpening(page, tag));
-    for (const handleName of handlesByTag[tag] ?? []) {
-      await runCheck(`${tag} is dragged by its handle "${handleName.name}"`, () => checkDragging(page, tag, handleName));
-      await runCheck(`the handle "${handleName.name}" of ${tag} follows the keyboard`, () => checkHandleKeys(page, tag, handleName));
+    for (const handle of handlesByTag[tag] ?? []) {
+      await runCheck(`${tag} is dragged by its handle "${handle.name}"`, () => checkDragging(page, tag, handle));
+      await runCheck(`the handle "${handle.name}" of ${tag} follows the keyboard`, () => checkHandleKeys(page, tag, handle));
     }
     await runCheck(`sliders of ${tag} follow the keyboard`, () => checkSliderKeys(page, tag));
   }
   return { passed: passedCount, failures: failedChecks };
 }
 
-/** Compares the digest of all configurations with golden.txt. @param {EnginePage} page */
+/** Compares the digest of all configurations with golden.txt. @param {BrowserPage} page */
 async function checkDigest(page) {
   await page.open();
-  assert.deepEqual(findDifferences(readSource('tests/digest/golden.txt'), await page.ask('computeWholeDigest')), []);
+  assert.deepEqual(findDifferences(readSource('tests/digest/golden.txt'), await page.callInPage('computeWholeDigest')), []);
 }
 
 /**
  * Compares the results of a figure with those of a simulation of the same settings in Node, to the last bit.
  *
- * @param {EnginePage} page
+ * @param {BrowserPage} page
  * @param {string} tag
  * @returns {Promise<{ simulation: any, hash: string }>} the simulation in Node
  */
 async function compareWithNode(page, tag) {
-  const { config, hash } = await page.ask('stateOf', tag);
+  const { config, hash } = await page.callInPage('stateOf', tag);
   const simulation = await createSimulation(tag, config);
   assert.equal(hash, (await simulationStateOf(simulation)).hash, `Node has other bits for ${JSON.stringify(config)}.`);
   return { simulation, hash };
 }
 
-/** Compares the state of a figure that has just opened with that of a simulation in Node. @type {(page: EnginePage, tag: string) => Promise<void>} */
+/** Compares the state of a figure that has just opened with that of a simulation in Node. @type {(page: BrowserPage, tag: string) => Promise<void>} */
 async function checkOpening(page, tag) {
   await page.open(tag);
   await compareWithNode(page, tag);
-  await page.keepScreenshot(`${tag}-opened`);
+  await page.saveScreenshot(`${tag}-opened`);
 }
 
 /**
  * Checks that a dragged handle moves to the pointer, to within a pixel.
  *
- * @param {EnginePage} page
+ * @param {BrowserPage} page
  * @param {string} tag
  * @param {import('./figures.mjs').Handle} handle
  */
-async function checkDragging(page, tag, { name, to, placeOf }) {
+async function checkDragging(page, tag, { name, target, positionOf }) {
   await page.open(tag);
-  const hashBefore = await page.ask('pictureHashOf', tag);
-  const handlePlaces = await page.ask('handlePlacesOf', { tag, handle: name, to });
+  const hashBefore = await page.callInPage('pictureHashOf', tag);
+  const handleMeasures = await page.callInPage('measureHandle', { tag, handle: name, target });
   // Pointer positions are whole pixels. A handle that is grabbed beside its centre keeps its offset from the pointer.
-  const grabPoint = [Math.round(handlePlaces.from.x), Math.round(handlePlaces.from.y)];
-  const dragVector = [handlePlaces.to.x - handlePlaces.from.x, handlePlaces.to.y - handlePlaces.from.y];
-  const pointAt = (/** @type {number} */ dragFraction) => /** @type {[number, number]} */ (grabPoint.map((coordinate, i) => Math.round(coordinate + dragFraction * dragVector[i])));
-  await page.engine.drag(Array.from({ length: DRAG_STEPS + 1 }, (_, i) => pointAt(i / DRAG_STEPS)));
+  const grabPoint = [Math.round(handleMeasures.position.x), Math.round(handleMeasures.position.y)];
+  const dragVector = [handleMeasures.target.x - handleMeasures.position.x, handleMeasures.target.y - handleMeasures.position.y];
+  const dragPointOf = (/** @type {number} */ dragFraction) => /** @type {[number, number]} */ (grabPoint.map((coordinate, i) => Math.round(coordinate + dragFraction * dragVector[i])));
+  await page.session.drag(Array.from({ length: DRAG_STEPS + 1 }, (_, i) => dragPointOf(i / DRAG_STEPS)));
   await page.untilSettled(tag);
-  await page.keepScreenshot(`${tag}-${name}-dragged`);
+  await page.saveScreenshot(`${tag}-${name}-dragged`);
   const { simulation } = await compareWithNode(page, tag);
-  const [x, y] = placeOf(simulation, to);
-  const pixelError = Math.hypot(x - to[0], y - to[1]) / handlePlaces.pixel;
+  const [x, y] = positionOf(simulation, target);
+  const pixelError = Math.hypot(x - target[0], y - target[1]) / handleMeasures.pixelSize;
   assert.ok(pixelError <= 1, `It is ${pixelError.toFixed(2)} pixels beside where it was dragged.`);
-  assert.notEqual(await page.ask('pictureHashOf', tag), hashBefore, 'The picture is as it was.');
+  assert.notEqual(await page.callInPage('pictureHashOf', tag), hashBefore, 'The picture is as it was.');
 }
 
-/** Moves a handle by arrow keys, and checks its new position. @param {EnginePage} page @param {string} tag @param {import('./figures.mjs').Handle} handle */
+/** Moves a handle by arrow keys, and checks its new position. @param {BrowserPage} page @param {string} tag @param {import('./figures.mjs').Handle} handle */
 async function checkHandleKeys(page, tag, { name }) {
   await page.open(tag);
-  const { hash: hashBefore } = await page.ask('stateOf', tag);
-  assert.ok(await page.ask('focus', { tag, selector: `.handle.${name}` }), 'It does not take the focus.');
-  await page.engine.press('ArrowUp', 'ArrowUp', 'ArrowLeft');
+  const { hash: hashBefore } = await page.callInPage('stateOf', tag);
+  assert.ok(await page.callInPage('focusElement', { tag, selector: `.handle.${name}` }), 'It does not take the focus.');
+  await page.session.press('ArrowUp', 'ArrowUp', 'ArrowLeft');
   await page.untilSettled(tag);
   const { hash } = await compareWithNode(page, tag);
   assert.notEqual(hash, hashBefore, 'Nothing has moved.');
 }
 
-/** Moves each slider by keys, and compares its value. @type {(page: EnginePage, tag: string) => Promise<void>} */
+/** Moves each slider by keys, and compares its value. @type {(page: BrowserPage, tag: string) => Promise<void>} */
 async function checkSliderKeys(page, tag) {
   await page.open(tag);
-  await page.ask('renderAfterInputs', tag);
-  const sliderStates = await page.ask('sliderStatesOf', tag);
+  await page.callInPage('renderAfterInputs', tag);
+  const sliderStates = await page.callInPage('sliderStatesOf', tag);
   assert.ok(sliderStates.length >= 2, `${sliderStates.length} sliders are to be seen.`);
   for (const { key } of sliderStates) {
-    const readSlider = async () => (await page.ask('sliderStatesOf', tag)).find((sliderState) => sliderState.key === key);
+    const readSlider = async () => (await page.callInPage('sliderStatesOf', tag)).find((sliderState) => sliderState.key === key);
     const sliderBefore = await readSlider();
-    assert.ok(sliderBefore && (await page.ask('focus', { tag, selector: `#${key}` })), `${key} does not take the focus.`);
-    await page.engine.press('ArrowRight', 'ArrowRight', 'ArrowLeft');
+    assert.ok(sliderBefore && (await page.callInPage('focusElement', { tag, selector: `#${key}` })), `${key} does not take the focus.`);
+    await page.session.press('ArrowRight', 'ArrowRight', 'ArrowLeft');
     await page.untilSettled(tag);
     const sliderAfter = await readSlider();
-    const expectedPosition = Math.min(sliderBefore.shown + 2 * sliderBefore.step, sliderBefore.end) - sliderBefore.step;
-    assert.ok(sliderAfter && Math.abs(sliderAfter.shown - expectedPosition) < 1e-9, `The slider of ${key} was at ${sliderBefore.shown} and is at ${sliderAfter?.shown}.`);
-    assert.ok((sliderAfter.value - sliderBefore.value) * (expectedPosition - sliderBefore.shown) > 0, `${key} was ${sliderBefore.value} and is ${sliderAfter.value}.`);
+    const expectedPosition = Math.min(sliderBefore.position + 2 * sliderBefore.step, sliderBefore.end) - sliderBefore.step;
+    assert.ok(sliderAfter && Math.abs(sliderAfter.position - expectedPosition) < 1e-9, `The slider of ${key} was at ${sliderBefore.position} and is at ${sliderAfter?.position}.`);
+    assert.ok((sliderAfter.value - sliderBefore.value) * (expectedPosition - sliderBefore.position) > 0, `${key} was ${sliderBefore.value} and is ${sliderAfter.value}.`);
   }
   await compareWithNode(page, tag);
 }

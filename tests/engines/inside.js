@@ -20,7 +20,7 @@ const firstCanvasOf = (/** @type {string} */ tag) => /** @type {HTMLCanvasElemen
  * Scrolls to a figure and waits until its cloud is complete and all pictures are drawn.
  *
  * @param {string} tag
- * @returns {Promise<{ stats: number, samples: number }>} number of samples in the statistics, and number requested
+ * @returns {Promise<{ statisticsCount: number, requestedCount: number }>} number of samples in the statistics, and number requested
  */
 export async function untilSettled(tag) {
   await customElements.whenDefined(tag);
@@ -31,7 +31,7 @@ export async function untilSettled(tag) {
   for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
   await figureElement.settled;
   // The statistics of some figures count attempts, and other figures have no samples.
-  return { stats: figureElement.stats?.n ?? figureElement.stats?.attempts ?? figureElement.stats?.drawn ?? 0, samples: figureElement.samples ?? 0 };
+  return { statisticsCount: figureElement.stats?.n ?? figureElement.stats?.attempts ?? figureElement.stats?.drawn ?? 0, requestedCount: figureElement.samples ?? 0 };
 }
 
 /** Returns the state of a figure. @param {string} tag */
@@ -45,18 +45,18 @@ export async function simulationStateOf({ config, poses = null, stats, verdicts 
 /**
  * Returns the position of a handle, the position to which a test drags it, and the size of a pixel.
  *
- * @param {{ tag: string, handle: string, to: number[] }} given `to` is a place in the picture, m
- * @returns {{ from: Point, to: Point, pixel: number }} in pixels of the window; `pixel` in m
+ * @param {{ tag: string, handle: string, target: number[] }} given `target` is a position in the picture, m
+ * @returns {{ position: Point, target: Point, pixelSize: number }} points in pixels of the window; size of a pixel in m
  */
-export function handlePlacesOf({ tag, handle, to: [x, y] }) {
+export function measureHandle({ tag, handle, target: [x, y] }) {
   const { view } = figureOf(tag).pictures[0];
   const { left, top, width } = firstCanvasOf(tag).getBoundingClientRect();
   const pixelsPerViewPixel = width / view.width;
   const handleBox = /** @type {Element} */ (shadowRootOf(tag).querySelector(`.handle.${handle}`)).getBoundingClientRect();
   return {
-    from: { x: handleBox.x + handleBox.width / 2, y: handleBox.y + handleBox.height / 2 },
-    to: { x: left + pixelsPerViewPixel * view.toPixelX(x), y: top + pixelsPerViewPixel * view.toPixelY(y) },
-    pixel: 1 / (pixelsPerViewPixel * view.scaleX),
+    position: { x: handleBox.x + handleBox.width / 2, y: handleBox.y + handleBox.height / 2 },
+    target: { x: left + pixelsPerViewPixel * view.toPixelX(x), y: top + pixelsPerViewPixel * view.toPixelY(y) },
+    pixelSize: 1 / (pixelsPerViewPixel * view.scaleX),
   };
 }
 
@@ -98,7 +98,7 @@ export function sliderStatesOf(tag) {
       const sliderPosition = Number(value);
       // The id of a slider in a chart is not the name of a setting.
       const settingValue = { [id]: sliderPosition, ...figure.getState() }[id];
-      return { key: id, value: figure[id] ?? settingValue, shown: sliderPosition, step: Number(step), end: Number(max) };
+      return { key: id, value: figure[id] ?? settingValue, position: sliderPosition, step: Number(step), end: Number(max) };
     });
 }
 

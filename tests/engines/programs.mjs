@@ -1,7 +1,7 @@
 // Programs of Firefox and WebKit for `npm run test:engines`. Missing programs are installed by apt.
 
 import { join } from 'node:path';
-import { UserError, findProgram, mustRun, printStep, run } from '../../scripts/process.mjs';
+import { UserError, findProgram, runOrThrow, printStep, run } from '../../scripts/process.mjs';
 import { CACHE_DIRECTORY, installByApt, ensureNativeRust } from '../../scripts/toolchain.mjs';
 
 const FIREFOX_NAMES = ['firefox-esr', 'firefox'];
@@ -29,7 +29,7 @@ async function ensureGeckodriver() {
   const rustTools = await ensureNativeRust();
   printStep('Compiling geckodriver, once');
   const cargoArguments = ['install', '--quiet', '--locked', '--debug', 'geckodriver', '--root', join(CACHE_DIRECTORY, 'geckodriver')];
-  await mustRun(FIREFOX_MISSING_MESSAGE, join(rustTools.bin, 'cargo'), cargoArguments, { env: rustTools.env, seconds: 1200 });
+  await runOrThrow(FIREFOX_MISSING_MESSAGE, join(rustTools.bin, 'cargo'), cargoArguments, { env: rustTools.env, seconds: 1200 });
   return join(geckodriverDirectory, 'geckodriver');
 }
 

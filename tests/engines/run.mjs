@@ -11,7 +11,7 @@ import { join } from 'node:path';
 import { build } from '../../scripts/build.mjs';
 import { ROOT, UserError, printStep, runAsScript } from '../../scripts/process.mjs';
 import { startServer } from '../../scripts/serve.mjs';
-import { engineStarters } from './browsers.mjs';
+import { browserStarters } from './browsers.mjs';
 
 const PAGE_NAME = 'index.html';
 const LISTENER_TAG = '<script src="/tests/engines/listen.js"></script>';
@@ -37,18 +37,18 @@ async function serveSite() {
 }
 
 /** Opens a page in an engine, and returns the failures that the checks found. @param {string} name @param {string} address */
-async function runChecksIn(name, address) {
+async function runChecksInBrowser(name, address) {
   printStep(name);
   let engineVersion = 'none';
   try {
-    const engineSession = await engineStarters[name]();
-    engineVersion = engineSession.version;
+    const browserSession = await browserStarters[name]();
+    engineVersion = browserSession.version;
     try {
       // checks.mjs is imported only here, because it imports dist/, which has to be built first.
       const { runChecks } = await import('./checks.mjs');
-      return { version: engineVersion, ...(await runChecks(name, engineSession, address)) };
+      return { version: engineVersion, ...(await runChecks(name, browserSession, address)) };
     } finally {
-      await engineSession.close();
+      await browserSession.close();
     }
   } catch (error) {
     const failureMessage = error instanceof UserError ? error.message : String(error instanceof Error ? error.stack : error);
@@ -59,7 +59,7 @@ async function runChecksIn(name, address) {
 
 /** Tests the named engines, or all engines if none is named. Returns true if all of them pass. @param {string[]} engineNames */
 async function testBrowserEngines(engineNames) {
-  const allEngineNames = Object.keys(engineStarters);
+  const allEngineNames = Object.keys(browserStarters);
   const unknownName = engineNames.find((name) => !allEngineNames.includes(name));
   if (unknownName !== undefined) throw new UserError(`"${unknownName}" is no engine that is tried; allowed are ${allEngineNames.join(', ')}.`);
   await build();
@@ -68,7 +68,7 @@ async function testBrowserEngines(engineNames) {
   let failureCount = 0;
   try {
     for (const name of engineNames.length > 0 ? engineNames : allEngineNames) {
-      const { version: engineVersion, passed, failures } = await runChecksIn(name, address);
+      const { version: engineVersion, passed, failures } = await runChecksInBrowser(name, address);
       failureCount += failures.length;
       summaryLines.push(`${failures.length === 0 ? 'ok    ' : 'FAILED'} ${name.padEnd(10)} ${engineVersion.padEnd(16)} ${passed} passed, ${failures.length} failed`);
     }

@@ -17,7 +17,7 @@ import { openRecordings } from '../../www/logs/open.ts';
 import { applyMap, gridOf, mapDataOf } from '../../www/widgets/map-squeeze/maps/data.ts';
 import { odometryMessageOf, poseOf, recordingOf, stampOf, transformMessageOf, twistOf } from '../mcap.js';
 import { readLog } from '../node/log-support.js';
-import { fileWith, catchRefusalMessage } from '../node/map-support.js';
+import { createFile, catchRefusalMessage } from '../node/map-support.js';
 
 /**
  * @typedef {object} Target
@@ -153,8 +153,8 @@ const FLOOR_PLANS = bytesOfTexts(
 
 /** @type {Record<string, Target>} */
 export const fuzzTargets = {
-  yaml: { corpus: MAP_YAMLS, run: (bytes) => areFilesAccepted(fileWith('map.yaml', bytes), fileWith('map.pgm', 'P5 2 1 255\nab')) },
-  plan: { corpus: FLOOR_PLANS, run: (bytes) => areFilesAccepted(fileWith('map.json', bytes)) },
+  yaml: { corpus: MAP_YAMLS, run: (bytes) => areFilesAccepted(createFile('map.yaml', bytes), createFile('map.pgm', 'P5 2 1 255\nab')) },
+  plan: { corpus: FLOOR_PLANS, run: (bytes) => areFilesAccepted(createFile('map.json', bytes)) },
   csv: {
     corpus: bytesOfTexts(
       't,x,y,yaw\n0.5,1,2,3\n0.75,1,2,-3\n1,nan,2,3\n1.25,1,2,3\n',

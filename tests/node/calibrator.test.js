@@ -42,7 +42,7 @@ test('an α that rounds to 0 is shown as an upper bound instead of 0', () => {
 });
 
 /** Returns the result of a calibration of two α's. @param {object} [changedFields] replaces fields @returns {any} */
-const calibrationWith = (changedFields) => ({
+const createCalibration = (changedFields) => ({
   alphas: [0.03, 0.008],
   intervals: [[0.024, 0.036], [0.007, 0.0091]],
   recommended: { inflation: 2 },
@@ -56,7 +56,7 @@ const calibrationWith = (changedFields) => ({
 
 /** Returns the lines for Nav2 without indentation. @param {object} [changedFields] of the calibration @param {object} [otherFields] options */
 const nav2LinesOf = (changedFields, otherFields) =>
-  formatNav2Lines({ calibration: calibrationWith(changedFields), count: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, log: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...otherFields }, en.nav2)
+  formatNav2Lines({ calibration: createCalibration(changedFields), count: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, log: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...otherFields }, en.nav2)
     .map((nav2Line) => nav2Line.trim());
 
 test('lines for Nav2 contain the recommended α’s, and the fitted α’s in comments', () => {
@@ -73,7 +73,7 @@ test('lines for Nav2 contain the recommended α’s, and the fitted α’s in co
 });
 
 test('lines for Nav2 omit α’s that are not identifiable, and all α’s if none is recommended', () => {
-  assert.deepEqual([nav2LinesOf({ recommended: null }), adviseCorrection(calibrationWith({ recommended: null }), en.nav2)], [[], []]);
+  assert.deepEqual([nav2LinesOf({ recommended: null }), adviseCorrection(createCalibration({ recommended: null }), en.nav2)], [[], []]);
   assert.deepEqual(nav2LinesOf({}, { model: 'velocity' }), []);
   const exampleAlphas = [null, 1e-7, 103, 1e-8];
   const exampleIntervals = [null, [0, 0.0016], [50, 200], null];
@@ -83,7 +83,7 @@ test('lines for Nav2 omit α’s that are not identifiable, and all α’s if no
 });
 
 test('lines for Nav2 warn of failed checks, of another rule, and of a localizer as reference', () => {
-  const { diagnostics } = calibrationWith();
+  const { diagnostics } = createCalibration();
   const failedChecks = ['tails-normal', 'outliers-few'].map((name) => ({ name, passed: false, message: 'Drive on.' }));
   assert.ok(nav2LinesOf({ diagnostics: { ...diagnostics, checks: failedChecks } }).includes('# Caution, these checks failed: tails-normal, outliers-few'));
   for (const [expectedWarning, changedOptions] of /** @type {[string, object][]} */ ([
@@ -97,17 +97,17 @@ test('lines for Nav2 warn of failed checks, of another rule, and of a localizer 
 
 test('a large clock offset is mentioned, and changes no verdict', () => {
   const unknown = { value: null, interval: null };
-  const judgementWith = (/** @type {number} */ clockOffset) => judgementOf({
+  const judgeClockOffset = (/** @type {number} */ clockOffset) => judgementOf({
     stats: /** @type {any} */ ({
-      ...calibrationWith(), notIdentifiable: [], diagnostics: { verdict: 'consistent', checks: [] },
+      ...createCalibration(), notIdentifiable: [], diagnostics: { verdict: 'consistent', checks: [] },
       systematicErrors: { clockOffset: { value: clockOffset, interval: null }, mountYaw: unknown, leverArm: unknown, distanceScale: unknown, turnScale: unknown },
     }),
     count: 500, corrections: {}, warnings: [],
   }, en, '');
-  const { advice: [firstSentence], rating } = judgementWith(86_400.06);
+  const { advice: [firstSentence], rating } = judgeClockOffset(86_400.06);
   assert.deepEqual([firstSentence, rating], ['The reference’s clock is 86\u202f400 s ahead of the odometry’s. The turns of the robot aligned both: check that they are of one drive.', 'consistent']);
-  assert.match(judgementWith(-3600).advice[0], /is 3\u202f600 s behind the/);
-  assert.deepEqual(judgementWith(-9.5).advice, [en.use]);
+  assert.match(judgeClockOffset(-3600).advice[0], /is 3\u202f600 s behind the/);
+  assert.deepEqual(judgeClockOffset(-9.5).advice, [en.use]);
 });
 
 test('the leg settings of the simulated log equal the default settings', () => {
@@ -118,8 +118,8 @@ test('the leg settings of the simulated log equal the default settings', () => {
 });
 
 test('the picture of the path includes the odometry, as long as the reference fills half of the picture', () => {
-  const viewCornersWith = (/** @type {number[]} */ ...odometryCoordinates) => viewCornersOf([0, 0, 0, 10, 4, 0], odometryCoordinates);
-  assert.deepEqual(viewCornersWith(), [0, 0, 10, 4]);
-  assert.deepEqual(viewCornersWith(5, -2, 12, 3), [0, -2, 12, 4]);
-  assert.deepEqual(viewCornersWith(-40, -50, 60, 70), [-5, -5, 15, 9]);
+  const computeViewCorners = (/** @type {number[]} */ ...odometryCoordinates) => viewCornersOf([0, 0, 0, 10, 4, 0], odometryCoordinates);
+  assert.deepEqual(computeViewCorners(), [0, 0, 10, 4]);
+  assert.deepEqual(computeViewCorners(5, -2, 12, 3), [0, -2, 12, 4]);
+  assert.deepEqual(computeViewCorners(-40, -50, 60, 70), [-5, -5, 15, 9]);
 });

@@ -191,7 +191,7 @@ test('the intervals for the example recording contain the true α’s, and the J
   const { status, stdout, stderr } = spawnSync(process.execPath, [CLI_PATH, 'calibrate', '--recording', recordingPath, '--json'], { encoding: 'utf8' });
   assert.equal(status, 0, stderr);
   const calibrationResult = JSON.parse(stdout);
-  const assertInside = (/** @type {number} */ trueValue, /** @type {[number, number]} */ [low, high]) => assert.ok(low <= trueValue && trueValue <= high, `${trueValue}: ${low} to ${high}`);
+  const assertInside = (/** @type {number} */ trueValue, /** @type {[number, number]} */ [lowerLimit, upperLimit]) => assert.ok(lowerLimit <= trueValue && trueValue <= upperLimit, `${trueValue}: ${lowerLimit} to ${upperLimit}`);
   for (const [i, trueAlpha] of TRUE_MODEL.alphas.entries()) assertInside(trueAlpha, calibrationResult.intervals[i]);
   for (const name of /** @type {const} */ (['mountYaw', 'clockOffset', 'distanceScale'])) assertInside(TRUE_MODEL[name], calibrationResult.systematicErrors[name].interval);
   assert.deepEqual([calibrationResult.diagnostics.verdict, calibrationResult.start, calibrationResult.date.length], ['consistent', 9, 10]);
@@ -256,8 +256,8 @@ test('a database journal next to a recording is reported, unless the journal is 
 
 /** Writes the reference of another drive. It is the path of the example from its end to its start. */
 const writeReversedReference = () => {
-  const [header, ...rows] = readFileSync(examplePathOf('reference'), 'utf8').trim().split('\n').map((row) => row.split(','));
-  return writeInFolder('other.csv', [header, ...rows.map(([t], i) => [t, ...rows[rows.length - 1 - i].slice(1)])].join('\n'));
+  const [header, ...rowsOfCells] = readFileSync(examplePathOf('reference'), 'utf8').trim().split('\n').map((row) => row.split(','));
+  return writeInFolder('other.csv', [header, ...rowsOfCells.map(([t], i) => [t, ...rowsOfCells[rowsOfCells.length - 1 - i].slice(1)])].join('\n'));
 };
 
 test('--yaml prints only the lines for Nav2, and nothing for an unusable log', async () => {
@@ -286,26 +286,26 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
   assert.equal((await runCalibrate([...LOG_ARGS, '--plot', plotPath])).code, 0);
   assert.match(readFileSync(plotPath, 'utf8'), /^<svg xmlns=/);
   /** Returns a drive of ten seconds along x. Its odometry leads along y, and begins half a second earlier. @returns {any} */
-  const driveStartingAt = (/** @type {number} */ startTime) => {
+  const createDriveAt = (/** @type {number} */ startTime) => {
     const drivePositions = Float64Array.from({ length: 101 }, (_, i) => i / 10);
     const createLog = (/** @type {string} */ logRole, /** @type {number} */ delay, /** @type {Float64Array} */ x, /** @type {Float64Array} */ y) => ({ name: `${logRole}${startTime}.csv`, data: { t: drivePositions.map((t) => startTime + t + delay), x, y, theta: drivePositions, breaks: [] } });
     return { odometry: createLog('odom', 0, drivePositions.map(() => 7), drivePositions), reference: createLog('truth', 0.5, drivePositions, drivePositions.map(() => 2)) };
   };
   const legs = { count: 3, times: [1, 3, 4, 6, 21, 23], outliers: [0, 1, 0] };
-  const svgText = drivesSvg([driveStartingAt(0), driveStartingAt(20)], { legs, systematicErrors: { clockOffset: { value: 0.5 } } });
-  const [, ...panelTexts] = svgText.split('<title>');
-  assert.deepEqual(panelTexts.map((panelText) => panelText.split('<')[0]), ['odom0.csv and truth0.csv: 2 legs, 1 outlier', 'odom20.csv and truth20.csv: 1 legs, 0 outliers']);
-  for (const panel of panelTexts) {
-    for (const labelPattern of [/>x \(m\)</, />y \(m\)</, />odometry, aligned</]) assert.match(panel, labelPattern);
+  const svgText = drivesSvg([createDriveAt(0), createDriveAt(20)], { legs, systematicErrors: { clockOffset: { value: 0.5 } } });
+  const [, ...panelSvgs] = svgText.split('<title>');
+  assert.deepEqual(panelSvgs.map((panelSvg) => panelSvg.split('<')[0]), ['odom0.csv and truth0.csv: 2 legs, 1 outlier', 'odom20.csv and truth20.csv: 1 legs, 0 outliers']);
+  for (const panelSvg of panelSvgs) {
+    for (const labelPattern of [/>x \(m\)</, />y \(m\)</, />odometry, aligned</]) assert.match(panelSvg, labelPattern);
     // The pixels of two axis marks are compared with the pixels of the ends of paths.
-    const [axisLeft, axisMiddle] = ['0', '5'].map((axisMark) => Number(RegExp(`<text x="([\\d.]+)" [^>]*text-anchor="middle"[^>]*>${axisMark}<`).exec(panel)?.[1]));
+    const [axisLeft, axisMiddle] = ['0', '5'].map((axisMark) => Number(RegExp(`<text x="([\\d.]+)" [^>]*text-anchor="middle"[^>]*>${axisMark}<`).exec(panelSvg)?.[1]));
     const axisRight = 2 * axisMiddle - axisLeft;
     const isNear = (/** @type {number} */ x, /** @type {number} */ expectedX) => Math.abs(x - expectedX) < 2;
-    const drawnPaths = Array.from(panel.matchAll(/d="M([\d.]+),[^"]{40,}L([\d.]+),[^"]*" fill="none" stroke="([^"]*)" stroke-width="1.5"/g), ([, startX, endX, strokeColor]) => ({ from: Number(startX), to: Number(endX), color: strokeColor }));
-    assert.ok(drawnPaths.every(({ from, to }) => isNear(from, axisLeft) && isNear(to, axisRight)), JSON.stringify(drawnPaths));
+    const drawnPaths = Array.from(panelSvg.matchAll(/d="M([\d.]+),[^"]{40,}L([\d.]+),[^"]*" fill="none" stroke="([^"]*)" stroke-width="1.5"/g), ([, startX, endX, strokeColor]) => ({ leftX: Number(startX), rightX: Number(endX), color: strokeColor }));
+    assert.ok(drawnPaths.every(({ leftX, rightX }) => isNear(leftX, axisLeft) && isNear(rightX, axisRight)), JSON.stringify(drawnPaths));
     assert.equal(new Set(drawnPaths.map(({ color }) => color)).size, 2);
     // The path of a disc starts at its left side, 2 px from the centre.
-    assert.ok(isNear(Number(/d="M([\d.]+),[\d.]+a2,2 /.exec(panel)?.[1]) + 2, axisLeft + 0.3 * (axisRight - axisLeft)));
+    assert.ok(isNear(Number(/d="M([\d.]+),[\d.]+a2,2 /.exec(panelSvg)?.[1]) + 2, axisLeft + 0.3 * (axisRight - axisLeft)));
   }
 });
 
@@ -340,20 +340,20 @@ test('inspect lists the contents of a file, and suggests the next command', asyn
     /^ {2}\/tf \(map → base_link\) +tf2_msgs\/msg\/TFMessage +40 +20\.0 Hz +reference \(a localizer\)$/m, /^ {2}\/tf \(map → base_link\): 40 of 40 rows, 2\.0 s at 20\.0 Hz, 39\.0 m driven$/m, /^run\.mcap, topic \/lost, message 1: 0 of 40 rows can be used/m,
     /^ {2}npx motion-widgets calibrate DIR\/run\.mcap --odometry-topic \/odom --reference-topic '\/vicon\/robot 1' --rule nav2$/m,
   ]) assert.match(recordingInspection, linePattern);
-  for (const [role, otherRole] of [['odometry', 'reference'], ['reference', 'odometry']]) {
-    assert.match(await inspectionOf([examplePathOf(role)]), new RegExp(`; give the ${otherRole} too\\. Name both, with --odometry FILE and --reference FILE\\.$`, 'm'));
+  for (const [givenRole, missingRole] of [['odometry', 'reference'], ['reference', 'odometry']]) {
+    assert.match(await inspectionOf([examplePathOf(givenRole)]), new RegExp(`; give the ${missingRole} too\\. Name both, with --odometry FILE and --reference FILE\\.$`, 'm'));
   }
-  const [a, b] = [['b', 'reference'], ['a', 'odometry']].map(([name, from]) => writeInFolder(`${name}.csv`, readFileSync(examplePathOf(from))));
-  assert.match(await inspectionOf([a, b]), /^b\.csv: its name does not say whether it is odometry or reference; .* Name both, with --odometry FILE and --reference FILE\.$/m);
+  const [referenceCopy, odometryCopy] = [['b', 'reference'], ['a', 'odometry']].map(([copyName, logRole]) => writeInFolder(`${copyName}.csv`, readFileSync(examplePathOf(logRole))));
+  assert.match(await inspectionOf([referenceCopy, odometryCopy]), /^b\.csv: its name does not say whether it is odometry or reference; .* Name both, with --odometry FILE and --reference FILE\.$/m);
   const millimetrePath = writeInFolder('mm.csv', readFileSync(examplePathOf('reference'), 'utf8').replaceAll(/^([\d.]+),([\d.e-]+),([\d.e-]+)/gm, (_, t, x, y) => [t, 1000 * x, 1000 * y].join(',')));
   assert.match(await inspectionOf([millimetrePath], 2), /^mm\.csv: in m, the robot would drive at .* Choose with --length-unit, as in --length-unit /m);
-  assert.match(await inspectionOf([a, b, writeInFolder('empty_table.csv', 't,x,y,yaw\n')], 2), /^b\.csv: its name does not say whether it is odometry or reference;/m);
+  assert.match(await inspectionOf([referenceCopy, odometryCopy, writeInFolder('empty_table.csv', 't,x,y,yaw\n')], 2), /^b\.csv: its name does not say whether it is odometry or reference;/m);
   const alternatingPath = writeInFolder('alternating.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw', ...Array.from({ length: 40 }, (_, i) => `${i >> 1},${i % 2},0,0,${i % 2},1,0`)].join('\n'));
   assert.equal((await inspectionOf([alternatingPath], 2)).match(/give the log of one robot/g)?.length, 1);
   assert.doesNotMatch(await inspectionOf([examplePathOf('odometry'), millimetrePath], 2), /give the reference too/);
   assert.match(await inspectionOf(['--odometry', examplePathOf('odometry'), '--reference', millimetrePath, '--length-unit', 'm,mm']), /^ {2}npx motion-widgets calibrate --odometry \S+odometry\.csv --reference DIR\/mm\.csv --length-unit m,mm --rule nav2$/m);
-  const headless = writeInFolder('headless.csv', ['t,x,y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},1`)].join('\n'));
-  assert.match(await inspectionOf([headless], 2), /^headless\.csv: t, x, y are positions without a heading; give a reference that measures the heading/m);
+  const pathWithoutHeadings = writeInFolder('headless.csv', ['t,x,y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},1`)].join('\n'));
+  assert.match(await inspectionOf([pathWithoutHeadings], 2), /^headless\.csv: t, x, y are positions without a heading; give a reference that measures the heading/m);
   const positionsPath = writeInFolder('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
   const { recordings: [{ series }], ...inspection } = JSON.parse(await inspectionOf([positionsPath, '--json']));
   assert.deepEqual(series.map((/** @type {any} */ { name, rows, uses, summary }) => [name, rows, uses, summary?.seconds]), [['odom', 40, ['odometry'], 1.95], ['gt', 0, [], undefined]]);
@@ -394,30 +394,30 @@ test('the report names failed checks, lost legs and unidentified α’s, and rec
   const { odometry: odometryLogs, reference, ...options } = await readCoreOptions(LOG_ARGS);
   const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: odometryLogs, reference });
   const { diagnostics, lost, persistence, systematicErrors } = calibration;
-  const reportWith = (/** @type {any} */ calibrationChange, optionsChange = {}) => formatReport({ calibration: { ...calibration, ...calibrationChange }, options: { ...options, ...optionsChange }, logs: [], start: 0, driveStarts: [10, 1000], date: '' });
+  const formatChangedReport = (/** @type {any} */ calibrationChange, optionsChange = {}) => formatReport({ calibration: { ...calibration, ...calibrationChange }, options: { ...options, ...optionsChange }, logs: [], start: 0, driveStarts: [10, 1000], date: '' });
   const failedChecks = [{ name: 'enough-legs', value: 20, expected: [100, Infinity], passed: false, message: 'Drive on.' }];
-  const reportOfFailure = reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: failedChecks } });
+  const reportOfFailure = formatChangedReport({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: failedChecks } });
   assert.match(reportOfFailure, /^\nCaution\. Failed: number of legs \(1 of 1 checks\)\.\nDrive on\.\nIf the log .*\n[^]*^enough-legs +20 +≥ 100 +FAILED +number of legs\nenough-legs: Drive on\.$/m);
   const roundedChecks = [{ name: 'window-2m-covered', value: 0.8636, expected: [0.8641, 1], passed: false, message: '' }];
-  assert.match(reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: roundedChecks } }), /^window-2m-covered +0\.8636 +0\.8641 to 1 +FAILED +held-out windows of ≥ 2 m within 95 %$/m);
-  assert.match(reportWith({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable' } }), /^\nDo not use\. The log identifies no α\.\n\n/);
+  assert.match(formatChangedReport({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: roundedChecks } }), /^window-2m-covered +0\.8636 +0\.8641 to 1 +FAILED +held-out windows of ≥ 2 m within 95 %$/m);
+  assert.match(formatChangedReport({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable' } }), /^\nDo not use\. The log identifies no α\.\n\n/);
   const inflationChecks = [{ name: 'inflation-bounded', value: Infinity, expected: [1, 30], passed: false, message: 'Find the cause.' }];
-  assert.match(reportWith({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable', checks: inflationChecks } }), /^\nDo not use\. Failed: inflation .*\nFind the cause\.\n\n/);
+  assert.match(formatChangedReport({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable', checks: inflationChecks } }), /^\nDo not use\. Failed: inflation .*\nFind the cause\.\n\n/);
   const legsWithOutliers = { count: 3, times: [12, 13, 14, 15, 1005, 1006], outliers: [1, 0, 1] };
-  assert.match(reportWith({ legs: legsWithOutliers }), /^outliers: 2 of 3 legs, at 2\.00 s of drive 1, 5\.00 s of drive 2 after the start$/m);
-  assert.match(reportWith({ lost: { ...lost, withoutReference: 3, standing: 7 } }), /^lost legs: 3 without reference, 7 standing still$/m);
-  assert.match(reportWith({ persistence: { ...persistence, length: 0.987 } }), /^correlation of neighbouring legs .*errors persist over 0\.99 m$/m);
-  assert.match(reportWith({ systematicErrors: { ...systematicErrors, turnScale: { value: 0.9, interval: [0.88, 0.92], constant: false, corrected: false } } }), /^turn scale factor .*not corrected, not a constant$/m);
-  assert.match(reportWith({ systematicErrors: { ...systematicErrors, mountYaw: { value: null, interval: null, constant: true, corrected: false } } }), /^mount yaw \(rad\) +not identifiable$/m);
+  assert.match(formatChangedReport({ legs: legsWithOutliers }), /^outliers: 2 of 3 legs, at 2\.00 s of drive 1, 5\.00 s of drive 2 after the start$/m);
+  assert.match(formatChangedReport({ lost: { ...lost, withoutReference: 3, standing: 7 } }), /^lost legs: 3 without reference, 7 standing still$/m);
+  assert.match(formatChangedReport({ persistence: { ...persistence, length: 0.987 } }), /^correlation of neighbouring legs .*errors persist over 0\.99 m$/m);
+  assert.match(formatChangedReport({ systematicErrors: { ...systematicErrors, turnScale: { value: 0.9, interval: [0.88, 0.92], constant: false, corrected: false } } }), /^turn scale factor .*not corrected, not a constant$/m);
+  assert.match(formatChangedReport({ systematicErrors: { ...systematicErrors, mountYaw: { value: null, interval: null, constant: true, corrected: false } } }), /^mount yaw \(rad\) +not identifiable$/m);
   const unidentifiedAlphas = { alphas: [0.1, null, 0.1, null], notIdentifiable: [null, 'collinear', null, 'collinear'] };
-  const reportOfUnidentified = reportWith(unidentifiedAlphas);
+  const reportOfUnidentified = formatChangedReport(unidentifiedAlphas);
   assert.match(reportOfUnidentified, /^\nCaution\. Not determined by this log: α₂, α₄; add ~50 straight legs and ~50 in-place rotations\.\nIf the log /);
   assert.match(reportOfUnidentified, /^alpha2 +not identifiable .* rotation and translation are collinear in this log$/m);
   const { rating, finding } = judgeFit(/** @type {any} */ ({ stats: { ...calibration, ...unidentifiedAlphas }, legs: calibration.legs, fitted: systematicErrors }), []);
   assert.deepEqual([rating, finding], ['questionable', 'Not determined by this log: α₂, α₄; add ~50 straight legs and ~50 in-place rotations.']);
-  assert.match(reportWith({ ...unidentifiedAlphas, notIdentifiable: [null, 'insufficient-rotation', null, null] }, { model: 'velocity' }), /^Caution\. Not determined by this log: α₂; add ~50 legs in tight bends\.$/m);
-  assert.match(reportWith({ alphas: [0, 0.1, 0.1, 0.1], intervals: [[0, 0.00123], [0.05, 0.2], null, null] }), /^alpha1 +≤ 0\.0012 +0\.0000 to 0\.0012 +≤ 0\.0015 /m);
-  assert.match(reportWith({}, { model: 'velocity' }), /^No lines for nav2_params\.yaml: Nav2 has no velocity model\.$/m);
+  assert.match(formatChangedReport({ ...unidentifiedAlphas, notIdentifiable: [null, 'insufficient-rotation', null, null] }, { model: 'velocity' }), /^Caution\. Not determined by this log: α₂; add ~50 legs in tight bends\.$/m);
+  assert.match(formatChangedReport({ alphas: [0, 0.1, 0.1, 0.1], intervals: [[0, 0.00123], [0.05, 0.2], null, null] }), /^alpha1 +≤ 0\.0012 +0\.0000 to 0\.0012 +≤ 0\.0015 /m);
+  assert.match(formatChangedReport({}, { model: 'velocity' }), /^No lines for nav2_params\.yaml: Nav2 has no velocity model\.$/m);
   for (const declaredReason of readDeclaredReasons()) assert.ok(declaredReason in en.alphas.lacking, declaredReason);
 });
 

@@ -87,8 +87,8 @@ test('a simulation computes, rejects invalid input with an error class and messa
 test('calibrate accepts coordinates up to the same limit as the readers of logs', async () => {
   const { calibrate } = await (await importFreshModule()).load();
   const reference = { t: [0, 1], x: [0, 1], y: [0, 0], theta: [0, 0] };
-  const odometryEndingAt = (/** @type {number} */ x) => ({ ...reference, x: [0, x] });
-  assert.throws(() => calibrate({ odometry: odometryEndingAt(MAX_VALUE), reference }), { message: /^not enough data: \d legs/ });
+  const createOdometryTo = (/** @type {number} */ x) => ({ ...reference, x: [0, x] });
+  assert.throws(() => calibrate({ odometry: createOdometryTo(MAX_VALUE), reference }), { message: /^not enough data: \d legs/ });
   const expectedError = { message: /^odometry\.x\[1\] is 2000000000; allowed / };
-  assert.throws(() => calibrate({ odometry: odometryEndingAt(2 * MAX_VALUE), reference }), expectedError);
+  assert.throws(() => calibrate({ odometry: createOdometryTo(2 * MAX_VALUE), reference }), expectedError);
 });

@@ -25,7 +25,7 @@ const SERIES_TYPE_AND_KIND = /** @type {const} */ ({
  * @param {string[]} [framePairs] of transforms, as "odom base_link"
  * @returns {Recording}
  */
-const recordingWith = (kindsBySeries, moreFields, framePairs = []) => ({
+const createRecording = (kindsBySeries, moreFields, framePairs = []) => ({
   name: 'run.mcap',
   format: 'mcap',
   series: Object.entries(kindsBySeries).map(([seriesName, seriesKind]) => {
@@ -45,7 +45,7 @@ const planDrivesAsync = async (recordings, userChoices) => planDrives(recordings
 /**
  * Cases with a single answer. Each has the series of a recording, the expected odometry and reference, the frames in /tf, and the user's
  * options.
- * @type {[Parameters<typeof recordingWith>[0], string, string, string[]?, any?][]}
+ * @type {[Parameters<typeof createRecording>[0], string, string, string[]?, any?][]}
  */
 const CLEAR_ROLE_CASES = [
   [{ '/odom': 'odometry', '/vrpn_client_node/robot/pose': 'pose', '/amcl_pose': 'pose', '/cmd_vel': 'twist' }, '/odom', '/vrpn_client_node/robot/pose'],
@@ -63,24 +63,24 @@ const CLEAR_ROLE_CASES = [
 
 test('odometry and reference are guessed from types, names and frames', () => {
   for (const [series, odometry, reference, frames, userChoices] of CLEAR_ROLE_CASES) {
-    const [drive] = planDrives([recordingWith(series, {}, frames)], userChoices).drives;
+    const [drive] = planDrives([createRecording(series, {}, frames)], userChoices).drives;
     assert.deepEqual([choiceTextOf(drive.odometry.choice), choiceTextOf(drive.reference.choice)], [odometry, reference]);
   }
 });
 
 test('groups of columns are guessed like topics, and may be named without the trailing separator', () => {
   const csvFields = /** @type {const} */ ({ name: 'run.csv', format: 'csv' });
-  for (const [series, odometry, reference, userChoices] of /** @type {[Parameters<typeof recordingWith>[0], string, string, any?][]} */ ([
+  for (const [series, odometry, reference, userChoices] of /** @type {[Parameters<typeof createRecording>[0], string, string, any?][]} */ ([
     [{ odom_: 'columns', gt_: 'columns' }, 'odom_', 'gt_'], [{ '': 'columns', gt_: 'columns' }, '', 'gt_'], [{ '': 'columns', _true: 'columns' }, '', '_true'], [{ '/truth': 'columns', '/odom': 'columns' }, '/odom', '/truth'],
     [{ a_: 'columns', b_: 'columns' }, 'b_', 'a_', { odometry: { series: 'b' } }],
   ])) {
-    const [drive] = planDrives([recordingWith(series, csvFields)], userChoices).drives;
+    const [drive] = planDrives([createRecording(series, csvFields)], userChoices).drives;
     assert.deepEqual([drive.odometry.choice.series, drive.reference.choice.series], [odometry, reference]);
   }
 });
 
 test('ambiguous roles lead to a question', async () => {
-  for (const [series, expectedSentence, askedWhat, logRole, expectedChoices, frames, userChoices] of /** @type {[Parameters<typeof recordingWith>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
+  for (const [series, expectedSentence, askedWhat, logRole, expectedChoices, frames, userChoices] of /** @type {[Parameters<typeof createRecording>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
     [{ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' }, 'it is not clear what the reference is: /odom (Odometry), /a (PoseStamped), /b (PoseStamped).', 'series', 'reference', ['/a', '/b']],
     [{ '/odom': 'odometry', '/wheel/odometry': 'odometry', '/mocap': 'pose' }, 'it is not clear what the odometry is: ', 'series', 'odometry'],
     [{ '/odom': 'odometry', '/odometry/filtered': 'odometry', '/cmd_vel': 'twist' }, 'by its names and types it has no reference, but /odom (Odometry), ', 'series', 'reference', []],
@@ -99,7 +99,7 @@ test('ambiguous roles lead to a question', async () => {
     [{ '/odom': 'odometry', '/mocap': 'pose' }, '/odom is the odometry itself; ', 'series', 'reference', ['/mocap'], [], { reference: { series: '/odom' } }],
     [{ '/tf': 'tf' }, 'odom → base is the odometry itself; ', 'series', 'reference', [], ['odom base', 'mocap robot'], { reference: { frames: { parent: 'odom', child: 'base' } } }],
   ])) {
-    const { message, ask } = await catchRefusalError(planDrivesAsync([recordingWith(series, {}, frames)], userChoices));
+    const { message, ask } = await catchRefusalError(planDrivesAsync([createRecording(series, {}, frames)], userChoices));
     assert.ok(message.startsWith('run.mcap') && message.includes(`: ${expectedSentence}`), message);
     assert.deepEqual([ask?.what, ask?.role], [askedWhat, logRole], message);
     if (expectedChoices) assert.deepEqual(ask?.choices, expectedChoices);
@@ -107,19 +107,19 @@ test('ambiguous roles lead to a question', async () => {
 });
 
 test('several recordings are separate drives, or each contains one log of the same drive', async () => {
-  const recordingWithBothLogs = recordingWith({ '/odom': 'odometry', '/mocap': 'pose' });
+  const recordingWithBothLogs = createRecording({ '/odom': 'odometry', '/mocap': 'pose' });
   assert.equal(planDrives([recordingWithBothLogs, recordingWithBothLogs]).drives.length, 2);
-  const { unpaired } = planDrives([recordingWith({ '/mocap': 'pose' }), recordingWith({ '/odom': 'odometry', '/cmd_vel': 'twist' })]);
+  const { unpaired } = planDrives([createRecording({ '/mocap': 'pose' }), createRecording({ '/odom': 'odometry', '/cmd_vel': 'twist' })]);
   assert.deepEqual([unpaired.odometry[0].choice.series, unpaired.reference[0].choice.series], ['/odom', '/mocap']);
-  const { drives, unpaired: { odometry: [unpairedOdometry] } } = planDrives([recordingWithBothLogs, recordingWith({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]);
+  const { drives, unpaired: { odometry: [unpairedOdometry] } } = planDrives([recordingWithBothLogs, createRecording({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]);
   assert.deepEqual([drives.length, unpairedOdometry.choice.series], [0, '/odom']);
   // A recording without odometry and reference is left out, unless the user chose it for one of these roles.
-  const cameraRecording = recordingWith({ '/image': 'text' }, { name: 'camera.mcap' });
+  const cameraRecording = createRecording({ '/image': 'text' }, { name: 'camera.mcap' });
   const { drives: [drive], unused } = planDrives([cameraRecording, recordingWithBothLogs]);
   assert.deepEqual([drive.odometry.recording, unused.map(({ message }) => message.slice(0, 48))], [recordingWithBothLogs, ['camera.mcap: the topics are /image (String); exp']]);
   assert.match(await catchRefusalSentence(planDrivesAsync([recordingWithBothLogs, cameraRecording], { roles: new Map([[cameraRecording, 'reference']]) })), /^camera\.mcap: the topics are \/image \(String\); /);
   const unpairedNamesOf = async (/** @type {string[]} */ ...recordingNames) => {
-    const drivePlan = planDrives(recordingNames.map((name) => recordingWith({ '': 'columns' }, { name, format: 'csv' })));
+    const drivePlan = planDrives(recordingNames.map((name) => createRecording({ '': 'columns' }, { name, format: 'csv' })));
     return [drivePlan.unpaired.odometry, drivePlan.unpaired.reference].map((unpairedSeries) => unpairedSeries.map(({ recording: { name } }) => name));
   };
   assert.deepEqual(await unpairedNamesOf('truth.csv', 'a.csv'), [['a.csv'], ['truth.csv']]);
@@ -127,12 +127,12 @@ test('several recordings are separate drives, or each contains one log of the sa
   assert.match(await catchRefusalSentence(unpairedNamesOf('a.csv', 'b.csv')), /^a\.csv: its name does not say whether it is odometry or reference; /);
   assert.match(await catchRefusalSentence(unpairedNamesOf('odom1.csv', 'odom2.csv', 'truth.csv')), /^odom1\.csv: the odometry is in odom1\.csv, odom2\.csv, and the reference in truth\.csv; /);
   // A log may be ambiguous in one of its roles only.
-  const twoBodyRecording = recordingWith({ Robot: 'columns', Cart: 'columns' }, { name: 'take.csv', format: 'csv' });
-  const odometryTable = recordingWith({ '': 'columns' }, { name: 'odom.csv', format: 'csv' });
+  const twoBodyRecording = createRecording({ Robot: 'columns', Cart: 'columns' }, { name: 'take.csv', format: 'csv' });
+  const odometryTable = createRecording({ '': 'columns' }, { name: 'odom.csv', format: 'csv' });
   const { ask } = await catchRefusalError(planDrivesAsync([odometryTable, twoBodyRecording]));
   assert.deepEqual([ask?.what, ask?.role, ask?.choices], ['series', 'reference', ['Robot', 'Cart']]);
   assert.equal(planDrives([odometryTable, twoBodyRecording], { reference: { series: 'Cart' } }).unpaired.reference[0].choice.series, 'Cart');
-  const ambiguousRecording = recordingWith({ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' });
+  const ambiguousRecording = createRecording({ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' });
   assert.match(await catchRefusalSentence(planDrivesAsync([ambiguousRecording, ambiguousRecording])), /^run\.mcap: it is not clear what the reference is: /);
 });
 
@@ -172,8 +172,8 @@ test('names that suggest a localizer, or swapped logs, are reported', async () =
   assert.deepEqual(await noteNamesOf('truth.csv', 'wheels.csv'), ['swapped']);
   assert.deepEqual(await noteNamesOf('odom.csv', 'amcl_pose.csv'), ['localizer']);
   const [{ odometry, reference }] = await readDrivesOf({ 'odom.csv': straightTableOf((i) => i / 90), 'truth.csv': straightTableOf((i) => i / 80) });
-  const notesWithFrame = (/** @type {string} */ parent) => pairLogs(odometry, { ...reference, summary: { ...reference.summary, frames: { parent, child: 'base_link' } } }).reference.summary.notes;
-  assert.deepEqual([notesWithFrame('mocap'), notesWithFrame('map')], [[], [{ name: 'localizer', values: [] }]]);
+  const frameNotesOf = (/** @type {string} */ parent) => pairLogs(odometry, { ...reference, summary: { ...reference.summary, frames: { parent, child: 'base_link' } } }).reference.summary.notes;
+  assert.deepEqual([frameNotesOf('mocap'), frameNotesOf('map')], [[], [{ name: 'localizer', values: [] }]]);
   for (const [firstName, secondName] of [['wheels.csv', 'truth.csv'], ['odom.csv', 'reference-by-odom.csv'], ['a.csv', 'b.csv']]) assert.deepEqual(await noteNamesOf(firstName, secondName), [], firstName);
 });
 
@@ -202,25 +202,25 @@ test('logs with mirrored axes, or with different units of length, are refused', 
   const exampleHeadings = Array.from({ length: 1200 }, (_, i) => 2 * Math.sin(i / 60) + Math.cos(i / 23) + i / 300);
   const pathPoints = [[0, 0]];
   for (const [i, stepHeading] of exampleHeadings.entries()) pathPoints.push([pathPoints[i][0] + Math.cos(stepHeading) / 40, pathPoints[i][1] + Math.sin(stepHeading) / 40]);
-  const tableWithChange = (/** @type {(row: number[]) => number[]} */ changeRow) => poseTableOf(1200, (i) => changeRow([i / 20, ...pathPoints[i], exampleHeadings[i]]).map((value) => Number(value.toFixed(6))));
-  const changeDistortedRow = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
-  const turnedTable = tableWithChange((row) => (([t, x, y, yaw]) => [t, x, -y, -yaw])(changeDistortedRow(row)));
-  assert.match(await catchRefusalSentence(readDrivesOf({ 'odom.csv': tableWithChange((row) => row), 'truth.csv': turnedTable })), /^truth\.csv: it turns left where odom\.csv turns right: /);
+  const createChangedTable = (/** @type {(row: number[]) => number[]} */ changeRow) => poseTableOf(1200, (i) => changeRow([i / 20, ...pathPoints[i], exampleHeadings[i]]).map((value) => Number(value.toFixed(6))));
+  const distortRow = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
+  const turnedTable = createChangedTable((row) => (([t, x, y, yaw]) => [t, x, -y, -yaw])(distortRow(row)));
+  assert.match(await catchRefusalSentence(readDrivesOf({ 'odom.csv': createChangedTable((row) => row), 'truth.csv': turnedTable })), /^truth\.csv: it turns left where odom\.csv turns right: /);
   // A reference that is mounted backwards must not count as a mirrored axis, even if the robot hardly turns.
   const drivesOfBackwardReference = await readDrivesOf({ 'odom.csv': poseTableOf(400, (i) => [i / 20, i / 40, 0, Math.sin(i / 9) / 9]), 'truth.csv': poseTableOf(400, (i) => [i / 20, i / 39, 0, Math.PI + Math.sin(i / 9) / 9]) });
   assert.equal(drivesOfBackwardReference.length, 1);
   // The changed tables have mirrored axes, swapped axes, and compass headings, which are clockwise from north.
   const mirrorRows = /** @type {((row: number[]) => number[])[]} */ ([([t, x, y, yaw]) => [t, x, -y, yaw], ([t, x, y, yaw]) => [t, -x, y, yaw], ([t, x, y, yaw]) => [t, y, x, yaw], ([t, x, y, yaw]) => [t, x, y, Math.PI / 2 - yaw]]);
   for (const mirrorRow of mirrorRows) {
-    const [mirroredTable, otherTable] = [tableWithChange((row) => mirrorRow(changeDistortedRow(row))), tableWithChange(changeDistortedRow)];
+    const [mirroredTable, otherTable] = [createChangedTable((row) => mirrorRow(distortRow(row))), createChangedTable(distortRow)];
     for (const [odometry, reference, questionedLog] of [[mirroredTable, otherTable, 'odom'], [otherTable, mirroredTable, 'truth'], [mirroredTable, mirroredTable, 'odom']]) {
       assert.match(await catchRefusalSentence(readDrivesOf({ 'odom.csv': odometry, 'truth.csv': reference })), RegExp(`^${questionedLog}\\.csv: the headings turn the other way than the path; expected`));
     }
   }
   // If the log of a slow robot is read alone, no question about its unit is asked.
-  const slowTableOf = (/** @type {number} */ factor) => tableWithChange(([t, x, y, yaw]) => [20 * t, factor * x, factor * y, yaw]);
+  const createSlowTable = (/** @type {number} */ factor) => createChangedTable(([t, x, y, yaw]) => [20 * t, factor * x, factor * y, yaw]);
   for (const [odometry, reference, file, pair] of /** @type {const} */ ([[1, 100, 'truth', 'm,cm'], [100, 1, 'odom', 'cm,m']])) {
-    const { message, ask } = await catchRefusalError(readDrivesOf({ 'odom.csv': slowTableOf(odometry), 'truth.csv': slowTableOf(reference) }));
+    const { message, ask } = await catchRefusalError(readDrivesOf({ 'odom.csv': createSlowTable(odometry), 'truth.csv': createSlowTable(reference) }));
     assert.match(message, RegExp(`^${file}\\.csv: the robot would drive \\d+ times as fast as in \\w+\\.csv: its lengths seem to be in cm; state their unit\\.`));
     assert.deepEqual([ask?.what, ask?.pair], ['lengthUnit', pair]);
   }

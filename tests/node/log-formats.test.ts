@@ -64,8 +64,8 @@ for (const [name, sources] of Object.entries(SOURCES_BY_RECORDING)) {
     const recording = await openRecording(...sources);
     assert.deepEqual(recording.series.map(({ name: topic, kind, count }) => [topic, kind, count]), [['/odom', 'poses', 100], ['/truth', 'poses', 100]]);
     const logs = await recording.read(BOTH_CHOICES);
-    for (const [i, table] of [odometryLog, referenceLog].entries()) {
-      assert.deepEqual([logs[i].start, logs[i].data], [table.start, table.data]);
+    for (const [i, tableLog] of [odometryLog, referenceLog].entries()) {
+      assert.deepEqual([logs[i].start, logs[i].data], [tableLog.start, tableLog.data]);
       assert.deepEqual([logs[i].summary.dropped, logs[i].summary.notes, logs[i].summary.clock], [{}, [], 'header.stamp']);
     }
   });
@@ -80,18 +80,18 @@ function rowIndicesOf({ start, data }: Log, headingTolerance = 0): number[] {
   return rowIndices;
 }
 
-const integersFrom = (firstInteger: number, endInteger: number) => Array.from({ length: endInteger - firstInteger }, (_, i) => firstInteger + i);
+const createRange = (firstInteger: number, endInteger: number) => Array.from({ length: endInteger - firstInteger }, (_, i) => firstInteger + i);
 
 for (const name of ['types.bag', 'types.mcap']) {
   test(`${name}: poses and commands of all types`, async () => {
     const recording = await openRecording(createFile(decompressFile(name), name));
-    const frames = { parent: 'odom', child: 'base_link' };
-    const poses = await recording.read([...['/fused', '/vicon', '/pose2d'].map((series) => ({ series })), { series: '/tf', frames }]);
+    const framePair = { parent: 'odom', child: 'base_link' };
+    const poses = await recording.read([...['/fused', '/vicon', '/pose2d'].map((series) => ({ series })), { series: '/tf', frames: framePair }]);
     // Headings that are computed from quaternions are rounded to steps of 1e-12. Pose2D stores the heading itself.
-    for (const log of poses) assert.deepEqual(rowIndicesOf(log, log === poses[2] ? 0.5e-12 + Number.EPSILON : 0), integersFrom(0, 40), log.name);
+    for (const log of poses) assert.deepEqual(rowIndicesOf(log, log === poses[2] ? 0.5e-12 + Number.EPSILON : 0), createRange(0, 40), log.name);
     // The expected commands have the same formulas as in tests/reference/logs/generate.py.
     const roundCommand = (commandValue: number) => Math.round(4096 * commandValue) / 4096;
-    const expectedCommands = [integersFrom(0, 40).map((i) => roundCommand(0.5 + 0.2 * Math.sin(i / 9))), integersFrom(0, 40).map((i) => roundCommand(0.8 * Math.sin(i / 23)))];
+    const expectedCommands = [createRange(0, 40).map((i) => roundCommand(0.5 + 0.2 * Math.sin(i / 9))), createRange(0, 40).map((i) => roundCommand(0.8 * Math.sin(i / 23)))];
     const logs = await recording.read(['/cmd_vel', '/cmd_stamped', '/cmd_fused'].map((series) => ({ series })));
     for (const { data, name: topic } of logs) assert.deepEqual([[...(data as Commands).v], [...(data as Commands).omega]], expectedCommands, topic);
     assert.equal(logs[0].summary.clock, 'log time');
@@ -117,23 +117,23 @@ const readDamagedOdometry = (name: string, damagePosition: number) => readOdomet
 const findPositions = (bytes: Buffer, searchText: string) => Array.from(bytes.toString('latin1').matchAll(RegExp(searchText, 'g')), ({ index }) => index);
 
 /** Returns a function that finds a position inside each chunk of a file. The position is 60 bytes after a text in the header of the chunk. */
-const findPositionsInChunks = (headerText: string) => (bytes: Buffer) => findPositions(bytes, headerText).map((at) => at + 60);
+const findPositionsInChunks = (headerText: string) => (bytes: Buffer) => findPositions(bytes, headerText).map((bytePosition) => bytePosition + 60);
 
 /** Functions that find positions in the blocks with messages of the odometry. In an MCAP file, chunk indexes name the compression too. */
 const BLOCK_FINDERS: Record<string, (bytes: Buffer) => number[]> = {
   'bz2.bag': findPositionsInChunks('compression='), 'lz4.bag': findPositionsInChunks('compression='), 'zstd.mcap': findPositionsInChunks('zstd'), 'lz4.mcap': findPositionsInChunks('lz4'),
-  'sqlite-sqlite.db3': (bytes) => [...new Set(findPositions(bytes, 'base_link').map((at) => at - (at % 4096)))],
+  'sqlite-sqlite.db3': (bytes) => [...new Set(findPositions(bytes, 'base_link').map((bytePosition) => bytePosition - (bytePosition % 4096)))],
 };
 
 for (const [name, findBlocks] of Object.entries(BLOCK_FINDERS)) {
   test(`${name}: only the rows of a damaged block, or the rows after the end of a truncated file, are lost`, async () => {
     const lostRowsSoFar: number[] = [];
-    for (const at of findBlocks(decompressFile(name))) {
-      const log = await readDamagedOdometry(name, at);
+    for (const bytePosition of findBlocks(decompressFile(name))) {
+      const log = await readDamagedOdometry(name, bytePosition);
       const keptRows = rowIndicesOf(log);
-      const lostRows = integersFrom(0, 100).filter((row) => !keptRows.includes(row));
+      const lostRows = createRange(0, 100).filter((row) => !keptRows.includes(row));
       if (lostRows.length > 0) assert.match(summaryTextOf(log), /1 damaged block skipped \(.+\)$/);
-      const truncatedLogPromise = readOdometry(decompressFile(name).subarray(0, at), name);
+      const truncatedLogPromise = readOdometry(decompressFile(name).subarray(0, bytePosition), name);
       if (lostRowsSoFar.length === 0) await catchRefusalError(truncatedLogPromise);
       else {
         assert.deepEqual(rowIndicesOf(await truncatedLogPromise), lostRowsSoFar);
@@ -142,18 +142,18 @@ for (const [name, findBlocks] of Object.entries(BLOCK_FINDERS)) {
       assert.ok(lostRows.length < 50);
       lostRowsSoFar.push(...lostRows);
     }
-    assert.deepEqual(lostRowsSoFar, integersFrom(0, 100));
+    assert.deepEqual(lostRowsSoFar, createRange(0, 100));
   });
 }
 
 test('all messages of a database with an unfinished transaction are read', async () => {
   const bytes = decompressFile('sqlite-sqlite.db3');
-  const rootPage = integersFrom(0, bytes.length / 4096).map((pageStart) => 4096 * pageStart).find((at) => bytes[at] === 5) ?? 0;
+  const rootPage = createRange(0, bytes.length / 4096).map((pageStart) => 4096 * pageStart).find((bytePosition) => bytes[bytePosition] === 5) ?? 0;
   // Overwrites the number of pages with 8, and the first page of the messages with an empty page. Both are as before the transaction.
   bytes.writeUInt32BE(8, 28);
   bytes.fill(0, rootPage, rootPage + 5)[rootPage] = 13;
   const log = await readOdometry(bytes, 'run.db3');
-  assert.deepEqual(rowIndicesOf(log), integersFrom(0, 100));
+  assert.deepEqual(rowIndicesOf(log), createRange(0, 100));
   assert.match(summaryTextOf(log), /gaps: none\. notes: the file is incomplete: it ends in the middle of a row or record$/);
 });
 
@@ -161,7 +161,7 @@ test('a damaged message is dropped, and a file with damaged headers or compressi
   const name = 'mcap-messages-mcap-messages.mcap';
   // The file contains messages in Zstandard frames. Messages of the odometry and the reference alternate.
   const log = await readDamagedOdometry(name, findPositions(decompressFile(name), '\\(\xb5/\xfd')[6] + 20);
-  assert.deepEqual([rowIndicesOf(log), log.summary.dropped], [[...integersFrom(0, 3), ...integersFrom(4, 100)], { damaged: { count: 1, first: 4 } }]);
+  assert.deepEqual([rowIndicesOf(log), log.summary.dropped], [[...createRange(0, 3), ...createRange(4, 100)], { damaged: { count: 1, first: 4 } }]);
   const bagWithoutTopics = Buffer.from(decompressFile('none.bag').toString('latin1').replaceAll('topic=', 'topic-'), 'latin1');
   assert.match(await catchRefusalSentence(readOdometry(bagWithoutTopics, 'none.bag')), /^none\.bag: it is damaged or incomplete \(a record has no field topic\); copy/);
   assert.match(await catchRefusalSentence(readDamagedOdometry('sqlite-file-sqlite-file.db3.zstd', 4000)), /: it is damaged or incomplete \(.+\); copy it again from the robot\.$/);
@@ -195,7 +195,7 @@ test('unsupported formats are recognized by their contents, and refused with a c
     ['compressed', '\x1f\x8b\x08'], ['compressed', 'BZh9'], ['compressed', '\xfd7zXZ\0'], ['compressed', '\x04\x22\x4d\x18'], ['hdf5', '\x89HDF\r\n\x1a\n'], ['parquet', 'PAR1'],
   ];
   for (const [formatName, magicText] of magicBytes) assert.equal(await catchRefusalSentence(openRecordings([createFile(Buffer.from(magicText, 'latin1'), 'run.mcap')])), `run.mcap: it is ${UNSUPPORTED_FORMATS[formatName]}`);
-  assert.deepEqual(new Set(magicBytes.map(([format]) => format)), new Set(Object.keys(UNSUPPORTED_FORMATS)));
+  assert.deepEqual(new Set(magicBytes.map(([formatName]) => formatName)), new Set(Object.keys(UNSUPPORTED_FORMATS)));
 });
 
 test('a recording without a complete message is refused, and the message names a repair tool', async () => {
@@ -221,22 +221,22 @@ test('files that are not recordings are refused', async () => {
 
 const TF_TYPE = 'tf2_msgs/msg/TFMessage';
 const timeAt = (i: number) => 1_700_000_000 + i / 20;
-const tfMessageAt = (i: number, ...transforms: unknown[]): Message => ({ topic: '/tf', type: TF_TYPE, t: timeAt(i), message: { transforms } });
+const createTfMessage = (i: number, ...transforms: unknown[]): Message => ({ topic: '/tf', type: TF_TYPE, t: timeAt(i), message: { transforms } });
 const stepCount = 40;
 const mapSteps = <T>(makeItem: (i: number) => T): T[] => Array.from({ length: stepCount }, (_, i) => makeItem(i));
 const readLogsOf = async (messages: Message[], ...choices: LogChoice[]) => (await openRecording(createFile(await recordingOf(messages), 'run.mcap'))).read(choices);
 const BASE_CHOICE = { series: '/tf', frames: { parent: 'odom', child: 'base_link' } };
-const movingTransformAt = (i: number) => transformMessageOf(timeAt(i), 'odom', 'base_footprint', i / 50, 0, 0);
+const createMovingTransform = (i: number) => transformMessageOf(timeAt(i), 'odom', 'base_footprint', i / 50, 0, 0);
 
 test('a constant transform is not accepted as a log', async () => {
-  const messages = mapSteps((i) => tfMessageAt(i, transformMessageOf(timeAt(i), 'odom', 'base_link', 1, 2, 0), transformMessageOf(timeAt(i), 'map', 'robot', i / 50, 0, 0)));
+  const messages = mapSteps((i) => createTfMessage(i, transformMessageOf(timeAt(i), 'odom', 'base_link', 1, 2, 0), transformMessageOf(timeAt(i), 'map', 'robot', i / 50, 0, 0)));
   assert.equal(await catchRefusalSentence(readLogsOf(messages, BASE_CHOICE)), 'run.mcap, topic /tf: the transform odom → base_link never changes, so it is no path of a robot; expected are frames that move, as map → robot.');
-  const constantMessages = mapSteps((i) => tfMessageAt(i, transformMessageOf(timeAt(i), 'odom', 'base_link', 1, 2, 0)));
+  const constantMessages = mapSteps((i) => createTfMessage(i, transformMessageOf(timeAt(i), 'odom', 'base_link', 1, 2, 0)));
   assert.match(await catchRefusalSentence(readLogsOf(constantMessages, BASE_CHOICE)), /never changes, so it is no path of a robot; expected are frames that move\.$/);
 });
 
 test('a constant transform that is published more often than the changing transform adds no rows', async () => {
-  const messages = mapSteps((i) => [tfMessageAt(i, movingTransformAt(i)), ...[0.3, 0.6].map((timeOffset) => tfMessageAt(i + timeOffset, transformMessageOf(timeAt(i + timeOffset), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
+  const messages = mapSteps((i) => [createTfMessage(i, createMovingTransform(i)), ...[0.3, 0.6].map((timeOffset) => createTfMessage(i + timeOffset, transformMessageOf(timeAt(i + timeOffset), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
   const [{ data }] = await readLogsOf(messages, BASE_CHOICE);
   assert.deepEqual([...data.t].map((t) => Math.round(20 * t)), [...Array(stepCount).keys()]);
   assert.deepEqual([...(data as Poses).x], mapSteps((i) => i / 50 + 0.5));

@@ -151,22 +151,22 @@ test('topics and frames that cannot be read are refused', async () => {
 });
 
 test('a static transform is valid from the beginning, and a changing transform from its first message', async () => {
-  const messagesWith = (/** @type {(i: number) => number} */ mountX) => Array.from({ length: 60 }, (_, i) => [
+  const createTransformMessages = (/** @type {(i: number) => number} */ mountX) => Array.from({ length: 60 }, (_, i) => [
     transformMessageOf(i / 10, 'world', 'marker', i / 20, 0, 0),
     ...(i % 3 === 0 && i >= 30 ? [transformMessageOf(i / 10, 'marker', 'base', mountX(i), 0, 0)] : []),
   ].map((transform) => ({ topic: '/tf', type: TF_TYPE, t: i / 10, message: { transforms: [transform] } }))).flat();
-  const readWith = async (/** @type {(i: number) => number} */ mountX) => {
-    const { start, data, summary } = await readLog(mcapFileOf(await recordingOf(messagesWith(mountX))), { series: '/tf', frames: { parent: 'world', child: 'base' } });
+  const readLogWithMount = async (/** @type {(i: number) => number} */ mountX) => {
+    const { start, data, summary } = await readLog(mcapFileOf(await recordingOf(createTransformMessages(mountX))), { series: '/tf', frames: { parent: 'world', child: 'base' } });
     return [data.t.length, start + data.t[0], /** @type {any} */ (data).x[0], summary.rows];
   };
-  assert.deepEqual(await readWith(() => 0.5), [60, 0, 0.5, 60]);
+  assert.deepEqual(await readLogWithMount(() => 0.5), [60, 0, 0.5, 60]);
   // A static transform may be published again with another value. The times of this transform are not times of poses.
   const staticTransformMessages = [0, 3].map((t) => ({ topic: '/tf_static', type: TF_TYPE, t, message: { transforms: [transformMessageOf(t, 'base', 'laser', t, 0, 0)] } }));
-  const recalibratedFile = mcapFileOf(await recordingOf([...messagesWith(() => 0.5), ...staticTransformMessages].sort((messageA, messageB) => messageA.t - messageB.t)));
+  const recalibratedFile = mcapFileOf(await recordingOf([...createTransformMessages(() => 0.5), ...staticTransformMessages].sort((messageA, messageB) => messageA.t - messageB.t)));
   const { data: { t } } = await readLog(recalibratedFile, { series: '/tf', frames: { parent: 'world', child: 'laser' } });
   assert.equal(t.length, 60);
   // The pose is known from 3 s on. The log has the times of the transform whose child is the robot's own frame.
-  assert.deepEqual(await readWith((i) => i / 100), [10, 3, 1.8, 10]);
+  assert.deepEqual(await readLogWithMount((i) => i / 100), [10, 3, 1.8, 10]);
 });
 
 test('positions without a heading are refused, and the message names their type', async () => {

@@ -21,16 +21,16 @@ const CIRCLE_ROWS = Array.from({ length: 800 }, (_, i) => [i / 20, Math.sin(i / 
 const circleTableOf = (cellsOf = (row) => row, headerLine = 't,x,y,yaw') => [headerLine, ...CIRCLE_ROWS.map((row, i) => cellsOf(row, i).join(','))].join('\n');
 
 /** Returns a table of a robot that drives straight on, with a row at each time. @param {(number | string)[]} rowTimes */
-const straightTableAt = (rowTimes) => ['t,x,y,yaw', ...rowTimes.map((t, i) => `${t},${i / 50},0,0`)].join('\n');
-const timesFrom = (/** @type {number} */ timeCount, startTime = 0) => Array.from({ length: timeCount }, (_, i) => startTime + i / 10);
+const createStraightTable = (rowTimes) => ['t,x,y,yaw', ...rowTimes.map((t, i) => `${t},${i / 50},0,0`)].join('\n');
+const createTimes = (/** @type {number} */ timeCount, startTime = 0) => Array.from({ length: timeCount }, (_, i) => startTime + i / 10);
 
 test('present Unix times keep their microseconds, in every unit', async () => {
-  const times = ['1699999999999999000', '1700000000000001000'];
+  const nanosecondTexts = ['1699999999999999000', '1700000000000001000'];
   for (const [timeUnit, decimalDigits] of Object.entries({ ns: 0, us: 3, ms: 6, s: 9 })) {
-    const [firstTime, secondTime] = times.map((time) => (decimalDigits ? `${time.slice(0, -decimalDigits)}.${time.slice(-decimalDigits)}` : time));
-    for (const header of ['t', `t_${timeUnit}`]) {
-      const { data, start, summary } = await readTable(`${header},x,y,yaw\n${firstTime},0,0,0\n${secondTime},0,0,0`);
-      assert.deepEqual([start, summary.units.time], [1_699_999_999, { unit: timeUnit, by: header === 't' ? 'size' : 'name' }]);
+    const [firstTime, secondTime] = nanosecondTexts.map((time) => (decimalDigits ? `${time.slice(0, -decimalDigits)}.${time.slice(-decimalDigits)}` : time));
+    for (const headerLine of ['t', `t_${timeUnit}`]) {
+      const { data, start, summary } = await readTable(`${headerLine},x,y,yaw\n${firstTime},0,0,0\n${secondTime},0,0,0`);
+      assert.deepEqual([start, summary.units.time], [1_699_999_999, { unit: timeUnit, by: headerLine === 't' ? 'size' : 'name' }]);
       assert.deepEqual([...data.t].map((t) => Math.round(t * 1e6)), [999_999, 1_000_001]);
     }
   }
@@ -43,25 +43,25 @@ test('numbers are read as the nearest doubles', async () => {
 });
 
 test('unusable rows are dropped and interrupt the path; the summary names the first line of each cause', async () => {
-  const tableRows = ['0,0,0,0', '1,nan,0,0', '2,,0,0', '3,0,0,0', '3,1,0,0', '4,0,0,0', '5,0,inf,0', 'NaN,0,0,0', '6,0,0,0', '7,0', ...timesFrom(90, 8).map((t) => `${t},0,0,0`), '17,0', '17.1,0,0.0.1,0', '18,0,0,0', '19,0'];
+  const tableRows = ['0,0,0,0', '1,nan,0,0', '2,,0,0', '3,0,0,0', '3,1,0,0', '4,0,0,0', '5,0,inf,0', 'NaN,0,0,0', '6,0,0,0', '7,0', ...createTimes(90, 8).map((t) => `${t},0,0,0`), '17,0', '17.1,0,0.0.1,0', '18,0,0,0', '19,0'];
   const { data, summary: { dropped, rows: count, notes } } = await readTable(`t,x,y,yaw\n${tableRows.join('\n')}`);
-  assert.deepEqual([[...data.t], [...data.breaks]], [[0, 3, 4, 6, ...timesFrom(90, 8), 18], [1, 3, 4, 94]]);
+  assert.deepEqual([[...data.t], [...data.breaks]], [[0, 3, 4, 6, ...createTimes(90, 8), 18], [1, 3, 4, 94]]);
   assert.deepEqual(dropped, { notFinite: { count: 4, first: 3 }, short: { count: 3, first: 11 }, text: { count: 1, first: 103 }, duplicate: { count: 1, first: 6 } });
   assert.deepEqual([count, notes], [tableRows.length, [{ name: 'cutShort', values: [] }]]);
   // A last number with fewer decimals than all others is cut off, if no line break follows.
-  const cutShortCounts = ['0.1', '0.1\n', '0.25'].map(async (lastYaw) => (await readTable(`t,x,y,yaw\n${timesFrom(30).map((t) => `${t},0,0,0.25\n`).join('')}99,0,0,${lastYaw}`)).summary.notes.length);
+  const cutShortCounts = ['0.1', '0.1\n', '0.25'].map(async (lastYaw) => (await readTable(`t,x,y,yaw\n${createTimes(30).map((t) => `${t},0,0,0.25\n`).join('')}99,0,0,${lastYaw}`)).summary.notes.length);
   assert.deepEqual(await Promise.all(cutShortCounts), [1, 0, 0]);
 });
 
 test('late rows are sorted, and an isolated time has gaps before and after it', async () => {
-  const times = timesFrom(50);
-  const { data, summary } = await readTable(straightTableAt([...times.slice(0, 20), times[22], times[20], times[21], ...times.slice(23)]));
-  assert.deepEqual([[...data.t], [...data.breaks]], [times, []]);
+  const nanosecondTexts = createTimes(50);
+  const { data, summary } = await readTable(createStraightTable([...nanosecondTexts.slice(0, 20), nanosecondTexts[22], nanosecondTexts[20], nanosecondTexts[21], ...nanosecondTexts.slice(23)]));
+  assert.deepEqual([[...data.t], [...data.breaks]], [nanosecondTexts, []]);
   assert.deepEqual([data.x[20], summary.notes], [21 / 50, [{ name: 'sorted', values: [2] }]]);
-  const swappedLog = await readTable(straightTableAt([...timesFrom(50, 100), ...timesFrom(50)]));
+  const swappedLog = await readTable(createStraightTable([...createTimes(50, 100), ...createTimes(50)]));
   assert.deepEqual([swappedLog.data.t.length, swappedLog.data.t[0], swappedLog.data.x[0]], [100, 0, 1]);
-  for (const [strayTime, expectedOrder] of /** @type {[number, number[]][]} */ ([[1e6, [...times.keys()].toSpliced(20, 1).concat(20)], [-1e6, [20, ...[...times.keys()].toSpliced(20, 1)]]])) {
-    const strayLog = await readTable(straightTableAt(times.with(20, strayTime)));
+  for (const [strayTime, expectedOrder] of /** @type {[number, number[]][]} */ ([[1e6, [...nanosecondTexts.keys()].toSpliced(20, 1).concat(20)], [-1e6, [20, ...[...nanosecondTexts.keys()].toSpliced(20, 1)]]])) {
+    const strayLog = await readTable(createStraightTable(nanosecondTexts.with(20, strayTime)));
     assert.deepEqual([[...strayLog.data.x], strayLog.summary.gaps.count], [expectedOrder.map((i) => i / 50), 1]);
   }
 });
@@ -85,14 +85,14 @@ test('a shuffled log is sorted, but a log with alternating times of two clocks i
 
 test('a log whose clock was set back is refused', async () => {
   for (const [firstTimes, nextTimes, expectedLine, expectedSeconds] of /** @type {[number[], number[], number, string][]} */ ([
-    [timesFrom(200), timesFrom(100, 15), 202, '4\\.90'], [timesFrom(200), timesFrom(100, 15.04), 202, '4\\.86'], [timesFrom(60), timesFrom(140, 4.03), 62, '1\\.87'],
-    [timesFrom(900), timesFrom(100, 89.6), 902, '0\\.300'],
+    [createTimes(200), createTimes(100, 15), 202, '4\\.90'], [createTimes(200), createTimes(100, 15.04), 202, '4\\.86'], [createTimes(60), createTimes(140, 4.03), 62, '1\\.87'],
+    [createTimes(900), createTimes(100, 89.6), 902, '0\\.300'],
   ])) {
-    const refusalSentence = await catchRefusalSentence(readTable(straightTableAt([...firstTimes, ...nextTimes])));
+    const refusalSentence = await catchRefusalSentence(readTable(createStraightTable([...firstTimes, ...nextTimes])));
     assert.match(refusalSentence, RegExp(`^run\\.csv, line ${expectedLine}: times go back by ${expectedSeconds} s and repeat those before; split the file there, give one recording only, or write fractions with their leading zeros .*\\.$`));
   }
   // If one recording is given twice, its rows are used once.
-  const twiceGiven = straightTableAt(timesFrom(50));
+  const twiceGiven = createStraightTable(createTimes(50));
   assert.equal((await readTable(twiceGiven + twiceGiven.slice(twiceGiven.indexOf('\n')))).data.t.length, 50);
 });
 
@@ -183,11 +183,11 @@ test('units are guessed from two pieces of evidence', async () => {
 const UNIT_QUESTIONS = [
   ['millimetres', circleTableOf(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .*: mm or cm or m or in or ft\.$/, { lengthUnit: 'mm' }, ['x', CIRCLE_ROWS[9][1]]],
   ['centimetres of a slow robot', circleTableOf(([t]) => [t, 15 * Math.sin(t), 0, 0]), /in m, the robot would drive at 1\d\.\d m\/s; .*: cm or m or mm or in or ft\.$/, { lengthUnit: 'cm' }, ['x', 0.15 * Math.sin(0.45)]],
-  ['commands in centimetres', ['t,v,omega', ...timesFrom(50).map((t) => `${t},${10 * Math.sin(2 * t)},0`)].join('\n'), /in m, the robot would drive at \d\.\d+ m\/s;/, { lengthUnit: 'cm' }, ['v', 0.1 * Math.sin(1.8)]],
-  ['commands in milliseconds', ['t,v,omega', ...timesFrom(50).map((t, i) => `${1000 * t},${i % 2},0.5`)].join('\n'), /in s, the times would mean 0\.01\d* rows a second; state their unit/, { timeUnit: 'ms' }, ['t', 0.9]],
+  ['commands in centimetres', ['t,v,omega', ...createTimes(50).map((t) => `${t},${10 * Math.sin(2 * t)},0`)].join('\n'), /in m, the robot would drive at \d\.\d+ m\/s;/, { lengthUnit: 'cm' }, ['v', 0.1 * Math.sin(1.8)]],
+  ['commands in milliseconds', ['t,v,omega', ...createTimes(50).map((t, i) => `${1000 * t},${i % 2},0.5`)].join('\n'), /in s, the times would mean 0\.01\d* rows a second; state their unit/, { timeUnit: 'ms' }, ['t', 0.9]],
   ['degrees of a robot that drives straight on', circleTableOf(([t]) => [t, t / 2, 0, 20 * Math.sin(t / 9)]), /headings in rad .*: rad or deg\.$/, { angleUnit: 'deg' }, ['theta', (Math.sin(0.05) * Math.PI) / 9]],
   ['radians that are called degrees', circleTableOf(undefined, 't,x,y,yaw_deg'), /headings in deg would turn at \d\.\d+ rad\/s; state their unit: rad or deg\.$/, { angleUnit: 'rad' }, ['theta', CIRCLE_ROWS[9][3]]],
-  ['turn rates in degrees', ['t,v,omega', ...timesFrom(50).map((t) => `${t},0.5,30`)].join('\n'), /headings in rad would turn at 30\.0 rad\/s/, { angleUnit: 'deg' }, ['omega', Math.PI / 6]],
+  ['turn rates in degrees', ['t,v,omega', ...createTimes(50).map((t) => `${t},0.5,30`)].join('\n'), /headings in rad would turn at 30\.0 rad\/s/, { angleUnit: 'deg' }, ['omega', Math.PI / 6]],
 ];
 
 test('columns of times in minutes or hours are refused because of their name', async () => {

@@ -37,7 +37,7 @@ const EPOCH_SECONDS = 1_718_000_000;
 /** Returns the digits of a time (s) in nanoseconds. @param {number} t */
 const formatNanoseconds = (t) => `${EPOCH_SECONDS + Math.floor(t)}${String(Math.round((t % 1) * 1e9)).padStart(9, '0')}`;
 const splitSeconds = (/** @type {number} */ t) => [EPOCH_SECONDS + Math.floor(t), Math.round((t % 1) * 1e9)];
-const withDecimalComma = (/** @type {unknown} */ cellValue) => String(cellValue).replace('.', ',');
+const useDecimalComma = (/** @type {unknown} */ cellValue) => String(cellValue).replace('.', ',');
 const toDegrees = (/** @type {number} */ radians) => (radians * 180) / Math.PI;
 const isoDateOf = (/** @type {number} */ t) => new Date((EPOCH_SECONDS + Math.floor(t)) * 1000).toISOString().slice(0, 19) + `.${String(Math.round((t % 1) * 1e9)).padStart(9, '0')}`;
 const poseCellsOf = (/** @type {Row} */ { x, y, qz, qw }) => [x, y, 0, 0, 0, qz, qw];
@@ -100,10 +100,10 @@ const READABLE_TABLES = [
   { name: 'blanks after commas, quoted names, units', text: tableOf('"time [s]", "x [m]", "y [m]", "yaw [rad]"', ({ t, x, y, theta }) => [t, x, y, theta], ', ') },
   { name: 'tabs, columns in another order', text: tableOf('heading\ttimestamp\tx\ty', ({ t, x, y, theta }) => [theta, t, x, y], '\t') },
   { name: 'a separator in quotes', text: tableOf('note,t,x,y,yaw', ({ t, x, y, theta }) => ['"a, b"', t, x, y, theta]) },
-  { name: 'semicolons, decimal commas, sep=', text: `\ufeffsep=;\r\n${tableOf('Time [s];X [m];Y [m];Yaw [rad]', ({ t, x, y, theta }) => [t, x, y, theta].map(withDecimalComma), ';').replaceAll('\n', '\r\n')}` },
-  { name: 'a spreadsheet in UTF-16', text: utf16BytesOf(tableOf('t\tx\ty\tyaw', ({ t, x, y, theta }) => [t, x, y, theta].map(withDecimalComma), '\t')) },
-  { name: 'commas in quotes', text: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta].map((value) => `"${withDecimalComma(value)}"`)) },
-  { name: 'times with exponents', start: EPOCH_SECONDS, text: tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [`1,${formatNanoseconds(t).slice(1)}E+18`, ...[x, y, theta].map(withDecimalComma)], ';') },
+  { name: 'semicolons, decimal commas, sep=', text: `\ufeffsep=;\r\n${tableOf('Time [s];X [m];Y [m];Yaw [rad]', ({ t, x, y, theta }) => [t, x, y, theta].map(useDecimalComma), ';').replaceAll('\n', '\r\n')}` },
+  { name: 'a spreadsheet in UTF-16', text: utf16BytesOf(tableOf('t\tx\ty\tyaw', ({ t, x, y, theta }) => [t, x, y, theta].map(useDecimalComma), '\t')) },
+  { name: 'commas in quotes', text: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta].map((value) => `"${useDecimalComma(value)}"`)) },
+  { name: 'times with exponents', start: EPOCH_SECONDS, text: tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [`1,${formatNanoseconds(t).slice(1)}E+18`, ...[x, y, theta].map(useDecimalComma)], ';') },
   { name: 'units in a row below the header', text: tableOf('t,x,y,yaw,battery\n[ms],mm,mm,deg,V', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta), 24.5]), says: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
   { name: 'quantities over their units', text: tableOf('t/ms,x pos/mm,y pos / mm,yaw in deg', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta)]), says: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
   { name: 'bars, seconds and microseconds', start: EPOCH_SECONDS, text: tableOf('tv_sec|tv_usec|x|y|yaw', ({ t, x, y, theta }) => [EPOCH_SECONDS + Math.floor(t), (t % 1) * 1e6, x, y, theta], '|') },

@@ -4,9 +4,9 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { crc32 } from 'node:zlib';
 import { limits } from '../../build/settings.js';
-import { createMapYamlFile, fileWith, simulationWithMap, catchRefusalMessage } from './map-support.js';
+import { createMapYamlFile, createFile, createSimulationWithMap, catchRefusalMessage } from './map-support.js';
 
-const PGM_FILE = fileWith('map.pgm', 'P5 2 1 255\n\x00\x7f');
+const PGM_FILE = createFile('map.pgm', 'P5 2 1 255\n\x00\x7f');
 /** PNG image of the same two pixels as the PGM image. */
 const PNG_BYTES = Buffer.from('iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAAAAADRSSBWAAAAC0lEQVR4nGNgqAcAAIIAgCASGTYAAAAASUVORK5CYII=', 'base64');
 
@@ -16,7 +16,7 @@ const MAX_REFUSAL_MS = 1000;
 /** Expects that a map description is refused at once, for a given reason. @param {string} yamlText @param {string} expectedReason */
 async function assertRefusedAtOnce(yamlText, expectedReason) {
   const startTime = performance.now();
-  const refusalMessage = await catchRefusalMessage([fileWith('map.yaml', yamlText), PGM_FILE]);
+  const refusalMessage = await catchRefusalMessage([createFile('map.yaml', yamlText), PGM_FILE]);
   const durationMs = performance.now() - startTime;
   assert.match(refusalMessage, new RegExp(`^map\\.yaml, line \\d+: (${expectedReason}); expected is one field a line, as in resolution: 0\\.05\\.$`));
   assert.ok(durationMs < MAX_REFUSAL_MS, `${yamlText.slice(0, 40)} took ${durationMs} ms`);
@@ -42,7 +42,7 @@ test('YAML features other than fields and values are refused at once', async () 
   await assertRefusedAtOnce('image: *a', 'unidentified alias "a"|aliases exceeded maxAliases \\(0\\)');
   // A long key is ignored like other unknown fields. So is a key that is the name of a property of objects.
   for (const ignoredKey of ['x'.repeat(9e4), '__proto__', 'constructor', 'toString', '<<']) {
-    const { grid } = await simulationWithMap(createMapYamlFile({ image: 'map.pgm', [ignoredKey]: '{resolution: 9, image: [1]}' }), PGM_FILE);
+    const { grid } = await createSimulationWithMap(createMapYamlFile({ image: 'map.pgm', [ignoredKey]: '{resolution: 9, image: [1]}' }), PGM_FILE);
     assert.deepEqual([grid?.columns, grid?.rows, grid?.resolution], [2, 1, 0.05]);
   }
   assert.equal(Reflect.get({}, 'resolution'), undefined);
@@ -50,24 +50,24 @@ test('YAML features other than fields and values are refused at once', async () 
 
 test('files that are not exactly one map, and a plan that is not JSON, are refused with a message that states what is expected', async () => {
   const yamlFile = createMapYamlFile({ image: 'map.pgm' });
-  const planFile = fileWith('plan.json', '{"bounds": [0, 0, 1, 1], "walls": []}');
-  for (const fileSelection of [[yamlFile, PGM_FILE, planFile], [PGM_FILE], [yamlFile, PGM_FILE, fileWith('notes.txt', '')]]) {
+  const planFile = createFile('plan.json', '{"bounds": [0, 0, 1, 1], "walls": []}');
+  for (const fileSelection of [[yamlFile, PGM_FILE, planFile], [PGM_FILE], [yamlFile, PGM_FILE, createFile('notes.txt', '')]]) {
     const fileNames = fileSelection.map(({ name }) => name).join(', ');
     assert.equal(await catchRefusalMessage(fileSelection), `${fileNames}: expected is one .json floor plan, or one .yaml file together with its .pgm or .png image.`);
   }
-  assert.match(await catchRefusalMessage([fileWith('plan.json', '{"bounds": [0, 0, 1, 1], "walls": [],}')]), /^plan\.json: .+; expected is \{"bounds"/);
+  assert.match(await catchRefusalMessage([createFile('plan.json', '{"bounds": [0, 0, 1, 1], "walls": [],}')]), /^plan\.json: .+; expected is \{"bounds"/);
 });
 
 test('a YAML map description is read as leniently as map_server reads it', async () => {
-  const expectedSimulation = await simulationWithMap(createMapYamlFile({ image: 'map.pgm', origin: '[-1, 2, 0]', mode: 'trinary', negate: 1 }), PGM_FILE);
+  const expectedSimulation = await createSimulationWithMap(createMapYamlFile({ image: 'map.pgm', origin: '[-1, 2, 0]', mode: 'trinary', negate: 1 }), PGM_FILE);
   for (const yaml of [
     'image: map.pgm\r\nresolution: "0.05"\r\norigin: ["-1.0", \'2\', 0]\r\nnegate: "1"\r\nmode: Trinary\r\n',
     'image:\tmap.pgm\nresolution:\t0.05\t\norigin:\t[-1,\t2,\t0]\n\tnegate: Yes\nmode:\tTRINARY\n',
-  ]) assert.deepEqual((await simulationWithMap(fileWith('map.yaml', yaml), PGM_FILE)).grid, expectedSimulation.grid, yaml);
+  ]) assert.deepEqual((await createSimulationWithMap(createFile('map.yaml', yaml), PGM_FILE)).grid, expectedSimulation.grid, yaml);
 });
 
 test('a PNG image may have any extension', async () => {
-  const [pgmMap, pngMap] = await Promise.all([PGM_FILE, fileWith('map.pgm', PNG_BYTES)].map((image) => simulationWithMap(createMapYamlFile({ image: 'map.pgm' }), image)));
+  const [pgmMap, pngMap] = await Promise.all([PGM_FILE, createFile('map.pgm', PNG_BYTES)].map((image) => createSimulationWithMap(createMapYamlFile({ image: 'map.pgm' }), image)));
   assert.deepEqual(pngMap.grid, pgmMap.grid);
 });
 
@@ -85,7 +85,7 @@ test('invalid values of any type and length are refused with a readable message'
 
 test('the size of a file is checked before the file is read', async () => {
   for (const [name, maxBytes] of /** @type {[string, number][]} */ ([['plan.json', 2_000_000], ['map.yaml', 100_000], ['map.pgm', limits.bytes]])) {
-    const largeFile = fileWith(name, '');
+    const largeFile = createFile(name, '');
     Object.defineProperty(largeFile, 'size', { value: maxBytes + 1 });
     largeFile.arrayBuffer = () => assert.fail(`${name} is read.`);
     const files = name === 'map.pgm' ? [createMapYamlFile({ image: name }), largeFile] : [largeFile];
@@ -94,11 +94,11 @@ test('the size of a file is checked before the file is read', async () => {
 });
 
 test('a damaged or too large PNG image is refused with an error message', async () => {
-  const message = await catchRefusalMessage([createMapYamlFile(), fileWith('map.png', PNG_BYTES.subarray(0, 50))]);
+  const message = await catchRefusalMessage([createMapYamlFile(), createFile('map.png', PNG_BYTES.subarray(0, 50))]);
   assert.match(message, /^map\.png: the PNG image is damaged or cut short before byte \d+ of 50; allowed is a complete one\.$/);
   const largeImage = Buffer.from(PNG_BYTES);
   largeImage.fill(Buffer.of(0, 1, 0x86, 0xa0), 16, 24);
   // The checksum of the PNG header follows its type and its data.
   largeImage.writeUInt32BE(crc32(largeImage.subarray(12, 29)), 29);
-  assert.equal(await catchRefusalMessage([createMapYamlFile(), fileWith('map.png', largeImage)]), 'map.png: image has 100000 × 100000 pixels; allowed are at most 33554432.');
+  assert.equal(await catchRefusalMessage([createMapYamlFile(), createFile('map.png', largeImage)]), 'map.png: image has 100000 × 100000 pixels; allowed are at most 33554432.');
 });

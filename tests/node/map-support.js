@@ -10,16 +10,16 @@ const core = await load();
 const decodePng = async (/** @type {Uint8Array} */ pngBytes) => core.readMapImage(pngBytes);
 
 /** Returns a file with a name and contents. @param {string} fileName @param {BlobPart} fileContents */
-export const fileWith = (fileName, fileContents) => new File([fileContents], fileName);
+export const createFile = (fileName, fileContents) => new File([fileContents], fileName);
 
 /** Returns the YAML file that describes an image, with fields replaced or added. @param {Record<string, unknown>} [changedFields] */
 export function createMapYamlFile(changedFields) {
   const allFields = { image: 'map.png', resolution: 0.05, origin: '[0, 0, 0]', ...changedFields };
-  return fileWith('map.yaml', Object.entries(allFields).map(([fieldName, fieldValue]) => `${fieldName}: ${fieldValue}\n`).join(''));
+  return createFile('map.yaml', Object.entries(allFields).map(([fieldName, fieldValue]) => `${fieldName}: ${fieldValue}\n`).join(''));
 }
 
 /** Returns a simulation with the map that is read from files. @param {File[]} mapFiles */
-export async function simulationWithMap(...mapFiles) {
+export async function createSimulationWithMap(...mapFiles) {
   const simulation = new core.MapSqueeze({ samples: 1 });
   (await readMapFiles(mapFiles, decodePng)).apply(simulation);
   return simulation;

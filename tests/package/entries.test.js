@@ -182,7 +182,7 @@ test('custom-elements.json lists the attributes, properties, events and parts of
     // Names of HTML attributes have no capital letters.
     assert.deepEqual(sortedNamesOf(attributes).map((name) => name.toLowerCase()).sort(), actualNames.attributes.sort(), tagName);
     assert.deepEqual(actualNames.missingMembers, [], tagName);
-    for (const { name, return: returned } of members) if (name === 'getState') assert.equal(returned.type.text, `${toPascalCase(tagName)}State | null`);
+    for (const { name, return: returnType } of members) if (name === 'getState') assert.equal(returnType.type.text, `${toPascalCase(tagName)}State | null`);
     for (const { name, description } of [...attributes, ...members, ...events, ...cssParts, ...cssProperties]) assert.ok(description, `${name} of ${tagName}`);
     assert.deepEqual(sortedNamesOf(events), ['change', 'error', 'input', 'load', 'stats']);
     // The element with the part `notice` exists only while there is a notice.
@@ -221,8 +221,8 @@ test('external.js loads a widget when its tag appears, with messages that the pa
 test('package.json names no file that the package leaves out', () => {
   const { bin, exports, main, types, unpkg, jsdelivr, customElements } = JSON.parse(readFileSync(packagedPathOf('package.json'), 'utf8'));
   /** @type {(value: any) => string[]} */
-  const pathsIn = (exportTarget) => (typeof exportTarget === 'string' ? [exportTarget] : Object.values(exportTarget).flatMap(pathsIn));
-  const allPaths = [...pathsIn(bin), ...pathsIn(exports), main, types, unpkg, jsdelivr, customElements];
+  const pathsOf = (exportTarget) => (typeof exportTarget === 'string' ? [exportTarget] : Object.values(exportTarget).flatMap(pathsOf));
+  const allPaths = [...pathsOf(bin), ...pathsOf(exports), main, types, unpkg, jsdelivr, customElements];
   assert.ok(allPaths.length > 10, allPaths.join(' '));
   assert.deepEqual(allPaths.filter((path) => !existsSync(packagedPathOf(path))), []);
 });

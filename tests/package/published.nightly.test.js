@@ -9,7 +9,7 @@ import { after, before, test } from 'node:test';
 import { publint } from 'publint';
 import { formatMessage } from 'publint/utils';
 import { ROOT } from '../../scripts/process.mjs';
-import { packInto } from '../embeddings/project.mjs';
+import { packNpmPackageInto } from '../embeddings/project.mjs';
 
 const packageManifest = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
 
@@ -20,7 +20,7 @@ let tarballPath;
 
 before(() => {
   temporaryDirectory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
-  tarballPath = packInto(temporaryDirectory);
+  tarballPath = packNpmPackageInto(temporaryDirectory);
 });
 
 after(() => rmSync(temporaryDirectory, { recursive: true, force: true }));

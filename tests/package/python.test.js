@@ -22,8 +22,8 @@ let searchPath;
 
 /** Runs Python, and returns its output. @param {string[]} pythonArguments @param {string} [pythonPath] */
 const runPython = (pythonArguments, pythonPath = '') => {
-  const env = { ...process.env, PYTHONPATH: pythonPath, PIP_ROOT_USER_ACTION: 'ignore', PIP_DISABLE_PIP_VERSION_CHECK: '1' };
-  return execFileSync('python3', pythonArguments, { encoding: 'utf8', env });
+  const pythonEnvironment = { ...process.env, PYTHONPATH: pythonPath, PIP_ROOT_USER_ACTION: 'ignore', PIP_DISABLE_PIP_VERSION_CHECK: '1' };
+  return execFileSync('python3', pythonArguments, { encoding: 'utf8', env: pythonEnvironment });
 };
 
 /** Runs pip. @param {string[]} pipArguments @param {string} [pythonPath] */
@@ -31,8 +31,8 @@ const runPip = (pipArguments, pythonPath) => runPython(['-m', 'pip', '--quiet', 
 
 /** Installs the packages that the Python package needs to be built and to run. Returns their directory, which all clones of the repository share. */
 function installDependencies() {
-  const requirementLists = pyprojectText.match(/^(?:requires|dependencies) = .*$/gm) ?? [];
-  const requirements = requirementLists.flatMap((requirementList) => requirementList.match(/(?<=")[\w<>=.,]+(?=")/g) ?? []);
+  const requirementLines = pyprojectText.match(/^(?:requires|dependencies) = .*$/gm) ?? [];
+  const requirements = requirementLines.flatMap((requirementLine) => requirementLine.match(/(?<=")[\w<>=.,]+(?=")/g) ?? []);
   assert.ok(requirements.length >= 2, pyprojectText);
   const pythonVersion = runPython(['--version']);
   const installDirectory = join(CACHE_DIRECTORY, `python-${createHash('sha256').update(requirements + pythonVersion).digest('hex').slice(0, 12)}`);
@@ -48,11 +48,11 @@ before(async () => {
   temporaryDirectory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
   const dependencyDirectory = installDependencies();
   runPip(['wheel', '--no-deps', '--no-build-isolation', '--wheel-dir', temporaryDirectory, SOURCE_DIRECTORY], dependencyDirectory);
-  const [wheelName] = readdirSync(temporaryDirectory);
+  const [pythonWheelFileName] = readdirSync(temporaryDirectory);
   const { version } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
-  assert.equal(wheelName, `motion_widgets-${version}-py3-none-any.whl`);
+  assert.equal(pythonWheelFileName, `motion_widgets-${version}-py3-none-any.whl`);
   const installDirectory = join(temporaryDirectory, 'site');
-  runPip(['install', '--no-deps', '--target', installDirectory, join(temporaryDirectory, wheelName)]);
+  runPip(['install', '--no-deps', '--target', installDirectory, join(temporaryDirectory, pythonWheelFileName)]);
   searchPath = [installDirectory, dependencyDirectory].join(delimiter);
 });
 

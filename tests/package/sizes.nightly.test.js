@@ -14,7 +14,7 @@ const pathOf = (/** @type {string} */ repositoryPath) => join(ROOT, repositoryPa
 const esbuildOutputs = JSON.parse(readFileSync(pathOf('build/outputs.json'), 'utf8'));
 
 /** Returns a module with its static imports, which a browser loads together. Dynamic imports are left out. @param {string} path */
-function filesLoadedWith(path) {
+function loadedFilesOf(path) {
   const loadedPaths = new Set([path]);
   for (const loadedPath of loadedPaths) {
     for (const { path: importedPath, kind } of esbuildOutputs[loadedPath].imports) if (kind === 'import-statement') loadedPaths.add(importedPath);
@@ -26,12 +26,12 @@ function filesLoadedWith(path) {
 function filesOfChunk(sourcePath) {
   const chunkEntry = Object.entries(esbuildOutputs).find(([outputPath, { entryPoint }]) => entryPoint === sourcePath && outputPath.startsWith('dist/chunks/'));
   assert.ok(chunkEntry, `external.js has no chunk of ${sourcePath}.`);
-  return filesLoadedWith(chunkEntry[0]);
+  return loadedFilesOf(chunkEntry[0]);
 }
 
 /** Returns the scripts that a page with some widgets loads before a user uses them. @param {string[]} widgetTags @param {string} coreEntry */
 const scriptsOf = (widgetTags, coreEntry) =>
-  [...new Set([...filesLoadedWith('dist/external.js'), ...widgetTags.flatMap((widgetTag) => filesOfChunk(`www/widgets/${widgetTag}/${widgetTag}.ts`)), ...filesOfChunk(`build/${coreEntry}.js`)])];
+  [...new Set([...loadedFilesOf('dist/external.js'), ...widgetTags.flatMap((widgetTag) => filesOfChunk(`www/widgets/${widgetTag}/${widgetTag}.ts`)), ...filesOfChunk(`build/${coreEntry}.js`)])];
 
 /** Returns the path of the WebAssembly module of a widget. @param {string} tag */
 function modulePathOf(tag) {

@@ -15,14 +15,14 @@ import { CHROME_ARGUMENTS, findChrome } from '../../scripts/browser.mjs';
 import { ROOT } from '../../scripts/process.mjs';
 import { startServer } from '../../scripts/serve.mjs';
 import { recordMessages, untilComplete } from '../embeddings/checks.mjs';
-import { packInto } from '../embeddings/project.mjs';
+import { packNpmPackageInto } from '../embeddings/project.mjs';
 
 /** Files of dist/ that an author copies next to a page. */
 const COPIED_FILES = ['motion-widgets.iife.js', 'motion-widgets.css', 'embed.html', 'embed.css', 'embed.js'];
 
 /** Copies the examples to a directory, and installs only the packed package there. @param {string} installDirectory */
 function installPackage(installDirectory) {
-  const tarballPath = packInto(installDirectory);
+  const tarballPath = packNpmPackageInto(installDirectory);
   const modulesDirectory = join(installDirectory, 'node_modules');
   mkdirSync(modulesDirectory);
   execFileSync('tar', ['-xzf', tarballPath, '-C', modulesDirectory]);

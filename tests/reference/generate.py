@@ -21,7 +21,7 @@ SCRIPT_DIRECTORY = pathlib.Path(__file__).parent
 table_rng = random.Random(2005)
 
 
-def high_precision_columns(*values, rest_format="%.3e"):
+def split_into_columns(*values, rest_format="%.3e"):
     """Splits each high-precision number into two columns: the nearest double and the remainder."""
     return [cell for value in values for cell in (float(value), rest_format % float(value - mpf(float(value))))]
 
@@ -34,18 +34,18 @@ def write_table(name, header, rows):
 
 # ---------------------------------------------------------------------------------------------------- the group SE(2)
 
-def signed_log_uniform(low, high):
+def draw_signed_log_uniform(low, high):
     exponent = table_rng.uniform(float(log(low, 10)), float(log(high, 10)))
     return table_rng.choice([-1.0, 1.0]) * 10.0**exponent
 
 
-def twists():
-    """Twists: rotations log-uniform over 1e-12 .. π in equal strata, translations over seven decades, and extreme cases."""
-    decades = float(log(pi, 10)) + 12.0
+def generate_twists():
+    """Twists: rotations log-uniform over 1e-12 .. π in equal strata, translations over seven decade_count, and extreme cases."""
+    decade_count = float(log(pi, 10)) + 12.0
     count = 110
     for i in range(count):
-        omega = table_rng.choice([-1.0, 1.0]) * 10.0 ** (-12.0 + decades * (i + table_rng.random()) / count)
-        yield (signed_log_uniform(1e-4, 1e3), signed_log_uniform(1e-4, 1e3), omega)
+        omega = table_rng.choice([-1.0, 1.0]) * 10.0 ** (-12.0 + decade_count * (i + table_rng.random()) / count)
+        yield (draw_signed_log_uniform(1e-4, 1e3), draw_signed_log_uniform(1e-4, 1e3), omega)
     for omega in (0.0, 5e-324, -1e-300, 1e-160, 1.0, 3.141592653589793, -3.141592653589):
         yield (1.5, -0.75, omega)
     yield (0.0, 0.0, 0.0)
@@ -61,7 +61,7 @@ def sinc_and_versine_ratio(omega):
         return sin(omega) / omega, (1 - cos(omega)) / omega
 
 
-def small_adjoint(xi):
+def lie_bracket_matrix(xi):
     """Matrix ad(ξ), for which ad(ξ) η is the Lie bracket [ξ, η]. A twist is (v_x, v_y, ω)."""
     a, b, w = xi
     return matrix([[0, -w, b], [w, 0, -a], [0, 0, 0]])
@@ -69,7 +69,7 @@ def small_adjoint(xi):
 
 def right_jacobian(xi):
     """Right Jacobian Σ (−ad ξ)^k / (k+1)! of SE(2), eq. 41 of Solà et al. (arXiv:1812.01537) as a series."""
-    ad = -small_adjoint(xi)
+    ad = -lie_bracket_matrix(xi)
     term, total = mp.eye(3), mp.eye(3)
     for k in range(1, 90):
         term = term * ad / (k + 1)
@@ -77,12 +77,12 @@ def right_jacobian(xi):
     return total
 
 
-def group_tables():
+def write_group_tables():
     header = ["a", "b", "w"]
     for name in ("x", "y", "j00", "j01", "j02", "j12", "i00", "i01", "i02", "i12"):
         header += [name, name + "_lo"]
     rows, log_rows = [], []
-    for twist_floats in twists():
+    for twist_floats in generate_twists():
         a, b, w = map(mpf, twist_floats)
         s, c = sinc_and_versine_ratio(w)
         x, y = s * a - c * b, c * a + s * b
@@ -91,19 +91,19 @@ def group_tables():
         for m in (jacobian, inverse_jacobian):
             assert abs(m[0, 0] - m[1, 1]) < 1e-30 and abs(m[0, 1] + m[1, 0]) < 1e-30
         jacobian_entries = [m[e] for m in (jacobian, inverse_jacobian) for e in ((0, 0), (0, 1), (0, 2), (1, 2))]
-        rows.append([*twist_floats, *high_precision_columns(x, y, *jacobian_entries)])
+        rows.append([*twist_floats, *split_into_columns(x, y, *jacobian_entries)])
 
         # The logarithm of the rounded pose differs from the twist ξ of the exact pose.
         px, py = mpf(float(x)), mpf(float(y))
         det = s * s + c * c
-        log_rows.append([float(px), float(py), twist_floats[2], *high_precision_columns((s * px + c * py) / det, (s * py - c * px) / det)])
+        log_rows.append([float(px), float(py), twist_floats[2], *split_into_columns((s * px + c * py) / det, (s * py - c * px) / det)])
     write_table("group.csv", header, rows)
     write_table("log.csv", ["x", "y", "w", "a", "a_lo", "b", "b_lo"], log_rows)
 
 
 # ------------------------------------------------------------------------------------ the quantiles of the noise
 
-def quantile_table():
+def write_quantile_table():
     probabilities = [10.0**-k for k in (300, 20, 16, 12, 9, 6, 4, 3, 2)]
     probabilities += [0.05 * k for k in range(1, 10)] + [0.425, 0.42499999, 0.4250001, 0.47575, 0.475]
     probabilities += [0.5 - 10.0**-k for k in (2, 3, 4, 5, 6, 8, 10, 12, 14, 15)] + [0.5 - 2.0**-53, 0.5 - 2.0**-54]
@@ -114,7 +114,7 @@ def quantile_table():
             # z with P(Z < z) = q + 1/2
             normal = sqrt(mpf(2)) * erfinv(2 * mpf(q))
             triangular = sqrt(mpf(6)) * (1 - sqrt(1 - 2 * mpf(q)))
-        rows.append([q, *high_precision_columns(normal, triangular)])
+        rows.append([q, *split_into_columns(normal, triangular)])
     write_table("quantile.csv", ["q", "normal", "normal_lo", "triangular", "triangular_lo"], rows)
 
 
@@ -181,7 +181,7 @@ CANONICAL_ALPHAS = (0.02, 0.02, 0.02, 0.02, 0.0, 0.0)
 OPENING_ALPHAS = (0.05, 0.05, 0.05, 0.09, 0.01, 0.01)
 
 
-def moments_table():
+def write_moments_table():
     velocity_cases = [(k, CANONICAL_ALPHAS, c) for k in ("normal", "triangular") for c in [(1.0, 0.5, 1.0), (1.0, -0.5, 1.0)]]
     velocity_cases += [("normal", OPENING_ALPHAS, c) for c in
                  [(1.0, 0.5, 1.0), (-1.0, 0.5, 1.0), (1.0, 0.0, 2.0), (1.0, 1.2, 1.4), (0.06, 1.5, 1.0), (1.0, 1e-7, 1.0)]]
@@ -218,7 +218,7 @@ def exponential_skew(mean, cov):
     return skewness(raw_moment(1), raw_moment(2), raw_moment(3))
 
 
-def exponential_skew_table():
+def write_exponential_skew_table():
     diagonal_cov = lambda a, b, c: ((a, 0.0, 0.0), (0.0, b, 0.0), (0.0, 0.0, c))
     skew_cases = [((1.0, 0.0, 0.5), diagonal_cov(0.025, 0.0, 0.025)), ((1.0, 0.0, 0.5), diagonal_cov(0.0625, 0.0016, 0.085)),
              ((2.0, 0.0, 0.0), diagonal_cov(0.05, 0.0, 0.05)), ((-1.0, 0.1, -1.2), diagonal_cov(0.02, 0.01, 0.2)),
@@ -333,7 +333,7 @@ def likelihood_gains(kind, alphas, v, omega, dt):
     return pose_gain, floor_gain, ellipse_area / exponential_outline_area(mean, twist_cov)
 
 
-def gain_table():
+def write_gain_table():
     straight_alphas = (0.002, 0.002, 0.1, 0.1, 0.002, 0.002)
     # With these α's the length has a standard deviation of 1/40. Far from 0, the code computes its mean logarithm by a series.
     precise_length_alphas = (0.0005, 0.0005, 0.05, 0.09, 0.01, 0.01)
@@ -354,7 +354,7 @@ def fourth_order_terms(p, q):
     factors ξ and two factors η. Each expectation is a sum over the basis, without matrix identities.
     """
     basis_twists = [matrix(e) for e in ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
-    ad = [small_adjoint(e) for e in basis_twists]
+    ad = [lie_bracket_matrix(e) for e in basis_twists]
     fourth_order_cov = mp.zeros(3)
     for i, j, k, l in product(range(3), repeat=4):
         weight = p[i, j] * q[k, l]
@@ -367,13 +367,13 @@ def fourth_order_terms(p, q):
     return fourth_order_cov
 
 
-def compounding_table():
+def write_compounding_table():
     dt, steps = mpf("0.2"), 20
     tau = (dt, mpf(0), dt / 2)
     sv = sw = mpf("0.02") + mpf("0.02") / 4
     sg = mpf("0.005") + mpf("0.005") / 4
     arc_cov, last_turn_cov = mp.diag([dt**2 * sv, 0, dt**2 * sw]), mp.diag([0, 0, dt**2 * sg])
-    ad = -small_adjoint(tau)
+    ad = -lie_bracket_matrix(tau)
     inverse_adjoint = mp.expm(ad)      # Ad of exp(−τ)
     jacobian = right_jacobian(tau)
     transformed_noise = jacobian * arc_cov * jacobian.T + last_turn_cov
@@ -390,7 +390,7 @@ def compounding_table():
 
 # ------------------------------------------------------------------------------------------ double-double arithmetic
 
-def double_double_table():
+def write_double_double_table():
     """Sine, cosine and sinc of doubles. Each result is two doubles: the nearest double and the remainder."""
     angle_rng = random.Random(1971)
     angles = [0.1, 0.5, 1.0, 1.5707963267948966, 3.141592653589793, 6.283185307179586, 6.0, 2.0**-30, 1e-300]
@@ -399,15 +399,15 @@ def double_double_table():
     with mp.workdps(60):
         for angle in [angle_rng.choice([-1.0, 1.0]) * angle for angle in angles]:
             exact = mpf(angle)
-            rows.append([angle, *high_precision_columns(sin(exact), cos(exact), sin(exact) / exact, rest_format="%r")])
+            rows.append([angle, *split_into_columns(sin(exact), cos(exact), sin(exact) / exact, rest_format="%r")])
     write_table("double_double.csv", ["angle", "sin", "sin_lo", "cos", "cos_lo", "sinc", "sinc_lo"], rows)
 
 
 if __name__ == "__main__":
-    group_tables()
-    quantile_table()
-    moments_table()
-    exponential_skew_table()
-    compounding_table()
-    gain_table()
-    double_double_table()
+    write_group_tables()
+    write_quantile_table()
+    write_moments_table()
+    write_exponential_skew_table()
+    write_compounding_table()
+    write_gain_table()
+    write_double_double_table()

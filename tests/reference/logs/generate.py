@@ -49,7 +49,7 @@ def generate_drive():
         ]
 
 
-DRIVE_ROWS = list(generate_drive())
+DRIVE_ROW_PAIRS = list(generate_drive())
 
 
 class Messages:
@@ -86,7 +86,7 @@ class Messages:
     def logs(self):
         """Generates messages of odometry and reference: topic, type, message, time of recording."""
         covariance = np.zeros(36)
-        for i, (odometry, reference) in enumerate(DRIVE_ROWS):
+        for i, (odometry, reference) in enumerate(DRIVE_ROW_PAIRS):
             pose = self('geometry_msgs/msg/PoseWithCovariance', self.pose(odometry), covariance)
             twist = self('geometry_msgs/msg/TwistWithCovariance', self.twist(odometry), covariance)
             message = self('nav_msgs/msg/Odometry', self.header(i, odometry[0], 'odom'), 'base_link', pose, twist)
@@ -94,10 +94,10 @@ class Messages:
             message = self('geometry_msgs/msg/PoseStamped', self.header(i, reference[0], 'map'), self.pose(reference))
             yield '/truth', 'geometry_msgs/msg/PoseStamped', message, reference[0] + 3_000_000
 
-    def others(self):
+    def messages_of_other_types(self):
         """Generates the odometry in messages of all other types that the figure reads. The last message is a static transform."""
         covariance = np.zeros(36)
-        for i, (row, _) in enumerate(DRIVE_ROWS[:40]):
+        for i, (row, _) in enumerate(DRIVE_ROW_PAIRS[:40]):
             stamp = row[0]
             pose = self('geometry_msgs/msg/PoseWithCovariance', self.pose(row), covariance)
             yield '/fused', 'geometry_msgs/msg/PoseWithCovarianceStamped', self('geometry_msgs/msg/PoseWithCovarianceStamped', self.header(i, stamp, 'map'), pose), stamp
@@ -107,41 +107,41 @@ class Messages:
             yield '/cmd_stamped', 'geometry_msgs/msg/TwistStamped', self('geometry_msgs/msg/TwistStamped', self.header(i, stamp, ''), self.twist(row)), stamp
             twist = self('geometry_msgs/msg/TwistWithCovariance', self.twist(row), covariance)
             yield '/cmd_fused', 'geometry_msgs/msg/TwistWithCovarianceStamped', self('geometry_msgs/msg/TwistWithCovarianceStamped', self.header(i, stamp, ''), twist), stamp
-            wheel = self.transform(i, [stamp, 0.0, 0.1, round_to_4096ths(math.sin(i)), round_to_4096ths(math.cos(i))], 'base_link', 'wheel')
-            yield '/tf', 'tf2_msgs/msg/TFMessage', self('tf2_msgs/msg/TFMessage', [self.transform(i, row, 'odom', 'base_footprint'), wheel]), stamp
-        fixed = self.transform(0, [stamp, 0.0, 0.0, 0.0, 1.0], 'base_footprint', 'base_link')
-        yield '/tf_static', 'tf2_msgs/msg/TFMessage', self('tf2_msgs/msg/TFMessage', [fixed]), stamp
+            wheel_transform = self.transform(i, [stamp, 0.0, 0.1, round_to_4096ths(math.sin(i)), round_to_4096ths(math.cos(i))], 'base_link', 'wheel')
+            yield '/tf', 'tf2_msgs/msg/TFMessage', self('tf2_msgs/msg/TFMessage', [self.transform(i, row, 'odom', 'base_footprint'), wheel_transform]), stamp
+        fixed_transform = self.transform(0, [stamp, 0.0, 0.0, 0.0, 1.0], 'base_footprint', 'base_link')
+        yield '/tf_static', 'tf2_msgs/msg/TFMessage', self('tf2_msgs/msg/TFMessage', [fixed_transform]), stamp
 
 
 ROS1, ROS2 = Messages(get_typestore(Stores.ROS1_NOETIC)), Messages(get_typestore(Stores.ROS2_HUMBLE))
 
 
-def bag(path, messages, compression=None):
+def write_bag(path, messages, compression=None):
     writer = Bag(path)
     writer.chunk_threshold = 16384
     if compression:
         writer.set_compression(compression)
     with writer:
         connections = {}
-        for topic, kind, message, time in messages:
+        for topic, type_name, message, time in messages:
             if topic not in connections:
-                connections[topic] = writer.add_connection(topic, kind, typestore=ROS1.store, callerid='/base')
-            writer.write(connections[topic], time, ROS1.store.serialize_ros1(message, kind))
+                connections[topic] = writer.add_connection(topic, type_name, typestore=ROS1.store, callerid='/base')
+            writer.write(connections[topic], time, ROS1.store.serialize_ros1(message, type_name))
 
 
-def rosbag2(path, messages, storage, mode=None):
+def write_rosbag2(path, messages, storage, mode=None):
     writer = Rosbag2(path, version=9, storage_plugin=storage)
     if mode:
         writer.set_compression(mode, CompressionFormat.ZSTD)
     with writer:
         connections = {}
-        for topic, kind, message, time in messages:
+        for topic, type_name, message, time in messages:
             if topic not in connections:
-                connections[topic] = writer.add_connection(topic, kind, typestore=ROS2.store)
-            writer.write(connections[topic], time, ROS2.store.serialize_cdr(message, kind))
+                connections[topic] = writer.add_connection(topic, type_name, typestore=ROS2.store)
+            writer.write(connections[topic], time, ROS2.store.serialize_cdr(message, type_name))
 
 
-def mcap(path, messages, compression, **options):
+def write_mcap(path, messages, compression, **options):
     """Writes CDR messages by the library of MCAP."""
     from mcap.writer import Writer
 
@@ -149,11 +149,11 @@ def mcap(path, messages, compression, **options):
         writer = Writer(stream, chunk_size=16384, compression=compression, **options)
         writer.start('ros2', 'tests')
         channels = {}
-        for topic, kind, message, time in messages:
+        for topic, type_name, message, time in messages:
             if topic not in channels:
-                schema = writer.register_schema(kind, 'ros2msg', b'')
+                schema = writer.register_schema(type_name, 'ros2msg', b'')
                 channels[topic] = writer.register_channel(topic, 'cdr', schema)
-            writer.add_message(channels[topic], time, bytes(ROS2.store.serialize_cdr(message, kind)), time)
+            writer.add_message(channels[topic], time, bytes(ROS2.store.serialize_cdr(message, type_name)), time)
         writer.finish()
 
 
@@ -162,97 +162,97 @@ def dict_of(message):
     if hasattr(message, '__dataclass_fields__'):
         names = [name for name in message.__dataclass_fields__ if not name.startswith('__')]
         return {name: dict_of(getattr(message, name)) for name in names}
-    return message.tolist() if isinstance(message, np.ndarray) else [dict_of(each) for each in message] if isinstance(message, list) else message
+    return message.tolist() if isinstance(message, np.ndarray) else [dict_of(item) for item in message] if isinstance(message, list) else message
 
 
-def mcap_ros2(path, messages):
+def write_mcap_ros2(path, messages):
     with open(path, 'wb') as stream, McapRos2(stream, chunk_size=16384) as writer:
         schemas = {}
-        for topic, kind, message, time in messages:
-            if kind not in schemas:
-                text, _ = ROS2.store.generate_msgdef(kind, ros_version=2)
-                schemas[kind] = writer.register_msgdef(kind, text)
-            writer.write_message(topic, schemas[kind], dict_of(message), log_time=time, publish_time=time)
+        for topic, type_name, message, time in messages:
+            if type_name not in schemas:
+                text, _ = ROS2.store.generate_msgdef(type_name, ros_version=2)
+                schemas[type_name] = writer.register_msgdef(type_name, text)
+            writer.write_message(topic, schemas[type_name], dict_of(message), log_time=time, publish_time=time)
 
 
-def mcap_ros1(path, messages):
+def write_mcap_ros1(path, messages):
     """Writes objects like those of genpy: their class contains the definition of the type, and they can serialize themselves."""
 
-    def as_genpy(kind, message):
-        text, md5 = ROS1.store.generate_msgdef(kind)
-        fields = {'_type': kind.replace('/msg/', '/'), '_full_text': text, '_md5sum': md5}
-        serialize = lambda self, buffer: buffer.write(bytes(ROS1.store.serialize_ros1(message, kind)))
+    def genpy_object_of(type_name, message):
+        text, md5 = ROS1.store.generate_msgdef(type_name)
+        fields = {'_type': type_name.replace('/msg/', '/'), '_full_text': text, '_md5sum': md5}
+        serialize = lambda self, buffer: buffer.write(bytes(ROS1.store.serialize_ros1(message, type_name)))
         return type('Message', (), {**fields, 'serialize': serialize})()
 
     with open(path, 'wb') as stream:
         writer = McapRos1(stream, chunk_size=16384)
-        for topic, kind, message, time in messages:
-            writer.write_message(topic, as_genpy(kind, message), log_time=time, publish_time=time)
+        for topic, type_name, message, time in messages:
+            writer.write_message(topic, genpy_object_of(type_name, message), log_time=time, publish_time=time)
         writer.finish()
 
 
-def small_bag(path):
+def write_small_bag(path):
     """Writes some messages of the reference, and removes the padding of the header. Fuzzing limits its inputs to 4096 bytes."""
-    bag(path, [('/odom', *message[1:]) for message in list(ROS1.logs())[1:8:2]])
+    write_bag(path, [('/odom', *message[1:]) for message in list(ROS1.logs())[1:8:2]])
     data = bytearray(path.read_bytes())
     start = 13 + 4 + int.from_bytes(data[13:17], 'little')
     padding = int.from_bytes(data[start:start + 4], 'little')
     data[start:start + 4 + padding] = bytes(4)
     for field in (b'index_pos=', b'chunk_pos='):
-        at = data.index(field) + len(field)
-        data[at:at + 8] = (int.from_bytes(data[at:at + 8], 'little') - padding).to_bytes(8, 'little')
+        value_start = data.index(field) + len(field)
+        data[value_start:value_start + 8] = (int.from_bytes(data[value_start:value_start + 8], 'little') - padding).to_bytes(8, 'little')
     path.write_bytes(data)
 
 
-def small_database(path):
+def write_small_database(path):
     """Writes some messages of the reference in pages of 512 bytes, and a topic without messages."""
     database = sqlite3.connect(path)
     database.execute('PRAGMA page_size = 512')
     database.execute('CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, serialization_format TEXT)')
     database.execute('CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB)')
     database.execute("INSERT INTO topics VALUES (1, '/odom', 'geometry_msgs/msg/PoseStamped', 'cdr'), (2, '/pose', 'geometry_msgs/msg/PoseStamped', 'cdr')")
-    for _, kind, message, time in list(ROS2.logs())[1:12:2]:
-        database.execute('INSERT INTO messages(topic_id, timestamp, data) VALUES (1, ?, ?)', (time, bytes(ROS2.store.serialize_cdr(message, kind))))
+    for _, type_name, message, time in list(ROS2.logs())[1:12:2]:
+        database.execute('INSERT INTO messages(topic_id, timestamp, data) VALUES (1, ?, ?)', (time, bytes(ROS2.store.serialize_cdr(message, type_name))))
     database.commit()
     database.close()
 
 
-def table(path, column):
+def write_table(path, log_index):
     rows = ['t,x,y,qx,qy,qz,qw']
-    for row in DRIVE_ROWS:
-        stamp, x, y, qz, qw, *_ = row[column]
+    for row_pair in DRIVE_ROW_PAIRS:
+        stamp, x, y, qz, qw, *_ = row_pair[log_index]
         rows.append(f'{stamp // 10**9}.{stamp % 10**9:09d},{x!r},{y!r},0,0,{qz!r},{qw!r}')
     path.write_text('\n'.join(rows) + '\n')
 
 
-def packed(path):
+def pack(path):
     """Returns the name of a file and its compressed contents. The name begins with the name of the folder, if there is one."""
-    name = path.name if path.parent == WORK else f'{path.parent.name}-{path.name}'
+    name = path.name if path.parent == WORK_DIRECTORY else f'{path.parent.name}-{path.name}'
     return name, base64.b64encode(gzip.compress(path.read_bytes(), 9, mtime=0)).decode()
 
 
 with tempfile.TemporaryDirectory() as folder:
-    WORK = pathlib.Path(folder)
-    table(WORK / 'odometry.csv', 0)
-    table(WORK / 'reference.csv', 1)
+    WORK_DIRECTORY = pathlib.Path(folder)
+    write_table(WORK_DIRECTORY / 'odometry.csv', 0)
+    write_table(WORK_DIRECTORY / 'reference.csv', 1)
     for name, compression in (('none', None), ('bz2', Bag.CompressionFormat.BZ2), ('lz4', Bag.CompressionFormat.LZ4)):
-        bag(WORK / f'{name}.bag', ROS1.logs(), compression)
-    bag(WORK / 'types.bag', ROS1.others())
-    small_bag(WORK / 'small.bag')
-    small_database(WORK / 'small.db3')
-    rosbag2(WORK / 'sqlite', ROS2.logs(), StoragePlugin.SQLITE3)
-    rosbag2(WORK / 'sqlite-messages', ROS2.logs(), StoragePlugin.SQLITE3, CompressionMode.MESSAGE)
-    rosbag2(WORK / 'sqlite-file', ROS2.logs(), StoragePlugin.SQLITE3, CompressionMode.FILE)
-    rosbag2(WORK / 'mcap-messages', ROS2.logs(), StoragePlugin.MCAP, CompressionMode.MESSAGE)
-    rosbag2(WORK / 'mcap-file', ROS2.logs(), StoragePlugin.MCAP, CompressionMode.FILE)
+        write_bag(WORK_DIRECTORY / f'{name}.bag', ROS1.logs(), compression)
+    write_bag(WORK_DIRECTORY / 'types.bag', ROS1.messages_of_other_types())
+    write_small_bag(WORK_DIRECTORY / 'small.bag')
+    write_small_database(WORK_DIRECTORY / 'small.db3')
+    write_rosbag2(WORK_DIRECTORY / 'sqlite', ROS2.logs(), StoragePlugin.SQLITE3)
+    write_rosbag2(WORK_DIRECTORY / 'sqlite-messages', ROS2.logs(), StoragePlugin.SQLITE3, CompressionMode.MESSAGE)
+    write_rosbag2(WORK_DIRECTORY / 'sqlite-file', ROS2.logs(), StoragePlugin.SQLITE3, CompressionMode.FILE)
+    write_rosbag2(WORK_DIRECTORY / 'mcap-messages', ROS2.logs(), StoragePlugin.MCAP, CompressionMode.MESSAGE)
+    write_rosbag2(WORK_DIRECTORY / 'mcap-file', ROS2.logs(), StoragePlugin.MCAP, CompressionMode.FILE)
     for compression in CompressionType:
-        mcap(WORK / f'{compression.name.lower()}.mcap', ROS2.logs(), compression)
-    mcap(WORK / 'unindexed.mcap', ROS2.logs(), CompressionType.ZSTD, index_types=IndexType.NONE, use_statistics=False, repeat_channels=False)
-    mcap(WORK / 'unchunked.mcap', ROS2.logs(), CompressionType.NONE, use_chunking=False)
-    mcap(WORK / 'types.mcap', ROS2.others(), CompressionType.ZSTD)
-    mcap_ros2(WORK / 'ros2-support.mcap', ROS2.logs())
-    mcap_ros1(WORK / 'ros1-support.mcap', ROS1.logs())
-    for half in (0, 1):
-        rosbag2(WORK / f'split{half}', list(ROS2.logs())[ROW_COUNT * half:ROW_COUNT * (half + 1)], StoragePlugin.MCAP)
-    files = dict(sorted(packed(path) for path in WORK.rglob('*') if path.is_file()))
+        write_mcap(WORK_DIRECTORY / f'{compression.name.lower()}.mcap', ROS2.logs(), compression)
+    write_mcap(WORK_DIRECTORY / 'unindexed.mcap', ROS2.logs(), CompressionType.ZSTD, index_types=IndexType.NONE, use_statistics=False, repeat_channels=False)
+    write_mcap(WORK_DIRECTORY / 'unchunked.mcap', ROS2.logs(), CompressionType.NONE, use_chunking=False)
+    write_mcap(WORK_DIRECTORY / 'types.mcap', ROS2.messages_of_other_types(), CompressionType.ZSTD)
+    write_mcap_ros2(WORK_DIRECTORY / 'ros2-support.mcap', ROS2.logs())
+    write_mcap_ros1(WORK_DIRECTORY / 'ros1-support.mcap', ROS1.logs())
+    for part_number in (0, 1):
+        write_rosbag2(WORK_DIRECTORY / f'split{part_number}', list(ROS2.logs())[ROW_COUNT * part_number:ROW_COUNT * (part_number + 1)], StoragePlugin.MCAP)
+    files = dict(sorted(pack(path) for path in WORK_DIRECTORY.rglob('*') if path.is_file()))
     (SCRIPT_DIRECTORY / 'recordings.json').write_text(json.dumps(files, indent=0) + '\n')

@@ -86,8 +86,8 @@ await runAsScript(import.meta.url, async () => {
   await runOrThrow('The targets do not compile: see above.', join(bin, 'cargo'), ['+nightly', 'fuzz', 'build', ...BUILD_OPTIONS], { env });
   const runWaitingTargets = async () => {
     for (let fuzzTargetName = waitingTargets.shift(); fuzzTargetName !== undefined; fuzzTargetName = waitingTargets.shift()) {
-      const targetRun = isKeepMode ? keepInputs(fuzzTargetName) : runFuzzTarget(fuzzTargetName, `${runs}`, `${seed}`);
-      if (!(await targetRun)) process.exitCode = 1;
+      const fuzzResult = isKeepMode ? keepInputs(fuzzTargetName) : runFuzzTarget(fuzzTargetName, `${runs}`, `${seed}`);
+      if (!(await fuzzResult)) process.exitCode = 1;
     }
   };
   await Promise.all(Array.from({ length: availableParallelism() }, runWaitingTargets));

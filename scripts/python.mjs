@@ -30,7 +30,7 @@ const IPYWIDGET_MEMBERS = new Set(['close', 'comm', 'error', 'keys', 'layout', '
  * @param {string} propertyName
  */
 export function pythonNameOf(propertyName) {
-  const snakeCaseName = propertyName.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);
+  const snakeCaseName = propertyName.replaceAll(/[A-Z]/g, (capitalLetter) => `_${capitalLetter.toLowerCase()}`);
   if (!/^[a-z]\w*$/.test(snakeCaseName)) throw new Error(`${propertyName} cannot be the name of a trait in Python: rename it.`);
   return PYTHON_KEYWORDS.has(snakeCaseName) || IPYWIDGET_MEMBERS.has(snakeCaseName) ? `${snakeCaseName}_` : snakeCaseName;
 }

@@ -229,9 +229,9 @@ async function runPart(name, programArgs) {
     const { ok, output, timedOut } = await runJob();
     const sumMatches = (/** @type {RegExp} */ numberPattern) => [...output.matchAll(numberPattern)].reduce((sumSoFar, [, matchedCount]) => sumSoFar + Number(matchedCount), 0);
     const testTally = counts && { passed: sumMatches(counts.passed), failed: sumMatches(counts.failed), skipped: sumMatches(counts.skipped) };
-    const ranNoTest = testTally !== undefined && testTally.passed + testTally.failed === 0;
-    const outcomeNote = timedOut ? `ended after ${TIME_LIMIT_SECONDS} s` : ranNoTest ? 'no test ran' : undefined;
-    return { name, ok: ok && !ranNoTest && !testTally?.failed, seconds: getElapsedSeconds(), output, tally: testTally, note: outcomeNote };
+    const hasRunNoTest = testTally !== undefined && testTally.passed + testTally.failed === 0;
+    const outcomeNote = timedOut ? `ended after ${TIME_LIMIT_SECONDS} s` : hasRunNoTest ? 'no test ran' : undefined;
+    return { name, ok: ok && !hasRunNoTest && !testTally?.failed, seconds: getElapsedSeconds(), output, tally: testTally, note: outcomeNote };
   } catch (error) {
     printStep(`${name}: ${error instanceof UserError ? error.message : (error instanceof Error && error.stack) || error}`);
     return { name, ok: false, seconds: getElapsedSeconds(), note: 'not run: see above' };

@@ -155,8 +155,8 @@ export const ensureRustForWasm = memoize(/** @returns {Promise<Rust>} */ async (
  * @param {Rust} native
  */
 async function hasWasmTarget({ bin, env }) {
-  const sysrootRun = await run(join(bin, 'rustc'), ['--print', 'sysroot'], { env, quiet: true });
-  if (existsSync(join(sysrootRun.stdout.trim(), 'lib/rustlib', WASM_TARGET))) return true;
+  const sysrootResult = await run(join(bin, 'rustc'), ['--print', 'sysroot'], { env, quiet: true });
+  if (existsSync(join(sysrootResult.stdout.trim(), 'lib/rustlib', WASM_TARGET))) return true;
   const rustupPath = findProgram('rustup', [bin]);
   if (rustupPath === undefined) return false;
   // Behind some firewalls rustup never returns. A daily probe detects such a firewall. It waits longer if Debian's packages cannot replace
@@ -231,8 +231,8 @@ async function requireRustVersion(bin, env, remedySentence) {
 /** Ensures that rustfmt and clippy are installed for a cargo. @param {Rust} rust */
 export async function ensureLints({ bin, env }) {
   const hasLints = async () => {
-    const versionRuns = ['cargo-fmt', 'cargo-clippy'].map((lintName) => run(join(bin, lintName), ['--version'], { env, quiet: true }));
-    return (await Promise.all(versionRuns)).every(({ ok }) => ok);
+    const versionResults = ['cargo-fmt', 'cargo-clippy'].map((lintName) => run(join(bin, lintName), ['--version'], { env, quiet: true }));
+    return (await Promise.all(versionResults)).every(({ ok }) => ok);
   };
   if (await hasLints()) return;
   const missingMessage = 'rustfmt or clippy is missing: run `rustup component add rustfmt clippy` and start again.';

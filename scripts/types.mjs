@@ -54,8 +54,8 @@ function composeGroupInterfaces() {
   for (const [widgetTag, declaredSettings] of Object.entries(settings)) {
     for (const { key, type } of declaredSettings) {
       if (type !== 'group') continue;
-      const partFields = declaredSettings.filter((groupPart) => groupPart.in === key).map(fieldOf);
-      const interfaceText = interfaceOf(toPascalCase(key), partFields);
+      const groupFields = declaredSettings.filter((groupPart) => groupPart.in === key).map(fieldOf);
+      const interfaceText = interfaceOf(toPascalCase(key), groupFields);
       if ((interfaceByGroup.get(key) ?? interfaceText) !== interfaceText) throw new Error(`${widgetTag}: ${key} is not the group that it is in another widget; call it otherwise.`);
       interfaceByGroup.set(key, interfaceText);
     }
@@ -119,8 +119,8 @@ function elementTypesOf({ tag, className, attributes, properties, state }) {
 /** Returns the import of the types that the elements use. @param {import('./declarations.mjs').Widget[]} widgets */
 function importLineOf(widgets) {
   const typeNames = widgets.flatMap(({ properties, state }) => [...properties, ...state]).flatMap(({ type }) => type.match(/\b[A-Z]\w*/g) ?? []);
-  const neededNames = new Set(['FigureState', ...widgets.map(({ className }) => className), ...typeNames]);
-  const importedNames = [...neededNames].filter((name) => !(name in globalThis));
+  const neededTypeNames = new Set(['FigureState', ...widgets.map(({ className }) => className), ...typeNames]);
+  const importedNames = [...neededTypeNames].filter((name) => !(name in globalThis));
   return `import type { ${importedNames.sort().join(', ')} } from '../www/types.d.ts';\n`;
 }
 

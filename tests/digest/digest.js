@@ -149,7 +149,7 @@ export const resultFunctions = {
       },
       legs,
       truth,
-      panels: ['turn', 'distance'].map((predictor) => simulation.panels(/** @type {'turn' | 'distance'} */ (predictor))),
+      panels: ['turn', 'distance'].map((regressor) => simulation.panels(/** @type {'turn' | 'distance'} */ (regressor))),
       leg: simulation.leg(5),
       nearest: simulation.nearest(0.5, 1, 3),
     };

@@ -117,11 +117,11 @@ test('if a centre of rotation is outside the picture, its angle is labelled insi
 test('a narrow picture contains the whole wedge of the final turn', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openArcAnatomy(page, 'preset="straight"');
-  const [wedgeEndX, frameRightX] = await widget.evaluate((element) => {
+  const [wedgeEndX, plotRightX] = await widget.evaluate((element) => {
     const { pictures: [{ view }], simulation: { config: { next }, stats: { lastTurn } } } = /** @type {any} */ (element);
     return [view.headingLineFrom({ ...next, theta: next.theta - lastTurn }, 64)[1][0], view.plotArea.right];
   });
-  expect(wedgeEndX).toBeLessThan(frameRightX);
+  expect(wedgeEndX).toBeLessThan(plotRightX);
 });
 
 test('with the formula as printed in the book, p is 0 after a right turn, and the verdict explains why', async ({ page }) => {

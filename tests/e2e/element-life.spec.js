@@ -12,7 +12,7 @@ test.use(REDUCED_MOTION);
 async function countFramesAndModules(page) {
   await page.addInitScript(() => {
     const frameAndModuleCounts = { frames: 0, compiled: 0, instances: 0 };
-    Object.assign(window, { counts: frameAndModuleCounts, quietFrame: requestAnimationFrame.bind(window) });
+    Object.assign(window, { counts: frameAndModuleCounts, requestUncountedFrame: requestAnimationFrame.bind(window) });
     const { requestAnimationFrame: requestFrame } = window;
     window.requestAnimationFrame = (frameCallback) => {
       frameAndModuleCounts.frames++;
@@ -36,7 +36,7 @@ const readPageCounts = (page) => page.evaluate(() => Reflect.get(window, 'counts
 /** Waits for six frames, which the counts of the page do not include. @param {Page} page */
 const waitForSixFrames = (page) =>
   page.evaluate(async () => {
-    for (let i = 0; i < 6; i++) await new Promise(Reflect.get(window, 'quietFrame'));
+    for (let i = 0; i < 6; i++) await new Promise(Reflect.get(window, 'requestUncountedFrame'));
   });
 
 test('figures far from the window fetch and compute nothing, and all figures share one module', NEW_PAGE_TAG, async ({ page }) => {

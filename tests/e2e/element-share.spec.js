@@ -233,11 +233,11 @@ test('copies a link, and the code to embed with the address of the script', asyn
     await expect(widget.getByText('Copied.')).toContainText('Your map is not in it');
     await widget.getByRole('button', { name: 'Copy link' }).click();
     await expect(widget.getByText('Copied.')).toHaveText('Copied.');
-    const nextRandom = createRandomGenerator(1);
+    const drawRandom = createRandomGenerator(1);
     // A map of random cells cannot be compressed.
     const [columnCount, rowCount] = [4000, 2000];
     const byteCount = (columnCount * rowCount) / 8;
-    const map = { columns: columnCount, rows: rowCount, resolution: 0.05, origin: [0, 0, 0], occupied: Buffer.alloc(byteCount).toString('base64'), unknown: Buffer.from(Array.from({ length: byteCount }, () => 256 * nextRandom())).toString('base64') };
+    const map = { columns: columnCount, rows: rowCount, resolution: 0.05, origin: [0, 0, 0], occupied: Buffer.alloc(byteCount).toString('base64'), unknown: Buffer.from(Array.from({ length: byteCount }, () => 256 * drawRandom())).toString('base64') };
     await widget.evaluate((element, newMap) => void Object.assign(element, { map: newMap }), map);
     await widget.getByRole('button', { name: 'Copy link' }).click();
     await expect(widget.getByText('Copied.')).toContainText('Your map is too large for a link and is not in it');

@@ -202,8 +202,8 @@ test('a sample under the pointer, or with an entered number, shows its verdict',
   let rightmostIndex = 0;
   for (let i = 0; i < verdicts.length; i++) if (poses[3 * i] > poses[3 * rightmostIndex]) rightmostIndex = i;
   const { x, y } = await readCentre(bodyHandleOf(widget));
-  const metrePx = await readPixelsPerMetre(widget);
-  await page.mouse.move(x + (poses[3 * rightmostIndex] - 2.05) * metrePx, y - (poses[3 * rightmostIndex + 1] - 2.6) * metrePx);
+  const pixelsPerMetre = await readPixelsPerMetre(widget);
+  await page.mouse.move(x + (poses[3 * rightmostIndex] - 2.05) * pixelsPerMetre, y - (poses[3 * rightmostIndex + 1] - 2.6) * pixelsPerMetre);
   await expect(sampleField).toHaveValue(String(rightmostIndex + 1));
 });
 

@@ -75,24 +75,24 @@ testEach('Tab reaches every handle and control of a figure exactly once, and the
   });
   await page.locator('#before').focus();
   /** @type {(number | string)[]} */
-  const reachedStops = [];
+  const reachedTabStops = [];
   const readFocusedStop = () => page.evaluate((widgetTag) => {
     const focusedElement = document.querySelector(widgetTag)?.shadowRoot?.activeElement;
     return focusedElement ? Reflect.get(window, 'stops').indexOf(focusedElement) : `${document.activeElement?.id}`;
   }, name);
-  const [stopCount, stopTexts] = await page.evaluate(() => {
+  const [tabStopCount, tabStopTexts] = await page.evaluate(() => {
     const tabStops = /** @type {Element[]} */ (Reflect.get(window, 'stops'));
     return [tabStops.length, tabStops.map((stopElement) => stopElement.outerHTML.slice(0, 120))];
   });
-  expect(stopCount).toBeGreaterThan(10);
+  expect(tabStopCount).toBeGreaterThan(10);
   do {
     await page.keyboard.press('Tab');
-    reachedStops.push(await readFocusedStop());
-  } while (reachedStops.at(-1) !== 'after' && reachedStops.length <= stopCount + 5);
-  expect(reachedStops.at(-1)).toBe('after');
-  const missedStops = stopTexts.filter((_, i) => !reachedStops.includes(i));
-  expect(missedStops).toEqual([]);
-  expect(reachedStops.length).toBe(stopCount + 1);
+    reachedTabStops.push(await readFocusedStop());
+  } while (reachedTabStops.at(-1) !== 'after' && reachedTabStops.length <= tabStopCount + 5);
+  expect(reachedTabStops.at(-1)).toBe('after');
+  const missedTabStops = tabStopTexts.filter((_, i) => !reachedTabStops.includes(i));
+  expect(missedTabStops).toEqual([]);
+  expect(reachedTabStops.length).toBe(tabStopCount + 1);
 });
 
 test('if a control removes or disables itself, a nearby control gets the focus', async ({ page }) => {

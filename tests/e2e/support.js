@@ -92,7 +92,7 @@ export const REDUCED_MOTION = { contextOptions: { reducedMotion: /** @type {cons
 export async function showPage(page, bodyHtml, { head = '', fragment = '', script = '<script type="module" src="/motion-widgets.js"></script>' } = {}) {
   await page.addInitScript(() => {
     const firedEvents = /** @type {FiredEvent[]} */ ([]);
-    Object.assign(window, { heard: firedEvents });
+    Object.assign(window, { firedEvents });
     for (const eventName of ['load', 'input', 'change', 'stats', 'error']) {
       document.addEventListener(eventName, (figureEvent) => {
         const figureElement = /** @type {Element} */ (figureEvent.target);
@@ -140,7 +140,7 @@ export async function mountFigure(page, name, { attributes = '', ...options } = 
 /** Returns the events of the elements since the last call, and forgets them. @param {Page} page @param {string[]} [eventNames] */
 export async function takeEvents(page, eventNames = ['load', 'input', 'change', 'error']) {
   await waitForFrames(page);
-  const takenEvents = /** @type {FiredEvent[]} */ (await page.evaluate(() => Reflect.get(window, 'heard').splice(0)));
+  const takenEvents = /** @type {FiredEvent[]} */ (await page.evaluate(() => Reflect.get(window, 'firedEvents').splice(0)));
   return takenEvents.filter(({ name }) => eventNames.includes(name));
 }
 

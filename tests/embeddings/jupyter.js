@@ -170,11 +170,11 @@ export default {
     {
       name: 'JupyterLab',
       serve: serveByProgram((port, directory) => {
-        const labArguments = ['--no-browser', '--allow-root', '--IdentityProvider.token=', '--ServerApp.port_retries=0'];
+        const jupyterLabArguments = ['--no-browser', '--allow-root', '--IdentityProvider.token=', '--ServerApp.port_retries=0'];
         // JupyterLab has a separate configuration directory, so that this user's settings do not affect the test.
         const ownDirectoryOf = (/** @type {string} */ name) => join(pythonDirectoryOf(directory), 'own', name);
         const jupyterEnvironment = { JUPYTER_CONFIG_DIR: ownDirectoryOf('config'), JUPYTERLAB_SETTINGS_DIR: ownDirectoryOf('settings'), JUPYTERLAB_WORKSPACES_DIR: ownDirectoryOf('workspaces') };
-        return [pythonProgramPathOf(directory, 'jupyter'), ['lab', ...labArguments, '--port', port], jupyterEnvironment];
+        return [pythonProgramPathOf(directory, 'jupyter'), ['lab', ...jupyterLabArguments, '--port', port], jupyterEnvironment];
       }),
       checks: JUPYTERLAB_CHECKS,
     },

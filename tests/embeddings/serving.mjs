@@ -35,17 +35,17 @@ export const serveByProgram = (commandOf, base = '/') => async (directory, { sta
   const port = await findFreePort();
   const url = `http://localhost:${port}${base}`;
   const platformServer = start(...commandOf(port, directory));
-  const earlyEnd = platformServer.whenEnded.then(() => {
+  const earlyEndPromise = platformServer.whenEnded.then(() => {
     throw new Error(`The server has ended:\n${platformServer.output()}`);
   });
   try {
-    await Promise.race([untilAnswered(url), earlyEnd]);
+    await Promise.race([untilAnswered(url), earlyEndPromise]);
   } catch (error) {
     await platformServer.stop();
     throw error;
   }
   // From here on, an end of the server is no error.
-  earlyEnd.catch(() => {});
+  earlyEndPromise.catch(() => {});
   return { url, stop: platformServer.stop };
 };
 

@@ -39,15 +39,15 @@ function writeInFolder(fileName, fileContents) {
 async function runCalibrate(cliArguments, loadCore = load) {
   let [outputText, errorText] = ['', ''];
   const exitCode = await run(['calibrate', ...cliArguments], { load: loadCore, print: (text) => (outputText += text), complain: (text) => (errorText += text), now: new Date('2026-01-02T03:04:05Z') });
-  return { code: exitCode, out: outputText, err: errorText };
+  return { exitCode, stdout: outputText, stderr: errorText };
 }
 
 /** Returns the options that the command passes to the core, with logs in arrays. @param {string[]} args @returns {Promise<any>} */
 async function readCoreOptions(args) {
   /** @type {any} */
   let coreOptions;
-  const { err } = await runCalibrate(args, async () => ({ calibrate(/** @type {any} */ calibrateOptions) { coreOptions = { ...calibrateOptions, odometry: [calibrateOptions.odometry].flat(), reference: [calibrateOptions.reference].flat() }; throw new RangeError('stop'); } }));
-  assert.ok(coreOptions, err);
+  const { stderr } = await runCalibrate(args, async () => ({ calibrate(/** @type {any} */ calibrateOptions) { coreOptions = { ...calibrateOptions, odometry: [calibrateOptions.odometry].flat(), reference: [calibrateOptions.reference].flat() }; throw new RangeError('stop'); } }));
+  assert.ok(coreOptions, stderr);
   return coreOptions;
 }
 
@@ -114,12 +114,12 @@ test('one recording can contain both logs, with topics and frames that are guess
       'unclear.mcap: it is not clear what the reference is: /odom (Odometry), /other (PoseStamped), /third (PoseStamped). Choose with --reference-topic, as in --reference-topic /other.\n',
     ],
     [await writeRecordingArgs('alone.mcap', '/odom'), 'alone.mcap: it has one log only, /odom (Odometry), by name or type the odometry; give the reference too. Name both, with --odometry FILE and --reference FILE.\n'],
-  ])) assert.equal((await runCalibrate(args)).err, expectedError);
+  ])) assert.equal((await runCalibrate(args)).stderr, expectedError);
 });
 
 test('invalid input gives exit code 2 and an error message', async () => {
   const straightLogPath = writeInFolder('straight.csv', ['t,x,y,yaw', ...Array.from({ length: 2000 }, (_, i) => `${1_600_000_000 + i / 20},${i / 40},0,0`)].join('\n'));
-  for (const [args, errorStart] of /** @type {[string[], string][]} */ ([
+  for (const [args, expectedErrorStart] of /** @type {[string[], string][]} */ ([
     [[examplePathOf('odometry')], 'odometry.csv: it has one log only, t, x, y, yaw, by name or type the odometry; give the reference too. Name both, '],
     [['a.csv', 'b.csv', '--time-unit', 'ms,s'], '--time-unit ms,s has two units; give the files with --odometry and --reference.'],
     [['a.csv', 'b.csv', '--reference-columns', 't,x,y,yaw'], '--reference-columns needs --reference FILE.'],
@@ -159,9 +159,9 @@ test('invalid input gives exit code 2 and an error message', async () => {
     [[...LOG_ARGS, '--reference-position-std=-1'], '--reference-position-std is -1; allowed is '],
     [[...LOG_ARGS.slice(0, 2), '--reference', straightLogPath], 'odometry.csv and straight.csv: odometry and reference have no time in common, and their turn rates correlate at no clock offset; '],
   ])) {
-    const { code: exitCode, out, err } = await runCalibrate(args);
-    assert.deepEqual([exitCode, out.replaceAll(/^(Odometry|Reference): .*\n( {2}.*\n)*/gm, '')], [2, ''], err);
-    assert.ok(err.startsWith(errorStart) && err.endsWith('\n'), err);
+    const { exitCode, stdout, stderr } = await runCalibrate(args);
+    assert.deepEqual([exitCode, stdout.replaceAll(/^(Odometry|Reference): .*\n( {2}.*\n)*/gm, '')], [2, ''], stderr);
+    assert.ok(stderr.startsWith(expectedErrorStart) && stderr.endsWith('\n'), stderr);
   }
 });
 
@@ -200,15 +200,15 @@ test('the intervals for the example recording contain the true α’s, and the J
 });
 
 test('the report names the stated reference noise, and the outliers', async () => {
-  const { code: exitCode, out } = await runCalibrate([...LOG_ARGS, '--rule', 'nav2', '--reference-yaw-std', '0']);
+  const { exitCode, stdout } = await runCalibrate([...LOG_ARGS, '--rule', 'nav2', '--reference-yaw-std', '0']);
   assert.equal(exitCode, 0);
-  for (const linePattern of [/^reference yaw σ +0 rad +as stated$/m, /^outliers: 1 of \d+ legs, at \d+\.\d\d s after the start$/m]) assert.match(out, linePattern);
+  for (const linePattern of [/^reference yaw σ +0 rad +as stated$/m, /^outliers: 1 of \d+ legs, at \d+\.\d\d s after the start$/m]) assert.match(stdout, linePattern);
 });
 
 test('doc/calibration.md shows the report of the example log', async () => {
   const [, documentedReport] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n```text\n(.*?)\s*```\n/s) ?? [];
-  const { out } = await runCalibrate(LOG_ARGS);
-  assert.equal(documentedReport.replace(/\d{4}-\d\d-\d\d$/m, '2026-01-02'), out.trimEnd());
+  const { stdout } = await runCalibrate(LOG_ARGS);
+  assert.equal(documentedReport.replace(/\d{4}-\d\d-\d\d$/m, '2026-01-02'), stdout.trimEnd());
 });
 
 test('units can be stated for both logs together or for each log', async () => {
@@ -220,7 +220,7 @@ test('units can be stated for both logs together or for each log', async () => {
   for (const name of ['t', 'x', 'theta']) assert.ok(Math.abs(statedUnitOptions.odometry[0][name][999] - siOptions.odometry[0][name][999]) < 1e-9, name);
   const degreesPath = writeInFolder('degrees.csv', [header, ...csvRows.map((row) => row.split(',').map((cell, i) => Number(cell) * [1, 1, 1, 180 / Math.PI][i]).join(','))].join('\n'));
   const refusalOutput = await runCalibrate(['--odometry', degreesPath, ...LOG_ARGS.slice(2), '--angle-unit', 'rad']);
-  assert.match(refusalOutput.err, /^degrees\.csv: headings in rad would turn at .*; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit rad,deg\.$/m);
+  assert.match(refusalOutput.stderr, /^degrees\.csv: headings in rad would turn at .*; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit rad,deg\.$/m);
 });
 
 test('logs in a folder are read, and its other files are skipped', async () => {
@@ -232,25 +232,25 @@ test('logs in a folder are read, and its other files are skipped', async () => {
   let inspectionText = '';
   await run(['inspect', driveFolder], { load, print: (text) => (inspectionText += text), complain: () => {} });
   assert.match(inspectionText, /^ {2}npx motion-widgets calibrate \S+\/drive --rule nav2$/m);
-  const { code: exitCode, out, err } = await runCalibrate(['metadata.yaml', 'odom.csv'].map((name) => join(driveFolder, name)));
-  assert.deepEqual([exitCode, out.match(/^\w+: .*\.csv$/gm)], [0, ['Odometry: odom.csv', 'Reference: truth.csv']]);
-  assert.match(err, /^skipped: README\.md: it does not look like a log, .*\nskipped: camera\.mcap: the topics are \/image \(String\); .*\n$/);
+  const { exitCode, stdout, stderr } = await runCalibrate(['metadata.yaml', 'odom.csv'].map((name) => join(driveFolder, name)));
+  assert.deepEqual([exitCode, stdout.match(/^\w+: .*\.csv$/gm)], [0, ['Odometry: odom.csv', 'Reference: truth.csv']]);
+  assert.match(stderr, /^skipped: README\.md: it does not look like a log, .*\nskipped: camera\.mcap: the topics are \/image \(String\); .*\n$/);
 });
 
 test('a database journal next to a recording is reported, unless the journal is empty', async () => {
   for (const [journalHex, expectedMessage] of [['', ''], ['377f0682', 'skipped: odometry.db3-wal: it is a journal']]) {
     writeInFolder('odometry.db3-wal', Buffer.from(journalHex, 'hex'));
-    const { code: exitCode, err } = await runCalibrate(['--odometry', writeInFolder('odometry.db3', readFileSync(examplePathOf('odometry'))), ...LOG_ARGS.slice(2)]);
-    assert.deepEqual([exitCode, err.split(' with')[0]], [0, expectedMessage]);
+    const { exitCode, stderr } = await runCalibrate(['--odometry', writeInFolder('odometry.db3', readFileSync(examplePathOf('odometry'))), ...LOG_ARGS.slice(2)]);
+    assert.deepEqual([exitCode, stderr.split(' with')[0]], [0, expectedMessage]);
   }
   // All messages of the recording are in the journal of the database.
   const databasePath = writeInFolder('run.db3', 'SQLite format 3\0');
   writeInFolder('run.db3-wal', Buffer.from('377f0682', 'hex'));
   for (const jsonArgs of [[], ['--json']]) {
-    let [out, err] = ['', ''];
-    const exitCode = await run(['inspect', databasePath, ...jsonArgs], { load, print: (text) => (out += text), complain: (text) => (err += text) });
-    assert.deepEqual([exitCode, out], [2, '']);
-    assert.match(err, /^run\.db3-wal: it is a journal with messages that its \.db3 file lacks; /m);
+    let [stdout, stderr] = ['', ''];
+    const exitCode = await run(['inspect', databasePath, ...jsonArgs], { load, print: (text) => (stdout += text), complain: (text) => (stderr += text) });
+    assert.deepEqual([exitCode, stdout], [2, '']);
+    assert.match(stderr, /^run\.db3-wal: it is a journal with messages that its \.db3 file lacks; /m);
   }
 });
 
@@ -261,29 +261,29 @@ const writeReversedReference = () => {
 };
 
 test('--yaml prints only the lines for Nav2, and nothing for an unusable log', async () => {
-  const { code: exitCode, out, err } = await runCalibrate([...LOG_ARGS, '--yaml', '--rule', 'nav2']);
+  const { exitCode, stdout, stderr } = await runCalibrate([...LOG_ARGS, '--yaml', '--rule', 'nav2']);
   assert.equal(exitCode, 0);
-  assert.match(out, /^amcl:\n {2}ros__parameters:\n[^]*\n {4}update_min_a: 0\.2\n$/);
-  assert.match(err, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Trust\. .*\nUse the recommended α’s with legs of this length\.\nFirst multiply the odometry’s distances by .*\n$/m);
-  assert.match((await runCalibrate([...LOG_ARGS, '--yaml'])).err, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
+  assert.match(stdout, /^amcl:\n {2}ros__parameters:\n[^]*\n {4}update_min_a: 0\.2\n$/);
+  assert.match(stderr, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Trust\. .*\nUse the recommended α’s with legs of this length\.\nFirst multiply the odometry’s distances by .*\n$/m);
+  assert.match((await runCalibrate([...LOG_ARGS, '--yaml'])).stderr, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
   const swappedOutput = await runCalibrate(['--odometry', examplePathOf('reference'), '--reference', examplePathOf('odometry'), '--yaml']);
-  assert.match(swappedOutput.err, /^Caution. Warning: by their names, the reference is odometry, .*: exchange the two\.$/m);
+  assert.match(swappedOutput.stderr, /^Caution. Warning: by their names, the reference is odometry, .*: exchange the two\.$/m);
   // The legs of a reference at 1 Hz are longer than requested.
   const [header, ...rows] = readFileSync(examplePathOf('reference'), 'utf8').trim().split('\n');
   const sparsePath = writeInFolder('sparse.csv', [header, ...rows.filter((_, i) => i % 20 === 0)].join('\n'));
   const sparseOutput = await runCalibrate([...LOG_ARGS.slice(0, 3), sparsePath, '--yaml', '--rule', 'nav2']);
-  const [, lengthRatio, printedDistance, printedAngle] = /legs are (\S+) times as long as asked\. .*\n +update_min_d: (\S+)\n +update_min_a: (\S+)\n$/.exec(sparseOutput.out)?.map(Number) ?? [];
-  assert.ok(lengthRatio > 1.5, sparseOutput.out);
+  const [, lengthRatio, printedDistance, printedAngle] = /legs are (\S+) times as long as asked\. .*\n +update_min_d: (\S+)\n +update_min_a: (\S+)\n$/.exec(sparseOutput.stdout)?.map(Number) ?? [];
+  assert.ok(lengthRatio > 1.5, sparseOutput.stdout);
   assert.deepEqual([printedDistance / 0.25, printedAngle / 0.2].map((printedRatio) => Math.abs(printedRatio / lengthRatio - 1) < 0.005), [true, true]);
   const reversedPath = writeReversedReference();
   const refusalOutput = await runCalibrate([...LOG_ARGS.slice(0, 3), reversedPath, '--yaml']);
-  assert.deepEqual([refusalOutput.code, refusalOutput.out], [3, '']);
-  assert.match(refusalOutput.err, /^No lines for nav2_params\.yaml: the log is unusable\.$/m);
+  assert.deepEqual([refusalOutput.exitCode, refusalOutput.stdout], [3, '']);
+  assert.match(refusalOutput.stderr, /^No lines for nav2_params\.yaml: the log is unusable\.$/m);
 });
 
 test('--plot writes a panel for each drive, with both paths aligned, and the ends of legs at the times of the reference', async () => {
   const plotPath = join(temporaryFolder, 'plot.svg');
-  assert.equal((await runCalibrate([...LOG_ARGS, '--plot', plotPath])).code, 0);
+  assert.equal((await runCalibrate([...LOG_ARGS, '--plot', plotPath])).exitCode, 0);
   assert.match(readFileSync(plotPath, 'utf8'), /^<svg xmlns=/);
   /** Returns a drive of ten seconds along x. Its odometry leads along y, and begins half a second earlier. @returns {any} */
   const createDriveAt = (/** @type {number} */ startTime) => {
@@ -310,9 +310,9 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
 });
 
 test('output to a terminal has colours', async () => {
-  let out = '';
-  await run(['calibrate', ...LOG_ARGS], { load, print: (text) => (out += text), complain: assert.fail, isColored: true });
-  assert.ok(out.includes('\n\x1b[32mTrust\x1b[0m. '), out);
+  let stdout = '';
+  await run(['calibrate', ...LOG_ARGS], { load, print: (text) => (stdout += text), complain: assert.fail, isColored: true });
+  assert.ok(stdout.includes('\n\x1b[32mTrust\x1b[0m. '), stdout);
 });
 
 test('inspect lists the contents of a file, and suggests the next command', async () => {
@@ -362,32 +362,32 @@ test('inspect lists the contents of a file, and suggests the next command', asyn
 
 test('for an unusable log the command prints a reason and no lines for Nav2', async () => {
   const reversedPath = writeReversedReference();
-  const { code: exitCode, out } = await runCalibrate([...LOG_ARGS.slice(0, 3), reversedPath]);
+  const { exitCode, stdout } = await runCalibrate([...LOG_ARGS.slice(0, 3), reversedPath]);
   assert.equal(exitCode, 3);
   for (const linePattern of [
     /^Do not use\. Failed: mismatch of odometry and reference; .*; … \(6 of 13 checks\)\.\nThe reference does not follow the odometry: /m,
     /^reference-matches +\S+ +0\.001 to 0\.7 +FAILED +mismatch of odometry and reference$/m,
     /^alpha1 .* – +rotation noise/m, /^No lines for nav2_params\.yaml: the log is unusable\.$/m,
-  ]) assert.match(out, linePattern);
-  assert.doesNotMatch(out, /amcl:|not identifiable: /);
+  ]) assert.match(stdout, linePattern);
+  assert.doesNotMatch(stdout, /amcl:|not identifiable: /);
 });
 
 test('the report, the lines for Nav2 and the figure agree on whether a localizer made the reference', async () => {
   for (const [name, isLocalizer] of /** @type {const} */ ([['slam_pose', true], ['cartographer', true], ['truth_amcl', false]])) {
     const args = [...LOG_ARGS.slice(0, 3), writeInFolder(`${name}.csv`, readFileSync(examplePathOf('reference')))];
-    const [{ out }, { out: jsonText }] = [await runCalibrate(args), await runCalibrate([...args, '--json'])];
+    const [{ stdout }, { stdout: jsonText }] = [await runCalibrate(args), await runCalibrate([...args, '--json'])];
     const { logs, ...stats } = JSON.parse(jsonText);
     const { rating } = judgeFit(/** @type {any} */ ({ stats, legs: stats.legs, fitted: stats.systematicErrors }), warningsOf(logs));
-    const notedPlaces = [out.includes(`\nCaution. ${en.nav2.localizer}\n`) && !out.includes(en.useAnyway), out.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
+    const notedPlaces = [stdout.includes(`\nCaution. ${en.nav2.localizer}\n`) && !stdout.includes(en.useAnyway), stdout.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
     assert.deepEqual(notedPlaces, [isLocalizer, isLocalizer, isLocalizer], name);
   }
 });
 
 test('the report advises against α’s that are too small because the odometry moves sideways', async () => {
   const swappedPaths = [writeInFolder('first.csv', readFileSync(examplePathOf('reference'))), writeInFolder('second.csv', readFileSync(examplePathOf('odometry')))];
-  const { out } = await runCalibrate(['--odometry', swappedPaths[0], '--reference', swappedPaths[1]]);
-  assert.match(out, /^Caution\. [^]*sideways/m);
-  assert.ok(!out.includes(en.useAnyway));
+  const { stdout } = await runCalibrate(['--odometry', swappedPaths[0], '--reference', swappedPaths[1]]);
+  assert.match(stdout, /^Caution\. [^]*sideways/m);
+  assert.ok(!stdout.includes(en.useAnyway));
 });
 
 test('the report names failed checks, lost legs and unidentified α’s, and recommends motions', async () => {

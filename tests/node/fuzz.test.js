@@ -29,7 +29,7 @@ function readFoundInputs(targetName) {
 
 for (const [targetName, { corpus, run }] of Object.entries(fuzzTargets)) {
   test(`${targetName}: every input gives a result or an error message`, async () => {
-    const nextRandom = createRandomGenerator(FUZZ_SEED);
+    const drawRandom = createRandomGenerator(FUZZ_SEED);
     const allInputs = [...corpus, ...readFoundInputs(targetName)];
     /** Runs a target on an input, and returns true if the input is accepted. @param {Buffer<ArrayBuffer>} inputBytes */
     const checkInput = async (inputBytes) => {
@@ -48,7 +48,7 @@ for (const [targetName, { corpus, run }] of Object.entries(fuzzTargets)) {
     let acceptedCount = 0;
     for (let i = 0; i < INPUT_COUNT; i++) {
       // Inputs that fuzzing found are mostly refused. For that reason half of the mutations start from valid inputs.
-      if (await checkInput(createMutant(nextRandom() < 0.5 ? corpus : allInputs, nextRandom))) acceptedCount += 1;
+      if (await checkInput(createMutant(drawRandom() < 0.5 ? corpus : allInputs, drawRandom))) acceptedCount += 1;
       if (i % INPUTS_PER_TURN === 0) await yieldToEventLoop();
     }
     assert.ok(acceptedCount > 0 && acceptedCount < INPUT_COUNT, `${acceptedCount} of ${INPUT_COUNT} are accepted`);

@@ -80,7 +80,7 @@ test('groups of columns are guessed like topics, and may be named without the tr
 });
 
 test('ambiguous roles lead to a question', async () => {
-  for (const [series, expectedSentence, askedWhat, logRole, expectedChoices, frames, userChoices] of /** @type {[Parameters<typeof createRecording>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
+  for (const [series, expectedSentence, askedQuestion, logRole, expectedChoices, frames, userChoices] of /** @type {[Parameters<typeof createRecording>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
     [{ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' }, 'it is not clear what the reference is: /odom (Odometry), /a (PoseStamped), /b (PoseStamped).', 'series', 'reference', ['/a', '/b']],
     [{ '/odom': 'odometry', '/wheel/odometry': 'odometry', '/mocap': 'pose' }, 'it is not clear what the odometry is: ', 'series', 'odometry'],
     [{ '/odom': 'odometry', '/odometry/filtered': 'odometry', '/cmd_vel': 'twist' }, 'by its names and types it has no reference, but /odom (Odometry), ', 'series', 'reference', []],
@@ -101,7 +101,7 @@ test('ambiguous roles lead to a question', async () => {
   ])) {
     const { message, ask } = await catchRefusalError(planDrivesAsync([createRecording(series, {}, frames)], userChoices));
     assert.ok(message.startsWith('run.mcap') && message.includes(`: ${expectedSentence}`), message);
-    assert.deepEqual([ask?.what, ask?.role], [askedWhat, logRole], message);
+    assert.deepEqual([ask?.what, ask?.role], [askedQuestion, logRole], message);
     if (expectedChoices) assert.deepEqual(ask?.choices, expectedChoices);
   }
 });

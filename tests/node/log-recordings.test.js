@@ -211,12 +211,12 @@ test('chunks with a wrong checksum or size are not read', async () => {
 });
 
 test('a file that is read in pieces gives the right bytes, across pieces and after skipped ranges', async () => {
-  const nextRandom = createRandomGenerator(7);
-  const bytes = Buffer.alloc(60e6, Buffer.from(Array.from({ length: 9973 }, () => nextRandom() * 256)));
+  const drawRandom = createRandomGenerator(7);
+  const bytes = Buffer.alloc(60e6, Buffer.from(Array.from({ length: 9973 }, () => drawRandom() * 256)));
   const readRange = readAhead(new File([bytes], 'run.mcap'));
   for (let start = 0; start < bytes.length; ) {
-    const chunkEnd = Math.min(bytes.length, start + Math.floor(nextRandom() ** 8 * 3e7));
+    const chunkEnd = Math.min(bytes.length, start + Math.floor(drawRandom() ** 8 * 3e7));
     assert.deepEqual([chunkEnd, bytes.compare(await readRange(start, chunkEnd), 0, chunkEnd - start, start, chunkEnd)], [chunkEnd, 0]);
-    start = nextRandom() < 0.05 ? Math.min(bytes.length, chunkEnd + 3e6) : chunkEnd;
+    start = drawRandom() < 0.05 ? Math.min(bytes.length, chunkEnd + 3e6) : chunkEnd;
   }
 });

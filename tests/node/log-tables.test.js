@@ -11,15 +11,15 @@ import { summarySentencesOf } from '../../www/logs/log.ts';
 /**
  * @import { LogChoice, OpenOptions } from '../../www/logs/log.ts'
  *
- * @typedef {object} Case
+ * @typedef {object} TableCase
  * @property {string} name
- * @property {string | Uint8Array<ArrayBuffer>} text
+ * @property {string | Uint8Array<ArrayBuffer>} tableText
  * @property {'poses' | 'commands'} [kind] default: poses
  * @property {number} [start] time of the first row; default 0
  * @property {string[]} [series] that the table has; default: one without a name
  * @property {Partial<LogChoice>} [choice]
  * @property {OpenOptions} [options]
- * @property {RegExp} [says] sentences of the summary
+ * @property {RegExp} [summaryPattern] pattern of sentences of the summary
  */
 
 /** Rows of a robot that drives on a circle: time, x, y, heading, speed, turn rate. */
@@ -87,69 +87,69 @@ const PANDAS_TABLES = JSON.parse(readFileSync(new URL('../reference/logs/tables.
 
 const pandasTableOf = (/** @type {string} */ name) => `${PANDAS_TABLES[name].join('\n')}\n`;
 
-/** @type {Case[]} */
+/** @type {TableCase[]} */
 const READABLE_TABLES = [
-  { name: 'pandas: an index without a name', text: pandasTableOf('index') },
-  { name: 'pandas: dates of UTC', start: EPOCH_SECONDS, text: pandasTableOf('utc') },
-  { name: 'pandas: dates of Berlin', start: EPOCH_SECONDS, text: pandasTableOf('berlin') },
-  { name: 'pandas: dates without a zone', start: EPOCH_SECONDS, text: pandasTableOf('naive') },
-  { name: 'pandas: durations', text: pandasTableOf('timedelta') },
-  { name: 'pandas: decimal commas in UTF-16', text: utf16BytesOf(pandasTableOf('german')) },
-  { name: 'pandas: nanoseconds in quotes', start: EPOCH_SECONDS, text: pandasTableOf('nanoseconds') },
-  { name: 'pandas: a log of two that are merged', series: ['odom', 'gt'], choice: { series: 'odom' }, text: pandasTableOf('merged') },
-  { name: 'blanks after commas, quoted names, units', text: tableOf('"time [s]", "x [m]", "y [m]", "yaw [rad]"', ({ t, x, y, theta }) => [t, x, y, theta], ', ') },
-  { name: 'tabs, columns in another order', text: tableOf('heading\ttimestamp\tx\ty', ({ t, x, y, theta }) => [theta, t, x, y], '\t') },
-  { name: 'a separator in quotes', text: tableOf('note,t,x,y,yaw', ({ t, x, y, theta }) => ['"a, b"', t, x, y, theta]) },
-  { name: 'semicolons, decimal commas, sep=', text: `\ufeffsep=;\r\n${tableOf('Time [s];X [m];Y [m];Yaw [rad]', ({ t, x, y, theta }) => [t, x, y, theta].map(useDecimalComma), ';').replaceAll('\n', '\r\n')}` },
-  { name: 'a spreadsheet in UTF-16', text: utf16BytesOf(tableOf('t\tx\ty\tyaw', ({ t, x, y, theta }) => [t, x, y, theta].map(useDecimalComma), '\t')) },
-  { name: 'commas in quotes', text: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta].map((value) => `"${useDecimalComma(value)}"`)) },
-  { name: 'times with exponents', start: EPOCH_SECONDS, text: tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [`1,${formatNanoseconds(t).slice(1)}E+18`, ...[x, y, theta].map(useDecimalComma)], ';') },
-  { name: 'units in a row below the header', text: tableOf('t,x,y,yaw,battery\n[ms],mm,mm,deg,V', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta), 24.5]), says: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
-  { name: 'quantities over their units', text: tableOf('t/ms,x pos/mm,y pos / mm,yaw in deg', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta)]), says: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
-  { name: 'bars, seconds and microseconds', start: EPOCH_SECONDS, text: tableOf('tv_sec|tv_usec|x|y|yaw', ({ t, x, y, theta }) => [EPOCH_SECONDS + Math.floor(t), (t % 1) * 1e6, x, y, theta], '|') },
-  { name: 'rows of two topics, each with columns of its own', series: ['a', 'b'], choice: { series: 'b' }, text: CIRCLE_ROWS.flatMap(({ t, x, y, theta }) => [`/a,${t},9,9,9,,,`, `/b,${t},,,,${x},${y},${theta}`]).toSpliced(0, 0, 'topic,t,a_x,a_y,a_yaw,b_x,b_y,b_yaw').join('\n') },
-  { name: 'two logs that are joined with NaN', series: ['a', 'b'], choice: { series: 'b' }, says: /^24 of 24 rows/, text: CIRCLE_ROWS.flatMap(({ t, x, y, theta }) => [`${t + 0.01},9,9,9,NaN,NaN,NaN`, `${t},NaN,NaN,NaN,${x},${y},${theta}`]).toSpliced(0, 0, 't,a_x,a_y,a_yaw,b_x,b_y,b_yaw').join('\n') },
-  { name: 'numbers of laps and landmarks', text: tableOf('t,id,tag_id,x,y,yaw', ({ i, t, x, y, theta }) => [t, i >> 3, i >> 3, x, y, theta]) },
-  { name: 'semicolons below a long preamble', text: `${'Parameter 1: value, 2\n'.repeat(80)}${tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [t, x, y, theta], ';')}` },
-  { name: 'names of MATLAB', text: tableOf('Time,x_m_,y_m_,yaw_deg_', ({ t, x, y, theta }) => [t, x, y, toDegrees(theta)]), says: /degrees/ },
-  { name: 'durations of MATLAB', text: tableOf('Time,x,y,yaw', ({ t, x, y, theta }) => [`00:00:${String(Math.floor(t)).padStart(2, '0')}.${String(t % 1).slice(2).padEnd(1, '0')}`, x, y, theta]) },
-  { name: 'millimetres, degrees and milliseconds by name', text: tableOf('t_ms,x [mm],y [mm],yaw (deg)', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta)]) },
-  { name: 'rostopic echo -p', start: EPOCH_SECONDS, text: rostopicTableOf(({ t }) => formatNanoseconds(t)) },
-  { name: 'rostopic echo -p with stamps of 0', start: EPOCH_SECONDS, text: rostopicTableOf(() => 0) },
-  { name: 'rostopic echo -p, commands', start: EPOCH_SECONDS, kind: 'commands', choice: { kind: 'commands' }, text: rostopicTableOf(({ t }) => formatNanoseconds(t)) },
-  { name: 'bagpy', start: EPOCH_SECONDS, text: bagpyTableOf('header.stamp.secs', 'header.stamp.nsecs') },
-  { name: 'stamp_sec, stamp_nsec', start: EPOCH_SECONDS, text: bagpyTableOf('stamp_sec', 'stamp_nsec') },
-  { name: 'seconds, nanoseconds', start: EPOCH_SECONDS, text: bagpyTableOf('seconds', 'nanoseconds [ns]') },
-  { name: 'ros2 topic echo --csv of odometry', start: EPOCH_SECONDS, text: tableOf('', (row) => [...splitSeconds(row.t), 'odom', 'base', ...poseCellsOf(row), ...zerosOf(36), row.v, 0, 0, 0, 0, row.omega, ...zerosOf(36)]).slice(1) },
-  { name: 'ros2 topic echo --csv --no-arr of odometry', start: EPOCH_SECONDS, text: tableOf('', (row) => [...splitSeconds(row.t), 'odom', 'base', ...poseCellsOf(row), ABBREVIATED_ARRAY, row.v, 0, 0, 0, 0, row.omega, ABBREVIATED_ARRAY]).slice(1) },
-  { name: 'ros2 topic echo --csv --no-arr of poses with covariance', start: EPOCH_SECONDS, text: tableOf('', (row) => [...splitSeconds(row.t), 'map', ...poseCellsOf(row), ABBREVIATED_ARRAY]).slice(1) },
-  { name: 'ros2 topic echo --csv of poses', start: EPOCH_SECONDS, text: tableOf('', (row) => [...splitSeconds(row.t), 'map', ...poseCellsOf(row)]).slice(1) },
-  { name: 'ros2 topic echo --csv of commands', start: EPOCH_SECONDS, kind: 'commands', text: tableOf('', ({ t, v, omega }) => [...splitSeconds(t), 'base', v, 0, 0, 0, 0, omega]).slice(1) },
-  { name: 'PlotJuggler, a topic of two', start: EPOCH_SECONDS, series: ['odom', 'mocap', 'imu'], choice: { series: 'odom' }, text: plotjugglerTable },
+  { name: 'pandas: an index without a name', tableText: pandasTableOf('index') },
+  { name: 'pandas: dates of UTC', start: EPOCH_SECONDS, tableText: pandasTableOf('utc') },
+  { name: 'pandas: dates of Berlin', start: EPOCH_SECONDS, tableText: pandasTableOf('berlin') },
+  { name: 'pandas: dates without a zone', start: EPOCH_SECONDS, tableText: pandasTableOf('naive') },
+  { name: 'pandas: durations', tableText: pandasTableOf('timedelta') },
+  { name: 'pandas: decimal commas in UTF-16', tableText: utf16BytesOf(pandasTableOf('german')) },
+  { name: 'pandas: nanoseconds in quotes', start: EPOCH_SECONDS, tableText: pandasTableOf('nanoseconds') },
+  { name: 'pandas: a log of two that are merged', series: ['odom', 'gt'], choice: { series: 'odom' }, tableText: pandasTableOf('merged') },
+  { name: 'blanks after commas, quoted names, units', tableText: tableOf('"time [s]", "x [m]", "y [m]", "yaw [rad]"', ({ t, x, y, theta }) => [t, x, y, theta], ', ') },
+  { name: 'tabs, columns in another order', tableText: tableOf('heading\ttimestamp\tx\ty', ({ t, x, y, theta }) => [theta, t, x, y], '\t') },
+  { name: 'a separator in quotes', tableText: tableOf('note,t,x,y,yaw', ({ t, x, y, theta }) => ['"a, b"', t, x, y, theta]) },
+  { name: 'semicolons, decimal commas, sep=', tableText: `\ufeffsep=;\r\n${tableOf('Time [s];X [m];Y [m];Yaw [rad]', ({ t, x, y, theta }) => [t, x, y, theta].map(useDecimalComma), ';').replaceAll('\n', '\r\n')}` },
+  { name: 'a spreadsheet in UTF-16', tableText: utf16BytesOf(tableOf('t\tx\ty\tyaw', ({ t, x, y, theta }) => [t, x, y, theta].map(useDecimalComma), '\t')) },
+  { name: 'commas in quotes', tableText: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta].map((value) => `"${useDecimalComma(value)}"`)) },
+  { name: 'times with exponents', start: EPOCH_SECONDS, tableText: tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [`1,${formatNanoseconds(t).slice(1)}E+18`, ...[x, y, theta].map(useDecimalComma)], ';') },
+  { name: 'units in a row below the header', tableText: tableOf('t,x,y,yaw,battery\n[ms],mm,mm,deg,V', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta), 24.5]), summaryPattern: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
+  { name: 'quantities over their units', tableText: tableOf('t/ms,x pos/mm,y pos / mm,yaw in deg', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta)]), summaryPattern: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
+  { name: 'bars, seconds and microseconds', start: EPOCH_SECONDS, tableText: tableOf('tv_sec|tv_usec|x|y|yaw', ({ t, x, y, theta }) => [EPOCH_SECONDS + Math.floor(t), (t % 1) * 1e6, x, y, theta], '|') },
+  { name: 'rows of two topics, each with columns of its own', series: ['a', 'b'], choice: { series: 'b' }, tableText: CIRCLE_ROWS.flatMap(({ t, x, y, theta }) => [`/a,${t},9,9,9,,,`, `/b,${t},,,,${x},${y},${theta}`]).toSpliced(0, 0, 'topic,t,a_x,a_y,a_yaw,b_x,b_y,b_yaw').join('\n') },
+  { name: 'two logs that are joined with NaN', series: ['a', 'b'], choice: { series: 'b' }, summaryPattern: /^24 of 24 rows/, tableText: CIRCLE_ROWS.flatMap(({ t, x, y, theta }) => [`${t + 0.01},9,9,9,NaN,NaN,NaN`, `${t},NaN,NaN,NaN,${x},${y},${theta}`]).toSpliced(0, 0, 't,a_x,a_y,a_yaw,b_x,b_y,b_yaw').join('\n') },
+  { name: 'numbers of laps and landmarks', tableText: tableOf('t,id,tag_id,x,y,yaw', ({ i, t, x, y, theta }) => [t, i >> 3, i >> 3, x, y, theta]) },
+  { name: 'semicolons below a long preamble', tableText: `${'Parameter 1: value, 2\n'.repeat(80)}${tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [t, x, y, theta], ';')}` },
+  { name: 'names of MATLAB', tableText: tableOf('Time,x_m_,y_m_,yaw_deg_', ({ t, x, y, theta }) => [t, x, y, toDegrees(theta)]), summaryPattern: /degrees/ },
+  { name: 'durations of MATLAB', tableText: tableOf('Time,x,y,yaw', ({ t, x, y, theta }) => [`00:00:${String(Math.floor(t)).padStart(2, '0')}.${String(t % 1).slice(2).padEnd(1, '0')}`, x, y, theta]) },
+  { name: 'millimetres, degrees and milliseconds by name', tableText: tableOf('t_ms,x [mm],y [mm],yaw (deg)', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta)]) },
+  { name: 'rostopic echo -p', start: EPOCH_SECONDS, tableText: rostopicTableOf(({ t }) => formatNanoseconds(t)) },
+  { name: 'rostopic echo -p with stamps of 0', start: EPOCH_SECONDS, tableText: rostopicTableOf(() => 0) },
+  { name: 'rostopic echo -p, commands', start: EPOCH_SECONDS, kind: 'commands', choice: { kind: 'commands' }, tableText: rostopicTableOf(({ t }) => formatNanoseconds(t)) },
+  { name: 'bagpy', start: EPOCH_SECONDS, tableText: bagpyTableOf('header.stamp.secs', 'header.stamp.nsecs') },
+  { name: 'stamp_sec, stamp_nsec', start: EPOCH_SECONDS, tableText: bagpyTableOf('stamp_sec', 'stamp_nsec') },
+  { name: 'seconds, nanoseconds', start: EPOCH_SECONDS, tableText: bagpyTableOf('seconds', 'nanoseconds [ns]') },
+  { name: 'ros2 topic echo --csv of odometry', start: EPOCH_SECONDS, tableText: tableOf('', (row) => [...splitSeconds(row.t), 'odom', 'base', ...poseCellsOf(row), ...zerosOf(36), row.v, 0, 0, 0, 0, row.omega, ...zerosOf(36)]).slice(1) },
+  { name: 'ros2 topic echo --csv --no-arr of odometry', start: EPOCH_SECONDS, tableText: tableOf('', (row) => [...splitSeconds(row.t), 'odom', 'base', ...poseCellsOf(row), ABBREVIATED_ARRAY, row.v, 0, 0, 0, 0, row.omega, ABBREVIATED_ARRAY]).slice(1) },
+  { name: 'ros2 topic echo --csv --no-arr of poses with covariance', start: EPOCH_SECONDS, tableText: tableOf('', (row) => [...splitSeconds(row.t), 'map', ...poseCellsOf(row), ABBREVIATED_ARRAY]).slice(1) },
+  { name: 'ros2 topic echo --csv of poses', start: EPOCH_SECONDS, tableText: tableOf('', (row) => [...splitSeconds(row.t), 'map', ...poseCellsOf(row)]).slice(1) },
+  { name: 'ros2 topic echo --csv of commands', start: EPOCH_SECONDS, kind: 'commands', tableText: tableOf('', ({ t, v, omega }) => [...splitSeconds(t), 'base', v, 0, 0, 0, 0, omega]).slice(1) },
+  { name: 'PlotJuggler, a topic of two', start: EPOCH_SECONDS, series: ['odom', 'mocap', 'imu'], choice: { series: 'odom' }, tableText: plotjugglerTable },
   {
     name: 'PlotJuggler, stamps of two topics', start: EPOCH_SECONDS, series: ['mocap.pose', 'cmd.vel'], choice: { series: 'mocap.pose' },
-    text: tableOf('__time,/mocap/pose/header/stamp,/mocap/pose/pose/position/x,/mocap/pose/pose/position/y,/mocap/pose/pose/orientation/yaw,/cmd_vel/header/stamp,/cmd_vel/twist/linear/x,/cmd_vel/twist/angular/z',
+    tableText: tableOf('__time,/mocap/pose/header/stamp,/mocap/pose/pose/position/x,/mocap/pose/pose/position/y,/mocap/pose/pose/orientation/yaw,/cmd_vel/header/stamp,/cmd_vel/twist/linear/x,/cmd_vel/twist/angular/z',
       ({ t, x, y, theta, v, omega }) => [EPOCH_SECONDS + t + 0.5, EPOCH_SECONDS + t, x, y, theta, EPOCH_SECONDS + t + 0.25, v, omega]),
   },
-  { name: 'a prefix', series: ['gt', 'odom'], choice: { series: 'odom' }, text: tableOf('t,gt_x,gt_y,gt_yaw,odom_x,odom_y,odom_yaw', ({ t, x, y, theta }) => [t, 7, 8, 9, x, y, theta]) },
-  { name: 'a suffix', series: ['gt', 'odom'], choice: { series: 'gt' }, text: tableOf('t,x_gt,y_gt,theta_gt,x_odom,y_odom,theta_odom', ({ t, x, y, theta }) => [t, x, y, theta, 7, 8, 9]) },
-  { name: 'an own message before one that it contains', text: tableOf('time,object.pose.position.x,pose.position.x,pose.position.y,pose.yaw', ({ t, x, y, theta }) => [t, 9, x, y, theta]), series: ['', 'object'] },
-  { name: 'Motive in metres, Y up', text: motiveTableOf('Meters', true), says: /Y is the vertical axis/ },
-  { name: 'Motive in millimetres, Z up', text: motiveTableOf('Millimeters', false), says: /Z is the vertical axis/ },
-  { name: 'TUM', start: EPOCH_SECONDS, text: tableOf('# timestamp tx ty tz qx qy qz qw', (row) => [EPOCH_SECONDS + row.t, ...poseCellsOf(row)], ' ') },
-  { name: 'TUM without a header, tabs', text: tableOf('', (row) => [row.t, ...poseCellsOf(row)], '\t').slice(1) },
-  { name: 'UTIAS', start: EPOCH_SECONDS, text: tableOf('# Ground truth\n# Time [s]    x [m]    y [m]    orientation [rad]', ({ t, x, y, theta }) => [EPOCH_SECONDS + t, x, y, theta], '    ') },
-  { name: 'UTIAS, commands', kind: 'commands', text: tableOf('# Time [s]    forward velocity [m/s]    angular velocity[rad/s]', ({ t, v, omega }) => [t, v, omega], '\t') },
-  { name: 'a commented header in another order', text: tableOf('# ground truth\n# timestamp tx ty tz qw qx qy qz', ({ t, x, y, qz, qw }) => [t, x, y, 0, qw, 0, 0, qz], ' ') },
-  { name: 'EuRoC', start: EPOCH_SECONDS, text: tableOf('#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1], v_RS_R_y [m s^-1]', ({ t, x, y, qz, qw }) => [formatNanoseconds(t), x, y, 0, qw, 0, 0, qz, 1, 1]) },
-  { name: 'columns that are given, some skipped', options: { columns: ['-', 't', 'x', 'y', 'yaw_deg'] }, text: tableOf('a,b,c,d,e', ({ i, t, x, y, theta }) => [i, t, x, y, toDegrees(theta)]) },
-  { name: 'dates with a zone, in a column without a name', start: EPOCH_SECONDS, text: tableOf(',x,y,yaw', ({ t, x, y, theta }) => [`${isoDateOf(t + 7200)}+02:00`, x, y, theta]) },
-  { name: 'times in ms, by rate and speed', text: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t * 1000, x, y, theta]), says: /time in ms \(by rate and speed\)/ },
+  { name: 'a prefix', series: ['gt', 'odom'], choice: { series: 'odom' }, tableText: tableOf('t,gt_x,gt_y,gt_yaw,odom_x,odom_y,odom_yaw', ({ t, x, y, theta }) => [t, 7, 8, 9, x, y, theta]) },
+  { name: 'a suffix', series: ['gt', 'odom'], choice: { series: 'gt' }, tableText: tableOf('t,x_gt,y_gt,theta_gt,x_odom,y_odom,theta_odom', ({ t, x, y, theta }) => [t, x, y, theta, 7, 8, 9]) },
+  { name: 'an own message before one that it contains', tableText: tableOf('time,object.pose.position.x,pose.position.x,pose.position.y,pose.yaw', ({ t, x, y, theta }) => [t, 9, x, y, theta]), series: ['', 'object'] },
+  { name: 'Motive in metres, Y up', tableText: motiveTableOf('Meters', true), summaryPattern: /Y is the vertical axis/ },
+  { name: 'Motive in millimetres, Z up', tableText: motiveTableOf('Millimeters', false), summaryPattern: /Z is the vertical axis/ },
+  { name: 'TUM', start: EPOCH_SECONDS, tableText: tableOf('# timestamp tx ty tz qx qy qz qw', (row) => [EPOCH_SECONDS + row.t, ...poseCellsOf(row)], ' ') },
+  { name: 'TUM without a header, tabs', tableText: tableOf('', (row) => [row.t, ...poseCellsOf(row)], '\t').slice(1) },
+  { name: 'UTIAS', start: EPOCH_SECONDS, tableText: tableOf('# Ground truth\n# Time [s]    x [m]    y [m]    orientation [rad]', ({ t, x, y, theta }) => [EPOCH_SECONDS + t, x, y, theta], '    ') },
+  { name: 'UTIAS, commands', kind: 'commands', tableText: tableOf('# Time [s]    forward velocity [m/s]    angular velocity[rad/s]', ({ t, v, omega }) => [t, v, omega], '\t') },
+  { name: 'a commented header in another order', tableText: tableOf('# ground truth\n# timestamp tx ty tz qw qx qy qz', ({ t, x, y, qz, qw }) => [t, x, y, 0, qw, 0, 0, qz], ' ') },
+  { name: 'EuRoC', start: EPOCH_SECONDS, tableText: tableOf('#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1], v_RS_R_y [m s^-1]', ({ t, x, y, qz, qw }) => [formatNanoseconds(t), x, y, 0, qw, 0, 0, qz, 1, 1]) },
+  { name: 'columns that are given, some skipped', options: { columns: ['-', 't', 'x', 'y', 'yaw_deg'] }, tableText: tableOf('a,b,c,d,e', ({ i, t, x, y, theta }) => [i, t, x, y, toDegrees(theta)]) },
+  { name: 'dates with a zone, in a column without a name', start: EPOCH_SECONDS, tableText: tableOf(',x,y,yaw', ({ t, x, y, theta }) => [`${isoDateOf(t + 7200)}+02:00`, x, y, theta]) },
+  { name: 'times in ms, by rate and speed', tableText: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t * 1000, x, y, theta]), summaryPattern: /time in ms \(by rate and speed\)/ },
 ];
 
-for (const { name, text, kind = 'poses', start = 0, series = [''], choice, options, says } of READABLE_TABLES) {
+for (const { name, tableText, kind = 'poses', start = 0, series = [''], choice, options, summaryPattern } of READABLE_TABLES) {
   test(`the reader reads ${name}`, async () => {
-    const [recording] = await openRecordings([new File([text], 'run.csv')], options);
+    const [recording] = await openRecordings([new File([tableText], 'run.csv')], options);
     assert.deepEqual(recording.series.map((foundSeries) => foundSeries.name), series);
     const [log] = await recording.read([{ series: '', ...choice }]);
     const { t, ...columns } = /** @type {any} */ (log.data);
@@ -162,7 +162,7 @@ for (const { name, text, kind = 'poses', start = 0, series = [''], choice, optio
       for (const fieldName of fieldNames) assert.ok(Math.abs(columns[fieldName][row.i] - row[fieldName]) <= Number.EPSILON, `${fieldName} ${columns[fieldName][row.i]} ${row[fieldName]}`);
     }
     const summaryLines = summarySentencesOf(log, english.found);
-    if (says) assert.match(summaryLines.join('\n'), says);
+    if (summaryPattern) assert.match(summaryLines.join('\n'), summaryPattern);
     assert.equal(summarySentencesOf(log, german.found).length, summaryLines.length);
   });
 }

@@ -21,12 +21,12 @@ async function openPageShowing(modelState, hostKind) {
   const pageHtml = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><div id="cell"></div>';
   await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
   await page.goto(`${site.address}page.html`);
-  await page.evaluate(renderModel, { state: modelState, inBook: hostKind === 'book' });
+  await page.evaluate(renderModel, { state: modelState, isInBook: hostKind === 'book' });
   return page;
 }
 
-/** Renders a figure of a model. Runs in the page. @param {{ state: Record<string, unknown>, inBook: boolean }} given */
-async function renderModel({ state, inBook }) {
+/** Renders a figure of a model. Runs in the page. @param {{ state: Record<string, unknown>, isInBook: boolean }} given */
+async function renderModel({ state, isInBook }) {
   const listeners = new Map();
   const traitLog = /** @type {unknown[]} */ ([]);
   const throwMissing = (/** @type {string} */ memberName) => {
@@ -40,11 +40,11 @@ async function renderModel({ state, inBook }) {
       for (const changeListener of listeners.get(`change:${traitName}`) ?? []) changeListener();
     },
     on: (/** @type {string} */ name, /** @type {() => void} */ listener) => listeners.set(name, (listeners.get(name) ?? new Set()).add(listener)),
-    off: (/** @type {string} */ name, /** @type {() => void} */ listener) => (inBook ? throwMissing('off') : listeners.get(name)?.delete(listener)),
-    save_changes: () => (inBook ? throwMissing('save_changes') : traitLog.push('saved')),
+    off: (/** @type {string} */ name, /** @type {() => void} */ listener) => (isInBook ? throwMissing('off') : listeners.get(name)?.delete(listener)),
+    save_changes: () => (isInBook ? throwMissing('save_changes') : traitLog.push('saved')),
   };
   const cellElement = /** @type {HTMLElement} */ (document.querySelector('#cell'));
-  const el = inBook ? cellElement.attachShadow({ mode: 'open' }).appendChild(document.createElement('div')) : cellElement;
+  const el = isInBook ? cellElement.attachShadow({ mode: 'open' }).appendChild(document.createElement('div')) : cellElement;
   const moduleAddress = '/anywidget.js';
   const { default: anywidgetModule } = await import(moduleAddress);
   const endView = anywidgetModule.render({ model: widgetModel, el });

@@ -19,21 +19,21 @@ import type { ArcAnatomy as Simulation, Motion } from '../../types.d.ts';
 
 /** Returns the controls of the likelihood: the sign of the radius, and the heat map with the names of its contours. */
 function likelihoodControlsHtml(figure: ArcAnatomyElement) {
-  const { likelihood, maps, printed } = words.anatomy;
+  const { likelihoodTitle, mapNames, printedRadiusLabel } = words.anatomy;
   const { map } = figure.settings.requested;
-  const contourEntryHtml = (name: 'prob' | 'density') => html`<span>${swatchHtml(CONTOUR_STYLES[name])} ${maps[name]}</span>`;
-  return fieldsetHtml(likelihood, html`${settingCheckboxHtml(figure, 'printed', formatMarkup(printed))} ${settingRadiosHtml(figure, 'map', maps)}
+  const contourEntryHtml = (name: 'prob' | 'density') => html`<span>${swatchHtml(CONTOUR_STYLES[name])} ${mapNames[name]}</span>`;
+  return fieldsetHtml(likelihoodTitle, html`${settingCheckboxHtml(figure, 'printed', formatMarkup(printedRadiusLabel))} ${settingRadiosHtml(figure, 'map', mapNames)}
     ${map === 'none' ? nothing : html`<p class="legend">${contourEntryHtml('prob')} ${contourEntryHtml('density')}</p>`}`);
 }
 
 function timeControlHtml({ player, gesture, viewModel, settings }: ArcAnatomyElement) {
   const { underway } = settings.elementState;
   const { dt } = viewModel.config.command;
-  const timeText = words.anatomy.timeOf(formatFixed((underway / UNDERWAY_AT_END) * dt, 2), formatFixed(dt, 2));
-  return fieldsetHtml(words.anatomy.time, html`<div class="underway">
+  const timeText = words.anatomy.timeOfDuration(formatFixed((underway / UNDERWAY_AT_END) * dt, 2), formatFixed(dt, 2));
+  return fieldsetHtml(words.anatomy.timeTitle, html`<div class="underway">
     ${player.buttonHtml('underway', words.play)}
     <div class="slider" part="slider" data-role="truth">
-      <label for="underway"><bdi class="symbol notranslate" translate="no"><i>t</i></bdi>${words.anatomy.underway}</label>
+      <label for="underway"><bdi class="symbol notranslate" translate="no"><i>t</i></bdi>${words.anatomy.underwayLabel}</label>
       ${sliderTrackHtml({ id: 'underway', min: 0, max: UNDERWAY_AT_END, step: 1, value: underway, text: timeText, onInput: (newTime) => player.setByUser('underway', newTime), onCommit: () => gesture.commit() })}
       <output class="value" for="underway">${timeText}</output>
     </div>
@@ -84,7 +84,7 @@ const styles = css`
     height: 1.3em;
   }
 
-  /* Below the picture the bars are side by side. */
+  /* If the bars of the factors are below the picture, they are side by side. */
   @container (22em <= width < 38em) {
     .factors {
       grid-template-columns: repeat(3, minmax(0, 1fr));
@@ -96,7 +96,7 @@ const styles = css`
     }
   }
 
-  /* Likelihood next to the picture. */
+  /* Places the likelihood next to the picture. */
   @container (min-width: 38em) {
     .views {
       grid-template-columns: minmax(0, 1fr) 16em;
@@ -152,7 +152,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
     const { overlays, line, underway } = this.settings.elementState;
     const viewModel = this.currentViewModel;
     const movingRobotPoses = underway < UNDERWAY_AT_END ? this.simulation?.underway(underway / UNDERWAY_AT_END) : undefined;
-    return { ...viewModel, simulation: this.simulation, overlays, line, underway: movingRobotPoses };
+    return { ...viewModel, simulation: this.simulation, overlays, tableLine: line, movingRobotPoses };
   }
 
   get exportData() {
@@ -168,17 +168,17 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
 
   announcementOf = captionOf;
 
-  describePicture = ({ config }: ViewModel) => [words.anatomy.floor, describeCommand(config.command)];
+  describePicture = ({ config }: ViewModel) => [words.anatomy.floorTitle, describeCommand(config.command)];
 
   placeHandles({ config }: ViewModel) {
-    for (const handles of this.#handles) handles.place(config, ROBOT_RADIUS);
+    for (const poseHandles of this.#handles) poseHandles.place(config, ROBOT_RADIUS);
   }
 
   renderContent(viewModel: ViewModel) {
     const texts = words.anatomy;
     return html`
       <div class="views">
-        ${pictureHtml(this, this.#picture, texts.floor, { handles: this.#handles.map((handle) => handle.render()) })}
+        ${pictureHtml(this, this.#picture, texts.floorTitle, { handles: this.#handles.map((poseHandles) => poseHandles.render()) })}
         ${this.renderer.renderAfterFirstPicture(() => html`
         <div class="aside">${headlineHtml(viewModel)} ${factorBarsHtml(viewModel, this.settings.elementState.line)}</div>`)}
       </div>

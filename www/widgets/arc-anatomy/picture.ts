@@ -13,13 +13,13 @@ import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
 import { CONTOUR_STYLES, LINE_STYLES, type LineName, type ViewModel } from './settings.ts';
 import type { ArcAnatomy, ArcWithCircle, Pose, AnatomySurface } from '../../types.d.ts';
 
-export type Scene = ViewModel & { simulation: ArcAnatomy, overlays: LineName[], line: number, underway: Float64Array | undefined };
+export type ArcScene = ViewModel & { simulation: ArcAnatomy, overlays: LineName[], tableLine: number, movingRobotPoses: Float64Array | undefined };
 
 /** Radius of the robots, m. */
 export const ROBOT_RADIUS = 0.06;
 
-/** Limits of an arc's radius, as a multiple of the path length and in metres. Up to the larger limit, the view includes the arc's centre. */
-const MAX_RADIUS = { pathLengths: 3, metres: 1.5 };
+/** Largest radius of an arc whose centre the view includes: the larger of a multiple of the path length and a length in metres. */
+const MAX_CENTRE_RADIUS = { pathLengths: 3, metres: 1.5 };
 
 /** Margin around the paths, m. */
 const MARGIN_METRES = 0.15;
@@ -34,7 +34,7 @@ const WEDGE_RADIUS = 64;
 const CROSS_HALF_SIZE = 4;
 
 /** Length of the heading line at the commanded end, CSS pixels. */
-const HEADING_LENGTH = 24;
+const HEADING_LINE_LENGTH = 24;
 
 /** Constructions in the picture that are highlighted with a line of Table 5.1. */
 const CONSTRUCTIONS_BY_LINE: Record<number, string[]> = {
@@ -48,158 +48,158 @@ const CONSTRUCTIONS_BY_LINE: Record<number, string[]> = {
   8: ['wedge'],
 };
 
-export class ArcPicture extends Picture<Scene> {
+export class ArcPicture extends Picture<ArcScene> {
   name = 'plane';
   view: View = new View();
   #heatMapImage = new CachedImage();
   #surfaceMemo: Memo<AnatomySurface | null> = new Memo();
 
-  fitView({ config: { start, next }, stats: { commanded, inverted, lastTurn }, paths, overlays }: Scene) {
-    const points = [start.x, start.y, next.x, next.y, ...paths.commanded, ...paths.inverted, ...paths.driven];
-    const { xMin, yMin, xMax, yMax } = extentAround(points, 2);
-    const maxRadius = Math.max(MAX_RADIUS.metres, MAX_RADIUS.pathLengths * Math.hypot(xMax - xMin, yMax - yMin));
-    for (const { center, radius } of [commanded, inverted]) if (center && Math.abs(radius) < maxRadius) points.push(...center);
-    const extentWithMargin = widenExtent(extentAround(points, 2), MARGIN_METRES);
-    // The view's own margin makes up for the scale that the wedge itself reduces.
+  fitView({ config: { start, next }, stats: { commanded, inverted, lastTurn }, paths, overlays }: ArcScene) {
+    const shownCoordinates = [start.x, start.y, next.x, next.y, ...paths.commanded, ...paths.inverted, ...paths.driven];
+    const { xMin, yMin, xMax, yMax } = extentAround(shownCoordinates, 2);
+    const maxRadius = Math.max(MAX_CENTRE_RADIUS.metres, MAX_CENTRE_RADIUS.pathLengths * Math.hypot(xMax - xMin, yMax - yMin));
+    for (const { center, radius } of [commanded, inverted]) if (center && Math.abs(radius) < maxRadius) shownCoordinates.push(...center);
+    const extentWithMargin = widenExtent(extentAround(shownCoordinates, 2), MARGIN_METRES);
+    // The wedge has a fixed size in pixels. Including it reduces the scale, for which the margin of the view makes up.
     const wedgeRadius = WEDGE_RADIUS / this.view.fittingScaleOf(extentWithMargin);
     const wedgeHeadings = overlays.includes('wedge') ? [next.theta, next.theta - lastTurn] : [];
     this.view.fit(extentAround(wedgeHeadings.flatMap((theta) => [next.x + wedgeRadius * Math.cos(theta), next.y + wedgeRadius * Math.sin(theta)]), 2, extentWithMargin));
   }
 
-  paint: Picture<Scene>['paint'] = (drawContext, scene) => {
+  paint: Picture<ArcScene>['paint'] = (drawContext, scene) => {
     const { config: { start, next, printed }, stats, paths, overlays } = scene;
     const { palette } = drawContext;
     const isOverlayShown = (name: LineName) => overlays.includes(name);
-    const styles = createLineStyles(drawContext, LINE_STYLES);
+    const lineStyles = createLineStyles(drawContext, LINE_STYLES);
     drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, legendEntriesOf(drawContext, scene));
     clipToPlot(drawContext, () => {
       this.#drawHeatMap(drawContext, scene);
       const { commanded, inverted, driven, lastTurn } = stats;
       if (isOverlayShown('commanded')) {
-        drawArcConstruction(drawContext, start, commanded, { ...styles.commanded, side: -1, angle: `ωΔt = ${formatFixed(commanded.turn, 2)}`, radius: '' });
+        drawArcConstruction(drawContext, start, commanded, { ...lineStyles.commanded, shiftSide: -1, angleLabel: `ωΔt = ${formatFixed(commanded.turn, 2)}`, radiusLabel: '' });
       }
       if (isOverlayShown('inverted')) {
         drawArcConstruction(drawContext, start, inverted, {
-          ...styles.inverted,
-          side: 1,
-          angle: `ω̂Δt = ${formatFixed(inverted.turn, 2)}`,
+          ...lineStyles.inverted,
+          shiftSide: 1,
+          angleLabel: `ω̂Δt = ${formatFixed(inverted.turn, 2)}`,
           // The radius is positive if the centre is to the left. The radius has no sign in Table 5.1 as printed in the book.
-          radius: `r* = ${inverted.radius > 0 && !printed ? '+' : ''}${formatFixed(printed ? Math.abs(inverted.radius) : inverted.radius, 2)} m`,
+          radiusLabel: `r* = ${inverted.radius > 0 && !printed ? '+' : ''}${formatFixed(printed ? Math.abs(inverted.radius) : inverted.radius, 2)} m`,
         });
       }
-      if (isOverlayShown('chord')) strokeLines(drawContext, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...styles.chord }]);
-      if (isOverlayShown('wedge')) drawWedge(drawContext, next, lastTurn, styles.wedge.colour);
-      // Displacements by the lateral velocity of the constant twist, as short lines across its path.
-      if (isOverlayShown('twist')) strokePath(drawContext.context, { colour: styles.twist.colour, width: 1.25 }, () => {
+      if (isOverlayShown('chord')) strokeLines(drawContext, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...lineStyles.chord }]);
+      if (isOverlayShown('wedge')) drawWedge(drawContext, next, lastTurn, lineStyles.wedge.colour);
+      // Short lines across the path of the constant twist show the displacements by its lateral velocity.
+      if (isOverlayShown('twist')) strokePath(drawContext.context, { colour: lineStyles.twist.colour, width: 1.25 }, () => {
         for (let i = 0; i < paths.ticks.length; i += 4) addLine(drawContext.context, drawContext.view.toPixels(paths.ticks.subarray(i, i + 4)));
       });
       const drivenPaths = { commanded: paths.commanded, twist: paths.lie, inverted: paths.driven };
-      drawOutlines(drawContext, (['commanded', 'twist', 'inverted'] as const).filter(isOverlayShown).map((name) => ({ points: drivenPaths[name], ...styles[name] })));
+      drawOutlines(drawContext, (['commanded', 'twist', 'inverted'] as const).filter(isOverlayShown).map((name) => ({ points: drivenPaths[name], ...lineStyles[name] })));
       if (isOverlayShown('inverted') && driven.arcLength !== inverted.arcLength) {
-        drawOutlines(drawContext, [{ points: paths.inverted, colour: styles.inverted.colour, width: 1, dash: [2, 3] }]);
+        drawOutlines(drawContext, [{ points: paths.inverted, colour: lineStyles.inverted.colour, width: 1, dash: [2, 3] }]);
       }
       drawTableLineConstruction(drawContext, scene);
       if (isOverlayShown('commanded')) {
         const [endX, endY, endTheta] = commanded.end;
-        drawRobotOutline(drawContext, endX, endY, ROBOT_RADIUS, styles.commanded.colour);
-        strokeLine(drawContext.context, drawContext.view.headingLineFrom({ x: endX, y: endY, theta: endTheta }, HEADING_LENGTH), { colour: styles.commanded.colour, width: 1.5 });
+        drawRobotOutline(drawContext, endX, endY, ROBOT_RADIUS, lineStyles.commanded.colour);
+        strokeLine(drawContext.context, drawContext.view.headingLineFrom({ x: endX, y: endY, theta: endTheta }, HEADING_LINE_LENGTH), { colour: lineStyles.commanded.colour, width: 1.5 });
       }
       drawMovingRobots(drawContext, scene);
       drawDraggableRobot(drawContext, start, ROBOT_RADIUS, palette.truth);
       drawDraggableRobot(drawContext, next, ROBOT_RADIUS, palette.prediction);
-      if (isOverlayShown('wedge')) drawWedgeLabel(drawContext, next, lastTurn, styles.wedge.colour);
+      if (isOverlayShown('wedge')) drawWedgeLabel(drawContext, next, lastTurn, lineStyles.wedge.colour);
     });
   };
 
   /** Draws the chosen heat map of the likelihood with its contours, if any. */
-  #drawHeatMap(drawContext: DrawContext, { simulation, config }: Scene) {
+  #drawHeatMap(drawContext: DrawContext, { simulation, config }: ArcScene) {
     const { context, palette, view } = drawContext;
     const { xMin, yMin, xMax, yMax } = view.extent;
-    // The configuration is a new object after every change.
-    const surface = this.#surfaceMemo.get([config, xMin, yMin, xMax, yMax], () => simulation.surface(xMin, yMin, xMax, yMax));
-    if (!surface) return;
-    this.#heatMapImage.draw(drawContext, [surface, palette], () => {
+    // The cached heat map is reused until the settings change: `config` is a new object after every change.
+    const likelihoodSurface = this.#surfaceMemo.get([config, xMin, yMin, xMax, yMax], () => simulation.surface(xMin, yMin, xMax, yMax));
+    if (!likelihoodSurface) return;
+    this.#heatMapImage.draw(drawContext, [likelihoodSurface, palette], () => {
       const rampColours = new Uint32Array(createDensityRamp(palette).buffer);
       // The lowest shade is transparent.
       rampColours[0] = 0;
-      return { pixels: new Uint8ClampedArray(Uint32Array.from(surface.shades, (shade) => rampColours[shade]).buffer), columns: surface.columns };
+      return { pixels: new Uint8ClampedArray(Uint32Array.from(likelihoodSurface.shades, (shade) => rampColours[shade]).buffer), columns: likelihoodSurface.columns };
     });
     for (const name of ['prob', 'density'] as const) {
       const { role, ...style } = CONTOUR_STYLES[name];
-      paintWithOpacity(context, 0.7, () => strokePath(context, { ...style, colour: palette[role] }, () => surface[name].forEach((tableLine) => addLine(context, view.toPixels(tableLine)))));
+      paintWithOpacity(context, 0.7, () => strokePath(context, { ...style, colour: palette[role] }, () => likelihoodSurface[name].forEach((contourLine) => addLine(context, view.toPixels(contourLine)))));
     }
   }
 }
 
 /** Returns the legend of an exported picture. The last turn has a label in the picture, and so no entry in the legend. */
-function legendEntriesOf(drawContext: DrawContext, { overlays, config: { map } }: Scene) {
-  const drawnNames = (['inverted', 'commanded', 'chord', 'twist'] as LineName[]).filter((name) => overlays.includes(name));
+function legendEntriesOf(drawContext: DrawContext, { overlays, config: { map } }: ArcScene) {
+  const drawnLineNames = (['inverted', 'commanded', 'chord', 'twist'] as LineName[]).filter((name) => overlays.includes(name));
   return [
-    ...createLineLegend(drawContext, LINE_STYLES, drawnNames, words.anatomy.overlays),
-    ...createLineLegend(drawContext, CONTOUR_STYLES, map === 'none' ? [] : ['prob', 'density'], words.anatomy.maps),
+    ...createLineLegend(drawContext, LINE_STYLES, drawnLineNames, words.anatomy.overlays),
+    ...createLineLegend(drawContext, CONTOUR_STYLES, map === 'none' ? [] : ['prob', 'density'], words.anatomy.mapNames),
   ];
 }
 
 /**
- * Draws the centre of an arc, both radii and the turn between them. `side` (±1) is the direction in which the first radius is shifted, so
+ * Draws the centre of an arc, both radii and the turn between them. `shiftSide` (±1) is the direction in which the first radius is shifted, so
  * that another radius on the same line stays visible.
  */
-function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, end, turn, arcLength }: ArcWithCircle, { colour, dash, side, angle, radius: signed }: { colour: string, dash: number[], side: number, angle: string, radius: string }) {
+function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, end, turn, arcLength }: ArcWithCircle, { colour, dash, shiftSide, angleLabel, radiusLabel }: { colour: string, dash: number[], shiftSide: number, angleLabel: string, radiusLabel: string }) {
   if (!center) return;
   const { context, view } = drawContext;
   const [x, y] = view.toPixel(center[0], center[1]);
-  const [fromX, fromY] = view.toPixel(start.x, start.y);
-  const ahead = view.pixelDirectionOf(start.theta);
-  const [offX, offY] = [1.5 * side * ahead.x, 1.5 * side * ahead.y];
-  const visibleFractionOfRadius = visibleFractionOf(view.plotArea, [fromX, fromY], [x, y]);
+  const [startX, startY] = view.toPixel(start.x, start.y);
+  const startDirection = view.pixelDirectionOf(start.theta);
+  const [shiftX, shiftY] = [1.5 * shiftSide * startDirection.x, 1.5 * shiftSide * startDirection.y];
+  const visibleRadiusFraction = visibleFractionOf(view.plotArea, [startX, startY], [x, y]);
   strokePath(context, { colour, width: 1.25, dash }, () => {
-    addLine(context, [[fromX + offX, fromY + offY], [x + offX, y + offY]]);
+    addLine(context, [[startX + shiftX, startY + shiftY], [x + shiftX, y + shiftY]]);
     addLine(context, [[x, y], view.toPixel(end[0], end[1])]);
   });
   strokePath(context, { colour, width: 2 }, () => {
     addLine(context, [[x - CROSS_HALF_SIZE, y], [x + CROSS_HALF_SIZE, y]]);
     addLine(context, [[x, y - CROSS_HALF_SIZE], [x, y + CROSS_HALF_SIZE]]);
   });
-  strokeAngleArc(context, [x, y], [fromX, fromY], turn, { colour, width: 1.5 });
+  strokeAngleArc(context, [x, y], [startX, startY], turn, { colour, width: 1.5 });
   // Labels are behind the robot, away from the arc. If the arc's centre is outside the picture, labels are ahead of the robot, because the
   // picture may end behind it.
-  const labelSide = Math.sign(arcLength) * (visibleFractionOfRadius === 1 ? -1 : 1);
-  const drawArcLabel = (text: string, share: number) => {
-    const labelPoint = [fromX + share * (x - fromX) + 10 * labelSide * ahead.x, fromY + share * (y - fromY) + 10 * labelSide * ahead.y];
-    const towards = labelSide * ahead.x;
-    drawLabel(drawContext, { x: labelPoint[0], y: labelPoint[1], freeSide: Math.abs(towards) < 0.3 ? 0 : Math.sign(towards), text, colour });
+  const labelSide = Math.sign(arcLength) * (visibleRadiusFraction === 1 ? -1 : 1);
+  const drawArcLabel = (text: string, radiusFraction: number) => {
+    const labelPoint = [startX + radiusFraction * (x - startX) + 10 * labelSide * startDirection.x, startY + radiusFraction * (y - startY) + 10 * labelSide * startDirection.y];
+    const labelDirectionX = labelSide * startDirection.x;
+    drawLabel(drawContext, { x: labelPoint[0], y: labelPoint[1], freeSide: Math.abs(labelDirectionX) < 0.3 ? 0 : Math.sign(labelDirectionX), text, colour });
   };
-  drawArcLabel(signed, visibleFractionOfRadius / 2);
-  drawArcLabel(angle, visibleFractionOfRadius);
+  drawArcLabel(radiusLabel, visibleRadiusFraction / 2);
+  drawArcLabel(angleLabel, visibleRadiusFraction);
 }
 
 /** Returns the visible fraction of the line from a visible point to another point. */
-function visibleFractionOf({ left, right, top, bottom }: import('../../scene/view.ts').View['plotArea'], [fromX, fromY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
-  const fractionAlongRange = (start: number, end: number, min: number, max: number) =>
+function visibleFractionOf({ left, right, top, bottom }: import('../../scene/view.ts').View['plotArea'], [startX, startY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
+  const visibleFractionInRange = (start: number, end: number, min: number, max: number) =>
     end >= min && end <= max ? 1 : (clamp(end, min, max) - start) / (end - start);
-  return Math.min(fractionAlongRange(fromX, x, left, right), fractionAlongRange(fromY, y, top, bottom));
+  return Math.min(visibleFractionInRange(startX, x, left, right), visibleFractionInRange(startY, y, top, bottom));
 }
 
 /** Draws a wedge for the last turn (rad), by which the final heading differs from the heading at the end of the arc. */
-function drawWedge({ context, view }: DrawContext, next: Pose, turn: number, colour: string) {
-  const [x, y] = view.toPixel(next.x, next.y);
+function drawWedge({ context, view }: DrawContext, finalPose: Pose, lastTurn: number, colour: string) {
+  const [x, y] = view.toPixel(finalPose.x, finalPose.y);
   paintWithOpacity(context, 0.32, () => fillPath(context, colour, () => {
     context.moveTo(x, y);
-    addTurnArc(context, [x, y], WEDGE_RADIUS, next.theta - turn, turn);
+    addTurnArc(context, [x, y], WEDGE_RADIUS, finalPose.theta - lastTurn, lastTurn);
   }));
-  // Edge of the wedge along the heading at the end of the arc.
-  strokeLine(context, view.headingLineFrom({ ...next, theta: next.theta - turn }, WEDGE_RADIUS), { colour, width: 1.25 });
+  // This edge of the wedge has the robot's heading at the end of the arc.
+  strokeLine(context, view.headingLineFrom({ ...finalPose, theta: finalPose.theta - lastTurn }, WEDGE_RADIUS), { colour, width: 1.25 });
 }
 
 /** Draws the label of the wedge where it does not cover the wedge. */
-function drawWedgeLabel(drawContext: DrawContext, next: Pose, turn: number, colour: string) {
-  const [x, y] = drawContext.view.toPixel(next.x, next.y);
-  const ahead = drawContext.view.pixelDirectionOf(next.theta - turn / 2);
-  drawLabel(drawContext, { x: x + (WEDGE_RADIUS + 8) * ahead.x, y: y + (WEDGE_RADIUS + 20) * ahead.y, freeSide: ahead.x, text: `γ̂Δt = ${formatFixed(turn, 2)}`, colour });
+function drawWedgeLabel(drawContext: DrawContext, finalPose: Pose, lastTurn: number, colour: string) {
+  const [x, y] = drawContext.view.toPixel(finalPose.x, finalPose.y);
+  const wedgeDirection = drawContext.view.pixelDirectionOf(finalPose.theta - lastTurn / 2);
+  drawLabel(drawContext, { x: x + (WEDGE_RADIUS + 8) * wedgeDirection.x, y: y + (WEDGE_RADIUS + 20) * wedgeDirection.y, freeSide: wedgeDirection.x, text: `γ̂Δt = ${formatFixed(lastTurn, 2)}`, colour });
 }
 
-/** Draws the robot at one time on each path that is shown. */
-function drawMovingRobots(drawContext: DrawContext, { underway, overlays }: Scene) {
+/** Draws a robot on each path that is shown, at the same time since the start. */
+function drawMovingRobots(drawContext: DrawContext, { movingRobotPoses: underway, overlays }: ArcScene) {
   if (!underway) return;
   for (const [i, name] of (['commanded', 'inverted', 'twist'] as const).entries()) {
     if (!overlays.includes(name)) continue;
@@ -209,8 +209,8 @@ function drawMovingRobots(drawContext: DrawContext, { underway, overlays }: Scen
 }
 
 /** Draws the construction of the highlighted line of Table 5.1. */
-function drawTableLineConstruction(drawContext: DrawContext, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, line: lineNumber }: Scene) {
-  const highlightedConstructions = CONSTRUCTIONS_BY_LINE[lineNumber] ?? [];
+function drawTableLineConstruction(drawContext: DrawContext, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, tableLine }: ArcScene) {
+  const highlightedConstructions = CONSTRUCTIONS_BY_LINE[tableLine] ?? [];
   const { context, view, palette: { accent } } = drawContext;
   const toPixel = ([x, y]: number[]) => view.toPixel(x, y);
   const drawAccentLine = (width: number, ...points: number[][]) => strokeLine(context, points, { colour: accent, width });
@@ -230,8 +230,8 @@ function drawTableLineConstruction(drawContext: DrawContext, { config: { start, 
   if (highlightedConstructions.includes('angle')) strokeAngleArc(context, centrePixel, startPixel, inverted.turn, { colour: accent, width: 4 });
 }
 
-/** Strokes an arc about a centre that marks a turn in radians from the direction of a point; both in pixels. */
-function strokeAngleArc(context: DrawContext['context'], [x, y]: number[], [fromX, fromY]: number[], turn: number, style: LineStroke) {
-  const radius = Math.min(MAX_ANGLE_MARK_RADIUS, 0.4 * Math.hypot(fromX - x, fromY - y));
-  strokePath(context, style, () => addTurnArc(context, [x, y], radius, Math.atan2(y - fromY, fromX - x), turn));
+/** Strokes the arc of an angle: a turn (rad) about a centre that begins in the direction of another point. The points are in pixels. */
+function strokeAngleArc(context: DrawContext['context'], [x, y]: number[], [startX, startY]: number[], turn: number, style: LineStroke) {
+  const radius = Math.min(MAX_ANGLE_MARK_RADIUS, 0.4 * Math.hypot(startX - x, startY - y));
+  strokePath(context, style, () => addTurnArc(context, [x, y], radius, Math.atan2(y - startY, startX - x), turn));
 }

@@ -15,13 +15,13 @@ addEnglishMessages({ anatomy: en });
 /** Limit below which numbers are printed as powers of ten: p is a product of three densities, and spans many decades. */
 const MIN_PLAIN_NUMBER = 0.0005;
 
-function formatScientific(value: number) {
-  const [mantissa, exponent] = value.toExponential(1).split('e').map(Number);
+function formatScientific(number: number) {
+  const [mantissa, exponent] = number.toExponential(1).split('e').map(Number);
   return `${formatFixed(mantissa, 1)}·${formatPowerOfTen(exponent)}`;
 }
 
 /** Returns true if a number is printed as a power of ten. */
-const isPrintedAsPower = (value: number) => value > 0 && value < MIN_PLAIN_NUMBER;
+const isPrintedAsPower = (number: number) => number > 0 && number < MIN_PLAIN_NUMBER;
 
 const formatShare = (share: number) => (isPrintedAsPower(share) ? formatScientific(share) : formatPercent(share));
 
@@ -31,30 +31,30 @@ const formatDensity = (density: number) => (isPrintedAsPower(density) ? formatSc
 export function captionOf({ config, stats: { factors, weakest, share, driven, inverted } }: ViewModel) {
   const texts = words.anatomy.verdict;
   const { deviations, share: keptShare, deviation } = factors[weakest];
-  const estimateName = `${words.anatomy.bars.names[weakest]} ${['v̂', 'ω̂', 'γ̂'][weakest]}`;
-  if (config.printed && driven.arcLength !== inverted.arcLength) return texts.printed(formatFixed(factors[0].estimate, 2), formatShare(share));
-  if (share === 1) return texts.peak;
-  if (deviation === 0) return texts.noiseless(estimateName);
-  return texts.off(estimateName, formatFixed(Math.abs(deviations), 1), formatShare(keptShare), formatShare(share));
+  const estimateName = `${words.anatomy.bars.estimateNames[weakest]} ${['v̂', 'ω̂', 'γ̂'][weakest]}`;
+  if (config.printed && driven.arcLength !== inverted.arcLength) return texts.printedRadiusLabel(formatFixed(factors[0].estimate, 2), formatShare(share));
+  if (share === 1) return texts.atPeak;
+  if (deviation === 0) return texts.zeroVariance(estimateName);
+  return texts.worstFactor(estimateName, formatFixed(Math.abs(deviations), 1), formatShare(keptShare), formatShare(share));
 }
 
 /** Scale of the bars: maximum number of standard deviations to either side, and pixels per standard deviation. */
-const BAR_SCALE = { max: 4, pixels: 22 };
-const BAR_MIDDLE = BAR_SCALE.max * BAR_SCALE.pixels + 4;
+const BAR_SCALE = { maxDeviations: 4, pixelsPerDeviation: 22 };
+const BAR_MIDDLE = BAR_SCALE.maxDeviations * BAR_SCALE.pixelsPerDeviation + 4;
 
 /**
- * Symbols, errors and units of the factors. A bar to the right means more than commanded. The table has the residuals of v and ω with the
- * opposite sign.
+ * Symbol, residual, sign and unit of each factor. The bars show the residuals with the sign of v̂ − v, so that a bar to the right means more than commanded.
+ * Table 5.1 has the residuals of v and ω with the opposite sign.
  */
 const FACTOR_NOTATIONS = [
-  { symbol: '*v̂*', error: '(*v̂* − *v*)', sign: -1, unit: 'm/s' },
-  { symbol: '*ω̂*', error: '(*ω̂* − *ω*)', sign: -1, unit: 'rad/s' },
-  { symbol: '*γ̂*', error: '*γ̂*', sign: 1, unit: 'rad/s' },
+  { symbol: '*v̂*', error: '(*v̂* − *v*)', residualSign: -1, unit: 'm/s' },
+  { symbol: '*ω̂*', error: '(*ω̂* − *ω*)', residualSign: -1, unit: 'rad/s' },
+  { symbol: '*γ̂*', error: '*γ̂*', residualSign: 1, unit: 'rad/s' },
 ];
 
 export function headlineHtml({ stats: { share } }: ViewModel) {
   const texts = words.anatomy.headline;
-  return html`<p class="headline" part="readouts"><strong>${formatShare(share)}</strong> ${isPrintedAsPower(share) ? texts.times : texts.share}</p>`;
+  return html`<p class="headline" part="readouts"><strong>${formatShare(share)}</strong> ${isPrintedAsPower(share) ? texts.afterPower : texts.afterShare}</p>`;
 }
 
 /**
@@ -65,12 +65,12 @@ export function factorBarsHtml({ stats: { factors, weakest, share } }: ViewModel
   const texts = words.anatomy.bars;
   return html`<ul part="readouts" class="factors ${tableLine === TABLE_LINES ? 'lit' : ''}" aria-label=${texts.label}>
     ${factors.map((factor, i) => {
-      const { symbol, error, sign, unit } = FACTOR_NOTATIONS[i];
+      const { symbol, error, residualSign: sign, unit } = FACTOR_NOTATIONS[i];
       const deviations = sign * factor.deviations;
       return html`<li class=${i === weakest && share < 1 ? 'weakest' : nothing}>
-        <span class="estimate">${formatMarkup(symbol)} ${texts.names[i]} = ${formatFixed(factor.estimate, 2)} ${unit}</span>
+        <span class="estimate">${formatMarkup(symbol)} ${texts.estimateNames[i]} = ${formatFixed(factor.estimate, 2)} ${unit}</span>
         ${barHtml(deviations)}
-        <span class="keeps muted small">${texts.factor(formatShare(factor.share))}</span>
+        <span class="keeps muted small">${texts.factorText(formatShare(factor.share))}</span>
         <span class="off small">${formatMarkup(error)}/<i>σ</i> = ${formatFixed(deviations, 1)}</span>
       </li>`;
     })}
@@ -78,11 +78,11 @@ export function factorBarsHtml({ stats: { factors, weakest, share } }: ViewModel
 }
 
 function barHtml(deviations: number) {
-  const barXOf = (value: number) => BAR_MIDDLE + BAR_SCALE.pixels * clamp(value, -BAR_SCALE.max, BAR_SCALE.max);
-  const isBeyondScale = Math.abs(deviations) > BAR_SCALE.max;
+  const barXOf = (number: number) => BAR_MIDDLE + BAR_SCALE.pixelsPerDeviation * clamp(number, -BAR_SCALE.maxDeviations, BAR_SCALE.maxDeviations);
+  const isBeyondScale = Math.abs(deviations) > BAR_SCALE.maxDeviations;
   const barEnd = barXOf(deviations);
   const barSide = Math.sign(deviations);
-  const barTicks = Array.from({ length: 2 * BAR_SCALE.max + 1 }, (_, i) => i - BAR_SCALE.max);
+  const barTicks = Array.from({ length: 2 * BAR_SCALE.maxDeviations + 1 }, (_, i) => i - BAR_SCALE.maxDeviations);
   return html`<svg viewBox="0 0 ${2 * BAR_MIDDLE} 20" preserveAspectRatio="none" aria-hidden="true">
     ${barTicks.map((tick) => svg`<line stroke="var(--muted)" vector-effect="non-scaling-stroke" x1=${barXOf(tick)} x2=${barXOf(tick)} y1=${tick === 0 ? 0 : 14} y2="20" />`)}
     <rect fill="var(--prediction)" x=${Math.min(barXOf(0), barEnd)} width=${Math.abs(barEnd - barXOf(0))} y="3" height="11" />
@@ -91,17 +91,17 @@ function barHtml(deviations: number) {
 }
 
 export function likelihoodReadoutsHtml({ stats: { prob, density, xi } }: ViewModel) {
-  const texts = words.anatomy.likelihoods;
+  const texts = words.anatomy.likelihoodReadouts;
   const [along, lateral, heading] = xi;
   return readoutsHtml([
     [texts.prob, formatDensity(prob)],
-    [texts.density, density === null ? texts.none : formatDensity(density)],
-    [texts.xi, `(${formatFixed(along, 2)}, ${formatFixed(lateral, 2)}, ${formatFixed(heading, 2)})`],
+    [texts.density, density === null ? texts.undefinedDensity : formatDensity(density)],
+    [texts.xiReadout, `(${formatFixed(along, 2)}, ${formatFixed(lateral, 2)}, ${formatFixed(heading, 2)})`],
   ]);
 }
 
 /** Lines of Table 5.1, in the markup of messages. */
-const TABLE_FORMULAS = [
+const TABLE_LINE_FORMULAS = [
   '*μ* = ½ · [(*x* − *x*′) cos *θ* + (*y* − *y*′) sin *θ*] / [(*y* − *y*′) cos *θ* − (*x* − *x*′) sin *θ*]',
   '*x\\** = (*x* + *x*′)/2 + *μ*(*y* − *y*′)',
   '*y\\** = (*y* + *y*′)/2 + *μ*(*x*′ − *x*)',
@@ -113,26 +113,26 @@ const TABLE_FORMULAS = [
   '*p* = prob(*v* − *v̂*) · prob(*ω* − *ω̂*) · prob(*γ̂*)',
 ];
 
-const LINE_UNITS = ['', ' m', ' m', ' m', ' rad', ' m/s', ' rad/s', ' rad/s', ''];
+const TABLE_LINE_UNITS = ['', ' m', ' m', ' m', ' rad', ' m/s', ' rad/s', ' rad/s', ''];
 
 /** Returns the lines of the table with their values, as radio buttons that highlight constructions in the picture. */
 export function tableLinesHtml({ viewModel: { table: { lines }, config: { printed } }, settings: { elementState }, gesture }: import('./arc-anatomy.ts').ArcAnatomyElement) {
   const texts = words.anatomy.table;
   const lineTextOf = (formula: string, i: number) => {
     const valueText = i === TABLE_LINES - 1 ? formatDensity(lines[i]) : formatFixed(lines[i], 3);
-    return `${i + 1}. ${printed ? formula.replace('±', '') : formula} = ${valueText}${LINE_UNITS[i]}`;
+    return `${i + 1}. ${printed ? formula.replace('±', '') : formula} = ${valueText}${TABLE_LINE_UNITS[i]}`;
   };
-  return html`<p>${texts.begin}</p>
+  return html`<p>${texts.introduction}</p>
     <ul class="lines" part="table" role="radiogroup" aria-label=${texts.label}>
-      ${[texts.none, ...TABLE_FORMULAS.map(lineTextOf)].map((lineText, line) => html`<li>
+      ${[texts.noLine, ...TABLE_LINE_FORMULAS.map(lineTextOf)].map((lineText, line) => html`<li>
         ${radioButtonHtml({ group: 'line', label: formatMarkup(lineText), checked: line === elementState.line, onChoose: () => gesture.setElementField('line', line) })}
       </li>`)}
     </ul>
-    <p class="muted">${formatMarkup(texts.sign)}</p>`;
+    <p class="muted">${formatMarkup(texts.signNote)}</p>`;
 }
 
 /** Range (m) of the error axis, from below the rounding error of the distance to above the whole distance. */
-const ERROR_RANGE = { min: 1e-18, max: 1 };
+const ERROR_AXIS_RANGE = { min: 1e-18, max: 1 };
 
 /** Cached errors of three formulas for the end of a motion: arc, straight line and chord. They depend on no setting. */
 let cachedFormErrors: FormErrors | undefined;
@@ -142,12 +142,12 @@ export function formErrorsPlotHtml({ ArcAnatomy }: Motion) {
   const { omega, arc, straight, chord, estimatedCrossover, threshold } = (cachedFormErrors ??= ArcAnatomy.formErrors());
   return html`<figure class="forms">
     ${plotHtml({
-      label: texts.text,
+      label: texts.description,
       x: { name: '|ω̂| (rad/s)', min: omega[0], max: omega[omega.length - 1], isLogarithmic: true },
-      y: { name: texts.error, ...ERROR_RANGE, isLogarithmic: true },
+      y: { name: texts.errorAxis, ...ERROR_AXIS_RANGE, isLogarithmic: true },
       curves: [
-        { name: texts.arc, role: 'prediction', x: omega, y: arc },
-        { name: texts.straight, role: 'prior', dash: '2.5 3.5', x: omega, y: straight },
+        { name: texts.arcFormula, role: 'prediction', x: omega, y: arc },
+        { name: texts.straightLineFormula, role: 'prior', dash: '2.5 3.5', x: omega, y: straight },
         { name: words.anatomy.overlays.chord, role: 'posterior', dash: '7 3', x: omega, y: chord },
       ],
       marks: [

@@ -13,7 +13,7 @@ import { presetButtonsHtml } from '../shared/controls.ts';
 import { describeCommand } from '../shared/sliders.ts';
 import { PathPicture, StepPicture } from './pictures.ts';
 import { headlineHtml, markedRobotFieldHtml, missTableHtml, ratioPlotHtml, straightGrowthPlotHtml, captionOf } from './readouts.ts';
-import { CURVE_STYLES, OUTLINE_STYLES, RECURSIONS, definition, COMMAND_SLIDERS, NOISE_SLIDERS, SAMPLE_COUNTS, COMPONENTS, viewModelOf, type ViewModel } from './settings.ts';
+import { CURVE_STYLES, OUTLINE_STYLES, RECURSIONS, definition, COMMAND_SLIDERS, NOISE_SLIDERS, SAMPLE_COUNTS, TWIST_COMPONENTS, viewModelOf, type ViewModel } from './settings.ts';
 import type { StateValues } from '../../figure/settings.ts';
 import type { DeadReckoning as Simulation, Motion } from '../../types.d.ts';
 
@@ -21,7 +21,7 @@ import type { DeadReckoning as Simulation, Motion } from '../../types.d.ts';
 const VARIANCE_UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
 
 /** Returns the column names of an exported quantity, one name for each component. */
-const columnNamesOf = (quantity: string) => COMPONENTS.map((name) => `${quantity}_${name}_${VARIANCE_UNITS[name]}`).join(' ');
+const columnTitlesOf = (quantity: string) => TWIST_COMPONENTS.map((name) => `${quantity}_${name}_${VARIANCE_UNITS[name]}`).join(' ');
 
 /** Returns the settings for the same path in another number of steps, with the selected step at the same point of the path. */
 function settingsForSteps({ command, steps: previousSteps, step }: Record<string, any>, steps: number) {
@@ -30,12 +30,12 @@ function settingsForSteps({ command, steps: previousSteps, step }: Record<string
 
 function moreControlsHtml(figure: DeadReckoningElement) {
   const { steps, step, command: { dt } } = figure.settings.requested;
-  const { walked, per } = words.reckoning;
-  const drivenTimeText = walked(formatFixed(step * dt, 2), formatFixed(steps * dt, 2));
+  const { drivenTime, perNames } = words.reckoning;
+  const drivenTimeText = drivenTime(formatFixed(step * dt, 2), formatFixed(steps * dt, 2));
   return html`<div class="controls">
     ${fieldsetHtml(words.command, html`${settingSlidersHtml(figure, COMMAND_SLIDERS)}
       ${settingSliderHtml(figure, 'step', { max: Math.max(2, steps), maxTyped: steps, hasNoEffect: steps === 1, effect: drivenTimeText })}`)}
-    ${fieldsetHtml(words.noise, html`${settingSlidersHtml(figure, NOISE_SLIDERS)} ${settingRadiosHtml(figure, 'per', per)}`)}
+    ${fieldsetHtml(words.noise, html`${settingSlidersHtml(figure, NOISE_SLIDERS)} ${settingRadiosHtml(figure, 'per', perNames)}`)}
     ${cloudControlsHtml(figure, SAMPLE_COUNTS)}
   </div>`;
 }
@@ -69,7 +69,7 @@ const styles = css`
       aspect-ratio: 2;
     }
 
-    /* Two columns: the chart above its message, the floor above the step. */
+    /* Two columns: the chart above its message, and the picture of the floor above that of the selected step. */
     .views {
       grid-template: auto auto / minmax(0, 1.45fr) minmax(0, 1fr);
       grid-auto-flow: column;
@@ -150,7 +150,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   readViewModel = viewModelOf;
 
   get scene() {
-    return { ...this.currentViewModel, marked: this.#markedPoses, overlays: this.settings.elementState.overlays };
+    return { ...this.currentViewModel, markedPoses: this.#markedPoses, overlays: this.settings.elementState.overlays };
   }
 
   get exportData() {
@@ -160,36 +160,36 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
       settings: config,
       columns: {
         step: Array.from({ length: config.steps }, (_, i) => i + 1),
-        [columnNamesOf('measured')]: measured,
-        [COMPONENTS.map((name) => `relative_error_${name}`).join(' ')]: relativeErrors,
-        ...Object.fromEntries(RECURSIONS.map((recursion) => [columnNamesOf(recursion.replace('-', '_')), predicted[recursion]])),
+        [columnTitlesOf('measured')]: measured,
+        [TWIST_COMPONENTS.map((name) => `relative_error_${name}`).join(' ')]: relativeErrors,
+        ...Object.fromEntries(RECURSIONS.map((recursion) => [columnTitlesOf(recursion.replace('-', '_')), predicted[recursion]])),
       },
     };
   }
 
-  describePicture = ({ config: { command, steps } }: ViewModel) => [words.reckoning.floor, `${describeCommand(command)}; ${words.reckoning.settings.steps.name}: ${steps}`];
+  describePicture = ({ config: { command, steps } }: ViewModel) => [words.reckoning.floorTitle, `${describeCommand(command)}; ${words.reckoning.settings.steps.name}: ${steps}`];
 
   announcementOf = (viewModel: ViewModel) => captionOf(viewModel, this.settings.elementState.overlays);
 
   /** Poses of the selected robot after each step, if that robot has been driven. */
   get #markedPoses() {
-    const { simulation, viewModel, cloud: { isSelectionShown, selectedIndex: index } } = this;
-    return isSelectionShown && simulation ? this.#rolloutMemo.get([viewModel.stats, index], () => simulation.rollout(index)) : undefined;
+    const { simulation, viewModel, cloud: { isSelectionShown, selectedIndex } } = this;
+    return isSelectionShown && simulation ? this.#rolloutMemo.get([viewModel.stats, selectedIndex], () => simulation.rollout(selectedIndex)) : undefined;
   }
 
   renderContent(viewModel: ViewModel) {
-    const { condition, config: { step } } = viewModel;
+    const { ratioCondition, config: { step } } = viewModel;
     const { overlays } = this.settings.elementState;
     const texts = words.reckoning;
     return html`
       <div class="views">
-        ${panelHtml(texts.chart, html`<div class="chart">${ratioPlotHtml(this, viewModel)}</div> ${legendHtml(this, CURVE_STYLES)}`, 'ratios')}
+        ${panelHtml(texts.chartTitle, html`<div class="chart">${ratioPlotHtml(this, viewModel)}</div> ${legendHtml(this, CURVE_STYLES)}`, 'ratios')}
         <div class="summary">
           ${headlineHtml(viewModel, overlays)}
-          <p part="caption" class="caption ${condition !== 'certain' && 'note'}">${captionOf(viewModel, overlays)}</p>
+          <p part="caption" class="caption ${ratioCondition !== 'certain' && 'note'}">${captionOf(viewModel, overlays)}</p>
           ${settingRadiosHtml(this, 'compounding', texts.recursions)}
         </div>
-        ${pictureHtml(this, this.#floorPicture, texts.floor, { className: 'floor' })} ${pictureHtml(this, this.#stepPicture, texts.atStepTitle(step), { className: 'step' })}
+        ${pictureHtml(this, this.#floorPicture, texts.floorTitle, { className: 'floor' })} ${pictureHtml(this, this.#stepPicture, texts.atStepTitle(step), { className: 'step' })}
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`
       ${legendHtml(this, OUTLINE_STYLES)} ${presetButtonsHtml(this)} 

@@ -50,40 +50,40 @@ export const SAMPLE_COUNTS = [2, 3, 4].flatMap((decade) => [1, 2, 5].map((step) 
 export type ViewModel = ReturnType<typeof viewModelOf>;
 
 /** Components of ξ, in the order of every triple. */
-export const COMPONENTS = ['along', 'lateral', 'heading'] as const;
+export const TWIST_COMPONENTS = ['along', 'lateral', 'heading'] as const;
 
 export function viewModelOf(simulation: Simulation) {
-  const results = simulation.read();
-  const { config, stats, ratios, relativeErrors, nominal } = results;
+  const simulationResults = simulation.read();
+  const { config, stats, ratios, relativeErrors, nominal } = simulationResults;
   const { step, compounding } = config;
   const ratiosOfRecursion = ratios[compounding];
   return {
-    ...results,
-    /** Curve of each component by step, from 1. */
-    curves: COMPONENTS.map((_, axis) => curveOfAxis(ratiosOfRecursion, relativeErrors, axis)),
-    /** Commanded pose after the step. */
-    pose: nominal.subarray(3 * (step - 1), 3 * step),
-    condition: ratioConditionOf(config, stats, ratiosOfRecursion),
+    ...simulationResults,
+    /** Predicted over measured variance of each component, with standard errors, after each step. */
+    curves: TWIST_COMPONENTS.map((_, componentIndex) => curveOfComponent(ratiosOfRecursion, relativeErrors, componentIndex)),
+    /** Commanded pose after the selected step. */
+    commandedPose: nominal.subarray(3 * (step - 1), 3 * step),
+    ratioCondition: ratioConditionOf(config, stats, ratiosOfRecursion),
   };
 }
 
 /** Returns the curve of a component. `ratios` has three numbers for each step. */
-function curveOfAxis(ratios: Float64Array, relativeErrors: Float64Array, axis: number) {
-  const componentOf = (triples: Float64Array) => triples.filter((_, i) => i % 3 === axis);
-  const axisRatios = componentOf(ratios);
-  return { ratio: axisRatios, error: componentOf(relativeErrors).map((error, i) => error * axisRatios[i]) };
+function curveOfComponent(ratios: Float64Array, relativeErrors: Float64Array, componentIndex: number) {
+  const componentOf = (triples: Float64Array) => triples.filter((_, i) => i % 3 === componentIndex);
+  const componentRatios = componentOf(ratios);
+  return { ratio: componentRatios, error: componentOf(relativeErrors).map((error, i) => error * componentRatios[i]) };
 }
 
 /**
  * Returns the reason why the ratios are undefined or uncertain: no robots, no spread, no covariance at the end, or too few robots.
  * Returns 'certain' if no such reason applies.
  */
-function ratioConditionOf({ compounding }: DeadReckoningSettings, { n, predicted, measured, misses }: Simulation['stats'], ratios: Float64Array): 'none' | 'still' | 'lost' | 'few' | 'certain' {
-  if (n === 0) return 'none';
+function ratioConditionOf({ compounding }: DeadReckoningSettings, { n, predicted, measured, misses }: Simulation['stats'], ratios: Float64Array): 'noRobots' | 'noNoise' | 'noCovariance' | 'fewRobots' | 'certain' {
+  if (n === 0) return 'noRobots';
   // A single robot has no variance.
-  if (n === 1) return 'few';
-  if (measured.cov.every((row) => row.every((covariance) => Math.abs(covariance) < Number.EPSILON ** 2))) return 'still';
+  if (n === 1) return 'fewRobots';
+  if (measured.cov.every((row) => row.every((covariance) => Math.abs(covariance) < Number.EPSILON ** 2))) return 'noNoise';
   // Single components may have no variance, such as a heading without noise.
-  if (predicted[compounding] === null || ratios.slice(-COMPONENTS.length).every(Number.isNaN)) return 'lost';
-  return misses[compounding].some(({ decidable, end }) => !decidable && !Number.isNaN(end)) ? 'few' : 'certain';
+  if (predicted[compounding] === null || ratios.slice(-TWIST_COMPONENTS.length).every(Number.isNaN)) return 'noCovariance';
+  return misses[compounding].some(({ decidable, end }) => !decidable && !Number.isNaN(end)) ? 'fewRobots' : 'certain';
 }

@@ -194,7 +194,7 @@ test('the figure states that a cloud with full turns has no exponential coordina
   await setSliders(widget, { omega: 2, dt: 3 });
   await expect(widget.locator('.note')).toContainText('there are no statistics in ξ');
   await expect(readoutDetailOf(widget, 'area covered')).toHaveText(/inside: ellipse [\d.]+\u202f%, outline —$/);
-  for (const readoutName of ['predicts', 'area covered', 'gain in fit', 'exact area']) await expect(readoutValueOf(widget, readoutName)).toHaveText('—');
+  for (const readoutName of ['predicts', 'area covered', 'gain in fit']) await expect(readoutValueOf(widget, readoutName)).toHaveText('—');
   await expect(widget.getByRole('row', { name: 'mean ξ along' }).getByRole('cell').last()).toHaveText('—');
 });
 

@@ -34,7 +34,6 @@ export function createRandomStates(seed) {
       command,
       alphas: { velocity: drawAlphas(6), odometry: drawAlphas(4) },
       isolate: drawItem([null, drawInteger(1, 4)]),
-      isolateChoice: drawInteger(1, 6),
       pinned: drawItem([
         null,
         { model: 'odometry', noise: 'normal', command: { v: 1, omega: 0.3, dt: 2 }, alphas: [0.1, 0.02, 0.05, 0.01], samples: drawInteger(1, 3000), seed: 9, isolate: null, reverseAware: true },

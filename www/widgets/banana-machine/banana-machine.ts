@@ -19,7 +19,7 @@ import { describeCommand, subscriptOf } from '../shared/sliders.ts';
 import { IntroducedCloud } from './introduction.ts';
 import { MORPH_MS, morphControlHtml, outlinesAt, morphPoint } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
-import { markedRobotFieldHtml, otherReadoutsHtml, mainReadoutsHtml, twistTableHtml, workedExampleTableHtml, calloutsOf, captionOf, floorTitleOf, twistCaptionOf } from './readouts.ts';
+import { markedRobotFieldHtml, otherReadoutsHtml, mainReadoutsHtml, workedExampleTableHtml, calloutsOf, captionOf, floorTitleOf, twistCaptionOf } from './readouts.ts';
 import { sliderSpecs, LINE_STYLES, OVERLAY_NAMES, definition, COMMAND_SLIDERS, SAMPLE_COUNTS, viewModelOf, viewModelOfSettings, type ViewModel } from './settings.ts';
 import type { StateValues } from '../../figure/settings.ts';
 import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Inspection, Motion } from '../../types.d.ts';
@@ -39,17 +39,18 @@ const CURVE_POINTS = 241;
 /** Allowed maxima of the skew chart's vertical axis. With few of them, the axis seldom changes during a drag. */
 const CHART_HEIGHTS = [0.25, 0.5, 1, 2, 4, 8];
 
+/** Number of the α that remains when Isolate is turned on: turn noise from turning. */
+const FIRST_ISOLATED_ALPHA = 4;
+
 function modelControlsHtml(figure: BananaMachineElement) {
-  const { model, alphas, isolate } = figure.viewModel.config;
+  const { model, isolate } = figure.viewModel.config;
   const texts = words.banana;
-  // `isolateChoice` counts from 1. It may exceed the number of α's, because it may have been made under the other model.
-  const isolatedAlpha = Math.min(figure.settings.elementState.isolateChoice, alphas.length);
   return fieldsetHtml(texts.modelGroup, html`${settingRadiosHtml(figure, 'model', texts.models)} ${settingRadiosHtml(figure, 'noise', words.noises)}
     ${model === 'odometry' ? settingCheckboxHtml(figure, 'reverseAware', texts.reverseAware) : nothing}
     ${checkboxHtml({
       label: texts.isolate,
       checked: isolate !== null,
-      onChange: (isChecked) => figure.gesture.requestAndCommit({ isolate: isChecked ? isolatedAlpha : null }),
+      onChange: (isChecked) => figure.gesture.requestAndCommit({ isolate: isChecked ? FIRST_ISOLATED_ALPHA : null }),
     })}`);
 }
 
@@ -70,7 +71,7 @@ function alphaGroupHtml(figure: BananaMachineElement, isVisible: boolean) {
 function alphaSliderHtml(figure: BananaMachineElement, alphaNumber: number, [name, effect]: string[]) {
   const { isolate } = figure.viewModel.config;
   const hasNoEffect = isolate !== null && isolate !== alphaNumber;
-  const chooseAlpha = () => figure.gesture.requestAndCommit({ isolate: alphaNumber, isolateChoice: alphaNumber });
+  const chooseAlpha = () => figure.gesture.requestAndCommit({ isolate: alphaNumber });
   return settingSliderHtml(figure, `alpha${alphaNumber}`, {
     name,
     effect: formatMarkup(effect),
@@ -89,22 +90,6 @@ const styles = css`
   @container (width < 30em) {
     .views > .twist {
       display: none;
-    }
-  }
-
-  /* On a phone the title, which judges the ellipse, stays visible with the picture. */
-  @media (min-height: 40em) {
-    @container (width < 30em) {
-      .panel-title {
-        position: sticky;
-        top: var(--top);
-        z-index: 3;
-        background: var(--paper);
-      }
-
-      .stage[part='picture'] {
-        top: calc(var(--top) + 1.3em);
-      }
     }
   }
 
@@ -381,8 +366,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     return html`${otherReadoutsHtml(viewModel)}<p>${formatMarkup(texts.gainIs)}</p>
       <div class="figures" part="figures">
         <figure>${this.#skewChartHtml(viewModel)}<figcaption>${formatMarkup(texts.chartCaption)}</figcaption></figure>
-        <figure>${workedExampleTableHtml(viewModel)}</figure>
-        <figure>${twistTableHtml(viewModel)}<p>${twistCaptionOf(viewModel)}</p></figure>
+        <figure>${workedExampleTableHtml(viewModel)}<p>${twistCaptionOf(viewModel)}</p></figure>
       </div>`;
   }
 

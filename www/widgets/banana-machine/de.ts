@@ -93,7 +93,6 @@ export const de: typeof import('./en.ts').en = {
     gaussian: 'Schiefe, die der Gauß in *ξ* vorhersagt',
     rho: 'Korrelation *ρ* von Querlage und Richtung',
     robots: 'Roboter gezeigt, *n* von *N*',
-    exactArea: 'genaues Verhältnis der Flächen',
     nominal: 'von jedem Gauß in seiner 2σ-Ellipse',
   },
   gainIs:
@@ -105,14 +104,10 @@ export const de: typeof import('./en.ts').en = {
   table: {
     caption:
       'Momente der Pose: um den Befehl linearisiert, wie ein erweitertes Kalman-Filter (EKF) es tut, exakt, und an den gezeigten Robotern gemessen. Meter und Radiant.',
-    twistCaption: 'Momente in Exponentialkoordinaten: die des Befehls mit seinem Rauschen, und die gemessenen.',
     quantity: 'Größe',
     linearized: 'linearisiert',
     exact: 'exakt',
     measured: 'gemessen',
-    command: 'Befehl',
     mean: (symbol) => `Mittel ${symbol}`,
-    variance: (symbol) => `Varianz ${symbol}`,
-    axes: ['*ξ* längs', '*ξ* quer', '*ξ* Richtung'],
   },
 };

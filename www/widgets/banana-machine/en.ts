@@ -97,7 +97,6 @@ export const en = {
     gaussian: 'skew that the Gaussian in *ξ* predicts',
     rho: 'correlation *ρ* of lateral place and heading',
     robots: 'robots shown, *n* of *N*',
-    exactArea: 'exact area ratio',
     nominal: 'of any Gaussian inside its 2σ ellipse',
   },
   gainIs:
@@ -109,14 +108,10 @@ export const en = {
   table: {
     caption:
       'Moments of the pose: linearized at the command, as an extended Kalman filter (EKF) does, exact, and measured on the robots shown. Metres and radians.',
-    twistCaption: 'Moments in exponential coordinates: of the command with its noise, and measured.',
     quantity: 'quantity',
     linearized: 'linearized',
     exact: 'exact',
     measured: 'measured',
-    command: 'command',
     mean: (symbol) => `mean ${symbol}`,
-    variance: (symbol) => `variance of ${symbol}`,
-    axes: ['*ξ* along', '*ξ* lateral', '*ξ* heading'],
   },
 } satisfies import('../../messages/registry.ts').Message;

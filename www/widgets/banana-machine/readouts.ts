@@ -122,14 +122,13 @@ function formatGain({ unbounded, value, exact, wraps }: ViewModel['gain']) {
   return wraps ? unwrapped(formatFixed(exact, 3)) : `${exactly(formatFixed(exact, 3))}; ${nat}`;
 }
 
-export function otherReadoutsHtml({ config, stats, table }: ViewModel) {
+export function otherReadoutsHtml({ config, stats }: ViewModel) {
   const texts = words.banana.readouts;
   const { nOfAll } = words.banana;
   return readoutsHtml([
     [texts.robots, nOfAll(formatInteger(stats.n), formatInteger(config.samples))],
     [texts.gaussian, formatFixed(stats.gaussianSkew, 3)],
     [texts.rho, formatFixed(stats.rhoCrossHeading, 3)],
-    [texts.exactArea, formatFixed(table.exact.areaRatio, 3)],
     [texts.nominal, formatPercent(FRACTION_IN_ELLIPSE)],
   ]);
 }
@@ -150,37 +149,21 @@ export function markedRobotFieldHtml(figure: import('./banana-machine.ts').Banan
 const COMPUTED_DIGITS = 5;
 const MEASURED_DIGITS = 3;
 
-/** Returns a table of moments, with computed columns and then the measured one. */
-function momentsTableHtml<Column>(caption: string, computedColumns: Record<string, Column | null>, measuredColumn: Column, rows: [name: unknown, (column: Column) => number][]) {
-  const { quantity, measured: measuredName } = words.banana.table;
-  return tableHtml({
-    caption,
-    columns: [quantity, ...Object.keys(computedColumns), measuredName],
-    rows: rows.map(([name, valueOf]) => [
-      name,
-      ...Object.values(computedColumns).map((column) => (column === null ? NO_VALUE : formatSignificant(valueOf(column), COMPUTED_DIGITS))),
-      formatSignificant(valueOf(measuredColumn), MEASURED_DIGITS),
-    ]),
-  });
-}
+type MomentsRow = [name: unknown, (column: Moments & { crossTrackSkew: number }) => number];
 
+/** Returns the table of the worked example: moments linearized, exact, and measured on the robots. */
 export function workedExampleTableHtml({ table: { linearized, exact, measured } }: ViewModel) {
   const texts = words.banana.table;
   const symbolOf = (letter: string, indices: string) => html`<i>${letter}</i><sub><i>${indices}</i></sub>`;
-  return momentsTableHtml(texts.caption, { [texts.linearized]: linearized, [texts.exact]: exact }, measured, [
+  const rows: MomentsRow[] = [
     ...['x', 'y', 'θ'].map((axis, i): MomentsRow => [formatMarkup(texts.mean(`*${axis}*`)), ({ mean }) => mean[i]]),
     ...['xx', 'yy', 'xy', 'xθ', 'yθ', 'θθ'].map((pair): MomentsRow => [symbolOf('Σ', pair), ({ cov }) => cov['xyθ'.indexOf(pair[0])]['xyθ'.indexOf(pair[1])]]),
     [symbolOf('ρ', 'yθ'), ({ cov }) => cov[1][2] / Math.sqrt(cov[1][1] * cov[2][2])],
     [words.banana.readouts.skew, ({ crossTrackSkew }) => crossTrackSkew],
-  ]);
-}
-
-type MomentsRow = [name: unknown, (column: Moments) => number];
-
-export function twistTableHtml({ table: { tangent }, stats: { exponential } }: ViewModel) {
-  const texts = words.banana.table;
-  return momentsTableHtml<Moments>(texts.twistCaption, { [texts.command]: tangent }, exponential, texts.axes.flatMap((axis, i): MomentsRow[] => [
-    [formatMarkup(texts.mean(axis)), ({ mean }) => mean[i]],
-    [formatMarkup(texts.variance(axis)), ({ cov }) => cov[i][i]],
-  ]));
+  ];
+  return tableHtml({
+    caption: texts.caption,
+    columns: [texts.quantity, texts.linearized, texts.exact, texts.measured],
+    rows: rows.map(([name, valueOf]) => [name, ...[linearized, exact].map((column) => formatSignificant(valueOf(column), COMPUTED_DIGITS)), formatSignificant(valueOf(measured), MEASURED_DIGITS)]),
+  });
 }

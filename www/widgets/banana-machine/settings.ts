@@ -24,7 +24,6 @@ export const documentation = {
   state: {
     alphas: { type: '{ velocity: number[]; odometry: number[] }', sentence: 'Six of the velocity model, and four of the odometry model.' },
     pinned: { type: 'BananaMachineSettings | null', sentence: 'Settings whose outlines and numbers are pinned.' },
-    isolateChoice: { type: 'number', sentence: 'The α that remains when Isolate is turned on, from 1.' },
   },
 };
 
@@ -38,7 +37,6 @@ export const definition = createDefinition('banana-machine', {
   openingOverlays: ['command', 'ellipse', 'exponential'],
   sliderSpecs,
   elementFields: {
-    isolateChoice: { type: 'whole', default: 4, min: 1, max: openingAlphas.velocity.length },
     /** Settings whose outlines are pinned; null for none. `BananaMachineElement.enterState` checks them. */
     pinned: { default: null },
     morph: { type: 'number', default: 0, min: 0, max: 1, isResetByPreset: true, access: 'attribute' },

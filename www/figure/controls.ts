@@ -6,6 +6,7 @@ import { radioGroupHtml, formatMarkup, checkboxHtml } from '../ui/controls.ts';
 import { formatLimit, parseNumber, formatEditable } from '../ui/format.ts';
 import { sliderRowHtml, type SliderRow } from '../ui/slider.ts';
 import { swatchHtml, type LineStyle } from '../scene/draw.ts';
+import { createFieldProperty } from './definition.ts';
 import { embeddingControlsHtml, exportButtonsHtml, linkButtonHtml } from './export.ts';
 import type { Declaration } from '../../build/settings.js';
 import type { Figure } from './figure.ts';
@@ -40,7 +41,7 @@ export function settingSliderHtml(figure: Figure, key: string, overrides?: RowOv
   const declaration = declarationOf(figure, key);
   const { unit } = declaration;
   const config = figure.settings.requested;
-  const attribute = figure.definition.attributes[key];
+  const attribute = figure.definition.attributes[key] ?? createFieldProperty(key);
   return editableSliderHtml(figure, symbol ?? name, declaration, {
     ...sliderFields,
     id: key,
@@ -152,7 +153,7 @@ export function panelHtml(title: string, content: unknown, className?: string) {
 }
 
 export const declarationOf = (figure: Figure, key: string): Declaration & TypedNumberSpec =>
-  figure.definition.declarations.find((declaration) => declaration.key === key) as any;
+  (figure.definition.declarations.find((declaration) => declaration.key === key) ?? figure.definition.elementFields[key]) as any;
 
 function wordsFor(figure: Figure, key: string): { name: string, effect?: string } {
   const [motionModel, index] = figure.definition.sliderSpecs[key]?.alpha ?? [];

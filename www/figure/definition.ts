@@ -69,7 +69,7 @@ export const propertiesOf = (declarations: Declaration[]): Properties => Object.
 export const selectAttributes = (properties: Properties) =>
   Object.fromEntries(Object.entries(properties).filter(([, { converter }]) => converter)) as Record<string, Attribute>;
 
-const createFieldProperty = (key: string, converter?: AttributeConverter): Property => ({ converter, get: (config) => config[key], changesFor: (value) => ({ [key]: value }) });
+export const createFieldProperty = (key: string, converter?: AttributeConverter): Property => ({ converter, get: (config) => config[key], changesFor: (value) => ({ [key]: value }) });
 
 function propertyOf({ key, in: group, field = key, index, of, weights = [], type, min = -Infinity, max = Infinity }: Declaration): Property {
   const plainProperty = createFieldProperty(key, CONVERTERS[type]);
@@ -125,6 +125,7 @@ export function presetAttributeOf(presets: readonly { name: string, settings: St
 /** Field of the state that the element keeps, because the simulation does not have it. */
 interface ElementField extends FieldRange {
   default: unknown;
+  unit?: string;
   /** True if a preset sets the field to its default. */
   isResetByPreset?: true;
   /** Attribute or property by which a page sets the field. Without it, a page sets the field by `setState` only. */

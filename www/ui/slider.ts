@@ -50,6 +50,11 @@ export const sliderStyles = css`
     align-items: center;
   }
 
+  /* The button is centred on the slider's track, not on track and hint together. */
+  .playable > button {
+    margin-bottom: 1em;
+  }
+
   .slider > :first-child {
     grid-area: name;
     line-height: 1.2;

@@ -7,8 +7,6 @@ import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { swatchHtml } from '../../scene/draw.ts';
 import { fieldsetHtml, formatMarkup } from '../../ui/controls.ts';
-import { formatFixed } from '../../ui/format.ts';
-import { sliderTrackHtml } from '../../ui/slider.ts';
 import { Player, presetButtonsHtml } from '../shared/controls.ts';
 import { PoseHandles } from '../shared/robot.ts';
 import { describeCommand } from '../shared/sliders.ts';
@@ -24,20 +22,6 @@ function likelihoodControlsHtml(figure: ArcAnatomyElement) {
   const contourEntryHtml = (name: 'prob' | 'density') => html`<span>${swatchHtml(CONTOUR_STYLES[name])} ${mapNames[name]}</span>`;
   return fieldsetHtml(likelihoodTitle, html`${settingCheckboxHtml(figure, 'printed', formatMarkup(printedRadiusLabel))} ${settingRadiosHtml(figure, 'map', mapNames)}
     ${map === 'none' ? nothing : html`<p class="legend">${contourEntryHtml('prob')} ${contourEntryHtml('density')}</p>`}`);
-}
-
-function timeControlHtml({ player, gesture, viewModel, settings }: ArcAnatomyElement) {
-  const { underway } = settings.elementState;
-  const { dt } = viewModel.config.command;
-  const timeText = words.anatomy.timeOfDuration(formatFixed((underway / UNDERWAY_AT_END) * dt, 2), formatFixed(dt, 2));
-  return fieldsetHtml(words.anatomy.timeTitle, html`<div class="underway">
-    ${player.buttonHtml('underway', words.play)}
-    <div class="slider" part="slider" data-role="truth">
-      <label for="underway"><bdi class="symbol notranslate" translate="no"><i>t</i></bdi>${words.anatomy.underwayLabel}</label>
-      ${sliderTrackHtml({ id: 'underway', min: 0, max: UNDERWAY_AT_END, step: 1, value: underway, text: timeText, onInput: (newTime) => player.setByUser('underway', newTime), onCommit: () => gesture.commit() })}
-      <output class="value" for="underway">${timeText}</output>
-    </div>
-  </div>`);
 }
 
 const styles = css`
@@ -102,17 +86,6 @@ const styles = css`
       grid-template-columns: minmax(0, 1fr) 16em;
       column-gap: 1.25em;
     }
-  }
-
-  .underway {
-    display: flex;
-    gap: 0.6em;
-    align-items: center;
-  }
-
-  .underway .slider {
-    flex: 1;
-    padding-bottom: 0;
   }
 
   .handle.turn {
@@ -186,7 +159,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
       ${legendHtml(this, LINE_STYLES)}
       <p class="verdict caption" part="caption">${captionOf(viewModel)}</p>
       ${presetButtonsHtml(this)}
-      <div class="controls" part="controls">${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${timeControlHtml(this)}</div>
+      <div class="controls" part="controls">${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${fieldsetHtml(texts.timeTitle, this.player.sliderHtml('underway', words.play))}</div>
       ${disclosuresHtml(this, {
         renderControls: () => html`<div class="controls">${likelihoodControlsHtml(this)}
           ${fieldsetHtml(words.noise, html`${settingRadiosHtml(this, 'noise', words.noises)} ${settingSlidersHtml(this, ALPHA_SLIDERS)}`, 'alphas')}</div>`,

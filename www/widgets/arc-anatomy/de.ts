@@ -3,6 +3,7 @@
 export const de: typeof import('./en.ts').en = {
   title: 'Arc Anatomy: was ein Bogen verrät',
   settings: {
+    underway: { name: 'Zeit auf dem Bogen' },
     map: { name: 'Heatmap' },
   },
   floorTitle: 'Auf dem Boden: ein Bogen, eine letzte Drehung',
@@ -17,8 +18,6 @@ export const de: typeof import('./en.ts').en = {
   presets: { left: 'Linkskurve', right: 'Rechtskurve', reverse: 'Rückwärts', straight: 'Geradeaus' },
   printedRadiusLabel: 'Radius ohne Vorzeichen, wie gedruckt',
   timeTitle: 'Zeit',
-  underwayLabel: 'Zeit auf dem Bogen',
-  timeOfDuration: (t, duration) => `${t} von ${duration} s`,
   likelihoodTitle: 'Likelihood',
   csvTitle: 'Die drei Schätzungen mit ihren Faktoren, und die Parameter',
   handles: { start: ['Start', 'Richtung am Start'], next: ['Roboter, wo er gefunden wird', 'Richtung des Roboters, wo er gefunden wird'] },

@@ -3,6 +3,7 @@
 export const en = {
   title: 'Arc Anatomy',
   settings: {
+    underway: { name: 'time along the arc' },
     map: { name: 'Heat map' },
   },
   floorTitle: 'On the floor: one arc, one last turn',
@@ -17,8 +18,6 @@ export const en = {
   presets: { left: 'Left turn', right: 'Right turn', reverse: 'Reverse', straight: 'Straight' },
   printedRadiusLabel: 'radius without sign, as printed',
   timeTitle: 'Time',
-  underwayLabel: 'time along the arc',
-  timeOfDuration: (secondsText, duration) => `${secondsText} of ${duration} s`,
   likelihoodTitle: 'Likelihood',
   csvTitle: 'The three estimates with their factors, and the parameters',
   handles: { start: ['Start', 'Heading at the start'], next: ['Robot, where it is found', 'Heading of the robot, where it is found'] },

@@ -45,9 +45,9 @@ export const definition = createDefinition('arc-anatomy', {
   messageKey: 'anatomy',
   overlayStyles: LINE_STYLES,
   openingOverlays: ['commanded', 'inverted', 'wedge', 'chord'],
-  sliderSpecs: { ...COMMAND_SLIDERS, ...ALPHA_SLIDERS },
+  sliderSpecs: { ...COMMAND_SLIDERS, ...ALPHA_SLIDERS, underway: { symbol: '*t*', role: 'truth', min: 0, max: UNDERWAY_AT_END, step: 1, decimals: 0 } },
   elementFields: {
     line: { type: 'whole', default: 0, min: 0, max: TABLE_LINES, isResetByPreset: true },
-    underway: { type: 'number', default: UNDERWAY_AT_END, min: 0, max: UNDERWAY_AT_END, isResetByPreset: true },
+    underway: { type: 'number', unit: '%', default: UNDERWAY_AT_END, min: 0, max: UNDERWAY_AT_END, isResetByPreset: true },
   },
 });

@@ -17,7 +17,7 @@ import { cloudProperties, samplesSliderHtml } from '../shared/cloud.ts';
 import { Player, presetButtonsHtml } from '../shared/controls.ts';
 import { describeCommand, subscriptOf } from '../shared/sliders.ts';
 import { IntroducedCloud } from './introduction.ts';
-import { MORPH_MS, morphControlHtml, outlinesAt, morphPoint } from './morph.ts';
+import { MORPH_MS, outlinesAt, morphPoint } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
 import { markedRobotFieldHtml, otherReadoutsHtml, mainReadoutsHtml, workedExampleTableHtml, calloutsOf, captionOf, floorTitleOf, twistCaptionOf } from './readouts.ts';
 import { sliderSpecs, LINE_STYLES, OVERLAY_NAMES, definition, COMMAND_SLIDERS, SAMPLE_COUNTS, viewModelOf, viewModelOfSettings, type ViewModel } from './settings.ts';
@@ -97,35 +97,13 @@ const styles = css`
   .morphing {
     display: flex;
     flex-wrap: wrap;
-    align-items: start;
+    align-items: center;
     gap: 0.5em 1em;
     margin-top: 0.7em;
   }
 
-  /* The ends have their names below the track. */
   .morph {
-    --thumb: var(--posterior);
     flex: 1;
-    display: grid;
-    grid-template-columns: auto auto 1fr;
-    column-gap: 0.75em;
-  }
-
-  .morph button {
-    grid-row: span 2;
-    align-self: start;
-  }
-
-  .morph input {
-    grid-column: 2 / -1;
-  }
-
-  .morph .floor {
-    grid-column: 2;
-  }
-
-  .morph .twist {
-    text-align: end;
   }
 
   /* The three main readouts, in columns of equal width where there is room. */
@@ -345,7 +323,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`
       <div class="morphing">
-        ${morphControlHtml(this)}
+        ${this.player.sliderHtml('morph', texts.morph.play)}
         ${buttonHtml(this.#pinnedViewModel ? texts.unpin : texts.pin, () => this.#togglePin(), { title: texts.pinTitle, otherLabel: this.#pinnedViewModel ? texts.pin : texts.unpin })}
       </div>
       ${legendHtml(this, LINE_STYLES)}

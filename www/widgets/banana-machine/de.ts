@@ -6,6 +6,7 @@ export const de: typeof import('./en.ts').en = {
   settings: {
     model: { name: 'Modell' },
     noise: { name: 'Rauschen' },
+    morph: { name: 'vom Boden zu Exponentialkoordinaten' },
     samples: { name: 'Roboter', effect: 'Roboter: wenige als Punkte, viele als Dichte.' },
   },
   floor: 'Auf dem Boden',
@@ -55,13 +56,9 @@ export const de: typeof import('./en.ts').en = {
   axisAlong: 'ξ längs (m)',
   axisHeading: 'ξ Richtung (rad)',
   morph: {
-    name: 'Vom Boden zu Exponentialkoordinaten',
     play: 'Morph abspielen',
     title: 'Unterwegs zu Exponentialkoordinaten',
     arrived: 'Der Boden in Exponentialkoordinaten ξ',
-    floor: 'Boden',
-    twist: 'Exponentialkoordinaten',
-    text: (share) => `${share} des Weges zu Exponentialkoordinaten`,
   },
   callouts: ['diesen Boden deckt\nnur die Ellipse', 'hier hält\nkein Roboter'],
   handle: 'Ende des befohlenen Bogens',

@@ -8,6 +8,7 @@ export const en = {
   settings: {
     model: { name: 'Motion model' },
     noise: { name: 'Noise' },
+    morph: { name: 'from the floor to exponential coordinates' },
     samples: { name: 'robots', effect: 'Robots sent: few are dots, many a density.' },
   },
   floor: 'On the floor',
@@ -58,13 +59,9 @@ export const en = {
   axisAlong: 'ξ along (m)',
   axisHeading: 'ξ heading (rad)',
   morph: {
-    name: 'From the floor to exponential coordinates',
     play: 'Play the morph',
     title: 'On the way to exponential coordinates',
     arrived: 'The floor, morphed to exponential coordinates ξ',
-    floor: 'floor',
-    twist: 'exponential coordinates',
-    text: (share) => `${share} of the way to exponential coordinates`,
   },
   /** Texts in the picture, with line breaks. */
   callouts: ['only the ellipse\ncovers this floor', 'no robot\nstops here'],

@@ -1,12 +1,8 @@
 /** Morph that transforms the floor continuously to exponential coordinates, and the grid that it straightens: see doc/statistics.md. */
 
 import { ticks } from 'd3-array';
-import { html } from 'lit';
-import { words } from '../../messages/registry.ts';
 import { addLine, paintWithOpacity, strokePath, type DrawContext } from '../../scene/canvas.ts';
 import { View, interpolateExtent, type Extent } from '../../scene/view.ts';
-import { formatPercent } from '../../ui/format.ts';
-import { sliderTrackHtml } from '../../ui/slider.ts';
 import type { Motion } from '../../types.d.ts';
 import type { ViewModel } from './settings.ts';
 
@@ -15,9 +11,6 @@ export type Outlines = Omit<ViewModel['contours'], 'twistEllipse'>;
 
 /** Duration of the animated morph, ms. */
 export const MORPH_MS = 5000;
-
-/** Step of the morph slider. */
-const MORPH_STEP = 0.01;
 
 /**
  * Returns the point in a morphed picture for a twist (m, m, rad), like `geom::unbend` of the core. The morph runs from 0, the floor, to 1,
@@ -92,20 +85,6 @@ export class MorphView extends View {
     this.extent = interpolateExtent(this.endViews[0].extent, this.endViews[1].extent, this.morph);
     return isMoving;
   }
-}
-
-export function morphControlHtml({ player, gesture, settings }: import('./banana-machine.ts').BananaMachineElement) {
-  const texts = words.banana.morph;
-  const { morph } = settings.elementState;
-  return html`<div class="morph" role="group" aria-label=${texts.name}>
-    ${player.buttonHtml('morph', texts.play)}
-    ${sliderTrackHtml({
-      id: 'morph', name: texts.name, min: 0, max: 1, step: MORPH_STEP, value: morph, text: texts.text(formatPercent(morph)),
-      onInput: (to) => player.setByUser('morph', to), onCommit: () => gesture.commit(),
-    })}
-    <span class="end floor muted small" aria-hidden="true">${texts.floor}</span>
-    <span class="end twist muted small" aria-hidden="true">${texts.twist}</span>
-  </div>`;
 }
 
 /** Approximate number of grid lines in each direction, and number of chords of a grid line. */

@@ -35,7 +35,7 @@ export const definition = createDefinition('banana-machine', {
   messageKey: 'banana',
   overlayStyles: LINE_STYLES,
   openingOverlays: ['command', 'ellipse', 'exponential'],
-  sliderSpecs,
+  sliderSpecs: { ...sliderSpecs, morph: { role: 'truth', min: 0, max: 1, step: 0.01, decimals: 2 } },
   elementFields: {
     /** Settings whose outlines are pinned; null for none. `BananaMachineElement.enterState` checks them. */
     pinned: { default: null },

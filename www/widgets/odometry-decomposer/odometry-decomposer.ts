@@ -1,7 +1,7 @@
 /** <odometry-decomposer>: an odometry reading as rotate, drive, rotate, and the noise that localizers add to it. */
 
 import { html, css } from 'lit';
-import { pictureHtml, disclosuresHtml, settingRadiosHtml, settingSliderHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
+import { pictureHtml, disclosuresHtml, settingRadiosHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
@@ -33,16 +33,6 @@ function noiseModelTableHtml(figure: OdometryDecomposerElement) {
       ]),
     })}
   </div>`;
-}
-
-/** Returns a slider, with a play button unless the user prefers reduced motion. */
-function playableSliderHtml(figure: OdometryDecomposerElement, settingKey: 'phase' | 'drift') {
-  const { player } = figure;
-  const { playLabels: plays, settings } = words.decomposer;
-  return html`<fieldset class="playable with-button ${settingKey}">
-    <legend class="visually-hidden">${settings[settingKey].name}</legend>
-    ${settingSliderHtml(figure, settingKey, { onInput: (newValue) => player.setByUser(settingKey, newValue) })} ${player.buttonHtml(settingKey, plays[settingKey])}
-  </fieldset>`;
 }
 
 function noiseControlsHtml(figure: OdometryDecomposerElement) {
@@ -103,11 +93,6 @@ const styles = css`
       font-size: 0.92em;
       line-height: 1.25;
     }
-  }
-
-  .playable > button {
-    /* The button is centred on the slider's track, not on track and hint together. */
-    margin-bottom: 1em;
   }
 
   .rules table {
@@ -197,7 +182,7 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`
       ${legendHtml(this, LINE_STYLES)} ${presetButtonsHtml(this)} ${noiseModelTableHtml(this)}
-      <div class="plays" part="controls">${playableSliderHtml(this, 'phase')} ${playableSliderHtml(this, 'drift')}</div>
+      <div class="plays" part="controls">${this.player.sliderHtml('phase', texts.playLabels.phase)} ${this.player.sliderHtml('drift', texts.playLabels.drift)}</div>
       ${disclosuresHtml(this, {
         renderControls: () => noiseControlsHtml(this),
         renderNumbers: () => html`${outcomeReadoutsHtml(viewModel)} ${spreadPlotHtml(this.#spreadCurveOf, viewModel)}`,

@@ -2,6 +2,7 @@
 
 import { html, nothing } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
+import { settingSliderHtml } from '../../figure/controls.ts';
 import { prefersReducedMotion } from '../../figure/renderer.ts';
 import { words } from '../../messages/registry.ts';
 import { buttonHtml } from '../../ui/controls.ts';
@@ -38,7 +39,7 @@ export class Player<Key extends string> extends FigureController {
   }
 
   /** Sets a value that the user has chosen, and stops the animation. */
-  setByUser(key: Key, value: number) {
+  #setByUser(key: Key, value: number) {
     this.stop();
     this.host.settings.requestChange({ [key]: value });
   }
@@ -71,9 +72,12 @@ export class Player<Key extends string> extends FigureController {
     return false;
   }
 
-  /** Returns the button that plays and pauses, with a label for the animation. With reduced motion there is only the slider. */
-  buttonHtml(key: Key, label: string) {
-    const [currentLabel, otherLabel] = this.#playedKey === key ? [words.pause, label] : [label, words.pause];
-    return prefersReducedMotion() ? nothing : buttonHtml(currentLabel, () => this.#togglePlaying(key), { otherLabel });
+  /** Returns the slider of a setting with the button that plays and pauses. With reduced motion there is only the slider. */
+  sliderHtml(key: Key, playLabel: string) {
+    const [currentLabel, otherLabel] = this.#playedKey === key ? [words.pause, playLabel] : [playLabel, words.pause];
+    return html`<div class="playable with-button ${key}">
+      ${settingSliderHtml(this.host, key, { onInput: (value) => this.#setByUser(key, value) })}
+      ${prefersReducedMotion() ? nothing : buttonHtml(currentLabel, () => this.#togglePlaying(key), { otherLabel })}
+    </div>`;
   }
 }

@@ -169,7 +169,6 @@ export const de: typeof import('./en.ts').en = {
     speed: 'Geschwindigkeit² (m²/s²)',
     bins: 'Klassenmittel',
     slope: (alpha) => `Steigung *α*${alpha}`,
-    zero: (alpha, drive) => `*α*${alpha} ist nicht signifikant von 0 verschieden; ${drive}`,
     label: (kind, alpha, value) => `Quadrierte Residuen, ${kind}, in Klassen, und eine Gerade mit der Steigung Alpha ${alpha}, ${value}.`,
     axis: 'quadriertes Residuum',
   },

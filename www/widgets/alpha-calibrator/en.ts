@@ -131,7 +131,6 @@ export const en = {
     speed: 'speed² (m²/s²)',
     bins: 'bin means',
     slope: (alpha) => `slope *α*${alpha}`,
-    zero: (alpha, drive) => `*α*${alpha} is not significantly different from 0; ${drive}`,
     label: (kind, alpha, value) => `Squared residuals of the ${kind}, in bins. The slope of the line is alpha ${alpha}, ${value}.`,
     axis: 'squared residual',
   },

@@ -9,7 +9,7 @@ import { plotHtml, type Curve, type PlotOptions } from '../../ui/plot.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { en } from './en.ts';
-import { LOST_LEG_CAUSES, NAV2_RULES, SYSTEMATIC_ERRORS, adviceOf, checkMessage, componentsOf, formatAlphaOrBound, formatEstimate, formatNumber, printsAsZero, judgementOf, localizeInterval, localizeNumber, formatNav2Lines, } from './result.ts';
+import { LOST_LEG_CAUSES, NAV2_RULES, SYSTEMATIC_ERRORS, adviceOf, checkMessage, componentsOf, formatAlphaOrBound, formatEstimate, formatNumber, judgementOf, localizeInterval, localizeNumber, formatNav2Lines, } from './result.ts';
 import { NOISE_COMPONENTS, isTruthComparable, modelRuleOf, settingsOfModelRule, type Regressor, type ViewModel } from './settings.ts';
 import type { CalibrationCheck, CalibrationPanel, Estimate } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
@@ -188,10 +188,7 @@ export function regressionPanelsHtml(figure: Figure) {
   const chooseRegressor = (name: Regressor) => gesture.setElementField('regressor', name);
   return html`${radioGroupHtml(texts.against, 'regressor', texts.regressors, regressor, chooseRegressor)}
     <figure><div class="panels">
-      ${figure.panels.map((panel, i) => html`<figure>
-        ${plotHtml(panelPlotHtml(panel, texts.kinds[NOISE_COMPONENTS[model][i]], axisNames[regressor as Regressor]))}
-        ${noteIdentifiability(panel, viewModel)}
-      </figure>`)}
+      ${figure.panels.map((panel, i) => html`<figure>${plotHtml(panelPlotHtml(panel, texts.kinds[NOISE_COMPONENTS[model][i]], axisNames[regressor as Regressor]))}</figure>`)}
     </div>
     <figcaption>${formatMarkup(texts.caption)}</figcaption></figure>`;
 }
@@ -222,19 +219,6 @@ function panelPlotHtml({ alpha, x, y, error, slope, interval }: CalibrationPanel
     curves: [...slopeLines, { name: texts.bins, role: 'ink', x: [], y: [] }],
     points: x.map((value, i) => ({ role: 'ink' as const, x: value, y: scaleToAxis(y[i]), error: scaleToAxis(error[i]) })),
   };
-}
-
-/** Returns the kind of motion that identifies an α (index from 0), as the reason for an α that is not identifiable. */
-function missingMotionOf(model: string, index: number): 'insufficient-rotation' | 'insufficient-translation' {
-  const needsRotation = model === 'velocity' ? index % 2 === 1 : index === 0 || index === 3;
-  return needsRotation ? 'insufficient-rotation' : 'insufficient-translation';
-}
-
-/** Returns a note on an α that is not distinguishable from 0, with the drive that would identify it. */
-function noteIdentifiability({ alpha, slope, interval }: CalibrationPanel, { fitted: { model } }: ViewModel) {
-  const { panels: texts, alphas: { lacking } } = words.calibrator;
-  if (!printsAsZero(slope, interval)) return '';
-  return html`<p class="note">${formatMarkup(texts.zero(subscriptOf(alpha), adviceOf(lacking, model, missingMotionOf(model, alpha)).drive))}</p>`;
 }
 
 /** Returns the lines for nav2_params.yaml; empty if Nav2 has no such model, or no α's are recommended. */

@@ -74,7 +74,7 @@ export function formatEstimate(value: number | null, interval: Interval | undefi
 export const formatInterval = (interval: Interval | undefined) => (interval?.every(Number.isFinite) ? interval.map((end) => formatEstimate(end, interval)).join(' to ') : '');
 
 /** Returns true if an α prints as 0 with the digits that its interval allows. A printed 0 would look like a result. */
-export const printsAsZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(formatEstimate(alpha, interval)) === 0;
+const printsAsZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(formatEstimate(alpha, interval)) === 0;
 
 /** Converts a number as printed in files (-1.5e-7) to the signs of the language and a power of ten. */
 export const localizeNumber = (numberText: string) =>

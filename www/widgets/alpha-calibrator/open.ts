@@ -74,12 +74,7 @@ export class LogOpener extends FileOpener<Figure> {
   /** Reads the files again if the model has changed and prefers another odometry in them. */
   hostUpdated() {
     const { chosenFiles } = this;
-    if (!chosenFiles?.log || chosenFiles.log !== this.host.log || this.readFraction !== undefined || this.#preferredKind === this.kind) return;
-    const previousPlanText = planKeyOf(chosenFiles.plan);
-    this.#restart(async (logModule) => {
-      const plan = logModule.planLogReading(chosenFiles, this.kind);
-      if (planKeyOf(plan) !== previousPlanText) await this.#readAndFit((this.chosenFiles = { ...chosenFiles }), plan, logModule);
-    });
+    if (chosenFiles?.log && chosenFiles.log === this.host.log && this.readFraction === undefined && this.#preferredKind !== this.kind) this.#open(chosenFiles);
   }
 
   /** Forgets the chosen files, and shows a log of the page or, by default, the simulated one. */
@@ -140,27 +135,33 @@ export class LogOpener extends FileOpener<Figure> {
   /** Stores an answer to a question, and opens the files with it. */
   answer({ file }: OpenQuestion, answer: OpenOptions) {
     const answers = this.chosenFiles?.answers ?? {};
-    this.change({ recordings: [], answers: { ...answers, [file]: { ...answers[file], ...answer } } });
+    this.change({ answers: { ...answers, [file]: { ...answers[file], ...answer } } });
   }
 
   change(change: Partial<ChosenFiles>) {
     if (this.chosenFiles) this.#open({ ...this.chosenFiles, ...change });
   }
 
-  #open(chosen: ChosenFiles) {
-    this.chosenFiles = { ...chosen, plan: undefined, drives: undefined, log: undefined };
-    const openedFiles = this.chosenFiles;
-    this.#restart(async (logModule) => {
-      if (openedFiles.recordings.length === 0) Object.assign(openedFiles, await this.host.service.open(openedFiles.files, openedFiles.answers));
-      await this.#readAndFit(openedFiles, await this.#makePlan(openedFiles, logModule), logModule);
+  /** Reads and fits the logs in files, which replaces an earlier attempt. */
+  async #open(chosen: ChosenFiles) {
+    const openedFiles: ChosenFiles = (this.chosenFiles = { ...chosen, plan: undefined, drives: undefined, log: undefined });
+    this.host.service.stop();
+    this.#preferredKind = this.kind;
+    this.readFraction = 0;
+    const isLatest = await this.runAttempt(async () => {
+      this.logModule ??= await import('./log-choice.ts');
+      await this.#planReading(openedFiles, this.logModule);
+      await this.#readAndFit(openedFiles, this.logModule);
     });
+    if (isLatest) this.#setIdle();
   }
 
-  /** Plans which series are read. A file with one log is paired with the previous file if that also has only one log. */
-  async #makePlan(chosen: ChosenFiles, logModule: LogModule): Promise<LogPlan> {
+  /** Opens files, and plans which series are read. A file with one log is paired with the previous file if that also has only one log. */
+  async #planReading(chosen: ChosenFiles, logModule: LogModule): Promise<void> {
+    Object.assign(chosen, await this.host.service.open(chosen.files, chosen.answers));
     try {
       if (chosen.recordings.length === 0) throw chosen.skipped[0];
-      return logModule.planLogReading(chosen, this.kind);
+      chosen.plan = logModule.planLogReading(chosen, this.kind);
     } catch (error) {
       // A skipped file may be the missing log, so its question comes first.
       const skipped = chosen.skipped.find(({ ask }) => ask);
@@ -170,20 +171,13 @@ export class LogOpener extends FileOpener<Figure> {
       if (isLoneLog) this.#loneLogFiles = { ...chosen };
       if (!isLoneLog || !loneLogFiles || loneLogFiles.files === chosen.files) throw error;
       const [files, questions] = [[...loneLogFiles.files, ...chosen.files], [...loneLogFiles.questions, ...chosen.questions]];
-      Object.assign(chosen, { files, questions, answers: { ...loneLogFiles.answers, ...chosen.answers } });
-      Object.assign(chosen, await this.host.service.open(files, chosen.answers));
-      return logModule.planLogReading(chosen, this.kind);
+      await this.#planReading(Object.assign(chosen, { files, questions, answers: { ...loneLogFiles.answers, ...chosen.answers } }), logModule);
     }
   }
 
-  async #readAndFit(chosen: ChosenFiles, plan: LogPlan, logModule: LogModule) {
-    const { service } = this.host;
-    chosen.plan = plan;
-    if (service.openRecordings !== chosen.recordings) {
-      await service.open(chosen.files, chosen.answers);
-      service.openRecordings = chosen.recordings;
-    }
-    const drives = await service.read(plan, (readFraction) => {
+  async #readAndFit(chosen: ChosenFiles, logModule: LogModule) {
+    const plan = chosen.plan as LogPlan;
+    const drives = await this.host.service.read(plan, (readFraction) => {
       this.readFraction = readFraction;
       this.host.requestUpdate();
     });
@@ -218,21 +212,10 @@ export class LogOpener extends FileOpener<Figure> {
     await super.refuse(error, () => newQuestion && this.logModule?.focusChooser(this.host, newQuestion));
   }
 
-  /** Cancels reading, and starts new work. */
-  async #restart(work: (logModule: LogModule) => Promise<void>) {
-    this.host.service.stop();
-    this.#preferredKind = this.kind;
-    this.readFraction = 0;
-    const isLatest = await this.runAttempt(async () => work(this.logModule ??= await import('./log-choice.ts')));
-    if (isLatest) this.#setIdle();
-  }
 }
 
 /** Checks whether a file may be a log, because folders also have other files. */
 const isPossibleLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || [...EXTENSIONS.slice(0, -1), '-wal'].some((extension) => name.endsWith(extension));
-
-/** Returns the choices of a plan as a text, to compare plans. */
-const planKeyOf = (plan: LogPlan | undefined) => JSON.stringify(plan && [plan.drives, plan.unpaired]);
 
 /** Returns the drop zone for logs. Below it are the choosers, the progress or name of the log, and the reason for a refusal. */
 export function dropZoneHtml(figure: Figure, opener: LogOpener) {
@@ -275,20 +258,15 @@ export class LogService {
   #connection: Promise<WorkerConnection> | undefined;
   /** Aborts the request in progress; undefined if there is none. */
   #request: AbortController | undefined;
-  /** Recordings that the worker holds; undefined if there are none. */
-  openRecordings: Recording[] | undefined;
 
   get isBusy() {
     return this.#request !== undefined;
   }
 
   /** Opens files, with the options of each by its name. */
-  async open(files: Source[], answers: Record<string, OpenOptions>) {
-    this.openRecordings = undefined;
+  open(files: Source[], answers: Record<string, OpenOptions>) {
     // A copied `File` has no path.
-    const opened = await this.#sendRequest(({ session }) => session.open(files.map((file) => ({ file, path: file.path ?? '' })), answers));
-    this.openRecordings = opened.recordings;
-    return opened;
+    return this.#sendRequest(({ session }) => session.open(files.map((file) => ({ file, path: file.path ?? '' })), answers));
   }
 
   /** Reads the drives of a plan for the opened recordings. */
@@ -309,7 +287,6 @@ export class LogService {
   end() {
     this.#connection?.then(({ end }) => end(), () => {});
     this.#connection = undefined;
-    this.openRecordings = undefined;
     this.#request?.abort();
     this.#request = undefined;
   }

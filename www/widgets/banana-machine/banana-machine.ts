@@ -106,6 +106,14 @@ const styles = css`
     flex: 1;
   }
 
+  .morph .slider {
+    padding-bottom: 0;
+  }
+
+  .morphing button {
+    margin-bottom: 0;
+  }
+
   /* The three main readouts, in columns of equal width where there is room. */
   .surface .simulation > .readouts {
     display: grid;

@@ -90,7 +90,6 @@ export const de: typeof import('./en.ts').en = {
     legend: 'Eine eigene Karte',
     text: 'Zieh Dateien irgendwo auf diese Abbildung oder wähle sie hier: einen Grundriss in JSON oder eine Karte des map_server von ROS, die YAML-Datei zusammen mit ihrem Bild in PGM oder PNG. Sie verlassen dieses Gerät nicht.',
     files: 'Kartendateien wählen',
-    open: 'Roboter ins Freie setzen',
     leave: 'Zurück in die Wohnung',
     plan: 'Oder hier ein Grundriss, in Metern',
     use: 'Diesen Plan nehmen',

@@ -92,7 +92,6 @@ export const en = {
     legend: 'A map of your own',
     text: 'Drop files anywhere on this figure, or choose them here: a floor plan in JSON, or a map of ROS map_server, its YAML file and its PGM or PNG image together. They do not leave this device.',
     files: 'Choose map files',
-    open: 'Place robot in free space',
     leave: 'Back to the apartment',
     plan: 'Or a floor plan here, in metres',
     use: 'Use this plan',

@@ -1,7 +1,6 @@
 /** <map-squeeze>: motion conditioned on a map, and walls on the path that a test of the end pose does not see. */
 
 import { html, nothing, css } from 'lit';
-import { instantiate } from '../../core.ts';
 import { pictureHtml, disclosuresHtml, settingCheckboxHtml, settingRadiosHtml, settingSliderHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { defineElement } from '../../figure/reflection.ts';
@@ -10,12 +9,12 @@ import { Memo } from '../../scene/cache.ts';
 import { verdict as bits } from '../../../build/settings.js';
 import { buttonHtml, fieldsetHtml, radioGroupHtml } from '../../ui/controls.ts';
 import { Cloud, cloudControlsHtml, cloudProperties, sampleFieldHtml } from '../shared/cloud.ts';
-import { FileOpener } from '../shared/files.ts';
 import { PoseHandles } from '../shared/robot.ts';
 import { presetButtonsHtml, startOverButtonHtml } from '../shared/controls.ts';
 import { describeCommand } from '../shared/sliders.ts';
 import { measureCosts, overviewMapHtml, costTableHtml, tallyReadoutsHtml, captionOf, headlineOf, describeMap, explainVerdict } from './readouts.ts';
 import { applyMap, gridOf, mapDataOf } from './maps/data.ts';
+import { MapOpener, userMapControlsHtml } from './maps/opener.ts';
 import { FloorPicture } from './picture.ts';
 import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition, COMMAND_SLIDERS, MAX_SAMPLES, SAMPLE_COUNTS, outcomeIndexOf, viewModelOf, type ViewModel } from './settings.ts';
 import { WallHandles } from './wall-handles.ts';
@@ -23,24 +22,14 @@ import { findWallContact } from './walls.ts';
 import type { StateValues } from '../../figure/settings.ts';
 import type { CellGrid } from '../../scene/walls.ts';
 import type { MapData, MapSqueeze as Simulation, Motion, Pose } from '../../types.d.ts';
-import type { DecodePng, MapFileError, UserMap } from './maps/files.ts';
-
-/** Example of a floor plan: a room with a gap in its wall. */
-const EXAMPLE_PLAN = `{
-  "bounds": [0, 0, 6, 4],
-  "walls": [
-    [3, 0, 3, 1.5], [3, 2.5, 3, 4],
-    [0, 0, 6, 0], [6, 0, 6, 4],
-    [6, 4, 0, 4], [0, 4, 0, 0]
-  ]
-}`;
+import type { UserMap } from './maps/files.ts';
 
 /** Returns the buttons of start positions in the current map. The presets are only offered in the apartment. */
 function startControlsHtml(figure: MapSqueezeElement) {
   const { own } = words.squeeze;
   if (!figure.map) return presetButtonsHtml(figure);
   return html`<div class="buttons presets">
-    ${buttonHtml(own.leave, () => figure.openMap(null))} ${buttonHtml(own.open, () => figure.moveToFreePose())} ${startOverButtonHtml(figure)}
+    ${buttonHtml(own.leave, () => figure.openMap(null))} ${startOverButtonHtml(figure)}
   </div>`;
 }
 
@@ -63,66 +52,6 @@ function robotAndMapControlsHtml(figure: MapSqueezeElement, hasUnknown: boolean)
   return fieldsetHtml(heading, html`${settingSliderHtml(figure, 'clearance')} ${settingCheckboxHtml(figure, 'conditioned', condition)}
     ${hasUnknown ? settingRadiosHtml(figure, 'unknown', unknown) : nothing}
     ${radioGroupHtml(settings.view.name, 'view', views, figure.settings.elementState.view, (view) => figure.gesture.setElementField('view', view))}`);
-}
-
-/** Extensions of map files. */
-const MAP_FILE_EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];
-
-/** Size of map files in bytes above which a message is shown while it is read. */
-const LARGE_MAP_BYTES = 1_000_000;
-
-/** Decodes a PNG image with the whole core, because the core of the figure has no decoder. */
-const decodePng: DecodePng = async (bytes) => (await instantiate()).readMapImage(bytes);
-
-/** Opener of maps of the user: chosen, dropped or pasted. Shows why the latest one was refused. */
-class MapOpener extends FileOpener<MapSqueezeElement> {
-  /** Disclosure with the current map and the reason why another one was refused. */
-  id = 'more';
-
-  async choose(files: File[]) {
-    if (files.reduce((sum, { size }) => sum + size, 0) > LARGE_MAP_BYTES) {
-      this.host.notice.show(() => words.squeeze.own.reading);
-      // Waits for two frames, because the message is on the screen only after the first one was drawn.
-      for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
-    }
-    await this.#readAndEnter(({ readMapFiles }) => readMapFiles(files, decodePng));
-    this.host.notice.dismiss();
-  }
-
-  openPasted(text: string) {
-    this.#readAndEnter(({ readPlan }) => readPlan(words.squeeze.pasted, text));
-  }
-
-  #readAndEnter(readMap: (reader: typeof import('./maps/files.ts')) => UserMap | Promise<UserMap>) {
-    return this.runAttempt(async (isLatest) => {
-      const map = await readMap(await import('./maps/files.ts'));
-      if (isLatest()) this.host.openMap(map);
-    });
-  }
-
-  explain({ message, messageIn: sentence }: Error & Partial<MapFileError>) {
-    const { refused } = words.squeeze;
-    return sentence ? sentence(refused) : refused.cannot(message);
-  }
-}
-
-/** Returns the controls for a map of the user's own, with the name and size of the present map. */
-function userMapControlsHtml(figure: MapSqueezeElement, opener: MapOpener, mapText: string) {
-  const texts = words.squeeze.own;
-  const pasteMap = () => opener.openPasted((figure.renderRoot.querySelector('#map-text') as HTMLTextAreaElement).value);
-  return fieldsetHtml(texts.legend, html`<div class="own-map figures">
-    <div>
-      <p>${texts.text}</p>
-      <p>${opener.fileButtonHtml('map-files', texts.files, MAP_FILE_EXTENSIONS)}</p>
-      ${opener.refusalNoteHtml}
-      <p class="present muted">${mapText}.</p>
-    </div>
-    <div>
-      <label for="map-text">${texts.plan}</label>
-      <textarea id="map-text" rows="8" spellcheck="false" autocomplete="off" .defaultValue=${EXAMPLE_PLAN}></textarea>
-      ${buttonHtml(texts.use, pasteMap)}
-    </div>
-  </div>`);
 }
 
 const styles = css`
@@ -245,12 +174,6 @@ const styles = css`
 
   textarea {
     margin: 0.35em 0 0.7em;
-  }
-
-  @media print {
-    .own-map :not(.present, :has(.present)) {
-      display: none !important;
-    }
   }
 `;
 
@@ -400,12 +323,6 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
       if (simulation) this.#measurement = { config, costs: measureCosts(simulation, config.steps) };
       this.requestUpdate();
     });
-  }
-
-  moveToFreePose() {
-    if (!this.simulation) return;
-    this.renderer.letViewsZoomIn();
-    this.gesture.requestAndCommit({ start: freePoseIn(this.simulation) });
   }
 
   /** Puts the robot into a map of the user, or for null into the apartment, as the user asked. */

@@ -1,6 +1,6 @@
 /** The Odometry Decomposer's two pictures: the three legs in the odometry frame, and both odometry poses in the world. */
 
-import { greatest } from 'd3-array';
+import { greatest, least } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout, LABELS_ABOVE_HEIGHT, drawLabel, drawLabelsAbove } from '../../scene/labels.ts';
@@ -98,9 +98,6 @@ const MIN_LABELLED_LENGTH = 24;
 
 /** Minimum angle (rad) of a turn that is drawn as an arc. */
 const MIN_DRAWN_TURN = 0.005;
-
-/** Candidate points of a turn's arc at which the line from its label may end, as fractions of the turn. */
-const LEADER_END_FRACTIONS = [0.5, 0.3, 0.7, 0.1, 0.9];
 
 const AXIS_NAMES = { x: 'x (m)', y: 'y (m)' };
 
@@ -224,12 +221,11 @@ export class LegsPicture extends SamplesPicture<Scene> {
   /** Returns labels with the value and standard deviation of each leg that is long enough to see. */
   #createLabels({ view, palette: { prior: colour } }: DrawContext, { legs, deviations }: Scene, turnArcs: TurnArc[]) {
     const [startPose, drivenPose] = turnArcs.map(([turnPose]) => turnPose);
-    // Returns the highest candidate point below the labels. The line from the label of a turn ends at this point of the turn's arc.
-    const leaderEndOf = ([{ x, y, theta }, turn, radius]: TurnArc) => {
-      const leaderEndCandidates = LEADER_END_FRACTIONS.map((turnFraction) => view.headingLineFrom({ x, y, theta: theta + turnFraction * turn }, radius)[1])
-        .map(([pixelX, pixelY]) => ({ x: pixelX, y: pixelY }))
-        .sort((candidate, otherCandidate) => candidate.y - otherCandidate.y);
-      return leaderEndCandidates.find((candidate) => candidate.y > view.plotArea.top) ?? leaderEndCandidates[leaderEndCandidates.length - 1];
+    // Returns the highest visible point of the arc of a turn, where the line from its label ends. Labels are above the picture.
+    const leaderEndOf = ([turnPose, turn, radius]: TurnArc) => {
+      const arcPixels = view.toPixels(turnArcPoints(turnPose, turn, radius / view.scaleX));
+      const [x, y] = least(arcPixels.filter((point) => point[1] > view.plotArea.top), (point) => point[1]) ?? arcPixels[0];
+      return { x, y };
     };
     const driveMiddle = { x: view.toPixelX((startPose.x + drivenPose.x) / 2), y: view.toPixelY((startPose.y + drivenPose.y) / 2) };
     const legLabels = [

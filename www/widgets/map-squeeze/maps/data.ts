@@ -90,14 +90,13 @@ function packBits(cells: Uint8Array): string {
 
 function decodeBits(field: string, encodedBits: unknown, count: number) {
   const byteLength = Math.ceil(count / 8);
-  const allowedText = `base64 of ${byteLength} bytes, a bit for each cell`;
-  if (typeof encodedBits !== 'string') throw createRefusalError(field, encodedBits, allowedText, TypeError);
-  let packedBytes;
+  const createError = (ErrorType?: ErrorConstructor) => createRefusalError(field, encodedBits, `base64 of ${byteLength} bytes, a bit for each cell`, ErrorType);
+  if (typeof encodedBits !== 'string') throw createError(TypeError);
   try {
-    packedBytes = fromBase64(encodedBits);
+    const packedBytes = fromBase64(encodedBits);
+    if (packedBytes.length === byteLength) return packedBytes;
   } catch {
-    throw createRefusalError(field, encodedBits, allowedText);
+    // The text is no base64.
   }
-  if (packedBytes.length !== byteLength) throw createRefusalError(field, encodedBits, allowedText);
-  return packedBytes;
+  throw createError();
 }

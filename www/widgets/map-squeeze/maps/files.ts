@@ -15,15 +15,9 @@ export interface UserMap {
   apply: (simulation: MapSqueeze) => void;
 }
 
-/** Error with one sentence that names the file, the line or field, and what was expected. */
+/** Error whose message is one sentence that names the file, the line or field, and what was expected. */
 export class MapFileError extends Error {
-  messageIn: (texts: RefusalWords) => string;
-
-  /** Creates the error of a file; the sentence is made when it is shown, in the language of that time. */
-  constructor(file: string, composeMessage: (texts: RefusalWords, file: string) => string) {
-    super('The map is refused.');
-    this.messageIn = (texts: RefusalWords) => composeMessage(texts, quoteText(file));
-  }
+  name = 'MapFileError';
 }
 
 /** Maximum size of a floor plan, in bytes: a hundred for each allowed wall. */
@@ -38,25 +32,25 @@ const MAX_QUOTED_LENGTH = 100;
 /** First bytes of a PNG image. */
 const PNG_MAGIC = [0x89, 0x50, 0x4e, 0x47];
 
-/** Reads the map in files; rejects with a MapFileError. */
-export async function readMapFiles(files: File[], decodePng: DecodePng): Promise<UserMap> {
+/** Reads the map in files; rejects with a MapFileError in the words of a language. */
+export async function readMapFiles(files: File[], decodePng: DecodePng, texts: RefusalWords): Promise<UserMap> {
   const filesMatching = (pattern: RegExp) => files.filter(({ name }) => pattern.test(name));
   const [planFiles, yamlFiles, imageFiles] = [filesMatching(/\.json$/i), filesMatching(/\.ya?ml$/i), filesMatching(/\.(pgm|png)$/i)];
   const isOneMap = planFiles.length + yamlFiles.length === 1 && planFiles.length + yamlFiles.length + imageFiles.length === files.length;
-  if (!isOneMap) throw new MapFileError(files.map(({ name }) => name).join(', '), (texts, names) => texts.files(names));
-  return planFiles.length ? readPlan(planFiles[0].name, await readText(planFiles[0], MAX_PLAN_BYTES)) : readGrid(yamlFiles[0], imageFiles, decodePng);
+  if (!isOneMap) throw new MapFileError(texts.files(quoteText(files.map(({ name }) => name).join(', '))));
+  return planFiles.length ? readPlan(planFiles[0].name, await readText(planFiles[0], MAX_PLAN_BYTES, texts), texts) : readGrid(yamlFiles[0], imageFiles, decodePng, texts);
 }
 
 /** Reads a file; throws if it has more than `maxBytes` bytes. */
-async function readBytes(file: File, maxBytes: number) {
-  checkSize(file.name, file.size, maxBytes);
+async function readBytes(file: File, maxBytes: number, texts: RefusalWords) {
+  checkSize(file.name, file.size, maxBytes, texts);
   return new Uint8Array(await file.arrayBuffer());
 }
 
-const readText = async (file: File, maxBytes: number) => new TextDecoder().decode(await readBytes(file, maxBytes));
+const readText = async (file: File, maxBytes: number, texts: RefusalWords) => new TextDecoder().decode(await readBytes(file, maxBytes, texts));
 
-function checkSize(name: string, size: number, maxBytes: number) {
-  if (size > maxBytes) throw new MapFileError(name, (texts, file) => texts.long(file, size, maxBytes));
+function checkSize(name: string, size: number, maxBytes: number, texts: RefusalWords) {
+  if (size > maxBytes) throw new MapFileError(texts.long(quoteText(name), size, maxBytes));
 }
 
 /** Shortens a text that a sentence quotes. */
@@ -65,31 +59,29 @@ function quoteText(text: string) {
 }
 
 /** Reads a floor plan from the JSON of a file; throws a MapFileError. */
-export function readPlan(name: string, text: string): UserMap {
-  checkSize(name, text.length, MAX_PLAN_BYTES);
-  const parsedPlan = explainErrors(name, () => JSON.parse(text), (texts, file, reason) => texts.plan(file, quoteText(reason)));
-  return { name, apply: (simulation) => explainErrors(name, () => simulation.setPlan(parsedPlan), (texts, file, reason) => texts.plan(file, reason)) };
+export function readPlan(name: string, text: string, texts: RefusalWords): UserMap {
+  checkSize(name, text.length, MAX_PLAN_BYTES, texts);
+  const explainReason = (reason: string) => texts.plan(quoteText(name), quoteText(reason));
+  const parsedPlan = explainErrors(() => JSON.parse(text), explainReason);
+  return { name, apply: (simulation) => explainErrors(() => simulation.setPlan(parsedPlan), explainReason) };
 }
 
-async function readGrid(file: File, imageFiles: File[], decodePng: DecodePng): Promise<UserMap> {
-  const description = parseDescription(file.name, await readText(file, MAX_YAML_BYTES));
+async function readGrid(file: File, imageFiles: File[], decodePng: DecodePng, texts: RefusalWords): Promise<UserMap> {
+  const quotedName = quoteText(file.name);
+  const description = parseDescription(quotedName, await readText(file, MAX_YAML_BYTES, texts), texts);
   const { image: imagePath } = description;
-  if (typeof imagePath !== 'string' || imagePath === '') {
-    throw new MapFileError(file.name, (texts, name) => texts.image(name, imagePath === undefined ? '' : quoteText(JSON.stringify(imagePath))));
-  }
+  if (typeof imagePath !== 'string' || imagePath === '') throw new MapFileError(texts.image(quotedName, imagePath === undefined ? '' : quoteText(JSON.stringify(imagePath))));
   const imageName = imagePath.slice(Math.max(imagePath.lastIndexOf('/'), imagePath.lastIndexOf('\\')) + 1);
   const imageFile = imageFiles.find(({ name }) => name === imageName);
-  if (!imageFile) {
-    const givenNames = imageFiles.map(({ name }) => name).join(', ');
-    throw new MapFileError(file.name, (texts, name) => texts.pair(name, quoteText(imageName), quoteText(givenNames)));
-  }
-  const imageBytes = await readBytes(imageFile, limits.bytes);
+  if (!imageFile) throw new MapFileError(texts.pair(quotedName, quoteText(imageName), quoteText(imageFiles.map(({ name }) => name).join(', '))));
+  const imageBytes = await readBytes(imageFile, limits.bytes, texts);
   const isPng = PNG_MAGIC.every((byte, i) => byte === imageBytes[i]);
-  const throwPngError = (error: Error) => explainErrors(imageFile.name, () => { throw error; }, (_, name, reason) => `${name}: ${reason}.`);
+  const quotedImageName = quoteText(imageFile.name);
+  const throwPngError = (error: Error) => explainErrors(() => { throw error; }, (reason) => `${quotedImageName}: ${reason}.`);
   const imageContent = isPng ? await decodePng(imageBytes).catch(throwPngError) : imageBytes;
   return {
     name: file.name,
-    apply: (simulation) => explainErrors(file.name, () => simulation.setGrid(description, imageContent), (texts, name, reason) => explainGridError(texts, name, quoteText(imageFile.name), reason)),
+    apply: (simulation) => explainErrors(() => simulation.setGrid(description, imageContent), (reason) => explainGridError(texts, quotedName, quotedImageName, reason)),
   };
 }
 
@@ -106,7 +98,7 @@ function numberFromText(yamlValue: unknown): unknown {
 }
 
 /** Parses the fields of a description as leniently as map_server does. Without fields, the image is missing. */
-function parseDescription(name: string, text: string): Record<string, unknown> {
+function parseDescription(name: string, text: string, texts: RefusalWords): Record<string, unknown> {
   try {
     // YAML forbids tabs as indentation, and the fields need no indentation. Aliases are refused: no map needs them, and with them a short
     // text can expand to billions of values, or contain itself.
@@ -118,7 +110,7 @@ function parseDescription(name: string, text: string): Record<string, unknown> {
     return fields;
   } catch (error) {
     if (!(error instanceof YAMLException)) throw error;
-    throw new MapFileError(name, (texts, file) => texts.yaml(file, error.mark ? error.mark.line + 1 : 1, quoteText(error.reason)));
+    throw new MapFileError(texts.yaml(name, error.mark ? error.mark.line + 1 : 1, quoteText(error.reason)));
   }
 }
 
@@ -130,12 +122,11 @@ function explainGridError(texts: RefusalWords, description: string, image: strin
 }
 
 /** Runs a parser or the core with a file, and explains why the file is refused. */
-function explainErrors<Result>(name: string, readOrApply: () => Result, composeMessage: (texts: RefusalWords, file: string, reason: string) => string): Result {
+function explainErrors<Result>(readOrApply: () => Result, explainReason: (reason: string) => string): Result {
   try {
     return readOrApply();
   } catch (error) {
     if (!(error instanceof RangeError || error instanceof TypeError || error instanceof SyntaxError)) throw error;
-    const reason = error.message.replace(' is undefined;', ' is missing;');
-    throw new MapFileError(name, (texts, file) => composeMessage(texts, file, reason));
+    throw new MapFileError(explainReason(error.message.replace(' is undefined;', ' is missing;')));
   }
 }

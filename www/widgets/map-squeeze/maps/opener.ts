@@ -6,7 +6,7 @@ import { words } from '../../../messages/registry.ts';
 import { buttonHtml, fieldsetHtml } from '../../../ui/controls.ts';
 import { FileOpener } from '../../shared/files.ts';
 import type { MapSqueezeElement } from '../map-squeeze.ts';
-import type { DecodePng, MapFileError, UserMap } from './files.ts';
+import type { DecodePng, UserMap } from './files.ts';
 
 /** Example of a floor plan: a room with a gap in its wall. */
 const EXAMPLE_PLAN = `{
@@ -38,12 +38,12 @@ export class MapOpener extends FileOpener<MapSqueezeElement> {
       // Waits for two frames, because the message is on the screen only after the first one was drawn.
       for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
     }
-    await this.#readAndEnter(({ readMapFiles }) => readMapFiles(files, decodePng));
+    await this.#readAndEnter(({ readMapFiles }) => readMapFiles(files, decodePng, words.squeeze.refused));
     this.host.notice.dismiss();
   }
 
   openPasted(text: string) {
-    this.#readAndEnter(({ readPlan }) => readPlan(words.squeeze.pasted, text));
+    this.#readAndEnter(({ readPlan }) => readPlan(words.squeeze.pasted, text, words.squeeze.refused));
   }
 
   #readAndEnter(readMap: (reader: typeof import('./files.ts')) => UserMap | Promise<UserMap>) {
@@ -53,9 +53,8 @@ export class MapOpener extends FileOpener<MapSqueezeElement> {
     });
   }
 
-  explain({ message, messageIn: sentence }: Error & Partial<MapFileError>) {
-    const { refused } = words.squeeze;
-    return sentence ? sentence(refused) : refused.cannot(message);
+  explain({ name, message }: Error) {
+    return name === 'MapFileError' ? message : words.squeeze.refused.cannot(message);
   }
 }
 

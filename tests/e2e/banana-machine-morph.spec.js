@@ -72,7 +72,7 @@ test('Pin keeps numbers and outlines for comparison, and a second press removes 
   const hiddenCoordinates = await widget.evaluate((element) => {
     const { scene, pictures: floorPictures } = /** @type {any} */ (element);
     const { xMin, xMax, yMin, yMax } = floorPictures[0].view.extent;
-    return scene.pinnedAt(0).filter((/** @type {number} */ coordinate, /** @type {number} */ i) => (i % 2 ? coordinate < yMin || coordinate > yMax : coordinate < xMin || coordinate > xMax));
+    return scene.pinnedPointsAt(0).filter((/** @type {number} */ coordinate, /** @type {number} */ i) => (i % 2 ? coordinate < yMin || coordinate > yMax : coordinate < xMin || coordinate > xMax));
   });
   expect(hiddenCoordinates).toEqual([]);
   const pinnedState = await readState(widget);

@@ -208,9 +208,9 @@ test.describe('a finger', () => {
     const planeCanvas = widget.locator('canvas.plane');
     await widget.evaluate((element) => element.scrollIntoView());
     const [xShare, yShare] = await widget.evaluate((element) => {
-      const { pictures: [{ view }], poses, viewModel: { end } } = /** @type {any} */ (element);
+      const { pictures: [{ view }], poses, viewModel: { arcEnd } } = /** @type {any} */ (element);
       const robotPixelOf = (/** @type {number} */ i) => [view.toPixelX(poses[3 * i]), view.toPixelY(poses[3 * i + 1])];
-      const handlePixel = [view.toPixelX(end[0]), view.toPixelY(end[1])];
+      const handlePixel = [view.toPixelX(arcEnd[0]), view.toPixelY(arcEnd[1])];
       // Finds a robot inside the plot area that is not covered by the handle.
       for (let i = 0; i < poses.length / 3; i++) {
         const [x, y] = robotPixelOf(i);

@@ -61,7 +61,7 @@ export function logChoosersHtml(opener: LogOpener) {
   return html`<div class="choosers">
     ${roleChoosers.length ? html`<div class="choices">${roleChoosers}</div>` : nothing}
     ${questions.map((question) => questionHtml(opener, chosenFiles, question, texts))}
-    ${[...skipped, ...(plan?.unused ?? [])].filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${texts.choose.skipped(opener.explain(failure))}</p>`)}
+    ${[...skipped, ...(plan?.unused ?? [])].filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${texts.choose.skipped(opener.explainRefusal(failure))}</p>`)}
   </div>`;
 }
 

@@ -127,7 +127,7 @@ export class LogOpener extends FileOpener<Figure> {
     this.host.requestUpdate();
   }
 
-  choose(files: File[]) {
+  chooseFiles(files: File[]) {
     const logFiles = files.filter(isPossibleLog);
     this.#open({ files: logFiles.length ? logFiles : files, recordings: [], skipped: [], answers: {}, questions: [], userChoices: {}, roles: new Map() });
   }
@@ -195,7 +195,7 @@ export class LogOpener extends FileOpener<Figure> {
     this.host.gesture.commitOneStep();
   }
 
-  explain(refusal: Refusal) {
+  explainRefusal(refusal: Refusal) {
     if (isAbortError(refusal)) return words.progress.stopped;
     const { message, messageIn: sentence, sentences, ask } = refusal;
     const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? (sentence && this.texts ? sentence(this.texts) : words.calibrator.own.refused(message));

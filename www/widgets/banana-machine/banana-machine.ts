@@ -17,7 +17,7 @@ import { cloudProperties, samplesSliderHtml } from '../shared/cloud.ts';
 import { Player, presetButtonsHtml } from '../shared/controls.ts';
 import { describeCommand, subscriptOf } from '../shared/sliders.ts';
 import { IntroducedCloud } from './introduction.ts';
-import { MORPH_MS, outlinesAt, morphPoint } from './morph.ts';
+import { MORPH_DURATION_MS, morphOutlines, morphPoint } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
 import { markedRobotFieldHtml, otherReadoutsHtml, mainReadoutsHtml, workedExampleTableHtml, calloutsOf, captionOf, floorTitleOf, twistCaptionOf } from './readouts.ts';
 import { sliderSpecs, LINE_STYLES, OVERLAY_NAMES, definition, COMMAND_SLIDERS, SAMPLE_COUNTS, viewModelOf, viewModelOfSettings, type ViewModel } from './settings.ts';
@@ -27,28 +27,28 @@ import type { BananaMachine as Simulation, BananaMachineSettings as Settings, In
 /** Displacement of the end of the arc per press of an arrow key, metres. */
 const KEY_STEP = 0.02;
 
-/** Columns of the executed command in a table. */
+/** Column names of the executed motions in the exported table, by motion model. */
 const EXECUTED_COLUMNS = {
   velocity: 'v_hat_m_per_s omega_hat_rad_per_s gamma_hat_rad_per_s',
   odometry: 'delta_hat_rot1_rad delta_hat_trans_m delta_hat_rot2_rad',
 };
 
 /** Number of points of the skew chart's curve. With fewer, the steep fall of the skew at ω = 0 would have visible corners. */
-const CURVE_POINTS = 241;
+const CURVE_POINT_COUNT = 241;
 
 /** Allowed maxima of the skew chart's vertical axis. With few of them, the axis seldom changes during a drag. */
-const CHART_HEIGHTS = [0.25, 0.5, 1, 2, 4, 8];
+const CHART_MAXIMA = [0.25, 0.5, 1, 2, 4, 8];
 
-/** Number of the α that remains when Isolate is turned on: turn noise from turning. */
+/** Number of the α that stays in effect when the user turns on Isolate: α₄, turn rate noise from turning. */
 const FIRST_ISOLATED_ALPHA = 4;
 
 function modelControlsHtml(figure: BananaMachineElement) {
   const { model, isolate } = figure.viewModel.config;
   const texts = words.banana;
-  return fieldsetHtml(texts.modelGroup, html`${settingRadiosHtml(figure, 'model', texts.models)} ${settingRadiosHtml(figure, 'noise', words.noises)}
-    ${model === 'odometry' ? settingCheckboxHtml(figure, 'reverseAware', texts.reverseAware) : nothing}
+  return fieldsetHtml(texts.modelGroupTitle, html`${settingRadiosHtml(figure, 'model', texts.modelNames)} ${settingRadiosHtml(figure, 'noise', words.noises)}
+    ${model === 'odometry' ? settingCheckboxHtml(figure, 'reverseAware', texts.reverseAwareLabel) : nothing}
     ${checkboxHtml({
-      label: texts.isolate,
+      label: texts.isolateLabel,
       checked: isolate !== null,
       onChange: (isChecked) => figure.gesture.requestAndCommit({ isolate: isChecked ? FIRST_ISOLATED_ALPHA : null }),
     })}`);
@@ -63,8 +63,8 @@ const VISIBLE_ALPHAS: Record<string, number[]> = { velocity: [0, 2], odometry: [
 /** Returns a group with the sliders of the α's that are always visible, or of all other α's. */
 function alphaGroupHtml(figure: BananaMachineElement, isVisible: boolean) {
   const { model, alphas } = figure.viewModel.config;
-  const indices = [...alphas.keys()].filter((index) => VISIBLE_ALPHAS[model].includes(index) === isVisible);
-  return fieldsetHtml(words.noise, indices.map((index) => alphaSliderHtml(figure, index + 1, words.alphas[model as 'velocity' | 'odometry'][index])), isVisible ? 'pair' : 'alphas');
+  const indices = [...alphas.keys()].filter((alphaIndex) => VISIBLE_ALPHAS[model].includes(alphaIndex) === isVisible);
+  return fieldsetHtml(words.noise, indices.map((alphaIndex) => alphaSliderHtml(figure, alphaIndex + 1, words.alphas[model as 'velocity' | 'odometry'][alphaIndex])), isVisible ? 'pair' : 'alphas');
 }
 
 /** Returns the slider of an α, counted from 1. */
@@ -76,11 +76,11 @@ function alphaSliderHtml(figure: BananaMachineElement, alphaNumber: number, [nam
     name,
     effect: formatMarkup(effect),
     hasNoEffect,
-    leadingControl: isolate === null ? undefined : radioButtonHtml({ group: 'isolate', name: words.banana.only(`α${subscriptOf(alphaNumber - 1)}`), checked: !hasNoEffect, onChoose: chooseAlpha }),
-    formatValue: (value) => (hasNoEffect ? words.banana.off(formatEditable(value, 3)) : formatEditable(value, 3)),
-    onInput: (value) => {
+    leadingControl: isolate === null ? undefined : radioButtonHtml({ group: 'isolate', name: words.banana.isolateAlphaLabel(`α${subscriptOf(alphaNumber - 1)}`), checked: !hasNoEffect, onChoose: chooseAlpha }),
+    formatValue: (newAlpha) => (hasNoEffect ? words.banana.ignoredAlpha(formatEditable(newAlpha, 3)) : formatEditable(newAlpha, 3)),
+    onInput: (newAlpha) => {
       if (hasNoEffect) chooseAlpha();
-      figure.settings.requestChange(({ alphas }) => ({ alphas: alphas.with(alphaNumber - 1, value) }));
+      figure.settings.requestChange(({ alphas }) => ({ alphas: alphas.with(alphaNumber - 1, newAlpha) }));
     },
   });
 }
@@ -93,7 +93,7 @@ const styles = css`
     }
   }
 
-  /* Margin for the fade below the pictures. */
+  /* The margin leaves space for the shadow at the bottom of the pictures. */
   .morphing {
     display: flex;
     flex-wrap: wrap;
@@ -114,7 +114,7 @@ const styles = css`
     margin-bottom: 0;
   }
 
-  /* The three main readouts, in columns of equal width where there is room. */
+  /* The three main readouts are in columns of equal width if the figure is wide enough. */
   .surface .simulation > .readouts {
     display: grid;
     gap: 0.4em 1.25em;
@@ -147,7 +147,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   static definition = definition;
 
   cloud = new IntroducedCloud(this);
-  #inspectionMemo: Memo<Inspection> = new Memo();
+  #executedMotionMemo: Memo<Inspection> = new Memo();
   #skewCurveMemo: Memo<Float64Array> = new Memo();
   #planePicture = new PlanePicture();
   #twistPicture = new TwistPicture();
@@ -160,7 +160,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       const keySteps = stepsOfKey(event);
       if (!keySteps || !this.simulation) return false;
       const [x, y] = this.visibleArcEnd;
-      // The straight arc reaches furthest.
+      // Of the arcs with the maximum speed, the straight one ends furthest away.
       const maxX = sliderSpecs.v.max * this.settings.requested.command.dt;
       this.#moveArcEnd(clamp(x + KEY_STEP * keySteps[0], -maxX, maxX), y + KEY_STEP * keySteps[1]);
       return true;
@@ -170,7 +170,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
 
   #pinnedViewModelMemo: Memo<ViewModel> = new Memo();
 
-  player: Player<'morph'> = new Player(this, { morph: { max: 1, durationMs: MORPH_MS } });
+  player: Player<'morph'> = new Player(this, { morph: { max: 1, durationMs: MORPH_DURATION_MS } });
 
   // The simulation starts empty: the cloud grows visibly, and the first frame need not wait for samples.
   createSimulation = ({ BananaMachine }: Motion) => BananaMachine.empty();
@@ -194,21 +194,21 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const { overlays, morph } = this.settings.elementState;
     const overlayVisibility = Object.fromEntries(OVERLAY_NAMES.map((name) => [name, overlays.includes(name)]));
     // Callouts are hidden while a cloud grows or is dragged, because outlines move. During a morph their texts would be wrong.
-    const isMoving = this.cloud.playing || (this.gesture.isPressed && viewModel !== this.gesture.previousViewModel);
+    const areOutlinesMoving = this.cloud.playing || (this.gesture.isPressed && viewModel !== this.gesture.previousViewModel);
     const shownOutlineNames = OVERLAY_NAMES.filter((name) => name !== 'command' && overlayVisibility[name] && hasLength(viewModel.contours[name]));
-    const callouts = isMoving || morph > 0 || shownOutlineNames.join() !== 'ellipse,exponential' ? [] : calloutsOf(viewModel);
+    const callouts = areOutlinesMoving || morph > 0 || shownOutlineNames.join() !== 'ellipse,exponential' ? [] : calloutsOf(viewModel);
     return {
       ...viewModel,
       simulation: this.simulation as Simulation,
       overlays: overlayVisibility,
-      marked: this.#inspection,
+      marked: this.#selectedMotion,
       morph,
-      outlinesOf: (otherViewModel: ViewModel, otherMorph: number) => outlinesAt(motion, otherViewModel, otherMorph),
+      outlinesOf: (otherViewModel: ViewModel, outlineMorph: number) => morphOutlines(motion, otherViewModel, outlineMorph),
       callouts,
       pinned,
       /** Returns the points of the pinned outlines that are shown, at a morph. */
-      pinnedAt: (otherMorph: number) =>
-        pinned ? Object.entries(outlinesAt(motion, pinned, otherMorph)).flatMap(([name, line]) => (overlayVisibility[name] ? [...line] : [])) : [],
+      pinnedPointsAt: (outlineMorph: number) =>
+        pinned ? Object.entries(morphOutlines(motion, pinned, outlineMorph)).flatMap(([name, outlinePoints]) => (overlayVisibility[name] ? [...outlinePoints] : [])) : [],
       driving: this.cloud.driving,
     };
   }
@@ -282,9 +282,9 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   }
 
   /** Executed motion of the selected robot; undefined if no robot is selected or the robot is not shown. */
-  get #inspection() {
-    const { simulation, viewModel, cloud: { isSelectionShown, selectedIndex: index } } = this;
-    return isSelectionShown && simulation ? this.#inspectionMemo.get([viewModel.stats, index], () => simulation.inspect(index)) : undefined;
+  get #selectedMotion() {
+    const { simulation, viewModel, cloud: { isSelectionShown, selectedIndex } } = this;
+    return isSelectionShown && simulation ? this.#executedMotionMemo.get([viewModel.stats, selectedIndex], () => simulation.inspect(selectedIndex)) : undefined;
   }
 
   /**
@@ -294,7 +294,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   #moveArcEnd(x: number, y: number) {
     this.settings.requestChange(({ command }) => {
       const { v, omega } = this.motion.commandReaching(x, y, command, this.settings.elementState.morph);
-      const clampToSlider = (value: number, { min, max }: { min: number, max: number }) => clamp(value, min, max);
+      const clampToSlider = (commandNumber: number, { min, max }: { min: number, max: number }) => clamp(commandNumber, min, max);
       return { command: { ...command, v: clampToSlider(v, sliderSpecs.v), omega: clampToSlider(omega, sliderSpecs.omega) } };
     });
   }
@@ -303,53 +303,53 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   #handleHtml({ v, omega }: Settings['command']) {
     const texts = words.banana;
     const { min, max } = sliderSpecs.omega;
-    const isAtLimit = [v - sliderSpecs.v.min, sliderSpecs.v.max - v, omega - min, max - omega].some((margin) => margin <= 0);
+    const isAtLimit = [v - sliderSpecs.v.min, sliderSpecs.v.max - v, omega - min, max - omega].some((distanceToLimit) => distanceToLimit <= 0);
     return this.#arcEndHandle.handleHtml({
-      name: texts.handle,
-      keysHint: texts.handleKeys,
+      name: texts.handleName,
+      keysHint: texts.handleKeysHint,
       title: words.pose.moveTitle,
       valueRange: [min, max],
       value: omega,
       valueText: `v = ${formatFixed(v, 2)} m/s, ω = ${formatFixed(omega, 2)} rad/s`,
-      limitText: isAtLimit && texts.slidersEnd,
-      hint: this.cloud.isAsking && texts.handleHint,
+      limitText: isAtLimit && texts.sliderLimitText,
+      hint: this.cloud.isAsking && texts.dragHint,
     });
   }
 
   get #planeTitle() {
     const { morph } = this.settings.elementState;
-    return morph === 0 ? floorTitleOf(this.viewModel) : morph === 1 ? words.banana.morph.arrived : words.banana.morph.title;
+    return morph === 0 ? floorTitleOf(this.viewModel) : morph === 1 ? words.banana.morph.morphedTitle : words.banana.morph.morphingTitle;
   }
 
   renderContent(viewModel: ViewModel) {
-    const { config, note } = viewModel;
+    const { config, unusualCloudNote } = viewModel;
     const texts = words.banana;
     return html`
       <div class="views">
         ${pictureHtml(this, this.#planePicture, this.#planeTitle, { handles: this.#handleHtml(config.command) })}
-        ${pictureHtml(this, this.#twistPicture, texts.twist, { className: 'twist', description: twistCaptionOf(viewModel) })}
+        ${pictureHtml(this, this.#twistPicture, texts.twistTitle, { className: 'twist', description: twistCaptionOf(viewModel) })}
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`
       <div class="morphing">
-        ${this.player.sliderHtml('morph', texts.morph.play)}
-        ${buttonHtml(this.#pinnedViewModel ? texts.unpin : texts.pin, () => this.#togglePin(), { title: texts.pinTitle, otherLabel: this.#pinnedViewModel ? texts.pin : texts.unpin })}
+        ${this.player.sliderHtml('morph', texts.morph.playLabel)}
+        ${buttonHtml(this.#pinnedViewModel ? texts.unpinLabel : texts.pinLabel, () => this.#togglePin(), { title: texts.pinTitle, otherLabel: this.#pinnedViewModel ? texts.pinLabel : texts.unpinLabel })}
       </div>
       ${legendHtml(this, LINE_STYLES)}
-      <p part="caption" class="caption ${note && 'note'}">${captionOf(viewModel)}</p>
+      <p part="caption" class="caption ${unusualCloudNote && 'note'}">${captionOf(viewModel)}</p>
       ${mainReadoutsHtml(viewModel, this.#pinnedViewModel)} ${presetButtonsHtml(this)}
       <div class="controls" part="controls">
         ${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${alphaGroupHtml(this, true)} ${fieldsetHtml(words.samples, this.cloud.buttonsHtml(), 'cloud')}
       </div>
       ${disclosuresHtml(this, {
         renderControls: () => html`<div class="controls">${alphaGroupHtml(this, false)} ${modelControlsHtml(this)} ${fieldsetHtml(words.samples, samplesSliderHtml(this, SAMPLE_COUNTS))}</div>`,
-        renderNumbers: () => html`${markedRobotFieldHtml(this, this.#inspection)} ${this.#numbersHtml(viewModel)}`,
+        renderNumbers: () => html`${markedRobotFieldHtml(this, this.#selectedMotion)} ${this.#numbersHtml(viewModel)}`,
       })}`)}
     `;
   }
 
   #numbersHtml(viewModel: ViewModel) {
     const texts = words.banana;
-    return html`${otherReadoutsHtml(viewModel)}<p>${formatMarkup(texts.gainIs)}</p>
+    return html`${otherReadoutsHtml(viewModel)}<p>${formatMarkup(texts.gainNote)}</p>
       <div class="figures" part="figures">
         <figure>${this.#skewChartHtml(viewModel)}<figcaption>${formatMarkup(texts.chartCaption)}</figcaption></figure>
         <figure>${workedExampleTableHtml(viewModel)}<p>${twistCaptionOf(viewModel)}</p></figure>
@@ -361,17 +361,17 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const texts = words.banana;
     const { min, max, step } = sliderSpecs.omega;
     // The curve is cached by the settings on which it depends.
-    const skews = this.#skewCurveMemo.get([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.simulation as Simulation).skewCurve(min, max, CURVE_POINTS));
+    const skews = this.#skewCurveMemo.get([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.simulation as Simulation).skewCurve(min, max, CURVE_POINT_COUNT));
     const maxSkew = skews.reduce((largest, skew) => Math.max(largest, Math.abs(skew) || 0), 0);
-    const chartHeight = CHART_HEIGHTS.find((height) => height >= maxSkew) ?? maxSkew;
+    const chartMaximum = CHART_MAXIMA.find((maxShownSkew) => maxShownSkew >= maxSkew) ?? maxSkew;
     const omegaRange = [min, max];
     return plotHtml({
-      label: texts.chart,
+      label: texts.chartDescription,
       x: { name: 'ω (rad/s)', min, max },
-      y: { name: texts.readouts.skew, min: -chartHeight, max: chartHeight },
+      y: { name: texts.readouts.skew, min: -chartMaximum, max: chartMaximum },
       curves: [
         { name: texts.readouts.skew, role: 'ink', x: skews.map((_, i) => min + (i * (max - min)) / (skews.length - 1)), y: skews },
-        { name: texts.chartGaussian, role: 'prediction', dash: '7 4', x: omegaRange, y: [0, 0] },
+        { name: texts.gaussianLineName, role: 'prediction', dash: '7 4', x: omegaRange, y: [0, 0] },
       ],
       points: [
         { role: 'prior', x: omega, y: exactSkew, error: 0 },
@@ -379,10 +379,10 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       ],
       slider: {
         id: 'chart-omega',
-        name: texts.chartMarker,
+        name: texts.chartSliderName,
         step,
         value: omega,
-        text: texts.chartText(formatFixed(omega, 2), formatFixed(exactSkew, 3)),
+        text: texts.chartSliderText(formatFixed(omega, 2), formatFixed(exactSkew, 3)),
         onInput: (newOmega) => this.settings.requestChange(({ command }) => ({ command: { ...command, omega: newOmega } })),
         onCommit: () => this.gesture.commit(),
       },

@@ -2,20 +2,20 @@
 
 import { Cloud } from '../shared/cloud.ts';
 
-/** Duration (ms) of the drive of the first robot, and then of the drive of all robots. Both drives and the growth of the cloud take less than four seconds. */
+/** Duration (ms) of each of the two drives: the first robot alone, then all robots. Both drives and the growth of the cloud take less than four seconds. */
 const DRIVE_DURATION_MS = 650;
 
 /** Number of robots that drive. */
-const DRIVING_ROBOTS = 10;
+const DRIVING_ROBOT_COUNT = 10;
 
 /** Key in the session's storage that marks the introduction as seen. */
-const STORAGE_KEY = 'motion-widgets.introduced';
+const INTRODUCED_STORAGE_KEY = 'motion-widgets.introduced';
 
 /** Returns true if the introduction was not shown in this session, and marks it as shown. */
 function isFirstInSession() {
   try {
-    const wasShown = sessionStorage.getItem(STORAGE_KEY) !== null;
-    if (!wasShown) sessionStorage.setItem(STORAGE_KEY, 'yes');
+    const wasShown = sessionStorage.getItem(INTRODUCED_STORAGE_KEY) !== null;
+    if (!wasShown) sessionStorage.setItem(INTRODUCED_STORAGE_KEY, 'yes');
     return !wasShown;
   } catch {
     // Without storage the introduction would be shown again and again.
@@ -36,10 +36,10 @@ export class IntroducedCloud extends Cloud {
   }
 
   /** Number of driving robots, and the completed fraction of their path. */
-  get driving(): { robots: number, share: number } | undefined {
+  get driving(): { robotCount: number, pathFraction: number } | undefined {
     if (this.#phase !== 'driving') return undefined;
     const elapsedMs = performance.now() - (this.#startTimeMs ?? performance.now());
-    return { robots: elapsedMs < DRIVE_DURATION_MS ? 1 : DRIVING_ROBOTS, share: Math.min(1, (elapsedMs % DRIVE_DURATION_MS) / DRIVE_DURATION_MS) };
+    return { robotCount: elapsedMs < DRIVE_DURATION_MS ? 1 : DRIVING_ROBOT_COUNT, pathFraction: Math.min(1, (elapsedMs % DRIVE_DURATION_MS) / DRIVE_DURATION_MS) };
   }
 
   showOrGrow(state: Parameters<Cloud['showOrGrow']>[0]) {
@@ -47,16 +47,16 @@ export class IntroducedCloud extends Cloud {
     super.showOrGrow(state);
     const { host } = this;
     const isConfigured = host.presentation || Object.keys(host.definition.attributes).some((name) => host.hasAttribute(name));
-    if (state || !this.playing || isConfigured || host.settings.current.samples < DRIVING_ROBOTS || !isFirstInSession()) return;
+    if (state || !this.playing || isConfigured || host.settings.current.samples < DRIVING_ROBOT_COUNT || !isFirstInSession()) return;
     this.#phase = 'driving';
-    this.showSamples(DRIVING_ROBOTS);
-    for (const event of ['pointerdown', 'keydown']) addEventListener(event, this.skip, { capture: true });
+    this.showSamples(DRIVING_ROBOT_COUNT);
+    for (const eventType of ['pointerdown', 'keydown']) addEventListener(eventType, this.skip, { capture: true });
   }
 
   /** Ends the introduction after its last phase, or when the user presses a pointer or key. */
   skip = () => {
     this.#phase = 'none';
-    for (const event of ['pointerdown', 'keydown']) removeEventListener(event, this.skip, { capture: true });
+    for (const eventType of ['pointerdown', 'keydown']) removeEventListener(eventType, this.skip, { capture: true });
     this.host.requestUpdate();
   };
 
@@ -66,7 +66,7 @@ export class IntroducedCloud extends Cloud {
 
   addGrowthStep() {
     if (this.#phase === 'driving') {
-      // It starts when the figure is visible.
+      // The introduction starts when the figure is visible.
       this.#startTimeMs ??= performance.now();
       if (performance.now() - this.#startTimeMs < 2 * DRIVE_DURATION_MS) return;
       this.#phase = 'asking';

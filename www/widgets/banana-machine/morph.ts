@@ -6,11 +6,11 @@ import { View, interpolateExtent, type Extent } from '../../scene/view.ts';
 import type { Motion } from '../../types.d.ts';
 import type { ViewModel } from './settings.ts';
 
-/** Outlines on the floor by name, or their images under the morph. */
+/** Outlines by name, on the floor or transformed by the morph. */
 export type Outlines = Omit<ViewModel['contours'], 'twistEllipse'>;
 
 /** Duration of the animated morph, ms. */
-export const MORPH_MS = 5000;
+export const MORPH_DURATION_MS = 5000;
 
 /**
  * Returns the point in a morphed picture for a twist (m, m, rad), like `geom::unbend` of the core. The morph runs from 0, the floor, to 1,
@@ -19,21 +19,21 @@ export const MORPH_MS = 5000;
 export function morphPoint({ 0: along, 1: lateral, 2: heading }: ArrayLike<number>, morph: number): [number, number] {
   const halfHeading = ((1 - morph) * heading) / 2;
   const sinc = halfHeading === 0 ? 1 : Math.sin(halfHeading) / halfHeading;
-  const [ahead, sideways] = [sinc * along, sinc * (1 - morph) * lateral];
+  const [alongOffset, lateralOffset] = [sinc * along, sinc * (1 - morph) * lateral];
   const [cos, sin] = [Math.cos(halfHeading), Math.sin(halfHeading)];
-  return [ahead * cos - sideways * sin, ahead * sin + sideways * cos + morph * heading];
+  return [alongOffset * cos - lateralOffset * sin, alongOffset * sin + lateralOffset * cos + morph * heading];
 }
 
 /** Returns the outlines after a morph. Outlines on the floor are transformed point by point. The outline of the Gaussian in exponential coordinates is computed directly. */
-export function outlinesAt(motion: Motion, viewModel: ViewModel, morph: number): Outlines {
+export function morphOutlines(motion: Motion, viewModel: ViewModel, morph: number): Outlines {
   const { config: { command: { v, omega, dt } }, contours, stats } = viewModel;
   if (morph === 0) return contours;
   const morphOutline = (outline: Float64Array) => motion.unbendLine(outline, omega * dt, morph);
   const chordCount = contours.command.length / 2 - 1;
-  const pointAtChord = (i: number) => morphPoint([(i / chordCount) * v * dt, 0, (i / chordCount) * omega * dt], morph);
+  const pointOfChord = (i: number) => morphPoint([(i / chordCount) * v * dt, 0, (i / chordCount) * omega * dt], morph);
   const { mean, cov } = stats.exponential;
   return {
-    command: Float64Array.from(Array.from({ length: chordCount + 1 }, (_, i) => pointAtChord(i)).flat()),
+    command: Float64Array.from(Array.from({ length: chordCount + 1 }, (_, i) => pointOfChord(i)).flat()),
     ellipse: morphOutline(contours.ellipse),
     linearized: morphOutline(contours.linearized),
     additive: morphOutline(contours.additive),
@@ -73,10 +73,10 @@ export class MorphView extends View {
   }
 
   /** Sets the region that the view shows at an end of the morph. */
-  fitEnd(neededExtent: Extent, end: 0 | 1) {
-    const view = this.endViews[end];
+  fitEnd(shownExtent: Extent, endIndex: 0 | 1) {
+    const view = this.endViews[endIndex];
     view.hasZoomedOut = false;
-    view.fit(neededExtent);
+    view.fit(shownExtent);
     this.hasZoomedOut ||= view.hasZoomedOut;
   }
 
@@ -93,8 +93,8 @@ const CHORDS_PER_LINE = 32;
 
 /** Draws the grid of exponential coordinates at a morph. The second parameter is the view at the end of the morph. */
 export function drawMorphGrid({ context, view, palette }: DrawContext, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
-  const drawGridLine = (pointAt: (fraction: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS_PER_LINE + 1 }, (_, i) => {
-    const [along, heading] = pointAt(i / CHORDS_PER_LINE);
+  const drawGridLine = (pointOfFraction: (fraction: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS_PER_LINE + 1 }, (_, i) => {
+    const [along, heading] = pointOfFraction(i / CHORDS_PER_LINE);
     return view.toPixel(...morphPoint([along, 0, heading], morph));
   }));
   // The grid becomes visible early in the morph, and ends as the straight grid of the axes.

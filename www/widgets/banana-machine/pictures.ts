@@ -18,15 +18,15 @@ import { addLine, drawDisc, paintWithOpacity, strokeLine, strokePath, type DrawC
 export type Scene = import('./banana-machine.ts').BananaMachineElement['scene'];
 
 /** Number of robots above which a cloud is drawn as a density: dots would be indistinguishable, and take longer than a frame. */
-const MAX_DOTS = 1000;
+const MAX_DOT_COUNT = 1000;
 
 /** Maximum number of rays in a fan of headings. More rays would look the same. */
-const MAX_RAYS = 400;
+const MAX_HEADING_RAYS = 400;
 
 /** Standard deviation (pixels) below which a cloud is drawn as one point. */
 const MIN_CLOUD_DEVIATION = 0.6;
 
-/** Number of standard deviations around the mean that a view shows. */
+/** Distance from a cloud's mean that a view includes, in standard deviations. */
 const VIEWED_DEVIATIONS = 3.2;
 
 /** Radius of the ring at the end of the arc, pixels. */
@@ -44,8 +44,8 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   view: MorphView = new MorphView({ left: 46, right: 10 });
   /** Names of the outlines that the picture may draw. */
   outlineNames: readonly LineName[] = PAINT_ORDER;
-  #density = new CachedImage();
-  #dotPositions: Memo<Float64Array> = new Memo();
+  #densityImage = new CachedImage();
+  #dotPositionsMemo: Memo<Float64Array> = new Memo();
 
   /** Returns the robot nearest to a point in CSS pixels; −1 for none. */
   findNearestSample(simulation: BananaMachine, x: number, y: number) {
@@ -61,48 +61,48 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   /** Returns the positions of the robots that are drawn as dots, with their headings scaled down by the morph. */
   #dotPositionsOf({ simulation, stats }: Scene): Float64Array {
     const { morph } = this.view;
-    return this.#dotPositions.get([stats, morph], () => (morph === 0 ? simulation.firstPoses(MAX_DOTS) : morphPoses(simulation.firstTwists(MAX_DOTS), morph)));
+    return this.#dotPositionsMemo.get([stats, morph], () => (morph === 0 ? simulation.firstPoses(MAX_DOT_COUNT) : morphPoses(simulation.firstTwists(MAX_DOT_COUNT), morph)));
   }
 
   paint: Picture<Scene>['paint'] = (drawContext, scene) => {
     const { context, view, palette } = drawContext;
     const { simulation, overlays, marked, pinned } = scene;
     const { morph, endViews: [floorView, twistView] } = this.view;
-    const isPlane = this.name === 'plane';
+    const isFloorPicture = this.name === 'plane';
     const outlines = this.outlinesOf(scene, scene);
     const outlineStyles = createLineStyles(drawContext, LINE_STYLES);
-    const isDrawn = (name: LineName) => this.outlineNames.includes(name) && overlays[name] && hasLength(outlines[name]);
-    const legendEntries = createLineLegend(drawContext, LINE_STYLES, LEGEND_ORDER.filter(isDrawn), words.banana.overlays);
+    const isOutlineDrawn = (name: LineName) => this.outlineNames.includes(name) && overlays[name] && hasLength(outlines[name]);
+    const legendEntries = createLineLegend(drawContext, LINE_STYLES, LEGEND_ORDER.filter(isOutlineDrawn), words.banana.overlays);
     // One pair of axes fades out before the other fades in.
     const axesOfEndViews = [
       { view: floorView, opacity: 1 - 2 * morph, names: { x: 'x (m)', y: 'y (m)' } },
-      { view: twistView, opacity: 2 * morph - 1, names: { x: words.banana.axisAlong, y: words.banana.axisHeading } },
+      { view: twistView, opacity: 2 * morph - 1, names: { x: words.banana.alongAxisLabel, y: words.banana.headingAxisLabel } },
     ];
     for (const { view: axesView, opacity, names } of axesOfEndViews) {
       // While the grid of exponential coordinates is curved, `drawMorphGrid` draws it.
       const gridOpacity = axesView === twistView && morph < 1 ? 0 : undefined;
       if (opacity > 0) paintWithOpacity(context, Math.min(1, opacity), () => drawAxes({ ...drawContext, view: axesView }, names, legendEntries, gridOpacity));
     }
-    const cloudMiddle = morphPoint(twistMomentsOf(scene)[0].mean, morph);
-    const outlinesInStyle = (outlinePoints: Outlines) => this.outlineNames.filter(isDrawn).map((name) => ({ points: outlinePoints[name], ...outlineStyles[name] }));
+    const cloudMean = morphPoint(twistMomentsOf(scene)[0].mean, morph);
+    const outlinesInStyle = (outlinePoints: Outlines) => this.outlineNames.filter(isOutlineDrawn).map((name) => ({ points: outlinePoints[name], ...outlineStyles[name] }));
     // Outlines of the pinned settings, or those before the current gesture, stay in the picture for comparison.
     const earlierViewModel: ViewModel | undefined = pinned ?? drawContext.previousViewModel;
     const earlierOutlines = earlierViewModel ? outlinesInStyle(this.outlinesOf(earlierViewModel, scene)) : [];
-    const callouts = isPlane ? [...scene.callouts] : [];
+    const callouts = isFloorPicture ? [...scene.callouts] : [];
     clipToPlot(drawContext, () => {
       if (morph > 0 && morph < 1) drawMorphGrid(drawContext, twistView, morph);
       if (scene.driving) {
-        if (isPlane) drawDrivingRobots(drawContext, simulation, scene.driving);
+        if (isFloorPicture) drawDrivingRobots(drawContext, simulation, scene.driving);
         return;
       }
       const isSinglePoint = this.#isSinglePoint(scene);
       if (!isSinglePoint) this.#paintCloud(drawContext, scene);
-      if (isPlane) drawRobot(drawContext, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      callouts.push(...drawEarlierOutlines(drawContext, earlierOutlines, isPlane ? [cloudMiddle, [0, 0]] : [cloudMiddle], pinned ? words.banana.pinned : words.before));
+      if (isFloorPicture) drawRobot(drawContext, { x: 0, y: 0, heading: 0, colour: palette.truth });
+      callouts.push(...drawEarlierOutlines(drawContext, earlierOutlines, isFloorPicture ? [cloudMean, [0, 0]] : [cloudMean], pinned ? words.banana.pinnedLabel : words.before));
       drawOutlines(drawContext, outlinesInStyle(outlines));
       const [endX, endY] = outlines.command.slice(-2);
-      if (isPlane) {
-        if (overlays.command && scene.reading && morph === 0) drawOdometryReading(drawContext, scene.reading, scene.end);
+      if (isFloorPicture) {
+        if (overlays.command && scene.odometryReading && morph === 0) drawOdometryReading(drawContext, scene.odometryReading, scene.arcEnd);
         if (isSinglePoint && scene.shown > 0) drawCoincidentRobots(drawContext, this.#dotPositionsOf(scene), scene.shown);
         drawHandle(drawContext, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: HANDLE_RADIUS, colour: palette.prior });
       } else if (overlays.command) {
@@ -114,8 +114,8 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
         drawCrosshair(drawContext, { x, y, heading: morph < 1 ? (1 - morph) * marked.pose[2] : null });
       }
     });
-    const calloutLines = isPlane ? [outlines.command, outlines.ellipse, outlines.exponential] : [outlines.exponential, Float64Array.of(...cloudMiddle)];
-    drawCallouts(drawContext, callouts, { shapeCentre: cloudMiddle, lines: [...calloutLines, ...earlierOutlines.map(({ points }) => points)] });
+    const calloutLines = isFloorPicture ? [outlines.command, outlines.ellipse, outlines.exponential] : [outlines.exponential, Float64Array.of(...cloudMean)];
+    drawCallouts(drawContext, callouts, { shapeCentre: cloudMean, lines: [...calloutLines, ...earlierOutlines.map(({ points }) => points)] });
   };
 
   /** Returns true if the robots on the floor are drawn as one point. */
@@ -127,19 +127,19 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   #paintCloud(drawContext: DrawContext, scene: Scene) {
     const { view: { morph, scaleX, scaleY } } = this;
     const { simulation, shown, stats, table: { exact: { cov } } } = scene;
-    if (shown <= MAX_DOTS) {
+    if (shown <= MAX_DOT_COUNT) {
       // Ticks for headings shrink during the morph: exponential coordinates show the turn as an axis.
       drawDots(drawContext, this.#dotPositionsOf(scene), 1 - morph);
       return;
     }
     // Products of the standard deviations along the axes of the cloud, at both ends of the morph.
-    const floorProduct = Math.sqrt(Math.max(0, cov[0][0] * cov[1][1] - cov[0][1] * cov[1][0]));
+    const floorStdProduct = Math.sqrt(Math.max(0, cov[0][0] * cov[1][1] - cov[0][1] * cov[1][0]));
     const [{ cov: twistCov }] = twistMomentsOf(scene);
-    const twistProduct = stdOfVariance(twistCov[0][0]) * stdOfVariance(twistCov[2][2]);
-    const area = 4 * Math.PI * ((1 - morph) * floorProduct + morph * twistProduct) * scaleX * scaleY;
+    const twistStdProduct = stdOfVariance(twistCov[0][0]) * stdOfVariance(twistCov[2][2]);
+    const cloudArea = 4 * Math.PI * ((1 - morph) * floorStdProduct + morph * twistStdProduct) * scaleX * scaleY;
     // A cloud of many robots allows small cells. Sizes are in CSS pixels.
-    const cellSize = Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * area) / shown))));
-    this.#density.drawDensity(drawContext, cellSize, [stats, morph, drawContext.palette], (...viewPart) => simulation.picture(morph, ...viewPart, createDensityRamp(drawContext.palette)));
+    const cellSize = Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * cloudArea) / shown))));
+    this.#densityImage.drawDensity(drawContext, cellSize, [stats, morph, drawContext.palette], (...viewPart) => simulation.picture(morph, ...viewPart, createDensityRamp(drawContext.palette)));
   }
 }
 
@@ -162,22 +162,22 @@ export class PlanePicture extends MorphPicture {
   }
 
   fitView(scene: Scene) {
-    const { contours, table, end: [x, y], overlays, pinnedAt } = scene;
+    const { contours, table, arcEnd: [x, y], overlays, pinnedPointsAt } = scene;
     const { mean, cov } = table.exact;
-    const [xMargin, yMargin] = [VIEWED_DEVIATIONS * stdOfVariance(cov[0][0]), VIEWED_DEVIATIONS * stdOfVariance(cov[1][1])];
-    const points = [...cornersAround(mean[0], mean[1], xMargin, yMargin), ...contours.command, ...pinnedAt(0)];
+    const [xExtent, yExtent] = [VIEWED_DEVIATIONS * stdOfVariance(cov[0][0]), VIEWED_DEVIATIONS * stdOfVariance(cov[1][1])];
+    const shownCoordinates = [...cornersAround(mean[0], mean[1], xExtent, yExtent), ...contours.command, ...pinnedPointsAt(0)];
     // The additive outline may be much larger than the cloud, and counts only if it is shown.
-    if (overlays.additive) points.push(...contours.additive);
-    const floorExtent = extentOf(points, 0.4);
-    // Space for a fan of headings around the end, which may be all that is visible.
+    if (overlays.additive) shownCoordinates.push(...contours.additive);
+    const floorExtent = extentOf(shownCoordinates, 0.4);
+    // Adds space for the fan of headings around the end of the arc. If all robots stop at one point, only the fan is visible.
     const fanMargin = 0.2 * (floorExtent.xMax - floorExtent.xMin);
-    this.view.fitEnd(extentOf([...points, ...cornersAround(x, y, fanMargin)], 0.4), 0);
+    this.view.fitEnd(extentOf([...shownCoordinates, ...cornersAround(x, y, fanMargin)], 0.4), 0);
     if (scene.morph === 0) return;
-    this.view.fitEnd(extentOf([...neededTwistPointsOf(scene), ...(overlays.ellipse ? scene.outlinesOf(scene, 1).ellipse : []), ...pinnedAt(1)], 0.1), 1);
+    this.view.fitEnd(extentOf([...neededTwistPointsOf(scene), ...(overlays.ellipse ? scene.outlinesOf(scene, 1).ellipse : []), ...pinnedPointsAt(1)], 0.1), 1);
   }
 }
 
-/** Picture of the same robots in exponential coordinates, with only the Gaussian in these. */
+/** Picture of the same robots in exponential coordinates. Its only outline is that of the Gaussian in these coordinates. */
 export class TwistPicture extends MorphPicture {
   name = 'twist' as const;
   outlineNames = ['exponential'] as const;
@@ -197,17 +197,17 @@ export class TwistPicture extends MorphPicture {
   }
 }
 
-function drawDrivingRobots(drawContext: DrawContext, simulation: BananaMachine, { robots, share }: { robots: number, share: number }) {
+function drawDrivingRobots(drawContext: DrawContext, simulation: BananaMachine, { robotCount, pathFraction }: { robotCount: number, pathFraction: number }) {
   const { palette } = drawContext;
-  for (let i = 0; i < robots; i++) {
+  for (let i = 0; i < robotCount; i++) {
     const { path, pose } = simulation.inspect(i);
     // The first robot has arrived when the other robots start.
     const chordCount = path.length / 2 - 1;
-    const chordPosition = (i === 0 && robots > 1 ? 1 : share) * chordCount;
-    const chord = Math.min(Math.floor(chordPosition), chordCount - 1);
-    const [x, y, nextX, nextY] = path.subarray(2 * chord, 2 * chord + 4);
-    const [endX, endY] = [x + (chordPosition - chord) * (nextX - x), y + (chordPosition - chord) * (nextY - y)];
-    drawOutline(drawContext, Float64Array.of(...path.subarray(0, 2 * chord + 2), endX, endY), { colour: palette.cloud, width: 1.5, dash: [] });
+    const chordPosition = (i === 0 && robotCount > 1 ? 1 : pathFraction) * chordCount;
+    const chordIndex = Math.min(Math.floor(chordPosition), chordCount - 1);
+    const [x, y, nextX, nextY] = path.subarray(2 * chordIndex, 2 * chordIndex + 4);
+    const [endX, endY] = [x + (chordPosition - chordIndex) * (nextX - x), y + (chordPosition - chordIndex) * (nextY - y)];
+    drawOutline(drawContext, Float64Array.of(...path.subarray(0, 2 * chordIndex + 2), endX, endY), { colour: palette.cloud, width: 1.5, dash: [] });
     const heading = chordPosition === chordCount ? pose[2] : Math.atan2(nextY - y, nextX - x);
     drawRobot(drawContext, { x: endX, y: endY, heading, colour: palette.cloud });
   }
@@ -220,26 +220,26 @@ const TURN_LINE_LENGTH = 38;
 /** Draws the odometry reading of the command: rotation, drive, rotation. The drive ends at x, y in metres. */
 function drawOdometryReading(drawContext: DrawContext, { rot1, trans, rot2 }: import('../../types.d.ts').OdomDelta, [x, y]: [number, number]) {
   const { context, view, palette } = drawContext;
-  const [start, turned] = [{ x: 0, y: 0, theta: 0 }, { x, y, theta: rot1 }];
-  const [[fromX, fromY], startHeadingEnd] = view.headingLineFrom(start, TURN_LINE_LENGTH);
-  const [[toX, toY], continuationEnd] = view.headingLineFrom(turned, TURN_LINE_LENGTH);
+  const [startPose, drivenPose] = [{ x: 0, y: 0, theta: 0 }, { x, y, theta: rot1 }];
+  const [[startX, startY], startHeadingEnd] = view.headingLineFrom(startPose, TURN_LINE_LENGTH);
+  const [[endX, endY], continuationEnd] = view.headingLineFrom(drivenPose, TURN_LINE_LENGTH);
   const colour = palette.prior;
-  const style = { colour, width: 1.5 };
-  strokePath(context, style, () => {
+  const lineStroke = { colour, width: 1.5 };
+  strokePath(context, lineStroke, () => {
     // The heading at the start, the drive, and its continuation, from which the second rotation starts.
-    addLine(context, [startHeadingEnd, [fromX, fromY], [toX, toY], continuationEnd]);
+    addLine(context, [startHeadingEnd, [startX, startY], [endX, endY], continuationEnd]);
     addLine(context, view.headingLineFrom({ x, y, theta: rot1 + rot2 }, TURN_LINE_LENGTH));
   });
-  const turns = [['rot1', start, rot1], ['rot2', turned, rot2]] as const;
-  for (const [, pose, turn] of turns) strokePath(context, style, () => addTurnArc(context, view.toPixel(pose.x, pose.y), TURN_RADIUS, pose.theta, turn));
-  for (const [legName, pose, turn] of turns) {
+  const legTurns = [['rot1', startPose, rot1], ['rot2', drivenPose, rot2]] as const;
+  for (const [, pose, turn] of legTurns) strokePath(context, lineStroke, () => addTurnArc(context, view.toPixel(pose.x, pose.y), TURN_RADIUS, pose.theta, turn));
+  for (const [legName, pose, turn] of legTurns) {
     const middlePose = { ...pose, theta: pose.theta + turn / 2 };
     const [labelX, labelY] = view.headingLineFrom(middlePose, TURN_LINE_LENGTH + 6)[1];
     drawLabel(drawContext, { x: labelX, y: labelY, freeSide: Math.cos(middlePose.theta) < 0 ? -1 : 1, symbol: 'δ', subscript: legName, colour });
   }
   if (trans > 0) {
     const driveDirection = view.pixelDirectionOf(rot1);
-    const [transLabelX, transLabelY] = [(fromX + toX) / 2 + 10 * driveDirection.y, (fromY + toY) / 2 - 10 * driveDirection.x + 6];
+    const [transLabelX, transLabelY] = [(startX + endX) / 2 + 10 * driveDirection.y, (startY + endY) / 2 - 10 * driveDirection.x + 6];
     drawLabel(drawContext, { x: transLabelX, y: transLabelY, freeSide: 1, symbol: 'δ', subscript: 'trans', colour });
   }
 }
@@ -247,12 +247,12 @@ function drawOdometryReading(drawContext: DrawContext, { rot1, trans, rot2 }: im
 /** Draws robots at the same position as one marker, with a ray for the heading of each of the first robots. */
 function drawCoincidentRobots(drawContext: DrawContext, poses: Float64Array, shown: number) {
   const { context, view, palette: { prediction: colour } } = drawContext;
-  const headings = [...poses.subarray(0, 3 * MAX_RAYS)].filter((_, i) => i % 3 === 2);
+  const headings = [...poses.subarray(0, 3 * MAX_HEADING_RAYS)].filter((_, i) => i % 3 === 2);
   const [x, y] = poses;
   paintWithOpacity(context, Math.min(1, 30 / headings.length), () => {
     for (const theta of headings) strokeLine(context, view.headingLineFrom({ x, y, theta }, 64), { colour, width: 1 });
   });
-  // The disc is larger than the handle, which is often at the same position.
+  // The disc is larger than the handle at the end of the arc, which is often at the same position.
   const [pixelX, pixelY] = view.toPixel(x, y);
   drawDisc(context, [pixelX, pixelY], 14, colour);
   drawLabel(drawContext, { x: pixelX + 14, y: pixelY + 27, freeSide: 1, text: words.banana.robotsHere(formatInteger(shown)), colour });
@@ -278,14 +278,14 @@ const VIEW_QUANTILES = [0.025, 0.975];
 /** Returns points around everything that is visible in exponential coordinates. */
 function neededTwistPointsOf(scene: Scene) {
   const { v, omega, dt } = scene.config.command;
-  const points = [v * dt, omega * dt];
+  const shownCoordinates = [v * dt, omega * dt];
   if (!scene.chartHolds && scene.shown > 0) {
-    const twists = scene.simulation.firstTwists(MAX_DOTS);
-    const [along, heading] = [0, 2].map((coordinate) => twists.filter((_, i) => i % 3 === coordinate));
-    for (const share of VIEW_QUANTILES) points.push(quantile(along, share)!, quantile(heading, share)!);
+    const twists = scene.simulation.firstTwists(MAX_DOT_COUNT);
+    const [along, heading] = [0, 2].map((componentIndex) => twists.filter((_, i) => i % 3 === componentIndex));
+    for (const quantileFraction of VIEW_QUANTILES) shownCoordinates.push(quantile(along, quantileFraction)!, quantile(heading, quantileFraction)!);
   }
   for (const { mean, cov } of twistMomentsOf(scene)) {
-    points.push(...cornersAround(mean[0], mean[2], VIEWED_DEVIATIONS * stdOfVariance(cov[0][0]), VIEWED_DEVIATIONS * stdOfVariance(cov[2][2])));
+    shownCoordinates.push(...cornersAround(mean[0], mean[2], VIEWED_DEVIATIONS * stdOfVariance(cov[0][0]), VIEWED_DEVIATIONS * stdOfVariance(cov[2][2])));
   }
-  return points;
+  return shownCoordinates;
 }

@@ -24,7 +24,7 @@ const MIN_NONZERO_SKEW = 1e-9;
 const VISIBLE_SKEW = 0.05;
 
 /** Minimum gain, nats per robot, at which a hundred robots distinguish the two Gaussians: their likelihood ratio is e² or more. */
-const MIN_GAIN = 0.02;
+const MIN_DISTINGUISHABLE_GAIN = 0.02;
 
 /** Area ratio above which the ellipse is visibly too large. */
 const VISIBLE_AREA_RATIO = 1.1;
@@ -34,52 +34,52 @@ const VISIBLE_GAINS = { floor: 0.05, pose: 0.1 };
 
 /** Returns the title of the floor view, which says how well the ellipse fits. It uses exact values, or those of the samples if exact values are undefined. */
 export function floorTitleOf({ stats, table: { exact } }: Pick<ViewModel, 'stats' | 'table'>) {
-  const { floor, ellipseIs } = words.banana;
-  if (stats.n < 2 || Number.isNaN(stats.areaRatio)) return floor;
-  const { areaRatio, likelihoodGain: { floor: onFloor, pose } } = Number.isNaN(exact.areaRatio) ? stats : exact;
+  const { floorTitle, ellipseDescriptions } = words.banana;
+  if (stats.n < 2 || Number.isNaN(stats.areaRatio)) return floorTitle;
+  const { areaRatio, likelihoodGain: { floor: floorGain, pose } } = Number.isNaN(exact.areaRatio) ? stats : exact;
   // The gain of poses is infinite if their covariance is singular, and then says nothing about the bend.
-  const isMisshapen = onFloor > VISIBLE_GAINS.floor || (pose > VISIBLE_GAINS.pose && pose < Infinity) || Math.abs(exact.crossTrackSkew) > VISIBLE_SKEW;
-  const ellipseFit = areaRatio > VISIBLE_AREA_RATIO ? 'large' : isMisshapen ? 'misshapen' : 'near';
-  return `${floor}: ${ellipseIs[ellipseFit]}`;
+  const isMisshapen = floorGain > VISIBLE_GAINS.floor || (pose > VISIBLE_GAINS.pose && pose < Infinity) || Math.abs(exact.crossTrackSkew) > VISIBLE_SKEW;
+  const ellipseFit = areaRatio > VISIBLE_AREA_RATIO ? 'tooLarge' : isMisshapen ? 'wrongShape' : 'nearlyFitting';
+  return `${floorTitle}: ${ellipseDescriptions[ellipseFit]}`;
 }
 
-/** Returns the callouts of the floor picture, at points that the ellipse covers but the cloud does not. */
+/** Returns the callouts of the floor picture. They are at points inside the ellipse at which no robots end. */
 export const calloutsOf = ({ gaps }: ViewModel): Callout[] =>
   words.banana.callouts.slice(0, gaps.length / 2).map((calloutText, i) => ({ text: calloutText, point: [gaps[2 * i], gaps[2 * i + 1]] }));
 
 /** Returns a sentence on the bend of the cloud. The exact skew determines its side, and the skew of the samples its significance. */
-function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio, exponential: { mean, cov } }, exactSkew, table, gain }: ViewModel) {
+function bendSentenceOf({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio, exponential: { mean, cov } }, exactSkew, table, exponentialGain: gain }: ViewModel) {
   if (Number.isNaN(skew)) return '';
   const texts = words.banana.bend;
   // A line break must not separate a number from its error.
   const joinWithNonBreakingSpaces = (numberText: string) => numberText.replaceAll(' ', '\u00a0');
-  const [measuredSkew, exactText] = [joinWithNonBreakingSpaces(formatWithError(skew, error, 3)), formatFixed(exactSkew, 3)];
-  // Robots end on both sides of the start.
-  if (stdOfVariance(cov[0][0]) > Math.abs(mean[0])) return texts.bowTie(formatFixed(mean[0], 2), formatDeviation(cov[0][0]), measuredSkew);
+  const [skewText, exactText] = [joinWithNonBreakingSpaces(formatWithError(skew, error, 3)), formatFixed(exactSkew, 3)];
+  // The cloud is a bow-tie: some robots end ahead of the start, others behind it.
+  if (stdOfVariance(cov[0][0]) > Math.abs(mean[0])) return texts.bowTie(formatFixed(mean[0], 2), formatDeviation(cov[0][0]), skewText);
   if (Math.abs(exactSkew) < VISIBLE_SKEW) {
-    const skewSentence = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? texts.neither(measuredSkew) : texts.hardly(measuredSkew, exactText);
+    const skewSentence = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? texts.symmetric(skewText) : texts.nearlySymmetric(skewText, exactText);
     // There are no exact values if robots turn by more than π.
-    const lesserOf = (sampled: number, exact: number) => (Number.isNaN(exact) ? sampled : Math.min(sampled, exact));
-    if (lesserOf(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${texts.wide(formatFixed(areaRatio, 2))} ${skewSentence}`;
-    const smallerGain = lesserOf(gain.value, gain.exact);
-    return smallerGain > MIN_GAIN ? `${texts.gains(joinWithNonBreakingSpaces(formatWithError(gain.value, gain.error, 3)), smallerGain > VISIBLE_GAINS.pose)} ${skewSentence}` : skewSentence;
+    const lesserDefinedOf = (sampledNumber: number, exact: number) => (Number.isNaN(exact) ? sampledNumber : Math.min(sampledNumber, exact));
+    if (lesserDefinedOf(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${texts.largeEllipse(formatFixed(areaRatio, 2))} ${skewSentence}`;
+    const smallerGain = lesserDefinedOf(gain.value, gain.exact);
+    return smallerGain > MIN_DISTINGUISHABLE_GAIN ? `${texts.betterFit(joinWithNonBreakingSpaces(formatWithError(gain.value, gain.error, 3)), smallerGain > VISIBLE_GAINS.pose)} ${skewSentence}` : skewSentence;
   }
-  if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return texts.unsure(measuredSkew, exactText);
-  return texts.bent(measuredSkew, exactSkew > 0);
+  if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return texts.tooFewRobots(skewText, exactText);
+  return texts.bent(skewText, exactSkew > 0);
 }
 
 export function captionOf(viewModel: ViewModel) {
-  const { note, stats } = viewModel;
-  return note || (stats.n === 0 ? words.banana.noRobots : bendText(viewModel) || words.banana.fewRobots);
+  const { unusualCloudNote, stats } = viewModel;
+  return unusualCloudNote || (stats.n === 0 ? words.banana.noRobots : bendSentenceOf(viewModel) || words.banana.fewRobots);
 }
 
 /** Returns the caption of the view in exponential coordinates, which says whether the cloud is Gaussian in them. */
-export function twistCaptionOf({ config: { model, noise, alphas, isolate }, note }: ViewModel) {
-  const { twist, twistIs } = words.banana;
-  if (note) return `${twist}.`;
+export function twistCaptionOf({ config: { model, noise, alphas, isolate }, unusualCloudNote }: ViewModel) {
+  const { twistTitle, twistDescriptions } = words.banana;
+  if (unusualCloudNote) return `${twistTitle}.`;
   const hasFinalTurn = alphas.some((alpha, i) => i >= 4 && alpha > 0 && (isolate === null || isolate === i + 1));
-  const captionKind = model === 'odometry' ? model : noise === 'triangular' ? noise : hasFinalTurn ? 'turned' : 'exact';
-  return `${twist}: ${twistIs[captionKind]}`;
+  const captionKind = model === 'odometry' ? model : noise === 'triangular' ? noise : hasFinalTurn ? 'lastTurn' : 'exact';
+  return `${twistTitle}: ${twistDescriptions[captionKind]}`;
 }
 
 /** Fraction of a Gaussian in the plane inside its 2σ ellipse, 1 − e⁻². */
@@ -89,22 +89,22 @@ const FRACTION_IN_ELLIPSE = 1 - Math.exp(-2);
  * Returns the three main numbers: the area ratio of the ellipse, the gain of exponential coordinates, and the skew of the cloud. The
  * numbers of a pinned cloud are next to them.
  */
-export function mainReadoutsHtml(viewModel: ViewModel, pinned?: ViewModel) {
+export function mainReadoutsHtml(viewModel: ViewModel, pinnedViewModel?: ViewModel) {
   const texts = words.banana.readouts;
-  const { stats: { coverage, areaRatioError }, exactSkew, gain } = viewModel;
-  const printedValues = printedStatisticsOf(viewModel);
-  const pinnedValues = pinned && printedStatisticsOf(pinned).map((value) => `${words.banana.pinned}: ${value}`);
+  const { stats: { coverage, areaRatioError }, exactSkew, exponentialGain: gain } = viewModel;
+  const printedStatistics = printedStatisticsOf(viewModel);
+  const pinnedStatistics = pinnedViewModel && printedStatisticsOf(pinnedViewModel).map((printedStatistic) => `${words.banana.pinnedLabel}: ${printedStatistic}`);
   const coverages = [coverage.ellipse, coverage.exponential];
   return readoutsHtml([
-    [texts.area, printedValues[0], coverages.every(Number.isNaN) ? NO_VALUE : texts.areaDetail(Number.isNaN(areaRatioError) ? '' : formatSignificant(areaRatioError, 1), formatPercent(coverages[0]), formatPercent(coverages[1])), pinnedValues?.[0]],
-    // A gain on the floor and one of poses are not comparable.
-    [gain.unbounded ? texts.gainOnFloor : texts.gain, printedValues[1], formatGain(gain), pinned?.gain.unbounded === gain.unbounded ? pinnedValues?.[1] : undefined],
-    [texts.skew, printedValues[2], Number.isNaN(exactSkew) ? NO_VALUE : texts.exactly(formatFixed(exactSkew, 3)), pinnedValues?.[2]],
+    [texts.areaRatio, printedStatistics[0], coverages.every(Number.isNaN) ? NO_VALUE : texts.areaRatioDetail(Number.isNaN(areaRatioError) ? '' : formatSignificant(areaRatioError, 1), formatPercent(coverages[0]), formatPercent(coverages[1])), pinnedStatistics?.[0]],
+    // A gain of positions on the floor and a gain of poses are not comparable.
+    [gain.unbounded ? texts.gainOnFloor : texts.gain, printedStatistics[1], formatGain(gain), pinnedViewModel?.exponentialGain.unbounded === gain.unbounded ? pinnedStatistics?.[1] : undefined],
+    [texts.skew, printedStatistics[2], Number.isNaN(exactSkew) ? NO_VALUE : texts.exactValue(formatFixed(exactSkew, 3)), pinnedStatistics?.[2]],
   ], 0);
 }
 
 /** Returns the area ratio, the gain and the skew as they are printed. */
-function printedStatisticsOf({ stats, gain }: ViewModel) {
+function printedStatisticsOf({ stats, exponentialGain: gain }: ViewModel) {
   return [
     Number.isNaN(stats.areaRatio) ? NO_VALUE : `${formatFixed(stats.areaRatio, 2)} ×`,
     formatWithError(gain.value, gain.error, 3),
@@ -113,35 +113,35 @@ function printedStatisticsOf({ stats, gain }: ViewModel) {
 }
 
 /** Returns a text on the exact gain, or the reason why the gain is unbounded. */
-function formatGain({ unbounded, value, exact, wraps }: ViewModel['gain']) {
-  const { withoutLimit, onLine, exactly, unwrapped, nat } = words.banana.readouts;
+function formatGain({ unbounded, value, exact, wrapsHeadings }: ViewModel['exponentialGain']) {
+  const { unlimitedGain, unlimitedGainOnLine, exactValue, exactUnwrappedValue, natNote } = words.banana.readouts;
   if (Number.isNaN(value)) return NO_VALUE;
-  if (value === Infinity) return onLine;
-  if (unbounded) return withoutLimit;
-  if (Number.isNaN(exact)) return nat;
-  return wraps ? unwrapped(formatFixed(exact, 3)) : `${exactly(formatFixed(exact, 3))}; ${nat}`;
+  if (value === Infinity) return unlimitedGainOnLine;
+  if (unbounded) return unlimitedGain;
+  if (Number.isNaN(exact)) return natNote;
+  return wrapsHeadings ? exactUnwrappedValue(formatFixed(exact, 3)) : `${exactValue(formatFixed(exact, 3))}; ${natNote}`;
 }
 
 export function otherReadoutsHtml({ config, stats }: ViewModel) {
   const texts = words.banana.readouts;
-  const { nOfAll } = words.banana;
+  const { countOfTotal } = words.banana;
   return readoutsHtml([
-    [texts.robots, nOfAll(formatInteger(stats.n), formatInteger(config.samples))],
-    [texts.gaussian, formatFixed(stats.gaussianSkew, 3)],
-    [texts.rho, formatFixed(stats.rhoCrossHeading, 3)],
-    [texts.nominal, formatPercent(FRACTION_IN_ELLIPSE)],
+    [texts.shownRobots, countOfTotal(formatInteger(stats.n), formatInteger(config.samples))],
+    [texts.gaussianSkew, formatFixed(stats.gaussianSkew, 3)],
+    [texts.headingCorrelation, formatFixed(stats.rhoCrossHeading, 3)],
+    [texts.nominalCoverage, formatPercent(FRACTION_IN_ELLIPSE)],
   ]);
 }
 
 /** Returns the field with the number of the marked robot, and the motion of that robot. */
 export function markedRobotFieldHtml(figure: import('./banana-machine.ts').BananaMachineElement, inspection: Inspection | undefined): import('lit').TemplateResult {
-  const { shown, reading } = figure.viewModel;
-  const quantityHtml = (symbol: string, value: number, unit: string) => html`<span>${formatMarkup(symbol)} = ${formatFixed(value, 3)} ${unit}</span>`;
+  const { shown, odometryReading } = figure.viewModel;
+  const quantityHtml = (symbol: string, quantity: number, unit: string) => html`<span>${formatMarkup(symbol)} = ${formatFixed(quantity, 3)} ${unit}</span>`;
   if (!inspection) return sampleFieldHtml(figure, 'robot', shown, undefined);
   const { legs, vHat, omegaHat, gammaHat } = inspection;
   // The noise of a leg is the reading minus the executed motion, as Table 5.6 subtracts it.
-  return sampleFieldHtml(figure, 'robot', shown, legs && reading
-    ? ([['rot1', 'rad'], ['trans', 'm'], ['rot2', 'rad']] as const).map(([leg, unit]) => quantityHtml(`*ε*_{${leg}}`, reading[leg] - legs[leg], unit))
+  return sampleFieldHtml(figure, 'robot', shown, legs && odometryReading
+    ? ([['rot1', 'rad'], ['trans', 'm'], ['rot2', 'rad']] as const).map(([leg, unit]) => quantityHtml(`*ε*_{${leg}}`, odometryReading[leg] - legs[leg], unit))
     : [quantityHtml('*v̂*', vHat, 'm/s'), quantityHtml('*ω̂*', omegaHat, 'rad/s'), quantityHtml('*γ̂*', gammaHat, 'rad/s')]);
 }
 
@@ -154,16 +154,16 @@ type MomentsRow = [name: unknown, (column: Moments & { crossTrackSkew: number })
 /** Returns the table of the worked example: moments linearized, exact, and measured on the robots. */
 export function workedExampleTableHtml({ table: { linearized, exact, measured } }: ViewModel) {
   const texts = words.banana.table;
-  const symbolOf = (letter: string, indices: string) => html`<i>${letter}</i><sub><i>${indices}</i></sub>`;
+  const symbolHtml = (symbolLetter: string, indices: string) => html`<i>${symbolLetter}</i><sub><i>${indices}</i></sub>`;
   const rows: MomentsRow[] = [
     ...['x', 'y', 'θ'].map((axis, i): MomentsRow => [formatMarkup(texts.mean(`*${axis}*`)), ({ mean }) => mean[i]]),
-    ...['xx', 'yy', 'xy', 'xθ', 'yθ', 'θθ'].map((pair): MomentsRow => [symbolOf('Σ', pair), ({ cov }) => cov['xyθ'.indexOf(pair[0])]['xyθ'.indexOf(pair[1])]]),
-    [symbolOf('ρ', 'yθ'), ({ cov }) => cov[1][2] / Math.sqrt(cov[1][1] * cov[2][2])],
+    ...['xx', 'yy', 'xy', 'xθ', 'yθ', 'θθ'].map((axisPair): MomentsRow => [symbolHtml('Σ', axisPair), ({ cov }) => cov['xyθ'.indexOf(axisPair[0])]['xyθ'.indexOf(axisPair[1])]]),
+    [symbolHtml('ρ', 'yθ'), ({ cov }) => cov[1][2] / Math.sqrt(cov[1][1] * cov[2][2])],
     [words.banana.readouts.skew, ({ crossTrackSkew }) => crossTrackSkew],
   ];
   return tableHtml({
     caption: texts.caption,
     columns: [texts.quantity, texts.linearized, texts.exact, texts.measured],
-    rows: rows.map(([name, valueOf]) => [name, ...[linearized, exact].map((column) => formatSignificant(valueOf(column), COMPUTED_DIGITS)), formatSignificant(valueOf(measured), MEASURED_DIGITS)]),
+    rows: rows.map(([name, momentOf]) => [name, ...[linearized, exact].map((column) => formatSignificant(momentOf(column), COMPUTED_DIGITS)), formatSignificant(momentOf(measured), MEASURED_DIGITS)]),
   });
 }

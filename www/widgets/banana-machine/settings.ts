@@ -53,17 +53,17 @@ export type ViewModel = ReturnType<typeof viewModelOf>;
 const MIN_SPREAD = 1e-9;
 
 export function viewModelOf(simulation: Simulation) {
-  const results = simulation.read();
-  const { config, stats, contours, table, chartHolds } = results;
+  const simulationResults = simulation.read();
+  const { config, stats, contours, table, chartHolds } = simulationResults;
   return {
-    ...results,
-    note: explainUnusualCloud(config, table, stats, chartHolds),
+    ...simulationResults,
+    unusualCloudNote: explainUnusualCloud(config, table, stats, chartHolds),
     exactSkew: table.exact.crossTrackSkew,
-    gain: gainOfExponential(stats, table),
+    exponentialGain: exponentialGainOf(stats, table),
     /** Command as an odometry reading; null under the velocity model. */
-    reading: config.model === 'odometry' ? results.reading : null,
+    odometryReading: config.model === 'odometry' ? simulationResults.reading : null,
     /** End of the commanded arc, metres. */
-    end: [...contours.command.slice(-2)] as [number, number],
+    arcEnd: [...contours.command.slice(-2)] as [number, number],
   };
 }
 
@@ -84,10 +84,10 @@ export function viewModelOfSettings(motion: Motion, settings: Settings): ViewMod
  * Returns the gain of log-likelihood by the Gaussian in exponential coordinates over that in (x, y, θ). If its covariance is singular, that
  * gain is unbounded, and the gain of arc coordinates over (x, y) is returned.
  */
-function gainOfExponential({ n, likelihoodGain, likelihoodGainError }: Stats, { exact }: Table) {
+function exponentialGainOf({ n, likelihoodGain, likelihoodGainError }: Stats, { exact }: Table) {
   const isUnbounded = exact.likelihoodGain.pose === Infinity;
   const gainKind = isUnbounded ? 'floor' : 'pose';
-  return { n, unbounded: isUnbounded, value: likelihoodGain[gainKind], error: likelihoodGainError[gainKind], exact: exact.likelihoodGain[gainKind], wraps: 4 * Math.sqrt(exact.cov[2][2]) > Math.PI };
+  return { n, unbounded: isUnbounded, value: likelihoodGain[gainKind], error: likelihoodGainError[gainKind], exact: exact.likelihoodGain[gainKind], wrapsHeadings: 4 * Math.sqrt(exact.cov[2][2]) > Math.PI };
 }
 
 /** Returns the standard deviation of a variance. Rounding may have made the variance slightly negative. */
@@ -107,11 +107,11 @@ function spreadKindOf({ exact: { cov } }: Table): 'point' | 'headings' | 'cloud'
  */
 function explainUnusualCloud({ model, command, reverseAware }: Settings, table: Table, stats: Stats, isChartDefined: boolean): string {
   const { notes } = words.banana;
-  const kindOfSpread = spreadKindOf(table);
+  const spreadKind = spreadKindOf(table);
   const { v, omega } = command;
-  if (kindOfSpread === 'point') return v === 0 && omega === 0 ? notes.still : notes.silent;
-  if (kindOfSpread === 'headings') return notes.headings;
-  if (!isChartDefined) return notes.circle;
-  if (model === 'odometry' && v < 0 && !reverseAware) return notes.backwards;
-  return stats.n > 2 && Object.values(stats.coverage).some(Number.isNaN) ? notes.line : '';
+  if (spreadKind === 'point') return v === 0 && omega === 0 ? notes.standingStill : notes.noNoise;
+  if (spreadKind === 'headings') return notes.onlyHeadings;
+  if (!isChartDefined) return notes.fullTurns;
+  if (model === 'odometry' && v < 0 && !reverseAware) return notes.reverseDrive;
+  return stats.n > 2 && Object.values(stats.coverage).some(Number.isNaN) ? notes.onLine : '';
 }

@@ -16,7 +16,7 @@ import type { Picture } from '../../scene/picture.ts';
 /** Sample counts of a simulation or of its view model. */
 interface SampleCount {
   shown: number;
-  /** Number of samples that take a few milliseconds. */
+  /** Number of samples that the simulation adds in a few milliseconds. */
   block: number;
 }
 
@@ -28,7 +28,7 @@ interface GrowingSimulation extends SampleCount {
   addSamples: (count: number) => number;
 }
 
-const GROWTH_STEPS = 150;
+const GROWTH_STEP_COUNT = 150;
 
 /** Maximum time (ms) for adding samples in a frame. A frame with its pictures then takes less than 50 ms. */
 const MAX_ADDING_MS = 12;
@@ -36,7 +36,7 @@ const MAX_ADDING_MS = 12;
 export class Cloud extends FigureController implements SampleCloud {
   #hasGivenUp;
 
-  /** Creates the cloud. `hasGivenUp` returns true for a simulation, or its view model, that stopped before it had all requested samples. */
+  /** Creates the cloud. `hasGivenUp` returns true if a simulation, given by itself or its view model, stopped before it had drawn all requested samples. */
   constructor(host: Figure, hasGivenUp: (latest: any) => boolean = () => false) {
     super(host);
     this.#hasGivenUp = hasGivenUp;
@@ -62,7 +62,7 @@ export class Cloud extends FigureController implements SampleCloud {
     return (settings.isViewModelStale && this.#simulation) || viewModel;
   }
 
-  /** True if the target is the whole cloud, or the simulation has given up. */
+  /** True if all requested samples are to be shown, or the simulation cannot draw more. */
   get isComplete() {
     return this.#state.shown >= this.#requestedCount || this.#hasGivenUp(this.#latestCounts);
   }
@@ -72,10 +72,10 @@ export class Cloud extends FigureController implements SampleCloud {
   }
 
   get #batchSize() {
-    return Math.ceil(this.#requestedCount / GROWTH_STEPS);
+    return Math.ceil(this.#requestedCount / GROWTH_STEP_COUNT);
   }
 
-  /** Number of samples to show; all of them if the simulation has given up. */
+  /** Number of samples to show: all that were requested if the cloud is complete. */
   get targetCount() {
     return this.isComplete ? this.#requestedCount : this.#state.shown;
   }
@@ -94,8 +94,8 @@ export class Cloud extends FigureController implements SampleCloud {
   }
 
   /** Changes settings and shows one block of samples; later frames add the others. Returns all settings. */
-  configure(simulation: GrowingSimulation, settings: StateValues, shown = this.#state.shown): StateValues {
-    return simulation.configureFirst(settings, shown);
+  configure(simulation: GrowingSimulation, settings: StateValues, shownCount = this.#state.shown): StateValues {
+    return simulation.configureFirst(settings, shownCount);
   }
 
   #restartSampling() {
@@ -120,14 +120,14 @@ export class Cloud extends FigureController implements SampleCloud {
   addSamplesUnseen(limitMs = MAX_ADDING_MS): boolean {
     const { targetCount } = this;
     const endTime = performance.now() + limitMs;
-    const latest = this.#latestCounts;
-    const { block } = latest;
-    let { shown } = latest;
+    const latestCounts = this.#latestCounts;
+    const { block } = latestCounts;
+    let { shown } = latestCounts;
     while (shown < targetCount) {
       if (performance.now() > endTime) return false;
       const shownBefore = shown;
       shown = this.#simulation.addSamples(Math.min(targetCount - shown, block));
-      // The simulation has given up.
+      // The simulation cannot draw more samples.
       if (shown === shownBefore) break;
       this.host.settings.isViewModelStale = true;
     }
@@ -230,14 +230,14 @@ export const cloudProperties: PropertyDescriptorMap & ThisType<Figure> = {
 type CloudFigure = Figure & { cloud: Cloud };
 
 /** Returns the controls of growth, seed and size of the cloud. The slider of the size offers `counts`. */
-export function cloudControlsHtml(figure: CloudFigure, counts: readonly number[]) {
-  return fieldsetHtml(words.samples, html`${samplesSliderHtml(figure, counts)} ${figure.cloud.buttonsHtml()}`, 'cloud');
+export function cloudControlsHtml(figure: CloudFigure, sampleCounts: readonly number[]) {
+  return fieldsetHtml(words.samples, html`${samplesSliderHtml(figure, sampleCounts)} ${figure.cloud.buttonsHtml()}`, 'cloud');
 }
 
 /** Returns the slider of the number of samples, which offers `counts`. */
-export function samplesSliderHtml(figure: Figure, counts: readonly number[]) {
-  const sliderSpec: SliderSpec = { symbol: '*N*', role: 'truth', min: counts[0], max: counts[counts.length - 1], step: 1, decimals: 0 };
-  return settingSliderHtml(figure, 'samples', { stops: counts, formatValue: formatInteger }, sliderSpec);
+export function samplesSliderHtml(figure: Figure, sampleCounts: readonly number[]) {
+  const sliderSpec: SliderSpec = { symbol: '*N*', role: 'truth', min: sampleCounts[0], max: sampleCounts[sampleCounts.length - 1], step: 1, decimals: 0 };
+  return settingSliderHtml(figure, 'samples', { stops: sampleCounts, formatValue: formatInteger }, sliderSpec);
 }
 
 function seedFieldHtml(figure: Figure) {
@@ -266,13 +266,13 @@ function seedFieldHtml(figure: Figure) {
  * Returns the field with the number of the selected sample, one of `shown`, and a text about it, if there is one. `id` is also the key of the
  * label in the catalogue. Refused text stays until the user corrects or leaves it.
  */
-export function sampleFieldHtml(figure: CloudFigure, id: 'robot' | 'sample', shown: number, selected: unknown) {
+export function sampleFieldHtml(figure: CloudFigure, id: 'robot' | 'sample', shownCount: number, selectedSampleText: unknown) {
   const { cloud, notice } = figure;
   const { [id]: label, markHint } = (words as any)[figure.definition.messageKey];
   const refusalText = notice.findTextBeside('marked');
-  const enterIndex = (event: Event) => {
-    const typedIndex = inputOf(event).value;
-    const sampleNumber = typedIndex === '' ? 0 : parseTypedNumber(figure, 'marked', label, typedIndex, { min: 1, max: shown, type: 'whole' });
+  const enterSampleNumber = (event: Event) => {
+    const typedNumber = inputOf(event).value;
+    const sampleNumber = typedNumber === '' ? 0 : parseTypedNumber(figure, 'marked', label, typedNumber, { min: 1, max: shownCount, type: 'whole' });
     if (sampleNumber === undefined) return;
     notice.dismiss();
     cloud.select(sampleNumber - 1);
@@ -284,14 +284,14 @@ export function sampleFieldHtml(figure: CloudFigure, id: 'robot' | 'sample', sho
         id=${id}
         type="number"
         min="1"
-        max=${Math.max(1, shown)}
-        placeholder=${shown === 0 ? '' : `1–${formatInteger(shown)}`}
-        ?disabled=${shown === 0}
+        max=${Math.max(1, shownCount)}
+        placeholder=${shownCount === 0 ? '' : `1–${formatInteger(shownCount)}`}
+        ?disabled=${shownCount === 0}
         .value=${refusalText ? noChange : live(cloud.selectedIndex < 0 ? '' : String(cloud.selectedIndex + 1))}
-        @input=${enterIndex}
+        @input=${enterSampleNumber}
         @blur=${() => notice.dismiss()}
       />
     </label>
-    <output for=${id} role=${refusalText ? 'alert' : nothing}>${refusalText || selected || html`<i class="muted">${markHint}</i>`}</output>
+    <output for=${id} role=${refusalText ? 'alert' : nothing}>${refusalText || selectedSampleText || html`<i class="muted">${markHint}</i>`}</output>
   </p>`;
 }

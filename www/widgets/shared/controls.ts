@@ -20,7 +20,7 @@ export function presetButtonsHtml(figure: import('../../figure/figure.ts').Figur
 }
 
 /** Returns the button that restores the state that the figure opened with. */
-export const startOverButtonHtml = ({ settings }: import('../../figure/figure.ts').Figure, restore = () => settings.restoreAsUser()) => buttonHtml(words.startOver, restore, { title: words.startOverTitle, className: 'start-over' });
+export const startOverButtonHtml = ({ settings }: import('../../figure/figure.ts').Figure, restoreState = () => settings.restoreAsUser()) => buttonHtml(words.startOver, restoreState, { title: words.startOverTitle, className: 'start-over' });
 
 /** Player that animates a slider from its current value to its maximum. At the maximum it starts again from 0. */
 export class Player<Key extends string> extends FigureController {
@@ -29,9 +29,9 @@ export class Player<Key extends string> extends FigureController {
   #playedSettings;
 
   /** Creates the player. `played` has the maximum of each animated setting, and the duration of the animation from 0 to the maximum. */
-  constructor(host: import('../../figure/figure.ts').Figure, played: Record<Key, { max: number, durationMs: number }>) {
+  constructor(host: import('../../figure/figure.ts').Figure, animatedSettings: Record<Key, { max: number, durationMs: number }>) {
     super(host);
-    this.#playedSettings = played;
+    this.#playedSettings = animatedSettings;
   }
 
   stop() {
@@ -44,7 +44,7 @@ export class Player<Key extends string> extends FigureController {
     this.host.settings.requestChange({ [key]: value });
   }
 
-  #valueAt(key: Key): number {
+  #valueOf(key: Key): number {
     return this.host.settings.requested[key];
   }
 
@@ -54,7 +54,7 @@ export class Player<Key extends string> extends FigureController {
     if (this.#playedKey) gesture.commit();
     this.#playedKey = willPlay ? key : undefined;
     this.host.requestUpdate();
-    if (willPlay && this.#valueAt(key) >= this.#playedSettings[key].max) settings.requestChange({ [key]: 0 });
+    if (willPlay && this.#valueOf(key) >= this.#playedSettings[key].max) settings.requestChange({ [key]: 0 });
     renderer.requestFrame();
   }
 
@@ -64,7 +64,7 @@ export class Player<Key extends string> extends FigureController {
     // A redraw after a change of size has no elapsed time, and does not advance the animation.
     if (elapsedMs === 0) return true;
     const { max, durationMs } = this.#playedSettings[this.#playedKey];
-    const nextValue = Math.min(max, this.#valueAt(this.#playedKey) + (max * elapsedMs) / durationMs);
+    const nextValue = Math.min(max, this.#valueOf(this.#playedKey) + (max * elapsedMs) / durationMs);
     this.host.settings.requestChange({ [this.#playedKey]: nextValue });
     if (nextValue < max) return true;
     this.stop();

@@ -15,13 +15,13 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   #latestAttempt = 0;
 
   /** Opens files that were chosen or dropped. */
-  abstract choose(files: File[]): void;
+  abstract chooseFiles(files: File[]): void;
 
   /** Returns the sentence about a refusal, in the present language. */
-  abstract explain(refusal: any): string;
+  abstract explainRefusal(refusal: any): string;
 
   get refusalNoteHtml() {
-    const refusalText = this.refusal === undefined ? '' : this.explain(this.refusal);
+    const refusalText = this.refusal === undefined ? '' : this.explainRefusal(this.refusal);
     return html`<p class="note" id="refusal" role="alert" ?hidden=${refusalText === ''}>${refusalText}</p>`;
   }
 
@@ -72,14 +72,14 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     event.preventDefault();
     const resultElement = this.host.renderRoot.querySelector(`#${this.id}`);
     if (resultElement instanceof HTMLDetailsElement) resultElement.open = true;
-    readDroppedFiles(event.dataTransfer).then((files) => files.length > 0 && this.choose(files));
+    readDroppedFiles(event.dataTransfer).then((files) => files.length > 0 && this.chooseFiles(files));
   };
 
   /** Returns a button that opens a file dialog for files with these extensions. */
   fileButtonHtml(id: string, label: string, extensions: string[]) {
     const openChosenFiles = (event: Event) => {
       const fileInput = inputOf(event);
-      this.choose([...(fileInput.files ?? [])]);
+      this.chooseFiles([...(fileInput.files ?? [])]);
       // Reset, so that choosing the same file again after a correction fires an event.
       fileInput.value = '';
     };

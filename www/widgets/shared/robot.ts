@@ -10,7 +10,7 @@ import type { View } from '../../scene/view.ts';
 import type { Pose } from '../../types.d.ts';
 
 /** Minimum radius of a drawn robot, CSS pixels. */
-const MIN_RADIUS = 3;
+const MIN_ROBOT_RADIUS = 3;
 
 /** Radius of the handle that turns a robot, CSS pixels. */
 const TURN_HANDLE_RADIUS = 5.5;
@@ -39,10 +39,10 @@ export function drawRobotOutline({ context, view }: DrawContext, x: number, y: n
 
 /** Converts the radius of a robot from metres to CSS pixels. */
 function toPixelRadius(view: View, radius: number): number {
-  return Math.max(MIN_RADIUS, radius * view.scaleX);
+  return Math.max(MIN_ROBOT_RADIUS, radius * view.scaleX);
 }
 
-/** Displacement (m) and turn (rad) per key press. */
+/** Displacement (m) and turn (rad) of a robot per key press. */
 const KEY_STEP = 0.05;
 const KEY_TURN = Math.PI / 36;
 
@@ -53,11 +53,11 @@ const MIN_BODY_HANDLE_SIZE = 32;
 const DEFAULT_BOUNDS = [-4, -4, 4, 4];
 
 /** Minimum distance of the turning handle from the edge of the picture, CSS pixels. */
-const EDGE_MARGIN = 12;
+const MIN_EDGE_DISTANCE = 12;
 
 /** Handles of a robot: a handle on its body moves the robot, and a handle ahead of it turns the robot. */
 export class PoseHandles extends FigureController<import('../../figure/figure.ts').Figure> {
-  #setting;
+  #settingKey;
   #getView;
   #getBounds;
   #bodyHandle;
@@ -67,20 +67,20 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
    * Creates the handles of a setting that is a pose, in the view of a picture. `bounds` returns left, bottom, right and top of the allowed
    * positions, metres. The catalogue of the figure has the names of both handles under `handles`.
    */
-  constructor(host: import('../../figure/figure.ts').Figure, setting: string, getView: () => View, getBounds: () => number[] | Float64Array = () => DEFAULT_BOUNDS) {
+  constructor(host: import('../../figure/figure.ts').Figure, settingKey: string, getView: () => View, getBounds: () => number[] | Float64Array = () => DEFAULT_BOUNDS) {
     super(host);
-    this.#setting = setting;
+    this.#settingKey = settingKey;
     this.#getView = getView;
     this.#getBounds = getBounds;
-    const callbacks = { getView, commit: () => host.gesture.commit() };
-    this.#bodyHandle = new Handle(`body ${setting}`, {
-      ...callbacks,
+    const handleCallbacks = { getView, commit: () => host.gesture.commit() };
+    this.#bodyHandle = new Handle(`body ${settingKey}`, {
+      ...handleCallbacks,
       findGraspedPoint: () => [this.#pose.x, this.#pose.y],
       drag: (x, y) => this.#moveTo(x, y),
       handleKey: (event) => this.#moveBy(stepsOfKey(event)) || this.#turnBy(turnStepsOfKey(event)),
     });
-    this.#turnHandle = new Handle(`turn ${setting}`, {
-      ...callbacks,
+    this.#turnHandle = new Handle(`turn ${settingKey}`, {
+      ...handleCallbacks,
       findGraspedPoint: (pointer) => pointer,
       drag: (x, y) => this.#turnTo(Math.atan2(y - this.#pose.y, x - this.#pose.x)),
       handleKey: (event) => {
@@ -92,11 +92,11 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   }
 
   get #pose(): Pose {
-    return this.host.settings.requested[this.#setting];
+    return this.host.settings.requested[this.#settingKey];
   }
 
   render() {
-    const [bodyName, headingName] = (words as any)[this.host.definition.messageKey].handles[this.#setting];
+    const [bodyName, headingName] = (words as any)[this.host.definition.messageKey].handles[this.#settingKey];
     const { keys, headingKeys, moveTitle, turnTitle, ends } = words.pose;
     const { x, y, theta } = this.#pose;
     const [left, bottom, right, top] = this.#getBounds();
@@ -125,8 +125,8 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   place(config: Record<string, any>, radius: number) {
     const view = this.#getView();
     const root = this.host.renderRoot;
-    const [[x, y], [turnX, turnY]] = view.headingLineFrom(config[this.#setting], turnHandleDistanceOf(view, radius));
-    const clampToPicture = (coordinate: number, size: number) => clamp(coordinate, EDGE_MARGIN, size - EDGE_MARGIN);
+    const [[x, y], [turnX, turnY]] = view.headingLineFrom(config[this.#settingKey], turnHandleDistanceOf(view, radius));
+    const clampToPicture = (coordinate: number, pictureSize: number) => clamp(coordinate, MIN_EDGE_DISTANCE, pictureSize - MIN_EDGE_DISTANCE);
     this.#bodyHandle.placeInView(root, x, y, { size: Math.max(MIN_BODY_HANDLE_SIZE, 2 * radius * view.scaleX) });
     this.#turnHandle.placeInView(root, clampToPicture(turnX, view.width), clampToPicture(turnY, view.height));
   }
@@ -159,6 +159,6 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   }
 
   #requestPose(pose: Pose) {
-    this.host.settings.requestChange({ [this.#setting]: pose });
+    this.host.settings.requestChange({ [this.#settingKey]: pose });
   }
 }

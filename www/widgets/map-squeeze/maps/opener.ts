@@ -32,7 +32,7 @@ export class MapOpener extends FileOpener<MapSqueezeElement> {
   /** Disclosure with the current map and the reason why another one was refused. */
   id = 'more';
 
-  async choose(files: File[]) {
+  async chooseFiles(files: File[]) {
     if (files.reduce((sum, { size }) => sum + size, 0) > LARGE_MAP_BYTES) {
       this.host.notice.show(() => words.squeeze.own.reading);
       // Waits for two frames, because the message is on the screen only after the first one was drawn.
@@ -53,7 +53,7 @@ export class MapOpener extends FileOpener<MapSqueezeElement> {
     });
   }
 
-  explain({ name, message }: Error) {
+  explainRefusal({ name, message }: Error) {
     return name === 'MapFileError' ? message : words.squeeze.refused.cannot(message);
   }
 }

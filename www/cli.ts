@@ -17,13 +17,13 @@ let shownPercent = -1;
 process.exitCode = await run(process.argv.slice(2), {
   load,
   print: (text) => stdout.write(text),
-  complain: (text) => stderr.write(text),
+  printError: (text) => stderr.write(text),
   version: JSON.parse(readFileSync(new URL('../package.json', import.meta.url), 'utf8')).version,
   isColored: stdout.isTTY && !process.env.NO_COLOR,
-  onProgress(share) {
-    const newPercent = share === undefined ? -1 : Math.floor(100 * share);
+  onProgress(fraction) {
+    const newPercent = fraction === undefined ? -1 : Math.floor(100 * fraction);
     if (!stderr.isTTY || newPercent === shownPercent) return;
     shownPercent = newPercent;
-    stderr.write(share === undefined ? '\r\x1b[K' : `\rreading ${newPercent} %`);
+    stderr.write(fraction === undefined ? '\r\x1b[K' : `\rreading ${newPercent} %`);
   },
 });

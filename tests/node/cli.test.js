@@ -10,7 +10,7 @@ import { fileURLToPath } from 'node:url';
 import { load } from '../../dist/core.js';
 import { TRUE_MODEL } from '../../scripts/example-log.mjs';
 import { HELP } from '../../www/cli/options.ts';
-import { drivesSvg } from '../../www/cli/plot.ts';
+import { createDrivesSvg } from '../../www/cli/plot.ts';
 import { formatReport } from '../../www/cli/report.ts';
 import { run } from '../../www/cli/run.ts';
 import { warningsOf } from '../../www/logs/pairs.ts';
@@ -38,7 +38,7 @@ function writeInFolder(fileName, fileContents) {
 /** Runs the command in this process, and returns its exit code and its output. @param {string[]} cliArguments @param {() => Promise<any>} [loadCore] */
 async function runCalibrate(cliArguments, loadCore = load) {
   let [outputText, errorText] = ['', ''];
-  const exitCode = await run(['calibrate', ...cliArguments], { load: loadCore, print: (text) => (outputText += text), complain: (text) => (errorText += text), now: new Date('2026-01-02T03:04:05Z') });
+  const exitCode = await run(['calibrate', ...cliArguments], { load: loadCore, print: (text) => (outputText += text), printError: (text) => (errorText += text), now: new Date('2026-01-02T03:04:05Z') });
   return { exitCode, stdout: outputText, stderr: errorText };
 }
 
@@ -230,7 +230,7 @@ test('logs in a folder are read, and its other files are skipped', async () => {
   writeFileSync(join(driveFolder, 'README.md'), '# A drive\n\nwith words, and no numbers\n');
   writeFileSync(join(driveFolder, 'camera.mcap'), await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } }))));
   let inspectionText = '';
-  await run(['inspect', driveFolder], { load, print: (text) => (inspectionText += text), complain: () => {} });
+  await run(['inspect', driveFolder], { load, print: (text) => (inspectionText += text), printError: () => {} });
   assert.match(inspectionText, /^ {2}npx motion-widgets calibrate \S+\/drive --rule nav2$/m);
   const { exitCode, stdout, stderr } = await runCalibrate(['metadata.yaml', 'odom.csv'].map((name) => join(driveFolder, name)));
   assert.deepEqual([exitCode, stdout.match(/^\w+: .*\.csv$/gm)], [0, ['Odometry: odom.csv', 'Reference: truth.csv']]);
@@ -248,7 +248,7 @@ test('a database journal next to a recording is reported, unless the journal is 
   writeInFolder('run.db3-wal', Buffer.from('377f0682', 'hex'));
   for (const jsonArgs of [[], ['--json']]) {
     let [stdout, stderr] = ['', ''];
-    const exitCode = await run(['inspect', databasePath, ...jsonArgs], { load, print: (text) => (stdout += text), complain: (text) => (stderr += text) });
+    const exitCode = await run(['inspect', databasePath, ...jsonArgs], { load, print: (text) => (stdout += text), printError: (text) => (stderr += text) });
     assert.deepEqual([exitCode, stdout], [2, '']);
     assert.match(stderr, /^run\.db3-wal: it is a journal with messages that its \.db3 file lacks; /m);
   }
@@ -292,7 +292,7 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
     return { odometry: createLog('odom', 0, drivePositions.map(() => 7), drivePositions), reference: createLog('truth', 0.5, drivePositions, drivePositions.map(() => 2)) };
   };
   const legs = { count: 3, times: [1, 3, 4, 6, 21, 23], outliers: [0, 1, 0] };
-  const svgText = drivesSvg([createDriveAt(0), createDriveAt(20)], { legs, systematicErrors: { clockOffset: { value: 0.5 } } });
+  const svgText = createDrivesSvg([createDriveAt(0), createDriveAt(20)], { legs, systematicErrors: { clockOffset: { value: 0.5 } } });
   const [, ...panelSvgs] = svgText.split('<title>');
   assert.deepEqual(panelSvgs.map((panelSvg) => panelSvg.split('<')[0]), ['odom0.csv and truth0.csv: 2 legs, 1 outlier', 'odom20.csv and truth20.csv: 1 legs, 0 outliers']);
   for (const panelSvg of panelSvgs) {
@@ -311,14 +311,14 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
 
 test('output to a terminal has colours', async () => {
   let stdout = '';
-  await run(['calibrate', ...LOG_ARGS], { load, print: (text) => (stdout += text), complain: assert.fail, isColored: true });
+  await run(['calibrate', ...LOG_ARGS], { load, print: (text) => (stdout += text), printError: assert.fail, isColored: true });
   assert.ok(stdout.includes('\n\x1b[32mTrust\x1b[0m. '), stdout);
 });
 
 test('inspect lists the contents of a file, and suggests the next command', async () => {
   const inspectionOf = async (/** @type {string[]} */ inspectArguments, expectedExitCode = 0) => {
     let [outputText, errorText] = ['', ''];
-    assert.equal(await run(['inspect', ...inspectArguments], { load, print: (text) => (outputText += text), complain: (text) => (errorText += text) }), expectedExitCode);
+    assert.equal(await run(['inspect', ...inspectArguments], { load, print: (text) => (outputText += text), printError: (text) => (errorText += text) }), expectedExitCode);
     assert.equal(errorText === '', expectedExitCode === 0);
     return (outputText + errorText).replaceAll(temporaryFolder, 'DIR');
   };

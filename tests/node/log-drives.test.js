@@ -99,10 +99,10 @@ test('ambiguous roles lead to a question', async () => {
     [{ '/odom': 'odometry', '/mocap': 'pose' }, '/odom is the odometry itself; ', 'series', 'reference', ['/mocap'], [], { reference: { series: '/odom' } }],
     [{ '/tf': 'tf' }, 'odom → base is the odometry itself; ', 'series', 'reference', [], ['odom base', 'mocap robot'], { reference: { frames: { parent: 'odom', child: 'base' } } }],
   ])) {
-    const { message, ask } = await catchRefusalError(planDrivesAsync([createRecording(series, {}, frames)], userChoices));
+    const { message, question } = await catchRefusalError(planDrivesAsync([createRecording(series, {}, frames)], userChoices));
     assert.ok(message.startsWith('run.mcap') && message.includes(`: ${expectedSentence}`), message);
-    assert.deepEqual([ask?.what, ask?.role], [askedQuestion, logRole], message);
-    if (expectedChoices) assert.deepEqual(ask?.choices, expectedChoices);
+    assert.deepEqual([question?.option, question?.role], [askedQuestion, logRole], message);
+    if (expectedChoices) assert.deepEqual(question?.choices, expectedChoices);
   }
 });
 
@@ -115,8 +115,8 @@ test('several recordings are separate drives, or each contains one log of the sa
   assert.deepEqual([drives.length, unpairedOdometry.choice.series], [0, '/odom']);
   // A recording without odometry and reference is left out, unless the user chose it for one of these roles.
   const cameraRecording = createRecording({ '/image': 'text' }, { name: 'camera.mcap' });
-  const { drives: [drive], unused } = planDrives([cameraRecording, recordingWithBothLogs]);
-  assert.deepEqual([drive.odometry.recording, unused.map(({ message }) => message.slice(0, 48))], [recordingWithBothLogs, ['camera.mcap: the topics are /image (String); exp']]);
+  const { drives: [drive], unusedErrors } = planDrives([cameraRecording, recordingWithBothLogs]);
+  assert.deepEqual([drive.odometry.recording, unusedErrors.map(({ message }) => message.slice(0, 48))], [recordingWithBothLogs, ['camera.mcap: the topics are /image (String); exp']]);
   assert.match(await catchRefusalSentence(planDrivesAsync([recordingWithBothLogs, cameraRecording], { roles: new Map([[cameraRecording, 'reference']]) })), /^camera\.mcap: the topics are \/image \(String\); /);
   const unpairedNamesOf = async (/** @type {string[]} */ ...recordingNames) => {
     const drivePlan = planDrives(recordingNames.map((name) => createRecording({ '': 'columns' }, { name, format: 'csv' })));
@@ -129,8 +129,8 @@ test('several recordings are separate drives, or each contains one log of the sa
   // A log may be ambiguous in one of its roles only.
   const twoBodyRecording = createRecording({ Robot: 'columns', Cart: 'columns' }, { name: 'take.csv', format: 'csv' });
   const odometryTable = createRecording({ '': 'columns' }, { name: 'odom.csv', format: 'csv' });
-  const { ask } = await catchRefusalError(planDrivesAsync([odometryTable, twoBodyRecording]));
-  assert.deepEqual([ask?.what, ask?.role, ask?.choices], ['series', 'reference', ['Robot', 'Cart']]);
+  const { question } = await catchRefusalError(planDrivesAsync([odometryTable, twoBodyRecording]));
+  assert.deepEqual([question?.option, question?.role, question?.choices], ['series', 'reference', ['Robot', 'Cart']]);
   assert.equal(planDrives([odometryTable, twoBodyRecording], { reference: { series: 'Cart' } }).unpaired.reference[0].choice.series, 'Cart');
   const ambiguousRecording = createRecording({ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' });
   assert.match(await catchRefusalSentence(planDrivesAsync([ambiguousRecording, ambiguousRecording])), /^run\.mcap: it is not clear what the reference is: /);
@@ -220,9 +220,9 @@ test('logs with mirrored axes, or with different units of length, are refused', 
   // If the log of a slow robot is read alone, no question about its unit is asked.
   const createSlowTable = (/** @type {number} */ factor) => createChangedTable(([t, x, y, yaw]) => [20 * t, factor * x, factor * y, yaw]);
   for (const [odometry, reference, file, pair] of /** @type {const} */ ([[1, 100, 'truth', 'm,cm'], [100, 1, 'odom', 'cm,m']])) {
-    const { message, ask } = await catchRefusalError(readDrivesOf({ 'odom.csv': createSlowTable(odometry), 'truth.csv': createSlowTable(reference) }));
+    const { message, question } = await catchRefusalError(readDrivesOf({ 'odom.csv': createSlowTable(odometry), 'truth.csv': createSlowTable(reference) }));
     assert.match(message, RegExp(`^${file}\\.csv: the robot would drive \\d+ times as fast as in \\w+\\.csv: its lengths seem to be in cm; state their unit\\.`));
-    assert.deepEqual([ask?.what, ask?.pair], ['lengthUnit', pair]);
+    assert.deepEqual([question?.option, question?.unitPair], ['lengthUnit', pair]);
   }
 });
 

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { planDrives } from '../../www/logs/drives.ts';
 import { english } from '../../www/logs/en.ts';
-import { readAhead } from '../../www/logs/formats/container.ts';
+import { createAheadReader } from '../../www/logs/formats/container.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { summarySentencesOf } from '../../www/logs/log.ts';
 import { odometryMessageOf, poseOf, recordingOf, stampOf, transformMessageOf, twistOf } from '../mcap.js';
@@ -213,7 +213,7 @@ test('chunks with a wrong checksum or size are not read', async () => {
 test('a file that is read in pieces gives the right bytes, across pieces and after skipped ranges', async () => {
   const drawRandom = createRandomGenerator(7);
   const bytes = Buffer.alloc(60e6, Buffer.from(Array.from({ length: 9973 }, () => drawRandom() * 256)));
-  const readRange = readAhead(new File([bytes], 'run.mcap'));
+  const readRange = createAheadReader(new File([bytes], 'run.mcap'));
   for (let start = 0; start < bytes.length; ) {
     const chunkEnd = Math.min(bytes.length, start + Math.floor(drawRandom() ** 8 * 3e7));
     assert.deepEqual([chunkEnd, bytes.compare(await readRange(start, chunkEnd), 0, chunkEnd - start, start, chunkEnd)], [chunkEnd, 0]);

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { openRecordings } from '../../www/logs/open.ts';
 import { german } from '../../www/logs/de.ts';
-import { Rows } from '../../www/logs/rows.ts';
+import { RowCollector } from '../../www/logs/rows.ts';
 import { catchRefusalError, catchRefusalSentence } from './log-support.js';
 
 /** Reads one log of a table. @param {string | Uint8Array<ArrayBuffer>} tableText @param {import('../../www/logs/log.ts').OpenOptions} [openOptions] @param {string} [seriesName] */
@@ -200,8 +200,8 @@ for (const [name, tableText, expectedMessage, options, [fieldName, expectedValue
     const refusalError = await catchRefusalError(readTable(tableText));
     assert.match(refusalError.message, expectedMessage);
     const [[questionedUnit, chosenUnit]] = Object.entries(options);
-    assert.equal(refusalError.ask?.what, questionedUnit);
-    assert.ok(refusalError.ask.choices.includes(chosenUnit), String(refusalError.ask.choices));
+    assert.equal(refusalError.question?.option, questionedUnit);
+    assert.ok(refusalError.question.choices.includes(chosenUnit), String(refusalError.question.choices));
     const { data, summary: { units } } = await readTable(tableText, options);
     assert.deepEqual(units[/** @type {'time' | 'length' | 'angle'} */ (questionedUnit.replace('Unit', ''))], { unit: chosenUnit, by: 'option' });
     assert.ok(Math.abs(data[fieldName][9] - expectedValue) < 1e-12, `${data[fieldName][9]}, not ${expectedValue}`);
@@ -262,15 +262,15 @@ for (const [name, tableText, expectedMessage, options] of REFUSED_TABLES) {
 test('the columns proposed for a table with Y up give the path on the floor', async () => {
   for (const positionOf of [(/** @type {number} */ x, /** @type {number} */ y) => [x, 0.1, y], (/** @type {number} */ x, /** @type {number} */ y) => [y, 0.1, x]]) {
     const tableText = circleTableOf(([t, x, y, yaw]) => [t, ...positionOf(x, y), yaw], 't,x,y,z,yaw');
-    const { ask } = await catchRefusalError(readTable(tableText));
-    const { data } = await readTable(tableText, { columns: ask?.choices[0].split(',') });
+    const { question } = await catchRefusalError(readTable(tableText));
+    const { data } = await readTable(tableText, { columns: question?.choices[0].split(',') });
     assert.deepEqual([[...data.x], [...data.y]], [1, 2].map((column) => CIRCLE_ROWS.map((row) => row[column])));
   }
 });
 
 test('a table with more rows than a day at 100 Hz is refused', async () => {
-  const rows = Object.assign(new Rows({ file: 'run.csv' }), { count: 1e7 - 1 });
-  const addRow = async () => rows.add({ time: 0, a: 0, b: 0, c: 0 }, 1);
+  const rows = Object.assign(new RowCollector({ file: 'run.csv' }), { rowCount: 1e7 - 1 });
+  const addRow = async () => rows.addRow({ time: 0, a: 0, b: 0, c: 0 }, 1);
   await addRow();
   assert.equal(await catchRefusalSentence(addRow()), 'run.csv: there are more rows; expected are at most 10000000.');
 });

@@ -8,7 +8,7 @@ import { openRecordings } from '../logs/open.ts';
 import type { InputPath } from './options.ts';
 
 /** Opens a file or a folder; rejects with a LogError if it has no log. Calls `onSkip` with the error of each file that is not a log. */
-export async function recordingsOf({ path, open }: InputPath, onSkip: (error: LogError) => void): Promise<Recording[]> {
+export async function openRecordingsAt({ path, open }: InputPath, onSkip: (error: LogError) => void): Promise<Recording[]> {
   const errors: LogError[] = [];
   const recordings = await openRecordings(await openSources(path), open, (error) => errors.push(error));
   const refusalError = recordings.length === 0 ? errors.shift() : undefined;

@@ -80,7 +80,7 @@ const OPTION_BY_FIELD: Record<string, string> = {
   positionStd: 'reference-position-std', yawStd: 'reference-yaw-std', model: 'model', rule: 'rule', outliers: 'outliers',
 };
 
-/** Replaces the field at the start of a core's error message by its option. Returns undefined if the message does not start with a field. */
+/** Replaces the field at the start of an error message of the core by its option. Returns undefined if the message does not start with a field. */
 export function replaceFieldByOption(message: string): string | undefined {
   const [field] = message.split(' ');
   return Object.hasOwn(OPTION_BY_FIELD, field) ? `--${OPTION_BY_FIELD[field]}${message.slice(field.length)}.` : undefined;
@@ -92,23 +92,23 @@ export type CalibrateArguments = Extract<ReturnType<typeof parseOptions>, { comm
 
 export function parseOptions(args: string[]) {
   const { values, positionals: [command, ...givenPaths] } = parseArguments(args);
-  // A metadata.yaml stands for its folder. A shell that expands a pattern gives all files of the folder.
+  // A path of a metadata.yaml stands for its folder. Other paths in that folder are left out, because a shell pattern may have expanded to all its files.
   const listedFolders = givenPaths.filter((path) => basename(path) === 'metadata.yaml').map(dirname);
   const positionalPaths = [...new Set(listedFolders), ...givenPaths.filter((path) => !listedFolders.includes(dirname(path)))];
   if (values.version) return 'version';
   if (values.help || args.length === 0) return 'help';
-  const columnNames = (name: 'columns' | 'odometry-columns' | 'reference-columns') => values[name]?.split(',').map((column) => column.trim());
-  const openOptionsOf = (role?: Role) => withoutUndefined({ ...unitsOf(values, role), columns: (role && columnNames(`${role}-columns`)) ?? columnNames('columns') });
-  const inputsOfPaths = (paths: string[] = [], role?: Role) => paths.map((path): InputPath => ({ path, role, open: openOptionsOf(role) }));
-  const chosenSeries = (role: Role) => withoutUndefined({ series: values[`${role}-topic`], frames: parseFrames(`${role}-frames`, values[`${role}-frames`]) });
+  const parseColumnNames = (name: 'columns' | 'odometry-columns' | 'reference-columns') => values[name]?.split(',').map((column) => column.trim());
+  const openOptionsOf = (role?: Role) => withoutUndefined({ ...unitsOf(values, role), columns: (role && parseColumnNames(`${role}-columns`)) ?? parseColumnNames('columns') });
+  const inputPathsOf = (paths: string[] = [], role?: Role) => paths.map((path): InputPath => ({ path, role, open: openOptionsOf(role) }));
+  const seriesChoiceOf = (role: Role) => withoutUndefined({ series: values[`${role}-topic`], frames: parseFrames(`${role}-frames`, values[`${role}-frames`]) });
   const recording = [...positionalPaths, ...(values.recording ?? [])];
   const { odometry = [], reference = [] } = values;
   for (const role of ROLES) {
     if (values[`${role}-columns`] !== undefined && !values[role]) throw new UsageError(`--${role}-columns needs --${role} FILE.`);
   }
   const logs = {
-    inputs: [...inputsOfPaths(recording), ...inputsOfPaths(odometry, 'odometry'), ...inputsOfPaths(reference, 'reference')],
-    userChoices: { odometry: chosenSeries('odometry'), reference: chosenSeries('reference'), ...(values.model === 'velocity' && { kind: 'commands' as const }) },
+    inputs: [...inputPathsOf(recording), ...inputPathsOf(odometry, 'odometry'), ...inputPathsOf(reference, 'reference')],
+    userChoices: { odometry: seriesChoiceOf('odometry'), reference: seriesChoiceOf('reference'), ...(values.model === 'velocity' && { kind: 'commands' as const }) },
   };
   if (command === 'inspect') {
     if (logs.inputs.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
@@ -163,7 +163,7 @@ function unitsOf(values: { [name in 'time-unit' | 'length-unit' | 'angle-unit']?
     if (givenUnits === undefined) return [];
     const unitNames = givenUnits.split(',').map((unit) => unit.trim());
     if (unitNames.length > 2 || !unitNames.every((unit) => (UNITS[`${quantity}Unit`] as readonly string[]).includes(unit))) {
-      throw new UsageError(`--${quantity}-unit must be ${listOfAlternatives(UNITS[`${quantity}Unit`])}, or two of these for odometry and reference (got “${truncate(givenUnits)}”).`);
+      throw new UsageError(`--${quantity}-unit must be ${formatAlternatives(UNITS[`${quantity}Unit`])}, or two of these for odometry and reference (got “${truncate(givenUnits)}”).`);
     }
     if (unitNames.length > 1 && !role) throw new UsageError(`--${quantity}-unit ${truncate(givenUnits)} has two units; give the files with --odometry and --reference.`);
     return [[`${quantity}Unit`, role === 'reference' ? unitNames.at(-1) : unitNames[0]]];
@@ -172,7 +172,7 @@ function unitsOf(values: { [name in 'time-unit' | 'length-unit' | 'angle-unit']?
 
 const withoutUndefined = <T extends object>(object: T): T => Object.fromEntries(Object.entries(object).filter(([, value]) => value !== undefined)) as T;
 
-const listOfAlternatives = (names: readonly string[]) => new Intl.ListFormat('en', { type: 'disjunction' }).format(names);
+const formatAlternatives = (names: readonly string[]) => new Intl.ListFormat('en', { type: 'disjunction' }).format(names);
 
 /** Returns true or false for each named systematic error: corrected or not. Single names override `all`. */
 function parseCorrections(uncorrected?: string, corrected?: string): Record<string, boolean> | undefined {

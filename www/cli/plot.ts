@@ -21,7 +21,7 @@ const LINE_STYLES = {
   outlier: { label: 'outliers', colour: '#7a1560', width: 5, cap: 'round' as const },
 };
 
-export const drivesSvg = (drives: Drive[], calibration: any): string => `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${PANEL_WIDTH} ${PANEL_HEIGHT * drives.length}" width="${PANEL_WIDTH}" height="${PANEL_HEIGHT * drives.length}">
+export const createDrivesSvg = (drives: Drive[], calibration: any): string => `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${PANEL_WIDTH} ${PANEL_HEIGHT * drives.length}" width="${PANEL_WIDTH}" height="${PANEL_HEIGHT * drives.length}">
 <rect width="100%" height="100%" fill="#fff"/>
 ${drives.map((drive, i) => `<g transform="translate(0 ${PANEL_HEIGHT * i})">${createDrivePanel(drive, calibration, `drive-${i}`)}</g>`).join('\n')}
 </svg>

@@ -29,13 +29,13 @@ export interface CalibrationResult {
 const MAX_LISTED_OUTLIERS = 5;
 
 /** Returns the summaries of the logs (odometry and reference of each drive), without the result of the fit. */
-export const logSummaries = (logs: ReadLog[]): string =>
+export const formatLogSummaries = (logs: ReadLog[]): string =>
   logs.map(({ name, sentences }, i) => `${[`${english.choose.roles[ROLES[i % 2]]}: ${name}`, ...sentences].join('\n  ')}\n`).join('');
 
 /** Codes of colours in a terminal. */
 const [RED, GREEN, YELLOW] = [31, 32, 33];
 
-/** Colours of the badge, by the rating of the α's. */
+/** Colours of the verdict's badge, by the rating of the α's. */
 const RATING_COLORS = { consistent: GREEN, questionable: YELLOW, unusable: RED };
 
 const colorize = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;

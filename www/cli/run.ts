@@ -6,18 +6,18 @@ import { english } from '../logs/en.ts';
 import { LogError, truncate, summarySentencesOf, type Recording, type Role } from '../logs/log.ts';
 import { calibrationLogOf, readDrives, type Drive } from '../logs/pairs.ts';
 import { adviseOption } from './advice.ts';
-import { recordingsOf } from './files.ts';
+import { openRecordingsAt } from './files.ts';
 import { inspect, formatInspection } from './inspect.ts';
 import { HELP, UsageError, parseOptions, replaceFieldByOption, type CalibrateArguments } from './options.ts';
-import { drivesSvg } from './plot.ts';
-import { formatResultJson, logSummaries, formatNav2Yaml, warnAboutRule, formatReport, formatVerdict, type CalibrationResult } from './report.ts';
+import { createDrivesSvg } from './plot.ts';
+import { formatResultJson, formatLogSummaries, formatNav2Yaml, warnAboutRule, formatReport, formatVerdict, type CalibrationResult } from './report.ts';
 
 interface CliEnvironment {
   load(): Promise<any>;
   print(text: string): void;
-  complain(text: string): void;
+  printError(text: string): void;
   /** Shows the progress of reading; undefined hides it. */
-  onProgress?(share: number | undefined): void;
+  onProgress?(fraction: number | undefined): void;
   version?: string;
   isColored?: boolean;
   now?: Date;
@@ -27,8 +27,8 @@ const [EXIT_SUCCESS, EXIT_BAD_INPUT, EXIT_UNUSABLE] = [0, 2, 3];
 
 /** Runs a command, and returns the exit code; rejects only for defects of the program. */
 export async function run(args: string[], environment: CliEnvironment): Promise<number> {
-  const { print, complain, onProgress } = environment;
-  const onSkip = ({ message }: LogError) => complain(`skipped: ${message}\n`);
+  const { print, printError, onProgress } = environment;
+  const onSkip = ({ message }: LogError) => printError(`skipped: ${message}\n`);
   try {
     const options = parseOptions(args);
     if (options === 'help') print(HELP);
@@ -37,7 +37,7 @@ export async function run(args: string[], environment: CliEnvironment): Promise<
       const contents = await inspect(await openInputs(options, onSkip), options.statedOptions, onProgress);
       print(options.isJson ? `${JSON.stringify(contents.inspection, undefined, 1)}\n` : formatInspection(contents));
       if (!contents.isUsable) {
-        complain(`${contents.sentences.join('\n')}\n`);
+        printError(`${contents.sentences.join('\n')}\n`);
         return EXIT_BAD_INPUT;
       }
     } else return await calibrate(options, environment, onSkip);
@@ -45,7 +45,7 @@ export async function run(args: string[], environment: CliEnvironment): Promise<
   } catch (error) {
     onProgress?.(undefined);
     if (!(error instanceof LogError || error instanceof UsageError)) throw error;
-    complain(`${error.message}${error instanceof LogError ? adviseOption(error) : ''}\n`);
+    printError(`${error.message}${error instanceof LogError ? adviseOption(error) : ''}\n`);
     return EXIT_BAD_INPUT;
   }
 }
@@ -55,7 +55,7 @@ async function openInputs({ inputs, userChoices }: Pick<CalibrateArguments, 'inp
   const roles = new Map<Recording, Role>();
   const givenRecordings: { recording: Recording; path: string }[] = [];
   for (const input of inputs) {
-    for (const recording of await recordingsOf(input, onSkip)) {
+    for (const recording of await openRecordingsAt(input, onSkip)) {
       givenRecordings.push({ recording, path: input.path });
       if (input.role) roles.set(recording, input.role);
     }
@@ -65,31 +65,31 @@ async function openInputs({ inputs, userChoices }: Pick<CalibrateArguments, 'inp
 
 export type OpenedInputs = Awaited<ReturnType<typeof openInputs>>;
 
-async function calibrate({ fit, output, plot, ...logArguments }: CalibrateArguments, { load, print, complain, onProgress, isColored = false, now = new Date() }: CliEnvironment, onSkip: (error: LogError) => void): Promise<number> {
+async function calibrate({ fit: fitOptions, output: outputFormat, plot: plotPath, ...logArguments }: CalibrateArguments, { load, print, printError, onProgress, isColored = false, now = new Date() }: CliEnvironment, onSkip: (error: LogError) => void): Promise<number> {
   const motion = await load();
-  // A call without drives checks the options, so that their errors are reported before files are read.
-  calibrateDrives(motion, fit, []);
+  // The core checks the options in a call without drives, so that their errors are reported before files are read.
+  calibrateDrives(motion, fitOptions, []);
   const { givenRecordings, userChoices } = await openInputs(logArguments, onSkip);
   const plan = planDrives(givenRecordings.map(({ recording }) => recording), userChoices);
-  plan.unused.forEach(onSkip);
+  plan.unusedErrors.forEach(onSkip);
   const drives = await readDrives(plan, onProgress);
   onProgress?.(undefined);
   const [{ odometry: { start } }] = drives;
   const logs = drives.flatMap(({ odometry, reference }) => [odometry, reference]).map(({ name, ...log }) => ({ name, summary: log.summary, sentences: summarySentencesOf({ name, ...log }, english.found) }));
   // The summary is shown even if the fit is refused.
-  if (output === 'text') print(logSummaries(logs));
-  if (output === 'yaml') complain(logSummaries(logs));
-  const calibration = calibrateDrives(motion, fit, drives);
-  const result: CalibrationResult = { calibration, options: fit, logs, start, driveStarts: drives.map(({ odometry }) => odometry.data.t[0]), date: now.toISOString().slice(0, 10) };
-  if (plot !== undefined) await saveFile(plot, drivesSvg(drives, calibration));
+  if (outputFormat === 'text') print(formatLogSummaries(logs));
+  if (outputFormat === 'yaml') printError(formatLogSummaries(logs));
+  const calibration = calibrateDrives(motion, fitOptions, drives);
+  const result: CalibrationResult = { calibration, options: fitOptions, logs, start, driveStarts: drives.map(({ odometry }) => odometry.data.t[0]), date: now.toISOString().slice(0, 10) };
+  if (plotPath !== undefined) await saveFile(plotPath, createDrivesSvg(drives, calibration));
   const isUnusableLog = calibration.recommended === null;
-  if (output === 'yaml') {
+  if (outputFormat === 'yaml') {
     const { yaml, reason } = formatNav2Yaml(result);
-    complain([...formatVerdict(result), ...(yaml ? warnAboutRule(result) : []), ...(reason ? [reason] : []), ''].join('\n'));
+    printError([...formatVerdict(result), ...(yaml ? warnAboutRule(result) : []), ...(reason ? [reason] : []), ''].join('\n'));
     print(yaml);
     return isUnusableLog ? EXIT_UNUSABLE : yaml ? EXIT_SUCCESS : EXIT_BAD_INPUT;
   }
-  print(output === 'json' ? formatResultJson(result) : formatReport(result, isColored));
+  print(outputFormat === 'json' ? formatResultJson(result) : formatReport(result, isColored));
   return isUnusableLog ? EXIT_UNUSABLE : EXIT_SUCCESS;
 }
 
@@ -99,9 +99,9 @@ async function saveFile(path: string, text: string): Promise<void> {
   });
 }
 
-function calibrateDrives(motion: any, fit: CalibrateArguments['fit'], drives: Drive[]): any {
+function calibrateDrives(motion: any, fitOptions: CalibrateArguments['fit'], drives: Drive[]): any {
   try {
-    return motion.calibrate({ ...fit, ...calibrationLogOf(drives) });
+    return motion.calibrate({ ...fitOptions, ...calibrationLogOf(drives) });
   } catch (error) {
     if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
     const optionError = replaceFieldByOption(error.message);

@@ -6,7 +6,7 @@ import { LogError, truncate, listNames, UNITS, type ErrorPlace, type AngleUnit, 
 type Field = 't' | 'seconds' | 'subseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child' | 'source';
 
 interface Column {
-  at: number;
+  index: number;
   name: string;
   /** Unit of time, length or angle in the column's name. A speed has the unit of its length or angle. */
   unit?: string;
@@ -16,7 +16,7 @@ interface Column {
 
 export interface Clock {
   name: string;
-  /** Column of times, or columns of seconds and of their fraction, in ns or the unit of its name. */
+  /** Column of times, or two columns: whole seconds and their fraction. The fraction is in ns, or in the unit that its name states. */
   columns: [Column] | [Column, Column];
   unit?: TimeUnit;
 }
@@ -57,13 +57,13 @@ const FIELD_PATTERNS: [Field, string[]][] = [
 ];
 
 /** Patterns of whole names: an optional prefix, and the name of a field. The lazy match keeps the prefix as short as possible. */
-const PREFIXED_PATTERNS = FIELD_PATTERNS.flatMap(([field, names]) => names.map((name, rank) => ({ field, rank, pattern: new RegExp(`^(?:(.*?)\\.)??(?:${name})$`, 'u') })));
+const PREFIXED_PATTERNS = FIELD_PATTERNS.flatMap(([field, namePatterns]) => namePatterns.map((name, rank) => ({ field, rank, pattern: new RegExp(`^(?:(.*?)\\.)??(?:${name})$`, 'u') })));
 
 /** Name in which the field comes before the group: x_gt, yaw_odom, x1. */
 const SUFFIXED_NAME = /^((?:pos\.|position\.)?[xy]|yaw|theta|heading|q\.?[xyzw]|t|time|v|omega)\.?(\d+|(?<=\.)(?!rate|dot)\p{L}.*)$/u;
 
-/** Words in prefixes of columns that are not read: uncertainty, acceleration, vectors of an IMU, goals. */
-const OTHER_QUANTITIES = /(^|\.)(cov(ariance)?|std(dev)?|sigma|var(iance)?|err(or)?|residual|acc(el(eration)?)?|force|torque|effort|bias|mag(netic)?|dot|linear|angular|lin|ang|vel(ocity)?|twist|goal|setpoint|euler|rpy)(\.|\d|$)|^[vabw]\./;
+/** Words in the prefixes of columns that are not read: uncertainty, acceleration, vectors of an IMU, goals. */
+const UNREAD_QUANTITIES = /(^|\.)(cov(ariance)?|std(dev)?|sigma|var(iance)?|err(or)?|residual|acc(el(eration)?)?|force|torque|effort|bias|mag(netic)?|dot|linear|angular|lin|ang|vel(ocity)?|twist|goal|setpoint|euler|rpy)(\.|\d|$)|^[vabw]\./;
 
 type ParsedUnit = { quantity: 'time' | 'length' | 'angle'; unit: TimeUnit | 'min' | 'h' | LengthUnit | AngleUnit; isRate: boolean };
 
@@ -139,7 +139,7 @@ function parseColumnName(name: string): ColumnMeaning | undefined {
   if (meaning && unit && canHaveUnit(meaning.field, unit)) return { ...meaning, unit: unit.unit };
   const [, baseName, suffix] = SUFFIXED_NAME.exec(dottedPath) ?? [];
   const baseMeaning = baseName === undefined ? undefined : matchField(baseName);
-  return baseMeaning && suffix !== undefined && !OTHER_QUANTITIES.test(suffix) ? { ...baseMeaning, prefix: suffix } : undefined;
+  return baseMeaning && suffix !== undefined && !UNREAD_QUANTITIES.test(suffix) ? { ...baseMeaning, prefix: suffix } : undefined;
 }
 
 /** Checks that a field can have a unit. Unknown units pass here. `logLayoutOf` refuses them. */
@@ -152,7 +152,7 @@ function matchField(path: string): ColumnMeaning | undefined {
   for (const { field, rank, pattern } of PREFIXED_PATTERNS) {
     const [match, prefix = ''] = pattern.exec(path) ?? [];
     if (match === undefined) continue;
-    return OTHER_QUANTITIES.test(prefix) || /^[vabw]\..*\.[xyzw]$/.test(path) ? undefined : { field, rank, prefix };
+    return UNREAD_QUANTITIES.test(prefix) || /^[vabw]\..*\.[xyzw]$/.test(path) ? undefined : { field, rank, prefix };
   }
   return undefined;
 }
@@ -161,33 +161,33 @@ function matchField(path: string): ColumnMeaning | undefined {
 export function groupColumnsByPrefix(names: string[], isTime: (index: number) => boolean = () => false): ColumnGroup[] {
   // PlotJuggler puts the topic before each name. A topic may have the name of its message's fields, as in /mocap/pose and /cmd_vel.
   const topics = names.flatMap((name) => /^\s*(\/.+\/)header\/stamp\s*$/.exec(name)?.[1] ?? []);
-  const columnsWithMeaning = names.flatMap((name, at) => {
+  const columnsWithMeaning = names.flatMap((name, index) => {
     const isUnnamed = /^\s*(|unnamed: \d+|index)\s*$/i.test(name);
     const topic = topics.find((start) => name.trim().startsWith(start)) ?? '';
-    const meaning: ColumnMeaning | undefined = isUnnamed ? (isTime(at) ? { field: 't', rank: 9, prefix: '' } : undefined) : parseColumnName(name.trim().slice(topic.length));
+    const meaning: ColumnMeaning | undefined = isUnnamed ? (isTime(index) ? { field: 't', rank: 9, prefix: '' } : undefined) : parseColumnName(name.trim().slice(topic.length));
     if (!meaning) return [];
     const { field, prefix, rank, unit } = meaning;
     // Headings in radians are preferred. Headings in degrees beside them are usually derived.
-    const column: Column = { at, name: name.trim(), rank: rank + (unit === 'deg' ? 0.5 : 0), ...(unit !== undefined && { unit }) };
+    const column: Column = { index, name: name.trim(), rank: rank + (unit === 'deg' ? 0.5 : 0), ...(unit !== undefined && { unit }) };
     return [{ field, prefix: toDottedName(topic + prefix), column }];
   });
   const groups = Array.from(group(columnsWithMeaning, ({ prefix }) => prefix), ([name, members]): ColumnGroup => {
     const fieldColumns = Array.from(group(members, ({ field }) => field), ([field, entries]) => [field, entries.map(({ column }) => column).toSorted((column, otherColumn) => column.rank - otherColumn.rank)] as const);
-    const columns: ColumnGroup['columns'] = Object.fromEntries(fieldColumns.map(([field, [best]]) => [field, best]));
-    const duplicateColumns = Object.fromEntries(fieldColumns.filter(([, [best, secondBest]]) => best.rank === secondBest?.rank).map(([field, [, secondBest]]) => [field, secondBest]));
+    const columns: ColumnGroup['columns'] = Object.fromEntries(fieldColumns.map(([field, [bestColumn]]) => [field, bestColumn]));
+    const duplicateColumns = Object.fromEntries(fieldColumns.filter(([, [bestColumn, secondBestColumn]]) => bestColumn.rank === secondBestColumn?.rank).map(([field, [, secondBestColumn]]) => [field, secondBestColumn]));
     return { name, kind: null, hasCommands: hasFields(columns, 'v', 'omega'), columns, duplicateColumns, clocks: clocksOf(columns, Object.fromEntries(fieldColumns).t ?? []) };
   });
   const tableGroup = groups.find(({ name }) => name === '');
   const sharedClocks = tableGroup?.clocks ?? [];
   const allClocks = groups.flatMap(({ clocks }) => clocks);
-  for (const entry of groups) {
-    const { columns, hasCommands } = entry;
+  for (const columnGroup of groups) {
+    const { columns, hasCommands } = columnGroup;
     if (tableGroup?.columns.source) columns.source ??= tableGroup.columns.source;
-    entry.clocks = [...new Set([...entry.clocks, ...sharedClocks])].slice(0, 2);
+    columnGroup.clocks = [...new Set([...columnGroup.clocks, ...sharedClocks])].slice(0, 2);
     // If a table has only one clock, all of its groups use it.
-    if (entry.clocks.length === 0 && allClocks.length === 1) entry.clocks = allClocks;
+    if (columnGroup.clocks.length === 0 && allClocks.length === 1) columnGroup.clocks = allClocks;
     const hasPoses = hasFields(columns, 'x', 'y') && headingFieldsOf(columns).length > 0;
-    if (entry.clocks.length > 0) entry.kind = hasPoses ? 'poses' : hasCommands ? 'commands' : hasFields(columns, 'x', 'y') ? 'positions' : null;
+    if (columnGroup.clocks.length > 0) columnGroup.kind = hasPoses ? 'poses' : hasCommands ? 'commands' : hasFields(columns, 'x', 'y') ? 'positions' : null;
   }
   return groups.filter(({ columns }) => columns.x || columns.y || columns.v || columns.omega || columns.yaw || columns.qw);
 }
@@ -208,19 +208,19 @@ function clocksOf({ seconds, subseconds }: ColumnGroup['columns'], timeColumns: 
 }
 
 /** Returns the columns of a log: x, y and heading, or v and omega. Throws a LogError if one is missing, the heading included, or if two may be the same field. */
-export function logLayoutOf(columnGroup: ColumnGroup | undefined, names: string[], errorPlace: ErrorPlace, wantedKind: LogKind | undefined) {
+export function findLogLayout(columnGroup: ColumnGroup | undefined, names: string[], errorPlace: ErrorPlace, wantedKind: LogKind | undefined) {
   const columnNames = listNames(names.map((name) => name.trim()));
-  const ask: Question = { what: 'columns', choices: [], columns: names };
-  if (!columnGroup) throw new LogError(errorPlace, (texts) => texts.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
+  const question: Question = { option: 'columns', choices: [], columns: names };
+  if (!columnGroup) throw new LogError(errorPlace, (texts) => texts.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), question);
   const { columns, duplicateColumns, clocks } = columnGroup;
-  if (clocks.length === 0) throw new LogError(errorPlace, (texts) => texts.noTime(columnNames), ask);
+  if (clocks.length === 0) throw new LogError(errorPlace, (texts) => texts.noTime(columnNames), question);
   const takesCommands = columnGroup.hasCommands && wantedKind !== 'poses' && (wantedKind === 'commands' || columnGroup.kind === 'commands');
-  if (!takesCommands && !hasFields(columns, 'x', 'y')) throw new LogError(errorPlace, (texts) => texts.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
+  if (!takesCommands && !hasFields(columns, 'x', 'y')) throw new LogError(errorPlace, (texts) => texts.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), question);
   const headingFields = headingFieldsOf(columns);
   const fields: Field[] = takesCommands ? ['v', 'omega'] : ['x', 'y', ...headingFields];
   for (const field of [...(clocks[0].columns[0] === columns.t ? ['t' as const] : []), ...fields]) {
     const [firstColumn, secondColumn] = [columns[field], duplicateColumns[field]];
-    if (firstColumn && secondColumn) throw new LogError(errorPlace, (texts) => texts.twice(field, truncate(firstColumn.name), truncate(secondColumn.name)), ask);
+    if (firstColumn && secondColumn) throw new LogError(errorPlace, (texts) => texts.twice(field, truncate(firstColumn.name), truncate(secondColumn.name)), question);
   }
   const usedColumns = fields.map((field) => columns[field] as Column);
   const lengthUnits = [...new Set((takesCommands ? usedColumns.slice(0, 1) : usedColumns.slice(0, 2)).map(({ unit }) => unit))];

@@ -60,10 +60,10 @@ export const german: Words = {
     twice: (field, column, otherColumn) => `sowohl „${column}“ als auch „${otherColumn}“ kann die Spalte „${FIELD_NAMES[field]}“ sein; erwartet wird eines davon.`,
     cells: (count, needed) => `die Zeile hat ${countWithNoun(count, 'Feld', 'Felder')}; erwartet werden mindestens ${needed}.`,
     wide: (count, needed, header) =>
-      `die Zeile hat ${countWithNoun(count, 'Feld', 'Felder')} und der Kopf in Zeile ${header} ${needed}; erwartet werden gleich viele, mit Dezimalpunkten in Zahlen oder Semikolons zwischen Feldern.`,
+      `die Zeile hat ${countWithNoun(count, 'Feld', 'Felder')} und die Kopfzeile (Zeile ${header}) ${needed}; erwartet werden gleich viele, mit Dezimalpunkten in Zahlen oder Semikolons zwischen Feldern.`,
     given: (cellCount, nameCount) => `die Zeile hat ${countWithNoun(cellCount, 'Feld', 'Felder')}, und --columns nennt ${nameCount}; alle Spalten der Reihe nach nennen, mit - für die, die nicht gelesen werden.`,
     noHeader: (count, row) =>
-      `die Tabelle hat keinen Kopf, und ihre erste Zeile ist „${row}“; ihre ${count} Spalten benennen.`,
+      `die Tabelle hat keine Kopfzeile, und ihre erste Zeile ist „${row}“; ihre ${count} Spalten benennen.`,
     noTable: (notation) => `das ist ${notation} und keine Tabelle; eine Zeile je Zeitpunkt schreiben, wie mit ros2 topic echo --csv, rostopic echo -p oder pandas, oder die Aufzeichnung selbst angeben.`,
     positions: (columns) =>
       `${columns} sind Positionen ohne Richtung; nötig ist eine Referenz, die die Richtung misst, wie mit zwei Prismen, Markern oder Scan-Matching (in einer Tabelle in einer Spalte namens yaw mit dem Präfix von x und y): Die Fahrtrichtung verbirgt Drehfehler und würde alpha1 und alpha2 halbieren.`,
@@ -71,8 +71,8 @@ export const german: Words = {
       `Zeilen mit ${width} Zahlen sind ${width === 6 ? 'Befehle von geometry_msgs/Twist' : 'Posen von KITTI'}, die keine Zeiten haben; ${width === 6 ? 'die Aufzeichnung selbst' : 'die TUM-Datei, die kitti_poses_and_timestamps_to_trajectory.py von evo schreibt,'} angeben, oder eine Spalte mit Zeiten ergänzen.`,
     euler: (rotation) => `die Drehungen sind Eulerwinkel (${rotation}); die Aufnahme noch einmal aus Motive exportieren, mit Rotation Type „Quaternion“.`,
     tilted: (isTable) => `die Posen drehen sich nicht um eine senkrechte Z-Achse; ${isTable ? 'mit Z nach oben exportieren, oder die Spalten auswählen: bei Y nach oben x,y,z als y,z,x und qx,qy,qz als qy,qz,qx' : 'die Fahrt noch einmal mit Z nach oben aufzeichnen'}.`,
-    yUp: 'die Richtungen folgen der Bahn in x und z, die senkrechte Achse ist also Y; mit Z nach oben exportieren, oder die Spalten in anderer Reihenfolge auswählen.',
-    mirrored: 'die Richtungen drehen sich anders herum als die Bahn; erwartet werden Richtungen, die gegen den Uhrzeigersinn wachsen, von x nach y: die Richtungen oder y negieren, oder x und y tauschen.',
+    yUp: 'die Richtungen folgen dem Weg in x und z, die senkrechte Achse ist also Y; mit Z nach oben exportieren, oder die Spalten in anderer Reihenfolge auswählen.',
+    mirrored: 'die Richtungen drehen sich anders herum als der Weg; erwartet werden Richtungen, die gegen den Uhrzeigersinn wachsen, von x nach y: die Richtungen oder y negieren, oder x und y tauschen.',
     mixed: (frames) => `die Zeilen gehören zu mehreren Frames, Topics oder Robotern (${frames}); nur die eines davon behalten.`,
     unknownUnit: (unit) => `die Einheit ${unit} einer Spalte ist unbekannt, oder nicht die einer anderen; erwartet wird s, ms, us oder ns, m, cm, mm, ft oder in, und rad oder deg.`,
     turns: (metres) => `Posen zweier Wege wechseln sich ab, ${withDecimalComma(metres, 2)} m auseinander: Sie sind von zwei Robotern, oder von zwei Knoten, die auf einem Topic senden; nur die eines davon behalten.`,
@@ -108,7 +108,7 @@ export const german: Words = {
     noChain: (frames, knownFrames) =>
       `keine Transformationen führen entlang ${frames}; erwartet werden verbundene Frames, aus ${knownFrames || 'keinen'}.`,
     constant: (frames, others) =>
-      `die Transformation ${frames} ändert sich nie und ist daher keine Bahn eines Roboters; erwartet werden Frames, die sich bewegen${others ? `, wie ${others}` : ''}.`,
+      `die Transformation ${frames} ändert sich nie und ist daher kein Weg eines Roboters; erwartet werden Frames, die sich bewegen${others ? `, wie ${others}` : ''}.`,
     givenTwice: 'sie ist zweimal angegeben; gebraucht werden zwei unabhängige Messungen einer Fahrt, Odometrie und Referenz.',
     ownReference: (name) => `${name} ist die Odometrie selbst; gebraucht wird eine Referenz, die nicht von den Rädern kommt, wie Motion-Capture oder Scan-Matching.`,
     leftHanded: (other) => `sie dreht nach links, wo ${other} nach rechts dreht: eine der beiden hat Z nach unten oder ein linkshändiges Koordinatensystem; y und Richtung dieser einen negieren.`,
@@ -135,8 +135,8 @@ export const german: Words = {
   found: {
     title: 'Was gelesen wurde',
     drive: (number) => `Fahrt ${number}`,
-    paths: (isAligned, width, height) => `Bahnen von oben: Referenz (durchgezogen) und Odometrie (gestrichelt, ${isAligned ? 'an ihr' : 'nicht'} ausgerichtet); ${width} m mal ${height} m.`,
-    labels: { rows: 'gelesen', columns: 'Spalten', units: 'Einheiten', frames: 'Koordinatensysteme', clock: 'Zeiten', dropped: 'weggelassen', gaps: 'Lücken', jumps: 'Sprünge', notes: 'Hinweise' },
+    paths: (isAligned, width, height) => `Wege von oben: Referenz (durchgezogen) und Odometrie (gestrichelt, ${isAligned ? 'an ihr' : 'nicht'} ausgerichtet); ${width} m mal ${height} m.`,
+    labels: { rows: 'gelesen', columns: 'Spalten', units: 'Einheiten', frames: 'Frames', clock: 'Zeiten', dropped: 'weggelassen', gaps: 'Lücken', jumps: 'Sprünge', notes: 'Hinweise' },
     rows: (used, rows, seconds, rate, distance) => `${used} von ${rows} Zeilen, ${withDecimalComma(seconds, 1)} s mit ${rate.toPrecision(3).replace('.', ',')} Hz, ${withDecimalComma(distance, 1)} m gefahren`,
     units: ({ time, length, angle }) =>
       `Zeit in ${time.unit}${UNIT_BASIS_TEXTS[time.by]}, Längen in ${length.unit}${UNIT_BASIS_TEXTS[length.by]}${ANGLE_UNIT_TEXTS[angle.unit] ? `, ${ANGLE_UNIT_TEXTS[angle.unit]}${UNIT_BASIS_TEXTS[angle.by]}` : ''}`,

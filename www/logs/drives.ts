@@ -9,12 +9,12 @@ export interface LogPlan {
   drives: Record<Role, RecordingChoice>[];
   unpaired: Record<Role, RecordingChoice[]>;
   /** Errors of recordings that are left out, because none of their topics can be read. */
-  unused: LogError[];
+  unusedErrors: LogError[];
 }
 
 /** Choices of the user. Missing choices are guessed. */
 export interface UserChoices {
-  /** `series` is the name of a series, or a prefix of names without the separator that follows. `frames` selects among transforms. */
+  /** `series` is the name of a series, or the common prefix of its columns without a final separator. `frames` selects among transforms. */
   odometry?: { series?: string; frames?: FramePair };
   reference?: { series?: string; frames?: FramePair };
   /** Kind of odometry: `commands` prefers commands to poses, and `poses` excludes commands. By default poses come first. */
@@ -54,7 +54,7 @@ export function planDrives(allRecordings: Recording[], userChoices: UserChoices 
   const usableRecordings = allRecordings.filter((recording) => userChoices.roles?.has(recording) || readableSeriesOf(recording).length > 0);
   const recordings = usableRecordings.length > 0 ? usableRecordings : allRecordings;
   const unpaired: LogPlan['unpaired'] = { odometry: [], reference: [] };
-  const plan: LogPlan = { drives: [], unpaired, unused: allRecordings.filter((recording) => !recordings.includes(recording)).map(createUnusableError) };
+  const plan: LogPlan = { drives: [], unpaired, unusedErrors: allRecordings.filter((recording) => !recordings.includes(recording)).map(createUnusableError) };
   const unnamedRecordings: Recording[] = [];
   for (const recording of recordings) {
     const role = userChoices.roles?.get(recording) ?? (recordings.length > 1 ? roleOfRecording(recording, userChoices) : 'both');
@@ -66,7 +66,7 @@ export function planDrives(allRecordings: Recording[], userChoices: UserChoices 
   for (const recording of unnamedRecordings) {
     // If a file's name shows no role, the roles of the other files determine its role.
     const role = 2 * odometry.length >= recordings.length ? 'reference' : 2 * reference.length >= recordings.length ? 'odometry' : undefined;
-    if (!role) throw new LogError({ file: recording.name }, (texts) => texts.noRole, { what: 'roles', choices: [] });
+    if (!role) throw new LogError({ file: recording.name }, (texts) => texts.noRole, { option: 'roles', choices: [] });
     plan.unpaired[role].push({ recording, choice: chooseLog(recording, role, userChoices) });
   }
   // A separate file of one role replaces the log of that role in a recording that has both.
@@ -74,12 +74,12 @@ export function planDrives(allRecordings: Recording[], userChoices: UserChoices 
   if (plan.drives.length === Math.abs(odometry.length - reference.length)) plan.unpaired[missingRole].push(...plan.drives.splice(0).map((drive) => drive[missingRole]));
   if (odometry.length !== reference.length) {
     const longerRoleChoices = odometry.length > reference.length ? odometry : reference;
-    // A recording with odometry and reference may have several candidates for the missing log. The error that asks for a choice is then more helpful.
-    for (const { recording } of longerRoleChoices) tryUnlessLogError(() => chooseBothLogs(recording, userChoices), ({ ask }) => ask?.what !== 'series');
+    // If a recording has several candidates for the missing log, the LogError of this call asks for a choice, which helps more than the error below.
+    for (const { recording } of longerRoleChoices) tryUnlessLogError(() => chooseBothLogs(recording, userChoices), ({ question }) => question?.option !== 'series');
     const [firstUnpaired] = longerRoleChoices;
     const listRecordingNames = (recordingChoices: RecordingChoice[]) => listNames(recordingChoices.map(({ recording }) => recording.name));
     const isSameFile = recordings.length === 2 && recordings[0].name === recordings[1].name;
-    throw new LogError({ file: firstUnpaired.recording.name }, (texts) => (isSameFile ? texts.givenTwice : texts.unpaired(listRecordingNames(odometry), listRecordingNames(reference))), isSameFile ? undefined : { what: 'roles', choices: [] });
+    throw new LogError({ file: firstUnpaired.recording.name }, (texts) => (isSameFile ? texts.givenTwice : texts.unpaired(listRecordingNames(odometry), listRecordingNames(reference))), isSameFile ? undefined : { option: 'roles', choices: [] });
   }
   return plan;
 }
@@ -89,7 +89,7 @@ function roleOfRecording(recording: Recording, userChoices: UserChoices): Role |
   if (tryUnlessLogError(() => chooseBothLogs(recording, userChoices))) return 'both';
   const [isOdometry, isReference] = ROLES.map((role) => tryUnlessLogError(() => chooseLog(recording, role, userChoices)) !== undefined);
   if (isOdometry !== isReference) return isOdometry ? 'odometry' : 'reference';
-  // A file with several bodies has logs, although the choice is ambiguous in both roles.
+  // A file with several rigid bodies has logs, although the choice is ambiguous in both roles.
   const hasLogs = isOdometry || ROLES.every((role) => findCandidates(recording, role, userChoices).some(({ length }) => length > 0));
   if (!hasLogs) return 'both';
   return roleByName(recording.name) ?? (recording.series.some(({ hasCommands }) => hasCommands) ? 'odometry' : undefined);
@@ -112,8 +112,8 @@ function chooseBothLogs(recording: Recording, userChoices: UserChoices): Record<
   const odometry = tryUnlessLogError(() => chooseLog(recording, 'odometry', userChoices, chosenReference)) ?? chooseLog(recording, 'odometry', userChoices);
   const reference = chosenReference ?? chooseLog(recording, 'reference', userChoices, odometry);
   if (isSameChoice(odometry, reference)) {
-    const ask = { what: 'series' as const, role: 'reference' as const, choices: seriesNamesFor(recording, 'reference').filter((name) => name !== reference.series) };
-    throw new LogError({ file: recording.name, topic: reference.series }, (texts) => texts.ownReference(reference.frames ? formatFrames(reference.frames) : reference.series), ask);
+    const question = { option: 'series' as const, role: 'reference' as const, choices: seriesNamesFor(recording, 'reference').filter((name) => name !== reference.series) };
+    throw new LogError({ file: recording.name, topic: reference.series }, (texts) => texts.ownReference(reference.frames ? formatFrames(reference.frames) : reference.series), question);
   }
   return { odometry: { recording, choice: odometry }, reference: { recording, choice: reference } };
 }
@@ -122,7 +122,7 @@ function chooseBothLogs(recording: Recording, userChoices: UserChoices): Record<
 const findLikeliestChoices = (recording: Recording, role: Role, userChoices: UserChoices, isPossible: (choice: LogChoice) => boolean) =>
   findCandidates(recording, role, userChoices).map((choiceTier) => choiceTier.filter(isPossible)).find(({ length }) => length) ?? [];
 
-/** Returns the choice of a log for a role, different from `other`, the choice for the other role. */
+/** Returns the choice of a log for a role. It differs from `otherRoleChoice`, the choice for the other role. */
 function chooseLog(recording: Recording, role: Role, userChoices: UserChoices, otherRoleChoice?: LogChoice): LogChoice {
   const { series, frames } = userChoices[role] ?? {};
   if (series === undefined && !frames) return guessChoice(recording, role, userChoices, otherRoleChoice);
@@ -135,7 +135,7 @@ function chooseLog(recording: Recording, role: Role, userChoices: UserChoices, o
     throw new LogError(
       { file: recording.name, topic: series },
       (texts) => texts.noTopic(describeSeries(readableSeriesOf(recording))),
-      { what: 'series', role, choices: names },
+      { option: 'series', role, choices: names },
     );
   }
   if (namedSeries.kind !== 'transforms' || frames) return { series: namedSeries.name, ...(kind && { kind }), ...(frames && { frames }) };
@@ -146,7 +146,7 @@ function chooseLog(recording: Recording, role: Role, userChoices: UserChoices, o
 
 function createFramesError({ name: file }: Recording, { name: topic, frames = [] }: Series, role: Role): LogError {
   const frameTexts = [...new Set([...findLikeliestFrames(frames, role), ...frames])].map(formatFramesOption);
-  return new LogError({ file, topic }, (texts) => texts.frames(listNames(frames.map(formatFrames))), { what: 'frames', role, choices: frameTexts });
+  return new LogError({ file, topic }, (texts) => texts.frames(listNames(frames.map(formatFrames))), { option: 'frames', role, choices: frameTexts });
 }
 
 function guessChoice(recording: Recording, role: Role, userChoices: UserChoices, otherRoleChoice?: LogChoice): LogChoice {
@@ -167,12 +167,12 @@ function guessChoice(recording: Recording, role: Role, userChoices: UserChoices,
   }
   if (usableSeries.length === 1) {
     const ownRole = roleOfSeries(recording, usableSeries[0]) ?? (otherRoleChoice?.frames && ROLES.find((otherRole) => otherRole !== role));
-    throw new LogError({ file }, (texts) => texts.alone(describeSeries(usableSeries), ownRole), { what: 'other', role: ownRole, choices: [] });
+    throw new LogError({ file }, (texts) => texts.alone(describeSeries(usableSeries), ownRole), { option: 'other', role: ownRole, choices: [] });
   }
   throw new LogError(
     { file },
     (texts) => (bestChoices.length > 0 ? texts.choose : texts.lacks)(role, describeSeries(usableSeries)),
-    { what: 'series', role, choices: bestChoices.length > 0 ? seriesNamesFor(recording, role).filter((name) => name !== otherRoleChoice?.series) : usableSeries.filter(({ kind }) => role === 'odometry' && kind === 'commands').map(({ name }) => name) },
+    { option: 'series', role, choices: bestChoices.length > 0 ? seriesNamesFor(recording, role).filter((name) => name !== otherRoleChoice?.series) : usableSeries.filter(({ kind }) => role === 'odometry' && kind === 'commands').map(({ name }) => name) },
   );
 }
 

@@ -8,11 +8,11 @@ export interface TableFormat {
   /** Separator of cells. A space stands for any number of spaces and tabs. */
   separator: string;
   hasDecimalCommas: boolean;
-  firstLine: number;
-  names: string[];
+  firstRowNumber: number;
+  columnNames: string[];
   /** Line of the header. Concatenated files repeat it among the rows. */
-  header?: string;
-  groups: ColumnGroup[];
+  headerLine?: string;
+  columnGroups: ColumnGroup[];
   /** True if a row may have empty cells, because it is a sample of another topic. */
   isSparse: boolean;
   /** True if either Y or Z may be the vertical axis, as in exports of Motive. */
@@ -52,24 +52,24 @@ const ISO_DATE = /^\s*(\d{4})[-/](\d{1,2})[-/](\d{1,2})(?:[T\s]+(\d{1,2}):(\d{2}
 /** Duration as printed by pandas ("0 days 00:00:01.5") and MATLAB ("00:00:01.5"). */
 const DURATION_TEXT = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*$/;
 
-/** Splits a line into cells. May return only the first `needed` cells. A separator in quotes does not count. */
-export function splitCells(line: string, separator: string, needed = Infinity): string[] {
+/** Splits a line into cells. May return only the first `neededCellCount` cells. A separator in quotes does not count. */
+export function splitCells(line: string, separator: string, neededCellCount = Infinity): string[] {
   if (separator === ' ') return line.trim().split(/[ \t]+/);
   if (!line.includes('"')) {
     // A loop takes half as long as `split`.
     const plainCells: string[] = [];
-    for (let from = 0, to = 0; to >= 0 && plainCells.length < needed; from = to + 1) {
-      to = line.indexOf(separator, from);
-      plainCells.push(to < 0 ? line.slice(from) : line.slice(from, to));
+    for (let cellStart = 0, cellEnd = 0; cellEnd >= 0 && plainCells.length < neededCellCount; cellStart = cellEnd + 1) {
+      cellEnd = line.indexOf(separator, cellStart);
+      plainCells.push(cellEnd < 0 ? line.slice(cellStart) : line.slice(cellStart, cellEnd));
     }
     return plainCells;
   }
   const cells = [''];
   let isQuoted = false;
-  for (const char of line) {
-    if (char === '"') isQuoted = !isQuoted;
-    else if (char === separator && !isQuoted) cells.push('');
-    else cells[cells.length - 1] += char;
+  for (const character of line) {
+    if (character === '"') isQuoted = !isQuoted;
+    else if (character === separator && !isQuoted) cells.push('');
+    else cells[cells.length - 1] += character;
   }
   return cells;
 }
@@ -109,21 +109,21 @@ export function detectTableFormat(lines: string[], file: string, columns: string
   const cellsOfLine = (line: string) => splitCells(line, separator);
   const firstRowLine = textLines.find(({ line }, i) => isDataRow(cellsOfLine(line)) && (i + 1 === textLines.length || isDataRow(cellsOfLine(textLines[i + 1].line)))) ?? textLines.findLast(({ line }) => isDataRow(cellsOfLine(line)));
   const rows = firstRowLine ? textLines.filter(({ number }) => number >= firstRowLine.number).slice(0, SAMPLED_LINES).map(({ line }) => cellsOfLine(line)) : [];
-  // Between commas, a comma in quotes may also separate thousands.
+  // If commas separate the cells, a comma in a quoted cell may also separate thousands.
   const hasDecimalComma = (cell: string) => DECIMAL_COMMA.test(cell) && (separator !== ',' || !THOUSANDS_COMMA.test(cell));
   const hasDecimalCommas = rows.flat().some(hasDecimalComma);
   const rowWidth = Math.max(0, ...rows.map((row) => row.length - (row.at(-1)?.trim() === '' ? 1 : 0)));
-  const commonFormat = { separator, hasDecimalCommas, firstLine: firstRowLine?.number ?? (filledLines.at(-1)?.number ?? 0) + 1, isSparse: false };
+  const commonFormat = { separator, hasDecimalCommas, firstRowNumber: firstRowLine?.number ?? (filledLines.at(-1)?.number ?? 0) + 1, isSparse: false };
   const errorPlace = { file, line: firstRowLine?.number ?? filledLines[0].number };
   const noLogError = () => new LogError({ file }, (texts) => texts.noLog);
 
   if (columns) {
     if (firstRowLine && columns.length !== rowWidth) throw new LogError(errorPlace, (texts) => texts.given(rowWidth, columns.length));
-    return { ...commonFormat, names: columns, groups: findColumnGroups(columns, rows[0]) };
+    return { ...commonFormat, columnNames: columns, columnGroups: findColumnGroups(columns, rows[0]) };
   }
   // At least half of the lines must be rows: prose can also contain single rows of numbers.
   if (2 * rows.filter(isDataRow).length < rows.length) throw noLogError();
-  const preambleLines = filledLines.filter(({ number }) => number < commonFormat.firstLine);
+  const preambleLines = filledLines.filter(({ number }) => number < commonFormat.firstRowNumber);
   const motiveLayout = preambleLines.length > 0 && /^"?Format Version/.test(preambleLines[0].line) ? detectMotiveFormat(preambleLines.map(({ line }) => cellsOfLine(line)), errorPlace) : undefined;
   if (motiveLayout) return { ...commonFormat, ...motiveLayout };
 
@@ -131,20 +131,20 @@ export function detectTableFormat(lines: string[], file: string, columns: string
   if (header) {
     const { number } = header;
     const names = addUnits(header.names, preambleLines.flatMap((preambleLine) => (preambleLine.number > number ? [cellsOfLine(preambleLine.line)] : [])));
-    // Rows with decimal commas between commas have more cells than the header.
+    // If commas separate the cells and are also decimal commas, rows have more cells than the header.
     if (rowWidth > names.length) throw new LogError({ file, line: firstRowLine?.number }, (texts) => texts.wide(rowWidth, names.length, number));
     const groups = findColumnGroups(names, rows[0]);
     if (!firstRowLine && groups.every(({ kind }) => kind === null)) throw noLogError();
-    return { ...commonFormat, names, header: lines[number - 1], groups, isSparse: groups.length > 1 || names.some((name) => name.trim() === '__time') };
+    return { ...commonFormat, columnNames: names, headerLine: lines[number - 1], columnGroups: groups, isSparse: groups.length > 1 || names.some((name) => name.trim() === '__time') };
   }
   if (!firstRowLine) throw noLogError();
   const names = columnsByContent(rows);
-  if (names) return { ...commonFormat, names, groups: findColumnGroups(names, rows[0]) };
+  if (names) return { ...commonFormat, columnNames: names, columnGroups: findColumnGroups(names, rows[0]) };
   // Poses of KITTI have 12 numbers. In geometry_msgs/Twist, four of six numbers are 0.
   const isTwist = rowWidth === 6 && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0));
   if (rowWidth === 12 || isTwist) throw new LogError(errorPlace, (texts) => texts.timeless(rowWidth));
   const defaultNames = ({ 3: 't,v,omega', 4: 't,x,y,yaw' } as Record<number, string>)[rowWidth] ?? `t,x,y,yaw${',-'.repeat(Math.max(0, rowWidth - 4))}`;
-  throw new LogError(errorPlace, (texts) => texts.noHeader(rowWidth, truncate(firstRowLine.line.trim().replaceAll('\t', ' '))), { what: 'columns', choices: [defaultNames], columns: rows[0].slice(0, rowWidth) });
+  throw new LogError(errorPlace, (texts) => texts.noHeader(rowWidth, truncate(firstRowLine.line.trim().replaceAll('\t', ' '))), { option: 'columns', choices: [defaultNames], columns: rows[0].slice(0, rowWidth) });
 }
 
 const stripUnitBrackets = (cell: string) => cell.replaceAll(/[\s"[\](){}]/g, '');
@@ -154,7 +154,7 @@ function addUnits(names: string[], rowsBelowHeader: string[][]): string[] {
   return names.map((name, i) => (unitTexts && isUnit(unitTexts[i]) ? `${name} [${unitTexts[i]}]` : name));
 }
 
-/** Groups columns. A column without a name has times if its first cell is a date or a fraction. A whole number there is a row number. */
+/** Groups columns. A column without a name has times if its first cell is a date or a fraction. It has row numbers if that is a whole number. */
 function findColumnGroups(names: string[], row: string[] | undefined): ColumnGroup[] {
   return groupColumnsByPrefix(names, (columnIndex) => {
     const cell = row?.[columnIndex]?.trim() ?? '';
@@ -186,7 +186,7 @@ function headerOf(preambleLines: { line: string; number: number }[], separator: 
 /** Returns the names of the columns of a table without a header, by their number and content. */
 function columnsByContent(rows: string[][]): string[] | undefined {
   const [row] = rows;
-  const isQuaternion = (from: number) => Math.abs(Math.hypot(...row.slice(from, from + 4).map((cell) => Number(cell.replace(',', '.')))) - 1) < 0.1;
+  const isQuaternion = (firstIndex: number) => Math.abs(Math.hypot(...row.slice(firstIndex, firstIndex + 4).map((cell) => Number(cell.replace(',', '.')))) - 1) < 0.1;
   if (row.length === TUM_COLUMNS.length && row.every(isNumber)) return TUM_COLUMNS;
   return ROS2_LAYOUTS.find((names) => {
     const orientationIndex = names.indexOf('pose.orientation.x');
@@ -195,7 +195,7 @@ function columnsByContent(rows: string[][]): string[] | undefined {
 }
 
 /** Returns the format of a Motive export, with a group for each rigid body. Throws a LogError for Euler angles. */
-function detectMotiveFormat(preambleRows: string[][], place: ErrorPlace): Pick<TableFormat, 'names' | 'groups' | 'hasUnknownAxis'> | undefined {
+function detectMotiveFormat(preambleRows: string[][], place: ErrorPlace): Pick<TableFormat, 'columnNames' | 'columnGroups' | 'hasUnknownAxis'> | undefined {
   const findRowByName = (name: string) => preambleRows.find((row) => row.slice(0, 3).some((cell) => cell.trim() === name));
   const [axisRow, quantityRow] = preambleRows.toReversed();
   const bodyNames = findRowByName('Name');
@@ -214,7 +214,7 @@ function detectMotiveFormat(preambleRows: string[][], place: ErrorPlace): Pick<T
     if (quantityRow[i]?.trim() === 'Rotation') return `${bodyName}/q${axisName}`;
     return quantityRow[i]?.trim() === 'Position' ? `${bodyName}/${axisName} [${unit}]` : '-';
   });
-  return { names, groups: groupColumnsByPrefix(names), hasUnknownAxis: true };
+  return { columnNames: names, columnGroups: groupColumnsByPrefix(names), hasUnknownAxis: true };
 }
 
 /** Parses a number. Returns NaN for an empty cell or a word such as "nan", and undefined for any other text. */
@@ -225,13 +225,13 @@ export function parseNumber(cell: string): number | undefined {
   return NOT_FINITE_WORDS.test(cell.trim()) ? NaN : undefined;
 }
 
-/** Parses a time in units of 10^−power s. Returns seconds, or NaN or undefined as `parseNumber`. */
-export function parseTime(cell: string, power: number): number | undefined {
+/** Parses a time in units of 10^−unitExponent s. Returns seconds, or NaN or undefined as `parseNumber`. */
+export function parseTime(cell: string, unitExponent: number): number | undefined {
   const parsedValue = parseNumber(cell);
-  if (power === 0 || parsedValue === undefined || !Number.isFinite(parsedValue)) return parsedValue;
-  // Nanoseconds since 1970 are no double. With the exponent in the text, they are rounded only once.
+  if (unitExponent === 0 || parsedValue === undefined || !Number.isFinite(parsedValue)) return parsedValue;
+  // A double cannot hold nanoseconds since 1970 exactly. With the exponent in the text, they are rounded only once.
   const [digits, exponent = '0'] = cell.trim().toLowerCase().split('e');
-  return Number(`${digits}e${Number(exponent) - power}`);
+  return Number(`${digits}e${Number(exponent) - unitExponent}`);
 }
 
 /** Parses an ISO 8601 date or a duration, in seconds; undefined for any other text. A date without a time zone is in UTC. */

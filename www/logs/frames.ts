@@ -14,7 +14,7 @@ const MIN_TRAVEL = 0.05;
 const BASE_FRAME = /base|body|chassis|robot/i;
 
 /** Transform with the time of recording (s) and the number of its message. */
-interface RecordedTransform extends StampedTransform { recordTime: number; number: number }
+interface RecordedTransform extends StampedTransform { recordTime: number; messageNumber: number }
 
 const byRecordTime = bisector(({ recordTime }: RecordedTransform) => recordTime);
 
@@ -22,7 +22,7 @@ const byRecordTime = bisector(({ recordTime }: RecordedTransform) => recordTime)
 interface FrameLink extends FramePair {
   isStatic: boolean;
   /** First recorded transform of the link. */
-  origin: Transform;
+  firstTransform: Transform;
   hasChanged: boolean;
   /** Largest distance (m) of the child from its first position in the parent. */
   maxDistance: number;
@@ -35,12 +35,12 @@ export class FrameTree {
   #links = new Map<string, FrameLink>();
 
   /** Adds a transform to the link between its frames, and returns that link. */
-  add({ parent, child, transform }: StampedTransform, isStatic: boolean): FrameLink {
+  addTransform({ parent, child, transform }: StampedTransform, isStatic: boolean): FrameLink {
     const name = formatFrames({ parent, child });
-    const link = this.#links.get(name) ?? { parent, child, isStatic, origin: transform, hasChanged: false, maxDistance: 0, samples: [] };
+    const link = this.#links.get(name) ?? { parent, child, isStatic, firstTransform: transform, hasChanged: false, maxDistance: 0, samples: [] };
     this.#links.set(name, link);
-    link.maxDistance = Math.max(link.maxDistance, Math.hypot(transform[0] - link.origin[0], transform[1] - link.origin[1]));
-    link.hasChanged ||= transform.some((transformValue, i) => transformValue !== link.origin[i]);
+    link.maxDistance = Math.max(link.maxDistance, Math.hypot(transform[0] - link.firstTransform[0], transform[1] - link.firstTransform[1]));
+    link.hasChanged ||= transform.some((transformValue, i) => transformValue !== link.firstTransform[i]);
     return link;
   }
 
@@ -76,8 +76,8 @@ export class FrameTree {
       const ancestors = this.#ancestorsOf(child);
       const isMoving = movingFrames.has(child);
       const hasMovingDescendant = isMoving && children.some((sibling) => sibling !== child && movingFrames.has(sibling) && this.#ancestorsOf(sibling).includes(child));
-      // If only base_footprint moves in odom → base_footprint → base_link, base_link has its pose in odom. Frames between the child and the moving
-      // frame, and that frame itself, are skipped as parents.
+      // In the chain odom → base_footprint → base_link, if only base_footprint moves, the pose of base_link is that in odom. The moving frame, and frames
+      // between it and the child, are skipped as parents.
       const skipCount = isMoving || !BASE_FRAME.test(child) ? 0 : ancestors.findIndex((frame) => movingFrames.has(frame)) + 1;
       return hasMovingDescendant || (!isMoving && skipCount === 0) ? [] : ancestors.slice(skipCount).map((parent) => ({ parent, child }));
     });
@@ -92,7 +92,7 @@ export class FrameTree {
 }
 
 /** Graph that also composes the poses of one frame relative to another one, by the transforms on the chain between them. */
-export class Chain extends FrameTree {
+export class TransformChain extends FrameTree {
   readonly #endFrames: FramePair;
   /** Links of the chain, from the first to the last; empty until they are connected. */
   #chainLinks: FrameLink[] = [];
@@ -103,8 +103,8 @@ export class Chain extends FrameTree {
   }
 
   addSample(stampedTransform: StampedTransform, isStatic: boolean, { time: recordTime }: Message, messageNumber: number): void {
-    const link = this.add(stampedTransform, isStatic);
-    if (!this.isConnected || this.#chainLinks.includes(link)) link.samples.push({ ...stampedTransform, recordTime, number: messageNumber });
+    const link = this.addTransform(stampedTransform, isStatic);
+    if (!this.isConnected || this.#chainLinks.includes(link)) link.samples.push({ ...stampedTransform, recordTime, messageNumber });
     if (!this.isConnected) this.#chainLinks = this.findChain(this.#endFrames) ?? [];
   }
 

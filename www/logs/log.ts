@@ -69,14 +69,14 @@ export interface OpenOptions {
 
 /** Question of a LogError to the user: the option that answers it, and the possible answers. */
 export interface Question {
-  what: keyof typeof UNITS | 'series' | 'columns' | 'frames' | 'roles' | 'other';
-  /** Role of the log that has to be chosen. For `other`, the role of the log that was found. */
+  option: keyof typeof UNITS | 'series' | 'columns' | 'frames' | 'roles' | 'other';
+  /** Role of the log that has to be chosen. If the other log is missing (`other`), the role of the log that was found. */
   role?: Role;
   choices: string[];
   /** Unit that was assumed, and may be wrong. */
-  doubted?: string;
+  assumedUnit?: string;
   /** Units of odometry and reference with which the two logs agree, in the form of an option. */
-  pair?: string;
+  unitPair?: string;
   /** Columns of the table: their names, or the cells of its first row. */
   columns?: string[];
 }
@@ -141,7 +141,7 @@ export interface Summary {
 }
 
 /** Name of the clock of messages without stamps: the time of recording. */
-export const LOG_TIME = 'log time';
+export const RECORDING_CLOCK = 'log time';
 
 type Label = keyof Words['found']['labels'];
 
@@ -152,7 +152,7 @@ export function summaryLinesOf({ summary }: Log, texts: Words['found']): Partial
     rows: [texts.rows(used, rows, seconds, rate, distance)],
     ...(columns && { columns: [Object.values(columns).join(', ')], units: [texts.units(units)] }),
     ...(frames && { frames: [formatFrames(frames)] }),
-    ...(clock === LOG_TIME && { clock: [texts.recorded] }),
+    ...(clock === RECORDING_CLOCK && { clock: [texts.recorded] }),
     dropped: (Object.entries(dropped) as [DropCause, { count: number; first: number }][]).map(([cause, { count, first }]) => texts.dropped(cause, count, columns ? first : 0)),
     gaps: [gaps.count ? texts.gaps(gaps.count, gaps.first, gaps.longest) : texts.noGaps],
     ...(jumps.count && { jumps: [texts.jumps(jumps.count, jumps.first)] }),
@@ -188,7 +188,7 @@ const [MAX_QUOTED_LENGTH, MAX_REASON_LENGTH] = [40, 100];
 export class LogError extends Error {
   place: ErrorPlace;
   /** Question whose answer resolves the error. */
-  ask?: Question;
+  question?: Question;
   /** Returns the message in the language of the given words. */
   messageIn: (texts: Words) => string;
 
@@ -197,7 +197,7 @@ export class LogError extends Error {
     super(composeMessage(english));
     this.name = 'LogError';
     this.place = place;
-    this.ask = ask;
+    this.question = ask;
     this.messageIn = composeMessage;
   }
 }
@@ -222,9 +222,9 @@ export function listNames(names: string[]): string {
 }
 
 /** Reads bytes of a source; rejects with a LogError if the file has been moved or changed since it was chosen. */
-export async function readBytes(source: Source, from: number, to: number): Promise<Uint8Array<ArrayBuffer>> {
+export async function readBytes(source: Source, start: number, end: number): Promise<Uint8Array<ArrayBuffer>> {
   try {
-    return new Uint8Array(await source.slice(from, to).arrayBuffer());
+    return new Uint8Array(await source.slice(start, end).arrayBuffer());
   } catch (error) {
     const reason = error instanceof Error ? error.name : String(error);
     throw new LogError({ file: source.name }, (texts) => texts.gone(reason));

@@ -13,76 +13,76 @@ export interface StampedTransform { time: number; parent: string; child: string;
 /** Number of bytes of the CDR header. Its second byte is 0 for big-endian and 1 for little-endian. Values are aligned relative to its end. */
 const CDR_HEADER_BYTES = 4;
 
-type MessageBytes = Pick<Message, 'block' | 'from' | 'to'>;
+type MessageBytes = Pick<Message, 'block' | 'start' | 'end'>;
 
 /** Reader of the values of a message: packed in ROS 1, aligned to their size in ROS 2. */
 class MessageReader {
   #view;
-  #at;
+  #position;
   #end;
   /** Position from which values are aligned. */
   #start;
   #isLittle = true;
   #alignment = 1;
 
-  constructor({ encoding }: Channel, { block, from, to }: MessageBytes) {
+  constructor({ encoding }: Channel, { block, start, end }: MessageBytes) {
     this.#view = block;
-    this.#at = this.#start = from;
-    this.#end = to;
+    this.#position = this.#start = start;
+    this.#end = end;
     if (encoding === 'ros1') return;
     this.#start += CDR_HEADER_BYTES;
-    const encodingKind = this.#view.getUint8(this.#next(CDR_HEADER_BYTES) + 1);
+    const encodingKind = this.#view.getUint8(this.#advance(CDR_HEADER_BYTES) + 1);
     if (encodingKind > 1) throw new RangeError(`CDR of kind ${encodingKind}`);
     this.#isLittle = encodingKind === 1;
     this.#alignment = 8;
   }
 
   /** Reads the stamp of a header, s. In ROS 1 a sequence number comes first. */
-  stamp(): number {
+  readStamp(): number {
     if (this.#alignment === 1) this.skip(4);
-    return this.#view.getInt32(this.#next(4), this.#isLittle) + this.uint32() / 1e9;
+    return this.#view.getInt32(this.#advance(4), this.#isLittle) + this.readUint32() / 1e9;
   }
 
   /** Skips bytes; throws a RangeError at the end of the message. */
   skip(bytes: number): void {
-    this.#at += bytes;
-    if (this.#at > this.#end) throw new RangeError('the message is too short');
+    this.#position += bytes;
+    if (this.#position > this.#end) throw new RangeError('the message is too short');
   }
 
-  uint32(): number {
-    return this.#view.getUint32(this.#next(4), this.#isLittle);
+  readUint32(): number {
+    return this.#view.getUint32(this.#advance(4), this.#isLittle);
   }
 
-  float64(): number {
-    return this.#view.getFloat64(this.#next(8), this.#isLittle);
+  readFloat64(): number {
+    return this.#view.getFloat64(this.#advance(8), this.#isLittle);
   }
 
-  string(): string {
-    const length = this.uint32();
+  readString(): string {
+    const length = this.readUint32();
     this.skip(length);
-    return new TextDecoder().decode(bytesOf(this.#view, this.#at - length, this.#at)).replace(/\0$/, '');
+    return new TextDecoder().decode(bytesOf(this.#view, this.#position - length, this.#position)).replace(/\0$/, '');
   }
 
   /** Returns the position of the next value after alignment, and moves past the value. */
-  #next(size: number): number {
+  #advance(size: number): number {
     const valueAlignment = Math.min(size, this.#alignment);
-    const at = this.#at + ((this.#start - this.#at) & (valueAlignment - 1));
-    this.skip(at + size - this.#at);
-    return at;
+    const valuePosition = this.#position + ((this.#start - this.#position) & (valueAlignment - 1));
+    this.skip(valuePosition + size - this.#position);
+    return valuePosition;
   }
 }
 
-const bytesOf = (block: DataView, from: number, to: number) => new Uint8Array(block.buffer, block.byteOffset + from, to - from);
+const bytesOf = (block: DataView, start: number, end: number) => new Uint8Array(block.buffer, block.byteOffset + start, end - start);
 
 /** Returns the stamp of a header, and skips its frame. Decoding a string would take as long as reading the rest of the message. */
 function readHeader(reader: MessageReader): number {
-  const stamp = reader.stamp();
-  reader.skip(reader.uint32());
+  const stamp = reader.readStamp();
+  reader.skip(reader.readUint32());
   return stamp;
 }
 
 function readTransform(reader: MessageReader): Transform {
-  return [reader.float64(), reader.float64(), reader.float64(), reader.float64(), reader.float64(), reader.float64(), reader.float64()];
+  return [reader.readFloat64(), reader.readFloat64(), reader.readFloat64(), reader.readFloat64(), reader.readFloat64(), reader.readFloat64(), reader.readFloat64()];
 }
 
 export function rowOfPose(time: number, [x, y, , qx, qy, qz, qw]: Transform): Sample {
@@ -90,16 +90,16 @@ export function rowOfPose(time: number, [x, y, , qx, qy, qz, qw]: Transform): Sa
 }
 
 function readTwist(time: number, reader: MessageReader): Sample {
-  const v = reader.float64();
+  const v = reader.readFloat64();
   // Skips speeds in other directions and turn rates about other axes.
   reader.skip(4 * 8);
-  return { time, a: v, b: reader.float64(), c: 0 };
+  return { time, a: v, b: reader.readFloat64(), c: 0 };
 }
 
 /** Reads the stamp and the pose of a child frame relative to its parent. */
 function readFrameTransform(reader: MessageReader): Sample {
   const stamp = readHeader(reader);
-  reader.skip(reader.uint32());
+  reader.skip(reader.readUint32());
   return rowOfPose(stamp, readTransform(reader));
 }
 
@@ -112,7 +112,7 @@ const MESSAGE_TYPES = new Map<string, [kind: Series['kind'], readSample?: (reade
   ['geometry_msgs/PoseStamped', ['poses', readStampedPose]],
   ['geometry_msgs/PoseWithCovarianceStamped', ['poses', readStampedPose]],
   ['geometry_msgs/Pose', ['poses', (reader) => rowOfPose(0, readTransform(reader))]],
-  ['geometry_msgs/Pose2D', ['poses', (reader) => ({ time: 0, a: reader.float64(), b: reader.float64(), c: reader.float64() })]],
+  ['geometry_msgs/Pose2D', ['poses', (reader) => ({ time: 0, a: reader.readFloat64(), b: reader.readFloat64(), c: reader.readFloat64() })]],
   ['geometry_msgs/Twist', ['commands', (reader) => readTwist(0, reader)]],
   ['geometry_msgs/TwistStamped', ['commands', (reader) => readTwist(readHeader(reader), reader)]],
   ['geometry_msgs/TwistWithCovarianceStamped', ['commands', (reader) => readTwist(readHeader(reader), reader)]],
@@ -134,14 +134,14 @@ export const isReadable = ({ encoding }: Channel) => encoding === 'cdr' || encod
 const ZSTD_MAGIC = 0x28b52ffd;
 
 function readerOf(channel: Channel, message: MessageBytes): MessageReader {
-  const { block, from, to } = message;
-  if (channel.encoding === 'ros1' || block.getUint32(from) !== ZSTD_MAGIC) return new MessageReader(channel, message);
-  const bytes = decompressZstdMessage(bytesOf(block, from, to));
-  return new MessageReader(channel, { block: dataViewOf(bytes), from: 0, to: bytes.length });
+  const { block, start, end } = message;
+  if (channel.encoding === 'ros1' || block.getUint32(start) !== ZSTD_MAGIC) return new MessageReader(channel, message);
+  const bytes = decompressZstdMessage(bytesOf(block, start, end));
+  return new MessageReader(channel, { block: dataViewOf(bytes), start: 0, end: bytes.length });
 }
 
-/** Returns a reader of poses or commands of a type, which throws an error for bytes of another type; undefined for other types. */
-export function poseReader(type: string): ((message: Message) => Sample) | undefined {
+/** Returns a reader of messages of a type with poses or commands. It throws an error for bytes of another type. Undefined for all other types. */
+export function sampleReaderOf(type: string): ((message: Message) => Sample) | undefined {
   const [, readSample] = messageTypeOf(type);
   return readSample && ((message) => readSample(readerOf(message.channel, message)));
 }
@@ -153,9 +153,9 @@ export const withoutSlash = (name: string) => name.replace(/^\/+/, '');
 export function readTransforms(message: Message): StampedTransform[] {
   const reader = readerOf(message.channel, message);
   const transforms: StampedTransform[] = [];
-  for (let remainingCount = reader.uint32(); remainingCount > 0; remainingCount--) {
-    const time = reader.stamp();
-    const [parent, child] = [withoutSlash(reader.string()), withoutSlash(reader.string())];
+  for (let remainingCount = reader.readUint32(); remainingCount > 0; remainingCount--) {
+    const time = reader.readStamp();
+    const [parent, child] = [withoutSlash(reader.readString()), withoutSlash(reader.readString())];
     transforms.push({ time, parent, child, transform: readTransform(reader) });
   }
   return transforms;

@@ -59,7 +59,7 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
       const partFormats = parts.map((part) => (part === source ? format : formatByFile.get(part)));
       for (const part of parts) formatByFile.delete(part);
       const container = joinContainers(await Promise.all(parts.map((part, i) => openContainer(part, partFormats[i]))));
-      recordings.push(await (await import('./topics.ts')).recordingOf(name, container, optionsOf(name)));
+      recordings.push(await (await import('./topics.ts')).createRecording(name, container, optionsOf(name)));
     });
   }
   return recordings;
@@ -86,16 +86,16 @@ function joinContainers(parts: Container[]): Container {
   return {
     format: parts[0].format,
     channels: parts.flatMap(({ channels }) => channels),
-    get cutReason() {
-      return parts.find(({ cutReason }) => cutReason)?.cutReason;
+    get truncationReason() {
+      return parts.find(({ truncationReason }) => truncationReason)?.truncationReason;
     },
-    get damage() {
-      return new Map(parts.flatMap(({ damage }, i) => [...damage].map(([position, reason]): [number, string] => [2 ** 48 * i + position, reason])));
+    get damageByPosition() {
+      return new Map(parts.flatMap(({ damageByPosition: damage }, i) => [...damage].map(([position, reason]): [number, string] => [2 ** 48 * i + position, reason])));
     },
-    async read(isWanted, onMessage, onProgress) {
+    async readMessages(isWanted, onMessage, onProgress) {
       for (const [i, part] of parts.entries()) {
         let isStopped = false;
-        await part.read(isWanted, onMessage, (share) => (isStopped = onProgress?.((i + share) / parts.length) === true));
+        await part.readMessages(isWanted, onMessage, (fraction) => (isStopped = onProgress?.((i + fraction) / parts.length) === true));
         if (isStopped) return;
       }
     },

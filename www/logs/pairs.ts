@@ -13,7 +13,7 @@ export interface Drive { odometry: Log; reference: Log }
 /** Minimum overlap in time of two logs of one drive, as a fraction of the shorter log's duration. */
 const MIN_OVERLAP = 0.5;
 
-/** Margin (s) at both ends of a run of equal poses that is ignored, because the clocks may differ by this much. */
+/** Duration (s) at both ends of a run of equal poses that is left out of the comparison, because the clocks may differ by this much. */
 const END_MARGIN_SECONDS = 1;
 
 /** Minimum motion of the odometry during a frozen pose, metres and radians added up. Encoders at rest may count a pulse or two. */
@@ -31,7 +31,7 @@ const [MAX_STEPS, MIN_STEP_SECONDS, MIN_STEPS] = [4000, 0.25, 40];
 /** Maximum offset of the clocks (s) that is tried, as in the first scan of the core. */
 const MAX_CLOCK_OFFSET = 10;
 
-/** Maximum correlation of the turns of two logs of which one is mirrored, and maximum ratio of its distance from −1 to the distance of other clock offsets from 1. */
+/** Limits for two logs, one of them mirrored: maximum of the lowest correlation of their turns, and of the ratio of its distance from −1 to the distance of the highest correlation from 1. */
 const [MAX_MIRRORED_CORRELATION, MAX_MIRRORED_DISTANCE_RATIO] = [-0.8, 0.3];
 
 const timeSpanOf = ({ start, data: { t } }: Log): [number, number] => [start + t[0], start + t[t.length - 1]];
@@ -84,14 +84,14 @@ function breakFrozenPoses(reference: Log, odometry: Log): Log {
   const odometryPath = pathOf(odometry.data);
   const frozenRows: number[] = [];
   const rowsAfterFrozen: number[] = [];
-  for (let from = 0, to; from < t.length; from = to) {
-    for (to = from + 1; to < t.length && x[to] === x[from] && y[to] === y[from] && theta[to] === theta[from]; ) to += 1;
-    const [start, end] = [t[from] + END_MARGIN_SECONDS, t[to - 1] - END_MARGIN_SECONDS];
+  for (let runStart = 0, runEnd; runStart < t.length; runStart = runEnd) {
+    for (runEnd = runStart + 1; runEnd < t.length && x[runEnd] === x[runStart] && y[runEnd] === y[runStart] && theta[runEnd] === theta[runStart]; ) runEnd += 1;
+    const [start, end] = [t[runStart] + END_MARGIN_SECONDS, t[runEnd - 1] - END_MARGIN_SECONDS];
     if (!(end > start)) continue;
     const [[startX, startY, startHeading], [endX, endY, endHeading]] = [poseAt(odometryPath, start), poseAt(odometryPath, end)];
     if (Math.hypot(endX - startX, endY - startY) + Math.abs(wrapAngle(endHeading - startHeading)) <= MIN_ODOMETRY_MOTION) continue;
-    for (let row = from + 1; row < to; row++) frozenRows.push(row);
-    if (to < t.length) rowsAfterFrozen.push(to);
+    for (let row = runStart + 1; row < runEnd; row++) frozenRows.push(row);
+    if (runEnd < t.length) rowsAfterFrozen.push(runEnd);
   }
   if (frozenRows.length === 0) return reference;
   const { summary } = reference;
@@ -141,18 +141,18 @@ function checkLengthUnits(logs: Record<Role, Log>): void {
     });
     if (!likelyUnit || by !== 'usage') continue;
     const pair = ROLES.map((logRole) => (logRole === role ? likelyUnit : logs[logRole].summary.units.length.unit)).join();
-    throw new LogError({ file: logs[role].name }, (texts) => texts.otherUnit(speedRatio, logs[otherRole].name, likelyUnit), { what: 'lengthUnit', choices: [], pair });
+    throw new LogError({ file: logs[role].name }, (texts) => texts.otherUnit(speedRatio, logs[otherRole].name, likelyUnit), { option: 'lengthUnit', choices: [], unitPair: pair });
   }
 }
 
 /** Throws a LogError if the turns of two logs of a drive are opposite at some clock offset, and agree less at all others. */
 function checkHandedness(logs: Record<Role, Log>): void {
   const timesByRole = ROLES.map((role) => logs[role].data.t);
-  const [from, to] = [Math.max(...timesByRole.map((t) => t[0])), Math.min(...timesByRole.map((t) => t[t.length - 1]))];
-  const step = Math.max(MIN_STEP_SECONDS, (to - from) / MAX_STEPS, ...ROLES.map((role) => 2 / logs[role].summary.rate));
-  const stepCount = Math.floor((to - from) / step);
+  const [startTime, endTime] = [Math.max(...timesByRole.map((t) => t[0])), Math.min(...timesByRole.map((t) => t[t.length - 1]))];
+  const step = Math.max(MIN_STEP_SECONDS, (endTime - startTime) / MAX_STEPS, ...ROLES.map((role) => 2 / logs[role].summary.rate));
+  const stepCount = Math.floor((endTime - startTime) / step);
   if (!(stepCount >= MIN_STEPS)) return;
-  const [odometryTurns, referenceTurns] = ROLES.map((role) => turnsOf(logs[role], from, step, stepCount));
+  const [odometryTurns, referenceTurns] = ROLES.map((role) => turnsOf(logs[role], startTime, step, stepCount));
   const maxLag = Math.min(Math.round(MAX_CLOCK_OFFSET / step), Math.floor(stepCount / 2));
   const correlations = range(-maxLag, maxLag + 1).map((lag) => correlationOf(odometryTurns.slice(Math.max(0, -lag)), referenceTurns.slice(Math.max(0, lag))));
   const [lowest, highest] = [Math.min(...correlations), Math.max(...correlations)];
@@ -160,15 +160,15 @@ function checkHandedness(logs: Record<Role, Log>): void {
   if (isMirrored) throw new LogError({ file: logs.reference.name }, (texts) => texts.leftHanded(logs.odometry.name));
 }
 
-/** Returns the turns (rad) of a log in equal steps, from a start time on. Steps with a jump or another break have no turn. */
-function turnsOf({ data }: Log, from: number, step: number, count: number): number[] {
+/** Returns the turns (rad) of a log in steps of equal duration after a start time. The turn of a step with a jump or another break is 0. */
+function turnsOf({ data }: Log, startTime: number, step: number, count: number): number[] {
   const path = pathOf(data, Math.max(1, Math.floor(data.t.length / (4 * MAX_STEPS))));
-  const headings = range(count + 1).map((i) => poseAt(path, from + i * step)[2]);
-  const brokenSteps = new Set(Array.from(data.breaks, (row) => [row - 1, row].map((end) => Math.floor((data.t[end] - from) / step))).flat());
+  const headings = range(count + 1).map((i) => poseAt(path, startTime + i * step)[2]);
+  const brokenSteps = new Set(Array.from(data.breaks, (row) => [row - 1, row].map((end) => Math.floor((data.t[end] - startTime) / step))).flat());
   return range(count).map((i) => (brokenSteps.has(i) ? 0 : wrapAngle(headings[i + 1] - headings[i])));
 }
 
-/** Returns the correlation of two series about 0, of equal length or cut to it; 0 if one has only zeros. */
+/** Returns the correlation of two series about 0, over the length of the shorter one; 0 if one has only zeros. */
 function correlationOf(series: number[], otherSeries: number[]): number {
   const length = Math.min(series.length, otherSeries.length);
   const sumOfProducts = (a: number[], b: number[]) => sum(range(length), (i) => a[i] * b[i]);

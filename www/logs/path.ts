@@ -11,11 +11,11 @@ export interface Path { t: number[]; poses: Pose[]; breaks: Set<number> }
 /** Returns an angle between −π and π. */
 export const wrapAngle = (angle: number) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 
-/** Returns the path of poses, or of commands from the origin, with a pose for each `every` rows and one for the last row. */
+/** Returns the path of poses, or of commands from the origin, with a pose for each `rowsPerPose` rows and one for the last row. */
 export function pathOf(data: Poses | Commands, rowsPerPose = 1): Path {
   const { t, breaks } = data;
   const path: Path = { t: [], poses: [], breaks: new Set() };
-  let [x, y, theta, next] = [0, 0, 0, 0];
+  let [x, y, theta, nextBreak] = [0, 0, 0, 0];
   for (let i = 0; i < t.length; i++) {
     if ('v' in data && i > 0) {
       const dt = t[i] - t[i - 1];
@@ -26,7 +26,7 @@ export function pathOf(data: Poses | Commands, rowsPerPose = 1): Path {
     }
     if (i % rowsPerPose !== 0 && i < t.length - 1) continue;
     if ('x' in data) [x, y, theta] = [data.x[i], data.y[i], data.theta[i]];
-    for (; next < breaks.length && breaks[next] <= i; next++) path.breaks.add(path.poses.length);
+    for (; nextBreak < breaks.length && breaks[nextBreak] <= i; nextBreak++) path.breaks.add(path.poses.length);
     path.t.push(t[i]);
     path.poses.push([x, y, theta]);
   }
@@ -44,23 +44,23 @@ export function poseAt({ t, poses }: Path, time: number): Pose {
 export const svgPathDataOf = ({ poses, breaks }: Path, toPixel: (pose: Pose) => number[]) =>
   poses.map((pose, i) => `${i === 0 || breaks.has(i) ? 'M' : 'L'}${toPixel(pose).map((value) => value.toFixed(1)).join(' ')}`).join('');
 
-/** Rotates and moves a path so that its squared distance to the target is smallest. Returns the path itself without a common time. Times of the target are later by `offset`. */
+/** Rotates and moves a path so that its squared distance to the target is smallest. Paths without a common time are not aligned. Times of the target are later by `offset`. */
 export function alignPath(path: Path, target: Path, offset = 0): Path {
   const posePairs = path.poses.flatMap((pose, i): [Pose, Pose][] => {
     const time = path.t[i] + offset;
     return time >= target.t[0] && time <= target.t[target.t.length - 1] ? [[pose, poseAt(target, time)]] : [];
   });
   if (posePairs.length === 0) return path;
-  const [from, to] = [0, 1].map((side) => [0, 1].map((axis) => mean(posePairs, (pair) => pair[side][axis]) as number));
+  const [ownCentre, targetCentre] = [0, 1].map((side) => [0, 1].map((axis) => mean(posePairs, (pair) => pair[side][axis]) as number));
   let [cos, sin] = [0, 0];
   for (const [[x, y], [u, v]] of posePairs) {
-    cos += (x - from[0]) * (u - to[0]) + (y - from[1]) * (v - to[1]);
-    sin += (x - from[0]) * (v - to[1]) - (y - from[1]) * (u - to[0]);
+    cos += (x - ownCentre[0]) * (u - targetCentre[0]) + (y - ownCentre[1]) * (v - targetCentre[1]);
+    sin += (x - ownCentre[0]) * (v - targetCentre[1]) - (y - ownCentre[1]) * (u - targetCentre[0]);
   }
   const angle = Math.atan2(sin, cos);
   const transformPose = ([x, y, heading]: Pose): Pose => [
-    to[0] + Math.cos(angle) * (x - from[0]) - Math.sin(angle) * (y - from[1]),
-    to[1] + Math.sin(angle) * (x - from[0]) + Math.cos(angle) * (y - from[1]),
+    targetCentre[0] + Math.cos(angle) * (x - ownCentre[0]) - Math.sin(angle) * (y - ownCentre[1]),
+    targetCentre[1] + Math.sin(angle) * (x - ownCentre[0]) + Math.cos(angle) * (y - ownCentre[1]),
     heading + angle,
   ];
   return { ...path, poses: path.poses.map(transformPose) };
@@ -69,8 +69,8 @@ export function alignPath(path: Path, target: Path, offset = 0): Path {
 /** Minimum distance (m) between points whose distances are added up, so that the noise of poses at rest is left out. */
 const MIN_STEP_METRES = 0.05;
 
-/** Returns the distance driven (m), without the jumps before the rows `jumps`. */
-export function distanceOf(data: Poses | Commands, jumps: number[]): number {
+/** Returns the distance driven (m), without the jumps, which are before the rows `jumpRows`. */
+export function distanceOf(data: Poses | Commands, jumpRows: number[]): number {
   const { t } = data;
   let distance = 0;
   if ('v' in data) {
@@ -78,10 +78,10 @@ export function distanceOf(data: Poses | Commands, jumps: number[]): number {
     return distance;
   }
   const { x, y } = data;
-  for (let i = 1, lastRow = 0, next = 0; i < t.length; i++) {
+  for (let i = 1, lastRow = 0, nextJump = 0; i < t.length; i++) {
     const stepLength = Math.hypot(x[i] - x[lastRow], y[i] - y[lastRow]);
-    const isJump = jumps[next] === i;
-    if (isJump) next += 1;
+    const isJump = jumpRows[nextJump] === i;
+    if (isJump) nextJump += 1;
     else if (stepLength < MIN_STEP_METRES) continue;
     else distance += stepLength;
     lastRow = i;
@@ -91,8 +91,8 @@ export function distanceOf(data: Poses | Commands, jumps: number[]): number {
 
 export type Quaternion = [x: number, y: number, z: number, w: number];
 
-/** Largest deviation from length 1 that rounding explains. */
-const LENGTH_TOLERANCE = 0.1;
+/** Maximum deviation of a quaternion's length from 1. A larger one is not explained by rounding. */
+const QUATERNION_LENGTH_TOLERANCE = 0.1;
 
 /** Number of steps per radian to which headings are rounded. */
 const HEADING_STEPS_PER_RADIAN = 1e12;
@@ -100,7 +100,7 @@ const HEADING_STEPS_PER_RADIAN = 1e12;
 /** Returns the angle `c` about Z, and the cosine of the tilt of Z. The angle is undefined for a quaternion that is no rotation, and NaN for one with NaN. */
 export function rotationOf(qx: number, qy: number, qz: number, qw: number): { c: number | undefined; tiltCosine: number } {
   const tiltCosine = 1 - 2 * (qx * qx + qy * qy);
-  if (Math.abs(Math.sqrt(qx * qx + qy * qy + qz * qz + qw * qw) - 1) > LENGTH_TOLERANCE) return { c: undefined, tiltCosine };
+  if (Math.abs(Math.sqrt(qx * qx + qy * qy + qz * qz + qw * qw) - 1) > QUATERNION_LENGTH_TOLERANCE) return { c: undefined, tiltCosine };
   // The arc tangent differs between engines in its last bits. Rounding makes results equal everywhere.
   const heading = Math.round(Math.atan2(2 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz) * HEADING_STEPS_PER_RADIAN) / HEADING_STEPS_PER_RADIAN;
   return { c: heading, tiltCosine };
@@ -114,11 +114,11 @@ export const multiplyQuaternions = ([ax, ay, az, aw]: Quaternion, [bx, by, bz, b
 ];
 
 /** Maximum number of values from which a quantile is computed. */
-const MAX_ITEMS = 10_000;
+const MAX_SAMPLED_VALUES = 10_000;
 
-/** Evaluates `value` at evenly spaced indices below `count`, at most `MAX_ITEMS` of them. */
+/** Returns the values of `valueAt` at evenly spaced indices below `count`, at most `MAX_SAMPLED_VALUES` of them. */
 export function sampleEvenly(count: number, valueAt: (i: number) => number): Float64Array {
-  const stride = Math.max(1, Math.ceil(count / MAX_ITEMS));
+  const stride = Math.max(1, Math.ceil(count / MAX_SAMPLED_VALUES));
   const values = new Float64Array(Math.max(0, Math.ceil(count / stride)));
   for (let i = 0; i < values.length; i++) values[i] = valueAt(i * stride);
   return values;

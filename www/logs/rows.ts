@@ -26,7 +26,7 @@ interface LogFacts {
   frames?: Summary['frames'];
   columns?: Summary['columns'];
   notes: Note[];
-  names?: ColumnNames;
+  columnNames?: ColumnNames;
 }
 
 /** Maximum number of rows: a day at 100 Hz. */
@@ -41,22 +41,22 @@ const MIN_GAP_STEPS = 5;
 /** Minimum speed of a jump, as a multiple of the 90 % quantile of the speeds of a moving robot. */
 const JUMP_FACTOR = 8;
 
-/** Number of different poses from which a log shows how often it usually repeats a pose. */
+/** Minimum number of different poses of a log, in which the usual number of repetitions of a pose can be judged. */
 const MIN_POSES = 20;
 
-/** Minimum ratio of a pose's rows to the usual number for a robot that stands. A localizer also repeats poses of a robot that has moved little. */
+/** Minimum number of rows with one pose for a robot that stands, relative to the usual number. A localizer also repeats poses of a robot that has moved little. */
 const STANDSTILL_FACTOR = 8;
 
-/** Maximum time between overlapping rows, in median steps, and maximum number of them in a run of rising times and as a fraction of all rows. */
+/** Maximum time between two overlapping rows, in median steps, and maximum number of overlapping rows in a run of rising times, and as a fraction of all rows. */
 const [MAX_OVERLAP_STEPS, MAX_RUN_OVERLAPS, MAX_OVERLAP_FRACTION] = [0.75, 2, 0.02];
 
-/** Maximum ratio of the path's length in order of times to its length in order of the file, and minimum number of rows for this ratio. */
+/** Limits for rows that are only late: maximum ratio of the path's length in order of times to its length in order of the file, and minimum number of late rows. */
 const [MAX_LATE_PATH_RATIO, MIN_LATE_ROWS] = [0.75, 20];
 
-/** Minimum distance (m) of two paths whose poses alternate, above vibrations, and minimum number of steps between them, above that of jumps. */
+/** Minimum distance (m) of two paths whose poses alternate, above that of vibrations, and minimum number of long steps, above that of jumps. */
 const [MIN_PATH_DISTANCE, MIN_LONG_STEPS] = [0.05, 20];
 
-/** Maximum rows and seconds until a path continues among the poses of another path, and maximum ratio of long steps over those rows to long steps between neighbours. */
+/** Limits for two alternating paths: maximum number of rows, and of seconds, until the next pose of the same path, and maximum ratio of the long steps within a path to those between neighbouring rows. */
 const [MAX_RETURN_ROWS, MAX_RETURN_SECONDS, MAX_LONG_FRACTION] = [8, 1, 0.2];
 
 /** Minimum length of a jump in metres and radians, above the noise of a fast log. */
@@ -74,7 +74,7 @@ const MAX_DAMAGED_FRACTION = 0.1;
 /** Maximum spread of the cosine of the tilt. Above it, the robot does not drive on a plane. */
 const MAX_TILT_SPREAD = 0.5;
 
-export class Rows {
+export class RowCollector {
   #logPlace: ErrorPlace;
   /** Columns of the rows that were added. `breakFlags` is 1 if the path before a row is unknown. */
   #columns = { time: [] as number[], a: [] as number[], b: [] as number[], c: [] as number[], z: [] as number[], line: [] as number[], otherTime: [] as number[], breakFlags: [] as number[] };
@@ -88,7 +88,7 @@ export class Rows {
   #damage: { count: number; line: number; formatReason: ErrorReason } | undefined;
 
   /** Number of all rows, including dropped rows. */
-  count = 0;
+  rowCount = 0;
 
   /** @param logPlace file and topic that error messages name */
   constructor(logPlace: ErrorPlace) {
@@ -96,19 +96,19 @@ export class Rows {
   }
 
   /** Drops a row. If many rows are dropped with a reason, the log is refused with the reason of the first. */
-  drop(cause: DropCause, line: number, formatReason?: ErrorReason): void {
-    this.count += 1;
+  dropRow(cause: DropCause, line: number, formatReason?: ErrorReason): void {
+    this.rowCount += 1;
     this.#countDropped(cause, line);
     this.#isPathBroken = true;
     if (formatReason) this.#damage = { line, formatReason, ...this.#damage, count: (this.#damage?.count ?? 0) + 1 };
   }
 
   /** Adds a row, or drops an unusable row. `otherTime` is the time of the fallback clock, which is used if the first clock stands still. */
-  add({ time, a, b, c, z = 0, tiltCosine }: Sample, line: number, otherTime = 0): void {
-    if (c === undefined) return this.drop('noRotation', line);
-    if (!(Number.isFinite(time) && Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) <= MAX_VALUE)) return this.drop('notFinite', line);
-    this.count += 1;
-    if (this.count > MAX_ROWS) throw new LogError(this.#logPlace, (texts) => texts.rows(MAX_ROWS));
+  addRow({ time, a, b, c, z = 0, tiltCosine }: Sample, line: number, otherTime = 0): void {
+    if (c === undefined) return this.dropRow('noRotation', line);
+    if (!(Number.isFinite(time) && Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) <= MAX_VALUE)) return this.dropRow('notFinite', line);
+    this.rowCount += 1;
+    if (this.rowCount > MAX_ROWS) throw new LogError(this.#logPlace, (texts) => texts.rows(MAX_ROWS));
     const columns = this.#columns;
     columns.time.push(time);
     columns.a.push(a);
@@ -129,30 +129,30 @@ export class Rows {
   }
 
   /** Returns the log with the rows that were added. Throws a LogError if they are no log, or their units or axes are in doubt. */
-  end(name: string, kind: LogKind, { units: assumed, clocks, names, ...decisions }: LogFacts, options: OpenOptions = {}): Log {
-    const { count } = this;
+  buildLog(name: string, kind: LogKind, { units: assumed, clocks, columnNames, ...decisions }: LogFacts, options: OpenOptions = {}): Log {
+    const { rowCount } = this;
     const damage = this.#damage;
-    if (damage && damage.count > MAX_DAMAGED_FRACTION * count) {
-      const composeSentences = (texts: Words['refused']) => [damage.formatReason(texts), ...(damage.count > 1 && damage.count < count ? [texts.manyBad(damage.count, count, 100 * MAX_DAMAGED_FRACTION)] : [])];
+    if (damage && damage.count > MAX_DAMAGED_FRACTION * rowCount) {
+      const composeSentences = (texts: Words['refused']) => [damage.formatReason(texts), ...(damage.count > 1 && damage.count < rowCount ? [texts.manyBad(damage.count, rowCount, 100 * MAX_DAMAGED_FRACTION)] : [])];
       throw new LogError({ ...this.#logPlace, line: damage.line }, (texts) => composeSentences(texts).join(' '));
     }
-    const ask: Question | undefined = names && { what: 'columns', choices: [], columns: names.given };
-    if (this.tiltSpread > MAX_TILT_SPREAD) throw new LogError(this.#logPlace, (texts) => texts.tilted(names !== undefined), ask);
+    const question: Question | undefined = columnNames && { option: 'columns', choices: [], columns: columnNames.all };
+    if (this.tiltSpread > MAX_TILT_SPREAD) throw new LogError(this.#logPlace, (texts) => texts.tilted(columnNames !== undefined), question);
     const usesOtherClock = clocks[1] !== undefined && this.#isClockStill();
     if (usesOtherClock) this.#times = this.#columns.otherTime;
-    const stampedRows = this.#withoutUnsetTimes();
+    const stampedRows = this.#dropUnsetTimes();
     const start = Math.floor(min(stampedRows, (row) => this.#times[row]) ?? 0);
-    const { sortedRows, lateCount } = this.#sort(stampedRows);
-    const rowsOfDistinctTime = this.#withoutEqualTimes(sortedRows);
-    const rows = kind === 'poses' ? this.#withoutRepeatedPoses(rowsOfDistinctTime) : rowsOfDistinctTime;
+    const { sortedRows, lateCount } = this.#sortByTime(stampedRows);
+    const rowsOfDistinctTime = this.#dropEqualTimes(sortedRows);
+    const rows = kind === 'poses' ? this.#dropRepeatedPoses(rowsOfDistinctTime) : rowsOfDistinctTime;
     if (rows.length < 2) {
       const [cause, firstDrop] = (Object.entries(this.#dropped) as [DropCause, { first: number }][])[0] ?? [];
-      throw new LogError({ ...this.#logPlace, line: firstDrop?.first }, (texts) => texts.few(rows.length, count, cause));
+      throw new LogError({ ...this.#logPlace, line: firstDrop?.first }, (texts) => texts.few(rows.length, rowCount, cause));
     }
     const [times, a, b, c, z] = [this.#times, this.#columns.a, this.#columns.b, this.#columns.c, this.#columns.z].map((column) => new Float64Array(rows.length).map((_, i) => column[rows[i]]));
     const t = times.map((time) => time - start);
     const columns: Columns = { start, t, a, b, c, z };
-    const units = judgeUnits(this.#logPlace, kind, columns, assumed, options, names);
+    const units = judgeUnits(this.#logPlace, kind, columns, assumed, options, columnNames);
     const pathDistance = kind === 'poses' ? distanceOfPaths(t, a, b) : 0;
     if (pathDistance > 0) throw new LogError(this.#logPlace, (texts) => texts.turns(pathDistance));
     const { breaks, jumpRows, ...foundGaps } = this.#findEvents(kind, [t, a, b, c], (i) => this.#columns.breakFlags[rows[i]] === 1);
@@ -164,7 +164,7 @@ export class Rows {
     const seconds = t[t.length - 1] - t[0];
     const clock = clocks[usesOtherClock ? 1 : 0] ?? '';
     const summary = {
-      rows: count, used: t.length, dropped: this.#dropped, seconds, distance: distanceOf(data, jumpRows), ...foundGaps,
+      rows: rowCount, used: t.length, dropped: this.#dropped, seconds, distance: distanceOf(data, jumpRows), ...foundGaps,
       ...decisions, ...(decisions.columns && { columns: { ...decisions.columns, t: clock } }), units, clock, notes,
     };
     return { name, kind, start: columns.start, data, summary };
@@ -176,20 +176,20 @@ export class Rows {
     return 2 * time.filter((rowTime, row) => rowTime === time[row - 1]).length > time.length;
   }
 
-  #isSame(rowIndex: number, otherRowIndex: number): boolean {
+  #hasSameValues(rowIndex: number, otherRowIndex: number): boolean {
     const { a, b, c } = this.#columns;
     return a[rowIndex] === a[otherRowIndex] && b[rowIndex] === b[otherRowIndex] && c[rowIndex] === c[otherRowIndex];
   }
 
   /** Returns the rows without those whose stamp was not set. Such a stamp is 0 although all other times are since 1970. */
-  #withoutUnsetTimes(): Uint32Array {
+  #dropUnsetTimes(): Uint32Array {
     const rows = new Uint32Array(this.#times.length).map((_, row) => row);
     const isSince1970 = this.#times.every((time) => time === 0 || epochTimeUnitOf(time) !== undefined);
-    return isSince1970 ? this.#without(rows, 'noStamp', (row) => this.#times[row] === 0) : rows;
+    return isSince1970 ? this.#dropRows(rows, 'noStamp', (row) => this.#times[row] === 0) : rows;
   }
 
   /** Returns the rows in the order of their times, and the number of late rows. Throws a LogError if the clock was set back. */
-  #sort(rows: Uint32Array): { sortedRows: Uint32Array; lateCount: number } {
+  #sortByTime(rows: Uint32Array): { sortedRows: Uint32Array; lateCount: number } {
     const { a, b } = this.#columns;
     const times = Array.from(rows, (row) => this.#times[row]);
     // Runs are rows with rising times.
@@ -203,7 +203,7 @@ export class Rows {
     const overlaps: { run: number; sortedLength: number; fileLength: number }[] = [];
     for (let i = 1; i < sortedOrder.length; i++) {
       const [previousPosition, position] = [sortedOrder[i - 1], sortedOrder[i]];
-      const isOverlap = runOfRow[previousPosition] !== runOfRow[position] && times[position] - times[previousPosition] < MAX_OVERLAP_STEPS * medianStep && !this.#isSame(rows[previousPosition], rows[position]);
+      const isOverlap = runOfRow[previousPosition] !== runOfRow[position] && times[position] - times[previousPosition] < MAX_OVERLAP_STEPS * medianStep && !this.#hasSameValues(rows[previousPosition], rows[position]);
       const run = Math.max(runOfRow[previousPosition], runOfRow[position]);
       if (isOverlap) overlaps.push({ run, sortedLength: distanceBetween(previousPosition, position), fileLength: distanceBetween(position, Math.max(position, 1) - 1) });
     }
@@ -224,12 +224,12 @@ export class Rows {
   }
 
   /** Returns the first row of each time. Throws a LogError if many rows have the time of another row but other values. */
-  #withoutEqualTimes(rows: Uint32Array): Uint32Array {
+  #dropEqualTimes(rows: Uint32Array): Uint32Array {
     let [lastTime, contradictions] = [-Infinity, 0];
-    const distinctRows = this.#without(rows, 'duplicate', (row, i) => {
+    const distinctRows = this.#dropRows(rows, 'duplicate', (row, i) => {
       const time = this.#times[row];
       const isEqual = time <= lastTime;
-      if (isEqual && !this.#isSame(rows[i - 1], row)) contradictions += 1;
+      if (isEqual && !this.#hasSameValues(rows[i - 1], row)) contradictions += 1;
       lastTime = time;
       return isEqual;
     });
@@ -244,8 +244,8 @@ export class Rows {
    * Returns the rows with each pose of a moving robot kept once. A table with topics of different rates repeats the poses of the slower ones,
    * and a localizer may publish its last pose again. While the robot stands, the same fraction of rows is dropped.
    */
-  #withoutRepeatedPoses(rows: Uint32Array): Uint32Array {
-    const isRepeated = (i: number) => i > 0 && this.#isSame(rows[i - 1], rows[i]);
+  #dropRepeatedPoses(rows: Uint32Array): Uint32Array {
+    const isRepeated = (i: number) => i > 0 && this.#hasSameValues(rows[i - 1], rows[i]);
     const rowsPerPose: number[] = [];
     for (let i = 0; i < rows.length; i++) {
       if (isRepeated(i)) rowsPerPose[rowsPerPose.length - 1] += 1;
@@ -254,7 +254,7 @@ export class Rows {
     const usualRowsPerPose = rowsPerPose.length < MIN_POSES ? 1 : quantileOf(sampleEvenly(rowsPerPose.length, (i) => rowsPerPose[i]), 0.5);
     if (usualRowsPerPose === 1) return rows;
     let [pose, repeatCount] = [-1, 0];
-    return this.#without(rows, 'repeated', (_, i) => {
+    return this.#dropRows(rows, 'repeated', (_, i) => {
       [pose, repeatCount] = isRepeated(i) ? [pose, repeatCount + 1] : [pose + 1, 0];
       const isStanding = rowsPerPose[pose] >= STANDSTILL_FACTOR * usualRowsPerPose;
       return isStanding ? repeatCount % usualRowsPerPose !== 0 : repeatCount > 0;
@@ -262,7 +262,7 @@ export class Rows {
   }
 
   /** Returns the rows for which `isDropped` is false. A break before a dropped row is moved to the next row. */
-  #without(rows: Uint32Array, cause: DropCause, isDropped: (row: number, i: number) => boolean): Uint32Array {
+  #dropRows(rows: Uint32Array, cause: DropCause, isDropped: (row: number, i: number) => boolean): Uint32Array {
     const { line, breakFlags } = this.#columns;
     return rows.filter((row, i) => {
       if (!isDropped(row, i)) return true;
@@ -295,7 +295,7 @@ export class Rows {
   }
 }
 
-/** Returns the distance (m) of two paths whose poses alternate: many are far from the next one, and near one a few rows later. 0 for one path. */
+/** Returns the distance (m) of two paths whose poses alternate; 0 for one path. With two paths, many poses are far from the next pose, and near a pose a few rows later. */
 function distanceOfPaths(t: Float64Array, x: Float64Array, y: Float64Array): number {
   const distancesAfterRows = (rows: number) => sampleEvenly(x.length - rows, (i) => Math.sqrt((x[i + rows] - x[i]) ** 2 + (y[i + rows] - y[i]) ** 2));
   const longStep = quantileOf(distancesAfterRows(1), 0.9);

@@ -9,11 +9,11 @@ import { english } from './en.ts';
 import { LogError, type OpenOptions, type Recording, type Source } from './log.ts';
 import { openRecordings } from './open.ts';
 
-/** Recording as posted to the page: without its methods, but with its index (`place`) among the opened recordings. */
-type OpenedRecording = Recording & { place: number };
+/** Recording as posted to the page: without its methods, but with its index among the opened recordings. */
+type OpenedRecording = Recording & { index: number };
 
 /** LogError as posted to the page, with its sentence in each language. */
-export type LogFailure = Pick<LogError, 'message' | 'place' | 'ask'> & { sentences: Record<'en' | 'de', string> };
+export type LogFailure = Pick<LogError, 'message' | 'place' | 'question'> & { sentences: Record<'en' | 'de', string> };
 
 /** Minimum time (ms) between progress reports. The page renders the figure after each report. */
 const PROGRESS_INTERVAL = 50;
@@ -31,27 +31,27 @@ export class LogSession {
     const skipped: LogFailure[] = [];
     const files = sources.map(({ file, path }) => Object.assign(file, { path }));
     this.#recordings = await openRecordings(files, (name) => answers[name], (error) => skipped.push(failureOf(error))).catch(throwFailure);
-    return { recordings: this.#recordings.map(({ name, format, series }, place) => ({ name, format, series, place }) as OpenedRecording), skipped };
+    return { recordings: this.#recordings.map(({ name, format, series }, index) => ({ name, format, series, index }) as OpenedRecording), skipped };
   }
 
   async read({ drives, unpaired }: Pick<LogPlan, 'drives' | 'unpaired'>, onProgress: (share: number) => void): Promise<Drive[]> {
-    const openedChoiceOf = ({ recording, choice }: RecordingChoice) => ({ recording: this.#recordings[(recording as OpenedRecording).place], choice });
+    const openedChoiceOf = ({ recording, choice }: RecordingChoice) => ({ recording: this.#recordings[(recording as OpenedRecording).index], choice });
     const plan = {
       drives: drives.map(({ odometry, reference }) => ({ odometry: openedChoiceOf(odometry), reference: openedChoiceOf(reference) })),
       unpaired: { odometry: unpaired.odometry.map(openedChoiceOf), reference: unpaired.reference.map(openedChoiceOf) },
     };
     let nextProgress = 0;
-    const driveLogs = await readDrives(plan, (share) => {
+    const driveLogs = await readDrives(plan, (fraction) => {
       const now = performance.now();
       if (now < nextProgress) return;
       nextProgress = now + PROGRESS_INTERVAL;
-      onProgress(share);
+      onProgress(fraction);
     }).catch(throwFailure);
     const columns = driveLogs.flatMap(({ odometry, reference }) => [odometry, reference]).flatMap(({ data }) => Object.values(data) as ArrayBufferView[]);
     return transfer(driveLogs, [...new Set(columns.map(({ buffer }) => buffer as ArrayBuffer))]);
   }
 
-  /** Returns the fit to a log, for `AlphaCalibrator.restored`. */
+  /** Returns the serialized fit to a log, for `AlphaCalibrator.restored`. */
   async calibrate(config: AlphaCalibratorSettings, { odometry, reference }: CalibrationLog): Promise<Uint8Array> {
     this.#simulation.setLog(odometry, reference);
     this.#simulation.configure(config);
@@ -59,8 +59,8 @@ export class LogSession {
   }
 }
 
-function failureOf({ message, place, ask, messageIn: sentence }: LogError): LogFailure {
-  return { message, place, ask, sentences: { en: sentence(english), de: sentence(german) } };
+function failureOf({ message, place, question, messageIn: formatMessage }: LogError): LogFailure {
+  return { message, place, question, sentences: { en: formatMessage(english), de: formatMessage(german) } };
 }
 
 /** Throws a LogError as plain data, because a posted error would keep only its message. */

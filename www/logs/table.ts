@@ -1,19 +1,19 @@
 /** Reader of logs in text tables of robots, recorders and spreadsheets. */
 
 import { least } from 'd3-array';
-import { logLayoutOf, type Clock, type ColumnGroup } from './columns.ts';
+import { findLogLayout, type Clock, type ColumnGroup } from './columns.ts';
 import { splitCells, detectTableFormat, parseDate, parseNumber, parseTime, type TableFormat } from './format.ts';
 import { LogError, readBytes, truncate, listNames, type ErrorPlace, type ErrorReason, type Log, type Note, type OpenOptions, type Recording, type Series, type Source, type Summary, type TimeUnit } from './log.ts';
 import { rotationOf, type Quaternion } from './path.ts';
-import { Rows } from './rows.ts';
+import { RowCollector } from './rows.ts';
 import { UNIT_EXPONENTS, epochTimeUnitOf } from './units.ts';
 
 const BLOCK_BYTES = 2 ** 22;
 
-/** Number of first bytes, with a preamble and some rows, from which the format is detected. */
+/** Number of bytes at the start of a file, with a preamble and some rows, from which the format is detected. */
 const HEAD_BYTES = 2 ** 18;
 
-/** Number of first characters that must not contain a NUL. */
+/** Number of characters at the start of a text that are checked for NUL characters. */
 const CHECKED_CHARACTERS = 4096;
 
 /** Maximum number of characters of a line. A row of a thousand columns is shorter. */
@@ -31,10 +31,10 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
   // The last line of the head may be incomplete. It is dropped unless it is the only line.
   if (source.size > HEAD_BYTES && headLines.length > 1) headLines.pop();
   const format = detectTableFormat(headLines, source.name, options.columns);
-  const readableGroups = format.groups.filter(({ kind }) => kind !== null);
-  const headerPlace = { file: source.name, line: Math.max(1, format.firstLine - 1) };
+  const readableGroups = format.columnGroups.filter(({ kind }) => kind !== null);
+  const headerPlace = { file: source.name, line: Math.max(1, format.firstRowNumber - 1) };
   // If no group can be read, `logLayoutOf` throws the reason for the group with most columns.
-  if (readableGroups.length === 0) logLayoutOf(format.groups.toSorted((a, b) => Object.keys(b.columns).length - Object.keys(a.columns).length)[0], format.names, headerPlace, undefined);
+  if (readableGroups.length === 0) findLogLayout(format.columnGroups.toSorted((a, b) => Object.keys(b.columns).length - Object.keys(a.columns).length)[0], format.columnNames, headerPlace, undefined);
   const seriesOfGroup = (group: ColumnGroup): Series => ({
     name: readableGroups.length === 1 && group.kind !== null ? '' : group.name || listNames(columnNamesOf(group)),
     type: listNames(columnNamesOf(group)),
@@ -42,20 +42,20 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
     hasCommands: group.hasCommands,
     count: 0,
   });
-  const allSeries = format.groups.map(seriesOfGroup);
+  const allSeries = format.columnGroups.map(seriesOfGroup);
   return {
     name: source.name,
     format: 'csv',
     series: allSeries,
     async read(choices, onProgress) {
       const readersOfChoices = choices.map(({ series: seriesName, kind }) => {
-        const chosenGroup = format.groups[allSeries.findIndex(({ name }) => name === seriesName)];
+        const chosenGroup = format.columnGroups[allSeries.findIndex(({ name }) => name === seriesName)];
         const name = readableGroups.length === 1 ? source.name : `${source.name}, ${seriesOfGroup(chosenGroup).name}`;
-        const readerOf = (group: ColumnGroup, upAxis?: 'Y' | 'Z') => createLogReader(name, { file: source.name }, format, group, logLayoutOf(group, format.names, headerPlace, kind), options, upAxis);
+        const readerOf = (group: ColumnGroup, upAxis?: 'Y' | 'Z') => createLogReader(name, { file: source.name }, format, group, findLogLayout(group, format.columnNames, headerPlace, kind), options, upAxis);
         return format.hasUnknownAxis ? [readerOf(chosenGroup, 'Z'), readerOf(withYAxisUp(chosenGroup), 'Y')] : [readerOf(chosenGroup)];
       });
       const allReaders = readersOfChoices.flat();
-      await readLines(source, encoding, format.firstLine, onProgress, (line, number, isUnterminated) => {
+      await readLines(source, encoding, format.firstRowNumber, onProgress, (line, number, isUnterminated) => {
         for (const reader of allReaders) reader.addLine(line, number, isUnterminated);
       });
       // The vertical axis is the one about which the robot turns.
@@ -64,7 +64,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
   };
 }
 
-const columnNamesOf = ({ columns }: ColumnGroup) => Object.values(columns).toSorted((a, b) => a.at - b.at).map(({ name }) => name);
+const columnNamesOf = ({ columns }: ColumnGroup) => Object.values(columns).toSorted((a, b) => a.index - b.index).map(({ name }) => name);
 
 /** Returns the encoding of a text. Signs are a byte order mark, the zeros of UTF-16, and bytes that UTF-8 does not have. */
 function detectEncoding(bytes: Uint8Array): string {
@@ -79,17 +79,17 @@ function detectEncoding(bytes: Uint8Array): string {
   }
 }
 
-/** Calls `addLine` for each line from number `from` on. `isUnterminated` is true for text after the last line feed: the file may be cut off there. */
-async function readLines(source: Source, encoding: string, from: number, onProgress: ((share: number) => void) | undefined, addLine: (line: string, number: number, isUnterminated: boolean) => void) {
+/** Calls `addLine` for each line from `firstLineNumber` on. `isUnterminated` is true for text after the last line feed: the file may be cut off there. */
+async function readLines(source: Source, encoding: string, firstLineNumber: number, onProgress: ((share: number) => void) | undefined, addLine: (line: string, number: number, isUnterminated: boolean) => void) {
   const decoder = new TextDecoder(encoding);
   let [incompleteLine, number] = ['', 0];
   const passLine = (line: string, isUnterminated: boolean) => {
     number += 1;
-    if (number >= from) addLine(line, number, isUnterminated);
+    if (number >= firstLineNumber) addLine(line, number, isUnterminated);
   };
-  for (let at = 0; at < source.size; at += BLOCK_BYTES) {
-    onProgress?.(at / source.size);
-    const text = incompleteLine + decoder.decode(await readBytes(source, at, Math.min(at + BLOCK_BYTES, source.size)), { stream: true });
+  for (let index = 0; index < source.size; index += BLOCK_BYTES) {
+    onProgress?.(index / source.size);
+    const text = incompleteLine + decoder.decode(await readBytes(source, index, Math.min(index + BLOCK_BYTES, source.size)), { stream: true });
     const lines = text.split('\n');
     incompleteLine = lines.pop() ?? '';
     for (const line of lines) passLine(line, false);
@@ -105,23 +105,23 @@ function withYAxisUp(group: ColumnGroup): ColumnGroup {
 }
 
 /** Returns a reader of the times of a table. If no unit is stated, the first time that is not 0 determines it. */
-function createClockReader({ columns: [{ at }, subseconds], unit: namedUnit }: Clock, statedUnit: TimeUnit | undefined, textOf: (cell: string) => string) {
+function createClockReader({ columns: [{ index }, subseconds], unit: namedUnit }: Clock, statedUnit: TimeUnit | undefined, normalizeCell: (cell: string) => string) {
   const unitBasis = statedUnit ? 'option' : namedUnit ? 'name' : 'usage';
   const judgedUnit: { unit?: TimeUnit; by: Summary['units']['time']['by'] } = { unit: statedUnit ?? namedUnit, by: unitBasis };
   let isDate: boolean | undefined;
   /** Returns the time of a row in seconds; undefined if its cell is neither a number nor a date. */
-  const read = (cells: string[]): number | undefined => {
-    const text = textOf(cells[at]);
+  const readTime = (cells: string[]): number | undefined => {
+    const text = normalizeCell(cells[index]);
     if (subseconds) {
-      const [seconds, subsecondTicks] = [parseNumber(text), parseNumber(cells[subseconds.at])];
+      const [seconds, subsecondTicks] = [parseNumber(text), parseNumber(cells[subseconds.index])];
       return seconds !== undefined && subsecondTicks !== undefined ? seconds + subsecondTicks / 10 ** UNIT_EXPONENTS[subseconds.unit as TimeUnit] : undefined;
     }
     if (text.trim() === '') return NaN;
     if (isDate === undefined) {
-      isDate = parseDate(cells[at]) !== undefined;
+      isDate = parseDate(cells[index]) !== undefined;
       if (isDate) Object.assign(judgedUnit, { unit: 's', by: 'date' });
     }
-    if (isDate) return parseDate(cells[at]);
+    if (isDate) return parseDate(cells[index]);
     if (judgedUnit.unit === undefined) {
       const timeNumber = parseNumber(text);
       const epochUnit = timeNumber && epochTimeUnitOf(timeNumber);
@@ -130,22 +130,22 @@ function createClockReader({ columns: [{ at }, subseconds], unit: namedUnit }: C
     }
     return parseTime(text, UNIT_EXPONENTS[judgedUnit.unit ?? 's']);
   };
-  return { judged: judgedUnit, read };
+  return { judgedUnit, readTime };
 }
 
 /** Returns a reader of the log of one series, line by line. `upAxis` is the vertical axis, if the format does not define it. */
-function createLogReader(name: string, errorPlace: ErrorPlace, format: TableFormat, group: ColumnGroup, layout: ReturnType<typeof logLayoutOf>, options: OpenOptions, upAxis?: 'Y' | 'Z') {
-  const { separator, hasDecimalCommas, isSparse, header, names } = format;
+function createLogReader(name: string, errorPlace: ErrorPlace, format: TableFormat, group: ColumnGroup, layout: ReturnType<typeof findLogLayout>, options: OpenOptions, upAxis?: 'Y' | 'Z') {
+  const { separator, hasDecimalCommas, isSparse, headerLine, columnNames } = format;
   const { clocks, columns, fields, kind, length, angle } = layout;
-  const rows = new Rows(errorPlace);
+  const rows = new RowCollector(errorPlace);
   const notes: Note[] = upAxis ? [{ name: 'upAxis', values: [upAxis] }] : [];
-  const textOf = hasDecimalCommas ? withDecimalPoint : (cell: string) => cell;
-  const clockReaders = clocks.map((clock, i) => createClockReader(clock, i === 0 ? options.timeUnit : undefined, textOf));
+  const normalizeCell = hasDecimalCommas ? withDecimalPoint : (cell: string) => cell;
+  const clockReaders = clocks.map((clock, i) => createClockReader(clock, i === 0 ? options.timeUnit : undefined, normalizeCell));
   // Columns that name the frames, topic or robot of a row.
   const nameColumns = [group.columns.source, group.columns.frame, group.columns.child].filter((column) => column !== undefined);
   const { x, y, z } = group.columns;
   const hasHeight = fields.at(-1) === 'yaw' && z !== undefined;
-  const neededCells = Math.max(...[...columns, ...(hasHeight ? [z] : []), ...clocks.flatMap((clock) => clock.columns), ...nameColumns].map(({ at }) => at)) + 1;
+  const neededCellCount = Math.max(...[...columns, ...(hasHeight ? [z] : []), ...clocks.flatMap((clock) => clock.columns), ...nameColumns].map(({ index }) => index)) + 1;
   const rowNames = new Set<string>();
   /** Numbers of decimals in the last column. */
   const decimalCounts = new Set<number>();
@@ -154,25 +154,25 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
     throw new LogError(errorPlace, reason);
   };
 
-  const dropText = (line: number, columnName: string, cell: string) => rows.drop('text', line, (texts) => texts.number(truncate(columnName), truncate(cell.trim())));
+  const dropTextRow = (line: number, columnName: string, cell: string) => rows.dropRow('text', line, (texts) => texts.number(truncate(columnName), truncate(cell.trim())));
 
-  const addCells = (cells: string[], line: number) => {
+  const addCellsAsRow = (cells: string[], line: number) => {
     const times: number[] = [];
     for (let i = 0; i < clocks.length; i++) {
-      const time = clockReaders[i].read(cells);
-      if (time === undefined) return dropText(line, clocks[i].name, cells[clocks[i].columns[0].at]);
+      const time = clockReaders[i].readTime(cells);
+      if (time === undefined) return dropTextRow(line, clocks[i].name, cells[clocks[i].columns[0].index]);
       times.push(time);
     }
     const values: number[] = [];
-    for (const { at, name: columnName } of columns) {
-      const value = parseNumber(textOf(cells[at]));
-      if (value === undefined) return dropText(line, columnName, cells[at]);
+    for (const { index, name: columnName } of columns) {
+      const value = parseNumber(normalizeCell(cells[index]));
+      if (value === undefined) return dropTextRow(line, columnName, cells[index]);
       values.push(value);
     }
-    if (nameColumns.length > 0) rowNames.add(nameColumns.map(({ at }) => cells[at].trim()).join(' to '));
+    if (nameColumns.length > 0) rowNames.add(nameColumns.map(({ index }) => cells[index].trim()).join(' to '));
     const [[time, otherTime], [a, b, c = 0, ...quaternion]] = [times, values];
     const rotation = fields.at(-1) === 'qw' ? rotationOf(...(fields.length === 6 ? [c, ...quaternion] : [0, 0, c, ...quaternion]) as Quaternion) : { c, tiltCosine: undefined };
-    rows.add({ time, a, b, c: rotation.c, tiltCosine: rotation.tiltCosine, z: hasHeight ? parseNumber(textOf(cells[z.at])) : undefined }, line, otherTime);
+    rows.addRow({ time, a, b, c: rotation.c, tiltCosine: rotation.tiltCosine, z: hasHeight ? parseNumber(normalizeCell(cells[z.index])) : undefined }, line, otherTime);
   };
 
   return {
@@ -180,26 +180,26 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
 
     addLine(line: string, number: number, isUnterminated: boolean): void {
       if (/^\s*(?:[#%]|$)/.test(line)) return;
-      if (line === header) return rows.drop('text', number);
-      const cells = splitCells(line, separator, neededCells);
-      const lastCell = cells[neededCells - 1]?.trim() ?? '';
+      if (line === headerLine) return rows.dropRow('text', number);
+      const cells = splitCells(line, separator, neededCellCount);
+      const lastCell = cells[neededCellCount - 1]?.trim() ?? '';
       const decimalCount = /\.(\d*)/.exec(lastCell)?.[1].length ?? 0;
-      const isCutNumber = isUnterminated && rows.count >= MIN_UNIFORM_ROWS && decimalCounts.size === 1 && decimalCount < Math.min(...decimalCounts) && line.trimEnd().endsWith(lastCell);
+      const isCutNumber = isUnterminated && rows.rowCount >= MIN_UNIFORM_ROWS && decimalCounts.size === 1 && decimalCount < Math.min(...decimalCounts) && line.trimEnd().endsWith(lastCell);
       decimalCounts.add(decimalCount);
-      if (cells.length < neededCells || isCutNumber) {
-        if (!isUnterminated) return rows.drop('short', number, (texts) => texts.cells(cells.length, neededCells));
+      if (cells.length < neededCellCount || isCutNumber) {
+        if (!isUnterminated) return rows.dropRow('short', number, (texts) => texts.cells(cells.length, neededCellCount));
         notes.push({ name: 'cutShort', values: [] });
-        return rows.drop('short', number);
+        return rows.dropRow('short', number);
       }
       // A row of another topic has empty cells in the columns of this topic.
-      if (!(isSparse && columns.every(({ at }) => Number.isNaN(parseNumber(cells[at]))))) addCells(cells, number);
+      if (!(isSparse && columns.every(({ index }) => Number.isNaN(parseNumber(cells[index]))))) addCellsAsRow(cells, number);
     },
 
     end(): Log {
       if (rowNames.size > 1) refuse((texts) => texts.mixed(listNames([...rowNames])));
-      const { unit = 's', by } = clockReaders[0].judged;
+      const { unit = 's', by } = clockReaders[0].judgedUnit;
       if (!(unit in UNIT_EXPONENTS)) refuse((texts) => texts.unknownUnit(truncate(unit)));
-      return rows.end(name, kind, {
+      return rows.buildLog(name, kind, {
         units: {
           time: { unit, by },
           length: { unit: length ?? 'm', by: length ? 'name' : 'usage' },
@@ -207,9 +207,9 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
         },
         clocks: [clocks[0].name, clocks[1]?.name],
         columns: Object.fromEntries([['t', ''], ...fields.map((field, i) => [field, columns[i].name])]),
-        names: {
-          given: names,
-          withYUp: (sign) => names.map((name, i) => (sign > 0 ? [x, z, y] : [y, z, x])[[x, y, z].findIndex((column) => column?.at === i)]?.name ?? name.trim()),
+        columnNames: {
+          all: columnNames,
+          withYUp: (sign) => columnNames.map((name, i) => (sign > 0 ? [x, z, y] : [y, z, x])[[x, y, z].findIndex((column) => column?.index === i)]?.name ?? name.trim()),
         },
         notes,
       }, options);

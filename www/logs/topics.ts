@@ -2,10 +2,10 @@
 
 import { group, sort, sum } from 'd3-array';
 import type { Channel, Container, Message } from './formats/container.ts';
-import { Chain, FrameTree } from './frames.ts';
-import { LogError, truncate, listNames, reasonOf, LOG_TIME, formatFrames, type ErrorReason, type LogChoice, type Log, type Note, type OpenOptions, type Recording, type Series } from './log.ts';
-import { isReadable, logKindOfType, poseReader, readTransforms } from './messages.ts';
-import { Rows } from './rows.ts';
+import { TransformChain, FrameTree } from './frames.ts';
+import { LogError, truncate, listNames, reasonOf, RECORDING_CLOCK, formatFrames, type ErrorReason, type LogChoice, type Log, type Note, type OpenOptions, type Recording, type Series } from './log.ts';
+import { isReadable, logKindOfType, sampleReaderOf, readTransforms } from './messages.ts';
+import { RowCollector } from './rows.ts';
 
 /** Maximum number of messages with transforms that are read to find the frames. */
 const MAX_FRAME_MESSAGES = 2000;
@@ -16,31 +16,31 @@ const MAX_TYPE_LENGTH = 100;
 /** Returns true for a topic of static transforms. */
 const isStaticTopic = ({ topic, type }: Pick<Channel, 'topic' | 'type'>) => logKindOfType(type) === 'transforms' && /(^|\/)tf_static$/.test(topic);
 
-export async function recordingOf(name: string, container: Container, options: OpenOptions): Promise<Recording> {
+export async function createRecording(name: string, container: Container, options: OpenOptions): Promise<Recording> {
   const { format, channels } = container;
   if (channels.every(({ count }) => count === 0)) {
-    const reason = damageReasonOf(container);
-    throw new LogError({ file: name }, (texts) => (reason ? texts.damaged(reason, format) : texts.few(0, 0)));
+    const damageReason = damageReasonOf(container);
+    throw new LogError({ file: name }, (texts) => (damageReason ? texts.damaged(damageReason, format) : texts.few(0, 0)));
   }
   const series = await listSeries(container);
   return { name, format, series, read };
 
   async function read(choices: LogChoice[], onProgress?: (share: number) => void): Promise<Log[]> {
-    const choiceReaders = choices.map((choice) => createTopicReader(name, container, choice, series.find((entry) => entry.name === choice.series)));
-    const readersByChannel = new Map(container.channels.map((channel) => [channel, choiceReaders.filter((reader) => reader.wants(channel))]));
+    const choiceReaders = choices.map((choice) => createTopicReader(name, container, choice, series.find((seriesEntry) => seriesEntry.name === choice.series)));
+    const readersByChannel = new Map(container.channels.map((channel) => [channel, choiceReaders.filter((reader) => reader.isWanted(channel))]));
     const passMessage = (message: Message) => {
       for (const reader of readersByChannel.get(message.channel) ?? []) reader.addMessage(message);
     };
     const wantedChannels = new Set(container.channels.filter((channel) => readersByChannel.get(channel)?.length && !isStaticTopic(channel)));
     // Static transforms are read first, because they also hold before the time of their recording.
-    if (choices.some(({ frames }) => frames)) await container.read(isStaticTopic, passMessage);
-    await container.read((channel) => wantedChannels.has(channel), passMessage, onProgress);
+    if (choices.some(({ frames }) => frames)) await container.readMessages(isStaticTopic, passMessage);
+    await container.readMessages((channel) => wantedChannels.has(channel), passMessage, onProgress);
     return choiceReaders.map((reader) => reader.end(options));
   }
 }
 
 /** Returns the reason why a part of a recording cannot be read; undefined for an undamaged recording. */
-const damageReasonOf = ({ damage, cutReason }: Container): string | undefined => [...damage.values(), cutReason][0];
+const damageReasonOf = ({ damageByPosition: damage, truncationReason: cutReason }: Container): string | undefined => [...damage.values(), cutReason][0];
 
 async function listSeries(container: Container): Promise<Series[]> {
   const series: Series[] = Array.from(group(container.channels, ({ topic }) => topic), ([topic, allChannels]) => {
@@ -57,13 +57,13 @@ async function listSeries(container: Container): Promise<Series[]> {
     const addMessage = (message: Message) => {
       messageCount += 1;
       try {
-        for (const transform of readTransforms(message)) frameTree.add(transform, isStaticTopic(message.channel));
+        for (const transform of readTransforms(message)) frameTree.addTransform(transform, isStaticTopic(message.channel));
       } catch {
         // A damaged message is counted when the log is read.
       }
     };
-    await container.read(isStaticTopic, addMessage);
-    await container.read(({ topic }) => topic === seriesEntry.name, addMessage, () => messageCount >= MAX_FRAME_MESSAGES);
+    await container.readMessages(isStaticTopic, addMessage);
+    await container.readMessages(({ topic }) => topic === seriesEntry.name, addMessage, () => messageCount >= MAX_FRAME_MESSAGES);
     seriesEntry.frames = frameTree.findPoseFrames();
   }
   return sort(series, ({ name }) => name);
@@ -71,38 +71,38 @@ async function listSeries(container: Container): Promise<Series[]> {
 
 /** Returns a reader of one topic. For a topic of transforms it also reads the static transforms. Throws a LogError if the topic has no such log. */
 function createTopicReader(file: string, container: Container, { series: topic, kind: wantedKind, frames }: LogChoice, { type, kind }: Pick<Series, 'type' | 'kind'> = { type: '', kind: null }) {
-  const refuse = (reason: ErrorReason): never => {
-    throw new LogError({ file, topic }, reason);
+  const refuse = (formatReason: ErrorReason): never => {
+    throw new LogError({ file, topic }, formatReason);
   };
   if (kind === 'positions') refuse((texts) => texts.positions(type));
   const hasWantedKind = frames ? kind === 'transforms' : kind !== null && !(wantedKind === 'poses' && kind === 'commands');
   if (!hasWantedKind) refuse((texts) => texts.type(truncate(type, MAX_TYPE_LENGTH), frames ? 'transforms' : wantedKind === 'poses' ? wantedKind : 'either'));
-  const rows = new Rows({ file, topic });
-  const chain = frames && new Chain(frames);
-  const readSample = poseReader(type);
+  const rows = new RowCollector({ file, topic });
+  const chain = frames && new TransformChain(frames);
+  const readSample = sampleReaderOf(type);
   let messageCount = 0;
 
   return {
-    wants: (channel: Channel) => (channel.topic === topic && channel.type === type && isReadable(channel)) || (frames !== undefined && isStaticTopic(channel)),
+    isWanted: (channel: Channel) => (channel.topic === topic && channel.type === type && isReadable(channel)) || (frames !== undefined && isStaticTopic(channel)),
 
     addMessage(message: Message): void {
       messageCount += 1;
       try {
-        if (readSample) return rows.add(readSample(message), messageCount, message.time);
+        if (readSample) return rows.addRow(readSample(message), messageCount, message.time);
         for (const transform of readTransforms(message)) chain?.addSample(transform, isStaticTopic(message.channel), message, messageCount);
       } catch (error) {
         if (error instanceof LogError) throw error;
-        rows.drop('damaged', messageCount, (texts) => texts.message(reasonOf(error)));
+        rows.dropRow('damaged', messageCount, (texts) => texts.message(reasonOf(error)));
       }
     },
 
     /** Returns the log; throws a LogError if the messages do not form a log. */
     end(options: OpenOptions): Log {
-      const { format, damage, cutReason } = container;
+      const { format, damageByPosition: damage, truncationReason: cutReason } = container;
       const lossReason = damageReasonOf(container);
       if (messageCount === 0 && lossReason) refuse((texts) => texts.damaged(lossReason, format));
       if (chain && !chain.isConnected) refuse((texts) => texts.noChain(formatFrames(frames), listNames(chain.links.map(formatFrames))));
-      if (chain && !chain.readPoses((pose, { recordTime, number }) => rows.add(pose, number, recordTime))) {
+      if (chain && !chain.readPoses((pose, { recordTime, messageNumber: number }) => rows.addRow(pose, number, recordTime))) {
         const otherFrames = chain.findPoseFrames().map(formatFrames).filter((otherText) => otherText !== formatFrames(frames));
         refuse((texts) => texts.constant(formatFrames(frames), listNames(otherFrames)));
       }
@@ -111,9 +111,9 @@ function createTopicReader(file: string, container: Container, { series: topic, 
         ...(damage.size > 0 ? [{ name: 'damaged' as const, values: [damage.size, lossReason as string] }] : []),
         ...(cutReason ? [{ name: 'cutShort' as const, values: [] }] : []),
       ];
-      return rows.end(`${file}, ${topic}${frames ? ` (${formatFrames(frames)})` : ''}`, logKind, {
+      return rows.buildLog(`${file}, ${topic}${frames ? ` (${formatFrames(frames)})` : ''}`, logKind, {
         units: { time: { unit: 'ns', by: 'format' }, length: { unit: 'm', by: 'format' }, angle: { unit: logKind === 'poses' ? 'quaternion' : 'none', by: 'format' } },
-        clocks: ['header.stamp', LOG_TIME],
+        clocks: ['header.stamp', RECORDING_CLOCK],
         ...(frames && { frames }),
         notes,
       }, options);

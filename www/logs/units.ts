@@ -9,8 +9,8 @@ export type Units = Summary['units'];
 /** Columns of a log in the units of the file: x, y, heading and height, or v, omega, 0 and 0. `start` is what was subtracted from all times, s. */
 export interface Columns { start: number; t: Float64Array; a: Float64Array; b: Float64Array; c: Float64Array; z: Float64Array }
 
-/** Names of all columns of a table, and those that would read it with Y up, where headings grow from x to z (`sign` 1) or from z to x. */
-export interface ColumnNames { given: string[]; withYUp(sign: number): string[] }
+/** Names of all columns of a table, and their names in an order that reads the table with Y up. Its headings then grow from x to z (`sign` 1) or from z to x (−1). */
+export interface ColumnNames { all: string[]; withYUp(sign: number): string[] }
 
 /** Decimal exponent of the number of units in a second, by unit of time. */
 export const UNIT_EXPONENTS = { s: 0, ms: 3, us: 6, ns: 9 } as const;
@@ -33,7 +33,7 @@ const [USUAL_RATES, POSSIBLE_RATES] = [[0.2, 2000], [0.05, 5000]] as const;
 /** Minimum and maximum speed of moving robots, m/s or rad/s. */
 const [MIN_SPEED, MAX_SPEED] = [0.005, 20.5];
 
-/** Speed (m/s) above which lengths with accelerations (m/s²) of no tyre may be centimetres, and speed above which their unit is always asked for. */
+/** Limits above which the unit of lengths is in doubt: a speed (m/s) together with an acceleration (m/s²) that tyres do not reach, or a higher speed alone. */
 const [DOUBTFUL_SPEED, MAX_ACCELERATION, MAX_VEHICLE_SPEED] = [5, 10, 50];
 
 /** Most usual speed of a robot, m/s. */
@@ -45,7 +45,7 @@ const STEP_DURATION = 0.5;
 /** Minimum length (m) of a step with a direction, and minimum number of such steps. */
 const [MIN_STEP_LENGTH, MIN_STEPS] = [0.02, 20];
 
-/** Minimum mean resultant length of the differences of headings from the path, and minimum lead over other units or signs. */
+/** Minimum mean resultant length of the angles between headings and path, and minimum lead over that of other units or signs. */
 const [MIN_ALIGNMENT, MIN_ALIGNMENT_LEAD] = [0.8, 0.3];
 
 const isInRange = (value: number, [low, high]: readonly [number, number]) => value >= low && value <= high;
@@ -54,28 +54,28 @@ const isInRange = (value: number, [low, high]: readonly [number, number]) => val
 export const epochTimeUnitOf = (time: number): TimeUnit | undefined => MIN_EPOCH_TIMES.find(([, minTime]) => Math.abs(time) >= minTime)?.[0];
 
 /** Judges the units that no name or option states, and converts the columns to s, m and rad. Throws a LogError if a unit is in doubt. */
-export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, assumed: Units, options: OpenOptions, names?: ColumnNames): Units {
+export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, assumedUnits: Units, options: OpenOptions, columnNames?: ColumnNames): Units {
   const { t, a, b, c, z } = columns;
   const isJudged = t.length >= MIN_ROWS;
-  const askUnit: Ask = (what, value, unit, choices) => {
-    throw new LogError(place, (texts) => texts[what](value, unit, choices), choices.length > 0 ? { what, choices, doubted: unit } : undefined);
+  const askUnit: AskUnit = (unitOption, value, unit, choices) => {
+    throw new LogError(place, (texts) => texts[unitOption](value, unit, choices), choices.length > 0 ? { option: unitOption, choices, assumedUnit: unit } : undefined);
   };
-  const length = options.lengthUnit ? { unit: options.lengthUnit, by: 'option' as const } : assumed.length;
+  const length = options.lengthUnit ? { unit: options.lengthUnit, by: 'option' as const } : assumedUnits.length;
   const metresPerUnit = METRES_PER_UNIT[length.unit];
   if (metresPerUnit !== 1) for (const column of kind === 'poses' ? [a, b, z] : [a]) scaleColumn(column, metresPerUnit);
-  const time = isJudged ? judgeTimeUnit(kind, columns, assumed.time, askUnit) : assumed.time;
-  convertTimes(columns, 10 ** (UNIT_EXPONENTS[time.unit] - UNIT_EXPONENTS[assumed.time.unit]));
+  const time = isJudged ? judgeTimeUnit(kind, columns, assumedUnits.time, askUnit) : assumedUnits.time;
+  convertTimes(columns, 10 ** (UNIT_EXPONENTS[time.unit] - UNIT_EXPONENTS[assumedUnits.time.unit]));
   const speed = kind === 'poses' ? pathSpeedOf(t, a, b) : commandSpeedOf(a);
   const isDoubtful = speed > MAX_VEHICLE_SPEED || (speed > DOUBTFUL_SPEED && accelerationOf(kind, columns) > MAX_ACCELERATION);
   // Feet and inches are rare, and come last.
   const likelyUnits = sort(UNITS.lengthUnit, (unit) => Number(unit === 'ft' || unit === 'in'), (unit) => Math.abs(Math.log((speed * METRES_PER_UNIT[unit]) / USUAL_SPEED)));
   if (isJudged && length.by === 'usage' && isDoubtful) askUnit('lengthUnit', speed, length.unit, likelyUnits);
 
-  const { unit, by } = options.angleUnit ? { unit: options.angleUnit, by: 'option' as const } : assumed.angle;
+  const { unit, by } = options.angleUnit ? { unit: options.angleUnit, by: 'option' as const } : assumedUnits.angle;
   const alignment = isJudged && kind === 'poses' ? alignmentWithPath(t, a, b, c) : undefined;
   if (alignment?.sign === -1) throw new LogError(place, (texts) => texts.mirrored);
-  const alignmentWithYUp = isJudged && kind === 'poses' && names && !alignment ? alignmentWithPath(t, a, z, c) : undefined;
-  if (names && alignmentWithYUp) throw new LogError(place, (texts) => texts.yUp, { what: 'columns', choices: [names.withYUp(alignmentWithYUp.sign).join()], columns: names.given });
+  const alignmentWithYUp = isJudged && kind === 'poses' && columnNames && !alignment ? alignmentWithPath(t, a, z, c) : undefined;
+  if (columnNames && alignmentWithYUp) throw new LogError(place, (texts) => texts.yUp, { option: 'columns', choices: [columnNames.withYUp(alignmentWithYUp.sign).join()], columns: columnNames.all });
   const turnRateAt = kind === 'poses' ? (i: number) => (c[i + 1] - c[i]) / (t[i + 1] - t[i]) : (i: number) => b[i];
   const turnRate = quantileOf(sampleEvenly(t.length - 1, (i) => Math.abs(turnRateAt(i))), 0.9);
   const mayBeDegrees = kind === 'poses' ? c.some((heading) => Math.abs(heading) > MAX_WRAPPED_HEADING) : turnRate > MAX_SPEED;
@@ -87,22 +87,22 @@ export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, a
   return { time, length, angle };
 }
 
-type Ask = (what: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: string, choices: string[]) => never;
+type AskUnit = (unitOption: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: string, choices: string[]) => never;
 
 /** Judges a unit of times that is not stated, by the rate of the rows and the speed of the robot. */
-function judgeTimeUnit(kind: LogKind, { t, a, b }: Columns, assumed: Units['time'], ask: Ask): Units['time'] {
-  if (assumed.by !== 'usage' && assumed.by !== 'size') return assumed;
+function judgeTimeUnit(kind: LogKind, { t, a, b }: Columns, assumedUnit: Units['time'], ask: AskUnit): Units['time'] {
+  if (assumedUnit.by !== 'usage' && assumedUnit.by !== 'size') return assumedUnit;
   const rate = 1 / medianStepOf(t);
   const speed = kind === 'poses' ? pathSpeedOf(t, a, b) : 0;
-  const unitsPerSecondOf = (unit: TimeUnit) => 10 ** (UNIT_EXPONENTS[unit] - UNIT_EXPONENTS[assumed.unit]);
-  const hasUsualRate = (unit: TimeUnit) => isInRange(rate * unitsPerSecondOf(unit), assumed.by === 'size' ? POSSIBLE_RATES : USUAL_RATES);
+  const unitsPerSecondOf = (unit: TimeUnit) => 10 ** (UNIT_EXPONENTS[unit] - UNIT_EXPONENTS[assumedUnit.unit]);
+  const hasUsualRate = (unit: TimeUnit) => isInRange(rate * unitsPerSecondOf(unit), assumedUnit.by === 'size' ? POSSIBLE_RATES : USUAL_RATES);
   const hasUsualSpeed = (unit: TimeUnit) => speed === 0 || isInRange(speed * unitsPerSecondOf(unit), [MIN_SPEED, MAX_SPEED]);
-  if (hasUsualRate(assumed.unit) && (assumed.by === 'size' || hasUsualSpeed(assumed.unit))) return assumed;
+  if (hasUsualRate(assumedUnit.unit) && (assumedUnit.by === 'size' || hasUsualSpeed(assumedUnit.unit))) return assumedUnit;
   const possibleUnits = UNITS.timeUnit.filter(hasUsualRate);
   const [unit, ...otherUnits] = possibleUnits.filter(hasUsualSpeed);
   if (unit && otherUnits.length === 0 && speed > 0) return { unit, by: 'rate' };
   // A robot that is too fast may have its lengths in another unit.
-  return hasUsualRate(assumed.unit) ? assumed : ask('timeUnit', rate, assumed.unit, possibleUnits);
+  return hasUsualRate(assumedUnit.unit) ? assumedUnit : ask('timeUnit', rate, assumedUnit.unit, possibleUnits);
 }
 
 /**

@@ -18,25 +18,25 @@ export interface Message {
   /** View of the block that contains the serialized message. Messages share it, because creating a view takes as long as reading a message. */
   block: DataView;
   /** Range of the message in the block. */
-  from: number;
-  to: number;
+  start: number;
+  end: number;
 }
 
 export type IsWanted = (channel: Channel) => boolean;
 export type OnMessage = (message: Message) => void;
 /** Callback after each block, with the fraction of the file that has been read. Reading stops if the callback returns true. */
-export type OnBlock = (share: number) => boolean | void;
+export type OnBlock = (fraction: number) => boolean | void;
 
 /** Container of messages: one file, or several files of a recording. */
-export type Container = Pick<MessageFile<unknown>, 'format' | 'channels' | 'cutReason' | 'damage' | 'read'>;
+export type Container = Pick<MessageFile<unknown>, 'format' | 'channels' | 'truncationReason' | 'damageByPosition' | 'readMessages'>;
 
 /** Base class of files of messages, with their channels by id. */
 export abstract class MessageFile<Id> {
   abstract readonly format: Recording['format'];
   /** Reason why the end of the file cannot be read; undefined for a complete file. */
-  cutReason: string | undefined;
+  truncationReason: string | undefined;
   /** Reasons why damaged blocks were skipped, by the positions of the blocks. */
-  readonly damage = new Map<number, string>();
+  readonly damageByPosition = new Map<number, string>();
   protected readonly source: Source;
   protected readonly channelsById = new Map<Id, Channel>();
   /** Chunks of the index, each with the ids of its channels; undefined without an index. */
@@ -51,31 +51,31 @@ export abstract class MessageFile<Id> {
   }
 
   /** Reads blocks, and passes each message of the wanted channels to `onMessage`. Damaged blocks are skipped. */
-  abstract read(isWanted: IsWanted, onMessage: OnMessage, onBlock?: OnBlock): Promise<void>;
+  abstract readMessages(isWanted: IsWanted, onMessage: OnMessage, onBlock?: OnBlock): Promise<void>;
 
   /** Notes the damage of a block. An error of reading the file itself is thrown again. */
   protected noteDamage(position: number, error: unknown): void {
     if (error instanceof LogError) throw error;
-    this.damage.set(position, reasonOf(error));
+    this.damageByPosition.set(position, reasonOf(error));
   }
 
   /**
    * Reads the chunks with wanted messages, or, without an index, all blocks one after the other. Damaged blocks are noted. Without an index, the
    * blocks after one whose end is unknown cannot be found. `readBlock` calls `setEnd` when it knows the end of the block.
    */
-  protected async readBlocks(start: number, isWanted: IsWanted, readBlock: (at: number, setEnd: (end: number) => void) => Promise<void>, onBlock?: OnBlock): Promise<void> {
+  protected async readBlocks(start: number, isWanted: IsWanted, readBlock: (position: number, setEnd: (end: number) => void) => Promise<void>, onBlock?: OnBlock): Promise<void> {
     const { size } = this.source;
     const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
     const chunks = this.chunks?.filter(({ ids }) => ids.some((id) => wantedIds.has(id)));
-    this.cutReason = undefined;
-    for (let i = 0, at = start; chunks ? i < chunks.length : at < size; i++) {
-      const position = chunks ? chunks[i].position : at;
-      at = 0;
-      await readBlock(position, (end) => (at = end)).catch((error) => {
-        if (chunks || at > 0 || error instanceof LogError) this.noteDamage(position, error);
-        else [this.cutReason, at] = [reasonOf(error), size];
+    this.truncationReason = undefined;
+    for (let i = 0, nextPosition = start; chunks ? i < chunks.length : nextPosition < size; i++) {
+      const position = chunks ? chunks[i].position : nextPosition;
+      nextPosition = 0;
+      await readBlock(position, (end) => (nextPosition = end)).catch((error) => {
+        if (chunks || nextPosition > 0 || error instanceof LogError) this.noteDamage(position, error);
+        else [this.truncationReason, nextPosition] = [reasonOf(error), size];
       });
-      if (onBlock?.(chunks ? (i + 1) / chunks.length : at / size)) return;
+      if (onBlock?.(chunks ? (i + 1) / chunks.length : nextPosition / size)) return;
     }
   }
 }
@@ -83,35 +83,35 @@ export abstract class MessageFile<Id> {
 /** Maximum size of a block in bytes. Recorders write one to four million. */
 export const MAX_BLOCK_BYTES = 2 ** 26;
 
-/** Size of the pieces that are read at once, and number of pieces that are read in advance. */
+/** Number of bytes that are read at once, called a piece, and number of pieces that are read in advance. */
 const [PIECE_BYTES, PIECES_AHEAD] = [2 ** 22, 3];
 
 /** Returns a reader of bytes at increasing positions. It requests the next pieces in advance, which saves a quarter of the time in a browser. */
-export function readAhead(source: Source): (from: number, to: number) => Promise<Uint8Array> {
+export function createAheadReader(source: Source): (start: number, requestedEnd: number) => Promise<Uint8Array> {
   /** Bytes of each piece, or a promise of them until they have been read. */
   const pieces = new Map<number, Uint8Array | Promise<Uint8Array>>();
-  let lastPiece = -1;
-  return async (from, to) => {
-    const firstPiece = Math.floor(from / PIECE_BYTES);
-    const piecesAhead = firstPiece <= lastPiece + 1 ? PIECES_AHEAD : 0;
-    const end = Math.min(to, source.size);
-    lastPiece = Math.max(firstPiece, Math.floor((end - 1) / PIECE_BYTES));
-    for (const i of pieces.keys()) if (i < firstPiece) pieces.delete(i);
-    for (let i = firstPiece; i <= lastPiece + piecesAhead && i * PIECE_BYTES < source.size; i++) {
+  let lastPieceIndex = -1;
+  return async (start, requestedEnd) => {
+    const firstPieceIndex = Math.floor(start / PIECE_BYTES);
+    const piecesAhead = firstPieceIndex <= lastPieceIndex + 1 ? PIECES_AHEAD : 0;
+    const end = Math.min(requestedEnd, source.size);
+    lastPieceIndex = Math.max(firstPieceIndex, Math.floor((end - 1) / PIECE_BYTES));
+    for (const i of pieces.keys()) if (i < firstPieceIndex) pieces.delete(i);
+    for (let i = firstPieceIndex; i <= lastPieceIndex + piecesAhead && i * PIECE_BYTES < source.size; i++) {
       if (pieces.has(i)) continue;
       const piece = readBytes(source, i * PIECE_BYTES, Math.min((i + 1) * PIECE_BYTES, source.size));
       pieces.set(i, piece);
-      // An error of reading is reported only when the piece is needed.
+      // A failure to read a piece is reported only when the piece is needed.
       piece.then((bytes) => pieces.has(i) && pieces.set(i, bytes), () => {});
     }
-    const partOf = (piece: Uint8Array | undefined, i: number) => (piece ?? new Uint8Array()).subarray(Math.max(from - i * PIECE_BYTES, 0), end - i * PIECE_BYTES);
-    const firstPieceBytes = pieces.get(firstPiece);
+    const neededPartOf = (piece: Uint8Array | undefined, i: number) => (piece ?? new Uint8Array()).subarray(Math.max(start - i * PIECE_BYTES, 0), end - i * PIECE_BYTES);
+    const firstPieceBytes = pieces.get(firstPieceIndex);
     // Awaiting bytes that have already been read would take longer than reading a record.
-    const partOfFirstPiece = partOf(firstPieceBytes instanceof Promise ? await firstPieceBytes : firstPieceBytes, firstPiece);
-    if (lastPiece === firstPiece) return partOfFirstPiece;
-    const bytes = new Uint8Array(end - from);
+    const partOfFirstPiece = neededPartOf(firstPieceBytes instanceof Promise ? await firstPieceBytes : firstPieceBytes, firstPieceIndex);
+    if (lastPieceIndex === firstPieceIndex) return partOfFirstPiece;
+    const bytes = new Uint8Array(end - start);
     bytes.set(partOfFirstPiece);
-    for (let i = firstPiece + 1; i <= lastPiece; i++) bytes.set(partOf(await pieces.get(i), i), i * PIECE_BYTES - from);
+    for (let i = firstPieceIndex + 1; i <= lastPieceIndex; i++) bytes.set(neededPartOf(await pieces.get(i), i), i * PIECE_BYTES - start);
     return bytes;
   };
 }

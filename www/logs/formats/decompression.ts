@@ -7,12 +7,12 @@ const zstdDecoder = new ZSTDDecoder();
 
 const MAX_FILE_BYTES = 2 ** 30;
 
-/** Maximum size of a message that is compressed by itself: the decoder returns it in one part. Transforms have a hundred bytes each. */
+/** Maximum size (bytes) of a message that is compressed by itself: the decoder returns it in one part. Transforms have a hundred bytes each. */
 const MAX_LOG_MESSAGE_BYTES = 2 ** 17;
 
 const INPUT_PIECE_BYTES = 2 ** 20;
 
-/** Maximum number of successive empty parts of the output. The end of each piece of input or frame gives one. */
+/** Maximum number of successive empty outputs of the decoder. It returns one at the end of each piece of input, and of each frame. */
 const MAX_EMPTY_PARTS = 100;
 
 export const loadZstd = () => zstdDecoder.init();
@@ -28,11 +28,11 @@ export function decompressZstd(bytes: Uint8Array, size: number): Uint8Array {
 /** Decompresses pieces of a file or message; undefined if the content has more than `maxBytes`. Throws an error if it is damaged. */
 function decompressZstdPieces(pieces: Iterable<Uint8Array>, maxBytes: number): Uint8Array<ArrayBuffer>[] | undefined {
   const outputParts: Uint8Array<ArrayBuffer>[] = [];
-  let [size, emptyParts] = [0, 0];
+  let [size, emptyPartCount] = [0, 0];
   for (const outputPart of zstdDecoder.decodeStreaming(pieces)) {
-    // The decoder does not stop at damage, but returns empty parts.
-    emptyParts = outputPart.length === 0 ? emptyParts + 1 : 0;
-    if (emptyParts > MAX_EMPTY_PARTS) throw new RangeError('its compression is damaged');
+    // The decoder does not stop at damage, but returns empty outputs.
+    emptyPartCount = outputPart.length === 0 ? emptyPartCount + 1 : 0;
+    if (emptyPartCount > MAX_EMPTY_PARTS) throw new RangeError('its compression is damaged');
     outputParts.push(outputPart as Uint8Array<ArrayBuffer>);
     size += outputPart.length;
     if (size > maxBytes) return undefined;
@@ -61,15 +61,15 @@ export async function decompressZstdFile(source: Source): Promise<Source> {
 }
 
 function* piecesOf(bytes: Uint8Array) {
-  for (let at = 0; at < bytes.length; at += INPUT_PIECE_BYTES) yield bytes.subarray(at, at + INPUT_PIECE_BYTES);
+  for (let position = 0; position < bytes.length; position += INPUT_PIECE_BYTES) yield bytes.subarray(position, position + INPUT_PIECE_BYTES);
 }
 
 const LZ4_MAGIC = 0x184d2204;
 
-/** Bits of a frame's flags. */
-const [VERSION, VERSION_1, BLOCK_CHECKSUMS, CONTENT_SIZE, CHECKSUM, DICTIONARY] = [0xc0, 0x40, 0x10, 0x08, 0x04, 0x01];
+/** Bits of the flags in the header of an LZ4 frame. */
+const [VERSION_MASK, VERSION_1, BLOCK_CHECKSUMS, CONTENT_SIZE, CONTENT_CHECKSUM, DICTIONARY] = [0xc0, 0x40, 0x10, 0x08, 0x04, 0x01];
 
-/** Bit in the length of a block that is not compressed. */
+/** Bit that is set in the length of an uncompressed block. */
 const UNCOMPRESSED_BIT = 0x80000000;
 
 /** Minimum length of a match. The format stores lengths minus this minimum. */
@@ -86,65 +86,65 @@ let xxhash32: ((bytes: Uint8Array) => number) | undefined;
 export async function decompressLz4(bytes: Uint8Array, size: number): Promise<Uint8Array<ArrayBuffer>> {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const flags = view.getUint8(4);
-  assertValid(view.getUint32(0, true) === LZ4_MAGIC && (flags & VERSION) === VERSION_1 && !(flags & DICTIONARY));
-  if (flags & (BLOCK_CHECKSUMS | CHECKSUM)) xxhash32 ??= (await (await import('xxhash-wasm')).default()).h32Raw;
-  const verifyChecksum = (part: Uint8Array, at: number) => assertValid(xxhash32?.(part) === view.getUint32(at, true));
+  assertValid(view.getUint32(0, true) === LZ4_MAGIC && (flags & VERSION_MASK) === VERSION_1 && !(flags & DICTIONARY));
+  if (flags & (BLOCK_CHECKSUMS | CONTENT_CHECKSUM)) xxhash32 ??= (await (await import('xxhash-wasm')).default()).h32Raw;
+  const verifyChecksum = (part: Uint8Array, position: number) => assertValid(xxhash32?.(part) === view.getUint32(position, true));
   const output = new Uint8Array(size);
   let filledBytes = 0;
-  // Magic number, two bytes of flags, the size if there is one, and a checksum come first.
-  for (let at = 7 + (flags & CONTENT_SIZE ? 8 : 0); ; ) {
-    const blockWord = view.getUint32(at, true);
+  // The header has a magic number, two bytes of flags, the size if there is one, and a checksum.
+  for (let position = 7 + (flags & CONTENT_SIZE ? 8 : 0); ; ) {
+    const blockWord = view.getUint32(position, true);
     if (blockWord === 0) {
-      if (flags & CHECKSUM) verifyChecksum(output, at + 4);
+      if (flags & CONTENT_CHECKSUM) verifyChecksum(output, position + 4);
       break;
     }
-    const from = at + 4;
-    const to = from + (blockWord & ~UNCOMPRESSED_BIT);
-    assertValid(to <= bytes.length);
+    const blockStart = position + 4;
+    const blockEnd = blockStart + (blockWord & ~UNCOMPRESSED_BIT);
+    assertValid(blockEnd <= bytes.length);
     if (blockWord & UNCOMPRESSED_BIT) {
-      output.set(bytes.subarray(from, to), filledBytes);
-      filledBytes += to - from;
+      output.set(bytes.subarray(blockStart, blockEnd), filledBytes);
+      filledBytes += blockEnd - blockStart;
     } else {
-      filledBytes = decompressBlock(bytes.subarray(from, to), output, filledBytes);
+      filledBytes = decompressBlock(bytes.subarray(blockStart, blockEnd), output, filledBytes);
     }
-    if (flags & BLOCK_CHECKSUMS) verifyChecksum(bytes.subarray(from, to), to);
-    at = to + (flags & BLOCK_CHECKSUMS ? 4 : 0);
+    if (flags & BLOCK_CHECKSUMS) verifyChecksum(bytes.subarray(blockStart, blockEnd), blockEnd);
+    position = blockEnd + (flags & BLOCK_CHECKSUMS ? 4 : 0);
   }
   assertValid(filledBytes === size);
   return output;
 }
 
-/** Appends a decompressed block to `output`, which has `filled` bytes, and returns the new number. */
-function decompressBlock(block: Uint8Array, output: Uint8Array, filled: number): number {
-  let at = 0;
+/** Appends a decompressed block to `output`, whose first `filledBytes` bytes are filled. Returns the new number of filled bytes. */
+function decompressBlock(block: Uint8Array, output: Uint8Array, filledBytes: number): number {
+  let position = 0;
   /** Returns a length from its first four bits. If they are 15, bytes are added up to the first one below 255. */
   const readLength = (length: number) => {
     if (length < 15) return length;
     for (let byte = 255; byte === 255; length += byte) {
-      assertValid(at < block.length);
-      byte = block[at++];
+      assertValid(position < block.length);
+      byte = block[position++];
     }
     return length;
   };
-  while (at < block.length) {
-    const lengthsToken = block[at++];
+  while (position < block.length) {
+    const lengthsToken = block[position++];
     const literalLength = readLength(lengthsToken >> 4);
-    assertValid(literalLength <= block.length - at && literalLength <= output.length - filled);
-    output.set(block.subarray(at, at + literalLength), filled);
-    at += literalLength;
-    filled += literalLength;
+    assertValid(literalLength <= block.length - position && literalLength <= output.length - filledBytes);
+    output.set(block.subarray(position, position + literalLength), filledBytes);
+    position += literalLength;
+    filledBytes += literalLength;
     // The last sequence has no match.
-    if (at === block.length) break;
-    const matchDistance = block[at] | (block[at + 1] << 8);
-    at += 2;
-    const end = filled + readLength(lengthsToken & 15) + MIN_MATCH;
-    assertValid(matchDistance > 0 && matchDistance <= filled && end <= output.length);
+    if (position === block.length) break;
+    const matchDistance = block[position] | (block[position + 1] << 8);
+    position += 2;
+    const end = filledBytes + readLength(lengthsToken & 15) + MIN_MATCH;
+    assertValid(matchDistance > 0 && matchDistance <= filledBytes && end <= output.length);
     // A match that is longer than its distance also copies bytes that it has just written.
-    for (const from = filled - matchDistance; filled < end; ) {
-      const copyLength = Math.min(end - filled, filled - from);
-      output.copyWithin(filled, from, from + copyLength);
-      filled += copyLength;
+    for (const matchStart = filledBytes - matchDistance; filledBytes < end; ) {
+      const copyLength = Math.min(end - filledBytes, filledBytes - matchStart);
+      output.copyWithin(filledBytes, matchStart, matchStart + copyLength);
+      filledBytes += copyLength;
     }
   }
-  return filled;
+  return filledBytes;
 }

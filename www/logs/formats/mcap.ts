@@ -3,11 +3,11 @@
 import { crc32 } from '@foxglove/crc';
 import { McapIndexedReader, McapStreamReader, type Channel } from '@mcap/core';
 import { readBytes, type Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, readAhead, readUint53, dataViewOf, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, createAheadReader, readUint53, dataViewOf, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
 import { decompressLz4, loadZstd, decompressZstd } from './decompression.ts';
 
 /** Opcodes of records, and the number of bytes of opcode and length before the content of a record. */
-const [SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END] = [3, 4, 5, 6, 15];
+const [SCHEMA_OPCODE, CHANNEL_OPCODE, MESSAGE_OPCODE, CHUNK_OPCODE, DATA_END_OPCODE] = [3, 4, 5, 6, 15];
 const RECORD_HEAD_BYTES = 9;
 
 const MAGIC_BYTES = 8;
@@ -26,7 +26,7 @@ export async function openMcap(source: Source): Promise<Container> {
   const indexReader = await McapIndexedReader.Initialize({ readable }).catch(() => undefined);
   const mcap = new Mcap(source);
   if (indexReader && isCompleteIndex(indexReader)) mcap.useIndex(indexReader);
-  else await mcap.read(() => true, ({ channel }) => (channel.count += 1));
+  else await mcap.readMessages(() => true, ({ channel }) => (channel.count += 1));
   return mcap;
 }
 
@@ -38,57 +38,57 @@ const isCompleteIndex = ({ chunkIndexes, statistics }: McapIndexedReader) =>
 
 class Mcap extends MessageFile<number> {
   readonly format = 'mcap';
-  #types = new Map<number, string>();
+  #typesBySchemaId = new Map<number, string>();
 
   useIndex({ chunkIndexes, schemasById, channelsById, statistics }: McapIndexedReader): void {
     this.chunks = chunkIndexes.map(({ chunkStartOffset, messageIndexOffsets }) => ({ position: Number(chunkStartOffset), ids: [...messageIndexOffsets.keys()] }));
-    for (const { id, name } of schemasById.values()) this.#types.set(id, name);
+    for (const { id, name } of schemasById.values()) this.#typesBySchemaId.set(id, name);
     for (const channel of channelsById.values()) this.#addChannel(channel, Number(statistics?.channelMessageCounts.get(channel.id) ?? 0));
   }
 
   #addChannel({ id, topic, schemaId, messageEncoding }: Channel, count = 0): void {
-    if (!this.channelsById.has(id)) this.channelsById.set(id, { topic, type: this.#types.get(schemaId) ?? '', encoding: messageEncoding, count });
+    if (!this.channelsById.has(id)) this.channelsById.set(id, { topic, type: this.#typesBySchemaId.get(schemaId) ?? '', encoding: messageEncoding, count });
   }
 
-  async read(isWanted: IsWanted, onMessage: OnMessage, onBlock?: OnBlock): Promise<void> {
+  async readMessages(isWanted: IsWanted, onMessage: OnMessage, onBlock?: OnBlock): Promise<void> {
     const { size } = this.source;
-    const readBytesAt = readAhead(this.source);
+    const readBytesAt = createAheadReader(this.source);
     let isComplete = this.chunks !== undefined;
-    const readBlock = async (at: number, setEnd: (end: number) => void) => {
-      const recordHead = await readBytesAt(at, at + RECORD_HEAD_BYTES);
+    const readBlock = async (recordStart: number, setEnd: (end: number) => void) => {
+      const recordHead = await readBytesAt(recordStart, recordStart + RECORD_HEAD_BYTES);
       const [opcode, length] = [recordHead[0], readUint53(dataViewOf(recordHead), 1)];
-      const end = at + RECORD_HEAD_BYTES + length;
+      const end = recordStart + RECORD_HEAD_BYTES + length;
       if (end > size) throw new RangeError('a record is cut short');
-      isComplete ||= opcode === DATA_END;
+      isComplete ||= opcode === DATA_END_OPCODE;
       setEnd(isComplete ? size : end);
-      if (this.chunks && opcode !== CHUNK) throw new RangeError('no chunk is there');
-      if (![SCHEMA, CHANNEL, MESSAGE, CHUNK].includes(opcode)) return;
+      if (this.chunks && opcode !== CHUNK_OPCODE) throw new RangeError('no chunk is there');
+      if (![SCHEMA_OPCODE, CHANNEL_OPCODE, MESSAGE_OPCODE, CHUNK_OPCODE].includes(opcode)) return;
       if (length > MAX_BLOCK_BYTES) throw new RangeError(`a record of ${length} bytes`);
-      const record = await readBytesAt(at, end);
-      this.#readRecords(opcode === CHUNK ? await recordsOf(record.subarray(RECORD_HEAD_BYTES)) : record, isWanted, onMessage);
+      const record = await readBytesAt(recordStart, end);
+      this.#readRecords(opcode === CHUNK_OPCODE ? await recordsOf(record.subarray(RECORD_HEAD_BYTES)) : record, isWanted, onMessage);
     };
     await this.readBlocks(MAGIC_BYTES, isWanted, readBlock, onBlock);
-    if (!isComplete) this.cutReason ??= 'it ends without an index';
+    if (!isComplete) this.truncationReason ??= 'it ends without an index';
   }
 
   #readRecords(bytes: Uint8Array, isWanted: IsWanted, onMessage: OnMessage): void {
     const view = dataViewOf(bytes);
-    for (let at = 0; at < bytes.length; ) {
-      const nextRecord = at + RECORD_HEAD_BYTES + readUint53(view, at + 1);
-      if (nextRecord > bytes.length) throw new RangeError('a record is cut short');
-      if (bytes[at] === MESSAGE) {
-        const channel = this.channelsById.get(view.getUint16(at + RECORD_HEAD_BYTES, true));
+    for (let recordStart = 0; recordStart < bytes.length; ) {
+      const recordEnd = recordStart + RECORD_HEAD_BYTES + readUint53(view, recordStart + 1);
+      if (recordEnd > bytes.length) throw new RangeError('a record is cut short');
+      if (bytes[recordStart] === MESSAGE_OPCODE) {
+        const channel = this.channelsById.get(view.getUint16(recordStart + RECORD_HEAD_BYTES, true));
         if (channel && isWanted(channel)) {
-          onMessage({ channel, time: readUint53(view, at + RECORD_HEAD_BYTES + 6) / 1e9, block: view, from: at + RECORD_HEAD_BYTES + 22, to: nextRecord });
+          onMessage({ channel, time: readUint53(view, recordStart + RECORD_HEAD_BYTES + 6) / 1e9, block: view, start: recordStart + RECORD_HEAD_BYTES + 22, end: recordEnd });
         }
       } else {
         const reader = new McapStreamReader({ noMagicPrefix: true });
-        reader.append(bytes.subarray(at, nextRecord));
+        reader.append(bytes.subarray(recordStart, recordEnd));
         const record = reader.nextRecord();
-        if (record?.type === 'Schema') this.#types.set(record.id, record.name);
+        if (record?.type === 'Schema') this.#typesBySchemaId.set(record.id, record.name);
         if (record?.type === 'Channel') this.#addChannel(record);
       }
-      at = nextRecord;
+      recordStart = recordEnd;
     }
   }
 }

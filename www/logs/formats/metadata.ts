@@ -1,4 +1,4 @@
-/** Files of a recording of rosbag2 that consists of several: its metadata.yaml lists them. */
+/** Files of a rosbag2 recording, which its metadata.yaml lists. */
 
 import { load } from 'js-yaml';
 import { LogError, listNames, readBytes, reasonOf, type Source } from '../log.ts';

@@ -1,11 +1,11 @@
 /** Connections and messages of ROS 1 bags. http://wiki.ros.org/Bags/Format/2.0 */
 
 import { LogError, readBytes, type Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, dataViewOf, readAhead, readUint53, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, dataViewOf, createAheadReader, readUint53, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
 import { decompressLz4 } from './decompression.ts';
 
 /** Values of the field "op" of records. */
-const [MESSAGE, BAG, CHUNK, CHUNK_INFO, CONNECTION] = [2, 3, 5, 6, 7];
+const [MESSAGE_OPCODE, BAG_OPCODE, CHUNK_OPCODE, CHUNK_INFO_OPCODE, CONNECTION_OPCODE] = [2, 3, 5, 6, 7];
 
 const MAGIC_BYTES = 13;
 
@@ -15,19 +15,19 @@ const MAX_HEADER_BYTES = 4096;
 /** Opens a bag by its index. Without an index it is read from its start up to its end, or to a damaged length. */
 export async function openRosbag(source: Source): Promise<Container> {
   const bag = new Rosbag(source);
-  if (!(await bag.readIndex())) await bag.read(() => true, ({ channel }) => (channel.count += 1));
+  if (!(await bag.readIndex())) await bag.readMessages(() => true, ({ channel }) => (channel.count += 1));
   return bag;
 }
 
 /** Returns the value of a field of a header: "name=value" after its length. Throws a RangeError if there is no such field. */
 function fieldOf(header: DataView, name: string): DataView {
-  const start = `${name}=`;
-  for (let at = 0; at < header.byteLength; ) {
-    const end = at + 4 + header.getUint32(at, true);
-    let valueAt = at + 4;
-    while (valueAt - at - 4 < start.length && header.getUint8(valueAt) === start.charCodeAt(valueAt - at - 4)) valueAt += 1;
-    if (valueAt - at - 4 === start.length) return new DataView(header.buffer, header.byteOffset + valueAt, end - valueAt);
-    at = end;
+  const prefix = `${name}=`;
+  for (let fieldStart = 0; fieldStart < header.byteLength; ) {
+    const end = fieldStart + 4 + header.getUint32(fieldStart, true);
+    let valueStart = fieldStart + 4;
+    while (valueStart - fieldStart - 4 < prefix.length && header.getUint8(valueStart) === prefix.charCodeAt(valueStart - fieldStart - 4)) valueStart += 1;
+    if (valueStart - fieldStart - 4 === prefix.length) return new DataView(header.buffer, header.byteOffset + valueStart, end - valueStart);
+    fieldStart = end;
   }
   throw new RangeError(`a record has no field ${name}`);
 }
@@ -36,22 +36,22 @@ const uint32Of = (header: DataView, name: string) => fieldOf(header, name).getUi
 const textOf = (header: DataView, name: string) => new TextDecoder().decode(fieldOf(header, name));
 const opcodeOf = (header: DataView) => fieldOf(header, 'op').getUint8(0);
 
-interface BagRecord { header: DataView; from: number; to: number }
+interface BagRecord { header: DataView; dataStart: number; dataEnd: number }
 
 /** Returns the header of a record, and the range of its data. Throws a RangeError if the view ends in the header. */
-function recordAt(view: DataView, at: number): BagRecord {
-  const headerEnd = at + 4 + view.getUint32(at, true);
+function recordAt(view: DataView, recordStart: number): BagRecord {
+  const headerEnd = recordStart + 4 + view.getUint32(recordStart, true);
   if (headerEnd + 4 > view.byteLength) throw new RangeError('a header is damaged or cut short');
-  const from = headerEnd + 4;
-  return { header: new DataView(view.buffer, view.byteOffset + at + 4, headerEnd - at - 4), from, to: from + view.getUint32(headerEnd, true) };
+  const dataStart = headerEnd + 4;
+  return { header: new DataView(view.buffer, view.byteOffset + recordStart + 4, headerEnd - recordStart - 4), dataStart, dataEnd: dataStart + view.getUint32(headerEnd, true) };
 }
 
 function* recordsIn(view: DataView): Generator<BagRecord> {
-  for (let at = 0; at < view.byteLength; ) {
-    const record = recordAt(view, at);
-    if (record.to > view.byteLength) throw new RangeError('a record is cut short');
+  for (let recordStart = 0; recordStart < view.byteLength; ) {
+    const record = recordAt(view, recordStart);
+    if (record.dataEnd > view.byteLength) throw new RangeError('a record is cut short');
     yield record;
-    at = record.to;
+    recordStart = record.dataEnd;
   }
 }
 
@@ -64,18 +64,18 @@ class Rosbag extends MessageFile<number> {
     try {
       const { header } = recordAt(dataViewOf(await readBytes(this.source, MAGIC_BYTES, MAGIC_BYTES + MAX_HEADER_BYTES)), 0);
       const [start, count] = [readUint53(fieldOf(header, 'index_pos'), 0), uint32Of(header, 'chunk_count')];
-      if (opcodeOf(header) !== BAG || start === 0 || start > size) return false;
+      if (opcodeOf(header) !== BAG_OPCODE || start === 0 || start > size) return false;
       const bytes = await readBytes(this.source, start, size);
       const view = dataViewOf(bytes);
       const chunks = [];
-      for (const { header: recordHeader, from, to } of recordsIn(view)) {
+      for (const { header: recordHeader, dataStart, dataEnd } of recordsIn(view)) {
         const opcode = opcodeOf(recordHeader);
-        if (opcode === CONNECTION) this.#addConnection(recordHeader, bytes.subarray(from, to));
-        if (opcode !== CHUNK_INFO) continue;
-        const idsWithCounts = Array.from({ length: uint32Of(recordHeader, 'count') }, (_, i) => [0, 4].map((fieldOffset) => view.getUint32(from + 8 * i + fieldOffset, true)));
-        for (const [id, messages] of idsWithCounts) {
+        if (opcode === CONNECTION_OPCODE) this.#addConnection(recordHeader, bytes.subarray(dataStart, dataEnd));
+        if (opcode !== CHUNK_INFO_OPCODE) continue;
+        const idsWithCounts = Array.from({ length: uint32Of(recordHeader, 'count') }, (_, i) => [0, 4].map((fieldOffset) => view.getUint32(dataStart + 8 * i + fieldOffset, true)));
+        for (const [id, messageCount] of idsWithCounts) {
           const channel = this.channelsById.get(id);
-          if (channel) channel.count += messages;
+          if (channel) channel.count += messageCount;
         }
         chunks.push({ position: readUint53(fieldOf(recordHeader, 'chunk_pos'), 0), ids: idsWithCounts.map(([id]) => id) });
       }
@@ -96,33 +96,33 @@ class Rosbag extends MessageFile<number> {
     this.channelsById.set(id, { topic: textOf(header, 'topic'), type: textOf(dataViewOf(data), 'type'), encoding: 'ros1', count: 0 });
   }
 
-  async read(isWanted: IsWanted, onMessage: OnMessage, onBlock?: OnBlock): Promise<void> {
+  async readMessages(isWanted: IsWanted, onMessage: OnMessage, onBlock?: OnBlock): Promise<void> {
     const { size } = this.source;
-    const readBytesAt = readAhead(this.source);
-    const readBlock = async (at: number, setEnd: (end: number) => void) => {
-      const { header, from, to } = recordAt(dataViewOf(await readBytesAt(at, Math.min(at + MAX_HEADER_BYTES, size))), 0);
-      if (at + to > size) throw new RangeError('a record is cut short');
-      setEnd(at + to);
-      const op = opcodeOf(header);
-      if (this.chunks && op !== CHUNK) throw new RangeError('no chunk is there');
-      if (op === CONNECTION) this.#addConnection(header, await readBytesAt(at + from, at + to));
-      if (op !== CHUNK) return;
+    const readBytesAt = createAheadReader(this.source);
+    const readBlock = async (recordStart: number, setEnd: (end: number) => void) => {
+      const { header, dataStart, dataEnd } = recordAt(dataViewOf(await readBytesAt(recordStart, Math.min(recordStart + MAX_HEADER_BYTES, size))), 0);
+      if (recordStart + dataEnd > size) throw new RangeError('a record is cut short');
+      setEnd(recordStart + dataEnd);
+      const opcode = opcodeOf(header);
+      if (this.chunks && opcode !== CHUNK_OPCODE) throw new RangeError('no chunk is there');
+      if (opcode === CONNECTION_OPCODE) this.#addConnection(header, await readBytesAt(recordStart + dataStart, recordStart + dataEnd));
+      if (opcode !== CHUNK_OPCODE) return;
       const uncompressedBytes = uint32Of(header, 'size');
-      if (Math.max(to, uncompressedBytes) > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${uncompressedBytes} bytes`);
-      this.#readRecords(await decompress(textOf(header, 'compression'), await readBytesAt(at + from, at + to), uncompressedBytes), isWanted, onMessage);
+      if (Math.max(dataEnd, uncompressedBytes) > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${uncompressedBytes} bytes`);
+      this.#readRecords(await decompress(textOf(header, 'compression'), await readBytesAt(recordStart + dataStart, recordStart + dataEnd), uncompressedBytes), isWanted, onMessage);
     };
     await this.readBlocks(MAGIC_BYTES, isWanted, readBlock, onBlock);
   }
 
   #readRecords(bytes: Uint8Array, isWanted: IsWanted, onMessage: OnMessage): void {
     const block = dataViewOf(bytes);
-    for (const { header, from, to } of recordsIn(block)) {
-      const op = opcodeOf(header);
-      if (op === CONNECTION) this.#addConnection(header, bytes.subarray(from, to));
-      const channel = op === MESSAGE ? this.channelsById.get(uint32Of(header, 'conn')) : undefined;
+    for (const { header, dataStart, dataEnd } of recordsIn(block)) {
+      const opcode = opcodeOf(header);
+      if (opcode === CONNECTION_OPCODE) this.#addConnection(header, bytes.subarray(dataStart, dataEnd));
+      const channel = opcode === MESSAGE_OPCODE ? this.channelsById.get(uint32Of(header, 'conn')) : undefined;
       if (!channel || !isWanted(channel)) continue;
       const time = fieldOf(header, 'time');
-      onMessage({ channel, time: time.getUint32(0, true) + time.getUint32(4, true) / 1e9, block, from, to });
+      onMessage({ channel, time: time.getUint32(0, true) + time.getUint32(4, true) / 1e9, block, start: dataStart, end: dataEnd });
     }
   }
 }

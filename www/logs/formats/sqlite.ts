@@ -1,7 +1,7 @@
 /** Topics and messages of rosbag2's SQLite databases. https://www.sqlite.org/fileformat.html */
 
 import { LogError, readBytes, type Source } from '../log.ts';
-import { MessageFile, readAhead, dataViewOf, type Channel, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
+import { MessageFile, createAheadReader, dataViewOf, type Channel, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
 import { loadZstd } from './decompression.ts';
 
 const [INTERIOR_PAGE_TYPE, LEAF_PAGE_TYPE] = [5, 13];
@@ -16,14 +16,14 @@ type SqliteValue = number | Uint8Array;
 interface Row {
   id: number;
   /** Bytes of the row on the leaf page. All other bytes are on overflow pages. */
-  bytes: Uint8Array;
+  localBytes: Uint8Array;
   /** Number of all bytes of the row. */
-  length: number;
+  byteCount: number;
   /** Number of the first overflow page; 0 if there is none. */
-  next: number;
+  overflowPage: number;
 }
 
-interface SqliteTable { root: number; columns: string[] }
+interface SqliteTable { rootPage: number; columns: string[] }
 
 const decodeText = (value: SqliteValue) => (value instanceof Uint8Array ? new TextDecoder().decode(value) : '');
 
@@ -39,14 +39,14 @@ class Rosbag2 extends MessageFile<SqliteValue> {
   #pageSize = 0;
   /** Bytes of a page without those reserved at its end. */
   #usableBytes = 0;
-  #messages: SqliteTable = { root: 0, columns: [] };
-  #readBytesAt = readAhead(this.source);
+  #messages: SqliteTable = { rootPage: 0, columns: [] };
+  #readBytesAt = createAheadReader(this.source);
 
   async open(): Promise<void> {
     const view = dataViewOf(await readBytes(this.source, 0, HEADER_BYTES));
     const createNotRosbag2Error = () => new LogError({ file: this.source.name }, (texts) => texts.noRosbag2);
     if (view.byteLength < HEADER_BYTES) {
-      this.cutReason = 'its header is cut short';
+      this.truncationReason = 'its header is cut short';
       return;
     }
     this.#pageSize = view.getUint16(16) === 1 ? 65536 : view.getUint16(16);
@@ -54,17 +54,17 @@ class Rosbag2 extends MessageFile<SqliteValue> {
     if (this.#usableBytes < 480) throw createNotRosbag2Error();
     // Pages beyond the number in the header belong to an unfinished transaction.
     const pageCount = view.getUint32(28);
-    if (pageCount > 0 && pageCount * this.#pageSize !== this.source.size) this.cutReason = 'the recorder did not close it';
+    if (pageCount > 0 && pageCount * this.#pageSize !== this.source.size) this.truncationReason = 'the recorder did not close it';
     const tablesByName = new Map<string, SqliteTable>();
-    await this.#visitRows({ root: 1, columns: [] }, async (row) => {
+    await this.#visitRows({ rootPage: 1, columns: [] }, async (row) => {
       const bytes = await this.#readWholeRow(row);
       const [name, root, sql] = [1, 3, 4].map((column) => columnValueOf(bytes, column));
       const columns = decodeText(sql).replace(/^[^(]*\(|\)[^)]*$/g, '').split(',').map((column) => column.trim().split(/\s/)[0]);
-      tablesByName.set(decodeText(name), { root: Number(root), columns });
+      tablesByName.set(decodeText(name), { rootPage: Number(root), columns });
     });
     const [topics, messages] = ['topics', 'messages'].map((name) => tablesByName.get(name));
     if (!topics || !messages) {
-      if (this.cutReason) return;
+      if (this.truncationReason) return;
       throw createNotRosbag2Error();
     }
     this.#messages = messages;
@@ -73,37 +73,37 @@ class Rosbag2 extends MessageFile<SqliteValue> {
       const [topic, type, encoding] = ['name', 'type', 'serialization_format'].map((column) => decodeText(columnValueOf(bytes, topics.columns.indexOf(column))));
       this.channelsById.set(row.id, { topic, type, encoding, count: 0 });
     });
-    const topicId = messages.columns.indexOf('topic_id');
-    await this.#visitRows(messages, ({ bytes }) => {
-      const channel = this.channelsById.get(columnValueOf(bytes, topicId));
+    const topicColumn = messages.columns.indexOf('topic_id');
+    await this.#visitRows(messages, ({ localBytes: bytes }) => {
+      const channel = this.channelsById.get(columnValueOf(bytes, topicColumn));
       if (channel) channel.count += 1;
     });
   }
 
-  async read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: OnBlock): Promise<void> {
+  async readMessages(isWanted: IsWanted, onMessage: OnMessage, onProgress?: OnBlock): Promise<void> {
     const wantedChannels = new Map([...this.channelsById].filter(([, channel]) => isWanted(channel)));
-    const [topicId, timestamp, data] = ['topic_id', 'timestamp', 'data'].map((column) => this.#messages.columns.indexOf(column));
+    const [topicColumn, timeColumn, dataColumn] = ['topic_id', 'timestamp', 'data'].map((column) => this.#messages.columns.indexOf(column));
     const passRow = (channel: Channel, bytes: Uint8Array) => {
-      const block = dataViewOf(columnValueOf(bytes, data) as Uint8Array);
-      onMessage({ channel, time: Number(columnValueOf(bytes, timestamp)) / 1e9, block, from: 0, to: block.byteLength });
+      const block = dataViewOf(columnValueOf(bytes, dataColumn) as Uint8Array);
+      onMessage({ channel, time: Number(columnValueOf(bytes, timeColumn)) / 1e9, block, start: 0, end: block.byteLength });
     };
     await this.#visitRows(this.#messages, (row) => {
-      const channel = wantedChannels.get(columnValueOf(row.bytes, topicId));
+      const channel = wantedChannels.get(columnValueOf(row.localBytes, topicColumn));
       if (!channel) return undefined;
-      return row.bytes.length < row.length ? this.#readWholeRow(row).then((bytes) => passRow(channel, bytes)) : passRow(channel, row.bytes);
+      return row.localBytes.length < row.byteCount ? this.#readWholeRow(row).then((bytes) => passRow(channel, bytes)) : passRow(channel, row.localBytes);
     }, onProgress);
   }
 
   /** Calls `onRow` for the rows of a table in the order of their ids. Damaged pages are skipped. */
-  async #visitRows({ root }: SqliteTable, onRow: (row: Row) => void | Promise<void>, onProgress?: OnBlock): Promise<void> {
+  async #visitRows({ rootPage: root }: SqliteTable, onRow: (row: Row) => void | Promise<void>, onProgress?: OnBlock): Promise<void> {
     // In an incomplete file interior pages may be missing, so all pages are tried. Pages of other tables then fail without a note.
-    const triesAllPages = this.cutReason !== undefined && root === this.#messages.root;
+    const triesAllPages = this.truncationReason !== undefined && root === this.#messages.rootPage;
     const leafPages = triesAllPages ? Array.from({ length: this.source.size / this.#pageSize }, (_, i) => i + 1) : await this.#leavesOf(root);
     for (const [i, pageNumber] of leafPages.entries()) {
       try {
         const pageBytes = await this.#readPage(pageNumber);
-        for (const cell of cellOffsetsOf(pageBytes, pageNumber, LEAF_PAGE_TYPE)) {
-          const pendingRow = onRow(this.#rowAt(pageBytes, cell));
+        for (const cellOffset of cellOffsetsOf(pageBytes, pageNumber, LEAF_PAGE_TYPE)) {
+          const pendingRow = onRow(this.#rowAt(pageBytes, cellOffset));
           if (pendingRow) await pendingRow;
         }
       } catch (error) {
@@ -129,7 +129,7 @@ class Rosbag2 extends MessageFile<SqliteValue> {
         if (page[start] === LEAF_PAGE_TYPE && pagesOfNextLevel.length === 0) return pagesOfLevel;
         try {
           const view = dataViewOf(page);
-          for (const cell of cellOffsetsOf(page, pageNumber, INTERIOR_PAGE_TYPE)) pagesOfNextLevel.push(view.getUint32(cell));
+          for (const cellOffset of cellOffsetsOf(page, pageNumber, INTERIOR_PAGE_TYPE)) pagesOfNextLevel.push(view.getUint32(cellOffset));
           pagesOfNextLevel.push(view.getUint32(start + 8));
         } catch (error) {
           this.noteDamage(pageNumber, error);
@@ -146,12 +146,12 @@ class Rosbag2 extends MessageFile<SqliteValue> {
     return page;
   }
 
-  #rowAt(page: Uint8Array, cell: number): Row {
-    const [length, afterLength] = varintAt(page, cell);
+  #rowAt(page: Uint8Array, cellOffset: number): Row {
+    const [length, afterLength] = varintAt(page, cellOffset);
     const [id, start] = varintAt(page, afterLength);
     const localEnd = start + this.#localByteCountOf(length);
     if (localEnd > page.length || length > Math.min(MAX_ROW_BYTES, this.source.size)) throw new RangeError('a row is damaged');
-    return { id, bytes: page.subarray(start, localEnd), length, next: localEnd - start < length ? dataViewOf(page).getUint32(localEnd) : 0 };
+    return { id, localBytes: page.subarray(start, localEnd), byteCount: length, overflowPage: localEnd - start < length ? dataViewOf(page).getUint32(localEnd) : 0 };
   }
 
   /** Returns the number of bytes of a row on its own page. The other bytes are on overflow pages. */
@@ -164,7 +164,7 @@ class Rosbag2 extends MessageFile<SqliteValue> {
   }
 
   /** Returns all bytes of a row, including those on overflow pages. */
-  async #readWholeRow({ bytes, length, next }: Row): Promise<Uint8Array> {
+  async #readWholeRow({ localBytes: bytes, byteCount: length, overflowPage: next }: Row): Promise<Uint8Array> {
     if (bytes.length === length) return bytes;
     const row = new Uint8Array(length);
     row.set(bytes);
@@ -189,39 +189,39 @@ function cellOffsetsOf(page: Uint8Array, pageNumber: number, type: number): numb
 }
 
 /** Returns a variable-length integer of one to nine bytes, and the position after it. */
-function varintAt(bytes: Uint8Array, at: number): [value: number, next: number] {
+function varintAt(bytes: Uint8Array, start: number): [value: number, next: number] {
   let value = 0;
   for (let i = 0; i < 9; i++) {
-    if (at + i >= bytes.length) break;
-    const byte = bytes[at + i];
+    if (start + i >= bytes.length) break;
+    const byte = bytes[start + i];
     if (i < 8 && byte & 0x80) value = value * 128 + (byte & 0x7f);
-    else return [i < 8 ? value * 128 + byte : value * 256 + byte, at + i + 1];
+    else return [i < 8 ? value * 128 + byte : value * 256 + byte, start + i + 1];
   }
   throw new RangeError('a row is damaged');
 }
 
-/** Sizes in bytes of values, by their serial type from 0 to 9. Larger types are texts and blobs. */
-const INTEGER_SIZES = [0, 1, 2, 3, 4, 6, 8, 8, 0, 0];
+/** Sizes in bytes of values, by their serial type valueStart 0 valueEnd 9. Larger types are texts and blobs. */
+const INTEGER_BYTES = [0, 1, 2, 3, 4, 6, 8, 8, 0, 0];
 
 /** Returns the value of a column; throws a RangeError if the bytes end before it. */
 function columnValueOf(row: Uint8Array, column: number): SqliteValue {
-  let [from, at] = varintAt(row, 0);
-  const end = from;
-  for (let i = 0; at < end; i++) {
-    const [type, next] = varintAt(row, at);
-    const to = from + (INTEGER_SIZES[type] ?? (type - 12 - (type % 2)) / 2);
-    if (i < column) [from, at] = [to, next];
-    else if (to > row.length) break;
-    else if (type >= 12) return row.subarray(from, to);
-    else return integerOf(row, type, from, to);
+  let [valueStart, typeStart] = varintAt(row, 0);
+  const end = valueStart;
+  for (let i = 0; typeStart < end; i++) {
+    const [type, next] = varintAt(row, typeStart);
+    const valueEnd = valueStart + (INTEGER_BYTES[type] ?? (type - 12 - (type % 2)) / 2);
+    if (i < column) [valueStart, typeStart] = [valueEnd, next];
+    else if (valueEnd > row.length) break;
+    else if (type >= 12) return row.subarray(valueStart, valueEnd);
+    else return integerOf(row, type, valueStart, valueEnd);
   }
   throw new RangeError('a row is damaged');
 }
 
-function integerOf(row: Uint8Array, type: number, from: number, to: number): number {
-  if (type === 6) return Number(dataViewOf(row).getBigInt64(from));
+function integerOf(row: Uint8Array, type: number, start: number, end: number): number {
+  if (type === 6) return Number(dataViewOf(row).getBigInt64(start));
   if (type === 8 || type === 9) return type - 8;
   let value = 0;
-  for (let at = from; at < to; at++) value = value * 256 + (at === from ? (row[at] << 24) >> 24 : row[at]);
+  for (let position = start; position < end; position++) value = value * 256 + (position === start ? (row[position] << 24) >> 24 : row[position]);
   return value;
 }

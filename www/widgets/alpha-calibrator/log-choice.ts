@@ -61,7 +61,7 @@ export function logChoosersHtml(opener: LogOpener) {
   return html`<div class="choosers">
     ${roleChoosers.length ? html`<div class="choices">${roleChoosers}</div>` : nothing}
     ${questions.map((question) => questionHtml(opener, chosenFiles, question, texts))}
-    ${[...skipped, ...(plan?.unused ?? [])].filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${texts.choose.skipped(opener.explainRefusal(failure))}</p>`)}
+    ${[...skipped, ...(plan?.unusedErrors ?? [])].filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${texts.choose.skipped(opener.explainRefusal(failure))}</p>`)}
   </div>`;
 }
 
@@ -104,12 +104,12 @@ function roleSelectHtml(opener: LogOpener, { recordings, roles, plan }: ChosenFi
 }
 
 function questionHtml(opener: LogOpener, { answers }: ChosenFiles, asked: OpenQuestion, { choose: texts }: LogWords) {
-  const { file, ask: { what, choices } } = asked;
-  if (what === 'columns') return columnsFormHtml(opener, asked, answers[file]?.columns, texts);
-  if (what !== 'timeUnit' && what !== 'lengthUnit' && what !== 'angleUnit') return nothing;
-  const labels: Record<string, string> = Object.fromEntries((choices.length ? choices : UNITS[what]).map((unit) => [unit, texts.units[unit as keyof typeof texts.units]]));
+  const { file, ask: { option, choices } } = asked;
+  if (option === 'columns') return columnsFormHtml(opener, asked, answers[file]?.columns, texts);
+  if (option !== 'timeUnit' && option !== 'lengthUnit' && option !== 'angleUnit') return nothing;
+  const labels: Record<string, string> = Object.fromEntries((choices.length ? choices : UNITS[option]).map((unit) => [unit, texts.units[unit as keyof typeof texts.units]]));
   return html`<div id=${questionIdOf(asked)}>
-    ${radioGroupHtml(texts[what](file), questionIdOf(asked), labels, answers[file]?.[what] ?? '', (unit) => opener.answer(asked, { [what]: unit }))}
+    ${radioGroupHtml(texts[option](file), questionIdOf(asked), labels, answers[file]?.[option] ?? '', (unit) => opener.answer(asked, { [option]: unit }))}
   </div>`;
 }
 
@@ -141,13 +141,13 @@ function columnsFormHtml(opener: LogOpener, asked: OpenQuestion, answeredFields:
   </form>`;
 }
 
-const questionIdOf = ({ file, ask: { what } }: OpenQuestion) => `log-${what}-${file.replaceAll(/[^\w-]/g, '_')}`;
+const questionIdOf = ({ file, ask: { option } }: OpenQuestion) => `log-${option}-${file.replaceAll(/[^\w-]/g, '_')}`;
 
 /** Moves the focus to the control that answers a question, unless such a control already has it. Returns true if there is a control. */
 export function focusChooser({ renderRoot }: AlphaCalibratorElement, asked: OpenQuestion): boolean {
-  const { what, role = 'odometry' }: Question = asked.ask;
-  const selectors = { series: `#log-${role}`, frames: `#log-${role}`, roles: '[id^=log-role-]' } as Partial<Record<Question['what'], string>>;
-  const chooserElement = renderRoot.querySelector<HTMLElement>(selectors[what] ?? `#${questionIdOf(asked)}`);
+  const { option, role = 'odometry' }: Question = asked.ask;
+  const selectors = { series: `#log-${role}`, frames: `#log-${role}`, roles: '[id^=log-role-]' } as Partial<Record<Question['option'], string>>;
+  const chooserElement = renderRoot.querySelector<HTMLElement>(selectors[option] ?? `#${questionIdOf(asked)}`);
   const firstControl = chooserElement?.matches('select') ? chooserElement : chooserElement?.querySelector<HTMLElement>('select, input');
   if (!firstControl) return false;
   if (!firstControl.closest('.choosers')?.contains((renderRoot as ShadowRoot).activeElement)) firstControl.focus();

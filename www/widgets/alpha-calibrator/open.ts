@@ -164,10 +164,10 @@ export class LogOpener extends FileOpener<Figure> {
       chosen.plan = logModule.planLogReading(chosen, this.kind);
     } catch (error) {
       // A skipped file may be the missing log, so its question comes first.
-      const skipped = chosen.skipped.find(({ ask }) => ask);
+      const skipped = chosen.skipped.find(({ question: ask }) => ask);
       if (skipped) throw skipped;
       const loneLogFiles = this.#loneLogFiles;
-      const isLoneLog = chosen.recordings.length === 1 && (error as Refusal).ask !== undefined;
+      const isLoneLog = chosen.recordings.length === 1 && (error as Refusal).question !== undefined;
       if (isLoneLog) this.#loneLogFiles = { ...chosen };
       if (!isLoneLog || !loneLogFiles || loneLogFiles.files === chosen.files) throw error;
       const [files, questions] = [[...loneLogFiles.files, ...chosen.files], [...loneLogFiles.questions, ...chosen.questions]];
@@ -197,18 +197,18 @@ export class LogOpener extends FileOpener<Figure> {
 
   explainRefusal(refusal: Refusal) {
     if (isAbortError(refusal)) return words.progress.stopped;
-    const { message, messageIn: sentence, sentences, ask } = refusal;
+    const { message, messageIn: sentence, sentences, question: ask } = refusal;
     const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? (sentence && this.texts ? sentence(this.texts) : words.calibrator.own.refused(message));
-    return [refusalReason, ...(ask?.what === 'other' && this.texts ? [this.texts.choose.other] : [])].join(' ');
+    return [refusalReason, ...(ask?.option === 'other' && this.texts ? [this.texts.choose.other] : [])].join(' ');
   }
 
   /** Shows why a log was refused, and what to choose. */
   async refuse(error: Refusal) {
     if (isAbortError(error)) return;
-    const { ask, place } = error;
+    const { question: ask, place } = error;
     const { chosenFiles } = this;
     const newQuestion = ask && chosenFiles && { file: place?.file ?? '', ask };
-    if (newQuestion && !chosenFiles.questions.some((question) => question.file === newQuestion.file && question.ask.what === ask.what)) chosenFiles.questions.push(newQuestion);
+    if (newQuestion && !chosenFiles.questions.some((question) => question.file === newQuestion.file && question.ask.option === ask.option)) chosenFiles.questions.push(newQuestion);
     await super.refuse(error, () => newQuestion && this.logModule?.focusChooser(this.host, newQuestion));
   }
 

@@ -93,7 +93,7 @@ const styles = css`
     }
   }
 
-  /* The margin leaves space for the shadow at the bottom of the pictures. */
+  /* Margin for the gradient that fades scrolled text below the pictures. */
   .morphing {
     display: flex;
     flex-wrap: wrap;

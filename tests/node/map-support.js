@@ -21,7 +21,7 @@ export function createMapYamlFile(changedFields) {
 /** Returns a simulation with the map that is read from files. @param {File[]} mapFiles */
 export async function createSimulationWithMap(...mapFiles) {
   const simulation = new core.MapSqueeze({ samples: 1 });
-  (await readMapFiles(mapFiles, decodePng, en.refused)).apply(simulation);
+  (await readMapFiles(mapFiles, decodePng, en.refusals)).applyTo(simulation);
   return simulation;
 }
 
@@ -31,7 +31,7 @@ const trialSimulation = new core.MapSqueeze({ samples: 1 });
 /** Returns the message with which map files are refused, or an empty text. Other errors are rethrown. @param {File[]} mapFiles @param {'en' | 'de'} [language] */
 export async function catchRefusalMessage(mapFiles, language = 'en') {
   try {
-    (await readMapFiles(mapFiles, decodePng, { en, de }[language].refused)).apply(trialSimulation);
+    (await readMapFiles(mapFiles, decodePng, { en, de }[language].refusals)).applyTo(trialSimulation);
   } catch (error) {
     if (error instanceof MapFileError) return error.message;
     throw error;

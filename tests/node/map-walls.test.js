@@ -10,13 +10,13 @@ const OUTER_WALLS = [0, 0, 6, 0, 6, 0, 6, 4, 6, 4, 0, 4, 0, 4, 0, 0];
 const WALLS = Float64Array.of(...OUTER_WALLS, 3, 0, 3, 1.5, 3, 2.5, 3, 4, 0, 1, 3, 1);
 const ROOM = { bounds: ROOM_BOUNDS, walls: WALLS };
 /** Index in WALLS of the part of the wall below the doorway. */
-const LOWER_WALL_INDEX = OUTER_WALLS.length;
+const LOWER_WALL_OFFSET = OUTER_WALLS.length;
 
-/** Returns the grip of a part of a wall. @param {string} gripPart @param {number} [wallIndex] index in WALLS */
-const gripOf = (gripPart, wallIndex = LOWER_WALL_INDEX) => gripsOf(ROOM).find((grip) => grip.part === gripPart && grip.wall === wallIndex);
+/** Returns the grip of a part of a wall. @param {string} gripPart @param {number} [wallOffset] index in WALLS */
+const gripOf = (gripPart, wallOffset = LOWER_WALL_OFFSET) => gripsOf(ROOM).find((grip) => grip.part === gripPart && grip.wallOffset === wallOffset);
 
 test('free wall ends and inner walls have drag handles; outer walls and ends at other walls have none', () => {
-  const gripNames = gripsOf(ROOM).map(({ part, wall }) => `${part} ${(wall - LOWER_WALL_INDEX) / 4}`);
+  const gripNames = gripsOf(ROOM).map(({ part, wallOffset }) => `${part} ${(wallOffset - LOWER_WALL_OFFSET) / 4}`);
   assert.deepEqual(gripNames, ['to 0', 'side 0', 'from 1', 'side 1', 'side 2']);
 });
 
@@ -24,7 +24,7 @@ test('the end of a wall at a doorway moves along the wall, as far as the other e
   const grip = gripOf('to');
   assert.ok(grip);
   assert.deepEqual(grip.axis, [0, 1]);
-  const jambAfter = (/** @type {number} */ distance) => Number(moveWall(ROOM, grip, distance)[LOWER_WALL_INDEX + 3].toFixed(9));
+  const jambAfter = (/** @type {number} */ distance) => Number(moveWall(ROOM, grip, distance)[LOWER_WALL_OFFSET + 3].toFixed(9));
   assert.deepEqual([0.5, 9, -9].map(jambAfter), [2, 2.45, 0.05]);
 });
 
@@ -32,8 +32,8 @@ test('a dragged wall moves sideways, and a wall that ends at it follows', () => 
   const grip = gripOf('side');
   assert.ok(grip);
   const wallsAfter = moveWall(ROOM, grip, grip.axis[0] * 0.5);
-  assert.deepEqual([...wallsAfter.subarray(LOWER_WALL_INDEX)], [3.5, 0, 3.5, 1.5, 3, 2.5, 3, 4, 0, 1, 3.5, 1]);
-  assert.deepEqual([...wallsAfter.subarray(0, LOWER_WALL_INDEX)], OUTER_WALLS);
+  assert.deepEqual([...wallsAfter.subarray(LOWER_WALL_OFFSET)], [3.5, 0, 3.5, 1.5, 3, 2.5, 3, 4, 0, 1, 3.5, 1]);
+  assert.deepEqual([...wallsAfter.subarray(0, LOWER_WALL_OFFSET)], OUTER_WALLS);
 });
 
 test('the contact is at the first wall that the robot touches; a collision-free path has no contact', () => {

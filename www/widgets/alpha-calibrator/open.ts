@@ -48,7 +48,7 @@ export interface ChosenFiles {
 const EXTENSIONS = ['.csv', '.txt', '.tum', '.log', '.mcap', '.bag', '.db3', '.zst', '.zstd', '.yaml'];
 
 export class LogOpener extends FileOpener<Figure> {
-  id = 'log';
+  resultElementId = 'log';
   chosenFiles: ChosenFiles | undefined;
   /** Files of the latest results, unless the page or the user has closed their log. */
   #resultFiles: ChosenFiles | undefined;
@@ -221,7 +221,7 @@ const isPossibleLog = ({ name, path }: File & { path?: string }) => path === und
 export function dropZoneHtml(figure: Figure, opener: LogOpener) {
   const texts = words.calibrator.own;
   const { readFraction, logModule } = opener;
-  return html`<div class="drop-zone" id=${opener.id} part="drop">
+  return html`<div class="drop-zone" id=${opener.resultElementId} part="drop">
     <p title=${texts.dropTitle}>
       ${texts.drop}
       ${opener.fileButtonHtml('log-files', texts.files, EXTENSIONS)}

@@ -2,9 +2,9 @@
 
 export const de: typeof import('./en.ts').en = {
   title: 'Map Squeeze: mit Karte durch die Wand',
-  floor: 'Auf dem Boden: wo ein Befehl enden kann',
+  floorTitle: 'Auf dem Boden: wo ein Befehl enden kann',
   presets: { doorway: 'Vor einer Tür', wall: 'Vor einer Wand', corridor: 'Im freien Flur' },
-  samplers: { endpoint: 'Endpunkt', 'whole-arc': 'Ganzer Bogen', 'sub-stepped': 'Teilschritte' },
+  samplerNames: { endpoint: 'Endpunkt', 'whole-arc': 'Ganzer Bogen', 'sub-stepped': 'Teilschritte' },
   samplerEffects: {
     endpoint: 'Nimmt eine Stichprobe an, wenn ihre Endpose kollisionsfrei ist; der Weg wird nicht geprüft.',
     'whole-arc': 'Nimmt eine Stichprobe an, wenn ihr ganzer Weg kollisionsfrei ist.',
@@ -24,86 +24,86 @@ export const de: typeof import('./en.ts').en = {
     accepted: 'angenommen', through: 'angenommen durch eine Wand', rejected: 'verworfen',
     commanded: 'befohlener Weg', unknown: 'unbekannte Zellen',
   },
-  unknown: { free: 'frei', blocked: 'gesperrt' },
-  views: { whole: 'ganze Karte', close: 'aus der Nähe' },
-  robotAndMap: 'Roboter und Karte',
+  unknownCellNames: { free: 'frei', blocked: 'gesperrt' },
+  viewNames: { whole: 'ganze Karte', close: 'aus der Nähe' },
+  robotAndMapTitle: 'Roboter und Karte',
   mapNotInLink: 'Ihre Karte ist zu groß für einen Link und nicht dabei: Es öffnet sich die Wohnung.',
   mapNotInCode: 'Ihre Karte ist nicht dabei: Geben Sie sie der Eigenschaft map; sonst öffnet sich die Wohnung.',
-  condition: 'Stichproben mit der Karte prüfen',
+  conditionedLabel: 'Stichproben mit der Karte prüfen',
   headline: {
-    untried: 'Noch keine Bewegung versucht',
-    nothing: 'Keine Bewegung wurde angenommen',
-    none: 'Keine angenommene Bewegung ging durch eine Wand',
-    share: (share) => `${share} der angenommenen Bewegungen gingen durch eine Wand`,
+    noMotionTried: 'Noch keine Bewegung versucht',
+    noneAccepted: 'Keine Bewegung wurde angenommen',
+    noneThroughWall: 'Keine angenommene Bewegung ging durch eine Wand',
+    shareThroughWall: (share) => `${share} der angenommenen Bewegungen gingen durch eine Wand`,
   },
-  wedged: (drawn, accepted, requested, through) =>
+  wedgedNote: (drawn, accepted, requested, through) =>
     `Der Roboter sitzt fest: ${drawn} gezogene Teilschritte vollendeten nur ${accepted} von ${requested} Bewegungen; ${through}.`,
-  nothing: (drawn) => `Keine Stichprobe wurde angenommen: Keine der ${drawn} gezogenen ist kollisionsfrei.`,
-  noRoom: 'Die Startpose ist in Kollision.',
-  verdict: {
-    part: 'Teilschritt gescheitert: keine kollisionsfreie Stichprobe gefunden',
-    end: 'die Endpose ist in Kollision',
-    free: 'Endpose und Weg sind kollisionsfrei',
-    way: 'die Endpose ist frei, aber der Weg berührt eine Wand oder verlässt die Karte',
+  nothingAcceptedNote: (drawn) => `Keine Stichprobe wurde angenommen: Keine der ${drawn} gezogenen ist kollisionsfrei.`,
+  startCollisionNote: 'Die Startpose ist in Kollision.',
+  verdictReasons: {
+    failedSubStep: 'Teilschritt gescheitert: keine kollisionsfreie Stichprobe gefunden',
+    endInCollision: 'die Endpose ist in Kollision',
+    collisionFree: 'Endpose und Weg sind kollisionsfrei',
+    pathInCollision: 'die Endpose ist frei, aber der Weg berührt eine Wand oder verlässt die Karte',
   },
-  tested: {
+  testedSentences: {
     endpoint: (accepted, attempts) => `${accepted} von ${attempts} Bewegungen enden kollisionsfrei und sind angenommen`,
     'whole-arc': (accepted, attempts) => `${accepted} von ${attempts} Bewegungen berühren unterwegs keine Wand und sind angenommen`,
     'sub-stepped': (accepted, attempts) =>
       `${accepted} von ${attempts} Bewegungen enden nach jedem Teilschritt kollisionsfrei und sind angenommen`,
     off: (accepted) => `Ohne die Karte werden alle ${accepted} Bewegungen angenommen`,
   },
-  throughOf: (count, through, share, interval) =>
+  throughWallClause: (count, through, share, interval) =>
     `${count === 0 ? 'keine davon ging' : `${through} davon, ${share}, gingen`} durch eine Wand${interval && ` (95-%-Intervall ${interval})`}`,
-  density: 'Dichte: dunkler = mehr Stichproben; Farbe = häufigster Ausgang je Zelle.',
-  apartment: 'Die Wohnung',
-  edited: 'Geänderte Wohnung',
-  pasted: 'Eingegebener Plan',
-  mapText: (name, width, height, walls) => `${name}: ${width} m × ${height} m, ${walls} ${walls === '1' ? 'Wand' : 'Wände'}`,
-  throughThisWall: 'durch diese Wand',
+  densityNote: 'Dichte: dunkler = mehr Stichproben; Farbe = häufigster Ausgang je Zelle.',
+  apartmentName: 'Die Wohnung',
+  editedMapName: 'Geänderte Wohnung',
+  pastedMapName: 'Eingegebener Plan',
+  mapDescription: (name, width, height, walls) => `${name}: ${width} m × ${height} m, ${walls} ${walls === '1' ? 'Wand' : 'Wände'}`,
+  contactLabel: 'durch diese Wand',
   handles: { start: ['Roboter', 'Richtung des Roboters'] },
-  walls: {
-    jamb: 'Türkante',
-    wall: 'Wand',
-    keys: 'Pfeiltasten bewegen sie, mit Umschalt in größeren Schritten; Komma und Punkt oder [ und ] führen zu den anderen Wänden',
+  wallHandles: {
+    doorwayEdgeName: 'Türkante',
+    wallName: 'Wand',
+    keysHint: 'Pfeiltasten bewegen sie, mit Umschalt in größeren Schritten; Komma und Punkt oder [ und ] führen zu den anderen Wänden',
   },
   tally: {
-    drawn: 'gezogen',
-    paths: 'gezeichnete Wege durch eine Wand',
-    draws: 'gezogene je angenommene Stichprobe',
-    tests: 'berechnete Wandabstände je angenommene Stichprobe',
+    drawnSamples: 'gezogen',
+    shownPaths: 'gezeichnete Wege durch eine Wand',
+    drawsPerAccepted: 'gezogene je angenommene Stichprobe',
+    wallTestsPerAccepted: 'berechnete Wandabstände je angenommene Stichprobe',
   },
   sample: 'Stichprobe',
   markHint: 'Zeig auf eine, um ihren Weg und ihr Urteil zu sehen.',
-  costs: {
-    measure: 'Kosten jedes Verfahrens messen',
+  costTable: {
+    measureLabel: 'Kosten jedes Verfahrens messen',
     caption:
       'Kosten einer angenommenen Stichprobe jedes Verfahrens mit den Einstellungen oben, auf diesem Gerät gemessen; und der Anteil eines Rechenkerns, den 2000 Partikel bei 20 Hz bräuchten. Wiederholte Messungen weichen um einige Prozent ab.',
-    sampler: 'Verfahren',
-    draws: 'gezogen',
-    tests: 'Abstände',
-    core: 'vom Kern',
+    samplerColumn: 'Verfahren',
+    drawsColumn: 'gezogen',
+    wallTestsColumn: 'Abstände',
+    coreShareColumn: 'vom Kern',
     wedged: 'sitzt fest: zu wenige werden angenommen',
   },
-  own: {
-    reading: 'Die Karte wird gelesen …',
-    legend: 'Eine eigene Karte',
-    text: 'Zieh Dateien irgendwo auf diese Abbildung oder wähle sie hier: einen Grundriss in JSON oder eine Karte des map_server von ROS, die YAML-Datei zusammen mit ihrem Bild in PGM oder PNG. Sie verlassen dieses Gerät nicht.',
-    files: 'Kartendateien wählen',
-    leave: 'Zurück in die Wohnung',
-    plan: 'Oder hier ein Grundriss, in Metern',
-    use: 'Diesen Plan nehmen',
+  userMap: {
+    readingNotice: 'Die Karte wird gelesen …',
+    title: 'Eine eigene Karte',
+    instructions: 'Zieh Dateien irgendwo auf diese Abbildung oder wähle sie hier: einen Grundriss in JSON oder eine Karte des map_server von ROS, die YAML-Datei zusammen mit ihrem Bild in PGM oder PNG. Sie verlassen dieses Gerät nicht.',
+    chooseFilesLabel: 'Kartendateien wählen',
+    leaveLabel: 'Zurück in die Wohnung',
+    planFieldLabel: 'Oder hier ein Grundriss, in Metern',
+    usePlanLabel: 'Diesen Plan nehmen',
   },
-  refused: {
-    cannot: (reason) => `Die Karte lässt sich nicht öffnen: ${reason}.`,
-    files: (names) => `${names}: Erwartet wird ein Grundriss als .json oder eine .yaml-Datei zusammen mit ihrem Bild als .pgm oder .png.`,
-    long: (name, bytes, maxBytes) => `${name}: Die Datei hat ${bytes} Bytes; erwartet werden höchstens ${maxBytes}.`,
-    plan: (name, reason) => `${name}: ${reason}; erwartet wird {"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]} in Metern.`,
-    image: (name, value) =>
+  refusals: {
+    cannotOpen: (reason) => `Die Karte lässt sich nicht öffnen: ${reason}.`,
+    wrongFiles: (names) => `${names}: Erwartet wird ein Grundriss als .json oder eine .yaml-Datei zusammen mit ihrem Bild als .pgm oder .png.`,
+    fileTooLong: (name, bytes, maxBytes) => `${name}: Die Datei hat ${bytes} Bytes; erwartet werden höchstens ${maxBytes}.`,
+    invalidPlan: (name, reason) => `${name}: ${reason}; erwartet wird {"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]} in Metern.`,
+    invalidImageName: (name, value) =>
       `${name}: image ${value ? `ist ${value}` : 'fehlt'}; erwartet wird der Name einer .pgm- oder .png-Datei.`,
-    pair: (name, namedImage, givenImage) =>
+    missingImage: (name, namedImage, givenImage) =>
       `${name}: image nennt ${namedImage}, das nicht dabei ist${givenImage && ` (dafür kam ${givenImage})`}; erwartet werden beide Dateien zusammen.`,
-    yaml: (name, line, reason) => `${name}, Zeile ${line}: ${reason}; erwartet wird ein Feld je Zeile, wie in resolution: 0.05.`,
-    line: (name, line, reason) => `${name}, Zeile ${line}: ${reason}.`,
+    invalidYaml: (name, line, reason) => `${name}, Zeile ${line}: ${reason}; erwartet wird ein Feld je Zeile, wie in resolution: 0.05.`,
+    invalidLine: (name, line, reason) => `${name}, Zeile ${line}: ${reason}.`,
   },
 };

@@ -26,32 +26,32 @@ import type { UserMap } from './maps/files.ts';
 
 /** Returns the buttons of start positions in the current map. The presets are only offered in the apartment. */
 function startControlsHtml(figure: MapSqueezeElement) {
-  const { own } = words.squeeze;
+  const { userMap } = words.squeeze;
   if (!figure.map) return presetButtonsHtml(figure);
   return html`<div class="buttons presets">
-    ${buttonHtml(own.leave, () => figure.openMap(null))} ${startOverButtonHtml(figure)}
+    ${buttonHtml(userMap.leaveLabel, () => figure.openMap(null))} ${startOverButtonHtml(figure)}
   </div>`;
 }
 
 function samplerControlsHtml(figure: MapSqueezeElement) {
   const { conditioned, sampler, samples, steps } = figure.viewModel.config;
-  const { settings, samplers, samplerEffects } = words.squeeze;
+  const { settings, samplerNames, samplerEffects } = words.squeeze;
   // With sub-steps each sample takes several draws.
   const maxSampleCountOf = (name: string) => (name === 'sub-stepped' ? Math.floor(MAX_SAMPLES / steps) : MAX_SAMPLES);
   const chooseSampler = (name: string) => figure.gesture.requestAndCommit({ sampler: name, ...(samples > maxSampleCountOf(name) && { samples: maxSampleCountOf(name) }) });
   return html`<div class="judge">
-    ${radioGroupHtml(settings.sampler.name, 'sampler', samplers, sampler, chooseSampler)}
+    ${radioGroupHtml(settings.sampler.name, 'sampler', samplerNames, sampler, chooseSampler)}
     <p class="effect muted small">${samplerEffects[conditioned ? sampler : 'off']}</p>
     ${conditioned && sampler === 'sub-stepped' ? settingSliderHtml(figure, 'steps') : nothing}
   </div>`;
 }
 
 /** Returns the controls that are changed less often. One of them is for unknown cells, if the map has any. */
-function robotAndMapControlsHtml(figure: MapSqueezeElement, hasUnknown: boolean) {
-  const { robotAndMap: heading, condition, settings, unknown, views } = words.squeeze;
-  return fieldsetHtml(heading, html`${settingSliderHtml(figure, 'clearance')} ${settingCheckboxHtml(figure, 'conditioned', condition)}
-    ${hasUnknown ? settingRadiosHtml(figure, 'unknown', unknown) : nothing}
-    ${radioGroupHtml(settings.view.name, 'view', views, figure.settings.elementState.view, (view) => figure.gesture.setElementField('view', view))}`);
+function robotAndMapControlsHtml(figure: MapSqueezeElement, hasUnknownCells: boolean) {
+  const { robotAndMapTitle, conditionedLabel, settings, unknownCellNames, viewNames } = words.squeeze;
+  return fieldsetHtml(robotAndMapTitle, html`${settingSliderHtml(figure, 'clearance')} ${settingCheckboxHtml(figure, 'conditioned', conditionedLabel)}
+    ${hasUnknownCells ? settingRadiosHtml(figure, 'unknown', unknownCellNames) : nothing}
+    ${radioGroupHtml(settings.view.name, 'view', viewNames, figure.settings.elementState.view, (view) => figure.gesture.setElementField('view', view))}`);
 }
 
 const styles = css`
@@ -85,7 +85,7 @@ const styles = css`
     }
   }
 
-  /* Height of the longest headline and sentence, so that nothing moves when they change. */
+  /* The minimum height is that of the longest headline and caption, so that nothing moves when their texts change. */
   .result {
     display: flow-root;
     min-height: calc(12.2em - 16.5cqi);
@@ -124,7 +124,7 @@ const styles = css`
     margin-bottom: 0.5em;
   }
 
-  /* The picture is as high as possible, with the sentence and the presets next to it. */
+  /* The picture is as high as possible. The headline, the caption and the presets are next to it. */
   @container (min-width: 38em) {
     .views {
       grid-template-columns: minmax(0, 60svh) minmax(18.25em, 1fr);
@@ -167,7 +167,7 @@ const styles = css`
   }
 
   .own-map .note {
-    /* When it is scrolled into view, the name of the current map is visible too. */
+    /* When the note on a refused map is scrolled into view, the name of the current map is visible too. */
     scroll-margin: 4em;
     overflow-wrap: anywhere;
   }
@@ -196,13 +196,13 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   dropHandlers = this.#opener;
   #handles = new PoseHandles(this, 'start', () => this.picture.view, () => this.picture.plan.bounds);
   #wallHandles = new WallHandles(this);
-  /** Setting `unknown` (treatment of unknown cells) with which the picture was made. */
-  #pictureUnknown = '';
+  /** Value of the setting `unknown` (treatment of unknown cells) with which the picture was created. */
+  #unknownCellsOfPicture = '';
   /** Costs of the samplers, and the settings with which they were measured. */
   #measurement: { config: StateValues, costs: ReturnType<typeof measureCosts> } | undefined;
   /** Path of the selected sample. */
   #pathMemo: Memo<Float64Array> = new Memo();
-  /** Grid of a simulation's map. Copying it takes long. */
+  /** Cached grid of a simulation's map, because copying a grid takes long. */
   #gridMemo: Memo<CellGrid | null> = new Memo();
 
   createSimulation = ({ MapSqueeze }: Motion) => MapSqueeze.empty();
@@ -224,30 +224,30 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     if (!simulation) return;
     const grid = this.#gridOf(simulation);
     this.#opener.refusal = undefined;
-    this.#pictureUnknown = this.settings.current.unknown;
+    this.#unknownCellsOfPicture = this.settings.current.unknown;
     this.picture = new FloorPicture(simulation.plan, grid, this.picture);
     this.pictures = [this.picture];
   }
 
   readViewModel(simulation: Simulation) {
     const viewModel = viewModelOf(simulation);
-    if (viewModel.config.unknown !== this.#pictureUnknown && this.picture.hasUnknown) this.onSimulationReplaced();
+    if (viewModel.config.unknown !== this.#unknownCellsOfPicture && this.picture.hasUnknownCells) this.onSimulationReplaced();
     return viewModel;
   }
 
   get scene() {
     const viewModel = this.currentViewModel;
-    const { selectedIndex: index, isSelectionShown } = this.cloud;
+    const { selectedIndex, isSelectionShown } = this.cloud;
     this.picture.isCloseView = this.settings.elementState.view === 'close';
-    return { ...viewModel, simulation: this.simulation, overlays: this.settings.elementState.overlays, marked: isSelectionShown ? this.#markedSampleOf(index) : undefined };
+    return { ...viewModel, simulation: this.simulation, overlays: this.settings.elementState.overlays, markedSample: isSelectionShown ? this.#markedSampleOf(selectedIndex) : undefined };
   }
 
-  /** Returns the marked sample, with the point where an accepted one went through a wall. */
-  #markedSampleOf(index: number) {
+  /** Returns pose and path of the marked sample. If it was accepted although its path goes through a wall, `contact` is the point at the wall. */
+  #markedSampleOf(sampleIndex: number) {
     const { poses, verdicts, config } = this.currentViewModel;
-    const path = this.#pathMemo.get([poses, index], () => (this.simulation as Simulation).path(index));
-    const goesThroughWall = outcomeIndexOf(verdicts[index]) === 2;
-    return { pose: poses.subarray(3 * index), path, contact: goesThroughWall ? findWallContact(path, this.picture.plan.walls, config.clearance) : undefined };
+    const path = this.#pathMemo.get([poses, sampleIndex], () => (this.simulation as Simulation).path(sampleIndex));
+    const isThroughWall = outcomeIndexOf(verdicts[sampleIndex]) === 2;
+    return { pose: poses.subarray(3 * sampleIndex), path, contact: isThroughWall ? findWallContact(path, this.picture.plan.walls, config.clearance) : undefined };
   }
 
   get exportData() {
@@ -265,14 +265,14 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
 
   announcementOf = captionOf;
 
-  describePicture = ({ config }: ViewModel) => [words.squeeze.floor, this.#mapText, describeCommand(config.command)];
+  describePicture = ({ config }: ViewModel) => [words.squeeze.floorTitle, this.#mapDescription, describeCommand(config.command)];
 
   placeHandles({ config }: ViewModel) {
     this.#handles.place(config, config.clearance);
-    this.#wallHandles.place();
+    this.#wallHandles.placeHandles();
   }
 
-  /** Start place in the apartment; null elsewhere. */
+  /** Name of the preset, a place in the apartment; null if the settings match no preset, or on another map. */
   get preset(): string | null {
     return (this.reflection.get('preset') as string | undefined) ?? null;
   }
@@ -297,7 +297,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   set map(map) {
     const isNameless = typeof map === 'object' && map !== null && !Array.isArray(map) && map.name === undefined;
     this.reflection.setProperty('map', isNameless ? { ...map, name: '' } : map, (newMap) => {
-      this.#enterMap(newMap && { name: newMap.name ?? '', apply: (simulation) => applyMap(simulation, newMap) });
+      this.#enterMap(newMap && { name: newMap.name ?? '', applyTo: (simulation) => applyMap(simulation, newMap) });
       this.reflection.updateAttributes();
       this.renderer.requestFrame();
     });
@@ -334,13 +334,13 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     });
   }
 
-  /** Makes the plan with moved walls a map of the user. Only few samples are drawn in the same frame, and the others when the walls rest. */
+  /** Replaces the map by the plan with moved walls. Few samples are drawn in the same frame, and the others when the user has stopped moving. */
   moveWalls(walls: Float64Array) {
     const { bounds } = this.picture.plan;
-    const name = this.map?.name ?? words.squeeze.edited;
-    const apply: UserMap['apply'] = (simulation) => simulation.setPlan({ bounds: [...bounds], walls });
+    const name = this.map?.name ?? words.squeeze.editedMapName;
+    const applyTo: UserMap['applyTo'] = (simulation) => simulation.setPlan({ bounds: [...bounds], walls });
     this.runtime.attemptOrReport(() => {
-      this.#enterMap({ name, apply, start: this.settings.requested.start });
+      this.#enterMap({ name, applyTo, start: this.settings.requested.start });
       this.gesture.dispatchInput();
     });
     this.renderer.requestFrame();
@@ -356,37 +356,37 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     settings.applyPending();
     const simulation = motion.MapSqueeze.empty();
     simulation.configureFirst(settings.pickSettings(settings.requested), 0);
-    map?.apply(simulation);
+    map?.applyTo(simulation);
     // In an occupancy grid the present pose is not kept, because it may be outside the mapped area.
     const needsFreePose = this.#gridOf(simulation) !== null || !simulation.startFree;
-    const startPose = map ? map.start ?? (needsFreePose ? freePoseIn(simulation) : undefined) : OPENING_POSE;
+    const startPose = map ? map.start ?? (needsFreePose ? freePoseOf(simulation) : undefined) : OPENING_POSE;
     simulation.configureFirst(startPose ? { start: startPose } : {}, this.cloud.targetCount);
     this.settings.elementState.map = map && mapDataOf(simulation, map.name, this.#gridOf(simulation));
     this.runtime.replaceSimulation(simulation);
     this.cloud.select(-1);
   }
 
-  get #mapText() {
-    const { pasted, apartment } = words.squeeze;
-    return describeMap(this.map ? this.map.name || pasted : apartment, this.picture.plan);
+  get #mapDescription() {
+    const { pastedMapName, apartmentName } = words.squeeze;
+    return describeMap(this.map ? this.map.name || pastedMapName : apartmentName, this.picture.plan);
   }
 
   renderContent(viewModel: ViewModel) {
-    const { posesByOutcome, stats, note, verdicts, config } = viewModel;
+    const { posesByOutcome, stats, stuckNote, verdicts, config } = viewModel;
     const { isSelectionShown, selectedIndex } = this.cloud;
-    const { hasUnknown } = this.picture;
-    const { floor, density } = words.squeeze;
+    const { hasUnknownCells } = this.picture;
+    const { floorTitle, densityNote } = words.squeeze;
     const { unknown, ...markStyles } = LINE_STYLES;
     return html`
       <div class="views">
-        ${pictureHtml(this, this.picture, floor, {
+        ${pictureHtml(this, this.picture, floorTitle, {
           handles: html`${this.renderer.renderAfterFirstPicture(() => this.#wallHandles.render())} ${this.#handles.render()}`,
-          below: this.renderer.renderAfterFirstPicture(() => legendHtml(this, hasUnknown ? { ...markStyles, unknown } : markStyles)),
+          below: this.renderer.renderAfterFirstPicture(() => legendHtml(this, hasUnknownCells ? { ...markStyles, unknown } : markStyles)),
         })}
         ${this.renderer.renderAfterFirstPicture(() => html`<div class="aside">
           <div class="result">
             <p class="headline">${headlineOf(stats)}</p>
-            <p class="verdict caption ${note && 'note'}" part="caption">${captionOf(viewModel)}</p>
+            <p class="verdict caption ${stuckNote && 'note'}" part="caption">${captionOf(viewModel)}</p>
           </div>
           ${startControlsHtml(this)} ${samplerControlsHtml(this)} ${overviewMapHtml(this.picture, viewModel)}
         </div>`)}
@@ -395,9 +395,9 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
       <div class="controls" part="controls">
         ${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${fieldsetHtml(words.noise, settingSliderHtml(this, 'noise'), 'single')} ${cloudControlsHtml(this, SAMPLE_COUNTS)}
       </div>
-      ${posesByOutcome ? nothing : html`<p class="about muted">${density}</p>`}
+      ${posesByOutcome ? nothing : html`<p class="about muted">${densityNote}</p>`}
       ${disclosuresHtml(this, {
-        renderControls: () => html`<div class="controls">${robotAndMapControlsHtml(this, hasUnknown)}</div> ${userMapControlsHtml(this, this.#opener, this.#mapText)}`,
+        renderControls: () => html`<div class="controls">${robotAndMapControlsHtml(this, hasUnknownCells)}</div> ${userMapControlsHtml(this, this.#opener, this.#mapDescription)}`,
         renderNumbers: () => html`${tallyReadoutsHtml(viewModel)} ${sampleFieldHtml(this, 'sample', stats.attempts, isSelectionShown && explainVerdict(verdicts[selectedIndex], config))} ${costTableHtml(this)}`,
       })}`)}
     `;
@@ -405,7 +405,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
 }
 
 /** Returns a free start pose, or the middle of a map that has none. */
-function freePoseIn({ openPlace, config, plan: { bounds: [left, bottom, right, top] } }: Simulation): Pose {
+function freePoseOf({ openPlace, config, plan: { bounds: [left, bottom, right, top] } }: Simulation): Pose {
   return openPlace ?? { ...config.start, x: (left + right) / 2, y: (bottom + top) / 2 };
 }
 

@@ -18,16 +18,16 @@ import { addLine, drawDisc, fillPath, paintWithOpacity, strokePath, type DrawCon
 export interface Scene extends ViewModel {
   simulation: MapSqueeze;
   overlays: string[];
-  marked: { pose: Float64Array, path: Float64Array, contact: number[] | undefined } | undefined;
+  markedSample: { pose: Float64Array, path: Float64Array, contact: number[] | undefined } | undefined;
 }
 
 /** Half the size of a cross, CSS pixels. */
 const CROSS_HALF_SIZE = 2.6;
 
-/** Dot of a sample: minimum and maximum radius (CSS pixels), width of the picture per pixel of the radius, and opacity. */
-const SAMPLE_DOT = { min: 2, max: 3, per: 240, alpha: 0.4 };
+/** Dot of a sample: minimum and maximum radius (CSS pixels), ratio of the picture's width to the radius, and opacity. */
+const SAMPLE_DOT = { minRadius: 2, maxRadius: 3, widthPerRadius: 240, opacity: 0.4 };
 
-/** Vector of the leader from the contact with a wall to its label, CSS pixels. */
+/** Displacement from the contact with a wall to the end of the line to its label, CSS pixels. */
 const LEADER_OFFSET = { x: 46, y: 30 };
 
 /** Half the size of the area around the end of the command that a close view shows: a multiple of the command's length, at least a minimum (m). */
@@ -40,8 +40,8 @@ const PATH_MARGIN = 0.45;
 /** Margin around the map, relative to its longer side. */
 const MAP_MARGIN = 0.025;
 
-/** Cells of the density: minimum and maximum side (CSS pixels), and number of samples at which the side is half the maximum. */
-const DENSITY_CELL = { min: 2, max: 5, samples: 40_000 };
+/** Cells of the density picture: minimum and maximum side (CSS pixels), and number of samples for which the side is half the maximum. */
+const DENSITY_CELL = { minSize: 2, maxSize: 5, samplesAtHalfSize: 40_000 };
 
 /** Maximum number of paths that are drawn over a density. More would hide it. */
 const MAX_PATHS_ON_DENSITY = 25;
@@ -57,10 +57,10 @@ export class FloorPicture extends SamplesPicture<Scene> {
   view: View = new View({ hasNoMargin: true });
   plan;
   /** True if the map has unknown cells. */
-  hasUnknown;
+  hasUnknownCells;
   /** False for a grid, whose walls outline its cells and cannot be moved. */
   hasMovableWalls;
-  #nearView = new View();
+  #closeView = new View();
   #wholeView = this.view;
   #wallLayer;
   /** Corners of the known part of the map, which may be much smaller than the map. */
@@ -72,18 +72,18 @@ export class FloorPicture extends SamplesPicture<Scene> {
   constructor(plan: Plan, grid: CellGrid | null, previousPicture?: FloorPicture) {
     super();
     this.plan = plan;
-    this.hasUnknown = grid?.unknown !== undefined;
+    this.hasUnknownCells = grid?.unknown !== undefined;
     this.hasMovableWalls = grid === null;
     this.#wallLayer = new WallLayer(plan, grid);
     this.#knownCorners = grid?.unknown ? knownCornersOf(grid, grid.unknown) : plan.walls;
     if (previousPicture?.plan.bounds.every((bound, i) => bound === plan.bounds[i])) {
-      this.#nearView = previousPicture.#nearView;
+      this.#closeView = previousPicture.#closeView;
       this.#wholeView = previousPicture.#wholeView;
       this.view = previousPicture.view;
     }
   }
 
-  /** Walls as a path of SVG, metres. */
+  /** Walls as the `d` attribute of an SVG path, metres. */
   get wallPathData() {
     if (this.#wallPathData) return this.#wallPathData;
     const { walls } = this.plan;
@@ -93,12 +93,12 @@ export class FloorPicture extends SamplesPicture<Scene> {
 
   /** True for a close view, which shows only the surroundings of the robot. */
   get isCloseView() {
-    return this.view === this.#nearView;
+    return this.view === this.#closeView;
   }
 
   set isCloseView(isCloseView) {
     if (isCloseView === this.isCloseView) return;
-    this.view = isCloseView ? this.#nearView : this.#wholeView;
+    this.view = isCloseView ? this.#closeView : this.#wholeView;
     this.view.clearTarget();
   }
 
@@ -112,8 +112,8 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const halfSize = Math.max(MIN_END_HALF_SIZE, END_HALF_SIZE_FACTOR * driveLength) + config.clearance;
     const [x, y] = commanded.slice(-2);
     const neededExtent = extentAround(cornersAround(x, y, halfSize), 2, widenExtent(extentAround(commanded, 2), PATH_MARGIN));
-    this.#nearView.limits = mappedExtent;
-    this.#nearView.fit({
+    this.#closeView.limits = mappedExtent;
+    this.#closeView.fit({
       xMin: Math.max(neededExtent.xMin, mappedExtent.xMin),
       yMin: Math.max(neededExtent.yMin, mappedExtent.yMin),
       xMax: Math.min(neededExtent.xMax, mappedExtent.xMax),
@@ -131,7 +131,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
   }
 
   paint: SamplesPicture<Scene>['paint'] = (drawContext, scene) => {
-    const { posesByOutcome, paths, commanded, config, marked, overlays } = scene;
+    const { posesByOutcome, paths, commanded, config, markedSample, overlays } = scene;
     const { palette } = drawContext;
     const isLineShown = (name: string) => overlays.includes(name);
     const { accepted, through, rejected, commanded: commandStyle } = createLineStyles(drawContext, LINE_STYLES);
@@ -156,8 +156,8 @@ export class FloorPicture extends SamplesPicture<Scene> {
         drawRobotOutline(drawContext, endX, endY, clearance, commandStyle.colour);
       }
       drawDraggableRobot(drawContext, start, clearance, palette.prior);
-      if (marked) {
-        const { pose, path, contact } = marked;
+      if (markedSample) {
+        const { pose, path, contact } = markedSample;
         drawOutline(drawContext, path, { colour: palette.ink, width: 1.5, dash: [2, 3] });
         drawCrosshair(drawContext, { x: pose[0], y: pose[1], heading: pose[2] }, palette.ink);
         if (contact) drawWallContact(drawContext, contact);
@@ -169,42 +169,42 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const { palette } = drawContext;
     const outcomeColours = [['rejected', palette.truth], ['accepted', palette.cloud], ['through', palette.accent]] as const;
     const outcomeRamps = outcomeColours.flatMap(([name, cloud]) => [...(overlays.includes(name) ? createDensityRamp({ ...palette, cloud }) : TRANSPARENT_RAMP)]);
-    const cellSize = clamp(DENSITY_CELL.max * Math.sqrt(DENSITY_CELL.samples / stats.attempts) / 2, DENSITY_CELL.min, DENSITY_CELL.max);
+    const cellSize = clamp(DENSITY_CELL.maxSize * Math.sqrt(DENSITY_CELL.samplesAtHalfSize / stats.attempts) / 2, DENSITY_CELL.minSize, DENSITY_CELL.maxSize);
     this.#densityImage.drawDensity(drawContext, cellSize, [stats, palette, overlays], (...viewPart) => simulation.picture(...viewPart, Uint8Array.from(outcomeRamps)));
   }
 }
 
 /** Returns the outer corners of the first and the last known cell of each row of a grid, as x, y pairs. */
-function knownCornersOf(grid: CellGrid, unknown: Uint8Array) {
+function knownCornersOf(grid: CellGrid, unknownFlags: Uint8Array) {
   const { columns } = grid;
-  return Array.from({ length: unknown.length / columns }, (_, row) => {
-    const rowCells = unknown.subarray(row * columns, (row + 1) * columns);
+  return Array.from({ length: unknownFlags.length / columns }, (_, row) => {
+    const rowCells = unknownFlags.subarray(row * columns, (row + 1) * columns);
     const outerColumns = rowCells.includes(0) ? [rowCells.indexOf(0), rowCells.lastIndexOf(0) + 1] : [];
     return outerColumns.flatMap((column) => [row, row + 1].flatMap((cornerRow) => cellCornerOf(grid, column, cornerRow)));
   }).flat();
 }
 
-/** Draws the contact of a path with a wall, a point in metres, with a leader to it. */
+/** Draws a label for the contact of a path with a wall (a point in metres), and a line from the label to the contact. */
 function drawWallContact(drawContext: DrawContext, contact: number[]) {
   const { context, view, palette } = drawContext;
   const [x, y] = view.toPixel(contact[0], contact[1]);
   const { left, right, top, bottom } = view.plotArea;
-  const [signX, signY] = [2 * x > left + right ? -1 : 1, 2 * y > top + bottom ? -1 : 1];
-  const [endX, endY] = [x + signX * LEADER_OFFSET.x, y + signY * LEADER_OFFSET.y];
+  const [sideX, sideY] = [2 * x > left + right ? -1 : 1, 2 * y > top + bottom ? -1 : 1];
+  const [endX, endY] = [x + sideX * LEADER_OFFSET.x, y + sideY * LEADER_OFFSET.y];
   drawLeader(context, [[endX, endY], [x, y]], palette.ink);
-  drawLabel(drawContext, { x: endX + 4 * signX, y: endY, freeSide: signX, text: words.squeeze.throughThisWall, colour: palette.ink });
+  drawLabel(drawContext, { x: endX + 4 * sideX, y: endY, freeSide: sideX, text: words.squeeze.contactLabel, colour: palette.ink });
 }
 
 /** Returns the legend of an exported picture: the marks, or the colours of a density. */
 function legendEntriesOf({ context, palette }: DrawContext, { overlays, posesByOutcome }: Scene): import('../../scene/axes.ts').LegendEntry[] {
-  const shownNames = (['accepted', 'through', 'rejected'] as const).filter((name) => overlays.includes(name));
-  return shownNames.map((name) => ({
+  const shownOutcomes = (['accepted', 'through', 'rejected'] as const).filter((name) => overlays.includes(name));
+  return shownOutcomes.map((name) => ({
     name: words.squeeze.overlays[name],
     drawSample: (x, y, width) => {
       const [middleX, colour] = [x + width / 2, palette[LINE_STYLES[name].role]];
       if (!posesByOutcome) fillPath(context, colour, () => context.rect(middleX - 5.5, y - 5.5, 11, 11));
       else if (name === 'rejected') strokePath(context, { colour, width: 1 }, () => addCross(context, middleX, y));
-      else drawDisc(context, [middleX, y], SAMPLE_DOT.max, colour, { colour, width: 1 });
+      else drawDisc(context, [middleX, y], SAMPLE_DOT.maxRadius, colour, { colour, width: 1 });
     },
   }));
 }
@@ -227,8 +227,8 @@ function drawPaths({ context, view }: DrawContext, paths: Float64Array[], colour
 
 /** Draws samples as dots that darken where they overlap. */
 function drawSamples({ context, view }: DrawContext, poses: Float64Array, colour: string) {
-  const dotRadius = clamp(view.width / SAMPLE_DOT.per, SAMPLE_DOT.min, SAMPLE_DOT.max);
-  paintWithOpacity(context, SAMPLE_DOT.alpha, () => {
+  const dotRadius = clamp(view.width / SAMPLE_DOT.widthPerRadius, SAMPLE_DOT.minRadius, SAMPLE_DOT.maxRadius);
+  paintWithOpacity(context, SAMPLE_DOT.opacity, () => {
     for (let i = 0; i < poses.length; i += 3) drawDisc(context, view.toPixel(poses[i], poses[i + 1]), dotRadius, colour);
   });
 }

@@ -13,54 +13,54 @@ import type { MapSqueezeElement as Figure } from './map-squeeze.ts';
 
 addEnglishMessages({ squeeze: en });
 
-/** Returns the text of a verdict, a sum of `bits`. */
+/** Returns the text of the verdict on a sample, which is a sum of `bits`. */
 export function explainVerdict(verdict: number, config: Settings) {
   const hasBit = (bit: number) => (verdict & bit) !== 0;
-  const { overlays, verdict: reasons } = words.squeeze;
+  const { overlays, verdictReasons } = words.squeeze;
   const isAccepted = hasBit(bits.accepted);
-  if (!isAccepted && config.sampler === 'sub-stepped') return `${overlays.rejected}: ${reasons.part}`;
+  if (!isAccepted && config.sampler === 'sub-stepped') return `${overlays.rejected}: ${verdictReasons.failedSubStep}`;
   const outcomeText = isAccepted ? overlays.accepted : overlays.rejected;
-  if (!hasBit(bits.endFree)) return `${outcomeText}: ${reasons.end}`;
-  if (hasBit(bits.pathFree)) return `${outcomeText}: ${reasons.free}`;
-  return `${isAccepted ? overlays.through : outcomeText}: ${reasons.way}`;
+  if (!hasBit(bits.endFree)) return `${outcomeText}: ${verdictReasons.endInCollision}`;
+  if (hasBit(bits.pathFree)) return `${outcomeText}: ${verdictReasons.collisionFree}`;
+  return `${isAccepted ? overlays.through : outcomeText}: ${verdictReasons.pathInCollision}`;
 }
 
 /** Returns the headline: the share of accepted motions that went through a wall. */
 export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'attempts' | 'accepted' | 'throughWall'>) {
   const texts = words.squeeze.headline;
-  if (attempts === 0) return texts.untried;
-  if (accepted === 0) return texts.nothing;
-  return throughWall === 0 ? texts.none : texts.share(formatPercent(throughWall / accepted));
+  if (attempts === 0) return texts.noMotionTried;
+  if (accepted === 0) return texts.noneAccepted;
+  return throughWall === 0 ? texts.noneThroughWall : texts.shareThroughWall(formatPercent(throughWall / accepted));
 }
 
 /** Returns the caption: the counts of the samples, or why the robot cannot move. */
-export function captionOf({ config: { conditioned, sampler }, stats, note }: ViewModel) {
+export function captionOf({ config: { conditioned, sampler }, stats, stuckNote }: ViewModel) {
   const { accepted, attempts, gaveUp } = stats;
   const texts = words.squeeze;
   // If the robot cannot move, the note contains the number of motions.
-  if (note && (accepted === 0 || gaveUp)) return note;
-  if (attempts === 0) return `${texts.headline.untried}.`;
-  const testedText = texts.tested[conditioned ? sampler : 'off'](formatInteger(accepted), formatInteger(attempts));
-  return `${testedText}; ${formatThroughWallRate(stats, conditioned && sampler === 'whole-arc')}. ${note}`.trim();
+  if (stuckNote && (accepted === 0 || gaveUp)) return stuckNote;
+  if (attempts === 0) return `${texts.headline.noMotionTried}.`;
+  const testedText = texts.testedSentences[conditioned ? sampler : 'off'](formatInteger(accepted), formatInteger(attempts));
+  return `${testedText}; ${formatThroughWallRate(stats, conditioned && sampler === 'whole-arc')}. ${stuckNote}`.trim();
 }
 
 /** Returns the name of a map with its size. */
 export function describeMap(name: string, { bounds, walls }: Plan) {
   const [left, bottom, right, top] = bounds;
-  return words.squeeze.mapText(name, formatFixed(right - left, 1), formatFixed(top - bottom, 1), formatInteger(walls.length / 4));
+  return words.squeeze.mapDescription(name, formatFixed(right - left, 1), formatFixed(top - bottom, 1), formatInteger(walls.length / 4));
 }
 
-export function tallyReadoutsHtml({ stats, paths: { length: paths } }: ViewModel) {
+export function tallyReadoutsHtml({ stats, paths: { length: shownPathCount } }: ViewModel) {
   const { tally: texts } = words.squeeze;
   return readoutsHtml([
-    [texts.drawn, formatInteger(stats.drawn)],
-    [texts.paths, formatInteger(paths)],
-    [texts.draws, formatFixed(stats.drawsPerAccepted, 2)],
-    [texts.tests, formatFixed(stats.wallTestsPerAccepted, 2)],
+    [texts.drawnSamples, formatInteger(stats.drawn)],
+    [texts.shownPaths, formatInteger(shownPathCount)],
+    [texts.drawsPerAccepted, formatFixed(stats.drawsPerAccepted, 2)],
+    [texts.wallTestsPerAccepted, formatFixed(stats.wallTestsPerAccepted, 2)],
   ]);
 }
 
-/** Cost of one accepted sample, with its time in microseconds; or the reason that there is none. */
+/** Cost of one accepted sample: time in microseconds, draws and wall tests. 'wedged' if no sample is accepted. */
 type SampleCost = { micros: number, draws: number, wallTests: number } | 'wedged';
 
 /** Samples per second in the chapter's exercise: 2000 particles, 20 updates per second. */
@@ -75,15 +75,15 @@ export const measureCosts = (simulation: MapSqueeze, steps: number) =>
 
 /** Doubles the number of samples until a run is long enough to be measured. */
 function measureCost(simulation: MapSqueeze, sampler: SamplerName, subStepCount: number): SampleCost {
-  const maxCount = Math.floor(limits.trial / subStepCount);
+  const maxSampleCount = Math.floor(limits.trial / subStepCount);
   let sampleCount = 1;
   try {
     for (;;) {
       const startTime = performance.now();
       const { draws, wallTests } = simulation.trial(sampler, subStepCount, sampleCount);
       const elapsedMs = performance.now() - startTime;
-      if (elapsedMs >= MIN_RUN_MS || sampleCount === maxCount) return { micros: (1000 * elapsedMs) / sampleCount, draws: draws / sampleCount, wallTests: wallTests / sampleCount };
-      sampleCount = Math.min(maxCount, 2 * sampleCount);
+      if (elapsedMs >= MIN_RUN_MS || sampleCount === maxSampleCount) return { micros: (1000 * elapsedMs) / sampleCount, draws: draws / sampleCount, wallTests: wallTests / sampleCount };
+      sampleCount = Math.min(maxSampleCount, 2 * sampleCount);
     }
   } catch (error) {
     if (!(error instanceof RangeError && error.message.includes('wedged'))) throw error;
@@ -93,15 +93,15 @@ function measureCost(simulation: MapSqueeze, sampler: SamplerName, subStepCount:
 
 /** Returns the button that measures the cost of each sampler, and the table of the costs. */
 export function costTableHtml(figure: Figure) {
-  const { samplers, costs: texts } = words.squeeze;
+  const { samplerNames, costTable: texts } = words.squeeze;
   const { costs, viewModel: { config } } = figure;
   const costRowOf = (sampler: SamplerName, cost: SampleCost) => [
-    sampler === 'sub-stepped' ? `${samplers[sampler]} (${config.steps})` : samplers[sampler],
+    sampler === 'sub-stepped' ? `${samplerNames[sampler]} (${config.steps})` : samplerNames[sampler],
     ...(typeof cost === 'string' ? [texts[cost]] : [formatFixed(cost.draws, 2), formatFixed(cost.wallTests, 2), formatRounded(cost.micros, 2), `${formatRounded(100 * cost.micros * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`]),
   ];
   return html`<div class="table">
-    ${buttonHtml(texts.measure, () => figure.measureSamplerCosts())}
-    ${costs ? tableHtml({ caption: texts.caption, columns: [texts.sampler, texts.draws, texts.tests, 'µs', texts.core], rows: SAMPLERS.map((sampler) => costRowOf(sampler, costs[sampler])) }) : nothing}
+    ${buttonHtml(texts.measureLabel, () => figure.measureSamplerCosts())}
+    ${costs ? tableHtml({ caption: texts.caption, columns: [texts.samplerColumn, texts.drawsColumn, texts.wallTestsColumn, 'µs', texts.coreShareColumn], rows: SAMPLERS.map((sampler) => costRowOf(sampler, costs[sampler])) }) : nothing}
   </div>`;
 }
 

@@ -12,7 +12,7 @@ const settingDeclarations = settings['map-squeeze'];
 /** Presets: positions in the apartment, with settings that show their effect. */
 export const PRESET_SETTING = presetAttributeOf(presets['map-squeeze'], settingDeclarations);
 
-/** Pose of the robot where a map has been left. */
+/** Pose of the robot in the apartment after the user has left a map. */
 export const OPENING_POSE = presets['map-squeeze'][0].settings.start;
 
 /** Marks and lines of the picture. */
@@ -27,7 +27,7 @@ export const LINE_STYLES = {
 export const COMMAND_SLIDERS = createCommandSliderSpecs(4);
 
 /** Parts of the map that the picture shows. */
-const VIEWS = ['close', 'whole'];
+const VIEW_NAMES = ['close', 'whole'];
 
 export const definition = createDefinition('map-squeeze', {
   messageKey: 'squeeze',
@@ -41,7 +41,7 @@ export const definition = createDefinition('map-squeeze', {
   // Presets are places in the apartment.
   presetAttribute: { ...PRESET_SETTING, get: (config) => (config.map ? null : PRESET_SETTING.get(config)) },
   elementFields: {
-    view: { type: 'word', words: VIEWS, default: VIEWS[0], access: 'attribute' },
+    view: { type: 'word', words: VIEW_NAMES, default: VIEW_NAMES[0], access: 'attribute' },
     /** Map of the user; null for the apartment. A simulation has checked it. */
     map: { default: null, access: 'property' },
   },
@@ -59,15 +59,15 @@ export const MAX_SAMPLES = settingDeclarations.find(({ key }) => key === 'sample
 export type ViewModel = ReturnType<typeof viewModelOf>;
 
 /** Number of samples above which they are drawn as a density: dots would be indistinguishable, and take longer than a frame. */
-const MAX_DOTS = 1500;
+const MAX_DOT_COUNT = 1500;
 
 export function viewModelOf(simulation: MapSqueeze) {
-  const results = simulation.read();
-  const { config, stats, verdicts, poses, startFree } = results;
+  const simulationResults = simulation.read();
+  const { config, stats, verdicts, poses, startFree } = simulationResults;
   return {
-    ...results,
-    posesByOutcome: stats.attempts > MAX_DOTS ? undefined : groupByOutcome(poses, verdicts),
-    note: explainStuckRobot(config, stats, startFree),
+    ...simulationResults,
+    posesByOutcome: stats.attempts > MAX_DOT_COUNT ? undefined : groupByOutcome(poses, verdicts),
+    stuckNote: explainStuckRobot(config, stats, startFree),
   };
 }
 
@@ -91,14 +91,14 @@ export function outcomeIndexOf(verdict: number) {
  */
 export function formatThroughWallRate({ throughWall, throughWallRate, throughWallInterval: [low, high], gaveUp }: Pick<SqueezeStats, 'throughWall' | 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>, isCertain: boolean) {
   const intervalText = isCertain || gaveUp ? '' : `${formatFixed(100 * low, 1)}\u2060–\u2060${formatPercent(high)}`;
-  return words.squeeze.throughOf(throughWall, formatInteger(throughWall), formatPercent(throughWallRate), intervalText);
+  return words.squeeze.throughWallClause(throughWall, formatInteger(throughWall), formatPercent(throughWallRate), intervalText);
 }
 
 /** Returns a sentence on a robot that cannot move; empty for an ordinary cloud. */
 function explainStuckRobot(config: MapSqueezeSettings, stats: SqueezeStats, startFree: boolean): string {
-  const { wedged, nothing, noRoom } = words.squeeze;
+  const { wedgedNote, nothingAcceptedNote, startCollisionNote } = words.squeeze;
   const { accepted, drawn } = stats;
-  if (stats.gaveUp) return wedged(formatInteger(drawn), formatInteger(accepted), formatInteger(config.samples), formatThroughWallRate(stats, false));
-  if (drawn > 0 && accepted === 0) return nothing(formatInteger(drawn));
-  return startFree ? '' : noRoom;
+  if (stats.gaveUp) return wedgedNote(formatInteger(drawn), formatInteger(accepted), formatInteger(config.samples), formatThroughWallRate(stats, false));
+  if (drawn > 0 && accepted === 0) return nothingAcceptedNote(formatInteger(drawn));
+  return startFree ? '' : startCollisionNote;
 }

@@ -14,13 +14,13 @@ const KEY_STEP = 0.05;
 /** Largest number of walls with handles. */
 const MAX_HANDLED_WALLS = 50;
 
-/** Points of a wall at which its handle may be, as fractions of the wall: the middle of those that are visible. */
+/** Points of a wall at which its handle may be, as fractions of the wall. The handle is at the middle one of the visible points. */
 const HANDLE_FRACTIONS = { from: [0], to: [1], side: range(0.02, 0.99, 0.02) };
 
 export class WallHandles extends FigureController<import('./map-squeeze.ts').MapSqueezeElement> {
   #handles: Map<string, Handle> = new Map();
   #gripsMemo: Memo<Grip[]> = new Memo();
-  /** Name of the handle that is in the tab order; without it, the first handle is. */
+  /** Name of the handle that is in the tab order. If no handle has this name, the first handle is in the tab order. */
   #tabbableName = '';
 
   get #grips() {
@@ -33,11 +33,11 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const { plan: { walls }, view } = this.host.picture;
     const { xMin, xMax, yMin, yMax } = view.extent;
     const shownGrips = this.#grips.flatMap((grip) => {
-      const [x0, y0, x1, y1] = walls.subarray(grip.wall, grip.wall + 4);
-      const points = HANDLE_FRACTIONS[grip.part].map((fraction): [x: number, y: number] => [x0 + fraction * (x1 - x0), y0 + fraction * (y1 - y0)]);
-      const visiblePoints = points.filter(([x, y]) => x > xMin && x < xMax && y > yMin && y < yMax);
+      const [x0, y0, x1, y1] = walls.subarray(grip.wallOffset, grip.wallOffset + 4);
+      const handlePoints = HANDLE_FRACTIONS[grip.part].map((fraction): [x: number, y: number] => [x0 + fraction * (x1 - x0), y0 + fraction * (y1 - y0)]);
+      const visiblePoints = handlePoints.filter(([x, y]) => x > xMin && x < xMax && y > yMin && y < yMax);
       const handle = this.#handleOf(grip);
-      const shownPoints = visiblePoints.length === 0 && handle.isHeld ? points : visiblePoints;
+      const shownPoints = visiblePoints.length === 0 && handle.isHeld ? handlePoints : visiblePoints;
       return shownPoints.length === 0 ? [] : [{ grip, handle, name: nameOf(grip), point: shownPoints[Math.floor(shownPoints.length / 2)] }];
     });
     const tabbableGrip = shownGrips.find(({ name }) => name === this.#tabbableName) ?? shownGrips[0];
@@ -45,11 +45,11 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   }
 
   render() {
-    const texts = words.squeeze.walls;
+    const texts = words.squeeze.wallHandles;
     const { bounds: [left, bottom, right, top] } = this.host.picture.plan;
     return this.#shownGrips.map(({ grip: { part, axis: [ux, uy] }, handle, point: [x, y], isTabbable }) => handle.handleHtml({
-      name: part === 'side' ? texts.wall : texts.jamb,
-      keysHint: texts.keys,
+      name: part === 'side' ? texts.wallName : texts.doorwayEdgeName,
+      keysHint: texts.keysHint,
       title: words.pose.moveTitle,
       valueRange: Math.abs(ux) > Math.abs(uy) ? [left, right] : [bottom, top],
       value: Math.abs(ux) > Math.abs(uy) ? x : y,
@@ -58,12 +58,12 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     }));
   }
 
-  /** Places new elements, which are rendered after the picture. */
+  /** Places the handles again, because new handles are rendered after the picture was drawn. */
   hostUpdated() {
-    this.place();
+    this.placeHandles();
   }
 
-  place() {
+  placeHandles() {
     const { view } = this.host.picture;
     for (const { grip: { axis, part }, handle, point: [x, y] } of this.#shownGrips) {
       handle.placeInView(this.host.renderRoot, view.toPixelX(x), view.toPixelY(y), { angle: part === 'side' ? Math.atan(axis[0] / axis[1]) : 0 });
@@ -72,7 +72,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 
   #handleOf(grip: Grip) {
     const name = nameOf(grip);
-    // A grip of the present plan. It is missing in a new plan, until the handle is removed.
+    // Calls a function with the grip of the current plan. A new plan may lack the grip until the handle is removed.
     const callWithGrip = <Result>(useGrip: (currentGrip: Grip) => Result) => {
       const currentGrip = this.#grips.find((candidate) => nameOf(candidate) === name);
       return currentGrip && useGrip(currentGrip);
@@ -82,11 +82,11 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
       this.#tabbableName = name;
       this.host.moveWalls(moveWall(this.host.picture.plan, currentGrip, distance));
     });
-    const pointOf = ({ wall, part }: Grip) => [...this.host.picture.plan.walls.subarray(part === 'to' ? wall + 2 : wall, wall + 4)];
+    const gripPointOf = ({ wallOffset, part }: Grip) => [...this.host.picture.plan.walls.subarray(part === 'to' ? wallOffset + 2 : wallOffset, wallOffset + 4)];
     const handle = this.#handles.get(name) ?? new Handle(`${grip.part === 'side' ? 'side' : 'jamb'} ${name}`, {
       getView: () => this.host.picture.view,
-      findGraspedPoint: () => callWithGrip(pointOf),
-      drag: (x, y) => callWithGrip((currentGrip) => moveBy(x - pointOf(currentGrip)[0], y - pointOf(currentGrip)[1])),
+      findGraspedPoint: () => callWithGrip(gripPointOf),
+      drag: (x, y) => callWithGrip((currentGrip) => moveBy(x - gripPointOf(currentGrip)[0], y - gripPointOf(currentGrip)[1])),
       handleKey: (event) => {
         const [keyTurns, keySteps] = [turnStepsOfKey(event), stepsOfKey(event)];
         if (keyTurns) this.#focusHandle(name, -keyTurns);
@@ -100,14 +100,14 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     return handle;
   }
 
-  /** Moves the focus to another handle, some places after the named one. */
-  #focusHandle(name: string, places: number) {
+  /** Moves the focus from the named handle to the handle that is `indexOffset` further in the list of visible handles. */
+  #focusHandle(name: string, indexOffset: number) {
     const names = this.#shownGrips.map((shownGrip) => shownGrip.name);
-    this.#tabbableName = names[(names.indexOf(name) + places + names.length) % names.length];
+    this.#tabbableName = names[(names.indexOf(name) + indexOffset + names.length) % names.length];
     this.host.requestUpdate();
     (this.host.renderRoot.querySelector(`.handle.${this.#tabbableName}`) as HTMLElement | null)?.focus();
   }
 }
 
 /** Returns the name of a grip, which is also a class of its handle. */
-const nameOf = ({ wall, part }: Grip) => `${part}-${wall / 4}`;
+const nameOf = ({ wallOffset, part }: Grip) => `${part}-${wallOffset / 4}`;

@@ -8,7 +8,7 @@ import type { Plan } from '../../types.d.ts';
 const TOUCH_DISTANCE = 1e-6;
 
 /** Minimum gap between the end of a wall and another wall, and minimum length of a wall, m. */
-const MIN_GAP = 0.05;
+const MIN_WALL_GAP = 0.05;
 
 /** Minimum distance (m) at which a path counts as touching a wall, and number of tested points of a path in such a distance. */
 const MIN_TOUCH_RADIUS = 0.02;
@@ -27,82 +27,82 @@ function nearestPointOfWall(walls: ArrayLike<number>, k: number, x: number, y: n
 export function findWallContact(path: ArrayLike<number>, walls: Float64Array, radius: number) {
   const touchRadius = Math.max(radius, MIN_TOUCH_RADIUS);
   const pathExtent = extentAround(path, 2);
-  const nearWalls = wallIndicesOf(walls).filter((k) => {
-    const wall = extentAround(walls.subarray(k, k + 4), 2);
-    return Math.max(wall.xMin - pathExtent.xMax, pathExtent.xMin - wall.xMax, wall.yMin - pathExtent.yMax, pathExtent.yMin - wall.yMax) < touchRadius;
+  const nearWallOffsets = wallOffsetsOf(walls).filter((k) => {
+    const wallExtent = extentAround(walls.subarray(k, k + 4), 2);
+    return Math.max(wallExtent.xMin - pathExtent.xMax, pathExtent.xMin - wallExtent.xMax, wallExtent.yMin - pathExtent.yMax, pathExtent.yMin - wallExtent.yMax) < touchRadius;
   });
   for (let i = 0; i + 3 < path.length; i += 2) {
     const [dx, dy] = [path[i + 2] - path[i], path[i + 3] - path[i + 1]];
     const pointCount = Math.ceil((POINTS_PER_RADIUS * Math.hypot(dx, dy)) / touchRadius) || 1;
     for (let pointIndex = 0; pointIndex <= pointCount; pointIndex++) {
       const [x, y] = [path[i] + (pointIndex / pointCount) * dx, path[i + 1] + (pointIndex / pointCount) * dy];
-      const [nearestPoint] = nearWalls.map((k) => nearestPointOfWall(walls, k, x, y)).sort((one, other) => one.distance - other.distance);
+      const [nearestPoint] = nearWallOffsets.map((k) => nearestPointOfWall(walls, k, x, y)).sort((wallPoint, otherWallPoint) => wallPoint.distance - otherWallPoint.distance);
       if (nearestPoint?.distance < touchRadius) return nearestPoint.point;
     }
   }
 }
 
 /** Returns the index of the first number of each wall. */
-const wallIndicesOf = (walls: Float64Array) => Array.from({ length: walls.length / 4 }, (_, i) => 4 * i);
+const wallOffsetsOf = (walls: Float64Array) => Array.from({ length: walls.length / 4 }, (_, i) => 4 * i);
 
 /** Part of a wall that can be moved along an axis. */
 export interface Grip {
   /** Index of the wall's first number in the list of all walls. */
-  wall: number;
+  wallOffset: number;
   /** An end of the wall, or the whole wall, which moves across its direction. */
   part: 'from' | 'to' | 'side';
-  /** Unit vector. */
+  /** Direction in which the grip moves, as a unit vector. */
   axis: number[];
 }
 
 /** Returns the grips of the inner walls: each end that touches no other wall, and the side. */
 export function gripsOf({ bounds, walls }: Plan): Grip[] {
-  return wallIndicesOf(walls).flatMap((wall): Grip[] => {
-    const [x0, y0, x1, y1] = walls.subarray(wall, wall + 4);
+  return wallOffsetsOf(walls).flatMap((wallOffset): Grip[] => {
+    const [x0, y0, x1, y1] = walls.subarray(wallOffset, wallOffset + 4);
     const wallLength = Math.hypot(x1 - x0, y1 - y0);
-    const isOuterWall = [0, 1].some((i) => [bounds[i], bounds[i + 2]].some((bound) => walls[wall + i] === bound && walls[wall + i + 2] === bound));
-    if (isOuterWall || wallLength < MIN_GAP) return [];
+    const isOuterWall = [0, 1].some((i) => [bounds[i], bounds[i + 2]].some((bound) => walls[wallOffset + i] === bound && walls[wallOffset + i + 2] === bound));
+    if (isOuterWall || wallLength < MIN_WALL_GAP) return [];
     const [ux, uy] = [(x1 - x0) / wallLength, (y1 - y0) / wallLength];
-    const grips: Grip[] = [{ wall, part: 'from', axis: [-ux, -uy] }, { wall, part: 'to', axis: [ux, uy] }, { wall, part: 'side', axis: [-uy, ux] }];
-    return grips.filter(({ part }) => part === 'side' || distanceToOtherWalls(walls, wall, part === 'from' ? [x0, y0] : [x1, y1]) > TOUCH_DISTANCE);
+    const grips: Grip[] = [{ wallOffset, part: 'from', axis: [-ux, -uy] }, { wallOffset, part: 'to', axis: [ux, uy] }, { wallOffset, part: 'side', axis: [-uy, ux] }];
+    return grips.filter(({ part }) => part === 'side' || distanceToOtherWalls(walls, wallOffset, part === 'from' ? [x0, y0] : [x1, y1]) > TOUCH_DISTANCE);
   });
 }
 
-const distanceToOtherWalls = (walls: Float64Array, wall: number, [x, y]: number[]) =>
-  Math.min(...wallIndicesOf(walls).filter((k) => k !== wall).map((k) => nearestPointOfWall(walls, k, x, y).distance));
+const distanceToOtherWalls = (walls: Float64Array, wallOffset: number, [x, y]: number[]) =>
+  Math.min(...wallOffsetsOf(walls).filter((k) => k !== wallOffset).map((k) => nearestPointOfWall(walls, k, x, y).distance));
 
 /**
- * Returns the walls after a grip has moved along its axis, within the bounds of the plan. An end stops at the next wall. Walls that end on a
- * wall that moves sideways follow it, if they only get longer or shorter.
+ * Returns the walls after a grip has moved along its axis, within the bounds of the plan. The end of a wall stops at the next wall. If a wall
+ * moves sideways, walls that end on it become longer or shorter, unless they would change their direction.
  */
-export function moveWall({ bounds, walls }: Plan, { wall, part, axis: [ux, uy] }: Grip, distance: number) {
+export function moveWall({ bounds, walls }: Plan, { wallOffset, part, axis: [ux, uy] }: Grip, distance: number) {
   const movedWalls = walls.slice();
-  const moveEnd = (index: number, endDistance: number) => {
+  const moveEnd = (coordinateIndex: number, endDistance: number) => {
     for (const [i, component] of [ux, uy].entries()) {
-      if (Math.abs(component) > TOUCH_DISTANCE) movedWalls[index + i] = clamp(walls[index + i] + endDistance * component, bounds[i] + MIN_GAP, bounds[i + 2] - MIN_GAP);
+      if (Math.abs(component) > TOUCH_DISTANCE) movedWalls[coordinateIndex + i] = clamp(walls[coordinateIndex + i] + endDistance * component, bounds[i] + MIN_WALL_GAP, bounds[i + 2] - MIN_WALL_GAP);
     }
   };
   if (part !== 'side') {
-    const [x0, y0, x1, y1] = walls.subarray(wall, wall + 4);
-    const end = part === 'from' ? [x0, y0] : [x1, y1];
-    moveEnd(part === 'from' ? wall : wall + 2, Math.max(Math.min(distance, freeDistanceOf(walls, wall, end, [ux, uy], distance)), MIN_GAP - Math.hypot(x1 - x0, y1 - y0)));
+    const [x0, y0, x1, y1] = walls.subarray(wallOffset, wallOffset + 4);
+    const endPoint = part === 'from' ? [x0, y0] : [x1, y1];
+    moveEnd(part === 'from' ? wallOffset : wallOffset + 2, Math.max(Math.min(distance, freeDistanceOf(walls, wallOffset, endPoint, [ux, uy], distance)), MIN_WALL_GAP - Math.hypot(x1 - x0, y1 - y0)));
     return movedWalls;
   }
-  for (const k of wallIndicesOf(walls)) {
+  for (const k of wallOffsetsOf(walls)) {
     const isAcross = Math.abs((walls[k + 2] - walls[k]) * uy - (walls[k + 3] - walls[k + 1]) * ux) < TOUCH_DISTANCE;
-    const isMoved = (index: number) => k === wall || (isAcross && nearestPointOfWall(walls, wall, walls[index], walls[index + 1]).distance < TOUCH_DISTANCE);
-    for (const index of [k, k + 2]) if (isMoved(index)) moveEnd(index, distance);
+    const isMoved = (coordinateIndex: number) => k === wallOffset || (isAcross && nearestPointOfWall(walls, wallOffset, walls[coordinateIndex], walls[coordinateIndex + 1]).distance < TOUCH_DISTANCE);
+    for (const coordinateIndex of [k, k + 2]) if (isMoved(coordinateIndex)) moveEnd(coordinateIndex, distance);
   }
   return movedWalls;
 }
 
 /** Returns how far the end of a wall can move along an axis, up to a distance, before it is near another wall. */
-function freeDistanceOf(walls: Float64Array, wall: number, [x, y]: number[], [ux, uy]: number[], distance: number) {
+function freeDistanceOf(walls: Float64Array, wallOffset: number, [x, y]: number[], [ux, uy]: number[], distance: number) {
   let freeDistance = 0;
   let gap = Infinity;
   // Each step is as long as the distance to the nearest wall allows.
   while (freeDistance < distance && gap > TOUCH_DISTANCE) {
-    gap = distanceToOtherWalls(walls, wall, [x + freeDistance * ux, y + freeDistance * uy]) - MIN_GAP;
+    gap = distanceToOtherWalls(walls, wallOffset, [x + freeDistance * ux, y + freeDistance * uy]) - MIN_WALL_GAP;
     freeDistance += Math.max(0, gap);
   }
   return freeDistance;

@@ -8,7 +8,7 @@ type Figure = import('../../figure/figure.ts').Figure;
 
 export abstract class FileOpener<Host extends Figure> extends FigureController<Host> {
   /** Id of the element that shows the result. If it is a disclosure, a drop opens it. */
-  abstract id: string;
+  abstract resultElementId: string;
   /** Error by which the latest files were refused; undefined if the files were accepted. */
   refusal: unknown;
   /** Number of the latest attempt to open files. Results of earlier attempts are ignored. */
@@ -70,7 +70,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     if (!event.dataTransfer?.types.includes('Files')) return;
     // Without this, the browser would navigate to the dropped file.
     event.preventDefault();
-    const resultElement = this.host.renderRoot.querySelector(`#${this.id}`);
+    const resultElement = this.host.renderRoot.querySelector(`#${this.resultElementId}`);
     if (resultElement instanceof HTMLDetailsElement) resultElement.open = true;
     readDroppedFiles(event.dataTransfer).then((files) => files.length > 0 && this.chooseFiles(files));
   };

@@ -13,7 +13,7 @@ const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied'
 
 const GRID_ONLY_KEYS = GRID_KEYS.filter((key) => !PLAN_KEYS.includes(key));
 
-/** Grey values of cells in the image that passes a grid to the core. The brightest is occupied. */
+/** Grey values of occupied and unknown cells in the image by which a grid is passed to the core. Occupied cells are the brightest. */
 const [OCCUPIED_SHADE, UNKNOWN_SHADE] = [2, 1];
 
 /** Returns the grid of a simulation, if it has one. Copying a large grid takes long. */
@@ -68,15 +68,15 @@ function withRenamedFields(keys: string[], setMap: () => void) {
   }
 }
 
-/** Returns cells as a PGM image. The first row of an image is at the top, that of a grid at the bottom. With `negate`, white is occupied. */
+/** Returns cells as a PGM image, which is read with `negate`: white is occupied. The first row of an image is at the top, that of a grid at the bottom. */
 function pgmImageOf(columns: number, rows: number, occupiedBits: Uint8Array, unknownBits: Uint8Array) {
   const pgmHeader = new TextEncoder().encode(`P5 ${columns} ${rows} ${OCCUPIED_SHADE}\n`);
   const pgmImage = new Uint8Array(pgmHeader.length + columns * rows);
   pgmImage.set(pgmHeader);
-  const bitAt = (bits: Uint8Array, i: number) => (bits[i >> 3] >> (7 - (i & 7))) & 1;
+  const bitOf = (bits: Uint8Array, i: number) => (bits[i >> 3] >> (7 - (i & 7))) & 1;
   for (let row = 0, i = 0; row < rows; row++) {
     const rowStart = pgmImage.length - columns * (row + 1);
-    for (let pixelIndex = rowStart; pixelIndex < rowStart + columns; pixelIndex++, i++) pgmImage[pixelIndex] = OCCUPIED_SHADE * bitAt(occupiedBits, i) + UNKNOWN_SHADE * bitAt(unknownBits, i);
+    for (let pixelIndex = rowStart; pixelIndex < rowStart + columns; pixelIndex++, i++) pgmImage[pixelIndex] = OCCUPIED_SHADE * bitOf(occupiedBits, i) + UNKNOWN_SHADE * bitOf(unknownBits, i);
   }
   return pgmImage;
 }
@@ -88,15 +88,15 @@ function packBits(cells: Uint8Array): string {
   return toBase64(packedBytes);
 }
 
-function decodeBits(field: string, encodedBits: unknown, count: number) {
-  const byteLength = Math.ceil(count / 8);
-  const createError = (ErrorType?: ErrorConstructor) => createRefusalError(field, encodedBits, `base64 of ${byteLength} bytes, a bit for each cell`, ErrorType);
+function decodeBits(fieldName: string, encodedBits: unknown, cellCount: number) {
+  const byteLength = Math.ceil(cellCount / 8);
+  const createError = (ErrorType?: ErrorConstructor) => createRefusalError(fieldName, encodedBits, `base64 of ${byteLength} bytes, a bit for each cell`, ErrorType);
   if (typeof encodedBits !== 'string') throw createError(TypeError);
   try {
     const packedBytes = fromBase64(encodedBits);
     if (packedBytes.length === byteLength) return packedBytes;
   } catch {
-    // The text is no base64.
+    // `fromBase64` throws for other texts. They are refused below.
   }
   throw createError();
 }

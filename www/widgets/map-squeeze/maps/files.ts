@@ -4,7 +4,7 @@ import { YAMLException, load } from 'js-yaml';
 import { limits } from '../../../../build/settings.js';
 import type { MapSqueeze } from '../../../types.d.ts';
 
-type RefusalWords = import('../../../messages/registry.ts').Messages['squeeze']['refused'];
+type RefusalWords = import('../../../messages/registry.ts').Messages['squeeze']['refusals'];
 
 /** Decodes a PNG image. Throws a RangeError for other files. */
 export type DecodePng = (imageBytes: Uint8Array) => Promise<Pick<ImageData, 'width' | 'height' | 'data'>>;
@@ -12,7 +12,7 @@ export type DecodePng = (imageBytes: Uint8Array) => Promise<Pick<ImageData, 'wid
 export interface UserMap {
   name: string;
   /** Sets the map of a simulation, or throws a MapFileError and changes nothing. */
-  apply: (simulation: MapSqueeze) => void;
+  applyTo: (simulation: MapSqueeze) => void;
 }
 
 /** Error whose message is one sentence that names the file, the line or field, and what was expected. */
@@ -37,7 +37,7 @@ export async function readMapFiles(files: File[], decodePng: DecodePng, texts: R
   const filesMatching = (pattern: RegExp) => files.filter(({ name }) => pattern.test(name));
   const [planFiles, yamlFiles, imageFiles] = [filesMatching(/\.json$/i), filesMatching(/\.ya?ml$/i), filesMatching(/\.(pgm|png)$/i)];
   const isOneMap = planFiles.length + yamlFiles.length === 1 && planFiles.length + yamlFiles.length + imageFiles.length === files.length;
-  if (!isOneMap) throw new MapFileError(texts.files(quoteText(files.map(({ name }) => name).join(', '))));
+  if (!isOneMap) throw new MapFileError(texts.wrongFiles(quoteText(files.map(({ name }) => name).join(', '))));
   return planFiles.length ? readPlan(planFiles[0].name, await readText(planFiles[0], MAX_PLAN_BYTES, texts), texts) : readGrid(yamlFiles[0], imageFiles, decodePng, texts);
 }
 
@@ -50,7 +50,7 @@ async function readBytes(file: File, maxBytes: number, texts: RefusalWords) {
 const readText = async (file: File, maxBytes: number, texts: RefusalWords) => new TextDecoder().decode(await readBytes(file, maxBytes, texts));
 
 function checkSize(name: string, size: number, maxBytes: number, texts: RefusalWords) {
-  if (size > maxBytes) throw new MapFileError(texts.long(quoteText(name), size, maxBytes));
+  if (size > maxBytes) throw new MapFileError(texts.fileTooLong(quoteText(name), size, maxBytes));
 }
 
 /** Shortens a text that a sentence quotes. */
@@ -59,21 +59,21 @@ function quoteText(text: string) {
 }
 
 /** Reads a floor plan from the JSON of a file; throws a MapFileError. */
-export function readPlan(name: string, text: string, texts: RefusalWords): UserMap {
-  checkSize(name, text.length, MAX_PLAN_BYTES, texts);
-  const explainReason = (reason: string) => texts.plan(quoteText(name), quoteText(reason));
-  const parsedPlan = explainErrors(() => JSON.parse(text), explainReason);
-  return { name, apply: (simulation) => explainErrors(() => simulation.setPlan(parsedPlan), explainReason) };
+export function readPlan(name: string, planJson: string, texts: RefusalWords): UserMap {
+  checkSize(name, planJson.length, MAX_PLAN_BYTES, texts);
+  const explainReason = (reason: string) => texts.invalidPlan(quoteText(name), quoteText(reason));
+  const parsedPlan = explainErrors(() => JSON.parse(planJson), explainReason);
+  return { name, applyTo: (simulation) => explainErrors(() => simulation.setPlan(parsedPlan), explainReason) };
 }
 
 async function readGrid(file: File, imageFiles: File[], decodePng: DecodePng, texts: RefusalWords): Promise<UserMap> {
   const quotedName = quoteText(file.name);
   const description = parseDescription(quotedName, await readText(file, MAX_YAML_BYTES, texts), texts);
   const { image: imagePath } = description;
-  if (typeof imagePath !== 'string' || imagePath === '') throw new MapFileError(texts.image(quotedName, imagePath === undefined ? '' : quoteText(JSON.stringify(imagePath))));
+  if (typeof imagePath !== 'string' || imagePath === '') throw new MapFileError(texts.invalidImageName(quotedName, imagePath === undefined ? '' : quoteText(JSON.stringify(imagePath))));
   const imageName = imagePath.slice(Math.max(imagePath.lastIndexOf('/'), imagePath.lastIndexOf('\\')) + 1);
   const imageFile = imageFiles.find(({ name }) => name === imageName);
-  if (!imageFile) throw new MapFileError(texts.pair(quotedName, quoteText(imageName), quoteText(imageFiles.map(({ name }) => name).join(', '))));
+  if (!imageFile) throw new MapFileError(texts.missingImage(quotedName, quoteText(imageName), quoteText(imageFiles.map(({ name }) => name).join(', '))));
   const imageBytes = await readBytes(imageFile, limits.bytes, texts);
   const isPng = PNG_MAGIC.every((byte, i) => byte === imageBytes[i]);
   const quotedImageName = quoteText(imageFile.name);
@@ -81,14 +81,14 @@ async function readGrid(file: File, imageFiles: File[], decodePng: DecodePng, te
   const imageContent = isPng ? await decodePng(imageBytes).catch(throwPngError) : imageBytes;
   return {
     name: file.name,
-    apply: (simulation) => explainErrors(() => simulation.setGrid(description, imageContent), (reason) => explainGridError(texts, quotedName, quotedImageName, reason)),
+    applyTo: (simulation) => explainErrors(() => simulation.setGrid(description, imageContent), (reason) => explainGridError(texts, quotedName, quotedImageName, reason)),
   };
 }
 
 /** Words for true and false, which are texts in YAML 1.2 and booleans for map_server. */
 const BOOLEAN_WORDS = new Map([['true', true], ['yes', true], ['on', true], ['false', false], ['no', false], ['off', false]]);
 
-/** Fields of numbers. map_server also reads numbers in quotes. */
+/** Fields whose values are numbers. map_server also reads numbers in quotes. */
 const NUMBER_FIELDS = ['resolution', 'origin', 'negate', 'occupied_thresh', 'free_thresh'];
 
 /** Returns a number in quotes as a number, and other values unchanged. */
@@ -98,11 +98,11 @@ function numberFromText(yamlValue: unknown): unknown {
 }
 
 /** Parses the fields of a description as leniently as map_server does. Without fields, the image is missing. */
-function parseDescription(name: string, text: string, texts: RefusalWords): Record<string, unknown> {
+function parseDescription(quotedName: string, yamlText: string, texts: RefusalWords): Record<string, unknown> {
   try {
     // YAML forbids tabs as indentation, and the fields need no indentation. Aliases are refused: no map needs them, and with them a short
     // text can expand to billions of values, or contain itself.
-    const fields: Record<string, unknown> = { ...(load(text.replaceAll(/^\t+/gm, '').replaceAll('\t', ' '), { maxAliases: 0 }) as object) };
+    const fields: Record<string, unknown> = { ...(load(yamlText.replaceAll(/^\t+/gm, '').replaceAll('\t', ' '), { maxAliases: 0 }) as object) };
     for (const key of NUMBER_FIELDS) if (key in fields) fields[key] = numberFromText(fields[key]);
     const { negate, mode } = fields;
     if (typeof negate === 'string') fields.negate = BOOLEAN_WORDS.get(negate.toLowerCase()) ?? negate;
@@ -110,15 +110,15 @@ function parseDescription(name: string, text: string, texts: RefusalWords): Reco
     return fields;
   } catch (error) {
     if (!(error instanceof YAMLException)) throw error;
-    throw new MapFileError(texts.yaml(name, error.mark ? error.mark.line + 1 : 1, quoteText(error.reason)));
+    throw new MapFileError(texts.invalidYaml(quotedName, error.mark ? error.mark.line + 1 : 1, quoteText(error.reason)));
   }
 }
 
 /** Returns the sentence about a grid that the core refuses, with the name of the YAML file or of the image. */
-function explainGridError(texts: RefusalWords, description: string, image: string, reason: string) {
+function explainGridError(texts: RefusalWords, yamlName: string, imageName: string, reason: string) {
   const errorLine = /^line (\d+): (.*)$/.exec(reason);
-  if (errorLine) return texts.line(image, errorLine[1], errorLine[2]);
-  return `${reason.startsWith('image') ? image : description}: ${reason}.`;
+  if (errorLine) return texts.invalidLine(imageName, errorLine[1], errorLine[2]);
+  return `${reason.startsWith('image') ? imageName : yamlName}: ${reason}.`;
 }
 
 /** Runs a parser or the core with a file, and explains why the file is refused. */

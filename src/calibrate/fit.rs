@@ -155,8 +155,9 @@ impl LegSet {
 /// Median of χ² with one degree of freedom, the distribution of the square of a standard normal number.
 const MEDIAN_CHI2_1: f64 = 0.4549;
 
-/// Initial guess of the standard deviations of the reference, m and rad.
-const INITIAL_REFERENCE_STD: f64 = 1e-3;
+/// Initial guess of the standard deviations of the reference, m and rad. It is large, because the search can end at a smaller maximum
+/// without noise of the reference if outliers are kept.
+const INITIAL_REFERENCE_STD: f64 = 1e-2;
 
 /// Returns the parameters that are fitted: α's of the model, and variances of the reference that the options do not state.
 fn free_parameters(options: &Options) -> FreeMask {

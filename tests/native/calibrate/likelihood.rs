@@ -1,9 +1,10 @@
 //! The restricted likelihood, compared with a reference from a dense covariance matrix, and its maximum.
 
 use super::simulated::{MODELS, Simulation, Violation};
-use super::{NAV2, calibrate_log, calibrate_simulation};
+use super::{NAV2, calibrate_log, calibrate_simulation, default_options};
 use motion::calibrate::{Calibration, Leg, LegLength, Options, Outliers, Systematic, SystematicError};
 use motion::geom::se2::{SE2, wrap_angle};
+use motion::sim::alpha_calibrator::{Log, example::simulate_log};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
 
@@ -295,4 +296,17 @@ fn the_noise_of_the_reference_maximizes_the_likelihood() {
             "{std_factor}"
         );
     }
+}
+
+/// The reference jumps by half a metre and back. If its jumps are kept, a fit without noise of the reference is a smaller maximum of the
+/// likelihood.
+#[test]
+fn the_search_finds_the_larger_of_two_maxima() {
+    let Log { odometry, reference } = simulate_log(3);
+    let log_likelihood_with = |position_std| {
+        let options = Options { outliers: Outliers::Keep, position_std, ..default_options(MODELS[0]) };
+        calibrate_log(&[odometry.clone(), reference.clone()], &options).log_likelihood
+    };
+    let [estimated, stated] = [None, Some(0.04)].map(log_likelihood_with);
+    assert!(estimated > stated, "{estimated} {stated}");
 }

@@ -1,4 +1,4 @@
-/** Texts in pictures: labels, which are a symbol with its subscript and a text, and callouts, which are sentences about a point. */
+/** Texts in pictures, each with a symbol and its subscript if it has one: labels, and callouts, which have a line to the point that they are about. */
 
 import { least, pairs } from 'd3-array';
 import { clamp } from '../ui/format.ts';
@@ -13,13 +13,6 @@ const LABEL_BACKGROUND = { halfHeight: 9, opacity: 0.9 };
 
 /** Candidate positions of a label: offsets in heights of its background. */
 const LABEL_SHIFTS = [0, 1, -1, 2, -2, 3, -3];
-
-/** Distance between rows of labels above a picture, and gap between two labels of a row, pixels. */
-const ROW_HEIGHT = 17;
-const LABEL_GAP = 12;
-
-/** Height that two rows of labels need above a picture, in addition to the name of its axis, pixels. */
-export const LABELS_ABOVE_HEIGHT = 24 + ROW_HEIGHT;
 
 interface LabelText {
   symbol?: string;
@@ -48,45 +41,6 @@ export function drawLabel(drawContext: DrawContext, { x, y, freeSide, colour, ..
   drawTextParts(drawContext, parts, labelLeft, labelY, colour);
 }
 
-/**
- * Draws labels above a picture, each with a leader to its anchor in pixels. They alternate between two rows, so that leaders of the upper row
- * pass between labels of the lower row. The view needs {@link LABELS_ABOVE_HEIGHT} pixels at its top.
- */
-export function drawLabelsAbove(drawContext: DrawContext, labels: (LabelText & { x: number, y: number, colour: string })[]) {
-  const { context, view, palette } = drawContext;
-  const { left, right, top } = view.plotArea;
-  const placedLabels = labels
-    .map((label) => ({ ...label, parts: measureTextParts(drawContext, label) }))
-    .map((label) => ({ ...label, width: totalWidthOf(label.parts) }))
-    .sort((a, b) => a.x - b.x)
-    .map((label, i) => ({ ...label, row: i % 2, labelLeft: label.x - label.width / 2 }));
-  for (const row of [0, 1]) {
-    const rowLabels = placedLabels.filter((label) => label.row === row);
-    // Each label is moved to the right of the previous one. Then the last labels are moved to the left, into the picture.
-    let limitX = left;
-    for (const label of rowLabels) {
-      label.labelLeft = Math.max(label.labelLeft, limitX);
-      limitX = label.labelLeft + label.width + LABEL_GAP;
-    }
-    limitX = right;
-    for (const label of rowLabels.toReversed()) {
-      label.labelLeft = Math.min(label.labelLeft, limitX - label.width);
-      limitX = label.labelLeft - LABEL_GAP;
-    }
-  }
-  placedLabels.forEach((label, i) => {
-    const { labelLeft, width, row, x, y, colour, parts } = label;
-    const rowY = top - LABEL_BACKGROUND.halfHeight - ROW_HEIGHT * row;
-    const [previousLabel, nextLabel] = [placedLabels[i - 1], placedLabels[i + 1]];
-    const minLeaderX = row === 0 ? labelLeft : previousLabel.labelLeft + previousLabel.width + LABEL_GAP / 2;
-    const maxLeaderX = row === 0 ? labelLeft + width : (nextLabel?.labelLeft ?? right) - LABEL_GAP / 2;
-    const leaderX = clamp(x, minLeaderX, Math.max(minLeaderX, maxLeaderX));
-    const leaderStart = [clamp(leaderX, labelLeft, labelLeft + width), rowY + LABEL_BACKGROUND.halfHeight];
-    drawLeader(context, [leaderStart, [leaderX, top - (row === 0 ? 0 : ROW_HEIGHT)], [leaderX, top], [x, y]], palette.muted);
-    drawTextParts(drawContext, parts, labelLeft, rowY, colour);
-  });
-}
-
 /** Draws a leader: a thin line through points in pixels, from a text to a point, with a dot at the point. */
 export function drawLeader(context: CanvasRenderingContext2D, leaderPoints: number[][], colour: string) {
   strokeLine(context, leaderPoints, { colour, width: 1 });
@@ -108,18 +62,15 @@ function measureTextParts({ context, font }: DrawContext, { symbol = '', subscri
 
 const totalWidthOf = (parts: { width: number }[]) => parts.reduce((sum, { width }) => sum + width, 0);
 
-/** Draws measured texts from left to right, with a halo in the background colour. x is the left end and y the middle of the line, in pixels. */
-function drawTextParts({ context, palette }: DrawContext, parts: ReturnType<typeof measureTextParts>, x: number, y: number, colour: string) {
-  context.save();
-  Object.assign(context, { textAlign: 'left', textBaseline: 'middle', lineJoin: 'round', lineWidth: 4, strokeStyle: palette.paper, fillStyle: colour });
+/** Draws measured texts from left to right. x is the left end and y the middle of the line, in pixels. */
+function drawTextParts({ context }: DrawContext, parts: ReturnType<typeof measureTextParts>, x: number, y: number, colour: string) {
+  Object.assign(context, { textAlign: 'left', textBaseline: 'middle', fillStyle: colour });
   let partLeft = x;
   for (const { text, style, drop, width } of parts) {
     context.font = style;
-    context.strokeText(text, partLeft, y + drop);
     context.fillText(text, partLeft, y + drop);
     partLeft += width;
   }
-  context.restore();
 }
 
 /** Minimum length of a callout's leader (the line from its sentence to its point), line height, and margin around the text, pixels. */
@@ -141,9 +92,8 @@ const COST_PER_PIXEL = 0.1;
 /** Candidate positions of a callout's sentence around its point, with their costs. */
 const CANDIDATE_POSITIONS = LEADER_LENGTHS.flatMap((length) => CANDIDATE_ANGLES.map((turn) => ({ turn, length, cost: COST_PER_RADIAN * Math.abs(turn) + COST_PER_PIXEL * length })));
 
-/** Sentence with line breaks about a point of the view's world. The default colour is that of text. */
-export interface Callout {
-  text: string;
+/** Text with line breaks about a point of the view's world. The default colour is that of text. */
+export interface Callout extends LabelText {
   point: [number, number];
   colour?: string;
 }
@@ -152,15 +102,15 @@ export interface Callout {
  * Draws sentences about points on the outline of a shape with the centre `shapeCentre`. A sentence is outside of the shape, where it covers the
  * lines (x, y pairs) and other texts least. The cost of a position is continuous in all points, so that a sentence seldom jumps.
  */
-export function drawCallouts({ context, view, palette, font, placedBoxes }: DrawContext, callouts: Callout[], { shapeCentre, lines }: { shapeCentre: [number, number], lines: Float64Array[] }) {
-  context.font = font;
+export function drawCallouts(drawContext: DrawContext, callouts: Callout[], { shapeCentre, lines }: { shapeCentre: [number, number], lines: Float64Array[] }) {
+  const { context, view, palette, placedBoxes } = drawContext;
   const [centreX, centreY] = view.toPixel(...shapeCentre);
   const linePoints = lines.flatMap((line) => pairs(view.toPixels(line)).flatMap(([start, end]) => sampleLine(start, end)));
   const avoidedPoints: number[][] = [...callouts.map(({ point }) => view.toPixel(...point)), ...linePoints];
   const { left, right, top, bottom } = view.plotArea;
-  for (const { text, point, colour = palette.ink } of callouts) {
-    const textLines = text.split('\n');
-    const halfWidth = Math.max(...textLines.map((textLine) => context.measureText(textLine).width)) / 2 + TEXT_MARGIN;
+  for (const { point, colour = palette.ink, text = '', ...symbolAndSubscript } of callouts) {
+    const textLines = text.split('\n').map((textLine, i) => measureTextParts(drawContext, { text: textLine, ...(i === 0 && symbolAndSubscript) }));
+    const halfWidth = Math.max(...textLines.map(totalWidthOf)) / 2 + TEXT_MARGIN;
     const halfHeight = (LINE_HEIGHT * textLines.length) / 2 + TEXT_MARGIN;
     const [x, y] = view.toPixel(...point);
     const outwardAngle = Math.atan2(y - centreY, x - centreX);
@@ -181,8 +131,7 @@ export function drawCallouts({ context, view, palette, font, placedBoxes }: Draw
     drawLeader(context, [leaderStart, [x, y]], colour);
     context.fillStyle = palette.paper;
     paintWithOpacity(context, 0.85, () => context.fillRect(bestBox.x - halfWidth, bestBox.y - halfHeight, 2 * halfWidth, 2 * halfHeight));
-    Object.assign(context, { fillStyle: colour, textAlign: 'center', textBaseline: 'middle' });
-    textLines.forEach((textLine, i) => context.fillText(textLine, bestBox.x, bestBox.y + (i - (textLines.length - 1) / 2) * LINE_HEIGHT));
+    textLines.forEach((parts, i) => drawTextParts(drawContext, parts, bestBox.x - totalWidthOf(parts) / 2, bestBox.y + (i - (textLines.length - 1) / 2) * LINE_HEIGHT, colour));
   }
 }
 

@@ -132,8 +132,6 @@ export class SvgContext {
 
   fillText: CanvasText['fillText'] = (text, x, y) => this.#addText(text, x, y, ` fill="${this.fillStyle}"${this.#formatOpacityAttribute()}`);
 
-  strokeText: CanvasText['strokeText'] = (text, x, y) => this.#addText(text, x, y, ` fill="none"${this.#strokeAttributes()}`);
-
   #addText(text: string, x: number, y: number, paintAttributes: string) {
     const dy = BASELINE_SHIFTS[this.textBaseline] ?? '0';
     const anchor = TEXT_ANCHORS[this.textAlign] ?? 'start';

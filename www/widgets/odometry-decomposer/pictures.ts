@@ -1,9 +1,9 @@
 /** The Odometry Decomposer's two pictures: the three legs in the odometry frame, and both odometry poses in the world. */
 
-import { greatest, least } from 'd3-array';
+import { greatest } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { drawCallouts, type Callout, LABELS_ABOVE_HEIGHT, drawLabel, drawLabelsAbove } from '../../scene/labels.ts';
+import { drawCallouts, drawLabel, type Callout } from '../../scene/labels.ts';
 import { addLine, fillPath, paintWithOpacity, strokePath, drawDisc, strokeLine, type DrawContext, type LineStroke } from '../../scene/canvas.ts';
 import { addTurnArc, drawDots, drawCrosshair, drawOutlines, hasLength, createLineLegend, createLineStyles, strokeLines } from '../../scene/draw.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
@@ -159,7 +159,7 @@ function turnArcPoints({ x, y, theta }: Pose, turn: number, radius: number) {
 /** Picture in the odometry frame: the legs as a linkage, and the effect of noise on it. */
 export class LegsPicture extends SamplesPicture<Scene> {
   name = 'plane';
-  view: View = new View({ top: LABELS_ABOVE_HEIGHT, hasNoMargin: true });
+  view: View = new View({ hasNoMargin: true });
 
   fitView(scene: Scene) {
     const { view } = this;
@@ -214,28 +214,24 @@ export class LegsPicture extends SamplesPicture<Scene> {
       drawMarkedPose(drawContext, scene);
     });
     const turnArcOutlines = turnArcs.map(([turnPose, turn, turnRadius]) => Float64Array.from(turnArcPoints(turnPose, turn, turnRadius / this.view.scaleX)));
-    if (overlays.includes('legs')) drawLabelsAbove(drawContext, this.#createLabels(drawContext, scene, turnArcs));
-    drawCallouts(drawContext, spreadEllipses.map(({ callout }) => callout), { shapeCentre: [drivenPose.x, drivenPose.y], lines: [...spreadEllipses.map(({ points }) => points), ...turnArcOutlines] });
+    const legCallouts = overlays.includes('legs') ? this.#createLegCallouts(drawContext, scene, turnArcs) : [];
+    drawCallouts(drawContext, [...legCallouts, ...spreadEllipses.map(({ callout }) => callout)], {
+      shapeCentre: [drivenPose.x, drivenPose.y], lines: [...spreadEllipses.map(({ points }) => points), ...turnArcOutlines, segmentPoints(startPose, drivenPose)],
+    });
   };
 
-  /** Returns labels with the value and standard deviation of each leg that is long enough to see. */
-  #createLabels({ view, palette: { prior: colour } }: DrawContext, { legs, deviations }: Scene, turnArcs: TurnArc[]) {
+  /** Returns callouts with the value and standard deviation of each leg that is long enough to see. */
+  #createLegCallouts({ view, palette: { prior: colour } }: DrawContext, { legs, deviations }: Scene, turnArcs: TurnArc[]): Callout[] {
     const [startPose, drivenPose] = turnArcs.map(([turnPose]) => turnPose);
-    // Returns the highest visible point of the arc of a turn, where the line from its label ends. Labels are above the picture.
-    const leaderEndOf = ([turnPose, turn, radius]: TurnArc) => {
-      const arcPixels = view.toPixels(turnArcPoints(turnPose, turn, radius / view.scaleX));
-      const [x, y] = least(arcPixels.filter((point) => point[1] > view.plotArea.top), (point) => point[1]) ?? arcPixels[0];
-      return { x, y };
-    };
-    const driveMiddle = { x: view.toPixelX((startPose.x + drivenPose.x) / 2), y: view.toPixelY((startPose.y + drivenPose.y) / 2) };
-    const legLabels = [
-      { subscript: 'rot1', unit: 'rad', isShown: Math.abs(legs.rot1) >= MIN_DRAWN_TURN, anchor: leaderEndOf(turnArcs[0]) },
-      { subscript: 'trans', unit: 'm', isShown: legs.trans * view.scaleX >= MIN_LABELLED_LENGTH, anchor: driveMiddle },
-      { subscript: 'rot2', unit: 'rad', isShown: Math.abs(legs.rot2) >= MIN_DRAWN_TURN, anchor: leaderEndOf(turnArcs[1]) },
+    const middleOf = ([{ x, y, theta }, turn, radius]: TurnArc): [number, number] => view.toWorld(...view.headingLineFrom({ x, y, theta: theta + turn / 2 }, radius)[1]);
+    const legCallouts = [
+      { subscript: 'rot1', unit: 'rad', isShown: Math.abs(legs.rot1) >= MIN_DRAWN_TURN, point: middleOf(turnArcs[0]) },
+      { subscript: 'trans', unit: 'm', isShown: legs.trans * view.scaleX >= MIN_LABELLED_LENGTH, point: [(startPose.x + drivenPose.x) / 2, (startPose.y + drivenPose.y) / 2] as [number, number] },
+      { subscript: 'rot2', unit: 'rad', isShown: Math.abs(legs.rot2) >= MIN_DRAWN_TURN, point: middleOf(turnArcs[1]) },
     ] as const;
-    return legLabels.filter(({ isShown }) => isShown).map(({ subscript, unit, anchor }) => {
+    return legCallouts.filter(({ isShown }) => isShown).map(({ subscript, unit, point }) => {
       const deviationText = deviations[subscript] > 0 ? ` ± ${formatFixed(deviations[subscript], 2)}` : '';
-      return { ...anchor, symbol: 'δ', subscript, text: `${formatFixed(legs[subscript], 2)}${deviationText} ${unit}`, colour };
+      return { point, symbol: 'δ', subscript, text: `${formatFixed(legs[subscript], 2)}${deviationText} ${unit}`, colour };
     });
   }
 
@@ -257,7 +253,7 @@ export class LegsPicture extends SamplesPicture<Scene> {
 /** Picture of the world, in which the odometry frame drifts. */
 export class WorldPicture extends SamplesPicture<Scene> {
   name = 'world';
-  view: View = new View({ top: LABELS_ABOVE_HEIGHT, hasNoMargin: true });
+  view: View = new View({ hasNoMargin: true });
 
   fitView(scene: Scene) {
     const { poses } = scene.drifted;
@@ -295,20 +291,24 @@ export class WorldPicture extends SamplesPicture<Scene> {
     const { left, bottom } = this.view.plotArea;
     const { outcomesLabel: outcomesBy, ruleNames: rules } = words.decomposer;
     if (overlays.includes('outcomes')) drawLabel(drawContext, { text: outcomesBy(rules[scene.config.rule]), x: left, y: bottom, freeSide: 1, colour: palette.prediction });
-    drawLabelsAbove(drawContext, [
-      ...(overlays.includes('prediction') ? this.#createLabels(drawContext, [startPose, predictedPose], 'x', [palette.ink, palette.prediction]) : []),
-      ...(overlays.includes('odometry') ? this.#createLabels(drawContext, [odometryStart, odometryEnd], 'x̄', [palette.prior, palette.prior]) : []),
-    ]);
-  };
-
-  /** Returns the labels of the poses before and after the motion; only the second if both are at one place on the screen. */
-  #createLabels({ view }: DrawContext, poses: Pose[], symbol: string, colours: string[]) {
-    const [firstLabel, secondLabel] = poses.map((pose, i) => {
-      const [x, y] = view.toPixel(pose.x, pose.y);
-      return { x, y, symbol, subscript: ['t−1', 't'][i], colour: colours[i] };
+    const poseCallouts = [
+      ...(overlays.includes('prediction') ? createPoseCallouts(drawContext, [startPose, predictedPose], 'x', [palette.ink, palette.prediction]) : []),
+      ...(overlays.includes('odometry') ? createPoseCallouts(drawContext, [odometryStart, odometryEnd], 'x̄', [palette.prior, palette.prior]) : []),
+    ];
+    drawCallouts(drawContext, poseCallouts, {
+      shapeCentre: [(startPose.x + predictedPose.x) / 2, (startPose.y + predictedPose.y) / 2], lines: [segmentPoints(startPose, predictedPose), segmentPoints(odometryStart, odometryEnd)],
     });
-    return Math.hypot(firstLabel.x - secondLabel.x, firstLabel.y - secondLabel.y) > MIN_LABELLED_LENGTH ? [firstLabel, secondLabel] : [secondLabel];
-  }
+  };
 }
 
-const drawSegment = (drawContext: DrawContext, startPose: Pose, endPose: Pose, lineStroke: LineStroke) => strokeLines(drawContext, [{ points: Float64Array.of(startPose.x, startPose.y, endPose.x, endPose.y), ...lineStroke }]);
+/** Returns the end points of a segment between two poses as x, y pairs. */
+const segmentPoints = (from: Pose, to: Pose) => Float64Array.of(from.x, from.y, to.x, to.y);
+
+/** Returns callouts of the poses before and after a motion; only the second if both are at one place on the screen. */
+function createPoseCallouts({ view }: DrawContext, poses: Pose[], symbol: string, colours: string[]): Callout[] {
+  const [firstCallout, secondCallout] = poses.map(({ x, y }, i): Callout => ({ point: [x, y], symbol, subscript: ['t−1', 't'][i], colour: colours[i] }));
+  const distance = Math.hypot(poses[0].x - poses[1].x, poses[0].y - poses[1].y) * view.scaleX;
+  return distance > MIN_LABELLED_LENGTH ? [firstCallout, secondCallout] : [secondCallout];
+}
+
+const drawSegment = (drawContext: DrawContext, startPose: Pose, endPose: Pose, lineStroke: LineStroke) => strokeLines(drawContext, [{ points: segmentPoints(startPose, endPose), ...lineStroke }]);

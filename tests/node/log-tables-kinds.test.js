@@ -209,7 +209,6 @@ for (const [name, tableText, expectedMessage, options, [fieldName, expectedValue
 }
 
 const LONG_WORD = 'x'.repeat(100);
-const KITTI_ROW = Array.from({ length: 12 }, () => 1).join(' ');
 
 /** Tables that are refused, with the expected message. @type {[string, string | Uint8Array<ArrayBuffer>, RegExp, import('../../www/logs/log.ts').OpenOptions?][]} */
 const REFUSED_TABLES = [
@@ -241,9 +240,7 @@ const REFUSED_TABLES = [
   ['robots one after the other, with a prefix', circleTableOf((row, i) => [...row, i >> 9], 't,odom_x,odom_y,odom_yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
   ['two robots in turns', circleTableOf((row, i) => [...row, i % 2], 't,x,y,yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
   ['two paths', circleTableOf(([t, x, ...yawAndRest], i) => [t, i % 6 ? x : x + 1, ...yawAndRest]), /poses of two paths alternate, 1\.\d m apart: .*; keep those of one\.$/],
-  ['poses of KITTI', `${KITTI_ROW}\n${KITTI_ROW}\n`, /poses of KITTI, which have no times; give/],
   ['Euler angles of Motive', 'Format Version,1.23,Take Name,x,Rotation Type,XYZ,Length Units,Meters\n\n,Type,Rigid Body\n,Name,Robot\n,ID,1\n,,Rotation\nFrame,Time (Seconds),X\n0,0.0,1\n1,0.1,1\n', /Euler angles \(XYZ\); export/],
-  ['commands without times', '0.4,0.0,0.0,0.0,0.0,0.1\n0.4,0.0,0.0,0.0,0.0,0.1\n', /geometry_msgs\/Twist, which have no times; give/],
   ['a program’s messages', '[INFO] [1718000000.1] [amcl]: at 1.0, 2.0\n'.repeat(3), /does not look like a log/],
   ['YAML', 'header:\n  seq: 1\n---\n', /it is YAML and no table; write/],
   ['dates in an order that is not clear', 't,x,y,yaw\n6/10/2024 12:00:00,0,0,0\n6/10/2024 12:00:01,0,0,0\n', /, or a date as 2024-01-31 12:00:00\.5\.$/],

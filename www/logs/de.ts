@@ -67,8 +67,6 @@ export const german: Words = {
     noTable: (notation) => `das ist ${notation} und keine Tabelle; eine Zeile je Zeitpunkt schreiben, wie mit ros2 topic echo --csv, rostopic echo -p oder pandas, oder die Aufzeichnung selbst angeben.`,
     positions: (columns) =>
       `${columns} sind Positionen ohne Richtung; nötig ist eine Referenz, die die Richtung misst, wie mit zwei Prismen, Markern oder Scan-Matching (in einer Tabelle in einer Spalte namens yaw mit dem Präfix von x und y): Die Fahrtrichtung verbirgt Drehfehler und würde alpha1 und alpha2 halbieren.`,
-    timeless: (width) =>
-      `Zeilen mit ${width} Zahlen sind ${width === 6 ? 'Befehle von geometry_msgs/Twist' : 'Posen von KITTI'}, die keine Zeiten haben; ${width === 6 ? 'die Aufzeichnung selbst' : 'die TUM-Datei, die kitti_poses_and_timestamps_to_trajectory.py von evo schreibt,'} angeben, oder eine Spalte mit Zeiten ergänzen.`,
     euler: (rotation) => `die Drehungen sind Eulerwinkel (${rotation}); die Aufnahme noch einmal aus Motive exportieren, mit Rotation Type „Quaternion“.`,
     tilted: (isTable) => `die Posen drehen sich nicht um eine senkrechte Z-Achse; ${isTable ? 'mit Z nach oben exportieren, oder die Spalten auswählen: bei Y nach oben x,y,z als y,z,x und qx,qy,qz als qy,qz,qx' : 'die Fahrt noch einmal mit Z nach oben aufzeichnen'}.`,
     yUp: 'die Richtungen folgen dem Weg in x und z, die senkrechte Achse ist also Y; mit Z nach oben exportieren, oder die Spalten in anderer Reihenfolge auswählen.',

@@ -68,8 +68,6 @@ export const english = {
     noTable: (notation: string) => `it is ${notation} and no table; write one row a time, as by ros2 topic echo --csv, rostopic echo -p or pandas, or give the recording itself.`,
     positions: (columns: string) =>
       `${columns} are positions without a heading; give a reference that measures the heading, as by two prisms, markers or scan matching (in a table, in a column named yaw with the prefix of x and y): the direction of travel hides turning errors, and would halve alpha1 and alpha2.`,
-    timeless: (width: number) =>
-      `rows of ${width} numbers are ${width === 6 ? 'commands of geometry_msgs/Twist' : 'poses of KITTI'}, which have no times; give ${width === 6 ? 'the recording itself' : 'the TUM file that kitti_poses_and_timestamps_to_trajectory.py of evo writes'}, or add a column of times.`,
     euler: (rotation: string) => `the rotations are Euler angles (${rotation}); export the take from Motive again with the rotation type Quaternion.`,
     tilted: (isTable: boolean) => `the poses do not turn about a vertical Z axis; ${isTable ? 'export with Z up, or choose the columns: with Y up, name x,y,z as y,z,x and qx,qy,qz as qy,qz,qx' : 'record the drive again with Z up'}.`,
     yUp: 'the headings follow the path in x and z, so the vertical axis is Y; export with Z up, or choose the columns in another order.',

@@ -10,8 +10,6 @@ export interface TableFormat {
   hasDecimalCommas: boolean;
   firstRowNumber: number;
   columnNames: string[];
-  /** Line of the header. Concatenated files repeat it among the rows. */
-  headerLine?: string;
   columnGroups: ColumnGroup[];
   /** True if a row may have empty cells, because it is a sample of another topic. */
   isSparse: boolean;
@@ -135,14 +133,11 @@ export function detectTableFormat(lines: string[], file: string, columns: string
     if (rowWidth > names.length) throw new LogError({ file, line: firstRowLine?.number }, (texts) => texts.wide(rowWidth, names.length, number));
     const groups = findColumnGroups(names, rows[0]);
     if (!firstRowLine && groups.every(({ kind }) => kind === null)) throw noLogError();
-    return { ...commonFormat, columnNames: names, headerLine: lines[number - 1], columnGroups: groups, isSparse: groups.length > 1 || names.some((name) => name.trim() === '__time') };
+    return { ...commonFormat, columnNames: names, columnGroups: groups, isSparse: groups.length > 1 || names.some((name) => name.trim() === '__time') };
   }
   if (!firstRowLine) throw noLogError();
   const names = columnsByContent(rows);
   if (names) return { ...commonFormat, columnNames: names, columnGroups: findColumnGroups(names, rows[0]) };
-  // Poses of KITTI have 12 numbers. In geometry_msgs/Twist, four of six numbers are 0.
-  const isTwist = rowWidth === 6 && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0));
-  if (rowWidth === 12 || isTwist) throw new LogError(errorPlace, (texts) => texts.timeless(rowWidth));
   const defaultNames = ({ 3: 't,v,omega', 4: 't,x,y,yaw' } as Record<number, string>)[rowWidth] ?? `t,x,y,yaw${',-'.repeat(Math.max(0, rowWidth - 4))}`;
   throw new LogError(errorPlace, (texts) => texts.noHeader(rowWidth, truncate(firstRowLine.line.trim().replaceAll('\t', ' '))), { option: 'columns', choices: [defaultNames], columns: rows[0].slice(0, rowWidth) });
 }

@@ -135,7 +135,7 @@ function createClockReader({ columns: [{ index }, subseconds], unit: namedUnit }
 
 /** Returns a reader of the log of one series, line by line. `upAxis` is the vertical axis, if the format does not define it. */
 function createLogReader(name: string, errorPlace: ErrorPlace, format: TableFormat, group: ColumnGroup, layout: ReturnType<typeof findLogLayout>, options: OpenOptions, upAxis?: 'Y' | 'Z') {
-  const { separator, hasDecimalCommas, isSparse, headerLine, columnNames } = format;
+  const { separator, hasDecimalCommas, isSparse, columnNames } = format;
   const { clocks, columns, fields, kind, length, angle } = layout;
   const rows = new RowCollector(errorPlace);
   const notes: Note[] = upAxis ? [{ name: 'upAxis', values: [upAxis] }] : [];
@@ -180,7 +180,6 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
 
     addLine(line: string, number: number, isUnterminated: boolean): void {
       if (/^\s*(?:[#%]|$)/.test(line)) return;
-      if (line === headerLine) return rows.dropRow('text', number);
       const cells = splitCells(line, separator, neededCellCount);
       const lastCell = cells[neededCellCount - 1]?.trim() ?? '';
       const decimalCount = /\.(\d*)/.exec(lastCell)?.[1].length ?? 0;

@@ -30,7 +30,7 @@ test('the figure opens with the robot beside the commanded arc, and names the le
   expect(config).toMatchObject({ start: { x: 0, y: 0, theta: 0 }, next: { x: 1.1, y: 0.5, theta: 1.1 }, command: { v: 1, omega: 0.5, dt: 1 } });
   await expect(widget.getByRole('button', { name: 'Left turn' })).toHaveAttribute('aria-pressed', 'true');
   await expect(verdictOf(widget)).toContainText('The last turn γ̂ fits worst: 2.2 standard deviations off');
-  await expect(widget.locator('.headline')).toHaveText(`${(100 * stats.share).toFixed(1)}\u202f% as likely as the best pose`);
+  await expect(widget.locator('.headline')).toHaveText(new RegExp(`^\\s*The robot’s pose is\\s+${(100 * stats.share).toFixed(1)}\u202f%\\s+as likely as the best pose`));
   const factorRows = widget.locator('.factors li');
   await expect(factorRows).toHaveCount(3);
   await expect(factorRows.nth(2)).toHaveClass(/weakest/);

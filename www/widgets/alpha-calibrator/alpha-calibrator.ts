@@ -112,10 +112,6 @@ const styles = css`
     overflow-wrap: anywhere;
   }
 
-  .found tbody th {
-    white-space: nowrap;
-  }
-
   .paths {
     flex: 0 0 14em;
   }
@@ -153,14 +149,10 @@ const styles = css`
   }
 
   table {
-    max-width: 48em;
+    max-width: none;
     margin: 0.2em 0 0.5em;
     font-size: 0.84em;
     line-height: 1.2;
-  }
-
-  .alphas table {
-    max-width: none;
   }
 
   .reason {
@@ -172,10 +164,6 @@ const styles = css`
     min-height: 6.5em;
     margin: 0.2em 0;
     line-height: 1.3;
-  }
-
-  .looked .slider {
-    padding-bottom: 0.2em;
   }
 
   .panels {

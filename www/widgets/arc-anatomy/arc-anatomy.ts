@@ -25,17 +25,6 @@ function likelihoodControlsHtml(figure: ArcAnatomyElement) {
 }
 
 const styles = css`
-  .headline {
-    margin-block: 0 0.5em;
-    line-height: 1.25;
-  }
-
-  .headline strong {
-    display: block;
-    font-size: 2em;
-    line-height: 1.15;
-  }
-
   :is(.factors, .lines) {
     display: grid;
     gap: 0.5em;

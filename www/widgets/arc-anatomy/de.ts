@@ -26,7 +26,7 @@ export const de: typeof import('./en.ts').en = {
     estimateNames: ['Geschwindigkeit', 'Drehrate', 'letzte Drehung'],
     factorText: (share) => `${share} des Maximums`,
   },
-  headline: { afterShare: 'so wahrscheinlich wie die beste Pose', afterPower: 'mal so wahrscheinlich wie die beste Pose' },
+  headline: { beforeShare: 'Die Pose des Roboters ist', afterShare: 'so wahrscheinlich wie die beste Pose', afterPower: 'mal so wahrscheinlich wie die beste Pose' },
   likelihoodReadouts: { prob: '*p* der Tabellen', density: 'Dichte der Ziehung (m⁻² rad⁻¹)', undefinedDensity: 'keine: eine Varianz ist 0', xiReadout: '*ξ* (m, m, rad)' },
   verdict: {
     worstFactor: (estimate, deviations, kept, share) =>

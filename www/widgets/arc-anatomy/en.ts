@@ -26,7 +26,7 @@ export const en = {
     estimateNames: ['speed', 'turn rate', 'last turn'],
     factorText: (share) => `factor: ${share} of its peak`,
   },
-  headline: { afterShare: 'as likely as the best pose', afterPower: 'times as likely as the best pose' },
+  headline: { beforeShare: 'The robot’s pose is', afterShare: 'as likely as the best pose', afterPower: 'times as likely as the best pose' },
   likelihoodReadouts: { prob: '*p* of the tables', density: 'density of the sampler (m⁻² rad⁻¹)', undefinedDensity: 'none: a variance is 0', xiReadout: '*ξ* (m, m, rad)' },
   verdict: {
     worstFactor: (estimate, deviations, kept, share) =>

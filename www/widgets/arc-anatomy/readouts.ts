@@ -54,7 +54,7 @@ const FACTOR_NOTATIONS = [
 
 export function headlineHtml({ stats: { share } }: ViewModel) {
   const texts = words.anatomy.headline;
-  return html`<p class="headline" part="readouts"><strong>${formatShare(share)}</strong> ${isPrintedAsPower(share) ? texts.afterPower : texts.afterShare}</p>`;
+  return readoutsHtml([[texts.beforeShare, formatShare(share), isPrintedAsPower(share) ? texts.afterPower : texts.afterShare]], 0);
 }
 
 /**

@@ -80,20 +80,8 @@ const styles = css`
       grid-template-rows: 1fr auto;
     }
 
-    .summary .caption {
-      font-size: 0.95em;
-      line-height: 1.25;
-    }
-
     .summary .choices {
       grid-column: 1 / -1;
-    }
-  }
-
-  /* The chart grows with the figure, but its text does not. */
-  @container (min-width: 44em) {
-    .chart .plot text {
-      font-size: 10.8px;
     }
   }
 

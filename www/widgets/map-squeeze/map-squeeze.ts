@@ -85,10 +85,8 @@ const styles = css`
     }
   }
 
-  /* The minimum height is that of the longest headline and caption, so that nothing moves when their texts change. */
   .result {
     display: flow-root;
-    min-height: calc(12.2em - 16.5cqi);
   }
 
   .headline {
@@ -104,16 +102,8 @@ const styles = css`
     font-size: 0.92em;
   }
 
-  .judge .choices {
-    margin-bottom: 0.2em;
-  }
-
   .judge .effect {
     margin: 0 0 0.5em;
-  }
-
-  .about {
-    margin: 0;
   }
 
   .overview {
@@ -140,13 +130,6 @@ const styles = css`
     }
   }
 
-  /* The headline has the same number of lines for every share. */
-  @container (38em <= width < 56em) {
-    .result {
-      min-height: 12em;
-    }
-  }
-
   @container (min-width: 56em) {
     .headline {
       font-size: 2em;
@@ -158,17 +141,11 @@ const styles = css`
     }
   }
 
-  .marked label {
-    color: var(--ink);
-  }
-
   .own-map p {
     margin: 0 0 0.6em;
   }
 
   .own-map .note {
-    /* When the note on a refused map is scrolled into view, the name of the current map is visible too. */
-    scroll-margin: 4em;
     overflow-wrap: anywhere;
   }
 

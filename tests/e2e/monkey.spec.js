@@ -229,7 +229,7 @@ function readFaults(page, name) {
       .map((text) => `it says ${text}`);
 
     const resultTextOf = async (/** @type {any} */ figureElement) => {
-      const resultBytes = new Uint8Array(await new Blob([figureElement.poses, figureElement.verdicts ?? figureElement.executed]).arrayBuffer());
+      const resultBytes = new Uint8Array(await new Blob([figureElement.poses, figureElement.simulation.verdicts ?? figureElement.simulation.executed]).arrayBuffer());
       const resultHash = [...new Uint8Array(await crypto.subtle.digest('SHA-256', resultBytes))].join();
       return JSON.stringify([figureElement.getState(), figureElement.stats, resultHash], (_, resultValue) => (Number.isFinite(resultValue) || typeof resultValue !== 'number' ? resultValue : String(resultValue)));
     };

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { en } from '../../www/widgets/alpha-calibrator/en.ts';
+import { en, yamlWords } from '../../www/widgets/alpha-calibrator/en.ts';
 import { formatAlphaOrBound, adviseCorrection, formatInterval as ends, formatEstimate, judgementOf, localizeNumber, formatNav2Lines, formatNumber } from '../../www/widgets/alpha-calibrator/result.ts';
 import { viewCornersOf } from '../../www/widgets/alpha-calibrator/pictures.ts';
 import { SIMULATED_LEGS, legClassesOf, isTruthComparable } from '../../www/widgets/alpha-calibrator/settings.ts';
@@ -56,7 +56,7 @@ const createCalibration = (changedFields) => ({
 
 /** Returns the lines for Nav2 without indentation. @param {object} [changedFields] of the calibration @param {object} [otherFields] options */
 const nav2LinesOf = (changedFields, otherFields) =>
-  formatNav2Lines({ calibration: createCalibration(changedFields), count: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, log: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...otherFields }, en.nav2)
+  formatNav2Lines({ calibration: createCalibration(changedFields), count: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, log: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...otherFields })
     .map((nav2Line) => nav2Line.trim());
 
 test('lines for Nav2 contain the recommended α’s, and the fitted α’s in comments', () => {
@@ -68,7 +68,7 @@ test('lines for Nav2 contain the recommended α’s, and the fitted α’s in co
     '# First multiply the odometry’s distances by 0.990: the α’s are those of the corrected robot.',
     'robot_model_type: "nav2_amcl::DifferentialMotionModel"',
     'alpha1: 0.060  # fitted 0.030, 95 % 0.024 to 0.036', 'alpha2: 0.0160  # fitted 0.0080, 95 % 0.0070 to 0.0091',
-    `# ${en.nav2.fifth}`, 'update_min_d: 0.25', 'update_min_a: 0.2',
+    `# ${yamlWords.fifth}`, 'update_min_d: 0.25', 'update_min_a: 0.2',
   ]);
 });
 
@@ -78,7 +78,7 @@ test('lines for Nav2 omit α’s that are not identifiable, and all α’s if no
   const exampleAlphas = [null, 1e-7, 103, 1e-8];
   const exampleIntervals = [null, [0, 0.0016], [50, 200], null];
   assert.deepEqual(nav2LinesOf({ alphas: exampleAlphas, intervals: exampleIntervals }).filter((line) => /alpha[1-4]/.test(line)), [
-    `# alpha1: ${en.nav2.notIdentifiable}`, `alpha2: 0.0032  # ${en.nav2.zero('0.0016')}`, `# alpha3: 206, ${en.nav2.tooLarge}`, 'alpha4: 2.0e-8  # fitted 1.0e-8',
+    `# alpha1: ${yamlWords.notIdentifiable}`, `alpha2: 0.0032  # ${yamlWords.zero('0.0016')}`, `# alpha3: 206, ${yamlWords.tooLarge}`, 'alpha4: 2.0e-8  # fitted 1.0e-8',
   ]);
 });
 
@@ -87,7 +87,7 @@ test('lines for Nav2 warn of failed checks, of another rule, and of a localizer 
   const failedChecks = ['tails-normal', 'outliers-few'].map((name) => ({ name, passed: false, message: 'Drive on.' }));
   assert.ok(nav2LinesOf({ diagnostics: { ...diagnostics, checks: failedChecks } }).includes('# Caution, these checks failed: tails-normal, outliers-few'));
   for (const [expectedWarning, changedOptions] of /** @type {[string, object][]} */ ([
-    [en.nav2.otherRule, { rule: 'thrun' }],
+    [yamlWords.otherRule, { rule: 'thrun' }],
     [en.nav2.localizer, { warnings: ['localizer'] }],
   ])) {
     assert.ok(nav2LinesOf({}, changedOptions).includes(`# ${expectedWarning}`));

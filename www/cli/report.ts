@@ -4,7 +4,7 @@ import { english } from '../logs/en.ts';
 import { ROLES, type Summary } from '../logs/log.ts';
 import { warningsOf } from '../logs/pairs.ts';
 import { en as sharedTexts } from '../messages/en.ts';
-import { en } from '../widgets/alpha-calibrator/en.ts';
+import { en, yamlWords } from '../widgets/alpha-calibrator/en.ts';
 import { componentsOf, formatAlphaOrBound, formatEstimate, formatInterval, formatNumber, formatPercent, isNav2Rule, formatNav2Lines } from '../widgets/alpha-calibrator/result.ts';
 import { LOST_LEG_CAUSES, SYSTEMATIC_ERRORS, adviceOf, judgementOf } from '../widgets/alpha-calibrator/result.ts';
 import type { Calibration, CalibrationCheck } from '../types.d.ts';
@@ -46,7 +46,7 @@ export function formatReport(calibrationResult: CalibrationResult, isColored = f
   const { legs, lost, diagnostics: { checks, windows } } = calibration;
   const { model = 'odometry', rule = 'thrun' } = options;
   const { distance, angle, duration } = options.legs;
-  const lengthText = duration === undefined ? en.nav2.moved(formatNumber(distance), formatNumber(angle)) : en.nav2.lasted(formatNumber(duration));
+  const lengthText = duration === undefined ? yamlWords.moved(formatNumber(distance), formatNumber(angle)) : yamlWords.lasted(formatNumber(duration));
   const { yaml, reason } = formatNav2Yaml(calibrationResult);
   const windowRows = windows.map(({ length, count, coverage, nees }) => [`of ${formatNumber(length)} m`, String(count), formatPercent(coverage), formatNumber(nees)]);
   const lostLegTexts = LOST_LEG_CAUSES.filter((cause) => lost[cause] > 0).map((cause) => `${lost[cause]} ${en.lost[cause]}`);
@@ -147,7 +147,7 @@ export const warnAboutRule = ({ options: { model = 'odometry', rule = 'thrun' } 
 export function formatNav2Yaml({ calibration, options: { model = 'odometry', rule = 'thrun', legs }, logs, date }: CalibrationResult): { yaml: string; reason?: string } {
   if (calibration.recommended === null) return { yaml: '', reason: 'No lines for nav2_params.yaml: the log is unusable.' };
   const logNames = new Intl.ListFormat('en').format(new Set(logs.map(({ name }) => name)));
-  const yamlLines = formatNav2Lines({ calibration, count: calibration.legs.count, model, rule, legs, log: logNames, warnings: warningsOf(logs), date }, en.nav2);
+  const yamlLines = formatNav2Lines({ calibration, count: calibration.legs.count, model, rule, legs, log: logNames, warnings: warningsOf(logs), date });
   return yamlLines.length ? { yaml: `${yamlLines.join('\n')}\n` } : { yaml: '', reason: 'No lines for nav2_params.yaml: Nav2 has no velocity model.' };
 }
 

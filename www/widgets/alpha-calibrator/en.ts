@@ -2,6 +2,23 @@
 
 import { formatCount } from '../../messages/en.ts';
 
+/** Words in the lines for nav2_params.yaml, which are English in every language. */
+export const yamlWords = {
+  otherRule: 'Not fitted by the rule of Nav2’s AMCL, which is called nav2.',
+  notIdentifiable: 'not identifiable from this log; Nav2 uses its default',
+  zero: (upperEnd) => `not significantly different from 0, 95 % up to ${upperEnd}`,
+  tooLarge: 'implausible (> 1): see the failed checks and the outliers',
+  of: (legs, length, log, date) => `${formatCount(legs, 'leg')} ${length} of ${log}, ${date}`,
+  moved: (distance, angle) => `of ${distance} m or ${angle} rad`,
+  lasted: (duration) => `of ${duration} s`,
+  recommended: (factor, coverage, windows) => `recommended = fitted × ${factor}: the fit covers ${coverage} of ${windows} held-out windows of ≥ 1 m`,
+  fitted: (value, interval) => `fitted ${value}${interval && `, 95 % ${interval}`}`,
+  longerLegs: (ratio) => `The log’s legs are ${ratio} times as long as asked. The α’s belong to them, so update_min_d and update_min_a are multiplied by ${ratio}.`,
+  failed: (checks) => `Caution, these checks failed: ${checks}`,
+  corrected: (errors) => `with these systematic errors corrected: ${errors}`,
+  fifth: 'alpha5 belongs to the omnidirectional model only',
+} satisfies import('../../messages/registry.ts').Message;
+
 export const en = {
   title: 'The Alpha Calibrator',
   settings: {
@@ -176,23 +193,10 @@ export const en = {
     fitTitle: 'These α’s are of another model: fit that of Nav2’s AMCL, then copy',
     json: 'Save all as JSON',
     none: 'No lines for nav2_params.yaml: Nav2 has no velocity model, or no α’s are recommended. JSON has everything.',
-    otherRule: 'Not fitted by the rule of Nav2’s AMCL, which is called nav2.',
-    notIdentifiable: 'not identifiable from this log; Nav2 uses its default',
-    zero: (upperEnd) => `not significantly different from 0, 95 % up to ${upperEnd}`,
-    tooLarge: 'implausible (> 1): see the failed checks and the outliers',
-    of: (legs, length, log, date) => `${formatCount(legs, 'leg')} ${length} of ${log}, ${date}`,
-    moved: (distance, angle) => `of ${distance} m or ${angle} rad`,
-    lasted: (duration) => `of ${duration} s`,
-    recommended: (factor, coverage, windows) => `recommended = fitted × ${factor}: the fit covers ${coverage} of ${windows} held-out windows of ≥ 1 m`,
-    fitted: (value, interval) => `fitted ${value}${interval && `, 95 % ${interval}`}`,
-    longerLegs: (ratio) => `The log’s legs are ${ratio} times as long as asked. The α’s belong to them, so update_min_d and update_min_a are multiplied by ${ratio}.`,
-    failed: (checks) => `Caution, these checks failed: ${checks}`,
     localizer: 'Warning: the reference is a localizer’s own estimate. Its errors follow the odometry: the α’s are too small. Use a reference that is measured independently.',
     swapped: 'Warning: by their names, the reference is odometry, and the odometry is not. If they are swapped, the α’s are those of the reference: exchange the two.',
-    corrected: (errors) => `with these systematic errors corrected: ${errors}`,
     correctFirst: (distance, turn) =>
       `First multiply the odometry’s ${[distance && `distances by ${distance}`, turn && `turns by ${turn}`].filter(Boolean).join(' and ')}: the α’s are those of the corrected robot.`,
-    fifth: 'alpha5 belongs to the omnidirectional model only',
   },
   csvTitle: 'Every leg, with odometry, reference and residuals',
   logNotInCopies: 'Your log is not in it: the figure opens with the simulated one.',

@@ -3,7 +3,7 @@
 import { html, nothing, svg } from 'lit';
 import { guard } from 'lit/directives/guard.js';
 import { live } from 'lit/directives/live.js';
-import { findCandidates, planDrives, readableSeriesOf, type LogPlan } from '../../logs/drives.ts';
+import { planDrives, readableSeriesOf, type LogPlan } from '../../logs/drives.ts';
 import { ROLES, UNITS, formatFrames, summaryLinesOf, type LogChoice, type Question, type Recording, type Role } from '../../logs/log.ts';
 import { alignPath, pathOf, svgPathDataOf, type Path } from '../../logs/path.ts';
 import { language } from '../../messages/registry.ts';
@@ -78,17 +78,11 @@ function selectHtml(id: string, label: string, value: string, options: [value: s
 function seriesSelectHtml(opener: LogOpener, { recordings, userChoices, plan }: ChosenFiles, role: Role, { choose: texts }: LogWords) {
   const choiceByLabel = new Map(recordings.flatMap((recording) => labelledChoicesOf(recording, role)));
   const [plannedLog] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.unpaired[role]] : [];
-  const currentChoice = (userChoices[role] as LogChoice | undefined) ?? plannedLog?.choice ?? findLikeliestChoice(recordings[0], role, opener.kind);
+  const currentChoice = (userChoices[role] as LogChoice | undefined) ?? plannedLog?.choice;
   return selectHtml(`log-${role}`, texts.roles[role], currentChoice ? choiceLabelOf(currentChoice) || (plannedLog?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
     const choice = choiceByLabel.get(label);
     if (choice) opener.change({ userChoices: { ...userChoices, [role]: choice } });
   }, texts.open);
-}
-
-/** Returns the likeliest choice; undefined if there are several. */
-function findLikeliestChoice(recording: Recording, role: Role, kind: 'commands' | undefined): LogChoice | undefined {
-  const likeliestChoices = findCandidates(recording, role, { kind }).find(({ length }) => length > 0);
-  return likeliestChoices?.length === 1 ? likeliestChoices[0] : undefined;
 }
 
 function roleSelectHtml(opener: LogOpener, { recordings, roles, plan }: ChosenFiles, index: number, { choose: texts }: LogWords) {

@@ -227,7 +227,7 @@ function yamlOf({ viewModel, logName, warnings }: Figure): string {
   const { model, rule, distance, angle, duration } = config;
   const date = new Date().toISOString().slice(0, 10);
   const fittedLog = { calibration: stats, count, model, rule, legs: duration > 0 ? { duration } : { distance, angle }, log: logName, warnings, date };
-  return formatNav2Lines(fittedLog, words.calibrator.nav2).map((line) => `${line}\n`).join('');
+  return formatNav2Lines(fittedLog).map((line) => `${line}\n`).join('');
 }
 
 /** Returns all results as JSON, with typed arrays as plain arrays. */
@@ -252,7 +252,7 @@ export function nav2ExportControlsHtml(figure: Figure, obstacle: string) {
   const texts = words.calibrator.nav2;
   const yaml = yamlOf(figure);
   const fileName = `${figure.localName}-${figure.viewModel.config.seed}.json`;
-  return html`${yaml ? html`<textarea class="yaml" readonly rows=${yaml.split('\n').length} aria-label=${texts.label} .value=${yaml}></textarea>` : html`<p>${texts.none}</p>`}
+  return html`${yaml ? html`<textarea class="yaml" lang="en" readonly rows=${yaml.split('\n').length} aria-label=${texts.label} .value=${yaml}></textarea>` : html`<p>${texts.none}</p>`}
     <div class="buttons">
       ${buttonHtml(texts.json, () => downloadFile(fileName, new Blob([jsonOf(figure)], { type: 'application/json' })), { disabled: obstacle !== '', title: obstacle || undefined })}
     </div>`;

@@ -3,6 +3,7 @@
 import { greatest } from 'd3-array';
 import { MINUS, NO_VALUE, formatFixed, formatPowerOfTen, formatInteger } from '../../ui/format.ts';
 import { subscriptOf } from '../shared/sliders.ts';
+import { en, yamlWords } from './en.ts';
 import type { CalibrationCheck, CalibrationStats, Interval as CertainInterval } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 
@@ -97,40 +98,40 @@ export const formatAlphaOrBound = (alpha: number | null, interval: Interval, inf
  * Returns the YAML lines with the recommended α's, and with the fitted α's in comments. Returns no lines if Nav2 has no such model, or if
  * no α's are recommended.
  */
-export function formatNav2Lines({ calibration, count, model, rule, legs, log, warnings, date }: FittedLog, texts: Texts['nav2']): string[] {
+export function formatNav2Lines({ calibration, count, model, rule, legs, log, warnings, date }: FittedLog): string[] {
   const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks, windows: [window] } } = calibration;
   if (!Object.hasOwn(NAV2_PLUGINS, model) || recommended === null) return [];
   const { inflation } = recommended;
   const { distance, angle, duration } = legs;
   const failedNames = failedChecksOf(checks).map(({ name }) => name).join(', ');
   const notes = [
-    texts.of(String(count), duration === undefined ? texts.moved(formatNumber(distance ?? null), formatNumber(angle ?? null)) : texts.lasted(formatNumber(duration)), log, date),
-    texts.recommended(formatNumber(inflation), formatPercent(window.coverage), String(window.count)),
-    ...(isNav2Rule(model, rule) ? [] : [texts.otherRule]),
-    ...listCorrectedErrors(systematicErrors).map((errors) => texts.corrected(errors)),
-    ...adviseCorrection(calibration, texts),
-    ...(failedNames ? [texts.failed(failedNames)] : []),
-    ...warnings.map((name) => texts[name]),
+    yamlWords.of(String(count), duration === undefined ? yamlWords.moved(formatNumber(distance ?? null), formatNumber(angle ?? null)) : yamlWords.lasted(formatNumber(duration)), log, date),
+    yamlWords.recommended(formatNumber(inflation), formatPercent(window.coverage), String(window.count)),
+    ...(isNav2Rule(model, rule) ? [] : [yamlWords.otherRule]),
+    ...listCorrectedErrors(systematicErrors).map((errors) => yamlWords.corrected(errors)),
+    ...adviseCorrection(calibration, en.nav2),
+    ...(failedNames ? [yamlWords.failed(failedNames)] : []),
+    ...warnings.map((name) => en.nav2[name]),
   ];
   const alphaLines = alphas.map((alpha, i) => {
     const interval = intervals[i];
-    if (alpha === null) return `# alpha${i + 1}: ${texts.notIdentifiable}`;
+    if (alpha === null) return `# alpha${i + 1}: ${yamlWords.notIdentifiable}`;
     const [scaledInterval, isBound] = [scaleInterval(interval, inflation), printsAsZero(alpha, interval)];
     const formattedAlpha = isBound ? formatUpperEnd(scaledInterval) : formatEstimate(inflation * alpha, scaledInterval);
     // Without a line, Nav2 would use its default, which is far above such a bound.
-    if (isBound && (scaledInterval?.[1] ?? Infinity) <= MAX_PLAUSIBLE_ALPHA) return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${texts.zero(formatUpperEnd(interval))}`;
-    if (isBound || inflation * alpha > MAX_PLAUSIBLE_ALPHA) return `# alpha${i + 1}: ${formattedAlpha}, ${texts.tooLarge}`;
-    return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${texts.fitted(formatEstimate(alpha, interval), formatInterval(interval))}`;
+    if (isBound && (scaledInterval?.[1] ?? Infinity) <= MAX_PLAUSIBLE_ALPHA) return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${yamlWords.zero(formatUpperEnd(interval))}`;
+    if (isBound || inflation * alpha > MAX_PLAUSIBLE_ALPHA) return `# alpha${i + 1}: ${formattedAlpha}, ${yamlWords.tooLarge}`;
+    return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${yamlWords.fitted(formatEstimate(alpha, interval), formatInterval(interval))}`;
   });
   // A line break in a file's name would end the comment.
   const commentLines = notes.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
-  const fifthAlphaLines = alphas.length < 5 ? [`# ${texts.fifth}`] : [];
+  const fifthAlphaLines = alphas.length < 5 ? [`# ${yamlWords.fifth}`] : [];
   // The α's belong to the legs of the log, which are longer than asked if its rows are sparse.
   const sparseCheck = failedChecksOf(checks).find(({ name }) => name === 'sampling-dense');
   const legRatio = sparseCheck?.value ?? 1;
   const updateTriggers = duration === undefined
     ? [
-      ...(sparseCheck ? [`# ${texts.longerLegs(formatNumber(legRatio))}`] : []),
+      ...(sparseCheck ? [`# ${yamlWords.longerLegs(formatNumber(legRatio))}`] : []),
       ...Object.entries({ update_min_d: distance, update_min_a: angle }).map(([name, formatted]) => `${name}: ${withDecimalPoint(formatNumber(formatted === undefined ? null : legRatio * formatted))}`),
     ]
     : [];

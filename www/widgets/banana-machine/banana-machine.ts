@@ -262,25 +262,6 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     this.#arcEndHandle.placeInView(this.renderRoot, view.toPixelX(x), view.toPixelY(y));
   }
 
-  /**
-   * ξ along, lateral (m), heading (rad) of each robot shown; a copy.
-   *
-   * @public
-   */
-  get twists(): Float64Array | null {
-    return this.querySimulation((simulation) => simulation.twists);
-  }
-
-  /**
-   * Executed motion of each robot shown: v̂ (m/s), ω̂, γ̂ (rad/s), or under the odometry model its legs δ̂_rot1 (rad), δ̂_trans (m),
-   * δ̂_rot2 (rad); a copy.
-   *
-   * @public
-   */
-  get executed(): Float64Array | null {
-    return this.querySimulation((simulation) => simulation.executed);
-  }
-
   /** Executed motion of the selected robot; undefined if no robot is selected or the robot is not shown. */
   get #selectedMotion() {
     const { simulation, viewModel, cloud: { isSelectionShown, selectedIndex } } = this;

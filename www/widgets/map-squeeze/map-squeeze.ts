@@ -280,15 +280,6 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     });
   }
 
-  /**
-   * One byte for each attempt: the sum of 1 if its end is free, 2 if its path is free, and 4 if it is accepted.
-   *
-   * @public
-   */
-  get verdicts(): Uint8Array | null {
-    return this.querySimulation((simulation) => simulation.verdicts);
-  }
-
   /** Costs of the samplers with the present settings; undefined until they are measured. */
   get costs() {
     return this.#measurement?.config === this.settings.current ? this.#measurement.costs : undefined;

@@ -244,6 +244,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   #opener = new LogOpener(this);
   dropHandlers = this.#opener;
   service = new LogService();
+  #fit: Parameters<typeof viewModelOf>[2] = new Memo();
   #predictedLeg: Memo<LegView | null> = new Memo();
   #panels: Memo<CalibrationPanel[]> = new Memo();
   /** Log of the user or of the page; null for the simulated log. */
@@ -254,7 +255,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   createSimulation = ({ AlphaCalibrator }: Motion, givenLog = this.#givenLog) => (givenLog ? AlphaCalibrator.restored(givenLog.config, givenLog.fit) : new AlphaCalibrator());
 
   readViewModel(simulation: Simulation) {
-    const viewModel = viewModelOf(simulation, this.log, this.viewModel);
+    const viewModel = viewModelOf(simulation, this.log, this.#fit);
     if (viewModel.isPending) this.#refit();
     return viewModel;
   }

@@ -1,6 +1,7 @@
 /** Settings of the Alpha Calibrator: attributes, shared state and sliders; and the view model. */
 
 import { createDefinition } from '../../figure/definition.ts';
+import type { Memo } from '../../scene/cache.ts';
 import type { AlphaCalibrator as Simulation, AlphaCalibratorSettings, CalibrationLegs, CalibrationLog } from '../../types.d.ts';
 
 /** Styles of the lines and marks in the pictures: first the classes of legs, the most usual first, then all others. */
@@ -72,36 +73,22 @@ export const definition = createDefinition('alpha-calibrator', {
   },
 });
 
-export type ViewModel = ReturnType<typeof readFit> & {
-  /** True values of the simulated log. */
-  truth: Simulation['truth'];
-  /** Log of the user or the page; null for the simulated one. */
-  log: CalibrationLog | null;
-  /** Requested settings. */
-  config: Simulation['config'];
-  /** Settings of the fit. */
-  fitted: Simulation['config'];
-  /** True while the settings need another fit. */
-  isPending: boolean;
-};
+export type ViewModel = ReturnType<typeof viewModelOf>;
 
-/** Returns the view model of a simulation. The fit and the true values are read again only if they have changed. */
-export function viewModelOf(simulation: Simulation, log: CalibrationLog | null, previousViewModel: ViewModel | undefined): ViewModel {
+/** Returns the view model of a simulation: its latest complete fit, and the requested settings. */
+export function viewModelOf(simulation: Simulation, log: CalibrationLog | null, fitMemo: Memo<ReturnType<typeof readFit>>) {
+  // `fits` is the revision number of the fit.
   const { config, fittedConfig: fitted, fits, isPending } = simulation.read();
-  const isSameSimulation = previousViewModel?.simulation === simulation;
-  const fit = isSameSimulation && previousViewModel.fits === fits ? previousViewModel : readFit(simulation, fits, fitted);
-  const truth = isSameSimulation && previousViewModel.log === log ? previousViewModel.truth : simulation.truth;
-  return { ...fit, truth, log, config, fitted, isPending };
+  return { ...fitMemo.get([simulation, fits], () => readFit(simulation, fitted)), log, config, fitted, isPending };
 }
 
-/** Returns the fit of a simulation, and the legs to show. `fits` is the revision number of the fit. */
-function readFit(simulation: Simulation, fits: number, { duration, distance }: Simulation['config']) {
-  const { stats, legs } = simulation;
+/** Returns the fit of a simulation, the true values of the simulated log, and the legs to show. */
+function readFit(simulation: Simulation, { duration, distance }: Simulation['config']) {
+  const { stats, legs, truth } = simulation;
   return {
-    simulation,
-    fits,
     stats,
     legs,
+    truth,
     /** Class of each leg, as an index of `LEG_CLASSES`. */
     classes: legClassesOf(legs),
     /** Legs with the largest residuals, the largest first. */

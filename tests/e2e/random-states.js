@@ -100,7 +100,6 @@ export function createRandomStates(seed) {
       inflation: drawNumber(0.1, 5),
       seed: drawInteger(0, 2 ** 53 - 1),
       leg: drawItem([null, drawInteger(0, 20)]),
-      regressor: drawItem(['turn', 'distance']),
       overlays: drawSublist('likely plausible unlikely implausible outlier odometry predicted reference'),
     },
   };

@@ -15,7 +15,7 @@ import { startOverButtonHtml } from '../shared/controls.ts';
 import { LogOpener, LogService, dropZoneHtml, isAbortError, referenceControlsHtml } from './open.ts';
 import { LegPicture, PathPicture } from './pictures.ts';
 import { alphaTableHtml, captionOf, diagnosticsHtml, judgeFit, nav2ButtonHtml, nav2ExportControlsHtml, explainRecommendation, regressionPanelsHtml, systematicTableHtml, verdictHtml } from './readouts.ts';
-import { NOISE_COMPONENTS, LINE_STYLES, definition, modelRuleOf, observedCount, settingsOfModelRule, viewModelOf, type ViewModel } from './settings.ts';
+import { NOISE_COMPONENTS, LINE_STYLES, REGRESSORS, definition, modelRuleOf, observedCount, settingsOfModelRule, viewModelOf, type ViewModel } from './settings.ts';
 import type { AlphaCalibrator as Simulation, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 
@@ -246,7 +246,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   service = new LogService();
   #fit: Parameters<typeof viewModelOf>[2] = new Memo();
   #predictedLeg: Memo<LegView | null> = new Memo();
-  #panels: Memo<CalibrationPanel[]> = new Memo();
+  #panels: Memo<{ regressor: (typeof REGRESSORS)[number], components: CalibrationPanel[] }[]> = new Memo();
   /** Log of the user or of the page; null for the simulated log. */
   #givenLog: OpenedLog | null = null;
   /** Log of the page; null for the simulated log. */
@@ -287,10 +287,10 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     return chosen < 0 || !simulation ? null : this.#predictedLeg.get([config, chosen], () => simulation.leg(chosen));
   }
 
-  /** Squared residuals, binned by the chosen regressor; empty without legs. */
+  /** Squared residuals of each noise component, binned by squared rotation and by squared translation; empty without legs. */
   get panels() {
-    const { simulation, viewModel: { stats, legs }, settings: { elementState: { regressor } } } = this;
-    return legs.count > 0 && simulation ? this.#panels.get([stats, regressor], () => simulation.panels(regressor)) : [];
+    const { simulation, viewModel: { stats, legs } } = this;
+    return legs.count > 0 && simulation ? this.#panels.get([stats], () => REGRESSORS.map((regressor) => ({ regressor, components: simulation.panels(regressor) }))) : [];
   }
 
   get scene() {

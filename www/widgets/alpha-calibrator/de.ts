@@ -159,8 +159,6 @@ export const de: typeof import('./en.ts').en = {
   },
   panels: {
     title: 'Residuen und Bewegung',
-    against: 'Über dem Quadrat',
-    regressors: { turn: 'der Drehung', distance: 'der Strecke' },
     caption: 'Quadrierte Residuen in Klassen aus gleich vielen Etappen, ohne den Anteil des anderen *α* und ohne Etappen seitwärts oder rückwärts (siehe die Prüfung). Die Steigung ist das *α*, das Band sein 95-%-Intervall; Balken sind Standardfehler.',
     kinds: { rot1: 'erste Drehung', trans: 'Strecke', rot2: 'zweite Drehung', strafe: 'Seitwärtsbewegung', v: 'Geschwindigkeit v̂', omega: 'Drehrate ω̂', gamma: 'letzte Drehung γ̂' },
     turn: 'Drehung² (rad²)',

@@ -138,8 +138,6 @@ export const en = {
   },
   panels: {
     title: 'Residuals vs. motion',
-    against: 'Against squared',
-    regressors: { turn: 'rotation', distance: 'translation' },
     caption: 'Squared residuals in bins of equal counts, minus the part of the other *α*, without legs driven sideways or backwards (see the check). The slope is the *α*, the band its 95 % interval; bars are standard errors.',
     kinds: { rot1: 'first rotation', trans: 'translation', rot2: 'second rotation', strafe: 'sideways motion', v: 'speed v̂', omega: 'turn rate ω̂', gamma: 'last turn γ̂' },
     turn: 'rotation² (rad²)',

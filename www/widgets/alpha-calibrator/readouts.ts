@@ -3,14 +3,14 @@
 import { html } from 'lit';
 import { copyButtonHtml, downloadFile } from '../../figure/export.ts';
 import { addEnglishMessages, words } from '../../messages/registry.ts';
-import { buttonHtml, fieldsetHtml, radioGroupHtml, formatMarkup, checkboxHtml } from '../../ui/controls.ts';
+import { buttonHtml, fieldsetHtml, formatMarkup, checkboxHtml } from '../../ui/controls.ts';
 import { NO_VALUE, formatInteger, formatFixed, formatPercent, formatPowerOfTen, formatRounded, formatSignificant } from '../../ui/format.ts';
 import { plotHtml, type Curve, type PlotOptions } from '../../ui/plot.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { LOST_LEG_CAUSES, NAV2_RULES, SYSTEMATIC_ERRORS, adviceOf, checkMessage, componentsOf, formatAlphaOrBound, formatEstimate, formatNumber, judgementOf, localizeInterval, localizeNumber, formatNav2Lines, } from './result.ts';
-import { NOISE_COMPONENTS, isTruthComparable, modelRuleOf, settingsOfModelRule, type Regressor, type ViewModel } from './settings.ts';
+import { NOISE_COMPONENTS, isTruthComparable, modelRuleOf, settingsOfModelRule, type ViewModel } from './settings.ts';
 import type { CalibrationCheck, CalibrationPanel, Estimate } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
@@ -179,16 +179,14 @@ function lostLegsReadoutsHtml({ viewModel: { stats: { lost } } }: Figure) {
 /** Minimum squared distance or rotation at the end of an axis: (1 mm)², or (1 mrad)². */
 const MIN_AXIS_END = 1e-6;
 
-/** Returns a plot for each noise component: its squared residuals against the regressor. */
-export function regressionPanelsHtml(figure: Figure) {
-  const { viewModel, viewModel: { fitted: { model } }, settings: { elementState: { regressor } }, gesture } = figure;
+/** Returns plots of each noise component: its squared residuals against squared rotation, and against squared translation. */
+export function regressionPanelsHtml({ viewModel: { fitted: { model }, legs }, panels }: Figure) {
   const texts = words.calibrator.panels;
   const axisNames = model === 'velocity' ? { turn: texts.turnRate, distance: texts.speed } : { turn: texts.turn, distance: texts.distance };
-  if (viewModel.legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
-  const chooseRegressor = (name: Regressor) => gesture.setElementField('regressor', name);
-  return html`${radioGroupHtml(texts.against, 'regressor', texts.regressors, regressor, chooseRegressor)}
-    <figure><div class="panels">
-      ${figure.panels.map((panel, i) => html`<figure>${plotHtml(panelPlotHtml(panel, texts.kinds[NOISE_COMPONENTS[model][i]], axisNames[regressor as Regressor]))}</figure>`)}
+  if (legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
+  return html`<figure><div class="panels">
+      ${panels.flatMap(({ regressor, components }) => components.map((panel, i) =>
+        html`<figure>${plotHtml(panelPlotHtml(panel, texts.kinds[NOISE_COMPONENTS[model][i]], axisNames[regressor]))}</figure>`))}
     </div>
     <figcaption>${formatMarkup(texts.caption)}</figcaption></figure>`;
 }

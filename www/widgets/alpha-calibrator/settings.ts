@@ -22,9 +22,7 @@ export type LineName = keyof typeof LINE_STYLES;
 export const LEG_CLASSES = ['likely', 'plausible', 'unlikely', 'implausible'] as const satisfies LineName[];
 
 /** Motions that squared residuals are plotted against. */
-const REGRESSORS = ['turn', 'distance'] as const;
-
-export type Regressor = (typeof REGRESSORS)[number];
+export const REGRESSORS = ['turn', 'distance'] as const;
 
 /** Maximum index of a leg in a shared link. The number of legs is not known before the fit, so that it cannot be the limit. */
 const MAX_LEG_INDEX = 9_999_999;
@@ -32,7 +30,6 @@ const MAX_LEG_INDEX = 9_999_999;
 export const documentation = {
   state: {
     leg: { type: 'number | null', sentence: 'The leg that is shown, from 0; null, or one that is not there, for the largest residual that is no outlier.' },
-    regressor: { type: "'turn' | 'distance'", sentence: 'The motion that squared residuals are drawn against.' },
   },
 };
 
@@ -69,7 +66,6 @@ export const definition = createDefinition('alpha-calibrator', {
   },
   elementFields: {
     leg: { type: 'whole', default: null, nullable: true, min: 0, max: MAX_LEG_INDEX },
-    regressor: { type: 'word', words: REGRESSORS, default: REGRESSORS[0] },
   },
 });
 

@@ -2,20 +2,20 @@
 
 import { html, css } from 'lit';
 import { checkObject } from '../../data/checks.ts';
-import { pictureHtml, disclosuresHtml, settingRadiosHtml, editableSliderHtml, settingSliderHtml, legendHtml } from '../../figure/controls.ts';
+import { pictureHtml, disclosuresHtml, settingRadiosHtml, settingSliderHtml, legendHtml } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { toViewPixels } from '../../scene/canvas.ts';
 import { Memo } from '../../scene/cache.ts';
-import { fieldsetHtml, buttonHtml, radioGroupHtml } from '../../ui/controls.ts';
-import { formatInteger, NO_VALUE, formatFixed, formatEditable } from '../../ui/format.ts';
-import { readoutsHtml } from '../../ui/readouts.ts';
+import { fieldsetHtml } from '../../ui/controls.ts';
+import { formatInteger } from '../../ui/format.ts';
 import { startOverButtonHtml } from '../shared/controls.ts';
-import { LogOpener, LogService, dropZoneHtml, isAbortError, referenceControlsHtml } from './open.ts';
+import { LogOpener, LogService, dropZoneHtml, isAbortError } from './open.ts';
+import { legControlsHtml, legReadoutsHtml, modelControlsHtml, referenceControlsHtml } from './controls.ts';
 import { LegPicture, PathPicture } from './pictures.ts';
 import { alphaTableHtml, captionOf, diagnosticsHtml, judgeFit, nav2ButtonHtml, nav2ExportControlsHtml, explainRecommendation, regressionPanelsHtml, systematicTableHtml, verdictHtml } from './readouts.ts';
-import { NOISE_COMPONENTS, LINE_STYLES, REGRESSORS, definition, modelRuleOf, observedCount, settingsOfModelRule, viewModelOf, type ViewModel } from './settings.ts';
+import { NOISE_COMPONENTS, LINE_STYLES, REGRESSORS, definition, modelRuleOf, viewModelOf, type ViewModel } from './settings.ts';
 import type { AlphaCalibrator as Simulation, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 
@@ -30,46 +30,6 @@ interface OpenedLog {
 
 /** Time that a fit may take before a notice says so, ms. */
 const NOTICE_DELAY_MS = 200;
-
-function legControlsHtml(figure: AlphaCalibratorElement) {
-  const { viewModel: { legs, worst }, chosen } = figure;
-  const texts = words.calibrator.leg;
-  // The button selects the leg after the selected one in the list of worst legs, or the first of the list.
-  const nextLeg = worst[(worst.indexOf(figure.settings.elementState.leg) + 1) % Math.max(1, worst.length)];
-  return html`${editableSliderHtml(figure, texts.name, { min: 1, max: legs.count, type: 'whole' }, {
-      id: 'leg',
-      name: texts.name,
-      value: chosen + 1,
-      min: 1,
-      max: Math.max(2, legs.count),
-      step: 1,
-      formatValue: formatInteger,
-      effect: undefined,
-      role: 'truth',
-      hasNoEffect: legs.count < 2,
-      onInput: (legNumber) => figure.settings.requestChange({ leg: legNumber - 1 }),
-      onCommit: () => figure.gesture.commit(),
-    })}
-    ${buttonHtml(texts.worst, () => figure.gesture.requestAndCommit({ leg: nextLeg }), { disabled: nextLeg === undefined })}`;
-}
-
-function legReadoutsHtml({ viewModel: { legs }, chosen, predicted: leg }: AlphaCalibratorElement) {
-  const texts = words.calibrator.leg;
-  const endError = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
-  return readoutsHtml([
-    [texts.off, `${formatFixed(endError, 3)} m`],
-    [texts.squared(String(observedCount(legs.residuals, chosen))), formatFixed(leg ? legs.squared[chosen] : NaN, 1)],
-    [words.calibrator.overlays.outlier, leg ? texts.isOutlier[legs.outliers[chosen] > 0 ? 'yes' : 'no'] : NO_VALUE],
-  ]);
-}
-
-function modelControlsHtml(figure: AlphaCalibratorElement) {
-  const { fit, settings: { model }, kinds, outliers } = words.calibrator;
-  const formatDuration = (seconds: number) => (seconds > 0 ? `${formatEditable(seconds, 2)} s` : NO_VALUE);
-  const chooseModel = (modelRule: import('./settings.ts').ModelRule) => figure.gesture.requestAndCommit(settingsOfModelRule(modelRule));
-  return fieldsetHtml(fit, html`${radioGroupHtml(model.name, 'kind', kinds, modelRuleOf(figure.settings.requested as any), chooseModel)}
-    ${settingRadiosHtml(figure, 'outliers', outliers)} ${settingSliderHtml(figure, 'duration', { formatValue: formatDuration })}`, 'fit');
-}
 
 const styles = css`
   .drop-zone {

@@ -155,7 +155,6 @@ export const de: typeof import('./en.ts').en = {
     worst: 'Nächstes großes Residuum',
     off: 'Fehler',
     squared: (expected) => `quadrierte Mahalanobis-Distanz (erwartet ${expected})`,
-    isOutlier: { yes: 'ja', no: 'nein' },
   },
   panels: {
     title: 'Residuen und Bewegung',

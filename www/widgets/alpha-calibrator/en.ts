@@ -134,7 +134,6 @@ export const en = {
     worst: 'Next largest residual',
     off: 'error',
     squared: (expected) => `squared Mahalanobis distance (expected ${expected})`,
-    isOutlier: { yes: 'yes', no: 'no' },
   },
   panels: {
     title: 'Residuals vs. motion',

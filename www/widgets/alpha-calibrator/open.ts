@@ -1,10 +1,8 @@
 /** Opener of the user's logs, from chosen or dropped files. */
 
 import { html, nothing } from 'lit';
-import { settingSliderHtml } from '../../figure/controls.ts';
 import { language, words } from '../../messages/registry.ts';
 import { buttonHtml } from '../../ui/controls.ts';
-import { formatEditable } from '../../ui/format.ts';
 import { FileOpener } from '../shared/files.ts';
 import { instantiateShared, moduleForWorker, startWorker } from '../../core.ts';
 import type { LogPlan, UserChoices } from '../../logs/drives.ts';
@@ -233,14 +231,6 @@ export function dropZoneHtml(figure: Figure, opener: LogOpener) {
     ${opener.refusalNoteHtml}
     ${opener.otherResultsNote ? html`<p class="muted other-results">${opener.otherResultsNote} ${buttonHtml(texts.keep, () => opener.restore())}</p>` : nothing}
   </div>`;
-}
-
-/** Returns the controls of the noise of the reference. A sentence says what the simulated log is. */
-export function referenceControlsHtml(figure: Figure) {
-  const stdSliderHtml = (key: string, unit: string) =>
-    settingSliderHtml(figure, key, { formatValue: (std: number) => (std > 0 ? `${formatEditable(std, 3)} ${unit}` : words.calibrator.estimated) });
-  return html`${figure.log ? nothing : html`<p>${words.calibrator.own.simulated}</p>`}
-    <div class="controls">${stdSliderHtml('positionStd', 'm')} ${stdSliderHtml('yawStd', 'rad')}</div>`;
 }
 
 /** Session, the function that ends its worker, and the function by which a callback can be called from the worker. */

@@ -8,7 +8,7 @@ const GENTLE_PRESET = 'preset="gentle"';
 
 /** Returns the fraction of the robots that are inside the view of exponential coordinates. @param {import('@playwright/test').Locator} widget @returns {Promise<number>} */
 const visibleTwistShareOf = (widget) => widget.evaluate((element) => {
-  const { twists, pictures } = /** @type {any} */ (element);
+  const { simulation: { twists }, pictures } = /** @type {any} */ (element);
   const { xMin, xMax, yMin, yMax } = pictures[1].view.extent;
   const isInView = (/** @type {number} */ twistCoordinate, /** @type {number} */ i) =>
     i % 3 === 0 && twistCoordinate >= xMin && twistCoordinate <= xMax && twists[i + 2] >= yMin && twists[i + 2] <= yMax;

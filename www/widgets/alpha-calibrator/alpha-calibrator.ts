@@ -358,7 +358,6 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   get exportData() {
     const { fitted, legs } = this.currentViewModel;
     const missingNote = this.log ? words.calibrator.logNotInCopies : '';
-    const statisticColumnsOf = (statistic: string) => NOISE_COMPONENTS[fitted.model].map((name) => `${statistic}_${name}`).join(' ');
     const poseColumnsOf = (log: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${log}_${end}_${key}`)).join(' ');
     return {
       settings: { ...(this.log && { log: this.log.name }), ...fitted },
@@ -366,11 +365,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
         'begins_s ends_s': legs.times,
         [poseColumnsOf('odometry')]: legs.odometry,
         [poseColumnsOf('reference')]: legs.reference,
-        'reading_1 reading_2 reading_3': legs.readings,
-        [statisticColumnsOf('residual')]: legs.residuals,
-        [statisticColumnsOf('standardized')]: legs.standardized,
-        [statisticColumnsOf('std')]: legs.stds,
-        squared_mahalanobis: legs.squared,
+        [NOISE_COMPONENTS[fitted.model].map((name) => `residual_${name}`).join(' ')]: legs.residuals,
         outlier: legs.outliers,
       },
       linkNote: missingNote,

@@ -77,7 +77,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
       ...handleCallbacks,
       findGraspedPoint: () => [this.#pose.x, this.#pose.y],
       drag: (x, y) => this.#moveTo(x, y),
-      handleKey: (event) => this.#moveBy(stepsOfKey(event)) || this.#turnBy(turnStepsOfKey(event)),
+      handleKey: (event) => this.#applyKey(stepsOfKey(event), turnStepsOfKey(event)),
     });
     this.#turnHandle = new Handle(`turn ${settingKey}`, {
       ...handleCallbacks,
@@ -86,7 +86,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
       handleKey: (event) => {
         const steps = stepsOfKey(event);
         // The left arrow turns counter-clockwise, as a driver would steer.
-        return this.#turnBy(turnStepsOfKey(event) ?? (steps && steps[1] - steps[0]));
+        return this.#applyKey(undefined, turnStepsOfKey(event) ?? (steps && steps[1] - steps[0]));
       },
     });
   }
@@ -131,19 +131,12 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     this.#turnHandle.placeInView(root, clampToPicture(turnX, view.width), clampToPicture(turnY, view.height));
   }
 
-  /** Moves the robot by steps along x and y; returns false if there are none. */
-  #moveBy(steps?: [number, number]): boolean {
-    if (!steps) return false;
-    const { x, y } = this.#pose;
-    this.#moveTo(x + KEY_STEP * steps[0], y + KEY_STEP * steps[1]);
-    return true;
-  }
-
-  /** Turns the robot by steps counter-clockwise, or to a heading of ±π for ±∞ steps; returns false without steps. */
-  #turnBy(steps?: number): boolean {
-    if (!steps) return false;
-    this.#turnTo(Number.isFinite(steps) ? this.#pose.theta + KEY_TURN * steps : Math.sign(steps) * Math.PI);
-    return true;
+  /** Moves the robot by steps along x and y, and turns it by steps counter-clockwise, or to a heading of ±π for ±∞ steps. Returns false without steps. */
+  #applyKey(steps: [number, number] | undefined, turnSteps: number | undefined): boolean {
+    const { x, y, theta } = this.#pose;
+    if (steps) this.#moveTo(x + KEY_STEP * steps[0], y + KEY_STEP * steps[1]);
+    if (turnSteps) this.#turnTo(Number.isFinite(turnSteps) ? theta + KEY_TURN * turnSteps : Math.sign(turnSteps) * Math.PI);
+    return steps !== undefined || turnSteps !== undefined;
   }
 
   /** Moves the robot to a point in metres, within its bounds. */

@@ -3,7 +3,7 @@
 import { html, noChange } from 'lit';
 import { words } from '../messages/registry.ts';
 import { radioGroupHtml, formatMarkup, checkboxHtml } from '../ui/controls.ts';
-import { formatLimit, parseNumber, formatEditable } from '../ui/format.ts';
+import { formatEditable, formatInteger, formatLimit, parseNumber } from '../ui/format.ts';
 import { sliderRowHtml, type SliderRow } from '../ui/slider.ts';
 import { swatchHtml, type LineStyle } from '../scene/draw.ts';
 import { createFieldProperty } from './definition.ts';
@@ -22,6 +22,8 @@ export interface SliderSpec {
   max: number;
   step: number;
   decimals: number;
+  /** Values of the slider, if they are not in equal steps. */
+  stops?: readonly number[];
   /** Returns the value of a slider that shows several settings as one number. */
   combinedValueOf?: (config: any) => number;
   /** Noise parameter whose name and effect label the slider. */
@@ -48,7 +50,7 @@ export function settingSliderHtml(figure: Figure, key: string, overrides?: RowOv
     symbol: symbol && formatMarkup(symbol),
     name: formatMarkup(name),
     value: combinedValueOf ? combinedValueOf(config) : (attribute.get(config) as number),
-    formatValue: (value) => formatEditable(value, decimals) + (unit ? ` ${unit}` : ''),
+    formatValue: (value) => (decimals === 0 ? formatInteger(value) : formatEditable(value, decimals)) + (unit ? ` ${unit}` : ''),
     effect: effect && formatMarkup(effect),
     onInput: (value) => figure.settings.requestChange((requested) => attribute.changesFor(value, requested)),
     onCommit: () => figure.gesture.commit(),

@@ -13,14 +13,14 @@ import { openingAlphas } from '../../../build/settings.js';
 import { buttonHtml, formatMarkup, radioButtonHtml, fieldsetHtml, checkboxHtml } from '../../ui/controls.ts';
 import { clamp, formatFixed, formatEditable } from '../../ui/format.ts';
 import { plotHtml } from '../../ui/plot.ts';
-import { cloudProperties, samplesSliderHtml } from '../shared/cloud.ts';
+import { cloudProperties } from '../shared/cloud.ts';
 import { Player, presetButtonsHtml } from '../shared/controls.ts';
 import { describeCommand, subscriptOf } from '../shared/sliders.ts';
 import { IntroducedCloud } from './introduction.ts';
 import { MORPH_DURATION_MS, morphOutlines, morphPoint } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
 import { markedRobotFieldHtml, otherReadoutsHtml, mainReadoutsHtml, workedExampleTableHtml, calloutsOf, captionOf, floorTitleOf, twistCaptionOf } from './readouts.ts';
-import { sliderSpecs, LINE_STYLES, OVERLAY_NAMES, definition, COMMAND_SLIDERS, SAMPLE_COUNTS, viewModelOf, viewModelOfSettings, type ViewModel } from './settings.ts';
+import { sliderSpecs, LINE_STYLES, OVERLAY_NAMES, definition, COMMAND_SLIDERS, viewModelOf, viewModelOfSettings, type ViewModel } from './settings.ts';
 import type { StateValues } from '../../figure/settings.ts';
 import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Inspection, Motion } from '../../types.d.ts';
 
@@ -322,7 +322,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
         ${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${alphaGroupHtml(this, true)} ${fieldsetHtml(words.samples, this.cloud.buttonsHtml(), 'cloud')}
       </div>
       ${disclosuresHtml(this, {
-        renderControls: () => html`<div class="controls">${alphaGroupHtml(this, false)} ${modelControlsHtml(this)} ${fieldsetHtml(words.samples, samplesSliderHtml(this, SAMPLE_COUNTS))}</div>`,
+        renderControls: () => html`<div class="controls">${alphaGroupHtml(this, false)} ${modelControlsHtml(this)} ${fieldsetHtml(words.samples, settingSliderHtml(this, 'samples'))}</div>`,
         renderNumbers: () => html`${markedRobotFieldHtml(this, this.#selectedMotion)} ${this.#numbersHtml(viewModel)}`,
       })}`)}
     `;

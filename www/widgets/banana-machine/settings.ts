@@ -4,6 +4,7 @@ import { withFieldRenamed } from '../../data/checks.ts';
 import { createDefinition } from '../../figure/definition.ts';
 import { words } from '../../messages/registry.ts';
 import { openingAlphas } from '../../../build/settings.js';
+import { createSamplesSliderSpec } from '../shared/cloud.ts';
 import { COMMAND_DASH, createAlphaSliderSpecs, createCommandSliderSpecs } from '../shared/sliders.ts';
 import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Motion, Stats, Table } from '../../types.d.ts';
 
@@ -35,7 +36,7 @@ export const definition = createDefinition('banana-machine', {
   messageKey: 'banana',
   overlayStyles: LINE_STYLES,
   openingOverlays: ['command', 'ellipse', 'exponential'],
-  sliderSpecs: { ...sliderSpecs, morph: { role: 'truth', min: 0, max: 1, step: 0.01, decimals: 2 } },
+  sliderSpecs: { ...sliderSpecs, morph: { role: 'truth', min: 0, max: 1, step: 0.01, decimals: 2 }, samples: createSamplesSliderSpec(1_000_000) },
   elementFields: {
     /** Settings whose outlines are pinned; null for none. `BananaMachineElement.enterState` checks them. */
     pinned: { default: null },
@@ -43,9 +44,6 @@ export const definition = createDefinition('banana-machine', {
   },
   dependentDefaultsOf: ({ model }) => ({ alphas: openingAlphas[model as keyof typeof openingAlphas] }),
 });
-
-/** Sample counts that the slider offers, in the steps 1–2–5 of a logarithmic scale. Clouds beyond a million would lag behind the finger. */
-export const SAMPLE_COUNTS = [1, 2, 3, 4, 5].flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).concat(1_000_000);
 
 export type ViewModel = ReturnType<typeof viewModelOf>;
 

@@ -13,7 +13,7 @@ import { presetButtonsHtml } from '../shared/controls.ts';
 import { describeCommand } from '../shared/sliders.ts';
 import { PathPicture, StepPicture } from './pictures.ts';
 import { headlineHtml, markedRobotFieldHtml, missTableHtml, ratioPlotHtml, straightGrowthPlotHtml, captionOf } from './readouts.ts';
-import { CURVE_STYLES, OUTLINE_STYLES, RECURSIONS, definition, COMMAND_SLIDERS, NOISE_SLIDERS, SAMPLE_COUNTS, TWIST_COMPONENTS, viewModelOf, type ViewModel } from './settings.ts';
+import { CURVE_STYLES, OUTLINE_STYLES, RECURSIONS, definition, COMMAND_SLIDERS, NOISE_SLIDERS, TWIST_COMPONENTS, viewModelOf, type ViewModel } from './settings.ts';
 import type { StateValues } from '../../figure/settings.ts';
 import type { DeadReckoning as Simulation, Motion } from '../../types.d.ts';
 
@@ -36,7 +36,7 @@ function moreControlsHtml(figure: DeadReckoningElement) {
     ${fieldsetHtml(words.command, html`${settingSlidersHtml(figure, COMMAND_SLIDERS)}
       ${settingSliderHtml(figure, 'step', { max: Math.max(2, steps), maxTyped: steps, hasNoEffect: steps === 1, effect: drivenTimeText })}`)}
     ${fieldsetHtml(words.noise, html`${settingSlidersHtml(figure, NOISE_SLIDERS)} ${settingRadiosHtml(figure, 'per', perNames)}`)}
-    ${cloudControlsHtml(figure, SAMPLE_COUNTS)}
+    ${cloudControlsHtml(figure)}
   </div>`;
 }
 

@@ -2,6 +2,7 @@
 
 import { defaultConfigOf, createDefinition } from '../../figure/definition.ts';
 import { settings } from '../../../build/settings.js';
+import { createSamplesSliderSpec } from '../shared/cloud.ts';
 import { ALPHA_SLIDER, COMMAND_DASH, createAlphaSliderSpecs, createCommandSliderSpecs } from '../shared/sliders.ts';
 import type { DeadReckoning as Simulation, DeadReckoningSettings } from '../../types.d.ts';
 
@@ -36,6 +37,8 @@ export const definition = createDefinition('dead-reckoning', {
   sliderSpecs: {
     ...COMMAND_SLIDERS,
     ...NOISE_SLIDERS,
+    // Larger clouds would lag behind the slider.
+    samples: createSamplesSliderSpec(200_000),
     step: { symbol: '*k*', role: 'truth', min: 1, max: 200, step: 1, decimals: 0 },
     steps: { symbol: '*K*', role: 'prior', min: 1, max: 200, step: 1, decimals: 0 },
     // The slider shows α₃, even if the other three are not in the usual ratio to it.
@@ -43,9 +46,6 @@ export const definition = createDefinition('dead-reckoning', {
   },
   dependentDefaultsOf: ({ steps }) => ({ step: Math.min(defaultConfigOf(settingDeclarations).step, steps) }),
 });
-
-/** Sample counts that the slider offers. Larger clouds would lag behind the slider. */
-export const SAMPLE_COUNTS = [2, 3, 4].flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).concat(100_000, 200_000);
 
 export type ViewModel = ReturnType<typeof viewModelOf>;
 

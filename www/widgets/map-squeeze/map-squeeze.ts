@@ -16,7 +16,7 @@ import { measureCosts, overviewMapHtml, costTableHtml, tallyReadoutsHtml, captio
 import { applyMap, gridOf, mapDataOf } from './maps/data.ts';
 import { MapOpener, userMapControlsHtml } from './maps/opener.ts';
 import { FloorPicture } from './picture.ts';
-import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition, COMMAND_SLIDERS, MAX_SAMPLES, SAMPLE_COUNTS, outcomeIndexOf, viewModelOf, type ViewModel } from './settings.ts';
+import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition, COMMAND_SLIDERS, MAX_SAMPLES, outcomeIndexOf, viewModelOf, type ViewModel } from './settings.ts';
 import { WallHandles } from './wall-handles.ts';
 import { findWallContact } from './walls.ts';
 import type { StateValues } from '../../figure/settings.ts';
@@ -361,7 +361,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`
       <div class="controls" part="controls">
-        ${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${fieldsetHtml(words.noise, settingSliderHtml(this, 'noise'), 'single')} ${cloudControlsHtml(this, SAMPLE_COUNTS)}
+        ${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${fieldsetHtml(words.noise, settingSliderHtml(this, 'noise'), 'single')} ${cloudControlsHtml(this)}
       </div>
       ${posesByOutcome ? nothing : html`<p class="about muted">${densityNote}</p>`}
       ${disclosuresHtml(this, {

@@ -4,6 +4,7 @@ import { presetAttributeOf, createDefinition } from '../../figure/definition.ts'
 import { words } from '../../messages/registry.ts';
 import { presets, settings, verdict as bits } from '../../../build/settings.js';
 import { formatInteger, formatFixed, formatPercent } from '../../ui/format.ts';
+import { createSamplesSliderSpec } from '../shared/cloud.ts';
 import { COMMAND_DASH, createCommandSliderSpecs } from '../shared/sliders.ts';
 import type { MapSqueeze, MapSqueezeSettings, SamplerName, SqueezeStats } from '../../types.d.ts';
 
@@ -36,6 +37,7 @@ export const definition = createDefinition('map-squeeze', {
     ...COMMAND_SLIDERS,
     noise: { role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, combinedValueOf: ({ alphas }) => alphas[0] },
     clearance: { symbol: '*r*', role: 'truth', min: 0, max: 0.4, step: 0.01, decimals: 2 },
+    samples: createSamplesSliderSpec(100_000),
     steps: { role: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
   },
   // Presets are places in the apartment.
@@ -49,9 +51,6 @@ export const definition = createDefinition('map-squeeze', {
 
 /** Samplers in the order in which they are offered. */
 export const SAMPLERS = settingDeclarations.find(({ key }) => key === 'sampler')?.words as SamplerName[];
-
-/** Sample counts of the slider. The simulation accepts more, but they would not follow a slider. */
-export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000, 20_000, 50_000, 100_000];
 
 /** Maximum number of samples for a command in one step; it is divided by the number of sub-steps. */
 export const MAX_SAMPLES = settingDeclarations.find(({ key }) => key === 'samples')?.max ?? 0;

@@ -14,7 +14,7 @@ import { Player, presetButtonsHtml } from '../shared/controls.ts';
 import { PoseHandles } from '../shared/robot.ts';
 import { LegsPicture, ROBOT_RADIUS, WorldPicture } from './pictures.ts';
 import { headlineHtml, outcomeReadoutsHtml, spreadPlotHtml, driftDistanceOf, captionOf } from './readouts.ts';
-import { LINE_STYLES, definition, sliderSpecs, NOISE_SLIDERS, SAMPLE_COUNTS, viewModelOf, type ViewModel } from './settings.ts';
+import { LINE_STYLES, definition, sliderSpecs, NOISE_SLIDERS, viewModelOf, type ViewModel } from './settings.ts';
 import type { Motion, OdometryDecomposer as Simulation } from '../../types.d.ts';
 
 /** Returns the table of standard deviations by noise model. Values that differ from Table 5.6 are bold. */
@@ -38,7 +38,7 @@ function noiseModelTableHtml(figure: OdometryDecomposerElement) {
 function noiseControlsHtml(figure: OdometryDecomposerElement) {
   return html`<div class="controls">
       ${fieldsetHtml(words.noise, html`${settingSlidersHtml(figure, NOISE_SLIDERS)} ${settingRadiosHtml(figure, 'noise', words.noises)}`, 'alphas')}
-      ${cloudControlsHtml(figure, SAMPLE_COUNTS)}
+      ${cloudControlsHtml(figure)}
     </div>
     <p>${formatMarkup(words.decomposer.correlationNote)}</p>`;
 }

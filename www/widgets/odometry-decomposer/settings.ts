@@ -1,6 +1,7 @@
 /** The Odometry Decomposer's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
 
 import { createDefinition } from '../../figure/definition.ts';
+import { createSamplesSliderSpec } from '../shared/cloud.ts';
 import { createAlphaSliderSpecs } from '../shared/sliders.ts';
 import type { OdometryDecomposer, RuleNoise } from '../../types.d.ts';
 
@@ -23,12 +24,11 @@ export const NOISE_SLIDERS = {
 export const sliderSpecs: Record<string, import('../../figure/controls.ts').SliderSpec> = {
   ...NOISE_SLIDERS,
   phase: { role: 'prior', min: 0, max: 3, step: 0.01, decimals: 2 },
+  samples: createSamplesSliderSpec(5000),
   drift: { role: 'truth', min: 0, max: 120, step: 1, decimals: 0 },
 };
 
 export const definition = createDefinition('odometry-decomposer', { messageKey: 'decomposer', overlayStyles: LINE_STYLES, sliderSpecs });
-
-export const SAMPLE_COUNTS = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
 
 export type ViewModel = ReturnType<typeof viewModelOf>;
 

@@ -1,5 +1,6 @@
 /** Cloud of samples that grows in steps, and its controls. */
 
+import { range } from 'd3-array';
 import { html, noChange, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
 import { FigureController } from '../../figure/controller.ts';
@@ -229,15 +230,15 @@ export const cloudProperties: PropertyDescriptorMap & ThisType<Figure> = {
 
 type CloudFigure = Figure & { cloud: Cloud };
 
-/** Returns the controls of growth, seed and size of the cloud. The slider of the size offers `counts`. */
-export function cloudControlsHtml(figure: CloudFigure, sampleCounts: readonly number[]) {
-  return fieldsetHtml(words.samples, html`${samplesSliderHtml(figure, sampleCounts)} ${figure.cloud.buttonsHtml()}`, 'cloud');
+/** Returns the specification of the slider of the number of samples, from ten to a maximum in the steps 1–2–5 of a logarithmic scale. */
+export function createSamplesSliderSpec(max: number): SliderSpec {
+  const stops = range(1, 7).flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).filter((count) => count <= max);
+  return { symbol: '*N*', role: 'truth', min: stops[0], max, step: 1, decimals: 0, stops };
 }
 
-/** Returns the slider of the number of samples, which offers `counts`. */
-export function samplesSliderHtml(figure: Figure, sampleCounts: readonly number[]) {
-  const sliderSpec: SliderSpec = { symbol: '*N*', role: 'truth', min: sampleCounts[0], max: sampleCounts[sampleCounts.length - 1], step: 1, decimals: 0 };
-  return settingSliderHtml(figure, 'samples', { stops: sampleCounts, formatValue: formatInteger }, sliderSpec);
+/** Returns the controls of growth, seed and size of the cloud. */
+export function cloudControlsHtml(figure: CloudFigure) {
+  return fieldsetHtml(words.samples, html`${settingSliderHtml(figure, 'samples')} ${figure.cloud.buttonsHtml()}`, 'cloud');
 }
 
 function seedFieldHtml(figure: Figure) {

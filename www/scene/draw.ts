@@ -4,8 +4,8 @@ import { greatest } from 'd3-array';
 import { html, nothing, svg } from 'lit';
 import { limits } from '../../build/settings.js';
 import { colourChannelsOf } from '../ui/theme.ts';
-import { createLineLegendEntry, type LegendEntry } from './axes.ts';
-import { addLine, drawDisc, paintWithOpacity, strokeLine, strokePath, type DrawContext, type LineStroke } from './canvas.ts';
+import type { LegendEntry } from './axes.ts';
+import { addLine, drawDisc, fillPath, paintWithOpacity, strokeLine, strokePath, type DrawContext, type LineStroke } from './canvas.ts';
 import { strokeInBatches } from './cache.ts';
 import type { Callout } from './labels.ts';
 import type { Palette } from '../ui/theme.ts';
@@ -89,10 +89,31 @@ export function createLineStyles<Name extends string>({ palette, highlight }: Pi
   return Object.fromEntries(styleEntries) as Record<Name, { colour: string, width: number, dash: number[] }>;
 }
 
-/** Returns the legend of an exported picture: the named lines with their words. On the page there is a legend beside the picture. */
+/** Returns the legend of an exported picture: the named lines and marks with their words. On the page there is a legend beside the picture. */
 export function createLineLegend<Name extends string>(drawContext: DrawContext, lines: Record<Name, LineStyle>, lineNames: Name[], labels: Record<Name, string>): LegendEntry[] {
   const stylesByName = createLineStyles(drawContext, lines);
-  return drawContext.isExported ? lineNames.map((name) => createLineLegendEntry(drawContext, labels[name].replaceAll('*', ''), stylesByName[name])) : [];
+  return drawContext.isExported ? lineNames.map((name) => ({
+    name: labels[name].replaceAll('*', ''),
+    drawSample: (x, y, width) => drawSwatch(drawContext, lines[name].shape, stylesByName[name], [x, y], width),
+  })) : [];
+}
+
+/** Half the size of a cross, CSS pixels. */
+const CROSS_HALF_SIZE = 2.6;
+
+/** Adds a cross at a point in CSS pixels to the path. */
+export function addCross(context: DrawContext['context'], x: number, y: number) {
+  addLine(context, [[x - CROSS_HALF_SIZE, y - CROSS_HALF_SIZE], [x + CROSS_HALF_SIZE, y + CROSS_HALF_SIZE]]);
+  addLine(context, [[x - CROSS_HALF_SIZE, y + CROSS_HALF_SIZE], [x + CROSS_HALF_SIZE, y - CROSS_HALF_SIZE]]);
+}
+
+/** Draws the symbol of a legend entry, as `swatchHtml` does on the page. The point is its left end, in pixels. */
+function drawSwatch({ context }: DrawContext, shape: LineStyle['shape'], style: LineStroke, [x, y]: [x: number, y: number], width: number) {
+  const [middleX, { colour }] = [x + width / 2, style];
+  if (shape === 'area') fillPath(context, colour, () => context.rect(middleX - 5.5, y - 5.5, 11, 11));
+  else if (shape === 'cross') strokePath(context, { colour, width: 1 }, () => addCross(context, middleX, y));
+  else if (shape === 'dot' || shape === 'ring') drawDisc(context, [middleX, y], 3, shape === 'dot' ? colour : undefined, { colour, width: 1 });
+  else strokeLine(context, [[x, y], [x + width, y]], style);
 }
 
 /** Returns true if an outline is longer than rounding errors. The outline of robots that all stop at one point has no length. */

@@ -2,7 +2,7 @@
 
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { createDensityRamp, drawCrosshair, drawOutline, createLineStyles } from '../../scene/draw.ts';
+import { addCross, createDensityRamp, createLineLegend, drawCrosshair, drawOutline, createLineStyles } from '../../scene/draw.ts';
 import { CachedImage, strokeInBatches } from '../../scene/cache.ts';
 import { drawLabel, drawLeader } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
@@ -13,7 +13,7 @@ import { clamp } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
 import { LINE_STYLES, type ViewModel } from './settings.ts';
 import type { MapSqueeze, Plan } from '../../types.d.ts';
-import { addLine, drawDisc, fillPath, paintWithOpacity, strokePath, type DrawContext } from '../../scene/canvas.ts';
+import { drawDisc, paintWithOpacity, strokePath, type DrawContext } from '../../scene/canvas.ts';
 
 export interface Scene extends ViewModel {
   simulation: MapSqueeze;
@@ -21,11 +21,8 @@ export interface Scene extends ViewModel {
   markedSample: { pose: Float64Array, path: Float64Array, contact: number[] | undefined } | undefined;
 }
 
-/** Half the size of a cross, CSS pixels. */
-const CROSS_HALF_SIZE = 2.6;
-
-/** Dot of a sample: minimum and maximum radius (CSS pixels), ratio of the picture's width to the radius, and opacity. */
-const SAMPLE_DOT = { minRadius: 2, maxRadius: 3, widthPerRadius: 240, opacity: 0.4 };
+/** Dot of a sample: minimum and maximum radius (CSS pixels), width of the picture per pixel of the radius, and opacity. */
+const SAMPLE_DOT = { min: 2, max: 3, per: 240, alpha: 0.4 };
 
 /** Displacement from the contact with a wall to the end of the line to its label, CSS pixels. */
 const LEADER_OFFSET = { x: 46, y: 30 };
@@ -135,7 +132,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const { palette } = drawContext;
     const isLineShown = (name: string) => overlays.includes(name);
     const { accepted, through, rejected, commanded: commandStyle } = createLineStyles(drawContext, LINE_STYLES);
-    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, drawContext.isExported ? legendEntriesOf(drawContext, scene) : []);
+    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, LINE_STYLES, (['accepted', 'through', 'rejected'] as const).filter(isLineShown), words.squeeze.overlays));
     clipToPlot(drawContext, () => {
       // The walls are drawn after the paths, so that a path through a wall does not hide the wall.
       if (posesByOutcome) {
@@ -193,26 +190,6 @@ function drawWallContact(drawContext: DrawContext, contact: number[]) {
   const [endX, endY] = [x + sideX * LEADER_OFFSET.x, y + sideY * LEADER_OFFSET.y];
   drawLeader(context, [[endX, endY], [x, y]], palette.ink);
   drawLabel(drawContext, { x: endX + 4 * sideX, y: endY, freeSide: sideX, text: words.squeeze.contactLabel, colour: palette.ink });
-}
-
-/** Returns the legend of an exported picture: the marks, or the colours of a density. */
-function legendEntriesOf({ context, palette }: DrawContext, { overlays, posesByOutcome }: Scene): import('../../scene/axes.ts').LegendEntry[] {
-  const shownOutcomes = (['accepted', 'through', 'rejected'] as const).filter((name) => overlays.includes(name));
-  return shownOutcomes.map((name) => ({
-    name: words.squeeze.overlays[name],
-    drawSample: (x, y, width) => {
-      const [middleX, colour] = [x + width / 2, palette[LINE_STYLES[name].role]];
-      if (!posesByOutcome) fillPath(context, colour, () => context.rect(middleX - 5.5, y - 5.5, 11, 11));
-      else if (name === 'rejected') strokePath(context, { colour, width: 1 }, () => addCross(context, middleX, y));
-      else drawDisc(context, [middleX, y], SAMPLE_DOT.maxRadius, colour, { colour, width: 1 });
-    },
-  }));
-}
-
-/** Adds a cross at a point in CSS pixels to the path. */
-function addCross(context: DrawContext['context'], x: number, y: number) {
-  addLine(context, [[x - CROSS_HALF_SIZE, y - CROSS_HALF_SIZE], [x + CROSS_HALF_SIZE, y + CROSS_HALF_SIZE]]);
-  addLine(context, [[x - CROSS_HALF_SIZE, y + CROSS_HALF_SIZE], [x + CROSS_HALF_SIZE, y - CROSS_HALF_SIZE]]);
 }
 
 function drawCrosses({ context, view }: DrawContext, poses: Float64Array, colour: string) {

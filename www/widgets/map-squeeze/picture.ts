@@ -1,9 +1,10 @@
 /** Picture of Map Squeeze: walls, the robot with its command, and the outcome of each sample. */
 
+import { range } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { addCross, createDensityRamp, createLineLegend, drawCrosshair, drawOutline, createLineStyles } from '../../scene/draw.ts';
-import { CachedImage, strokeInBatches } from '../../scene/cache.ts';
+import { CachedImage, Memo, strokeInBatches } from '../../scene/cache.ts';
 import { drawLabel, drawLeader } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, cornersAround, extentAround, widenExtent } from '../../scene/view.ts';
@@ -63,7 +64,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
   /** Corners of the known part of the map, which may be much smaller than the map. */
   #knownCorners: ArrayLike<number>;
   #densityImage = new CachedImage();
-  #wallPathData = '';
+  #wallPathMemo: Memo<string> = new Memo();
 
   /** Keeps the views of the previous picture if its map has the same bounds. */
   constructor(plan: Plan, grid: CellGrid | null, previousPicture?: FloorPicture) {
@@ -82,10 +83,8 @@ export class FloorPicture extends SamplesPicture<Scene> {
 
   /** Walls as the `d` attribute of an SVG path, metres. */
   get wallPathData() {
-    if (this.#wallPathData) return this.#wallPathData;
     const { walls } = this.plan;
-    for (let i = 0; i < walls.length; i += 4) this.#wallPathData += `M${walls[i]} ${walls[i + 1]}L${walls[i + 2]} ${walls[i + 3]}`;
-    return this.#wallPathData;
+    return this.#wallPathMemo.get([walls], () => range(0, walls.length, 4).map((i) => `M${walls[i]} ${walls[i + 1]}L${walls[i + 2]} ${walls[i + 3]}`).join(''));
   }
 
   /** True for a close view, which shows only the surroundings of the robot. */

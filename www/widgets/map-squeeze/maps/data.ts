@@ -1,5 +1,6 @@
 /** Maps as plain data, the form in which a state contains a map of the user. */
 
+import { range } from 'd3-array';
 import { checkObject, createRefusalError, withFieldRenamed, checkNumber } from '../../../data/checks.ts';
 import { fromBase64, toBase64 } from '../../../data/packing.ts';
 import { limits } from '../../../../build/settings.js';
@@ -30,8 +31,7 @@ export function mapDataOf(simulation: MapSqueeze, name: string, grid: CellGrid |
     return freeze({ name, columns, rows, resolution, origin: freeze([...origin]), occupied, ...unknownField });
   }
   const { bounds, walls } = simulation.plan;
-  const wallObjects = [];
-  for (let i = 0; i < walls.length; i += 4) wallObjects.push(freeze([walls[i], walls[i + 1], walls[i + 2], walls[i + 3]]));
+  const wallObjects = range(0, walls.length, 4).map((i) => freeze([...walls.subarray(i, i + 4)]));
   return freeze({ name, bounds: freeze([...bounds]), walls: freeze(wallObjects) });
 }
 

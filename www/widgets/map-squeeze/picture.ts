@@ -22,8 +22,8 @@ export interface Scene extends ViewModel {
   markedSample: { pose: Float64Array, path: Float64Array, contact: number[] | undefined } | undefined;
 }
 
-/** Dot of a sample: minimum and maximum radius (CSS pixels), width of the picture per pixel of the radius, and opacity. */
-const SAMPLE_DOT = { min: 2, max: 3, per: 240, alpha: 0.4 };
+/** Dot of a sample: minimum and maximum radius (CSS pixels), ratio of the picture's width to the radius, and opacity. */
+const SAMPLE_DOT = { minRadius: 2, maxRadius: 3, widthPerRadius: 240, opacity: 0.4 };
 
 /** Displacement from the contact with a wall to the end of the line to its label, CSS pixels. */
 const LEADER_OFFSET = { x: 46, y: 30 };

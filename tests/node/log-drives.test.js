@@ -145,10 +145,9 @@ const poseTableOf = (rowCount, rowAt) => ['t,x,y,yaw', ...Array.from({ length: r
 /** Returns a table of poses along x at 20 Hz. @param {(i: number) => number} xAt @param {number} [startTime] */
 const straightTableOf = (xAt, startTime = 0) => poseTableOf(400, (i) => [startTime + i / 20, xAt(i), 0, 0]);
 
-test('logs of several drives are paired by their times, their names, or their order', async () => {
+test('logs of several drives are paired by their times, or in their order', async () => {
   const pairedNamesOf = async (/** @type {Record<string, number>} */ startTimes) => (await readDrivesOf(Object.fromEntries(Object.entries(startTimes).map(([name, start], k) => [name, straightTableOf((i) => (i * (10 + k)) / 1000, start)])))).map(({ odometry, reference }) => [odometry.name, reference.name]);
   assert.deepEqual(await pairedNamesOf({ 'odom1.csv': 100, 'odom2.csv': 500, 'truth_a.csv': 501, 'truth_b.csv': 99 }), [['odom1.csv', 'truth_b.csv'], ['odom2.csv', 'truth_a.csv']]);
-  assert.deepEqual(await pairedNamesOf({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth2.csv': 0, 'truth1.csv': 0 }), [['odom1.csv', 'truth1.csv'], ['odom2.csv', 'truth2.csv']]);
   assert.deepEqual(await pairedNamesOf({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth_a.csv': 0, 'truth_b.csv': 0 }), [['odom1.csv', 'truth_a.csv'], ['odom2.csv', 'truth_b.csv']]);
 });
 

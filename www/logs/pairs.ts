@@ -44,18 +44,12 @@ function overlapSecondsOf(log: Log, otherLog: Log): number {
   return Math.min(b, d) - Math.max(a, c);
 }
 
-/** Returns the part of a file's name that both files of a drive share: without its extension and words for a role. */
-const fileStemOf = (name: string) => name.toLowerCase().replace(/\.\w+$/, '').replace(/odom(etry)?|wheels?|encoders?|cmd(_vel)?|(ground)?[_-]?truth|gt|reference|ref|mocap|vicon|optitrack|poses?/g, '').replace(/[^a-z0-9]+/g, '');
-
-/** Pairs logs of several drives: by their times, by the names of their files, or in their order. */
+/** Pairs logs of several drives: by their times, or in their order. */
 function matchLogs(odometry: Log[], reference: Log[]): [Log, Log][] {
-  const overlapsMostly = (odometryLog: Log, referenceLog: Log) => overlapSecondsOf(odometryLog, referenceLog) > MIN_OVERLAP * Math.min(odometryLog.summary.seconds, referenceLog.summary.seconds);
-  const hasSameStem = (odometryLog: Log, referenceLog: Log) => fileStemOf(odometryLog.name) === fileStemOf(referenceLog.name);
-  for (const isMatch of [overlapsMostly, hasSameStem]) {
-    const partnersOfEach = odometry.map((odometryLog) => reference.filter((referenceLog) => isMatch(odometryLog, referenceLog)));
-    if (partnersOfEach.every(({ length }) => length === 1) && new Set(partnersOfEach.flat()).size === reference.length) return odometry.map((odometryLog, i) => [odometryLog, partnersOfEach[i][0]]);
-  }
-  return odometry.map((odometryLog, i) => [odometryLog, reference[i]]);
+  const partnersOfEach = odometry.map((odometryLog) => reference.filter((referenceLog) =>
+    overlapSecondsOf(odometryLog, referenceLog) > MIN_OVERLAP * Math.min(odometryLog.summary.seconds, referenceLog.summary.seconds)));
+  const hasUniquePartners = partnersOfEach.every(({ length }) => length === 1) && new Set(partnersOfEach.flat()).size === reference.length;
+  return odometry.map((odometryLog, i) => [odometryLog, hasUniquePartners ? partnersOfEach[i][0] : reference[i]]);
 }
 
 /** Pairs two logs of one drive, whose times are after one start. Throws a LogError if they do not fit, or if one may have another unit of length. */

@@ -47,8 +47,8 @@ async function runFuzzTarget(targetName, runCount, seed) {
   const fuzzOptions = [`-runs=${runCount}`, `-seed=${seed}`, ...INPUT_LIMITS];
   const { ok, output } = await runCargoFuzz(targetName, [inputFolderOf(targetName, 'found'), inputFolderOf(targetName, 'known')], fuzzOptions);
   if (!ok) console.error(output.split('\n').slice(-60).join('\n'));
-  const edgeCount = [...output.matchAll(/ cov: (\d+)/g)].pop()?.[1];
-  console.log(`${ok ? 'ok    ' : 'FAILED'} ${targetName.padEnd(12)} edges ${edgeCount}, ${output.match(/^Done .*$/m)?.[0]}`);
+  const coveredEdgeCount = [...output.matchAll(/ cov: (\d+)/g)].pop()?.[1];
+  console.log(`${ok ? 'ok    ' : 'FAILED'} ${targetName.padEnd(12)} edges ${coveredEdgeCount}, ${output.match(/^Done .*$/m)?.[0]}`);
   return ok;
 }
 

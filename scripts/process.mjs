@@ -141,7 +141,7 @@ const MAX_SILENCE_MS = 30_000;
  */
 
 /**
- * Runs a program. Shows its output as it comes, and its name while it prints nothing.
+ * Runs a program. Shows the program's output as it arrives, and the program's name if there is no output for a while.
  *
  * @param {string} command
  * @param {string[]} commandArguments

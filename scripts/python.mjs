@@ -86,7 +86,7 @@ async function createElementsSource() {
 /** Returns the call that creates a trait. @param {Field & { allowed?: string }} field @param {string} tag */
 function traitCallOf({ name, type, allowed }, tag) {
   const settingDeclaration = settings[tag].find(({ key }) => key === name);
-  if (settingDeclaration) return traitCallOfSetting(settingDeclaration, tag);
+  if (settingDeclaration) return settingTraitCallOf(settingDeclaration, tag);
   if (type === 'number' && allowed) return `Number(${allowed.replace(' to ', ', ')})`;
   const allowedWords = [...type.matchAll(/'([^']+)'/g)].map(([, allowedWord]) => quotePython(allowedWord)).join(', ');
   if (type.includes('[]')) return `Sequence(Word(${allowedWords}))`;
@@ -96,7 +96,7 @@ function traitCallOf({ name, type, allowed }, tag) {
 }
 
 /** Returns the type of a setting, as Python source. @param {Declaration} declaration @param {string} tag @returns {string} */
-function traitCallOfSetting({ key, type, words: allowedWords = [], min, max }, tag) {
+function settingTraitCallOf({ key, type, words: allowedWords = [], min, max }, tag) {
   const rangeText = `${min}, ${max}`;
   switch (type) {
     case 'number': return `Number(${rangeText})`;
@@ -106,7 +106,7 @@ function traitCallOfSetting({ key, type, words: allowedWords = [], min, max }, t
     case 'word': return `Word(${allowedWords.map(quotePython).join(', ')})`;
     case 'group': {
       const memberNameOf = (/** @type {Declaration} */ groupMember) => groupMember.field ?? groupMember.key;
-      return `Group(${settings[tag].filter((member) => member.in === key).map((member) => `${memberNameOf(member)}=${traitCallOfSetting(member, tag)}`).join(', ')})`;
+      return `Group(${settings[tag].filter((member) => member.in === key).map((member) => `${memberNameOf(member)}=${settingTraitCallOf(member, tag)}`).join(', ')})`;
     }
   }
 }

@@ -140,10 +140,10 @@ await runAsScript(import.meta.url, async () => {
     const pageHtml = readFileSync(join(SITE_DIRECTORY, path), 'utf8').replace('src="./motion-widgets.js"', 'src="./external.js"');
     writeFileSync(join(SITE_DIRECTORY, path), pageHtml.replace('</head>', '<link rel="stylesheet" href="./site.css" />\n</head>').replace(/<body[^>]*>/, `$&\n${navigationHtmlOf(path)}`));
   }
-  const markedModule = await import('marked');
+  const markedLibrary = await import('marked');
   const documentPaths = ['README.md', ...filesOf('doc').filter((path) => path.endsWith('.md'))];
   mkdirSync(join(SITE_DIRECTORY, 'doc/embedding'), { recursive: true });
-  for (const documentPath of documentPaths) writeFileSync(join(SITE_DIRECTORY, pagePathOf(documentPath)), renderPage(markedModule, documentPath, documentPaths, WIDGET_TAGS));
+  for (const documentPath of documentPaths) writeFileSync(join(SITE_DIRECTORY, pagePathOf(documentPath)), renderPage(markedLibrary, documentPath, documentPaths, WIDGET_TAGS));
   cpSync(join(ROOT, 'doc/morph.webp'), join(SITE_DIRECTORY, 'doc/morph.webp'));
   checkLinks();
   console.log('\nThe site is in build/site/.');

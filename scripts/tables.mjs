@@ -49,11 +49,11 @@ export function insertTables(pageHtml, elements, widgets) {
  * @param {string} kind
  * @param {string} tableCaption
  * @param {string[]} columnHeadings
- * @param {(element: Element) => Item[]} itemsOfElement
+ * @param {(element: Element) => Item[]} itemsOf
  */
-function renderItemTable(elements, kind, tableCaption, columnHeadings, itemsOfElement) {
-  const itemsByName = new Map(elements.flatMap(itemsOfElement).map((elementItem) => [elementItem.name, elementItem]));
-  const findElementsWithItem = (/** @type {string} */ name) => elements.filter((documentedElement) => itemsOfElement(documentedElement).some((elementItem) => elementItem.name === name));
+function renderItemTable(elements, kind, tableCaption, columnHeadings, itemsOf) {
+  const itemsByName = new Map(elements.flatMap(itemsOf).map((elementItem) => [elementItem.name, elementItem]));
+  const findElementsWithItem = (/** @type {string} */ name) => elements.filter((documentedElement) => itemsOf(documentedElement).some((elementItem) => elementItem.name === name));
   const itemRows = [...itemsByName.values()].map(({ name, description }) => {
     const owningElements = findElementsWithItem(name);
     const ownersText = owningElements.length < elements.length ? ` Only ${owningElements.map(({ tagName }) => renderCode(`<${tagName}>`)).join(' and ')}.` : '';

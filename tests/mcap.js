@@ -1,4 +1,4 @@
-/** MCAP recordings as ROS 2 writes them. */
+/** Writes MCAP recordings like those of ROS 2. */
 
 import { Buffer } from 'node:buffer';
 import zstd from '@foxglove/wasm-zstd';
@@ -84,13 +84,13 @@ const COMPRESSORS = {
  * @param {Iterable<Message>} messages
  * @param {object} [options]
  * @param {'none' | 'zstd' | 'lz4' | 'odd'} [options.compression]
- * @param {boolean} [options.index] true if the recording has an index, and by default chunks
- * @param {boolean} [options.chunks]
+ * @param {boolean} [options.hasIndex] true if the recording has an index
+ * @param {boolean} [options.hasChunks] default: hasIndex
  * @param {number} [options.chunkSize] bytes
  * @param {string} [options.encoding] of messages
  * @returns {Promise<Buffer<ArrayBuffer>>}
  */
-export async function recordingOf(messages, { compression = 'none', index = true, chunks = index, chunkSize = 4096, encoding = 'cdr' } = {}) {
+export async function recordingOf(messages, { compression = 'none', hasIndex = true, hasChunks = hasIndex, chunkSize = 4096, encoding = 'cdr' } = {}) {
   /** @type {Uint8Array[]} */
   const writtenParts = [];
   let writtenBytes = 0n;
@@ -102,8 +102,8 @@ export async function recordingOf(messages, { compression = 'none', index = true
     },
   };
   const mcapWriter = new McapWriter({
-    writable: byteSink, useChunks: chunks, useChunkIndex: index, useMessageIndex: index, useStatistics: index, useSummaryOffsets: index,
-    repeatChannels: index, repeatSchemas: index, chunkSize, compressChunk: COMPRESSORS[compression],
+    writable: byteSink, useChunks: hasChunks, useChunkIndex: hasIndex, useMessageIndex: hasIndex, useStatistics: hasIndex, useSummaryOffsets: hasIndex,
+    repeatChannels: hasIndex, repeatSchemas: hasIndex, chunkSize, compressChunk: COMPRESSORS[compression],
   });
   await mcapWriter.start({ profile: 'ros2', library: 'test' });
   /** @type {Map<string, { id: number, writer: MessageWriter }>} */

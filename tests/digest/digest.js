@@ -22,7 +22,7 @@ import { presets } from '../../build/settings.js';
 const NAN_BITS = 0x7ff8_0000_0000_0000n;
 
 /** Returns the settings of a widget's preset, or an empty object if the configuration has no preset. @param {keyof typeof presets} widgetTag @param {string} [presetName] @returns {Record<string, any>} */
-const settingsOfPreset = (widgetTag, presetName) => presets[widgetTag].find(({ name }) => name === presetName)?.settings ?? {};
+const presetSettingsOf = (widgetTag, presetName) => presets[widgetTag].find(({ name }) => name === presetName)?.settings ?? {};
 
 /**
  * Functions that return the results of each widget's simulation, divided into named parts.
@@ -30,7 +30,7 @@ const settingsOfPreset = (widgetTag, presetName) => presets[widgetTag].find(({ n
  */
 export const resultFunctions = {
   'banana-machine'({ BananaMachine, commandReaching }, configurations, { preset, bounds = configurations.widgets['banana-machine'].bounds, settings }) {
-    const { command: presetCommand } = settingsOfPreset('banana-machine', preset);
+    const { command: presetCommand } = presetSettingsOf('banana-machine', preset);
     const simulation = new BananaMachine({ command: presetCommand, ...settings });
     const { shown, config: { command } } = simulation;
     const [xMin, yMin, xMax, yMax] = bounds;
@@ -62,7 +62,7 @@ export const resultFunctions = {
   },
 
   'map-squeeze'({ MapSqueeze }, configurations, { preset, map, bounds = configurations.widgets['map-squeeze'].bounds, settings }) {
-    const { start } = settingsOfPreset('map-squeeze', preset);
+    const { start } = presetSettingsOf('map-squeeze', preset);
     const simulation = new MapSqueeze({ start, ...settings });
     const { plan, description, image } = map === undefined ? {} : configurations.maps[map];
     if (plan) simulation.setPlan(plan);
@@ -95,7 +95,7 @@ export const resultFunctions = {
   },
 
   'arc-anatomy'({ ArcAnatomy }, configurations, { preset, bounds = configurations.widgets['arc-anatomy'].bounds, settings }) {
-    const { command, next } = settingsOfPreset('arc-anatomy', preset);
+    const { command, next } = presetSettingsOf('arc-anatomy', preset);
     const simulation = new ArcAnatomy({ command, next, ...settings });
     const [xMin, yMin, xMax, yMax] = bounds;
     const simulationResults = {
@@ -110,7 +110,7 @@ export const resultFunctions = {
   },
 
   'dead-reckoning'({ DeadReckoning }, _, { preset, settings }) {
-    const { command, steps, alphas } = settingsOfPreset('dead-reckoning', preset);
+    const { command, steps, alphas } = presetSettingsOf('dead-reckoning', preset);
     const simulation = new DeadReckoning({ command, steps, alphas, ...settings });
     const { shown, config, headingNoise, stats } = simulation;
     // Poses of the robots in the picture after the first step.
@@ -165,7 +165,7 @@ export const resultFunctions = {
   },
 
   'odometry-decomposer'({ OdometryDecomposer }, _, { preset, settings }) {
-    const { from, to } = settingsOfPreset('odometry-decomposer', preset);
+    const { from, to } = presetSettingsOf('odometry-decomposer', preset);
     const simulation = new OdometryDecomposer({ from, to, ...settings });
     const { shown, stats, poses, linkage, robot, rules, drifted } = simulation;
     const simulationResults = {
@@ -224,11 +224,11 @@ export async function computeHash(value) {
     if (Number.isNaN(encodedNumber)) dataView.setBigUint64(8 * i, NAN_BITS, true);
     else dataView.setFloat64(8 * i, encodedNumber, true);
   });
-  return hexOfBytes(await crypto.subtle.digest('SHA-256', dataView)).slice(0, 16);
+  return toHex(await crypto.subtle.digest('SHA-256', dataView)).slice(0, 16);
 }
 
 /** Returns bytes as hexadecimal digits. @param {ArrayBuffer} hashBytes */
-const hexOfBytes = (hashBytes) => Array.from(new Uint8Array(hashBytes), (byte) => byte.toString(16).padStart(2, '0')).join('');
+const toHex = (hashBytes) => Array.from(new Uint8Array(hashBytes), (byte) => byte.toString(16).padStart(2, '0')).join('');
 
 /**
  * Returns the text that golden.txt must have, or only the lines of some widgets.
@@ -251,9 +251,9 @@ export async function computeDigest(core, configurations, widgetTags = Object.ke
 
 /** Returns a line for each configuration whose digest differs. @param {string} goldenText @param {string} computedText */
 export function findDifferences(goldenText, computedText) {
-  const hashesByName = (/** @type {string} */ digestText) =>
+  const hashesByNameOf = (/** @type {string} */ digestText) =>
     new Map(digestText.trimEnd().split('\n').map((digestLine) => /** @type {[string, string[]]} */ ([digestLine.split(' ')[0], digestLine.split(' ').slice(1)])));
-  const [expectedByName, computedByName] = [hashesByName(goldenText), hashesByName(computedText)];
+  const [expectedByName, computedByName] = [hashesByNameOf(goldenText), hashesByNameOf(computedText)];
   const configurationNames = [...new Set([...expectedByName.keys(), ...computedByName.keys()])];
   return configurationNames.flatMap((name) => {
     const [goldenHashes, computedHashes] = [expectedByName.get(name), computedByName.get(name)];

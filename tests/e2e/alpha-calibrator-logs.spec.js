@@ -1,7 +1,7 @@
 import { spawnSync } from 'node:child_process';
 import { expect, test as testWithWarnings } from '@playwright/test';
 import { recordingOf } from '../mcap.js';
-import { captionOf, chooseTables, chooseRecording, readExampleTable, openCalibrator, exampleRecordingWith, alphaRowsOf, exampleRowsOf, readStats, simulatedTablesOf } from './calibrator-support.js';
+import { captionOf, chooseTables, chooseRecording, readExampleTable, openCalibrator, createExampleRecording, alphaRowsOf, exampleRowsOf, readStats, simulatedTablesOf } from './calibrator-support.js';
 import { REDUCED_MOTION, dropFiles, readState, takeEvents, test, openDisclosures, waitUntilSettled } from './support.js';
 
 /**
@@ -51,7 +51,7 @@ test('two tables of a user replace the simulated log, and a button restores the 
   await chooseTables(calibrator, { 'odom.csv': '', 'truth.csv': '' });
   await expect(errorAlert).toHaveText(/^odom\.csv: there is nothing in it/);
   await expect(calibrator.locator('.to-do')).toHaveText('The results are still those of odom.csv, truth.csv, not of the files chosen last.');
-  // The choosers return with the results to which they belong.
+  // Keeping the results restores the controls with which the user assigns roles to their logs.
   await calibrator.getByRole('button', { name: 'Keep these results' }).click();
   await calibrator.getByLabel('odom.csv', { exact: true }).selectOption('Reference');
   await expect(captionOf(calibrator)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
@@ -74,7 +74,7 @@ test('the figure and the command line give the same results to the last bit, als
   expect([options, logs.length, start, typeof date]).toEqual([{ legs: { distance: 0.25, angle: 0.2 } }, 2, 9, 'string']);
   expect(JSON.parse(figureResults)).toEqual(cliResults);
 
-  await chooseRecording(widget, 'run.mcap', await exampleRecordingWith(['/mocap/pose', '/vicon/pose']));
+  await chooseRecording(widget, 'run.mcap', await createExampleRecording(['/mocap/pose', '/vicon/pose']));
   await expect(widget.getByRole('alert')).toHaveText(/^run\.mcap: it is not clear what the reference is: .*\/vicon\/pose \(PoseStamped\)\.$/);
   await widget.getByLabel('Reference', { exact: true }).selectOption('/mocap/pose');
   await expect(captionOf(widget)).toHaveText(/of run\.mcap, \/odom, \/mocap\/pose[.,]/);
@@ -143,7 +143,7 @@ test('the figure asks for missing names and units of columns, and the answer app
 test('the files of a dropped folder are one recording, and files that do not belong to it are ignored', async ({ page }) => {
   const widget = await openCalibrator(page);
   const cameraRecording = await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } })));
-  const base64Recordings = [await exampleRecordingWith(['/mocap/pose']), cameraRecording].map((recordingBytes) => recordingBytes.toString('base64'));
+  const base64Recordings = [await createExampleRecording(['/mocap/pose']), cameraRecording].map((recordingBytes) => recordingBytes.toString('base64'));
   await widget.locator('section.simulation').evaluate(async (dropTarget, encodedRecordings) => {
     const [recordingBytes, cameraBytes] = await Promise.all(encodedRecordings.map(async (encodedRecording) => (await fetch(`data:;base64,${encodedRecording}`)).arrayBuffer()));
     const splitRecordingMetadata = 'rosbag2_bagfile_information:\n  relative_file_paths: [run_0.mcap]\n';
@@ -185,13 +185,13 @@ test('a log with too few legs is refused, and the figure still shows the previou
 /** Chooses two tables of 15 minutes, and returns the time of the choice. @param {Locator} widget */
 const chooseLongTables = (widget) => widget.evaluate((element) => {
   const fileInput = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#log-files'));
-  const csvRowAt = (/** @type {number} */ i, /** @type {number} */ swayAmplitude) => {
+  const csvRowOf = (/** @type {number} */ i, /** @type {number} */ swayAmplitude) => {
     const [t, angle] = [i / 100, i / 400];
     return [t, 3 * Math.sin(angle), 3 - 3 * Math.cos(angle) + swayAmplitude * Math.sin(7 * t), angle % 6].join(',');
   };
   const { files, items } = new DataTransfer();
   for (const [name, swayAmplitude] of /** @type {const} */ ([['odom.csv', 0], ['truth.csv', 0.02]])) {
-    items.add(new File([['t,x,y,yaw', ...Array.from({ length: 90_000 }, (_, i) => csvRowAt(i, swayAmplitude))].join('\n')], name));
+    items.add(new File([['t,x,y,yaw', ...Array.from({ length: 90_000 }, (_, i) => csvRowOf(i, swayAmplitude))].join('\n')], name));
   }
   fileInput.files = files;
   const startTime = performance.now();

@@ -33,9 +33,9 @@ export const readStats = (/** @type {Locator} */ widget) => widget.evaluate((ele
 export const simulatedTablesOf = (widget) =>
   widget.evaluate((element) => {
     const { legs } = /** @type {AlphaCalibratorElement} */ (element).simulation;
-    const tableOfPoses = (/** @type {Float64Array} */ legPoses) =>
+    const poseTableOf = (/** @type {Float64Array} */ legPoses) =>
       ['t,x,y,yaw', ...Array.from({ length: legs.count }, (_, legIndex) => [legs.times[2 * legIndex], ...legPoses.subarray(6 * legIndex, 6 * legIndex + 3)].join(','))].join('\n');
-    return { odometry: tableOfPoses(legs.odometry), reference: tableOfPoses(legs.reference) };
+    return { odometry: poseTableOf(legs.odometry), reference: poseTableOf(legs.reference) };
   });
 
 /** Chooses a recording in the file input. @param {Locator} widget @param {string} fileName @param {Buffer} recordingBytes */
@@ -54,7 +54,7 @@ export const readExampleTable = (name) => readFileSync(new URL(`../../examples/c
 export const exampleRowsOf = (name) => readExampleTable(name).trim().split('\n').slice(1).map((csvLine) => csvLine.split(',').map(Number));
 
 /** Returns the example log as a recording. @param {string[]} referenceTopics that have the poses of the reference */
-export async function exampleRecordingWith(referenceTopics) {
+export async function createExampleRecording(referenceTopics) {
   const referenceMessages = referenceTopics.flatMap((referenceTopic) => exampleRowsOf('reference').map(([t, x, y, yaw]) => ({
     topic: referenceTopic, type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, yaw) },
   })));

@@ -87,24 +87,24 @@ test('a link scrolls once to the figure from which it was copied, and a reload d
   const gapHtml = '<p style="margin: 2000px 0">Between</p>';
   const pageBody = `${gapHtml}<banana-machine></banana-machine>${gapHtml}<banana-machine></banana-machine>${gapHtml}`;
   await showPage(page, pageBody);
-  const figureAt = (/** @type {import('@playwright/test').Page} */ openPage, /** @type {number} */ i) => openPage.locator('banana-machine').nth(i);
+  const nthFigureOf = (/** @type {import('@playwright/test').Page} */ openPage, /** @type {number} */ i) => openPage.locator('banana-machine').nth(i);
   const readFigureTops = (/** @type {import('@playwright/test').Page} */ openPage) =>
     openPage.locator('banana-machine').evaluateAll((figureElements) => figureElements.map((figure) => Math.round(figure.getBoundingClientRect().top)));
   const linkFragments = [];
   for (const i of [0, 1]) {
-    await figureAt(page, i).scrollIntoViewIfNeeded();
-    await waitUntilReady(figureAt(page, i));
+    await nthFigureOf(page, i).scrollIntoViewIfNeeded();
+    await waitUntilReady(nthFigureOf(page, i));
     // When the link to the next figure is copied, the address already contains the state of the previous figure.
-    linkFragments.push(await readLinkFragment(figureAt(page, i)));
+    linkFragments.push(await readLinkFragment(nthFigureOf(page, i)));
     await page.evaluate((linkFragment) => history.replaceState(null, '', linkFragment), linkFragments[i]);
   }
   expect(linkFragments[1]).toMatch(/^#banana-machine\.2=.*&banana-machine\.1=/);
   // A figure whose state is in the address gets no second part in the address.
-  expect(await readLinkFragment(figureAt(page, 1))).toBe(linkFragments[1]);
+  expect(await readLinkFragment(nthFigureOf(page, 1))).toBe(linkFragments[1]);
   for (const [i, fragment] of linkFragments.entries()) {
     const newPage = await context.newPage();
     await showPage(newPage, pageBody, { fragment });
-    await waitUntilReady(figureAt(newPage, i));
+    await waitUntilReady(nthFigureOf(newPage, i));
     await expect.poll(async () => (await readFigureTops(newPage))[i]).toBeCloseTo(0);
     // Elements that are added or moved later do not scroll the page.
     const scrollYAfterMove = await newPage.evaluate(async () => {

@@ -23,10 +23,10 @@ const THEME_COLORS = {
 const MIN_CONTRAST = { ink: 4.5, muted: 4.5, prior: 4.5, prediction: 4.5, posterior: 4.5, accent: 4.5, cloud: 3, truth: 3 };
 
 /** Returns the background colour of a figure as hexadecimal digits. @param {Locator} widget @returns {Promise<string>} */
-const readPaperColor = async (widget) => hexOfColor((await readColours(widget, ['paper']))[0]);
+const readPaperColor = async (widget) => toHexColor((await readColours(widget, ['paper']))[0]);
 
 /** @param {number[]} colorChannels */
-const hexOfColor = (colorChannels) => `#${colorChannels.map((colorChannel) => colorChannel.toString(16).padStart(2, '0')).join('')}`;
+const toHexColor = (colorChannels) => `#${colorChannels.map((colorChannel) => colorChannel.toString(16).padStart(2, '0')).join('')}`;
 
 const { Color, getContrast } = /** @type {any} */ (axe).commons.color;
 /** Returns the contrast of two colours by WCAG. @param {number[]} firstChannels @param {number[]} secondChannels @returns {number} */
@@ -53,12 +53,12 @@ const SCHEME_SOURCES = /** @type {[string, string, (scheme: 'light' | 'dark') =>
   ['its theme attribute', '<style>:root { color-scheme: light }</style>', (scheme) => `document.querySelector('#it').theme = '${scheme}'`],
 ]);
 
-for (const [sourceName, headHtml, scriptForScheme] of SCHEME_SOURCES) {
+for (const [sourceName, headHtml, schemeScriptOf] of SCHEME_SOURCES) {
   test(`a figure follows ${sourceName}`, async ({ page, figureName }) => {
     const widget = await mountFigure(page, figureName, { attributes: 'id="it"', head: headHtml });
     expect(await readColorScheme(widget)).toBe('light');
     for (const scheme of /** @type {const} */ (['dark', 'light'])) {
-      await page.evaluate(scriptForScheme(scheme));
+      await page.evaluate(schemeScriptOf(scheme));
       await expect.poll(() => readColorScheme(widget)).toBe(scheme);
       // The canvas has the colours of the current theme.
       await expect.poll(() => countPixelsOfRole(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
@@ -80,7 +80,7 @@ test('on the background of any theme, a figure has the page’s text colour and 
   expect({ backgroundColor, fontFamily, fontSize }).toEqual({ backgroundColor: 'rgba(0, 0, 0, 0)', fontFamily: '"DejaVu Sans", sans-serif', fontSize: '17px' });
   for (const [themeName, [backgroundColor, textColor]] of Object.entries(THEME_COLORS)) {
     await page.evaluate(([pageBackground, pageColor]) => Object.assign(document.body.style, { background: pageBackground, color: pageColor }), [backgroundColor, textColor]);
-    await expect.poll(async () => (await readColours(widget, ['paper', 'ink'])).map(hexOfColor), themeName).toEqual([backgroundColor, textColor]);
+    await expect.poll(async () => (await readColours(widget, ['paper', 'ink'])).map(toHexColor), themeName).toEqual([backgroundColor, textColor]);
     const [paperColour, ...roleColours] = await readColours(widget, ['paper', ...Object.keys(MIN_CONTRAST)]);
     for (const [i, [colorRole, minContrast]] of Object.entries(MIN_CONTRAST).entries()) {
       expect.soft(contrastOf(roleColours[i], paperColour), `${colorRole} on ${themeName}`).toBeGreaterThanOrEqual(minContrast);
@@ -154,10 +154,10 @@ test('a figure whose theme differs from the page’s has its own background and 
   expect(await readSurfaceStyle(widget)).toMatchObject({ backgroundColor: 'rgb(22, 24, 27)', color: 'rgb(235, 233, 227)', colorScheme: 'dark' });
   // The page's colours for muted text and rules do not suit the dark background of the figure. The figure must not use them.
   const pageColors = ['#112233', '#445566'];
-  for (const pageColour of (await readColours(widget, ['muted', 'rule'])).map(hexOfColor)) expect(pageColors).not.toContain(pageColour);
+  for (const pageColour of (await readColours(widget, ['muted', 'rule'])).map(toHexColor)) expect(pageColors).not.toContain(pageColour);
   await widget.evaluate((element) => element.setAttribute('theme', 'light'));
   await expect.poll(() => readSurfaceStyle(widget)).toMatchObject({ backgroundColor: 'rgba(0, 0, 0, 0)', color: 'rgb(51, 51, 51)', colorScheme: 'light' });
-  expect((await readColours(widget, ['muted', 'rule'])).map(hexOfColor)).toEqual(pageColors);
+  expect((await readColours(widget, ['muted', 'rule'])).map(toHexColor)).toEqual(pageColors);
 });
 
 /** Custom properties of themes for muted text, hairlines and the height of the header. The stylesheet of the figures uses them. */
@@ -172,7 +172,7 @@ const THEME_PROPERTIES = {
 test('the stylesheet adopts a theme’s colours of muted text and hairlines and its header height, and --motion- properties override them', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine', { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
   const readAdoptedStyle = async () => [
-    ...(await readColours(widget, ['muted', 'rule'])).map(hexOfColor),
+    ...(await readColours(widget, ['muted', 'rule'])).map(toHexColor),
     await widget.locator('.surface').evaluate((element) => {
       const heightProbe = Object.assign(document.createElement('span'), { style: 'position: absolute; height: var(--top)' });
       element.append(heightProbe);

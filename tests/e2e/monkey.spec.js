@@ -32,7 +32,7 @@ const LANGUAGE_CODES = ['en', 'de', 'de-AT', 'fr', '', 'constructor', 'x'];
 const WINDOW_SIZES = [[1280, 720], [375, 667], [320, 480], [800, 400], [1920, 1080], [600, 900]];
 
 const HALL_IMAGE = makePgmFile('hall.pgm', 30, 20, (column, row) => column % 29 === 0 || row % 19 === 0);
-/** Files that users may drop, the first of them a map. */
+/** Groups of files that users may drop. The first group is a valid map. */
 const DROPPED_FILES = [
   [makeYamlFile('hall.yaml', { image: 'hall.pgm', resolution: 0.1, origin: '[0, 0, 0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.2 }), HALL_IMAGE],
   [makeMapFile('plan.json', JSON.stringify({ bounds: [0, 0, 5, 4], walls: [[0, 0, 5, 0], [5, 0, 5, 4], [5, 4, 0, 4], [0, 4, 0, 0]] }))],

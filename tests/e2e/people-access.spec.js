@@ -96,20 +96,20 @@ testEach('Tab reaches every handle and control of a figure exactly once, and the
 });
 
 test('if a control removes or disables itself, a nearby control gets the focus', async ({ page }) => {
-  const classOfFocusedGroup = (/** @type {Locator} */ widget) => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.closest('.buttons, section')?.className);
+  const focusedGroupClassOf = (/** @type {Locator} */ widget) => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.closest('.buttons, section')?.className);
   await showPage(page, '<map-squeeze></map-squeeze>');
   const mapSqueeze = page.locator('map-squeeze');
   await waitUntilReady(mapSqueeze);
   await mapSqueeze.evaluate((element) => void Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] } }));
   await mapSqueeze.getByRole('button', { name: 'Back to the apartment' }).press('Enter');
   await expect(mapSqueeze.getByRole('button', { name: 'Back to the apartment' })).toHaveCount(0);
-  expect(await classOfFocusedGroup(mapSqueeze)).toContain('presets');
+  expect(await focusedGroupClassOf(mapSqueeze)).toContain('presets');
   await mapSqueeze.evaluate((element) => void Object.assign(element, { samples: 1 }));
   await mapSqueeze.getByRole('button', { name: 'Clear' }).press('Enter');
   const stepButton = mapSqueeze.getByRole('button', { name: 'Step' });
   await stepButton.press('Enter');
   await expect(stepButton).toBeDisabled();
-  expect(await classOfFocusedGroup(mapSqueeze)).toBe('buttons');
+  expect(await focusedGroupClassOf(mapSqueeze)).toBe('buttons');
 });
 
 test('screen readers get the value of a slider with its unit, and no announcement while a slider moves', async ({ page }) => {

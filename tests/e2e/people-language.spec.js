@@ -143,7 +143,7 @@ test('signs are left of their numbers on a right-to-left page, even within right
     await openDisclosures(widget);
     const signsAndSides = await widget.evaluate(({ shadowRoot }, numberPart) => {
       const characterRange = new Range();
-      const boxOfCharacter = (/** @type {Text} */ text, /** @type {number} */ characterIndex) => {
+      const characterBoxOf = (/** @type {Text} */ text, /** @type {number} */ characterIndex) => {
         characterRange.setStart(text, characterIndex);
         characterRange.setEnd(text, characterIndex + 1);
         return characterRange.getBoundingClientRect();
@@ -154,7 +154,7 @@ test('signs are left of their numbers on a right-to-left page, even within right
         while (treeWalker.nextNode()) {
           const textNode = /** @type {Text} */ (treeWalker.currentNode);
           const signIndex = textNode.data.search(/\u2212\d/);
-          if (signIndex >= 0 && textNode.parentElement?.checkVisibility()) signBoxes.push([textNode.data, boxOfCharacter(textNode, signIndex).right <= boxOfCharacter(textNode, signIndex + 1).left + 0.5]);
+          if (signIndex >= 0 && textNode.parentElement?.checkVisibility()) signBoxes.push([textNode.data, characterBoxOf(textNode, signIndex).right <= characterBoxOf(textNode, signIndex + 1).left + 0.5]);
         }
         return signBoxes;
       });

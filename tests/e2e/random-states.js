@@ -104,7 +104,7 @@ export function createRandomStates(seed) {
     },
   };
   return Object.fromEntries(Object.entries(fieldsByTag).map(([widgetTag, stateFields]) => {
-    // Every word of a keyword setting is allowed, and both values of a Boolean setting.
+    // A keyword setting may have each of its words, and a Boolean setting both values.
     const settingChoices = settings[widgetTag].flatMap(({ key, type, words = [true, false] }) => (['word', 'boolean'].includes(type) ? [[key, drawItem(words)]] : []));
     return [widgetTag, { version: 1, widget: widgetTag, ...Object.fromEntries(settingChoices), ...stateFields }];
   }));

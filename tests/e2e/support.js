@@ -305,11 +305,11 @@ export async function dragSlider(sliderLocator, endShare) {
     return (Number(value) - Number(min)) / (Number(max) - Number(min));
   });
   // The centre of the thumb moves over the width of the input, less the width of the thumb.
-  const xAtShare = (/** @type {number} */ widthShare) => x + height * 0.3 + widthShare * (width - height * 0.6);
-  await page.mouse.move(xAtShare(startShare), y + height / 2);
+  const thumbXOf = (/** @type {number} */ widthShare) => x + height * 0.3 + widthShare * (width - height * 0.6);
+  await page.mouse.move(thumbXOf(startShare), y + height / 2);
   await page.mouse.down();
-  await page.mouse.move(xAtShare((startShare + endShare) / 2), y + height / 2, { steps: 4 });
-  await page.mouse.move(xAtShare(endShare), y + height / 2, { steps: 4 });
+  await page.mouse.move(thumbXOf((startShare + endShare) / 2), y + height / 2, { steps: 4 });
+  await page.mouse.move(thumbXOf(endShare), y + height / 2, { steps: 4 });
   await page.mouse.up();
 }
 

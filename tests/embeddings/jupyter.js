@@ -149,7 +149,7 @@ const VOILA_CHECKS = {
 /** @type {import('./project.mjs').Platform} */
 export default {
   heading: 'Jupyter',
-  versions: () => pinnedVersionsOf('jupyter', 'jupyterlab', 'anywidget', 'nbconvert', 'voila'),
+  readVersions: () => pinnedVersionsOf('jupyter', 'jupyterlab', 'anywidget', 'nbconvert', 'voila'),
   python: true,
   async install(directory, { run: execute, start, pythonWheel }) {
     const toolsDirectory = pythonDirectoryOf(directory);

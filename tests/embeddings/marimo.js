@@ -17,7 +17,7 @@ const MARIMO_CHECKS = {
 /** @type {import('./project.mjs').Platform} */
 export default {
   heading: 'marimo',
-  versions: () => pinnedVersionsOf('marimo', 'marimo', 'anywidget'),
+  readVersions: () => pinnedVersionsOf('marimo', 'marimo', 'anywidget'),
   python: true,
   install: (directory, tools) => installPythonPackages(directory, tools, [tools.pythonWheel]),
   servings: [

@@ -9,7 +9,7 @@ const serveWithNext = (command, ...nextArguments) => serveByProgram((port) => ['
 /** @type {import('./project.mjs').Platform} */
 export default {
   heading: 'Next',
-  versions: () => pinnedVersionsOf('next', 'next', 'react'),
+  readVersions: () => pinnedVersionsOf('next', 'next', 'react'),
   install: installNpmPackages,
   build: (_directory, { run }) => run('npm', ['run', 'build']),
   servings: [

@@ -104,7 +104,7 @@ export function copySingleFiles(directory) {
 
 /** @type {[string, Platform][]} */
 const platformEntries = Object.entries(PLATFORM_DEFINITIONS).map(([name, { packages, output, base, devBase, copyDirectory, hasListProperty, onlyServing, ...otherFields }]) => [name, {
-  versions: () => pinnedVersionsOf(name, ...packages),
+  readVersions: () => pinnedVersionsOf(name, ...packages),
   install: installNpmPackages,
   async build(directory, { run }) {
     if (copyDirectory) copySingleFiles(join(directory, copyDirectory));

@@ -18,7 +18,7 @@ import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
  *
  * @typedef {object} Platform
  * @property {string} heading of its section in doc/embedding/, and its name in the table of doc/embedding.md
- * @property {() => string} versions of its packages, as the files of the example pin them
+ * @property {() => string} readVersions of its packages, as the files of the example pin them
  * @property {boolean} [python] true if it uses the Python package
  * @property {number} [node] major version of Node that it needs, if newer than that of our package
  * @property {(directory: string, tools: Tools & PackagePaths) => Promise<unknown>} install installs the packages in a fresh copy of the example

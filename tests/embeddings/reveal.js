@@ -20,7 +20,7 @@ const SLIDE_CHECKS = {
 /** @type {import('./project.mjs').Platform} */
 export default {
   heading: 'reveal.js',
-  versions: () => pinnedVersionsOf('reveal', 'reveal.js'),
+  readVersions: () => pinnedVersionsOf('reveal', 'reveal.js'),
   install: installNpmPackages,
   servings: [{ name: 'page', serve: serveFiles('.'), checks: SLIDE_CHECKS }],
   pages: { first: '/' },

@@ -78,7 +78,7 @@ async function testPlatforms(platformNames) {
 /** Prints the versions of the packages and the outcomes. @param {Outcome[]} outcomes @param {string} version of the browser */
 async function printSummary(outcomes, version) {
   printStep(`Versions: Node ${process.versions.node}, Chromium ${version}`);
-  for (const name of new Set(outcomes.map(({ name }) => name))) console.log(`${name.padEnd(16)} ${(await loadPlatform(name)).versions()}`);
+  for (const name of new Set(outcomes.map(({ name }) => name))) console.log(`${name.padEnd(16)} ${(await loadPlatform(name)).readVersions()}`);
   printStep('Summary');
   for (const { name, serving, passed, failures, seconds } of outcomes) {
     const countText = `${passed} passed, ${failures.length} failed`;

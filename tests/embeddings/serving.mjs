@@ -36,7 +36,7 @@ export const serveByProgram = (commandOf, base = '/') => async (directory, { sta
   const url = `http://localhost:${port}${base}`;
   const platformServer = start(...commandOf(port, directory));
   const earlyEndPromise = platformServer.whenEnded.then(() => {
-    throw new Error(`The server has ended:\n${platformServer.output()}`);
+    throw new Error(`The server has ended:\n${platformServer.getOutput()}`);
   });
   try {
     await Promise.race([untilAnswered(url), earlyEndPromise]);
@@ -69,12 +69,12 @@ async function untilAnswered(url) {
 }
 
 /**
- * Starts a server. It ends with all its children at the latest when this process ends.
+ * Starts a program. The program and its children end with this process at the latest.
  *
  * @param {string} command
  * @param {string[]} commandArguments
  * @param {{ env?: Record<string, string>, cwd?: string }} [options]
- * @returns {{ output: () => string, waitForOutput: (pattern: RegExp) => Promise<string>, whenEnded: Promise<void>, stop: () => Promise<void> }}
+ * @returns {{ getOutput: () => string, waitForOutput: (pattern: RegExp) => Promise<string>, whenEnded: Promise<void>, stop: () => Promise<void> }}
  *   `output` returns the text printed so far; `waitForOutput` waits for a match of a pattern and returns its first group; both other
  *   promises are resolved when the program has ended
  */
@@ -96,7 +96,7 @@ export function startProgram(command, commandArguments, { env = {}, cwd = ROOT }
     });
   });
   return {
-    output: () => outputText,
+    getOutput: () => outputText,
     waitForOutput: (outputPattern) =>
       new Promise((resolve, reject) => {
         const checkOutput = () => {

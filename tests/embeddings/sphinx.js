@@ -26,7 +26,7 @@ const themeNames = Object.keys(DARK_SWITCH_OF_THEME);
 /** @type {import('./project.mjs').Platform} */
 export default {
   heading: 'Sphinx',
-  versions: () => pinnedVersionsOf('sphinx', 'sphinx', ...themeNames.map((themeName) => themeName.replaceAll('_', '-'))),
+  readVersions: () => pinnedVersionsOf('sphinx', 'sphinx', ...themeNames.map((themeName) => themeName.replaceAll('_', '-'))),
   async install(directory, tools) {
     await installPythonPackages(directory, tools, []);
   },

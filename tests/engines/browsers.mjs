@@ -51,21 +51,21 @@ async function startFirefox() {
 async function startWebKit() {
   const { driver, display } = await ensureWebKit();
   // Xvfb takes the first free display number, and prints it when it is ready.
-  const screenProcess = startProgram(display, ['-displayfd', '1', '-screen', '0', '1600x1200x24', '-nolisten', 'tcp']);
-  const displayNumber = await screenProcess.waitForOutput(/^(\d+)\n/m);
+  const xvfbProcess = startProgram(display, ['-displayfd', '1', '-screen', '0', '1600x1200x24', '-nolisten', 'tcp']);
+  const displayNumber = await xvfbProcess.waitForOutput(/^(\d+)\n/m);
   const configDirectory = mkdtempSync(join(tmpdir(), 'motion-engines-'));
   mkdirSync(join(configDirectory, 'gtk-3.0'));
   writeFileSync(join(configDirectory, 'gtk-3.0/settings.ini'), '[Settings]\ngtk-enable-animations=false\n');
   const displayEnvironment = { DISPLAY: `:${displayNumber}`, XDG_CONFIG_HOME: configDirectory };
   // WebKit's driver starts MiniBrowser by itself.
   return startBrowserByDriver(driver, displayEnvironment, { browserName: 'MiniBrowser' }, async () => {
-    await screenProcess.stop();
+    await xvfbProcess.stop();
     rmSync(configDirectory, { recursive: true });
   });
 }
 
 /**
- * Starts an engine by its driver.
+ * Starts a browser by its WebDriver program.
  *
  * @param {string} driverPath program that speaks WebDriver
  * @param {Record<string, string>} driverEnvironment

@@ -110,7 +110,7 @@ async function createRecordings() {
       { topic: '/tf', type: TF, t, message: { transforms: [transformMessageOf(t, 'map', 'odom', i, 0, 0), transformMessageOf(t, 'odom', 'base', i, 0, 0)] } },
     ];
   }).flat();
-  const recordingOptions = /** @type {const} */ ([{ chunkSize: 4096 }, { compression: 'zstd' }, { compression: 'lz4' }, { index: false }, { index: false, chunks: true, compression: 'lz4' }]);
+  const recordingOptions = /** @type {const} */ ([{ chunkSize: 4096 }, { compression: 'zstd' }, { compression: 'lz4' }, { hasIndex: false }, { hasIndex: false, hasChunks: true, compression: 'lz4' }]);
   return Promise.all(recordingOptions.map(async (recordingForm) => clearChecksums(await recordingOf(messages, { chunkSize: 1024, ...recordingForm }))));
 }
 

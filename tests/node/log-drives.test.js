@@ -139,11 +139,11 @@ test('several recordings are separate drives, or each contains one log of the sa
 /** Reads drives from tables, which are given by name. @param {Record<string, string>} textByName @param {import('../../www/logs/drives.ts').UserChoices} [userChoices] */
 const readDrivesOf = async (textByName, userChoices) => readDrives(planDrives(await openRecordings(Object.entries(textByName).map(([name, text]) => new File([text], name))), userChoices));
 
-/** Returns a table of poses with a time column. @param {number} rowCount @param {(i: number) => number[]} rowAt */
-const poseTableOf = (rowCount, rowAt) => ['t,x,y,yaw', ...Array.from({ length: rowCount }, (_, i) => rowAt(i).join(','))].join('\n');
+/** Returns a table of poses with a time column. @param {number} rowCount @param {(i: number) => number[]} createRow */
+const poseTableOf = (rowCount, createRow) => ['t,x,y,yaw', ...Array.from({ length: rowCount }, (_, i) => createRow(i).join(','))].join('\n');
 
-/** Returns a table of poses along x at 20 Hz. @param {(i: number) => number} xAt @param {number} [startTime] */
-const straightTableOf = (xAt, startTime = 0) => poseTableOf(400, (i) => [startTime + i / 20, xAt(i), 0, 0]);
+/** Returns a table of poses along x at 20 Hz. @param {(i: number) => number} xOfRow @param {number} [startTime] */
+const straightTableOf = (xOfRow, startTime = 0) => poseTableOf(400, (i) => [startTime + i / 20, xOfRow(i), 0, 0]);
 
 test('logs of several drives are paired by their times, or in their order', async () => {
   const pairedNamesOf = async (/** @type {Record<string, number>} */ startTimes) => (await readDrivesOf(Object.fromEntries(Object.entries(startTimes).map(([name, start], k) => [name, straightTableOf((i) => (i * (10 + k)) / 1000, start)])))).map(({ odometry, reference }) => [odometry.name, reference.name]);
@@ -177,21 +177,21 @@ test('names that suggest a localizer, or swapped logs, are reported', async () =
 });
 
 test('a frozen reference is interrupted only while the odometry moves', async () => {
-  const odometryXAt = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;
-  const movingOdometryTable = straightTableOf(odometryXAt);
-  const referenceXAt = (/** @type {number} */ i) => 1.01 * odometryXAt(i);
+  const odometryXOf = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;
+  const movingOdometryTable = straightTableOf(odometryXOf);
+  const referenceXOf = (/** @type {number} */ i) => 1.01 * odometryXOf(i);
   const readReference = async (/** @type {string} */ reference, odometryTable = movingOdometryTable) => (await readDrivesOf({ 'odom.csv': odometryTable, 'truth.csv': reference }))[0].reference;
-  assert.deepEqual([(await readReference(straightTableOf(referenceXAt))).summary.dropped, (await readReference(straightTableOf(referenceXAt))).summary.used], [{}, 400]);
-  const frozenTable = straightTableOf((i) => referenceXAt(i >= 200 && i < 300 ? 200 : i));
+  assert.deepEqual([(await readReference(straightTableOf(referenceXOf))).summary.dropped, (await readReference(straightTableOf(referenceXOf))).summary.used], [{}, 400]);
+  const frozenTable = straightTableOf((i) => referenceXOf(i >= 200 && i < 300 ? 200 : i));
   const { data, summary } = await readReference(frozenTable);
   assert.deepEqual([data.t.length, [...data.breaks], summary.used, summary.dropped], [400, Array.from({ length: 100 }, (_, i) => 201 + i), 301, { held: { count: 99, first: 0 } }]);
   assert.equal(await catchRefusalSentence(readReference(straightTableOf(() => 7))), 'truth.csv: its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.');
   // A pause of two seconds does not count as lost. A pause in which the odometry moves by five centimetres does not count as lost either.
-  const droppedCountDuring = async (/** @type {number} */ pauseSeconds, /** @type {number} */ pauseSpeed) => {
+  const countDroppedDuring = async (/** @type {number} */ pauseSeconds, /** @type {number} */ pauseSpeed) => {
     const xOf = (/** @type {number} */ i) => (pauseSpeed * i) / 20;
     return (await readReference(straightTableOf((i) => 1.01 * xOf(i >= 200 && i <= 200 + 20 * pauseSeconds ? 200 : i)), straightTableOf(xOf))).summary.dropped.held?.count;
   };
-  assert.deepEqual([await droppedCountDuring(2, 0.4), await droppedCountDuring(2.2, 0.4), await droppedCountDuring(7, 0.0095), await droppedCountDuring(7, 0.0105)], [undefined, 44, undefined, 140]);
+  assert.deepEqual([await countDroppedDuring(2, 0.4), await countDroppedDuring(2.2, 0.4), await countDroppedDuring(7, 0.0095), await countDroppedDuring(7, 0.0105)], [undefined, 44, undefined, 140]);
   // A log of commands shows by its speeds that the robot moves.
   const commandTable = ['t,v,omega', ...Array.from({ length: 400 }, (_, i) => `${i / 20},${i < 100 ? 0 : 0.4},0`)].join('\n');
   assert.equal((await readReference(frozenTable, commandTable)).summary.dropped.held?.count, 99);

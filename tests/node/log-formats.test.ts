@@ -21,7 +21,7 @@ const decompressFile = (fileName: string) => gunzipSync(Buffer.from(COMPRESSED_F
 const createFile = (fileContents: Uint8Array | string, fileName: string, folderPath?: string): Source => Object.assign(new File([fileContents as BlobPart], fileName), folderPath ? { path: folderPath } : {});
 
 /** Returns the files of a rosbag2 folder. In recordings.json their names begin with the name of the folder. */
-const filesOfFolder = (name: string): Source[] =>
+const folderFilesOf = (name: string): Source[] =>
   Object.keys(COMPRESSED_FILES).filter((fileName) => fileName.startsWith(`${name}-metadata`) || fileName.startsWith(`${name}-${name}.`)).map((fileName) => {
     const nameInFolder = fileName.slice(name.length + 1);
     return createFile(decompressFile(fileName), nameInFolder, `${name}/${nameInFolder}`);
@@ -44,7 +44,7 @@ const fileListOf = (name: string) => [createFile(decompressFile(name), name)];
 
 /** Metadata of a recording in two files. */
 const SPLIT_METADATA = 'rosbag2_bagfile_information:\n  version: 5\n  relative_file_paths: [split0.mcap, split1.mcap]\n';
-const filesOfSplitRecording = (...partNumbers: number[]) => [
+const splitRecordingFilesOf = (...partNumbers: number[]) => [
   ...partNumbers.map((partNumber) => createFile(decompressFile(`split${partNumber}-split${partNumber}.mcap`), `split${partNumber}.mcap`, `drive/split${partNumber}.mcap`)),
   createFile(SPLIT_METADATA, 'metadata.yaml', 'drive/metadata.yaml'),
 ];
@@ -54,9 +54,9 @@ const SOURCES_BY_RECORDING: Record<string, Source[]> = {
   'none.mcap': fileListOf('none.mcap'), 'lz4.mcap': fileListOf('lz4.mcap'), 'zstd.mcap': fileListOf('zstd.mcap'), 'unindexed.mcap': fileListOf('unindexed.mcap'),
   'unchunked.mcap': fileListOf('unchunked.mcap'), 'ros1-support.mcap': fileListOf('ros1-support.mcap'), 'ros2-support.mcap': fileListOf('ros2-support.mcap'),
   'a compressed database alone': fileListOf('sqlite-file-sqlite-file.db3.zstd'),
-  sqlite: filesOfFolder('sqlite'), 'sqlite-messages': filesOfFolder('sqlite-messages'), 'sqlite-file': filesOfFolder('sqlite-file'),
-  'mcap-messages': filesOfFolder('mcap-messages'), 'mcap-file': filesOfFolder('mcap-file'),
-  'split files': filesOfSplitRecording(0, 1), 'split files in another order': filesOfSplitRecording(1, 0),
+  sqlite: folderFilesOf('sqlite'), 'sqlite-messages': folderFilesOf('sqlite-messages'), 'sqlite-file': folderFilesOf('sqlite-file'),
+  'mcap-messages': folderFilesOf('mcap-messages'), 'mcap-file': folderFilesOf('mcap-file'),
+  'split files': splitRecordingFilesOf(0, 1), 'split files in another order': splitRecordingFilesOf(1, 0),
 };
 
 for (const [name, sources] of Object.entries(SOURCES_BY_RECORDING)) {
@@ -103,7 +103,7 @@ for (const name of ['types.bag', 'types.mcap']) {
 
 test('a recording with a missing file is refused', async () => {
   for (const [partNumbers, missingParts] of [[[1], 'split0.mcap'], [[], 'split0.mcap, split1.mcap']] as const) {
-    assert.equal(await catchRefusalSentence(openRecordings(filesOfSplitRecording(...partNumbers))), `drive/metadata.yaml: it describes a recording in ${missingParts}; give that file too, or the whole folder.`);
+    assert.equal(await catchRefusalSentence(openRecordings(splitRecordingFilesOf(...partNumbers))), `drive/metadata.yaml: it describes a recording in ${missingParts}; give that file too, or the whole folder.`);
   }
   assert.match(await catchRefusalSentence(openRecordings([createFile(SPLIT_METADATA, 'metadata.yaml', '')])), /^metadata\.yaml: it describes/);
 });
@@ -212,7 +212,7 @@ test('files that are not recordings are refused', async () => {
   // The first page of the database is a leaf without tables.
   emptyDatabase[100] = 13;
   assert.match(await catchRefusalSentence(openRecordings([createFile(emptyDatabase, 'run.db3')])), /without the tables “topics” and “messages” of rosbag2; expected/);
-  assert.match(await catchRefusalSentence(openRecordings([createFile('t,x,y,yaw\n', 'split0.mcap', 'drive/split0.mcap'), ...filesOfSplitRecording(1)])), /^split0\.mcap: it is listed in the metadata\.yaml of a recording, and is none;/);
+  assert.match(await catchRefusalSentence(openRecordings([createFile('t,x,y,yaw\n', 'split0.mcap', 'drive/split0.mcap'), ...splitRecordingFilesOf(1)])), /^split0\.mcap: it is listed in the metadata\.yaml of a recording, and is none;/);
   const largeFile = { name: 'run.db3', size: 2 ** 30 + 1, slice: () => new Blob(['\x28\xb5\x2f\xfd'].map((text) => Buffer.from(text, 'latin1'))) };
   assert.match(await catchRefusalSentence(openRecordings([largeFile])), /^run\.db3: it has more than 1073741824 bytes when it is decompressed; decompress it with “zstd -d”/);
   const shortRecording = await openRecording(...fileListOf('small.db3'));
@@ -220,31 +220,31 @@ test('files that are not recordings are refused', async () => {
 });
 
 const TF_TYPE = 'tf2_msgs/msg/TFMessage';
-const timeAt = (i: number) => 1_700_000_000 + i / 20;
-const createTfMessage = (i: number, ...transforms: unknown[]): Message => ({ topic: '/tf', type: TF_TYPE, t: timeAt(i), message: { transforms } });
+const timeOf = (i: number) => 1_700_000_000 + i / 20;
+const createTfMessage = (i: number, ...transforms: unknown[]): Message => ({ topic: '/tf', type: TF_TYPE, t: timeOf(i), message: { transforms } });
 const stepCount = 40;
-const mapSteps = <T>(makeItem: (i: number) => T): T[] => Array.from({ length: stepCount }, (_, i) => makeItem(i));
+const createForEachStep = <T>(makeItem: (i: number) => T): T[] => Array.from({ length: stepCount }, (_, i) => makeItem(i));
 const readLogsOf = async (messages: Message[], ...choices: LogChoice[]) => (await openRecording(createFile(await recordingOf(messages), 'run.mcap'))).read(choices);
 const BASE_CHOICE = { series: '/tf', frames: { parent: 'odom', child: 'base_link' } };
-const createMovingTransform = (i: number) => transformMessageOf(timeAt(i), 'odom', 'base_footprint', i / 50, 0, 0);
+const createMovingTransform = (i: number) => transformMessageOf(timeOf(i), 'odom', 'base_footprint', i / 50, 0, 0);
 
 test('a constant transform is not accepted as a log', async () => {
-  const messages = mapSteps((i) => createTfMessage(i, transformMessageOf(timeAt(i), 'odom', 'base_link', 1, 2, 0), transformMessageOf(timeAt(i), 'map', 'robot', i / 50, 0, 0)));
+  const messages = createForEachStep((i) => createTfMessage(i, transformMessageOf(timeOf(i), 'odom', 'base_link', 1, 2, 0), transformMessageOf(timeOf(i), 'map', 'robot', i / 50, 0, 0)));
   assert.equal(await catchRefusalSentence(readLogsOf(messages, BASE_CHOICE)), 'run.mcap, topic /tf: the transform odom → base_link never changes, so it is no path of a robot; expected are frames that move, as map → robot.');
-  const constantMessages = mapSteps((i) => createTfMessage(i, transformMessageOf(timeAt(i), 'odom', 'base_link', 1, 2, 0)));
+  const constantMessages = createForEachStep((i) => createTfMessage(i, transformMessageOf(timeOf(i), 'odom', 'base_link', 1, 2, 0)));
   assert.match(await catchRefusalSentence(readLogsOf(constantMessages, BASE_CHOICE)), /never changes, so it is no path of a robot; expected are frames that move\.$/);
 });
 
 test('a constant transform that is published more often than the changing transform adds no rows', async () => {
-  const messages = mapSteps((i) => [createTfMessage(i, createMovingTransform(i)), ...[0.3, 0.6].map((timeOffset) => createTfMessage(i + timeOffset, transformMessageOf(timeAt(i + timeOffset), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
+  const messages = createForEachStep((i) => [createTfMessage(i, createMovingTransform(i)), ...[0.3, 0.6].map((timeOffset) => createTfMessage(i + timeOffset, transformMessageOf(timeOf(i + timeOffset), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
   const [{ data }] = await readLogsOf(messages, BASE_CHOICE);
   assert.deepEqual([...data.t].map((t) => Math.round(20 * t)), [...Array(stepCount).keys()]);
-  assert.deepEqual([...(data as Poses).x], mapSteps((i) => i / 50 + 0.5));
+  assert.deepEqual([...(data as Poses).x], createForEachStep((i) => i / 50 + 0.5));
 });
 
 test('a topic with messages of two types is refused', async () => {
-  const messages: Message[] = mapSteps((i) => {
-    const message = { topic: '/odom', type: 'nav_msgs/msg/Odometry', t: timeAt(i), message: odometryMessageOf(timeAt(i), i / 50, 0, 0) };
+  const messages: Message[] = createForEachStep((i) => {
+    const message = { topic: '/odom', type: 'nav_msgs/msg/Odometry', t: timeOf(i), message: odometryMessageOf(timeOf(i), i / 50, 0, 0) };
     return i % 2 ? { ...message, schema: 'geometry_msgs/msg/PoseStamped' } : message;
   });
   assert.match(await catchRefusalSentence(readLogsOf(messages, { series: '/odom' })), /^run\.mcap, topic \/odom: its type is “nav_msgs\/msg\/Odometry, geometry_msgs\/msg\/PoseStamped”;/);

@@ -25,9 +25,9 @@ function createDriveMessages() {
   const driveMessages = [];
   for (let i = 0; i < MESSAGE_COUNT; i++) {
     // Messages are recorded a little later than their stamps.
-    const [t, recordTime] = [timeOf(i), timeOf(i) + 0.01];
+    const [t, recordingTime] = [timeOf(i), timeOf(i) + 0.01];
     const [x, y, theta] = [i / 100, i / 200, i / 50];
-    const addMessage = (/** @type {string} */ topic, /** @type {string} */ type, /** @type {any} */ message) => driveMessages.push({ topic, type, t: recordTime, message });
+    const addMessage = (/** @type {string} */ topic, /** @type {string} */ type, /** @type {any} */ message) => driveMessages.push({ topic, type, t: recordingTime, message });
     if (i === MESSAGE_COUNT - 1) addMessage('/tf_static', TF_TYPE, { transforms: [transformMessageOf(t, '/base_footprint', 'base_link', 0.5, 0, 0)] });
     if (i % 5 === 0) addMessage('/tf', TF_TYPE, { transforms: [transformMessageOf(t + 1, 'map', 'odom', 1, 2, Math.PI / 2)] });
     addMessage('/tf', TF_TYPE, { transforms: [transformMessageOf(t, 'odom', 'base_footprint', x, y, theta), transformMessageOf(t, 'base_link', 'wheel', 0, 0, 9 * theta)] });
@@ -39,13 +39,13 @@ function createDriveMessages() {
   return driveMessages;
 }
 
-/** Returns messages of odometry along x. @param {number} messageCount @param {(i: number) => any} [messageAt] */
-const createOdometryMessages = (messageCount, messageAt = (i) => odometryMessageOf(timeOf(i), i, 0, 0)) => Array.from({ length: messageCount }, (_, i) => ({ topic: '/odom', type: ODOMETRY_TYPE, t: timeOf(i), message: messageAt(i) }));
+/** Returns messages of odometry along x. @param {number} messageCount @param {(i: number) => any} [createMessage] */
+const createOdometryMessages = (messageCount, createMessage = (i) => odometryMessageOf(timeOf(i), i, 0, 0)) => Array.from({ length: messageCount }, (_, i) => ({ topic: '/odom', type: ODOMETRY_TYPE, t: timeOf(i), message: createMessage(i) }));
 
 const mcapFileOf = (/** @type {Uint8Array<ArrayBuffer>} */ mcapBytes) => new File([mcapBytes], 'run.mcap');
 
-const assertAllClose = (/** @type {ArrayLike<number>} */ actualValues, /** @type {(i: number) => number} */ expectedAt) => {
-  for (let i = 0; i < actualValues.length; i++) assert.ok(Math.abs(actualValues[i] - expectedAt(i)) < 1e-9, `${i}: ${actualValues[i]}, not ${expectedAt(i)}`);
+const assertAllClose = (/** @type {ArrayLike<number>} */ actualValues, /** @type {(i: number) => number} */ expectedValueOf) => {
+  for (let i = 0; i < actualValues.length; i++) assert.ok(Math.abs(actualValues[i] - expectedValueOf(i)) < 1e-9, `${i}: ${actualValues[i]}, not ${expectedValueOf(i)}`);
 };
 
 test('topics are listed, and topics and chains of frames are read in one pass', async () => {
@@ -93,8 +93,8 @@ test('an incomplete index is not used', async () => {
 });
 
 test('stamps that begin at 0 are used; messages without stamps get the recording times, with a note in the summary', async () => {
-  const readLogWithStamps = async (/** @type {(i: number) => number} */ stampAt) => {
-    const messages = createOdometryMessages(100, (i) => odometryMessageOf(stampAt(i), i, 0, 0)).map((message, i) => ({ ...message, t: 1_700_000_000 + i / 20 }));
+  const readLogWithStamps = async (/** @type {(i: number) => number} */ frameStampOf) => {
+    const messages = createOdometryMessages(100, (i) => odometryMessageOf(frameStampOf(i), i, 0, 0)).map((message, i) => ({ ...message, t: 1_700_000_000 + i / 20 }));
     const log = await readLog(mcapFileOf(await recordingOf(messages)), { series: '/odom' });
     return { ...log, sentences: summarySentencesOf(log, english.found).join(' ') };
   };
@@ -151,12 +151,12 @@ test('topics and frames that cannot be read are refused', async () => {
 });
 
 test('a static transform is valid from the beginning, and a changing transform from its first message', async () => {
-  const createTransformMessages = (/** @type {(i: number) => number} */ mountX) => Array.from({ length: 60 }, (_, i) => [
+  const createTransformMessages = (/** @type {(i: number) => number} */ mountXOf) => Array.from({ length: 60 }, (_, i) => [
     transformMessageOf(i / 10, 'world', 'marker', i / 20, 0, 0),
-    ...(i % 3 === 0 && i >= 30 ? [transformMessageOf(i / 10, 'marker', 'base', mountX(i), 0, 0)] : []),
+    ...(i % 3 === 0 && i >= 30 ? [transformMessageOf(i / 10, 'marker', 'base', mountXOf(i), 0, 0)] : []),
   ].map((transform) => ({ topic: '/tf', type: TF_TYPE, t: i / 10, message: { transforms: [transform] } }))).flat();
-  const readLogWithMount = async (/** @type {(i: number) => number} */ mountX) => {
-    const { start, data, summary } = await readLog(mcapFileOf(await recordingOf(createTransformMessages(mountX))), { series: '/tf', frames: { parent: 'world', child: 'base' } });
+  const readLogWithMount = async (/** @type {(i: number) => number} */ mountXOf) => {
+    const { start, data, summary } = await readLog(mcapFileOf(await recordingOf(createTransformMessages(mountXOf))), { series: '/tf', frames: { parent: 'world', child: 'base' } });
     return [data.t.length, start + data.t[0], /** @type {any} */ (data).x[0], summary.rows];
   };
   assert.deepEqual(await readLogWithMount(() => 0.5), [60, 0, 0.5, 60]);
@@ -198,7 +198,7 @@ test('chunks with a wrong checksum or size are not read', async () => {
   damagedBytes[damagedBytes.length >> 2] ^= 1;
   assert.equal(await readReason(damagedBytes), 'the checksum of a chunk is wrong');
 
-  const bytes = await recordingOf(createOdometryMessages(20), { compression: 'zstd', index: false, chunks: true, chunkSize: 1e6 });
+  const bytes = await recordingOf(createOdometryMessages(20), { compression: 'zstd', hasIndex: false, hasChunks: true, chunkSize: 1e6 });
   // In a chunk record, the name of the compression follows the record's code and length, two times, size, checksum and the name's length.
   const chunkPosition = bytes.indexOf(Buffer.from('zstd')) - 4 - 4 - 8 - 16 - 9;
   for (const [statedSize, expectedReason] of /** @type {const} */ ([
@@ -213,10 +213,10 @@ test('chunks with a wrong checksum or size are not read', async () => {
 test('a file that is read in pieces gives the right bytes, across pieces and after skipped ranges', async () => {
   const drawRandom = createRandomGenerator(7);
   const bytes = Buffer.alloc(60e6, Buffer.from(Array.from({ length: 9973 }, () => drawRandom() * 256)));
-  const readRange = createAheadReader(new File([bytes], 'run.mcap'));
+  const readByteRange = createAheadReader(new File([bytes], 'run.mcap'));
   for (let start = 0; start < bytes.length; ) {
     const chunkEnd = Math.min(bytes.length, start + Math.floor(drawRandom() ** 8 * 3e7));
-    assert.deepEqual([chunkEnd, bytes.compare(await readRange(start, chunkEnd), 0, chunkEnd - start, start, chunkEnd)], [chunkEnd, 0]);
+    assert.deepEqual([chunkEnd, bytes.compare(await readByteRange(start, chunkEnd), 0, chunkEnd - start, start, chunkEnd)], [chunkEnd, 0]);
     start = drawRandom() < 0.05 ? Math.min(bytes.length, chunkEnd + 3e6) : chunkEnd;
   }
 });

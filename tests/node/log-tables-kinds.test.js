@@ -106,8 +106,8 @@ test('zero bytes in a table remove only the row that contains them', async () =>
 });
 
 test('rows with the stamp 0 are dropped, and the other stamps are still used as the clock', async () => {
-  const stampAt = (/** @type {number} */ i) => (i < 2 || i === 30 ? 0 : `${1_718_000_000 + Math.floor(i / 8)}${String((i % 8) * 125).padStart(3, '0')}000000`);
-  const tableRows = Array.from({ length: 60 }, (_, i) => `${1_718_000_007 + i / 8},${stampAt(i)},${i / 20},0,0`);
+  const stampTextOf = (/** @type {number} */ i) => (i < 2 || i === 30 ? 0 : `${1_718_000_000 + Math.floor(i / 8)}${String((i % 8) * 125).padStart(3, '0')}000000`);
+  const tableRows = Array.from({ length: 60 }, (_, i) => `${1_718_000_007 + i / 8},${stampTextOf(i)},${i / 20},0,0`);
   const { start, data, summary } = await readTable(['time,header.stamp,x,y,yaw', ...tableRows].join('\n'));
   assert.deepEqual([start, data.t.length, data.t[0], summary.clock, summary.units.time.unit], [1_718_000_000, 57, 0.25, 'header.stamp', 'ns']);
   assert.deepEqual([summary.dropped, [...data.breaks]], [{ noStamp: { count: 3, first: 2 } }, []]);
@@ -129,9 +129,9 @@ test('poses that a table repeats at the rate of another log are used once', asyn
 
 test('pauses and jumps are found, and a heading that wraps around is not a jump', async () => {
   // Five median steps are not long enough for a pause. Eight times the usual speed is not fast enough for a jump.
-  const delayAt = (/** @type {number} */ i) => (i >= 50 ? 0.19 : 0) + (i >= 60 ? 0.21 : 0) + (i >= 100 ? 3 : 0);
-  const offsetAt = (/** @type {number} */ i) => (i >= 150 ? 0.34 : 0) + (i >= 200 ? 0.36 : 0);
-  const tableRows = Array.from({ length: 400 }, (_, i) => [i / 20 + delayAt(i), i / 20 + offsetAt(i), 0, i / 500 + (i >= 300 ? 1.5 : 0)].join(','));
+  const delayOf = (/** @type {number} */ i) => (i >= 50 ? 0.19 : 0) + (i >= 60 ? 0.21 : 0) + (i >= 100 ? 3 : 0);
+  const offsetOf = (/** @type {number} */ i) => (i >= 150 ? 0.34 : 0) + (i >= 200 ? 0.36 : 0);
+  const tableRows = Array.from({ length: 400 }, (_, i) => [i / 20 + delayOf(i), i / 20 + offsetOf(i), 0, i / 500 + (i >= 300 ? 1.5 : 0)].join(','));
   const { summary, data } = await readTable(`t,x,y,yaw\n${tableRows.join('\n')}`);
   assert.deepEqual(summary.gaps, { count: 2, longest: 3.05, first: 59 / 20 + 0.19 });
   assert.deepEqual([summary.jumps, [...data.breaks]], [{ count: 2, first: 13.4 }, [200, 300]]);

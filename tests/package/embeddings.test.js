@@ -11,13 +11,13 @@ const embeddingDocuments = filesOf('doc').filter((path) => /embedding.*\.md$/.te
 const linesOf = (/** @type {string} */ sourceText) => sourceText.split('\n').map((line) => line.trim()).filter((line) => line !== '');
 
 /** Returns the lines of a file, or the lines of a notebook's cells. @param {string} path @returns {string[]} */
-function linesOfFile(path) {
+function fileLinesOf(path) {
   const text = readFileSync(join(ROOT, path), 'utf8');
   return linesOf(path.endsWith('.ipynb') ? JSON.parse(text).cells.map((/** @type {any} */ { source }) => source.join('')).join('\n') : text);
 }
 
 for (const platformName of await findPlatformNames()) {
-  const { heading, versions } = await loadPlatform(platformName);
+  const { heading, readVersions: versions } = await loadPlatform(platformName);
 
   test(`${heading}: the document quotes the example, and states the tested versions`, () => {
     const tableRow = embeddingDocuments.split('\n').find((line) => line.startsWith(`| ${heading} |`));
@@ -25,7 +25,7 @@ for (const platformName of await findPlatformNames()) {
     const documentSection = embeddingDocuments.split(/^## /m).find((text) => text.startsWith(`${heading}\n`)) ?? '';
     // The files of the example contain no shell commands.
     const codeBlocks = [...documentSection.matchAll(/^```(\w*)\n(.*?)^```$/gms)].filter(([, codeLanguage]) => codeLanguage !== 'sh');
-    const exampleLines = new Set(filesOf(join('examples', platformName)).flatMap(linesOfFile));
+    const exampleLines = new Set(filesOf(join('examples', platformName)).flatMap(fileLinesOf));
     const missingLines = codeBlocks.flatMap(([, , codeBlock]) => linesOf(codeBlock)).filter((line) => !exampleLines.has(line));
     assert.deepEqual(missingLines, [], `examples/${platformName} does not have these lines of the document.`);
   });

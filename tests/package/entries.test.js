@@ -15,7 +15,7 @@ const installedProject = serveProject();
 const packagedPathOf = (/** @type {string} */ packagePath) => join(installedProject.directory, 'node_modules/motion-widgets', packagePath);
 
 /** Runs a module next to the installed package, and returns what it prints. @param {string} moduleSource */
-function outputOfNode(moduleSource) {
+function runNode(moduleSource) {
   const scriptPath = join(installedProject.directory, 'script.mjs');
   writeFileSync(scriptPath, moduleSource);
   return execFileSync(process.execPath, [scriptPath], { encoding: 'utf8' });
@@ -26,7 +26,7 @@ test('every script of the package can be imported in Node, and defines no global
   const scriptNames = Object.keys(exports).filter((entryName) => /\.js$/.test(exports[entryName].default));
   const importNames = scriptNames.map((name) => join('motion-widgets', name));
   assert.ok(importNames.length >= 4, importNames.join(' '));
-  const scriptOutput = outputOfNode(`
+  const scriptOutput = runNode(`
     const before = Object.getOwnPropertyNames(globalThis);
     for (const address of ${JSON.stringify(importNames)}) await import(address);
     console.log(JSON.stringify(Object.getOwnPropertyNames(globalThis).filter((name) => !before.includes(name))));
@@ -37,7 +37,7 @@ test('every script of the package can be imported in Node, and defines no global
 });
 
 test('the elements find the core in Node', () => {
-  const scriptOutput = outputOfNode(`
+  const scriptOutput = runNode(`
     import { isFigureTag, load } from 'motion-widgets';
     const { BananaMachine } = await load();
     console.log(new BananaMachine({ samples: 100 }).poses.length, isFigureTag('map-squeeze'), isFigureTag('map'));

@@ -23,7 +23,7 @@ function loadedFilesOf(path) {
 }
 
 /** Returns the files that a browser loads with a chunk of external.js. The entry point of the chunk is a source file. @param {string} sourcePath */
-function filesOfChunk(sourcePath) {
+function chunkFilesOf(sourcePath) {
   const chunkEntry = Object.entries(esbuildOutputs).find(([outputPath, { entryPoint }]) => entryPoint === sourcePath && outputPath.startsWith('dist/chunks/'));
   assert.ok(chunkEntry, `external.js has no chunk of ${sourcePath}.`);
   return loadedFilesOf(chunkEntry[0]);
@@ -31,7 +31,7 @@ function filesOfChunk(sourcePath) {
 
 /** Returns the scripts that a page with some widgets loads before a user uses them. @param {string[]} widgetTags @param {string} coreEntry */
 const scriptsOf = (widgetTags, coreEntry) =>
-  [...new Set([...loadedFilesOf('dist/external.js'), ...widgetTags.flatMap((widgetTag) => filesOfChunk(`www/widgets/${widgetTag}/${widgetTag}.ts`)), ...filesOfChunk(`build/${coreEntry}.js`)])];
+  [...new Set([...loadedFilesOf('dist/external.js'), ...widgetTags.flatMap((widgetTag) => chunkFilesOf(`www/widgets/${widgetTag}/${widgetTag}.ts`)), ...chunkFilesOf(`build/${coreEntry}.js`)])];
 
 /** Returns the path of the WebAssembly module of a widget. @param {string} tag */
 function modulePathOf(tag) {

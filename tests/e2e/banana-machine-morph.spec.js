@@ -95,7 +95,7 @@ test('Pin keeps numbers and outlines for comparison, and a second press removes 
   await expect(widget.locator('.readouts div').filter({ hasText: 'gain in fit on the floor' })).not.toContainText('pinned');
 });
 
-test('the title of the floor agrees with the fit of the ellipse', async ({ page }) => {
+test('the title of the floor view states how well the ellipse fits', async ({ page }) => {
   const widget = await openBanana(page);
   const panelTitle = widget.locator('.panel-title').first();
   for (const [changedSettings, fitText, expectedCallouts] of /** @type {const} */ ([

@@ -140,7 +140,7 @@ test('tables scroll over the sticky picture of a figure, unless a handle of the 
   })).toBe(true);
 });
 
-test.describe('on a screen with two pixels a CSS pixel', () => {
+test.describe('on a screen with two device pixels per CSS pixel', () => {
   test.use({ deviceScaleFactor: 2 });
 
   test('canvases have the pixel density of the screen, also of a screen that developer tools emulate', async ({ page, figureName }) => {

@@ -200,7 +200,7 @@ test('a figure with the attribute share keeps its state in the address, and foll
   expect(await readState(widget)).toEqual(stateBefore);
 });
 
-test.describe('the menu', () => {
+test.describe('the menu of a figure', () => {
   test.use({ permissions: ['clipboard-read', 'clipboard-write'] });
 
 test('copies a link, and the code to embed with the address of the script', async ({ page }) => {

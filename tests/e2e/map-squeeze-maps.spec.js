@@ -117,7 +117,7 @@ test('a floor plan can be typed into a text field', async ({ page }) => {
   expect((await readSqueezeResults(widget)).walls).toEqual([0, 0, 3, 3]);
 });
 
-test('a map_server pair can be dropped on the widget', async ({ page }) => {
+test('a YAML file and an image for map_server can be dropped on the figure', async ({ page }) => {
   const widget = await openSqueeze(page);
   await expect(currentMapOf(widget)).toHaveCount(0);
   await dropFiles(widget.locator('.stage'), [makeYamlFile('room.yaml', YAML_FIELDS), makePgmFile('room.pgm', ROOM_COLUMNS, ROOM_ROWS, isOnBorder)]);

@@ -145,7 +145,7 @@ test('the touch targets of a figure are large enough for a finger', async ({ pag
   expect(smallTargets).toEqual([]);
 });
 
-test.describe('a finger', () => {
+test.describe('a finger on a figure', () => {
   test.use({ hasTouch: true, viewport: { width: 375, height: 812 } });
 
   /** Swipes upwards from a point by touch events. @param {Page} page @param {{ x: number, y: number }} startPoint */
@@ -170,7 +170,7 @@ test.describe('a finger', () => {
   }
   const surroundingHtml = { before: '<div style="height: 300px"></div>', after: '<div style="height: 1500px"></div>' };
 
-  test('moves each handle of a figure without scrolling the page', async ({ page, handleFigureName }) => {
+  test('moves each handle without scrolling the page', async ({ page, handleFigureName }) => {
     const widget = await openWithDisclosures(page, handleFigureName, surroundingHtml);
     for (const handleSelector of FIGURE_FACTS[handleFigureName].handleSelectors ?? []) {
       const figureHandle = widget.locator(handleSelector);

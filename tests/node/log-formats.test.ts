@@ -83,7 +83,7 @@ function rowIndicesOf({ start, data }: Log, headingTolerance = 0): number[] {
 const createRange = (firstInteger: number, endInteger: number) => Array.from({ length: endInteger - firstInteger }, (_, i) => firstInteger + i);
 
 for (const name of ['types.bag', 'types.mcap']) {
-  test(`${name}: poses and commands of all types`, async () => {
+  test(`${name}: poses and commands of all message types are read`, async () => {
     const recording = await openRecording(createFile(decompressFile(name), name));
     const framePair = { parent: 'odom', child: 'base_link' };
     const poses = await recording.read([...['/fused', '/vicon', '/pose2d'].map((series) => ({ series })), { series: '/tf', frames: framePair }]);

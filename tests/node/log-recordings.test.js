@@ -48,7 +48,7 @@ const assertAllClose = (/** @type {ArrayLike<number>} */ actualValues, /** @type
   for (let i = 0; i < actualValues.length; i++) assert.ok(Math.abs(actualValues[i] - expectedValueOf(i)) < 1e-9, `${i}: ${actualValues[i]}, not ${expectedValueOf(i)}`);
 };
 
-test('topics are listed, and topics and chains of frames are read in one pass', async () => {
+test('topics are listed, and logs of topics and of chains of frames are read in one pass', async () => {
   const mcapFile = mcapFileOf(await recordingOf(createDriveMessages()));
   const [recording] = await openRecordings([mcapFile]);
   assert.equal(recording.format, 'mcap');

@@ -22,7 +22,7 @@ async function assertRefusedAtOnce(yamlText, expectedReason) {
   assert.ok(durationMs < MAX_REFUSAL_MS, `${yamlText.slice(0, 40)} took ${durationMs} ms`);
 }
 
-test('a map that repeats or contains itself is refused at once', async () => {
+test('a YAML description that repeats or contains itself is refused at once', async () => {
   const aliasError = 'aliases exceeded maxAliases \\(0\\)';
   await assertRefusedAtOnce('image: &a [*a]', aliasError);
   await assertRefusedAtOnce('image: &a map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nmode: *a', aliasError);

@@ -36,7 +36,7 @@ test('every script of the package can be imported in Node, and defines no global
   assert.deepEqual(JSON.parse(scriptOutput).filter((/** @type {string} */ name) => !litNames.includes(name)), []);
 });
 
-test('the elements find the core in Node', () => {
+test('the entry point with the elements loads the core in Node', () => {
   const scriptOutput = runNode(`
     import { isFigureTag, load } from 'motion-widgets';
     const { BananaMachine } = await load();
@@ -255,7 +255,7 @@ test('two copies of the bundle on a page cause no error @nightly', async () => {
   }
 });
 
-test('the address of the external module can be set by the script that imports it', async () => {
+test('a script that imports external.js can set the address of the WebAssembly module', async () => {
   const moduleAddress = `${DIST_PATH}motion.wasm?mine`;
   const modules = await openPageWith(`<script type="module">import { load } from '${DIST_PATH}external.js'; load('${moduleAddress}');</script>`);
   assert.deepEqual(modules, [new URL(moduleAddress, installedProject.address).href]);

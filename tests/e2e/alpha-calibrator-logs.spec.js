@@ -294,7 +294,7 @@ test('a new log replaces a log that is being fitted, and a removed figure has no
   const fittedDistance = await widgetHandle?.evaluate(async (/** @type {any} */ figure) => {
     document.body.append(figure);
     await figure.settled;
-    return figure.viewModel.fitted.distance;
+    return figure.viewModel.fittedConfig.distance;
   });
   expect(fittedDistance).toBe(0.5);
 });

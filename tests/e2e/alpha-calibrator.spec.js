@@ -97,15 +97,15 @@ test('every check shows its value and the range that passes, and a failed check 
 
 test('a leg is selected in the picture, by a slider, or by a button that leads to the next large residual', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const { worst } = await widget.evaluate((element) => /** @type {any} */ (element).viewModel);
+  const { worstLegs } = await widget.evaluate((element) => /** @type {any} */ (element).viewModel);
   const nextResidualButton = widget.getByRole('button', { name: 'Next largest residual' });
   await nextResidualButton.click();
-  expect(await readState(widget)).toMatchObject({ leg: worst[0] });
+  expect(await readState(widget)).toMatchObject({ leg: worstLegs[0] });
   await nextResidualButton.click();
-  expect(await readState(widget)).toMatchObject({ leg: worst[1] });
+  expect(await readState(widget)).toMatchObject({ leg: worstLegs[1] });
   await waitForFrames(page);
   await widget.locator('#leg').press('ArrowRight');
-  expect(await readState(widget)).toMatchObject({ leg: worst[1] + 1 });
+  expect(await readState(widget)).toMatchObject({ leg: worstLegs[1] + 1 });
   const planeCanvas = widget.locator('canvas.plane');
   const clickTarget = await widget.evaluate((element) => {
     const { pictures: [{ view }], simulation } = /** @type {any} */ (element);

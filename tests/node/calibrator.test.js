@@ -5,7 +5,7 @@ import { test } from 'node:test';
 import { en, yamlWords } from '../../www/widgets/alpha-calibrator/en.ts';
 import { formatAlphaOrBound, adviseCorrection, formatInterval as ends, formatEstimate, judgementOf, localizeNumber, formatNav2Lines, formatNumber } from '../../www/widgets/alpha-calibrator/result.ts';
 import { viewCornersOf } from '../../www/widgets/alpha-calibrator/pictures.ts';
-import { SIMULATED_LEGS, legClassesOf, isTruthComparable } from '../../www/widgets/alpha-calibrator/settings.ts';
+import { SIMULATED_LEG_LENGTHS, legClassesOf, isTruthComparable } from '../../www/widgets/alpha-calibrator/settings.ts';
 import { settings } from '../../build/settings.js';
 
 test('the class of a leg follows from its p-value, with as many degrees of freedom as observed residuals', () => {
@@ -56,7 +56,7 @@ const createCalibration = (changedFields) => ({
 
 /** Returns the lines for Nav2 without indentation. @param {object} [changedFields] of the calibration @param {object} [otherFields] options */
 const nav2LinesOf = (changedFields, otherFields) =>
-  formatNav2Lines({ calibration: createCalibration(changedFields), count: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, log: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...otherFields })
+  formatNav2Lines({ calibration: createCalibration(changedFields), legCount: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, logName: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...otherFields })
     .map((nav2Line) => nav2Line.trim());
 
 test('lines for Nav2 contain the recommended α’s, and the fitted α’s in comments', () => {
@@ -68,7 +68,7 @@ test('lines for Nav2 contain the recommended α’s, and the fitted α’s in co
     '# First multiply the odometry’s distances by 0.990: the α’s are those of the corrected robot.',
     'robot_model_type: "nav2_amcl::DifferentialMotionModel"',
     'alpha1: 0.060  # fitted 0.030, 95 % 0.024 to 0.036', 'alpha2: 0.0160  # fitted 0.0080, 95 % 0.0070 to 0.0091',
-    `# ${yamlWords.fifth}`, 'update_min_d: 0.25', 'update_min_a: 0.2',
+    `# ${yamlWords.fifthAlphaNote}`, 'update_min_d: 0.25', 'update_min_a: 0.2',
   ]);
 });
 
@@ -78,7 +78,7 @@ test('lines for Nav2 omit α’s that are not identifiable, and all α’s if no
   const exampleAlphas = [null, 1e-7, 103, 1e-8];
   const exampleIntervals = [null, [0, 0.0016], [50, 200], null];
   assert.deepEqual(nav2LinesOf({ alphas: exampleAlphas, intervals: exampleIntervals }).filter((line) => /alpha[1-4]/.test(line)), [
-    `# alpha1: ${yamlWords.notIdentifiable}`, `alpha2: 0.0032  # ${yamlWords.zero('0.0016')}`, `# alpha3: 206, ${yamlWords.tooLarge}`, 'alpha4: 2.0e-8  # fitted 1.0e-8',
+    `# alpha1: ${yamlWords.notIdentifiable}`, `alpha2: 0.0032  # ${yamlWords.notSignificantNote('0.0016')}`, `# alpha3: 206, ${yamlWords.tooLargeNote}`, 'alpha4: 2.0e-8  # fitted 1.0e-8',
   ]);
 });
 
@@ -87,7 +87,7 @@ test('lines for Nav2 warn of failed checks, of another rule, and of a localizer 
   const failedChecks = ['tails-normal', 'outliers-few'].map((name) => ({ name, passed: false, message: 'Drive on.' }));
   assert.ok(nav2LinesOf({ diagnostics: { ...diagnostics, checks: failedChecks } }).includes('# Caution, these checks failed: tails-normal, outliers-few'));
   for (const [expectedWarning, changedOptions] of /** @type {[string, object][]} */ ([
-    [yamlWords.otherRule, { rule: 'thrun' }],
+    [yamlWords.otherRuleNote, { rule: 'thrun' }],
     [en.nav2.localizer, { warnings: ['localizer'] }],
   ])) {
     assert.ok(nav2LinesOf({}, changedOptions).includes(`# ${expectedWarning}`));
@@ -102,18 +102,18 @@ test('a large clock offset is mentioned, and changes no verdict', () => {
       ...createCalibration(), notIdentifiable: [], diagnostics: { verdict: 'consistent', checks: [] },
       systematicErrors: { clockOffset: { value: clockOffset, interval: null }, mountYaw: unknown, leverArm: unknown, distanceScale: unknown, turnScale: unknown },
     }),
-    count: 500, corrections: {}, warnings: [],
+    legCount: 500, corrections: {}, warnings: [],
   }, en, '');
   const { advice: [firstSentence], rating } = judgeClockOffset(86_400.06);
   assert.deepEqual([firstSentence, rating], ['The reference’s clock is 86\u202f400 s ahead of the odometry’s. The turns of the robot aligned both: check that they are of one drive.', 'consistent']);
   assert.match(judgeClockOffset(-3600).advice[0], /is 3\u202f600 s behind the/);
-  assert.deepEqual(judgeClockOffset(-9.5).advice, [en.use]);
+  assert.deepEqual(judgeClockOffset(-9.5).advice, [en.useRecommended]);
 });
 
 test('the leg settings of the simulated log equal the default settings', () => {
   const config = Object.fromEntries(settings['alpha-calibrator'].map((setting) => [setting.key, setting.default]));
-  assert.deepEqual(SIMULATED_LEGS, { distance: config.distance, angle: config.angle });
-  const hasTruth = (/** @type {object} */ changedFields) => isTruthComparable(/** @type {any} */ ({ truth: {}, fitted: { ...config, ...changedFields } }));
+  assert.deepEqual(SIMULATED_LEG_LENGTHS, { distance: config.distance, angle: config.angle });
+  const hasTruth = (/** @type {object} */ changedFields) => isTruthComparable(/** @type {any} */ ({ truth: {}, fittedConfig: { ...config, ...changedFields } }));
   assert.deepEqual([hasTruth({}), hasTruth({ distance: 0.3 }), hasTruth({ angle: 0.3 }), hasTruth({ duration: 1 }), hasTruth({ rule: 'nav2' })], [true, false, false, false, false]);
 });
 

@@ -377,8 +377,8 @@ test('the report, the lines for Nav2 and the figure agree on whether a localizer
     const args = [...LOG_ARGS.slice(0, 3), writeInFolder(`${name}.csv`, readFileSync(examplePathOf('reference')))];
     const [{ stdout }, { stdout: jsonText }] = [await runCalibrate(args), await runCalibrate([...args, '--json'])];
     const { logs, ...stats } = JSON.parse(jsonText);
-    const { rating } = judgeFit(/** @type {any} */ ({ stats, legs: stats.legs, fitted: stats.systematicErrors }), warningsOf(logs));
-    const notedPlaces = [stdout.includes(`\nCaution. ${en.nav2.localizer}\n`) && !stdout.includes(en.useAnyway), stdout.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
+    const { rating } = judgeFit(/** @type {any} */ ({ stats, legs: stats.legs, fittedConfig: stats.systematicErrors }), warningsOf(logs));
+    const notedPlaces = [stdout.includes(`\nCaution. ${en.nav2.localizer}\n`) && !stdout.includes(en.useRecommendedAnyway), stdout.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
     assert.deepEqual(notedPlaces, [isLocalizer, isLocalizer, isLocalizer], name);
   }
 });
@@ -387,7 +387,7 @@ test('the report advises against α’s that are too small because the odometry 
   const swappedPaths = [writeInFolder('first.csv', readFileSync(examplePathOf('reference'))), writeInFolder('second.csv', readFileSync(examplePathOf('odometry')))];
   const { stdout } = await runCalibrate(['--odometry', swappedPaths[0], '--reference', swappedPaths[1]]);
   assert.match(stdout, /^Caution\. [^]*sideways/m);
-  assert.ok(!stdout.includes(en.useAnyway));
+  assert.ok(!stdout.includes(en.useRecommendedAnyway));
 });
 
 test('the report names failed checks, lost legs and unidentified α’s, and recommends motions', async () => {
@@ -413,12 +413,12 @@ test('the report names failed checks, lost legs and unidentified α’s, and rec
   const reportOfUnidentified = formatChangedReport(unidentifiedAlphas);
   assert.match(reportOfUnidentified, /^\nCaution\. Not determined by this log: α₂, α₄; add ~50 straight legs and ~50 in-place rotations\.\nIf the log /);
   assert.match(reportOfUnidentified, /^alpha2 +not identifiable .* rotation and translation are collinear in this log$/m);
-  const { rating, finding } = judgeFit(/** @type {any} */ ({ stats: { ...calibration, ...unidentifiedAlphas }, legs: calibration.legs, fitted: systematicErrors }), []);
+  const { rating, finding } = judgeFit(/** @type {any} */ ({ stats: { ...calibration, ...unidentifiedAlphas }, legs: calibration.legs, fittedConfig: systematicErrors }), []);
   assert.deepEqual([rating, finding], ['questionable', 'Not determined by this log: α₂, α₄; add ~50 straight legs and ~50 in-place rotations.']);
   assert.match(formatChangedReport({ ...unidentifiedAlphas, notIdentifiable: [null, 'insufficient-rotation', null, null] }, { model: 'velocity' }), /^Caution\. Not determined by this log: α₂; add ~50 legs in tight bends\.$/m);
   assert.match(formatChangedReport({ alphas: [0, 0.1, 0.1, 0.1], intervals: [[0, 0.00123], [0.05, 0.2], null, null] }), /^alpha1 +≤ 0\.0012 +0\.0000 to 0\.0012 +≤ 0\.0015 /m);
   assert.match(formatChangedReport({}, { model: 'velocity' }), /^No lines for nav2_params\.yaml: Nav2 has no velocity model\.$/m);
-  for (const declaredReason of readDeclaredReasons()) assert.ok(declaredReason in en.alphas.lacking, declaredReason);
+  for (const declaredReason of readDeclaredReasons()) assert.ok(declaredReason in en.alphas.missingMotions, declaredReason);
 });
 
 /** Returns the reasons for which an α is not identifiable, as the core declares them. */

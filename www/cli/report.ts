@@ -46,10 +46,10 @@ export function formatReport(calibrationResult: CalibrationResult, isColored = f
   const { legs, lost, diagnostics: { checks, windows } } = calibration;
   const { model = 'odometry', rule = 'thrun' } = options;
   const { distance, angle, duration } = options.legs;
-  const lengthText = duration === undefined ? yamlWords.moved(formatNumber(distance), formatNumber(angle)) : yamlWords.lasted(formatNumber(duration));
+  const lengthText = duration === undefined ? yamlWords.legsByMotion(formatNumber(distance), formatNumber(angle)) : yamlWords.legsByDuration(formatNumber(duration));
   const { yaml, reason } = formatNav2Yaml(calibrationResult);
   const windowRows = windows.map(({ length, count, coverage, nees }) => [`of ${formatNumber(length)} m`, String(count), formatPercent(coverage), formatNumber(nees)]);
-  const lostLegTexts = LOST_LEG_CAUSES.filter((cause) => lost[cause] > 0).map((cause) => `${lost[cause]} ${en.lost[cause]}`);
+  const lostLegTexts = LOST_LEG_CAUSES.filter((cause) => lost[cause] > 0).map((cause) => `${lost[cause]} ${en.lostLegs[cause]}`);
   const excludedLegLines = [...(lostLegTexts.length ? [`lost legs: ${lostLegTexts.join(', ')}`] : []), ...formatOutliers(legs, driveStarts)];
   const uncoloredReport = [
     '',
@@ -76,7 +76,7 @@ export function formatReport(calibrationResult: CalibrationResult, isColored = f
 }
 
 function judge({ calibration, options: { model, correct = {} }, logs }: Judged) {
-  return judgementOf({ stats: calibration, count: calibration.legs.count, model, corrections: correct, warnings: warningsOf(logs) }, en, '--no-correct');
+  return judgementOf({ stats: calibration, legCount: calibration.legs.count, model, corrections: correct, warnings: warningsOf(logs) }, en, '--no-correct');
 }
 
 /** Returns the verdict as on the page, and what to do, in a line for each sentence. */
@@ -92,7 +92,7 @@ function formatAlphaTable({ alphas, intervals, notIdentifiable, recommended }: C
     alpha === null ? 'not identifiable' : formatAlphaOrBound(alpha, intervals[i]),
     formatInterval(intervals[i]),
     recommended && alpha !== null ? formatAlphaOrBound(alpha, intervals[i], recommended.inflation) : '–',
-    [sharedTexts.alphas[model === 'velocity' ? 'velocity' : 'odometry'][i][0], ...(notIdentifiable[i] ? [adviceOf(en.alphas.lacking, model, notIdentifiable[i]).lack] : [])].join('; '),
+    [sharedTexts.alphas[model === 'velocity' ? 'velocity' : 'odometry'][i][0], ...(notIdentifiable[i] ? [adviceOf(en.alphas.missingMotions, model, notIdentifiable[i]).lack] : [])].join('; '),
   ]);
   return [...alignRows([['', 'fitted', '95 %', 'recommended', ''], ...alphaRows]), ...(recommended ? [recommended.reason] : [])];
 }
@@ -109,9 +109,9 @@ function formatNoiseRows({ referenceNoise }: Calibration, options: CalibrationRe
 function formatSystematicRow(name: (typeof SYSTEMATIC_ERRORS)[number], { systematicErrors }: Calibration): string[] {
   const { constant, corrected } = systematicErrors[name];
   const components = componentsOf(systematicErrors[name]);
-  if (components.some(({ value }) => value === null)) return [en.systematic.names[name], 'not identifiable'];
+  if (components.some(({ value }) => value === null)) return [en.systematic.errorNames[name], 'not identifiable'];
   return [
-    en.systematic.names[name],
+    en.systematic.errorNames[name],
     components.map(({ value, interval }) => formatEstimate(value, interval)).join(', '),
     components.map(({ interval }) => formatInterval(interval)).join(', '),
     `${corrected ? 'corrected' : 'not corrected'}${constant ? '' : ', not a constant'}`,
@@ -126,7 +126,7 @@ function formatCheckRow({ name, value, expected: [low, high], passed }: Calibrat
   // A failing value is printed with more digits if it would round to a bound.
   const digitCount = [3, 4, 6, 17].find((count) => passed || [low, high].every((bound) => formatNumber(value, count) !== formatNumber(bound, count)));
   const boundsText = low === -Infinity ? `≤ ${formatNumber(high, digitCount)}` : high === Infinity ? `≥ ${formatNumber(low, digitCount)}` : `${formatNumber(low, digitCount)} to ${formatNumber(high, digitCount)}`;
-  return [name, value === Infinity ? '∞' : formatNumber(value, digitCount), boundsText, passed ? 'ok' : 'FAILED', en.checks.names[name]];
+  return [name, value === Infinity ? '∞' : formatNumber(value, digitCount), boundsText, passed ? 'ok' : 'FAILED', en.checks.checkNames[name]];
 }
 
 /** Lists outliers by their times after the start of the odometry. */
@@ -147,7 +147,7 @@ export const warnAboutRule = ({ options: { model = 'odometry', rule = 'thrun' } 
 export function formatNav2Yaml({ calibration, options: { model = 'odometry', rule = 'thrun', legs }, logs, date }: CalibrationResult): { yaml: string; reason?: string } {
   if (calibration.recommended === null) return { yaml: '', reason: 'No lines for nav2_params.yaml: the log is unusable.' };
   const logNames = new Intl.ListFormat('en').format(new Set(logs.map(({ name }) => name)));
-  const yamlLines = formatNav2Lines({ calibration, count: calibration.legs.count, model, rule, legs, log: logNames, warnings: warningsOf(logs), date });
+  const yamlLines = formatNav2Lines({ calibration, legCount: calibration.legs.count, model, rule, legs, logName: logNames, warnings: warningsOf(logs), date });
   return yamlLines.length ? { yaml: `${yamlLines.join('\n')}\n` } : { yaml: '', reason: 'No lines for nav2_params.yaml: Nav2 has no velocity model.' };
 }
 

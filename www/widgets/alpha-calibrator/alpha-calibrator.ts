@@ -50,7 +50,7 @@ const styles = css`
     font: inherit;
   }
 
-  /* The figure fills the screen. */
+  /* In the presentation, the figure fills the screen, which leaves no space for these parts. */
   :host([presentation]) :is(.choosers, .found) {
     display: none;
   }
@@ -97,12 +97,12 @@ const styles = css`
     align-self: stretch;
   }
 
-  /* Results of the previous log or settings, while another log is read, or a fit takes long. */
+  /* The results on screen are those of the previous log or settings, while another log is read or a fit takes long. */
   .spoken:has(progress) :is(.verdict, .fitted) {
     opacity: 0.4;
   }
 
-  /* Results of the previous log, after other files were refused. */
+  /* The results on screen are those of the previous log, after other files were refused. */
   .spoken:has(.other-results) :is(.views, #numbers) {
     color: var(--muted);
     filter: grayscale(1);
@@ -119,7 +119,7 @@ const styles = css`
     margin: 0 0 0.3em;
   }
 
-  /* Space for the advice of a failed check, which must not move a slider that is dragged. */
+  /* The minimum height reserves space for the advice of a failed check, so that the advice does not move a slider that is dragged. */
   .to-do {
     min-height: 6.5em;
     margin: 0.2em 0;
@@ -153,7 +153,7 @@ const styles = css`
     }
   }
 
-  /* The pictures are as high as the table below them: in a low window both would leave no room for the controls. */
+  /* The pictures do not stay visible in a low window, because pictures and table together would leave no space for the controls. */
   @media (40em <= height < 60em) {
     @container (30em <= width < 56em) {
       .views {
@@ -164,7 +164,7 @@ const styles = css`
 
   @container (min-width: 56em) {
     .views {
-      /* The table comes after the pictures, and moves nothing. */
+      /* The table of the α's is rendered after the pictures. Its column has a fixed width, so that it moves nothing. */
       grid-template-columns: minmax(0, 1.2fr) minmax(0, 1fr) clamp(24em, 34cqi, 29em);
     }
 
@@ -205,8 +205,8 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   dropHandlers = this.#opener;
   service = new LogService();
   #fit: Parameters<typeof viewModelOf>[2] = new Memo();
-  #predictedLeg: Memo<LegView | null> = new Memo();
-  #panels: Memo<{ regressor: (typeof REGRESSORS)[number], components: CalibrationPanel[] }[]> = new Memo();
+  #predictedLegMemo: Memo<LegView | null> = new Memo();
+  #panelsMemo: Memo<{ regressor: (typeof REGRESSORS)[number], components: CalibrationPanel[] }[]> = new Memo();
   /** Log of the user or of the page; null for the simulated log. */
   #givenLog: OpenedLog | null = null;
   /** Log of the page; null for the simulated log. */
@@ -226,36 +226,36 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   connectedCallback() {
     super.connectedCallback();
-    // A figure that is in no page fits nothing: its settings may wait for a fit.
+    // A figure outside the document does not fit. Settings that were changed there are fitted now.
     this.settings.isViewModelStale = true;
   }
 
   disconnectedCallback() {
     super.disconnectedCallback();
-    this.service.end();
+    this.service.endWorker();
   }
 
   /** Index of the leg that is shown; −1 if there is none. */
-  get chosen() {
-    const { viewModel: { opening, legs }, settings: { elementState: { leg } } } = this;
-    return leg !== null && leg < legs.count ? leg : opening;
+  get chosenLegIndex() {
+    const { viewModel: { defaultLeg, legs }, settings: { elementState: { leg } } } = this;
+    return leg !== null && leg < legs.count ? leg : defaultLeg;
   }
 
   /** Predicted cloud of the selected leg by the latest complete fit, with its start pose, and its end poses by odometry and reference; null without a leg. */
-  get predicted() {
-    const { chosen, simulation, viewModel: { config } } = this;
-    return chosen < 0 || !simulation ? null : this.#predictedLeg.get([config, chosen], () => simulation.leg(chosen));
+  get predictedLeg() {
+    const { chosenLegIndex, simulation, viewModel: { config } } = this;
+    return chosenLegIndex < 0 || !simulation ? null : this.#predictedLegMemo.get([config, chosenLegIndex], () => simulation.leg(chosenLegIndex));
   }
 
   /** Squared residuals of each noise component, binned by squared rotation and by squared translation; empty without legs. */
   get panels() {
     const { simulation, viewModel: { stats, legs } } = this;
-    return legs.count > 0 && simulation ? this.#panels.get([stats], () => REGRESSORS.map((regressor) => ({ regressor, components: simulation.panels(regressor) }))) : [];
+    return legs.count > 0 && simulation ? this.#panelsMemo.get([stats], () => REGRESSORS.map((regressor) => ({ regressor, components: simulation.panels(regressor) }))) : [];
   }
 
   get scene() {
     const viewModel = this.currentViewModel;
-    return { ...viewModel, chosen: this.chosen, leg: this.predicted, overlays: this.settings.elementState.overlays };
+    return { ...viewModel, chosenLegIndex: this.chosenLegIndex, leg: this.predictedLeg, overlays: this.settings.elementState.overlays };
   }
 
   /** Chooses the leg that is clicked in the picture of the path. */
@@ -278,18 +278,18 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   set log(log) {
     this.reflection.setProperty('log', log, (newLog) => {
       if (newLog !== null) checkObject('log', newLog, ['name', 'odometry', 'reference']);
-      this.service.stop();
+      this.service.stopRequest();
       const acceptLog = () => {
         this.#pageLog = newLog;
         this.reflection.updateAttributes();
       };
-      this.open(newLog, []).then(acceptLog, this.#reportError);
+      this.openLog(newLog, []).then(acceptLog, this.#reportError);
     });
   }
 
   #startOver = () => {
     this.settings.restoreAsUser();
-    this.#opener.close(this.#pageLog).catch(this.#reportError);
+    this.#opener.closeLog(this.#pageLog).catch(this.#reportError);
   };
 
   #reportError = (error: unknown) => {
@@ -297,10 +297,10 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   };
 
   /**
-   * Fits a log, and then replaces the present log by it; null is the simulated log. If `check` throws, the present log stays. `warnings` are
-   * notes on the new log that make its α's doubtful.
+   * Fits a log, and then replaces the present log by it; null is the simulated log. If `checkSimulation` throws, the present log stays.
+   * `warnings` are notes on the new log that make its α's doubtful.
    */
-  async open(log: CalibrationLog | null, warnings: Warning[], checkSimulation?: (simulation: Simulation) => void) {
+  async openLog(log: CalibrationLog | null, warnings: Warning[], checkSimulation?: (simulation: Simulation) => void) {
     const config = this.settings.pickSettings(this.settings.current) as Simulation['config'];
     const openedLog = log && { log, warnings, config, fit: await this.service.calibrate(config, log) };
     this.runtime.attempt(() => {
@@ -327,22 +327,22 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
       this.announcer.announce(words.progress.stopped);
       this.#revertSettings();
     };
-    const noticeTimer = setTimeout(() => notice.show(() => html`<progress aria-label=${words.progress.label}></progress> ${words.progress.label}`, { stop }), NOTICE_DELAY_MS);
+    const noticeTimerId = setTimeout(() => notice.show(() => html`<progress aria-label=${words.progress.label}></progress> ${words.progress.label}`, { stop }), NOTICE_DELAY_MS);
     try {
-      await this.open(log, this.warnings);
+      await this.openLog(log, this.warnings);
     } catch (error) {
       if (!isAbortError(error)) this.#revertSettings();
       this.#reportError(error);
     } finally {
-      clearTimeout(noticeTimer);
+      clearTimeout(noticeTimerId);
       notice.endWork();
     }
   }
 
   /** Returns to the settings of the fit that is shown. */
   #revertSettings() {
-    this.service.stop();
-    this.settings.assign(this.viewModel.fitted);
+    this.service.stopRequest();
+    this.settings.assign(this.viewModel.fittedConfig);
   }
 
   /** Notes on the logs that make the α's doubtful. */
@@ -352,20 +352,20 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   get logName() {
     const { log } = this.viewModel;
-    return log ? log.name || words.calibrator.overlays.odometry : words.calibrator.simulated;
+    return log ? log.name || words.calibrator.overlays.odometry : words.calibrator.simulatedLogName;
   }
 
   get exportData() {
-    const { fitted, legs } = this.currentViewModel;
+    const { fittedConfig, legs } = this.currentViewModel;
     const missingNote = this.log ? words.calibrator.logNotInCopies : '';
     const poseColumnsOf = (log: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${log}_${end}_${key}`)).join(' ');
     return {
-      settings: { ...(this.log && { log: this.log.name }), ...fitted },
+      settings: { ...(this.log && { log: this.log.name }), ...fittedConfig },
       columns: {
         'begins_s ends_s': legs.times,
         [poseColumnsOf('odometry')]: legs.odometry,
         [poseColumnsOf('reference')]: legs.reference,
-        [NOISE_COMPONENTS[fitted.model].map((name) => `residual_${name}`).join(' ')]: legs.residuals,
+        [NOISE_COMPONENTS[fittedConfig.model].map((name) => `residual_${name}`).join(' ')]: legs.residuals,
         outlier: legs.outliers,
       },
       linkNote: missingNote,
@@ -377,25 +377,25 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     return captionOf({ viewModel, warnings: this.warnings, logName: this.logName });
   }
 
-  describePicture = () => [words.calibrator.path];
+  describePicture = () => [words.calibrator.pathTitle];
 
   renderContent(viewModel: ViewModel) {
     const texts = words.calibrator;
-    const { chosen } = this;
+    const { chosenLegIndex } = this;
     const hasDuration = this.settings.requested.duration > 0;
     return html`
       ${dropZoneHtml(this, this.#opener)}
       <div class="views">
         <p part="caption" class="caption verdict">${this.renderer.renderAfterFirstPicture(() => verdictHtml(this))}</p>
-        ${pictureHtml(this, this.#pathPicture, texts.path)}
+        ${pictureHtml(this, this.#pathPicture, texts.pathTitle)}
         <div class="one">
-          ${pictureHtml(this, this.#legPicture, texts.oneLeg(formatInteger(chosen + 1)))}
+          ${pictureHtml(this, this.#legPicture, texts.legTitle(formatInteger(chosenLegIndex + 1)))}
           ${this.renderer.renderAfterFirstPicture(() => html`<div class="looked with-button">${legControlsHtml(this)}</div>`)}
         </div>
         ${this.renderer.renderAfterFirstPicture(() => html`
         <div class="fitted" part="readouts">
           <div class="buttons result">
-            <p class="panel-title">${texts.alphas.title(texts.kinds[modelRuleOf(viewModel.fitted)])}</p>
+            <p class="panel-title">${texts.alphas.title(texts.modelRuleNames[modelRuleOf(viewModel.fittedConfig)])}</p>
             ${nav2ButtonHtml(this, this.#opener.otherResultsNote)} ${startOverButtonHtml(this, this.#startOver)}
           </div>
           <p class="to-do">${this.#opener.otherResultsNote || judgeFit(viewModel, this.warnings).advice.join(' ')}</p>
@@ -406,14 +406,14 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
       ${this.renderer.renderAfterFirstPicture(() => html`
       ${legendHtml(this, LINE_STYLES)}
       <div part="controls">
-        ${fieldsetHtml(texts.leg.group, html`<div class="controls">${['distance', 'angle'].map((key) => settingSliderHtml(this, key, { hasNoEffect: hasDuration }))}</div>`)}
+        ${fieldsetHtml(texts.leg.legsTitle, html`<div class="controls">${['distance', 'angle'].map((key) => settingSliderHtml(this, key, { hasNoEffect: hasDuration }))}</div>`)}
       </div>
       ${disclosuresHtml(this, {
         renderControls: () => html`${modelControlsHtml(this)}
           ${fieldsetHtml(texts.systematic.title, systematicTableHtml(this))}
-          ${fieldsetHtml(texts.own.title, referenceControlsHtml(this))}
-          ${fieldsetHtml(texts.prediction, html`${settingRadiosHtml(this, 'noise', words.noises)} ${settingSliderHtml(this, 'inflation')}`, 'fit')}`,
-        renderNumbers: () => html`${fieldsetHtml(texts.oneLeg(formatInteger(chosen + 1)), legReadoutsHtml(this))}
+          ${fieldsetHtml(texts.logControls.title, referenceControlsHtml(this))}
+          ${fieldsetHtml(texts.predictionTitle, html`${settingRadiosHtml(this, 'noise', words.noises)} ${settingSliderHtml(this, 'inflation')}`, 'fit')}`,
+        renderNumbers: () => html`${fieldsetHtml(texts.legTitle(formatInteger(chosenLegIndex + 1)), legReadoutsHtml(this))}
           ${diagnosticsHtml(this)}
           ${fieldsetHtml(texts.panels.title, regressionPanelsHtml(this))}
           ${fieldsetHtml(texts.nav2.title, nav2ExportControlsHtml(this, this.#opener.otherResultsNote))}`,

@@ -19,16 +19,16 @@ export { calibrationLogOf, warningsOf } from '../../logs/pairs.ts';
 
 const COLUMN_FIELDS = ['t', 'x', 'y', 'yaw', 'qx', 'qy', 'qz', 'qw', 'v', 'omega'] as const;
 
-/** Maximum number of characters of a cell next to the number of its column. */
+/** Maximum number of characters of a cell in the label of its column. The label also has the number of the column. */
 const MAX_CELL_LENGTH = 16;
 
 /** Maximum number of files in the name of a log. */
 const MAX_NAMED_FILES = 4;
 
-/** Returns the name of a choice: its series, with the frames of transforms. */
+/** Returns the label of a choice of a log: the name of its series, and the two frames if the series has transforms. */
 export const choiceLabelOf = ({ series, frames }: LogChoice) => (frames ? `${series}: ${formatFrames(frames)}` : series);
 
-/** Plans which logs are read, by the user's choices. */
+/** Plans which logs of the recordings are read. The user's choices have precedence over guesses. */
 export function planLogReading({ recordings, userChoices, roles }: ChosenFiles, kind: 'commands' | undefined): LogPlan {
   return planDrives(recordings, { ...userChoices, kind, roles: new Map([...roles].map(([index, role]) => [recordings[index], role])) });
 }
@@ -65,12 +65,12 @@ export function logChoosersHtml(opener: LogOpener) {
   </div>`;
 }
 
-function selectHtml(id: string, label: string, value: string, options: [value: string, label: string][], choose: (value: string) => void, placeholder: string) {
-  const allOptions = options.some(([optionValue]) => optionValue === value) ? options : [['', placeholder], ...options];
+function selectHtml(id: string, label: string, selectedValue: string, options: [value: string, label: string][], chooseOption: (selectedValue: string) => void, placeholder: string) {
+  const allOptions = options.some(([optionValue]) => optionValue === selectedValue) ? options : [['', placeholder], ...options];
   return html`<label>
     ${label}
-    <select id=${id} aria-label=${label} aria-describedby="refusal" @change=${(event: Event) => choose((event.target as HTMLSelectElement).value)}>
-      ${allOptions.map(([optionValue, text]) => html`<option value=${optionValue} .selected=${live(optionValue === value || (value === '' && optionValue === ''))}>${text}</option>`)}
+    <select id=${id} aria-label=${label} aria-describedby="refusal" @change=${(event: Event) => chooseOption((event.target as HTMLSelectElement).value)}>
+      ${allOptions.map(([optionValue, optionLabel]) => html`<option value=${optionValue} .selected=${live(optionValue === selectedValue || (selectedValue === '' && optionValue === ''))}>${optionLabel}</option>`)}
     </select>
   </label>`;
 }
@@ -81,44 +81,44 @@ function seriesSelectHtml(opener: LogOpener, { recordings, userChoices, plan }: 
   const currentChoice = (userChoices[role] as LogChoice | undefined) ?? plannedLog?.choice;
   return selectHtml(`log-${role}`, texts.roles[role], currentChoice ? choiceLabelOf(currentChoice) || (plannedLog?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
     const choice = choiceByLabel.get(label);
-    if (choice) opener.change({ userChoices: { ...userChoices, [role]: choice } });
+    if (choice) opener.changeChoices({ userChoices: { ...userChoices, [role]: choice } });
   }, texts.open);
 }
 
-function roleSelectHtml(opener: LogOpener, { recordings, roles, plan }: ChosenFiles, index: number, { choose: texts }: LogWords) {
-  const { name } = recordings[index];
-  const currentRole = roles.get(index) ?? ROLES.find((role) => plan?.unpaired[role].some(({ recording }) => recording === recordings[index]));
-  return selectHtml(`log-role-${index}`, name, currentRole ?? '', ROLES.map((role) => [role, texts.roles[role]]), (value) => {
-    const role = value as Role;
-    const changedRoles = new Map(roles).set(index, role);
+function roleSelectHtml(opener: LogOpener, { recordings, roles, plan }: ChosenFiles, recordingIndex: number, { choose: texts }: LogWords) {
+  const { name } = recordings[recordingIndex];
+  const currentRole = roles.get(recordingIndex) ?? ROLES.find((role) => plan?.unpaired[role].some(({ recording }) => recording === recordings[recordingIndex]));
+  return selectHtml(`log-role-${recordingIndex}`, name, currentRole ?? '', ROLES.map((role) => [role, texts.roles[role]]), (chosenValue) => {
+    const role = chosenValue as Role;
+    const changedRoles = new Map(roles).set(recordingIndex, role);
     // If there are two files, the other file gets the other role.
-    if (recordings.length === 2 && labelledChoicesOf(recordings[1 - index]).length === 1) changedRoles.set(1 - index, role === 'odometry' ? 'reference' : 'odometry');
-    opener.change({ roles: changedRoles });
+    if (recordings.length === 2 && labelledChoicesOf(recordings[1 - recordingIndex]).length === 1) changedRoles.set(1 - recordingIndex, role === 'odometry' ? 'reference' : 'odometry');
+    opener.changeChoices({ roles: changedRoles });
   }, texts.open);
 }
 
-function questionHtml(opener: LogOpener, { answers }: ChosenFiles, asked: OpenQuestion, { choose: texts }: LogWords) {
-  const { file, ask: { option, choices } } = asked;
-  if (option === 'columns') return columnsFormHtml(opener, asked, answers[file]?.columns, texts);
+function questionHtml(opener: LogOpener, { answers }: ChosenFiles, question: OpenQuestion, { choose: texts }: LogWords) {
+  const { file, ask: { option, choices } } = question;
+  if (option === 'columns') return columnsFormHtml(opener, question, answers[file]?.columns, texts);
   if (option !== 'timeUnit' && option !== 'lengthUnit' && option !== 'angleUnit') return nothing;
-  const labels: Record<string, string> = Object.fromEntries((choices.length ? choices : UNITS[option]).map((unit) => [unit, texts.units[unit as keyof typeof texts.units]]));
-  return html`<div id=${questionIdOf(asked)}>
-    ${radioGroupHtml(texts[option](file), questionIdOf(asked), labels, answers[file]?.[option] ?? '', (unit) => opener.answer(asked, { [option]: unit }))}
+  const unitLabels: Record<string, string> = Object.fromEntries((choices.length ? choices : UNITS[option]).map((unit) => [unit, texts.units[unit as keyof typeof texts.units]]));
+  return html`<div id=${questionIdOf(question)}>
+    ${radioGroupHtml(texts[option](file), questionIdOf(question), unitLabels, answers[file]?.[option] ?? '', (unit) => opener.answerQuestion(question, { [option]: unit }))}
   </div>`;
 }
 
 /** Returns a form with one `<select>` for each field, which assigns a column to it. */
-function columnsFormHtml(opener: LogOpener, asked: OpenQuestion, answeredFields: string[] | undefined, texts: LogWords['choose']) {
-  const { file, ask: { choices: [defaultNames = ''], columns = [] } } = asked;
+function columnsFormHtml(opener: LogOpener, question: OpenQuestion, answeredFields: string[] | undefined, texts: LogWords['choose']) {
+  const { file, ask: { choices: [defaultNames = ''], columns = [] } } = question;
   const assignedFields = answeredFields ?? defaultNames.split(',');
   const options = columns.map((cell, index): [string, string] => [String(index), texts.column(index + 1, cell.trim().slice(0, MAX_CELL_LENGTH))]);
   const submitColumns = (event: Event) => {
     event.preventDefault();
     const fieldNames = columns.map(() => '-');
     for (const [field, index] of new FormData(event.target as HTMLFormElement)) if (index !== '') fieldNames[Number(index)] = String(field);
-    opener.answer(asked, { columns: fieldNames });
+    opener.answerQuestion(question, { columns: fieldNames });
   };
-  return html`<form id=${questionIdOf(asked)} @submit=${submitColumns}>
+  return html`<form id=${questionIdOf(question)} @submit=${submitColumns}>
     <fieldset>
       <legend>${texts.columns(file, !answeredFields && defaultNames !== '')}</legend>
       <div class="choices">
@@ -138,10 +138,10 @@ function columnsFormHtml(opener: LogOpener, asked: OpenQuestion, answeredFields:
 const questionIdOf = ({ file, ask: { option } }: OpenQuestion) => `log-${option}-${file.replaceAll(/[^\w-]/g, '_')}`;
 
 /** Moves the focus to the control that answers a question, unless such a control already has it. Returns true if there is a control. */
-export function focusChooser({ renderRoot }: AlphaCalibratorElement, asked: OpenQuestion): boolean {
-  const { option, role = 'odometry' }: Question = asked.ask;
+export function focusChooser({ renderRoot }: AlphaCalibratorElement, question: OpenQuestion): boolean {
+  const { option, role = 'odometry' }: Question = question.ask;
   const selectors = { series: `#log-${role}`, frames: `#log-${role}`, roles: '[id^=log-role-]' } as Partial<Record<Question['option'], string>>;
-  const chooserElement = renderRoot.querySelector<HTMLElement>(selectors[option] ?? `#${questionIdOf(asked)}`);
+  const chooserElement = renderRoot.querySelector<HTMLElement>(selectors[option] ?? `#${questionIdOf(question)}`);
   const firstControl = chooserElement?.matches('select') ? chooserElement : chooserElement?.querySelector<HTMLElement>('select, input');
   if (!firstControl) return false;
   if (!firstControl.closest('.choosers')?.contains((renderRoot as ShadowRoot).activeElement)) firstControl.focus();
@@ -159,7 +159,7 @@ export function logSummaryHtml({ chosenFiles, texts, host }: LogOpener) {
   // The page may have set another log in the meantime.
   if (!chosenFiles?.drives || !texts || (chosenFiles.log && chosenFiles.log !== host.log)) return nothing;
   const { drives } = chosenFiles;
-  // The clock offset is known after the fit.
+  // The clock offset is an estimate of the fit. Before the fit it is taken as 0.
   const clockOffset = (chosenFiles.log && host.viewModel.stats.systematicErrors.clockOffset.value) ?? 0;
   return html`<details class="found" open>
     <summary>${texts.found.title}</summary>
@@ -173,7 +173,7 @@ export function logSummaryHtml({ chosenFiles, texts, host }: LogOpener) {
 function logTableHtml({ odometry, reference }: Drive, caption: string, { choose, found }: LogWords) {
   const logs = [odometry, reference];
   const tableRows = logs.map((log) => summaryLinesOf(log, found));
-  const tableCellHtml = (texts: string[] = []) => html`<td>${texts.length ? texts.map((text, i) => html`${i ? html`<br />` : nothing}${text}`) : '—'}</td>`;
+  const tableCellHtml = (cellLines: string[] = []) => html`<td>${cellLines.length ? cellLines.map((cellLine, i) => html`${i ? html`<br />` : nothing}${cellLine}`) : '—'}</td>`;
   const labels = (Object.keys(found.labels) as (keyof typeof found.labels)[]).filter((label) => tableRows.some((tableRow) => tableRow[label]?.length));
   return html`<table>
     ${caption ? html`<caption>${caption}</caption>` : nothing}
@@ -181,7 +181,7 @@ function logTableHtml({ odometry, reference }: Drive, caption: string, { choose,
       <tr><td></td>${ROLES.map((role, i) => html`<th scope="col">${choose.roles[role]}: ${logs[i].name}</th>`)}</tr>
     </thead>
     <tbody>
-      ${labels.map((label) => html`<tr><th scope="row">${found.labels[label]}</th>${tableRows.map((line) => tableCellHtml(line[label]))}</tr>`)}
+      ${labels.map((label) => html`<tr><th scope="row">${found.labels[label]}</th>${tableRows.map((tableRow) => tableCellHtml(tableRow[label]))}</tr>`)}
     </tbody>
   </table>`;
 }
@@ -191,7 +191,7 @@ function pathsPictureHtml({ odometry, reference }: Drive, clockOffset: number, {
   const [drivenPath, referencePath] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / MAX_PATH_POINTS)));
   const odometryPath = alignPath(drivenPath, referencePath, clockOffset);
   const allPoses = [...odometryPath.poses, ...referencePath.poses];
-  const axisRanges = ([0, 1] as const).map((axis) => [Math.min(...allPoses.map((pose) => pose[axis])), Math.max(...allPoses.map((pose) => pose[axis]))]);
+  const axisRanges = ([0, 1] as const).map((coordinateIndex) => [Math.min(...allPoses.map((pose) => pose[coordinateIndex])), Math.max(...allPoses.map((pose) => pose[coordinateIndex]))]);
   const [width, height] = axisRanges.map(([low, high]) => high - low);
   const pixelsPerMetre = Math.min((PICTURE_WIDTH - 2 * PICTURE_MARGIN) / Math.max(width, 0.1), (PICTURE_HEIGHT - 2 * PICTURE_MARGIN) / Math.max(height, 0.1));
   const pathDataOf = (path: Path) => svgPathDataOf(path, ([x, y]) => [PICTURE_MARGIN + (x - axisRanges[0][0]) * pixelsPerMetre, PICTURE_HEIGHT - PICTURE_MARGIN - (y - axisRanges[1][0]) * pixelsPerMetre]);

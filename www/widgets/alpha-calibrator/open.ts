@@ -28,7 +28,7 @@ export interface ChosenFiles {
   recordings: Recording[];
   /** Errors of the files that were skipped. */
   skipped: LogFailure[];
-  /** Options of files by their names. */
+  /** Options for reading each file, by its name. */
   answers: Record<string, OpenOptions>;
   questions: OpenQuestion[];
   /** Choices of the user. Missing choices are guessed. */
@@ -43,7 +43,7 @@ export interface ChosenFiles {
 }
 
 /** Extensions that the file dialog offers. */
-const EXTENSIONS = ['.csv', '.txt', '.tum', '.log', '.mcap', '.bag', '.db3', '.zst', '.zstd', '.yaml'];
+const LOG_FILE_EXTENSIONS = ['.csv', '.txt', '.tum', '.log', '.mcap', '.bag', '.db3', '.zst', '.zstd', '.yaml'];
 
 export class LogOpener extends FileOpener<Figure> {
   resultElementId = 'log';
@@ -56,15 +56,15 @@ export class LogOpener extends FileOpener<Figure> {
   logModule: LogModule | undefined;
   /** Fraction of the files that has been read; undefined if no file is being read. */
   readFraction: number | undefined;
-  /** Value of `kind` when the log was read. */
-  #preferredKind: 'commands' | undefined;
+  /** Value of `preferredKind` when the latest files were read. */
+  #kindOfLatestFiles: 'commands' | undefined;
 
   /** Kind of odometry that is preferred if a log has several: commands for the velocity model. */
-  get kind(): 'commands' | undefined {
+  get preferredKind(): 'commands' | undefined {
     return this.host.viewModel.config.model === 'velocity' ? 'commands' : undefined;
   }
 
-  /** Words of logs in the present language. */
+  /** Messages about logs in the current language; undefined until their module is loaded. */
   get texts(): LogWords | undefined {
     return this.logModule?.[language === 'de' ? 'de' : 'en'];
   }
@@ -72,48 +72,48 @@ export class LogOpener extends FileOpener<Figure> {
   /** Reads the files again if the model has changed and prefers another odometry in them. */
   hostUpdated() {
     const { chosenFiles } = this;
-    if (chosenFiles?.log && chosenFiles.log === this.host.log && this.readFraction === undefined && this.#preferredKind !== this.kind) this.#open(chosenFiles);
+    if (chosenFiles?.log && chosenFiles.log === this.host.log && this.readFraction === undefined && this.#kindOfLatestFiles !== this.preferredKind) this.#open(chosenFiles);
   }
 
   /** Forgets the chosen files, and shows a log of the page or, by default, the simulated one. */
-  async close(log: CalibrationLog | null = null) {
+  async closeLog(log: CalibrationLog | null = null) {
     this.#endReading();
     this.#resultFiles = undefined;
-    this.restore();
+    this.restoreResults();
     if (log === this.host.log) return;
-    await this.host.open(log, []);
+    await this.host.openLog(log, []);
     this.host.gesture.commitOneStep();
   }
 
-  /** Returns to the files of the results on screen. */
-  restore() {
+  /** Forgets files that were refused or not fitted, and returns to the files whose results are on screen. */
+  restoreResults() {
     this.chosenFiles = this.#resultFiles?.log === this.host.log ? this.#resultFiles : undefined;
     this.#loneLogFiles = this.refusal = undefined;
     this.host.requestUpdate();
   }
 
   /** Sentence that names the log of the results, and its odometry and reference if they are files. */
-  get presentText() {
-    const { present, presentLogs } = words.calibrator.own;
+  get resultSourceText() {
+    const { resultsOfLog, resultsOfFiles } = words.calibrator.logControls;
     const { log, drives } = this.#resultFiles ?? {};
     const namesOf = (role: Role) => drives?.map((drive) => drive[role].name).join(', ') ?? '';
-    return drives && log === this.host.log ? presentLogs(namesOf('odometry'), namesOf('reference')) : present(this.host.logName);
+    return drives && log === this.host.log ? resultsOfFiles(namesOf('odometry'), namesOf('reference')) : resultsOfLog(this.host.logName);
   }
 
   /** Sentence that the results are those of another log, while the chosen files are refused; empty otherwise. */
   get otherResultsNote() {
-    return this.refusal === undefined || isAbortError(this.refusal) ? '' : words.calibrator.own.still(this.host.logName);
+    return this.refusal === undefined || isAbortError(this.refusal) ? '' : words.calibrator.logControls.resultsOfOtherLog(this.host.logName);
   }
 
-  stop() {
+  stopReading() {
     this.#endReading();
-    this.restore();
+    this.restoreResults();
     this.refusal = new DOMException('', 'AbortError');
   }
 
   #endReading() {
     this.cancel();
-    this.host.service.stop();
+    this.host.service.stopRequest();
     this.#setIdle();
   }
 
@@ -131,20 +131,20 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   /** Stores an answer to a question, and opens the files with it. */
-  answer({ file }: OpenQuestion, answer: OpenOptions) {
+  answerQuestion({ file }: OpenQuestion, answer: OpenOptions) {
     const answers = this.chosenFiles?.answers ?? {};
-    this.change({ answers: { ...answers, [file]: { ...answers[file], ...answer } } });
+    this.changeChoices({ answers: { ...answers, [file]: { ...answers[file], ...answer } } });
   }
 
-  change(change: Partial<ChosenFiles>) {
-    if (this.chosenFiles) this.#open({ ...this.chosenFiles, ...change });
+  changeChoices(changedChoices: Partial<ChosenFiles>) {
+    if (this.chosenFiles) this.#open({ ...this.chosenFiles, ...changedChoices });
   }
 
   /** Reads and fits the logs in files, which replaces an earlier attempt. */
   async #open(chosen: ChosenFiles) {
     const openedFiles: ChosenFiles = (this.chosenFiles = { ...chosen, plan: undefined, drives: undefined, log: undefined });
-    this.host.service.stop();
-    this.#preferredKind = this.kind;
+    this.host.service.stopRequest();
+    this.#kindOfLatestFiles = this.preferredKind;
     this.readFraction = 0;
     const isLatest = await this.runAttempt(async () => {
       this.logModule ??= await import('./log-choice.ts');
@@ -156,12 +156,12 @@ export class LogOpener extends FileOpener<Figure> {
 
   /** Opens files, and plans which series are read. A file with one log is paired with the previous file if that also has only one log. */
   async #planReading(chosen: ChosenFiles, logModule: LogModule): Promise<void> {
-    Object.assign(chosen, await this.host.service.open(chosen.files, chosen.answers));
+    Object.assign(chosen, await this.host.service.openFiles(chosen.files, chosen.answers));
     try {
       if (chosen.recordings.length === 0) throw chosen.skipped[0];
-      chosen.plan = logModule.planLogReading(chosen, this.kind);
+      chosen.plan = logModule.planLogReading(chosen, this.preferredKind);
     } catch (error) {
-      // A skipped file may be the missing log, so its question comes first.
+      // A file that was skipped because of a question may be the missing log. Its question is asked first.
       const skipped = chosen.skipped.find(({ question: ask }) => ask);
       if (skipped) throw skipped;
       const loneLogFiles = this.#loneLogFiles;
@@ -175,13 +175,13 @@ export class LogOpener extends FileOpener<Figure> {
 
   async #readAndFit(chosen: ChosenFiles, logModule: LogModule) {
     const plan = chosen.plan as LogPlan;
-    const drives = await this.host.service.read(plan, (readFraction) => {
+    const drives = await this.host.service.readDrives(plan, (readFraction) => {
       this.readFraction = readFraction;
       this.host.requestUpdate();
     });
     const log = { name: logModule.logNameOf(plan), ...logModule.calibrationLogOf(drives) };
-    const fitPromise = this.host.open(log, logModule.warningsOf(drives.flatMap(({ odometry, reference }) => [odometry, reference])), ({ count }) => {
-      if (count === 0) throw new RangeError(words.calibrator.none);
+    const fitPromise = this.host.openLog(log, logModule.warningsOf(drives.flatMap(({ odometry, reference }) => [odometry, reference])), ({ count }) => {
+      if (count === 0) throw new RangeError(words.calibrator.tooFewLegs);
     });
     // The summary of logs is shown while they are fitted.
     chosen.drives = drives;
@@ -196,7 +196,7 @@ export class LogOpener extends FileOpener<Figure> {
   explainRefusal(refusal: Refusal) {
     if (isAbortError(refusal)) return words.progress.stopped;
     const { message, messageIn: sentence, sentences, question: ask } = refusal;
-    const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? (sentence && this.texts ? sentence(this.texts) : words.calibrator.own.refused(message));
+    const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? (sentence && this.texts ? sentence(this.texts) : words.calibrator.logControls.refusedLog(message));
     return [refusalReason, ...(ask?.option === 'other' && this.texts ? [this.texts.choose.other] : [])].join(' ');
   }
 
@@ -213,30 +213,30 @@ export class LogOpener extends FileOpener<Figure> {
 }
 
 /** Checks whether a file may be a log, because folders also have other files. */
-const isPossibleLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || [...EXTENSIONS.slice(0, -1), '-wal'].some((extension) => name.endsWith(extension));
+const isPossibleLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || [...LOG_FILE_EXTENSIONS.slice(0, -1), '-wal'].some((fileExtension) => name.endsWith(fileExtension));
 
 /** Returns the drop zone for logs. Below it are the choosers, the progress or name of the log, and the reason for a refusal. */
 export function dropZoneHtml(figure: Figure, opener: LogOpener) {
-  const texts = words.calibrator.own;
+  const texts = words.calibrator.logControls;
   const { readFraction, logModule } = opener;
   return html`<div class="drop-zone" id=${opener.resultElementId} part="drop">
     <p title=${texts.dropTitle}>
-      ${texts.drop}
-      ${opener.fileButtonHtml('log-files', texts.files, EXTENSIONS)}
+      ${texts.dropHint}
+      ${opener.fileButtonHtml('log-files', texts.chooseFilesLabel, LOG_FILE_EXTENSIONS)}
     </p>
     ${logModule?.logChoosersHtml(opener)}
     ${readFraction !== undefined
-      ? html`<p><progress aria-label=${words.progress.label} .value=${readFraction}></progress> ${buttonHtml(words.progress.stop, () => opener.stop())}</p>`
-      : figure.log ? html`<p><span class="present">${opener.presentText}</span> ${buttonHtml(texts.leave, () => opener.close())}</p>` : nothing}
+      ? html`<p><progress aria-label=${words.progress.label} .value=${readFraction}></progress> ${buttonHtml(words.progress.stop, () => opener.stopReading())}</p>`
+      : figure.log ? html`<p><span class="present">${opener.resultSourceText}</span> ${buttonHtml(texts.leaveLabel, () => opener.closeLog())}</p>` : nothing}
     ${opener.refusalNoteHtml}
-    ${opener.otherResultsNote ? html`<p class="muted other-results">${opener.otherResultsNote} ${buttonHtml(texts.keep, () => opener.restore())}</p>` : nothing}
+    ${opener.otherResultsNote ? html`<p class="muted other-results">${opener.otherResultsNote} ${buttonHtml(texts.keepResultsLabel, () => opener.restoreResults())}</p>` : nothing}
   </div>`;
 }
 
-/** Session, the function that ends its worker, and the function by which a callback can be called from the worker. */
+/** Connection to the worker: its session, a function that ends the worker, and comlink's `proxy`, which makes a callback callable from the worker. */
 interface WorkerConnection {
   session: Pick<LogSession, 'open' | 'read' | 'calibrate'>;
-  end(): void;
+  endWorker(): void;
   proxy: typeof import('comlink').proxy;
 }
 
@@ -254,14 +254,14 @@ export class LogService {
   }
 
   /** Opens files, with the options of each by its name. */
-  open(files: Source[], answers: Record<string, OpenOptions>) {
-    // A copied `File` has no path.
+  openFiles(files: Source[], answers: Record<string, OpenOptions>) {
+    // The path is sent separately, because the copy of a `File` in the worker lacks this property.
     return this.#sendRequest(({ session }) => session.open(files.map((file) => ({ file, path: file.path ?? '' })), answers));
   }
 
   /** Reads the drives of a plan for the opened recordings. */
-  read({ drives, unpaired }: LogPlan, onProgress: (share: number) => void) {
-    return this.#sendRequest(({ session, proxy }, signal) => session.read({ drives, unpaired }, proxy((share) => void (signal.aborted || onProgress(share)))));
+  readDrives({ drives, unpaired }: LogPlan, onProgress: (fraction: number) => void) {
+    return this.#sendRequest(({ session, proxy }, signal) => session.read({ drives, unpaired }, proxy((fraction) => void (signal.aborted || onProgress(fraction)))));
   }
 
   /** Returns the fit to a log, for `AlphaCalibrator.restored`. */
@@ -270,19 +270,19 @@ export class LogService {
   }
 
   /** Cancels the current request, which rejects. */
-  stop() {
-    if (this.isBusy) this.end();
+  stopRequest() {
+    if (this.isBusy) this.endWorker();
   }
 
-  end() {
-    this.#connection?.then(({ end }) => end(), () => {});
+  endWorker() {
+    this.#connection?.then(({ endWorker }) => endWorker(), () => {});
     this.#connection = undefined;
     this.#request?.abort();
     this.#request = undefined;
   }
 
-  async #sendRequest<Result>(ask: (connection: WorkerConnection, signal: AbortSignal) => Promise<Result>): Promise<Result> {
-    this.stop();
+  async #sendRequest<Result>(sendTo: (connection: WorkerConnection, signal: AbortSignal) => Promise<Result>): Promise<Result> {
+    this.stopRequest();
     const request = (this.#request = new AbortController());
     const connection = (this.#connection ??= connectWorker());
     // After a failed start, the next request tries again.
@@ -290,7 +290,7 @@ export class LogService {
     const { signal } = request;
     const aborted = new Promise<never>((_, reject) => signal.addEventListener('abort', () => reject(signal.reason)));
     try {
-      return await Promise.race([aborted, ask(await Promise.race([aborted, connection]), signal)]);
+      return await Promise.race([aborted, sendTo(await Promise.race([aborted, connection]), signal)]);
     } finally {
       if (request === this.#request) this.#request = undefined;
     }
@@ -299,22 +299,22 @@ export class LogService {
 
 /** Starts a session in a worker; in the page's thread if the browser has no workers, or the page's policy or origin forbids them. */
 async function connectWorker(): Promise<WorkerConnection> {
-  // The library is loaded with the first log.
+  // comlink is only loaded when a log is opened.
   const [core, { proxy, wrap }] = await Promise.all([moduleForWorker('alpha-calibrator'), import('comlink')]);
   let worker: Worker | undefined;
-  const end = () => worker?.terminate();
+  const endWorker = () => worker?.terminate();
   try {
     worker = startWorker();
     if (worker) {
       const session = await Promise.race([wrap<typeof import('../../log-worker.ts').startSession>(worker)(core), rejectOnError(worker)]);
-      return { session, end, proxy };
+      return { session, endWorker, proxy };
     }
   } catch {
-    // Some browsers throw where a policy forbids workers, others fire an error.
-    end();
+    // If a policy forbids workers, some browsers throw an error, and others fire an `error` event.
+    endWorker();
   }
   const { LogSession } = await import('../../logs/session.ts');
-  return { session: new LogSession(await instantiateShared(core)), end, proxy };
+  return { session: new LogSession(await instantiateShared(core)), endWorker, proxy };
 }
 
 const rejectOnError = (worker: Worker) => new Promise<never>((_, reject) => worker.addEventListener('error', (event) => {

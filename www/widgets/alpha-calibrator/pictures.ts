@@ -12,15 +12,15 @@ import { LEG_CLASSES, LINE_STYLES, type LineName, type ViewModel } from './setti
 import type { CalibrationLegs, LegView } from '../../types.d.ts';
 
 /** View model of the pictures: the fit, and the leg that is shown. */
-export type Scene = ViewModel & { chosen: number, leg: LegView | null, overlays: LineName[] };
+export type Scene = ViewModel & { chosenLegIndex: number, leg: LegView | null, overlays: LineName[] };
 
 /** Number of legs above which the path is cached, on another canvas, and drawn as hairlines, because wide lines would hide each other. */
 const MAX_WIDE_LEGS = 2000;
 
 /** Radius of the rings around outliers, CSS pixels. */
-const RING_RADIUS = 6;
+const OUTLIER_RING_RADIUS = 6;
 
-/** Width of the thinnest lines, CSS pixels. */
+/** Width of the lines of a path with many legs, CSS pixels. */
 const HAIRLINE_WIDTH = 1;
 
 /**
@@ -40,23 +40,23 @@ export function viewCornersOf(reference: ArrayLike<number>, odometry: ArrayLike<
 export class PathPicture extends SamplesPicture<Scene> {
   name = 'plane';
   view: View = new View();
-  /** Cached path. There may be a hundred thousand legs, which change only with the log, the view or the colours. */
-  #layer = new CachedLayer();
-  #odometryPath: Memo<Float64Array> = new Memo();
+  /** Cached drawing of the path. There may be a hundred thousand legs, and the drawing changes only with the log, the view or the colours. */
+  #pathLayer = new CachedLayer();
+  #odometryPathMemo: Memo<Float64Array> = new Memo();
 
   /** Returns the ends of the legs by odometry (x, y pairs). The path starts at the first pose of the reference, and drifts away from it. */
   #odometryPathOf(legs: CalibrationLegs): Float64Array {
-    return this.#odometryPath.get([legs], () => {
+    return this.#odometryPathMemo.get([legs], () => {
       const { count, odometry, reference } = legs;
       const frameRotation = reference[2] - odometry[2];
       const [cos, sin] = [Math.cos(frameRotation), Math.sin(frameRotation)];
-      const legEnds = new Float64Array(2 * count);
+      const legEndPoints = new Float64Array(2 * count);
       for (let leg = 0; leg < count; leg++) {
         const [dx, dy] = [odometry[6 * leg + 3] - odometry[0], odometry[6 * leg + 4] - odometry[1]];
-        legEnds[2 * leg] = reference[0] + cos * dx - sin * dy;
-        legEnds[2 * leg + 1] = reference[1] + sin * dx + cos * dy;
+        legEndPoints[2 * leg] = reference[0] + cos * dx - sin * dy;
+        legEndPoints[2 * leg + 1] = reference[1] + sin * dx + cos * dy;
       }
-      return legEnds;
+      return legEndPoints;
     });
   }
 
@@ -67,50 +67,50 @@ export class PathPicture extends SamplesPicture<Scene> {
     this.view.moveTowardsTarget(0, true);
   }
 
-  paint: Picture<Scene>['paint'] = (drawContext, { legs, classes, chosen, overlays }) => {
+  paint: Picture<Scene>['paint'] = (drawContext, { legs, legClasses, chosenLegIndex, overlays }) => {
     const { palette } = drawContext;
     const legendNames = ([...LEG_CLASSES.toReversed(), 'odometry'] as const).filter((name) => overlays.includes(name));
     drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, LINE_STYLES, legendNames, words.calibrator.overlays));
     clipToPlot(drawContext, () => {
-      const paintLegs = (painter: LayerDrawContext) => drawPath(painter, legs, this.#odometryPathOf(legs), classes, overlays);
+      const paintLegs = (layerContext: LayerDrawContext) => drawPath(layerContext, legs, this.#odometryPathOf(legs), legClasses, overlays);
       if ('isVector' in drawContext.context || legs.count <= MAX_WIDE_LEGS) paintLegs(drawContext);
-      else this.#layer.draw(drawContext, [legs, overlays, drawContext.highlight], paintLegs);
-      if (chosen < 0) return;
-      const [fromX, fromY, , x, y, heading] = legs.reference.subarray(6 * chosen);
-      drawOutline(drawContext, Float64Array.of(fromX, fromY, x, y), { colour: palette.ink, width: 3.25, dash: [] });
+      else this.#pathLayer.draw(drawContext, [legs, overlays, drawContext.highlight], paintLegs);
+      if (chosenLegIndex < 0) return;
+      const [startX, startY, , x, y, heading] = legs.reference.subarray(6 * chosenLegIndex);
+      drawOutline(drawContext, Float64Array.of(startX, startY, x, y), { colour: palette.ink, width: 3.25, dash: [] });
       drawCrosshair(drawContext, { x, y, heading }, palette.ink);
     });
   };
 }
 
-function drawPath(drawContext: LayerDrawContext, legs: CalibrationLegs, odometry: Float64Array, classes: Uint8Array, overlays: LineName[]) {
+function drawPath(drawContext: LayerDrawContext, legs: CalibrationLegs, odometry: Float64Array, legClasses: Uint8Array, overlays: LineName[]) {
   const { context, view } = drawContext;
   const { count, reference, outliers } = legs;
-  const styles = createLineStyles(drawContext, LINE_STYLES);
+  const lineStyles = createLineStyles(drawContext, LINE_STYLES);
   if (overlays.includes('odometry')) {
-    const points = view.toPixels(odometry);
-    const pathPieces = range(0, points.length, LINES_PER_STROKE).map((start) => points.slice(start, start + LINES_PER_STROKE + 1));
-    strokeInBatches(context, pathPieces, styles.odometry, 1);
+    const odometryPixels = view.toPixels(odometry);
+    const pathPieces = range(0, odometryPixels.length, LINES_PER_STROKE).map((start) => odometryPixels.slice(start, start + LINES_PER_STROKE + 1));
+    strokeInBatches(context, pathPieces, lineStyles.odometry, 1);
   }
-  for (const [index, name] of LEG_CLASSES.entries()) {
+  for (const [classIndex, name] of LEG_CLASSES.entries()) {
     if (!overlays.includes(name)) continue;
-    const legsOfClass = [...classes.keys()].filter((leg) => classes[leg] === index);
-    const lines = legsOfClass.map((leg) => [0, 3].map((end) => view.toPixel(reference[6 * leg + end], reference[6 * leg + end + 1])));
-    const legStyle = { ...styles[name], cap: 'round' } as const;
-    strokeInBatches(context, lines, count > MAX_WIDE_LEGS ? { ...legStyle, width: HAIRLINE_WIDTH } : legStyle);
+    const legsOfClass = [...legClasses.keys()].filter((leg) => legClasses[leg] === classIndex);
+    const legLines = legsOfClass.map((leg) => [0, 3].map((poseOffset) => view.toPixel(reference[6 * leg + poseOffset], reference[6 * leg + poseOffset + 1])));
+    const legStyle = { ...lineStyles[name], cap: 'round' } as const;
+    strokeInBatches(context, legLines, count > MAX_WIDE_LEGS ? { ...legStyle, width: HAIRLINE_WIDTH } : legStyle);
   }
   const outlierLegs = overlays.includes('outlier') ? [...outliers.keys()].filter((leg) => outliers[leg] > 0) : [];
-  strokePath(context, styles.outlier, () => {
+  strokePath(context, lineStyles.outlier, () => {
     for (const leg of outlierLegs) {
       const [x, y] = view.toPixel(reference[6 * leg + 3], reference[6 * leg + 4]);
-      context.moveTo(x + RING_RADIUS, y);
-      context.arc(x, y, RING_RADIUS, 0, 2 * Math.PI);
+      context.moveTo(x + OUTLIER_RING_RADIUS, y);
+      context.arc(x, y, OUTLIER_RING_RADIUS, 0, 2 * Math.PI);
     }
   });
 }
 
 /** Margin around the mark of a leg's end, as a fraction of the leg's length. */
-const MARK_MARGIN = 0.08;
+const RELATIVE_MARK_MARGIN = 0.08;
 
 /** Picture of one leg in the frame of its start: the predicted ends, and the ends by odometry and reference. */
 export class LegPicture extends Picture<Scene> {
@@ -121,19 +121,19 @@ export class LegPicture extends Picture<Scene> {
     if (!leg) return;
     const { outline, read, ended } = leg;
     this.view.allowZoomIn();
-    const markMargin = MARK_MARGIN * Math.hypot(ended[0], ended[1]);
+    const markMargin = RELATIVE_MARK_MARGIN * Math.hypot(ended[0], ended[1]);
     const markCorners = [read, ended].flatMap(([x, y]) => [x - markMargin, y - markMargin, x + markMargin, y + markMargin]);
     this.view.fit(extentOf([0, 0, ...outline, ...markCorners], 0.05));
   }
 
   paint: Picture<Scene>['paint'] = (drawContext, { leg, overlays }) => {
     const { palette } = drawContext;
-    drawAxes(drawContext, { x: words.calibrator.axisAhead, y: words.calibrator.axisLeft }, []);
+    drawAxes(drawContext, { x: words.calibrator.aheadAxisLabel, y: words.calibrator.leftAxisLabel }, []);
     if (!leg) return;
     const { outcomes, outline, read, ended } = leg;
     const isLineShown = (name: LineName) => overlays.includes(name);
-    const styles = createLineStyles(drawContext, LINE_STYLES);
-    const styledLineOf = (name: LineName, points: Float64Array) => (isLineShown(name) ? [{ points, ...styles[name] }] : []);
+    const lineStyles = createLineStyles(drawContext, LINE_STYLES);
+    const styledLineOf = (name: LineName, points: Float64Array) => (isLineShown(name) ? [{ points, ...lineStyles[name] }] : []);
     clipToPlot(drawContext, () => {
       if (isLineShown('predicted')) drawDots(drawContext, outcomes);
       drawOutlines(drawContext, [

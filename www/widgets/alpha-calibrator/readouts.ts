@@ -20,8 +20,8 @@ addEnglishMessages({ calibrator: en });
 /** Pattern of the names of checks whose value is a fraction. */
 const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
 
-export const judgeFit = ({ stats, legs: { count }, fitted }: Pick<ViewModel, 'stats' | 'legs' | 'fitted'>, warnings: Warning[]) =>
-  judgementOf({ stats, count, model: fitted.model, corrections: fitted, warnings }, words.calibrator, words.moreControls);
+export const judgeFit = ({ stats, legs: { count }, fittedConfig }: Pick<ViewModel, 'stats' | 'legs' | 'fittedConfig'>, warnings: Warning[]) =>
+  judgementOf({ stats, legCount: count, model: fittedConfig.model, corrections: fittedConfig, warnings }, words.calibrator, words.moreControls);
 
 /** Prints the value of a check, or a limit of it. */
 export function formatCheckValue(name: CalibrationCheck['name'], value: number) {
@@ -39,21 +39,21 @@ export function formatExpectedRange({ name, expected: [low, high] }: Calibration
 
 /** Returns the reason for the recommended α's. */
 export function explainRecommendation({ stats: { recommended, diagnostics: { checks, windows } } }: ViewModel) {
-  const texts = words.calibrator.recommended;
-  if (!recommended) return texts.none;
+  const texts = words.calibrator.recommendationReasons;
+  if (!recommended) return texts.unusableLog;
   const [{ count, coverage, nees }] = windows;
-  if (!checks.some(({ name }) => name === 'window-1m-covered')) return texts.few(formatInteger(count));
+  if (!checks.some(({ name }) => name === 'window-1m-covered')) return texts.tooFewWindows(formatInteger(count));
   const { inflation } = recommended;
-  return inflation === 1 ? texts.covered(formatPercent(coverage), formatInteger(count)) : texts.inflated(formatFixed(inflation, 2), formatPercent(coverage), formatInteger(count), formatFixed(nees, 2));
+  return inflation === 1 ? texts.goodCoverage(formatPercent(coverage), formatInteger(count)) : texts.inflated(formatFixed(inflation, 2), formatPercent(coverage), formatInteger(count), formatFixed(nees, 2));
 }
 
 export const noiseNamesOf = (model: ViewModel['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'].map(([name]) => name);
 
 /** Returns the number of legs and outliers of the named log in a sentence; empty if there are no legs. */
-export function describeLegs({ legs }: ViewModel, log: string) {
+export function describeLegs({ legs }: ViewModel, logName: string) {
   if (legs.count === 0) return '';
   const outlierCount = legs.outliers.reduce((sum, outlierFlag) => sum + outlierFlag, 0);
-  return words.calibrator.present(log, formatInteger(legs.count), outlierCount > 0 ? formatInteger(outlierCount) : '');
+  return words.calibrator.legCountSentence(logName, formatInteger(legs.count), outlierCount > 0 ? formatInteger(outlierCount) : '');
 }
 
 export function captionOf({ viewModel, warnings, logName }: Pick<Figure, 'viewModel' | 'warnings' | 'logName'>) {
@@ -62,24 +62,24 @@ export function captionOf({ viewModel, warnings, logName }: Pick<Figure, 'viewMo
 }
 
 /** Icons and colours of the ratings. */
-const RATING_LOOKS = { consistent: ['✓', 'posterior'], questionable: ['!', 'prediction'], unusable: ['✕', 'accent'] };
+const RATING_STYLES = { consistent: ['✓', 'posterior'], questionable: ['!', 'prediction'], unusable: ['✕', 'accent'] };
 
 /** Returns the badge that rates the α's, the finding, and the number of legs. On a wide page it has at most two lines. */
 export function verdictHtml({ viewModel, logName, warnings }: Figure) {
   const { rating, badge, finding } = judgeFit(viewModel, warnings);
-  const [icon, role] = RATING_LOOKS[rating];
+  const [icon, role] = RATING_STYLES[rating];
   return html`<span class="badge" data-role=${role}><span aria-hidden="true">${icon}</span> ${badge}</span>
     <strong>${finding}</strong> <span class="muted">${describeLegs(viewModel, logName)}</span>`;
 }
 
 /** Returns the table of the α's, with the true values where they are comparable. */
 export function alphaTableHtml(viewModel: ViewModel) {
-  const { stats: { alphas, intervals }, truth, fitted: { model } } = viewModel;
+  const { stats: { alphas, intervals }, truth, fittedConfig: { model } } = viewModel;
   const texts = words.calibrator.alphas;
   const shownTruth = isTruthComparable(viewModel) ? truth?.alphas : undefined;
   const nameHtml = (name: string, i: number) => html`${formatMarkup(`*α*${subscriptOf(i)}`)} <span class="muted">${name}</span>`;
   return html`<div class="alphas">${tableHtml({
-    columns: [texts.noise, texts.value, texts.recommended, ...(shownTruth ? [words.calibrator.systematic.truth] : [])],
+    columns: [texts.noiseColumn, texts.fittedColumn, texts.recommendedColumn, ...(shownTruth ? [words.calibrator.systematic.simulatedColumn] : [])],
     rows: noiseNamesOf(model).slice(0, alphas.length).map((name, i) => (alphas[i] === null
       ? [nameHtml(name, i), explainMissingAlpha(viewModel, i)]
       : [
@@ -91,19 +91,19 @@ export function alphaTableHtml(viewModel: ViewModel) {
   })}</div>`;
 }
 
-/** Prints an α times a factor. */
+/** Prints an α, multiplied by the inflation if given. */
 const formatAlpha = ({ stats: { alphas, intervals } }: ViewModel, index: number, inflation?: number) => localizeNumber(formatAlphaOrBound(alphas[index], intervals[index], inflation));
 
 const formatRecommendedAlpha = (viewModel: ViewModel, index: number) =>
   (viewModel.stats.recommended ? formatAlpha(viewModel, index, viewModel.stats.recommended.inflation) : NO_VALUE);
 
 /** Returns the reason why an α is not identifiable, and the drive that would identify it. */
-function explainMissingAlpha({ stats: { notIdentifiable }, fitted: { model } }: ViewModel, index: number) {
+function explainMissingAlpha({ stats: { notIdentifiable }, fittedConfig: { model } }: ViewModel, index: number) {
   const texts = words.calibrator.alphas;
   const reason = notIdentifiable[index];
   if (!reason) return NO_VALUE;
-  const { lack, drive } = adviceOf(texts.lacking, model, reason);
-  return texts.unknown(lack, drive);
+  const { lack, drive } = adviceOf(texts.missingMotions, model, reason);
+  return texts.notDetermined(lack, drive);
 }
 
 export function systematicTableHtml(figure: Figure) {
@@ -112,39 +112,39 @@ export function systematicTableHtml(figure: Figure) {
   const { requested } = figure.settings;
   const rows = SYSTEMATIC_ERRORS.map((key) => {
     const components = componentsOf(errors[key]);
-    const correctCheckbox = checkboxHtml({ label: texts.names[key], checked: requested[key], onChange: (isChecked) => figure.gesture.requestAndCommit({ [key]: isChecked }) });
-    if (components.some(({ value }) => value === null)) return [correctCheckbox, texts.unknown];
+    const correctCheckbox = checkboxHtml({ label: texts.errorNames[key], checked: requested[key], onChange: (isChecked) => figure.gesture.requestAndCommit({ [key]: isChecked }) });
+    if (components.some(({ value }) => value === null)) return [correctCheckbox, texts.notDetermined];
     return [
       correctCheckbox,
       stackedTextsHtml(components.map(({ value, interval }) => localizeNumber(formatEstimate(value, interval)))),
       stackedTextsHtml(components.map(({ interval }) => localizeInterval(interval))),
-      errors[key].corrected ? texts.corrected : errors[key].constant ? texts.notCorrected : texts.notConstant,
+      errors[key].corrected ? texts.correctedLabel : errors[key].constant ? texts.notCorrectedLabel : texts.notConstantLabel,
       ...(truth ? [stackedTextsHtml([truth[key]].flat().map((component) => localizeNumber(formatNumber(component))))] : []),
     ];
   });
-  const columns = [texts.what, texts.value, words.calibrator.alphas.interval, texts.treatment, ...(truth ? [texts.truth] : [])];
+  const columns = [texts.errorColumn, texts.valueColumn, words.calibrator.alphas.intervalColumn, texts.treatmentColumn, ...(truth ? [texts.simulatedColumn] : [])];
   return html`<div class="systematic">${tableHtml({ columns, rows })}</div>`;
 }
 
 const stackedTextsHtml = (texts: string[]) => texts.map((text) => html`<div>${text}</div>`);
 
 export function diagnosticsHtml(figure: Figure) {
-  const { checks, windows, noise, lost } = words.calibrator;
+  const { checks, windows, noiseTable, lostLegs } = words.calibrator;
   return html`${fieldsetHtml(checks.title, checksTableHtml(figure))}
     ${fieldsetHtml(windows.title, windowsTableHtml(figure))}
-    ${fieldsetHtml(noise.title, noiseTableHtml(figure))}
-    ${fieldsetHtml(lost.title, lostLegsReadoutsHtml(figure))}`;
+    ${fieldsetHtml(noiseTable.title, noiseTableHtml(figure))}
+    ${fieldsetHtml(lostLegs.title, lostLegsReadoutsHtml(figure))}`;
 }
 
 function checksTableHtml({ viewModel: { stats } }: Figure) {
   const texts = words.calibrator.checks;
   return tableHtml({
-    columns: [texts.check, texts.value, texts.expected, texts.result],
+    columns: [texts.checkColumn, texts.observedColumn, texts.expectedColumn, texts.resultColumn],
     rows: stats.diagnostics.checks.map((check) => [
-      html`${texts.names[check.name]}<div class="muted">${checkMessage(check, stats, words.calibrator)}</div>`,
+      html`${texts.checkNames[check.name]}<div class="muted">${checkMessage(check, stats, words.calibrator)}</div>`,
       formatCheckValue(check.name, check.value),
       formatExpectedRange(check),
-      check.passed ? `✓ ${texts.passed}` : html`<strong>✕ ${texts.failed}</strong>`,
+      check.passed ? `✓ ${texts.passedLabel}` : html`<strong>✕ ${texts.failedLabel}</strong>`,
     ]),
   });
 }
@@ -153,105 +153,105 @@ function windowsTableHtml({ viewModel: { stats: { diagnostics: { windows } } } }
   const texts = words.calibrator.windows;
   return tableHtml({
     caption: texts.caption,
-    columns: [texts.length, texts.count, texts.coverage, texts.nees],
+    columns: [texts.length, texts.countColumn, texts.coverageColumn, texts.neesColumn],
     rows: windows.map(({ length, count, coverage, nees }) => [`${formatFixed(length, 1)} m`, formatInteger(count), formatPercent(coverage), formatFixed(nees, 2)]),
   });
 }
 
 function noiseTableHtml({ viewModel: { stats: { referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } } } }: Figure) {
-  const { noise: texts, systematic, settings, alphas: { interval: intervalName } } = words.calibrator;
+  const { noiseTable: texts, systematic, settings, alphas: { intervalColumn } } = words.calibrator;
   const formatNoiseRow = (name: string, { value, interval }: Estimate) => [name, localizeNumber(formatEstimate(value, interval)), localizeInterval(interval)];
   return tableHtml({
-    columns: [texts.what, systematic.value, intervalName],
+    columns: [texts.quantityColumn, systematic.valueColumn, intervalColumn],
     rows: [
       formatNoiseRow(`${settings.positionStd.name} (m)`, positionStd),
       formatNoiseRow(`${settings.yawStd.name} (rad)`, yawStd),
-      formatNoiseRow(texts.correlation, correlation),
+      formatNoiseRow(texts.correlationName, correlation),
       [texts.length, length > 0 ? `${formatRounded(length, 2)} m` : NO_VALUE, NO_VALUE],
     ],
   });
 }
 
 function lostLegsReadoutsHtml({ viewModel: { stats: { lost } } }: Figure) {
-  return readoutsHtml(LOST_LEG_CAUSES.map((cause) => [words.calibrator.lost[cause], formatInteger(lost[cause])]));
+  return readoutsHtml(LOST_LEG_CAUSES.map((cause) => [words.calibrator.lostLegs[cause], formatInteger(lost[cause])]));
 }
 
 /** Minimum squared distance or rotation at the end of an axis: (1 mm)², or (1 mrad)². */
 const MIN_AXIS_END = 1e-6;
 
 /** Returns plots of each noise component: its squared residuals against squared rotation, and against squared translation. */
-export function regressionPanelsHtml({ viewModel: { fitted: { model }, legs }, panels }: Figure) {
+export function regressionPanelsHtml({ viewModel: { fittedConfig: { model }, legs }, panels }: Figure) {
   const texts = words.calibrator.panels;
-  const axisNames = model === 'velocity' ? { turn: texts.turnRate, distance: texts.speed } : { turn: texts.turn, distance: texts.distance };
-  if (legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
+  const axisNames = model === 'velocity' ? { turn: texts.turnRateAxisLabel, distance: texts.speedAxisLabel } : { turn: texts.turnAxisLabel, distance: texts.distanceAxisLabel };
+  if (legs.count === 0) return html`<p>${words.calibrator.tooFewLegs}</p>`;
   return html`<figure><div class="panels">
       ${panels.flatMap(({ regressor, components }) => components.map((panel, i) =>
-        html`<figure>${plotHtml(panelPlotHtml(panel, texts.kinds[NOISE_COMPONENTS[model][i]], axisNames[regressor]))}</figure>`))}
+        html`<figure>${plotHtml(panelPlotHtml(panel, texts.componentNames[NOISE_COMPONENTS[model][i]], axisNames[regressor]))}</figure>`))}
     </div>
     <figcaption>${formatMarkup(texts.caption)}</figcaption></figure>`;
 }
 
-/** Returns the plot of a panel. `kind` is the name of its noise component, and `axis` that of its regressor. */
-function panelPlotHtml({ alpha, x, y, error, slope, interval }: CalibrationPanel, panelTitle: string, axis: string): PlotOptions {
+/** Returns the plot of a panel. `panelTitle` is the name of its noise component, and `regressorLabel` that of its regressor. */
+function panelPlotHtml({ alpha, x, y, error, slope, interval }: CalibrationPanel, panelTitle: string, regressorLabel: string): PlotOptions {
   const texts = words.calibrator.panels;
   const maxRegressor = Math.max(0, ...x);
-  // A log without rotation or without translation has an empty axis.
+  // If the log has no rotation or no translation, the axis of that regressor ends at 1.
   const axisEnd = maxRegressor > MIN_AXIS_END ? 1.06 * maxRegressor : 1;
   // The axis has half as much space for error bars as for the bins and the line. A longer bar is cut, so that it does not compress all others.
   const [minSquare, maxSquare] = [Math.min(0, ...y), Math.max(x.length ? 1e-12 : 1, (slope ?? 0) * axisEnd, ...y)];
   const [axisBottom, axisTop] = [1.5 * minSquare, 1.5 * maxSquare];
   // Small numbers are scaled by a power of 1000, so that labels fit next to the axis.
   const exponent = Math.min(0, 3 * Math.floor(Math.log10(Math.max(axisTop, -axisBottom)) / 3));
-  const scaleToAxis = (value: number) => value * 10 ** -exponent;
+  const scaleToAxis = (quantity: number) => quantity * 10 ** -exponent;
   const subscript = subscriptOf(alpha);
   const [low, high] = interval ?? [NaN, NaN];
   const slopeMiddle = (low + high) / 2;
   const slopeLines: Curve[] = slope === null ? [] : [
-    { name: texts.slope(subscript), role: 'prediction', x: [0, axisEnd], y: [0, scaleToAxis(slope * axisEnd)] },
-    { name: words.calibrator.alphas.interval, role: 'cloud', isBandOnly: true, x: [0, axisEnd], y: [0, scaleToAxis(slopeMiddle * axisEnd)], error: [0, scaleToAxis(((high - low) / 2) * axisEnd)] },
+    { name: texts.slopeName(subscript), role: 'prediction', x: [0, axisEnd], y: [0, scaleToAxis(slope * axisEnd)] },
+    { name: words.calibrator.alphas.intervalColumn, role: 'cloud', isBandOnly: true, x: [0, axisEnd], y: [0, scaleToAxis(slopeMiddle * axisEnd)], error: [0, scaleToAxis(((high - low) / 2) * axisEnd)] },
   ];
   return {
-    label: texts.label(panelTitle, String(alpha + 1), slope === null ? NO_VALUE : localizeNumber(formatAlphaOrBound(slope, interval))),
-    x: { name: axis, min: 0, max: axisEnd },
-    y: { name: `${panelTitle}, ${texts.axis}${exponent < 0 ? ` (${formatPowerOfTen(exponent)})` : ''}`, min: scaleToAxis(axisBottom), max: scaleToAxis(axisTop) },
-    curves: [...slopeLines, { name: texts.bins, role: 'ink', x: [], y: [] }],
+    label: texts.plotDescription(panelTitle, String(alpha + 1), slope === null ? NO_VALUE : localizeNumber(formatAlphaOrBound(slope, interval))),
+    x: { name: regressorLabel, min: 0, max: axisEnd },
+    y: { name: `${panelTitle}, ${texts.squaredResidualLabel}${exponent < 0 ? ` (${formatPowerOfTen(exponent)})` : ''}`, min: scaleToAxis(axisBottom), max: scaleToAxis(axisTop) },
+    curves: [...slopeLines, { name: texts.binMeansName, role: 'ink', x: [], y: [] }],
     points: x.map((value, i) => ({ role: 'ink' as const, x: value, y: scaleToAxis(y[i]), error: scaleToAxis(error[i]) })),
   };
 }
 
 /** Returns the lines for nav2_params.yaml; empty if Nav2 has no such model, or no α's are recommended. */
 function yamlOf({ viewModel, logName, warnings }: Figure): string {
-  const { fitted: config, stats, legs: { count } } = viewModel;
-  const { model, rule, distance, angle, duration } = config;
+  const { fittedConfig, stats, legs: { count } } = viewModel;
+  const { model, rule, distance, angle, duration } = fittedConfig;
   const date = new Date().toISOString().slice(0, 10);
-  const fittedLog = { calibration: stats, count, model, rule, legs: duration > 0 ? { duration } : { distance, angle }, log: logName, warnings, date };
+  const fittedLog = { calibration: stats, legCount: count, model, rule, legs: duration > 0 ? { duration } : { distance, angle }, logName, warnings, date };
   return formatNav2Lines(fittedLog).map((line) => `${line}\n`).join('');
 }
 
 /** Returns all results as JSON, with typed arrays as plain arrays. */
-function jsonOf({ viewModel: { fitted, stats, legs, truth }, logName }: Figure) {
-  const allResults = { log: logName, date: new Date().toISOString(), settings: fitted, ...stats, ...(truth && { truth }), legs };
+function jsonOf({ viewModel: { fittedConfig, stats, legs, truth }, logName }: Figure) {
+  const allResults = { log: logName, date: new Date().toISOString(), settings: fittedConfig, ...stats, ...(truth && { truth }), legs };
   return JSON.stringify(allResults, (_, value) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value), 1);
 }
 
 /**
- * Returns the button that copies the lines. For α's of another rule than Nav2's, it is a button that fits Nav2's rule. `obstacle` is the
- * reason why the button is disabled; empty if it is enabled.
+ * Returns the button that copies the lines for nav2_params.yaml. For α's of another rule than Nav2's, it is a button that fits Nav2's rule.
+ * `obstacle` is the reason why the button is disabled; empty if it is enabled.
  */
 export function nav2ButtonHtml(figure: Figure, obstacle: string) {
   const texts = words.calibrator.nav2;
-  if (!NAV2_RULES.includes(modelRuleOf(figure.viewModel.fitted))) return buttonHtml(texts.fit, () => figure.gesture.requestAndCommit(settingsOfModelRule('nav2')), { disabled: obstacle !== '', title: obstacle || texts.fitTitle });
+  if (!NAV2_RULES.includes(modelRuleOf(figure.viewModel.fittedConfig))) return buttonHtml(texts.fitLabel, () => figure.gesture.requestAndCommit(settingsOfModelRule('nav2')), { disabled: obstacle !== '', title: obstacle || texts.fitTitle });
   const yaml = yamlOf(figure);
-  return copyButtonHtml(figure, texts.copy, () => yaml, { disabled: !yaml || obstacle !== '', title: obstacle || (yaml ? texts.label : texts.none) });
+  return copyButtonHtml(figure, texts.copyLabel, () => yaml, { disabled: !yaml || obstacle !== '', title: obstacle || (yaml ? texts.yamlLabel : texts.noYamlNote) });
 }
 
-/** Returns the lines, and the button that saves all results. `obstacle` is the reason why it is disabled, or empty. */
+/** Returns the lines for nav2_params.yaml, and the button that saves all results. `obstacle` is the reason why the button is disabled; empty if it is enabled. */
 export function nav2ExportControlsHtml(figure: Figure, obstacle: string) {
   const texts = words.calibrator.nav2;
   const yaml = yamlOf(figure);
   const fileName = `${figure.localName}-${figure.viewModel.config.seed}.json`;
-  return html`${yaml ? html`<textarea class="yaml" lang="en" readonly rows=${yaml.split('\n').length} aria-label=${texts.label} .value=${yaml}></textarea>` : html`<p>${texts.none}</p>`}
+  return html`${yaml ? html`<textarea class="yaml" lang="en" readonly rows=${yaml.split('\n').length} aria-label=${texts.yamlLabel} .value=${yaml}></textarea>` : html`<p>${texts.noYamlNote}</p>`}
     <div class="buttons">
-      ${buttonHtml(texts.json, () => downloadFile(fileName, new Blob([jsonOf(figure)], { type: 'application/json' })), { disabled: obstacle !== '', title: obstacle || undefined })}
+      ${buttonHtml(texts.saveJsonLabel, () => downloadFile(fileName, new Blob([jsonOf(figure)], { type: 'application/json' })), { disabled: obstacle !== '', title: obstacle || undefined })}
     </div>`;
 }

@@ -11,12 +11,12 @@ type Interval = CertainInterval | null;
 
 interface FittedLog {
   calibration: CalibrationStats;
-  count: number;
+  legCount: number;
   model: string;
   rule: string;
   legs: { distance?: number, angle?: number, duration?: number };
   /** Names of odometry and reference. */
-  log: string;
+  logName: string;
   /** Notes of the logs that leave the α's doubtful. */
   warnings: Warning[];
   date: string;
@@ -24,7 +24,7 @@ interface FittedLog {
 
 type Texts = typeof import('./en.ts').en;
 
-/** Significant digits of an interval's width, and of values without an interval. */
+/** Number of significant digits to which the width of an interval is printed, and number for values without an interval. */
 const [WIDTH_DIGITS, VALUE_DIGITS] = [2, 3];
 
 /** Absolute value below which numbers are printed with an exponent. */
@@ -44,7 +44,7 @@ const MAX_NAMED_CHECKS = 2;
 /** Text for a missing number. */
 const NO_NUMBER = '–';
 
-/** Plugins of Nav2 by model. */
+/** Names of Nav2's motion model plugins, by motion model. */
 const NAV2_PLUGINS: Record<string, string> = { odometry: 'nav2_amcl::DifferentialMotionModel', omnidirectional: 'nav2_amcl::OmniMotionModel' };
 
 /** Noise rules of Nav2's motion models: the formulas by which the α's give variances. */
@@ -53,7 +53,7 @@ export const NAV2_RULES = ['nav2', 'omni'];
 /** Returns true if Nav2 can use α's that were fitted with a model and a noise rule. */
 export const isNav2Rule = (model: string, rule: string): boolean => model !== 'odometry' || NAV2_RULES.includes(rule);
 
-export const formatNumber = (value: number | null, digits = VALUE_DIGITS) => (value !== null && Number.isFinite(value) ? withPointInMantissa(String(Number(value.toPrecision(digits)))) : NO_NUMBER);
+export const formatNumber = (number: number | null, digits = VALUE_DIGITS) => (number !== null && Number.isFinite(number) ? withPointInMantissa(String(Number(number.toPrecision(digits)))) : NO_NUMBER);
 
 /** Adds a decimal point to a number with an exponent. YAML 1.1 parses a number without the point as a string. */
 const withPointInMantissa = (numberText: string) => numberText.replace(/^(-?\d)e/, '$1.0e');
@@ -62,20 +62,20 @@ const withPointInMantissa = (numberText: string) => numberText.replace(/^(-?\d)e
 const withDecimalPoint = (numberText: string) => (numberText.includes('.') ? numberText : `${numberText}.0`);
 
 /** Prints a value with the decimals that are significant for its interval. A value that rounds to 0 has no sign. */
-export function formatEstimate(value: number | null, interval: Interval | undefined) {
+export function formatEstimate(number: number | null, interval: Interval | undefined) {
   const intervalWidth = interval ? interval[1] - interval[0] : 0;
-  if (value === null || !(Math.abs(value) < MAX_PLAIN_NUMBER) || !(intervalWidth > 0 && intervalWidth < Infinity)) return formatNumber(value);
+  if (number === null || !(Math.abs(number) < MAX_PLAIN_NUMBER) || !(intervalWidth > 0 && intervalWidth < Infinity)) return formatNumber(number);
   const decimalCount = WIDTH_DIGITS - 1 - Math.floor(Math.log10(intervalWidth));
-  if (intervalWidth >= MIN_PLAIN_NUMBER || Math.abs(value) >= MIN_PLAIN_NUMBER) return value.toFixed(Math.max(0, Math.min(MAX_DECIMALS, decimalCount))).replace(/^-(?=[0.]+$)/, '');
-  const mantissaDecimals = decimalCount + Math.floor(Math.log10(Math.abs(value)));
-  return mantissaDecimals < 0 ? '0' : withPointInMantissa(value.toExponential(Math.min(MAX_DECIMALS, mantissaDecimals)));
+  if (intervalWidth >= MIN_PLAIN_NUMBER || Math.abs(number) >= MIN_PLAIN_NUMBER) return number.toFixed(Math.max(0, Math.min(MAX_DECIMALS, decimalCount))).replace(/^-(?=[0.]+$)/, '');
+  const mantissaDecimals = decimalCount + Math.floor(Math.log10(Math.abs(number)));
+  return mantissaDecimals < 0 ? '0' : withPointInMantissa(number.toExponential(Math.min(MAX_DECIMALS, mantissaDecimals)));
 }
 
-/** Prints an interval; empty if an end is not finite. */
+/** Prints an interval; returns an empty text if an end is not finite. */
 export const formatInterval = (interval: Interval | undefined) => (interval?.every(Number.isFinite) ? interval.map((end) => formatEstimate(end, interval)).join(' to ') : '');
 
 /** Returns true if an α prints as 0 with the digits that its interval allows. A printed 0 would look like a result. */
-const printsAsZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(formatEstimate(alpha, interval)) === 0;
+const isPrintedAsZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(formatEstimate(alpha, interval)) === 0;
 
 /** Converts a number as printed in files (-1.5e-7) to the signs of the language and a power of ten. */
 export const localizeNumber = (numberText: string) =>
@@ -92,47 +92,47 @@ const formatUpperEnd = (interval: Interval | undefined) => formatNumber(interval
 const scaleInterval = (interval: Interval, inflation: number): Interval => interval && [inflation * interval[0], inflation * interval[1]];
 
 /** Prints an α times a factor, or its upper bound if it is not significantly different from 0. */
-export const formatAlphaOrBound = (alpha: number | null, interval: Interval, inflation = 1) => (printsAsZero(alpha, interval) ? `≤ ${formatUpperEnd(scaleInterval(interval, inflation))}` : formatEstimate(alpha && inflation * alpha, scaleInterval(interval, inflation)));
+export const formatAlphaOrBound = (alpha: number | null, interval: Interval, inflation = 1) => (isPrintedAsZero(alpha, interval) ? `≤ ${formatUpperEnd(scaleInterval(interval, inflation))}` : formatEstimate(alpha && inflation * alpha, scaleInterval(interval, inflation)));
 
 /**
  * Returns the YAML lines with the recommended α's, and with the fitted α's in comments. Returns no lines if Nav2 has no such model, or if
  * no α's are recommended.
  */
-export function formatNav2Lines({ calibration, count, model, rule, legs, log, warnings, date }: FittedLog): string[] {
+export function formatNav2Lines({ calibration, legCount, model, rule, legs, logName, warnings, date }: FittedLog): string[] {
   const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks, windows: [window] } } = calibration;
   if (!Object.hasOwn(NAV2_PLUGINS, model) || recommended === null) return [];
   const { inflation } = recommended;
   const { distance, angle, duration } = legs;
-  const failedNames = failedChecksOf(checks).map(({ name }) => name).join(', ');
+  const failedCheckNames = failedChecksOf(checks).map(({ name }) => name).join(', ');
   const notes = [
-    yamlWords.of(String(count), duration === undefined ? yamlWords.moved(formatNumber(distance ?? null), formatNumber(angle ?? null)) : yamlWords.lasted(formatNumber(duration)), log, date),
-    yamlWords.recommended(formatNumber(inflation), formatPercent(window.coverage), String(window.count)),
-    ...(isNav2Rule(model, rule) ? [] : [yamlWords.otherRule]),
-    ...listCorrectedErrors(systematicErrors).map((errors) => yamlWords.corrected(errors)),
+    yamlWords.logSource(String(legCount), duration === undefined ? yamlWords.legsByMotion(formatNumber(distance ?? null), formatNumber(angle ?? null)) : yamlWords.legsByDuration(formatNumber(duration)), logName, date),
+    yamlWords.recommendationNote(formatNumber(inflation), formatPercent(window.coverage), String(window.count)),
+    ...(isNav2Rule(model, rule) ? [] : [yamlWords.otherRuleNote]),
+    ...listCorrectedErrors(systematicErrors).map((errors) => yamlWords.correctedErrorsNote(errors)),
     ...adviseCorrection(calibration, en.nav2),
-    ...(failedNames ? [yamlWords.failed(failedNames)] : []),
+    ...(failedCheckNames ? [yamlWords.failedChecksNote(failedCheckNames)] : []),
     ...warnings.map((name) => en.nav2[name]),
   ];
   const alphaLines = alphas.map((alpha, i) => {
     const interval = intervals[i];
     if (alpha === null) return `# alpha${i + 1}: ${yamlWords.notIdentifiable}`;
-    const [scaledInterval, isBound] = [scaleInterval(interval, inflation), printsAsZero(alpha, interval)];
+    const [scaledInterval, isBound] = [scaleInterval(interval, inflation), isPrintedAsZero(alpha, interval)];
     const formattedAlpha = isBound ? formatUpperEnd(scaledInterval) : formatEstimate(inflation * alpha, scaledInterval);
-    // Without a line, Nav2 would use its default, which is far above such a bound.
-    if (isBound && (scaledInterval?.[1] ?? Infinity) <= MAX_PLAUSIBLE_ALPHA) return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${yamlWords.zero(formatUpperEnd(interval))}`;
-    if (isBound || inflation * alpha > MAX_PLAUSIBLE_ALPHA) return `# alpha${i + 1}: ${formattedAlpha}, ${yamlWords.tooLarge}`;
-    return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${yamlWords.fitted(formatEstimate(alpha, interval), formatInterval(interval))}`;
+    // The upper bound is written for an α that is not significantly above 0. Without a line, Nav2 would use its default, which is far larger.
+    if (isBound && (scaledInterval?.[1] ?? Infinity) <= MAX_PLAUSIBLE_ALPHA) return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${yamlWords.notSignificantNote(formatUpperEnd(interval))}`;
+    if (isBound || inflation * alpha > MAX_PLAUSIBLE_ALPHA) return `# alpha${i + 1}: ${formattedAlpha}, ${yamlWords.tooLargeNote}`;
+    return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${yamlWords.fittedNote(formatEstimate(alpha, interval), formatInterval(interval))}`;
   });
   // A line break in a file's name would end the comment.
   const commentLines = notes.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
-  const fifthAlphaLines = alphas.length < 5 ? [`# ${yamlWords.fifth}`] : [];
+  const fifthAlphaLines = alphas.length < 5 ? [`# ${yamlWords.fifthAlphaNote}`] : [];
   // The α's belong to the legs of the log, which are longer than asked if its rows are sparse.
   const sparseCheck = failedChecksOf(checks).find(({ name }) => name === 'sampling-dense');
   const legRatio = sparseCheck?.value ?? 1;
   const updateTriggers = duration === undefined
     ? [
-      ...(sparseCheck ? [`# ${yamlWords.longerLegs(formatNumber(legRatio))}`] : []),
-      ...Object.entries({ update_min_d: distance, update_min_a: angle }).map(([name, formatted]) => `${name}: ${withDecimalPoint(formatNumber(formatted === undefined ? null : legRatio * formatted))}`),
+      ...(sparseCheck ? [`# ${yamlWords.longerLegsNote(formatNumber(legRatio))}`] : []),
+      ...Object.entries({ update_min_d: distance, update_min_a: angle }).map(([name, motionThreshold]) => `${name}: ${withDecimalPoint(formatNumber(motionThreshold === undefined ? null : legRatio * motionThreshold))}`),
     ]
     : [];
   const parameterLines = [...commentLines, `robot_model_type: "${NAV2_PLUGINS[model]}"`, ...alphaLines, ...fifthAlphaLines, ...updateTriggers];
@@ -149,11 +149,11 @@ export const failedChecksOf = (checks: CalibrationCheck[]) => checks.filter(({ p
  */
 export function adviseCorrection({ recommended, systematicErrors }: CalibrationStats, texts: Texts['nav2'], formatLocally = (number: string) => number): string[] {
   if (!recommended) return [];
-  const [distance, turn] = (['distanceScale', 'turnScale'] as const).map((key) => {
+  const [distanceFactor, turnFactor] = (['distanceScale', 'turnScale'] as const).map((key) => {
     const { value, interval, corrected } = systematicErrors[key];
     return corrected && interval && (interval[0] > 1 || interval[1] < 1) ? formatLocally(formatEstimate(value, interval)) : '';
   });
-  return distance || turn ? [texts.correctFirst(distance, turn)] : [];
+  return distanceFactor || turnFactor ? [texts.correctionAdvice(distanceFactor, turnFactor)] : [];
 }
 
 /** Lists the systematic errors that were corrected, in one text or none. */
@@ -179,7 +179,7 @@ const MENTIONED_CLOCK_OFFSET = 10;
 export interface Fit {
   stats: CalibrationStats;
   /** Number of legs. */
-  count: number;
+  legCount: number;
   /** Default: the odometry model. */
   model?: string;
   /** False for each systematic error that is not to be corrected. */
@@ -193,54 +193,54 @@ export interface Fit {
  * localizer as the reference, makes consistent α's questionable. Nothing says to use the α's
  * after a warning, or if the odometry moves sideways, which makes them too small. `correctionPlace` is where corrections are chosen.
  */
-export function judgementOf({ stats, count, model, corrections, warnings }: Fit, texts: Texts, correctionPlace: string) {
+export function judgementOf({ stats, legCount, model, corrections, warnings }: Fit, texts: Texts, correctionPlace: string) {
   const { systematicErrors, diagnostics: { verdict, checks } } = stats;
   const failedChecks = failedChecksOf(checks);
-  const [failedCheck] = count > 0 ? failedChecks : [];
-  const failedNames = failedChecks.map(({ name }, i) => (i < MAX_NAMED_CHECKS ? texts.checks.names[name] : '…')).slice(0, MAX_NAMED_CHECKS + 1);
+  const [failedCheck] = legCount > 0 ? failedChecks : [];
+  const failedCheckNames = failedChecks.map(({ name }, i) => (i < MAX_NAMED_CHECKS ? texts.checks.checkNames[name] : '…')).slice(0, MAX_NAMED_CHECKS + 1);
   const uncorrectedErrors = SYSTEMATIC_ERRORS.filter((name) => corrections[name] === false && isSignificant(name, systematicErrors[name]));
   const doubts = [
     ...explainMissingAlphas(stats, model, texts),
-    ...(uncorrectedErrors.length ? [texts.systematic.matters(describeSystematicErrors(uncorrectedErrors, stats, texts), correctionPlace)] : []),
+    ...(uncorrectedErrors.length ? [texts.systematic.uncorrectedSentence(describeSystematicErrors(uncorrectedErrors, stats, texts), correctionPlace)] : []),
   ];
   const warningTexts = warnings.map((name) => texts.nav2[name]);
-  const defects = count === 0 ? [texts.none]
-    : failedCheck ? [texts.failed(failedNames.join('; '), String(failedChecks.length), String(checks.length))]
-      : verdict === 'unusable' ? [texts.noAlpha] : [];
+  const defects = legCount === 0 ? [texts.tooFewLegs]
+    : failedCheck ? [texts.failedChecksSentence(failedCheckNames.join('; '), String(failedChecks.length), String(checks.length))]
+      : verdict === 'unusable' ? [texts.noAlphaIdentified] : [];
   const findings = verdict === 'unusable' ? [...defects, ...warningTexts] : [...warningTexts, ...defects];
-  const [finding = texts.passed(String(checks.length)), ...otherFindings] = [...findings, ...doubts];
+  const [finding = texts.allChecksPassed(String(checks.length)), ...otherFindings] = [...findings, ...doubts];
   const rating = verdict === 'consistent' && warnings.length + doubts.length > 0 ? 'questionable' : verdict;
   const isUsable = rating !== 'unusable' && warnings.length === 0 && failedChecks.every(({ name }) => name !== 'sideways-rare');
-  const usageSentences = !isUsable ? [] : [rating === 'consistent' ? texts.use : texts.useAnyway, ...adviseCorrection(stats, texts.nav2, localizeNumber)];
+  const usageSentences = !isUsable ? [] : [rating === 'consistent' ? texts.useRecommended : texts.useRecommendedAnyway, ...adviseCorrection(stats, texts.nav2, localizeNumber)];
   const clockOffset = systematicErrors.clockOffset.value ?? 0;
-  const clockNote = Math.abs(clockOffset) > MENTIONED_CLOCK_OFFSET ? [texts.clock(formatInteger(Math.round(Math.abs(clockOffset))), clockOffset > 0)] : [];
+  const clockNote = Math.abs(clockOffset) > MENTIONED_CLOCK_OFFSET ? [texts.clockOffsetNote(formatInteger(Math.round(Math.abs(clockOffset))), clockOffset > 0)] : [];
   const advice = [...otherFindings, ...(failedCheck ? [checkMessage(failedCheck, stats, texts)] : []), ...clockNote, ...usageSentences];
-  return { rating, badge: texts.badges[rating], finding, advice };
+  return { rating, badge: texts.ratingBadges[rating], finding, advice };
 }
 
-/** Causes of lost legs. The check does not count those of a standing robot, which come last. */
+/** Causes of lost legs. The last cause, a standing robot, is not counted by the check of lost legs. */
 export const LOST_LEG_CAUSES = ['withoutReference', 'acrossBreaks', 'acrossPauses', 'standing'] as const;
 
 /** Returns what a failed check means and what to do. A reference that matches too closely, and each cause of lost legs, has its own message. */
 export function checkMessage({ name, value, expected: [low], passed, message }: CalibrationCheck, { lost }: CalibrationStats, { checks }: Texts) {
-  const key = name === 'legs-lost' ? `${name}-${greatest(LOST_LEG_CAUSES.slice(0, -1), (cause) => lost[cause])}` : name === 'reference-matches' && value < low ? 'reference-copied' : name;
-  return passed ? '' : checks.message(key, message);
+  const messageKey = name === 'legs-lost' ? `${name}-${greatest(LOST_LEG_CAUSES.slice(0, -1), (cause) => lost[cause])}` : name === 'reference-matches' && value < low ? 'reference-copied' : name;
+  return passed ? '' : checks.translateMessage(messageKey, message);
 }
 
 /** Returns a sentence for each reason why α's are not identifiable, with the drive that would identify them. */
-function explainMissingAlphas({ notIdentifiable, diagnostics: { checks } }: CalibrationStats, model: string | undefined, { missing, alphas: { lacking } }: Texts) {
-  // Driving differently does not help if the reference is of another drive, or has other units.
+function explainMissingAlphas({ notIdentifiable, diagnostics: { checks } }: CalibrationStats, model: string | undefined, { missingAlphasSentence, alphas: { missingMotions } }: Texts) {
+  // If the reference does not match, it is of another drive or has other units. Advice to drive differently would not help.
   if (failedChecksOf(checks).some(({ name }) => name === 'reference-matches')) return [];
   const reasons = [...new Set(notIdentifiable)].filter((reason) => reason !== null);
   return reasons.map((reason) => {
-    const names = notIdentifiable.flatMap((reasonOfAlpha, i) => (reasonOfAlpha === reason ? [`α${subscriptOf(i)}`] : []));
-    return missing(names.join(', '), adviceOf(lacking, model, reason).drive);
+    const alphaNames = notIdentifiable.flatMap((reasonOfAlpha, i) => (reasonOfAlpha === reason ? [`α${subscriptOf(i)}`] : []));
+    return missingAlphasSentence(alphaNames.join(', '), adviceOf(missingMotions, model, reason).drive);
   });
 }
 
-/** Returns texts for a reason: what the log lacks, and the drive that would identify the α. */
-export function adviceOf(lacking: Texts['alphas']['lacking'], model: string | undefined, reason: keyof typeof lacking) {
-  const { lack, drive, byCommands } = lacking[reason];
+/** Returns two texts about an α that is not identifiable: what the log lacks, and the drive that would identify the α. */
+export function adviceOf(missingMotions: Texts['alphas']['missingMotions'], model: string | undefined, reason: keyof typeof missingMotions) {
+  const { lack, drive, byCommands } = missingMotions[reason];
   return { lack, drive: model === 'velocity' ? byCommands : drive };
 }
 
@@ -254,7 +254,7 @@ function isSignificant(name: string, error: Parameters<typeof componentsOf>[0]) 
 export function describeSystematicErrors(names: readonly (typeof SYSTEMATIC_ERRORS)[number][], { systematicErrors }: CalibrationStats, { systematic }: Texts) {
   return names.flatMap((name) => {
     const texts = componentsOf(systematicErrors[name]).flatMap(({ value, interval }) => (value === null ? [] : [`${localizeNumber(formatEstimate(value, interval))} (${localizeInterval(interval)})`]));
-    return texts.length ? [`${systematic.names[name]} ${texts.join(', ')}`] : [];
+    return texts.length ? [`${systematic.errorNames[name]} ${texts.join(', ')}`] : [];
   }).join('; ');
 }
 

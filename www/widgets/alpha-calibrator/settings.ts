@@ -4,7 +4,7 @@ import { createDefinition } from '../../figure/definition.ts';
 import type { Memo } from '../../scene/cache.ts';
 import type { AlphaCalibrator as Simulation, AlphaCalibratorSettings, CalibrationLegs, CalibrationLog } from '../../types.d.ts';
 
-/** Styles of the lines and marks in the pictures: first the classes of legs, the most usual first, then all others. */
+/** Styles of the lines and marks in the pictures: the classes of legs, in the order of `LEG_CLASSES`, and then all others. */
 export const LINE_STYLES = {
   likely: { role: 'truth', width: 1.5, dash: [] },
   plausible: { role: 'muted', width: 2, dash: [] },
@@ -18,7 +18,7 @@ export const LINE_STYLES = {
 
 export type LineName = keyof typeof LINE_STYLES;
 
-/** Classes of legs, the most usual first. */
+/** Classes of legs by the p-values of their residuals, from the most common to the rarest. */
 export const LEG_CLASSES = ['likely', 'plausible', 'unlikely', 'implausible'] as const satisfies LineName[];
 
 /** Motions that squared residuals are plotted against. */
@@ -34,10 +34,10 @@ export const documentation = {
 };
 
 /** Leg length to which the true α's of the simulated log apply, and with which the element opens. */
-export const SIMULATED_LEGS = { distance: 0.25, angle: 0.2 };
+export const SIMULATED_LEG_LENGTHS = { distance: 0.25, angle: 0.2 };
 
 /** Combination of model and rule, which is one choice on screen but two settings. */
-export type ModelRule = keyof typeof import('./en.ts').en.kinds;
+export type ModelRule = keyof typeof import('./en.ts').en.modelRuleNames;
 
 export const modelRuleOf = ({ model, rule }: AlphaCalibratorSettings): ModelRule => (model === 'velocity' ? 'velocity' : rule);
 
@@ -74,8 +74,8 @@ export type ViewModel = ReturnType<typeof viewModelOf>;
 /** Returns the view model of a simulation: its latest complete fit, and the requested settings. */
 export function viewModelOf(simulation: Simulation, log: CalibrationLog | null, fitMemo: Memo<ReturnType<typeof readFit>>) {
   // `fits` is the revision number of the fit.
-  const { config, fittedConfig: fitted, fits, isPending } = simulation.read();
-  return { ...fitMemo.get([simulation, fits], () => readFit(simulation, fitted)), log, config, fitted, isPending };
+  const { config, fittedConfig, fits, isPending } = simulation.read();
+  return { ...fitMemo.get([simulation, fits], () => readFit(simulation, fittedConfig)), log, config, fittedConfig, isPending };
 }
 
 /** Returns the fit of a simulation, the true values of the simulated log, and the legs to show. */
@@ -86,11 +86,11 @@ function readFit(simulation: Simulation, { duration, distance }: Simulation['con
     legs,
     truth,
     /** Class of each leg, as an index of `LEG_CLASSES`. */
-    classes: legClassesOf(legs),
+    legClasses: legClassesOf(legs),
     /** Legs with the largest residuals, the largest first. */
-    worst: worstLegsOf(legs),
+    worstLegs: worstLegsOf(legs),
     /** Leg that is shown if none was chosen. */
-    opening: defaultLegOf(legs, duration > 0 ? MIN_DIRECTED_LEG : distance),
+    defaultLeg: defaultLegOf(legs, duration > 0 ? MIN_DIRECTED_LEG : distance),
   };
 }
 
@@ -98,7 +98,7 @@ function readFit(simulation: Simulation, { duration, distance }: Simulation['con
 const MIN_DIRECTED_LEG = 0.01;
 
 /** Number of legs in the list of the largest residuals. */
-const LISTED_LEGS = 10;
+const LISTED_LEG_COUNT = 10;
 
 /** Quantiles 0.5, 0.95 and 0.999 of χ² with 0 to 3 degrees of freedom. */
 const CHI2_QUANTILES = [[0, 0, 0], [0.455, 3.841, 10.828], [1.386, 5.991, 13.816], [2.366, 7.815, 16.266]];
@@ -106,19 +106,19 @@ const CHI2_QUANTILES = [[0, 0, 0], [0.455, 3.841, 10.828], [1.386, 5.991, 13.816
 /** Returns the class of each leg: the index of the first quantile that its squared Mahalanobis distance does not exceed. */
 export function legClassesOf({ count, squared, residuals }: Pick<CalibrationLegs, 'count' | 'squared' | 'residuals'>) {
   return Uint8Array.from({ length: count }, (_, leg) => {
-    const quantiles = CHI2_QUANTILES[observedCount(residuals, leg)];
+    const quantiles = CHI2_QUANTILES[countObserved(residuals, leg)];
     const classIndex = quantiles.findIndex((quantile) => squared[leg] <= quantile);
     return classIndex < 0 ? quantiles.length : classIndex;
   });
 }
 
 /** Returns the number of residuals of a leg that are defined. */
-export const observedCount = (residuals: Float64Array, leg: number) => residuals.subarray(3 * leg, 3 * leg + 3).reduce((count, residual) => count + Number(!Number.isNaN(residual)), 0);
+export const countObserved = (residuals: Float64Array, leg: number) => residuals.subarray(3 * leg, 3 * leg + 3).reduce((count, residual) => count + Number(!Number.isNaN(residual)), 0);
 
 function worstLegsOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
-  const minListedSquare = squared.toSorted()[Math.max(0, squared.length - LISTED_LEGS)];
+  const minListedSquare = squared.toSorted()[Math.max(0, squared.length - LISTED_LEG_COUNT)];
   const worstLegs = [...squared.keys()].filter((leg) => squared[leg] >= minListedSquare);
-  return worstLegs.sort((legIndex, otherLegIndex) => squared[otherLegIndex] - squared[legIndex]).slice(0, LISTED_LEGS);
+  return worstLegs.sort((legIndex, otherLegIndex) => squared[otherLegIndex] - squared[legIndex]).slice(0, LISTED_LEG_COUNT);
 }
 
 /**
@@ -132,5 +132,5 @@ function defaultLegOf({ squared, outliers, odometry }: CalibrationLegs, distance
 }
 
 /** Returns true if the true α's belong to the rule and the leg length of the present fit. */
-export const isTruthComparable = ({ truth, fitted: { rule, model, distance, angle, duration } }: Pick<ViewModel, 'truth' | 'fitted'>) =>
-  truth !== null && model === 'odometry' && rule === 'thrun' && distance === SIMULATED_LEGS.distance && angle === SIMULATED_LEGS.angle && duration === 0;
+export const isTruthComparable = ({ truth, fittedConfig: { rule, model, distance, angle, duration } }: Pick<ViewModel, 'truth' | 'fittedConfig'>) =>
+  truth !== null && model === 'odometry' && rule === 'thrun' && distance === SIMULATED_LEG_LENGTHS.distance && angle === SIMULATED_LEG_LENGTHS.angle && duration === 0;

@@ -323,11 +323,11 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   async #refit() {
     const { log, service, notice } = this;
     if (!log || service.isBusy || !this.isConnected) return;
-    const stop = () => {
+    const stopFit = () => {
       this.announcer.announce(words.progress.stopped);
       this.#revertSettings();
     };
-    const noticeTimerId = setTimeout(() => notice.show(() => html`<progress aria-label=${words.progress.label}></progress> ${words.progress.label}`, { stop }), NOTICE_DELAY_MS);
+    const noticeTimerId = setTimeout(() => notice.show(() => html`<progress aria-label=${words.progress.label}></progress> ${words.progress.label}`, { stop: stopFit }), NOTICE_DELAY_MS);
     try {
       await this.openLog(log, this.warnings);
     } catch (error) {
@@ -358,7 +358,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   get exportData() {
     const { fittedConfig, legs } = this.currentViewModel;
     const missingNote = this.log ? words.calibrator.logNotInCopies : '';
-    const poseColumnsOf = (log: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${log}_${end}_${key}`)).join(' ');
+    const poseColumnsOf = (logName: string) => ['from', 'to'].flatMap((poseName) => ['x_m', 'y_m', 'theta_rad'].map((coordinateName) => `${logName}_${poseName}_${coordinateName}`)).join(' ');
     return {
       settings: { ...(this.log && { log: this.log.name }), ...fittedConfig },
       columns: {

@@ -30,15 +30,15 @@ export const choiceLabelOf = ({ series, frames }: LogChoice) => (frames ? `${ser
 
 /** Plans which logs of the recordings are read. The user's choices have precedence over guesses. */
 export function planLogReading({ recordings, userChoices, roles }: ChosenFiles, kind: 'commands' | undefined): LogPlan {
-  return planDrives(recordings, { ...userChoices, kind, roles: new Map([...roles].map(([index, role]) => [recordings[index], role])) });
+  return planDrives(recordings, { ...userChoices, kind, roles: new Map([...roles].map(([recordingIndex, role]) => [recordings[recordingIndex], role])) });
 }
 
 /** Returns the name of a log: its files, and its topics if a single recording has both odometry and reference. */
 export function logNameOf({ drives, unpaired }: LogPlan) {
   const plannedLogs = [...drives.map(({ odometry }) => odometry), ...unpaired.odometry, ...unpaired.reference];
-  const names = plannedLogs.map(({ recording }) => recording.name);
+  const logNames = plannedLogs.map(({ recording }) => recording.name);
   const [onlyDrive] = plannedLogs.length === 1 ? drives : [];
-  return [...names.slice(0, MAX_NAMED_FILES), ...(names.length > MAX_NAMED_FILES ? ['…'] : []), ...(onlyDrive ? [onlyDrive.odometry, onlyDrive.reference].map(({ choice }) => choiceLabelOf(choice)) : [])].filter(Boolean).join(', ');
+  return [...logNames.slice(0, MAX_NAMED_FILES), ...(logNames.length > MAX_NAMED_FILES ? ['…'] : []), ...(onlyDrive ? [onlyDrive.odometry, onlyDrive.reference].map(({ choice }) => choiceLabelOf(choice)) : [])].filter(Boolean).join(', ');
 }
 
 /** Returns all logs that can be chosen for a role, with labels. Each pair of frames is a separate choice. */
@@ -111,7 +111,7 @@ function questionHtml(opener: LogOpener, { answers }: ChosenFiles, question: Ope
 function columnsFormHtml(opener: LogOpener, question: OpenQuestion, answeredFields: string[] | undefined, texts: LogWords['choose']) {
   const { file, ask: { choices: [defaultNames = ''], columns = [] } } = question;
   const assignedFields = answeredFields ?? defaultNames.split(',');
-  const options = columns.map((cell, index): [string, string] => [String(index), texts.column(index + 1, cell.trim().slice(0, MAX_CELL_LENGTH))]);
+  const options = columns.map((headerCell, index): [string, string] => [String(index), texts.column(index + 1, headerCell.trim().slice(0, MAX_CELL_LENGTH))]);
   const submitColumns = (event: Event) => {
     event.preventDefault();
     const fieldNames = columns.map(() => '-');

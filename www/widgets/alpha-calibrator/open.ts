@@ -141,8 +141,8 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   /** Reads and fits the logs in files, which replaces an earlier attempt. */
-  async #open(chosen: ChosenFiles) {
-    const openedFiles: ChosenFiles = (this.chosenFiles = { ...chosen, plan: undefined, drives: undefined, log: undefined });
+  async #open(newFiles: ChosenFiles) {
+    const openedFiles: ChosenFiles = (this.chosenFiles = { ...newFiles, plan: undefined, drives: undefined, log: undefined });
     this.host.service.stopRequest();
     this.#kindOfLatestFiles = this.preferredKind;
     this.readFraction = 0;
@@ -155,26 +155,26 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   /** Opens files, and plans which series are read. A file with one log is paired with the previous file if that also has only one log. */
-  async #planReading(chosen: ChosenFiles, logModule: LogModule): Promise<void> {
-    Object.assign(chosen, await this.host.service.openFiles(chosen.files, chosen.answers));
+  async #planReading(openedFiles: ChosenFiles, logModule: LogModule): Promise<void> {
+    Object.assign(openedFiles, await this.host.service.openFiles(openedFiles.files, openedFiles.answers));
     try {
-      if (chosen.recordings.length === 0) throw chosen.skipped[0];
-      chosen.plan = logModule.planLogReading(chosen, this.preferredKind);
+      if (openedFiles.recordings.length === 0) throw openedFiles.skipped[0];
+      openedFiles.plan = logModule.planLogReading(openedFiles, this.preferredKind);
     } catch (error) {
       // A file that was skipped because of a question may be the missing log. Its question is asked first.
-      const skipped = chosen.skipped.find(({ question: ask }) => ask);
+      const skipped = openedFiles.skipped.find(({ question: ask }) => ask);
       if (skipped) throw skipped;
       const loneLogFiles = this.#loneLogFiles;
-      const isLoneLog = chosen.recordings.length === 1 && (error as Refusal).question !== undefined;
-      if (isLoneLog) this.#loneLogFiles = { ...chosen };
-      if (!isLoneLog || !loneLogFiles || loneLogFiles.files === chosen.files) throw error;
-      const [files, questions] = [[...loneLogFiles.files, ...chosen.files], [...loneLogFiles.questions, ...chosen.questions]];
-      await this.#planReading(Object.assign(chosen, { files, questions, answers: { ...loneLogFiles.answers, ...chosen.answers } }), logModule);
+      const isLoneLog = openedFiles.recordings.length === 1 && (error as Refusal).question !== undefined;
+      if (isLoneLog) this.#loneLogFiles = { ...openedFiles };
+      if (!isLoneLog || !loneLogFiles || loneLogFiles.files === openedFiles.files) throw error;
+      const [files, questions] = [[...loneLogFiles.files, ...openedFiles.files], [...loneLogFiles.questions, ...openedFiles.questions]];
+      await this.#planReading(Object.assign(openedFiles, { files, questions, answers: { ...loneLogFiles.answers, ...openedFiles.answers } }), logModule);
     }
   }
 
-  async #readAndFit(chosen: ChosenFiles, logModule: LogModule) {
-    const plan = chosen.plan as LogPlan;
+  async #readAndFit(openedFiles: ChosenFiles, logModule: LogModule) {
+    const plan = openedFiles.plan as LogPlan;
     const drives = await this.host.service.readDrives(plan, (readFraction) => {
       this.readFraction = readFraction;
       this.host.requestUpdate();
@@ -184,11 +184,11 @@ export class LogOpener extends FileOpener<Figure> {
       if (count === 0) throw new RangeError(words.calibrator.tooFewLegs);
     });
     // The summary of logs is shown while they are fitted.
-    chosen.drives = drives;
+    openedFiles.drives = drives;
     this.host.requestUpdate();
     await fitPromise;
-    chosen.log = log;
-    this.#resultFiles = chosen;
+    openedFiles.log = log;
+    this.#resultFiles = openedFiles;
     this.#loneLogFiles = undefined;
     this.host.gesture.commitOneStep();
   }

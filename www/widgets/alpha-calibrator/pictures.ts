@@ -89,7 +89,7 @@ function drawPath(drawContext: LayerDrawContext, legs: CalibrationLegs, odometry
   const lineStyles = createLineStyles(drawContext, LINE_STYLES);
   if (overlays.includes('odometry')) {
     const odometryPixels = view.toPixels(odometry);
-    const pathPieces = range(0, odometryPixels.length, LINES_PER_STROKE).map((start) => odometryPixels.slice(start, start + LINES_PER_STROKE + 1));
+    const pathPieces = range(0, odometryPixels.length, LINES_PER_STROKE).map((pieceStart) => odometryPixels.slice(pieceStart, pieceStart + LINES_PER_STROKE + 1));
     strokeInBatches(context, pathPieces, lineStyles.odometry, 1);
   }
   for (const [classIndex, name] of LEG_CLASSES.entries()) {

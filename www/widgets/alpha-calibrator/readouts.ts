@@ -24,9 +24,9 @@ export const judgeFit = ({ stats, legs: { count }, fittedConfig }: Pick<ViewMode
   judgementOf({ stats, legCount: count, model: fittedConfig.model, corrections: fittedConfig, warnings }, words.calibrator, words.moreControls);
 
 /** Prints the value of a check, or a limit of it. */
-export function formatCheckValue(name: CalibrationCheck['name'], value: number) {
-  if (!Number.isFinite(value)) return Number.isNaN(value) ? formatPercent(value) : '∞';
-  return name === 'enough-legs' ? formatInteger(value) : FRACTION_CHECKS.test(name) ? formatPercent(value) : formatSignificant(value, 3);
+export function formatCheckValue(name: CalibrationCheck['name'], checkValue: number) {
+  if (!Number.isFinite(checkValue)) return Number.isNaN(checkValue) ? formatPercent(checkValue) : '∞';
+  return name === 'enough-legs' ? formatInteger(checkValue) : FRACTION_CHECKS.test(name) ? formatPercent(checkValue) : formatSignificant(checkValue, 3);
 }
 
 export const formatPassRange = (low: string, high: string) => `${low} – ${high}`;
@@ -92,15 +92,15 @@ export function alphaTableHtml(viewModel: ViewModel) {
 }
 
 /** Prints an α, multiplied by the inflation if given. */
-const formatAlpha = ({ stats: { alphas, intervals } }: ViewModel, index: number, inflation?: number) => localizeNumber(formatAlphaOrBound(alphas[index], intervals[index], inflation));
+const formatAlpha = ({ stats: { alphas, intervals } }: ViewModel, alphaIndex: number, inflation?: number) => localizeNumber(formatAlphaOrBound(alphas[alphaIndex], intervals[alphaIndex], inflation));
 
-const formatRecommendedAlpha = (viewModel: ViewModel, index: number) =>
-  (viewModel.stats.recommended ? formatAlpha(viewModel, index, viewModel.stats.recommended.inflation) : NO_VALUE);
+const formatRecommendedAlpha = (viewModel: ViewModel, alphaIndex: number) =>
+  (viewModel.stats.recommended ? formatAlpha(viewModel, alphaIndex, viewModel.stats.recommended.inflation) : NO_VALUE);
 
 /** Returns the reason why an α is not identifiable, and the drive that would identify it. */
-function explainMissingAlpha({ stats: { notIdentifiable }, fittedConfig: { model } }: ViewModel, index: number) {
+function explainMissingAlpha({ stats: { notIdentifiable }, fittedConfig: { model } }: ViewModel, alphaIndex: number) {
   const texts = words.calibrator.alphas;
-  const reason = notIdentifiable[index];
+  const reason = notIdentifiable[alphaIndex];
   if (!reason) return NO_VALUE;
   const { lack, drive } = adviceOf(texts.missingMotions, model, reason);
   return texts.notDetermined(lack, drive);
@@ -110,16 +110,16 @@ export function systematicTableHtml(figure: Figure) {
   const { stats: { systematicErrors: errors }, truth } = figure.viewModel;
   const texts = words.calibrator.systematic;
   const { requested } = figure.settings;
-  const rows = SYSTEMATIC_ERRORS.map((key) => {
-    const components = componentsOf(errors[key]);
-    const correctCheckbox = checkboxHtml({ label: texts.errorNames[key], checked: requested[key], onChange: (isChecked) => figure.gesture.requestAndCommit({ [key]: isChecked }) });
+  const rows = SYSTEMATIC_ERRORS.map((errorName) => {
+    const components = componentsOf(errors[errorName]);
+    const correctCheckbox = checkboxHtml({ label: texts.errorNames[errorName], checked: requested[errorName], onChange: (isChecked) => figure.gesture.requestAndCommit({ [errorName]: isChecked }) });
     if (components.some(({ value }) => value === null)) return [correctCheckbox, texts.notDetermined];
     return [
       correctCheckbox,
       stackedTextsHtml(components.map(({ value, interval }) => localizeNumber(formatEstimate(value, interval)))),
       stackedTextsHtml(components.map(({ interval }) => localizeInterval(interval))),
-      errors[key].corrected ? texts.correctedLabel : errors[key].constant ? texts.notCorrectedLabel : texts.notConstantLabel,
-      ...(truth ? [stackedTextsHtml([truth[key]].flat().map((component) => localizeNumber(formatNumber(component))))] : []),
+      errors[errorName].corrected ? texts.correctedLabel : errors[errorName].constant ? texts.notCorrectedLabel : texts.notConstantLabel,
+      ...(truth ? [stackedTextsHtml([truth[errorName]].flat().map((component) => localizeNumber(formatNumber(component))))] : []),
     ];
   });
   const columns = [texts.errorColumn, texts.valueColumn, words.calibrator.alphas.intervalColumn, texts.treatmentColumn, ...(truth ? [texts.simulatedColumn] : [])];
@@ -225,7 +225,7 @@ function yamlOf({ viewModel, logName, warnings }: Figure): string {
   const { model, rule, distance, angle, duration } = fittedConfig;
   const date = new Date().toISOString().slice(0, 10);
   const fittedLog = { calibration: stats, legCount: count, model, rule, legs: duration > 0 ? { duration } : { distance, angle }, logName, warnings, date };
-  return formatNav2Lines(fittedLog).map((line) => `${line}\n`).join('');
+  return formatNav2Lines(fittedLog).map((yamlLine) => `${yamlLine}\n`).join('');
 }
 
 /** Returns all results as JSON, with typed arrays as plain arrays. */

@@ -72,7 +72,7 @@ export function formatEstimate(number: number | null, interval: Interval | undef
 }
 
 /** Prints an interval; returns an empty text if an end is not finite. */
-export const formatInterval = (interval: Interval | undefined) => (interval?.every(Number.isFinite) ? interval.map((end) => formatEstimate(end, interval)).join(' to ') : '');
+export const formatInterval = (interval: Interval | undefined) => (interval?.every(Number.isFinite) ? interval.map((bound) => formatEstimate(bound, interval)).join(' to ') : '');
 
 /** Returns true if an α prints as 0 with the digits that its interval allows. A printed 0 would look like a result. */
 const isPrintedAsZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(formatEstimate(alpha, interval)) === 0;
@@ -83,7 +83,7 @@ export const localizeNumber = (numberText: string) =>
 
 /** Prints an interval in the current language; a dash if an end is not finite. */
 export const localizeInterval = (interval: Interval | undefined) =>
-  (interval?.every(Number.isFinite) ? interval.map((end) => localizeNumber(formatEstimate(end, interval))).join(' – ') : NO_VALUE);
+  (interval?.every(Number.isFinite) ? interval.map((bound) => localizeNumber(formatEstimate(bound, interval))).join(' – ') : NO_VALUE);
 
 export const formatPercent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${formatNumber(100 * fraction)} %` : NO_NUMBER);
 
@@ -136,7 +136,7 @@ export function formatNav2Lines({ calibration, legCount, model, rule, legs, logN
     ]
     : [];
   const parameterLines = [...commentLines, `robot_model_type: "${NAV2_PLUGINS[model]}"`, ...alphaLines, ...fifthAlphaLines, ...updateTriggers];
-  return ['amcl:', '  ros__parameters:', ...parameterLines.map((line) => `    ${line}`)];
+  return ['amcl:', '  ros__parameters:', ...parameterLines.map((parameterLine) => `    ${parameterLine}`)];
 }
 
 export const failedChecksOf = (checks: CalibrationCheck[]) => checks.filter(({ passed }) => !passed);
@@ -149,8 +149,8 @@ export const failedChecksOf = (checks: CalibrationCheck[]) => checks.filter(({ p
  */
 export function adviseCorrection({ recommended, systematicErrors }: CalibrationStats, texts: Texts['nav2'], formatLocally = (number: string) => number): string[] {
   if (!recommended) return [];
-  const [distanceFactor, turnFactor] = (['distanceScale', 'turnScale'] as const).map((key) => {
-    const { value, interval, corrected } = systematicErrors[key];
+  const [distanceFactor, turnFactor] = (['distanceScale', 'turnScale'] as const).map((scaleName) => {
+    const { value, interval, corrected } = systematicErrors[scaleName];
     return corrected && interval && (interval[0] > 1 || interval[1] < 1) ? formatLocally(formatEstimate(value, interval)) : '';
   });
   return distanceFactor || turnFactor ? [texts.correctionAdvice(distanceFactor, turnFactor)] : [];
@@ -251,8 +251,8 @@ function isSignificant(name: string, error: Parameters<typeof componentsOf>[0]) 
 }
 
 /** Lists systematic errors with their values; empty if none is identifiable. */
-export function describeSystematicErrors(names: readonly (typeof SYSTEMATIC_ERRORS)[number][], { systematicErrors }: CalibrationStats, { systematic }: Texts) {
-  return names.flatMap((name) => {
+export function describeSystematicErrors(errorNames: readonly (typeof SYSTEMATIC_ERRORS)[number][], { systematicErrors }: CalibrationStats, { systematic }: Texts) {
+  return errorNames.flatMap((name) => {
     const texts = componentsOf(systematicErrors[name]).flatMap(({ value, interval }) => (value === null ? [] : [`${localizeNumber(formatEstimate(value, interval))} (${localizeInterval(interval)})`]));
     return texts.length ? [`${systematic.errorNames[name]} ${texts.join(', ')}`] : [];
   }).join('; ');

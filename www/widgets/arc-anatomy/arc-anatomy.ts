@@ -133,7 +133,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
   describePicture = ({ config }: ViewModel) => [words.anatomy.floorTitle, describeCommand(config.command)];
 
   placeHandles({ config }: ViewModel) {
-    for (const poseHandles of this.#handles) poseHandles.place(config, ROBOT_RADIUS);
+    for (const poseHandles of this.#handles) poseHandles.placeOnRobot(config, ROBOT_RADIUS);
   }
 
   renderContent(viewModel: ViewModel) {

@@ -24,17 +24,17 @@ export const de: typeof import('./en.ts').en = {
   bars: {
     label: 'Residuen in Standardabweichungen und Faktoren von p',
     estimateNames: ['Geschwindigkeit', 'Drehrate', 'letzte Drehung'],
-    factorText: (share) => `${share} des Maximums`,
+    factorText: (sharePercent) => `${sharePercent} des Maximums`,
   },
   headline: { beforeShare: 'Die Pose des Roboters ist', afterShare: 'so wahrscheinlich wie die beste Pose', afterPower: 'mal so wahrscheinlich wie die beste Pose' },
   likelihoodReadouts: { prob: '*p* der Tabellen', density: 'Dichte der Ziehung (m⁻² rad⁻¹)', undefinedDensity: 'keine: eine Varianz ist 0', xiReadout: '*ξ* (m, m, rad)' },
   verdict: {
-    worstFactor: (estimate, deviations, kept, share) =>
-      `Die ${estimate} passt am schlechtesten: ${deviations} Standardabweichungen daneben. Ihr Faktor: ${kept} des Maximums, das Produkt aller drei: ${share}.`,
+    worstFactor: (estimateName, deviationCount, keptShare, sharePercent) =>
+      `Die ${estimateName} passt am schlechtesten: ${deviationCount} Standardabweichungen daneben. Ihr Faktor: ${keptShare} des Maximums, das Produkt aller drei: ${sharePercent}.`,
     atPeak: 'Der Roboter ist, wohin der Befehl ohne Rauschen führt: p hat sein Maximum.',
-    zeroVariance: (estimate) => `Die ${estimate} hat die Varianz 0, aber ein Residuum ungleich 0: p = 0.`,
-    printedRadiusLabel: (v, share) =>
-      `Wie gedruckt hat der Radius kein Vorzeichen: v̂ = ${v} m/s hat das falsche, und p liegt bei ${share} seines Maximums.`,
+    zeroVariance: (estimateName) => `Die ${estimateName} hat die Varianz 0, aber ein Residuum ungleich 0: p = 0.`,
+    printedRadiusLabel: (v, sharePercent) =>
+      `Wie gedruckt hat der Radius kein Vorzeichen: v̂ = ${v} m/s hat das falsche, und p liegt bei ${sharePercent} seines Maximums.`,
   },
   forms: {
     errorAxis: 'Fehler des Endes (m)',

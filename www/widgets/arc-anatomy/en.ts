@@ -24,17 +24,17 @@ export const en = {
   bars: {
     label: 'Residuals in standard deviations, and factors of p',
     estimateNames: ['speed', 'turn rate', 'last turn'],
-    factorText: (share) => `factor: ${share} of its peak`,
+    factorText: (sharePercent) => `factor: ${sharePercent} of its peak`,
   },
   headline: { beforeShare: 'The robot’s pose is', afterShare: 'as likely as the best pose', afterPower: 'times as likely as the best pose' },
   likelihoodReadouts: { prob: '*p* of the tables', density: 'density of the sampler (m⁻² rad⁻¹)', undefinedDensity: 'none: a variance is 0', xiReadout: '*ξ* (m, m, rad)' },
   verdict: {
-    worstFactor: (estimate, deviations, kept, share) =>
-      `The ${estimate} fits worst: ${deviations} standard deviations off. Its factor is ${kept} of its peak, the product of all three ${share}.`,
+    worstFactor: (estimateName, deviationCount, keptShare, sharePercent) =>
+      `The ${estimateName} fits worst: ${deviationCount} standard deviations off. Its factor is ${keptShare} of its peak, the product of all three ${sharePercent}.`,
     atPeak: 'The robot is where the command leads without noise: p is at its peak.',
-    zeroVariance: (estimate) => `The ${estimate} has zero variance but a non-zero residual, so p = 0.`,
-    printedRadiusLabel: (v, share) =>
-      `As printed, the radius has no sign: v̂ = ${v} m/s has the wrong sign, and p is ${share} of its peak.`,
+    zeroVariance: (estimateName) => `The ${estimateName} has zero variance but a non-zero residual, so p = 0.`,
+    printedRadiusLabel: (v, sharePercent) =>
+      `As printed, the radius has no sign: v̂ = ${v} m/s has the wrong sign, and p is ${sharePercent} of its peak.`,
   },
   forms: {
     errorAxis: 'error of the end (m)',

@@ -164,10 +164,10 @@ function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, en
   // Labels are behind the robot, away from the arc. If the arc's centre is outside the picture, labels are ahead of the robot, because the
   // picture may end behind it.
   const labelSide = Math.sign(arcLength) * (visibleRadiusFraction === 1 ? -1 : 1);
-  const drawArcLabel = (text: string, radiusFraction: number) => {
+  const drawArcLabel = (labelText: string, radiusFraction: number) => {
     const labelPoint = [startX + radiusFraction * (x - startX) + 10 * labelSide * startDirection.x, startY + radiusFraction * (y - startY) + 10 * labelSide * startDirection.y];
     const labelDirectionX = labelSide * startDirection.x;
-    drawLabel(drawContext, { x: labelPoint[0], y: labelPoint[1], freeSide: Math.abs(labelDirectionX) < 0.3 ? 0 : Math.sign(labelDirectionX), text, colour });
+    drawLabel(drawContext, { x: labelPoint[0], y: labelPoint[1], freeSide: Math.abs(labelDirectionX) < 0.3 ? 0 : Math.sign(labelDirectionX), text: labelText, colour });
   };
   drawArcLabel(radiusLabel, visibleRadiusFraction / 2);
   drawArcLabel(angleLabel, visibleRadiusFraction);

@@ -201,7 +201,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       ...viewModel,
       simulation: this.simulation as Simulation,
       overlays: overlayVisibility,
-      marked: this.#selectedMotion,
+      markedMotion: this.#selectedMotion,
       morph,
       outlinesOf: (otherViewModel: ViewModel, outlineMorph: number) => morphOutlines(motion, otherViewModel, outlineMorph),
       callouts,

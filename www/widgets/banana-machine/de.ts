@@ -22,8 +22,8 @@ export const de: typeof import('./en.ts').en = {
   modelNames: { velocity: 'Geschwindigkeit', odometry: 'Odometrie' },
   reverseAwareLabel: 'Rückwärts ohne halbe Drehungen',
   isolateLabel: 'Nur ein α gelten lassen',
-  isolateAlphaLabel: (alpha) => `Nur ${alpha}`,
-  ignoredAlpha: (value) => `${value} aus`,
+  isolateAlphaLabel: (alphaName) => `Nur ${alphaName}`,
+  ignoredAlpha: (alphaText) => `${alphaText} aus`,
   notes: {
     standingStill: 'Der Befehl heißt stehen bleiben, und ein Roboter, der steht, hat kein Bewegungsrauschen.',
     noNoise: 'Kein α über 0 hat eine Bewegung zu vervielfachen: gar kein Rauschen, also hält jeder Roboter genau da, wo er soll.',
@@ -34,17 +34,17 @@ export const de: typeof import('./en.ts').en = {
   },
   noRobots: 'Noch keine Roboter.',
   bend: {
-    tooFewRobots: (skew, exactly) => `Zu wenige Roboter, um die Neigung zu zeigen: Schiefe ${skew}, genau ${exactly}.`,
-    nearlySymmetric: (skew, exactly) => `Beide Seiten sind fast gleich: Schiefe ${skew}, genau ${exactly}.`,
+    tooFewRobots: (skew, exactSkew) => `Zu wenige Roboter, um die Neigung zu zeigen: Schiefe ${skew}, genau ${exactSkew}.`,
+    nearlySymmetric: (skew, exactSkew) => `Beide Seiten sind fast gleich: Schiefe ${skew}, genau ${exactSkew}.`,
     symmetric: (skew) => `Beide Seiten sind gleich: Schiefe ${skew}, genau 0 (Symmetrie).`,
-    largeEllipse: (ratio) => `Die Wolke ist krumm: Ihre Ellipse hat die ${ratio}-fache Fläche des ξ-Umrisses.`,
+    largeEllipse: (areaRatio) => `Die Wolke ist krumm: Ihre Ellipse hat die ${areaRatio}-fache Fläche des ξ-Umrisses.`,
     betterFit: (gain, isBent) => `${isBent ? 'Krumm: ' : ''}Der ξ-Umriss passt um ${gain} Nat je Roboter besser.`,
-    bowTie: (length, deviation, skew) =>
-      `Eine Fliege: Das Rauschen streut ${length} m Weg um ${deviation} m, vor und hinter den Start. Schiefe ${skew}.`,
-    bent: (skew, left) => `Die Wolke ist krumm wie eine Banane, ihr Schweif ${left ? 'links' : 'rechts'} der mittleren Richtung: Schiefe ${skew}; jeder Gauß in (x, y) hat 0.`,
+    bowTie: (driveLength, deviation, skew) =>
+      `Eine Fliege: Das Rauschen streut ${driveLength} m Weg um ${deviation} m, vor und hinter den Start. Schiefe ${skew}.`,
+    bent: (skew, isLeft) => `Die Wolke ist krumm wie eine Banane, ihr Schweif ${isLeft ? 'links' : 'rechts'} der mittleren Richtung: Schiefe ${skew}; jeder Gauß in (x, y) hat 0.`,
   },
   fewRobots: 'Zu wenige Roboter für eine Schiefe.',
-  robotsHere: (count) => `hier ${count} Roboter`,
+  robotsHere: (robotCount) => `hier ${robotCount} Roboter`,
   twistTitle: 'Dieselben in Exponentialkoordinaten ξ',
   twistDescriptions: {
     odometry:
@@ -86,7 +86,7 @@ export const de: typeof import('./en.ts').en = {
     unlimitedGain: 'in *ξ* ohne Grenze, da ohne *γ̂*',
     unlimitedGainOnLine: 'keine Grenze: in *ξ* alle auf einer Linie',
     areaRatio: 'bedeckte Fläche: Ellipse / *ξ*-Umriss',
-    areaRatioDetail: (error, ellipse, exponential) => `${error && `± ${error}; `}innen: Ellipse ${ellipse}, Umriss ${exponential}`,
+    areaRatioDetail: (ratioError, ellipse, exponential) => `${ratioError && `± ${ratioError}; `}innen: Ellipse ${ellipse}, Umriss ${exponential}`,
     gaussianSkew: 'Schiefe, die der Gauß in *ξ* vorhersagt',
     headingCorrelation: 'Korrelation *ρ* von Querlage und Richtung',
     shownRobots: 'Roboter gezeigt, *n* von *N*',
@@ -95,7 +95,7 @@ export const de: typeof import('./en.ts').en = {
   gainNote:
     'Bessere Passung: Um so viel ist die mittlere Log-Likelihood der Roboter unter dem Gauß in *ξ* höher als unter dem in *(x, y, θ)*. ' +
     'Am Boden zählt *θ* nicht: ein Gauß in Länge und Drehung des Bogens zu jedem Ort, gegen einen in *(x, y)*.',
-  countOfTotal: (count, total) => `${count} von ${total}`,
+  countOfTotal: (count, totalCount) => `${count} von ${totalCount}`,
   robot: 'Roboter',
   markHint: 'Zeig in einer der Ansichten auf einen, um ihn in beiden zu markieren.',
   table: {

@@ -24,8 +24,8 @@ export const en = {
   modelNames: { velocity: 'velocity', odometry: 'odometry' },
   reverseAwareLabel: 'Reverse without half-turn noise',
   isolateLabel: 'Isolate one α',
-  isolateAlphaLabel: (alpha) => `Only ${alpha}`,
-  ignoredAlpha: (value) => `${value} off`,
+  isolateAlphaLabel: (alphaName) => `Only ${alphaName}`,
+  ignoredAlpha: (alphaText) => `${alphaText} off`,
   notes: {
     standingStill: 'The command is to stand still, and a robot at rest has no motion noise.',
     noNoise: 'No α above 0 has a motion to multiply: no noise at all, so every robot stops exactly where it was told to.',
@@ -36,18 +36,18 @@ export const en = {
   },
   noRobots: 'No robots yet.',
   bend: {
-    tooFewRobots: (skew, exactly) => `Too few robots to show the lean: skew ${skew}, exactly ${exactly}.`,
-    nearlySymmetric: (skew, exactly) => `Both sides are nearly alike: skew ${skew}, exactly ${exactly}.`,
+    tooFewRobots: (skew, exactSkew) => `Too few robots to show the lean: skew ${skew}, exactly ${exactSkew}.`,
+    nearlySymmetric: (skew, exactSkew) => `Both sides are nearly alike: skew ${skew}, exactly ${exactSkew}.`,
     symmetric: (skew) => `Both sides are alike: skew ${skew}, exactly 0 by symmetry.`,
     /** Sentence that is followed by the sentence on the skew. */
-    largeEllipse: (ratio) => `The cloud is bent: its ellipse covers ${ratio} times the area of the ξ outline.`,
+    largeEllipse: (areaRatio) => `The cloud is bent: its ellipse covers ${areaRatio} times the area of the ξ outline.`,
     betterFit: (gain, isBent) => `${isBent ? 'Bent: the' : 'The'} ξ outline fits better by ${gain} nats per robot.`,
-    bowTie: (length, deviation, skew) =>
-      `A bow-tie: noise spreads a drive of ${length} m by ${deviation} m, ahead of the start and behind it. Skew ${skew}.`,
-    bent: (skew, left) => `The cloud is bent, with its tail to the ${left ? 'left' : 'right'} of the mean heading: skew ${skew}, where any Gaussian in (x, y) has 0.`,
+    bowTie: (driveLength, deviation, skew) =>
+      `A bow-tie: noise spreads a drive of ${driveLength} m by ${deviation} m, ahead of the start and behind it. Skew ${skew}.`,
+    bent: (skew, isLeft) => `The cloud is bent, with its tail to the ${isLeft ? 'left' : 'right'} of the mean heading: skew ${skew}, where any Gaussian in (x, y) has 0.`,
   },
   fewRobots: 'Too few robots for a skew.',
-  robotsHere: (count) => `${formatCount(count, 'robot')} here`,
+  robotsHere: (robotCount) => `${formatCount(robotCount, 'robot')} here`,
   twistTitle: 'Same robots, exponential coordinates ξ',
   twistDescriptions: {
     odometry:
@@ -90,7 +90,7 @@ export const en = {
     unlimitedGain: 'in *ξ* without limit, as there is no *γ̂*',
     unlimitedGainOnLine: 'no limit: in *ξ* all on one line',
     areaRatio: 'area covered: ellipse / *ξ* outline',
-    areaRatioDetail: (error, ellipse, exponential) => `${error && `± ${error}; `}inside: ellipse ${ellipse}, outline ${exponential}`,
+    areaRatioDetail: (ratioError, ellipse, exponential) => `${ratioError && `± ${ratioError}; `}inside: ellipse ${ellipse}, outline ${exponential}`,
     gaussianSkew: 'skew that the Gaussian in *ξ* predicts',
     headingCorrelation: 'correlation *ρ* of lateral place and heading',
     shownRobots: 'robots shown, *n* of *N*',
@@ -99,7 +99,7 @@ export const en = {
   gainNote:
     'Gain in fit: the robots’ mean log-likelihood under the Gaussian in *ξ*, less that under the one in *(x, y, θ)*. ' +
     'On the floor *θ* is left out: a Gaussian in length and turn of the arc to each place, against one in *(x, y)*.',
-  countOfTotal: (count, total) => `${count} of ${total}`,
+  countOfTotal: (count, totalCount) => `${count} of ${totalCount}`,
   robot: 'Robot',
   markHint: 'Point at one in either view to mark it in both.',
   table: {

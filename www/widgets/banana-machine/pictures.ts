@@ -66,7 +66,7 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
 
   paint: Picture<Scene>['paint'] = (drawContext, scene) => {
     const { context, view, palette } = drawContext;
-    const { simulation, overlays, marked, pinned } = scene;
+    const { simulation, overlays, markedMotion, pinned } = scene;
     const { morph, endViews: [floorView, twistView] } = this.view;
     const isFloorPicture = this.name === 'plane';
     const outlines = this.outlinesOf(scene, scene);
@@ -75,13 +75,13 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     const legendEntries = createLineLegend(drawContext, LINE_STYLES, LEGEND_ORDER.filter(isOutlineDrawn), words.banana.overlays);
     // One pair of axes fades out before the other fades in.
     const axesOfEndViews = [
-      { view: floorView, opacity: 1 - 2 * morph, names: { x: 'x (m)', y: 'y (m)' } },
-      { view: twistView, opacity: 2 * morph - 1, names: { x: words.banana.alongAxisLabel, y: words.banana.headingAxisLabel } },
+      { view: floorView, opacity: 1 - 2 * morph, axisLabels: { x: 'x (m)', y: 'y (m)' } },
+      { view: twistView, opacity: 2 * morph - 1, axisLabels: { x: words.banana.alongAxisLabel, y: words.banana.headingAxisLabel } },
     ];
-    for (const { view: axesView, opacity, names } of axesOfEndViews) {
+    for (const { view: axesView, opacity, axisLabels } of axesOfEndViews) {
       // While the grid of exponential coordinates is curved, `drawMorphGrid` draws it.
       const gridOpacity = axesView === twistView && morph < 1 ? 0 : undefined;
-      if (opacity > 0) paintWithOpacity(context, Math.min(1, opacity), () => drawAxes({ ...drawContext, view: axesView }, names, legendEntries, gridOpacity));
+      if (opacity > 0) paintWithOpacity(context, Math.min(1, opacity), () => drawAxes({ ...drawContext, view: axesView }, axisLabels, legendEntries, gridOpacity));
     }
     const cloudMean = morphPoint(twistMomentsOf(scene)[0].mean, morph);
     const outlinesInStyle = (outlinePoints: Outlines) => this.outlineNames.filter(isOutlineDrawn).map((name) => ({ points: outlinePoints[name], ...outlineStyles[name] }));
@@ -108,10 +108,10 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
       } else if (overlays.command) {
         drawDisc(context, view.toPixel(endX, endY), 5, palette.paper, { ...outlineStyles.command, dash: [] });
       }
-      if (marked) {
-        if (morph === 0) drawOutline(drawContext, marked.path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
-        const [x, y] = morphPoint(marked.twist, morph);
-        drawCrosshair(drawContext, { x, y, heading: morph < 1 ? (1 - morph) * marked.pose[2] : null });
+      if (markedMotion) {
+        if (morph === 0) drawOutline(drawContext, markedMotion.path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
+        const [x, y] = morphPoint(markedMotion.twist, morph);
+        drawCrosshair(drawContext, { x, y, heading: morph < 1 ? (1 - morph) * markedMotion.pose[2] : null });
       }
     });
     const calloutLines = isFloorPicture ? [outlines.command, outlines.ellipse, outlines.exponential] : [outlines.exponential, Float64Array.of(...cloudMean)];

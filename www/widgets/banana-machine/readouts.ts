@@ -155,7 +155,7 @@ type MomentsRow = [name: unknown, (column: Moments & { crossTrackSkew: number })
 export function workedExampleTableHtml({ table: { linearized, exact, measured } }: ViewModel) {
   const texts = words.banana.table;
   const symbolHtml = (symbolLetter: string, indices: string) => html`<i>${symbolLetter}</i><sub><i>${indices}</i></sub>`;
-  const rows: MomentsRow[] = [
+  const momentRows: MomentsRow[] = [
     ...['x', 'y', 'θ'].map((axis, i): MomentsRow => [formatMarkup(texts.mean(`*${axis}*`)), ({ mean }) => mean[i]]),
     ...['xx', 'yy', 'xy', 'xθ', 'yθ', 'θθ'].map((axisPair): MomentsRow => [symbolHtml('Σ', axisPair), ({ cov }) => cov['xyθ'.indexOf(axisPair[0])]['xyθ'.indexOf(axisPair[1])]]),
     [symbolHtml('ρ', 'yθ'), ({ cov }) => cov[1][2] / Math.sqrt(cov[1][1] * cov[2][2])],
@@ -164,6 +164,6 @@ export function workedExampleTableHtml({ table: { linearized, exact, measured } 
   return tableHtml({
     caption: texts.caption,
     columns: [texts.quantity, texts.linearized, texts.exact, texts.measured],
-    rows: rows.map(([name, momentOf]) => [name, ...[linearized, exact].map((column) => formatSignificant(momentOf(column), COMPUTED_DIGITS)), formatSignificant(momentOf(measured), MEASURED_DIGITS)]),
+    rows: momentRows.map(([name, momentOf]) => [name, ...[linearized, exact].map((moments) => formatSignificant(momentOf(moments), COMPUTED_DIGITS)), formatSignificant(momentOf(measured), MEASURED_DIGITS)]),
   });
 }

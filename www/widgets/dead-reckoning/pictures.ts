@@ -42,7 +42,7 @@ export class PathPicture extends SamplesPicture<Scene> {
   paint: Picture<Scene>['paint'] = (drawContext, { commanded, outlines, milestones, poses, commandedPose, markedPoses, overlays, config: { step } }) => {
     const { palette } = drawContext;
     const lineStyles = createLineStyles(drawContext, OUTLINE_STYLES);
-    const shownNamesOf = (names: (keyof typeof OUTLINE_STYLES)[]) => names.filter((name) => overlays.includes(name));
+    const shownNamesOf = (outlineNames: (keyof typeof OUTLINE_STYLES)[]) => outlineNames.filter((name) => overlays.includes(name));
     const shownOutlineNames = shownNamesOf(['ellipse', 'exponential']) as ('ellipse' | 'exponential')[];
     drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, OUTLINE_STYLES, shownNamesOf(['ellipse', 'exponential', 'command']), words.reckoning.overlays));
     const outlinesOfStep = (stepOutlines: Scene['outlines']) => shownOutlineNames.map((name) => ({ points: stepOutlines[name], ...lineStyles[name] }));

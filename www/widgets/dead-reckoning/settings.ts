@@ -82,7 +82,7 @@ function ratioConditionOf({ compounding }: DeadReckoningSettings, { n, predicted
   if (n === 0) return 'noRobots';
   // A single robot has no variance.
   if (n === 1) return 'fewRobots';
-  if (measured.cov.every((row) => row.every((covariance) => Math.abs(covariance) < Number.EPSILON ** 2))) return 'noNoise';
+  if (measured.cov.every((covRow) => covRow.every((covariance) => Math.abs(covariance) < Number.EPSILON ** 2))) return 'noNoise';
   // Single components may have no variance, such as a heading without noise.
   if (predicted[compounding] === null || ratios.slice(-TWIST_COMPONENTS.length).every(Number.isNaN)) return 'noCovariance';
   return misses[compounding].some(({ decidable, end }) => !decidable && !Number.isNaN(end)) ? 'fewRobots' : 'certain';

@@ -34,11 +34,11 @@ export const de: typeof import('./en.ts').en = {
     noMotionTried: 'Noch keine Bewegung versucht',
     noneAccepted: 'Keine Bewegung wurde angenommen',
     noneThroughWall: 'Keine angenommene Bewegung ging durch eine Wand',
-    shareThroughWall: (share) => `${share} der angenommenen Bewegungen gingen durch eine Wand`,
+    shareThroughWall: (sharePercent) => `${sharePercent} der angenommenen Bewegungen gingen durch eine Wand`,
   },
-  wedgedNote: (drawn, accepted, requested, through) =>
-    `Der Roboter sitzt fest: ${drawn} gezogene Teilschritte vollendeten nur ${accepted} von ${requested} Bewegungen; ${through}.`,
-  nothingAcceptedNote: (drawn) => `Keine Stichprobe wurde angenommen: Keine der ${drawn} gezogenen ist kollisionsfrei.`,
+  wedgedNote: (drawnCount, accepted, requestedCount, through) =>
+    `Der Roboter sitzt fest: ${drawnCount} gezogene Teilschritte vollendeten nur ${accepted} von ${requestedCount} Bewegungen; ${through}.`,
+  nothingAcceptedNote: (drawnCount) => `Keine Stichprobe wurde angenommen: Keine der ${drawnCount} gezogenen ist kollisionsfrei.`,
   startCollisionNote: 'Die Startpose ist in Kollision.',
   verdictReasons: {
     failedSubStep: 'Teilschritt gescheitert: keine kollisionsfreie Stichprobe gefunden',
@@ -47,19 +47,19 @@ export const de: typeof import('./en.ts').en = {
     pathInCollision: 'die Endpose ist frei, aber der Weg berührt eine Wand oder verlässt die Karte',
   },
   testedSentences: {
-    endpoint: (accepted, attempts) => `${accepted} von ${attempts} Bewegungen enden kollisionsfrei und sind angenommen`,
-    'whole-arc': (accepted, attempts) => `${accepted} von ${attempts} Bewegungen berühren unterwegs keine Wand und sind angenommen`,
-    'sub-stepped': (accepted, attempts) =>
-      `${accepted} von ${attempts} Bewegungen enden nach jedem Teilschritt kollisionsfrei und sind angenommen`,
+    endpoint: (accepted, attemptCount) => `${accepted} von ${attemptCount} Bewegungen enden kollisionsfrei und sind angenommen`,
+    'whole-arc': (accepted, attemptCount) => `${accepted} von ${attemptCount} Bewegungen berühren unterwegs keine Wand und sind angenommen`,
+    'sub-stepped': (accepted, attemptCount) =>
+      `${accepted} von ${attemptCount} Bewegungen enden nach jedem Teilschritt kollisionsfrei und sind angenommen`,
     off: (accepted) => `Ohne die Karte werden alle ${accepted} Bewegungen angenommen`,
   },
-  throughWallClause: (count, through, share, interval) =>
-    `${count === 0 ? 'keine davon ging' : `${through} davon, ${share}, gingen`} durch eine Wand${interval && ` (95-%-Intervall ${interval})`}`,
+  throughWallClause: (throughWallCount, through, sharePercent, intervalText) =>
+    `${throughWallCount === 0 ? 'keine davon ging' : `${through} davon, ${sharePercent}, gingen`} durch eine Wand${intervalText && ` (95-%-Intervall ${intervalText})`}`,
   densityNote: 'Dichte: dunkler = mehr Stichproben; Farbe = häufigster Ausgang je Zelle.',
   apartmentName: 'Die Wohnung',
   editedMapName: 'Geänderte Wohnung',
   pastedMapName: 'Eingegebener Plan',
-  mapDescription: (name, width, height, walls) => `${name}: ${width} m × ${height} m, ${walls} ${walls === '1' ? 'Wand' : 'Wände'}`,
+  mapDescription: (name, mapWidth, mapHeight, wallCount) => `${name}: ${mapWidth} m × ${mapHeight} m, ${wallCount} ${wallCount === '1' ? 'Wand' : 'Wände'}`,
   contactLabel: 'durch diese Wand',
   handles: { start: ['Roboter', 'Richtung des Roboters'] },
   wallHandles: {
@@ -96,14 +96,14 @@ export const de: typeof import('./en.ts').en = {
   },
   refusals: {
     cannotOpen: (reason) => `Die Karte lässt sich nicht öffnen: ${reason}.`,
-    wrongFiles: (names) => `${names}: Erwartet wird ein Grundriss als .json oder eine .yaml-Datei zusammen mit ihrem Bild als .pgm oder .png.`,
-    fileTooLong: (name, bytes, maxBytes) => `${name}: Die Datei hat ${bytes} Bytes; erwartet werden höchstens ${maxBytes}.`,
+    wrongFiles: (fileNames) => `${fileNames}: Erwartet wird ein Grundriss als .json oder eine .yaml-Datei zusammen mit ihrem Bild als .pgm oder .png.`,
+    fileTooLong: (name, byteCount, maxBytes) => `${name}: Die Datei hat ${byteCount} Bytes; erwartet werden höchstens ${maxBytes}.`,
     invalidPlan: (name, reason) => `${name}: ${reason}; erwartet wird {"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]} in Metern.`,
-    invalidImageName: (name, value) =>
-      `${name}: image ${value ? `ist ${value}` : 'fehlt'}; erwartet wird der Name einer .pgm- oder .png-Datei.`,
+    invalidImageName: (name, imageField) =>
+      `${name}: image ${imageField ? `ist ${imageField}` : 'fehlt'}; erwartet wird der Name einer .pgm- oder .png-Datei.`,
     missingImage: (name, namedImage, givenImage) =>
       `${name}: image nennt ${namedImage}, das nicht dabei ist${givenImage && ` (dafür kam ${givenImage})`}; erwartet werden beide Dateien zusammen.`,
-    invalidYaml: (name, line, reason) => `${name}, Zeile ${line}: ${reason}; erwartet wird ein Feld je Zeile, wie in resolution: 0.05.`,
-    invalidLine: (name, line, reason) => `${name}, Zeile ${line}: ${reason}.`,
+    invalidYaml: (name, lineNumber, reason) => `${name}, Zeile ${lineNumber}: ${reason}; erwartet wird ein Feld je Zeile, wie in resolution: 0.05.`,
+    invalidLine: (name, lineNumber, reason) => `${name}, Zeile ${lineNumber}: ${reason}.`,
   },
 };

@@ -36,11 +36,11 @@ export const en = {
     noMotionTried: 'No motion has been tried yet',
     noneAccepted: 'No motion was accepted',
     noneThroughWall: 'No accepted motion went through a wall',
-    shareThroughWall: (share) => `${share} of the accepted motions went through a wall`,
+    shareThroughWall: (sharePercent) => `${sharePercent} of the accepted motions went through a wall`,
   },
-  wedgedNote: (drawn, accepted, requested, through) =>
-    `The robot is wedged: ${drawn} sub-steps drawn completed only ${accepted} of ${requested} motions; ${through}.`,
-  nothingAcceptedNote: (drawn) => `No sample was accepted: none of the ${drawn} drawn is collision-free.`,
+  wedgedNote: (drawnCount, accepted, requestedCount, through) =>
+    `The robot is wedged: ${drawnCount} sub-steps drawn completed only ${accepted} of ${requestedCount} motions; ${through}.`,
+  nothingAcceptedNote: (drawnCount) => `No sample was accepted: none of the ${drawnCount} drawn is collision-free.`,
   startCollisionNote: 'The start pose is in collision.',
   verdictReasons: {
     failedSubStep: 'sub-step failed: no collision-free sample found',
@@ -50,18 +50,18 @@ export const en = {
   },
   /** Sentences on the number of accepted motions, by sampler. A clause on the motions through a wall follows. */
   testedSentences: {
-    endpoint: (accepted, attempts) => `${accepted} of ${attempts} motions end where the robot fits and are accepted`,
-    'whole-arc': (accepted, attempts) => `${accepted} of ${attempts} motions keep clear of walls all the way and are accepted`,
-    'sub-stepped': (accepted, attempts) => `${accepted} of ${attempts} motions end each sub-step where the robot fits and are accepted`,
+    endpoint: (accepted, attemptCount) => `${accepted} of ${attemptCount} motions end where the robot fits and are accepted`,
+    'whole-arc': (accepted, attemptCount) => `${accepted} of ${attemptCount} motions keep clear of walls all the way and are accepted`,
+    'sub-stepped': (accepted, attemptCount) => `${accepted} of ${attemptCount} motions end each sub-step where the robot fits and are accepted`,
     off: (accepted) => `Without the map all ${accepted} motions are accepted`,
   },
-  throughWallClause: (count, through, share, interval) =>
-    `${count === 0 ? 'none of them' : `${through} of them, ${share},`} went through a wall${interval && ` (95\u202f% interval ${interval})`}`,
+  throughWallClause: (throughWallCount, through, sharePercent, intervalText) =>
+    `${throughWallCount === 0 ? 'none of them' : `${through} of them, ${sharePercent},`} went through a wall${intervalText && ` (95\u202f% interval ${intervalText})`}`,
   densityNote: 'Density: darker = more samples; colour = most frequent outcome per cell.',
   apartmentName: 'The apartment',
   editedMapName: 'Edited apartment',
   pastedMapName: 'Pasted plan',
-  mapDescription: (name, width, height, walls) => `${name}: ${width} m × ${height} m, ${formatCount(walls, 'wall')}`,
+  mapDescription: (name, mapWidth, mapHeight, wallCount) => `${name}: ${mapWidth} m × ${mapHeight} m, ${formatCount(wallCount, 'wall')}`,
   contactLabel: 'through this wall',
   handles: { start: ['Robot', 'Heading of the robot'] },
   wallHandles: {
@@ -99,13 +99,13 @@ export const en = {
   /** Reasons why files are refused: the file, the line or field, and what was expected. */
   refusals: {
     cannotOpen: (reason) => `The map cannot be opened: ${reason}.`,
-    wrongFiles: (names) => `${names}: expected is one .json floor plan, or one .yaml file together with its .pgm or .png image.`,
-    fileTooLong: (name, bytes, maxBytes) => `${name}: the file has ${bytes} bytes; expected are at most ${maxBytes}.`,
+    wrongFiles: (fileNames) => `${fileNames}: expected is one .json floor plan, or one .yaml file together with its .pgm or .png image.`,
+    fileTooLong: (name, byteCount, maxBytes) => `${name}: the file has ${byteCount} bytes; expected are at most ${maxBytes}.`,
     invalidPlan: (name, reason) => `${name}: ${reason}; expected is {"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]} in metres.`,
-    invalidImageName: (name, value) => `${name}: image is ${value || 'missing'}; expected is the name of a .pgm or .png file.`,
+    invalidImageName: (name, imageField) => `${name}: image is ${imageField || 'missing'}; expected is the name of a .pgm or .png file.`,
     missingImage: (name, namedImage, givenImage) =>
       `${name}: image names ${namedImage}, which is not there${givenImage && ` (${givenImage} came instead)`}; expected are both files together.`,
-    invalidYaml: (name, line, reason) => `${name}, line ${line}: ${reason}; expected is one field a line, as in resolution: 0.05.`,
-    invalidLine: (name, line, reason) => `${name}, line ${line}: ${reason}.`,
+    invalidYaml: (name, lineNumber, reason) => `${name}, line ${lineNumber}: ${reason}; expected is one field a line, as in resolution: 0.05.`,
+    invalidLine: (name, lineNumber, reason) => `${name}, line ${lineNumber}: ${reason}.`,
   },
 } satisfies import('../../messages/registry.ts').Message;

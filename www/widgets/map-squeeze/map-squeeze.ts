@@ -245,7 +245,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   describePicture = ({ config }: ViewModel) => [words.squeeze.floorTitle, this.#mapDescription, describeCommand(config.command)];
 
   placeHandles({ config }: ViewModel) {
-    this.#handles.place(config, config.clearance);
+    this.#handles.placeOnRobot(config, config.clearance);
     this.#wallHandles.placeHandles();
   }
 

@@ -102,8 +102,8 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 
   /** Moves the focus from the named handle to the handle that is `indexOffset` further in the list of visible handles. */
   #focusHandle(name: string, indexOffset: number) {
-    const names = this.#shownGrips.map((shownGrip) => shownGrip.name);
-    this.#tabbableName = names[(names.indexOf(name) + indexOffset + names.length) % names.length];
+    const handleNames = this.#shownGrips.map((shownGrip) => shownGrip.name);
+    this.#tabbableName = handleNames[(handleNames.indexOf(name) + indexOffset + handleNames.length) % handleNames.length];
     this.host.requestUpdate();
     (this.host.renderRoot.querySelector(`.handle.${this.#tabbableName}`) as HTMLElement | null)?.focus();
   }

@@ -24,8 +24,8 @@ function nearestPointOfWall(walls: ArrayLike<number>, k: number, x: number, y: n
 }
 
 /** Returns the first point of a wall that a robot with this radius touches on a path of x, y pairs; undefined for none. */
-export function findWallContact(path: ArrayLike<number>, walls: Float64Array, radius: number) {
-  const touchRadius = Math.max(radius, MIN_TOUCH_RADIUS);
+export function findWallContact(path: ArrayLike<number>, walls: Float64Array, robotRadius: number) {
+  const touchRadius = Math.max(robotRadius, MIN_TOUCH_RADIUS);
   const pathExtent = extentAround(path, 2);
   const nearWallOffsets = wallOffsetsOf(walls).filter((k) => {
     const wallExtent = extentAround(walls.subarray(k, k + 4), 2);

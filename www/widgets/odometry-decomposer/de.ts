@@ -45,8 +45,8 @@ export const de: typeof import('./en.ts').en = {
     firstRotationDeviation: 'allein aus der ersten Drehung, *δ*_{trans} · *σ*(*δ*_{rot1})',
     acrossDeviation: '*σ* quer zum Weg, gemessen',
     headingDeviation: '*σ* der Richtung, gemessen',
-    exactValue: (exact) => `genau ${exact}`,
-    exactAndIndependentValues: (exact, independent) => `genau ${exact}; unabhängig wären es ${independent}`,
+    exactValue: (exactNumber) => `genau ${exactNumber}`,
+    exactAndIndependentValues: (exactNumber, independentNumber) => `genau ${exactNumber}; unabhängig wären es ${independentNumber}`,
   },
   table: {
     caption: 'Standardabweichungen: des Rauschens je Teil, dann des Endes, quer und in *θ*. Fett auf Farbe: anders als in Tabelle 5.6 (*Probabilistic Robotics*).',
@@ -60,18 +60,18 @@ export const de: typeof import('./en.ts').en = {
       `Die Räder stehen, ihre Geber zittern um ${trans} mm. Tabelle 5.6 hält das für eine Drehung um ${rot1} rad und gibt Rauschen dafür.`,
     ignoredWheelJitter: (trans) => `Weniger als ein Zentimeter: ${trans} mm haben in diesem Rauschmodell keine Richtung, es gibt fast kein Rauschen.`,
     spin: 'Eine Drehung auf der Stelle steckt ganz in der zweiten Drehung. Nur das Rauschen von α₄ verschiebt den Roboter.',
-    spinFromEitherSide: (left) => `Jenseits einer Vierteldrehung zählt, was zur halben fehlt, hier ${left} rad: Eine halbe Drehung auf der Stelle hat kein Rauschen.`,
+    spinFromEitherSide: (remainingTurn) => `Jenseits einer Vierteldrehung zählt, was zur halben fehlt, hier ${remainingTurn} rad: Eine halbe Drehung auf der Stelle hat kein Rauschen.`,
     omnidirectional: (strafe) => `Dieses Rauschmodell hat kein Rauschen in der ersten Drehung: Die Fahrtrichtung ist genau, und der Roboter liegt ± ${strafe} m seitlich daneben, wie er sich auch dreht.`,
     noNoise: 'Ohne Rauschen ist jeder Ausgang die Messung.',
   },
-  worldCaption: (distance) =>
-    `Nur die Bewegung von *x̄*_{t−1} nach *x̄*_{t} geht ein: Die Vorhersage driftet nicht. Der Ort *x̄*_{t} selbst ist um ${distance} m falsch.`,
+  worldCaption: (driftDistance) =>
+    `Nur die Bewegung von *x̄*_{t−1} nach *x̄*_{t} geht ein: Die Vorhersage driftet nicht. Der Ort *x̄*_{t} selbst ist um ${driftDistance} m falsch.`,
   correlationNote:
     'Die Rauschmodelle ziehen beide Drehungen unabhängig. Eine Korrelation *ρ* lässt jeder ihr Rauschen und jedem Ausgang seinen Ort; die Richtungen streuen von der Differenz der beiden Abweichungen (*ρ* = −1) bis zu ihrer Summe (*ρ* = 1). Bei *ρ* = 0 sieht man beides nicht.',
   plot: {
     title: 'Streuung über der Länge der Fahrt',
-    label: (trans, exact) =>
-      `Standardabweichungen über der Länge der Fahrt: quer zum Weg, allein aus der ersten Drehung, und in Fahrtrichtung. Bei der Messung, ${trans} m, sind es quer ${exact} m.`,
+    label: (trans, exactNumber) =>
+      `Standardabweichungen über der Länge der Fahrt: quer zum Weg, allein aus der ersten Drehung, und in Fahrtrichtung. Bei der Messung, ${trans} m, sind es quer ${exactNumber} m.`,
     acrossCurve: 'quer zum Weg, genau',
     alongCurve: 'in Fahrtrichtung',
     readingMark: 'gemessen',

@@ -64,8 +64,8 @@ export const en = {
     omnidirectional: (strafe) => `This noise model has no noise in the first rotation: the direction of travel is exact, and the robot is off by ± ${strafe} m sideways, however it turns.`,
     noNoise: 'Without noise every outcome is the reading.',
   },
-  worldCaption: (distance) =>
-    `Only the motion from *x̄*_{t−1} to *x̄*_{t} enters: the prediction does not drift. The place *x̄*_{t} itself is off by ${distance} m.`,
+  worldCaption: (driftDistance) =>
+    `Only the motion from *x̄*_{t−1} to *x̄*_{t} enters: the prediction does not drift. The place *x̄*_{t} itself is off by ${driftDistance} m.`,
   correlationNote:
     'The noise models draw both rotations independently. A correlation *ρ* leaves the noise of each as it is and every outcome in its place; the headings spread from the difference of the two deviations (*ρ* = −1) to their sum (*ρ* = 1). At *ρ* = 0 neither is seen.',
   plot: {

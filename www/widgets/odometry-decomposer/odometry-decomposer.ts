@@ -167,7 +167,7 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
   describePicture = ({ legs: { rot1, trans, rot2 } }: ViewModel) => [words.decomposer.legsTitle, words.decomposer.readingDescription(formatFixed(rot1, 2), formatFixed(trans, 2), formatFixed(rot2, 2))];
 
   placeHandles({ config }: ViewModel) {
-    for (const poseHandles of this.#handles) poseHandles.place(config, ROBOT_RADIUS);
+    for (const poseHandles of this.#handles) poseHandles.placeOnRobot(config, ROBOT_RADIUS);
   }
 
   renderContent(viewModel: ViewModel) {

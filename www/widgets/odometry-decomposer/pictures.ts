@@ -33,14 +33,14 @@ function ellipsePointsAround({ x, y, theta }: Pose, along: number, across: numbe
 }
 
 /** Draws a turn (rad) from the heading of a pose as an arc with an arrow head. The radius is in pixels. */
-function drawTurn({ context, view }: DrawContext, startPose: Pose, turn: number, radius: number, colour: string) {
-  strokePath(context, { colour, width: 1.75 }, () => addTurnArc(context, view.toPixel(startPose.x, startPose.y), radius, startPose.theta, turn));
+function drawTurn({ context, view }: DrawContext, startPose: Pose, turn: number, arcRadius: number, colour: string) {
+  strokePath(context, { colour, width: 1.75 }, () => addTurnArc(context, view.toPixel(startPose.x, startPose.y), arcRadius, startPose.theta, turn));
   // The arrow head is smaller on a short arc.
-  const arrowHeadLength = Math.min(ARROW_HEAD_SIZE.length, radius * Math.abs(turn));
-  const arrowTip = view.headingLineFrom({ ...startPose, theta: startPose.theta + turn }, radius)[1];
-  const arrowBasePose = { ...startPose, theta: startPose.theta + turn - (Math.sign(turn) * arrowHeadLength) / radius };
+  const arrowHeadLength = Math.min(ARROW_HEAD_SIZE.length, arcRadius * Math.abs(turn));
+  const arrowTip = view.headingLineFrom({ ...startPose, theta: startPose.theta + turn }, arcRadius)[1];
+  const arrowBasePose = { ...startPose, theta: startPose.theta + turn - (Math.sign(turn) * arrowHeadLength) / arcRadius };
   const arrowHeadScale = arrowHeadLength / ARROW_HEAD_SIZE.length;
-  const arrowCornerOf = (side: number) => view.headingLineFrom(arrowBasePose, radius + side * arrowHeadScale * ARROW_HEAD_SIZE.halfWidth)[1];
+  const arrowCornerOf = (side: number) => view.headingLineFrom(arrowBasePose, arcRadius + side * arrowHeadScale * ARROW_HEAD_SIZE.halfWidth)[1];
   fillPath(context, colour, () => addLine(context, [arrowTip, arrowCornerOf(1), arrowCornerOf(-1)]));
 }
 
@@ -129,18 +129,18 @@ function spreadEllipsesOf({ palette }: DrawContext, { linkage, rules, config }: 
   const comparedNoise = rules[config.rule === 'thrun' ? 1 : 0];
   const hasOtherDeviations = comparedNoise.deviations.some((deviation, i) => Math.abs(deviation - currentNoise.deviations[i]) > 1e-9);
   return [currentNoise, ...(hasOtherDeviations ? [comparedNoise] : [])].map(({ rule, deviations, crossTrack }) => {
-    const points = ellipsePointsAround(poseAt(linkage, 2), 2 * deviations[1], 2 * crossTrack);
+    const ellipsePoints = ellipsePointsAround(poseAt(linkage, 2), 2 * deviations[1], 2 * crossTrack);
     const colour = rule === config.rule ? palette.prediction : palette.ink;
     // The callouts of the two ellipses are at different sides: the ellipse of Table 5.6 has its callout at the front, the smaller ellipse of another
     // noise model at the top.
-    const calloutPoint = rule === 'thrun' ? points[0] : greatest(points, ([, y]) => y) as [number, number];
+    const calloutPoint = rule === 'thrun' ? ellipsePoints[0] : greatest(ellipsePoints, ([, y]) => y) as [number, number];
     const callout: Callout = { text: words.decomposer.spreadLabel(words.decomposer.ruleNames[rule]), point: calloutPoint, colour };
-    return { points: Float64Array.from(points.flat()), colour, width: 2, callout };
-  }).filter(({ points }) => hasLength(points));
+    return { points: Float64Array.from(ellipsePoints.flat()), colour, width: 2, callout };
+  }).filter(({ points: ellipsePoints }) => hasLength(ellipsePoints));
 }
 
-function drawMarkedPose(drawContext: DrawContext, { markedPose: marked }: Scene) {
-  if (marked) drawCrosshair(drawContext, { x: marked[0], y: marked[1], heading: marked[2] });
+function drawMarkedPose(drawContext: DrawContext, { markedPose }: Scene) {
+  if (markedPose) drawCrosshair(drawContext, { x: markedPose[0], y: markedPose[1], heading: markedPose[2] });
 }
 
 /** Arc that shows a turn: the pose from whose heading the turn starts, the turn (rad), and the radius of the arc (pixels). */
@@ -185,7 +185,7 @@ export class LegsPicture extends SamplesPicture<Scene> {
   paint: SamplesPicture<Scene>['paint'] = (drawContext, scene) => {
     const { palette } = drawContext;
     const { linkage, legs, deviations, config, overlays } = scene;
-    const [startPose, turnedPose, drivenPose] = [0, 1, 2].map((index) => poseAt(linkage, index));
+    const [startPose, turnedPose, drivenPose] = [0, 1, 2].map((poseIndex) => poseAt(linkage, poseIndex));
     const legendNames = (['legs', 'deviation', 'outcomes'] as const).filter((name) => overlays.includes(name));
     drawAxes(drawContext, AXIS_NAMES, createLineLegend(drawContext, LINE_STYLES, legendNames, words.decomposer.overlays));
     const [firstTurnRadius, secondTurnRadius] = turnRadiiOf(this.view);
@@ -267,7 +267,7 @@ export class WorldPicture extends SamplesPicture<Scene> {
   paint: SamplesPicture<Scene>['paint'] = (drawContext, scene) => {
     const { palette, context, view } = drawContext;
     const { overlays } = scene;
-    const [framePose, odometryStart, odometryEnd] = [0, 1, 2].map((index) => poseAt(scene.drifted.poses, index));
+    const [framePose, odometryStart, odometryEnd] = [0, 1, 2].map((poseIndex) => poseAt(scene.drifted.poses, poseIndex));
     const [startPose, predictedPose] = [poseAt(scene.linkage, 0), poseAt(scene.linkage, 3)];
     const lineStyles = createLineStyles(drawContext, LINE_STYLES);
     drawAxes(drawContext, AXIS_NAMES);

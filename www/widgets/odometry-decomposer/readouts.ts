@@ -65,7 +65,7 @@ export function spreadPlotHtml(readCurve: (maxLength: number, pointCount: number
   const texts = words.decomposer.plot;
   const maxLength = Math.max(1, 2 * legs.trans);
   const curveNumbers = readCurve(maxLength, CURVE_POINT_COUNT);
-  const curveColumnOf = (index: number) => Float64Array.from({ length: CURVE_POINT_COUNT }, (_, i) => curveNumbers[4 * i + index]);
+  const curveColumnOf = (columnIndex: number) => Float64Array.from({ length: CURVE_POINT_COUNT }, (_, i) => curveNumbers[4 * i + columnIndex]);
   const [driveLengths, acrossDeviations, leverDeviations, alongDeviations] = [0, 1, 2, 3].map(curveColumnOf);
   const maxDeviation = Math.max(0.1, ...acrossDeviations, ...alongDeviations, stats.crossTrack + stats.crossTrackError || 0);
   return html`<figure>

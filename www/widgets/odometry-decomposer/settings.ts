@@ -40,7 +40,7 @@ export function viewModelOf(simulation: OdometryDecomposer) {
 }
 
 /** Returns one of several poses in an array of x, y, θ triples. */
-export function poseAt(triples: Float64Array, index: number) {
-  const [x, y, theta] = triples.subarray(3 * index, 3 * index + 3);
+export function poseAt(triples: Float64Array, poseIndex: number) {
+  const [x, y, theta] = triples.subarray(3 * poseIndex, 3 * poseIndex + 3);
   return { x, y, theta };
 }

@@ -38,7 +38,7 @@ export class Cloud extends FigureController implements SampleCloud {
   #hasGivenUp;
 
   /** Creates the cloud. `hasGivenUp` returns true if a simulation, given by itself or its view model, stopped before it had drawn all requested samples. */
-  constructor(host: Figure, hasGivenUp: (latest: any) => boolean = () => false) {
+  constructor(host: Figure, hasGivenUp: (latestCounts: any) => boolean = () => false) {
     super(host);
     this.#hasGivenUp = hasGivenUp;
   }
@@ -112,8 +112,8 @@ export class Cloud extends FigureController implements SampleCloud {
     this.addSamplesUnseen(Infinity);
   }
 
-  showSamples(count: number) {
-    this.#state.shown = Math.min(count, this.#requestedCount);
+  showSamples(sampleCount: number) {
+    this.#state.shown = Math.min(sampleCount, this.#requestedCount);
     this.addSamplesUnseen(Infinity);
   }
 
@@ -149,9 +149,9 @@ export class Cloud extends FigureController implements SampleCloud {
     return this.#state.marked ?? -1;
   }
 
-  select(index: number) {
-    if (index === this.selectedIndex) return;
-    this.#state.marked = index < 0 ? null : index;
+  select(sampleIndex: number) {
+    if (sampleIndex === this.selectedIndex) return;
+    this.#state.marked = sampleIndex < 0 ? null : sampleIndex;
     this.host.renderer.requestFrame();
   }
 

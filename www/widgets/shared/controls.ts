@@ -44,17 +44,17 @@ export class Player<Key extends string> extends FigureController {
     this.host.settings.requestChange({ [key]: value });
   }
 
-  #valueOf(key: Key): number {
-    return this.host.settings.requested[key];
+  #valueOf(settingKey: Key): number {
+    return this.host.settings.requested[settingKey];
   }
 
-  #togglePlaying(key: Key) {
+  #togglePlaying(settingKey: Key) {
     const { host: { gesture, renderer, settings } } = this;
-    const willPlay = this.#playedKey !== key;
+    const willPlay = this.#playedKey !== settingKey;
     if (this.#playedKey) gesture.commit();
-    this.#playedKey = willPlay ? key : undefined;
+    this.#playedKey = willPlay ? settingKey : undefined;
     this.host.requestUpdate();
-    if (willPlay && this.#valueOf(key) >= this.#playedSettings[key].max) settings.requestChange({ [key]: 0 });
+    if (willPlay && this.#valueOf(settingKey) >= this.#playedSettings[settingKey].max) settings.requestChange({ [settingKey]: 0 });
     renderer.requestFrame();
   }
 

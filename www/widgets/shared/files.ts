@@ -32,8 +32,8 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
 
   /** Runs an attempt to open files, which replaces an earlier attempt. Returns false if a later attempt has replaced this one. */
   async runAttempt(openFiles: (isLatest: () => boolean) => Promise<void>) {
-    const attempt = ++this.#latestAttempt;
-    const isLatest = () => attempt === this.#latestAttempt;
+    const attemptNumber = ++this.#latestAttempt;
+    const isLatest = () => attemptNumber === this.#latestAttempt;
     this.refusal = undefined;
     this.host.requestUpdate();
     try {

@@ -16,30 +16,30 @@ const MIN_ROBOT_RADIUS = 3;
 const TURN_HANDLE_RADIUS = 5.5;
 
 /** Returns the distance (CSS pixels) from the centre of a robot to the handle that turns it. The radius of the robot is in metres. */
-export function turnHandleDistanceOf(view: Pick<View, 'scaleX'>, radius: number): number {
-  return Math.max(34, radius * view.scaleX + 22);
+export function turnHandleDistanceOf(view: Pick<View, 'scaleX'>, robotRadius: number): number {
+  return Math.max(34, robotRadius * view.scaleX + 22);
 }
 
 /** Draws a robot that the user can drag and turn. Its radius is in metres. Labels drawn later avoid the robot. */
-export function drawDraggableRobot(drawContext: DrawContext, pose: Pose, radius: number, colour: string) {
+export function drawDraggableRobot(drawContext: DrawContext, pose: Pose, robotRadius: number, colour: string) {
   const { context, view, palette, placedBoxes } = drawContext;
-  const [centre, turnHandle] = view.headingLineFrom(pose, turnHandleDistanceOf(view, radius));
+  const [centre, turnHandle] = view.headingLineFrom(pose, turnHandleDistanceOf(view, robotRadius));
   const edgeStyle = { colour, width: 2.25 };
-  const robotRadius = toPixelRadius(view, radius);
-  drawDisc(context, centre, robotRadius, palette.paper, edgeStyle);
+  const pixelRadius = toPixelRadius(view, robotRadius);
+  drawDisc(context, centre, pixelRadius, palette.paper, edgeStyle);
   strokeLine(context, [centre, turnHandle], edgeStyle);
-  for (const [[x, y], halfSize] of [[centre, robotRadius], [turnHandle, TURN_HANDLE_RADIUS + 3]] as const) placedBoxes.push({ x, y, halfWidth: halfSize, halfHeight: halfSize });
+  for (const [[x, y], halfSize] of [[centre, pixelRadius], [turnHandle, TURN_HANDLE_RADIUS + 3]] as const) placedBoxes.push({ x, y, halfWidth: halfSize, halfHeight: halfSize });
   drawHandle(drawContext, { x: turnHandle[0], y: turnHandle[1], radius: TURN_HANDLE_RADIUS, colour });
 }
 
 /** Draws the dashed outline of a robot at the end of a command. Lengths are in metres. */
-export function drawRobotOutline({ context, view }: DrawContext, x: number, y: number, radius: number, colour: string) {
-  drawDisc(context, view.toPixel(x, y), toPixelRadius(view, radius), undefined, { colour, width: 1.5, dash: [3, 3] });
+export function drawRobotOutline({ context, view }: DrawContext, x: number, y: number, robotRadius: number, colour: string) {
+  drawDisc(context, view.toPixel(x, y), toPixelRadius(view, robotRadius), undefined, { colour, width: 1.5, dash: [3, 3] });
 }
 
 /** Converts the radius of a robot from metres to CSS pixels. */
-function toPixelRadius(view: View, radius: number): number {
-  return Math.max(MIN_ROBOT_RADIUS, radius * view.scaleX);
+function toPixelRadius(view: View, robotRadius: number): number {
+  return Math.max(MIN_ROBOT_RADIUS, robotRadius * view.scaleX);
 }
 
 /** Displacement (m) and turn (rad) of a robot per key press. */
@@ -122,12 +122,12 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   }
 
   /** Places the handles on the drawn robot, whose radius is in metres. */
-  place(config: Record<string, any>, radius: number) {
+  placeOnRobot(config: Record<string, any>, robotRadius: number) {
     const view = this.#getView();
     const root = this.host.renderRoot;
-    const [[x, y], [turnX, turnY]] = view.headingLineFrom(config[this.#settingKey], turnHandleDistanceOf(view, radius));
+    const [[x, y], [turnX, turnY]] = view.headingLineFrom(config[this.#settingKey], turnHandleDistanceOf(view, robotRadius));
     const clampToPicture = (coordinate: number, pictureSize: number) => clamp(coordinate, MIN_EDGE_DISTANCE, pictureSize - MIN_EDGE_DISTANCE);
-    this.#bodyHandle.placeInView(root, x, y, { size: Math.max(MIN_BODY_HANDLE_SIZE, 2 * radius * view.scaleX) });
+    this.#bodyHandle.placeInView(root, x, y, { size: Math.max(MIN_BODY_HANDLE_SIZE, 2 * robotRadius * view.scaleX) });
     this.#turnHandle.placeInView(root, clampToPicture(turnX, view.width), clampToPicture(turnY, view.height));
   }
 

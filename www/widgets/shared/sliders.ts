@@ -20,14 +20,14 @@ export function describeCommand({ v, omega, dt }: import('../../types.d.ts').Com
 }
 
 /** Returns the subscript of an α, counted from 0. */
-export const subscriptOf = (index: number) => String.fromCharCode(0x2081 + index);
+export const subscriptOf = (alphaIndex: number) => String.fromCharCode(0x2081 + alphaIndex);
 
 /** Slider of a noise parameter. Its maximum gives a standard deviation of nearly half the command. */
 export const ALPHA_SLIDER = { role: 'prediction' as const, min: 0, max: 0.2, step: 0.001, decimals: 3 };
 
 /** Returns the sliders of the first `count` noise parameters of a model, by the names of their settings. */
-export function createAlphaSliderSpecs(count: number, model: 'velocity' | 'odometry' = 'velocity'): Record<string, import('../../figure/controls.ts').SliderSpec> {
+export function createAlphaSliderSpecs(alphaCount: number, model: 'velocity' | 'odometry' = 'velocity'): Record<string, import('../../figure/controls.ts').SliderSpec> {
   return Object.fromEntries(
-    Array.from({ length: count }, (_, i) => [`alpha${i + 1}`, { ...ALPHA_SLIDER, symbol: `*α*${subscriptOf(i)}`, alpha: [model, i] }]),
+    Array.from({ length: alphaCount }, (_, i) => [`alpha${i + 1}`, { ...ALPHA_SLIDER, symbol: `*α*${subscriptOf(i)}`, alpha: [model, i] }]),
   );
 }

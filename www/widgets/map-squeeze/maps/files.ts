@@ -49,13 +49,13 @@ async function readBytes(file: File, maxBytes: number, texts: RefusalWords) {
 
 const readText = async (file: File, maxBytes: number, texts: RefusalWords) => new TextDecoder().decode(await readBytes(file, maxBytes, texts));
 
-function checkSize(name: string, size: number, maxBytes: number, texts: RefusalWords) {
-  if (size > maxBytes) throw new MapFileError(texts.fileTooLong(quoteText(name), size, maxBytes));
+function checkSize(name: string, byteCount: number, maxBytes: number, texts: RefusalWords) {
+  if (byteCount > maxBytes) throw new MapFileError(texts.fileTooLong(quoteText(name), byteCount, maxBytes));
 }
 
 /** Shortens a text that a sentence quotes. */
-function quoteText(text: string) {
-  return text.length > MAX_QUOTED_LENGTH ? `${text.slice(0, MAX_QUOTED_LENGTH)}…` : text;
+function quoteText(quotedText: string) {
+  return quotedText.length > MAX_QUOTED_LENGTH ? `${quotedText.slice(0, MAX_QUOTED_LENGTH)}…` : quotedText;
 }
 
 /** Reads a floor plan from the JSON of a file; throws a MapFileError. */

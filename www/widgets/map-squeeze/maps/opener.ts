@@ -36,14 +36,14 @@ export class MapOpener extends FileOpener<MapSqueezeElement> {
     if (files.reduce((sum, { size }) => sum + size, 0) > LARGE_MAP_BYTES) {
       this.host.notice.show(() => words.squeeze.userMap.readingNotice);
       // Waits for two frames, because the message is on the screen only after the first one was drawn.
-      for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
+      for (let frameIndex = 0; frameIndex < 2; frameIndex++) await new Promise(requestAnimationFrame);
     }
     await this.#readAndEnter(({ readMapFiles }) => readMapFiles(files, decodePng, words.squeeze.refusals));
     this.host.notice.dismiss();
   }
 
-  openPasted(text: string) {
-    this.#readAndEnter(({ readPlan }) => readPlan(words.squeeze.pastedMapName, text, words.squeeze.refusals));
+  openPasted(planJson: string) {
+    this.#readAndEnter(({ readPlan }) => readPlan(words.squeeze.pastedMapName, planJson, words.squeeze.refusals));
   }
 
   #readAndEnter(readMap: (mapReader: typeof import('./files.ts')) => UserMap | Promise<UserMap>) {

@@ -8,9 +8,9 @@ import { openRecordings } from '../logs/open.ts';
 import type { InputPath } from './options.ts';
 
 /** Opens a file or a folder; rejects with a LogError if it has no log. Calls `onSkip` with the error of each file that is not a log. */
-export async function openRecordingsAt({ path, open }: InputPath, onSkip: (error: LogError) => void): Promise<Recording[]> {
+export async function openRecordingsAt({ path, openOptions }: InputPath, onSkip: (error: LogError) => void): Promise<Recording[]> {
   const errors: LogError[] = [];
-  const recordings = await openRecordings(await openSources(path), open, (error) => errors.push(error));
+  const recordings = await openRecordings(await openSources(path), openOptions, (error) => errors.push(error));
   const refusalError = recordings.length === 0 ? errors.shift() : undefined;
   errors.forEach(onSkip);
   if (refusalError) throw refusalError;
@@ -26,7 +26,7 @@ async function openSources(path: string): Promise<Source[]> {
       return await Promise.all(['', ...(hasJournal ? ['-wal'] : [])].map((ending) => openSource(`${path}${ending}`, `${name}${ending}`)));
     }
     const folderEntries = await readdir(path, { withFileTypes: true, recursive: true });
-    const filePaths = folderEntries.filter((entry) => entry.isFile() && !/^\.|-shm$/.test(entry.name)).map((entry) => join(entry.parentPath, entry.name)).toSorted();
+    const filePaths = folderEntries.filter((folderEntry) => folderEntry.isFile() && !/^\.|-shm$/.test(folderEntry.name)).map((folderEntry) => join(folderEntry.parentPath, folderEntry.name)).toSorted();
     if (filePaths.length === 0) throw Object.assign(new Error(), { code: 'an empty folder' });
     return await Promise.all(filePaths.map((file) => openSource(file, basename(file), join(name, relative(path, file)).replaceAll('\\', '/'))));
   } catch (error) {

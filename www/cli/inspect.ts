@@ -14,7 +14,7 @@ const FORMAT_NAMES: Record<Recording['format'], string> = { mcap: 'MCAP recordin
  * Returns the contents of recordings, and the command that calibrates from them with the stated options, or sentences about what is missing.
  * `isUsable` is true if a log can be read, and none that the command needs is refused.
  */
-export async function inspect({ givenRecordings, userChoices }: OpenedInputs, statedOptions: [name: string, value: string][], onProgress?: (share: number | undefined) => void) {
+export async function inspect({ givenRecordings, userChoices }: OpenedInputs, statedOptions: [name: string, value: string][], onProgress?: (fraction: number | undefined) => void) {
   const recordings: Awaited<ReturnType<typeof contentsOf>>[] = [];
   for (const { recording } of givenRecordings) recordings.push(await contentsOf(recording, onProgress));
   onProgress?.(undefined);
@@ -28,7 +28,7 @@ export async function inspect({ givenRecordings, userChoices }: OpenedInputs, st
 }
 
 /** Returns the series of a recording with their logs, and sentences about the logs that cannot be read. */
-async function contentsOf(recording: Recording, onProgress?: (share: number | undefined) => void) {
+async function contentsOf(recording: Recording, onProgress?: (fraction: number | undefined) => void) {
   const { name, format } = recording;
   const series: { name: string; type: string; rows: number; uses: string[]; summary?: Summary; sentences?: string[] }[] = [];
   const refusalErrors = new Set<string>();
@@ -37,13 +37,13 @@ async function contentsOf(recording: Recording, onProgress?: (share: number | un
     if (possibleUses.length === 0) series.push({ name: seriesName, type, rows: count, uses: [] });
     // Each chain of transforms that could be a log has its own entry.
     for (const { choice, uses } of possibleUses) {
-      const entry = { name: choice.frames ? `${seriesName} (${formatFrames(choice.frames)})` : seriesName, type, rows: count, uses };
+      const seriesEntry = { name: choice.frames ? `${seriesName} (${formatFrames(choice.frames)})` : seriesName, type, rows: count, uses };
       try {
         const [log] = await recording.read([choice], onProgress);
-        series.push({ ...entry, rows: log.summary.rows, summary: log.summary, sentences: summarySentencesOf(log, english.found) });
+        series.push({ ...seriesEntry, rows: log.summary.rows, summary: log.summary, sentences: summarySentencesOf(log, english.found) });
       } catch (error) {
         if (!(error instanceof LogError)) throw error;
-        series.push(entry);
+        series.push(seriesEntry);
         refusalErrors.add(`${error.message}${adviseOption(error)}`);
       }
     }

@@ -86,43 +86,43 @@ export function replaceFieldByOption(message: string): string | undefined {
   return Object.hasOwn(OPTION_BY_FIELD, field) ? `--${OPTION_BY_FIELD[field]}${message.slice(field.length)}.` : undefined;
 }
 
-export interface InputPath { path: string; open: OpenOptions; role?: Role }
+export interface InputPath { path: string; openOptions: OpenOptions; role?: Role }
 
 export type CalibrateArguments = Extract<ReturnType<typeof parseOptions>, { command: 'calibrate' }>;
 
 export function parseOptions(args: string[]) {
-  const { values, positionals: [command, ...givenPaths] } = parseArguments(args);
+  const { values: optionValues, positionals: [command, ...givenPaths] } = parseArguments(args);
   // A path of a metadata.yaml stands for its folder. Other paths in that folder are left out, because a shell pattern may have expanded to all its files.
   const listedFolders = givenPaths.filter((path) => basename(path) === 'metadata.yaml').map(dirname);
   const positionalPaths = [...new Set(listedFolders), ...givenPaths.filter((path) => !listedFolders.includes(dirname(path)))];
-  if (values.version) return 'version';
-  if (values.help || args.length === 0) return 'help';
-  const parseColumnNames = (name: 'columns' | 'odometry-columns' | 'reference-columns') => values[name]?.split(',').map((column) => column.trim());
-  const openOptionsOf = (role?: Role) => withoutUndefined({ ...unitsOf(values, role), columns: (role && parseColumnNames(`${role}-columns`)) ?? parseColumnNames('columns') });
-  const inputPathsOf = (paths: string[] = [], role?: Role) => paths.map((path): InputPath => ({ path, role, open: openOptionsOf(role) }));
-  const seriesChoiceOf = (role: Role) => withoutUndefined({ series: values[`${role}-topic`], frames: parseFrames(`${role}-frames`, values[`${role}-frames`]) });
-  const recording = [...positionalPaths, ...(values.recording ?? [])];
-  const { odometry = [], reference = [] } = values;
+  if (optionValues.version) return 'version';
+  if (optionValues.help || args.length === 0) return 'help';
+  const parseColumnNames = (name: 'columns' | 'odometry-columns' | 'reference-columns') => optionValues[name]?.split(',').map((column) => column.trim());
+  const openOptionsOf = (role?: Role) => withoutUndefined({ ...unitsOf(optionValues, role), columns: (role && parseColumnNames(`${role}-columns`)) ?? parseColumnNames('columns') });
+  const inputPathsOf = (paths: string[] = [], role?: Role) => paths.map((path): InputPath => ({ path, role, openOptions: openOptionsOf(role) }));
+  const seriesChoiceOf = (role: Role) => withoutUndefined({ series: optionValues[`${role}-topic`], frames: parseFrames(`${role}-frames`, optionValues[`${role}-frames`]) });
+  const recording = [...positionalPaths, ...(optionValues.recording ?? [])];
+  const { odometry = [], reference = [] } = optionValues;
   for (const role of ROLES) {
-    if (values[`${role}-columns`] !== undefined && !values[role]) throw new UsageError(`--${role}-columns needs --${role} FILE.`);
+    if (optionValues[`${role}-columns`] !== undefined && !optionValues[role]) throw new UsageError(`--${role}-columns needs --${role} FILE.`);
   }
   const logs = {
     inputs: [...inputPathsOf(recording), ...inputPathsOf(odometry, 'odometry'), ...inputPathsOf(reference, 'reference')],
-    userChoices: { odometry: seriesChoiceOf('odometry'), reference: seriesChoiceOf('reference'), ...(values.model === 'velocity' && { kind: 'commands' as const }) },
+    userChoices: { odometry: seriesChoiceOf('odometry'), reference: seriesChoiceOf('reference'), ...(optionValues.model === 'velocity' && { kind: 'commands' as const }) },
   };
   if (command === 'inspect') {
     if (logs.inputs.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
-    const ignoredOption = Object.keys(values).find((name) => !(name in LOG_OPTIONS) && name !== 'json');
+    const ignoredOption = Object.keys(optionValues).find((name) => !(name in LOG_OPTIONS) && name !== 'json');
     if (ignoredOption !== undefined) throw new UsageError(`--${ignoredOption} is an option of calibrate; inspect has those of the logs, and --json.`);
-    const statedOptions = Object.entries(values).filter((entry): entry is [string, string] => typeof entry[1] === 'string' && /unit$|columns$/.test(entry[0]));
-    return { command: 'inspect' as const, ...logs, statedOptions, isJson: values.json ?? false };
+    const statedOptions = Object.entries(optionValues).filter((entry): entry is [string, string] => typeof entry[1] === 'string' && /unit$|columns$/.test(entry[0]));
+    return { command: 'inspect' as const, ...logs, statedOptions, isJson: optionValues.json ?? false };
   }
   if (command !== 'calibrate') {
     const path = [command, ...positionalPaths].find(isPath) ?? 'run.bag';
     throw new UsageError(`the command must be calibrate or inspect (got “${truncate(command ?? '')}”), as in npx motion-widgets inspect ${quoteForShell(path)}; --help has examples.`);
   }
   const readNumberOption = (name: 'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std') => {
-    const value = values[name];
+    const value = optionValues[name];
     if (value === undefined) return undefined;
     const parsedNumber = value.trim() === '' ? NaN : Number(value);
     if (Number.isFinite(parsedNumber)) return parsedNumber;
@@ -131,11 +131,11 @@ export function parseOptions(args: string[]) {
   };
   const [distance, angle, duration] = [readNumberOption('update-min-d'), readNumberOption('update-min-a'), readNumberOption('duration')];
   if (duration !== undefined && (distance ?? angle) !== undefined) throw new UsageError('--duration excludes --update-min-d and --update-min-a: give one or the other.');
-  if (values.plot !== undefined && !/\.svg$/i.test(values.plot)) throw new UsageError(`--plot writes SVG; the name must end in .svg (got “${truncate(values.plot)}”).`);
-  if (values.json && values.yaml) throw new UsageError('--json excludes --yaml: give one or the other.');
+  if (optionValues.plot !== undefined && !/\.svg$/i.test(optionValues.plot)) throw new UsageError(`--plot writes SVG; the name must end in .svg (got “${truncate(optionValues.plot)}”).`);
+  if (optionValues.json && optionValues.yaml) throw new UsageError('--json excludes --yaml: give one or the other.');
   if (recording.length === 0) {
     for (const [pathsOfRole, otherRole] of [[odometry, 'reference'], [reference, 'odometry']] as const) {
-      if (pathsOfRole.length > 0 && !values[otherRole]) throw new UsageError(`--${otherRole} is missing; give a file or folder, or a recording with both.`);
+      if (pathsOfRole.length > 0 && !optionValues[otherRole]) throw new UsageError(`--${otherRole} is missing; give a file or folder, or a recording with both.`);
     }
     if (odometry.length === 0) throw new UsageError('no logs are given; give a recording, as in calibrate run.bag, or two files, odometry and reference.');
   }
@@ -144,22 +144,22 @@ export function parseOptions(args: string[]) {
     ...logs,
     fit: withoutUndefined({
       legs: duration === undefined ? { distance: distance ?? 0.25, angle: angle ?? 0.2 } : { duration },
-      model: values.model ?? (values.rule === 'omni' ? 'omnidirectional' : undefined),
-      rule: values.rule,
-      outliers: values.outliers,
-      correct: parseCorrections(values['no-correct'], values.correct),
+      model: optionValues.model ?? (optionValues.rule === 'omni' ? 'omnidirectional' : undefined),
+      rule: optionValues.rule,
+      outliers: optionValues.outliers,
+      correct: parseCorrections(optionValues['no-correct'], optionValues.correct),
       positionStd: readNumberOption('reference-position-std'),
       yawStd: readNumberOption('reference-yaw-std'),
     }),
-    output: values.json ? 'json' : values.yaml ? 'yaml' : 'text',
-    plot: values.plot,
+    output: optionValues.json ? 'json' : optionValues.yaml ? 'yaml' : 'text',
+    plot: optionValues.plot,
   };
 }
 
 /** Returns the units that the options state for a log. If an option has two units, the role of the log selects one. */
-function unitsOf(values: { [name in 'time-unit' | 'length-unit' | 'angle-unit']?: string }, role: Role | undefined): OpenOptions {
+function unitsOf(optionValues: { [name in 'time-unit' | 'length-unit' | 'angle-unit']?: string }, role: Role | undefined): OpenOptions {
   return Object.fromEntries((['time', 'length', 'angle'] as const).flatMap((quantity) => {
-    const givenUnits = values[`${quantity}-unit`];
+    const givenUnits = optionValues[`${quantity}-unit`];
     if (givenUnits === undefined) return [];
     const unitNames = givenUnits.split(',').map((unit) => unit.trim());
     if (unitNames.length > 2 || !unitNames.every((unit) => (UNITS[`${quantity}Unit`] as readonly string[]).includes(unit))) {

@@ -18,7 +18,7 @@ const PALETTE = { ink: '#1f1e1b', muted: '#57564f', rule: '#c9c7bd' };
 const LINE_STYLES = {
   reference: { label: 'reference, with the ends of legs', colour: PALETTE.ink, width: 1.5 },
   odometry: { label: 'odometry, aligned', colour: '#0b61b0', width: 1.5, dash: [4, 2] },
-  outlier: { label: 'outliers', colour: '#7a1560', width: 5, cap: 'round' as const },
+  outlier: { label: 'outliers', colour: '#7a1560', width: 5, lineCap: 'round' as const },
 };
 
 export const createDrivesSvg = (drives: Drive[], calibration: any): string => `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${PANEL_WIDTH} ${PANEL_HEIGHT * drives.length}" width="${PANEL_WIDTH}" height="${PANEL_HEIGHT * drives.length}">
@@ -27,20 +27,20 @@ ${drives.map((drive, i) => `<g transform="translate(0 ${PANEL_HEIGHT * i})">${cr
 </svg>
 `;
 
-function createDrivePanel({ odometry, reference }: Drive, { legs, systematicErrors }: any, id: string): string {
+function createDrivePanel({ odometry, reference }: Drive, { legs, systematicErrors }: any, idPrefix: string): string {
   const [drivenPath, referencePath] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / MAX_PATH_POINTS)));
   // Times of legs are in the odometry's clock.
   const clockOffset = systematicErrors.clockOffset.value ?? 0;
   const odometryPath = alignPath(drivenPath, referencePath, clockOffset);
   const [startTime, endTime] = [odometry.data.t[0], odometry.data.t[odometry.data.t.length - 1]];
-  const legsOfDrive = Array.from({ length: legs.count }, (_, leg) => ({ times: [legs.times[2 * leg], legs.times[2 * leg + 1]], isOutlier: legs.outliers[leg] === 1 })).filter(({ times: [from, to] }) => from >= startTime && to <= endTime);
+  const legsOfDrive = Array.from({ length: legs.count }, (_, leg) => ({ times: [legs.times[2 * leg], legs.times[2 * leg + 1]], isOutlier: legs.outliers[leg] === 1 })).filter(({ times: [legStart, legEnd] }) => legStart >= startTime && legEnd <= endTime);
   const outlierLegs = legsOfDrive.filter(({ isOutlier }) => isOutlier);
   const referencePoseAt = (time: number) => poseAt(referencePath, time + clockOffset);
 
   const view = new View({ left: 56, top: TOP_MARGIN });
   view.resize(PANEL_WIDTH, PANEL_HEIGHT);
   view.fit(extentOf([...referencePath.poses, ...odometryPath.poses].flatMap(([x, y]) => [x, y]), 0.1));
-  const context = new SvgContext(id);
+  const context = new SvgContext(idPrefix);
   const drawContext = { context, view, palette: PALETTE, font: '13px sans-serif' } as unknown as DrawContext;
   const shownLines = [LINE_STYLES.reference, LINE_STYLES.odometry, ...(outlierLegs.length ? [LINE_STYLES.outlier] : [])];
   drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, shownLines.map(({ label, ...style }) => createLineLegendEntry(drawContext, label, style)));

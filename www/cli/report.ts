@@ -12,7 +12,7 @@ import type { Calibration, CalibrationCheck } from '../types.d.ts';
 /** Log with its summary, as numbers and as sentences. */
 interface ReadLog { name: string; summary: Summary; sentences: string[] }
 
-type Judged = Pick<CalibrationResult, 'calibration' | 'options' | 'logs'>;
+type JudgedResult = Pick<CalibrationResult, 'calibration' | 'options' | 'logs'>;
 
 export interface CalibrationResult {
   calibration: Calibration;
@@ -71,17 +71,17 @@ export function formatReport(calibrationResult: CalibrationResult, isColored = f
     '',
   ].join('\n');
   if (!isColored) return uncoloredReport;
-  const { rating, badge } = judge(calibrationResult);
+  const { rating, badge } = judgeResult(calibrationResult);
   return uncoloredReport.replace(badge, colorize(RATING_COLORS[rating])).replaceAll(/\bok(?= {2})/g, colorize(GREEN)).replaceAll(/\bFAILED(?= {2})/g, colorize(RED));
 }
 
-function judge({ calibration, options: { model, correct = {} }, logs }: Judged) {
+function judgeResult({ calibration, options: { model, correct = {} }, logs }: JudgedResult) {
   return judgementOf({ stats: calibration, legCount: calibration.legs.count, model, corrections: correct, warnings: warningsOf(logs) }, en, '--no-correct');
 }
 
 /** Returns the verdict as on the page, and what to do, in a line for each sentence. */
-export function formatVerdict(judgedResult: Judged): string[] {
-  const { badge, finding, advice } = judge(judgedResult);
+export function formatVerdict(judgedResult: JudgedResult): string[] {
+  const { badge, finding, advice } = judgeResult(judgedResult);
   return [`${badge}. ${finding}`, ...advice];
 }
 
@@ -133,7 +133,7 @@ function formatCheckRow({ name, value, expected: [low, high], passed }: Calibrat
 function formatOutliers({ count, times, outliers }: Calibration['legs'], driveStarts: number[]): string[] {
   const outlierLegs = Array.from({ length: count }, (_, leg) => leg).filter((leg) => outliers[leg] === 1);
   const timeTexts = outlierLegs.slice(0, MAX_LISTED_OUTLIERS).map((leg) => {
-    const driveStart = Math.max(...driveStarts.filter((begin) => begin <= times[2 * leg]));
+    const driveStart = Math.max(...driveStarts.filter((start) => start <= times[2 * leg]));
     return `${(times[2 * leg] - driveStart).toFixed(2)} s${driveStarts.length > 1 ? ` of drive ${driveStarts.indexOf(driveStart) + 1}` : ''}`;
   }).join(', ');
   return outlierLegs.length ? [`outliers: ${outlierLegs.length} of ${count} legs, at ${timeTexts}${outlierLegs.length > MAX_LISTED_OUTLIERS ? ', …' : ''} after the start`] : [];

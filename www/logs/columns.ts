@@ -150,8 +150,8 @@ function canHaveUnit(field: Field, unit: ParsedUnit | undefined): boolean {
 
 function matchField(path: string): ColumnMeaning | undefined {
   for (const { field, rank, pattern } of PREFIXED_PATTERNS) {
-    const [match, prefix = ''] = pattern.exec(path) ?? [];
-    if (match === undefined) continue;
+    const [matchedText, prefix = ''] = pattern.exec(path) ?? [];
+    if (matchedText === undefined) continue;
     return UNREAD_QUANTITIES.test(prefix) || /^[vabw]\..*\.[xyzw]$/.test(path) ? undefined : { field, rank, prefix };
   }
   return undefined;
@@ -163,7 +163,7 @@ export function groupColumnsByPrefix(names: string[], isTime: (index: number) =>
   const topics = names.flatMap((name) => /^\s*(\/.+\/)header\/stamp\s*$/.exec(name)?.[1] ?? []);
   const columnsWithMeaning = names.flatMap((name, index) => {
     const isUnnamed = /^\s*(|unnamed: \d+|index)\s*$/i.test(name);
-    const topic = topics.find((start) => name.trim().startsWith(start)) ?? '';
+    const topic = topics.find((topicPrefix) => name.trim().startsWith(topicPrefix)) ?? '';
     const meaning: ColumnMeaning | undefined = isUnnamed ? (isTime(index) ? { field: 't', rank: 9, prefix: '' } : undefined) : parseColumnName(name.trim().slice(topic.length));
     if (!meaning) return [];
     const { field, prefix, rank, unit } = meaning;
@@ -231,7 +231,7 @@ export function findLogLayout(columnGroup: ColumnGroup | undefined, names: strin
   }
   if (!takesCommands && headingFields.length === 0) throw new LogError({ file: errorPlace.file }, (texts) => texts.positions(listNames(usedColumns.map(({ name }) => name))));
   const kind: LogKind = takesCommands ? 'commands' : 'poses';
-  return { kind, clocks, columns: usedColumns, fields, length: lengthUnits[0] as LengthUnit | undefined, angle: angleUnit as AngleUnit | undefined };
+  return { kind, clocks, columns: usedColumns, fields, lengthUnit: lengthUnits[0] as LengthUnit | undefined, angleUnit: angleUnit as AngleUnit | undefined };
 }
 
 /** Returns true for a header, which has names in some cells. */

@@ -16,7 +16,7 @@ const MESSAGE_TYPES = { poses: POSE_TYPES, either: `${POSE_TYPES}, oder ${COMMAN
 
 const ROLE_NAMES = { odometry: 'Odometrie', reference: 'Referenz' };
 
-const countWithNoun = (count: number, one: string, more: string) => `${count} ${count === 1 ? one : more}`;
+const countWithNoun = (count: number, singular: string, plural: string) => `${count} ${count === 1 ? singular : plural}`;
 const withDecimalComma = (value: number, digits: number) => value.toFixed(digits).replace('.', ',');
 
 const UNIT_BASIS_TEXTS: Record<UnitBasis, string> = { name: ' (nach dem Namen)', size: ' (nach der Größe)', rate: ' (nach Rate und Geschwindigkeit)', format: '', date: ' (aus Datumsangaben)', option: ' (wie angegeben)', usage: '' };
@@ -74,7 +74,7 @@ export const german: Words = {
     mixed: (frames) => `die Zeilen gehören zu mehreren Frames, Topics oder Robotern (${frames}); nur die eines davon behalten.`,
     unknownUnit: (unit) => `die Einheit ${unit} einer Spalte ist unbekannt, oder nicht die einer anderen; erwartet wird s, ms, us oder ns, m, cm, mm, ft oder in, und rad oder deg.`,
     turns: (metres) => `Posen zweier Wege wechseln sich ab, ${withDecimalComma(metres, 2)} m auseinander: Sie sind von zwei Robotern, oder von zwei Knoten, die auf einem Topic senden; nur die eines davon behalten.`,
-    manyBad: (bad, rows, percent) => `${bad} von ${rows} Zeilen sind beschädigt; erlaubt sind ${percent} %.`,
+    manyBad: (badCount, rows, percent) => `${badCount} von ${rows} Zeilen sind beschädigt; erlaubt sind ${percent} %.`,
     number: (column, value) => `${column} ist „${value}“; erwartet wird eine Zahl${/^\d{1,3}(\D\d{3})+\b/.test(value) ? ' ohne Tausendertrennung' : /^[+-]?\d*,\d+$/.test(value) ? ' mit Dezimalpunkt' : /\d[/:-]\d/.test(value) ? ', oder ein Datum wie 2024-01-31 12:00:00.5' : ''}.`,
     rows: (max) => `es sind mehr Zeilen; erwartet werden höchstens ${max}.`,
     setBack: (seconds) =>
@@ -105,12 +105,12 @@ export const german: Words = {
     frames: (knownFrames) => `zu nennen sind ein äußerer und ein innerer Frame, verbunden durch ${knownFrames || 'Transformationen, von denen es keine gibt'}.`,
     noChain: (frames, knownFrames) =>
       `keine Transformationen führen entlang ${frames}; erwartet werden verbundene Frames, aus ${knownFrames || 'keinen'}.`,
-    constant: (frames, others) =>
-      `die Transformation ${frames} ändert sich nie und ist daher kein Weg eines Roboters; erwartet werden Frames, die sich bewegen${others ? `, wie ${others}` : ''}.`,
+    constant: (frames, otherFrames) =>
+      `die Transformation ${frames} ändert sich nie und ist daher kein Weg eines Roboters; erwartet werden Frames, die sich bewegen${otherFrames ? `, wie ${otherFrames}` : ''}.`,
     givenTwice: 'sie ist zweimal angegeben; gebraucht werden zwei unabhängige Messungen einer Fahrt, Odometrie und Referenz.',
     ownReference: (name) => `${name} ist die Odometrie selbst; gebraucht wird eine Referenz, die nicht von den Rädern kommt, wie Motion-Capture oder Scan-Matching.`,
-    leftHanded: (other) => `sie dreht nach links, wo ${other} nach rechts dreht: eine der beiden hat Z nach unten oder ein linkshändiges Koordinatensystem; y und Richtung dieser einen negieren.`,
-    otherUnit: (factor, other, unit) => `der Roboter führe ${Math.round(factor)}-mal so schnell wie in ${other}: Die Längen sind wohl in ${unit}; ihre Einheit angeben.`,
+    leftHanded: (otherName) => `sie dreht nach links, wo ${otherName} nach rechts dreht: eine der beiden hat Z nach unten oder ein linkshändiges Koordinatensystem; y und Richtung dieser einen negieren.`,
+    otherUnit: (factor, otherName, unit) => `der Roboter führe ${Math.round(factor)}-mal so schnell wie in ${otherName}: Die Längen sind wohl in ${unit}; ihre Einheit angeben.`,
     held: 'ihre Pose steht, während die Odometrie weitergeht: Sie hat den Roboter verloren; gebraucht wird eine, die ihm folgt.',
     noRole: 'ihr Name sagt nicht, ob sie Odometrie oder Referenz ist; die Dateien wie odom1.csv, truth1.csv, odom2.csv, … nennen, oder die Rolle jeder auswählen.',
     unpaired: (odometry, reference) => `die Odometrie ist in ${odometry || 'keiner Datei'}, und die Referenz in ${reference || 'keiner Datei'}; gebraucht wird je eines für eine Fahrt.`,

@@ -75,7 +75,7 @@ export const english = {
     mixed: (frames: string) => `the rows are of several frames, topics or robots (${frames}); keep those of one.`,
     unknownUnit: (unit: string) => `the unit ${unit} of a column is not known, or differs from that of another; expected is s, ms, us or ns, m, cm, mm, ft or in, and rad or deg.`,
     turns: (metres: number) => `poses of two paths alternate, ${metres.toPrecision(2)} m apart: they are of two robots, or of two nodes that publish one topic; keep those of one.`,
-    manyBad: (bad: number, rows: number, percent: number) => `${bad} of ${rows} rows are damaged; at most ${percent} % may be.`,
+    manyBad: (badCount: number, rows: number, percent: number) => `${badCount} of ${rows} rows are damaged; at most ${percent} % may be.`,
     number: (column: string, value: string) => `${column} is “${value}”; expected is a number${/^\d{1,3}(\D\d{3})+\b/.test(value) ? ' without separators of thousands' : /^[+-]?\d*,\d+$/.test(value) ? ' with a decimal point' : /\d[/:-]\d/.test(value) ? ', or a date as 2024-01-31 12:00:00.5' : ''}.`,
     rows: (max: number) => `there are more rows; expected are at most ${max}.`,
     setBack: (seconds: number) =>
@@ -107,12 +107,12 @@ export const english = {
     frames: (knownFrames: string) => `give a parent and a child frame, connected by ${knownFrames || 'transforms, of which there are none'}.`,
     noChain: (frames: string, knownFrames: string) =>
       `no transforms lead along ${frames}; expected are frames that are connected, of ${knownFrames || 'none'}.`,
-    constant: (frames: string, others: string) =>
-      `the transform ${frames} never changes, so it is no path of a robot; expected are frames that move${others ? `, as ${others}` : ''}.`,
+    constant: (frames: string, otherFrames: string) =>
+      `the transform ${frames} never changes, so it is no path of a robot; expected are frames that move${otherFrames ? `, as ${otherFrames}` : ''}.`,
     givenTwice: 'it is given twice; give two independent measurements of one drive, odometry and reference.',
     ownReference: (name: string) => `${name} is the odometry itself; choose a reference that does not come from the wheels, such as motion capture or scan matching.`,
-    leftHanded: (other: string) => `it turns left where ${other} turns right: one of the two has Z down or a left-handed frame; negate y and the heading of that one.`,
-    otherUnit: (factor: number, other: string, unit: string) => `the robot would drive ${Math.round(factor)} times as fast as in ${other}: its lengths seem to be in ${unit}; state their unit.`,
+    leftHanded: (otherName: string) => `it turns left where ${otherName} turns right: one of the two has Z down or a left-handed frame; negate y and the heading of that one.`,
+    otherUnit: (factor: number, otherName: string, unit: string) => `the robot would drive ${Math.round(factor)} times as fast as in ${otherName}: its lengths seem to be in ${unit}; state their unit.`,
     held: 'its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.',
     noRole: 'its name does not say whether it is odometry or reference; name the files as odom1.csv, truth1.csv, odom2.csv, …, or choose the role of each.',
     unpaired: (odometry: string, reference: string) => `the odometry is in ${odometry || 'no file'}, and the reference in ${reference || 'no file'}; give one of each for a drive.`,

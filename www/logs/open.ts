@@ -34,7 +34,7 @@ const MAX_MAGIC_BYTES = 32;
  */
 export async function openRecordings(files: Source[], options: OpenOptions | ((file: string) => OpenOptions | undefined) = {}, onSkip?: (error: LogError) => void): Promise<Recording[]> {
   const optionsOf = (file: string) => (typeof options === 'function' ? options(file) : options) ?? {};
-  const reportSkipped = (work: () => Promise<void>) => work().catch((error) => {
+  const reportSkipped = (doWork: () => Promise<void>) => doWork().catch((error) => {
     if (!(error instanceof LogError) || !onSkip) throw error;
     onSkip(error);
   });
@@ -55,10 +55,10 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
       const format = formatByFile.get(source);
       formatByFile.delete(source);
       if (!format) return void recordings.push(await openTable(source, optionsOf(source.name)));
-      const { name, files: parts } = format === 'metadata' ? await (await import('./formats/metadata.ts')).findListedFiles(source, openedSources) : { name: source.name, files: [source] };
-      const partFormats = parts.map((part) => (part === source ? format : formatByFile.get(part)));
-      for (const part of parts) formatByFile.delete(part);
-      const container = joinContainers(await Promise.all(parts.map((part, i) => openContainer(part, partFormats[i]))));
+      const { name, files: sources } = format === 'metadata' ? await (await import('./formats/metadata.ts')).findListedFiles(source, openedSources) : { name: source.name, files: [source] };
+      const partFormats = sources.map((part) => (part === source ? format : formatByFile.get(part)));
+      for (const part of sources) formatByFile.delete(part);
+      const container = joinContainers(await Promise.all(sources.map((part, i) => openContainer(part, partFormats[i]))));
       recordings.push(await (await import('./topics.ts')).createRecording(name, container, optionsOf(name)));
     });
   }
@@ -82,20 +82,20 @@ async function openContainer(source: Source, format: FileFormat | undefined): Pr
 }
 
 /** Returns a container with the messages of several containers, one after the other. */
-function joinContainers(parts: Container[]): Container {
+function joinContainers(containers: Container[]): Container {
   return {
-    format: parts[0].format,
-    channels: parts.flatMap(({ channels }) => channels),
+    format: containers[0].format,
+    channels: containers.flatMap(({ channels }) => channels),
     get truncationReason() {
-      return parts.find(({ truncationReason }) => truncationReason)?.truncationReason;
+      return containers.find(({ truncationReason }) => truncationReason)?.truncationReason;
     },
     get damageByPosition() {
-      return new Map(parts.flatMap(({ damageByPosition: damage }, i) => [...damage].map(([position, reason]): [number, string] => [2 ** 48 * i + position, reason])));
+      return new Map(containers.flatMap(({ damageByPosition }, i) => [...damageByPosition].map(([position, reason]): [number, string] => [2 ** 48 * i + position, reason])));
     },
     async readMessages(isWanted, onMessage, onProgress) {
-      for (const [i, part] of parts.entries()) {
+      for (const [i, container] of containers.entries()) {
         let isStopped = false;
-        await part.readMessages(isWanted, onMessage, (fraction) => (isStopped = onProgress?.((i + fraction) / parts.length) === true));
+        await container.readMessages(isWanted, onMessage, (fraction) => (isStopped = onProgress?.((i + fraction) / containers.length) === true));
         if (isStopped) return;
       }
     },

@@ -107,7 +107,7 @@ export function calibrationLogOf(drives: Drive[]): Pick<CalibrationLog, Role> {
 }
 
 /** Reads the logs of a plan and pairs them. Their times are relative to one start. Rejects with a LogError. */
-export async function readDrives({ drives, unpaired }: Pick<LogPlan, 'drives' | 'unpaired'>, onProgress?: (share: number) => void): Promise<Drive[]> {
+export async function readDrives({ drives, unpaired }: Pick<LogPlan, 'drives' | 'unpaired'>, onProgress?: (fraction: number) => void): Promise<Drive[]> {
   const readGroups = [...drives.map((drive) => [drive.odometry, drive.reference]), ...[...unpaired.odometry, ...unpaired.reference].map((recordingChoice) => [recordingChoice])];
   const logs: Log[] = [];
   for (const [i, recordingChoices] of readGroups.entries()) {

@@ -18,10 +18,10 @@ export function pathOf(data: Poses | Commands, rowsPerPose = 1): Path {
   let [x, y, theta, nextBreak] = [0, 0, 0, 0];
   for (let i = 0; i < t.length; i++) {
     if ('v' in data && i > 0) {
-      const dt = t[i] - t[i - 1];
-      const turn = data.omega[i - 1] * dt;
-      x += data.v[i - 1] * dt * Math.cos(theta + turn / 2);
-      y += data.v[i - 1] * dt * Math.sin(theta + turn / 2);
+      const stepSeconds = t[i] - t[i - 1];
+      const turn = data.omega[i - 1] * stepSeconds;
+      x += data.v[i - 1] * stepSeconds * Math.cos(theta + turn / 2);
+      y += data.v[i - 1] * stepSeconds * Math.sin(theta + turn / 2);
       theta += turn;
     }
     if (i % rowsPerPose !== 0 && i < t.length - 1) continue;

@@ -129,14 +129,14 @@ export class RowCollector {
   }
 
   /** Returns the log with the rows that were added. Throws a LogError if they are no log, or their units or axes are in doubt. */
-  buildLog(name: string, kind: LogKind, { units: assumed, clocks, columnNames, ...decisions }: LogFacts, options: OpenOptions = {}): Log {
+  buildLog(name: string, kind: LogKind, { units: assumedUnits, clocks, columnNames, ...decisions }: LogFacts, options: OpenOptions = {}): Log {
     const { rowCount } = this;
     const damage = this.#damage;
     if (damage && damage.count > MAX_DAMAGED_FRACTION * rowCount) {
       const composeSentences = (texts: Words['refused']) => [damage.formatReason(texts), ...(damage.count > 1 && damage.count < rowCount ? [texts.manyBad(damage.count, rowCount, 100 * MAX_DAMAGED_FRACTION)] : [])];
       throw new LogError({ ...this.#logPlace, line: damage.line }, (texts) => composeSentences(texts).join(' '));
     }
-    const question: Question | undefined = columnNames && { option: 'columns', choices: [], columns: columnNames.all };
+    const question: Question | undefined = columnNames && { option: 'columns', choices: [], columns: columnNames.allNames };
     if (this.tiltSpread > MAX_TILT_SPREAD) throw new LogError(this.#logPlace, (texts) => texts.tilted(columnNames !== undefined), question);
     const usesOtherClock = clocks[1] !== undefined && this.#isClockStill();
     if (usesOtherClock) this.#times = this.#columns.otherTime;
@@ -152,7 +152,7 @@ export class RowCollector {
     const [times, a, b, c, z] = [this.#times, this.#columns.a, this.#columns.b, this.#columns.c, this.#columns.z].map((column) => new Float64Array(rows.length).map((_, i) => column[rows[i]]));
     const t = times.map((time) => time - start);
     const columns: Columns = { start, t, a, b, c, z };
-    const units = judgeUnits(this.#logPlace, kind, columns, assumed, options, columnNames);
+    const units = judgeUnits(this.#logPlace, kind, columns, assumedUnits, options, columnNames);
     const pathDistance = kind === 'poses' ? distanceOfPaths(t, a, b) : 0;
     if (pathDistance > 0) throw new LogError(this.#logPlace, (texts) => texts.turns(pathDistance));
     const { breaks, jumpRows, ...foundGaps } = this.#findEvents(kind, [t, a, b, c], (i) => this.#columns.breakFlags[rows[i]] === 1);
@@ -196,7 +196,7 @@ export class RowCollector {
     const runOfRow = new Uint32Array(rows.length);
     for (let i = 1; i < rows.length; i++) runOfRow[i] = runOfRow[i - 1] + Number(times[i] < times[i - 1]);
     if (!runOfRow.at(-1)) return { sortedRows: rows, lateCount: 0 };
-    const sortedOrder = rows.map((_, i) => i).sort((one, other) => times[one] - times[other] || one - other);
+    const sortedOrder = rows.map((_, i) => i).sort((position, otherPosition) => times[position] - times[otherPosition] || position - otherPosition);
     const medianStep = quantileOf(sampleEvenly(times.length - 1, (i) => times[sortedOrder[i + 1]] - times[sortedOrder[i]]).filter((step) => step > 0), 0.5);
     const distanceBetween = (position: number, otherPosition: number) => Math.hypot(a[rows[position]] - a[rows[otherPosition]], b[rows[position]] - b[rows[otherPosition]]);
     // Rows overlap if they are close in time but not in the file. Rows that were only late make the path shorter when they are sorted.
@@ -253,10 +253,10 @@ export class RowCollector {
     }
     const usualRowsPerPose = rowsPerPose.length < MIN_POSES ? 1 : quantileOf(sampleEvenly(rowsPerPose.length, (i) => rowsPerPose[i]), 0.5);
     if (usualRowsPerPose === 1) return rows;
-    let [pose, repeatCount] = [-1, 0];
+    let [poseIndex, repeatCount] = [-1, 0];
     return this.#dropRows(rows, 'repeated', (_, i) => {
-      [pose, repeatCount] = isRepeated(i) ? [pose, repeatCount + 1] : [pose + 1, 0];
-      const isStanding = rowsPerPose[pose] >= STANDSTILL_FACTOR * usualRowsPerPose;
+      [poseIndex, repeatCount] = isRepeated(i) ? [poseIndex, repeatCount + 1] : [poseIndex + 1, 0];
+      const isStanding = rowsPerPose[poseIndex] >= STANDSTILL_FACTOR * usualRowsPerPose;
       return isStanding ? repeatCount % usualRowsPerPose !== 0 : repeatCount > 0;
     });
   }
@@ -309,11 +309,11 @@ function distanceOfPaths(t: Float64Array, x: Float64Array, y: Float64Array): num
 function createJumpChecker(t: Float64Array, x: Float64Array, y: Float64Array, theta: Float64Array): (i: number) => boolean {
   const distanceToPrevious = (i: number) => Math.sqrt((x[i] - x[i - 1]) ** 2 + (y[i] - y[i - 1]) ** 2);
   const turnFromPrevious = (i: number) => Math.abs(wrapAngle(theta[i] - theta[i - 1]));
-  const motionTests = ([[distanceToPrevious, MIN_JUMP], [turnFromPrevious, MIN_JUMP_TURN]] as const).map(([lengthOfStep, minLength]) => {
+  const jumpTests = ([[distanceToPrevious, MIN_JUMP], [turnFromPrevious, MIN_JUMP_TURN]] as const).map(([lengthOfStep, minLength]) => {
     const stepRates = sampleEvenly(t.length - 1, (i) => lengthOfStep(i + 1) / (t[i + 1] - t[i]));
     const jumpLimit = JUMP_FACTOR * quantileOf(stepRates.filter((rate) => rate > MIN_MOVING_SPEED), 0.9);
     // For a robot that never moves the limit is NaN.
     return (i: number) => lengthOfStep(i) > Math.max(minLength, (jumpLimit || 0) * (t[i] - t[i - 1]));
   });
-  return (i) => motionTests.some((test) => test(i));
+  return (i) => jumpTests.some((isJumpBy) => isJumpBy(i));
 }

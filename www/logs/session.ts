@@ -16,7 +16,7 @@ type OpenedRecording = Recording & { index: number };
 export type LogFailure = Pick<LogError, 'message' | 'place' | 'question'> & { sentences: Record<'en' | 'de', string> };
 
 /** Minimum time (ms) between progress reports. The page renders the figure after each report. */
-const PROGRESS_INTERVAL = 50;
+const PROGRESS_INTERVAL_MS = 50;
 
 /** Opened recordings, and the object of the core that fits α's to them. */
 export class LogSession {
@@ -27,14 +27,14 @@ export class LogSession {
     this.#simulation = new AlphaCalibrator();
   }
 
-  async open(sources: { file: Source; path: string }[], answers: Record<string, OpenOptions>): Promise<{ recordings: OpenedRecording[]; skipped: LogFailure[] }> {
+  async open(sources: { file: Source; path: string }[], optionsByFile: Record<string, OpenOptions>): Promise<{ recordings: OpenedRecording[]; skipped: LogFailure[] }> {
     const skipped: LogFailure[] = [];
     const files = sources.map(({ file, path }) => Object.assign(file, { path }));
-    this.#recordings = await openRecordings(files, (name) => answers[name], (error) => skipped.push(failureOf(error))).catch(throwFailure);
+    this.#recordings = await openRecordings(files, (name) => optionsByFile[name], (error) => skipped.push(failureOf(error))).catch(throwFailure);
     return { recordings: this.#recordings.map(({ name, format, series }, index) => ({ name, format, series, index }) as OpenedRecording), skipped };
   }
 
-  async read({ drives, unpaired }: Pick<LogPlan, 'drives' | 'unpaired'>, onProgress: (share: number) => void): Promise<Drive[]> {
+  async read({ drives, unpaired }: Pick<LogPlan, 'drives' | 'unpaired'>, onProgress: (fraction: number) => void): Promise<Drive[]> {
     const openedChoiceOf = ({ recording, choice }: RecordingChoice) => ({ recording: this.#recordings[(recording as OpenedRecording).index], choice });
     const plan = {
       drives: drives.map(({ odometry, reference }) => ({ odometry: openedChoiceOf(odometry), reference: openedChoiceOf(reference) })),
@@ -44,7 +44,7 @@ export class LogSession {
     const driveLogs = await readDrives(plan, (fraction) => {
       const now = performance.now();
       if (now < nextProgress) return;
-      nextProgress = now + PROGRESS_INTERVAL;
+      nextProgress = now + PROGRESS_INTERVAL_MS;
       onProgress(fraction);
     }).catch(throwFailure);
     const columns = driveLogs.flatMap(({ odometry, reference }) => [odometry, reference]).flatMap(({ data }) => Object.values(data) as ArrayBufferView[]);

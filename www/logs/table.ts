@@ -59,7 +59,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
         for (const reader of allReaders) reader.addLine(line, number, isUnterminated);
       });
       // The vertical axis is the one about which the robot turns.
-      return readersOfChoices.map((readers) => (least(readers, ({ rows }) => rows.tiltSpread) ?? readers[0]).end());
+      return readersOfChoices.map((readers) => (least(readers, ({ rows }) => rows.tiltSpread) ?? readers[0]).buildLog());
     },
   };
 }
@@ -80,16 +80,16 @@ function detectEncoding(bytes: Uint8Array): string {
 }
 
 /** Calls `addLine` for each line from `firstLineNumber` on. `isUnterminated` is true for text after the last line feed: the file may be cut off there. */
-async function readLines(source: Source, encoding: string, firstLineNumber: number, onProgress: ((share: number) => void) | undefined, addLine: (line: string, number: number, isUnterminated: boolean) => void) {
+async function readLines(source: Source, encoding: string, firstLineNumber: number, onProgress: ((fraction: number) => void) | undefined, addLine: (line: string, number: number, isUnterminated: boolean) => void) {
   const decoder = new TextDecoder(encoding);
   let [incompleteLine, number] = ['', 0];
   const passLine = (line: string, isUnterminated: boolean) => {
     number += 1;
     if (number >= firstLineNumber) addLine(line, number, isUnterminated);
   };
-  for (let index = 0; index < source.size; index += BLOCK_BYTES) {
-    onProgress?.(index / source.size);
-    const text = incompleteLine + decoder.decode(await readBytes(source, index, Math.min(index + BLOCK_BYTES, source.size)), { stream: true });
+  for (let position = 0; position < source.size; position += BLOCK_BYTES) {
+    onProgress?.(position / source.size);
+    const text = incompleteLine + decoder.decode(await readBytes(source, position, Math.min(position + BLOCK_BYTES, source.size)), { stream: true });
     const lines = text.split('\n');
     incompleteLine = lines.pop() ?? '';
     for (const line of lines) passLine(line, false);
@@ -136,7 +136,7 @@ function createClockReader({ columns: [{ index }, subseconds], unit: namedUnit }
 /** Returns a reader of the log of one series, line by line. `upAxis` is the vertical axis, if the format does not define it. */
 function createLogReader(name: string, errorPlace: ErrorPlace, format: TableFormat, group: ColumnGroup, layout: ReturnType<typeof findLogLayout>, options: OpenOptions, upAxis?: 'Y' | 'Z') {
   const { separator, hasDecimalCommas, isSparse, columnNames } = format;
-  const { clocks, columns, fields, kind, length, angle } = layout;
+  const { clocks, columns, fields, kind, lengthUnit, angleUnit } = layout;
   const rows = new RowCollector(errorPlace);
   const notes: Note[] = upAxis ? [{ name: 'upAxis', values: [upAxis] }] : [];
   const normalizeCell = hasDecimalCommas ? withDecimalPoint : (cell: string) => cell;
@@ -150,8 +150,8 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
   /** Numbers of decimals in the last column. */
   const decimalCounts = new Set<number>();
 
-  const refuse = (reason: ErrorReason): never => {
-    throw new LogError(errorPlace, reason);
+  const refuse = (formatReason: ErrorReason): never => {
+    throw new LogError(errorPlace, formatReason);
   };
 
   const dropTextRow = (line: number, columnName: string, cell: string) => rows.dropRow('text', line, (texts) => texts.number(truncate(columnName), truncate(cell.trim())));
@@ -194,20 +194,20 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
       if (!(isSparse && columns.every(({ index }) => Number.isNaN(parseNumber(cells[index]))))) addCellsAsRow(cells, number);
     },
 
-    end(): Log {
+    buildLog(): Log {
       if (rowNames.size > 1) refuse((texts) => texts.mixed(listNames([...rowNames])));
       const { unit = 's', by } = clockReaders[0].judgedUnit;
       if (!(unit in UNIT_EXPONENTS)) refuse((texts) => texts.unknownUnit(truncate(unit)));
       return rows.buildLog(name, kind, {
         units: {
           time: { unit, by },
-          length: { unit: length ?? 'm', by: length ? 'name' : 'usage' },
-          angle: fields.at(-1) === 'qw' ? { unit: 'quaternion', by: 'format' } : { unit: angle ?? 'rad', by: angle ? 'name' : 'usage' },
+          length: { unit: lengthUnit ?? 'm', by: lengthUnit ? 'name' : 'usage' },
+          angle: fields.at(-1) === 'qw' ? { unit: 'quaternion', by: 'format' } : { unit: angleUnit ?? 'rad', by: angleUnit ? 'name' : 'usage' },
         },
         clocks: [clocks[0].name, clocks[1]?.name],
         columns: Object.fromEntries([['t', ''], ...fields.map((field, i) => [field, columns[i].name])]),
         columnNames: {
-          all: columnNames,
+          allNames: columnNames,
           withYUp: (sign) => columnNames.map((name, i) => (sign > 0 ? [x, z, y] : [y, z, x])[[x, y, z].findIndex((column) => column?.index === i)]?.name ?? name.trim()),
         },
         notes,

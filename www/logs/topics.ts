@@ -25,7 +25,7 @@ export async function createRecording(name: string, container: Container, option
   const series = await listSeries(container);
   return { name, format, series, read };
 
-  async function read(choices: LogChoice[], onProgress?: (share: number) => void): Promise<Log[]> {
+  async function read(choices: LogChoice[], onProgress?: (fraction: number) => void): Promise<Log[]> {
     const choiceReaders = choices.map((choice) => createTopicReader(name, container, choice, series.find((seriesEntry) => seriesEntry.name === choice.series)));
     const readersByChannel = new Map(container.channels.map((channel) => [channel, choiceReaders.filter((reader) => reader.isWanted(channel))]));
     const passMessage = (message: Message) => {
@@ -35,12 +35,12 @@ export async function createRecording(name: string, container: Container, option
     // Static transforms are read first, because they also hold before the time of their recording.
     if (choices.some(({ frames }) => frames)) await container.readMessages(isStaticTopic, passMessage);
     await container.readMessages((channel) => wantedChannels.has(channel), passMessage, onProgress);
-    return choiceReaders.map((reader) => reader.end(options));
+    return choiceReaders.map((reader) => reader.buildLog(options));
   }
 }
 
 /** Returns the reason why a part of a recording cannot be read; undefined for an undamaged recording. */
-const damageReasonOf = ({ damageByPosition: damage, truncationReason: cutReason }: Container): string | undefined => [...damage.values(), cutReason][0];
+const damageReasonOf = ({ damageByPosition, truncationReason }: Container): string | undefined => [...damageByPosition.values(), truncationReason][0];
 
 async function listSeries(container: Container): Promise<Series[]> {
   const series: Series[] = Array.from(group(container.channels, ({ topic }) => topic), ([topic, allChannels]) => {
@@ -97,19 +97,19 @@ function createTopicReader(file: string, container: Container, { series: topic, 
     },
 
     /** Returns the log; throws a LogError if the messages do not form a log. */
-    end(options: OpenOptions): Log {
-      const { format, damageByPosition: damage, truncationReason: cutReason } = container;
+    buildLog(options: OpenOptions): Log {
+      const { format, damageByPosition, truncationReason } = container;
       const lossReason = damageReasonOf(container);
       if (messageCount === 0 && lossReason) refuse((texts) => texts.damaged(lossReason, format));
       if (chain && !chain.isConnected) refuse((texts) => texts.noChain(formatFrames(frames), listNames(chain.links.map(formatFrames))));
-      if (chain && !chain.readPoses((pose, { recordTime, messageNumber: number }) => rows.addRow(pose, number, recordTime))) {
+      if (chain && !chain.readPoses((pose, { recordTime, messageNumber }) => rows.addRow(pose, messageNumber, recordTime))) {
         const otherFrames = chain.findPoseFrames().map(formatFrames).filter((otherText) => otherText !== formatFrames(frames));
         refuse((texts) => texts.constant(formatFrames(frames), listNames(otherFrames)));
       }
       const logKind = kind === 'commands' ? 'commands' : 'poses';
       const notes: Note[] = [
-        ...(damage.size > 0 ? [{ name: 'damaged' as const, values: [damage.size, lossReason as string] }] : []),
-        ...(cutReason ? [{ name: 'cutShort' as const, values: [] }] : []),
+        ...(damageByPosition.size > 0 ? [{ name: 'damaged' as const, values: [damageByPosition.size, lossReason as string] }] : []),
+        ...(truncationReason ? [{ name: 'cutShort' as const, values: [] }] : []),
       ];
       return rows.buildLog(`${file}, ${topic}${frames ? ` (${formatFrames(frames)})` : ''}`, logKind, {
         units: { time: { unit: 'ns', by: 'format' }, length: { unit: 'm', by: 'format' }, angle: { unit: logKind === 'poses' ? 'quaternion' : 'none', by: 'format' } },

@@ -10,7 +10,7 @@ export type Units = Summary['units'];
 export interface Columns { start: number; t: Float64Array; a: Float64Array; b: Float64Array; c: Float64Array; z: Float64Array }
 
 /** Names of all columns of a table, and their names in an order that reads the table with Y up. Its headings then grow from x to z (`sign` 1) or from z to x (−1). */
-export interface ColumnNames { all: string[]; withYUp(sign: number): string[] }
+export interface ColumnNames { allNames: string[]; withYUp(sign: number): string[] }
 
 /** Decimal exponent of the number of units in a second, by unit of time. */
 export const UNIT_EXPONENTS = { s: 0, ms: 3, us: 6, ns: 9 } as const;
@@ -54,11 +54,11 @@ const isInRange = (value: number, [low, high]: readonly [number, number]) => val
 export const epochTimeUnitOf = (time: number): TimeUnit | undefined => MIN_EPOCH_TIMES.find(([, minTime]) => Math.abs(time) >= minTime)?.[0];
 
 /** Judges the units that no name or option states, and converts the columns to s, m and rad. Throws a LogError if a unit is in doubt. */
-export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, assumedUnits: Units, options: OpenOptions, columnNames?: ColumnNames): Units {
+export function judgeUnits(errorPlace: ErrorPlace, kind: LogKind, columns: Columns, assumedUnits: Units, options: OpenOptions, columnNames?: ColumnNames): Units {
   const { t, a, b, c, z } = columns;
   const isJudged = t.length >= MIN_ROWS;
   const askUnit: AskUnit = (unitOption, value, unit, choices) => {
-    throw new LogError(place, (texts) => texts[unitOption](value, unit, choices), choices.length > 0 ? { option: unitOption, choices, assumedUnit: unit } : undefined);
+    throw new LogError(errorPlace, (texts) => texts[unitOption](value, unit, choices), choices.length > 0 ? { option: unitOption, choices, assumedUnit: unit } : undefined);
   };
   const length = options.lengthUnit ? { unit: options.lengthUnit, by: 'option' as const } : assumedUnits.length;
   const metresPerUnit = METRES_PER_UNIT[length.unit];
@@ -73,9 +73,9 @@ export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, a
 
   const { unit, by } = options.angleUnit ? { unit: options.angleUnit, by: 'option' as const } : assumedUnits.angle;
   const alignment = isJudged && kind === 'poses' ? alignmentWithPath(t, a, b, c) : undefined;
-  if (alignment?.sign === -1) throw new LogError(place, (texts) => texts.mirrored);
+  if (alignment?.sign === -1) throw new LogError(errorPlace, (texts) => texts.mirrored);
   const alignmentWithYUp = isJudged && kind === 'poses' && columnNames && !alignment ? alignmentWithPath(t, a, z, c) : undefined;
-  if (columnNames && alignmentWithYUp) throw new LogError(place, (texts) => texts.yUp, { option: 'columns', choices: [columnNames.withYUp(alignmentWithYUp.sign).join()], columns: columnNames.all });
+  if (columnNames && alignmentWithYUp) throw new LogError(errorPlace, (texts) => texts.yUp, { option: 'columns', choices: [columnNames.withYUp(alignmentWithYUp.sign).join()], columns: columnNames.allNames });
   const turnRateAt = kind === 'poses' ? (i: number) => (c[i + 1] - c[i]) / (t[i + 1] - t[i]) : (i: number) => b[i];
   const turnRate = quantileOf(sampleEvenly(t.length - 1, (i) => Math.abs(turnRateAt(i))), 0.9);
   const mayBeDegrees = kind === 'poses' ? c.some((heading) => Math.abs(heading) > MAX_WRAPPED_HEADING) : turnRate > MAX_SPEED;
@@ -126,8 +126,8 @@ function alignmentWithPath(t: Float64Array, x: Float64Array, y: Float64Array, he
   }
   // The mean resultant length is 1 if all differences are equal, and near 0 if they are random.
   const alignments = candidates.map(({ unit, sign, cosine, sine }) => ({ unit, sign, alignment: Math.hypot(cosine, sine) / stepCount }));
-  const [best, secondBest] = alignments.sort((alignment, otherAlignment) => otherAlignment.alignment - alignment.alignment);
-  return stepCount >= MIN_STEPS && best.alignment > MIN_ALIGNMENT && best.alignment - secondBest.alignment > MIN_ALIGNMENT_LEAD ? best : undefined;
+  const [bestAlignment, secondBestAlignment] = alignments.sort((alignment, otherAlignment) => otherAlignment.alignment - alignment.alignment);
+  return stepCount >= MIN_STEPS && bestAlignment.alignment > MIN_ALIGNMENT && bestAlignment.alignment - secondBestAlignment.alignment > MIN_ALIGNMENT_LEAD ? bestAlignment : undefined;
 }
 
 const medianStepOf = (t: Float64Array) => quantileOf(sampleEvenly(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);

@@ -28,18 +28,18 @@ export function drawAxes(drawContext: DrawContext, axisNames: { x: string, y: st
   // The name of the axis takes the place of the last tick label.
   const xAxisName = axisNames.x.replace('(', `(${xTicks.unitFactor}`);
   const maxLabelX = right - context.measureText(xAxisName).width - 10;
-  for (const value of xTicks.values) {
-    const x = Math.round(view.toPixelX(value)) + 0.5;
+  for (const tickValue of xTicks.tickValues) {
+    const x = Math.round(view.toPixelX(tickValue)) + 0.5;
     drawHairline(gridOpacity, [x, top], [x, bottom]);
-    const tickLabel = xTicks.formatLabel(value);
+    const tickLabel = xTicks.formatLabel(tickValue);
     if (x + context.measureText(tickLabel).width / 2 < maxLabelX) context.fillText(tickLabel, x, bottom + 6);
   }
   const yTicks = ticksOfAxis(yMin, yMax, (bottom - top) / MIN_TICK_SPACING.y);
   Object.assign(context, { textAlign: 'right', textBaseline: 'middle' });
-  for (const value of yTicks.values) {
-    const y = Math.round(view.toPixelY(value)) + 0.5;
+  for (const tickValue of yTicks.tickValues) {
+    const y = Math.round(view.toPixelY(tickValue)) + 0.5;
     drawHairline(gridOpacity, [left, y], [right, y]);
-    context.fillText(yTicks.formatLabel(value), left - 6, y);
+    context.fillText(yTicks.formatLabel(tickValue), left - 6, y);
   }
 
   drawHairline(1, [left, bottom + 0.5], [right, bottom + 0.5]);
@@ -58,7 +58,7 @@ export interface LegendEntry {
 
 export const createLineLegendEntry = ({ context }: DrawContext, name: string, style: LineStroke): LegendEntry => ({ name, drawSample: (x, y, width) => strokeLine(context, [[x, y], [x + width, y]], style) });
 
-function drawLegend({ context, view, palette, font }: DrawContext, axisName: string, entries: LegendEntry[]) {
+function drawLegend({ context, view, palette, font }: DrawContext, axisName: string, legendEntries: LegendEntry[]) {
   const fontSize = parseFloat(font);
   const [sampleWidth, lineHeight] = [LEGEND_LENGTHS_EM.sample * fontSize, LEGEND_LENGTHS_EM.line * fontSize];
   let y = view.plotArea.top - 22;
@@ -66,7 +66,7 @@ function drawLegend({ context, view, palette, font }: DrawContext, axisName: str
   context.font = font;
   let [x, row] = [nameEndX, 0];
   const placedEntries = [];
-  for (const entry of entries) {
+  for (const entry of legendEntries) {
     const entryWidth = (LEGEND_LENGTHS_EM.gap + LEGEND_LENGTHS_EM.space) * fontSize + sampleWidth + context.measureText(entry.name).width;
     // The first entry of a row has no gap before it.
     if (x + entryWidth > view.width && row < lastRow) [x, row] = [2 - LEGEND_LENGTHS_EM.gap * fontSize, row + 1];
@@ -87,14 +87,14 @@ function drawLegend({ context, view, palette, font }: DrawContext, axisName: str
 }
 
 /** Returns about `wantedCount` tick values, at least two if possible, with the power of ten before the unit, and a function that formats labels. */
-function ticksOfAxis(min: number, max: number, wantedCount: number) {
-  const tickCount = Math.max(2, Math.floor(wantedCount));
-  const firstTicks = ticks(min, max, tickCount);
-  const tickValues = firstTicks.length > 1 ? firstTicks : ticks(min, max, 2 * tickCount);
+function ticksOfAxis(min: number, max: number, wantedTickCount: number) {
+  const tickCount = Math.max(2, Math.floor(wantedTickCount));
+  const candidateTicks = ticks(min, max, tickCount);
+  const tickValues = candidateTicks.length > 1 ? candidateTicks : ticks(min, max, 2 * tickCount);
   const tickStep = tickValues.length > 1 ? tickValues[1] - tickValues[0] : 1;
   const exponent = tickStep < MIN_PLAIN_STEP ? Math.floor(Math.log10(tickStep) + 1e-9) : 0;
   return {
-    values: tickValues,
+    tickValues,
     /** Power of ten before the unit of the axis; empty for a factor of 1. */
     unitFactor: exponent < 0 ? `${formatPowerOfTen(exponent)} ` : '',
     formatLabel: (value: number) => formatTick(value / 10 ** exponent, tickStep / 10 ** exponent),

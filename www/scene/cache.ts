@@ -4,14 +4,14 @@ import { addLine, createHiddenContext, strokePath, type DrawContext, type LineSt
 
 /** Cache of one result, valid while its dependencies are the same. */
 export class Memo<Result> {
-  #lastKey: unknown[] = [];
+  #lastDependencies: unknown[] = [];
   #lastResult: Result | undefined;
 
   /** Returns the cached result, or computes a new one. @param dependencies values on which the result depends, compared by identity */
   get(dependencies: unknown[], compute: () => Result): Result {
-    if (dependencies.length !== this.#lastKey.length || dependencies.some((dependency, i) => dependency !== this.#lastKey[i])) {
+    if (dependencies.length !== this.#lastDependencies.length || dependencies.some((dependency, i) => dependency !== this.#lastDependencies[i])) {
       this.#lastResult = compute();
-      this.#lastKey = dependencies;
+      this.#lastDependencies = dependencies;
     }
     return this.#lastResult as Result;
   }

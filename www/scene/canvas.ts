@@ -76,12 +76,12 @@ export function paintWithOpacity(context: AnyContext2D, opacity: number, paint: 
 }
 
 /** Style of a line; dashes in pixels. */
-export interface LineStroke { colour: string, width: number, dash?: number[], cap?: CanvasLineCap }
+export interface LineStroke { colour: string, width: number, dash?: number[], lineCap?: CanvasLineCap }
 
-export function strokePath(context: AnyContext2D, { colour, width, dash = [], cap = 'butt' }: LineStroke, addPath: () => void) {
+export function strokePath(context: AnyContext2D, { colour, width, dash = [], lineCap = 'butt' }: LineStroke, addPath: () => void) {
   context.strokeStyle = colour;
   context.lineWidth = width;
-  context.lineCap = cap;
+  context.lineCap = lineCap;
   context.setLineDash(dash);
   context.beginPath();
   addPath();

@@ -3,7 +3,7 @@
 import type { DrawSurface } from './canvas.ts';
 
 /** Pixels per CSS pixel in print. */
-const PRINT_RATIO = 2;
+const PRINT_PIXEL_RATIO = 2;
 
 /** Returns true if a canvas has pixels. Narrow figures hide some canvases. */
 export const hasPixels = ({ width, height }: HTMLCanvasElement) => Math.min(width, height) > 0;
@@ -14,7 +14,7 @@ export class Canvases {
   canvasElements: HTMLCanvasElement[] | undefined;
   /** Cached widths in CSS pixels. Reading them in a frame would cause a reflow. */
   #cssWidths: WeakMap<HTMLCanvasElement, number> = new WeakMap();
-  #observer = new ResizeObserver((entries) => this.#resize(entries));
+  #sizeObserver = new ResizeObserver((entries) => this.#resize(entries));
 
   /** Creates the canvases of a figure. `drawResized` draws them again after a change of their size, which clears them. */
   constructor(drawResized: () => void) {
@@ -28,7 +28,7 @@ export class Canvases {
 
   /** Stops observing the canvases, which are no longer rendered. */
   stopObserving() {
-    this.#observer.disconnect();
+    this.#sizeObserver.disconnect();
     this.canvasElements = undefined;
   }
 
@@ -43,12 +43,12 @@ export class Canvases {
 
   /** Observes the sizes of the canvases. The observer reports the present sizes first. */
   observeSizes() {
-    this.#observer.disconnect();
+    this.#sizeObserver.disconnect();
     for (const canvas of this.canvasElements ?? []) {
       try {
-        this.#observer.observe(canvas, { box: 'device-pixel-content-box' });
+        this.#sizeObserver.observe(canvas, { box: 'device-pixel-content-box' });
       } catch {
-        this.#observer.observe(canvas);
+        this.#sizeObserver.observe(canvas);
       }
     }
   }
@@ -68,11 +68,11 @@ export class Canvases {
 
   /** Caches the CSS widths of the canvases. For print, it also sets their sizes in pixels, which then determine the layout and are not observed. */
   updateWidths(isPrinting: boolean) {
-    if (isPrinting) this.#observer.disconnect();
+    if (isPrinting) this.#sizeObserver.disconnect();
     for (const canvas of this.canvasElements ?? []) {
       const { clientWidth, clientHeight } = canvas;
       this.#cssWidths.set(canvas, clientWidth);
-      if (isPrinting) Object.assign(canvas, { width: PRINT_RATIO * clientWidth, height: PRINT_RATIO * clientHeight });
+      if (isPrinting) Object.assign(canvas, { width: PRINT_PIXEL_RATIO * clientWidth, height: PRINT_PIXEL_RATIO * clientHeight });
     }
   }
 

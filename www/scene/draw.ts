@@ -80,9 +80,9 @@ const HIGHLIGHT_WIDTH_FACTOR = 1.9;
 const DIMMED_OPACITY = 0.3;
 
 /** Returns the line styles by name, in the colours of their roles. The highlighted line is thicker, and all others are faint. */
-export function createLineStyles<Name extends string>({ palette, highlight }: Pick<DrawContext, 'palette' | 'highlight'>, lines: Record<Name, LineStyle>) {
-  const hasHighlight = Object.keys(lines).some((name) => name === highlight);
-  const styleEntries = Object.entries(lines as Record<string, LineStyle>).map(([name, { role, width = 2.25, dash = [] }]) => {
+export function createLineStyles<Name extends string>({ palette, highlight }: Pick<DrawContext, 'palette' | 'highlight'>, lineStyles: Record<Name, LineStyle>) {
+  const hasHighlight = Object.keys(lineStyles).some((name) => name === highlight);
+  const styleEntries = Object.entries(lineStyles as Record<string, LineStyle>).map(([name, { role, width = 2.25, dash = [] }]) => {
     const colour = hasHighlight && name !== highlight ? `rgb(${colourChannelsOf(palette[role]).join(' ')} / ${DIMMED_OPACITY})` : palette[role];
     return [name, { colour, width: name === highlight ? HIGHLIGHT_WIDTH_FACTOR * width : width, dash }];
   });
@@ -187,11 +187,11 @@ export function drawHandle({ context, palette, drawsHandles }: DrawContext, { x,
 /** Draws a ring with cross hairs around a point, by default in the colour of the selected sample. */
 export function drawCrosshair(drawContext: DrawContext, { x, y, heading }: { x: number, y: number, heading: number | null }, colour: string = drawContext.palette.accent) {
   const { context, view, palette } = drawContext;
-  const [px, py] = view.toPixel(x, y);
+  const [centreX, centreY] = view.toPixel(x, y);
   for (const style of [{ colour: palette.paper, width: 5 }, { colour, width: 2 }]) {
     strokePath(context, style, () => {
-      context.arc(px, py, 7, 0, 2 * Math.PI);
-      for (const [dx, dy] of [[1, 0], [0, 1], [-1, 0], [0, -1]]) addLine(context, [[px + 7 * dx, py + 7 * dy], [px + 12 * dx, py + 12 * dy]]);
+      context.arc(centreX, centreY, 7, 0, 2 * Math.PI);
+      for (const [dx, dy] of [[1, 0], [0, 1], [-1, 0], [0, -1]]) addLine(context, [[centreX + 7 * dx, centreY + 7 * dy], [centreX + 12 * dx, centreY + 12 * dy]]);
       if (heading !== null) addLine(context, view.headingLineFrom({ x, y, theta: heading }, 24));
     });
   }

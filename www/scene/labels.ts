@@ -50,9 +50,9 @@ export function drawLeader(context: CanvasRenderingContext2D, leaderPoints: numb
 function measureTextParts({ context, font }: DrawContext, { symbol = '', subscript = '', text = '' }: LabelText) {
   const subscriptFont = font.replace(/[\d.]+px/, (size) => `${SUBSCRIPT_SIZE * parseFloat(size)}px`);
   const textParts = [
-    { text: symbol, style: `italic ${font}`, drop: 0 },
-    { text: subscript, style: subscriptFont, drop: SUBSCRIPT_DROP },
-    { text: symbol && text ? ` ${text}` : text, style: font, drop: 0 },
+    { text: symbol, style: `italic ${font}`, baselineDrop: 0 },
+    { text: subscript, style: subscriptFont, baselineDrop: SUBSCRIPT_DROP },
+    { text: symbol && text ? ` ${text}` : text, style: font, baselineDrop: 0 },
   ].filter((textPart) => textPart.text);
   return textParts.map((textPart) => {
     context.font = textPart.style;
@@ -66,9 +66,9 @@ const totalWidthOf = (parts: { width: number }[]) => parts.reduce((sum, { width 
 function drawTextParts({ context }: DrawContext, parts: ReturnType<typeof measureTextParts>, x: number, y: number, colour: string) {
   Object.assign(context, { textAlign: 'left', textBaseline: 'middle', fillStyle: colour });
   let partLeft = x;
-  for (const { text, style, drop, width } of parts) {
+  for (const { text, style, baselineDrop, width } of parts) {
     context.font = style;
-    context.fillText(text, partLeft, y + drop);
+    context.fillText(text, partLeft, y + baselineDrop);
     partLeft += width;
   }
 }
@@ -79,7 +79,7 @@ const LINE_HEIGHT = 15;
 const TEXT_MARGIN = 4;
 
 /** Distance that a sentence keeps from lines and other sentences, pixels. */
-const MIN_DISTANCE = 9;
+const MIN_TEXT_DISTANCE = 9;
 
 /** Candidate positions of a sentence: angles (rad) relative to the direction away from the centre, and lengths of the leader, pixels. */
 const CANDIDATE_ANGLES = Array.from({ length: 24 }, (_, i) => (Math.PI * (i - 12)) / 12);
@@ -140,14 +140,14 @@ const MAX_LINE_POINTS = 200;
 
 /** Returns evenly spaced points of a line, which a sentence must not cover: the start of the line, but not its end; pixels. */
 function sampleLine([x, y]: number[], [endX, endY]: number[]) {
-  const pointCount = Math.min(MAX_LINE_POINTS, Math.ceil(Math.hypot(endX - x, endY - y) / (2 * MIN_DISTANCE)) || 1);
+  const pointCount = Math.min(MAX_LINE_POINTS, Math.ceil(Math.hypot(endX - x, endY - y) / (2 * MIN_TEXT_DISTANCE)) || 1);
   return Array.from({ length: pointCount }, (_, i) => [x + (i / pointCount) * (endX - x), y + (i / pointCount) * (endY - y)]);
 }
 
 /** Returns the maximum depth by which points and other boxes of texts reach into a box, pixels. The depth of boxes counts twice. */
 function maxOverlapOf({ x, y, halfWidth, halfHeight }: TextBox, points: number[][], otherBoxes: TextBox[]) {
   const overlapDepthOf = (otherX: number, otherY: number, otherHalfWidth = 0, otherHalfHeight = 0) =>
-    Math.min(halfWidth + otherHalfWidth + MIN_DISTANCE - Math.abs(otherX - x), halfHeight + otherHalfHeight + MIN_DISTANCE - Math.abs(otherY - y));
+    Math.min(halfWidth + otherHalfWidth + MIN_TEXT_DISTANCE - Math.abs(otherX - x), halfHeight + otherHalfHeight + MIN_TEXT_DISTANCE - Math.abs(otherY - y));
   let maxDepth = 0;
   for (const [pointX, pointY] of points) maxDepth = Math.max(maxDepth, overlapDepthOf(pointX, pointY));
   for (const otherBox of otherBoxes) maxDepth = Math.max(maxDepth, 2 * overlapDepthOf(otherBox.x, otherBox.y, otherBox.halfWidth, otherBox.halfHeight));

@@ -66,17 +66,17 @@ export class SvgContext {
     this.#path += `${this.#path ? 'L' : 'M'}${formatLength(x)},${formatLength(y)}`;
   };
 
-  arc: CanvasPath['arc'] = (x, y, radius, from, to, isCounterclockwise = false) => {
+  arc: CanvasPath['arc'] = (x, y, radius, startAngle, endAngle, isCounterclockwise = false) => {
     const r = formatLength(radius);
-    const sweep = isCounterclockwise ? from - to : to - from;
-    if (sweep >= 2 * Math.PI) {
+    const sweepAngle = isCounterclockwise ? startAngle - endAngle : endAngle - startAngle;
+    if (sweepAngle >= 2 * Math.PI) {
       const diameter = formatLength(2 * radius);
       this.#path += `M${formatLength(x - radius)},${formatLength(y)}a${r},${r} 0 1 0 ${diameter},0a${r},${r} 0 1 0 -${diameter},0Z`;
       return;
     }
     const pointAt = (angle: number) => `${formatLength(x + radius * Math.cos(angle))},${formatLength(y + radius * Math.sin(angle))}`;
-    const [largeArcFlag, clockwiseFlag] = [sweep > Math.PI, !isCounterclockwise].map(Number);
-    this.#path += `${this.#path ? 'L' : 'M'}${pointAt(from)}A${r},${r} 0 ${largeArcFlag} ${clockwiseFlag} ${pointAt(to)}`;
+    const [largeArcFlag, clockwiseFlag] = [sweepAngle > Math.PI, !isCounterclockwise].map(Number);
+    this.#path += `${this.#path ? 'L' : 'M'}${pointAt(startAngle)}A${r},${r} 0 ${largeArcFlag} ${clockwiseFlag} ${pointAt(endAngle)}`;
   };
 
   rect: CanvasPath['rect'] = (x, y, width, height) => {
@@ -134,8 +134,8 @@ export class SvgContext {
 
   #addText(text: string, x: number, y: number, paintAttributes: string) {
     const dy = BASELINE_SHIFTS[this.textBaseline] ?? '0';
-    const anchor = TEXT_ANCHORS[this.textAlign] ?? 'start';
-    const positionAttributes = `x="${formatLength(x)}" y="${formatLength(y)}" dy="${dy}" text-anchor="${anchor}"`;
+    const textAnchor = TEXT_ANCHORS[this.textAlign] ?? 'start';
+    const positionAttributes = `x="${formatLength(x)}" y="${formatLength(y)}" dy="${dy}" text-anchor="${textAnchor}"`;
     this.#elements.push(`<text ${positionAttributes} style="font:${escapeXml(this.font)}"${paintAttributes}>${escapeXml(text)}</text>`);
   }
 

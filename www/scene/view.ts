@@ -32,7 +32,7 @@ export class View {
   /** True after the view has zoomed out. The picture resets it. */
   hasZoomedOut = false;
   /** Limits of the extent, such as the bounds of a map. An extent larger than the limits is centred on them. */
-  limits: Extent | undefined;
+  extentLimits: Extent | undefined;
   /** True if one unit has the same length in pixels along x and y. */
   #hasEqualScales;
   /** True if the view shows exactly the needed extent, without a margin. Such a view is fitted again after a change of the canvas size. */
@@ -114,8 +114,8 @@ export class View {
   }
 
   /** Converts x, y pairs to points in pixels. */
-  toPixels(pairs: ArrayLike<number>) {
-    return Array.from({ length: pairs.length / 2 }, (_, i) => this.toPixel(pairs[2 * i], pairs[2 * i + 1]));
+  toPixels(xyPairs: ArrayLike<number>) {
+    return Array.from({ length: xyPairs.length / 2 }, (_, i) => this.toPixel(xyPairs[2 * i], xyPairs[2 * i + 1]));
   }
 
   /** Returns both ends, in pixels, of a line from a pose in its heading, with a length in pixels. */
@@ -166,9 +166,9 @@ export class View {
     const [requiredWidth, requiredHeight] = [requiredExtent.xMax - requiredExtent.xMin, requiredExtent.yMax - requiredExtent.yMin];
     const width = roundSize(this.#hasEqualScales ? Math.max(requiredWidth, requiredHeight / aspectRatio) : requiredWidth);
     const height = this.#hasEqualScales ? width * aspectRatio : roundSize(requiredHeight);
-    const limits = this.limits ?? { xMin: -Infinity, xMax: Infinity, yMin: -Infinity, yMax: Infinity };
-    const x = clampMiddle((requiredExtent.xMin + requiredExtent.xMax) / 2, width, limits.xMin, limits.xMax);
-    const y = clampMiddle((requiredExtent.yMin + requiredExtent.yMax) / 2, height, limits.yMin, limits.yMax);
+    const extentLimits = this.extentLimits ?? { xMin: -Infinity, xMax: Infinity, yMin: -Infinity, yMax: Infinity };
+    const x = clampMiddle((requiredExtent.xMin + requiredExtent.xMax) / 2, width, extentLimits.xMin, extentLimits.xMax);
+    const y = clampMiddle((requiredExtent.yMin + requiredExtent.yMax) / 2, height, extentLimits.yMin, extentLimits.yMax);
     return { xMin: x - width / 2, xMax: x + width / 2, yMin: y - height / 2, yMax: y + height / 2 };
   }
 }
@@ -196,9 +196,9 @@ export const cornersAround = (x: number, y: number, halfWidth: number, halfHeigh
   [x - halfWidth, y - halfHeight, x + halfWidth, y + halfHeight];
 
 function roundUpToNiceSize(size: number): number {
-  const decade = 10 ** Math.floor(Math.log10(size));
-  const niceFactor = NICE_SIZES.find((candidate) => candidate * decade >= size * (1 - 1e-9)) ?? 10;
-  return niceFactor * decade;
+  const powerOfTen = 10 ** Math.floor(Math.log10(size));
+  const niceFactor = NICE_SIZES.find((candidate) => candidate * powerOfTen >= size * (1 - 1e-9)) ?? 10;
+  return niceFactor * powerOfTen;
 }
 
 /** Returns the smallest extent that contains points and `initialExtent`. x and y are the first two of each `stride` numbers. */

@@ -48,7 +48,7 @@ export class WallLayer {
     if (grid) return;
     const { walls } = this.#plan;
     const wallLines = Array.from({ length: walls.length / 4 }, (_, i) => view.toPixels(walls.slice(4 * i, 4 * i + 4)));
-    strokeInBatches(context, wallLines, { colour: palette.truth, width: WALL_WIDTH, cap: 'round' });
+    strokeInBatches(context, wallLines, { colour: palette.truth, width: WALL_WIDTH, lineCap: 'round' });
   }
 }
 

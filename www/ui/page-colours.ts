@@ -6,7 +6,7 @@ import { colourChannelsOf } from './theme.ts';
  * Colours around a figure. `shade` is the amount by which colours are darkened for this background. `strength` is the share of the text
  * colour in muted text. An empty `text` keeps the figure's own colour.
  */
-type PageColours = { background: string, text: string, shade: string, strength: string, scheme: 'light' | 'dark' };
+type PageColours = { background: string, text: string, darkening: string, mutedShare: string, scheme: 'light' | 'dark' };
 
 /** Background assumed on a page that has light text, but neither a background nor a `color-scheme`. */
 const DARK_BACKGROUND = '#121212';
@@ -36,10 +36,10 @@ export function readPageColours(probe: Element): PageColours {
   const isLegible = contrastRatioOf(textColour, backgroundColour) >= MIN_CONTRAST;
   const scheme = backgroundLightness < (isLegible ? lightnessOf(textColour) : 0.5) ? 'dark' : 'light';
   // Darker backgrounds need darker lines. Nearly white backgrounds need no darkening.
-  const shade = scheme === 'light' && backgroundLightness < 0.97 ? `${100 * (1 - backgroundLightness ** 2.2)}%` : '';
+  const darkening = scheme === 'light' && backgroundLightness < 0.97 ? `${100 * (1 - backgroundLightness ** 2.2)}%` : '';
   const mixMutedColour = (share: number) => backgroundColour.map((channel, i) => channel + (share / 100) * (textColour[i] - channel));
-  const mutedStrength = isLegible ? `${MUTED_SHARES.find((share) => contrastRatioOf(mixMutedColour(share), backgroundColour) >= MIN_CONTRAST) ?? 100}%` : '';
-  return { background: `rgb(${backgroundColour})`, text: isLegible ? color : '', shade, strength: mutedStrength, scheme };
+  const mutedShare = isLegible ? `${MUTED_SHARES.find((share) => contrastRatioOf(mixMutedColour(share), backgroundColour) >= MIN_CONTRAST) ?? 100}%` : '';
+  return { background: `rgb(${backgroundColour})`, text: isLegible ? color : '', darkening, mutedShare, scheme };
 }
 
 function contrastRatioOf(firstColour: number[], secondColour: number[]) {

@@ -100,7 +100,7 @@ export interface Curve {
   x: ArrayLike<number>;
   /** Values along y. A NaN leaves a gap in the curve. */
   y: ArrayLike<number>;
-  error?: ArrayLike<number>;
+  errors?: ArrayLike<number>;
   /** True if only the band is drawn. */
   isBandOnly?: boolean;
   /** True if this curve is highlighted, false if another curve is, undefined if none is. */
@@ -138,12 +138,12 @@ export function plotHtml({ label, x, y, curves, points = [], marks = [], slider,
   const [toPixelX, toPixelY] = [createPixelScale(x, PLOT_LEFT, PLOT_RIGHT), createPixelScale(y, PLOT_BOTTOM, PLOT_TOP)];
   return html`<div class="plotted" dir="ltr">
     <svg class="plot" viewBox="0 0 ${CHART_WIDTH} ${CHART_HEIGHT}" role="img" aria-label=${label} part="chart">
-      ${axisLabelsOf(x, MAX_LABEL_COUNTS.x).map(([value, text]) => gridLineSvg(toPixelX(value), toPixelX(value), PLOT_TOP, PLOT_BOTTOM, { x: toPixelX(value), y: PLOT_BOTTOM + 18, anchor: 'middle', text }))}
-      ${axisLabelsOf(y, MAX_LABEL_COUNTS.y).map(([value, text]) => gridLineSvg(PLOT_LEFT, PLOT_RIGHT, toPixelY(value), toPixelY(value), { x: PLOT_LEFT - 6, y: toPixelY(value) + 4, anchor: 'end', text }))}
+      ${axisLabelsOf(x, MAX_LABEL_COUNTS.x).map(([value, text]) => gridLineSvg(toPixelX(value), toPixelX(value), PLOT_TOP, PLOT_BOTTOM, { x: toPixelX(value), y: PLOT_BOTTOM + 18, textAnchor: 'middle', text }))}
+      ${axisLabelsOf(y, MAX_LABEL_COUNTS.y).map(([value, text]) => gridLineSvg(PLOT_LEFT, PLOT_RIGHT, toPixelY(value), toPixelY(value), { x: PLOT_LEFT - 6, y: toPixelY(value) + 4, textAnchor: 'end', text }))}
       <text font-style="italic" x=${PLOT_RIGHT} y=${PLOT_BOTTOM + 30} text-anchor="end">${x.name}</text>
       <text font-style="italic" x="0" y="12">${y.name}</text>
       <svg x=${PLOT_LEFT} y=${PLOT_TOP} width=${PLOT_RIGHT - PLOT_LEFT} height=${PLOT_BOTTOM - PLOT_TOP} viewBox="${PLOT_LEFT} ${PLOT_TOP} ${PLOT_RIGHT - PLOT_LEFT} ${PLOT_BOTTOM - PLOT_TOP}">
-        ${curves.map((curve) => curve.error && svg`<path class="band ${highlightClassOf(curve)}" opacity="0.22" fill="var(--${curve.role})" d=${bandPathDataOf(curve, toPixelX, toPixelY)} />`)}
+        ${curves.map((curve) => curve.errors && svg`<path class="band ${highlightClassOf(curve)}" opacity="0.22" fill="var(--${curve.role})" d=${bandPathDataOf(curve, toPixelX, toPixelY)} />`)}
         ${curves.map((curve) => !curve.isBandOnly && svg`<path class="curve ${highlightClassOf(curve)}" fill="none" stroke-width="1.9" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash ?? nothing} d=${curvePathDataOf(curve, toPixelX, toPixelY)} />`)}
         ${marks.map((mark, row) => markSvg(mark, row, toPixelX(mark.x)))}
         ${points.filter(({ y: value, error }) => !Number.isNaN(value + error)).map(
@@ -161,9 +161,9 @@ export function plotHtml({ label, x, y, curves, points = [], marks = [], slider,
   `;
 }
 
-const gridLineSvg = (x1: number, x2: number, y1: number, y2: number, { x, y, anchor, text }: { x: number, y: number, anchor: string, text: string }) => svg`
+const gridLineSvg = (x1: number, x2: number, y1: number, y2: number, { x, y, textAnchor, text }: { x: number, y: number, textAnchor: string, text: string }) => svg`
   <line stroke="var(--rule)" x1=${x1} x2=${x2} y1=${y1} y2=${y2} />
-  <text class="notranslate" translate="no" x=${x} y=${y} text-anchor=${anchor}>${text}</text>`;
+  <text class="notranslate" translate="no" x=${x} y=${y} text-anchor=${textAnchor}>${text}</text>`;
 
 const highlightClassOf = ({ isHighlighted }: Curve) => (isHighlighted === undefined ? '' : isHighlighted ? 'lit' : 'unlit');
 
@@ -199,16 +199,16 @@ function curvePathDataOf({ x, y }: Curve, toPixelX: (value: number) => number, t
   return points.map((point, i) => point && `${points[i - 1] ? 'L' : 'M'}${point}`).join('');
 }
 
-function bandPathDataOf({ x, y, error = [] }: Curve, toPixelX: (value: number) => number, toPixelY: (value: number) => number) {
-  const definedIndices = Array.from(x, (_, i) => i).filter((i) => !Number.isNaN(x[i] + y[i] + error[i]));
-  const bandEdgeOf = (side: number) => definedIndices.map((i) => `${toPixelX(x[i]).toFixed(2)},${toPixelY(y[i] + side * error[i]).toFixed(2)}`);
+function bandPathDataOf({ x, y, errors = [] }: Curve, toPixelX: (value: number) => number, toPixelY: (value: number) => number) {
+  const definedIndices = Array.from(x, (_, i) => i).filter((i) => !Number.isNaN(x[i] + y[i] + errors[i]));
+  const bandEdgeOf = (side: number) => definedIndices.map((i) => `${toPixelX(x[i]).toFixed(2)},${toPixelY(y[i] + side * errors[i]).toFixed(2)}`);
   return definedIndices.length > 0 ? `M${[...bandEdgeOf(1), ...bandEdgeOf(-1).reverse()].join('L')}Z` : '';
 }
 
 /** Returns the line and text of a vertical mark. Each mark's text is in its own row, so that neighbouring texts do not touch. */
 function markSvg({ text }: VerticalMark, row: number, markX: number) {
   // Text next to the line, on the side that has space.
-  const [labelOffset, anchor] = 2 * markX > PLOT_LEFT + PLOT_RIGHT ? [-5, 'end'] : [5, 'start'];
+  const [labelOffset, textAnchor] = 2 * markX > PLOT_LEFT + PLOT_RIGHT ? [-5, 'end'] : [5, 'start'];
   return svg`<line stroke="var(--accent)" stroke-dasharray="2 3" x1=${markX} x2=${markX} y1=${PLOT_TOP} y2=${PLOT_BOTTOM} />
-    <text class="marked" x=${markX + labelOffset} y=${PLOT_TOP + 13 + 16 * row} text-anchor=${anchor}>${text}</text>`;
+    <text class="marked" x=${markX + labelOffset} y=${PLOT_TOP + 13 + 16 * row} text-anchor=${textAnchor}>${text}</text>`;
 }

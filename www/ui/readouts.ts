@@ -128,9 +128,9 @@ export const readoutStyles = css`
 export function readoutsHtml(readouts: [name: string, value: string, detail?: string, earlier?: string][], headlineIndex?: number) {
   return html`<dl class="readouts" part="readouts">
     ${readouts.map(
-      ([name, value, detail, earlier], i) => html`<div class=${i === headlineIndex ? 'headline' : nothing}>
+      ([name, value, detail, earlierValue], i) => html`<div class=${i === headlineIndex ? 'headline' : nothing}>
         <dt>${formatMarkup(name)}</dt>
-        <dd>${untranslatedHtml(value)}${earlier ? html` <span class="earlier">${untranslatedHtml(earlier)}</span>` : nothing}</dd>
+        <dd>${untranslatedHtml(value)}${earlierValue ? html` <span class="earlier">${untranslatedHtml(earlierValue)}</span>` : nothing}</dd>
         ${detail ? html`<dd class="detail">${formatMarkup(detail)}</dd>` : nothing}
       </div>`,
     )}
@@ -140,21 +140,21 @@ export function readoutsHtml(readouts: [name: string, value: string, detail?: st
 interface TableContent {
   caption?: unknown;
   /** Headings of the columns. The first column has the names of the rows. */
-  columns: unknown[];
+  columnHeadings: unknown[];
   /** Rows, each as its name and its cells. A single cell after the name spans all columns. */
   rows: unknown[][];
 }
 
-export function tableHtml({ caption, columns, rows }: TableContent) {
+export function tableHtml({ caption, columnHeadings, rows }: TableContent) {
   const rowCellsHtml = ([firstCell, ...otherCells]: unknown[]) =>
     otherCells.length === 0
-      ? html`<td colspan=${columns.length - 1}>${untranslatedHtml(firstCell)}</td>`
+      ? html`<td colspan=${columnHeadings.length - 1}>${untranslatedHtml(firstCell)}</td>`
       : [firstCell, ...otherCells].map((cell) => html`<td>${untranslatedHtml(cell)}</td>`);
   return html`<table part="table">
     ${caption ? html`<caption>${caption}</caption>` : nothing}
     <thead>
       <tr>
-        ${columns.map((name) => html`<th scope="col">${name}</th>`)}
+        ${columnHeadings.map((name) => html`<th scope="col">${name}</th>`)}
       </tr>
     </thead>
     <tbody>

@@ -19,11 +19,11 @@ const HEIGHTS_EM: Record<string, ([number, number] | string)[]> = {
 /** Returns the height for any width as a CSS maximum over the classes. Outside of its class, a term is hugely negative. */
 function heightCssOf(tag: string, unit: '%' | 'cqi') {
   const heightTerms = HEIGHTS_EM[tag].map((height, i, { length }) => {
-    const [fromEm, toEm] = [WIDTH_CLASS_BOUNDS_EM[i], WIDTH_CLASS_BOUNDS_EM[i + 1]];
-    const clampedWidth = `min(100${unit},${toEm}em)`;
-    const interpolateHeight = (startEm: number, endEm: number) => `${startEm}em + ${((endEm - startEm) / (toEm - fromEm)).toFixed(3)}*(${clampedWidth} - ${fromEm}em)`;
-    const penaltyBelow = i > 0 ? ` - 1e6*max(0em,${fromEm}em - 100${unit})` : '';
-    const penaltyAbove = i === length - 1 ? '' : ` - 1e6*max(0em,100${unit} - ${toEm - 0.001}em)`;
+    const [lowerBoundEm, upperBoundEm] = [WIDTH_CLASS_BOUNDS_EM[i], WIDTH_CLASS_BOUNDS_EM[i + 1]];
+    const clampedWidth = `min(100${unit},${upperBoundEm}em)`;
+    const interpolateHeight = (startEm: number, endEm: number) => `${startEm}em + ${((endEm - startEm) / (upperBoundEm - lowerBoundEm)).toFixed(3)}*(${clampedWidth} - ${lowerBoundEm}em)`;
+    const penaltyBelow = i > 0 ? ` - 1e6*max(0em,${lowerBoundEm}em - 100${unit})` : '';
+    const penaltyAbove = i === length - 1 ? '' : ` - 1e6*max(0em,100${unit} - ${upperBoundEm - 0.001}em)`;
     return `${typeof height === 'string' ? height : interpolateHeight(...height)}${penaltyBelow}${penaltyAbove}`;
   });
   return `max(${heightTerms})`;

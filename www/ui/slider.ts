@@ -178,21 +178,21 @@ const NUMBER_START = /^[\d.,+\-\u2212]$/;
  * Returns a slider row. The printed value is also a text field, in which a value beyond the slider may be typed. Tab skips the field. Enter
  * or a digit on the slider moves the focus into the field; Enter and Escape move it back.
  */
-export function sliderRowHtml(row: SliderRow) {
-  const printedValue = row.formatValue(row.value);
-  const longestText = [row.formatValue(row.min), row.formatValue(row.max)].reduce((longer, candidate) => (candidate.length > longer.length ? candidate : longer), printedValue);
+export function sliderRowHtml(sliderRow: SliderRow) {
+  const printedValue = sliderRow.formatValue(sliderRow.value);
+  const longestText = [sliderRow.formatValue(sliderRow.min), sliderRow.formatValue(sliderRow.max)].reduce((longerText, candidate) => (candidate.length > longerText.length ? candidate : longerText), printedValue);
   return html`
-    <div class="slider ${row.hasNoEffect ? 'off' : ''} ${row.refusal ? 'refused' : ''}" part="slider" data-role=${row.role}>
+    <div class="slider ${sliderRow.hasNoEffect ? 'off' : ''} ${sliderRow.refusal ? 'refused' : ''}" part="slider" data-role=${sliderRow.role}>
       <span>
-        ${row.leadingControl ?? nothing}
-        <label for=${row.id} id="${row.id}-name">${row.symbol ? html`<bdi class="symbol notranslate" translate="no">${row.symbol}</bdi>` : nothing}${row.name}</label>
+        ${sliderRow.leadingControl ?? nothing}
+        <label for=${sliderRow.id} id="${sliderRow.id}-name">${sliderRow.symbol ? html`<bdi class="symbol notranslate" translate="no">${sliderRow.symbol}</bdi>` : nothing}${sliderRow.name}</label>
       </span>
-      ${sliderTrackHtml({ ...row, ...rangeOfStops(row), name: undefined, text: printedValue, describedBy: `${row.id}-effect`, onKeydown: focusField })}
+      ${sliderTrackHtml({ ...sliderRow, ...rangeOfStops(sliderRow), name: undefined, valueText: printedValue, describedBy: `${sliderRow.id}-effect`, onKeydown: focusField })}
       <form method="dialog" class="value notranslate" translate="no" dir="ltr" data-longest=${longestText}>
         <span class="printed">${printedValue}</span>
-        ${valueFieldHtml(row, printedValue)}
+        ${valueFieldHtml(sliderRow, printedValue)}
       </form>
-      <p class="effect muted small" id="${row.id}-effect" role=${row.refusal ? 'alert' : nothing}>${row.refusal || row.effect}</p>
+      <p class="effect muted small" id="${sliderRow.id}-effect" role=${sliderRow.refusal ? 'alert' : nothing}>${sliderRow.refusal || sliderRow.effect}</p>
     </div>
   `;
 }
@@ -243,13 +243,13 @@ function rangeOfStops({ stops, value, onInput }: SliderRow): Partial<SliderRange
 interface SliderTrack extends SliderRange {
   /** Accessible name, for a slider without a label that screen readers can read. */
   name?: string;
-  text: string;
+  valueText: string;
   describedBy?: string;
   onKeydown?: (event: KeyboardEvent) => void;
 }
 
 /** Returns the track of a slider. A finger that moves up or down over it scrolls the page. */
-export function sliderTrackHtml({ id, name, min, max, step, value, text, describedBy, onKeydown: keydown, onInput, onCommit }: SliderTrack) {
+export function sliderTrackHtml({ id, name, min, max, step, value, valueText, describedBy, onKeydown: keydown, onInput, onCommit }: SliderTrack) {
   // A browser changes a slider as soon as it is touched. The change is applied only after the touch proves to be a tap or a sideways move.
   const setValue = (event: Event) => {
     if (!undecidedTouch) onInput(inputOf(event).valueAsNumber);
@@ -273,7 +273,7 @@ export function sliderTrackHtml({ id, name, min, max, step, value, text, describ
     step=${step}
     .value=${undecidedTouch ? noChange : live(String(value))}
     aria-label=${name ?? nothing}
-    aria-valuetext=${text}
+    aria-valuetext=${valueText}
     aria-describedby=${describedBy ?? nothing}
     @keydown=${keydown}
     @pointerdown=${beginTouch}

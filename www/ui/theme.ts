@@ -40,21 +40,21 @@ export const themeStyles = css`
   }
 
   /*
-   * Set by Colours: --background and --text are the background and text colour of the page, --shade how far the background is from white, and
-   * --strength the percentage of the text colour in muted text.
+   * Set by Colours: --background and --text are the background and text colour of the page, --darkening how far the background is from white, and
+   * --mutedShare the percentage of the text colour in muted text.
    */
   .scheme-probe,
   .surface {
     --paper: var(--motion-paper, var(--background, light-dark(#fffefb, #16181b)));
     --ink: var(--motion-ink, var(--text, light-dark(#1f1e1b, #ebe9e3)));
-    --muted: var(--motion-muted, var(--mw-muted, color-mix(in srgb, var(--ink) var(--strength, 75%), var(--paper))));
+    --muted: var(--motion-muted, var(--mw-muted, color-mix(in srgb, var(--ink) var(--mutedShare, 75%), var(--paper))));
     --rule: var(--motion-rule, var(--mw-rule, color-mix(in srgb, var(--ink) 18%, var(--paper))));
-    --prior: var(--motion-prior, color-mix(in srgb-linear, light-dark(#0b61b0, #5a9ff0), black var(--shade, 0%)));
-    --prediction: var(--motion-prediction, color-mix(in srgb-linear, light-dark(#b85300, #f0963a), black var(--shade, 0%)));
-    --cloud: var(--motion-cloud, color-mix(in srgb-linear, light-dark(#dd6f00, #f0963a), black var(--shade, 0%)));
-    --truth: var(--motion-truth, color-mix(in srgb-linear, light-dark(#8a8a8a, #8e8e8e), black var(--shade, 0%)));
-    --posterior: var(--motion-posterior, color-mix(in srgb-linear, light-dark(#00694a, #4fe3b0), black var(--shade, 0%)));
-    --accent: var(--motion-accent, color-mix(in srgb-linear, light-dark(#7a1560, #fbb4e0), black var(--shade, 0%)));
+    --prior: var(--motion-prior, color-mix(in srgb-linear, light-dark(#0b61b0, #5a9ff0), black var(--darkening, 0%)));
+    --prediction: var(--motion-prediction, color-mix(in srgb-linear, light-dark(#b85300, #f0963a), black var(--darkening, 0%)));
+    --cloud: var(--motion-cloud, color-mix(in srgb-linear, light-dark(#dd6f00, #f0963a), black var(--darkening, 0%)));
+    --truth: var(--motion-truth, color-mix(in srgb-linear, light-dark(#8a8a8a, #8e8e8e), black var(--darkening, 0%)));
+    --posterior: var(--motion-posterior, color-mix(in srgb-linear, light-dark(#00694a, #4fe3b0), black var(--darkening, 0%)));
+    --accent: var(--motion-accent, color-mix(in srgb-linear, light-dark(#7a1560, #fbb4e0), black var(--darkening, 0%)));
     --top: var(--motion-sticky-top, var(--mw-top, 0px));
   }
 

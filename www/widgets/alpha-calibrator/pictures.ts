@@ -96,7 +96,7 @@ function drawPath(drawContext: LayerDrawContext, legs: CalibrationLegs, odometry
     if (!overlays.includes(name)) continue;
     const legsOfClass = [...legClasses.keys()].filter((leg) => legClasses[leg] === classIndex);
     const legLines = legsOfClass.map((leg) => [0, 3].map((poseOffset) => view.toPixel(reference[6 * leg + poseOffset], reference[6 * leg + poseOffset + 1])));
-    const legStyle = { ...lineStyles[name], cap: 'round' } as const;
+    const legStyle = { ...lineStyles[name], lineCap: 'round' } as const;
     strokeInBatches(context, legLines, count > MAX_WIDE_LEGS ? { ...legStyle, width: HAIRLINE_WIDTH } : legStyle);
   }
   const outlierLegs = overlays.includes('outlier') ? [...outliers.keys()].filter((leg) => outliers[leg] > 0) : [];

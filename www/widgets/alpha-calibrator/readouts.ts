@@ -79,7 +79,7 @@ export function alphaTableHtml(viewModel: ViewModel) {
   const shownTruth = isTruthComparable(viewModel) ? truth?.alphas : undefined;
   const nameHtml = (name: string, i: number) => html`${formatMarkup(`*α*${subscriptOf(i)}`)} <span class="muted">${name}</span>`;
   return html`<div class="alphas">${tableHtml({
-    columns: [texts.noiseColumn, texts.fittedColumn, texts.recommendedColumn, ...(shownTruth ? [words.calibrator.systematic.simulatedColumn] : [])],
+    columnHeadings: [texts.noiseColumn, texts.fittedColumn, texts.recommendedColumn, ...(shownTruth ? [words.calibrator.systematic.simulatedColumn] : [])],
     rows: noiseNamesOf(model).slice(0, alphas.length).map((name, i) => (alphas[i] === null
       ? [nameHtml(name, i), explainMissingAlpha(viewModel, i)]
       : [
@@ -123,7 +123,7 @@ export function systematicTableHtml(figure: Figure) {
     ];
   });
   const columns = [texts.errorColumn, texts.valueColumn, words.calibrator.alphas.intervalColumn, texts.treatmentColumn, ...(truth ? [texts.simulatedColumn] : [])];
-  return html`<div class="systematic">${tableHtml({ columns, rows })}</div>`;
+  return html`<div class="systematic">${tableHtml({ columnHeadings: columns, rows })}</div>`;
 }
 
 const stackedTextsHtml = (texts: string[]) => texts.map((text) => html`<div>${text}</div>`);
@@ -139,7 +139,7 @@ export function diagnosticsHtml(figure: Figure) {
 function checksTableHtml({ viewModel: { stats } }: Figure) {
   const texts = words.calibrator.checks;
   return tableHtml({
-    columns: [texts.checkColumn, texts.observedColumn, texts.expectedColumn, texts.resultColumn],
+    columnHeadings: [texts.checkColumn, texts.observedColumn, texts.expectedColumn, texts.resultColumn],
     rows: stats.diagnostics.checks.map((check) => [
       html`${texts.checkNames[check.name]}<div class="muted">${checkMessage(check, stats, words.calibrator)}</div>`,
       formatCheckValue(check.name, check.value),
@@ -153,7 +153,7 @@ function windowsTableHtml({ viewModel: { stats: { diagnostics: { windows } } } }
   const texts = words.calibrator.windows;
   return tableHtml({
     caption: texts.caption,
-    columns: [texts.length, texts.countColumn, texts.coverageColumn, texts.neesColumn],
+    columnHeadings: [texts.length, texts.countColumn, texts.coverageColumn, texts.neesColumn],
     rows: windows.map(({ length, count, coverage, nees }) => [`${formatFixed(length, 1)} m`, formatInteger(count), formatPercent(coverage), formatFixed(nees, 2)]),
   });
 }
@@ -162,7 +162,7 @@ function noiseTableHtml({ viewModel: { stats: { referenceNoise: { positionStd, y
   const { noiseTable: texts, systematic, settings, alphas: { intervalColumn } } = words.calibrator;
   const formatNoiseRow = (name: string, { value, interval }: Estimate) => [name, localizeNumber(formatEstimate(value, interval)), localizeInterval(interval)];
   return tableHtml({
-    columns: [texts.quantityColumn, systematic.valueColumn, intervalColumn],
+    columnHeadings: [texts.quantityColumn, systematic.valueColumn, intervalColumn],
     rows: [
       formatNoiseRow(`${settings.positionStd.name} (m)`, positionStd),
       formatNoiseRow(`${settings.yawStd.name} (rad)`, yawStd),
@@ -208,7 +208,7 @@ function panelPlotHtml({ alpha, x, y, error, slope, interval }: CalibrationPanel
   const slopeMiddle = (low + high) / 2;
   const slopeLines: Curve[] = slope === null ? [] : [
     { name: texts.slopeName(subscript), role: 'prediction', x: [0, axisEnd], y: [0, scaleToAxis(slope * axisEnd)] },
-    { name: words.calibrator.alphas.intervalColumn, role: 'cloud', isBandOnly: true, x: [0, axisEnd], y: [0, scaleToAxis(slopeMiddle * axisEnd)], error: [0, scaleToAxis(((high - low) / 2) * axisEnd)] },
+    { name: words.calibrator.alphas.intervalColumn, role: 'cloud', isBandOnly: true, x: [0, axisEnd], y: [0, scaleToAxis(slopeMiddle * axisEnd)], errors: [0, scaleToAxis(((high - low) / 2) * axisEnd)] },
   ];
   return {
     label: texts.plotDescription(panelTitle, String(alpha + 1), slope === null ? NO_VALUE : localizeNumber(formatAlphaOrBound(slope, interval))),

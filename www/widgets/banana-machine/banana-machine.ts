@@ -363,7 +363,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
         name: texts.chartSliderName,
         step,
         value: omega,
-        text: texts.chartSliderText(formatFixed(omega, 2), formatFixed(exactSkew, 3)),
+        valueText: texts.chartSliderText(formatFixed(omega, 2), formatFixed(exactSkew, 3)),
         onInput: (newOmega) => this.settings.requestChange(({ command }) => ({ command: { ...command, omega: newOmega } })),
         onCommit: () => this.gesture.commit(),
       },

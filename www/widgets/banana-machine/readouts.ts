@@ -163,7 +163,7 @@ export function workedExampleTableHtml({ table: { linearized, exact, measured } 
   ];
   return tableHtml({
     caption: texts.caption,
-    columns: [texts.quantity, texts.linearized, texts.exact, texts.measured],
+    columnHeadings: [texts.quantity, texts.linearized, texts.exact, texts.measured],
     rows: momentRows.map(([name, momentOf]) => [name, ...[linearized, exact].map((moments) => formatSignificant(momentOf(moments), COMPUTED_DIGITS)), formatSignificant(momentOf(measured), MEASURED_DIGITS)]),
   });
 }

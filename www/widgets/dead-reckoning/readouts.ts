@@ -77,14 +77,14 @@ export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckonin
   const stepNumbers = Array.from({ length: steps }, (_, i) => i + 1);
   const highestRatio = Math.max(...curves.flatMap(({ ratio }) => Array.from(ratio, (ratio) => ratio || 0)));
   const shownCurves = TWIST_COMPONENTS.map((name, componentIndex) => ({ ...curveStyleOf(name, figure.highlight), name, ...curves[componentIndex] })).filter(({ name }) => overlays.includes(name));
-  const toleranceBand = { name: texts.overlays.tolerance, ...curveStyleOf('tolerance', figure.highlight), x: [0, steps], y: [1, 1], error: [RATIO_TOLERANCE, RATIO_TOLERANCE], isBandOnly: true };
+  const toleranceBand = { name: texts.overlays.tolerance, ...curveStyleOf('tolerance', figure.highlight), x: [0, steps], y: [1, 1], errors: [RATIO_TOLERANCE, RATIO_TOLERANCE], isBandOnly: true };
   return plotHtml({
     label: describeRatios(viewModel, overlays),
     x: { name: texts.stepAxisLabel, min: 0, max: steps },
     y: { name: texts.ratioAxisLabel, min: 0, max: CHART_MAXIMA.find((maxRatio) => maxRatio >= highestRatio) ?? highestRatio },
     curves: [
       ...(overlays.includes('tolerance') ? [toleranceBand] : []),
-      ...shownCurves.map(({ ratio, ...curve }) => ({ ...curve, x: stepNumbers, y: ratio })),
+      ...shownCurves.map(({ ratio, error, ...curve }) => ({ ...curve, x: stepNumbers, y: ratio, errors: error })),
     ],
     points: shownCurves.map(({ role, ratio, error }) => ({ role, x: step, y: ratio[step - 1], error: error[step - 1] })),
     marks: [{ x: step, text: texts.stepMark(step) }],
@@ -93,7 +93,7 @@ export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckonin
       name: texts.settings.step.name,
       step: 1,
       value: step,
-      text: texts.stepMark(step),
+      valueText: texts.stepMark(step),
       onInput: (newStep) => figure.settings.requestChange({ step: Math.max(1, newStep) }),
       onCommit: () => figure.gesture.commit(),
     },
@@ -155,7 +155,7 @@ export function missTableHtml({ stats: { misses } }: ViewModel, overlays: string
   const texts = words.reckoning;
   return tableHtml({
     caption: texts.misses.caption,
-    columns: [texts.misses.componentHeader, ...RECURSIONS.map((recursion) => texts.recursions[recursion])],
+    columnHeadings: [texts.misses.componentHeader, ...RECURSIONS.map((recursion) => texts.recursions[recursion])],
     rows: shownComponentsOf(overlays).flatMap((component) => {
       const missesOfRecursions = RECURSIONS.map((recursion) => misses[recursion][TWIST_COMPONENTS.indexOf(component)]);
       return [[texts.overlays[component], ...missesOfRecursions.map(formatMissRange)], [texts.misses.atEndLabel(texts.overlays[component]), ...missesOfRecursions.map(formatFinalError)]];

@@ -108,7 +108,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const halfSize = Math.max(MIN_END_HALF_SIZE, END_HALF_SIZE_FACTOR * driveLength) + config.clearance;
     const [x, y] = commanded.slice(-2);
     const neededExtent = extentAround(cornersAround(x, y, halfSize), 2, widenExtent(extentAround(commanded, 2), PATH_MARGIN));
-    this.#closeView.limits = mappedExtent;
+    this.#closeView.extentLimits = mappedExtent;
     this.#closeView.fit({
       xMin: Math.max(neededExtent.xMin, mappedExtent.xMin),
       yMin: Math.max(neededExtent.yMin, mappedExtent.yMin),

@@ -101,7 +101,7 @@ export function costTableHtml(figure: Figure) {
   ];
   return html`<div class="table">
     ${buttonHtml(texts.measureLabel, () => figure.measureSamplerCosts())}
-    ${costs ? tableHtml({ caption: texts.caption, columns: [texts.samplerColumn, texts.drawsColumn, texts.wallTestsColumn, 'µs', texts.coreShareColumn], rows: SAMPLERS.map((sampler) => costRowOf(sampler, costs[sampler])) }) : nothing}
+    ${costs ? tableHtml({ caption: texts.caption, columnHeadings: [texts.samplerColumn, texts.drawsColumn, texts.wallTestsColumn, 'µs', texts.coreShareColumn], rows: SAMPLERS.map((sampler) => costRowOf(sampler, costs[sampler])) }) : nothing}
   </div>`;
 }
 

@@ -26,7 +26,7 @@ function noiseModelTableHtml(figure: OdometryDecomposerElement) {
   return html`<div class="rules" role="radiogroup" aria-label=${settings.rule.name}>
     ${tableHtml({
       caption: formatMarkup(texts.caption),
-      columns: [settings.rule.name, ...texts.columns.map(formatMarkup)],
+      columnHeadings: [settings.rule.name, ...texts.columns.map(formatMarkup)],
       rows: rules.map(({ rule }, i) => [
         radioButtonHtml({ group: 'rule', label: ruleNames[rule], checked: rule === currentRule, onChoose: () => figure.gesture.requestAndCommit({ rule }) }),
         ...printedRows[i].map((printedValue, columnIndex) => (printedValue === printedRows[0][columnIndex] ? printedValue : html`<strong>${printedValue}</strong>`)),

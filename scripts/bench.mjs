@@ -6,7 +6,7 @@ import { cpus } from 'node:os';
 import { join } from 'node:path';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
-import { EXAMPLE_LOGS } from './example-log.mjs';
+import { EXAMPLE_LOG_PATHS } from './example-log.mjs';
 import { ROOT, UserError, printStep, run, runAsScript } from './process.mjs';
 import { startServer } from './serve.mjs';
 import { ensureNativeRust } from './toolchain.mjs';
@@ -72,7 +72,7 @@ await runAsScript(import.meta.url, async () => {
   const isQuickRun = commandOptions.length > 0;
   // The full build is measured, because it is published. The local build is not optimized.
   await build();
-  const [odometry, reference] = [EXAMPLE_LOGS.odometry, EXAMPLE_LOGS.reference].map((logPath) => readFileSync(join(ROOT, logPath), 'utf8'));
+  const [odometry, reference] = [EXAMPLE_LOG_PATHS.odometry, EXAMPLE_LOG_PATHS.reference].map((logPath) => readFileSync(join(ROOT, logPath), 'utf8'));
   const benchOptions = { quick: isQuickRun, log: { odometry, reference } };
   printStep('Node');
   // These modules import dist/, which exists only after the build.

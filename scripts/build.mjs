@@ -6,7 +6,7 @@ import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSyn
 import { homedir } from 'node:os';
 import { join } from 'node:path';
 import { ensureBindProgram } from './bindgen.mjs';
-import { EXAMPLE_LOGS, writeExampleLog } from './example-log.mjs';
+import { EXAMPLE_LOG_PATHS, writeExampleLog } from './example-log.mjs';
 import { listCrates } from './licences.mjs';
 import { absolutePath, filesOf, runOrThrow, printStep, run, runAsScript, settleAll } from './process.mjs';
 import { ensureNativeRust, ensurePackages, ensureRustForWasm } from './toolchain.mjs';
@@ -50,7 +50,7 @@ export async function build({ local = false } = {}) {
   const tagsWithCore = compiledHash === coreHash && isUpToDate('build/figures.sha256', coreHash, figureProducts) ? WIDGET_TAGS : [];
   const pagesHash = hashOfFiles(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], compiledHash + tagsWithCore);
   await buildIfStale('build/pages.sha256', pagesHash, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], () => bundle({ tags: tagsWithCore }));
-  await buildIfStale('build/example-log.sha256', hashOfFiles(['scripts/example-log.mjs'], coreHash), Object.values(EXAMPLE_LOGS), writeExampleLog);
+  await buildIfStale('build/example-log.sha256', hashOfFiles(['scripts/example-log.mjs'], coreHash), Object.values(EXAMPLE_LOG_PATHS), writeExampleLog);
 }
 
 /** Returns a hash of the names and contents of files. @param {string[]} hashedPaths of files and directories @param {string} [hashSeed] */

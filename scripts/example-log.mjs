@@ -9,13 +9,13 @@ import { ROOT } from './process.mjs';
 /** @typedef {Awaited<ReturnType<typeof import('../www/core.ts').load>>} Motion */
 
 /** Paths of the logs. @type {Record<string, string>} */
-export const EXAMPLE_LOGS = { odometry: 'examples/calibration/odometry.csv', reference: 'examples/calibration/reference.csv' };
+export const EXAMPLE_LOG_PATHS = { odometry: 'examples/calibration/odometry.csv', reference: 'examples/calibration/reference.csv' };
 
 /** True parameters of the simulation. */
-export const TRUE_MODEL = { alphas: [0.03, 0.008, 0.002, 0.002], mountYaw: 0.03, clockOffset: 0.12, distanceScale: 1.01 };
+export const TRUE_PARAMETERS = { alphas: [0.03, 0.008, 0.002, 0.002], mountYaw: 0.03, clockOffset: 0.12, distanceScale: 1.01 };
 
 /** Length of a leg in AMCL: metres along either axis, and radians. */
-export const LEG_LIMIT = { distance: 0.25, angle: 0.2 };
+export const AMCL_LEG_LENGTH = { distance: 0.25, angle: 0.2 };
 
 /** Start and duration of the drive, its integration step, and the time between two rows of a log, s. */
 const [START_TIME, DURATION, TIME_STEP, ROW_INTERVAL] = [10, 225, 0.005, 0.05];
@@ -87,7 +87,7 @@ function findLegEnds(poseRows) {
   for (const [i, [x, y, theta]] of poseRows.entries()) {
     const [legStartX, legStartY, legStartTheta] = poseRows[legEnds[legEnds.length - 1]];
     const turn = Math.atan2(Math.sin(theta - legStartTheta), Math.cos(theta - legStartTheta));
-    if (Math.abs(x - legStartX) > LEG_LIMIT.distance || Math.abs(y - legStartY) > LEG_LIMIT.distance || Math.abs(turn) > LEG_LIMIT.angle) legEnds.push(i);
+    if (Math.abs(x - legStartX) > AMCL_LEG_LENGTH.distance || Math.abs(y - legStartY) > AMCL_LEG_LENGTH.distance || Math.abs(turn) > AMCL_LEG_LENGTH.angle) legEnds.push(i);
   }
   return legEnds;
 }
@@ -102,9 +102,9 @@ function findLegEnds(poseRows) {
 function simulateTruth(motion, measuredPoses) {
   const { se2 } = motion;
   const roundedPoses = measuredPoses.map(roundPose);
-  const scalePosition = (/** @type {Pose} */ { x, y, theta }) => ({ x: TRUE_MODEL.distanceScale * x, y: TRUE_MODEL.distanceScale * y, theta });
+  const scalePosition = (/** @type {Pose} */ { x, y, theta }) => ({ x: TRUE_PARAMETERS.distanceScale * x, y: TRUE_PARAMETERS.distanceScale * y, theta });
   const toPose = (/** @type {[number, number, number]} */ [x, y, theta]) => ({ x, y, theta });
-  const odometryModel = new motion.OdometryModel({ alphas: TRUE_MODEL.alphas });
+  const odometryModel = new motion.OdometryModel({ alphas: TRUE_PARAMETERS.alphas });
   const truePoses = [scalePosition(measuredPoses[0])];
   const legEnds = findLegEnds(roundedPoses);
   for (const [legIndex, legEndRow] of legEnds.entries()) {
@@ -134,14 +134,14 @@ export async function writeExampleLog() {
   const extraRowCount = Math.round(EXTRA_REFERENCE_TIME / ROW_INTERVAL);
   const csvLineOf = (/** @type {number} */ t, /** @type {Pose} */ pose) => `${[t.toFixed(3), ...roundPose(pose)].join(',')}\n`;
   const csvTableOf = (/** @type {string[]} */ csvLines) => `t,x,y,yaw\n${csvLines.join('')}`;
-  const mountPose = { x: 0, y: 0, theta: TRUE_MODEL.mountYaw };
+  const mountPose = { x: 0, y: 0, theta: TRUE_PARAMETERS.mountYaw };
   const lastRow = truePoses.length - 1;
   const odometryLines = truePoses.map((_, i) => csvLineOf(START_TIME + i * ROW_INTERVAL, measuredPoses[i]));
   const referenceLines = Array.from({ length: truePoses.length + 2 * extraRowCount }, (_, rowIndex) => {
     const i = rowIndex - extraRowCount;
     const pose = truePoses[Math.max(0, Math.min(i, lastRow))];
-    return csvLineOf(START_TIME + i * ROW_INTERVAL + TRUE_MODEL.clockOffset, motion.se2.compose(pose, mountPose));
+    return csvLineOf(START_TIME + i * ROW_INTERVAL + TRUE_PARAMETERS.clockOffset, motion.se2.compose(pose, mountPose));
   });
-  writeFileSync(join(ROOT, EXAMPLE_LOGS.odometry), csvTableOf(odometryLines));
-  writeFileSync(join(ROOT, EXAMPLE_LOGS.reference), csvTableOf(referenceLines));
+  writeFileSync(join(ROOT, EXAMPLE_LOG_PATHS.odometry), csvTableOf(odometryLines));
+  writeFileSync(join(ROOT, EXAMPLE_LOG_PATHS.reference), csvTableOf(referenceLines));
 }

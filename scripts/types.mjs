@@ -87,7 +87,7 @@ async function composeFigureTypes([{ attributes }]) {
   return (
     `/** Events of an element for \`addEventListener\`; \`Stats\` are those of its class. */\n${interfaceOf('FigureEvents<Stats>', eventFields)}\n` +
     '/** Members of every element. */\n' +
-    interfaceOf('FigureElement<State extends FigureState, Stats>', [...commonFields, ...memberFields, ...LISTENER_FIELDS], 'HTMLElement')
+    interfaceOf('FigureElement<State extends FigureState, Stats>', [...commonFields, ...memberFields, ...LISTENER_METHODS], 'HTMLElement')
   );
 }
 
@@ -95,7 +95,7 @@ async function composeFigureTypes([{ attributes }]) {
  * Methods that add and remove listeners. They have an overload for the events of a figure, and one for the events of every element.
  * @type {Field[]}
  */
-const LISTENER_FIELDS = ['add', 'remove'].flatMap((listenerVerb) => {
+const LISTENER_METHODS = ['add', 'remove'].flatMap((listenerVerb) => {
   const optionsParameter = `options?: boolean | ${listenerVerb === 'add' ? 'AddEventListenerOptions' : 'EventListenerOptions'}`;
   const listenerOverloadOf = (/** @type {string} */ eventsType) =>
     `${listenerVerb}EventListener<Type extends keyof ${eventsType}>(type: Type, listener: (this: FigureElement<State, Stats>, event: ${eventsType}[Type]) => unknown, ${optionsParameter})`;

@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { STATE_SEEDS, createRandomStates } from './random-states.js';
-import { ALL_NAMES, FIGURE_FACTS, TWO_NAMES } from './figures.js';
+import { ALL_FIGURE_NAMES, FIGURE_FACTS, TWO_FIGURE_NAMES } from './figures.js';
 import { REDUCED_MOTION, setProperty, waitForFrames, mountFigure, readProperty, showPage, takeEvents, test, testEach, openDisclosures, waitUntilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
@@ -16,7 +16,7 @@ test('attributes of every type set the opening state of a figure', async ({ page
      <map-squeeze preset="wall" x="3.25" noise="0.2" conditioned="false" sampler="sub-stepped" steps="4"
        clearance="0.2" samples="77" seed="5" view="close"></map-squeeze>`,
   );
-  const [bananaWidget, squeezeWidget] = TWO_NAMES.map((figureName) => page.locator(figureName));
+  const [bananaWidget, squeezeWidget] = TWO_FIGURE_NAMES.map((figureName) => page.locator(figureName));
   await waitUntilReady(bananaWidget);
   await squeezeWidget.scrollIntoViewIfNeeded();
   await waitUntilReady(squeezeWidget);
@@ -42,12 +42,12 @@ test('attributes of every type set the opening state of a figure', async ({ page
     seed: 5,
   });
   expect(await readProperty(squeezeWidget, 'view')).toBe('close');
-  expect((await takeEvents(page)).map(({ name, target }) => [name, target])).toEqual(TWO_NAMES.map((name) => ['load', name]));
+  expect((await takeEvents(page)).map(({ name, target }) => [name, target])).toEqual(TWO_FIGURE_NAMES.map((name) => ['load', name]));
 });
 
 test('attributes stay as written until their setting changes, and then reflect the setting', async ({ page }) => {
   await showPage(page, '<banana-machine preset="hard" seed="3"></banana-machine><map-squeeze></map-squeeze>');
-  const [bananaMachine, mapSqueeze] = TWO_NAMES.map((name) => page.locator(name));
+  const [bananaMachine, mapSqueeze] = TWO_FIGURE_NAMES.map((name) => page.locator(name));
   await waitUntilReady(bananaMachine);
   await openDisclosures(bananaMachine);
   const readAttributes = (/** @type {import('@playwright/test').Locator} */ widget) =>
@@ -116,7 +116,7 @@ test('refused attributes are reported with the core’s error message, and the l
 test('elements have the attributes that the table of doc/embedding/figures.md shows', async ({ page, figureName }) => {
   const figuresDocument = readFileSync(new URL('../../doc/embedding/figures.md', import.meta.url), 'utf8');
   const tableExamples = [...figuresDocument.matchAll(/^\| [^|]* \| `<([a-z-]+)( [^`]*)>` \|$/gm)].map(([, name, attributes]) => ({ name, attributes }));
-  expect(new Set(tableExamples.map(({ name }) => name)).size).toBe(ALL_NAMES.length);
+  expect(new Set(tableExamples.map(({ name }) => name)).size).toBe(ALL_FIGURE_NAMES.length);
   await showPage(page, tableExamples.map(({ name, attributes }) => `<${name} class="example" ${attributes}></${name}>`).join(''));
   const unknownAttributes = await page.locator('.example').evaluateAll((exampleElements) => exampleElements.flatMap(({ attributes, constructor }) =>
     [...attributes].map(({ name }) => name).filter((name) => name !== 'class' && !Reflect.get(constructor, 'observedAttributes').includes(name))));

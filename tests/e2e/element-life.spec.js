@@ -1,6 +1,6 @@
 import { chromium, expect } from '@playwright/test';
 import { CHROME_ARGUMENTS, FULL_CHROME_PROGRAM_NAMES, findChrome } from '../../scripts/browser.mjs';
-import { ALL_NAMES, CLOUD_NAMES, FIGURE_FACTS, TWO_NAMES } from './figures.js';
+import { ALL_FIGURE_NAMES, CLOUD_FIGURE_NAMES, FIGURE_FACTS, TWO_FIGURE_NAMES } from './figures.js';
 import { NEW_PAGE_TAG, REDUCED_MOTION, setProperty, readBox, readCentre, waitForFrames, mountFigure, readPicture, readProperty, showPage, readState, takeEvents, test, openDisclosures, waitUntilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
@@ -44,24 +44,24 @@ test('figures far from the window fetch and compute nothing, and all figures sha
   const fetchedPaths = [];
   page.on('request', (request) => fetchedPaths.push(new URL(request.url()).pathname));
   await countFramesAndModules(page);
-  await showPage(page, `<div style="height: 5000px"></div>${TWO_NAMES.map((figureName) => `<${figureName}></${figureName}>`).join('')}`, {
+  await showPage(page, `<div style="height: 5000px"></div>${TWO_FIGURE_NAMES.map((figureName) => `<${figureName}></${figureName}>`).join('')}`, {
     script: '<script type="module" src="/external.js"></script>',
   });
   // The test avoids polling, because polling requests frames.
-  await page.evaluate((widgetTags) => Promise.all(widgetTags.map((widgetTag) => customElements.whenDefined(widgetTag))).then(() => true), [...TWO_NAMES]);
+  await page.evaluate((widgetTags) => Promise.all(widgetTags.map((widgetTag) => customElements.whenDefined(widgetTag))).then(() => true), [...TWO_FIGURE_NAMES]);
   await waitForSixFrames(page);
   expect(await readPageCounts(page)).toEqual({ frames: 0, compiled: 0, instances: 0 });
   expect(fetchedPaths.filter((fetchedPath) => fetchedPath.endsWith('.wasm'))).toEqual([]);
-  for (const figureName of TWO_NAMES) {
+  for (const figureName of TWO_FIGURE_NAMES) {
     await page.locator(figureName).scrollIntoViewIfNeeded();
     await waitUntilReady(page.locator(figureName));
   }
-  expect(await readPageCounts(page)).toMatchObject({ compiled: 1, instances: TWO_NAMES.length });
+  expect(await readPageCounts(page)).toMatchObject({ compiled: 1, instances: TWO_FIGURE_NAMES.length });
   expect(fetchedPaths.filter((path) => path.endsWith('.wasm'))).toEqual(['/motion.wasm']);
 });
 
 test('a page with one figure fetches the module of that figure @nightly', async ({ page }) => {
-  for (const name of ALL_NAMES) {
+  for (const name of ALL_FIGURE_NAMES) {
     const moduleRequest = page.waitForRequest(/\.wasm$/);
     await showPage(page, `<${name}></${name}>`, { script: '<script type="module" src="/external.js"></script>' });
     await waitUntilReady(page.locator(name));
@@ -343,15 +343,15 @@ test('a page that is restored from the back-forward cache works @nightly', async
     executablePath: findChrome(FULL_CHROME_PROGRAM_NAMES), args: CHROME_ARGUMENTS, ignoreDefaultArgs: ['--disable-back-forward-cache'],
   });
   const page = await browser.newPage({ baseURL, reducedMotion: 'reduce' });
-  await showPage(page, ALL_NAMES.map((name) => `<${name} share></${name}>`).join(''));
-  for (const name of ALL_NAMES) {
+  await showPage(page, ALL_FIGURE_NAMES.map((name) => `<${name} share></${name}>`).join(''));
+  for (const name of ALL_FIGURE_NAMES) {
     await page.locator(name).scrollIntoViewIfNeeded();
     await waitUntilReady(page.locator(name));
   }
   const bananaFigure = page.locator('banana-machine');
   await bananaFigure.scrollIntoViewIfNeeded();
   await setProperty(bananaFigure, 'omega', 1.25);
-  const takePictureAndStates = async () => [await readPicture(bananaFigure.locator('canvas.plane')), ...(await Promise.all(ALL_NAMES.map((name) => readState(page.locator(name)))))];
+  const takePictureAndStates = async () => [await readPicture(bananaFigure.locator('canvas.plane')), ...(await Promise.all(ALL_FIGURE_NAMES.map((name) => readState(page.locator(name)))))];
   const pictureAndStatesBefore = await takePictureAndStates();
   await page.evaluate(() => addEventListener('pageshow', ({ persisted }) => void Object.assign(window, { persisted })));
   await page.goto('/embed.html?widget=map-squeeze');
@@ -374,7 +374,7 @@ test('removed figures free their memory, observers and DOM nodes @nightly', NEW_
   /** Mounts one figure of each kind after the other, and removes each figure after it is drawn. @param {number} roundCount */
   const mountAndRemove = async (roundCount) => {
     for (let roundIndex = 0; roundIndex < roundCount; roundIndex++) {
-      for (const name of ALL_NAMES) {
+      for (const name of ALL_FIGURE_NAMES) {
         await page.evaluate(async ([widgetTag, sampleCount]) => {
           const figure = Object.assign(document.createElement(widgetTag), sampleCount);
           const loadEvent = new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
@@ -382,7 +382,7 @@ test('removed figures free their memory, observers and DOM nodes @nightly', NEW_
           await loadEvent;
           await new Promise(requestAnimationFrame);
           figure.remove();
-        }, /** @type {const} */ ([name, CLOUD_NAMES.includes(name) ? { samples: 200 } : {}]));
+        }, /** @type {const} */ ([name, CLOUD_FIGURE_NAMES.includes(name) ? { samples: 200 } : {}]));
       }
     }
   };

@@ -127,12 +127,12 @@ test('a figure within light text on a background image gets a dark background @n
 });
 
 /** Pages with black text on a dark background. The colours come from forced colours of the system, or from the page's own scheme. */
-const BLACK_ON_DARK = /** @type {[string, Parameters<import('@playwright/test').Page['emulateMedia']>[0], string][]} */ ([
+const DARK_PAGES_WITH_BLACK_TEXT = /** @type {[string, Parameters<import('@playwright/test').Page['emulateMedia']>[0], string][]} */ ([
   ['black text in forced dark colours', { forcedColors: 'active', colorScheme: 'dark' }, 'body { background: white; color: black }'],
   ['black text in a dark scheme', { colorScheme: 'dark' }, ':root { color-scheme: light dark } body { color: #000 }'],
 ]);
 
-for (const [situationName, emulatedMedia, pageStyle] of BLACK_ON_DARK) {
+for (const [situationName, emulatedMedia, pageStyle] of DARK_PAGES_WITH_BLACK_TEXT) {
   test(`a figure on a page with ${situationName} is legible`, async ({ page, figureName }) => {
     await page.emulateMedia(emulatedMedia);
     const widget = await mountFigure(page, figureName, { attributes: 'theme="auto"', head: `<style>${pageStyle}</style>` });

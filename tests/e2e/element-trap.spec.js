@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { ALL_NAMES, FIGURE_FACTS } from './figures.js';
+import { ALL_FIGURE_NAMES, FIGURE_FACTS } from './figures.js';
 import { REDUCED_MOTION, waitForFrames, mountFigure, readPicture, showPage, readState, takeEvents, test, waitUntilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
@@ -26,7 +26,7 @@ const expectRestarted = (widget) =>
   })).toBe(true);
 
 test('after a trap the core restarts with the same state and picture, and other elements are not affected', async ({ page, figureName }) => {
-  const otherName = ALL_NAMES[(ALL_NAMES.indexOf(figureName) + 1) % ALL_NAMES.length];
+  const otherName = ALL_FIGURE_NAMES[(ALL_FIGURE_NAMES.indexOf(figureName) + 1) % ALL_FIGURE_NAMES.length];
   const { sliderId, sliderValues } = FIGURE_FACTS[figureName];
   await showPage(page, `<${figureName}></${figureName}><div style="position: fixed; top: 0; width: 300px; opacity: 0.5"><${otherName} id="other"></${otherName}></div>`);
   const widget = page.locator(figureName).first();

@@ -55,16 +55,16 @@ export const FIGURE_FACTS = {
 };
 
 /** Names of all elements. */
-export const ALL_NAMES = /** @type {Name[]} */ (Object.keys(FIGURE_FACTS));
+export const ALL_FIGURE_NAMES = /** @type {Name[]} */ (Object.keys(FIGURE_FACTS));
 
 /** Names of two elements, for tests of several figures on one page. */
-export const TWO_NAMES = /** @type {const} */ (['banana-machine', 'map-squeeze']);
+export const TWO_FIGURE_NAMES = /** @type {const} */ (['banana-machine', 'map-squeeze']);
 
 /** Names of the elements with a cloud. */
-export const CLOUD_NAMES = ALL_NAMES.filter((figureName) => FIGURE_FACTS[figureName].hasCloud);
+export const CLOUD_FIGURE_NAMES = ALL_FIGURE_NAMES.filter((figureName) => FIGURE_FACTS[figureName].hasCloud);
 
 /** Names of the elements with a handle. */
-export const NAMES_WITH_HANDLES = ALL_NAMES.filter((figureName) => FIGURE_FACTS[figureName].handleSelectors);
+export const HANDLE_FIGURE_NAMES = ALL_FIGURE_NAMES.filter((figureName) => FIGURE_FACTS[figureName].handleSelectors);
 
 /**
  * Returns the figure on which a test about all figures runs. The choice depends on the title only, and every figure has some tests.
@@ -72,7 +72,7 @@ export const NAMES_WITH_HANDLES = ALL_NAMES.filter((figureName) => FIGURE_FACTS[
  * @param {string} testTitle of the test; a tag at its end has no effect
  * @param {Name[]} [candidateNames]
  */
-export function chooseFigureName(testTitle, candidateNames = ALL_NAMES) {
+export function chooseFigureName(testTitle, candidateNames = ALL_FIGURE_NAMES) {
   let titleHash = 0;
   for (const character of testTitle.replace(/ @\w+$/, '')) titleHash = (53 * titleHash + character.charCodeAt(0)) % 65_521;
   return candidateNames[titleHash % candidateNames.length];

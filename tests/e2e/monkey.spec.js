@@ -7,7 +7,7 @@ import { expect } from '@playwright/test';
 import { createRandomGenerator } from '../random.js';
 import { makeMapFile, makePgmFile, makeYamlFile } from './squeeze-support.js';
 import { NEW_PAGE_TAG, waitForFrames, test, waitUntilReady } from './support.js';
-import { ALL_NAMES } from './figures.js';
+import { ALL_FIGURE_NAMES } from './figures.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -33,7 +33,7 @@ const WINDOW_SIZES = [[1280, 720], [375, 667], [320, 480], [800, 400], [1920, 10
 
 const HALL_IMAGE = makePgmFile('hall.pgm', 30, 20, (column, row) => column % 29 === 0 || row % 19 === 0);
 /** Groups of files that users may drop. The first group is a valid map. */
-const DROPPED_FILES = [
+const DROPPABLE_FILE_GROUPS = [
   [makeYamlFile('hall.yaml', { image: 'hall.pgm', resolution: 0.1, origin: '[0, 0, 0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.2 }), HALL_IMAGE],
   [makeMapFile('plan.json', JSON.stringify({ bounds: [0, 0, 5, 4], walls: [[0, 0, 5, 0], [5, 0, 5, 4], [5, 4, 0, 4], [0, 4, 0, 0]] }))],
   [HALL_IMAGE],
@@ -52,7 +52,7 @@ function createRandom(seed) {
 
 /** Scrolls a random part of a widget into view, and returns a random point in it. @param {Page} page @param {Random} randomSource @param {string} partSelector */
 async function findReachablePart(page, randomSource, partSelector) {
-  const [figureName, choiceNumber, x, y] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(1e6), randomSource.integerBelow(99) + 1, randomSource.integerBelow(99) + 1];
+  const [figureName, choiceNumber, x, y] = [randomSource.itemOf(ALL_FIGURE_NAMES), randomSource.integerBelow(1e6), randomSource.integerBelow(99) + 1, randomSource.integerBelow(99) + 1];
   const partBox = await page.evaluate(
     ([figureName, partSelector, choiceNumber]) => {
       const visibleParts = [...(document.querySelector(`${figureName}`)?.shadowRoot?.querySelectorAll(`${partSelector}`) ?? [])].filter((pointedPart) => pointedPart.checkVisibility());
@@ -111,7 +111,7 @@ const RANDOM_ACTIONS = {
     return `${scrollDelta}`;
   },
   async setAttribute(page, randomSource) {
-    const [figureName, choiceNumber, attributeText] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(1e6), randomSource.integerBelow(4) === 0 ? null : randomSource.itemOf(ATTRIBUTE_TEXTS)];
+    const [figureName, choiceNumber, attributeText] = [randomSource.itemOf(ALL_FIGURE_NAMES), randomSource.integerBelow(1e6), randomSource.integerBelow(4) === 0 ? null : randomSource.itemOf(ATTRIBUTE_TEXTS)];
     return page.evaluate(([name, choiceNumber, attributeText]) => {
       const attributeNames = [.../** @type {any} */ (customElements.get(`${name}`)).observedAttributes, 'lang', 'dir', 'id', 'hidden'];
       const attributeName = attributeNames[Number(choiceNumber) % attributeNames.length];
@@ -137,7 +137,7 @@ const RANDOM_ACTIONS = {
     return newLanguage;
   },
   async openFragment(page, randomSource) {
-    const [name, choiceNumber] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(4)];
+    const [name, choiceNumber] = [randomSource.itemOf(ALL_FIGURE_NAMES), randomSource.integerBelow(4)];
     return page.evaluate(async ([name, choiceNumber]) => {
       const shareLink = await /** @type {AnyElement} */ (document.querySelector(`${name}`)).shareLink();
       const { hash } = new URL(shareLink);
@@ -146,7 +146,7 @@ const RANDOM_ACTIONS = {
     }, [name, choiceNumber]);
   },
   async dropFiles(page, randomSource) {
-    const files = randomSource.itemOf(DROPPED_FILES);
+    const files = randomSource.itemOf(DROPPABLE_FILE_GROUPS);
     await page.evaluate(async (files) => {
       const mapSection = document.querySelector('map-squeeze')?.shadowRoot?.querySelector('section');
       const dataTransfer = new DataTransfer();
@@ -156,7 +156,7 @@ const RANDOM_ACTIONS = {
     return files.map(({ name }) => name).join(' ');
   },
   async setState(page, randomSource) {
-    const [name, choiceNumber, fieldIndex, newValue] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(3), randomSource.integerBelow(1e6), randomSource.itemOf([0, 1, -1, 0.5, 1e9, null, 'x', [], {}, true])];
+    const [name, choiceNumber, fieldIndex, newValue] = [randomSource.itemOf(ALL_FIGURE_NAMES), randomSource.integerBelow(3), randomSource.integerBelow(1e6), randomSource.itemOf([0, 1, -1, 0.5, 1e9, null, 'x', [], {}, true])];
     return page.evaluate(([name, choiceNumber, fieldIndex, newValue]) => {
       const element = /** @type {any} */ (document.querySelector(`${name}`));
       const keptStates = /** @type {any} */ (window).keptStates;
@@ -176,14 +176,14 @@ const RANDOM_ACTIONS = {
   },
   /** Sets a small number of samples, because events are slow with millions of samples. */
   async reduceSamples(page, randomSource) {
-    const [figureName, sampleCount] = [randomSource.itemOf(ALL_NAMES), randomSource.itemOf([1, 20, 300, 2000])];
+    const [figureName, sampleCount] = [randomSource.itemOf(ALL_FIGURE_NAMES), randomSource.itemOf([1, 20, 300, 2000])];
     return page.evaluate(([figureName, sampleCount]) => {
       Object.assign(/** @type {Element} */ (document.querySelector(`${figureName}`)), { samples: sampleCount });
       return `${figureName} ${sampleCount}`;
     }, [figureName, sampleCount]);
   },
   async moveFigure(page, randomSource) {
-    const [name, choiceNumber] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(3)];
+    const [name, choiceNumber] = [randomSource.itemOf(ALL_FIGURE_NAMES), randomSource.integerBelow(3)];
     return page.evaluate(async ([name, choiceNumber]) => {
       const element = document.querySelector(`${name}`);
       const moveMarker = document.createComment('');
@@ -267,7 +267,7 @@ test('random actions cause no fault in any figure @nightly', NEW_PAGE_TAG, async
     }, true);
   });
   await page.goto('/');
-  for (const name of ALL_NAMES) {
+  for (const name of ALL_FIGURE_NAMES) {
     await page.locator(name).first().scrollIntoViewIfNeeded();
     await waitUntilReady(page.locator(name).first());
   }
@@ -288,7 +288,7 @@ test('random actions cause no fault in any figure @nightly', NEW_PAGE_TAG, async
     await page.keyboard.press('Escape');
     await page.emulateMedia({ media: 'screen' });
     await waitForFrames(page);
-    for (const widget of ALL_NAMES) expect(await readFaults(page, widget), `${widget}: ${describeReplay()}`).toEqual([]);
+    for (const widget of ALL_FIGURE_NAMES) expect(await readFaults(page, widget), `${widget}: ${describeReplay()}`).toEqual([]);
     expect(await page.evaluate(() => Reflect.get(window, 'unexpectedErrors').splice(0)), describeReplay()).toEqual([]);
   }
 });

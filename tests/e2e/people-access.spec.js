@@ -26,7 +26,7 @@ async function openWithDisclosures(page, figureName, { attributes = '', before =
 }
 
 /** Media, attributes and widths of figures that are tested for accessibility. Daily tests use the first two entries, and nightly tests use all. */
-const COLOR_SETTINGS = /** @type {[Parameters<Page['emulateMedia']>[0], string, number][]} */ ([
+const TESTED_APPEARANCES = /** @type {[Parameters<Page['emulateMedia']>[0], string, number][]} */ ([
   [{ colorScheme: 'light' }, 'theme="light"', 1280],
   [{ colorScheme: 'light' }, 'theme="dark"', 1280],
   [{ forcedColors: 'active', colorScheme: 'light' }, '', 1280],
@@ -35,7 +35,7 @@ const COLOR_SETTINGS = /** @type {[Parameters<Page['emulateMedia']>[0], string, 
 ]);
 
 testEach('a figure has no accessibility violations in any colour scheme and width', async (page, figureName, isNightly) => {
-  for (const [emulatedMedia, attributes, figureWidth] of isNightly ? COLOR_SETTINGS : COLOR_SETTINGS.slice(0, 2)) {
+  for (const [emulatedMedia, attributes, figureWidth] of isNightly ? TESTED_APPEARANCES : TESTED_APPEARANCES.slice(0, 2)) {
     await page.emulateMedia(emulatedMedia);
     await page.setViewportSize({ width: figureWidth, height: 812 });
     await openWithDisclosures(page, figureName, { attributes });

@@ -1,6 +1,6 @@
 import { expect, test as plainTest } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { ALL_NAMES } from './figures.js';
+import { ALL_FIGURE_NAMES } from './figures.js';
 import { REDUCED_MOTION, readBox, waitForFrames, mountFigure, readPicture, readProperty, test, testEach, waitUntilReady } from './support.js';
 
 test.use(REDUCED_MOTION);
@@ -116,7 +116,7 @@ test('nothing on the page moves while figures load', async ({ page }) => {
     }).observe({ type: 'layout-shift', buffered: true });
   });
   await page.goto('/');
-  for (const name of ALL_NAMES) {
+  for (const name of ALL_FIGURE_NAMES) {
     await page.locator(name).first().scrollIntoViewIfNeeded();
     await waitUntilReady(page.locator(name).first());
   }

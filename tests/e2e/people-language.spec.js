@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { ALL_NAMES, FIGURE_FACTS } from './figures.js';
+import { ALL_FIGURE_NAMES, FIGURE_FACTS } from './figures.js';
 import { REDUCED_MOTION, readBananaResults, waitForFrames, mountFigure, parseNumberIn, openBanana, readPicture, readoutValueOf, showPage, test, testEach, openDisclosures, waitUntilReady, waitUntilSettled } from './support.js';
 
 test.use(REDUCED_MOTION);
@@ -9,7 +9,7 @@ const UNTRANSLATED_NAMES = ['Map Squeeze', 'Arc Anatomy'];
 
 /** Returns all messages of a language. @param {string} languageCode @returns {Promise<any>} */
 async function loadCatalogue(languageCode) {
-  const widgetCatalogues = ALL_NAMES.map(async (figureName) => (await import(`../../www/widgets/${figureName}/${languageCode}.js`))[languageCode]);
+  const widgetCatalogues = ALL_FIGURE_NAMES.map(async (figureName) => (await import(`../../www/widgets/${figureName}/${languageCode}.js`))[languageCode]);
   return { ...(await import(`../../www/messages/${languageCode}.js`))[languageCode], ...(await Promise.all(widgetCatalogues)) };
 }
 

@@ -5,7 +5,7 @@
  */
 
 import { expect, test as playwrightTest } from '@playwright/test';
-import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, chooseFigureName } from './figures.js';
+import { ALL_FIGURE_NAMES, CLOUD_FIGURE_NAMES, HANDLE_FIGURE_NAMES, chooseFigureName } from './figures.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -33,8 +33,8 @@ import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, chooseFigureName } from './
 export const test = playwrightTest.extend({
   /* oxlint-disable no-empty-pattern */
   figureName: async ({}, useFixture, { title }) => useFixture(chooseFigureName(title)),
-  cloudFigureName: async ({}, useFixture, { title }) => useFixture(chooseFigureName(title, CLOUD_NAMES)),
-  handleFigureName: async ({}, useFixture, { title }) => useFixture(chooseFigureName(title, NAMES_WITH_HANDLES)),
+  cloudFigureName: async ({}, useFixture, { title }) => useFixture(chooseFigureName(title, CLOUD_FIGURE_NAMES)),
+  handleFigureName: async ({}, useFixture, { title }) => useFixture(chooseFigureName(title, HANDLE_FIGURE_NAMES)),
   /* oxlint-enable no-empty-pattern */
   isIntroductionSkipped: [true, { option: true }],
   page: async ({ page, isIntroductionSkipped }, useFixture) => {
@@ -59,7 +59,7 @@ export const test = playwrightTest.extend({
  */
 export function testEach(testTitle, testBody, testDetails = {}) {
   test(testTitle, testDetails, ({ page, figureName }) => testBody(page, figureName, false));
-  for (const figureName of ALL_NAMES) {
+  for (const figureName of ALL_FIGURE_NAMES) {
     test(`${testTitle}: ${figureName} @nightly`, testDetails, ({ page }) => {
       test.slow();
       return testBody(page, figureName, true);

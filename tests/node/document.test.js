@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { test } from 'node:test';
-import { LEG_LIMIT, TRUE_MODEL } from '../../scripts/example-log.mjs';
+import { AMCL_LEG_LENGTH, TRUE_PARAMETERS } from '../../scripts/example-log.mjs';
 import { ROOT, filesOf } from '../../scripts/process.mjs';
 import { presets } from '../../build/settings.js';
 
@@ -38,8 +38,8 @@ test('README.md lists the presets of each figure', () => {
 
 test('the README of the example log states the true parameters', () => {
   const readmeText = readText('examples/calibration/README.md');
-  const { alphas, mountYaw, clockOffset, distanceScale } = TRUE_MODEL;
-  for (const expectedText of [`| ${alphas.join(', ')} |`, `| ${mountYaw} rad |`, `| ${clockOffset} s later |`, `| ${distanceScale} |`, `${LEG_LIMIT.distance} m`, `${LEG_LIMIT.angle} rad`]) {
+  const { alphas, mountYaw, clockOffset, distanceScale } = TRUE_PARAMETERS;
+  for (const expectedText of [`| ${alphas.join(', ')} |`, `| ${mountYaw} rad |`, `| ${clockOffset} s later |`, `| ${distanceScale} |`, `${AMCL_LEG_LENGTH.distance} m`, `${AMCL_LEG_LENGTH.angle} rad`]) {
     assert.ok(readmeText.includes(expectedText), expectedText);
   }
 });

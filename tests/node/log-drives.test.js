@@ -47,7 +47,7 @@ const planDrivesAsync = async (recordings, userChoices) => planDrives(recordings
  * options.
  * @type {[Parameters<typeof createRecording>[0], string, string, string[]?, any?][]}
  */
-const CLEAR_ROLE_CASES = [
+const UNAMBIGUOUS_ROLE_CASES = [
   [{ '/odom': 'odometry', '/vrpn_client_node/robot/pose': 'pose', '/amcl_pose': 'pose', '/cmd_vel': 'twist' }, '/odom', '/vrpn_client_node/robot/pose'],
   [{ '/odom': 'odometry', '/vicon/robot': 'pose', '/cmd_vel': 'twist' }, '/cmd_vel', '/vicon/robot', [], { kind: 'commands' }],
   [{ '/odom': 'odometry', '/vicon/robot': 'pose' }, '/odom', '/vicon/robot', [], { kind: 'commands' }],
@@ -62,7 +62,7 @@ const CLEAR_ROLE_CASES = [
 ];
 
 test('odometry and reference are guessed from types, names and frames', () => {
-  for (const [series, odometry, reference, frames, userChoices] of CLEAR_ROLE_CASES) {
+  for (const [series, odometry, reference, frames, userChoices] of UNAMBIGUOUS_ROLE_CASES) {
     const [drive] = planDrives([createRecording(series, {}, frames)], userChoices).drives;
     assert.deepEqual([choiceTextOf(drive.odometry.choice), choiceTextOf(drive.reference.choice)], [odometry, reference]);
   }

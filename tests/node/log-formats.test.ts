@@ -38,7 +38,7 @@ const summaryTextOf = (log: Log) => summarySentencesOf(log, english.found).join(
 /** Odometry and reference of the drive, read from its tables. */
 const tableLogPromises = (await openRecordings(['odometry.csv', 'reference.csv'].map((name) => createFile(decompressFile(name), name)))).map((tableName) => tableName.read([{ series: '' }]));
 const [[odometryLog], [referenceLog]] = await Promise.all(tableLogPromises);
-const BOTH_CHOICES: LogChoice[] = [{ series: '/odom' }, { series: '/truth' }];
+const ODOMETRY_AND_REFERENCE: LogChoice[] = [{ series: '/odom' }, { series: '/truth' }];
 
 const fileListOf = (name: string) => [createFile(decompressFile(name), name)];
 
@@ -63,7 +63,7 @@ for (const [name, sources] of Object.entries(SOURCES_BY_RECORDING)) {
   test(`${name} contains the same rows as the tables, to the last bit`, async () => {
     const recording = await openRecording(...sources);
     assert.deepEqual(recording.series.map(({ name: topic, kind, count }) => [topic, kind, count]), [['/odom', 'poses', 100], ['/truth', 'poses', 100]]);
-    const logs = await recording.read(BOTH_CHOICES);
+    const logs = await recording.read(ODOMETRY_AND_REFERENCE);
     for (const [i, tableLog] of [odometryLog, referenceLog].entries()) {
       assert.deepEqual([logs[i].start, logs[i].data], [tableLog.start, tableLog.data]);
       assert.deepEqual([logs[i].summary.dropped, logs[i].summary.notes, logs[i].summary.clock], [{}, [], 'header.stamp']);
@@ -225,19 +225,19 @@ const createTfMessage = (i: number, ...transforms: unknown[]): Message => ({ top
 const stepCount = 40;
 const createForEachStep = <T>(makeItem: (i: number) => T): T[] => Array.from({ length: stepCount }, (_, i) => makeItem(i));
 const readLogsOf = async (messages: Message[], ...choices: LogChoice[]) => (await openRecording(createFile(await recordingOf(messages), 'run.mcap'))).read(choices);
-const BASE_CHOICE = { series: '/tf', frames: { parent: 'odom', child: 'base_link' } };
+const ODOM_TO_BASE_CHOICE = { series: '/tf', frames: { parent: 'odom', child: 'base_link' } };
 const createMovingTransform = (i: number) => transformMessageOf(timeOf(i), 'odom', 'base_footprint', i / 50, 0, 0);
 
 test('a constant transform is not accepted as a log', async () => {
   const messages = createForEachStep((i) => createTfMessage(i, transformMessageOf(timeOf(i), 'odom', 'base_link', 1, 2, 0), transformMessageOf(timeOf(i), 'map', 'robot', i / 50, 0, 0)));
-  assert.equal(await catchRefusalSentence(readLogsOf(messages, BASE_CHOICE)), 'run.mcap, topic /tf: the transform odom → base_link never changes, so it is no path of a robot; expected are frames that move, as map → robot.');
+  assert.equal(await catchRefusalSentence(readLogsOf(messages, ODOM_TO_BASE_CHOICE)), 'run.mcap, topic /tf: the transform odom → base_link never changes, so it is no path of a robot; expected are frames that move, as map → robot.');
   const constantMessages = createForEachStep((i) => createTfMessage(i, transformMessageOf(timeOf(i), 'odom', 'base_link', 1, 2, 0)));
-  assert.match(await catchRefusalSentence(readLogsOf(constantMessages, BASE_CHOICE)), /never changes, so it is no path of a robot; expected are frames that move\.$/);
+  assert.match(await catchRefusalSentence(readLogsOf(constantMessages, ODOM_TO_BASE_CHOICE)), /never changes, so it is no path of a robot; expected are frames that move\.$/);
 });
 
 test('a constant transform that is published more often than the changing transform adds no rows', async () => {
   const messages = createForEachStep((i) => [createTfMessage(i, createMovingTransform(i)), ...[0.3, 0.6].map((timeOffset) => createTfMessage(i + timeOffset, transformMessageOf(timeOf(i + timeOffset), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
-  const [{ data }] = await readLogsOf(messages, BASE_CHOICE);
+  const [{ data }] = await readLogsOf(messages, ODOM_TO_BASE_CHOICE);
   assert.deepEqual([...data.t].map((t) => Math.round(20 * t)), [...Array(stepCount).keys()]);
   assert.deepEqual([...(data as Poses).x], createForEachStep((i) => i / 50 + 0.5));
 });

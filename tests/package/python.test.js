@@ -18,7 +18,7 @@ const pyprojectText = readFileSync(join(SOURCE_DIRECTORY, 'pyproject.toml'), 'ut
 /** @type {string} */
 let temporaryDirectory;
 /** Search path of Python: the directories of the package and of its dependencies. @type {string} */
-let searchPath;
+let pythonSearchPath;
 
 /** Runs Python, and returns its output. @param {string[]} pythonArguments @param {string} [pythonPath] */
 const runPython = (pythonArguments, pythonPath = '') => {
@@ -53,7 +53,7 @@ before(async () => {
   assert.equal(pythonWheelFileName, `motion_widgets-${version}-py3-none-any.whl`);
   const installDirectory = join(temporaryDirectory, 'site');
   runPip(['install', '--no-deps', '--target', installDirectory, join(temporaryDirectory, pythonWheelFileName)]);
-  searchPath = [installDirectory, dependencyDirectory].join(delimiter);
+  pythonSearchPath = [installDirectory, dependencyDirectory].join(delimiter);
 });
 
 after(() => rmSync(temporaryDirectory, { recursive: true, force: true }));
@@ -65,7 +65,7 @@ test('the installed package can be imported, and settings named like Python keyw
     'm.BananaMachine(reverse_aware=True, morph=0.5); m.MapSqueeze(steps=4)',
     'print(json.dumps([m.__file__, figure.get_state(["widget", "from_"])]))',
   ];
-  const [importedFile, figureState] = JSON.parse(runPython(['-c', pythonLines.join('\n')], searchPath));
+  const [importedFile, figureState] = JSON.parse(runPython(['-c', pythonLines.join('\n')], pythonSearchPath));
   assert.ok(importedFile.startsWith(temporaryDirectory), importedFile);
   assert.deepEqual(figureState, { widget: 'odometry-decomposer', from_: { x: 1, y: 2, theta: 0.5 } });
 });
@@ -78,7 +78,7 @@ test('no trait hides a member of every ipywidgets widget', () => {
     'print([f"{name}.{each}" for name in m.__all__ for each, trait in vars(getattr(m, name)).items()',
     '       if isinstance(trait, TraitType) and hasattr(Figure, each)])',
   ];
-  assert.equal(runPython(['-c', pythonLines.join('\n')], searchPath).trim(), '[]');
+  assert.equal(runPython(['-c', pythonLines.join('\n')], pythonSearchPath).trim(), '[]');
 });
 
 test('values out of range and groups with wrong or missing fields are refused, and the message states the allowed values', () => {
@@ -92,7 +92,7 @@ test('values out of range and groups with wrong or missing fields are refused, a
     ['BananaMachine(overlays=["elipse"])', "overlays[0] is 'elipse'; allowed is one of command, ellipse, exponential, linearized, additive"],
   ];
   const pythonLines = ['import motion_widgets as m, traitlets', ...refusedCalls.flatMap(([refusedCall]) => [`try: m.${refusedCall}`, 'except traitlets.TraitError as error: print(error)'])];
-  assert.deepEqual(runPython(['-c', pythonLines.join('\n')], searchPath).trim().split('\n'), refusedCalls.map(([, expectedMessage]) => expectedMessage));
+  assert.deepEqual(runPython(['-c', pythonLines.join('\n')], pythonSearchPath).trim().split('\n'), refusedCalls.map(([, expectedMessage]) => expectedMessage));
 });
 
 test('a setting reported by the figure is applied, unless Python has changed the setting since', () => {
@@ -108,11 +108,11 @@ test('a setting reported by the figure is applied, unless Python has changed the
     'f.set_state({"omega": 1.2, "dt": 1.4, "_shown": {"heard": heard, "settings": {"preset": "hard", "omega": 1.2, "dt": 1.4}}})',
     'print(json.dumps([f.preset, f.omega, f.dt, [sorted(each["state"]) for each in sent]]))',
   ];
-  assert.deepEqual(JSON.parse(runPython(['-c', pythonLines.join('\n')], searchPath)), ['hard', 0.2, 1.4, [['_shown', 'dt']]]);
+  assert.deepEqual(JSON.parse(runPython(['-c', pythonLines.join('\n')], pythonSearchPath)), ['hard', 0.2, 1.4, [['_shown', 'dt']]]);
 });
 
 test('settings that the constructor did not receive are None', () => {
-  assert.equal(runPython(['-c', 'import motion_widgets as m; f = m.MapSqueeze(); print({getattr(f, name) for name in m.MapSqueeze._settings})'], searchPath).trim(), '{None}');
+  assert.equal(runPython(['-c', 'import motion_widgets as m; f = m.MapSqueeze(); print({getattr(f, name) for name in m.MapSqueeze._settings})'], pythonSearchPath).trim(), '{None}');
 });
 
 test('names in generated Python and JavaScript code are valid', () => {

@@ -14,7 +14,7 @@ export const ensureBindProgram = memoize(() => compileProgram('bind', []));
 
 /** Returns the path of the program that runs WebAssembly tests in a browser. The first call builds it. */
 export const ensureTestRunner = memoize(async () => {
-  // Most crates of the test runner are compiled for the glue generator already.
+  // The build of the glue generator has then compiled most crates of the test runner.
   await ensureBindProgram();
   return compileProgram('test-runner', ['--features', 'test-runner']);
 });

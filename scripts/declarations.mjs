@@ -65,7 +65,7 @@ export function toPascalCase(tagOrKey) {
   return scriptName;
 }
 
-/** Returns the TypeScript type of some words. @param {readonly string[]} allowedWords */
+/** Returns the TypeScript union type of some keywords. @param {readonly string[]} allowedWords */
 export const unionTypeOf = (allowedWords) => allowedWords.map((allowedWord) => `'${allowedWord}'`).join(' | ');
 
 /** Returns the TypeScript type of a setting. @param {Declaration} declaration */

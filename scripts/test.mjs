@@ -133,7 +133,7 @@ const TEST_PARTS = {
   'clippy-wasm': {
     async prepare(programArgs) {
       const rustTools = await ensureWasmRust();
-      // Clippy uses the profile of the tests, in which the macros are compiled already.
+      // Clippy uses the profile of the tests, for which Cargo has compiled the procedural macros already.
       const cargoTestOptions = ['--locked', '--profile', 'web', '--lib', '--test', 'web', ...rustTools.target];
       return createLintJob(rustTools, 'clippy', [...cargoTestOptions, ...programArgs, ...LINT_RULES]);
     },

@@ -103,7 +103,7 @@ test('refused attributes are reported with the core’s error message, and the l
   ]);
   const readProperties = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((name) => readProperty(widget, name)));
   expect(await readProperties()).toEqual([1, 0.7, 'velocity', 50000]);
-  // A blank attribute is neither a number nor zero.
+  // A blank attribute is refused as a number, and does not count as zero.
   await widget.evaluate((element) => element.setAttribute('omega', ' '));
   expect((await takeEvents(page, ['error'])).map(({ message }) => message)).toEqual(['command.omega is " "; allowed is a number']);
   expect(await readProperty(widget, 'omega')).toBe(0.7);

@@ -8,7 +8,7 @@ import { REDUCED_MOTION, readBananaResults, readBox, readCentre, waitForFrames, 
 test.use(REDUCED_MOTION);
 
 /**
- * Opens a page with a figure, with all folds open.
+ * Opens a page with a figure, with all disclosures open.
  *
  * @param {Page} page
  * @param {string} figureName

@@ -5,7 +5,7 @@ import { ROLES, type Summary } from '../logs/log.ts';
 import { warningsOf } from '../logs/pairs.ts';
 import { en as sharedTexts } from '../messages/en.ts';
 import { en, yamlWords } from '../widgets/alpha-calibrator/en.ts';
-import { componentsOf, formatAlphaOrBound, formatEstimate, formatInterval, formatNumber, formatPercent, isNav2Rule, formatNav2Lines } from '../widgets/alpha-calibrator/result.ts';
+import { errorComponentsOf, formatAlphaOrBound, formatEstimate, formatInterval, formatNumber, formatPercent, isNav2Rule, formatNav2Lines } from '../widgets/alpha-calibrator/result.ts';
 import { LOST_LEG_CAUSES, SYSTEMATIC_ERRORS, adviceOf, judgementOf } from '../widgets/alpha-calibrator/result.ts';
 import type { Calibration, CalibrationCheck } from '../types.d.ts';
 
@@ -108,7 +108,7 @@ function formatNoiseRows({ referenceNoise }: Calibration, options: CalibrationRe
 
 function formatSystematicRow(name: (typeof SYSTEMATIC_ERRORS)[number], { systematicErrors }: Calibration): string[] {
   const { constant, corrected } = systematicErrors[name];
-  const components = componentsOf(systematicErrors[name]);
+  const components = errorComponentsOf(systematicErrors[name]);
   if (components.some(({ value }) => value === null)) return [en.systematic.errorNames[name], 'not identifiable'];
   return [
     en.systematic.errorNames[name],

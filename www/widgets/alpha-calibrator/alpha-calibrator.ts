@@ -206,7 +206,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   service = new LogService();
   #fit: Parameters<typeof viewModelOf>[2] = new Memo();
   #predictedLegMemo: Memo<LegView | null> = new Memo();
-  #panelsMemo: Memo<{ regressor: (typeof REGRESSORS)[number], components: CalibrationPanel[] }[]> = new Memo();
+  #panelsMemo: Memo<{ regressor: (typeof REGRESSORS)[number], componentPanels: CalibrationPanel[] }[]> = new Memo();
   /** Log of the user or of the page; null for the simulated log. */
   #givenLog: OpenedLog | null = null;
   /** Log of the page; null for the simulated log. */
@@ -250,7 +250,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   /** Squared residuals of each noise component, binned by squared rotation and by squared translation; empty without legs. */
   get panels() {
     const { simulation, viewModel: { stats, legs } } = this;
-    return legs.count > 0 && simulation ? this.#panelsMemo.get([stats], () => REGRESSORS.map((regressor) => ({ regressor, components: simulation.panels(regressor) }))) : [];
+    return legs.count > 0 && simulation ? this.#panelsMemo.get([stats], () => REGRESSORS.map((regressor) => ({ regressor, componentPanels: simulation.panels(regressor) }))) : [];
   }
 
   get scene() {
@@ -365,7 +365,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
         'begins_s ends_s': legs.times,
         [poseColumnsOf('odometry')]: legs.odometry,
         [poseColumnsOf('reference')]: legs.reference,
-        [NOISE_COMPONENTS[fittedConfig.model].map((name) => `residual_${name}`).join(' ')]: legs.residuals,
+        [NOISE_COMPONENTS[fittedConfig.model].map((componentName) => `residual_${componentName}`).join(' ')]: legs.residuals,
         outlier: legs.outliers,
       },
       linkNote: missingNote,
@@ -406,7 +406,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
       ${this.renderer.renderAfterFirstPicture(() => html`
       ${legendHtml(this, LINE_STYLES)}
       <div part="controls">
-        ${fieldsetHtml(texts.leg.legsTitle, html`<div class="controls">${['distance', 'angle'].map((key) => settingSliderHtml(this, key, { hasNoEffect: hasDuration }))}</div>`)}
+        ${fieldsetHtml(texts.leg.legsTitle, html`<div class="controls">${['distance', 'angle'].map((lengthSettingKey) => settingSliderHtml(this, lengthSettingKey, { hasNoEffect: hasDuration }))}</div>`)}
       </div>
       ${disclosuresHtml(this, {
         renderControls: () => html`${modelControlsHtml(this)}

@@ -50,8 +50,8 @@ export function modelControlsHtml(figure: Figure) {
 
 /** Returns the controls of the noise of the reference. A sentence says what the simulated log is. */
 export function referenceControlsHtml(figure: Figure) {
-  const stdSliderHtml = (key: string, unit: string) =>
-    settingSliderHtml(figure, key, { formatValue: (std: number) => (std > 0 ? `${formatEditable(std, 3)} ${unit}` : words.calibrator.estimatedLabel) });
+  const stdSliderHtml = (stdSettingKey: string, unit: string) =>
+    settingSliderHtml(figure, stdSettingKey, { formatValue: (std: number) => (std > 0 ? `${formatEditable(std, 3)} ${unit}` : words.calibrator.estimatedLabel) });
   return html`${figure.log ? nothing : html`<p>${words.calibrator.logControls.simulatedLogNote}</p>`}
     <div class="controls">${stdSliderHtml('positionStd', 'm')} ${stdSliderHtml('yawStd', 'rad')}</div>`;
 }

@@ -44,8 +44,8 @@ export function logNameOf({ drives, unpaired }: LogPlan) {
 /** Returns all logs that can be chosen for a role, with labels. Each pair of frames is a separate choice. */
 function labelledChoicesOf(recording: Recording, role?: Role): [label: string, LogChoice][] {
   const usableSeries = readableSeriesOf(recording).filter(({ kind }) => role !== 'reference' || kind !== 'commands');
-  const choices = usableSeries.flatMap(({ name: series, kind, frames = [] }): LogChoice[] => (kind === 'transforms' ? frames.map((pair) => ({ series, frames: pair })) : [{ series }]));
-  return choices.map((choice) => [choiceLabelOf(choice) || recording.name, choice]);
+  const logChoices = usableSeries.flatMap(({ name: series, kind, frames = [] }): LogChoice[] => (kind === 'transforms' ? frames.map((framePair) => ({ series, frames: framePair })) : [{ series }]));
+  return logChoices.map((choice) => [choiceLabelOf(choice) || recording.name, choice]);
 }
 
 /** Returns the form controls for the open choices about the present files. */
@@ -56,7 +56,7 @@ export function logChoosersHtml(opener: LogOpener) {
   const hasOneLog = (recording: Recording) => labelledChoicesOf(recording).length === 1;
   const roleChoosers = [
     ...(recordings.every(hasOneLog) ? [] : ROLES.map((role) => seriesSelectHtml(opener, chosenFiles, role, texts))),
-    ...(recordings.length > 1 ? recordings.flatMap((recording, index) => (hasOneLog(recording) ? [roleSelectHtml(opener, chosenFiles, index, texts)] : [])) : []),
+    ...(recordings.length > 1 ? recordings.flatMap((recording, recordingIndex) => (hasOneLog(recording) ? [roleSelectHtml(opener, chosenFiles, recordingIndex, texts)] : [])) : []),
   ];
   return html`<div class="choosers">
     ${roleChoosers.length ? html`<div class="choices">${roleChoosers}</div>` : nothing}
@@ -98,10 +98,10 @@ function roleSelectHtml(opener: LogOpener, { recordings, roles, plan }: ChosenFi
 }
 
 function questionHtml(opener: LogOpener, { answers }: ChosenFiles, question: OpenQuestion, { choose: texts }: LogWords) {
-  const { file, ask: { option, choices } } = question;
+  const { file, ask: { option, choices: logChoices } } = question;
   if (option === 'columns') return columnsFormHtml(opener, question, answers[file]?.columns, texts);
   if (option !== 'timeUnit' && option !== 'lengthUnit' && option !== 'angleUnit') return nothing;
-  const unitLabels: Record<string, string> = Object.fromEntries((choices.length ? choices : UNITS[option]).map((unit) => [unit, texts.units[unit as keyof typeof texts.units]]));
+  const unitLabels: Record<string, string> = Object.fromEntries((logChoices.length ? logChoices : UNITS[option]).map((unit) => [unit, texts.units[unit as keyof typeof texts.units]]));
   return html`<div id=${questionIdOf(question)}>
     ${radioGroupHtml(texts[option](file), questionIdOf(question), unitLabels, answers[file]?.[option] ?? '', (unit) => opener.answerQuestion(question, { [option]: unit }))}
   </div>`;
@@ -109,24 +109,24 @@ function questionHtml(opener: LogOpener, { answers }: ChosenFiles, question: Ope
 
 /** Returns a form with one `<select>` for each field, which assigns a column to it. */
 function columnsFormHtml(opener: LogOpener, question: OpenQuestion, answeredFields: string[] | undefined, texts: LogWords['choose']) {
-  const { file, ask: { choices: [defaultNames = ''], columns = [] } } = question;
-  const assignedFields = answeredFields ?? defaultNames.split(',');
-  const options = columns.map((headerCell, index): [string, string] => [String(index), texts.column(index + 1, headerCell.trim().slice(0, MAX_CELL_LENGTH))]);
+  const { file, ask: { choices: [defaultFieldNames = ''], columns = [] } } = question;
+  const assignedFields = answeredFields ?? defaultFieldNames.split(',');
+  const options = columns.map((headerCell, columnIndex): [string, string] => [String(columnIndex), texts.column(columnIndex + 1, headerCell.trim().slice(0, MAX_CELL_LENGTH))]);
   const submitColumns = (event: Event) => {
     event.preventDefault();
     const fieldNames = columns.map(() => '-');
-    for (const [field, index] of new FormData(event.target as HTMLFormElement)) if (index !== '') fieldNames[Number(index)] = String(field);
+    for (const [field, columnIndex] of new FormData(event.target as HTMLFormElement)) if (columnIndex !== '') fieldNames[Number(columnIndex)] = String(field);
     opener.answerQuestion(question, { columns: fieldNames });
   };
   return html`<form id=${questionIdOf(question)} @submit=${submitColumns}>
     <fieldset>
-      <legend>${texts.columns(file, !answeredFields && defaultNames !== '')}</legend>
+      <legend>${texts.columns(file, !answeredFields && defaultFieldNames !== '')}</legend>
       <div class="choices">
         ${COLUMN_FIELDS.map((field) => html`<label>
           ${texts.fields[field]}
           <select name=${field} aria-label=${texts.fields[field]} aria-describedby="refusal">
             <option value="">${texts.none}</option>
-            ${options.map(([index, label]) => html`<option value=${index} ?selected=${assignedFields[Number(index)] === field}>${label}</option>`)}
+            ${options.map(([columnIndex, label]) => html`<option value=${columnIndex} ?selected=${assignedFields[Number(columnIndex)] === field}>${label}</option>`)}
           </select>
         </label>`)}
         <button type="submit" part="button">${texts.read}</button>
@@ -172,7 +172,7 @@ export function logSummaryHtml({ chosenFiles, texts, host }: LogOpener) {
 
 function logTableHtml({ odometry, reference }: Drive, caption: string, { choose, found }: LogWords) {
   const logs = [odometry, reference];
-  const tableRows = logs.map((log) => summaryLinesOf(log, found));
+  const tableRows = logs.map((driveLog) => summaryLinesOf(driveLog, found));
   const tableCellHtml = (cellLines: string[] = []) => html`<td>${cellLines.length ? cellLines.map((cellLine, i) => html`${i ? html`<br />` : nothing}${cellLine}`) : '—'}</td>`;
   const labels = (Object.keys(found.labels) as (keyof typeof found.labels)[]).filter((label) => tableRows.some((tableRow) => tableRow[label]?.length));
   return html`<table>
@@ -188,11 +188,11 @@ function logTableHtml({ odometry, reference }: Drive, caption: string, { choose,
 
 /** Returns a picture of both paths, with the odometry aligned to the reference if they have times in common. `clockOffset` is how much later the reference's times are. */
 function pathsPictureHtml({ odometry, reference }: Drive, clockOffset: number, { found }: LogWords) {
-  const [drivenPath, referencePath] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / MAX_PATH_POINTS)));
+  const [drivenPath, referencePath] = [odometry.data, reference.data].map((poseColumns) => pathOf(poseColumns, Math.ceil(poseColumns.t.length / MAX_PATH_POINTS)));
   const odometryPath = alignPath(drivenPath, referencePath, clockOffset);
   const allPoses = [...odometryPath.poses, ...referencePath.poses];
   const axisRanges = ([0, 1] as const).map((coordinateIndex) => [Math.min(...allPoses.map((pose) => pose[coordinateIndex])), Math.max(...allPoses.map((pose) => pose[coordinateIndex]))]);
-  const [width, height] = axisRanges.map(([low, high]) => high - low);
+  const [width, height] = axisRanges.map(([lowEnd, highEnd]) => highEnd - lowEnd);
   const pixelsPerMetre = Math.min((PICTURE_WIDTH - 2 * PICTURE_MARGIN) / Math.max(width, 0.1), (PICTURE_HEIGHT - 2 * PICTURE_MARGIN) / Math.max(height, 0.1));
   const pathDataOf = (path: Path) => svgPathDataOf(path, ([x, y]) => [PICTURE_MARGIN + (x - axisRanges[0][0]) * pixelsPerMetre, PICTURE_HEIGHT - PICTURE_MARGIN - (y - axisRanges[1][0]) * pixelsPerMetre]);
   const captionText = found.paths(odometryPath !== drivenPath, formatFixed(width, 1), formatFixed(height, 1));

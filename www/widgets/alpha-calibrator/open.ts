@@ -195,8 +195,8 @@ export class LogOpener extends FileOpener<Figure> {
 
   explainRefusal(refusal: Refusal) {
     if (isAbortError(refusal)) return words.progress.stopped;
-    const { message, messageIn: sentence, sentences, question: ask } = refusal;
-    const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? (sentence && this.texts ? sentence(this.texts) : words.calibrator.logControls.refusedLog(message));
+    const { message, messageIn: messageOf, sentences, question: ask } = refusal;
+    const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? (messageOf && this.texts ? messageOf(this.texts) : words.calibrator.logControls.refusedLog(message));
     return [refusalReason, ...(ask?.option === 'other' && this.texts ? [this.texts.choose.other] : [])].join(' ');
   }
 
@@ -247,10 +247,10 @@ export const isAbortError = (error: unknown) => error instanceof DOMException &&
 export class LogService {
   #connection: Promise<WorkerConnection> | undefined;
   /** Aborts the request in progress; undefined if there is none. */
-  #request: AbortController | undefined;
+  #abortController: AbortController | undefined;
 
   get isBusy() {
-    return this.#request !== undefined;
+    return this.#abortController !== undefined;
   }
 
   /** Opens files, with the options of each by its name. */
@@ -277,22 +277,22 @@ export class LogService {
   endWorker() {
     this.#connection?.then(({ endWorker }) => endWorker(), () => {});
     this.#connection = undefined;
-    this.#request?.abort();
-    this.#request = undefined;
+    this.#abortController?.abort();
+    this.#abortController = undefined;
   }
 
   async #sendRequest<Result>(sendTo: (connection: WorkerConnection, signal: AbortSignal) => Promise<Result>): Promise<Result> {
     this.stopRequest();
-    const request = (this.#request = new AbortController());
+    const abortController = (this.#abortController = new AbortController());
     const connection = (this.#connection ??= connectWorker());
     // After a failed start, the next request tries again.
     connection.catch(() => connection === this.#connection && (this.#connection = undefined));
-    const { signal } = request;
+    const { signal } = abortController;
     const aborted = new Promise<never>((_, reject) => signal.addEventListener('abort', () => reject(signal.reason)));
     try {
       return await Promise.race([aborted, sendTo(await Promise.race([aborted, connection]), signal)]);
     } finally {
-      if (request === this.#request) this.#request = undefined;
+      if (abortController === this.#abortController) this.#abortController = undefined;
     }
   }
 }
@@ -300,13 +300,13 @@ export class LogService {
 /** Starts a session in a worker; in the page's thread if the browser has no workers, or the page's policy or origin forbids them. */
 async function connectWorker(): Promise<WorkerConnection> {
   // comlink is only loaded when a log is opened.
-  const [core, { proxy, wrap }] = await Promise.all([moduleForWorker('alpha-calibrator'), import('comlink')]);
+  const [sharedCore, { proxy, wrap }] = await Promise.all([moduleForWorker('alpha-calibrator'), import('comlink')]);
   let worker: Worker | undefined;
   const endWorker = () => worker?.terminate();
   try {
     worker = startWorker();
     if (worker) {
-      const session = await Promise.race([wrap<typeof import('../../log-worker.ts').startSession>(worker)(core), rejectOnError(worker)]);
+      const session = await Promise.race([wrap<typeof import('../../log-worker.ts').startSession>(worker)(sharedCore), rejectOnError(worker)]);
       return { session, endWorker, proxy };
     }
   } catch {
@@ -314,7 +314,7 @@ async function connectWorker(): Promise<WorkerConnection> {
     endWorker();
   }
   const { LogSession } = await import('../../logs/session.ts');
-  return { session: new LogSession(await instantiateShared(core)), endWorker, proxy };
+  return { session: new LogSession(await instantiateShared(sharedCore)), endWorker, proxy };
 }
 
 const rejectOnError = (worker: Worker) => new Promise<never>((_, reject) => worker.addEventListener('error', (event) => {

@@ -9,7 +9,7 @@ import { plotHtml, type Curve, type PlotOptions } from '../../ui/plot.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { en } from './en.ts';
-import { LOST_LEG_CAUSES, NAV2_RULES, SYSTEMATIC_ERRORS, adviceOf, checkMessage, componentsOf, formatAlphaOrBound, formatEstimate, formatNumber, judgementOf, localizeInterval, localizeNumber, formatNav2Lines, } from './result.ts';
+import { LOST_LEG_CAUSES, NAV2_RULES, SYSTEMATIC_ERRORS, adviceOf, checkMessage, errorComponentsOf, formatAlphaOrBound, formatEstimate, formatNumber, judgementOf, localizeInterval, localizeNumber, formatNav2Lines, } from './result.ts';
 import { NOISE_COMPONENTS, isTruthComparable, modelRuleOf, settingsOfModelRule, type ViewModel } from './settings.ts';
 import type { CalibrationCheck, CalibrationPanel, Estimate } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
@@ -24,12 +24,12 @@ export const judgeFit = ({ stats, legs: { count }, fittedConfig }: Pick<ViewMode
   judgementOf({ stats, legCount: count, model: fittedConfig.model, corrections: fittedConfig, warnings }, words.calibrator, words.moreControls);
 
 /** Prints the value of a check, or a limit of it. */
-export function formatCheckValue(name: CalibrationCheck['name'], checkValue: number) {
+export function formatCheckValue(checkName: CalibrationCheck['name'], checkValue: number) {
   if (!Number.isFinite(checkValue)) return Number.isNaN(checkValue) ? formatPercent(checkValue) : '∞';
-  return name === 'enough-legs' ? formatInteger(checkValue) : FRACTION_CHECKS.test(name) ? formatPercent(checkValue) : formatSignificant(checkValue, 3);
+  return checkName === 'enough-legs' ? formatInteger(checkValue) : FRACTION_CHECKS.test(checkName) ? formatPercent(checkValue) : formatSignificant(checkValue, 3);
 }
 
-export const formatPassRange = (low: string, high: string) => `${low} – ${high}`;
+export const formatPassRange = (lowText: string, highText: string) => `${lowText} – ${highText}`;
 
 /** Prints the range of values with which a check passes. */
 export function formatExpectedRange({ name, expected: [low, high] }: CalibrationCheck) {
@@ -62,12 +62,12 @@ export function captionOf({ viewModel, warnings, logName }: Pick<Figure, 'viewMo
 }
 
 /** Icons and colours of the ratings. */
-const RATING_STYLES = { consistent: ['✓', 'posterior'], questionable: ['!', 'prediction'], unusable: ['✕', 'accent'] };
+const RATING_ICONS = { consistent: ['✓', 'posterior'], questionable: ['!', 'prediction'], unusable: ['✕', 'accent'] };
 
 /** Returns the badge that rates the α's, the finding, and the number of legs. On a wide page it has at most two lines. */
 export function verdictHtml({ viewModel, logName, warnings }: Figure) {
   const { rating, badge, finding } = judgeFit(viewModel, warnings);
-  const [icon, role] = RATING_STYLES[rating];
+  const [icon, role] = RATING_ICONS[rating];
   return html`<span class="badge" data-role=${role}><span aria-hidden="true">${icon}</span> ${badge}</span>
     <strong>${finding}</strong> <span class="muted">${describeLegs(viewModel, logName)}</span>`;
 }
@@ -111,22 +111,22 @@ export function systematicTableHtml(figure: Figure) {
   const texts = words.calibrator.systematic;
   const { requested } = figure.settings;
   const rows = SYSTEMATIC_ERRORS.map((errorName) => {
-    const components = componentsOf(errors[errorName]);
+    const errorComponents = errorComponentsOf(errors[errorName]);
     const correctCheckbox = checkboxHtml({ label: texts.errorNames[errorName], checked: requested[errorName], onChange: (isChecked) => figure.gesture.requestAndCommit({ [errorName]: isChecked }) });
-    if (components.some(({ value }) => value === null)) return [correctCheckbox, texts.notDetermined];
+    if (errorComponents.some(({ value }) => value === null)) return [correctCheckbox, texts.notDetermined];
     return [
       correctCheckbox,
-      stackedTextsHtml(components.map(({ value, interval }) => localizeNumber(formatEstimate(value, interval)))),
-      stackedTextsHtml(components.map(({ interval }) => localizeInterval(interval))),
+      stackedTextsHtml(errorComponents.map(({ value, interval }) => localizeNumber(formatEstimate(value, interval)))),
+      stackedTextsHtml(errorComponents.map(({ interval }) => localizeInterval(interval))),
       errors[errorName].corrected ? texts.correctedLabel : errors[errorName].constant ? texts.notCorrectedLabel : texts.notConstantLabel,
-      ...(truth ? [stackedTextsHtml([truth[errorName]].flat().map((component) => localizeNumber(formatNumber(component))))] : []),
+      ...(truth ? [stackedTextsHtml([truth[errorName]].flat().map((trueComponent) => localizeNumber(formatNumber(trueComponent))))] : []),
     ];
   });
   const columns = [texts.errorColumn, texts.valueColumn, words.calibrator.alphas.intervalColumn, texts.treatmentColumn, ...(truth ? [texts.simulatedColumn] : [])];
   return html`<div class="systematic">${tableHtml({ columnHeadings: columns, rows })}</div>`;
 }
 
-const stackedTextsHtml = (texts: string[]) => texts.map((text) => html`<div>${text}</div>`);
+const stackedTextsHtml = (texts: string[]) => texts.map((stackedText) => html`<div>${stackedText}</div>`);
 
 export function diagnosticsHtml(figure: Figure) {
   const { checks, windows, noiseTable, lostLegs } = words.calibrator;
@@ -185,7 +185,7 @@ export function regressionPanelsHtml({ viewModel: { fittedConfig: { model }, leg
   const axisNames = model === 'velocity' ? { turn: texts.turnRateAxisLabel, distance: texts.speedAxisLabel } : { turn: texts.turnAxisLabel, distance: texts.distanceAxisLabel };
   if (legs.count === 0) return html`<p>${words.calibrator.tooFewLegs}</p>`;
   return html`<figure><div class="panels">
-      ${panels.flatMap(({ regressor, components }) => components.map((panel, i) =>
+      ${panels.flatMap(({ regressor, componentPanels }) => componentPanels.map((panel, i) =>
         html`<figure>${plotHtml(panelPlotHtml(panel, texts.componentNames[NOISE_COMPONENTS[model][i]], axisNames[regressor]))}</figure>`))}
     </div>
     <figcaption>${formatMarkup(texts.caption)}</figcaption></figure>`;
@@ -236,22 +236,22 @@ function jsonOf({ viewModel: { fittedConfig, stats, legs, truth }, logName }: Fi
 
 /**
  * Returns the button that copies the lines for nav2_params.yaml. For α's of another rule than Nav2's, it is a button that fits Nav2's rule.
- * `obstacle` is the reason why the button is disabled; empty if it is enabled.
+ * `disabledReason` is the reason why the button is disabled; empty if it is enabled.
  */
-export function nav2ButtonHtml(figure: Figure, obstacle: string) {
+export function nav2ButtonHtml(figure: Figure, disabledReason: string) {
   const texts = words.calibrator.nav2;
-  if (!NAV2_RULES.includes(modelRuleOf(figure.viewModel.fittedConfig))) return buttonHtml(texts.fitLabel, () => figure.gesture.requestAndCommit(settingsOfModelRule('nav2')), { disabled: obstacle !== '', title: obstacle || texts.fitTitle });
+  if (!NAV2_RULES.includes(modelRuleOf(figure.viewModel.fittedConfig))) return buttonHtml(texts.fitLabel, () => figure.gesture.requestAndCommit(settingsOfModelRule('nav2')), { disabled: disabledReason !== '', title: disabledReason || texts.fitTitle });
   const yaml = yamlOf(figure);
-  return copyButtonHtml(figure, texts.copyLabel, () => yaml, { disabled: !yaml || obstacle !== '', title: obstacle || (yaml ? texts.yamlLabel : texts.noYamlNote) });
+  return copyButtonHtml(figure, texts.copyLabel, () => yaml, { disabled: !yaml || disabledReason !== '', title: disabledReason || (yaml ? texts.yamlLabel : texts.noYamlNote) });
 }
 
-/** Returns the lines for nav2_params.yaml, and the button that saves all results. `obstacle` is the reason why the button is disabled; empty if it is enabled. */
-export function nav2ExportControlsHtml(figure: Figure, obstacle: string) {
+/** Returns the lines for nav2_params.yaml, and the button that saves all results. `disabledReason` is the reason why the button is disabled; empty if it is enabled. */
+export function nav2ExportControlsHtml(figure: Figure, disabledReason: string) {
   const texts = words.calibrator.nav2;
   const yaml = yamlOf(figure);
   const fileName = `${figure.localName}-${figure.viewModel.config.seed}.json`;
   return html`${yaml ? html`<textarea class="yaml" lang="en" readonly rows=${yaml.split('\n').length} aria-label=${texts.yamlLabel} .value=${yaml}></textarea>` : html`<p>${texts.noYamlNote}</p>`}
     <div class="buttons">
-      ${buttonHtml(texts.saveJsonLabel, () => downloadFile(fileName, new Blob([jsonOf(figure)], { type: 'application/json' })), { disabled: obstacle !== '', title: obstacle || undefined })}
+      ${buttonHtml(texts.saveJsonLabel, () => downloadFile(fileName, new Blob([jsonOf(figure)], { type: 'application/json' })), { disabled: disabledReason !== '', title: disabledReason || undefined })}
     </div>`;
 }

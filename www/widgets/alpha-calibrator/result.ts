@@ -53,7 +53,7 @@ export const NAV2_RULES = ['nav2', 'omni'];
 /** Returns true if Nav2 can use α's that were fitted with a model and a noise rule. */
 export const isNav2Rule = (model: string, rule: string): boolean => model !== 'odometry' || NAV2_RULES.includes(rule);
 
-export const formatNumber = (number: number | null, digits = VALUE_DIGITS) => (number !== null && Number.isFinite(number) ? withPointInMantissa(String(Number(number.toPrecision(digits)))) : NO_NUMBER);
+export const formatNumber = (number: number | null, digitCount = VALUE_DIGITS) => (number !== null && Number.isFinite(number) ? withPointInMantissa(String(Number(number.toPrecision(digitCount)))) : NO_NUMBER);
 
 /** Adds a decimal point to a number with an exponent. YAML 1.1 parses a number without the point as a string. */
 const withPointInMantissa = (numberText: string) => numberText.replace(/^(-?\d)e/, '$1.0e');
@@ -99,14 +99,14 @@ export const formatAlphaOrBound = (alpha: number | null, interval: Interval, inf
  * no α's are recommended.
  */
 export function formatNav2Lines({ calibration, legCount, model, rule, legs, logName, warnings, date }: FittedLog): string[] {
-  const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks, windows: [window] } } = calibration;
+  const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks, windows: [firstWindow] } } = calibration;
   if (!Object.hasOwn(NAV2_PLUGINS, model) || recommended === null) return [];
   const { inflation } = recommended;
   const { distance, angle, duration } = legs;
   const failedCheckNames = failedChecksOf(checks).map(({ name }) => name).join(', ');
-  const notes = [
+  const commentTexts = [
     yamlWords.logSource(String(legCount), duration === undefined ? yamlWords.legsByMotion(formatNumber(distance ?? null), formatNumber(angle ?? null)) : yamlWords.legsByDuration(formatNumber(duration)), logName, date),
-    yamlWords.recommendationNote(formatNumber(inflation), formatPercent(window.coverage), String(window.count)),
+    yamlWords.recommendationNote(formatNumber(inflation), formatPercent(firstWindow.coverage), String(firstWindow.count)),
     ...(isNav2Rule(model, rule) ? [] : [yamlWords.otherRuleNote]),
     ...listCorrectedErrors(systematicErrors).map((errors) => yamlWords.correctedErrorsNote(errors)),
     ...adviseCorrection(calibration, en.nav2),
@@ -124,7 +124,7 @@ export function formatNav2Lines({ calibration, legCount, model, rule, legs, logN
     return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${yamlWords.fittedNote(formatEstimate(alpha, interval), formatInterval(interval))}`;
   });
   // A line break in a file's name would end the comment.
-  const commentLines = notes.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
+  const commentLines = commentTexts.map((commentText) => `# ${commentText.replaceAll(/\s+/g, ' ')}`);
   const fifthAlphaLines = alphas.length < 5 ? [`# ${yamlWords.fifthAlphaNote}`] : [];
   // The α's belong to the legs of the log, which are longer than asked if its rows are sparse.
   const sparseCheck = failedChecksOf(checks).find(({ name }) => name === 'sampling-dense');
@@ -159,12 +159,12 @@ export function adviseCorrection({ recommended, systematicErrors }: CalibrationS
 /** Lists the systematic errors that were corrected, in one text or none. */
 function listCorrectedErrors(systematicErrors: CalibrationStats['systematicErrors']): string[] {
   const correctedErrors = Object.entries(systematicErrors).filter(([, error]) => error.corrected);
-  const errorTexts = correctedErrors.map(([name, error]) => `${name} ${componentsOf(error).map(({ value, interval }) => formatEstimate(value, interval)).join(', ')}`);
+  const errorTexts = correctedErrors.map(([name, error]) => `${name} ${errorComponentsOf(error).map(({ value, interval }) => formatEstimate(value, interval)).join(', ')}`);
   return errorTexts.length ? [errorTexts.join('; ')] : [];
 }
 
 /** Returns the components of a systematic error (two for a lever arm) with their intervals. Both are null if the component is not identifiable. */
-export function componentsOf({ value, interval }: CalibrationStats['systematicErrors'][keyof CalibrationStats['systematicErrors']]) {
+export function errorComponentsOf({ value, interval }: CalibrationStats['systematicErrors'][keyof CalibrationStats['systematicErrors']]) {
   const intervals = (Array.isArray(value) ? interval : [interval]) as Interval[];
   return [value].flat().map((component, i) => ({ value: component, interval: intervals[i] }));
 }
@@ -199,17 +199,17 @@ export function judgementOf({ stats, legCount, model, corrections, warnings }: F
   const [failedCheck] = legCount > 0 ? failedChecks : [];
   const failedCheckNames = failedChecks.map(({ name }, i) => (i < MAX_NAMED_CHECKS ? texts.checks.checkNames[name] : '…')).slice(0, MAX_NAMED_CHECKS + 1);
   const uncorrectedErrors = SYSTEMATIC_ERRORS.filter((name) => corrections[name] === false && isSignificant(name, systematicErrors[name]));
-  const doubts = [
+  const doubtSentences = [
     ...explainMissingAlphas(stats, model, texts),
     ...(uncorrectedErrors.length ? [texts.systematic.uncorrectedSentence(describeSystematicErrors(uncorrectedErrors, stats, texts), correctionPlace)] : []),
   ];
   const warningTexts = warnings.map((name) => texts.nav2[name]);
-  const defects = legCount === 0 ? [texts.tooFewLegs]
+  const defectSentences = legCount === 0 ? [texts.tooFewLegs]
     : failedCheck ? [texts.failedChecksSentence(failedCheckNames.join('; '), String(failedChecks.length), String(checks.length))]
       : verdict === 'unusable' ? [texts.noAlphaIdentified] : [];
-  const findings = verdict === 'unusable' ? [...defects, ...warningTexts] : [...warningTexts, ...defects];
-  const [finding = texts.allChecksPassed(String(checks.length)), ...otherFindings] = [...findings, ...doubts];
-  const rating = verdict === 'consistent' && warnings.length + doubts.length > 0 ? 'questionable' : verdict;
+  const findingSentences = verdict === 'unusable' ? [...defectSentences, ...warningTexts] : [...warningTexts, ...defectSentences];
+  const [finding = texts.allChecksPassed(String(checks.length)), ...otherFindings] = [...findingSentences, ...doubtSentences];
+  const rating = verdict === 'consistent' && warnings.length + doubtSentences.length > 0 ? 'questionable' : verdict;
   const isUsable = rating !== 'unusable' && warnings.length === 0 && failedChecks.every(({ name }) => name !== 'sideways-rare');
   const usageSentences = !isUsable ? [] : [rating === 'consistent' ? texts.useRecommended : texts.useRecommendedAnyway, ...adviseCorrection(stats, texts.nav2, localizeNumber)];
   const clockOffset = systematicErrors.clockOffset.value ?? 0;
@@ -222,8 +222,8 @@ export function judgementOf({ stats, legCount, model, corrections, warnings }: F
 export const LOST_LEG_CAUSES = ['withoutReference', 'acrossBreaks', 'acrossPauses', 'standing'] as const;
 
 /** Returns what a failed check means and what to do. A reference that matches too closely, and each cause of lost legs, has its own message. */
-export function checkMessage({ name, value, expected: [low], passed, message }: CalibrationCheck, { lost }: CalibrationStats, { checks }: Texts) {
-  const messageKey = name === 'legs-lost' ? `${name}-${greatest(LOST_LEG_CAUSES.slice(0, -1), (cause) => lost[cause])}` : name === 'reference-matches' && value < low ? 'reference-copied' : name;
+export function checkMessage({ name, value, expected: [minExpected], passed, message }: CalibrationCheck, { lost }: CalibrationStats, { checks }: Texts) {
+  const messageKey = name === 'legs-lost' ? `${name}-${greatest(LOST_LEG_CAUSES.slice(0, -1), (cause) => lost[cause])}` : name === 'reference-matches' && value < minExpected ? 'reference-copied' : name;
   return passed ? '' : checks.translateMessage(messageKey, message);
 }
 
@@ -245,15 +245,15 @@ export function adviceOf(missingMotions: Texts['alphas']['missingMotions'], mode
 }
 
 /** Returns true if the interval of an error excludes 0, or that of a scale excludes 1. */
-function isSignificant(name: string, error: Parameters<typeof componentsOf>[0]) {
+function isSignificant(name: string, error: Parameters<typeof errorComponentsOf>[0]) {
   const neutralValue = name.endsWith('Scale') ? 1 : 0;
-  return componentsOf(error).some(({ interval }) => interval && (interval[0] > neutralValue || interval[1] < neutralValue));
+  return errorComponentsOf(error).some(({ interval }) => interval && (interval[0] > neutralValue || interval[1] < neutralValue));
 }
 
 /** Lists systematic errors with their values; empty if none is identifiable. */
 export function describeSystematicErrors(errorNames: readonly (typeof SYSTEMATIC_ERRORS)[number][], { systematicErrors }: CalibrationStats, { systematic }: Texts) {
   return errorNames.flatMap((name) => {
-    const texts = componentsOf(systematicErrors[name]).flatMap(({ value, interval }) => (value === null ? [] : [`${localizeNumber(formatEstimate(value, interval))} (${localizeInterval(interval)})`]));
+    const texts = errorComponentsOf(systematicErrors[name]).flatMap(({ value, interval }) => (value === null ? [] : [`${localizeNumber(formatEstimate(value, interval))} (${localizeInterval(interval)})`]));
     return texts.length ? [`${systematic.errorNames[name]} ${texts.join(', ')}`] : [];
   }).join('; ');
 }

@@ -199,11 +199,11 @@ function drawWedgeLabel(drawContext: DrawContext, finalPose: Pose, lastTurn: num
 }
 
 /** Draws a robot on each path that is shown, at the same time since the start. */
-function drawMovingRobots(drawContext: DrawContext, { movingRobotPoses: underway, overlays }: ArcScene) {
-  if (!underway) return;
+function drawMovingRobots(drawContext: DrawContext, { movingRobotPoses, overlays }: ArcScene) {
+  if (!movingRobotPoses) return;
   for (const [i, name] of (['commanded', 'inverted', 'twist'] as const).entries()) {
     if (!overlays.includes(name)) continue;
-    const [x, y, theta] = underway.subarray(3 * i);
+    const [x, y, theta] = movingRobotPoses.subarray(3 * i);
     drawRobot(drawContext, { x, y, heading: theta, colour: drawContext.palette[LINE_STYLES[name].role] });
   }
 }

@@ -84,7 +84,7 @@ function barHtml(deviations: number) {
   const barSide = Math.sign(deviations);
   const barTicks = Array.from({ length: 2 * BAR_SCALE.maxDeviations + 1 }, (_, i) => i - BAR_SCALE.maxDeviations);
   return html`<svg viewBox="0 0 ${2 * BAR_MIDDLE} 20" preserveAspectRatio="none" aria-hidden="true">
-    ${barTicks.map((tick) => svg`<line stroke="var(--muted)" vector-effect="non-scaling-stroke" x1=${barXOf(tick)} x2=${barXOf(tick)} y1=${tick === 0 ? 0 : 14} y2="20" />`)}
+    ${barTicks.map((deviationCount) => svg`<line stroke="var(--muted)" vector-effect="non-scaling-stroke" x1=${barXOf(deviationCount)} x2=${barXOf(deviationCount)} y1=${deviationCount === 0 ? 0 : 14} y2="20" />`)}
     <rect fill="var(--prediction)" x=${Math.min(barXOf(0), barEnd)} width=${Math.abs(barEnd - barXOf(0))} y="3" height="11" />
     ${isBeyondScale ? svg`<path fill="none" stroke="var(--prediction)" stroke-width="3" d="M${barEnd - 6 * barSide},1l${6 * barSide},7.5l${-6 * barSide},7.5" />` : nothing}
   </svg>`;
@@ -92,11 +92,11 @@ function barHtml(deviations: number) {
 
 export function likelihoodReadoutsHtml({ stats: { prob, density, xi } }: ViewModel) {
   const texts = words.anatomy.likelihoodReadouts;
-  const [along, lateral, heading] = xi;
+  const [xiAlong, xiLateral, xiHeading] = xi;
   return readoutsHtml([
     [texts.prob, formatDensity(prob)],
     [texts.density, density === null ? texts.undefinedDensity : formatDensity(density)],
-    [texts.xiReadout, `(${formatFixed(along, 2)}, ${formatFixed(lateral, 2)}, ${formatFixed(heading, 2)})`],
+    [texts.xiReadout, `(${formatFixed(xiAlong, 2)}, ${formatFixed(xiLateral, 2)}, ${formatFixed(xiHeading, 2)})`],
   ]);
 }
 
@@ -124,8 +124,8 @@ export function tableLinesHtml({ viewModel: { table: { lines }, config: { printe
   };
   return html`<p>${texts.introduction}</p>
     <ul class="lines" part="table" role="radiogroup" aria-label=${texts.label}>
-      ${[texts.noLine, ...TABLE_LINE_FORMULAS.map(lineTextOf)].map((lineText, line) => html`<li>
-        ${radioButtonHtml({ group: 'line', label: formatMarkup(lineText), checked: line === elementState.line, onChoose: () => gesture.setElementField('line', line) })}
+      ${[texts.noLine, ...TABLE_LINE_FORMULAS.map(lineTextOf)].map((lineText, lineNumber) => html`<li>
+        ${radioButtonHtml({ group: 'line', label: formatMarkup(lineText), checked: lineNumber === elementState.line, onChoose: () => gesture.setElementField('line', lineNumber) })}
       </li>`)}
     </ul>
     <p class="muted">${formatMarkup(texts.signNote)}</p>`;

@@ -63,18 +63,18 @@ const VISIBLE_ALPHAS: Record<string, number[]> = { velocity: [0, 2], odometry: [
 /** Returns a group with the sliders of the α's that are always visible, or of all other α's. */
 function alphaGroupHtml(figure: BananaMachineElement, isVisible: boolean) {
   const { model, alphas } = figure.viewModel.config;
-  const indices = [...alphas.keys()].filter((alphaIndex) => VISIBLE_ALPHAS[model].includes(alphaIndex) === isVisible);
-  return fieldsetHtml(words.noise, indices.map((alphaIndex) => alphaSliderHtml(figure, alphaIndex + 1, words.alphas[model as 'velocity' | 'odometry'][alphaIndex])), isVisible ? 'pair' : 'alphas');
+  const alphaIndices = [...alphas.keys()].filter((alphaIndex) => VISIBLE_ALPHAS[model].includes(alphaIndex) === isVisible);
+  return fieldsetHtml(words.noise, alphaIndices.map((alphaIndex) => alphaSliderHtml(figure, alphaIndex + 1, words.alphas[model as 'velocity' | 'odometry'][alphaIndex])), isVisible ? 'pair' : 'alphas');
 }
 
 /** Returns the slider of an α, counted from 1. */
-function alphaSliderHtml(figure: BananaMachineElement, alphaNumber: number, [name, effect]: string[]) {
+function alphaSliderHtml(figure: BananaMachineElement, alphaNumber: number, [alphaLabel, effectText]: string[]) {
   const { isolate } = figure.viewModel.config;
   const hasNoEffect = isolate !== null && isolate !== alphaNumber;
   const chooseAlpha = () => figure.gesture.requestAndCommit({ isolate: alphaNumber });
   return settingSliderHtml(figure, `alpha${alphaNumber}`, {
-    name,
-    effect: formatMarkup(effect),
+    name: alphaLabel,
+    effect: formatMarkup(effectText),
     hasNoEffect,
     leadingControl: isolate === null ? undefined : radioButtonHtml({ group: 'isolate', name: words.banana.isolateAlphaLabel(`α${subscriptOf(alphaNumber - 1)}`), checked: !hasNoEffect, onChoose: chooseAlpha }),
     formatValue: (newAlpha) => (hasNoEffect ? words.banana.ignoredAlpha(formatEditable(newAlpha, 3)) : formatEditable(newAlpha, 3)),

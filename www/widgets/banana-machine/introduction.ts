@@ -46,7 +46,7 @@ export class IntroducedCloud extends Cloud {
     this.#phase = 'none';
     super.showOrGrow(state);
     const { host } = this;
-    const isConfigured = host.presentation || Object.keys(host.definition.attributes).some((name) => host.hasAttribute(name));
+    const isConfigured = host.presentation || Object.keys(host.definition.attributes).some((attributeName) => host.hasAttribute(attributeName));
     if (state || !this.playing || isConfigured || host.settings.current.samples < DRIVING_ROBOT_COUNT || !isFirstInSession()) return;
     this.#phase = 'driving';
     this.showSamples(DRIVING_ROBOT_COUNT);

@@ -83,7 +83,7 @@ export class StepPicture extends Picture<Scene> {
 
   fitView({ outlines: { predicted }, stats: { measured: { mean, cov } } }: Scene) {
     const shownCoordinates = [0, 0, ...predicted];
-    const [alongExtent, lateralExtent] = [0, 1].map((axis) => VIEWED_DEVIATIONS * Math.sqrt(cov[axis][axis]));
+    const [alongExtent, lateralExtent] = [0, 1].map((componentIndex) => VIEWED_DEVIATIONS * Math.sqrt(cov[componentIndex][componentIndex]));
     if (alongExtent + lateralExtent > 0) shownCoordinates.push(...cornersAround(mean[0], mean[1], alongExtent, lateralExtent));
     const { xMin, xMax } = extentAround(shownCoordinates, 2);
     // The minimum width and height keep both scales finite.

@@ -37,8 +37,8 @@ function samplerControlsHtml(figure: MapSqueezeElement) {
   const { conditioned, sampler, samples, steps } = figure.viewModel.config;
   const { settings, samplerNames, samplerEffects } = words.squeeze;
   // With sub-steps each sample takes several draws.
-  const maxSampleCountOf = (name: string) => (name === 'sub-stepped' ? Math.floor(MAX_SAMPLES / steps) : MAX_SAMPLES);
-  const chooseSampler = (name: string) => figure.gesture.requestAndCommit({ sampler: name, ...(samples > maxSampleCountOf(name) && { samples: maxSampleCountOf(name) }) });
+  const maxSampleCountOf = (samplerName: string) => (samplerName === 'sub-stepped' ? Math.floor(MAX_SAMPLES / steps) : MAX_SAMPLES);
+  const chooseSampler = (samplerName: string) => figure.gesture.requestAndCommit({ sampler: samplerName, ...(samples > maxSampleCountOf(samplerName) && { samples: maxSampleCountOf(samplerName) }) });
   return html`<div class="judge">
     ${radioGroupHtml(settings.sampler.name, 'sampler', samplerNames, sampler, chooseSampler)}
     <p class="effect muted small">${samplerEffects[conditioned ? sampler : 'off']}</p>
@@ -51,7 +51,7 @@ function robotAndMapControlsHtml(figure: MapSqueezeElement, hasUnknownCells: boo
   const { robotAndMapTitle, conditionedLabel, settings, unknownCellNames, viewNames } = words.squeeze;
   return fieldsetHtml(robotAndMapTitle, html`${settingSliderHtml(figure, 'clearance')} ${settingCheckboxHtml(figure, 'conditioned', conditionedLabel)}
     ${hasUnknownCells ? settingRadiosHtml(figure, 'unknown', unknownCellNames) : nothing}
-    ${radioGroupHtml(settings.view.name, 'view', viewNames, figure.settings.elementState.view, (view) => figure.gesture.setElementField('view', view))}`);
+    ${radioGroupHtml(settings.view.name, 'view', viewNames, figure.settings.elementState.view, (viewName) => figure.gesture.setElementField('view', viewName))}`);
 }
 
 const styles = css`
@@ -176,7 +176,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   /** Value of the setting `unknown` (treatment of unknown cells) with which the picture was created. */
   #unknownCellsOfPicture = '';
   /** Costs of the samplers, and the settings with which they were measured. */
-  #measurement: { config: StateValues, costs: ReturnType<typeof measureCosts> } | undefined;
+  #measurement: { config: StateValues, samplerCosts: ReturnType<typeof measureCosts> } | undefined;
   /** Path of the selected sample. */
   #pathMemo: Memo<Float64Array> = new Memo();
   /** Cached grid of a simulation's map, because copying a grid takes long. */
@@ -281,14 +281,14 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   }
 
   /** Costs of the samplers with the present settings; undefined until they are measured. */
-  get costs() {
-    return this.#measurement?.config === this.settings.current ? this.#measurement.costs : undefined;
+  get samplerCosts() {
+    return this.#measurement?.config === this.settings.current ? this.#measurement.samplerCosts : undefined;
   }
 
   measureSamplerCosts() {
     this.runtime.attempt(() => {
       const { simulation, settings: { current: config } } = this;
-      if (simulation) this.#measurement = { config, costs: measureCosts(simulation, config.steps) };
+      if (simulation) this.#measurement = { config, samplerCosts: measureCosts(simulation, config.steps) };
       this.requestUpdate();
     });
   }

@@ -173,10 +173,10 @@ export class FloorPicture extends SamplesPicture<Scene> {
 /** Returns the outer corners of the first and the last known cell of each row of a grid, as x, y pairs. */
 function knownCornersOf(grid: CellGrid, unknownFlags: Uint8Array) {
   const { columns } = grid;
-  return Array.from({ length: unknownFlags.length / columns }, (_, row) => {
-    const rowCells = unknownFlags.subarray(row * columns, (row + 1) * columns);
+  return Array.from({ length: unknownFlags.length / columns }, (_, rowIndex) => {
+    const rowCells = unknownFlags.subarray(rowIndex * columns, (rowIndex + 1) * columns);
     const outerColumns = rowCells.includes(0) ? [rowCells.indexOf(0), rowCells.lastIndexOf(0) + 1] : [];
-    return outerColumns.flatMap((column) => [row, row + 1].flatMap((cornerRow) => cellCornerOf(grid, column, cornerRow)));
+    return outerColumns.flatMap((columnIndex) => [rowIndex, rowIndex + 1].flatMap((cornerRow) => cellCornerOf(grid, columnIndex, cornerRow)));
   }).flat();
 }
 

@@ -45,9 +45,9 @@ export function captionOf({ config: { conditioned, sampler }, stats, stuckNote }
 }
 
 /** Returns the name of a map with its size. */
-export function describeMap(name: string, { bounds, walls }: Plan) {
+export function describeMap(mapName: string, { bounds, walls }: Plan) {
   const [left, bottom, right, top] = bounds;
-  return words.squeeze.mapDescription(name, formatFixed(right - left, 1), formatFixed(top - bottom, 1), formatInteger(walls.length / 4));
+  return words.squeeze.mapDescription(mapName, formatFixed(right - left, 1), formatFixed(top - bottom, 1), formatInteger(walls.length / 4));
 }
 
 export function tallyReadoutsHtml({ stats, paths: { length: shownPathCount } }: ViewModel) {
@@ -61,7 +61,7 @@ export function tallyReadoutsHtml({ stats, paths: { length: shownPathCount } }: 
 }
 
 /** Cost of one accepted sample: time in microseconds, draws and wall tests. 'wedged' if no sample is accepted. */
-type SampleCost = { micros: number, draws: number, wallTests: number } | 'wedged';
+type SampleCost = { micros: number, drawCount: number, wallTestCount: number } | 'wedged';
 
 /** Samples per second in the chapter's exercise: 2000 particles, 20 updates per second. */
 const SAMPLES_PER_SECOND = 2000 * 20;
@@ -70,8 +70,8 @@ const SAMPLES_PER_SECOND = 2000 * 20;
 const MIN_RUN_MS = 20;
 
 /** Measures each sampler, in less than half a second together. */
-export const measureCosts = (simulation: MapSqueeze, steps: number) =>
-  Object.fromEntries(SAMPLERS.map((sampler) => [sampler, measureCost(simulation, sampler, sampler === 'sub-stepped' ? steps : 1)])) as Record<SamplerName, SampleCost>;
+export const measureCosts = (simulation: MapSqueeze, subStepCount: number) =>
+  Object.fromEntries(SAMPLERS.map((sampler) => [sampler, measureCost(simulation, sampler, sampler === 'sub-stepped' ? subStepCount : 1)])) as Record<SamplerName, SampleCost>;
 
 /** Doubles the number of samples until a run is long enough to be measured. */
 function measureCost(simulation: MapSqueeze, sampler: SamplerName, subStepCount: number): SampleCost {
@@ -82,7 +82,7 @@ function measureCost(simulation: MapSqueeze, sampler: SamplerName, subStepCount:
       const startTime = performance.now();
       const { draws, wallTests } = simulation.trial(sampler, subStepCount, sampleCount);
       const elapsedMs = performance.now() - startTime;
-      if (elapsedMs >= MIN_RUN_MS || sampleCount === maxSampleCount) return { micros: (1000 * elapsedMs) / sampleCount, draws: draws / sampleCount, wallTests: wallTests / sampleCount };
+      if (elapsedMs >= MIN_RUN_MS || sampleCount === maxSampleCount) return { micros: (1000 * elapsedMs) / sampleCount, drawCount: draws / sampleCount, wallTestCount: wallTests / sampleCount };
       sampleCount = Math.min(maxSampleCount, 2 * sampleCount);
     }
   } catch (error) {
@@ -94,14 +94,14 @@ function measureCost(simulation: MapSqueeze, sampler: SamplerName, subStepCount:
 /** Returns the button that measures the cost of each sampler, and the table of the costs. */
 export function costTableHtml(figure: Figure) {
   const { samplerNames, costTable: texts } = words.squeeze;
-  const { costs, viewModel: { config } } = figure;
-  const costRowOf = (sampler: SamplerName, cost: SampleCost) => [
+  const { samplerCosts, viewModel: { config } } = figure;
+  const costRowOf = (sampler: SamplerName, sampleCost: SampleCost) => [
     sampler === 'sub-stepped' ? `${samplerNames[sampler]} (${config.steps})` : samplerNames[sampler],
-    ...(typeof cost === 'string' ? [texts[cost]] : [formatFixed(cost.draws, 2), formatFixed(cost.wallTests, 2), formatRounded(cost.micros, 2), `${formatRounded(100 * cost.micros * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`]),
+    ...(typeof sampleCost === 'string' ? [texts[sampleCost]] : [formatFixed(sampleCost.drawCount, 2), formatFixed(sampleCost.wallTestCount, 2), formatRounded(sampleCost.micros, 2), `${formatRounded(100 * sampleCost.micros * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`]),
   ];
   return html`<div class="table">
     ${buttonHtml(texts.measureLabel, () => figure.measureSamplerCosts())}
-    ${costs ? tableHtml({ caption: texts.caption, columnHeadings: [texts.samplerColumn, texts.drawsColumn, texts.wallTestsColumn, 'µs', texts.coreShareColumn], rows: SAMPLERS.map((sampler) => costRowOf(sampler, costs[sampler])) }) : nothing}
+    ${samplerCosts ? tableHtml({ caption: texts.caption, columnHeadings: [texts.samplerColumn, texts.drawsColumn, texts.wallTestsColumn, 'µs', texts.coreShareColumn], rows: SAMPLERS.map((sampler) => costRowOf(sampler, samplerCosts[sampler])) }) : nothing}
   </div>`;
 }
 

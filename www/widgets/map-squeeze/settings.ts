@@ -72,8 +72,8 @@ export function viewModelOf(simulation: MapSqueeze) {
 
 function groupByOutcome(poses: Float64Array, verdicts: Uint8Array) {
   const posesOfOutcome = (outcome: number) => {
-    const indices = [...verdicts.keys()].filter((i) => outcomeIndexOf(verdicts[i]) === outcome);
-    return Float64Array.from(indices.flatMap((i) => [poses[3 * i], poses[3 * i + 1], poses[3 * i + 2]]));
+    const sampleIndices = [...verdicts.keys()].filter((i) => outcomeIndexOf(verdicts[i]) === outcome);
+    return Float64Array.from(sampleIndices.flatMap((i) => [poses[3 * i], poses[3 * i + 1], poses[3 * i + 2]]));
   };
   return { rejected: posesOfOutcome(0), free: posesOfOutcome(1), through: posesOfOutcome(2) };
 }
@@ -86,7 +86,7 @@ export function outcomeIndexOf(verdict: number) {
 
 /**
  * Returns a text on the accepted motions that went through a wall: their number, and their share with its interval. There is no interval if
- * the sampler excludes such motions (`certain`), or if the simulation gave up, because giving up depends on chance.
+ * the sampler excludes such motions (`isCertain`), or if the simulation gave up, because giving up depends on chance.
  */
 export function formatThroughWallRate({ throughWall, throughWallRate, throughWallInterval: [low, high], gaveUp }: Pick<SqueezeStats, 'throughWall' | 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>, isCertain: boolean) {
   const intervalText = isCertain || gaveUp ? '' : `${formatFixed(100 * low, 1)}\u2060–\u2060${formatPercent(high)}`;

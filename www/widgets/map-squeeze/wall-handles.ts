@@ -34,7 +34,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const { xMin, xMax, yMin, yMax } = view.extent;
     const shownGrips = this.#grips.flatMap((grip) => {
       const [x0, y0, x1, y1] = walls.subarray(grip.wallOffset, grip.wallOffset + 4);
-      const handlePoints = HANDLE_FRACTIONS[grip.part].map((fraction): [x: number, y: number] => [x0 + fraction * (x1 - x0), y0 + fraction * (y1 - y0)]);
+      const handlePoints = HANDLE_FRACTIONS[grip.grippedPart].map((fraction): [x: number, y: number] => [x0 + fraction * (x1 - x0), y0 + fraction * (y1 - y0)]);
       const visiblePoints = handlePoints.filter(([x, y]) => x > xMin && x < xMax && y > yMin && y < yMax);
       const handle = this.#handleOf(grip);
       const shownPoints = visiblePoints.length === 0 && handle.isHeld ? handlePoints : visiblePoints;
@@ -47,7 +47,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   render() {
     const texts = words.squeeze.wallHandles;
     const { bounds: [left, bottom, right, top] } = this.host.picture.plan;
-    return this.#shownGrips.map(({ grip: { part, axis: [ux, uy] }, handle, point: [x, y], isTabbable }) => handle.handleHtml({
+    return this.#shownGrips.map(({ grip: { grippedPart: part, axis: [ux, uy] }, handle, point: [x, y], isTabbable }) => handle.handleHtml({
       name: part === 'side' ? texts.wallName : texts.doorwayEdgeName,
       keysHint: texts.keysHint,
       title: words.pose.moveTitle,
@@ -65,7 +65,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 
   placeHandles() {
     const { view } = this.host.picture;
-    for (const { grip: { axis, part }, handle, point: [x, y] } of this.#shownGrips) {
+    for (const { grip: { axis, grippedPart: part }, handle, point: [x, y] } of this.#shownGrips) {
       handle.placeInView(this.host.renderRoot, view.toPixelX(x), view.toPixelY(y), { angle: part === 'side' ? Math.atan(axis[0] / axis[1]) : 0 });
     }
   }
@@ -74,16 +74,16 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const name = nameOf(grip);
     // Calls a function with the grip of the current plan. A new plan may lack the grip until the handle is removed.
     const callWithGrip = <Result>(useGrip: (currentGrip: Grip) => Result) => {
-      const currentGrip = this.#grips.find((candidate) => nameOf(candidate) === name);
+      const currentGrip = this.#grips.find((otherGrip) => nameOf(otherGrip) === name);
       return currentGrip && useGrip(currentGrip);
     };
     const moveBy = (dx: number, dy: number) => callWithGrip((currentGrip) => {
-      const distance = dx * currentGrip.axis[0] + dy * currentGrip.axis[1];
+      const axisDistance = dx * currentGrip.axis[0] + dy * currentGrip.axis[1];
       this.#tabbableName = name;
-      this.host.moveWalls(moveWall(this.host.picture.plan, currentGrip, distance));
+      this.host.moveWalls(moveWall(this.host.picture.plan, currentGrip, axisDistance));
     });
-    const gripPointOf = ({ wallOffset, part }: Grip) => [...this.host.picture.plan.walls.subarray(part === 'to' ? wallOffset + 2 : wallOffset, wallOffset + 4)];
-    const handle = this.#handles.get(name) ?? new Handle(`${grip.part === 'side' ? 'side' : 'jamb'} ${name}`, {
+    const gripPointOf = ({ wallOffset, grippedPart: part }: Grip) => [...this.host.picture.plan.walls.subarray(part === 'to' ? wallOffset + 2 : wallOffset, wallOffset + 4)];
+    const handle = this.#handles.get(name) ?? new Handle(`${grip.grippedPart === 'side' ? 'side' : 'jamb'} ${name}`, {
       getView: () => this.host.picture.view,
       findGraspedPoint: () => callWithGrip(gripPointOf),
       drag: (x, y) => callWithGrip((currentGrip) => moveBy(x - gripPointOf(currentGrip)[0], y - gripPointOf(currentGrip)[1])),
@@ -110,4 +110,4 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 }
 
 /** Returns the name of a grip, which is also a class of its handle. */
-const nameOf = ({ wallOffset, part }: Grip) => `${part}-${wallOffset / 4}`;
+const nameOf = ({ wallOffset, grippedPart: part }: Grip) => `${part}-${wallOffset / 4}`;

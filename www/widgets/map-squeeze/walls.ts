@@ -19,8 +19,8 @@ function nearestPointOfWall(walls: ArrayLike<number>, k: number, x: number, y: n
   const [x0, y0] = [walls[k], walls[k + 1]];
   const [dx, dy] = [walls[k + 2] - x0, walls[k + 3] - y0];
   const fraction = clamp(((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy || 1), 0, 1);
-  const point = [x0 + fraction * dx, y0 + fraction * dy];
-  return { point, distance: Math.hypot(x - point[0], y - point[1]) };
+  const nearestPoint = [x0 + fraction * dx, y0 + fraction * dy];
+  return { point: nearestPoint, distance: Math.hypot(x - nearestPoint[0], y - nearestPoint[1]) };
 }
 
 /** Returns the first point of a wall that a robot with this radius touches on a path of x, y pairs; undefined for none. */
@@ -50,7 +50,7 @@ export interface Grip {
   /** Index of the wall's first number in the list of all walls. */
   wallOffset: number;
   /** An end of the wall, or the whole wall, which moves across its direction. */
-  part: 'from' | 'to' | 'side';
+  grippedPart: 'from' | 'to' | 'side';
   /** Direction in which the grip moves, as a unit vector. */
   axis: number[];
 }
@@ -63,8 +63,8 @@ export function gripsOf({ bounds, walls }: Plan): Grip[] {
     const isOuterWall = [0, 1].some((i) => [bounds[i], bounds[i + 2]].some((bound) => walls[wallOffset + i] === bound && walls[wallOffset + i + 2] === bound));
     if (isOuterWall || wallLength < MIN_WALL_GAP) return [];
     const [ux, uy] = [(x1 - x0) / wallLength, (y1 - y0) / wallLength];
-    const grips: Grip[] = [{ wallOffset, part: 'from', axis: [-ux, -uy] }, { wallOffset, part: 'to', axis: [ux, uy] }, { wallOffset, part: 'side', axis: [-uy, ux] }];
-    return grips.filter(({ part }) => part === 'side' || distanceToOtherWalls(walls, wallOffset, part === 'from' ? [x0, y0] : [x1, y1]) > TOUCH_DISTANCE);
+    const grips: Grip[] = [{ wallOffset, grippedPart: 'from', axis: [-ux, -uy] }, { wallOffset, grippedPart: 'to', axis: [ux, uy] }, { wallOffset, grippedPart: 'side', axis: [-uy, ux] }];
+    return grips.filter(({ grippedPart: part }) => part === 'side' || distanceToOtherWalls(walls, wallOffset, part === 'from' ? [x0, y0] : [x1, y1]) > TOUCH_DISTANCE);
   });
 }
 
@@ -75,7 +75,7 @@ const distanceToOtherWalls = (walls: Float64Array, wallOffset: number, [x, y]: n
  * Returns the walls after a grip has moved along its axis, within the bounds of the plan. The end of a wall stops at the next wall. If a wall
  * moves sideways, walls that end on it become longer or shorter, unless they would change their direction.
  */
-export function moveWall({ bounds, walls }: Plan, { wallOffset, part, axis: [ux, uy] }: Grip, distance: number) {
+export function moveWall({ bounds, walls }: Plan, { wallOffset, grippedPart: part, axis: [ux, uy] }: Grip, distance: number) {
   const movedWalls = walls.slice();
   const moveEnd = (coordinateIndex: number, endDistance: number) => {
     for (const [i, component] of [ux, uy].entries()) {

@@ -23,11 +23,11 @@ const CHORD_ANGLE = 0.1;
 const ELLIPSE_POINT_COUNT = 64;
 
 /** Returns the points of an ellipse about a pose with semi-axes along and across its heading. Lengths are in metres. */
-function ellipsePointsAround({ x, y, theta }: Pose, along: number, across: number) {
+function ellipsePointsAround({ x, y, theta }: Pose, alongRadius: number, acrossRadius: number) {
   const [cos, sin] = [Math.cos(theta), Math.sin(theta)];
   return Array.from({ length: ELLIPSE_POINT_COUNT + 1 }, (_, i): [number, number] => {
     const angle = (2 * Math.PI * i) / ELLIPSE_POINT_COUNT;
-    const [alongOffset, leftOffset] = [along * Math.cos(angle), across * Math.sin(angle)];
+    const [alongOffset, leftOffset] = [alongRadius * Math.cos(angle), acrossRadius * Math.sin(angle)];
     return [x + alongOffset * cos - leftOffset * sin, y + alongOffset * sin + leftOffset * cos];
   });
 }
@@ -45,13 +45,13 @@ function drawTurn({ context, view }: DrawContext, startPose: Pose, turn: number,
 }
 
 /** Draws a standard deviation (rad) to either side of a heading as a fan. The radius is in pixels. */
-function drawDeviationFan({ context, view }: DrawContext, { x, y, theta }: Pose, deviation: number, radius: number, colour: string) {
+function drawDeviationFan({ context, view }: DrawContext, { x, y, theta }: Pose, deviation: number, fanRadius: number, colour: string) {
   const halfAngle = Math.min(deviation, Math.PI);
   if (halfAngle === 0) return;
   const centre = view.toPixel(x, y);
   const addFan = () => {
     context.moveTo(...centre);
-    addTurnArc(context, centre, radius, theta + halfAngle, -2 * halfAngle);
+    addTurnArc(context, centre, fanRadius, theta + halfAngle, -2 * halfAngle);
     context.closePath();
   };
   paintWithOpacity(context, 0.14, () => fillPath(context, colour, addFan));
@@ -150,10 +150,10 @@ type TurnArc = [Pose, turn: number, radius: number];
 const turnRadiiOf = (view: Pick<View, 'scaleX'>) => [0, 1].map((arcIndex) => turnHandleDistanceOf(view, ROBOT_RADIUS) + ARC_GAPS.afterHandle + arcIndex * ARC_GAPS.betweenArcs);
 
 /** Returns points of an arc about a pose that starts at its heading, as x, y pairs. The turn is in radians, and the radius in metres. */
-function turnArcPoints({ x, y, theta }: Pose, turn: number, radius: number) {
+function turnArcPoints({ x, y, theta }: Pose, turn: number, arcRadius: number) {
   const chordCount = Math.max(1, Math.ceil(Math.abs(turn) / CHORD_ANGLE));
   return Array.from({ length: chordCount + 1 }, (_, i) => theta + (turn * i) / chordCount)
-    .flatMap((direction) => [x + radius * Math.cos(direction), y + radius * Math.sin(direction)]);
+    .flatMap((direction) => [x + arcRadius * Math.cos(direction), y + arcRadius * Math.sin(direction)]);
 }
 
 /** Picture in the odometry frame: the legs as a linkage, and the effect of noise on it. */
@@ -216,7 +216,7 @@ export class LegsPicture extends SamplesPicture<Scene> {
     const turnArcOutlines = turnArcs.map(([turnPose, turn, turnRadius]) => Float64Array.from(turnArcPoints(turnPose, turn, turnRadius / this.view.scaleX)));
     const legCallouts = overlays.includes('legs') ? this.#createLegCallouts(drawContext, scene, turnArcs) : [];
     drawCallouts(drawContext, [...legCallouts, ...spreadEllipses.map(({ callout }) => callout)], {
-      shapeCentre: [drivenPose.x, drivenPose.y], lines: [...spreadEllipses.map(({ points }) => points), ...turnArcOutlines, segmentPoints(startPose, drivenPose)],
+      shapeCentre: [drivenPose.x, drivenPose.y], lines: [...spreadEllipses.map(({ points }) => points), ...turnArcOutlines, segmentCoordinatesOf(startPose, drivenPose)],
     });
   };
 
@@ -236,7 +236,7 @@ export class LegsPicture extends SamplesPicture<Scene> {
   }
 
   #paintGhosts({ context, view, palette }: DrawContext, { ghosts }: Scene) {
-    const ghostPixelOf = (index: number) => view.toPixel(ghosts[3 * index], ghosts[3 * index + 1]);
+    const ghostPixelOf = (pointIndex: number) => view.toPixel(ghosts[3 * pointIndex], ghosts[3 * pointIndex + 1]);
     paintWithOpacity(context, 0.5, () => strokePath(context, { colour: palette.cloud, width: 1 }, () => {
       for (let i = 0; i < ghosts.length / 3; i += 4) addLine(context, [0, 1, 2, 3].map((k) => ghostPixelOf(i + k)));
     }));
@@ -296,13 +296,13 @@ export class WorldPicture extends SamplesPicture<Scene> {
       ...(overlays.includes('odometry') ? createPoseCallouts(drawContext, [odometryStart, odometryEnd], 'x̄', [palette.prior, palette.prior]) : []),
     ];
     drawCallouts(drawContext, poseCallouts, {
-      shapeCentre: [(startPose.x + predictedPose.x) / 2, (startPose.y + predictedPose.y) / 2], lines: [segmentPoints(startPose, predictedPose), segmentPoints(odometryStart, odometryEnd)],
+      shapeCentre: [(startPose.x + predictedPose.x) / 2, (startPose.y + predictedPose.y) / 2], lines: [segmentCoordinatesOf(startPose, predictedPose), segmentCoordinatesOf(odometryStart, odometryEnd)],
     });
   };
 }
 
 /** Returns the end points of a segment between two poses as x, y pairs. */
-const segmentPoints = (from: Pose, to: Pose) => Float64Array.of(from.x, from.y, to.x, to.y);
+const segmentCoordinatesOf = (startPose: Pose, endPose: Pose) => Float64Array.of(startPose.x, startPose.y, endPose.x, endPose.y);
 
 /** Returns callouts of the poses before and after a motion; only the second if both are at one place on the screen. */
 function createPoseCallouts({ view }: DrawContext, poses: Pose[], symbol: string, colours: string[]): Callout[] {
@@ -311,4 +311,4 @@ function createPoseCallouts({ view }: DrawContext, poses: Pose[], symbol: string
   return distance > MIN_LABELLED_LENGTH ? [firstCallout, secondCallout] : [secondCallout];
 }
 
-const drawSegment = (drawContext: DrawContext, startPose: Pose, endPose: Pose, lineStroke: LineStroke) => strokeLines(drawContext, [{ points: segmentPoints(startPose, endPose), ...lineStroke }]);
+const drawSegment = (drawContext: DrawContext, startPose: Pose, endPose: Pose, lineStroke: LineStroke) => strokeLines(drawContext, [{ points: segmentCoordinatesOf(startPose, endPose), ...lineStroke }]);

@@ -23,10 +23,10 @@ interface SampleCount {
 
 interface GrowingSimulation extends SampleCount {
   config: { samples: number, seed: number };
-  /** Changes settings and shows the first block of `goal` samples. Returns all settings. */
-  configureFirst: (settings: StateValues, goal: number) => StateValues;
+  /** Changes settings and shows the first block of `goalCount` samples. Returns all settings. */
+  configureFirst: (settings: StateValues, goalCount: number) => StateValues;
   /** Returns the number of samples shown. */
-  addSamples: (count: number) => number;
+  addSamples: (sampleCount: number) => number;
 }
 
 const GROWTH_STEP_COUNT = 150;
@@ -160,8 +160,8 @@ export class Cloud extends FigureController implements SampleCloud {
     // A moving finger scrolls; a tap is a click.
     if (!simulation || gesture.isPressed || (event.pointerType === 'touch' && event.type !== 'click')) return;
     const [x, y] = toViewPixels(event.currentTarget as Element, picture.view, event);
-    const index = picture.findNearestSample(simulation, x, y);
-    if (index >= 0 || event.type === 'click') this.select(index);
+    const sampleIndex = picture.findNearestSample(simulation, x, y);
+    if (sampleIndex >= 0 || event.type === 'click') this.select(sampleIndex);
   }
 
   /** True if the selected sample is shown. */

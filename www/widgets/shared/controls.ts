@@ -13,8 +13,8 @@ export function presetButtonsHtml(figure: import('../../figure/figure.ts').Figur
   const { presets } = (words as any)[definition.messageKey];
   const currentPreset = definition.attributes.preset.get(settings.requested);
   return html`<div class="buttons presets" role="group" aria-label=${words.presets}>
-    ${Object.entries(presets).map(([name, label]) =>
-      buttonHtml(label, () => settings.choosePreset(name), { pressed: name === currentPreset, className: 'preset' }))}
+    ${Object.entries(presets).map(([presetName, label]) =>
+      buttonHtml(label, () => settings.choosePreset(presetName), { pressed: presetName === currentPreset, className: 'preset' }))}
     ${startOverButtonHtml(figure)}
   </div>`;
 }
@@ -28,7 +28,7 @@ export class Player<Key extends string> extends FigureController {
   #playedKey: Key | undefined;
   #playedSettings;
 
-  /** Creates the player. `played` has the maximum of each animated setting, and the duration of the animation from 0 to the maximum. */
+  /** Creates the player. `animatedSettings` has the maximum of each animated setting, and the duration of the animation from 0 to the maximum. */
   constructor(host: import('../../figure/figure.ts').Figure, animatedSettings: Record<Key, { max: number, durationMs: number }>) {
     super(host);
     this.#playedSettings = animatedSettings;
@@ -39,9 +39,9 @@ export class Player<Key extends string> extends FigureController {
   }
 
   /** Sets a value that the user has chosen, and stops the animation. */
-  #setByUser(key: Key, value: number) {
+  #setByUser(settingKey: Key, newValue: number) {
     this.stop();
-    this.host.settings.requestChange({ [key]: value });
+    this.host.settings.requestChange({ [settingKey]: newValue });
   }
 
   #valueOf(settingKey: Key): number {

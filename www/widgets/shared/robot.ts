@@ -64,7 +64,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   #turnHandle;
 
   /**
-   * Creates the handles of a setting that is a pose, in the view of a picture. `bounds` returns left, bottom, right and top of the allowed
+   * Creates the handles of a setting that is a pose, in the view of a picture. `getBounds` returns left, bottom, right and top of the allowed
    * positions, metres. The catalogue of the figure has the names of both handles under `handles`.
    */
   constructor(host: import('../../figure/figure.ts').Figure, settingKey: string, getView: () => View, getBounds: () => number[] | Float64Array = () => DEFAULT_BOUNDS) {
@@ -84,9 +84,9 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
       findGraspedPoint: (pointer) => pointer,
       drag: (x, y) => this.#turnTo(Math.atan2(y - this.#pose.y, x - this.#pose.x)),
       handleKey: (event) => {
-        const steps = stepsOfKey(event);
+        const keySteps = stepsOfKey(event);
         // The left arrow turns counter-clockwise, as a driver would steer.
-        return this.#applyKey(undefined, turnStepsOfKey(event) ?? (steps && steps[1] - steps[0]));
+        return this.#applyKey(undefined, turnStepsOfKey(event) ?? (keySteps && keySteps[1] - keySteps[0]));
       },
     });
   }
@@ -124,11 +124,11 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   /** Places the handles on the drawn robot, whose radius is in metres. */
   placeOnRobot(config: Record<string, any>, robotRadius: number) {
     const view = this.#getView();
-    const root = this.host.renderRoot;
+    const figureRoot = this.host.renderRoot;
     const [[x, y], [turnX, turnY]] = view.headingLineFrom(config[this.#settingKey], turnHandleDistanceOf(view, robotRadius));
     const clampToPicture = (coordinate: number, pictureSize: number) => clamp(coordinate, MIN_EDGE_DISTANCE, pictureSize - MIN_EDGE_DISTANCE);
-    this.#bodyHandle.placeInView(root, x, y, { size: Math.max(MIN_BODY_HANDLE_SIZE, 2 * robotRadius * view.scaleX) });
-    this.#turnHandle.placeInView(root, clampToPicture(turnX, view.width), clampToPicture(turnY, view.height));
+    this.#bodyHandle.placeInView(figureRoot, x, y, { size: Math.max(MIN_BODY_HANDLE_SIZE, 2 * robotRadius * view.scaleX) });
+    this.#turnHandle.placeInView(figureRoot, clampToPicture(turnX, view.width), clampToPicture(turnY, view.height));
   }
 
   /** Moves the robot by steps along x and y, and turns it by steps counter-clockwise, or to a heading of ±π for ±∞ steps. Returns false without steps. */

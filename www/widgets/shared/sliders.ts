@@ -25,7 +25,7 @@ export const subscriptOf = (alphaIndex: number) => String.fromCharCode(0x2081 + 
 /** Slider of a noise parameter. Its maximum gives a standard deviation of nearly half the command. */
 export const ALPHA_SLIDER = { role: 'prediction' as const, min: 0, max: 0.2, step: 0.001, decimals: 3 };
 
-/** Returns the sliders of the first `count` noise parameters of a model, by the names of their settings. */
+/** Returns the sliders of the first `alphaCount` noise parameters of a model, by the names of their settings. */
 export function createAlphaSliderSpecs(alphaCount: number, model: 'velocity' | 'odometry' = 'velocity'): Record<string, import('../../figure/controls.ts').SliderSpec> {
   return Object.fromEntries(
     Array.from({ length: alphaCount }, (_, i) => [`alpha${i + 1}`, { ...ALPHA_SLIDER, symbol: `*α*${subscriptOf(i)}`, alpha: [model, i] }]),

@@ -23,16 +23,16 @@ export function gridOf({ grid }: MapSqueeze): CellGrid | null {
 }
 
 /** Returns the map of a simulation as a frozen object: a page must set a new object to change the map. */
-export function mapDataOf(simulation: MapSqueeze, name: string, grid: CellGrid | null): MapData {
+export function mapDataOf(simulation: MapSqueeze, mapName: string, grid: CellGrid | null): MapData {
   if (grid) {
     const { columns, rows, resolution, origin } = grid;
     const occupied = packBits(grid.occupied);
     const unknownField = grid.unknown && { unknown: packBits(grid.unknown) };
-    return freeze({ name, columns, rows, resolution, origin: freeze([...origin]), occupied, ...unknownField });
+    return freeze({ name: mapName, columns, rows, resolution, origin: freeze([...origin]), occupied, ...unknownField });
   }
   const { bounds, walls } = simulation.plan;
   const wallObjects = range(0, walls.length, 4).map((i) => freeze([...walls.subarray(i, i + 4)]));
-  return freeze({ name, bounds: freeze([...bounds]), walls: freeze(wallObjects) });
+  return freeze({ name: mapName, bounds: freeze([...bounds]), walls: freeze(wallObjects) });
 }
 
 /** Sets the map of a simulation. Throws a TypeError or RangeError that names the field, and then changes nothing. */
@@ -74,8 +74,8 @@ function pgmImageOf(columns: number, rows: number, occupiedBits: Uint8Array, unk
   const pgmImage = new Uint8Array(pgmHeader.length + columns * rows);
   pgmImage.set(pgmHeader);
   const bitOf = (bits: Uint8Array, i: number) => (bits[i >> 3] >> (7 - (i & 7))) & 1;
-  for (let row = 0, i = 0; row < rows; row++) {
-    const rowStart = pgmImage.length - columns * (row + 1);
+  for (let rowIndex = 0, i = 0; rowIndex < rows; rowIndex++) {
+    const rowStart = pgmImage.length - columns * (rowIndex + 1);
     for (let pixelIndex = rowStart; pixelIndex < rowStart + columns; pixelIndex++, i++) pgmImage[pixelIndex] = OCCUPIED_SHADE * bitOf(occupiedBits, i) + UNKNOWN_SHADE * bitOf(unknownBits, i);
   }
   return pgmImage;

@@ -34,7 +34,7 @@ const PNG_MAGIC = [0x89, 0x50, 0x4e, 0x47];
 
 /** Reads the map in files; rejects with a MapFileError in the words of a language. */
 export async function readMapFiles(files: File[], decodePng: DecodePng, texts: RefusalWords): Promise<UserMap> {
-  const filesMatching = (pattern: RegExp) => files.filter(({ name }) => pattern.test(name));
+  const filesMatching = (fileNamePattern: RegExp) => files.filter(({ name }) => fileNamePattern.test(name));
   const [planFiles, yamlFiles, imageFiles] = [filesMatching(/\.json$/i), filesMatching(/\.ya?ml$/i), filesMatching(/\.(pgm|png)$/i)];
   const isOneMap = planFiles.length + yamlFiles.length === 1 && planFiles.length + yamlFiles.length + imageFiles.length === files.length;
   if (!isOneMap) throw new MapFileError(texts.wrongFiles(quoteText(files.map(({ name }) => name).join(', '))));

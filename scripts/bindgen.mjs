@@ -14,7 +14,7 @@ export const ensureBindProgram = memoize(() => compileProgram('bind', []));
 
 /** Returns the path of the program that runs WebAssembly tests in a browser. The first call builds it. */
 export const ensureTestRunner = memoize(async () => {
-  // The build of the glue generator has then compiled most crates of the test runner.
+  // Building the glue generator first compiles most crates that the test runner needs.
   await ensureBindProgram();
   return compileProgram('test-runner', ['--features', 'test-runner']);
 });

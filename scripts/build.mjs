@@ -193,7 +193,7 @@ async function completeCore(name, local) {
  * @param {string} path of the module, with the names of its functions
  */
 async function replacePanicsByTraps(path) {
-  // The package name is a variable, because only full builds install the package. With a constant name the type check would fail without it.
+  // The package name is a variable, because only full builds install the package. The type checker would require a package with a constant name.
   const packageName = 'binaryen';
   const { default: binaryen } = await import(packageName);
   const binaryenModule = binaryen.readBinary(readFileSync(absolutePath(path)));

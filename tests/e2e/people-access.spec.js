@@ -211,7 +211,7 @@ test.describe('a finger on a figure', () => {
       const { pictures: [{ view }], poses, viewModel: { arcEnd } } = /** @type {any} */ (element);
       const robotPixelOf = (/** @type {number} */ i) => [view.toPixelX(poses[3 * i]), view.toPixelY(poses[3 * i + 1])];
       const handlePixel = [view.toPixelX(arcEnd[0]), view.toPixelY(arcEnd[1])];
-      // Finds a robot inside the plot area that is not covered by the handle.
+      // Finds a robot in the plot area that the handle does not cover.
       for (let i = 0; i < poses.length / 3; i++) {
         const [x, y] = robotPixelOf(i);
         const { left, right, top, bottom } = view.plotArea;

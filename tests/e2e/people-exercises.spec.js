@@ -31,7 +31,7 @@ test('exercise 4: after the user has bet on a shape, the figure shows the clouds
     await betForm.getByLabel(predictedShape).press('Space');
     return revealAnswer(betForm);
   };
-  // Nothing is revealed before a bet.
+  // The form reveals no answer before the user has chosen a shape.
   await betForm.getByRole('button').press('Enter');
   expect(await betForm.locator(':invalid').count()).toBeGreaterThan(0);
   await expect(betForm.getByRole('status')).toHaveText('');

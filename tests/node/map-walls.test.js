@@ -12,11 +12,11 @@ const ROOM = { bounds: ROOM_BOUNDS, walls: WALLS };
 /** Index in WALLS of the part of the wall below the doorway. */
 const LOWER_WALL_OFFSET = OUTER_WALLS.length;
 
-/** Returns the grip of a part of a wall. @param {string} gripPart @param {number} [wallOffset] index in WALLS */
+/** Returns the drag handle (grip) of a part of a wall. @param {string} gripPart @param {number} [wallOffset] index in WALLS */
 const gripOf = (gripPart, wallOffset = LOWER_WALL_OFFSET) => gripsOf(ROOM).find((grip) => grip.grippedPart === gripPart && grip.wallOffset === wallOffset);
 
 test('free wall ends and inner walls have drag handles; outer walls and ends at other walls have none', () => {
-  const gripNames = gripsOf(ROOM).map(({ grippedPart: part, wallOffset }) => `${part} ${(wallOffset - LOWER_WALL_OFFSET) / 4}`);
+  const gripNames = gripsOf(ROOM).map(({ grippedPart, wallOffset }) => `${grippedPart} ${(wallOffset - LOWER_WALL_OFFSET) / 4}`);
   assert.deepEqual(gripNames, ['to 0', 'side 0', 'from 1', 'side 1', 'side 2']);
 });
 

@@ -142,9 +142,9 @@ test.describe('when the figure first appears', () => {
 
   test('an animation of driving robots runs once per session, until a key or the pointer is pressed', NEW_PAGE_TAG, async ({ page }) => {
     await page.emulateMedia({ reducedMotion: 'no-preference' });
-    const countDrivingRobots = () => page.locator('banana-machine').evaluate((element) => /** @type {any} */ (element).cloud.driving?.robots);
+    const countDrivingRobots = () => page.locator('banana-machine').evaluate((element) => /** @type {any} */ (element).cloud.driving?.robotCount);
     await showPage(page, '<banana-machine></banana-machine>');
-    await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine'))?.cloud?.driving?.robots > 0);
+    await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine'))?.cloud?.driving?.robotCount > 0);
     await page.keyboard.press('Shift');
     expect(await countDrivingRobots()).toBeUndefined();
     await expect.poll(async () => (await readBananaResults(page.locator('banana-machine'))).shown).toBeGreaterThan(10);

@@ -10,8 +10,8 @@ const MIN_PLAIN_STEP = 9e-4;
 /** Minimum distance between two ticks of an axis, CSS pixels. */
 const MIN_TICK_SPACING = { x: 60, y: 48 };
 
-/** Lengths in a legend, relative to the font size: gap between entries, width of a line sample, space after the sample, and line height. */
-const LEGEND_LENGTHS_EM = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
+/** Lengths in a legend, relative to the font size: gap between entries, width of a line sample, and space after the sample. */
+const LEGEND_LENGTHS_EM = { gap: 0.8, sample: 1.5, space: 0.35 };
 
 /**
  * Draws axes with ticks at the left and the bottom, and a faint grid. Above are the name of the vertical axis and a legend. Names have units in
@@ -60,29 +60,17 @@ export const createLineLegendEntry = ({ context }: DrawContext, name: string, st
 
 function drawLegend({ context, view, palette, font }: DrawContext, axisName: string, legendEntries: LegendEntry[]) {
   const fontSize = parseFloat(font);
-  const [sampleWidth, lineHeight] = [LEGEND_LENGTHS_EM.sample * fontSize, LEGEND_LENGTHS_EM.line * fontSize];
-  let y = view.plotArea.top - 22;
-  const [nameEndX, lastRow] = [2 + context.measureText(axisName).width, Math.floor(y / lineHeight)];
-  context.font = font;
-  let [x, row] = [nameEndX, 0];
-  const placedEntries = [];
-  for (const entry of legendEntries) {
-    const entryWidth = (LEGEND_LENGTHS_EM.gap + LEGEND_LENGTHS_EM.space) * fontSize + sampleWidth + context.measureText(entry.name).width;
-    // The first entry of a row has no gap before it.
-    if (x + entryWidth > view.width && row < lastRow) [x, row] = [2 - LEGEND_LENGTHS_EM.gap * fontSize, row + 1];
-    if (x + entryWidth > view.width) break;
-    placedEntries.push({ ...entry, sampleX: x + LEGEND_LENGTHS_EM.gap * fontSize, row });
-    x += entryWidth;
-  }
-  // The last row of the legend is nearest to the picture.
-  y -= row * lineHeight;
-  context.font = `italic ${font}`;
+  const y = view.plotArea.top - 22;
   context.fillText(axisName, 2, y);
-  context.font = font;
-  for (const { name, drawSample, sampleX, row } of placedEntries) {
-    context.fillStyle = palette.ink;
-    context.fillText(name, sampleX + sampleWidth + LEGEND_LENGTHS_EM.space * fontSize, y + row * lineHeight);
-    drawSample(sampleX, y + row * lineHeight + fontSize / 2, sampleWidth);
+  let entryEnd = 2 + context.measureText(axisName).width;
+  Object.assign(context, { font, fillStyle: palette.ink });
+  for (const { name, drawSample } of legendEntries) {
+    const sampleX = entryEnd + LEGEND_LENGTHS_EM.gap * fontSize;
+    const nameX = sampleX + (LEGEND_LENGTHS_EM.sample + LEGEND_LENGTHS_EM.space) * fontSize;
+    entryEnd = nameX + context.measureText(name).width;
+    if (entryEnd > view.width) break;
+    context.fillText(name, nameX, y);
+    drawSample(sampleX, y + fontSize / 2, LEGEND_LENGTHS_EM.sample * fontSize);
   }
 }
 

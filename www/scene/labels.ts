@@ -1,4 +1,4 @@
-/** Texts in pictures, each with a symbol and its subscript if it has one: labels, and callouts, which have a line to the point that they are about. */
+/** Callouts in pictures: texts about a point, each with a line to the point. A text may have a symbol with a subscript before it. */
 
 import { least, pairs } from 'd3-array';
 import { clamp } from '../ui/format.ts';
@@ -8,46 +8,7 @@ import { drawDisc, paintWithOpacity, strokeLine, type TextBox, type DrawContext 
 const SUBSCRIPT_SIZE = 0.78;
 const SUBSCRIPT_DROP = 3;
 
-/** Half height (pixels) and opacity of a label's background. */
-const LABEL_BACKGROUND = { halfHeight: 9, opacity: 0.9 };
-
-/** Candidate positions of a label: offsets in heights of its background. */
-const LABEL_SHIFTS = [0, 1, -1, 2, -2, 3, -3];
-
-interface LabelText {
-  symbol?: string;
-  subscript?: string;
-  text?: string;
-}
-
-/**
- * Draws a label with a background at a point in pixels, inside the axes. If another text is there, the label moves up or down. `freeSide` is
- * the side of the point on which there is space, from −1 (left) to 1 (right).
- */
-export function drawLabel(drawContext: DrawContext, { x, y, freeSide, colour, ...text }: LabelText & { x: number, y: number, freeSide: number, colour: string }) {
-  const { context, view, palette, placedBoxes } = drawContext;
-  const parts = measureTextParts(drawContext, text);
-  if (parts.length === 0) return;
-  const width = totalWidthOf(parts);
-  const { left, right, top, bottom } = view.plotArea;
-  const labelLeft = clamp(x - (0.5 - 0.5 * freeSide) * width, left + 3, Math.max(left + 3, right - width - 3));
-  const [halfWidth, halfHeight] = [width / 2 + 2, LABEL_BACKGROUND.halfHeight];
-  const candidateYs = LABEL_SHIFTS.map((shift) => clamp(y + 2 * halfHeight * shift, top + 10, bottom - 10));
-  const isFreeAt = (candidateY: number) => placedBoxes.every((placedBox) => Math.abs(placedBox.x - labelLeft - width / 2) >= placedBox.halfWidth + halfWidth || Math.abs(placedBox.y - candidateY) >= placedBox.halfHeight + halfHeight);
-  const labelY = candidateYs.find(isFreeAt) ?? candidateYs[0];
-  placedBoxes.push({ x: labelLeft + width / 2, y: labelY, halfWidth, halfHeight });
-  context.fillStyle = palette.paper;
-  paintWithOpacity(context, LABEL_BACKGROUND.opacity, () => context.fillRect(labelLeft - 2, labelY - halfHeight, 2 * halfWidth, 2 * halfHeight));
-  drawTextParts(drawContext, parts, labelLeft, labelY, colour);
-}
-
-/** Draws a leader: a thin line through points in pixels, from a text to a point, with a dot at the point. */
-export function drawLeader(context: CanvasRenderingContext2D, leaderPoints: number[][], colour: string) {
-  strokeLine(context, leaderPoints, { colour, width: 1 });
-  drawDisc(context, leaderPoints[leaderPoints.length - 1], 2.5, colour);
-}
-
-function measureTextParts({ context, font }: DrawContext, { symbol = '', subscript = '', text = '' }: LabelText) {
+function measureTextParts({ context, font }: DrawContext, { symbol = '', subscript = '', text = '' }: Pick<Callout, 'symbol' | 'subscript' | 'text'>) {
   const subscriptFont = font.replace(/[\d.]+px/, (size) => `${SUBSCRIPT_SIZE * parseFloat(size)}px`);
   const textParts = [
     { text: symbol, style: `italic ${font}`, baselineDrop: 0 },
@@ -92,8 +53,11 @@ const COST_PER_PIXEL = 0.1;
 /** Candidate positions of a callout's sentence around its point, with their costs. */
 const CANDIDATE_POSITIONS = LEADER_LENGTHS.flatMap((length) => CANDIDATE_ANGLES.map((turn) => ({ turn, length, cost: COST_PER_RADIAN * Math.abs(turn) + COST_PER_PIXEL * length })));
 
-/** Text with line breaks about a point of the view's world. The default colour is that of text. */
-export interface Callout extends LabelText {
+/** Text with line breaks about a point of the view's world. A symbol and its subscript stand before the text. The default colour is that of text. */
+export interface Callout {
+  symbol?: string;
+  subscript?: string;
+  text?: string;
   point: [number, number];
   colour?: string;
 }
@@ -128,7 +92,8 @@ export function drawCallouts(drawContext: DrawContext, callouts: Callout[], { sh
     placedBoxes.push(bestBox);
     avoidedPoints.push(...sampleLine(leaderStart, [x, y]));
 
-    drawLeader(context, [leaderStart, [x, y]], colour);
+    strokeLine(context, [leaderStart, [x, y]], { colour, width: 1 });
+    drawDisc(context, [x, y], 2.5, colour);
     context.fillStyle = palette.paper;
     paintWithOpacity(context, 0.85, () => context.fillRect(bestBox.x - halfWidth, bestBox.y - halfHeight, 2 * halfWidth, 2 * halfHeight));
     textLines.forEach((parts, i) => drawTextParts(drawContext, parts, bestBox.x - totalWidthOf(parts) / 2, bestBox.y + (i - (textLines.length - 1) / 2) * LINE_HEIGHT, colour));

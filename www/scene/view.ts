@@ -11,14 +11,8 @@ export type Extent = { xMin: number, yMin: number, xMax: number, yMax: number };
 /** Minimum fraction of a view that its content fills after a change by the page. If it fills less, the view zooms in. */
 const MIN_FILL = 0.45;
 
-/** Margin around the content of a view, relative to its size. */
-const RELATIVE_MARGIN = 0.06;
-
 /** Time constant of the animation from one extent to the next, ms. */
 const EASING_MS = 90;
-
-/** Rounded sizes of views, as multiples of a power of ten. */
-const NICE_SIZES = [1, 1.12, 1.25, 1.4, 1.6, 1.8, 2, 2.25, 2.5, 2.8, 3.2, 3.6, 4, 4.5, 5, 5.6, 6.4, 7.2, 8, 9];
 
 /** Visible part of the world in a picture, with the transform to pixels. */
 export class View {
@@ -35,10 +29,7 @@ export class View {
   extentLimits: Extent | undefined;
   /** True if one unit has the same length in pixels along x and y. */
   #hasEqualScales;
-  /** True if the view shows exactly the needed extent, without a margin. Such a view is fitted again after a change of the canvas size. */
-  #hasNoMargin;
-  /** Canvas size at the last fit, CSS pixels. */
-  #fittedSize = { width: 1, height: 1 };
+  #relativeMargin;
   /** Canvas size, CSS pixels. */
   width = 1;
   height = 1;
@@ -46,9 +37,10 @@ export class View {
   plotArea = { left: 0, top: 0, right: 1, bottom: 1 };
   #margins;
 
-  constructor({ hasEqualScales = true, hasNoMargin = false, left = 42, right = 8, top = 24, bottom = 30 }: { hasEqualScales?: boolean, hasNoMargin?: boolean, left?: number, right?: number, top?: number, bottom?: number } = {}) {
+  /** @param relativeMargin margin around the content, relative to its size. The other margins are those of the plot area in CSS pixels */
+  constructor({ hasEqualScales = true, relativeMargin = 0.06, left = 42, right = 8, top = 24, bottom = 30 } = {}) {
     this.#hasEqualScales = hasEqualScales;
-    this.#hasNoMargin = hasNoMargin;
+    this.#relativeMargin = relativeMargin;
     this.#margins = { left, right, top, bottom };
   }
 
@@ -127,15 +119,12 @@ export class View {
 
   /** Sets the target of the view, which stays if it contains `neededExtent`. Otherwise the view zooms out. After `allowZoomIn` it may also zoom in. */
   fit(neededExtent: Extent) {
-    const { width, height } = this;
-    const isResized = this.#hasNoMargin && (width !== this.#fittedSize.width || height !== this.#fittedSize.height);
-    const [keptTarget, minFill] = [isResized ? undefined : this.#targetExtent, this.#minFill];
-    this.#fittedSize = { width, height };
+    const [keptTarget, minFill] = [this.#targetExtent, this.#minFill];
     this.#minFill = 0;
     if (keptTarget && isInside(neededExtent, keptTarget) && this.#fillOf(keptTarget, neededExtent) >= minFill) return;
     this.hasZoomedOut = keptTarget !== undefined && minFill === 0;
     const { xMin, xMax, yMin, yMax } = neededExtent;
-    const paddedExtent = this.#hasNoMargin ? neededExtent : widenExtent(neededExtent, RELATIVE_MARGIN * (xMax - xMin), RELATIVE_MARGIN * (yMax - yMin));
+    const paddedExtent = widenExtent(neededExtent, this.#relativeMargin * (xMax - xMin), this.#relativeMargin * (yMax - yMin));
     this.#requiredExtent = keptTarget && this.hasZoomedOut ? extentAround([paddedExtent.xMin, paddedExtent.yMin, paddedExtent.xMax, paddedExtent.yMax], 2, keptTarget) : paddedExtent;
     this.#targetExtent = this.#findCoveringExtent(this.#requiredExtent);
     if (!keptTarget) this.extent = this.#targetExtent;
@@ -158,14 +147,13 @@ export class View {
     return Math[this.#hasEqualScales ? 'max' : 'min'](...filledFractions);
   }
 
-  /** Returns an extent that contains `requiredExtent`, moved into the limits. Its size is rounded if the view has a margin. With equal scales it has the aspect ratio of the plot area. */
+  /** Returns an extent that contains `requiredExtent`, moved into the limits. With equal scales it has the aspect ratio of the plot area. */
   #findCoveringExtent(requiredExtent: Extent) {
     const { left, right, top, bottom } = this.plotArea;
-    const roundSize = this.#hasNoMargin ? (size: number) => size : roundUpToNiceSize;
     const aspectRatio = (bottom - top) / (right - left);
     const [requiredWidth, requiredHeight] = [requiredExtent.xMax - requiredExtent.xMin, requiredExtent.yMax - requiredExtent.yMin];
-    const width = roundSize(this.#hasEqualScales ? Math.max(requiredWidth, requiredHeight / aspectRatio) : requiredWidth);
-    const height = this.#hasEqualScales ? width * aspectRatio : roundSize(requiredHeight);
+    const width = this.#hasEqualScales ? Math.max(requiredWidth, requiredHeight / aspectRatio) : requiredWidth;
+    const height = this.#hasEqualScales ? width * aspectRatio : requiredHeight;
     const extentLimits = this.extentLimits ?? { xMin: -Infinity, xMax: Infinity, yMin: -Infinity, yMax: Infinity };
     const x = clampMiddle((requiredExtent.xMin + requiredExtent.xMax) / 2, width, extentLimits.xMin, extentLimits.xMax);
     const y = clampMiddle((requiredExtent.yMin + requiredExtent.yMax) / 2, height, extentLimits.yMin, extentLimits.yMax);
@@ -194,12 +182,6 @@ export const widenExtent = ({ xMin, xMax, yMin, yMax }: Extent, marginX: number,
 /** Returns two opposite corners of a box around a point, as x, y pairs. */
 export const cornersAround = (x: number, y: number, halfWidth: number, halfHeight: number = halfWidth): number[] =>
   [x - halfWidth, y - halfHeight, x + halfWidth, y + halfHeight];
-
-function roundUpToNiceSize(size: number): number {
-  const powerOfTen = 10 ** Math.floor(Math.log10(size));
-  const niceFactor = NICE_SIZES.find((candidate) => candidate * powerOfTen >= size * (1 - 1e-9)) ?? 10;
-  return niceFactor * powerOfTen;
-}
 
 /** Returns the smallest extent that contains points and `initialExtent`. x and y are the first two of each `stride` numbers. */
 export function extentAround(numbers: ArrayLike<number>, stride: number, initialExtent: Extent = { xMin: Infinity, yMin: Infinity, xMax: -Infinity, yMax: -Infinity }) {

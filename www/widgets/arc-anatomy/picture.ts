@@ -4,7 +4,7 @@ import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { addLine, drawDisc, fillPath, paintWithOpacity, strokePath, strokeLine, type DrawContext, type LineStroke } from '../../scene/canvas.ts';
 import { addTurnArc, drawOutlines, drawRobot, createLineLegend, createLineStyles, strokeLines, createDensityRamp } from '../../scene/draw.ts';
-import { drawLabel } from '../../scene/labels.ts';
+import { drawCallouts, type Callout } from '../../scene/labels.ts';
 import { Memo, CachedImage } from '../../scene/cache.ts';
 import { Picture } from '../../scene/picture.ts';
 import { View, extentAround, widenExtent } from '../../scene/view.ts';
@@ -72,20 +72,19 @@ export class ArcPicture extends Picture<ArcScene> {
     const isOverlayShown = (name: LineName) => overlays.includes(name);
     const lineStyles = createLineStyles(drawContext, LINE_STYLES);
     drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, legendEntriesOf(drawContext, scene));
+    const callouts: Callout[] = [];
     clipToPlot(drawContext, () => {
       this.#drawHeatMap(drawContext, scene);
       const { commanded, inverted, driven, lastTurn } = stats;
       if (isOverlayShown('commanded')) {
-        drawArcConstruction(drawContext, start, commanded, { ...lineStyles.commanded, shiftSide: -1, angleLabel: `ωΔt = ${formatFixed(commanded.turn, 2)}`, radiusLabel: '' });
+        drawArcConstruction(drawContext, start, commanded, { ...lineStyles.commanded, shiftSide: -1 });
+        callouts.push(...arcCalloutsOf(drawContext, start, commanded, lineStyles.commanded.colour, `ωΔt = ${formatFixed(commanded.turn, 2)}`));
       }
       if (isOverlayShown('inverted')) {
-        drawArcConstruction(drawContext, start, inverted, {
-          ...lineStyles.inverted,
-          shiftSide: 1,
-          angleLabel: `ω̂Δt = ${formatFixed(inverted.turn, 2)}`,
-          // The radius is positive if the centre is to the left. The radius has no sign in Table 5.1 as printed in the book.
-          radiusLabel: `r* = ${inverted.radius > 0 && !printed ? '+' : ''}${formatFixed(printed ? Math.abs(inverted.radius) : inverted.radius, 2)} m`,
-        });
+        drawArcConstruction(drawContext, start, inverted, { ...lineStyles.inverted, shiftSide: 1 });
+        // The radius is positive if the centre is to the left. The radius has no sign in Table 5.1 as printed in the book.
+        const radiusLabel = `r* = ${inverted.radius > 0 && !printed ? '+' : ''}${formatFixed(printed ? Math.abs(inverted.radius) : inverted.radius, 2)} m`;
+        callouts.push(...arcCalloutsOf(drawContext, start, inverted, lineStyles.inverted.colour, `ω̂Δt = ${formatFixed(inverted.turn, 2)}`, radiusLabel));
       }
       if (isOverlayShown('chord')) strokeLines(drawContext, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...lineStyles.chord }]);
       if (isOverlayShown('wedge')) drawWedge(drawContext, next, lastTurn, lineStyles.wedge.colour);
@@ -107,8 +106,10 @@ export class ArcPicture extends Picture<ArcScene> {
       drawMovingRobots(drawContext, scene);
       drawDraggableRobot(drawContext, start, ROBOT_RADIUS, palette.truth);
       drawDraggableRobot(drawContext, next, ROBOT_RADIUS, palette.prediction);
-      if (isOverlayShown('wedge')) drawWedgeLabel(drawContext, next, lastTurn, lineStyles.wedge.colour);
+      if (isOverlayShown('wedge')) callouts.push(wedgeCalloutOf(drawContext, next, lastTurn, lineStyles.wedge.colour));
     });
+    const radii = [stats.commanded, stats.inverted].flatMap(({ center, end }) => (center ? [Float64Array.of(start.x, start.y, ...center, end[0], end[1])] : []));
+    drawCallouts(drawContext, callouts, { shapeCentre: [(start.x + next.x) / 2, (start.y + next.y) / 2], lines: [paths.commanded, paths.driven, ...radii] });
   };
 
   /** Draws the chosen heat map of the likelihood with its contours, if any. */
@@ -144,14 +145,13 @@ function legendEntriesOf(drawContext: DrawContext, { overlays, config: { map } }
  * Draws the centre of an arc, both radii and the turn between them. `shiftSide` (±1) is the direction in which the first radius is shifted, so
  * that another radius on the same line stays visible.
  */
-function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, end, turn, arcLength }: ArcWithCircle, { colour, dash, shiftSide, angleLabel, radiusLabel }: { colour: string, dash: number[], shiftSide: number, angleLabel: string, radiusLabel: string }) {
+function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, end, turn }: ArcWithCircle, { colour, dash, shiftSide }: { colour: string, dash: number[], shiftSide: number }) {
   if (!center) return;
   const { context, view } = drawContext;
   const [x, y] = view.toPixel(center[0], center[1]);
   const [startX, startY] = view.toPixel(start.x, start.y);
   const startDirection = view.pixelDirectionOf(start.theta);
   const [shiftX, shiftY] = [1.5 * shiftSide * startDirection.x, 1.5 * shiftSide * startDirection.y];
-  const visibleRadiusFraction = visibleFractionOf(view.plotArea, [startX, startY], [x, y]);
   strokePath(context, { colour, width: 1.25, dash }, () => {
     addLine(context, [[startX + shiftX, startY + shiftY], [x + shiftX, y + shiftY]]);
     addLine(context, [[x, y], view.toPixel(end[0], end[1])]);
@@ -161,16 +161,14 @@ function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, en
     addLine(context, [[x, y - CROSS_HALF_SIZE], [x, y + CROSS_HALF_SIZE]]);
   });
   strokeAngleArc(context, [x, y], [startX, startY], turn, { colour, width: 1.5 });
-  // Labels are behind the robot, away from the arc. If the arc's centre is outside the picture, labels are ahead of the robot, because the
-  // picture may end behind it.
-  const labelSide = Math.sign(arcLength) * (visibleRadiusFraction === 1 ? -1 : 1);
-  const drawArcLabel = (labelText: string, radiusFraction: number) => {
-    const labelPoint = [startX + radiusFraction * (x - startX) + 10 * labelSide * startDirection.x, startY + radiusFraction * (y - startY) + 10 * labelSide * startDirection.y];
-    const labelDirectionX = labelSide * startDirection.x;
-    drawLabel(drawContext, { x: labelPoint[0], y: labelPoint[1], freeSide: Math.abs(labelDirectionX) < 0.3 ? 0 : Math.sign(labelDirectionX), text: labelText, colour });
-  };
-  drawArcLabel(radiusLabel, visibleRadiusFraction / 2);
-  drawArcLabel(angleLabel, visibleRadiusFraction);
+}
+
+/** Returns callouts of the turn, at the centre of an arc, and of its radius. If the centre is outside of the picture, they are at the visible part of the radius. */
+function arcCalloutsOf({ view }: DrawContext, start: Pose, { center }: ArcWithCircle, colour: string, angleLabel: string, radiusLabel?: string): Callout[] {
+  if (!center) return [];
+  const visibleFraction = visibleFractionOf(view.plotArea, view.toPixel(start.x, start.y), view.toPixel(center[0], center[1]));
+  const radiusPointAt = (fraction: number): [number, number] => [start.x + fraction * (center[0] - start.x), start.y + fraction * (center[1] - start.y)];
+  return [{ text: angleLabel, point: radiusPointAt(visibleFraction), colour }, ...(radiusLabel ? [{ text: radiusLabel, point: radiusPointAt(visibleFraction / 2), colour }] : [])];
 }
 
 /** Returns the visible fraction of the line from a visible point to another point. */
@@ -191,11 +189,9 @@ function drawWedge({ context, view }: DrawContext, finalPose: Pose, lastTurn: nu
   strokeLine(context, view.headingLineFrom({ ...finalPose, theta: finalPose.theta - lastTurn }, WEDGE_RADIUS), { colour, width: 1.25 });
 }
 
-/** Draws the label of the wedge where it does not cover the wedge. */
-function drawWedgeLabel(drawContext: DrawContext, finalPose: Pose, lastTurn: number, colour: string) {
-  const [x, y] = drawContext.view.toPixel(finalPose.x, finalPose.y);
-  const wedgeDirection = drawContext.view.pixelDirectionOf(finalPose.theta - lastTurn / 2);
-  drawLabel(drawContext, { x: x + (WEDGE_RADIUS + 8) * wedgeDirection.x, y: y + (WEDGE_RADIUS + 20) * wedgeDirection.y, freeSide: wedgeDirection.x, text: `γ̂Δt = ${formatFixed(lastTurn, 2)}`, colour });
+function wedgeCalloutOf({ view }: DrawContext, finalPose: Pose, lastTurn: number, colour: string): Callout {
+  const [, wedgeEdgeMiddle] = view.headingLineFrom({ ...finalPose, theta: finalPose.theta - lastTurn / 2 }, WEDGE_RADIUS);
+  return { text: `γ̂Δt = ${formatFixed(lastTurn, 2)}`, point: view.toWorld(...wedgeEdgeMiddle), colour };
 }
 
 /** Draws a robot on each path that is shown, at the same time since the start. */

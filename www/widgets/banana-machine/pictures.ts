@@ -3,7 +3,7 @@
 import { quantile } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { drawCallouts, drawLabel } from '../../scene/labels.ts';
+import { drawCallouts, type Callout } from '../../scene/labels.ts';
 import { addTurnArc, createDensityRamp, drawDots, drawEarlierOutlines, drawHandle, drawCrosshair, drawOutline, drawOutlines, drawRobot, hasLength, createLineLegend, createLineStyles } from '../../scene/draw.ts';
 import { Memo, CachedImage } from '../../scene/cache.ts';
 import { Picture } from '../../scene/picture.ts';
@@ -102,8 +102,8 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
       drawOutlines(drawContext, outlinesInStyle(outlines));
       const [endX, endY] = outlines.command.slice(-2);
       if (isFloorPicture) {
-        if (overlays.command && scene.odometryReading && morph === 0) drawOdometryReading(drawContext, scene.odometryReading, scene.arcEnd);
-        if (isSinglePoint && scene.shown > 0) drawCoincidentRobots(drawContext, this.#dotPositionsOf(scene), scene.shown);
+        if (overlays.command && scene.odometryReading && morph === 0) callouts.push(...drawOdometryReading(drawContext, scene.odometryReading, scene.arcEnd));
+        if (isSinglePoint && scene.shown > 0) callouts.push(drawCoincidentRobots(drawContext, this.#dotPositionsOf(scene), scene.shown));
         drawHandle(drawContext, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: HANDLE_RADIUS, colour: palette.prior });
       } else if (overlays.command) {
         drawDisc(context, view.toPixel(endX, endY), 5, palette.paper, { ...outlineStyles.command, dash: [] });
@@ -217,35 +217,30 @@ function drawDrivingRobots(drawContext: DrawContext, simulation: BananaMachine, 
 const TURN_RADIUS = 26;
 const TURN_LINE_LENGTH = 38;
 
-/** Draws the odometry reading of the command: rotation, drive, rotation. The drive ends at x, y in metres. */
-function drawOdometryReading(drawContext: DrawContext, { rot1, trans, rot2 }: import('../../types.d.ts').OdomDelta, [x, y]: [number, number]) {
+/** Draws the odometry reading of the command: rotation, drive, rotation. The drive ends at x, y in metres. Returns callouts that name them. */
+function drawOdometryReading(drawContext: DrawContext, { rot1, trans, rot2 }: import('../../types.d.ts').OdomDelta, [x, y]: [number, number]): Callout[] {
   const { context, view, palette } = drawContext;
   const [startPose, drivenPose] = [{ x: 0, y: 0, theta: 0 }, { x, y, theta: rot1 }];
-  const [[startX, startY], startHeadingEnd] = view.headingLineFrom(startPose, TURN_LINE_LENGTH);
-  const [[endX, endY], continuationEnd] = view.headingLineFrom(drivenPose, TURN_LINE_LENGTH);
+  const [startPixel, startHeadingEnd] = view.headingLineFrom(startPose, TURN_LINE_LENGTH);
+  const [endPixel, continuationEnd] = view.headingLineFrom(drivenPose, TURN_LINE_LENGTH);
   const colour = palette.prior;
   const lineStroke = { colour, width: 1.5 };
   strokePath(context, lineStroke, () => {
     // The heading at the start, the drive, and its continuation, from which the second rotation starts.
-    addLine(context, [startHeadingEnd, [startX, startY], [endX, endY], continuationEnd]);
+    addLine(context, [startHeadingEnd, startPixel, endPixel, continuationEnd]);
     addLine(context, view.headingLineFrom({ x, y, theta: rot1 + rot2 }, TURN_LINE_LENGTH));
   });
   const legTurns = [['rot1', startPose, rot1], ['rot2', drivenPose, rot2]] as const;
   for (const [, pose, turn] of legTurns) strokePath(context, lineStroke, () => addTurnArc(context, view.toPixel(pose.x, pose.y), TURN_RADIUS, pose.theta, turn));
-  for (const [legName, pose, turn] of legTurns) {
-    const middlePose = { ...pose, theta: pose.theta + turn / 2 };
-    const [labelX, labelY] = view.headingLineFrom(middlePose, TURN_LINE_LENGTH + 6)[1];
-    drawLabel(drawContext, { x: labelX, y: labelY, freeSide: Math.cos(middlePose.theta) < 0 ? -1 : 1, symbol: 'δ', subscript: legName, colour });
-  }
-  if (trans > 0) {
-    const driveDirection = view.pixelDirectionOf(rot1);
-    const [transLabelX, transLabelY] = [(startX + endX) / 2 + 10 * driveDirection.y, (startY + endY) / 2 - 10 * driveDirection.x + 6];
-    drawLabel(drawContext, { x: transLabelX, y: transLabelY, freeSide: 1, symbol: 'δ', subscript: 'trans', colour });
-  }
+  const turnCallouts = legTurns.map(([legName, pose, turn]): Callout => {
+    const [, arcMiddle] = view.headingLineFrom({ ...pose, theta: pose.theta + turn / 2 }, TURN_RADIUS);
+    return { symbol: 'δ', subscript: legName, point: view.toWorld(...arcMiddle), colour };
+  });
+  return [...turnCallouts, ...(trans > 0 ? [{ symbol: 'δ', subscript: 'trans', point: [x / 2, y / 2] as [number, number], colour }] : [])];
 }
 
-/** Draws robots at the same position as one marker, with a ray for the heading of each of the first robots. */
-function drawCoincidentRobots(drawContext: DrawContext, poses: Float64Array, shown: number) {
+/** Draws robots at the same position as one marker, with a ray for the heading of each of the first robots. Returns a callout with their number. */
+function drawCoincidentRobots(drawContext: DrawContext, poses: Float64Array, shown: number): Callout {
   const { context, view, palette: { prediction: colour } } = drawContext;
   const headings = [...poses.subarray(0, 3 * MAX_HEADING_RAYS)].filter((_, i) => i % 3 === 2);
   const [x, y] = poses;
@@ -253,9 +248,8 @@ function drawCoincidentRobots(drawContext: DrawContext, poses: Float64Array, sho
     for (const theta of headings) strokeLine(context, view.headingLineFrom({ x, y, theta }, 64), { colour, width: 1 });
   });
   // The disc is larger than the handle at the end of the arc, which is often at the same position.
-  const [pixelX, pixelY] = view.toPixel(x, y);
-  drawDisc(context, [pixelX, pixelY], 14, colour);
-  drawLabel(drawContext, { x: pixelX + 14, y: pixelY + 27, freeSide: 1, text: words.banana.robotsHere(formatInteger(shown)), colour });
+  drawDisc(context, view.toPixel(x, y), 14, colour);
+  return { text: words.banana.robotsHere(formatInteger(shown)), point: [x, y], colour };
 }
 
 /**

@@ -5,7 +5,7 @@ import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { addCross, createDensityRamp, createLineLegend, drawCrosshair, drawOutline, createLineStyles } from '../../scene/draw.ts';
 import { CachedImage, Memo, strokeInBatches } from '../../scene/cache.ts';
-import { drawLabel, drawLeader } from '../../scene/labels.ts';
+import { drawCallouts } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, cornersAround, extentAround, widenExtent } from '../../scene/view.ts';
 import { WallLayer, cellCornerOf, type CellGrid } from '../../scene/walls.ts';
@@ -24,9 +24,6 @@ export interface Scene extends ViewModel {
 
 /** Dot of a sample: minimum and maximum radius (CSS pixels), ratio of the picture's width to the radius, and opacity. */
 const SAMPLE_DOT = { minRadius: 2, maxRadius: 3, widthPerRadius: 240, opacity: 0.4 };
-
-/** Displacement from the contact with a wall to the end of the line to its label, CSS pixels. */
-const LEADER_OFFSET = { x: 46, y: 30 };
 
 /** Half the size of the area around the end of the command that a close view shows: a multiple of the command's length, at least a minimum (m). */
 const END_HALF_SIZE_FACTOR = 0.8;
@@ -52,7 +49,7 @@ const TRANSPARENT_RAMP = new Uint8Array(4 * limits.ramp);
 
 export class FloorPicture extends SamplesPicture<Scene> {
   name = 'plane';
-  view: View = new View({ hasNoMargin: true });
+  view: View = new View({ relativeMargin: 0 });
   plan;
   /** True if the map has unknown cells. */
   hasUnknownCells;
@@ -156,7 +153,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
         const { pose, path, contact } = markedSample;
         drawOutline(drawContext, path, { colour: palette.ink, width: 1.5, dash: [2, 3] });
         drawCrosshair(drawContext, { x: pose[0], y: pose[1], heading: pose[2] }, palette.ink);
-        if (contact) drawWallContact(drawContext, contact);
+        if (contact) drawCallouts(drawContext, [{ text: words.squeeze.contactLabel, point: [contact[0], contact[1]] }], { shapeCentre: [start.x, start.y], lines: [path] });
       }
     });
   };
@@ -178,17 +175,6 @@ function knownCornersOf(grid: CellGrid, unknownFlags: Uint8Array) {
     const outerColumns = rowCells.includes(0) ? [rowCells.indexOf(0), rowCells.lastIndexOf(0) + 1] : [];
     return outerColumns.flatMap((columnIndex) => [rowIndex, rowIndex + 1].flatMap((cornerRow) => cellCornerOf(grid, columnIndex, cornerRow)));
   }).flat();
-}
-
-/** Draws a label for the contact of a path with a wall (a point in metres), and a line from the label to the contact. */
-function drawWallContact(drawContext: DrawContext, contact: number[]) {
-  const { context, view, palette } = drawContext;
-  const [x, y] = view.toPixel(contact[0], contact[1]);
-  const { left, right, top, bottom } = view.plotArea;
-  const [sideX, sideY] = [2 * x > left + right ? -1 : 1, 2 * y > top + bottom ? -1 : 1];
-  const [endX, endY] = [x + sideX * LEADER_OFFSET.x, y + sideY * LEADER_OFFSET.y];
-  drawLeader(context, [[endX, endY], [x, y]], palette.ink);
-  drawLabel(drawContext, { x: endX + 4 * sideX, y: endY, freeSide: sideX, text: words.squeeze.contactLabel, colour: palette.ink });
 }
 
 function drawCrosses({ context, view }: DrawContext, poses: Float64Array, colour: string) {

@@ -3,7 +3,7 @@
 import { greatest } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { drawCallouts, drawLabel, type Callout } from '../../scene/labels.ts';
+import { drawCallouts, type Callout } from '../../scene/labels.ts';
 import { addLine, fillPath, paintWithOpacity, strokePath, drawDisc, strokeLine, type DrawContext, type LineStroke } from '../../scene/canvas.ts';
 import { addTurnArc, drawDots, drawCrosshair, drawOutlines, hasLength, createLineLegend, createLineStyles, strokeLines } from '../../scene/draw.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
@@ -159,7 +159,7 @@ function turnArcPoints({ x, y, theta }: Pose, turn: number, arcRadius: number) {
 /** Picture in the odometry frame: the legs as a linkage, and the effect of noise on it. */
 export class LegsPicture extends SamplesPicture<Scene> {
   name = 'plane';
-  view: View = new View({ hasNoMargin: true });
+  view: View = new View({ relativeMargin: 0 });
 
   fitView(scene: Scene) {
     const { view } = this;
@@ -253,7 +253,7 @@ export class LegsPicture extends SamplesPicture<Scene> {
 /** Picture of the world, in which the odometry frame drifts. */
 export class WorldPicture extends SamplesPicture<Scene> {
   name = 'world';
-  view: View = new View({ hasNoMargin: true });
+  view: View = new View({ relativeMargin: 0 });
 
   fitView(scene: Scene) {
     const { poses } = scene.drifted;
@@ -288,14 +288,14 @@ export class WorldPicture extends SamplesPicture<Scene> {
       drawDraggableRobot(drawContext, startPose, ROBOT_RADIUS, palette.truth);
       drawMarkedPose(drawContext, scene);
     });
-    const { left, bottom } = this.view.plotArea;
-    const { outcomesLabel: outcomesBy, ruleNames: rules } = words.decomposer;
-    if (overlays.includes('outcomes')) drawLabel(drawContext, { text: outcomesBy(rules[scene.config.rule]), x: left, y: bottom, freeSide: 1, colour: palette.prediction });
-    const poseCallouts = [
+    const { outcomesLabel, ruleNames } = words.decomposer;
+    const [outcomeX, outcomeY] = scene.poses;
+    const callouts = [
       ...(overlays.includes('prediction') ? createPoseCallouts(drawContext, [startPose, predictedPose], 'x', [palette.ink, palette.prediction]) : []),
       ...(overlays.includes('odometry') ? createPoseCallouts(drawContext, [odometryStart, odometryEnd], 'x̄', [palette.prior, palette.prior]) : []),
+      ...(overlays.includes('outcomes') && scene.poses.length > 0 ? [{ text: outcomesLabel(ruleNames[scene.config.rule]), point: [outcomeX, outcomeY] as [number, number], colour: palette.prediction }] : []),
     ];
-    drawCallouts(drawContext, poseCallouts, {
+    drawCallouts(drawContext, callouts, {
       shapeCentre: [(startPose.x + predictedPose.x) / 2, (startPose.y + predictedPose.y) / 2], lines: [segmentCoordinatesOf(startPose, predictedPose), segmentCoordinatesOf(odometryStart, odometryEnd)],
     });
   };

@@ -1,10 +1,10 @@
 /** The Alpha Calibrator in German; see messages/en.ts. */
 
 /** Prints a number of legs. */
-const legsWithCount = (count: string) => `${count} Etappe${count === '1' ? '' : 'n'}`;
+const formatLegCount = (count: string) => `${count} Etappe${count === '1' ? '' : 'n'}`;
 
 /** Messages of failed checks. */
-const MESSAGES: Record<string, string> = {
+const CHECK_MESSAGES: Record<string, string> = {
   'reference-copied':
     'Die Referenz hat die Fehler der Odometrie: Sie ist eine Kopie davon oder daraus berechnet. Die α sind bedeutungslos. Eine unabhängige Messung verwenden, zum Beispiel Motion Capture oder SLAM.',
   'reference-matches':
@@ -72,7 +72,7 @@ export const de: typeof import('./en.ts').en = {
   aheadAxisLabel: 'voraus (m)',
   leftAxisLabel: 'links (m)',
   simulatedLogName: 'simulierte Aufzeichnung',
-  legCountSentence: (logName, legs, outliers) => `${legsWithCount(legs)}${outliers ? `, davon ${outliers} Ausreißer` : ''}, ${logName}.`,
+  legCountSentence: (logName, legs, outliers) => `${formatLegCount(legs)}${outliers ? `, davon ${outliers} Ausreißer` : ''}, ${logName}.`,
   ratingBadges: { consistent: 'Verwendbar', questionable: 'Vorsicht', unusable: 'Nicht verwenden' },
   allChecksPassed: (count) => `Alle ${count} Prüfungen bestanden.`,
   failedChecksSentence: (checkNames, failedCount, count) => `Nicht bestanden: ${checkNames} (${failedCount} von ${count} Prüfungen).`,
@@ -107,7 +107,7 @@ export const de: typeof import('./en.ts').en = {
       'window-2m-covered': 'zurückgehaltene Fenster von ≥ 2 m innerhalb von 95 %',
       'window-5m-covered': 'zurückgehaltene Fenster von ≥ 5 m innerhalb von 95 %',
     },
-    translateMessage: (name, englishMessage) => MESSAGES[name] ?? englishMessage,
+    translateMessage: (name, englishMessage) => CHECK_MESSAGES[name] ?? englishMessage,
   },
   recommendationReasons: {
     unusableLog: 'Es gibt keine empfohlenen α: Die Aufzeichnung ist unbrauchbar.',
@@ -169,7 +169,7 @@ export const de: typeof import('./en.ts').en = {
     plotDescription: (componentName, alphaNumber, slopeText) => `Quadrierte Residuen, ${componentName}, in Klassen, und eine Gerade mit der Steigung Alpha ${alphaNumber}, ${slopeText}.`,
     squaredResidualLabel: 'quadriertes Residuum',
   },
-  windows: {
+  windowTable: {
     title: 'Zurückgehaltene Fenster',
     caption: 'Abdeckung durch die α der anderen Hälfte',
     length: 'Strecke',

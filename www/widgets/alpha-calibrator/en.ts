@@ -148,7 +148,7 @@ export const en = {
     plotDescription: (componentName, alphaNumber, slopeText) => `Squared residuals of the ${componentName}, in bins. The slope of the line is alpha ${alphaNumber}, ${slopeText}.`,
     squaredResidualLabel: 'squared residual',
   },
-  windows: {
+  windowTable: {
     title: 'Held-out windows',
     caption: 'Coverage by the α’s of the other half',
     length: 'distance driven',

@@ -129,9 +129,9 @@ export function systematicTableHtml(figure: Figure) {
 const stackedTextsHtml = (texts: string[]) => texts.map((stackedText) => html`<div>${stackedText}</div>`);
 
 export function diagnosticsHtml(figure: Figure) {
-  const { checks, windows, noiseTable, lostLegs } = words.calibrator;
+  const { checks, windowTable, noiseTable, lostLegs } = words.calibrator;
   return html`${fieldsetHtml(checks.title, checksTableHtml(figure))}
-    ${fieldsetHtml(windows.title, windowsTableHtml(figure))}
+    ${fieldsetHtml(windowTable.title, windowsTableHtml(figure))}
     ${fieldsetHtml(noiseTable.title, noiseTableHtml(figure))}
     ${fieldsetHtml(lostLegs.title, lostLegsReadoutsHtml(figure))}`;
 }
@@ -150,7 +150,7 @@ function checksTableHtml({ viewModel: { stats } }: Figure) {
 }
 
 function windowsTableHtml({ viewModel: { stats: { diagnostics: { windows } } } }: Figure) {
-  const texts = words.calibrator.windows;
+  const texts = words.calibrator.windowTable;
   return tableHtml({
     caption: texts.caption,
     columnHeadings: [texts.length, texts.countColumn, texts.coverageColumn, texts.neesColumn],

@@ -21,14 +21,14 @@ export const de: typeof import('./en.ts').en = {
   likelihoodTitle: 'Likelihood',
   csvTitle: 'Die drei Schätzungen mit ihren Faktoren, und die Parameter',
   handles: { start: ['Start', 'Richtung am Start'], next: ['Roboter, wo er gefunden wird', 'Richtung des Roboters, wo er gefunden wird'] },
-  bars: {
+  factorBars: {
     label: 'Residuen in Standardabweichungen und Faktoren von p',
     estimateNames: ['Geschwindigkeit', 'Drehrate', 'letzte Drehung'],
     factorText: (sharePercent) => `${sharePercent} des Maximums`,
   },
   headline: { beforeShare: 'Die Pose des Roboters ist', afterShare: 'so wahrscheinlich wie die beste Pose', afterPower: 'mal so wahrscheinlich wie die beste Pose' },
   likelihoodReadouts: { prob: '*p* der Tabellen', density: 'Dichte der Ziehung (m⁻² rad⁻¹)', undefinedDensity: 'keine: eine Varianz ist 0', xiReadout: '*ξ* (m, m, rad)' },
-  verdict: {
+  captionSentences: {
     worstFactor: (estimateName, deviationCount, keptShare, sharePercent) =>
       `Die ${estimateName} passt am schlechtesten: ${deviationCount} Standardabweichungen daneben. Ihr Faktor: ${keptShare} des Maximums, das Produkt aller drei: ${sharePercent}.`,
     atPeak: 'Der Roboter ist, wohin der Befehl ohne Rauschen führt: p hat sein Maximum.',
@@ -36,7 +36,7 @@ export const de: typeof import('./en.ts').en = {
     printedRadiusLabel: (v, sharePercent) =>
       `Wie gedruckt hat der Radius kein Vorzeichen: v̂ = ${v} m/s hat das falsche, und p liegt bei ${sharePercent} seines Maximums.`,
   },
-  forms: {
+  formErrorPlot: {
     errorAxis: 'Fehler des Endes (m)',
     arcFormula: 'Bogen, mit seinem Radius',
     straightLineFormula: 'Gerade',

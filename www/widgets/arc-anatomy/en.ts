@@ -21,14 +21,14 @@ export const en = {
   likelihoodTitle: 'Likelihood',
   csvTitle: 'The three estimates with their factors, and the parameters',
   handles: { start: ['Start', 'Heading at the start'], next: ['Robot, where it is found', 'Heading of the robot, where it is found'] },
-  bars: {
+  factorBars: {
     label: 'Residuals in standard deviations, and factors of p',
     estimateNames: ['speed', 'turn rate', 'last turn'],
     factorText: (sharePercent) => `factor: ${sharePercent} of its peak`,
   },
   headline: { beforeShare: 'The robot’s pose is', afterShare: 'as likely as the best pose', afterPower: 'times as likely as the best pose' },
   likelihoodReadouts: { prob: '*p* of the tables', density: 'density of the sampler (m⁻² rad⁻¹)', undefinedDensity: 'none: a variance is 0', xiReadout: '*ξ* (m, m, rad)' },
-  verdict: {
+  captionSentences: {
     worstFactor: (estimateName, deviationCount, keptShare, sharePercent) =>
       `The ${estimateName} fits worst: ${deviationCount} standard deviations off. Its factor is ${keptShare} of its peak, the product of all three ${sharePercent}.`,
     atPeak: 'The robot is where the command leads without noise: p is at its peak.',
@@ -36,7 +36,7 @@ export const en = {
     printedRadiusLabel: (v, sharePercent) =>
       `As printed, the radius has no sign: v̂ = ${v} m/s has the wrong sign, and p is ${sharePercent} of its peak.`,
   },
-  forms: {
+  formErrorPlot: {
     errorAxis: 'error of the end (m)',
     arcFormula: 'arc, by its radius',
     straightLineFormula: 'straight line',

@@ -173,9 +173,9 @@ function arcCalloutsOf({ view }: DrawContext, start: Pose, { center }: ArcWithCi
 
 /** Returns the visible fraction of the line from a visible point to another point. */
 function visibleFractionOf({ left, right, top, bottom }: import('../../scene/view.ts').View['plotArea'], [startX, startY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
-  const visibleFractionInRange = (start: number, end: number, min: number, max: number) =>
+  const visibleFractionOfRange = (start: number, end: number, min: number, max: number) =>
     end >= min && end <= max ? 1 : (clamp(end, min, max) - start) / (end - start);
-  return Math.min(visibleFractionInRange(startX, x, left, right), visibleFractionInRange(startY, y, top, bottom));
+  return Math.min(visibleFractionOfRange(startX, x, left, right), visibleFractionOfRange(startY, y, top, bottom));
 }
 
 /** Draws a wedge for the last turn (rad), by which the final heading differs from the heading at the end of the arc. */

@@ -29,9 +29,9 @@ const formatDensity = (density: number) => (isPrintedAsPower(density) ? formatSc
 
 /** Returns the caption: a sentence about the factor that makes the probability density p small. */
 export function captionOf({ config, stats: { factors, weakest, share, driven, inverted } }: ViewModel) {
-  const texts = words.anatomy.verdict;
+  const texts = words.anatomy.captionSentences;
   const { deviations, share: keptShare, deviation } = factors[weakest];
-  const estimateName = `${words.anatomy.bars.estimateNames[weakest]} ${['v̂', 'ω̂', 'γ̂'][weakest]}`;
+  const estimateName = `${words.anatomy.factorBars.estimateNames[weakest]} ${['v̂', 'ω̂', 'γ̂'][weakest]}`;
   if (config.printed && driven.arcLength !== inverted.arcLength) return texts.printedRadiusLabel(formatFixed(factors[0].estimate, 2), formatShare(share));
   if (share === 1) return texts.atPeak;
   if (deviation === 0) return texts.zeroVariance(estimateName);
@@ -62,7 +62,7 @@ export function headlineHtml({ stats: { share } }: ViewModel) {
  * them.
  */
 export function factorBarsHtml({ stats: { factors, weakest, share } }: ViewModel, tableLine: number) {
-  const texts = words.anatomy.bars;
+  const texts = words.anatomy.factorBars;
   return html`<ul part="readouts" class="factors ${tableLine === TABLE_LINES ? 'lit' : ''}" aria-label=${texts.label}>
     ${factors.map((factor, i) => {
       const { symbol, error, residualSign: sign, unit } = FACTOR_NOTATIONS[i];
@@ -138,7 +138,7 @@ const ERROR_AXIS_RANGE = { min: 1e-18, max: 1 };
 let cachedFormErrors: FormErrors | undefined;
 
 export function formErrorsPlotHtml({ ArcAnatomy }: Motion) {
-  const texts = words.anatomy.forms;
+  const texts = words.anatomy.formErrorPlot;
   const { omega, arc, straight, chord, estimatedCrossover, threshold } = (cachedFormErrors ??= ArcAnatomy.formErrors());
   return html`<figure class="forms">
     ${plotHtml({

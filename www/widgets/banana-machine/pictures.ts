@@ -84,10 +84,10 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
       if (opacity > 0) paintWithOpacity(context, Math.min(1, opacity), () => drawAxes({ ...drawContext, view: axesView }, axisLabels, legendEntries, gridOpacity));
     }
     const cloudMean = morphPoint(twistMomentsOf(scene)[0].mean, morph);
-    const outlinesInStyle = (outlinePoints: Outlines) => this.outlineNames.filter(isOutlineDrawn).map((name) => ({ points: outlinePoints[name], ...outlineStyles[name] }));
+    const styledOutlinesOf = (outlinePoints: Outlines) => this.outlineNames.filter(isOutlineDrawn).map((name) => ({ points: outlinePoints[name], ...outlineStyles[name] }));
     // Outlines of the pinned settings, or those before the current gesture, stay in the picture for comparison.
     const earlierViewModel: ViewModel | undefined = pinned ?? drawContext.previousViewModel;
-    const earlierOutlines = earlierViewModel ? outlinesInStyle(this.outlinesOf(earlierViewModel, scene)) : [];
+    const earlierOutlines = earlierViewModel ? styledOutlinesOf(this.outlinesOf(earlierViewModel, scene)) : [];
     const callouts = isFloorPicture ? [...scene.callouts] : [];
     clipToPlot(drawContext, () => {
       if (morph > 0 && morph < 1) drawMorphGrid(drawContext, twistView, morph);
@@ -99,7 +99,7 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
       if (!isSinglePoint) this.#paintCloud(drawContext, scene);
       if (isFloorPicture) drawRobot(drawContext, { x: 0, y: 0, heading: 0, colour: palette.truth });
       callouts.push(...drawEarlierOutlines(drawContext, earlierOutlines, isFloorPicture ? [cloudMean, [0, 0]] : [cloudMean], pinned ? words.banana.pinnedLabel : words.before));
-      drawOutlines(drawContext, outlinesInStyle(outlines));
+      drawOutlines(drawContext, styledOutlinesOf(outlines));
       const [endX, endY] = outlines.command.slice(-2);
       if (isFloorPicture) {
         if (overlays.command && scene.odometryReading && morph === 0) callouts.push(...drawOdometryReading(drawContext, scene.odometryReading, scene.arcEnd));
@@ -173,7 +173,7 @@ export class PlanePicture extends MorphPicture {
     const fanMargin = 0.2 * (floorExtent.xMax - floorExtent.xMin);
     this.view.fitEnd(extentOf([...shownCoordinates, ...cornersAround(x, y, fanMargin)], 0.4), 0);
     if (scene.morph === 0) return;
-    this.view.fitEnd(extentOf([...neededTwistPointsOf(scene), ...(overlays.ellipse ? scene.outlinesOf(scene, 1).ellipse : []), ...pinnedPointsAt(1)], 0.1), 1);
+    this.view.fitEnd(extentOf([...twistCoordinatesToShowOf(scene), ...(overlays.ellipse ? scene.outlinesOf(scene, 1).ellipse : []), ...pinnedPointsAt(1)], 0.1), 1);
   }
 }
 
@@ -193,7 +193,7 @@ export class TwistPicture extends MorphPicture {
   }
 
   fitView(scene: Scene) {
-    this.view.fitEnd(extentOf([...neededTwistPointsOf(scene), ...(scene.pinned?.contours.twistEllipse ?? [])], 0.1), 1);
+    this.view.fitEnd(extentOf([...twistCoordinatesToShowOf(scene), ...(scene.pinned?.contours.twistEllipse ?? [])], 0.1), 1);
   }
 }
 
@@ -270,7 +270,7 @@ function twistMomentsOf({ config, stats, table }: Scene): Moments[] {
 const VIEW_QUANTILES = [0.025, 0.975];
 
 /** Returns points around everything that is visible in exponential coordinates. */
-function neededTwistPointsOf(scene: Scene) {
+function twistCoordinatesToShowOf(scene: Scene) {
   const { v, omega, dt } = scene.config.command;
   const shownCoordinates = [v * dt, omega * dt];
   if (!scene.chartHolds && scene.shown > 0) {

@@ -48,7 +48,7 @@ export const de: typeof import('./en.ts').en = {
     noCovariance: 'Die vierte Ordnung lässt keine Kovarianz übrig: zu viel Rauschen für eine Reihe.',
     fewRobots: 'Zu wenige Roboter für 5 %: Die Bänder sind breiter.',
   },
-  misses: {
+  missTable: {
     caption: 'Schritte, bei denen vorhergesagte und gemessene Varianz um mehr als 5 % auseinanderliegen, und der Unterschied nach dem letzten',
     componentHeader: 'Komponente',
     noMiss: 'nie',

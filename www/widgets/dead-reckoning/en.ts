@@ -52,7 +52,7 @@ export const en = {
     noCovariance: 'The fourth order has left no covariance: too much noise for a series.',
     fewRobots: 'Too few robots to tell 5 %: the bands are wider than that.',
   },
-  misses: {
+  missTable: {
     caption: 'Steps at which predicted and measured variance differ by more than 5 %, and the difference after the last step',
     componentHeader: 'component',
     noMiss: 'never',

@@ -145,7 +145,7 @@ export function straightGrowthPlotHtml({ durations: x, along, across, alongFirst
 
 /** Returns the range of steps at which a recursion misses the measured variance, as text. */
 function formatMissRange({ decidable, first, last, end }: Misses) {
-  const { noMiss, tooFewRobots, stepRange } = words.reckoning.misses;
+  const { noMiss, tooFewRobots, stepRange } = words.reckoning.missTable;
   if (!decidable) return Number.isNaN(end) ? NO_VALUE : tooFewRobots;
   return first === null || last === null ? noMiss : stepRange(first, last);
 }
@@ -154,11 +154,11 @@ function formatMissRange({ decidable, first, last, end }: Misses) {
 export function missTableHtml({ stats: { misses } }: ViewModel, overlays: string[]) {
   const texts = words.reckoning;
   return tableHtml({
-    caption: texts.misses.caption,
-    columnHeadings: [texts.misses.componentHeader, ...RECURSIONS.map((recursion) => texts.recursions[recursion])],
+    caption: texts.missTable.caption,
+    columnHeadings: [texts.missTable.componentHeader, ...RECURSIONS.map((recursion) => texts.recursions[recursion])],
     rows: shownComponentsOf(overlays).flatMap((component) => {
       const missesOfRecursions = RECURSIONS.map((recursion) => misses[recursion][TWIST_COMPONENTS.indexOf(component)]);
-      return [[texts.overlays[component], ...missesOfRecursions.map(formatMissRange)], [texts.misses.atEndLabel(texts.overlays[component]), ...missesOfRecursions.map(formatFinalError)]];
+      return [[texts.overlays[component], ...missesOfRecursions.map(formatMissRange)], [texts.missTable.atEndLabel(texts.overlays[component]), ...missesOfRecursions.map(formatFinalError)]];
     }),
   });
 }

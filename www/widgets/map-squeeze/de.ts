@@ -67,7 +67,7 @@ export const de: typeof import('./en.ts').en = {
     wallName: 'Wand',
     keysHint: 'Pfeiltasten bewegen sie, mit Umschalt in größeren Schritten; Komma und Punkt oder [ und ] führen zu den anderen Wänden',
   },
-  tally: {
+  tallyReadouts: {
     drawnSamples: 'gezogen',
     shownPaths: 'gezeichnete Wege durch eine Wand',
     drawsPerAccepted: 'gezogene je angenommene Stichprobe',

@@ -69,7 +69,7 @@ export const en = {
     wallName: 'Wall',
     keysHint: 'Arrow keys move it, with Shift by larger steps; comma and period, or [ and ], go to the other walls',
   },
-  tally: {
+  tallyReadouts: {
     drawnSamples: 'drawn',
     shownPaths: 'paths through a wall shown',
     drawsPerAccepted: 'samples drawn per accepted sample',

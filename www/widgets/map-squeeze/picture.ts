@@ -96,7 +96,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
   }
 
   fitView({ commanded, config }: Scene) {
-    const mappedExtent = this.knownExtentAround(config.start);
+    const mappedExtent = this.knownExtentOf(config.start);
     if (!this.isCloseView) {
       this.#wholeView.fit(mappedExtent);
       return;
@@ -115,7 +115,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
   }
 
   /** Returns the known part of the plan if the robot is inside it, and the whole plan otherwise. */
-  knownExtentAround({ x, y }: { x: number, y: number }) {
+  knownExtentOf({ x, y }: { x: number, y: number }) {
     const [xMin, yMin, xMax, yMax] = this.plan.bounds;
     const knownExtent = extentAround(this.#knownCorners, 2, { xMin: x, yMin: y, xMax: x, yMax: y });
     const isInside = knownExtent.xMin < x && x < knownExtent.xMax && knownExtent.yMin < y && y < knownExtent.yMax;

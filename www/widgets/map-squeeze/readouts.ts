@@ -51,7 +51,7 @@ export function describeMap(mapName: string, { bounds, walls }: Plan) {
 }
 
 export function tallyReadoutsHtml({ stats, paths: { length: shownPathCount } }: ViewModel) {
-  const { tally: texts } = words.squeeze;
+  const { tallyReadouts: texts } = words.squeeze;
   return readoutsHtml([
     [texts.drawnSamples, formatInteger(stats.drawn)],
     [texts.shownPaths, formatInteger(shownPathCount)],
@@ -110,7 +110,7 @@ const MAX_SHOWN_FRACTION = 0.6;
 
 /** Returns the overview, or nothing if the picture already shows most of the map. */
 export function overviewMapHtml(picture: import('./picture.ts').FloorPicture, { config, commanded }: import('./settings.ts').ViewModel) {
-  const { xMin, yMin, xMax, yMax } = picture.knownExtentAround(config.start);
+  const { xMin, yMin, xMax, yMax } = picture.knownExtentOf(config.start);
   const [width, height] = [xMax - xMin, yMax - yMin];
   const { extent } = picture.view;
   const shownSize = [extent.xMax - extent.xMin, extent.yMax - extent.yMin];

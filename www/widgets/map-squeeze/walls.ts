@@ -64,11 +64,11 @@ export function gripsOf({ bounds, walls }: Plan): Grip[] {
     if (isOuterWall || wallLength < MIN_WALL_GAP) return [];
     const [ux, uy] = [(x1 - x0) / wallLength, (y1 - y0) / wallLength];
     const grips: Grip[] = [{ wallOffset, grippedPart: 'from', axis: [-ux, -uy] }, { wallOffset, grippedPart: 'to', axis: [ux, uy] }, { wallOffset, grippedPart: 'side', axis: [-uy, ux] }];
-    return grips.filter(({ grippedPart: part }) => part === 'side' || distanceToOtherWalls(walls, wallOffset, part === 'from' ? [x0, y0] : [x1, y1]) > TOUCH_DISTANCE);
+    return grips.filter(({ grippedPart: part }) => part === 'side' || distanceToOtherWallsOf(walls, wallOffset, part === 'from' ? [x0, y0] : [x1, y1]) > TOUCH_DISTANCE);
   });
 }
 
-const distanceToOtherWalls = (walls: Float64Array, wallOffset: number, [x, y]: number[]) =>
+const distanceToOtherWallsOf = (walls: Float64Array, wallOffset: number, [x, y]: number[]) =>
   Math.min(...wallOffsetsOf(walls).filter((k) => k !== wallOffset).map((k) => nearestPointOfWall(walls, k, x, y).distance));
 
 /**
@@ -102,7 +102,7 @@ function freeDistanceOf(walls: Float64Array, wallOffset: number, [x, y]: number[
   let gap = Infinity;
   // Each step is as long as the distance to the nearest wall allows.
   while (freeDistance < distance && gap > TOUCH_DISTANCE) {
-    gap = distanceToOtherWalls(walls, wallOffset, [x + freeDistance * ux, y + freeDistance * uy]) - MIN_WALL_GAP;
+    gap = distanceToOtherWallsOf(walls, wallOffset, [x + freeDistance * ux, y + freeDistance * uy]) - MIN_WALL_GAP;
     freeDistance += Math.max(0, gap);
   }
   return freeDistance;

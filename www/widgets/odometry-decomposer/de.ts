@@ -52,7 +52,7 @@ export const de: typeof import('./en.ts').en = {
     caption: 'Standardabweichungen: des Rauschens je Teil, dann des Endes, quer und in *θ*. Fett auf Farbe: anders als in Tabelle 5.6 (*Probabilistic Robotics*).',
     columns: ['*δ*_{rot1} (rad)', '*δ*_{trans} (m)', '*δ*_{rot2} (rad)', 'Seite (m)', 'quer (m)', '*θ* (rad)'],
   },
-  caption: {
+  captionSentences: {
     lever: (deviation, trans, lever) =>
       `Die erste Drehung hat den langen Hebel: Aus ihren ± ${deviation} rad am Anfang werden nach ${trans} m ± ${lever} m quer zum Weg.`,
     reverse: 'Rückwärtsfahren zerfällt in zwei Drehungen über π/2. Tabelle 5.6 gibt Rauschen für beide; die anderen nehmen min(|\u2060δ\u2060|,\u00a0π\u00a0−\u00a0|\u2060δ\u2060|).',

@@ -52,7 +52,7 @@ export const en = {
     caption: 'Standard deviations: of each part’s noise, then of the end, across the path and in *θ*. Bold on a tint: not as in Table 5.6 of *Probabilistic Robotics*.',
     columns: ['*δ*_{rot1} (rad)', '*δ*_{trans} (m)', '*δ*_{rot2} (rad)', 'side (m)', 'across (m)', '*θ* (rad)'],
   },
-  caption: {
+  captionSentences: {
     lever: (deviation, trans, lever) =>
       `The first rotation has the long lever: its ± ${deviation} rad at the start become ± ${lever} m across the path after ${trans} m.`,
     reverse: 'Reverse driving decomposes into two rotations beyond π/2. Table 5.6 adds noise for both; the others use min(|\u2060δ\u2060|,\u00a0π\u00a0−\u00a0|\u2060δ\u2060|).',

@@ -23,7 +23,7 @@ const CHORD_ANGLE = 0.1;
 const ELLIPSE_POINT_COUNT = 64;
 
 /** Returns the points of an ellipse about a pose with semi-axes along and across its heading. Lengths are in metres. */
-function ellipsePointsAround({ x, y, theta }: Pose, alongRadius: number, acrossRadius: number) {
+function ellipsePointsOf({ x, y, theta }: Pose, alongRadius: number, acrossRadius: number) {
   const [cos, sin] = [Math.cos(theta), Math.sin(theta)];
   return Array.from({ length: ELLIPSE_POINT_COUNT + 1 }, (_, i): [number, number] => {
     const angle = (2 * Math.PI * i) / ELLIPSE_POINT_COUNT;
@@ -79,7 +79,7 @@ export type Scene = import('./settings.ts').ViewModel & { markedPose: Float64Arr
 export const ROBOT_RADIUS = 0.11;
 
 /** Margins around the robots (m), and around the outcomes (in standard deviations). */
-const MARGINS = { aroundRobot: 0.3, deviationsAroundOutcomes: 2.4 };
+const VIEW_MARGINS = { aroundRobot: 0.3, deviationsAroundOutcomes: 2.4 };
 
 /** Maximum number of outcomes that are drawn with headings. Headings of more outcomes would be indistinguishable. */
 const MAX_HEADING_TICKS = 1000;
@@ -105,16 +105,16 @@ const AXIS_NAMES = { x: 'x (m)', y: 'y (m)' };
 const FRAME_AXIS_LENGTH = 0.28;
 
 /** Returns points around the start and the outcomes, as x, y pairs, that a picture has to show. */
-function neededPointsOf({ linkage, legs, rules }: Scene): number[] {
+function coordinatesToShowOf({ linkage, legs, rules }: Scene): number[] {
   const [{ x, y }, drivenPose] = [poseAt(linkage, 0), poseAt(linkage, 2)];
   // The scale is the same for all noise models, so that their spreads can be compared.
-  const alongMargin = Math.min(MARGINS.deviationsAroundOutcomes * Math.max(...rules.map(({ deviations }) => deviations[1])), legs.trans + 2);
+  const alongMargin = Math.min(VIEW_MARGINS.deviationsAroundOutcomes * Math.max(...rules.map(({ deviations }) => deviations[1])), legs.trans + 2);
   // This margin needs no limit: a rotation moves the end across the path by at most the length of the drive.
-  const acrossMargin = MARGINS.deviationsAroundOutcomes * Math.max(...rules.map(({ crossTrack }) => crossTrack));
+  const acrossMargin = VIEW_MARGINS.deviationsAroundOutcomes * Math.max(...rules.map(({ crossTrack }) => crossTrack));
   const [absCos, absSin] = [Math.abs(Math.cos(drivenPose.theta)), Math.abs(Math.sin(drivenPose.theta))];
   return [
-    ...cornersAround(x, y, MARGINS.aroundRobot),
-    ...cornersAround(drivenPose.x, drivenPose.y, MARGINS.aroundRobot + alongMargin * absCos + acrossMargin * absSin, MARGINS.aroundRobot + alongMargin * absSin + acrossMargin * absCos),
+    ...cornersAround(x, y, VIEW_MARGINS.aroundRobot),
+    ...cornersAround(drivenPose.x, drivenPose.y, VIEW_MARGINS.aroundRobot + alongMargin * absCos + acrossMargin * absSin, VIEW_MARGINS.aroundRobot + alongMargin * absSin + acrossMargin * absCos),
   ];
 }
 
@@ -129,7 +129,7 @@ function spreadEllipsesOf({ palette }: DrawContext, { linkage, rules, config }: 
   const comparedNoise = rules[config.rule === 'thrun' ? 1 : 0];
   const hasOtherDeviations = comparedNoise.deviations.some((deviation, i) => Math.abs(deviation - currentNoise.deviations[i]) > 1e-9);
   return [currentNoise, ...(hasOtherDeviations ? [comparedNoise] : [])].map(({ rule, deviations, crossTrack }) => {
-    const ellipsePoints = ellipsePointsAround(poseAt(linkage, 2), 2 * deviations[1], 2 * crossTrack);
+    const ellipsePoints = ellipsePointsOf(poseAt(linkage, 2), 2 * deviations[1], 2 * crossTrack);
     const colour = rule === config.rule ? palette.prediction : palette.ink;
     // The callouts of the two ellipses are at different sides: the ellipse of Table 5.6 has its callout at the front, the smaller ellipse of another
     // noise model at the top.
@@ -164,9 +164,9 @@ export class LegsPicture extends SamplesPicture<Scene> {
   fitView(scene: Scene) {
     const { view } = this;
     const { linkage, legs, overlays } = scene;
-    const neededPoints = neededPointsOf(scene);
+    const coordinatesToShow = coordinatesToShowOf(scene);
     if (!overlays.includes('legs')) {
-      view.fit(extentOf(neededPoints, 1.2));
+      view.fit(extentOf(coordinatesToShow, 1.2));
       return;
     }
     const { left, right, top, bottom } = view.plotArea;
@@ -174,10 +174,10 @@ export class LegsPicture extends SamplesPicture<Scene> {
     const extentOfScale = (scale: number) => {
       const arcRadii = turnRadiiOf({ scaleX: scale });
       const arcPoints = [legs.rot1, legs.rot2].flatMap((turn, i) => turnArcPoints(poseAt(linkage, 2 * i), turn, Math.min(arcRadii[i], maxTurnRadius) / scale));
-      return extentOf([...neededPoints, ...arcPoints], 1.2);
+      return extentOf([...coordinatesToShow, ...arcPoints], 1.2);
     };
     // The arcs have a fixed size in pixels, and need more space in metres at a smaller scale.
-    let scale = view.fittingScaleOf(extentOf(neededPoints, 1.2));
+    let scale = view.fittingScaleOf(extentOf(coordinatesToShow, 1.2));
     for (let i = 0; i < SCALE_ITERATIONS; i++) scale = view.fittingScaleOf(extentOfScale(scale));
     view.fit(extentOfScale(scale));
   }
@@ -259,9 +259,9 @@ export class WorldPicture extends SamplesPicture<Scene> {
     const { poses } = scene.drifted;
     const robotBoxCorners = [0, 1, 2].flatMap((index) => {
       const { x, y } = poseAt(poses, index);
-      return cornersAround(x, y, MARGINS.aroundRobot);
+      return cornersAround(x, y, VIEW_MARGINS.aroundRobot);
     });
-    this.view.fit(extentOf([...neededPointsOf(scene), ...robotBoxCorners], 1.2));
+    this.view.fit(extentOf([...coordinatesToShowOf(scene), ...robotBoxCorners], 1.2));
   }
 
   paint: SamplesPicture<Scene>['paint'] = (drawContext, scene) => {

@@ -15,7 +15,7 @@ addEnglishMessages({ decomposer: en });
 const MAX_JITTER_LENGTH = 0.01;
 
 export function captionOf({ config: { rule, alphas }, rules, legs, deviations, stats }: ViewModel) {
-  const texts = words.decomposer.caption;
+  const texts = words.decomposer.captionSentences;
   const [{ legs: { rot1, trans } }] = rules;
   const isReverseAware = rule === 'nav2' || rule === 'beluga';
   const transMillimetres = formatFixed(1000 * trans, 1);

@@ -264,7 +264,7 @@ function seedFieldHtml(figure: Figure) {
 }
 
 /**
- * Returns the field with the number of the selected sample, one of `shown`, and a text about it, if there is one. `id` is also the key of the
+ * Returns the field with the number of the selected sample, one of `shownCount`, and a text about it, if there is one. `id` is also the key of the
  * label in the catalogue. Refused text stays until the user corrects or leaves it.
  */
 export function sampleFieldHtml(figure: CloudFigure, id: 'robot' | 'sample', shownCount: number, selectedSampleText: unknown) {

@@ -93,18 +93,18 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
 async function readDroppedFiles({ items }: DataTransfer): Promise<File[]> {
   // All entries are read synchronously, because the browser empties the list afterwards.
   const droppedItems = [...items].filter(({ kind }) => kind === 'file').map((item) => ({ entry: item.webkitGetAsEntry(), file: item.getAsFile() }));
-  const files = await Promise.all(droppedItems.map(({ entry, file }) => (entry?.isDirectory ? filesInDirectory(entry as FileSystemDirectoryEntry) : file ? [file] : [])));
+  const files = await Promise.all(droppedItems.map(({ entry, file }) => (entry?.isDirectory ? readDirectory(entry as FileSystemDirectoryEntry) : file ? [file] : [])));
   return files.flat();
 }
 
-async function filesInDirectory(folder: FileSystemDirectoryEntry): Promise<File[]> {
+async function readDirectory(folder: FileSystemDirectoryEntry): Promise<File[]> {
   const directoryReader = folder.createReader();
   const entries: FileSystemEntry[] = [];
   const readEntries = () => new Promise<FileSystemEntry[]>((resolve, reject) => directoryReader.readEntries(resolve, reject));
   // Browsers return a hundred entries at a time.
   for (let entryBatch = await readEntries(); entryBatch.length > 0; entryBatch = await readEntries()) entries.push(...entryBatch);
   const files = await Promise.all(entries.filter(({ name }) => !name.startsWith('.')).map(async (entry) => {
-    if (entry.isDirectory) return filesInDirectory(entry as FileSystemDirectoryEntry);
+    if (entry.isDirectory) return readDirectory(entry as FileSystemDirectoryEntry);
     const file = await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject));
     return [Object.assign(file, { path: entry.fullPath.slice(1) })];
   }));

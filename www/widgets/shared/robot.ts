@@ -25,7 +25,7 @@ export function drawDraggableRobot(drawContext: DrawContext, pose: Pose, robotRa
   const { context, view, palette, placedBoxes } = drawContext;
   const [centre, turnHandle] = view.headingLineFrom(pose, turnHandleDistanceOf(view, robotRadius));
   const edgeStyle = { colour, width: 2.25 };
-  const pixelRadius = toPixelRadius(view, robotRadius);
+  const pixelRadius = pixelRadiusOf(view, robotRadius);
   drawDisc(context, centre, pixelRadius, palette.paper, edgeStyle);
   strokeLine(context, [centre, turnHandle], edgeStyle);
   for (const [[x, y], halfSize] of [[centre, pixelRadius], [turnHandle, TURN_HANDLE_RADIUS + 3]] as const) placedBoxes.push({ x, y, halfWidth: halfSize, halfHeight: halfSize });
@@ -34,11 +34,11 @@ export function drawDraggableRobot(drawContext: DrawContext, pose: Pose, robotRa
 
 /** Draws the dashed outline of a robot at the end of a command. Lengths are in metres. */
 export function drawRobotOutline({ context, view }: DrawContext, x: number, y: number, robotRadius: number, colour: string) {
-  drawDisc(context, view.toPixel(x, y), toPixelRadius(view, robotRadius), undefined, { colour, width: 1.5, dash: [3, 3] });
+  drawDisc(context, view.toPixel(x, y), pixelRadiusOf(view, robotRadius), undefined, { colour, width: 1.5, dash: [3, 3] });
 }
 
 /** Converts the radius of a robot from metres to CSS pixels. */
-function toPixelRadius(view: View, robotRadius: number): number {
+function pixelRadiusOf(view: View, robotRadius: number): number {
   return Math.max(MIN_ROBOT_RADIUS, robotRadius * view.scaleX);
 }
 

@@ -34,8 +34,8 @@ const PNG_MAGIC = [0x89, 0x50, 0x4e, 0x47];
 
 /** Reads the map in files; rejects with a MapFileError in the words of a language. */
 export async function readMapFiles(files: File[], decodePng: DecodePng, texts: RefusalWords): Promise<UserMap> {
-  const filesMatching = (fileNamePattern: RegExp) => files.filter(({ name }) => fileNamePattern.test(name));
-  const [planFiles, yamlFiles, imageFiles] = [filesMatching(/\.json$/i), filesMatching(/\.ya?ml$/i), filesMatching(/\.(pgm|png)$/i)];
+  const filesOfPattern = (fileNamePattern: RegExp) => files.filter(({ name }) => fileNamePattern.test(name));
+  const [planFiles, yamlFiles, imageFiles] = [filesOfPattern(/\.json$/i), filesOfPattern(/\.ya?ml$/i), filesOfPattern(/\.(pgm|png)$/i)];
   const isOneMap = planFiles.length + yamlFiles.length === 1 && planFiles.length + yamlFiles.length + imageFiles.length === files.length;
   if (!isOneMap) throw new MapFileError(texts.wrongFiles(quoteText(files.map(({ name }) => name).join(', '))));
   return planFiles.length ? readPlan(planFiles[0].name, await readText(planFiles[0], MAX_PLAN_BYTES, texts), texts) : readGrid(yamlFiles[0], imageFiles, decodePng, texts);
@@ -92,8 +92,8 @@ const BOOLEAN_WORDS = new Map([['true', true], ['yes', true], ['on', true], ['fa
 const NUMBER_FIELDS = ['resolution', 'origin', 'negate', 'occupied_thresh', 'free_thresh'];
 
 /** Returns a number in quotes as a number, and other values unchanged. */
-function numberFromText(yamlValue: unknown): unknown {
-  if (Array.isArray(yamlValue)) return yamlValue.map(numberFromText);
+function parseQuotedNumber(yamlValue: unknown): unknown {
+  if (Array.isArray(yamlValue)) return yamlValue.map(parseQuotedNumber);
   return typeof yamlValue === 'string' && yamlValue.trim() !== '' && Number.isFinite(Number(yamlValue)) ? Number(yamlValue) : yamlValue;
 }
 
@@ -103,7 +103,7 @@ function parseDescription(quotedName: string, yamlText: string, texts: RefusalWo
     // YAML forbids tabs as indentation, and the fields need no indentation. Aliases are refused: no map needs them, and with them a short
     // text can expand to billions of values, or contain itself.
     const fields: Record<string, unknown> = { ...(load(yamlText.replaceAll(/^\t+/gm, '').replaceAll('\t', ' '), { maxAliases: 0 }) as object) };
-    for (const key of NUMBER_FIELDS) if (key in fields) fields[key] = numberFromText(fields[key]);
+    for (const key of NUMBER_FIELDS) if (key in fields) fields[key] = parseQuotedNumber(fields[key]);
     const { negate, mode } = fields;
     if (typeof negate === 'string') fields.negate = BOOLEAN_WORDS.get(negate.toLowerCase()) ?? negate;
     if (typeof mode === 'string') fields.mode = mode.toLowerCase();

@@ -14,7 +14,7 @@ const readText = (/** @type {string} */ documentPath) => readFileSync(new URL(`.
 /** Files and names of constants, with the sentence of the document that contains the value. @type {[string, string, RegExp][]} */
 const DOCUMENTED_LIMITS = [
   ['www/widgets/banana-machine/pictures.ts', 'MAX_DOT_COUNT', /Up to (\S+) robots are drawn as dots/],
-  ['www/widgets/map-squeeze/settings.ts', 'MAX_DOTS', /more than (\S+) motions are drawn as cells/],
+  ['www/widgets/map-squeeze/settings.ts', 'MAX_DOT_COUNT', /more than (\S+) motions are drawn as cells/],
   ['www/widgets/banana-machine/readouts.ts', 'VISIBLE_SKEW', /exact skew is below (\S+) \| both sides are nearly alike/],
   ['www/widgets/banana-machine/readouts.ts', 'VISIBLE_AREA_RATIO', /if the ellipse has more than (\S+) times the area/],
   ['www/widgets/banana-machine/readouts.ts', 'MIN_DISTINGUISHABLE_GAIN', /or if the gain is more than (\S+) nats a robot/],

@@ -123,7 +123,7 @@ export function formatNav2Lines({ calibration, legCount, model, rule, legs, logN
     if (isBound || inflation * alpha > MAX_PLAUSIBLE_ALPHA) return `# alpha${i + 1}: ${formattedAlpha}, ${yamlWords.tooLargeNote}`;
     return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${yamlWords.fittedNote(formatEstimate(alpha, interval), formatInterval(interval))}`;
   });
-  // A line break in a file's name would end the comment.
+  // A line break in a file's name would end the YAML comment.
   const commentLines = commentTexts.map((commentText) => `# ${commentText.replaceAll(/\s+/g, ' ')}`);
   const fifthAlphaLines = alphas.length < 5 ? [`# ${yamlWords.fifthAlphaNote}`] : [];
   // The α's belong to the legs of the log, which are longer than asked if its rows are sparse.
@@ -180,7 +180,7 @@ export interface Fit {
   stats: CalibrationStats;
   /** Number of legs. */
   legCount: number;
-  /** Default: the odometry model. */
+  /** Motion model that was fitted; the odometry model if undefined. */
   model?: string;
   /** False for each systematic error that is not to be corrected. */
   corrections: { [name in (typeof SYSTEMATIC_ERRORS)[number]]?: boolean };

@@ -177,10 +177,10 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
 
   enterState(simulation: Simulation, state: StateValues) {
     const { model, alphas, pinned } = state;
-    // Each model keeps its own α's.
+    // The simulation also gets the α's of the other model, because each model keeps its own α's.
     const otherModel = model === 'velocity' ? 'odometry' : 'velocity';
     simulation.configureFirst({ model: otherModel, alphas: alphas[otherModel] }, 0);
-    // Checks the pinned settings.
+    // Throws an error if the pinned settings are invalid.
     this.#viewModelOfPinned(pinned);
     super.enterState(simulation, { ...state, alphas: alphas[model] });
   }

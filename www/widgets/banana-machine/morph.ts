@@ -42,7 +42,8 @@ export function morphOutlines(motion: Motion, viewModel: ViewModel, morph: numbe
 }
 
 /**
- * View during a morph: an interpolation between the views of the floor and of exponential coordinates, each of which has its own target.
+ * View during a morph. It is interpolated between the view of the floor and the view of exponential coordinates, which move to their own target
+ * extents.
  */
 export class MorphView extends View {
   /** Morph, from the floor (0) to exponential coordinates (1). */

@@ -132,7 +132,7 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
       drawDots(drawContext, this.#dotPositionsOf(scene), 1 - morph);
       return;
     }
-    // Products of the standard deviations along the axes of the cloud, at both ends of the morph.
+    // Products of the cloud's two principal standard deviations, on the floor and in exponential coordinates.
     const floorStdProduct = Math.sqrt(Math.max(0, cov[0][0] * cov[1][1] - cov[0][1] * cov[1][0]));
     const [{ cov: twistCov }] = twistMomentsOf(scene);
     const twistStdProduct = stdOfVariance(twistCov[0][0]) * stdOfVariance(twistCov[2][2]);

@@ -46,7 +46,7 @@ const styles = css`
     margin-inline: auto;
   }
 
-  /* The line at the selected step follows the pointer. */
+  /* The cursor shows that the line at the selected step can be dragged along the chart. */
   .chart input {
     --thumb: var(--accent);
     cursor: ew-resize;

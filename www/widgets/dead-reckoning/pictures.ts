@@ -86,7 +86,7 @@ export class StepPicture extends Picture<Scene> {
     const [alongExtent, lateralExtent] = [0, 1].map((componentIndex) => VIEWED_DEVIATIONS * Math.sqrt(cov[componentIndex][componentIndex]));
     if (alongExtent + lateralExtent > 0) shownCoordinates.push(...cornersAround(mean[0], mean[1], alongExtent, lateralExtent));
     const { xMin, xMax } = extentAround(shownCoordinates, 2);
-    // The minimum width and height keep both scales finite.
+    // The minimum width and height of the view keep both scales finite if the cloud is narrow.
     this.view.fit(extentOf(shownCoordinates, MIN_STEP_VIEW_WIDTH, Math.max(MIN_STEP_VIEW_WIDTH, MIN_STEP_VIEW_ASPECT * (xMax - xMin))));
   }
 

@@ -11,7 +11,7 @@ const settingDeclarations = settings['dead-reckoning'];
 /** Recursions in the order in which they are offered. */
 export const RECURSIONS = settingDeclarations.find(({ key }) => key === 'compounding')?.words as DeadReckoningSettings['compounding'][];
 
-/** Styles of the ratios in the chart. */
+/** Styles of the curves in the chart of predicted over measured variance. */
 export const CURVE_STYLES = {
   lateral: { role: 'prediction', width: 1.9 },
   along: { role: 'ink', width: 1.9, dash: [8, 4] },
@@ -37,11 +37,11 @@ export const definition = createDefinition('dead-reckoning', {
   sliderSpecs: {
     ...COMMAND_SLIDERS,
     ...NOISE_SLIDERS,
-    // Larger clouds would lag behind the slider.
+    // The slider offers at most this number of robots, because larger clouds would lag behind the slider.
     samples: createSamplesSliderSpec(200_000),
     step: { symbol: '*k*', role: 'truth', min: 1, max: 200, step: 1, decimals: 0 },
     steps: { symbol: '*K*', role: 'prior', min: 1, max: 200, step: 1, decimals: 0 },
-    // The slider shows α₃, even if the other three are not in the usual ratio to it.
+    // The slider shows α₃, even if α₄ to α₆ are not in the ratios to α₃ that the slider sets.
     headingNoise: { ...ALPHA_SLIDER, step: 0.005, combinedValueOf: ({ alphas }) => alphas[2] },
   },
   dependentDefaultsOf: ({ steps }) => ({ step: Math.min(defaultConfigOf(settingDeclarations).step, steps) }),
@@ -49,7 +49,7 @@ export const definition = createDefinition('dead-reckoning', {
 
 export type ViewModel = ReturnType<typeof viewModelOf>;
 
-/** Components of ξ, in the order of every triple. */
+/** Components of the exponential coordinates ξ, in the order in which arrays of triples have them. */
 export const TWIST_COMPONENTS = ['along', 'lateral', 'heading'] as const;
 
 export function viewModelOf(simulation: Simulation) {
@@ -83,7 +83,7 @@ function ratioConditionOf({ compounding }: DeadReckoningSettings, { n, predicted
   // A single robot has no variance.
   if (n === 1) return 'fewRobots';
   if (measured.cov.every((covRow) => covRow.every((covariance) => Math.abs(covariance) < Number.EPSILON ** 2))) return 'noNoise';
-  // Single components may have no variance, such as a heading without noise.
+  // The ratio of a single component may be undefined, because that component has no noise.
   if (predicted[compounding] === null || ratios.slice(-TWIST_COMPONENTS.length).every(Number.isNaN)) return 'noCovariance';
   return misses[compounding].some(({ decidable, end }) => !decidable && !Number.isNaN(end)) ? 'fewRobots' : 'certain';
 }

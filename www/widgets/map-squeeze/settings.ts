@@ -27,7 +27,7 @@ export const LINE_STYLES = {
 
 export const COMMAND_SLIDERS = createCommandSliderSpecs(4);
 
-/** Parts of the map that the picture shows. */
+/** Names of the parts of the map that the picture can show. */
 const VIEW_NAMES = ['close', 'whole'];
 
 export const definition = createDefinition('map-squeeze', {

@@ -139,7 +139,7 @@ export class Cloud extends FigureController implements SampleCloud {
     return { shown: this.targetCount, marked: this.#isSelectionPossible ? this.selectedIndex : null };
   }
 
-  /** Returns the number of samples that follows from a partial state. */
+  /** Returns the number of shown samples that follows from a state in which it is missing. */
   withDerivedFields(currentState: StateValues, { samples = currentState.samples }: StateValues): StateValues {
     return { shown: currentState.shown === currentState.samples ? samples : Math.min(currentState.shown, samples) };
   }
@@ -157,7 +157,7 @@ export class Cloud extends FigureController implements SampleCloud {
 
   selectAtPointer(picture: Picture<any>, event: PointerEvent) {
     const { simulation, gesture } = this.host;
-    // A moving finger scrolls; a tap is a click.
+    // On a touch screen only a tap selects a sample, because a moving finger scrolls.
     if (!simulation || gesture.isPressed || (event.pointerType === 'touch' && event.type !== 'click')) return;
     const [x, y] = toViewPixels(event.currentTarget as Element, picture.view, event);
     const sampleIndex = picture.findNearestSample(simulation, x, y);
@@ -198,7 +198,7 @@ export class Cloud extends FigureController implements SampleCloud {
     this.host.announcer.requestAnnouncement();
   }
 
-  /** Runs the action of a button of the cloud, and sets `playing`. */
+  /** Runs the action of a button below the cloud. The cloud then grows if `shouldPlay` is true, and is stopped otherwise. */
   #runControl(shouldPlay: boolean, runAction: () => void) {
     if (!this.host.simulation) return;
     runAction();

@@ -61,7 +61,7 @@ export class Player<Key extends string> extends FigureController {
   /** Advances the animation by the time since the previous frame. Returns true until the animation has reached its end. */
   advance(elapsedMs: number): boolean {
     if (!this.#playedKey) return false;
-    // A redraw after a change of size has no elapsed time, and does not advance the animation.
+    // A picture that is drawn again only because of its size has no elapsed time, and does not advance the animation.
     if (elapsedMs === 0) return true;
     const { max, durationMs } = this.#playedSettings[this.#playedKey];
     const nextValue = Math.min(max, this.#valueOf(this.#playedKey) + (max * elapsedMs) / durationMs);

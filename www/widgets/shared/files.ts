@@ -25,7 +25,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     return html`<p class="note" id="refusal" role="alert" ?hidden=${refusalText === ''}>${refusalText}</p>`;
   }
 
-  /** Ignores the result of the latest attempt. */
+  /** Cancels the latest attempt: its result will be ignored. */
   cancel() {
     this.#latestAttempt++;
   }
@@ -68,7 +68,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   onDrop = (event: DragEvent) => {
     (event.currentTarget as HTMLElement).classList.remove('dropping');
     if (!event.dataTransfer?.types.includes('Files')) return;
-    // Without this, the browser would navigate to the dropped file.
+    // By default, the browser would navigate to the dropped file.
     event.preventDefault();
     const resultElement = this.host.renderRoot.querySelector(`#${this.resultElementId}`);
     if (resultElement instanceof HTMLDetailsElement) resultElement.open = true;
@@ -80,7 +80,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     const openChosenFiles = (event: Event) => {
       const fileInput = inputOf(event);
       this.chooseFiles([...(fileInput.files ?? [])]);
-      // Reset, so that choosing the same file again after a correction fires an event.
+      // The field is cleared, so that choosing the same file again after a correction fires a `change` event.
       fileInput.value = '';
     };
     return html`<label class="choice files">
@@ -101,7 +101,7 @@ async function readDirectory(folder: FileSystemDirectoryEntry): Promise<File[]> 
   const directoryReader = folder.createReader();
   const entries: FileSystemEntry[] = [];
   const readEntries = () => new Promise<FileSystemEntry[]>((resolve, reject) => directoryReader.readEntries(resolve, reject));
-  // Browsers return a hundred entries at a time.
+  // A call of `readEntries` returns at most a hundred entries in some browsers.
   for (let entryBatch = await readEntries(); entryBatch.length > 0; entryBatch = await readEntries()) entries.push(...entryBatch);
   const files = await Promise.all(entries.filter(({ name }) => !name.startsWith('.')).map(async (entry) => {
     if (entry.isDirectory) return readDirectory(entry as FileSystemDirectoryEntry);

@@ -85,7 +85,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
       drag: (x, y) => this.#turnTo(Math.atan2(y - this.#pose.y, x - this.#pose.x)),
       handleKey: (event) => {
         const keySteps = stepsOfKey(event);
-        // The left arrow turns counter-clockwise, as a driver would steer.
+        // The left arrow key turns the robot counter-clockwise, as a driver would steer.
         return this.#applyKey(undefined, turnStepsOfKey(event) ?? (keySteps && keySteps[1] - keySteps[0]));
       },
     });
@@ -139,7 +139,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     return steps !== undefined || turnSteps !== undefined;
   }
 
-  /** Moves the robot to a point in metres, within its bounds. */
+  /** Moves the robot to a point (m), or to the nearest allowed position. */
   #moveTo(x: number, y: number) {
     const [left, bottom, right, top] = this.#getBounds();
     this.#requestPose({ ...this.#pose, x: clamp(x, left, right), y: clamp(y, bottom, top) });

@@ -57,7 +57,7 @@ export function applyMap(simulation: MapSqueeze, mapData: unknown) {
   withRenamedFields(GRID_KEYS, () => simulation.setGrid(gridDescription, pgmImage));
 }
 
-/** Calls a function that passes fields of a map to a simulation. Errors get the field's name in the map instead of that in the simulation. */
+/** Calls a function that passes the fields of a map to a simulation. Error messages name the field as the map does, not as the simulation does. */
 function withRenamedFields(keys: string[], setMap: () => void) {
   try {
     setMap();

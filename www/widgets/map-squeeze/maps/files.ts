@@ -97,7 +97,7 @@ function parseQuotedNumber(yamlValue: unknown): unknown {
   return typeof yamlValue === 'string' && yamlValue.trim() !== '' && Number.isFinite(Number(yamlValue)) ? Number(yamlValue) : yamlValue;
 }
 
-/** Parses the fields of a description as leniently as map_server does. Without fields, the image is missing. */
+/** Parses the fields of a YAML description as leniently as map_server does. For a file without fields, the missing image is reported later. */
 function parseDescription(quotedName: string, yamlText: string, texts: RefusalWords): Record<string, unknown> {
   try {
     // YAML forbids tabs as indentation, and the fields need no indentation. Aliases are refused: no map needs them, and with them a short

@@ -160,7 +160,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       const keySteps = stepsOfKey(event);
       if (!keySteps || !this.simulation) return false;
       const [x, y] = this.visibleArcEnd;
-      // Of the arcs with the maximum speed, the straight one ends furthest away.
+      // The straight arc ends further away than any other arc with the maximum speed.
       const maxX = sliderSpecs.v.max * this.settings.requested.command.dt;
       this.#moveArcEnd(clamp(x + KEY_STEP * keySteps[0], -maxX, maxX), y + KEY_STEP * keySteps[1]);
       return true;

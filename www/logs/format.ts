@@ -18,7 +18,7 @@ export interface TableFormat {
 }
 
 /** Maximum number of lines at the start of a file, of lines at its end, and of rows that are read to detect the format. */
-const SAMPLED_LINES = 50;
+const SAMPLED_LINE_COUNT = 50;
 
 /** Names of the columns in tables without a header, which are recognized by their number of columns. */
 const TUM_COLUMNS = ['t', 'x', 'y', 'z', 'qx', 'qy', 'qz', 'qw'];
@@ -95,7 +95,7 @@ function separatorOf(lines: string[]): string {
 }
 
 /** Detects the format from the first lines, with at least one row if the file has any. Throws a LogError if the columns are ambiguous. */
-export function detectTableFormat(lines: string[], file: string, columns: string[] | undefined): TableFormat {
+export function detectTableFormat(lines: string[], file: string, givenColumnNames: string[] | undefined): TableFormat {
   const filledLines = lines.map((line, i) => ({ line, number: i + 1 })).filter(({ line }) => line.trim() !== '');
   const isComment = ({ line }: { line: string }) => /^\s*(#|%|\/\/)/.test(line);
   const textLines = filledLines.filter((textLine) => !isComment(textLine));
@@ -103,10 +103,10 @@ export function detectTableFormat(lines: string[], file: string, columns: string
   const [, notation] = NON_TABLE_PATTERNS.find(([pattern]) => pattern.test(textLines[0].line)) ?? [];
   if (notation !== undefined) throw new LogError({ file }, (texts) => texts.noTable(notation));
 
-  const separator = separatorOf([...textLines.slice(0, SAMPLED_LINES), ...textLines.slice(-SAMPLED_LINES)].map(({ line }) => line.trim()));
+  const separator = separatorOf([...textLines.slice(0, SAMPLED_LINE_COUNT), ...textLines.slice(-SAMPLED_LINE_COUNT)].map(({ line }) => line.trim()));
   const cellsOfLine = (line: string) => splitCells(line, separator);
   const firstRowLine = textLines.find(({ line }, i) => isDataRow(cellsOfLine(line)) && (i + 1 === textLines.length || isDataRow(cellsOfLine(textLines[i + 1].line)))) ?? textLines.findLast(({ line }) => isDataRow(cellsOfLine(line)));
-  const rows = firstRowLine ? textLines.filter(({ number }) => number >= firstRowLine.number).slice(0, SAMPLED_LINES).map(({ line }) => cellsOfLine(line)) : [];
+  const rows = firstRowLine ? textLines.filter(({ number }) => number >= firstRowLine.number).slice(0, SAMPLED_LINE_COUNT).map(({ line }) => cellsOfLine(line)) : [];
   // If commas separate the cells, a comma in a quoted cell may also separate thousands.
   const hasDecimalComma = (cell: string) => DECIMAL_COMMA.test(cell) && (separator !== ',' || !THOUSANDS_COMMA.test(cell));
   const hasDecimalCommas = rows.flat().some(hasDecimalComma);
@@ -115,9 +115,9 @@ export function detectTableFormat(lines: string[], file: string, columns: string
   const errorPlace = { file, line: firstRowLine?.number ?? filledLines[0].number };
   const noLogError = () => new LogError({ file }, (texts) => texts.noLog);
 
-  if (columns) {
-    if (firstRowLine && columns.length !== rowWidth) throw new LogError(errorPlace, (texts) => texts.given(rowWidth, columns.length));
-    return { ...commonFormat, columnNames: columns, columnGroups: findColumnGroups(columns, rows[0]) };
+  if (givenColumnNames) {
+    if (firstRowLine && givenColumnNames.length !== rowWidth) throw new LogError(errorPlace, (texts) => texts.given(rowWidth, givenColumnNames.length));
+    return { ...commonFormat, columnNames: givenColumnNames, columnGroups: findColumnGroups(givenColumnNames, rows[0]) };
   }
   // At least half of the lines must be rows: prose can also contain single rows of numbers.
   if (2 * rows.filter(isDataRow).length < rows.length) throw noLogError();
@@ -128,12 +128,12 @@ export function detectTableFormat(lines: string[], file: string, columns: string
   const header = headerOf(preambleLines, separator, rowWidth, rows[0]);
   if (header) {
     const { number } = header;
-    const names = addUnits(header.names, preambleLines.flatMap((preambleLine) => (preambleLine.number > number ? [cellsOfLine(preambleLine.line)] : [])));
+    const columnNames = addUnits(header.names, preambleLines.flatMap((preambleLine) => (preambleLine.number > number ? [cellsOfLine(preambleLine.line)] : [])));
     // If commas separate the cells and are also decimal commas, rows have more cells than the header.
-    if (rowWidth > names.length) throw new LogError({ file, line: firstRowLine?.number }, (texts) => texts.wide(rowWidth, names.length, number));
-    const groups = findColumnGroups(names, rows[0]);
-    if (!firstRowLine && groups.every(({ kind }) => kind === null)) throw noLogError();
-    return { ...commonFormat, columnNames: names, columnGroups: groups, isSparse: groups.length > 1 || names.some((name) => name.trim() === '__time') };
+    if (rowWidth > columnNames.length) throw new LogError({ file, line: firstRowLine?.number }, (texts) => texts.wide(rowWidth, columnNames.length, number));
+    const columnGroups = findColumnGroups(columnNames, rows[0]);
+    if (!firstRowLine && columnGroups.every(({ kind }) => kind === null)) throw noLogError();
+    return { ...commonFormat, columnNames, columnGroups, isSparse: columnGroups.length > 1 || columnNames.some((name) => name.trim() === '__time') };
   }
   if (!firstRowLine) throw noLogError();
   const names = columnsByContent(rows);
@@ -150,28 +150,28 @@ function addUnits(names: string[], rowsBelowHeader: string[][]): string[] {
 }
 
 /** Groups columns. A column without a name has times if its first cell is a date or a fraction. It has row numbers if that is a whole number. */
-function findColumnGroups(names: string[], row: string[] | undefined): ColumnGroup[] {
+function findColumnGroups(names: string[], firstRow: string[] | undefined): ColumnGroup[] {
   return groupColumnsByPrefix(names, (columnIndex) => {
-    const cell = row?.[columnIndex]?.trim() ?? '';
+    const cell = firstRow?.[columnIndex]?.trim() ?? '';
     return parseDate(cell) !== undefined || /^\d+[.,]\d+$/.test(cell) || epochTimeUnitOf(Number(cell)) !== undefined;
   });
 }
 
 /** Returns the header: the last line above the rows with names of fields, or a comment with as many names as a row has cells. */
-function headerOf(preambleLines: { line: string; number: number }[], separator: string, width: number, row: string[] | undefined) {
+function headerOf(preambleLines: { line: string; number: number }[], separator: string, rowWidth: number, firstRow: string[] | undefined) {
   for (const { line, number } of preambleLines.toReversed()) {
     const textLine = line.trim().replace(/^\/\//, '');
     const isComment = /^#|^%(?!time)/.test(textLine) || textLine !== line.trim();
     const commentText = textLine.replace(/^[#%]+\s*(?=[^,;])/, isComment ? '' : '$&');
     // A commented header may have another separator than the rows.
     const possibleCells = [splitCells(commentText, separator), ...(isComment ? [commentText.split(/\s{2,}/), commentText.split(/[\s,;]+(?![[(])/)] : [])];
-    const names = possibleCells.find((cells) => cells.length === width) ?? possibleCells[0];
+    const names = possibleCells.find((cells) => cells.length === rowWidth) ?? possibleCells[0];
     if (!isHeader(names)) continue;
-    const fieldNames = findColumnGroups(names, row).flatMap(({ columns }) => Object.keys(columns));
+    const fieldNames = findColumnGroups(names, firstRow).flatMap(({ columns }) => Object.keys(columns));
     // In a row of units below the header, V for volts looks like the name of a speed.
     if (names.filter((name) => isUnit(stripUnitBrackets(name))).length > fieldNames.length) continue;
-    if (isComment && (fieldNames.length < 3 || (names.length !== width && fieldNames.length < 4))) continue;
-    if (isComment || fieldNames.length > 0 || !preambleLines.some((earlier) => earlier.number < number && !/^\s*["#%]?sep=/i.test(earlier.line) && findColumnGroups(splitCells(earlier.line, separator), row).length > 0)) {
+    if (isComment && (fieldNames.length < 3 || (names.length !== rowWidth && fieldNames.length < 4))) continue;
+    if (isComment || fieldNames.length > 0 || !preambleLines.some((earlierLine) => earlierLine.number < number && !/^\s*["#%]?sep=/i.test(earlierLine.line) && findColumnGroups(splitCells(earlierLine.line, separator), firstRow).length > 0)) {
       return { names: names.map((name) => name.trim().replace(/^"(.*)"$/, '$1')), number };
     }
   }
@@ -190,14 +190,14 @@ function columnsByContent(rows: string[][]): string[] | undefined {
 }
 
 /** Returns the format of a Motive export, with a group for each rigid body. Throws a LogError for Euler angles. */
-function detectMotiveFormat(preambleRows: string[][], place: ErrorPlace): Pick<TableFormat, 'columnNames' | 'columnGroups' | 'hasUnknownAxis'> | undefined {
+function detectMotiveFormat(preambleRows: string[][], errorPlace: ErrorPlace): Pick<TableFormat, 'columnNames' | 'columnGroups' | 'hasUnknownAxis'> | undefined {
   const findRowByName = (name: string) => preambleRows.find((row) => row.slice(0, 3).some((cell) => cell.trim() === name));
   const [axisRow, quantityRow] = preambleRows.toReversed();
   const bodyNames = findRowByName('Name');
   if (!bodyNames || !quantityRow) return undefined;
   const exportSettings = new Map(preambleRows[0].flatMap((cell, i) => (i % 2 === 0 ? [[cell.trim(), preambleRows[0][i + 1]?.trim() ?? '']] : [])));
   const rotationType = exportSettings.get('Rotation Type') ?? 'Quaternion';
-  if (rotationType !== 'Quaternion') throw new LogError(place, (texts) => texts.euler(truncate(rotationType)));
+  if (rotationType !== 'Quaternion') throw new LogError(errorPlace, (texts) => texts.euler(truncate(rotationType)));
   const unit = (exportSettings.get('Length Units') ?? exportSettings.get('Units') ?? 'Meters').toLowerCase();
   const bodyTypes = findRowByName('Type');
   const names = axisRow.map((axis, i) => {

@@ -75,7 +75,7 @@ export class FrameTree {
     return children.flatMap((child) => {
       const ancestors = this.#ancestorsOf(child);
       const isMoving = movingFrames.has(child);
-      const hasMovingDescendant = isMoving && children.some((sibling) => sibling !== child && movingFrames.has(sibling) && this.#ancestorsOf(sibling).includes(child));
+      const hasMovingDescendant = isMoving && children.some((otherChild) => otherChild !== child && movingFrames.has(otherChild) && this.#ancestorsOf(otherChild).includes(child));
       // In the chain odom → base_footprint → base_link, if only base_footprint moves, the pose of base_link is that in odom. The moving frame, and frames
       // between it and the child, are skipped as parents.
       const skipCount = isMoving || !BASE_FRAME.test(child) ? 0 : ancestors.findIndex((frame) => movingFrames.has(frame)) + 1;

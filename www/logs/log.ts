@@ -49,7 +49,7 @@ export interface Recording {
   /** Series in the order of their names, or of their columns. */
   series: Series[];
   /** Reads the logs of all choices in one pass; rejects with a LogError. */
-  read(choices: LogChoice[], onProgress?: (share: number) => void): Promise<Log[]>;
+  read(choices: LogChoice[], onProgress?: (fraction: number) => void): Promise<Log[]>;
 }
 
 /** Units that logs may have, by the name of the option for the unit. */
@@ -192,12 +192,12 @@ export class LogError extends Error {
   /** Returns the message in the language of the given words. */
   messageIn: (texts: Words) => string;
 
-  constructor(place: ErrorPlace, formatReason: ErrorReason, ask?: Question) {
+  constructor(place: ErrorPlace, formatReason: ErrorReason, question?: Question) {
     const composeMessage = (texts: Words) => `${texts.place(truncate(place.file), place.line ?? 0, truncate(place.topic ?? ''))}: ${formatReason(texts.refused)}`;
     super(composeMessage(english));
     this.name = 'LogError';
     this.place = place;
-    this.question = ask;
+    this.question = question;
     this.messageIn = composeMessage;
   }
 }

@@ -119,4 +119,4 @@ export function createAheadReader(source: Source): (start: number, requestedEnd:
 export const dataViewOf = ({ buffer, byteOffset, byteLength }: Uint8Array) => new DataView(buffer, byteOffset, byteLength);
 
 /** Returns an unsigned number of eight bytes. It is exact below 2^53, and rounded above. */
-export const readUint53 = (view: DataView, at: number) => view.getUint32(at, true) + 2 ** 32 * view.getUint32(at + 4, true);
+export const readUint53 = (view: DataView, position: number) => view.getUint32(position, true) + 2 ** 32 * view.getUint32(position + 4, true);

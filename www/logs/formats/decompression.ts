@@ -57,7 +57,7 @@ export async function decompressZstdFile(source: Source): Promise<Source> {
   }
   if (!outputParts) throw new LogError({ file: source.name }, (texts) => texts.largeFile('zstd -d', MAX_FILE_BYTES));
   const decompressedFile = new Blob(outputParts);
-  return { name: source.name, path: source.path, size: decompressedFile.size, slice: (from, to) => decompressedFile.slice(from, to) };
+  return { name: source.name, path: source.path, size: decompressedFile.size, slice: (start, end) => decompressedFile.slice(start, end) };
 }
 
 function* piecesOf(bytes: Uint8Array) {
@@ -88,7 +88,7 @@ export async function decompressLz4(bytes: Uint8Array, size: number): Promise<Ui
   const flags = view.getUint8(4);
   assertValid(view.getUint32(0, true) === LZ4_MAGIC && (flags & VERSION_MASK) === VERSION_1 && !(flags & DICTIONARY));
   if (flags & (BLOCK_CHECKSUMS | CONTENT_CHECKSUM)) xxhash32 ??= (await (await import('xxhash-wasm')).default()).h32Raw;
-  const verifyChecksum = (part: Uint8Array, position: number) => assertValid(xxhash32?.(part) === view.getUint32(position, true));
+  const verifyChecksum = (checkedBytes: Uint8Array, position: number) => assertValid(xxhash32?.(checkedBytes) === view.getUint32(position, true));
   const output = new Uint8Array(size);
   let filledBytes = 0;
   // The header has a magic number, two bytes of flags, the size if there is one, and a checksum.

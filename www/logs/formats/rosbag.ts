@@ -63,9 +63,9 @@ class Rosbag extends MessageFile<number> {
     const { size } = this.source;
     try {
       const { header } = recordAt(dataViewOf(await readBytes(this.source, MAGIC_BYTES, MAGIC_BYTES + MAX_HEADER_BYTES)), 0);
-      const [start, count] = [readUint53(fieldOf(header, 'index_pos'), 0), uint32Of(header, 'chunk_count')];
-      if (opcodeOf(header) !== BAG_OPCODE || start === 0 || start > size) return false;
-      const bytes = await readBytes(this.source, start, size);
+      const [indexStart, chunkCount] = [readUint53(fieldOf(header, 'index_pos'), 0), uint32Of(header, 'chunk_count')];
+      if (opcodeOf(header) !== BAG_OPCODE || indexStart === 0 || indexStart > size) return false;
+      const bytes = await readBytes(this.source, indexStart, size);
       const view = dataViewOf(bytes);
       const chunks = [];
       for (const { header: recordHeader, dataStart, dataEnd } of recordsIn(view)) {
@@ -79,7 +79,7 @@ class Rosbag extends MessageFile<number> {
         }
         chunks.push({ position: readUint53(fieldOf(recordHeader, 'chunk_pos'), 0), ids: idsWithCounts.map(([id]) => id) });
       }
-      if (chunks.length !== count) throw new RangeError('the index is incomplete');
+      if (chunks.length !== chunkCount) throw new RangeError('the index is incomplete');
       this.chunks = chunks;
       return true;
     } catch (error) {
@@ -90,10 +90,10 @@ class Rosbag extends MessageFile<number> {
   }
 
   /** Adds the channel of a connection record. The record's data also consists of fields. */
-  #addConnection(header: DataView, data: Uint8Array): void {
+  #addConnection(header: DataView, connectionData: Uint8Array): void {
     const id = uint32Of(header, 'conn');
     if (this.channelsById.has(id)) return;
-    this.channelsById.set(id, { topic: textOf(header, 'topic'), type: textOf(dataViewOf(data), 'type'), encoding: 'ros1', count: 0 });
+    this.channelsById.set(id, { topic: textOf(header, 'topic'), type: textOf(dataViewOf(connectionData), 'type'), encoding: 'ros1', count: 0 });
   }
 
   async readMessages(isWanted: IsWanted, onMessage: OnMessage, onBlock?: OnBlock): Promise<void> {

@@ -58,9 +58,9 @@ class Rosbag2 extends MessageFile<SqliteValue> {
     const tablesByName = new Map<string, SqliteTable>();
     await this.#visitRows({ rootPage: 1, columns: [] }, async (row) => {
       const bytes = await this.#readWholeRow(row);
-      const [name, root, sql] = [1, 3, 4].map((column) => columnValueOf(bytes, column));
+      const [name, rootPage, sql] = [1, 3, 4].map((column) => columnValueOf(bytes, column));
       const columns = decodeText(sql).replace(/^[^(]*\(|\)[^)]*$/g, '').split(',').map((column) => column.trim().split(/\s/)[0]);
-      tablesByName.set(decodeText(name), { rootPage: Number(root), columns });
+      tablesByName.set(decodeText(name), { rootPage: Number(rootPage), columns });
     });
     const [topics, messages] = ['topics', 'messages'].map((name) => tablesByName.get(name));
     if (!topics || !messages) {
@@ -95,10 +95,10 @@ class Rosbag2 extends MessageFile<SqliteValue> {
   }
 
   /** Calls `onRow` for the rows of a table in the order of their ids. Damaged pages are skipped. */
-  async #visitRows({ rootPage: root }: SqliteTable, onRow: (row: Row) => void | Promise<void>, onProgress?: OnBlock): Promise<void> {
+  async #visitRows({ rootPage }: SqliteTable, onRow: (row: Row) => void | Promise<void>, onProgress?: OnBlock): Promise<void> {
     // In an incomplete file interior pages may be missing, so all pages are tried. Pages of other tables then fail without a note.
-    const triesAllPages = this.truncationReason !== undefined && root === this.#messages.rootPage;
-    const leafPages = triesAllPages ? Array.from({ length: this.source.size / this.#pageSize }, (_, i) => i + 1) : await this.#leavesOf(root);
+    const triesAllPages = this.truncationReason !== undefined && rootPage === this.#messages.rootPage;
+    const leafPages = triesAllPages ? Array.from({ length: this.source.size / this.#pageSize }, (_, i) => i + 1) : await this.#leavesOf(rootPage);
     for (const [i, pageNumber] of leafPages.entries()) {
       try {
         const pageBytes = await this.#readPage(pageNumber);
@@ -114,8 +114,8 @@ class Rosbag2 extends MessageFile<SqliteValue> {
   }
 
   /** Returns the numbers of a table's leaf pages, which have its rows, in the order of the rows. */
-  async #leavesOf(root: number): Promise<number[]> {
-    let pagesOfLevel = [root];
+  async #leavesOf(rootPage: number): Promise<number[]> {
+    let pagesOfLevel = [rootPage];
     const visitedPages = new Set<number>();
     while (pagesOfLevel.length > 0) {
       const pagesOfNextLevel: number[] = [];
@@ -164,16 +164,16 @@ class Rosbag2 extends MessageFile<SqliteValue> {
   }
 
   /** Returns all bytes of a row, including those on overflow pages. */
-  async #readWholeRow({ localBytes: bytes, byteCount: length, overflowPage: next }: Row): Promise<Uint8Array> {
-    if (bytes.length === length) return bytes;
-    const row = new Uint8Array(length);
-    row.set(bytes);
-    for (let filledBytes = bytes.length; filledBytes < length; ) {
-      const page = await this.#readPage(next);
-      const overflowPart = page.subarray(4, Math.min(this.#usableBytes, 4 + length - filledBytes));
+  async #readWholeRow({ localBytes, byteCount, overflowPage }: Row): Promise<Uint8Array> {
+    if (localBytes.length === byteCount) return localBytes;
+    const row = new Uint8Array(byteCount);
+    row.set(localBytes);
+    for (let filledBytes = localBytes.length; filledBytes < byteCount; ) {
+      const page = await this.#readPage(overflowPage);
+      const overflowPart = page.subarray(4, Math.min(this.#usableBytes, 4 + byteCount - filledBytes));
       row.set(overflowPart, filledBytes);
       filledBytes += overflowPart.length;
-      next = dataViewOf(page).getUint32(0);
+      overflowPage = dataViewOf(page).getUint32(0);
     }
     return row;
   }
@@ -208,9 +208,9 @@ function columnValueOf(row: Uint8Array, column: number): SqliteValue {
   let [valueStart, typeStart] = varintAt(row, 0);
   const end = valueStart;
   for (let i = 0; typeStart < end; i++) {
-    const [type, next] = varintAt(row, typeStart);
+    const [type, nextTypeStart] = varintAt(row, typeStart);
     const valueEnd = valueStart + (INTEGER_BYTES[type] ?? (type - 12 - (type % 2)) / 2);
-    if (i < column) [valueStart, typeStart] = [valueEnd, next];
+    if (i < column) [valueStart, typeStart] = [valueEnd, nextTypeStart];
     else if (valueEnd > row.length) break;
     else if (type >= 12) return row.subarray(valueStart, valueEnd);
     else return integerOf(row, type, valueStart, valueEnd);

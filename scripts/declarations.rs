@@ -3,7 +3,7 @@
 
 use motion::map::{MAX_BYTES, MAX_PIXELS};
 use motion::sim::picture::RAMP_STEP_COUNT;
-use motion::sim::settings::{Rules, Setting};
+use motion::sim::settings::{Setting, SettingRules};
 use motion::sim::squeeze::{ACCEPTED_BIT, END_FREE_BIT, MAX_TRIAL_PARTS, PATH_FREE_BIT};
 use motion::sim::{alpha_calibrator, arc_anatomy, banana, dead_reckoning, odometry_decomposer, squeeze};
 use serde_json::json;
@@ -34,7 +34,7 @@ fn main() -> serde_json::Result<()> {
 
 /// Returns the tag of a widget, its settings and its presets as JSON. Each setting has its declaration, its type with what belongs to this
 /// type, and its default.
-fn describe_widget<S: Rules>(tag: &'static str) -> serde_json::Result<Box<RawValue>> {
+fn describe_widget<S: SettingRules>(tag: &'static str) -> serde_json::Result<Box<RawValue>> {
     let mut settings = Vec::new();
     S::default().try_visit_settings(|declaration, setting| {
         let setting_type = match &setting {
@@ -44,16 +44,16 @@ fn describe_widget<S: Rules>(tag: &'static str) -> serde_json::Result<Box<RawVal
                 json!({ "type": "whole", "allowed": allowed, "nullable": true })
             }
             Setting::Boolean(_) => json!({ "type": "boolean" }),
-            Setting::Keyword(keyword) => json!({ "type": "word", "words": keyword.all() }),
+            Setting::Keyword(keyword) => json!({ "type": "word", "words": keyword.all_keywords() }),
             Setting::Numbers(_, allowed) => {
                 json!({ "type": "numbers", "allowed": allowed, "minLength": min_length::<S>(declaration.key) })
             }
             Setting::Level(level, allowed) => {
-                let weights: Vec<_> = level.weights().collect();
+                let weights: Vec<_> = level.ratios().collect();
                 json!({ "type": "number", "allowed": allowed, "nullable": true, "weights": weights })
             }
             Setting::Group(group) => {
-                let fields = group.fields().iter().map(|field| (&field.declaration, &field.allowed));
+                let fields = group.members().iter().map(|field| (&field.declaration, &field.allowed));
                 json!({ "type": "group", "fields": fields.collect::<Vec<_>>() })
             }
         };
@@ -64,11 +64,11 @@ fn describe_widget<S: Rules>(tag: &'static str) -> serde_json::Result<Box<RawVal
 }
 
 /// Returns the minimum length of a list whose length depends on a preceding keyword, such as the motion model.
-fn min_length<S: Rules>(list_key: &str) -> usize {
+fn min_length<S: SettingRules>(list_key: &str) -> usize {
     let mut min_length = usize::MAX;
     S::default().visit_settings(&mut |keyword_declaration, setting| {
         let Setting::Keyword(keyword) = setting else { return };
-        for word in keyword.all() {
+        for word in keyword.all_keywords() {
             S::default().visit_settings(&mut |declaration, setting| match setting {
                 Setting::Keyword(keyword) if declaration.key == keyword_declaration.key => {
                     assert!(keyword.set(word))

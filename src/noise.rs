@@ -91,7 +91,8 @@ impl NoiseKind {
         let Variance(b2) = b2;
         match self {
             Self::Normal => -0.5 * libm::expm1(-2.0 * b2),
-            // The series in b up to b⁴. For such a small variance, the next term is smaller than the rounding error of the difference below.
+            // The series in b up to b⁴. For such a small variance, the next term is smaller than the rounding error of the difference
+            // below.
             Self::Triangular if b2 < 1e-5 => b2 * (1.0 - 0.8 * b2),
             Self::Triangular => {
                 let cosine = sinc(SQRT_6 * b2.sqrt());
@@ -129,24 +130,24 @@ pub(crate) fn product_or_zero<const N: usize>(densities: [f64; N]) -> f64 {
 
 /// Returns the density at the angle `a` of noise of variance `b2` wrapped around the circle: Σₖ prob(a + 2πk), per
 /// radian. 1 or 0 as [`NoiseKind::prob`] where the variance is 0.
-pub(crate) fn wrapped_prob(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
+pub(crate) fn wrapped_density(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
     let a = wrap_angle(a);
-    let sd = b2.0.sqrt();
+    let std = b2.0.sqrt();
     match noise {
         // Beyond this deviation the wrapped Gaussian is uniform to the last bit: its first harmonic is exp(−b²/2) < 1e-17.
-        NoiseKind::Normal if sd > 9.0 => 1.0 / TAU,
+        NoiseKind::Normal if std > 9.0 => 1.0 / TAU,
         NoiseKind::Normal => {
             // Beyond nine standard deviations a term is below the rounding of the sum.
-            let max_turns = (9.0 * sd / TAU).ceil() as i32;
+            let max_turns = (9.0 * std / TAU).ceil() as i32;
             (-max_turns..=max_turns).map(|k| noise.prob(a + f64::from(k) * TAU, b2)).sum()
         }
-        NoiseKind::Triangular if sd == 0.0 => noise.prob(a, b2),
+        NoiseKind::Triangular if std == 0.0 => noise.prob(a, b2),
         NoiseKind::Triangular => {
-            let half_width = SQRT_6 * sd;
+            let half_width = SQRT_6 * std;
             // Sums half_width − x over x = first, first + 2π, … up to half_width: the triangle's terms on one side of its peak.
-            let density_sum_on_side = |first: f64| {
-                let term_count = ((half_width - first) / TAU).ceil().max(0.0);
-                term_count * (half_width - first) - TAU * term_count * (term_count - 1.0) / 2.0
+            let density_sum_on_side = |first_term: f64| {
+                let term_count = ((half_width - first_term) / TAU).ceil().max(0.0);
+                term_count * (half_width - first_term) - TAU * term_count * (term_count - 1.0) / 2.0
             };
             let abs_angle = a.abs();
             (density_sum_on_side(abs_angle) + density_sum_on_side(TAU - abs_angle))
@@ -159,9 +160,9 @@ pub(crate) fn wrapped_prob(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
 /// exactly symmetric, and contains neither 0 nor the ends, whose quantiles are infinite.
 #[inline(always)]
 pub fn draw_centred_uniform<R: Rng + ?Sized>(rng: &mut R) -> f64 {
-    const NUMBER_SPACING: f64 = 1.0 / (1u64 << 53) as f64;
+    const UNIFORM_SPACING: f64 = 1.0 / (1u64 << 53) as f64;
     let signed_integer = rng.next_u64() as i64 >> 11;
-    (signed_integer as f64 + 0.5) * NUMBER_SPACING
+    (signed_integer as f64 + 0.5) * UNIFORM_SPACING
 }
 
 /// Returns three numbers of [`draw_centred_uniform`] for each of four samples, drawn sample by sample.

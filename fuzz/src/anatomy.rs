@@ -4,7 +4,7 @@ use super::input::{InputReader, is_selected_by_hash};
 use super::settings::{are_settings_allowed, change_settings};
 use super::{assertions, banana};
 use motion::geom::se2::SE2;
-use motion::sim::arc_anatomy::{ArcAnatomy, ArcWithCircle, SurfaceKind, Paths, Settings, Stats, Surface, Table};
+use motion::sim::arc_anatomy::{ArcAnatomy, ArcWithCircle, HeatMapKind, Paths, Settings, Stats, Surface, Table};
 use motion::sim::views::ViewGrid;
 
 /// Maximum number of calls in a run.
@@ -133,9 +133,9 @@ fn find_position_at(simulation: &ArcAnatomy, time_fraction: f64) -> [f64; 2] {
 
 /// Asserts that the contours of the heat map are inside its rectangle.
 fn assert_surface(simulation: &ArcAnatomy, input: &mut InputReader) {
-    let ViewGrid { min: view_min, max: view_max, .. } = banana::read_view_grid(input);
+    let ViewGrid { min_corner: view_min, max_corner: view_max, .. } = banana::read_view_grid(input);
     let heat_map = simulation.surface(view_min, view_max);
-    assert_eq!(heat_map.is_none(), simulation.settings().map == SurfaceKind::Nothing);
+    assert_eq!(heat_map.is_none(), simulation.settings().map == HeatMapKind::NoHeatMap);
     let Some(Surface { columns: column_count, rows: row_count, shades: pixel_shades, prob: score_contours, density: density_contours }) = heat_map else { return };
     assert!(pixel_shades.len() == column_count * row_count && !pixel_shades.is_empty(), "{column_count} × {row_count}");
     for [x, y] in score_contours.iter().chain(&density_contours).flatten() {

@@ -136,7 +136,7 @@ fn assert_results(simulation: &BananaMachine) {
     simulation.poses().for_each(|pose| assertions::assert_pose("a pose", &pose));
     assert_eq!(simulation.poses().len(), n);
     assertions::assert_finite("executed", simulation.executed_motions().collect::<Vec<_>>().as_flattened());
-    let are_twists_defined = simulation.is_chart_defined();
+    let are_twists_defined = simulation.is_exponential_defined();
     if are_twists_defined {
         simulation.twists().for_each(|twist| assertions::assert_finite("a twist", twist.as_slice()));
     }
@@ -186,7 +186,7 @@ fn assert_contours(simulation: &BananaMachine) {
         assert_eq!(outline.first(), outline.last(), "an outline is closed");
     }
     assert_eq!(covariance_ellipse.is_empty(), simulation.shown_count() < 2);
-    assert_eq!(exponential_contour.is_empty(), simulation.shown_count() < 2 || !simulation.is_chart_defined());
+    assert_eq!(exponential_contour.is_empty(), simulation.shown_count() < 2 || !simulation.is_exponential_defined());
 }
 
 /// Checks every column of the simulation's table of moments. The check is slow, because exact moments need quadrature.
@@ -245,7 +245,7 @@ pub fn read_view_grid(input: &mut InputReader) -> ViewGrid {
     let view_min = [0; 2].map(|_| input.draw_number_within(EXTENT_RANGE));
     let view_max = view_min.map(|min_coordinate| input.draw_number_within(min_coordinate..=*EXTENT_RANGE.end()));
     let [column_count, row_count] = [0; 2].map(|_| 1 + input.next_below(40));
-    ViewGrid { min: view_min, max: view_max, columns: column_count, rows: row_count }
+    ViewGrid { min_corner: view_min, max_corner: view_max, columns: column_count, rows: row_count }
 }
 
 fn assert_picture(simulation: &mut BananaMachine, input: &mut InputReader) {

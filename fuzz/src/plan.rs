@@ -73,7 +73,7 @@ pub fn read_floor_plan(input: &mut InputReader) -> Option<FloorPlan> {
                     assert!(!has_valid_bounds, "{error_message}");
                     super::assertions::assert_same_numbers(&error_message, &refused_bounds, &bounds);
                 }
-                FloorPlanError::BadWall { index: refused_wall_index, end: refused_end } => {
+                FloorPlanError::BadWall { wall_index: refused_wall_index, invalid_end: refused_end } => {
                     assert!(refused_wall_index < wall_count, "{error_message}");
                     let [x, y] = refused_end;
                     assert!(!((left..=right).contains(&x) && (bottom..=top).contains(&y)), "{error_message}");

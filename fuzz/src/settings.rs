@@ -1,10 +1,10 @@
 //! Changes settings to any values, as users do.
 
 use super::input::InputReader;
-use motion::sim::settings::{AllowedValues, Group, Rules, Setting, SettingsError};
+use motion::sim::settings::{AllowedValues, NumberGroup, Setting, SettingRules, SettingsError};
 
 /// Returns the current settings with random changes.
-pub fn change_settings<S: Rules>(current_settings: &S, input: &mut InputReader) -> S {
+pub fn change_settings<S: SettingRules>(current_settings: &S, input: &mut InputReader) -> S {
     let (mut changed_settings, mut changed_keys) = (*current_settings, Vec::new());
     let setting_mask = u16::from_le_bytes(input.next_bytes());
     let mut visited_count = 0;
@@ -29,7 +29,7 @@ fn set_any_value(setting: Setting, input: &mut InputReader) {
         }
         Setting::Boolean(setting_value) => *setting_value = input.next_bool(),
         Setting::Keyword(setting_value) => {
-            let keyword_choices = setting_value.all();
+            let keyword_choices = setting_value.all_keywords();
             assert!(
                 setting_value.set(input.choose_one(&keyword_choices))
                     && !setting_value.set("")
@@ -42,7 +42,7 @@ fn set_any_value(setting: Setting, input: &mut InputReader) {
         // A noise level sets several α's. A level outside of its range is refused before it is converted to α's.
         Setting::Level(mut setting_value, allowed) => setting_value.set(input.draw_number_within(allowed)),
         Setting::Group(setting_group) => {
-            for (group_field, number) in setting_group.fields().iter().zip(setting_group.numbers_mut()) {
+            for (group_field, number) in setting_group.members().iter().zip(setting_group.numbers_mut()) {
                 *number = input.draw_number_near(&group_field.allowed);
             }
         }
@@ -50,17 +50,16 @@ fn set_any_value(setting: Setting, input: &mut InputReader) {
 }
 
 /// Returns true if the settings are allowed. Otherwise checks the message of the error.
-pub fn are_settings_allowed<S: Rules>(settings: &S) -> bool {
+pub fn are_settings_allowed<S: SettingRules>(settings: &S) -> bool {
     let Err(settings_error) = settings.check() else {
         assert_in_range(settings);
         return true;
     };
-    let SettingsError { field: refused_field, value: refused_number, allowed: allowed_values } =
-        &settings_error;
-    let root_key = refused_field.split(['.', '[']).next();
+    let SettingsError { key: refused_key, value: refused_number, allowed: allowed_values } = &settings_error;
+    let root_key = refused_key.split(['.', '[']).next();
     assert!(S::KEYS.iter().any(|known_key| Some(*known_key) == root_key), "{settings_error}");
     let message = settings_error.to_string();
-    assert!(message.starts_with(refused_field) && message.contains("; allowed is "), "{message}");
+    assert!(message.starts_with(refused_key) && message.contains("; allowed is "), "{message}");
     match allowed_values {
         AllowedValues::Real(range) => assert!(!range.contains(refused_number), "{message}"),
         AllowedValues::Integer(range) => {
@@ -73,7 +72,7 @@ pub fn are_settings_allowed<S: Rules>(settings: &S) -> bool {
 }
 
 /// Asserts that every number of the settings is in its range.
-fn assert_in_range<S: Rules>(settings: &S) {
+fn assert_in_range<S: SettingRules>(settings: &S) {
     let mut settings = *settings;
     let _: Result<(), ()> = settings.try_visit_settings(|declaration, setting| {
         let is_in_range = match setting {
@@ -91,6 +90,6 @@ fn assert_in_range<S: Rules>(settings: &S) {
     });
 }
 
-fn is_group_in_range(group: &dyn Group) -> bool {
-    group.fields().iter().zip(group.numbers()).all(|(field, number)| field.allowed.contains(&number))
+fn is_group_in_range(group: &dyn NumberGroup) -> bool {
+    group.members().iter().zip(group.numbers()).all(|(field, number)| field.allowed.contains(&number))
 }

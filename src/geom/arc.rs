@@ -7,7 +7,7 @@
 use super::angle::wrap_angle;
 use super::lanes::{SinCos, Trigonometry};
 use super::se2::SE2;
-use super::sinc::{chord_factors, sinc};
+use super::sinc::{sinc, unit_arc_end};
 use std::f64::consts::{PI, TAU};
 use std::ops::{Add, Mul};
 use wide::f64x4;
@@ -15,7 +15,7 @@ use wide::f64x4;
 /// Returns the end (x, y) of an arc of signed length `length` (m) that turns by `turn` (rad), in the frame of its start: x forward, y left.
 /// The end is (s·sin φ/φ, s·(1 − cos φ)/φ), with (1 − cos φ)/φ = sin(φ/2)·sinc(φ/2).
 pub fn arc_end(length: f64, turn: f64) -> (f64, f64) {
-    let (forward, left) = chord_factors(turn);
+    let (forward, left) = unit_arc_end(turn);
     (length * forward, length * left)
 }
 
@@ -88,11 +88,11 @@ pub fn invert_arc(x: &SE2, x_next: &SE2, dt: f64) -> ArcInversion {
 /// is 0; along a straight line, which closes no circle, the turn is 0.
 pub fn arc_with_turn_near(x: &SE2, x_next: &SE2, near_turn: f64) -> (f64, f64) {
     let ArcInversion { v_hat: length, omega_hat: turn, .. } = invert_arc(x, x_next, 1.0);
-    let whole_circles = ((near_turn - turn) / TAU).round();
-    if whole_circles == 0.0 || turn == 0.0 {
+    let full_circle_count = ((near_turn - turn) / TAU).round();
+    if full_circle_count == 0.0 || turn == 0.0 {
         return (length, turn);
     }
-    let total_turn = turn + whole_circles * TAU;
+    let total_turn = turn + full_circle_count * TAU;
     (length * (total_turn / turn), total_turn)
 }
 
@@ -139,7 +139,7 @@ impl Arc {
         let turn = self.turn * drive_sign;
         let turn_sign = if turn < 0.0 { -1.0 } else { 1.0 };
         let turn = turn.abs();
-        let curvature = if length > MIN_LENGTH && turn > MIN_TURN { turn / length } else { 0.0 };
+        let curvature = if length > MIN_ARC_LENGTH && turn > MIN_ARC_TURN { turn / length } else { 0.0 };
         LocalArc {
             origin: [self.start.x(), self.start.y()],
             forward: [drive_sign * cos, drive_sign * sin],
@@ -168,7 +168,7 @@ pub(crate) struct DrivenArc {
     /// Heading at the end in (−π, π], rad.
     pub heading: f64,
     /// sinc(φ/2), which is the length of the chord divided by the length of the arc.
-    half_sinc: f64,
+    chord_ratio: f64,
 }
 
 impl PreparedPose {
@@ -188,9 +188,9 @@ impl PreparedPose {
     pub fn drive(&self, length: f64, turn: f64) -> DrivenArc {
         let half_turn = 0.5 * turn;
         let half_sine = libm::sin(half_turn);
-        let half_sinc = if half_turn == 0.0 { 1.0 } else { half_sine / half_turn };
-        let (forward, left) = (length * sinc(turn), length * (half_sine * half_sinc));
-        self.driven_arc(length, turn, half_sinc, self.transform_point([forward, left]))
+        let chord_ratio = if half_turn == 0.0 { 1.0 } else { half_sine / half_turn };
+        let (forward, left) = (length * sinc(turn), length * (half_sine * chord_ratio));
+        self.create_driven_arc(length, turn, chord_ratio, self.transform_point([forward, left]))
     }
 
     /// Computes four arcs from this pose in SIMD lanes. Returns a function from the lane index to the arc. The ends differ from those of
@@ -210,30 +210,31 @@ impl PreparedPose {
         let y = (forward * self.sin + left * self.cos) + self.pose.y();
         let [length, turn, sinc, x, y] = [length, turn, sinc, x, y].map(f64x4::to_array);
         let start_pose = *self;
-        move |i| start_pose.driven_arc(length[i], turn[i], sinc[i], [x[i], y[i]])
+        move |i| start_pose.create_driven_arc(length[i], turn[i], sinc[i], [x[i], y[i]])
     }
 
-    fn driven_arc(&self, length: f64, turn: f64, half_sinc: f64, end: [f64; 2]) -> DrivenArc {
+    fn create_driven_arc(&self, length: f64, turn: f64, chord_ratio: f64, end: [f64; 2]) -> DrivenArc {
         let heading = wrap_angle(self.pose.theta() + wrap_angle(turn));
-        DrivenArc { arc: Arc { start: self.pose, length, turn }, end, heading, half_sinc }
+        DrivenArc { arc: Arc { start: self.pose, length, turn }, end, heading, chord_ratio }
     }
 }
 
 impl DrivenArc {
     /// Returns the arc as one or two pieces of up to half a turn. The part after a full turn is omitted, because it repeats the circle.
-    pub fn arc_pieces(&self) -> impl Iterator<Item = ArcPiece> {
+    pub fn split_into_pieces(&self) -> impl Iterator<Item = ArcPiece> {
         let Arc { start, length, turn } = self.arc;
         let start_point = [start.x(), start.y()];
         if turn.abs() <= PI {
-            let arc_piece = ArcPiece::new(start_point, self.end, length.abs(), turn, self.half_sinc);
+            let arc_piece = ArcPiece::new(start_point, self.end, length.abs(), turn, self.chord_ratio);
             return [Some(arc_piece), None].into_iter().flatten();
         }
-        let half_fraction = 0.5 * (TAU / turn.abs()).min(1.0);
-        let (length, turn) = (half_fraction * length, half_fraction * turn);
-        let DrivenArc { end: middle_position, half_sinc, .. } = PreparedPose::new(start).drive(length, turn);
-        let end_point = if half_fraction < 0.5 { start_point } else { self.end };
+        let piece_fraction = 0.5 * (TAU / turn.abs()).min(1.0);
+        let (length, turn) = (piece_fraction * length, piece_fraction * turn);
+        let DrivenArc { end: middle_position, chord_ratio, .. } =
+            PreparedPose::new(start).drive(length, turn);
+        let end_point = if piece_fraction < 0.5 { start_point } else { self.end };
         [(start_point, middle_position), (middle_position, end_point)]
-            .map(|(start, end)| Some(ArcPiece::new(start, end, length.abs(), turn, half_sinc)))
+            .map(|(start, end)| Some(ArcPiece::new(start, end, length.abs(), turn, chord_ratio)))
             .into_iter()
             .flatten()
     }
@@ -247,13 +248,13 @@ impl DrivenArc {
         }
         // The arc lies in the rectangle between its chord and its midpoint. The midpoint is tan(φ/4)/2 chord lengths to the right of the
         // chord, which is at most φ/2π chord lengths.
-        let rise_ratio = self.arc.turn / TAU;
-        let (rise_x, rise_y) = (rise_ratio * (y1 - y0), rise_ratio * (x0 - x1));
+        let sagitta_ratio = self.arc.turn / TAU;
+        let (sagitta_x, sagitta_y) = (sagitta_ratio * (y1 - y0), sagitta_ratio * (x0 - x1));
         [
-            x0.min(x1) + rise_x.min(0.0),
-            y0.min(y1) + rise_y.min(0.0),
-            x0.max(x1) + rise_x.max(0.0),
-            y0.max(y1) + rise_y.max(0.0),
+            x0.min(x1) + sagitta_x.min(0.0),
+            y0.min(y1) + sagitta_y.min(0.0),
+            x0.max(x1) + sagitta_x.max(0.0),
+            y0.max(y1) + sagitta_y.max(0.0),
         ]
     }
 }
@@ -272,11 +273,11 @@ pub(crate) struct ArcPiece {
 }
 
 impl ArcPiece {
-    /// Creates the piece between two points. `length` (m) is positive, `turn` is in rad, and `half_sinc` is sinc(φ/2).
-    fn new(start: [f64; 2], end: [f64; 2], length: f64, turn: f64, half_sinc: f64) -> Self {
-        let (per_metre, curvature) =
-            if length > MIN_LENGTH { (1.0 / (length * half_sinc), turn / length) } else { (0.0, 0.0) };
-        let tangent = [(end[0] - start[0]) * per_metre, (end[1] - start[1]) * per_metre];
+    /// Creates the piece between two points. `length` (m) is positive, `turn` is in rad, and `chord_ratio` is sinc(φ/2).
+    fn new(start: [f64; 2], end: [f64; 2], length: f64, turn: f64, chord_ratio: f64) -> Self {
+        let (inverse_chord, curvature) =
+            if length > MIN_ARC_LENGTH { (1.0 / (length * chord_ratio), turn / length) } else { (0.0, 0.0) };
+        let tangent = [(end[0] - start[0]) * inverse_chord, (end[1] - start[1]) * inverse_chord];
         let half_length = 0.5 * length;
         let uncorrected_piece = Self {
             middle: [0.5 * (start[0] + end[0]), 0.5 * (start[1] + end[1])],
@@ -285,10 +286,10 @@ impl ArcPiece {
             half_length,
             max_error: 0.0,
         };
-        let [_, end_rise]: [f64; 2] = uncorrected_piece.local_point(half_length);
+        let [_, sagitta]: [f64; 2] = uncorrected_piece.local_point(half_length);
         let middle = [
-            uncorrected_piece.middle[0] + end_rise * tangent[1],
-            uncorrected_piece.middle[1] - end_rise * tangent[0],
+            uncorrected_piece.middle[0] + sagitta * tangent[1],
+            uncorrected_piece.middle[1] - sagitta * tangent[0],
         ];
         let half_turn_squared = 0.25 * turn * turn;
         Self {
@@ -305,11 +306,11 @@ impl ArcPiece {
     where
         T: Copy + Mul<Output = T> + Mul<f64, Output = T> + Add<f64, Output = T>,
     {
-        let angle = s * self.curvature;
-        let angle_squared = angle * angle;
+        let turn_from_middle = s * self.curvature;
+        let turn_squared = turn_from_middle * turn_from_middle;
         [
-            s * (angle_squared * (angle_squared * (1.0 / 120.0) + -1.0 / 6.0) + 1.0),
-            s * angle * (angle_squared * (angle_squared * (1.0 / 720.0) + -1.0 / 24.0) + 0.5),
+            s * (turn_squared * (turn_squared * (1.0 / 120.0) + -1.0 / 6.0) + 1.0),
+            s * turn_from_middle * (turn_squared * (turn_squared * (1.0 / 720.0) + -1.0 / 24.0) + 0.5),
         ]
     }
 
@@ -324,11 +325,11 @@ impl ArcPiece {
 
 /// Turn (rad) below which an arc counts as straight. Such an arc deviates from a line by less than rounding. A much larger limit would
 /// cause visible errors. A much smaller limit would let the curvature underflow.
-const MIN_TURN: f64 = 1e-30;
+const MIN_ARC_TURN: f64 = 1e-30;
 
 /// Length (m) below which arcs count as points. Products of the curvature of a shorter arc and areas of some km² might exceed the
 /// range of doubles.
-const MIN_LENGTH: f64 = 1e-100;
+const MIN_ARC_LENGTH: f64 = 1e-100;
 
 /// Arc in the frame of its start, mirrored so that it leads forward and to the left. It starts at the origin along x, with
 /// length, turn and curvature κ ≥ 0. No formula uses the centre, which is far away or undefined if κ is small.

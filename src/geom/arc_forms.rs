@@ -64,7 +64,7 @@ fn rms_errors_at(omega: f64) -> [f64; 3] {
         let heading = TAU * (f64::from(i) + 0.37) / f64::from(HEADING_COUNT) - 0.5 * TAU;
         let true_end = exact_end(heading, omega);
         let form_ends =
-            [arc_form_end(heading, omega), straight_form_end(heading), chord_form_end(heading, omega)];
+            [end_by_arc(heading, omega), end_by_straight_line(heading), end_by_chord(heading, omega)];
         for (squared_error, form_end) in squared_errors.iter_mut().zip(form_ends) {
             for (coordinate, exact_coordinate) in form_end.into_iter().zip(true_end) {
                 let coordinate_error = (DoubleDouble::from(coordinate) - exact_coordinate).to_f64();
@@ -75,7 +75,7 @@ fn rms_errors_at(omega: f64) -> [f64; 3] {
     squared_errors.map(|squared_error| (squared_error / f64::from(HEADING_COUNT)).sqrt())
 }
 
-fn arc_form_end(theta: f64, omega: f64) -> [f64; 2] {
+fn end_by_arc(theta: f64, omega: f64) -> [f64; 2] {
     let arc_radius = SPEED / omega;
     let end_heading = theta + omega * DURATION;
     [
@@ -84,12 +84,12 @@ fn arc_form_end(theta: f64, omega: f64) -> [f64; 2] {
     ]
 }
 
-fn straight_form_end(theta: f64) -> [f64; 2] {
+fn end_by_straight_line(theta: f64) -> [f64; 2] {
     let driven_length = SPEED * DURATION;
     [driven_length * libm::cos(theta), driven_length * libm::sin(theta)]
 }
 
-fn chord_form_end(theta: f64, omega: f64) -> [f64; 2] {
+fn end_by_chord(theta: f64, omega: f64) -> [f64; 2] {
     let (ahead, left) = arc_end(SPEED * DURATION, omega * DURATION);
     let (sin, cos) = libm::sincos(theta);
     [cos * ahead - sin * left, sin * ahead + cos * left]
@@ -108,7 +108,7 @@ fn exact_end(theta: f64, omega: f64) -> [DoubleDouble; 2] {
 /// Sums and products use the error-free transformations of Dekker (Numerische Mathematik 18, 1971) and Knuth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DoubleDouble {
-    /// Nearest double.
+    /// Double nearest to the number.
     pub high: f64,
     /// Remainder, at most half a unit in the last place of `high`.
     pub low: f64,

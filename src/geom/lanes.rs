@@ -129,7 +129,7 @@ pub(crate) fn first_lanes_mask(lane_count: usize) -> f64x4 {
 
 /// Returns ln of positive normal numbers, by the same operations as `libm::log`. FreeBSD's e_log.c explains the algorithm.
 #[inline(always)]
-pub(crate) fn log(x: f64x4) -> f64x4 {
+pub(crate) fn ln(x: f64x4) -> f64x4 {
     /// Upper 32 bits of √2/2, the smallest reduced mantissa.
     const HALF_SQRT_2: u64 = 0x3fe6_a09e << 32;
     const BITS_OF_ONE: u64 = 0x3ff0_0000 << 32;
@@ -154,7 +154,7 @@ pub(crate) fn log(x: f64x4) -> f64x4 {
 /// ln 2 as the sum of two parts. The second part has the digits that the first part lacks.
 #[expect(clippy::excessive_precision, reason = "the digits as published")]
 const LN_2_PARTS: [f64; 2] = [6.931_471_803_691_238_164_90e-1, 1.908_214_929_270_587_700_02e-10];
-/// Coefficients of the polynomial in s² of [`log`].
+/// Coefficients of the polynomial in s² of [`ln`].
 #[expect(clippy::excessive_precision, reason = "the digits as published")]
 const LOG_COEFFICIENTS: [f64; 7] = [
     6.666_666_666_666_735_130e-1,

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::Mul;
 
 pub use super::angle::wrap_angle;
-use super::sinc::{chord_factors, sinc};
+use super::sinc::{sinc, unit_arc_end};
 
 /// Pose of a body frame in a reference frame: position (x, y) in metres and heading θ in (−π, π] radians.
 ///
@@ -60,7 +60,7 @@ impl SE2 {
     /// The position is V(ω)·(v_x, v_y) with V = [sin ω/ω, −(1 − cos ω)/ω; (1 − cos ω)/ω, sin ω/ω]. The heading is ω, wrapped. The chord
     /// form of V needs no series near ω = 0. For |ω| ≤ π the error of a component is at most 4e-16 · max(1, ‖twist‖).
     pub fn exp(twist: &Vector3<f64>) -> Self {
-        let (a, b) = chord_factors(twist.z);
+        let (a, b) = unit_arc_end(twist.z);
         Self::new(a * twist.x - b * twist.y, b * twist.x + a * twist.y, twist.z)
     }
 
@@ -79,12 +79,8 @@ impl SE2 {
     }
 
     fn log_with_turn(&self, turn: f64) -> Vector3<f64> {
-        let (half_turn, half_turn_cotangent) = (0.5 * turn, half_cotangent(turn));
-        Vector3::new(
-            half_turn_cotangent * self.x + half_turn * self.y,
-            half_turn_cotangent * self.y - half_turn * self.x,
-            turn,
-        )
+        let (half_turn, h_cot_h) = (0.5 * turn, h_cot_h(turn));
+        Vector3::new(h_cot_h * self.x + half_turn * self.y, h_cot_h * self.y - half_turn * self.x, turn)
     }
 
     /// Returns x ⊞ τ = x · exp(τ), which is this pose moved by a twist in its own body frame (eq. 25).
@@ -125,8 +121,8 @@ impl SE2 {
     ///
     /// Each entry is off by at most 4e-16 · max(1, ‖τ‖) for |ω| ≤ π. det J_r = sinc²(ω/2).
     pub fn right_jacobian(twist: &Vector3<f64>) -> Matrix3<f64> {
-        let (a, b) = chord_factors(twist.z);
-        let (c, d) = (sine_defect(twist.z), 0.5 * squared_half_sinc(twist.z));
+        let (a, b) = unit_arc_end(twist.z);
+        let (c, d) = (sine_defect(twist.z), 0.5 * squared_sinc_of_half(twist.z));
         Matrix3::new(a, b, c * twist.x - d * twist.y, -b, a, d * twist.x + c * twist.y, 0.0, 0.0, 1.0)
     }
 
@@ -135,7 +131,7 @@ impl SE2 {
     /// Entries have the accuracy of [`SE2::right_jacobian`] for |ω| ≤ π. They grow without bound towards |ω| = 2π.
     pub fn right_jacobian_inverse(twist: &Vector3<f64>) -> Matrix3<f64> {
         let (x, y, half_turn) = (twist.x, twist.y, 0.5 * twist.z);
-        let (k, g) = (half_cotangent(twist.z), cotangent_defect(twist.z));
+        let (k, g) = (h_cot_h(twist.z), cotangent_defect(twist.z));
         Matrix3::new(k, -half_turn, g * x + 0.5 * y, half_turn, k, g * y - 0.5 * x, 0.0, 0.0, 1.0)
     }
 }
@@ -169,7 +165,7 @@ impl From<[f64; 3]> for SE2 {
 
 /// Returns h·cot h with h = ω/2. Near 0 a series is used, because the three roundings of the closed form would be the largest error of the
 /// logarithm.
-fn half_cotangent(turn: f64) -> f64 {
+fn h_cot_h(turn: f64) -> f64 {
     if turn.abs() < MAX_SERIES_ANGLE {
         return 1.0 - turn * cotangent_defect(turn);
     }
@@ -178,7 +174,7 @@ fn half_cotangent(turn: f64) -> f64 {
 }
 
 /// Returns sinc²(ω/2) = 2(1 − cos ω)/ω², without the cancellation of 1 − cos ω.
-fn squared_half_sinc(turn: f64) -> f64 {
+fn squared_sinc_of_half(turn: f64) -> f64 {
     let half_sinc = sinc(0.5 * turn);
     half_sinc * half_sinc
 }
@@ -207,11 +203,11 @@ fn sine_defect(turn: f64) -> f64 {
 /// Returns (1 − h·cot h)/ω with h = ω/2, which is ω/12 + ω³/720 + ω⁵/30240 + …
 fn cotangent_defect(turn: f64) -> f64 {
     if turn.abs() >= MAX_SERIES_ANGLE {
-        return (1.0 - half_cotangent(turn)) / turn;
+        return (1.0 - h_cot_h(turn)) / turn;
     }
-    /// Coefficients |B₂ₖ|/(2k)! for k = 1, 2, …, with Bernoulli numbers B. Each coefficient is about 1/(2π)² of the previous one. The first
+    /// Coefficients of the series: |B₂ₖ|/(2k)! for k = 1, 2, …, with Bernoulli numbers B. Each coefficient is about 1/(2π)² of the previous one. The first
     /// omitted coefficient is 1e-18.
-    const COEFFICIENTS: [f64; 10] = [
+    const SERIES_COEFFICIENTS: [f64; 10] = [
         1.0 / 12.0,
         1.0 / 720.0,
         1.0 / 30_240.0,
@@ -224,5 +220,5 @@ fn cotangent_defect(turn: f64) -> f64 {
         174_611.0 / 802_857_662_698_291_200_000.0,
     ];
     let turn_squared = turn * turn;
-    turn * COEFFICIENTS.iter().rev().fold(0.0, |sum, coefficient| sum * turn_squared + coefficient)
+    turn * SERIES_COEFFICIENTS.iter().rev().fold(0.0, |sum, coefficient| sum * turn_squared + coefficient)
 }

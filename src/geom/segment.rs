@@ -15,18 +15,18 @@ pub struct Segment {
 impl Segment {
     /// Returns the distance (m) from a point to the nearest point of the segment.
     pub fn distance_to_point(&self, point: [f64; 2]) -> f64 {
-        let [x, y] = self.offset_of_point(point);
+        let [x, y] = self.offset_from_nearest_point(point);
         libm::hypot(x, y)
     }
 
     /// Returns the squared distance to a point. Distances below 10⁻¹⁶² m underflow to 0.
     pub(crate) fn squared_distance_to_point(&self, point: [f64; 2]) -> f64 {
-        let nearest_offset = self.offset_of_point(point);
+        let nearest_offset = self.offset_from_nearest_point(point);
         dot(nearest_offset, nearest_offset)
     }
 
     /// Returns the vector from the nearest point of the segment to `point`.
-    fn offset_of_point(&self, point: [f64; 2]) -> [f64; 2] {
+    fn offset_from_nearest_point(&self, point: [f64; 2]) -> [f64; 2] {
         let direction = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
         let offset = [point[0] - self.from[0], point[1] - self.from[1]];
         let squared_length = dot(direction, direction);

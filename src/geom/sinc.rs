@@ -7,7 +7,7 @@ pub fn sinc(t: f64) -> f64 {
 }
 
 /// Returns the end (sin φ/φ, (1 − cos φ)/φ) of an arc of length 1 that turns by φ, without cancellation.
-pub(crate) fn chord_factors(turn: f64) -> (f64, f64) {
+pub(crate) fn unit_arc_end(turn: f64) -> (f64, f64) {
     let half_turn = 0.5 * turn;
     let sin = libm::sin(half_turn);
     (sinc(turn), if half_turn == 0.0 { sin } else { sin * (sin / half_turn) })

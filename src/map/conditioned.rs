@@ -179,19 +179,19 @@ impl NoisyCommand {
     }
 
     /// Returns the length (m) and turn of the arc, and the turn after it (rad): see [`VelocityModel::executed_motion`].
-    fn executed_motion<T>(&self, [v, omega, gamma]: [T; 3]) -> [T; 3]
+    fn executed_motion<T>(&self, [v_noise, omega_noise, gamma_noise]: [T; 3]) -> [T; 3]
     where
         T: Mul<f64, Output = T> + Add<f64, Output = T>,
     {
-        let (u, [v_noise, omega_noise, gamma_noise]) = (self.u, self.noise_stds);
-        [(v * v_noise + u.v) * u.dt, (omega * omega_noise + u.omega) * u.dt, gamma * gamma_noise * u.dt]
+        let (VelocityCmd { v, omega, dt }, [v_std, omega_std, gamma_std]) = (self.u, self.noise_stds);
+        [(v_noise * v_std + v) * dt, (omega_noise * omega_std + omega) * dt, gamma_noise * gamma_std * dt]
     }
 }
 
 /// Returns the end pose of an arc, turned on the spot by `last_turn` (rad).
-fn with_last_turn(driven: DrivenArc, last_turn: f64) -> (SE2, DrivenArc) {
-    let [x, y] = driven.end;
-    (SE2::new(x, y, driven.heading + last_turn), driven)
+fn with_last_turn(driven_arc: DrivenArc, last_turn: f64) -> (SE2, DrivenArc) {
+    let [x, y] = driven_arc.end;
+    (SE2::new(x, y, driven_arc.heading + last_turn), driven_arc)
 }
 
 impl MapConditioned<'_> {
@@ -309,7 +309,7 @@ impl MapConditioned<'_> {
 
     /// Returns the result of the collision test on which the acceptance of a draw depends: of the whole path for [`Sampler::WholeArc`], of
     /// the end pose for other samplers.
-    pub fn deciding_verdict(&self, draw: &TestedDraw) -> CollisionVerdict {
-        if self.sampler == Sampler::WholeArc { draw.path_verdict } else { draw.end_verdict }
+    pub fn deciding_verdict(&self, tested_draw: &TestedDraw) -> CollisionVerdict {
+        if self.sampler == Sampler::WholeArc { tested_draw.path_verdict } else { tested_draw.end_verdict }
     }
 }

@@ -14,7 +14,7 @@ pub(super) struct DistanceField {
     cells_per_metre: f64,
     columns: usize,
     /// Index of the last column and of the last row.
-    last_cell: [f64; 2],
+    last_indices: [f64; 2],
     /// Half the diagonal of a cell, m: the resolution of the field.
     pub cell_radius: f64,
     /// Uncertainty (m) of the distance from the middle of a cell to the nearest wall.
@@ -39,7 +39,7 @@ const MAX_WALLS_PER_CELL: usize = 3;
 
 /// Accepted error of the distance from a block of cells to the nearest wall, as a fraction of half the block's diagonal. Walls closer
 /// together than this error are measured as one. A map whose walls fit into a single leaf of the wall tree is measured exactly.
-const RELATIVE_BLOCK_UNCERTAINTY: f64 = 0.125;
+const RELATIVE_UNCERTAINTY: f64 = 0.125;
 
 /// Lower bound of a cell whose distance to the walls was not computed.
 const NOT_COMPUTED: f32 = f32::MIN;
@@ -53,10 +53,10 @@ impl DistanceField {
     /// grid whose occupied cells the walls outline, if there is one.
     pub fn new(tree: &WallTree, bounds: [f64; 4], occupied_grid: Option<&OccupancyGrid>) -> Self {
         let mut builder = FieldBuilder::new(tree, bounds);
-        while let Some(block) = builder.blocks.pop() {
+        while let Some(block) = builder.remaining_blocks.pop() {
             builder.fill_block(tree, occupied_grid, block);
         }
-        builder.field
+        builder.distance_field
     }
 
     /// Returns a lower bound (m) on the distance from a point inside the bounds to the nearest wall.
@@ -81,7 +81,7 @@ impl DistanceField {
         // A point on the border of two cells may be rounded into either cell, because the lower bound of each cell includes its border.
         let [column, row] = [0, 1].map(|axis| {
             let cell_coordinate = (points[axis] - self.min_corner[axis]) * self.cells_per_metre - 0.5;
-            cell_coordinate.fast_max(zero).fast_min(f64x4::splat(self.last_cell[axis])) + ROUND_TO_INTEGER
+            cell_coordinate.fast_max(zero).fast_min(f64x4::splat(self.last_indices[axis])) + ROUND_TO_INTEGER
                 - ROUND_TO_INTEGER
         });
         // Adding this number to a small integer puts that integer into the last bits of the sum.
@@ -103,23 +103,23 @@ impl DistanceField {
 
 /// Distance field during filling, with the state of the search.
 struct FieldBuilder {
-    field: DistanceField,
+    distance_field: DistanceField,
     rows: usize,
     cell_side: f64,
     /// Bound on the rounding error of any coordinate on the map, m.
     rounding_slack: f64,
     /// Stack of candidates for the nearest wall, for all blocks that are still to be filled.
     candidates: Vec<WallSet>,
-    blocks: Vec<Block>,
+    remaining_blocks: Vec<CellBlock>,
     /// Candidates of the current block: those still to be measured, and those measured with their distances (m).
     unmeasured: Vec<WallSet>,
     measured: Vec<(f64, WallSet)>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Block {
+struct CellBlock {
     first_cell: [usize; 2],
-    size: usize,
+    width: usize,
     /// Range in [`FieldBuilder::candidates`] of the candidates of this block.
     candidate_range: [usize; 2],
 }
@@ -140,45 +140,45 @@ impl FieldBuilder {
         let cell_side = (width * height / cell_count).sqrt().max(width.max(height) / cell_count);
         let [columns, rows] =
             [width, height].map(|side_length| (side_length / cell_side).ceil() as usize + 1);
-        let radius = FRAC_1_SQRT_2 * cell_side;
+        let cell_radius = FRAC_1_SQRT_2 * cell_side;
         let root_candidates = if tree.is_leaf(1) {
-            tree.distinct_walls(1).map(|wall| WallSet::Wall(wall as u32)).collect()
+            tree.distinct_wall_range(1).map(|wall_index| WallSet::Wall(wall_index as u32)).collect()
         } else {
             vec![WallSet::Node(1)]
         };
-        let whole_block_size = columns.max(rows).next_power_of_two();
+        let whole_width = columns.max(rows).next_power_of_two();
         let whole_block =
-            Block { first_cell: [0, 0], size: whole_block_size, candidate_range: [0, root_candidates.len()] };
+            CellBlock { first_cell: [0, 0], width: whole_width, candidate_range: [0, root_candidates.len()] };
         Self {
-            field: DistanceField {
+            distance_field: DistanceField {
                 min_corner: [left, bottom],
                 cells_per_metre: 1.0 / cell_side,
                 columns,
-                last_cell: [columns, rows].map(|count| count as f64 - 1.0),
-                cell_radius: radius,
-                cell_uncertainty: if tree.is_leaf(1) { 0.0 } else { RELATIVE_BLOCK_UNCERTAINTY * radius },
+                last_indices: [columns, rows].map(|count| count as f64 - 1.0),
+                cell_radius,
+                cell_uncertainty: if tree.is_leaf(1) { 0.0 } else { RELATIVE_UNCERTAINTY * cell_radius },
                 lower_bounds: vec![NOT_COMPUTED; columns * rows],
             },
             rows,
             cell_side,
             rounding_slack: rounding_bound(&bounds),
             candidates: root_candidates,
-            blocks: vec![whole_block],
+            remaining_blocks: vec![whole_block],
             unmeasured: Vec::new(),
             measured: Vec::new(),
         }
     }
 
     /// Computes the lower bounds of the cells of a block, or divides the block into four.
-    fn fill_block(&mut self, tree: &WallTree, occupied_grid: Option<&OccupancyGrid>, block: Block) {
-        let Block { first_cell: [left, bottom], size, candidate_range } = block;
-        if left >= self.field.columns || bottom >= self.rows {
+    fn fill_block(&mut self, tree: &WallTree, occupied_grid: Option<&OccupancyGrid>, block: CellBlock) {
+        let CellBlock { first_cell: [left, bottom], width, candidate_range } = block;
+        if left >= self.distance_field.columns || bottom >= self.rows {
             return;
         }
-        let [right, top] = [(left + size).min(self.field.columns), (bottom + size).min(self.rows)];
-        let block_centre = self.block_centre(block.first_cell, size);
-        let block_radius = size as f64 * self.field.cell_radius;
-        let block_uncertainty = size as f64 * self.field.cell_uncertainty;
+        let [right, top] = [(left + width).min(self.distance_field.columns), (bottom + width).min(self.rows)];
+        let block_centre = self.block_centre(block.first_cell, width);
+        let block_radius = width as f64 * self.distance_field.cell_radius;
+        let block_uncertainty = width as f64 * self.distance_field.cell_uncertainty;
         // Removes the candidates of finished blocks. On the stack they follow the candidates of the enclosing block.
         self.candidates.truncate(candidate_range[1]);
         let Some([min_distance, max_distance]) =
@@ -186,9 +186,9 @@ impl FieldBuilder {
         else {
             return;
         };
-        if size > 1
+        if width > 1
             && min_distance
-                <= UNDIVIDED_DISTANCE_RATIO * block_radius + block_uncertainty / RELATIVE_BLOCK_UNCERTAINTY
+                <= UNDIVIDED_DISTANCE_RATIO * block_radius + block_uncertainty / RELATIVE_UNCERTAINTY
         {
             let max_lower_bound = max_distance + 2.0 * block_radius + self.rounding_slack;
             self.candidates.extend(
@@ -198,11 +198,11 @@ impl FieldBuilder {
                     .map(|(_, candidate)| *candidate),
             );
             let candidate_range = [candidate_range[1], self.candidates.len()];
-            let half_size = size / 2;
-            for [column, row] in [[half_size, half_size], [0, half_size], [half_size, 0], [0, 0]] {
-                self.blocks.push(Block {
+            let half_width = width / 2;
+            for [column, row] in [[half_width, half_width], [0, half_width], [half_width, 0], [0, 0]] {
+                self.remaining_blocks.push(CellBlock {
                     first_cell: [left + column, bottom + row],
-                    size: half_size,
+                    width: half_width,
                     candidate_range,
                 });
             }
@@ -215,7 +215,7 @@ impl FieldBuilder {
         for row in bottom..top {
             for column in left..right {
                 let [x, y] = self.block_centre([column, row], 1);
-                let max_offset = self.field.cell_radius
+                let max_offset = self.distance_field.cell_radius
                     + ((x - block_centre[0]) * (x - block_centre[0])
                         + (y - block_centre[1]) * (y - block_centre[1]))
                         .sqrt();
@@ -225,25 +225,26 @@ impl FieldBuilder {
                 } else {
                     min_distance * (1.0 - 1e-6) - max_offset - self.rounding_slack
                 };
-                self.field.lower_bounds[row * self.field.columns + column] = cell_lower_bound as f32;
+                self.distance_field.lower_bounds[row * self.distance_field.columns + column] =
+                    cell_lower_bound as f32;
             }
         }
     }
 
-    /// Returns a lower and an upper bound (m) on the distance from the middle of a block to the nearest wall, at most `uncertainty` apart.
-    /// None if too many walls are near. Afterwards `measured` has all walls or nodes that may be nearest to a point of the block.
+    /// Returns a lower and an upper bound (m) on the distance from the middle of a block to the nearest wall, at most `allowed_uncertainty`
+    /// apart. None if too many walls are near. Afterwards `measured` has all walls or nodes that may be nearest to a point of the block.
     fn measure_candidates(
         &mut self,
         tree: &WallTree,
         centre: [f64; 2],
-        block: Block,
-        uncertainty: f64,
+        block: CellBlock,
+        allowed_uncertainty: f64,
     ) -> Option<[f64; 2]> {
         let Self { candidates, unmeasured, measured, .. } = self;
-        let Block { size, candidate_range: [first_candidate, end_candidate], .. } = block;
+        let CellBlock { width, candidate_range: [first_candidate, end_candidate], .. } = block;
         // A wall can be nearest to a point of the block only if its distance from the middle exceeds the smallest distance by at most the
         // diameter of the block.
-        let max_excess = 2.0 * size as f64 * self.field.cell_radius + self.rounding_slack;
+        let max_excess = 2.0 * width as f64 * self.distance_field.cell_radius + self.rounding_slack;
         measured.clear();
         unmeasured.clear();
         unmeasured.extend_from_slice(&candidates[first_candidate..end_candidate]);
@@ -251,7 +252,7 @@ impl FieldBuilder {
         let mut measured_count = 0;
         while let Some(candidate) = unmeasured.pop() {
             measured_count += 1;
-            if measured_count > MAX_WALLS_PER_BLOCK + MAX_WALLS_PER_CELL * size * size {
+            if measured_count > MAX_WALLS_PER_BLOCK + MAX_WALLS_PER_CELL * width * width {
                 return None;
             }
             let distance_to_wall = |wall: usize| tree.walls[wall].squared_distance_to_point(centre).sqrt();
@@ -265,20 +266,20 @@ impl FieldBuilder {
             if lower_bound < least_upper_bound {
                 least_upper_bound = least_upper_bound.min(match candidate {
                     WallSet::Wall(_) => lower_bound,
-                    WallSet::Node(node) => distance_to_wall(tree.distinct_walls(node as usize).start),
+                    WallSet::Node(node) => distance_to_wall(tree.distinct_wall_range(node as usize).start),
                 });
             }
-            if size == 1 && least_upper_bound <= uncertainty {
+            if width == 1 && least_upper_bound <= allowed_uncertainty {
                 return Some([0.0, least_upper_bound]);
             }
             match candidate {
                 WallSet::Node(node)
-                    if lower_bound < least_upper_bound - uncertainty
+                    if lower_bound < least_upper_bound - allowed_uncertainty
                         || tree.nodes[node as usize].capsule_radius > 0.5 * max_excess =>
                 {
                     if tree.is_leaf(node as usize) {
                         unmeasured.extend(
-                            tree.distinct_walls(node as usize).map(|wall| WallSet::Wall(wall as u32)),
+                            tree.distinct_wall_range(node as usize).map(|wall| WallSet::Wall(wall as u32)),
                         );
                     } else {
                         unmeasured.extend([2 * node, 2 * node + 1].map(WallSet::Node));
@@ -293,9 +294,10 @@ impl FieldBuilder {
         ])
     }
 
-    fn block_centre(&self, first_cell: [usize; 2], size: usize) -> [f64; 2] {
+    fn block_centre(&self, first_cell: [usize; 2], width: usize) -> [f64; 2] {
         std::array::from_fn(|axis| {
-            self.field.min_corner[axis] + (first_cell[axis] as f64 + 0.5 * size as f64) * self.cell_side
+            self.distance_field.min_corner[axis]
+                + (first_cell[axis] as f64 + 0.5 * width as f64) * self.cell_side
         })
     }
 }

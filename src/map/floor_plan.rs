@@ -27,7 +27,7 @@ pub struct FloorPlan {
 
 #[derive(Clone, Debug)]
 struct CollisionIndex {
-    tree: WallTree,
+    wall_tree: WallTree,
     distance_field: DistanceField,
 }
 
@@ -40,9 +40,9 @@ pub enum FloorPlanError {
     /// A wall has an end that is not finite or outside the bounds.
     BadWall {
         /// Index of the wall.
-        index: usize,
+        wall_index: usize,
         /// First end of the wall that is not allowed, m.
-        end: [f64; 2],
+        invalid_end: [f64; 2],
     },
     /// More than [`FloorPlan::MAX_WALLS`] walls.
     TooManyWalls(usize),
@@ -69,10 +69,10 @@ impl FloorPlanError {
                 join_numbers(&bounds[..2]),
                 join_numbers(&bounds[2..])
             ),
-            Self::BadWall { index, end } => {
+            Self::BadWall { wall_index, invalid_end } => {
                 format!(
-                    "walls[{index}] ends at [{}]; allowed is a point inside the bounds",
-                    join_numbers(end)
+                    "walls[{wall_index}] ends at [{}]; allowed is a point inside the bounds",
+                    join_numbers(invalid_end)
                 )
             }
             Self::TooManyWalls(count) => {
@@ -153,9 +153,9 @@ impl FloorPlan {
             (left - rounding_slack..=right + rounding_slack).contains(&x)
                 && (bottom - rounding_slack..=top + rounding_slack).contains(&y)
         };
-        for (index, wall) in walls.iter().enumerate() {
-            if let Some(end) = [wall.from, wall.to].into_iter().find(|end| !is_inside(*end)) {
-                return Err(FloorPlanError::BadWall { index, end });
+        for (wall_index, wall) in walls.iter().enumerate() {
+            if let Some(invalid_end) = [wall.from, wall.to].into_iter().find(|end| !is_inside(*end)) {
+                return Err(FloorPlanError::BadWall { wall_index, invalid_end });
             }
         }
         Ok(Self { walls, bounds, occupied_grid, collision_index: OnceLock::new() })
@@ -223,7 +223,7 @@ impl FloorPlan {
         if !end_verdict.free || self.leaves_bounds(driven_arc) || self.is_in_blocked_cell(start_point) {
             return CollisionVerdict { free: false, ..end_verdict };
         }
-        let mut sweep = ArcSweep {
+        let mut arc_sweep = ArcSweep {
             plan: self,
             distance_field: self.distance_field(),
             arc: &driven_arc.arc,
@@ -231,16 +231,17 @@ impl FloorPlan {
             local_arc: OnceCell::new(),
             wall_tests: end_verdict.wall_tests,
         };
-        let is_free =
-            driven_arc.arc_pieces().all(|piece| sweep.is_free(&piece, -piece.half_length, piece.half_length));
-        CollisionVerdict { free: is_free, wall_tests: sweep.wall_tests }
+        let is_free = driven_arc
+            .split_into_pieces()
+            .all(|piece| arc_sweep.is_free(&piece, -piece.half_length, piece.half_length));
+        CollisionVerdict { free: is_free, wall_tests: arc_sweep.wall_tests }
     }
 
     fn collision_index(&self) -> &CollisionIndex {
         self.collision_index.get_or_init(|| {
             let wall_tree = WallTree::new(&self.walls, self.bounds);
             let distance_field = DistanceField::new(&wall_tree, self.bounds, self.occupied_grid.as_ref());
-            CollisionIndex { tree: wall_tree, distance_field }
+            CollisionIndex { wall_tree, distance_field }
         })
     }
 
@@ -298,7 +299,7 @@ impl FloorPlan {
         is_node_clear: impl FnMut(&Node) -> bool,
         mut is_wall_clear: impl FnMut(&Segment) -> bool,
     ) -> bool {
-        self.collision_index().tree.all(is_node_clear, |wall| {
+        self.collision_index().wall_tree.are_all_walls_clear(is_node_clear, |wall| {
             let Segment { from, to } = wall;
             let is_near = from[0].min(to[0]) <= x + max_distance
                 && from[0].max(to[0]) >= x - max_distance
@@ -336,8 +337,8 @@ impl ArcSweep<'_> {
         if !is_any_lane_set(lower_bounds.simd_le(f64x4::splat(needed_distance))) {
             return true;
         }
-        let distance_bounds = lower_bounds.to_array();
-        let min_lower_bound = distance_bounds.into_iter().fold(f64::INFINITY, f64::min);
+        let part_lower_bounds = lower_bounds.to_array();
+        let min_lower_bound = part_lower_bounds.into_iter().fold(f64::INFINITY, f64::min);
         if distance_field.upper_bound(min_lower_bound) <= self.clearance - piece.max_error {
             return false;
         }
@@ -346,7 +347,7 @@ impl ArcSweep<'_> {
         let is_divisible = half_part_length > distance_field.cell_radius;
         let [x, y] = part_middles.map(|lanes| lanes.to_array());
         (0..LANE_COUNT).all(|i| {
-            distance_bounds[i] > needed_distance
+            part_lower_bounds[i] > needed_distance
                 || if is_divisible {
                     let part_start = start_offset + (2 * i) as f64 * half_part_length;
                     self.is_free(piece, part_start, part_start + 2.0 * half_part_length)
@@ -360,7 +361,7 @@ impl ArcSweep<'_> {
     /// enough to decide.
     fn are_walls_clear(&mut self, part_middle: [f64; 2], part_radius: f64, max_error: f64) -> bool {
         let (arc, clearance) = (self.arc, self.clearance);
-        let prepare_arc = || self.local_arc.get_or_init(|| arc.local_arc());
+        let get_local_arc = || self.local_arc.get_or_init(|| arc.local_arc());
         let (clear_distance, blocked_distance) = (part_radius + clearance, (clearance - max_error).max(0.0));
         self.plan.are_near_walls_clear(
             part_middle,
@@ -370,7 +371,7 @@ impl ArcSweep<'_> {
                 node.is_farther_than(part_middle, clear_distance)
                     // This test of a node of the wall tree saves time only if the node's capsule is thinner than the part is long.
                     || node.capsule_radius < part_radius
-                        && node.capsule_axis.distance_to_local_arc(prepare_arc()) - node.capsule_radius > clearance
+                        && node.capsule_axis.distance_to_local_arc(get_local_arc()) - node.capsule_radius > clearance
             },
             |wall| {
                 let squared_distance = wall.squared_distance_to_point(part_middle);
@@ -378,7 +379,7 @@ impl ArcSweep<'_> {
                 if is_clear || squared_distance < blocked_distance * blocked_distance {
                     return is_clear;
                 }
-                wall.distance_to_local_arc(prepare_arc()) > clearance
+                wall.distance_to_local_arc(get_local_arc()) > clearance
             },
         )
     }

@@ -44,7 +44,7 @@ pub enum MapMode {
 pub enum Cell {
     /// Space without an obstacle.
     Free,
-    /// An obstacle.
+    /// Space with an obstacle.
     Occupied,
     /// Space that the mapping robot has not observed.
     Unknown,
@@ -89,8 +89,8 @@ impl From<f32> for Pixel {
 
 /// Creates a pixel from red, green, blue and opacity, each from 0 to 255.
 impl From<[u8; 4]> for Pixel {
-    fn from(colours: [u8; 4]) -> Self {
-        let [red, green, blue, opacity] = colours.map(f32::from);
+    fn from(rgba: [u8; 4]) -> Self {
+        let [red, green, blue, opacity] = rgba.map(f32::from);
         Self { brightness: (red + green + blue) / 765.0, opacity: opacity / 255.0 }
     }
 }
@@ -132,7 +132,7 @@ pub struct OccupancyGrid {
     plane_to_grid: PreparedPose,
     /// Cells row by row from the bottom.
     cells: Vec<Cell>,
-    unknown: UnknownCells,
+    unknown_treatment: UnknownCells,
 }
 
 impl OccupancyGrid {
@@ -159,13 +159,13 @@ impl OccupancyGrid {
         // The first row of an image is its highest, the first of a grid its lowest.
         let cells = pixels.chunks(width.max(1)).rev().flatten().map(to_cell).collect();
         let (plane_to_grid, unknown) = (PreparedPose::new(origin.inverse()), UnknownCells::default());
-        Self { width, height, resolution, origin, plane_to_grid, cells, unknown }
+        Self { width, height, resolution, origin, plane_to_grid, cells, unknown_treatment: unknown }
     }
 
     /// Returns the grid with another treatment of unknown cells.
     #[must_use]
     pub fn with_unknown(self, unknown: UnknownCells) -> Self {
-        Self { unknown, ..self }
+        Self { unknown_treatment: unknown, ..self }
     }
 
     /// Returns the columns and rows.
@@ -231,15 +231,15 @@ impl OccupancyGrid {
     fn is_blocked(&self, row: &[Cell], column: usize) -> bool {
         match row.get(column) {
             Some(Cell::Occupied) => true,
-            Some(Cell::Unknown) => self.unknown == UnknownCells::Blocked,
+            Some(Cell::Unknown) => self.unknown_treatment == UnknownCells::Blocked,
             _ => false,
         }
     }
 
     /// Returns the cells of a row, counted from the bottom; empty for a row off the grid.
     fn row_cells(&self, row: usize) -> &[Cell] {
-        let first_cell = row.saturating_mul(self.width).min(self.cells.len());
-        &self.cells[first_cell..(first_cell + self.width).min(self.cells.len())]
+        let first_cell_index = row.saturating_mul(self.width).min(self.cells.len());
+        &self.cells[first_cell_index..(first_cell_index + self.width).min(self.cells.len())]
     }
 
     /// Returns the outlines of the blocked cells, with neighbouring sides joined. From outside the cells, the distance to the
@@ -293,12 +293,12 @@ impl OccupancyGrid {
     }
 }
 
-/// Advances the outline along a grid line to `position`. `is_outline` is true if the line separates cells after the position. `start` is
-/// the position at which the current outline began, which is returned if the outline ends here.
-fn update_outline(start: &mut Option<usize>, is_outline: bool, position: usize) -> Option<usize> {
-    match *start {
-        None if is_outline => *start = Some(position),
-        Some(_) if !is_outline => return start.take(),
+/// Advances the outline along a grid line to `position`. `is_outline` is true if the line separates cells after the position.
+/// `outline_start` is the position at which the current outline began, which is returned if the outline ends here.
+fn update_outline(outline_start: &mut Option<usize>, is_outline: bool, position: usize) -> Option<usize> {
+    match *outline_start {
+        None if is_outline => *outline_start = Some(position),
+        Some(_) if !is_outline => return outline_start.take(),
         _ => (),
     }
     None

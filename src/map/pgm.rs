@@ -5,13 +5,13 @@ use thiserror::Error;
 
 /// Reason why bytes are not a PGM image.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("line {line}: {field} is {actual_text}; allowed is {allowed_text}")]
+#[error("line {line}: {field_name} is {actual_text}; allowed is {allowed_text}")]
 pub struct PgmError {
     /// Name of the invalid field with its article, such as "the width".
-    pub field: &'static str,
+    pub field_name: &'static str,
     /// Line of the header (from 1) in which the field should have been.
     pub line: usize,
-    /// Invalid text, in the quotation marks of the message.
+    /// Invalid value in quotation marks, as the message quotes it.
     pub actual_text: String,
     /// Allowed values, as text of the message.
     pub allowed_text: String,
@@ -51,11 +51,12 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, PgmError> {
     // One white space character ends the header. Windows editors write two: carriage return and line feed.
     let is_crlf = bytes[reader.position..].starts_with(b"\r\n")
         && bytes.len() >= reader.position + 2 + raster_byte_count;
-    let available_raster = bytes.get(reader.position + if is_crlf { 2 } else { 1 }..).unwrap_or_default();
-    let Some(raster) = available_raster.get(..raster_byte_count) else {
+    let available_bytes = bytes.get(reader.position + if is_crlf { 2 } else { 1 }..).unwrap_or_default();
+    let Some(raster) = available_bytes.get(..raster_byte_count) else {
         let allowed_text = format!("{raster_byte_count} for {width} × {height} pixels");
-        let (field, actual_text) = ("the length of the raster in bytes", available_raster.len().to_string());
-        return Err(PgmError { field, line: reader.line, actual_text, allowed_text });
+        let (field_name, actual_text) =
+            ("the length of the raster in bytes", available_bytes.len().to_string());
+        return Err(PgmError { field_name, line: reader.line, actual_text, allowed_text });
     };
     // A pixel of 16 bits has its higher byte first.
     let decode_pixel = |pixel: &[u8]| pixel.iter().fold(0, |value, byte| 256 * value + usize::from(*byte));
@@ -73,15 +74,15 @@ struct TokenReader<'a> {
 impl<'a> TokenReader<'a> {
     /// Returns the next run of characters that are neither white space nor in a comment; empty at the end.
     fn next_token(&mut self) -> &'a [u8] {
-        let mut in_comment = false;
+        let mut is_in_comment = false;
         while let Some(byte) = self.bytes.get(self.position) {
             match byte {
                 b'\n' => {
                     self.line += 1;
-                    in_comment = false;
+                    is_in_comment = false;
                 }
-                b'#' => in_comment = true,
-                _ if in_comment || byte.is_ascii_whitespace() => (),
+                b'#' => is_in_comment = true,
+                _ if is_in_comment || byte.is_ascii_whitespace() => (),
                 _ => break,
             }
             self.position += 1;
@@ -93,16 +94,18 @@ impl<'a> TokenReader<'a> {
         &self.bytes[token_start..self.position]
     }
 
-    fn read_number(&mut self, field: &'static str, min: usize, max: usize) -> Result<usize, PgmError> {
+    fn read_number(&mut self, field_name: &'static str, min: usize, max: usize) -> Result<usize, PgmError> {
         let token = self.next_token();
         let digits = str::from_utf8(token).ok().filter(|_| token.iter().all(u8::is_ascii_digit));
         digits
             .and_then(|digits| digits.parse().ok())
             .filter(|number| (min..=max).contains(number))
-            .ok_or_else(|| self.create_error(field, token, format!("a whole number from {min} to {max}")))
+            .ok_or_else(|| {
+                self.create_error(field_name, token, format!("a whole number from {min} to {max}"))
+            })
     }
 
-    fn create_error(&self, field: &'static str, token: &[u8], allowed_text: String) -> PgmError {
+    fn create_error(&self, field_name: &'static str, token: &[u8], allowed_text: String) -> PgmError {
         // Bytes that are not printable ASCII may be pixels of another image format. A message cannot show them.
         let to_printable = |byte: &u8| {
             if byte.is_ascii_graphic() { char::from(*byte) } else { char::REPLACEMENT_CHARACTER }
@@ -113,6 +116,6 @@ impl<'a> TokenReader<'a> {
             actual_text =
                 format!("\"{quoted_token}{}\"", if token.len() > MAX_QUOTED_CHARACTERS { "…" } else { "" });
         }
-        PgmError { field, line: self.line, actual_text, allowed_text }
+        PgmError { field_name, line: self.line, actual_text, allowed_text }
     }
 }

@@ -59,16 +59,16 @@ impl WallTree {
             rounding_slack: 1e-9 * bounds.iter().fold(0.0, |largest: f64, bound| largest.max(bound.abs())),
         };
         for parent in 1..leaf_count {
-            tree.divide_in_half(parent);
-            let child_nodes = [2 * parent, 2 * parent + 1].map(|child| tree.make_node(child));
+            tree.sort_into_halves(parent);
+            let child_nodes = [2 * parent, 2 * parent + 1].map(|child| tree.create_node(child));
             tree.nodes.extend(child_nodes);
         }
         tree
     }
 
     /// Sorts the walls of a node into two halves, one for each child. The sort key is the component of [`sort_keys`] with the widest range.
-    fn divide_in_half(&mut self, node_index: usize) {
-        let (wall_range, middle) = (self.wall_range(node_index), self.wall_range(2 * node_index).end);
+    fn sort_into_halves(&mut self, node_index: usize) {
+        let (wall_range, middle_index) = (self.wall_range(node_index), self.wall_range(2 * node_index).end);
         let node_walls = &mut self.walls[wall_range.clone()];
         let mut key_ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
         for wall in &*node_walls {
@@ -80,10 +80,10 @@ impl WallTree {
         let widest_key_index = (1..4).fold(0, |widest, key_index| {
             if key_range_widths[key_index] > key_range_widths[widest] { key_index } else { widest }
         });
-        select_smallest(node_walls, middle - wall_range.start, widest_key_index);
+        select_smallest(node_walls, middle_index - wall_range.start, widest_key_index);
     }
 
-    fn make_node(&self, node_index: usize) -> Node {
+    fn create_node(&self, node_index: usize) -> Node {
         let walls = &self.walls[self.wall_range(node_index)];
         // The axis of the capsule has the mean direction of the walls, or is parallel to x or y, whichever makes the capsule narrowest.
         let direction_sum =
@@ -95,16 +95,16 @@ impl WallTree {
             [1.0, 0.0]
         };
         let candidate_axes = [mean_direction, [1.0, 0.0], [0.0, 1.0]];
-        let mut extents = [[f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY]; 3];
+        let mut bounds_along_axes = [[f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY]; 3];
         for end in walls.iter().flat_map(|wall| [wall.from, wall.to]) {
-            for ([x, y], [back, right, front, left]) in candidate_axes.iter().zip(&mut extents) {
+            for ([x, y], [back, right, front, left]) in candidate_axes.iter().zip(&mut bounds_along_axes) {
                 let (along, across) = (end[0] * x + end[1] * y, end[1] * x - end[0] * y);
                 (*back, *right) = (back.min(along), right.min(across));
                 (*front, *left) = (front.max(along), left.max(across));
             }
         }
         let mut narrowest_capsule = (f64::INFINITY, ZERO_SEGMENT);
-        for ([x, y], [back, right, front, left]) in candidate_axes.into_iter().zip(extents) {
+        for ([x, y], [back, right, front, left]) in candidate_axes.into_iter().zip(bounds_along_axes) {
             let (axis_offset, width) = (0.5 * (right + left), left - right);
             // The ends of a capsule are round, so that its axis is shorter than the walls at both ends.
             let axis_shortening = (0.25 * width).min(0.5 * (front - back));
@@ -135,7 +135,7 @@ impl WallTree {
     }
 
     /// Returns the indices of the walls of a node; a single index if all walls are equal.
-    pub fn distinct_walls(&self, node_index: usize) -> Range<usize> {
+    pub fn distinct_wall_range(&self, node_index: usize) -> Range<usize> {
         let wall_range = self.wall_range(node_index);
         if self.nodes[node_index].has_equal_walls {
             wall_range.start..wall_range.start + 1
@@ -150,7 +150,7 @@ impl WallTree {
 
     /// Returns true if `is_wall_clear` holds for all walls. Nodes for which `is_node_clear` holds are skipped.
     #[inline(always)]
-    pub fn all(
+    pub fn are_all_walls_clear(
         &self,
         mut is_node_clear: impl FnMut(&Node) -> bool,
         mut is_wall_clear: impl FnMut(&Segment) -> bool,
@@ -162,7 +162,7 @@ impl WallTree {
                     node_index *= 2;
                     continue;
                 }
-                if !self.walls[self.distinct_walls(node_index)].iter().all(&mut is_wall_clear) {
+                if !self.walls[self.distinct_wall_range(node_index)].iter().all(&mut is_wall_clear) {
                     return false;
                 }
             }
@@ -181,8 +181,8 @@ impl Node {
     /// Returns true only if no wall of the node comes within `distance` (m) of a point, because its capsule does not.
     #[inline(always)]
     pub fn is_farther_than(&self, point: [f64; 2], distance: f64) -> bool {
-        let axis_distance = distance + self.capsule_radius;
-        self.capsule_axis.squared_distance_to_point(point) > axis_distance * axis_distance
+        let max_axis_distance = distance + self.capsule_radius;
+        self.capsule_axis.squared_distance_to_point(point) > max_axis_distance * max_axis_distance
     }
 
     /// Returns a lower bound (m) on the distance from a point to the walls of the node.
@@ -195,14 +195,14 @@ impl Node {
 /// Moves the `count` walls with the smallest sort keys to the front, by Hoare's selection. After [`MAX_SELECTION_ROUNDS`] rounds the
 /// selection may still be incomplete. The capsules of the search tree are then larger, but it is correct.
 fn select_smallest(walls: &mut [Segment], count: usize, key_index: usize) {
-    let (mut low, mut high) = (0, walls.len());
+    let (mut range_start, mut range_end) = (0, walls.len());
     for _ in 0..MAX_SELECTION_ROUNDS {
-        if high - low < 2 {
+        if range_end - range_start < 2 {
             return;
         }
         let key_of = |wall: &Segment| sort_keys(wall)[key_index];
-        let pivot_key = key_of(&walls[(low + high) / 2]);
-        let (mut left, mut right) = (low, high);
+        let pivot_key = key_of(&walls[(range_start + range_end) / 2]);
+        let (mut left, mut right) = (range_start, range_end);
         loop {
             while key_of(&walls[left]) < pivot_key {
                 left += 1;
@@ -220,9 +220,9 @@ fn select_smallest(walls: &mut [Segment], count: usize, key_index: usize) {
         }
         // Walls before `right` have keys up to the pivot key. Walls from `left` on have keys of at least the pivot key.
         if count < right {
-            high = right;
+            range_end = right;
         } else if count > left {
-            low = left;
+            range_start = left;
         } else {
             return;
         }

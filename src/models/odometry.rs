@@ -2,7 +2,7 @@
 
 use super::MotionModel;
 use crate::geom::se2::{SE2, wrap_angle};
-use crate::noise::{NoiseKind, Variance, draw_centred_uniform, product_or_zero, wrapped_prob};
+use crate::noise::{NoiseKind, Variance, draw_centred_uniform, product_or_zero, wrapped_density};
 use nalgebra::{Matrix3, Vector3};
 use rand::Rng;
 use std::f64::consts::PI;
@@ -128,9 +128,9 @@ impl<M: RotTransRot> MotionModel for M {
             .into_iter()
             .map(|(rot1, trans)| {
                 product_or_zero([
-                    wrapped_prob(noise, rot1 - u.rot1, rot1_variance),
+                    wrapped_density(noise, rot1 - u.rot1, rot1_variance),
                     noise.prob(trans - u.trans, trans_variance),
-                    wrapped_prob(noise, relative_pose.theta() - rot1 - u.rot2, rot2_variance),
+                    wrapped_density(noise, relative_pose.theta() - rot1 - u.rot2, rot2_variance),
                 ])
             })
             .sum();
@@ -150,11 +150,11 @@ pub(super) type EffectiveAngle = fn(f64) -> f64;
 pub(super) fn leg_variances(
     alphas: OdomAlphas,
     reading: &OdomDelta,
-    effective_angle: EffectiveAngle,
+    effective_angle_of: EffectiveAngle,
 ) -> [Variance; 3] {
     let [a1, a2, a3, a4] = alphas.0;
-    let [rot1_sq, rot2_sq] =
-        [reading.rot1, reading.rot2].map(|rotation| effective_angle(rotation) * effective_angle(rotation));
+    let [rot1_sq, rot2_sq] = [reading.rot1, reading.rot2]
+        .map(|rotation| effective_angle_of(rotation) * effective_angle_of(rotation));
     let trans_sq = reading.trans * reading.trans;
     [
         Variance(a1 * rot1_sq + a2 * trans_sq),

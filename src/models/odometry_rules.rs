@@ -73,13 +73,13 @@ impl OdometryRule {
     pub fn variances(self, reading: &OdomDelta, alphas: &RuleAlphas) -> LegVariances {
         let [a1, a2, a3, a4, a5] = *alphas;
         let legs = self.legs(reading);
-        let differential_variances_with = |effective_angle: EffectiveAngle| {
-            let [rot1, trans, rot2] = leg_variances(OdomAlphas([a1, a2, a3, a4]), &legs, effective_angle);
+        let differential_variances_by = |effective_angle_of: EffectiveAngle| {
+            let [rot1, trans, rot2] = leg_variances(OdomAlphas([a1, a2, a3, a4]), &legs, effective_angle_of);
             LegVariances { rot1, trans, rot2, strafe: Variance(0.0) }
         };
         match self {
-            Self::Table => differential_variances_with(f64::abs),
-            Self::Nav2 | Self::Beluga => differential_variances_with(turn_allowing_reverse),
+            Self::Table => differential_variances_by(f64::abs),
+            Self::Nav2 | Self::Beluga => differential_variances_by(turn_allowing_reverse),
             Self::Omni => {
                 let turn = wrap_angle(legs.rot1 + legs.rot2);
                 let (trans_sq, turn_sq) = (legs.trans * legs.trans, turn * turn);

@@ -3,7 +3,7 @@
 use super::{MotionModel, TangentNoiseModel};
 use crate::geom::arc::{ArcInversion, arc_end, invert_arc};
 use crate::geom::se2::SE2;
-use crate::noise::{NoiseKind, Variance, draw_centred_uniform, product_or_zero, wrapped_prob};
+use crate::noise::{NoiseKind, Variance, draw_centred_uniform, product_or_zero, wrapped_density};
 use nalgebra::{Matrix3, Vector3};
 use rand::Rng;
 use std::f64::consts::TAU;
@@ -60,11 +60,11 @@ impl VelocityModel {
     /// Returns the motion that the robot executes when the noises of v̂, ω̂ and γ̂ take the values `unit_noise` times their standard
     /// deviations. With the same unit noise, a changed command or α moves the same robot.
     pub fn executed_motion(&self, u: &VelocityCmd, unit_noise: [f64; 3]) -> ArcInversion {
-        let [v_noise, omega_noise, gamma_noise] = self.noise_stds(u);
+        let [v_std, omega_std, gamma_std] = self.noise_stds(u);
         ArcInversion {
-            v_hat: u.v + v_noise * unit_noise[0],
-            omega_hat: u.omega + omega_noise * unit_noise[1],
-            gamma_hat: gamma_noise * unit_noise[2],
+            v_hat: u.v + v_std * unit_noise[0],
+            omega_hat: u.omega + omega_std * unit_noise[1],
+            gamma_hat: gamma_std * unit_noise[2],
         }
     }
 
@@ -164,7 +164,7 @@ impl MotionModel for VelocityModel {
         let dt2 = u.dt * u.dt;
         Some(product_or_zero([
             arc_density,
-            wrapped_prob(self.noise, last_turn, Variance(dt2 * gamma_variance.0)),
+            wrapped_density(self.noise, last_turn, Variance(dt2 * gamma_variance.0)),
         ]))
     }
 

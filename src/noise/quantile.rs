@@ -2,11 +2,11 @@
 //! precision form PPND16.
 #![expect(clippy::excessive_precision, reason = "the digits as published")]
 
-use crate::geom::lanes::{LANE_COUNT, from_lanes, is_any_lane_set, log};
+use crate::geom::lanes::{LANE_COUNT, from_lanes, is_any_lane_set, ln};
 use std::ops::{Add, Div, Mul};
 use wide::{bytemuck, f64x4};
 
-/// Distance from the probability ½ at which the tails begin.
+/// Distance of a probability from ½ at which the tails of the quantile function begin.
 const CENTRE_HALF_WIDTH: f64 = 0.425;
 
 /// Returns Φ⁻¹(½ + q) by PPND16 of AS 241. It is a rational function of degree 7 over 7 in each of three ranges.
@@ -65,7 +65,7 @@ fn replace_chunk_by_quantiles(numbers: &mut [f64x4]) {
 /// Returns [`normal_quantile`] of four numbers, all of which are in the tails.
 #[inline(always)]
 fn tail_quantile_lanes(q: f64x4) -> f64x4 {
-    let r = (-log(f64x4::splat(0.5) - q.abs())).sqrt();
+    let r = (-ln(f64x4::splat(0.5) - q.abs())).sqrt();
     if is_any_lane_set(r.simd_gt(f64x4::splat(5.0))) {
         return q.to_array().map(normal_quantile).into();
     }

@@ -1,6 +1,6 @@
 //! Arc Anatomy: the arc between two poses, the motion that it implies, and the likelihood of that motion (Tables 5.1 and 5.3).
 
-use super::settings::{ALPHA_RANGE, Keywords, Rules, SettingsError, settings};
+use super::settings::{ALPHA_RANGE, HasKeywords, SettingRules, SettingsError, settings};
 use crate::geom::arc::{Arc, ArcInversion, PreparedPose, invert_arc};
 use crate::geom::se2::SE2;
 use crate::js::js_structs;
@@ -10,18 +10,18 @@ use crate::stats::trace_level_set;
 
 /// Quantity of the heat map: a function of the final position, while the final heading is fixed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SurfaceKind {
+pub enum HeatMapKind {
     /// No heat map.
-    Nothing,
+    NoHeatMap,
     /// [`MotionModel::prob`], the score of Table 5.1.
     Prob,
     /// [`MotionModel::pose_density`], the density of the sampler.
     Density,
 }
 
-impl Keywords for SurfaceKind {
+impl HasKeywords for HeatMapKind {
     const KEYWORDS: &'static [(&'static str, Self)] =
-        &[("none", Self::Nothing), ("prob", Self::Prob), ("density", Self::Density)];
+        &[("none", Self::NoHeatMap), ("prob", Self::Prob), ("density", Self::Density)];
 }
 
 settings! {
@@ -41,11 +41,11 @@ settings! {
         /// True for a radius without a sign, as Table 5.1 prints it.
         printed: bool = false;
         /// Quantity of the heat map over all final positions, at the heading of the final pose.
-        map: SurfaceKind = SurfaceKind::Nothing;
+        map: HeatMapKind = HeatMapKind::NoHeatMap;
     }
 }
 
-impl Rules for Settings {
+impl SettingRules for Settings {
     /// An arc to the left, its mirror images to the right and in reverse, and a straight drive. The final pose is off the commanded arc, so
     /// that no residual is 0.
     const PRESETS: &'static [(&'static str, Self)] = &[
@@ -107,7 +107,7 @@ js_structs! {
         pub end: [f64; 3],
     }
 
-    /// One of the three factors of p.
+    /// One of the three factors of the score p.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Factor {
         /// Value of v̂, ω̂ or γ̂ that the final pose implies (m/s, rad/s).
@@ -118,7 +118,7 @@ js_structs! {
         pub deviation: f64,
         /// Residual divided by σ. If σ is 0, it is 0 for a residual of 0 up to rounding, and infinite otherwise.
         pub deviations: f64,
-        /// `prob` of the residual.
+        /// Probability density `prob` at the residual.
         pub value: f64,
         /// Factor relative to its maximum, which is `prob` at residual 0; from 0 to 1.
         pub share: f64,
@@ -141,7 +141,7 @@ js_structs! {
         pub weakest: usize,
         /// p, the product of the three factors.
         pub prob: f64,
-        /// p relative to the p of the noise-free pose, from 0 to 1.
+        /// Score p relative to the score of the noise-free pose, from 0 to 1.
         pub share: f64,
         /// Density of the sampler over dx dy dθ; null (None) if a variance is 0.
         pub density: Option<f64>,
@@ -169,7 +169,7 @@ js_structs! {
         pub commanded: Vec<[f64; 2]> as "Float64Array",
         /// Arc to the final position.
         pub inverted: Vec<[f64; 2]> as "Float64Array",
-        /// Arc that v̂ and ω̂ drive.
+        /// Arc driven with the estimated v̂ and ω̂.
         pub driven: Vec<[f64; 2]> as "Float64Array",
         /// Path of the constant twist ξ: start · exp(tξ) for t from 0 to 1. If γ̂ ≠ 0 it differs from the driven arc, and has a
         /// lateral velocity, which wheels do not allow.
@@ -227,11 +227,11 @@ impl ArcAnatomy {
         let Settings { command, noise, .. } = &self.settings;
         let (start, next) = (self.settings.start(), self.settings.next());
         let (estimates, inverted) = (self.selected_inversion(), self.signed_inversion());
-        let factors = self.noise_residuals(&estimates).map(|residual| Factor::of(*noise, residual));
-        let deviation_of = |i: &usize| factors[*i].deviations.abs();
-        let weakest = (0..3).rev().max_by(|a, b| deviation_of(a).total_cmp(&deviation_of(b))).unwrap_or(0);
+        let factors = self.noise_residuals(&estimates).map(|residual| Factor::new(*noise, residual));
+        let size_of = |i: &usize| factors[*i].deviations.abs();
+        let weakest = (0..3).rev().max_by(|a, b| size_of(a).total_cmp(&size_of(b))).unwrap_or(0);
         let arc_of_speeds = |v: f64, omega: f64| {
-            ArcWithCircle::of(&Arc { start, length: v * command.dt, turn: omega * command.dt })
+            ArcWithCircle::from_arc(&Arc { start, length: v * command.dt, turn: omega * command.dt })
         };
         Stats {
             commanded: arc_of_speeds(command.v, command.omega),
@@ -341,8 +341,8 @@ impl ArcAnatomy {
     /// Returns the heat map over the rectangle from `min_corner` to `max_corner` (m, `min_corner` below `max_corner` in x and in y); None
     /// if no heat map is selected.
     pub fn surface(&self, min_corner: [f64; 2], max_corner: [f64; 2]) -> Option<Surface> {
-        let Settings { command, map, next: [.., theta], .. } = self.settings;
-        if map == SurfaceKind::Nothing {
+        let Settings { command, map: heat_map, next: [.., theta], .. } = self.settings;
+        if heat_map == HeatMapKind::NoHeatMap {
             return None;
         }
         let (model, start) = (self.settings.model(), self.settings.start());
@@ -369,7 +369,7 @@ impl ArcAnatomy {
             evaluate_cells(&|next| Self { settings: Settings { next, ..self.settings } }.prob());
         let density_values =
             evaluate_cells(&|next| model.pose_density(&next.into(), &command, &start).unwrap_or(0.0));
-        let shown_values = if map == SurfaceKind::Prob { &prob_values } else { &density_values };
+        let shown_values = if heat_map == HeatMapKind::Prob { &prob_values } else { &density_values };
         let maximum_of = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let shown_maximum = maximum_of(shown_values);
         let shade_of = |cell_value: &f64| {
@@ -398,7 +398,7 @@ impl ArcAnatomy {
 }
 
 impl ArcWithCircle {
-    fn of(arc: &Arc) -> Self {
+    fn from_arc(arc: &Arc) -> Self {
         let Arc { start, length, turn } = *arc;
         let inversion = ArcInversion { v_hat: length, omega_hat: turn, gamma_hat: 0.0 };
         Self {
@@ -417,14 +417,14 @@ impl ArcWithCircle {
 }
 
 impl Factor {
-    fn of(noise: NoiseKind, (estimate, residual, variance): (f64, f64, Variance)) -> Self {
-        let (value, peak) = (noise.prob(residual, variance), noise.prob(0.0, variance));
+    fn new(noise: NoiseKind, (estimate, residual, variance): (f64, f64, Variance)) -> Self {
+        let (value, prob_at_zero) = (noise.prob(residual, variance), noise.prob(0.0, variance));
         let deviation = variance.0.sqrt();
         let deviations = match (deviation == 0.0, value > 0.0) {
             (false, _) => residual / deviation,
             (true, true) => 0.0,
             (true, false) => f64::INFINITY.copysign(residual),
         };
-        Self { estimate, residual, deviation, deviations, value, share: value / peak }
+        Self { estimate, residual, deviation, deviations, value, share: value / prob_at_zero }
     }
 }

@@ -10,7 +10,7 @@ pub struct NoiseLevel<'a>(pub &'a mut [f64]);
 
 impl NoiseLevel<'_> {
     /// Returns the ratio of each α to the level.
-    pub fn weights(&self) -> impl Iterator<Item = f64> + use<> {
+    pub fn ratios(&self) -> impl Iterator<Item = f64> + use<> {
         let alpha_count = self.0.len();
         (0..alpha_count).map(move |i| if i + 2 < alpha_count { 1.0 } else { 0.25 })
     }
@@ -18,11 +18,11 @@ impl NoiseLevel<'_> {
     /// Returns the level; None if the α's do not have the ratios of a level.
     pub fn get(&self) -> Option<f64> {
         let n = self.0[0];
-        self.weights().zip(&*self.0).all(|(weight, alpha)| *alpha == n * weight).then_some(n)
+        self.ratios().zip(&*self.0).all(|(ratio, alpha)| *alpha == n * ratio).then_some(n)
     }
 
     /// Sets the α's to the level times their ratios.
     pub fn set(&mut self, level: f64) {
-        self.weights().zip(&mut *self.0).for_each(|(weight, alpha)| *alpha = level * weight);
+        self.ratios().zip(&mut *self.0).for_each(|(ratio, alpha)| *alpha = level * ratio);
     }
 }

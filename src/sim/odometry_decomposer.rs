@@ -3,14 +3,14 @@
 use super::cloud::draws::Draws;
 use super::cloud::views::nearest_index;
 use super::cloud_simulation::cloud_simulation;
-use super::settings::{ALPHA_RANGE, Keywords, MAX_SEED, Rules, SettingsError, settings};
+use super::settings::{ALPHA_RANGE, HasKeywords, MAX_SEED, SettingRules, SettingsError, settings};
 use crate::geom::se2::SE2;
 use crate::js::js_structs;
 use crate::models::{ExecutedLegs, LegVariances, OdomDelta, OdometryRule, RuleAlphas};
 use crate::noise::NoiseKind;
 use nalgebra::Vector3;
 
-impl Keywords for OdometryRule {
+impl HasKeywords for OdometryRule {
     const KEYWORDS: &'static [(&'static str, Self)] =
         &[("thrun", Self::Table), ("nav2", Self::Nav2), ("beluga", Self::Beluga), ("omni", Self::Omni)];
 }
@@ -47,20 +47,20 @@ settings! {
     }
 }
 
-impl Rules for Settings {
+impl SettingRules for Settings {
     /// Readings with one, two or three legs; a drive in reverse and jitter of half a centimetre, on which the rules disagree.
     const PRESETS: &'static [(&'static str, Self)] = &[
-        ("all", drive_to([1.2, 1.0, 1.2])),
+        ("all", preset_ending_at([1.2, 1.0, 1.2])),
         // 0.6435 rad is the direction of (4, 3).
-        ("turn-drive", drive_to([1.2, 0.9, 0.6435])),
-        ("drive-turn", drive_to([1.5, 0.0, 1.0])),
+        ("turn-drive", preset_ending_at([1.2, 0.9, 0.6435])),
+        ("drive-turn", preset_ending_at([1.5, 0.0, 1.0])),
         ("reverse", Self::DEFAULT),
-        ("spin", drive_to([0.0, 0.0, 2.2])),
-        ("rest", drive_to([-0.004, 0.003, 0.001])),
+        ("spin", preset_ending_at([0.0, 0.0, 2.2])),
+        ("rest", preset_ending_at([-0.004, 0.003, 0.001])),
     ];
 }
 
-const fn drive_to(to: [f64; 3]) -> Settings {
+const fn preset_ending_at(to: [f64; 3]) -> Settings {
     Settings { to, ..Settings::DEFAULT }
 }
 

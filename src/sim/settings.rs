@@ -11,7 +11,7 @@ use thiserror::Error;
 #[error("{}", self.message(format_number))]
 pub struct SettingsError {
     /// Name of the setting.
-    pub field: String,
+    pub key: String,
     /// The number that is not allowed; NaN for a keyword.
     pub value: f64,
     /// The values that are allowed.
@@ -39,7 +39,7 @@ pub enum AllowedValues {
 impl SettingsError {
     /// Returns the error for a number of samples that need more memory than there is.
     pub(crate) fn out_of_memory(samples: usize) -> Self {
-        Self { field: "samples".to_owned(), value: samples as f64, allowed: AllowedValues::FitsInMemory }
+        Self { key: "samples".to_owned(), value: samples as f64, allowed: AllowedValues::FitsInMemory }
     }
 
     /// Returns the message. `format_number` formats its numbers. In WebAssembly JavaScript formats numbers, because Rust's code for
@@ -47,7 +47,7 @@ impl SettingsError {
     pub fn message(&self, format_number: impl Fn(f64) -> String) -> String {
         let allowed_text = match &self.allowed {
             AllowedValues::Keyword { given, allowed } => {
-                return format!("{} is {given}; allowed is {allowed}", self.field);
+                return format!("{} is {given}; allowed is {allowed}", self.key);
             }
             AllowedValues::Real(range) => {
                 format!("a number from {} to {}", format_number(*range.start()), format_number(*range.end()))
@@ -57,7 +57,7 @@ impl SettingsError {
             }
             AllowedValues::FitsInMemory => "a number for which there is memory".to_owned(),
         };
-        format!("{} is {}; allowed is {allowed_text}", self.field, format_number(self.value))
+        format!("{} is {}; allowed is {allowed_text}", self.key, format_number(self.value))
     }
 }
 
@@ -77,7 +77,7 @@ pub(crate) fn check_real(
     if allowed.contains(&value) {
         return Ok(());
     }
-    Err(SettingsError { field: field.to_owned(), value, allowed: AllowedValues::Real(allowed.clone()) })
+    Err(SettingsError { key: field.to_owned(), value, allowed: AllowedValues::Real(allowed.clone()) })
 }
 
 /// Converts a double to an integer in the `allowed` range. The ends of the range must be exact as doubles.
@@ -90,7 +90,7 @@ pub(crate) fn check_integer(
     if integer as f64 == value && allowed.contains(&integer) {
         return Ok(integer);
     }
-    Err(SettingsError { field: field.to_owned(), value, allowed: AllowedValues::Integer(allowed.clone()) })
+    Err(SettingsError { key: field.to_owned(), value, allowed: AllowedValues::Integer(allowed.clone()) })
 }
 
 /// Range of positions (m), angles (rad) and speeds (m/s, rad/s). The range is far larger than any robot needs. Products of squares of its
@@ -117,8 +117,7 @@ pub struct Declaration {
     /// Unit; "" for a number without one.
     #[cfg(not(target_arch = "wasm32"))]
     pub unit: &'static str,
-    /// Description of each number of a list that is an attribute. For a group, it completes the sentences of the group's numbers, such as
-    /// "Position x" … "at which the robot starts".
+    /// Description of each number of a list that is an attribute. For a pose or command, the phrase after the name of each of its numbers.
     #[cfg(not(target_arch = "wasm32"))]
     pub each: &'static str,
 }
@@ -128,19 +127,19 @@ pub enum Setting<'a> {
     /// Number.
     Number(&'a mut f64, RangeInclusive<f64>),
     /// Integer.
-    Integer(&'a mut dyn Integer, RangeInclusive<u64>),
+    Integer(&'a mut dyn IntegerSetting, RangeInclusive<u64>),
     /// Integer that may be missing.
     OptionalInteger(&'a mut Option<usize>, RangeInclusive<u64>),
     /// Boolean.
     Boolean(&'a mut bool),
     /// Value of an enum, by its keyword.
-    Keyword(&'a mut dyn Keyword),
+    Keyword(&'a mut dyn KeywordSetting),
     /// List of fixed length, whose numbers have one common range.
     Numbers(&'a mut [f64], RangeInclusive<f64>),
     /// Noise level, which sets several numbers in fixed ratios, and its range.
     Level(NoiseLevel<'a>, RangeInclusive<f64>),
     /// Several numbers with names.
-    Group(&'a mut dyn Group),
+    Group(&'a mut dyn NumberGroup),
 }
 
 impl Setting<'_> {
@@ -180,7 +179,7 @@ impl Serialize for Setting<'_> {
             Self::Group(group) => {
                 let numbers = group.numbers();
                 let mut object = serializer.serialize_struct("", numbers.len())?;
-                for (field, number) in group.fields().iter().zip(numbers) {
+                for (field, number) in group.members().iter().zip(numbers) {
                     object.serialize_field(field.declaration.key, &number)?;
                 }
                 object.end()
@@ -202,15 +201,15 @@ pub(crate) fn serialize_settings<S: DeclaredSettings, Z: Serializer>(
     object.end()
 }
 
-pub(crate) fn check_group(key: &str, group: &dyn Group) -> Result<(), SettingsError> {
-    for (Field { declaration, allowed }, number) in group.fields().iter().zip(group.numbers()) {
+pub(crate) fn check_group(key: &str, group: &dyn NumberGroup) -> Result<(), SettingsError> {
+    for (GroupMember { declaration, allowed }, number) in group.members().iter().zip(group.numbers()) {
         check_real(&format!("{key}.{}", declaration.key), number, allowed)?;
     }
     Ok(())
 }
 
 /// Access to an integer of any type.
-pub trait Integer {
+pub trait IntegerSetting {
     /// Returns the number.
     fn get(&self) -> u64;
     /// Sets the number, which must be in the range of the type.
@@ -218,22 +217,22 @@ pub trait Integer {
 }
 
 /// Enum whose values have keywords in settings, attributes and states.
-pub trait Keywords: Copy + 'static {
+pub trait HasKeywords: Copy + 'static {
     /// Keywords with their values.
     const KEYWORDS: &'static [(&'static str, Self)];
 }
 
-/// Access to a value of any type that implements [`Keywords`].
-pub trait Keyword {
+/// Access to a value of any type that implements [`HasKeywords`].
+pub trait KeywordSetting {
     /// Returns the keyword of the value.
     fn get(&self) -> &'static str;
-    /// Sets the value by its keyword. Returns false if the keyword is not in [`Keyword::all`].
+    /// Sets the value by its keyword. Returns false if the keyword is not in [`KeywordSetting::all_keywords`].
     fn set(&mut self, keyword: &str) -> bool;
     /// Returns the keywords of all values.
-    fn all(&self) -> Vec<&'static str>;
+    fn all_keywords(&self) -> Vec<&'static str>;
 }
 
-impl<T: Keywords> Keyword for T {
+impl<T: HasKeywords> KeywordSetting for T {
     fn get(&self) -> &'static str {
         let discriminant = std::mem::discriminant(self);
         T::KEYWORDS
@@ -247,23 +246,23 @@ impl<T: Keywords> Keyword for T {
         matching_keyword.inspect(|(_, value)| *self = *value).is_some()
     }
 
-    fn all(&self) -> Vec<&'static str> {
+    fn all_keywords(&self) -> Vec<&'static str> {
         T::KEYWORDS.iter().map(|(keyword, _)| *keyword).collect()
     }
 }
 
 /// Setting with several numbers, such as the three coordinates of a pose.
-pub trait Group {
+pub trait NumberGroup {
     /// Returns the declarations of the numbers.
-    fn fields(&self) -> &'static [Field];
+    fn members(&self) -> &'static [GroupMember];
     /// Returns the numbers, in the order of their declarations.
     fn numbers(&self) -> Vec<f64>;
     /// Returns references to the numbers, in the order of their declarations.
     fn numbers_mut(&mut self) -> Vec<&mut f64>;
 }
 
-/// Declaration of a number of a [`Group`].
-pub struct Field {
+/// Declaration of a number of a [`NumberGroup`].
+pub struct GroupMember {
     /// Key, description and unit of the number.
     pub declaration: Declaration,
     /// Allowed range.
@@ -271,42 +270,42 @@ pub struct Field {
 }
 
 /// Types that a setting may have.
-pub trait Settable {
+pub trait SettingValue {
     /// Type of the declared range.
     type Range;
     /// Returns a reference to the value, with its allowed values.
     fn setting(&mut self, allowed: Self::Range) -> Setting<'_>;
 }
 
-impl Settable for f64 {
+impl SettingValue for f64 {
     type Range = RangeInclusive<f64>;
     fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
         Setting::Number(self, allowed)
     }
 }
 
-impl Settable for Option<usize> {
+impl SettingValue for Option<usize> {
     type Range = RangeInclusive<u64>;
     fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
         Setting::OptionalInteger(self, allowed)
     }
 }
 
-impl Settable for bool {
+impl SettingValue for bool {
     type Range = ();
     fn setting(&mut self, (): ()) -> Setting<'_> {
         Setting::Boolean(self)
     }
 }
 
-impl<T: Keywords> Settable for T {
+impl<T: HasKeywords> SettingValue for T {
     type Range = ();
     fn setting(&mut self, (): ()) -> Setting<'_> {
         Setting::Keyword(self)
     }
 }
 
-impl Settable for NoiseLevel<'_> {
+impl SettingValue for NoiseLevel<'_> {
     type Range = RangeInclusive<f64>;
     fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
         Setting::Level(NoiseLevel(self.0), allowed)
@@ -315,7 +314,7 @@ impl Settable for NoiseLevel<'_> {
 
 macro_rules! numbers {
     ($($type:ty),+) => {$(
-        impl Settable for $type {
+        impl SettingValue for $type {
             type Range = RangeInclusive<f64>;
             fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
                 Setting::Numbers(self, allowed)
@@ -327,7 +326,7 @@ numbers!([f64], [f64; 5], [f64; 6]);
 
 macro_rules! integer {
     ($($type:ty),+) => {$(
-        impl Integer for $type {
+        impl IntegerSetting for $type {
             fn get(&self) -> u64 {
                 *self as u64
             }
@@ -335,7 +334,7 @@ macro_rules! integer {
                 *self = integer as $type;
             }
         }
-        impl Settable for $type {
+        impl SettingValue for $type {
             type Range = RangeInclusive<u64>;
             fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
                 Setting::Integer(self, allowed)
@@ -346,7 +345,7 @@ macro_rules! integer {
 integer!(u32, u64, usize);
 
 /// Visitor that is called for each setting.
-pub type Visitor<'a> = dyn FnMut(&'static Declaration, Setting) + 'a;
+pub type SettingVisitor<'a> = dyn FnMut(&'static Declaration, Setting) + 'a;
 
 /// Settings of a widget that can be visited one by one. `settings!` implements it.
 pub trait DeclaredSettings: Copy + Default + Serialize {
@@ -354,7 +353,7 @@ pub trait DeclaredSettings: Copy + Default + Serialize {
     const KEYS: &'static [&'static str];
 
     /// Calls `visit` for each setting, in the order of declaration.
-    fn visit_settings(&mut self, visit: &mut Visitor);
+    fn visit_settings(&mut self, visit: &mut SettingVisitor);
 
     /// Calls `visit` for each setting, in the order of declaration, until it returns an error.
     ///
@@ -375,7 +374,7 @@ pub trait DeclaredSettings: Copy + Default + Serialize {
 }
 
 /// Rules that connect several settings of a widget, and its presets.
-pub trait Rules: DeclaredSettings + 'static {
+pub trait SettingRules: DeclaredSettings + 'static {
     /// Presets, each with its name in attributes and states.
     const PRESETS: &'static [(&'static str, Self)] = &[];
 
@@ -458,8 +457,8 @@ macro_rules! settings {
         impl $crate::sim::settings::DeclaredSettings for $name {
             const KEYS: &'static [&'static str] = &[$(settings!(@key $field $($key)?)),+];
 
-            fn visit_settings(&mut self, visit: &mut $crate::sim::settings::Visitor) {
-                use $crate::sim::settings::{Settable, declaration};
+            fn visit_settings(&mut self, visit: &mut $crate::sim::settings::SettingVisitor) {
+                use $crate::sim::settings::{SettingValue, declaration};
                 $(visit(
                     const {
                         &declaration!(
@@ -506,9 +505,9 @@ pub(crate) use declaration;
 /// numbers of the type.
 macro_rules! group {
     ($type:ty as $pattern:pat => { $(#[doc = $sentence:literal] $key:ident: $unit:literal, in $range:expr;)+ }) => {
-        impl $crate::sim::settings::Group for $type {
-            fn fields(&self) -> &'static [$crate::sim::settings::Field] {
-                static FIELDS: &[$crate::sim::settings::Field] = &[$($crate::sim::settings::Field {
+        impl $crate::sim::settings::NumberGroup for $type {
+            fn members(&self) -> &'static [$crate::sim::settings::GroupMember] {
+                static FIELDS: &[$crate::sim::settings::GroupMember] = &[$($crate::sim::settings::GroupMember {
                     declaration: $crate::sim::settings::declaration!(stringify!($key), $sentence, [$unit], []),
                     allowed: $range,
                 }),+];
@@ -526,7 +525,7 @@ macro_rules! group {
             }
         }
 
-        impl $crate::sim::settings::Settable for $type {
+        impl $crate::sim::settings::SettingValue for $type {
             type Range = ();
             fn setting(&mut self, (): ()) -> $crate::sim::settings::Setting<'_> {
                 $crate::sim::settings::Setting::Group(self)

@@ -21,7 +21,7 @@ const MIN_UNCORRELATED_FRACTION: f64 = 1e-12;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
     centre: Vector2<f64>,
-    /// Lower triangular L with L·Lᵀ the covariance.
+    /// Cholesky factor: lower triangular L with L·Lᵀ = covariance.
     cov_root: Matrix2<f64>,
     /// L⁻¹, with 0 for a coordinate in which the Gaussian has no extent.
     whitening_matrix: Matrix2<f64>,
@@ -112,7 +112,7 @@ pub struct ExponentialContour {
     mean: Vector3<f64>,
     /// 2σ ellipse in (along, heading), m, rad.
     pub ellipse: Ellipse,
-    /// G with G·Gᵀ = Σ.
+    /// Root G of the covariance: G·Gᵀ = Σ.
     cov_root: Matrix3<f64>,
 }
 

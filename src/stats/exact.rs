@@ -2,9 +2,9 @@
 
 use super::cross_track::MIN_RELATIVE_STD;
 use super::moments::non_negative;
-use super::quadrature::nodes;
+use super::quadrature::noise_nodes;
 use crate::geom::se2::wrap_angle;
-use crate::geom::sinc::chord_factors;
+use crate::geom::sinc::unit_arc_end;
 use crate::models::{OdomDelta, RotTransRot, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use nalgebra::{Matrix3, Vector3};
@@ -34,8 +34,8 @@ pub(super) struct UnitMotionMoments {
     /// Value of u of the first motion. Sums contain differences from this value, so that few digits are lost if u varies little.
     first_end: Option<[f64; 2]>,
     pub weight_sum: f64,
-    weighted_sum: Vector3<f64>,
-    square_sum: Matrix3<f64>,
+    weighted_sums: Vector3<f64>,
+    product_sums: Matrix3<f64>,
 }
 
 impl UnitMotionMoments {
@@ -44,17 +44,17 @@ impl UnitMotionMoments {
         let [x, y] = *self.first_end.get_or_insert(unit_end);
         let offset = Vector3::new(unit_end[0] - x, unit_end[1] - y, excess_turn);
         self.weight_sum += weight;
-        self.weighted_sum += offset * weight;
+        self.weighted_sums += offset * weight;
         // The weight is multiplied last, so that the matrix is symmetric to the last bit.
-        self.square_sum += offset * offset.transpose() * weight;
+        self.product_sums += offset * offset.transpose() * weight;
     }
 
     /// Returns the mean and covariance of L·u and the turn, for a length L that is independent of the noise and has the given mean and
     /// standard deviation.
     #[inline(never)]
     pub fn mean_and_cov(&self, [mean_length, length_std]: [f64; 2]) -> (Vector3<f64>, Matrix3<f64>) {
-        let mean = self.weighted_sum / self.weight_sum;
-        let mut unit_end_cov = self.square_sum / self.weight_sum - mean * mean.transpose();
+        let mean = self.weighted_sums / self.weight_sum;
+        let mut unit_end_cov = self.product_sums / self.weight_sum - mean * mean.transpose();
         for i in 0..3 {
             unit_end_cov[(i, i)] = non_negative(unit_end_cov[(i, i)]);
         }
@@ -76,9 +76,9 @@ impl ExactMoments {
     /// Returns the moments of the velocity model. Given ω̂, the position is v̂Δt·(sin φ/φ, (1 − cos φ)/φ) with φ = ω̂Δt, linear in v̂.
     pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
         let [v_variance, omega_variance, gamma_variance] = model.variances(u).map(|variance| variance.0);
-        let motions = nodes(model.noise).iter().map(|node| {
+        let motions = noise_nodes(model.noise).iter().map(|node| {
             let excess_turn = omega_variance.sqrt() * u.dt * node.value;
-            let unit_end = chord_factors(u.omega * u.dt + excess_turn).into();
+            let unit_end = unit_arc_end(u.omega * u.dt + excess_turn).into();
             UnitMotion { weight: node.weight, unit_end, excess_turn }
         });
         let (motions, dt2) = (motions.collect::<Vec<_>>(), u.dt * u.dt);
@@ -88,7 +88,7 @@ impl ExactMoments {
     /// Returns the moments of the odometry model. Given the first rotation, the position is δ̂_trans along it, linear in δ̂_trans.
     pub fn of_odometry(model: &impl RotTransRot, u: &OdomDelta) -> Self {
         let [rot1_variance, trans_variance, rot2_variance] = model.variances(u).map(|variance| variance.0);
-        let motions = nodes(model.noise()).iter().map(|node| {
+        let motions = noise_nodes(model.noise()).iter().map(|node| {
             let excess_turn = rot1_variance.sqrt() * node.value;
             let (sin, cos) = libm::sincos(u.rot1 + excess_turn);
             UnitMotion { weight: node.weight, unit_end: [cos, sin], excess_turn }
@@ -146,9 +146,9 @@ pub fn predicted_cross_track_skew(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> f6
     let residual_cov = cov.fixed_view::<2, 2>(0, 0)
         - regression_coefficients * regression_coefficients.transpose() * heading_variance;
     let (sin, cos) = libm::sincos(mean.z);
-    let lateral_components = nodes(NoiseKind::Normal).iter().map(|node| {
+    let lateral_components = noise_nodes(NoiseKind::Normal).iter().map(|node| {
         let excess_turn = heading_variance.max(0.0).sqrt() * node.value;
-        let (a, b) = chord_factors(mean.z + excess_turn);
+        let (a, b) = unit_arc_end(mean.z + excess_turn);
         // The lateral component of V(ω)·ξ, as a row over (along, lateral).
         let lateral_row = nalgebra::RowVector2::new(b * cos - a * sin, a * cos + b * sin);
         MixtureComponent {

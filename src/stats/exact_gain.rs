@@ -1,7 +1,7 @@
 //! Exact likelihood gain of a model, by quadrature over the two noises that turn the robot. The noise of the length has a closed form.
 
 use super::exact::{ExactMoments, UnitMotionMoments};
-use super::gain::{ChartGaussians, LikelihoodGain, MeanAndCov};
+use super::gain::{FittedGaussians, LikelihoodGain, MeanAndCov};
 use super::moments::ExponentialMoments;
 use super::quadrature::{Node, piecewise_nodes};
 use crate::geom::angle::wrap_angle;
@@ -88,12 +88,12 @@ impl PolarMotion {
         let (twist, twist_log_jacobian) = self.twist_moments();
         let (arc, arc_log_jacobian) = self.arc_moments();
         let mean_log_jacobians = [twist_log_jacobian, mean_log_length + arc_log_jacobian - LN_2];
-        let gaussians = ChartGaussians::new((cartesian.mean, cartesian.cov), twist, arc, mean_log_jacobians);
+        let gaussians = FittedGaussians::new((cartesian.mean, cartesian.cov), twist, arc, mean_log_jacobians);
         let [turn, bearing_turn_std, last_turn_std] = self.turn;
-        let one_if_defined =
+        let one_or_nan_of =
             |turn: f64, max_excess_turn: f64| if turn.abs() + max_excess_turn < TAU { 1.0 } else { f64::NAN };
-        let pose_factor = one_if_defined(turn, self.integration_limit(bearing_turn_std, last_turn_std));
-        let floor_factor = one_if_defined(2.0 * bearing, self.integration_limit(2.0 * bearing_std, 0.0));
+        let pose_factor = one_or_nan_of(turn, self.integration_limit(bearing_turn_std, last_turn_std));
+        let floor_factor = one_or_nan_of(2.0 * bearing, self.integration_limit(2.0 * bearing_std, 0.0));
         let gain = gaussians.gain;
         ExactGain {
             value: LikelihoodGain { pose: gain.pose * pose_factor, floor: gain.floor * floor_factor },
@@ -158,9 +158,9 @@ impl PolarMotion {
             let half_circles = ((driven_bearing - half_commanded_turn) / PI).round();
             let half_turn = driven_bearing - half_circles * PI;
             let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
-            let half_sinc = sinc(half_turn);
-            let length_ratio = drive_sign * if self.is_arc { sinc(driven_bearing) } else { 1.0 } / half_sinc;
-            log_sum += node.weight * libm::log((length_ratio * half_sinc * half_sinc).abs());
+            let arc_sinc = sinc(half_turn);
+            let length_ratio = drive_sign * if self.is_arc { sinc(driven_bearing) } else { 1.0 } / arc_sinc;
+            log_sum += node.weight * libm::log((length_ratio * arc_sinc * arc_sinc).abs());
             moments.add(node.weight, [length_ratio, 0.0], 2.0 * (half_turn - bearing));
         }
         let (mean, cov) = moments.mean_and_cov(self.length);

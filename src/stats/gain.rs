@@ -3,7 +3,7 @@
 
 use super::cross_track::MIN_RELATIVE_STD;
 use super::moments::non_negative;
-use crate::geom::lanes::log;
+use crate::geom::lanes::ln;
 use crate::models::covariance_root;
 use nalgebra::{Matrix3, Vector3};
 use wide::f64x4;
@@ -49,7 +49,7 @@ pub(super) struct FourRobots {
 
 /// Gaussians fitted to a cloud or model, one in each of three coordinate systems.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct ChartGaussians {
+pub(super) struct FittedGaussians {
     cartesian: Gaussian,
     twist: Gaussian,
     arc: Gaussian,
@@ -61,7 +61,7 @@ pub(super) struct ChartGaussians {
 /// Mean and covariance.
 pub(super) type MeanAndCov = (Vector3<f64>, Matrix3<f64>);
 
-impl ChartGaussians {
+impl FittedGaussians {
     /// Creates the Gaussians from the moments of the coordinates in [`FourRobots`], and the mean logarithms of their Jacobians.
     pub fn new(cartesian: MeanAndCov, twist: MeanAndCov, arc: MeanAndCov, log_jacobians: [f64; 2]) -> Self {
         let (cartesian, twist, arc) =
@@ -81,18 +81,18 @@ impl ChartGaussians {
 /// Weighted sums over a sample of robots, for the standard errors of the likelihood gain and of the area ratio.
 #[derive(Clone, Debug)]
 pub(super) struct LogDensityDifferences {
-    gaussians: ChartGaussians,
+    gaussians: FittedGaussians,
     weight_sums: f64x4,
     /// Sums of squared deviations of the log-density difference from the gain, for (x, y, θ) and (x, y). The mean difference is the gain of
     /// all robots, so that its own sum is not needed.
     squared_deviations: [f64x4; 2],
-    /// Sums of u, u², h·u and h² for [`LogDensityDifferences::log_area_error`]. u is the Jacobian divided by its geometric mean, minus 1. h
-    /// is half the difference of the squared Mahalanobis distances in (x, y) and in arc coordinates.
+    /// Sums of u, u², h·u and h² for [`LogDensityDifferences::log_area_ratio_error`]. u is the Jacobian divided by its geometric mean,
+    /// minus 1. h is half the difference of the squared Mahalanobis distances in (x, y) and in arc coordinates.
     area_sums: [f64x4; 4],
 }
 
 impl LogDensityDifferences {
-    pub fn new(gaussians: ChartGaussians) -> Self {
+    pub fn new(gaussians: FittedGaussians) -> Self {
         Self {
             gaussians,
             weight_sums: f64x4::splat(0.0),
@@ -104,7 +104,7 @@ impl LogDensityDifferences {
     /// Adds four robots with their weights; lanes without a robot have the weight 0.
     #[inline(never)]
     pub fn add(&mut self, robots: &FourRobots, weights: f64x4) {
-        let ChartGaussians { cartesian, twist, arc, gain, mean_jacobian } = &self.gaussians;
+        let FittedGaussians { cartesian, twist, arc, gain, mean_jacobian } = &self.gaussians;
         let has_robot = weights.simd_gt(f64x4::splat(0.0));
         let cartesian_distances = cartesian.squared_distances(&robots.cartesian);
         let twist_distance = twist.squared_distances(&robots.twist)[2];
@@ -117,7 +117,7 @@ impl LogDensityDifferences {
         for i in 0..2 {
             let log_ratio = cartesian_log_volumes[i] - curved_log_volumes[i] - gains[i];
             let log_density_differences =
-                (squared_distance_differences[i] * 0.5 - log(robots.jacobians[i]) + log_ratio) & has_robot;
+                (squared_distance_differences[i] * 0.5 - ln(robots.jacobians[i]) + log_ratio) & has_robot;
             self.squared_deviations[i] += log_density_differences * log_density_differences * weights;
         }
         let (u, h) = (robots.jacobians[1] / *mean_jacobian - 1.0, squared_distance_differences[1] * 0.5);
@@ -144,7 +144,7 @@ impl LogDensityDifferences {
     /// over the robots to third order. The influence of a robot on ln(A/B) is then ½(z² − w²) − J/mean J, up to a constant. Here z and w
     /// are the robot's Mahalanobis distances in (x, y) and in arc coordinates. The area of the outline in exponential coordinates has the
     /// same error as B to first order. With the presets the estimate is 0 to 14 % smaller than the standard deviation of the ratio.
-    pub fn log_area_error(&self, count: usize) -> f64 {
+    pub fn log_area_ratio_error(&self, count: usize) -> f64 {
         let total_weight = self.weight_sums.reduce_add();
         let [u, uu, hu, hh] = self.area_sums.map(|sum| sum.reduce_add() / total_weight);
         let mean_jacobian = 1.0 + u;

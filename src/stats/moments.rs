@@ -24,7 +24,7 @@ impl CartesianMoments {
             Vector3::new(pose.x() - poses[0].x(), pose.y() - poses[0].y(), wrap_angle(pose.theta() - heading))
         };
         let (mean_offset, cov) = mean_and_cov(poses.iter().map(offset_of), poses.len());
-        let (x, y) = poses.first().map_or((f64::NAN, f64::NAN), |first| (first.x(), first.y()));
+        let (x, y) = poses.first().map_or((f64::NAN, f64::NAN), |pose| (pose.x(), pose.y()));
         Self { mean: Vector3::new(x + mean_offset.x, y + mean_offset.y, heading), cov }
     }
 }
@@ -33,7 +33,7 @@ js_structs! {
     /// Mean and covariance of ξ = x_t ⊟ x_{t−1} in the order (along, lateral, heading): m, m, rad.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct ExponentialMoments {
-        /// Arithmetic mean.
+        /// Arithmetic mean of ξ.
         pub mean: Vector3<f64> as "number[]",
         /// Sample covariance (over n − 1), 3 × 3.
         pub cov: Matrix3<f64> as "number[][]",
@@ -58,15 +58,15 @@ impl ExponentialMoments {
 
 /// Returns the circular mean of the headings, atan2(Σ sin θ, Σ cos θ); NaN without poses.
 fn mean_heading(poses: &[SE2]) -> f64 {
-    let Some(first) = poses.first() else { return f64::NAN };
+    let Some(first_pose) = poses.first() else { return f64::NAN };
     let (mut sin_sum, mut cos_sum) = (0.0, 0.0);
     for pose in poses {
         // Angles are relative to the first heading, so that the sines of equal headings sum to exactly 0.
-        let (s, c) = libm::sincos(pose.theta() - first.theta());
+        let (s, c) = libm::sincos(pose.theta() - first_pose.theta());
         sin_sum += s;
         cos_sum += c;
     }
-    wrap_angle(first.theta() + libm::atan2(sin_sum, cos_sum))
+    wrap_angle(first_pose.theta() + libm::atan2(sin_sum, cos_sum))
 }
 
 /// Replaces a negative variance, which rounding may have caused, by 0. NaN stays NaN.

@@ -17,7 +17,7 @@ pub struct Node {
 ///
 /// The rule is correct to rounding if f is a polynomial times trigonometric functions of k·z with k below 16. The third
 /// moment of headings with a standard deviation of five radians needs that frequency.
-pub fn nodes(noise: NoiseKind) -> &'static [Node] {
+pub fn noise_nodes(noise: NoiseKind) -> &'static [Node] {
     // The nodes are cached, because every evaluation needs them.
     static NORMAL: OnceLock<Vec<Node>> = OnceLock::new();
     static TRIANGULAR: OnceLock<Vec<Node>> = OnceLock::new();

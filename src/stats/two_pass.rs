@@ -6,7 +6,7 @@
 
 use super::contour::{Ellipse, ExponentialContour};
 use super::cross_track::{CrossTrackStats, TrackMoments, track_products};
-use super::gain::{ChartGaussians, FourRobots, LogDensityDifferences, MeanAndCov, MeasuredGain};
+use super::gain::{FittedGaussians, FourRobots, LogDensityDifferences, MeanAndCov, MeasuredGain};
 use super::moments::{CartesianMoments, ExponentialMoments, non_negative};
 use super::sums::{CompensatedSums, PairSums, add_to_block};
 use crate::geom::angle::wrap_angle;
@@ -55,8 +55,8 @@ pub struct FirstPass {
     reference_point: ReferencePoint,
     pub jacobian_scale: JacobianScale,
     sums: CompensatedSums<16>,
-    /// Corrections for irregular arcs, which differ from the driven arcs (see `Drive::end_points`). Each correction adds the values of the
-    /// irregular arc, and subtracts those of the driven arc, because the sums of the unit noise contain the driven arc.
+    /// Corrections for irregular arcs, which differ from the driven arcs (see `NoisyDrive::end_points`). Each correction adds the values of
+    /// the irregular arc, and subtracts those of the driven arc, because the sums of the unit noise contain the driven arc.
     irregular_arcs: PairSums,
     /// Products of the scaled factors sinc(ξ_ω/2) and |s|·sinc²(φ/2) over a block, and sums of the logarithms of these products. Logarithms
     /// of products of a whole block take hardly any time. The factors average above e⁻¹, so that a product is above 1e-111.
@@ -226,11 +226,11 @@ pub struct CloudStats {
     pub cross_track: CrossTrackStats,
     /// Fractions of the poses inside the 2σ ellipse in (x, y) and inside the 2σ contour in exponential coordinates; NaN for a contour
     /// without area.
-    pub inside_ellipse: f64,
-    pub inside_exponential: f64,
+    pub fraction_in_ellipse: f64,
+    pub fraction_in_exponential: f64,
     pub gain: MeasuredGain,
     /// Standard error of the logarithm of the ratio of two areas: of the ellipse in (x, y) and of the exponential contour.
-    pub log_area_error: f64,
+    pub log_area_ratio_error: f64,
 }
 
 impl SecondPass {
@@ -281,7 +281,7 @@ impl SecondPass {
     ) -> CloudStats {
         let n = count as f64;
         let means = self.sums.totals().map(|sum| sum / n);
-        let [products @ .., ta, inside_ellipse, inside_contour] = means;
+        let [products @ .., ta, fraction_in_ellipse, inside_contour] = means;
         let [.., t, tt, td] = products;
         let FirstPassMoments { position: [x, y], position_cov: [xx, xy, yy], .. } = self.first_pass;
         let (sin, cos) = self.heading_sin_cos;
@@ -295,7 +295,7 @@ impl SecondPass {
             resultant_length: self.first_pass.resultant_length,
         };
         let FirstPassMoments { exponential, arc, log_jacobians, .. } = self.first_pass;
-        let gaussians = ChartGaussians::new(
+        let gaussians = FittedGaussians::new(
             (Vector3::new(x, y, t), cov),
             (exponential.mean, exponential.cov),
             arc,
@@ -322,10 +322,10 @@ impl SecondPass {
             },
             exponential: self.first_pass.exponential,
             cross_track: CrossTrackStats::from_moments(count, &track_moments),
-            inside_ellipse: fraction_or_nan(&self.ellipse, inside_ellipse),
-            inside_exponential: fraction_or_nan(&self.twist_ellipse, inside_contour),
+            fraction_in_ellipse: fraction_or_nan(&self.ellipse, fraction_in_ellipse),
+            fraction_in_exponential: fraction_or_nan(&self.twist_ellipse, inside_contour),
             gain: density_differences.measured_gain(count),
-            log_area_error: density_differences.log_area_error(count),
+            log_area_ratio_error: density_differences.log_area_ratio_error(count),
         }
     }
 }

@@ -23,7 +23,7 @@ getters! {
 }
 
 read! {
-    /// Everything that is shown besides the heat map, in one call.
+    /// All values that a figure shows besides the heat map, in one call.
     JsArcAnatomy, "ArcAnatomy", "ArcAnatomyView", [config, stats, table, paths]
 }
 

@@ -43,7 +43,7 @@ getters! {
         ]);
         /// True if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise statistics and
         /// contours in exponential coordinates are undefined.
-        is_chart_defined as chartHolds: "boolean" = simulation.is_chart_defined();
+        is_exponential_defined as chartHolds: "boolean" = simulation.is_exponential_defined();
         /// x, y (m), θ (rad) of each sample shown; a copy.
         poses: "Float64Array" = triple_array(simulation.poses());
         /// Exponential coordinates ξ of each sample shown: three numbers, along and lateral (m) and heading (rad). A copy.
@@ -62,9 +62,9 @@ getters! {
 }
 
 read! {
-    /// Everything that is shown besides the robots, in one call.
+    /// All values that a figure shows besides the robots, in one call.
     JsBananaMachine, "BananaMachine", "BananaMachineView", [
-        config, shown_count as shown, block_size as block, stats, contours, gaps, table, is_chart_defined as chartHolds,
+        config, shown_count as shown, block_size as block, stats, contours, gaps, table, is_exponential_defined as chartHolds,
         alphas_of_models as alphasOfModels, reading,
     ]
 }

@@ -1,7 +1,7 @@
 //! `motion.calibrate` for JavaScript: computes α's from logs.
 
 use super::calibration::{SYSTEMATIC_ERROR_KEYS, calibration_to_js, legs_to_js};
-use super::fields::{Fields, check_range, read_boolean, read_keyword, read_number, type_error};
+use super::fields::{FieldReader, check_range, read_boolean, read_keyword, read_number, type_error};
 use super::log::read_logs;
 use crate::calibrate::{Drive, ERROR_COUNT, LegLength, Model, Options, calibrate};
 use crate::models::OdometryRule;
@@ -57,7 +57,7 @@ pub fn js_calibrate(
 ) -> Result<JsValue, JsValue> {
     const KEYS: [&str; 9] =
         ["odometry", "reference", "model", "rule", "legs", "outliers", "correct", "positionStd", "yawStd"];
-    let fields = Fields::new("options", "", options, &KEYS)?;
+    let fields = FieldReader::new("options", "", options, &KEYS)?;
     let read_std = |key: &str| {
         fields.read_optional(key, |path, value| check_range(path, read_number(path, value)?, &STD_RANGE))
     };
@@ -78,7 +78,7 @@ pub fn js_calibrate(
     Ok(calibration_object)
 }
 
-fn read_model(fields: &Fields) -> Result<Model, JsValue> {
+fn read_model(fields: &FieldReader) -> Result<Model, JsValue> {
     let model_name: Option<ModelChoice> = fields.read_optional("model", read_keyword)?;
     let rule: Option<OdometryRule> = fields.read_optional("rule", read_keyword)?;
     let is_omni = rule == Some(OdometryRule::Omni);
@@ -100,7 +100,7 @@ fn read_model(fields: &Fields) -> Result<Model, JsValue> {
 }
 
 fn read_leg_length(field: &str, value: &JsValue) -> Result<LegLength, JsValue> {
-    let fields = Fields::new(field, "legs.", value, &["distance", "angle", "duration"])?;
+    let fields = FieldReader::new(field, "legs.", value, &["distance", "angle", "duration"])?;
     let [distance, angle, duration] = ["distance", "angle", "duration"].map(|key| {
         fields
             .read_optional(key, |path, value| check_range(path, read_number(path, value)?, &LEG_LENGTH_RANGE))
@@ -128,7 +128,7 @@ fn read_corrections(field: &str, value: &JsValue) -> Result<[Option<bool>; ERROR
         let allowed_text = format!("true, false or an object with keys from {}", keys.join(", "));
         return Err(type_error(field, value, &allowed_text));
     }
-    let fields = Fields::new(field, "correct.", value, &keys)?;
+    let fields = FieldReader::new(field, "correct.", value, &keys)?;
     let mut correct = [None; ERROR_COUNT];
     for (key, errors) in SYSTEMATIC_ERROR_KEYS {
         let is_corrected = fields.read_optional(key, read_boolean)?;

@@ -6,7 +6,7 @@ use super::simulation_class::{cloud_simulation_class, getters, read};
 use super::values::{flat_float_array, js_object, number_or_null, to_plain_js, triple_array};
 use crate::models::Compounding;
 use crate::sim::dead_reckoning::{DeadReckoning, MAX_SAMPLES};
-use crate::sim::settings::Keywords;
+use crate::sim::settings::HasKeywords;
 use js_sys::Float64Array;
 use nalgebra::{Matrix3, Vector3};
 use wasm_bindgen::prelude::*;
@@ -45,7 +45,8 @@ getters! {
         nominal: "Float64Array" = triple_array(simulation.nominal_poses().iter().copied());
         /// x, y (m), θ (rad) of the first robots after the selected step, 600 at most; a copy.
         poses: "Float64Array" = flat_float_array(simulation.poses(simulation.settings().step));
-        /// Exponential coordinates (along and lateral in m, heading in rad) of the robots of `poses`, relative to the commanded pose; a copy.
+        /// Exponential coordinates (along and lateral in m, heading in rad) of the robots of `poses`, relative to the commanded pose; a
+        /// copy.
         twists: "Float64Array" = triple_array(simulation.twists());
         /// Outlines of the selected step, by the selected recursion.
         outlines: "StepOutlines" = to_plain_js(&simulation.outlines(simulation.settings().step));
@@ -55,7 +56,7 @@ getters! {
 }
 
 read! {
-    /// Everything that is shown, in one call.
+    /// All values that a figure shows, in one call.
     JsDeadReckoning, "DeadReckoning", "DeadReckoningView", [
         config, shown_count as shown, block_size as block, stats, ratios, relative_errors as relativeErrors, commanded, nominal,
         poses, twists, outlines, milestones,

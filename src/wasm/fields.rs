@@ -1,7 +1,8 @@
 //! Readers of JavaScript values. Every error is a TypeError or RangeError that names the field, the value and the allowed values.
 
 use crate::sim::settings::{
-    Group, Keyword, Keywords, Rules, Setting, SettingsError, check_group, check_integer, check_real,
+    HasKeywords, KeywordSetting, NumberGroup, Setting, SettingRules, SettingsError, check_group,
+    check_integer, check_real,
 };
 use js_sys::{Array, JSON, Number, RangeError, Reflect, TypeError};
 use std::ops::RangeInclusive;
@@ -14,15 +15,15 @@ impl From<SettingsError> for JsValue {
 }
 
 /// Reader of the fields of a JavaScript object, by their names.
-pub struct Fields<'a> {
+pub struct FieldReader<'a> {
     object: &'a JsValue,
     /// Path of the object in the argument with a final dot: "" at the top, "command." one level below.
     prefix: &'a str,
 }
 
-impl<'a> Fields<'a> {
-    pub fn new(name: &str, prefix: &'a str, object: &'a JsValue, known: &[&str]) -> Result<Self, JsValue> {
-        let describe_keys = || format!("an object with keys from {}", known.join(", "));
+impl<'a> FieldReader<'a> {
+    pub fn new(name: &str, prefix: &'a str, object: &'a JsValue, keys: &[&str]) -> Result<Self, JsValue> {
+        let describe_keys = || format!("an object with keys from {}", keys.join(", "));
         if Array::is_array(object) {
             return Err(TypeError::new(&format!("{name} is an array; allowed is {}", describe_keys())).into());
         }
@@ -30,8 +31,8 @@ impl<'a> Fields<'a> {
             return Err(type_error(name, object, &describe_keys()));
         }
         for key in Reflect::own_keys(object)?.iter().filter_map(|key| key.as_string()) {
-            if !known.contains(&key.as_str()) {
-                let (key, keys) = (shorten(&key), known.join(", "));
+            if !keys.contains(&key.as_str()) {
+                let (key, keys) = (shorten(&key), keys.join(", "));
                 return Err(
                     TypeError::new(&format!("{prefix}{key} is an unknown key; allowed are {keys}")).into()
                 );
@@ -94,15 +95,16 @@ pub fn not_shown_error(index: usize, shown_count: usize) -> JsValue {
     RangeError::new(&format!("index is {index}; allowed is {allowed_text}")).into()
 }
 
-pub fn read_keyword<T: Keywords>(field: &str, value: &JsValue) -> Result<T, JsValue> {
+pub fn read_keyword<T: HasKeywords>(field: &str, value: &JsValue) -> Result<T, JsValue> {
     let mut parsed_value = T::KEYWORDS[0].1;
     set_keyword(field, value, &mut parsed_value)?;
     Ok(parsed_value)
 }
 
-fn set_keyword(field: &str, value: &JsValue, setting: &mut dyn Keyword) -> Result<(), JsValue> {
-    let allowed =
-        |setting: &dyn Keyword| setting.all().into_iter().map(quote).collect::<Vec<_>>().join(" or ");
+fn set_keyword(field: &str, value: &JsValue, setting: &mut dyn KeywordSetting) -> Result<(), JsValue> {
+    let allowed = |setting: &dyn KeywordSetting| {
+        setting.all_keywords().into_iter().map(quote).collect::<Vec<_>>().join(" or ")
+    };
     let keyword = value.as_string().ok_or_else(|| type_error(field, value, &allowed(setting)))?;
     if setting.set(&keyword) {
         return Ok(());
@@ -146,10 +148,10 @@ fn fill_array(field: &str, value: &JsValue, numbers: &mut [f64]) -> Result<(), J
 }
 
 /// Reads all numbers of a group without checking ranges. A group must be complete: speeds without their duration would mean another motion.
-fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(), JsValue> {
-    let keys: Vec<&str> = group.fields().iter().map(|field| field.declaration.key).collect();
-    let path_prefix = format!("{field}.");
-    let fields = Fields::new(field, &path_prefix, value, &keys)?;
+fn read_group(field: &str, value: &JsValue, group: &mut dyn NumberGroup) -> Result<(), JsValue> {
+    let keys: Vec<&str> = group.members().iter().map(|field| field.declaration.key).collect();
+    let prefix = format!("{field}.");
+    let fields = FieldReader::new(field, &prefix, value, &keys)?;
     for (key, number) in keys.iter().zip(group.numbers_mut()) {
         *number = fields.number(key)?;
     }
@@ -157,20 +159,20 @@ fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(),
 }
 
 /// Reads all numbers of a group, each in its range, into `group`.
-pub fn read_group_in_range<G: Group>(field: &str, value: &JsValue, mut group: G) -> Result<G, JsValue> {
+pub fn read_group_in_range<G: NumberGroup>(field: &str, value: &JsValue, mut group: G) -> Result<G, JsValue> {
     read_group(field, value, &mut group)?;
     check_group(field, &group)?;
     Ok(group)
 }
 
 /// Returns the initial settings of a simulation: the values in `options`, and defaults for the others.
-pub fn read_initial_settings<S: Rules>(options: &JsValue) -> Result<S, JsValue> {
+pub fn read_initial_settings<S: SettingRules>(options: &JsValue) -> Result<S, JsValue> {
     if options.is_undefined() { Ok(S::default()) } else { read_settings(&S::default(), options) }
 }
 
 /// Returns the current settings, changed to the values in `options`. The simulation checks ranges of doubles later.
-pub fn read_settings<S: Rules>(current_settings: &S, options: &JsValue) -> Result<S, JsValue> {
-    let fields = Fields::new("options", "", options, S::KEYS)?;
+pub fn read_settings<S: SettingRules>(current_settings: &S, options: &JsValue) -> Result<S, JsValue> {
+    let fields = FieldReader::new("options", "", options, S::KEYS)?;
     let (mut settings, mut given_keys) = (*current_settings, Vec::new());
     settings.try_visit_settings(|declaration, setting| {
         let key = declaration.key;

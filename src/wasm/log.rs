@@ -1,6 +1,6 @@
 //! Reader of the logs that JavaScript passes: odometry and reference.
 
-use super::fields::{Fields, array_item, array_length, number_text, read_integer, read_number};
+use super::fields::{FieldReader, array_item, array_length, number_text, read_integer, read_number};
 use crate::calibrate::{Trajectory, TrajectoryError};
 use crate::geom::se2::SE2;
 use crate::sim::alpha_calibrator::Log;
@@ -37,7 +37,7 @@ export interface LoggedCommands {
 /// Maximum number of samples of a trajectory: a day at 100 Hz.
 const MAX_ROWS: usize = 10_000_000;
 
-/// Range of times, s, of any clock.
+/// Allowed times of a log, s, by any clock.
 const TIME_RANGE: RangeInclusive<f64> = -1e12..=1e12;
 
 /// Range of coordinates (m) and other numbers of a log. It includes the coordinates of any national map grid.
@@ -75,11 +75,11 @@ fn read_drives(
 fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     let path_prefix = format!("{field}.");
     let allowed_text = "an object with keys from t, x, y, theta, breaks or from t, v, omega, breaks";
-    let fields = Fields::with_any_keys(field, &path_prefix, value, allowed_text)?;
+    let fields = FieldReader::with_any_keys(field, &path_prefix, value, allowed_text)?;
     if fields.value("v")?.is_undefined() && fields.value("omega")?.is_undefined() {
         return read_poses(field, value);
     }
-    let fields = Fields::new(field, &path_prefix, value, &["t", "v", "omega", "breaks"])?;
+    let fields = FieldReader::new(field, &path_prefix, value, &["t", "v", "omega", "breaks"])?;
     let columns = read_columns(&fields, ["t", "v", "omega"])?;
     let [t, v, omega] = &columns;
     let commands = t.iter().zip(v).zip(omega).map(|((t, v), omega)| (*t, *v, *omega));
@@ -88,7 +88,7 @@ fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
 
 fn read_poses(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     let path_prefix = format!("{field}.");
-    let fields = &Fields::new(field, &path_prefix, value, &["t", "x", "y", "theta", "breaks"])?;
+    let fields = &FieldReader::new(field, &path_prefix, value, &["t", "x", "y", "theta", "breaks"])?;
     let columns = read_columns(fields, ["t", "x", "y", "theta"])?;
     let [t, x, y, theta] = &columns;
     let poses = x.iter().zip(y).zip(theta).map(|((x, y), theta)| SE2::new(*x, *y, *theta));
@@ -98,7 +98,7 @@ fn read_poses(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
 /// Adds the breaks in `fields` to a trajectory. JavaScript formats the numbers of error messages, because Rust's number formatting would
 /// take 5 % of a module.
 fn checked_trajectory(
-    fields: &Fields,
+    fields: &FieldReader,
     trajectory: Result<Trajectory, TrajectoryError>,
 ) -> Result<Trajectory, JsValue> {
     let mut trajectory = trajectory.map_err(|error| {
@@ -107,8 +107,8 @@ fn checked_trajectory(
                 sample,
                 "has a time or a coordinate that is not finite; allowed are finite numbers".to_owned(),
             ),
-            TrajectoryError::NotLater { sample, before } => {
-                let previous_text = number_text(before);
+            TrajectoryError::NotLater { sample, before: previous_time } => {
+                let previous_text = number_text(previous_time);
                 let problem = format!(
                     "is not later than the one before, at {previous_text} s; allowed are times that rise"
                 );
@@ -138,7 +138,7 @@ fn checked_trajectory(
 }
 
 /// Reads arrays of numbers, all of which must have the length of the first array, the times.
-fn read_columns<const N: usize>(fields: &Fields, keys: [&str; N]) -> Result<[Vec<f64>; N], JsValue> {
+fn read_columns<const N: usize>(fields: &FieldReader, keys: [&str; N]) -> Result<[Vec<f64>; N], JsValue> {
     let mut columns = [const { Vec::new() }; N];
     for (i, key) in keys.into_iter().enumerate() {
         let (path, value) = (fields.path(key), fields.value(key)?);

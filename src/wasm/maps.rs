@@ -1,7 +1,7 @@
 //! Readers of floor plans and occupancy grids from JavaScript.
 
 use super::fields::{
-    Fields, array_item, array_length, check_range, number_text, read_array, read_array_in_range,
+    FieldReader, array_item, array_length, check_range, number_text, read_array, read_array_in_range,
     read_boolean, read_integer, read_keyword, read_number, type_error,
 };
 use crate::geom::se2::SE2;
@@ -10,11 +10,11 @@ use crate::map::{
     FloorPlan, FloorPlanError, Image, MAX_BYTES, MAX_PIXELS, MapMode, OccupancyGrid, PixelClassifier,
     RESOLUTION_RANGE, read_grid,
 };
-use crate::sim::settings::{Keywords, QUANTITY_RANGE};
+use crate::sim::settings::{HasKeywords, QUANTITY_RANGE};
 use js_sys::{Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
 
-impl Keywords for MapMode {
+impl HasKeywords for MapMode {
     const KEYWORDS: &'static [(&'static str, Self)] =
         &[("trinary", Self::Trinary), ("scale", Self::Scale), ("raw", Self::Raw)];
 }
@@ -28,7 +28,7 @@ impl From<FloorPlanError> for JsValue {
 /// Reads a floor plan { bounds: [x, y, x, y], walls: [[x, y, x, y], …] }, as in JSON. The walls may also be one Float64Array, as the getter
 /// of the map returns them.
 pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
-    let fields = Fields::new("plan", "", plan, &["bounds", "walls"])?;
+    let fields = FieldReader::new("plan", "", plan, &["bounds", "walls"])?;
     let bounds = read_array("bounds", &fields.value("bounds")?)?;
     let walls = fields.value("walls")?;
     if let Some(walls) = walls.dyn_ref::<Float64Array>() {
@@ -52,7 +52,7 @@ pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
 
 /// Reads a map as `map_server` does: from an image (the bytes of a file, or pixels), and the fields of its YAML file with their defaults.
 pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid, JsValue> {
-    let fields = Fields::with_any_keys("description", "", description, "an object")?;
+    let fields = FieldReader::with_any_keys("description", "", description, "an object")?;
     let resolution = check_range("resolution", fields.number("resolution")?, &RESOLUTION_RANGE)?;
     let origin: [f64; 3] = read_array_in_range("origin", &fields.value("origin")?, &QUANTITY_RANGE)?;
     let negate = fields.read_optional("negate", |field, value| {
@@ -77,9 +77,9 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let negate = negate.unwrap_or(defaults.negate);
     let classifier = PixelClassifier { mode, negate, occupied_thresh, free_thresh };
     let origin = SE2::from(origin);
-    if let Some(file) = image.dyn_ref::<Uint8Array>() {
-        read_integer("image.length", f64::from(file.length()), 0..=MAX_BYTES as u64)?;
-        return read_grid(&file.to_vec(), &classifier, resolution, origin)
+    if let Some(file_bytes) = image.dyn_ref::<Uint8Array>() {
+        read_integer("image.length", f64::from(file_bytes.length()), 0..=MAX_BYTES as u64)?;
+        return read_grid(&file_bytes.to_vec(), &classifier, resolution, origin)
             .map_err(|error| RangeError::new(&error.to_string()).into());
     }
     let (width, height, pixel_bytes) = read_pixels(image)?;
@@ -90,18 +90,18 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
 /// Reads width, height, and the red, green, blue and opacity of each pixel of an ImageData. An object with the same properties is accepted,
 /// because Node has no such class.
 fn read_pixels(image: &JsValue) -> Result<(usize, usize, Vec<u8>), JsValue> {
-    let fields = Fields::with_any_keys("image", "image.", image, "an object")?;
+    let fields = FieldReader::with_any_keys("image", "image.", image, "an object")?;
     let width = read_integer("image.width", fields.number("width")?, 1..=MAX_PIXELS as u64)? as usize;
     let height =
         read_integer("image.height", fields.number("height")?, 1..=(MAX_PIXELS / width) as u64)? as usize;
-    let data = fields.value("data")?;
-    let Some(data) = data.dyn_ref::<Uint8ClampedArray>() else {
-        return Err(type_error("image.data", &data, "a Uint8ClampedArray of red, green, blue, opacity"));
+    let rgba = fields.value("data")?;
+    let Some(rgba) = rgba.dyn_ref::<Uint8ClampedArray>() else {
+        return Err(type_error("image.data", &rgba, "a Uint8ClampedArray of red, green, blue, opacity"));
     };
-    let (byte_count, expected_byte_count) = (data.length() as usize, 4 * width * height);
+    let (byte_count, expected_byte_count) = (rgba.length() as usize, 4 * width * height);
     if byte_count != expected_byte_count {
         let message = format!("image.data has length {byte_count}; allowed is {expected_byte_count}");
         return Err(RangeError::new(&message).into());
     }
-    Ok((width, height, data.to_vec()))
+    Ok((width, height, rgba.to_vec()))
 }

@@ -1,8 +1,8 @@
 //! Motion models, arc inversion and SE(2) of the chapter for JavaScript, for exercises.
 
 use super::fields::{
-    Fields, array_item, array_length, check_range, read_array_in_range, read_boolean, read_group_in_range,
-    read_integer, read_keyword, read_number,
+    FieldReader, array_item, array_length, check_range, read_array_in_range, read_boolean,
+    read_group_in_range, read_integer, read_keyword, read_number,
 };
 use super::values::{js_array, number_or_null, pose_to_js, to_plain_js, triple_array};
 use crate::geom::arc::invert_arc;
@@ -117,7 +117,7 @@ pub struct JsVelocityModel(VelocityModel);
 impl JsVelocityModel {
     #[wasm_bindgen(constructor)]
     pub fn new(options: &JsVelocityModelOptions) -> Result<Self, JsValue> {
-        let fields = Fields::new("options", "", options, &["alphas", "noise"])?;
+        let fields = FieldReader::new("options", "", options, &["alphas", "noise"])?;
         Ok(Self(VelocityModel { alphas: VelocityAlphas(read_alphas(&fields)?), noise: read_noise(&fields)? }))
     }
 }
@@ -130,7 +130,7 @@ pub struct JsOdometryModel(ConfiguredOdometry);
 impl JsOdometryModel {
     #[wasm_bindgen(constructor)]
     pub fn new(options: &JsOdometryModelOptions) -> Result<Self, JsValue> {
-        let fields = Fields::new("options", "", options, &["alphas", "noise", "reverseAware"])?;
+        let fields = FieldReader::new("options", "", options, &["alphas", "noise", "reverseAware"])?;
         let model = OdometryModel { alphas: OdomAlphas(read_alphas(&fields)?), noise: read_noise(&fields)? };
         let reverse_aware = fields.read_optional("reverseAware", read_boolean)?.unwrap_or(false);
         Ok(Self(ConfiguredOdometry { model, reverse_aware }))
@@ -225,7 +225,7 @@ pub fn decompose(start: &JsPose, next: &JsPose) -> Result<JsValue, JsValue> {
 #[wasm_bindgen(unchecked_return_type = "number[][]")]
 pub fn propagate(options: &JsPropagation) -> Result<Array, JsValue> {
     let fields =
-        Fields::new("options", "", options, &["sigma", "command", "alphas", "compounding", "steps"])?;
+        FieldReader::new("options", "", options, &["sigma", "command", "alphas", "compounding", "steps"])?;
     let mut sigma = fields.read_optional("sigma", read_covariance)?.unwrap_or_default();
     let command = read_command(&fields.value("command")?)?;
     let model = VelocityModel { alphas: VelocityAlphas(read_alphas(&fields)?), noise: NoiseKind::Normal };
@@ -300,11 +300,11 @@ pub fn right_jacobian(twist: &JsTwist) -> Result<Array, JsValue> {
     Ok(matrix_rows(&SE2::right_jacobian(&read_twist("twist", twist)?)))
 }
 
-fn read_alphas<const N: usize>(fields: &Fields) -> Result<[f64; N], JsValue> {
+fn read_alphas<const N: usize>(fields: &FieldReader) -> Result<[f64; N], JsValue> {
     read_array_in_range("alphas", &fields.value("alphas")?, &ALPHA_RANGE)
 }
 
-fn read_noise(fields: &Fields) -> Result<NoiseKind, JsValue> {
+fn read_noise(fields: &FieldReader) -> Result<NoiseKind, JsValue> {
     Ok(fields.read_optional("noise", read_keyword)?.unwrap_or(NoiseKind::Normal))
 }
 

@@ -34,7 +34,7 @@ getters! {
 }
 
 read! {
-    /// Everything that is shown, in one call.
+    /// All values that a figure shows, in one call.
     JsOdometryDecomposer, "OdometryDecomposer", "OdometryDecomposerView", [
         config, shown_count as shown, block_size as block, stats, rules, poses, leg_poses as linkage, robot, drifted,
         sample_leg_poses as ghosts,

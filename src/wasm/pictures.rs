@@ -44,7 +44,7 @@ pub fn read_grid(bounds: [f64; 4], columns: f64, rows: f64) -> Result<ViewGrid, 
     let [min, max] = read_bounds(bounds)?;
     let columns = read_integer("columns", columns, 1..=MAX_CELLS_PER_SIDE)?;
     let rows = read_integer("rows", rows, 1..=MAX_CELLS_PER_SIDE.min(MAX_CELLS / columns))?;
-    Ok(ViewGrid { min, max, columns: columns as usize, rows: rows as usize })
+    Ok(ViewGrid { min_corner: min, max_corner: max, columns: columns as usize, rows: rows as usize })
 }
 
 /// Reads consecutive colour ramps from their bytes.

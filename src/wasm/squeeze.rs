@@ -9,7 +9,7 @@ use crate::geom::arc::Arc;
 use crate::geom::segment::Segment;
 use crate::js::js_structs;
 use crate::map::{Cell, FloorPlan, MAX_DRAWS, Sampler};
-use crate::sim::settings::Keyword;
+use crate::sim::settings::KeywordSetting;
 use crate::sim::squeeze::{Attempt, MAX_SAMPLES, MAX_STEPS, MAX_TRIAL_PARTS, MapSqueeze, max_draws};
 use js_sys::{Array, Float64Array, RangeError, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
@@ -84,7 +84,7 @@ getters! {
 }
 
 read! {
-    /// Everything that is shown besides the map, in one call.
+    /// All values that a figure shows besides the map, in one call.
     JsMapSqueeze, "MapSqueeze", "MapSqueezeView", [
         config, shown_count as shown, block_size as block, stats, verdicts, poses, commanded, is_start_free as startFree,
         wall_paths as paths,

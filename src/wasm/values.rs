@@ -1,7 +1,7 @@
 //! Conversion of Rust values to JavaScript values.
 
 use crate::geom::se2::SE2;
-use crate::sim::settings::{Keyword, Keywords, Setting};
+use crate::sim::settings::{HasKeywords, KeywordSetting, Setting};
 use js_sys::{Array, Float64Array, Object, Uint8Array};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Serialize, Serializer};
@@ -48,7 +48,7 @@ to_js! {
     Matrix3<f64>: |matrix| matrix.as_slice().chunks(3).map(js_array).collect::<Array>();
 }
 
-impl<T: Keywords> ToJs for T {
+impl<T: HasKeywords> ToJs for T {
     fn to_js(&self) -> JsValue {
         self.get().into()
     }

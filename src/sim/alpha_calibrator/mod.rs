@@ -6,7 +6,7 @@ mod settings;
 pub use settings::*;
 
 use super::cloud::draws::Draws;
-use super::settings::{Keywords, Rules, SettingsError};
+use super::settings::{HasKeywords, SettingRules, SettingsError};
 use crate::calibrate::{self, Calibration, Drive, Leg, Trajectory, calibrate};
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
@@ -250,13 +250,13 @@ impl AlphaCalibrator {
     /// Returns the leg whose path is nearest to a point (m), within `radius`.
     pub fn nearest(&self, point: [f64; 2], radius: f64) -> Option<usize> {
         let corrected_errors = &self.calibration().corrected;
-        let path_distance_to = |leg: &Leg| {
-            let [from, to] = leg.reference.map(|pose| pose * corrected_errors.base());
-            Segment { from: [from.x(), from.y()], to: [to.x(), to.y()] }.distance_to_point(point)
+        let distance_to_path_of = |leg: &Leg| {
+            let [start, end] = leg.reference.map(|pose| pose * corrected_errors.base());
+            Segment { from: [start.x(), start.y()], to: [end.x(), end.y()] }.distance_to_point(point)
         };
-        let path_distances = self.legs().iter().map(path_distance_to).enumerate();
+        let path_distances = self.legs().iter().map(distance_to_path_of).enumerate();
         path_distances
-            .filter(|(_, path_distance_to)| *path_distance_to < radius)
+            .filter(|(_, distance_to_path_of)| *distance_to_path_of < radius)
             .min_by(|(_, a), (_, b)| a.total_cmp(b))
             .map(|(index, _)| index)
     }
@@ -271,7 +271,7 @@ pub enum Regressor {
     Turn,
 }
 
-impl Keywords for Regressor {
+impl HasKeywords for Regressor {
     const KEYWORDS: &'static [(&'static str, Self)] = &[("distance", Self::Distance), ("turn", Self::Turn)];
 }
 

@@ -3,7 +3,9 @@
 use crate::calibrate::{self, ERROR_COUNT, LegLength, Options, Outliers};
 use crate::models::OdometryRule;
 use crate::noise::NoiseKind;
-use crate::sim::settings::{AllowedValues, Keyword, Keywords, MAX_SEED, Rules, SettingsError, settings};
+use crate::sim::settings::{
+    AllowedValues, HasKeywords, KeywordSetting, MAX_SEED, SettingRules, SettingsError, settings,
+};
 
 /// Motion model whose α's are calibrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,7 +18,7 @@ pub enum Model {
     Velocity,
 }
 
-impl Keywords for Model {
+impl HasKeywords for Model {
     const KEYWORDS: &'static [(&'static str, Self)] = &[
         ("odometry", Self::Odometry),
         ("omnidirectional", Self::Omnidirectional),
@@ -24,7 +26,7 @@ impl Keywords for Model {
     ];
 }
 
-impl Keywords for Outliers {
+impl HasKeywords for Outliers {
     const KEYWORDS: &'static [(&'static str, Self)] = &[("reject", Self::Reject), ("keep", Self::Keep)];
 }
 
@@ -117,16 +119,16 @@ impl Settings {
     }
 }
 
-impl Rules for Settings {
+impl SettingRules for Settings {
     /// Keeps model and rule consistent: changes the rule if the chosen model does not have it, or the model if the chosen rule belongs to
     /// another model.
     fn adjust(&mut self, _: &Self, changed_keys: &[&str]) {
-        let model_fits_rule = self.is_omnidirectional() == (self.rule == OdometryRule::Omni);
+        let does_model_fit_rule = self.is_omnidirectional() == (self.rule == OdometryRule::Omni);
         match [changed_keys.contains(&"model"), changed_keys.contains(&"rule")] {
-            [true, false] if !model_fits_rule => {
+            [true, false] if !does_model_fit_rule => {
                 self.rule = if self.is_omnidirectional() { OdometryRule::Omni } else { OdometryRule::Table };
             }
-            [false, true] if !model_fits_rule => {
+            [false, true] if !does_model_fit_rule => {
                 self.model =
                     if self.rule == OdometryRule::Omni { Model::Omnidirectional } else { Model::Odometry };
             }
@@ -140,6 +142,6 @@ impl Rules for Settings {
         }
         let allowed_rules = if self.is_omnidirectional() { "omni" } else { "thrun, nav2 or beluga" };
         let allowed = AllowedValues::Keyword { given: self.rule.get(), allowed: allowed_rules };
-        Err(SettingsError { field: "rule".to_owned(), value: f64::NAN, allowed })
+        Err(SettingsError { key: "rule".to_owned(), value: f64::NAN, allowed })
     }
 }

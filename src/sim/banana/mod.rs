@@ -4,15 +4,15 @@ mod settings;
 mod stats;
 
 pub use settings::*;
-use stats::DefinedCharts;
+use stats::DefinedCoordinates;
 pub use stats::{Contours, Coverage, Sample, Stats, Table, TableColumn};
 
-use super::cloud::drive::Drive;
+use super::cloud::drive::NoisyDrive;
 use super::cloud::picture::{self, Ramp};
 use super::cloud::views::{View, ViewGrid, nearest_index};
 use super::cloud::{Cloud, START_POSE};
 use super::cloud_simulation::cloud_simulation;
-use super::settings::{Rules, SettingsError};
+use super::settings::{SettingRules, SettingsError};
 use crate::geom::arc::{Arc, ArcInversion, arc_with_turn_near};
 use crate::geom::lanes::LANE_COUNT;
 use crate::geom::se2::SE2;
@@ -93,10 +93,10 @@ impl ModelWithInput {
         }
     }
 
-    fn create_drive(&self, command: &VelocityCmd) -> Drive {
+    fn create_noisy_drive(&self, command: &VelocityCmd) -> NoisyDrive {
         match self {
-            Self::Velocity(model, command) => Drive::of_velocity(model, command),
-            Self::Odometry(model, reading) => Drive::of_odometry(model, reading, command.omega * command.dt),
+            Self::Velocity(model, command) => NoisyDrive::of_velocity(model, command),
+            Self::Odometry(model, u) => NoisyDrive::of_odometry(model, u, command.omega * command.dt),
         }
     }
 }
@@ -127,14 +127,14 @@ fn command_end(command: &VelocityCmd) -> SE2 {
 
 /// Minimum distance of the mean turn from a full circle, in standard deviations, at which exponential coordinates count as defined. At a
 /// full circle they diverge. With a smaller distance, single samples of a large cloud would dominate the moments.
-const MIN_CIRCLE_SIGMAS: f64 = 4.0;
+const MIN_SIGMAS_TO_FULL_CIRCLE: f64 = 4.0;
 
 /// Maximum number of points of a curve of the exact skew. Each takes about ten microseconds.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
 /// Standard deviation (m) of the noise that [`BananaMachine::additive_moments`] adds to x and y. It is √(½ tr Σ) on the arc of the preset
 /// "gentle", rounded. For other distances the standard deviation would differ.
-pub const ADDITIVE_DEVIATION: f64 = 0.2;
+pub const ADDITIVE_NOISE_STD: f64 = 0.2;
 
 /// Number of samples of the first block, which takes a few milliseconds.
 const FIRST_BLOCK_SAMPLES: usize = 25_000;
@@ -156,11 +156,11 @@ cloud_simulation!(BananaMachine);
 
 impl BananaMachine {
     fn empty(settings: Settings) -> Result<Self, SettingsError> {
-        let drive = settings.model_with_input(settings.command).create_drive(&settings.command);
+        let drive = settings.model_with_input(settings.command).create_noisy_drive(&settings.command);
         let mut cloud = Cloud::new(settings.seed, settings.noise, drive);
         cloud.reserve(settings.samples).map_err(|_| SettingsError::out_of_memory(settings.samples))?;
         let cloud_stats = cloud.drive_and_summarize(settings.seed, settings.noise, drive, 0);
-        let stats = Stats::of(0, &cloud_stats, DefinedCharts { pose: false, arc: false });
+        let stats = Stats::of_cloud(0, &cloud_stats, DefinedCoordinates { pose: false, arc: false });
         Ok(Self { settings, cloud, stats, picture: Vec::new() })
     }
 
@@ -176,9 +176,9 @@ impl BananaMachine {
 
     fn show_samples(&mut self, count: usize) {
         let Settings { seed, noise, command, .. } = self.settings;
-        let drive = self.settings.model_with_input(command).create_drive(&command);
+        let drive = self.settings.model_with_input(command).create_noisy_drive(&command);
         let cloud_stats = self.cloud.drive_and_summarize(seed, noise, drive, count);
-        self.stats = Stats::of(count, &cloud_stats, self.defined_charts());
+        self.stats = Stats::of_cloud(count, &cloud_stats, self.defined_coordinates());
     }
 
     /// Returns the number of samples that can be added within a few milliseconds. Adding a block sums all samples again. Therefore a block
@@ -220,16 +220,16 @@ impl BananaMachine {
 
     /// Returns true if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise their statistics
     /// and contours are undefined.
-    pub fn is_chart_defined(&self) -> bool {
-        self.defined_charts().pose
+    pub fn is_exponential_defined(&self) -> bool {
+        self.defined_coordinates().pose
     }
 
-    fn defined_charts(&self) -> DefinedCharts {
+    fn defined_coordinates(&self) -> DefinedCoordinates {
         let VelocityCmd { omega, dt, .. } = self.settings.command;
-        let is_defined = |std: f64| (omega * dt).abs() + MIN_CIRCLE_SIGMAS * std < TAU;
-        DefinedCharts {
-            pose: is_defined(self.cloud.drive.turn_deviation()),
-            arc: is_defined(self.cloud.drive.arc_deviation()),
+        let is_defined = |std: f64| (omega * dt).abs() + MIN_SIGMAS_TO_FULL_CIRCLE * std < TAU;
+        DefinedCoordinates {
+            pose: is_defined(self.cloud.drive.turn_std()),
+            arc: is_defined(self.cloud.drive.arc_turn_std()),
         }
     }
 
@@ -257,9 +257,9 @@ impl BananaMachine {
     }
 
     /// Returns the moments of additive noise, the model that the chapter argues against: x_t = x̄ + ε with the noise-free end
-    /// x̄ and ε ~ N(0, [`ADDITIVE_DEVIATION`]²·I) in x and y. It does not depend on the command and the α's.
+    /// x̄ and ε ~ N(0, [`ADDITIVE_NOISE_STD`]²·I) in x and y. It does not depend on the command and the α's.
     pub fn additive_moments(&self) -> CartesianMoments {
-        let additive_variance = ADDITIVE_DEVIATION * ADDITIVE_DEVIATION;
+        let additive_variance = ADDITIVE_NOISE_STD * ADDITIVE_NOISE_STD;
         let cov = Matrix3::from_diagonal(&Vector3::new(additive_variance, additive_variance, 0.0));
         CartesianMoments { cov, ..self.linearized_moments() }
     }
@@ -309,8 +309,8 @@ impl BananaMachine {
         TableColumn { mean, cov, cross_track_skew, likelihood_gain: gain.value, area_ratio }
     }
 
-    /// Returns the exact cross-track skew at `point_count` evenly spaced turn rates from `first_omega` to `last_omega` (rad/s), with all other
-    /// settings unchanged.
+    /// Returns the exact cross-track skew at `point_count` evenly spaced turn rates from `first_omega` to `last_omega` (rad/s), with all
+    /// other settings unchanged.
     pub fn skew_curve(&self, first_omega: f64, last_omega: f64, point_count: usize) -> Vec<f64> {
         let omega_step = (last_omega - first_omega) / (point_count.max(2) - 1) as f64;
         (0..point_count)
@@ -330,7 +330,7 @@ impl BananaMachine {
         let outline_or_empty =
             |is_defined: bool, outline: Vec<[f64; 2]>| if is_defined { outline } else { Vec::new() };
         let has_outlines = self.shown_count() > 1;
-        let has_exponential = has_outlines && self.is_chart_defined();
+        let has_exponential = has_outlines && self.is_exponential_defined();
         let VelocityCmd { v, omega, dt } = self.settings.command;
         let contour = ExponentialContour::new(exponential, &START_POSE);
         Contours {

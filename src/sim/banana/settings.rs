@@ -2,7 +2,7 @@
 
 use crate::models::VelocityCmd;
 use crate::noise::NoiseKind;
-use crate::sim::settings::{ALPHA_RANGE, Keywords, MAX_SEED, Rules, settings};
+use crate::sim::settings::{ALPHA_RANGE, HasKeywords, MAX_SEED, SettingRules, settings};
 
 /// Motion model of the simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,12 +13,12 @@ pub enum ModelKind {
     Odometry,
 }
 
-impl Keywords for ModelKind {
+impl HasKeywords for ModelKind {
     const KEYWORDS: &'static [(&'static str, Self)] =
         &[("velocity", Self::Velocity), ("odometry", Self::Odometry)];
 }
 
-impl Keywords for NoiseKind {
+impl HasKeywords for NoiseKind {
     const KEYWORDS: &'static [(&'static str, Self)] =
         &[("normal", Self::Normal), ("triangular", Self::Triangular)];
 }
@@ -92,13 +92,13 @@ impl Settings {
     }
 }
 
-impl Rules for Settings {
+impl SettingRules for Settings {
     /// The four commands of the chapter, the command with the clearest banana shape, and the chapter's example to check by hand.
     const PRESETS: &'static [(&'static str, Self)] = &[
-        ("straight", preset([1.0, 0.0, 2.0], TYPICAL_ALPHAS)),
-        ("gentle", preset([1.0, 0.5, 1.0], TYPICAL_ALPHAS)),
-        ("hard", preset([1.0, 1.2, 1.4], TYPICAL_ALPHAS)),
-        ("pivot", preset([0.06, 1.5, 1.0], TYPICAL_ALPHAS)),
+        ("straight", preset([1.0, 0.0, 2.0], PRESET_ALPHAS)),
+        ("gentle", preset([1.0, 0.5, 1.0], PRESET_ALPHAS)),
+        ("hard", preset([1.0, 1.2, 1.4], PRESET_ALPHAS)),
+        ("pivot", preset([0.06, 1.5, 1.0], PRESET_ALPHAS)),
         ("banana", Self::DEFAULT),
         ("worked", preset([1.0, 0.5, 1.0], [0.02, 0.02, 0.02, 0.02, 0.0, 0.0])),
     ];
@@ -112,7 +112,7 @@ impl Rules for Settings {
 }
 
 /// Noise parameters of the presets whose commands differ from the default.
-const TYPICAL_ALPHAS: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
+const PRESET_ALPHAS: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 
 const fn preset([v, omega, dt]: [f64; 3], velocity_alphas: [f64; 6]) -> Settings {
     Settings { command: VelocityCmd { v, omega, dt }, velocity_alphas, ..Settings::DEFAULT }

@@ -55,7 +55,7 @@ js_structs! {
 
 /// Definedness of exponential and arc coordinates for the turns of a cloud.
 #[derive(Clone, Copy, Debug)]
-pub struct DefinedCharts {
+pub struct DefinedCoordinates {
     /// True if exponential coordinates are defined.
     pub pose: bool,
     /// True if arc coordinates are defined: length and turn of the arc that ends at the robot.
@@ -64,7 +64,7 @@ pub struct DefinedCharts {
 
 impl Stats {
     /// Returns the statistics of a cloud of `n` samples. Statistics in coordinates that are undefined for the cloud are NaN.
-    pub fn of(n: usize, cloud: &CloudStats, defined: DefinedCharts) -> Self {
+    pub fn of_cloud(n: usize, cloud: &CloudStats, defined: DefinedCoordinates) -> Self {
         let CloudStats { cartesian, cross_track, gain, .. } = *cloud;
         let one_or_nan_of = |is_defined: bool| if is_defined { 1.0 } else { f64::NAN };
         let [pose_factor, arc_factor] = [defined.pose, defined.arc].map(one_or_nan_of);
@@ -91,13 +91,13 @@ impl Stats {
             gaussian_skew: shape_factor * predicted_cross_track_skew(&exponential.mean, &exponential.cov),
             rho_cross_heading: cross_track.rho_heading,
             coverage: Coverage {
-                ellipse: cloud.inside_ellipse,
-                exponential: shape_factor * cloud.inside_exponential,
+                ellipse: cloud.fraction_in_ellipse,
+                exponential: shape_factor * cloud.fraction_in_exponential,
             },
             likelihood_gain: gain_if_defined(gain.value),
             likelihood_gain_error: gain_if_defined(gain.error),
             area_ratio,
-            area_ratio_error: area_ratio * cloud.log_area_error,
+            area_ratio_error: area_ratio * cloud.log_area_ratio_error,
         }
     }
 }

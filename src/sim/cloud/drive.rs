@@ -15,7 +15,7 @@ type AffineInNoise = [f64; 2];
 /// the distance δ̂_trans on the bearing δ̂_rot1, with the heading δ̂_rot1 + δ̂_rot2. Lengths, bearings and headings are affine functions of
 /// the noises.
 #[derive(Clone, Copy, Debug)]
-pub struct Drive {
+pub struct NoisyDrive {
     /// True if `length` is an arc length; false if it is a chord length.
     is_arc: bool,
     /// Length of the motion, m.
@@ -34,14 +34,14 @@ pub struct Drive {
 
 /// Motions of four robots.
 #[derive(Clone, Copy)]
-pub struct Motions {
+pub struct FourMotions {
     length: f64x4,
     bearing: f64x4,
     /// Half of the heading, not wrapped.
     pub half_heading: f64x4,
 }
 
-impl Drive {
+impl NoisyDrive {
     pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
         let [length_std, turn_std, last_turn_std] =
             model.variances(u).map(|variance| variance.0.sqrt() * u.dt);
@@ -74,17 +74,17 @@ impl Drive {
     }
 
     /// Returns the standard deviation of the turn, rad.
-    pub fn turn_deviation(&self) -> f64 {
+    pub fn turn_std(&self) -> f64 {
         2.0 * libm::hypot(self.bearing_weight * self.bearing[1], self.half_heading_offset[1])
     }
 
     #[inline(always)]
-    pub fn motions(&self, unit_noise: &[f64x4; 3]) -> Motions {
+    pub fn motions(&self, unit_noise: &[f64x4; 3]) -> FourMotions {
         let [first_noise, second_noise, third_noise] = *unit_noise;
         let (length, bearing) =
             if self.is_arc { (first_noise, second_noise) } else { (second_noise, first_noise) };
         let bearing = bearing * self.bearing[1] + self.bearing[0];
-        Motions {
+        FourMotions {
             length: length * self.length[1] + self.length[0],
             bearing,
             half_heading: bearing * self.bearing_weight
@@ -93,10 +93,10 @@ impl Drive {
     }
 
     /// Returns the ends (x, y) of four motions, the arcs from the origin to these ends, and true if the arcs are regular. A regular arc is
-    /// the arc that the robot drove. Its length and half turn differ from the noise-free ones by [`Drive::regular_arc_deviations`].
+    /// the arc that the robot drove. Its length and half turn differ from the noise-free ones by [`NoisyDrive::regular_arc_deviations`].
     #[inline(always)]
-    pub fn end_points(&self, motions: &Motions) -> ([f64x4; 2], FourArcs, bool) {
-        let Motions { length, bearing, .. } = *motions;
+    pub fn end_points(&self, motions: &FourMotions) -> ([f64x4; 2], FourArcs, bool) {
+        let FourMotions { length, bearing, .. } = *motions;
         let is_outside_short_formulas = self.is_outside_short_formulas(motions);
         let bearing_sin_cos = if is_outside_short_formulas {
             self.trigonometry.sin_cos_any_angle(bearing)
@@ -111,19 +111,19 @@ impl Drive {
     }
 
     #[inline(always)]
-    fn end_points_on_bearing(&self, motions: &Motions, bearing_sin_cos: &SinCos) -> [f64x4; 2] {
+    fn end_points_on_bearing(&self, motions: &FourMotions, bearing_sin_cos: &SinCos) -> [f64x4; 2] {
         let chord_length = if self.is_arc { motions.length * bearing_sin_cos.sinc } else { motions.length };
         [chord_length * bearing_sin_cos.cos, chord_length * bearing_sin_cos.sin]
     }
 
-    /// Returns the deviations that noise adds to the length and half turn of regular arcs (see [`Drive::end_points`]).
+    /// Returns the deviations that noise adds to the length and half turn of regular arcs (see [`NoisyDrive::end_points`]).
     #[inline(always)]
     pub fn regular_arc_deviations(&self, unit_noise: &[f64x4; 3]) -> [f64x4; 2] {
         let noise_stds = if self.is_arc { [self.length[1], self.bearing[1]] } else { [0.0; 2] };
         [unit_noise[0] * noise_stds[0], unit_noise[1] * noise_stds[1]]
     }
 
-    /// Converts sums of the unit noise into sums of [`Drive::regular_arc_deviations`].
+    /// Converts sums of the unit noise into sums of [`NoisyDrive::regular_arc_deviations`].
     pub fn sums_of_regular_arc_deviations(&self, [a, b, aa, ab, bb]: [f64; 5]) -> [f64; 5] {
         if !self.is_arc {
             return [0.0; 5];
@@ -142,7 +142,7 @@ impl Drive {
 
     /// Returns the poses of four motions that ended at `end_points`, and their logarithms on the branch of the commanded turn.
     #[inline(always)]
-    pub fn poses(&self, motions: &Motions, end_points: &[f64x4; 2]) -> FourPoses {
+    pub fn poses(&self, motions: &FourMotions, end_points: &[f64x4; 2]) -> FourPoses {
         let turn = if self.is_outside_short_formulas(motions) {
             self.trigonometry.sin_cos_on_branch(motions.half_heading, self.half_commanded_turn)
         } else {
@@ -153,7 +153,7 @@ impl Drive {
 
     /// Returns the points to which a stage of the morph moves the ends of four motions: see [`crate::geom::unbend`].
     #[inline(always)]
-    pub fn morphed_points(&self, motions: &Motions, end_points: &[f64x4; 2], morph: f64) -> [f64x4; 2] {
+    pub fn morphed_points(&self, motions: &FourMotions, end_points: &[f64x4; 2], morph: f64) -> [f64x4; 2] {
         let FourPoses { along, lateral, half_heading, .. } = self.poses(motions, end_points);
         let remaining_bend = 1.0 - morph;
         let SinCos { sinc, sin, cos } = self.trigonometry.sin_cos(half_heading * remaining_bend);
@@ -162,7 +162,7 @@ impl Drive {
     }
 
     #[inline(always)]
-    fn is_outside_short_formulas(&self, motions: &Motions) -> bool {
+    fn is_outside_short_formulas(&self, motions: &FourMotions) -> bool {
         let [interval_middle, interval_half_width] = self.short_formula_interval;
         let is_beyond =
             |angle: f64x4| (angle - interval_middle).abs().simd_gt(f64x4::splat(interval_half_width));
@@ -197,7 +197,7 @@ impl Drive {
     }
 
     /// Returns the standard deviation (rad) of the turn of the arc that ends at the robot's position.
-    pub fn arc_deviation(&self) -> f64 {
+    pub fn arc_turn_std(&self) -> f64 {
         2.0 * self.bearing[1].abs()
     }
 }
@@ -207,8 +207,8 @@ impl Drive {
 fn with_logarithms([x, y]: [f64x4; 2], turn: (f64x4, SinCos)) -> FourPoses {
     let (half_heading, SinCos { sinc, sin, cos }) = turn;
     // The factor h·cot h of the logarithm, for the half heading h.
-    let half_cotangent = cos / sinc;
-    let (along, lateral) = (half_cotangent * x + half_heading * y, half_cotangent * y - half_heading * x);
+    let h_cot_h = cos / sinc;
+    let (along, lateral) = (h_cot_h * x + half_heading * y, h_cot_h * y - half_heading * x);
     FourPoses { x, y, along, lateral, half_heading, half_sin: sin, half_cos: cos, sinc }
 }
 

@@ -12,7 +12,7 @@ use crate::geom::se2::SE2;
 use crate::noise::NoiseKind;
 use crate::stats::two_pass::{CloudStats, FirstPass, SecondPass};
 use draws::Draws;
-use drive::Drive;
+use drive::NoisyDrive;
 use std::collections::TryReserveError;
 use std::ops::Range;
 use wide::f64x4;
@@ -29,13 +29,13 @@ const GROUPS_PER_BLOCK: usize = 64;
 #[derive(Clone, Debug)]
 pub struct Cloud {
     draws: Draws,
-    pub drive: Drive,
+    pub drive: NoisyDrive,
     positions: Vec<[f64x4; 2]>,
     pub shown_count: usize,
 }
 
 impl Cloud {
-    pub fn new(seed: u64, noise: NoiseKind, drive: Drive) -> Self {
+    pub fn new(seed: u64, noise: NoiseKind, drive: NoisyDrive) -> Self {
         Self { draws: Draws::new(seed, noise), drive, positions: Vec::new(), shown_count: 0 }
     }
 
@@ -50,7 +50,7 @@ impl Cloud {
         &mut self,
         seed: u64,
         noise: NoiseKind,
-        drive: Drive,
+        drive: NoisyDrive,
         shown_count: usize,
     ) -> CloudStats {
         self.draws.reset_if_changed(seed, noise);
@@ -65,9 +65,9 @@ impl Cloud {
         let regular_sums = drive.sums_of_regular_arc_deviations(self.draws.pair_sums(shown_count));
         let mut second_pass = SecondPass::new(first_pass.moments(shown_count, regular_sums), &START_POSE);
         for block in sample_blocks(shown_count) {
-            for (groups, mask) in block {
-                let noise = &self.draws.unit_noise[groups.clone()];
-                add_to_second_pass(&drive, noise, &self.positions[groups], mask, &mut second_pass);
+            for (group_range, lane_mask) in block {
+                let noise = &self.draws.unit_noise[group_range.clone()];
+                add_to_second_pass(&drive, noise, &self.positions[group_range], lane_mask, &mut second_pass);
             }
             second_pass.flush_block();
         }
@@ -88,9 +88,9 @@ impl Cloud {
             if positions.len() < end_group {
                 positions.resize(end_group, [f64x4::splat(0.0); 2]);
             }
-            for (groups, mask) in block {
-                let noise = &draws.unit_noise[groups.clone()];
-                add_to_first_pass(drive, noise, &mut positions[groups], mask, &mut first_pass);
+            for (group_range, lane_mask) in block {
+                let noise = &draws.unit_noise[group_range.clone()];
+                add_to_first_pass(drive, noise, &mut positions[group_range], lane_mask, &mut first_pass);
             }
             first_pass.flush_block();
         }
@@ -147,26 +147,26 @@ fn sample_blocks(sample_count: usize) -> impl Iterator<Item = [(Range<usize>, f6
 /// Drives the robots, four at a time, writes their end positions, and adds them to the sums of the first pass.
 #[inline(never)]
 fn add_to_first_pass(
-    drive: &Drive,
+    drive: &NoisyDrive,
     noise: &[[f64x4; 3]],
     ends: &mut [[f64x4; 2]],
-    mask: f64x4,
+    lane_mask: f64x4,
     first_pass: &mut FirstPass,
 ) {
-    let is_full_group = mask.all();
+    let is_full_group = lane_mask.all();
     for (noise, ends) in noise.iter().zip(ends) {
         let motions = drive.motions(noise);
         let (arcs, is_regular);
         (*ends, arcs, is_regular) = drive.end_points(&motions);
         let poses = drive.poses(&motions, ends);
-        first_pass.add(&poses, mask);
+        first_pass.add(&poses, lane_mask);
         if is_full_group {
             first_pass.multiply_jacobians(&poses, &arcs);
         } else {
-            first_pass.multiply_masked_jacobians(&poses, &arcs, mask);
+            first_pass.multiply_masked_jacobians(&poses, &arcs, lane_mask);
         }
         if !is_regular {
-            first_pass.add_irregular_arcs(&arcs, drive.regular_arc_deviations(noise), mask);
+            first_pass.add_irregular_arcs(&arcs, drive.regular_arc_deviations(noise), lane_mask);
         }
     }
 }
@@ -174,13 +174,13 @@ fn add_to_first_pass(
 /// Adds the robots that [`add_to_first_pass`] drove to the sums of the second pass.
 #[inline(never)]
 fn add_to_second_pass(
-    drive: &Drive,
+    drive: &NoisyDrive,
     noise: &[[f64x4; 3]],
     ends: &[[f64x4; 2]],
-    mask: f64x4,
+    lane_mask: f64x4,
     second_pass: &mut SecondPass,
 ) {
     for (noise, ends) in noise.iter().zip(ends) {
-        second_pass.add(&drive.poses(&drive.motions(noise), ends), mask);
+        second_pass.add(&drive.poses(&drive.motions(noise), ends), lane_mask);
     }
 }

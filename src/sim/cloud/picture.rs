@@ -12,11 +12,11 @@ pub const RAMP_STEP_COUNT: usize = 256;
 
 /// Counts the shown samples in each cell, row by row from the top (largest second coordinate). Samples outside are not counted.
 pub fn count_samples_in_cells(cloud: &Cloud, view: View, grid: &ViewGrid) -> Vec<u32> {
-    let (ViewGrid { min, max, .. }, cells_per_unit) = (*grid, grid.cells_per_unit());
+    let (ViewGrid { min_corner, max_corner, .. }, cells_per_unit) = (*grid, grid.cells_per_unit());
     let mut cell_counts = vec![0; grid.columns * grid.rows];
     cloud.point_groups(view).for_each(|[x, y]| {
-        let column = ((x - min[0]) * cells_per_unit[0]).floor().to_array();
-        let row = ((max[1] - y) * cells_per_unit[1]).floor().to_array();
+        let column = ((x - min_corner[0]) * cells_per_unit[0]).floor().to_array();
+        let row = ((max_corner[1] - y) * cells_per_unit[1]).floor().to_array();
         for cell_index in (0..LANE_COUNT).filter_map(|lane| grid.cell_index(column[lane], row[lane])) {
             cell_counts[cell_index] += 1;
         }

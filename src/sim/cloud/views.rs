@@ -1,6 +1,6 @@
 //! Views of a cloud, grids of their cells, and the nearest sample to a point.
 
-use crate::sim::settings::Keywords;
+use crate::sim::settings::HasKeywords;
 use std::ops::RangeInclusive;
 
 /// Coordinates in which the cloud is drawn.
@@ -25,7 +25,7 @@ impl View {
     }
 }
 
-impl Keywords for View {
+impl HasKeywords for View {
     const KEYWORDS: &'static [(&'static str, Self)] = &[("plane", Self::Plane), ("twist", Self::Twist)];
 }
 
@@ -45,10 +45,10 @@ pub const MAX_CELLS_PER_SIDE: u64 = 1 << 14;
 /// Rectangle of a view, divided into cells of equal size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ViewGrid {
-    /// Smallest coordinates, finite.
-    pub min: [f64; 2],
-    /// Largest coordinates, finite and above the smallest.
-    pub max: [f64; 2],
+    /// Smallest coordinates of the rectangle, finite.
+    pub min_corner: [f64; 2],
+    /// Largest coordinates of the rectangle, finite and above the smallest coordinates.
+    pub max_corner: [f64; 2],
     /// Number of cells along x.
     pub columns: usize,
     /// Number of cells along y.
@@ -58,8 +58,8 @@ pub struct ViewGrid {
 impl ViewGrid {
     /// Returns the number of columns per unit of the first coordinate, and of rows per unit of the second coordinate.
     pub(in crate::sim) fn cells_per_unit(&self) -> [f64; 2] {
-        let Self { min, max, columns, rows } = *self;
-        [columns as f64 / (max[0] - min[0]), rows as f64 / (max[1] - min[1])]
+        let Self { min_corner: [x_min, y_min], max_corner: [x_max, y_max], columns, rows } = *self;
+        [columns as f64 / (x_max - x_min), rows as f64 / (y_max - y_min)]
     }
 
     /// Returns the index of the cell in a column and row, row by row from the top; None outside of the grid.

@@ -8,7 +8,7 @@ pub use settings::*;
 
 use super::cloud::views::nearest_index;
 use super::cloud_simulation::cloud_simulation;
-use super::settings::{AllowedValues, Rules, SettingsError};
+use super::settings::{AllowedValues, SettingRules, SettingsError};
 use crate::geom::se2::SE2;
 use crate::js::js_structs;
 use crate::models::{
@@ -103,7 +103,7 @@ cloud_simulation!(DeadReckoning);
 impl DeadReckoning {
     fn empty(settings: Settings) -> Result<Self, SettingsError> {
         let mut rollouts = Rollouts::new(&settings).map_err(|_| SettingsError {
-            field: "steps".to_owned(),
+            key: "steps".to_owned(),
             value: f64::from(settings.steps),
             allowed: AllowedValues::FitsInMemory,
         })?;
@@ -165,7 +165,7 @@ impl DeadReckoning {
         &self.predicted_covariances[recursion as usize]
     }
 
-    /// Returns the comparison of a recursion with the robots.
+    /// Returns the comparison of a recursion's predictions with the moments of the robots.
     pub fn comparison(&self, recursion: Compounding) -> &RecursionComparison {
         &self.comparisons[recursion as usize]
     }
@@ -215,8 +215,8 @@ impl DeadReckoning {
         }
     }
 
-    /// Returns the variances of a straight drive as functions of its duration (exercise 2), with the speed and noise of the current settings.
-    /// Each duration is one command.
+    /// Returns the variances of a straight drive as functions of its duration (exercise 2), with the speed and noise of the current
+    /// settings. Each duration is one command.
     pub fn straight_growth(&self) -> StraightGrowth {
         let Settings { command: VelocityCmd { v, .. }, alphas, .. } = self.settings;
         let [alpha1, _, alpha3, ..] = alphas;
@@ -348,7 +348,7 @@ js_structs! {
         pub last: Option<u32>,
         /// Predicted divided by measured variance after the last step, minus 1; NaN without a prediction or a measured spread.
         pub end: f64,
-        /// Standard error of `end`.
+        /// Standard error of the relative error `end`.
         pub error: f64,
     }
 }
@@ -385,7 +385,7 @@ fn propagate_covariances(settings: &Settings, recursion: Compounding) -> Vec<Opt
         .map(|_| {
             covariance = covariance
                 .zip(tangent_noise)
-                .map(|(sigma, noise)| noise.propagate(&sigma, &twist, recursion))
+                .map(|(sigma, tangent_noise)| tangent_noise.propagate(&sigma, &twist, recursion))
                 .filter(|next_sigma| covariance_root(next_sigma).is_ok());
             covariance
         })

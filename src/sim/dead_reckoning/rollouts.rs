@@ -39,7 +39,7 @@ struct StepInErrorFrame {
     trigonometry: Trigonometry,
 }
 
-/// Error poses of four robots.
+/// Error poses of four robots, relative to the commanded pose.
 #[derive(Clone, Copy)]
 struct ErrorPoses {
     x: f64x4,
@@ -102,11 +102,11 @@ impl StepInErrorFrame {
         }
     }
 
-    /// Drives four robots by one step, and returns their ξ.
+    /// Drives four robots by one step, and returns their exponential coordinates ξ.
     #[inline(always)]
-    fn drive_one_step(&self, robots: &mut ErrorPoses, [first, second, third]: &[f64x4; 3]) -> [f64x4; 3] {
-        let length = *first * self.length[1] + self.length[0];
-        let turn_noise = *second * self.half_turn[1];
+    fn drive_one_step(&self, robots: &mut ErrorPoses, unit_noise: &[f64x4; 3]) -> [f64x4; 3] {
+        let length = unit_noise[0] * self.length[1] + self.length[0];
+        let turn_noise = unit_noise[1] * self.half_turn[1];
         let SinCos { sinc, sin, cos } = self.trigonometry.sin_cos(turn_noise + self.half_turn[0]);
         let chord_length = length * sinc;
         // The bearing of the chord is the heading of the robot plus half the turn of its arc.
@@ -114,7 +114,7 @@ impl StepInErrorFrame {
         let heading_cos = 1.0 - 2.0 * robots.sin * robots.sin;
         let x = robots.x + chord_length * (heading_cos * cos - heading_sin * sin) - self.end[0];
         let y = robots.y + chord_length * (heading_sin * cos + heading_cos * sin) - self.end[1];
-        let half_turn = robots.half_heading + (turn_noise + *third * self.half_last_turn_std);
+        let half_turn = robots.half_heading + (turn_noise + unit_noise[2] * self.half_last_turn_std);
         let is_outside_short_formula =
             is_any_lane_set(half_turn.abs().simd_gt(f64x4::splat(MAX_SHORT_FORMULA_ANGLE)));
         let (half_heading, SinCos { sinc, sin, cos }) = if is_outside_short_formula {
@@ -122,10 +122,10 @@ impl StepInErrorFrame {
         } else {
             (half_turn, self.trigonometry.sin_cos_small_angle(half_turn))
         };
-        let half_cotangent = cos / sinc;
+        let h_cot_h = cos / sinc;
         let (x, y) = (x * self.cos + y * self.sin, y * self.cos - x * self.sin);
         *robots = ErrorPoses { x, y, half_heading, sin, cos };
-        [half_cotangent * x + half_heading * y, half_cotangent * y - half_heading * x, half_heading * 2.0]
+        [h_cot_h * x + half_heading * y, h_cot_h * y - half_heading * x, half_heading * 2.0]
     }
 }
 
@@ -209,17 +209,18 @@ impl Rollouts {
         }
     }
 
-    /// Returns x, y (m) and θ (rad) of the first `robot_count` robots, [`MAX_SHOWN_ROBOTS`] at most, after step `step_number`, counted from 1.
+    /// Returns x, y (m) and θ (rad) of the first `robot_count` robots, [`MAX_SHOWN_ROBOTS`] at most, after step `step_number`, counted from
+    /// 1.
     pub fn poses(&self, step_number: usize, robot_count: usize) -> &[[f64; 3]] {
         &self.poses[(step_number - 1) * MAX_SHOWN_ROBOTS..][..robot_count.min(MAX_SHOWN_ROBOTS)]
     }
 
     /// Returns x, y (m) and θ (rad) of one robot after each step.
     pub fn rollout(&self, robot_index: usize) -> Vec<[f64; 3]> {
-        let mut skipped_rng = Xoshiro256PlusPlus::seed_from_u64(self.seed);
-        (0..robot_index / ROLLOUTS_PER_BLOCK).for_each(|_| skipped_rng.jump());
+        let mut block_rng = Xoshiro256PlusPlus::seed_from_u64(self.seed);
+        (0..robot_index / ROLLOUTS_PER_BLOCK).for_each(|_| block_rng.jump());
         let (group, lane) = (robot_index % ROLLOUTS_PER_BLOCK / LANE_COUNT, robot_index % LANE_COUNT);
-        let mut block = RobotBlock::new(skipped_rng);
+        let mut block = RobotBlock::new(block_rng);
         let pose_after = |nominal_pose| {
             block.drive_one_step(&self.step);
             block.groups[group].pose(lane, nominal_pose)
@@ -282,7 +283,7 @@ fn moments_from_sums(sums: &[f64; SUMMED_TERM_COUNT], n: f64) -> MeasuredMoments
         covariance[(i, i)] = non_negative(covariance[(i, i)]);
     }
     let relative_error = Vector3::from_fn(|i, _| {
-        let [m, mean_square, mean_cube, mean_fourth] = [0, 3, 6, 9].map(|power| sums[power + i] / n);
+        let [m, mean_square, mean_cube, mean_fourth] = [0, 3, 6, 9].map(|k| sums[k + i] / n);
         let m2 = covariance[(i, i)];
         let m4 = mean_fourth - 4.0 * m * mean_cube + 6.0 * m * m * mean_square - 3.0 * m * m * m * m;
         let kurtosis = if m2 > 0.0 { m4 / (m2 * m2) } else { f64::NAN };

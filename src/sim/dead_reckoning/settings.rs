@@ -3,9 +3,11 @@
 use crate::models::{Compounding, VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use crate::sim::noise_level::NoiseLevel;
-use crate::sim::settings::{ALPHA_RANGE, Keywords, MAX_SEED, Rules, SettingsError, check_integer, settings};
+use crate::sim::settings::{
+    ALPHA_RANGE, HasKeywords, MAX_SEED, SettingRules, SettingsError, check_integer, settings,
+};
 
-impl Keywords for Compounding {
+impl HasKeywords for Compounding {
     const KEYWORDS: &'static [(&'static str, Self)] =
         &[("chapter", Self::Chapter), ("first-order", Self::FirstOrder), ("fourth-order", Self::FourthOrder)];
 }
@@ -19,7 +21,7 @@ pub enum NoisePer {
     Path,
 }
 
-impl Keywords for NoisePer {
+impl HasKeywords for NoisePer {
     const KEYWORDS: &'static [(&'static str, Self)] = &[("step", Self::Step), ("path", Self::Path)];
 }
 
@@ -94,7 +96,7 @@ impl Settings {
     }
 }
 
-impl Rules for Settings {
+impl SettingRules for Settings {
     /// The chapter's path of twenty steps; the path with twice the standard deviation of the heading (exercise 7); the path in two hundred
     /// steps, each so short that J_r is nearly the identity; a straight path.
     const PRESETS: &'static [(&'static str, Self)] = &[

@@ -9,7 +9,7 @@ use super::cloud::draws::Draws;
 use super::cloud::picture::{Ramp, ramp_step};
 use super::cloud::views::{ViewGrid, nearest_index};
 use super::cloud_simulation::cloud_simulation;
-use super::settings::{AllowedValues, Rules, SettingsError};
+use super::settings::{AllowedValues, SettingRules, SettingsError};
 use crate::geom::arc::Arc;
 use crate::geom::lanes::LANE_COUNT;
 use crate::geom::se2::SE2;
@@ -40,7 +40,7 @@ pub struct MapSqueeze {
     picture: Vec<[u8; 4]>,
 }
 
-/// Counts for the attempts shown.
+/// Counts of outcomes and costs of the attempts shown.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tally {
     cost: Cost,
@@ -115,7 +115,7 @@ impl MapSqueeze {
             outdated_grid.map(|grid| FloorPlan::from_grid(grid.clone().with_unknown(settings.unknown)));
         // A grid that was accepted before can only be refused because its unknown cells became obstacles.
         let plan = plan.transpose().map_err(|_| SettingsError {
-            field: "unknown".to_owned(),
+            key: "unknown".to_owned(),
             value: f64::NAN,
             allowed: AllowedValues::Keyword {
                 given: "blocked",
@@ -144,9 +144,9 @@ impl MapSqueeze {
         let part_count = self.settings.part_count() as usize;
         let Self { plan, settings, draws, attempts, tally, .. } = self;
         let model = conditioned_model(settings, plan, settings.sampler);
-        let driver = AttemptDriver::new(&model, settings, draws);
+        let attempt_driver = AttemptDriver::new(&model, settings, draws);
         while attempts.len() < target_count && !tally.gave_up {
-            driver.make_next_attempts(attempts.len()..target_count, |attempt, cost| {
+            attempt_driver.make_next_attempts(attempts.len()..target_count, |attempt, cost| {
                 tally.cost.add(cost);
                 tally.accepted += usize::from(attempt.accepted);
                 tally.through_wall += usize::from(attempt.is_through_wall());
@@ -414,11 +414,11 @@ impl<'a> AttemptDriver<'a> {
 
 /// Paints the ends of attempts, row by row from the top. If several kinds are equally frequent in a cell, the last one is drawn.
 fn paint_attempts(attempts: &[Attempt], grid: &ViewGrid, ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> Vec<[u8; 4]> {
-    let (ViewGrid { min, max, .. }, cells_per_metre) = (*grid, grid.cells_per_unit());
+    let (ViewGrid { min_corner, max_corner, .. }, cells_per_metre) = (*grid, grid.cells_per_unit());
     let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; grid.columns * grid.rows];
     for attempt in attempts {
-        let column = ((attempt.pose.x() - min[0]) * cells_per_metre[0]).floor();
-        let row = ((max[1] - attempt.pose.y()) * cells_per_metre[1]).floor();
+        let column = ((attempt.pose.x() - min_corner[0]) * cells_per_metre[0]).floor();
+        let row = ((max_corner[1] - attempt.pose.y()) * cells_per_metre[1]).floor();
         if let Some(cell_index) = grid.cell_index(column, row) {
             cell_counts[cell_index][attempt.outcome_kind()] += 1;
         }

@@ -4,10 +4,12 @@ use crate::geom::se2::SE2;
 use crate::map::{Sampler, UnknownCells};
 use crate::models::VelocityCmd;
 use crate::sim::noise_level::{NoiseLevel, alphas_of_noise_level};
-use crate::sim::settings::{ALPHA_RANGE, Keywords, MAX_SEED, Rules, SettingsError, check_integer, settings};
+use crate::sim::settings::{
+    ALPHA_RANGE, HasKeywords, MAX_SEED, SettingRules, SettingsError, check_integer, settings,
+};
 use std::f64::consts::FRAC_PI_2;
 
-impl Keywords for Sampler {
+impl HasKeywords for Sampler {
     const KEYWORDS: &'static [(&'static str, Self)] = &[
         ("endpoint", Self::Endpoint),
         ("whole-arc", Self::WholeArc),
@@ -16,7 +18,7 @@ impl Keywords for Sampler {
     ];
 }
 
-impl Keywords for UnknownCells {
+impl HasKeywords for UnknownCells {
     const KEYWORDS: &'static [(&'static str, Self)] = &[("free", Self::Free), ("blocked", Self::Blocked)];
 }
 
@@ -77,7 +79,7 @@ impl Settings {
     }
 }
 
-impl Rules for Settings {
+impl SettingRules for Settings {
     const PRESETS: &'static [(&'static str, Self)] = &[
         ("doorway", Self::DEFAULT),
         ("wall", Self { start: [3.3, 2.6, FRAC_PI_2], ..Self::DEFAULT }),

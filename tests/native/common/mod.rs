@@ -6,7 +6,7 @@ pub mod text;
 
 use motion::NoiseKind;
 use motion::geom::se2::{SE2, wrap_angle};
-use motion::sim::settings::Rules;
+use motion::sim::settings::SettingRules;
 use nalgebra::{Matrix3, Vector3};
 use rand::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -57,7 +57,7 @@ pub fn derivative_by_noise(unit_noise: [f64; 3], pose_of_noise: impl Fn([f64; 3]
 }
 
 /// Returns the settings of a preset.
-pub fn settings_of_preset<S: Rules>(preset_name: &str) -> S {
+pub fn settings_of_preset<S: SettingRules>(preset_name: &str) -> S {
     S::PRESETS.iter().find(|preset| preset.0 == preset_name).expect("a preset of that name").1
 }
 

@@ -1,7 +1,7 @@
 //! Reader of configurations.json, which has settings of simulations and arguments of the methods whose results are digested.
 
 use motion::sim::picture::{RAMP_STEP_COUNT, Ramp};
-use motion::sim::settings::{Rules, Setting};
+use motion::sim::settings::{Setting, SettingRules};
 use motion::sim::views::ViewGrid;
 use serde_json::Value;
 
@@ -33,7 +33,7 @@ pub fn configurations_of(configurations_json: &Value) -> impl Iterator<Item = Co
 
 impl Configuration<'_> {
     /// Returns the preset on which the configuration is based, or the defaults, with the settings of the configuration.
-    pub fn settings<S: Rules>(&self) -> S {
+    pub fn settings<S: SettingRules>(&self) -> S {
         let preset_name =
             self.settings_json.get("preset").map(|name_json| name_json.as_str().expect("a name"));
         let is_named = |(name, _): &&(&str, S)| preset_name == Some(*name);
@@ -64,8 +64,8 @@ impl Configuration<'_> {
         let [x_min, y_min, x_max, y_max] = numbers_of(bounds);
         let size_of = |key| self.configurations_json["picture"][key].as_u64().expect("a size") as usize;
         ViewGrid {
-            min: [x_min, y_min],
-            max: [x_max, y_max],
+            min_corner: [x_min, y_min],
+            max_corner: [x_max, y_max],
             columns: size_of("columns"),
             rows: size_of("rows"),
         }
@@ -95,7 +95,7 @@ fn set_from_json(setting: Setting, setting_json: &Value) {
         }
         Setting::Level(mut setting_value, _) => setting_value.set(number_of(setting_json)),
         Setting::Group(setting_group) => {
-            for (field, number) in setting_group.fields().iter().zip(setting_group.numbers_mut()) {
+            for (field, number) in setting_group.members().iter().zip(setting_group.numbers_mut()) {
                 *number = number_of(&setting_json[field.declaration.key]);
             }
         }

@@ -51,7 +51,7 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
             "statistics",
             (
                 simulation.shown_count(),
-                simulation.is_chart_defined(),
+                simulation.is_exponential_defined(),
                 (reading.rot1, reading.trans, reading.rot2),
                 stats,
             ),

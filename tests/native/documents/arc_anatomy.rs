@@ -4,7 +4,7 @@ use super::page_text;
 use crate::common::settings_of_preset;
 use crate::common::text::PrintedNumber;
 use crate::simulations::arc_anatomy::stats;
-use motion::sim::arc_anatomy::{ArcAnatomy, Settings, Stats, SurfaceKind};
+use motion::sim::arc_anatomy::{ArcAnatomy, HeatMapKind, Settings, Stats};
 
 /// Returns settings with the final pose turned until the wedge disappears.
 fn settings_without_wedge(settings: Settings) -> Settings {
@@ -42,7 +42,7 @@ fn the_printed_table_gives_no_probability_to_centres_on_the_right() {
         assert!(factors[0].estimate * settings.command.v < 0.0);
         // With the unsigned radius of the printed table, contours of equal score stay near the start. With the signed radius they do not.
         let max_distance_to_start = |settings: Settings| {
-            let heat_map = ArcAnatomy::new(Settings { map: SurfaceKind::Prob, ..settings })
+            let heat_map = ArcAnatomy::new(Settings { map: HeatMapKind::Prob, ..settings })
                 .expect("valid settings")
                 .surface([-2.0, -2.0], [2.0, 2.0])
                 .expect("a map");

@@ -7,7 +7,7 @@ use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MapConditioned, Sampler};
 use motion::noise::draw_centred_uniform;
-use motion::sim::settings::Rules;
+use motion::sim::settings::SettingRules;
 use motion::sim::squeeze::{MapSqueeze, Settings, alphas_of_noise_level};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 

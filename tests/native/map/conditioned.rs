@@ -6,7 +6,7 @@ use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{FloorPlan, MAX_DRAWS, MapConditioned, Sampler};
 use motion::noise::draw_centred_uniform;
-use motion::sim::settings::Rules;
+use motion::sim::settings::SettingRules;
 use motion::sim::squeeze::{Settings, alphas_of_noise_level};
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 use rand_xoshiro::Xoshiro256PlusPlus;

@@ -128,7 +128,7 @@ fn errors_of_malformed_pgm_files_name_line_field_and_value() {
         assert_eq!(refusal, expected_error, "{}", file_bytes.escape_ascii());
     }
     let file_header = format!("P2\n{MAX_PIXELS} 1\n255\n");
-    assert_eq!(read_pgm(file_header.as_bytes()).expect_err("no pixels").field, "a pixel");
+    assert_eq!(read_pgm(file_header.as_bytes()).expect_err("no pixels").field_name, "a pixel");
 }
 
 /// In mode trinary, `map_server` averages opacity with the colours, if the image has transparency.

@@ -5,7 +5,7 @@ use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, SAMPLE_COUNT, seeded_rng};
 use motion::geom::se2::SE2;
 use motion::models::{LegVariances, MAX_SPIN_DISTANCE, OdometryRule, RuleAlphas};
 use motion::noise::draw_centred_uniform;
-use motion::stats::quadrature::nodes;
+use motion::stats::quadrature::noise_nodes;
 use motion::{OdomDelta, Variance};
 use std::f64::consts::FRAC_PI_2;
 
@@ -90,19 +90,19 @@ fn nav2_and_beluga_differ_at_exactly_a_centimetre_only() {
 /// The closed forms of E[sin² ε] are compared with quadrature where it is accurate, and with their limit for larger noise.
 #[test]
 fn the_mean_squared_sine_is_that_of_the_noise() {
-    for noise_kind in NOISE_KINDS {
+    for kind in NOISE_KINDS {
         for tenths_of_decade in -60..=4 {
             let std = 10f64.powf(f64::from(tenths_of_decade) / 10.0);
-            let expected_mean_square: f64 =
-                nodes(noise_kind).iter().map(|node| node.weight * (std * node.value).sin().powi(2)).sum();
-            let computed_mean_square = noise_kind.mean_squared_sine(Variance(std * std));
+            let mean_square: f64 =
+                noise_nodes(kind).iter().map(|node| node.weight * (std * node.value).sin().powi(2)).sum();
+            let computed_mean_square = kind.mean_squared_sine(Variance(std * std));
             assert!(
-                (computed_mean_square / expected_mean_square - 1.0).abs() < 1e-10,
-                "{noise_kind:?} at {std}: {computed_mean_square}, not {expected_mean_square}"
+                (computed_mean_square / mean_square - 1.0).abs() < 1e-10,
+                "{kind:?} at {std}: {computed_mean_square}, not {mean_square}"
             );
         }
-        assert_eq!(noise_kind.mean_squared_sine(Variance(0.0)), 0.0);
-        assert!((noise_kind.mean_squared_sine(Variance(1e12)) - 0.5).abs() < 1e-6);
+        assert_eq!(kind.mean_squared_sine(Variance(0.0)), 0.0);
+        assert!((kind.mean_squared_sine(Variance(1e12)) - 0.5).abs() < 1e-6);
     }
 }
 

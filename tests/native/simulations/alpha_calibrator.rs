@@ -257,7 +257,7 @@ fn the_nearest_leg_passes_through_the_point() {
 
 #[test]
 fn changing_the_model_or_the_rule_adjusts_the_other() {
-    use motion::sim::settings::Rules;
+    use motion::sim::settings::SettingRules;
     let change_settings = |apply_change: fn(&mut Settings), changed_key: &str| {
         let settings_before = Settings::default();
         let mut settings = settings_before;

@@ -4,7 +4,7 @@ use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, pose_distance, seeded_rng,
 use motion::geom::lanes::MAX_SIN_COS_ERROR;
 use motion::geom::se2::SE2;
 use motion::sim::View;
-use motion::sim::banana::{ADDITIVE_DEVIATION, BananaMachine, ModelKind, Sample, Settings, command_reaching};
+use motion::sim::banana::{ADDITIVE_NOISE_STD, BananaMachine, ModelKind, Sample, Settings, command_reaching};
 use motion::stats::ExponentialMoments;
 use motion::{
     ConfiguredOdometry, MotionModel, OdomAlphas, OdomDelta, OdometryModel, VelocityAlphas, VelocityCmd,
@@ -258,7 +258,7 @@ fn exponential_statistics_are_undefined_near_a_full_turn() {
     // The heading's standard deviation is 3·√(0.02·(1 + ω²)): 0.6 rad for ω = 0.9, 0.9 rad for ω = ±2.
     for (omega, is_defined) in [(0.9, true), (2.0, false), (-2.0, false)] {
         let simulation = simulate_turn(omega);
-        assert_eq!(simulation.is_chart_defined(), is_defined, "ω = {omega}");
+        assert_eq!(simulation.is_exponential_defined(), is_defined, "ω = {omega}");
         let (stats, contours) = (simulation.stats(), simulation.contours());
         let exponential_values = [stats.gaussian_skew, stats.coverage.exponential, stats.exponential.mean.x];
         assert!(
@@ -351,12 +351,12 @@ fn additive_noise_does_not_depend_on_the_motion() {
         let commanded_end = simulation.linearized_moments().mean;
         for [x, y] in simulation.contours().additive {
             let circle_radius = libm::hypot(x - commanded_end.x, y - commanded_end.y);
-            assert!((circle_radius - 2.0 * ADDITIVE_DEVIATION).abs() < 1e-12);
+            assert!((circle_radius - 2.0 * ADDITIVE_NOISE_STD).abs() < 1e-12);
         }
     }
     let cov = simulation(Settings { samples: 10, ..settings_of_preset("gentle") }).exact_moments().cov;
     let rounded_position_std = (10.0 * (0.5 * (cov[(0, 0)] + cov[(1, 1)])).sqrt()).round() / 10.0;
-    assert_eq!(rounded_position_std, ADDITIVE_DEVIATION);
+    assert_eq!(rounded_position_std, ADDITIVE_NOISE_STD);
 }
 
 /// The default seed is chosen so that each readout differs from its exact value by less than a fifth of a standard error.

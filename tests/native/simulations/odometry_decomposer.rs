@@ -3,7 +3,7 @@
 use crate::common::{NOISE_KINDS, pose_distance, seeded_rng, settings_of_preset};
 use motion::models::OdometryRule;
 use motion::sim::odometry_decomposer::{OdometryDecomposer, Settings};
-use motion::sim::settings::Rules;
+use motion::sim::settings::SettingRules;
 use motion::{MotionModel, OdomAlphas, OdometryModel};
 
 pub fn simulation(settings: Settings) -> OdometryDecomposer {

@@ -9,8 +9,9 @@ use motion::sim::views::ViewGrid;
 
 /// Returns grids over the middle of a cloud, so that samples are outside on every side. Painting skips sixteen empty cells at once. One grid
 /// is therefore 16 cells wide, one 17, and the others have different widths.
-fn grids_over(min: [f64; 2], max: [f64; 2]) -> [ViewGrid; 4] {
-    [(16, 9), (17, 1), (53, 40), (3, 2)].map(|(columns, rows)| ViewGrid { min, max, columns, rows })
+fn grids_over(min_corner: [f64; 2], max_corner: [f64; 2]) -> [ViewGrid; 4] {
+    let grid_sizes = [(16, 9), (17, 1), (53, 40), (3, 2)];
+    grid_sizes.map(|(columns, rows)| ViewGrid { min_corner, max_corner, columns, rows })
 }
 
 /// Returns a colour ramp whose colours contain their step and the number of the ramp.
@@ -20,7 +21,7 @@ fn numbered_ramp(ramp_number: u8) -> Ramp {
 
 /// Returns the index of the cell that contains a point, row by row from the top.
 fn cell_index(grid: &ViewGrid, [x, y]: [f64; 2]) -> Option<usize> {
-    let ViewGrid { min, max, columns, rows } = *grid;
+    let ViewGrid { min_corner: min, max_corner: max, columns, rows } = *grid;
     let column = ((x - min[0]) / (max[0] - min[0]) * columns as f64).floor();
     let row = ((max[1] - y) / (max[1] - min[1]) * rows as f64).floor();
     let is_inside = (0.0..columns as f64).contains(&column) && (0.0..rows as f64).contains(&row);

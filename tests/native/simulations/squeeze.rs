@@ -4,7 +4,7 @@ use crate::common::seeded_rng;
 use crate::map::conditioned::{SAMPLERS, STRAIGHT_COMMAND, too_small_room};
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MAX_DRAWS, MapConditioned, Sampler};
-use motion::sim::settings::Rules;
+use motion::sim::settings::SettingRules;
 use motion::sim::squeeze::{MapSqueeze, Settings, wilson_interval};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 
@@ -143,7 +143,7 @@ fn the_commanded_arc_and_the_test_of_its_start_follow_the_settings() {
 fn the_product_of_samples_and_parts_is_limited() {
     for (sampler, max_samples) in [(Sampler::WholeArc, 1_000_000), (Sampler::SubStepped(4), 250_000)] {
         let refused_field_of = |samples| {
-            Settings { samples, sampler, ..Settings::default() }.check().err().map(|error| error.field)
+            Settings { samples, sampler, ..Settings::default() }.check().err().map(|error| error.key)
         };
         assert_eq!(
             [refused_field_of(max_samples), refused_field_of(max_samples + 1)],

@@ -5,7 +5,7 @@ use crate::common::{MAX_STANDARD_ERRORS, settings_of_preset};
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MapConditioned, Sampler};
 use motion::sim::banana::{BananaMachine, ModelKind, Settings};
-use motion::sim::settings::Rules;
+use motion::sim::settings::SettingRules;
 use motion::sim::squeeze::{self, MapSqueeze};
 use motion::{NoiseKind, VelocityAlphas, VelocityModel};
 

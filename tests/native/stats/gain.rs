@@ -5,7 +5,7 @@ use crate::simulations::banana::check_varied_clouds;
 use motion::geom::arc::{arc_end, arc_with_turn_near};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, Settings, Stats};
-use motion::sim::settings::Rules;
+use motion::sim::settings::SettingRules;
 use motion::stats::{CartesianMoments, ExactGain};
 use motion::{VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -162,7 +162,7 @@ fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
     }
     // The gain on the floor is also defined if headings spread over a full turn, where exponential coordinates are undefined.
     let wide_simulation = simulation(GENTLE_COMMAND, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
-    assert!(!wide_simulation.is_chart_defined());
+    assert!(!wide_simulation.is_exponential_defined());
     let Stats { likelihood_gain: gain, likelihood_gain_error: error, area_ratio, .. } =
         wide_simulation.stats();
     assert!(gain.pose.is_nan() && error.pose.is_nan() && area_ratio.is_nan());

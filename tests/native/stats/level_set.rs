@@ -2,7 +2,7 @@
 
 use crate::common::{draw_uniform, seeded_rng};
 use motion::geom::se2::SE2;
-use motion::sim::arc_anatomy::{ArcAnatomy, CONTOUR_LEVELS, Settings, Surface, SurfaceKind};
+use motion::sim::arc_anatomy::{ArcAnatomy, CONTOUR_LEVELS, HeatMapKind, Settings, Surface};
 use motion::stats::trace_level_set;
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityModel};
 
@@ -71,15 +71,15 @@ fn heat_map(settings: Settings) -> Surface {
 /// d = 0.7 m on, (2/d)² · (1/σ_ω² + 1/σ_γ²) is below 770, so that the error of log p is at most 0.075.
 #[test]
 fn contours_lie_at_the_levels_of_the_models() {
-    let settings = Settings { map: SurfaceKind::Density, ..Settings::default() };
+    let settings = Settings { map: HeatMapKind::Density, ..Settings::default() };
     let Surface { columns, rows, shades, prob, density } = heat_map(settings);
     assert!(columns * rows == shades.len() && (5_000..=10_000).contains(&shades.len()));
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     let origin = SE2::identity();
-    let density_at_point = |[x, y]: [f64; 2], surface_kind: SurfaceKind| {
+    let density_at_point = |[x, y]: [f64; 2], surface_kind: HeatMapKind| {
         let next_pose = SE2::new(x, y, settings.next[2]);
         match surface_kind {
-            SurfaceKind::Prob => model.prob(&next_pose, &settings.command, &origin),
+            HeatMapKind::Prob => model.prob(&next_pose, &settings.command, &origin),
             _ => model.pose_density(&next_pose, &settings.command, &origin).expect("noise of full rank"),
         }
     };
@@ -87,7 +87,7 @@ fn contours_lie_at_the_levels_of_the_models() {
         let [column, row] = [i % columns, i / columns].map(|cell_index| cell_index as f64 + 0.5);
         [-0.5 + 2.5 * column / columns as f64, 1.5 - 2.5 * row / rows as f64]
     };
-    for (contour_lines, surface_kind) in [(&prob, SurfaceKind::Prob), (&density, SurfaceKind::Density)] {
+    for (contour_lines, surface_kind) in [(&prob, HeatMapKind::Prob), (&density, HeatMapKind::Density)] {
         let max_density =
             (0..shades.len()).map(|i| density_at_point(centre_of(i), surface_kind)).fold(0.0, f64::max);
         assert!(contour_lines.len() >= CONTOUR_LEVELS.len());
@@ -103,16 +103,16 @@ fn contours_lie_at_the_levels_of_the_models() {
         }
     }
     let max_density =
-        (0..shades.len()).map(|i| density_at_point(centre_of(i), SurfaceKind::Density)).fold(0.0, f64::max);
+        (0..shades.len()).map(|i| density_at_point(centre_of(i), HeatMapKind::Density)).fold(0.0, f64::max);
     for (i, cell_shade) in shades.iter().enumerate() {
-        let expected_shade = 255.0 * density_at_point(centre_of(i), SurfaceKind::Density) / max_density;
+        let expected_shade = 255.0 * density_at_point(centre_of(i), HeatMapKind::Density) / max_density;
         assert!((f64::from(*cell_shade) - expected_shade).abs() <= 0.5 + 1e-9);
     }
 }
 
 #[test]
 fn a_heat_map_without_noise_is_empty() {
-    let settings = Settings { alphas: [0.0; 6], map: SurfaceKind::Prob, ..Settings::default() };
+    let settings = Settings { alphas: [0.0; 6], map: HeatMapKind::Prob, ..Settings::default() };
     let Surface { shades, prob, density, .. } = heat_map(settings);
     assert!(shades.iter().all(|shade| *shade == 0) && prob.is_empty() && density.is_empty());
 }

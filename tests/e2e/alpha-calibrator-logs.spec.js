@@ -21,7 +21,7 @@ test('two tables of a user replace the simulated log, and a button restores the 
   await waitUntilSettled(calibrator);
   expect(await captionOf(calibrator).innerText()).toMatch(/ \d+ legs of odom\.csv, truth\.csv[.,]/);
   expect(await calibrator.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.truth)).toBeNull();
-  await expect(calibrator.locator('.drop-zone .present')).toHaveText('Results of odometry odom.csv and reference truth.csv.');
+  await expect(calibrator.locator('.drop-zone .present')).toHaveText('Results of odom.csv, truth.csv.');
   // The summary of the logs stays visible next to the result.
   await expect(calibrator.getByRole('row', { name: /^read \d+ of \d+ rows/ })).toBeVisible();
   await expect(calibrator.getByRole('img', { name: /^Paths from above: .*, aligned with it\); .* m by .* m\.$/ })).toBeVisible();
@@ -173,7 +173,7 @@ test('a log with too few legs is refused, and the figure still shows the previou
   await waitUntilSettled(widget);
   expect(await captionOf(widget).innerText()).toBe(captionBefore);
   expect((await readStats(widget)).alphas).toEqual(alphas);
-  await expect(widget.locator('.drop-zone .present')).toHaveText('Results of odometry odometry.csv and reference reference.csv.');
+  await expect(widget.locator('.drop-zone .present')).toHaveText('Results of odometry.csv, reference.csv.');
   // The results stay marked as outdated until the figure shows its simulated log again.
   await expect(widget.locator('.views')).toHaveCSS('filter', 'grayscale(1)');
   await widget.getByRole('button', { name: 'Start over' }).click();

@@ -198,7 +198,7 @@ export const de: typeof import('./en.ts').en = {
     leaveLabel: 'Zurück zur simulierten',
     simulatedLogNote: 'Ein simulierter Roboter folgt einer Kurve und dreht sich ab und zu auf der Stelle. Die wahren Werte stehen neben den Schätzungen.',
     resultsOfLog: (name) => `Ergebnisse von ${name}.`,
-    resultsOfFiles: (odometry, reference) => `Ergebnisse von Odometrie ${odometry} und Referenz ${reference}.`,
+
     refusedLog: (refusalMessage) => `Aufzeichnung abgelehnt: ${refusalMessage}`,
     resultsOfOtherLog: (log) => `Gezeigt wird noch: ${log}, nicht die zuletzt gewählten Dateien.`,
     keepResultsLabel: 'Diese Ergebnisse behalten',

@@ -177,7 +177,7 @@ export const en = {
     leaveLabel: 'Back to the simulated log',
     simulatedLogNote: 'A simulated robot follows a curve and sometimes turns in place. True values stand beside the estimates.',
     resultsOfLog: (name) => `Results of ${name}.`,
-    resultsOfFiles: (odometry, reference) => `Results of odometry ${odometry} and reference ${reference}.`,
+
     refusedLog: (refusalMessage) => `Log refused: ${refusalMessage}`,
     resultsOfOtherLog: (log) => `The results are still those of ${log}, not of the files chosen last.`,
     keepResultsLabel: 'Keep these results',

@@ -92,14 +92,6 @@ export class LogOpener extends FileOpener<Figure> {
     this.host.requestUpdate();
   }
 
-  /** Sentence that names the log of the results, and its odometry and reference if they are files. */
-  get resultSourceText() {
-    const { resultsOfLog, resultsOfFiles } = words.calibrator.logControls;
-    const { log, drives } = this.#resultFiles ?? {};
-    const namesOf = (role: Role) => drives?.map((drive) => drive[role].name).join(', ') ?? '';
-    return drives && log === this.host.log ? resultsOfFiles(namesOf('odometry'), namesOf('reference')) : resultsOfLog(this.host.logName);
-  }
-
   /** Sentence that the results are those of another log, while the chosen files are refused; empty otherwise. */
   get otherResultsNote() {
     return this.refusal === undefined || isAbortError(this.refusal) ? '' : words.calibrator.logControls.resultsOfOtherLog(this.host.logName);
@@ -227,7 +219,7 @@ export function dropZoneHtml(figure: Figure, opener: LogOpener) {
     ${logModule?.logChoosersHtml(opener)}
     ${readFraction !== undefined
       ? html`<p><progress aria-label=${words.progress.label} .value=${readFraction}></progress> ${buttonHtml(words.progress.stop, () => opener.stopReading())}</p>`
-      : figure.log ? html`<p><span class="present">${opener.resultSourceText}</span> ${buttonHtml(texts.leaveLabel, () => opener.closeLog())}</p>` : nothing}
+      : figure.log ? html`<p><span class="present">${texts.resultsOfLog(figure.logName)}</span> ${buttonHtml(texts.leaveLabel, () => opener.closeLog())}</p>` : nothing}
     ${opener.refusalNoteHtml}
     ${opener.otherResultsNote ? html`<p class="muted other-results">${opener.otherResultsNote} ${buttonHtml(texts.keepResultsLabel, () => opener.restoreResults())}</p>` : nothing}
   </div>`;

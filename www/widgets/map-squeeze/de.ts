@@ -5,12 +5,6 @@ export const de: typeof import('./en.ts').en = {
   floorTitle: 'Auf dem Boden: wo ein Befehl enden kann',
   presets: { doorway: 'Vor einer Tür', wall: 'Vor einer Wand', corridor: 'Im freien Flur' },
   samplerNames: { endpoint: 'Endpunkt', 'whole-arc': 'Ganzer Bogen', 'sub-stepped': 'Teilschritte' },
-  samplerEffects: {
-    endpoint: 'Nimmt eine Stichprobe an, wenn ihre Endpose kollisionsfrei ist; der Weg wird nicht geprüft.',
-    'whole-arc': 'Nimmt eine Stichprobe an, wenn ihr ganzer Weg kollisionsfrei ist.',
-    'sub-stepped': 'Teilt den Befehl in Teilschritte und nimmt jeden an, wenn seine Endpose kollisionsfrei ist.',
-    off: 'Die Karte wird nicht verwendet (siehe Weitere Regler): Jede Stichprobe wird angenommen.',
-  },
   settings: {
     noise: { name: 'Rauschpegel', effect: 'Verbreitert die Wolke: setzt α₁ bis α₄; α₅ und α₆ sind ein Viertel.' },
     clearance: { name: 'Roboterradius', effect: 'Ein breiterer Roboter hat an weniger Stellen Platz und trifft mehr Wände.' },

@@ -7,12 +7,6 @@ export const en = {
   floorTitle: 'On the floor: where one command may end',
   presets: { doorway: 'Facing a doorway', wall: 'Facing a wall', corridor: 'Open corridor' },
   samplerNames: { endpoint: 'Endpoint', 'whole-arc': 'Whole arc', 'sub-stepped': 'Sub-stepped' },
-  samplerEffects: {
-    endpoint: 'Accepts a sample if its end pose is collision-free; the path is not checked.',
-    'whole-arc': 'Accepts a sample if its whole path is collision-free.',
-    'sub-stepped': 'Splits the command into sub-steps, and accepts each if its end pose is collision-free.',
-    off: 'The map is not used (see More controls): every sample is accepted.',
-  },
   settings: {
     noise: { name: 'noise level', effect: 'Spreads the cloud: sets α₁ to α₄; α₅ and α₆ are a quarter.' },
     clearance: { name: 'robot radius', effect: 'A wider robot fits in fewer places and meets more walls.' },

@@ -35,13 +35,12 @@ function startControlsHtml(figure: MapSqueezeElement) {
 
 function samplerControlsHtml(figure: MapSqueezeElement) {
   const { conditioned, sampler, samples, steps } = figure.viewModel.config;
-  const { settings, samplerNames, samplerEffects } = words.squeeze;
+  const { settings, samplerNames } = words.squeeze;
   // With sub-steps each sample takes several draws.
   const maxSampleCountOf = (samplerName: string) => (samplerName === 'sub-stepped' ? Math.floor(MAX_SAMPLES / steps) : MAX_SAMPLES);
   const chooseSampler = (samplerName: string) => figure.gesture.requestAndCommit({ sampler: samplerName, ...(samples > maxSampleCountOf(samplerName) && { samples: maxSampleCountOf(samplerName) }) });
   return html`<div class="judge">
     ${radioGroupHtml(settings.sampler.name, 'sampler', samplerNames, sampler, chooseSampler)}
-    <p class="effect muted small">${samplerEffects[conditioned ? sampler : 'off']}</p>
     ${conditioned && sampler === 'sub-stepped' ? settingSliderHtml(figure, 'steps') : nothing}
   </div>`;
 }
@@ -100,10 +99,6 @@ const styles = css`
     min-height: 0;
     margin-bottom: 0.3em;
     font-size: 0.92em;
-  }
-
-  .judge .effect {
-    margin: 0 0 0.5em;
   }
 
   .overview {

@@ -189,12 +189,12 @@ test('a sample under the pointer, or with an entered number, shows its verdict',
   const pictureBefore = await readPicture(planeCanvas);
 
   await sampleField.fill(String(throughWallIndex + 1));
-  await expect(verdictOutput).toHaveText('accepted through a wall: the end pose is free, but the path touches a wall or leaves the map');
+  await expect(verdictOutput).toHaveText('accepted through a wall');
   expect(await readPicture(planeCanvas)).not.toBe(pictureBefore);
   await sampleField.fill(String(rejectedIndex + 1));
-  await expect(verdictOutput).toHaveText('rejected: the end pose is in collision');
+  await expect(verdictOutput).toHaveText('rejected');
   await sampleField.fill(String(verdicts.indexOf(7) + 1));
-  await expect(verdictOutput).toHaveText('accepted: end pose and path are collision-free');
+  await expect(verdictOutput).toHaveText('accepted');
   await sampleField.fill('');
   expect(await readPicture(planeCanvas)).toBe(pictureBefore);
 

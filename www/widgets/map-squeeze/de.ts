@@ -34,12 +34,6 @@ export const de: typeof import('./en.ts').en = {
     `Der Roboter sitzt fest: ${drawnCount} gezogene Teilschritte vollendeten nur ${accepted} von ${requestedCount} Bewegungen; ${through}.`,
   nothingAcceptedNote: (drawnCount) => `Keine Stichprobe wurde angenommen: Keine der ${drawnCount} gezogenen ist kollisionsfrei.`,
   startCollisionNote: 'Die Startpose ist in Kollision.',
-  verdictReasons: {
-    failedSubStep: 'Teilschritt gescheitert: keine kollisionsfreie Stichprobe gefunden',
-    endInCollision: 'die Endpose ist in Kollision',
-    collisionFree: 'Endpose und Weg sind kollisionsfrei',
-    pathInCollision: 'die Endpose ist frei, aber der Weg berührt eine Wand oder verlässt die Karte',
-  },
   testedSentences: {
     endpoint: (accepted, attemptCount) => `${accepted} von ${attemptCount} Bewegungen enden kollisionsfrei und sind angenommen`,
     'whole-arc': (accepted, attemptCount) => `${accepted} von ${attemptCount} Bewegungen berühren unterwegs keine Wand und sind angenommen`,
@@ -63,7 +57,6 @@ export const de: typeof import('./en.ts').en = {
   },
   tallyReadouts: {
     drawnSamples: 'gezogen',
-    shownPaths: 'gezeichnete Wege durch eine Wand',
     drawsPerAccepted: 'gezogene je angenommene Stichprobe',
     wallTestsPerAccepted: 'berechnete Wandabstände je angenommene Stichprobe',
   },

@@ -36,12 +36,6 @@ export const en = {
     `The robot is wedged: ${drawnCount} sub-steps drawn completed only ${accepted} of ${requestedCount} motions; ${through}.`,
   nothingAcceptedNote: (drawnCount) => `No sample was accepted: none of the ${drawnCount} drawn is collision-free.`,
   startCollisionNote: 'The start pose is in collision.',
-  verdictReasons: {
-    failedSubStep: 'sub-step failed: no collision-free sample found',
-    endInCollision: 'the end pose is in collision',
-    collisionFree: 'end pose and path are collision-free',
-    pathInCollision: 'the end pose is free, but the path touches a wall or leaves the map',
-  },
   /** Sentences on the number of accepted motions, by sampler. A clause on the motions through a wall follows. */
   testedSentences: {
     endpoint: (accepted, attemptCount) => `${accepted} of ${attemptCount} motions end where the robot fits and are accepted`,
@@ -65,7 +59,6 @@ export const en = {
   },
   tallyReadouts: {
     drawnSamples: 'drawn',
-    shownPaths: 'paths through a wall shown',
     drawsPerAccepted: 'samples drawn per accepted sample',
     wallTestsPerAccepted: 'wall distances computed per accepted sample',
   },

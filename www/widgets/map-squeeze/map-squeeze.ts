@@ -12,11 +12,11 @@ import { Cloud, cloudControlsHtml, cloudProperties, sampleFieldHtml } from '../s
 import { PoseHandles } from '../shared/robot.ts';
 import { presetButtonsHtml, startOverButtonHtml } from '../shared/controls.ts';
 import { describeCommand } from '../shared/sliders.ts';
-import { measureCosts, overviewMapHtml, costTableHtml, tallyReadoutsHtml, captionOf, headlineOf, describeMap, explainVerdict } from './readouts.ts';
+import { measureCosts, overviewMapHtml, costTableHtml, tallyReadoutsHtml, captionOf, headlineOf, describeMap } from './readouts.ts';
 import { applyMap, gridOf, mapDataOf } from './maps/data.ts';
 import { MapOpener, userMapControlsHtml } from './maps/opener.ts';
 import { FloorPicture } from './picture.ts';
-import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition, COMMAND_SLIDERS, MAX_SAMPLES, outcomeIndexOf, viewModelOf, type ViewModel } from './settings.ts';
+import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition, COMMAND_SLIDERS, MAX_SAMPLES, outcomeOf, viewModelOf, type ViewModel } from './settings.ts';
 import { WallHandles } from './wall-handles.ts';
 import { findWallContact } from './walls.ts';
 import type { StateValues } from '../../figure/settings.ts';
@@ -218,7 +218,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   #markedSampleOf(sampleIndex: number) {
     const { poses, verdicts, config } = this.currentViewModel;
     const path = this.#pathMemo.get([poses, sampleIndex], () => (this.simulation as Simulation).path(sampleIndex));
-    const isThroughWall = outcomeIndexOf(verdicts[sampleIndex]) === 2;
+    const isThroughWall = outcomeOf(verdicts[sampleIndex]) === 'through';
     return { pose: poses.subarray(3 * sampleIndex), path, contact: isThroughWall ? findWallContact(path, this.picture.plan.walls, config.clearance) : undefined };
   }
 
@@ -335,7 +335,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   }
 
   renderContent(viewModel: ViewModel) {
-    const { posesByOutcome, stats, stuckNote, verdicts, config } = viewModel;
+    const { posesByOutcome, stats, stuckNote, verdicts } = viewModel;
     const { isSelectionShown, selectedIndex } = this.cloud;
     const { hasUnknownCells } = this.picture;
     const { floorTitle, densityNote } = words.squeeze;
@@ -361,7 +361,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
       ${posesByOutcome ? nothing : html`<p class="about muted">${densityNote}</p>`}
       ${disclosuresHtml(this, {
         renderControls: () => html`<div class="controls">${robotAndMapControlsHtml(this, hasUnknownCells)}</div> ${userMapControlsHtml(this, this.#opener, this.#mapDescription)}`,
-        renderNumbers: () => html`${tallyReadoutsHtml(viewModel)} ${sampleFieldHtml(this, 'sample', stats.attempts, isSelectionShown && explainVerdict(verdicts[selectedIndex], config))} ${costTableHtml(this)}`,
+        renderNumbers: () => html`${tallyReadoutsHtml(viewModel)} ${sampleFieldHtml(this, 'sample', stats.attempts, isSelectionShown && words.squeeze.overlays[outcomeOf(verdicts[selectedIndex])])} ${costTableHtml(this)}`,
       })}`)}
     `;
   }

@@ -133,7 +133,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
       // The walls are drawn after the paths, so that a path through a wall does not hide the wall.
       if (posesByOutcome) {
         if (isLineShown('through')) drawPaths(drawContext, paths, through.colour);
-        if (isLineShown('accepted')) drawSamples(drawContext, posesByOutcome.free, accepted.colour);
+        if (isLineShown('accepted')) drawSamples(drawContext, posesByOutcome.accepted, accepted.colour);
         if (isLineShown('through')) drawSamples(drawContext, posesByOutcome.through, through.colour);
         this.#wallLayer.draw(drawContext, isLineShown('unknown'));
         if (isLineShown('rejected')) drawCrosses(drawContext, posesByOutcome.rejected, rejected.colour);

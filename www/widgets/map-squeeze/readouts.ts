@@ -2,28 +2,16 @@
 
 import { html, nothing } from 'lit';
 import { addEnglishMessages, words } from '../../messages/registry.ts';
-import { verdict as bits, limits } from '../../../build/settings.js';
+import { limits } from '../../../build/settings.js';
 import { buttonHtml } from '../../ui/controls.ts';
 import { formatInteger, formatFixed, formatPercent, formatRounded } from '../../ui/format.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { en } from './en.ts';
 import { formatThroughWallRate, SAMPLERS, type ViewModel } from './settings.ts';
-import type { MapSqueeze, Plan, SamplerName, MapSqueezeSettings as Settings, SqueezeStats as Stats } from '../../types.d.ts';
+import type { MapSqueeze, Plan, SamplerName, SqueezeStats as Stats } from '../../types.d.ts';
 import type { MapSqueezeElement as Figure } from './map-squeeze.ts';
 
 addEnglishMessages({ squeeze: en });
-
-/** Returns the text of the verdict on a sample, which is a sum of `bits`. */
-export function explainVerdict(verdict: number, config: Settings) {
-  const hasBit = (bit: number) => (verdict & bit) !== 0;
-  const { overlays, verdictReasons } = words.squeeze;
-  const isAccepted = hasBit(bits.accepted);
-  if (!isAccepted && config.sampler === 'sub-stepped') return `${overlays.rejected}: ${verdictReasons.failedSubStep}`;
-  const outcomeText = isAccepted ? overlays.accepted : overlays.rejected;
-  if (!hasBit(bits.endFree)) return `${outcomeText}: ${verdictReasons.endInCollision}`;
-  if (hasBit(bits.pathFree)) return `${outcomeText}: ${verdictReasons.collisionFree}`;
-  return `${isAccepted ? overlays.through : outcomeText}: ${verdictReasons.pathInCollision}`;
-}
 
 /** Returns the headline: the share of accepted motions that went through a wall. */
 export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'attempts' | 'accepted' | 'throughWall'>) {
@@ -50,11 +38,10 @@ export function describeMap(mapName: string, { bounds, walls }: Plan) {
   return words.squeeze.mapDescription(mapName, formatFixed(right - left, 1), formatFixed(top - bottom, 1), formatInteger(walls.length / 4));
 }
 
-export function tallyReadoutsHtml({ stats, paths: { length: shownPathCount } }: ViewModel) {
+export function tallyReadoutsHtml({ stats }: ViewModel) {
   const { tallyReadouts: texts } = words.squeeze;
   return readoutsHtml([
     [texts.drawnSamples, formatInteger(stats.drawn)],
-    [texts.shownPaths, formatInteger(shownPathCount)],
     [texts.drawsPerAccepted, formatFixed(stats.drawsPerAccepted, 2)],
     [texts.wallTestsPerAccepted, formatFixed(stats.wallTestsPerAccepted, 2)],
   ]);

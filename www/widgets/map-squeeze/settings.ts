@@ -71,17 +71,17 @@ export function viewModelOf(simulation: MapSqueeze) {
 }
 
 function groupByOutcome(poses: Float64Array, verdicts: Uint8Array) {
-  const posesOfOutcome = (outcome: number) => {
-    const sampleIndices = [...verdicts.keys()].filter((i) => outcomeIndexOf(verdicts[i]) === outcome);
+  const posesOf = (outcome: ReturnType<typeof outcomeOf>) => {
+    const sampleIndices = [...verdicts.keys()].filter((i) => outcomeOf(verdicts[i]) === outcome);
     return Float64Array.from(sampleIndices.flatMap((i) => [poses[3 * i], poses[3 * i + 1], poses[3 * i + 2]]));
   };
-  return { rejected: posesOfOutcome(0), free: posesOfOutcome(1), through: posesOfOutcome(2) };
+  return { rejected: posesOf('rejected'), accepted: posesOf('accepted'), through: posesOf('through') };
 }
 
-/** Returns 0 for a rejected sample, 1 for an accepted one, and 2 for an accepted one whose path goes through a wall. */
-export function outcomeIndexOf(verdict: number) {
-  if ((verdict & bits.accepted) === 0) return 0;
-  return (verdict & bits.pathFree) === 0 ? 2 : 1;
+/** Returns the outcome of a sample, a word of `overlays`: `through` is accepted although its path goes through a wall. */
+export function outcomeOf(verdict: number): 'rejected' | 'accepted' | 'through' {
+  if ((verdict & bits.accepted) === 0) return 'rejected';
+  return (verdict & bits.pathFree) === 0 ? 'through' : 'accepted';
 }
 
 /**

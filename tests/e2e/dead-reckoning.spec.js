@@ -41,7 +41,7 @@ test('the figure opens with the chapter’s error of 6 % along the track, and st
   await expect(readoutValueOf(widget, 'predicted along-track variance')).toHaveText('0.94');
   await expect(readoutDetailOf(widget, 'predicted along-track variance')).toHaveText('± 0.01 of the measured, at step 20, 50\u202f000 robots');
   expect(await readMissedSteps(widget)).toEqual(['steps 15–20', 'steps 1–15', 'never']);
-  await expect(widget.locator('.folded svg.plot')).toHaveAttribute('aria-label', /Equal to first order after 2.00 s\.$/);
+  await expect(widget.locator('.folded svg.plot')).toHaveAttribute('aria-label', /: 2\.00 s$/);
   await expect(widget.getByRole('row', { name: 'along the track, at the end' }).locator('td').first()).toHaveText('−6.1 ± 0.6\u202f%');
   await expect(plotOf(widget)).toHaveAttribute('aria-label', /At step 20: along the track 0.939 ± 0.006, lateral 0.970 ± 0.006, heading/);
   for (const [canvasClass, colorRole] of [['plane', 'prior'], ['plane', 'posterior'], ['twist', 'posterior'], ['twist', 'truth']]) {

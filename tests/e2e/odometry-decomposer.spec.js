@@ -152,7 +152,7 @@ test('the plot of the deviation against the drive compares the sampled poses wit
   const widget = await openDecomposer(page, 'preset="all"');
   await openDisclosures(widget);
   const deviationPlot = widget.locator('svg.plot');
-  await expect(deviationPlot).toHaveAttribute('aria-label', /At the reading, 1\.56 m, 0\.305 m across/);
+  await expect(deviationPlot).toHaveAttribute('aria-label', /across the path, exact: 0\.305 m$/);
   await expect(deviationPlot.locator('circle')).toHaveCount(1);
   await expect(widget.locator('.readouts').last()).toContainText('exactly 0.305 m');
   await widget.getByRole('button', { name: 'Clear' }).click();

@@ -45,8 +45,6 @@ const styles = css`
 
   .choosers select {
     max-width: 100%;
-    min-height: 2em;
-    background: var(--paper);
     font: inherit;
   }
 
@@ -84,17 +82,6 @@ const styles = css`
     color: var(--paper);
     font-weight: bold;
     forced-color-adjust: none;
-  }
-
-  :host([presentation]) .views {
-    grid-template-rows: auto 1fr;
-  }
-
-  /* The picture of the leg takes the remaining space. */
-  :host([presentation]) .one {
-    display: grid;
-    grid-template-rows: 1fr auto;
-    align-self: stretch;
   }
 
   /* The results on screen are those of the previous log or settings, while another log is read or a fit takes long. */

@@ -166,7 +166,6 @@ export const de: typeof import('./en.ts').en = {
     speedAxisLabel: 'Geschwindigkeit² (m²/s²)',
     binMeansName: 'Klassenmittel',
     slopeName: (alphaSubscript) => `Steigung *α*${alphaSubscript}`,
-    plotDescription: (componentName, alphaNumber, slopeText) => `Quadrierte Residuen, ${componentName}, in Klassen, und eine Gerade mit der Steigung Alpha ${alphaNumber}, ${slopeText}.`,
     squaredResidualLabel: 'quadriertes Residuum',
   },
   windowTable: {

@@ -145,7 +145,6 @@ export const en = {
     speedAxisLabel: 'speed² (m²/s²)',
     binMeansName: 'bin means',
     slopeName: (alphaSubscript) => `slope *α*${alphaSubscript}`,
-    plotDescription: (componentName, alphaNumber, slopeText) => `Squared residuals of the ${componentName}, in bins. The slope of the line is alpha ${alphaNumber}, ${slopeText}.`,
     squaredResidualLabel: 'squared residual',
   },
   windowTable: {

@@ -211,7 +211,7 @@ function panelPlotHtml({ alpha, x, y, error, slope, interval }: CalibrationPanel
     { name: words.calibrator.alphas.intervalColumn, role: 'cloud', isBandOnly: true, x: [0, axisEnd], y: [0, scaleToAxis(slopeMiddle * axisEnd)], errors: [0, scaleToAxis(((high - low) / 2) * axisEnd)] },
   ];
   return {
-    label: texts.plotDescription(panelTitle, String(alpha + 1), slope === null ? NO_VALUE : localizeNumber(formatAlphaOrBound(slope, interval))),
+    label: `${panelTitle}, α${subscript}: ${slope === null ? NO_VALUE : localizeNumber(formatAlphaOrBound(slope, interval))}`,
     x: { name: regressorLabel, min: 0, max: axisEnd },
     y: { name: `${panelTitle}, ${texts.squaredResidualLabel}${exponent < 0 ? ` (${formatPowerOfTen(exponent)})` : ''}`, min: scaleToAxis(axisBottom), max: scaleToAxis(axisTop) },
     curves: [...slopeLines, { name: texts.binMeansName, role: 'ink', x: [], y: [] }],

@@ -40,7 +40,6 @@ export const de: typeof import('./en.ts').en = {
     errorAxis: 'Fehler des Endes (m)',
     arcFormula: 'Bogen, mit seinem Radius',
     straightLineFormula: 'Gerade',
-    description: 'Der Fehler des Endes einer Bewegung über der Drehgeschwindigkeit, auf logarithmischen Achsen: Der der Bogenform fällt mit ihr, der der Geraden steigt, und bei 2·10⁻⁷ rad/s kreuzen sie sich; der der Sehne bleibt unter beiden.',
     caption: 'Bei 1 m/s in 0,1 s, quadratisches Mittel über alle Richtungen, gegen doppelt so viele Stellen. Der Bogen verliert Stellen an seinen langen Radius, die Gerade ist gebogen; bei 2·10⁻⁸/*Δt* kreuzen sie sich. Der Code des Kapitels wechselt bei 10⁻⁶ rad/s. Die Sehnenform braucht keinen Zweig und verliert nichts.',
   },
   table: {

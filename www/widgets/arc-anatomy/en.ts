@@ -40,7 +40,6 @@ export const en = {
     errorAxis: 'error of the end (m)',
     arcFormula: 'arc, by its radius',
     straightLineFormula: 'straight line',
-    description: 'The error of the end of a motion by the turn rate, on logarithmic axes: that of the arc form falls with the turn rate, that of the straight line rises, and they cross near 2·10⁻⁷ rad/s; that of the chord stays below both.',
     caption: 'At 1 m/s for 0.1 s, root mean square over all headings, against twice the digits. The arc loses digits by its long radius, the straight line is bent; they cross near 2·10⁻⁸/*Δt*. The chapter’s code goes over at 10⁻⁶ rad/s. The chord form needs no branch and loses nothing.',
   },
   table: {

@@ -142,7 +142,7 @@ export function formErrorsPlotHtml({ ArcAnatomy }: Motion) {
   const { omega, arc, straight, chord, estimatedCrossover, threshold } = (cachedFormErrors ??= ArcAnatomy.formErrors());
   return html`<figure class="forms">
     ${plotHtml({
-      label: texts.description,
+      label: texts.errorAxis,
       x: { name: '|ω̂| (rad/s)', min: omega[0], max: omega[omega.length - 1], isLogarithmic: true },
       y: { name: texts.errorAxis, ...ERROR_AXIS_RANGE, isLogarithmic: true },
       curves: [

@@ -58,9 +58,6 @@ export const de: typeof import('./en.ts').en = {
   },
   straightDrive: {
     title: 'Warum Bananen krumm sind',
-    description: (crossingText) => `Varianzen einer Fahrt geradeaus über ihrer Dauer, auf logarithmischen Achsen. ${crossingText}`,
-    crossingNote: (totalSeconds) => `In erster Ordnung gleich nach ${totalSeconds} s.`,
-    noCrossing: 'Sie kreuzen sich nie.',
     alongCurve: 'längs, *α*₁*v*²*Δt*²',
     acrossCurve: 'quer, ¼*α*₃*v*⁴*Δt*⁴',
     exactCurves: 'exakt',

@@ -62,9 +62,6 @@ export const en = {
   },
   straightDrive: {
     title: 'Why bananas bend',
-    description: (crossingText) => `Variances of a straight drive against its duration, on logarithmic axes. ${crossingText}`,
-    crossingNote: (totalSeconds) => `Equal to first order after ${totalSeconds} s.`,
-    noCrossing: 'They never cross.',
     alongCurve: 'along the track, *α*₁*v*²*Δt*²',
     acrossCurve: 'across it, ¼*α*₃*v*⁴*Δt*⁴',
     exactCurves: 'exact',

@@ -128,7 +128,7 @@ export function straightGrowthPlotHtml({ durations: x, along, across, alongFirst
   return html`<figure>
     <p class="panel-title">${texts.title}</p>
     ${plotHtml({
-      label: texts.description(crossing === null ? texts.noCrossing : texts.crossingNote(crossingText)),
+      label: `${texts.title}${crossingText && `: ${crossingText} s`}`,
       x: { name: 'Δt (s)', min: minDuration, max: maxDuration, isLogarithmic: true },
       y: { name: texts.varianceAxisLabel, min: minVariance, max: maxVariance, isLogarithmic: true },
       curves: [

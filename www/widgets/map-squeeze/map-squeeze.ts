@@ -136,16 +136,8 @@ const styles = css`
     }
   }
 
-  .own-map p {
-    margin: 0 0 0.6em;
-  }
-
   .own-map .note {
     overflow-wrap: anywhere;
-  }
-
-  textarea {
-    margin: 0.35em 0 0.7em;
   }
 `;
 

@@ -70,8 +70,6 @@ export const de: typeof import('./en.ts').en = {
     'Die Rauschmodelle ziehen beide Drehungen unabhängig. Eine Korrelation *ρ* lässt jeder ihr Rauschen und jedem Ausgang seinen Ort; die Richtungen streuen von der Differenz der beiden Abweichungen (*ρ* = −1) bis zu ihrer Summe (*ρ* = 1). Bei *ρ* = 0 sieht man beides nicht.',
   plot: {
     title: 'Streuung über der Länge der Fahrt',
-    label: (trans, exactNumber) =>
-      `Standardabweichungen über der Länge der Fahrt: quer zum Weg, allein aus der ersten Drehung, und in Fahrtrichtung. Bei der Messung, ${trans} m, sind es quer ${exactNumber} m.`,
     acrossCurve: 'quer zum Weg, genau',
     alongCurve: 'in Fahrtrichtung',
     readingMark: 'gemessen',

@@ -70,8 +70,6 @@ export const en = {
     'The noise models draw both rotations independently. A correlation *ρ* leaves the noise of each as it is and every outcome in its place; the headings spread from the difference of the two deviations (*ρ* = −1) to their sum (*ρ* = 1). At *ρ* = 0 neither is seen.',
   plot: {
     title: 'Spread against the length of the drive',
-    label: (trans, exactNumber) =>
-      `Standard deviations against the length of the drive: across the path, from the first rotation alone, and along the path. At the reading, ${trans} m, ${exactNumber} m across.`,
     acrossCurve: 'across the path, exact',
     alongCurve: 'along the path',
     readingMark: 'read',

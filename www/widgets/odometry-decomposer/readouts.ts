@@ -71,7 +71,7 @@ export function spreadPlotHtml(readCurve: (maxLength: number, pointCount: number
   return html`<figure>
     <p class="panel-title">${texts.title}</p>
     ${plotHtml({
-      label: texts.label(formatFixed(legs.trans, 2), formatFixed(stats.exactCrossTrack, 3)),
+      label: `${texts.title}, ${texts.acrossCurve}: ${formatMetres(stats.exactCrossTrack)}`,
       x: { name: 'δ trans (m)', min: 0, max: maxLength },
       y: { name: 'σ (m)', min: 0, max: 1.08 * maxDeviation },
       curves: [

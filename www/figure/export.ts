@@ -9,8 +9,8 @@ import { accessibleNameOf } from './surface.ts';
 import type { Figure } from './figure.ts';
 
 export interface ExportData {
-  /** Settings, which exported files contain as JSON after the tag of the element. */
-  settings: object;
+  /** Settings, which exported files contain as JSON after the tag of the element; default: those of the simulation. */
+  settings?: object;
   /** Numbers of the table. A key is the names of some columns, such as 'x_m y_m theta_rad'; its value has their numbers, row by row. */
   columns: Record<string, ArrayLike<number>>;
   /** Sentences that name the state that a copied link or copied HTML does not contain. */
@@ -55,7 +55,7 @@ function hashOf(text: string) {
 const createSettingsJson = ({ localName }: Figure, settings: object) => JSON.stringify({ element: localName, ...settings });
 
 export function svgOf(figure: Figure) {
-  const { settings } = figure.exportData;
+  const { settings = figure.viewModel.config } = figure.exportData;
   const idPrefix = `figure-${hashOf(createSettingsJson(figure, settings))}`;
   const svg = new SvgContext(idPrefix);
   const { view, width, height } = drawForExport(figure, 1, () => svg);
@@ -70,7 +70,7 @@ ${svg.markup}
 
 /** Returns CSV: a comment with settings and seed, a header, and a line for each sample with all digits. */
 export function csvOf(figure: Figure) {
-  const { settings, columns } = figure.exportData;
+  const { settings = figure.viewModel.config, columns } = figure.exportData;
   const columnGroups = Object.entries(columns).map(([columnNames, numbers]) => ({ columnNames: columnNames.split(' '), numbers }));
   const rowOf = (i: number) => columnGroups.flatMap(({ columnNames, numbers }) => columnNames.map((_, columnIndex) => numbers[columnNames.length * i + columnIndex]));
   const rows = Array.from({ length: columnGroups[0].numbers.length / columnGroups[0].columnNames.length }, (_, i) => rowOf(i));

@@ -118,9 +118,8 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
   }
 
   get exportData() {
-    const { config, stats: { factors } } = this.currentViewModel;
+    const { stats: { factors } } = this.currentViewModel;
     return {
-      settings: config,
       columns: {
         'estimate residual standard_deviation residual_over_deviation prob share_of_peak':
           factors.flatMap(({ estimate, residual, deviation, deviations, value, share }) => [estimate, residual, deviation, deviations, value, share]),

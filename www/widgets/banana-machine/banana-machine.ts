@@ -232,7 +232,6 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const { config } = this.currentViewModel;
     const { poses, twists, executed } = this.simulation as Simulation;
     return {
-      settings: config,
       columns: { 'x_m y_m theta_rad': poses, 'xi_along_m xi_lateral_m xi_heading_rad': twists, [EXECUTED_COLUMNS[config.model]]: executed },
     };
   }

@@ -145,7 +145,6 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
     const { config } = this.currentViewModel;
     const { measured, relativeErrors, predicted } = this.simulation as Simulation;
     return {
-      settings: config,
       columns: {
         step: Array.from({ length: config.steps }, (_, i) => i + 1),
         [columnTitlesOf('measured')]: measured,

@@ -155,11 +155,7 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
   }
 
   get exportData() {
-    const { config, poses } = this.currentViewModel;
-    return {
-      settings: config,
-      columns: { 'x_m y_m theta_rad': poses },
-    };
+    return { columns: { 'x_m y_m theta_rad': this.currentViewModel.poses } };
   }
 
   announcementOf = captionOf;

@@ -58,18 +58,6 @@ const styles = css`
   }
 
   /* If the bars of the factors are below the picture, they are side by side. */
-  @container (22em <= width < 38em) {
-    .factors {
-      grid-template-columns: repeat(3, minmax(0, 1fr));
-      font-size: 0.88em;
-    }
-
-    .factors li {
-      grid-template-columns: 1fr;
-    }
-  }
-
-  /* Places the likelihood next to the picture. */
   @container (min-width: 38em) {
     .views {
       grid-template-columns: minmax(0, 1fr) 16em;

@@ -84,15 +84,6 @@ const styles = css`
       --beside: 0.45em;
       gap: 0.35em;
     }
-
-    .summary .readouts {
-      max-width: 8.5em;
-    }
-
-    .views .caption {
-      font-size: 0.92em;
-      line-height: 1.25;
-    }
   }
 
   .rules table {

@@ -57,7 +57,7 @@ const styles = css`
     height: 1.3em;
   }
 
-  /* If the bars of the factors are below the picture, they are side by side. */
+  /* The likelihood is next to the picture. */
   @container (min-width: 38em) {
     .views {
       grid-template-columns: minmax(0, 1fr) 16em;

@@ -4,7 +4,6 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { en, yamlWords } from '../../www/widgets/alpha-calibrator/en.ts';
 import { formatAlphaOrBound, adviseCorrection, formatInterval as ends, formatEstimate, judgementOf, localizeNumber, formatNav2Lines, formatNumber } from '../../www/widgets/alpha-calibrator/result.ts';
-import { viewCornersOf } from '../../www/widgets/alpha-calibrator/pictures.ts';
 import { SIMULATED_LEG_LENGTHS, legClassesOf, isTruthComparable } from '../../www/widgets/alpha-calibrator/settings.ts';
 import { settings } from '../../build/settings.js';
 
@@ -115,11 +114,4 @@ test('the leg settings of the simulated log equal the default settings', () => {
   assert.deepEqual(SIMULATED_LEG_LENGTHS, { distance: config.distance, angle: config.angle });
   const hasTruth = (/** @type {object} */ changedFields) => isTruthComparable(/** @type {any} */ ({ truth: {}, fittedConfig: { ...config, ...changedFields } }));
   assert.deepEqual([hasTruth({}), hasTruth({ distance: 0.3 }), hasTruth({ angle: 0.3 }), hasTruth({ duration: 1 }), hasTruth({ rule: 'nav2' })], [true, false, false, false, false]);
-});
-
-test('the picture of the path includes the odometry, as long as the reference fills half of the picture', () => {
-  const computeViewCorners = (/** @type {number[]} */ ...odometryCoordinates) => viewCornersOf([0, 0, 0, 10, 4, 0], odometryCoordinates);
-  assert.deepEqual(computeViewCorners(), [0, 0, 10, 4]);
-  assert.deepEqual(computeViewCorners(5, -2, 12, 3), [0, -2, 12, 4]);
-  assert.deepEqual(computeViewCorners(-40, -50, 60, 70), [-5, -5, 15, 9]);
 });

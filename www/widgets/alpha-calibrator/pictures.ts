@@ -7,7 +7,7 @@ import { LINES_PER_STROKE, CachedLayer, Memo, strokeInBatches, type LayerDrawCon
 import { strokePath } from '../../scene/canvas.ts';
 import { drawDots, drawCrosshair, drawOutline, drawOutlines, drawRobot, createLineLegend, createLineStyles } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
-import { View, extentAround, extentOf } from '../../scene/view.ts';
+import { View, extentAround, extentOf, widenExtent } from '../../scene/view.ts';
 import { LEG_CLASSES, LINE_STYLES, type LineName, type ViewModel } from './settings.ts';
 import type { CalibrationLegs, LegView } from '../../types.d.ts';
 
@@ -23,18 +23,8 @@ const OUTLIER_RING_RADIUS = 6;
 /** Width of the lines of a path with many legs, CSS pixels. */
 const HAIRLINE_WIDTH = 1;
 
-/**
- * Returns the corners of a box around both paths. If the odometry drifts far away, the box is cut so that the reference fills half of it.
- *
- * @param reference poses
- * @param odometry points
- */
-export function viewCornersOf(reference: ArrayLike<number>, odometry: ArrayLike<number>): number[] {
-  const referenceExtent = extentAround(reference, 3);
-  const extentOfBothPaths = extentAround(odometry, 2, referenceExtent);
-  const margin = Math.max(referenceExtent.xMax - referenceExtent.xMin, referenceExtent.yMax - referenceExtent.yMin) / 2;
-  return [Math.max(extentOfBothPaths.xMin, referenceExtent.xMin - margin), Math.max(extentOfBothPaths.yMin, referenceExtent.yMin - margin), Math.min(extentOfBothPaths.xMax, referenceExtent.xMax + margin), Math.min(extentOfBothPaths.yMax, referenceExtent.yMax + margin)];
-}
+/** Margin around the reference, relative to its size, in which odometry that drifts away is visible. */
+const DRIFT_MARGIN = 0.15;
 
 /** Picture of the path from above, in the frame of the reference. */
 export class PathPicture extends SamplesPicture<Scene> {
@@ -60,9 +50,10 @@ export class PathPicture extends SamplesPicture<Scene> {
     });
   }
 
-  fitView({ legs, overlays }: Scene) {
+  fitView({ legs }: Scene) {
     this.view.allowZoomIn();
-    this.view.fit(extentOf(legs.count > 0 ? viewCornersOf(legs.reference, overlays.includes('odometry') ? this.#odometryPathOf(legs) : []) : [0, 0], 1));
+    const extent = legs.count > 0 ? extentAround(legs.reference, 3) : extentOf([0, 0], 1);
+    this.view.fit(widenExtent(extent, DRIFT_MARGIN * Math.max(1, extent.xMax - extent.xMin, extent.yMax - extent.yMin)));
     // The view is not animated, because an animation would draw all legs in each frame.
     this.view.moveTowardsTarget(0, true);
   }

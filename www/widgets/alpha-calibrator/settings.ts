@@ -79,7 +79,7 @@ export function viewModelOf(simulation: Simulation, log: CalibrationLog | null, 
 }
 
 /** Returns the fit of a simulation, the true values of the simulated log, and the legs to show. */
-function readFit(simulation: Simulation, { duration, distance }: Simulation['config']) {
+function readFit(simulation: Simulation, { distance }: Simulation['config']) {
   const { stats, legs, truth } = simulation;
   return {
     stats,
@@ -90,12 +90,9 @@ function readFit(simulation: Simulation, { duration, distance }: Simulation['con
     /** Legs with the largest residuals, the largest first. */
     worstLegs: worstLegsOf(legs),
     /** Leg that is shown if none was chosen. */
-    defaultLeg: defaultLegOf(legs, duration > 0 ? MIN_DIRECTED_LEG : distance),
+    defaultLeg: defaultLegOf(legs, distance),
   };
 }
-
-/** Minimum length of a leg with a direction, m. */
-const MIN_DIRECTED_LEG = 0.01;
 
 /** Number of legs in the list of the largest residuals. */
 const LISTED_LEG_COUNT = 10;

@@ -58,23 +58,17 @@ const styles = css`
     --ring: var(--truth);
     width: 1.75em;
     height: 1.75em;
-    border-radius: 0;
+    transform-origin: 0 0;
   }
 
-  .handle.jamb::after {
+  .handle:is(.jamb, .side)::after {
     inset: 0.6em;
     border-width: 1.5px;
     border-radius: 1px;
   }
 
-  .handle.side {
-    transform-origin: 0 0;
-  }
-
   .handle.side::after {
-    inset: 0.625em 0.2em;
-    border-width: 1.5px;
-    border-radius: 0.25em;
+    inset-inline: 0.2em;
   }
 
   /* Handles of walls are visible while a pointer is over the picture, and always on touch screens. */
@@ -84,21 +78,11 @@ const styles = css`
     }
   }
 
-  .result {
-    display: flow-root;
-  }
-
   .headline {
     margin: 0.15em 0 0;
-    font-size: 1.7em;
+    font-size: 1.8em;
     line-height: 1.15;
     text-wrap: balance;
-  }
-
-  .verdict.caption {
-    min-height: 0;
-    margin-bottom: 0.3em;
-    font-size: 0.92em;
   }
 
   .overview {
@@ -126,10 +110,6 @@ const styles = css`
   }
 
   @container (min-width: 56em) {
-    .headline {
-      font-size: 2em;
-    }
-
     :host(:not([presentation])) .overview {
       display: block;
       width: 11em;

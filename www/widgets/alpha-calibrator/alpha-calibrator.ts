@@ -102,21 +102,11 @@ const styles = css`
     line-height: 1.2;
   }
 
-  .reason {
-    margin: 0 0 0.3em;
-  }
-
   /* The minimum height reserves space for the advice of a failed check, so that the advice does not move a slider that is dragged. */
   .to-do {
     min-height: 6.5em;
     margin: 0.2em 0;
     line-height: 1.3;
-  }
-
-  .panels {
-    display: grid;
-    grid-template-columns: repeat(auto-fit, minmax(min(100%, 17em), 1fr));
-    gap: 0.5em 1em;
   }
 
   @media print {
@@ -387,7 +377,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
           </div>
           <p class="to-do">${this.#opener.otherResultsNote || judgeFit(viewModel, this.warnings).advice.join(' ')}</p>
           ${alphaTableHtml(viewModel)}
-          <p class="reason muted small">${explainRecommendation(viewModel)}</p>
+          <p class="muted small">${explainRecommendation(viewModel)}</p>
         </div>`)}
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`

@@ -91,10 +91,6 @@ const styles = css`
     margin-bottom: 0.5em;
   }
 
-  .rules .choice {
-    min-height: max(24px, 1.6em);
-  }
-
   /* Values that differ from Table 5.6 are bold, and have a tinted background. */
   .rules td:has(strong) {
     background: color-mix(in srgb, var(--prediction) 16%, var(--paper));

@@ -21,7 +21,7 @@ export async function inspect({ givenRecordings, userChoices }: OpenedInputs, st
   const usableRecordings = givenRecordings.filter((_, i) => recordings[i].series.some(({ summary }) => summary));
   const refusalErrors = recordings.flatMap((recording) => recording.refused);
   const { command } = usableRecordings.length > 0 ? proposeCommand({ givenRecordings: usableRecordings, userChoices }, statedOptions) : {};
-  // A log that is refused is not missing.
+  // A log that was found and refused does not count as missing.
   const { missing } = command === undefined ? proposeCommand({ givenRecordings, userChoices }, statedOptions) : {};
   const isUsable = usableRecordings.length > 0 && (command !== undefined || refusalErrors.length === 0);
   return { inspection: { recordings, command, missing }, sentences: [...refusalErrors, ...(missing ? [missing] : [])], isUsable };

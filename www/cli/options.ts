@@ -62,7 +62,7 @@ const textOption = { type: 'string' } as const;
 const repeatedTextOption = { type: 'string', multiple: true } as const;
 const flagOption = { type: 'boolean' } as const;
 
-/** Options that say what the logs are, which both commands have. */
+/** Options about the logs, which both commands accept. */
 const LOG_OPTIONS = {
   odometry: repeatedTextOption, reference: repeatedTextOption, recording: repeatedTextOption, 'odometry-topic': textOption, 'reference-topic': textOption, 'odometry-frames': textOption,
   'reference-frames': textOption, columns: textOption, 'odometry-columns': textOption, 'reference-columns': textOption, 'time-unit': textOption, 'length-unit': textOption, 'angle-unit': textOption,

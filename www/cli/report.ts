@@ -123,7 +123,7 @@ function formatPersistenceRow({ persistence: { correlation: { value, interval },
 }
 
 function formatCheckRow({ name, value, expected: [low, high], passed }: CalibrationCheck): string[] {
-  // A failing value is printed with more digits if it would round to a bound.
+  // If a value that fails its check would round to a bound of the check, both are printed with more digits.
   const digitCount = [3, 4, 6, 17].find((count) => passed || [low, high].every((bound) => formatNumber(value, count) !== formatNumber(bound, count)));
   const boundsText = low === -Infinity ? `≤ ${formatNumber(high, digitCount)}` : high === Infinity ? `≥ ${formatNumber(low, digitCount)}` : `${formatNumber(low, digitCount)} to ${formatNumber(high, digitCount)}`;
   return [name, value === Infinity ? '∞' : formatNumber(value, digitCount), boundsText, passed ? 'ok' : 'FAILED', en.checks.checkNames[name]];

@@ -142,7 +142,7 @@ function parseColumnName(name: string): ColumnMeaning | undefined {
   return baseMeaning && suffix !== undefined && !UNREAD_QUANTITIES.test(suffix) ? { ...baseMeaning, prefix: suffix } : undefined;
 }
 
-/** Checks that a field can have a unit. Unknown units pass here. `logLayoutOf` refuses them. */
+/** Checks that a field can have a unit. Unknown units pass this check. `findLogLayout` refuses them. */
 function canHaveUnit(field: Field, unit: ParsedUnit | undefined): boolean {
   const [quantity, isRate] = QUANTITY_OF_FIELD[field] ?? [];
   return unit === undefined || (unit.quantity === quantity && unit.isRate === isRate);

@@ -46,7 +46,7 @@ export const REPAIR_COMMANDS: Record<Recording['format'], string> = { mcap: 'mca
 export const english = {
   place: (file: string, line: number, topic: string) =>
     `${file}${topic ? `, topic ${topic}` : ''}${line ? `, ${topic ? 'message' : 'line'} ${line}` : ''}`,
-  /** Reasons for refusing a log, each after its place. */
+  /** Reasons for refusing a log. In an error message, a reason follows the place of the error. */
   refused: {
     gone: (reason: string) => (reason === 'ENOENT' ? 'there is no such file or folder.' : `the file cannot be read (${reason}); expected is one that exists and may be read.`),
     empty: 'there is nothing in it; expected is a log of poses or commands.',

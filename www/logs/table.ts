@@ -33,7 +33,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
   const format = detectTableFormat(headLines, source.name, options.columns);
   const readableGroups = format.columnGroups.filter(({ kind }) => kind !== null);
   const headerPlace = { file: source.name, line: Math.max(1, format.firstRowNumber - 1) };
-  // If no group can be read, `logLayoutOf` throws the reason for the group with most columns.
+  // If no group can be read, `findLogLayout` throws the reason for the group with most columns.
   if (readableGroups.length === 0) findLogLayout(format.columnGroups.toSorted((a, b) => Object.keys(b.columns).length - Object.keys(a.columns).length)[0], format.columnNames, headerPlace, undefined);
   const seriesOfGroup = (group: ColumnGroup): Series => ({
     name: readableGroups.length === 1 && group.kind !== null ? '' : group.name || listNames(columnNamesOf(group)),

@@ -142,9 +142,9 @@ test.describe('when the figure first appears', () => {
 
   test('an animation of driving robots runs once per session, until a key or the pointer is pressed', NEW_PAGE_TAG, async ({ page }) => {
     await page.emulateMedia({ reducedMotion: 'no-preference' });
-    const countDrivingRobots = () => page.locator('banana-machine').evaluate((element) => /** @type {any} */ (element).cloud.driving?.robotCount);
+    const countDrivingRobots = () => page.locator('banana-machine').evaluate((element) => /** @type {any} */ (element).cloud.drivingProgress?.robotCount);
     await showPage(page, '<banana-machine></banana-machine>');
-    await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine'))?.cloud?.driving?.robotCount > 0);
+    await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine'))?.cloud?.drivingProgress?.robotCount > 0);
     await page.keyboard.press('Shift');
     expect(await countDrivingRobots()).toBeUndefined();
     await expect.poll(async () => (await readBananaResults(page.locator('banana-machine'))).shown).toBeGreaterThan(10);
@@ -156,6 +156,6 @@ test.describe('when the figure first appears', () => {
   test('the animation of driving robots does not run if the page has set the state of the figure @nightly', NEW_PAGE_TAG, async ({ page }) => {
     await page.emulateMedia({ reducedMotion: 'no-preference' });
     const widget = await openBanana(page, 'preset="gentle"');
-    expect(await widget.evaluate((element) => /** @type {any} */ (element).cloud.driving)).toBeUndefined();
+    expect(await widget.evaluate((element) => /** @type {any} */ (element).cloud.drivingProgress)).toBeUndefined();
   });
 });

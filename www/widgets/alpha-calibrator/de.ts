@@ -191,7 +191,7 @@ export const de: typeof import('./en.ts').en = {
   },
   logControls: {
     dropHint: 'Log hierher ziehen: ROS-Bag (.bag, .db3, .mcap, Ordner), CSV oder TUM, oder',
-    dropTitle: 'Odometrie und Referenz: eine Aufzeichnung mit beiden oder zwei Dateien; bei mehreren Fahrten alle Dateien zugleich. Nichts verlässt dieses Gerät.',
+    dropTooltip: 'Odometrie und Referenz: eine Aufzeichnung mit beiden oder zwei Dateien; bei mehreren Fahrten alle Dateien zugleich. Nichts verlässt dieses Gerät.',
     chooseFilesLabel: 'Dateien wählen',
     title: 'Aufzeichnung und Referenz',
     leaveLabel: 'Zurück zur simulierten',
@@ -207,7 +207,7 @@ export const de: typeof import('./en.ts').en = {
     yamlLabel: 'Zeilen für nav2_params.yaml',
     copyLabel: 'Für Nav2 kopieren',
     fitLabel: 'Für Nav2 anpassen',
-    fitTitle: 'Diese α’s gelten für ein anderes Modell: das von Nav2 anpassen, dann kopieren',
+    fitTooltip: 'Diese α’s gelten für ein anderes Modell: das von Nav2 anpassen, dann kopieren',
     saveJsonLabel: 'Alles als JSON speichern',
     noYamlNote: 'Keine Zeilen für nav2_params.yaml: Nav2 hat kein Geschwindigkeitsmodell, oder es werden keine α’s empfohlen. In JSON steht alles.',
     localizer: 'Warnung: Die Referenz ist die Schätzung eines Lokalisierers. Sie teilt Fehler mit der Odometrie, die α’s sind zu klein. Eine unabhängig gemessene Referenz verwenden.',

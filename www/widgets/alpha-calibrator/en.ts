@@ -170,7 +170,7 @@ export const en = {
   },
   logControls: {
     dropHint: 'Drop a log here: ROS bag (.bag, .db3, .mcap, folder), CSV or TUM, or',
-    dropTitle: 'Odometry and reference: one recording with both, or two files; of several drives, all files at once. Nothing leaves this device.',
+    dropTooltip: 'Odometry and reference: one recording with both, or two files; of several drives, all files at once. Nothing leaves this device.',
     chooseFilesLabel: 'choose files',
     title: 'Log and reference',
     leaveLabel: 'Back to the simulated log',
@@ -186,7 +186,7 @@ export const en = {
     yamlLabel: 'Lines for nav2_params.yaml',
     copyLabel: 'Copy for Nav2',
     fitLabel: 'Fit for Nav2',
-    fitTitle: 'These α’s are of another model: fit that of Nav2’s AMCL, then copy',
+    fitTooltip: 'These α’s are of another model: fit that of Nav2’s AMCL, then copy',
     saveJsonLabel: 'Save all as JSON',
     noYamlNote: 'No lines for nav2_params.yaml: Nav2 has no velocity model, or no α’s are recommended. JSON has everything.',
     localizer: 'Warning: the reference is a localizer’s own estimate. Its errors follow the odometry: the α’s are too small. Use a reference that is measured independently.',

@@ -193,13 +193,13 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   /** Shows why a log was refused, and what to choose. */
-  async refuse(error: Refusal) {
+  async showRefusal(error: Refusal) {
     if (isAbortError(error)) return;
     const { question: ask, place } = error;
     const { chosenFiles } = this;
     const newQuestion = ask && chosenFiles && { file: place?.file ?? '', ask };
     if (newQuestion && !chosenFiles.questions.some((question) => question.file === newQuestion.file && question.ask.option === ask.option)) chosenFiles.questions.push(newQuestion);
-    await super.refuse(error, () => newQuestion && this.logModule?.focusChooser(this.host, newQuestion));
+    await super.showRefusal(error, () => newQuestion && this.logModule?.focusChooser(this.host, newQuestion));
   }
 
 }
@@ -212,7 +212,7 @@ export function dropZoneHtml(figure: Figure, opener: LogOpener) {
   const texts = words.calibrator.logControls;
   const { readFraction, logModule } = opener;
   return html`<div class="drop-zone" id=${opener.resultElementId} part="drop">
-    <p title=${texts.dropTitle}>
+    <p title=${texts.dropTooltip}>
       ${texts.dropHint}
       ${opener.fileButtonHtml('log-files', texts.chooseFilesLabel, LOG_FILE_EXTENSIONS)}
     </p>

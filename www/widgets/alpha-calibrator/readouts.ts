@@ -240,7 +240,7 @@ function jsonOf({ viewModel: { fittedConfig, stats, legs, truth }, logName }: Fi
  */
 export function nav2ButtonHtml(figure: Figure, disabledReason: string) {
   const texts = words.calibrator.nav2;
-  if (!NAV2_RULES.includes(modelRuleOf(figure.viewModel.fittedConfig))) return buttonHtml(texts.fitLabel, () => figure.gesture.requestAndCommit(settingsOfModelRule('nav2')), { disabled: disabledReason !== '', title: disabledReason || texts.fitTitle });
+  if (!NAV2_RULES.includes(modelRuleOf(figure.viewModel.fittedConfig))) return buttonHtml(texts.fitLabel, () => figure.gesture.requestAndCommit(settingsOfModelRule('nav2')), { disabled: disabledReason !== '', title: disabledReason || texts.fitTooltip });
   const yaml = yamlOf(figure);
   return copyButtonHtml(figure, texts.copyLabel, () => yaml, { disabled: !yaml || disabledReason !== '', title: disabledReason || (yaml ? texts.yamlLabel : texts.noYamlNote) });
 }

@@ -123,8 +123,8 @@ function worstLegsOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
  * the model, and a turn on the spot shows no cloud. Returns leg 0 if there is no such leg, and −1 if there are no legs.
  */
 function defaultLegOf({ squared, outliers, odometry }: CalibrationLegs, distance: number): number {
-  const isFullLeg = (leg: number) => Math.hypot(odometry[6 * leg + 3] - odometry[6 * leg], odometry[6 * leg + 4] - odometry[6 * leg + 1]) >= distance;
-  const worstLeg = squared.reduce((worstSoFar, squaredDistance, leg) => (outliers[leg] === 0 && isFullLeg(leg) && squaredDistance > (squared[worstSoFar] ?? -1) ? leg : worstSoFar), -1);
+  const hasFullLength = (leg: number) => Math.hypot(odometry[6 * leg + 3] - odometry[6 * leg], odometry[6 * leg + 4] - odometry[6 * leg + 1]) >= distance;
+  const worstLeg = squared.reduce((worstSoFar, squaredDistance, leg) => (outliers[leg] === 0 && hasFullLength(leg) && squaredDistance > (squared[worstSoFar] ?? -1) ? leg : worstSoFar), -1);
   return worstLeg < 0 && squared.length > 0 ? 0 : worstLeg;
 }
 

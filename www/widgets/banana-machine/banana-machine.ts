@@ -209,7 +209,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       /** Returns the points of the pinned outlines that are shown, at a morph. */
       pinnedPointsAt: (outlineMorph: number) =>
         pinned ? Object.entries(morphOutlines(motion, pinned, outlineMorph)).flatMap(([name, outlinePoints]) => (overlayVisibility[name] ? [...outlinePoints] : [])) : [],
-      driving: this.cloud.driving,
+      drivingProgress: this.cloud.drivingProgress,
     };
   }
 
@@ -312,7 +312,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       ${this.renderer.renderAfterFirstPicture(() => html`
       <div class="morphing">
         ${this.player.sliderHtml('morph', texts.morph.playLabel)}
-        ${buttonHtml(this.#pinnedViewModel ? texts.unpinLabel : texts.pinLabel, () => this.#togglePin(), { title: texts.pinTitle, otherLabel: this.#pinnedViewModel ? texts.pinLabel : texts.unpinLabel })}
+        ${buttonHtml(this.#pinnedViewModel ? texts.unpinLabel : texts.pinLabel, () => this.#togglePin(), { title: texts.pinTooltip, otherLabel: this.#pinnedViewModel ? texts.pinLabel : texts.unpinLabel })}
       </div>
       ${legendHtml(this, LINE_STYLES)}
       <p part="caption" class="caption ${unusualCloudNote && 'note'}">${captionOf(viewModel)}</p>

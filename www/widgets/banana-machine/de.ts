@@ -67,7 +67,7 @@ export const de: typeof import('./en.ts').en = {
   pinLabel: 'Festhalten',
   unpinLabel: 'Loslassen',
   pinnedLabel: 'festgehalten',
-  pinTitle: 'Behält diese Umrisse und Zahlen zum Vergleich',
+  pinTooltip: 'Behält diese Umrisse und Zahlen zum Vergleich',
   sliderLimitText: 'Hier enden die Regler',
   chartDescription: 'Exakte Schiefe quer zur Fahrt über dem befohlenen ω, beim jetzigen Rauschen',
   chartSliderName: 'Befohlenes ω im Diagramm',

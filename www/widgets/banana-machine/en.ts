@@ -71,7 +71,7 @@ export const en = {
   pinLabel: 'Pin',
   unpinLabel: 'Unpin',
   pinnedLabel: 'pinned',
-  pinTitle: 'Keep these outlines and numbers to compare with',
+  pinTooltip: 'Keep these outlines and numbers to compare with',
   sliderLimitText: 'The sliders end here',
   chartDescription: 'Exact cross-track skew against commanded ω, for the present noise',
   chartSliderName: 'Commanded ω on the chart',

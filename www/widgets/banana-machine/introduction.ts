@@ -36,7 +36,7 @@ export class IntroducedCloud extends Cloud {
   }
 
   /** Number of driving robots, and the completed fraction of their path. */
-  get driving(): { robotCount: number, pathFraction: number } | undefined {
+  get drivingProgress(): { robotCount: number, pathFraction: number } | undefined {
     if (this.#phase !== 'driving') return undefined;
     const elapsedMs = performance.now() - (this.#startTimeMs ?? performance.now());
     return { robotCount: elapsedMs < DRIVE_DURATION_MS ? 1 : DRIVING_ROBOT_COUNT, pathFraction: Math.min(1, (elapsedMs % DRIVE_DURATION_MS) / DRIVE_DURATION_MS) };

@@ -91,8 +91,8 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     const callouts = isFloorPicture ? [...scene.callouts] : [];
     clipToPlot(drawContext, () => {
       if (morph > 0 && morph < 1) drawMorphGrid(drawContext, twistView, morph);
-      if (scene.driving) {
-        if (isFloorPicture) drawDrivingRobots(drawContext, simulation, scene.driving);
+      if (scene.drivingProgress) {
+        if (isFloorPicture) drawDrivingRobots(drawContext, simulation, scene.drivingProgress);
         return;
       }
       const isSinglePoint = this.#isSinglePoint(scene);

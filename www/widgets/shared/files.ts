@@ -39,13 +39,13 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     try {
       await openFiles(isLatest);
     } catch (error) {
-      if (isLatest()) await this.refuse(error);
+      if (isLatest()) await this.showRefusal(error);
     }
     return isLatest();
   }
 
   /** Shows why files were refused. `focusAnswer` moves the focus to a control that answers the refusal, and returns true if there is one. */
-  async refuse(error: unknown, focusAnswer: () => boolean | undefined = () => false) {
+  async showRefusal(error: unknown, focusAnswer: () => boolean | undefined = () => false) {
     const { host } = this;
     this.refusal = error;
     host.requestUpdate();

@@ -149,8 +149,8 @@ fn build_trajectory(rows: &[LogRow], input: &mut InputReader) -> Option<Trajecto
             let break_indices: Vec<usize> = (0..input.next_below(4)).map(|_| usize::from(input.next_byte())).collect();
             Some(trajectory.with_breaks_before(break_indices))
         }
-        Err(TrajectoryError::NotLater { sample: refused_index, before: time_before }) => {
-            assert!(refused_index > 0 && rows[refused_index].0 <= time_before && rows[refused_index - 1].0 == time_before);
+        Err(TrajectoryError::NotLater { sample: refused_index }) => {
+            assert!(refused_index > 0 && rows[refused_index].0 <= rows[refused_index - 1].0);
             None
         }
         // Poses after large commands may overflow, so that the trajectory is refused.

@@ -5,7 +5,7 @@ use super::legs::{Leg, LostLegs, MIN_LEGS};
 use super::likelihood::{
     Expansion, FreeMask, LegTerm, POSITION_VARIANCE, Parameters, Residuals, YAW_VARIANCE, identifiable_errors,
 };
-use super::optimizer::maximize;
+use super::optimizer::{EXACT_GAIN, maximize};
 use super::residuals::Observation;
 use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
@@ -40,6 +40,9 @@ const MAX_LEGS: usize = 6_000;
 const LEGS_PER_BLOCK: usize = 100;
 
 const MAX_ROUNDS: usize = 15;
+
+/// Gain of log-likelihood (nats) of a step of half a standard error, below which the search in a round ends. The next round changes the residuals.
+const ROUND_GAIN: f64 = 0.1;
 
 /// Change of a systematic error between rounds, relative to its standard error, below which the rounds end.
 const CONVERGENCE_TOLERANCE: f64 = 0.05;
@@ -99,10 +102,11 @@ impl LegSet {
             if residuals.terms.len() < MIN_LEGS {
                 return Err(CalibrateError::TooFewLegs { legs: residuals.terms.len() });
             }
-            let maximum = maximize(&residuals, start_parameters);
+            let maximum = maximize(&residuals, start_parameters, ROUND_GAIN);
             let corrected = log.map(|log| self.corrected_errors(log, &maximum));
             let has_converged = corrected.is_none_or(|(_, is_small_change)| is_small_change);
             if !has_new_outliers && round > 1 && has_converged || round == MAX_ROUNDS {
+                let maximum = maximize(&residuals, maximum.parameters, EXACT_GAIN);
                 return Ok(Fit { sample: self, residuals, maximum });
             }
             if let (Some(log), Some((systematic, _))) = (log, corrected) {

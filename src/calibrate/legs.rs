@@ -165,7 +165,7 @@ impl Drive<'_> {
         let end_at_sample = |sample| {
             let (reference_time, pose) = self.reference.sample(sample);
             let time = reference_time - clock_offset;
-            let (odometry, velocity) = (self.odometry.pose_at(time)?, self.odometry.velocity(time));
+            let (odometry, velocity) = self.odometry.motion_at(time)?;
             Some(LegEnd { reading, time, odometry, velocity, reference: Some(pose) })
         };
         neighbours.into_iter().flatten().find_map(end_at_sample).unwrap_or(LegEnd {
@@ -182,8 +182,7 @@ impl Drive<'_> {
     pub(super) fn realigned(&self, mut leg: Leg, offset_change: f64) -> Option<Leg> {
         for end in 0..2 {
             leg.times[end] -= offset_change;
-            leg.odometry[end] = self.odometry.pose_at(leg.times[end])?;
-            leg.velocities[end] = self.odometry.velocity(leg.times[end]);
+            (leg.odometry[end], leg.velocities[end]) = self.odometry.motion_at(leg.times[end])?;
         }
         Some(leg)
     }

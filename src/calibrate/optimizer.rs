@@ -2,9 +2,8 @@
 
 use super::likelihood::{Expansion, FreeMask, PARAMETER_COUNT, Parameters, Residuals, masked_inverse};
 
-/// Minimum gain of log-likelihood (nats): that of a step of 0.014 standard errors. The search ends at a step whose predicted or actual gain is
-/// smaller.
-const MIN_GAIN: f64 = 1e-4;
+/// Gain of log-likelihood (nats) of a step of 0.014 standard errors, below which a search is exact.
+pub(super) const EXACT_GAIN: f64 = 1e-4;
 
 const MAX_STEPS: usize = 60;
 
@@ -14,13 +13,14 @@ const MAX_HALVINGS: i32 = 10;
 /// Relative rounding error of a step that makes a variance 0.
 const ROUNDING_TOLERANCE: f64 = 1e-9;
 
-/// Returns the expansion around the maximum, by Fisher scoring. A step that does not increase the likelihood is halved.
-pub(super) fn maximize(residuals: &Residuals, start: Parameters) -> Expansion {
+/// Returns the expansion around the maximum, by Fisher scoring. A step that does not increase the likelihood is halved. The search ends at a
+/// step whose predicted or actual gain of log-likelihood (nats) is below `min_gain`.
+pub(super) fn maximize(residuals: &Residuals, start: Parameters, min_gain: f64) -> Expansion {
     let mut expansion = residuals.expansion(&start, residuals.filtered(&start));
     for _ in 0..MAX_STEPS {
         let Expansion { parameters, score, filtered, .. } = &expansion;
         let step = feasible_parameters(&expansion, residuals.free, Parameters::zeros()) - parameters;
-        if 0.5 * score.dot(&step) < MIN_GAIN {
+        if 0.5 * score.dot(&step) < min_gain {
             break;
         }
         let better_parameters = (0..=MAX_HALVINGS).find_map(|halvings| {
@@ -31,7 +31,7 @@ pub(super) fn maximize(residuals: &Residuals, start: Parameters) -> Expansion {
         });
         let Some((candidate, filtered, gain)) = better_parameters else { break };
         expansion = residuals.expansion(&candidate, filtered);
-        if gain < MIN_GAIN {
+        if gain < min_gain {
             break;
         }
     }

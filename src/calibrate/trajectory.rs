@@ -26,13 +26,11 @@ pub enum TrajectoryError {
         /// Index of the sample.
         sample: usize,
     },
-    /// The time of the sample is not later than `before` (s), the time of the sample before it.
-    #[error("sample {sample} is not later than the one before, at {before} s; allowed are times that rise")]
+    /// The time of the sample is not later than the time of the sample before it.
+    #[error("sample {sample} is not later than the one before; allowed are times that rise")]
     NotLater {
         /// Index of the sample.
         sample: usize,
-        /// Time of the sample before, s.
-        before: f64,
     },
 }
 
@@ -56,8 +54,8 @@ impl Trajectory {
             if ![time, pose.x(), pose.y(), pose.theta()].iter().all(|number| number.is_finite()) {
                 return Err(TrajectoryError::NotFinite { sample });
             }
-            if let Some(before) = times.last().copied().filter(|before| time <= *before) {
-                return Err(TrajectoryError::NotLater { sample, before });
+            if times.last().is_some_and(|before| time <= *before) {
+                return Err(TrajectoryError::NotLater { sample });
             }
             times.push(time);
             poses.push(pose);
@@ -137,18 +135,18 @@ impl Trajectory {
         self.poses.first().map(|_| 0.0).into_iter().chain(steps).collect()
     }
 
-    /// Returns the velocity (m/s ahead and to the left, rad/s) at a time (s), interpolated between the samples before and after it.
+    /// Returns the pose and the velocity (m/s ahead and to the left, rad/s) at a time (s). None outside of the trajectory and inside of a gap.
     ///
-    /// Noise of a step is both in its velocity and in the residuals of legs. Interpolated velocities have equal noise from the leg that
-    /// ends and from the leg that begins. Otherwise the clock offset would be biased.
-    pub(super) fn velocity(&self, time: f64) -> Vector3<f64> {
-        match self.locate(time) {
-            Some((sample, 1.0)) => self.velocity_of_sample(sample),
-            Some((sample, fraction)) => {
-                self.velocity_of_sample(sample - 1).lerp(&self.velocity_of_sample(sample), fraction)
-            }
-            None => Vector3::zeros(),
-        }
+    /// The velocity is interpolated between the samples before and after the time. Noise of a step is both in its velocity and in the residuals
+    /// of legs. Interpolated velocities have equal noise from the leg that ends and from the leg that begins. Otherwise the clock offset would
+    /// be biased.
+    pub(super) fn motion_at(&self, time: f64) -> Option<(SE2, Vector3<f64>)> {
+        let (sample, fraction) = self.locate(time)?;
+        let velocity = match fraction {
+            1.0 => self.velocity_of_sample(sample),
+            _ => self.velocity_of_sample(sample - 1).lerp(&self.velocity_of_sample(sample), fraction),
+        };
+        Some((self.pose_in_step(sample, fraction), velocity))
     }
 
     /// Returns the mean velocity over the steps before and after a sample.
@@ -204,16 +202,20 @@ impl Trajectory {
 
     /// Returns the pose at `time` (s). Between two samples it lies on the arc of constant velocities that joins them. None outside of the
     /// trajectory and inside of a gap.
+    pub fn pose_at(&self, time: f64) -> Option<SE2> {
+        self.locate(time).map(|(sample, fraction)| self.pose_in_step(sample, fraction))
+    }
+
+    /// Returns the pose after a fraction of the step to a sample.
     // Not inlined, because the code for arcs is long.
     #[inline(never)]
-    pub fn pose_at(&self, time: f64) -> Option<SE2> {
-        let (sample, fraction) = self.locate(time)?;
+    fn pose_in_step(&self, sample: usize, fraction: f64) -> SE2 {
         let pose = self.poses[sample];
         if fraction == 1.0 {
-            return Some(pose);
+            return pose;
         }
         let before = self.poses[sample - 1];
-        Some(before.boxplus(pose.boxminus(&before) * fraction))
+        before.boxplus(pose.boxminus(&before) * fraction)
     }
 }
 

@@ -8,7 +8,7 @@ use super::checks::{
 use super::fit::{Fit, LegSet};
 use super::legs::{Leg, distance};
 use super::likelihood::{Parameters, Residuals, reference_covariance};
-use super::optimizer::maximize;
+use super::optimizer::{EXACT_GAIN, maximize};
 use super::residuals::Observation;
 use super::result::Recommendation;
 use crate::geom::se2::SE2;
@@ -153,7 +153,7 @@ pub(super) fn cross_validate(fit: &Fit, all_legs: &LegSet, alphas: &[Option<f64>
     let split_in_halves = |legs: usize| [0..legs / 2, legs / 2..legs];
     let leg_count = fit.sample.legs.len();
     let residuals = split_in_halves(leg_count).map(|half| fit.sample.inlier_residuals(half));
-    let parameters_of = |half: &Residuals| maximize(half, fit.maximum.parameters).parameters;
+    let parameters_of = |half: &Residuals| maximize(half, fit.maximum.parameters, EXACT_GAIN).parameters;
     let parameters_by_other_half = [parameters_of(&residuals[1]), parameters_of(&residuals[0])];
     let (mut covered_legs, mut compared_legs) = (0, 0);
     for (residuals, parameters) in residuals.iter().zip(&parameters_by_other_half) {

@@ -1,6 +1,6 @@
 //! Reader of the logs that JavaScript passes: odometry and reference.
 
-use super::fields::{FieldReader, array_item, array_length, number_text, read_integer, read_number};
+use super::fields::{FieldReader, array_item, array_length, read_integer, read_number};
 use crate::calibrate::{Trajectory, TrajectoryError};
 use crate::geom::se2::SE2;
 use crate::sim::alpha_calibrator::Log;
@@ -18,8 +18,8 @@ export interface LoggedPoses {
   y: ArrayLike<number>;
   theta: ArrayLike<number>;
   /**
-   * Indices, rising, of poses before which the path is unknown, in addition to those after a pause: where rows are
-   * missing, or the path jumps.
+   * Indices of poses before which the path is unknown, in addition to those after a pause: where rows are missing, or the
+   * path jumps.
    */
   breaks?: ArrayLike<number>;
 }
@@ -95,46 +95,24 @@ fn read_poses(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     checked_trajectory(fields, Trajectory::new(t.iter().copied().zip(poses)))
 }
 
-/// Adds the breaks in `fields` to a trajectory. JavaScript formats the numbers of error messages, because Rust's number formatting would
-/// take 5 % of a module.
+/// Returns a trajectory of the columns in `fields`, with the breaks before the samples that `fields.breaks` lists.
 fn checked_trajectory(
     fields: &FieldReader,
     trajectory: Result<Trajectory, TrajectoryError>,
 ) -> Result<Trajectory, JsValue> {
-    let mut trajectory = trajectory.map_err(|error| {
-        let (sample, problem) = match error {
-            TrajectoryError::NotFinite { sample } => (
-                sample,
-                "has a time or a coordinate that is not finite; allowed are finite numbers".to_owned(),
-            ),
-            TrajectoryError::NotLater { sample, before: previous_time } => {
-                let previous_text = number_text(previous_time);
-                let problem = format!(
-                    "is not later than the one before, at {previous_text} s; allowed are times that rise"
-                );
-                (sample, problem)
-            }
-        };
-        let field = fields.path("");
-        JsValue::from(RangeError::new(&format!("{}: sample {sample} {problem}", field.trim_end_matches('.'))))
-    })?;
-    let (field, breaks) = (fields.path("breaks"), fields.value("breaks")?);
-    if breaks.is_undefined() {
-        return Ok(trajectory);
-    }
-    let (last, mut previous) = (trajectory.samples().len() - 1, 0);
-    for i in 0..array_length(&field, &breaks, "an array of numbers")? {
-        let path = format!("{field}[{i}]");
-        let sample =
-            read_integer(&path, read_number(&path, &array_item(&breaks, i)?)?, 1..=last as u64)? as usize;
-        if sample <= previous {
-            let message = format!("{path} is {sample}; allowed is more than {previous}, the one before it");
-            return Err(RangeError::new(&message).into());
-        }
-        trajectory = trajectory.with_breaks_before([sample]);
-        previous = sample;
-    }
-    Ok(trajectory)
+    let name_field = |error| format!("{}: {error}", fields.path("").trim_end_matches('.'));
+    let trajectory = trajectory.map_err(|error| RangeError::new(&name_field(error)))?;
+    let last_sample = trajectory.samples().len() as u64 - 1;
+    let read_breaks = |path: &str, breaks: &JsValue| {
+        let break_count = array_length(path, breaks, "an array of numbers")?;
+        let numbers = read_numbers_of_column(path, breaks, break_count)?;
+        let indexed_numbers = numbers.into_iter().enumerate();
+        let samples =
+            indexed_numbers.map(|(i, sample)| read_integer(&format!("{path}[{i}]"), sample, 1..=last_sample));
+        samples.collect::<Result<Vec<u64>, JsValue>>()
+    };
+    let breaks = fields.read_optional("breaks", read_breaks)?.unwrap_or_default();
+    Ok(trajectory.with_breaks_before(breaks.into_iter().map(|sample| sample as usize)))
 }
 
 /// Reads arrays of numbers, all of which must have the length of the first array, the times.

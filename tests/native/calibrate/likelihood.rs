@@ -269,7 +269,7 @@ fn alphas_and_their_intervals_scale_with_the_noise() {
 /// smaller likelihood.
 #[test]
 fn the_noise_of_the_reference_maximizes_the_likelihood() {
-    let sim = Simulation { reference_stds: [0.02, 0.02], ..Simulation::of(NAV2, 400, 5) };
+    let sim = Simulation { reference_stds: [0.02, 0.02], ..Simulation::of(NAV2, 1500, 5) };
     let simulated_log = sim.log();
     // Systematic errors are not corrected, so that all likelihoods are of the same residuals.
     let calibrate_with_stds = |position_std: Option<f64>, yaw_std: Option<f64>| {
@@ -289,7 +289,7 @@ fn the_noise_of_the_reference_maximizes_the_likelihood() {
         "{} {max_log_likelihood}",
         log_likelihood_at(position_std, yaw_std)
     );
-    for std_factor in [0.8, 1.25] {
+    for std_factor in [0.985, 1.015] {
         assert!(
             log_likelihood_at(std_factor * position_std, yaw_std) < max_log_likelihood
                 && log_likelihood_at(position_std, std_factor * yaw_std) < max_log_likelihood,

@@ -208,7 +208,7 @@ fn times_must_rise_and_numbers_must_be_finite() {
         Trajectory::new(poses).err().map(|trajectory_error| trajectory_error.to_string())
     };
     assert_eq!([message_for(&[]), message_for(&[(1.0, 2.0)])], [None, None]);
-    let not_later_message = "sample 2 is not later than the one before, at 1 s; allowed are times that rise";
+    let not_later_message = "sample 2 is not later than the one before; allowed are times that rise";
     assert_eq!(message_for(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0)]).as_deref(), Some(not_later_message));
     let not_finite_message =
         "sample 1 has a time or a coordinate that is not finite; allowed are finite numbers";

@@ -96,8 +96,7 @@ pub fn arc_with_turn_near(x: &SE2, x_next: &SE2, near_turn: f64) -> (f64, f64) {
     (length * (total_turn / turn), total_turn)
 }
 
-/// Path of a point that leaves `start` along its heading. It drives the signed `length` (m) while turning by `turn` (rad, any number
-/// of circles).
+/// Path of a point that leaves `start` along its heading and drives the signed `length` (m) while it turns by `turn` (rad, any size).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
     /// Pose at the start.
@@ -116,8 +115,7 @@ impl Arc {
         SE2::new(x, y, heading)
     }
 
-    /// Returns the end points of chords of about one degree, for at most two revolutions. An arc of 1 m and 1 rad deviates from its chords
-    /// by up to 0.05 mm.
+    /// Returns the ends of chords of about one degree, for at most two revolutions. They are within 0.05 mm of an arc of 1 m and 1 rad.
     pub fn points(&self) -> Vec<[f64; 2]> {
         let chord_count = (self.turn.abs() / 0.02).clamp(1.0, 640.0).ceil();
         (0..=chord_count as u32)
@@ -349,8 +347,7 @@ impl LocalArc {
         [dx * self.forward[0] + dy * self.forward[1], dx * self.left[0] + dy * self.left[1]]
     }
 
-    /// Returns κ|p|²/2 − y of a point p. It is 0 on the circle (or line) of the arc, and positive outside the circle (or to the right of
-    /// the line).
+    /// Returns κ|p|²/2 − y of a point p: 0 on the circle (or line) of the arc, positive outside the circle (or right of the line).
     pub fn circle_equation_value(&self, [x, y]: [f64; 2]) -> f64 {
         0.5 * self.curvature * (x * x + y * y) - y
     }

@@ -21,8 +21,7 @@ const POINTS_PER_DECADE: i32 = 8;
 const HEADING_COUNT: u32 = 24;
 
 js_structs! {
-    /// Errors (m) of three formulas for the end of a motion at 1 m/s for 0.1 s, by turn rate. Each error is the root mean square over all
-    /// headings.
+    /// Errors (m) of three formulas for the end of a motion at 1 m/s for 0.1 s, by turn rate: root mean squares over all headings.
     #[derive(Clone, Debug, PartialEq)]
     pub struct FormErrors {
         /// Turn rates, rad/s.

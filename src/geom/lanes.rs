@@ -10,8 +10,7 @@ use wide::{bytemuck, f64x2, f64x4, u64x4};
 /// Number of lanes of a SIMD vector.
 pub const LANE_COUNT: usize = 4;
 
-/// Maximum absolute error of sine, cosine and sinc: about 2.5 units in the last place of 1. The polynomials contribute at most 1.9e-16, and
-/// rounding the rest.
+/// Maximum absolute error of sine, cosine and sinc: about 2.5 units in the last place of 1. The polynomials contribute at most 1.9e-16.
 pub const MAX_SIN_COS_ERROR: f64 = 6e-16;
 
 /// Values of sin x/x, sin x and cos x for four angles.

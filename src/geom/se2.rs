@@ -163,8 +163,7 @@ impl From<[f64; 3]> for SE2 {
     }
 }
 
-/// Returns h·cot h with h = ω/2. Near 0 a series is used, because the three roundings of the closed form would be the largest error of the
-/// logarithm.
+/// Returns h·cot h with h = ω/2. Near 0 a series is used, because rounding of the closed form would dominate the error of the logarithm.
 fn h_cot_h(turn: f64) -> f64 {
     if turn.abs() < MAX_SERIES_ANGLE {
         return 1.0 - turn * cotangent_defect(turn);

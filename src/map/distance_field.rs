@@ -44,8 +44,7 @@ const RELATIVE_UNCERTAINTY: f64 = 0.125;
 /// Lower bound of a cell whose distance to the walls was not computed.
 const NOT_COMPUTED: f32 = f32::MIN;
 
-/// Distance from a block of cells to the nearest wall, as a multiple of half the block's diagonal, beyond which the block is not divided
-/// further.
+/// Distance from a block of cells to the nearest wall, in units of half the block's diagonal, beyond which the block is not divided.
 const UNDIVIDED_DISTANCE_RATIO: f64 = 8.0;
 
 impl DistanceField {
@@ -208,8 +207,7 @@ impl FieldBuilder {
             }
             return;
         }
-        // If `min_distance > block_radius`, no wall passes through the block, so that all of the block is inside or all is outside the
-        // occupied cells.
+        // If `min_distance > block_radius`, no wall passes through the block: all of it is inside, or all is outside, the occupied cells.
         let is_in_blocked_cell = min_distance > block_radius
             && occupied_grid.is_some_and(|occupied_grid| occupied_grid.is_blocked_at(block_centre));
         for row in bottom..top {

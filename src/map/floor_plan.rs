@@ -342,8 +342,7 @@ impl ArcSweep<'_> {
         if distance_field.upper_bound(min_lower_bound) <= self.clearance - piece.max_error {
             return false;
         }
-        // A part no longer than the diagonal of a cell is not divided, because the field is too coarse. The distances to the walls near it
-        // are computed.
+        // A part no longer than the diagonal of a cell is not divided, because the field is too coarse. Distances to walls are computed.
         let is_divisible = half_part_length > distance_field.cell_radius;
         let [x, y] = part_middles.map(|lanes| lanes.to_array());
         (0..LANE_COUNT).all(|i| {
@@ -357,8 +356,7 @@ impl ArcSweep<'_> {
         })
     }
 
-    /// Tests whether all walls near a part of the arc keep the clearance. For most walls the distance to the middle of the part is
-    /// enough to decide.
+    /// Tests whether all walls near a part of the arc keep the clearance. For most walls the distance to the middle of the part decides.
     fn are_walls_clear(&mut self, part_middle: [f64; 2], part_radius: f64, max_error: f64) -> bool {
         let (arc, clearance) = (self.arc, self.clearance);
         let get_local_arc = || self.local_arc.get_or_init(|| arc.local_arc());

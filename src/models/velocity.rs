@@ -79,8 +79,7 @@ impl VelocityModel {
         (9.0 * omega_std * u.dt / TAU).ceil().min(MAX_WINDINGS) as i32
     }
 
-    /// Returns the pose reached from `x` when the noises are `unit_noise` times their standard deviations. This is Table 5.3 after its
-    /// three draws.
+    /// Returns the pose reached from `x` if the noises are `unit_noise` times their standard deviations (Table 5.3 after its draws).
     pub fn apply_noise(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> SE2 {
         let ArcInversion { v_hat, omega_hat, gamma_hat } = self.executed_motion(u, unit_noise);
         let (forward, left) = arc_end(v_hat * u.dt, omega_hat * u.dt);

@@ -76,8 +76,7 @@ js_structs! {
     pub struct RuleNoise {
         /// Rule of the decomposition and of the noise.
         pub rule: OdometryRule as "OdometryDecomposerSettings['rule']",
-        /// Rotation, translation and rotation. If the rule treats a short reading as a turn on the spot, the second rotation is the whole
-        /// turn.
+        /// Rotation, translation and rotation. If the rule sees a turn on the spot, the second rotation is the whole turn.
         pub legs: OdomDelta,
         /// Standard deviations of the first rotation (rad), the translation (m) and the second rotation (rad), and of the sideways noise of
         /// the translation (m).

@@ -24,8 +24,7 @@ pub struct CrossTrackStats {
 /// of an operation is about 1e-16. With a larger bound narrow clouds would count as lines.
 pub(super) const MIN_RELATIVE_STD: f64 = 1e-12;
 
-/// Variance (m²) below which a standard deviation also counts as 0. The sixth power of 10⁻⁵⁰ m nearly underflows, so that the standard
-/// error would be 0.
+/// Variance (m²) below which a standard deviation also counts as 0. Otherwise its sixth power would underflow in the standard error.
 const MIN_VARIANCE: f64 = 1e-100;
 
 impl CrossTrackStats {

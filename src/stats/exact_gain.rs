@@ -63,8 +63,7 @@ impl ExactGain {
         motion.gain(&ExactMoments::of_velocity(model, u))
     }
 
-    /// Returns the exact likelihood gain for a reading `u` under the odometry model. The reading comes from a command that turns by `turn`
-    /// (rad).
+    /// Returns the exact likelihood gain for a reading `u` under the odometry model. The command of the reading turns by `turn` (rad).
     pub fn of_odometry(model: &impl RotTransRot, u: &OdomDelta, turn: f64) -> Self {
         let [rot1_std, trans_std, rot2_std] = model.variances(u).map(|variance| variance.0.sqrt());
         // The length in a reading is never negative. After a drive in reverse, the first rotation of the reading therefore differs by half

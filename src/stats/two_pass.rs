@@ -114,8 +114,7 @@ impl FirstPass {
         );
     }
 
-    /// Adds the values of irregular arcs, and subtracts those of the driven `regular_arcs`, because the sums of the unit noise contain
-    /// them.
+    /// Adds the values of irregular arcs. Subtracts those of the driven `regular_arcs`, which the sums of the unit noise contain.
     #[inline(never)]
     pub fn add_irregular_arcs(&mut self, arcs: &FourArcs, regular_arcs: [f64x4; 2], mask: f64x4) {
         let [.., length, half_turn] = self.reference_point;

@@ -25,8 +25,7 @@ impl From<FloorPlanError> for JsValue {
     }
 }
 
-/// Reads a floor plan { bounds: [x, y, x, y], walls: [[x, y, x, y], …] }, as in JSON. The walls may also be one Float64Array, as the getter
-/// of the map returns them.
+/// Reads a floor plan { bounds: [x, y, x, y], walls: [[x, y, x, y], …] }, as in JSON. The walls may also be a Float64Array.
 pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
     let fields = FieldReader::new("plan", "", plan, &["bounds", "walls"])?;
     let bounds = read_array("bounds", &fields.value("bounds")?)?;

@@ -213,8 +213,7 @@ pub fn js_invert_arc(start: &JsPose, next: &JsPose, dt: f64) -> Result<JsValue, 
     }))
 }
 
-/// Returns the rotation, translation and rotation between two poses of the odometry frame (Table 5.5, lines 2–4). A turn on the spot is all
-/// in `rot2`.
+/// Returns rotation, translation and rotation between two odometry poses (Table 5.5). A turn on the spot is all in `rot2`.
 #[wasm_bindgen(unchecked_return_type = "OdomDelta")]
 pub fn decompose(start: &JsPose, next: &JsPose) -> Result<JsValue, JsValue> {
     Ok(to_plain_js(&OdomDelta::from_poses(&read_pose("start", start)?, &read_pose("next", next)?)))

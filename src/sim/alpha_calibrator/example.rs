@@ -33,8 +33,7 @@ pub const DISTANCE_SCALE: f64 = 1.02;
 /// Ratio of true turns to odometry turns.
 pub const TURN_SCALE: f64 = 0.97;
 
-/// Jumps of the reference: size (m), number of rows that a jump lasts, and probability that a jump begins at a row. On average one leg in
-/// 70 becomes an outlier.
+/// Jumps of the reference: size (m), duration in rows, and probability that a jump begins at a row. One leg in 70 becomes an outlier.
 const JUMP_SIZE: f64 = 0.5;
 const ROWS_PER_JUMP: usize = 25;
 const JUMP_PROBABILITY: f64 = 4e-4;

@@ -178,8 +178,7 @@ impl AlphaCalibrator {
         })
     }
 
-    /// Returns the true values, if the log is simulated. The true α's hold for the leg length and the odometry rule with which the log was
-    /// simulated.
+    /// Returns the true values, if the log is simulated. Its α's hold for the simulated leg length and odometry rule.
     pub fn truth(&self) -> Option<Truth> {
         matches!(self.log_source, LogSource::Simulated).then_some(Truth {
             alphas: example::TRUE_ALPHAS,

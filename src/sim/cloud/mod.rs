@@ -55,8 +55,7 @@ impl Cloud {
     ) -> CloudStats {
         self.draws.reset_if_changed(seed, noise);
         (self.drive, self.shown_count) = (drive, shown_count);
-        // The sums contain differences from the expected mean. The first pass is repeated if the mean of the cloud is far from the expected
-        // mean.
+        // The sums contain differences from the expected mean. The first pass is repeated if the mean of the cloud is far from it.
         let (reference_point, jacobian_scale) = drive.nominal_coordinates();
         let mut first_pass = self.run_first_pass(FirstPass::new(reference_point, jacobian_scale));
         if let Some(better_point) = first_pass.better_reference_point(shown_count) {

@@ -70,8 +70,7 @@ impl ViewGrid {
     }
 }
 
-/// Returns the index of the point nearest to `target` inside the ellipse with the semi-axes `radii` around it. Distances are in units of
-/// the semi-axes.
+/// Returns the index of the point nearest to `target` inside the ellipse around it, in units of the ellipse's semi-axes `radii`.
 pub fn nearest_index(
     points: impl IntoIterator<Item = [f64; 2]>,
     target: [f64; 2],

@@ -86,8 +86,7 @@ impl MapSqueeze {
         &self.plan
     }
 
-    /// Replaces the map, and keeps the start pose and the draws. As many attempts are made as before, or all if the simulation had given
-    /// up.
+    /// Replaces the map, and keeps start pose and draws. Makes as many attempts as before, or all if the simulation had given up.
     pub fn set_plan(&mut self, plan: FloorPlan) {
         self.plan = plan;
         let attempt_count = if self.tally.gave_up { self.settings.samples } else { self.shown_count() };

@@ -10,10 +10,10 @@ const WIDTH_CLASS_BOUNDS_EM = [20, 30, 38, 46, 56, 80];
 const HEIGHTS_EM: Record<string, ([number, number] | string)[]> = {
   'banana-machine': [[88, 87], [71, 60], [53, 51], [51, 50.5], [51, 56.5]],
   'map-squeeze': [[80, 75], [75, 71], [42, 42], [42, 46], [46.5, 44]],
-  'arc-anatomy': [[74, 74], [74, 67.5], [40, 42], [42, 48], [47.5, 47]],
+  'arc-anatomy': [[75.5, 75.5], [75.5, 69], [41.5, 43.5], [43.5, 49.5], [49, 48.5]],
   'odometry-decomposer': [[99, 101], [97, 92.5], 'clamp(44.9em, 100svh - 0.1em, 56.1em)', 'clamp(44.9em, 100svh - 0.1em, 56.1em)', 'clamp(45.1em, 100svh + 0.1em, 52.7em)'],
   'dead-reckoning': [[93, 105], [65, 48], [48.5, 43.5], [43.5, 49], [41, 42]],
-  'alpha-calibrator': [[101, 106], [104, 96], [52.5, 55], [55, 58], [41, 39.5]],
+  'alpha-calibrator': [[102.5, 107.5], [105.5, 97.5], [54, 56.5], [56.5, 59.5], [42.5, 41]],
 };
 
 /** Returns the height for any width as a CSS maximum over the classes. Outside of its class, a term is hugely negative. */

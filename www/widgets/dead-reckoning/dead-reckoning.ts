@@ -80,6 +80,11 @@ const styles = css`
       grid-template-rows: 1fr auto;
     }
 
+    .summary .caption {
+      font-size: 0.95em;
+      line-height: 1.25;
+    }
+
     .summary .choices {
       grid-column: 1 / -1;
     }

@@ -55,13 +55,10 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Opt
         step = finest_step.max(step / 50.0);
         far_match = best_match_within(nearby_range, step);
     }
-    match [near_match, far_match] {
-        [Some((offset, correlation)), Some((_, farther))] if farther - correlation < MIN_CORRELATION_GAIN => {
-            Some(offset)
-        }
-        [_, Some((offset, _))] | [Some((offset, _)), None] => Some(offset),
-        [None, None] => (overlap >= 0.0).then_some(0.0),
-    }
+    // An offset beyond the first scan has to be clearly better.
+    let near_match = near_match.map(|(offset, correlation)| (offset, correlation + MIN_CORRELATION_GAIN));
+    let best_match = [near_match, far_match].into_iter().flatten().max_by(|a, b| a.1.total_cmp(&b.1));
+    best_match.map(|(offset, _)| offset).or((overlap >= 0.0).then_some(0.0))
 }
 
 /// Returns the offset within a range at which the turn rates correlate most, interpolated between steps. None if the largest correlation is

@@ -129,6 +129,7 @@ test('on a right-to-left page a figure has the same picture, and nothing overflo
   expect(await readPicture(planeCanvas)).toBe(pictureBefore);
   expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)).toBeLessThanOrEqual(0);
   const firstSlider = widget.locator('.slider input[type=range]').first();
+  await firstSlider.press('Home');
   const valueBefore = Number(await firstSlider.inputValue());
   await firstSlider.press('ArrowUp');
   expect(Number(await firstSlider.inputValue())).toBeGreaterThan(valueBefore);

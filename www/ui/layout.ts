@@ -142,7 +142,6 @@ const figureLayout = css`
     box-shadow: 0 2px 10px rgb(0 0 0 / 25%);
   }
 
-
   progress {
     width: 8em;
     accent-color: var(--posterior);

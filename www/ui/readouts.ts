@@ -100,9 +100,7 @@ export const readoutStyles = css`
   @container (width < 26em) {
     table {
       font-size: 0.82em;
-    }
 
-    table {
       > :is(caption, thead, tbody) {
         display: block;
       }

@@ -248,8 +248,9 @@ function drawCoincidentRobots(drawContext: DrawContext, poses: Float64Array, sho
     for (const theta of headings) strokeLine(context, view.headingLineFrom({ x, y, theta }, 64), { colour, width: 1 });
   });
   // The disc is larger than the handle at the end of the arc, which is often at the same position.
-  drawDisc(context, view.toPixel(x, y), 14, colour);
-  return { text: words.banana.robotsHere(formatInteger(shown)), point: [x, y], colour };
+  const [pixelX, pixelY] = view.toPixel(x, y);
+  drawDisc(context, [pixelX, pixelY], 14, colour);
+  return { text: words.banana.robotsHere(formatInteger(shown)), point: view.toWorld(pixelX, pixelY - 14), colour };
 }
 
 /**

@@ -29,7 +29,7 @@ pub enum Verdict {
 #[serde(rename_all = "kebab-case")]
 pub enum CheckName {
     /// Median difference of a leg's motions by odometry and by reference, divided by the median motion. For a copy of the odometry it is the
-    /// square root of the largest end of the intervals of α's.
+    /// square root of the largest lower end of the intervals of α's.
     ReferenceMatches,
     /// Number of legs.
     EnoughLegs,
@@ -87,7 +87,7 @@ impl Check {
         let message = match name {
             _ if passed => "",
             CheckName::ReferenceMatches if value < expected[0] => {
-                "The reference has the errors of the odometry: it is a copy of it, or computed from it. The α's mean nothing. Use an independent measurement, such as motion capture or SLAM."
+                "No error of the odometry is visible: the reference is a copy of it, computed from it, or too noisy. The α's mean nothing. Use a precise and independent measurement, such as motion capture or SLAM."
             }
             _ => name.failure_message(),
         };
@@ -192,8 +192,8 @@ const MIN_USABLE_LEGS: f64 = 30.0;
 /// Maximum median difference of the motions by odometry and reference, over the median motion, of logs of the same drive.
 const MAX_MISMATCH: f64 = 0.7;
 
-/// Relative error below which the reference is a copy of the odometry: no wheels measure every motion to a thousandth. Numbers of a copy may be
-/// rounded to millimetres, because rounding is noise of the reference: the ends of its intervals are then below 5e-4.
+/// Relative error below which the reference is a copy of the odometry: no wheels measure every motion to a thousandth. A copy may be rounded
+/// or have noise of its own, which does not accumulate.
 const MIN_RELATIVE_ERROR: f64 = 1e-3;
 
 /// Minimum number of windows for conclusions from their coverage.
@@ -211,9 +211,9 @@ pub(super) fn log_checks(
     inflation: f64,
 ) -> Vec<Check> {
     let leg_count = leg_set.legs.len();
-    // A reference that is a copy of the odometry is recognized by α's whose intervals end near 0: α's are squares of relative
+    // A reference that is a copy of the odometry is recognized by α's whose intervals start near 0: α's are squares of relative
     // errors. Any other unsuitable reference is recognized by the difference of its motions from the odometry's.
-    let max_alpha = alpha_intervals.iter().flatten().map(|[_, end]| *end).reduce(f64::max);
+    let max_alpha = alpha_intervals.iter().flatten().map(|[start, _]| *start).reduce(f64::max);
     let copy_error = max_alpha.map(f64::sqrt).filter(|error| *error < MIN_RELATIVE_ERROR);
     let measure_mismatch = || mismatch(leg_set, systematic).map(|ratio| ratio.max(MIN_RELATIVE_ERROR));
     let mismatch = copy_error.or_else(measure_mismatch);

@@ -6,7 +6,7 @@ const formatLegCount = (count: string) => `${count} Etappe${count === '1' ? '' :
 /** Messages of failed checks. */
 const CHECK_MESSAGES: Record<string, string> = {
   'reference-copied':
-    'Die Referenz hat die Fehler der Odometrie: Sie ist eine Kopie davon oder daraus berechnet. Die α sind bedeutungslos. Eine unabhängige Messung verwenden, zum Beispiel Motion Capture oder SLAM.',
+    'Kein Fehler der Odometrie ist sichtbar: Die Referenz ist eine Kopie davon, daraus berechnet oder zu ungenau. Die α sind bedeutungslos. Eine genaue, unabhängige Messung verwenden, zum Beispiel Motion Capture oder SLAM.',
   'reference-matches':
     'Die Referenz folgt der Odometrie nicht: Vielleicht ist sie von einer anderen Fahrt, hat andere Einheiten (Grad, Millimeter), eine gespiegelte y-Achse oder eine andere senkrechte Achse als z, oder ihre Spalten sind vertauscht. Die α sind bedeutungslos. Beide Dateien Zeile für Zeile vergleichen.',
   'enough-legs':

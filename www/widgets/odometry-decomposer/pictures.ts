@@ -1,6 +1,6 @@
 /** The Odometry Decomposer's two pictures: the three legs in the odometry frame, and both odometry poses in the world. */
 
-import { greatest } from 'd3-array';
+import { greatest, leastIndex } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/labels.ts';
@@ -289,11 +289,11 @@ export class WorldPicture extends SamplesPicture<Scene> {
       drawMarkedPose(drawContext, scene);
     });
     const { outcomesLabel, ruleNames } = words.decomposer;
-    const [outcomeX, outcomeY] = scene.poses;
+    const lowestOutcome = leastIndex(scene.poses.filter((_, i) => i % 3 === 1)) ?? -1;
     const callouts = [
       ...(overlays.includes('prediction') ? createPoseCallouts(drawContext, [startPose, predictedPose], 'x', [palette.ink, palette.prediction]) : []),
       ...(overlays.includes('odometry') ? createPoseCallouts(drawContext, [odometryStart, odometryEnd], 'x̄', [palette.prior, palette.prior]) : []),
-      ...(overlays.includes('outcomes') && scene.poses.length > 0 ? [{ text: outcomesLabel(ruleNames[scene.config.rule]), point: [outcomeX, outcomeY] as [number, number], colour: palette.prediction }] : []),
+      ...(overlays.includes('outcomes') && lowestOutcome >= 0 ? [{ text: outcomesLabel(ruleNames[scene.config.rule]), point: [scene.poses[3 * lowestOutcome], scene.poses[3 * lowestOutcome + 1]] as [number, number], colour: palette.prediction }] : []),
     ];
     drawCallouts(drawContext, callouts, {
       shapeCentre: [(startPose.x + predictedPose.x) / 2, (startPose.y + predictedPose.y) / 2], lines: [segmentCoordinatesOf(startPose, predictedPose), segmentCoordinatesOf(odometryStart, odometryEnd)],

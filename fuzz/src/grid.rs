@@ -64,14 +64,14 @@ fn find_middles_and_obstacles(grid: &OccupancyGrid, unknown_cell_rule: UnknownCe
 /// Asserts that each cell contains its middle, and that the total length of the outlines equals the total length of the
 /// sides between obstacles and other cells.
 fn assert_outlines(grid: &OccupancyGrid, unknown_cell_rule: UnknownCells) {
-    let find_middles_and_obstacles = find_middles_and_obstacles(grid, unknown_cell_rule);
-    for (cell_middle, is_obstacle) in &find_middles_and_obstacles {
+    let middles_and_obstacles = find_middles_and_obstacles(grid, unknown_cell_rule);
+    for (cell_middle, is_obstacle) in &middles_and_obstacles {
         assert_eq!(grid.is_blocked_at(*cell_middle), *is_obstacle, "{cell_middle:?} in {grid:?}");
     }
     let [column_count, row_count] = grid.size();
     let is_obstacle_at = |column_index: usize, row_index: usize| {
         (column_index < column_count && row_index < row_count)
-            .then(|| find_middles_and_obstacles.get(row_index * column_count + column_index))
+            .then(|| middles_and_obstacles.get(row_index * column_count + column_index))
             .flatten()
             .is_some_and(|middle_and_obstacle| middle_and_obstacle.1)
     };
@@ -85,7 +85,7 @@ fn assert_outlines(grid: &OccupancyGrid, unknown_cell_rule: UnknownCells) {
     }
     let wall_outlines = grid.outlines(usize::MAX).expect("no limit");
     let total_outline_length: f64 = wall_outlines.iter().map(wall_length_of).sum();
-    if !find_middles_and_obstacles.is_empty() {
+    if !middles_and_obstacles.is_empty() {
         assert!((total_outline_length / grid.resolution() - obstacle_side_count as f64).abs() < 1e-3 * (1 + obstacle_side_count) as f64, "{grid:?}");
     }
 }

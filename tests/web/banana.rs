@@ -26,13 +26,13 @@ fn arrays_are_copies_of_the_samples() {
 #[wasm_bindgen_test]
 fn each_model_keeps_its_alphas_and_a_seed_its_cloud() {
     let js = JsObject::new("new motion.BananaMachine({ samples: 500, seed: 8 })");
-    let cloud: Vec<f64> = js.get("it.poses");
+    let cloud_coordinates: Vec<f64> = js.get("it.poses");
     js.run("it.configure({ model: 'odometry', samples: 700 })");
     js.run("it.configure({ alphas: new Float64Array([4, 3, 2, 1]), isolate: 2 })");
     js.run("it.configure({ model: 'velocity', isolate: null, samples: undefined })");
     assert_eq!(js.get::<[f64; 4]>("it.alphasOfModels.odometry"), [4.0, 3.0, 2.0, 1.0]);
     assert_eq!(js.get::<Vec<f64>>("it.alphasOfModels.velocity"), [0.002, 0.002, 0.1, 0.1, 0.002, 0.002]);
-    assert_eq!(js.get::<Vec<f64>>("it.poses.slice(0, 1500)"), cloud);
+    assert_eq!(js.get::<Vec<f64>>("it.poses.slice(0, 1500)"), cloud_coordinates);
     assert_eq!(js.get::<[f64; 2]>("[it.poses.length, it.config.samples]"), [2100.0, 700.0]);
 }
 

@@ -13,12 +13,12 @@ const ALPHAS: [f64; 4] = [0.05, 0.01, 0.005, 0.004];
 
 #[derive(Serialize)]
 struct Logs {
-    odometry: Columns,
-    reference: Columns,
+    odometry: LogColumns,
+    reference: LogColumns,
 }
 
 #[derive(Serialize)]
-struct Columns {
+struct LogColumns {
     t: Vec<f64>,
     x: Vec<f64>,
     y: Vec<f64>,
@@ -27,14 +27,14 @@ struct Columns {
 
 /// Returns odometry and reference of 400 legs, each a second long with ten rows. The reference is simulated with `ALPHAS` and a mount yaw of
 /// 0.03 rad.
-fn simulated_logs() -> JsObject {
+fn simulate_logs() -> JsObject {
     let model = OdometryModel { alphas: OdomAlphas(ALPHAS), noise: NoiseKind::Normal };
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
     let (mut odometry_pose, mut true_pose) = (SE2::identity(), SE2::identity());
     let (mut odometry_poses, mut reference_poses) = (Vec::new(), Vec::new());
     for leg_index in 0..400 {
-        let turn = 0.5 * libm::sin(0.7 * f64::from(leg_index));
-        let twist = Vector3::new(0.3 + 0.1 * libm::sin(1.3 * f64::from(leg_index)), 0.0, turn);
+        let leg_turn = 0.5 * libm::sin(0.7 * f64::from(leg_index));
+        let twist = Vector3::new(0.3 + 0.1 * libm::sin(1.3 * f64::from(leg_index)), 0.0, leg_turn);
         let odom_delta = OdomDelta::from_poses(&SE2::identity(), &SE2::exp(&twist));
         let executed_twist = model.sample(&odom_delta, &SE2::identity(), &mut rng).log();
         for row_index in 0..10 {
@@ -44,18 +44,18 @@ fn simulated_logs() -> JsObject {
         }
         (odometry_pose, true_pose) = (odometry_pose.boxplus(twist), true_pose.boxplus(executed_twist));
     }
-    let columns_of = |poses: &[SE2]| Columns {
-        t: (0..poses.len()).map(|row_index| row_index as f64 / 10.0).collect(),
-        x: poses.iter().map(SE2::x).collect(),
-        y: poses.iter().map(SE2::y).collect(),
-        theta: poses.iter().map(SE2::theta).collect(),
+    let columns_of = |log_poses: &[SE2]| LogColumns {
+        t: (0..log_poses.len()).map(|row_index| row_index as f64 / 10.0).collect(),
+        x: log_poses.iter().map(SE2::x).collect(),
+        y: log_poses.iter().map(SE2::y).collect(),
+        theta: log_poses.iter().map(SE2::theta).collect(),
     };
     (&Logs { odometry: columns_of(&odometry_poses), reference: columns_of(&reference_poses) }).into()
 }
 
 #[wasm_bindgen_test]
 fn alphas_of_a_log_are_found_with_their_intervals() {
-    let js_logs = simulated_logs();
+    let js_logs = simulate_logs();
     js_logs.run("it.found = motion.calibrate({ ...it, legs: { duration: 1 } })");
     let intervals: Vec<(f64, f64)> = js_logs.get("it.found.intervals");
     let alphas: Vec<f64> = js_logs.get("it.found.alphas");
@@ -90,7 +90,7 @@ fn alphas_of_a_log_are_found_with_their_intervals() {
 
 #[wasm_bindgen_test]
 fn commands_have_six_alphas_and_a_straight_drive_identifies_no_turn_alphas() {
-    let it = simulated_logs();
+    let it = simulate_logs();
     it.run(
         "it.commands = { t: it.odometry.t, v: it.odometry.t.map((t) => 0.3 + 0.1 * Math.sin(t)),
         omega: it.odometry.t.map((t) => 0.6 * Math.sin(0.17 * t)) }",
@@ -119,7 +119,7 @@ fn commands_have_six_alphas_and_a_straight_drive_identifies_no_turn_alphas() {
 
 #[wasm_bindgen_test]
 fn no_leg_spans_a_break() {
-    let it = simulated_logs();
+    let it = simulate_logs();
     it.run(
         "it.found = motion.calibrate({ odometry: { ...it.odometry, breaks: Uint16Array.of(2005) },
         reference: it.reference, legs: { duration: 1 } })",
@@ -151,7 +151,7 @@ fn the_figure_opens_with_a_log_of_known_alphas() {
 
 #[wasm_bindgen_test]
 fn another_log_replaces_the_simulated_log_and_its_fit_can_be_restored() {
-    let it = simulated_logs();
+    let it = simulate_logs();
     it.run("it.simulation = new motion.AlphaCalibrator({ outliers: 'keep', duration: 1 })");
     it.run("it.simulation.setLog(it.odometry, it.reference)");
     assert_eq!(it.get::<Option<()>>("it.simulation.truth"), None);
@@ -175,7 +175,7 @@ fn another_log_replaces_the_simulated_log_and_its_fit_can_be_restored() {
 
 #[wasm_bindgen_test]
 fn errors_name_the_refused_value_and_what_is_allowed() {
-    let it = simulated_logs();
+    let it = simulate_logs();
     it.run("it.few = { t: [0, 1], x: [0, 1], y: [0, 0], theta: [0, 0] }");
     it.run("it.simulation = new motion.AlphaCalibrator()");
     it.assert_refused(

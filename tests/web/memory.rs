@@ -8,13 +8,13 @@ use motion::sim::squeeze::{self, MapSqueeze};
 use wasm_bindgen::JsCast;
 use wasm_bindgen_test::wasm_bindgen_test;
 
-fn memory_byte_length() -> u32 {
-    let memory: WebAssembly::Memory = wasm_bindgen::memory().unchecked_into();
-    memory.buffer().unchecked_into::<ArrayBuffer>().byte_length()
+fn memory_size_in_bytes() -> u32 {
+    let wasm_memory: WebAssembly::Memory = wasm_bindgen::memory().unchecked_into();
+    wasm_memory.buffer().unchecked_into::<ArrayBuffer>().byte_length()
 }
 
 /// Constructor calls, each with an expression that reads the object.
-const CLASSES: [(&str, &str); 8] = [
+const CLASSES_AND_READS: [(&str, &str); 8] = [
     ("BananaMachine({ samples: 20_000 })", "stats"),
     ("MapSqueeze({ samples: 20_000 })", "stats"),
     ("ArcAnatomy()", "stats"),
@@ -29,18 +29,18 @@ const SCORE_CALL: &str = "prob(it.pose, it.pose, it.pose)";
 #[wasm_bindgen_test]
 fn a_freed_object_is_gone_with_its_memory() {
     let js = JsObject::new("({ pose: { x: 0, y: 0, theta: 0 } })");
-    for (class_name, read_expression) in CLASSES {
+    for (class_name, read_expression) in CLASSES_AND_READS {
         let use_and_free = format!("[it.one = new motion.{class_name}, it.one.stats, it.one.free()]");
         js.run(&use_and_free);
-        let byte_length_before = memory_byte_length();
+        let byte_length_before = memory_size_in_bytes();
         for _ in 0..10 {
             js.run(&use_and_free);
         }
         // A cloud would take more than a page of memory.
         assert!(
-            memory_byte_length() <= byte_length_before + 65_536,
+            memory_size_in_bytes() <= byte_length_before + 65_536,
             "{class_name} left {} bytes",
-            memory_byte_length() - byte_length_before
+            memory_size_in_bytes() - byte_length_before
         );
         assert!(js.error(&format!("it.one.{read_expression}")).starts_with("Error: "), "{class_name}");
         js.run(&format!("[it.one = new motion.{class_name}, it.one[Symbol.dispose]()]"));
@@ -51,10 +51,10 @@ fn a_freed_object_is_gone_with_its_memory() {
 #[wasm_bindgen_test]
 fn the_largest_cloud_fits_and_outlives_refused_settings() {
     let js = JsObject::new("new motion.BananaMachine({ samples: 10_000_000, seed: 1 })");
-    let skew: f64 = js.get("it.stats.crossTrackSkew");
+    let cross_track_skew: f64 = js.get("it.stats.crossTrackSkew");
     assert!(js.error("it.configure({ samples: 10_000_001 })").starts_with("RangeError: samples "));
     assert!(js.error("it.configure({ alphas: Array(6).fill(NaN) })").starts_with("RangeError: alphas[0] "));
-    assert_eq!(js.get::<(usize, f64)>("[it.shown, it.stats.crossTrackSkew]"), (10_000_000, skew));
+    assert_eq!(js.get::<(usize, f64)>("[it.shown, it.stats.crossTrackSkew]"), (10_000_000, cross_track_skew));
     js.run("it.configure({ samples: 10 })");
     assert_eq!(js.get::<usize>("it.poses.length"), 30);
     js.run("it.free()");

@@ -34,7 +34,7 @@ fn start_pose() -> SE2 {
     SE2::new(1.0, -2.0, 0.5)
 }
 
-fn next_pose() -> SE2 {
+fn new_next_pose() -> SE2 {
     SE2::new(1.7, -1.3, 1.2)
 }
 
@@ -42,21 +42,21 @@ fn pose_behind() -> SE2 {
     SE2::new(0.1, -2.4, 0.55)
 }
 
-fn pose_coordinates(pose: &SE2) -> [f64; 3] {
+fn coordinates_of(pose: &SE2) -> [f64; 3] {
     [pose.x(), pose.y(), pose.theta()]
 }
 
-fn sampled_coordinates<M: MotionModel>(model: &M, control: &M::Control) -> Vec<f64> {
+fn sample_coordinates<M: MotionModel>(model: &M, control: &M::Control) -> Vec<f64> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(9);
-    (0..5).flat_map(|_| pose_coordinates(&model.sample(control, &start_pose(), &mut rng))).collect()
+    (0..5).flat_map(|_| coordinates_of(&model.sample(control, &start_pose(), &mut rng))).collect()
 }
 
-fn prob_and_density<M: MotionModel>(model: &M, x_next: &SE2, control: &M::Control) -> (f64, Option<f64>) {
+fn score_and_density_of<M: MotionModel>(model: &M, x_next: &SE2, control: &M::Control) -> (f64, Option<f64>) {
     (model.prob(x_next, control, &start_pose()), model.pose_density(x_next, control, &start_pose()))
 }
 
-fn matrix_rows(matrix: &Matrix3<f64>) -> Vec<Vec<f64>> {
-    matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
+fn rows_of(matrix: &Matrix3<f64>) -> Vec<Vec<f64>> {
+    matrix.row_iter().map(|matrix_row| matrix_row.iter().copied().collect()).collect()
 }
 
 #[wasm_bindgen_test]
@@ -64,28 +64,28 @@ fn poses_and_twists_are_those_of_rust() {
     let js = JsObject::new(JS_VALUES);
     let twist = Vector3::new(0.3, -0.1, 0.7);
     let pose_of = |expression: &str| js.get::<[f64; 3]>(&format!("Object.values(motion.se2.{expression})"));
-    assert_eq!(pose_of("exp([0.3, -0.1, 0.7])"), pose_coordinates(&SE2::exp(&twist)));
-    assert_eq!(pose_of("compose(it.start, it.next)"), pose_coordinates(&(start_pose() * next_pose())));
-    assert_eq!(pose_of("inverse(it.start)"), pose_coordinates(&start_pose().inverse()));
+    assert_eq!(pose_of("exp([0.3, -0.1, 0.7])"), coordinates_of(&SE2::exp(&twist)));
+    assert_eq!(pose_of("compose(it.start, it.next)"), coordinates_of(&(start_pose() * new_next_pose())));
+    assert_eq!(pose_of("inverse(it.start)"), coordinates_of(&start_pose().inverse()));
     assert_eq!(
         pose_of("boxplus(it.start, new Float64Array([0.3, -0.1, 0.7]))"),
-        pose_coordinates(&start_pose().boxplus(twist))
+        coordinates_of(&start_pose().boxplus(twist))
     );
-    assert_eq!(js.get::<Vec<f64>>("motion.se2.log(it.next)"), next_pose().log().as_slice());
+    assert_eq!(js.get::<Vec<f64>>("motion.se2.log(it.next)"), new_next_pose().log().as_slice());
     assert_eq!(
         js.get::<Vec<f64>>("motion.se2.boxminus(it.next, it.start)"),
-        next_pose().boxminus(&start_pose()).as_slice()
+        new_next_pose().boxminus(&start_pose()).as_slice()
     );
     let matrix_of = |expression: &str| js.get::<Vec<Vec<f64>>>(&format!("motion.se2.{expression}"));
-    assert_eq!(matrix_of("adjoint(it.start)"), matrix_rows(&start_pose().adjoint()));
-    assert_eq!(matrix_of("rightJacobian([0.3, -0.1, 0.7])"), matrix_rows(&SE2::right_jacobian(&twist)));
+    assert_eq!(matrix_of("adjoint(it.start)"), rows_of(&start_pose().adjoint()));
+    assert_eq!(matrix_of("rightJacobian([0.3, -0.1, 0.7])"), rows_of(&SE2::right_jacobian(&twist)));
     assert_eq!(js.get::<Vec<String>>("Object.keys(motion.se2.inverse(it.start))"), ["x", "y", "theta"]);
 }
 
 #[wasm_bindgen_test]
 fn an_arc_is_inverted_and_two_poses_are_decomposed() {
     let js = JsObject::new(JS_VALUES);
-    let arc = invert_arc(&start_pose(), &next_pose(), 2.0);
+    let arc = invert_arc(&start_pose(), &new_next_pose(), 2.0);
     let [x, y] = arc.centre(&start_pose()).expect("an arc");
     assert_eq!(
         js.get::<Vec<f64>>(
@@ -113,12 +113,12 @@ fn models_score_and_draw_as_in_rust() {
             .map(([model, next, control]) =>
                 [model.prob(next, control, it.start), model.poseDensity(next, control, it.start)])",
     );
-    assert_eq!(velocity_scores, prob_and_density(&VELOCITY_MODEL, &next_pose(), &COMMAND));
-    assert_eq!(odometry_scores, prob_and_density(&ODOMETRY_MODEL, &next_pose(), &READING));
+    assert_eq!(velocity_scores, score_and_density_of(&VELOCITY_MODEL, &new_next_pose(), &COMMAND));
+    assert_eq!(odometry_scores, score_and_density_of(&ODOMETRY_MODEL, &new_next_pose(), &READING));
     let reverse_aware_model = ConfiguredOdometry { model: ODOMETRY_MODEL, reverse_aware: true };
     assert_eq!(
         reverse_aware_scores,
-        prob_and_density(&reverse_aware_model, &pose_behind(), &REVERSE_READING)
+        score_and_density_of(&reverse_aware_model, &pose_behind(), &REVERSE_READING)
     );
     assert!(
         reverse_aware_scores.0 > 10.0 * ODOMETRY_MODEL.prob(&pose_behind(), &REVERSE_READING, &start_pose()),
@@ -126,9 +126,9 @@ fn models_score_and_draw_as_in_rust() {
     );
 
     for (js_call, expected) in [
-        ("velocity.sample(it.command", sampled_coordinates(&VELOCITY_MODEL, &COMMAND)),
-        ("odometry.sample(it.control", sampled_coordinates(&ODOMETRY_MODEL, &READING)),
-        ("aware.sample(it.reverse", sampled_coordinates(&reverse_aware_model, &REVERSE_READING)),
+        ("velocity.sample(it.command", sample_coordinates(&VELOCITY_MODEL, &COMMAND)),
+        ("odometry.sample(it.control", sample_coordinates(&ODOMETRY_MODEL, &READING)),
+        ("aware.sample(it.reverse", sample_coordinates(&reverse_aware_model, &REVERSE_READING)),
     ] {
         assert_eq!(js.get::<Vec<f64>>(&format!("it.{js_call}, it.start, 5, 9)")), expected, "{js_call}");
     }
@@ -153,9 +153,9 @@ fn covariances_are_propagated_as_in_rust() {
         ("first-order", Compounding::FirstOrder),
         ("fourth-order", Compounding::FourthOrder),
     ] {
-        let mut sigma = Matrix3::from_diagonal(&Vector3::new(0.01, 0.02, 0.03));
+        let mut covariance = Matrix3::from_diagonal(&Vector3::new(0.01, 0.02, 0.03));
         for _ in 0..3 {
-            sigma = noise_model.propagate(&sigma, &twist, recursion);
+            covariance = noise_model.propagate(&covariance, &twist, recursion);
         }
         let js_options = format!(
             "{{ sigma: [[0.01, 0, 0], [0, 0.02, 0], [0, 0, 0.03]], command: it.command,
@@ -163,14 +163,14 @@ fn covariances_are_propagated_as_in_rust() {
         );
         assert_eq!(
             js.get::<Vec<Vec<f64>>>(&format!("motion.propagate({js_options})")),
-            matrix_rows(&sigma),
+            rows_of(&covariance),
             "{js_keyword}"
         );
     }
     let propagate_call =
         "motion.propagate({ command: it.command, alphas: [0.02, 0.03, 0.04, 0.05, 0.01, 0.02] })";
     let cov_after_one_step = noise_model.propagate(&Matrix3::zeros(), &twist, Compounding::Chapter);
-    assert_eq!(js.get::<Vec<Vec<f64>>>(propagate_call), matrix_rows(&cov_after_one_step));
+    assert_eq!(js.get::<Vec<Vec<f64>>>(propagate_call), rows_of(&cov_after_one_step));
 }
 
 #[wasm_bindgen_test]

@@ -34,9 +34,9 @@ fn a_floor_plan_replaces_the_apartment_and_can_be_removed() {
     );
     assert_eq!(js.get::<[f64; 8]>("it.plan.walls"), [10.0, 8.0, 11.0, 8.0, 0.0, 0.0, 12.0, 0.0]);
     assert!(js.get::<usize>("it.stats.accepted") > accepted_before);
-    let plan: String = js.get("JSON.stringify(it.plan)");
+    let plan_fields: String = js.get("JSON.stringify(it.plan)");
     js.run("it.setPlan(it.plan)");
-    assert_eq!(js.get::<String>("JSON.stringify(it.plan)"), plan);
+    assert_eq!(js.get::<String>("JSON.stringify(it.plan)"), plan_fields);
     js.run("it.setPlan(undefined)");
     assert_eq!(js.get::<[usize; 2]>("[it.plan.walls.length, it.stats.accepted]"), [72, accepted_before]);
 }
@@ -48,9 +48,9 @@ fn a_map_is_read_from_a_file_or_from_pixels() {
     let plan_json: String = js.get("JSON.stringify(it.simulation.plan)");
     assert_eq!(js.get::<[f64; 4]>("it.simulation.plan.bounds"), [1.0, 2.0, 3.0, 3.5]);
     assert_eq!(js.get::<Vec<f64>>("it.simulation.plan.walls.slice(0, 4)"), [1.0, 2.0, 1.5, 2.0]);
-    let grid: (usize, usize, f64, [f64; 3]) =
+    let grid_fields: (usize, usize, f64, [f64; 3]) =
         js.get("pick(it.simulation.grid, 'columns', 'rows', 'resolution', 'origin')");
-    assert_eq!(grid, (4, 3, 0.5, [1.0, 2.0, 0.0]));
+    assert_eq!(grid_fields, (4, 3, 0.5, [1.0, 2.0, 0.0]));
     assert_eq!(js.get::<Vec<u8>>("it.simulation.grid.occupied"), [1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
     assert_eq!(js.get::<[f64; 2]>("pick(it.simulation.openPlace, 'x', 'y')"), [2.25, 2.75]);
     for js_call in [

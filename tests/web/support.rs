@@ -12,10 +12,10 @@ export const evaluate_js = (expression, it) =>
 "#)]
 extern "C" {
     #[wasm_bindgen(catch)]
-    fn evaluate_js(expression: &str, it: &JsValue) -> Result<JsValue, JsValue>;
+    fn evaluate_js(expression: &str, object_it: &JsValue) -> Result<JsValue, JsValue>;
 }
 
-/// JavaScript value that expressions call `it`. In expressions, `motion` is the module under test, and `pick` returns some properties of an
+/// JavaScript value that expressions call `object_it`. In expressions, `motion` is the module under test, and `pick` returns some properties of an
 /// object as an array.
 pub struct JsObject(JsValue);
 
@@ -26,7 +26,7 @@ impl JsObject {
 
     pub fn get<T: DeserializeOwned>(&self, expression: &str) -> T {
         serde_wasm_bindgen::from_value(self.evaluate(expression))
-            .unwrap_or_else(|error| panic!("{expression}: {error}"))
+            .unwrap_or_else(|js_error| panic!("{expression}: {js_error}"))
     }
 
     pub fn run(&self, expression: &str) {
@@ -40,8 +40,8 @@ impl JsObject {
     /// Returns the class and message of the error that an expression throws.
     pub fn error(&self, expression: &str) -> String {
         match evaluate_js(expression, &self.0) {
-            Ok(value) => panic!("{expression} is {value:?} and throws nothing"),
-            Err(error) => error.unchecked_into::<js_sys::Error>().to_string().into(),
+            Ok(returned_value) => panic!("{expression} is {returned_value:?} and throws nothing"),
+            Err(js_error) => js_error.unchecked_into::<js_sys::Error>().to_string().into(),
         }
     }
 
@@ -62,24 +62,24 @@ impl JsObject {
         }
         let state_expression = format!("JSON.stringify({state_expression})");
         let state_before: String = self.get(&state_expression);
-        for [expression, error] in cases_and_errors.as_chunks().0 {
-            assert_eq!(self.error(expression), *error, "{expression}");
+        for [expression, js_error] in cases_and_errors.as_chunks().0 {
+            assert_eq!(self.error(expression), *js_error, "{expression}");
             assert_eq!(self.get::<String>(&state_expression), state_before, "{expression}");
         }
     }
 
     fn evaluate(&self, expression: &str) -> JsValue {
-        evaluate_js(expression, &self.0).unwrap_or_else(|error| panic!("{expression}: {error:?}"))
+        evaluate_js(expression, &self.0).unwrap_or_else(|js_error| panic!("{expression}: {js_error:?}"))
     }
 }
 
 impl<T: serde::Serialize> From<&T> for JsObject {
-    fn from(value: &T) -> Self {
-        Self(serde_wasm_bindgen::to_value(value).expect("a plain value"))
+    fn from(returned_value: &T) -> Self {
+        Self(serde_wasm_bindgen::to_value(returned_value).expect("a plain value"))
     }
 }
 
-/// Returns the value of a JavaScript expression that does not use `it`.
+/// Returns the value of a JavaScript expression that does not use `object_it`.
 pub fn get<T: DeserializeOwned>(expression: &str) -> T {
     JsObject(JsValue::UNDEFINED).get(expression)
 }

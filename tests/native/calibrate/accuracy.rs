@@ -13,23 +13,23 @@ struct Scenario {
     allowed_bias: f64,
 }
 
-const fn scenario(name: &'static str, modify_simulation: fn(&mut Simulation)) -> Scenario {
+const fn new_scenario(name: &'static str, modify_simulation: fn(&mut Simulation)) -> Scenario {
     Scenario { name, modify_simulation, allowed_bias: 0.05 }
 }
 
-const EXACT_REFERENCE: Scenario = scenario("exact reference", |_| ());
-const FINE_REFERENCE: Scenario = scenario("5 mm, 2 mrad", |sim| sim.reference_stds = [0.005, 0.002]);
-const COARSE_REFERENCE: Scenario = scenario("20 mm, 20 mrad", |sim| sim.reference_stds = [0.02, 0.02]);
+const EXACT_REFERENCE: Scenario = new_scenario("exact reference", |_| ());
+const FINE_REFERENCE: Scenario = new_scenario("5 mm, 2 mrad", |sim| sim.reference_stds = [0.005, 0.002]);
+const COARSE_REFERENCE: Scenario = new_scenario("20 mm, 20 mrad", |sim| sim.reference_stds = [0.02, 0.02]);
 const SYSTEMATIC_ERRORS: Scenario =
-    scenario("systematic errors", |sim| sim.systematic_errors = TRUE_SYSTEMATIC_ERRORS);
-const JUMPING_REFERENCE: Scenario = scenario("jumps", |sim| sim.jump_fraction = 0.01);
+    new_scenario("systematic errors", |sim| sim.systematic_errors = TRUE_SYSTEMATIC_ERRORS);
+const JUMPING_REFERENCE: Scenario = new_scenario("jumps", |sim| sim.jump_fraction = 0.01);
 const PERSISTENT_ERRORS: Scenario = Scenario {
     allowed_bias: 0.1,
-    ..scenario("persistent", |sim| sim.violation = Violation::Autoregressive(0.7))
+    ..new_scenario("persistent", |sim| sim.violation = Violation::AutocorrelatedNoise(0.7))
 };
 
 const UNRELATED_TIMES: Scenario =
-    scenario("67 Hz and 29 Hz", |sim| sim.times = SampleTimes::Unrelated([3, 7]));
+    new_scenario("67 Hz and 29 Hz", |sim| sim.times = SampleTimes::Unrelated([3, 7]));
 
 const TRUE_SYSTEMATIC_ERRORS: Systematic = Systematic {
     clock_offset: 0.12,
@@ -44,7 +44,7 @@ const TRUE_SYSTEMATIC_ERRORS: Systematic = Systematic {
 const INTERVAL_MARGIN: f64 = 1e-3;
 
 /// Results of the calibrations of many simulated logs.
-struct Study {
+struct StudyResults {
     /// Sorted ratios of fitted α to true α, for each α.
     alpha_ratios: Vec<Vec<f64>>,
     /// Number of 95 % intervals that contain the true value, for each α.
@@ -52,23 +52,23 @@ struct Study {
     covered_errors: [usize; ERROR_COUNT],
     /// Sorted estimates of the reference's standard deviations, of position (m) and yaw (rad).
     reference_stds: [Vec<f64>; 2],
-    covered_stds: [usize; 2],
+    covered_std_counts: [usize; 2],
     log_count: usize,
 }
 
 /// Returns 1 if the interval contains the true value, and 0 otherwise.
-fn count_covered(interval: Option<[f64; 2]>, true_value: f64) -> usize {
-    usize::from(interval.is_some_and(|[low, high]| (low..=high).contains(&true_value)))
+fn count_covered(confidence_interval: Option<[f64; 2]>, true_value: f64) -> usize {
+    usize::from(confidence_interval.is_some_and(|[low, high]| (low..=high).contains(&true_value)))
 }
 
-fn run_calibration_study(model: Model, scenario: &Scenario, log_count: usize) -> Study {
+fn run_calibration_study(model: Model, scenario: &Scenario, log_count: usize) -> StudyResults {
     let alpha_count = model.alphas();
-    let mut study = Study {
+    let mut study = StudyResults {
         alpha_ratios: vec![Vec::new(); alpha_count],
         covered_alphas: vec![0; alpha_count],
         covered_errors: [0; ERROR_COUNT],
         reference_stds: [Vec::new(), Vec::new()],
-        covered_stds: [0; 2],
+        covered_std_counts: [0; 2],
         log_count,
     };
     for seed in 0..log_count as u64 {
@@ -77,31 +77,31 @@ fn run_calibration_study(model: Model, scenario: &Scenario, log_count: usize) ->
         let calibration = calibrate_simulation(&sim);
         for (alpha_index, true_alpha) in ALPHAS.into_iter().enumerate().take(alpha_count) {
             study.alpha_ratios[alpha_index]
-                .extend(calibration.alphas[alpha_index].map(|fitted| fitted / true_alpha));
+                .extend(calibration.alphas[alpha_index].map(|fitted_alpha| fitted_alpha / true_alpha));
             study.covered_alphas[alpha_index] +=
                 count_covered(calibration.intervals[alpha_index], true_alpha);
         }
         for (error_kind, covered_count) in SystematicError::ALL.into_iter().zip(&mut study.covered_errors) {
-            let interval = calibration.interval_of(error_kind);
+            let error_interval = calibration.interval_of(error_kind);
             let extended_interval =
-                interval.map(|[low, high]| [low - INTERVAL_MARGIN, high + INTERVAL_MARGIN]);
+                error_interval.map(|[low, high]| [low - INTERVAL_MARGIN, high + INTERVAL_MARGIN]);
             *covered_count += count_covered(extended_interval, sim.systematic_errors.get(error_kind));
         }
-        for (std_index, noise_estimate) in calibration.reference_noise.iter().enumerate() {
-            study.reference_stds[std_index].push(noise_estimate.value);
-            study.covered_stds[std_index] +=
-                count_covered(Some(noise_estimate.interval), sim.reference_stds[std_index]);
+        for (component_index, noise_estimate) in calibration.reference_noise.iter().enumerate() {
+            study.reference_stds[component_index].push(noise_estimate.value);
+            study.covered_std_counts[component_index] +=
+                count_covered(Some(noise_estimate.interval), sim.reference_stds[component_index]);
         }
     }
     study
         .alpha_ratios
         .iter_mut()
         .chain(&mut study.reference_stds)
-        .for_each(|estimates| estimates.sort_unstable_by(f64::total_cmp));
+        .for_each(|sorted_estimates| sorted_estimates.sort_unstable_by(f64::total_cmp));
     let median_ratios: Vec<f64> =
-        study.alpha_ratios.iter().map(|sorted_ratios| sorted_median(sorted_ratios)).collect();
-    let Study { covered_alphas, covered_errors, covered_stds, .. } = &study;
-    let median_stds = [0, 1].map(|std_index| sorted_median(&study.reference_stds[std_index]));
+        study.alpha_ratios.iter().map(|sorted_ratios| median_of_sorted(sorted_ratios)).collect();
+    let StudyResults { covered_alphas, covered_errors, covered_std_counts: covered_stds, .. } = &study;
+    let median_stds = [0, 1].map(|component_index| median_of_sorted(&study.reference_stds[component_index]));
     println!(
         "{}, {model:?}: {median_ratios:.3?}, covered {covered_alphas:?}, σ {median_stds:.4?} {covered_stds:?}, errors {covered_errors:?}",
         scenario.name
@@ -109,73 +109,76 @@ fn run_calibration_study(model: Model, scenario: &Scenario, log_count: usize) ->
     study
 }
 
-fn sorted_median(sorted_values: &[f64]) -> f64 {
-    sorted_values[sorted_values.len() / 2]
+fn median_of_sorted(sorted_numbers: &[f64]) -> f64 {
+    sorted_numbers[sorted_numbers.len() / 2]
 }
 
 /// Returns the standard error of the median of normal numbers, estimated from the range of their middle 68 %.
-fn standard_error_of_median(sorted_values: &[f64]) -> f64 {
-    let value_count = sorted_values.len();
-    let [low, high] = [0.16, 0.84].map(|quantile| sorted_values[(quantile * value_count as f64) as usize]);
-    1.25 * 0.5 * (high - low) / (value_count as f64).sqrt()
+fn estimate_error_of_median(sorted_numbers: &[f64]) -> f64 {
+    let number_count = sorted_numbers.len();
+    let [low, high] = [0.16, 0.84].map(|level| sorted_numbers[(level * number_count as f64) as usize]);
+    1.25 * 0.5 * (high - low) / (number_count as f64).sqrt()
 }
 
 /// Returns three standard errors of a fraction that is estimated from `log_count` logs.
-fn three_standard_errors(true_fraction: f64, log_count: usize) -> f64 {
+fn three_errors_of_fraction(true_fraction: f64, log_count: usize) -> f64 {
     3.0 * (true_fraction * (1.0 - true_fraction) / log_count as f64).sqrt()
 }
 
 /// Reports the fraction of intervals that contain the truth, if it is outside of 92 to 98 % by more than three standard errors.
 fn report_wrong_coverage(quantity_name: &str, covered_count: usize, log_count: usize) -> Option<String> {
-    let covered_fraction = covered_count as f64 / log_count as f64;
-    let allowed_fractions =
-        0.92 - three_standard_errors(0.92, log_count)..=0.98 + three_standard_errors(0.98, log_count);
-    (!allowed_fractions.contains(&covered_fraction))
+    let coverage = covered_count as f64 / log_count as f64;
+    let allowed_coverage =
+        0.92 - three_errors_of_fraction(0.92, log_count)..=0.98 + three_errors_of_fraction(0.98, log_count);
+    (!allowed_coverage.contains(&coverage))
         .then(|| format!("{covered_count} of {log_count} intervals hold {quantity_name}"))
 }
 
 /// Reports α's whose medians are off by more than the allowed bias plus three standard errors, and α's with wrong intervals.
-fn report_wrong_alphas(model: Model, scenario: &Scenario, study: &Study) -> Vec<String> {
+fn report_wrong_alphas(model: Model, scenario: &Scenario, study: &StudyResults) -> Vec<String> {
     let report_wrong_alpha = |alpha_index: usize| {
         let (ratios, name) = (&study.alpha_ratios[alpha_index], format!("α{}", alpha_index + 1));
-        let (median_ratio, standard_error) = (sorted_median(ratios), standard_error_of_median(ratios));
-        let is_wrong = ratios.len() < study.log_count
+        let (median_ratio, standard_error) = (median_of_sorted(ratios), estimate_error_of_median(ratios));
+        let is_median_wrong = ratios.len() < study.log_count
             || (median_ratio - 1.0).abs() > scenario.allowed_bias + 3.0 * standard_error;
-        let median_report = is_wrong.then(|| {
+        let median_report = is_median_wrong.then(|| {
             format!("median of {name} in {} logs: {median_ratio:.3} ± {standard_error:.3}", ratios.len())
         });
         [median_report, report_wrong_coverage(&name, study.covered_alphas[alpha_index], study.log_count)]
     };
     let alpha_reports = (0..study.covered_alphas.len()).flat_map(report_wrong_alpha).flatten();
-    alpha_reports.map(|message| format!("{}, {model:?}: {message}", scenario.name)).collect()
+    alpha_reports.map(|report| format!("{}, {model:?}: {report}", scenario.name)).collect()
 }
 
 /// Asserts that the α's of every model are right in a hundred logs, and that `further_reports_of` reports nothing.
-fn assert_right_in_every_model(scenario: &Scenario, further_reports_of: impl Fn(&Study) -> Vec<String>) {
-    let reports: Vec<String> = MODELS
+fn assert_right_in_every_model(
+    scenario: &Scenario,
+    further_reports_of: impl Fn(&StudyResults) -> Vec<String>,
+) {
+    let failure_reports: Vec<String> = MODELS
         .into_iter()
         .flat_map(|model| {
             let study = run_calibration_study(model, scenario, 100);
             let other_reports =
-                further_reports_of(&study).into_iter().map(move |message| format!("{model:?}: {message}"));
+                further_reports_of(&study).into_iter().map(move |report| format!("{model:?}: {report}"));
             report_wrong_alphas(model, scenario, &study).into_iter().chain(other_reports).collect::<Vec<_>>()
         })
         .collect();
-    assert!(reports.is_empty(), "{}", reports.join("\n"));
+    assert!(failure_reports.is_empty(), "{}", failure_reports.join("\n"));
 }
 
 /// Reports a standard deviation of the reference that is off by more than 10 % plus three standard errors.
-fn report_wrong_std(study: &Study, std_index: usize, true_std: f64) -> Vec<String> {
-    let median_std = sorted_median(&study.reference_stds[std_index]);
-    let tolerance = 0.1 * true_std + 3.0 * standard_error_of_median(&study.reference_stds[std_index]);
-    let is_wrong = (median_std - true_std).abs() > tolerance;
-    is_wrong.then(|| format!("median of std {std_index}: {median_std}")).into_iter().collect()
+fn report_wrong_std(study: &StudyResults, component_index: usize, true_std: f64) -> Vec<String> {
+    let median_std = median_of_sorted(&study.reference_stds[component_index]);
+    let tolerance = 0.1 * true_std + 3.0 * estimate_error_of_median(&study.reference_stds[component_index]);
+    let is_median_wrong = (median_std - true_std).abs() > tolerance;
+    is_median_wrong.then(|| format!("median of std {component_index}: {median_std}")).into_iter().collect()
 }
 
 #[test]
 fn alphas_of_one_rule_are_right_in_every_kind_of_log() {
     let model = MODELS[1];
-    let scenarios = [
+    let tested_scenarios = [
         EXACT_REFERENCE,
         FINE_REFERENCE,
         COARSE_REFERENCE,
@@ -183,7 +186,7 @@ fn alphas_of_one_rule_are_right_in_every_kind_of_log() {
         JUMPING_REFERENCE,
         PERSISTENT_ERRORS,
     ];
-    for scenario in &scenarios {
+    for scenario in &tested_scenarios {
         assert_eq!(
             report_wrong_alphas(model, scenario, &run_calibration_study(model, scenario, 10)),
             Vec::<String>::new()
@@ -200,15 +203,15 @@ fn alphas_are_right_with_an_exact_reference() {
 /// A yaw noise of two milliradians is a tenth of the wheels' rotation error on a leg. The log therefore gives only an upper bound for its σ.
 #[test]
 #[ignore = "nightly: 500 calibrations"]
-fn alphas_are_right_with_an_unstated_noise_of_5_mm_and_2_mrad() {
+fn alphas_are_right_with_an_unstated_reference_noise_of_5_mm_and_2_mrad() {
     assert_right_in_every_model(&FINE_REFERENCE, |study| report_wrong_std(study, 0, 0.005));
 }
 
 #[test]
 #[ignore = "nightly: 500 calibrations"]
-fn alphas_are_right_with_an_unstated_noise_of_20_mm_and_20_mrad() {
+fn alphas_are_right_with_an_unstated_reference_noise_of_20_mm_and_20_mrad() {
     assert_right_in_every_model(&COARSE_REFERENCE, |study| {
-        [0, 1].map(|std_index| report_wrong_std(study, std_index, 0.02)).concat()
+        [0, 1].map(|component_index| report_wrong_std(study, component_index, 0.02)).concat()
     });
 }
 

@@ -1,7 +1,7 @@
 //! Diagnostic checks of a calibration. Each check fails on a log that violates its assumption. All checks pass on good logs.
 
 use super::simulated::{MODELS, Simulation, Violation};
-use super::{NAV2, calibrate_log, calibrate_simulation, new_trajectory, with_noisy_steps};
+use super::{NAV2, add_step_noise, calibrate_log, calibrate_simulation, new_trajectory};
 use crate::common::seeded_rng;
 use motion::calibrate::CheckName::{self, *};
 use motion::calibrate::{
@@ -12,20 +12,20 @@ use motion::models::OdometryRule;
 use motion::{NoiseKind, Variance};
 use nalgebra::Vector3;
 
-fn simulation_that_passes(leg_count: usize, seed: u64) -> Simulation {
+fn new_passing_simulation(leg_count: usize, seed: u64) -> Simulation {
     Simulation::of(NAV2, leg_count, seed)
 }
 
-fn names_of_failed_checks(calibration: &Calibration) -> Vec<CheckName> {
-    let failing_checks =
+fn failed_check_names_of(calibration: &Calibration) -> Vec<CheckName> {
+    let failed_check_names =
         calibration.diagnostics.checks.iter().filter(|diagnostic_check| !diagnostic_check.passed);
-    failing_checks.map(|check| check.name).collect()
+    failed_check_names.map(|check| check.name).collect()
 }
 
 /// Asserts that a check fails with a message, and that the verdict is `Questionable`.
 fn assert_fails(check_name: CheckName, calibration: &Calibration) {
-    let failing_checks = names_of_failed_checks(calibration);
-    assert!(failing_checks.contains(&check_name), "{check_name:?} is not among {failing_checks:?}");
+    let failed_check_names = failed_check_names_of(calibration);
+    assert!(failed_check_names.contains(&check_name), "{check_name:?} is not among {failed_check_names:?}");
     assert!(calibration.diagnostics.checks.iter().all(|check| check.passed == check.message.is_empty()));
     assert_eq!(calibration.diagnostics.verdict, Verdict::Questionable, "{check_name:?}");
     let recommended_alphas = calibration.recommended.as_ref().expect("it is usable");
@@ -33,24 +33,24 @@ fn assert_fails(check_name: CheckName, calibration: &Calibration) {
 }
 
 /// Asserts that the log was judged unusable, and gives no recommendation.
-fn assert_unusable(calibration: &Calibration, description: &str) {
+fn assert_unusable(calibration: &Calibration, case_description: &str) {
     assert_eq!(
         (calibration.diagnostics.verdict, &calibration.recommended),
         (Verdict::Unusable, &None),
-        "{description}"
+        "{case_description}"
     );
 }
 
 /// Returns a trajectory with changed poses and the same times.
 fn change_poses(trajectory: &Trajectory, mut change_pose: impl FnMut(SE2) -> SE2) -> Trajectory {
-    new_trajectory(trajectory.samples().map(|(time, old_pose)| (time, change_pose(old_pose))))
+    new_trajectory(trajectory.samples().map(|(sample_time, old_pose)| (sample_time, change_pose(old_pose))))
 }
 
 #[test]
 fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
-    let sim = simulation_that_passes(600, 1);
+    let sim = new_passing_simulation(600, 1);
     let [odometry, reference] = sim.log();
-    let [_, other_reference] = simulation_that_passes(600, 2).log();
+    let [_, other_reference] = new_passing_simulation(600, 2).log();
     type PoseChange = fn(SE2) -> SE2;
     let pose_changes: [(&str, PoseChange); 5] = [
         ("degrees", |pose| SE2::new(pose.x(), pose.y(), pose.theta().to_degrees())),
@@ -59,14 +59,14 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
         ("columns swapped", |pose| SE2::new(pose.y(), pose.x(), pose.theta())),
         ("millimetres", |pose| SE2::new(1e3 * pose.x(), 1e3 * pose.y(), pose.theta())),
     ];
-    let corrupted_references =
-        pose_changes.map(|(corruption, change)| (corruption, change_poses(&reference, change)));
-    for (corruption, reference) in
+    let corrupted_references = pose_changes
+        .map(|(corruption_name, change_pose)| (corruption_name, change_poses(&reference, change_pose)));
+    for (corruption_name, reference) in
         corrupted_references.into_iter().chain([("another drive", other_reference)])
     {
         let calibration = calibrate_log(&[odometry.clone(), reference], &sim.calibration_options());
-        assert!(names_of_failed_checks(&calibration).contains(&ReferenceMatches), "{corruption}");
-        assert_unusable(&calibration, corruption);
+        assert!(failed_check_names_of(&calibration).contains(&ReferenceMatches), "{corruption_name}");
+        assert_unusable(&calibration, corruption_name);
     }
 }
 
@@ -74,24 +74,24 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
 fn a_copy_of_the_odometry_is_no_reference() {
     // These references are copies of the odometry in another frame, with lengths scaled by 1.02, times delayed by 0.1 s, and rounded
     // coordinates.
-    for (leg_count, decimals) in [(600, 6), (600, 3), (250, 3), (600, 2), (250, 2)] {
-        let sim = simulation_that_passes(leg_count, 1);
+    for (leg_count, decimal_count) in [(600, 6), (600, 3), (250, 3), (600, 2), (250, 2)] {
+        let sim = new_passing_simulation(leg_count, 1);
         let [odometry, _] = sim.log();
         let round_to_decimals =
-            |coordinate: f64| (coordinate * 10_f64.powi(decimals)).round() / 10_f64.powi(decimals);
-        let copied_samples = odometry.samples().map(|(time, pose)| {
+            |coordinate: f64| (coordinate * 10_f64.powi(decimal_count)).round() / 10_f64.powi(decimal_count);
+        let copied_samples = odometry.samples().map(|(sample_time, pose)| {
             let transformed_pose =
                 SE2::new(3.0, 1.0, 0.5) * SE2::new(1.02 * pose.x(), 1.02 * pose.y(), pose.theta());
             let [x, y, theta] =
                 [transformed_pose.x(), transformed_pose.y(), transformed_pose.theta()].map(round_to_decimals);
-            (time + 0.1, SE2::new(x, y, theta))
+            (sample_time + 0.1, SE2::new(x, y, theta))
         });
         let calibration =
             calibrate_log(&[odometry.clone(), new_trajectory(copied_samples)], &sim.calibration_options());
         let failure_message = &calibration.diagnostics.checks[0].message;
         assert!(
             failure_message.starts_with("No error of the odometry is visible: "),
-            "{leg_count} legs, {decimals} digits: {failure_message}"
+            "{leg_count} legs, {decimal_count} digits: {failure_message}"
         );
         assert_unusable(&calibration, "a copy");
     }
@@ -100,8 +100,8 @@ fn a_copy_of_the_odometry_is_no_reference() {
     for seed in 1..=12 {
         for leg_count in [600, 200] {
             let violation = Violation::Scaled(0.01);
-            let precise_simulation = Simulation { violation, ..simulation_that_passes(leg_count, seed) };
-            let failed_checks = names_of_failed_checks(&calibrate_simulation(&precise_simulation));
+            let precise_simulation = Simulation { violation, ..new_passing_simulation(leg_count, seed) };
+            let failed_checks = failed_check_names_of(&calibrate_simulation(&precise_simulation));
             assert!(!failed_checks.contains(&ReferenceMatches), "{leg_count} legs, seed {seed}");
         }
     }
@@ -112,7 +112,7 @@ fn a_copy_of_the_odometry_is_no_reference() {
 fn legs_that_hardly_move_are_not_compared() {
     let leg_length = LegLength::Duration { duration: 1.0 };
     let slow_simulation =
-        Simulation { leg_length, leg_velocity: Some(|_| [0.03, 0.05]), ..simulation_that_passes(200, 4) };
+        Simulation { leg_length, leg_velocity: Some(|_| [0.03, 0.05]), ..new_passing_simulation(200, 4) };
     let calibration = calibrate_simulation(&slow_simulation);
     let check_names: Vec<CheckName> = calibration.diagnostics.checks.iter().map(|check| check.name).collect();
     assert!(check_names.contains(&EnoughLegs) && !check_names.contains(&ReferenceMatches), "{check_names:?}");
@@ -120,19 +120,19 @@ fn legs_that_hardly_move_are_not_compared() {
 
 #[test]
 fn few_legs_are_questionable_and_fewer_unusable() {
-    assert_fails(EnoughLegs, &calibrate_simulation(&simulation_that_passes(80, 3)));
-    let fit_of_few_legs = calibrate_simulation(&simulation_that_passes(25, 3));
-    assert!(names_of_failed_checks(&fit_of_few_legs).contains(&EnoughLegs));
+    assert_fails(EnoughLegs, &calibrate_simulation(&new_passing_simulation(80, 3)));
+    let fit_of_few_legs = calibrate_simulation(&new_passing_simulation(25, 3));
+    assert!(failed_check_names_of(&fit_of_few_legs).contains(&EnoughLegs));
     assert_unusable(&fit_of_few_legs, "25 legs");
 }
 
 /// The reference is missing during 30 s of each 90 s.
 #[test]
 fn lost_legs_are_reported() {
-    let sim = simulation_that_passes(600, 4);
+    let sim = new_passing_simulation(600, 4);
     let [odometry, reference] = sim.log();
     let reference_with_gaps =
-        new_trajectory(reference.samples().filter(|(time, _)| time.rem_euclid(90.0) > 30.0));
+        new_trajectory(reference.samples().filter(|(sample_time, _)| sample_time.rem_euclid(90.0) > 30.0));
     let calibration = calibrate_log(&[odometry, reference_with_gaps], &sim.calibration_options());
     assert_fails(LegsLost, &calibration);
     assert!(
@@ -143,7 +143,7 @@ fn lost_legs_are_reported() {
 /// The reference has only one row in two seconds.
 #[test]
 fn legs_that_are_longer_than_asked_for_are_reported() {
-    let sim = simulation_that_passes(600, 5);
+    let sim = new_passing_simulation(600, 5);
     let [odometry, reference] = sim.log();
     let sparse_reference = new_trajectory(reference.samples().step_by(40));
     assert_fails(SamplingDense, &calibrate_log(&[odometry, sparse_reference], &sim.calibration_options()));
@@ -153,13 +153,13 @@ fn legs_that_are_longer_than_asked_for_are_reported() {
 /// grows in the second half, a fit to the first half covers only two thirds of the second half.
 #[test]
 fn violations_of_the_model_are_reported() {
-    let noise_factor_at: fn(f64) -> f64 = |log_fraction| if log_fraction < 0.5 { 1.0 } else { 1.5 };
-    let simulate_violation = |violation, seed| Simulation { violation, ..simulation_that_passes(600, seed) };
+    let noise_factor_at: fn(f64) -> f64 = |fraction_of_log| if fraction_of_log < 0.5 { 1.0 } else { 1.5 };
+    let simulate_violation = |violation, seed| Simulation { violation, ..new_passing_simulation(600, seed) };
     for (check_name, simulation) in [
-        (OutliersFew, Simulation { jump_fraction: 0.1, ..simulation_that_passes(600, 6) }),
-        (TailsNormal, simulate_violation(Violation::HeavyTails(4), 10)),
-        (TailsNormal, simulate_violation(Violation::HeavyTails(5), 10)),
-        (HoldoutCovered, simulate_violation(Violation::Changing(noise_factor_at), 11)),
+        (OutliersFew, Simulation { jump_fraction: 0.1, ..new_passing_simulation(600, 6) }),
+        (TailsNormal, simulate_violation(Violation::HeavyTailedNoise(4), 10)),
+        (TailsNormal, simulate_violation(Violation::HeavyTailedNoise(5), 10)),
+        (HoldoutCovered, simulate_violation(Violation::ChangingNoise(noise_factor_at), 11)),
     ] {
         assert_fails(check_name, &calibrate_simulation(&simulation));
     }
@@ -169,16 +169,16 @@ fn violations_of_the_model_are_reported() {
 /// covers the half with the jump.
 #[test]
 fn a_log_that_no_inflation_covers_is_unusable() {
-    let sim = simulation_that_passes(600, 12);
+    let sim = new_passing_simulation(600, 12);
     let [odometry, reference] = sim.log();
     let jump_time = 0.75 * reference.span().expect("samples")[1];
-    let jump_of_reference = SE2::new(10.0, 0.0, 0.0);
-    let jumped_samples = reference
-        .samples()
-        .map(|(time, pose)| (time, if time < jump_time { pose } else { jump_of_reference * pose }));
+    let jump_offset = SE2::new(10.0, 0.0, 0.0);
+    let jumped_samples = reference.samples().map(|(sample_time, pose)| {
+        (sample_time, if sample_time < jump_time { pose } else { jump_offset * pose })
+    });
     let options = Options { outliers: Outliers::Keep, ..sim.calibration_options() };
     let calibration = calibrate_log(&[odometry, new_trajectory(jumped_samples)], &options);
-    assert_eq!(names_of_failed_checks(&calibration)[0], InflationBounded);
+    assert_eq!(failed_check_names_of(&calibration)[0], InflationBounded);
     assert_unusable(&calibration, "a jump");
 }
 
@@ -205,11 +205,11 @@ fn calibrate_with_scales(sim: &Simulation, scale_at: impl Fn(f64, &Vector3<f64>)
 /// less than a centimetre as a turn on the spot. Noise of a millimetre is therefore reported under Table 5.6, but not under the rule of Nav2.
 #[test]
 fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
-    let sim = simulation_that_passes(600, 12);
+    let sim = new_passing_simulation(600, 12);
     let [odometry, reference] = sim.log();
     let jitter_odometry = |jitter_std: f64| {
-        let mut rng = seeded_rng(12);
-        let mut draw_noise = || NoiseKind::Normal.sample(Variance(jitter_std * jitter_std), &mut rng);
+        let mut noise_rng = seeded_rng(12);
+        let mut draw_noise = || NoiseKind::Normal.sample(Variance(jitter_std * jitter_std), &mut noise_rng);
         change_poses(&odometry, |pose| {
             SE2::new(pose.x() + draw_noise(), pose.y() + draw_noise(), pose.theta())
         })
@@ -220,14 +220,14 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
             &[odometry.clone(), reference.clone()],
             &Options { model, ..sim.calibration_options() },
         );
-        let mut remaining_checks = calibration.diagnostics.checks.into_iter();
-        let sideways_check = remaining_checks.find(|check| check.name == SidewaysRare);
+        let mut check_iter = calibration.diagnostics.checks.into_iter();
+        let sideways_check = check_iter.find(|check| check.name == SidewaysRare);
         sideways_check
             .inspect(|check| assert_eq!(check.passed, check.message.is_empty()))
             .map(|check| check.passed)
     };
     let [table_5_6_model, omni_model] = [OdometryRule::Table, OdometryRule::Omni].map(Model::Odometry);
-    for (odometry, model, expected_pass) in [
+    for (odometry, model, should_pass) in [
         (&jitter_odometry(0.01), NAV2, Some(false)),
         (&shifted_odometry, NAV2, Some(false)),
         (&jitter_odometry(1e-3), table_5_6_model, Some(false)),
@@ -235,17 +235,17 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
         (&shifted_odometry, omni_model, None),
         (&shifted_odometry, Model::Velocity, None),
     ] {
-        assert_eq!(does_sideways_check_pass(odometry, model), expected_pass, "{model:?}");
+        assert_eq!(does_sideways_check_pass(odometry, model), should_pass, "{model:?}");
     }
     // Table 5.6 treats a backward drive as half a turn, a forward drive and half a turn.
     let reversing_simulation = Simulation {
         leg_velocity: Some(|leg_index| [if leg_index % 5 == 0 { -0.3 } else { 0.3 }, 0.2]),
-        ..simulation_that_passes(300, 12)
+        ..new_passing_simulation(300, 12)
     };
     let is_sideways_motion_reported = |model| {
         let calibration =
             calibrate_log(&reversing_simulation.log(), &Options { model, ..sim.calibration_options() });
-        names_of_failed_checks(&calibration).contains(&SidewaysRare)
+        failed_check_names_of(&calibration).contains(&SidewaysRare)
     };
     assert_eq!([table_5_6_model, NAV2].map(is_sideways_motion_reported), [true, false]);
 }
@@ -261,17 +261,17 @@ fn assert_not_constant(check_name: CheckName, error_kind: SystematicError, calib
 #[test]
 fn a_distance_scale_that_differs_in_turns_is_no_constant() {
     let odometry_scales_at =
-        |_, velocity: &Vector3<f64>| [if velocity.z.abs() > 0.05 { 0.85 } else { 1.0 }, 1.0];
-    let calibration = calibrate_with_scales(&simulation_that_passes(600, 7), odometry_scales_at);
+        |_, leg_velocity: &Vector3<f64>| [if leg_velocity.z.abs() > 0.05 { 0.85 } else { 1.0 }, 1.0];
+    let calibration = calibrate_with_scales(&new_passing_simulation(600, 7), odometry_scales_at);
     assert_not_constant(DistanceScaleConstant, SystematicError::DistanceScale, &calibration);
 }
 
 /// The turn scales of the two halves of the log differ by 0.1. Their estimates have standard errors of a few hundredths.
 #[test]
-fn a_turn_scale_that_changes_is_no_constant() {
+fn a_turn_scale_that_changes_with_time_is_no_constant() {
     let odometry_scales_at =
-        |log_fraction: f64, _: &Vector3<f64>| [1.0, if log_fraction < 0.5 { 1.0 } else { 1.1 }];
-    let calibration = calibrate_with_scales(&simulation_that_passes(600, 8), odometry_scales_at);
+        |fraction_of_log: f64, _: &Vector3<f64>| [1.0, if fraction_of_log < 0.5 { 1.0 } else { 1.1 }];
+    let calibration = calibrate_with_scales(&new_passing_simulation(600, 8), odometry_scales_at);
     assert_not_constant(TurnScaleConstant, SystematicError::TurnScale, &calibration);
 }
 
@@ -283,59 +283,57 @@ fn a_turn_scale_of_noisy_encoders_is_not_corrected() {
         leg_velocity: Some(|leg_index| {
             [0.3 + 0.1 * (leg_index % 3) as f64, if leg_index / 16 % 2 == 0 { 0.15 } else { -0.15 }]
         }),
-        ..simulation_that_passes(600, 8)
+        ..new_passing_simulation(600, 8)
     };
     let [odometry, reference] = sim.log();
-    let calibration = calibrate_log(
-        &[with_noisy_steps(&odometry, [0.001, 0.03], 8), reference],
-        &sim.calibration_options(),
-    );
+    let calibration =
+        calibrate_log(&[add_step_noise(&odometry, [0.001, 0.03], 8), reference], &sim.calibration_options());
     assert!(calibration.systematic.turn_scale < 0.9, "{}", calibration.systematic.turn_scale);
     assert_not_constant(TurnScaleConstant, SystematicError::TurnScale, &calibration);
 }
 
 #[test]
-fn errors_that_persist_are_correlated_and_leave_windows_uncovered() {
+fn errors_that_persist_over_legs_are_correlated_and_leave_windows_uncovered() {
     let calibration = calibrate_simulation(&Simulation {
-        violation: Violation::Autoregressive(0.7),
-        ..simulation_that_passes(600, 9)
+        violation: Violation::AutocorrelatedNoise(0.7),
+        ..new_passing_simulation(600, 9)
     });
     for check_name in [ResidualsUncorrelated, Window1Covered, Window2Covered] {
         assert_fails(check_name, &calibration);
     }
     // A correlation of 1,800 residuals has a standard error of 0.02.
-    let correlation = calibration.persistence.correlation.value;
-    assert!((correlation - 0.7).abs() < 0.08, "{correlation}");
+    let error_correlation = calibration.persistence.correlation.value;
+    assert!((error_correlation - 0.7).abs() < 0.08, "{error_correlation}");
     // A window of a given length ends with the leg that completes this length. No leg is longer than 0.4 m.
-    for (window, min_length) in calibration.diagnostics.windows.iter().zip([1.0, 2.0, 5.0]) {
-        assert!(min_length < window.length && window.length < min_length + 0.4, "{window:?}");
+    for (leg_window, min_length) in calibration.diagnostics.windows.iter().zip([1.0, 2.0, 5.0]) {
+        assert!(min_length < leg_window.length && leg_window.length < min_length + 0.4, "{leg_window:?}");
     }
     assert!(calibration.recommended.expect("usable").inflation > 1.5);
 }
 
 /// Returns the number of consistent logs among `log_count` simulated logs, and prints the checks that failed.
-fn count_consistent(model: Model, log_count: u64) -> usize {
-    let mut failing_checks = Vec::new();
+fn count_consistent_logs(model: Model, log_count: u64) -> usize {
+    let mut failed_check_names = Vec::new();
     let calibrate_log_of_seed = |seed: u64| calibrate_simulation(&Simulation::of(model, 600, 3000 + seed));
     let is_consistent = |calibration: &Calibration| {
-        failing_checks.extend(names_of_failed_checks(calibration));
+        failed_check_names.extend(failed_check_names_of(calibration));
         calibration.diagnostics.verdict == Verdict::Consistent
     };
     let consistent_count = (0..log_count).map(calibrate_log_of_seed).filter(is_consistent).count();
-    println!("{model:?}: {consistent_count} of {log_count} are consistent; failed: {failing_checks:?}");
+    println!("{model:?}: {consistent_count} of {log_count} are consistent; failed: {failed_check_names:?}");
     consistent_count
 }
 
 /// If a log is consistent with a probability of 0.95, nine or more of twelve logs are consistent, except in one of five thousand runs.
 #[test]
 fn good_logs_are_consistent() {
-    assert!(count_consistent(NAV2, 12) > 8);
+    assert!(count_consistent_logs(NAV2, 12) > 8);
 }
 
 #[test]
 #[ignore = "nightly: 500 calibrations"]
 fn ninety_of_a_hundred_good_logs_of_every_model_are_consistent() {
     for model in MODELS {
-        assert!(count_consistent(model, 100) >= 90, "{model:?}");
+        assert!(count_consistent_logs(model, 100) >= 90, "{model:?}");
     }
 }

@@ -1,7 +1,7 @@
 //! Systematic errors: their estimates, and their correction, after which they do not change the α's.
 
 use super::simulated::{ALPHAS, MODELS, Simulation};
-use super::{NAV2, calibrate_log, calibrate_simulation, default_options, new_trajectory, with_noisy_steps};
+use super::{NAV2, add_step_noise, calibrate_log, calibrate_simulation, new_trajectory, options_of};
 use crate::common::seeded_rng;
 use motion::calibrate::{
     CalibrateError, Calibration, Drive, LegLength, Model, Options, Systematic, SystematicError, Trajectory,
@@ -12,8 +12,8 @@ use nalgebra::Vector3;
 use rand::RngExt;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-fn simulation_with_errors(model: Model, leg_count: usize, errors: Systematic) -> Simulation {
-    Simulation { systematic_errors: errors, ..Simulation::of(model, leg_count, 77) }
+fn simulation_with_errors(model: Model, leg_count: usize, systematic_errors: Systematic) -> Simulation {
+    Simulation { systematic_errors, ..Simulation::of(model, leg_count, 77) }
 }
 
 /// Asserts that an estimated error is within four standard errors of the truth. Standard errors below 1e-3 are raised to 1e-3, because they
@@ -86,11 +86,11 @@ fn clocks_are_aligned_by_the_turns_of_a_broken_reference() {
 #[test]
 fn trajectories_without_a_common_time_are_refused() {
     let calibrate_logs = |odometry: &Trajectory, reference: &Trajectory| {
-        calibrate(&[Drive { odometry, reference }], &default_options(NAV2))
+        calibrate(&[Drive { odometry, reference }], &options_of(NAV2))
             .map(|calibration| calibration.systematic)
     };
-    let delay_trajectory = |trajectory: &Trajectory, delay: f64| {
-        new_trajectory(trajectory.samples().map(|(time, pose)| (time + delay, pose)))
+    let delay_trajectory = |trajectory: &Trajectory, time_shift: f64| {
+        new_trajectory(trajectory.samples().map(|(time, pose)| (time + time_shift, pose)))
     };
     let [odometry, _] = Simulation::of(NAV2, 500, 6).log();
     let [_, other_reference] = Simulation::of(NAV2, 500, 7).log();
@@ -156,12 +156,10 @@ fn an_uncorrected_error_appears_as_noise_of_the_wheels_or_of_the_reference() {
 fn an_error_that_the_log_does_not_identify_is_not_corrected() {
     let simulation = Simulation { leg_velocity: Some(|_| [0.4, 0.0]), ..Simulation::of(NAV2, 600, 4) };
     let calibration = calibrate_simulation(&simulation);
-    let is_not_identified =
+    let is_unidentified =
         |error_kind: SystematicError| calibration.systematic_stds[error_kind as usize].is_none();
-    assert!(
-        is_not_identified(SystematicError::TurnScale) && is_not_identified(SystematicError::LeverArmAhead)
-    );
-    for error_kind in SystematicError::ALL.into_iter().filter(|error_kind| is_not_identified(*error_kind)) {
+    assert!(is_unidentified(SystematicError::TurnScale) && is_unidentified(SystematicError::LeverArmAhead));
+    for error_kind in SystematicError::ALL.into_iter().filter(|error_kind| is_unidentified(*error_kind)) {
         assert!(!calibration.is_corrected[error_kind as usize], "{error_kind:?}");
         assert_eq!(calibration.corrected.get(error_kind), Systematic::NONE.get(error_kind), "{error_kind:?}");
     }
@@ -175,29 +173,29 @@ fn errors_of_a_robot_without_noise_are_exact() {
     let (mut robot_pose, mut odometry_samples) = (SE2::identity(), Vec::new());
     for row in 0..20_000_u32 {
         odometry_samples.push((0.01 * f64::from(row), robot_pose));
-        let drive_section = row as usize / 170;
-        let turn_rate = [0.7, -0.5, 0.9][drive_section / 3 % 3];
-        let twist = [[0.0, turn_rate], [0.4, 0.0], [0.4, 0.3]][drive_section % 3];
+        let section_index = row as usize / 170;
+        let turn_rate = [0.7, -0.5, 0.9][section_index / 3 % 3];
+        let twist = [[0.0, turn_rate], [0.4, 0.0], [0.4, 0.3]][section_index % 3];
         robot_pose = robot_pose.boxplus(Vector3::new(twist[0], 0.0, twist[1]) * 0.01);
     }
     let odometry = new_trajectory(odometry_samples.iter().copied().step_by(2));
-    for (first_row, row_step) in [(0, 2), (0, 10), (7, 50), (7, 100)] {
+    for (first_row_index, sample_stride) in [(0, 2), (0, 10), (7, 50), (7, 100)] {
         let delayed_samples = odometry_samples
             .iter()
-            .skip(first_row)
-            .step_by(row_step)
+            .skip(first_row_index)
+            .step_by(sample_stride)
             .map(|(time, robot_pose)| (time + CLOCK_OFFSET, *robot_pose));
-        let log = [odometry.clone(), new_trajectory(delayed_samples)];
+        let log_of_times = [odometry.clone(), new_trajectory(delayed_samples)];
         let calibration =
-            calibrate_log(&log, &Options { correct: [Some(true); 6], ..default_options(MODELS[0]) });
+            calibrate_log(&log_of_times, &Options { correct: [Some(true); 6], ..options_of(MODELS[0]) });
         let true_errors = Systematic { clock_offset: CLOCK_OFFSET, ..Systematic::NONE };
         for error_kind in SystematicError::ALL {
             let deviation = calibration.systematic.get(error_kind) - true_errors.get(error_kind);
-            assert!(deviation.abs() < 1e-6, "{error_kind:?} is off by {deviation}, every {row_step}");
+            assert!(deviation.abs() < 1e-6, "{error_kind:?} is off by {deviation}, every {sample_stride}");
         }
         assert!(
             calibration.alphas.iter().all(|alpha| alpha.is_none_or(|alpha| alpha < 1e-7)),
-            "every {row_step}"
+            "every {sample_stride}"
         );
     }
 }
@@ -211,9 +209,9 @@ fn noise_of_the_odometry_does_not_bias_the_clock_offset() {
     let (mut error_sum, mut variance_sum) = (0.0, 0.0);
     for seed in 1..=8 {
         let mut true_pose = SE2::identity();
-        let true_trajectory = new_trajectory((0..12_000).map(|row| {
-            let time = STEP_SECONDS * f64::from(row);
-            let sine_wave_of = |frequency: f64| (frequency * time).sin();
+        let true_trajectory = new_trajectory((0..12_000).map(|row_index| {
+            let time = STEP_SECONDS * f64::from(row_index);
+            let sine_wave_of = |angular_frequency: f64| (angular_frequency * time).sin();
             let v = 0.4 + 0.15 * sine_wave_of(2.0) + 0.1 * sine_wave_of(0.91);
             let omega = 0.5 * sine_wave_of(1.3) + 0.4 * sine_wave_of(0.41) + 0.3 * sine_wave_of(3.17);
             true_pose = true_pose.boxplus(Vector3::new(v, 0.0, omega) * STEP_SECONDS);
@@ -221,8 +219,8 @@ fn noise_of_the_odometry_does_not_bias_the_clock_offset() {
         }));
         let reference =
             true_trajectory.samples().step_by(2).map(|(time, true_pose)| (time + CLOCK_OFFSET, true_pose));
-        let log = [with_noisy_steps(&true_trajectory, [0.0015, 0.005], seed), new_trajectory(reference)];
-        let Calibration { systematic, systematic_stds, .. } = calibrate_log(&log, &default_options(NAV2));
+        let log = [add_step_noise(&true_trajectory, [0.0015, 0.005], seed), new_trajectory(reference)];
+        let Calibration { systematic, systematic_stds, .. } = calibrate_log(&log, &options_of(NAV2));
         let clock_offset_std = systematic_stds[SystematicError::ClockOffset as usize].expect("identifiable");
         error_sum += systematic.clock_offset - CLOCK_OFFSET;
         variance_sum += clock_offset_std * clock_offset_std;
@@ -233,24 +231,24 @@ fn noise_of_the_odometry_does_not_bias_the_clock_offset() {
 /// Four drives, each with a quarter of the legs and its own clock, give intervals as narrow as one drive with all legs.
 #[test]
 fn four_drives_are_as_informative_as_one_of_the_same_length() {
-    let simulation_with_clock_offset = |clock_offset: f64, leg_count: usize, seed: u64| {
+    let new_simulation_with_offset = |clock_offset: f64, leg_count: usize, seed: u64| {
         let true_errors = Systematic { clock_offset, ..Systematic::NONE };
         Simulation { seed, ..simulation_with_errors(NAV2, leg_count, true_errors) }
     };
     let drive_logs: Vec<[Trajectory; 2]> = [0.0, 0.4, -3.0, 900.0]
         .into_iter()
         .zip(20..)
-        .map(|(clock_offset, seed)| simulation_with_clock_offset(clock_offset, 300, seed).log())
+        .map(|(clock_offset, seed)| new_simulation_with_offset(clock_offset, 300, seed).log())
         .collect();
     let drives: Vec<Drive> =
         drive_logs.iter().map(|[odometry, reference]| Drive { odometry, reference }).collect();
-    let fit_of_four_drives = calibrate(&drives, &default_options(NAV2)).expect("legs enough");
-    let fit_of_one_drive = calibrate_simulation(&simulation_with_clock_offset(0.0, 1200, 20));
+    let fit_of_four_drives = calibrate(&drives, &options_of(NAV2)).expect("legs enough");
+    let fit_of_one_drive = calibrate_simulation(&new_simulation_with_offset(0.0, 1200, 20));
     assert!(fit_of_four_drives.legs.len() > 1190, "{}", fit_of_four_drives.legs.len());
     for (alpha_index, true_alpha) in ALPHAS.into_iter().enumerate().take(4) {
         let relative_interval_width_of = |calibration: &Calibration| {
-            let [low, high] = calibration.intervals[alpha_index].expect("identifiable");
-            (high - low) / calibration.alphas[alpha_index].expect("identifiable")
+            let [interval_low, interval_high] = calibration.intervals[alpha_index].expect("identifiable");
+            (interval_high - interval_low) / calibration.alphas[alpha_index].expect("identifiable")
         };
         let width_ratio =
             relative_interval_width_of(&fit_of_four_drives) / relative_interval_width_of(&fit_of_one_drive);
@@ -266,13 +264,13 @@ fn four_drives_are_as_informative_as_one_of_the_same_length() {
 #[test]
 fn encoder_jitter_of_a_standing_robot_does_not_change_the_scales() {
     let mut rng = seeded_rng(5);
-    let mut draw_uniform_noise = |max_noise: f64| rng.random_range(-max_noise..max_noise);
+    let mut draw_uniform_noise = |noise_bound: f64| rng.random_range(-noise_bound..noise_bound);
     let (mut odometry_pose, mut true_pose, mut pose_rows) = (SE2::identity(), SE2::identity(), Vec::new());
     for row in 0..16_000_usize {
-        let drive_section = row / 40;
-        let twist = match drive_section % 4 {
-            0 => [0.4, if drive_section % 8 == 0 { 0.5 } else { -0.6 }],
-            2 => [0.0, if drive_section % 8 == 2 { 0.7 } else { -0.5 }],
+        let section_index = row / 40;
+        let twist = match section_index % 4 {
+            0 => [0.4, if section_index % 8 == 0 { 0.5 } else { -0.6 }],
+            2 => [0.0, if section_index % 8 == 2 { 0.7 } else { -0.5 }],
             _ => [0.0, 0.0],
         };
         let twist = Vector3::new(twist[0], 0.0, twist[1]) * 0.05;
@@ -290,7 +288,7 @@ fn encoder_jitter_of_a_standing_robot_does_not_change_the_scales() {
     }
     let log =
         [0, 1].map(|trajectory_index| new_trajectory(pose_rows.iter().map(|row| row[trajectory_index])));
-    let options = Options { legs: LegLength::Duration { duration: 0.5 }, ..default_options(NAV2) };
+    let options = Options { legs: LegLength::Duration { duration: 0.5 }, ..options_of(NAV2) };
     let calibration = calibrate_log(&log, &options);
     assert_systematic_error_near(&calibration, SystematicError::TurnScale, 1.0);
     assert_systematic_error_near(&calibration, SystematicError::DistanceScale, 1.0);

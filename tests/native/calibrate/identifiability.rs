@@ -20,8 +20,8 @@ const STRAIGHT_LEG: [f64; 2] = [0.3, 0.0];
 const SPIN_LEG: [f64; 2] = [0.0, 0.6];
 const BEND_LEG: [f64; 2] = [0.2, 0.8];
 
-const NO_TURNS: Option<NotIdentifiable> = Some(InsufficientRotation);
-const NO_DISTANCE: Option<NotIdentifiable> = Some(InsufficientTranslation);
+const LACKS_TURNS: Option<NotIdentifiable> = Some(InsufficientRotation);
+const LACKS_DISTANCE: Option<NotIdentifiable> = Some(InsufficientTranslation);
 
 /// Drive that does not identify all α's, with the reason for each α.
 struct IncompleteDrive {
@@ -31,16 +31,16 @@ struct IncompleteDrive {
     velocity_reasons: [Option<NotIdentifiable>; 6],
     /// Drives with fifty additional legs of the motion that is missing. The first drive is for odometry models. The second is for the
     /// velocity model, which does not use turns on the spot.
-    complete: [VelocityOfLeg; 2],
+    completed_drives: [VelocityOfLeg; 2],
 }
 
 const INCOMPLETE_DRIVES: [IncompleteDrive; 3] = [
     IncompleteDrive {
         name: "straight",
         leg_velocity: |_| STRAIGHT_LEG,
-        odometry_reasons: [NO_TURNS, None, None, NO_TURNS, None],
-        velocity_reasons: [None, NO_TURNS, None, NO_TURNS, None, NO_TURNS],
-        complete: [
+        odometry_reasons: [LACKS_TURNS, None, None, LACKS_TURNS, None],
+        velocity_reasons: [None, LACKS_TURNS, None, LACKS_TURNS, None, LACKS_TURNS],
+        completed_drives: [
             |leg_index| if leg_index.is_multiple_of(8) { SPIN_LEG } else { STRAIGHT_LEG },
             |leg_index| if leg_index.is_multiple_of(8) { BEND_LEG } else { STRAIGHT_LEG },
         ],
@@ -48,9 +48,9 @@ const INCOMPLETE_DRIVES: [IncompleteDrive; 3] = [
     IncompleteDrive {
         name: "on the spot",
         leg_velocity: |_| SPIN_LEG,
-        odometry_reasons: [None, NO_DISTANCE, NO_DISTANCE, None, NO_DISTANCE],
-        velocity_reasons: [NO_DISTANCE, None, NO_DISTANCE, NO_TURNS, NO_DISTANCE, NO_TURNS],
-        complete: [
+        odometry_reasons: [None, LACKS_DISTANCE, LACKS_DISTANCE, None, LACKS_DISTANCE],
+        velocity_reasons: [LACKS_DISTANCE, None, LACKS_DISTANCE, LACKS_TURNS, LACKS_DISTANCE, LACKS_TURNS],
+        completed_drives: [
             |leg_index| if leg_index.is_multiple_of(8) { STRAIGHT_LEG } else { SPIN_LEG },
             |leg_index| {
                 [SPIN_LEG, STRAIGHT_LEG, BEND_LEG, STRAIGHT_LEG, BEND_LEG, STRAIGHT_LEG, BEND_LEG, BEND_LEG]
@@ -64,7 +64,7 @@ const INCOMPLETE_DRIVES: [IncompleteDrive; 3] = [
         leg_velocity: |leg_index| [0.3, if leg_index.is_multiple_of(2) { 0.29 } else { 0.31 }],
         odometry_reasons: [Some(Collinear); 5],
         velocity_reasons: [Some(Collinear); 6],
-        complete: [
+        completed_drives: [
             |leg_index| [[0.3, 0.3], STRAIGHT_LEG, [0.3, 0.3], SPIN_LEG][leg_index % 4],
             |leg_index| [[0.3, 0.3], STRAIGHT_LEG, [0.3, 0.3], BEND_LEG][leg_index % 4],
         ],
@@ -72,13 +72,13 @@ const INCOMPLETE_DRIVES: [IncompleteDrive; 3] = [
 ];
 
 #[test]
-fn incomplete_give_the_reason_and_complete_ones_identify_all_alphas() {
+fn incomplete_drives_give_reasons_and_complete_drives_identify_all_alphas() {
     assert_reasons_and_intervals(&[NAV2, Model::Velocity]);
 }
 
 #[test]
 #[ignore = "nightly: 30 calibrations"]
-fn incomplete_give_the_reason_for_every_model() {
+fn incomplete_drives_give_reasons_under_every_model() {
     assert_reasons_and_intervals(&MODELS);
 }
 
@@ -92,16 +92,17 @@ fn assert_reasons_and_intervals(models: &[Model]) {
             let calibration = calibrate_velocities(model, drive.leg_velocity);
             let case_name = format!("{model:?} {}", drive.name);
             assert_eq!(calibration.not_identifiable, expected_reasons[..model.alphas()], "{case_name}");
-            for (k, reason) in calibration.not_identifiable.iter().enumerate() {
-                let is_estimated = [calibration.alphas[k].is_some(), calibration.intervals[k].is_some()];
-                assert_eq!(is_estimated, [reason.is_none(); 2], "{case_name}: α{}", k + 1);
+            for (k, missing_reason) in calibration.not_identifiable.iter().enumerate() {
+                let has_alpha_and_interval =
+                    [calibration.alphas[k].is_some(), calibration.intervals[k].is_some()];
+                assert_eq!(has_alpha_and_interval, [missing_reason.is_none(); 2], "{case_name}: α{}", k + 1);
             }
-            let complete_calibration =
-                calibrate_velocities(model, drive.complete[usize::from(is_velocity_model)]);
-            assert!(complete_calibration.not_identifiable.iter().all(Option::is_none), "{case_name}");
-            for (alpha_interval, true_alpha) in complete_calibration.intervals.iter().zip(ALPHAS) {
-                let [low, high] = alpha_interval.expect("identifiable");
-                covered_count += u32::from((low..=high).contains(&true_alpha));
+            let calibration_of_complete =
+                calibrate_velocities(model, drive.completed_drives[usize::from(is_velocity_model)]);
+            assert!(calibration_of_complete.not_identifiable.iter().all(Option::is_none), "{case_name}");
+            for (alpha_interval, true_alpha) in calibration_of_complete.intervals.iter().zip(ALPHAS) {
+                let [interval_low, interval_high] = alpha_interval.expect("identifiable");
+                covered_count += u32::from((interval_low..=interval_high).contains(&true_alpha));
                 interval_count += 1;
             }
         }

@@ -1,7 +1,7 @@
 //! The restricted likelihood, compared with a reference from a dense covariance matrix, and its maximum.
 
 use super::simulated::{MODELS, Simulation, Violation};
-use super::{NAV2, calibrate_log, calibrate_simulation, default_options};
+use super::{NAV2, calibrate_log, calibrate_simulation, options_of};
 use motion::calibrate::{Calibration, Leg, LegLength, Options, Outliers, Systematic, SystematicError};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::alpha_calibrator::{Log, example::simulate_log};
@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
 
 /// Returns a simulation of bends in both directions, where no special case of the model applies.
-fn simulation_of_bends(leg_count: usize) -> Simulation {
+fn new_bend_simulation(leg_count: usize) -> Simulation {
     Simulation {
         leg_velocity: Some(|leg_index| [0.3, [0.3, -0.2, 0.1][leg_index / 3 % 3]]),
         reference_stds: [0.004, 0.01],
@@ -18,34 +18,34 @@ fn simulation_of_bends(leg_count: usize) -> Simulation {
 }
 
 /// Returns the Jacobian of a function at 0, by central differences. Angles are wrapped.
-fn jacobian_of(evaluate: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Matrix3<f64> {
+fn jacobian_of(evaluate_at: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Matrix3<f64> {
     const H: f64 = 1e-6;
-    let jacobian_column_of = |argument_index: usize| {
-        let argument_offset = Vector3::from_fn(|k, _| if k == argument_index { H } else { 0.0 });
-        let mut central_difference = evaluate(argument_offset) - evaluate(-argument_offset);
-        central_difference.iter_mut().for_each(|component| *component = wrap_angle(*component));
+    let jacobian_column_of = |axis: usize| {
+        let argument_offset = Vector3::from_fn(|k, _| if k == axis { H } else { 0.0 });
+        let mut central_difference = evaluate_at(argument_offset) - evaluate_at(-argument_offset);
+        central_difference.iter_mut().for_each(|difference| *difference = wrap_angle(*difference));
         central_difference / (2.0 * H)
     };
     Matrix3::from_columns(&[0, 1, 2].map(jacobian_column_of))
 }
 
-fn pose_coordinates(pose: &SE2) -> Vector3<f64> {
+fn coordinates_of(pose: &SE2) -> Vector3<f64> {
     Vector3::new(pose.x(), pose.y(), pose.theta())
 }
 
-fn odometry_reading(motion: &Vector3<f64>) -> Vector3<f64> {
-    let bearing = libm::atan2(motion.y, motion.x);
-    Vector3::new(bearing, libm::hypot(motion.x, motion.y), wrap_angle(motion.z - bearing))
+fn odometry_reading_of(robot_motion: &Vector3<f64>) -> Vector3<f64> {
+    let bearing = libm::atan2(robot_motion.y, robot_motion.x);
+    Vector3::new(bearing, libm::hypot(robot_motion.x, robot_motion.y), wrap_angle(robot_motion.z - bearing))
 }
 
 /// Returns the Jacobian of (rot1, trans, rot2) with respect to the motion, at the expected motion.
-fn reading_jacobian(leg: &Leg, systematic_errors: &Systematic) -> Matrix3<f64> {
-    let expected_motion = pose_coordinates(&expected_motion(leg, systematic_errors));
-    jacobian_of(|motion_offset| odometry_reading(&(expected_motion + motion_offset)))
+fn reading_jacobian_of(leg: &Leg, systematic_errors: &Systematic) -> Matrix3<f64> {
+    let expected_motion = coordinates_of(&expected_motion_of(leg, systematic_errors));
+    jacobian_of(|motion_offset| odometry_reading_of(&(expected_motion + motion_offset)))
 }
 
 /// Returns the motion that the odometry measured, with the scales of distance and turn corrected.
-fn expected_motion(leg: &Leg, systematic_errors: &Systematic) -> SE2 {
+fn expected_motion_of(leg: &Leg, systematic_errors: &Systematic) -> SE2 {
     let twist = leg.odometry[1].boxminus(&leg.odometry[0]);
     SE2::exp(&Vector3::new(
         systematic_errors.distance_scale * twist.x,
@@ -61,32 +61,33 @@ fn pose_jacobian(leg: &Leg, systematic_errors: &Systematic, end_index: usize) ->
         reference_poses[end_index] =
             reference_poses[end_index] * SE2::new(pose_error.x, pose_error.y, pose_error.z);
         let [start_pose, end_pose] = reference_poses.map(|pose| pose * systematic_errors.base());
-        pose_coordinates(&(start_pose.inverse() * end_pose))
+        coordinates_of(&(start_pose.inverse() * end_pose))
     };
-    reading_jacobian(leg, systematic_errors) * jacobian_of(motion_with_pose_error)
+    reading_jacobian_of(leg, systematic_errors) * jacobian_of(motion_with_pose_error)
 }
 
 /// Returns the derivative of the residuals with respect to a systematic error, for a leg without noise.
 fn error_derivative(leg: &Leg, systematic_errors: &Systematic, error_kind: SystematicError) -> Vector3<f64> {
     const H: f64 = 1e-6;
-    let odometry_motion = expected_motion(leg, systematic_errors);
-    let motion_error_after = |error_step: f64| {
+    let odometry_motion = expected_motion_of(leg, systematic_errors);
+    let motion_error_after = |error_change: f64| {
         let mut changed_errors = *systematic_errors;
-        *changed_errors.get_mut(error_kind) += error_step;
+        *changed_errors.get_mut(error_kind) += error_change;
         // In the simulated reference, the sensor is mounted with `systematic_errors`, and the robot executes the motion that
         // odometry measured.
-        let mount_pose =
-            |errors: &Systematic| SE2::new(errors.lever_arm[0], errors.lever_arm[1], errors.mount_yaw);
+        let mount_pose_of = |mounting_errors: &Systematic| {
+            SE2::new(mounting_errors.lever_arm[0], mounting_errors.lever_arm[1], mounting_errors.mount_yaw)
+        };
         let reference_motion =
-            mount_pose(systematic_errors).inverse() * odometry_motion * mount_pose(systematic_errors);
+            mount_pose_of(systematic_errors).inverse() * odometry_motion * mount_pose_of(systematic_errors);
         let measured_motion = changed_errors.base().inverse() * (reference_motion * changed_errors.base());
-        pose_coordinates(&measured_motion) - pose_coordinates(&expected_motion(leg, &changed_errors))
+        coordinates_of(&measured_motion) - coordinates_of(&expected_motion_of(leg, &changed_errors))
     };
-    reading_jacobian(leg, systematic_errors) * (motion_error_after(H) - motion_error_after(-H)) / (2.0 * H)
+    reading_jacobian_of(leg, systematic_errors) * (motion_error_after(H) - motion_error_after(-H)) / (2.0 * H)
 }
 
 /// Returns the restricted log-likelihood, from a dense covariance matrix of all residuals.
-fn dense_log_likelihood(calibration: &Calibration, error_kinds: &[SystematicError]) -> f64 {
+fn compute_dense_log_likelihood(calibration: &Calibration, error_kinds: &[SystematicError]) -> f64 {
     let Calibration { legs, observations, corrected, alphas, reference_noise, .. } = calibration;
     let residual_count = 3 * legs.len();
     let [position_variance, yaw_variance] =
@@ -95,7 +96,7 @@ fn dense_log_likelihood(calibration: &Calibration, error_kinds: &[SystematicErro
         Matrix3::from_diagonal(&Vector3::new(position_variance, position_variance, yaw_variance));
     // `pose_count` counts poses of the reference. Successive legs share a pose. Any other leg starts at a new pose.
     let (mut pose_jacobians, mut pose_count) = (DMatrix::zeros(residual_count, 3 * (residual_count + 3)), 0);
-    let mut covariance = DMatrix::zeros(residual_count, residual_count);
+    let mut residual_covariance = DMatrix::zeros(residual_count, residual_count);
     let mut stacked_residuals = DVector::zeros(residual_count);
     let mut design_matrix = DMatrix::zeros(residual_count, error_kinds.len());
     for (i, (leg, observation)) in legs.iter().zip(observations).enumerate() {
@@ -113,20 +114,20 @@ fn dense_log_likelihood(calibration: &Calibration, error_kinds: &[SystematicErro
             let [first_alpha, second_alpha] =
                 NAV2.component_alphas()[k].map(|alpha_index| alphas[alpha_index].expect("identifiable"));
             let [first_coefficient, second_coefficient] = observation.coefficients[k];
-            covariance[(3 * i + k, 3 * i + k)] =
+            residual_covariance[(3 * i + k, 3 * i + k)] =
                 first_alpha * first_coefficient + second_alpha * second_coefficient;
             stacked_residuals[3 * i + k] = observation.residuals[k];
         }
         for (column_index, error_kind) in error_kinds.iter().enumerate() {
-            let derivative = error_derivative(leg, corrected, *error_kind);
-            design_matrix.fixed_view_mut::<3, 1>(3 * i, column_index).copy_from(&derivative);
+            let residual_derivative = error_derivative(leg, corrected, *error_kind);
+            design_matrix.fixed_view_mut::<3, 1>(3 * i, column_index).copy_from(&residual_derivative);
         }
     }
     for pose_index in 0..pose_count {
-        let jacobian = pose_jacobians.columns(3 * pose_index, 3);
-        covariance += jacobian * reference_covariance * jacobian.transpose();
+        let pose_jacobian = pose_jacobians.columns(3 * pose_index, 3);
+        residual_covariance += pose_jacobian * reference_covariance * pose_jacobian.transpose();
     }
-    let cholesky = covariance.cholesky().expect("positive definite");
+    let cholesky = residual_covariance.cholesky().expect("positive definite");
     let log_det = |cholesky: &nalgebra::Cholesky<f64, nalgebra::Dyn>| {
         2.0 * cholesky.l().diagonal().map(libm::log).sum()
     };
@@ -147,8 +148,8 @@ fn dense_log_likelihood(calibration: &Calibration, error_kinds: &[SystematicErro
 
 /// The tolerance allows for 120 residuals, whose Jacobians by central differences have a relative error of 1e-9.
 #[test]
-fn the_recursion_gives_the_likelihood_of_the_dense_covariance() {
-    let sim = simulation_of_bends(40);
+fn the_filter_gives_the_likelihood_of_a_dense_covariance_matrix() {
+    let sim = new_bend_simulation(40);
     let five_errors = [
         SystematicError::MountYaw,
         SystematicError::LeverArmAhead,
@@ -157,11 +158,12 @@ fn the_recursion_gives_the_likelihood_of_the_dense_covariance() {
         SystematicError::TurnScale,
     ];
     for corrected_kinds in [&five_errors[..0], &five_errors] {
-        let correct = SystematicError::ALL.map(|error_kind| Some(corrected_kinds.contains(&error_kind)));
-        let calibration = calibrate_log(&sim.log(), &Options { correct, ..sim.calibration_options() });
-        assert_eq!(calibration.leg_fits.iter().filter(|fit| fit.is_outlier).count(), 0);
+        let corrections = SystematicError::ALL.map(|error_kind| Some(corrected_kinds.contains(&error_kind)));
+        let calibration =
+            calibrate_log(&sim.log(), &Options { correct: corrections, ..sim.calibration_options() });
+        assert_eq!(calibration.leg_fits.iter().filter(|leg_fit| leg_fit.is_outlier).count(), 0);
         let (log_likelihood, dense_value) =
-            (calibration.log_likelihood, dense_log_likelihood(&calibration, corrected_kinds));
+            (calibration.log_likelihood, compute_dense_log_likelihood(&calibration, corrected_kinds));
         assert!((log_likelihood - dense_value).abs() < 1e-5, "{log_likelihood} is not {dense_value}");
     }
 }
@@ -178,8 +180,8 @@ fn rotations_of_a_short_leg_add_up_to_its_turn() {
     };
     let residuals =
         calibrate_simulation(&sim).observations.into_iter().map(|observation| observation.residuals);
-    let (max_rotation, max_turn) = residuals.fold((0.0, 0.0), |(rotation, turn), [rot1, _, rot2]| {
-        (f64::max(rotation, rot2.abs()), f64::max(turn, (rot1 + rot2).abs()))
+    let (max_rotation, max_turn) = residuals.fold((0.0, 0.0), |(rotation_so_far, turn), [rot1, _, rot2]| {
+        (f64::max(rotation_so_far, rot2.abs()), f64::max(turn, (rot1 + rot2).abs()))
     });
     assert!(max_rotation > PI && max_turn < 0.2, "{max_rotation} {max_turn}");
 }
@@ -187,15 +189,15 @@ fn rotations_of_a_short_leg_add_up_to_its_turn() {
 /// The innovation of a leg equals its residual if the filter knows nothing about the reference's error at the start of the leg. That holds
 /// for an outlier, and for the leg after an outlier.
 #[test]
-fn an_outlier_is_filtered_by_itself() {
+fn an_outlier_shares_no_reference_error_with_its_neighbours() {
     let sim =
         Simulation { jump_fraction: 0.05, reference_stds: [0.005, 0.002], ..Simulation::of(NAV2, 300, 8) };
-    let options = Options { correct: [Some(false); 6], ..sim.calibration_options() };
-    let Calibration { leg_fits, legs, observations, .. } = calibrate_log(&sim.log(), &options);
-    assert!(leg_fits.iter().filter(|fit| fit.is_outlier).count() > 10);
-    for (i, (fit, observation)) in leg_fits.iter().zip(observations).enumerate() {
-        let has_no_prior_error = !legs[i].follows || fit.is_outlier || leg_fits[i - 1].is_outlier;
-        let innovation = fit.standardized[1] * fit.stds[1];
+    let uncorrected_options = Options { correct: [Some(false); 6], ..sim.calibration_options() };
+    let Calibration { leg_fits, legs, observations, .. } = calibrate_log(&sim.log(), &uncorrected_options);
+    assert!(leg_fits.iter().filter(|leg_fit| leg_fit.is_outlier).count() > 10);
+    for (i, (leg_fit, observation)) in leg_fits.iter().zip(observations).enumerate() {
+        let has_no_prior_error = !legs[i].follows || leg_fit.is_outlier || leg_fits[i - 1].is_outlier;
+        let innovation = leg_fit.standardized[1] * leg_fit.stds[1];
         assert_eq!((innovation - observation.residuals[1]).abs() < 1e-12, has_no_prior_error, "leg {i}");
     }
 }
@@ -213,18 +215,18 @@ fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
         ..sim.calibration_options()
     };
     let calibration = calibrate_log(&sim.log(), &exact_options);
-    let n = calibration.legs.len() as f64;
+    let leg_count = calibration.legs.len() as f64;
     // The noise of translation and strafe grows with the distance only.
     for (component_index, alpha_index) in [(1, 2), (2, 4)] {
         let estimate_alpha = |observation: &motion::calibrate::Observation| {
             observation.residuals[component_index].powi(2) / observation.coefficients[component_index][0]
         };
-        let expected_alpha = calibration.observations.iter().map(estimate_alpha).sum::<f64>() / n;
+        let expected_alpha = calibration.observations.iter().map(estimate_alpha).sum::<f64>() / leg_count;
         let fitted_alpha = calibration.alphas[alpha_index].expect("identifiable");
         assert!((fitted_alpha / expected_alpha - 1.0).abs() < 1e-3, "{fitted_alpha} {expected_alpha}");
         for interval_bound in calibration.intervals[alpha_index].expect("identifiable") {
             let alpha_ratio = interval_bound / expected_alpha;
-            let deviance = n * (libm::log(alpha_ratio) + 1.0 / alpha_ratio - 1.0);
+            let deviance = leg_count * (libm::log(alpha_ratio) + 1.0 / alpha_ratio - 1.0);
             // The deviance is 3.84, or higher if squared residuals of neighbouring legs are correlated by chance.
             assert!((3.7..5.2).contains(&deviance), "{deviance}");
         }
@@ -236,13 +238,13 @@ fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
 #[test]
 fn alphas_and_their_intervals_scale_with_the_noise() {
     for model in [MODELS[1], MODELS[3]] {
-        let calibrate_scaled_noise = |noise_factor: f64| {
+        let calibrate_scaled_noise = |std_factor: f64| {
             let sim =
-                Simulation { violation: Violation::Scaled(noise_factor), ..Simulation::of(model, 1000, 103) };
+                Simulation { violation: Violation::Scaled(std_factor), ..Simulation::of(model, 1000, 103) };
             let exact_options =
                 Options { position_std: Some(0.0), yaw_std: Some(0.0), ..sim.calibration_options() };
             let Calibration { alphas, intervals, .. } = calibrate_log(&sim.log(), &exact_options);
-            let divide_by_squared_factor = |bound: f64| bound / (noise_factor * noise_factor);
+            let divide_by_squared_factor = |interval_bound: f64| interval_bound / (std_factor * std_factor);
             let bounds_and_alphas = alphas.into_iter().zip(intervals).map(|(alpha, alpha_interval)| {
                 let [low, high] = alpha_interval.expect("identifiable");
                 [low, alpha.expect("identifiable"), high].map(divide_by_squared_factor)
@@ -250,14 +252,14 @@ fn alphas_and_their_intervals_scale_with_the_noise() {
             bounds_and_alphas.collect::<Vec<_>>()
         };
         let bounds_of_larger_noise = calibrate_scaled_noise(0.01);
-        for (k, (bounds, expected_bounds)) in
+        for (k, (scaled_bounds, expected_bounds)) in
             calibrate_scaled_noise(0.001).into_iter().zip(bounds_of_larger_noise).enumerate()
         {
-            for (bound, expected_bound) in bounds.into_iter().zip(expected_bounds) {
+            for (interval_bound, expected_bound) in scaled_bounds.into_iter().zip(expected_bounds) {
                 let tolerance = 0.025 * (expected_bounds[2] - expected_bounds[0]);
                 assert!(
-                    (bound - expected_bound).abs() < tolerance,
-                    "{model:?} α{}: {bounds:?} {expected_bounds:?}",
+                    (interval_bound - expected_bound).abs() < tolerance,
+                    "{model:?} α{}: {scaled_bounds:?} {expected_bounds:?}",
                     k + 1
                 );
             }
@@ -304,9 +306,9 @@ fn the_noise_of_the_reference_maximizes_the_likelihood() {
 fn the_search_finds_the_larger_of_two_maxima() {
     let Log { odometry, reference } = simulate_log(3);
     let log_likelihood_with = |position_std| {
-        let options = Options { outliers: Outliers::Keep, position_std, ..default_options(MODELS[0]) };
+        let options = Options { outliers: Outliers::Keep, position_std, ..options_of(MODELS[0]) };
         calibrate_log(&[odometry.clone(), reference.clone()], &options).log_likelihood
     };
-    let [estimated, stated] = [None, Some(0.04)].map(log_likelihood_with);
-    assert!(estimated > stated, "{estimated} {stated}");
+    let [likelihood_of_estimate, likelihood_of_option] = [None, Some(0.04)].map(log_likelihood_with);
+    assert!(likelihood_of_estimate > likelihood_of_option, "{likelihood_of_estimate}");
 }

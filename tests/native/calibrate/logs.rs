@@ -5,15 +5,15 @@ use motion::calibrate::{Leg, LegLength, LostLegs, Trajectory, split_into_legs};
 use motion::geom::se2::{SE2, wrap_angle};
 use nalgebra::Vector3;
 
-const AMCL_LEG: LegLength = LegLength::Displacement { distance: 0.25, angle: 0.2 };
+const AMCL_LENGTH: LegLength = LegLength::Displacement { distance: 0.25, angle: 0.2 };
 
 /// Returns the trajectory of a robot that drives straight ahead, with a row every 0.1 s.
-fn straight_drive(row_count: usize, step_length: f64) -> Trajectory {
+fn new_straight_drive(row_count: usize, step_length: f64) -> Trajectory {
     new_trajectory((0..row_count).map(|row| (0.1 * row as f64, SE2::new(step_length * row as f64, 0.0, 0.0))))
 }
 
 /// Returns the trajectory without the rows between `first_row` and `last_row`.
-fn without_rows_between(trajectory: &Trajectory, first_row: usize, last_row: usize) -> Trajectory {
+fn remove_rows_between(trajectory: &Trajectory, first_row: usize, last_row: usize) -> Trajectory {
     super::new_trajectory(
         trajectory
             .samples()
@@ -23,34 +23,34 @@ fn without_rows_between(trajectory: &Trajectory, first_row: usize, last_row: usi
     )
 }
 
-fn leg_times(legs: &[Leg]) -> Vec<[f64; 2]> {
-    legs.iter().map(|leg| leg.times).collect()
+fn times_of_legs(leg_list: &[Leg]) -> Vec<[f64; 2]> {
+    leg_list.iter().map(|leg| leg.times).collect()
 }
 
-fn sample_times(trajectory: &Trajectory) -> Vec<f64> {
+fn times_of(trajectory: &Trajectory) -> Vec<f64> {
     trajectory.samples().map(|(time, _)| time).collect()
 }
 
 #[test]
 fn legs_end_as_amcl_ends_them() {
-    let odometry = straight_drive(41, 0.0625);
-    let (legs, lost_legs) = split_into_legs(&odometry, &odometry, AMCL_LEG, 0.0);
+    let odometry = new_straight_drive(41, 0.0625);
+    let (legs, lost_legs) = split_into_legs(&odometry, &odometry, AMCL_LENGTH, 0.0);
     // A leg ends beyond a quarter of a metre, and not at exactly that distance. Each leg therefore has five steps.
     assert_eq!((legs.len(), lost_legs), (8, LostLegs::default()));
     for (i, leg) in legs.iter().enumerate() {
         assert_eq!(leg.odometry[1].x() - leg.odometry[0].x(), 0.3125);
-        assert_eq!(leg.times[0], sample_times(&odometry)[5 * i]);
+        assert_eq!(leg.times[0], times_of(&odometry)[5 * i]);
         assert_eq!(leg.follows, i > 0);
     }
     // Each axis has its own limit. A motion of 0.24 m along both axes ends no leg, although its distance is 0.34 m.
     let diagonal_drive =
         new_trajectory([(0.0, 0.0), (0.1, 0.24), (0.2, 0.26)].map(|(t, x)| (t, SE2::new(x, x, 0.0))));
-    assert_eq!(split_into_legs(&diagonal_drive, &diagonal_drive, AMCL_LEG, 0.0).0[0].times, [0.0, 0.2]);
+    assert_eq!(split_into_legs(&diagonal_drive, &diagonal_drive, AMCL_LENGTH, 0.0).0[0].times, [0.0, 0.2]);
     // Headings on both sides of π differ by a small angle.
     let turning_drive =
         [(0.0, 3.1), (0.1, -3.1), (0.2, -2.9)].map(|(t, theta)| (t, SE2::new(0.0, 0.0, theta)));
     let turning_drive = new_trajectory(turning_drive);
-    assert_eq!(split_into_legs(&turning_drive, &turning_drive, AMCL_LEG, 0.0).0[0].times, [0.0, 0.2]);
+    assert_eq!(split_into_legs(&turning_drive, &turning_drive, AMCL_LENGTH, 0.0).0[0].times, [0.0, 0.2]);
     let timed_legs = split_into_legs(&odometry, &odometry, LegLength::Duration { duration: 0.5 }, 0.0).0;
     assert_eq!(timed_legs.len(), 8);
 }
@@ -62,47 +62,47 @@ fn rounding_does_not_decide_where_a_leg_ends() {
         let heading_at = |row: usize| round_heading(wrap_angle(0.123_456_7 + 0.02 * row as f64));
         let turning_drive =
             new_trajectory((0..400).map(|row| (0.1 * row as f64, SE2::new(0.0, 0.0, heading_at(row)))));
-        leg_times(&split_into_legs(&turning_drive, &turning_drive, AMCL_LEG, 0.0).0)
+        times_of_legs(&split_into_legs(&turning_drive, &turning_drive, AMCL_LENGTH, 0.0).0)
     };
-    let exact_leg_times = leg_end_times_with(|heading| heading);
+    let exact_leg_times = leg_end_times_with(|exact_heading| exact_heading);
     // A leg does not end at exactly the limit. Each leg therefore has eleven steps.
     assert_eq!(exact_leg_times.len(), 36);
-    assert_eq!(leg_end_times_with(|heading| (heading * 1e6).round() / 1e6), exact_leg_times);
+    assert_eq!(leg_end_times_with(|exact_heading| (exact_heading * 1e6).round() / 1e6), exact_leg_times);
 }
 
 /// A leg normally has five steps. A leg with a pause of six steps after its first step is 0.44 m long. With the pause after the fourth
 /// step it would be 0.63 m long, more than twice the requested length, and is lost.
 #[test]
 fn a_leg_leads_across_a_pause_if_it_stays_short_enough() {
-    let drive = straight_drive(101, 0.0625);
-    for (steps_before_pause, end_row, across_pauses) in [(1, 37, 0), (4, 40, 1)] {
+    let drive = new_straight_drive(101, 0.0625);
+    for (steps_before_pause, next_leg_row, lost_across_pauses) in [(1, 37, 0), (4, 40, 1)] {
         let drive_with_pause =
-            without_rows_between(&drive, 30 + steps_before_pause, 30 + steps_before_pause + 6);
-        let (legs, lost_legs) = split_into_legs(&drive_with_pause, &drive, AMCL_LEG, 0.0);
-        assert_eq!(lost_legs, LostLegs { across_pauses, ..LostLegs::default() });
-        let leg_across_pause = legs.iter().find(|leg| leg.times[0] == sample_times(&drive)[30]);
+            remove_rows_between(&drive, 30 + steps_before_pause, 30 + steps_before_pause + 6);
+        let (legs, lost_legs) = split_into_legs(&drive_with_pause, &drive, AMCL_LENGTH, 0.0);
+        assert_eq!(lost_legs, LostLegs { across_pauses: lost_across_pauses, ..LostLegs::default() });
+        let leg_across_pause = legs.iter().find(|leg| leg.times[0] == times_of(&drive)[30]);
         assert_eq!(
             leg_across_pause.map(|leg| leg.times[1]),
-            (across_pauses == 0).then_some(sample_times(&drive)[end_row])
+            (lost_across_pauses == 0).then_some(times_of(&drive)[next_leg_row])
         );
         // A leg after a lost leg does not follow the previous leg of the list.
         let next_leg =
-            legs.iter().find(|leg| leg.times[0] == sample_times(&drive)[end_row]).expect("it goes on");
-        assert_eq!(next_leg.follows, across_pauses == 0);
+            legs.iter().find(|leg| leg.times[0] == times_of(&drive)[next_leg_row]).expect("it goes on");
+        assert_eq!(next_leg.follows, lost_across_pauses == 0);
     }
     // If the reference lacks rows between the ends of a leg, the leg is not lost.
-    let (legs, lost_legs) = split_into_legs(&drive, &without_rows_between(&drive, 30, 35), AMCL_LEG, 0.0);
-    assert_eq!((legs, lost_legs), split_into_legs(&drive, &drive, AMCL_LEG, 0.0));
+    let (legs, lost_legs) = split_into_legs(&drive, &remove_rows_between(&drive, 30, 35), AMCL_LENGTH, 0.0);
+    assert_eq!((legs, lost_legs), split_into_legs(&drive, &drive, AMCL_LENGTH, 0.0));
 }
 
 #[test]
 fn lost_legs_are_counted_by_cause() {
-    let drive = straight_drive(101, 0.05);
-    let all_legs = split_into_legs(&drive, &drive, AMCL_LEG, 0.0).0;
+    let drive = new_straight_drive(101, 0.05);
+    let all_legs = split_into_legs(&drive, &drive, AMCL_LENGTH, 0.0).0;
     // The reference has the rows from 12 to 66. It begins after two of sixteen legs and ends before the last five.
     let shorter_reference = new_trajectory(drive.samples().skip(12).take(55));
-    let (legs, lost_legs) = split_into_legs(&drive, &shorter_reference, AMCL_LEG, 0.0);
-    assert_eq!(leg_times(&legs), leg_times(&all_legs[2..11]));
+    let (legs, lost_legs) = split_into_legs(&drive, &shorter_reference, AMCL_LENGTH, 0.0);
+    assert_eq!(times_of_legs(&legs), times_of_legs(&all_legs[2..11]));
     assert!(
         lost_legs.without_reference >= 4 && lost_legs.total() == lost_legs.without_reference,
         "{lost_legs:?}"
@@ -118,42 +118,41 @@ fn lost_legs_are_counted_by_cause() {
 
 #[test]
 fn no_leg_leads_across_a_break() {
-    let drive = straight_drive(101, 0.1);
-    let all_legs = split_into_legs(&drive, &drive, AMCL_LEG, 0.0).0;
+    let drive = new_straight_drive(101, 0.1);
+    let all_legs = split_into_legs(&drive, &drive, AMCL_LENGTH, 0.0).0;
     let break_rows = [17, 33, 34, 70];
     let drive_with_breaks = drive.clone().with_breaks_before(break_rows);
     let spans_break = |leg: &Leg| {
-        let spans_row = |row: usize| {
-            leg.times[0] < sample_times(&drive)[row] && sample_times(&drive)[row] <= leg.times[1]
-        };
-        break_rows.into_iter().any(spans_row)
+        let contains_row =
+            |row: usize| leg.times[0] < times_of(&drive)[row] && times_of(&drive)[row] <= leg.times[1];
+        break_rows.into_iter().any(contains_row)
     };
     let kept_legs: Vec<Leg> = all_legs.iter().filter(|leg| !spans_break(leg)).copied().collect();
     // A break of the reference removes the legs across it, and no others.
-    let (legs, lost_legs) = split_into_legs(&drive, &drive_with_breaks, AMCL_LEG, 0.0);
-    assert_eq!(leg_times(&legs), leg_times(&kept_legs));
-    let across_breaks = all_legs.len() - kept_legs.len();
-    assert_eq!(lost_legs, LostLegs { across_breaks, ..LostLegs::default() });
+    let (legs, lost_legs) = split_into_legs(&drive, &drive_with_breaks, AMCL_LENGTH, 0.0);
+    assert_eq!(times_of_legs(&legs), times_of_legs(&kept_legs));
+    let lost_across_breaks = all_legs.len() - kept_legs.len();
+    assert_eq!(lost_legs, LostLegs { across_breaks: lost_across_breaks, ..LostLegs::default() });
     // After a break of the odometry a leg begins at the break.
-    let (legs, lost_legs) = split_into_legs(&drive_with_breaks, &drive, AMCL_LEG, 0.0);
+    let (legs, lost_legs) = split_into_legs(&drive_with_breaks, &drive, AMCL_LENGTH, 0.0);
     assert!(legs.len() > 25 && !legs.iter().any(spans_break));
     assert_eq!(lost_legs, LostLegs { across_breaks: 4, ..LostLegs::default() });
-    assert!([17, 34, 70].iter().all(|row| legs.iter().any(|leg| leg.times[0] == sample_times(&drive)[*row])));
+    assert!([17, 34, 70].iter().all(|row| legs.iter().any(|leg| leg.times[0] == times_of(&drive)[*row])));
     // There is no pose between the rows of a break, and no break before the first row or after the last.
-    assert!(drive_with_breaks.pose_at(sample_times(&drive)[16] + 0.01).is_none());
-    assert!([16, 17].iter().all(|row| drive_with_breaks.pose_at(sample_times(&drive)[*row]).is_some()));
+    assert!(drive_with_breaks.pose_at(times_of(&drive)[16] + 0.01).is_none());
+    assert!([16, 17].iter().all(|row| drive_with_breaks.pose_at(times_of(&drive)[*row]).is_some()));
     assert_eq!(drive.clone().with_breaks_before([0, 101]), drive);
 }
 
 #[test]
-fn no_velocity_spans_a_declared_jump() {
+fn velocities_are_not_computed_across_a_declared_jump() {
     let jump_offset_at = |row: usize| if (40..43).contains(&row) { 5.0 } else { 0.0 };
-    let rows_before_jumps = straight_drive(101, 0.1);
-    let rows_before_jumps = rows_before_jumps
+    let rows_with_jumps = new_straight_drive(101, 0.1);
+    let rows_with_jumps = rows_with_jumps
         .samples()
         .enumerate()
         .map(|(row, (time, pose))| (time, SE2::new(pose.x(), jump_offset_at(row), 0.0)));
-    let drive_with_jumps = new_trajectory(rows_before_jumps).with_breaks_before([40, 43]);
+    let drive_with_jumps = new_trajectory(rows_with_jumps).with_breaks_before([40, 43]);
     // The three rows between the two jumps are long enough for a leg.
     let leg_length = LegLength::Displacement { distance: 0.15, angle: 0.2 };
     let legs = split_into_legs(&drive_with_jumps, &drive_with_jumps, leg_length, 0.0).0;
@@ -166,14 +165,14 @@ fn no_velocity_spans_a_declared_jump() {
 /// A leg ends at the reference sample nearest to the time of its length limit. The next leg is measured from that time.
 #[test]
 fn a_leg_ends_at_the_sample_of_the_reference_nearest_to_a_reading() {
-    let drive = straight_drive(1001, 0.05);
+    let drive = new_straight_drive(1001, 0.05);
     let leg_length = LegLength::Duration { duration: 0.5 };
     let all_legs = split_into_legs(&drive, &drive, leg_length, 0.0).0;
     for row_step in [2, 4, 8] {
         let sparse_reference = new_trajectory(drive.samples().skip(3).step_by(row_step));
         let (legs, _) = split_into_legs(&drive, &sparse_reference, leg_length, 0.0);
         for leg in &legs {
-            assert!(leg.times.iter().all(|time| sample_times(&sparse_reference).contains(time)), "{leg:?}");
+            assert!(leg.times.iter().all(|time| times_of(&sparse_reference).contains(time)), "{leg:?}");
             assert_eq!(leg.odometry, leg.reference);
         }
         assert!(legs.windows(2).all(|adjacent_legs| adjacent_legs[0].times[1] == adjacent_legs[1].times[0]));
@@ -187,33 +186,32 @@ fn a_leg_ends_at_the_sample_of_the_reference_nearest_to_a_reading() {
     assert!(legs.len() > 100);
     for leg in legs {
         let offsets = [0, 1].map(|end_index| leg.reference[end_index].x() - leg.odometry[end_index].x());
-        assert!(offsets.iter().all(|offset| (offset - 0.005).abs() < 1e-9), "{leg:?}");
+        assert!(offsets.iter().all(|position_offset| (position_offset - 0.005).abs() < 1e-9), "{leg:?}");
     }
 }
 
 #[test]
 fn poses_between_samples_lie_on_an_arc() {
-    let twist = Vector3::new(0.5, 0.1, 0.8);
+    let constant_twist = Vector3::new(0.5, 0.1, 0.8);
     let start_pose = SE2::new(2.0, 1.0, 3.0);
-    let arc_trajectory = new_trajectory([(1.0, start_pose), (2.0, start_pose.boxplus(twist))]);
+    let arc_trajectory = new_trajectory([(1.0, start_pose), (2.0, start_pose.boxplus(constant_twist))]);
     let pose = arc_trajectory.pose_at(1.25).expect("inside");
-    assert!(pose.boxminus(&start_pose.boxplus(twist * 0.25)).norm() < 1e-12);
+    assert!(pose.boxminus(&start_pose.boxplus(constant_twist * 0.25)).norm() < 1e-12);
     assert_eq!([0.99, 2.01].map(|time| arc_trajectory.pose_at(time)), [None; 2]);
 }
 
 #[test]
 fn times_must_rise_and_numbers_must_be_finite() {
-    let message_for = |rows: &[(f64, f64)]| {
-        let poses = rows.iter().map(|(time, x)| (*time, SE2::new(*x, 0.0, 0.0)));
-        Trajectory::new(poses).err().map(|trajectory_error| trajectory_error.to_string())
+    let error_message_for = |timed_positions: &[(f64, f64)]| {
+        let timed_poses = timed_positions.iter().map(|(time, x)| (*time, SE2::new(*x, 0.0, 0.0)));
+        Trajectory::new(timed_poses).err().map(|trajectory_error| trajectory_error.to_string())
     };
-    assert_eq!([message_for(&[]), message_for(&[(1.0, 2.0)])], [None, None]);
-    let not_later_message = "sample 2 is not later than the one before; allowed are times that rise";
-    assert_eq!(message_for(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0)]).as_deref(), Some(not_later_message));
-    let not_finite_message =
-        "sample 1 has a time or a coordinate that is not finite; allowed are finite numbers";
-    assert_eq!(message_for(&[(0.0, 0.0), (f64::NAN, 0.0)]).as_deref(), Some(not_finite_message));
-    assert_eq!(message_for(&[(0.0, 0.0), (1.0, f64::INFINITY)]).as_deref(), Some(not_finite_message));
+    assert_eq!([error_message_for(&[]), error_message_for(&[(1.0, 2.0)])], [None, None]);
+    let order_message = "sample 2 is not later than the one before; allowed are times that rise";
+    assert_eq!(error_message_for(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0)]).as_deref(), Some(order_message));
+    let finite_message = "sample 1 has a time or a coordinate that is not finite; allowed are finite numbers";
+    assert_eq!(error_message_for(&[(0.0, 0.0), (f64::NAN, 0.0)]).as_deref(), Some(finite_message));
+    assert_eq!(error_message_for(&[(0.0, 0.0), (1.0, f64::INFINITY)]).as_deref(), Some(finite_message));
     assert!(Trajectory::from_commands([(0.0, 1.0, 0.0), (1.0, f64::NAN, 0.0)]).is_err());
 }
 
@@ -239,7 +237,7 @@ fn commands_are_integrated_along_arcs() {
 fn a_long_command_is_split_into_legs_between_its_rows() {
     let trajectory =
         Trajectory::from_commands([(0.0, 0.5, 0.0), (20.0, 0.5, 0.0), (40.0, 0.0, 0.0)]).expect("times rise");
-    let (legs, lost_legs) = split_into_legs(&trajectory, &straight_drive(401, 0.05), AMCL_LEG, 0.0);
+    let (legs, lost_legs) = split_into_legs(&trajectory, &new_straight_drive(401, 0.05), AMCL_LENGTH, 0.0);
     assert_eq!(lost_legs, LostLegs::default());
     assert!(legs.len() > 60, "{}", legs.len());
     for leg in legs {

@@ -27,21 +27,21 @@ fn calibrate_log([odometry, reference]: &[Trajectory; 2], options: &Options) -> 
     calibrate(&[Drive { odometry, reference }], options).expect("enough legs")
 }
 
-fn default_options(model: Model) -> Options {
+fn options_of(model: Model) -> Options {
     Simulation::of(model, 0, 0).calibration_options()
 }
 
-fn new_trajectory(samples: impl IntoIterator<Item = (f64, SE2)>) -> Trajectory {
-    Trajectory::new(samples.into_iter().collect::<Vec<_>>()).expect("times rise")
+fn new_trajectory(timed_poses: impl IntoIterator<Item = (f64, SE2)>) -> Trajectory {
+    Trajectory::new(timed_poses.into_iter().collect::<Vec<_>>()).expect("times rise")
 }
 
-/// Returns the odometry with normal noise added to each step. `stds` are the standard deviations of distance (m) and heading (rad).
-fn with_noisy_steps(odometry: &Trajectory, stds: [f64; 2], seed: u64) -> Trajectory {
-    let (mut rng, mut noisy_pose) = (seeded_rng(seed), SE2::identity());
+/// Returns the odometry with normal noise added to each step. `step_stds` are the standard deviations of distance (m) and heading (rad).
+fn add_step_noise(odometry: &Trajectory, step_stds: [f64; 2], rng_seed: u64) -> Trajectory {
+    let (mut rng, mut noisy_pose) = (seeded_rng(rng_seed), SE2::identity());
     let odometry_samples: Vec<(f64, SE2)> = odometry.samples().collect();
     new_trajectory(odometry_samples.windows(2).map(|sample_pair| {
         let [distance_noise, turn_noise] =
-            stds.map(|std| NoiseKind::Normal.sample(Variance(std * std), &mut rng));
+            step_stds.map(|step_std| NoiseKind::Normal.sample(Variance(step_std * step_std), &mut rng));
         noisy_pose = noisy_pose.boxplus(
             sample_pair[1].1.boxminus(&sample_pair[0].1) + Vector3::new(distance_noise, 0.0, turn_noise),
         );

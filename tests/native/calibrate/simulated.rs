@@ -28,13 +28,13 @@ pub enum Violation {
     /// Noise as the model assumes it.
     None,
     /// Noise with Student's t distribution, with this number of degrees of freedom.
-    HeavyTails(usize),
+    HeavyTailedNoise(usize),
     /// Autocorrelated noise, with this correlation between successive legs.
-    Autoregressive(f64),
+    AutocorrelatedNoise(f64),
     /// Noise whose standard deviation is multiplied by this factor.
     Scaled(f64),
     /// Noise whose standard deviation is a function of the position in the log, from 0 to 1.
-    Changing(fn(f64) -> f64),
+    ChangingNoise(fn(f64) -> f64),
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -100,67 +100,69 @@ impl Simulation {
     pub fn log(&self) -> [Trajectory; 2] {
         let (step_seconds, [rows_per_reading, rows_per_reference]) = match self.times {
             SampleTimes::Common => (STEP_SECONDS, [1, 1]),
-            SampleTimes::Unrelated(rows) => (FINE_STEP_SECONDS, rows),
+            SampleTimes::Unrelated(sample_intervals) => (FINE_STEP_SECONDS, sample_intervals),
         };
         let rows_per_step = (STEP_SECONDS / step_seconds).round() as usize;
         let mut rng = seeded_rng(self.seed);
         let [distance_scale, turn_scale] =
             [Error::DistanceScale, Error::TurnScale].map(|scale_kind| self.systematic_errors.get(scale_kind));
-        let mut odometry = vec![(0.0, SE2::identity())];
+        let mut odometry_samples = vec![(0.0, SE2::identity())];
         let mut base_poses = vec![(0.0, SE2::new(1.0, 2.0, 0.5))];
-        let (mut velocity, mut rows_left, mut start_row) = ([0.3, 0.0], 40 * rows_per_step, 0);
+        let (mut drawn_velocity, mut rows_left, mut start_row) = ([0.3, 0.0], 40 * rows_per_step, 0);
         // Motion since the start of the leg, as the odometry would measure it without systematic errors.
         let (mut leg_motion, mut leg_rows) = (SE2::identity(), Vec::new());
         let (mut leg_index, mut unit_noise) = (0, [0.0; 3]);
         while leg_index < self.leg_count {
             if rows_left == 0 {
-                velocity = self.random_velocity(&mut rng);
+                drawn_velocity = self.draw_velocity(&mut rng);
                 rows_left = rng.random_range(15..60) * rows_per_step;
             }
             rows_left -= 1;
-            let velocity = self.leg_velocity.map_or(velocity, |leg_velocity| leg_velocity(leg_index));
-            let time = odometry.len() as f64 * step_seconds;
-            let twist = Vector3::new(velocity[0], 0.0, velocity[1]) * step_seconds;
-            leg_motion = leg_motion.boxplus(twist);
-            let odometry_twist = Vector3::new(twist.x / distance_scale, 0.0, twist.z / turn_scale);
-            odometry.push((time, odometry.last().expect("some").1.boxplus(odometry_twist)));
+            let drawn_velocity =
+                self.leg_velocity.map_or(drawn_velocity, |leg_velocity| leg_velocity(leg_index));
+            let time = odometry_samples.len() as f64 * step_seconds;
+            let step_twist = Vector3::new(drawn_velocity[0], 0.0, drawn_velocity[1]) * step_seconds;
+            leg_motion = leg_motion.boxplus(step_twist);
+            let odometry_twist = Vector3::new(step_twist.x / distance_scale, 0.0, step_twist.z / turn_scale);
+            odometry_samples.push((time, odometry_samples.last().expect("some").1.boxplus(odometry_twist)));
             leg_rows.push((time, leg_motion));
             let [(start_time, start_pose), (_, odometry_pose)] =
-                [odometry[start_row], odometry[odometry.len() - 1]];
-            let is_reading = (odometry.len() - 1) % rows_per_reading == 0;
-            if !is_reading || !has_leg_ended(self.leg_length, time - start_time, &start_pose, &odometry_pose)
+                [odometry_samples[start_row], odometry_samples[odometry_samples.len() - 1]];
+            let has_reading = (odometry_samples.len() - 1) % rows_per_reading == 0;
+            if !has_reading || !has_leg_ended(self.leg_length, time - start_time, &start_pose, &odometry_pose)
             {
                 continue;
             }
             let base_start = base_poses.last().expect("some").1;
-            unit_noise = self.next_unit_noise(leg_index as f64 / self.leg_count as f64, unit_noise, &mut rng);
+            unit_noise = self.draw_unit_noise(leg_index as f64 / self.leg_count as f64, unit_noise, &mut rng);
             // The noise of a leg is distributed evenly over its rows, plus a random walk that returns to 0.
             let row_count = leg_rows.len();
-            let mut walk = vec![[0.0; 3]];
+            let mut random_walk = vec![[0.0; 3]];
             for row in 0..row_count {
                 let step_std = 1.0 / (row_count as f64).sqrt();
-                walk.push(walk[row].map(|sum| sum + step_std * self.draw_walk_step(&mut rng)));
+                random_walk.push(random_walk[row].map(|sum| sum + step_std * self.draw_walk_step(&mut rng)));
             }
-            let noise_of = |unit_noise| {
+            let twist_noise_of = |unit_noise| {
                 let duration = time - start_time;
-                let executed = executed_motion(self.model, &ALPHAS, &leg_motion, duration, unit_noise);
-                (leg_motion.inverse() * executed).log()
+                let noisy_motion = execute_motion(self.model, &ALPHAS, &leg_motion, duration, unit_noise);
+                (leg_motion.inverse() * noisy_motion).log()
             };
-            let [leg_noise, mean_noise] = [unit_noise, [0.0; 3]].map(noise_of);
-            for (row, (t, pose)) in leg_rows.iter().enumerate() {
-                let progress = (row + 1) as f64 / row_count as f64;
-                let bridge = std::array::from_fn(|k| walk[row + 1][k] - progress * walk[row_count][k]);
-                let row_noise = leg_noise * progress + noise_of(bridge) - mean_noise;
-                base_poses.push((*t, base_start * pose.boxplus(row_noise)));
+            let [leg_noise, mean_noise] = [unit_noise, [0.0; 3]].map(twist_noise_of);
+            for (row, (t, leg_pose)) in leg_rows.iter().enumerate() {
+                let leg_fraction = (row + 1) as f64 / row_count as f64;
+                let walk_bridge = std::array::from_fn(|k| {
+                    random_walk[row + 1][k] - leg_fraction * random_walk[row_count][k]
+                });
+                let row_noise = leg_noise * leg_fraction + twist_noise_of(walk_bridge) - mean_noise;
+                base_poses.push((*t, base_start * leg_pose.boxplus(row_noise)));
             }
             if rng.random_bool(self.jump_fraction) {
-                let jump_direction = rng.random_range(-3.0..3.0);
-                let jump_offset =
-                    SE2::new(0.5 * libm::cos(jump_direction), 0.5 * libm::sin(jump_direction), 0.0);
+                let jump_heading = rng.random_range(-3.0..3.0);
+                let jump_offset = SE2::new(0.5 * libm::cos(jump_heading), 0.5 * libm::sin(jump_heading), 0.0);
                 let (_, last_pose) = base_poses.last_mut().expect("some");
                 *last_pose = jump_offset * *last_pose;
             }
-            (leg_motion, start_row, leg_index) = (SE2::identity(), odometry.len() - 1, leg_index + 1);
+            (leg_motion, start_row, leg_index) = (SE2::identity(), odometry_samples.len() - 1, leg_index + 1);
             leg_rows.clear();
         }
         let [lever_ahead, lever_left] = self.systematic_errors.lever_arm;
@@ -168,8 +170,8 @@ impl Simulation {
         let [position_variance, yaw_variance] =
             self.reference_stds.map(|reference_std| Variance(reference_std * reference_std));
         let mut draw_reference_error = |variance| NoiseKind::Normal.sample(variance, &mut rng);
-        let reference = base_poses.iter().map(|(t, pose)| {
-            let sensor_pose = *pose * mount_pose;
+        let reference_samples = base_poses.iter().map(|(t, leg_pose)| {
+            let sensor_pose = *leg_pose * mount_pose;
             let [x, y, theta] = [
                 draw_reference_error(position_variance),
                 draw_reference_error(position_variance),
@@ -181,8 +183,8 @@ impl Simulation {
             )
         });
         [
-            new_trajectory(odometry.into_iter().step_by(rows_per_reading)),
-            new_trajectory(reference.skip(rows_per_reference / 2).step_by(rows_per_reference)),
+            new_trajectory(odometry_samples.into_iter().step_by(rows_per_reading)),
+            new_trajectory(reference_samples.skip(rows_per_reference / 2).step_by(rows_per_reference)),
         ]
     }
 
@@ -192,7 +194,7 @@ impl Simulation {
     }
 
     /// Returns v and ω of a straight drive, a bend, a turn on the spot, or a drive in reverse if the rule allows it.
-    fn random_velocity(&self, rng: &mut impl Rng) -> [f64; 2] {
+    fn draw_velocity(&self, rng: &mut impl Rng) -> [f64; 2] {
         let [v, turn_rate] = [rng.random_range(0.2..0.6), rng.random_range(-0.5..0.5)];
         match rng.random_range(0..6) {
             0 if self.model != Model::Velocity => [0.0, if turn_rate > 0.0 { 0.6 } else { -0.6 }],
@@ -204,32 +206,33 @@ impl Simulation {
     }
 
     /// Returns the three unit noises of a leg. `log_fraction` is the position of the leg in the log, from 0 to 1.
-    fn next_unit_noise(&self, log_fraction: f64, previous_noise: [f64; 3], rng: &mut impl Rng) -> [f64; 3] {
+    fn draw_unit_noise(&self, log_fraction: f64, previous_noise: [f64; 3], rng: &mut impl Rng) -> [f64; 3] {
         previous_noise.map(|previous_noise| {
-            let normal_draw = NoiseKind::Normal.sample(Variance(1.0), rng);
+            let normal_noise = NoiseKind::Normal.sample(Variance(1.0), rng);
             match self.violation {
-                Violation::None => normal_draw,
-                Violation::HeavyTails(degrees_of_freedom) => {
+                Violation::None => normal_noise,
+                Violation::HeavyTailedNoise(degrees_of_freedom) => {
                     let draw_normal = |_| NoiseKind::Normal.sample(Variance(1.0), rng);
                     let chi_squared: f64 = (0..degrees_of_freedom).map(draw_normal).map(|z| z * z).sum();
-                    normal_draw * f64::sqrt((degrees_of_freedom as f64 - 2.0) / chi_squared)
+                    normal_noise * f64::sqrt((degrees_of_freedom as f64 - 2.0) / chi_squared)
                 }
-                Violation::Autoregressive(correlation) => {
-                    correlation * previous_noise + (1.0 - correlation * correlation).sqrt() * normal_draw
+                Violation::AutocorrelatedNoise(autocorrelation) => {
+                    autocorrelation * previous_noise
+                        + (1.0 - autocorrelation * autocorrelation).sqrt() * normal_noise
                 }
-                Violation::Scaled(std_factor) => std_factor * normal_draw,
-                Violation::Changing(std_at) => std_at(log_fraction) * normal_draw,
+                Violation::Scaled(std_factor) => std_factor * normal_noise,
+                Violation::ChangingNoise(noise_std_at) => noise_std_at(log_fraction) * normal_noise,
             }
         })
     }
 }
 
-/// Returns the motion that a robot executed while its odometry measured `odometry_motion` in the time `dt`.
-pub fn executed_motion(
+/// Returns the motion that a robot executed while its odometry measured `odometry_motion` in the time `duration`.
+pub fn execute_motion(
     model: Model,
     alphas: &[f64; 6],
     odometry_motion: &SE2,
-    dt: f64,
+    duration: f64,
     unit_noise: [f64; 3],
 ) -> SE2 {
     let origin_pose = SE2::identity();
@@ -243,7 +246,7 @@ pub fn executed_motion(
         }
         Model::Velocity => {
             let twist = odometry_motion.log();
-            let command = VelocityCmd { v: twist.x / dt, omega: twist.z / dt, dt };
+            let command = VelocityCmd { v: twist.x / duration, omega: twist.z / duration, dt: duration };
             let model = VelocityModel { alphas: VelocityAlphas(*alphas), noise: NoiseKind::Normal };
             model.apply_noise(&command, &origin_pose, unit_noise)
         }
@@ -256,15 +259,14 @@ const ROUNDING_TOLERANCE: f64 = 1e-6;
 /// Returns true if a leg ends at the odometry pose, by the rule that `LegLength` documents.
 fn has_leg_ended(leg_length: LegLength, elapsed_time: f64, leg_start: &SE2, odometry_pose: &SE2) -> bool {
     match leg_length {
-        LegLength::Displacement { distance, angle } => {
-            let leg_turn = motion::geom::se2::wrap_angle(odometry_pose.theta() - leg_start.theta());
+        LegLength::Displacement { distance: min_distance, angle: min_angle } => {
+            let turn_of_leg = motion::geom::se2::wrap_angle(odometry_pose.theta() - leg_start.theta());
             let axis_displacements = [odometry_pose.x() - leg_start.x(), odometry_pose.y() - leg_start.y()];
-            let largest_displacement =
-                axis_displacements.iter().fold(0.0, |largest_so_far, axis_displacement| {
-                    f64::max(largest_so_far, axis_displacement.abs())
-                });
-            largest_displacement > distance * (1.0 + ROUNDING_TOLERANCE)
-                || leg_turn.abs() > angle * (1.0 + ROUNDING_TOLERANCE)
+            let largest_displacement = axis_displacements
+                .iter()
+                .fold(0.0, |max_so_far, axis_displacement| f64::max(max_so_far, axis_displacement.abs()));
+            largest_displacement > min_distance * (1.0 + ROUNDING_TOLERANCE)
+                || turn_of_leg.abs() > min_angle * (1.0 + ROUNDING_TOLERANCE)
         }
         LegLength::Duration { duration } => elapsed_time > duration - 1e-6,
     }

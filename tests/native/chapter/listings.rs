@@ -25,23 +25,23 @@ impl MotionModel for RadiusModel {
     type Control = VelocityCmd;
 
     fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> SE2 {
-        let [v, omega, gamma] = self.variances(u).map(|variance| self.noise.sample(variance, rng));
+        let [v, omega, gamma_hat] = self.variances(u).map(|variance| self.noise.sample(variance, rng));
         let (v_hat, omega_hat) = (u.v + v, u.omega + omega);
         let (arc_radius, end_heading) = (v_hat / omega_hat, x.theta() + omega_hat * u.dt);
         SE2::new(
             x.x() + arc_radius * (end_heading.sin() - x.theta().sin()),
             x.y() - arc_radius * (end_heading.cos() - x.theta().cos()),
-            wrap_angle(end_heading + gamma * u.dt),
+            wrap_angle(end_heading + gamma_hat * u.dt),
         )
     }
 
     fn prob(&self, x_next: &SE2, u: &VelocityCmd, x: &SE2) -> f64 {
         let inversion = invert_arc(x, x_next, u.dt);
-        let residuals = [u.v - inversion.v_hat, u.omega - inversion.omega_hat, inversion.gamma_hat];
+        let noise_residuals = [u.v - inversion.v_hat, u.omega - inversion.omega_hat, inversion.gamma_hat];
         self.variances(u)
             .iter()
-            .zip(residuals)
-            .map(|(variance, residual)| self.noise.prob(residual, *variance))
+            .zip(noise_residuals)
+            .map(|(variance, noise_residual)| self.noise.prob(noise_residual, *variance))
             .product()
     }
 
@@ -76,10 +76,10 @@ fn a_readers_velocity_model_equals_the_crates_model() {
     let readers_model = RadiusModel { alphas: ALPHAS, noise: NoiseKind::Normal };
     let crate_model = VelocityModel { alphas: ALPHAS, noise: NoiseKind::Normal };
     let x = SE2::new(2.0, -1.0, 0.4);
-    let (mut rng1, mut rng2) = (SmallRng::seed_from_u64(7), SmallRng::seed_from_u64(7));
+    let (mut rng1, mut crate_rng) = (SmallRng::seed_from_u64(7), SmallRng::seed_from_u64(7));
     for _ in 0..1000 {
         let (readers_pose, expected_pose) =
-            (readers_model.sample(&COMMAND, &x, &mut rng1), crate_model.sample(&COMMAND, &x, &mut rng2));
+            (readers_model.sample(&COMMAND, &x, &mut rng1), crate_model.sample(&COMMAND, &x, &mut crate_rng));
         // A small ω̂ loses digits, because the radius v̂/ω̂ multiplies the rounding of two sines, 2e-16 each.
         let position_tolerance = 1e-15 * (1.0 + 4.0 / invert_arc(&x, &expected_pose, 1.0).omega_hat.abs());
         assert!(

@@ -1,7 +1,7 @@
 //! Integrals of pose densities, and their comparison with samples.
 //!
 //! The coordinates are polar, around the start of the motion: signed distance c, bearing β in a half circle, and
-//! heading θ relative to `slope` · β. Their volume element is dx dy dθ = |c| dc dβ dθ. A density that grows as 1/|c| towards the start is smooth in
+//! heading θ relative to `heading_slope` · β. Their volume element is dx dy dθ = |c| dc dβ dθ. A density that grows as 1/|c| towards the start is smooth in
 //! them. The slope is 2 for arcs, which turn by twice their bearing, and 1 for odometry legs, so that cells lie along the cloud.
 
 use super::{SAMPLE_COUNT, chi_square_limit, seeded_rng};
@@ -24,9 +24,9 @@ const GAUSS_LEGENDRE_RULE: [(f64, f64); 8] = [
 /// Box of the polar coordinates (c, β, θ) of poses, divided into equal cells. The coordinates are defined at the top of this file.
 pub struct PolarGrid {
     start_pose: SE2,
-    slope: f64,
+    heading_slope: f64,
     /// Middle of the box. Poses in the box differ from it by at most a quarter turn in β and half a turn in θ.
-    centre: [f64; 3],
+    middle: [f64; 3],
     cell_size: [f64; 3],
     cell_counts: [usize; 3],
 }
@@ -44,7 +44,7 @@ impl PolarGrid {
         let bearing = if dx.hypot(dy) > 0.0 { dy.atan2(dx) } else { start_pose.theta() };
         let cell_centre = [dx.hypot(dy), bearing, middle_pose.theta() - slope * bearing];
         let cell_size = [0, 1, 2].map(|axis| 2.0 * half_extent[axis] / cell_counts[axis] as f64);
-        Self { start_pose: *start_pose, slope, centre: cell_centre, cell_size, cell_counts }
+        Self { start_pose: *start_pose, heading_slope: slope, middle: cell_centre, cell_size, cell_counts }
     }
 
     /// Returns the box of all poses within `max_distance` of the start.
@@ -52,30 +52,30 @@ impl PolarGrid {
         Self::new(start_pose, start_pose, slope, [max_distance, PI / 2.0, PI], cell_counts)
     }
 
-    fn grid_coordinates(&self, pose: &SE2) -> [f64; 3] {
+    fn grid_coordinates_of(&self, pose: &SE2) -> [f64; 3] {
         let (dx, dy) = (pose.x() - self.start_pose.x(), pose.y() - self.start_pose.y());
-        let bearing_offset = wrap_angle(dy.atan2(dx) - self.centre[1]);
+        let bearing_offset = wrap_angle(dy.atan2(dx) - self.middle[1]);
         let (signed_distance, bearing_offset) = if bearing_offset.abs() <= PI / 2.0 {
             (dx.hypot(dy), bearing_offset)
         } else {
             (-dx.hypot(dy), bearing_offset - PI.copysign(bearing_offset))
         };
-        let bearing = self.centre[1] + bearing_offset;
-        let heading_offset = wrap_angle(pose.theta() - self.slope * bearing - self.centre[2]);
-        [signed_distance, bearing, self.centre[2] + heading_offset]
+        let bearing = self.middle[1] + bearing_offset;
+        let heading_offset = wrap_angle(pose.theta() - self.heading_slope * bearing - self.middle[2]);
+        [signed_distance, bearing, self.middle[2] + heading_offset]
     }
 
     /// Returns the lower bound of a cell along an axis.
     fn lower_bound(&self, axis: usize, cell_index: usize) -> f64 {
-        self.centre[axis] + (cell_index as f64 - 0.5 * self.cell_counts[axis] as f64) * self.cell_size[axis]
+        self.middle[axis] + (cell_index as f64 - 0.5 * self.cell_counts[axis] as f64) * self.cell_size[axis]
     }
 
     /// Returns the probability mass of each cell, by an 8 × 8 × 8 Gauss rule in each cell.
     pub fn cell_masses(&self, density_at: impl Fn(&SE2) -> f64) -> Vec<f64> {
         let nodes_and_weights_of = |axis: usize, cell_index: usize| {
-            let (cell_start, cell_size) = (self.lower_bound(axis, cell_index), self.cell_size[axis]);
+            let (cell_lower_bounds, cell_size) = (self.lower_bound(axis, cell_index), self.cell_size[axis]);
             GAUSS_LEGENDRE_RULE.map(|(gauss_node, gauss_weight)| {
-                (cell_start + 0.5 * (1.0 + gauss_node) * cell_size, 0.5 * gauss_weight * cell_size)
+                (cell_lower_bounds + 0.5 * (1.0 + gauss_node) * cell_size, 0.5 * gauss_weight * cell_size)
             })
         };
         let mut cell_masses = Vec::with_capacity(self.cell_counts.iter().product());
@@ -87,9 +87,9 @@ impl PolarGrid {
                         for (beta, beta_weight) in nodes_and_weights_of(1, j) {
                             let (x, y) =
                                 (self.start_pose.x() + c * beta.cos(), self.start_pose.y() + c * beta.sin());
-                            for (theta, theta_weight) in nodes_and_weights_of(2, k) {
-                                let pose = SE2::new(x, y, self.slope * beta + theta);
-                                mass += c_weight * beta_weight * theta_weight * c.abs() * density_at(&pose);
+                            for (relative_heading, heading_weight) in nodes_and_weights_of(2, k) {
+                                let pose = SE2::new(x, y, self.heading_slope * beta + relative_heading);
+                                mass += c_weight * beta_weight * heading_weight * c.abs() * density_at(&pose);
                             }
                         }
                     }
@@ -104,15 +104,15 @@ impl PolarGrid {
         self.cell_masses(density_at).iter().sum()
     }
 
-    fn pose_counts(&self, poses: &[SE2]) -> Vec<f64> {
+    fn count_poses(&self, counted_poses: &[SE2]) -> Vec<f64> {
         let mut pose_counts = vec![0.0; self.cell_counts.iter().product()];
-        for pose in poses {
+        for pose in counted_poses {
             let mut flat_index = Some(0);
-            for (axis, coordinate) in self.grid_coordinates(pose).into_iter().enumerate() {
+            for (axis, coordinate) in self.grid_coordinates_of(pose).into_iter().enumerate() {
                 let cell_index = ((coordinate - self.lower_bound(axis, 0)) / self.cell_size[axis]).floor();
-                let is_inside = cell_index >= 0.0 && cell_index < self.cell_counts[axis] as f64;
+                let is_inside_grid = cell_index >= 0.0 && cell_index < self.cell_counts[axis] as f64;
                 flat_index = flat_index
-                    .filter(|_| is_inside)
+                    .filter(|_| is_inside_grid)
                     .map(|flat_index| flat_index * self.cell_counts[axis] + cell_index as usize);
             }
             if let Some(flat_index) = flat_index {
@@ -122,11 +122,11 @@ impl PolarGrid {
         pose_counts
     }
 
-    pub fn assert_sampled<M: MotionModel>(&self, model: &M, u: &M::Control, x: &SE2, seed: u64) {
+    pub fn assert_samples_fit<M: MotionModel>(&self, model: &M, u: &M::Control, x: &SE2, seed: u64) {
         let mut rng = seeded_rng(seed);
-        let poses: Vec<SE2> = (0..SAMPLE_COUNT).map(|_| model.sample(u, x, &mut rng)).collect();
-        let (chi_square, chi_square_limit) =
-            self.chi_square(&poses, |pose| model.pose_density(pose, u, x).expect("noise of full rank"));
+        let counted_poses: Vec<SE2> = (0..SAMPLE_COUNT).map(|_| model.sample(u, x, &mut rng)).collect();
+        let (chi_square, chi_square_limit) = self
+            .chi_square(&counted_poses, |pose| model.pose_density(pose, u, x).expect("noise of full rank"));
         assert!(chi_square < chi_square_limit, "seed {seed}: χ² = {chi_square}, limit {chi_square_limit}");
     }
 
@@ -135,16 +135,16 @@ impl PolarGrid {
     ///
     /// If a kink of the triangular density crosses a cell, the Gauss rule has an error of about 1e-3 of its mass. With 10⁶
     /// samples that changes χ² by about 1, and the limit is above 100.
-    fn chi_square(&self, poses: &[SE2], density_at: impl Fn(&SE2) -> f64) -> (f64, f64) {
-        let n = poses.len() as f64;
-        let mut observed_counts = self.pose_counts(poses);
+    fn chi_square(&self, counted_poses: &[SE2], density_at: impl Fn(&SE2) -> f64) -> (f64, f64) {
+        let n = counted_poses.len() as f64;
+        let mut observed_counts = self.count_poses(counted_poses);
         let mut expected_counts: Vec<f64> =
             self.cell_masses(density_at).iter().map(|mass| mass * n).collect();
         observed_counts.push(n - observed_counts.iter().sum::<f64>());
         expected_counts.push(n - expected_counts.iter().sum::<f64>());
         let (sparse_cells, full_cells): (Vec<_>, Vec<_>) =
             observed_counts.into_iter().zip(expected_counts).partition(|(_, expected)| *expected < 20.0);
-        let pooled_cell = sparse_cells.iter().fold((0.0, 0.0), |(o, e), cell| (o + cell.0, e + cell.1));
+        let pooled_cell = sparse_cells.iter().fold((0.0, 0.0), |(o, e), counts| (o + counts.0, e + counts.1));
         assert!(full_cells.len() > 40, "{} cells test little", full_cells.len());
         assert!(
             pooled_cell.1 > -1e-4 * n,

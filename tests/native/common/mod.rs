@@ -24,18 +24,18 @@ pub fn seeded_rng(seed: u64) -> Xoshiro256PlusPlus {
 }
 
 /// Returns a number that is uniform in [low, high).
-pub fn draw_uniform(rng: &mut impl Rng, low: f64, high: f64) -> f64 {
-    low + (high - low) * (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+pub fn draw_uniform(rng: &mut impl Rng, range_start: f64, range_end: f64) -> f64 {
+    range_start + (range_end - range_start) * (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
 /// Returns a number of either sign, with a magnitude that is log-uniform in [low, high).
-pub fn draw_signed_log_uniform(rng: &mut impl Rng, low: f64, high: f64) -> f64 {
-    let magnitude = draw_uniform(rng, low.ln(), high.ln()).exp();
-    if rng.next_u64() >> 63 == 0 { magnitude } else { -magnitude }
+pub fn draw_signed_log_uniform(rng: &mut impl Rng, range_start: f64, range_end: f64) -> f64 {
+    let log_uniform_magnitude = draw_uniform(rng, range_start.ln(), range_end.ln()).exp();
+    if rng.next_u64() >> 63 == 0 { log_uniform_magnitude } else { -log_uniform_magnitude }
 }
 
 /// Returns the largest absolute difference of two poses in x, y and heading. Headings are compared on the circle.
-pub fn pose_distance(a: &SE2, b: &SE2) -> f64 {
+pub fn max_difference(a: &SE2, b: &SE2) -> f64 {
     let heading_difference = (a.theta() - b.theta()).sin().atan2((a.theta() - b.theta()).cos());
     (a.x() - b.x()).abs().max((a.y() - b.y()).abs()).max(heading_difference.abs())
 }
@@ -43,32 +43,32 @@ pub fn pose_distance(a: &SE2, b: &SE2) -> f64 {
 /// Returns the derivative of a pose with respect to three unit noises, by central differences. `pose_of_noise` returns the pose for given
 /// noises.
 pub fn derivative_by_noise(unit_noise: [f64; 3], pose_of_noise: impl Fn([f64; 3]) -> SE2) -> Matrix3<f64> {
-    const STEP: f64 = 1e-5;
+    const DIFFERENCE_STEP: f64 = 1e-5;
     Matrix3::from_columns(&[0, 1, 2].map(|noise_axis| {
-        let [pose_after, pose_before] = [STEP, -STEP].map(|noise_step| {
+        let [pose_after, pose_before] = [DIFFERENCE_STEP, -DIFFERENCE_STEP].map(|noise_step| {
             let mut unit_noise = unit_noise;
             unit_noise[noise_axis] += noise_step;
             pose_of_noise(unit_noise)
         });
         let heading_difference = wrap_angle(pose_after.theta() - pose_before.theta());
         Vector3::new(pose_after.x() - pose_before.x(), pose_after.y() - pose_before.y(), heading_difference)
-            / (2.0 * STEP)
+            / (2.0 * DIFFERENCE_STEP)
     }))
 }
 
 /// Returns the settings of a preset.
 pub fn settings_of_preset<S: SettingRules>(preset_name: &str) -> S {
-    S::PRESETS.iter().find(|preset| preset.0 == preset_name).expect("a preset of that name").1
+    S::PRESETS.iter().find(|named_preset| named_preset.0 == preset_name).expect("a preset of that name").1
 }
 
 /// Returns true if a closed outline winds around a point.
-pub fn winds_around(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
+pub fn is_point_inside(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     let winding_count: i32 = outline
         .windows(2)
         .map(|segment_ends| {
-            let [[ax, ay], [bx, by]] = [segment_ends[0], segment_ends[1]];
-            let is_left = (bx - ax) * (y - ay) > (x - ax) * (by - ay);
-            i32::from(ay <= y && by > y && is_left) - i32::from(ay > y && by <= y && !is_left)
+            let [[start_x, start_y], [end_x, end_y]] = [segment_ends[0], segment_ends[1]];
+            let is_left = (end_x - start_x) * (y - start_y) > (x - start_x) * (end_y - start_y);
+            i32::from(start_y <= y && end_y > y && is_left) - i32::from(start_y > y && end_y <= y && !is_left)
         })
         .sum();
     winding_count != 0
@@ -110,14 +110,14 @@ impl ReferenceRow<'_> {
     }
 
     pub fn cell_numbers<const N: usize>(&self, column_names: [&str; N]) -> [f64; N] {
-        column_names.map(|column| self.cell_number(column))
+        column_names.map(|wanted_name| self.cell_number(wanted_name))
     }
 
     pub fn noise_kind(&self) -> NoiseKind {
         match self.cell_text("kind") {
             "normal" => NoiseKind::Normal,
             "triangular" => NoiseKind::Triangular,
-            unknown_name => panic!("unknown kind {unknown_name}"),
+            unknown_column => panic!("unknown kind {unknown_column}"),
         }
     }
 
@@ -129,17 +129,17 @@ impl ReferenceRow<'_> {
 }
 
 /// Limit of √n times the Kolmogorov–Smirnov distance. The distance exceeds it with probability 2·exp(−2·1.95²) = 0.001.
-pub const MAX_KOLMOGOROV_SMIRNOV: f64 = 1.95;
+pub const MAX_KS_STATISTIC: f64 = 1.95;
 
 /// Returns √n times the Kolmogorov–Smirnov distance between a sample of n numbers and a distribution function.
-pub fn kolmogorov_smirnov(mut sample_values: Vec<f64>, probability_below: impl Fn(f64) -> f64) -> f64 {
+pub fn scaled_ks_distance(mut sample_values: Vec<f64>, probability_below: impl Fn(f64) -> f64) -> f64 {
     sample_values.sort_by(f64::total_cmp);
     let n = sample_values.len() as f64;
-    let distance = sample_values.iter().enumerate().map(|(i, &sample_value)| {
+    let max_cdf_difference = sample_values.iter().enumerate().map(|(i, &sample_value)| {
         let cumulative_probability = probability_below(sample_value);
         (cumulative_probability - i as f64 / n).max((i + 1) as f64 / n - cumulative_probability)
     });
-    distance.fold(0.0, f64::max) * n.sqrt()
+    max_cdf_difference.fold(0.0, f64::max) * n.sqrt()
 }
 
 /// Returns P(Z < z) for noise Z with variance 1, by formulas that src/ does not use.
@@ -156,22 +156,22 @@ pub fn unit_cdf(noise_kind: NoiseKind, z: f64) -> f64 {
 
 /// Returns the χ² value that `row_cells` cells exceed with probability 1e-4 (Wilson and Hilferty, z = 3.719). One degree of
 /// freedom goes to the fixed total.
-pub fn chi_square_limit(cells: usize) -> f64 {
-    let k = (cells - 1) as f64;
+pub fn chi_square_limit(cell_count: usize) -> f64 {
+    let k = (cell_count - 1) as f64;
     k * (1.0 - 2.0 / (9.0 * k) + 3.719 * (2.0 / (9.0 * k)).sqrt()).powi(3)
 }
 
-pub fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
+pub fn mean(numbers: &[f64]) -> f64 {
+    numbers.iter().sum::<f64>() / numbers.len() as f64
 }
 
-pub fn variance(values: &[f64]) -> f64 {
-    let mean_value = mean(values);
-    values.iter().map(|value| (value - mean_value).powi(2)).sum::<f64>() / (values.len() - 1) as f64
+pub fn variance(numbers: &[f64]) -> f64 {
+    let mean_value = mean(numbers);
+    numbers.iter().map(|number| (number - mean_value).powi(2)).sum::<f64>() / (numbers.len() - 1) as f64
 }
 
 /// Returns a statistic of a sample and its standard error, from the spread of the statistic over 100 equal batches.
-pub fn statistic_with_standard_error<T>(sample: &[T], compute_statistic: impl Fn(&[T]) -> f64) -> (f64, f64) {
+pub fn estimate_with_standard_error<T>(sample: &[T], compute_statistic: impl Fn(&[T]) -> f64) -> (f64, f64) {
     let batch_size = sample.len() / 100;
     let batch_statistics: Vec<f64> = sample.chunks_exact(batch_size).map(&compute_statistic).collect();
     (compute_statistic(sample), (variance(&batch_statistics) / batch_statistics.len() as f64).sqrt())

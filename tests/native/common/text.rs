@@ -13,9 +13,9 @@ pub struct PrintedNumber {
 impl PrintedNumber {
     /// Asserts that the printed number equals a computed one, within `tolerance` and the rounding of the last printed digit.
     pub fn assert_near(&self, computed_value: f64, tolerance: f64) {
-        let deviation = (computed_value - self.value).abs();
+        let absolute_error = (computed_value - self.value).abs();
         assert!(
-            deviation <= self.rounding * (1.0 + 1e-9) + tolerance,
+            absolute_error <= self.rounding * (1.0 + 1e-9) + tolerance,
             "{computed_value} ± {tolerance} is printed as {}",
             self.value
         );
@@ -30,19 +30,19 @@ impl PrintedNumber {
 const THIN_SPACE: char = '\u{202f}';
 
 impl PlainText {
-    pub fn of_page(html: &str) -> Self {
+    pub fn from_page(html: &str) -> Self {
         let mut plain_text = String::new();
-        for markup_and_text in html.split('<') {
+        for tag_and_text in html.split('<') {
             // The text before the first tag has no markup.
-            plain_text.push_str(markup_and_text.split_once('>').map_or(markup_and_text, |(_, text)| text));
+            plain_text.push_str(tag_and_text.split_once('>').map_or(tag_and_text, |(_, text)| text));
         }
         for (entity, character) in [("&nbsp;", " "), ("&#8239;", "\u{202f}"), ("&lt;", "<"), ("&gt;", ">")] {
             plain_text = plain_text.replace(entity, character);
         }
-        Self::of_document(&plain_text)
+        Self::from_document(&plain_text)
     }
 
-    pub fn of_document(text: &str) -> Self {
+    pub fn from_document(text: &str) -> Self {
         Self(text.split([' ', '\n', '\t']).filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" "))
     }
 
@@ -53,7 +53,7 @@ impl PlainText {
         let number_lists: Vec<Vec<PrintedNumber>> = self
             .0
             .match_indices(sentence_parts[0])
-            .filter_map(|(sentence_start, _)| numbers_in(&self.0[sentence_start..], &sentence_parts))
+            .filter_map(|(sentence_start, _)| parse_numbers(&self.0[sentence_start..], &sentence_parts))
             .collect();
         assert_eq!(number_lists.len(), 1, "times that the text says: {sentence}");
         std::array::from_fn(|i| number_lists[0][i])
@@ -64,7 +64,7 @@ impl PlainText {
         self.sentence_numbers::<N>(sentence)
             .iter()
             .zip(computed_numbers)
-            .for_each(|(printed_number, computed)| printed_number.assert_near(computed, 0.0));
+            .for_each(|(printed_number, computed_value)| printed_number.assert_near(computed_value, 0.0));
     }
 
     pub fn assert_contains(&self, sentence: &str) {
@@ -72,13 +72,13 @@ impl PlainText {
     }
 }
 
-fn is_thousands(word: &str) -> bool {
+fn is_group_of_thousands(word: &str) -> bool {
     let word_digits = word.trim_end_matches([',', '.', ':']);
     word_digits.len() == 3 && word_digits.chars().all(|c| c.is_ascii_digit())
 }
 
 /// Returns the numbers between the parts of a sentence. Returns None if the text does not begin with the sentence.
-fn numbers_in(remaining_text: &str, sentence_parts: &[&str]) -> Option<Vec<PrintedNumber>> {
+fn parse_numbers(remaining_text: &str, sentence_parts: &[&str]) -> Option<Vec<PrintedNumber>> {
     let mut remaining_text = remaining_text.strip_prefix(sentence_parts[0])?;
     sentence_parts[1..]
         .iter()
@@ -87,7 +87,7 @@ fn numbers_in(remaining_text: &str, sentence_parts: &[&str]) -> Option<Vec<Print
             let mut number_end = remaining_text.find(|c| !is_in_number(c)).unwrap_or(remaining_text.len());
             // Documents separate thousands by a plain space.
             if remaining_text[number_end..].starts_with(' ')
-                && remaining_text[number_end + 1..].split(' ').next().is_some_and(is_thousands)
+                && remaining_text[number_end + 1..].split(' ').next().is_some_and(is_group_of_thousands)
             {
                 number_end += 4;
             }

@@ -9,12 +9,12 @@ const CONFIGURATIONS_JSON: &str = include_str!("../../digest/configurations.json
 
 pub struct Configuration<'a> {
     pub configurations_json: &'a Value,
-    pub widget: &'a str,
-    pub name: &'a str,
+    pub widget_tag: &'a str,
+    pub configuration_name: &'a str,
     pub settings_json: &'a Value,
 }
 
-pub fn parsed_configurations() -> Value {
+pub fn parse_configurations() -> Value {
     serde_json::from_str(CONFIGURATIONS_JSON).expect("configurations.json is JSON")
 }
 
@@ -24,8 +24,8 @@ pub fn configurations_of(configurations_json: &Value) -> impl Iterator<Item = Co
         let settings_by_name = widget_json["configurations"].as_object().expect("configurations");
         settings_by_name.iter().map(move |(name, settings_json)| Configuration {
             configurations_json,
-            widget,
-            name,
+            widget_tag: widget,
+            configuration_name: name,
             settings_json,
         })
     })
@@ -33,53 +33,53 @@ pub fn configurations_of(configurations_json: &Value) -> impl Iterator<Item = Co
 
 impl Configuration<'_> {
     /// Returns the preset on which the configuration is based, or the defaults, with the settings of the configuration.
-    pub fn settings<S: SettingRules>(&self) -> S {
+    pub fn read_settings<S: SettingRules>(&self) -> S {
         let preset_name =
             self.settings_json.get("preset").map(|name_json| name_json.as_str().expect("a name"));
-        let is_named = |(name, _): &&(&str, S)| preset_name == Some(*name);
-        let default_settings = match S::PRESETS.iter().find(is_named) {
-            Some((_, settings)) => *settings,
+        let is_named_preset = |(name, _): &&(&str, S)| preset_name == Some(*name);
+        let default_settings = match S::PRESETS.iter().find(is_named_preset) {
+            Some((_, configured_settings)) => *configured_settings,
             None if preset_name.is_none() => S::default(),
             None => panic!("{preset_name:?} is no preset"),
         };
         let given_settings = self.settings_json["settings"].as_object().expect("settings");
         let unknown_key = given_settings.keys().find(|setting_key| !S::KEYS.contains(&setting_key.as_str()));
-        assert!(unknown_key.is_none(), "{}/{} has {unknown_key:?}", self.widget, self.name);
-        let (mut settings, mut given_keys) = (default_settings, Vec::new());
-        settings.visit_settings(&mut |setting_declaration, setting| {
+        assert!(unknown_key.is_none(), "{}/{} has {unknown_key:?}", self.widget_tag, self.configuration_name);
+        let (mut configured_settings, mut given_keys) = (default_settings, Vec::new());
+        configured_settings.visit_settings(&mut |setting_declaration, setting_value| {
             if let Some(setting_json) = given_settings.get(setting_declaration.key) {
                 given_keys.push(setting_declaration.key);
-                set_from_json(setting, setting_json);
+                set_from_json(setting_value, setting_json);
             }
         });
-        settings.adjust(&default_settings, &given_keys);
-        settings
+        configured_settings.adjust(&default_settings, &given_keys);
+        configured_settings
     }
 
-    pub fn grid(&self) -> ViewGrid {
-        let bounds = self
+    pub fn view_grid(&self) -> ViewGrid {
+        let view_bounds = self
             .settings_json
             .get("bounds")
-            .unwrap_or(&self.configurations_json["widgets"][self.widget]["bounds"]);
-        let [x_min, y_min, x_max, y_max] = numbers_of(bounds);
-        let size_of = |key| self.configurations_json["picture"][key].as_u64().expect("a size") as usize;
+            .unwrap_or(&self.configurations_json["widgets"][self.widget_tag]["bounds"]);
+        let [x_min, y_min, x_max, y_max] = to_numbers(view_bounds);
+        let view_size_of = |key| self.configurations_json["picture"][key].as_u64().expect("a size") as usize;
         ViewGrid {
             min_corner: [x_min, y_min],
             max_corner: [x_max, y_max],
-            columns: size_of("columns"),
-            rows: size_of("rows"),
+            columns: view_size_of("columns"),
+            rows: view_size_of("rows"),
         }
     }
 }
 
 fn set_from_json(setting: Setting, setting_json: &Value) {
     match setting {
-        Setting::Number(setting_value, _) => *setting_value = number_of(setting_json),
+        Setting::Number(setting_value, _) => *setting_value = to_number(setting_json),
         Setting::Integer(setting_value, _) => {
             setting_value.set(setting_json.as_u64().expect("a whole number"))
         }
         Setting::OptionalInteger(setting_value, _) => {
-            *setting_value = setting_json.as_u64().map(|integer| integer as usize)
+            *setting_value = setting_json.as_u64().map(|whole_number| whole_number as usize)
         }
         Setting::Boolean(setting_value) => *setting_value = setting_json.as_bool().expect("true or false"),
         Setting::Keyword(setting_value) => {
@@ -91,23 +91,23 @@ fn set_from_json(setting: Setting, setting_json: &Value) {
             setting_values
                 .iter_mut()
                 .zip(given_numbers)
-                .for_each(|(setting_value, number_json)| *setting_value = number_of(number_json));
+                .for_each(|(setting_value, number_json)| *setting_value = to_number(number_json));
         }
-        Setting::Level(mut setting_value, _) => setting_value.set(number_of(setting_json)),
+        Setting::Level(mut setting_value, _) => setting_value.set(to_number(setting_json)),
         Setting::Group(setting_group) => {
-            for (field, number) in setting_group.members().iter().zip(setting_group.numbers_mut()) {
-                *number = number_of(&setting_json[field.declaration.key]);
+            for (group_field, number) in setting_group.members().iter().zip(setting_group.numbers_mut()) {
+                *number = to_number(&setting_json[group_field.declaration.key]);
             }
         }
     }
 }
 
-pub fn number_of(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+pub fn to_number(number_json: &Value) -> f64 {
+    number_json.as_f64().unwrap_or_else(|| panic!("{number_json} is no number"))
 }
 
-pub fn numbers_of<const N: usize>(value: &Value) -> [f64; N] {
-    std::array::from_fn(|i| number_of(&value[i]))
+pub fn to_numbers<const N: usize>(numbers_json: &Value) -> [f64; N] {
+    std::array::from_fn(|i| to_number(&numbers_json[i]))
 }
 
 /// Returns a colour ramp with the same distinct colours as in digest.js.

@@ -15,8 +15,8 @@ pub trait Encode {
 
 impl Encode for f64 {
     fn encode(&self, bytes: &mut Vec<u8>) {
-        let bits = if self.is_nan() { NAN_BITS } else { self.to_bits() };
-        bytes.extend(bits.to_le_bytes());
+        let double_bits = if self.is_nan() { NAN_BITS } else { self.to_bits() };
+        bytes.extend(double_bits.to_le_bytes());
     }
 }
 
@@ -63,7 +63,7 @@ impl<T: Encode> Encode for Vec<T> {
 impl<T: Encode> Encode for Option<T> {
     fn encode(&self, bytes: &mut Vec<u8>) {
         match self {
-            Some(value) => value.encode(bytes),
+            Some(present_value) => present_value.encode(bytes),
             None => f64::NAN.encode(bytes),
         }
     }
@@ -97,10 +97,10 @@ impl HashedPart {
         let mut encoded_bytes = Vec::new();
         results.encode(&mut encoded_bytes);
         // A hash of 64 bits is long enough. One change in 10¹⁹ would go unnoticed.
-        Self(part_name, hex(&Sha256::digest(encoded_bytes))[..16].to_owned())
+        Self(part_name, format_hex(&Sha256::digest(encoded_bytes))[..16].to_owned())
     }
 }
 
-pub fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+pub fn format_hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|digest_byte| format!("{digest_byte:02x}")).collect()
 }

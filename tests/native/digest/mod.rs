@@ -5,37 +5,37 @@ mod configuration;
 mod encoding;
 mod simulations;
 
-use encoding::{HashedPart, hex};
+use encoding::{HashedPart, format_hex};
 use sha2::{Digest, Sha256};
 
 const DIGEST_DIRECTORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/digest");
 
 #[test]
 fn the_same_seed_gives_the_same_bits() {
-    let configurations = configuration::parsed_configurations();
+    let configurations = configuration::parse_configurations();
     let golden_text = std::fs::read_to_string(format!("{DIGEST_DIRECTORY}/golden.txt")).expect("golden.txt");
     let mut differing_parts = Vec::new();
     for configuration in configuration::configurations_of(&configurations) {
-        let hashed_parts = match configuration.widget {
-            "banana-machine" => simulations::banana_machine(&configuration),
-            "map-squeeze" => simulations::map_squeeze(&configuration),
-            "alpha-calibrator" => simulations::alpha_calibrator(&configuration),
-            "dead-reckoning" => simulations::dead_reckoning(&configuration),
+        let hashed_parts = match configuration.widget_tag {
+            "banana-machine" => simulations::hash_banana_machine(&configuration),
+            "map-squeeze" => simulations::hash_map_squeeze(&configuration),
+            "alpha-calibrator" => simulations::hash_alpha_calibrator(&configuration),
+            "dead-reckoning" => simulations::hash_dead_reckoning(&configuration),
             _ => continue,
         };
-        let line_prefix = format!("{}/{} ", configuration.widget, configuration.name);
-        let golden_hashes = golden_text
+        let line_prefix = format!("{}/{} ", configuration.widget_tag, configuration.configuration_name);
+        let golden_line = golden_text
             .lines()
-            .find_map(|golden_hashes| golden_hashes.strip_prefix(&line_prefix))
+            .find_map(|golden_line| golden_line.strip_prefix(&line_prefix))
             .unwrap_or_default();
-        let is_golden = |HashedPart(part_name, part_hash): &HashedPart| {
-            golden_hashes.split(' ').any(|golden_hash| golden_hash == format!("{part_name}:{part_hash}"))
+        let has_golden_hash = |HashedPart(part_name, part_hash): &HashedPart| {
+            golden_line.split(' ').any(|golden_hash| golden_hash == format!("{part_name}:{part_hash}"))
         };
         differing_parts.extend(
             hashed_parts
                 .iter()
-                .filter(|hashed_part| !is_golden(hashed_part))
-                .map(|part| format!("{line_prefix}{}", part.0)),
+                .filter(|hashed_part| !has_golden_hash(hashed_part))
+                .map(|hashed_part| format!("{line_prefix}{}", hashed_part.0)),
         );
     }
     assert!(
@@ -50,13 +50,13 @@ fn the_same_seed_gives_the_same_bits() {
 #[test]
 fn the_changelog_names_the_digest() {
     let golden_bytes = std::fs::read(format!("{DIGEST_DIRECTORY}/golden.txt")).expect("golden.txt");
-    let golden_digest = hex(&Sha256::digest(&golden_bytes));
+    let golden_digest = format_hex(&Sha256::digest(&golden_bytes));
     let changelog =
         std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/CHANGELOG.md")).expect("a changelog");
     // The changelog names the newest digest first.
     let printed_digest = changelog
         .split(|c: char| !c.is_ascii_hexdigit())
-        .find(|hexadecimal_word| hexadecimal_word.len() == golden_digest.len());
+        .find(|hexadecimal_digits| hexadecimal_digits.len() == golden_digest.len());
     assert_eq!(
         printed_digest,
         Some(golden_digest.as_str()),

@@ -1,8 +1,8 @@
 //! Digested results of each simulation, in the order of digest.js.
 
-use super::configuration::{Configuration, number_of, numbers_of, test_ramp};
+use super::configuration::{Configuration, test_ramp, to_number, to_numbers};
 use super::encoding::HashedPart;
-use motion::calibrate::{Estimate, Recommendation, SystematicError};
+use motion::calibrate::{Estimate, SystematicError};
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{Cell, FloorPlan, MapMode, OccupancyGrid, PixelClassifier, read_pgm};
@@ -15,12 +15,12 @@ use motion::stats::LikelihoodGain;
 use nalgebra::Vector3;
 use serde_json::Value;
 
-pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
-    let mut simulation = BananaMachine::new(configuration.settings()).expect("a valid setting");
+pub fn hash_banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
+    let mut simulation = BananaMachine::new(configuration.read_settings()).expect("a valid setting");
     let (reading, contours, table) = (simulation.reading(), simulation.contours(), simulation.table());
     let stats = *simulation.stats();
     let gain_fields_of = |likelihood_gain: LikelihoodGain| (likelihood_gain.pose, likelihood_gain.floor);
-    let column_values =
+    let fields_of_column =
         |c: TableColumn| (c.mean, c.cov, c.cross_track_skew, gain_fields_of(c.likelihood_gain), c.area_ratio);
     let stats = (
         stats.n,
@@ -32,19 +32,19 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
         stats.area_ratio,
     );
     let table_columns =
-        (column_values(table.linearized), column_values(table.exact), column_values(table.measured));
-    let encoded_outlines = (
-        flat_list(&contours.command),
-        flat_list(&contours.ellipse),
-        flat_list(&contours.linearized),
-        flat_list(&contours.exponential),
-        flat_list(&contours.twist_ellipse),
-        flat_list(&contours.additive),
+        (fields_of_column(table.linearized), fields_of_column(table.exact), fields_of_column(table.measured));
+    let outline_coordinates = (
+        flatten(&contours.command),
+        flatten(&contours.ellipse),
+        flatten(&contours.linearized),
+        flatten(&contours.exponential),
+        flatten(&contours.twist_ellipse),
+        flatten(&contours.additive),
     );
-    let mut paint_view = |view| flat_list(simulation.paint(view, &configuration.grid(), &test_ramp(0)));
+    let mut paint_view = |view| flatten(simulation.paint(view, &configuration.view_grid(), &test_ramp(0)));
     let [plane_pixels, twist_pixels] = [View::Plane, View::Twist].map(&mut paint_view);
     vec![
-        HashedPart::new("poses", simulation.poses().flat_map(pose_coordinates).collect::<Vec<_>>()),
+        HashedPart::new("poses", simulation.poses().flat_map(coordinates_of).collect::<Vec<_>>()),
         HashedPart::new("twists", simulation.twists().flat_map(<[f64; 3]>::from).collect::<Vec<_>>()),
         HashedPart::new("executed", simulation.executed_motions().flatten().collect::<Vec<_>>()),
         HashedPart::new(
@@ -57,123 +57,115 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
             ),
         ),
         HashedPart::new("table", (table_columns, table.tangent.map(|moments| (moments.mean, moments.cov)))),
-        HashedPart::new("contours", encoded_outlines),
+        HashedPart::new("contours", outline_coordinates),
         HashedPart::new("plane", plane_pixels),
         HashedPart::new("twist", twist_pixels),
     ]
 }
 
-pub fn map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
-    let mut simulation = MapSqueeze::new(configuration.settings()).expect("a valid setting");
+pub fn hash_map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
+    let mut simulation = MapSqueeze::new(configuration.read_settings()).expect("a valid setting");
     if let Some(map_name) = configuration.settings_json.get("map") {
         let map_json = &configuration.configurations_json["maps"][map_name.as_str().expect("a name")];
         match map_json.get("plan") {
-            Some(plan) => simulation.set_plan(read_plan(plan)),
+            Some(floor_plan) => simulation.set_plan(read_floor_plan(floor_plan)),
             None => simulation
                 .set_grid(read_grid(map_json, &configuration.configurations_json["images"]))
                 .expect("not too many walls"),
         }
     }
-    let (plan, stats, noise) = (simulation.plan(), simulation.stats(), simulation.settings().noise());
+    let (floor_plan, stats, noise) = (simulation.plan(), simulation.stats(), simulation.settings().noise());
     let attempts = simulation.attempts();
-    let wall_ends: Vec<_> = plan.walls().iter().map(|Segment { from, to }| [*from, *to]).collect();
-    let grid_fields = plan.grid().map(|grid| {
-        let [columns, rows] = grid.size();
-        let [are_occupied, are_unknown] = [Cell::Occupied, Cell::Unknown]
-            .map(|cell_kind| grid.cells().map(|cell| cell == cell_kind).collect::<Vec<_>>());
-        (columns, rows, grid.resolution(), pose_coordinates(grid.origin()), are_occupied, are_unknown)
+    let wall_ends: Vec<_> = floor_plan.walls().iter().map(|wall| [wall.from, wall.to]).collect();
+    let grid_fields = floor_plan.grid().map(|grid| {
+        let [column_count, rows] = grid.size();
+        let [occupied_flags, are_unknown] = [Cell::Occupied, Cell::Unknown]
+            .map(|cell_kind| grid.cells().map(|grid_cell| grid_cell == cell_kind).collect::<Vec<_>>());
+        (column_count, rows, grid.resolution(), coordinates_of(grid.origin()), occupied_flags, are_unknown)
     });
-    let encoded_stats = (
+    let stat_fields = (
         (stats.attempts, stats.drawn, stats.accepted, stats.acceptance_rate),
         (stats.through_wall, stats.through_wall_rate, stats.through_wall_interval),
         (stats.draws_per_accepted, stats.wall_tests_per_accepted, stats.gave_up),
     );
     vec![
-        HashedPart::new("map", (plan.bounds(), flat_list(wall_ends.as_flattened()), grid_fields)),
+        HashedPart::new("map", (floor_plan.bounds(), flatten(wall_ends.as_flattened()), grid_fields)),
         HashedPart::new(
             "poses",
-            attempts.iter().flat_map(|attempt| pose_coordinates(attempt.pose)).collect::<Vec<_>>(),
+            attempts.iter().flat_map(|attempt| coordinates_of(attempt.pose)).collect::<Vec<_>>(),
         ),
         HashedPart::new("verdicts", attempts.iter().map(Attempt::verdict_bits).collect::<Vec<_>>()),
         HashedPart::new(
             "statistics",
-            (attempts.len(), simulation.is_start_free(), simulation.find_free_pose(), noise, encoded_stats),
+            (attempts.len(), simulation.is_start_free(), simulation.find_free_pose(), noise, stat_fields),
         ),
         HashedPart::new(
             "picture",
-            flat_list(simulation.paint(&configuration.grid(), &[0, 1, 2].map(test_ramp))),
+            flatten(simulation.paint(&configuration.view_grid(), &[0, 1, 2].map(test_ramp))),
         ),
     ]
 }
 
-pub fn dead_reckoning(configuration: &Configuration) -> Vec<HashedPart> {
-    let simulation = DeadReckoning::new(configuration.settings()).expect("a valid setting");
+pub fn hash_dead_reckoning(configuration: &Configuration) -> Vec<HashedPart> {
+    let simulation = DeadReckoning::new(configuration.read_settings()).expect("a valid setting");
     let (settings, stats) = (simulation.settings(), simulation.stats());
-    let values_by_step = |vector_of_step: &dyn Fn(usize) -> Vector3<f64>| -> Vec<f64> {
-        (0..simulation.measured_moments().len()).flat_map(|k| <[f64; 3]>::from(vector_of_step(k))).collect()
+    let flatten_by_step = |vector_at_step: &dyn Fn(usize) -> Vector3<f64>| -> Vec<f64> {
+        (0..simulation.measured_moments().len()).flat_map(|k| <[f64; 3]>::from(vector_at_step(k))).collect()
     };
     let undefined_variances = Vector3::repeat(f64::NAN);
     let [variance_ratios, predicted_variances] = [
-        RECURSIONS.map(|recursion| values_by_step(&|k| simulation.comparison(recursion).ratios[k])),
+        RECURSIONS.map(|recursion| flatten_by_step(&|k| simulation.comparison(recursion).ratios[k])),
         RECURSIONS.map(|recursion| {
-            values_by_step(&|k| {
+            flatten_by_step(&|k| {
                 simulation.predicted_covariances(recursion)[k]
                     .map_or(undefined_variances, |cov| cov.diagonal())
             })
         }),
     ]
     .map(<(_, _, _)>::from);
-    let measured_variances = values_by_step(&|k| simulation.measured_moments()[k].cov.diagonal());
-    let relative_errors = values_by_step(&|k| simulation.measured_moments()[k].relative_error);
-    let encoded_misses =
-        [stats.misses.chapter, stats.misses.first_order, stats.misses.fourth_order].map(|misses_by_axis| {
-            misses_by_axis
-                .map(|Misses { decidable, first, last, end, error }| (decidable, first, last, end, error))
-        });
-    let encoded_predictions =
-        (stats.predicted.chapter, stats.predicted.first_order, stats.predicted.fourth_order);
-    let statistics = (
-        stats.n,
-        (stats.measured.mean, stats.measured.cov),
-        encoded_predictions,
-        <(_, _, _)>::from(encoded_misses),
-    );
-    let outlines = simulation.outlines(settings.step).expect("a step");
+    let measured_variances = flatten_by_step(&|k| simulation.measured_moments()[k].cov.diagonal());
+    let relative_errors = flatten_by_step(&|k| simulation.measured_moments()[k].relative_error);
+    let miss_fields = [stats.misses.chapter, stats.misses.first_order, stats.misses.fourth_order]
+        .map(|axis_misses| axis_misses.map(|m: Misses| (m.decidable, m.first, m.last, m.end, m.error)));
+    let predicted_covs = (stats.predicted.chapter, stats.predicted.first_order, stats.predicted.fourth_order);
+    let statistics =
+        (stats.n, (stats.measured.mean, stats.measured.cov), predicted_covs, <(_, _, _)>::from(miss_fields));
+    let step_outlines = simulation.outlines(settings.step).expect("a step");
     vec![
         HashedPart::new("statistics", (simulation.shown_count(), settings.heading_noise(), statistics)),
         HashedPart::new("steps", (variance_ratios, predicted_variances, measured_variances, relative_errors)),
         HashedPart::new(
             "poses",
             (
-                flat_list(simulation.poses(settings.step)),
+                flatten(simulation.poses(settings.step)),
                 simulation.twists().flatten().collect::<Vec<_>>(),
-                flat_list(simulation.poses(1)),
+                flatten(simulation.poses(1)),
             ),
         ),
         HashedPart::new(
             "outlines",
             (
-                flat_list(&outlines.ellipse),
-                flat_list(&outlines.exponential),
-                flat_list(&outlines.predicted),
-                flat_list(&outlines.measured),
+                flatten(&step_outlines.ellipse),
+                flatten(&step_outlines.exponential),
+                flatten(&step_outlines.predicted),
+                flatten(&step_outlines.measured),
             ),
         ),
     ]
 }
 
-pub fn alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
-    let simulation = AlphaCalibrator::new(configuration.settings()).expect("a valid setting");
+pub fn hash_alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
+    let simulation = AlphaCalibrator::new(configuration.read_settings()).expect("a valid setting");
     let calibration = simulation.calibration();
-    let estimate_fields_of = |Estimate { value, interval }: &Estimate| (*value, *interval);
+    let estimate_fields_of = |estimate: &Estimate| (estimate.value, estimate.interval);
     let estimate_of = |error: SystematicError| {
         calibration.systematic_stds[error as usize].map(|_| calibration.systematic.get(error))
     };
     let interval_of = |error: SystematicError| calibration.interval_of(error);
     let is_constant_and_corrected = |error_kinds: &[SystematicError]| {
-        let [is_constant, is_corrected] = [calibration.is_constant, calibration.is_corrected]
-            .map(|error_flags| error_kinds.iter().any(|error| error_flags[*error as usize]));
-        (is_constant, is_corrected)
+        let [is_error_constant, is_error_corrected] = [calibration.is_constant, calibration.is_corrected]
+            .map(|error_flags| error_kinds.iter().any(|error_kind| error_flags[*error_kind as usize]));
+        (is_error_constant, is_error_corrected)
     };
     let error_fields = |error| (estimate_of(error), interval_of(error), is_constant_and_corrected(&[error]));
     let lever_arm = [SystematicError::LeverArmAhead, SystematicError::LeverArmLeft];
@@ -187,27 +179,27 @@ pub fn alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
         error_fields(SystematicError::TurnScale),
     );
     let reference_noise = calibration.reference_noise.each_ref().map(estimate_fields_of);
-    let encoded_checks: Vec<_> = calibration
+    let check_fields: Vec<_> = calibration
         .diagnostics
         .checks
         .iter()
-        .map(|check| (check.value, check.expected, check.passed))
+        .map(|diagnostic_check| (diagnostic_check.value, diagnostic_check.expected, diagnostic_check.passed))
         .collect();
-    let encoded_windows: Vec<_> = calibration
+    let window_fields: Vec<_> = calibration
         .diagnostics
         .windows
         .iter()
-        .map(|window| (window.length, window.count, window.coverage, window.nees))
+        .map(|leg_window| (leg_window.length, leg_window.count, leg_window.coverage, leg_window.nees))
         .collect();
-    let encoded_recommendation = calibration
+    let recommendation_fields = calibration
         .recommended
         .as_ref()
-        .map(|Recommendation { alphas, inflation, .. }| (alphas.clone(), *inflation));
-    let encoded_truth = simulation.truth().map(|simulated_truth| {
-        let alphas = (simulated_truth.alphas, simulated_truth.clock_offset, simulated_truth.mount_yaw);
-        (alphas, simulated_truth.lever_arm, simulated_truth.distance_scale, simulated_truth.turn_scale)
+        .map(|recommendation| (recommendation.alphas.clone(), recommendation.inflation));
+    let truth_fields = simulation.truth().map(|simulated_truth| {
+        let first_fields = (simulated_truth.alphas, simulated_truth.clock_offset, simulated_truth.mount_yaw);
+        (first_fields, simulated_truth.lever_arm, simulated_truth.distance_scale, simulated_truth.turn_scale)
     });
-    let encoded_persistence =
+    let persistence_fields =
         (estimate_fields_of(&calibration.persistence.correlation), calibration.persistence.length);
     vec![
         HashedPart::new(
@@ -215,26 +207,26 @@ pub fn alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
             (calibration.alphas.clone(), calibration.intervals.clone(), calibration.log_likelihood),
         ),
         HashedPart::new("systematic", systematic_errors),
-        HashedPart::new("noise", (reference_noise, encoded_persistence)),
-        HashedPart::new("diagnostics", (encoded_checks, encoded_windows, encoded_recommendation)),
-        HashedPart::new("truth", encoded_truth),
+        HashedPart::new("noise", (reference_noise, persistence_fields)),
+        HashedPart::new("diagnostics", (check_fields, window_fields, recommendation_fields)),
+        HashedPart::new("truth", truth_fields),
     ]
 }
 
-fn pose_coordinates(pose: SE2) -> [f64; 3] {
+fn coordinates_of(pose: SE2) -> [f64; 3] {
     [pose.x(), pose.y(), pose.theta()]
 }
 
-fn flat_list<T: Copy, const N: usize>(rows: &[[T; N]]) -> Vec<T> {
-    rows.as_flattened().to_vec()
+fn flatten<T: Copy, const N: usize>(row_arrays: &[[T; N]]) -> Vec<T> {
+    row_arrays.as_flattened().to_vec()
 }
 
-fn read_plan(plan: &Value) -> FloorPlan {
-    let walls = plan["walls"].as_array().expect("walls").iter().map(|wall| {
-        let [x0, y0, x1, y1] = numbers_of(wall);
-        Segment { from: [x0, y0], to: [x1, y1] }
+fn read_floor_plan(plan_json: &Value) -> FloorPlan {
+    let walls = plan_json["walls"].as_array().expect("walls").iter().map(|wall| {
+        let [start_x, start_y, end_x, end_y] = to_numbers(wall);
+        Segment { from: [start_x, start_y], to: [end_x, end_y] }
     });
-    FloorPlan::new(walls.collect(), numbers_of(&plan["bounds"])).expect("a valid plan")
+    FloorPlan::new(walls.collect(), to_numbers(&plan_json["bounds"])).expect("a valid plan")
 }
 
 fn read_grid(map_json: &Value, images_json: &Value) -> OccupancyGrid {
@@ -242,18 +234,18 @@ fn read_grid(map_json: &Value, images_json: &Value) -> OccupancyGrid {
     let image_text: String =
         image_lines.iter().map(|image_line| format!("{}\n", image_line.as_str().expect("a line"))).collect();
     let description = &map_json["description"];
-    let [x, y, yaw] = numbers_of(&description["origin"]);
-    let interpretation = PixelClassifier {
+    let [x, y, yaw] = to_numbers(&description["origin"]);
+    let pixel_classifier = PixelClassifier {
         mode: match description["mode"].as_str() {
             None | Some("trinary") => MapMode::Trinary,
             Some("scale") => MapMode::Scale,
             Some("raw") => MapMode::Raw,
             Some(unknown_mode) => panic!("{unknown_mode} is no mode"),
         },
-        negate: number_of(&description["negate"]) == 1.0,
-        occupied_thresh: number_of(&description["occupied_thresh"]),
-        free_thresh: number_of(&description["free_thresh"]),
+        negate: to_number(&description["negate"]) == 1.0,
+        occupied_thresh: to_number(&description["occupied_thresh"]),
+        free_thresh: to_number(&description["free_thresh"]),
     };
     let image = read_pgm(image_text.as_bytes()).expect("a PGM file");
-    OccupancyGrid::new(&image, &interpretation, number_of(&description["resolution"]), SE2::new(x, y, yaw))
+    OccupancyGrid::new(&image, &pixel_classifier, to_number(&description["resolution"]), SE2::new(x, y, yaw))
 }

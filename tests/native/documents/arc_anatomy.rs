@@ -1,47 +1,47 @@
 //! Numbers of Arc Anatomy on the page, compared with computed numbers.
 
-use super::page_text;
+use super::read_page_text;
 use crate::common::settings_of_preset;
 use crate::common::text::PrintedNumber;
 use crate::simulations::arc_anatomy::stats;
 use motion::sim::arc_anatomy::{ArcAnatomy, HeatMapKind, Settings, Stats};
 
 /// Returns settings with the final pose turned until the wedge disappears.
-fn settings_without_wedge(settings: Settings) -> Settings {
+fn remove_wedge(settings: Settings) -> Settings {
     let arc_heading = stats(settings).driven.end[2];
     Settings { next: [settings.next[0], settings.next[1], arc_heading], ..settings }
 }
 
 #[test]
 fn the_last_turn_explains_the_low_probability() {
-    let [printed_sigma_count, printed_factor_percentage, printed_product_percentage] = page_text().sentence_numbers(
+    let [printed_sigma_count, printed_factor_percentage, printed_product_percentage] = read_page_text().sentence_numbers(
         "The last turn is off by # standard deviations: that factor alone leaves # % of its peak, all three leave # %.",
     );
-    let Stats { factors, weakest, share, .. } = stats(Settings::default());
-    assert_eq!(weakest, 2);
-    printed_sigma_count.assert_near(factors[2].deviations, 0.0);
-    printed_factor_percentage.assert_percent(factors[2].share, 0.0);
+    let Stats { factors: density_factors, weakest: weakest_index, share, .. } = stats(Settings::default());
+    assert_eq!(weakest_index, 2);
+    printed_sigma_count.assert_near(density_factors[2].deviations, 0.0);
+    printed_factor_percentage.assert_percent(density_factors[2].share, 0.0);
     printed_product_percentage.assert_percent(share, 0.0);
-    let [printed_remaining_percentage] = page_text()
+    let [printed_remaining_percentage] = read_page_text()
         .sentence_numbers("With the heading of the arc the wedge is gone: # % are left, and the position");
-    let Stats { factors, share, .. } = stats(settings_without_wedge(Settings::default()));
+    let Stats { factors: density_factors, share, .. } = stats(remove_wedge(Settings::default()));
     printed_remaining_percentage.assert_percent(share, 0.0);
-    assert!((factors[2].share - 1.0).abs() < 1e-12);
+    assert!((density_factors[2].share - 1.0).abs() < 1e-12);
 }
 
 #[test]
-fn the_printed_table_gives_no_probability_to_centres_on_the_right() {
-    let [printed_speed]: [PrintedNumber; 1] =
-        page_text().sentence_numbers("and v̂, the speed along the arc, comes out as # m/s in a right turn.");
+fn the_printed_table_gives_nearly_no_probability_to_arcs_to_the_right() {
+    let [printed_speed]: [PrintedNumber; 1] = read_page_text()
+        .sentence_numbers("and v̂, the speed along the arc, comes out as # m/s in a right turn.");
     for preset_name in ["right", "reverse"] {
         let settings = Settings { printed: true, ..settings_of_preset(preset_name) };
-        let Stats { factors, share, inverted, .. } = stats(settings);
-        assert!(inverted.radius < 0.0 && share < 1e-15);
+        let Stats { factors: density_factors, share, inverted: inverted_arc, .. } = stats(settings);
+        assert!(inverted_arc.radius < 0.0 && share < 1e-15);
         // The estimated speed has the opposite sign of the command.
-        printed_speed.assert_near(-factors[0].estimate.abs(), 0.0);
-        assert!(factors[0].estimate * settings.command.v < 0.0);
+        printed_speed.assert_near(-density_factors[0].estimate.abs(), 0.0);
+        assert!(density_factors[0].estimate * settings.command.v < 0.0);
         // With the unsigned radius of the printed table, contours of equal score stay near the start. With the signed radius they do not.
-        let max_distance_to_start = |settings: Settings| {
+        let max_contour_distance = |settings: Settings| {
             let heat_map = ArcAnatomy::new(Settings { map: HeatMapKind::Prob, ..settings })
                 .expect("valid settings")
                 .surface([-2.0, -2.0], [2.0, 2.0])
@@ -49,10 +49,10 @@ fn the_printed_table_gives_no_probability_to_centres_on_the_right() {
             heat_map.prob.iter().flatten().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)
         };
         assert!(
-            max_distance_to_start(settings) < 0.5
-                && max_distance_to_start(settings_of_preset(preset_name)) > 1.0,
+            max_contour_distance(settings) < 0.5
+                && max_contour_distance(settings_of_preset(preset_name)) > 1.0,
             "{}",
-            max_distance_to_start(settings)
+            max_contour_distance(settings)
         );
     }
 }

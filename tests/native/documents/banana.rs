@@ -1,18 +1,18 @@
 //! Numbers of the Banana Machine on the page and in doc/statistics.md, compared with computed numbers.
 
-use super::page_text;
+use super::read_page_text;
 use crate::common::text::{PlainText, PrintedNumber};
-use crate::common::{MAX_STANDARD_ERRORS, settings_of_preset, winds_around};
+use crate::common::{MAX_STANDARD_ERRORS, is_point_inside, settings_of_preset};
 use crate::simulations::banana::simulation;
 use motion::VelocityCmd;
 use motion::sim::banana::{BananaMachine, ModelKind, Settings};
 
-fn statistics_document() -> PlainText {
-    PlainText::of_document(include_str!("../../../doc/statistics.md"))
+fn read_statistics_document() -> PlainText {
+    PlainText::from_document(include_str!("../../../doc/statistics.md"))
 }
 
 #[test]
-fn the_presets_are_those_in_the_document() {
+fn presets_equal_those_printed_in_the_document() {
     for (preset_name, printed_label) in [
         ("straight", "Straight"),
         ("gentle", "Gentle arc"),
@@ -21,13 +21,13 @@ fn the_presets_are_those_in_the_document() {
         ("banana", "Banana"),
         ("worked", "Worked example"),
     ] {
-        let printed_numbers: [PrintedNumber; 9] = statistics_document()
+        let printed_numbers: [PrintedNumber; 9] = read_statistics_document()
             .sentence_numbers(&format!("| {printed_label} | #, #, # | #, #, #, #, #, # |"));
-        let Settings { command: c, velocity_alphas: [a1, a2, a3, a4, a5, a6], .. } =
+        let Settings { command: preset_command, velocity_alphas: [a1, a2, a3, a4, a5, a6], .. } =
             settings_of_preset(preset_name);
         assert_eq!(
             printed_numbers.map(|printed_number| printed_number.value),
-            [c.v, c.omega, c.dt, a1, a2, a3, a4, a5, a6],
+            [preset_command.v, preset_command.omega, preset_command.dt, a1, a2, a3, a4, a5, a6],
             "{preset_name}"
         );
     }
@@ -50,23 +50,23 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
         printed_skew.assert_near(exact_column.cross_track_skew, 1e-12);
         exact_column
     };
-    let worked_row =
-        statistics_document().sentence_numbers("| 1, 0.5, 1; α₁₋₄ = 0.02, α₅,₆ = 0 | ∞ | # | # | # % | # |");
+    let worked_row = read_statistics_document()
+        .sentence_numbers("| 1, 0.5, 1; α₁₋₄ = 0.02, α₅,₆ = 0 | ∞ | # | # | # % | # |");
     assert_row(&simulate_preset("worked"), worked_row);
     let [(gentle_exact, _), (hard_exact, hard_simulation), (banana_exact, _)] = [
         ("gentle", "| 1, 0.5, 1; (0.05, 0.05, 0.05, 0.09, 0.01, 0.01)"),
         ("hard", "| 1, 1.2, 1.4; the same"),
         ("banana", "| 1, 0, 2; (0.002, 0.002, 0.1, 0.1, 0.002, 0.002)"),
     ]
-    .map(|(name, row_start)| {
+    .map(|(preset_name, row_start)| {
         let [printed_pose_gain, printed_row @ ..]: [PrintedNumber; 5] =
-            statistics_document().sentence_numbers(&format!("{row_start} | # | # | # | # % | # |"));
-        let simulation = simulate_preset(name);
+            read_statistics_document().sentence_numbers(&format!("{row_start} | # | # | # | # % | # |"));
+        let simulation = simulate_preset(preset_name);
         let exact_column = assert_row(&simulation, printed_row);
         printed_pose_gain.assert_near(exact_column.likelihood_gain.pose, 0.0);
         (exact_column, simulation)
     });
-    let [printed_ellipse_percentage, printed_outline_percentage, printed_skew, printed_gaussian_skew] = page_text().sentence_numbers(
+    let [printed_ellipse_percentage, printed_outline_percentage, printed_skew, printed_gaussian_skew] = read_page_text().sentence_numbers(
         "do not give the ellipse away, # % and # %. The cross-track skew, the lopsidedness across the path, does: #, \
          where any Gaussian in (x, y) has #, and so has the banana.",
     );
@@ -77,7 +77,7 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
     assert!(banana_exact.cross_track_skew.abs() < 1e-9);
     let [banana_gain, gentle_gain, hard_gain] =
         [&banana_exact, &gentle_exact, &hard_exact].map(|exact_column| exact_column.likelihood_gain.pose);
-    page_text().assert_numbers(
+    read_page_text().assert_numbers(
         "The ellipse covers # times the floor of the green outline: where it alone lies, robots stop a seventh as \
          densely as where the outline alone does. The Gaussian in ξ fits better: a log-likelihood gain of # nats a robot \
          (# nat: e times as likely); on the gentle arc it is #, on the hard one #.",
@@ -85,12 +85,12 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
     );
     assert_eq!(Settings::default(), settings_of_preset("banana"));
     let opening_simulation = simulation(Settings::default());
-    statistics_document().assert_numbers(
+    read_statistics_document().assert_numbers(
         "α₁₋₄ = 0.02, α₅,₆ = 0: skew #; the Gentle arc's α = (0.05, 0.05, 0.05, 0.09, 0.01, 0.01): #.",
         [simulation(settings_of_preset("worked")), simulation(settings_of_preset("gentle"))]
             .map(|simulation| simulation.exact_moments().cross_track_skew),
     );
-    statistics_document().assert_numbers(
+    read_statistics_document().assert_numbers(
         "The widget opens with # robots. They give the skew of the Banana to ±#.",
         [opening_simulation.settings().samples as f64, opening_simulation.stats().cross_track_skew_error],
     );
@@ -99,36 +99,36 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
 /// With 300,000 robots, the densities in the areas that only one of the outlines encloses have relative errors of 2 %.
 #[test]
 fn the_ellipse_covers_floor_where_few_robots_stop() {
-    page_text().assert_contains(
+    read_page_text().assert_contains(
         "where it alone lies, robots stop a seventh as densely as where the outline alone does.",
     );
     let simulation = simulation(Settings { samples: 300_000, ..settings_of_preset("banana") });
-    let contours = simulation.contours();
+    let outlines = simulation.contours();
     let is_inside_outlines = |floor_point| {
-        [&contours.ellipse, &contours.exponential].map(|outline| winds_around(outline, floor_point))
+        [&outlines.ellipse, &outlines.exponential].map(|outline| is_point_inside(outline, floor_point))
     };
     const CELL_SIZE: f64 = 0.02;
     let cell_indices = (0..250).flat_map(|column_index| (0..250).map(move |row| (column_index, row)));
-    let cells_inside: Vec<[bool; 2]> = cell_indices
-        .map(|(column, row)| {
-            is_inside_outlines([f64::from(column) * CELL_SIZE, f64::from(row) * CELL_SIZE - 2.5])
+    let cell_flags: Vec<[bool; 2]> = cell_indices
+        .map(|(column_index, row)| {
+            is_inside_outlines([f64::from(column_index) * CELL_SIZE, f64::from(row) * CELL_SIZE - 2.5])
         })
         .collect();
-    let robots_inside: Vec<[bool; 2]> =
+    let robot_flags: Vec<[bool; 2]> =
         simulation.poses().map(|pose| is_inside_outlines([pose.x(), pose.y()])).collect();
     let robot_density_in = |inside_outlines: [bool; 2]| {
         let count_points = |inside_flags: &[[bool; 2]]| {
-            inside_flags.iter().filter(|flags_of_point| **flags_of_point == inside_outlines).count() as f64
+            inside_flags.iter().filter(|point_flags| **point_flags == inside_outlines).count() as f64
         };
-        count_points(&robots_inside) / (count_points(&cells_inside) * CELL_SIZE * CELL_SIZE)
+        count_points(&robot_flags) / (count_points(&cell_flags) * CELL_SIZE * CELL_SIZE)
     };
     let density_ratio = robot_density_in([false, true]) / robot_density_in([true, false]);
     assert_eq!(density_ratio.round(), 7.0, "{density_ratio}");
 }
 
 #[test]
-fn a_tenth_of_the_time_leaves_less_than_a_tenth_of_the_cloud() {
-    page_text().assert_contains(
+fn a_tenth_of_the_time_shrinks_the_cloud_to_less_than_a_tenth() {
+    read_page_text().assert_contains(
         "In a tenth of the time the cloud shrinks to less than a tenth, and the circle stays:",
     );
     let long_drive_settings: Settings = settings_of_preset("gentle");
@@ -137,44 +137,41 @@ fn a_tenth_of_the_time_leaves_less_than_a_tenth_of_the_cloud() {
         ..long_drive_settings
     };
     let [long_drive_simulation, short_drive_simulation] = [long_drive_settings, short_drive_settings]
-        .map(|settings| simulation(Settings { samples: 10, ..settings }));
-    let largest_std_of = |simulation: &BananaMachine| {
-        let cov = simulation.table().exact.cov;
-        (cov[(0, 0)] + cov[(1, 1)]).sqrt()
+        .map(|drive_settings| simulation(Settings { samples: 10, ..drive_settings }));
+    let position_std_of = |simulation: &BananaMachine| {
+        let exact_cov = simulation.table().exact.cov;
+        (exact_cov[(0, 0)] + exact_cov[(1, 1)]).sqrt()
     };
     assert!(
-        largest_std_of(&short_drive_simulation) < 0.1 * largest_std_of(&long_drive_simulation),
+        position_std_of(&short_drive_simulation) < 0.1 * position_std_of(&long_drive_simulation),
         "{} {}",
-        largest_std_of(&short_drive_simulation),
-        largest_std_of(&long_drive_simulation)
+        position_std_of(&short_drive_simulation),
+        position_std_of(&long_drive_simulation)
     );
 }
 
 #[test]
-fn the_predicted_skew_misses_under_the_odometry_model() {
-    let [robot_count, min_standard_errors] = page_text()
+fn the_predicted_skew_is_wrong_under_the_odometry_model() {
+    let [robot_count, min_standard_errors] = read_page_text()
         .sentence_numbers("and the prediction misses: with # robots by more than # standard errors.");
     let settings = Settings { samples: robot_count.value as usize, ..settings_of_preset("gentle") };
     let mut velocity_alphas = settings.velocity_alphas;
     velocity_alphas[4..].fill(0.0);
-    let skew_miss_in_standard_errors = |settings| {
+    let skew_miss_of = |settings| {
         let simulation = simulation(settings);
         let stats = simulation.stats();
         (stats.cross_track_skew - stats.gaussian_skew).abs() / stats.cross_track_skew_error
     };
-    assert!(skew_miss_in_standard_errors(Settings { velocity_alphas, ..settings }) < MAX_STANDARD_ERRORS);
-    assert!(
-        skew_miss_in_standard_errors(Settings { model: ModelKind::Odometry, ..settings })
-            > min_standard_errors.value
-    );
+    assert!(skew_miss_of(Settings { velocity_alphas, ..settings }) < MAX_STANDARD_ERRORS);
+    assert!(skew_miss_of(Settings { model: ModelKind::Odometry, ..settings }) > min_standard_errors.value);
 }
 
 #[test]
-fn a_hundred_times_the_robots_leave_a_tenth_of_the_error() {
-    page_text().assert_contains("A hundred times the robots leave a tenth of the standard error.");
-    let skew_error_with = |samples| {
+fn a_hundred_times_the_robots_reduce_the_error_to_a_tenth() {
+    read_page_text().assert_contains("A hundred times the robots leave a tenth of the standard error.");
+    let skew_error_of = |samples| {
         simulation(Settings { samples, ..settings_of_preset("gentle") }).stats().cross_track_skew_error
     };
-    let error_ratio = skew_error_with(2000) / skew_error_with(200_000);
+    let error_ratio = skew_error_of(2000) / skew_error_of(200_000);
     assert!((error_ratio - 10.0).abs() < 1.0, "{error_ratio}");
 }

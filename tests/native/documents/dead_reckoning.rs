@@ -1,6 +1,6 @@
 //! Numbers of Dead Reckoning on the page, compared with computed numbers.
 
-use super::{exercises_document, page_text};
+use super::{read_exercises, read_page_text};
 use crate::common::text::PrintedNumber;
 use crate::common::{MAX_STANDARD_ERRORS, settings_of_preset};
 use crate::simulations::dead_reckoning::simulation;
@@ -13,57 +13,57 @@ fn simulation_of_preset(preset_name: &str) -> DeadReckoning {
 
 /// Returns the predicted variances of an axis after each step, divided by those of the fourth order, which are accurate to a few
 /// thousandths.
-fn ratios_to_fourth_order(simulation: &DeadReckoning, recursion: Compounding, axis_index: usize) -> Vec<f64> {
+fn divide_by_fourth_order(simulation: &DeadReckoning, recursion: Compounding, axis_index: usize) -> Vec<f64> {
     let predicted_variances_by = |recursion| {
         simulation
             .predicted_covariances(recursion)
             .iter()
-            .map(move |variance| variance.expect("a covariance")[(axis_index, axis_index)])
+            .map(move |cov_or_none| cov_or_none.expect("a covariance")[(axis_index, axis_index)])
     };
     predicted_variances_by(recursion)
         .zip(predicted_variances_by(Compounding::FourthOrder))
-        .map(|(variance, exact_variance)| variance / exact_variance)
+        .map(|(predicted_variance, fourth_order_variance)| predicted_variance / fourth_order_variance)
         .collect()
 }
 
 /// Returns the steps at which a ratio differs from 1 by more than the tolerance.
-fn missed_steps(variance_ratios: &[f64]) -> Vec<usize> {
+fn missed_steps_of(variance_ratios: &[f64]) -> Vec<usize> {
     (1..=variance_ratios.len()).filter(|k| (variance_ratios[k - 1] - 1.0).abs() > MISS_TOLERANCE).collect()
 }
 
 #[test]
-fn printed_losses_of_variance_equal_those_of_the_simulation() {
+fn printed_variance_errors_of_the_recursion_equal_those_of_the_simulation() {
     let initial_simulation = simulation(Settings::default());
-    let [printed_loss]: [PrintedNumber; 1] =
-        page_text().sentence_numbers("what its own loses by the end: # % of the variance along the track");
-    let comparison = initial_simulation.comparison(Compounding::Chapter);
-    printed_loss.assert_percent(-comparison.misses[0].end, 0.0);
-    printed_loss
-        .assert_percent(1.0 - ratios_to_fourth_order(&initial_simulation, Compounding::Chapter, 0)[19], 0.0);
-    let [printed_along_loss, printed_lateral_loss]: [PrintedNumber; 2] = page_text().sentence_numbers(
+    let [printed_percentage]: [PrintedNumber; 1] = read_page_text()
+        .sentence_numbers("what its own loses by the end: # % of the variance along the track");
+    let chapter_comparison = initial_simulation.comparison(Compounding::Chapter);
+    printed_percentage.assert_percent(-chapter_comparison.misses[0].end, 0.0);
+    printed_percentage
+        .assert_percent(1.0 - divide_by_fourth_order(&initial_simulation, Compounding::Chapter, 0)[19], 0.0);
+    let [printed_along_loss, printed_lateral_loss]: [PrintedNumber; 2] = read_page_text().sentence_numbers(
         "After the chapter’s 20 steps the variance along the track is # % below that of 50\u{202f}000 robots. Across the track \
          it is 0 after step 1, and # % too small at the end.",
     );
-    for (printed_loss, axis) in [(printed_along_loss, 0), (printed_lateral_loss, 1)] {
-        printed_loss.assert_percent(-comparison.misses[axis].end, 0.0);
-        printed_loss.assert_percent(
-            1.0 - ratios_to_fourth_order(&initial_simulation, Compounding::Chapter, axis)[19],
+    for (printed_percentage, axis) in [(printed_along_loss, 0), (printed_lateral_loss, 1)] {
+        printed_percentage.assert_percent(-chapter_comparison.misses[axis].end, 0.0);
+        printed_percentage.assert_percent(
+            1.0 - divide_by_fourth_order(&initial_simulation, Compounding::Chapter, axis)[19],
             0.0,
         );
     }
-    page_text().assert_contains("the Gaussian that the chapter predicts is a line, for its R, the noise covariance of one step, has no lateral noise");
-    assert_eq!(comparison.ratios[0].y, 0.0);
+    read_page_text().assert_contains("the Gaussian that the chapter predicts is a line, for its R, the noise covariance of one step, has no lateral noise");
+    assert_eq!(chapter_comparison.ratios[0].y, 0.0);
     assert!(initial_simulation.measured_moments()[0].cov[(1, 1)] > 0.0);
     let [printed_ratio_at_2, printed_ratio_at_5]: [PrintedNumber; 2] =
-        page_text().sentence_numbers("At step 2 it predicts # of the lateral variance, at step 5 #.");
-    for ratios in [
-        ratios_to_fourth_order(&initial_simulation, Compounding::Chapter, 1),
-        comparison.ratios.iter().map(|axis_ratios| axis_ratios.y).collect(),
+        read_page_text().sentence_numbers("At step 2 it predicts # of the lateral variance, at step 5 #.");
+    for lateral_ratios in [
+        divide_by_fourth_order(&initial_simulation, Compounding::Chapter, 1),
+        chapter_comparison.ratios.iter().map(|axis_ratios| axis_ratios.y).collect(),
     ] {
-        printed_ratio_at_2.assert_near(ratios[1], 0.0);
-        printed_ratio_at_5.assert_near(ratios[4], 0.0);
+        printed_ratio_at_2.assert_near(lateral_ratios[1], 0.0);
+        printed_ratio_at_5.assert_near(lateral_ratios[4], 0.0);
     }
-    page_text().assert_contains(
+    read_page_text().assert_contains(
         "With the right Jacobian Jr, the turn during a step, every ratio is 1 to a hundredth, and fourth order looks the same.",
     );
     for recursion in [Compounding::FirstOrder, Compounding::FourthOrder] {
@@ -77,26 +77,26 @@ fn printed_losses_of_variance_equal_those_of_the_simulation() {
 /// if the tails are heavy.
 #[test]
 fn ratios_and_crossings_are_those_of_exercise_7() {
-    let exercises_text = exercises_document();
+    let exercises_text = read_exercises();
     let simulations = ["chapter", "doubled"].map(simulation_of_preset);
     for k in [1, 2, 5, 10, 20] {
-        let error_ratios =
-            |order| [0, 1, 2].map(|axis| ratios_to_fourth_order(&simulations[0], order, axis)[k - 1]);
-        let [[a, b, c], [d, e, f]] = [Compounding::Chapter, Compounding::FirstOrder].map(error_ratios);
+        let step_ratios_of =
+            |recursion| [0, 1, 2].map(|axis| divide_by_fourth_order(&simulations[0], recursion, axis)[k - 1]);
+        let [[a, b, c], [d, e, f]] = [Compounding::Chapter, Compounding::FirstOrder].map(step_ratios_of);
         exercises_text.assert_numbers(&format!("| {k} | # | # | # | # | # | # |"), [a, b, c, d, e, f]);
     }
     let first_missed_steps = simulations.map(|simulation| {
-        let tolerance = MAX_STANDARD_ERRORS * (2.3 / simulation.settings().samples as f64).sqrt();
-        let fourth_order_ratios = &simulation.comparison(Compounding::FourthOrder).ratios;
+        let ratio_tolerance = MAX_STANDARD_ERRORS * (2.3 / simulation.settings().samples as f64).sqrt();
+        let variance_ratios = &simulation.comparison(Compounding::FourthOrder).ratios;
         assert!(
-            fourth_order_ratios
+            variance_ratios
                 .iter()
-                .all(|ratios| ratios.iter().all(|ratio| (ratio - 1.0).abs() < tolerance))
+                .all(|ratios| ratios.iter().all(|ratio| (ratio - 1.0).abs() < ratio_tolerance))
         );
         let first_missed_step = simulation.comparison(Compounding::Chapter).misses[0].first.expect("a miss");
         assert_eq!(
             first_missed_step as usize,
-            missed_steps(&ratios_to_fourth_order(&simulation, Compounding::Chapter, 0))[0]
+            missed_steps_of(&divide_by_fourth_order(&simulation, Compounding::Chapter, 0))[0]
         );
         f64::from(first_missed_step)
     });
@@ -105,7 +105,7 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
          large) it is from step # on",
         first_missed_steps,
     );
-    page_text().assert_numbers(
+    read_page_text().assert_numbers(
         "it is off by more than 5 % from step # on, and with the heading σ doubled from step # on, which is earlier, \
          but not by half.",
         first_missed_steps,
@@ -119,24 +119,24 @@ fn the_crossing_times_are_those_of_exercise_2() {
     let initial_simulation = simulation(Settings { samples: 1, ..Settings::default() });
     let straight_growth = initial_simulation.straight_growth();
     let last_index = straight_growth.durations.len() - 1;
-    let growth_exponent_of = |stds_by_step: &[f64]| {
-        (stds_by_step[last_index] / stds_by_step[0]).ln()
+    let growth_exponent_of = |variances_by_step: &[f64]| {
+        (variances_by_step[last_index] / variances_by_step[0]).ln()
             / (straight_growth.durations[last_index] / straight_growth.durations[0]).ln()
     };
     let growth_exponents = [&straight_growth.along_first_order, &straight_growth.across_first_order]
-        .map(|stds| growth_exponent_of(stds));
+        .map(|variances| growth_exponent_of(variances));
     let heading_alpha = 4.0 * initial_simulation.settings().heading_noise().expect("a level");
     let alphas = [0.02, 0.02, heading_alpha, heading_alpha, heading_alpha / 4.0, heading_alpha / 4.0];
     let doubled_simulation = simulation(Settings { alphas, samples: 1, ..Settings::default() });
     let crossing_times = [&straight_growth, &doubled_simulation.straight_growth()]
         .map(|straight_growth| straight_growth.crossing.expect("a crossing"));
-    let exercises_text = exercises_document();
-    page_text().assert_numbers(
+    let exercises_text = read_exercises();
+    read_page_text().assert_numbers(
         "along the track with the power #, across it with the power #. They cross",
         growth_exponents,
     );
     exercises_text.assert_numbers("grows with the power # of Δt, across it with #. ", growth_exponents);
-    page_text()
+    read_page_text()
         .assert_numbers("They cross after # s; with the heading σ doubled, after # s.", crossing_times);
     exercises_text.assert_numbers(
         "with α₁ = α₃ after # s, and with the heading's σ doubled (α₃ four times as large) after # s",
@@ -145,17 +145,17 @@ fn the_crossing_times_are_those_of_exercise_2() {
 }
 
 #[test]
-fn with_two_hundred_steps_the_recursion_misses_for_half_a_second() {
-    page_text().assert_contains(
+fn with_two_hundred_steps_the_lateral_variance_is_wrong_for_half_a_second() {
+    read_page_text().assert_contains(
         "In 200 steps nothing along the track is off by 5 %, and the lateral variance for half a second instead of three:",
     );
     let [chapter_simulation, fine_simulation] = ["chapter", "fine"].map(simulation_of_preset);
     assert_eq!(fine_simulation.settings().steps, 200);
-    assert!(missed_steps(&ratios_to_fourth_order(&fine_simulation, Compounding::Chapter, 0)).is_empty());
-    for (simulation, half_seconds) in [(&fine_simulation, 1.0), (&chapter_simulation, 6.0)] {
-        let missed_steps = missed_steps(&ratios_to_fourth_order(simulation, Compounding::Chapter, 1));
+    assert!(missed_steps_of(&divide_by_fourth_order(&fine_simulation, Compounding::Chapter, 0)).is_empty());
+    for (simulation, expected_half_seconds) in [(&fine_simulation, 1.0), (&chapter_simulation, 6.0)] {
+        let missed_steps = missed_steps_of(&divide_by_fourth_order(simulation, Compounding::Chapter, 1));
         let miss_duration =
             *missed_steps.last().expect("it misses") as f64 * simulation.settings().command.dt;
-        assert_eq!((2.0 * miss_duration).round(), half_seconds, "{miss_duration}");
+        assert_eq!((2.0 * miss_duration).round(), expected_half_seconds, "{miss_duration}");
     }
 }

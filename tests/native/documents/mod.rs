@@ -9,14 +9,14 @@ mod squeeze;
 
 use crate::common::text::PlainText;
 
-fn page_text() -> PlainText {
-    PlainText::of_page(include_str!("../../../www/index.html"))
+fn read_page_text() -> PlainText {
+    PlainText::from_page(include_str!("../../../www/index.html"))
 }
 
-fn exercises_document() -> PlainText {
-    PlainText::of_document(include_str!("../../../doc/exercises.md"))
+fn read_exercises() -> PlainText {
+    PlainText::from_document(include_str!("../../../doc/exercises.md"))
 }
 
-fn model_document() -> PlainText {
-    PlainText::of_document(include_str!("../../../doc/model.md"))
+fn model_text() -> PlainText {
+    PlainText::from_document(include_str!("../../../doc/model.md"))
 }

@@ -1,6 +1,6 @@
 //! Fractions of Map Squeeze on the page and in doc/model.md, compared with computed numbers.
 
-use super::{model_document, page_text};
+use super::{model_text, read_page_text};
 use crate::common::text::PrintedNumber;
 use crate::common::{MAX_STANDARD_ERRORS, seeded_rng};
 use motion::geom::arc::Arc;
@@ -17,14 +17,14 @@ const WALL_PRESET: usize = 1;
 const CORRIDOR_PRESET: usize = 2;
 
 /// Returns the initial settings with another start, sampler and turn rate.
-fn settings_at(preset: usize, sampler: Sampler, omega: f64) -> Settings {
+fn new_settings(preset: usize, sampler: Sampler, omega: f64) -> Settings {
     let command = VelocityCmd { omega, ..Settings::default().command };
-    let steps = sampler.part_count();
-    let samples = 100_000.min(800_000 / steps as usize);
+    let part_count = sampler.part_count();
+    let samples = 100_000.min(800_000 / part_count as usize);
     Settings {
         start: Settings::PRESETS[preset].1.start,
         sampler,
-        steps,
+        steps: part_count,
         command,
         samples,
         seed: 3,
@@ -37,7 +37,7 @@ fn new_simulation(settings: Settings) -> MapSqueeze {
 }
 
 /// Returns the fraction of accepted samples whose path crosses a wall, and its standard error.
-fn fraction_through_wall(settings: Settings) -> (f64, f64) {
+fn fraction_through_wall_of(settings: Settings) -> (f64, f64) {
     let simulation = new_simulation(settings);
     assert!(!simulation.stats().gave_up, "{settings:?}");
     let (fraction, accepted_count) =
@@ -47,7 +47,7 @@ fn fraction_through_wall(settings: Settings) -> (f64, f64) {
 }
 
 fn fraction_in_parts(preset: usize, part_count: u32, omega: f64) -> (f64, f64) {
-    fraction_through_wall(settings_at(preset, Sampler::SubStepped(part_count), omega))
+    fraction_through_wall_of(new_settings(preset, Sampler::SubStepped(part_count), omega))
 }
 
 /// Asserts that a printed percentage equals a computed fraction, within its standard error.
@@ -56,30 +56,30 @@ fn assert_printed_percentage((fraction, standard_error): (f64, f64), printed_per
 }
 
 /// Asserts that `smaller_fraction` is less than `larger_fraction` by more than [`MAX_STANDARD_ERRORS`] of their difference.
-fn assert_smaller_fraction(smaller_fraction: (f64, f64), larger_fraction: (f64, f64), description: &str) {
+fn assert_smaller_fraction(smaller_fraction: (f64, f64), larger_fraction: (f64, f64), case: &str) {
     assert!(
         larger_fraction.0 - smaller_fraction.0
             > MAX_STANDARD_ERRORS * smaller_fraction.1.hypot(larger_fraction.1),
-        "{description}: {smaller_fraction:?} is not less than {larger_fraction:?}"
+        "{case}: {smaller_fraction:?} is not less than {larger_fraction:?}"
     );
 }
 
 #[test]
 fn most_accepted_samples_lie_behind_the_wall() {
-    let [printed_fraction] = page_text().sentence_numbers(
+    let [printed_fraction] = read_page_text().sentence_numbers(
         "Drive at a wall # % of what is accepted went through a wall, where the robot could never have gone. Test the \
          whole arc, and only what stopped short of the wall is left.",
     );
     assert_printed_percentage(
-        fraction_through_wall(settings_at(WALL_PRESET, Sampler::Endpoint, 0.0)),
+        fraction_through_wall_of(new_settings(WALL_PRESET, Sampler::Endpoint, 0.0)),
         printed_fraction,
     );
     let fraction_behind_wall = |sampler| {
-        let simulation = new_simulation(settings_at(WALL_PRESET, sampler, 0.0));
-        let accepted_y: Vec<f64> =
+        let simulation = new_simulation(new_settings(WALL_PRESET, sampler, 0.0));
+        let accepted_ys: Vec<f64> =
             simulation.attempts().iter().filter(|a| a.accepted).map(|a| a.pose.y()).collect();
         // The wall ahead is at y = 3.8. Robots that turn aside also end before it.
-        accepted_y.iter().filter(|y| **y > 3.8).count() as f64 / accepted_y.len() as f64
+        accepted_ys.iter().filter(|y| **y > 3.8).count() as f64 / accepted_ys.len() as f64
     };
     assert!(fraction_behind_wall(Sampler::Endpoint) > 0.8);
     assert_eq!(fraction_behind_wall(Sampler::WholeArc), 0.0);
@@ -87,12 +87,12 @@ fn most_accepted_samples_lie_behind_the_wall() {
 
 #[test]
 fn a_third_of_the_accepted_motions_went_through_a_wall_at_the_doorway() {
-    let [printed_noise_level, printed_fraction] = page_text().sentence_numbers(
+    let [printed_noise_level, printed_fraction] = read_page_text().sentence_numbers(
         "straight ahead at noise level #, # % of the accepted motions went through a wall.",
     );
     assert_eq!(Settings::default().alphas, alphas_of_noise_level(printed_noise_level.value));
     assert_printed_percentage(
-        fraction_through_wall(settings_at(DOORWAY_PRESET, Sampler::Endpoint, 0.0)),
+        fraction_through_wall_of(new_settings(DOORWAY_PRESET, Sampler::Endpoint, 0.0)),
         printed_fraction,
     );
 }
@@ -100,7 +100,7 @@ fn a_third_of_the_accepted_motions_went_through_a_wall_at_the_doorway() {
 #[test]
 #[ignore = "nightly: 30 clouds of 100,000"]
 fn fractions_through_walls_by_substeps_are_those_in_the_documents() {
-    let printed_fractions = model_document().sentence_numbers(
+    let printed_fractions = model_text().sentence_numbers(
         "On a straight command it falls with k: to # % at k = 16 facing the doorway, and to # % in the corridor.",
     );
     for (preset, printed_fraction) in
@@ -109,18 +109,18 @@ fn fractions_through_walls_by_substeps_are_those_in_the_documents() {
         assert_printed_percentage(fraction_in_parts(preset, 16, 0.0), printed_fraction);
         assert!(fraction_in_parts(preset, 64, 0.0).0 < 1e-3, "nearly nothing at the end of the slider");
     }
-    let [printed_omega, printed_endpoint, printed_parts, printed_part_count] = page_text().sentence_numbers(
+    let [printed_omega, printed_endpoint_percentage, printed_parts_percentage, printed_part_count] = read_page_text().sentence_numbers(
         "With ω = # more pass at first, from # % by the endpoint test to # % in # parts, and only then fewer.",
     );
     assert_printed_percentage(
-        fraction_through_wall(settings_at(DOORWAY_PRESET, Sampler::Endpoint, printed_omega.value)),
-        printed_endpoint,
+        fraction_through_wall_of(new_settings(DOORWAY_PRESET, Sampler::Endpoint, printed_omega.value)),
+        printed_endpoint_percentage,
     );
     assert_printed_percentage(
         fraction_in_parts(DOORWAY_PRESET, printed_part_count.value as u32, printed_omega.value),
-        printed_parts,
+        printed_parts_percentage,
     );
-    let printed_numbers: [_; 10] = model_document().sentence_numbers(
+    let printed_numbers: [_; 10] = model_text().sentence_numbers(
         "At the doorway it is # % at k = 1, # % at 4, # % at 6, # % at 8, and # % at 16. In the corridor it rises from # % \
          over # and # % to # % at k = 8, and falls to # % at 12.",
     );
@@ -130,7 +130,7 @@ fn fractions_through_walls_by_substeps_are_those_in_the_documents() {
         (CORRIDOR_PRESET, [4, 6, 8, 12], corridor_percentages),
     ] {
         assert_printed_percentage(
-            fraction_through_wall(settings_at(preset, Sampler::Endpoint, printed_omega.value)),
+            fraction_through_wall_of(new_settings(preset, Sampler::Endpoint, printed_omega.value)),
             percentages[0],
         );
         for (part_count, &percentage) in part_counts.into_iter().zip(&percentages[1..]) {
@@ -142,16 +142,16 @@ fn fractions_through_walls_by_substeps_are_those_in_the_documents() {
 #[test]
 #[ignore = "nightly: clouds of 100,000"]
 fn more_substeps_facing_the_wall_send_more_samples_through_it() {
-    let through_wall_fractions = [2, 4, 8].map(|parts| fraction_in_parts(WALL_PRESET, parts, 0.0));
+    let through_wall_fractions = [2, 4, 8].map(|part_count| fraction_in_parts(WALL_PRESET, part_count, 0.0));
     through_wall_fractions
         .windows(2)
         .for_each(|fraction_pair| assert_smaller_fraction(fraction_pair[0], fraction_pair[1], "more parts"));
-    let [printed_with_endpoint, printed_with_2_parts, printed_with_4_parts, printed_with_8_parts, printed_wedged_parts] = model_document().sentence_numbers(
+    let [printed_with_endpoint, printed_with_2_parts, printed_with_4_parts, printed_with_8_parts, printed_wedged_parts] = model_text().sentence_numbers(
         "it rises from # % at k = 1 to # %, # % and # % at k = 2, 4 and 8. From k = # on, so few parts reach across that \
          the widget gives up.",
     );
     assert_printed_percentage(
-        fraction_through_wall(settings_at(WALL_PRESET, Sampler::Endpoint, 0.0)),
+        fraction_through_wall_of(new_settings(WALL_PRESET, Sampler::Endpoint, 0.0)),
         printed_with_endpoint,
     );
     through_wall_fractions
@@ -159,20 +159,20 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
         .zip([printed_with_2_parts, printed_with_4_parts, printed_with_8_parts])
         .for_each(|(fraction, printed_percentage)| assert_printed_percentage(fraction, printed_percentage));
     let [printed_first_parts, printed_last_parts, printed_first_fraction, printed_last_fraction] =
-        page_text()
+        read_page_text()
             .sentence_numbers("go from # parts to #. The share through the wall rises, from # % to # %:");
     assert_eq!((printed_first_parts.value, printed_last_parts.value), (2.0, 8.0));
     assert_printed_percentage(through_wall_fractions[0], printed_first_fraction);
     assert_printed_percentage(through_wall_fractions[2], printed_last_fraction);
-    page_text().assert_contains(
+    read_page_text().assert_contains(
         "From 16 parts on hardly one is long enough to jump, and the robot stands wedged before the wall.",
     );
     assert_eq!(printed_wedged_parts.value, 16.0);
-    assert!(!new_simulation(settings_at(WALL_PRESET, Sampler::SubStepped(12), 0.0)).stats().gave_up);
+    assert!(!new_simulation(new_settings(WALL_PRESET, Sampler::SubStepped(12), 0.0)).stats().gave_up);
     for part_count in [16, 24, 32, 64] {
         for samples in [600, 10_000] {
             let settings =
-                Settings { samples, ..settings_at(WALL_PRESET, Sampler::SubStepped(part_count), 0.0) };
+                Settings { samples, ..new_settings(WALL_PRESET, Sampler::SubStepped(part_count), 0.0) };
             assert!(new_simulation(settings).stats().gave_up, "{part_count} parts");
         }
     }
@@ -182,19 +182,19 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
 #[test]
 #[ignore = "nightly: clouds of 100,000"]
 fn testing_the_geodesic_changes_the_documented_fraction_of_verdicts() {
-    let [min_percent, max_percent, doorway_min, doorway_max] = model_document().sentence_numbers(
+    let [min_percent, max_percent, doorway_min_percentage, doorway_max] = model_text().sentence_numbers(
         "between # and # % of the accepted samples get the other verdict (n from 0.12 to 0.2, ω from 0 to 1; the doorway \
          # to # %)",
     );
     assert_eq!(max_percent.value, doorway_max.value);
-    let plan = FloorPlan::apartment();
-    for &(place, Settings { start: [x, y, theta], .. }) in Settings::PRESETS {
+    let floor_plan = FloorPlan::apartment();
+    for &(preset_name, Settings { start: [x, y, theta], .. }) in Settings::PRESETS {
         let start_pose = SE2::new(x, y, theta);
         for (n, omega) in [(0.12, 0.0), (0.12, 0.5), (0.12, 1.0), (0.2, 0.0), (0.2, 0.5), (0.2, 1.0)] {
             let model =
                 VelocityModel { alphas: VelocityAlphas(alphas_of_noise_level(n)), noise: NoiseKind::Normal };
             let conditioned_model =
-                MapConditioned { model, plan: &plan, clearance: 0.13, sampler: Sampler::Endpoint };
+                MapConditioned { model, plan: &floor_plan, clearance: 0.13, sampler: Sampler::Endpoint };
             let command = VelocityCmd { v: 1.0, omega, dt: 2.0 };
             let collision_tester = conditioned_model.collision_tester(&command, &start_pose);
             let mut rng = seeded_rng(93);
@@ -212,16 +212,16 @@ fn testing_the_geodesic_changes_the_documented_fraction_of_verdicts() {
                 let geodesic_arc = Arc { start: geodesic_start, length: xi.xy().norm(), turn: xi.z };
                 accepted_count += 1;
                 differing_count +=
-                    u32::from(plan.test_arc(&geodesic_arc, 0.13).free != tested_draw.path_verdict.free);
+                    u32::from(floor_plan.test_arc(&geodesic_arc, 0.13).free != tested_draw.path_verdict.free);
             }
             let differing_fraction = f64::from(differing_count) / f64::from(accepted_count);
             let tolerance = MAX_STANDARD_ERRORS
                 * (differing_fraction * (1.0 - differing_fraction) / f64::from(accepted_count)).sqrt();
-            let min_percent = if place == "doorway" { doorway_min } else { min_percent };
+            let min_percent = if preset_name == "doorway" { doorway_min_percentage } else { min_percent };
             let (min_percent, max_percent) = (min_percent.value / 100.0, max_percent.value / 100.0);
             assert!(
                 differing_fraction + tolerance > min_percent && differing_fraction - tolerance < max_percent,
-                "{place}, n = {n}, ω = {omega}: {differing_fraction}"
+                "{preset_name}, n = {n}, ω = {omega}: {differing_fraction}"
             );
         }
     }

@@ -1,8 +1,6 @@
 //! Distance between a driven arc and a wall, compared with an independent reference without the equation of a circle.
 
-use crate::common::distance::{
-    Point, distance_by_halving, max_coordinate, norm, position_along, subtract_points,
-};
+use crate::common::distance::{Point, bound_distance, extent_of, norm, position_along_arc, subtract_points};
 use crate::common::{draw_signed_log_uniform, draw_uniform, seeded_rng};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
@@ -10,68 +8,68 @@ use motion::geom::segment::Segment;
 use rand::Rng;
 use std::f64::consts::{PI, TAU};
 
-fn random_point(rng: &mut impl Rng, max_coordinate: f64) -> Point {
+fn draw_point(rng: &mut impl Rng, max_coordinate: f64) -> Point {
     [draw_uniform(rng, -max_coordinate, max_coordinate), draw_uniform(rng, -max_coordinate, max_coordinate)]
 }
 
-fn random_arc(rng: &mut impl Rng, max_length: f64, max_turn: f64) -> Arc {
-    let [x, y] = random_point(rng, 5.0);
-    Arc { start: SE2::new(x, y, draw_uniform(rng, -PI, PI)), length: max_length, turn: max_turn }
+fn new_arc_anywhere(rng: &mut impl Rng, arc_length: f64, arc_turn: f64) -> Arc {
+    let [x, y] = draw_point(rng, 5.0);
+    Arc { start: SE2::new(x, y, draw_uniform(rng, -PI, PI)), length: arc_length, turn: arc_turn }
 }
 
 /// Returns an arc of up to 8 m in either direction, which turns by up to two circles to either side.
-fn any_arc(rng: &mut impl Rng) -> Arc {
+fn draw_arc(rng: &mut impl Rng) -> Arc {
     let (arc_length, arc_turn) = (draw_uniform(rng, -8.0, 8.0), draw_uniform(rng, -2.0 * TAU, 2.0 * TAU));
-    random_arc(rng, arc_length, arc_turn)
+    new_arc_anywhere(rng, arc_length, arc_turn)
 }
 
-fn nearly_straight_arc(rng: &mut impl Rng) -> Arc {
-    let (length, turn) = (draw_uniform(rng, -8.0, 8.0), draw_signed_log_uniform(rng, 1e-18, 1e-3));
-    random_arc(rng, length, turn)
+fn draw_nearly_straight_arc(rng: &mut impl Rng) -> Arc {
+    let (arc_length, arc_turn) = (draw_uniform(rng, -8.0, 8.0), draw_signed_log_uniform(rng, 1e-18, 1e-3));
+    new_arc_anywhere(rng, arc_length, arc_turn)
 }
 
-fn turn_almost_on_the_spot(rng: &mut impl Rng) -> Arc {
-    let (length, turn) =
+fn draw_turn_nearly_on_the_spot(rng: &mut impl Rng) -> Arc {
+    let (arc_length, arc_turn) =
         (draw_signed_log_uniform(rng, 1e-15, 1e-1), draw_uniform(rng, -2.0 * TAU, 2.0 * TAU));
-    random_arc(rng, length, turn)
+    new_arc_anywhere(rng, arc_length, arc_turn)
 }
 
-fn any_wall(rng: &mut impl Rng, _: &Arc) -> Segment {
-    Segment { from: random_point(rng, 8.0), to: random_point(rng, 8.0) }
+fn draw_wall(rng: &mut impl Rng, _: &Arc) -> Segment {
+    Segment { from: draw_point(rng, 8.0), to: draw_point(rng, 8.0) }
 }
 
 /// Returns the position of a point that is given relative to the start of the arc.
-fn absolute_position(arc: &Arc, relative_point: Point) -> Point {
+fn to_absolute(arc: &Arc, relative_point: Point) -> Point {
     [arc.start.x() + relative_point[0], arc.start.y() + relative_point[1]]
 }
 
 /// Returns a wall along a tangent of the arc, at a tiny distance.
-fn tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
-    let f = draw_uniform(rng, 0.0, 1.0);
-    let tangent_heading = arc.start.theta() + f * arc.turn;
-    let [x, y] = position_along(arc, f);
+fn draw_tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
+    let arc_fraction = draw_uniform(rng, 0.0, 1.0);
+    let tangent_heading = arc.start.theta() + arc_fraction * arc.turn;
+    let [x, y] = position_along_arc(arc, arc_fraction);
     let tangent_offset = draw_signed_log_uniform(rng, 1e-15, 1e-1);
     let tangent_point =
         [x - tangent_offset * tangent_heading.sin(), y + tangent_offset * tangent_heading.cos()];
     let mut draw_end = || {
-        let distance_along = draw_uniform(rng, -5.0, 5.0);
-        absolute_position(
+        let tangent_length = draw_uniform(rng, -5.0, 5.0);
+        to_absolute(
             arc,
             [
-                tangent_point[0] + distance_along * tangent_heading.cos(),
-                tangent_point[1] + distance_along * tangent_heading.sin(),
+                tangent_point[0] + tangent_length * tangent_heading.cos(),
+                tangent_point[1] + tangent_length * tangent_heading.sin(),
             ],
         )
     };
     Segment { from: draw_end(), to: draw_end() }
 }
 
-fn wall_near_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
-    let [x, y] = position_along(arc, f64::from(rng.next_u32() % 2));
+fn draw_wall_near_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
+    let [x, y] = position_along_arc(arc, f64::from(rng.next_u32() % 2));
     let mut draw_offset = || draw_signed_log_uniform(rng, 1e-15, 1e-1);
-    let near_end = absolute_position(arc, [x + draw_offset(), y + draw_offset()]);
+    let near_end = to_absolute(arc, [x + draw_offset(), y + draw_offset()]);
     let other_end = if rng.next_u32().is_multiple_of(2) {
-        random_point(rng, 8.0)
+        draw_point(rng, 8.0)
     } else {
         let (heading, reach) = (draw_uniform(rng, -PI, PI), draw_uniform(rng, -3.0, 3.0));
         [near_end[0] + reach * heading.cos(), near_end[1] + reach * heading.sin()]
@@ -80,85 +78,86 @@ fn wall_near_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
 }
 
 /// Returns a wall with an end near the centre of the arc's circle, where all points of the circle are equally near.
-fn wall_from_centre(rng: &mut impl Rng, arc: &Arc) -> Segment {
+fn draw_wall_from_centre(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let (radius, theta) = (arc.length / arc.turn, arc.start.theta());
     let mut draw_offset = || draw_signed_log_uniform(rng, 1e-16, 1e-1);
     let near_end =
-        absolute_position(arc, [draw_offset() - radius * theta.sin(), draw_offset() + radius * theta.cos()]);
+        to_absolute(arc, [draw_offset() - radius * theta.sin(), draw_offset() + radius * theta.cos()]);
     let reach = draw_uniform(rng, 0.0, 1.2) * radius;
     let heading = draw_uniform(rng, -PI, PI);
     Segment { from: near_end, to: [near_end[0] + reach * heading.cos(), near_end[1] + reach * heading.sin()] }
 }
 
-fn point_wall(rng: &mut impl Rng, _: &Arc) -> Segment {
-    let wall_point = random_point(rng, 8.0);
+fn draw_point_wall(rng: &mut impl Rng, _: &Arc) -> Segment {
+    let wall_point = draw_point(rng, 8.0);
     Segment { from: wall_point, to: wall_point }
 }
 
 type ArcGenerator = fn(&mut rand_xoshiro::Xoshiro256PlusPlus) -> Arc;
 type WallGenerator = fn(&mut rand_xoshiro::Xoshiro256PlusPlus, &Arc) -> Segment;
 
-const STRAIGHT_ARC: ArcGenerator = |rng| {
-    let length = draw_uniform(rng, -8.0, 8.0);
-    random_arc(rng, length, 0.0)
+const DRAW_STRAIGHT_ARC: ArcGenerator = |rng| {
+    let arc_length = draw_uniform(rng, -8.0, 8.0);
+    new_arc_anywhere(rng, arc_length, 0.0)
 };
-const TURN_ON_THE_SPOT: ArcGenerator = |rng| {
-    let turn = draw_uniform(rng, -TAU, TAU);
-    random_arc(rng, 0.0, turn)
+const DRAW_TURN_ON_THE_SPOT: ArcGenerator = |rng| {
+    let arc_turn = draw_uniform(rng, -TAU, TAU);
+    new_arc_anywhere(rng, 0.0, arc_turn)
 };
 /// Generator of arcs of up to a kilometre around a circle of any radius.
-const LONG_ARC: ArcGenerator = |rng| {
-    let (length, turn) = (draw_signed_log_uniform(rng, 1.0, 1e3), draw_signed_log_uniform(rng, 1e-6, 30.0));
-    random_arc(rng, length, turn)
+const DRAW_LONG_ARC: ArcGenerator = |rng| {
+    let (arc_length, arc_turn) =
+        (draw_signed_log_uniform(rng, 1.0, 1e3), draw_signed_log_uniform(rng, 1e-6, 30.0));
+    new_arc_anywhere(rng, arc_length, arc_turn)
 };
 
 /// Kinds of arcs and walls, and the number of pairs of each.
 const ARC_AND_WALL_KINDS: [(&str, ArcGenerator, WallGenerator, u32); 14] = [
-    ("any arc, any wall", any_arc, any_wall, 4000),
-    ("any arc, tangent", any_arc, tangent_wall, 3000),
-    ("any arc, by its end", any_arc, wall_near_end, 1500),
-    ("any arc, from its centre", any_arc, wall_from_centre, 1500),
-    ("any arc, point", any_arc, point_wall, 1000),
-    ("nearly straight, any wall", nearly_straight_arc, any_wall, 1500),
-    ("nearly straight, tangent", nearly_straight_arc, tangent_wall, 2000),
-    ("nearly straight, by its end", nearly_straight_arc, wall_near_end, 1000),
-    ("straight, any wall", STRAIGHT_ARC, any_wall, 1000),
-    ("straight, parallel", STRAIGHT_ARC, tangent_wall, 1000),
-    ("on the spot", TURN_ON_THE_SPOT, any_wall, 500),
-    ("nearly on the spot, any wall", turn_almost_on_the_spot, any_wall, 1000),
-    ("nearly on the spot, tangent", turn_almost_on_the_spot, tangent_wall, 1500),
-    ("long", LONG_ARC, tangent_wall, 1500),
+    ("any arc, any wall", draw_arc, draw_wall, 4000),
+    ("any arc, tangent", draw_arc, draw_tangent_wall, 3000),
+    ("any arc, by its end", draw_arc, draw_wall_near_end, 1500),
+    ("any arc, from its centre", draw_arc, draw_wall_from_centre, 1500),
+    ("any arc, point", draw_arc, draw_point_wall, 1000),
+    ("nearly straight, any wall", draw_nearly_straight_arc, draw_wall, 1500),
+    ("nearly straight, tangent", draw_nearly_straight_arc, draw_tangent_wall, 2000),
+    ("nearly straight, by its end", draw_nearly_straight_arc, draw_wall_near_end, 1000),
+    ("straight, any wall", DRAW_STRAIGHT_ARC, draw_wall, 1000),
+    ("straight, parallel", DRAW_STRAIGHT_ARC, draw_tangent_wall, 1000),
+    ("on the spot", DRAW_TURN_ON_THE_SPOT, draw_wall, 500),
+    ("nearly on the spot, any wall", draw_turn_nearly_on_the_spot, draw_wall, 1000),
+    ("nearly on the spot, tangent", draw_turn_nearly_on_the_spot, draw_tangent_wall, 1500),
+    ("long", DRAW_LONG_ARC, draw_tangent_wall, 1500),
 ];
 
 /// Both the analytic distance and the reference round coordinates a few times. The tolerance is eight units in the last place of the
 /// extent.
 #[test]
-fn the_distance_to_an_arc_matches_bisection() {
-    let (mut pair_count, mut crossing_count, mut narrow_bounds_count) = (0, 0, 0);
+fn the_distance_of_arc_and_wall_equals_the_bisected_distance() {
+    let (mut pair_total, mut crossing_count, mut narrow_bounds_count) = (0, 0, 0);
     for (seed, (kind_name, make_arc, make_wall, pair_count_of_kind)) in (0..).zip(ARC_AND_WALL_KINDS) {
         let mut rng = seeded_rng(9000 + seed);
         for _ in 0..pair_count_of_kind {
             let arc = make_arc(&mut rng);
             let wall = make_wall(&mut rng, &arc);
             let computed_distance = wall.distance_to_arc(&arc);
-            let [min_distance, max_distance] = distance_by_halving(&arc, &wall);
-            let tolerance = 8.0 * f64::EPSILON * max_coordinate(&arc, &wall);
+            let [min_distance, max_distance] = bound_distance(&arc, &wall);
+            let tolerance = 8.0 * f64::EPSILON * extent_of(&arc, &wall);
             assert!(
                 (min_distance - tolerance..=max_distance + tolerance).contains(&computed_distance),
                 "{kind_name}: {computed_distance:e} instead of {min_distance:e} to {max_distance:e}: {arc:?} {wall:?}"
             );
             crossing_count += u32::from(computed_distance == 0.0);
             narrow_bounds_count += u32::from(max_distance - min_distance <= tolerance);
-            pair_count += 1;
+            pair_total += 1;
         }
     }
     assert!(
-        pair_count >= 20_000 && crossing_count > pair_count / 10 && crossing_count < pair_count / 2,
-        "{crossing_count} of {pair_count}"
+        pair_total >= 20_000 && crossing_count > pair_total / 10 && crossing_count < pair_total / 2,
+        "{crossing_count} of {pair_total}"
     );
     assert!(
-        narrow_bounds_count > pair_count * 9 / 10,
-        "the reference was sharp for {narrow_bounds_count} of {pair_count}"
+        narrow_bounds_count > pair_total * 9 / 10,
+        "the reference was sharp for {narrow_bounds_count} of {pair_total}"
     );
 }
 
@@ -166,24 +165,24 @@ fn the_distance_to_an_arc_matches_bisection() {
 /// arc of a metre that turns by a radian. Beyond two turns the circle repeats itself, and its chords may be longer.
 #[test]
 fn chords_of_an_arc_stay_within_a_twentieth_of_a_millimetre() {
-    for (length, turn) in [(1.0, 1.0), (-2.0, 0.3), (1.0, -2.0 * TAU), (3.0, 0.004), (1.0, 0.0)] {
-        let arc = Arc { start: SE2::new(1.0, -2.0, 0.7), length, turn };
+    for (arc_length, arc_turn) in [(1.0, 1.0), (-2.0, 0.3), (1.0, -2.0 * TAU), (3.0, 0.004), (1.0, 0.0)] {
+        let arc = Arc { start: SE2::new(1.0, -2.0, 0.7), length: arc_length, turn: arc_turn };
         let chord_points = arc.points();
         let chord_count = chord_points.len() - 1;
         assert_eq!(chord_points[0], [arc.start.x(), arc.start.y()]);
         assert!(
             norm(subtract_points(
                 chord_points[chord_count],
-                absolute_position(&arc, position_along(&arc, 1.0))
+                to_absolute(&arc, position_along_arc(&arc, 1.0))
             )) < 1e-14
         );
         for (i, chord_ends) in chord_points.windows(2).enumerate() {
-            let chord_middle = [0, 1].map(|axis| 0.5 * (chord_ends[0][axis] + chord_ends[1][axis]));
+            let middle_of_chord = [0, 1].map(|axis| 0.5 * (chord_ends[0][axis] + chord_ends[1][axis]));
             let arc_middle =
-                absolute_position(&arc, position_along(&arc, (i as f64 + 0.5) / chord_count as f64));
-            let chord_deviation = norm(subtract_points(chord_middle, arc_middle));
-            let max_deviation = 0.02 * 0.02 / 8.0 * (length / turn.abs().max(0.02)).abs() * 1.001;
-            assert!(chord_deviation <= max_deviation, "{turn}: {chord_deviation}");
+                to_absolute(&arc, position_along_arc(&arc, (i as f64 + 0.5) / chord_count as f64));
+            let chord_deviation = norm(subtract_points(middle_of_chord, arc_middle));
+            let max_deviation = 0.02 * 0.02 / 8.0 * (arc_length / arc_turn.abs().max(0.02)).abs() * 1.001;
+            assert!(chord_deviation <= max_deviation, "{arc_turn}: {chord_deviation}");
         }
         assert!(chord_count <= 640);
     }

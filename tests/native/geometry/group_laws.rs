@@ -3,7 +3,7 @@
 //! The laws hold up to rounding. Every law below composes at most four maps, each accurate to a few units in the last place of the
 //! largest coordinate. `LAW_TOLERANCE` allows 32 units.
 
-use crate::common::{ReferenceTable, draw_uniform, pose_distance, seeded_rng};
+use crate::common::{ReferenceTable, draw_uniform, max_difference, seeded_rng};
 use motion::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
@@ -14,7 +14,7 @@ const LAW_TOLERANCE: f64 = 32.0 * f64::EPSILON;
 const RELATIVE_ACCURACY: f64 = 4e-16;
 
 fn assert_same_pose(a: &SE2, b: &SE2, tolerance: f64, law: &str) {
-    assert!(pose_distance(a, b) <= tolerance, "{law}: {a:?} and {b:?} differ by more than {tolerance:e}");
+    assert!(max_difference(a, b) <= tolerance, "{law}: {a:?} and {b:?} differ by more than {tolerance:e}");
 }
 
 /// Composition is compared with its textbook formula, because the other laws hold in any group.
@@ -34,7 +34,7 @@ fn composition_places_the_second_pose_in_the_frame_of_the_first() {
 
 /// The given turn selects the branch, so that the logarithm inverts exp beyond half a turn. Its coordinates grow towards a full turn.
 #[test]
-fn the_logarithm_near_a_turn_uses_the_branch_of_that_turn() {
+fn the_logarithm_near_a_turn_is_on_the_branch_of_that_turn() {
     let mut rng = seeded_rng(6);
     for _ in 0..2000 {
         let mut draw_within = |max_abs: f64| draw_uniform(&mut rng, -max_abs, max_abs);
@@ -48,8 +48,8 @@ fn the_logarithm_near_a_turn_uses_the_branch_of_that_turn() {
             "log_near({expected_turn}) of exp({twist}) = {pose_log}"
         );
         assert_eq!(pose.log_near(pose.theta()), pose.log());
-        let other_logarithm = pose.log_near(twist.z + TAU);
-        assert!((other_logarithm.z - twist.z - TAU).abs() < LAW_TOLERANCE, "{}", other_logarithm.z);
+        let log_a_turn_further = pose.log_near(twist.z + TAU);
+        assert!((log_a_turn_further.z - twist.z - TAU).abs() < LAW_TOLERANCE, "{}", log_a_turn_further.z);
     }
 }
 
@@ -72,15 +72,15 @@ fn exp_and_jacobians_match_the_references() {
         assert_near("x", pose.x());
         assert_near("y", pose.y());
         assert_eq!(pose.theta(), twist.z);
-        for (column_prefix, matrix) in
+        for (column_prefix, jacobian) in
             [("j", SE2::right_jacobian(&twist)), ("i", SE2::right_jacobian_inverse(&twist))]
         {
             for (i, j) in [(0, 0), (0, 1), (0, 2), (1, 2)] {
-                assert_near(&format!("{column_prefix}{i}{j}"), matrix[(i, j)]);
+                assert_near(&format!("{column_prefix}{i}{j}"), jacobian[(i, j)]);
             }
-            assert_eq!(matrix[(1, 1)], matrix[(0, 0)]);
-            assert_eq!(matrix[(1, 0)], -matrix[(0, 1)]);
-            assert_eq!(matrix.row(2), Matrix3::identity().row(2));
+            assert_eq!(jacobian[(1, 1)], jacobian[(0, 0)]);
+            assert_eq!(jacobian[(1, 0)], -jacobian[(0, 1)]);
+            assert_eq!(jacobian.row(2), Matrix3::identity().row(2));
         }
     }
 }
@@ -92,8 +92,8 @@ fn log_matches_the_references() {
         let twist = pose.log();
         let tolerance = RELATIVE_ACCURACY
             * Vector3::new(row.cell_number("a"), row.cell_number("b"), row.cell_number("w")).norm().max(1.0);
-        for (column, computed) in [("a", twist.x), ("b", twist.y)] {
-            let error = row.deviation(column, computed);
+        for (column, computed_coordinate) in [("a", twist.x), ("b", twist.y)] {
+            let error = row.deviation(column, computed_coordinate);
             assert!(error <= tolerance, "{column} of log {pose:?}: off by {error:e}, allowed {tolerance:e}");
         }
         assert_eq!(twist.z, row.cell_number("w"));

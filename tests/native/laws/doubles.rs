@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Returns a configuration with a fixed seed, so that results are equal on every machine. Failing cases are not stored. Each becomes a
 /// test of its own in `regressions.rs`.
-pub fn proptest_config(case_count: u32) -> ProptestConfig {
+pub fn new_proptest_config(case_count: u32) -> ProptestConfig {
     ProptestConfig {
         cases: case_count,
         rng_seed: RngSeed::Fixed(19),
@@ -39,7 +39,7 @@ pub fn finite_doubles() -> impl Strategy<Value = f64> {
 
 /// Returns limits of common ranges, with either sign, and their neighbouring doubles.
 fn range_limits() -> impl Strategy<Value = f64> {
-    const RANGE_LIMITS: [f64; 15] = [
+    const LIMITS_OF_RANGES: [f64; 15] = [
         0.0,
         f64::from_bits(1),
         f64::MIN_POSITIVE,
@@ -56,11 +56,11 @@ fn range_limits() -> impl Strategy<Value = f64> {
         9_007_199_254_740_993.0,
         f64::MAX,
     ];
-    (0..RANGE_LIMITS.len(), any::<bool>(), -1..=1).prop_map(|(i, is_negative, neighbour_offset)| {
-        let nearby_limit = match neighbour_offset {
-            -1 => RANGE_LIMITS[i].next_down(),
-            0 => RANGE_LIMITS[i],
-            _ => RANGE_LIMITS[i].next_up().min(f64::MAX),
+    (0..LIMITS_OF_RANGES.len(), any::<bool>(), -1..=1).prop_map(|(i, is_negative, neighbour_step)| {
+        let nearby_limit = match neighbour_step {
+            -1 => LIMITS_OF_RANGES[i].next_down(),
+            0 => LIMITS_OF_RANGES[i],
+            _ => LIMITS_OF_RANGES[i].next_up().min(f64::MAX),
         };
         if is_negative { -nearby_limit } else { nearby_limit }
     })
@@ -69,7 +69,7 @@ fn range_limits() -> impl Strategy<Value = f64> {
 /// Returns finite doubles up to `max_abs` in absolute value.
 pub fn doubles_up_to(max_abs: f64) -> impl Strategy<Value = f64> {
     prop_oneof![
-        4 => finite_doubles().prop_filter("too large", move |number| number.abs() <= max_abs),
+        4 => finite_doubles().prop_filter("too large", move |drawn_number| drawn_number.abs() <= max_abs),
         1 => -max_abs..=max_abs,
         1 => prop_oneof![Just(max_abs), Just(-max_abs)],
     ]
@@ -86,17 +86,17 @@ pub fn any_pose() -> impl Strategy<Value = SE2> {
 /// Returns twists that turn by up to `max_turn`.
 pub fn any_twist(max_turn: f64) -> impl Strategy<Value = Vector3<f64>> {
     (doubles_up_to(MAX_COORDINATE), doubles_up_to(MAX_COORDINATE), doubles_up_to(max_turn))
-        .prop_map(|(x, y, turn)| Vector3::new(x, y, turn))
+        .prop_map(|(x, y, twist_turn)| Vector3::new(x, y, twist_turn))
 }
 
 /// Returns the sum of the absolute coordinates of a pose.
-pub fn position_extent(pose: &SE2) -> f64 {
+pub fn sum_of_coordinates(pose: &SE2) -> f64 {
     pose.x().abs() + pose.y().abs()
 }
 
-/// Asserts that positions are equal up to `units_in_last_place` of `size`, and headings up to as many units of a full circle.
-pub fn assert_same_pose(a: &SE2, b: &SE2, units_in_last_place: f64, size: f64) -> Result<(), TestCaseError> {
-    let tolerance = units_in_last_place * f64::EPSILON * size + f64::MIN_POSITIVE;
+/// Asserts that positions are equal up to `units_in_last_place` of `scale`, and headings up to as many units of a full circle.
+pub fn assert_same_pose(a: &SE2, b: &SE2, units_in_last_place: f64, scale: f64) -> Result<(), TestCaseError> {
+    let tolerance = units_in_last_place * f64::EPSILON * scale + f64::MIN_POSITIVE;
     let heading_difference = libm::remainder(a.theta() - b.theta(), TAU).abs();
     let is_position_equal = (a.x() - b.x()).abs() <= tolerance && (a.y() - b.y()).abs() <= tolerance;
     prop_assert!(

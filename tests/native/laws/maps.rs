@@ -1,6 +1,6 @@
 //! Map files in PGM format.
 
-use super::doubles::proptest_config;
+use super::doubles::new_proptest_config;
 use motion::map::read_pgm;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -15,30 +15,30 @@ fn any_separator() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(proptest_config(250))]
+    #![proptest_config(new_proptest_config(250))]
 
     /// The image depends neither on white space and comments in the file, nor on its kind (plain or binary).
     #[test]
     fn pgm_headers_may_have_any_white_space_and_comments(
         (width, height) in (1..6usize, 1..6usize), max_value in 1..=65_535u32, grey_seeds in vec(any::<u32>(), 36),
-        separators in vec(any_separator(), 40), cut_position in any::<usize>(),
+        word_separators in vec(any_separator(), 40), cut_position in any::<usize>(),
     ) {
-        let grey_values: Vec<u32> = grey_seeds.into_iter().take(width * height).map(|seed| seed % (max_value + 1)).collect();
+        let grey_values: Vec<u32> = grey_seeds.into_iter().take(width * height).map(|grey_seed| grey_seed % (max_value + 1)).collect();
         let mut plain_file = "P2".to_owned();
-        for (grey_or_header_value, separator) in [width as u32, height as u32, max_value].iter().chain(&grey_values).zip(&separators) {
-            plain_file.push_str(separator);
+        for (grey_or_header_value, word_separator) in [width as u32, height as u32, max_value].iter().chain(&grey_values).zip(&word_separators) {
+            plain_file.push_str(word_separator);
             plain_file.push_str(&grey_or_header_value.to_string());
         }
-        let mut binary_file = format!("P5{}{width}{}{height}{}{max_value}\n", separators[0], separators[1], separators[2]).into_bytes();
+        let mut binary_file = format!("P5{}{width}{}{height}{}{max_value}\n", word_separators[0], word_separators[1], word_separators[2]).into_bytes();
         for grey_value in &grey_values {
-            let number_bytes = grey_value.to_be_bytes();
-            binary_file.extend(if max_value < 256 { &number_bytes[3..] } else { &number_bytes[2..] });
+            let bytes_of_number = grey_value.to_be_bytes();
+            binary_file.extend(if max_value < 256 { &bytes_of_number[3..] } else { &bytes_of_number[2..] });
         }
-        let image = read_pgm(plain_file.as_bytes()).expect("a plain file");
-        prop_assert!(image.pixels == read_pgm(&binary_file).expect("a binary file").pixels);
-        prop_assert_eq!((image.width, image.height), (width, height));
-        for (shade, grey_value) in image.pixels.iter().zip(&grey_values) {
-            prop_assert_eq!(*shade, *grey_value as f32 / max_value as f32);
+        let plain_image = read_pgm(plain_file.as_bytes()).expect("a plain file");
+        prop_assert!(plain_image.pixels == read_pgm(&binary_file).expect("a binary file").pixels);
+        prop_assert_eq!((plain_image.width, plain_image.height), (width, height));
+        for (pixel_shade, grey_value) in plain_image.pixels.iter().zip(&grey_values) {
+            prop_assert_eq!(*pixel_shade, *grey_value as f32 / max_value as f32);
         }
         // A truncated binary file is refused. A truncated plain file is refused too, unless the cut is in or after its last number.
         prop_assert!(read_pgm(&binary_file[..cut_position % binary_file.len()]).is_err());

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 /// Sixth powers of small residuals underflow. The standard error of the skew must not become 0 for that reason.
 #[test]
-fn a_cloud_whose_sixth_powers_underflow_has_no_skew() {
+fn the_skew_error_is_not_zero_if_sixth_powers_underflow() {
     for (unit, is_finite) in [(1.0, true), (1e-48, true), (1e-52, false), (1e-60, false), (1e-110, false)] {
         let tiny_cloud = [0.0, 1.0, 3.0, 7.0].map(|y| SE2::new(unit, unit * y, 0.0));
         let cross_track = CrossTrackStats::from_poses(&tiny_cloud);
@@ -37,35 +37,34 @@ fn an_arc_of_subnormal_length_is_tested_correctly() {
     }
 }
 
-fn model_with_alphas(alphas: [f64; 6]) -> VelocityModel {
+fn new_model(alphas: [f64; 6]) -> VelocityModel {
     VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal }
 }
 
 /// The circumference of a circle may overflow to ∞ where the density of the speed is 0. Their product must count as 0.
 #[test]
-fn a_circle_too_long_for_a_double_is_not_driven() {
-    let model_with_alphas = model_with_alphas([0.0, 0.55, 0.0, 0.29, 0.0, 0.41]);
+fn an_arc_around_a_circle_too_long_for_a_double_has_density_zero() {
+    let velocity_model = new_model([0.0, 0.55, 0.0, 0.29, 0.0, 0.41]);
     let u = VelocityCmd { v: 0.0, omega: 882_194.88, dt: 1e-6 };
     let (x, x_next) = (SE2::new(0.0, -3e-269, 0.0), SE2::new(5.3e17, 0.0, 0.0));
-    assert_eq!(model_with_alphas.pose_density(&x_next, &u, &x), Some(0.0));
+    assert_eq!(velocity_model.pose_density(&x_next, &u, &x), Some(0.0));
 }
 
 /// A displacement whose square underflows must count as 0, instead of giving 0 / 0.
 #[test]
 fn a_displacement_with_a_subnormal_square_counts_as_zero() {
-    let model_with_alphas = model_with_alphas([0.0, 0.73, 0.06, 0.0, 0.0, 0.33]);
+    let velocity_model = new_model([0.0, 0.73, 0.06, 0.0, 0.0, 0.33]);
     let u = VelocityCmd { v: 78.0, omega: 38.0, dt: 633_457.9 };
     let (x, next) = (SE2::new(2.2e-308, 0.0, PI), SE2::identity());
-    assert_eq!(model_with_alphas.pose_density(&next, &u, &x), model_with_alphas.pose_density(&x, &u, &x));
+    assert_eq!(velocity_model.pose_density(&next, &u, &x), velocity_model.pose_density(&x, &u, &x));
 }
 
 /// The density solves twice with a root of the covariance, which divides by a subnormal variance. The product 0 · ∞ must not become NaN.
 #[test]
 fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
     let u = VelocityCmd { v: 56.0, omega: 0.0, dt: 1e-6 };
-    let tangent_model =
-        TangentNoiseModel::from_velocity(&model_with_alphas([0.0, 0.0, 0.0, 0.0, 2.2e-308, 0.0]), &u)
-            .expect("variances");
+    let tangent_model = TangentNoiseModel::from_velocity(&new_model([0.0, 0.0, 0.0, 0.0, 2.2e-308, 0.0]), &u)
+        .expect("variances");
     let log_prob = tangent_model.log_prob(&SE2::new(-8.9e17, 0.0, 1e-6), &u, &SE2::identity());
     assert!(log_prob < 0.0, "{log_prob}");
 }
@@ -74,8 +73,8 @@ fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
 /// is over 256 times as long.
 #[test]
 fn a_narrow_plan_has_a_free_pose() {
-    for bounds in [[0.0, 0.0, 100.0, 0.3], [0.0, 0.0, 0.01, 100.0], [-1e6, 5.0, -9e5, 5.02]] {
-        let plan = FloorPlan::new(Vec::new(), bounds).expect("bounds");
+    for plan_bounds in [[0.0, 0.0, 100.0, 0.3], [0.0, 0.0, 0.01, 100.0], [-1e6, 5.0, -9e5, 5.02]] {
+        let plan = FloorPlan::new(Vec::new(), plan_bounds).expect("bounds");
         let free_pose = plan.find_free_pose(0.0).expect("nothing is in the way");
         assert!(plan.test_point([free_pose.x(), free_pose.y()], 0.0).free, "{free_pose:?}");
     }

@@ -1,6 +1,6 @@
 //! Moments, skew, gains and contours do not depend on the unit and frame of a cloud.
 
-use super::doubles::{any_double, proptest_config};
+use super::doubles::{any_double, new_proptest_config};
 use motion::TangentNoiseModel;
 use motion::geom::se2::SE2;
 use motion::models::TangentNoiseError;
@@ -15,10 +15,10 @@ const RELATIVE_ROUNDING: f64 = 256.0 * f64::EPSILON;
 
 /// Returns robots around a pose, with headings that differ by less than a quarter turn. Their mean heading is therefore well defined.
 fn any_cloud() -> impl Strategy<Value = Vec<SE2>> {
-    let robot_coordinates = (-1.0..1.0, -1.0..1.0, -1.5..1.5);
-    (vec(robot_coordinates, 1..50), (-5.0..5.0, -5.0..5.0, -PI..PI)).prop_map(|(robots, (x, y, theta))| {
-        let centre = SE2::new(x, y, theta);
-        robots.into_iter().map(|(x, y, theta)| centre * SE2::new(x, y, theta)).collect()
+    let coordinates_strategy = (-1.0..1.0, -1.0..1.0, -1.5..1.5);
+    (vec(coordinates_strategy, 1..50), (-5.0..5.0, -5.0..5.0, -PI..PI)).prop_map(|(robots, (x, y, theta))| {
+        let cloud_centre = SE2::new(x, y, theta);
+        robots.into_iter().map(|(x, y, theta)| cloud_centre * SE2::new(x, y, theta)).collect()
     })
 }
 
@@ -34,40 +34,40 @@ fn any_covariance() -> impl Strategy<Value = Matrix3<f64>> {
     })
 }
 
-fn is_close(a: f64, b: f64, magnitude: f64) -> bool {
-    a == b || (a.is_nan() && b.is_nan()) || (a - b).abs() <= RELATIVE_ROUNDING * magnitude
+fn is_close(a: f64, b: f64, number_scale: f64) -> bool {
+    a == b || (a.is_nan() && b.is_nan()) || (a - b).abs() <= RELATIVE_ROUNDING * number_scale
 }
 
 /// Maximum distance of a robot from the origin in any frame, m.
 const MAX_ROBOT_DISTANCE: f64 = 20.0;
 
 proptest! {
-    #![proptest_config(proptest_config(300))]
+    #![proptest_config(new_proptest_config(300))]
 
     /// In another frame the cloud has the transformed mean and the same covariance, rotated.
     #[test]
-    fn moments_transform_with_the_frame(cloud in any_cloud(), frame in any_frame()) {
-        let moved_cloud: Vec<SE2> = cloud.iter().map(|pose| frame * *pose).collect();
-        let [moments, moved_moments] = [&cloud, &moved_cloud].map(|cloud| CartesianMoments::from_poses(cloud));
-        let expected_mean = frame * SE2::new(moments.mean.x, moments.mean.y, moments.mean.z);
-        let rotation = SE2::new(0.0, 0.0, frame.theta()).adjoint();
-        let expected_cov = rotation * moments.cov * rotation.transpose();
+    fn moments_transform_with_the_frame(robot_cloud in any_cloud(), other_frame in any_frame()) {
+        let moved_cloud: Vec<SE2> = robot_cloud.iter().map(|pose| other_frame * *pose).collect();
+        let [cloud_moments, moved_moments] = [&robot_cloud, &moved_cloud].map(|robot_cloud| CartesianMoments::from_poses(robot_cloud));
+        let expected_mean = other_frame * SE2::new(cloud_moments.mean.x, cloud_moments.mean.y, cloud_moments.mean.z);
+        let rotation_matrix = SE2::new(0.0, 0.0, other_frame.theta()).adjoint();
+        let expected_cov = rotation_matrix * cloud_moments.cov * rotation_matrix.transpose();
         assert_same_moments((&Vector3::new(expected_mean.x(), expected_mean.y(), expected_mean.theta()), &expected_cov), (&moved_moments.mean, &moved_moments.cov))?;
-        let [moments_in_origin, moments_in_frame] = [(&cloud, SE2::identity()), (&moved_cloud, frame)].map(|(cloud, start_pose)| ExponentialMoments::from_poses(cloud, &start_pose));
+        let [original_moments, moments_in_other_frame] = [(&robot_cloud, SE2::identity()), (&moved_cloud, other_frame)].map(|(robot_cloud, start_pose)| ExponentialMoments::from_poses(robot_cloud, &start_pose));
         // Near a full turn exponential coordinates diverge, and near half a turn the mean heading is ambiguous.
-        if cloud.iter().all(|pose| pose.theta().abs() < 2.0) {
-            assert_same_moments((&moments_in_origin.mean, &moments_in_origin.cov), (&moments_in_frame.mean, &moments_in_frame.cov))?;
+        if robot_cloud.iter().all(|pose| pose.theta().abs() < 2.0) {
+            assert_same_moments((&original_moments.mean, &original_moments.cov), (&moments_in_other_frame.mean, &moments_in_other_frame.cov))?;
         }
     }
 
     /// A change of the unit by a power of two, from 10⁻³⁰ m to 10³⁰ m, changes no bit of dimensionless results. A
     /// mirror image changes their sign only.
     #[test]
-    fn cross_track_statistics_do_not_depend_on_the_unit(cloud in any_cloud(), exponent_of_two in -100..100i32, is_mirrored in any::<bool>()) {
+    fn cross_track_statistics_do_not_depend_on_the_unit(robot_cloud in any_cloud(), exponent_of_two in -100..100i32, is_mirrored in any::<bool>()) {
         let (length_unit, mirror_sign) = (2f64.powi(exponent_of_two), if is_mirrored { -1.0 } else { 1.0 });
         let scaled_cloud: Vec<SE2> =
-            cloud.iter().map(|pose| SE2::new(length_unit * pose.x(), mirror_sign * length_unit * pose.y(), mirror_sign * pose.theta())).collect();
-        let (a, b) = (CrossTrackStats::from_poses(&cloud), CrossTrackStats::from_poses(&scaled_cloud));
+            robot_cloud.iter().map(|pose| SE2::new(length_unit * pose.x(), mirror_sign * length_unit * pose.y(), mirror_sign * pose.theta())).collect();
+        let (a, b) = (CrossTrackStats::from_poses(&robot_cloud), CrossTrackStats::from_poses(&scaled_cloud));
         for (a, b) in [(a.skew, mirror_sign * b.skew), (a.skew_error, b.skew_error), (a.rho_heading, b.rho_heading)] {
             prop_assert!(is_close(a, b, 0.0), "{} {}", a, b);
         }
@@ -75,29 +75,29 @@ proptest! {
 
     /// The tested points are points of the outline, moved by a billionth towards the centre or away from it.
     #[test]
-    fn ellipses_contain_points_inside_their_outline_only(a in 0.01..10.0f64, b in 0.01..10.0f64, correlation in -0.99..0.99f64, exponent_of_two in -300..300i32, centre in (-9.0..9.0, -9.0..9.0)) {
+    fn ellipses_contain_points_inside_their_outline_only(a in 0.01..10.0f64, b in 0.01..10.0f64, correlation in -0.99..0.99f64, exponent_of_two in -300..300i32, cloud_centre in (-9.0..9.0, -9.0..9.0)) {
         let length_unit = 2f64.powi(exponent_of_two);
         let cov = Matrix2::new(a * a, correlation * a * b, correlation * a * b, b * b) * (length_unit * length_unit);
-        let centre = Vector2::new(centre.0, centre.1) * length_unit;
-        let ellipse = Ellipse::new(centre, cov);
+        let cloud_centre = Vector2::new(cloud_centre.0, cloud_centre.1) * length_unit;
+        let tested_ellipse = Ellipse::new(cloud_centre, cov);
         let expected_area: f64 = 4.0 * PI * a * b * (1.0 - correlation * correlation).sqrt() * length_unit * length_unit;
-        prop_assert!(ellipse.has_area() && (ellipse.area() - expected_area).abs() <= 1e-12 * expected_area, "{} {}", ellipse.area(), expected_area);
-        prop_assert!(ellipse.contains(centre.into()));
-        let outline = ellipse.boundary(32);
-        prop_assert_eq!(outline.first(), outline.last());
-        for outline_point in outline {
-            let scale_point_from_centre = |scale: f64| (centre + (Vector2::from(outline_point) - centre) * scale).into();
-            prop_assert!(ellipse.contains(scale_point_from_centre(1.0 - 1e-9)) && !ellipse.contains(scale_point_from_centre(1.0 + 1e-9)), "{:?}", outline_point);
+        prop_assert!(tested_ellipse.has_area() && (tested_ellipse.area() - expected_area).abs() <= 1e-12 * expected_area, "{} {}", tested_ellipse.area(), expected_area);
+        prop_assert!(tested_ellipse.contains(cloud_centre.into()));
+        let ellipse_outline = tested_ellipse.boundary(32);
+        prop_assert_eq!(ellipse_outline.first(), ellipse_outline.last());
+        for outline_point in ellipse_outline {
+            let scale_point_from_centre = |distance_factor: f64| (cloud_centre + (Vector2::from(outline_point) - cloud_centre) * distance_factor).into();
+            prop_assert!(tested_ellipse.contains(scale_point_from_centre(1.0 - 1e-9)) && !tested_ellipse.contains(scale_point_from_centre(1.0 + 1e-9)), "{:?}", outline_point);
         }
     }
 
     #[test]
-    fn matrices_that_are_not_covariances_are_refused(cov in any_covariance(), entry_indices in (0..3usize, 0..3usize), new_entry in any_double(), eigenvalue_reduction in 0.01..1.0) {
+    fn matrices_that_are_not_covariances_are_refused(cov in any_covariance(), entry_indices in (0..3usize, 0..3usize), invalid_entry in any_double(), eigenvalue_reduction in 0.01..1.0) {
         let mut changed_cov = cov;
-        changed_cov[entry_indices] = new_entry;
+        changed_cov[entry_indices] = invalid_entry;
         match TangentNoiseModel::new(changed_cov) {
-            Ok(model) => prop_assert_eq!(model.r, changed_cov),
-            Err(error) => prop_assert_eq!(error == TangentNoiseError::NotFinite, !new_entry.is_finite()),
+            Ok(tangent_model) => prop_assert_eq!(tangent_model.r, changed_cov),
+            Err(refusal) => prop_assert_eq!(refusal == TangentNoiseError::NotFinite, !invalid_entry.is_finite()),
         }
         let indefinite_matrix = cov - Matrix3::identity() * (cov.symmetric_eigenvalues().min().max(0.0) + eigenvalue_reduction);
         prop_assert_eq!(TangentNoiseModel::new(indefinite_matrix), Err(TangentNoiseError::NotPositiveSemidefinite));
@@ -114,17 +114,17 @@ fn assert_same_moments(
     (mean, cov): (&Vector3<f64>, &Matrix3<f64>),
     (other_mean, other_cov): (&Vector3<f64>, &Matrix3<f64>),
 ) -> Result<(), TestCaseError> {
-    let (max_distance, heading_difference) =
+    let (distance_bound, heading_difference) =
         (MAX_ROBOT_DISTANCE, libm::remainder(mean.z - other_mean.z, 2.0 * PI));
     prop_assert!(
-        is_close(mean.x, other_mean.x, max_distance) && is_close(mean.y, other_mean.y, max_distance),
+        is_close(mean.x, other_mean.x, distance_bound) && is_close(mean.y, other_mean.y, distance_bound),
         "{} {}",
         mean,
         other_mean
     );
-    prop_assert!(is_close(heading_difference, 0.0, max_distance), "{} {}", mean, other_mean);
+    prop_assert!(is_close(heading_difference, 0.0, distance_bound), "{} {}", mean, other_mean);
     let are_close =
-        cov.iter().zip(other_cov.iter()).all(|(a, b)| is_close(*a, *b, max_distance * max_distance));
+        cov.iter().zip(other_cov.iter()).all(|(a, b)| is_close(*a, *b, distance_bound * distance_bound));
     prop_assert!(are_close, "{} {}", cov, other_cov);
     Ok(())
 }

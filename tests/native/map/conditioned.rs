@@ -14,15 +14,15 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 pub const SAMPLERS: [Sampler; 3] = [Sampler::Endpoint, Sampler::WholeArc, Sampler::SubStepped(4)];
 pub const STRAIGHT_COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
 
-fn velocity_model() -> VelocityModel {
+fn new_velocity_model() -> VelocityModel {
     VelocityModel { alphas: VelocityAlphas(alphas_of_noise_level(0.12)), noise: NoiseKind::Normal }
 }
 
-fn conditioned_model(plan: &FloorPlan, sampler: Sampler) -> MapConditioned<'_> {
-    MapConditioned { model: velocity_model(), plan, clearance: 0.13, sampler }
+fn condition_on_map(plan: &FloorPlan, sampler: Sampler) -> MapConditioned<'_> {
+    MapConditioned { model: new_velocity_model(), plan, clearance: 0.13, sampler }
 }
 
-fn start_of_preset(preset_name: &str) -> SE2 {
+fn start_pose_of(preset_name: &str) -> SE2 {
     let [x, y, theta] = settings_of_preset::<Settings>(preset_name).start;
     SE2::new(x, y, theta)
 }
@@ -32,9 +32,9 @@ fn unit_noise(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {
 }
 
 /// Asserts that a fraction equals a published fraction. Both come from 60 000 draws, and the published fraction is rounded.
-fn assert_fraction(fraction_name: &str, accepted_count: usize, total_count: usize, published_fraction: f64) {
-    let computed_fraction = accepted_count as f64 / total_count as f64;
-    let standard_error = (2.0 * published_fraction * (1.0 - published_fraction) / total_count as f64).sqrt();
+fn assert_fraction(fraction_name: &str, accepted_count: usize, draw_count: usize, published_fraction: f64) {
+    let computed_fraction = accepted_count as f64 / draw_count as f64;
+    let standard_error = (2.0 * published_fraction * (1.0 - published_fraction) / draw_count as f64).sqrt();
     assert!(
         (computed_fraction - published_fraction).abs() < MAX_STANDARD_ERRORS * standard_error + 0.0005,
         "{fraction_name}: {computed_fraction} instead of {published_fraction}"
@@ -42,17 +42,17 @@ fn assert_fraction(fraction_name: &str, accepted_count: usize, total_count: usiz
 }
 
 #[test]
-fn fractions_equal_the_published_ones() {
+fn acceptance_and_wall_fractions_equal_the_published_ones() {
     const DRAW_COUNT: usize = 60_000;
     let plan = FloorPlan::apartment();
-    let endpoint_model = conditioned_model(&plan, Sampler::Endpoint);
-    for (name, omega, published_acceptance, published_through_wall) in [
+    let endpoint_model = condition_on_map(&plan, Sampler::Endpoint);
+    for (preset_name, omega, published_acceptance, published_through_wall) in [
         ("doorway", 0.0, 0.849, 0.348),
         ("wall", 0.0, 0.832, 0.867),
         ("corridor", 0.0, 0.840, 0.242),
         ("doorway", 0.6, 0.781, 0.398),
     ] {
-        let (start_pose, command) = (start_of_preset(name), VelocityCmd { omega, ..STRAIGHT_COMMAND });
+        let (start_pose, command) = (start_pose_of(preset_name), VelocityCmd { omega, ..STRAIGHT_COMMAND });
         let mut rng = seeded_rng(5);
         let tested_draws: Vec<_> = (0..DRAW_COUNT)
             .map(|_| endpoint_model.collision_tester(&command, &start_pose).test_draw(unit_noise(&mut rng)))
@@ -60,8 +60,8 @@ fn fractions_equal_the_published_ones() {
         let accepted_count = tested_draws.iter().filter(|tested_draw| tested_draw.end_verdict.free).count();
         let through_wall_count =
             tested_draws.iter().filter(|draw| draw.end_verdict.free && !draw.path_verdict.free).count();
-        assert_fraction(name, accepted_count, DRAW_COUNT, published_acceptance);
-        assert_fraction(name, through_wall_count, accepted_count, published_through_wall);
+        assert_fraction(preset_name, accepted_count, DRAW_COUNT, published_acceptance);
+        assert_fraction(preset_name, through_wall_count, accepted_count, published_through_wall);
         assert!(
             tested_draws.iter().all(|draw| draw.end_verdict.free || !draw.path_verdict.free),
             "the end is part of the path"
@@ -76,31 +76,31 @@ fn samples_are_those_of_table_5_7() {
     let plan = FloorPlan::apartment();
     let command = VelocityCmd { omega: 0.2, ..STRAIGHT_COMMAND };
     for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
-        for (name, _) in Settings::PRESETS {
-            let (start_pose, map_model) = (start_of_preset(name), conditioned_model(&plan, sampler));
+        for (preset_name, _) in Settings::PRESETS {
+            let (start_pose, map_model) = (start_pose_of(preset_name), condition_on_map(&plan, sampler));
             let (mut rng, mut expected_rng) = (seeded_rng(9), seeded_rng(9));
             for _ in 0..1000 {
                 let accepted_motion = map_model.sample(&command, &start_pose, &mut rng).expect("it fits");
                 let mut draw_count = 0;
-                let accepted_pose = loop {
+                let drawn_pose = loop {
                     let mut noise_rng = expected_rng.clone();
-                    let accepted_pose = velocity_model().sample(&command, &start_pose, &mut expected_rng);
+                    let drawn_pose = new_velocity_model().sample(&command, &start_pose, &mut expected_rng);
                     let executed_motion =
-                        velocity_model().executed_motion(&command, unit_noise(&mut noise_rng));
+                        new_velocity_model().executed_motion(&command, unit_noise(&mut noise_rng));
                     let arc = Arc {
                         start: start_pose,
                         length: 2.0 * executed_motion.v_hat,
                         turn: 2.0 * executed_motion.omega_hat,
                     };
                     draw_count += 1;
-                    let is_end_free = plan.test_point([accepted_pose.x(), accepted_pose.y()], 0.13).free;
-                    let is_free = is_end_free
+                    let is_end_free = plan.test_point([drawn_pose.x(), drawn_pose.y()], 0.13).free;
+                    let is_accepted = is_end_free
                         && (map_model.sampler == Sampler::Endpoint || plan.test_arc(&arc, 0.13).free);
-                    if is_free {
-                        break accepted_pose;
+                    if is_accepted {
+                        break drawn_pose;
                     }
                 };
-                assert!(crate::common::pose_distance(&accepted_pose, &accepted_motion.pose) < 1e-14);
+                assert!(crate::common::max_difference(&drawn_pose, &accepted_motion.pose) < 1e-14);
                 assert_eq!(accepted_motion.cost.draws, draw_count);
             }
         }
@@ -108,7 +108,7 @@ fn samples_are_those_of_table_5_7() {
 }
 
 /// Returns a plan of 20 cm by 20 cm, in which a robot with a radius of 13 cm fits nowhere.
-pub fn too_small_room() -> FloorPlan {
+pub fn new_too_small_room() -> FloorPlan {
     let room_corners = [[2.0, 2.0], [2.2, 2.0], [2.2, 2.2], [2.0, 2.2]];
     let walls = (0..4).map(|i| Segment { from: room_corners[i], to: room_corners[(i + 1) % 4] }).collect();
     FloorPlan::new(walls, [1.9, 1.9, 2.3, 2.3]).expect("a valid plan")
@@ -116,14 +116,14 @@ pub fn too_small_room() -> FloorPlan {
 
 #[test]
 fn a_robot_that_cannot_move_is_an_error_with_the_number_of_draws() {
-    let plan = too_small_room();
+    let plan = new_too_small_room();
     let start_pose = SE2::new(2.1, 2.1, 0.0);
-    for sampler in SAMPLERS {
-        let error = conditioned_model(&plan, sampler)
+    for part_sampler in SAMPLERS {
+        let refusal = condition_on_map(&plan, part_sampler)
             .sample(&STRAIGHT_COMMAND, &start_pose, &mut seeded_rng(12))
             .expect_err("no room");
-        assert_eq!(error.0.draws, MAX_DRAWS);
-        assert_eq!(error.to_string(), "the robot is wedged: 10000 draws were tried and too few accepted");
+        assert_eq!(refusal.0.draws, MAX_DRAWS);
+        assert_eq!(refusal.to_string(), "the robot is wedged: 10000 draws were tried and too few accepted");
     }
     // The first part of the motion, 1 m ± 1 mm, is free. A wall blocks the second part. The draws of both parts count.
     let dead_end_plan =
@@ -131,10 +131,10 @@ fn a_robot_that_cannot_move_is_an_error_with_the_number_of_draws() {
             .expect("a valid plan");
     let precise_model =
         VelocityModel { alphas: VelocityAlphas([1e-6, 0.0, 0.0, 0.0, 0.0, 0.0]), noise: NoiseKind::Normal };
-    let sampler =
-        MapConditioned { model: precise_model, ..conditioned_model(&dead_end_plan, Sampler::SubStepped(2)) };
-    let error = sampler
+    let part_sampler =
+        MapConditioned { model: precise_model, ..condition_on_map(&dead_end_plan, Sampler::SubStepped(2)) };
+    let refusal = part_sampler
         .sample(&STRAIGHT_COMMAND, &SE2::new(0.3, 1.0, 0.0), &mut seeded_rng(13))
         .expect_err("a dead end");
-    assert_eq!(error.0.draws, MAX_DRAWS + 1);
+    assert_eq!(refusal.0.draws, MAX_DRAWS + 1);
 }

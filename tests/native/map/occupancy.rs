@@ -3,7 +3,6 @@
 use crate::common::{draw_uniform, seeded_rng};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
-use motion::geom::segment::Segment;
 use motion::map::{
     Cell, FloorPlan, FloorPlanError, Image, OccupancyGrid, Pixel, PixelClassifier, UnknownCells,
 };
@@ -14,7 +13,7 @@ const BLACK_PIXEL: Pixel = Pixel { brightness: 0.0, opacity: 1.0 };
 const WHITE_PIXEL: Pixel = Pixel { brightness: 1.0, opacity: 1.0 };
 
 /// Description of a grid by its cells.
-struct GridCells {
+struct DrawnGrid {
     width: usize,
     height: usize,
     /// Cells row by row from the top, as in the image.
@@ -24,39 +23,39 @@ struct GridCells {
     origin: [f64; 3],
 }
 
-impl GridCells {
+impl DrawnGrid {
     fn new_random(rng: &mut impl Rng) -> Self {
         let (width, height) = (1 + (rng.next_u32() % 12) as usize, 1 + (rng.next_u32() % 12) as usize);
         let occupied_fraction = draw_uniform(rng, 0.05, 0.9);
         let occupied = (0..width * height).map(|_| draw_uniform(rng, 0.0, 1.0) < occupied_fraction).collect();
-        let yaw = if rng.next_u32().is_multiple_of(3) { FRAC_PI_2 } else { draw_uniform(rng, -PI, PI) };
-        let origin = [draw_uniform(rng, -50.0, 50.0), draw_uniform(rng, -50.0, 50.0), yaw];
+        let grid_yaw = if rng.next_u32().is_multiple_of(3) { FRAC_PI_2 } else { draw_uniform(rng, -PI, PI) };
+        let origin = [draw_uniform(rng, -50.0, 50.0), draw_uniform(rng, -50.0, 50.0), grid_yaw];
         Self { width, height, occupied, resolution: draw_uniform(rng, 0.02, 0.5), origin }
     }
 
     fn grid(&self) -> OccupancyGrid {
-        let pixels =
+        let cell_pixels =
             self.occupied.iter().map(|occupied| if *occupied { BLACK_PIXEL } else { WHITE_PIXEL }).collect();
-        let image = Image { width: self.width, height: self.height, pixels };
-        let [x, y, yaw] = self.origin;
-        OccupancyGrid::new(&image, &PixelClassifier::default(), self.resolution, SE2::new(x, y, yaw))
+        let image = Image { width: self.width, height: self.height, pixels: cell_pixels };
+        let [x, y, grid_yaw] = self.origin;
+        OccupancyGrid::new(&image, &PixelClassifier::default(), self.resolution, SE2::new(x, y, grid_yaw))
     }
 
     /// Returns the map position (m) of a point whose coordinates are given in cells, along the axes of the grid.
-    fn map_position(&self, column_coordinate: f64, row_coordinate: f64) -> [f64; 2] {
-        let ([x, y, yaw], (u, v)) =
+    fn map_position_of(&self, column_coordinate: f64, row_coordinate: f64) -> [f64; 2] {
+        let ([x, y, grid_yaw], (u, v)) =
             (self.origin, (column_coordinate * self.resolution, row_coordinate * self.resolution));
-        [x + u * yaw.cos() - v * yaw.sin(), y + u * yaw.sin() + v * yaw.cos()]
+        [x + u * grid_yaw.cos() - v * grid_yaw.sin(), y + u * grid_yaw.sin() + v * grid_yaw.cos()]
     }
 
     /// Returns the distance (m) from a point to the nearest occupied cell, which is 0 inside of a cell.
-    fn distance_to_occupied(&self, [x, y]: [f64; 2]) -> f64 {
-        let ([origin_x, origin_y, yaw], cell_side) = (self.origin, self.resolution);
-        let u = (x - origin_x) * yaw.cos() + (y - origin_y) * yaw.sin();
-        let v = (y - origin_y) * yaw.cos() - (x - origin_x) * yaw.sin();
-        let axis_distance_to_cell = |coordinate: f64, cell_index: usize| {
+    fn distance_to_occupied_cell(&self, [x, y]: [f64; 2]) -> f64 {
+        let ([origin_x, origin_y, grid_yaw], cell_side) = (self.origin, self.resolution);
+        let u = (x - origin_x) * grid_yaw.cos() + (y - origin_y) * grid_yaw.sin();
+        let v = (y - origin_y) * grid_yaw.cos() - (x - origin_x) * grid_yaw.sin();
+        let axis_distance_to_cell = |grid_coordinate: f64, cell_index: usize| {
             let cell_start = cell_index as f64 * cell_side;
-            (cell_start - coordinate).max(coordinate - cell_start - cell_side).max(0.0)
+            (cell_start - grid_coordinate).max(grid_coordinate - cell_start - cell_side).max(0.0)
         };
         let occupied_indices = (0..self.occupied.len()).filter(|i| self.occupied[*i]);
         occupied_indices
@@ -74,15 +73,15 @@ fn distances_to_walls_equal_distances_to_cells() {
     let mut rng = seeded_rng(9900);
     let (mut inside_count, mut outside_count) = (0, 0);
     for _ in 0..100 {
-        let grid_cells = GridCells::new_random(&mut rng);
+        let grid_cells = DrawnGrid::new_random(&mut rng);
         let plan = FloorPlan::from_grid(grid_cells.grid()).expect("a small grid");
-        let [left, bottom, right, top] = plan.bounds();
+        let [map_left, map_bottom, map_right, map_top] = plan.bounds();
         for _ in 0..50 {
             let column_coordinate = draw_uniform(&mut rng, 0.0, grid_cells.width as f64);
             let row_coordinate = draw_uniform(&mut rng, 0.0, grid_cells.height as f64);
-            let point = grid_cells.map_position(column_coordinate, row_coordinate);
-            assert!((left..=right).contains(&point[0]) && (bottom..=top).contains(&point[1]));
-            let cell_distance = grid_cells.distance_to_occupied(point);
+            let point = grid_cells.map_position_of(column_coordinate, row_coordinate);
+            assert!((map_left..=map_right).contains(&point[0]) && (map_bottom..=map_top).contains(&point[1]));
+            let cell_distance = grid_cells.distance_to_occupied_cell(point);
             if cell_distance == 0.0 {
                 assert!(
                     grid_cells.grid().is_blocked_at(point) && !plan.test_point(point, 0.0).free,
@@ -114,10 +113,10 @@ fn sides_of_neighbouring_cells_form_one_wall() {
     let drawn_rows = ["##.", "#..", "..#"];
     let occupied =
         drawn_rows.iter().flat_map(|row| row.chars().map(|drawn_cell| drawn_cell == '#')).collect();
-    let grid_cells = GridCells { width: 3, height: 3, occupied, resolution: 0.5, origin: [1.0, 2.0, 0.0] };
+    let grid_cells = DrawnGrid { width: 3, height: 3, occupied, resolution: 0.5, origin: [1.0, 2.0, 0.0] };
     let plan = FloorPlan::from_grid(grid_cells.grid()).expect("a small grid");
     let mut walls: Vec<[f64; 4]> =
-        plan.walls().iter().map(|Segment { from, to }| [from[0], from[1], to[0], to[1]]).collect();
+        plan.walls().iter().map(|wall| [wall.from[0], wall.from[1], wall.to[0], wall.to[1]]).collect();
     walls.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
     let expected_bound = [
         [1.0, 2.5, 1.0, 3.5],
@@ -133,10 +132,10 @@ fn sides_of_neighbouring_cells_form_one_wall() {
     ];
     assert_eq!(walls, expected_bound);
     assert_eq!(plan.bounds(), [1.0, 2.0, 2.5, 3.5]);
-    let rotated_cells = GridCells { origin: [1.0, 2.0, FRAC_PI_2], ..grid_cells };
-    let bounds = FloorPlan::from_grid(rotated_cells.grid()).expect("a small grid").bounds();
-    for (map_bound, expected_bound) in bounds.into_iter().zip([-0.5, 2.0, 1.0, 3.5]) {
-        assert!((map_bound - expected_bound).abs() < 1e-15, "{bounds:?}");
+    let rotated_cells = DrawnGrid { origin: [1.0, 2.0, FRAC_PI_2], ..grid_cells };
+    let map_bounds = FloorPlan::from_grid(rotated_cells.grid()).expect("a small grid").bounds();
+    for (map_bound, expected_bound) in map_bounds.into_iter().zip([-0.5, 2.0, 1.0, 3.5]) {
+        assert!((map_bound - expected_bound).abs() < 1e-15, "{map_bounds:?}");
     }
 }
 
@@ -146,7 +145,7 @@ fn a_grid_of_too_many_walls_is_refused() {
     let occupied = (0..cells_per_side * cells_per_side)
         .map(|i| i / cells_per_side % 2 == 0 && i % cells_per_side % 2 == 0)
         .collect();
-    let single_cells = GridCells {
+    let separate_cells = DrawnGrid {
         width: cells_per_side,
         height: cells_per_side,
         occupied,
@@ -154,9 +153,9 @@ fn a_grid_of_too_many_walls_is_refused() {
         origin: [0.0; 3],
     };
     // The grid has 160 · 160 single cells with four sides each.
-    let plan_error = FloorPlan::from_grid(single_cells.grid()).err();
-    assert_eq!(plan_error, Some(FloorPlanError::TooManySides(20_001)));
-    let error_message = plan_error.map(|plan_error| plan_error.to_string()).unwrap_or_default();
+    let refusal = FloorPlan::from_grid(separate_cells.grid()).err();
+    assert_eq!(refusal, Some(FloorPlanError::TooManySides(20_001)));
+    let error_message = refusal.map(|refusal| refusal.to_string()).unwrap_or_default();
     assert_eq!(
         error_message,
         "image has blocked cells with 20001 sides or more; allowed are at most 20000: remove specks or use larger cells"
@@ -167,27 +166,27 @@ fn a_grid_of_too_many_walls_is_refused() {
 #[test]
 fn a_grid_outside_the_range_of_coordinates_is_refused() {
     let create_grid = |resolution, origin| {
-        GridCells { width: 3, height: 2, occupied: vec![false; 6], resolution, origin }.grid()
+        DrawnGrid { width: 3, height: 2, occupied: vec![false; 6], resolution, origin }.grid()
     };
     assert!(FloorPlan::from_grid(create_grid(0.5, [-1e6, 1e6 - 1.0, 0.0])).is_ok());
     for (resolution, origin) in [(0.5, [1e6 - 1.0, 0.0, 0.0]), (4e4, [0.0; 3]), (0.004, [0.0; 3])] {
-        let error = FloorPlan::from_grid(create_grid(resolution, origin)).err();
-        assert!(matches!(error, Some(FloorPlanError::BadGrid(_))), "{error:?}");
-        let message = error.map(|error| error.to_string()).unwrap_or_default();
-        assert!(message.starts_with("origin has the cells from ["), "{message}");
+        let refusal = FloorPlan::from_grid(create_grid(resolution, origin)).err();
+        assert!(matches!(refusal, Some(FloorPlanError::BadGrid(_))), "{refusal:?}");
+        let refusal_message = refusal.map(|refusal| refusal.to_string()).unwrap_or_default();
+        assert!(refusal_message.starts_with("origin has the cells from ["), "{refusal_message}");
     }
 }
 
 /// Returns a grid with cells of 10 cm that are drawn as `#` (occupied), `?` (unknown) and `.` (free). The first row is at the
 /// top.
-fn grid_from_drawing(drawn_rows: &[&str], unknown_cells: UnknownCells) -> OccupancyGrid {
-    let shade_of_cell = |cell| match cell {
+fn parse_drawn_grid(drawn_rows: &[&str], unknown_cells: UnknownCells) -> OccupancyGrid {
+    let shade_of_cell = |drawn_cell| match drawn_cell {
         '#' => 0.0,
         '?' => 0.5,
         _ => 1.0,
     };
-    let pixels = drawn_rows.iter().flat_map(|row| row.chars()).map(shade_of_cell).collect();
-    let image = Image::<f32> { width: drawn_rows[0].len(), height: drawn_rows.len(), pixels };
+    let cell_pixels = drawn_rows.iter().flat_map(|row| row.chars()).map(shade_of_cell).collect();
+    let image = Image::<f32> { width: drawn_rows[0].len(), height: drawn_rows.len(), pixels: cell_pixels };
     OccupancyGrid::new(&image, &PixelClassifier::default(), 0.1, SE2::identity()).with_unknown(unknown_cells)
 }
 
@@ -206,7 +205,7 @@ fn the_free_pose_is_in_the_largest_free_square() {
         "##########??????",
     ];
     for unknown_cells in [UnknownCells::Free, UnknownCells::Blocked] {
-        let plan = FloorPlan::from_grid(grid_from_drawing(&drawn_rows, unknown_cells)).expect("a small grid");
+        let plan = FloorPlan::from_grid(parse_drawn_grid(&drawn_rows, unknown_cells)).expect("a small grid");
         let free_pose = plan.find_free_pose(0.1).expect("there is room");
         // The pose is in the middle of the first square of four free cells, and heads through the door.
         assert!((free_pose.x() - 0.3).abs() + (free_pose.y() - 0.3).abs() < 1e-12, "{free_pose:?}");
@@ -215,7 +214,7 @@ fn the_free_pose_is_in_the_largest_free_square() {
         assert!(plan.test_arc(&straight_arc, 0.0).free && free_pose.theta().abs() < 0.5, "{free_pose:?}");
     }
     let find_free_pose_in_rows = |drawn_rows: [&str; 3], unknown_cells, clearance| {
-        let plan = FloorPlan::from_grid(grid_from_drawing(&drawn_rows, unknown_cells)).expect("a small grid");
+        let plan = FloorPlan::from_grid(parse_drawn_grid(&drawn_rows, unknown_cells)).expect("a small grid");
         plan.find_free_pose(clearance)
     };
     // A robot that just fits cannot move. The heading is then 0.
@@ -224,7 +223,7 @@ fn the_free_pose_is_in_the_largest_free_square() {
     // All cells are unknown, and count as free or blocked as the setting says.
     let free_pose = find_free_pose_in_rows(["???"; 3], UnknownCells::Free, 0.1).expect("there is room");
     assert!((free_pose.x() - 0.05).abs() + (free_pose.y() - 0.05).abs() < 1e-12, "the first: {free_pose:?}");
-    let blocked_grid = grid_from_drawing(&["???"; 3], UnknownCells::Blocked);
+    let blocked_grid = parse_drawn_grid(&["???"; 3], UnknownCells::Blocked);
     assert!(blocked_grid.cells().all(|cell| cell == Cell::Unknown), "the cells themselves are unchanged");
     assert_eq!(find_free_pose_in_rows(["???"; 3], UnknownCells::Blocked, 0.1), None);
 }

@@ -10,16 +10,16 @@ use std::f64::consts::{PI, TAU};
 
 const ROOM_BOUNDS: [f64; 4] = [0.0, 0.0, 10.0, 10.0];
 
-fn new_wall(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
-    Segment { from: [x0, y0], to: [x1, y1] }
+fn new_wall(start_x: f64, start_y: f64, end_x: f64, end_y: f64) -> Segment {
+    Segment { from: [start_x, start_y], to: [end_x, end_y] }
 }
 
-fn random_point([left, bottom, right, top]: [f64; 4], rng: &mut impl Rng) -> [f64; 2] {
-    [draw_uniform(rng, left, right), draw_uniform(rng, bottom, top)]
+fn draw_point([min_x, min_y, max_x, max_y]: [f64; 4], rng: &mut impl Rng) -> [f64; 2] {
+    [draw_uniform(rng, min_x, max_x), draw_uniform(rng, min_y, max_y)]
 }
 
 /// Returns a straight or curved, long or short arc, forward or in reverse.
-fn random_arc_from(start_position: [f64; 2], rng: &mut impl Rng) -> Arc {
+fn draw_arc_from(start_position: [f64; 2], rng: &mut impl Rng) -> Arc {
     let turn = match rng.next_u32() % 3 {
         0 => draw_signed_log_uniform(rng, 1e-18, 1e-3),
         1 => 0.0,
@@ -30,11 +30,11 @@ fn random_arc_from(start_position: [f64; 2], rng: &mut impl Rng) -> Arc {
 }
 
 /// Returns walls whose coordinates extend by at most `max_extent` m, a third of them along the axes.
-fn random_walls(wall_count: usize, max_extent: f64, bounds: [f64; 4], rng: &mut impl Rng) -> Vec<Segment> {
+fn draw_walls(wall_count: usize, max_extent: f64, bounds: [f64; 4], rng: &mut impl Rng) -> Vec<Segment> {
     let [left, bottom, right, top] = bounds;
     (0..wall_count)
         .map(|_| {
-            let start_point = random_point(bounds, rng);
+            let start_point = draw_point(bounds, rng);
             let mut end_point = [
                 start_point[0] + draw_uniform(rng, -max_extent, max_extent),
                 start_point[1] + draw_uniform(rng, -max_extent, max_extent),
@@ -53,13 +53,13 @@ fn random_walls(wall_count: usize, max_extent: f64, bounds: [f64; 4], rng: &mut 
 
 #[test]
 fn plans_with_too_many_walls_are_refused() {
-    let wall_segment = new_wall(1.0, 1.0, 9.0, 1.0);
-    let plan_error =
-        FloorPlan::new(vec![wall_segment; FloorPlan::MAX_WALLS + 1], ROOM_BOUNDS).expect_err("too many");
-    assert_eq!(plan_error, FloorPlanError::TooManyWalls(20_001));
-    assert_eq!(plan_error.to_string(), "walls has a length of 20001 or more; allowed is at most 20000");
+    let repeated_wall = new_wall(1.0, 1.0, 9.0, 1.0);
+    let floor_plan_error =
+        FloorPlan::new(vec![repeated_wall; FloorPlan::MAX_WALLS + 1], ROOM_BOUNDS).expect_err("too many");
+    assert_eq!(floor_plan_error, FloorPlanError::TooManyWalls(20_001));
+    assert_eq!(floor_plan_error.to_string(), "walls has a length of 20001 or more; allowed is at most 20000");
     for wall_count in [0, 1, 16, 17, FloorPlan::MAX_WALLS] {
-        let plan = FloorPlan::new(vec![wall_segment; wall_count], ROOM_BOUNDS).expect("allowed");
+        let plan = FloorPlan::new(vec![repeated_wall; wall_count], ROOM_BOUNDS).expect("allowed");
         assert_eq!(plan.walls().len(), wall_count);
         assert_eq!(plan.test_point([5.0, 1.5], 0.51).free, wall_count == 0);
         assert!(plan.test_point([5.0, 1.5], 0.49).free);
@@ -76,7 +76,7 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
         let wall_offsets = (0..wall_count).map(|i| 20.0 * (f64::from(i) + 0.5) / f64::from(wall_count));
         wall_offsets
             .map(end_coordinates)
-            .map(|(larger, smaller)| new_wall(smaller, larger, larger, smaller))
+            .map(|(high, smaller_coordinate)| new_wall(smaller_coordinate, high, high, smaller_coordinate))
             .collect()
     };
     let new_pixel = |is_dark: bool| Pixel { brightness: if is_dark { 0.0 } else { 1.0 }, opacity: 1.0 };
@@ -84,7 +84,7 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
     let image = Image { width: 40, height: 40, pixels };
     let grid = OccupancyGrid::new(&image, &PixelClassifier::default(), 0.25, SE2::new(3.0, -2.0, 0.4));
     let new_room_plan = |walls| FloorPlan::new(walls, ROOM_BOUNDS).expect("a valid plan");
-    let long_walls = random_walls(12, 10.0, ROOM_BOUNDS, &mut rng);
+    let long_walls = draw_walls(12, 10.0, ROOM_BOUNDS, &mut rng);
     let tested_plans = [
         FloorPlan::apartment(),
         new_room_plan(new_diagonal_walls(20)),
@@ -95,39 +95,39 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
     ];
     for (plan_index, plan) in tested_plans.iter().enumerate() {
         let [left, bottom, right, top] = plan.bounds();
-        let box_corners = [[left, bottom], [right, bottom], [right, top], [left, top]];
-        let map_corners = plan.grid().map_or(box_corners, OccupancyGrid::corners);
+        let corners_of_bounds = [[left, bottom], [right, bottom], [right, top], [left, top]];
+        let map_corners = plan.grid().map_or(corners_of_bounds, OccupancyGrid::corners);
         let mut verdict_counts = [0; 3];
         for _ in 0..3_000 {
-            let start_point = random_point(plan.bounds(), &mut rng);
+            let start_point = draw_point(plan.bounds(), &mut rng);
             let length_factor = draw_signed_log_uniform(&mut rng, 1e-3, 1.0);
-            let arc = random_arc_from(start_point, &mut rng);
+            let arc = draw_arc_from(start_point, &mut rng);
             let turn = if rng.next_u32().is_multiple_of(3) { 2.0 * arc.turn } else { arc.turn };
             let arc = Arc { length: length_factor * arc.length, turn, ..arc };
             let clearance = [0.0, 0.01, 0.13, 0.4][(rng.next_u32() % 4) as usize];
             let arc_end = [arc.end().x(), arc.end().y()];
-            let min_distance_over_walls = |distance_to_wall: &dyn Fn(&Segment) -> f64| {
-                plan.walls().iter().map(distance_to_wall).fold(f64::INFINITY, f64::min)
+            let min_distance_over_walls = |distance_to: &dyn Fn(&Segment) -> f64| {
+                plan.walls().iter().map(distance_to).fold(f64::INFINITY, f64::min)
             };
             let distance_to_end = min_distance_over_walls(&|wall| wall.distance_to_point(arc_end));
             let distance_to_arc = min_distance_over_walls(&|wall| wall.distance_to_arc(&arc));
             if (distance_to_end - clearance).abs() < 1e-12 || (distance_to_arc - clearance).abs() < 1e-12 {
                 continue;
             }
-            let is_on_map = |point: [f64; 2]| {
+            let is_point_on_map = |point: [f64; 2]| {
                 (0..4).all(|i| {
                     let ([x0, y0], [x1, y1]) = (map_corners[i], map_corners[(i + 1) % 4]);
                     (x1 - x0) * (point[1] - y0) - (y1 - y0) * (point[0] - x0) >= 0.0
                 })
             };
             let map_edges = (0..4).map(|i| Segment { from: map_corners[i], to: map_corners[(i + 1) % 4] });
-            let does_cross_edge =
+            let crosses_edge =
                 map_edges.map(|map_edge| map_edge.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min) == 0.0;
             let is_in_occupied_cell = |point| plan.grid().is_some_and(|grid| grid.is_blocked_at(point));
             let is_end_free =
-                is_on_map(arc_end) && !is_in_occupied_cell(arc_end) && distance_to_end > clearance;
-            let is_path_free = is_on_map(start_point)
-                && !does_cross_edge
+                is_point_on_map(arc_end) && !is_in_occupied_cell(arc_end) && distance_to_end > clearance;
+            let is_path_free = is_point_on_map(start_point)
+                && !crosses_edge
                 && !is_in_occupied_cell(start_point)
                 && is_end_free
                 && distance_to_arc > clearance;
@@ -179,10 +179,10 @@ fn the_free_pose_is_in_the_largest_free_square() {
         let empty_plan = FloorPlan::new(vec![], bounds).expect("a valid plan");
         let free_pose = empty_plan.find_free_pose(0.3).expect("there is room");
         let [left, bottom, right, top] = bounds;
-        let distances_to_bounds =
+        let distances_to_edges =
             [free_pose.x() - left, right - free_pose.x(), free_pose.y() - bottom, top - free_pose.y()];
         assert!(
-            distances_to_bounds.into_iter().all(|distances_to_bounds| distances_to_bounds > 1.4),
+            distances_to_edges.into_iter().all(|distances_to_edges| distances_to_edges > 1.4),
             "not at the edge: {free_pose:?}"
         );
     }

@@ -15,15 +15,15 @@ struct PngFormat {
 }
 
 /// Returns the file of an image. The samples of a pixel are adjacent.
-fn encoded_png(png_format: &PngFormat, image_width: u32, samples: &[u16]) -> Vec<u8> {
+fn encode_png(png_format: &PngFormat, image_width: u32, samples: &[u16]) -> Vec<u8> {
     let row_length = image_width as usize * png_format.color_type.samples();
     let mut packed_rows = Vec::new();
     for sample_row in samples.chunks(row_length) {
         let bit_depth = png_format.bit_depth as usize;
-        let row_bits: String = sample_row.iter().map(|sample| format!("{sample:0bit_depth$b}")).collect();
-        let row_bytes = row_bits.as_bytes().chunks(8).map(|digits| {
-            let byte_value = digits.iter().fold(0, |byte, digit| 2 * byte + (digit - b'0'));
-            byte_value << (8 - digits.len())
+        let binary_row: String = sample_row.iter().map(|channel| format!("{channel:0bit_depth$b}")).collect();
+        let row_bytes = binary_row.as_bytes().chunks(8).map(|byte_digits| {
+            let byte_value = byte_digits.iter().fold(0, |byte, digit| 2 * byte + (digit - b'0'));
+            byte_value << (8 - byte_digits.len())
         });
         packed_rows.extend(row_bytes);
     }
@@ -44,10 +44,10 @@ fn encoded_png(png_format: &PngFormat, image_width: u32, samples: &[u16]) -> Vec
     file_bytes
 }
 
-fn grey_png(width: u32, samples: &[u16]) -> Vec<u8> {
+fn encode_grey_png(width: u32, samples: &[u16]) -> Vec<u8> {
     let grey_format =
         PngFormat { color_type: ColorType::Grayscale, bit_depth: 8, palette: None, transparency: None };
-    encoded_png(&grey_format, width, samples)
+    encode_png(&grey_format, width, samples)
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn every_kind_of_image_is_decoded_exactly() {
         {
             for has_transparency in [false, true] {
                 let sample_count = image_width as usize * image_height * color_type.samples();
-                let mut draw_below = |limit: u32| (rng.next_u32() % limit) as u16;
+                let mut draw_below = |exclusive_limit: u32| (rng.next_u32() % exclusive_limit) as u16;
                 let samples: Vec<u16> = (0..sample_count).map(|_| draw_below(1 << bit_depth)).collect();
                 let palette: Vec<u8> = (0..3 << bit_depth.min(8)).map(|_| draw_below(256) as u8).collect();
                 let opacities: Vec<u8> =
@@ -74,22 +74,23 @@ fn every_kind_of_image_is_decoded_exactly() {
                 let first_pixel = &samples[..color_type.samples()];
                 let transparency = match color_type {
                     ColorType::Indexed => opacities.clone(),
-                    _ => first_pixel.iter().flat_map(|sample| sample.to_be_bytes()).collect(),
+                    _ => first_pixel.iter().flat_map(|channel| channel.to_be_bytes()).collect(),
                 };
                 let has_transparent_colour =
                     has_transparency && !matches!(color_type, ColorType::GrayscaleAlpha | ColorType::Rgba);
-                let format = PngFormat {
+                let png_format = PngFormat {
                     color_type,
                     bit_depth,
                     palette: (color_type == ColorType::Indexed).then(|| palette.clone()),
                     transparency: has_transparent_colour.then_some(transparency),
                 };
                 let max_sample = f64::from((1u32 << bit_depth) - 1);
-                let to_byte = |sample: u16| (255.0 * f64::from(sample) / max_sample).round() as u8;
+                let scale_to_byte = |channel: u16| (255.0 * f64::from(channel) / max_sample).round() as u8;
                 let expected_pixels: Vec<[u8; 4]> = samples
                     .chunks(color_type.samples())
                     .map(|samples| {
-                        let sample_bytes: Vec<u8> = samples.iter().map(|sample| to_byte(*sample)).collect();
+                        let sample_bytes: Vec<u8> =
+                            samples.iter().map(|channel| scale_to_byte(*channel)).collect();
                         let opacity = if has_transparent_colour && samples == first_pixel { 0 } else { 255 };
                         match *sample_bytes {
                             [_] if color_type == ColorType::Indexed => {
@@ -106,7 +107,7 @@ fn every_kind_of_image_is_decoded_exactly() {
                         }
                     })
                     .collect();
-                let image = read_png(&encoded_png(&format, image_width, &samples)).expect("an image");
+                let image = read_png(&encode_png(&png_format, image_width, &samples)).expect("an image");
                 assert_eq!((image.width, image.height), (image_width as usize, image_height));
                 assert_eq!(
                     image.pixels, expected_pixels,
@@ -119,24 +120,24 @@ fn every_kind_of_image_is_decoded_exactly() {
 
 #[test]
 fn an_image_that_is_cut_short_is_refused() {
-    let file_bytes = grey_png(20, &[7; 400]);
+    let file_bytes = encode_grey_png(20, &[7; 400]);
     assert!(read_png(&file_bytes).is_ok());
     for cut_length in 0..file_bytes.len() {
         match read_png(&file_bytes[..cut_length]) {
-            Err(PngError::Damaged { offset, length }) => {
-                assert!(length == cut_length && offset <= cut_length as u64)
+            Err(PngError::Damaged { offset: error_offset, length: file_length }) => {
+                assert!(file_length == cut_length && error_offset <= cut_length as u64)
             }
-            other_result => panic!("{cut_length} bytes: {other_result:?}"),
+            unexpected_result => panic!("{cut_length} bytes: {unexpected_result:?}"),
         }
     }
     let png_error = read_grid(&file_bytes[..60], &PixelClassifier::default(), 0.05, SE2::identity())
         .expect_err("it ends");
     assert!(matches!(png_error, ImageError::Png(_)));
-    let message = png_error.to_string();
+    let error_message = png_error.to_string();
     assert!(
-        message.starts_with("the PNG image is damaged or cut short before byte ")
-            && message.ends_with(" of 60; allowed is a complete one"),
-        "{message}"
+        error_message.starts_with("the PNG image is damaged or cut short before byte ")
+            && error_message.ends_with(" of 60; allowed is a complete one"),
+        "{error_message}"
     );
 }
 
@@ -144,7 +145,7 @@ fn an_image_that_is_cut_short_is_refused() {
 #[test]
 fn an_image_that_is_too_large_is_refused_by_its_header() {
     let mut file_bytes = Vec::new();
-    let side_pixels = 1 + (MAX_PIXELS as f64).sqrt() as u32;
-    drop(Encoder::new(&mut file_bytes, side_pixels, side_pixels).write_header().expect("a header"));
-    assert_eq!(read_png(&file_bytes), Err(PngError::TooLarge { width: side_pixels, height: side_pixels }));
+    let side_length = 1 + (MAX_PIXELS as f64).sqrt() as u32;
+    drop(Encoder::new(&mut file_bytes, side_length, side_length).write_header().expect("a header"));
+    assert_eq!(read_png(&file_bytes), Err(PngError::TooLarge { width: side_length, height: side_length }));
 }

@@ -1,8 +1,7 @@
 //! `sample(b²)` and `prob(a, b²)` of both kinds of noise, compared with the exact distributions.
 
 use crate::common::{
-    MAX_KOLMOGOROV_SMIRNOV, NOISE_KINDS, ReferenceTable, SAMPLE_COUNT, kolmogorov_smirnov, seeded_rng,
-    unit_cdf,
+    MAX_KS_STATISTIC, NOISE_KINDS, ReferenceTable, SAMPLE_COUNT, scaled_ks_distance, seeded_rng, unit_cdf,
 };
 use motion::{NoiseKind, Variance};
 
@@ -16,9 +15,9 @@ fn samples_follow_the_exact_distribution() {
     for kind in NOISE_KINDS {
         for (seed, variance) in [(1, 1.0), (2, 0.025), (3, 1e-8), (4, 400.0)] {
             let noise_sample = draw_noise_sample(kind, variance, SAMPLE_COUNT, seed);
-            let ks_statistic = kolmogorov_smirnov(noise_sample, |a| unit_cdf(kind, a / variance.sqrt()));
+            let ks_statistic = scaled_ks_distance(noise_sample, |a| unit_cdf(kind, a / variance.sqrt()));
             assert!(
-                ks_statistic < MAX_KOLMOGOROV_SMIRNOV,
+                ks_statistic < MAX_KS_STATISTIC,
                 "{kind:?} of variance {variance}: √n·D = {ks_statistic}"
             );
         }
@@ -38,7 +37,7 @@ fn prob_is_the_density_of_the_samples() {
             for interval_index in 0..interval_count {
                 let interval_start = -integration_limit + interval_index as f64 * interval_width;
                 let integration_step = interval_width / 64.0;
-                let interval_integral: f64 = (0..=64)
+                let interval_probability: f64 = (0..=64)
                     .map(|i| {
                         let simpson_weight = if i == 0 || i == 64 { 1.0 } else { 2.0 + 2.0 * (i % 2) as f64 };
                         simpson_weight
@@ -47,21 +46,21 @@ fn prob_is_the_density_of_the_samples() {
                     .sum::<f64>()
                     * integration_step
                     / 3.0;
-                let cdf_increase = unit_cdf(kind, (interval_start + interval_width) / noise_std)
+                let expected_increase = unit_cdf(kind, (interval_start + interval_width) / noise_std)
                     - unit_cdf(kind, interval_start / noise_std);
                 assert!(
-                    (interval_integral - cdf_increase).abs() < 3e-10,
-                    "{kind:?} b² = {variance} at {interval_start}: {interval_integral}, not {cdf_increase}"
+                    (interval_probability - expected_increase).abs() < 3e-10,
+                    "{kind:?} b² = {variance} at {interval_start}: {interval_probability}, not {expected_increase}"
                 );
-                integral += interval_integral;
+                integral += interval_probability;
             }
             assert!((integral - 1.0).abs() < 1e-9, "{kind:?} b² = {variance}: integral {integral}");
         }
         // With variance 1 the densities at 0 are 1/√(2π) and 1/√6.
-        let peak = kind.prob(0.0, Variance(1.0));
+        let peak_density = kind.prob(0.0, Variance(1.0));
         let expected_peak =
             if kind == NoiseKind::Normal { 0.398_942_280_401_432_7 } else { 0.408_248_290_463_863 };
-        assert!((peak - expected_peak).abs() < 1e-15);
+        assert!((peak_density - expected_peak).abs() < 1e-15);
     }
 }
 
@@ -72,11 +71,11 @@ fn with_zero_variance_samples_are_zero_and_prob_is_zero_or_one() {
         for _ in 0..100 {
             assert_eq!(kind.sample(Variance(0.0), &mut rng), 0.0);
         }
-        for residual in [0.0, -0.0, 1e-16, -1e-16, 1e-12] {
-            assert_eq!(kind.prob(residual, Variance(0.0)), 1.0, "{residual} is 0 to rounding");
+        for noise_residual in [0.0, -0.0, 1e-16, -1e-16, 1e-12] {
+            assert_eq!(kind.prob(noise_residual, Variance(0.0)), 1.0, "{noise_residual} is 0 to rounding");
         }
-        for residual in [1e-6, -1e-6, 0.1, -3.0, f64::INFINITY] {
-            assert_eq!(kind.prob(residual, Variance(0.0)), 0.0);
+        for noise_residual in [1e-6, -1e-6, 0.1, -3.0, f64::INFINITY] {
+            assert_eq!(kind.prob(noise_residual, Variance(0.0)), 0.0);
         }
         // With a tiny variance `prob` is a density with a high peak. It is 0 or 1 only if the variance is 0.
         assert!(kind.prob(0.0, Variance(1e-20)) > 1e9);

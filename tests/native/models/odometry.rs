@@ -11,52 +11,52 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 const ALPHAS: OdomAlphas = OdomAlphas([0.05, 0.02, 0.01, 0.03]);
 
-fn odometry_model(noise: NoiseKind) -> OdometryModel {
-    OdometryModel { alphas: ALPHAS, noise }
+fn new_model(noise_kind: NoiseKind) -> OdometryModel {
+    OdometryModel { alphas: ALPHAS, noise: noise_kind }
 }
 
-fn odom_delta(rot1: f64, trans: f64, rot2: f64) -> OdomDelta {
+fn new_odom_delta(rot1: f64, trans: f64, rot2: f64) -> OdomDelta {
     OdomDelta { rot1, trans, rot2 }
 }
 
-fn odometry_readings() -> [OdomDelta; 6] {
+fn draw_odometry_readings() -> [OdomDelta; 6] {
     [
-        odom_delta(0.3, 1.0, 0.2),
-        odom_delta(-0.4, 0.8, 1.0),
-        odom_delta(0.0, 1.5, 0.0),
-        odom_delta(1.4, 0.6, -1.2),
-        odom_delta(-0.9, 1.0, -0.7),
-        odom_delta(2.2, 0.7, -2.0),
+        new_odom_delta(0.3, 1.0, 0.2),
+        new_odom_delta(-0.4, 0.8, 1.0),
+        new_odom_delta(0.0, 1.5, 0.0),
+        new_odom_delta(1.4, 0.6, -1.2),
+        new_odom_delta(-0.9, 1.0, -0.7),
+        new_odom_delta(2.2, 0.7, -2.0),
     ]
 }
 
 /// Returns the variances of Table 5.6. `angle_used_for` is the angle from which the noise of a rotation is computed.
 fn table_variances(reading: &OdomDelta, angle_used_for: impl Fn(f64) -> f64) -> [f64; 3] {
     let [a1, a2, a3, a4] = ALPHAS.0;
-    let [rot1_angle, trans, rot2_angle] =
+    let [angle1, trans, angle2] =
         [angle_used_for(reading.rot1).powi(2), reading.trans.powi(2), angle_used_for(reading.rot2).powi(2)];
-    [a1 * rot1_angle + a2 * trans, a3 * trans + a4 * (rot1_angle + rot2_angle), a1 * rot2_angle + a2 * trans]
+    [a1 * angle1 + a2 * trans, a3 * trans + a4 * (angle1 + angle2), a1 * angle2 + a2 * trans]
 }
 
 /// Without translation atan2 gives no bearing. The whole turn then counts as the second rotation.
 #[test]
 fn a_spin_on_the_spot_counts_as_the_second_rotation() {
-    for spin_turn in [0.0, 0.4, -2.9, PI] {
-        for position_jitter in [0.0, 1e-13, -1e-10] {
+    for spin_angle in [0.0, 0.4, -2.9, PI] {
+        for displacement in [0.0, 1e-13, -1e-10] {
             let prev = SE2::new(3.0, -2.0, 1.0);
-            let curr = SE2::new(3.0 + position_jitter, -2.0 - position_jitter, 1.0 + spin_turn);
-            let spin_reading = OdomDelta::from_poses(&prev, &curr);
+            let second_pose = SE2::new(3.0 + displacement, -2.0 - displacement, 1.0 + spin_angle);
+            let spin_reading = OdomDelta::from_poses(&prev, &second_pose);
             assert_eq!((spin_reading.rot1, spin_reading.trans), (0.0, 0.0));
-            assert!((spin_reading.rot2 - spin_turn).abs() < 1e-15);
+            assert!((spin_reading.rot2 - spin_angle).abs() < 1e-15);
         }
     }
     // A translation of a nanometre or more has a direction.
     let prev = SE2::identity();
     let reading_of_distance = |distance: f64| OdomDelta::from_poses(&prev, &SE2::new(0.0, distance, 0.5));
-    assert_eq!(reading_of_distance(1e-9f64.next_down()), odom_delta(0.0, 0.0, 0.5));
-    assert_eq!(reading_of_distance(1e-9), odom_delta(FRAC_PI_2, 1e-9, 0.5 - FRAC_PI_2));
-    let u = odom_delta(0.0, 0.0, 0.8);
-    assert_eq!(odometry_model(NoiseKind::Normal).pose_density(&u.apply(&prev), &u, &prev), None);
+    assert_eq!(reading_of_distance(1e-9f64.next_down()), new_odom_delta(0.0, 0.0, 0.5));
+    assert_eq!(reading_of_distance(1e-9), new_odom_delta(FRAC_PI_2, 1e-9, 0.5 - FRAC_PI_2));
+    let u = new_odom_delta(0.0, 0.0, 0.8);
+    assert_eq!(new_model(NoiseKind::Normal).pose_density(&u.apply(&prev), &u, &prev), None);
 }
 
 /// Table 5.5 computes its variances from the hypothetical motion, not from the reading.
@@ -65,19 +65,19 @@ fn prob_is_the_score_of_table_5_5() {
     let mut rng = seeded_rng(92);
     let x = SE2::new(1.0, 2.0, -0.5);
     for noise_kind in NOISE_KINDS {
-        for u in odometry_readings() {
+        for u in draw_odometry_readings() {
             for _ in 0..200 {
-                let mut perturb_value = |leg_value: f64| leg_value + draw_uniform(&mut rng, -0.4, 0.4);
+                let mut perturb_value = |component: f64| component + draw_uniform(&mut rng, -0.4, 0.4);
                 let executed_legs =
-                    odom_delta(perturb_value(u.rot1), perturb_value(u.trans), perturb_value(u.rot2));
-                let [r1, t, r2] = table_variances(&executed_legs, f64::abs);
-                let expected_score = noise_kind.prob(u.rot1 - executed_legs.rot1, Variance(r1))
+                    new_odom_delta(perturb_value(u.rot1), perturb_value(u.trans), perturb_value(u.rot2));
+                let [rot1_variance, t, rot2_variance] = table_variances(&executed_legs, f64::abs);
+                let expected_score = noise_kind.prob(u.rot1 - executed_legs.rot1, Variance(rot1_variance))
                     * noise_kind.prob(u.trans - executed_legs.trans, Variance(t))
-                    * noise_kind.prob(u.rot2 - executed_legs.rot2, Variance(r2));
-                let score = odometry_model(noise_kind).prob(&executed_legs.apply(&x), &u, &x);
+                    * noise_kind.prob(u.rot2 - executed_legs.rot2, Variance(rot2_variance));
+                let table_score = new_model(noise_kind).prob(&executed_legs.apply(&x), &u, &x);
                 assert!(
-                    (score - expected_score).abs() <= 1e-9 * (1.0 + expected_score),
-                    "{executed_legs:?} for {u:?}: {score}, not {expected_score}"
+                    (table_score - expected_score).abs() <= 1e-9 * (1.0 + expected_score),
+                    "{executed_legs:?} for {u:?}: {table_score}, not {expected_score}"
                 );
             }
         }
@@ -90,7 +90,7 @@ fn without_noise_samples_are_exact_and_there_is_no_density() {
     let x = SE2::new(-1.0, 0.5, 2.0);
     for noise_kind in NOISE_KINDS {
         let noise_free_model = OdometryModel { alphas: OdomAlphas([0.0; 4]), noise: noise_kind };
-        for u in odometry_readings() {
+        for u in draw_odometry_readings() {
             let noise_free_end = u.apply(&x);
             assert_eq!(noise_free_model.sample(&u, &x, &mut rng), noise_free_end);
             assert_eq!(noise_free_model.prob(&noise_free_end, &u, &x), 1.0);
@@ -99,16 +99,16 @@ fn without_noise_samples_are_exact_and_there_is_no_density() {
                 0.0
             );
             assert_eq!(noise_free_model.pose_density(&noise_free_end, &u, &x), None);
-            assert!(odometry_model(noise_kind).pose_density(&noise_free_end, &u, &x).is_some());
+            assert!(new_model(noise_kind).pose_density(&noise_free_end, &u, &x).is_some());
             assert_eq!(
-                odometry_model(noise_kind).tangent_cov(&u),
+                new_model(noise_kind).tangent_cov(&u),
                 None,
                 "noise of three legs is not one Gaussian in se(2)"
             );
         }
-        let no_motion = odom_delta(0.0, 0.0, 0.0);
-        assert_eq!(odometry_model(noise_kind).sample(&no_motion, &x, &mut rng), x);
-        assert_eq!(odometry_model(noise_kind).prob(&x, &no_motion, &x), 1.0);
+        let no_motion = new_odom_delta(0.0, 0.0, 0.0);
+        assert_eq!(new_model(noise_kind).sample(&no_motion, &x, &mut rng), x);
+        assert_eq!(new_model(noise_kind).prob(&x, &no_motion, &x), 1.0);
     }
 }
 
@@ -119,17 +119,17 @@ fn the_pose_density_divides_by_the_jacobian() {
     let mut rng = seeded_rng(94);
     let x = SE2::new(1.0, -2.0, 0.3);
     for kind in NOISE_KINDS {
-        for u in odometry_readings() {
+        for u in draw_odometry_readings() {
             let table_variances = table_variances(&u, f64::abs);
             for _ in 0..100 {
                 let leg_noise =
                     table_variances.map(|variance| draw_uniform(&mut rng, -1.0, 1.0) * variance.sqrt());
                 let executed_legs =
-                    odom_delta(u.rot1 - leg_noise[0], u.trans - leg_noise[1], u.rot2 - leg_noise[2]);
-                let [r1, t, r2] = [0, 1, 2]
+                    new_odom_delta(u.rot1 - leg_noise[0], u.trans - leg_noise[1], u.rot2 - leg_noise[2]);
+                let [rot1_variance, t, rot2_variance] = [0, 1, 2]
                     .map(|leg_index| kind.prob(leg_noise[leg_index], Variance(table_variances[leg_index])));
-                let expected_density = r1 * t * r2 / executed_legs.trans;
-                let density = odometry_model(kind).pose_density(&executed_legs.apply(&x), &u, &x).unwrap();
+                let expected_density = rot1_variance * t * rot2_variance / executed_legs.trans;
+                let density = new_model(kind).pose_density(&executed_legs.apply(&x), &u, &x).unwrap();
                 // Other legs lead to the same pose, in reverse or with full turns. They add less than 1e-6 to the density with this noise.
                 assert!(
                     (density / expected_density - 1.0).abs() < 1e-6,
@@ -142,8 +142,8 @@ fn the_pose_density_divides_by_the_jacobian() {
 
 /// Returns a box around the noise-free pose, which reaches twice as far as triangular noise. The kinks of the triangular density, at
 /// multiples of √6 deviations, lie on bounds of cells.
-fn box_around(u: &OdomDelta, x: &SE2, table_variances: [f64; 3]) -> PolarGrid {
-    let [rot1, trans, rot2] = table_variances.map(|b2| 2.0 * (6.0 * b2).sqrt());
+fn grid_around(u: &OdomDelta, x: &SE2, table_variances: [f64; 3]) -> PolarGrid {
+    let [rot1, trans, rot2] = table_variances.map(|variance| 2.0 * (6.0 * variance).sqrt());
     PolarGrid::new(x, &u.apply(x), 1.0, [trans, rot1.min(PI / 2.0), rot2.min(PI)], [8; 3])
 }
 
@@ -152,25 +152,25 @@ fn box_around(u: &OdomDelta, x: &SE2, table_variances: [f64; 3]) -> PolarGrid {
 fn the_pose_density_integrates_to_one_for_large_noise() {
     let x = SE2::new(0.4, 0.4, -2.2);
     for (kind, integral_tolerance, u) in [
-        (NoiseKind::Normal, 1e-6, odometry_readings()[5]),
-        (NoiseKind::Triangular, 1e-3, odom_delta(0.7, 0.8, -0.4)),
+        (NoiseKind::Normal, 1e-6, draw_odometry_readings()[5]),
+        (NoiseKind::Triangular, 1e-3, new_odom_delta(0.7, 0.8, -0.4)),
     ] {
         let odometry_model = OdometryModel { alphas: OdomAlphas([0.9, 0.9, 1.1, 0.4]), noise: kind };
         let max_distance =
             u.trans + 7.0 * (1.1 * u.trans.powi(2) + 0.4 * (u.rot1.powi(2) + u.rot2.powi(2))).sqrt();
-        let integral = PolarGrid::around_start(&x, 1.0, max_distance, [14, 8, 8])
+        let density_integral = PolarGrid::around_start(&x, 1.0, max_distance, [14, 8, 8])
             .integrate_density(|pose| odometry_model.pose_density(pose, &u, &x).unwrap());
-        assert!((integral - 1.0).abs() < integral_tolerance, "{kind:?} {u:?}: {integral}");
+        assert!((density_integral - 1.0).abs() < integral_tolerance, "{kind:?} {u:?}: {density_integral}");
     }
 }
 
 #[test]
 fn sampler_and_density_agree() {
     let x = SE2::new(0.5, -0.25, 1.0);
-    for (seed, u) in (100..).zip([odometry_readings()[0], odometry_readings()[3]]) {
+    for (seed, u) in (100..).zip([draw_odometry_readings()[0], draw_odometry_readings()[3]]) {
         for kind in NOISE_KINDS {
-            let grid = box_around(&u, &x, table_variances(&u, f64::abs));
-            grid.assert_sampled(&odometry_model(kind), &u, &x, seed);
+            let grid = grid_around(&u, &x, table_variances(&u, f64::abs));
+            grid.assert_samples_fit(&new_model(kind), &u, &x, seed);
         }
     }
 }
@@ -178,13 +178,13 @@ fn sampler_and_density_agree() {
 #[test]
 fn cartesian_cov_is_the_linearized_motion() {
     let x = SE2::new(4.0, 1.0, -1.2);
-    let odometry_model = odometry_model(NoiseKind::Normal);
-    for u in odometry_readings() {
-        let jacobian = derivative_by_noise([0.0; 3], |unit_noise| {
+    let odometry_model = new_model(NoiseKind::Normal);
+    for u in draw_odometry_readings() {
+        let noise_jacobian = derivative_by_noise([0.0; 3], |unit_noise| {
             odometry_model.executed_motion(&u, unit_noise).apply(&x)
         });
         let cov = odometry_model.cartesian_cov(&u, &x);
-        assert!((cov - jacobian * jacobian.transpose()).amax() < 1e-8, "{u:?}\n{cov}");
+        assert!((cov - noise_jacobian * noise_jacobian.transpose()).amax() < 1e-8, "{u:?}\n{cov}");
     }
 }
 
@@ -194,23 +194,24 @@ fn reverse_aware_noise_excludes_half_turns() {
     let x = SE2::new(1.0, 1.0, 0.5);
     let backward_reading = OdomDelta::from_poses(&x, &x.boxplus(Vector3::new(-0.5, 0.0, 0.02)));
     assert!(backward_reading.rot1.abs() > 3.0 && backward_reading.rot2.abs() > 3.0, "{backward_reading:?}");
-    let effective_angle_of = |rotation: f64| rotation.abs().min((PI - rotation.abs()).abs());
+    let effective_angle_of = |angle: f64| angle.abs().min((PI - angle.abs()).abs());
     for kind in NOISE_KINDS {
         let (unaware_model, aware_model) =
-            (odometry_model(kind), ConfiguredOdometry { model: odometry_model(kind), reverse_aware: true });
-        let grid = box_around(&backward_reading, &x, table_variances(&backward_reading, effective_angle_of));
-        grid.assert_sampled(&aware_model, &backward_reading, &x, 110);
+            (new_model(kind), ConfiguredOdometry { model: new_model(kind), reverse_aware: true });
+        let grid = grid_around(&backward_reading, &x, table_variances(&backward_reading, effective_angle_of));
+        grid.assert_samples_fit(&aware_model, &backward_reading, &x, 110);
 
         // As in Table 5.5, `prob` computes the variances from the hypothetical legs.
-        let executed_legs = odom_delta(
+        let executed_legs = new_odom_delta(
             backward_reading.rot1 + 0.02,
             backward_reading.trans - 0.05,
             backward_reading.rot2 - 0.03,
         );
-        let [r1, t, r2] =
+        let [rot1_variance, t, rot2_variance] =
             table_variances(&OdomDelta::from_poses(&x, &executed_legs.apply(&x)), effective_angle_of);
-        let expected_score =
-            kind.prob(0.02, Variance(r1)) * kind.prob(0.05, Variance(t)) * kind.prob(0.03, Variance(r2));
+        let expected_score = kind.prob(0.02, Variance(rot1_variance))
+            * kind.prob(0.05, Variance(t))
+            * kind.prob(0.03, Variance(rot2_variance));
         assert!(
             (aware_model.prob(&executed_legs.apply(&x), &backward_reading, &x) / expected_score - 1.0).abs()
                 < 1e-9

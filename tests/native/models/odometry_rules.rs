@@ -14,32 +14,32 @@ use OdometryRule::{Beluga, Nav2, Omni, Table};
 /// α's that differ from each other, so that a test fails if two are exchanged.
 const ALPHAS: RuleAlphas = [0.1, 0.2, 0.3, 0.4, 0.5];
 
-fn odom_delta(rot1: f64, trans: f64, rot2: f64) -> OdomDelta {
+fn new_odom_delta(rot1: f64, trans: f64, rot2: f64) -> OdomDelta {
     OdomDelta { rot1, trans, rot2 }
 }
 
 fn leg_variances(rule: OdometryRule, reading: OdomDelta) -> [f64; 4] {
-    let LegVariances { rot1, trans, rot2, strafe } = rule.variances(&reading, &ALPHAS);
-    [rot1, trans, rot2, strafe].map(|variance| variance.0)
+    let LegVariances { rot1, trans, rot2, strafe: lateral } = rule.variances(&reading, &ALPHAS);
+    [rot1, trans, rot2, lateral].map(|variance| variance.0)
 }
 
 /// Expected variances are computed by hand, to eight digits, with (π − 3)² = 0.02004848 and (π − 2.2)² = 0.88659673.
 #[test]
 fn the_variances_of_each_rule_match_its_source() {
     // The robot turns by 0.5, drives 2 m and turns back by 1. No angle is nearer to π than to 0, and the total turn is −0.5.
-    let bend_reading = odom_delta(0.5, 2.0, -1.0);
+    let bend_reading = new_odom_delta(0.5, 2.0, -1.0);
     // Variances by hand: 0.1·0.25 + 0.2·4, 0.3·4 + 0.4·(0.25 + 1), 0.1·1 + 0.2·4.
     let bend_variances = [0.825, 1.7, 0.9, 0.0];
     // Variances by hand: 0.3·4 + 0.4·0.25, 0.1·0.25 + 0.2·4, 0.5·4 + 0.4·0.25.
     let omni_bend_variances = [0.0, 1.3, 0.825, 2.1];
     // The robot backs up by 1 m. Both rotations are π − 3 without their half turns, and the total turn is 0.
-    let backward_reading = odom_delta(3.0, 1.0, -3.0);
+    let backward_reading = new_odom_delta(3.0, 1.0, -3.0);
     let table_reverse_variances = [1.1, 7.5, 1.1, 0.0];
     let nav2_reverse_variances = [0.202004848, 0.316038784, 0.202004848, 0.0];
     // The robot turns on the spot by more than a quarter turn.
-    let spin_reading = odom_delta(0.0, 0.0, 2.2);
+    let spin_reading = new_odom_delta(0.0, 0.0, 2.2);
     // The encoders jitter by half a centimetre, to the left and backwards, with a turn of 0.01 rad.
-    let jitter_reading = odom_delta(2.0, 0.005, -1.99);
+    let jitter_reading = new_odom_delta(2.0, 0.005, -1.99);
     let variance_cases = [
         (Table, bend_reading, bend_variances),
         (Nav2, bend_reading, bend_variances),
@@ -72,14 +72,14 @@ fn the_variances_of_each_rule_match_its_source() {
 
 #[test]
 fn nav2_and_beluga_differ_at_exactly_a_centimetre_only() {
-    let new_reading = |trans| odom_delta(1.0, trans, -0.4);
-    for (trans, nav2_rot1, beluga_rot1) in [
+    let new_reading = |trans| new_odom_delta(1.0, trans, -0.4);
+    for (trans, nav2_rot1_variance, beluga_rot1) in [
         (MAX_SPIN_DISTANCE.next_down(), 0.0, 0.0),
         (MAX_SPIN_DISTANCE, 1.0, 0.0),
         (MAX_SPIN_DISTANCE.next_up(), 1.0, 1.0),
     ] {
         let rot1_by_rule = |rule: OdometryRule| rule.legs(&new_reading(trans)).rot1;
-        assert_eq!([rot1_by_rule(Nav2), rot1_by_rule(Beluga)], [nav2_rot1, beluga_rot1], "{trans}");
+        assert_eq!([rot1_by_rule(Nav2), rot1_by_rule(Beluga)], [nav2_rot1_variance, beluga_rot1], "{trans}");
         for rule in OdometryRule::ALL {
             let OdomDelta { rot1, rot2, .. } = rule.legs(&new_reading(trans));
             assert!((rot1 + rot2 - 0.6).abs() < 1e-15, "{rule:?} loses a turn");
@@ -90,19 +90,21 @@ fn nav2_and_beluga_differ_at_exactly_a_centimetre_only() {
 /// The closed forms of E[sin² ε] are compared with quadrature where it is accurate, and with their limit for larger noise.
 #[test]
 fn the_mean_squared_sine_is_that_of_the_noise() {
-    for kind in NOISE_KINDS {
-        for tenths_of_decade in -60..=4 {
-            let std = 10f64.powf(f64::from(tenths_of_decade) / 10.0);
-            let mean_square: f64 =
-                noise_nodes(kind).iter().map(|node| node.weight * (std * node.value).sin().powi(2)).sum();
-            let computed_mean_square = kind.mean_squared_sine(Variance(std * std));
+    for noise_kind in NOISE_KINDS {
+        for decade_tenths in -60..=4 {
+            let std = 10f64.powf(f64::from(decade_tenths) / 10.0);
+            let expected_mean_square: f64 = noise_nodes(noise_kind)
+                .iter()
+                .map(|node| node.weight * (std * node.value).sin().powi(2))
+                .sum();
+            let computed_mean_square = noise_kind.mean_squared_sine(Variance(std * std));
             assert!(
-                (computed_mean_square / mean_square - 1.0).abs() < 1e-10,
-                "{kind:?} at {std}: {computed_mean_square}, not {mean_square}"
+                (computed_mean_square / expected_mean_square - 1.0).abs() < 1e-10,
+                "{noise_kind:?} at {std}: {computed_mean_square}, not {expected_mean_square}"
             );
         }
-        assert_eq!(kind.mean_squared_sine(Variance(0.0)), 0.0);
-        assert!((kind.mean_squared_sine(Variance(1e12)) - 0.5).abs() < 1e-6);
+        assert_eq!(noise_kind.mean_squared_sine(Variance(0.0)), 0.0);
+        assert!((noise_kind.mean_squared_sine(Variance(1e12)) - 0.5).abs() < 1e-6);
     }
 }
 
@@ -110,14 +112,14 @@ fn the_mean_squared_sine_is_that_of_the_noise() {
 #[test]
 fn exact_variances_match_samples() {
     let tested_readings =
-        [odom_delta(0.7, 1.5, 0.5), odom_delta(3.0, 1.0, -3.0), odom_delta(0.2, 0.3, FRAC_PI_2)];
+        [new_odom_delta(0.7, 1.5, 0.5), new_odom_delta(3.0, 1.0, -3.0), new_odom_delta(0.2, 0.3, FRAC_PI_2)];
     for (kind, rule) in NOISE_KINDS.into_iter().flat_map(|kind| OdometryRule::ALL.map(|rule| (kind, rule))) {
         for reading in tested_readings {
             let (executed_legs, leg_variances) = (rule.legs(&reading), rule.variances(&reading, &[0.05; 5]));
             let mut rng = seeded_rng(192);
             let mut draw_unit_noise = || kind.quantile(draw_centred_uniform(&mut rng));
             let start_pose = SE2::new(0.4, -0.2, 1.0);
-            let bearing = start_pose.theta() + executed_legs.rot1;
+            let drive_direction = start_pose.theta() + executed_legs.rot1;
             let correlation: f64 = -0.6;
             let sampled_error_pairs: Vec<[f64; 2]> = (0..SAMPLE_COUNT)
                 .map(|_| {
@@ -131,7 +133,7 @@ fn exact_variances_match_samples() {
                     let turn_error = executed_motion.legs.rot1 + executed_motion.legs.rot2
                         - executed_legs.rot1
                         - executed_legs.rot2;
-                    [dy * bearing.cos() - dx * bearing.sin(), turn_error]
+                    [dy * drive_direction.cos() - dx * drive_direction.sin(), turn_error]
                 })
                 .collect();
             let exact_variances = [
@@ -139,11 +141,11 @@ fn exact_variances_match_samples() {
                 leg_variances.heading_variance(correlation),
             ];
             for (k, exact_variances) in exact_variances.into_iter().enumerate() {
-                let mean_power_of = |exponent| {
-                    sampled_error_pairs.iter().map(|outcome| outcome[k].powi(exponent)).sum::<f64>()
+                let mean_of_powers = |power_exponent| {
+                    sampled_error_pairs.iter().map(|outcome| outcome[k].powi(power_exponent)).sum::<f64>()
                         / SAMPLE_COUNT as f64
                 };
-                let (mean_square, mean_fourth_power) = (mean_power_of(2), mean_power_of(4));
+                let (mean_square, mean_fourth_power) = (mean_of_powers(2), mean_of_powers(4));
                 let standard_error =
                     ((mean_fourth_power - mean_square * mean_square) / SAMPLE_COUNT as f64).sqrt();
                 assert!(

@@ -9,17 +9,17 @@ use motion::sim::alpha_calibrator::{AlphaCalibrator, Log, Model, Regressor, Sett
 use motion::{NoiseKind, OdomDelta, Variance};
 use nalgebra::Vector3;
 
-fn new_simulation(settings: Settings) -> AlphaCalibrator {
-    AlphaCalibrator::new(settings).expect("allowed")
+fn new_simulation(new_settings: Settings) -> AlphaCalibrator {
+    AlphaCalibrator::new(new_settings).expect("allowed")
 }
 
 /// Returns the poses of the base at start and end of a leg, by the reference.
-fn base_poses(calibration: &Calibration, leg_index: usize) -> [SE2; 2] {
+fn base_poses_of_leg(calibration: &Calibration, leg_index: usize) -> [SE2; 2] {
     calibration.legs[leg_index].reference.map(|pose| pose * calibration.corrected.base())
 }
 
 /// Returns for the four α's and the six systematic errors whether their intervals contain the true values.
-fn do_intervals_contain_truth(simulation: &AlphaCalibrator) -> Vec<bool> {
+fn which_intervals_contain_truth(simulation: &AlphaCalibrator) -> Vec<bool> {
     let calibration = simulation.calibration();
     let truth = simulation.truth().expect("a simulated log");
     let [lever_ahead, lever_left] = truth.lever_arm;
@@ -28,8 +28,8 @@ fn do_intervals_contain_truth(simulation: &AlphaCalibrator) -> Vec<bool> {
         [truth.clock_offset, truth.mount_yaw, lever_ahead, lever_left, distance_scale, turn_scale];
     let error_intervals = SystematicError::ALL.map(|error_kind| calibration.interval_of(error_kind));
     let intervals = calibration.intervals.iter().copied().chain(error_intervals);
-    let contains_true_value = |(interval, true_value): (Option<[f64; 2]>, f64)| {
-        let [low, high] = interval.expect("the log turns and drives");
+    let contains_true_value = |(confidence_interval, true_value): (Option<[f64; 2]>, f64)| {
+        let [low, high] = confidence_interval.expect("the log turns and drives");
         (low..=high).contains(&true_value)
     };
     intervals.zip(truth.alphas.into_iter().chain(true_errors)).map(contains_true_value).collect()
@@ -38,7 +38,7 @@ fn do_intervals_contain_truth(simulation: &AlphaCalibrator) -> Vec<bool> {
 #[test]
 fn the_initial_intervals_contain_the_true_values() {
     let simulation = new_simulation(Settings::default());
-    assert_eq!(do_intervals_contain_truth(&simulation), [true; 10]);
+    assert_eq!(which_intervals_contain_truth(&simulation), [true; 10]);
     assert_eq!(simulation.calibration().diagnostics.verdict, Verdict::Consistent);
 }
 
@@ -57,14 +57,14 @@ fn a_small_noise_of_the_reference_does_not_narrow_the_intervals_of_alphas() {
 /// If a duration is set, the settings of distance and angle have no effect.
 #[test]
 fn legs_end_after_a_duration_where_one_is_set() {
-    let settings = Settings { duration: 0.8, ..Settings::default() };
-    let mut simulation = new_simulation(settings);
+    let new_settings = Settings { duration: 0.8, ..Settings::default() };
+    let mut simulation = new_simulation(new_settings);
     assert!(simulation.legs().len() > 100, "{}", simulation.legs().len());
     for Leg { times: [start_time, end_time], .. } in simulation.legs() {
         assert!((end_time - start_time - 0.8).abs() < 0.06, "{start_time} {end_time}");
     }
     let legs_before = simulation.legs().to_vec();
-    simulation.configure(Settings { distance: 3.0, angle: 2.0, ..settings }).expect("allowed");
+    simulation.configure(Settings { distance: 3.0, angle: 2.0, ..new_settings }).expect("allowed");
     assert_eq!(simulation.legs(), legs_before);
     simulation.configure(Settings { distance: 3.0, angle: 2.0, ..Settings::default() }).expect("allowed");
     assert!(simulation.legs().len() < legs_before.len() / 2);
@@ -88,7 +88,7 @@ fn the_reference_noise_is_estimated_unless_it_is_stated() {
 /// The plots (panels) of squared residuals, one for each α, are compared with means of squared innovations, from which the variance due to the
 /// other α of the residual and to the reference is subtracted.
 #[test]
-fn panels_are_means_of_squared_innovations() {
+fn panel_points_are_means_of_squared_innovations() {
     let simulation = new_simulation(Settings::default());
     let Calibration { alphas, intervals, observations, leg_fits, .. } = simulation.calibration();
     let [rot1_panel, trans_panel, rot2_panel] = simulation.panels(Regressor::Turn);
@@ -104,8 +104,9 @@ fn panels_are_means_of_squared_innovations() {
         .map(|(observation, leg_fit)| {
             let [rot1, _, rot2] = observation.reading;
             let squared_turns = rot1 * rot1 + rot2 * rot2;
-            let [variance, innovation] = [leg_fit.stds[1].powi(2), leg_fit.standardized[1] * leg_fit.stds[1]];
-            [squared_turns, innovation * innovation - (variance - fitted_slope * squared_turns)]
+            let [innovation_variance, innovation] =
+                [leg_fit.stds[1].powi(2), leg_fit.standardized[1] * leg_fit.stds[1]];
+            [squared_turns, innovation * innovation - (innovation_variance - fitted_slope * squared_turns)]
         })
         .collect();
     regression_points.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -142,27 +143,27 @@ fn panels_are_means_of_squared_innovations() {
 /// where one leg with a large turn dominates.
 #[test]
 #[ignore = "nightly: 40 calibrations"]
-fn the_error_bars_of_panels_hold_the_fitted_lines() {
-    let [mut bin_count, mut count_over_2, mut count_over_3] = [0; 3];
+fn error_bars_of_panels_overlap_the_fitted_lines() {
+    let [mut bin_count, mut bins_over_2_errors, mut bins_over_3_errors] = [0; 3];
     for seed in 0..40 {
         let simulation = new_simulation(Settings { seed, ..Settings::default() });
         for panel in [Regressor::Distance, Regressor::Turn]
             .into_iter()
             .flat_map(|regressor| simulation.panels(regressor))
         {
-            let slope = panel.slope.expect("the log turns and drives");
-            for ((x, y), error) in panel.x.iter().zip(&panel.y).zip(&panel.error) {
-                let standard_errors = ((y - slope * x) / error).abs();
+            let line_slope = panel.slope.expect("the log turns and drives");
+            for ((x, y), error_bar) in panel.x.iter().zip(&panel.y).zip(&panel.error) {
+                let standard_errors = ((y - line_slope * x) / error_bar).abs();
                 bin_count += 1;
-                count_over_2 += usize::from(standard_errors > 2.0);
-                count_over_3 += usize::from(standard_errors > 3.0);
+                bins_over_2_errors += usize::from(standard_errors > 2.0);
+                bins_over_3_errors += usize::from(standard_errors > 3.0);
             }
         }
     }
     let fraction_of_bins = |count_outside: usize| count_outside as f64 / bin_count as f64;
     assert!(
-        fraction_of_bins(count_over_2) < 0.0455 && fraction_of_bins(count_over_3) < 0.0027,
-        "{count_over_2} and {count_over_3} of {bin_count}"
+        fraction_of_bins(bins_over_2_errors) < 0.0455 && fraction_of_bins(bins_over_3_errors) < 0.0027,
+        "{bins_over_2_errors} and {bins_over_3_errors} of {bin_count}"
     );
 }
 
@@ -179,9 +180,9 @@ fn turns_that_the_robot_did_not_make_are_in_no_panel() {
             (0.1 * row_index as f64, pose)
         })
         .collect();
-    let reference_samples = odometry_samples.iter().map(|(time, pose)| {
+    let reference_samples = odometry_samples.iter().map(|(sample_time, pose)| {
         let draw_error = |_| NoiseKind::Normal.sample(Variance(1e-6), &mut rng);
-        (*time, pose.boxplus([0; 3].map(draw_error).into()))
+        (*sample_time, pose.boxplus([0; 3].map(draw_error).into()))
     });
     let reference = Trajectory::new(reference_samples.collect::<Vec<_>>()).expect("times rise");
     let odometry = Trajectory::new(odometry_samples).expect("times rise");
@@ -200,11 +201,11 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
     let calibration = simulation.calibration();
     let leg_index = 100;
     let leg_view = simulation.leg(leg_index).expect("a leg");
-    let [start_pose, end_pose] = base_poses(calibration, leg_index);
+    let [start_pose, end_pose] = base_poses_of_leg(calibration, leg_index);
     let leg_motion = start_pose.inverse() * end_pose;
     assert_eq!(leg_view.ended, [leg_motion.x(), leg_motion.y(), leg_motion.theta()]);
-    let [rot1, trans, rot2] = calibration.observations[leg_index].reading;
-    let odometry_end = OdomDelta { rot1, trans, rot2 }.apply(&SE2::identity());
+    let [rot1, drive_distance, rot2] = calibration.observations[leg_index].reading;
+    let odometry_end = OdomDelta { rot1, trans: drive_distance, rot2 }.apply(&SE2::identity());
     assert!(
         leg_view
             .read
@@ -217,8 +218,8 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
     for (alpha, fitted_alpha) in alphas.iter_mut().zip(&calibration.alphas) {
         *alpha = fitted_alpha.expect("known");
     }
-    let leg_variances =
-        OdometryRule::Table.variances(&OdomDelta { rot1, trans, rot2 }, &alphas.map(|alpha| 4.0 * alpha));
+    let leg_variances = OdometryRule::Table
+        .variances(&OdomDelta { rot1, trans: drive_distance, rot2 }, &alphas.map(|alpha| 4.0 * alpha));
     let outcome_count = leg_view.outcomes.len() as f64;
     let outcome_variance_of = |quantity_of: &dyn Fn(&[f64; 3]) -> f64| {
         let quantity_mean = leg_view.outcomes.iter().map(quantity_of).sum::<f64>() / outcome_count;
@@ -227,12 +228,12 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
     };
     let drive_variance = outcome_variance_of(&|[x, y, _]| libm::hypot(*x, *y));
     let turn_variance = outcome_variance_of(&|[_, _, theta]| *theta);
-    for (computed, expected) in [
+    for (computed_variance, expected) in [
         (drive_variance, leg_variances.trans.0),
         (turn_variance, leg_variances.rot1.0 + leg_variances.rot2.0),
     ] {
         let tolerance = 4.0 * (2.0 / outcome_count).sqrt();
-        assert!((computed / expected - 1.0).abs() < tolerance, "{computed}, {expected}");
+        assert!((computed_variance / expected - 1.0).abs() < tolerance, "{computed_variance}, {expected}");
     }
     assert!(simulation.leg(calibration.legs.len()).is_none());
 }
@@ -241,11 +242,11 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
 fn the_nearest_leg_passes_through_the_point() {
     let simulation = new_simulation(Settings::default());
     let calibration = simulation.calibration();
-    let [start_pose, end_pose] = base_poses(calibration, 7);
+    let [start_pose, end_pose] = base_poses_of_leg(calibration, 7);
     let leg_midpoint = [0.5 * (start_pose.x() + end_pose.x()), 0.5 * (start_pose.y() + end_pose.y())];
     let nearest_index = simulation.nearest(leg_midpoint, 1e-9).expect("it leads through there");
     let distance_between = |a: [f64; 2], b: [f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]);
-    let [leg_start, leg_end] = base_poses(calibration, nearest_index).map(|pose| [pose.x(), pose.y()]);
+    let [leg_start, leg_end] = base_poses_of_leg(calibration, nearest_index).map(|pose| [pose.x(), pose.y()]);
     assert!(
         distance_between(leg_start, leg_midpoint) + distance_between(leg_midpoint, leg_end)
             - distance_between(leg_start, leg_end)
@@ -260,10 +261,10 @@ fn changing_the_model_or_the_rule_adjusts_the_other() {
     use motion::sim::settings::SettingRules;
     let change_settings = |apply_change: fn(&mut Settings), changed_key: &str| {
         let settings_before = Settings::default();
-        let mut settings = settings_before;
-        apply_change(&mut settings);
-        settings.adjust(&settings_before, &[changed_key]);
-        settings
+        let mut new_settings = settings_before;
+        apply_change(&mut new_settings);
+        new_settings.adjust(&settings_before, &[changed_key]);
+        new_settings
     };
     assert_eq!(change_settings(|s| s.model = Model::Omnidirectional, "model").rule, OdometryRule::Omni);
     assert_eq!(change_settings(|s| s.rule = OdometryRule::Omni, "rule").model, Model::Omnidirectional);
@@ -277,15 +278,15 @@ fn changing_the_model_or_the_rule_adjusts_the_other() {
 
 #[test]
 fn a_restored_fit_equals_the_saved_one_to_the_last_bit() {
-    let settings = Settings { rule: OdometryRule::Nav2, distance: 0.4, ..Settings::default() };
-    let simulation = new_simulation(settings);
+    let new_settings = Settings { rule: OdometryRule::Nav2, distance: 0.4, ..Settings::default() };
+    let simulation = new_simulation(new_settings);
     let saved_fit = postcard::to_allocvec(simulation.calibration()).expect("plain data");
     let fit = postcard::from_bytes(&saved_fit).expect("a fit");
-    let mut restored_simulation = AlphaCalibrator::restore(settings, fit).expect("allowed");
+    let mut restored_simulation = AlphaCalibrator::restore(new_settings, fit).expect("allowed");
     // Missing residuals are NaN, which does not equal itself. Results are therefore compared as text.
     let fit_results = |fit: &AlphaCalibrator| {
-        let panels = [Regressor::Turn, Regressor::Distance].map(|regressor| fit.panels(regressor));
-        format!("{:?} {panels:?} {:?} {:?}", fit.calibration(), fit.leg(5), fit.nearest([0.5, 1.0], 3.0))
+        let all_panels = [Regressor::Turn, Regressor::Distance].map(|regressor| fit.panels(regressor));
+        format!("{:?} {all_panels:?} {:?} {:?}", fit.calibration(), fit.leg(5), fit.nearest([0.5, 1.0], 3.0))
     };
     let results_before = fit_results(&simulation);
     assert!(
@@ -294,13 +295,13 @@ fn a_restored_fit_equals_the_saved_one_to_the_last_bit() {
             && !restored_simulation.is_pending()
     );
     // A new inflation changes only predictions. Another rule needs the log.
-    restored_simulation.configure(Settings { inflation: 2.0, ..settings }).expect("allowed");
+    restored_simulation.configure(Settings { inflation: 2.0, ..new_settings }).expect("allowed");
     assert!(!restored_simulation.is_pending() && fit_results(&restored_simulation) != results_before);
     restored_simulation.configure(Settings::default()).expect("allowed");
     assert!(
         restored_simulation.is_pending()
             && fit_results(&restored_simulation) == results_before
-            && *restored_simulation.fitted_settings() == settings
+            && *restored_simulation.fitted_settings() == new_settings
     );
 }
 
@@ -311,8 +312,8 @@ fn a_log_without_legs_gives_an_empty_calibration() {
         |count: usize| Trajectory::new((0..count).map(|i| (i as f64, SE2::identity()))).expect("times rise");
     simulation.set_log(vec![Log { odometry: standing_trajectory(10), reference: standing_trajectory(10) }]);
     assert!(simulation.truth().is_none());
-    let Calibration { alphas, legs, diagnostics, recommended, .. } = simulation.calibration();
-    assert!(legs.is_empty() && alphas.iter().all(Option::is_none) && recommended.is_none());
+    let Calibration { alphas, legs, diagnostics, recommended: recommendation, .. } = simulation.calibration();
+    assert!(legs.is_empty() && alphas.iter().all(Option::is_none) && recommendation.is_none());
     assert_eq!(diagnostics.verdict, Verdict::Unusable);
     assert!(simulation.leg(0).is_none() && simulation.nearest([0.0; 2], 1.0).is_none());
     assert!(

@@ -14,12 +14,12 @@ pub fn stats(settings: Settings) -> Stats {
     new_simulation(settings).stats()
 }
 
-fn start_and_next_pose(settings: &Settings) -> (SE2, SE2) {
+fn start_and_next_pose_of(settings: &Settings) -> (SE2, SE2) {
     (settings.start.into(), settings.next.into())
 }
 
 /// Returns an infinite stream of settings, each with two random poses some metres apart and a random command.
-fn random_settings(seed: u64) -> impl Iterator<Item = Settings> {
+fn draw_settings(seed: u64) -> impl Iterator<Item = Settings> {
     let mut rng = seeded_rng(seed);
     std::iter::repeat_with(move || {
         let mut draw_uniform_up_to = |max_abs: f64| draw_uniform(&mut rng, -max_abs, max_abs);
@@ -35,27 +35,27 @@ fn random_settings(seed: u64) -> impl Iterator<Item = Settings> {
 }
 
 /// Returns lines 1 to 8 of Table 5.1 as printed, except that angles are wrapped.
-fn table_as_printed(settings: &Settings) -> [f64; 8] {
-    let (x, next) = start_and_next_pose(settings);
+fn compute_printed_table(settings: &Settings) -> [f64; 8] {
+    let (x, next) = start_and_next_pose_of(settings);
     let dt = settings.command.dt;
     let (sin, cos) = x.theta().sin_cos();
-    let (dx, dy) = (x.x() - next.x(), x.y() - next.y());
-    let mu = 0.5 * (dx * cos + dy * sin) / (dy * cos - dx * sin);
-    let centre_x = 0.5 * (x.x() + next.x()) + mu * dy;
-    let centre_y = 0.5 * (x.y() + next.y()) - mu * dx;
+    let (start_dx, start_dy) = (x.x() - next.x(), x.y() - next.y());
+    let centre_mu = 0.5 * (start_dx * cos + start_dy * sin) / (start_dy * cos - start_dx * sin);
+    let centre_x = 0.5 * (x.x() + next.x()) + centre_mu * start_dy;
+    let centre_y = 0.5 * (x.y() + next.y()) - centre_mu * start_dx;
     let arc_radius = (x.x() - centre_x).hypot(x.y() - centre_y);
     let arc_turn = wrap_angle(
         (next.y() - centre_y).atan2(next.x() - centre_x) - (x.y() - centre_y).atan2(x.x() - centre_x),
     );
     let gamma = wrap_angle(next.theta() - x.theta() - arc_turn) / dt;
-    [mu, centre_x, centre_y, arc_radius, arc_turn, arc_turn / dt * arc_radius, arc_turn / dt, gamma]
+    [centre_mu, centre_x, centre_y, arc_radius, arc_turn, arc_turn / dt * arc_radius, arc_turn / dt, gamma]
 }
 
 #[test]
 fn the_printed_option_computes_the_lines_of_the_table() {
-    for settings in random_settings(1).take(20_000) {
+    for settings in draw_settings(1).take(20_000) {
         let computed_lines = new_simulation(Settings { printed: true, ..settings }).table().lines;
-        let expected_lines = table_as_printed(&settings);
+        let expected_lines = compute_printed_table(&settings);
         // The table loses digits if the radius is much larger than the distance, and for nearly full circles.
         let error_factor = 1.0 + expected_lines[0].abs() + expected_lines[3].abs();
         for (line_index, expected_value) in expected_lines.iter().enumerate() {
@@ -72,12 +72,12 @@ fn the_printed_option_computes_the_lines_of_the_table() {
 
 #[test]
 fn robots_end_where_their_arcs_do_and_the_last_turn_gives_the_final_heading() {
-    for settings in random_settings(3).take(2000) {
-        let (_, next_pose) = start_and_next_pose(&settings);
-        let Stats { commanded, driven, last_turn, .. } = stats(settings);
+    for settings in draw_settings(3).take(2000) {
+        let (_, next_pose) = start_and_next_pose_of(&settings);
+        let Stats { commanded: commanded_arc, driven, last_turn, .. } = stats(settings);
         assert!(wrap_angle(driven.end[2] + last_turn - next_pose.theta()).abs() < 1e-13, "{settings:?}");
         let [commanded_end, driven_end, _] = new_simulation(settings).poses_at(1.0);
-        for (end_pose, driven_arc) in [(commanded_end, commanded), (driven_end, driven)] {
+        for (end_pose, driven_arc) in [(commanded_end, commanded_arc), (driven_end, driven)] {
             assert_eq!([end_pose.x(), end_pose.y()], driven_arc.end[..2], "{settings:?}");
         }
     }
@@ -88,11 +88,11 @@ fn robots_end_where_their_arcs_do_and_the_last_turn_gives_the_final_heading() {
 #[test]
 fn the_printed_option_mirrors_centres_to_the_right() {
     let mut right_count = 0;
-    for settings in random_settings(4).take(2000) {
+    for settings in draw_settings(4).take(2000) {
         let signed_stats = stats(settings);
         let printed_stats = stats(Settings { printed: true, ..settings });
         let [x, y, _] = printed_stats.driven.end;
-        let (start_pose, next_pose) = start_and_next_pose(&settings);
+        let (start_pose, next_pose) = start_and_next_pose_of(&settings);
         let mirrored_end = [2.0 * start_pose.x() - next_pose.x(), 2.0 * start_pose.y() - next_pose.y()];
         let expected_end =
             if signed_stats.inverted.radius < 0.0 { mirrored_end } else { [next_pose.x(), next_pose.y()] };
@@ -109,11 +109,11 @@ fn the_printed_option_mirrors_centres_to_the_right() {
 
 #[test]
 fn p_is_the_product_of_the_factors_and_that_of_the_model() {
-    for (i, settings) in random_settings(5).take(4000).enumerate() {
+    for (i, settings) in draw_settings(5).take(4000).enumerate() {
         let noise = NOISE_KINDS[i % 2];
         let settings = Settings { noise, ..settings };
         let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise };
-        let (start_pose, next_pose) = start_and_next_pose(&settings);
+        let (start_pose, next_pose) = start_and_next_pose_of(&settings);
         let stats = stats(settings);
         assert_eq!(stats.prob, model.prob(&next_pose, &settings.command, &start_pose));
         assert_eq!(stats.density, model.pose_density(&next_pose, &settings.command, &start_pose));
@@ -136,19 +136,27 @@ fn p_is_the_product_of_the_factors_and_that_of_the_model() {
 #[test]
 fn without_noise_a_residual_is_zero_or_infinite() {
     let settings = Settings { alphas: [0.0; 6], ..settings_of_preset("straight") };
-    let Stats { factors, prob, share, density, weakest, .. } = stats(settings);
-    assert_eq!(factors.map(|factor| factor.deviations), [f64::NEG_INFINITY, 0.0, f64::INFINITY]);
-    assert_eq!((prob, share, density, weakest), (0.0, 0.0, None, 0));
+    let Stats {
+        factors: probability_factors,
+        prob: table_score,
+        share: share_of_peak,
+        density: pose_density,
+        weakest: weakest_index,
+        ..
+    } = stats(settings);
+    assert_eq!(probability_factors.map(|factor| factor.deviations), [f64::NEG_INFINITY, 0.0, f64::INFINITY]);
+    assert_eq!((table_score, share_of_peak, pose_density, weakest_index), (0.0, 0.0, None, 0));
     let arc_end = [1.0, 0.0, 0.0];
-    let Stats { factors, prob, share, .. } = stats(Settings { next: arc_end, ..settings });
-    assert_eq!(factors.map(|factor| factor.deviations), [0.0; 3]);
-    assert_eq!((prob, share), (1.0, 1.0));
+    let Stats { factors: probability_factors, prob: table_score, share: share_of_peak, .. } =
+        stats(Settings { next: arc_end, ..settings });
+    assert_eq!(probability_factors.map(|factor| factor.deviations), [0.0; 3]);
+    assert_eq!((table_score, share_of_peak), (1.0, 1.0));
 }
 
 /// The expected lateral velocity is computed by central differences of the path.
 #[test]
 fn a_last_turn_gives_the_twist_a_lateral_velocity() {
-    for settings in random_settings(6).take(200) {
+    for settings in draw_settings(6).take(200) {
         let simulation = new_simulation(settings);
         let [along_velocity, xi_lateral, _] = simulation.stats().xi;
         let time_step = 1e-5;
@@ -156,13 +164,13 @@ fn a_last_turn_gives_the_twist_a_lateral_velocity() {
             let path_fraction = 0.125 * i as f64 + time_step;
             let [pose_before, middle_pose, pose_after] =
                 [path_fraction - time_step, path_fraction, path_fraction + time_step]
-                    .map(|progress| simulation.poses_at(progress)[2]);
-            let velocity = [
+                    .map(|time_fraction| simulation.poses_at(time_fraction)[2]);
+            let path_velocity = [
                 (pose_after.x() - pose_before.x()) / (2.0 * time_step),
                 (pose_after.y() - pose_before.y()) / (2.0 * time_step),
             ];
             let (sin, cos) = middle_pose.theta().sin_cos();
-            let lateral_velocity = cos * velocity[1] - sin * velocity[0];
+            let lateral_velocity = cos * path_velocity[1] - sin * path_velocity[0];
             assert!(
                 (lateral_velocity - xi_lateral).abs()
                     < 1e-8 * (1.0 + along_velocity.abs() + xi_lateral.abs()),
@@ -176,8 +184,8 @@ fn a_last_turn_gives_the_twist_a_lateral_velocity() {
         // Without the last turn the lateral component of the twist is 0.
         let Stats { driven, .. } = simulation.stats();
         let next_without_last_turn = [settings.next[0], settings.next[1], driven.end[2]];
-        let xi = stats(Settings { next: next_without_last_turn, ..settings }).xi;
-        assert!(xi[1].abs() < 1e-12 * (1.0 + xi[0].abs()), "{xi:?}");
+        let twist_to_next = stats(Settings { next: next_without_last_turn, ..settings }).xi;
+        assert!(twist_to_next[1].abs() < 1e-12 * (1.0 + twist_to_next[0].abs()), "{twist_to_next:?}");
     }
 }
 
@@ -185,11 +193,11 @@ fn a_last_turn_gives_the_twist_a_lateral_velocity() {
 fn straight_motion_has_no_centre_and_no_motion_has_no_arc() {
     let settings = Settings { next: [2.0, 0.0, 0.0], ..Settings::default() };
     let simulation = new_simulation(settings);
-    let Stats { inverted, factors, .. } = simulation.stats();
-    assert_eq!((inverted.centre, inverted.radius, inverted.turn), (None, f64::INFINITY, 0.0));
-    assert_eq!(factors[0].estimate, 2.0);
-    let [mu, x, y, radius, turn, v, ..] = simulation.table().lines;
-    assert!([mu, x, y, radius].iter().all(|line| line.is_infinite()) && turn == 0.0 && v == 2.0);
+    let Stats { inverted: inverted_arc, factors: probability_factors, .. } = simulation.stats();
+    assert_eq!((inverted_arc.centre, inverted_arc.radius, inverted_arc.turn), (None, f64::INFINITY, 0.0));
+    assert_eq!(probability_factors[0].estimate, 2.0);
+    let [centre_mu, x, y, table_radius, turn, v, ..] = simulation.table().lines;
+    assert!([centre_mu, x, y, table_radius].iter().all(|line| line.is_infinite()) && turn == 0.0 && v == 2.0);
     let tiny_motion = [f64::from_bits(1), 0.0, 0.0];
     let simulation_with_tiny_motion =
         ArcAnatomy::new(Settings { next: tiny_motion, ..settings }).expect("valid settings");
@@ -198,8 +206,9 @@ fn straight_motion_has_no_centre_and_no_motion_has_no_arc() {
     assert_eq!(backward_stats.factors[0].estimate, -2.0);
     assert!(backward_stats.factors[1].estimate.to_bits() == 0, "a turn of −0");
     let settings_on_the_spot = Settings { next: [0.0, 0.0, 0.7], ..settings };
-    let Stats { factors, density, xi, .. } = stats(settings_on_the_spot);
-    assert_eq!(factors.map(|factor| factor.estimate), [0.0, 0.7, 0.0]);
-    assert_eq!((density, xi), (Some(f64::INFINITY), [0.0, 0.0, 0.7]));
+    let Stats { factors: probability_factors, density: pose_density, xi: twist_to_next, .. } =
+        stats(settings_on_the_spot);
+    assert_eq!(probability_factors.map(|factor| factor.estimate), [0.0, 0.7, 0.0]);
+    assert_eq!((pose_density, twist_to_next), (Some(f64::INFINITY), [0.0, 0.0, 0.7]));
     assert!(ArcAnatomy::new(settings_on_the_spot).expect("valid settings").table().lines[0].is_nan());
 }

@@ -1,6 +1,6 @@
 //! The simulation of the Banana Machine: common random numbers, settings and results.
 
-use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, pose_distance, seeded_rng, settings_of_preset};
+use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, max_difference, seeded_rng, settings_of_preset};
 use motion::geom::lanes::MAX_SIN_COS_ERROR;
 use motion::geom::se2::SE2;
 use motion::sim::View;
@@ -29,18 +29,18 @@ fn settings_of_both_models() -> [Settings; 2] {
 }
 
 /// Runs a check for clouds of both models and both kinds of noise: forward, in reverse, nearly on the spot, straight, and of one more command.
-pub fn check_varied_clouds(
+pub fn check_in_varied_clouds(
     command: [f64; 3],
     sample_counts: &[usize],
     mut check_simulation: impl FnMut(&BananaMachine, &str),
 ) {
     for settings in settings_of_both_models() {
         for noise in NOISE_KINDS {
-            for [v, omega, dt] in
+            for [v, omega, duration] in
                 [[1.0, 0.5, 1.0], [-1.0, 1.2, 1.4], [0.06, -1.5, 1.0], [2.0, 0.0, 2.0], command]
             {
                 for &sample_count in sample_counts {
-                    let command = VelocityCmd { v, omega, dt };
+                    let command = VelocityCmd { v, omega, dt: duration };
                     let odometry_alphas = [0.02, 0.01, 0.02, 0.01];
                     let settings =
                         Settings { noise, command, odometry_alphas, samples: sample_count, ..settings };
@@ -51,7 +51,7 @@ pub fn check_varied_clouds(
     }
 }
 
-fn results_as_text(simulation: &BananaMachine) -> String {
+fn format_results(simulation: &BananaMachine) -> String {
     format!(
         "{:?} {:?} {:?} {:?}",
         simulation.settings(),
@@ -62,7 +62,7 @@ fn results_as_text(simulation: &BananaMachine) -> String {
 }
 
 /// Accuracy of a pose after a metre or two. The factors of its coordinates have the accuracy of a sine or cosine.
-const POSE_ACCURACY: f64 = 4.0 * MAX_SIN_COS_ERROR;
+const POSE_TOLERANCE: f64 = 4.0 * MAX_SIN_COS_ERROR;
 
 /// The poses equal samples of the model with the same seed, forward and in reverse.
 #[test]
@@ -78,7 +78,7 @@ fn the_cloud_equals_samples_of_the_model() {
             |settings: Settings, draw_pose: &mut dyn FnMut(&mut Xoshiro256PlusPlus) -> SE2| {
                 let mut rng = seeded_rng(2005);
                 for pose in simulation(settings).poses() {
-                    assert!(pose_distance(&pose, &draw_pose(&mut rng)) < POSE_ACCURACY, "{settings:?}");
+                    assert!(max_difference(&pose, &draw_pose(&mut rng)) < POSE_TOLERANCE, "{settings:?}");
                 }
             };
         let model = VelocityModel { alphas: VelocityAlphas(settings.velocity_alphas), noise };
@@ -104,7 +104,7 @@ fn changed_settings_move_the_same_robots() {
         let settings = simulation.settings();
         let model = VelocityModel { alphas: VelocityAlphas(settings.velocity_alphas), noise: settings.noise };
         let [v_std, omega_std, gamma_std] =
-            model.variances(&settings.command).map(|variance| variance.0.sqrt());
+            model.variances(&settings.command).map(|noise_variance| noise_variance.0.sqrt());
         (0..300)
             .map(|i| {
                 let inspected_sample = simulation.inspect(i).unwrap();
@@ -147,7 +147,7 @@ fn a_large_cloud_grows_in_blocks() {
         while growing_simulation.shown_count() < larger_settings.samples {
             growing_simulation.add_samples(growing_simulation.block_size());
         }
-        assert_eq!(results_as_text(&growing_simulation), results_as_text(&simulation(larger_settings)));
+        assert_eq!(format_results(&growing_simulation), format_results(&simulation(larger_settings)));
     }
 }
 
@@ -176,7 +176,7 @@ fn long_turns_stay_on_the_branch_of_the_command() {
         );
         for (pose, twist) in simulation.poses().zip(simulation.twists()) {
             assert!((twist.z - omega).abs() <= PI);
-            assert!(pose_distance(&SE2::exp(&twist), &pose) < 1e-12);
+            assert!(max_difference(&SE2::exp(&twist), &pose) < 1e-12);
         }
     }
 }
@@ -217,26 +217,26 @@ fn isolating_an_alpha_sets_the_others_to_zero() {
         "the sliders stay where they are"
     );
     reconfigured_simulation.configure(straight_settings).unwrap();
-    assert_eq!(results_as_text(&reconfigured_simulation), results_as_text(&simulation(straight_settings)));
+    assert_eq!(format_results(&reconfigured_simulation), format_results(&simulation(straight_settings)));
 }
 
 #[test]
 fn the_reaching_command_ends_at_the_target() {
     for (x, y) in [(1.0, 0.2), (1.0, -2.0), (-1.0, 0.3), (-0.5, -0.5), (2.0, 0.0), (-2.0, 0.0), (0.0, 1.0)] {
-        for (omega, dt) in [(0.3, 0.5), (-0.2, 2.0), (2.0, 3.0), (-1.5, 2.5)] {
-            let command = command_reaching(x, y, &VelocityCmd { v: 1.0, omega, dt });
+        for (omega, duration) in [(0.3, 0.5), (-0.2, 2.0), (2.0, 3.0), (-1.5, 2.5)] {
+            let command = command_reaching(x, y, &VelocityCmd { v: 1.0, omega, dt: duration });
             let settings = Settings { command, ..settings_of_preset("gentle") };
             let end_pose = simulation(settings).linearized_moments().mean;
             let end_position = SE2::new(end_pose.x, end_pose.y, 0.0);
             // The rounding of the end is proportional to the length |v|Δt of the arc.
-            let rounding_tolerance = 1e-14 * (1.0 + (command.v * dt).abs());
+            let rounding_tolerance = 1e-14 * (1.0 + (command.v * duration).abs());
             assert!(
-                pose_distance(&end_position, &SE2::new(x, y, 0.0)) < rounding_tolerance,
+                max_difference(&end_position, &SE2::new(x, y, 0.0)) < rounding_tolerance,
                 "({x}, {y}): {end_pose}"
             );
             // The turns of arcs to the same end differ by full circles. The nearest turn is therefore within π. A straight line has no
             // alternative.
-            assert!(((command.omega - omega) * dt).abs() <= PI + 1e-14 || command.omega == 0.0);
+            assert!(((command.omega - omega) * duration).abs() <= PI + 1e-14 || command.omega == 0.0);
         }
     }
     let current_command = VelocityCmd { v: 1.0, omega: 1.2, dt: 3.0 };
@@ -259,16 +259,16 @@ fn exponential_statistics_are_undefined_near_a_full_turn() {
     for (omega, is_defined) in [(0.9, true), (2.0, false), (-2.0, false)] {
         let simulation = simulate_turn(omega);
         assert_eq!(simulation.is_exponential_defined(), is_defined, "ω = {omega}");
-        let (stats, contours) = (simulation.stats(), simulation.contours());
+        let (stats, cloud_contours) = (simulation.stats(), simulation.contours());
         let exponential_values = [stats.gaussian_skew, stats.coverage.exponential, stats.exponential.mean.x];
         assert!(
-            exponential_values.iter().all(|statistic| statistic.is_nan() != is_defined),
+            exponential_values.iter().all(|exponential_value| exponential_value.is_nan() != is_defined),
             "ω = {omega}: {stats:?}"
         );
-        assert_eq!(contours.exponential.is_empty(), !is_defined);
-        assert_eq!(contours.twist_ellipse.is_empty(), !is_defined);
+        assert_eq!(cloud_contours.exponential.is_empty(), !is_defined);
+        assert_eq!(cloud_contours.twist_ellipse.is_empty(), !is_defined);
         assert!(stats.cross_track_skew.is_finite() && stats.coverage.ellipse.is_finite());
-        assert_eq!(contours.ellipse.len(), contours.linearized.len());
+        assert_eq!(cloud_contours.ellipse.len(), cloud_contours.linearized.len());
     }
 }
 
@@ -307,16 +307,16 @@ fn the_executed_motion_leads_to_the_pose() {
             let executed_pose = match legs {
                 None => {
                     assert_eq!(executed_motion, [v_hat, omega_hat, gamma_hat]);
-                    let dt = settings.command.dt;
-                    let executed_pose = SE2::exp(&Vector3::new(v_hat * dt, 0.0, omega_hat * dt));
-                    executed_pose * SE2::new(0.0, 0.0, gamma_hat * dt)
+                    let duration = settings.command.dt;
+                    let executed_pose = SE2::exp(&Vector3::new(v_hat * duration, 0.0, omega_hat * duration));
+                    executed_pose * SE2::new(0.0, 0.0, gamma_hat * duration)
                 }
                 Some(legs) => {
                     assert_eq!(executed_motion, [legs.rot1, legs.trans, legs.rot2]);
                     legs.apply(&SE2::identity())
                 }
             };
-            assert!(pose_distance(&executed_pose, &pose) < 1e-12);
+            assert!(max_difference(&executed_pose, &pose) < 1e-12);
         }
     }
 }
@@ -345,8 +345,8 @@ fn a_reverse_aware_robot_has_no_noise_of_half_turns() {
 /// The circle of additive noise is equally large for a short and a long drive. It fits the cloud of the preset "gentle".
 #[test]
 fn additive_noise_does_not_depend_on_the_motion() {
-    for [v, omega, dt] in [[0.05, 0.0, 1.0], [1.0, 0.5, 1.0], [1.0, 0.5, 10.0]] {
-        let command = VelocityCmd { v, omega, dt };
+    for [v, omega, duration] in [[0.05, 0.0, 1.0], [1.0, 0.5, 1.0], [1.0, 0.5, 10.0]] {
+        let command = VelocityCmd { v, omega, dt: duration };
         let simulation = simulation(Settings { command, samples: 10, ..settings_of_preset("gentle") });
         let commanded_end = simulation.linearized_moments().mean;
         for [x, y] in simulation.contours().additive {
@@ -361,7 +361,7 @@ fn additive_noise_does_not_depend_on_the_motion() {
 
 /// The default seed is chosen so that each readout differs from its exact value by less than a fifth of a standard error.
 #[test]
-fn the_initial_cloud_is_close_to_the_exact_values() {
+fn statistics_of_the_initial_cloud_are_close_to_the_exact_values() {
     let simulation = simulation(Settings::default());
     let (cloud_stats, exact_column) = (simulation.stats(), simulation.table().exact);
     assert!(
@@ -394,7 +394,7 @@ fn numbers_in_messages_are_formatted_as_in_javascript() {
     ] {
         assert_message("v", message, &|command| command.v = invalid_speed);
     }
-    for (seconds, message) in [(0.0, "0"), (-0.000_001, "-0.000001"), (5e-7, "5e-7"), (-1e-300, "-1e-300")] {
-        assert_message("dt", message, &|command| command.dt = seconds);
+    for (duration, message) in [(0.0, "0"), (-0.000_001, "-0.000001"), (5e-7, "5e-7"), (-1e-300, "-1e-300")] {
+        assert_message("dt", message, &|command| command.dt = duration);
     }
 }

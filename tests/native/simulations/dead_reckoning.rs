@@ -12,21 +12,21 @@ pub fn simulation(settings: Settings) -> DeadReckoning {
     DeadReckoning::new(Settings { step: selected_step, ..settings }).expect("valid settings")
 }
 
-fn settings_with_robots(robot_count: usize) -> Settings {
+fn robot_settings(robot_count: usize) -> Settings {
     Settings { samples: robot_count, ..Settings::default() }
 }
 
 /// Returns settings where approximations fail, such as sharp turns, reverse, large noise, and headings beyond half a turn.
-fn challenging_settings() -> Vec<Settings> {
+fn list_challenging_settings() -> Vec<Settings> {
     let settings_with_command = |v: f64, omega: f64, dt: f64, alphas| Settings {
         command: VelocityCmd { v, omega, dt },
         alphas,
         steps: 12,
-        ..settings_with_robots(700)
+        ..robot_settings(700)
     };
     let default_alphas = Settings::default().alphas;
     vec![
-        settings_with_robots(700),
+        robot_settings(700),
         settings_with_command(-1.0, 0.5, 0.2, default_alphas),
         settings_with_command(1.0, -2.0, 1.0, default_alphas),
         settings_with_command(1.0, 0.0, 0.5, default_alphas),
@@ -34,7 +34,7 @@ fn challenging_settings() -> Vec<Settings> {
         settings_with_command(0.3, 7.0, 1.0, [0.1; 6]),
         settings_with_command(1.0, 0.5, 0.2, [0.0; 6]),
         settings_with_command(1.0, 0.5, 0.2, [0.5, 0.1, 20.0, 4.0, 3.0, 1.0]),
-        Settings { per: NoisePer::Path, ..settings_with_robots(700) },
+        Settings { per: NoisePer::Path, ..robot_settings(700) },
     ]
 }
 
@@ -51,7 +51,7 @@ fn assert_same_pose([x, y, theta]: [f64; 3], expected_pose: &SE2, path_scale: f6
 #[test]
 fn lanes_agree_with_poses_composed_one_by_one() {
     use motion::noise::draw_centred_uniform;
-    for settings in challenging_settings() {
+    for settings in list_challenging_settings() {
         let simulation = simulation(settings);
         let (u, model) = (settings.command, settings.model());
         // Robot 513 is the second robot of the third block of 256. Each block has its own stream of random numbers.
@@ -79,7 +79,7 @@ fn lanes_agree_with_poses_composed_one_by_one() {
 /// The expected means, covariances and relative errors are sums over the paths of all robots.
 #[test]
 fn moments_are_those_of_the_cloud() {
-    for (i, settings) in challenging_settings().into_iter().enumerate() {
+    for (i, settings) in list_challenging_settings().into_iter().enumerate() {
         let simulation = simulation(settings);
         let n = settings.samples as f64;
         let rollout_paths: Vec<_> = (0..settings.samples)
@@ -132,8 +132,8 @@ fn moments_are_those_of_the_cloud() {
 fn ratios_and_misses_are_counted() {
     let simulation = simulation(Settings::default());
     for recursion in RECURSIONS {
-        let comparison = simulation.comparison(recursion);
-        for (axis, misses) in comparison.misses.iter().enumerate() {
+        let variance_comparison = simulation.comparison(recursion);
+        for (axis, axis_misses) in variance_comparison.misses.iter().enumerate() {
             let expected_ratios: Vec<f64> = (0..20)
                 .map(|k| {
                     let predicted_cov = simulation.predicted_covariances(recursion)[k].expect("a covariance");
@@ -141,7 +141,7 @@ fn ratios_and_misses_are_counted() {
                 })
                 .collect();
             assert!(
-                comparison
+                variance_comparison
                     .ratios
                     .iter()
                     .zip(&expected_ratios)
@@ -149,37 +149,34 @@ fn ratios_and_misses_are_counted() {
             );
             let missed_steps: Vec<u32> =
                 (1..=20).filter(|k| (expected_ratios[*k as usize - 1] - 1.0).abs() > 0.05).collect();
-            assert!(misses.decidable);
+            assert!(axis_misses.decidable);
             assert_eq!(
-                (misses.first, misses.last),
+                (axis_misses.first, axis_misses.last),
                 (missed_steps.first().copied(), missed_steps.last().copied())
             );
-            assert_eq!(misses.end, expected_ratios[19] - 1.0);
+            assert_eq!(axis_misses.end, expected_ratios[19] - 1.0);
         }
     }
 }
 
 /// Returns for each component whether there are enough robots to decide if the chapter's recursion misses.
-fn are_misses_decidable(settings: Settings) -> [bool; 3] {
-    simulation(settings).comparison(Compounding::Chapter).misses.map(|misses| misses.decidable)
+fn misses_decidable(settings: Settings) -> [bool; 3] {
+    simulation(settings).comparison(Compounding::Chapter).misses.map(|axis_misses| axis_misses.decidable)
 }
 
 /// Misses of the chapter's recursion are reported only if there are enough robots to measure their variance, which must not be 0.
 #[test]
 fn misses_are_reported_with_enough_robots_only() {
-    assert_eq!(are_misses_decidable(Settings::default()), [true; 3]);
-    assert_eq!(are_misses_decidable(settings_with_robots(5000)), [false; 3]);
-    assert_eq!(
-        are_misses_decidable(Settings { alphas: [0.0; 6], ..settings_with_robots(20_000) }),
-        [false; 3]
-    );
+    assert_eq!(misses_decidable(Settings::default()), [true; 3]);
+    assert_eq!(misses_decidable(robot_settings(5000)), [false; 3]);
+    assert_eq!(misses_decidable(Settings { alphas: [0.0; 6], ..robot_settings(20_000) }), [false; 3]);
     let empty_simulation = DeadReckoning::with_shown_count(Settings::default(), 0).expect("valid settings");
     assert!(
         empty_simulation
             .comparison(Compounding::Chapter)
             .misses
             .iter()
-            .all(|misses| !misses.decidable && misses.end.is_nan())
+            .all(|axis_misses| !axis_misses.decidable && axis_misses.end.is_nan())
     );
     assert_eq!(empty_simulation.stats().n, 0);
 }
@@ -188,37 +185,35 @@ fn misses_are_reported_with_enough_robots_only() {
 #[test]
 fn a_zero_variance_has_no_relative_error() {
     let errors_with = |settings| simulation(settings).measured_moments()[1].relative_error;
-    for samples in [1, 2] {
+    for sample_count in [1, 2] {
         assert!(
-            errors_with(Settings { alphas: [0.0; 6], ..settings_with_robots(samples) })
+            errors_with(Settings { alphas: [0.0; 6], ..robot_settings(sample_count) })
                 .iter()
                 .all(|relative_error| relative_error.is_nan())
         );
     }
-    assert!(errors_with(settings_with_robots(1)).iter().all(|relative_error| relative_error.is_nan()));
+    assert!(errors_with(robot_settings(1)).iter().all(|relative_error| relative_error.is_nan()));
     // Two robots always have a kurtosis of 1. The formula would therefore give an error of 0.
-    assert!(
-        errors_with(settings_with_robots(2)).iter().all(|error| error.is_finite() && *error >= 2f64.sqrt())
-    );
+    assert!(errors_with(robot_settings(2)).iter().all(|error| error.is_finite() && *error >= 2f64.sqrt()));
     // Robots that only turn have no variance along the track.
     let command_on_the_spot = VelocityCmd { v: 0.0, omega: 0.5, dt: 0.2 };
     let [along_error, _, heading_error] = errors_with(Settings {
         command: command_on_the_spot,
         alphas: [0.0, 0.0, 0.0, 0.02, 0.0, 0.0],
-        ..settings_with_robots(300)
+        ..robot_settings(300)
     })
     .into();
     assert!(along_error.is_nan() && heading_error.is_finite(), "{along_error} {heading_error}");
     // The squares of such small variances underflow to 0.
     let slow_drive_settings =
-        Settings { command: VelocityCmd { v: 1e-100, omega: 0.0, dt: 0.2 }, ..settings_with_robots(300) };
-    assert_eq!(are_misses_decidable(slow_drive_settings), [false; 3]);
+        Settings { command: VelocityCmd { v: 1e-100, omega: 0.0, dt: 0.2 }, ..robot_settings(300) };
+    assert_eq!(misses_decidable(slow_drive_settings), [false; 3]);
 }
 
 /// Fourth-order corrections can produce a matrix that is no covariance. From that step on there is no covariance and no ratio.
 #[test]
 fn a_fourth_order_without_a_covariance_has_no_ratio() {
-    let settings = Settings { alphas: [0.02, 0.02, 60.0, 60.0, 5.0, 5.0], ..settings_with_robots(1000) };
+    let settings = Settings { alphas: [0.02, 0.02, 60.0, 60.0, 5.0, 5.0], ..robot_settings(1000) };
     let simulation = simulation(settings);
     let predicted_covs = simulation.predicted_covariances(Compounding::FourthOrder);
     let first_undefined = predicted_covs.iter().position(Option::is_none).expect("some step without");
@@ -241,11 +236,11 @@ fn a_fourth_order_without_a_covariance_has_no_ratio() {
 /// scale the noise.
 #[test]
 fn a_seed_gives_the_same_draws() {
-    let large_simulation = simulation(settings_with_robots(1500));
-    let small_simulation = simulation(settings_with_robots(300));
-    let short_simulation = simulation(Settings { steps: 7, ..settings_with_robots(300) });
+    let large_simulation = simulation(robot_settings(1500));
+    let small_simulation = simulation(robot_settings(300));
+    let short_simulation = simulation(Settings { steps: 7, ..robot_settings(300) });
     let noisy_simulation =
-        simulation(Settings { alphas: [0.08, 0.08, 0.08, 0.08, 0.02, 0.02], ..settings_with_robots(300) });
+        simulation(Settings { alphas: [0.08, 0.08, 0.08, 0.08, 0.02, 0.02], ..robot_settings(300) });
     for robot_index in [0, 1, 255, 256, 299] {
         let path = large_simulation.rollout(robot_index).expect("a robot");
         assert_eq!(small_simulation.rollout(robot_index).as_ref(), Some(&path));
@@ -254,15 +249,15 @@ fn a_seed_gives_the_same_draws() {
         let u = Settings::default().command;
         let first_step_noise_of = |path: &[[f64; 3]]| {
             let [x, y, theta] = path[0];
-            let inversion = motion::invert_arc(&SE2::identity(), &SE2::new(x, y, theta), u.dt);
-            Vector3::new(inversion.v_hat - u.v, inversion.omega_hat - u.omega, inversion.gamma_hat)
+            let executed_arc = motion::invert_arc(&SE2::identity(), &SE2::new(x, y, theta), u.dt);
+            Vector3::new(executed_arc.v_hat - u.v, executed_arc.omega_hat - u.omega, executed_arc.gamma_hat)
         };
         let double_noise = first_step_noise_of(&noisy_simulation.rollout(robot_index).expect("a robot"));
         assert!((double_noise - first_step_noise_of(&path) * 2.0).amax() < 1e-12, "{double_noise}");
     }
     assert_ne!(
         large_simulation.rollout(0),
-        simulation(Settings { seed: 4, ..settings_with_robots(300) }).rollout(0)
+        simulation(Settings { seed: 4, ..robot_settings(300) }).rollout(0)
     );
     assert_eq!(large_simulation.rollout(1500), None);
 }
@@ -278,7 +273,7 @@ fn noise_of_the_whole_path_is_divided_among_its_steps() {
     for step_count in [1, 20, 200] {
         let command = VelocityCmd { dt: whole_command.dt / f64::from(step_count), ..whole_command };
         let settings =
-            Settings { command, steps: step_count, step: 1, per: NoisePer::Path, ..settings_with_robots(1) };
+            Settings { command, steps: step_count, step: 1, per: NoisePer::Path, ..robot_settings(1) };
         let step_variances =
             settings.model().variances(&command).map(|variance| variance.0 * command.dt * command.dt);
         for i in 0..3 {
@@ -299,19 +294,19 @@ fn noise_of_the_whole_path_is_divided_among_its_steps() {
 fn the_level_of_heading_noise_is_that_of_four_alphas() {
     assert_eq!(Settings::default().heading_noise(), Some(0.02));
     assert_eq!(
-        Settings { alphas: settings_of_preset::<Settings>("doubled").alphas, ..settings_with_robots(1) }
+        Settings { alphas: settings_of_preset::<Settings>("doubled").alphas, ..robot_settings(1) }
             .heading_noise(),
         Some(0.08)
     );
     assert_eq!(
-        Settings { alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.0], ..settings_with_robots(1) }.heading_noise(),
+        Settings { alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.0], ..robot_settings(1) }.heading_noise(),
         None
     );
 }
 
 #[test]
 fn outlines_are_two_standard_deviations_from_the_commanded_pose() {
-    let settings = Settings { step: 20, compounding: Compounding::FirstOrder, ..settings_with_robots(300) };
+    let settings = Settings { step: 20, compounding: Compounding::FirstOrder, ..robot_settings(300) };
     let simulation = simulation(settings);
     let covariance = simulation.predicted_covariances(Compounding::FirstOrder)[19].expect("a covariance");
     let nominal_pose = simulation.nominal_poses()[19];
@@ -326,16 +321,16 @@ fn outlines_are_two_standard_deviations_from_the_commanded_pose() {
         assert!((outline_position.dot(&(inverse_cov * outline_position)) - 4.0).abs() < 1e-9);
     }
     // In the first step the predicted lateral variance is 0, so that the outline is a line.
-    let first_outlines =
-        DeadReckoning::new(settings_with_robots(300)).expect("valid settings").outlines(1).expect("a step");
-    assert!(first_outlines.predicted.iter().all(|[_, lateral]| *lateral == 0.0));
+    let outlines_after_first_step =
+        DeadReckoning::new(robot_settings(300)).expect("valid settings").outlines(1).expect("a step");
+    assert!(outlines_after_first_step.predicted.iter().all(|[_, lateral_offset]| *lateral_offset == 0.0));
 }
 
 #[test]
 fn milestones_are_the_quarters_of_the_path_but_not_the_selected_step() {
-    let milestone_steps_of = |steps: u32, step: u32| {
-        let simulation = simulation(Settings { steps, step, ..settings_with_robots(20) });
-        let step_of = |poses: &[[f64; 3]]| (1..=steps).find(|step| simulation.poses(*step) == poses);
+    let milestone_steps_of = |step_count: u32, step: u32| {
+        let simulation = simulation(Settings { steps: step_count, step, ..robot_settings(20) });
+        let step_of = |poses: &[[f64; 3]]| (1..=step_count).find(|step| simulation.poses(*step) == poses);
         simulation.milestones().iter().map(|milestone| step_of(&milestone.poses)).collect::<Vec<_>>()
     };
     assert_eq!(milestone_steps_of(20, 20), [5, 10, 15].map(Some));
@@ -345,7 +340,7 @@ fn milestones_are_the_quarters_of_the_path_but_not_the_selected_step() {
 
 #[test]
 fn the_commanded_path_leads_through_its_poses() {
-    for settings in challenging_settings() {
+    for settings in list_challenging_settings() {
         let simulation = simulation(settings);
         let path = simulation.commanded_path();
         let chords_per_step = (path.len() - 1) / settings.steps as usize;
@@ -368,14 +363,14 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
     for (v, [along_alpha, turn_alpha]) in [(1.0, [1e-6, 1e-6]), (-0.5, [2e-6, 1e-6]), (1.4, [1e-6, 7e-6])] {
         let command = VelocityCmd { v, omega: 0.3, dt: 0.2 };
         let alphas = [along_alpha, 1e-6, turn_alpha, 1e-6, 0.0, 0.0];
-        let simulation = simulation(Settings { command, alphas, ..settings_with_robots(1) });
+        let simulation = simulation(Settings { command, alphas, ..robot_settings(1) });
         let straight_growth = simulation.straight_growth();
         let crossing_time = straight_growth.crossing.expect("a crossing");
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
         let exact_variance_ratio_at = |dt: f64| {
-            let cov =
+            let position_cov =
                 motion::stats::ExactMoments::of_velocity(&model, &VelocityCmd { v, omega: 0.0, dt }).cov;
-            cov[(1, 1)] / cov[(0, 0)]
+            position_cov[(1, 1)] / position_cov[(0, 0)]
         };
         let (mut low, mut high) = (1e-3, 1e3);
         for _ in 0..100 {
@@ -385,12 +380,12 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
         // The formula is exact to first order in the noise. Its relative error is a few times the variances, 1e-6.
         assert!((crossing_time / low - 1.0).abs() < 1e-4, "{crossing_time}, found {low}");
         // Exact variances equal first-order variances while headings are small, here for three seconds.
-        for (first_order, exact_variances) in [
+        for (first_order_cov, exact_variances) in [
             (&straight_growth.along_first_order, &straight_growth.along),
             (&straight_growth.across_first_order, &straight_growth.across),
         ] {
             for ((first_order_variance, exact_variance), dt) in
-                first_order.iter().zip(exact_variances).zip(&straight_growth.durations)
+                first_order_cov.iter().zip(exact_variances).zip(&straight_growth.durations)
             {
                 assert!(
                     *dt > 3.0 || (exact_variance / first_order_variance - 1.0).abs() < 2e-3,
@@ -401,7 +396,7 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
     }
     let crossing_time_of_simulation = |v, alphas| {
         let command = VelocityCmd { v, ..Settings::default().command };
-        simulation(Settings { command, alphas, ..settings_with_robots(1) }).straight_growth().crossing
+        simulation(Settings { command, alphas, ..robot_settings(1) }).straight_growth().crossing
     };
     for (v, alphas) in [(0.0, [0.02; 6]), (1.0, [0.0; 6]), (1.0, [0.02, 0.0, 0.0, 0.0, 0.0, 0.0])] {
         assert_eq!(crossing_time_of_simulation(v, alphas), None, "{v} {alphas:?}");

@@ -1,7 +1,7 @@
 //! Statistics of up to ten million robots, compared with sums in twice the precision.
 
 use crate::common::settings_of_preset;
-use crate::simulations::banana::{check_varied_clouds, simulation};
+use crate::simulations::banana::{check_in_varied_clouds, simulation};
 use motion::VelocityCmd;
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, MAX_SAMPLES, Settings, Stats};
@@ -16,29 +16,29 @@ struct CompensatedSum {
 }
 
 impl CompensatedSum {
-    fn add(&mut self, term: f64) {
-        let sum = self.sum + term;
+    fn add(&mut self, summand: f64) {
+        let sum = self.sum + summand;
         let rounded_term = sum - self.sum;
-        self.rounding_errors += (self.sum - (sum - rounded_term)) + (term - rounded_term);
+        self.rounding_errors += (self.sum - (sum - rounded_term)) + (summand - rounded_term);
         self.sum = sum;
     }
 }
 
-fn exact_mean(terms: impl Iterator<Item = f64>) -> f64 {
+fn exact_mean(added_terms: impl Iterator<Item = f64>) -> f64 {
     let (mut sum, mut term_count) = (CompensatedSum::default(), 0.0);
-    for term in terms {
-        sum.add(term);
+    for summand in added_terms {
+        sum.add(summand);
         term_count += 1.0;
     }
     (sum.sum + sum.rounding_errors) / term_count
 }
 
-fn assert_close(quantity_name: &str, computed: f64, expected: f64, scale: f64) {
-    assert!((computed - expected).abs() <= 1e-12 * scale, "{quantity_name}: {computed} is not {expected}");
+fn assert_close(quantity_name: &str, actual: f64, exact: f64, magnitude: f64) {
+    assert!((actual - exact).abs() <= 1e-12 * magnitude, "{quantity_name}: {actual} is not {exact}");
 }
 
 /// Asserts that statistics of a cloud equal their definitions. `cross_track` has the skew, the skew error and the correlation with the heading.
-fn assert_exact_moments(poses: &[SE2], moments: &CartesianMoments, cross_track: [f64; 3]) {
+fn assert_exact_moments(poses: &[SE2], computed_moments: &CartesianMoments, cross_track: [f64; 3]) {
     let n = poses.len() as f64;
     let (sin, cos) = (
         exact_mean(poses.iter().map(|pose| libm::sin(pose.theta()))),
@@ -46,9 +46,9 @@ fn assert_exact_moments(poses: &[SE2], moments: &CartesianMoments, cross_track: 
     );
     let mean_heading = libm::atan2(sin, cos);
     let mean_position = [exact_mean(poses.iter().map(SE2::x)), exact_mean(poses.iter().map(SE2::y))];
-    assert_close("mean heading", moments.mean.z, mean_heading, 1.0);
-    assert_close("mean x", moments.mean.x, mean_position[0], 1.0);
-    assert_close("mean y", moments.mean.y, mean_position[1], 1.0);
+    assert_close("mean heading", computed_moments.mean.z, mean_heading, 1.0);
+    assert_close("mean x", computed_moments.mean.x, mean_position[0], 1.0);
+    assert_close("mean y", computed_moments.mean.y, mean_position[1], 1.0);
 
     let iter_pose_residuals = || {
         poses.iter().map(|pose| {
@@ -68,8 +68,8 @@ fn assert_exact_moments(poses: &[SE2], moments: &CartesianMoments, cross_track: 
                 iter_pose_residuals().map(|r| subtract_expected_mean(r, i) * subtract_expected_mean(r, j)),
             ) * n
                 / (n - 1.0);
-            let std_product = (moments.cov[(i, i)] * moments.cov[(j, j)]).sqrt();
-            assert_close(&format!("cov {i}{j}"), moments.cov[(i, j)], expected_cov, std_product);
+            let std_product = (computed_moments.cov[(i, i)] * computed_moments.cov[(j, j)]).sqrt();
+            assert_close(&format!("cov {i}{j}"), computed_moments.cov[(i, j)], expected_cov, std_product);
         }
     }
 
@@ -104,12 +104,12 @@ fn assert_exact_moments(poses: &[SE2], moments: &CartesianMoments, cross_track: 
 }
 
 /// Asserts that the statistics of a simulation equal their definitions.
-fn assert_exact_stats(simulation: &BananaMachine) {
+fn assert_stats_are_exact(simulation: &BananaMachine) {
     let poses: Vec<SE2> = simulation.poses().collect();
     let n = poses.len() as f64;
-    let stats @ Stats { cartesian, exponential, .. } = *simulation.stats();
+    let stats @ Stats { cartesian: cartesian_moments, exponential, .. } = *simulation.stats();
     let cross_track = [stats.cross_track_skew, stats.cross_track_skew_error, stats.rho_cross_heading];
-    assert_exact_moments(&poses, &cartesian, cross_track);
+    assert_exact_moments(&poses, &cartesian_moments, cross_track);
 
     let pose_twist =
         |pose: &SE2| pose.log_near(simulation.settings().command.omega * simulation.settings().command.dt);
@@ -127,17 +127,17 @@ fn assert_exact_stats(simulation: &BananaMachine) {
         }
     }
 
-    let ellipse = Ellipse::from_moments(&cartesian);
-    let inside_count = poses.iter().filter(|pose| ellipse.contains([pose.x(), pose.y()])).count();
+    let covariance_ellipse = Ellipse::from_moments(&cartesian_moments);
+    let inside_count = poses.iter().filter(|pose| covariance_ellipse.contains([pose.x(), pose.y()])).count();
     // Rounding may decide whether one robot on the contour is inside.
     assert_close("coverage", stats.coverage.ellipse, inside_count as f64 / n, 1.5e12 / n);
 }
 
 #[test]
 #[ignore = "nightly: 10 million robots"]
-fn ten_million_agree_with_exact_sums() {
+fn statistics_of_ten_million_robots_agree_with_exact_sums() {
     let command = VelocityCmd { v: 1.0, omega: 1.2, dt: 1.4 };
-    assert_exact_stats(&simulation(Settings {
+    assert_stats_are_exact(&simulation(Settings {
         command,
         samples: MAX_SAMPLES,
         ..settings_of_preset("gentle")
@@ -146,12 +146,12 @@ fn ten_million_agree_with_exact_sums() {
 
 /// In some of these clouds robots turn by more than a full circle, or end far from the noise-free pose.
 #[test]
-fn small_and_unusual_clouds_agree_with_exact_sums() {
-    check_varied_clouds([1.0, 3.0, 1.9], &[3, 257, 5003], |simulation, _| {
-        assert_exact_stats(simulation);
+fn statistics_of_small_and_unusual_clouds_agree_with_exact_sums() {
+    check_in_varied_clouds([1.0, 3.0, 1.9], &[3, 257, 5003], |simulation, _| {
+        assert_stats_are_exact(simulation);
         let poses: Vec<SE2> = simulation.poses().collect();
         let CrossTrackStats { skew, skew_error, rho_heading } = CrossTrackStats::from_poses(&poses);
-        let moments = CartesianMoments::from_poses(&poses);
-        assert_exact_moments(&poses, &moments, [skew, skew_error, rho_heading]);
+        let computed_moments = CartesianMoments::from_poses(&poses);
+        assert_exact_moments(&poses, &computed_moments, [skew, skew_error, rho_heading]);
     });
 }

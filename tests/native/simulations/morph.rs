@@ -1,6 +1,6 @@
 //! The morph of a cloud from positions on the floor to exponential coordinates.
 
-use crate::common::{settings_of_preset, winds_around};
+use crate::common::{is_point_inside, settings_of_preset};
 use crate::simulations::banana::simulation;
 use motion::VelocityCmd;
 use motion::geom::se2::SE2;
@@ -17,12 +17,12 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 /// Returns the final position of a body with a constant twist, by steps of the midpoint rule.
-fn end_of_constant_twist([vx, vy, omega]: [f64; 3]) -> [f64; 2] {
+fn integrate_twist([v_along, v_lateral, omega]: [f64; 3]) -> [f64; 2] {
     const STEP_COUNT: usize = 2000;
     let time_step = 1.0 / STEP_COUNT as f64;
     (0..STEP_COUNT).map(|i| omega * time_step * (i as f64 + 0.5)).fold([0.0; 2], |[x, y], heading: f64| {
         let (sin, cos) = heading.sin_cos();
-        [x + time_step * (vx * cos - vy * sin), y + time_step * (vx * sin + vy * cos)]
+        [x + time_step * (v_along * cos - v_lateral * sin), y + time_step * (v_along * sin + v_lateral * cos)]
     })
 }
 
@@ -45,7 +45,7 @@ fn nearest_finds_robots_at_their_morphed_positions() {
                     "{morph}"
                 );
                 let bend_factor = 1.0 - morph;
-                let [x, y] = end_of_constant_twist([twist.x, bend_factor * twist.y, bend_factor * twist.z]);
+                let [x, y] = integrate_twist([twist.x, bend_factor * twist.y, bend_factor * twist.z]);
                 assert!(distance(morphed_position, [x, y + morph * twist.z]) < 1e-5, "{morph}: {twist}");
             }
             assert!(distance(unbend(&twist, 0.0), [pose.x(), pose.y()]) < 1e-12);
@@ -55,7 +55,7 @@ fn nearest_finds_robots_at_their_morphed_positions() {
 }
 
 #[test]
-fn robots_move_smoothly() {
+fn robots_move_smoothly_with_the_morph() {
     const MORPH_STEP: f64 = 1e-3;
     let simulation = simulation(Settings { samples: 200, ..settings_of_preset("banana") });
     for twist in simulation.twists() {
@@ -87,14 +87,15 @@ fn the_same_robots_stay_inside_an_outline() {
             [morphed_ellipse, morphed_outline].map(|morphed_outline| {
                 simulation
                     .twists()
-                    .map(|twist| winds_around(&morphed_outline, unbend(&twist, morph)))
+                    .map(|twist| is_point_inside(&morphed_outline, unbend(&twist, morph)))
                     .collect::<Vec<_>>()
             })
         };
         let inside_flags_on_floor = are_robots_inside(0.0);
         for morph in MORPH_FRACTIONS {
-            for (are_inside, are_inside_at_0) in are_robots_inside(morph).iter().zip(&inside_flags_on_floor) {
-                let changed_count = are_inside.iter().zip(are_inside_at_0).filter(|(a, b)| a != b).count();
+            for (is_inside, is_inside_on_floor) in are_robots_inside(morph).iter().zip(&inside_flags_on_floor)
+            {
+                let changed_count = is_inside.iter().zip(is_inside_on_floor).filter(|(a, b)| a != b).count();
                 assert!(changed_count <= 10, "{changed_count} robots at {morph}");
             }
         }
@@ -106,10 +107,10 @@ fn the_same_robots_stay_inside_an_outline() {
 fn the_morphed_outline_equals_that_of_each_view_at_its_end() {
     let simulation = simulation(Settings { samples: 5000, ..settings_of_preset("hard") });
     let stats = simulation.stats();
-    let contour = ExponentialContour::new(&stats.exponential, &SE2::identity());
-    assert_eq!(contour.morphed_boundary(OUTLINE_SEGMENTS, 0.0), simulation.contours().exponential);
-    for outline_point in contour.morphed_boundary(OUTLINE_SEGMENTS, 1.0) {
-        assert!((contour.ellipse.mahalanobis_distance(outline_point) - 2.0).abs() < 1e-9);
+    let xi_contour = ExponentialContour::new(&stats.exponential, &SE2::identity());
+    assert_eq!(xi_contour.morphed_boundary(OUTLINE_SEGMENTS, 0.0), simulation.contours().exponential);
+    for outline_point in xi_contour.morphed_boundary(OUTLINE_SEGMENTS, 1.0) {
+        assert!((xi_contour.ellipse.mahalanobis_distance(outline_point) - 2.0).abs() < 1e-9);
     }
 }
 
@@ -118,7 +119,7 @@ fn the_morphed_outline_equals_that_of_each_view_at_its_end() {
 fn a_morphed_line_stays_connected_or_is_omitted() {
     let circle_at = |x: f64| -> Vec<[f64; 2]> {
         let circle_angles = (0..=128).map(|i| std::f64::consts::TAU * f64::from(i) / 128.0);
-        circle_angles.map(|angle| [x + 0.5 * angle.cos(), 0.5 * angle.sin()]).collect()
+        circle_angles.map(|circle_angle| [x + 0.5 * circle_angle.cos(), 0.5 * circle_angle.sin()]).collect()
     };
     for morph in MORPH_FRACTIONS {
         assert!(unbend_line(&circle_at(0.1), 0.3, morph).is_empty());
@@ -135,20 +136,20 @@ fn a_morphed_line_stays_connected_or_is_omitted() {
 fn find_arc_inverts_the_morph() {
     for morph in MORPH_FRACTIONS {
         for [arc_length, arc_turn] in [[1.0, 0.5], [2.0, -1.0], [1.4, 1.7], [0.3, 0.0]] {
-            let position = unbend(&Vector3::new(arc_length, 0.0, arc_turn), morph);
-            let found_arc = find_arc(position, [arc_length + 0.1, arc_turn - 0.1], morph).expect("an arc");
+            let arc_end = unbend(&Vector3::new(arc_length, 0.0, arc_turn), morph);
+            let found_arc = find_arc(arc_end, [arc_length + 0.1, arc_turn - 0.1], morph).expect("an arc");
             assert!(distance(found_arc, [arc_length, arc_turn]) < 1e-9, "{morph}: {found_arc:?}");
         }
     }
 }
 
 #[test]
-fn gaps_are_inside_the_ellipse_only_and_contain_no_robot() {
+fn gaps_of_a_cloud_are_inside_the_ellipse_only_and_contain_no_robot() {
     let simulation = simulation(settings_of_preset("banana"));
-    let (gaps, contours) = (simulation.gaps(), simulation.contours());
-    assert_eq!(gaps.len(), 2);
-    for gap in gaps {
-        assert!(winds_around(&contours.ellipse, gap) && !winds_around(&contours.exponential, gap));
+    let (empty_regions, contours) = (simulation.gaps(), simulation.contours());
+    assert_eq!(empty_regions.len(), 2);
+    for gap in empty_regions {
+        assert!(is_point_inside(&contours.ellipse, gap) && !is_point_inside(&contours.exponential, gap));
         assert_eq!(simulation.nearest(View::Plane, gap, [0.03; 2]), None, "{gap:?}");
     }
     for preset_name in ["straight", "gentle", "hard", "pivot", "worked"] {

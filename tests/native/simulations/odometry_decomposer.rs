@@ -1,6 +1,6 @@
 //! The simulation of the Odometry Decomposer: common random numbers, poses of the legs, drift of the odometry frame, and deviation curve.
 
-use crate::common::{NOISE_KINDS, pose_distance, seeded_rng, settings_of_preset};
+use crate::common::{NOISE_KINDS, max_difference, seeded_rng, settings_of_preset};
 use motion::models::OdometryRule;
 use motion::sim::odometry_decomposer::{OdometryDecomposer, Settings};
 use motion::sim::settings::SettingRules;
@@ -16,13 +16,13 @@ fn the_outcomes_equal_samples_of_the_model() {
     for noise in NOISE_KINDS {
         let settings = Settings { from: [0.5, -1.0, 2.0], noise, samples: 1001, ..Settings::default() };
         let simulation = simulation(settings);
-        let [a1, a2, a3, a4, _] = settings.alphas;
-        let model = OdometryModel { alphas: OdomAlphas([a1, a2, a3, a4]), noise };
+        let [alpha1, alpha2, alpha3, alpha4, _] = settings.alphas;
+        let model = OdometryModel { alphas: OdomAlphas([alpha1, alpha2, alpha3, alpha4]), noise };
         let mut rng = seeded_rng(settings.seed);
         assert_eq!(simulation.poses().len(), 1001);
         for pose in simulation.poses() {
             let expected_pose = model.sample(&simulation.reading(), &settings.from.into(), &mut rng);
-            assert!(pose_distance(pose, &expected_pose) < 1e-14, "{pose:?}, drawn {expected_pose:?}");
+            assert!(max_difference(pose, &expected_pose) < 1e-14, "{pose:?}, drawn {expected_pose:?}");
         }
     }
 }
@@ -31,7 +31,7 @@ fn the_outcomes_equal_samples_of_the_model() {
 #[test]
 fn changed_settings_move_the_same_outcomes() {
     let settings_with_alpha3_only =
-        |a3: f64| Settings { alphas: [0.0, 0.0, a3, 0.0, 0.0], ..settings_of_preset("drive-turn") };
+        |alpha3: f64| Settings { alphas: [0.0, 0.0, alpha3, 0.0, 0.0], ..settings_of_preset("drive-turn") };
     let mut simulation = simulation(settings_with_alpha3_only(0.01));
     let excesses_of = |simulation: &OdometryDecomposer| -> Vec<f64> {
         simulation.poses().iter().map(|pose| pose.x() - 1.5).collect()
@@ -50,7 +50,7 @@ fn changed_settings_move_the_same_outcomes() {
 
 #[test]
 fn the_leg_poses_follow_the_legs_of_the_reading() {
-    for (name, preset) in Settings::PRESETS {
+    for (preset_name, preset) in Settings::PRESETS {
         for rule in OdometryRule::ALL {
             let simulation = simulation(Settings { rule, ..*preset });
             let [start_pose, pose_after_rot1, pose_after_drive, final_pose] = simulation.leg_poses();
@@ -67,7 +67,7 @@ fn the_leg_poses_follow_the_legs_of_the_reading() {
                 [pose_after_drive.x(), pose_after_drive.y(), pose_after_drive.theta()],
                 [final_pose.x(), final_pose.y(), pose_after_rot1.theta()]
             );
-            assert!(pose_distance(&final_pose, &preset.to.into()) < 0.01, "{name} by {rule:?}");
+            assert!(max_difference(&final_pose, &preset.to.into()) < 0.01, "{preset_name} by {rule:?}");
             let robot_pose_at = |animation_phase| {
                 let settings = Settings { phase: animation_phase, ..*simulation.settings() };
                 OdometryDecomposer::new(settings).expect("a valid setting").robot_pose()
@@ -75,7 +75,7 @@ fn the_leg_poses_follow_the_legs_of_the_reading() {
             for (phase, pose) in
                 [(0.0, start_pose), (1.0, pose_after_rot1), (2.0, pose_after_drive), (3.0, final_pose)]
             {
-                assert!(pose_distance(&robot_pose_at(phase), &pose) < 1e-15, "{phase}");
+                assert!(max_difference(&robot_pose_at(phase), &pose) < 1e-15, "{phase}");
             }
             assert!((robot_pose_at(1.5).x() - 0.5 * (start_pose.x() + final_pose.x())).abs() < 1e-15);
         }
@@ -120,7 +120,7 @@ fn the_curve_contains_the_values_of_the_readouts() {
         let drive_distance = simulation.legs().trans;
         let curve_points = simulation.deviation_curve(2.0 * drive_distance, 3);
         assert_eq!(
-            curve_points.iter().map(|[trans, ..]| *trans).collect::<Vec<_>>(),
+            curve_points.iter().map(|[distance, ..]| *distance).collect::<Vec<_>>(),
             [0.0, drive_distance, 2.0 * drive_distance]
         );
         let [_, cross_track, lever_estimate, along_deviation] = curve_points[1];
@@ -131,6 +131,6 @@ fn the_curve_contains_the_values_of_the_readouts() {
         assert_eq!(simulation.deviation_curve(1.0, 1).len(), 1);
     }
     let noisy_simulation = simulation(Settings { alphas: [2.0, 2.0, 0.0, 0.0, 0.0], ..Settings::default() });
-    let [trans, cross_track, lever_estimate, _] = noisy_simulation.deviation_curve(10.0, 2)[1];
-    assert!(cross_track < trans && lever_estimate > 10.0 * trans);
+    let [distance, cross_track, lever_estimate, _] = noisy_simulation.deviation_curve(10.0, 2)[1];
+    assert!(cross_track < distance && lever_estimate > 10.0 * distance);
 }

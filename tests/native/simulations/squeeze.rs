@@ -1,7 +1,7 @@
 //! The simulation of Map Squeeze: common random numbers, draw budget, tally and its interval.
 
 use crate::common::seeded_rng;
-use crate::map::conditioned::{SAMPLERS, STRAIGHT_COMMAND, too_small_room};
+use crate::map::conditioned::{SAMPLERS, STRAIGHT_COMMAND, new_too_small_room};
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MAX_DRAWS, MapConditioned, Sampler};
 use motion::sim::settings::SettingRules;
@@ -16,7 +16,7 @@ fn attempt_poses(simulation: &MapSqueeze) -> Vec<SE2> {
     simulation.attempts().iter().map(|attempt| attempt.pose).collect()
 }
 
-fn results_as_text(simulation: &MapSqueeze) -> String {
+fn format_results(simulation: &MapSqueeze) -> String {
     let (settings, stats) = (simulation.settings(), simulation.stats());
     format!(
         "{settings:?} {:?} {stats:?} {} {:?}",
@@ -31,7 +31,7 @@ fn results_as_text(simulation: &MapSqueeze) -> String {
 fn changed_samplers_and_maps_move_no_sample() {
     let settings = Settings { samples: 3000, ..Settings::default() };
     let mut simulation = new_simulation(settings);
-    let (results_before, poses_before) = (results_as_text(&simulation), attempt_poses(&simulation));
+    let (results_before, poses_before) = (format_results(&simulation), attempt_poses(&simulation));
     let attempt_verdicts = |simulation: &MapSqueeze| -> Vec<[bool; 2]> {
         simulation.attempts().iter().map(|attempt| [attempt.end_free, attempt.path_free]).collect()
     };
@@ -54,12 +54,12 @@ fn changed_samplers_and_maps_move_no_sample() {
         assert_eq!(simulation.stats().accepted, 3000, "no attempt is rejected");
         assert_eq!((simulation.stats().drawn, simulation.stats().wall_tests_per_accepted), (3000, 0.0));
     }
-    simulation.set_plan(too_small_room());
+    simulation.set_plan(new_too_small_room());
     assert_eq!(attempt_poses(&simulation), poses_before);
     assert_eq!(simulation.stats().through_wall, 3000);
     simulation.set_plan(FloorPlan::apartment());
     simulation.configure(settings).expect("valid");
-    assert_eq!(results_as_text(&simulation), results_before, "and back again to the bit");
+    assert_eq!(format_results(&simulation), results_before, "and back again to the bit");
     simulation.configure(Settings { seed: 8, ..settings }).expect("valid");
     assert!(
         attempt_poses(&simulation).iter().zip(&poses_before).all(|(a, b)| a != b),
@@ -113,9 +113,9 @@ fn the_arcs_of_an_attempt_end_at_its_pose() {
             assert!((arc_end.x() - attempt.pose.x()).abs() + (arc_end.y() - attempt.pose.y()).abs() < 1e-12);
             let is_path_free = arcs.iter().all(|arc| simulation.plan().test_arc(arc, 0.13).free);
             assert_eq!(attempt.path_free, is_path_free);
-            let are_joined = arcs.windows(2).all(|adjacent_arcs| {
-                let first_end = adjacent_arcs[0].end();
-                (first_end.x(), first_end.y()) == (adjacent_arcs[1].start.x(), adjacent_arcs[1].start.y())
+            let are_joined = arcs.windows(2).all(|arc_pair| {
+                let first_end = arc_pair[0].end();
+                (first_end.x(), first_end.y()) == (arc_pair[1].start.x(), arc_pair[1].start.y())
             });
             assert!(are_joined && (arcs[0].start.x(), arcs[0].start.y()) == (2.05, 2.6));
         }
@@ -135,7 +135,7 @@ fn the_commanded_arc_and_the_test_of_its_start_follow_the_settings() {
         simulation.configure(Settings { clearance, ..Settings::default() }).expect("valid");
         assert_eq!(simulation.is_start_free(), is_start_free, "{clearance}");
     }
-    simulation.set_plan(too_small_room());
+    simulation.set_plan(new_too_small_room());
     assert!(!simulation.is_start_free());
 }
 
@@ -143,7 +143,7 @@ fn the_commanded_arc_and_the_test_of_its_start_follow_the_settings() {
 fn the_product_of_samples_and_parts_is_limited() {
     for (sampler, max_samples) in [(Sampler::WholeArc, 1_000_000), (Sampler::SubStepped(4), 250_000)] {
         let refused_field_of = |samples| {
-            Settings { samples, sampler, ..Settings::default() }.check().err().map(|error| error.key)
+            Settings { samples, sampler, ..Settings::default() }.check().err().map(|refusal| refusal.key)
         };
         assert_eq!(
             [refused_field_of(max_samples), refused_field_of(max_samples + 1)],
@@ -160,7 +160,7 @@ fn the_simulation_stops_after_a_bounded_number_of_draws() {
         Settings { start: [2.1, 2.1, 0.0], sampler: Sampler::SubStepped(4), ..Settings::default() };
     let mut simulation = new_simulation(settings);
     assert!(!simulation.stats().gave_up);
-    simulation.set_plan(too_small_room());
+    simulation.set_plan(new_too_small_room());
     assert!(simulation.stats().gave_up);
     let stats = simulation.stats();
     assert_eq!((stats.accepted, stats.through_wall), (0, 0));
@@ -187,17 +187,17 @@ fn the_simulation_stops_after_a_bounded_number_of_draws() {
 }
 
 #[test]
-fn a_trial_reports_its_cost_and_changes_nothing() {
+fn a_trial_motion_reports_its_cost_and_changes_nothing() {
     let settings = Settings::default();
     let simulation = new_simulation(settings);
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     let [x, y, theta] = settings.start;
     let start_pose = SE2::new(x, y, theta);
-    let results_before = results_as_text(&simulation);
+    let results_before = format_results(&simulation);
     for sampler in SAMPLERS {
         let trial_cost = simulation.sampling_trial(sampler, 500).expect("it fits");
-        let plan = FloorPlan::apartment();
-        let conditioned_model = MapConditioned { model, plan: &plan, clearance: 0.13, sampler };
+        let floor_plan = FloorPlan::apartment();
+        let conditioned_model = MapConditioned { model, plan: &floor_plan, clearance: 0.13, sampler };
         let mut rng = seeded_rng(7);
         let mut expected_cost = (0, 0);
         for _ in 0..500 {
@@ -210,23 +210,23 @@ fn a_trial_reports_its_cost_and_changes_nothing() {
         }
         assert_eq!((trial_cost.draws, trial_cost.wall_tests), expected_cost);
     }
-    assert_eq!(results_as_text(&simulation), results_before);
+    assert_eq!(format_results(&simulation), results_before);
 }
 
 /// The expected intervals are from Newcombe, "Two-sided confidence intervals for the single proportion", Statistics in
 /// Medicine 17 (1998), table I, method 3.
 #[test]
-fn the_interval_is_the_wilson_interval() {
-    for (through_wall, accepted, expected_low, expected_high) in
+fn the_interval_of_the_fraction_through_walls_is_the_wilson_interval() {
+    for (through_wall_count, accepted_count, expected_low, expected_high) in
         [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0.0, 0.1611), (1, 29, 0.0061, 0.1718)]
     {
-        let through_wall_interval = wilson_interval(through_wall, accepted);
+        let through_wall_interval = wilson_interval(through_wall_count, accepted_count);
         assert!(
             (through_wall_interval[0] - expected_low).abs() < 5e-5
                 && (through_wall_interval[1] - expected_high).abs() < 5e-5,
             "{through_wall_interval:?}"
         );
-        let [rest_low, rest_high] = wilson_interval(accepted - through_wall, accepted);
+        let [rest_low, rest_high] = wilson_interval(accepted_count - through_wall_count, accepted_count);
         assert!(
             (rest_low + through_wall_interval[1] - 1.0).abs() < 1e-15
                 && (rest_high + through_wall_interval[0] - 1.0).abs() < 1e-15

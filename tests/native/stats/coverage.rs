@@ -19,7 +19,7 @@ const LARGE_CLOUD_REPETITION_COUNT: u64 = 3000;
 const ROBOT_COUNT: usize = 5000;
 
 /// Returns for each of several intervals the fraction of repetitions in which it contains the exact value.
-fn coverage_fractions<const N: usize>(
+fn measure_coverage<const N: usize>(
     seed_count: u64,
     mut is_covered_by_interval: impl FnMut(u64) -> [bool; N],
 ) -> [f64; N] {
@@ -38,16 +38,16 @@ fn assert_covered(case: &str, fraction: f64, seed_count: u64) {
 }
 
 /// Returns the fractions of clouds whose skew, pose gain and floor gain differ by at most 1.96 standard errors from the exact value.
-fn fractions_within_standard_errors(settings: Settings, seed_count: u64) -> [f64; 3] {
+fn measure_error_coverage(settings: Settings, seed_count: u64) -> [f64; 3] {
     let mut simulation = BananaMachine::new(settings).expect("valid settings");
     let (exact_skew, exact_gain) =
         (simulation.exact_moments().cross_track_skew, simulation.exact_gain().value);
-    coverage_fractions(seed_count, |seed| {
+    measure_coverage(seed_count, |seed| {
         simulation.configure(Settings { seed, ..settings }).expect("valid settings");
         let stats = simulation.stats();
         let (likelihood_gains, standard_errors) = (stats.likelihood_gain, stats.likelihood_gain_error);
-        let is_within_standard_errors = |estimate: f64, standard_error: f64, exact_value: f64| {
-            (estimate - exact_value).abs() <= 1.959_964 * standard_error
+        let is_within_standard_errors = |estimated_value: f64, standard_error: f64, exact_value: f64| {
+            (estimated_value - exact_value).abs() <= 1.959_964 * standard_error
         };
         [
             is_within_standard_errors(stats.cross_track_skew, stats.cross_track_skew_error, exact_skew),
@@ -62,7 +62,7 @@ fn fractions_within_standard_errors(settings: Settings, seed_count: u64) -> [f64
 #[ignore = "nightly: thousands of clouds"]
 fn standard_errors_cover_95_percent() {
     let with_small_cloud = |settings| (Settings { samples: ROBOT_COUNT, ..settings }, REPETITION_COUNT);
-    for (cloud_name, (settings, repetitions)) in [
+    for (cloud_name, (settings, repetition_count)) in [
         ("gentle arc", with_small_cloud(settings_of_preset("gentle"))),
         (
             "hard arc",
@@ -74,11 +74,11 @@ fn standard_errors_cover_95_percent() {
         ),
         ("banana", (settings_of_preset("banana"), LARGE_CLOUD_REPETITION_COUNT)),
     ] {
-        let covered_fractions = fractions_within_standard_errors(settings, repetitions);
+        let covered_fractions = measure_error_coverage(settings, repetition_count);
         for (statistic_name, fraction) in
             ["skew", "gain of poses", "gain on the floor"].into_iter().zip(covered_fractions)
         {
-            assert_covered(&format!("{statistic_name}, {cloud_name}"), fraction, repetitions);
+            assert_covered(&format!("{statistic_name}, {cloud_name}"), fraction, repetition_count);
         }
     }
 }
@@ -86,7 +86,7 @@ fn standard_errors_cover_95_percent() {
 #[test]
 #[ignore = "nightly: thousands of clouds"]
 fn intervals_of_small_clouds_contain_the_exact_skew_as_often_as_printed() {
-    let document_text = PlainText::of_document(include_str!("../../../doc/statistics.md"));
+    let document_text = PlainText::from_document(include_str!("../../../doc/statistics.md"));
     let [small_cloud_percentage, small_cloud_size, larger_cloud_percentage, larger_cloud_size] =
         document_text.sentence_numbers(
             "1.96 errors hold the exact one in # of 100 clouds of #, in # of #, and in 95 of 5000 and more",
@@ -95,14 +95,14 @@ fn intervals_of_small_clouds_contain_the_exact_skew_as_often_as_printed() {
         [(small_cloud_percentage, small_cloud_size), (larger_cloud_percentage, larger_cloud_size)]
     {
         let settings = Settings { samples: robot_count.value as usize, ..settings_of_preset("gentle") };
-        let [skew_fraction, ..] = fractions_within_standard_errors(settings, REPETITION_COUNT);
+        let [skew_fraction, ..] = measure_error_coverage(settings, REPETITION_COUNT);
         printed_percentage.assert_percent(skew_fraction, 0.0);
     }
 }
 
 /// Returns the fraction of motions whose path is blocked, among motions with a free end, by a sum over the noises of speed and turn rate.
 /// The turn after the arc does not matter, because it does not change the position.
-fn fraction_through_walls(settings: &squeeze::Settings) -> f64 {
+fn integrate_fraction_through_walls(settings: &squeeze::Settings) -> f64 {
     const NODE_COUNT: usize = 600;
     const MAX_SIGMAS: f64 = 6.0;
     let (plan, [x, y, theta]) = (FloorPlan::apartment(), settings.start);
@@ -128,15 +128,15 @@ fn fraction_through_walls(settings: &squeeze::Settings) -> f64 {
 #[test]
 #[ignore = "nightly: thousands of clouds"]
 fn the_interval_of_the_fraction_through_walls_covers_95_percent() {
-    for &(preset, squeeze::Settings { start, .. }) in squeeze::Settings::PRESETS {
-        let settings = squeeze::Settings { start, ..squeeze::Settings::default() };
-        let exact_fraction = fraction_through_walls(&settings);
+    for &(preset_name, squeeze::Settings { start: start_pose, .. }) in squeeze::Settings::PRESETS {
+        let settings = squeeze::Settings { start: start_pose, ..squeeze::Settings::default() };
+        let exact_fraction = integrate_fraction_through_walls(&settings);
         let mut simulation = MapSqueeze::new(settings).expect("valid settings");
-        let [fraction] = coverage_fractions(REPETITION_COUNT, |seed| {
+        let [fraction] = measure_coverage(REPETITION_COUNT, |seed| {
             simulation.configure(squeeze::Settings { seed, ..settings }).expect("valid settings");
-            let [low, high] = simulation.stats().through_wall_interval;
-            [low <= exact_fraction && exact_fraction <= high]
+            let [interval_low, interval_high] = simulation.stats().through_wall_interval;
+            [interval_low <= exact_fraction && exact_fraction <= interval_high]
         });
-        assert_covered(&format!("{preset}, exactly {exact_fraction}"), fraction, REPETITION_COUNT);
+        assert_covered(&format!("{preset_name}, exactly {exact_fraction}"), fraction, REPETITION_COUNT);
     }
 }

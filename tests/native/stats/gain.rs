@@ -1,7 +1,7 @@
 //! Likelihood gains and area ratios, compared with their definitions and with references. Degenerate clouds have none.
 
 use crate::common::{NOISE_KINDS, ReferenceTable, mean, variance};
-use crate::simulations::banana::check_varied_clouds;
+use crate::simulations::banana::check_in_varied_clouds;
 use motion::geom::arc::{arc_end, arc_with_turn_near};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, Settings, Stats};
@@ -23,32 +23,32 @@ fn simulation(command: VelocityCmd, velocity_alphas: [f64; 6], samples: usize) -
     BananaMachine::new(settings).expect("a valid setting")
 }
 
-fn poses(simulation: &BananaMachine) -> Vec<SE2> {
+fn poses_of(simulation: &BananaMachine) -> Vec<SE2> {
     simulation.poses().collect()
 }
 
 /// Returns the gain of log-likelihood of a Gaussian in exponential coordinates over one in (x, y, θ), with its standard error, and the same
 /// for positions (x, y).
-fn gains_with_errors(stats: &Stats) -> [[f64; 2]; 2] {
-    let (likelihood_gain, gain_error) = (stats.likelihood_gain, stats.likelihood_gain_error);
+fn gains_with_errors(gain_stats: &Stats) -> [[f64; 2]; 2] {
+    let (likelihood_gain, gain_error) = (gain_stats.likelihood_gain, gain_stats.likelihood_gain_error);
     [[likelihood_gain.pose, gain_error.pose], [likelihood_gain.floor, gain_error.floor]]
 }
 
-fn assert_close(case: &str, computed: f64, expected: f64, tolerance: f64) {
-    let are_equal = computed == expected || computed.is_nan() && expected.is_nan();
-    assert!(are_equal || (computed - expected).abs() <= tolerance, "{case}: {computed} is not {expected}");
+fn assert_close(case: &str, actual: f64, exact: f64, tolerance: f64) {
+    let are_equal = actual == exact || actual.is_nan() && exact.is_nan();
+    assert!(are_equal || (actual - exact).abs() <= tolerance, "{case}: {actual} is not {exact}");
 }
 
 /// Returns the log-density of each point under the Gaussian with the moments of all points, by inverse and determinant.
-fn log_densities(point_vectors: &[DVector<f64>]) -> Vec<f64> {
-    let (n, dimension) = (point_vectors.len() as f64, point_vectors[0].len());
+fn log_densities_of(point_vectors: &[DVector<f64>]) -> Vec<f64> {
+    let (n, dimension_count) = (point_vectors.len() as f64, point_vectors[0].len());
     let mean_vector = point_vectors.iter().sum::<DVector<f64>>() / n;
     let outer_product_of = |p: &DVector<f64>| (p - &mean_vector) * (p - &mean_vector).transpose();
     let cov = point_vectors.iter().map(outer_product_of).sum::<DMatrix<f64>>() / (n - 1.0);
-    let (inverse_cov, normalization) =
-        (cov.clone().try_inverse().unwrap(), (TAU.powi(dimension as i32) * cov.determinant()).sqrt());
+    let (inverse_cov, log_normalization) =
+        (cov.clone().try_inverse().unwrap(), (TAU.powi(dimension_count as i32) * cov.determinant()).sqrt());
     let log_density_at = |p: &DVector<f64>| {
-        -0.5 * (p - &mean_vector).dot(&(&inverse_cov * (p - &mean_vector))) - normalization.ln()
+        -0.5 * (p - &mean_vector).dot(&(&inverse_cov * (p - &mean_vector))) - log_normalization.ln()
     };
     point_vectors.iter().map(log_density_at).collect()
 }
@@ -92,7 +92,7 @@ fn robot_gains(cloud: &[SE2], commanded_turn: f64) -> [Vec<f64>; 2] {
     };
     let log_density_gains =
         |cartesian: &[DVector<f64>], curved: &[DVector<f64>], map: &dyn Fn(&DVector<f64>) -> DVector<f64>| {
-            let log_densities = log_densities(cartesian).into_iter().zip(log_densities(curved));
+            let log_densities = log_densities_of(cartesian).into_iter().zip(log_densities_of(curved));
             let log_volume_factors = curved.iter().map(|point| jacobian_determinant(map, point).abs().ln());
             log_volume_factors.zip(log_densities).map(|(log_factor, (p, q))| q - log_factor - p).collect()
         };
@@ -106,16 +106,16 @@ fn robot_gains(cloud: &[SE2], commanded_turn: f64) -> [Vec<f64>; 2] {
 /// clouds.
 #[test]
 fn the_gain_equals_its_definition_over_all_poses() {
-    check_varied_clouds([1.0, 2.2, 1.2], &[1, 3, 4, 257, 2048, 5_003], |simulation, case| {
+    check_in_varied_clouds([1.0, 2.2, 1.2], &[1, 3, 4, 257, 2048, 5_003], |simulation, case| {
         let Settings { samples, command, .. } = *simulation.settings();
         let computed_gains = gains_with_errors(simulation.stats());
         if samples > 4 {
-            let expected_gains = robot_gains(&poses(simulation), command.omega * command.dt);
-            for ([computed_gain, error], robot_gains) in computed_gains.into_iter().zip(expected_gains) {
+            let expected_gains = robot_gains(&poses_of(simulation), command.omega * command.dt);
+            for ([computed_gain, gain_error], robot_gains) in computed_gains.into_iter().zip(expected_gains) {
                 assert_close(case, computed_gain, mean(&robot_gains), 1e-9);
                 if samples <= 2048 {
                     let expected_error = (variance(&robot_gains) / samples as f64).sqrt();
-                    assert_close(case, error, expected_error, 1e-8 * expected_error);
+                    assert_close(case, gain_error, expected_error, 1e-8 * expected_error);
                 }
             }
         }
@@ -130,8 +130,8 @@ fn the_gain_equals_its_definition_over_all_poses() {
 fn exact_gains_match_the_references() {
     for csv_row in ReferenceTable::parse(include_str!("../../reference/likelihood_gain.csv")).rows() {
         let velocity_alphas = csv_row.cell_numbers(["a1", "a2", "a3", "a4", "a5", "a6"]);
-        let [v, omega, dt] = csv_row.cell_numbers(["v", "omega", "dt"]);
-        let command = VelocityCmd { v, omega, dt };
+        let [v, omega, duration] = csv_row.cell_numbers(["v", "omega", "dt"]);
+        let command = VelocityCmd { v, omega, dt: duration };
         let noise = csv_row.noise_kind();
         let settings = Settings { command, velocity_alphas, noise, samples: 1, ..Settings::default() };
         let exact_column = BananaMachine::new(settings).expect("a valid setting").table().exact;
@@ -163,9 +163,9 @@ fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
     // The gain on the floor is also defined if headings spread over a full turn, where exponential coordinates are undefined.
     let wide_simulation = simulation(GENTLE_COMMAND, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
     assert!(!wide_simulation.is_exponential_defined());
-    let Stats { likelihood_gain: gain, likelihood_gain_error: error, area_ratio, .. } =
+    let Stats { likelihood_gain: gain, likelihood_gain_error: gain_error, area_ratio, .. } =
         wide_simulation.stats();
-    assert!(gain.pose.is_nan() && error.pose.is_nan() && area_ratio.is_nan());
+    assert!(gain.pose.is_nan() && gain_error.pose.is_nan() && area_ratio.is_nan());
     assert_close(
         "floor",
         gain.floor,
@@ -177,8 +177,8 @@ fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
 /// The expected areas are those of the drawn outlines, by the shoelace formula.
 #[test]
 fn the_area_ratio_is_that_of_the_drawn_outlines() {
-    let area_of_outline = |outline: &[[f64; 2]]| -> f64 {
-        outline.windows(2).map(|w| 0.5 * (w[0][0] * w[1][1] - w[1][0] * w[0][1])).sum::<f64>().abs()
+    let area_of_outline = |closed_outline: &[[f64; 2]]| -> f64 {
+        closed_outline.windows(2).map(|w| 0.5 * (w[0][0] * w[1][1] - w[1][0] * w[0][1])).sum::<f64>().abs()
     };
     for (command, alphas) in [
         (GENTLE_COMMAND, GENTLE_ALPHAS),
@@ -187,8 +187,8 @@ fn the_area_ratio_is_that_of_the_drawn_outlines() {
         (VelocityCmd { v: -1.0, ..SHARP_TURN_COMMAND }, BANANA_ALPHAS),
     ] {
         let simulation = simulation(command, alphas, 5000);
-        let contours = simulation.contours();
-        let expected_ratio = area_of_outline(&contours.ellipse) / area_of_outline(&contours.exponential);
+        let outlines = simulation.contours();
+        let expected_ratio = area_of_outline(&outlines.ellipse) / area_of_outline(&outlines.exponential);
         assert_close("ratio", simulation.stats().area_ratio, expected_ratio, 1e-12 * expected_ratio);
     }
 }
@@ -224,13 +224,13 @@ fn the_gain_is_infinite_if_only_exponential_coordinates_have_no_volume() {
                 let velocity_alphas = [0.05, 0.05, 0.05, 0.09, 0.0, 0.0];
                 let settings = Settings { command, velocity_alphas, noise, samples, ..Settings::default() };
                 let flat_simulation = BananaMachine::new(settings).expect("a valid setting");
-                let Stats { likelihood_gain: value, likelihood_gain_error: error, .. } =
+                let Stats { likelihood_gain: gain_value, likelihood_gain_error: gain_error, .. } =
                     flat_simulation.stats();
                 assert!(
-                    value.pose == f64::INFINITY && error.pose.is_nan(),
-                    "{command:?} {samples}: {value:?}"
+                    gain_value.pose == f64::INFINITY && gain_error.pose.is_nan(),
+                    "{command:?} {samples}: {gain_value:?}"
                 );
-                assert!(value.floor.is_finite() && error.floor > 0.0, "{command:?} {samples}");
+                assert!(gain_value.floor.is_finite() && gain_error.floor > 0.0, "{command:?} {samples}");
                 let exact_gain = flat_simulation.table().exact.likelihood_gain;
                 assert!(exact_gain.pose == f64::INFINITY && exact_gain.floor.is_finite(), "{command:?}");
             }

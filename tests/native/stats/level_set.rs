@@ -17,11 +17,11 @@ fn the_mean_of_the_corners_decides_how_a_saddle_is_connected() {
                 contour_line.iter().all(|[x, y]| (x - corner[0]).abs() + (y - corner[1]).abs() < 1.0)
             })
         };
-        for (corners, are_cut_off) in [
+        for (cell_corners, should_be_cut_off) in [
             ([[1.0, 0.0], [0.0, 1.0]], are_low_corners_cut_off),
             ([[0.0, 0.0], [1.0, 1.0]], !are_low_corners_cut_off),
         ] {
-            assert_eq!(corners.into_iter().all(is_cut_off), are_cut_off, "{contour_lines:?}");
+            assert_eq!(cell_corners.into_iter().all(is_cut_off), should_be_cut_off, "{contour_lines:?}");
         }
     }
 }
@@ -61,7 +61,7 @@ fn small_or_flat_fields_have_no_lines() {
     }
 }
 
-fn heat_map(settings: Settings) -> Surface {
+fn new_heat_map(settings: Settings) -> Surface {
     let simulation = ArcAnatomy::new(settings).expect("valid settings");
     simulation.surface([-0.5, -1.0], [2.0, 1.5]).expect("a map")
 }
@@ -72,20 +72,20 @@ fn heat_map(settings: Settings) -> Surface {
 #[test]
 fn contours_lie_at_the_levels_of_the_models() {
     let settings = Settings { map: HeatMapKind::Density, ..Settings::default() };
-    let Surface { columns, rows, shades, prob, density } = heat_map(settings);
-    assert!(columns * rows == shades.len() && (5_000..=10_000).contains(&shades.len()));
+    let Surface { columns: column_count, rows: row_count, shades, prob, density } = new_heat_map(settings);
+    assert!(column_count * row_count == shades.len() && (5_000..=10_000).contains(&shades.len()));
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
-    let origin = SE2::identity();
+    let start_pose = SE2::identity();
     let density_at_point = |[x, y]: [f64; 2], surface_kind: HeatMapKind| {
         let next_pose = SE2::new(x, y, settings.next[2]);
         match surface_kind {
-            HeatMapKind::Prob => model.prob(&next_pose, &settings.command, &origin),
-            _ => model.pose_density(&next_pose, &settings.command, &origin).expect("noise of full rank"),
+            HeatMapKind::Prob => model.prob(&next_pose, &settings.command, &start_pose),
+            _ => model.pose_density(&next_pose, &settings.command, &start_pose).expect("noise of full rank"),
         }
     };
     let centre_of = |i: usize| {
-        let [column, row] = [i % columns, i / columns].map(|cell_index| cell_index as f64 + 0.5);
-        [-0.5 + 2.5 * column / columns as f64, 1.5 - 2.5 * row / rows as f64]
+        let [cell_x, cell_y] = [i % column_count, i / column_count].map(|cell_index| cell_index as f64 + 0.5);
+        [-0.5 + 2.5 * cell_x / column_count as f64, 1.5 - 2.5 * cell_y / row_count as f64]
     };
     for (contour_lines, surface_kind) in [(&prob, HeatMapKind::Prob), (&density, HeatMapKind::Density)] {
         let max_density =
@@ -113,6 +113,6 @@ fn contours_lie_at_the_levels_of_the_models() {
 #[test]
 fn a_heat_map_without_noise_is_empty() {
     let settings = Settings { alphas: [0.0; 6], map: HeatMapKind::Prob, ..Settings::default() };
-    let Surface { shades, prob, density, .. } = heat_map(settings);
-    assert!(shades.iter().all(|shade| *shade == 0) && prob.is_empty() && density.is_empty());
+    let Surface { shades, prob, density, .. } = new_heat_map(settings);
+    assert!(shades.iter().all(|cell_shade| *cell_shade == 0) && prob.is_empty() && density.is_empty());
 }

@@ -22,15 +22,15 @@ const TWO_SIGMA_FRACTION: f64 = 0.864_664_716_763_387_3;
 /// If ξ is a Gaussian of rank 2, its 2σ contour contains the same fraction of robots after mapping by exp. The outline separates inside from
 /// outside.
 #[test]
-fn the_exponential_contour_covers_two_deviations() {
+fn the_exponential_contour_covers_the_fraction_of_two_sigma() {
     let start_pose = SE2::new(2.0, -1.0, 0.8);
     let alphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0]);
     let model = VelocityModel { alphas, noise: NoiseKind::Normal };
     let mut rng = seeded_rng(134);
     let poses: Vec<SE2> = (0..200_000).map(|_| model.sample(&COMMAND, &start_pose, &mut rng)).collect();
     let inside_share_of = |cloud_moments: &ExponentialMoments| {
-        let contour = ExponentialContour::new(cloud_moments, &start_pose);
-        poses.iter().filter(|pose| contour.contains(pose)).count() as f64 / 200_000.0
+        let outline = ExponentialContour::new(cloud_moments, &start_pose);
+        poses.iter().filter(|pose| outline.contains(pose)).count() as f64 / 200_000.0
     };
     let standard_error = (TWO_SIGMA_FRACTION * (1.0 - TWO_SIGMA_FRACTION) / 200_000.0).sqrt();
     let exact_moments = ExponentialMoments {
@@ -48,8 +48,8 @@ fn the_exponential_contour_covers_two_deviations() {
         "{fitted_fraction}"
     );
 
-    let contour = ExponentialContour::new(&exact_moments, &start_pose);
-    let shadow_outline = contour.boundary(48);
+    let outline = ExponentialContour::new(&exact_moments, &start_pose);
+    let shadow_outline = outline.boundary(48);
     assert_eq!(shadow_outline.first(), shadow_outline.last());
     for &[x, y] in &shadow_outline {
         // In exponential coordinates the outline is the 2σ ellipse of (along, heading).
@@ -59,7 +59,7 @@ fn the_exponential_contour_covers_two_deviations() {
         for (scale_from_centre, is_inside) in [(0.99, true), (1.01, false)] {
             let v = 1.0 + scale_from_centre * (inversion.v_hat - 1.0);
             let omega = 0.5 + scale_from_centre * (inversion.omega_hat - 0.5);
-            assert_eq!(contour.contains(&start_pose.boxplus(Vector3::new(v, 0.0, omega))), is_inside);
+            assert_eq!(outline.contains(&start_pose.boxplus(Vector3::new(v, 0.0, omega))), is_inside);
         }
     }
 }
@@ -67,7 +67,7 @@ fn the_exponential_contour_covers_two_deviations() {
 /// The outline is nearly the edge of the ellipsoid's projection. Many ξ lead to a point of the outline, each with another
 /// heading. The nearest to the mean is two standard deviations away, or a little less.
 #[test]
-fn the_outline_is_nearly_the_shadow_of_the_ellipsoid() {
+fn the_outline_is_nearly_the_projection_of_the_ellipsoid() {
     let moment_cases = [
         (
             Vector3::new(1.0, 0.0, 0.5),
@@ -99,8 +99,8 @@ fn the_outline_is_nearly_the_shadow_of_the_ellipsoid() {
 fn predicted_skews_match_the_references() {
     for csv_row in ReferenceTable::parse(include_str!("../../reference/pushed_skew.csv")).rows() {
         let mean = Vector3::from(csv_row.cell_numbers(["a", "b", "w"]));
-        let [aa, ab, aw, bb, bw, ww] = csv_row.cell_numbers(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
-        let cov = Matrix3::new(aa, ab, aw, ab, bb, bw, aw, bw, ww);
+        let [cov_aa, ab, aw, bb, bw, ww] = csv_row.cell_numbers(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
+        let cov = Matrix3::new(cov_aa, ab, aw, ab, bb, bw, aw, bw, ww);
         let skew = predicted_cross_track_skew(&mean, &cov);
         assert!(
             (skew - csv_row.cell_number("skew")).abs() < 1e-12,
@@ -132,10 +132,10 @@ fn assert_moments_of_row(exact_moments: &ExactMoments, row: &crate::common::Refe
 fn exact_moments_match_the_references() {
     for row in ReferenceTable::parse(include_str!("../../reference/velocity_moments.csv")).rows() {
         let alphas = VelocityAlphas(row.cell_numbers(["a1", "a2", "a3", "a4", "a5", "a6"]));
-        let [v, omega, dt] = row.cell_numbers(["v", "omega", "dt"]);
+        let [v, omega, duration] = row.cell_numbers(["v", "omega", "dt"]);
         let model = VelocityModel { alphas, noise: row.noise_kind() };
-        let exact_moments = ExactMoments::of_velocity(&model, &VelocityCmd { v, omega, dt });
-        assert!((exact_moments.mean.z - wrap_angle(omega * dt)).abs() < 1e-15);
+        let exact_moments = ExactMoments::of_velocity(&model, &VelocityCmd { v, omega, dt: duration });
+        assert!((exact_moments.mean.z - wrap_angle(omega * duration)).abs() < 1e-15);
         assert_moments_of_row(&exact_moments, &row);
     }
     for row in ReferenceTable::parse(include_str!("../../reference/odometry_moments.csv")).rows() {
@@ -162,20 +162,20 @@ fn degenerate_clouds_give_nan() {
             })
             .collect::<Vec<_>>()
     };
-    for cloud in [vec![], create_poses_on_line(2.0), create_poses_on_line(-0.3)] {
-        let cross_track = CrossTrackStats::from_poses(&cloud);
-        for statistic in
-            [cross_track.skew, cross_track.skew_error, cross_track.rho_heading, cross_track_skew(&cloud)]
+    for line_cloud in [vec![], create_poses_on_line(2.0), create_poses_on_line(-0.3)] {
+        let cross_track = CrossTrackStats::from_poses(&line_cloud);
+        for skew_statistic in
+            [cross_track.skew, cross_track.skew_error, cross_track.rho_heading, cross_track_skew(&line_cloud)]
         {
-            assert!(statistic.is_nan(), "{cross_track:?}");
+            assert!(skew_statistic.is_nan(), "{cross_track:?}");
         }
-        let cartesian_moments = CartesianMoments::from_poses(&cloud);
-        let exponential_moments = ExponentialMoments::from_poses(&cloud, &SE2::identity());
-        assert_eq!(cartesian_moments.mean.iter().any(|m| m.is_nan()), cloud.is_empty());
-        assert_eq!(exponential_moments.mean.iter().any(|m| m.is_nan()), cloud.is_empty());
-        let ellipse = Ellipse::from_moments(&cartesian_moments);
-        assert!(cloud.iter().all(|pose| !ellipse.contains([pose.x(), pose.y()])));
-        assert_eq!(ellipse.boundary(16).len(), 17);
+        let cartesian_moments = CartesianMoments::from_poses(&line_cloud);
+        let exponential_moments = ExponentialMoments::from_poses(&line_cloud, &SE2::identity());
+        assert_eq!(cartesian_moments.mean.iter().any(|m| m.is_nan()), line_cloud.is_empty());
+        assert_eq!(exponential_moments.mean.iter().any(|m| m.is_nan()), line_cloud.is_empty());
+        let covariance_ellipse = Ellipse::from_moments(&cartesian_moments);
+        assert!(line_cloud.iter().all(|pose| !covariance_ellipse.contains([pose.x(), pose.y()])));
+        assert_eq!(covariance_ellipse.boundary(16).len(), 17);
         assert_eq!(ExponentialContour::new(&exponential_moments, &SE2::identity()).boundary(16).len(), 17);
     }
     // Two poses have no skew, because every pair has the same shape. Three poses have a skew.
@@ -204,8 +204,8 @@ fn degenerate_clouds_give_nan() {
 #[test]
 fn a_width_of_the_size_of_rounding_counts_as_zero() {
     const TINY_SPEED: f64 = 1e-6;
-    let reported_and_plain_skew = |turn: f64| {
-        let turn_per_speed = turn / TINY_SPEED;
+    let reported_and_plain_skew = |motion_turn: f64| {
+        let turn_per_speed = motion_turn / TINY_SPEED;
         let velocity_alphas = [1e6, 0.0, turn_per_speed * turn_per_speed, 0.0, 0.0, 0.0];
         let command = VelocityCmd { v: TINY_SPEED, omega: 0.0, dt: 1.0 };
         let settings = Settings { command, velocity_alphas, samples: 1000, ..Settings::default() };

@@ -102,11 +102,14 @@ const styles = css`
     line-height: 1.2;
   }
 
+  .fitted > p {
+    margin: 0.2em 0;
+    line-height: 1.3;
+  }
+
   /* The minimum height reserves space for the advice of a failed check, so that the advice does not move a slider that is dragged. */
   .to-do {
     min-height: 6.5em;
-    margin: 0.2em 0;
-    line-height: 1.3;
   }
 
   @media print {

@@ -123,11 +123,11 @@ export function tableLinesHtml({ viewModel: { table: { lines }, config: { printe
     return `${i + 1}. ${printed ? formula.replace('±', '') : formula} = ${valueText}${TABLE_LINE_UNITS[i]}`;
   };
   return html`<p>${texts.introduction}</p>
-    <ul class="lines" part="table" role="radiogroup" aria-label=${texts.label}>
+    <div role="radiogroup" aria-label=${texts.label}><ul class="lines" part="table">
       ${[texts.noLine, ...TABLE_LINE_FORMULAS.map(lineTextOf)].map((lineText, lineNumber) => html`<li>
         ${radioButtonHtml({ group: 'line', label: formatMarkup(lineText), checked: lineNumber === elementState.line, onChoose: () => gesture.setElementField('line', lineNumber) })}
       </li>`)}
-    </ul>
+    </ul></div>
     <p class="muted">${formatMarkup(texts.signNote)}</p>`;
 }
 

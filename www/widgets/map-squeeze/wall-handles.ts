@@ -14,8 +14,12 @@ const KEY_STEP = 0.05;
 /** Largest number of walls with handles. */
 const MAX_HANDLED_WALLS = 50;
 
-/** Points of a wall at which its handle may be, as fractions of the wall. The handle is at the middle one of the visible points. */
-const HANDLE_FRACTIONS = { from: [0], to: [1], side: range(0.02, 0.99, 0.02) };
+/** Fractions of a wall at which the handle of the whole wall may be. The handle is at the middle one of the visible points. */
+const SIDE_FRACTIONS = range(0.02, 0.99, 0.02);
+
+/** Distance between the edge of a doorway and its handle, and its maximum as a fraction of the wall. It keeps the handle apart from a robot in the doorway. */
+const EDGE_INSET_PX = 12;
+const MAX_EDGE_INSET = 1 / 6;
 
 export class WallHandles extends FigureController<import('./map-squeeze.ts').MapSqueezeElement> {
   #handles: Map<string, Handle> = new Map();
@@ -34,7 +38,9 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const { xMin, xMax, yMin, yMax } = view.extent;
     const shownGrips = this.#grips.flatMap((grip) => {
       const [x0, y0, x1, y1] = walls.subarray(grip.wallOffset, grip.wallOffset + 4);
-      const handlePoints = HANDLE_FRACTIONS[grip.grippedPart].map((fraction): [x: number, y: number] => [x0 + fraction * (x1 - x0), y0 + fraction * (y1 - y0)]);
+      const insetFraction = Math.min(MAX_EDGE_INSET, EDGE_INSET_PX / (view.scaleX * Math.hypot(x1 - x0, y1 - y0)));
+      const handleFractions = { from: [insetFraction], to: [1 - insetFraction], side: SIDE_FRACTIONS }[grip.grippedPart];
+      const handlePoints = handleFractions.map((fraction): [x: number, y: number] => [x0 + fraction * (x1 - x0), y0 + fraction * (y1 - y0)]);
       const visiblePoints = handlePoints.filter(([x, y]) => x > xMin && x < xMax && y > yMin && y < yMax);
       const handle = this.#handleOf(grip);
       const shownPoints = visiblePoints.length === 0 && handle.isHeld ? handlePoints : visiblePoints;

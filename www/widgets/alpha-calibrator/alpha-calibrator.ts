@@ -112,6 +112,17 @@ const styles = css`
     min-height: 6.5em;
   }
 
+  /* In the presentation the pictures take the space that the verdict and the table leave. */
+  :host([presentation]) .views {
+    grid-template-rows: auto 1fr;
+  }
+
+  :host([presentation]) .one {
+    display: grid;
+    grid-template-rows: 1fr auto;
+    align-self: stretch;
+  }
+
   @media print {
     :is(.drop-zone, .found) {
       display: none;

@@ -10,7 +10,7 @@
 export const CPU_SLOWDOWN = 4;
 
 /** Selector of sliders and handles. Handles of walls are excluded, because they change the map instead of a setting. */
-const DRAGGED_SELECTOR = '.slider input[type=range], .handle:not(.jamb, .side)';
+const DRAGGABLE_SELECTOR = '.slider input[type=range], .handle:not(.jamb, .side)';
 
 /**
  * @typedef {object} Drag times in ms, step by step
@@ -37,10 +37,10 @@ export async function timeDrags(browser, pageUrl, stepCount) {
     await page.locator(widgetTag).scrollIntoViewIfNeeded();
     await page.waitForFunction((widgetTag) => document.querySelector(widgetTag)?.shadowRoot?.querySelector('.slider'), widgetTag);
     await page.locator(widgetTag).evaluate((widgetElement) => widgetElement.scrollIntoView({ block: 'start' }));
-    const draggedCount = await page.locator(widgetTag).locator(DRAGGED_SELECTOR).count();
+    const draggedCount = await page.locator(widgetTag).locator(DRAGGABLE_SELECTOR).count();
     await cdpSession.send('Emulation.setCPUThrottlingRate', { rate: CPU_SLOWDOWN });
     for (let i = 0; i < draggedCount; i++) {
-      dragTimings.push({ widget: widgetTag, ...(await page.evaluate(timeDrag, { widget: widgetTag, selector: DRAGGED_SELECTOR, i, steps: stepCount })) });
+      dragTimings.push({ widget: widgetTag, ...(await page.evaluate(timeDrag, { widget: widgetTag, selector: DRAGGABLE_SELECTOR, i, steps: stepCount })) });
     }
     await cdpSession.send('Emulation.setCPUThrottlingRate', { rate: 1 });
   }

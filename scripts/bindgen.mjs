@@ -27,14 +27,14 @@ async function compileProgram(programName, cargoFeatures) {
   const installDirectory = join(CACHE_DIRECTORY, `wasm-bindgen-${bindgenVersion}-${sourceHash.digest('hex').slice(0, 12)}`);
   const programPath = join(installDirectory, 'bin', programName);
   if (isProgram(programPath)) return programPath;
-  const { bin, env } = await ensureNativeRust();
+  const { cargoDirectory, env } = await ensureNativeRust();
   printStep(`Building ${programName} of wasm-bindgen ${bindgenVersion}, once`);
   const cargoArguments = ['install', '--quiet', '--debug', '--path', BINDGEN_CRATE, '--bin', programName, ...cargoFeatures, '--root', installDirectory, '--no-track', '--force'];
   // Cargo locks its directory while it builds. This build therefore has its own directory.
   const cargoOptions = { env: { ...env, CARGO_TARGET_DIR: join(ROOT, 'target/bind') }, seconds: 1200 };
-  const installResult = await run(join(bin, 'cargo'), [...cargoArguments, '--locked'], { ...cargoOptions, quiet: true });
+  const installResult = await run(join(cargoDirectory, 'cargo'), [...cargoArguments, '--locked'], { ...cargoOptions, quiet: true });
   // A mirror of the registry may lack a crate of the lock file.
-  if (installResult.ok || (await run(join(bin, 'cargo'), cargoArguments, cargoOptions)).ok) return programPath;
+  if (installResult.ok || (await run(join(cargoDirectory, 'cargo'), cargoArguments, cargoOptions)).ok) return programPath;
   throw new UserError(
     `wasm-bindgen ${bindgenVersion} could not be built: check that this machine reaches the registry of Rust packages and start again.`,
   );

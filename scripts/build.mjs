@@ -32,21 +32,21 @@ const CORE_SOURCES = [
  * Brings dist/ up to date with the sources.
  *
  * @param {object} [options]
- * @param {boolean} [options.local] true for a server on this machine. All figures then share the whole core, compiled with the profile
+ * @param {boolean} [options.isLocal] true for a server on this machine. All figures then share the whole core, compiled with the profile
  *   `web` and not shrunk, unless the modules for publication exist already.
  */
-export async function build({ local = false } = {}) {
+export async function build({ isLocal = false } = {}) {
   const coreHash = hashOfFiles(CORE_SOURCES);
   const coreProducts = ['build/motion.js', 'build/motion.wasm', 'build/core.d.ts', 'build/crates.json', 'build/settings.js'];
   const isPublishedCoreUpToDate = isUpToDate('build/core.sha256', coreHash, coreProducts);
-  const compiledHash = local && !isPublishedCoreUpToDate ? `${coreHash} local` : coreHash;
+  const compiledHash = isLocal && !isPublishedCoreUpToDate ? `${coreHash} local` : coreHash;
   // Packages are installed before anything is compiled. Without a network the installation fails at once, whereas compiling takes minutes.
   await ensurePackages();
-  await buildIfStale('build/core.sha256', compiledHash, coreProducts, () => buildCores(['motion'], local));
+  await buildIfStale('build/core.sha256', compiledHash, coreProducts, () => buildCores(['motion'], isLocal));
   // bundle.mjs imports npm packages and build/settings.js. A static import of bundle.mjs would fail in a bare clone.
   const { WIDGET_TAGS, bundle } = await import('./bundle.mjs');
   const figureProducts = WIDGET_TAGS.flatMap((widgetTag) => [`build/${widgetTag}.js`, `build/${widgetTag}.wasm`]);
-  if (!local) await buildIfStale('build/figures.sha256', coreHash, figureProducts, () => buildCores(WIDGET_TAGS, false));
+  if (!isLocal) await buildIfStale('build/figures.sha256', coreHash, figureProducts, () => buildCores(WIDGET_TAGS, false));
   const tagsWithCore = compiledHash === coreHash && isUpToDate('build/figures.sha256', coreHash, figureProducts) ? WIDGET_TAGS : [];
   const pagesHash = hashOfFiles(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], compiledHash + tagsWithCore);
   await buildIfStale('build/pages.sha256', pagesHash, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], () => bundle({ tags: tagsWithCore }));
@@ -118,11 +118,11 @@ async function buildCores(coreNames, isLocal) {
  * @returns {Promise<string>} path of the module that rustc has written
  */
 async function compileCore(rustTools, name, isLocal) {
-  const cargoPath = join(rustTools.bin, 'cargo');
+  const cargoPath = join(rustTools.cargoDirectory, 'cargo');
   // `cargo build` also makes a Rust library, and then cannot optimize across crates. `cargo rustc` makes only the module. Panic locations
   // contain paths. In a published module the paths of this machine are removed.
   const registrySources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
-  const { stdout: sysroot } = await run(join(rustTools.bin, 'rustc'), ['--print', 'sysroot'], { env: rustTools.env, quiet: true });
+  const { stdout: sysroot } = await run(join(rustTools.cargoDirectory, 'rustc'), ['--print', 'sysroot'], { env: rustTools.env, quiet: true });
   const pathRemovalFlags = [registrySources, join(sysroot.trim(), 'lib/rustlib/src/rust')].map((path) => `"--remap-path-prefix=${path}="`);
   const pathRemovalOption = `target.wasm32-unknown-unknown.rustflags=[${pathRemovalFlags}]`;
   const cargoProfile = isLocal ? 'web' : 'release';
@@ -140,9 +140,9 @@ async function compileCore(rustTools, name, isLocal) {
 
 /** Writes build/settings.js, with constants of the core for pages that have not loaded it and for scripts that generate types. */
 async function writeSettings() {
-  const { bin, env } = await ensureNativeRust();
+  const { cargoDirectory, env } = await ensureNativeRust();
   const cargoArguments = ['run', '--quiet', '--locked', '--example', 'declarations'];
-  const { stdout } = await runOrThrow('The settings could not be listed: see above.', join(bin, 'cargo'), cargoArguments, { env, quiet: true });
+  const { stdout } = await runOrThrow('The settings could not be listed: see above.', join(cargoDirectory, 'cargo'), cargoArguments, { env, quiet: true });
   const [widgets, otherConstants] = JSON.parse(stdout);
   const settings = Object.fromEntries(widgets.map((/** @type {any[]} */ [tag, settingsOfWidget]) => [tag, declarationsOf(settingsOfWidget)]));
   const presets = Object.fromEntries(widgets.map((/** @type {any[]} */ [tag, , presetsOfWidget]) => [tag, presetsOfWidget.map((/** @type {any[]} */ [name, settings]) => ({ name, settings }))]));
@@ -177,14 +177,14 @@ function declarationsOf(settingsOfWidget) {
   });
 }
 
-/** Writes the module and the glue of a bound core. @param {string} name @param {boolean} local */
-async function completeCore(name, local) {
+/** Writes the module of a core and its JavaScript glue, from the files that wasm-bindgen wrote. @param {string} name @param {boolean} isLocal */
+async function completeCore(name, isLocal) {
   copyFileSync(absolutePath(`build/bound/${name}/motion_bg.wasm`), absolutePath(`build/${name}.wasm`));
-  if (!local) {
+  if (!isLocal) {
     await replacePanicsByTraps(`build/${name}.wasm`);
     await optimizeModule(`build/${name}.wasm`);
   }
-  await writeGlue(name, local ? readGlueNames(name) : await shortenNames(name));
+  await writeGlue(name, isLocal ? readGlueNames(name) : await shortenNames(name));
 }
 
 /**
@@ -299,6 +299,6 @@ async function writeGlue(name, glueNames) {
 }
 
 await runAsScript(import.meta.url, async () => {
-  await build({ local: process.argv.includes('--local') });
+  await build({ isLocal: process.argv.includes('--local') });
   console.log('\ndist/ is up to date.');
 });

@@ -33,9 +33,9 @@ function unpackInputs(targetName) {
 
 /** Runs a target with cargo-fuzz. @param {string} targetName @param {string[]} inputFolders of inputs @param {string[]} fuzzerOptions of libFuzzer */
 async function runCargoFuzz(targetName, inputFolders, fuzzerOptions) {
-  const { bin, env } = await ensureNativeRust();
+  const { cargoDirectory, env } = await ensureNativeRust();
   const cargoArguments = ['+nightly', 'fuzz', 'run', ...BUILD_OPTIONS, 'target', ...inputFolders, '--', ...fuzzerOptions];
-  return run(join(bin, 'cargo'), cargoArguments, { env: { ...env, FUZZ_TARGET: targetName }, quiet: true });
+  return run(join(cargoDirectory, 'cargo'), cargoArguments, { env: { ...env, FUZZ_TARGET: targetName }, quiet: true });
 }
 
 /**
@@ -80,10 +80,10 @@ await runAsScript(import.meta.url, async () => {
   if (unknownTarget !== undefined) throw new UserError(`"${unknownTarget}" is not a target; targets are ${FUZZ_TARGETS.join(', ')}.`);
   const waitingTargets = namedTargets.length > 0 ? namedTargets : [...FUZZ_TARGETS];
   printStep(`${isKeepMode ? 'keep' : `${runs} inputs each, seed ${seed}`}: ${waitingTargets.join(', ')}`);
-  const { bin, env } = await ensureNativeRust();
+  const { cargoDirectory, env } = await ensureNativeRust();
   const missingMessage = 'cargo-fuzz or a nightly Rust is missing: run `rustup toolchain install nightly` and `cargo install --locked cargo-fuzz`, and start again.';
-  await runOrThrow(missingMessage, join(bin, 'cargo'), ['+nightly', 'fuzz', '--version'], { env, quiet: true });
-  await runOrThrow('The targets do not compile: see above.', join(bin, 'cargo'), ['+nightly', 'fuzz', 'build', ...BUILD_OPTIONS], { env });
+  await runOrThrow(missingMessage, join(cargoDirectory, 'cargo'), ['+nightly', 'fuzz', '--version'], { env, quiet: true });
+  await runOrThrow('The targets do not compile: see above.', join(cargoDirectory, 'cargo'), ['+nightly', 'fuzz', 'build', ...BUILD_OPTIONS], { env });
   const runWaitingTargets = async () => {
     for (let fuzzTargetName = waitingTargets.shift(); fuzzTargetName !== undefined; fuzzTargetName = waitingTargets.shift()) {
       const fuzzResult = isKeepMode ? keepInputs(fuzzTargetName) : runFuzzTarget(fuzzTargetName, `${runs}`, `${seed}`);

@@ -17,7 +17,7 @@ const FRAME_COUNT = 24;
 const FRAME_DURATIONS_MS = { each: 100, end: 1600 };
 
 await runAsScript(import.meta.url, async () => {
-  await build({ local: true });
+  await build({ isLocal: true });
   const { chromium } = await import('@playwright/test');
   const browser = await chromium.launch({ executablePath: (await ensureBrowser()).chrome, args: CHROME_ARGUMENTS });
   const { address, close } = await startServer(join(ROOT, 'dist'), { port: 0 });

@@ -106,7 +106,7 @@ export async function runAsScript(scriptUrl, mainFunction) {
 const processGroups = new Set();
 
 /** Ends a process group. @param {number} processGroupId */
-export function endGroup(processGroupId) {
+export function killProcessGroup(processGroupId) {
   try {
     process.kill(-processGroupId, 'SIGKILL');
   } catch {
@@ -116,7 +116,7 @@ export function endGroup(processGroupId) {
 
 /** Ends this process and all process groups. */
 function endAfterSignal() {
-  processGroups.forEach(endGroup);
+  processGroups.forEach(killProcessGroup);
   process.exit(130);
 }
 
@@ -172,7 +172,7 @@ export function run(command, commandArguments, { env = {}, cwd = ROOT, seconds, 
       endGroupWithProcess(processGroupId);
       limitTimer = setTimeout(() => {
         timedOut = true;
-        endGroup(processGroupId);
+        killProcessGroup(processGroupId);
       }, seconds * 1000);
     }
     childProcess.stdout.setEncoding('utf8').on('data', (text) => {

@@ -54,7 +54,7 @@ function readRequestedPort() {
 
 await runAsScript(import.meta.url, async () => {
   const port = readRequestedPort();
-  await build({ local: true });
+  await build({ isLocal: true });
   const { address } = await startServer(join(ROOT, 'dist'), { port });
   console.log(`\nThe widgets are at ${address} (Ctrl-C stops).`);
 });

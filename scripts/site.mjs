@@ -124,13 +124,13 @@ function checkLinks() {
 
 await runAsScript(import.meta.url, async () => {
   await build();
-  // The tags come from settings that exist only after the build.
+  // WIDGET_TAGS lists the elements' names, which the module reads from a file that the build writes.
   const { WIDGET_TAGS } = await import('./bundle.mjs');
   await ensurePackages('scripts');
   const rustTools = await ensureNativeRust();
   printStep('Documenting the crate');
   const docOptions = ['--quiet', '--locked', '--no-deps', '--lib', '--target-dir', join(ROOT, 'build/rustdoc')];
-  await runOrThrow('The crate is not documented: see above.', join(rustTools.bin, 'cargo'), ['doc', ...docOptions], { env: rustTools.env });
+  await runOrThrow('The crate is not documented: see above.', join(rustTools.cargoDirectory, 'cargo'), ['doc', ...docOptions], { env: rustTools.env });
   printStep('Rendering the documents');
   rmSync(SITE_DIRECTORY, { recursive: true, force: true });
   cpSync(join(ROOT, 'dist'), SITE_DIRECTORY, { recursive: true, filter: (path) => !/(\.d\.ts|\.map|cli\.js|motion-widgets\.js)$/.test(path) });

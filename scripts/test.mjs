@@ -36,7 +36,7 @@ const TEST_WORKSPACES = IS_NIGHTLY ? ['tests', 'tests/package', 'tests/engines']
  * Builds dist/ and installs the packages of the tests. Daily tests use the common core in all figures. Nightly tests also use the core of
  * each figure.
  */
-const ensureBuilt = memoize(() => settleAll([build({ local: !IS_NIGHTLY }), ...TEST_WORKSPACES.map((workspaceName) => ensurePackages(workspaceName))]));
+const ensureBuilt = memoize(() => settleAll([build({ isLocal: !IS_NIGHTLY }), ...TEST_WORKSPACES.map((workspaceName) => ensurePackages(workspaceName))]));
 
 /** Versions of the tools that the parts of this test run have used so far. */
 const toolVersions = new Set([`Node ${process.versions.node}`]);
@@ -83,7 +83,7 @@ const createNpmJob = (scriptPath, scriptArguments, env) => createProgramJob([pro
  * @param {string[]} cargoArguments
  * @param {Record<string, string>} [moreEnvironment]
  */
-const createCargoJob = ({ bin, env: rustEnvironment }, cargoArguments, moreEnvironment) => createProgramJob([join(bin, 'cargo'), ...cargoArguments], { ...rustEnvironment, ...moreEnvironment });
+const createCargoJob = ({ cargoDirectory, env: rustEnvironment }, cargoArguments, moreEnvironment) => createProgramJob([join(cargoDirectory, 'cargo'), ...cargoArguments], { ...rustEnvironment, ...moreEnvironment });
 
 /**
  * Returns a job that runs rustfmt or clippy.
@@ -94,7 +94,7 @@ const createCargoJob = ({ bin, env: rustEnvironment }, cargoArguments, moreEnvir
  */
 async function createLintJob(rustTools, lintName, lintArguments) {
   await ensureLints(rustTools);
-  return createProgramJob([join(rustTools.bin, `cargo-${lintName}`), lintName, ...lintArguments], rustTools.env);
+  return createProgramJob([join(rustTools.cargoDirectory, `cargo-${lintName}`), lintName, ...lintArguments], rustTools.env);
 }
 
 const LINT_RULES = ['--', '-D', 'warnings'];

@@ -89,7 +89,7 @@ export async function ensurePip() {
 
 /**
  * @typedef {object} Rust
- * @property {string} bin the directory of cargo, cargo-fmt and cargo-clippy
+ * @property {string} cargoDirectory the directory of cargo, cargo-fmt and cargo-clippy
  * @property {Record<string, string>} env
  * @property {string[]} target the arguments that make cargo build for this target
  * @property {string} description
@@ -108,10 +108,10 @@ export const ensureNativeRust = memoize(/** @returns {Promise<Rust>} */ async ()
     const installHint = process.platform === 'darwin' ? 'run `xcode-select --install`' : 'install gcc';
     await installByApt(['gcc', 'libc6-dev'], `A C compiler, which Rust links with, is missing: ${installHint} and start again.`);
   }
-  const bin = dirname(cargoPath);
-  const rustEnvironment = bin === DEBIAN_BIN ? createDebianEnvironment() : createEnvironment(bin);
-  const rustcVersion = await requireRustVersion(bin, rustEnvironment, 'run `rustup update stable`');
-  return { bin, env: rustEnvironment, target: [], description: rustcVersion };
+  const cargoDirectory = dirname(cargoPath);
+  const rustEnvironment = cargoDirectory === DEBIAN_BIN ? createDebianEnvironment() : createEnvironment(cargoDirectory);
+  const rustcVersion = await requireRustVersion(cargoDirectory, rustEnvironment, 'run `rustup update stable`');
+  return { cargoDirectory, env: rustEnvironment, target: [], description: rustcVersion };
 });
 
 /** Installs Rust by rustup, and returns true if that succeeded. @returns {Promise<boolean>} */
@@ -128,7 +128,7 @@ async function installRustup() {
  */
 export const ensureRustForWasm = memoize(/** @returns {Promise<Rust>} */ async () => {
   const nativeToolchain = await ensureNativeRust();
-  if (nativeToolchain.bin !== DEBIAN_BIN && (await enqueueForRustup(() => hasWasmTarget(nativeToolchain)))) {
+  if (nativeToolchain.cargoDirectory !== DEBIAN_BIN && (await enqueueForRustup(() => hasWasmTarget(nativeToolchain)))) {
     return { ...nativeToolchain, target: ['--target', WASM_TARGET], description: `${nativeToolchain.description}, ${WASM_TARGET} of rustup` };
   }
   const missingMessage =
@@ -142,7 +142,7 @@ export const ensureRustForWasm = memoize(/** @returns {Promise<Rust>} */ async (
   const env = { ...createDebianEnvironment(), CARGO_UNSTABLE_PANIC_ABORT_TESTS: 'true' };
   const rustcVersion = await requireRustVersion(DEBIAN_BIN, env, 'run `sudo apt-get update && sudo apt-get install rustc-web`');
   return {
-    bin: DEBIAN_BIN,
+    cargoDirectory: DEBIAN_BIN,
     env,
     target: ['--target', WASM_TARGET, '-Zbuild-std=std,panic_abort'],
     description: `${rustcVersion} of Debian, standard library from source`,
@@ -154,10 +154,10 @@ export const ensureRustForWasm = memoize(/** @returns {Promise<Rust>} */ async (
  *
  * @param {Rust} native
  */
-async function hasWasmTarget({ bin, env }) {
-  const sysrootResult = await run(join(bin, 'rustc'), ['--print', 'sysroot'], { env, quiet: true });
+async function hasWasmTarget({ cargoDirectory, env }) {
+  const sysrootResult = await run(join(cargoDirectory, 'rustc'), ['--print', 'sysroot'], { env, quiet: true });
   if (existsSync(join(sysrootResult.stdout.trim(), 'lib/rustlib', WASM_TARGET))) return true;
-  const rustupPath = findProgram('rustup', [bin]);
+  const rustupPath = findProgram('rustup', [cargoDirectory]);
   if (rustupPath === undefined) return false;
   // Behind some firewalls rustup never returns. A daily probe detects such a firewall. It waits longer if Debian's packages cannot replace
   // rustup.
@@ -201,45 +201,45 @@ function createDebianEnvironment() {
 }
 
 /**
- * Returns the variables PATH and CARGO with which the programs of `bin` are found first. cargo-clippy runs the program that CARGO names.
+ * Returns the variables PATH and CARGO with which the programs of `cargoDirectory` are found first. cargo-clippy runs the program that CARGO names.
  *
- * @param {string} bin
+ * @param {string} cargoDirectory
  */
-function createEnvironment(bin) {
-  return { PATH: bin + delimiter + process.env.PATH, CARGO: join(bin, 'cargo') };
+function createEnvironment(cargoDirectory) {
+  return { PATH: cargoDirectory + delimiter + process.env.PATH, CARGO: join(cargoDirectory, 'cargo') };
 }
 
 /**
  * Returns rustc's description of itself. Throws if rustc is too old.
  *
- * @param {string} bin
+ * @param {string} cargoDirectory
  * @param {Record<string, string>} env
  * @param {string} remedySentence
  * @returns {Promise<string>}
  */
-async function requireRustVersion(bin, env, remedySentence) {
+async function requireRustVersion(cargoDirectory, env, remedySentence) {
   const requiredVersion = readManifestValue('Cargo.toml', /^rust-version = "(.+)"$/m);
-  const { stdout } = await run(join(bin, 'rustc'), ['--version'], { env, quiet: true });
+  const { stdout } = await run(join(cargoDirectory, 'rustc'), ['--version'], { env, quiet: true });
   const [, rustMajor, rustMinor] = stdout.match(/^rustc (\d+)\.(\d+)/) ?? ['', '0', '0'];
   const [minMajor, minMinor] = requiredVersion.split('.').map(Number);
   if (Number(rustMajor) < minMajor || (Number(rustMajor) === minMajor && Number(rustMinor) < minMinor)) {
-    throw new UserError(`Rust ${requiredVersion} or newer is needed and ${join(bin, 'rustc')} is not: ${remedySentence} and start again.`);
+    throw new UserError(`Rust ${requiredVersion} or newer is needed and ${join(cargoDirectory, 'rustc')} is not: ${remedySentence} and start again.`);
   }
   return stdout.split(' ').slice(0, 2).join(' ');
 }
 
 /** Ensures that rustfmt and clippy are installed for a cargo. @param {Rust} rust */
-export async function ensureLints({ bin, env }) {
+export async function ensureLints({ cargoDirectory, env }) {
   const hasLints = async () => {
-    const versionResults = ['cargo-fmt', 'cargo-clippy'].map((lintName) => run(join(bin, lintName), ['--version'], { env, quiet: true }));
+    const versionResults = ['cargo-fmt', 'cargo-clippy'].map((lintName) => run(join(cargoDirectory, lintName), ['--version'], { env, quiet: true }));
     return (await Promise.all(versionResults)).every(({ ok }) => ok);
   };
   if (await hasLints()) return;
   const missingMessage = 'rustfmt or clippy is missing: run `rustup component add rustfmt clippy` and start again.';
-  if (bin === DEBIAN_BIN) {
+  if (cargoDirectory === DEBIAN_BIN) {
     await installByApt(['rustfmt-web', 'rust-web-clippy'], missingMessage);
   } else {
-    const rustupPath = findProgram('rustup', [bin]);
+    const rustupPath = findProgram('rustup', [cargoDirectory]);
     if (rustupPath === undefined) throw new UserError(missingMessage);
     await enqueueForRustup(() => runOrThrow(missingMessage, rustupPath, ['component', 'add', 'rustfmt', 'clippy'], { env, seconds: 300 }));
   }

@@ -21,7 +21,7 @@ export interface Declaration {
   in?: string;
   /** Key of a list setting whose last numbers are multiples of this setting. Changing this setting changes those numbers. */
   of?: string;
-  /** Ratios of the last numbers of the list setting `of` to this setting. */
+  /** Factors of the last numbers of the list setting `of`: each of these numbers is its factor times this setting. */
   weights?: number[];
   /** Key in the group, if it differs from `key` because a field of another group has the same name. */
   field?: string;

@@ -159,8 +159,8 @@ impl LegSet {
 /// Median of χ² with one degree of freedom, the distribution of the square of a standard normal number.
 const MEDIAN_CHI2_1: f64 = 0.4549;
 
-/// Initial guess of the standard deviations of the reference, m and rad. It is large, because the search can end at a smaller maximum
-/// without noise of the reference if outliers are kept.
+/// Initial guess of the standard deviations of the reference, m and rad. It is large: if outliers are kept, a search from a small guess can
+/// end at a local maximum of the likelihood at which the reference has no noise.
 const INITIAL_REFERENCE_STD: f64 = 1e-2;
 
 /// Returns the parameters that are fitted: α's of the model, and variances of the reference that the options do not state.

@@ -209,7 +209,7 @@ pub(super) fn legs_per_score_block(legs: usize) -> usize {
 }
 
 impl Innovation {
-    /// Returns the innovation of the residual, without the part that the systematic `errors` explain.
+    /// Returns the innovation minus the part that the systematic `errors` explain.
     fn without(&self, errors: &ErrorVector) -> Vector3<f64> {
         self.columns * -errors.push(-1.0)
     }

@@ -105,7 +105,7 @@ impl Observation {
             Model::Odometry(rule) => Prediction::differential(rule, &expected),
             Model::Velocity => Prediction::velocity(&expected, leg.duration()),
         };
-        let exact = match model {
+        let exact_residuals = match model {
             _ if position_std > MAX_ATAN2_NOISE_RATIO * distance(&expected) => None,
             Model::Odometry(OdometryRule::Omni) => None,
             Model::Odometry(_) => Some(exact_odometry_residuals(reading, &measured)),
@@ -113,14 +113,14 @@ impl Observation {
         };
         let has_direction = model.drives_sideways()
             || distance(&motion) >= MAX_SPIN_DISTANCE
-                && exact.is_none_or(|(length, _)| length >= MAX_SPIN_DISTANCE);
+                && exact_residuals.is_none_or(|(length, _)| length >= MAX_SPIN_DISTANCE);
         let expected = if model == Model::Velocity { motion } else { expected };
         let displacement = Vector3::from(<[f64; 3]>::from(motion.between(&measured)));
         if has_direction {
             let jacobian = noise_jacobian.try_inverse().unwrap_or_default();
             // Angles of linear residuals are not wrapped at π, because their covariances are linear too.
             let residuals =
-                exact.map_or_else(|| (jacobian * displacement).into(), |(_, residuals)| residuals);
+                exact_residuals.map_or_else(|| (jacobian * displacement).into(), |(_, residuals)| residuals);
             return Self { residuals, coefficients, reading, expected, measured, jacobian, noise_jacobian };
         }
         let is_observed = match model {

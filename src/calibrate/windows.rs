@@ -166,7 +166,7 @@ pub(super) fn cross_validate(fit: &Fit, all_legs: &LegSet, alphas: &[Option<f64>
     let coverage_by_other_half = covered_legs as f64 / compared_legs as f64;
     let expected_coverage = coverage_range(compared_legs, variance_std_error);
     let mut checks = vec![Check::new(CheckName::HoldoutCovered, coverage_by_other_half, expected_coverage)];
-    // Windows of the whole log, each under the fit to the other half.
+    // The windows in each half of the log are compared with the parameters that were fitted to the other half.
     let half_ranges_of_log = split_in_halves(all_legs.legs.len());
     let halves_with_parameters = || half_ranges_of_log.iter().cloned().zip(&parameters_by_other_half);
     let covariances: Vec<Option<Matrix3<f64>>> = halves_with_parameters()

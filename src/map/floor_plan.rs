@@ -41,7 +41,7 @@ pub enum FloorPlanError {
     BadWall {
         /// Index of the wall.
         wall_index: usize,
-        /// First end of the wall that is not allowed, m.
+        /// Position (m) of the invalid end of the wall, or of its start if neither end is valid.
         invalid_end: [f64; 2],
     },
     /// More than [`FloorPlan::MAX_WALLS`] walls.

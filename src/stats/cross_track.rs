@@ -51,20 +51,20 @@ impl CrossTrackStats {
 
     pub(super) fn from_moments(pose_count: usize, moments: &TrackMoments) -> Self {
         let TrackMoments { products, squared_extent, resultant_length } = *moments;
-        let [along_d, along_d2, m2, m3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td] = products;
+        let [along_d, along_d2, m2, m3, d4, d5, d6, s2, s_d, s_d2, s_d3, t, tt, td] = products;
         if pose_count < 3 || m2 <= (MIN_RELATIVE_STD * MIN_RELATIVE_STD * squared_extent).max(MIN_VARIANCE) {
             return Self::UNDEFINED;
         }
         // The means of dᵏ for k = 0 … 6, and of sin(t)·dᵏ for k = 0 … 3. The means of d and of sin(t) are 0.
-        let (d, sin_d) = ([1.0, 0.0, m2, m3, d4, d5, d6], [0.0, sd, sd2, sd3]);
-        let sd = m2.sqrt();
-        let skew = m3 / (m2 * sd);
+        let (d, sin_d) = ([1.0, 0.0, m2, m3, d4, d5, d6], [0.0, s_d, s_d2, s_d3]);
+        let std = m2.sqrt();
+        let skew = m3 / (m2 * std);
         // Rotating the mean heading by dh changes d by −along·dh. The influence of a pose on the mean heading is sin(turn)/resultant.
-        let heading_influence = 3.0 * (skew * along_d / m2 - along_d2 / (m2 * sd)) / resultant_length;
-        // The influence of a pose on the skew is z³ − skew − 3z − 1.5·skew·(z² − 1) + heading_influence·sin(turn), with z = d/sd. The
+        let heading_influence = 3.0 * (skew * along_d / m2 - along_d2 / (m2 * std)) / resultant_length;
+        // The influence of a pose on the skew is z³ − skew − 3z − 1.5·skew·(z² − 1) + heading_influence·sin(turn), with z = d/std. The
         // influence is a polynomial in d, so that its mean square is a sum of moments.
-        let influence_polynomial = [0.5 * skew, -3.0 / sd, -1.5 * skew / m2, 1.0 / (m2 * sd)];
-        let mut mean_squared_influence = heading_influence * heading_influence * ss;
+        let influence_polynomial = [0.5 * skew, -3.0 / std, -1.5 * skew / m2, 1.0 / (m2 * std)];
+        let mut mean_squared_influence = heading_influence * heading_influence * s2;
         for (i, a) in influence_polynomial.iter().enumerate() {
             mean_squared_influence += 2.0 * heading_influence * a * sin_d[i];
             for (j, b) in influence_polynomial.iter().enumerate() {

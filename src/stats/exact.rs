@@ -49,8 +49,8 @@ impl UnitMotionMoments {
         self.product_sums += offset * offset.transpose() * weight;
     }
 
-    /// Returns the mean and covariance of L·u and the turn, for a length L that is independent of the noise and has the given mean and
-    /// standard deviation.
+    /// Returns the mean and covariance of the end L·u (x, y) and the excess turn of motions. Their length L is independent of u and of the
+    /// turn, and has the given mean and standard deviation.
     #[inline(never)]
     pub fn mean_and_cov(&self, [mean_length, length_std]: [f64; 2]) -> (Vector3<f64>, Matrix3<f64>) {
         let mean = self.weighted_sums / self.weight_sum;

@@ -11,14 +11,14 @@ use crate::noise::NoiseKind;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{LN_2, PI, TAU};
 
-/// Exact gain of a model, and the moments of its exponential coordinates, for robots that start at the identity pose.
+/// Likelihood gain of a model, and the moments of its exponential coordinates, without sampling error. Robots start at the identity pose.
 ///
 /// Exponential coordinates diverge at a turn of a full circle. Gaussian noise reaches it with some probability, so that the exact moments
 /// of ξ are infinite. Turns beyond `MAX_SIGMAS` standard deviations are therefore omitted, which changes a variance by a fraction of 1e-7.
 /// The values are NaN if a full circle is within `MAX_SIGMAS`.
 ///
 /// Turns are not wrapped here. In a cloud, turns of more than half a circle beyond the commanded turn are wrapped. If many robots make such
-/// turns, the cloud's `pose` differs.
+/// turns, [`LikelihoodGain::pose`] of the cloud differs from the exact gain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExactGain {
     /// Gain without sampling error.
@@ -173,7 +173,7 @@ impl PolarMotion {
             return libm::log(mean);
         }
         match self.noise {
-            NoiseKind::Normal => libm::log(std) + normal_mean_log(mean / std),
+            NoiseKind::Normal => libm::log(std) + mean_log_abs_of_normal(mean / std),
             NoiseKind::Triangular => triangular_mean_log(mean, 6f64.sqrt() * std),
         }
     }
@@ -183,7 +183,7 @@ impl PolarMotion {
 ///
 /// (m + Z)² is noncentral χ² with one degree of freedom. It is a mixture of χ² with 1 + 2j degrees of freedom, where j has
 /// a Poisson distribution of mean m²/2. The mean logarithm of χ² with 1 + 2j degrees is ln 2 + ψ(½ + j).
-fn normal_mean_log(m: f64) -> f64 {
+fn mean_log_abs_of_normal(m: f64) -> f64 {
     /// Value of m from which the fourth term of the asymptotic series is below 1e-10. Far beyond it, exp(−m²/2) underflows.
     const MIN_ASYMPTOTIC_MEAN: f64 = 30.0;
     /// ψ(½) = −γ − 2 ln 2.

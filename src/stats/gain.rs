@@ -28,7 +28,7 @@ pub struct LikelihoodGain {
 /// Gain with its standard errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredGain {
-    /// Gain of the samples.
+    /// Likelihood gain of a cloud of samples.
     pub value: LikelihoodGain,
     /// Standard errors: the standard deviation, over all robots, of the difference of the two log-densities, divided by √n. The fitted
     /// moments add nothing to first order, because they maximize the likelihood of each Gaussian. NaN if the gain is not finite.

@@ -19,9 +19,9 @@ pub fn trace_level_set(field_values: &[f64], columns: usize, level: f64) -> Vec<
             edge_links[edge][first_free_slot] = linked_edge;
         }
     };
-    for row in 1..row_count {
-        for column in 1..columns {
-            let i = (row - 1) * columns + column - 1;
+    for grid_row in 1..row_count {
+        for grid_column in 1..columns {
+            let i = (grid_row - 1) * columns + grid_column - 1;
             // Values at the corners and indices of the edges of the cell: corner k lies between the edges k − 1 and k.
             let corner_values =
                 [i, i + 1, i + columns + 1, i + columns].map(|point_index| field_values[point_index]);

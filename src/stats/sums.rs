@@ -49,8 +49,8 @@ fn compensated_total(total: f64x2, compensation: f64x2) -> f64 {
 #[inline(always)]
 pub fn add_to_block<const N: usize>(block: &mut [f64x2; N], terms: [f64x4; N]) {
     for i in 0..N {
-        let [low, high] = split_into_lane_pairs(terms[i]);
-        block[i] += low + high;
+        let [lower_lanes, upper_lanes] = split_into_lane_pairs(terms[i]);
+        block[i] += lower_lanes + upper_lanes;
     }
 }
 

@@ -20,10 +20,10 @@ const captionOf = (/** @type {Locator} */ widget) => widget.locator('p[part=capt
 const plotOf = (/** @type {Locator} */ widget) => widget.locator('.ratios svg.plot');
 
 /**
- * Returns the steps whose prediction is off by more than 5 %, as text for each component.
+ * Returns a text for each variance, such as "steps 15–20": the steps at which the predicted variance is off by more than 5 %.
  *
  * @param {Locator} widget
- * @param {number} [recursionColumn] index of the recursion's column
+ * @param {number} [recursionColumn] index of a column of the table; each has the predictions of one recursion
  */
 async function readMissedSteps(widget, recursionColumn = 0) {
   await openDisclosures(widget);

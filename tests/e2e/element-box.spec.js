@@ -28,7 +28,7 @@ const CONTAINERS_BY_NAME = {
 };
 
 test('a figure has its preferred width or the available width in every kind of container, before and after its script runs', NEW_PAGE_TAG, async ({ page, figureName }) => {
-  const containerSections = Object.entries(CONTAINERS_BY_NAME).map(([containerName, htmlPattern]) => {
+  const htmlSections = Object.entries(CONTAINERS_BY_NAME).map(([containerName, htmlPattern]) => {
     const containerHtml = htmlPattern === 'X' ? '<X></X>' : htmlPattern;
     return `<section data-box="${containerName}" style="display: flow-root">${containerHtml.replace('<X', `<${figureName}`).replace('</X>', `</${figureName}>`)}</section>`;
   });
@@ -38,11 +38,11 @@ test('a figure has its preferred width or the available width in every kind of c
     await waitForFrames(page);
     const figureWidths = await page.locator(figureName).evaluateAll((figureElements) =>
       figureElements.map((element) => [/** @type {HTMLElement} */ (element.closest('section')).dataset.box ?? '', element.getBoundingClientRect().width]));
-    expect(figureWidths).toHaveLength(containerSections.length);
+    expect(figureWidths).toHaveLength(htmlSections.length);
     return figureWidths.filter(([, figureWidth]) => Number(figureWidth) > pageWidth + 0.5 || Number(figureWidth) < Math.min(PREFERRED_WIDTH, pageWidth) - 0.5);
   };
   for (const scriptTag of ['', '<script type="module" src="/motion-widgets.js"></script>']) {
-    await showPage(page, containerSections.join(''), { head: pageHead, script: scriptTag });
+    await showPage(page, htmlSections.join(''), { head: pageHead, script: scriptTag });
     if (scriptTag) await page.waitForFunction((widgetTag) => customElements.get(widgetTag) !== undefined, figureName);
     for (const w of [320, 600, 1280]) expect.soft(await findWrongWidths(w), `${scriptTag ? 'defined' : 'not defined'}, ${w} px`).toEqual([]);
   }

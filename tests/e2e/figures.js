@@ -1,5 +1,5 @@
 /**
- * Facts about all elements for the tests, and the choice of the figure on which a test about all figures runs.
+ * Facts about each element for the tests. A test of a behaviour that all elements share runs on one of them, which is chosen here.
  *
  * @module
  */

@@ -120,5 +120,5 @@ const platformEntries = Object.entries(PLATFORM_DEFINITIONS).map(([name, { packa
   ...otherFields,
 }]);
 
-/** Plain platforms, by the name of the example. */
+/** Platforms that need no code of their own, by the name of the example. */
 export const plainPlatforms = Object.fromEntries(platformEntries);

@@ -145,7 +145,7 @@ function makeEmptyDirectory(registryName) {
   return directory;
 }
 
-/** Returns the tools for a copy of an example. @param {string} directory @param {Record<string, string>} toolEnvironment @returns {Tools} */
+/** Returns functions that run programs in the directory of an example. @param {string} directory @param {Record<string, string>} toolEnvironment @returns {Tools} */
 function createTools(directory, toolEnvironment) {
   return {
     async run(command, commandArguments, moreOptions) {

@@ -6,7 +6,7 @@
 
 import { spawn } from 'node:child_process';
 import { join } from 'node:path';
-import { ROOT, endGroup, endGroupWithProcess, forgetGroup } from '../../scripts/process.mjs';
+import { ROOT, killProcessGroup, endGroupWithProcess, forgetGroup } from '../../scripts/process.mjs';
 import { startServer } from '../../scripts/serve.mjs';
 
 /** Time limit in seconds within which a server has to answer. */
@@ -109,7 +109,7 @@ export function startProgram(command, commandArguments, { env = {}, cwd = ROOT }
       }),
     whenEnded: endPromise,
     stop() {
-      if (groupId !== undefined) endGroup(groupId);
+      if (groupId !== undefined) killProcessGroup(groupId);
       return endPromise;
     },
   };

@@ -32,12 +32,12 @@ export default {
   },
   async build(directory, { run }) {
     copySingleFiles(join(directory, '_static'));
-    for (const theme of themeNames) {
-      const sphinxArguments = ['--fail-on-warning', '--quiet', '--define', `html_theme=${theme}`];
-      await run(pythonProgramPathOf(directory, 'sphinx-build'), [...sphinxArguments, '.', `_build/${theme}`]);
+    for (const sphinxTheme of themeNames) {
+      const sphinxArguments = ['--fail-on-warning', '--quiet', '--define', `html_theme=${sphinxTheme}`];
+      await run(pythonProgramPathOf(directory, 'sphinx-build'), [...sphinxArguments, '.', `_build/${sphinxTheme}`]);
     }
   },
-  servings: themeNames.map((theme) => ({ name: theme, serve: serveFiles(`_build/${theme}`, '/a/book/'), setDarkMode: DARK_SWITCH_OF_THEME[theme] })),
+  servings: themeNames.map((sphinxTheme) => ({ name: sphinxTheme, serve: serveFiles(`_build/${sphinxTheme}`, '/a/book/'), setDarkMode: DARK_SWITCH_OF_THEME[sphinxTheme] })),
   pages: { first: 'index.html', second: 'map.html' },
   goToPage: (page, path) => page.locator(`a[href$="${path}"]`).filter({ visible: true }).first().click(),
   expectedFigures: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],

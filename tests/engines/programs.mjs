@@ -29,7 +29,7 @@ async function ensureGeckodriver() {
   const rustTools = await ensureNativeRust();
   printStep('Compiling geckodriver, once');
   const cargoArguments = ['install', '--quiet', '--locked', '--debug', 'geckodriver', '--root', join(CACHE_DIRECTORY, 'geckodriver')];
-  await runOrThrow(FIREFOX_MISSING_MESSAGE, join(rustTools.bin, 'cargo'), cargoArguments, { env: rustTools.env, seconds: 1200 });
+  await runOrThrow(FIREFOX_MISSING_MESSAGE, join(rustTools.cargoDirectory, 'cargo'), cargoArguments, { env: rustTools.env, seconds: 1200 });
   return join(geckodriverDirectory, 'geckodriver');
 }
 

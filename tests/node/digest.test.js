@@ -13,7 +13,7 @@ const readText = (/** @type {string} */ repositoryPath) => readFileSync(new URL(
 const configurationList = JSON.parse(readText('tests/digest/configurations.json'));
 const core = await (await importFreshModule()).load();
 
-/** Exports without a seed, and the models, which draw the same samples as in Rust. tests/web and tests/native cover these exports. */
+/** Exports that the digest leaves to tests/web and tests/native: functions without random numbers, and the models. */
 const EXCLUDED_EXPORTS = new Set(['VelocityModel', 'OdometryModel', 'invertArc', 'decompose', 'propagate', 'se2', 'calibrate']);
 
 /** Classes of the simulations in core.js, by tag name. @type {Map<string, any>} */

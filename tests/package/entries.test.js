@@ -106,9 +106,9 @@ test('TypeScript finds the types of elements, React components and core under ev
      await loadExternal('/motion.wasm');
      document.createElement('banana-machine').addEventListener('stats', ({ detail }) => detail.crossTrackSkew.toFixed(2));
      document.createElement('map-squeeze').addEventListener('pointermove', ({ clientX }) => clientX);
-     // @ts-expect-error
+     // @ts-expect-error: only banana-machine has a cross-track skew
      document.createElement('map-squeeze').addEventListener('stats', ({ detail }) => detail.crossTrackSkew);
-     // @ts-expect-error
+     // @ts-expect-error: omega is a number
      document.createElement('banana-machine').omega = true;
      export { omega, stats };`,
   );

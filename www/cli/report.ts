@@ -38,7 +38,7 @@ const [RED, GREEN, YELLOW] = [31, 32, 33];
 /** Colours of the verdict's badge, by the rating of the α's. */
 const RATING_COLORS = { consistent: GREEN, questionable: YELLOW, unusable: RED };
 
-const colorize = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;
+const colorizeText = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;
 
 /** Returns the text report, which follows the summaries of the logs. */
 export function formatReport(calibrationResult: CalibrationResult, isColored = false): string {
@@ -72,7 +72,7 @@ export function formatReport(calibrationResult: CalibrationResult, isColored = f
   ].join('\n');
   if (!isColored) return uncoloredReport;
   const { rating, badge } = judgeResult(calibrationResult);
-  return uncoloredReport.replace(badge, colorize(RATING_COLORS[rating])).replaceAll(/\bok(?= {2})/g, colorize(GREEN)).replaceAll(/\bFAILED(?= {2})/g, colorize(RED));
+  return uncoloredReport.replace(badge, colorizeText(RATING_COLORS[rating])).replaceAll(/\bok(?= {2})/g, colorizeText(GREEN)).replaceAll(/\bFAILED(?= {2})/g, colorizeText(RED));
 }
 
 function judgeResult({ calibration, options: { model, correct = {} }, logs }: JudgedResult) {

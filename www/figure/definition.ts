@@ -24,7 +24,7 @@ interface Property {
   corePath?: string;
   /** Names of the attributes that this attribute determines, as a preset does. They are written only while this attribute has no value. */
   coveredAttributes?: string[];
-  /** Allowed words, if the declarations do not list them. */
+  /** Words that are allowed as values of the property, if the declaration of the setting does not list them. */
   words?: readonly string[];
 }
 

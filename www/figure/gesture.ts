@@ -68,7 +68,7 @@ export class Gesture extends FigureController {
     this.commit();
   }
 
-  /** Changes a field of the element's state as a complete gesture. No outcome is announced. */
+  /** Changes a field of the element's state in one step, and fires `change`. Screen readers get no announcement of an outcome. */
   setElementField(name: string, value: unknown) {
     this.host.settings.requestChange({ [name]: value });
     this.#endGesture();

@@ -9,7 +9,7 @@ import { FigureController } from './controller.ts';
 type AnyPicture = import('../scene/picture.ts').Picture<any>;
 
 /** Maximum drawing time (ms) with which the text is rendered in the same frame. After a longer drawing, the text follows in the next frame. */
-const MAX_DRAW_MS_WITH_TEXT = 5;
+const MAX_DRAW_MS_BEFORE_TEXT_OF_SAME_FRAME = 5;
 
 /**
  * Drawing time in a frame, ms, after which further pictures wait for the next frame. With the processor four times slower, a drag of the
@@ -219,7 +219,7 @@ export class Renderer extends FigureController {
     const nowMs = performance.now();
     const pendingSinceMs = this.#textPendingSince;
     // The first picture is drawn without text.
-    if (this.isOpening ? pendingSinceMs : !isResizing && (nowMs - startTimeMs < MAX_DRAW_MS_WITH_TEXT || nowMs - (pendingSinceMs ?? nowMs) > MAX_TEXT_DELAY_MS)) this.#renderText();
+    if (this.isOpening ? pendingSinceMs : !isResizing && (nowMs - startTimeMs < MAX_DRAW_MS_BEFORE_TEXT_OF_SAME_FRAME || nowMs - (pendingSinceMs ?? nowMs) > MAX_TEXT_DELAY_MS)) this.#renderText();
     else {
       this.#textPendingSince ??= startTimeMs;
       this.#scheduleFrame();

@@ -223,15 +223,15 @@ export function findLogLayout(columnGroup: ColumnGroup | undefined, names: strin
     if (firstColumn && secondColumn) throw new LogError(errorPlace, (texts) => texts.twice(field, truncate(firstColumn.name), truncate(secondColumn.name)), question);
   }
   const usedColumns = fields.map((field) => columns[field] as Column);
-  const lengthUnits = [...new Set((takesCommands ? usedColumns.slice(0, 1) : usedColumns.slice(0, 2)).map(({ unit }) => unit))];
+  const usedLengthUnits = [...new Set((takesCommands ? usedColumns.slice(0, 1) : usedColumns.slice(0, 2)).map(({ unit }) => unit))];
   const angleUnit = takesCommands ? columns.omega?.unit : headingFields[0] === 'yaw' ? columns.yaw?.unit : undefined;
-  for (const [units, knownUnits] of [[lengthUnits, UNITS.lengthUnit], [[angleUnit], UNITS.angleUnit]] as [(string | undefined)[], readonly string[]][]) {
+  for (const [units, knownUnits] of [[usedLengthUnits, UNITS.lengthUnit], [[angleUnit], UNITS.angleUnit]] as [(string | undefined)[], readonly string[]][]) {
     const isKnown = units.length === 1 && (units[0] === undefined || knownUnits.includes(units[0]));
     if (!isKnown) throw new LogError(errorPlace, (texts) => texts.unknownUnit(units.map((unit) => truncate(unit ?? '–')).join(', ')));
   }
   if (!takesCommands && headingFields.length === 0) throw new LogError({ file: errorPlace.file }, (texts) => texts.positions(listNames(usedColumns.map(({ name }) => name))));
   const kind: LogKind = takesCommands ? 'commands' : 'poses';
-  return { kind, clocks, columns: usedColumns, fields, lengthUnit: lengthUnits[0] as LengthUnit | undefined, angleUnit: angleUnit as AngleUnit | undefined };
+  return { kind, clocks, columns: usedColumns, fields, lengthUnit: usedLengthUnits[0] as LengthUnit | undefined, angleUnit: angleUnit as AngleUnit | undefined };
 }
 
 /** Returns true for a header, which has names in some cells. */

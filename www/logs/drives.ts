@@ -84,7 +84,7 @@ export function planDrives(allRecordings: Recording[], userChoices: UserChoices 
   return plan;
 }
 
-/** Returns the role of one of several recordings, by its name or contents; undefined if it has one log and nothing shows the role. */
+/** Returns the role of the log in one of several recordings, or "both". Undefined if there is a single log whose role neither contents nor name tell. */
 function roleOfRecording(recording: Recording, userChoices: UserChoices): Role | 'both' | undefined {
   if (tryUnlessLogError(() => chooseBothLogs(recording, userChoices))) return 'both';
   const [isOdometry, isReference] = ROLES.map((role) => tryUnlessLogError(() => chooseLog(recording, role, userChoices)) !== undefined);

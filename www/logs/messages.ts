@@ -31,7 +31,7 @@ class MessageReader {
     this.#end = end;
     if (encoding === 'ros1') return;
     this.#start += CDR_HEADER_BYTES;
-    const encodingKind = this.#view.getUint8(this.#advance(CDR_HEADER_BYTES) + 1);
+    const encodingKind = this.#view.getUint8(this.#takeAlignedPosition(CDR_HEADER_BYTES) + 1);
     if (encodingKind > 1) throw new RangeError(`CDR of kind ${encodingKind}`);
     this.#isLittle = encodingKind === 1;
     this.#alignment = 8;
@@ -40,7 +40,7 @@ class MessageReader {
   /** Reads the stamp of a header, s. In ROS 1 a sequence number comes first. */
   readStamp(): number {
     if (this.#alignment === 1) this.skip(4);
-    return this.#view.getInt32(this.#advance(4), this.#isLittle) + this.readUint32() / 1e9;
+    return this.#view.getInt32(this.#takeAlignedPosition(4), this.#isLittle) + this.readUint32() / 1e9;
   }
 
   /** Skips bytes; throws a RangeError at the end of the message. */
@@ -50,11 +50,11 @@ class MessageReader {
   }
 
   readUint32(): number {
-    return this.#view.getUint32(this.#advance(4), this.#isLittle);
+    return this.#view.getUint32(this.#takeAlignedPosition(4), this.#isLittle);
   }
 
   readFloat64(): number {
-    return this.#view.getFloat64(this.#advance(8), this.#isLittle);
+    return this.#view.getFloat64(this.#takeAlignedPosition(8), this.#isLittle);
   }
 
   readString(): string {
@@ -64,7 +64,7 @@ class MessageReader {
   }
 
   /** Returns the position of the next value after alignment, and moves past the value. */
-  #advance(size: number): number {
+  #takeAlignedPosition(size: number): number {
     const valueAlignment = Math.min(size, this.#alignment);
     const valuePosition = this.#position + ((this.#start - this.#position) & (valueAlignment - 1));
     this.skip(valuePosition + size - this.#position);

@@ -199,7 +199,8 @@ export class RowCollector {
     const sortedOrder = rows.map((_, i) => i).sort((position, otherPosition) => times[position] - times[otherPosition] || position - otherPosition);
     const medianStep = quantileOf(sampleEvenly(times.length - 1, (i) => times[sortedOrder[i + 1]] - times[sortedOrder[i]]).filter((step) => step > 0), 0.5);
     const distanceBetween = (position: number, otherPosition: number) => Math.hypot(a[rows[position]] - a[rows[otherPosition]], b[rows[position]] - b[rows[otherPosition]]);
-    // Rows overlap if they are close in time but not in the file. Rows that were only late make the path shorter when they are sorted.
+    // Two rows overlap if they are close in time, but in different runs of the file. If rows were only late, sorting makes the path shorter. If the
+    // clock was set back, sorting makes the path longer.
     const overlaps: { run: number; sortedLength: number; fileLength: number }[] = [];
     for (let i = 1; i < sortedOrder.length; i++) {
       const [previousPosition, position] = [sortedOrder[i - 1], sortedOrder[i]];

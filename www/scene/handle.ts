@@ -101,7 +101,7 @@ export class Handle {
   }
 
   /** Moves the middle of the handle's element in `root` to a point in pixels of the view. `size` (pixels) and `angle` (rad) replace those of its style. */
-  placeInView(root: ParentNode, x: number, y: number, { size, angle }: { size?: number, angle?: number } = {}) {
+  placeElementAt(root: ParentNode, x: number, y: number, { size, angle }: { size?: number, angle?: number } = {}) {
     const handle = root.querySelector(`.handle.${this.#classNames.replace(' ', '.')}`) as HTMLElement | null;
     if (!handle) return;
     this.#middlePixels = [x, y];

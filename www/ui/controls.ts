@@ -195,7 +195,7 @@ const FORMULA_REGEXP = new RegExp(`((?:${FORMULA_PIECE_PATTERN})+)`);
 /** Returns a message as HTML, with italics and subscripts in its formulas. The text \\* is an asterisk. */
 export function formatMarkup(message: string) {
   // Every second part is a formula.
-  return message.split(FORMULA_REGEXP).map((messagePart, i) => (i % 2 ? untranslatedHtml(messagePart.match(FORMULA_PIECE)?.map(formulaPieceHtml)) : messagePart));
+  return message.split(FORMULA_REGEXP).map((proseOrFormula, i) => (i % 2 ? untranslatedHtml(proseOrFormula.match(FORMULA_PIECE)?.map(formulaPieceHtml)) : proseOrFormula));
 }
 
 function formulaPieceHtml(piece: string) {

@@ -14,8 +14,8 @@ import { css, unsafeCSS } from 'lit';
 const COLOUR_ROLES = ['paper', 'ink', 'muted', 'rule', 'prior', 'prediction', 'cloud', 'truth', 'posterior', 'accent'] as const;
 
 /**
- * Styles of a pseudo-element that gives a figure the width of a book's column in a box that fits its contents. The element has two dots
- * with a wide space between them, at which the line breaks in a narrower box.
+ * Styles of an invisible line of two dots with a wide space between them. In a container that fits its contents, such as a float, the line
+ * gives a figure the width of a book's column. In a narrower container the line breaks at the space, and the figure is as wide as the container.
  */
 export const preferredWidthCss =
   "content:'. .';display:block;height:0;overflow:hidden;visibility:hidden;white-space:normal;word-spacing:44em";

@@ -44,7 +44,7 @@ class Figure(anywidget.AnyWidget):
         unknown_names = sorted(set(settings) - set(self.trait_names()))
         if unknown_names:
             raise TypeError(f"{unknown_names[0]} is no setting of {type(self).__name__}; it has {', '.join(sorted(self._settings))}")
-        # Number of the latest change of each setting by Python.
+        # Sequence number of the latest change that Python made to each setting.
         self._asked_at: dict[str, int] = {}
         # Settings of the report that is being applied.
         self._reported: dict[str, Any] = {}

@@ -302,11 +302,12 @@ impl BananaMachine {
 
     #[inline(never)]
     fn exact_column(&self) -> TableColumn {
-        let (ExactMoments { mean, cov, cross_track_skew }, gain) = (self.exact_moments(), self.exact_gain());
+        let (ExactMoments { mean, cov, cross_track_skew }, exact_gain) =
+            (self.exact_moments(), self.exact_gain());
         let ellipse = Ellipse::from_moments(&CartesianMoments { mean, cov });
-        let contour = ExponentialContour::new(&gain.exponential, &START_POSE);
+        let contour = ExponentialContour::new(&exact_gain.exponential, &START_POSE);
         let area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
-        TableColumn { mean, cov, cross_track_skew, likelihood_gain: gain.value, area_ratio }
+        TableColumn { mean, cov, cross_track_skew, likelihood_gain: exact_gain.value, area_ratio }
     }
 
     /// Returns the exact cross-track skew at `point_count` evenly spaced turn rates from `first_omega` to `last_omega` (rad/s), with all

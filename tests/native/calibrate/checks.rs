@@ -112,7 +112,7 @@ fn a_copy_of_the_odometry_is_no_reference() {
 fn legs_that_hardly_move_are_not_compared() {
     let leg_length = LegLength::Duration { duration: 1.0 };
     let slow_simulation =
-        Simulation { leg_length, leg_velocity: Some(|_| [0.03, 0.05]), ..new_passing_simulation(200, 4) };
+        Simulation { leg_length, velocity_of_leg: Some(|_| [0.03, 0.05]), ..new_passing_simulation(200, 4) };
     let calibration = calibrate_simulation(&slow_simulation);
     let check_names: Vec<CheckName> = calibration.diagnostics.checks.iter().map(|check| check.name).collect();
     assert!(check_names.contains(&EnoughLegs) && !check_names.contains(&ReferenceMatches), "{check_names:?}");
@@ -239,7 +239,7 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
     }
     // Table 5.6 treats a backward drive as half a turn, a forward drive and half a turn.
     let reversing_simulation = Simulation {
-        leg_velocity: Some(|leg_index| [if leg_index % 5 == 0 { -0.3 } else { 0.3 }, 0.2]),
+        velocity_of_leg: Some(|leg_index| [if leg_index % 5 == 0 { -0.3 } else { 0.3 }, 0.2]),
         ..new_passing_simulation(300, 12)
     };
     let is_sideways_motion_reported = |model| {
@@ -280,7 +280,7 @@ fn a_turn_scale_that_changes_with_time_is_no_constant() {
 #[test]
 fn a_turn_scale_of_noisy_encoders_is_not_corrected() {
     let sim = Simulation {
-        leg_velocity: Some(|leg_index| {
+        velocity_of_leg: Some(|leg_index| {
             [0.3 + 0.1 * (leg_index % 3) as f64, if leg_index / 16 % 2 == 0 { 0.15 } else { -0.15 }]
         }),
         ..new_passing_simulation(600, 8)

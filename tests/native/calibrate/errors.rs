@@ -154,7 +154,7 @@ fn an_uncorrected_error_appears_as_noise_of_the_wheels_or_of_the_reference() {
 
 #[test]
 fn an_error_that_the_log_does_not_identify_is_not_corrected() {
-    let simulation = Simulation { leg_velocity: Some(|_| [0.4, 0.0]), ..Simulation::of(NAV2, 600, 4) };
+    let simulation = Simulation { velocity_of_leg: Some(|_| [0.4, 0.0]), ..Simulation::of(NAV2, 600, 4) };
     let calibration = calibrate_simulation(&simulation);
     let is_unidentified =
         |error_kind: SystematicError| calibration.systematic_stds[error_kind as usize].is_none();

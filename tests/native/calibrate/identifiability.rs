@@ -11,8 +11,11 @@ use motion::calibrate::{Calibration, Model, Options, Verdict};
 type VelocityOfLeg = fn(usize) -> [f64; 2];
 
 /// Returns the calibration of a simulated log whose legs have the given velocities.
-fn calibrate_velocities(model: Model, leg_velocity: VelocityOfLeg) -> Calibration {
-    calibrate_simulation(&Simulation { leg_velocity: Some(leg_velocity), ..Simulation::of(model, 400, 17) })
+fn calibrate_velocities(model: Model, velocity_of_leg: VelocityOfLeg) -> Calibration {
+    calibrate_simulation(&Simulation {
+        velocity_of_leg: Some(velocity_of_leg),
+        ..Simulation::of(model, 400, 17)
+    })
 }
 
 /// v and ω of a straight leg, of a turn on the spot, and of a bend.
@@ -26,7 +29,7 @@ const LACKS_DISTANCE: Option<NotIdentifiable> = Some(InsufficientTranslation);
 /// Drive that does not identify all α's, with the reason for each α.
 struct IncompleteDrive {
     name: &'static str,
-    leg_velocity: VelocityOfLeg,
+    velocity_of_leg: VelocityOfLeg,
     odometry_reasons: [Option<NotIdentifiable>; 5],
     velocity_reasons: [Option<NotIdentifiable>; 6],
     /// Drives with fifty additional legs of the motion that is missing. The first drive is for odometry models. The second is for the
@@ -37,7 +40,7 @@ struct IncompleteDrive {
 const INCOMPLETE_DRIVES: [IncompleteDrive; 3] = [
     IncompleteDrive {
         name: "straight",
-        leg_velocity: |_| STRAIGHT_LEG,
+        velocity_of_leg: |_| STRAIGHT_LEG,
         odometry_reasons: [LACKS_TURNS, None, None, LACKS_TURNS, None],
         velocity_reasons: [None, LACKS_TURNS, None, LACKS_TURNS, None, LACKS_TURNS],
         completed_drives: [
@@ -47,7 +50,7 @@ const INCOMPLETE_DRIVES: [IncompleteDrive; 3] = [
     },
     IncompleteDrive {
         name: "on the spot",
-        leg_velocity: |_| SPIN_LEG,
+        velocity_of_leg: |_| SPIN_LEG,
         odometry_reasons: [None, LACKS_DISTANCE, LACKS_DISTANCE, None, LACKS_DISTANCE],
         velocity_reasons: [LACKS_DISTANCE, None, LACKS_DISTANCE, LACKS_TURNS, LACKS_DISTANCE, LACKS_TURNS],
         completed_drives: [
@@ -61,7 +64,7 @@ const INCOMPLETE_DRIVES: [IncompleteDrive; 3] = [
     // The radii of the bends differ by a few percent only.
     IncompleteDrive {
         name: "one bend",
-        leg_velocity: |leg_index| [0.3, if leg_index.is_multiple_of(2) { 0.29 } else { 0.31 }],
+        velocity_of_leg: |leg_index| [0.3, if leg_index.is_multiple_of(2) { 0.29 } else { 0.31 }],
         odometry_reasons: [Some(Collinear); 5],
         velocity_reasons: [Some(Collinear); 6],
         completed_drives: [
@@ -89,7 +92,7 @@ fn assert_reasons_and_intervals(models: &[Model]) {
             let is_velocity_model = model == Model::Velocity;
             let expected_reasons: &[_] =
                 if is_velocity_model { &drive.velocity_reasons } else { &drive.odometry_reasons };
-            let calibration = calibrate_velocities(model, drive.leg_velocity);
+            let calibration = calibrate_velocities(model, drive.velocity_of_leg);
             let case_name = format!("{model:?} {}", drive.name);
             assert_eq!(calibration.not_identifiable, expected_reasons[..model.alphas()], "{case_name}");
             for (k, missing_reason) in calibration.not_identifiable.iter().enumerate() {

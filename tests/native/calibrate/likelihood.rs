@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 /// Returns a simulation of bends in both directions, where no special case of the model applies.
 fn new_bend_simulation(leg_count: usize) -> Simulation {
     Simulation {
-        leg_velocity: Some(|leg_index| [0.3, [0.3, -0.2, 0.1][leg_index / 3 % 3]]),
+        velocity_of_leg: Some(|leg_index| [0.3, [0.3, -0.2, 0.1][leg_index / 3 % 3]]),
         reference_stds: [0.004, 0.01],
         ..Simulation::of(NAV2, leg_count, 12)
     }
@@ -168,12 +168,12 @@ fn the_filter_gives_the_likelihood_of_a_dense_covariance_matrix() {
     }
 }
 
-/// An error of 20 mm on legs of 16 mm makes bearings of several radians. The turn of a leg, the sum of both rotations, stays small. The
-/// second rotation is not wrapped, because its covariance with the first rotation is computed without wrapping.
+/// An error of the reference of 20 mm on legs of 16 mm changes the first rotation by several radians, and the second by as much in the
+/// opposite direction. Their sum, the turn of the leg, stays small if the second rotation is not wrapped.
 #[test]
 fn rotations_of_a_short_leg_add_up_to_its_turn() {
     let sim = Simulation {
-        leg_velocity: Some(|_| [0.02, 0.1]),
+        velocity_of_leg: Some(|_| [0.02, 0.1]),
         leg_length: LegLength::Duration { duration: 0.8 },
         reference_stds: [0.02, 0.02],
         ..Simulation::of(NAV2, 200, 9)
@@ -206,7 +206,7 @@ fn an_outlier_shares_no_reference_error_with_its_neighbours() {
 /// is higher by n(ln s + 1/s − 1).
 #[test]
 fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
-    let sim = Simulation { leg_velocity: Some(|_| [0.3, 0.0]), ..Simulation::of(MODELS[3], 400, 3) };
+    let sim = Simulation { velocity_of_leg: Some(|_| [0.3, 0.0]), ..Simulation::of(MODELS[3], 400, 3) };
     let exact_options = Options {
         correct: [Some(false); 6],
         position_std: Some(0.0),

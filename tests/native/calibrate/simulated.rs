@@ -46,7 +46,7 @@ pub struct Simulation {
     /// Fraction of legs in which the reference jumps by half a metre and stays there.
     pub jump_fraction: f64,
     /// Function from the index of a leg to its v and ω. `None` draws random velocities.
-    pub leg_velocity: Option<fn(usize) -> [f64; 2]>,
+    pub velocity_of_leg: Option<fn(usize) -> [f64; 2]>,
     pub violation: Violation,
     pub seed: u64,
     /// Standard deviations of the reference, m and rad.
@@ -76,7 +76,7 @@ impl Simulation {
             leg_count,
             systematic_errors: Systematic::NONE,
             jump_fraction: 0.0,
-            leg_velocity: None,
+            velocity_of_leg: None,
             violation: Violation::None,
             seed,
             reference_stds: [0.0; 2],
@@ -119,7 +119,7 @@ impl Simulation {
             }
             rows_left -= 1;
             let drawn_velocity =
-                self.leg_velocity.map_or(drawn_velocity, |leg_velocity| leg_velocity(leg_index));
+                self.velocity_of_leg.map_or(drawn_velocity, |velocity_of_leg| velocity_of_leg(leg_index));
             let time = odometry_samples.len() as f64 * step_seconds;
             let step_twist = Vector3::new(drawn_velocity[0], 0.0, drawn_velocity[1]) * step_seconds;
             leg_motion = leg_motion.boxplus(step_twist);

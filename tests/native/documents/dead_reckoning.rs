@@ -1,4 +1,4 @@
-//! Numbers of Dead Reckoning on the page, compared with computed numbers.
+//! Compares the numbers in the text of the page about the figure Dead Reckoning with numbers that its simulation computes.
 
 use super::{read_exercises, read_page_text};
 use crate::common::text::PrintedNumber;

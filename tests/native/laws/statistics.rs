@@ -17,8 +17,8 @@ const RELATIVE_ROUNDING: f64 = 256.0 * f64::EPSILON;
 fn any_cloud() -> impl Strategy<Value = Vec<SE2>> {
     let coordinates_strategy = (-1.0..1.0, -1.0..1.0, -1.5..1.5);
     (vec(coordinates_strategy, 1..50), (-5.0..5.0, -5.0..5.0, -PI..PI)).prop_map(|(robots, (x, y, theta))| {
-        let cloud_centre = SE2::new(x, y, theta);
-        robots.into_iter().map(|(x, y, theta)| cloud_centre * SE2::new(x, y, theta)).collect()
+        let centre_pose = SE2::new(x, y, theta);
+        robots.into_iter().map(|(x, y, theta)| centre_pose * SE2::new(x, y, theta)).collect()
     })
 }
 

@@ -258,7 +258,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   placeHandles() {
     const { view } = this.#planePicture;
     const [x, y] = this.visibleArcEnd;
-    this.#arcEndHandle.placeInView(this.renderRoot, view.toPixelX(x), view.toPixelY(y));
+    this.#arcEndHandle.placeElementAt(this.renderRoot, view.toPixelX(x), view.toPixelY(y));
   }
 
   /** Executed motion of the selected robot; undefined if no robot is selected or the robot is not shown. */

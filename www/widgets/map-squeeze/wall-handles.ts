@@ -72,7 +72,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   placeHandles() {
     const { view } = this.host.picture;
     for (const { grip: { axis, grippedPart: part }, handle, point: [x, y] } of this.#shownGrips) {
-      handle.placeInView(this.host.renderRoot, view.toPixelX(x), view.toPixelY(y), { angle: part === 'side' ? Math.atan(axis[0] / axis[1]) : 0 });
+      handle.placeElementAt(this.host.renderRoot, view.toPixelX(x), view.toPixelY(y), { angle: part === 'side' ? Math.atan(axis[0] / axis[1]) : 0 });
     }
   }
 

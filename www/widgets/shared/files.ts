@@ -12,7 +12,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   /** Error by which the latest files were refused; undefined if the files were accepted. */
   refusal: unknown;
   /** Number of the latest attempt to open files. Results of earlier attempts are ignored. */
-  #latestAttempt = 0;
+  #latestAttemptId = 0;
 
   /** Opens files that were chosen or dropped. */
   abstract chooseFiles(files: File[]): void;
@@ -27,13 +27,13 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
 
   /** Cancels the latest attempt: its result will be ignored. */
   cancel() {
-    this.#latestAttempt++;
+    this.#latestAttemptId++;
   }
 
   /** Runs an attempt to open files, which replaces an earlier attempt. Returns false if a later attempt has replaced this one. */
   async runAttempt(openFiles: (isLatest: () => boolean) => Promise<void>) {
-    const attemptNumber = ++this.#latestAttempt;
-    const isLatest = () => attemptNumber === this.#latestAttempt;
+    const attemptId = ++this.#latestAttemptId;
+    const isLatest = () => attemptId === this.#latestAttemptId;
     this.refusal = undefined;
     this.host.requestUpdate();
     try {

@@ -127,8 +127,8 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     const figureRoot = this.host.renderRoot;
     const [[x, y], [turnX, turnY]] = view.headingLineFrom(config[this.#settingKey], turnHandleDistanceOf(view, robotRadius));
     const clampToPicture = (coordinate: number, pictureSize: number) => clamp(coordinate, MIN_EDGE_DISTANCE, pictureSize - MIN_EDGE_DISTANCE);
-    this.#bodyHandle.placeInView(figureRoot, x, y, { size: Math.max(MIN_BODY_HANDLE_SIZE, 2 * robotRadius * view.scaleX) });
-    this.#turnHandle.placeInView(figureRoot, clampToPicture(turnX, view.width), clampToPicture(turnY, view.height));
+    this.#bodyHandle.placeElementAt(figureRoot, x, y, { size: Math.max(MIN_BODY_HANDLE_SIZE, 2 * robotRadius * view.scaleX) });
+    this.#turnHandle.placeElementAt(figureRoot, clampToPicture(turnX, view.width), clampToPicture(turnY, view.height));
   }
 
   /** Moves the robot by steps along x and y, and turns it by steps counter-clockwise, or to a heading of ±π for ±∞ steps. Returns false without steps. */

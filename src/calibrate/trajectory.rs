@@ -140,6 +140,8 @@ impl Trajectory {
     /// The velocity is interpolated between the samples before and after the time. Noise of a step is both in its velocity and in the residuals
     /// of legs. Interpolated velocities have equal noise from the leg that ends and from the leg that begins. Otherwise the clock offset would
     /// be biased.
+    // Not inlined, because two calls would make the module larger.
+    #[inline(never)]
     pub(super) fn motion_at(&self, time: f64) -> Option<(SE2, Vector3<f64>)> {
         let (sample, fraction) = self.locate(time)?;
         let velocity = match fraction {

@@ -9,8 +9,8 @@
 /** Factor by which Chromium slows the processor. */
 export const CPU_SLOWDOWN = 4;
 
-/** Selector of sliders and handles. Handles of walls are excluded, because they change the map instead of a setting. */
-const DRAGGABLE_SELECTOR = '.slider input[type=range], .handle:not(.jamb, .side)';
+/** Selector of sliders and handles. Excluded are handles of walls and played sliders, which change no setting of the simulation. */
+const DRAGGABLE_SELECTOR = '.slider input[type=range]:not(.playable *), .handle:not(.jamb, .side)';
 
 /**
  * @typedef {object} Drag times in ms, step by step

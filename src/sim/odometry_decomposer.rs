@@ -285,7 +285,7 @@ impl OdometryDecomposer {
             .collect()
     }
 
-    /// Returns the odometry poses in the world. In the drift time t, the odometry frame moves by exp(t·d) with d = [`DRIFT_TWIST`].
+    /// Returns the odometry poses in the world. In the drift time t, the odometry frame moves by exp(t·d), with a constant twist d.
     pub fn drifted_odometry(&self) -> DriftedOdometry {
         let drifted_frame = SE2::exp(&(Vector3::from(DRIFT_TWIST) * self.settings.drift));
         let (drifted_start, drifted_end) =

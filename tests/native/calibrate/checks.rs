@@ -104,6 +104,10 @@ fn a_copy_of_the_odometry_is_no_reference() {
             let failed_checks = failed_check_names_of(&calibrate_simulation(&precise_simulation));
             assert!(!failed_checks.contains(&ReferenceMatches), "{leg_count} legs, seed {seed}");
         }
+        // Noise of 3 cm and 0.03 rad hides a precise robot, but not an ordinary one.
+        let noisy_simulation = Simulation { reference_stds: [0.03; 2], ..new_passing_simulation(100, seed) };
+        let failed_checks = failed_check_names_of(&calibrate_simulation(&noisy_simulation));
+        assert!(!failed_checks.contains(&ReferenceMatches), "noisy reference, seed {seed}");
     }
 }
 

@@ -114,6 +114,17 @@ const styles = css`
     margin-bottom: 0;
   }
 
+  /* In a narrow figure the slider has a row of its own, so that its track is long. */
+  @container (width < 30em) {
+    .morph {
+      display: contents;
+    }
+
+    .morph .slider {
+      flex: 1 0 100%;
+    }
+  }
+
   /* The three main readouts are in columns of equal width if the figure is wide enough. */
   .surface .simulation > .readouts {
     display: grid;

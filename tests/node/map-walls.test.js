@@ -36,6 +36,16 @@ test('a dragged wall moves sideways, and a wall that ends at it follows', () => 
   assert.deepEqual([...wallsAfter.subarray(0, LOWER_WALL_OFFSET)], OUTER_WALLS);
 });
 
+test('a wall that is not parallel to an axis keeps its direction and length where it meets the bounds', () => {
+  const plan = { bounds: ROOM_BOUNDS, walls: Float64Array.of(...OUTER_WALLS, 1, 1, 3, 2) };
+  const sideGrip = gripsOf(plan).find(({ grippedPart }) => grippedPart === 'side');
+  assert.ok(sideGrip);
+  for (const distance of [9, -9, Infinity]) {
+    const [x0, y0, x1, y1] = moveWall(plan, sideGrip, distance).subarray(OUTER_WALLS.length);
+    assert.deepEqual([x1 - x0, y1 - y0].map((difference) => Number(difference.toFixed(9))), [2, 1]);
+  }
+});
+
 test('the contact is at the first wall that the robot touches; a collision-free path has no contact', () => {
   const [x, y] = findWallContact([1, 0.5, 5.9, 0.5], WALLS, 0.1) ?? [];
   assert.deepEqual([x, y], [3, 0.5]);

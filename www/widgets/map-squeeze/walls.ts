@@ -77,23 +77,31 @@ const distanceToOtherWallsOf = (walls: Float64Array, wallOffset: number, [x, y]:
  */
 export function moveWall({ bounds, walls }: Plan, { wallOffset, grippedPart: part, axis: [ux, uy] }: Grip, distance: number) {
   const movedWalls = walls.slice();
+  const [x0, y0, x1, y1] = walls.subarray(wallOffset, wallOffset + 4);
+  const movedPoints = { from: [[x0, y0]], to: [[x1, y1]], side: [[x0, y0], [x1, y1]] }[part];
   const moveEnd = (coordinateIndex: number, endDistance: number) => {
-    for (const [i, component] of [ux, uy].entries()) {
-      if (Math.abs(component) > TOUCH_DISTANCE) movedWalls[coordinateIndex + i] = clamp(walls[coordinateIndex + i] + endDistance * component, bounds[i] + MIN_WALL_GAP, bounds[i + 2] - MIN_WALL_GAP);
-    }
+    movedWalls[coordinateIndex] = walls[coordinateIndex] + endDistance * ux;
+    movedWalls[coordinateIndex + 1] = walls[coordinateIndex + 1] + endDistance * uy;
   };
+  const distanceInBounds = limitToBounds(distance, bounds, movedPoints, [ux, uy]);
   if (part !== 'side') {
-    const [x0, y0, x1, y1] = walls.subarray(wallOffset, wallOffset + 4);
-    const endPoint = part === 'from' ? [x0, y0] : [x1, y1];
-    moveEnd(part === 'from' ? wallOffset : wallOffset + 2, Math.max(Math.min(distance, freeDistanceOf(walls, wallOffset, endPoint, [ux, uy], distance)), MIN_WALL_GAP - Math.hypot(x1 - x0, y1 - y0)));
+    const freeDistance = Math.min(distanceInBounds, freeDistanceOf(walls, wallOffset, movedPoints[0], [ux, uy], distanceInBounds));
+    moveEnd(part === 'from' ? wallOffset : wallOffset + 2, Math.max(freeDistance, MIN_WALL_GAP - Math.hypot(x1 - x0, y1 - y0)));
     return movedWalls;
   }
   for (const k of wallOffsetsOf(walls)) {
     const isAcross = Math.abs((walls[k + 2] - walls[k]) * uy - (walls[k + 3] - walls[k + 1]) * ux) < TOUCH_DISTANCE;
     const isMoved = (coordinateIndex: number) => k === wallOffset || (isAcross && nearestPointOfWall(walls, wallOffset, walls[coordinateIndex], walls[coordinateIndex + 1]).distance < TOUCH_DISTANCE);
-    for (const coordinateIndex of [k, k + 2]) if (isMoved(coordinateIndex)) moveEnd(coordinateIndex, distance);
+    for (const coordinateIndex of [k, k + 2]) if (isMoved(coordinateIndex)) moveEnd(coordinateIndex, distanceInBounds);
   }
   return movedWalls;
+}
+
+/** Returns a distance along an axis, limited so that points that move by it stay within the bounds of a plan. */
+function limitToBounds(distance: number, bounds: ArrayLike<number>, points: number[][], axis: number[]) {
+  const limits = points.flatMap((point) => [0, 1].filter((i) => Math.abs(axis[i]) > TOUCH_DISTANCE).map((i) => [bounds[i] + MIN_WALL_GAP, bounds[i + 2] - MIN_WALL_GAP].map((bound) => (bound - point[i]) / axis[i])));
+  return limits.reduce((limitedDistance, [distanceToBound, distanceToOtherBound]) =>
+    clamp(limitedDistance, Math.min(0, distanceToBound, distanceToOtherBound), Math.max(0, distanceToBound, distanceToOtherBound)), distance);
 }
 
 /** Returns how far the end of a wall can move along an axis, up to a distance, before it is near another wall. */

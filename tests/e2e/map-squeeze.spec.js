@@ -259,6 +259,7 @@ test('all wall handles share one tab stop, have names, and move walls by arrow k
   expect(await readFocusedHandle()).toBe('to-4');
   await page.keyboard.press('ArrowRight');
   expect((await readSqueezeResults(widget)).walls[18]).toBeCloseTo(walls[18] + 0.05, 9);
+  await expect(widget.locator('.handle.to-4')).toHaveAttribute('aria-valuetext', `x = ${(walls[18] + 0.05).toFixed(2)} m, y = ${walls[19].toFixed(2)} m`);
   await page.keyboard.press(']');
   expect(await readFocusedHandle()).toBe('side-4');
   await page.keyboard.press('Shift+ArrowDown');

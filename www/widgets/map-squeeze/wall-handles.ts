@@ -53,15 +53,19 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   render() {
     const texts = words.squeeze.wallHandles;
     const { bounds: [left, bottom, right, top] } = this.host.picture.plan;
-    return this.#shownGrips.map(({ grip: { grippedPart: part, axis: [ux, uy] }, handle, point: [x, y], isTabbable }) => handle.handleHtml({
-      name: part === 'side' ? texts.wallName : texts.doorwayEdgeName,
-      keysHint: texts.keysHint,
-      title: words.pose.moveTitle,
-      valueRange: Math.abs(ux) > Math.abs(uy) ? [left, right] : [bottom, top],
-      value: Math.abs(ux) > Math.abs(uy) ? x : y,
-      valueText: `x = ${formatFixed(x, 2)} m, y = ${formatFixed(y, 2)} m`,
-      tabIndex: isTabbable ? 0 : -1,
-    }));
+    return this.#shownGrips.map(({ grip, handle, isTabbable }) => {
+      const { grippedPart: part, axis: [ux, uy] } = grip;
+      const [x, y] = this.#gripPointOf(grip);
+      return handle.handleHtml({
+        name: part === 'side' ? texts.wallName : texts.doorwayEdgeName,
+        keysHint: texts.keysHint,
+        title: words.pose.moveTitle,
+        valueRange: Math.abs(ux) > Math.abs(uy) ? [left, right] : [bottom, top],
+        value: Math.abs(ux) > Math.abs(uy) ? x : y,
+        valueText: `x = ${formatFixed(x, 2)} m, y = ${formatFixed(y, 2)} m`,
+        tabIndex: isTabbable ? 0 : -1,
+      });
+    });
   }
 
   /** Places the handles again, because new handles are rendered after the picture was drawn. */
@@ -88,11 +92,10 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
       this.#tabbableName = name;
       this.host.moveWalls(moveWall(this.host.picture.plan, currentGrip, axisDistance));
     });
-    const gripPointOf = ({ wallOffset, grippedPart: part }: Grip) => [...this.host.picture.plan.walls.subarray(part === 'to' ? wallOffset + 2 : wallOffset, wallOffset + 4)];
     const handle = this.#handles.get(name) ?? new Handle(`${grip.grippedPart === 'side' ? 'side' : 'jamb'} ${name}`, {
       getView: () => this.host.picture.view,
-      findGraspedPoint: () => callWithGrip(gripPointOf),
-      drag: (x, y) => callWithGrip((currentGrip) => moveBy(x - gripPointOf(currentGrip)[0], y - gripPointOf(currentGrip)[1])),
+      findGraspedPoint: () => callWithGrip((currentGrip) => [...this.#gripPointOf(currentGrip)]),
+      drag: (x, y) => callWithGrip((currentGrip) => moveBy(x - this.#gripPointOf(currentGrip)[0], y - this.#gripPointOf(currentGrip)[1])),
       handleKey: (event) => {
         const [keyTurns, keySteps] = [turnStepsOfKey(event), stepsOfKey(event)];
         if (keyTurns) this.#focusHandle(name, -keyTurns);
@@ -104,6 +107,11 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     });
     this.#handles.set(name, handle);
     return handle;
+  }
+
+  /** Returns the end of a wall that a grip moves, and for its side the first end. */
+  #gripPointOf({ wallOffset, grippedPart: part }: Grip) {
+    return this.host.picture.plan.walls.subarray(part === 'to' ? wallOffset + 2 : wallOffset, wallOffset + 4);
   }
 
   /** Moves the focus from the named handle to the handle that is `indexOffset` further in the list of visible handles. */

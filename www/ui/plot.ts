@@ -107,7 +107,7 @@ export interface Curve {
   isHighlighted?: boolean;
 }
 
-export interface DataPoint {
+interface DataPoint {
   role: ColourRole;
   x: number;
   y: number;

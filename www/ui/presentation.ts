@@ -76,7 +76,7 @@ export const presentationStyles = css`
     aspect-ratio: auto;
   }
 
-  :host([presentation]) :is(.caption, .stepper p) {
+  :host([presentation]) .caption {
     min-height: 0;
   }
 

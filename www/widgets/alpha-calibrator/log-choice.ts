@@ -26,7 +26,7 @@ const MAX_CELL_LENGTH = 16;
 const MAX_NAMED_FILES = 4;
 
 /** Returns the label of a choice of a log: the name of its series, and the two frames if the series has transforms. */
-export const choiceLabelOf = ({ series, frames }: LogChoice) => (frames ? `${series}: ${formatFrames(frames)}` : series);
+const choiceLabelOf = ({ series, frames }: LogChoice) => (frames ? `${series}: ${formatFrames(frames)}` : series);
 
 /** Plans which logs of the recordings are read. The user's choices have precedence over guesses. */
 export function planLogReading({ recordings, userChoices, roles }: ChosenFiles, kind: 'commands' | undefined): LogPlan {

@@ -24,15 +24,15 @@ export const judgeFit = ({ stats, legs: { count }, fittedConfig }: Pick<ViewMode
   judgementOf({ stats, legCount: count, model: fittedConfig.model, corrections: fittedConfig, warnings }, words.calibrator, words.moreControls);
 
 /** Prints the value of a check, or a limit of it. */
-export function formatCheckValue(checkName: CalibrationCheck['name'], checkValue: number) {
+function formatCheckValue(checkName: CalibrationCheck['name'], checkValue: number) {
   if (!Number.isFinite(checkValue)) return Number.isNaN(checkValue) ? formatPercent(checkValue) : '∞';
   return checkName === 'enough-legs' ? formatInteger(checkValue) : FRACTION_CHECKS.test(checkName) ? formatPercent(checkValue) : formatSignificant(checkValue, 3);
 }
 
-export const formatPassRange = (lowText: string, highText: string) => `${lowText} – ${highText}`;
+const formatPassRange = (lowText: string, highText: string) => `${lowText} – ${highText}`;
 
 /** Prints the range of values with which a check passes. */
-export function formatExpectedRange({ name, expected: [low, high] }: CalibrationCheck) {
+function formatExpectedRange({ name, expected: [low, high] }: CalibrationCheck) {
   if (high === Infinity) return `≥ ${formatCheckValue(name, low)}`;
   return low === 0 ? `≤ ${formatCheckValue(name, high)}` : formatPassRange(formatCheckValue(name, low), formatCheckValue(name, high));
 }
@@ -47,10 +47,10 @@ export function explainRecommendation({ stats: { recommended, diagnostics: { che
   return inflation === 1 ? texts.goodCoverage(formatPercent(coverage), formatInteger(count)) : texts.inflated(formatFixed(inflation, 2), formatPercent(coverage), formatInteger(count), formatFixed(nees, 2));
 }
 
-export const noiseNamesOf = (model: ViewModel['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'].map(([name]) => name);
+const noiseNamesOf = (model: ViewModel['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'].map(([name]) => name);
 
 /** Returns the number of legs and outliers of the named log in a sentence; empty if there are no legs. */
-export function describeLegs({ legs }: ViewModel, logName: string) {
+function describeLegs({ legs }: ViewModel, logName: string) {
   if (legs.count === 0) return '';
   const outlierCount = legs.outliers.reduce((sum, outlierFlag) => sum + outlierFlag, 0);
   return words.calibrator.legCountSentence(logName, formatInteger(legs.count), outlierCount > 0 ? formatInteger(outlierCount) : '');

@@ -139,7 +139,7 @@ export function formatNav2Lines({ calibration, legCount, model, rule, legs, logN
   return ['amcl:', '  ros__parameters:', ...parameterLines.map((parameterLine) => `    ${parameterLine}`)];
 }
 
-export const failedChecksOf = (checks: CalibrationCheck[]) => checks.filter(({ passed }) => !passed);
+const failedChecksOf = (checks: CalibrationCheck[]) => checks.filter(({ passed }) => !passed);
 
 /**
  * Returns a sentence that says how to correct the robot's odometry, because AMCL gets the odometry as the robot reports it. The sentence
@@ -251,7 +251,7 @@ function isSignificant(name: string, error: Parameters<typeof errorComponentsOf>
 }
 
 /** Lists systematic errors with their values; empty if none is identifiable. */
-export function describeSystematicErrors(errorNames: readonly (typeof SYSTEMATIC_ERRORS)[number][], { systematicErrors }: CalibrationStats, { systematic }: Texts) {
+function describeSystematicErrors(errorNames: readonly (typeof SYSTEMATIC_ERRORS)[number][], { systematicErrors }: CalibrationStats, { systematic }: Texts) {
   return errorNames.flatMap((name) => {
     const texts = errorComponentsOf(systematicErrors[name]).flatMap(({ value, interval }) => (value === null ? [] : [`${localizeNumber(formatEstimate(value, interval))} (${localizeInterval(interval)})`]));
     return texts.length ? [`${systematic.errorNames[name]} ${texts.join(', ')}`] : [];

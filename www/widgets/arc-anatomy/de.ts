@@ -33,7 +33,7 @@ export const de: typeof import('./en.ts').en = {
       `Die ${estimateName} passt am schlechtesten: ${deviationCount} Standardabweichungen daneben. Ihr Faktor: ${keptShare} des Maximums, das Produkt aller drei: ${sharePercent}.`,
     atPeak: 'Der Roboter ist, wohin der Befehl ohne Rauschen führt: p hat sein Maximum.',
     zeroVariance: (estimateName) => `Die ${estimateName} hat die Varianz 0, aber ein Residuum ungleich 0: p = 0.`,
-    printedRadiusLabel: (v, sharePercent) =>
+    printedRadius: (v, sharePercent) =>
       `Wie gedruckt hat der Radius kein Vorzeichen: v̂ = ${v} m/s hat das falsche, und p liegt bei ${sharePercent} seines Maximums.`,
   },
   formErrorPlot: {

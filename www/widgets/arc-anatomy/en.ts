@@ -33,7 +33,7 @@ export const en = {
       `The ${estimateName} fits worst: ${deviationCount} standard deviations off. Its factor is ${keptShare} of its peak, the product of all three ${sharePercent}.`,
     atPeak: 'The robot is where the command leads without noise: p is at its peak.',
     zeroVariance: (estimateName) => `The ${estimateName} has zero variance but a non-zero residual, so p = 0.`,
-    printedRadiusLabel: (v, sharePercent) =>
+    printedRadius: (v, sharePercent) =>
       `As printed, the radius has no sign: v̂ = ${v} m/s has the wrong sign, and p is ${sharePercent} of its peak.`,
   },
   formErrorPlot: {

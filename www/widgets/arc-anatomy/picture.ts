@@ -13,7 +13,7 @@ import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
 import { CONTOUR_STYLES, LINE_STYLES, type LineName, type ViewModel } from './settings.ts';
 import type { ArcAnatomy, ArcWithCircle, Pose, AnatomySurface } from '../../types.d.ts';
 
-export type ArcScene = ViewModel & { simulation: ArcAnatomy, overlays: LineName[], tableLine: number, movingRobotPoses: Float64Array | undefined };
+type ArcScene = ViewModel & { simulation: ArcAnatomy, overlays: LineName[], tableLine: number, movingRobotPoses: Float64Array | undefined };
 
 /** Radius of the robots, m. */
 export const ROBOT_RADIUS = 0.06;

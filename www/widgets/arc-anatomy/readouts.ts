@@ -32,7 +32,7 @@ export function captionOf({ config, stats: { factors, weakest, share, driven, in
   const texts = words.anatomy.captionSentences;
   const { deviations, share: keptShare, deviation } = factors[weakest];
   const estimateName = `${words.anatomy.factorBars.estimateNames[weakest]} ${['v̂', 'ω̂', 'γ̂'][weakest]}`;
-  if (config.printed && driven.arcLength !== inverted.arcLength) return texts.printedRadiusLabel(formatFixed(factors[0].estimate, 2), formatShare(share));
+  if (config.printed && driven.arcLength !== inverted.arcLength) return texts.printedRadius(formatFixed(factors[0].estimate, 2), formatShare(share));
   if (share === 1) return texts.atPeak;
   if (deviation === 0) return texts.zeroVariance(estimateName);
   return texts.worstFactor(estimateName, formatFixed(Math.abs(deviations), 1), formatShare(keptShare), formatShare(share));

@@ -74,7 +74,7 @@ function drawLegend({ context, view, palette, font }: DrawContext, axisName: str
   }
 }
 
-/** Returns about `wantedCount` tick values, at least two if possible, with the power of ten before the unit, and a function that formats labels. */
+/** Returns about `wantedTickCount` tick values, at least two if possible, with the power of ten before the unit, and a function that formats labels. */
 function ticksOfAxis(min: number, max: number, wantedTickCount: number) {
   const tickCount = Math.max(2, Math.floor(wantedTickCount));
   const candidateTicks = ticks(min, max, tickCount);

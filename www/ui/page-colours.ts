@@ -3,8 +3,8 @@
 import { colourChannelsOf } from './theme.ts';
 
 /**
- * Colours around a figure. `shade` is the amount by which colours are darkened for this background. `strength` is the share of the text
- * colour in muted text. An empty `text` keeps the figure's own colour.
+ * Colours around a figure. `darkening` is the amount by which colours are darkened for this background. `mutedShare` is the share of the
+ * text colour in muted text. An empty `text` keeps the figure's own colour.
  */
 type PageColours = { background: string, text: string, darkening: string, mutedShare: string, scheme: 'light' | 'dark' };
 

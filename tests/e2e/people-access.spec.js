@@ -265,6 +265,21 @@ test('a printed figure has its picture and settings in light colours, and no con
   }
 });
 
+test('all lines of Table 5.1 are printed', async ({ page }) => {
+  const widget = await mountFigure(page, 'arc-anatomy');
+  await openDisclosures(widget);
+  await page.emulateMedia({ media: 'print' });
+  for (const lineLabel of await widget.locator('.lines label').all()) await expect(lineLabel).toBeVisible();
+  await expect(widget.locator('.lines label')).not.toHaveCount(0);
+});
+
+test('a printed Map Squeeze names its map, without the controls that open another one', async ({ page }) => {
+  const widget = await mountFigure(page, 'map-squeeze');
+  await openDisclosures(widget);
+  await page.emulateMedia({ media: 'print' });
+  expect((await widget.locator('.own-map').innerText()).trim()).toMatch(/^The apartment: [^\n]*\.$/);
+});
+
 test('a printed page contains figures far from the window, with their pictures @nightly', async ({ page }) => {
   await showPage(page, '<banana-machine></banana-machine><div style="height: 3000px"></div><map-squeeze></map-squeeze>');
   await waitUntilReady(page.locator('banana-machine'));

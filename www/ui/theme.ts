@@ -158,12 +158,12 @@ export const themeStyles = css`
     }
 
     :is(button, input, textarea, summary, .notice, .handle, .end, .effect, .marked, .visually-hidden),
-    :not(th) > label:has(input:not(:checked)) {
+    :not(th, li) > label:has(input:not(:checked)) {
       display: none !important;
     }
 
-    /* Labels in a table are names of rows, and are all printed; that of the selected row is bold. */
-    th > label:has(input:checked) {
+    /* Labels in a table or list are names of its rows, and are all printed; that of the selected row is bold. */
+    :is(th, li) > label:has(input:checked) {
       font-weight: bold;
     }
 

@@ -119,6 +119,12 @@ const styles = css`
   .own-map .note {
     overflow-wrap: anywhere;
   }
+
+  @media print {
+    .own-map :not(.present, :has(.present)) {
+      display: none;
+    }
+  }
 `;
 
 /**

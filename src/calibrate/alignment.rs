@@ -5,10 +5,10 @@ use super::trajectory::Trajectory;
 /// Smallest step (s) of the scans of clock offsets. A robot's turn lasts several such steps.
 const FINEST_STEP: f64 = 0.05;
 
-/// Largest clock offset (s) of the first scan. Synchronized clocks differ by less. A round of a robot that drives in circles takes longer.
+/// Largest clock offset (s) of the first scan. Synchronized clocks differ by less. One lap of a robot that drives in circles takes longer.
 const MAX_NEAR_OFFSET: f64 = 10.0;
 
-/// Number of offsets in the coarse scan of clocks without a common start: 1 s apart for an hour.
+/// Number of offsets in the coarse scan, for clocks without a common start. They are 1 s apart, and cover an hour.
 const COARSE_OFFSETS: f64 = 4096.0;
 
 /// Maximum number of turn rates that are compared at each clock offset.
@@ -20,7 +20,7 @@ const MIN_CORRELATION: f64 = 0.5;
 /// Correlation at which the search for other clock offsets ends. At the right offset the correlation is 1 up to a few hundredths.
 const CONFIDENT_CORRELATION: f64 = 0.9;
 
-/// Minimum gain of correlation for which an offset beyond [`MAX_NEAR_OFFSET`] is preferred to an offset within.
+/// Minimum increase of the correlation for which an offset beyond [`MAX_NEAR_OFFSET`] is preferred to an offset within.
 const MIN_CORRELATION_GAIN: f64 = 0.05;
 
 /// Clock offset (s), and the correlation of the two turn rates at this offset.
@@ -109,8 +109,8 @@ fn turns_of_steps(trajectory: &Trajectory, start_time: f64, step: f64, count: us
     (0..count).map(turn_of_step).collect()
 }
 
-/// Returns Pearson's correlation of two lists over pairs of known numbers. 0 if there are fewer than `min_pairs` such pairs, or a list is
-/// constant.
+/// Returns Pearson's correlation of two lists, over the positions at which both numbers are known. 0 if there are fewer than `min_pairs`
+/// such positions, or a list is constant.
 fn correlation(a: &[Option<f64>], b: &[Option<f64>], min_pairs: usize) -> f64 {
     let iter_known_pairs = || a.iter().zip(b).filter_map(|(a, b)| a.zip(*b));
     let (mut count, mut sums) = (0.0, [0.0; 5]);

@@ -27,7 +27,7 @@ pub(super) struct LegSet {
     pub estimated: ErrorMask,
 }
 
-/// Fit to the legs of a sample.
+/// Fit to a sample of the legs.
 #[derive(Clone, Debug)]
 pub(super) struct Fit {
     pub sample: LegSet,
@@ -41,7 +41,7 @@ const LEGS_PER_BLOCK: usize = 100;
 
 const MAX_ROUNDS: usize = 15;
 
-/// Gain of log-likelihood (nats) of a step of half a standard error, below which the search in a round ends. The next round changes the residuals.
+/// Gain of log-likelihood (nats) below which the search in a round ends: that of a step of half a standard error. The next round continues the search.
 const ROUND_GAIN: f64 = 0.1;
 
 /// Change of a systematic error between rounds, relative to its standard error, below which the rounds end.

@@ -30,7 +30,7 @@ pub(super) fn intervals(
 ) -> impl Fn(usize) -> [f64; 2] {
     let threshold = student_95(residuals.terms.len().saturating_sub(PARAMETER_COUNT));
     let blocks = maximum.scores.chunks(legs_per_score_block(residuals.terms.len()));
-    // The mean score is not 0 if a variance is 0.
+    // At the maximum the mean score is 0, except for a variance that is 0.
     let mean_score = maximum.score / blocks.len() as f64;
     let block_scores: Vec<Parameters> =
         blocks.map(|block| block.iter().sum::<Parameters>() - mean_score).collect();
@@ -63,8 +63,8 @@ pub(super) fn intervals(
     }
 }
 
-/// Returns the distance from an estimate at which the root of the deviance has its threshold. The search starts at `guess`. If the root is
-/// below the threshold at `min_distance`, where the parameter is 0, `min_distance` is returned.
+/// Returns the distance from an estimate at which the square root of the deviance reaches `threshold`. The search starts at `guess`. If the
+/// root is below the threshold at `min_distance`, where the parameter is 0, `min_distance` is returned.
 fn profile_end(deviance_root_at: impl Fn(f64) -> f64, guess: f64, min_distance: f64, threshold: f64) -> f64 {
     let mut distance = guess.max(min_distance);
     for _ in 0..MAX_SEARCH_STEPS {

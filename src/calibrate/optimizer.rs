@@ -2,7 +2,7 @@
 
 use super::likelihood::{Expansion, FreeMask, PARAMETER_COUNT, Parameters, Residuals, masked_inverse};
 
-/// Gain of log-likelihood (nats) of a step of 0.014 standard errors, below which a search is exact.
+/// Gain of log-likelihood (nats) below which a search counts as exact: that of a step of 0.014 standard errors.
 pub(super) const EXACT_GAIN: f64 = 1e-4;
 
 const MAX_STEPS: usize = 60;

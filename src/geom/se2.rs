@@ -178,9 +178,9 @@ fn squared_sinc_of_half(turn: f64) -> f64 {
     half_sinc * half_sinc
 }
 
-/// Maximum |ω| (rad) at which [`sine_defect`] and [`cotangent_defect`] are computed by series, because their closed forms cancel. Beyond
-/// it, the closed forms lose up to four bits of small quotients, so that sums with them are exact to rounding. A smaller bound would lose
-/// more bits, and a larger bound would need more terms.
+/// Maximum |ω| (rad) at which [`sine_defect`] and [`cotangent_defect`] are computed by series, because their closed forms cancel. At
+/// larger angles, the closed forms lose at most four bits. Their values are small there, so that sums with them are exact to rounding. A
+/// smaller bound would lose more bits, and a larger bound would need more terms.
 const MAX_SERIES_ANGLE: f64 = 1.0;
 
 /// Returns (ω − sin ω)/ω² = ω/3! − ω³/5! + ω⁵/7! − …

@@ -3,7 +3,7 @@
 use super::settings::{DURATION_RANGE, QUANTITY_RANGE, group};
 use crate::models::{OdomDelta, VelocityCmd};
 
-// The settings with a pose complete these phrases by `each`.
+// Each setting with a pose completes these phrases in its `each`.
 group!([f64; 3] as [x, y, theta] => {
     /// Position x
     x: "m", in QUANTITY_RANGE;

@@ -50,9 +50,9 @@ struct Tally {
     gave_up: bool,
 }
 
-/// Number of draws, on average over all parts of motions, at which the simulation gives up. Only the sub-stepped sampler has several parts
-/// in a motion. A smaller limit would stop the simulation where a filter still works. A larger limit, an acceptance below 5 %, would let a
-/// page wait for seconds.
+/// Number of draws per part of a motion, on average over all parts, at which the simulation gives up. Only the sub-stepped sampler has
+/// several parts in a motion. A smaller limit would stop the simulation where a filter still works. A larger limit (acceptance below 5 %)
+/// would let a page wait for seconds.
 const MAX_MEAN_DRAWS_PER_PART: usize = 20;
 
 /// Number of parts of motions that one block of attempts tests against the map. A block takes some milliseconds.

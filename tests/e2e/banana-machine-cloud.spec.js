@@ -230,7 +230,7 @@ test('captions and notes depend on the model and its noise', async ({ page }) =>
   await widget.getByLabel('odometry').check();
   await expect(cloudCaption).toContainText('only roughly');
   await setSliders(widget, { v: -1 });
-  await expect(widget.locator('.note')).toContainText('Odometry reads backing up as two half turns');
+  await expect(widget.locator('.note')).toContainText('Odometry reads a drive in reverse as two half turns');
   await widget.getByLabel('velocity').check();
   await expect(widget.locator('.note')).toHaveCount(0);
 });

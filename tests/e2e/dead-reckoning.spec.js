@@ -131,7 +131,7 @@ test('more steps divide the same path into shorter steps, and the views stay', a
 
 test('with too few robots no step is judged, and without robots the caption says that there are none @nightly', async ({ page }) => {
   const widget = await openDeadReckoning(page, 'samples="1000"');
-  await expect(captionOf(widget)).toHaveText('Too few robots to tell 5 %: the bands are wider than that.');
+  await expect(captionOf(widget)).toHaveText('Too few robots to detect an error of 5 %: the bands are wider.');
   expect(await readMissedSteps(widget)).toEqual(['too few', 'too few', 'too few']);
   await widget.getByRole('button', { name: 'Clear' }).click();
   await waitForFrames(page);

@@ -30,7 +30,7 @@ export const de: typeof import('./en.ts').en = {
     onlyHeadings: 'Nur γ̂ rauscht: Alle Roboter halten am selben Punkt, und nur ihre Richtungen fächern sich auf.',
     fullTurns: 'Manche Roboter drehen sich um fast 2π. Dort ist der Logarithmus nicht eindeutig, und Statistiken in ξ sind nicht definiert.',
     reverseDrive: 'Die Odometrie liest Rückwärtsfahren als zwei halbe Drehungen und berechnet für beide Rauschen.',
-    onLine: 'Nur ein Rauschen versetzt die Roboter: Sie liegen auf einer Linie, und ein Umriss ohne Fläche enthält keinen Anteil.',
+    onLine: 'Nur ein Rauschen versetzt die Roboter: Sie liegen auf einer Linie, und ein Umriss ohne Fläche enthält keinen von ihnen.',
   },
   noRobots: 'Noch keine Roboter.',
   bend: {
@@ -81,7 +81,7 @@ export const de: typeof import('./en.ts').en = {
     exactValue: (value) => `genau ${value}`,
     exactUnwrappedValue: (value) => `genau ${value} ohne Umbruch bei ±π`,
     gain: 'bessere Passung in *ξ* (Log-Likelihood, Nat je Roboter)',
-    gainOnFloor: 'bessere Passung am Boden (Log-Likelihood, Nat je Roboter)',
+    gainOnFloor: 'bessere Passung auf dem Boden (Log-Likelihood, Nat je Roboter)',
     natNote: '1 Nat: *e*-mal so wahrscheinlich',
     unlimitedGain: 'in *ξ* ohne Grenze, da ohne *γ̂*',
     unlimitedGainOnLine: 'keine Grenze: in *ξ* alle auf einer Linie',

@@ -45,8 +45,8 @@ export const de: typeof import('./en.ts').en = {
   conditions: {
     noRobots: 'Noch keine Roboter.',
     noNoise: 'Kein Rauschen: Jeder Roboter ist, wo er sein soll, ohne Varianz.',
-    noCovariance: 'Die vierte Ordnung lässt keine Kovarianz übrig: zu viel Rauschen für eine Reihe.',
-    fewRobots: 'Zu wenige Roboter für 5 %: Die Bänder sind breiter.',
+    noCovariance: 'Die Reihe vierter Ordnung ergibt keine gültige Kovarianz: Das Rauschen ist zu groß für sie.',
+    fewRobots: 'Zu wenige Roboter, um einen Fehler von 5 % zu erkennen: Die Bänder sind breiter.',
   },
   missTable: {
     caption: 'Schritte, bei denen vorhergesagte und gemessene Varianz um mehr als 5 % auseinanderliegen, und der Unterschied nach dem letzten',

@@ -49,8 +49,8 @@ export const en = {
   conditions: {
     noRobots: 'No robots yet.',
     noNoise: 'No noise: every robot is where it was told to be, without variance.',
-    noCovariance: 'The fourth order has left no covariance: too much noise for a series.',
-    fewRobots: 'Too few robots to tell 5 %: the bands are wider than that.',
+    noCovariance: 'The fourth-order series gives no valid covariance: the noise is too large for it.',
+    fewRobots: 'Too few robots to detect an error of 5 %: the bands are wider.',
   },
   missTable: {
     caption: 'Steps at which predicted and measured variance differ by more than 5 %, and the difference after the last step',

@@ -38,7 +38,7 @@ export const en = {
     odometry: 'odometry *x̄*',
     difference: 'drift *x̄* − *x*',
   },
-  headline: { beforeRatio: 'Table 5.6 expects', afterRatio: 'the turn noise of AMCL of Nav2' },
+  headline: { beforeRatio: 'Table 5.6 expects', afterRatio: 'the turn noise of Nav2’s AMCL' },
   outcomesLabel: (rule) => `outcomes by ${rule}`,
   spreadLabel: (rule) => `spread (2σ)\nby ${rule}`,
   readouts: {

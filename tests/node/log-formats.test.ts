@@ -230,9 +230,9 @@ const createMovingTransform = (i: number) => transformMessageOf(timeOf(i), 'odom
 
 test('a constant transform is not accepted as a log', async () => {
   const messages = createForEachStep((i) => createTfMessage(i, transformMessageOf(timeOf(i), 'odom', 'base_link', 1, 2, 0), transformMessageOf(timeOf(i), 'map', 'robot', i / 50, 0, 0)));
-  assert.equal(await catchRefusalSentence(readLogsOf(messages, ODOM_TO_BASE_CHOICE)), 'run.mcap, topic /tf: the transform odom → base_link never changes, so it is no path of a robot; expected are frames that move, as map → robot.');
+  assert.equal(await catchRefusalSentence(readLogsOf(messages, ODOM_TO_BASE_CHOICE)), 'run.mcap, topic /tf: the transform odom → base_link never changes, so it is not the path of a robot; expected are frames that move, such as map → robot.');
   const constantMessages = createForEachStep((i) => createTfMessage(i, transformMessageOf(timeOf(i), 'odom', 'base_link', 1, 2, 0)));
-  assert.match(await catchRefusalSentence(readLogsOf(constantMessages, ODOM_TO_BASE_CHOICE)), /never changes, so it is no path of a robot; expected are frames that move\.$/);
+  assert.match(await catchRefusalSentence(readLogsOf(constantMessages, ODOM_TO_BASE_CHOICE)), /never changes, so it is not the path of a robot; expected are frames that move\.$/);
 });
 
 test('a constant transform that is published more often than the changing transform adds no rows', async () => {

@@ -113,7 +113,7 @@ export function parseOptions(args: string[]) {
   if (command === 'inspect') {
     if (logs.inputs.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
     const ignoredOption = Object.keys(optionValues).find((name) => !(name in LOG_OPTIONS) && name !== 'json');
-    if (ignoredOption !== undefined) throw new UsageError(`--${ignoredOption} is an option of calibrate; inspect has those of the logs, and --json.`);
+    if (ignoredOption !== undefined) throw new UsageError(`--${ignoredOption} is an option of calibrate; inspect accepts only the options about logs, and --json.`);
     const statedOptions = Object.entries(optionValues).filter((entry): entry is [string, string] => typeof entry[1] === 'string' && /unit$|columns$/.test(entry[0]));
     return { command: 'inspect' as const, ...logs, statedOptions, isJson: optionValues.json ?? false };
   }

@@ -108,7 +108,7 @@ export const english = {
     noChain: (frames: string, knownFrames: string) =>
       `no transforms lead along ${frames}; expected are frames that are connected, of ${knownFrames || 'none'}.`,
     constant: (frames: string, otherFrames: string) =>
-      `the transform ${frames} never changes, so it is no path of a robot; expected are frames that move${otherFrames ? `, as ${otherFrames}` : ''}.`,
+      `the transform ${frames} never changes, so it is not the path of a robot; expected are frames that move${otherFrames ? `, such as ${otherFrames}` : ''}.`,
     givenTwice: 'it is given twice; give two independent measurements of one drive, odometry and reference.',
     ownReference: (name: string) => `${name} is the odometry itself; choose a reference that does not come from the wheels, such as motion capture or scan matching.`,
     leftHanded: (otherName: string) => `it turns left where ${otherName} turns right: one of the two has Z down or a left-handed frame; negate y and the heading of that one.`,

@@ -28,8 +28,8 @@ pub enum Verdict {
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
 pub enum CheckName {
-    /// Median difference of a leg's motions by odometry and by reference, divided by the median motion. For a copy of the odometry it is the
-    /// square root of the largest lower end of the intervals of α's.
+    /// Median difference between the odometry motion and the reference motion of a leg, divided by the median motion. If the reference is a
+    /// copy of the odometry: square root of the largest lower end of the α's intervals.
     ReferenceMatches,
     /// Number of legs.
     EnoughLegs,
@@ -45,7 +45,7 @@ pub enum CheckName {
     DistanceScaleConstant,
     /// Difference of the turn scales of both halves of the log.
     TurnScaleConstant,
-    /// Inflation under which windows of 1 m are covered.
+    /// Smallest inflation with which the α's cover 95 % of the windows of 1 m.
     InflationBounded,
     /// Correlation of the innovations of neighbouring legs.
     ResidualsUncorrelated,
@@ -103,7 +103,7 @@ pub struct WindowCoverage {
     pub length: f64,
     /// Number of windows.
     pub count: usize,
-    /// Fraction of windows inside of the 95 % ellipsoid.
+    /// Fraction of the windows whose error is inside the 95 % ellipsoid.
     pub coverage: f64,
     /// Mean squared Mahalanobis distance over its 3 degrees of freedom (NEES); 1 if the α's hold.
     pub nees: f64,
@@ -138,38 +138,38 @@ impl CheckName {
                 "The reference does not follow the odometry: it may be of another drive, have other units (degrees, millimetres), a mirrored y axis or another vertical axis than z, or its columns may be swapped. The α's mean nothing. Compare both files row by row."
             }
             Self::EnoughLegs => {
-                "There are few legs, so the intervals are wide and the other checks weak. Drive on: a quarter of an hour of straight drives, arcs and turns on the spot."
+                "There are few legs, so the intervals are wide and the other checks weak. Record a longer drive: a quarter of an hour of straight drives, arcs and turns on the spot."
             }
-            Self::LegsLost => "Many legs were lost. The α's are those of the rest.",
+            Self::LegsLost => "Many legs were lost. The α's describe the remaining legs.",
             Self::SamplingDense => {
-                "Rows are too sparse for legs of this length: legs are longer than asked, and the α's belong to the longer ones. Record more often, or ask for longer legs."
+                "Rows are too sparse for legs of this length: legs are longer than requested, and the α's are valid for that length. Record at a higher rate, or choose longer legs."
             }
             Self::OutliersFew => {
-                "Many legs are outliers. The α's are those of the rest, and too small if the outliers are slip of the wheels. Look at the listed legs: a jump of the reference or slip?"
+                "Many legs are outliers. The α's describe the remaining legs, and are too small if the outliers are wheel slip. Look at the outliers: jumps of the reference, or slip?"
             }
             Self::SidewaysRare => {
                 "The odometry moves sideways, or backwards under Table 5.6: its positions are noisy, its frame is off the axle, it is swapped with the reference, or the robot reverses. α₁ and α₄ are too small. Use odometry of the axle, or the rule of Nav2."
             }
             Self::DistanceScaleConstant => {
-                "The odometry's scale of distances is not a constant, so it was not corrected unless asked for. Check wheel diameters, load and slip in turns; calibrate the wheels, then the noise."
+                "The odometry's distance scale is not constant, so it was corrected only if requested. Check wheel diameters, load and slip in turns; calibrate the wheels, then the noise."
             }
             Self::TurnScaleConstant => {
-                "The odometry's scale of turns is not a constant, so it was not corrected unless asked for. Check the track width and slip on this floor, and try longer legs: noise hides small turns."
+                "The odometry's turn scale is not constant, so it was corrected only if requested. Check the track width and slip on this floor, and try longer legs: noise hides small turns."
             }
             Self::InflationBounded => {
-                "No inflation up to 30 covers the errors over 1 m: they are no noise of the wheels. Find their cause first: outliers that were kept, a reference that jumps or drifts, slip."
+                "No inflation up to 30 covers the errors over 1 m: they are not noise of the wheels. Find their cause first: kept outliers, a reference that jumps or drifts, or slip."
             }
             Self::ResidualsUncorrelated => {
-                "Errors of neighbouring legs are correlated: they persist over several legs, or a systematic error is left in. Over longer distances the α's of legs are too small if errors persist, and too large if they cancel. Recommended α's hold over 1 m."
+                "Errors of neighbouring legs are correlated: they persist over several legs, or a systematic error is not corrected. Over longer distances the fitted α's are too small if errors persist, and too large if they cancel. Recommended α's hold over 1 m."
             }
             Self::TailsNormal => {
-                "A few errors are much larger than normal noise has them. Intervals of the predicted pose are too narrow in the tails. Look at the largest residuals. Recommended α's allow for it."
+                "A few errors are much larger than a normal distribution predicts. Intervals of the predicted pose are too narrow in the tails. Look at the largest residuals. Recommended α's allow for these errors."
             }
             Self::HoldoutCovered => {
                 "The α's of one half of the log do not fit the other: floor, load or speed changed, or the reference drifts. Calibrate for each condition, with a reference that does not drift."
             }
             Self::Window1Covered | Self::Window2Covered | Self::Window5Covered => {
-                "Over windows of this length the fitted α's do not predict the error: it grows differently, as with unequal wheels, a heading that errs along a leg, or a reference that drifts. Recommended α's hold over 1 m: use them if the filter corrects its pose that often."
+                "Over windows of this length the fitted α's do not predict the error: it grows differently, as with unequal wheels, a heading error that grows along a leg, or a reference that drifts. Recommended α's hold over 1 m: use them if the filter corrects its pose that often."
             }
         }
     }
@@ -285,7 +285,7 @@ pub(super) fn residual_checks(fits: &[LegFit], correlation: f64) -> Vec<Check> {
 }
 
 /// Returns the range of the coverage of logs that the model simulates. `variance_std_error` is the relative standard error of the variances.
-/// Its factor 0.14 is the density of ln χ² with 3 degrees of freedom at the quantile 0.95.
+/// The factor 0.14 is the density of ln χ² with 3 degrees of freedom at the quantile 0.95.
 pub(super) fn coverage_range(count: usize, variance_std_error: f64) -> [f64; 2] {
     let variance = 0.95 * 0.05 / count as f64;
     let tolerance =
@@ -307,7 +307,7 @@ pub(super) fn window_checks(windows: &[WindowCoverage], variance_std_error: f64)
 /// Turn (rad) above which a leg counts as turning. All other legs count as straight.
 const TURNING_LEG_ANGLE: f64 = 0.05;
 
-/// Minimum number of legs of each group whose scales are compared.
+/// Minimum number of legs in each of two groups whose scales are compared.
 const MIN_GROUP_LEGS: usize = 20;
 
 /// Maximum difference of two scales, in standard errors, that chance explains. Their 95 % intervals then overlap.

@@ -79,7 +79,7 @@ pub enum CalibrateError {
     NoCommonTime,
     /// There are fewer than [`MIN_LEGS`] legs.
     #[error(
-        "not enough data: {legs} legs have poses by both logs, and {MIN_LEGS} are needed. Take both logs from one drive, choose shorter legs, or drive longer"
+        "not enough data: {legs} legs have poses in both logs, and {MIN_LEGS} are needed. Take both logs from one drive, choose shorter legs, or drive longer"
     )]
     TooFewLegs {
         /// Number of legs.

@@ -27,7 +27,7 @@ pub enum TrajectoryError {
         sample: usize,
     },
     /// The time of the sample is not later than the time of the sample before it.
-    #[error("sample {sample} is not later than the one before; allowed are times that rise")]
+    #[error("sample {sample} is not later than the one before; allowed are increasing times")]
     NotLater {
         /// Index of the sample.
         sample: usize,

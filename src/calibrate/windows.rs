@@ -97,8 +97,8 @@ impl LegSet {
     }
 }
 
-/// Returns the fraction of windows inside of their 95 % ellipsoid, and the NEES: the mean squared Mahalanobis distance divided by its 3
-/// degrees of freedom. The wheels' variances are multiplied by `inflation`.
+/// Returns the fraction of windows whose error is inside the 95 % ellipsoid, and the NEES: the mean squared Mahalanobis distance divided
+/// by its 3 degrees of freedom. The wheels' variances are multiplied by `inflation`.
 fn coverage(windows: &[Window], min_window_length: f64, inflation: f64) -> WindowCoverage {
     let squared_distances: Vec<f64> =
         windows.iter().map(|window| window.squared_distance(inflation)).collect();
@@ -161,7 +161,7 @@ pub(super) fn cross_validate(fit: &Fit, all_legs: &LegSet, alphas: &[Option<f64>
         covered_legs +=
             residuals.filtered(parameters).leg_fits().filter(|fit| fit.is_within(&CHI2_95)).count();
     }
-    // Variances estimated from the 3n components of n legs have the relative variance 2/3n; several α's share them.
+    // Variances estimated from the 3n components of n legs have the relative variance 2/(3n); several α's share them.
     let variance_std_error = (2.0 * alphas.len() as f64 / (3 * leg_count / 2).max(1) as f64).sqrt();
     let coverage_by_other_half = covered_legs as f64 / compared_legs as f64;
     let expected_coverage = coverage_range(compared_legs, variance_std_error);
@@ -192,18 +192,18 @@ fn recommendation_reason(window: &WindowCoverage, inflation: f64) -> String {
     let WindowCoverage { count, coverage, nees, .. } = *window;
     if count < MIN_WINDOWS {
         return format!(
-            "The log has {count} windows of ≥ 1 m that were not used for the fit; {MIN_WINDOWS} are needed to judge it, so the fit stands as it is."
+            "The log has {count} windows of ≥ 1 m that were not used for the fit; {MIN_WINDOWS} are needed to judge it, so the fitted α's are recommended unchanged."
         );
     }
     let coverage_percent = format_decimal(100.0 * coverage, 1);
     if inflation == 1.0 {
         return format!(
-            "The fit covers {coverage_percent} % of {count} held-out windows of ≥ 1 m, where 95 % is right."
+            "The fit covers {coverage_percent} % of {count} held-out windows of ≥ 1 m; 95 % is expected."
         );
     }
     let [nees, inflation] = [nees, inflation].map(|number| format_decimal(number, 2));
     format!(
-        "The fit covers {coverage_percent} % of {count} held-out windows of ≥ 1 m (squared error over predicted variance {nees}, where 1 is right). The fitted α's times {inflation} cover at least 95 %."
+        "The fit covers {coverage_percent} % of {count} held-out windows of ≥ 1 m (squared error over predicted variance {nees}, expected 1). The fitted α's times {inflation} cover at least 95 %."
     )
 }
 

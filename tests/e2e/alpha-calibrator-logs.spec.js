@@ -169,7 +169,7 @@ test('a log with too few legs is refused, and the figure still shows the previou
   const standstillTable = Buffer.from('t,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n');
   await dropFiles(widget.locator('.stage').first(), ['odom.csv', 'truth.csv'].map((name) => ({ name, buffer: standstillTable })));
   await expect(widget.locator('.drop-zone').getByRole('alert')).toBeInViewport();
-  await expect(widget.getByRole('alert')).toHaveText('Log refused: Not enough data: fewer than 8 legs have poses by both logs. Take both logs from one drive, choose shorter legs, or drive longer.');
+  await expect(widget.getByRole('alert')).toHaveText('Log refused: Not enough data: fewer than 8 legs have poses in both logs. Take both logs from one drive, choose shorter legs, or drive longer.');
   await waitUntilSettled(widget);
   expect(await captionOf(widget).innerText()).toBe(captionBefore);
   expect((await readStats(widget)).alphas).toEqual(alphas);
@@ -353,7 +353,7 @@ test('the figure reports that a log has no legs @nightly', async ({ page }) => {
   await expect.poll(() => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.count)).toBe(0);
   await waitUntilSettled(widget);
   await openDisclosures(widget);
-  await expect(captionOf(widget)).toHaveText(/^✕ Do not use\s+Not enough data: fewer than 8 legs have poses by both logs\. .* drive longer\.\s*$/);
+  await expect(captionOf(widget)).toHaveText(/^✕ Do not use\s+Not enough data: fewer than 8 legs have poses in both logs\. .* drive longer\.\s*$/);
   await expect(alphaRowsOf(widget).first()).toHaveText(/—/);
   await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /Not enough data: .* choose shorter legs, or drive longer\.$/);
   await expect(widget.locator('.slider.off:has(#leg)')).toBeVisible();

@@ -267,12 +267,12 @@ test('--yaml prints only the lines for Nav2, and nothing for an unusable log', a
   assert.match(stderr, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Trust\. .*\nUse the recommended α’s with legs of this length\.\nFirst multiply the odometry’s distances by .*\n$/m);
   assert.match((await runCalibrate([...LOG_ARGS, '--yaml'])).stderr, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
   const swappedOutput = await runCalibrate(['--odometry', examplePathOf('reference'), '--reference', examplePathOf('odometry'), '--yaml']);
-  assert.match(swappedOutput.stderr, /^Caution. Warning: by their names, the reference is odometry, .*: exchange the two\.$/m);
+  assert.match(swappedOutput.stderr, /^Caution. Warning: by their names, odometry and reference seem to be swapped\. .*: exchange the two\.$/m);
   // The legs of a reference at 1 Hz are longer than requested.
   const [header, ...rows] = readFileSync(examplePathOf('reference'), 'utf8').trim().split('\n');
   const sparsePath = writeInFolder('sparse.csv', [header, ...rows.filter((_, i) => i % 20 === 0)].join('\n'));
   const sparseOutput = await runCalibrate([...LOG_ARGS.slice(0, 3), sparsePath, '--yaml', '--rule', 'nav2']);
-  const [, lengthRatio, printedDistance, printedAngle] = /legs are (\S+) times as long as asked\. .*\n +update_min_d: (\S+)\n +update_min_a: (\S+)\n$/.exec(sparseOutput.stdout)?.map(Number) ?? [];
+  const [, lengthRatio, printedDistance, printedAngle] = /legs are (\S+) times as long as requested\. .*\n +update_min_d: (\S+)\n +update_min_a: (\S+)\n$/.exec(sparseOutput.stdout)?.map(Number) ?? [];
   assert.ok(lengthRatio > 1.5, sparseOutput.stdout);
   assert.deepEqual([printedDistance / 0.25, printedAngle / 0.2].map((printedRatio) => Math.abs(printedRatio / lengthRatio - 1) < 0.005), [true, true]);
   const reversedPath = writeReversedReference();

@@ -194,11 +194,11 @@ fn errors_name_the_refused_value_and_what_is_allowed() {
         motion.calibrate({ odometry: { ...it.few, theta: [0, NaN] }, reference: it.few })
         RangeError: odometry.theta[1] is NaN; allowed is a number from -1000000000 to 1000000000
         motion.calibrate({ odometry: { ...it.few, t: [1, 1] }, reference: it.few })
-        RangeError: odometry: sample 1 is not later than the one before; allowed are times that rise
+        RangeError: odometry: sample 1 is not later than the one before; allowed are increasing times
         motion.calibrate({ odometry: { ...it.few, breaks: [2] }, reference: it.few })
         RangeError: odometry.breaks[0] is 2; allowed is a whole number from 1 to 1
         motion.calibrate({ odometry: it.few, reference: it.few })
-        RangeError: not enough data: 1 legs have poses by both logs, and 8 are needed. Take both logs from one drive, choose
+        RangeError: not enough data: 1 legs have poses in both logs, and 8 are needed. Take both logs from one drive, choose
             shorter legs, or drive longer
         motion.calibrate({ odometry: it.few, reference: it.few, model: 'banana' })
         RangeError: model is "banana"; allowed is "odometry" or "omnidirectional" or "velocity"

@@ -207,7 +207,7 @@ fn times_must_rise_and_numbers_must_be_finite() {
         Trajectory::new(timed_poses).err().map(|trajectory_error| trajectory_error.to_string())
     };
     assert_eq!([error_message_for(&[]), error_message_for(&[(1.0, 2.0)])], [None, None]);
-    let order_message = "sample 2 is not later than the one before; allowed are times that rise";
+    let order_message = "sample 2 is not later than the one before; allowed are increasing times";
     assert_eq!(error_message_for(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0)]).as_deref(), Some(order_message));
     let finite_message = "sample 1 has a time or a coordinate that is not finite; allowed are finite numbers";
     assert_eq!(error_message_for(&[(0.0, 0.0), (f64::NAN, 0.0)]).as_deref(), Some(finite_message));

@@ -10,7 +10,7 @@ const CHECK_MESSAGES: Record<string, string> = {
   'reference-matches':
     'Die Referenz folgt der Odometrie nicht: Vielleicht ist sie von einer anderen Fahrt, hat andere Einheiten (Grad, Millimeter), eine gespiegelte y-Achse oder eine andere senkrechte Achse als z, oder ihre Spalten sind vertauscht. Die α sind bedeutungslos. Beide Dateien Zeile für Zeile vergleichen.',
   'enough-legs':
-    'Es sind wenige Etappen: Die Intervalle sind breit und die anderen Prüfungen schwach. Weiter aufzeichnen: eine Viertelstunde mit Geraden, Bögen und Drehungen auf der Stelle.',
+    'Es sind wenige Etappen: Die Intervalle sind breit und die anderen Prüfungen schwach. Länger aufzeichnen: eine Viertelstunde mit Geraden, Bögen und Drehungen auf der Stelle.',
   'legs-lost-withoutReference':
     'Viele Etappen gingen verloren. Die α gelten für den Rest. Den meisten fehlt die Referenz: sie während der ganzen Fahrt aufzeichnen.',
   'legs-lost-acrossBreaks':
@@ -18,25 +18,25 @@ const CHECK_MESSAGES: Record<string, string> = {
   'legs-lost-acrossPauses':
     'Viele Etappen gingen verloren. Die α gelten für den Rest. Die meisten sind durch eine Pause zu lang: beide ohne Lücken aufzeichnen.',
   'sampling-dense':
-    'Die Aufzeichnung hat zu wenige Zeilen für diese Länge: Die Etappen sind länger als verlangt, und die α gelten für die längeren. Öfter aufzeichnen oder längere Etappen wählen.',
+    'Die Aufzeichnung hat zu wenige Zeilen für diese Länge: Die Etappen sind länger als verlangt, und die α gelten für diese Länge. Mit höherer Rate aufzeichnen oder längere Etappen wählen.',
   'outliers-few':
-    'Viele Etappen sind Ausreißer. Die α gelten für den Rest und sind zu klein, wenn die Ausreißer Schlupf der Räder sind. Die markierten Etappen ansehen: ein Sprung der Referenz oder Schlupf?',
+    'Viele Etappen sind Ausreißer. Die α gelten für den Rest und sind zu klein, wenn die Ausreißer Schlupf der Räder sind. Die Ausreißer ansehen: Sprünge der Referenz oder Schlupf?',
   'sideways-rare':
     'Die Odometrie bewegt sich seitwärts, oder rückwärts nach Tabelle 5.6: Ihre Positionen rauschen, ihr Koordinatensystem liegt nicht auf der Achse, sie ist mit der Referenz vertauscht, oder der Roboter fährt rückwärts. α₁ und α₄ sind zu klein. Odometrie der Räder in der Mitte ihrer Achse verwenden, oder die Regel von Nav2.',
   'distance-scale-constant':
-    'Der Skalenfaktor der Strecke ist keine Konstante und wurde nicht korrigiert, außer auf Wunsch. Raddurchmesser, Last und Schlupf in Kurven prüfen; erst die Räder kalibrieren, dann das Rauschen.',
-  'turn-scale-constant': 'Der Skalenfaktor der Drehung ist keine Konstante und wurde nicht korrigiert, außer auf Wunsch. Spurweite und Schlupf auf diesem Boden prüfen, und längere Etappen wählen: Rauschen verbirgt kleine Drehungen.',
+    'Der Skalenfaktor der Strecke ist nicht konstant und wurde nur auf Wunsch korrigiert. Raddurchmesser, Last und Schlupf in Kurven prüfen; erst die Räder kalibrieren, dann das Rauschen.',
+  'turn-scale-constant': 'Der Skalenfaktor der Drehung ist nicht konstant und wurde nur auf Wunsch korrigiert. Spurweite und Schlupf auf diesem Boden prüfen, und längere Etappen wählen: Rauschen verbirgt kleine Drehungen.',
   'inflation-bounded':
     'Keine Vergrößerung bis 30 deckt die Fehler über 1 m: Sie sind kein Rauschen der Räder. Zuerst die Ursache suchen: behaltene Ausreißer, eine springende oder driftende Referenz, Schlupf.',
   'residuals-uncorrelated':
-    'Fehler benachbarter Etappen sind korreliert: Sie halten an, oder ein systematischer Fehler ist nicht korrigiert. Über längere Strecken sind die α zu klein, oder zu groß, wenn sich Fehler aufheben. Empfohlene α gelten über 1 m.',
+    'Fehler benachbarter Etappen sind korreliert: Sie halten über mehrere Etappen an, oder ein systematischer Fehler ist nicht korrigiert. Über längere Strecken sind die angepassten α zu klein, wenn Fehler anhalten, und zu groß, wenn sie sich aufheben. Empfohlene α gelten über 1 m.',
   'tails-normal':
-    'Einige Fehler sind viel größer, als normalverteiltes Rauschen sie hat: Die Ränder der Vorhersage sind zu schmal. Empfohlene α berücksichtigen das. Die größten Residuen ansehen.',
+    'Einige Fehler sind viel größer, als eine Normalverteilung vorhersagt: Die Intervalle der vorhergesagten Pose sind an den Rändern zu schmal. Die größten Residuen ansehen. Empfohlene α berücksichtigen diese Fehler.',
   'holdout-covered':
     'Die α der einen Hälfte der Aufzeichnung passen nicht zur anderen: Boden, Last oder Geschwindigkeit haben sich geändert, oder die Referenz driftet. Für jede Bedingung kalibrieren, mit einer Referenz, die nicht driftet.',
   ...Object.fromEntries([1, 2, 5].map((length) => [
     `window-${length}m-covered`,
-    'Über Fenster dieser Länge sagen die angepassten α den Fehler nicht vorher: Er wächst anders, wie bei ungleichen Raddurchmessern, einer Richtung, die schon während der Etappe abweicht, oder einer driftenden Referenz. Empfohlene α gelten über 1 m: verwenden, wenn das Filter seine Pose so oft korrigiert.',
+    'Über Fenster dieser Länge sagen die angepassten α den Fehler nicht vorher: Er wächst anders, wie bei ungleichen Raddurchmessern, einem Richtungsfehler, der während der Etappe wächst, oder einer driftenden Referenz. Empfohlene α gelten über 1 m: verwenden, wenn das Filter seine Pose so oft korrigiert.',
   ])),
 };
 
@@ -81,7 +81,7 @@ export const de: typeof import('./en.ts').en = {
   missingAlphasSentence: (alphas, advisedDrive) => `Von dieser Aufzeichnung nicht bestimmt: ${alphas}; ${advisedDrive}.`,
   noAlphaIdentified: 'Die Aufzeichnung bestimmt kein α.',
   clockOffsetNote: (seconds, isAhead) => `Die Uhr der Referenz geht gegen die der Odometrie ${seconds} s ${isAhead ? 'vor' : 'nach'}. Beide sind nach den Drehungen des Roboters ausgerichtet: prüfen, ob sie von derselben Fahrt sind.`,
-  tooFewLegs: 'Nicht genug Daten: Weniger als 8 Etappen haben Posen nach beiden Aufzeichnungen. Beide Aufzeichnungen derselben Fahrt nehmen, kürzere Etappen wählen oder länger fahren.',
+  tooFewLegs: 'Nicht genug Daten: Weniger als 8 Etappen haben Posen in beiden Aufzeichnungen. Beide Aufzeichnungen derselben Fahrt nehmen, kürzere Etappen wählen oder länger fahren.',
   checks: {
     title: 'Prüfungen',
     checkColumn: 'Prüfung',
@@ -111,8 +111,8 @@ export const de: typeof import('./en.ts').en = {
   },
   recommendationReasons: {
     unusableLog: 'Es gibt keine empfohlenen α: Die Aufzeichnung ist unbrauchbar.',
-    tooFewWindows: (count) => `Empfohlen: die Anpassung selbst, da ${count} zurückgehaltene Fenster von ≥ 1 m sie nicht beurteilen können.`,
-    goodCoverage: (coverage, count) => `Empfohlen: die Anpassung selbst. In ihrem Bereich liegen ${coverage} von ${count} zurückgehaltenen Fenstern von ≥ 1 m; richtig sind 95 %.`,
+    tooFewWindows: (count) => `Empfohlen: die angepassten α. ${count} zurückgehaltene Fenster von ≥ 1 m reichen nicht, sie zu beurteilen.`,
+    goodCoverage: (coverage, count) => `Empfohlen: die angepassten α. Sie decken ${coverage} von ${count} zurückgehaltenen Fenstern von ≥ 1 m; erwartet sind 95 %.`,
     inflated: (inflation, coverage, count, nees) =>
       `Empfohlen: angepasst × ${inflation}, deckt mindestens 95 % von ${count} zurückgehaltenen Fenstern von ≥ 1 m. Die Anpassung deckt ${coverage}; ihr quadrierter Fehler durch vorhergesagte Varianz (NEES) ist ${nees}, erwartet 1.`,
   },
@@ -137,7 +137,7 @@ export const de: typeof import('./en.ts').en = {
     simulatedColumn: 'simuliert',
     errorNames: {
       clockOffset: 'Uhrenversatz (s)',
-      mountYaw: 'Gierwinkel (rad)',
+      mountYaw: 'Einbauwinkel (rad)',
       leverArm: 'Hebelarm (m)',
       distanceScale: 'Skalenfaktor, Strecke',
       turnScale: 'Skalenfaktor, Drehung',
@@ -152,7 +152,7 @@ export const de: typeof import('./en.ts').en = {
   leg: {
     legsTitle: 'Etappen',
     name: 'Etappe',
-    nextWorstLegLabel: 'Nächstes großes Residuum',
+    nextWorstLegLabel: 'Nächstgrößtes Residuum',
     endErrorLabel: 'Fehler',
     squaredDistanceLabel: (expectedDistance) => `quadrierte Mahalanobis-Distanz (erwartet ${expectedDistance})`,
   },
@@ -194,7 +194,7 @@ export const de: typeof import('./en.ts').en = {
     dropTooltip: 'Odometrie und Referenz: eine Aufzeichnung mit beiden oder zwei Dateien; bei mehreren Fahrten alle Dateien zugleich. Nichts verlässt dieses Gerät.',
     chooseFilesLabel: 'Dateien wählen',
     title: 'Aufzeichnung und Referenz',
-    leaveLabel: 'Zurück zur simulierten',
+    leaveLabel: 'Zurück zur simulierten Aufzeichnung',
     simulatedLogNote: 'Ein simulierter Roboter folgt einer Kurve und dreht sich ab und zu auf der Stelle. Die wahren Werte stehen neben den Schätzungen.',
     resultsOfLog: (name) => `Ergebnisse von ${name}.`,
 
@@ -207,11 +207,11 @@ export const de: typeof import('./en.ts').en = {
     yamlLabel: 'Zeilen für nav2_params.yaml',
     copyLabel: 'Für Nav2 kopieren',
     fitLabel: 'Für Nav2 anpassen',
-    fitTooltip: 'Diese α’s gelten für ein anderes Modell: das von Nav2 anpassen, dann kopieren',
+    fitTooltip: 'Diese α gelten für ein anderes Modell: das von Nav2 anpassen, dann kopieren',
     saveJsonLabel: 'Alles als JSON speichern',
-    noYamlNote: 'Keine Zeilen für nav2_params.yaml: Nav2 hat kein Geschwindigkeitsmodell, oder es werden keine α’s empfohlen. In JSON steht alles.',
-    localizer: 'Warnung: Die Referenz ist die Schätzung eines Lokalisierers. Sie teilt Fehler mit der Odometrie, die α’s sind zu klein. Eine unabhängig gemessene Referenz verwenden.',
-    swapped: 'Warnung: Nach den Namen ist die Referenz Odometrie, und die Odometrie nicht. Sind sie vertauscht, so gelten die α’s für die Referenz: die beiden tauschen.',
+    noYamlNote: 'Keine Zeilen für nav2_params.yaml: Nav2 hat kein Geschwindigkeitsmodell, oder es werden keine α empfohlen. In JSON steht alles.',
+    localizer: 'Warnung: Die Referenz ist die Schätzung eines Lokalisierers. Ihre Fehler folgen der Odometrie: Die α sind zu klein. Eine unabhängig gemessene Referenz verwenden.',
+    swapped: 'Warnung: Nach den Namen scheinen Odometrie und Referenz vertauscht. Sind sie es, so gelten die α für die Referenz: die beiden tauschen.',
     correctionAdvice: (distanceFactor, turnFactor) =>
       `Zuerst in der Odometrie ${[distanceFactor && `Strecken mit ${distanceFactor}`, turnFactor && `Drehungen mit ${turnFactor}`].filter(Boolean).join(' und ')} multiplizieren: Die α gelten für den korrigierten Roboter.`,
   },

@@ -4,7 +4,7 @@ import { formatCount } from '../../messages/en.ts';
 
 /** Words in the lines for nav2_params.yaml, which are English in every language. */
 export const yamlWords = {
-  otherRuleNote: 'Not fitted by the rule of Nav2’s AMCL, which is called nav2.',
+  otherRuleNote: 'Fitted by another rule than Nav2’s; fit again with the rule nav2.',
   notIdentifiable: 'not identifiable from this log; Nav2 uses its default',
   notSignificantNote: (upperEnd) => `not significantly different from 0, 95 % up to ${upperEnd}`,
   tooLargeNote: 'implausible (> 1): see the failed checks and the outliers',
@@ -13,7 +13,7 @@ export const yamlWords = {
   legsByDuration: (duration) => `of ${duration} s`,
   recommendationNote: (inflation, coverage, windowCount) => `recommended = fitted × ${inflation}: the fit covers ${coverage} of ${windowCount} held-out windows of ≥ 1 m`,
   fittedNote: (fittedAlpha, interval) => `fitted ${fittedAlpha}${interval && `, 95 % ${interval}`}`,
-  longerLegsNote: (legLengthRatio) => `The log’s legs are ${legLengthRatio} times as long as asked. The α’s belong to them, so update_min_d and update_min_a are multiplied by ${legLengthRatio}.`,
+  longerLegsNote: (legLengthRatio) => `The log’s legs are ${legLengthRatio} times as long as requested. The α’s are valid for this length, so update_min_d and update_min_a are multiplied by ${legLengthRatio}.`,
   failedChecksNote: (checkNames) => `Caution, these checks failed: ${checkNames}`,
   correctedErrorsNote: (errorList) => `with these systematic errors corrected: ${errorList}`,
   fifthAlphaNote: 'alpha5 belongs to the omnidirectional model only',
@@ -60,7 +60,7 @@ export const en = {
   missingAlphasSentence: (alphas, advisedDrive) => `Not determined by this log: ${alphas}; ${advisedDrive}.`,
   noAlphaIdentified: 'The log identifies no α.',
   clockOffsetNote: (seconds, isAhead) => `The reference’s clock is ${seconds} s ${isAhead ? 'ahead of' : 'behind'} the odometry’s. The turns of the robot aligned both: check that they are of one drive.`,
-  tooFewLegs: 'Not enough data: fewer than 8 legs have poses by both logs. Take both logs from one drive, choose shorter legs, or drive longer.',
+  tooFewLegs: 'Not enough data: fewer than 8 legs have poses in both logs. Take both logs from one drive, choose shorter legs, or drive longer.',
   checks: {
     title: 'Checks',
     checkColumn: 'check',
@@ -90,8 +90,8 @@ export const en = {
   },
   recommendationReasons: {
     unusableLog: 'There are no recommended α’s: the log is unusable.',
-    tooFewWindows: (count) => `Recommended: the fit itself, as ${formatCount(count, 'held-out window')} of ≥ 1 m cannot judge it.`,
-    goodCoverage: (coverage, count) => `Recommended: the fit itself. It covers ${coverage} of ${count} held-out windows of ≥ 1 m; 95 % is right.`,
+    tooFewWindows: (count) => `Recommended: the fitted α’s. ${formatCount(count, 'held-out window')} of ≥ 1 m cannot judge them.`,
+    goodCoverage: (coverage, count) => `Recommended: the fitted α’s. They cover ${coverage} of ${count} held-out windows of ≥ 1 m; 95 % is expected.`,
     inflated: (inflation, coverage, count, nees) =>
       `Recommended: fitted × ${inflation}, which covers at least 95 % of ${count} held-out windows of ≥ 1 m. The fit covers ${coverage}, with a squared error over predicted variance (NEES) of ${nees}, expected 1.`,
   },
@@ -190,7 +190,7 @@ export const en = {
     saveJsonLabel: 'Save all as JSON',
     noYamlNote: 'No lines for nav2_params.yaml: Nav2 has no velocity model, or no α’s are recommended. JSON has everything.',
     localizer: 'Warning: the reference is a localizer’s own estimate. Its errors follow the odometry: the α’s are too small. Use a reference that is measured independently.',
-    swapped: 'Warning: by their names, the reference is odometry, and the odometry is not. If they are swapped, the α’s are those of the reference: exchange the two.',
+    swapped: 'Warning: by their names, odometry and reference seem to be swapped. If they are, the α’s are those of the reference: exchange the two.',
     correctionAdvice: (distanceFactor, turnFactor) =>
       `First multiply the odometry’s ${[distanceFactor && `distances by ${distanceFactor}`, turnFactor && `turns by ${turnFactor}`].filter(Boolean).join(' and ')}: the α’s are those of the corrected robot.`,
   },

@@ -148,7 +148,7 @@ test('without noise, or if fourth-order terms leave no valid covariance, the fig
   await expect(plotOf(widget)).toHaveAttribute('aria-label', /along the track —/);
   await widget.evaluate((element) => Object.assign(element, { headingNoise: 60, compounding: 'fourth-order', step: 20 }));
   await waitUntilSettled(widget);
-  await expect(captionOf(widget)).toHaveText(/has left no covariance/);
+  await expect(captionOf(widget)).toHaveText(/gives no valid covariance/);
 });
 
 test('the path of a robot is shown if its number is entered', async ({ page }) => {

@@ -87,7 +87,7 @@ test('ambiguous roles lead to a question', async () => {
     [{ '/cmd_vel': 'twist', '/amcl_pose': 'pose' }, 'by its names and types it has no odometry, but ', 'series', 'odometry', ['/cmd_vel']],
     [{ '/odom': 'odometry', '/goal_pose': 'pose' }, 'by its names and types it has no reference, but ', 'series', 'reference'],
     [{ '/odom': 'odometry' }, 'it has no such topic, group of columns or transforms; expected is one of /odom (Odometry).', 'series', 'odometry', ['/odom'], [], { odometry: { frames: { parent: 'odom', child: 'base' } } }],
-    [{ '/tf': 'tf' }, 'give a parent and a child frame, connected by base_link → laser.', 'frames', 'odometry', ['base_link,laser'], ['base_link laser']],
+    [{ '/tf': 'tf' }, 'give a parent and a child frame; connected are base_link → laser.', 'frames', 'odometry', ['base_link,laser'], ['base_link laser']],
     [{ '/tf': 'tf' }, 'it has one log only, /tf (TFMessage), by name or type the odometry; give the reference too.', 'other', 'odometry', undefined, ['odom base']],
     [{ '/odom': 'odometry' }, 'it has one log only, /odom (Odometry), by name or type the odometry; give the reference too.', 'other', 'odometry'],
     [{ '/mocap': 'pose' }, 'it has one log only, /mocap (PoseStamped), by name or type the reference; give the odometry too.', 'other', 'reference'],

@@ -212,7 +212,7 @@ test('files that are not recordings are refused', async () => {
   // The first page of the database is a leaf without tables.
   emptyDatabase[100] = 13;
   assert.match(await catchRefusalSentence(openRecordings([createFile(emptyDatabase, 'run.db3')])), /without the tables “topics” and “messages” of rosbag2; expected/);
-  assert.match(await catchRefusalSentence(openRecordings([createFile('t,x,y,yaw\n', 'split0.mcap', 'drive/split0.mcap'), ...splitRecordingFilesOf(1)])), /^split0\.mcap: it is listed in the metadata\.yaml of a recording, and is none;/);
+  assert.match(await catchRefusalSentence(openRecordings([createFile('t,x,y,yaw\n', 'split0.mcap', 'drive/split0.mcap'), ...splitRecordingFilesOf(1)])), /^split0\.mcap: it is listed in the metadata\.yaml of a recording, but is not a recording;/);
   const largeFile = { name: 'run.db3', size: 2 ** 30 + 1, slice: () => new Blob(['\x28\xb5\x2f\xfd'].map((text) => Buffer.from(text, 'latin1'))) };
   assert.match(await catchRefusalSentence(openRecordings([largeFile])), /^run\.db3: it has more than 1073741824 bytes when it is decompressed; decompress it with “zstd -d”/);
   const shortRecording = await openRecording(...fileListOf('small.db3'));

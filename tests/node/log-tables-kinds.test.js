@@ -242,7 +242,7 @@ const REFUSED_TABLES = [
   ['two paths', circleTableOf(([t, x, ...yawAndRest], i) => [t, i % 6 ? x : x + 1, ...yawAndRest]), /poses of two paths alternate, 1\.\d m apart: .*; keep those of one\.$/],
   ['Euler angles of Motive', 'Format Version,1.23,Take Name,x,Rotation Type,XYZ,Length Units,Meters\n\n,Type,Rigid Body\n,Name,Robot\n,ID,1\n,,Rotation\nFrame,Time (Seconds),X\n0,0.0,1\n1,0.1,1\n', /Euler angles \(XYZ\); export/],
   ['a program’s messages', '[INFO] [1718000000.1] [amcl]: at 1.0, 2.0\n'.repeat(3), /does not look like a log/],
-  ['YAML', 'header:\n  seq: 1\n---\n', /it is YAML and no table; write/],
+  ['YAML', 'header:\n  seq: 1\n---\n', /it is YAML, not a table; write/],
   ['dates in an order that is not clear', 't,x,y,yaw\n6/10/2024 12:00:00,0,0,0\n6/10/2024 12:00:01,0,0,0\n', /, or a date as 2024-01-31 12:00:00\.5\.$/],
   ['columns for a table of another width', '0 1 2 3 4\n1 1 2 3 4\n', /has 5 cells, and --columns names 4;/, { columns: ['t', 'x', 'y', 'yaw'] }],
 ];
@@ -274,7 +274,7 @@ test('a table with more rows than a day at 100 Hz is refused', async () => {
 
 test('a file that has been moved is refused', async () => {
   const movedFile = { name: `${'n'.repeat(50)}.csv`, size: 5, slice: () => ({ arrayBuffer: () => Promise.reject(new DOMException('', 'NotFoundError')) }) };
-  assert.equal(await catchRefusalSentence(openRecordings([/** @type {any} */ (movedFile)])), `${'n'.repeat(40)}…: the file cannot be read (NotFoundError); expected is one that exists and may be read.`);
+  assert.equal(await catchRefusalSentence(openRecordings([/** @type {any} */ (movedFile)])), `${'n'.repeat(40)}…: the file cannot be read (NotFoundError); check that it exists and may be read.`);
 });
 
 test('lines that span two pieces of a large file are read completely', async () => {

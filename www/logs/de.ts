@@ -49,7 +49,7 @@ const UNSUPPORTED_FORMATS: typeof import('./en.ts').UNSUPPORTED_FORMATS = {
 export const german: Words = {
   place: (file, line, topic) => `${file}${topic ? `, Topic ${topic}` : ''}${line ? `, ${topic ? 'Nachricht' : 'Zeile'} ${line}` : ''}`,
   refused: {
-    gone: (reason) => (reason === 'ENOENT' ? 'es gibt keine solche Datei und keinen solchen Ordner.' : `die Datei lässt sich nicht lesen (${reason}); erwartet wird eine, die noch da ist.`),
+    gone: (reason) => (reason === 'ENOENT' ? 'es gibt keine solche Datei und keinen solchen Ordner.' : `die Datei lässt sich nicht lesen (${reason}); prüfen, ob sie da ist und gelesen werden darf.`),
     empty: 'es steht nichts darin; erwartet wird ein Log von Posen oder Befehlen.',
     binary: 'das ist weder Text noch eine bekannte Aufzeichnung; erwartet wird eine ROS-Bag, rosbag2, MCAP, oder eine Tabelle als CSV oder TUM, aus einem Archiv entpackt.',
     longLine: (max) => `die Zeile hat mehr als ${max} Bytes; erwartet wird eine Zeile je Zeitpunkt.`,
@@ -64,7 +64,7 @@ export const german: Words = {
     given: (cellCount, nameCount) => `die Zeile hat ${countWithNoun(cellCount, 'Feld', 'Felder')}, und --columns nennt ${nameCount}; alle Spalten der Reihe nach nennen, mit - für die, die nicht gelesen werden.`,
     noHeader: (count, row) =>
       `die Tabelle hat keine Kopfzeile, und ihre erste Zeile ist „${row}“; ihre ${count} Spalten benennen.`,
-    noTable: (notation) => `das ist ${notation} und keine Tabelle; eine Zeile je Zeitpunkt schreiben, wie mit ros2 topic echo --csv, rostopic echo -p oder pandas, oder die Aufzeichnung selbst angeben.`,
+    noTable: (notation) => `das ist ${notation}, keine Tabelle; eine Zeile je Zeitpunkt schreiben, wie mit ros2 topic echo --csv, rostopic echo -p oder pandas, oder die Aufzeichnung selbst angeben.`,
     positions: (columns) =>
       `${columns} sind Positionen ohne Richtung; nötig ist eine Referenz, die die Richtung misst, wie mit zwei Prismen, Markern oder Scan-Matching (in einer Tabelle in einer Spalte namens yaw mit dem Präfix von x und y): Die Fahrtrichtung verbirgt Drehfehler und würde alpha1 und alpha2 halbieren.`,
     euler: (rotation) => `die Drehungen sind Eulerwinkel (${rotation}); die Aufnahme noch einmal aus Motive exportieren, mit Rotation Type „Quaternion“.`,
@@ -74,7 +74,7 @@ export const german: Words = {
     mixed: (frames) => `die Zeilen gehören zu mehreren Frames, Topics oder Robotern (${frames}); nur die eines davon behalten.`,
     unknownUnit: (unit) => `die Einheit ${unit} einer Spalte ist unbekannt, oder nicht die einer anderen; erwartet wird s, ms, us oder ns, m, cm, mm, ft oder in, und rad oder deg.`,
     turns: (metres) => `Posen zweier Wege wechseln sich ab, ${withDecimalComma(metres, 2)} m auseinander: Sie sind von zwei Robotern, oder von zwei Knoten, die auf einem Topic senden; nur die eines davon behalten.`,
-    manyBad: (badCount, rows, percent) => `${badCount} von ${rows} Zeilen sind beschädigt; erlaubt sind ${percent} %.`,
+    manyBad: (badCount, rows, percent) => `${badCount} von ${rows} Zeilen sind beschädigt; erlaubt sind höchstens ${percent} %.`,
     number: (column, value) => `${column} ist „${value}“; erwartet wird eine Zahl${/^\d{1,3}(\D\d{3})+\b/.test(value) ? ' ohne Tausendertrennung' : /^[+-]?\d*,\d+$/.test(value) ? ' mit Dezimalpunkt' : /\d[/:-]\d/.test(value) ? ', oder ein Datum wie 2024-01-31 12:00:00.5' : ''}.`,
     rows: (max) => `es sind mehr Zeilen; erwartet werden höchstens ${max}.`,
     setBack: (seconds) =>
@@ -91,7 +91,7 @@ export const german: Words = {
     damaged: (reason, format) => `sie ist beschädigt oder unvollständig (${reason}); noch einmal vom Roboter kopieren${format ? `, oder „${REPAIR_COMMANDS[format]}“ versuchen` : ''}.`,
     largeFile: (command, max) => `sie hat dekomprimiert mehr als ${max} Bytes; mit „${command}“ dekomprimieren und das Ergebnis angeben.`,
     noRosbag2: 'das ist eine SQLite-Datenbank ohne die Tabellen „topics“ und „messages“ von rosbag2; erwartet wird eine Aufzeichnung von „ros2 bag record“.',
-    notRosbag2: 'sie steht in der metadata.yaml einer Aufzeichnung und ist keine; erwartet wird eine MCAP- oder .db3-Datei.',
+    notRosbag2: 'sie steht in der metadata.yaml einer Aufzeichnung, ist aber keine Aufzeichnung; erwartet wird eine MCAP- oder .db3-Datei.',
     notRead: (format) => `das ist ${UNSUPPORTED_FORMATS[format]}`,
     noFiles: (files) => `sie beschreibt eine Aufzeichnung in ${files}; auch diese Datei angeben, oder den ganzen Ordner.`,
     noTopic: (series) => `es gibt kein solches Topic, keine solche Gruppe von Spalten und keine solchen Transformationen; erwartet wird eines von ${series}.`,
@@ -102,9 +102,9 @@ export const german: Words = {
     choose: (role, series) => `es ist nicht klar, was die ${ROLE_NAMES[role]} ist: ${series}.`,
     type: (type, neededType) => `sein Typ ist „${type}“; erwartet wird ${MESSAGE_TYPES[neededType]} (kodiert als cdr oder ros1).`,
     message: (reason) => `sie lässt sich nicht lesen (${reason}); erwartet wird eine vom Typ des Topics.`,
-    frames: (knownFrames) => `zu nennen sind ein äußerer und ein innerer Frame, verbunden durch ${knownFrames || 'Transformationen, von denen es keine gibt'}.`,
+    frames: (knownFrames) => `einen Parent- und einen Child-Frame angeben; ${knownFrames ? `verbunden sind ${knownFrames}` : 'das Log hat keine Transformationen'}.`,
     noChain: (frames, knownFrames) =>
-      `keine Transformationen führen entlang ${frames}; erwartet werden verbundene Frames, aus ${knownFrames || 'keinen'}.`,
+      `keine Transformationen verbinden ${frames}; ${knownFrames ? `verbunden sind ${knownFrames}` : 'das Log hat keine Transformationen'}.`,
     constant: (frames, otherFrames) =>
       `die Transformation ${frames} ändert sich nie und ist daher kein Weg eines Roboters; erwartet werden Frames, die sich bewegen${otherFrames ? `, wie ${otherFrames}` : ''}.`,
     givenTwice: 'sie ist zweimal angegeben; gebraucht werden zwei unabhängige Messungen einer Fahrt, Odometrie und Referenz.',

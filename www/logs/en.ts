@@ -48,7 +48,7 @@ export const english = {
     `${file}${topic ? `, topic ${topic}` : ''}${line ? `, ${topic ? 'message' : 'line'} ${line}` : ''}`,
   /** Reasons for refusing a log. In an error message, a reason follows the place of the error. */
   refused: {
-    gone: (reason: string) => (reason === 'ENOENT' ? 'there is no such file or folder.' : `the file cannot be read (${reason}); expected is one that exists and may be read.`),
+    gone: (reason: string) => (reason === 'ENOENT' ? 'there is no such file or folder.' : `the file cannot be read (${reason}); check that it exists and may be read.`),
     empty: 'there is nothing in it; expected is a log of poses or commands.',
     binary: 'it is neither text nor a known recording; expected is a ROS bag, rosbag2, MCAP, or a table as CSV or TUM, unpacked from an archive.',
     longLine: (max: number) => `the line has more than ${max} bytes; expected is one row a line.`,
@@ -65,7 +65,7 @@ export const english = {
     given: (cellCount: number, nameCount: number) => `the row has ${cellCount} cells, and --columns names ${nameCount}; name each column in order, with - for those to skip.`,
     noHeader: (count: number, row: string) =>
       `the table has no header, and its first row is “${row}”; name its ${count} columns.`,
-    noTable: (notation: string) => `it is ${notation} and no table; write one row a time, as by ros2 topic echo --csv, rostopic echo -p or pandas, or give the recording itself.`,
+    noTable: (notation: string) => `it is ${notation}, not a table; write one row a time, as by ros2 topic echo --csv, rostopic echo -p or pandas, or give the recording itself.`,
     positions: (columns: string) =>
       `${columns} are positions without a heading; give a reference that measures the heading, as by two prisms, markers or scan matching (in a table, in a column named yaw with the prefix of x and y): the direction of travel hides turning errors, and would halve alpha1 and alpha2.`,
     euler: (rotation: string) => `the rotations are Euler angles (${rotation}); export the take from Motive again with the rotation type Quaternion.`,
@@ -93,7 +93,7 @@ export const english = {
     damaged: (reason: string, format?: Recording['format']) => `it is damaged or incomplete (${reason}); copy it again from the robot${format ? `, or try “${REPAIR_COMMANDS[format]}”` : ''}.`,
     largeFile: (command: string, max: number) => `it has more than ${max} bytes when it is decompressed; decompress it with “${command}”, and give the result.`,
     noRosbag2: 'it is an SQLite database without the tables “topics” and “messages” of rosbag2; expected is a recording of “ros2 bag record”.',
-    notRosbag2: 'it is listed in the metadata.yaml of a recording, and is none; expected is an MCAP or .db3 file.',
+    notRosbag2: 'it is listed in the metadata.yaml of a recording, but is not a recording; expected is an MCAP or .db3 file.',
     notRead: (format: keyof typeof UNSUPPORTED_FORMATS) => `it is ${UNSUPPORTED_FORMATS[format]}`,
     noFiles: (files: string) => `it describes a recording in ${files}; give that file too, or the whole folder.`,
     noTopic: (series: string) => `it has no such topic, group of columns or transforms; expected is one of ${series}.`,
@@ -104,9 +104,9 @@ export const english = {
     choose: (role: Role, series: string) => `it is not clear what the ${role} is: ${series}.`,
     type: (type: string, neededType: keyof typeof MESSAGE_TYPES) => `its type is “${type}”; expected is ${MESSAGE_TYPES[neededType]} (encoded as cdr or ros1).`,
     message: (reason: string) => `it cannot be read (${reason}); expected is one of the topic's type.`,
-    frames: (knownFrames: string) => `give a parent and a child frame, connected by ${knownFrames || 'transforms, of which there are none'}.`,
+    frames: (knownFrames: string) => `give a parent and a child frame; ${knownFrames ? `connected are ${knownFrames}` : 'the log has no transforms'}.`,
     noChain: (frames: string, knownFrames: string) =>
-      `no transforms lead along ${frames}; expected are frames that are connected, of ${knownFrames || 'none'}.`,
+      `no transforms connect ${frames}; ${knownFrames ? `connected are ${knownFrames}` : 'the log has no transforms'}.`,
     constant: (frames: string, otherFrames: string) =>
       `the transform ${frames} never changes, so it is not the path of a robot; expected are frames that move${otherFrames ? `, such as ${otherFrames}` : ''}.`,
     givenTwice: 'it is given twice; give two independent measurements of one drive, odometry and reference.',
@@ -151,7 +151,7 @@ export const english = {
       damaged: (count: number, reason: string) => `${count} damaged ${count === 1 ? 'block' : 'blocks'} skipped (${reason})`,
       cutShort: 'the file is incomplete: it ends in the middle of a row or record',
       upAxis: (axis: string) => `${axis} is the vertical axis`,
-      swapped: (odometry: string) => `its name is that of odometry, and ${odometry} is not: was the odometry given as the reference?`,
+      swapped: (odometry: string) => `it is named like odometry, and ${odometry} is not: was the odometry given as the reference?`,
       sorted: (count: number) => `${count} late ${count === 1 ? 'row' : 'rows'} sorted by time`,
       apart: (name: string, period: string, otherPeriod: string) =>
         `no time in common with ${name} (${period}, and ${otherPeriod}): the clocks are aligned by the turns of the robot`,

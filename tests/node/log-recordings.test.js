@@ -146,7 +146,7 @@ test('topics and frames that cannot be read are refused', async () => {
     [{ series: '/chatter' }, `run.mcap, topic /chatter: its type is “std_msgs/msg/String”; expected is ${poseTypes}, or ${commandTypes} (encoded as cdr or ros1).`],
     [{ series: '/cmd_vel', kind: 'poses' }, `run.mcap, topic /cmd_vel: its type is “geometry_msgs/msg/Twist”; expected is ${poseTypes} (encoded as cdr or ros1).`],
     [{ series: '/odom', frames: { parent: 'map', child: 'odom' } }, 'run.mcap, topic /odom: its type is “nav_msgs/msg/Odometry”; expected is tf2_msgs/TFMessage, which has frames (encoded as cdr or ros1).'],
-    [{ series: '/tf', frames: { parent: 'map', child: 'laser' } }, 'run.mcap, topic /tf: no transforms connect map → laser; connected are base_footprint → base_link, map → odom, odom → base_footprint, base_link → wheel.'],
+    [{ series: '/tf', frames: { parent: 'map', child: 'laser' } }, 'run.mcap, topic /tf: no transforms connect map → laser; choose among the connected frames: base_footprint → base_link, map → odom, odom → base_footprint, base_link → wheel.'],
   ])) assert.equal(await catchRefusalSentence(readLog(mcapFile, logChoice)), expectedError);
 });
 

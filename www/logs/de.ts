@@ -102,9 +102,9 @@ export const german: Words = {
     choose: (role, series) => `es ist nicht klar, was die ${ROLE_NAMES[role]} ist: ${series}.`,
     type: (type, neededType) => `sein Typ ist „${type}“; erwartet wird ${MESSAGE_TYPES[neededType]} (kodiert als cdr oder ros1).`,
     message: (reason) => `sie lässt sich nicht lesen (${reason}); erwartet wird eine vom Typ des Topics.`,
-    frames: (knownFrames) => `einen Parent- und einen Child-Frame angeben; ${knownFrames ? `verbunden sind ${knownFrames}` : 'das Log hat keine Transformationen'}.`,
+    frames: (knownFrames) => knownFrames ? `einen Parent- und einen Child-Frame angeben; verbunden sind ${knownFrames}.` : 'das Topic hat keine Transformationen; ein anderes Topic wählen.',
     noChain: (frames, knownFrames) =>
-      `keine Transformationen verbinden ${frames}; ${knownFrames ? `verbunden sind ${knownFrames}` : 'das Log hat keine Transformationen'}.`,
+      `keine Transformationen verbinden ${frames}; ${knownFrames ? `verbundene Frames wählen: ${knownFrames}` : 'ein anderes Topic wählen, denn dieses hat keine Transformationen'}.`,
     constant: (frames, otherFrames) =>
       `die Transformation ${frames} ändert sich nie und ist daher kein Weg eines Roboters; erwartet werden Frames, die sich bewegen${otherFrames ? `, wie ${otherFrames}` : ''}.`,
     givenTwice: 'sie ist zweimal angegeben; gebraucht werden zwei unabhängige Messungen einer Fahrt, Odometrie und Referenz.',

@@ -104,9 +104,9 @@ export const english = {
     choose: (role: Role, series: string) => `it is not clear what the ${role} is: ${series}.`,
     type: (type: string, neededType: keyof typeof MESSAGE_TYPES) => `its type is “${type}”; expected is ${MESSAGE_TYPES[neededType]} (encoded as cdr or ros1).`,
     message: (reason: string) => `it cannot be read (${reason}); expected is one of the topic's type.`,
-    frames: (knownFrames: string) => `give a parent and a child frame; ${knownFrames ? `connected are ${knownFrames}` : 'the log has no transforms'}.`,
+    frames: (knownFrames: string) => knownFrames ? `give a parent and a child frame; connected are ${knownFrames}.` : 'the topic has no transforms; choose another topic.',
     noChain: (frames: string, knownFrames: string) =>
-      `no transforms connect ${frames}; ${knownFrames ? `connected are ${knownFrames}` : 'the log has no transforms'}.`,
+      `no transforms connect ${frames}; ${knownFrames ? `choose among the connected frames: ${knownFrames}` : 'choose another topic, since this one has no transforms'}.`,
     constant: (frames: string, otherFrames: string) =>
       `the transform ${frames} never changes, so it is not the path of a robot; expected are frames that move${otherFrames ? `, such as ${otherFrames}` : ''}.`,
     givenTwice: 'it is given twice; give two independent measurements of one drive, odometry and reference.',

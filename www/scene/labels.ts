@@ -1,6 +1,6 @@
 /** Callouts in pictures: texts about a point, each with a line to the point. A text may have a symbol with a subscript before it. */
 
-import { least, pairs } from 'd3-array';
+import { pairs, sort } from 'd3-array';
 import { clamp } from '../ui/format.ts';
 import { drawDisc, paintWithOpacity, strokeLine, type TextBox, type DrawContext } from './canvas.ts';
 
@@ -50,8 +50,11 @@ const LEADER_LENGTHS = [MIN_LEADER_LENGTH, 2 * MIN_LEADER_LENGTH, 3 * MIN_LEADER
 const COST_PER_RADIAN = 1;
 const COST_PER_PIXEL = 0.1;
 
-/** Candidate positions of a callout's sentence around its point, with their costs. */
-const CANDIDATE_POSITIONS = LEADER_LENGTHS.flatMap((length) => CANDIDATE_ANGLES.map((turn) => ({ turn, length, cost: COST_PER_RADIAN * Math.abs(turn) + COST_PER_PIXEL * length })));
+/** Candidate positions of a callout's sentence around its point, with the costs of their leaders, the cheapest first. */
+const CANDIDATE_POSITIONS = sort(
+  LEADER_LENGTHS.flatMap((length) => CANDIDATE_ANGLES.map((turn) => ({ turn, length, cost: COST_PER_RADIAN * Math.abs(turn) + COST_PER_PIXEL * length }))),
+  ({ cost }) => cost,
+);
 
 /** Text with line breaks about a point of the view's world. A symbol and its subscript stand before the text. The default colour is that of text. */
 export interface Callout {
@@ -78,16 +81,19 @@ export function drawCallouts(drawContext: DrawContext, callouts: Callout[], { sh
     const halfHeight = (LINE_HEIGHT * textLines.length) / 2 + TEXT_MARGIN;
     const [x, y] = view.toPixel(...point);
     const outwardAngle = Math.atan2(y - centreY, x - centreX);
-    const candidateBoxes = CANDIDATE_POSITIONS.map(({ turn, length, cost }) => {
+    let bestBox = { x, y, halfWidth, halfHeight, cost: Infinity };
+    for (const { turn, length, cost } of CANDIDATE_POSITIONS) {
+      // Further positions cost more by their leaders alone.
+      if (cost >= bestBox.cost) break;
       const [idealX, idealY] = [x + (length + halfWidth) * Math.cos(outwardAngle + turn), y + (length + halfHeight) * Math.sin(outwardAngle + turn)];
       const textBox = {
         x: clamp(idealX, left + halfWidth, Math.max(left + halfWidth, right - halfWidth)),
         y: clamp(idealY, top + halfHeight, Math.max(top + halfHeight, bottom - halfHeight)),
         halfWidth, halfHeight,
       };
-      return { ...textBox, cost: cost + maxOverlapOf(textBox, avoidedPoints, placedBoxes) };
-    });
-    const bestBox = least(candidateBoxes, ({ cost }) => cost) ?? candidateBoxes[0];
+      const totalCost = cost + maxOverlapOf(textBox, avoidedPoints, placedBoxes);
+      if (totalCost < bestBox.cost) bestBox = { ...textBox, cost: totalCost };
+    }
     const leaderStart = [clamp(x, bestBox.x - halfWidth, bestBox.x + halfWidth), clamp(y, bestBox.y - halfHeight, bestBox.y + halfHeight)];
     placedBoxes.push(bestBox);
     avoidedPoints.push(...sampleLine(leaderStart, [x, y]));

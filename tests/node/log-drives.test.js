@@ -7,7 +7,7 @@ import { planDrives } from '../../www/logs/drives.ts';
 import { english } from '../../www/logs/en.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { pairLogs, readDrives } from '../../www/logs/pairs.ts';
-import { summarySentencesOf } from '../../www/logs/log.ts';
+import { ROLES, summarySentencesOf } from '../../www/logs/log.ts';
 import { catchRefusalError, catchRefusalSentence } from './log-support.js';
 
 /** @import { Recording } from '../../www/logs/log.ts' */
@@ -36,8 +36,8 @@ const createRecording = (kindsBySeries, moreFields, framePairs = []) => ({
   ...moreFields,
 });
 
-/** Returns the choice of a series and its frames as text. @param {{ series: string, frames?: { parent: string, child: string } }} choice */
-const choiceTextOf = ({ series, frames }) => (frames ? `${series} ${frames.parent} ${frames.child}` : series);
+/** Returns the choice of a series and its frames as text. @param {import('../../www/logs/log.ts').LogChoice | undefined} choice */
+const choiceTextOf = ({ series, frames } = { series: '' }) => (frames ? `${series} ${frames.parent} ${frames.child}` : series);
 
 /** Plans drives. If the plan is refused, the promise is rejected. @param {Recording[]} recordings @param {import('../../www/logs/drives.ts').UserChoices} [userChoices] */
 const planDrivesAsync = async (recordings, userChoices) => planDrives(recordings, userChoices);
@@ -63,8 +63,8 @@ const UNAMBIGUOUS_ROLE_CASES = [
 
 test('odometry and reference are guessed from types, names and frames', () => {
   for (const [series, odometry, reference, frames, userChoices] of UNAMBIGUOUS_ROLE_CASES) {
-    const [drive] = planDrives([createRecording(series, {}, frames)], userChoices).drives;
-    assert.deepEqual([choiceTextOf(drive.odometry.choice), choiceTextOf(drive.reference.choice)], [odometry, reference]);
+    const [{ choices }] = planDrives([createRecording(series, {}, frames)], userChoices);
+    assert.deepEqual([choices.odometry, choices.reference].map(choiceTextOf), [odometry, reference]);
   }
 });
 
@@ -74,8 +74,8 @@ test('groups of columns are guessed like topics, and may be named without the tr
     [{ odom_: 'columns', gt_: 'columns' }, 'odom_', 'gt_'], [{ '': 'columns', gt_: 'columns' }, '', 'gt_'], [{ '': 'columns', _true: 'columns' }, '', '_true'], [{ '/truth': 'columns', '/odom': 'columns' }, '/odom', '/truth'],
     [{ a_: 'columns', b_: 'columns' }, 'b_', 'a_', { odometry: { series: 'b' } }],
   ])) {
-    const [drive] = planDrives([createRecording(series, csvFields)], userChoices).drives;
-    assert.deepEqual([drive.odometry.choice.series, drive.reference.choice.series], [odometry, reference]);
+    const [{ choices }] = planDrives([createRecording(series, csvFields)], userChoices);
+    assert.deepEqual([choices.odometry?.series, choices.reference?.series], [odometry, reference]);
   }
 });
 
@@ -108,19 +108,20 @@ test('ambiguous roles lead to a question', async () => {
 
 test('several recordings are separate drives, or each contains one log of the same drive', async () => {
   const recordingWithBothLogs = createRecording({ '/odom': 'odometry', '/mocap': 'pose' });
-  assert.equal(planDrives([recordingWithBothLogs, recordingWithBothLogs]).drives.length, 2);
-  const { unpaired } = planDrives([createRecording({ '/mocap': 'pose' }), createRecording({ '/odom': 'odometry', '/cmd_vel': 'twist' })]);
-  assert.deepEqual([unpaired.odometry[0].choice.series, unpaired.reference[0].choice.series], ['/odom', '/mocap']);
-  const { drives, unpaired: { odometry: [unpairedOdometry] } } = planDrives([recordingWithBothLogs, createRecording({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]);
-  assert.deepEqual([drives.length, unpairedOdometry.choice.series], [0, '/odom']);
+  /** Returns the series that are read of each recording. @param {Parameters<typeof planDrives>} planArguments */
+  const plannedSeriesOf = (...planArguments) => planDrives(...planArguments).map(({ choices: { odometry, reference } }) => [odometry?.series, reference?.series]);
+  assert.deepEqual(plannedSeriesOf([recordingWithBothLogs, recordingWithBothLogs]), [['/odom', '/mocap'], ['/odom', '/mocap']]);
+  assert.deepEqual(plannedSeriesOf([createRecording({ '/mocap': 'pose' }), createRecording({ '/odom': 'odometry', '/cmd_vel': 'twist' })]), [['/odom', undefined], [undefined, '/mocap']]);
+  assert.deepEqual(plannedSeriesOf([recordingWithBothLogs, createRecording({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]), [['/odom', undefined], [undefined, '']]);
   // A recording without odometry and reference is left out, unless the user chose it for one of these roles.
   const cameraRecording = createRecording({ '/image': 'text' }, { name: 'camera.mcap' });
-  const { drives: [drive], unusedErrors } = planDrives([cameraRecording, recordingWithBothLogs]);
-  assert.deepEqual([drive.odometry.recording, unusedErrors.map(({ message }) => message.slice(0, 48))], [recordingWithBothLogs, ['camera.mcap: the topics are /image (String); exp']]);
-  assert.match(await catchRefusalSentence(planDrivesAsync([recordingWithBothLogs, cameraRecording], { roles: new Map([[cameraRecording, 'reference']]) })), /^camera\.mcap: the topics are \/image \(String\); /);
+  const skippedMessages = /** @type {string[]} */ ([]);
+  assert.deepEqual(plannedSeriesOf([cameraRecording, recordingWithBothLogs], {}, ({ message }) => void skippedMessages.push(message.slice(0, 48))), [['/odom', '/mocap']]);
+  assert.deepEqual(skippedMessages, ['camera.mcap: the topics are /image (String); exp']);
+  assert.match(await catchRefusalSentence(planDrivesAsync([recordingWithBothLogs, { ...cameraRecording, role: 'reference' }])), /^camera\.mcap: the topics are \/image \(String\); /);
   const unpairedNamesOf = async (/** @type {string[]} */ ...recordingNames) => {
     const drivePlan = planDrives(recordingNames.map((name) => createRecording({ '': 'columns' }, { name, format: 'csv' })));
-    return [drivePlan.unpaired.odometry, drivePlan.unpaired.reference].map((unpairedSeries) => unpairedSeries.map(({ recording: { name } }) => name));
+    return ROLES.map((role) => drivePlan.filter(({ choices }) => choices[role]).map(({ recording: { name } }) => name));
   };
   assert.deepEqual(await unpairedNamesOf('truth.csv', 'a.csv'), [['a.csv'], ['truth.csv']]);
   assert.deepEqual(await unpairedNamesOf('odom1.csv', 'x.csv', 'y.csv', 'odom2.csv'), [['odom1.csv', 'odom2.csv'], ['x.csv', 'y.csv']]);
@@ -131,7 +132,7 @@ test('several recordings are separate drives, or each contains one log of the sa
   const odometryTable = createRecording({ '': 'columns' }, { name: 'odom.csv', format: 'csv' });
   const { question } = await catchRefusalError(planDrivesAsync([odometryTable, twoBodyRecording]));
   assert.deepEqual([question?.option, question?.role, question?.choices], ['series', 'reference', ['Robot', 'Cart']]);
-  assert.equal(planDrives([odometryTable, twoBodyRecording], { reference: { series: 'Cart' } }).unpaired.reference[0].choice.series, 'Cart');
+  assert.deepEqual(plannedSeriesOf([odometryTable, twoBodyRecording], { reference: { series: 'Cart' } }), [['', undefined], [undefined, 'Cart']]);
   const ambiguousRecording = createRecording({ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' });
   assert.match(await catchRefusalSentence(planDrivesAsync([ambiguousRecording, ambiguousRecording])), /^run\.mcap: it is not clear what the reference is: /);
 });
@@ -164,8 +165,8 @@ test('two logs get a common start time, and logs without common time are reporte
 
 test('names that suggest a localizer, or swapped logs, are reported', async () => {
   const noteNamesOf = async (/** @type {string} */ odometry, /** @type {string} */ reference) => {
-    const recordings = await openRecordings([odometry, reference].map((name, k) => new File([straightTableOf((i) => (i * (k + 1)) / 100)], name)));
-    const [drive] = await readDrives(planDrives(recordings, { roles: new Map([[recordings[0], 'odometry'], [recordings[1], 'reference']]) }));
+    const files = [odometry, reference].map((name, k) => new File([straightTableOf((i) => (i * (k + 1)) / 100)], name));
+    const [drive] = await readDrives(planDrives(await openRecordings(files, (name) => ({ role: name === odometry ? 'odometry' : 'reference' }))));
     return drive.reference.summary.notes.map(({ name }) => name);
   };
   assert.deepEqual(await noteNamesOf('truth.csv', 'wheels.csv'), ['swapped']);

@@ -1,7 +1,7 @@
 /** Command `inspect`: lists the contents of recordings, and proposes the command for the calibration. */
 
 import { group } from 'd3-array';
-import { findCandidates, isLocalizer, planDrives, type RecordingChoice } from '../logs/drives.ts';
+import { findCandidates, isLocalizer, planDrives } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
 import { LogError, truncate, ROLES, formatFramesOption, formatFrames, summarySentencesOf, type LogChoice, type Recording, type Role, type Summary } from '../logs/log.ts';
 import { adviseOption, quoteForShell } from './advice.ts';
@@ -75,15 +75,18 @@ function usesOfSeries(recording: Recording, name: string): { choice: LogChoice; 
 
 /** Returns the command that calibrates from the recordings, or a sentence about missing logs. */
 function proposeCommand({ givenRecordings, userChoices }: OpenedInputs, statedOptions: [name: string, value: string][]): { command?: string; missing?: string } {
-  const quotePath = ({ recording }: Pick<RecordingChoice, 'recording'>) => quoteForShell(givenRecordings.find((file) => file.recording === recording)?.path ?? recording.name);
-  const quotedPaths = givenRecordings.map(quotePath);
+  const quotePath = (recording: Recording) => quoteForShell(givenRecordings.find((given) => given.recording === recording)?.path ?? recording.name);
+  const quotedPaths = givenRecordings.map(({ recording }) => quotePath(recording));
   try {
-    const { drives, unpaired } = planDrives(givenRecordings.map(({ recording }) => recording), userChoices);
-    const choiceOptions = ROLES.flatMap((role) => [...drives.map((drive) => drive[role]), ...unpaired[role]].flatMap(({ choice: { series, frames } }) => [
-      ...(series ? [`--${role}-topic ${quoteForShell(series)}`] : []),
-      ...(frames ? [`--${role}-frames ${quoteForShell(formatFramesOption(frames))}`] : []),
+    const plan = planDrives(givenRecordings.map(({ recording }) => recording), userChoices);
+    const choiceOptions = ROLES.flatMap((role) => plan.flatMap(({ choices: { [role]: choice } }) => [
+      ...(choice?.series ? [`--${role}-topic ${quoteForShell(choice.series)}`] : []),
+      ...(choice?.frames ? [`--${role}-frames ${quoteForShell(formatFramesOption(choice.frames))}`] : []),
     ]));
-    const fileArguments = [...drives.map(({ odometry }) => quotePath(odometry)), ...ROLES.flatMap((role) => unpaired[role].map((recordingChoice) => `--${role} ${quotePath(recordingChoice)}`))];
+    const fileArguments = plan.map(({ recording, choices }) => {
+      const [role, ...otherRoles] = Object.keys(choices);
+      return otherRoles.length ? quotePath(recording) : `--${role} ${quotePath(recording)}`;
+    });
     // The logs of one folder may have different roles, so that the folder is given without a role.
     const isPathShared = new Set(quotedPaths).size < quotedPaths.length;
     const optionTexts = [...new Set([...(isPathShared ? quotedPaths : fileArguments), ...choiceOptions]), ...statedOptions.map(([name, value]) => `--${name} ${quoteForShell(value)}`)];

@@ -86,7 +86,7 @@ export function replaceFieldByOption(message: string): string | undefined {
   return Object.hasOwn(OPTION_BY_FIELD, field) ? `--${OPTION_BY_FIELD[field]}${message.slice(field.length)}.` : undefined;
 }
 
-export interface InputPath { path: string; openOptions: OpenOptions; role?: Role }
+export interface InputPath { path: string; openOptions: OpenOptions }
 
 export type CalibrateArguments = Extract<ReturnType<typeof parseOptions>, { command: 'calibrate' }>;
 
@@ -98,8 +98,8 @@ export function parseOptions(args: string[]) {
   if (optionValues.version) return 'version';
   if (optionValues.help || args.length === 0) return 'help';
   const parseColumnNames = (name: 'columns' | 'odometry-columns' | 'reference-columns') => optionValues[name]?.split(',').map((column) => column.trim());
-  const openOptionsOf = (role?: Role) => withoutUndefined({ ...unitsOf(optionValues, role), columns: (role && parseColumnNames(`${role}-columns`)) ?? parseColumnNames('columns') });
-  const inputPathsOf = (paths: string[] = [], role?: Role) => paths.map((path): InputPath => ({ path, role, openOptions: openOptionsOf(role) }));
+  const openOptionsOf = (role?: Role) => withoutUndefined({ role, ...unitsOf(optionValues, role), columns: (role && parseColumnNames(`${role}-columns`)) ?? parseColumnNames('columns') });
+  const inputPathsOf = (paths: string[] = [], role?: Role) => paths.map((path): InputPath => ({ path, openOptions: openOptionsOf(role) }));
   const seriesChoiceOf = (role: Role) => withoutUndefined({ series: optionValues[`${role}-topic`], frames: parseFrames(`${role}-frames`, optionValues[`${role}-frames`]) });
   const recording = [...positionalPaths, ...(optionValues.recording ?? [])];
   const { odometry = [], reference = [] } = optionValues;

@@ -3,7 +3,7 @@
 import { writeFile } from 'node:fs/promises';
 import { planDrives } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
-import { LogError, truncate, summarySentencesOf, type Recording, type Role } from '../logs/log.ts';
+import { LogError, truncate, summarySentencesOf, type Recording } from '../logs/log.ts';
 import { calibrationLogOf, readDrives, type Drive } from '../logs/pairs.ts';
 import { adviseOption } from './advice.ts';
 import { openRecordingsAt } from './files.ts';
@@ -50,17 +50,13 @@ export async function run(args: string[], environment: CliEnvironment): Promise<
   }
 }
 
-/** Opens the recordings of all inputs, and returns them with the choices of the user, which include the roles that options state. */
+/** Opens the recordings of all inputs, and returns each with the path of its input. */
 async function openInputs({ inputs, userChoices }: Pick<CalibrateArguments, 'inputs' | 'userChoices'>, onSkip: (error: LogError) => void) {
-  const roles = new Map<Recording, Role>();
   const givenRecordings: { recording: Recording; path: string }[] = [];
   for (const input of inputs) {
-    for (const recording of await openRecordingsAt(input, onSkip)) {
-      givenRecordings.push({ recording, path: input.path });
-      if (input.role) roles.set(recording, input.role);
-    }
+    givenRecordings.push(...(await openRecordingsAt(input, onSkip)).map((recording) => ({ recording, path: input.path })));
   }
-  return { givenRecordings, userChoices: { ...userChoices, roles } };
+  return { givenRecordings, userChoices };
 }
 
 export type OpenedInputs = Awaited<ReturnType<typeof openInputs>>;
@@ -70,9 +66,7 @@ async function calibrate({ fit: fitOptions, output: outputFormat, plot: plotPath
   // The core checks the options in a call without drives, so that their errors are reported before files are read.
   calibrateDrives(motion, fitOptions, []);
   const { givenRecordings, userChoices } = await openInputs(logArguments, onSkip);
-  const plan = planDrives(givenRecordings.map(({ recording }) => recording), userChoices);
-  plan.unusedErrors.forEach(onSkip);
-  const drives = await readDrives(plan, onProgress);
+  const drives = await readDrives(planDrives(givenRecordings.map(({ recording }) => recording), userChoices, onSkip), onProgress);
   onProgress?.(undefined);
   const [{ odometry: { start } }] = drives;
   const logs = drives.flatMap(({ odometry, reference }) => [odometry, reference]).map(({ name, ...log }) => ({ name, summary: log.summary, sentences: summarySentencesOf({ name, ...log }, english.found) }));

@@ -1,16 +1,10 @@
 /** Search for the odometry and the reference of each drive in recordings. */
 
-import { LogError, listNames, ROLES, formatFramesOption, formatFrames, type LogChoice, type FramePair, type LogKind, type Recording, type Role, type Series } from './log.ts';
+import { sort } from 'd3-array';
+import { LogError, listNames, readableSeriesOf, ROLES, formatFramesOption, formatFrames, type LogChoice, type FramePair, type LogKind, type Recording, type Role, type Series } from './log.ts';
 
-export interface RecordingChoice { recording: Recording; choice: LogChoice }
-
-/** Plan of the logs to read: drives with odometry and reference, and single logs that are paired after they are read. */
-export interface LogPlan {
-  drives: Record<Role, RecordingChoice>[];
-  unpaired: Record<Role, RecordingChoice[]>;
-  /** Errors of recordings that are left out, because none of their topics can be read. */
-  unusedErrors: LogError[];
-}
+/** Recording with its logs that are read, by role. A recording with one log is paired with another one after both are read. */
+export interface PlannedRecording { recording: Recording; choices: Partial<Record<Role, LogChoice>> }
 
 /** Choices of the user. Missing choices are guessed. */
 export interface UserChoices {
@@ -19,8 +13,6 @@ export interface UserChoices {
   reference?: { series?: string; frames?: FramePair };
   /** Kind of odometry: `commands` prefers commands to poses, and `poses` excludes commands. By default poses come first. */
   kind?: LogKind;
-  /** Roles that the user chose for recordings with one log. */
-  roles?: ReadonlyMap<Recording, Role>;
 }
 
 /** Names of odometry and of commands, the likeliest first. */
@@ -49,39 +41,37 @@ const describeSeries = (series: Series[]) => listNames(series.map(({ name, type 
 
 const isSameChoice = (choice: LogChoice, otherChoice?: LogChoice) => choice.series === otherChoice?.series && choice.frames?.parent === otherChoice.frames?.parent && choice.frames?.child === otherChoice.frames?.child;
 
-/** Assigns the logs of recordings to drives. Throws a LogError, which has a question if the choice is ambiguous. */
-export function planDrives(allRecordings: Recording[], userChoices: UserChoices = {}): LogPlan {
-  const usableRecordings = allRecordings.filter((recording) => userChoices.roles?.has(recording) || readableSeriesOf(recording).length > 0);
+/**
+ * Chooses the logs of recordings that are read. Recordings with odometry come first. Throws a LogError, which has a question if the choice is ambiguous. Calls `onSkip` with the
+ * error of each recording that is left out, because none of its series can be read.
+ */
+export function planDrives(allRecordings: Recording[], userChoices: UserChoices = {}, onSkip?: (error: LogError) => void): PlannedRecording[] {
+  const usableRecordings = allRecordings.filter((recording) => recording.role || readableSeriesOf(recording).length > 0);
   const recordings = usableRecordings.length > 0 ? usableRecordings : allRecordings;
-  const unpaired: LogPlan['unpaired'] = { odometry: [], reference: [] };
-  const plan: LogPlan = { drives: [], unpaired, unusedErrors: allRecordings.filter((recording) => !recordings.includes(recording)).map(createUnusableError) };
-  const unnamedRecordings: Recording[] = [];
-  for (const recording of recordings) {
-    const role = userChoices.roles?.get(recording) ?? (recordings.length > 1 ? roleOfRecording(recording, userChoices) : 'both');
-    if (role === 'both') plan.drives.push(chooseBothLogs(recording, userChoices));
-    else if (role) plan.unpaired[role].push({ recording, choice: chooseLog(recording, role, userChoices) });
-    else unnamedRecordings.push(recording);
-  }
-  const { odometry, reference } = unpaired;
-  for (const recording of unnamedRecordings) {
+  for (const recording of allRecordings) if (!recordings.includes(recording)) onSkip?.(createUnusableError(recording));
+  const rolesByName = recordings.map((recording) => recording.role ?? (recordings.length > 1 ? roleOfRecording(recording, userChoices) : 'both'));
+  const isHalfOf = (role: Role) => 2 * rolesByName.filter((otherRole) => otherRole === role).length >= recordings.length;
+  const plan = recordings.map((recording, i): PlannedRecording => {
     // If a file's name shows no role, the roles of the other files determine its role.
-    const role = 2 * odometry.length >= recordings.length ? 'reference' : 2 * reference.length >= recordings.length ? 'odometry' : undefined;
+    const role = rolesByName[i] ?? (isHalfOf('odometry') ? 'reference' : isHalfOf('reference') ? 'odometry' : undefined);
     if (!role) throw new LogError({ file: recording.name }, (texts) => texts.noRole, { option: 'roles', choices: [] });
-    plan.unpaired[role].push({ recording, choice: chooseLog(recording, role, userChoices) });
-  }
-  // A separate file of one role replaces the log of that role in a recording that has both.
-  const missingRole = odometry.length < reference.length ? 'odometry' : 'reference';
-  if (plan.drives.length === Math.abs(odometry.length - reference.length)) plan.unpaired[missingRole].push(...plan.drives.splice(0).map((drive) => drive[missingRole]));
+    return { recording, choices: role === 'both' ? chooseBothLogs(recording, userChoices) : { [role]: chooseLog(recording, role, userChoices) } };
+  });
+  const recordingsWith = (role: Role) => plan.filter(({ choices }) => choices[role]);
+  // Separate files of one role replace the logs of that role in recordings that have both.
+  const [scarceRole, replacedRole] = recordingsWith('odometry').length < recordingsWith('reference').length ? ROLES : ROLES.toReversed();
+  const completeRecordings = plan.filter(({ choices }) => choices.odometry && choices.reference);
+  if (completeRecordings.length === recordingsWith(replacedRole).length - recordingsWith(scarceRole).length) for (const { choices } of completeRecordings) delete choices[replacedRole];
+  const [odometry, reference] = ROLES.map((role) => recordingsWith(role).map(({ recording }) => recording));
   if (odometry.length !== reference.length) {
-    const longerRoleChoices = odometry.length > reference.length ? odometry : reference;
+    const unpairedRecordings = odometry.length > reference.length ? odometry : reference;
     // If a recording has several candidates for the missing log, the LogError of this call asks for a choice, which helps more than the error below.
-    for (const { recording } of longerRoleChoices) tryUnlessLogError(() => chooseBothLogs(recording, userChoices), ({ question }) => question?.option !== 'series');
-    const [firstUnpaired] = longerRoleChoices;
-    const listRecordingNames = (recordingChoices: RecordingChoice[]) => listNames(recordingChoices.map(({ recording }) => recording.name));
+    for (const recording of unpairedRecordings) tryUnlessLogError(() => chooseBothLogs(recording, userChoices), ({ question }) => question?.option !== 'series');
     const isSameFile = recordings.length === 2 && recordings[0].name === recordings[1].name;
-    throw new LogError({ file: firstUnpaired.recording.name }, (texts) => (isSameFile ? texts.givenTwice : texts.unpaired(listRecordingNames(odometry), listRecordingNames(reference))), isSameFile ? undefined : { option: 'roles', choices: [] });
+    const [odometryNames, referenceNames] = [odometry, reference].map((recordingsOfRole) => listNames(recordingsOfRole.map(({ name }) => name)));
+    throw new LogError({ file: unpairedRecordings[0].name }, (texts) => (isSameFile ? texts.givenTwice : texts.unpaired(odometryNames, referenceNames)), isSameFile ? undefined : { option: 'roles', choices: [] });
   }
-  return plan;
+  return sort(plan, ({ choices }) => Number(!choices.odometry));
 }
 
 /** Returns the role of the log in one of several recordings, or "both". Undefined if there is a single log whose role neither contents nor name tell. */
@@ -105,7 +95,7 @@ function tryUnlessLogError<Result>(doWork: () => Result, isExpected: (error: Log
   }
 }
 
-function chooseBothLogs(recording: Recording, userChoices: UserChoices): Record<Role, RecordingChoice> {
+function chooseBothLogs(recording: Recording, userChoices: UserChoices): Record<Role, LogChoice> {
   // A series that the user chose as the reference is not guessed as the odometry.
   const { series, frames } = userChoices.reference ?? {};
   const chosenReference = series !== undefined || frames ? chooseLog(recording, 'reference', userChoices) : undefined;
@@ -115,7 +105,7 @@ function chooseBothLogs(recording: Recording, userChoices: UserChoices): Record<
     const question = { option: 'series' as const, role: 'reference' as const, choices: seriesNamesFor(recording, 'reference').filter((name) => name !== reference.series) };
     throw new LogError({ file: recording.name, topic: reference.series }, (texts) => texts.ownReference(reference.frames ? formatFrames(reference.frames) : reference.series), question);
   }
-  return { odometry: { recording, choice: odometry }, reference: { recording, choice: reference } };
+  return { odometry, reference };
 }
 
 /** Returns the likeliest logs for a role, of those that are possible. */
@@ -195,9 +185,6 @@ export function roleByName(name: string): Role | undefined {
   if (MEASUREMENT_NAMES.test(name) || LOCALIZER_NAMES.test(name)) return 'reference';
   return ODOMETRY_FILE_NAMES.test(name) ? 'odometry' : undefined;
 }
-
-/** Returns the series that can be read. A topic needs two messages. */
-export const readableSeriesOf = (recording: Recording): Series[] => recording.series.filter(({ kind, count }) => kind !== null && (recording.format === 'csv' || count > 1));
 
 /** Returns the series with a name. Separators and capitals do not count. */
 function findSeriesByName(series: Series[], wantedName: string): Series | undefined {

@@ -41,6 +41,9 @@ export interface LogChoice {
   frames?: FramePair;
 }
 
+/** Returns the label of a choice of a log: the name of its series, and the two frames if the series has transforms. */
+export const choiceLabelOf = ({ series, frames }: LogChoice) => (frames ? `${series}: ${formatFrames(frames)}` : series);
+
 /** File, or folder of files, from which logs are read. */
 export interface Recording {
   name: string;
@@ -48,9 +51,14 @@ export interface Recording {
   format: 'mcap' | 'rosbag' | 'sqlite' | 'csv';
   /** Series in the order of their names, or of their columns. */
   series: Series[];
+  /** Role that the user chose for the log. */
+  role?: Role;
   /** Reads the logs of all choices in one pass; rejects with a LogError. */
   read(choices: LogChoice[], onProgress?: (fraction: number) => void): Promise<Log[]>;
 }
+
+/** Returns the series that can be read. A topic needs two messages. */
+export const readableSeriesOf = ({ series, format }: Pick<Recording, 'series' | 'format'>): Series[] => series.filter(({ kind, count }) => kind !== null && (format === 'csv' || count > 1));
 
 /** Units that logs may have, by the name of the option for the unit. */
 export const UNITS = { timeUnit: ['s', 'ms', 'us', 'ns'], lengthUnit: ['m', 'cm', 'mm', 'ft', 'in'], angleUnit: ['rad', 'deg'] } as const;
@@ -65,6 +73,8 @@ export interface OpenOptions {
   timeUnit?: TimeUnit;
   lengthUnit?: LengthUnit;
   angleUnit?: AngleUnit;
+  /** Role of the logs that the user chose. By default it is guessed. */
+  role?: Role;
 }
 
 /** Question of a LogError to the user: the option that answers it, and the possible answers. */

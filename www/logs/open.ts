@@ -48,18 +48,19 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
   }
   const openedSources = [...formatByFile.keys()];
   const recordings: Recording[] = [];
+  const addRecording = (recording: Recording) => void recordings.push({ ...recording, role: optionsOf(recording.name).role });
   // Files that a metadata.yaml lists are opened with the metadata.yaml, and not as recordings of their own.
   for (const source of sort(openedSources, (opened) => Number(formatByFile.get(opened) !== 'metadata'))) {
     if (!formatByFile.has(source)) continue;
     await reportSkipped(async () => {
       const format = formatByFile.get(source);
       formatByFile.delete(source);
-      if (!format) return void recordings.push(await openTable(source, optionsOf(source.name)));
+      if (!format) return addRecording(await openTable(source, optionsOf(source.name)));
       const { name, files: sources } = format === 'metadata' ? await (await import('./formats/metadata.ts')).findListedFiles(source, openedSources) : { name: source.name, files: [source] };
       const partFormats = sources.map((part) => (part === source ? format : formatByFile.get(part)));
       for (const part of sources) formatByFile.delete(part);
       const container = joinContainers(await Promise.all(sources.map((part, i) => openContainer(part, partFormats[i]))));
-      recordings.push(await (await import('./topics.ts')).createRecording(name, container, optionsOf(name)));
+      addRecording(await (await import('./topics.ts')).createRecording(name, container, optionsOf(name)));
     });
   }
   return recordings;

@@ -1,9 +1,9 @@
 /** Reading of the odometry and reference of each drive, and checks that both logs belong together. */
 
-import { min, range, sum } from 'd3-array';
+import { min, range, sum, zip } from 'd3-array';
 import type { CalibrationLog } from '../types.d.ts';
-import { isLocalizer, roleByName, type LogPlan } from './drives.ts';
-import { LogError, ROLES, UNITS, formatFrames, type Log, type Note, type Poses, type Role, type Warning } from './log.ts';
+import { isLocalizer, roleByName, type PlannedRecording } from './drives.ts';
+import { LogError, ROLES, UNITS, formatFrames, type Log, type LogChoice, type Note, type Poses, type Role, type Warning } from './log.ts';
 import { pathOf, poseAt, wrapAngle } from './path.ts';
 import { METRES_PER_UNIT, speedOf } from './units.ts';
 
@@ -45,7 +45,7 @@ function overlapSecondsOf(log: Log, otherLog: Log): number {
 }
 
 /** Pairs logs of several drives: by their times, or in their order. */
-function matchLogs(odometry: Log[], reference: Log[]): [Log, Log][] {
+function matchLogs(odometry: Log[], reference: Log[]): Log[][] {
   const partnersOfEach = odometry.map((odometryLog) => reference.filter((referenceLog) =>
     overlapSecondsOf(odometryLog, referenceLog) > MIN_OVERLAP * Math.min(odometryLog.summary.seconds, referenceLog.summary.seconds)));
   const hasUniquePartners = partnersOfEach.every(({ length }) => length === 1) && new Set(partnersOfEach.flat()).size === reference.length;
@@ -106,22 +106,20 @@ export function calibrationLogOf(drives: Drive[]): Pick<CalibrationLog, Role> {
   return drives.length === 1 ? { odometry: odometry[0], reference: reference[0] } : { odometry, reference };
 }
 
-/** Reads the logs of a plan and pairs them. Their times are relative to one start. Rejects with a LogError. */
-export async function readDrives({ drives, unpaired }: Pick<LogPlan, 'drives' | 'unpaired'>, onProgress?: (fraction: number) => void): Promise<Drive[]> {
-  const readGroups = [...drives.map((drive) => [drive.odometry, drive.reference]), ...[...unpaired.odometry, ...unpaired.reference].map((recordingChoice) => [recordingChoice])];
-  const logs: Log[] = [];
-  for (const [i, recordingChoices] of readGroups.entries()) {
-    const [{ recording }] = recordingChoices;
-    logs.push(...(await recording.read(recordingChoices.map(({ choice }) => choice), (share) => onProgress?.((i + share) / readGroups.length))));
+/** Reads the logs of planned recordings and pairs them. Their times are relative to one start. Rejects with a LogError. */
+export async function readDrives(plan: PlannedRecording[], onProgress?: (fraction: number) => void): Promise<Drive[]> {
+  const logs: { log: Log; role: Role; isPaired: boolean }[] = [];
+  for (const [i, { recording, choices }] of plan.entries()) {
+    const roles = ROLES.filter((role) => choices[role]);
+    const logsOfRecording = await recording.read(roles.map((role) => choices[role] as LogChoice), (fraction) => onProgress?.((i + fraction) / plan.length));
+    logs.push(...logsOfRecording.map((log, k) => ({ log, role: roles[k], isPaired: roles.length === 2 })));
   }
-  const start = min(logs, (log) => log.start) ?? 0;
-  const logsFromStart = logs.map((log): Log => ({ ...log, start, data: { ...log.data, t: log.data.t.map((time) => time + (log.start - start)) } }));
-  const unpairedLogs = logsFromStart.splice(2 * drives.length);
-  const logPairs: [Log, Log][] = [
-    ...drives.map((_, i): [Log, Log] => [logsFromStart[2 * i], logsFromStart[2 * i + 1]]),
-    ...matchLogs(unpairedLogs.slice(0, unpaired.odometry.length), unpairedLogs.slice(unpaired.odometry.length)),
-  ];
-  return logPairs.map(([odometry, reference]) => pairLogs(odometry, reference));
+  const start = min(logs, ({ log }) => log.start) ?? 0;
+  const logsOf = (isWantedPaired: boolean) => ROLES.map((wantedRole) => logs.filter(({ role, isPaired }) => role === wantedRole && isPaired === isWantedPaired).map(({ log }): Log =>
+    ({ ...log, start, data: { ...log.data, t: log.data.t.map((time) => time + (log.start - start)) } })));
+  const [[odometry, reference], [unpairedOdometry, unpairedReference]] = [logsOf(true), logsOf(false)];
+  const logPairs = [...zip(odometry, reference), ...matchLogs(unpairedOdometry, unpairedReference)];
+  return logPairs.map(([odometryLog, referenceLog]) => pairLogs(odometryLog, referenceLog));
 }
 
 /** Throws a LogError with a question if the speeds of two logs of a drive differ like two units of length. */

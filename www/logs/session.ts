@@ -1,54 +1,72 @@
-/** Session that opens recordings, reads logs and calibrates in a worker, or in the thread of a page that cannot start one. */
+/** Session that reads logs and calibrates in a worker, or in the thread of a page that cannot start one. */
 
 import { transfer } from 'comlink';
 import type { AlphaCalibratorSettings, CalibrationLog, Motion } from '../types.d.ts';
 import { german } from './de.ts';
-import type { RecordingChoice, LogPlan } from './drives.ts';
-import { readDrives, type Drive } from './pairs.ts';
+import { planDrives, type PlannedRecording, type UserChoices } from './drives.ts';
+import { calibrationLogOf, readDrives, warningsOf, type Drive } from './pairs.ts';
 import { english } from './en.ts';
-import { LogError, type OpenOptions, type Recording, type Source } from './log.ts';
+import { LogError, choiceLabelOf, type OpenOptions, type Recording, type Source, type Warning } from './log.ts';
 import { openRecordings } from './open.ts';
-
-/** Recording as posted to the page: without its methods, but with its index among the opened recordings. */
-type OpenedRecording = Recording & { index: number };
 
 /** LogError as posted to the page, with its sentence in each language. */
 export type LogFailure = Pick<LogError, 'message' | 'place' | 'question'> & { sentences: Record<'en' | 'de', string> };
 
+/** Contents of files as posted to the page. */
+export interface FileContents {
+  /** Recordings without their methods, each with its logs that are read. Without `choices`, the logs have not been chosen. */
+  recordings: (Pick<Recording, 'name' | 'format' | 'series'> & Partial<Pick<PlannedRecording, 'choices'>>)[];
+  /** Errors of files that are not used. */
+  skipped: LogFailure[];
+  /** Error by which the files were refused. */
+  refusal?: LogFailure;
+  drives?: Drive[];
+  /** Logs of all drives, and notes that make their α's doubtful. */
+  log?: CalibrationLog;
+  warnings?: Warning[];
+}
+
 /** Minimum time (ms) between progress reports. The page renders the figure after each report. */
 const PROGRESS_INTERVAL_MS = 50;
 
-/** Opened recordings, and the object of the core that fits α's to them. */
+/** Maximum number of files in the name of a log. */
+const MAX_NAMED_FILES = 4;
+
 export class LogSession {
-  #recordings: Recording[] = [];
   #simulation;
 
   constructor({ AlphaCalibrator }: Motion) {
     this.#simulation = new AlphaCalibrator();
   }
 
-  async open(sources: { file: Source; path: string }[], optionsByFile: Record<string, OpenOptions>): Promise<{ recordings: OpenedRecording[]; skipped: LogFailure[] }> {
+  /** Opens files, chooses their logs and reads them. The user's choices have precedence over guesses. */
+  async read(sources: { file: Source; path: string }[], optionsByFile: Record<string, OpenOptions>, userChoices: UserChoices, onProgress: (fraction: number) => void): Promise<FileContents> {
     const skipped: LogFailure[] = [];
+    const onSkip = (error: LogError) => void skipped.push(failureOf(error));
     const files = sources.map(({ file, path }) => Object.assign(file, { path }));
-    this.#recordings = await openRecordings(files, (name) => optionsByFile[name], (error) => skipped.push(failureOf(error))).catch(throwFailure);
-    return { recordings: this.#recordings.map(({ name, format, series }, index) => ({ name, format, series, index }) as OpenedRecording), skipped };
-  }
-
-  async read({ drives, unpaired }: Pick<LogPlan, 'drives' | 'unpaired'>, onProgress: (fraction: number) => void): Promise<Drive[]> {
-    const openedChoiceOf = ({ recording, choice }: RecordingChoice) => ({ recording: this.#recordings[(recording as OpenedRecording).index], choice });
-    const plan = {
-      drives: drives.map(({ odometry, reference }) => ({ odometry: openedChoiceOf(odometry), reference: openedChoiceOf(reference) })),
-      unpaired: { odometry: unpaired.odometry.map(openedChoiceOf), reference: unpaired.reference.map(openedChoiceOf) },
-    };
+    let [recordings, plan]: [Recording[], PlannedRecording[] | undefined] = [[], undefined];
+    const describeRecordings = () => recordings.map(({ name, format, series }, i) => ({ name, format, series, choices: plan?.find(({ recording }) => recording === recordings[i])?.choices }));
     let nextProgress = 0;
-    const driveLogs = await readDrives(plan, (fraction) => {
-      const now = performance.now();
-      if (now < nextProgress) return;
-      nextProgress = now + PROGRESS_INTERVAL_MS;
-      onProgress(fraction);
-    }).catch(throwFailure);
-    const columns = driveLogs.flatMap(({ odometry, reference }) => [odometry, reference]).flatMap(({ data }) => Object.values(data) as ArrayBufferView[]);
-    return transfer(driveLogs, [...new Set(columns.map(({ buffer }) => buffer as ArrayBuffer))]);
+    try {
+      recordings = await openRecordings(files, (name) => optionsByFile[name], onSkip);
+      if (recordings.length === 0) return { recordings, skipped, refusal: skipped[0] };
+      plan = planDrives(recordings, userChoices, onSkip);
+      const drives = await readDrives(plan, (fraction) => {
+        const now = performance.now();
+        if (now < nextProgress) return;
+        nextProgress = now + PROGRESS_INTERVAL_MS;
+        onProgress(fraction);
+      });
+      const logs = drives.flatMap(({ odometry, reference }) => [odometry, reference]);
+      const columns = logs.flatMap(({ data }) => Object.values(data) as ArrayBufferView[]);
+      const contents = { recordings: describeRecordings(), skipped, drives, log: { name: nameOf(plan), ...calibrationLogOf(drives) }, warnings: warningsOf(logs) };
+      return transfer(contents, [...new Set(columns.map(({ buffer }) => buffer as ArrayBuffer))]);
+    } catch (error) {
+      if (!(error instanceof LogError)) throw error;
+      // A file that was skipped because of a question may be the missing log. Its question is asked first.
+      const questionAboutSkipped = plan ? undefined : skipped.find(({ question }) => question);
+      return { recordings: describeRecordings(), skipped, refusal: questionAboutSkipped ?? failureOf(error) };
+    }
   }
 
   /** Returns the serialized fit to a log, for `AlphaCalibrator.restored`. */
@@ -59,11 +77,13 @@ export class LogSession {
   }
 }
 
-function failureOf({ message, place, question, messageIn: formatMessage }: LogError): LogFailure {
-  return { message, place, question, sentences: { en: formatMessage(english), de: formatMessage(german) } };
+/** Returns the name of a log: its files, and its topics if a single recording has both odometry and reference. */
+function nameOf(plan: PlannedRecording[]): string {
+  const [{ choices }] = plan;
+  const names = plan.map(({ recording }) => recording.name);
+  return [...names.slice(0, MAX_NAMED_FILES), ...(names.length > MAX_NAMED_FILES ? ['…'] : []), ...(names.length === 1 ? Object.values(choices).map(choiceLabelOf) : [])].filter(Boolean).join(', ');
 }
 
-/** Throws a LogError as plain data, because a posted error would keep only its message. */
-function throwFailure(error: unknown): never {
-  throw error instanceof LogError ? failureOf(error) : error;
+function failureOf({ message, place, question, messageIn: formatMessage }: LogError): LogFailure {
+  return { message, place, question, sentences: { en: formatMessage(english), de: formatMessage(german) } };
 }

@@ -1,45 +1,27 @@
-/** Plan of the logs to read, forms that ask for it, and the summary of the logs that were read. This module is loaded with the first log. */
+/** Forms that ask which logs to read, and the summary of the logs that were read. This module is loaded with the first log. */
 
 import { html, nothing, svg } from 'lit';
 import { guard } from 'lit/directives/guard.js';
 import { live } from 'lit/directives/live.js';
-import { planDrives, readableSeriesOf, type LogPlan } from '../../logs/drives.ts';
-import { ROLES, UNITS, formatFrames, summaryLinesOf, type LogChoice, type Question, type Recording, type Role } from '../../logs/log.ts';
+import { ROLES, UNITS, choiceLabelOf, readableSeriesOf, summaryLinesOf, type LogChoice, type Question, type Role } from '../../logs/log.ts';
 import { alignPath, pathOf, svgPathDataOf, type Path } from '../../logs/path.ts';
 import { language } from '../../messages/registry.ts';
 import { radioGroupHtml } from '../../ui/controls.ts';
 import { formatFixed } from '../../ui/format.ts';
 import type { AlphaCalibratorElement } from './alpha-calibrator.ts';
 import type { Drive } from '../../logs/pairs.ts';
+import type { FileContents } from '../../logs/session.ts';
 import type { OpenQuestion, ChosenFiles, LogOpener, LogWords } from './open.ts';
 
 export { english as en } from '../../logs/en.ts';
 export { german as de } from '../../logs/de.ts';
-export { calibrationLogOf, warningsOf } from '../../logs/pairs.ts';
+
+type Recording = FileContents['recordings'][number];
 
 const COLUMN_FIELDS = ['t', 'x', 'y', 'yaw', 'qx', 'qy', 'qz', 'qw', 'v', 'omega'] as const;
 
 /** Maximum number of characters of a cell in the label of its column. The label also has the number of the column. */
 const MAX_CELL_LENGTH = 16;
-
-/** Maximum number of files in the name of a log. */
-const MAX_NAMED_FILES = 4;
-
-/** Returns the label of a choice of a log: the name of its series, and the two frames if the series has transforms. */
-const choiceLabelOf = ({ series, frames }: LogChoice) => (frames ? `${series}: ${formatFrames(frames)}` : series);
-
-/** Plans which logs of the recordings are read. The user's choices have precedence over guesses. */
-export function planLogReading({ recordings, userChoices, roles }: ChosenFiles, kind: 'commands' | undefined): LogPlan {
-  return planDrives(recordings, { ...userChoices, kind, roles: new Map([...roles].map(([recordingIndex, role]) => [recordings[recordingIndex], role])) });
-}
-
-/** Returns the name of a log: its files, and its topics if a single recording has both odometry and reference. */
-export function logNameOf({ drives, unpaired }: LogPlan) {
-  const plannedLogs = [...drives.map(({ odometry }) => odometry), ...unpaired.odometry, ...unpaired.reference];
-  const logNames = plannedLogs.map(({ recording }) => recording.name);
-  const [onlyDrive] = plannedLogs.length === 1 ? drives : [];
-  return [...logNames.slice(0, MAX_NAMED_FILES), ...(logNames.length > MAX_NAMED_FILES ? ['…'] : []), ...(onlyDrive ? [onlyDrive.odometry, onlyDrive.reference].map(({ choice }) => choiceLabelOf(choice)) : [])].filter(Boolean).join(', ');
-}
 
 /** Returns all logs that can be chosen for a role, with labels. Each pair of frames is a separate choice. */
 function labelledChoicesOf(recording: Recording, role?: Role): [label: string, LogChoice][] {
@@ -52,7 +34,7 @@ function labelledChoicesOf(recording: Recording, role?: Role): [label: string, L
 export function logChoosersHtml(opener: LogOpener) {
   const { chosenFiles, texts } = opener;
   if (!chosenFiles || !texts) return nothing;
-  const { recordings, skipped, questions, plan } = chosenFiles;
+  const { recordings, skipped, questions } = chosenFiles;
   const hasOneLog = (recording: Recording) => labelledChoicesOf(recording).length === 1;
   const roleChoosers = [
     ...(recordings.every(hasOneLog) ? [] : ROLES.map((role) => seriesSelectHtml(opener, chosenFiles, role, texts))),
@@ -61,7 +43,7 @@ export function logChoosersHtml(opener: LogOpener) {
   return html`<div class="choosers">
     ${roleChoosers.length ? html`<div class="choices">${roleChoosers}</div>` : nothing}
     ${questions.map((question) => questionHtml(opener, chosenFiles, question, texts))}
-    ${[...skipped, ...(plan?.unusedErrors ?? [])].filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${texts.choose.skipped(opener.explainRefusal(failure))}</p>`)}
+    ${skipped.filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${texts.choose.skipped(opener.explainRefusal(failure))}</p>`)}
   </div>`;
 }
 
@@ -75,25 +57,26 @@ function selectHtml(id: string, label: string, selectedValue: string, options: [
   </label>`;
 }
 
-function seriesSelectHtml(opener: LogOpener, { recordings, userChoices, plan }: ChosenFiles, role: Role, { choose: texts }: LogWords) {
+function seriesSelectHtml(opener: LogOpener, { recordings, userChoices }: ChosenFiles, role: Role, { choose: texts }: LogWords) {
   const choiceByLabel = new Map(recordings.flatMap((recording) => labelledChoicesOf(recording, role)));
-  const [plannedLog] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.unpaired[role]] : [];
-  const currentChoice = (userChoices[role] as LogChoice | undefined) ?? plannedLog?.choice;
-  return selectHtml(`log-${role}`, texts.roles[role], currentChoice ? choiceLabelOf(currentChoice) || (plannedLog?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
+  const plannedRecording = recordings.find(({ choices }) => choices?.[role]);
+  const currentChoice = (userChoices[role] as LogChoice | undefined) ?? plannedRecording?.choices?.[role];
+  const currentLabel = currentChoice ? choiceLabelOf(currentChoice) || (plannedRecording ?? recordings[0]).name : '';
+  return selectHtml(`log-${role}`, texts.roles[role], currentLabel, [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
     const choice = choiceByLabel.get(label);
     if (choice) opener.changeChoices({ userChoices: { ...userChoices, [role]: choice } });
   }, texts.open);
 }
 
-function roleSelectHtml(opener: LogOpener, { recordings, roles, plan }: ChosenFiles, recordingIndex: number, { choose: texts }: LogWords) {
-  const { name } = recordings[recordingIndex];
-  const currentRole = roles.get(recordingIndex) ?? ROLES.find((role) => plan?.unpaired[role].some(({ recording }) => recording === recordings[recordingIndex]));
+function roleSelectHtml(opener: LogOpener, { recordings, answers }: ChosenFiles, recordingIndex: number, { choose: texts }: LogWords) {
+  const { name, choices } = recordings[recordingIndex];
+  const currentRole = answers[name]?.role ?? ROLES.find((role) => choices?.[role]);
   return selectHtml(`log-role-${recordingIndex}`, name, currentRole ?? '', ROLES.map((role) => [role, texts.roles[role]]), (chosenValue) => {
     const role = chosenValue as Role;
-    const changedRoles = new Map(roles).set(recordingIndex, role);
     // If there are two files, the other file gets the other role.
-    if (recordings.length === 2 && labelledChoicesOf(recordings[1 - recordingIndex]).length === 1) changedRoles.set(1 - recordingIndex, role === 'odometry' ? 'reference' : 'odometry');
-    opener.changeChoices({ roles: changedRoles });
+    const otherRecording = recordings.length === 2 ? recordings[1 - recordingIndex] : undefined;
+    const hasOtherRole = otherRecording && labelledChoicesOf(otherRecording).length === 1;
+    opener.answer({ ...(hasOtherRole && { [otherRecording.name]: { role: role === 'odometry' ? 'reference' : 'odometry' } }), [name]: { role } });
   }, texts.open);
 }
 
@@ -103,7 +86,7 @@ function questionHtml(opener: LogOpener, { answers }: ChosenFiles, question: Ope
   if (option !== 'timeUnit' && option !== 'lengthUnit' && option !== 'angleUnit') return nothing;
   const unitLabels: Record<string, string> = Object.fromEntries((logChoices.length ? logChoices : UNITS[option]).map((unit) => [unit, texts.units[unit as keyof typeof texts.units]]));
   return html`<div id=${questionIdOf(question)}>
-    ${radioGroupHtml(texts[option](file), questionIdOf(question), unitLabels, answers[file]?.[option] ?? '', (unit) => opener.answerQuestion(question, { [option]: unit }))}
+    ${radioGroupHtml(texts[option](file), questionIdOf(question), unitLabels, answers[file]?.[option] ?? '', (unit) => opener.answer({ [file]: { [option]: unit } }))}
   </div>`;
 }
 
@@ -116,7 +99,7 @@ function columnsFormHtml(opener: LogOpener, question: OpenQuestion, answeredFiel
     event.preventDefault();
     const fieldNames = columns.map(() => '-');
     for (const [field, columnIndex] of new FormData(event.target as HTMLFormElement)) if (columnIndex !== '') fieldNames[Number(columnIndex)] = String(field);
-    opener.answerQuestion(question, { columns: fieldNames });
+    opener.answer({ [file]: { columns: fieldNames } });
   };
   return html`<form id=${questionIdOf(question)} @submit=${submitColumns}>
     <fieldset>
@@ -157,10 +140,10 @@ const MAX_PATH_POINTS = 1500;
 /** Returns the summary of the logs of each drive. It is shown while the logs are fitted, and below the result. */
 export function logSummaryHtml({ chosenFiles, texts, host }: LogOpener) {
   // The page may have set another log in the meantime.
-  if (!chosenFiles?.drives || !texts || (chosenFiles.log && chosenFiles.log !== host.log)) return nothing;
+  if (!chosenFiles?.drives || !texts || (chosenFiles.isFitted && chosenFiles.log !== host.log)) return nothing;
   const { drives } = chosenFiles;
   // The clock offset is an estimate of the fit. Before the fit it is taken as 0.
-  const clockOffset = (chosenFiles.log && host.viewModel.stats.systematicErrors.clockOffset.value) ?? 0;
+  const clockOffset = (chosenFiles.isFitted ? host.viewModel.stats.systematicErrors.clockOffset.value : undefined) ?? 0;
   return html`<details class="found" open>
     <summary>${texts.found.title}</summary>
     ${guard([drives, texts, language, clockOffset], () => drives.map((drive, i) => html`<div class="drive">

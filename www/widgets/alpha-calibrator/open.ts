@@ -5,41 +5,31 @@ import { language, words } from '../../messages/registry.ts';
 import { buttonHtml } from '../../ui/controls.ts';
 import { FileOpener } from '../shared/files.ts';
 import { instantiateShared, moduleForWorker, startWorker } from '../../core.ts';
-import type { LogPlan, UserChoices } from '../../logs/drives.ts';
-import type { Drive } from '../../logs/pairs.ts';
-import type { LogFailure, LogSession } from '../../logs/session.ts';
-import type { OpenOptions, Question, Recording, Role, Source } from '../../logs/log.ts';
+import type { UserChoices } from '../../logs/drives.ts';
+import type { FileContents, LogFailure, LogSession } from '../../logs/session.ts';
+import type { OpenOptions, Question, Source } from '../../logs/log.ts';
 import type { AlphaCalibratorSettings, CalibrationLog } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 export type LogWords = typeof import('../../logs/en.ts').english;
 
-/** Reason why files were refused: an error of the page, or a failure of the worker. */
-type Refusal = Pick<Error, 'message'> & Partial<import('../../logs/log.ts').LogError & LogFailure>;
+/** Reason why files were refused: an error, or a failure that the worker has posted. */
+type Refusal = Pick<Error, 'message'> & Partial<LogFailure>;
 
 type LogModule = typeof import('./log-choice.ts');
 
 /** Question about a file that the user has answered, or still has to answer. */
 export interface OpenQuestion { file: string; ask: Question }
 
-/** Files with their recordings, the user's choices, and the drives that were read by these choices. */
-export interface ChosenFiles {
+/** Files with their contents, and the user's choices by which these were read. Missing choices are guessed. */
+export interface ChosenFiles extends FileContents {
   files: File[];
-  recordings: Recording[];
-  /** Errors of the files that were skipped. */
-  skipped: LogFailure[];
   /** Options for reading each file, by its name. */
   answers: Record<string, OpenOptions>;
   questions: OpenQuestion[];
-  /** Choices of the user. Missing choices are guessed. */
-  userChoices: Pick<UserChoices, Role>;
-  /** Roles that the user chose for recordings with one log, by the index of the recording. */
-  roles: Map<number, Role>;
-  /** Plan for reading the drives; undefined while a question is open. */
-  plan?: LogPlan;
-  drives?: Drive[];
-  /** Log that the figure shows; undefined until the logs have been read and fitted. */
-  log?: CalibrationLog;
+  userChoices: UserChoices;
+  /** True if the figure has shown a fit to these files. */
+  isFitted?: boolean;
 }
 
 /** Extensions that the file dialog offers. */
@@ -72,7 +62,7 @@ export class LogOpener extends FileOpener<Figure> {
   /** Reads the files again if the model has changed and prefers another odometry in them. */
   hostUpdated() {
     const { chosenFiles } = this;
-    if (chosenFiles?.log && chosenFiles.log === this.host.log && this.readFraction === undefined && this.#kindOfLatestFiles !== this.preferredKind) this.#open(chosenFiles);
+    if (chosenFiles?.isFitted && chosenFiles.log === this.host.log && this.readFraction === undefined && this.#kindOfLatestFiles !== this.preferredKind) this.#open(chosenFiles);
   }
 
   /** Forgets the chosen files, and shows a log of the page or, by default, the simulated one. */
@@ -119,13 +109,14 @@ export class LogOpener extends FileOpener<Figure> {
 
   chooseFiles(files: File[]) {
     const logFiles = files.filter(isPossibleLog);
-    this.#open({ files: logFiles.length ? logFiles : files, recordings: [], skipped: [], answers: {}, questions: [], userChoices: {}, roles: new Map() });
+    this.#open({ files: logFiles.length ? logFiles : files, recordings: [], skipped: [], answers: {}, questions: [], userChoices: {} });
   }
 
-  /** Stores an answer to a question, and opens the files with it. */
-  answerQuestion({ file }: OpenQuestion, answer: OpenOptions) {
-    const answers = this.chosenFiles?.answers ?? {};
-    this.changeChoices({ answers: { ...answers, [file]: { ...answers[file], ...answer } } });
+  /** Opens the files with answers to questions about them, by their names. */
+  answer(newAnswers: ChosenFiles['answers']) {
+    const answers = { ...this.chosenFiles?.answers };
+    for (const [file, answer] of Object.entries(newAnswers)) answers[file] = { ...answers[file], ...answer };
+    this.changeChoices({ answers });
   }
 
   changeChoices(changedChoices: Partial<ChosenFiles>) {
@@ -133,53 +124,44 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   /** Reads and fits the logs in files, which replaces an earlier attempt. */
-  async #open(newFiles: ChosenFiles) {
-    const openedFiles: ChosenFiles = (this.chosenFiles = { ...newFiles, plan: undefined, drives: undefined, log: undefined });
+  async #open({ files, recordings, skipped, answers, questions, userChoices }: ChosenFiles) {
+    const openedFiles: ChosenFiles = (this.chosenFiles = { files, recordings, skipped, answers, questions, userChoices });
     this.host.service.stopRequest();
     this.#kindOfLatestFiles = this.preferredKind;
     this.readFraction = 0;
     const isLatest = await this.runAttempt(async () => {
       this.logModule ??= await import('./log-choice.ts');
-      await this.#planReading(openedFiles, this.logModule);
-      await this.#readAndFit(openedFiles, this.logModule);
+      await this.#read(openedFiles);
+      await this.#fit(openedFiles);
     });
     if (isLatest) this.#setIdle();
   }
 
-  /** Opens files, and plans which series are read. A file with one log is paired with the previous file if that also has only one log. */
-  async #planReading(openedFiles: ChosenFiles, logModule: LogModule): Promise<void> {
-    Object.assign(openedFiles, await this.host.service.openFiles(openedFiles.files, openedFiles.answers));
-    try {
-      if (openedFiles.recordings.length === 0) throw openedFiles.skipped[0];
-      openedFiles.plan = logModule.planLogReading(openedFiles, this.preferredKind);
-    } catch (error) {
-      // A file that was skipped because of a question may be the missing log. Its question is asked first.
-      const skipped = openedFiles.skipped.find(({ question: ask }) => ask);
-      if (skipped) throw skipped;
-      const loneLogFiles = this.#loneLogFiles;
-      const isLoneLog = openedFiles.recordings.length === 1 && (error as Refusal).question !== undefined;
-      if (isLoneLog) this.#loneLogFiles = { ...openedFiles };
-      if (!isLoneLog || !loneLogFiles || loneLogFiles.files === openedFiles.files) throw error;
-      const [files, questions] = [[...loneLogFiles.files, ...openedFiles.files], [...loneLogFiles.questions, ...openedFiles.questions]];
-      await this.#planReading(Object.assign(openedFiles, { files, questions, answers: { ...loneLogFiles.answers, ...openedFiles.answers } }), logModule);
-    }
-  }
-
-  async #readAndFit(openedFiles: ChosenFiles, logModule: LogModule) {
-    const plan = openedFiles.plan as LogPlan;
-    const drives = await this.host.service.readDrives(plan, (readFraction) => {
+  /** Reads the logs of files. A file with one log is paired with the previous file if that also has only one log. */
+  async #read(openedFiles: ChosenFiles): Promise<void> {
+    const userChoices = { ...openedFiles.userChoices, kind: this.preferredKind };
+    Object.assign(openedFiles, await this.host.service.read(openedFiles.files, openedFiles.answers, userChoices, (readFraction) => {
       this.readFraction = readFraction;
       this.host.requestUpdate();
-    });
-    const log = { name: logModule.logNameOf(plan), ...logModule.calibrationLogOf(drives) };
-    const fitPromise = this.host.openLog(log, logModule.warningsOf(drives.flatMap(({ odometry, reference }) => [odometry, reference])), ({ count }) => {
+    }));
+    const { refusal, recordings } = openedFiles;
+    if (!refusal) return;
+    const loneLogFiles = this.#loneLogFiles;
+    const isLoneLog = recordings.length === 1 && !recordings[0].choices && refusal.question !== undefined;
+    if (isLoneLog) this.#loneLogFiles = { ...openedFiles };
+    if (!isLoneLog || !loneLogFiles || loneLogFiles.files === openedFiles.files) throw refusal;
+    const [files, questions] = [[...loneLogFiles.files, ...openedFiles.files], [...loneLogFiles.questions, ...openedFiles.questions]];
+    await this.#read(Object.assign(openedFiles, { files, questions, refusal: undefined, answers: { ...loneLogFiles.answers, ...openedFiles.answers } }));
+  }
+
+  async #fit(openedFiles: ChosenFiles) {
+    const { log, warnings } = openedFiles as Required<ChosenFiles>;
+    // The summary of logs is shown while they are fitted.
+    this.host.requestUpdate();
+    await this.host.openLog(log, warnings, ({ count }) => {
       if (count === 0) throw new RangeError(words.calibrator.tooFewLegs);
     });
-    // The summary of logs is shown while they are fitted.
-    openedFiles.drives = drives;
-    this.host.requestUpdate();
-    await fitPromise;
-    openedFiles.log = log;
+    openedFiles.isFitted = true;
     this.#resultFiles = openedFiles;
     this.#loneLogFiles = undefined;
     this.host.gesture.commitOneStep();
@@ -187,8 +169,8 @@ export class LogOpener extends FileOpener<Figure> {
 
   explainRefusal(refusal: Refusal) {
     if (isAbortError(refusal)) return words.progress.stopped;
-    const { message, messageIn: messageOf, sentences, question: ask } = refusal;
-    const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? (messageOf && this.texts ? messageOf(this.texts) : words.calibrator.logControls.refusedLog(message));
+    const { message, sentences, question: ask } = refusal;
+    const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? words.calibrator.logControls.refusedLog(message);
     return [refusalReason, ...(ask?.option === 'other' && this.texts ? [this.texts.choose.other] : [])].join(' ');
   }
 
@@ -201,7 +183,6 @@ export class LogOpener extends FileOpener<Figure> {
     if (newQuestion && !chosenFiles.questions.some((question) => question.file === newQuestion.file && question.ask.option === ask.option)) chosenFiles.questions.push(newQuestion);
     await super.showRefusal(error, () => newQuestion && this.logModule?.focusChooser(this.host, newQuestion));
   }
-
 }
 
 /** Checks whether a file may be a log, because folders also have other files. */
@@ -227,7 +208,7 @@ export function dropZoneHtml(figure: Figure, opener: LogOpener) {
 
 /** Connection to the worker: its session, a function that ends the worker, and comlink's `proxy`, which makes a callback callable from the worker. */
 interface WorkerConnection {
-  session: Pick<LogSession, 'open' | 'read' | 'calibrate'>;
+  session: Pick<LogSession, 'read' | 'calibrate'>;
   endWorker(): void;
   proxy: typeof import('comlink').proxy;
 }
@@ -245,15 +226,11 @@ export class LogService {
     return this.#abortController !== undefined;
   }
 
-  /** Opens files, with the options of each by its name. */
-  openFiles(files: Source[], answers: Record<string, OpenOptions>) {
+  /** Reads the logs of files, with the options of each file by its name. */
+  read(files: Source[], answers: Record<string, OpenOptions>, userChoices: UserChoices, onProgress: (fraction: number) => void) {
     // The path is sent separately, because the copy of a `File` in the worker lacks this property.
-    return this.#sendRequest(({ session }) => session.open(files.map((file) => ({ file, path: file.path ?? '' })), answers));
-  }
-
-  /** Reads the drives of a plan for the opened recordings. */
-  readDrives({ drives, unpaired }: LogPlan, onProgress: (fraction: number) => void) {
-    return this.#sendRequest(({ session, proxy }, signal) => session.read({ drives, unpaired }, proxy((fraction) => void (signal.aborted || onProgress(fraction)))));
+    const sources = files.map((file) => ({ file, path: file.path ?? '' }));
+    return this.#sendRequest(({ session, proxy }, signal) => session.read(sources, answers, userChoices, proxy((fraction) => void (signal.aborted || onProgress(fraction)))));
   }
 
   /** Returns the fit to a log, for `AlphaCalibrator.restored`. */

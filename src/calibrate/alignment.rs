@@ -23,6 +23,11 @@ const CONFIDENT_CORRELATION: f64 = 0.9;
 /// Minimum increase of the correlation for which an offset beyond [`MAX_NEAR_OFFSET`] is preferred to an offset within.
 const MIN_CORRELATION_GAIN: f64 = 0.05;
 
+/// Limits for a mirrored recording, whose turns are opposite at the right offset and agree less at all others: largest value of the lowest
+/// correlation, and of the ratio of its distance from −1 to the distance of the highest correlation from 1.
+const MAX_MIRRORED_CORRELATION: f64 = -0.8;
+const MAX_MIRRORED_DISTANCE_RATIO: f64 = 0.3;
+
 /// Clock offset (s), and the correlation of the two turn rates at this offset.
 type OffsetMatch = (f64, f64);
 
@@ -61,7 +66,8 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Opt
     best_match.map(|(offset, _)| offset).or((overlap >= 0.0).then_some(0.0))
 }
 
-/// Returns the offset within a range at which the turn rates correlate most, interpolated between steps. None if the largest correlation is
+/// Returns the offset within a range at which the turn rates correlate most, interpolated between steps. At the offset of a mirrored
+/// recording the correlation counts as positive. None if the largest correlation is
 /// below [`MIN_CORRELATION`].
 fn best_match(
     odometry: &Trajectory,
@@ -76,9 +82,14 @@ fn best_match(
     let reference_turns = turns_of_steps(reference, start + min_offset, step, turn_count + offset_count - 1);
     let count_known = |turns: &[Option<f64>]| turns.iter().flatten().count();
     let min_pairs = count_known(&odometry_turns).min(count_known(&reference_turns)) / 2;
-    let correlations: Vec<f64> = (0..offset_count)
+    let mut correlations: Vec<f64> = (0..offset_count)
         .map(|offset| correlation(&odometry_turns, &reference_turns[offset..], min_pairs))
         .collect();
+    let (lowest, highest) =
+        correlations.iter().fold((0.0_f64, 0.0_f64), |(low, high), r| (low.min(*r), high.max(*r)));
+    if lowest < MAX_MIRRORED_CORRELATION && 1.0 + lowest < MAX_MIRRORED_DISTANCE_RATIO * (1.0 - highest) {
+        correlations.iter_mut().for_each(|correlation| *correlation = -*correlation);
+    }
     let (best_offset, max_correlation) =
         correlations.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
     if max_correlation < MIN_CORRELATION {

@@ -89,6 +89,9 @@ impl Check {
             CheckName::ReferenceMatches if value < expected[0] => {
                 "No error of the odometry is visible: the reference is a copy of it, computed from it, or too noisy. The α's mean nothing. Use a precise and independent measurement, such as motion capture or SLAM."
             }
+            CheckName::ReferenceMatches if (value - MIRRORED_MISMATCH).abs() < 0.1 => {
+                "The reference turns left where the odometry turns right: one of the two has Z down or a mirrored axis. The α's mean nothing. Negate y and the heading of that one."
+            }
             _ => name.failure_message(),
         };
         Self { name, value, expected, passed, message: message.to_owned() }
@@ -191,6 +194,9 @@ const MIN_USABLE_LEGS: f64 = 30.0;
 
 /// Maximum median difference of the motions by odometry and reference, over the median motion, of logs of the same drive.
 const MAX_MISMATCH: f64 = 0.7;
+
+/// Mismatch of a reference whose turns are opposite to those of the odometry: their difference is twice as large.
+const MIRRORED_MISMATCH: f64 = 2.0;
 
 /// Relative error below which the reference is a copy of the odometry: no wheels measure every motion to a thousandth. A copy may be rounded
 /// or have noise of its own, which does not accumulate.

@@ -204,11 +204,6 @@ test('logs with mirrored axes, or with different units of length, are refused', 
   for (const [i, stepHeading] of exampleHeadings.entries()) pathPoints.push([pathPoints[i][0] + Math.cos(stepHeading) / 40, pathPoints[i][1] + Math.sin(stepHeading) / 40]);
   const createChangedTable = (/** @type {(row: number[]) => number[]} */ changeRow) => poseTableOf(1200, (i) => changeRow([i / 20, ...pathPoints[i], exampleHeadings[i]]).map((value) => Number(value.toFixed(6))));
   const distortRow = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
-  const turnedTable = createChangedTable((row) => (([t, x, y, yaw]) => [t, x, -y, -yaw])(distortRow(row)));
-  assert.match(await catchRefusalSentence(readDrivesOf({ 'odom.csv': createChangedTable((row) => row), 'truth.csv': turnedTable })), /^truth\.csv: it turns left where odom\.csv turns right: /);
-  // A reference that is mounted backwards must not count as a mirrored axis, even if the robot hardly turns.
-  const drivesOfBackwardReference = await readDrivesOf({ 'odom.csv': poseTableOf(400, (i) => [i / 20, i / 40, 0, Math.sin(i / 9) / 9]), 'truth.csv': poseTableOf(400, (i) => [i / 20, i / 39, 0, Math.PI + Math.sin(i / 9) / 9]) });
-  assert.equal(drivesOfBackwardReference.length, 1);
   // The changed tables have mirrored axes, swapped axes, and compass headings, which are clockwise from north.
   const mirrorRows = /** @type {((row: number[]) => number[])[]} */ ([([t, x, y, yaw]) => [t, x, -y, yaw], ([t, x, y, yaw]) => [t, -x, y, yaw], ([t, x, y, yaw]) => [t, y, x, yaw], ([t, x, y, yaw]) => [t, x, y, Math.PI / 2 - yaw]]);
   for (const mirrorRow of mirrorRows) {

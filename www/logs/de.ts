@@ -109,7 +109,6 @@ export const german: Words = {
       `die Transformation ${frames} ändert sich nie und ist daher kein Weg eines Roboters; erwartet werden Frames, die sich bewegen${otherFrames ? `, wie ${otherFrames}` : ''}.`,
     givenTwice: 'sie ist zweimal angegeben; gebraucht werden zwei unabhängige Messungen einer Fahrt, Odometrie und Referenz.',
     ownReference: (name) => `${name} ist die Odometrie selbst; gebraucht wird eine Referenz, die nicht von den Rädern kommt, wie Motion-Capture oder Scan-Matching.`,
-    leftHanded: (otherName) => `sie dreht nach links, wo ${otherName} nach rechts dreht: eine der beiden hat Z nach unten oder ein linkshändiges Koordinatensystem; in dieser y und die Richtung negieren.`,
     otherUnit: (factor, otherName, unit) => `der Roboter führe ${Math.round(factor)}-mal so schnell wie in ${otherName}: Die Längen sind wohl in ${unit}; ihre Einheit angeben.`,
     held: 'ihre Pose steht, während die Odometrie weitergeht: Sie hat den Roboter verloren; gebraucht wird eine, die ihm folgt.',
     noRole: 'ihr Name sagt nicht, ob sie Odometrie oder Referenz ist; die Dateien nach dem Muster odom1.csv, truth1.csv, odom2.csv, … benennen, oder die Rolle jeder auswählen.',

@@ -111,7 +111,6 @@ export const english = {
       `the transform ${frames} never changes, so it is not the path of a robot; expected are frames that move${otherFrames ? `, such as ${otherFrames}` : ''}.`,
     givenTwice: 'it is given twice; give two independent measurements of one drive, odometry and reference.',
     ownReference: (name: string) => `${name} is the odometry itself; choose a reference that does not come from the wheels, such as motion capture or scan matching.`,
-    leftHanded: (otherName: string) => `it turns left where ${otherName} turns right: one of the two has Z down or a left-handed frame; negate y and the heading of that one.`,
     otherUnit: (factor: number, otherName: string, unit: string) => `the robot would drive ${Math.round(factor)} times as fast as in ${otherName}: its lengths seem to be in ${unit}; state their unit.`,
     held: 'its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.',
     noRole: 'its name does not say whether it is odometry or reference; name the files as odom1.csv, truth1.csv, odom2.csv, …, or choose the role of each.',

@@ -1,6 +1,6 @@
 /** Reading of the odometry and reference of each drive, and checks that both logs belong together. */
 
-import { min, range, sum, zip } from 'd3-array';
+import { min, zip } from 'd3-array';
 import type { CalibrationLog } from '../types.d.ts';
 import { isLocalizer, roleByName, type PlannedRecording } from './drives.ts';
 import { LogError, ROLES, UNITS, formatFrames, type Log, type LogChoice, type Note, type Poses, type Role, type Warning } from './log.ts';
@@ -24,15 +24,6 @@ const MIN_UNIT_RATIO = 10;
 
 /** Maximum ratio of a measured size of a unit to its real size, and its inverse. The odometry's wheels may have another size than assumed. */
 const MAX_UNIT_ERROR = 1.2;
-
-/** Maximum number of steps in which turns are compared, minimum duration of a step (s), and minimum number of steps. */
-const [MAX_STEPS, MIN_STEP_SECONDS, MIN_STEPS] = [4000, 0.25, 40];
-
-/** Maximum offset of the clocks (s) that is tried, as in the first scan of the core. */
-const MAX_CLOCK_OFFSET = 10;
-
-/** Limits for two logs, one of them mirrored: maximum of the lowest correlation of their turns, and of the ratio of its distance from −1 to the distance of the highest correlation from 1. */
-const [MAX_MIRRORED_CORRELATION, MAX_MIRRORED_DISTANCE_RATIO] = [-0.8, 0.3];
 
 const timeSpanOf = ({ start, data: { t } }: Log): [number, number] => [start + t[0], start + t[t.length - 1]];
 
@@ -62,7 +53,6 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
   if (brokenReference.summary.used < 2) throw new LogError(referencePlace, (texts) => texts.held);
   const logs = { odometry, reference: brokenReference };
   checkLengthUnits(logs);
-  checkHandedness(logs);
   const notes: Note[] = [
     ...brokenReference.summary.notes,
     ...(roleByName(odometry.name) !== 'odometry' && roleByName(reference.name) === 'odometry' ? [{ name: 'swapped' as const, values: [odometry.name] }] : []),
@@ -135,34 +125,4 @@ function checkLengthUnits(logs: Record<Role, Log>): void {
     const pair = ROLES.map((logRole) => (logRole === role ? likelyUnit : logs[logRole].summary.units.length.unit)).join();
     throw new LogError({ file: logs[role].name }, (texts) => texts.otherUnit(speedRatio, logs[otherRole].name, likelyUnit), { option: 'lengthUnit', choices: [], unitPair: pair });
   }
-}
-
-/** Throws a LogError if the turns of two logs of a drive are opposite at some clock offset, and agree less at all others. */
-function checkHandedness(logs: Record<Role, Log>): void {
-  const timesByRole = ROLES.map((role) => logs[role].data.t);
-  const [startTime, endTime] = [Math.max(...timesByRole.map((t) => t[0])), Math.min(...timesByRole.map((t) => t[t.length - 1]))];
-  const step = Math.max(MIN_STEP_SECONDS, (endTime - startTime) / MAX_STEPS, ...ROLES.map((role) => 2 / logs[role].summary.rate));
-  const stepCount = Math.floor((endTime - startTime) / step);
-  if (!(stepCount >= MIN_STEPS)) return;
-  const [odometryTurns, referenceTurns] = ROLES.map((role) => turnsOf(logs[role], startTime, step, stepCount));
-  const maxLag = Math.min(Math.round(MAX_CLOCK_OFFSET / step), Math.floor(stepCount / 2));
-  const correlations = range(-maxLag, maxLag + 1).map((lag) => correlationOf(odometryTurns.slice(Math.max(0, -lag)), referenceTurns.slice(Math.max(0, lag))));
-  const [lowest, highest] = [Math.min(...correlations), Math.max(...correlations)];
-  const isMirrored = lowest < MAX_MIRRORED_CORRELATION && 1 + lowest < MAX_MIRRORED_DISTANCE_RATIO * (1 - highest);
-  if (isMirrored) throw new LogError({ file: logs.reference.name }, (texts) => texts.leftHanded(logs.odometry.name));
-}
-
-/** Returns the turns (rad) of a log in steps of equal duration after a start time. The turn of a step with a jump or another break is 0. */
-function turnsOf({ data }: Log, startTime: number, step: number, count: number): number[] {
-  const path = pathOf(data, Math.max(1, Math.floor(data.t.length / (4 * MAX_STEPS))));
-  const headings = range(count + 1).map((i) => poseAt(path, startTime + i * step)[2]);
-  const brokenSteps = new Set(Array.from(data.breaks, (row) => [row - 1, row].map((end) => Math.floor((data.t[end] - startTime) / step))).flat());
-  return range(count).map((i) => (brokenSteps.has(i) ? 0 : wrapAngle(headings[i + 1] - headings[i])));
-}
-
-/** Returns the correlation of two series about 0, over the length of the shorter one; 0 if one has only zeros. */
-function correlationOf(series: number[], otherSeries: number[]): number {
-  const length = Math.min(series.length, otherSeries.length);
-  const sumOfProducts = (a: number[], b: number[]) => sum(range(length), (i) => a[i] * b[i]);
-  return sumOfProducts(series, otherSeries) / Math.sqrt(sumOfProducts(series, series) * sumOfProducts(otherSeries, otherSeries) || 1);
 }

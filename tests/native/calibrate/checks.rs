@@ -71,6 +71,24 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
 }
 
 #[test]
+fn a_reference_that_turns_the_other_way_is_recognized_at_any_clock_offset() {
+    for (seed, clock_offset) in [(1, 0.0), (2, -3.7), (3, 3600.0)] {
+        let sim = new_passing_simulation(600, seed);
+        let [odometry, reference] = sim.log();
+        let mirrored = reference.samples().map(|(sample_time, pose)| {
+            (sample_time + clock_offset, SE2::new(pose.x(), -pose.y(), -pose.theta()))
+        });
+        let calibration = calibrate_log(&[odometry, new_trajectory(mirrored)], &sim.calibration_options());
+        let failure_message = &calibration.diagnostics.checks[0].message;
+        assert!(
+            failure_message.starts_with("The reference turns left where the odometry turns right"),
+            "{seed}: {failure_message}"
+        );
+        assert_unusable(&calibration, "mirrored");
+    }
+}
+
+#[test]
 fn a_copy_of_the_odometry_is_no_reference() {
     // These references are copies of the odometry in another frame, with lengths scaled by 1.02, times delayed by 0.1 s, and rounded
     // coordinates.

@@ -5,7 +5,9 @@ const formatLegCount = (count: string) => `${count} Etappe${count === '1' ? '' :
 
 /** Messages of failed checks. */
 const CHECK_MESSAGES: Record<string, string> = {
-  'reference-copied':
+  'reference-matches-mirrored':
+    'Die Referenz dreht sich nach links, wo sich die Odometrie nach rechts dreht: Bei einer von beiden zeigt Z nach unten, oder eine Achse ist gespiegelt. Die α sind bedeutungslos. Bei dieser y und den Winkel negieren.',
+  'reference-matches-copied':
     'Kein Fehler der Odometrie ist sichtbar: Die Referenz ist eine Kopie davon, daraus berechnet oder zu ungenau. Die α sind bedeutungslos. Eine genaue, unabhängige Messung verwenden, zum Beispiel Motion Capture oder SLAM.',
   'reference-matches':
     'Die Referenz folgt der Odometrie nicht: Vielleicht ist sie von einer anderen Fahrt, hat andere Einheiten (Grad, Millimeter), eine gespiegelte y-Achse oder eine andere senkrechte Achse als z, oder ihre Spalten sind vertauscht. Die α sind bedeutungslos. Beide Dateien Zeile für Zeile vergleichen.',

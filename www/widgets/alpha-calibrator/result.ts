@@ -218,13 +218,18 @@ export function judgementOf({ stats, legCount, model, corrections, warnings }: F
   return { rating, badge: texts.ratingBadges[rating], finding, advice };
 }
 
+/** Mismatch of a reference with a mirrored axis, as in the core: its turns are opposite to those of the odometry. */
+const MIRRORED_MISMATCH = 2;
+
 /** Causes of lost legs. The last cause, a standing robot, is not counted by the check of lost legs. */
 export const LOST_LEG_CAUSES = ['withoutReference', 'acrossBreaks', 'acrossPauses', 'standing'] as const;
 
-/** Returns what a failed check means and what to do. A reference that matches too closely, and each cause of lost legs, has its own message. */
+/** Returns what a failed check means and what to do. Each cause of lost legs has its own message, and so have copied and mirrored references. */
 export function checkMessage({ name, value, expected: [minExpected], passed, message }: CalibrationCheck, { lost }: CalibrationStats, { checks }: Texts) {
-  const messageKey = name === 'legs-lost' ? `${name}-${greatest(LOST_LEG_CAUSES.slice(0, -1), (cause) => lost[cause])}` : name === 'reference-matches' && value < minExpected ? 'reference-copied' : name;
-  return passed ? '' : checks.translateMessage(messageKey, message);
+  if (passed) return '';
+  const cause = name === 'legs-lost' ? greatest(LOST_LEG_CAUSES.slice(0, -1), (lostLegCause) => lost[lostLegCause])
+    : name !== 'reference-matches' ? '' : value < minExpected ? 'copied' : Math.abs(value - MIRRORED_MISMATCH) < 0.1 ? 'mirrored' : '';
+  return checks.translateMessage(cause ? `${name}-${cause}` : name, message);
 }
 
 /** Returns a sentence for each reason why α's are not identifiable, with the drive that would identify them. */

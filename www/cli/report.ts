@@ -4,10 +4,11 @@ import { english } from '../logs/en.ts';
 import { ROLES, type Summary } from '../logs/log.ts';
 import { warningsOf } from '../logs/pairs.ts';
 import { en as sharedTexts } from '../messages/en.ts';
+import { MINUS } from '../ui/format.ts';
 import { en, yamlWords } from '../widgets/alpha-calibrator/en.ts';
-import { errorComponentsOf, formatAlphaOrBound, formatEstimate, formatInterval, formatNumber, formatPercent, isNav2Rule, formatNav2Lines } from '../widgets/alpha-calibrator/result.ts';
-import { LOST_LEG_CAUSES, SYSTEMATIC_ERRORS, adviceOf, judgementOf } from '../widgets/alpha-calibrator/result.ts';
-import type { Calibration, CalibrationCheck } from '../types.d.ts';
+import { LOST_LEG_CAUSES, formatNav2Lines, formatNumber, isNav2Rule, judgementOf } from '../widgets/alpha-calibrator/result.ts';
+import { alphaTableOf, checkTableOf, noiseTableOf, systematicTableOf, windowTableOf, type ResultTable } from '../widgets/alpha-calibrator/tables.ts';
+import type { Calibration } from '../types.d.ts';
 
 /** Log with its summary, as numbers and as sentences. */
 interface ReadLog { name: string; summary: Summary; sentences: string[] }
@@ -26,6 +27,9 @@ export interface CalibrationResult {
   date: string;
 }
 
+/** Words of the tables. */
+const REPORT_WORDS = { alphas: sharedTexts.alphas, calibrator: en };
+
 const MAX_LISTED_OUTLIERS = 5;
 
 /** Returns the summaries of the logs (odometry and reference of each drive), without the result of the fit. */
@@ -43,12 +47,11 @@ const colorizeText = (color: number) => (text: string) => `\x1b[${color}m${text}
 /** Returns the text report, which follows the summaries of the logs. */
 export function formatReport(calibrationResult: CalibrationResult, isColored = false): string {
   const { calibration, options, driveStarts } = calibrationResult;
-  const { legs, lost, diagnostics: { checks, windows } } = calibration;
+  const { legs, lost, recommended } = calibration;
   const { model = 'odometry', rule = 'thrun' } = options;
   const { distance, angle, duration } = options.legs;
   const lengthText = duration === undefined ? yamlWords.legsByMotion(formatNumber(distance), formatNumber(angle)) : yamlWords.legsByDuration(formatNumber(duration));
   const { yaml, reason } = formatNav2Yaml(calibrationResult);
-  const windowRows = windows.map(({ length, count, coverage, nees }) => [`of ${formatNumber(length)} m`, String(count), formatPercent(coverage), formatNumber(nees)]);
   const lostLegTexts = LOST_LEG_CAUSES.filter((cause) => lost[cause] > 0).map((cause) => `${lost[cause]} ${en.lostLegs[cause]}`);
   const excludedLegLines = [...(lostLegTexts.length ? [`lost legs: ${lostLegTexts.join(', ')}`] : []), ...formatOutliers(legs, driveStarts)];
   const uncoloredReport = [
@@ -57,22 +60,25 @@ export function formatReport(calibrationResult: CalibrationResult, isColored = f
     '',
     `${legs.count} legs ${lengthText}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,
     '',
-    ...formatAlphaTable(calibration, model),
+    ...formatTable(alphaTableOf(calibration, model, REPORT_WORDS)),
+    ...(recommended ? [recommended.reason] : []),
     '',
-    ...alignRows([['', 'value', '95 %', ''], ...formatNoiseRows(calibration, options), ...SYSTEMATIC_ERRORS.map((name) => formatSystematicRow(name, calibration)), formatPersistenceRow(calibration)]),
+    ...formatTable(systematicTableOf(calibration, REPORT_WORDS)),
     '',
-    ...alignRows([['check', 'value', 'expected', '', ''], ...checks.map(formatCheckRow)]),
-    ...checks.filter(({ passed }) => !passed).map(({ name, message }) => `${name}: ${message}`),
+    ...formatTable(noiseTableOf(calibration, REPORT_WORDS)),
+    '',
+    ...formatChecks(calibration),
     '',
     ...(excludedLegLines.length ? [...excludedLegLines, ''] : []),
-    ...alignRows([['held-out windows', 'number', 'covered', 'squared error / variance (NEES)'], ...windowRows]),
+    `${en.windowTable.title}: ${en.windowTable.caption}`,
+    ...formatTable(windowTableOf(calibration, REPORT_WORDS)),
     '',
     ...(reason ? [reason] : [...warnAboutRule(calibrationResult), '# nav2_params.yaml', yaml.trimEnd()]),
     '',
   ].join('\n');
   if (!isColored) return uncoloredReport;
   const { rating, badge } = judgeResult(calibrationResult);
-  return uncoloredReport.replace(badge, colorizeText(RATING_COLORS[rating])).replaceAll(/\bok(?= {2})/g, colorizeText(GREEN)).replaceAll(/\bFAILED(?= {2})/g, colorizeText(RED));
+  return uncoloredReport.replace(badge, colorizeText(RATING_COLORS[rating])).replaceAll(/✓ \w+/g, colorizeText(GREEN)).replaceAll(/✕ \w+/g, colorizeText(RED));
 }
 
 function judgeResult({ calibration, options: { model, correct = {} }, logs }: JudgedResult) {
@@ -85,48 +91,18 @@ export function formatVerdict(judgedResult: JudgedResult): string[] {
   return [`${badge}. ${finding}`, ...advice];
 }
 
-/** Returns the table of the α's, and the reason for the inflation. */
-function formatAlphaTable({ alphas, intervals, notIdentifiable, recommended }: Calibration, model: string): string[] {
-  const alphaRows = alphas.map((alpha, i) => [
-    `alpha${i + 1}`,
-    alpha === null ? 'not identifiable' : formatAlphaOrBound(alpha, intervals[i]),
-    formatInterval(intervals[i]),
-    recommended && alpha !== null ? formatAlphaOrBound(alpha, intervals[i], recommended.inflation) : '–',
-    [sharedTexts.alphas[model === 'velocity' ? 'velocity' : 'odometry'][i][0], ...(notIdentifiable[i] ? [adviceOf(en.alphas.missingMotions, model, notIdentifiable[i]).lack] : [])].join('; '),
-  ]);
-  return [...alignRows([['', 'fitted', '95 %', 'recommended', ''], ...alphaRows]), ...(recommended ? [recommended.reason] : [])];
+/** Returns the lines of a table, as plain text: with minus signs that can be copied, and several values of a cell in one line. */
+function formatTable({ columnHeadings, rows }: ResultTable): string[] {
+  const toPlainText = (text: string) => text.replaceAll('*', '').replaceAll(MINUS, '-').replaceAll('\u202f', ' ').replaceAll('\n', ', ');
+  return alignRows([columnHeadings, ...rows].map((row) => row.map(toPlainText)));
 }
 
-function formatNoiseRows({ referenceNoise }: Calibration, options: CalibrationResult['options']): string[][] {
-  const formatNoiseRow = (name: string, key: 'positionStd' | 'yawStd', unit: string) => {
-    const { value, interval } = referenceNoise[key];
-    const isStated = options[key] !== undefined;
-    return [name, `${formatEstimate(value, interval)} ${unit}`, isStated ? '' : formatInterval(interval), isStated ? 'as stated' : 'estimated'];
-  };
-  return [formatNoiseRow('reference position σ', 'positionStd', 'm'), formatNoiseRow('reference yaw σ', 'yawStd', 'rad')];
-}
-
-function formatSystematicRow(name: (typeof SYSTEMATIC_ERRORS)[number], { systematicErrors }: Calibration): string[] {
-  const { constant, corrected } = systematicErrors[name];
-  const components = errorComponentsOf(systematicErrors[name]);
-  if (components.some(({ value }) => value === null)) return [en.systematic.errorNames[name], 'not identifiable'];
-  return [
-    en.systematic.errorNames[name],
-    components.map(({ value, interval }) => formatEstimate(value, interval)).join(', '),
-    components.map(({ interval }) => formatInterval(interval)).join(', '),
-    `${corrected ? 'corrected' : 'not corrected'}${constant ? '' : ', not a constant'}`,
-  ];
-}
-
-function formatPersistenceRow({ persistence: { correlation: { value, interval }, length } }: Calibration): string[] {
-  return ['correlation of neighbouring legs', formatEstimate(value, interval), formatInterval(interval), length > 0 ? `errors persist over ${formatNumber(length, 2)} m` : ''];
-}
-
-function formatCheckRow({ name, value, expected: [low, high], passed }: CalibrationCheck): string[] {
-  // If a value that fails its check would round to a bound of the check, both are printed with more digits.
-  const digitCount = [3, 4, 6, 17].find((count) => passed || [low, high].every((bound) => formatNumber(value, count) !== formatNumber(bound, count)));
-  const boundsText = low === -Infinity ? `≤ ${formatNumber(high, digitCount)}` : high === Infinity ? `≥ ${formatNumber(low, digitCount)}` : `${formatNumber(low, digitCount)} to ${formatNumber(high, digitCount)}`;
-  return [name, value === Infinity ? '∞' : formatNumber(value, digitCount), boundsText, passed ? 'ok' : 'FAILED', en.checks.checkNames[name]];
+/** Returns the table of the checks with the names of the checks in JSON and documents, and what to do about those that failed. */
+function formatChecks(calibration: Calibration): string[] {
+  const { checks } = calibration.diagnostics;
+  const { columnHeadings, rows } = checkTableOf(calibration, REPORT_WORDS);
+  const namedRows = rows.map(([description, ...cells], i) => [checks[i].name, ...cells, description]);
+  return [...formatTable({ columnHeadings: [...columnHeadings, ''], rows: namedRows }), ...checks.filter(({ passed }) => !passed).map(({ name, message }) => `${name}: ${message}`)];
 }
 
 /** Lists outliers by their times after the start of the odometry. */
@@ -152,7 +128,8 @@ export function formatNav2Yaml({ calibration, options: { model = 'odometry', rul
 }
 
 export function alignRows(rows: string[][]): string[] {
-  const columnWidths = rows[0].map((_, column) => Math.max(...rows.map((row) => (row[column] ?? '').length)));
+  // The last cell of a short row may be longer than its column.
+  const columnWidths = rows[0].map((_, column) => Math.max(...rows.map((row) => (column < row.length - 1 ? row[column].length : 0))));
   return rows.map((row) => row.map((cell, column) => cell.padEnd(columnWidths[column])).join('  ').trimEnd());
 }
 

@@ -88,8 +88,8 @@ export function formatRounded(value: number, digits: number): string {
 export const formatInteger = (count: number): string => formatFixed(count, 0).replace(/\B(?=(\d{3})+$)/g, THIN_SPACE);
 
 /** Prints a fraction from 0 to 1 in percent: "86.5 %". */
-export function formatPercent(fraction: number): string {
-  return Number.isNaN(fraction) ? NO_VALUE : `${formatFixed(100 * fraction, 1)}${THIN_SPACE}%`;
+export function formatPercent(fraction: number, decimals: number = 1): string {
+  return Number.isNaN(fraction) ? NO_VALUE : `${formatFixed(100 * fraction, decimals)}${THIN_SPACE}%`;
 }
 
 /** Prints a value with its standard error: "−0.412 ± 0.031". Infinity and NaN are printed without an error. Decimals are added until the error shows its first digit. */

@@ -4,38 +4,22 @@ import { html } from 'lit';
 import { copyButtonHtml, downloadFile } from '../../figure/export.ts';
 import { addEnglishMessages, words } from '../../messages/registry.ts';
 import { buttonHtml, fieldsetHtml, formatMarkup, checkboxHtml } from '../../ui/controls.ts';
-import { NO_VALUE, formatInteger, formatFixed, formatPercent, formatPowerOfTen, formatRounded, formatSignificant } from '../../ui/format.ts';
+import { NO_VALUE, formatInteger, formatFixed, formatPercent, formatPowerOfTen } from '../../ui/format.ts';
 import { plotHtml, type Curve, type PlotOptions } from '../../ui/plot.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { en } from './en.ts';
-import { LOST_LEG_CAUSES, NAV2_RULES, SYSTEMATIC_ERRORS, adviceOf, checkMessage, errorComponentsOf, formatAlphaOrBound, formatEstimate, formatNumber, judgementOf, localizeInterval, localizeNumber, formatNav2Lines, } from './result.ts';
+import { LOST_LEG_CAUSES, NAV2_RULES, SYSTEMATIC_ERRORS, checkMessage, formatAlphaOrBound, judgementOf, localizeNumber, formatNav2Lines } from './result.ts';
+import { alphaTableOf, checkTableOf, noiseTableOf, systematicTableOf, windowTableOf } from './tables.ts';
 import { NOISE_COMPONENTS, isTruthComparable, modelRuleOf, settingsOfModelRule, type ViewModel } from './settings.ts';
-import type { CalibrationCheck, CalibrationPanel, Estimate } from '../../types.d.ts';
+import type { CalibrationPanel } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 addEnglishMessages({ calibrator: en });
 
-/** Pattern of the names of checks whose value is a fraction. */
-const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
-
 export const judgeFit = ({ stats, legs: { count }, fittedConfig }: Pick<ViewModel, 'stats' | 'legs' | 'fittedConfig'>, warnings: Warning[]) =>
   judgementOf({ stats, legCount: count, model: fittedConfig.model, corrections: fittedConfig, warnings }, words.calibrator, words.moreControls);
-
-/** Prints the value of a check, or a limit of it. */
-function formatCheckValue(checkName: CalibrationCheck['name'], checkValue: number) {
-  if (!Number.isFinite(checkValue)) return Number.isNaN(checkValue) ? formatPercent(checkValue) : '∞';
-  return checkName === 'enough-legs' ? formatInteger(checkValue) : FRACTION_CHECKS.test(checkName) ? formatPercent(checkValue) : formatSignificant(checkValue, 3);
-}
-
-const formatPassRange = (lowText: string, highText: string) => `${lowText} – ${highText}`;
-
-/** Prints the range of values with which a check passes. */
-function formatExpectedRange({ name, expected: [low, high] }: CalibrationCheck) {
-  if (high === Infinity) return `≥ ${formatCheckValue(name, low)}`;
-  return low === 0 ? `≤ ${formatCheckValue(name, high)}` : formatPassRange(formatCheckValue(name, low), formatCheckValue(name, high));
-}
 
 /** Returns the reason for the recommended α's. */
 export function explainRecommendation({ stats: { recommended, diagnostics: { checks, windows } } }: ViewModel) {
@@ -46,8 +30,6 @@ export function explainRecommendation({ stats: { recommended, diagnostics: { che
   const { inflation } = recommended;
   return inflation === 1 ? texts.goodCoverage(formatPercent(coverage), formatInteger(count)) : texts.inflated(formatFixed(inflation, 2), formatPercent(coverage), formatInteger(count), formatFixed(nees, 2));
 }
-
-const noiseNamesOf = (model: ViewModel['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'].map(([name]) => name);
 
 /** Returns the number of legs and outliers of the named log in a sentence; empty if there are no legs. */
 function describeLegs({ legs }: ViewModel, logName: string) {
@@ -74,106 +56,34 @@ export function verdictHtml({ viewModel, logName, warnings }: Figure) {
 
 /** Returns the table of the α's, with the true values where they are comparable. */
 export function alphaTableHtml(viewModel: ViewModel) {
-  const { stats: { alphas, intervals }, truth, fittedConfig: { model } } = viewModel;
-  const texts = words.calibrator.alphas;
-  const shownTruth = isTruthComparable(viewModel) ? truth?.alphas : undefined;
-  const nameHtml = (name: string, i: number) => html`${formatMarkup(`*α*${subscriptOf(i)}`)} <span class="muted">${name}</span>`;
-  return html`<div class="alphas">${tableHtml({
-    columnHeadings: [texts.noiseColumn, texts.fittedColumn, texts.recommendedColumn, ...(shownTruth ? [words.calibrator.systematic.simulatedColumn] : [])],
-    rows: noiseNamesOf(model).slice(0, alphas.length).map((name, i) => (alphas[i] === null
-      ? [nameHtml(name, i), explainMissingAlpha(viewModel, i)]
-      : [
-        nameHtml(name, i),
-        stackedTextsHtml([formatAlpha(viewModel, i), localizeInterval(intervals[i])]),
-        html`<strong>${formatRecommendedAlpha(viewModel, i)}</strong>`,
-        ...(shownTruth ? [localizeNumber(formatNumber(shownTruth[i]))] : []),
-      ])),
-  })}</div>`;
+  const { stats, truth, fittedConfig: { model } } = viewModel;
+  const { columnHeadings, rows } = alphaTableOf(stats, model, words, isTruthComparable(viewModel) ? truth?.alphas : undefined);
+  const rowHtml = ([name, fitted, recommended, ...otherCells]: string[]) => [
+    formatMarkup(name), stackedTextsHtml(fitted), ...(recommended === undefined ? [] : [html`<strong>${recommended}</strong>`]), ...otherCells,
+  ];
+  return html`<div class="alphas">${tableHtml({ columnHeadings, rows: rows.map(rowHtml) })}</div>`;
 }
 
-/** Prints an α, multiplied by the inflation if given. */
-const formatAlpha = ({ stats: { alphas, intervals } }: ViewModel, alphaIndex: number, inflation?: number) => localizeNumber(formatAlphaOrBound(alphas[alphaIndex], intervals[alphaIndex], inflation));
-
-const formatRecommendedAlpha = (viewModel: ViewModel, alphaIndex: number) =>
-  (viewModel.stats.recommended ? formatAlpha(viewModel, alphaIndex, viewModel.stats.recommended.inflation) : NO_VALUE);
-
-/** Returns the reason why an α is not identifiable, and the drive that would identify it. */
-function explainMissingAlpha({ stats: { notIdentifiable }, fittedConfig: { model } }: ViewModel, alphaIndex: number) {
-  const texts = words.calibrator.alphas;
-  const reason = notIdentifiable[alphaIndex];
-  if (!reason) return NO_VALUE;
-  const { lack, drive } = adviceOf(texts.missingMotions, model, reason);
-  return texts.notDetermined(lack, drive);
-}
-
+/** Returns the table of the systematic errors, each with a checkbox that corrects it. */
 export function systematicTableHtml(figure: Figure) {
-  const { stats: { systematicErrors: errors }, truth } = figure.viewModel;
-  const texts = words.calibrator.systematic;
-  const { requested } = figure.settings;
-  const rows = SYSTEMATIC_ERRORS.map((errorName) => {
-    const errorComponents = errorComponentsOf(errors[errorName]);
-    const correctCheckbox = checkboxHtml({ label: texts.errorNames[errorName], checked: requested[errorName], onChange: (isChecked) => figure.gesture.requestAndCommit({ [errorName]: isChecked }) });
-    if (errorComponents.some(({ value }) => value === null)) return [correctCheckbox, texts.notDetermined];
-    return [
-      correctCheckbox,
-      stackedTextsHtml(errorComponents.map(({ value, interval }) => localizeNumber(formatEstimate(value, interval)))),
-      stackedTextsHtml(errorComponents.map(({ interval }) => localizeInterval(interval))),
-      errors[errorName].corrected ? texts.correctedLabel : errors[errorName].constant ? texts.notCorrectedLabel : texts.notConstantLabel,
-      ...(truth ? [stackedTextsHtml([truth[errorName]].flat().map((trueComponent) => localizeNumber(formatNumber(trueComponent))))] : []),
-    ];
-  });
-  const columns = [texts.errorColumn, texts.valueColumn, words.calibrator.alphas.intervalColumn, texts.treatmentColumn, ...(truth ? [texts.simulatedColumn] : [])];
-  return html`<div class="systematic">${tableHtml({ columnHeadings: columns, rows })}</div>`;
+  const { viewModel: { stats, truth }, settings: { requested } } = figure;
+  const { columnHeadings, rows } = systematicTableOf(stats, words, truth);
+  const checkboxOf = (label: string, errorName: string) => checkboxHtml({ label, checked: requested[errorName], onChange: (isChecked) => figure.gesture.requestAndCommit({ [errorName]: isChecked }) });
+  return html`<div class="systematic">
+    ${tableHtml({ columnHeadings, rows: rows.map(([name, ...cells], i) => [checkboxOf(name, SYSTEMATIC_ERRORS[i]), ...cells.map(stackedTextsHtml)]) })}
+  </div>`;
 }
 
-const stackedTextsHtml = (texts: string[]) => texts.map((stackedText) => html`<div>${stackedText}</div>`);
+const stackedTextsHtml = (cell: string) => cell.split('\n').map((line) => html`<div>${line}</div>`);
 
-export function diagnosticsHtml(figure: Figure) {
+export function diagnosticsHtml({ viewModel: { stats } }: Figure) {
   const { checks, windowTable, noiseTable, lostLegs } = words.calibrator;
-  return html`${fieldsetHtml(checks.title, checksTableHtml(figure))}
-    ${fieldsetHtml(windowTable.title, windowsTableHtml(figure))}
-    ${fieldsetHtml(noiseTable.title, noiseTableHtml(figure))}
-    ${fieldsetHtml(lostLegs.title, lostLegsReadoutsHtml(figure))}`;
-}
-
-function checksTableHtml({ viewModel: { stats } }: Figure) {
-  const texts = words.calibrator.checks;
-  return tableHtml({
-    columnHeadings: [texts.checkColumn, texts.observedColumn, texts.expectedColumn, texts.resultColumn],
-    rows: stats.diagnostics.checks.map((check) => [
-      html`${texts.checkNames[check.name]}<div class="muted">${checkMessage(check, stats, words.calibrator)}</div>`,
-      formatCheckValue(check.name, check.value),
-      formatExpectedRange(check),
-      check.passed ? `✓ ${texts.passedLabel}` : html`<strong>✕ ${texts.failedLabel}</strong>`,
-    ]),
-  });
-}
-
-function windowsTableHtml({ viewModel: { stats: { diagnostics: { windows } } } }: Figure) {
-  const texts = words.calibrator.windowTable;
-  return tableHtml({
-    caption: texts.caption,
-    columnHeadings: [texts.length, texts.countColumn, texts.coverageColumn, texts.neesColumn],
-    rows: windows.map(({ length, count, coverage, nees }) => [`${formatFixed(length, 1)} m`, formatInteger(count), formatPercent(coverage), formatFixed(nees, 2)]),
-  });
-}
-
-function noiseTableHtml({ viewModel: { stats: { referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } } } }: Figure) {
-  const { noiseTable: texts, systematic, settings, alphas: { intervalColumn } } = words.calibrator;
-  const formatNoiseRow = (name: string, { value, interval }: Estimate) => [name, localizeNumber(formatEstimate(value, interval)), localizeInterval(interval)];
-  return tableHtml({
-    columnHeadings: [texts.quantityColumn, systematic.valueColumn, intervalColumn],
-    rows: [
-      formatNoiseRow(`${settings.positionStd.name} (m)`, positionStd),
-      formatNoiseRow(`${settings.yawStd.name} (rad)`, yawStd),
-      formatNoiseRow(texts.correlationName, correlation),
-      [texts.length, length > 0 ? `${formatRounded(length, 2)} m` : NO_VALUE, NO_VALUE],
-    ],
-  });
-}
-
-function lostLegsReadoutsHtml({ viewModel: { stats: { lost } } }: Figure) {
-  return readoutsHtml(LOST_LEG_CAUSES.map((cause) => [words.calibrator.lostLegs[cause], formatInteger(lost[cause])]));
+  const checkTable = checkTableOf(stats, words);
+  const checkRows = checkTable.rows.map(([name, ...cells], i) => [html`${name}<div class="muted">${checkMessage(stats.diagnostics.checks[i], stats, words.calibrator)}</div>`, ...cells]);
+  return html`${fieldsetHtml(checks.title, tableHtml({ ...checkTable, rows: checkRows }))}
+    ${fieldsetHtml(windowTable.title, tableHtml({ caption: windowTable.caption, ...windowTableOf(stats, words) }))}
+    ${fieldsetHtml(noiseTable.title, tableHtml(noiseTableOf(stats, words)))}
+    ${fieldsetHtml(lostLegs.title, readoutsHtml(LOST_LEG_CAUSES.map((cause) => [lostLegs[cause], formatInteger(stats.lost[cause])])))}`;
 }
 
 /** Minimum squared distance or rotation at the end of an axis: (1 mm)², or (1 mrad)². */

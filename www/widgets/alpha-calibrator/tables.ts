@@ -1,0 +1,102 @@
+/** Tables of a result, which the page and the command line share. */
+
+import { NO_VALUE, formatFixed, formatInteger, formatPercent, formatRounded, formatSignificant } from '../../ui/format.ts';
+import { subscriptOf } from '../shared/sliders.ts';
+import { SYSTEMATIC_ERRORS, adviceOf, errorComponentsOf, formatAlphaOrBound, formatEstimate, formatNumber, localizeInterval, localizeNumber } from './result.ts';
+import type { CalibrationCheck, CalibrationStats, CalibrationTruth, Estimate } from '../../types.d.ts';
+import type { Messages } from '../../messages/registry.ts';
+
+/** Table of texts. A text with several values has each in a line of its own. A single cell after the name of a row spans all columns. */
+export interface ResultTable { columnHeadings: string[]; rows: string[][] }
+
+type Words = Pick<Messages, 'alphas' | 'calibrator'>;
+
+const formatLocally = ({ value, interval }: { value: number | null; interval: [number, number] | null }) => localizeNumber(formatEstimate(value, interval));
+
+/** Returns the table of the α's, with the true values if there are any. */
+export function alphaTableOf({ alphas, intervals, notIdentifiable, recommended }: CalibrationStats, model: string, { alphas: alphaTexts, calibrator }: Words, trueAlphas?: number[]): ResultTable {
+  const texts = calibrator.alphas;
+  const noiseTexts = alphaTexts[model === 'velocity' ? 'velocity' : 'odometry'];
+  const rows = alphas.map((alpha, i) => {
+    const name = `*α*${subscriptOf(i)} ${noiseTexts[i][0]}`;
+    const reason = notIdentifiable[i];
+    if (alpha === null) {
+      const { lack, drive } = reason ? adviceOf(texts.missingMotions, model, reason) : {};
+      return [name, lack && drive ? texts.notDetermined(lack, drive) : NO_VALUE];
+    }
+    return [
+      name,
+      [localizeNumber(formatAlphaOrBound(alpha, intervals[i])), localizeInterval(intervals[i])].join('\n'),
+      recommended ? localizeNumber(formatAlphaOrBound(alpha, intervals[i], recommended.inflation)) : NO_VALUE,
+      ...(trueAlphas ? [localizeNumber(formatNumber(trueAlphas[i]))] : []),
+    ];
+  });
+  return { columnHeadings: [texts.noiseColumn, texts.fittedColumn, texts.recommendedColumn, ...(trueAlphas ? [calibrator.systematic.simulatedColumn] : [])], rows };
+}
+
+/** Returns the table of the systematic errors, with the true values if there are any. */
+export function systematicTableOf({ systematicErrors }: CalibrationStats, { calibrator: { systematic: texts, alphas: { intervalColumn } } }: Words, truth?: CalibrationTruth | null): ResultTable {
+  const rows = SYSTEMATIC_ERRORS.map((errorName) => {
+    const { corrected, constant } = systematicErrors[errorName];
+    const components = errorComponentsOf(systematicErrors[errorName]);
+    if (components.some(({ value }) => value === null)) return [texts.errorNames[errorName], texts.notDetermined];
+    return [
+      texts.errorNames[errorName],
+      components.map(formatLocally).join('\n'),
+      components.map(({ interval }) => localizeInterval(interval)).join('\n'),
+      corrected ? texts.correctedLabel : constant ? texts.notCorrectedLabel : texts.notConstantLabel,
+      ...(truth ? [[truth[errorName]].flat().map((trueComponent) => localizeNumber(formatNumber(trueComponent))).join('\n')] : []),
+    ];
+  });
+  return { columnHeadings: [texts.errorColumn, texts.valueColumn, intervalColumn, texts.treatmentColumn, ...(truth ? [texts.simulatedColumn] : [])], rows };
+}
+
+/** Returns the table of the noise of the reference and the persistence of errors. */
+export function noiseTableOf({ referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } }: CalibrationStats, { calibrator }: Words): ResultTable {
+  const { noiseTable: texts, systematic, settings, alphas: { intervalColumn } } = calibrator;
+  // A stated value has no interval.
+  const formatIntervalOf = ({ interval }: Estimate) => (interval[0] < interval[1] ? localizeInterval(interval) : NO_VALUE);
+  const rowOf = (name: string, estimate: Estimate) => [name, formatLocally(estimate), formatIntervalOf(estimate)];
+  return {
+    columnHeadings: [texts.quantityColumn, systematic.valueColumn, intervalColumn],
+    rows: [
+      rowOf(`${settings.positionStd.name} (m)`, positionStd),
+      rowOf(`${settings.yawStd.name} (rad)`, yawStd),
+      rowOf(texts.correlationName, correlation),
+      [texts.length, length > 0 ? `${formatRounded(length, 2)} m` : NO_VALUE, NO_VALUE],
+    ],
+  };
+}
+
+/** Pattern of the names of checks whose value is a fraction. */
+const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
+
+/** Prints the value of a check, or a limit of it. */
+function formatCheckValue(checkName: CalibrationCheck['name'], checkValue: number, digits: number) {
+  if (!Number.isFinite(checkValue)) return formatFixed(checkValue, 0);
+  return checkName === 'enough-legs' ? formatInteger(checkValue) : FRACTION_CHECKS.test(checkName) ? formatPercent(checkValue, digits - 2) : formatSignificant(checkValue, digits);
+}
+
+/** Returns the table of the checks, in their order. */
+export function checkTableOf({ diagnostics: { checks } }: CalibrationStats, { calibrator: { checks: texts } }: Words): ResultTable {
+  const rows = checks.map(({ name, value, expected: [low, high], passed }) => {
+    // If a value that fails its check would round to a limit of the check, both are printed with more digits.
+    const digits = [3, 4, 6].find((count) => passed || [low, high].every((limit) => formatCheckValue(name, value, count) !== formatCheckValue(name, limit, count))) ?? 9;
+    const [lowText, highText] = [low, high].map((limit) => formatCheckValue(name, limit, digits));
+    return [
+      texts.checkNames[name],
+      formatCheckValue(name, value, digits),
+      high === Infinity ? `≥ ${lowText}` : low === 0 ? `≤ ${highText}` : `${lowText} – ${highText}`,
+      passed ? `✓ ${texts.passedLabel}` : `✕ ${texts.failedLabel}`,
+    ];
+  });
+  return { columnHeadings: [texts.checkColumn, texts.observedColumn, texts.expectedColumn, texts.resultColumn], rows };
+}
+
+/** Returns the table of the held-out windows. */
+export function windowTableOf({ diagnostics: { windows } }: CalibrationStats, { calibrator: { windowTable: texts } }: Words): ResultTable {
+  return {
+    columnHeadings: [texts.length, texts.countColumn, texts.coverageColumn, texts.neesColumn],
+    rows: windows.map(({ length, count, coverage, nees }) => [`${formatFixed(length, 1)} m`, formatInteger(count), formatPercent(coverage), formatFixed(nees, 2)]),
+  };
+}

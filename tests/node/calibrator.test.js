@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { en, yamlWords } from '../../www/widgets/alpha-calibrator/en.ts';
-import { formatAlphaOrBound, adviseCorrection, formatInterval as ends, formatEstimate, judgementOf, localizeNumber, formatNav2Lines, formatNumber } from '../../www/widgets/alpha-calibrator/result.ts';
+import { formatAlphaOrBound, adviseCorrection, formatInterval as ends, formatEstimate, judgementOf, localizeNumber, formatNav2Yaml, formatNumber } from '../../www/widgets/alpha-calibrator/result.ts';
 import { SIMULATED_LEG_LENGTHS, legClassesOf, isTruthComparable } from '../../www/widgets/alpha-calibrator/settings.ts';
 import { settings } from '../../build/settings.js';
 
@@ -55,8 +55,8 @@ const createCalibration = (changedFields) => ({
 
 /** Returns the lines for Nav2 without indentation. @param {object} [changedFields] of the calibration @param {object} [otherFields] options */
 const nav2LinesOf = (changedFields, otherFields) =>
-  formatNav2Lines({ calibration: createCalibration(changedFields), legCount: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, logName: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...otherFields })
-    .map((nav2Line) => nav2Line.trim());
+  formatNav2Yaml({ stats: createCalibration(changedFields), legCount: 9, model: 'odometry', rule: 'nav2', legLength: { distance: 0.25, angle: 0.2 }, corrections: {}, logName: 'a.csv and b.csv', warnings: [], ...otherFields }, '2026-01-02')
+    .trimEnd().split('\n').map((nav2Line) => nav2Line.trim());
 
 test('lines for Nav2 contain the recommended α’s, and the fitted α’s in comments', () => {
   assert.deepEqual(nav2LinesOf(), [
@@ -72,8 +72,8 @@ test('lines for Nav2 contain the recommended α’s, and the fitted α’s in co
 });
 
 test('lines for Nav2 omit α’s that are not identifiable, and all α’s if none is recommended', () => {
-  assert.deepEqual([nav2LinesOf({ recommended: null }), adviseCorrection(createCalibration({ recommended: null }), en.nav2)], [[], []]);
-  assert.deepEqual(nav2LinesOf({}, { model: 'velocity' }), []);
+  assert.deepEqual([nav2LinesOf({ recommended: null }), adviseCorrection(createCalibration({ recommended: null }), en.nav2)], [[''], []]);
+  assert.deepEqual(nav2LinesOf({}, { model: 'velocity' }), ['']);
   const exampleAlphas = [null, 1e-7, 103, 1e-8];
   const exampleIntervals = [null, [0, 0.0016], [50, 200], null];
   assert.deepEqual(nav2LinesOf({ alphas: exampleAlphas, intervals: exampleIntervals }).filter((line) => /alpha[1-4]/.test(line)), [
@@ -101,7 +101,7 @@ test('a large clock offset is mentioned, and changes no verdict', () => {
       ...createCalibration(), notIdentifiable: [], diagnostics: { verdict: 'consistent', checks: [] },
       systematicErrors: { clockOffset: { value: clockOffset, interval: null }, mountYaw: unknown, leverArm: unknown, distanceScale: unknown, turnScale: unknown },
     }),
-    legCount: 500, corrections: {}, warnings: [],
+    legCount: 500, model: 'odometry', rule: 'nav2', legLength: {}, corrections: {}, logName: '', warnings: [],
   }, en, '');
   const { advice: [firstSentence], rating } = judgeClockOffset(86_400.06);
   assert.deepEqual([firstSentence, rating], ['The reference’s clock is 86\u202f400 s ahead of the odometry’s. The turns of the robot aligned both: check that they are of one drive.', 'consistent']);

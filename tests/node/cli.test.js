@@ -377,7 +377,7 @@ test('the report, the lines for Nav2 and the figure agree on whether a localizer
     const args = [...LOG_ARGS.slice(0, 3), writeInFolder(`${name}.csv`, readFileSync(examplePathOf('reference')))];
     const [{ stdout }, { stdout: jsonText }] = [await runCalibrate(args), await runCalibrate([...args, '--json'])];
     const { logs, ...stats } = JSON.parse(jsonText);
-    const { rating } = judgeFit(/** @type {any} */ ({ stats, legs: stats.legs, fittedConfig: stats.systematicErrors }), warningsOf(logs));
+    const { rating } = judgeFit(/** @type {any} */ ({ viewModel: { stats, legs: stats.legs, fittedConfig: stats.systematicErrors }, warnings: warningsOf(logs) }));
     const notedPlaces = [stdout.includes(`\nCaution. ${en.nav2.localizer}\n`) && !stdout.includes(en.useRecommendedAnyway), stdout.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
     assert.deepEqual(notedPlaces, [isLocalizer, isLocalizer, isLocalizer], name);
   }
@@ -413,7 +413,7 @@ test('the report names failed checks, lost legs and unidentified α’s, and rec
   const reportOfUnidentified = formatChangedReport(unidentifiedAlphas);
   assert.match(reportOfUnidentified, /^\nCaution\. Not determined by this log: α₂, α₄; add ~50 straight legs and ~50 in-place rotations\.\nIf the log /);
   assert.match(reportOfUnidentified, /^α₂ rotation noise from translation +not determined: rotation and translation are collinear in this log; /m);
-  const { rating, finding } = judgeFit(/** @type {any} */ ({ stats: { ...calibration, ...unidentifiedAlphas }, legs: calibration.legs, fittedConfig: systematicErrors }), []);
+  const { rating, finding } = judgeFit(/** @type {any} */ ({ viewModel: { stats: { ...calibration, ...unidentifiedAlphas }, legs: calibration.legs, fittedConfig: systematicErrors }, warnings: [] }));
   assert.deepEqual([rating, finding], ['questionable', 'Not determined by this log: α₂, α₄; add ~50 straight legs and ~50 in-place rotations.']);
   assert.match(formatChangedReport({ ...unidentifiedAlphas, notIdentifiable: [null, 'insufficient-rotation', null, null] }, { model: 'velocity' }), /^Caution\. Not determined by this log: α₂; add ~50 legs in tight bends\.$/m);
   assert.match(formatChangedReport({ alphas: [0, 0.1, 0.1, 0.1], intervals: [[0, 0.00123], [0.05, 0.2], null, null] }), /^α₁ rotation noise from rotation +≤ 0\.0012, 0\.0000 – 0\.0012 +≤ 0\.0015$/m);

@@ -5,17 +5,15 @@ import { ROLES, type Summary } from '../logs/log.ts';
 import { warningsOf } from '../logs/pairs.ts';
 import { en as sharedTexts } from '../messages/en.ts';
 import { MINUS } from '../ui/format.ts';
-import { en, yamlWords } from '../widgets/alpha-calibrator/en.ts';
-import { LOST_LEG_CAUSES, formatNav2Lines, formatNumber, isNav2Rule, judgementOf } from '../widgets/alpha-calibrator/result.ts';
+import { en } from '../widgets/alpha-calibrator/en.ts';
+import { LOST_LEG_CAUSES, describeLegLength, formatJson, formatNav2Yaml, isNav2Rule, judgementOf, type Result } from '../widgets/alpha-calibrator/result.ts';
 import { alphaTableOf, checkTableOf, noiseTableOf, systematicTableOf, windowTableOf, type ResultTable } from '../widgets/alpha-calibrator/tables.ts';
 import type { Calibration } from '../types.d.ts';
 
 /** Log with its summary, as numbers and as sentences. */
 interface ReadLog { name: string; summary: Summary; sentences: string[] }
 
-type JudgedResult = Pick<CalibrationResult, 'calibration' | 'options' | 'logs'>;
-
-export interface CalibrationResult {
+export interface CalibrationReport {
   calibration: Calibration;
   options: Record<string, any>;
   /** Odometry and reference of each drive. */
@@ -26,6 +24,11 @@ export interface CalibrationResult {
   driveStarts: number[];
   date: string;
 }
+
+const resultOf = ({ calibration, options: { model = 'odometry', rule = 'thrun', legs, correct = {} }, logs }: CalibrationReport): Result => ({
+  stats: calibration, legCount: calibration.legs.count, model, rule, legLength: legs, corrections: correct,
+  logName: new Intl.ListFormat('en').format(new Set(logs.map(({ name }) => name))), warnings: warningsOf(logs),
+});
 
 /** Words of the tables. */
 const REPORT_WORDS = { alphas: sharedTexts.alphas, calibrator: en };
@@ -45,20 +48,18 @@ const RATING_COLORS = { consistent: GREEN, questionable: YELLOW, unusable: RED }
 const colorizeText = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;
 
 /** Returns the text report, which follows the summaries of the logs. */
-export function formatReport(calibrationResult: CalibrationResult, isColored = false): string {
-  const { calibration, options, driveStarts } = calibrationResult;
+export function formatReport(report: CalibrationReport, isColored = false): string {
+  const { calibration, driveStarts } = report;
   const { legs, lost, recommended } = calibration;
-  const { model = 'odometry', rule = 'thrun' } = options;
-  const { distance, angle, duration } = options.legs;
-  const lengthText = duration === undefined ? yamlWords.legsByMotion(formatNumber(distance), formatNumber(angle)) : yamlWords.legsByDuration(formatNumber(duration));
-  const { yaml, reason } = formatNav2Yaml(calibrationResult);
+  const { model, rule, legLength } = resultOf(report);
+  const { yaml, notes } = formatYamlWithNotes(report);
   const lostLegTexts = LOST_LEG_CAUSES.filter((cause) => lost[cause] > 0).map((cause) => `${lost[cause]} ${en.lostLegs[cause]}`);
   const excludedLegLines = [...(lostLegTexts.length ? [`lost legs: ${lostLegTexts.join(', ')}`] : []), ...formatOutliers(legs, driveStarts)];
   const uncoloredReport = [
     '',
-    ...formatVerdict(calibrationResult),
+    ...formatVerdict(report),
     '',
-    `${legs.count} legs ${lengthText}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,
+    `${legs.count} legs ${describeLegLength(legLength)}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,
     '',
     ...formatTable(alphaTableOf(calibration, model, REPORT_WORDS)),
     ...(recommended ? [recommended.reason] : []),
@@ -73,21 +74,20 @@ export function formatReport(calibrationResult: CalibrationResult, isColored = f
     `${en.windowTable.title}: ${en.windowTable.caption}`,
     ...formatTable(windowTableOf(calibration, REPORT_WORDS)),
     '',
-    ...(reason ? [reason] : [...warnAboutRule(calibrationResult), '# nav2_params.yaml', yaml.trimEnd()]),
+    ...notes,
+    ...(yaml ? ['# nav2_params.yaml', yaml.trimEnd()] : []),
     '',
   ].join('\n');
   if (!isColored) return uncoloredReport;
-  const { rating, badge } = judgeResult(calibrationResult);
+  const { rating, badge } = judgeReport(report);
   return uncoloredReport.replace(badge, colorizeText(RATING_COLORS[rating])).replaceAll(/✓ \w+/g, colorizeText(GREEN)).replaceAll(/✕ \w+/g, colorizeText(RED));
 }
 
-function judgeResult({ calibration, options: { model, correct = {} }, logs }: JudgedResult) {
-  return judgementOf({ stats: calibration, legCount: calibration.legs.count, model, corrections: correct, warnings: warningsOf(logs) }, en, '--no-correct');
-}
+const judgeReport = (report: CalibrationReport) => judgementOf(resultOf(report), en, '--no-correct');
 
 /** Returns the verdict as on the page, and what to do, in a line for each sentence. */
-export function formatVerdict(judgedResult: JudgedResult): string[] {
-  const { badge, finding, advice } = judgeResult(judgedResult);
+export function formatVerdict(report: CalibrationReport): string[] {
+  const { badge, finding, advice } = judgeReport(report);
   return [`${badge}. ${finding}`, ...advice];
 }
 
@@ -115,16 +115,12 @@ function formatOutliers({ count, times, outliers }: Calibration['legs'], driveSt
   return outlierLegs.length ? [`outliers: ${outlierLegs.length} of ${count} legs, at ${timeTexts}${outlierLegs.length > MAX_LISTED_OUTLIERS ? ', …' : ''} after the start`] : [];
 }
 
-/** Returns a warning if the α's were fitted by another rule than that of Nav2's AMCL. */
-export const warnAboutRule = ({ options: { model = 'odometry', rule = 'thrun' } }: Pick<CalibrationResult, 'options'>): string[] =>
-  (isNav2Rule(model, rule) ? [] : ['Warning: fitted by another rule than Nav2’s; give --rule nav2.']);
-
-/** Returns the lines for nav2_params.yaml, or the reason why there are none. */
-export function formatNav2Yaml({ calibration, options: { model = 'odometry', rule = 'thrun', legs }, logs, date }: CalibrationResult): { yaml: string; reason?: string } {
-  if (calibration.recommended === null) return { yaml: '', reason: 'No lines for nav2_params.yaml: the log is unusable.' };
-  const logNames = new Intl.ListFormat('en').format(new Set(logs.map(({ name }) => name)));
-  const yamlLines = formatNav2Lines({ calibration, legCount: calibration.legs.count, model, rule, legs, logName: logNames, warnings: warningsOf(logs), date });
-  return yamlLines.length ? { yaml: `${yamlLines.join('\n')}\n` } : { yaml: '', reason: 'No lines for nav2_params.yaml: Nav2 has no velocity model.' };
+/** Returns the lines for nav2_params.yaml, and sentences about why there are none, or that they are of another rule than that of Nav2's AMCL. */
+export function formatYamlWithNotes(report: CalibrationReport): { yaml: string; notes: string[] } {
+  const result = resultOf(report);
+  const yaml = formatNav2Yaml(result, report.date);
+  if (!yaml) return { yaml, notes: [`No lines for nav2_params.yaml: ${result.stats.recommended ? 'Nav2 has no velocity model' : 'the log is unusable'}.`] };
+  return { yaml, notes: isNav2Rule(result.model, result.rule) ? [] : ['Warning: fitted by another rule than Nav2’s; give --rule nav2.'] };
 }
 
 export function alignRows(rows: string[][]): string[] {
@@ -133,8 +129,4 @@ export function alignRows(rows: string[][]): string[] {
   return rows.map((row) => row.map((cell, column) => cell.padEnd(columnWidths[column])).join('  ').trimEnd());
 }
 
-/** Returns the result as JSON, with typed arrays as plain arrays. */
-export function formatResultJson({ calibration, options, logs, start, date }: CalibrationResult): string {
-  const replaceTypedArrays = (_: string, value: unknown) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value);
-  return `${JSON.stringify({ date, options, logs, start, ...calibration }, replaceTypedArrays, 1)}\n`;
-}
+export const formatReportJson = ({ calibration, options, logs, start, date }: CalibrationReport): string => `${formatJson({ date, options, logs, start, ...calibration })}\n`;

@@ -10,7 +10,7 @@ import { openRecordingsAt } from './files.ts';
 import { inspect, formatInspection } from './inspect.ts';
 import { HELP, UsageError, parseOptions, replaceFieldByOption, type CalibrateArguments } from './options.ts';
 import { createDrivesSvg } from './plot.ts';
-import { formatResultJson, formatLogSummaries, formatNav2Yaml, warnAboutRule, formatReport, formatVerdict, type CalibrationResult } from './report.ts';
+import { formatReportJson, formatLogSummaries, formatYamlWithNotes, formatReport, formatVerdict, type CalibrationReport } from './report.ts';
 
 interface CliEnvironment {
   load(): Promise<any>;
@@ -74,16 +74,16 @@ async function calibrate({ fit: fitOptions, output: outputFormat, plot: plotPath
   if (outputFormat === 'text') print(formatLogSummaries(logs));
   if (outputFormat === 'yaml') printError(formatLogSummaries(logs));
   const calibration = calibrateDrives(motion, fitOptions, drives);
-  const result: CalibrationResult = { calibration, options: fitOptions, logs, start, driveStarts: drives.map(({ odometry }) => odometry.data.t[0]), date: now.toISOString().slice(0, 10) };
+  const report: CalibrationReport = { calibration, options: fitOptions, logs, start, driveStarts: drives.map(({ odometry }) => odometry.data.t[0]), date: now.toISOString().slice(0, 10) };
   if (plotPath !== undefined) await saveFile(plotPath, createDrivesSvg(drives, calibration));
   const isUnusableLog = calibration.recommended === null;
   if (outputFormat === 'yaml') {
-    const { yaml, reason } = formatNav2Yaml(result);
-    printError([...formatVerdict(result), ...(yaml ? warnAboutRule(result) : []), ...(reason ? [reason] : []), ''].join('\n'));
+    const { yaml, notes } = formatYamlWithNotes(report);
+    printError([...formatVerdict(report), ...notes, ''].join('\n'));
     print(yaml);
     return isUnusableLog ? EXIT_UNUSABLE : yaml ? EXIT_SUCCESS : EXIT_BAD_INPUT;
   }
-  print(outputFormat === 'json' ? formatResultJson(result) : formatReport(result, isColored));
+  print(outputFormat === 'json' ? formatReportJson(report) : formatReport(report, isColored));
   return isUnusableLog ? EXIT_UNUSABLE : EXIT_SUCCESS;
 }
 

@@ -389,7 +389,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
             <p class="panel-title">${texts.alphas.title(texts.modelRuleNames[modelRuleOf(viewModel.fittedConfig)])}</p>
             ${nav2ButtonHtml(this, this.#opener.otherResultsNote)} ${startOverButtonHtml(this, this.#startOver)}
           </div>
-          <p class="to-do">${this.#opener.otherResultsNote || judgeFit(viewModel, this.warnings).advice.join(' ')}</p>
+          <p class="to-do">${this.#opener.otherResultsNote || judgeFit(this).advice.join(' ')}</p>
           ${alphaTableHtml(viewModel)}
           <p class="muted small">${explainRecommendation(viewModel)}</p>
         </div>`)}

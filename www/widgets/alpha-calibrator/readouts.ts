@@ -9,17 +9,23 @@ import { plotHtml, type Curve, type PlotOptions } from '../../ui/plot.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { en } from './en.ts';
-import { LOST_LEG_CAUSES, NAV2_RULES, SYSTEMATIC_ERRORS, checkMessage, formatAlphaOrBound, judgementOf, localizeNumber, formatNav2Lines } from './result.ts';
+import { LOST_LEG_CAUSES, NAV2_RULES, SYSTEMATIC_ERRORS, checkMessage, formatAlphaOrBound, formatJson, judgementOf, localizeNumber, formatNav2Yaml, type Result } from './result.ts';
 import { alphaTableOf, checkTableOf, noiseTableOf, systematicTableOf, windowTableOf } from './tables.ts';
 import { NOISE_COMPONENTS, isTruthComparable, modelRuleOf, settingsOfModelRule, type ViewModel } from './settings.ts';
 import type { CalibrationPanel } from '../../types.d.ts';
-import type { Warning } from '../../logs/log.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 addEnglishMessages({ calibrator: en });
 
-export const judgeFit = ({ stats, legs: { count }, fittedConfig }: Pick<ViewModel, 'stats' | 'legs' | 'fittedConfig'>, warnings: Warning[]) =>
-  judgementOf({ stats, legCount: count, model: fittedConfig.model, corrections: fittedConfig, warnings }, words.calibrator, words.moreControls);
+/** Parts of a figure from which its result is described. */
+type Fitted = Pick<Figure, 'viewModel' | 'warnings' | 'logName'>;
+
+function resultOf({ viewModel: { stats, legs, fittedConfig }, warnings, logName }: Fitted): Result {
+  const { model, rule, distance, angle, duration } = fittedConfig;
+  return { stats, legCount: legs.count, model, rule, legLength: duration > 0 ? { duration } : { distance, angle }, corrections: fittedConfig, logName, warnings };
+}
+
+export const judgeFit = (figure: Fitted) => judgementOf(resultOf(figure), words.calibrator, words.moreControls);
 
 /** Returns the reason for the recommended α's. */
 export function explainRecommendation({ stats: { recommended, diagnostics: { checks, windows } } }: ViewModel) {
@@ -32,26 +38,26 @@ export function explainRecommendation({ stats: { recommended, diagnostics: { che
 }
 
 /** Returns the number of legs and outliers of the named log in a sentence; empty if there are no legs. */
-function describeLegs({ legs }: ViewModel, logName: string) {
+function describeLegs({ viewModel: { legs }, logName }: Fitted) {
   if (legs.count === 0) return '';
   const outlierCount = legs.outliers.reduce((sum, outlierFlag) => sum + outlierFlag, 0);
   return words.calibrator.legCountSentence(logName, formatInteger(legs.count), outlierCount > 0 ? formatInteger(outlierCount) : '');
 }
 
-export function captionOf({ viewModel, warnings, logName }: Pick<Figure, 'viewModel' | 'warnings' | 'logName'>) {
-  const { badge, finding, advice } = judgeFit(viewModel, warnings);
-  return [`${badge}.`, finding, describeLegs(viewModel, logName), ...advice].filter(Boolean).join(' ');
+export function captionOf(figure: Fitted) {
+  const { badge, finding, advice } = judgeFit(figure);
+  return [`${badge}.`, finding, describeLegs(figure), ...advice].filter(Boolean).join(' ');
 }
 
 /** Icons and colours of the ratings. */
 const RATING_ICONS = { consistent: ['✓', 'posterior'], questionable: ['!', 'prediction'], unusable: ['✕', 'accent'] };
 
 /** Returns the badge that rates the α's, the finding, and the number of legs. On a wide page it has at most two lines. */
-export function verdictHtml({ viewModel, logName, warnings }: Figure) {
-  const { rating, badge, finding } = judgeFit(viewModel, warnings);
+export function verdictHtml(figure: Fitted) {
+  const { rating, badge, finding } = judgeFit(figure);
   const [icon, role] = RATING_ICONS[rating];
   return html`<span class="badge" data-role=${role}><span aria-hidden="true">${icon}</span> ${badge}</span>
-    <strong>${finding}</strong> <span class="muted">${describeLegs(viewModel, logName)}</span>`;
+    <strong>${finding}</strong> <span class="muted">${describeLegs(figure)}</span>`;
 }
 
 /** Returns the table of the α's, with the true values where they are comparable. */
@@ -129,20 +135,11 @@ function panelPlotHtml({ alpha, x, y, error, slope, interval }: CalibrationPanel
   };
 }
 
-/** Returns the lines for nav2_params.yaml; empty if Nav2 has no such model, or no α's are recommended. */
-function yamlOf({ viewModel, logName, warnings }: Figure): string {
-  const { fittedConfig, stats, legs: { count } } = viewModel;
-  const { model, rule, distance, angle, duration } = fittedConfig;
-  const date = new Date().toISOString().slice(0, 10);
-  const fittedLog = { calibration: stats, legCount: count, model, rule, legs: duration > 0 ? { duration } : { distance, angle }, logName, warnings, date };
-  return formatNav2Lines(fittedLog).map((yamlLine) => `${yamlLine}\n`).join('');
-}
+const yamlOf = (figure: Figure) => formatNav2Yaml(resultOf(figure), new Date().toISOString().slice(0, 10));
 
-/** Returns all results as JSON, with typed arrays as plain arrays. */
-function jsonOf({ viewModel: { fittedConfig, stats, legs, truth }, logName }: Figure) {
-  const allResults = { log: logName, date: new Date().toISOString(), settings: fittedConfig, ...stats, ...(truth && { truth }), legs };
-  return JSON.stringify(allResults, (_, value) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value), 1);
-}
+/** Returns all results as JSON. */
+const jsonOf = ({ viewModel: { fittedConfig, stats, legs, truth }, logName }: Figure) =>
+  formatJson({ log: logName, date: new Date().toISOString(), settings: fittedConfig, ...stats, ...(truth && { truth }), legs });
 
 /**
  * Returns the button that copies the lines for nav2_params.yaml. For α's of another rule than Nav2's, it is a button that fits Nav2's rule.

@@ -9,17 +9,21 @@ import type { Warning } from '../../logs/log.ts';
 
 type Interval = CertainInterval | null;
 
-interface FittedLog {
-  calibration: CalibrationStats;
+/** Fit of α's to a log, and the options of the fit. */
+export interface Result {
+  stats: CalibrationStats;
+  /** Number of legs. */
   legCount: number;
   model: string;
   rule: string;
-  legs: { distance?: number, angle?: number, duration?: number };
+  /** Lengths at which a leg ends. */
+  legLength: { distance?: number, angle?: number, duration?: number };
+  /** False for each systematic error that is not to be corrected. */
+  corrections: { [name in (typeof SYSTEMATIC_ERRORS)[number]]?: boolean };
   /** Names of odometry and reference. */
   logName: string;
-  /** Notes of the logs that leave the α's doubtful. */
+  /** Notes on the logs that make the α's doubtful. */
   warnings: Warning[];
-  date: string;
 }
 
 type Texts = typeof import('./en.ts').en;
@@ -94,22 +98,26 @@ const scaleInterval = (interval: Interval, inflation: number): Interval => inter
 /** Prints an α times a factor, or its upper bound if it is not significantly different from 0. */
 export const formatAlphaOrBound = (alpha: number | null, interval: Interval, inflation = 1) => (isPrintedAsZero(alpha, interval) ? `≤ ${formatUpperEnd(scaleInterval(interval, inflation))}` : formatEstimate(alpha && inflation * alpha, scaleInterval(interval, inflation)));
 
+/** Returns the lengths at which a leg ends, as text. */
+export const describeLegLength = ({ distance = NaN, angle = NaN, duration }: Result['legLength']) =>
+  (duration === undefined ? yamlWords.legsByMotion(formatNumber(distance), formatNumber(angle)) : yamlWords.legsByDuration(formatNumber(duration)));
+
 /**
- * Returns the YAML lines with the recommended α's, and with the fitted α's in comments. Returns no lines if Nav2 has no such model, or if
- * no α's are recommended.
+ * Returns the lines for nav2_params.yaml with the recommended α's, and with the fitted α's in comments. Returns an empty text if Nav2 has
+ * no such model, or if no α's are recommended.
  */
-export function formatNav2Lines({ calibration, legCount, model, rule, legs, logName, warnings, date }: FittedLog): string[] {
-  const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks, windows: [firstWindow] } } = calibration;
-  if (!Object.hasOwn(NAV2_PLUGINS, model) || recommended === null) return [];
+export function formatNav2Yaml({ stats, legCount, model, rule, legLength, logName, warnings }: Result, date: string): string {
+  const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks, windows: [firstWindow] } } = stats;
+  if (!Object.hasOwn(NAV2_PLUGINS, model) || recommended === null) return '';
   const { inflation } = recommended;
-  const { distance, angle, duration } = legs;
+  const { distance, angle, duration } = legLength;
   const failedCheckNames = failedChecksOf(checks).map(({ name }) => name).join(', ');
   const commentTexts = [
-    yamlWords.logSource(String(legCount), duration === undefined ? yamlWords.legsByMotion(formatNumber(distance ?? null), formatNumber(angle ?? null)) : yamlWords.legsByDuration(formatNumber(duration)), logName, date),
+    yamlWords.logSource(String(legCount), describeLegLength(legLength), logName, date),
     yamlWords.recommendationNote(formatNumber(inflation), formatPercent(firstWindow.coverage), String(firstWindow.count)),
     ...(isNav2Rule(model, rule) ? [] : [yamlWords.otherRuleNote]),
     ...listCorrectedErrors(systematicErrors).map((errors) => yamlWords.correctedErrorsNote(errors)),
-    ...adviseCorrection(calibration, en.nav2),
+    ...adviseCorrection(stats, en.nav2),
     ...(failedCheckNames ? [yamlWords.failedChecksNote(failedCheckNames)] : []),
     ...warnings.map((name) => en.nav2[name]),
   ];
@@ -136,7 +144,7 @@ export function formatNav2Lines({ calibration, legCount, model, rule, legs, logN
     ]
     : [];
   const parameterLines = [...commentLines, `robot_model_type: "${NAV2_PLUGINS[model]}"`, ...alphaLines, ...fifthAlphaLines, ...updateTriggers];
-  return ['amcl:', '  ros__parameters:', ...parameterLines.map((parameterLine) => `    ${parameterLine}`)];
+  return ['amcl:', '  ros__parameters:', ...parameterLines.map((parameterLine) => `    ${parameterLine}`), ''].join('\n');
 }
 
 const failedChecksOf = (checks: CalibrationCheck[]) => checks.filter(({ passed }) => !passed);
@@ -169,31 +177,21 @@ export function errorComponentsOf({ value, interval }: CalibrationStats['systema
   return [value].flat().map((component, i) => ({ value: component, interval: intervals[i] }));
 }
 
+/** Returns an object as JSON, with typed arrays as plain arrays. */
+export const formatJson = (object: object) => JSON.stringify(object, (_, value) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value), 1);
+
 /** Systematic errors that can be corrected before the α's are fitted, in the order of tables. */
 export const SYSTEMATIC_ERRORS = ['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale'] as const;
 
 /** Clock offset (s) that is mentioned. Clocks that are synchronized differ by less. */
 const MENTIONED_CLOCK_OFFSET = 10;
 
-/** Fit of α's to a log. */
-export interface Fit {
-  stats: CalibrationStats;
-  /** Number of legs. */
-  legCount: number;
-  /** Motion model that was fitted; the odometry model if undefined. */
-  model?: string;
-  /** False for each systematic error that is not to be corrected. */
-  corrections: { [name in (typeof SYSTEMATIC_ERRORS)[number]]?: boolean };
-  /** Notes on the logs that make the α's doubtful. */
-  warnings: Warning[];
-}
-
 /**
  * Returns the rating of the α's with its badge, the finding in a sentence, and what to do in sentences. A missing α, or a warning such as a
  * localizer as the reference, makes consistent α's questionable. Nothing says to use the α's
  * after a warning, or if the odometry moves sideways, which makes them too small. `correctionPlace` is where corrections are chosen.
  */
-export function judgementOf({ stats, legCount, model, corrections, warnings }: Fit, texts: Texts, correctionPlace: string) {
+export function judgementOf({ stats, legCount, model, corrections, warnings }: Result, texts: Texts, correctionPlace: string) {
   const { systematicErrors, diagnostics: { verdict, checks } } = stats;
   const failedChecks = failedChecksOf(checks);
   const [failedCheck] = legCount > 0 ? failedChecks : [];
@@ -233,7 +231,7 @@ export function checkMessage({ name, value, expected: [minExpected], passed, mes
 }
 
 /** Returns a sentence for each reason why α's are not identifiable, with the drive that would identify them. */
-function explainMissingAlphas({ notIdentifiable, diagnostics: { checks } }: CalibrationStats, model: string | undefined, { missingAlphasSentence, alphas: { missingMotions } }: Texts) {
+function explainMissingAlphas({ notIdentifiable, diagnostics: { checks } }: CalibrationStats, model: string, { missingAlphasSentence, alphas: { missingMotions } }: Texts) {
   // If the reference does not match, it is of another drive or has other units. Advice to drive differently would not help.
   if (failedChecksOf(checks).some(({ name }) => name === 'reference-matches')) return [];
   const reasons = [...new Set(notIdentifiable)].filter((reason) => reason !== null);
@@ -244,7 +242,7 @@ function explainMissingAlphas({ notIdentifiable, diagnostics: { checks } }: Cali
 }
 
 /** Returns two texts about an α that is not identifiable: what the log lacks, and the drive that would identify the α. */
-export function adviceOf(missingMotions: Texts['alphas']['missingMotions'], model: string | undefined, reason: keyof typeof missingMotions) {
+export function adviceOf(missingMotions: Texts['alphas']['missingMotions'], model: string, reason: keyof typeof missingMotions) {
   const { lack, drive, byCommands } = missingMotions[reason];
   return { lack, drive: model === 'velocity' ? byCommands : drive };
 }

@@ -81,10 +81,10 @@ function roleSelectHtml(opener: LogOpener, { recordings, answers }: ChosenFiles,
 }
 
 function questionHtml(opener: LogOpener, { answers }: ChosenFiles, question: OpenQuestion, { choose: texts }: LogWords) {
-  const { file, ask: { option, choices: logChoices } } = question;
+  const { file, option, choices: unitChoices } = question;
   if (option === 'columns') return columnsFormHtml(opener, question, answers[file]?.columns, texts);
   if (option !== 'timeUnit' && option !== 'lengthUnit' && option !== 'angleUnit') return nothing;
-  const unitLabels: Record<string, string> = Object.fromEntries((logChoices.length ? logChoices : UNITS[option]).map((unit) => [unit, texts.units[unit as keyof typeof texts.units]]));
+  const unitLabels: Record<string, string> = Object.fromEntries((unitChoices.length ? unitChoices : UNITS[option]).map((unit) => [unit, texts.units[unit as keyof typeof texts.units]]));
   return html`<div id=${questionIdOf(question)}>
     ${radioGroupHtml(texts[option](file), questionIdOf(question), unitLabels, answers[file]?.[option] ?? '', (unit) => opener.answer({ [file]: { [option]: unit } }))}
   </div>`;
@@ -92,7 +92,7 @@ function questionHtml(opener: LogOpener, { answers }: ChosenFiles, question: Ope
 
 /** Returns a form with one `<select>` for each field, which assigns a column to it. */
 function columnsFormHtml(opener: LogOpener, question: OpenQuestion, answeredFields: string[] | undefined, texts: LogWords['choose']) {
-  const { file, ask: { choices: [defaultFieldNames = ''], columns = [] } } = question;
+  const { file, choices: [defaultFieldNames = ''], columns = [] } = question;
   const assignedFields = answeredFields ?? defaultFieldNames.split(',');
   const options = columns.map((headerCell, columnIndex): [string, string] => [String(columnIndex), texts.column(columnIndex + 1, headerCell.trim().slice(0, MAX_CELL_LENGTH))]);
   const submitColumns = (event: Event) => {
@@ -118,11 +118,11 @@ function columnsFormHtml(opener: LogOpener, question: OpenQuestion, answeredFiel
   </form>`;
 }
 
-const questionIdOf = ({ file, ask: { option } }: OpenQuestion) => `log-${option}-${file.replaceAll(/[^\w-]/g, '_')}`;
+const questionIdOf = ({ file, option }: OpenQuestion) => `log-${option}-${file.replaceAll(/[^\w-]/g, '_')}`;
 
 /** Moves the focus to the control that answers a question, unless such a control already has it. Returns true if there is a control. */
 export function focusChooser({ renderRoot }: AlphaCalibratorElement, question: OpenQuestion): boolean {
-  const { option, role = 'odometry' }: Question = question.ask;
+  const { option, role = 'odometry' } = question;
   const selectors = { series: `#log-${role}`, frames: `#log-${role}`, roles: '[id^=log-role-]' } as Partial<Record<Question['option'], string>>;
   const chooserElement = renderRoot.querySelector<HTMLElement>(selectors[option] ?? `#${questionIdOf(question)}`);
   const firstControl = chooserElement?.matches('select') ? chooserElement : chooserElement?.querySelector<HTMLElement>('select, input');

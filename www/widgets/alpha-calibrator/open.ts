@@ -19,7 +19,7 @@ type Refusal = Pick<Error, 'message'> & Partial<LogFailure>;
 type LogModule = typeof import('./log-choice.ts');
 
 /** Question about a file that the user has answered, or still has to answer. */
-export interface OpenQuestion { file: string; ask: Question }
+export type OpenQuestion = Question & { file: string };
 
 /** Files with their contents, and the user's choices by which these were read. Missing choices are guessed. */
 export interface ChosenFiles extends FileContents {
@@ -46,8 +46,6 @@ export class LogOpener extends FileOpener<Figure> {
   logModule: LogModule | undefined;
   /** Fraction of the files that has been read; undefined if no file is being read. */
   readFraction: number | undefined;
-  /** Value of `preferredKind` when the latest files were read. */
-  #kindOfLatestFiles: 'commands' | undefined;
 
   /** Kind of odometry that is preferred if a log has several: commands for the velocity model. */
   get preferredKind(): 'commands' | undefined {
@@ -62,7 +60,7 @@ export class LogOpener extends FileOpener<Figure> {
   /** Reads the files again if the model has changed and prefers another odometry in them. */
   hostUpdated() {
     const { chosenFiles } = this;
-    if (chosenFiles?.isFitted && chosenFiles.log === this.host.log && this.readFraction === undefined && this.#kindOfLatestFiles !== this.preferredKind) this.#open(chosenFiles);
+    if (chosenFiles?.isFitted && chosenFiles.log === this.host.log && this.readFraction === undefined && chosenFiles.userChoices.kind !== this.preferredKind) this.#open(chosenFiles);
   }
 
   /** Forgets the chosen files, and shows a log of the page or, by default, the simulated one. */
@@ -125,9 +123,8 @@ export class LogOpener extends FileOpener<Figure> {
 
   /** Reads and fits the logs in files, which replaces an earlier attempt. */
   async #open({ files, recordings, skipped, answers, questions, userChoices }: ChosenFiles) {
-    const openedFiles: ChosenFiles = (this.chosenFiles = { files, recordings, skipped, answers, questions, userChoices });
+    const openedFiles: ChosenFiles = (this.chosenFiles = { files, recordings, skipped, answers, questions, userChoices: { ...userChoices, kind: this.preferredKind } });
     this.host.service.stopRequest();
-    this.#kindOfLatestFiles = this.preferredKind;
     this.readFraction = 0;
     const isLatest = await this.runAttempt(async () => {
       this.logModule ??= await import('./log-choice.ts');
@@ -139,8 +136,7 @@ export class LogOpener extends FileOpener<Figure> {
 
   /** Reads the logs of files. A file with one log is paired with the previous file if that also has only one log. */
   async #read(openedFiles: ChosenFiles): Promise<void> {
-    const userChoices = { ...openedFiles.userChoices, kind: this.preferredKind };
-    Object.assign(openedFiles, await this.host.service.read(openedFiles.files, openedFiles.answers, userChoices, (readFraction) => {
+    Object.assign(openedFiles, await this.host.service.read(openedFiles.files, openedFiles.answers, openedFiles.userChoices, (readFraction) => {
       this.readFraction = readFraction;
       this.host.requestUpdate();
     }));
@@ -169,18 +165,17 @@ export class LogOpener extends FileOpener<Figure> {
 
   explainRefusal(refusal: Refusal) {
     if (isAbortError(refusal)) return words.progress.stopped;
-    const { message, sentences, question: ask } = refusal;
+    const { message, sentences, question } = refusal;
     const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? words.calibrator.logControls.refusedLog(message);
-    return [refusalReason, ...(ask?.option === 'other' && this.texts ? [this.texts.choose.other] : [])].join(' ');
+    return [refusalReason, ...(question?.option === 'other' && this.texts ? [this.texts.choose.other] : [])].join(' ');
   }
 
   /** Shows why a log was refused, and what to choose. */
   async showRefusal(error: Refusal) {
     if (isAbortError(error)) return;
-    const { question: ask, place } = error;
     const { chosenFiles } = this;
-    const newQuestion = ask && chosenFiles && { file: place?.file ?? '', ask };
-    if (newQuestion && !chosenFiles.questions.some((question) => question.file === newQuestion.file && question.ask.option === ask.option)) chosenFiles.questions.push(newQuestion);
+    const newQuestion = error.question && { ...error.question, file: error.place?.file ?? '' };
+    if (newQuestion && !chosenFiles?.questions.some(({ file, option }) => file === newQuestion.file && option === newQuestion.option)) chosenFiles?.questions.push(newQuestion);
     await super.showRefusal(error, () => newQuestion && this.logModule?.focusChooser(this.host, newQuestion));
   }
 }

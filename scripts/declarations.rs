@@ -52,9 +52,9 @@ fn describe_widget<S: SettingRules>(tag: &'static str) -> serde_json::Result<Box
                 let weights: Vec<_> = level.ratios().collect();
                 json!({ "type": "number", "allowed": allowed, "nullable": true, "weights": weights })
             }
-            Setting::Group(group) => {
-                let fields = group.members().iter().map(|field| (&field.declaration, &field.allowed));
-                json!({ "type": "group", "fields": fields.collect::<Vec<_>>() })
+            Setting::Group(members, _) => {
+                let fields = members.each_ref().map(|member| (&member.declaration, &member.allowed));
+                json!({ "type": "group", "fields": fields })
             }
         };
         settings.push(to_raw_value(&(declaration, setting_type, &setting))?);

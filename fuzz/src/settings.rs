@@ -1,7 +1,7 @@
 //! Changes settings to any values, as users do.
 
 use super::input::InputReader;
-use motion::sim::settings::{AllowedValues, NumberGroup, Setting, SettingRules, SettingsError};
+use motion::sim::settings::{AllowedValues, Setting, SettingRules, SettingsError};
 
 /// Returns the current settings with random changes.
 pub fn change_settings<S: SettingRules>(current_settings: &S, input: &mut InputReader) -> S {
@@ -41,9 +41,9 @@ fn set_any_value(setting: Setting, input: &mut InputReader) {
             .for_each(|setting_value| *setting_value = input.draw_number_near(&allowed)),
         // A noise level sets several α's. A level outside of its range is refused before it is converted to α's.
         Setting::Level(mut setting_value, allowed) => setting_value.set(input.draw_number_within(allowed)),
-        Setting::Group(setting_group) => {
-            for (group_field, number) in setting_group.members().iter().zip(setting_group.numbers_mut()) {
-                *number = input.draw_number_near(&group_field.allowed);
+        Setting::Group(group_members, group_numbers) => {
+            for (group_member, number) in group_members.iter().zip(group_numbers) {
+                *number = input.draw_number_near(&group_member.allowed);
             }
         }
     }
@@ -82,14 +82,12 @@ fn assert_in_range<S: SettingRules>(settings: &S) {
                 integer_value.is_none_or(|integer_value| range.contains(&(integer_value as u64)))
             }
             Setting::Numbers(list_numbers, range) => list_numbers.iter().all(|number| range.contains(number)),
-            Setting::Group(group) => is_group_in_range(group),
+            Setting::Group(members, numbers) => {
+                members.iter().zip(numbers).all(|(member, number)| member.allowed.contains(number))
+            }
             Setting::Boolean(_) | Setting::Keyword(_) | Setting::Level(..) => true,
         };
         assert!(is_in_range, "{}", declaration.key);
         Ok(())
     });
-}
-
-fn is_group_in_range(group: &dyn NumberGroup) -> bool {
-    group.members().iter().zip(group.numbers()).all(|(field, number)| field.allowed.contains(&number))
 }

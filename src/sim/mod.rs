@@ -5,7 +5,6 @@ pub mod arc_anatomy;
 pub mod banana;
 mod cloud;
 mod cloud_simulation;
-mod commands;
 pub mod dead_reckoning;
 mod noise_level;
 pub mod odometry_decomposer;

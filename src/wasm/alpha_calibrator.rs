@@ -1,28 +1,28 @@
 //! `AlphaCalibrator` for JavaScript.
 
 use super::calibration::{calibration_to_js, legs_to_js};
-use super::fields::{read_initial_settings, read_integer, read_keyword};
+use super::fields::{read_initial_settings, read_integer, read_value};
 use super::log::read_logs;
 use super::pictures::nearest_index;
-use super::simulation_class::{getters, read, simulation_class};
+use super::simulation_class::simulation_class;
 use super::values::to_plain_js;
-use crate::sim::alpha_calibrator::AlphaCalibrator;
+use crate::sim::alpha_calibrator::{AlphaCalibrator, Regressor};
 use js_sys::TypeError;
 use wasm_bindgen::prelude::*;
 
 simulation_class! {
     /// Calibration of α's from a log, with confidence intervals and goodness of fit. It opens with a simulated log.
-    JsAlphaCalibrator(AlphaCalibrator), "AlphaCalibrator", "AlphaCalibratorSettings", "Partial<AlphaCalibratorSettings>"
-}
-
-getters! {
-    JsAlphaCalibrator, "AlphaCalibrator", |simulation| {
+    JsAlphaCalibrator(AlphaCalibrator), "AlphaCalibrator", "AlphaCalibratorSettings", "Partial<AlphaCalibratorSettings>", |simulation|
+    /// Settings, and the revision of the fit, in one call. `stats` and `legs` change only if that revision changes.
+    read as "AlphaCalibratorView" {
         /// Settings of the present fit. They differ from `config` until a fit with the settings in `config` is finished.
         fitted_config as fittedConfig: "AlphaCalibratorSettings" = to_plain_js(simulation.fitted_settings());
-        /// True while the settings need another fit, which only a simulation with the log can compute.
-        is_pending as isPending: "boolean" = simulation.is_pending();
         /// Revision of the fit, a number that changes with each new fit.
         fit_revision as fits: "number" = simulation.fit_revision();
+        /// True while the settings need another fit, which only a simulation with the log can compute.
+        is_pending as isPending: "boolean" = simulation.is_pending();
+    }
+    others {
         /// True values of the simulated log; null for any other log.
         truth: "CalibrationTruth | null" = to_plain_js(&simulation.truth());
         /// Result of the calibration, without its legs. All α’s are null if the log has too few legs.
@@ -32,12 +32,6 @@ getters! {
         /// Number of legs.
         count: "number" = simulation.legs().len();
     }
-}
-
-read! {
-    /// Settings, and the revision of the fit, in one call. `stats` and `legs` change only if that revision changes.
-    JsAlphaCalibrator, "AlphaCalibrator", "AlphaCalibratorView",
-    [config, fitted_config as fittedConfig, fit_revision as fits, is_pending as isPending]
 }
 
 #[wasm_bindgen(js_class = AlphaCalibrator)]
@@ -77,7 +71,8 @@ impl JsAlphaCalibrator {
         &self,
         #[wasm_bindgen(unchecked_param_type = "'distance' | 'turn'")] regressor: &JsValue,
     ) -> Result<JsValue, JsValue> {
-        Ok(to_plain_js(&self.0.panels(read_keyword("regressor", regressor)?)))
+        let regressor = read_value("regressor", regressor, Regressor::Distance, ())?;
+        Ok(to_plain_js(&self.0.panels(regressor)))
     }
 
     /// Returns one leg by its index, counted from 0; null if there are fewer legs.

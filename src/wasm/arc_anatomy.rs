@@ -2,7 +2,7 @@
 
 use super::fields::check_range;
 use super::pictures::read_bounds;
-use super::simulation_class::{getters, read, simulation_class};
+use super::simulation_class::simulation_class;
 use super::values::{to_plain_js, triple_array};
 use crate::geom::arc_forms::form_errors;
 use crate::sim::arc_anatomy::ArcAnatomy;
@@ -11,20 +11,14 @@ use wasm_bindgen::prelude::*;
 
 simulation_class! {
     /// The arc between two poses, and how likely its end is after a command.
-    JsArcAnatomy(ArcAnatomy), "ArcAnatomy", "ArcAnatomySettings", "Partial<ArcAnatomySettings>"
-}
-
-getters! {
-    JsArcAnatomy, "ArcAnatomy", |simulation| {
+    JsArcAnatomy(ArcAnatomy), "ArcAnatomy", "ArcAnatomySettings", "Partial<ArcAnatomySettings>", |simulation|
+    /// All values that a figure shows besides the heat map, in one call.
+    read as "ArcAnatomyView" {
         stats: "AnatomyStats" = to_plain_js(&simulation.stats());
         table: "AnatomyTable" = to_plain_js(&simulation.table());
         paths: "AnatomyPaths" = to_plain_js(&simulation.paths());
     }
-}
-
-read! {
-    /// All values that a figure shows besides the heat map, in one call.
-    JsArcAnatomy, "ArcAnatomy", "ArcAnatomyView", [config, stats, table, paths]
+    others {}
 }
 
 #[wasm_bindgen(js_class = ArcAnatomy)]

@@ -2,9 +2,9 @@
 
 use std::ops::RangeInclusive;
 
-use super::fields::{check_range, not_shown_error, read_integer, read_keyword};
+use super::fields::{check_range, not_shown_error, read_integer, read_value};
 use super::pictures::{RADIUS_RANGE, pixel_view, read_grid, read_ramps};
-use super::simulation_class::{cloud_simulation_class, getters, read};
+use super::simulation_class::{cloud_simulation_class, simulation_class};
 use super::values::{flat_float_array, js_array, js_object, to_plain_js, triple_array};
 use crate::geom::se2::SE2;
 use crate::geom::unbend::unbend_line;
@@ -31,19 +31,26 @@ export type Moments = CartesianMoments | ExponentialMoments;
 
 cloud_simulation_class! {
     /// One command from the origin, many robots that execute it with noise, and Gaussians fitted to their end poses.
-    JsBananaMachine(BananaMachine), "BananaMachine", "BananaMachineSettings", "Partial<BananaMachineSettings>", MAX_SAMPLES
-}
-
-getters! {
-    JsBananaMachine, "BananaMachine", |simulation| {
+    JsBananaMachine(BananaMachine), "BananaMachine", "BananaMachineSettings", "Partial<BananaMachineSettings>", MAX_SAMPLES, |simulation|
+    /// All values that a figure shows besides the robots, in one call.
+    read as "BananaMachineView" {
+        stats: "Stats" = to_plain_js(simulation.stats());
+        contours: "Contours" = to_plain_js(&simulation.contours());
+        /// Up to two positions inside the 2σ ellipse where no robot stops, as x, y pairs in m; empty if the outlines nearly coincide.
+        gaps: "Float64Array" = flat_float_array(&simulation.gaps());
+        table: "Table" = to_plain_js(&simulation.table());
+        /// True if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise statistics and
+        /// contours in exponential coordinates are undefined.
+        is_exponential_defined as chartHolds: "boolean" = simulation.is_exponential_defined();
         /// Noise parameters of each model. A model that is not selected keeps its own.
         alphas_of_models as alphasOfModels: "{ velocity: number[]; odometry: number[] }" = js_object(&[
             ("velocity", js_array(&simulation.settings().velocity_alphas)),
             ("odometry", js_array(&simulation.settings().odometry_alphas)),
         ]);
-        /// True if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise statistics and
-        /// contours in exponential coordinates are undefined.
-        is_exponential_defined as chartHolds: "boolean" = simulation.is_exponential_defined();
+        /// Noise-free odometry reading of the command.
+        reading: "OdomDelta" = to_plain_js(&simulation.reading());
+    }
+    others {
         /// x, y (m), θ (rad) of each sample shown; a copy.
         poses: "Float64Array" = triple_array(simulation.poses());
         /// Exponential coordinates ξ of each sample shown: three numbers, along and lateral (m) and heading (rad). A copy.
@@ -51,22 +58,7 @@ getters! {
         /// Motion executed by each sample shown: v̂ (m/s), ω̂, γ̂ (rad/s); or δ̂_rot1 (rad), δ̂_trans (m), δ̂_rot2 (rad) under the odometry
         /// model. A copy.
         executed_motions as executed: "Float64Array" = triple_array(simulation.executed_motions());
-        /// Noise-free odometry reading of the command.
-        reading: "OdomDelta" = to_plain_js(&simulation.reading());
-        stats: "Stats" = to_plain_js(simulation.stats());
-        table: "Table" = to_plain_js(&simulation.table());
-        contours: "Contours" = to_plain_js(&simulation.contours());
-        /// Up to two positions inside the 2σ ellipse where no robot stops, as x, y pairs in m; empty if the outlines nearly coincide.
-        gaps: "Float64Array" = flat_float_array(&simulation.gaps());
     }
-}
-
-read! {
-    /// All values that a figure shows besides the robots, in one call.
-    JsBananaMachine, "BananaMachine", "BananaMachineView", [
-        config, shown_count as shown, block_size as block, stats, contours, gaps, table, is_exponential_defined as chartHolds,
-        alphas_of_models as alphasOfModels, reading,
-    ]
 }
 
 #[wasm_bindgen(js_class = BananaMachine)]
@@ -173,7 +165,7 @@ impl JsBananaMachine {
 fn read_view(view: &JsValue) -> Result<View, JsValue> {
     match view.as_f64() {
         Some(morph) => Ok(View::from_morph(check_range("view", morph, &MORPH_RANGE)?)),
-        None => read_keyword("view", view),
+        None => read_value("view", view, View::Plane, ()),
     }
 }
 

@@ -1,9 +1,9 @@
 //! `motion.calibrate` for JavaScript: computes α's from logs.
 
 use super::calibration::{SYSTEMATIC_ERROR_KEYS, calibration_to_js, legs_to_js};
-use super::fields::{FieldReader, check_range, read_boolean, read_keyword, read_number, type_error};
+use super::fields::{FieldReader, read_boolean, read_value, type_error};
 use super::log::read_logs;
-use crate::calibrate::{Drive, ERROR_COUNT, LegLength, Model, Options, calibrate};
+use crate::calibrate::{Drive, ERROR_COUNT, LegLength, Model, Options, Outliers, calibrate};
 use crate::models::OdometryRule;
 use crate::sim::alpha_calibrator::{Log, Model as ModelChoice};
 use js_sys::{RangeError, Reflect};
@@ -58,13 +58,12 @@ pub fn js_calibrate(
     const KEYS: [&str; 9] =
         ["odometry", "reference", "model", "rule", "legs", "outliers", "correct", "positionStd", "yawStd"];
     let fields = FieldReader::new("options", "", options, &KEYS)?;
-    let read_std = |key: &str| {
-        fields.read_optional(key, |path, value| check_range(path, read_number(path, value)?, &STD_RANGE))
-    };
+    let read_std =
+        |key: &str| fields.read_optional(key, |path, value| read_value(path, value, 0.0, STD_RANGE));
     let options = Options {
         model: read_model(&fields)?,
         legs: fields.read_optional("legs", read_leg_length)?.unwrap_or(LegLength::AMCL),
-        outliers: fields.read_optional("outliers", read_keyword)?.unwrap_or_default(),
+        outliers: fields.read_or("outliers", Outliers::default(), ())?,
         correct: fields.read_optional("correct", read_corrections)?.unwrap_or_default(),
         position_std: read_std("positionStd")?,
         yaw_std: read_std("yawStd")?,
@@ -79,8 +78,10 @@ pub fn js_calibrate(
 }
 
 fn read_model(fields: &FieldReader) -> Result<Model, JsValue> {
-    let model_name: Option<ModelChoice> = fields.read_optional("model", read_keyword)?;
-    let rule: Option<OdometryRule> = fields.read_optional("rule", read_keyword)?;
+    let read_model_name = |path: &str, name: &JsValue| read_value(path, name, ModelChoice::Odometry, ());
+    let read_rule = |path: &str, name: &JsValue| read_value(path, name, OdometryRule::Table, ());
+    let model_name = fields.read_optional("model", read_model_name)?;
+    let rule = fields.read_optional("rule", read_rule)?;
     let is_omni = rule == Some(OdometryRule::Omni);
     let rule_fits_model = match model_name {
         None => true,
@@ -101,10 +102,8 @@ fn read_model(fields: &FieldReader) -> Result<Model, JsValue> {
 
 fn read_leg_length(field: &str, value: &JsValue) -> Result<LegLength, JsValue> {
     let fields = FieldReader::new(field, "legs.", value, &["distance", "angle", "duration"])?;
-    let [distance, angle, duration] = ["distance", "angle", "duration"].map(|key| {
-        fields
-            .read_optional(key, |path, value| check_range(path, read_number(path, value)?, &LEG_LENGTH_RANGE))
-    });
+    let [distance, angle, duration] = ["distance", "angle", "duration"]
+        .map(|key| fields.read_optional(key, |path, value| read_value(path, value, 1.0, LEG_LENGTH_RANGE)));
     let (distance, angle) = (distance?, angle?);
     match duration? {
         Some(_) if distance.is_some() || angle.is_some() => {

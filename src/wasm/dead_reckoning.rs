@@ -2,7 +2,7 @@
 
 use super::fields::{not_shown_error, read_integer};
 use super::pictures::nearest_index;
-use super::simulation_class::{cloud_simulation_class, getters, read};
+use super::simulation_class::{cloud_simulation_class, simulation_class};
 use super::values::{flat_float_array, js_object, number_or_null, to_plain_js, triple_array};
 use crate::models::Compounding;
 use crate::sim::dead_reckoning::{DeadReckoning, MAX_SAMPLES};
@@ -15,32 +15,18 @@ cloud_simulation_class! {
     /// One command driven step after step by many identical robots from (0, 0), heading along x, and the covariances that recursions
     /// predict. `headingNoise` sets α₃ to α₆.
     JsDeadReckoning(DeadReckoning), "DeadReckoning", "DeadReckoningSettings",
-    "Partial<DeadReckoningSettings> & { headingNoise?: number }", MAX_SAMPLES
-}
-
-getters! {
-    JsDeadReckoning, "DeadReckoning", |simulation| {
-        /// Level h of the heading noise; null if α₃ to α₆ do not have the ratios of a level.
-        heading_noise as headingNoise: "number | null" = number_or_null(simulation.settings().heading_noise());
+    "Partial<DeadReckoningSettings> & { headingNoise?: number }", MAX_SAMPLES, |simulation|
+    /// All values that a figure shows, in one call.
+    read as "DeadReckoningView" {
         stats: "ReckoningStats" = to_plain_js(&simulation.stats());
         /// Predicted divided by measured variance of along, lateral and heading after each step, three numbers a step; NaN if undefined.
         ratios: "ByRecursion<Float64Array>" =
             js_by_recursion(|recursion| triple_array(simulation.comparison(recursion).ratios.iter().copied()));
-        /// Predicted variances of along, lateral (m²) and heading (rad²) after each step, three numbers a step; NaN if undefined.
-        predicted: "ByRecursion<Float64Array>" = js_by_recursion(|recursion| {
-            let to_variances = |cov: &Matrix3<f64>| cov.diagonal();
-            let covariances = simulation.predicted_covariances(recursion).iter();
-            triple_array(covariances.map(|cov| cov.as_ref().map_or(Vector3::repeat(f64::NAN), to_variances)))
-        });
-        /// Measured variances, in the form of `predicted`.
-        measured: "Float64Array" = triple_array(simulation.measured_moments().iter().map(|moments| moments.cov.diagonal()));
         /// Standard errors of the measured variances, as fractions of the variances.
         relative_errors as relativeErrors: "Float64Array" =
             triple_array(simulation.measured_moments().iter().map(|moments| moments.relative_error));
         /// Path driven without noise, as x, y pairs (m) from the start.
         commanded: "Float64Array" = flat_float_array(&simulation.commanded_path());
-        /// Variances of a straight drive as functions of its duration, at the present speed and noise. Each drive is one command.
-        straight_growth as straightGrowth: "StraightGrowth" = to_plain_js(&simulation.straight_growth());
         /// x, y (m), θ (rad) of the commanded pose after each step.
         nominal: "Float64Array" = triple_array(simulation.nominal_poses().iter().copied());
         /// x, y (m), θ (rad) of the first robots after the selected step, 600 at most; a copy.
@@ -53,14 +39,20 @@ getters! {
         /// Robots and outlines after each quarter of the path, except at the selected step.
         milestones: "Milestone[]" = to_plain_js(&simulation.milestones());
     }
-}
-
-read! {
-    /// All values that a figure shows, in one call.
-    JsDeadReckoning, "DeadReckoning", "DeadReckoningView", [
-        config, shown_count as shown, block_size as block, stats, ratios, relative_errors as relativeErrors, commanded, nominal,
-        poses, twists, outlines, milestones,
-    ]
+    others {
+        /// Level h of the heading noise; null if α₃ to α₆ do not have the ratios of a level.
+        heading_noise as headingNoise: "number | null" = number_or_null(simulation.settings().heading_noise());
+        /// Predicted variances of along, lateral (m²) and heading (rad²) after each step, three numbers a step; NaN if undefined.
+        predicted: "ByRecursion<Float64Array>" = js_by_recursion(|recursion| {
+            let to_variances = |cov: &Matrix3<f64>| cov.diagonal();
+            let covariances = simulation.predicted_covariances(recursion).iter();
+            triple_array(covariances.map(|cov| cov.as_ref().map_or(Vector3::repeat(f64::NAN), to_variances)))
+        });
+        /// Measured variances, in the form of `predicted`.
+        measured: "Float64Array" = triple_array(simulation.measured_moments().iter().map(|moments| moments.cov.diagonal()));
+        /// Variances of a straight drive as functions of its duration, at the present speed and noise. Each drive is one command.
+        straight_growth as straightGrowth: "StraightGrowth" = to_plain_js(&simulation.straight_growth());
+    }
 }
 
 #[wasm_bindgen(js_class = DeadReckoning)]

@@ -1,8 +1,7 @@
 //! Readers of JavaScript values. Every error is a TypeError or RangeError that names the field, the value and the allowed values.
 
 use crate::sim::settings::{
-    HasKeywords, KeywordSetting, NumberGroup, Setting, SettingRules, SettingsError, check_group,
-    check_integer, check_real,
+    KeywordSetting, Setting, SettingRules, SettingValue, SettingsError, check_integer, check_real,
 };
 use js_sys::{Array, JSON, Number, RangeError, Reflect, TypeError};
 use std::ops::RangeInclusive;
@@ -70,6 +69,12 @@ impl<'a> FieldReader<'a> {
         if value.is_undefined() { Ok(None) } else { read(&self.path(key), &value).map(Some) }
     }
 
+    /// Reads a field that is a value of any type that a setting may have; `default` if the field is missing or undefined.
+    pub fn read_or<T: SettingValue>(&self, key: &str, default: T, allowed: T::Range) -> Result<T, JsValue> {
+        let value = self.value(key)?;
+        if value.is_undefined() { Ok(default) } else { read_value(&self.path(key), &value, default, allowed) }
+    }
+
     /// Reads a required number without checking its range.
     pub fn number(&self, key: &str) -> Result<f64, JsValue> {
         read_number(&self.path(key), &self.value(key)?)
@@ -95,10 +100,20 @@ pub fn not_shown_error(index: usize, shown_count: usize) -> JsValue {
     RangeError::new(&format!("index is {index}; allowed is {allowed_text}")).into()
 }
 
-pub fn read_keyword<T: HasKeywords>(field: &str, value: &JsValue) -> Result<T, JsValue> {
-    let mut parsed_value = T::KEYWORDS[0].1;
-    set_keyword(field, value, &mut parsed_value)?;
-    Ok(parsed_value)
+/// Reads a value of any type that a setting may have, in its range. `initial_value` is any value of the type.
+pub fn read_value<T: SettingValue>(
+    field: &str,
+    value: &JsValue,
+    mut initial_value: T,
+    allowed: T::Range,
+) -> Result<T, JsValue> {
+    read_setting_in_range(field, value, initial_value.setting(allowed))?;
+    Ok(initial_value)
+}
+
+fn read_setting_in_range(field: &str, value: &JsValue, mut setting: Setting) -> Result<(), JsValue> {
+    read_setting(field, value, &mut setting)?;
+    Ok(setting.check(field)?)
 }
 
 fn set_keyword(field: &str, value: &JsValue, setting: &mut dyn KeywordSetting) -> Result<(), JsValue> {
@@ -125,10 +140,8 @@ pub fn read_array_in_range<const N: usize>(
     value: &JsValue,
     allowed: &RangeInclusive<f64>,
 ) -> Result<[f64; N], JsValue> {
-    let numbers = read_array(field, value)?;
-    for (i, number) in numbers.iter().enumerate() {
-        check_real(&format!("{field}[{i}]"), *number, allowed)?;
-    }
+    let mut numbers = [0.0; N];
+    read_setting_in_range(field, value, Setting::Numbers(&mut numbers, allowed.clone()))?;
     Ok(numbers)
 }
 
@@ -147,24 +160,6 @@ fn fill_array(field: &str, value: &JsValue, numbers: &mut [f64]) -> Result<(), J
     Ok(())
 }
 
-/// Reads all numbers of a group without checking ranges. A group must be complete: speeds without their duration would mean another motion.
-fn read_group(field: &str, value: &JsValue, group: &mut dyn NumberGroup) -> Result<(), JsValue> {
-    let keys: Vec<&str> = group.members().iter().map(|field| field.declaration.key).collect();
-    let prefix = format!("{field}.");
-    let fields = FieldReader::new(field, &prefix, value, &keys)?;
-    for (key, number) in keys.iter().zip(group.numbers_mut()) {
-        *number = fields.number(key)?;
-    }
-    Ok(())
-}
-
-/// Reads all numbers of a group, each in its range, into `group`.
-pub fn read_group_in_range<G: NumberGroup>(field: &str, value: &JsValue, mut group: G) -> Result<G, JsValue> {
-    read_group(field, value, &mut group)?;
-    check_group(field, &group)?;
-    Ok(group)
-}
-
 /// Returns the initial settings of a simulation: the values in `options`, and defaults for the others.
 pub fn read_initial_settings<S: SettingRules>(options: &JsValue) -> Result<S, JsValue> {
     if options.is_undefined() { Ok(S::default()) } else { read_settings(&S::default(), options) }
@@ -174,7 +169,7 @@ pub fn read_initial_settings<S: SettingRules>(options: &JsValue) -> Result<S, Js
 pub fn read_settings<S: SettingRules>(current_settings: &S, options: &JsValue) -> Result<S, JsValue> {
     let fields = FieldReader::new("options", "", options, S::KEYS)?;
     let (mut settings, mut given_keys) = (*current_settings, Vec::new());
-    settings.try_visit_settings(|declaration, setting| {
+    settings.try_visit_settings(|declaration, mut setting| {
         let key = declaration.key;
         let value = fields.value(key)?;
         if value.is_undefined() {
@@ -185,30 +180,36 @@ pub fn read_settings<S: SettingRules>(current_settings: &S, options: &JsValue) -
             return Err(TypeError::new(&message).into());
         }
         given_keys.push(key);
-        read_setting(key, &value, setting)
+        read_setting(key, &value, &mut setting)
     })?;
     settings.adjust(current_settings, &given_keys);
     Ok(settings)
 }
 
-fn read_setting(field: &str, value: &JsValue, setting: Setting) -> Result<(), JsValue> {
+fn read_setting(field: &str, value: &JsValue, setting: &mut Setting) -> Result<(), JsValue> {
     match setting {
-        Setting::Number(slot, _) => *slot = read_number(field, value)?,
+        Setting::Number(slot, _) => **slot = read_number(field, value)?,
         Setting::Integer(slot, allowed) => {
-            slot.set(read_integer(field, read_number(field, value)?, allowed)?)
+            slot.set(read_integer(field, read_number(field, value)?, allowed.clone())?)
         }
-        Setting::OptionalInteger(slot, _) if value.is_null() => *slot = None,
+        Setting::OptionalInteger(slot, _) if value.is_null() => **slot = None,
         Setting::OptionalInteger(slot, allowed) => {
-            *slot = Some(read_integer(field, read_number(field, value)?, allowed)? as usize);
+            **slot = Some(read_integer(field, read_number(field, value)?, allowed.clone())? as usize);
         }
-        Setting::Boolean(slot) => *slot = read_boolean(field, value)?,
-        Setting::Keyword(slot) => set_keyword(field, value, slot)?,
+        Setting::Boolean(slot) => **slot = read_boolean(field, value)?,
+        Setting::Keyword(slot) => set_keyword(field, value, *slot)?,
         Setting::Numbers(slots, _) => fill_array(field, value, slots)?,
         // The level is checked before it is converted to α's, because a later error message would name an α.
-        Setting::Level(mut slot, allowed) => {
-            slot.set(check_range(field, read_number(field, value)?, &allowed)?)
+        Setting::Level(slot, allowed) => slot.set(check_range(field, read_number(field, value)?, allowed)?),
+        // A group must be complete: speeds without their duration would mean another motion.
+        Setting::Group(members, numbers) => {
+            let keys = members.each_ref().map(|member| member.declaration.key);
+            let prefix = format!("{field}.");
+            let fields = FieldReader::new(field, &prefix, value, &keys)?;
+            for (key, number) in keys.iter().zip(numbers) {
+                **number = fields.number(key)?;
+            }
         }
-        Setting::Group(group) => read_group(field, value, group)?,
     }
     Ok(())
 }

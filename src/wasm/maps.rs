@@ -2,7 +2,7 @@
 
 use super::fields::{
     FieldReader, array_item, array_length, check_range, number_text, read_array, read_array_in_range,
-    read_boolean, read_integer, read_keyword, read_number, type_error,
+    read_integer, type_error,
 };
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
@@ -54,26 +54,20 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let fields = FieldReader::with_any_keys("description", "", description, "an object")?;
     let resolution = check_range("resolution", fields.number("resolution")?, &RESOLUTION_RANGE)?;
     let origin: [f64; 3] = read_array_in_range("origin", &fields.value("origin")?, &QUANTITY_RANGE)?;
-    let negate = fields.read_optional("negate", |field, value| {
-        if value.as_bool().is_some() {
-            return read_boolean(field, value);
-        }
-        Ok(read_integer(field, read_number(field, value)?, 0..=1)? == 1)
-    })?;
-    let read_threshold = |key: &str| {
-        fields.read_optional(key, |field, value| check_range(field, read_number(field, value)?, &(0.0..=1.0)))
-    };
     let defaults = PixelClassifier::default();
-    let occupied_thresh = read_threshold("occupied_thresh")?.unwrap_or(defaults.occupied_thresh);
-    let free_thresh = read_threshold("free_thresh")?;
-    if let Some(free_threshold) = free_thresh.filter(|free_threshold| *free_threshold > occupied_thresh) {
-        let [free_text, limit_text] = [free_threshold, occupied_thresh].map(number_text);
+    let negate = match fields.value("negate")?.as_bool() {
+        Some(negate) => negate,
+        None => fields.read_or("negate", u32::from(defaults.negate), 0..=1)? == 1,
+    };
+    let occupied_thresh = fields.read_or("occupied_thresh", defaults.occupied_thresh, 0.0..=1.0)?;
+    let default_free_thresh = defaults.free_thresh.min(occupied_thresh);
+    let free_thresh = fields.read_or("free_thresh", default_free_thresh, 0.0..=1.0)?;
+    if free_thresh > occupied_thresh {
+        let [free_text, limit_text] = [free_thresh, occupied_thresh].map(number_text);
         let message = format!("free_thresh is {free_text}; allowed is at most occupied_thresh, {limit_text}");
         return Err(RangeError::new(&message).into());
     }
-    let mode = fields.read_optional("mode", read_keyword)?.unwrap_or(defaults.mode);
-    let free_thresh = free_thresh.unwrap_or(defaults.free_thresh.min(occupied_thresh));
-    let negate = negate.unwrap_or(defaults.negate);
+    let mode = fields.read_or("mode", defaults.mode, ())?;
     let classifier = PixelClassifier { mode, negate, occupied_thresh, free_thresh };
     let origin = SE2::from(origin);
     if let Some(file_bytes) = image.dyn_ref::<Uint8Array>() {

@@ -33,7 +33,7 @@ use crate::models::VelocityCmd;
 use crate::sim::banana::command_drawn_at;
 use crate::sim::settings::QUANTITY_RANGE;
 use crate::sim::views::MORPH_RANGE;
-use fields::{check_range, read_group_in_range};
+use fields::{check_range, read_value};
 use values::js_object;
 use wasm_bindgen::prelude::*;
 
@@ -55,7 +55,7 @@ pub fn js_command_reaching(
 ) -> Result<JsValue, JsValue> {
     let (x, y) = (check_range("x", x, &QUANTITY_RANGE)?, check_range("y", y, &QUANTITY_RANGE)?);
     let zero_command = VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 };
-    let current_command = read_group_in_range("command", command, zero_command)?;
+    let current_command = read_value("command", command, zero_command, ())?;
     let morph = check_range("morph", morph.unwrap_or(0.0), &MORPH_RANGE)?;
     let VelocityCmd { v, omega, .. } = command_drawn_at([x, y], &current_command, morph);
     Ok(js_object(&[("v", v.into()), ("omega", omega.into())]))

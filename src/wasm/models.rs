@@ -1,8 +1,7 @@
 //! Motion models, arc inversion and SE(2) of the chapter for JavaScript, for exercises.
 
 use super::fields::{
-    FieldReader, array_item, array_length, check_range, read_array_in_range, read_boolean,
-    read_group_in_range, read_integer, read_keyword, read_number,
+    FieldReader, array_item, array_length, check_range, read_array_in_range, read_integer, read_value,
 };
 use super::values::{js_array, number_or_null, pose_to_js, to_plain_js, triple_array};
 use crate::geom::arc::invert_arc;
@@ -132,7 +131,7 @@ impl JsOdometryModel {
     pub fn new(options: &JsOdometryModelOptions) -> Result<Self, JsValue> {
         let fields = FieldReader::new("options", "", options, &["alphas", "noise", "reverseAware"])?;
         let model = OdometryModel { alphas: OdomAlphas(read_alphas(&fields)?), noise: read_noise(&fields)? };
-        let reverse_aware = fields.read_optional("reverseAware", read_boolean)?.unwrap_or(false);
+        let reverse_aware = fields.read_or("reverseAware", false, ())?;
         Ok(Self(ConfiguredOdometry { model, reverse_aware }))
     }
 }
@@ -228,12 +227,8 @@ pub fn propagate(options: &JsPropagation) -> Result<Array, JsValue> {
     let mut sigma = fields.read_optional("sigma", read_covariance)?.unwrap_or_default();
     let command = read_command(&fields.value("command")?)?;
     let model = VelocityModel { alphas: VelocityAlphas(read_alphas(&fields)?), noise: NoiseKind::Normal };
-    let recursion = fields.read_optional("compounding", read_keyword)?.unwrap_or(Compounding::Chapter);
-    let steps = fields
-        .read_optional("steps", |field, value| {
-            read_integer(field, read_number(field, value)?, 1..=MAX_STEPS)
-        })?
-        .unwrap_or(1);
+    let recursion = fields.read_or("compounding", Compounding::Chapter, ())?;
+    let steps = fields.read_or("steps", 1u64, 1..=MAX_STEPS)?;
     // The ranges of the arguments exclude negative and infinite variances.
     let noise_model = TangentNoiseModel::from_velocity(&model, &command)
         .map_err(|error| RangeError::new(&error.to_string()))?;
@@ -304,19 +299,19 @@ fn read_alphas<const N: usize>(fields: &FieldReader) -> Result<[f64; N], JsValue
 }
 
 fn read_noise(fields: &FieldReader) -> Result<NoiseKind, JsValue> {
-    Ok(fields.read_optional("noise", read_keyword)?.unwrap_or(NoiseKind::Normal))
+    fields.read_or("noise", NoiseKind::Normal, ())
 }
 
 fn read_pose(field: &str, value: &JsValue) -> Result<SE2, JsValue> {
-    Ok(read_group_in_range(field, value, [0.0; 3])?.into())
+    Ok(read_value(field, value, [0.0; 3], ())?.into())
 }
 
 fn read_command(value: &JsValue) -> Result<VelocityCmd, JsValue> {
-    read_group_in_range("command", value, VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 })
+    read_value("command", value, VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 }, ())
 }
 
 fn read_legs(value: &JsValue) -> Result<OdomDelta, JsValue> {
-    read_group_in_range("control", value, OdomDelta { rot1: 0.0, trans: 0.0, rot2: 0.0 })
+    read_value("control", value, OdomDelta { rot1: 0.0, trans: 0.0, rot2: 0.0 }, ())
 }
 
 fn read_twist(field: &str, value: &JsValue) -> Result<Vector3<f64>, JsValue> {

@@ -1,13 +1,32 @@
-//! JavaScript classes of simulations, with the methods that several simulations have.
+//! JavaScript classes of simulations, with the members that several simulations have.
 
 // The core of a single widget uses only some of these macros.
 #![allow(unused_macros, unused_imports)]
 
-/// Declares the JavaScript class of a simulation, with its constructor, `configure` and `config`.
+/// Declares the JavaScript class of a simulation, with its constructor, `configure`, `config`, `read` and getters. `$options` is the
+/// TypeScript type of the settings argument, whose keys are optional.
 ///
-/// `$options` is the TypeScript type of the settings argument, whose keys are optional.
+/// A getter has a name (`as` gives the name in JavaScript, if it differs), a TypeScript type, and the expression for its value. The method
+/// `read` returns an object with the settings and the values of the first list of getters. `$view` is the TypeScript type of that object.
 macro_rules! simulation_class {
-    ($(#[$doc:meta])+ $class:ident($simulation:ident), $name:literal, $settings:literal, $options:literal) => {
+    (
+        $(#[$doc:meta])+
+        $class:ident($simulation:ident), $name:literal, $settings:literal, $options:literal, |$this:ident|
+        $(#[$read_doc:meta])+
+        read as $view:literal {
+            $($(#[$view_doc:meta])* $view_getter:ident $(as $view_key:ident)?: $view_type:literal = $view_value:expr;)+
+        }
+        others {
+            $($(#[$other_doc:meta])* $other_getter:ident $(as $other_key:ident)?: $other_type:literal = $other_value:expr;)*
+        }
+    ) => {
+        #[wasm_bindgen(typescript_custom_section)]
+        const VIEW_TYPE: &str = concat!(
+            "/** Result of `read`. */\nexport type ", $view, " = Pick<", $name, ", 'config'",
+            $(" | '", simulation_class!(@key $view_getter $($view_key)?), "'",)+
+            ">;"
+        );
+
         $(#[$doc])+
         /// All units are metres, radians and seconds. An argument out of range throws a TypeError or RangeError that names the field,
         /// and changes nothing.
@@ -40,29 +59,61 @@ macro_rules! simulation_class {
             pub fn config(&self) -> JsValue {
                 $crate::wasm::values::to_plain_js(self.0.settings())
             }
+
+            $(#[$read_doc])+
+            #[wasm_bindgen(unchecked_return_type = $view)]
+            pub fn read(&self) -> JsValue {
+                $crate::wasm::values::js_object(&[
+                    ("config", self.config()),
+                    $((simulation_class!(@key $view_getter $($view_key)?), self.$view_getter())),+
+                ])
+            }
+
+            $(
+                $(#[$view_doc])*
+                #[wasm_bindgen(getter, $(js_name = $view_key,)? unchecked_return_type = $view_type)]
+                pub fn $view_getter(&self) -> JsValue {
+                    let $this = &self.0;
+                    $view_value.into()
+                }
+            )+
+
+            $(
+                $(#[$other_doc])*
+                #[wasm_bindgen(getter, $(js_name = $other_key,)? unchecked_return_type = $other_type)]
+                pub fn $other_getter(&self) -> JsValue {
+                    let $this = &self.0;
+                    $other_value.into()
+                }
+            )*
         }
     };
+    (@key $getter:ident) => { stringify!($getter) };
+    (@key $getter:ident $key:ident) => { stringify!($key) };
 }
 
-/// Declares the JavaScript class of a simulation with a cloud of at most `$max_samples` samples. The class has the methods of
-/// [`simulation_class`] and the methods for a cloud.
+/// Declares the JavaScript class of a simulation with a cloud of at most `$max_samples` samples. The class has the members of
+/// [`simulation_class`] and the members for a cloud.
 macro_rules! cloud_simulation_class {
     (
         $(#[$doc:meta])+
-        $class:ident($simulation:ident), $name:literal, $settings:literal, $options:literal, $max_samples:expr
+        $class:ident($simulation:ident), $name:literal, $settings:literal, $options:literal, $max_samples:expr, |$this:ident|
+        $(#[$read_doc:meta])+
+        read as $view:literal { $($view_getters:tt)+ }
+        others { $($other_getters:tt)* }
     ) => {
         $crate::wasm::simulation_class::simulation_class! {
             $(#[$doc])+
-            $class($simulation), $name, $settings, $options
-        }
-
-        $crate::wasm::simulation_class::getters! {
-            $class, $name, |simulation| {
+            $class($simulation), $name, $settings, $options, |$this|
+            $(#[$read_doc])+
+            read as $view {
                 /// Number of samples shown, 0 to `config.samples`.
-                shown_count as shown: "number" = simulation.shown_count();
+                shown_count as shown: "number" = $this.shown_count();
                 /// Number of samples that `addSamples` adds within a few milliseconds.
-                block_size as block: "number" = simulation.block_size();
+                block_size as block: "number" = $this.block_size();
+                $($view_getters)+
             }
+            others { $($other_getters)* }
         }
 
         #[wasm_bindgen(js_class = $name)]
@@ -98,48 +149,4 @@ macro_rules! cloud_simulation_class {
     };
 }
 
-/// Declares getters of the JavaScript class of a simulation, each with its name, its TypeScript type, and the expression for its value.
-/// `as` gives the name in JavaScript, if it differs.
-macro_rules! getters {
-    ($class:ident, $name:literal, |$simulation:ident| {
-        $($(#[$doc:meta])* $getter:ident $(as $key:ident)?: $type:literal = $value:expr;)+
-    }) => {
-        #[wasm_bindgen(js_class = $name)]
-        impl $class {
-            $(
-                $(#[$doc])*
-                #[wasm_bindgen(getter, $(js_name = $key,)? unchecked_return_type = $type)]
-                pub fn $getter(&self) -> JsValue {
-                    let $simulation = &self.0;
-                    $value.into()
-                }
-            )+
-        }
-    };
-}
-
-/// Declares the method `read` of the JavaScript class of a simulation. It returns an object with the values of the listed getters. `$view`
-/// is the TypeScript type of that object.
-macro_rules! read {
-    ($(#[$doc:meta])+ $class:ident, $name:literal, $view:literal, [$($getter:ident $(as $key:ident)?),+ $(,)?]) => {
-        #[wasm_bindgen(typescript_custom_section)]
-        const VIEW_TYPE: &str = concat!(
-            "/** Result of `read`. */\nexport type ", $view, " = Pick<", $name, ",",
-            $(" | '", read!(@key $getter $($key)?), "'",)+
-            ">;"
-        );
-
-        #[wasm_bindgen(js_class = $name)]
-        impl $class {
-            $(#[$doc])+
-            #[wasm_bindgen(unchecked_return_type = $view)]
-            pub fn read(&self) -> JsValue {
-                $crate::wasm::values::js_object(&[$((read!(@key $getter $($key)?), self.$getter())),+])
-            }
-        }
-    };
-    (@key $getter:ident) => { stringify!($getter) };
-    (@key $getter:ident $key:ident) => { stringify!($key) };
-}
-
-pub(super) use {cloud_simulation_class, getters, read, simulation_class};
+pub(super) use {cloud_simulation_class, simulation_class};

@@ -1,9 +1,9 @@
 //! `MapSqueeze` for JavaScript.
 
-use super::fields::{quote, read_integer, read_keyword};
+use super::fields::{quote, read_integer, read_value};
 use super::maps::{read_map, read_plan};
 use super::pictures::{nearest_index, pixel_view, read_grid, read_ramps};
-use super::simulation_class::{cloud_simulation_class, getters, read};
+use super::simulation_class::{cloud_simulation_class, simulation_class};
 use super::values::{ToJs, flat_float_array, number_or_null, pose_to_js, to_plain_js, triple_array};
 use crate::geom::arc::Arc;
 use crate::geom::segment::Segment;
@@ -42,11 +42,27 @@ cloud_simulation_class! {
     /// One command on a map, tried many times by a round robot. At first the robot faces a doorway in the apartment. `noise` sets all of
     /// `alphas`.
     JsMapSqueeze(MapSqueeze), "MapSqueeze", "MapSqueezeSettings",
-    "Partial<MapSqueezeSettings> & { noise?: number }", MAX_SAMPLES
-}
-
-getters! {
-    JsMapSqueeze, "MapSqueeze", |simulation| {
+    "Partial<MapSqueezeSettings> & { noise?: number }", MAX_SAMPLES, |simulation|
+    /// All values that a figure shows besides the map, in one call.
+    read as "MapSqueezeView" {
+        stats: "SqueezeStats" = to_plain_js(&simulation.stats());
+        /// Outcome of each attempt as one byte: 1 for a free end, plus 2 for a free path, plus 4 if it is accepted.
+        verdicts: "Uint8Array" =
+            simulation.attempts().iter().map(Attempt::verdict_bits).collect::<Vec<_>>().to_js();
+        /// x, y (m), θ (rad) of each attempt shown; a copy.
+        poses: "Float64Array" = triple_array(simulation.attempts().iter().map(|attempt| attempt.pose));
+        /// Noise-free path of the command, as x, y pairs.
+        commanded: "Float64Array" = flat_float_array(&simulation.commanded_arc().points());
+        /// True if the robot collides with nothing at its start pose.
+        is_start_free as startFree: "boolean" = simulation.is_start_free();
+        /// Paths of the first attempts that are accepted through a wall, each as x, y pairs.
+        wall_paths as paths: "Float64Array[]" = {
+            let attempts = simulation.attempts().iter().enumerate();
+            let through_wall = attempts.filter(|(_, attempt)| attempt.is_through_wall()).take(MAX_SHOWN_PATHS);
+            through_wall.map(|(index, _)| path_of(simulation, index)).collect::<Array>()
+        };
+    }
+    others {
         /// Level n of the noise parameters; null if they do not have the ratios of a level.
         noise: "number | null" = number_or_null(simulation.settings().noise());
         plan: "Plan" = {
@@ -64,31 +80,7 @@ getters! {
         /// Free start pose: in the middle of the largest square that is known to be free, heading where the path is free
         /// for longest. If the robot does not fit there, another pose where it fits; null if there is none.
         find_free_pose as openPlace: "Start | null" = simulation.find_free_pose().map_or(JsValue::NULL, pose_to_js);
-        /// True if the robot collides with nothing at its start pose.
-        is_start_free as startFree: "boolean" = simulation.is_start_free();
-        /// Noise-free path of the command, as x, y pairs.
-        commanded: "Float64Array" = flat_float_array(&simulation.commanded_arc().points());
-        /// x, y (m), θ (rad) of each attempt shown; a copy.
-        poses: "Float64Array" = triple_array(simulation.attempts().iter().map(|attempt| attempt.pose));
-        /// Outcome of each attempt as one byte: 1 for a free end, plus 2 for a free path, plus 4 if it is accepted.
-        verdicts: "Uint8Array" =
-            simulation.attempts().iter().map(Attempt::verdict_bits).collect::<Vec<_>>().to_js();
-        stats: "SqueezeStats" = to_plain_js(&simulation.stats());
-        /// Paths of the first attempts that are accepted through a wall, each as x, y pairs.
-        wall_paths as paths: "Float64Array[]" = {
-            let attempts = simulation.attempts().iter().enumerate();
-            let through_wall = attempts.filter(|(_, attempt)| attempt.is_through_wall()).take(MAX_SHOWN_PATHS);
-            through_wall.map(|(index, _)| path_of(simulation, index)).collect::<Array>()
-        };
     }
-}
-
-read! {
-    /// All values that a figure shows besides the map, in one call.
-    JsMapSqueeze, "MapSqueeze", "MapSqueezeView", [
-        config, shown_count as shown, block_size as block, stats, verdicts, poses, commanded, is_start_free as startFree,
-        wall_paths as paths,
-    ]
 }
 
 #[wasm_bindgen(js_class = MapSqueeze)]
@@ -130,7 +122,7 @@ impl JsMapSqueeze {
         count: f64,
     ) -> Result<JsValue, JsValue> {
         let steps = read_integer("steps", steps, 1..=MAX_STEPS)?;
-        let sampler = read_keyword::<Sampler>("sampler", sampler)?.with_part_count(steps as u32);
+        let sampler = read_value("sampler", sampler, Sampler::Endpoint, ())?.with_part_count(steps as u32);
         let count = read_integer("count", count, 1..=MAX_TRIAL_PARTS / steps)? as usize;
         let cost = self.0.sampling_trial(sampler, count).map_err(|no_sample| {
             let max_total_draws = max_draws(sampler.part_count() as usize * count);

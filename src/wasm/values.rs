@@ -1,7 +1,7 @@
 //! Conversion of Rust values to JavaScript values.
 
 use crate::geom::se2::SE2;
-use crate::sim::settings::{HasKeywords, KeywordSetting, Setting};
+use crate::sim::settings::{HasKeywords, KeywordSetting, SettingValue};
 use js_sys::{Array, Float64Array, Object, Uint8Array};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Serialize, Serializer};
@@ -59,7 +59,7 @@ pub fn number_or_null(number: Option<f64>) -> JsValue {
 }
 
 pub fn pose_to_js(pose: SE2) -> JsValue {
-    to_plain_js(&Setting::Group(&mut <[f64; 3]>::from(pose)))
+    to_plain_js(&<[f64; 3]>::from(pose).setting(()))
 }
 
 pub fn js_array(numbers: &[f64]) -> JsValue {

@@ -94,9 +94,9 @@ fn set_from_json(setting: Setting, setting_json: &Value) {
                 .for_each(|(setting_value, number_json)| *setting_value = to_number(number_json));
         }
         Setting::Level(mut setting_value, _) => setting_value.set(to_number(setting_json)),
-        Setting::Group(setting_group) => {
-            for (group_field, number) in setting_group.members().iter().zip(setting_group.numbers_mut()) {
-                *number = to_number(&setting_json[group_field.declaration.key]);
+        Setting::Group(group_members, group_numbers) => {
+            for (group_member, number) in group_members.iter().zip(group_numbers) {
+                *number = to_number(&setting_json[group_member.declaration.key]);
             }
         }
     }

@@ -1,97 +1,16 @@
 //! Settings of the widgets, declared by `settings!`, and checks of their values.
 
+mod error;
+mod groups;
+
+pub use error::{AllowedValues, SettingsError};
+pub(crate) use error::{check_integer, check_real};
+pub use groups::GroupMember;
+
 use super::noise_level::NoiseLevel;
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 use std::ops::RangeInclusive;
-use thiserror::Error;
-
-/// Error for a setting whose value is not allowed. The message has the field, the value and the allowed values.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[error("{}", self.message(format_number))]
-pub struct SettingsError {
-    /// Name of the setting.
-    pub key: String,
-    /// The number that is not allowed; NaN for a keyword.
-    pub value: f64,
-    /// The values that are allowed.
-    pub allowed: AllowedValues,
-}
-
-/// Allowed values of a setting.
-#[derive(Clone, Debug, PartialEq)]
-pub enum AllowedValues {
-    /// Numbers in a range.
-    Real(RangeInclusive<f64>),
-    /// Integers in a range.
-    Integer(RangeInclusive<u64>),
-    /// Numbers of samples for which there is enough memory.
-    FitsInMemory,
-    /// Keywords that are allowed instead of `given`.
-    Keyword {
-        /// The keyword that is not allowed.
-        given: &'static str,
-        /// Keywords that are allowed, as text.
-        allowed: &'static str,
-    },
-}
-
-impl SettingsError {
-    /// Returns the error for a number of samples that need more memory than there is.
-    pub(crate) fn out_of_memory(samples: usize) -> Self {
-        Self { key: "samples".to_owned(), value: samples as f64, allowed: AllowedValues::FitsInMemory }
-    }
-
-    /// Returns the message. `format_number` formats its numbers. In WebAssembly JavaScript formats numbers, because Rust's code for
-    /// printing floats would take an eighth of the module.
-    pub fn message(&self, format_number: impl Fn(f64) -> String) -> String {
-        let allowed_text = match &self.allowed {
-            AllowedValues::Keyword { given, allowed } => {
-                return format!("{} is {given}; allowed is {allowed}", self.key);
-            }
-            AllowedValues::Real(range) => {
-                format!("a number from {} to {}", format_number(*range.start()), format_number(*range.end()))
-            }
-            AllowedValues::Integer(range) => {
-                format!("a whole number from {} to {}", range.start(), range.end())
-            }
-            AllowedValues::FitsInMemory => "a number for which there is memory".to_owned(),
-        };
-        format!("{} is {}; allowed is {allowed_text}", self.key, format_number(self.value))
-    }
-}
-
-fn format_number(number: f64) -> String {
-    if number.is_infinite() {
-        return if number > 0.0 { "Infinity" } else { "-Infinity" }.to_owned();
-    }
-    let is_plain = number.abs() >= 1e-6 && number.abs() < 1e21;
-    if is_plain || number == 0.0 || number.is_nan() { format!("{number}") } else { format!("{number:e}") }
-}
-
-pub(crate) fn check_real(
-    field: &str,
-    value: f64,
-    allowed: &RangeInclusive<f64>,
-) -> Result<(), SettingsError> {
-    if allowed.contains(&value) {
-        return Ok(());
-    }
-    Err(SettingsError { key: field.to_owned(), value, allowed: AllowedValues::Real(allowed.clone()) })
-}
-
-/// Converts a double to an integer in the `allowed` range. The ends of the range must be exact as doubles.
-pub(crate) fn check_integer(
-    field: &str,
-    value: f64,
-    allowed: &RangeInclusive<u64>,
-) -> Result<u64, SettingsError> {
-    let integer = value as u64;
-    if integer as f64 == value && allowed.contains(&integer) {
-        return Ok(integer);
-    }
-    Err(SettingsError { key: field.to_owned(), value, allowed: AllowedValues::Integer(allowed.clone()) })
-}
 
 /// Range of positions (m), angles (rad) and speeds (m/s, rad/s). The range is far larger than any robot needs. Products of squares of its
 /// numbers are finite.
@@ -122,6 +41,29 @@ pub struct Declaration {
     pub each: &'static str,
 }
 
+impl Declaration {
+    /// Creates a declaration; `of` is "" for a setting that is no other form of another setting.
+    #[cfg_attr(target_arch = "wasm32", expect(unused_variables, reason = "modules omit the descriptions"))]
+    pub(crate) const fn new(
+        key: &'static str,
+        of: &'static str,
+        sentence: &'static str,
+        unit: &'static str,
+        each: &'static str,
+    ) -> Self {
+        Self {
+            key,
+            of: if of.is_empty() { None } else { Some(of) },
+            #[cfg(not(target_arch = "wasm32"))]
+            sentence: sentence.trim_ascii(),
+            #[cfg(not(target_arch = "wasm32"))]
+            unit,
+            #[cfg(not(target_arch = "wasm32"))]
+            each,
+        }
+    }
+}
+
 /// Reference to the value of a setting, with the range of its numbers.
 pub enum Setting<'a> {
     /// Number.
@@ -138,8 +80,8 @@ pub enum Setting<'a> {
     Numbers(&'a mut [f64], RangeInclusive<f64>),
     /// Noise level, which sets several numbers in fixed ratios, and its range.
     Level(NoiseLevel<'a>, RangeInclusive<f64>),
-    /// Several numbers with names.
-    Group(&'a mut dyn NumberGroup),
+    /// Three numbers with names, such as the coordinates of a pose.
+    Group(&'static [GroupMember; 3], [&'a mut f64; 3]),
 }
 
 impl Setting<'_> {
@@ -147,7 +89,7 @@ impl Setting<'_> {
     ///
     /// # Errors
     /// [`SettingsError`] for the first number out of its range.
-    fn check(self, key: &str) -> Result<(), SettingsError> {
+    pub(crate) fn check(self, key: &str) -> Result<(), SettingsError> {
         match self {
             Self::Number(number, allowed) => check_real(key, *number, &allowed),
             Self::Integer(integer, allowed) => check_integer(key, integer.get() as f64, &allowed).map(|_| ()),
@@ -159,7 +101,12 @@ impl Setting<'_> {
                 indexed_numbers
                     .try_for_each(|(i, number)| check_real(&format!("{key}[{i}]"), *number, &allowed))
             }
-            Self::Group(group) => check_group(key, group),
+            Self::Group(members, numbers) => {
+                let mut declared_numbers = members.iter().zip(numbers);
+                declared_numbers.try_for_each(|(GroupMember { declaration, allowed }, number)| {
+                    check_real(&format!("{key}.{}", declaration.key), *number, allowed)
+                })
+            }
             // The numbers that a level sets are checked instead of the level.
             Self::OptionalInteger(None, _) | Self::Boolean(_) | Self::Keyword(_) | Self::Level(..) => Ok(()),
         }
@@ -176,11 +123,10 @@ impl Serialize for Setting<'_> {
             Self::Keyword(keyword) => keyword.get().serialize(serializer),
             Self::Numbers(numbers, _) => numbers.serialize(serializer),
             Self::Level(level, _) => level.get().serialize(serializer),
-            Self::Group(group) => {
-                let numbers = group.numbers();
+            Self::Group(members, numbers) => {
                 let mut object = serializer.serialize_struct("", numbers.len())?;
-                for (field, number) in group.members().iter().zip(numbers) {
-                    object.serialize_field(field.declaration.key, &number)?;
+                for (member, number) in members.iter().zip(numbers) {
+                    object.serialize_field(member.declaration.key, number)?;
                 }
                 object.end()
             }
@@ -199,13 +145,6 @@ pub(crate) fn serialize_settings<S: DeclaredSettings, Z: Serializer>(
         Some(_) => Ok(()),
     })?;
     object.end()
-}
-
-pub(crate) fn check_group(key: &str, group: &dyn NumberGroup) -> Result<(), SettingsError> {
-    for (GroupMember { declaration, allowed }, number) in group.members().iter().zip(group.numbers()) {
-        check_real(&format!("{key}.{}", declaration.key), number, allowed)?;
-    }
-    Ok(())
 }
 
 /// Access to an integer of any type.
@@ -249,24 +188,6 @@ impl<T: HasKeywords> KeywordSetting for T {
     fn all_keywords(&self) -> Vec<&'static str> {
         T::KEYWORDS.iter().map(|(keyword, _)| *keyword).collect()
     }
-}
-
-/// Setting with several numbers, such as the three coordinates of a pose.
-pub trait NumberGroup {
-    /// Returns the declarations of the numbers.
-    fn members(&self) -> &'static [GroupMember];
-    /// Returns the numbers, in the order of their declarations.
-    fn numbers(&self) -> Vec<f64>;
-    /// Returns references to the numbers, in the order of their declarations.
-    fn numbers_mut(&mut self) -> Vec<&mut f64>;
-}
-
-/// Declaration of a number of a [`NumberGroup`].
-pub struct GroupMember {
-    /// Key, description and unit of the number.
-    pub declaration: Declaration,
-    /// Allowed range.
-    pub allowed: RangeInclusive<f64>,
 }
 
 /// Types that a setting may have.
@@ -422,7 +343,7 @@ macro_rules! settings {
                 #[doc = $sentence:literal]
                 $field:ident $(as $key:literal)?
                 $(: $type:ty = $default:expr $(, $unit:literal)?)?
-                $(, by $accessor:ident $(of $original:ident)? $(, $its_unit:literal)?)?
+                $(, by $accessor:ident $(of $original:ident)?)?
                 $(, in $range:expr $(, up to $max:ident)?)?
                 $(, each $each:literal)?
                 ;
@@ -458,12 +379,15 @@ macro_rules! settings {
             const KEYS: &'static [&'static str] = &[$(settings!(@key $field $($key)?)),+];
 
             fn visit_settings(&mut self, visit: &mut $crate::sim::settings::SettingVisitor) {
-                use $crate::sim::settings::{SettingValue, declaration};
+                use $crate::sim::settings::{Declaration, SettingValue};
                 $(visit(
                     const {
-                        &declaration!(
-                            settings!(@key $field $($key)?), $sentence,
-                            [$($($unit)?)? $($($its_unit)?)?], [$($each)?] $($(, of $original)?)?
+                        &Declaration::new(
+                            settings!(@key $field $($key)?),
+                            stringify!($($($original)?)?),
+                            $sentence,
+                            concat!($($($unit)?)?),
+                            concat!($($each)?),
                         )
                     },
                     settings!(@place self $field $($accessor)?)
@@ -481,56 +405,3 @@ macro_rules! settings {
     (@place $this:ident $field:ident $accessor:ident) => { $this.$accessor() };
 }
 pub(crate) use settings;
-
-/// Creates the [`Declaration`] of a setting or of a number of a group.
-macro_rules! declaration {
-    ($key:expr, $sentence:literal, [$($unit:literal)?], [$($each:literal)?] $(, of $original:ident)?) => {
-        $crate::sim::settings::Declaration {
-            key: $key,
-            of: $crate::sim::settings::declaration!(@of $($original)?),
-            #[cfg(not(target_arch = "wasm32"))]
-            sentence: $sentence.trim_ascii(),
-            #[cfg(not(target_arch = "wasm32"))]
-            unit: concat!($($unit)?),
-            #[cfg(not(target_arch = "wasm32"))]
-            each: concat!($($each)?),
-        }
-    };
-    (@of) => { None };
-    (@of $original:ident) => { Some(stringify!($original)) };
-}
-pub(crate) use declaration;
-
-/// Declares the numbers of a group, each by `/// Sentence.` and `key: "unit", in range;`. The pattern after `as` binds the keys to the
-/// numbers of the type.
-macro_rules! group {
-    ($type:ty as $pattern:pat => { $(#[doc = $sentence:literal] $key:ident: $unit:literal, in $range:expr;)+ }) => {
-        impl $crate::sim::settings::NumberGroup for $type {
-            fn members(&self) -> &'static [$crate::sim::settings::GroupMember] {
-                static FIELDS: &[$crate::sim::settings::GroupMember] = &[$($crate::sim::settings::GroupMember {
-                    declaration: $crate::sim::settings::declaration!(stringify!($key), $sentence, [$unit], []),
-                    allowed: $range,
-                }),+];
-                FIELDS
-            }
-
-            fn numbers(&self) -> Vec<f64> {
-                let $pattern = self;
-                vec![$(*$key),+]
-            }
-
-            fn numbers_mut(&mut self) -> Vec<&mut f64> {
-                let $pattern = self;
-                vec![$($key),+]
-            }
-        }
-
-        impl $crate::sim::settings::SettingValue for $type {
-            type Range = ();
-            fn setting(&mut self, (): ()) -> $crate::sim::settings::Setting<'_> {
-                $crate::sim::settings::Setting::Group(self)
-            }
-        }
-    };
-}
-pub(crate) use group;

@@ -219,8 +219,8 @@ impl MapConditioned<'_> {
         conditioned: bool,
         mut visit_arc: impl FnMut(&Arc),
     ) -> Result<AcceptedMotion, NoAcceptedSample> {
-        let (mut end_free, mut path_free, mut cost) = (true, true, Cost::default());
-        let pose = self.drive_parts(u, x, rng, conditioned, &mut cost, &mut |driven, end_verdict| {
+        let (mut end_free, mut path_free) = (true, true);
+        let (pose, cost) = self.drive_parts(u, x, rng, conditioned, &mut |driven, end_verdict| {
             visit_arc(&driven.arc);
             end_free = end_verdict.free;
             path_free = path_free && self.plan.test_arc_after_end(driven, end_verdict, self.clearance).free;
@@ -239,9 +239,7 @@ impl MapConditioned<'_> {
         x: &SE2,
         rng: &mut R,
     ) -> Result<Cost, NoAcceptedSample> {
-        let mut cost = Cost::default();
-        self.drive_parts(u, x, rng, true, &mut cost, &mut |_, _| ())?;
-        Ok(cost)
+        self.drive_parts(u, x, rng, true, &mut |_, _| ()).map(|(_, cost)| cost)
     }
 
     fn noisy_command(&self, u: &VelocityCmd) -> NoisyCommand {
@@ -253,24 +251,26 @@ impl MapConditioned<'_> {
     }
 
     /// Draws each part of a motion until it is accepted. Calls `visit_part` with the arc of each part and the collision test of its end.
-    /// Returns the end pose of the last part.
+    /// Returns the end pose of the last part, and the cost of all parts.
     fn drive_parts<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
         x: &SE2,
         rng: &mut R,
         conditioned: bool,
-        cost: &mut Cost,
         visit_part: &mut dyn FnMut(&DrivenArc, CollisionVerdict),
-    ) -> Result<SE2, NoAcceptedSample> {
+    ) -> Result<(SE2, Cost), NoAcceptedSample> {
         let part_count = self.sampler.part_count().max(1);
         let command = self.noisy_command(&VelocityCmd { dt: u.dt / f64::from(part_count), ..*u });
-        (0..part_count).try_fold(*x, |pose, _| {
-            let (pose, arc, end_verdict) =
-                self.draw_until_accepted(&command, &PreparedPose::new(pose), rng, conditioned, cost)?;
+        let (mut pose, mut cost) = (*x, Cost::default());
+        for _ in 0..part_count {
+            let start = PreparedPose::new(pose);
+            let (end_pose, arc, end_verdict) =
+                self.draw_until_accepted(&command, &start, rng, conditioned, &mut cost)?;
             visit_part(&arc, end_verdict);
-            Ok(pose)
-        })
+            pose = end_pose;
+        }
+        Ok((pose, cost))
     }
 
     fn draw_until_accepted<R: Rng + ?Sized>(
@@ -284,16 +284,12 @@ impl MapConditioned<'_> {
         for _ in 0..MAX_DRAWS {
             let (end_pose, driven_arc) = command.drive_with_noise(start, self.draw_unit_noise(rng));
             let end_verdict = self.plan.test_point(driven_arc.end, self.clearance);
-            cost.draws += 1;
-            if !conditioned {
-                return Ok((end_pose, driven_arc, end_verdict));
-            }
-            let deciding_verdict = if self.sampler == Sampler::WholeArc {
-                self.plan.test_arc_after_end(&driven_arc, end_verdict, self.clearance)
-            } else {
-                end_verdict
+            let deciding_verdict = match self.sampler {
+                _ if !conditioned => CollisionVerdict::FREE,
+                Sampler::WholeArc => self.plan.test_arc_after_end(&driven_arc, end_verdict, self.clearance),
+                _ => end_verdict,
             };
-            cost.wall_tests += deciding_verdict.wall_tests;
+            cost.add(Cost { draws: 1, wall_tests: deciding_verdict.wall_tests });
             if deciding_verdict.free {
                 return Ok((end_pose, driven_arc, end_verdict));
             }

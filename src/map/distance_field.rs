@@ -51,10 +51,11 @@ impl DistanceField {
     /// Fills the field from the walls of a tree within `bounds` (minimum x, minimum y, maximum x, maximum y; m). `occupied_grid` is the
     /// grid whose occupied cells the walls outline, if there is one.
     pub fn new(tree: &WallTree, bounds: [f64; 4], occupied_grid: Option<&OccupancyGrid>) -> Self {
-        let mut builder = FieldBuilder::new(tree, bounds);
-        while let Some(block) = builder.remaining_blocks.pop() {
-            builder.fill_block(tree, occupied_grid, block);
-        }
+        let mut builder = FieldBuilder::new(tree, bounds, occupied_grid);
+        let root_candidates =
+            if tree.is_leaf(1) { walls_of_node(tree, 1).collect() } else { vec![WallSet::Node(1)] };
+        let whole_width = builder.distance_field.columns.max(builder.rows).next_power_of_two();
+        builder.fill_block(&root_candidates, [0, 0], whole_width);
         builder.distance_field
     }
 
@@ -100,27 +101,18 @@ impl DistanceField {
     }
 }
 
-/// Distance field during filling, with the state of the search.
-struct FieldBuilder {
+/// Distance field during filling.
+struct FieldBuilder<'a> {
+    tree: &'a WallTree,
+    occupied_grid: Option<&'a OccupancyGrid>,
     distance_field: DistanceField,
     rows: usize,
     cell_side: f64,
     /// Bound on the rounding error of any coordinate on the map, m.
     rounding_slack: f64,
-    /// Stack of candidates for the nearest wall, for all blocks that are still to be filled.
-    candidates: Vec<WallSet>,
-    remaining_blocks: Vec<CellBlock>,
-    /// Candidates of the current block: those still to be measured, and those measured with their distances (m).
+    /// Candidates of the current block for the nearest wall: those still to be measured, and those measured with their distances (m).
     unmeasured: Vec<WallSet>,
     measured: Vec<(f64, WallSet)>,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct CellBlock {
-    first_cell: [usize; 2],
-    width: usize,
-    /// Range in [`FieldBuilder::candidates`] of the candidates of this block.
-    candidate_range: [usize; 2],
 }
 
 /// Single wall, or all walls of a node of the tree.
@@ -130,8 +122,12 @@ enum WallSet {
     Node(u32),
 }
 
-impl FieldBuilder {
-    fn new(tree: &WallTree, bounds: [f64; 4]) -> Self {
+fn walls_of_node(tree: &WallTree, node_index: usize) -> impl Iterator<Item = WallSet> {
+    tree.distinct_wall_range(node_index).map(|wall_index| WallSet::Wall(wall_index as u32))
+}
+
+impl<'a> FieldBuilder<'a> {
+    fn new(tree: &'a WallTree, bounds: [f64; 4], occupied_grid: Option<&'a OccupancyGrid>) -> Self {
         let [left, bottom, right, top] = bounds;
         let (width, height) = (right - left, top - bottom);
         let cell_count = (CELLS_PER_WALL * tree.walls.len() as f64).clamp(MIN_CELLS, MAX_CELLS);
@@ -140,15 +136,9 @@ impl FieldBuilder {
         let [columns, rows] =
             [width, height].map(|side_length| (side_length / cell_side).ceil() as usize + 1);
         let cell_radius = FRAC_1_SQRT_2 * cell_side;
-        let root_candidates = if tree.is_leaf(1) {
-            tree.distinct_wall_range(1).map(|wall_index| WallSet::Wall(wall_index as u32)).collect()
-        } else {
-            vec![WallSet::Node(1)]
-        };
-        let whole_width = columns.max(rows).next_power_of_two();
-        let whole_block =
-            CellBlock { first_cell: [0, 0], width: whole_width, candidate_range: [0, root_candidates.len()] };
         Self {
+            tree,
+            occupied_grid,
             distance_field: DistanceField {
                 min_corner: [left, bottom],
                 cells_per_metre: 1.0 / cell_side,
@@ -161,27 +151,23 @@ impl FieldBuilder {
             rows,
             cell_side,
             rounding_slack: rounding_bound(&bounds),
-            candidates: root_candidates,
-            remaining_blocks: vec![whole_block],
             unmeasured: Vec::new(),
             measured: Vec::new(),
         }
     }
 
-    /// Computes the lower bounds of the cells of a block, or divides the block into four.
-    fn fill_block(&mut self, tree: &WallTree, occupied_grid: Option<&OccupancyGrid>, block: CellBlock) {
-        let CellBlock { first_cell: [left, bottom], width, candidate_range } = block;
+    /// Computes the lower bounds of the cells of a block, or divides the block into four. `candidates` contain every wall that may be
+    /// nearest to a point of the block.
+    fn fill_block(&mut self, candidates: &[WallSet], [left, bottom]: [usize; 2], width: usize) {
         if left >= self.distance_field.columns || bottom >= self.rows {
             return;
         }
         let [right, top] = [(left + width).min(self.distance_field.columns), (bottom + width).min(self.rows)];
-        let block_centre = self.block_centre(block.first_cell, width);
+        let block_centre = self.block_centre([left, bottom], width);
         let block_radius = width as f64 * self.distance_field.cell_radius;
         let block_uncertainty = width as f64 * self.distance_field.cell_uncertainty;
-        // Removes the candidates of finished blocks. On the stack they follow the candidates of the enclosing block.
-        self.candidates.truncate(candidate_range[1]);
         let Some([min_distance, max_distance]) =
-            self.measure_candidates(tree, block_centre, block, block_uncertainty)
+            self.measure_candidates(candidates, block_centre, width, block_uncertainty)
         else {
             return;
         };
@@ -190,26 +176,18 @@ impl FieldBuilder {
                 <= UNDIVIDED_DISTANCE_RATIO * block_radius + block_uncertainty / RELATIVE_UNCERTAINTY
         {
             let max_lower_bound = max_distance + 2.0 * block_radius + self.rounding_slack;
-            self.candidates.extend(
-                self.measured
-                    .iter()
-                    .filter(|(lower_bound, _)| *lower_bound <= max_lower_bound)
-                    .map(|(_, candidate)| *candidate),
-            );
-            let candidate_range = [candidate_range[1], self.candidates.len()];
+            let is_near = |(lower_bound, _): &&(f64, WallSet)| *lower_bound <= max_lower_bound;
+            let near_candidates: Vec<_> =
+                self.measured.iter().filter(is_near).map(|(_, candidate)| *candidate).collect();
             let half_width = width / 2;
-            for [column, row] in [[half_width, half_width], [0, half_width], [half_width, 0], [0, 0]] {
-                self.remaining_blocks.push(CellBlock {
-                    first_cell: [left + column, bottom + row],
-                    width: half_width,
-                    candidate_range,
-                });
+            for [column, row] in [[0, 0], [half_width, 0], [0, half_width], [half_width, half_width]] {
+                self.fill_block(&near_candidates, [left + column, bottom + row], half_width);
             }
             return;
         }
         // If `min_distance > block_radius`, no wall passes through the block: all of it is inside, or all is outside, the occupied cells.
         let is_in_blocked_cell = min_distance > block_radius
-            && occupied_grid.is_some_and(|occupied_grid| occupied_grid.is_blocked_at(block_centre));
+            && self.occupied_grid.is_some_and(|occupied_grid| occupied_grid.is_blocked_at(block_centre));
         for row in bottom..top {
             for column in left..right {
                 let [x, y] = self.block_centre([column, row], 1);
@@ -233,19 +211,18 @@ impl FieldBuilder {
     /// apart. None if too many walls are near. Afterwards `measured` has all walls or nodes that may be nearest to a point of the block.
     fn measure_candidates(
         &mut self,
-        tree: &WallTree,
+        candidates: &[WallSet],
         centre: [f64; 2],
-        block: CellBlock,
+        width: usize,
         allowed_uncertainty: f64,
     ) -> Option<[f64; 2]> {
-        let Self { candidates, unmeasured, measured, .. } = self;
-        let CellBlock { width, candidate_range: [first_candidate, end_candidate], .. } = block;
+        let Self { tree, unmeasured, measured, .. } = self;
         // A wall can be nearest to a point of the block only if its distance from the middle exceeds the smallest distance by at most the
         // diameter of the block.
         let max_excess = 2.0 * width as f64 * self.distance_field.cell_radius + self.rounding_slack;
         measured.clear();
         unmeasured.clear();
-        unmeasured.extend_from_slice(&candidates[first_candidate..end_candidate]);
+        unmeasured.extend_from_slice(candidates);
         let mut least_upper_bound = f64::INFINITY;
         let mut measured_count = 0;
         while let Some(candidate) = unmeasured.pop() {
@@ -276,9 +253,7 @@ impl FieldBuilder {
                         || tree.nodes[node as usize].capsule_radius > 0.5 * max_excess =>
                 {
                     if tree.is_leaf(node as usize) {
-                        unmeasured.extend(
-                            tree.distinct_wall_range(node as usize).map(|wall| WallSet::Wall(wall as u32)),
-                        );
+                        unmeasured.extend(walls_of_node(tree, node as usize));
                     } else {
                         unmeasured.extend([2 * node, 2 * node + 1].map(WallSet::Node));
                     }

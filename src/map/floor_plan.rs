@@ -96,7 +96,7 @@ pub struct CollisionVerdict {
 }
 
 impl CollisionVerdict {
-    const FREE: Self = Self { free: true, wall_tests: 0 };
+    pub(super) const FREE: Self = Self { free: true, wall_tests: 0 };
     const BLOCKED: Self = Self { free: false, wall_tests: 0 };
 }
 

@@ -89,7 +89,7 @@ impl Check {
             CheckName::ReferenceMatches if value < expected[0] => {
                 "No error of the odometry is visible: the reference is a copy of it, computed from it, or too noisy. The α's mean nothing. Use a precise and independent measurement, such as motion capture or SLAM."
             }
-            CheckName::ReferenceMatches if (value - MIRRORED_MISMATCH).abs() < 0.1 => {
+            CheckName::ReferenceMatches if is_mirrored(value) => {
                 "The reference turns left where the odometry turns right: one of the two has Z down or a mirrored axis. The α's mean nothing. Negate y and the heading of that one."
             }
             _ => name.failure_message(),
@@ -195,8 +195,10 @@ const MIN_USABLE_LEGS: f64 = 30.0;
 /// Maximum median difference of the motions by odometry and reference, over the median motion, of logs of the same drive.
 const MAX_MISMATCH: f64 = 0.7;
 
-/// Mismatch of a reference whose turns are opposite to those of the odometry: their difference is twice as large.
-const MIRRORED_MISMATCH: f64 = 2.0;
+/// Returns true for the mismatch of a mirrored reference: its turns are opposite to those of the odometry, so that they differ by twice the turn.
+fn is_mirrored(mismatch: f64) -> bool {
+    (mismatch - 2.0).abs() < 0.1
+}
 
 /// Relative error below which the reference is a copy of the odometry: no wheels measure every motion to a thousandth. A copy may be rounded
 /// or have noise of its own, which does not accumulate.
@@ -268,9 +270,12 @@ fn mismatch(leg_set: &LegSet, systematic: &Systematic) -> Option<f64> {
             drives.extend([(distance(&expected), libm::hypot(dx, dy))]);
         }
     }
-    let compared = [turns, drives].into_iter().filter(|(sizes, _)| sizes.len() >= MIN_LEGS);
-    let ratios = compared.map(|(mut sizes, mut differences)| median(&mut differences) / median(&mut sizes));
-    ratios.reduce(f64::max)
+    let ratio_of = |(mut sizes, mut differences): (Vec<f64>, Vec<f64>)| {
+        (sizes.len() >= MIN_LEGS).then(|| median(&mut differences) / median(&mut sizes))
+    };
+    let ratios = [turns, drives].map(ratio_of);
+    // The drives of a mirrored reference differ by chance, because its mount yaw and lever arm are meaningless.
+    ratios[0].filter(|ratio| is_mirrored(*ratio)).or_else(|| ratios.into_iter().flatten().reduce(f64::max))
 }
 
 /// Returns the checks of the innovations: correlation of neighbours and tails.

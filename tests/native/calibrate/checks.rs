@@ -79,10 +79,10 @@ fn a_reference_that_turns_the_other_way_is_recognized_at_any_clock_offset() {
             (sample_time + clock_offset, SE2::new(pose.x(), -pose.y(), -pose.theta()))
         });
         let calibration = calibrate_log(&[odometry, new_trajectory(mirrored)], &sim.calibration_options());
-        let failure_message = &calibration.diagnostics.checks[0].message;
+        let check = &calibration.diagnostics.checks[0];
         assert!(
-            failure_message.starts_with("The reference turns left where the odometry turns right"),
-            "{seed}: {failure_message}"
+            check.message.starts_with("The reference turns left where the odometry turns right"),
+            "{seed}: {check:?}"
         );
         assert_unusable(&calibration, "mirrored");
     }

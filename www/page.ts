@@ -5,22 +5,20 @@
  * @module
  */
 
-import { prepareBet, prepareShapeBet } from './page/bet.ts';
-
 /** Any of the elements. */
-export type Figure = HTMLElement & Record<string, any>;
+type Figure = HTMLElement & Record<string, any>;
 
 /** Whole state that each figure opened with. */
 const openingStates: WeakMap<Element, Record<string, any>> = new WeakMap();
 
 /** Returns the figure that an element of the page is about. */
-export const figureOf = (element: Element): Figure => element.closest('article')?.querySelector('.stand > :first-child') as Figure;
+const figureOf = (element: Element) => element.closest('article')?.querySelector('.stand') as Figure;
 
 /**
  * Returns a figure to the state that it opened with, and then sets values in their order. Each is a property of the element, or else a field
  * of its state. A preset has to be the first value, because it replaces the others.
  */
-export async function enterState(figure: Figure, values: Record<string, unknown>) {
+async function enterState(figure: Figure, values: Record<string, unknown>) {
   if (!openingStates.has(figure)) await new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
   const openingState = openingStates.get(figure) ?? {};
   // The text with the pressed button refers to the whole cloud, so that it is shown without growing.
@@ -58,6 +56,48 @@ function keepPicturesInSight() {
   for (const tryList of document.querySelectorAll('.try')) observer.observe(tryList);
 }
 
+/** Returns the number at a path of keys separated by dots; null if there is none. */
+const findNumberAtPath = (stats: Record<string, any>, path: string): number | null => path.split('.').reduce((valueSoFar: any, key) => valueSoFar?.[key], stats) ?? null;
+
+/**
+ * Completes a form in which the reader bets on a number by a slider. `data-try` is the state of the figure that has the answer, and `data-answer`
+ * the path of the answer in `stats`. `data-hides` names the overlay that shows the answer; it is hidden until the reader submits the bet.
+ */
+function prepareBet(form: HTMLFormElement) {
+  const figure = figureOf(form);
+  const { try: stateText = '{}', answer: answerPath = '', unit = '', hides: hiddenOverlay } = form.dataset;
+  const state = JSON.parse(stateText);
+  form.insertAdjacentHTML('beforeend', '<span class="value" aria-hidden="true"></span> <button disabled>Reveal</button><p role="status"></p>');
+  const slider = form.querySelector('input') as HTMLInputElement;
+  const [valueOutput, submitButton, answerOutput] = ['.value', 'button', '[role=status]'].map((selector) => form.querySelector(selector) as HTMLButtonElement);
+  const [min, max] = [Number(slider.min), Number(slider.max)];
+  const isPercent = unit === '%';
+  const formatValue = (value: number) => `${isPercent ? value.toFixed(slider.valueAsNumber === value ? 0 : 1) + '\u00a0%' : value}`;
+  const showValue = () => (slider.ariaValueText = valueOutput.textContent = formatValue(slider.valueAsNumber));
+
+  // A bet is made by moving the slider.
+  slider.addEventListener('input', () => {
+    submitButton.disabled = false;
+    showValue();
+  });
+  showValue();
+  if (hiddenOverlay) {
+    const overlays = state.overlays.filter((name: string) => name !== hiddenOverlay);
+    form.addEventListener('focusin', () => void enterState(figure, { ...state, overlays }), { once: true });
+  }
+  form.addEventListener('submit', async (event) => {
+    event.preventDefault();
+    await enterState(figure, state);
+    await figure.settled;
+    const answerNumber = findNumberAtPath(figure.stats, answerPath);
+    const actualValue = answerNumber === null ? null : isPercent ? 100 * answerNumber : answerNumber;
+    form.style.setProperty('--truth', String(((actualValue ?? max) - min) / (max - min)));
+    form.classList.add('revealed');
+    answerOutput.textContent = `Your bet: ${formatValue(slider.valueAsNumber)}. The figure’s answer, ▲:\u00a0${actualValue === null ? 'never' : formatValue(actualValue)}.`;
+    submitButton.textContent = 'Reveal again';
+  });
+}
+
 document.addEventListener('load', ({ target }) => {
   const figure = target as Figure;
   if (figure.getState && !openingStates.has(figure)) openingStates.set(figure, figure.getState());
@@ -67,5 +107,5 @@ document.addEventListener('click', ({ target }) => {
   if (button) void enterTriedState(button as HTMLElement);
 });
 for (const type of ['pointerover', 'pointerout', 'focusin', 'focusout']) document.addEventListener(type, highlightTerm);
-for (const form of document.querySelectorAll('form')) (form.matches('.shape-bet') ? prepareShapeBet : prepareBet)(form, (values) => enterState(figureOf(form), values), figureOf(form));
+for (const form of document.querySelectorAll('form')) prepareBet(form);
 keepPicturesInSight();

@@ -76,7 +76,7 @@ export const controlStyles = css`
   }
 
   @media (forced-colors: active) {
-    :is(input[type='range'], svg, .handle) {
+    :is(svg, .handle) {
       forced-color-adjust: none;
     }
 

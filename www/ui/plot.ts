@@ -21,6 +21,9 @@ const FAR_OUTSIDE_PX = 10_000;
 
 const ERROR_BAR_CAP = 4;
 
+/** Size of the bar that marks the value of a slider over the chart. A dot would look like data. */
+const GRIP_SIZE = { width: 8, height: 28 };
+
 export const plotStyles = css`
   .plot {
     display: block;
@@ -32,17 +35,19 @@ export const plotStyles = css`
     max-width: 26em;
   }
 
-  /* Slider over the plot area, longer by half a thumb at both ends, so that the thumb's middle reaches them. The thumb is a bar, because a dot would look like data. */
+  /* Invisible slider over the plot area, longer by half a thumb at both ends. The chart shows its value. */
   .plotted input {
     position: absolute;
     top: ${unsafeCSS((100 * PLOT_TOP) / CHART_HEIGHT)}%;
-    left: calc(${unsafeCSS((100 * PLOT_LEFT) / CHART_WIDTH)}% - 0.275em);
-    width: calc(${unsafeCSS((100 * (PLOT_RIGHT - PLOT_LEFT)) / CHART_WIDTH)}% + 0.55em);
+    left: calc(${unsafeCSS((100 * PLOT_LEFT) / CHART_WIDTH)}% - 0.5em);
+    width: calc(${unsafeCSS((100 * (PLOT_RIGHT - PLOT_LEFT)) / CHART_WIDTH)}% + 1em);
     height: ${unsafeCSS((100 * (PLOT_BOTTOM - PLOT_TOP)) / CHART_HEIGHT)}%;
-    --thumb: var(--prior);
-    --thumb-width: 0.55em;
-    --thumb-height: 1.9em;
-    --track: none;
+    opacity: 0;
+  }
+
+  .plotted:has(:focus-visible) .grip {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
   }
 
   .plot text {
@@ -154,6 +159,7 @@ export function plotHtml({ label, x, y, curves, points = [], marks = [], slider,
           /><circle cx=${toPixelX(pointX)} cy=${toPixelY(value)} r="3" fill="var(--${role})" />`,
         )}
       </svg>
+      ${slider ? svg`<rect class="grip" fill="var(--accent)" stroke="var(--paper)" stroke-width="3" paint-order="stroke" rx="4" width=${GRIP_SIZE.width} height=${GRIP_SIZE.height} x=${toPixelX(slider.value) - GRIP_SIZE.width / 2} y=${(PLOT_TOP + PLOT_BOTTOM - GRIP_SIZE.height) / 2} />` : nothing}
     </svg>
     ${slider ? sliderTrackHtml({ ...slider, min: x.min, max: x.max }) : nothing}
     </div>

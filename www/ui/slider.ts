@@ -1,39 +1,12 @@
 /** Slider with a label, an editable value, and a line of text about its effect on the picture. */
 
-import { css, html, noChange, nothing, unsafeCSS } from 'lit';
+import { css, html, noChange, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
 import { inputOf } from './controls.ts';
-
-/** Returns the styles of the track and thumb of a slider, whose pseudo-elements have other names in each browser. */
-const createTrackStyles = (trackPseudoElement: string, thumbPseudoElement: string) => unsafeCSS(`
-  input[type='range']::${trackPseudoElement} {
-    height: 2px;
-    background: var(--track, var(--muted));
-    border-radius: 1px;
-  }
-
-  input[type='range']::${thumbPseudoElement} {
-    appearance: none;
-    box-sizing: border-box;
-    width: var(--thumb-width, 1.05em);
-    height: var(--thumb-height, 1.05em);
-    background: var(--thumb);
-    border: 2px solid var(--thumb-edge, var(--thumb));
-    border-radius: 1em;
-    box-shadow: 0 0 0 3px var(--paper);
-  }
-
-  /* Focus ring around the thumb only: around the slider it would overlap the rows above and below. */
-  input[type='range']:focus-visible::${thumbPseudoElement} {
-    outline: 2px solid var(--accent);
-    outline-offset: 2px;
-  }
-`);
 
 export const sliderStyles = css`
   /* Name and value above the track, and space for a line of help below it. */
   .slider {
-    --thumb: var(--role);
     position: relative;
     display: grid;
     grid-template: 'name value' auto 'track track' auto / 1fr auto;
@@ -75,21 +48,15 @@ export const sliderStyles = css`
 
   .slider .value {
     grid-area: value;
-    position: relative;
-    text-align: right;
     white-space: nowrap;
   }
 
-  /* The field lies over its printed value, which reserves the space and is shown on paper. */
-  .printed {
-    visibility: hidden;
-  }
-
+  /* The field is as wide as the longest value. */
   .typed {
-    position: absolute;
-    inset: -0.2em 0 auto auto;
-    box-sizing: border-box;
-    width: calc(100% + 0.4em);
+    box-sizing: content-box;
+    width: 0;
+    min-width: 100%;
+    margin: -0.2em 0 -0.2em -0.4em;
     padding: 0.1em 0.1em 0.1em 0.2em;
     background: none;
     border: 1px solid transparent;
@@ -126,32 +93,22 @@ export const sliderStyles = css`
     color: var(--accent);
   }
 
-  .slider.off {
-    --thumb: var(--paper);
-    --thumb-edge: var(--muted);
-    color: var(--muted);
-  }
-
   input[type='range'] {
-    appearance: none;
     width: 100%;
     height: 1.75em;
     margin: 0;
-    background: none;
+    accent-color: var(--role);
     cursor: pointer;
     touch-action: pan-y;
   }
 
-  ${createTrackStyles('-webkit-slider-runnable-track', '-webkit-slider-thumb')}
-  ${createTrackStyles('-moz-range-track', '-moz-range-thumb')}
-
-  /* Chromium and WebKit put the top of the thumb on the top of the track. Firefox centres the thumb. */
-  input[type='range']::-webkit-slider-thumb {
-    margin-top: calc(1px - var(--thumb-height, 1.05em) / 2);
+  :is(.slider.off, .slider.off input) {
+    accent-color: var(--muted);
+    color: var(--muted);
   }
 
   input[type='range']:focus-visible {
-    outline: none;
+    outline-offset: -2px;
   }
 
   .typed:focus-visible {
@@ -189,7 +146,6 @@ export function sliderRowHtml(sliderRow: SliderRow) {
       </span>
       ${sliderTrackHtml({ ...sliderRow, ...rangeOfStops(sliderRow), name: undefined, valueText: printedValue, describedBy: `${sliderRow.id}-effect`, onKeydown: focusField })}
       <form method="dialog" class="value notranslate" translate="no" dir="ltr" data-longest=${longestText}>
-        <span class="printed">${printedValue}</span>
         ${valueFieldHtml(sliderRow, printedValue)}
       </form>
       <p class="effect muted small" id="${sliderRow.id}-effect" role=${sliderRow.refusal ? 'alert' : nothing}>${sliderRow.refusal || sliderRow.effect}</p>

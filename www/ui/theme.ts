@@ -157,7 +157,7 @@ export const themeStyles = css`
       aspect-ratio: auto !important;
     }
 
-    :is(button, input, textarea, summary, .notice, .handle, .end, .effect, .marked, .visually-hidden),
+    :is(button, input:not(.typed), textarea, summary, .notice, .handle, .end, .effect, .marked, .visually-hidden),
     :not(th, li) > label:has(input:not(:checked)) {
       display: none !important;
     }
@@ -179,10 +179,6 @@ export const themeStyles = css`
       display: inline-flex !important;
       gap: 0.4em;
       margin: 0 1.5em 0 0 !important;
-    }
-
-    .printed {
-      visibility: visible !important;
     }
 
     [data-longest]::after {

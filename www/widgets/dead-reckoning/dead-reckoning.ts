@@ -46,9 +46,8 @@ const styles = css`
     margin-inline: auto;
   }
 
-  /* The cursor shows that the line at the selected step can be dragged along the chart. */
+  /* The line at the selected step can be dragged along the chart. */
   .chart input {
-    --thumb: var(--accent);
     cursor: ew-resize;
   }
 
@@ -143,7 +142,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   readViewModel = viewModelOf;
 
   get scene() {
-    return { ...this.currentViewModel, markedPoses: this.#markedPoses, overlays: this.settings.elementState.overlays };
+    return { ...super.scene, markedPoses: this.#markedPoses };
   }
 
   get exportData() {

@@ -29,27 +29,6 @@ export type Figure = FigureElement<any, any>;
 
 addEnglishMessages(en);
 
-/** Samples of a figure, which are added over several frames: see widgets/shared/cloud.ts. */
-export interface SampleCloud {
-  /** True if all requested samples are shown and the cloud does not grow. */
-  readonly isSettled: boolean;
-  /** Starts the growth of the cloud, or shows the samples of a state. */
-  showOrGrow(state?: StateValues): void;
-  /** Changes settings of a simulation and shows one block of samples; later frames add the others, up to `shown`. Returns all settings. */
-  configure(simulation: any, settings: StateValues, shown?: number): StateValues;
-  /** Adds samples in a frame that draws pictures. */
-  addSamplesWhileDrawing(): void;
-  /** Adds samples in a frame that draws nothing. Returns true if all requested samples are shown. */
-  addSamplesUnseen(): boolean;
-  /** Adds all samples. */
-  addAllSamples(): void;
-  snapshot(): StateValues;
-  withDerivedFields(currentState: StateValues, changes: StateValues): StateValues;
-  selectAtPointer(picture: Picture<any>, event: PointerEvent): void;
-  /** Clears the selection if the selected sample is not shown and will not be. */
-  clearStaleSelection(): void;
-}
-
 /**
  * Figure with one simulation object of the core. A widget defines its simulation, view model, pictures, HTML and export.
  *
@@ -130,7 +109,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   presentationMode = new Presentation(this);
   textHeights = new TextHeights(this);
   /** Cloud of a figure with samples. */
-  cloud: SampleCloud | undefined;
+  cloud: import('../widgets/shared/cloud.ts').Cloud | undefined;
   /** Player of a figure that animates a slider. `advance` returns true while it plays. */
   player: { advance(elapsed: number): boolean, stop(): void } | undefined;
   /** Handlers for dragged files, if the figure accepts files. */
@@ -154,16 +133,17 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   /** Configures a new simulation for a state, and may add missing fields to the state. Throws a TypeError or RangeError for an invalid state. */
   enterState(simulation: Simulation, state: StateValues) {
     const settings = this.settings.pickSettings(state);
-    if (this.cloud) this.cloud.configure(simulation, settings, state.shown);
+    if (this.cloud) this.cloud.configure(simulation as any, settings, state.shown);
     else simulation.configure(settings);
   }
 
   /** Returns the view model of the simulation. Called once for each change. */
   abstract readViewModel(simulation: Simulation): ViewModel;
 
-  /** Scene of the pictures: the view model, and other values that they draw. */
+  /** Scene of the pictures: the view model, the state of the element, and the simulation. */
   get scene(): any {
-    return this.currentViewModel;
+    const viewModel = this.currentViewModel;
+    return { ...this.settings.elementState, ...viewModel, simulation: this.simulation };
   }
 
   /** Returns the HTML of the figure. */

@@ -78,10 +78,11 @@ export class View {
     return (this.plotArea.bottom - this.plotArea.top) / (this.extent.yMax - this.extent.yMin);
   }
 
-  /** Returns the scale (pixels per metre) at which a part of the world fits into the view. */
-  fittingScaleOf({ xMin, yMin, xMax, yMax }: Extent) {
+  /** Returns the scale (pixels per metre) at which a part of the world fits into the view with a margin in pixels, but fills at least half of it. */
+  fittingScaleOf({ xMin, yMin, xMax, yMax }: Extent, margin = 0) {
     const { left, right, top, bottom } = this.plotArea;
-    return Math.min((right - left) / (xMax - xMin), (bottom - top) / (yMax - yMin));
+    const [width, height] = [right - left, bottom - top].map((length) => Math.max(length / 2, length - 2 * margin));
+    return Math.min(width / (xMax - xMin), height / (yMax - yMin));
   }
 
   toPixelX(x: number) {

@@ -98,13 +98,6 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
 
   readViewModel = (simulation: Simulation): ViewModel => simulation.read();
 
-  get scene() {
-    const { overlays, line, underway } = this.settings.elementState;
-    const viewModel = this.currentViewModel;
-    const movingRobotPoses = underway < UNDERWAY_AT_END ? this.simulation?.underway(underway / UNDERWAY_AT_END) : undefined;
-    return { ...viewModel, simulation: this.simulation, overlays, tableLine: line, movingRobotPoses };
-  }
-
   get exportData() {
     const { stats: { factors } } = this.currentViewModel;
     return {

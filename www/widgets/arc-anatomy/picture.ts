@@ -10,10 +10,10 @@ import { Picture } from '../../scene/picture.ts';
 import { View, extentAround, widenExtent } from '../../scene/view.ts';
 import { clamp, formatFixed } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
-import { CONTOUR_STYLES, LINE_STYLES, type LineName, type ViewModel } from './settings.ts';
+import { CONTOUR_STYLES, LINE_STYLES, UNDERWAY_AT_END, type LineName, type ViewModel } from './settings.ts';
 import type { ArcAnatomy, ArcWithCircle, Pose, AnatomySurface } from '../../types.d.ts';
 
-type ArcScene = ViewModel & { simulation: ArcAnatomy, overlays: LineName[], tableLine: number, movingRobotPoses: Float64Array | undefined };
+type ArcScene = ViewModel & { simulation: ArcAnatomy, overlays: LineName[], line: number, underway: number };
 
 /** Radius of the robots, m. */
 export const ROBOT_RADIUS = 0.06;
@@ -60,8 +60,7 @@ export class ArcPicture extends Picture<ArcScene> {
     const maxRadius = Math.max(MAX_CENTRE_RADIUS.metres, MAX_CENTRE_RADIUS.pathLengths * Math.hypot(xMax - xMin, yMax - yMin));
     for (const { center, radius } of [commanded, inverted]) if (center && Math.abs(radius) < maxRadius) shownCoordinates.push(...center);
     const extentWithMargin = widenExtent(extentAround(shownCoordinates, 2), MARGIN_METRES);
-    // The wedge has a fixed size in pixels. Including it reduces the scale, for which the margin of the view makes up.
-    const wedgeRadius = WEDGE_RADIUS / this.view.fittingScaleOf(extentWithMargin);
+    const wedgeRadius = WEDGE_RADIUS / this.view.fittingScaleOf(extentWithMargin, WEDGE_RADIUS);
     const wedgeHeadings = overlays.includes('wedge') ? [next.theta, next.theta - lastTurn] : [];
     this.view.fit(extentAround(wedgeHeadings.flatMap((theta) => [next.x + wedgeRadius * Math.cos(theta), next.y + wedgeRadius * Math.sin(theta)]), 2, extentWithMargin));
   }
@@ -195,18 +194,19 @@ function wedgeCalloutOf({ view }: DrawContext, finalPose: Pose, lastTurn: number
 }
 
 /** Draws a robot on each path that is shown, at the same time since the start. */
-function drawMovingRobots(drawContext: DrawContext, { movingRobotPoses, overlays }: ArcScene) {
-  if (!movingRobotPoses) return;
+function drawMovingRobots(drawContext: DrawContext, { simulation, underway, overlays }: ArcScene) {
+  if (underway === UNDERWAY_AT_END) return;
+  const robotPoses = simulation.underway(underway / UNDERWAY_AT_END);
   for (const [i, name] of (['commanded', 'inverted', 'twist'] as const).entries()) {
     if (!overlays.includes(name)) continue;
-    const [x, y, theta] = movingRobotPoses.subarray(3 * i);
+    const [x, y, theta] = robotPoses.subarray(3 * i);
     drawRobot(drawContext, { x, y, heading: theta, colour: drawContext.palette[LINE_STYLES[name].role] });
   }
 }
 
 /** Draws the construction of the highlighted line of Table 5.1. */
-function drawTableLineConstruction(drawContext: DrawContext, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, tableLine }: ArcScene) {
-  const highlightedConstructions = CONSTRUCTIONS_BY_LINE[tableLine] ?? [];
+function drawTableLineConstruction(drawContext: DrawContext, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, line }: ArcScene) {
+  const highlightedConstructions = CONSTRUCTIONS_BY_LINE[line] ?? [];
   const { context, view, palette: { accent } } = drawContext;
   const toPixel = ([x, y]: number[]) => view.toPixel(x, y);
   const drawAccentLine = (width: number, ...points: number[][]) => strokeLine(context, points, { colour: accent, width });

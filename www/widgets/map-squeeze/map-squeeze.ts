@@ -186,10 +186,10 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   }
 
   get scene() {
-    const viewModel = this.currentViewModel;
+    const scene = super.scene;
     const { selectedIndex, isSelectionShown } = this.cloud;
-    this.picture.isCloseView = this.settings.elementState.view === 'close';
-    return { ...viewModel, simulation: this.simulation, overlays: this.settings.elementState.overlays, markedSample: isSelectionShown ? this.#markedSampleOf(selectedIndex) : undefined };
+    this.picture.isCloseView = scene.view === 'close';
+    return { ...scene, markedSample: isSelectionShown ? this.#markedSampleOf(selectedIndex) : undefined };
   }
 
   /** Returns pose and path of the marked sample. If it was accepted although its path goes through a wall, `contact` is the point at the wall. */

@@ -136,9 +136,9 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
   readViewModel = viewModelOf;
 
   get scene() {
-    const viewModel = this.currentViewModel;
+    const scene = super.scene;
     const { selectedIndex, isSelectionShown } = this.cloud;
-    return { ...viewModel, overlays: this.settings.elementState.overlays, markedPose: isSelectionShown ? viewModel.poses.subarray(3 * selectedIndex) : undefined };
+    return { ...scene, markedPose: isSelectionShown ? scene.poses.subarray(3 * selectedIndex) : undefined };
   }
 
   get exportData() {

@@ -87,12 +87,6 @@ const MAX_HEADING_TICKS = 1000;
 /** Gap between the handle that turns a robot and the arc of a turn around it, and between two arcs, CSS pixels. */
 const ARC_GAPS = { afterHandle: 14, betweenArcs: 16 };
 
-/** Maximum margin around a turn, as a fraction of the frame's shorter side, so that half of the frame remains for the motion. */
-const MAX_TURN_MARGIN_FRACTION = 0.25;
-
-/** Number of iterations for the scale of the view. Each iteration at least halves the error of the scale. */
-const SCALE_ITERATIONS = 12;
-
 /** Minimum length (CSS pixels) of a drive with a label. */
 const MIN_LABELLED_LENGTH = 24;
 
@@ -162,24 +156,14 @@ export class LegsPicture extends SamplesPicture<Scene> {
   view: View = new View({ relativeMargin: 0 });
 
   fitView(scene: Scene) {
-    const { view } = this;
     const { linkage, legs, overlays } = scene;
     const coordinatesToShow = coordinatesToShowOf(scene);
-    if (!overlays.includes('legs')) {
-      view.fit(extentOf(coordinatesToShow, 1.2));
-      return;
-    }
-    const { left, right, top, bottom } = view.plotArea;
-    const maxTurnRadius = MAX_TURN_MARGIN_FRACTION * Math.min(right - left, bottom - top);
-    const extentOfScale = (scale: number) => {
-      const arcRadii = turnRadiiOf({ scaleX: scale });
-      const arcPoints = [legs.rot1, legs.rot2].flatMap((turn, i) => turnArcPoints(poseAt(linkage, 2 * i), turn, Math.min(arcRadii[i], maxTurnRadius) / scale));
-      return extentOf([...coordinatesToShow, ...arcPoints], 1.2);
-    };
-    // The arcs have a fixed size in pixels, and need more space in metres at a smaller scale.
-    let scale = view.fittingScaleOf(extentOf(coordinatesToShow, 1.2));
-    for (let i = 0; i < SCALE_ITERATIONS; i++) scale = view.fittingScaleOf(extentOfScale(scale));
-    view.fit(extentOfScale(scale));
+    const extent = extentOf(coordinatesToShow, 1.2);
+    const [firstRadius, secondRadius] = turnRadiiOf({ scaleX: this.view.fittingScaleOf(extent) });
+    const scale = this.view.fittingScaleOf(extent, secondRadius);
+    const turnArcs = overlays.includes('legs') ? ([[0, legs.rot1, firstRadius], [2, legs.rot2, secondRadius]] as const) : [];
+    const arcPoints = turnArcs.flatMap(([poseIndex, turn, radius]) => turnArcPoints(poseAt(linkage, poseIndex), turn, radius / scale));
+    this.view.fit(extentOf([...coordinatesToShow, ...arcPoints], 1.2));
   }
 
   paint: SamplesPicture<Scene>['paint'] = (drawContext, scene) => {

@@ -10,7 +10,7 @@ import { words } from '../../messages/registry.ts';
 import { toViewPixels } from '../../scene/canvas.ts';
 import { buttonHtml, fieldsetHtml, inputOf } from '../../ui/controls.ts';
 import { formatInteger } from '../../ui/format.ts';
-import type { Figure, SampleCloud } from '../../figure/figure.ts';
+import type { Figure } from '../../figure/figure.ts';
 import type { StateValues } from '../../figure/settings.ts';
 import type { Picture } from '../../scene/picture.ts';
 
@@ -34,7 +34,7 @@ const GROWTH_STEP_COUNT = 150;
 /** Maximum time (ms) for adding samples in a frame. A frame with its pictures then takes less than 50 ms. */
 const MAX_ADDING_MS = 12;
 
-export class Cloud extends FigureController implements SampleCloud {
+export class Cloud extends FigureController {
   #hasGivenUp;
 
   /** Creates the cloud. `hasGivenUp` returns true if a simulation, given by itself or its view model, stopped before it had drawn all requested samples. */

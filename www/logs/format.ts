@@ -51,17 +51,9 @@ const ISO_DATE = /^\s*(\d{4})[-/](\d{1,2})[-/](\d{1,2})(?:[T\s]+(\d{1,2}):(\d{2}
 const DURATION_TEXT = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*$/;
 
 /** Splits a line into cells. May return only the first `neededCellCount` cells. A separator in quotes does not count. */
-export function splitCells(line: string, separator: string, neededCellCount = Infinity): string[] {
+export function splitCells(line: string, separator: string, neededCellCount?: number): string[] {
   if (separator === ' ') return line.trim().split(/[ \t]+/);
-  if (!line.includes('"')) {
-    // A loop takes half as long as `split`.
-    const plainCells: string[] = [];
-    for (let cellStart = 0, cellEnd = 0; cellEnd >= 0 && plainCells.length < neededCellCount; cellStart = cellEnd + 1) {
-      cellEnd = line.indexOf(separator, cellStart);
-      plainCells.push(cellEnd < 0 ? line.slice(cellStart) : line.slice(cellStart, cellEnd));
-    }
-    return plainCells;
-  }
+  if (!line.includes('"')) return line.split(separator, neededCellCount);
   const cells = [''];
   let isQuoted = false;
   for (const character of line) {

@@ -90,8 +90,8 @@ function joinContainers(containers: Container[]): Container {
     get truncationReason() {
       return containers.find(({ truncationReason }) => truncationReason)?.truncationReason;
     },
-    get damageByPosition() {
-      return new Map(containers.flatMap(({ damageByPosition }, i) => [...damageByPosition].map(([position, reason]): [number, string] => [2 ** 48 * i + position, reason])));
+    get damageReasons() {
+      return containers.flatMap(({ damageReasons }) => damageReasons);
     },
     async readMessages(isWanted, onMessage, onProgress) {
       for (const [i, container] of containers.entries()) {

@@ -40,7 +40,7 @@ export async function createRecording(name: string, container: Container, option
 }
 
 /** Returns the reason why a part of a recording cannot be read; undefined for an undamaged recording. */
-const damageReasonOf = ({ damageByPosition, truncationReason }: Container): string | undefined => [...damageByPosition.values(), truncationReason][0];
+const damageReasonOf = ({ damageReasons, truncationReason }: Container): string | undefined => [...damageReasons, truncationReason][0];
 
 async function listSeries(container: Container): Promise<Series[]> {
   const series: Series[] = Array.from(group(container.channels, ({ topic }) => topic), ([topic, allChannels]) => {
@@ -98,7 +98,7 @@ function createTopicReader(file: string, container: Container, { series: topic, 
 
     /** Returns the log; throws a LogError if the messages do not form a log. */
     buildLog(options: OpenOptions): Log {
-      const { format, damageByPosition, truncationReason } = container;
+      const { format, damageReasons, truncationReason } = container;
       const lossReason = damageReasonOf(container);
       if (messageCount === 0 && lossReason) refuse((texts) => texts.damaged(lossReason, format));
       if (chain && !chain.isConnected) refuse((texts) => texts.noChain(formatFrames(frames), listNames(chain.links.map(formatFrames))));
@@ -108,7 +108,7 @@ function createTopicReader(file: string, container: Container, { series: topic, 
       }
       const logKind = kind === 'commands' ? 'commands' : 'poses';
       const notes: Note[] = [
-        ...(damageByPosition.size > 0 ? [{ name: 'damaged' as const, values: [damageByPosition.size, lossReason as string] }] : []),
+        ...(damageReasons.length > 0 ? [{ name: 'damaged' as const, values: [damageReasons.length, damageReasons[0]] }] : []),
         ...(truncationReason ? [{ name: 'cutShort' as const, values: [] }] : []),
       ];
       return rows.buildLog(`${file}, ${topic}${frames ? ` (${formatFrames(frames)})` : ''}`, logKind, {

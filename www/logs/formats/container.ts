@@ -28,7 +28,7 @@ export type OnMessage = (message: Message) => void;
 export type OnBlock = (fraction: number) => boolean | void;
 
 /** Container of messages: one file, or several files of a recording. */
-export type Container = Pick<MessageFile<unknown>, 'format' | 'channels' | 'truncationReason' | 'damageByPosition' | 'readMessages'>;
+export type Container = Pick<MessageFile<unknown>, 'format' | 'channels' | 'truncationReason' | 'damageReasons' | 'readMessages'>;
 
 /** Base class of files of messages, with their channels by id. */
 export abstract class MessageFile<Id> {
@@ -36,7 +36,7 @@ export abstract class MessageFile<Id> {
   /** Reason why the end of the file cannot be read; undefined for a complete file. */
   truncationReason: string | undefined;
   /** Reasons why damaged blocks were skipped, by the positions of the blocks. */
-  readonly damageByPosition = new Map<number, string>();
+  readonly #damageByPosition = new Map<number, string>();
   protected readonly source: Source;
   protected readonly channelsById = new Map<Id, Channel>();
   /** Chunks of the index, each with the ids of its channels; undefined without an index. */
@@ -50,13 +50,17 @@ export abstract class MessageFile<Id> {
     return [...this.channelsById.values()];
   }
 
+  get damageReasons() {
+    return [...this.#damageByPosition.values()];
+  }
+
   /** Reads blocks, and passes each message of the wanted channels to `onMessage`. Damaged blocks are skipped. */
   abstract readMessages(isWanted: IsWanted, onMessage: OnMessage, onBlock?: OnBlock): Promise<void>;
 
   /** Notes the damage of a block. An error of reading the file itself is thrown again. */
   protected noteDamage(position: number, error: unknown): void {
     if (error instanceof LogError) throw error;
-    this.damageByPosition.set(position, reasonOf(error));
+    this.#damageByPosition.set(position, reasonOf(error));
   }
 
   /**
@@ -88,30 +92,25 @@ const [PIECE_BYTES, PIECES_AHEAD] = [2 ** 22, 3];
 
 /** Returns a reader of bytes at increasing positions. It requests the next pieces in advance, which saves a quarter of the time in a browser. */
 export function createAheadReader(source: Source): (start: number, requestedEnd: number) => Promise<Uint8Array> {
-  /** Bytes of each piece, or a promise of them until they have been read. */
-  const pieces = new Map<number, Uint8Array | Promise<Uint8Array>>();
+  const pieces = new Map<number, Promise<Uint8Array>>();
   let lastPieceIndex = -1;
   return async (start, requestedEnd) => {
+    const end = Math.min(requestedEnd, source.size);
     const firstPieceIndex = Math.floor(start / PIECE_BYTES);
     const piecesAhead = firstPieceIndex <= lastPieceIndex + 1 ? PIECES_AHEAD : 0;
-    const end = Math.min(requestedEnd, source.size);
     lastPieceIndex = Math.max(firstPieceIndex, Math.floor((end - 1) / PIECE_BYTES));
     for (const i of pieces.keys()) if (i < firstPieceIndex) pieces.delete(i);
     for (let i = firstPieceIndex; i <= lastPieceIndex + piecesAhead && i * PIECE_BYTES < source.size; i++) {
       if (pieces.has(i)) continue;
       const piece = readBytes(source, i * PIECE_BYTES, Math.min((i + 1) * PIECE_BYTES, source.size));
-      pieces.set(i, piece);
       // A failure to read a piece is reported only when the piece is needed.
-      piece.then((bytes) => pieces.has(i) && pieces.set(i, bytes), () => {});
+      piece.catch(() => {});
+      pieces.set(i, piece);
     }
-    const neededPartOf = (piece: Uint8Array | undefined, i: number) => (piece ?? new Uint8Array()).subarray(Math.max(start - i * PIECE_BYTES, 0), end - i * PIECE_BYTES);
-    const firstPieceBytes = pieces.get(firstPieceIndex);
-    // Awaiting bytes that have already been read would take longer than reading a record.
-    const partOfFirstPiece = neededPartOf(firstPieceBytes instanceof Promise ? await firstPieceBytes : firstPieceBytes, firstPieceIndex);
-    if (lastPieceIndex === firstPieceIndex) return partOfFirstPiece;
+    const neededPartOf = async (i: number) => ((await pieces.get(i)) ?? new Uint8Array()).subarray(Math.max(start - i * PIECE_BYTES, 0), end - i * PIECE_BYTES);
+    if (lastPieceIndex === firstPieceIndex) return neededPartOf(firstPieceIndex);
     const bytes = new Uint8Array(end - start);
-    bytes.set(partOfFirstPiece);
-    for (let i = firstPieceIndex + 1; i <= lastPieceIndex; i++) bytes.set(neededPartOf(await pieces.get(i), i), i * PIECE_BYTES - start);
+    for (let i = firstPieceIndex; i <= lastPieceIndex; i++) bytes.set(await neededPartOf(i), Math.max(i * PIECE_BYTES - start, 0));
     return bytes;
   };
 }

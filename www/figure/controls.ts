@@ -1,6 +1,6 @@
 /** HTML of the controls of a figure's settings, and of its legend, whose checkboxes show and hide lines. */
 
-import { html, noChange } from 'lit';
+import { html, noChange, nothing } from 'lit';
 import { words } from '../messages/registry.ts';
 import { radioGroupHtml, formatMarkup, checkboxHtml } from '../ui/controls.ts';
 import { formatEditable, formatInteger, formatLimit, parseNumber } from '../ui/format.ts';
@@ -92,13 +92,14 @@ export function parseTypedNumber({ notice }: Figure, key: string, name: string, 
   notice.show(() => words.refused(name.replaceAll(/[*_{}]/g, ''), quotedText, formatLimit(min), formatLimit(max), isInteger), { control: key });
 }
 
-/** Returns a picture with its title and handles. The pointer selects samples in it. `Canvases` sets the size of its canvas. */
-export function pictureHtml(figure: Figure, picture: Picture<any>, title: string, options: { className?: string, description?: string, handles?: unknown, below?: unknown } = {}) {
-  const { className, description = picture === figure.pictures[0] ? figure.description : title, handles, below } = options;
+/** Returns a picture with its title. The first picture has the handles. The pointer selects samples in it. `Canvases` sets the size of its canvas. */
+export function pictureHtml(figure: Figure, picture: Picture<any>, title: string, options: { className?: string, description?: string, below?: unknown } = {}) {
+  const isFirst = picture === figure.pictures[0];
+  const { className, description = isFirst ? figure.description : title, below } = options;
   const selectAtPointer = (event: PointerEvent) => figure.selectAtPointer(picture, event);
   return panelHtml(title, html`<div class="stage" part="picture">
       <canvas width="0" class=${picture.name} role="img" aria-label=${description} @pointermove=${selectAtPointer} @click=${selectAtPointer} @contextrestored=${() => figure.renderer.requestFrame()}></canvas>
-      ${handles}
+      ${isFirst ? figure.handles.map((handles) => handles.render()) : nothing}
     </div>
     ${below}`, className);
 }

@@ -114,8 +114,10 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   player: { advance(elapsed: number): boolean, stop(): void } | undefined;
   /** Handlers for dragged files, if the figure accepts files. */
   dropHandlers: Record<'onDragOver' | 'onDragLeave' | 'onDrop', (event: DragEvent) => void> | undefined;
-  /** Pictures on the canvases. The first is exported. */
+  /** Pictures on the canvases. The first has the handles, and is exported. */
   pictures: Picture<any>[] = [];
+  /** Handles: `render` returns their HTML, and `place` moves them to their places in the first picture. */
+  handles: { render(): unknown, place(scene: any): void }[] = [];
   /** View model of the simulation: all values that pictures, texts and tables show, read at one time. Undefined before the first frame. */
   viewModel: ViewModel = undefined as any;
   #highlight: string | null = null;
@@ -170,9 +172,6 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
 
   /** Runs after the simulation was replaced. */
   onSimulationReplaced() {}
-
-  /** Moves the handles to their places in the pictures. */
-  placeHandles(_scene: any) {}
 
   snapshot(): StateValues {
     return { widget: this.localName, version: STATE_VERSION, ...this.settings.elementState, ...this.settings.pickSettings(this.settings.current), ...this.cloud?.snapshot() };

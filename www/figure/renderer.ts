@@ -208,14 +208,13 @@ export class Renderer extends FigureController {
     for (const picture of this.#undrawnPictures) {
       this.#undrawnPictures.delete(picture);
       const canvas = host.canvases.canvasOf(picture);
-      // A figure may have replaced its picture.
-      if (!host.pictures.includes(picture) || !hasPixels(canvas)) continue;
+      if (!hasPixels(canvas)) continue;
       // A drag keeps the scale of pictures with handles, so that they stay under the pointer.
       const keepsScale = isPressed && canvas.parentElement!.querySelector('.handle') !== null;
       isMoving = picture.draw(host.canvases.surfaceOf(canvas), scene, host.colours.palette, { ...drawOptions, keepsScale }) || isMoving;
       if ((!isResizing || this.isOpening) && performance.now() - startTimeMs > MAX_DRAW_MS_PER_FRAME) break;
     }
-    host.placeHandles(scene);
+    for (const handles of host.handles) handles.place(scene);
     const nowMs = performance.now();
     const pendingSinceMs = this.#textPendingSince;
     // The first picture is drawn without text.

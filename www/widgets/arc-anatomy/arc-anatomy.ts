@@ -89,7 +89,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
   #picture = new ArcPicture();
   pictures = [this.#picture];
   /** Handles of both poses. The handle of the final pose is on top if both poses are at the same place. */
-  #handles: PoseHandles[] = ['start', 'next'].map((setting) => new PoseHandles(this, setting, () => this.#picture.view));
+  handles: PoseHandles[] = ['start', 'next'].map((setting) => new PoseHandles(this, setting, () => ROBOT_RADIUS));
 
   /** Player that animates the arcs. The animation takes the same time for every command. */
   player: Player<'underway'> = new Player(this, { underway: { max: UNDERWAY_AT_END, durationMs: 2000 } });
@@ -112,15 +112,11 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
 
   describePicture = ({ config }: ViewModel) => [words.anatomy.floorTitle, describeCommand(config.command)];
 
-  placeHandles({ config }: ViewModel) {
-    for (const poseHandles of this.#handles) poseHandles.placeOnRobot(config, ROBOT_RADIUS);
-  }
-
   renderContent(viewModel: ViewModel) {
     const texts = words.anatomy;
     return html`
       <div class="views">
-        ${pictureHtml(this, this.#picture, texts.floorTitle, { handles: this.#handles.map((poseHandles) => poseHandles.render()) })}
+        ${pictureHtml(this, this.#picture, texts.floorTitle)}
         ${this.renderer.renderAfterFirstPicture(() => html`
         <div class="aside">${headlineHtml(viewModel)} ${factorBarsHtml(viewModel, this.settings.elementState.line)}</div>`)}
       </div>

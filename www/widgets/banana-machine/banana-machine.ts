@@ -179,6 +179,11 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     commit: () => this.gesture.commit(),
   });
 
+  handles = [{
+    render: () => this.#handleHtml(this.viewModel.config.command),
+    place: () => this.#arcEndHandle.placeElementAt(this.renderRoot, ...this.#planePicture.view.toPixel(...this.visibleArcEnd)),
+  }];
+
   #pinnedViewModelMemo: Memo<ViewModel> = new Memo();
 
   player: Player<'morph'> = new Player(this, { morph: { max: 1, durationMs: MORPH_DURATION_MS } });
@@ -266,12 +271,6 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     return morphPoint([v * dt, 0, omega * dt], this.settings.elementState.morph);
   }
 
-  placeHandles() {
-    const { view } = this.#planePicture;
-    const [x, y] = this.visibleArcEnd;
-    this.#arcEndHandle.placeElementAt(this.renderRoot, view.toPixelX(x), view.toPixelY(y));
-  }
-
   /** Executed motion of the selected robot; undefined if no robot is selected or the robot is not shown. */
   get #selectedMotion() {
     const { simulation, viewModel, cloud: { isSelectionShown, selectedIndex } } = this;
@@ -313,11 +312,11 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   }
 
   renderContent(viewModel: ViewModel) {
-    const { config, unusualCloudNote } = viewModel;
+    const { unusualCloudNote } = viewModel;
     const texts = words.banana;
     return html`
       <div class="views">
-        ${pictureHtml(this, this.#planePicture, this.#planeTitle, { handles: this.#handleHtml(config.command) })}
+        ${pictureHtml(this, this.#planePicture, this.#planeTitle)}
         ${pictureHtml(this, this.#twistPicture, texts.twistTitle, { className: 'twist', description: twistCaptionOf(viewModel) })}
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`

@@ -141,11 +141,11 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
 
   cloud = new Cloud(this, (simulation: Simulation) => simulation.stats.gaveUp);
 
-  picture = new FloorPicture({ bounds: new Float64Array(4), walls: new Float64Array() }, null);
+  picture = new FloorPicture();
+  pictures = [this.picture];
   #opener = new MapOpener(this);
   dropHandlers = this.#opener;
-  #handles = new PoseHandles(this, 'start', () => this.picture.view, () => this.picture.plan.bounds);
-  #wallHandles = new WallHandles(this);
+  handles: (WallHandles | PoseHandles)[] = [new WallHandles(this), new PoseHandles(this, 'start', ({ clearance }) => clearance, () => this.picture.plan.bounds)];
   /** Value of the setting `unknown` (treatment of unknown cells) with which the picture was created. */
   #unknownCellsOfPicture = '';
   /** Costs of the samplers, and the settings with which they were measured. */
@@ -172,11 +172,9 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   onSimulationReplaced() {
     const { simulation } = this;
     if (!simulation) return;
-    const grid = this.#gridOf(simulation);
     this.#opener.refusal = undefined;
     this.#unknownCellsOfPicture = this.settings.current.unknown;
-    this.picture = new FloorPicture(simulation.plan, grid, this.picture);
-    this.pictures = [this.picture];
+    this.picture.setMap(simulation.plan, this.#gridOf(simulation));
   }
 
   readViewModel(simulation: Simulation) {
@@ -216,11 +214,6 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   announcementOf = captionOf;
 
   describePicture = ({ config }: ViewModel) => [words.squeeze.floorTitle, this.#mapDescription, describeCommand(config.command)];
-
-  placeHandles({ config }: ViewModel) {
-    this.#handles.placeOnRobot(config, config.clearance);
-    this.#wallHandles.placeHandles();
-  }
 
   /** Name of the preset, a place in the apartment; null if the settings match no preset, or on another map. */
   get preset(): string | null {
@@ -320,10 +313,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     const { unknown, ...markStyles } = LINE_STYLES;
     return html`
       <div class="views">
-        ${pictureHtml(this, this.picture, floorTitle, {
-          handles: html`${this.renderer.renderAfterFirstPicture(() => this.#wallHandles.render())} ${this.#handles.render()}`,
-          below: this.renderer.renderAfterFirstPicture(() => legendHtml(this, hasUnknownCells ? { ...markStyles, unknown } : markStyles)),
-        })}
+        ${pictureHtml(this, this.picture, floorTitle, { below: this.renderer.renderAfterFirstPicture(() => legendHtml(this, hasUnknownCells ? { ...markStyles, unknown } : markStyles)) })}
         ${this.renderer.renderAfterFirstPicture(() => html`<div class="aside">
           <div class="result">
             <p class="headline">${headlineOf(stats)}</p>

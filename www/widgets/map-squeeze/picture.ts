@@ -50,32 +50,27 @@ const TRANSPARENT_RAMP = new Uint8Array(4 * limits.ramp);
 export class FloorPicture extends SamplesPicture<Scene> {
   name = 'plane';
   view: View = new View({ relativeMargin: 0 });
-  plan;
+  plan: Plan = { bounds: new Float64Array(4), walls: new Float64Array() };
   /** True if the map has unknown cells. */
-  hasUnknownCells;
+  hasUnknownCells = false;
   /** False for a grid, whose walls outline its cells and cannot be moved. */
-  hasMovableWalls;
+  hasMovableWalls = true;
   #closeView = new View();
   #wholeView = this.view;
-  #wallLayer;
+  #wallLayer = new WallLayer(this.plan, null);
   /** Corners of the known part of the map, which may be much smaller than the map. */
-  #knownCorners: ArrayLike<number>;
+  #knownCorners: ArrayLike<number> = [];
   #densityImage = new CachedImage();
   #wallPathMemo: Memo<string> = new Memo();
 
-  /** Keeps the views of the previous picture if its map has the same bounds. */
-  constructor(plan: Plan, grid: CellGrid | null, previousPicture?: FloorPicture) {
-    super();
+  /** Sets the map. The views stay if it has the same bounds as the previous map. */
+  setMap(plan: Plan, grid: CellGrid | null) {
+    if (plan.bounds.some((bound, i) => bound !== this.plan.bounds[i])) for (const view of [this.#closeView, this.#wholeView]) view.clearTarget();
     this.plan = plan;
     this.hasUnknownCells = grid?.unknown !== undefined;
     this.hasMovableWalls = grid === null;
     this.#wallLayer = new WallLayer(plan, grid);
     this.#knownCorners = grid?.unknown ? knownCornersOf(grid, grid.unknown) : plan.walls;
-    if (previousPicture?.plan.bounds.every((bound, i) => bound === plan.bounds[i])) {
-      this.#closeView = previousPicture.#closeView;
-      this.#wholeView = previousPicture.#wholeView;
-      this.view = previousPicture.view;
-    }
   }
 
   /** Walls as the `d` attribute of an SVG path, metres. */

@@ -53,7 +53,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   render() {
     const texts = words.squeeze.wallHandles;
     const { bounds: [left, bottom, right, top] } = this.host.picture.plan;
-    return this.#shownGrips.map(({ grip, handle, isTabbable }) => {
+    return this.host.renderer.renderAfterFirstPicture(() => this.#shownGrips.map(({ grip, handle, isTabbable }) => {
       const { grippedPart: part, axis: [ux, uy] } = grip;
       const [x, y] = this.#gripPointOf(grip);
       return handle.handleHtml({
@@ -65,15 +65,15 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
         valueText: `x = ${formatFixed(x, 2)} m, y = ${formatFixed(y, 2)} m`,
         tabIndex: isTabbable ? 0 : -1,
       });
-    });
+    }));
   }
 
   /** Places the handles again, because new handles are rendered after the picture was drawn. */
   hostUpdated() {
-    this.placeHandles();
+    this.place();
   }
 
-  placeHandles() {
+  place() {
     const { view } = this.host.picture;
     for (const { grip: { axis, grippedPart: part }, handle, point: [x, y] } of this.#shownGrips) {
       handle.placeElementAt(this.host.renderRoot, view.toPixelX(x), view.toPixelY(y), { angle: part === 'side' ? Math.atan(axis[0] / axis[1]) : 0 });

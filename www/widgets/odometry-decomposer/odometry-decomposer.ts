@@ -125,7 +125,7 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
   #worldPicture = new WorldPicture();
   pictures = [this.#legsPicture, this.#worldPicture];
   /** Handles of both poses. The handle of the second pose is on top if both poses are at the same place. */
-  #handles: PoseHandles[] = ['from', 'to'].map((setting) => new PoseHandles(this, setting, () => this.#legsPicture.view));
+  handles: PoseHandles[] = ['from', 'to'].map((setting) => new PoseHandles(this, setting, () => ROBOT_RADIUS));
 
   createSimulation = ({ OdometryDecomposer }: Motion) => new OdometryDecomposer();
 
@@ -149,15 +149,11 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
 
   describePicture = ({ legs: { rot1, trans, rot2 } }: ViewModel) => [words.decomposer.legsTitle, words.decomposer.readingDescription(formatFixed(rot1, 2), formatFixed(trans, 2), formatFixed(rot2, 2))];
 
-  placeHandles({ config }: ViewModel) {
-    for (const poseHandles of this.#handles) poseHandles.placeOnRobot(config, ROBOT_RADIUS);
-  }
-
   renderContent(viewModel: ViewModel) {
     const texts = words.decomposer;
     return html`
       <div class="views">
-        ${pictureHtml(this, this.#legsPicture, texts.legsTitle, { className: 'legs', handles: this.#handles.map((poseHandles) => poseHandles.render()) })}
+        ${pictureHtml(this, this.#legsPicture, texts.legsTitle, { className: 'legs' })}
         ${pictureHtml(this, this.#worldPicture, texts.worldTitle)}
         ${this.renderer.renderAfterFirstPicture(() => html`
         <div class="summary">${headlineHtml(viewModel)} <p class="caption" part="caption">${captionOf(viewModel)}</p></div>

@@ -58,21 +58,21 @@ const MIN_EDGE_DISTANCE = 12;
 /** Handles of a robot: a handle on its body moves the robot, and a handle ahead of it turns the robot. */
 export class PoseHandles extends FigureController<import('../../figure/figure.ts').Figure> {
   #settingKey;
-  #getView;
+  #getRadius;
   #getBounds;
   #bodyHandle;
   #turnHandle;
 
   /**
-   * Creates the handles of a setting that is a pose, in the view of a picture. `getBounds` returns left, bottom, right and top of the allowed
-   * positions, metres. The catalogue of the figure has the names of both handles under `handles`.
+   * Creates the handles of a setting that is a pose. `getRadius` returns the radius of the robot, and `getBounds` left, bottom, right and top of
+   * the allowed positions, metres. The catalogue of the figure has the names of both handles under `handles`.
    */
-  constructor(host: import('../../figure/figure.ts').Figure, settingKey: string, getView: () => View, getBounds: () => number[] | Float64Array = () => DEFAULT_BOUNDS) {
+  constructor(host: import('../../figure/figure.ts').Figure, settingKey: string, getRadius: (config: Record<string, any>) => number, getBounds: () => number[] | Float64Array = () => DEFAULT_BOUNDS) {
     super(host);
     this.#settingKey = settingKey;
-    this.#getView = getView;
+    this.#getRadius = getRadius;
     this.#getBounds = getBounds;
-    const handleCallbacks = { getView, commit: () => host.gesture.commit() };
+    const handleCallbacks = { getView: () => host.pictures[0].view, commit: () => host.gesture.commit() };
     this.#bodyHandle = new Handle(`body ${settingKey}`, {
       ...handleCallbacks,
       findGraspedPoint: () => [this.#pose.x, this.#pose.y],
@@ -121,9 +121,9 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     ];
   }
 
-  /** Places the handles on the drawn robot, whose radius is in metres. */
-  placeOnRobot(config: Record<string, any>, robotRadius: number) {
-    const view = this.#getView();
+  place({ config }: { config: Record<string, any> }) {
+    const { view } = this.host.pictures[0];
+    const robotRadius = this.#getRadius(config);
     const figureRoot = this.host.renderRoot;
     const [[x, y], [turnX, turnY]] = view.headingLineFrom(config[this.#settingKey], turnHandleDistanceOf(view, robotRadius));
     const clampToPicture = (coordinate: number, pictureSize: number) => clamp(coordinate, MIN_EDGE_DISTANCE, pictureSize - MIN_EDGE_DISTANCE);

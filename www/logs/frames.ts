@@ -1,7 +1,6 @@
 /** Chains of transforms between frames. */
 
 import { bisector, sort } from 'd3-array';
-import type { Message } from './formats/container.ts';
 import { formatFrames, type FramePair } from './log.ts';
 import { rowOfPose, withoutSlash, type StampedTransform, type Transform } from './messages.ts';
 import { multiplyQuaternions } from './path.ts';
@@ -30,22 +29,39 @@ interface FrameLink extends FramePair {
   samples: RecordedTransform[];
 }
 
-/** Graph of transforms between frames. A frame may have several parents, for example the map and the odometry frame. */
+/**
+ * Graph of transforms between frames. A frame may have several parents, for example the map and the odometry frame. With two end frames it
+ * also composes the poses of the one relative to the other, by the transforms on the chain between them.
+ */
 export class FrameTree {
   #links = new Map<string, FrameLink>();
+  readonly #endFrames: FramePair | undefined;
+  /** Links of the chain between the end frames, from the first to the last; empty until they are connected. */
+  #chainLinks: FrameLink[] = [];
 
-  /** Adds a transform to the link between its frames, and returns that link. */
-  addTransform({ parent, child, transform }: StampedTransform, isStatic: boolean): FrameLink {
+  constructor(endFrames?: FramePair) {
+    this.#endFrames = endFrames && { parent: withoutSlash(endFrames.parent), child: withoutSlash(endFrames.child) };
+  }
+
+  /** Adds a transform to the link between its frames. */
+  addTransform(stampedTransform: StampedTransform, isStatic: boolean, recordTime: number, messageNumber: number): void {
+    const { parent, child, transform } = stampedTransform;
     const name = formatFrames({ parent, child });
     const link = this.#links.get(name) ?? { parent, child, isStatic, firstTransform: transform, hasChanged: false, maxDistance: 0, samples: [] };
     this.#links.set(name, link);
     link.maxDistance = Math.max(link.maxDistance, Math.hypot(transform[0] - link.firstTransform[0], transform[1] - link.firstTransform[1]));
     link.hasChanged ||= transform.some((transformValue, i) => transformValue !== link.firstTransform[i]);
-    return link;
+    if (!this.#endFrames) return;
+    if (!this.isConnected || this.#chainLinks.includes(link)) link.samples.push({ ...stampedTransform, recordTime, messageNumber });
+    if (!this.isConnected) this.#chainLinks = this.#findChain(this.#endFrames) ?? [];
   }
 
   get links(): FrameLink[] {
     return [...this.#links.values()];
+  }
+
+  get isConnected(): boolean {
+    return this.#chainLinks.length > 0;
   }
 
   #linksTo(child: string): FrameLink[] {
@@ -53,11 +69,11 @@ export class FrameTree {
   }
 
   /** Returns the links from one frame to another, or undefined if they are not connected. */
-  findChain({ parent, child }: FramePair, visitedFrames = new Set<string>()): FrameLink[] | undefined {
+  #findChain({ parent, child }: FramePair, visitedFrames = new Set<string>()): FrameLink[] | undefined {
     if (visitedFrames.has(child)) return undefined;
     visitedFrames.add(child);
     for (const link of this.#linksTo(child)) {
-      const chain = link.parent === parent ? [] : this.findChain({ parent, child: link.parent }, visitedFrames);
+      const chain = link.parent === parent ? [] : this.#findChain({ parent, child: link.parent }, visitedFrames);
       if (chain) return [...chain, link];
     }
     return undefined;
@@ -88,28 +104,6 @@ export class FrameTree {
     const ancestorFrames = new Set<string>([frame]);
     for (const ancestor of ancestorFrames) for (const { parent } of this.#linksTo(ancestor)) ancestorFrames.add(parent);
     return [...ancestorFrames].slice(1);
-  }
-}
-
-/** Graph that also composes the poses of one frame relative to another one, by the transforms on the chain between them. */
-export class TransformChain extends FrameTree {
-  readonly #endFrames: FramePair;
-  /** Links of the chain, from the first to the last; empty until they are connected. */
-  #chainLinks: FrameLink[] = [];
-
-  constructor({ parent, child }: FramePair) {
-    super();
-    this.#endFrames = { parent: withoutSlash(parent), child: withoutSlash(child) };
-  }
-
-  addSample(stampedTransform: StampedTransform, isStatic: boolean, { time: recordTime }: Message, messageNumber: number): void {
-    const link = this.addTransform(stampedTransform, isStatic);
-    if (!this.isConnected || this.#chainLinks.includes(link)) link.samples.push({ ...stampedTransform, recordTime, messageNumber });
-    if (!this.isConnected) this.#chainLinks = this.findChain(this.#endFrames) ?? [];
-  }
-
-  get isConnected(): boolean {
-    return this.#chainLinks.length > 0;
   }
 
   /**

@@ -2,7 +2,7 @@
 
 import { group, sort, sum } from 'd3-array';
 import type { Channel, Container, Message } from './formats/container.ts';
-import { TransformChain, FrameTree } from './frames.ts';
+import { FrameTree } from './frames.ts';
 import { LogError, truncate, listNames, reasonOf, RECORDING_CLOCK, formatFrames, type ErrorReason, type LogChoice, type Log, type Note, type OpenOptions, type Recording, type Series } from './log.ts';
 import { isReadable, logKindOfType, sampleReaderOf, readTransforms } from './messages.ts';
 import { RowCollector } from './rows.ts';
@@ -57,7 +57,7 @@ async function listSeries(container: Container): Promise<Series[]> {
     const addMessage = (message: Message) => {
       messageCount += 1;
       try {
-        for (const transform of readTransforms(message)) frameTree.addTransform(transform, isStaticTopic(message.channel));
+        for (const transform of readTransforms(message)) frameTree.addTransform(transform, isStaticTopic(message.channel), message.time, messageCount);
       } catch {
         // A damaged message is counted when the log is read.
       }
@@ -78,7 +78,7 @@ function createTopicReader(file: string, container: Container, { series: topic, 
   const hasWantedKind = frames ? kind === 'transforms' : kind !== null && !(wantedKind === 'poses' && kind === 'commands');
   if (!hasWantedKind) refuse((texts) => texts.type(truncate(type, MAX_TYPE_LENGTH), frames ? 'transforms' : wantedKind === 'poses' ? wantedKind : 'either'));
   const rows = new RowCollector({ file, topic });
-  const chain = frames && new TransformChain(frames);
+  const chain = frames && new FrameTree(frames);
   const readSample = sampleReaderOf(type);
   let messageCount = 0;
 
@@ -89,7 +89,7 @@ function createTopicReader(file: string, container: Container, { series: topic, 
       messageCount += 1;
       try {
         if (readSample) return rows.addRow(readSample(message), messageCount, message.time);
-        for (const transform of readTransforms(message)) chain?.addSample(transform, isStaticTopic(message.channel), message, messageCount);
+        for (const transform of readTransforms(message)) chain?.addTransform(transform, isStaticTopic(message.channel), message.time, messageCount);
       } catch (error) {
         if (error instanceof LogError) throw error;
         rows.dropRow('damaged', messageCount, (texts) => texts.message(reasonOf(error)));

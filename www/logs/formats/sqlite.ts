@@ -1,31 +1,40 @@
 /** Topics and messages of rosbag2's SQLite databases. https://www.sqlite.org/fileformat.html */
 
 import { LogError, readBytes, type Source } from '../log.ts';
-import { MessageFile, createAheadReader, dataViewOf, type Channel, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
+import { MessageFile, createAheadReader, dataViewOf, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
 import { loadZstd } from './decompression.ts';
 
-const [INTERIOR_PAGE_TYPE, LEAF_PAGE_TYPE] = [5, 13];
+/** First byte of pages with the rows of a table, and largest first byte of other pages: of indexes, interior nodes, and the ends of long rows. */
+const [LEAF_PAGE_TYPE, MAX_OTHER_PAGE_TYPE] = [13, 10];
 
 const HEADER_BYTES = 100;
 
 /** Maximum size of a row, bytes. The largest messages are point clouds and images. */
 const MAX_ROW_BYTES = 2 ** 28;
 
-type SqliteValue = number | Uint8Array;
-
 interface Row {
-  id: number;
   /** Bytes of the row on the leaf page. All other bytes are on overflow pages. */
   localBytes: Uint8Array;
   /** Number of all bytes of the row. */
   byteCount: number;
   /** Number of the first overflow page; 0 if there is none. */
   overflowPage: number;
+  id: number;
+  columns: Column[];
 }
 
-interface SqliteTable { rootPage: number; columns: string[] }
+/** Value of a row: its serial type, and the range of its bytes. */
+interface Column { type: number; start: number; end: number }
 
-const decodeText = (value: SqliteValue) => (value instanceof Uint8Array ? new TextDecoder().decode(value) : '');
+const isInteger = (type: number) => type > 0 && type < 10;
+const isBlob = (type: number) => type >= 12 && type % 2 === 0;
+const isText = (type: number) => type >= 13 && type % 2 === 1;
+const isRowId = (type: number) => type === 0;
+
+/** Types of the first columns of tables: messages (id, topic, time, data), topics (id, name, type, serialization), and the list of all tables. */
+const TABLE_COLUMNS = { messages: [isRowId, isInteger, isInteger, isBlob], topics: [isRowId, isText, isText, isText], tables: [isText, isText, isText, isInteger] };
+
+const isRowOf = (table: keyof typeof TABLE_COLUMNS, { columns }: Row) => TABLE_COLUMNS[table].every((hasType, i) => hasType(columns[i]?.type));
 
 export async function openSqlite(source: Source): Promise<Container> {
   await loadZstd();
@@ -34,12 +43,12 @@ export async function openSqlite(source: Source): Promise<Container> {
   return database;
 }
 
-class Rosbag2 extends MessageFile<SqliteValue> {
+class Rosbag2 extends MessageFile<number> {
   readonly format = 'sqlite';
   #pageSize = 0;
   /** Bytes of a page without those reserved at its end. */
   #usableBytes = 0;
-  #messages: SqliteTable = { rootPage: 0, columns: [] };
+  #tableNames = new Set<string>();
   #readBytesAt = createAheadReader(this.source);
 
   async open(): Promise<void> {
@@ -55,89 +64,57 @@ class Rosbag2 extends MessageFile<SqliteValue> {
     // Pages beyond the number in the header belong to an unfinished transaction.
     const pageCount = view.getUint32(28);
     if (pageCount > 0 && pageCount * this.#pageSize !== this.source.size) this.truncationReason = 'the recorder did not close it';
-    const tablesByName = new Map<string, SqliteTable>();
-    await this.#visitRows({ rootPage: 1, columns: [] }, async (row) => {
-      const bytes = await this.#readWholeRow(row);
-      const [name, rootPage, sql] = [1, 3, 4].map((column) => columnValueOf(bytes, column));
-      const columns = decodeText(sql).replace(/^[^(]*\(|\)[^)]*$/g, '').split(',').map((column) => column.trim().split(/\s/)[0]);
-      tablesByName.set(decodeText(name), { rootPage: Number(rootPage), columns });
+    const countsById = new Map<number, number>();
+    await this.#visitRows((row) => {
+      if (!isRowOf('messages', row)) return this.#addTopic(row);
+      const topicId = integerOf(row.localBytes, row.columns[1]);
+      countsById.set(topicId, (countsById.get(topicId) ?? 0) + 1);
+      return undefined;
     });
-    const [topics, messages] = ['topics', 'messages'].map((name) => tablesByName.get(name));
-    if (!topics || !messages) {
-      if (this.truncationReason) return;
-      throw createNotRosbag2Error();
-    }
-    this.#messages = messages;
-    await this.#visitRows(topics, async (row) => {
-      const bytes = await this.#readWholeRow(row);
-      const [topic, type, encoding] = ['name', 'type', 'serialization_format'].map((column) => decodeText(columnValueOf(bytes, topics.columns.indexOf(column))));
-      this.channelsById.set(row.id, { topic, type, encoding, count: 0 });
-    });
-    const topicColumn = messages.columns.indexOf('topic_id');
-    await this.#visitRows(messages, ({ localBytes: bytes }) => {
-      const channel = this.channelsById.get(columnValueOf(bytes, topicColumn));
-      if (channel) channel.count += 1;
-    });
+    for (const [id, channel] of this.channelsById) channel.count = countsById.get(id) ?? 0;
+    if (!['topics', 'messages'].every((name) => this.#tableNames.has(name)) && !this.truncationReason) throw createNotRosbag2Error();
+  }
+
+  /** Adds the topic of a row, or the name of a table. */
+  async #addTopic(row: Row): Promise<void> {
+    const isTable = isRowOf('tables', row);
+    if (!isTable && !isRowOf('topics', row)) return;
+    const bytes = await this.#readWholeRow(row);
+    const [, name, type, encoding] = row.columns.map(({ start, end }) => new TextDecoder().decode(bytes.subarray(start, end)));
+    if (isTable) this.#tableNames.add(name);
+    // Names of topics are absolute. Definitions of message types have the same columns.
+    else if (name.startsWith('/')) this.channelsById.set(row.id, { topic: name, type, encoding, count: 0 });
   }
 
   async readMessages(isWanted: IsWanted, onMessage: OnMessage, onProgress?: OnBlock): Promise<void> {
     const wantedChannels = new Map([...this.channelsById].filter(([, channel]) => isWanted(channel)));
-    const [topicColumn, timeColumn, dataColumn] = ['topic_id', 'timestamp', 'data'].map((column) => this.#messages.columns.indexOf(column));
-    const passRow = (channel: Channel, bytes: Uint8Array) => {
-      const block = dataViewOf(columnValueOf(bytes, dataColumn) as Uint8Array);
-      onMessage({ channel, time: Number(columnValueOf(bytes, timeColumn)) / 1e9, block, start: 0, end: block.byteLength });
-    };
-    await this.#visitRows(this.#messages, (row) => {
-      const channel = wantedChannels.get(columnValueOf(row.localBytes, topicColumn));
+    await this.#visitRows((row) => {
+      const channel = isRowOf('messages', row) ? wantedChannels.get(integerOf(row.localBytes, row.columns[1])) : undefined;
       if (!channel) return undefined;
-      return row.localBytes.length < row.byteCount ? this.#readWholeRow(row).then((bytes) => passRow(channel, bytes)) : passRow(channel, row.localBytes);
+      const passMessage = (bytes: Uint8Array) => {
+        const block = dataViewOf(bytes.subarray(row.columns[3].start, row.columns[3].end));
+        onMessage({ channel, time: integerOf(bytes, row.columns[2]) / 1e9, block, start: 0, end: block.byteLength });
+      };
+      return row.localBytes.length < row.byteCount ? this.#readWholeRow(row).then(passMessage) : passMessage(row.localBytes);
     }, onProgress);
   }
 
-  /** Calls `onRow` for the rows of a table in the order of their ids. Damaged pages are skipped. */
-  async #visitRows({ rootPage }: SqliteTable, onRow: (row: Row) => void | Promise<void>, onProgress?: OnBlock): Promise<void> {
-    // In an incomplete file interior pages may be missing, so all pages are tried. Pages of other tables then fail without a note.
-    const triesAllPages = this.truncationReason !== undefined && rootPage === this.#messages.rootPage;
-    const leafPages = triesAllPages ? Array.from({ length: this.source.size / this.#pageSize }, (_, i) => i + 1) : await this.#leavesOf(rootPage);
-    for (const [i, pageNumber] of leafPages.entries()) {
+  /** Calls `onRow` for the rows of all tables in the order of the pages. Damaged pages are skipped. */
+  async #visitRows(onRow: (row: Row) => void | Promise<void>, onProgress?: OnBlock): Promise<void> {
+    const pageCount = Math.floor(this.source.size / this.#pageSize) || 0;
+    for (let pageNumber = 1; pageNumber <= pageCount; pageNumber++) {
       try {
         const pageBytes = await this.#readPage(pageNumber);
-        for (const cellOffset of cellOffsetsOf(pageBytes, pageNumber, LEAF_PAGE_TYPE)) {
+        for (const cellOffset of cellOffsetsOf(pageBytes, pageNumber)) {
           const pendingRow = onRow(this.#rowAt(pageBytes, cellOffset));
           if (pendingRow) await pendingRow;
         }
       } catch (error) {
-        if (!triesAllPages || error instanceof LogError) this.noteDamage(pageNumber, error);
+        // In an incomplete file, the last rows continue on pages that are missing.
+        if (!this.truncationReason || error instanceof LogError) this.noteDamage(pageNumber, error);
       }
-      if (onProgress?.((i + 1) / leafPages.length)) return;
+      if (onProgress?.(pageNumber / pageCount)) return;
     }
-  }
-
-  /** Returns the numbers of a table's leaf pages, which have its rows, in the order of the rows. */
-  async #leavesOf(rootPage: number): Promise<number[]> {
-    let pagesOfLevel = [rootPage];
-    const visitedPages = new Set<number>();
-    while (pagesOfLevel.length > 0) {
-      const pagesOfNextLevel: number[] = [];
-      for (const pageNumber of pagesOfLevel) {
-        // The pointers of damaged pages may form a circle.
-        if (visitedPages.has(pageNumber)) continue;
-        visitedPages.add(pageNumber);
-        // Interior pages are far from each other, so that reading larger pieces would be slow.
-        const page = await readBytes(this.source, (pageNumber - 1) * this.#pageSize, pageNumber * this.#pageSize);
-        const start = pageNumber === 1 ? HEADER_BYTES : 0;
-        if (page[start] === LEAF_PAGE_TYPE && pagesOfNextLevel.length === 0) return pagesOfLevel;
-        try {
-          const view = dataViewOf(page);
-          for (const cellOffset of cellOffsetsOf(page, pageNumber, INTERIOR_PAGE_TYPE)) pagesOfNextLevel.push(view.getUint32(cellOffset));
-          pagesOfNextLevel.push(view.getUint32(start + 8));
-        } catch (error) {
-          this.noteDamage(pageNumber, error);
-        }
-      }
-      pagesOfLevel = pagesOfNextLevel;
-    }
-    return [];
   }
 
   async #readPage(pageNumber: number): Promise<Uint8Array> {
@@ -151,7 +128,8 @@ class Rosbag2 extends MessageFile<SqliteValue> {
     const [id, start] = varintAt(page, afterLength);
     const localEnd = start + this.#localByteCountOf(length);
     if (localEnd > page.length || length > Math.min(MAX_ROW_BYTES, this.source.size)) throw new RangeError('a row is damaged');
-    return { id, localBytes: page.subarray(start, localEnd), byteCount: length, overflowPage: localEnd - start < length ? dataViewOf(page).getUint32(localEnd) : 0 };
+    const localBytes = page.subarray(start, localEnd);
+    return { id, localBytes, columns: columnsOf(localBytes, length), byteCount: length, overflowPage: localEnd - start < length ? dataViewOf(page).getUint32(localEnd) : 0 };
   }
 
   /** Returns the number of bytes of a row on its own page. The other bytes are on overflow pages. */
@@ -179,13 +157,13 @@ class Rosbag2 extends MessageFile<SqliteValue> {
   }
 }
 
-/** Returns the positions of the cells of a page. Throws a RangeError if the page has another type. */
-function cellOffsetsOf(page: Uint8Array, pageNumber: number, type: number): number[] {
+/** Returns the positions of the rows on a page; none on a page of another kind. Throws a RangeError if there is no such kind. */
+function cellOffsetsOf(page: Uint8Array, pageNumber: number): number[] {
   const view = dataViewOf(page);
   const start = pageNumber === 1 ? HEADER_BYTES : 0;
-  if (view.getUint8(start) !== type) throw new RangeError('a page is damaged');
-  const cellPointers = start + (type === LEAF_PAGE_TYPE ? 8 : 12);
-  return Array.from({ length: view.getUint16(start + 3) }, (_, i) => view.getUint16(cellPointers + 2 * i));
+  if (page[start] <= MAX_OTHER_PAGE_TYPE) return [];
+  if (page[start] !== LEAF_PAGE_TYPE) throw new RangeError('a page is damaged');
+  return Array.from({ length: view.getUint16(start + 3) }, (_, i) => view.getUint16(start + 8 + 2 * i));
 }
 
 /** Returns a variable-length integer of one to nine bytes, and the position after it. */
@@ -200,25 +178,24 @@ function varintAt(bytes: Uint8Array, start: number): [value: number, next: numbe
   throw new RangeError('a row is damaged');
 }
 
-/** Sizes in bytes of values, by their serial type valueStart 0 valueEnd 9. Larger types are texts and blobs. */
+/** Sizes in bytes of values, by their serial type from 0 to 9. Larger types are texts and blobs. */
 const INTEGER_BYTES = [0, 1, 2, 3, 4, 6, 8, 8, 0, 0];
 
-/** Returns the value of a column; throws a RangeError if the bytes end before it. */
-function columnValueOf(row: Uint8Array, column: number): SqliteValue {
+/** Returns the columns of a row of `byteCount` bytes; throws a RangeError if they do not fit into it. */
+function columnsOf(row: Uint8Array, byteCount: number): Column[] {
+  const columns: Column[] = [];
   let [valueStart, typeStart] = varintAt(row, 0);
-  const end = valueStart;
-  for (let i = 0; typeStart < end; i++) {
+  for (const end = valueStart; typeStart < end; ) {
     const [type, nextTypeStart] = varintAt(row, typeStart);
     const valueEnd = valueStart + (INTEGER_BYTES[type] ?? (type - 12 - (type % 2)) / 2);
-    if (i < column) [valueStart, typeStart] = [valueEnd, nextTypeStart];
-    else if (valueEnd > row.length) break;
-    else if (type >= 12) return row.subarray(valueStart, valueEnd);
-    else return integerOf(row, type, valueStart, valueEnd);
+    columns.push({ type, start: valueStart, end: valueEnd });
+    [valueStart, typeStart] = [valueEnd, nextTypeStart];
   }
-  throw new RangeError('a row is damaged');
+  if (valueStart !== byteCount) throw new RangeError('a row is damaged');
+  return columns;
 }
 
-function integerOf(row: Uint8Array, type: number, start: number, end: number): number {
+function integerOf(row: Uint8Array, { type, start, end }: Column): number {
   if (type === 6) return Number(dataViewOf(row).getBigInt64(start));
   if (type === 8 || type === 9) return type - 8;
   let value = 0;

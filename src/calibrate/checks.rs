@@ -28,8 +28,8 @@ pub enum Verdict {
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
 pub enum CheckName {
-    /// Median difference between the odometry motion and the reference motion of a leg, divided by the median motion. If the reference is a
-    /// copy of the odometry: square root of the largest lower end of the α's intervals.
+    /// Difference from 1 of the median ratio of the reference's motion to the odometry's: of turns or of drives. If the reference is a copy of
+    /// the odometry: square root of the largest lower end of the α's intervals.
     ReferenceMatches,
     /// Number of legs.
     EnoughLegs,
@@ -138,7 +138,7 @@ impl CheckName {
     fn failure_message(self) -> &'static str {
         match self {
             Self::ReferenceMatches => {
-                "The reference does not follow the odometry: it may be of another drive, have other units (degrees, millimetres), a mirrored y axis or another vertical axis than z, or its columns may be swapped. The α's mean nothing. Compare both files row by row."
+                "The reference does not follow the odometry: it may be of another drive, have other units (degrees, feet, millimetres), a mirrored y axis or another vertical axis than z, or its columns may be swapped. The α's mean nothing. Compare both files row by row."
             }
             Self::EnoughLegs => {
                 "There are few legs, so the intervals are wide and the other checks weak. Record a longer drive: a quarter of an hour of straight drives, arcs and turns on the spot."
@@ -192,8 +192,10 @@ const NEGLIGIBLE_COVERAGE: f64 = 0.015;
 const SUFFICIENT_LEGS: f64 = 100.0;
 const MIN_USABLE_LEGS: f64 = 30.0;
 
-/// Maximum median difference of the motions by odometry and reference, over the median motion, of logs of the same drive.
-const MAX_MISMATCH: f64 = 0.7;
+/// Maximum mismatch of the turns and of the drives of a log. A wrong track width, or slip of skid steering, scales turns by up to two; no wheels
+/// scale drives that much, but feet do (0.305), and a reference whose y is a height (0.5).
+const MAX_TURN_MISMATCH: f64 = 0.7;
+const MAX_DRIVE_MISMATCH: f64 = 0.4;
 
 /// Returns true for the mismatch of a mirrored reference: its turns are opposite to those of the odometry, so that they differ by twice the turn.
 fn is_mirrored(mismatch: f64) -> bool {
@@ -223,8 +225,10 @@ pub(super) fn log_checks(
     // errors. Any other unsuitable reference is recognized by the difference of its motions from the odometry's.
     let max_alpha = alpha_intervals.iter().flatten().map(|[start, _]| *start).reduce(f64::max);
     let copy_error = max_alpha.map(f64::sqrt).filter(|error| *error < MIN_RELATIVE_ERROR);
-    let measure_mismatch = || mismatch(leg_set, systematic).map(|ratio| ratio.max(MIN_RELATIVE_ERROR));
-    let mismatch = copy_error.or_else(measure_mismatch);
+    let copy_mismatch = copy_error.map(|error| [error, MAX_DRIVE_MISMATCH]);
+    let mismatch = copy_mismatch.or_else(|| {
+        measure_mismatch(leg_set, systematic).map(|[mismatch, max]| [mismatch.max(MIN_RELATIVE_ERROR), max])
+    });
     let mut length_ratios: Vec<f64> =
         leg_set.legs.iter().map(|leg| leg_set.options.legs.ratio(&leg.odometry, leg.duration())).collect();
     let outlier_count = leg_set.outliers.iter().filter(|is| **is).count();
@@ -234,9 +238,9 @@ pub(super) fn log_checks(
     if !legs_lost.passed {
         legs_lost.message += lost.remedy();
     }
-    let matches_range = [MIN_RELATIVE_ERROR, MAX_MISMATCH];
-    let mismatch = mismatch.map(|value| Check::new(CheckName::ReferenceMatches, value, matches_range));
-    let mut checks = Vec::from_iter(mismatch);
+    let mismatch_check = mismatch
+        .map(|[value, max]| Check::new(CheckName::ReferenceMatches, value, [MIN_RELATIVE_ERROR, max]));
+    let mut checks = Vec::from_iter(mismatch_check);
     checks.extend([
         Check::new(CheckName::EnoughLegs, leg_count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
         // The inflation is infinite if no inflation covers the windows.
@@ -253,29 +257,32 @@ pub(super) fn log_checks(
     checks
 }
 
-/// Returns the median difference between the motions of a leg by odometry and by reference, divided by the median motion. The larger ratio
-/// of turns and drives is returned; `None` if too few legs turn and too few drive. Scales are not corrected, because a scale far from 1 is
-/// another unit.
-fn mismatch(leg_set: &LegSet, systematic: &Systematic) -> Option<f64> {
+/// Returns the mismatch of the odometry and the reference, and its maximum: that of turns or that of drives, whichever is further above its
+/// maximum. The mismatch is the difference from 1 of the median, over the legs, of the component of the reference's motion along the
+/// odometry's, divided by the odometry's; `None` if too few legs turn and too few drive. Scales are not corrected, because a scale far
+/// from 1 is another unit.
+fn measure_mismatch(leg_set: &LegSet, systematic: &Systematic) -> Option<[f64; 2]> {
     let systematic = Systematic { distance_scale: 1.0, turn_scale: 1.0, ..*systematic };
-    // Sizes and differences of turns and of drives.
-    let [mut turns, mut drives]: [(Vec<f64>, Vec<f64>); 2] = Default::default();
+    let [mut turn_ratios, mut drive_ratios]: [Vec<f64>; 2] = Default::default();
     for leg in &leg_set.legs {
         let (expected, measured) = (systematic.expected(leg_set.options.model, leg), systematic.motion(leg));
         if turn(&expected) > MIN_TURN_ANGLE {
-            turns.extend([(turn(&expected), (measured.theta() - expected.theta()).abs())]);
+            turn_ratios.push(measured.theta() / expected.theta());
         }
         if distance(&expected) > MIN_DRIVE_DISTANCE {
-            let [dx, dy] = [measured.x() - expected.x(), measured.y() - expected.y()];
-            drives.extend([(distance(&expected), libm::hypot(dx, dy))]);
+            let along = measured.x() * expected.x() + measured.y() * expected.y();
+            drive_ratios.push(along / distance(&expected).powi(2));
         }
     }
-    let ratio_of = |(mut sizes, mut differences): (Vec<f64>, Vec<f64>)| {
-        (sizes.len() >= MIN_LEGS).then(|| median(&mut differences) / median(&mut sizes))
-    };
-    let ratios = [turns, drives].map(ratio_of);
+    let mismatch_of =
+        |mut ratios: Vec<f64>| (ratios.len() >= MIN_LEGS).then(|| (median(&mut ratios) - 1.0).abs());
+    let turn_mismatch = mismatch_of(turn_ratios).map(|mismatch| [mismatch, MAX_TURN_MISMATCH]);
+    let drive_mismatch = mismatch_of(drive_ratios).map(|mismatch| [mismatch, MAX_DRIVE_MISMATCH]);
     // The drives of a mirrored reference differ by chance, because its mount yaw and lever arm are meaningless.
-    ratios[0].filter(|ratio| is_mirrored(*ratio)).or_else(|| ratios.into_iter().flatten().reduce(f64::max))
+    turn_mismatch.filter(|[mismatch, _]| is_mirrored(*mismatch)).or_else(|| {
+        let mismatches = [turn_mismatch, drive_mismatch].into_iter().flatten();
+        mismatches.max_by(|[a, a_max], [b, b_max]| (a / a_max).total_cmp(&(b / b_max)))
+    })
 }
 
 /// Returns the checks of the innovations: correlation of neighbours and tails.

@@ -52,12 +52,15 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
     let [odometry, reference] = sim.log();
     let [_, other_reference] = new_passing_simulation(600, 2).log();
     type PoseChange = fn(SE2) -> SE2;
-    let pose_changes: [(&str, PoseChange); 5] = [
+    let pose_changes: [(&str, PoseChange); 8] = [
         ("degrees", |pose| SE2::new(pose.x(), pose.y(), pose.theta().to_degrees())),
         ("y up", |pose| SE2::new(pose.x(), 0.1, 0.0)),
         ("mirrored", |pose| SE2::new(-pose.x(), pose.y(), pose.theta())),
         ("columns swapped", |pose| SE2::new(pose.y(), pose.x(), pose.theta())),
+        ("a height instead of y", |pose| SE2::new(pose.x(), 0.1, pose.theta())),
         ("millimetres", |pose| SE2::new(1e3 * pose.x(), 1e3 * pose.y(), pose.theta())),
+        ("feet", |pose| SE2::new(pose.x() / 0.3048, pose.y() / 0.3048, pose.theta())),
+        ("odometry in feet", |pose| SE2::new(0.3048 * pose.x(), 0.3048 * pose.y(), pose.theta())),
     ];
     let corrupted_references = pose_changes
         .map(|(corruption_name, change_pose)| (corruption_name, change_poses(&reference, change_pose)));
@@ -312,6 +315,14 @@ fn a_turn_scale_of_noisy_encoders_is_not_corrected() {
         calibrate_log(&[add_step_noise(&odometry, [0.001, 0.03], 8), reference], &sim.calibration_options());
     assert!(calibration.systematic.turn_scale < 0.9, "{}", calibration.systematic.turn_scale);
     assert_not_constant(TurnScaleConstant, SystematicError::TurnScale, &calibration);
+}
+
+/// Robots with skid steering turn about half as far as their tracks suggest.
+#[test]
+fn a_wrong_track_width_is_a_turn_scale_and_no_mismatch() {
+    let calibration = calibrate_with_scales(&new_passing_simulation(600, 8), |_, _| [1.0, 0.53]);
+    assert!(!failed_check_names_of(&calibration).contains(&ReferenceMatches));
+    assert!((calibration.systematic.turn_scale - 0.53).abs() < 0.02, "{}", calibration.systematic.turn_scale);
 }
 
 #[test]

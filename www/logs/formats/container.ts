@@ -28,19 +28,19 @@ export type OnMessage = (message: Message) => void;
 export type OnBlock = (fraction: number) => boolean | void;
 
 /** Container of messages: one file, or several files of a recording. */
-export type Container = Pick<MessageFile<unknown>, 'format' | 'channels' | 'truncationReason' | 'damageReasons' | 'readMessages'>;
+export type Container = Pick<MessageFile, 'format' | 'channels' | 'truncationReason' | 'damageReasons' | 'readMessages'>;
 
 /** Base class of files of messages, with their channels by id. */
-export abstract class MessageFile<Id> {
+export abstract class MessageFile {
   abstract readonly format: Recording['format'];
   /** Reason why the end of the file cannot be read; undefined for a complete file. */
   truncationReason: string | undefined;
   /** Reasons why damaged blocks were skipped, by the positions of the blocks. */
   readonly #damageByPosition = new Map<number, string>();
   protected readonly source: Source;
-  protected readonly channelsById = new Map<Id, Channel>();
+  protected readonly channelsById = new Map<number, Channel>();
   /** Chunks of the index, each with the ids of its channels; undefined without an index. */
-  protected chunks: { position: number; ids: Id[] }[] | undefined;
+  protected chunks: { position: number; ids: number[] }[] | undefined;
 
   constructor(source: Source) {
     this.source = source;

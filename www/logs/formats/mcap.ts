@@ -36,7 +36,7 @@ const isCompleteIndex = ({ chunkIndexes, statistics }: McapIndexedReader) =>
   (chunkIndexes.length > 0 || statistics.messageCount === 0n) &&
   chunkIndexes.every(({ messageIndexOffsets, messageEndTime }) => messageIndexOffsets.size > 0 || messageEndTime === 0n);
 
-class Mcap extends MessageFile<number> {
+class Mcap extends MessageFile {
   readonly format = 'mcap';
   #typesBySchemaId = new Map<number, string>();
 

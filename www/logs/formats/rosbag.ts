@@ -55,7 +55,7 @@ function* recordsIn(view: DataView): Generator<BagRecord> {
   }
 }
 
-class Rosbag extends MessageFile<number> {
+class Rosbag extends MessageFile {
   readonly format = 'rosbag';
 
   /** Reads the index at the end, and returns false if there is none or it is damaged. */

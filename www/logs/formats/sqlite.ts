@@ -43,7 +43,7 @@ export async function openSqlite(source: Source): Promise<Container> {
   return database;
 }
 
-class Rosbag2 extends MessageFile<number> {
+class Rosbag2 extends MessageFile {
   readonly format = 'sqlite';
   #pageSize = 0;
   /** Bytes of a page without those reserved at its end. */

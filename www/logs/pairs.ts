@@ -64,26 +64,23 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
 
 /** Returns the reference with breaks where it repeats a pose while the odometry moves on: motion capture may have lost the robot. */
 function breakFrozenPoses(reference: Log, odometry: Log): Log {
-  const { t, x, y, theta, breaks } = reference.data as Poses;
+  const { data, summary } = reference;
+  const { t, x, y, theta } = data as Poses;
   const odometryPath = pathOf(odometry.data);
-  const frozenRows: number[] = [];
-  const rowsAfterFrozen: number[] = [];
+  const breaks = new Set(data.breaks);
+  let frozenCount = 0;
   for (let runStart = 0, runEnd; runStart < t.length; runStart = runEnd) {
     for (runEnd = runStart + 1; runEnd < t.length && x[runEnd] === x[runStart] && y[runEnd] === y[runStart] && theta[runEnd] === theta[runStart]; ) runEnd += 1;
     const [start, end] = [t[runStart] + END_MARGIN_SECONDS, t[runEnd - 1] - END_MARGIN_SECONDS];
     if (!(end > start)) continue;
     const [[startX, startY, startHeading], [endX, endY, endHeading]] = [poseAt(odometryPath, start), poseAt(odometryPath, end)];
     if (Math.hypot(endX - startX, endY - startY) + Math.abs(wrapAngle(endHeading - startHeading)) <= MIN_ODOMETRY_MOTION) continue;
-    for (let row = runStart + 1; row < runEnd; row++) frozenRows.push(row);
-    if (runEnd < t.length) rowsAfterFrozen.push(runEnd);
+    frozenCount += runEnd - runStart - 1;
+    for (let row = runStart + 1; row <= Math.min(runEnd, t.length - 1); row++) breaks.add(row);
   }
-  if (frozenRows.length === 0) return reference;
-  const { summary } = reference;
-  return {
-    ...reference,
-    data: { ...reference.data, breaks: Uint32Array.from(new Set([...breaks, ...frozenRows, ...rowsAfterFrozen])).sort() },
-    summary: { ...summary, used: summary.used - frozenRows.length, dropped: { ...summary.dropped, held: { count: frozenRows.length, first: 0 } } },
-  };
+  if (frozenCount === 0) return reference;
+  const dropped = { ...summary.dropped, held: { count: frozenCount, first: 0 } };
+  return { ...reference, data: { ...data, breaks: Uint32Array.from(breaks).sort() }, summary: { ...summary, used: summary.used - frozenCount, dropped } };
 }
 
 export const warningsOf = (logs: Pick<Log, 'summary'>[]): Warning[] =>

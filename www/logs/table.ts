@@ -3,7 +3,7 @@
 import { least } from 'd3-array';
 import { findLogLayout, type Clock, type ColumnGroup } from './columns.ts';
 import { splitCells, detectTableFormat, parseDate, parseNumber, parseTime, type TableFormat } from './format.ts';
-import { LogError, readBytes, truncate, listNames, type ErrorPlace, type ErrorReason, type Log, type Note, type OpenOptions, type Recording, type Series, type Source, type Summary, type TimeUnit } from './log.ts';
+import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Log, type Note, type OpenOptions, type Recording, type Series, type Source, type Summary, type TimeUnit } from './log.ts';
 import { rotationOf, type Quaternion } from './path.ts';
 import { RowCollector } from './rows.ts';
 import { UNIT_EXPONENTS, epochTimeUnitOf } from './units.ts';
@@ -150,10 +150,6 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
   /** Numbers of decimals in the last column. */
   const decimalCounts = new Set<number>();
 
-  const refuse = (formatReason: ErrorReason): never => {
-    throw new LogError(errorPlace, formatReason);
-  };
-
   const dropTextRow = (line: number, columnName: string, cell: string) => rows.dropRow('text', line, (texts) => texts.number(truncate(columnName), truncate(cell.trim())));
 
   const addCellsAsRow = (cells: string[], line: number) => {
@@ -195,9 +191,9 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
     },
 
     buildLog(): Log {
-      if (rowNames.size > 1) refuse((texts) => texts.mixed(listNames([...rowNames])));
+      if (rowNames.size > 1) throw new LogError(errorPlace, (texts) => texts.mixed(listNames([...rowNames])));
       const { unit = 's', by } = clockReaders[0].judgedUnit;
-      if (!(unit in UNIT_EXPONENTS)) refuse((texts) => texts.unknownUnit(truncate(unit)));
+      if (!(unit in UNIT_EXPONENTS)) throw new LogError(errorPlace, (texts) => texts.unknownUnit(truncate(unit)));
       return rows.buildLog(name, kind, {
         units: {
           time: { unit, by },

@@ -57,19 +57,16 @@ export const epochTimeUnitOf = (time: number): TimeUnit | undefined => MIN_EPOCH
 export function judgeUnits(errorPlace: ErrorPlace, kind: LogKind, columns: Columns, assumedUnits: Units, options: OpenOptions, columnNames?: ColumnNames): Units {
   const { t, a, b, c, z } = columns;
   const isJudged = t.length >= MIN_ROWS;
-  const askUnit: AskUnit = (unitOption, value, unit, choices) => {
-    throw new LogError(errorPlace, (texts) => texts[unitOption](value, unit, choices), choices.length > 0 ? { option: unitOption, choices, assumedUnit: unit } : undefined);
-  };
   const length = options.lengthUnit ? { unit: options.lengthUnit, by: 'option' as const } : assumedUnits.length;
   const metresPerUnit = METRES_PER_UNIT[length.unit];
   if (metresPerUnit !== 1) for (const column of kind === 'poses' ? [a, b, z] : [a]) scaleColumn(column, metresPerUnit);
-  const time = isJudged ? judgeTimeUnit(kind, columns, assumedUnits.time, askUnit) : assumedUnits.time;
+  const time = isJudged ? judgeTimeUnit(errorPlace, kind, columns, assumedUnits.time) : assumedUnits.time;
   convertTimes(columns, 10 ** (UNIT_EXPONENTS[time.unit] - UNIT_EXPONENTS[assumedUnits.time.unit]));
   const speed = kind === 'poses' ? pathSpeedOf(t, a, b) : commandSpeedOf(a);
   const isDoubtful = speed > MAX_VEHICLE_SPEED || (speed > DOUBTFUL_SPEED && accelerationOf(kind, columns) > MAX_ACCELERATION);
   // Feet and inches are rare, and come last.
   const likelyUnits = sort(UNITS.lengthUnit, (unit) => Number(unit === 'ft' || unit === 'in'), (unit) => Math.abs(Math.log((speed * METRES_PER_UNIT[unit]) / USUAL_SPEED)));
-  if (isJudged && length.by === 'usage' && isDoubtful) askUnit('lengthUnit', speed, length.unit, likelyUnits);
+  if (isJudged && length.by === 'usage' && isDoubtful) throw createUnitError(errorPlace, 'lengthUnit', speed, length.unit, likelyUnits);
 
   const { unit, by } = options.angleUnit ? { unit: options.angleUnit, by: 'option' as const } : assumedUnits.angle;
   const alignment = isJudged && kind === 'poses' ? alignmentWithPath(t, a, b, c) : undefined;
@@ -81,16 +78,18 @@ export function judgeUnits(errorPlace: ErrorPlace, kind: LogKind, columns: Colum
   const mayBeDegrees = kind === 'poses' ? c.some((heading) => Math.abs(heading) > MAX_WRAPPED_HEADING) : turnRate > MAX_SPEED;
   const isContradicted = alignment !== undefined && unit !== 'quaternion' && alignment.unit !== unit;
   const isUnclear = by === 'usage' ? mayBeDegrees && !alignment : isContradicted;
-  if (isJudged && isUnclear) askUnit('angleUnit', turnRate * RADIANS_PER_UNIT[unit as AngleUnit], unit, [...UNITS.angleUnit]);
+  if (isJudged && isUnclear) throw createUnitError(errorPlace, 'angleUnit', turnRate * RADIANS_PER_UNIT[unit as AngleUnit], unit, [...UNITS.angleUnit]);
   const angle: Units['angle'] = isContradicted ? { unit: alignment.unit, by: 'size' } : { unit, by };
   if (angle.unit === 'deg') scaleColumn(kind === 'poses' ? c : b, RADIANS_PER_UNIT.deg);
   return { time, length, angle };
 }
 
-type AskUnit = (unitOption: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: string, choices: string[]) => never;
+/** Returns an error that asks for a unit; without a question if no unit is possible. */
+const createUnitError = (errorPlace: ErrorPlace, option: keyof typeof UNITS, value: number, assumedUnit: string, choices: string[]) =>
+  new LogError(errorPlace, (texts) => texts[option](value, assumedUnit, choices), choices.length > 0 ? { option, choices, assumedUnit } : undefined);
 
 /** Judges a unit of times that is not stated, by the rate of the rows and the speed of the robot. */
-function judgeTimeUnit(kind: LogKind, { t, a, b }: Columns, assumedUnit: Units['time'], ask: AskUnit): Units['time'] {
+function judgeTimeUnit(errorPlace: ErrorPlace, kind: LogKind, { t, a, b }: Columns, assumedUnit: Units['time']): Units['time'] {
   if (assumedUnit.by !== 'usage' && assumedUnit.by !== 'size') return assumedUnit;
   const rate = 1 / medianStepOf(t);
   const speed = kind === 'poses' ? pathSpeedOf(t, a, b) : 0;
@@ -102,7 +101,8 @@ function judgeTimeUnit(kind: LogKind, { t, a, b }: Columns, assumedUnit: Units['
   const [unit, ...otherUnits] = possibleUnits.filter(hasUsualSpeed);
   if (unit && otherUnits.length === 0 && speed > 0) return { unit, by: 'rate' };
   // A robot that is too fast may have its lengths in another unit.
-  return hasUsualRate(assumedUnit.unit) ? assumedUnit : ask('timeUnit', rate, assumedUnit.unit, possibleUnits);
+  if (hasUsualRate(assumedUnit.unit)) return assumedUnit;
+  throw createUnitError(errorPlace, 'timeUnit', rate, assumedUnit.unit, possibleUnits);
 }
 
 /**

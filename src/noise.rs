@@ -67,6 +67,11 @@ impl NoiseKind {
         self.quantile(draw_centred_uniform(rng)) * b2.0.sqrt()
     }
 
+    /// Returns three independent draws of variance 1.
+    pub(crate) fn sample_unit_triple<R: Rng + ?Sized>(self, rng: &mut R) -> [f64; 3] {
+        std::array::from_fn(|_| self.quantile(draw_centred_uniform(rng)))
+    }
+
     /// Returns the density of the noise of variance `b2` at the residual `a`, in the inverse of a's unit.
     ///
     /// For a variance of 0 the result is 1 if `a` is 0 up to rounding (1e-7), and 0 otherwise. In a product of densities, a residual

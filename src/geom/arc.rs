@@ -119,14 +119,13 @@ impl Arc {
     pub fn points(&self) -> Vec<[f64; 2]> {
         let chord_count = (self.turn.abs() / 0.02).clamp(1.0, 640.0).ceil();
         (0..=chord_count as u32)
-            .map(|i| {
-                let arc_fraction = f64::from(i) / chord_count;
-                let end =
-                    Self { length: self.length * arc_fraction, turn: self.turn * arc_fraction, ..*self }
-                        .end();
-                [end.x(), end.y()]
-            })
+            .map(|i| self.leading_part(f64::from(i) / chord_count).end().position())
             .collect()
+    }
+
+    /// Returns the part of the arc from its start to a fraction of its length.
+    pub(crate) fn leading_part(&self, fraction: f64) -> Self {
+        Self { length: self.length * fraction, turn: self.turn * fraction, ..*self }
     }
 
     pub(crate) fn local_arc(&self) -> LocalArc {
@@ -139,7 +138,7 @@ impl Arc {
         let turn = turn.abs();
         let curvature = if length > MIN_ARC_LENGTH && turn > MIN_ARC_TURN { turn / length } else { 0.0 };
         LocalArc {
-            origin: [self.start.x(), self.start.y()],
+            origin: self.start.position(),
             forward: [drive_sign * cos, drive_sign * sin],
             left: [-turn_sign * sin, turn_sign * cos],
             length,
@@ -221,7 +220,7 @@ impl DrivenArc {
     /// Returns the arc as one or two pieces of up to half a turn. The part after a full turn is omitted, because it repeats the circle.
     pub fn split_into_pieces(&self) -> impl Iterator<Item = ArcPiece> {
         let Arc { start, length, turn } = self.arc;
-        let start_point = [start.x(), start.y()];
+        let start_point = start.position();
         if turn.abs() <= PI {
             let arc_piece = ArcPiece::new(start_point, self.end, length.abs(), turn, self.chord_ratio);
             return [Some(arc_piece), None].into_iter().flatten();
@@ -239,7 +238,7 @@ impl DrivenArc {
 
     /// Returns the bounding box of the arc: minimum x, minimum y, maximum x, maximum y.
     pub fn bounding_box(&self) -> [f64; 4] {
-        let ([x0, y0], [x1, y1]) = ([self.arc.start.x(), self.arc.start.y()], self.end);
+        let ([x0, y0], [x1, y1]) = (self.arc.start.position(), self.end);
         if self.arc.turn.abs() > PI {
             let circle_diameter = 2.0 * (self.arc.length / self.arc.turn).abs();
             return [x0 - circle_diameter, y0 - circle_diameter, x0 + circle_diameter, y0 + circle_diameter];

@@ -49,6 +49,11 @@ impl SE2 {
         self.y
     }
 
+    /// Returns the position (x, y), m.
+    pub(crate) fn position(&self) -> [f64; 2] {
+        [self.x, self.y]
+    }
+
     /// Returns the heading in (−π, π], radians.
     pub fn theta(&self) -> f64 {
         self.theta

@@ -66,7 +66,7 @@ impl Segment {
             .into_iter()
             .map(|turn| turn / arc.turn.abs())
             .filter(|fraction| *fraction < 1.0)
-            .map(|fraction| Arc { length: fraction * arc.length, turn: fraction * arc.turn, ..*arc }.end())
+            .map(|fraction| arc.leading_part(fraction).end())
             .map(|pose| {
                 ((pose.x() - self.from[0]) * direction[1] - (pose.y() - self.from[1]) * direction[0])
                     / direction_length

@@ -5,7 +5,6 @@ use crate::geom::arc::{Arc, DrivenArc, PreparedPose};
 use crate::geom::lanes::Trigonometry;
 use crate::geom::se2::SE2;
 use crate::models::{VelocityCmd, VelocityModel};
-use crate::noise::draw_centred_uniform;
 use rand::Rng;
 use std::ops::{Add, Mul, Range};
 use thiserror::Error;
@@ -246,10 +245,6 @@ impl MapConditioned<'_> {
         NoisyCommand { u: *u, noise_stds: self.model.noise_stds(u) }
     }
 
-    fn draw_unit_noise<R: Rng + ?Sized>(&self, rng: &mut R) -> [f64; 3] {
-        std::array::from_fn(|_| self.model.noise.quantile(draw_centred_uniform(rng)))
-    }
-
     /// Draws each part of a motion until it is accepted. Calls `visit_part` with the arc of each part and the collision test of its end.
     /// Returns the end pose of the last part, and the cost of all parts.
     fn drive_parts<R: Rng + ?Sized>(
@@ -282,7 +277,8 @@ impl MapConditioned<'_> {
         cost: &mut Cost,
     ) -> Result<(SE2, DrivenArc, CollisionVerdict), NoAcceptedSample> {
         for _ in 0..MAX_DRAWS {
-            let (end_pose, driven_arc) = command.drive_with_noise(start, self.draw_unit_noise(rng));
+            let (end_pose, driven_arc) =
+                command.drive_with_noise(start, self.model.noise.sample_unit_triple(rng));
             let end_verdict = self.plan.test_point(driven_arc.end, self.clearance);
             let deciding_verdict = match self.sampler {
                 _ if !conditioned => CollisionVerdict::FREE,

@@ -219,7 +219,7 @@ impl FloorPlan {
         end_verdict: CollisionVerdict,
         clearance: f64,
     ) -> CollisionVerdict {
-        let start_point = [driven_arc.arc.start.x(), driven_arc.arc.start.y()];
+        let start_point = driven_arc.arc.start.position();
         if !end_verdict.free || self.leaves_bounds(driven_arc) || self.is_in_blocked_cell(start_point) {
             return CollisionVerdict { free: false, ..end_verdict };
         }
@@ -277,7 +277,7 @@ impl FloorPlan {
         if box_corners.all(|corner| self.contains(corner)) {
             return false;
         }
-        if !self.contains([arc.start.x(), arc.start.y()]) || !self.contains(driven_arc.end) {
+        if !self.contains(arc.start.position()) || !self.contains(driven_arc.end) {
             return true;
         }
         // The start and the end of the arc are inside. An arc that only touches an edge counts as inside, up to rounding.

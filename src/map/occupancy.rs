@@ -217,9 +217,7 @@ impl OccupancyGrid {
 
     /// Returns the point of the plane at grid coordinates, in cells from the origin.
     pub(super) fn world_point(&self, [column, row]: [f64; 2]) -> [f64; 2] {
-        let (x, y) = (column * self.resolution, row * self.resolution);
-        let point = self.origin * SE2::new(x, y, 0.0);
-        [point.x(), point.y()]
+        (self.origin * SE2::new(column * self.resolution, row * self.resolution, 0.0)).position()
     }
 
     /// Returns the coordinates of a point of the plane, in cells from the origin.

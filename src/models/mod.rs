@@ -2,11 +2,13 @@
 
 mod odometry;
 mod odometry_rules;
+mod polar_motion;
 mod tangent;
 mod velocity;
 
 pub use odometry::{ConfiguredOdometry, OdomAlphas, OdomDelta, OdometryModel, RotTransRot};
 pub use odometry_rules::{ExecutedLegs, LegVariances, MAX_SPIN_DISTANCE, OdometryRule, RuleAlphas};
+pub use polar_motion::PolarMotion;
 pub(crate) use tangent::covariance_root;
 pub use tangent::{Compounding, TangentNoiseError, TangentNoiseModel};
 pub use velocity::{VelocityAlphas, VelocityCmd, VelocityModel};

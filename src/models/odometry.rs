@@ -2,7 +2,7 @@
 
 use super::MotionModel;
 use crate::geom::se2::{SE2, wrap_angle};
-use crate::noise::{NoiseKind, Variance, draw_centred_uniform, product_or_zero, wrapped_density};
+use crate::noise::{NoiseKind, Variance, product_or_zero, wrapped_density};
 use nalgebra::{Matrix3, Vector3};
 use rand::Rng;
 use std::f64::consts::PI;
@@ -138,8 +138,7 @@ impl<M: RotTransRot> MotionModel for M {
     }
 
     fn sample<R: Rng + ?Sized>(&self, u: &OdomDelta, x: &SE2, rng: &mut R) -> SE2 {
-        let unit_noise = std::array::from_fn(|_| self.noise().quantile(draw_centred_uniform(rng)));
-        self.executed_motion(u, unit_noise).apply(x)
+        self.executed_motion(u, self.noise().sample_unit_triple(rng)).apply(x)
     }
 }
 

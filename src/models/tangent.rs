@@ -110,7 +110,7 @@ impl TangentNoiseModel {
 
     /// Returns a random draw of the next pose x_t.
     pub fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> SE2 {
-        let w = self.cov_root * Vector3::from_fn(|_, _| NoiseKind::Normal.sample(Variance(1.0), rng));
+        let w = self.cov_root * Vector3::from(NoiseKind::Normal.sample_unit_triple(rng));
         let last_turn = NoiseKind::Normal.sample(Variance(self.last_turn_variance), rng);
         x.boxplus(Self::twist(u) + w) * SE2::new(0.0, 0.0, last_turn)
     }

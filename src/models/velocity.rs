@@ -3,7 +3,7 @@
 use super::{MotionModel, TangentNoiseModel};
 use crate::geom::arc::{ArcInversion, arc_end, invert_arc};
 use crate::geom::se2::SE2;
-use crate::noise::{NoiseKind, Variance, draw_centred_uniform, product_or_zero, wrapped_density};
+use crate::noise::{NoiseKind, Variance, product_or_zero, wrapped_density};
 use nalgebra::{Matrix3, Vector3};
 use rand::Rng;
 use std::f64::consts::TAU;
@@ -168,8 +168,7 @@ impl MotionModel for VelocityModel {
     }
 
     fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> SE2 {
-        let unit_noise = std::array::from_fn(|_| self.noise.quantile(draw_centred_uniform(rng)));
-        self.apply_noise(u, x, unit_noise)
+        self.apply_noise(u, x, self.noise.sample_unit_triple(rng))
     }
 
     /// R_u = Δt² · diag(α₁v² + α₂ω², 0, α₃v² + α₄ω²): a wheelset that rolls without slip has no lateral noise. γ̂ is

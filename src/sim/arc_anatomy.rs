@@ -226,17 +226,15 @@ impl ArcAnatomy {
     pub fn stats(&self) -> Stats {
         let Settings { command, noise, .. } = &self.settings;
         let (start, next) = (self.settings.start(), self.settings.next());
-        let (estimates, inverted) = (self.selected_inversion(), self.signed_inversion());
+        let estimates = self.selected_inversion();
         let factors = self.noise_residuals(&estimates).map(|residual| Factor::new(*noise, residual));
         let size_of = |i: &usize| factors[*i].deviations.abs();
         let weakest = (0..3).rev().max_by(|a, b| size_of(a).total_cmp(&size_of(b))).unwrap_or(0);
-        let arc_of_speeds = |v: f64, omega: f64| {
-            ArcWithCircle::from_arc(&Arc { start, length: v * command.dt, turn: omega * command.dt })
-        };
+        let [commanded, inverted, driven] = self.arcs().map(ArcWithCircle::from);
         Stats {
-            commanded: arc_of_speeds(command.v, command.omega),
-            inverted: arc_of_speeds(inverted.v_hat, inverted.omega_hat),
-            driven: arc_of_speeds(estimates.v_hat, estimates.omega_hat),
+            commanded,
+            inverted,
+            driven,
             last_turn: estimates.gamma_hat * command.dt,
             factors,
             weakest,
@@ -245,6 +243,15 @@ impl ArcAnatomy {
             density: self.settings.model().pose_density(&next, command, &start),
             xi: next.boxminus(&start).into(),
         }
+    }
+
+    /// Returns the arc of the command, the arc to the final position, and the arc that the estimates v̂ and ω̂ drive.
+    fn arcs(&self) -> [Arc; 3] {
+        let VelocityCmd { v, omega, dt } = self.settings.command;
+        let (inverted, estimates) = (self.signed_inversion(), self.selected_inversion());
+        let speeds =
+            [[v, omega], [inverted.v_hat, inverted.omega_hat], [estimates.v_hat, estimates.omega_hat]];
+        speeds.map(|[v, omega]| Arc { start: self.settings.start(), length: v * dt, turn: omega * dt })
     }
 
     /// Returns the arc to the final position, with a signed radius.
@@ -304,22 +311,21 @@ impl ArcAnatomy {
     /// Returns the curves of the picture.
     pub fn paths(&self) -> Paths {
         let (start, next) = (self.settings.start(), self.settings.next());
-        let Stats { commanded, inverted, driven, .. } = self.stats();
+        let [commanded, inverted, driven] = self.arcs().map(|arc| arc.points());
         let xi = next.boxminus(&start);
         let pose_on_twist_path =
             |i: usize, segment_count: usize| start.boxplus(xi * (i as f64 / segment_count as f64));
-        let position_of = |pose: SE2| [pose.x(), pose.y()];
         let segment_of_lateral_velocity = |i: usize| {
             let pose = pose_on_twist_path(i, TWIST_PATH_TICKS);
             let [x, y] = PreparedPose::new(pose).transform_point([0.0, xi.y]);
             [pose.x(), pose.y(), x, y]
         };
         Paths {
-            commanded: commanded.leading_part(start, 1.0).points(),
-            inverted: inverted.leading_part(start, 1.0).points(),
-            driven: driven.leading_part(start, 1.0).points(),
+            commanded,
+            inverted,
+            driven,
             lie: (0..=TWIST_PATH_CHORDS)
-                .map(|i| position_of(pose_on_twist_path(i, TWIST_PATH_CHORDS)))
+                .map(|i| pose_on_twist_path(i, TWIST_PATH_CHORDS).position())
                 .collect(),
             ticks: (0..=TWIST_PATH_TICKS).map(segment_of_lateral_velocity).collect(),
         }
@@ -329,13 +335,9 @@ impl ArcAnatomy {
     /// the path of the constant twist.
     pub fn poses_at(&self, fraction: f64) -> [SE2; 3] {
         let start_pose = self.settings.start();
-        let Stats { commanded, driven, .. } = self.stats();
+        let [commanded, _, driven] = self.arcs().map(|arc| arc.leading_part(fraction).end());
         let xi = self.settings.next().boxminus(&start_pose);
-        [
-            commanded.leading_part(start_pose, fraction).end(),
-            driven.leading_part(start_pose, fraction).end(),
-            start_pose.boxplus(xi * fraction),
-        ]
+        [commanded, driven, start_pose.boxplus(xi * fraction)]
     }
 
     /// Returns the heat map over the rectangle from `min_corner` to `max_corner` (m, `min_corner` below `max_corner` in x and in y); None
@@ -397,9 +399,9 @@ impl ArcAnatomy {
     }
 }
 
-impl ArcWithCircle {
-    fn from_arc(arc: &Arc) -> Self {
-        let Arc { start, length, turn } = *arc;
+impl From<Arc> for ArcWithCircle {
+    fn from(arc: Arc) -> Self {
+        let Arc { start, length, turn } = arc;
         let inversion = ArcInversion { v_hat: length, omega_hat: turn, gamma_hat: 0.0 };
         Self {
             arc_length: length,
@@ -408,11 +410,6 @@ impl ArcWithCircle {
             centre: inversion.centre(&start),
             end: arc.end().into(),
         }
-    }
-
-    /// Returns the part of the arc from its start to a fraction of its length.
-    fn leading_part(&self, start: SE2, fraction: f64) -> Arc {
-        Arc { start, length: self.arc_length * fraction, turn: self.turn * fraction }
     }
 }
 

@@ -125,7 +125,6 @@ js_structs! {
 pub struct OdometryDecomposer {
     settings: Settings,
     draws: Draws,
-    shown_count: usize,
     poses: Vec<SE2>,
 }
 
@@ -134,7 +133,7 @@ cloud_simulation!(OdometryDecomposer);
 impl OdometryDecomposer {
     fn empty(settings: Settings) -> Result<Self, SettingsError> {
         let draws = Draws::new(settings.seed, settings.noise);
-        Ok(Self { settings, draws, shown_count: 0, poses: Vec::new() })
+        Ok(Self { settings, draws, poses: Vec::new() })
     }
 
     /// Changes the settings and shows the first `target_count` outcomes.
@@ -153,16 +152,14 @@ impl OdometryDecomposer {
 
     /// Returns the number of outcomes shown.
     pub fn shown_count(&self) -> usize {
-        self.shown_count
+        self.poses.len()
     }
 
     fn show_samples(&mut self, count: usize) {
-        self.shown_count = count;
         self.draws.reset_if_changed(self.settings.seed, self.settings.noise);
-        self.draws.extend_to(self.shown_count);
+        self.draws.extend_to(count);
         let start_pose = self.start_pose();
-        self.poses =
-            self.executed_motions(self.shown_count).map(|executed| executed.poses(&start_pose)[3]).collect();
+        self.poses = self.executed_motions(count).map(|executed| executed.poses(&start_pose)[3]).collect();
     }
 
     /// Returns the odometry reading: the motion between the two odometry poses.
@@ -207,7 +204,7 @@ impl OdometryDecomposer {
     /// Returns the poses of [`OdometryDecomposer::leg_poses`] for each of the first `count` outcomes shown.
     pub fn sample_leg_poses(&self, count: usize) -> Vec<[SE2; 4]> {
         let start_pose = self.start_pose();
-        self.executed_motions(count.min(self.shown_count))
+        self.executed_motions(count.min(self.shown_count()))
             .map(|executed| executed.poses(&start_pose))
             .collect()
     }
@@ -246,17 +243,17 @@ impl OdometryDecomposer {
     pub fn stats(&self) -> Stats {
         let Settings { noise, correlation, .. } = self.settings;
         let (legs, variances) = (self.legs(), self.variances());
-        let executed_motions = self.executed_motions(self.shown_count);
+        let executed_motions = self.executed_motions(self.shown_count());
         let cross_track_offsets = executed_motions.clone().map(|ExecutedLegs { legs: executed, strafe }| {
             let (sin, cos) = libm::sincos(executed.rot1 - legs.rot1);
             executed.trans * sin + strafe * cos
         });
         let turn_offsets = executed_motions
             .map(|ExecutedLegs { legs: executed, .. }| executed.rot1 - legs.rot1 + executed.rot2 - legs.rot2);
-        let [cross_track, cross_track_error] = rms_with_error(cross_track_offsets, self.shown_count);
-        let [heading, heading_error] = rms_with_error(turn_offsets, self.shown_count);
+        let [cross_track, cross_track_error] = rms_with_error(cross_track_offsets, self.shown_count());
+        let [heading, heading_error] = rms_with_error(turn_offsets, self.shown_count());
         Stats {
-            n: self.shown_count,
+            n: self.shown_count(),
             cross_track,
             cross_track_error,
             exact_cross_track: variances.cross_track_variance(legs.trans, noise).sqrt(),
@@ -296,7 +293,7 @@ impl OdometryDecomposer {
 
     /// Returns the outcome shown that ends nearest to a point (m), within `radius`.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
-        nearest_index(self.poses.iter().map(|pose| [pose.x(), pose.y()]), target, [radius, radius])
+        nearest_index(self.poses.iter().map(SE2::position), target, [radius, radius])
     }
 }
 

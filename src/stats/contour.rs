@@ -166,10 +166,8 @@ impl ExponentialContour {
 
     /// Returns the coordinate along (m) and the position of each point of the outline.
     fn outline(&self, segment_count: usize) -> impl Iterator<Item = (f64, [f64; 2])> {
-        self.silhouette_twists(segment_count, 0.0).map(|twist| {
-            let pose = self.start.boxplus(twist);
-            (twist.x, [pose.x(), pose.y()])
-        })
+        self.silhouette_twists(segment_count, 0.0)
+            .map(|twist| (twist.x, self.start.boxplus(twist).position()))
     }
 
     /// Returns twists on the silhouette of the ellipsoid at a stage of the morph.

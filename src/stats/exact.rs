@@ -2,10 +2,10 @@
 
 use super::cross_track::MIN_RELATIVE_STD;
 use super::moments::non_negative;
-use super::quadrature::noise_nodes;
+use super::quadrature::{Node, noise_nodes};
 use crate::geom::se2::wrap_angle;
 use crate::geom::sinc::unit_arc_end;
-use crate::models::{OdomDelta, RotTransRot, VelocityCmd, VelocityModel};
+use crate::models::PolarMotion;
 use crate::noise::NoiseKind;
 use nalgebra::{Matrix3, Vector3};
 
@@ -73,49 +73,25 @@ impl UnitMotionMoments {
 }
 
 impl ExactMoments {
-    /// Returns the moments of the velocity model. Given ω̂, the position is v̂Δt·(sin φ/φ, (1 − cos φ)/φ) with φ = ω̂Δt, linear in v̂.
-    pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
-        let [v_variance, omega_variance, gamma_variance] = model.variances(u).map(|variance| variance.0);
-        let motions = noise_nodes(model.noise).iter().map(|node| {
-            let excess_turn = omega_variance.sqrt() * u.dt * node.value;
-            let unit_end = unit_arc_end(u.omega * u.dt + excess_turn).into();
-            UnitMotion { weight: node.weight, unit_end, excess_turn }
-        });
-        let (motions, dt2) = (motions.collect::<Vec<_>>(), u.dt * u.dt);
-        Self::combine_motions(&motions, u.v * u.dt, dt2 * v_variance, u.omega * u.dt, dt2 * gamma_variance)
-    }
-
-    /// Returns the moments of the odometry model. Given the first rotation, the position is δ̂_trans along it, linear in δ̂_trans.
-    pub fn of_odometry(model: &impl RotTransRot, u: &OdomDelta) -> Self {
-        let [rot1_variance, trans_variance, rot2_variance] = model.variances(u).map(|variance| variance.0);
-        let motions = noise_nodes(model.noise()).iter().map(|node| {
-            let excess_turn = rot1_variance.sqrt() * node.value;
-            let (sin, cos) = libm::sincos(u.rot1 + excess_turn);
-            UnitMotion { weight: node.weight, unit_end: [cos, sin], excess_turn }
-        });
-        Self::combine_motions(
-            &motions.collect::<Vec<_>>(),
-            u.trans,
-            trans_variance,
-            u.rot1 + u.rot2,
-            rot2_variance,
-        )
-    }
-
-    /// Combines the motions of length 1 with the mean and variance of the length, and with the mean `mean_turn` (rad) of the turn.
-    /// `last_turn_variance` is added to the variance of the heading.
+    /// Returns the moments of a motion. Given the noise of the bearing, the position is linear in the length: of an arc of turn φ, it is
+    /// s·(sin φ/φ, (1 − cos φ)/φ).
     #[inline(never)]
-    fn combine_motions(
-        motions: &[UnitMotion],
-        mean_length: f64,
-        length_variance: f64,
-        mean_turn: f64,
-        last_turn_variance: f64,
-    ) -> Self {
+    pub fn new(motion: &PolarMotion) -> Self {
+        let (turn_per_bearing, [mean_bearing, bearing_std]) = (motion.turn_per_bearing(), motion.bearing);
+        let unit_motion_at = |node: &Node| {
+            let excess_turn = turn_per_bearing * bearing_std * node.value;
+            let turn = turn_per_bearing * mean_bearing + excess_turn;
+            let unit_end =
+                if motion.is_arc { unit_arc_end(turn).into() } else { [libm::cos(turn), libm::sin(turn)] };
+            UnitMotion { weight: node.weight, unit_end, excess_turn }
+        };
+        let motions: Vec<_> = noise_nodes(motion.noise).iter().map(unit_motion_at).collect();
         let mut moments = UnitMotionMoments::default();
         motions.iter().for_each(|motion| moments.add(motion.weight, motion.unit_end, motion.excess_turn));
+        let PolarMotion { length: [mean_length, _], length_variance, .. } = *motion;
         let (mean, mut cov) = moments.mean_and_cov([mean_length, length_variance.sqrt()]);
-        cov[(2, 2)] += last_turn_variance;
+        cov[(2, 2)] += motion.last_turn_variance;
+        let mean_turn = motion.mean_turn();
         let (sin, cos) = libm::sincos(mean_turn);
         let lateral_components = motions.iter().map(|UnitMotion { weight, unit_end: end, .. }| {
             let lateral_unit_end = end[1] * cos - end[0] * sin;

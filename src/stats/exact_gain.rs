@@ -6,7 +6,7 @@ use super::moments::ExponentialMoments;
 use super::quadrature::{Node, piecewise_nodes};
 use crate::geom::angle::wrap_angle;
 use crate::geom::sinc::sinc;
-use crate::models::{OdomDelta, RotTransRot, VelocityCmd, VelocityModel};
+use crate::models::PolarMotion;
 use crate::noise::NoiseKind;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{LN_2, PI, TAU};
@@ -34,56 +34,39 @@ const MAX_SIGMAS: f64 = 6.0;
 /// Break points for [`piecewise_nodes`] of a function that is smooth everywhere.
 const NO_BREAKS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
-/// Motion of either model: a length along a bearing, and a turn.
-struct PolarMotion {
-    noise: NoiseKind,
-    /// True if `length` is an arc length. The chord of an arc at the bearing φ/2 is shorter by the factor sinc(φ/2).
-    is_arc: bool,
-    /// Mean and standard deviation of the length, m.
-    length: [f64; 2],
-    /// Mean and standard deviation of the bearing, rad. The mean is near half the commanded turn, and not wrapped to ±π.
-    bearing: [f64; 2],
-    /// Mean of the turn, standard deviation of the turn due to the noise of the bearing, and standard deviation due to the noise after the
-    /// arc or the second rotation, rad.
+/// Motion whose bearing is near half the commanded turn, and not wrapped to ±π.
+struct BranchedMotion {
+    polar: PolarMotion,
+    /// Mean of the turn, standard deviation of the turn due to the noise of the bearing, and standard deviation of the last turn, rad.
     turn: [f64; 3],
 }
 
 impl ExactGain {
-    /// Returns the exact likelihood gain for a command under the velocity model.
-    pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
-        let [length_std, omega_std, gamma_std] = model.noise_stds(u).map(|std| std * u.dt);
-        let turn = u.omega * u.dt;
-        let motion = PolarMotion {
-            noise: model.noise,
-            is_arc: true,
-            length: [u.v * u.dt, length_std],
-            bearing: [0.5 * turn, 0.5 * omega_std],
-            turn: [turn, omega_std, gamma_std],
-        };
-        motion.gain(&ExactMoments::of_velocity(model, u))
-    }
-
-    /// Returns the exact likelihood gain for a reading `u` under the odometry model. The command of the reading turns by `turn` (rad).
-    pub fn of_odometry(model: &impl RotTransRot, u: &OdomDelta, turn: f64) -> Self {
-        let [rot1_std, trans_std, rot2_std] = model.variances(u).map(|variance| variance.0.sqrt());
+    /// Returns the exact likelihood gain of a motion.
+    pub fn new(motion: &PolarMotion) -> Self {
+        let PolarMotion {
+            length: [length, length_std], bearing: [bearing, bearing_std], commanded_turn, ..
+        } = *motion;
         // The length in a reading is never negative. After a drive in reverse, the first rotation of the reading therefore differs by half
         // a circle.
-        let half_circles = ((u.rot1 - 0.5 * turn) / PI).round();
+        let half_circles = ((bearing - 0.5 * commanded_turn) / PI).round();
         let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
-        let motion = PolarMotion {
-            noise: model.noise(),
-            is_arc: false,
-            length: [drive_sign * u.trans, trans_std],
-            bearing: [u.rot1 - half_circles * PI, rot1_std],
-            turn: [turn + wrap_angle(u.rot1 + u.rot2 - turn), rot1_std, rot2_std],
+        let turn = commanded_turn + wrap_angle(motion.mean_turn() - commanded_turn);
+        let branched_motion = BranchedMotion {
+            polar: PolarMotion {
+                length: [drive_sign * length, length_std],
+                bearing: [bearing - half_circles * PI, bearing_std],
+                ..*motion
+            },
+            turn: [turn, motion.turn_per_bearing() * bearing_std, motion.last_turn[1]],
         };
-        motion.gain(&ExactMoments::of_odometry(model, u))
+        branched_motion.gain(&ExactMoments::new(motion))
     }
 }
 
-impl PolarMotion {
+impl BranchedMotion {
     fn gain(&self, cartesian: &ExactMoments) -> ExactGain {
-        let (mean_log_length, [bearing, bearing_std]) = (self.mean_log_length(), self.bearing);
+        let (mean_log_length, [bearing, bearing_std]) = (self.mean_log_length(), self.polar.bearing);
         let (twist, twist_log_jacobian) = self.twist_moments();
         let (arc, arc_log_jacobian) = self.arc_moments();
         let mean_log_jacobians = [twist_log_jacobian, mean_log_length + arc_log_jacobian - LN_2];
@@ -104,12 +87,12 @@ impl PolarMotion {
         if std == 0.0 {
             return vec![Node { value: 0.0, weight: 1.0 }];
         }
-        piecewise_nodes(self.noise, self.integration_limit(1.0, 0.0), breaks)
+        piecewise_nodes(self.polar.noise, self.integration_limit(1.0, 0.0), breaks)
     }
 
     /// Returns the integration limit of the sum of two noises with the given standard deviations.
     fn integration_limit(&self, first_std: f64, second_std: f64) -> f64 {
-        match self.noise {
+        match self.polar.noise {
             NoiseKind::Normal => MAX_SIGMAS * libm::hypot(first_std, second_std),
             NoiseKind::Triangular => 6f64.sqrt() * (first_std + second_std),
         }
@@ -118,13 +101,14 @@ impl PolarMotion {
     /// Returns the moments of ξ, and the mean of ln sinc²(ξ_ω/2). A motion that ends at the distance r on the bearing β with the heading θ
     /// has ξ = r/sinc(θ/2) · (cos(β − θ/2), sin(β − θ/2)).
     fn twist_moments(&self) -> (MeanAndCov, f64) {
-        let ([bearing, bearing_std], [turn, bearing_turn_std, last_turn_std]) = (self.bearing, self.turn);
+        let ([bearing, bearing_std], [turn, bearing_turn_std, last_turn_std]) =
+            (self.polar.bearing, self.turn);
         let max_excess_turn = self.integration_limit(bearing_turn_std, last_turn_std);
         let (mut moments, mut log_sum) = (UnitMotionMoments::default(), 0.0);
         let last_turn_nodes = self.nodes(last_turn_std, NO_BREAKS);
         for bearing_node in self.nodes(bearing_std, NO_BREAKS) {
             let bearing = bearing + bearing_std * bearing_node.value;
-            let chord_ratio = if self.is_arc { sinc(bearing) } else { 1.0 };
+            let chord_ratio = if self.polar.is_arc { sinc(bearing) } else { 1.0 };
             for turn_node in &last_turn_nodes {
                 let excess_turn = bearing_turn_std * bearing_node.value + last_turn_std * turn_node.value;
                 let weight = bearing_node.weight * turn_node.weight;
@@ -139,14 +123,14 @@ impl PolarMotion {
                 moments.add(weight, scaled_direction, excess_turn);
             }
         }
-        let (mean, cov) = moments.mean_and_cov(self.length);
+        let (mean, cov) = moments.mean_and_cov(self.polar.length);
         ((mean + Vector3::z() * turn, cov), log_sum / moments.weight_sum)
     }
 
     /// Returns the moments of the length and turn φ of the arc that ends at the robot's final position. Also returns the
     /// mean of ln|c·sinc²(φ/2)|, with c the length of that arc divided by the driven length.
     fn arc_moments(&self) -> (MeanAndCov, f64) {
-        let ([bearing, bearing_std], half_commanded_turn) = (self.bearing, 0.5 * self.turn[0]);
+        let ([bearing, bearing_std], half_commanded_turn) = (self.polar.bearing, 0.5 * self.turn[0]);
         let (mut moments, mut log_sum) = (UnitMotionMoments::default(), 0.0);
         // Statistics of a cloud use the arc whose turn is nearest to the commanded turn. This arc is driven in the opposite direction if
         // the bearing differs from half the commanded turn by more than π/2.
@@ -158,21 +142,22 @@ impl PolarMotion {
             let half_turn = driven_bearing - half_circles * PI;
             let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
             let arc_sinc = sinc(half_turn);
-            let length_ratio = drive_sign * if self.is_arc { sinc(driven_bearing) } else { 1.0 } / arc_sinc;
+            let length_ratio =
+                drive_sign * if self.polar.is_arc { sinc(driven_bearing) } else { 1.0 } / arc_sinc;
             log_sum += node.weight * libm::log((length_ratio * arc_sinc * arc_sinc).abs());
             moments.add(node.weight, [length_ratio, 0.0], 2.0 * (half_turn - bearing));
         }
-        let (mean, cov) = moments.mean_and_cov(self.length);
+        let (mean, cov) = moments.mean_and_cov(self.polar.length);
         let cov = Matrix3::new(cov[(0, 0)], cov[(0, 2)], 0.0, cov[(0, 2)], cov[(2, 2)], 0.0, 0.0, 0.0, 0.0);
         ((Vector3::new(mean.x, mean.z + 2.0 * bearing, 0.0), cov), log_sum / moments.weight_sum)
     }
 
     fn mean_log_length(&self) -> f64 {
-        let [mean, std] = self.length.map(f64::abs);
+        let [mean, std] = self.polar.length.map(f64::abs);
         if std == 0.0 {
             return libm::log(mean);
         }
-        match self.noise {
+        match self.polar.noise {
             NoiseKind::Normal => libm::log(std) + mean_log_abs_of_normal(mean / std),
             NoiseKind::Triangular => triangular_mean_log(mean, 6f64.sqrt() * std),
         }

@@ -250,8 +250,8 @@ impl AlphaCalibrator {
     pub fn nearest(&self, point: [f64; 2], radius: f64) -> Option<usize> {
         let corrected_errors = &self.calibration().corrected;
         let distance_to_path_of = |leg: &Leg| {
-            let [start, end] = leg.reference.map(|pose| pose * corrected_errors.base());
-            Segment { from: [start.x(), start.y()], to: [end.x(), end.y()] }.distance_to_point(point)
+            let [from, to] = leg.reference.map(|pose| (pose * corrected_errors.base()).position());
+            Segment { from, to }.distance_to_point(point)
         };
         let path_distances = self.legs().iter().map(distance_to_path_of).enumerate();
         path_distances

@@ -18,8 +18,8 @@ use crate::geom::lanes::LANE_COUNT;
 use crate::geom::se2::SE2;
 use crate::geom::unbend::find_arc;
 use crate::models::{
-    ConfiguredOdometry, MotionModel, OdomAlphas, OdomDelta, OdometryModel, RotTransRot, TangentNoiseModel,
-    VelocityAlphas, VelocityCmd, VelocityModel,
+    ConfiguredOdometry, MotionModel, OdomAlphas, OdomDelta, OdometryModel, PolarMotion, RotTransRot,
+    TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel,
 };
 use crate::stats::{
     CartesianMoments, Ellipse, ExactGain, ExactMoments, ExponentialContour, ExponentialMoments,
@@ -30,6 +30,16 @@ use std::f64::consts::TAU;
 use wide::f64x4;
 
 impl Settings {
+    /// Returns the motion of the selected model under a command.
+    fn polar_motion(&self, command: &VelocityCmd) -> PolarMotion {
+        match self.model_with_input(*command) {
+            ModelWithInput::Velocity(model, command) => PolarMotion::of_velocity(&model, &command),
+            ModelWithInput::Odometry(model, reading) => {
+                PolarMotion::of_odometry(&model, &reading, command.omega * command.dt)
+            }
+        }
+    }
+
     /// Returns the selected model with its input: the command, or the noise-free odometry reading of the command.
     fn model_with_input(&self, command: VelocityCmd) -> ModelWithInput {
         match self.model {
@@ -56,22 +66,6 @@ enum ModelWithInput {
 }
 
 impl ModelWithInput {
-    fn exact_moments(&self) -> ExactMoments {
-        match self {
-            Self::Velocity(model, command) => ExactMoments::of_velocity(model, command),
-            Self::Odometry(model, reading) => ExactMoments::of_odometry(model, reading),
-        }
-    }
-
-    fn exact_gain(&self, command: &VelocityCmd) -> ExactGain {
-        match self {
-            Self::Velocity(model, command) => ExactGain::of_velocity(model, command),
-            Self::Odometry(model, reading) => {
-                ExactGain::of_odometry(model, reading, command.omega * command.dt)
-            }
-        }
-    }
-
     /// Returns the executed v̂, ω̂ and γ̂ of the velocity model, or rot1, trans and rot2 of the odometry model.
     fn executed_motion(&self, unit_noise: [f64; 3]) -> [f64; 3] {
         match self {
@@ -90,13 +84,6 @@ impl ModelWithInput {
         match self {
             Self::Velocity(model, command) => model.cartesian_cov(command, &START_POSE),
             Self::Odometry(model, reading) => model.cartesian_cov(reading, &START_POSE),
-        }
-    }
-
-    fn create_noisy_drive(&self, command: &VelocityCmd) -> NoisyDrive {
-        match self {
-            Self::Velocity(model, command) => NoisyDrive::of_velocity(model, command),
-            Self::Odometry(model, u) => NoisyDrive::of_odometry(model, u, command.omega * command.dt),
         }
     }
 }
@@ -156,7 +143,7 @@ cloud_simulation!(BananaMachine);
 
 impl BananaMachine {
     fn empty(settings: Settings) -> Result<Self, SettingsError> {
-        let drive = settings.model_with_input(settings.command).create_noisy_drive(&settings.command);
+        let drive = NoisyDrive::new(&settings.polar_motion(&settings.command));
         let mut cloud = Cloud::new(settings.seed, settings.noise, drive);
         cloud.reserve(settings.samples).map_err(|_| SettingsError::out_of_memory(settings.samples))?;
         let cloud_stats = cloud.drive_and_summarize(settings.seed, settings.noise, drive, 0);
@@ -176,7 +163,7 @@ impl BananaMachine {
 
     fn show_samples(&mut self, count: usize) {
         let Settings { seed, noise, command, .. } = self.settings;
-        let drive = self.settings.model_with_input(command).create_noisy_drive(&command);
+        let drive = NoisyDrive::new(&self.settings.polar_motion(&command));
         let cloud_stats = self.cloud.drive_and_summarize(seed, noise, drive, count);
         self.stats = Stats::of_cloud(count, &cloud_stats, self.defined_coordinates());
     }
@@ -266,13 +253,12 @@ impl BananaMachine {
 
     /// Returns the exact moments of the model, by quadrature.
     pub fn exact_moments(&self) -> ExactMoments {
-        self.settings.model_with_input(self.settings.command).exact_moments()
+        ExactMoments::new(&self.settings.polar_motion(&self.settings.command))
     }
 
     /// Returns the exact likelihood gain and the exact moments of the exponential coordinates, by quadrature.
     pub fn exact_gain(&self) -> ExactGain {
-        let Settings { command, .. } = self.settings;
-        self.settings.model_with_input(command).exact_gain(&command)
+        ExactGain::new(&self.settings.polar_motion(&self.settings.command))
     }
 
     /// Returns the moments of the pose by three methods, and the model's moments of its exponential coordinates.
@@ -317,10 +303,8 @@ impl BananaMachine {
         (0..point_count)
             .map(|i| {
                 let omega = first_omega + omega_step * i as f64;
-                self.settings
-                    .model_with_input(VelocityCmd { omega, ..self.settings.command })
-                    .exact_moments()
-                    .cross_track_skew
+                let command = VelocityCmd { omega, ..self.settings.command };
+                ExactMoments::new(&self.settings.polar_motion(&command)).cross_track_skew
             })
             .collect()
     }
@@ -358,7 +342,7 @@ impl BananaMachine {
             }
             ModelWithInput::Odometry(..) => {
                 let [rot1, trans, rot2] = executed_motion;
-                let path = vec![[START_POSE.x(), START_POSE.y()], [pose.x(), pose.y()]];
+                let path = vec![START_POSE.position(), pose.position()];
                 ([f64::NAN; 3], Some(OdomDelta { rot1, trans, rot2 }), path)
             }
         };

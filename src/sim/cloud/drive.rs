@@ -1,7 +1,7 @@
-//! Common form of the velocity and odometry models for a start at the origin: a distance along a bearing, and a final heading.
+//! Motions of many robots from the origin, four at a time.
 
 use crate::geom::lanes::{SinCos, Trigonometry, is_any_lane_set};
-use crate::models::{OdomDelta, RotTransRot, VelocityCmd, VelocityModel};
+use crate::models::PolarMotion;
 use crate::stats::two_pass::{FourArcs, FourPoses, JacobianScale, ReferencePoint};
 use std::f64::consts::FRAC_PI_2;
 use wide::f64x4;
@@ -9,11 +9,8 @@ use wide::f64x4;
 /// Affine function of a unit noise: mean + deviation · noise.
 type AffineInNoise = [f64; 2];
 
-/// Motion of all robots under given settings, as a function of three unit noises in the order of the model's draws.
-///
-/// An arc of length s and turn φ ends at the distance s·sinc(φ/2) on the bearing φ/2, with the heading φ + γ̂Δt. An odometry motion ends at
-/// the distance δ̂_trans on the bearing δ̂_rot1, with the heading δ̂_rot1 + δ̂_rot2. Lengths, bearings and headings are affine functions of
-/// the noises.
+/// Motion of all robots under given settings, as a function of three unit noises in the order of the model's draws. Lengths, bearings and
+/// headings of a [`PolarMotion`] are affine functions of the noises.
 #[derive(Clone, Copy, Debug)]
 pub struct NoisyDrive {
     /// True if `length` is an arc length; false if it is a chord length.
@@ -42,33 +39,19 @@ pub struct FourMotions {
 }
 
 impl NoisyDrive {
-    pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
-        let [length_std, turn_std, last_turn_std] =
-            model.variances(u).map(|variance| variance.0.sqrt() * u.dt);
-        let half_commanded_turn = 0.5 * (u.omega * u.dt);
+    pub fn new(motion: &PolarMotion) -> Self {
+        let PolarMotion { is_arc, length, bearing, last_turn, .. } = *motion;
+        // Table 5.6 subtracts the noise of odometry.
+        let noise_sign = if is_arc { 1.0 } else { -1.0 };
+        let half_commanded_turn = 0.5 * motion.commanded_turn;
         Self {
-            is_arc: true,
-            length: [u.v * u.dt, length_std],
-            bearing: [half_commanded_turn, 0.5 * turn_std],
-            bearing_weight: 1.0,
-            half_heading_offset: [0.0, 0.5 * last_turn_std],
+            is_arc,
+            length: [length[0], noise_sign * length[1]],
+            bearing: [bearing[0], noise_sign * bearing[1]],
+            bearing_weight: 0.5 * motion.turn_per_bearing(),
+            half_heading_offset: [0.5 * last_turn[0], noise_sign * 0.5 * last_turn[1]],
             half_commanded_turn,
             short_formula_interval: short_formula_interval(half_commanded_turn),
-            trigonometry: Trigonometry::default(),
-        }
-    }
-
-    /// Creates the drive of an odometry reading. `commanded_turn` (rad) is the turn of the command that caused the reading.
-    pub fn of_odometry(model: &impl RotTransRot, u: &OdomDelta, commanded_turn: f64) -> Self {
-        let [rot1_std, trans_std, rot2_std] = model.variances(u).map(|variance| variance.0.sqrt());
-        Self {
-            is_arc: false,
-            length: [u.trans, -trans_std],
-            bearing: [u.rot1, -rot1_std],
-            bearing_weight: 0.5,
-            half_heading_offset: [0.5 * u.rot2, -0.5 * rot2_std],
-            half_commanded_turn: 0.5 * commanded_turn,
-            short_formula_interval: short_formula_interval(0.5 * commanded_turn),
             trigonometry: Trigonometry::default(),
         }
     }

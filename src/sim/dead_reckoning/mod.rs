@@ -12,11 +12,11 @@ use super::settings::{AllowedValues, SettingRules, SettingsError};
 use crate::geom::se2::SE2;
 use crate::js::js_structs;
 use crate::models::{
-    Compounding, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel, covariance_root,
+    Compounding, PolarMotion, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel, covariance_root,
 };
 use crate::noise::NoiseKind;
 use crate::stats::{Ellipse, ExactMoments, ExponentialContour, ExponentialMoments};
-use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix3, Vector3};
 use rollouts::{ROLLOUTS_PER_BLOCK, Rollouts};
 
 /// Number of chords of an outline. Fewer chords would have visible corners; more chords would be shorter than a pixel.
@@ -225,7 +225,8 @@ impl DeadReckoning {
         let durations: Vec<f64> =
             (first_tenth..=last_tenth).map(|i| libm::pow(10.0, f64::from(i) / 10.0)).collect();
         let exact_variances = durations.iter().map(|dt| {
-            let cov = ExactMoments::of_velocity(&model, &VelocityCmd { v, omega: 0.0, dt: *dt }).cov;
+            let motion = PolarMotion::of_velocity(&model, &VelocityCmd { v, omega: 0.0, dt: *dt });
+            let cov = ExactMoments::new(&motion).cov;
             (cov[(0, 0)], cov[(1, 1)])
         });
         let (along, across) = exact_variances.unzip();
@@ -250,17 +251,8 @@ impl DeadReckoning {
         // A chord of 0.1 rad deviates from its arc by 1/800 of its length.
         let chords_per_step = ((twist.z.abs() * 10.0).ceil() as usize).clamp(1, MAX_CHORDS);
         (0..=chords_per_step * steps as usize)
-            .map(|i| {
-                let pose = SE2::exp(&(twist * (i as f64 / chords_per_step as f64)));
-                [pose.x(), pose.y()]
-            })
+            .map(|i| SE2::exp(&(twist * (i as f64 / chords_per_step as f64))).position())
             .collect()
-    }
-
-    /// Returns the outlines after a step, by the selected recursion; None if there is no such step.
-    pub fn outlines(&self, step: u32) -> Option<StepOutlines> {
-        let Settings { steps, compounding, .. } = self.settings;
-        (1..=steps).contains(&step).then(|| self.outlines_at_index(step as usize - 1, compounding))
     }
 
     /// Returns the milestones after each quarter of the path, except at the selected step. A path of fewer than four steps has fewer.
@@ -275,24 +267,26 @@ impl DeadReckoning {
         quarter_ends.into_iter().filter_map(milestone_after).collect()
     }
 
-    fn outlines_at_index(&self, step_index: usize, compounding: Compounding) -> StepOutlines {
-        let nominal_pose = self.nominal_poses()[step_index];
+    /// Returns the outlines after a step, by the selected recursion; None if there is no such step.
+    pub fn outlines(&self, step: u32) -> Option<StepOutlines> {
+        let step_index = (step as usize).checked_sub(1)?;
+        let nominal_pose = self.nominal_poses().get(step_index)?;
         let MeasuredMoments { mean, cov, .. } = &self.measured_moments()[step_index];
         let measured = if self.shown_count() < 2 { vec![] } else { xi_ellipse_outline(mean, cov) };
-        let Some(cov) = self.predicted_covariances(compounding)[step_index] else {
-            return StepOutlines { ellipse: vec![], exponential: vec![], predicted: vec![], measured };
+        let Some(cov) = self.predicted_covariances(self.settings.compounding)[step_index] else {
+            return Some(StepOutlines { ellipse: vec![], exponential: vec![], predicted: vec![], measured });
         };
         let xi_moments = ExponentialMoments { mean: Vector3::zeros(), cov };
         let (sin, cos) = libm::sincos(nominal_pose.theta());
         let heading_rotation = Matrix2::new(cos, -sin, sin, cos);
         let position_cov = heading_rotation * cov.fixed_view::<2, 2>(0, 0) * heading_rotation.transpose();
-        let ellipse = Ellipse::new(Vector2::new(nominal_pose.x(), nominal_pose.y()), position_cov);
-        StepOutlines {
+        let ellipse = Ellipse::new(nominal_pose.position().into(), position_cov);
+        Some(StepOutlines {
             ellipse: ellipse.boundary(OUTLINE_SEGMENTS),
-            exponential: ExponentialContour::new(&xi_moments, &nominal_pose).boundary(OUTLINE_SEGMENTS),
+            exponential: ExponentialContour::new(&xi_moments, nominal_pose).boundary(OUTLINE_SEGMENTS),
             predicted: xi_ellipse_outline(&Vector3::zeros(), &cov),
             measured,
-        }
+        })
     }
 }
 

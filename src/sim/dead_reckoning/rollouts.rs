@@ -3,7 +3,7 @@
 use super::settings::Settings;
 use crate::geom::lanes::{LANE_COUNT, SinCos, Trigonometry, first_lanes_mask, is_any_lane_set};
 use crate::geom::se2::SE2;
-use crate::models::TangentNoiseModel;
+use crate::models::{PolarMotion, TangentNoiseModel};
 use crate::noise::{NoiseKind, draw_four_uniform_triples};
 use crate::sim::cloud::drive::MAX_SHORT_FORMULA_ANGLE;
 use crate::stats::non_negative;
@@ -83,18 +83,16 @@ pub struct Rollouts {
 
 impl StepInErrorFrame {
     fn new(settings: &Settings) -> Self {
-        let u = &settings.command;
-        let [length_std, turn_std, last_turn_std] =
-            settings.model().variances(u).map(|variance| variance.0.sqrt() * u.dt);
-        let (mean_length, half_mean_turn) = (u.v * u.dt, 0.5 * (u.omega * u.dt));
+        let PolarMotion { length, bearing, last_turn, .. } =
+            PolarMotion::of_velocity(&settings.model(), &settings.command);
         let trigonometry = Trigonometry::default();
-        let mean_sin_cos = trigonometry.sin_cos(f64x4::splat(half_mean_turn));
-        let chord_length = f64x4::splat(mean_length) * mean_sin_cos.sinc;
-        let (sin, cos) = libm::sincos(2.0 * half_mean_turn);
+        let mean_sin_cos = trigonometry.sin_cos(f64x4::splat(bearing[0]));
+        let chord_length = f64x4::splat(length[0]) * mean_sin_cos.sinc;
+        let (sin, cos) = libm::sincos(2.0 * bearing[0]);
         Self {
-            length: [mean_length, length_std],
-            half_turn: [half_mean_turn, 0.5 * turn_std],
-            half_last_turn_std: 0.5 * last_turn_std,
+            length,
+            half_turn: bearing,
+            half_last_turn_std: 0.5 * last_turn[1],
             end: [chord_length * mean_sin_cos.cos, chord_length * mean_sin_cos.sin],
             sin,
             cos,

@@ -200,7 +200,7 @@ impl MapSqueeze {
 
     /// Returns the attempt that ends nearest to the point `target` (m), within `radius` (m).
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
-        let positions = self.attempts.iter().map(|attempt| [attempt.pose.x(), attempt.pose.y()]);
+        let positions = self.attempts.iter().map(|attempt| attempt.pose.position());
         nearest_index(positions, target, [radius, radius])
     }
 

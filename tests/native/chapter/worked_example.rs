@@ -7,6 +7,7 @@
 use crate::common::{MAX_STANDARD_ERRORS, estimate_with_standard_error};
 use approx::assert_relative_eq;
 use motion::geom::se2::SE2;
+use motion::models::PolarMotion;
 use motion::stats::{CartesianMoments, ExactMoments, ExponentialMoments};
 use motion::{MotionModel, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::{Matrix3, Vector3};
@@ -84,7 +85,7 @@ fn linearized_moments_equal_the_printed_table() {
 
 #[test]
 fn exact_moments_equal_the_printed_table() {
-    let exact_moments = ExactMoments::of_velocity(&MODEL, &U);
+    let exact_moments = ExactMoments::new(&PolarMotion::of_velocity(&MODEL, &U));
     assert_equals_printed(exact_moments.mean.x, 0.955006501, 9, "mean x");
     assert_equals_printed(exact_moments.mean.y, 0.243321663, 9, "mean y");
     assert_eq!(exact_moments.mean.z, 0.5);
@@ -92,7 +93,8 @@ fn exact_moments_equal_the_printed_table() {
     assert_equals_printed(exact_moments.cov[(1, 1)], 0.007057304, 9, "Σyy");
     assert_equals_printed(exact_moments.cross_track_skew, -0.30056, 5, "skew");
     let opening_alphas = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
-    let opening_moments = ExactMoments::of_velocity(&VelocityModel { alphas: opening_alphas, ..MODEL }, &U);
+    let opening_moments =
+        ExactMoments::new(&PolarMotion::of_velocity(&VelocityModel { alphas: opening_alphas, ..MODEL }, &U));
     assert_equals_printed(opening_moments.cross_track_skew, -0.43093, 5, "skew of the opening command");
 }
 
@@ -100,7 +102,7 @@ fn exact_moments_equal_the_printed_table() {
 #[test]
 fn measured_moments_agree_with_the_printed_table() {
     let cloud = sample_cloud(&MODEL);
-    let exact_moments = ExactMoments::of_velocity(&MODEL, &U);
+    let exact_moments = ExactMoments::new(&PolarMotion::of_velocity(&MODEL, &U));
     let exact_correlation =
         exact_moments.cov[(1, 2)] / (exact_moments.cov[(1, 1)] * exact_moments.cov[(2, 2)]).sqrt();
     let cov_entry_of = |i, j| move |poses: &[SE2]| CartesianMoments::from_poses(poses).cov[(i, j)];

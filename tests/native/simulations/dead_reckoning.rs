@@ -2,6 +2,7 @@
 
 use crate::common::{seeded_rng, settings_of_preset};
 use motion::geom::se2::SE2;
+use motion::models::PolarMotion;
 use motion::sim::dead_reckoning::{DeadReckoning, NoisePer, RECURSIONS, Settings};
 use motion::{Compounding, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::{Matrix3, Vector3};
@@ -368,8 +369,11 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
         let crossing_time = straight_growth.crossing.expect("a crossing");
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
         let exact_variance_ratio_at = |dt: f64| {
-            let position_cov =
-                motion::stats::ExactMoments::of_velocity(&model, &VelocityCmd { v, omega: 0.0, dt }).cov;
+            let position_cov = motion::stats::ExactMoments::new(&PolarMotion::of_velocity(
+                &model,
+                &VelocityCmd { v, omega: 0.0, dt },
+            ))
+            .cov;
             position_cov[(1, 1)] / position_cov[(0, 0)]
         };
         let (mut low, mut high) = (1e-3, 1e3);

@@ -2,6 +2,7 @@
 
 use crate::common::{MAX_STANDARD_ERRORS, ReferenceTable, draw_uniform, seeded_rng};
 use motion::geom::se2::{SE2, wrap_angle};
+use motion::models::PolarMotion;
 use motion::sim::banana::{BananaMachine, Settings};
 use motion::stats::{
     CartesianMoments, CrossTrackStats, Ellipse, ExactMoments, ExponentialContour, ExponentialMoments,
@@ -134,7 +135,8 @@ fn exact_moments_match_the_references() {
         let alphas = VelocityAlphas(row.cell_numbers(["a1", "a2", "a3", "a4", "a5", "a6"]));
         let [v, omega, duration] = row.cell_numbers(["v", "omega", "dt"]);
         let model = VelocityModel { alphas, noise: row.noise_kind() };
-        let exact_moments = ExactMoments::of_velocity(&model, &VelocityCmd { v, omega, dt: duration });
+        let exact_moments =
+            ExactMoments::new(&PolarMotion::of_velocity(&model, &VelocityCmd { v, omega, dt: duration }));
         assert!((exact_moments.mean.z - wrap_angle(omega * duration)).abs() < 1e-15);
         assert_moments_of_row(&exact_moments, &row);
     }
@@ -144,7 +146,8 @@ fn exact_moments_match_the_references() {
             alphas: OdomAlphas(row.cell_numbers(["a1", "a2", "a3", "a4"])),
             noise: row.noise_kind(),
         };
-        let exact_moments = ExactMoments::of_odometry(&model, &OdomDelta { rot1, trans, rot2 });
+        let exact_moments =
+            ExactMoments::new(&PolarMotion::of_odometry(&model, &OdomDelta { rot1, trans, rot2 }, 0.0));
         assert!((exact_moments.mean.z - wrap_angle(rot1 + rot2)).abs() < 1e-15);
         assert_moments_of_row(&exact_moments, &row);
     }
@@ -191,11 +194,16 @@ fn degenerate_clouds_give_nan() {
     let along_only_model =
         VelocityModel { alphas: VelocityAlphas([0.1, 0.0, 0.0, 0.0, 0.0, 0.0]), noise: NoiseKind::Normal };
     let noise_free_model = VelocityModel { alphas: VelocityAlphas([0.0; 6]), ..along_only_model };
-    assert!(ExactMoments::of_velocity(&noise_free_model, &COMMAND).cross_track_skew.is_nan());
     assert!(
-        ExactMoments::of_velocity(&along_only_model, &VelocityCmd { omega: 0.0, ..COMMAND })
-            .cross_track_skew
-            .is_nan()
+        ExactMoments::new(&PolarMotion::of_velocity(&noise_free_model, &COMMAND)).cross_track_skew.is_nan()
+    );
+    assert!(
+        ExactMoments::new(&PolarMotion::of_velocity(
+            &along_only_model,
+            &VelocityCmd { omega: 0.0, ..COMMAND }
+        ))
+        .cross_track_skew
+        .is_nan()
     );
 }
 

@@ -1,23 +1,16 @@
 //! Image files of maps: PGM, and PNG in builds with a PNG decoder.
 
 use super::occupancy::{OccupancyGrid, PixelClassifier};
-use super::pgm::{PgmError, read_pgm};
+use super::pgm::read_pgm;
 #[cfg(not(widget))]
-use super::png::{PNG_SIGNATURE, PngError, read_png};
+use super::png::{PNG_SIGNATURE, read_png};
 use crate::geom::se2::SE2;
 use thiserror::Error;
 
-/// Reason why a file is not the image of a map.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum ImageError {
-    /// The PGM image is invalid.
-    #[error(transparent)]
-    Pgm(#[from] PgmError),
-    /// The PNG image is invalid.
-    #[cfg(not(widget))]
-    #[error(transparent)]
-    Png(#[from] PngError),
-}
+/// Reason why a file is not the image of a map, as a text with what is wrong, where, and what is allowed.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{0}")]
+pub struct ImageError(pub(super) String);
 
 /// Makes the grid of an image file with [`OccupancyGrid::new`]. The first bytes distinguish PNG from PGM.
 ///
@@ -31,9 +24,7 @@ pub fn read_grid(
 ) -> Result<OccupancyGrid, ImageError> {
     #[cfg(not(widget))]
     if file_bytes.starts_with(&PNG_SIGNATURE) {
-        let image = read_png(file_bytes)?;
-        return Ok(OccupancyGrid::new(&image, classifier, resolution, origin));
+        return Ok(OccupancyGrid::new(&read_png(file_bytes)?, classifier, resolution, origin));
     }
-    let image = read_pgm(file_bytes)?;
-    Ok(OccupancyGrid::new(&image, classifier, resolution, origin))
+    Ok(OccupancyGrid::new(&read_pgm(file_bytes)?, classifier, resolution, origin))
 }

@@ -20,6 +20,6 @@ pub use image_file::{ImageError, read_grid};
 pub use occupancy::{
     Cell, Image, MapMode, OccupancyGrid, Pixel, PixelClassifier, RESOLUTION_RANGE, UnknownCells,
 };
-pub use pgm::{MAX_BYTES, MAX_PIXELS, PgmError, read_pgm};
+pub use pgm::{MAX_BYTES, MAX_PIXELS, read_pgm};
 #[cfg(not(widget))]
-pub use png::{PngError, read_png};
+pub use png::read_png;

@@ -1,21 +1,7 @@
 //! Reader of PGM images, in which `map_server` and most mapping programs store maps.
 
+use super::image_file::ImageError;
 use super::occupancy::Image;
-use thiserror::Error;
-
-/// Reason why bytes are not a PGM image.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("line {line}: {field_name} is {actual_text}; allowed is {allowed_text}")]
-pub struct PgmError {
-    /// Name of the invalid field with its article, such as "the width".
-    pub field_name: &'static str,
-    /// Line of the header (from 1) in which the field should have been.
-    pub line: usize,
-    /// Invalid value in quotation marks, as the message quotes it.
-    pub actual_text: String,
-    /// Allowed values, as text of the message.
-    pub allowed_text: String,
-}
 
 /// Largest number of pixels of an image: a map of 250 m × 250 m at 5 cm has 5000 × 5000.
 pub const MAX_PIXELS: usize = 1 << 25;
@@ -29,8 +15,8 @@ const MAX_QUOTED_CHARACTERS: usize = 20;
 /// Reads the brightness values of a PGM image, binary (P5) or plain (P2), of 8 or 16 bits. The maximum value of the header is white.
 ///
 /// # Errors
-/// [`PgmError`] with the line of the header, or the line where plain pixels end.
-pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, PgmError> {
+/// [`ImageError`] with the line of the header, or the line where plain pixels end.
+pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, ImageError> {
     let mut reader = TokenReader { bytes, position: 0, line: 1 };
     let is_plain = match reader.next_token() {
         b"P5" => false,
@@ -53,10 +39,10 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, PgmError> {
         && bytes.len() >= reader.position + 2 + raster_byte_count;
     let available_bytes = bytes.get(reader.position + if is_crlf { 2 } else { 1 }..).unwrap_or_default();
     let Some(raster) = available_bytes.get(..raster_byte_count) else {
-        let allowed_text = format!("{raster_byte_count} for {width} × {height} pixels");
-        let (field_name, actual_text) =
-            ("the length of the raster in bytes", available_bytes.len().to_string());
-        return Err(PgmError { field_name, line: reader.line, actual_text, allowed_text });
+        let (line, byte_count) = (reader.line, available_bytes.len());
+        return Err(ImageError(format!(
+            "line {line}: the length of the raster in bytes is {byte_count}; allowed is {raster_byte_count} for {width} × {height} pixels"
+        )));
     };
     // A pixel of 16 bits has its higher byte first.
     let decode_pixel = |pixel: &[u8]| pixel.iter().fold(0, |value, byte| 256 * value + usize::from(*byte));
@@ -94,7 +80,7 @@ impl<'a> TokenReader<'a> {
         &self.bytes[token_start..self.position]
     }
 
-    fn read_number(&mut self, field_name: &'static str, min: usize, max: usize) -> Result<usize, PgmError> {
+    fn read_number(&mut self, field_name: &'static str, min: usize, max: usize) -> Result<usize, ImageError> {
         let token = self.next_token();
         let digits = str::from_utf8(token).ok().filter(|_| token.iter().all(u8::is_ascii_digit));
         digits
@@ -105,7 +91,7 @@ impl<'a> TokenReader<'a> {
             })
     }
 
-    fn create_error(&self, field_name: &'static str, token: &[u8], allowed_text: String) -> PgmError {
+    fn create_error(&self, field_name: &'static str, token: &[u8], allowed_text: String) -> ImageError {
         // Bytes that are not printable ASCII may be pixels of another image format. A message cannot show them.
         let to_printable = |byte: &u8| {
             if byte.is_ascii_graphic() { char::from(*byte) } else { char::REPLACEMENT_CHARACTER }
@@ -116,6 +102,6 @@ impl<'a> TokenReader<'a> {
             actual_text =
                 format!("\"{quoted_token}{}\"", if token.len() > MAX_QUOTED_CHARACTERS { "…" } else { "" });
         }
-        PgmError { field_name, line: self.line, actual_text, allowed_text }
+        ImageError(format!("line {}: {field_name} is {actual_text}; allowed is {allowed_text}", self.line))
     }
 }

@@ -1,55 +1,36 @@
 //! PNG images of maps, decoded pixel for pixel. Gamma and colour profiles are ignored.
 
+use super::image_file::ImageError;
 use super::occupancy::Image;
 use super::pgm::MAX_PIXELS;
 use png::{BitDepth, ColorType, Decoder, DecodingError, Info, Limits, Transformations};
 use std::io::Cursor;
-use thiserror::Error;
 
 /// First bytes of every PNG image.
 pub const PNG_SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
-/// Reason why bytes are not a PNG image.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum PngError {
-    /// The bytes end, or differ from what the standard allows, before byte `offset` of `length`.
-    #[error(
-        "the PNG image is damaged or cut short before byte {offset} of {length}; allowed is a complete one"
-    )]
-    Damaged {
-        /// Number of bytes read before the damage was noticed.
-        offset: u64,
-        /// Number of bytes of the file.
-        length: usize,
-    },
-    /// The image has more pixels than [`MAX_PIXELS`].
-    #[error("image has {width} × {height} pixels; allowed are at most {MAX_PIXELS}")]
-    TooLarge {
-        /// Width of the image, pixels.
-        width: u32,
-        /// Height of the image, pixels.
-        height: u32,
-    },
-}
-
 /// Decodes a PNG image of any kind into red, green, blue and opacity; samples of 16 bits are rounded to 8 bits.
 ///
 /// # Errors
-/// [`PngError`] for an image that is cut short, damaged or too large.
-pub fn read_png(bytes: &[u8]) -> Result<Image<[u8; 4]>, PngError> {
+/// [`ImageError`] for an image that is cut short, damaged or too large.
+pub fn read_png(bytes: &[u8]) -> Result<Image<[u8; 4]>, ImageError> {
     let mut cursor = Cursor::new(bytes);
     let image_size = Decoder::new(&mut cursor).read_header_info().map(Info::size);
     let (width, height) = image_size.map_err(|_| damage_error(&cursor))?;
     if u64::from(width) * u64::from(height) > MAX_PIXELS as u64 {
-        return Err(PngError::TooLarge { width, height });
+        let message = format!("image has {width} × {height} pixels; allowed are at most {MAX_PIXELS}");
+        return Err(ImageError(message));
     }
     cursor.set_position(0);
     let pixels = decode_pixels(&mut cursor).map_err(|_| damage_error(&cursor))?;
     Ok(Image { width: width as usize, height: height as usize, pixels })
 }
 
-fn damage_error(cursor: &Cursor<&[u8]>) -> PngError {
-    PngError::Damaged { offset: cursor.position(), length: cursor.get_ref().len() }
+fn damage_error(cursor: &Cursor<&[u8]>) -> ImageError {
+    let (offset, length) = (cursor.position(), cursor.get_ref().len());
+    ImageError(format!(
+        "the PNG image is damaged or cut short before byte {offset} of {length}; allowed is a complete one"
+    ))
 }
 
 fn decode_pixels(cursor: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingError> {

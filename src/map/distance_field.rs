@@ -123,7 +123,7 @@ enum WallSet {
 }
 
 fn walls_of_node(tree: &WallTree, node_index: usize) -> impl Iterator<Item = WallSet> {
-    tree.distinct_wall_range(node_index).map(|wall_index| WallSet::Wall(wall_index as u32))
+    tree.wall_range(node_index).map(|wall_index| WallSet::Wall(wall_index as u32))
 }
 
 impl<'a> FieldBuilder<'a> {
@@ -241,7 +241,7 @@ impl<'a> FieldBuilder<'a> {
             if lower_bound < least_upper_bound {
                 least_upper_bound = least_upper_bound.min(match candidate {
                     WallSet::Wall(_) => lower_bound,
-                    WallSet::Node(node) => distance_to_wall(tree.distinct_wall_range(node as usize).start),
+                    WallSet::Node(node) => distance_to_wall(tree.wall_range(node as usize).start),
                 });
             }
             if width == 1 && least_upper_bound <= allowed_uncertainty {

@@ -1,16 +1,16 @@
 //! Search tree of the walls of a plan.
 
 use crate::geom::segment::Segment;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// Binary tree of walls by position and direction. Each node has a capsule that contains its walls: all points within a radius of an axis.
-/// Searches among long parallel walls thus take as few comparisons as among short walls in one place. The distance to a node of equal walls
-/// is computed once.
+/// Searches among long parallel walls thus take as few comparisons as among short walls in one place.
 ///
 /// The tree is full and has no pointers: the children of node i are 2i and 2i + 1, and the root is 1.
 #[derive(Clone, Debug)]
 pub(super) struct WallTree {
-    /// Walls, ordered so that the walls of each node are contiguous.
+    /// Distinct walls, ordered so that the walls of each node are contiguous.
     pub walls: Vec<Segment>,
     pub nodes: Vec<Node>,
     /// Number of levels below the root.
@@ -25,8 +25,6 @@ pub(super) struct Node {
     pub capsule_axis: Segment,
     /// Maximum distance from a point of the node's walls to the axis of the capsule, m.
     pub capsule_radius: f64,
-    /// True if all walls of the node are equal, so that the first wall represents all.
-    has_equal_walls: bool,
 }
 
 /// Maximum number of walls of a leaf, and of a tree that is a single leaf. Smaller leaves would need more nodes, and larger leaves more
@@ -39,22 +37,19 @@ const ZERO_SEGMENT: Segment = Segment { from: [0.0; 2], to: [0.0; 2] };
 impl WallTree {
     /// Creates the tree of the walls, all of which are inside `bounds`.
     pub fn new(walls: &[Segment], bounds: [f64; 4]) -> Self {
+        let mut known_walls = BTreeSet::new();
+        let is_new =
+            |wall: &&Segment| known_walls.insert([wall.from, wall.to].map(|end| end.map(f64::to_bits)));
+        let walls: Vec<Segment> = walls.iter().filter(is_new).copied().collect();
         let leaf_count = if walls.len() <= MAX_SINGLE_LEAF_WALLS {
             1
         } else {
             walls.len().div_ceil(MAX_LEAF_WALLS).next_power_of_two()
         };
         let mut tree = Self {
-            walls: walls.to_vec(),
+            walls,
             // Node 0 is unused. The root has no capsule, because it is always visited.
-            nodes: vec![
-                Node {
-                    capsule_axis: ZERO_SEGMENT,
-                    capsule_radius: f64::INFINITY,
-                    has_equal_walls: false
-                };
-                2
-            ],
+            nodes: vec![Node { capsule_axis: ZERO_SEGMENT, capsule_radius: f64::INFINITY }; 2],
             depth: leaf_count.ilog2(),
             rounding_slack: 1e-9 * bounds.iter().fold(0.0, |largest: f64, bound| largest.max(bound.abs())),
         };
@@ -120,32 +115,19 @@ impl WallTree {
         let wall_ends = walls.iter().flat_map(|wall| [wall.from, wall.to]);
         let max_distance =
             wall_ends.map(|end| capsule_axis.squared_distance_to_point(end)).fold(0.0, f64::max).sqrt();
-        Node {
-            capsule_axis,
-            capsule_radius: max_distance + self.rounding_slack,
-            has_equal_walls: walls.iter().all(|wall| *wall == walls[0]),
-        }
+        Node { capsule_axis, capsule_radius: max_distance + self.rounding_slack }
     }
 
-    fn wall_range(&self, node_index: usize) -> Range<usize> {
+    /// Returns the indices of the walls of a node.
+    pub fn wall_range(&self, node_index: usize) -> Range<usize> {
         let depth = node_index.ilog2();
         let (wall_count, index_in_level) = (self.walls.len() as u64, (node_index - (1 << depth)) as u64);
         let end_index = |index: u64| ((wall_count * index) >> depth) as usize;
         end_index(index_in_level)..end_index(index_in_level + 1)
     }
 
-    /// Returns the indices of the walls of a node; a single index if all walls are equal.
-    pub fn distinct_wall_range(&self, node_index: usize) -> Range<usize> {
-        let wall_range = self.wall_range(node_index);
-        if self.nodes[node_index].has_equal_walls {
-            wall_range.start..wall_range.start + 1
-        } else {
-            wall_range
-        }
-    }
-
     pub fn is_leaf(&self, node_index: usize) -> bool {
-        node_index >> self.depth > 0 || self.nodes[node_index].has_equal_walls
+        node_index >> self.depth > 0
     }
 
     /// Returns true if `is_wall_clear` holds for all walls. Nodes for which `is_node_clear` holds are skipped.
@@ -162,7 +144,7 @@ impl WallTree {
                     node_index *= 2;
                     continue;
                 }
-                if !self.walls[self.distinct_wall_range(node_index)].iter().all(&mut is_wall_clear) {
+                if !self.walls[self.wall_range(node_index)].iter().all(&mut is_wall_clear) {
                     return false;
                 }
             }

@@ -55,6 +55,8 @@ pub struct FirstPass {
     reference_point: ReferencePoint,
     pub jacobian_scale: JacobianScale,
     sums: CompensatedSums<16>,
+    /// Sums of the first two unit noises of each robot.
+    pub unit_noise: PairSums,
     /// Corrections for irregular arcs, which differ from the driven arcs (see `NoisyDrive::end_points`). Each correction adds the values of
     /// the irregular arc, and subtracts those of the driven arc, because the sums of the unit noise contain the driven arc.
     irregular_arcs: PairSums,
@@ -70,15 +72,17 @@ impl FirstPass {
             reference_point,
             jacobian_scale,
             sums: CompensatedSums::new(),
+            unit_noise: PairSums::new(),
             irregular_arcs: PairSums::new(),
             jacobian_products: [f64x2::splat(1.0); 2],
             log_jacobian_sums: [0.0; 2],
         }
     }
 
-    /// Adds the poses in the lanes of `mask` that have all bits set.
+    /// Adds the poses in the lanes of `mask` that have all bits set, and the first two unit noises of their robots.
     #[inline(always)]
-    pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
+    pub fn add(&mut self, poses: &FourPoses, unit_noise: [f64x4; 2], mask: f64x4) {
+        self.unit_noise.add(unit_noise, mask);
         let [x, y, along, lateral, half_heading, ..] = self.reference_point;
         let (sin, cos) = (poses.half_sin & mask, poses.half_cos);
         let [x, y] = [(poses.x - x) & mask, (poses.y - y) & mask];
@@ -124,6 +128,7 @@ impl FirstPass {
 
     pub fn flush_block(&mut self) {
         self.sums.flush_block();
+        self.unit_noise.flush_block();
         self.irregular_arcs.flush_block();
         for (product, log_sum) in self.jacobian_products.iter_mut().zip(&mut self.log_jacobian_sums) {
             let [a, b] = product.to_array();

@@ -207,16 +207,15 @@ impl AlphaCalibrator {
         let leg_reading = self.calibration().observations[index].reading;
         let mut draws = Draws::new(self.fit.settings.seed, self.fit.settings.noise);
         draws.extend_to(OUTCOME_COUNT);
-        let outcomes: Vec<[f64; 3]> = (0..OUTCOME_COUNT)
+        let outcome_poses: Vec<SE2> = (0..OUTCOME_COUNT)
             .map(|index| self.outcome_pose(&leg_reading, draws.noise_of_sample(index)))
-            .map(Into::into)
             .collect();
-        let outcome_poses: Vec<SE2> = outcomes.iter().map(|pose| SE2::from(*pose)).collect();
         let outcome_ellipse = Ellipse::from_moments(&CartesianMoments::from_poses(&outcome_poses));
         let outline =
             if outcome_ellipse.has_area() { outcome_ellipse.boundary(OUTLINE_SEGMENTS) } else { vec![] };
         let odometry_end = self.outcome_pose(&leg_reading, [0.0; 3]);
         let reference_end = self.calibration().corrected.motion(leg);
+        let outcomes = outcome_poses.into_iter().map(Into::into).collect();
         Some(LegView { outcomes, outline, read: odometry_end.into(), ended: reference_end.into() })
     }
 

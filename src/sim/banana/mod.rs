@@ -26,6 +26,7 @@ use crate::stats::{
     LikelihoodGain,
 };
 use nalgebra::{Matrix3, Vector3};
+use std::array;
 use std::f64::consts::TAU;
 use wide::f64x4;
 
@@ -370,7 +371,8 @@ impl BananaMachine {
 
     /// Paints the density of the shown samples: see [`picture::paint_cell_counts`].
     pub fn paint(&mut self, view: View, grid: &ViewGrid, ramp: &Ramp) -> &[[u8; 4]] {
-        self.picture = picture::paint_cell_counts(&self.density(view, grid), ramp);
+        let cell_counts = self.density(view, grid);
+        self.picture = picture::paint_cell_counts(cell_counts.as_chunks().0, array::from_ref(ramp));
         &self.picture
     }
 

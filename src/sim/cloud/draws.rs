@@ -1,9 +1,7 @@
 //! Common random numbers: the unit noise of every sample, drawn once for a seed.
 
-use super::GROUPS_PER_BLOCK;
 use crate::geom::lanes::{LANE_COUNT, first_lanes_mask, is_any_lane_set};
 use crate::noise::{NoiseKind, draw_four_uniform_triples};
-use crate::stats::sums::PairSums;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::collections::TryReserveError;
@@ -43,27 +41,11 @@ pub struct Draws {
     rng: Xoshiro256PlusPlus,
     /// Unit noise of the samples in groups of four. The last group may contain noise of samples beyond those requested.
     pub unit_noise: Vec<[f64x4; 3]>,
-    /// Sums of the unit noise of the first `summed_group_count` groups, in complete blocks. They stay valid while a slider moves the
-    /// robots.
-    sums: PairSums,
-    summed_group_count: usize,
-    /// Indices of the groups whose noise is farthest from 0 among the first `summed_group_count`, in ascending order. Groups below
-    /// `SUBSAMPLE_GROUP_LIMITS[1]` are not listed, because they enter the subsample with the far groups.
-    farthest_groups: Vec<usize>,
 }
 
 impl Draws {
     pub fn new(seed: u64, noise: NoiseKind) -> Self {
-        let rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-        Self {
-            seed,
-            noise,
-            rng,
-            unit_noise: Vec::new(),
-            sums: PairSums::new(),
-            summed_group_count: 0,
-            farthest_groups: Vec::new(),
-        }
+        Self { seed, noise, rng: Xoshiro256PlusPlus::seed_from_u64(seed), unit_noise: Vec::new() }
     }
 
     pub fn reserve(&mut self, count: usize) -> Result<(), TryReserveError> {
@@ -88,56 +70,11 @@ impl Draws {
         noise.replace_by_quantiles(unit_noise.get_mut(first_group..).unwrap_or_default().as_flattened_mut());
     }
 
-    /// Adds the complete blocks among the first `group_count` groups to the sums, and lists the groups whose noise is farthest from 0.
-    #[inline(never)]
-    pub fn sum_blocks_to(&mut self, group_count: usize) {
-        while group_count >= self.summed_group_count + GROUPS_PER_BLOCK {
-            let block_noise = self.unit_noise[self.summed_group_count..][..GROUPS_PER_BLOCK].iter();
-            block_noise.for_each(|noise| self.sums.add([noise[0], noise[1]], first_lanes_mask(LANE_COUNT)));
-            self.sums.flush_block();
-            let block_range = self.summed_group_count.max(SUBSAMPLE_GROUP_LIMITS[1])
-                ..self.summed_group_count + GROUPS_PER_BLOCK;
-            self.farthest_groups.extend(
-                block_range.filter(|group| {
-                    subsample_group_limit(&self.unit_noise[*group]) > SUBSAMPLE_GROUP_LIMITS[1]
-                }),
-            );
-            self.summed_group_count += GROUPS_PER_BLOCK;
-        }
-    }
-
-    /// Returns the sums of the first two unit noises of `sample_count` drawn samples, of their squares and of their product.
-    #[inline(never)]
-    pub fn pair_sums(&mut self, sample_count: usize) -> [f64; 5] {
-        let group_count = sample_count / LANE_COUNT;
-        if self.summed_group_count > group_count {
-            (self.sums, self.summed_group_count) = (PairSums::new(), 0);
-            self.farthest_groups.clear();
-        }
-        self.sum_blocks_to(group_count);
-        let mut total_sums = self.sums.clone();
-        for (group, noise) in self.unit_noise[..sample_count.div_ceil(LANE_COUNT)]
-            .iter()
-            .enumerate()
-            .skip(self.summed_group_count)
-        {
-            total_sums.add([noise[0], noise[1]], first_lanes_mask(sample_count - LANE_COUNT * group));
-        }
-        total_sums.flush_block();
-        total_sums.totals()
-    }
-
     /// Returns the weighted subsample of the first `sample_count` robots, in groups of four: unit noise, and the number of robots
     /// that each robot represents. Lanes beyond `sample_count` have the weight 0. A cloud of up to 2048 robots is sampled completely.
     pub fn weighted_subsample(&self, sample_count: usize) -> impl Iterator<Item = (&[f64x4; 3], f64x4)> {
         let group_count = sample_count.div_ceil(LANE_COUNT);
-        let later_groups = self
-            .farthest_groups
-            .iter()
-            .copied()
-            .chain(self.summed_group_count.max(SUBSAMPLE_GROUP_LIMITS[1])..group_count);
-        (0..group_count.min(SUBSAMPLE_GROUP_LIMITS[1])).chain(later_groups).filter_map(move |group| {
-            let noise = &self.unit_noise[group];
+        self.unit_noise[..group_count].iter().enumerate().filter_map(move |(group, noise)| {
             let group_limit = subsample_group_limit(noise);
             let weight = f64x4::splat((group_count as f64 / group_limit as f64).max(1.0));
             (group < group_limit)

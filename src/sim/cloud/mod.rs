@@ -61,7 +61,7 @@ impl Cloud {
         if let Some(better_point) = first_pass.better_reference_point(shown_count) {
             first_pass = self.run_first_pass(FirstPass::new(better_point, first_pass.jacobian_scale));
         }
-        let regular_sums = drive.sums_of_regular_arc_deviations(self.draws.pair_sums(shown_count));
+        let regular_sums = drive.sums_of_regular_arc_deviations(first_pass.unit_noise.totals());
         let mut second_pass = SecondPass::new(first_pass.moments(shown_count, regular_sums), &START_POSE);
         for block in sample_blocks(shown_count) {
             for (group_range, lane_mask) in block {
@@ -83,7 +83,6 @@ impl Cloud {
         for block in sample_blocks(*shown_count) {
             let end_group = block[1].0.end;
             draws.extend_to(end_group * LANE_COUNT);
-            draws.sum_blocks_to((*shown_count / LANE_COUNT).min(end_group));
             if positions.len() < end_group {
                 positions.resize(end_group, [f64x4::splat(0.0); 2]);
             }
@@ -158,7 +157,7 @@ fn add_to_first_pass(
         let (arcs, is_regular);
         (*ends, arcs, is_regular) = drive.end_points(&motions);
         let poses = drive.poses(&motions, ends);
-        first_pass.add(&poses, lane_mask);
+        first_pass.add(&poses, [noise[0], noise[1]], lane_mask);
         if is_full_group {
             first_pass.multiply_jacobians(&poses, &arcs);
         } else {

@@ -24,16 +24,23 @@ pub fn count_samples_in_cells(cloud: &Cloud, view: View, grid: &ViewGrid) -> Vec
     cell_counts
 }
 
-/// Paints the counts of the cells of a grid, one pixel for each cell: ramp[255·√(count/max_count)], transparent for empty cells. With the
-/// square root the sparse ends of a cloud stay visible.
-pub fn paint_cell_counts(counts: &[u32], ramp: &Ramp) -> Vec<[u8; 4]> {
-    let max_count = counts.iter().copied().max().unwrap_or(0);
-    counts.iter().map(|count| if *count == 0 { [0; 4] } else { ramp[ramp_step(*count, max_count)] }).collect()
+/// Paints the counts of the cells of a grid, one pixel for each cell, with a ramp for each of `K` kinds of samples. The most frequent kind
+/// in a cell selects the ramp, and the last of several equally frequent kinds. The colour is ramp[255·√(count/max_count)], where `count` is
+/// the number of samples of all kinds. With the square root the sparse ends of a cloud stay visible. Empty cells are transparent.
+pub fn paint_cell_counts<const K: usize>(counts: &[[u32; K]], ramps: &[Ramp; K]) -> Vec<[u8; 4]> {
+    let total_count_of = |kind_counts: &[u32; K]| kind_counts.iter().sum::<u32>();
+    let max_count = counts.iter().map(total_count_of).max().unwrap_or(0);
+    let colour_of = |kind_counts: &[u32; K]| {
+        let count = total_count_of(kind_counts);
+        let most_frequent_kind = (0..K).max_by_key(|kind| kind_counts[*kind]).unwrap_or(0);
+        if count == 0 { [0; 4] } else { ramps[most_frequent_kind][ramp_step(count, max_count)] }
+    };
+    counts.iter().map(colour_of).collect()
 }
 
 /// Returns the index in a colour ramp for a count: 255·√(count/max_count).
 #[inline(always)]
-pub fn ramp_step(count: u32, max_count: u32) -> usize {
+fn ramp_step(count: u32, max_count: u32) -> usize {
     let root_of_fraction = (f64::from(count) / f64::from(max_count)).sqrt();
     ((RAMP_STEP_COUNT - 1) as f64 * root_of_fraction + 0.5) as usize % RAMP_STEP_COUNT
 }

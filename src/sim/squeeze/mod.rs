@@ -6,7 +6,7 @@ pub use super::noise_level::alphas_of_noise_level;
 pub use settings::*;
 
 use super::cloud::draws::Draws;
-use super::cloud::picture::{Ramp, ramp_step};
+use super::cloud::picture::{self, Ramp};
 use super::cloud::views::{ViewGrid, nearest_index};
 use super::cloud_simulation::cloud_simulation;
 use super::settings::{AllowedValues, SettingRules, SettingsError};
@@ -190,11 +190,18 @@ impl MapSqueeze {
         }
     }
 
-    /// Paints a density map of the ends of the attempts shown, one pixel for each cell of the grid. The most frequent kind of
-    /// attempt in a cell selects the ramp. The colour is ramp[255·√(count/max_count)], where `count` is the number of attempts in
-    /// the cell and `max_count` the largest count of all cells. Empty cells are transparent.
+    /// Paints the density of the ends of the attempts shown, by [`Attempt::outcome_kind`]: see [`picture::paint_cell_counts`].
     pub fn paint(&mut self, grid: &ViewGrid, ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> &[[u8; 4]] {
-        self.picture = paint_attempts(&self.attempts, grid, ramps);
+        let (ViewGrid { min_corner, max_corner, .. }, cells_per_metre) = (*grid, grid.cells_per_unit());
+        let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; grid.columns * grid.rows];
+        for attempt in &self.attempts {
+            let column = ((attempt.pose.x() - min_corner[0]) * cells_per_metre[0]).floor();
+            let row = ((max_corner[1] - attempt.pose.y()) * cells_per_metre[1]).floor();
+            if let Some(cell_index) = grid.cell_index(column, row) {
+                cell_counts[cell_index][attempt.outcome_kind()] += 1;
+            }
+        }
+        self.picture = picture::paint_cell_counts(&cell_counts, ramps);
         &self.picture
     }
 
@@ -409,29 +416,4 @@ impl<'a> AttemptDriver<'a> {
             }
         }
     }
-}
-
-/// Paints the ends of attempts, row by row from the top. If several kinds are equally frequent in a cell, the last one is drawn.
-fn paint_attempts(attempts: &[Attempt], grid: &ViewGrid, ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> Vec<[u8; 4]> {
-    let (ViewGrid { min_corner, max_corner, .. }, cells_per_metre) = (*grid, grid.cells_per_unit());
-    let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; grid.columns * grid.rows];
-    for attempt in attempts {
-        let column = ((attempt.pose.x() - min_corner[0]) * cells_per_metre[0]).floor();
-        let row = ((max_corner[1] - attempt.pose.y()) * cells_per_metre[1]).floor();
-        if let Some(cell_index) = grid.cell_index(column, row) {
-            cell_counts[cell_index][attempt.outcome_kind()] += 1;
-        }
-    }
-    let total_count_of = |kind_counts: &[u32; OUTCOME_KIND_COUNT]| kind_counts.iter().sum::<u32>();
-    let highest_count = cell_counts.iter().map(total_count_of).max().unwrap_or(0);
-    let cell_colour_of = |kind_counts: &[u32; OUTCOME_KIND_COUNT]| {
-        let attempt_count = total_count_of(kind_counts);
-        let most_frequent_kind = (0..OUTCOME_KIND_COUNT).max_by_key(|kind| kind_counts[*kind]).unwrap_or(0);
-        if attempt_count == 0 {
-            [0; 4]
-        } else {
-            ramps[most_frequent_kind][ramp_step(attempt_count, highest_count)]
-        }
-    };
-    cell_counts.iter().map(cell_colour_of).collect()
 }

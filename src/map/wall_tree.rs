@@ -37,6 +37,7 @@ const ZERO_SEGMENT: Segment = Segment { from: [0.0; 2], to: [0.0; 2] };
 impl WallTree {
     /// Creates the tree of the walls, all of which are inside `bounds`.
     pub fn new(walls: &[Segment], bounds: [f64; 4]) -> Self {
+        // Equal walls would fill leaves whose distances all have to be computed.
         let mut known_walls = BTreeSet::new();
         let is_new =
             |wall: &&Segment| known_walls.insert([wall.from, wall.to].map(|end| end.map(f64::to_bits)));

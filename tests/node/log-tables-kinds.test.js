@@ -256,13 +256,22 @@ for (const [name, tableText, expectedMessage, options] of REFUSED_TABLES) {
   });
 }
 
-test('the columns proposed for a table with Y up give the path on the floor', async () => {
-  for (const positionOf of [(/** @type {number} */ x, /** @type {number} */ y) => [x, 0.1, y], (/** @type {number} */ x, /** @type {number} */ y) => [y, 0.1, x]]) {
-    const tableText = circleTableOf(([t, x, y, yaw]) => [t, ...positionOf(x, y), yaw], 't,x,y,z,yaw');
+for (const [axesName, tableText] of [
+  ['Y up, and headings from x to z', circleTableOf(([t, x, y, yaw]) => [t, x, 0.1, y, yaw], 't,x,y,z,yaw')],
+  ['Y up, and headings from z to x', circleTableOf(([t, x, y, yaw]) => [t, y, 0.1, x, yaw], 't,x,y,z,yaw')],
+  ['Y up and quaternions', circleTableOf(([t, x, y, yaw]) => [t, y, 0.1, x, 0, Math.sin(yaw / 2), 0, Math.cos(yaw / 2)], 't,x,y,z,qx,qy,qz,qw')],
+  ['x and y exchanged', circleTableOf(([t, x, y, yaw]) => [t, y, x, yaw])],
+]) {
+  test(`the columns proposed for a table with ${axesName} give the path on the floor`, async () => {
     const { question } = await catchRefusalError(readTable(tableText));
     const { data } = await readTable(tableText, { columns: question?.choices[0].split(',') });
     assert.deepEqual([[...data.x], [...data.y]], [1, 2].map((column) => CIRCLE_ROWS.map((row) => row[column])));
-  }
+  });
+}
+
+test('a heading without a prefix belongs to the only path of a table', async () => {
+  const { summary: { columns } } = await readTable(circleTableOf((row) => row, 'Frame Time,Center X,Center Y,Rotation'));
+  assert.deepEqual(columns, { t: 'Frame Time', x: 'Center X', y: 'Center Y', yaw: 'Rotation' });
 });
 
 test('a table with more rows than a day at 100 Hz is refused', async () => {

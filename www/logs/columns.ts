@@ -3,7 +3,7 @@
 import { group } from 'd3-array';
 import { LogError, truncate, listNames, UNITS, type ErrorPlace, type AngleUnit, type LengthUnit, type LogKind, type Question, type Series, type TimeUnit } from './log.ts';
 
-type Field = 't' | 'seconds' | 'subseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child' | 'source';
+export type Field = 't' | 'seconds' | 'subseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child' | 'source';
 
 interface Column {
   index: number;
@@ -51,7 +51,7 @@ const FIELD_PATTERNS: [Field, string[]][] = [
   ...Array.from('xyzw', (axis): [Field, string[]] => [`q${axis}` as Field, [`q\\..*\\.${axis}`, `${POSE_PREFIX}(?:orientation|rotation|quaternion|quat|rot|q)\\.?${axis}`]]),
   ['omega', [`${TWIST_PREFIX}(?:angular|ang)\\.(?:vel(?:ocity)?\\.)?z`, 'omega(?:\\.z)?|ω', '(?:yaw|turn|heading)\\.?(?:rate|vel(?:ocity)?)|wz?', '(?:angular|ang)(?:\\.?(?:vel(?:ocity)?|speed|rate))?', 'vel(?:ocity)?\\.(?:yaw|theta)']],
   ['v', [`${TWIST_PREFIX}(?:linear|lin)\\.(?:vel(?:ocity)?\\.)?x`, 'vx?', '(?:linear|lin|forward|fwd)?\\.?(?:vel(?:ocity)?|speed)(?:\\.x)?|linear|lin']],
-  ['yaw', [`${POSE_PREFIX}(?:(?:orientation|rotation|euler|rpy|rot)\\.)?(?:yaw|theta|heading)(?:\\.angle)?`, 'θ|ψ|psi|phi|orientation']],
+  ['yaw', [`${POSE_PREFIX}(?:(?:orientation|rotation|euler|rpy|rot)\\.)?(?:yaw|theta|heading)(?:\\.angle)?`, 'θ|ψ|psi|phi|orientation|rotation']],
   ['x', ['east(?:ing)?']], ['y', ['north(?:ing)?']],
   ...Array.from('xyz', (axis): [Field, string[]] => [axis as Field, [`p\\..*\\.${axis}`, `${POSE_PREFIX}(?:position|translation|location|pos|loc|trans|[pt])\\.?${axis}`, `${POSE_PREFIX}${axis}(?:\\.?pos(?:ition)?)?`]]),
 ];
@@ -180,9 +180,12 @@ export function groupColumnsByPrefix(names: string[], isTime: (index: number) =>
   const tableGroup = groups.find(({ name }) => name === '');
   const sharedClocks = tableGroup?.clocks ?? [];
   const allClocks = groups.flatMap(({ clocks }) => clocks);
+  const pathGroups = groups.filter(({ columns }) => hasFields(columns, 'x', 'y'));
   for (const columnGroup of groups) {
     const { columns, hasCommands } = columnGroup;
     if (tableGroup?.columns.source) columns.source ??= tableGroup.columns.source;
+    // In a table with one path, a heading without a prefix is that of the path.
+    if (tableGroup?.columns.yaw && pathGroups.length === 1 && columnGroup === pathGroups[0]) columns.yaw ??= tableGroup.columns.yaw;
     columnGroup.clocks = [...new Set([...columnGroup.clocks, ...sharedClocks])].slice(0, 2);
     // If a table has only one clock, all of its groups use it.
     if (columnGroup.clocks.length === 0 && allClocks.length === 1) columnGroup.clocks = allClocks;

@@ -1,7 +1,7 @@
 /** Reader of logs in text tables of robots, recorders and spreadsheets. */
 
 import { least } from 'd3-array';
-import { findLogLayout, type Clock, type ColumnGroup } from './columns.ts';
+import { findLogLayout, type Clock, type ColumnGroup, type Field } from './columns.ts';
 import { splitCells, detectTableFormat, parseDate, parseNumber, parseTime, type TableFormat } from './format.ts';
 import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Log, type Note, type OpenOptions, type Recording, type Series, type Source, type Summary, type TimeUnit } from './log.ts';
 import { rotationOf, type Quaternion } from './path.ts';
@@ -143,7 +143,7 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
   const clockReaders = clocks.map((clock, i) => createClockReader(clock, i === 0 ? options.timeUnit : undefined, normalizeCell));
   // Columns that name the frames, topic or robot of a row.
   const nameColumns = [group.columns.source, group.columns.frame, group.columns.child].filter((column) => column !== undefined);
-  const { x, y, z } = group.columns;
+  const { z } = group.columns;
   const hasHeight = fields.at(-1) === 'yaw' && z !== undefined;
   const neededCellCount = Math.max(...[...columns, ...(hasHeight ? [z] : []), ...clocks.flatMap((clock) => clock.columns), ...nameColumns].map(({ index }) => index)) + 1;
   const rowNames = new Set<string>();
@@ -204,7 +204,10 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
         columns: Object.fromEntries([['t', ''], ...fields.map((field, i) => [field, columns[i].name])]),
         columnNames: {
           allNames: columnNames,
-          withYUp: (sign) => columnNames.map((name, i) => (sign > 0 ? [x, z, y] : [y, z, x])[[x, y, z].findIndex((column) => column?.index === i)]?.name ?? name.trim()),
+          renameFields: (newFields) => columnNames.map((name, i) => {
+            const field = (Object.keys(newFields) as Field[]).find((oldField) => group.columns[oldField]?.index === i);
+            return group.columns[newFields[field as Field] as Field]?.name ?? name.trim();
+          }),
         },
         notes,
       }, options);

@@ -1,7 +1,8 @@
 /** Units of a log, judged by names, sizes and the motion of the robot. If they are in doubt, the log is refused with a question. */
 
 import { sort } from 'd3-array';
-import { LogError, UNITS, type ErrorPlace, type AngleUnit, type Commands, type LogKind, type OpenOptions, type Poses, type Summary, type TimeUnit } from './log.ts';
+import type { Field } from './columns.ts';
+import { LogError, UNITS, type ErrorPlace, type AngleUnit, type Commands, type LogKind, type OpenOptions, type Poses, type Question, type Summary, type TimeUnit } from './log.ts';
 import { quantileOf, sampleEvenly } from './path.ts';
 
 export type Units = Summary['units'];
@@ -9,8 +10,15 @@ export type Units = Summary['units'];
 /** Columns of a log in the units of the file: x, y, heading and height, or v, omega, 0 and 0. `start` is what was subtracted from all times, s. */
 export interface Columns { start: number; t: Float64Array; a: Float64Array; b: Float64Array; c: Float64Array; z: Float64Array }
 
-/** Names of all columns of a table, and their names in an order that reads the table with Y up. Its headings then grow from x to z (`sign` 1) or from z to x (−1). */
-export interface ColumnNames { allNames: string[]; withYUp(sign: number): string[] }
+type NewFields = Partial<Record<Field, Field>>;
+
+/** Names of all columns of a table, and a function that gives columns of some fields the names of other fields. */
+export interface ColumnNames { allNames: string[]; renameFields(newFields: NewFields): string[] }
+
+/** New names of fields that read a table with Y up, or with another handedness: headings grow from z to x, from x to z, and from y to x. */
+export const FIELDS_WITH_Y_UP: NewFields = { x: 'y', y: 'z', z: 'x', qx: 'qy', qy: 'qz', qz: 'qx' };
+const LEFT_HANDED_FIELDS_WITH_Y_UP: NewFields = { y: 'z', z: 'y' };
+const MIRRORED_FIELDS: NewFields = { x: 'y', y: 'x' };
 
 /** Decimal exponent of the number of units in a second, by unit of time. */
 export const UNIT_EXPONENTS = { s: 0, ms: 3, us: 6, ns: 9 } as const;
@@ -70,9 +78,10 @@ export function judgeUnits(errorPlace: ErrorPlace, kind: LogKind, columns: Colum
 
   const { unit, by } = options.angleUnit ? { unit: options.angleUnit, by: 'option' as const } : assumedUnits.angle;
   const alignment = isJudged && kind === 'poses' ? alignmentWithPath(t, a, b, c) : undefined;
-  if (alignment?.sign === -1) throw new LogError(errorPlace, (texts) => texts.mirrored);
+  const createQuestion = (newFields: NewFields): Question | undefined => columnNames && { option: 'columns', choices: [columnNames.renameFields(newFields).join()], columns: columnNames.allNames };
+  if (alignment?.sign === -1) throw new LogError(errorPlace, (texts) => texts.mirrored, createQuestion(MIRRORED_FIELDS));
   const alignmentWithYUp = isJudged && kind === 'poses' && columnNames && !alignment ? alignmentWithPath(t, a, z, c) : undefined;
-  if (columnNames && alignmentWithYUp) throw new LogError(errorPlace, (texts) => texts.yUp, { option: 'columns', choices: [columnNames.withYUp(alignmentWithYUp.sign).join()], columns: columnNames.allNames });
+  if (columnNames && alignmentWithYUp) throw new LogError(errorPlace, (texts) => texts.yUp, createQuestion(alignmentWithYUp.sign > 0 ? LEFT_HANDED_FIELDS_WITH_Y_UP : FIELDS_WITH_Y_UP));
   const turnRateAt = kind === 'poses' ? (i: number) => (c[i + 1] - c[i]) / (t[i + 1] - t[i]) : (i: number) => b[i];
   const turnRate = quantileOf(sampleEvenly(t.length - 1, (i) => Math.abs(turnRateAt(i))), 0.9);
   const mayBeDegrees = kind === 'poses' ? c.some((heading) => Math.abs(heading) > MAX_WRAPPED_HEADING) : turnRate > MAX_SPEED;

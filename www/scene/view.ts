@@ -78,11 +78,17 @@ export class View {
     return (this.plotArea.bottom - this.plotArea.top) / (this.extent.yMax - this.extent.yMin);
   }
 
-  /** Returns the scale (pixels per metre) at which a part of the world fits into the view with a margin in pixels, but fills at least half of it. */
+  /** Returns the scale (pixels per metre) at which a part of the world fits into the view with a margin in pixels. */
   fittingScaleOf({ xMin, yMin, xMax, yMax }: Extent, margin = 0) {
     const { left, right, top, bottom } = this.plotArea;
-    const [width, height] = [right - left, bottom - top].map((length) => Math.max(length / 2, length - 2 * margin));
-    return Math.min(width / (xMax - xMin), height / (yMax - yMin));
+    return Math.min((right - left - 2 * margin) / (xMax - xMin), (bottom - top - 2 * margin) / (yMax - yMin));
+  }
+
+  /** Returns the length (m) of a mark with a length in pixels beside a part of the world that fits into the view. A mark takes at most a quarter of the view. */
+  markLengthOf(extent: Extent, pixels: number) {
+    const { left, right, top, bottom } = this.plotArea;
+    const margin = Math.min(pixels, (right - left) / 4, (bottom - top) / 4);
+    return margin / this.fittingScaleOf(extent, margin);
   }
 
   toPixelX(x: number) {

@@ -60,7 +60,7 @@ export class ArcPicture extends Picture<ArcScene> {
     const maxRadius = Math.max(MAX_CENTRE_RADIUS.metres, MAX_CENTRE_RADIUS.pathLengths * Math.hypot(xMax - xMin, yMax - yMin));
     for (const { center, radius } of [commanded, inverted]) if (center && Math.abs(radius) < maxRadius) shownCoordinates.push(...center);
     const extentWithMargin = widenExtent(extentAround(shownCoordinates, 2), MARGIN_METRES);
-    const wedgeRadius = WEDGE_RADIUS / this.view.fittingScaleOf(extentWithMargin, WEDGE_RADIUS);
+    const wedgeRadius = this.view.markLengthOf(extentWithMargin, WEDGE_RADIUS);
     const wedgeHeadings = overlays.includes('wedge') ? [next.theta, next.theta - lastTurn] : [];
     this.view.fit(extentAround(wedgeHeadings.flatMap((theta) => [next.x + wedgeRadius * Math.cos(theta), next.y + wedgeRadius * Math.sin(theta)]), 2, extentWithMargin));
   }

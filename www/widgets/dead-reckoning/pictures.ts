@@ -8,7 +8,7 @@ import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, cornersAround, extentAround, extentOf } from '../../scene/view.ts';
 import { formatSignificant } from '../../ui/format.ts';
 import { OUTLINE_STYLES } from './settings.ts';
-import { drawDisc, paintWithOpacity, type DrawContext } from '../../scene/canvas.ts';
+import { drawDisc, paintWithOpacity } from '../../scene/canvas.ts';
 
 /** View model of the path and step pictures, with the poses of the selected robot after each step. */
 export type Scene = import('./settings.ts').ViewModel & { markedPoses: Float64Array | undefined, overlays: string[] };
@@ -16,8 +16,8 @@ export type Scene = import('./settings.ts').ViewModel & { markedPoses: Float64Ar
 /** Distance from a cloud's mean that the view of a step includes, in standard deviations. */
 const VIEWED_DEVIATIONS = 3.2;
 
-/** Dots of the clouds at milestones: maximum number, radius in CSS pixels, and opacity. */
-const MILESTONE_DOTS = { maxCount: 200, radius: 1.3, opacity: 0.4 };
+/** Dots of the clouds at milestones: maximum number, and opacity. */
+const MILESTONE_DOTS = { maxCount: 200, opacity: 0.4 };
 
 /** Minimum width (m) of the view of a step, and minimum height relative to the width. */
 const MIN_STEP_VIEW_WIDTH = 1e-6;
@@ -48,7 +48,7 @@ export class PathPicture extends SamplesPicture<Scene> {
     const outlinesOfStep = (stepOutlines: Scene['outlines']) => shownOutlineNames.map((name) => ({ points: stepOutlines[name], ...lineStyles[name] }));
     const callouts: Callout[] = [];
     clipToPlot(drawContext, () => {
-      for (const milestone of milestones) drawMilestone(drawContext, milestone.poses);
+      paintWithOpacity(drawContext.context, MILESTONE_DOTS.opacity, () => milestones.forEach((milestone) => drawDots(drawContext, milestone.poses.subarray(0, 3 * MILESTONE_DOTS.maxCount))));
       drawDots(drawContext, poses);
       drawOutlines(drawContext, [
         ...shownNamesOf(['command']).map((name) => ({ points: commanded, ...lineStyles[name] })),
@@ -66,14 +66,6 @@ export class PathPicture extends SamplesPicture<Scene> {
     });
     drawCallouts(drawContext, callouts, { shapeCentre: [commandedPose[0], commandedPose[1]], lines: [commanded, outlines.ellipse, outlines.exponential] });
   };
-}
-
-function drawMilestone({ context, view, palette }: DrawContext, poses: Float64Array) {
-  context.fillStyle = palette.cloud;
-  const { radius, maxCount, opacity } = MILESTONE_DOTS;
-  paintWithOpacity(context, opacity, () => {
-    for (let i = 0; i < Math.min(3 * maxCount, poses.length); i += 3) context.fillRect(view.toPixelX(poses[i]) - radius, view.toPixelY(poses[i + 1]) - radius, 2 * radius, 2 * radius);
-  });
 }
 
 /** Picture of ξ along and ξ lateral about the commanded pose. Each axis has its own scale, because the lateral spread is small at first. */

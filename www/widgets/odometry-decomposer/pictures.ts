@@ -4,8 +4,8 @@ import { greatest, leastIndex } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/labels.ts';
-import { addLine, fillPath, paintWithOpacity, strokePath, drawDisc, strokeLine, type DrawContext, type LineStroke } from '../../scene/canvas.ts';
-import { addTurnArc, drawDots, drawCrosshair, drawOutlines, hasLength, createLineLegend, createLineStyles, strokeLines } from '../../scene/draw.ts';
+import { addLine, fillPath, paintWithOpacity, strokePath, strokeLine, type DrawContext, type LineStroke } from '../../scene/canvas.ts';
+import { addTurnArc, drawDots, drawCrosshair, drawOutlines, drawRobot, hasLength, createLineLegend, createLineStyles, strokeLines } from '../../scene/draw.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, cornersAround, extentOf } from '../../scene/view.ts';
 import { formatFixed } from '../../ui/format.ts';
@@ -56,20 +56,6 @@ function drawDeviationFan({ context, view }: DrawContext, { x, y, theta }: Pose,
   };
   paintWithOpacity(context, 0.14, () => fillPath(context, colour, addFan));
   paintWithOpacity(context, 0.75, () => strokePath(context, { colour, width: 1, dash: [5, 3] }, addFan));
-}
-
-/** Draws a standard deviation (m) as a bar with ends, along the heading of a pose and to either side of its position. */
-function drawDeviationBar({ context, view }: DrawContext, pose: Pose, deviation: number, colour: string) {
-  if (deviation === 0) return;
-  const barDirection = view.pixelDirectionOf(pose.theta);
-  const halfLength = deviation * view.scaleX;
-  strokePath(context, { colour, width: 1.75 }, () => {
-    for (const endOffset of [-halfLength, halfLength]) {
-      const [barMiddle, [endX, endY]] = view.headingLineFrom(pose, endOffset);
-      addLine(context, [barMiddle, [endX, endY]]);
-      addLine(context, [[endX - ARROW_HEAD_SIZE.halfWidth * barDirection.y, endY + ARROW_HEAD_SIZE.halfWidth * barDirection.x], [endX + ARROW_HEAD_SIZE.halfWidth * barDirection.y, endY - ARROW_HEAD_SIZE.halfWidth * barDirection.x]]);
-    }
-  });
 }
 
 /** View model of the legs and world pictures, with the names of the lines that are shown. */
@@ -159,10 +145,9 @@ export class LegsPicture extends SamplesPicture<Scene> {
     const { linkage, legs, overlays } = scene;
     const coordinatesToShow = coordinatesToShowOf(scene);
     const extent = extentOf(coordinatesToShow, 1.2);
-    const [firstRadius, secondRadius] = turnRadiiOf({ scaleX: this.view.fittingScaleOf(extent) });
-    const scale = this.view.fittingScaleOf(extent, secondRadius);
-    const turnArcs = overlays.includes('legs') ? ([[0, legs.rot1, firstRadius], [2, legs.rot2, secondRadius]] as const) : [];
-    const arcPoints = turnArcs.flatMap(([poseIndex, turn, radius]) => turnArcPoints(poseAt(linkage, poseIndex), turn, radius / scale));
+    const arcRadii = turnRadiiOf({ scaleX: this.view.fittingScaleOf(extent) });
+    const turns = overlays.includes('legs') ? [legs.rot1, legs.rot2] : [];
+    const arcPoints = turns.flatMap((turn, i) => turnArcPoints(poseAt(linkage, 2 * i), turn, this.view.markLengthOf(extent, arcRadii[i])));
     this.view.fit(extentOf([...coordinatesToShow, ...arcPoints], 1.2));
   }
 
@@ -186,12 +171,8 @@ export class LegsPicture extends SamplesPicture<Scene> {
       if (overlays.includes('legs')) drawSegment(drawContext, startPose, drivenPose, lineStyles.legs);
       drawDraggableRobot(drawContext, startPose, ROBOT_RADIUS, palette.prior);
       drawDraggableRobot(drawContext, config.to, ROBOT_RADIUS, palette.prior);
-      if (isDeviationShown) {
-        drawDeviationBar(drawContext, drivenPose, deviations.trans, colour);
-        drawDeviationBar(drawContext, { ...drivenPose, theta: drivenPose.theta + Math.PI / 2 }, deviations.strafe, colour);
-        drawDeviationFan(drawContext, { ...drivenPose, theta: drivenPose.theta + legs.rot2 }, deviations.rot2, secondTurnRadius, colour);
-      }
-      if (config.phase < 3) this.#paintRobot(drawContext, scene.robot);
+      if (isDeviationShown) drawDeviationFan(drawContext, { ...drivenPose, theta: drivenPose.theta + legs.rot2 }, deviations.rot2, secondTurnRadius, colour);
+      if (config.phase < 3) drawRobot(drawContext, { ...scene.robot, heading: scene.robot.theta, colour: palette.accent });
       if (overlays.includes('legs')) {
         for (const [turnPose, turn, turnRadius] of turnArcs) if (Math.abs(turn) >= MIN_DRAWN_TURN) drawTurn(drawContext, turnPose, turn, turnRadius, lineStyles.legs.colour);
       }
@@ -224,13 +205,6 @@ export class LegsPicture extends SamplesPicture<Scene> {
     paintWithOpacity(context, 0.5, () => strokePath(context, { colour: palette.cloud, width: 1 }, () => {
       for (let i = 0; i < ghosts.length / 3; i += 4) addLine(context, [0, 1, 2, 3].map((k) => ghostPixelOf(i + k)));
     }));
-  }
-
-  #paintRobot({ context, view, palette }: DrawContext, pose: Pose) {
-    const radius = Math.max(7, 0.7 * ROBOT_RADIUS * view.scaleX);
-    const robotOutlineStyle = { colour: palette.paper, width: 2 };
-    drawDisc(context, view.toPixel(pose.x, pose.y), radius, palette.accent, robotOutlineStyle);
-    strokeLine(context, view.headingLineFrom(pose, radius), robotOutlineStyle);
   }
 }
 

@@ -5,7 +5,7 @@ import { words } from '../messages/registry.ts';
 import { radioGroupHtml, formatMarkup, checkboxHtml } from '../ui/controls.ts';
 import { formatEditable, formatInteger, formatLimit, parseNumber } from '../ui/format.ts';
 import { sliderRowHtml, type SliderRow } from '../ui/slider.ts';
-import { swatchHtml, type LineStyle } from '../scene/draw.ts';
+import { swatchHtml, type LineStyle } from '../ui/swatch.ts';
 import { createFieldProperty } from './definition.ts';
 import { embeddingControlsHtml, exportButtonsHtml, linkButtonHtml } from './export.ts';
 import type { Declaration } from '../../build/settings.js';

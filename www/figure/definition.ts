@@ -2,7 +2,7 @@
 
 import { presets, settings, type Declaration } from '../../build/settings.js';
 import { checkNumber, checkWord, includesFields, type FieldRange } from '../data/checks.ts';
-import type { LineStyle } from '../scene/draw.ts';
+import type { LineStyle } from '../ui/swatch.ts';
 import type { SliderSpec } from './controls.ts';
 import type { StateValues } from './settings.ts';
 

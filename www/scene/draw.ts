@@ -1,14 +1,13 @@
 /** Drawing of robots, densities, outlines and rings. All functions are stateless. */
 
 import { greatest } from 'd3-array';
-import { html, nothing, svg } from 'lit';
 import { limits } from '../../build/settings.js';
-import { colourChannelsOf } from '../ui/theme.ts';
+import { colourChannelsOf, type Palette } from '../ui/theme.ts';
 import type { LegendEntry } from './axes.ts';
 import { addLine, drawDisc, fillPath, paintWithOpacity, strokeLine, strokePath, type DrawContext, type LineStroke } from './canvas.ts';
 import { strokeInBatches } from './cache.ts';
 import type { Callout } from './labels.ts';
-import type { Palette } from '../ui/theme.ts';
+import type { LineStyle } from '../ui/swatch.ts';
 
 /**
  * Number of heading ticks in one stroke. Ticks of the same stroke do not darken each other where they cross. A larger number would hide the
@@ -62,17 +61,6 @@ export function createDensityRamp(palette: Palette): Uint8Array {
 interface Outline extends LineStroke {
   /** Points as x, y pairs, in metres or in the units of the view. */
   points: Float64Array;
-}
-
-/** Style of a line or mark, in the picture and in the legend. */
-export interface LineStyle {
-  role: keyof Palette;
-  /** Dash pattern, CSS pixels. */
-  dash?: number[];
-  /** Line width, CSS pixels. */
-  width?: number;
-  /** Symbol in the legend; default: line. */
-  shape?: 'line' | 'dot' | 'ring' | 'area' | 'cross';
 }
 
 const HIGHLIGHT_WIDTH_FACTOR = 1.9;
@@ -154,18 +142,6 @@ export function drawEarlierOutlines(drawContext: DrawContext, outlines: Outline[
 
 export function drawOutline(drawContext: DrawContext, points: Float64Array, style: LineStroke) {
   drawOutlines(drawContext, [{ points, ...style }]);
-}
-
-/** Returns the symbol of a legend item: a line, dot, ring or area in its style. */
-export function swatchHtml({ role, dash, width = 2.25, shape = 'line' }: LineStyle) {
-  const shapes = {
-    line: svg`<line x1="1" x2="29" y1="6" y2="6" stroke-width=${width} stroke-dasharray=${dash?.join(' ') ?? nothing} />`,
-    dot: svg`<circle fill="var(--role)" cx="15" cy="6" r="3" />`,
-    ring: svg`<circle cx="15" cy="6" r="4" stroke-width=${width} />`,
-    area: svg`<rect fill="var(--role)" x="4" y="1" width="22" height="10" opacity="0.4" />`,
-    cross: svg`<path d="M11 2l8 8m0 -8l-8 8" stroke-width=${width} />`,
-  };
-  return html`<svg class="swatch" viewBox="0 0 30 12" aria-hidden="true" data-role=${role}>${shapes[shape]}</svg>`;
 }
 
 /** Draws a robot seen from above: a disc with a line to the front. */

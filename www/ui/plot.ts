@@ -5,6 +5,7 @@ import { css, html, nothing, svg, unsafeCSS } from 'lit';
 import { formatMarkup } from './controls.ts';
 import { clamp, formatPowerOfTen, formatTick } from './format.ts';
 import { sliderTrackHtml } from './slider.ts';
+import { swatchHtml } from './swatch.ts';
 
 const CHART_WIDTH = 380;
 const CHART_HEIGHT = 250;
@@ -77,12 +78,6 @@ export const plotStyles = css`
   .plot-key {
     list-style: none;
   }
-
-  .plot-key svg {
-    width: 2.4em;
-    height: 0.7em;
-    margin-inline-end: 0.4em;
-  }
 `;
 
 interface Axis {
@@ -101,7 +96,7 @@ export interface Curve {
   name: string;
   role: ColourRole;
   /** Dash pattern, which distinguishes the curve without colours. */
-  dash?: string;
+  dash?: number[];
   x: ArrayLike<number>;
   /** Values along y. A NaN leaves a gap in the curve. */
   y: ArrayLike<number>;
@@ -149,7 +144,7 @@ export function plotHtml({ label, x, y, curves, points = [], marks = [], slider,
       <text font-style="italic" x="0" y="12">${y.name}</text>
       <svg x=${PLOT_LEFT} y=${PLOT_TOP} width=${PLOT_RIGHT - PLOT_LEFT} height=${PLOT_BOTTOM - PLOT_TOP} viewBox="${PLOT_LEFT} ${PLOT_TOP} ${PLOT_RIGHT - PLOT_LEFT} ${PLOT_BOTTOM - PLOT_TOP}">
         ${curves.map((curve) => curve.errors && svg`<path class="band ${highlightClassOf(curve)}" opacity="0.22" fill="var(--${curve.role})" d=${bandPathDataOf(curve, toPixelX, toPixelY)} />`)}
-        ${curves.map((curve) => !curve.isBandOnly && svg`<path class="curve ${highlightClassOf(curve)}" fill="none" stroke-width="1.9" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash ?? nothing} d=${curvePathDataOf(curve, toPixelX, toPixelY)} />`)}
+        ${curves.map((curve) => !curve.isBandOnly && svg`<path class="curve ${highlightClassOf(curve)}" fill="none" stroke-width="1.9" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash?.join(' ') ?? nothing} d=${curvePathDataOf(curve, toPixelX, toPixelY)} />`)}
         ${marks.map((mark, row) => markSvg(mark, row, toPixelX(mark.x)))}
         ${points.filter(({ y: value, error }) => !Number.isNaN(value + error)).map(
           ({ role, x: pointX, y: value, error }) => svg`<path
@@ -175,13 +170,7 @@ const highlightClassOf = ({ isHighlighted }: Curve) => (isHighlighted === undefi
 
 function curveLegendHtml(curves: Curve[]) {
   return html`<ul class="plot-key" part="legend">
-    ${curves.map(
-      ({ name, role, dash, isBandOnly }) => html`<li>
-        <svg viewBox="0 0 36 10" aria-hidden="true">
-          ${isBandOnly ? svg`<path opacity="0.22" fill="var(--${role})" d="M1 1H35V9H1Z" />` : svg`<path stroke="var(--${role})" stroke-width="1.9" stroke-dasharray=${dash ?? nothing} d="M1 5H35" />`}
-        </svg>${formatMarkup(name)}
-      </li>`,
-    )}
+    ${curves.map(({ name, isBandOnly, ...style }) => html`<li>${swatchHtml({ ...style, shape: isBandOnly ? 'area' : 'line' })} ${formatMarkup(name)}</li>`)}
   </ul>`;
 }
 

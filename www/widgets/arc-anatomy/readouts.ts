@@ -147,8 +147,8 @@ export function formErrorsPlotHtml({ ArcAnatomy }: Motion) {
       y: { name: texts.errorAxis, ...ERROR_AXIS_RANGE, isLogarithmic: true },
       curves: [
         { name: texts.arcFormula, role: 'prediction', x: omega, y: arc },
-        { name: texts.straightLineFormula, role: 'prior', dash: '2.5 3.5', x: omega, y: straight },
-        { name: words.anatomy.overlays.chord, role: 'posterior', dash: '7 3', x: omega, y: chord },
+        { name: texts.straightLineFormula, role: 'prior', dash: [2.5, 3.5], x: omega, y: straight },
+        { name: words.anatomy.overlays.chord, role: 'posterior', dash: [7, 3], x: omega, y: chord },
       ],
       marks: [
         { x: estimatedCrossover, text: `2·${formatPowerOfTen(-8)}/Δt` },

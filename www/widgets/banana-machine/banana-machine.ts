@@ -361,7 +361,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       y: { name: texts.readouts.skew, min: -chartMaximum, max: chartMaximum },
       curves: [
         { name: texts.readouts.skew, role: 'ink', x: skews.map((_, i) => min + (i * (max - min)) / (skews.length - 1)), y: skews },
-        { name: texts.gaussianLineName, role: 'prediction', dash: '7 4', x: omegaRange, y: [0, 0] },
+        { name: texts.gaussianLineName, role: 'prediction', dash: [7, 4], x: omegaRange, y: [0, 0] },
       ],
       points: [
         { role: 'prior', x: omega, y: exactSkew, error: 0 },

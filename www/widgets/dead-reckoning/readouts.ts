@@ -103,9 +103,9 @@ export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckonin
 
 /** Returns role, dash and highlight of a curve in the chart of ratios. */
 function curveStyleOf(name: keyof typeof CURVE_STYLES, highlight: string | null) {
-  const { role, dash } = CURVE_STYLES[name] as import('../../scene/draw.ts').LineStyle & { role: ColourRole };
+  const { role, dash } = CURVE_STYLES[name] as import('../../ui/swatch.ts').LineStyle & { role: ColourRole };
   const isHighlighted = highlight !== null && highlight in CURVE_STYLES ? name === highlight : undefined;
-  return { role, dash: dash?.join(' '), isHighlighted };
+  return { role, dash, isHighlighted };
 }
 
 /** Returns the headline of the figure: the ratio at the selected step that is furthest from 1. */
@@ -132,10 +132,10 @@ export function straightGrowthPlotHtml({ durations: x, along, across, alongFirst
       x: { name: 'Δt (s)', min: minDuration, max: maxDuration, isLogarithmic: true },
       y: { name: texts.varianceAxisLabel, min: minVariance, max: maxVariance, isLogarithmic: true },
       curves: [
-        { name: texts.alongCurve, role: 'ink', dash: '8 4', x, y: alongFirstOrder },
+        { name: texts.alongCurve, role: 'ink', dash: [8, 4], x, y: alongFirstOrder },
         { name: texts.acrossCurve, role: 'prediction', x, y: acrossFirstOrder },
         // The exact curves along and across the track are one curve with a gap, so that they have one name.
-        { name: texts.exactCurves, role: 'truth', dash: '2 3', x: [...x, NaN, ...x], y: [...along, NaN, ...across] },
+        { name: texts.exactCurves, role: 'truth', dash: [2, 3], x: [...x, NaN, ...x], y: [...along, NaN, ...across] },
       ],
       marks: crossing !== null && crossing >= minDuration && crossing <= maxDuration ? [{ x: crossing, text: `${crossingText} s` }] : [],
     })}

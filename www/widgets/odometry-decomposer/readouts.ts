@@ -76,8 +76,8 @@ export function spreadPlotHtml(readCurve: (maxLength: number, pointCount: number
       y: { name: 'σ (m)', min: 0, max: 1.08 * maxDeviation },
       curves: [
         { name: texts.acrossCurve, role: 'prediction', x: driveLengths, y: acrossDeviations },
-        { name: words.decomposer.readouts.firstRotationDeviation, role: 'muted', dash: '2 4', x: driveLengths, y: leverDeviations },
-        { name: texts.alongCurve, role: 'prior', dash: '7 4', x: driveLengths, y: alongDeviations },
+        { name: words.decomposer.readouts.firstRotationDeviation, role: 'muted', dash: [2, 4], x: driveLengths, y: leverDeviations },
+        { name: texts.alongCurve, role: 'prior', dash: [7, 4], x: driveLengths, y: alongDeviations },
       ],
       points: [{ role: 'prediction', x: legs.trans, y: stats.crossTrack, error: stats.crossTrackError }],
       marks: [{ x: legs.trans, text: texts.readingMark }],

@@ -46,15 +46,15 @@ export const controlStyles = css`
     font: 0.85em / 1.4 ui-monospace, monospace;
   }
 
-  /* Browsers have their own font size for controls. */
-  input {
-    font-size: inherit;
+  /* Browsers have their own fonts for controls. */
+  :is(button, input) {
+    font: inherit;
+    font-variant-numeric: inherit;
   }
 
   button {
     min-height: 2em;
     padding: 0.15em var(--beside, 0.65em) 0.25em;
-    font: inherit;
     cursor: pointer;
   }
 
@@ -105,6 +105,12 @@ export const controlStyles = css`
   legend {
     margin-bottom: 0.25em;
     padding: 0;
+  }
+
+  ul {
+    margin: 0;
+    padding: 0;
+    list-style: none;
   }
 
   :where(.buttons, .choices, .options, .legend, .plot-key, .readouts, .marked, .marked output) {
@@ -169,8 +175,6 @@ export const controlStyles = css`
     width: 8em;
     min-height: 2em;
     padding: 0 0.4em;
-    font: inherit;
-    font-variant-numeric: inherit;
   }
 
   .seed input {

@@ -328,7 +328,6 @@ const figureLayout = css`
   :is(.legend, .plot-key) {
     gap: 0 1.2em;
     margin: 0.2em 0;
-    padding: 0;
     font-size: 0.92em;
   }
 

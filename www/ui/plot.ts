@@ -74,10 +74,6 @@ export const plotStyles = css`
   .plot .band.unlit {
     opacity: 0.1;
   }
-
-  .plot-key {
-    list-style: none;
-  }
 `;
 
 interface Axis {

@@ -62,8 +62,6 @@ export const sliderStyles = css`
     border: 1px solid transparent;
     border-radius: 3px;
     color: inherit;
-    font: inherit;
-    font-variant-numeric: inherit;
     text-align: right;
   }
 

@@ -28,9 +28,7 @@ const styles = css`
   :is(.factors, .lines) {
     display: grid;
     gap: 0.5em;
-    margin: 0 0 0.6em;
-    padding: 0;
-    list-style: none;
+    margin-bottom: 0.6em;
   }
 
   .factors li {

@@ -3,11 +3,11 @@
 use super::alignment::clock_offset;
 use super::legs::{Leg, LostLegs, MIN_LEGS};
 use super::likelihood::{
-    Expansion, FreeMask, LegTerm, POSITION_VARIANCE, Parameters, Residuals, YAW_VARIANCE, identifiable_errors,
+    Expansion, LegTerm, POSITION_VARIANCE, Parameters, Residuals, YAW_VARIANCE, identifiable_errors,
 };
 use super::optimizer::{EXACT_GAIN, maximize};
 use super::residuals::Observation;
-use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
+use super::systematic::{ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
 use super::{CalibrateError, Drive, Options};
 use crate::geom::se2::wrap_angle;
@@ -33,6 +33,10 @@ pub(super) struct Fit {
     pub sample: LegSet,
     pub residuals: Residuals,
     pub maximum: Expansion,
+    /// All legs, at the clock offset before the fit.
+    uncorrected_legs: Vec<Leg>,
+    uncorrected_offset: f64,
+    pub lost: LostLegs,
 }
 
 /// Maximum number of legs that are fitted, in blocks spread over the log. With 6,000 legs the standard error of an α is about 3 %.
@@ -68,12 +72,17 @@ impl LegSet {
         self.legs[leg].follows && leg > 0 && select(leg - 1) && select(leg)
     }
 
-    /// Returns the residuals of the legs that `select` accepts.
+    /// Returns the residuals of the legs that `select` accepts. The α's of the model are fitted, and the variances of the reference that the
+    /// options do not state.
     pub fn residuals(&self, estimated: ErrorMask, select: impl Fn(usize) -> bool) -> Residuals {
         let selected_legs = (0..self.legs.len()).filter(|leg| select(*leg));
         let term_of_leg = |leg: usize| self.terms[leg].with_follows(self.follows(leg, &select));
-        let Options { model, .. } = self.options;
-        let free = free_parameters(&self.options);
+        let Options { model, position_std, yaw_std, .. } = self.options;
+        let free = std::array::from_fn(|parameter| match parameter {
+            POSITION_VARIANCE => position_std.is_none(),
+            YAW_VARIANCE => yaw_std.is_none(),
+            alpha => alpha < model.alphas(),
+        });
         Residuals { model, free, estimated, terms: selected_legs.map(term_of_leg).collect() }
     }
 
@@ -82,48 +91,11 @@ impl LegSet {
         self.residuals(self.estimated, |leg| range.contains(&leg) && !self.outliers[leg])
     }
 
-    /// Fits the variances in rounds, because residuals depend on the systematic errors, weights on the variances, and outliers on residuals
-    /// and weights. The first round starts at the given variances, or at a guess. With `log`, each round also chooses the systematic errors
-    /// that are identifiable, and corrects them by generalized least squares. Without `log`, the systematic errors stay unchanged.
-    fn fit(mut self, log: Option<&Log>, mut parameters: Option<Parameters>) -> Result<Fit, CalibrateError> {
-        let all_legs = 0..self.legs.len();
-        for round in 1.. {
-            self.update_observations(
-                parameters.map_or(f64::INFINITY, |found| found[POSITION_VARIANCE].sqrt()),
-            );
-            let start_parameters = parameters.unwrap_or_else(|| self.initial_guess());
-            let solution = self.inlier_residuals(all_legs.clone()).filtered(&start_parameters);
-            if log.is_some() {
-                self.estimated = identifiable_errors(&solution.information);
-            }
-            let errors = solution.errors_in(&self.estimated);
-            let has_new_outliers = self.mark_outliers(&start_parameters, &errors, round);
-            let residuals = self.inlier_residuals(all_legs.clone());
-            if residuals.terms.len() < MIN_LEGS {
-                return Err(CalibrateError::TooFewLegs { legs: residuals.terms.len() });
-            }
-            let maximum = maximize(&residuals, start_parameters, ROUND_GAIN);
-            let corrected = log.map(|log| self.corrected_errors(log, &maximum));
-            let has_converged = corrected.is_none_or(|(_, is_small_change)| is_small_change);
-            if !has_new_outliers && round > 1 && has_converged || round == MAX_ROUNDS {
-                let maximum = maximize(&residuals, maximum.parameters, EXACT_GAIN);
-                return Ok(Fit { sample: self, residuals, maximum });
-            }
-            if let (Some(log), Some((systematic, _))) = (log, corrected) {
-                let offset_change = systematic.clock_offset - self.systematic.clock_offset;
-                log.realign(&mut self.legs, offset_change);
-                self.systematic = systematic;
-            }
-            parameters = Some(maximum.parameters);
-        }
-        unreachable!("the last round returns")
-    }
-
     /// Returns the systematic errors after a step of generalized least squares, and true if the step is small. Errors that are not identifiable
-    /// have no correction.
-    fn corrected_errors(&self, log: &Log, maximum: &Expansion) -> (Systematic, bool) {
-        let (mut corrected, mut is_small_change) = (log.initial_errors(), true);
-        let solution = &maximum.filtered;
+    /// have no correction, and the clock offset stays unchanged if it is not identifiable.
+    fn corrected_errors(&self, maximum: &Expansion) -> (Systematic, bool) {
+        let mut corrected = Systematic { clock_offset: self.systematic.clock_offset, ..Systematic::NONE };
+        let (mut is_small_change, solution) = (true, &maximum.filtered);
         for error in SystematicError::ALL.into_iter().filter(|error| self.estimated[*error as usize]) {
             let (i, max_change) = (error as usize, 4.0 * error.identifiability_limit());
             is_small_change &=
@@ -163,15 +135,6 @@ const MEDIAN_CHI2_1: f64 = 0.4549;
 /// end at a local maximum of the likelihood at which the reference has no noise.
 const INITIAL_REFERENCE_STD: f64 = 1e-2;
 
-/// Returns the parameters that are fitted: α's of the model, and variances of the reference that the options do not state.
-fn free_parameters(options: &Options) -> FreeMask {
-    std::array::from_fn(|parameter| match parameter {
-        POSITION_VARIANCE => options.position_std.is_none(),
-        YAW_VARIANCE => options.yaw_std.is_none(),
-        alpha => alpha < options.model.alphas(),
-    })
-}
-
 /// Legs of all drives.
 pub(super) struct Log<'a> {
     drives: &'a [Drive<'a>],
@@ -196,7 +159,8 @@ impl<'a> Log<'a> {
         let (mut legs, mut lost) = (Vec::new(), LostLegs::default());
         for (index, drive) in self.drives.iter().enumerate() {
             let first_leg = legs.len();
-            drive.cut_into_legs(options.legs, self.offset_of(index, clock_offset), &mut legs, &mut lost);
+            let drive_offset = self.offsets[index] + clock_offset - self.initial_errors().clock_offset;
+            drive.cut_into_legs(options.legs, drive_offset, &mut legs, &mut lost);
             legs[first_leg..].iter_mut().for_each(|leg| leg.drive = index);
         }
         if legs.len() < MIN_LEGS {
@@ -204,11 +168,6 @@ impl<'a> Log<'a> {
         } else {
             Ok((legs, lost))
         }
-    }
-
-    /// Returns the clock offset (s) of a drive, given the offset `clock_offset` of the first drive.
-    fn offset_of(&self, drive_index: usize, clock_offset: f64) -> f64 {
-        self.offsets[drive_index] + clock_offset - self.initial_errors().clock_offset
     }
 
     /// Moves legs to a clock offset that is `change` (s) larger. A leg that would leave the log stays unchanged.
@@ -234,31 +193,61 @@ fn with_max_legs(legs: &[Leg]) -> Vec<Leg> {
     blocks.flat_map(legs_of_block).collect()
 }
 
-/// Fits all identifiable systematic errors.
-pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, CalibrateError> {
-    let initial_errors = log.initial_errors();
-    let (all_legs, _) = log.legs(options, initial_errors.clock_offset)?;
-    let fitted_legs = with_max_legs(&all_legs);
-    let systematic = Systematic { mount_yaw: Systematic::initial_mount_yaw(&fitted_legs), ..initial_errors };
-    LegSet::new(fitted_legs, &systematic, [true; ERROR_COUNT], options).fit(Some(log), None)
-}
-
-/// Fits the variances with the `corrected` errors removed. Also returns the sample of all legs, because the fit may use only some legs.
-pub(super) fn fit_corrected(
+/// Fits the variances and the systematic errors in rounds, because residuals depend on the errors, weights on the variances, and outliers on
+/// residuals and weights. Each round chooses the errors in `correctable` that are identifiable, and corrects them by generalized least squares.
+/// The first round starts at the given errors and variances, or at a guess.
+pub(super) fn fit(
     log: &Log,
     options: &Options,
-    corrected: &Systematic,
-    mask: ErrorMask,
-    start: Parameters,
-) -> Result<(Fit, LegSet, LostLegs), CalibrateError> {
-    let (legs, lost) = log.legs(options, corrected.clock_offset)?;
-    let fit = LegSet::new(with_max_legs(&legs), corrected, mask, options).fit(None, Some(start))?;
-    let mut all_legs = fit.sample.clone();
-    if legs.len() > all_legs.legs.len() {
-        let parameters = &fit.maximum.parameters;
-        all_legs = LegSet::new(legs, corrected, mask, options);
-        all_legs.update_observations(parameters[POSITION_VARIANCE].sqrt());
-        all_legs.mark_outliers(parameters, &fit.maximum.filtered.errors, 1);
+    correctable: ErrorMask,
+    start: Option<(Systematic, Parameters)>,
+) -> Result<Fit, CalibrateError> {
+    let (start_errors, mut parameters) = start.unzip();
+    let uncorrected_offset = start_errors.unwrap_or(log.initial_errors()).clock_offset;
+    let (uncorrected_legs, lost) = log.legs(options, uncorrected_offset)?;
+    let legs = with_max_legs(&uncorrected_legs);
+    let systematic = start_errors.unwrap_or_else(|| Systematic {
+        mount_yaw: Systematic::initial_mount_yaw(&legs),
+        ..log.initial_errors()
+    });
+    let mut sample = LegSet::new(legs, &systematic, correctable, options);
+    let all_legs = 0..sample.legs.len();
+    for round in 1.. {
+        sample.update_observations(parameters.map_or(f64::INFINITY, |found| found[POSITION_VARIANCE].sqrt()));
+        let start_parameters = parameters.unwrap_or_else(|| sample.initial_guess());
+        let solution = sample.inlier_residuals(all_legs.clone()).filtered(&start_parameters);
+        sample.estimated = identifiable_errors(&solution.information, correctable);
+        let errors = solution.errors_in(&sample.estimated);
+        let has_new_outliers = sample.mark_outliers(&start_parameters, &errors, round);
+        let residuals = sample.inlier_residuals(all_legs.clone());
+        if residuals.terms.len() < MIN_LEGS {
+            return Err(CalibrateError::TooFewLegs { legs: residuals.terms.len() });
+        }
+        let maximum = maximize(&residuals, residuals.expansion_at(&start_parameters), ROUND_GAIN);
+        let (corrected, is_small_change) = sample.corrected_errors(&maximum);
+        if !has_new_outliers && round > 1 && is_small_change || round == MAX_ROUNDS {
+            let maximum = maximize(&residuals, maximum, EXACT_GAIN);
+            return Ok(Fit { sample, residuals, maximum, uncorrected_legs, uncorrected_offset, lost });
+        }
+        log.realign(&mut sample.legs, corrected.clock_offset - sample.systematic.clock_offset);
+        sample.systematic = corrected;
+        parameters = Some(maximum.parameters);
     }
-    Ok((fit, all_legs, lost))
+    unreachable!("the last round returns")
+}
+
+impl Fit {
+    /// Returns all legs with their residuals. The sample has only some of them if there are many.
+    pub fn all_legs(&self, log: &Log) -> LegSet {
+        let Self { sample, maximum, .. } = self;
+        if self.uncorrected_legs.len() == sample.legs.len() {
+            return sample.clone();
+        }
+        let mut legs = self.uncorrected_legs.clone();
+        log.realign(&mut legs, sample.systematic.clock_offset - self.uncorrected_offset);
+        let mut all_legs = LegSet::new(legs, &sample.systematic, sample.estimated, &sample.options);
+        all_legs.update_observations(maximum.parameters[POSITION_VARIANCE].sqrt());
+        all_legs.mark_outliers(&maximum.parameters, &maximum.filtered.errors, 1);
+        all_legs
+    }
 }

@@ -200,9 +200,10 @@ impl Drive<'_> {
         let mut follows_previous = false;
         for reading in odometry.samples() {
             let (reading_time, pose) = reading;
-            let has_break = leg_start.is_some_and(|start| odometry.has_break(start.time, reading_time));
+            let has_break =
+                leg_start.as_ref().is_some_and(|start| odometry.has_break(start.time, reading_time));
             lost.across_breaks += usize::from(has_break);
-            let Some(start) = leg_start.filter(|_| !has_break) else {
+            let Some(start) = leg_start.as_ref().filter(|_| !has_break) else {
                 (leg_start, follows_previous) = (Some(self.leg_end(reading, clock_offset)), false);
                 continue;
             };
@@ -210,7 +211,7 @@ impl Drive<'_> {
             if !length.is_complete(&[start_reading, pose], reading_time - start_time) {
                 continue;
             }
-            let end = self.leg_end(reading, clock_offset);
+            let (start, end) = (*start, self.leg_end(reading, clock_offset));
             let (times, poses) = ([start.time, end.time], [start.odometry, end.odometry]);
             let motion = start.odometry.between(&end.odometry);
             let is_too_long = length.ratio(&poses, end.time - start.time) > MAX_RATIO_ACROSS_PAUSE;

@@ -10,7 +10,7 @@
 //! ℓ = −½ [ln|V| + ln|XᵀV⁻¹X| + rᵀV⁻¹r − rᵀV⁻¹X (XᵀV⁻¹X)⁻¹ XᵀV⁻¹r − (N − q) ln 2π],
 //!
 //! with N residuals and q errors. A Kalman filter with the state eᵢ gives ℓ: it turns residuals into innovations νᵢ, which are independent, with
-//! covariances Fᵢ. Their derivatives with respect to the parameters give the score, and the Fisher information
+//! covariances Fᵢ. A backward pass gives the score (Koopman and Shephard 1992). Derivatives of the innovations give the Fisher information
 //! Σ ½ tr(F⁻¹ ∂ⱼF F⁻¹ ∂ₖF) + ∂ⱼνᵀ F⁻¹ ∂ₖν (Harvey 1989, 3.4).
 
 use super::legs::Leg;
@@ -145,10 +145,11 @@ impl LegTerm {
 
 /// Returns the innovations of legs, by a Kalman filter whose state is the error of the reference at the end of a leg. A leg that does not
 /// follow the previous leg starts at a new pose of the reference.
+// Not generic, because a second copy would make the module larger.
 pub(super) fn innovations<'a>(
     model: Model,
     parameters: &Parameters,
-    terms_with_follows: impl Iterator<Item = (&'a LegTerm, bool)>,
+    terms_with_follows: Box<dyn Iterator<Item = (&'a LegTerm, bool)> + 'a>,
 ) -> impl Iterator<Item = Innovation> {
     let reference_covariance = reference_covariance(parameters);
     let (mut mean, mut prior) = (Columns::zeros(), reference_covariance);
@@ -164,7 +165,7 @@ pub(super) fn innovations<'a>(
             covariance[(k, k)] += wheels[k] + if term.observed[k] { MIN_STD * MIN_STD } else { 1.0 };
         }
         let weight = covariance.try_inverse().unwrap_or_default();
-        let gain = transposed_product(&scaled_end, &weight);
+        let gain = product(&scaled_end.transpose(), &weight);
         mean = product(&gain, &columns);
         prior = reference_covariance - product(&gain, &scaled_end);
         let variances = std::array::from_fn(|k| if term.observed[k] { covariance[(k, k)] } else { f64::NAN });
@@ -229,7 +230,7 @@ impl Innovation {
 impl Residuals {
     /// Runs the Kalman filter under the given variances.
     pub fn filtered(&self, parameters: &Parameters) -> FilterResult {
-        let terms = self.terms.iter().map(|term| (term, term.follows));
+        let terms = Box::new(self.terms.iter().map(|term| (term, term.follows)));
         let innovations: Vec<Innovation> = innovations(self.model, parameters, terms).collect();
         let (mut log_det, mut gram) = (0.0, SMatrix::<f64, COLUMN_COUNT, COLUMN_COUNT>::zeros());
         // Determinants are multiplied, because one logarithm is cheaper than many.
@@ -243,8 +244,7 @@ impl Residuals {
                 log_det += libm::log(det);
                 det = 1.0;
             }
-            gram +=
-                transposed_product(&innovation.columns, &product(&innovation.weight, &innovation.columns));
+            gram += innovation.columns.tr_mul(&product(&innovation.weight, &innovation.columns));
         }
         log_det += libm::log(det.abs());
         let information: ErrorMatrix = gram.fixed_view::<ERROR_COUNT, ERROR_COUNT>(0, 0).into_owned();
@@ -261,45 +261,87 @@ impl Residuals {
         FilterResult { innovations, log_likelihood, information, weighted_residual, errors, covariance }
     }
 
+    /// Returns the expansion of the log-likelihood around parameters.
+    pub fn expansion_at(&self, parameters: &Parameters) -> Expansion {
+        self.expansion(parameters, self.filtered(parameters))
+    }
+
     /// Returns the expansion of the log-likelihood around parameters, from the filter's result under them.
+    pub fn expansion(&self, parameters: &Parameters, filtered: FilterResult) -> Expansion {
+        let (scores, information) = (self.scores(&filtered), self.information(&filtered));
+        let (covariance, _) = masked_inverse(&information, &self.free);
+        let score = scores.iter().sum();
+        Expansion { parameters: *parameters, filtered, score, scores, information, covariance }
+    }
+
+    /// Returns the score of each leg: its part of −½ tr[(V⁻¹ − U M Uᵀ) ∂V], with U = V⁻¹ (X, r).
+    ///
+    /// With the estimated errors β and their covariance C, M is (−β, 1)(−β, 1)ᵀ + C. A backward pass gives the blocks of U and V⁻¹
+    /// (disturbance smoother, Koopman and Shephard 1992). Those of the next leg have a prime, K is the gain, and T = A' K:
+    ///
+    /// - Uᵢ = F⁻¹ν − Tᵀ U'
+    /// - (V⁻¹)ᵢᵢ = F⁻¹ + Tᵀ (V⁻¹)' T, and (V⁻¹)ᵢ,ᵢ₊₁ = −Tᵀ (V⁻¹)'
+    fn scores(&self, FilterResult { innovations, errors, covariance, .. }: &FilterResult) -> Vec<Parameters> {
+        let contrast = -errors.push(-1.0);
+        let mut error_weights = contrast * contrast.transpose();
+        let mut error_block = error_weights.fixed_view_mut::<ERROR_COUNT, ERROR_COUNT>(0, 0);
+        error_block += covariance;
+        let mut scores = vec![Parameters::zeros(); self.terms.len()];
+        let (mut next_start, mut next_inverse) = (Matrix3::zeros(), Matrix3::zeros());
+        let mut next_smoothed = Columns::zeros();
+        let legs = self.terms.iter().zip(innovations).zip(&mut scores);
+        for ((term, Innovation { columns, weight, gain, .. }), score) in legs.rev() {
+            let transition = product(&next_start, gain);
+            let smoothed = product(weight, columns) - product(&transition.transpose(), &next_smoothed);
+            let carried_inverse = product(&transition.transpose(), &next_inverse);
+            let inverse = weight + product(&carried_inverse, &transition);
+            let weighted = product(&smoothed, &error_weights);
+            let own_block = inverse - product(&weighted, &smoothed.transpose());
+            let next_block = carried_inverse + product(&weighted, &next_smoothed.transpose());
+            for (k, alphas) in self.model.component_alphas().into_iter().enumerate() {
+                for (alpha, coefficient) in alphas.into_iter().zip(term.coefficients[k]) {
+                    score[alpha] -= 0.5 * coefficient * own_block[(k, k)];
+                }
+            }
+            let start_block = product(&own_block, &term.start);
+            let end_block = product(&own_block, &term.end) - 2.0 * product(&next_block, &next_start);
+            for (k, variance) in REFERENCE_VARIANCES.into_iter().enumerate() {
+                let start_part = term.start.column(k).dot(&start_block.column(k));
+                score[variance] -= 0.5 * (start_part + term.end.column(k).dot(&end_block.column(k)));
+            }
+            (next_start, next_smoothed, next_inverse) =
+                if term.follows { (term.start, smoothed, inverse) } else { Default::default() };
+        }
+        scores
+    }
+
+    /// Returns the Fisher information on the fitted parameters.
     ///
     /// The derivatives of a leg with respect to a parameter follow from those of the previous leg, which have a prime. K is the gain of the
     /// previous leg, B its Jacobian, and T = A K.
     ///
     /// - ∂F = T ∂F' Tᵀ + ∂D + A ∂R Aᵀ + Bᵢ ∂R Bᵢᵀ − C − Cᵀ with C = T B ∂R Aᵀ
     /// - ∂ν = −T (∂ν' − ∂F' F'⁻¹ν') − A ∂R Bᵀ F'⁻¹ν'
-    pub fn expansion(&self, parameters: &Parameters, filtered: FilterResult) -> Expansion {
-        let FilterResult { innovations, errors, covariance, .. } = &filtered;
-        // A leg adds ln|F| + tr(M νᵀ F⁻¹ ν) to −2 times the log-likelihood: with the estimated errors β and their covariance C fixed, M is
-        // (−β, 1)(−β, 1)ᵀ + C.
-        let contrast = -errors.push(-1.0);
-        let mut error_weights = contrast * contrast.transpose();
-        let mut error_block = error_weights.fixed_view_mut::<ERROR_COUNT, ERROR_COUNT>(0, 0);
-        error_block += covariance;
+    fn information(&self, FilterResult { innovations, errors, .. }: &FilterResult) -> Information {
         let units: [Parameters; PARAMETER_COUNT] = std::array::from_fn(|j| Parameters::ith(j, 1.0));
         let reference_derivatives = units.map(|unit| reference_covariance(&unit));
         let mut covariance_derivatives = [Matrix3::zeros(); PARAMETER_COUNT];
-        let mut innovation_derivatives = [Columns::zeros(); PARAMETER_COUNT];
+        let mut innovation_derivatives = [Vector3::zeros(); PARAMETER_COUNT];
         let (mut gain_before, mut end_before) = (Matrix3::zeros(), Matrix3::zeros());
-        let mut weighted_before = Columns::zeros();
-        let (mut scores, mut information) = (Vec::with_capacity(self.terms.len()), Information::zeros());
-        for (term, Innovation { columns, weight, gain, .. }) in self.terms.iter().zip(innovations) {
+        let (mut weighted_before, mut information) = (Vector3::zeros(), Information::zeros());
+        for (term, innovation) in self.terms.iter().zip(innovations) {
             if !term.follows {
                 (gain_before, end_before) = (Matrix3::zeros(), Matrix3::zeros());
             }
+            let weight = &innovation.weight;
             let transition = product(&term.start, &gain_before);
             let carried_end = product(&transition, &end_before);
-            let at_start = transposed_product(&end_before, &weighted_before);
-            let weighted = product(weight, columns);
-            let projected = weighted * error_weights;
-            let score_weight = weight - projected * weighted.transpose();
-            let mut score = Parameters::zeros();
-            let mut residual_derivatives = [Vector3::zeros(); PARAMETER_COUNT];
+            let at_start = product(&end_before.transpose(), &weighted_before);
             let mut relative_derivatives = [Matrix3::zeros(); PARAMETER_COUNT];
             for j in (0..PARAMETER_COUNT).filter(|j| self.free[*j]) {
-                let (innovation, covariance) =
+                let (derivative, covariance) =
                     (&mut innovation_derivatives[j], &mut covariance_derivatives[j]);
-                *innovation = product(&transition, &(product(covariance, &weighted_before) - *innovation));
+                *derivative = product(&transition, &(product(covariance, &weighted_before) - *derivative));
                 *covariance = propagated(&transition, covariance);
                 let wheels = self.model.wheel_variances(&term.coefficients, &units[j]);
                 for k in 0..3 {
@@ -307,29 +349,24 @@ impl Residuals {
                 }
                 if j >= MAX_ALPHAS {
                     let reference = &reference_derivatives[j];
-                    *innovation -= product(&product(&term.start, reference), &at_start);
-                    let cross = product(&product(&carried_end, reference), &term.start.transpose());
-                    *covariance += propagated(&term.start, reference) + propagated(&term.end, reference)
-                        - cross
-                        - cross.transpose();
+                    *derivative -= product(&product(&term.start, reference), &at_start);
+                    let half_start = product(&(0.5 * term.start - carried_end), reference);
+                    let start_part = product(&half_start, &term.start.transpose());
+                    *covariance += propagated(&term.end, reference) + start_part + start_part.transpose();
                 }
-                score[j] = -0.5 * score_weight.dot(covariance) - projected.dot(innovation);
-                residual_derivatives[j] = *innovation * contrast;
                 relative_derivatives[j] = product(weight, covariance);
-                let weighted_residual = weight * residual_derivatives[j];
+                let weighted_derivative = product(weight, derivative);
                 let transposed = relative_derivatives[j].transpose();
                 for k in 0..=j {
                     information[(j, k)] += 0.5 * transposed.dot(&relative_derivatives[k])
-                        + weighted_residual.dot(&residual_derivatives[k]);
+                        + weighted_derivative.dot(&innovation_derivatives[k]);
                 }
             }
-            scores.push(score);
-            (gain_before, end_before, weighted_before) = (*gain, term.end, weighted);
+            weighted_before = product(weight, &innovation.without(errors));
+            (gain_before, end_before) = (innovation.gain, term.end);
         }
         information.fill_upper_triangle_with_lower_triangle();
-        let (covariance, _) = masked_inverse(&information, &self.free);
-        let score = scores.iter().sum();
-        Expansion { parameters: *parameters, filtered, score, scores, information, covariance }
+        information
     }
 }
 
@@ -338,40 +375,35 @@ pub(super) fn reference_covariance(parameters: &Parameters) -> Matrix3<f64> {
     Matrix3::from_diagonal(&REFERENCE_VARIANCES.map(|variance| parameters[variance]).into())
 }
 
-/// Returns the mask of the systematic errors that are identifiable. The error with the largest standard error relative to its limit is
+/// Returns the mask of the systematic errors in `candidates` that are identifiable. The error with the largest standard error relative to its limit is
 /// removed until no error exceeds its limit.
-pub(super) fn identifiable_errors(information: &ErrorMatrix) -> ErrorMask {
-    let mut mask = SystematicError::ALL.map(|error| information[(error as usize, error as usize)] > 0.0);
+pub(super) fn identifiable_errors(information: &ErrorMatrix, candidates: ErrorMask) -> ErrorMask {
+    let mut mask: ErrorMask = std::array::from_fn(|i| candidates[i] && information[(i, i)] > 0.0);
     loop {
         let (covariance, _) = masked_inverse(information, &mask);
         let relative_std_of = |error: &usize| {
             covariance[(*error, *error)].sqrt() / SystematicError::ALL[*error].identifiability_limit()
         };
-        let candidates = (0..ERROR_COUNT).filter(|error| mask[*error]);
-        match candidates.max_by(|a, b| relative_std_of(a).total_cmp(&relative_std_of(b))) {
+        let remaining = (0..ERROR_COUNT).filter(|error| mask[*error]);
+        match remaining.max_by(|a, b| relative_std_of(a).total_cmp(&relative_std_of(b))) {
             Some(worst) if relative_std_of(&worst) > 1.0 => mask[worst] = false,
             _ => return mask,
         }
     }
 }
 
+/// Returns the product of two matrices. In WebAssembly a call of nalgebra's general product takes longer than the product itself.
 #[inline(always)]
-fn product<const N: usize>(left: &Matrix3<f64>, right: &SMatrix<f64, 3, N>) -> SMatrix<f64, 3, N> {
-    transposed_product(&left.transpose(), right)
-}
-
-/// Returns the product of the transpose of a matrix and another matrix. In WebAssembly a call of nalgebra's general product takes longer
-/// than the product itself. Inlining this function there would make the module larger.
-#[cfg_attr(target_arch = "wasm32", inline(never))]
-#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-fn transposed_product<const M: usize, const N: usize>(
-    left: &SMatrix<f64, 3, M>,
-    right: &SMatrix<f64, 3, N>,
-) -> SMatrix<f64, M, N> {
-    let mut product = SMatrix::<f64, M, N>::zeros();
-    for (product_column, [x, y, z]) in product.data.0.iter_mut().zip(&right.data.0) {
-        for (entry, [a, b, c]) in product_column.iter_mut().zip(&left.data.0) {
-            *entry = a * x + b * y + c * z;
+fn product<const N: usize, const K: usize>(
+    left: &SMatrix<f64, 3, K>,
+    right: &SMatrix<f64, K, N>,
+) -> SMatrix<f64, 3, N> {
+    let mut product = SMatrix::<f64, 3, N>::zeros();
+    for ([x, y, z], factors) in product.data.0.iter_mut().zip(&right.data.0) {
+        for ([a, b, c], factor) in left.data.0.iter().zip(factors) {
+            *x += a * factor;
+            *y += b * factor;
+            *z += c * factor;
         }
     }
     product

@@ -27,7 +27,7 @@ pub use result::{Calibration, Estimate, LegFit, Persistence, Recommendation};
 pub use systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 pub use trajectory::{Trajectory, TrajectoryError};
 
-use fit::{Fit, Log, fit_corrected, fit_systematic};
+use fit::{Fit, Log};
 use intervals::{NORMAL_95, identifiability, intervals};
 use legs::distance;
 use likelihood::{POSITION_VARIANCE, YAW_VARIANCE};
@@ -115,20 +115,23 @@ pub enum CalibrateError {
 /// ```
 pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, CalibrateError> {
     let log = Log::new(drives)?;
-    let systematic_fit = fit_systematic(&log, options)?;
-    let errors = systematic_fit.sample.systematic;
-    let persistence = persistence(&systematic_fit);
+    let mut fit = fit::fit(&log, options, [true; ERROR_COUNT], None)?;
+    let systematic = fit.sample.systematic;
+    let persistence = persistence(&fit);
     let correlation = persistence.correlation.value;
-    let error_stds = systematic_fit.maximum.filtered.error_stds(correlation);
-    let (scale_checks, is_constant) = checks::scale_checks(&systematic_fit, correlation);
+    let error_stds = fit.maximum.filtered.error_stds(correlation);
+    let (scale_checks, is_constant) = checks::scale_checks(&fit, correlation);
     let is_corrected: ErrorMask =
         std::array::from_fn(|i| error_stds[i] > 0.0 && options.correct[i].unwrap_or(is_constant[i]));
     let mut corrected = Systematic::NONE;
     for error in SystematicError::ALL.into_iter().filter(|error| is_corrected[*error as usize]) {
-        *corrected.get_mut(error) = errors.get(error);
+        *corrected.get_mut(error) = systematic.get(error);
     }
-    let (fit, all_legs, lost) =
-        fit_corrected(&log, options, &corrected, is_corrected, systematic_fit.maximum.parameters)?;
+    if corrected != systematic {
+        fit = fit::fit(&log, options, is_corrected, Some((corrected, fit.maximum.parameters)))?;
+        corrected = fit.sample.systematic;
+    }
+    let all_legs = fit.all_legs(&log);
     let parameters = &fit.maximum.parameters;
     let not_identifiable = identifiability(&fit);
     let interval_of = intervals(&fit, correlation);
@@ -145,7 +148,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let cross_validation = windows::cross_validate(&fit, &all_legs, &alphas);
     let inflation = cross_validation.recommended.as_ref().map_or(f64::INFINITY, |found| found.inflation);
     let identifies_any_alpha = alphas.iter().any(Option::is_some);
-    let mut checks = checks::log_checks(&all_legs, &lost, &errors, &alpha_intervals, inflation);
+    let mut checks = checks::log_checks(&all_legs, &fit.lost, &systematic, &alpha_intervals, inflation);
     checks.extend(scale_checks);
     checks.extend(checks::residual_checks(&leg_fits, neighbour_correlation(&fit).0));
     checks.extend(cross_validation.checks);
@@ -154,7 +157,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         alphas,
         intervals: alpha_intervals,
         not_identifiable,
-        systematic: errors,
+        systematic,
         systematic_stds: error_stds.map(|std| (std > 0.0).then_some(std)),
         is_constant,
         corrected,
@@ -165,7 +168,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         legs: all_legs.legs,
         observations: all_legs.observations,
         leg_fits,
-        lost,
+        lost: fit.lost,
         diagnostics: Diagnostics { verdict, checks, windows: cross_validation.windows },
         recommended: cross_validation.recommended.filter(|_| verdict != Verdict::Unusable),
     })

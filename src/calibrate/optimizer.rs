@@ -13,10 +13,9 @@ const MAX_HALVINGS: i32 = 10;
 /// Relative rounding error of a step that makes a variance 0.
 const ROUNDING_TOLERANCE: f64 = 1e-9;
 
-/// Returns the expansion around the maximum, by Fisher scoring. A step that does not increase the likelihood is halved. The search ends at a
+/// Returns the expansion around the maximum, by Fisher scoring from another expansion. A step that does not increase the likelihood is halved. The search ends at a
 /// step whose predicted or actual gain of log-likelihood (nats) is below `min_gain`.
-pub(super) fn maximize(residuals: &Residuals, start: Parameters, min_gain: f64) -> Expansion {
-    let mut expansion = residuals.expansion(&start, residuals.filtered(&start));
+pub(super) fn maximize(residuals: &Residuals, mut expansion: Expansion, min_gain: f64) -> Expansion {
     for _ in 0..MAX_STEPS {
         let Expansion { parameters, score, filtered, .. } = &expansion;
         let step = feasible_parameters(&expansion, residuals.free, Parameters::zeros()) - parameters;

@@ -14,7 +14,7 @@ const CHI2_9999: [f64; 3] = [15.137, 18.421, 21.108];
 const MEDIAN_CHI2: f64 = 2.366;
 
 /// Last round in which an outlier may become an inlier again. In later rounds a leg near the gate could otherwise alternate forever.
-const LAST_RETURN_ROUND: usize = 2;
+const LAST_RETURN_ROUND: usize = 4;
 
 impl LegSet {
     /// Returns the innovations of all legs under `parameters`, without the part that the systematic `errors` explain. Each outlier is
@@ -22,7 +22,7 @@ impl LegSet {
     pub(super) fn leg_fits(&self, parameters: &Parameters, errors: &ErrorVector) -> Vec<LegFit> {
         let is_inlier = |leg: usize| !self.outliers[leg];
         let terms = self.terms.iter().enumerate().map(|(leg, term)| (term, self.follows(leg, is_inlier)));
-        innovations(self.options.model, parameters, terms)
+        innovations(self.options.model, parameters, Box::new(terms))
             .zip(&self.outliers)
             .map(|(innovation, is_outlier)| innovation.leg_fit(errors, *is_outlier))
             .collect()

@@ -112,9 +112,14 @@ impl Systematic {
         }
     }
 
+    /// Returns the pose that the reference measures, in the frame of the base.
+    fn mount(&self) -> SE2 {
+        SE2::new(self.lever_arm[0], self.lever_arm[1], self.mount_yaw)
+    }
+
     /// Returns the pose of the base in the frame of the pose that the reference measures.
     pub fn base(&self) -> SE2 {
-        SE2::new(self.lever_arm[0], self.lever_arm[1], self.mount_yaw).inverse()
+        self.mount().inverse()
     }
 
     /// Returns the motion of the base as measured by the reference, in the frame of the leg's start.
@@ -140,7 +145,7 @@ impl Systematic {
     /// Returns the Jacobians of the end of the base's motion with respect to the errors of the reference at the leg's start and end. An
     /// error is a small motion (x, y, θ) in the frame of the reference pose. A change of the end is a small motion in the frame of the end.
     pub(super) fn reference_jacobians(&self, measured: &SE2) -> [Matrix3<f64>; 2] {
-        let to_base = self.base().inverse().adjoint();
+        let to_base = self.mount().adjoint();
         [measured.inverse().adjoint() * -to_base, to_base]
     }
 
@@ -158,7 +163,7 @@ impl Systematic {
         let [start_velocity, end_velocity] = leg.velocities;
         // A change of the mount moves the start and the end of the leg by the same small motion.
         let mount_derivative = |mount_change: Vector3<f64>| to_end_frame * mount_change - mount_change;
-        let yaw_change = self.base().inverse().adjoint().column(2).into_owned();
+        let yaw_change = self.mount().adjoint().column(2).into_owned();
         let twist_per_turn_scale =
             Vector3::new(0.0, if model.drives_sideways() { 0.0 } else { twist.y }, twist.z);
         let twist_jacobian = SE2::right_jacobian(&twist);

@@ -153,7 +153,8 @@ pub(super) fn cross_validate(fit: &Fit, all_legs: &LegSet, alphas: &[Option<f64>
     let split_in_halves = |legs: usize| [0..legs / 2, legs / 2..legs];
     let leg_count = fit.sample.legs.len();
     let residuals = split_in_halves(leg_count).map(|half| fit.sample.inlier_residuals(half));
-    let parameters_of = |half: &Residuals| maximize(half, fit.maximum.parameters, EXACT_GAIN).parameters;
+    let parameters_of =
+        |half: &Residuals| maximize(half, half.expansion_at(&fit.maximum.parameters), EXACT_GAIN).parameters;
     let parameters_by_other_half = [parameters_of(&residuals[1]), parameters_of(&residuals[0])];
     let (mut covered_legs, mut compared_legs) = (0, 0);
     for (residuals, parameters) in residuals.iter().zip(&parameters_by_other_half) {

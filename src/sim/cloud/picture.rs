@@ -32,8 +32,11 @@ pub fn paint_cell_counts<const K: usize>(counts: &[[u32; K]], ramps: &[Ramp; K])
     let max_count = counts.iter().map(total_count_of).max().unwrap_or(0);
     let colour_of = |kind_counts: &[u32; K]| {
         let count = total_count_of(kind_counts);
+        if count == 0 {
+            return [0; 4];
+        }
         let most_frequent_kind = (0..K).max_by_key(|kind| kind_counts[*kind]).unwrap_or(0);
-        if count == 0 { [0; 4] } else { ramps[most_frequent_kind][ramp_step(count, max_count)] }
+        ramps[most_frequent_kind][ramp_step(count, max_count)]
     };
     counts.iter().map(colour_of).collect()
 }

@@ -35,7 +35,7 @@ test('two tables of a user replace the simulated log, and a button restores the 
   await chooseTables(calibrator, { 'odom.csv': logTables.odometry });
   await expect(errorAlert).toHaveText(/^odom\.csv: it has one log only, .* the odometry; give the reference too\. Drop or choose the other file too,/);
   // The α's on screen belong to the previous log. They cannot be copied until the user confirms these results.
-  const outdatedResultsText = 'The results are still those of the simulated log, not of the files chosen last.';
+  const outdatedResultsText = 'The results are still those of the simulated log, read before. The files chosen last are not used.';
   await expect(calibrator.locator('.drop-zone .muted')).toContainText(outdatedResultsText);
   await expect(calibrator.locator('.to-do')).toHaveText(outdatedResultsText);
   await openDisclosures(calibrator);
@@ -50,7 +50,7 @@ test('two tables of a user replace the simulated log, and a button restores the 
   await expect(captionOf(calibrator)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
   await chooseTables(calibrator, { 'odom.csv': '', 'truth.csv': '' });
   await expect(errorAlert).toHaveText(/^odom\.csv: there is nothing in it/);
-  await expect(calibrator.locator('.to-do')).toHaveText('The results are still those of odom.csv, truth.csv, not of the files chosen last.');
+  await expect(calibrator.locator('.to-do')).toHaveText('The results are still those of odom.csv, truth.csv, read before. The files chosen last are not used.');
   // Keeping the results restores the controls with which the user assigns roles to their logs.
   await calibrator.getByRole('button', { name: 'Keep these results' }).click();
   await calibrator.getByLabel('odom.csv', { exact: true }).selectOption('Reference');
@@ -175,7 +175,7 @@ test('a log with too few legs is refused, and the figure still shows the previou
   expect((await readStats(widget)).alphas).toEqual(alphas);
   await expect(widget.locator('.drop-zone .present')).toHaveText('Results of odometry.csv, reference.csv.');
   // The results stay marked as outdated until the figure shows its simulated log again.
-  await expect(widget.locator('.views')).toHaveCSS('filter', 'grayscale(1)');
+  await expect(widget.locator('.views > .verdict')).toHaveCSS('filter', 'grayscale(1)');
   await widget.getByRole('button', { name: 'Start over' }).click();
   await expect(captionOf(widget)).toHaveText(/of the simulated log/);
   await expect(widget.getByRole('alert')).toHaveCount(0);

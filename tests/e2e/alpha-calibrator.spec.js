@@ -62,7 +62,7 @@ test('outliers are marked by rings, and change the fit strongly if they are not 
   const outlierCheck = statsBefore.diagnostics.checks.find(({ name }) => name === 'outliers-few');
   const [outlierRatioText, alpha3RatioText] = [10 * Math.round(0.1 / (outlierCheck?.value ?? NaN)), Number(statsAfter.alphas[2]) / Number(statsBefore.alphas[2])].map((ratio) => ({ 6: 'six', 60: 'sixty' })[Math.round(ratio)]);
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toMatch(RegExp(`One in ${outlierRatioText} is an outlier[^]* becomes ${alpha3RatioText} times as large, and two checks fail`));
-  await expect(captionOf(widget)).toHaveText(/^! Caution\s+Failed: correlation of neighbouring legs; .* \(2 of 14 checks\)\. \d+ legs of the simulated log\.$/);
+  await expect(captionOf(widget)).toHaveText(/^! Caution\s+Failed: correlation of neighbouring residuals; .* \(2 of 14 checks\)\. \d+ legs of the simulated log\.$/);
   await expect(widget.locator('.to-do')).toHaveText(/ If the log cannot be improved, use the recommended α’s\. First multiply the odometry’s turns by 0\.9\d\d: the α’s are those of the corrected robot\.$/);
 });
 
@@ -78,7 +78,7 @@ test('a systematic error that is not corrected is named in the advice', async ({
   // The text of www/index.html contains the two estimates.
   const [yawStdBefore, yawStdAfter] = [statsBefore, statsAfter].map(({ referenceNoise: { yawStd } }) => yawStd.value.toFixed(3));
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toContain(`goes from ${yawStdBefore} to ${yawStdAfter}&nbsp;rad`);
-  await expect(captionOf(widget)).toHaveText(/^! Caution\s+Failed: correlation of neighbouring legs \(1 of 14 checks\)\.\s+\d+ legs /);
+  await expect(captionOf(widget)).toHaveText(/^! Caution\s+Failed: correlation of neighbouring residuals \(1 of 14 checks\)\.\s+\d+ legs /);
   await expect(widget.locator('.to-do')).toHaveText(/^Not corrected: mount yaw \(rad\) 0\.070\d \(0\.06\d\d – 0\.07\d\d\) \(see More controls\)\. Errors of neighbouring legs /);
   await expect(widget.getByRole('row', { name: /mount yaw/ })).toContainText('not corrected');
 });
@@ -91,7 +91,7 @@ test('every check shows its value and the range that passes, and a failed check 
   await expect(checkRows).toHaveCount(checks.length);
   expect(checks.filter(({ passed }) => !passed).length).toBeGreaterThan(1);
   for (const [i, { passed }] of checks.entries()) await expect(checkRows.nth(i)).toContainText(passed ? '✓ bestanden' : '✕ nicht bestanden');
-  await expect(checkRows.filter({ hasText: 'Korrelation benachbarter Etappen' })).toContainText('Fehler benachbarter Etappen sind korreliert');
+  await expect(checkRows.filter({ hasText: 'Korrelation benachbarter Residuen' })).toContainText('Fehler benachbarter Etappen sind korreliert');
   await expect(checkRows.filter({ hasText: 'Anzahl der Etappen' })).toContainText('≥ 100');
 });
 

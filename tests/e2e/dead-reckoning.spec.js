@@ -39,7 +39,7 @@ test('the figure opens with the chapter’s error of 6 % along the track, and st
     'At the end the predicted along-track variance is off by −6.1\u202f%. Before, the lateral one is 0.00 (step 1), 0.44 (step 2), 0.77 (step 5) of the measured one.',
   );
   await expect(readoutValueOf(widget, 'predicted along-track variance')).toHaveText('0.94');
-  await expect(readoutDetailOf(widget, 'predicted along-track variance')).toHaveText('± 0.01 of the measured, at step 20, 50\u202f000 robots');
+  await expect(readoutDetailOf(widget, 'predicted along-track variance')).toHaveText('± 0.01 times the measured, at step 20, 50\u202f000 robots');
   expect(await readMissedSteps(widget)).toEqual(['steps 15–20', 'steps 1–15', 'never']);
   await expect(widget.locator('.folded svg.plot')).toHaveAttribute('aria-label', /: 2\.00 s$/);
   await expect(widget.getByRole('row', { name: 'along the track, at the end' }).locator('td').first()).toHaveText('−6.1 ± 0.6\u202f%');

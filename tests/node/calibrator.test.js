@@ -49,7 +49,7 @@ const createCalibration = (changedFields) => ({
     mountYaw: { value: 0.05, interval: [0.04, 0.06], corrected: true },
     distanceScale: { value: 0.99, interval: [0.98, 0.999], corrected: true }, turnScale: { value: 1.01, interval: [1.005, 1.015], corrected: false },
   },
-  diagnostics: { checks: [{ name: 'enough-legs', passed: true, message: '' }], windows: [{ length: 1, count: 78, coverage: 0.923 }] },
+  diagnostics: { checks: [{ name: 'enough-legs', passed: true, message: '' }, { name: 'window-1m-covered', passed: true, message: '' }], windows: [{ length: 1, count: 78, coverage: 0.923 }] },
   ...changedFields,
 });
 
@@ -69,6 +69,8 @@ test('lines for Nav2 contain the recommended α’s, and the fitted α’s in co
     'alpha1: 0.060  # fitted 0.030, 95 % 0.024 to 0.036', 'alpha2: 0.0160  # fitted 0.0080, 95 % 0.0070 to 0.0091',
     `# ${yamlWords.fifthAlphaNote}`, 'update_min_d: 0.25', 'update_min_a: 0.2',
   ]);
+  const unjudgedLines = nav2LinesOf({ recommended: { inflation: 1 }, diagnostics: { checks: [], windows: [{ length: 1, count: 5, coverage: 0.6 }] } });
+  assert.equal(unjudgedLines[3], '# recommended = fitted: 5 held-out windows of ≥ 1 m cannot judge the fit');
 });
 
 test('lines for Nav2 omit α’s that are not identifiable, and all α’s if none is recommended', () => {

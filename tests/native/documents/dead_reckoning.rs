@@ -147,7 +147,7 @@ fn the_crossing_times_are_those_of_exercise_2() {
 #[test]
 fn with_two_hundred_steps_the_lateral_variance_is_wrong_for_half_a_second() {
     read_page_text().assert_contains(
-        "In 200 steps nothing along the track is off by 5 %, and the lateral variance for half a second instead of three:",
+        "In 200 shorter steps, the predicted variance along the track stays within 5 %, and the lateral one is off for the first half second only, instead of three seconds:",
     );
     let [chapter_simulation, fine_simulation] = ["chapter", "fine"].map(simulation_of_preset);
     assert_eq!(fine_simulation.settings().steps, 200);

@@ -67,6 +67,9 @@ const styles = css`
   .found :is(th, td) {
     text-align: start;
     vertical-align: top;
+  }
+
+  .found td {
     overflow-wrap: anywhere;
   }
 
@@ -90,7 +93,7 @@ const styles = css`
   }
 
   /* The results on screen are those of the previous log, after other files were refused. */
-  .spoken:has(.other-results) :is(.views, #numbers) {
+  .spoken:has(.other-results) :is(.views > *, #numbers) {
     color: var(--muted);
     filter: grayscale(1);
   }

@@ -31,7 +31,7 @@ const CHECK_MESSAGES: Record<string, string> = {
   'inflation-bounded':
     'Keine Vergrößerung bis 30 deckt die Fehler über 1 m: Sie sind kein Rauschen der Räder. Zuerst die Ursache suchen: behaltene Ausreißer, eine springende oder driftende Referenz, Schlupf.',
   'residuals-uncorrelated':
-    'Fehler benachbarter Etappen sind korreliert: Sie halten über mehrere Etappen an, oder ein systematischer Fehler ist nicht korrigiert. Über längere Strecken sind die angepassten α zu klein, wenn Fehler anhalten, und zu groß, wenn sie sich aufheben. Empfohlene α gelten über 1 m.',
+    'Fehler benachbarter Etappen sind korreliert: Sie halten über mehrere Etappen an, ein systematischer Fehler ist nicht korrigiert, oder die Referenz hat wenige Zeilen (unter 30 Hz). Über längere Strecken sind die angepassten α zu klein, wenn Fehler anhalten, und zu groß, wenn sie sich aufheben. Empfohlene α gelten über 1 m.',
   'tails-normal':
     'Einige Fehler sind viel größer, als eine Normalverteilung vorhersagt: Die Intervalle der vorhergesagten Pose sind an den Rändern zu schmal. Die größten Residuen ansehen. Empfohlene α berücksichtigen diese Fehler.',
   'holdout-covered':
@@ -102,7 +102,7 @@ export const de: typeof import('./en.ts').en = {
       'distance-scale-constant': 'Änderung des Skalenfaktors, Strecke',
       'turn-scale-constant': 'Änderung des Skalenfaktors, Drehung',
       'inflation-bounded': 'Vergrößerung, die Fenster von ≥ 1 m brauchen',
-      'residuals-uncorrelated': 'Korrelation benachbarter Etappen',
+      'residuals-uncorrelated': 'Korrelation benachbarter Residuen',
       'tails-normal': 'Kurtosis der Residuen (eine Gaußverteilung hat 3)',
       'holdout-covered': 'zurückgehaltene Etappen innerhalb von 95 %',
       'window-1m-covered': 'zurückgehaltene Fenster von ≥ 1 m innerhalb von 95 %',
@@ -201,7 +201,7 @@ export const de: typeof import('./en.ts').en = {
     resultsOfLog: (name) => `Ergebnisse von ${name}.`,
 
     refusedLog: (refusalMessage) => `Aufzeichnung abgelehnt: ${refusalMessage}`,
-    resultsOfOtherLog: (log) => `Gezeigt wird noch: ${log}, nicht die zuletzt gewählten Dateien.`,
+    resultsOfOtherLog: (log) => `Gezeigt wird noch das vorher gelesene Log, ${log}. Die zuletzt gewählten Dateien werden nicht verwendet.`,
     keepResultsLabel: 'Diese Ergebnisse behalten',
   },
   nav2: {

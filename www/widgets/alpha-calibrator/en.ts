@@ -11,7 +11,8 @@ export const yamlWords = {
   logSource: (legs, lengthText, logName, date) => `${formatCount(legs, 'leg')} ${lengthText} of ${logName}, ${date}`,
   legsByMotion: (distance, angle) => `of ${distance} m or ${angle} rad`,
   legsByDuration: (duration) => `of ${duration} s`,
-  recommendationNote: (inflation, coverage, windowCount) => `recommended = fitted × ${inflation}: the fit covers ${coverage} of ${windowCount} held-out windows of ≥ 1 m`,
+  coveredFitNote: (inflation, coverage, windowCount) => `recommended = fitted × ${inflation}: the fit covers ${coverage} of ${windowCount} held-out windows of ≥ 1 m`,
+  unjudgedFitNote: (windowCount) => `recommended = fitted: ${formatCount(windowCount, 'held-out window')} of ≥ 1 m cannot judge the fit`,
   fittedNote: (fittedAlpha, interval) => `fitted ${fittedAlpha}${interval && `, 95 % ${interval}`}`,
   longerLegsNote: (legLengthRatio) => `The log’s legs are ${legLengthRatio} times as long as requested. The α’s are valid for this length, so update_min_d and update_min_a are multiplied by ${legLengthRatio}.`,
   failedChecksNote: (checkNames) => `Caution, these checks failed: ${checkNames}`,
@@ -79,7 +80,7 @@ export const en = {
       'distance-scale-constant': 'change of the distance scale',
       'turn-scale-constant': 'change of the turn scale',
       'inflation-bounded': 'inflation that windows of ≥ 1 m need',
-      'residuals-uncorrelated': 'correlation of neighbouring legs',
+      'residuals-uncorrelated': 'correlation of neighbouring residuals',
       'tails-normal': 'kurtosis of the residuals (a Gaussian has 3)',
       'holdout-covered': 'held-out legs within 95 %',
       'window-1m-covered': 'held-out windows of ≥ 1 m within 95 %',
@@ -178,7 +179,7 @@ export const en = {
     resultsOfLog: (name) => `Results of ${name}.`,
 
     refusedLog: (refusalMessage) => `Log refused: ${refusalMessage}`,
-    resultsOfOtherLog: (log) => `The results are still those of ${log}, not of the files chosen last.`,
+    resultsOfOtherLog: (log) => `The results are still those of ${log}, read before. The files chosen last are not used.`,
     keepResultsLabel: 'Keep these results',
   },
   nav2: {

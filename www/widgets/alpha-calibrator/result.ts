@@ -114,7 +114,9 @@ export function formatNav2Yaml({ stats, legCount, model, rule, legLength, logNam
   const failedCheckNames = failedChecksOf(checks).map(({ name }) => name).join(', ');
   const commentTexts = [
     yamlWords.logSource(String(legCount), describeLegLength(legLength), logName, date),
-    yamlWords.recommendationNote(formatNumber(inflation), formatPercent(firstWindow.coverage), String(firstWindow.count)),
+    checks.some(({ name }) => name === 'window-1m-covered')
+      ? yamlWords.coveredFitNote(formatNumber(inflation), formatPercent(firstWindow.coverage), String(firstWindow.count))
+      : yamlWords.unjudgedFitNote(String(firstWindow.count)),
     ...(isNav2Rule(model, rule) ? [] : [yamlWords.otherRuleNote]),
     ...listCorrectedErrors(systematicErrors).map((errors) => yamlWords.correctedErrorsNote(errors)),
     ...adviseCorrection(stats, en.nav2),

@@ -11,7 +11,7 @@ export const en = {
     step: { name: 'selected step' },
     steps: { name: 'steps', effect: 'The same path in more and shorter steps.' },
     headingNoise: { name: 'heading noise *α*₃ to *α*₆', effect: '*α*₃ and *α*₄; *α*₅ and *α*₆ are a quarter. They scale variances: times 4 doubles *σ*.' },
-    compounding: { name: 'Recursion' },
+    compounding: { name: 'Recursion of the covariance' },
     perNames: { name: 'α’s apply per' },
     samples: { name: 'robots', effect: 'The more robots, the narrower the bands.' },
   },
@@ -41,7 +41,7 @@ export const en = {
   stepMark: (step) => `step ${step}`,
   /** Headline: text before the ratio of predicted to measured variance, and text after the ratio. */
   beforeRatio: (component) => `predicted ${component} variance`,
-  afterRatio: (ratioError, step, robotCount) => `${ratioError && `± ${ratioError} `}of the measured, at step ${step}, ${formatCount(robotCount, 'robot')}`,
+  afterRatio: (ratioError, step, robotCount) => `${ratioError && `± ${ratioError} `}times the measured, at step ${step}, ${formatCount(robotCount, 'robot')}`,
   chartDescription: (recursion, step, ratioTexts) =>
     `Predicted over measured variance by step; recursion: ${recursion}. At step ${step}: ${ratioTexts}.`,
   wrongPrediction: (worstComponent, ratioList, endError, endComponent) => `At the end the predicted ${endComponent} variance is off by ${endError}. Before, the ${worstComponent} one is ${ratioList} of the measured one.`,

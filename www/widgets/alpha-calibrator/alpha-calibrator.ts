@@ -64,7 +64,7 @@ const styles = css`
     flex: 1 1 18em;
   }
 
-  .found :is(th, td) {
+  .found :is(thead th, th, td) {
     text-align: start;
     vertical-align: top;
   }
@@ -93,7 +93,7 @@ const styles = css`
   }
 
   /* The results on screen are those of the previous log, after other files were refused. */
-  .spoken:has(.other-results) :is(.views > *, #numbers) {
+  .spoken:has(.other-results) :is(.verdict, canvas, .fitted, #numbers) {
     color: var(--muted);
     filter: grayscale(1);
   }

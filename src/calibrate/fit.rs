@@ -170,11 +170,9 @@ impl<'a> Log<'a> {
         }
     }
 
-    /// Moves legs to a clock offset that is `change` (s) larger. A leg that would leave the log stays unchanged.
+    /// Moves legs to a clock offset that is `change` (s) larger.
     fn realign(&self, legs: &mut [Leg], change: f64) {
-        for leg in legs {
-            *leg = self.drives[leg.drive].realigned(*leg, change).unwrap_or(*leg);
-        }
+        legs.iter_mut().for_each(|leg| self.drives[leg.drive].realign(leg, change));
     }
 }
 

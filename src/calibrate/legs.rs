@@ -177,14 +177,17 @@ impl Drive<'_> {
         })
     }
 
-    /// Returns a leg of this drive under another clock offset, `offset_change` (s) larger than before. None if the odometry does not cover
-    /// the leg.
-    pub(super) fn realigned(&self, mut leg: Leg, offset_change: f64) -> Option<Leg> {
+    /// Moves a leg of this drive to another clock offset, `offset_change` (s) larger than before. An end that leaves the odometry moves at its
+    /// velocity, so that legs do not overlap.
+    pub(super) fn realign(&self, leg: &mut Leg, offset_change: f64) {
         for end in 0..2 {
             leg.times[end] -= offset_change;
-            (leg.odometry[end], leg.velocities[end]) = self.odometry.motion_at(leg.times[end])?;
+            let velocity = leg.velocities[end];
+            (leg.odometry[end], leg.velocities[end]) = self
+                .odometry
+                .motion_at(leg.times[end])
+                .unwrap_or((leg.odometry[end].boxplus(-offset_change * velocity), velocity));
         }
-        Some(leg)
     }
 
     /// Adds the legs of this drive to `legs`, and the numbers of omitted legs to `lost`. Each leg begins where the previous one ended.

@@ -257,10 +257,11 @@ pub(super) fn log_checks(
     checks
 }
 
-/// Returns the mismatch of the odometry and the reference, and its maximum: that of turns or that of drives, whichever is further above its
-/// maximum. The mismatch is the difference from 1 of the median, over the legs, of the component of the reference's motion along the
-/// odometry's, divided by the odometry's; `None` if too few legs turn and too few drive. Scales are not corrected, because a scale far
-/// from 1 is another unit.
+/// Returns the mismatch of odometry and reference, and its maximum; `None` if too few legs turn and too few drive. Turns and drives have one
+/// mismatch each, and the one that is further above its maximum counts.
+///
+/// The mismatch is the median over the legs of the reference's motion along the odometry's motion, divided by the odometry's motion, minus 1.
+/// Its sign is dropped. Scales are not corrected, because a scale far from 1 is another unit.
 fn measure_mismatch(leg_set: &LegSet, systematic: &Systematic) -> Option<[f64; 2]> {
     let systematic = Systematic { distance_scale: 1.0, turn_scale: 1.0, ..*systematic };
     let [mut turn_ratios, mut drive_ratios]: [Vec<f64>; 2] = Default::default();

@@ -137,7 +137,7 @@ const ADDRESS_MODULES = {
   chunk: "export const address = (import.meta.url ?? '').replace(/chunks\\/[^/]*$/, 'external.js'); export const isClassic = false;",
 };
 
-/** Declarations of the exports of the scripts with elements. */
+/** TypeScript declarations of the exports of those scripts that define custom elements. */
 const ELEMENT_DECLARATIONS = `export * from './core.js';
 /** Sets messages of the elements in a language (a BCP 47 tag). The messages are those of messages/en.ts, or some of them. */
 export declare function setMessages(lang: string, messages: object): void;

@@ -75,7 +75,7 @@ export interface SharedCore {
   glueKey: string;
 }
 
-/** Returns the compiled module of a widget's core and the key of its glue, to send to a worker. */
+/** Returns what a worker needs to start a widget's core: the compiled WebAssembly module, and the key of its bindings in the list of bundled cores. */
 export async function moduleForWorker(widgetTag: string): Promise<SharedCore> {
   const [module] = await loadModuleAndGlue(widgetTag);
   const bundledCore = bundledCoreOf(widgetTag);

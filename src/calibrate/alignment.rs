@@ -23,10 +23,10 @@ const CONFIDENT_CORRELATION: f64 = 0.9;
 /// Minimum increase of the correlation for which an offset beyond [`MAX_NEAR_OFFSET`] is preferred to an offset within.
 const MIN_CORRELATION_GAIN: f64 = 0.05;
 
-/// Largest value of the lowest correlation of a mirrored recording. Its turns are opposite at the right offset, and agree less at all others.
+/// Maximum of the lowest correlation of a mirrored recording over all offsets. Its turns are opposite at the right offset, and agree less at all others.
 const MAX_MIRRORED_CORRELATION: f64 = -0.8;
 
-/// Largest ratio of the distance of that correlation from −1 to the distance of the highest correlation from 1.
+/// Maximum of (1 + lowest correlation) / (1 − highest correlation) of a mirrored recording.
 const MAX_MIRRORED_DISTANCE_RATIO: f64 = 0.3;
 
 /// Clock offset (s), and the correlation of the two turn rates at this offset.

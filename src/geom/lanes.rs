@@ -186,7 +186,7 @@ fn subtract_half_circles(x: f64x4, half_circles: f64x4) -> f64x4 {
     PI_PARTS.iter().fold(x, |angle_so_far, pi_part| angle_so_far - half_circles * *pi_part)
 }
 
-/// Coefficients of sin √z/√z, from the lowest power up. The coefficients after the 1 fit (sin √z/√z − 1)/z on [0, π²/4] by Remez's
+/// Coefficients of sin √z/√z, from the lowest power up. The first is 1. The others approximate (sin √z/√z − 1)/z on [0, π²/4] by Remez's
 /// exchange, with an error of 1.2e-16.
 const SINC_COEFFICIENTS: [f64; 8] = [
     1.0,

@@ -106,7 +106,7 @@ const COORDINATE_RANGE: RangeInclusive<f64> = -1e6..=1e6;
 const SIDE_RANGE: RangeInclusive<f64> = 0.01..=1e5;
 
 impl FloorPlan {
-    /// Largest number of walls of a plan.
+    /// Maximum number of walls of a plan.
     pub const MAX_WALLS: usize = 20_000;
 
     /// Creates a plan of `walls` within `bounds` (minimum x, minimum y, maximum x, maximum y), m.

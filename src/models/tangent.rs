@@ -74,10 +74,10 @@ const RELATIVE_TOLERANCE: f64 = 1e-12;
 const PADDING_VARIANCE: f64 = 1e-12;
 
 impl TangentNoiseModel {
-    /// Creates the model with all of its noise inside the arc.
+    /// Creates the model with the covariance `r` of the exponential coordinates, and without noise of a final rotation.
     ///
     /// # Errors
-    /// [`TangentNoiseError`] where `r` is not a covariance.
+    /// [`TangentNoiseError`] if `r` is not a covariance.
     pub fn new(r: Matrix3<f64>) -> Result<Self, TangentNoiseError> {
         Self::with_last_turn(r, 0.0)
     }

@@ -1,5 +1,5 @@
 /**
- * Servers for the sites of the platforms. A site has a file server or the server of its platform.
+ * Servers for the test sites that site generators and frameworks build. A site has a file server, or the server of its framework.
  *
  * @module
  */

@@ -199,7 +199,7 @@ test('chunks with a wrong checksum or size are not read', async () => {
   assert.equal(await readReason(damagedBytes), 'the checksum of a chunk is wrong');
 
   const bytes = await recordingOf(createOdometryMessages(20), { compression: 'zstd', hasIndex: false, hasChunks: true, chunkSize: 1e6 });
-  // In a chunk record, the name of the compression follows the record's code and length, two times, size, checksum and the name's length.
+  // In a chunk record, the name of the compression follows the record's code and length, the start time and end time, size, checksum and the name's length.
   const chunkPosition = bytes.indexOf(Buffer.from('zstd')) - 4 - 4 - 8 - 16 - 9;
   for (const [statedSize, expectedReason] of /** @type {const} */ ([
     [10n ** 12n, 'a chunk of 1000000000000 bytes'],

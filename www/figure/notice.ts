@@ -5,7 +5,7 @@ import { words } from '../messages/registry.ts';
 import { buttonHtml } from '../ui/controls.ts';
 import { FigureController } from './controller.ts';
 
-/** Notice beside a control, or over the lower edge of the figure or window with a button that closes it. Its appearance moves no other content. */
+/** Notice beside a control, or over the lower edge of the figure or window. There it has a button that closes it. A notice moves no other content. */
 export class Notice extends FigureController {
   #latestNotice: { renderContent: () => unknown, control?: string } | undefined;
   /** Notice about long work, shown until `endWork` is called. At the lower edge it takes the place of the latest notice. */

@@ -58,7 +58,7 @@ export function planDrives(allRecordings: Recording[], userChoices: UserChoices 
     return { recording, choices: role === 'both' ? chooseBothLogs(recording, userChoices) : { [role]: chooseLog(recording, role, userChoices) } };
   });
   const recordingsWith = (role: Role) => plan.filter(({ choices }) => choices[role]);
-  // Separate files of one role replace the logs of that role in recordings that have both.
+  // Separate files of one role replace the logs of that role in recordings that have odometry and reference.
   const [scarceRole, replacedRole] = recordingsWith('odometry').length < recordingsWith('reference').length ? ROLES : ROLES.toReversed();
   const completeRecordings = plan.filter(({ choices }) => choices.odometry && choices.reference);
   if (completeRecordings.length === recordingsWith(replacedRole).length - recordingsWith(scarceRole).length) for (const { choices } of completeRecordings) delete choices[replacedRole];

@@ -192,7 +192,7 @@ impl<T: HasKeywords> KeywordSetting for T {
 
 /// Types that a setting may have.
 pub trait SettingValue {
-    /// Type of the declared range.
+    /// Type in which the declaration of a setting states the allowed values.
     type Range;
     /// Returns a reference to the value, with its allowed values.
     fn setting(&mut self, allowed: Self::Range) -> Setting<'_>;

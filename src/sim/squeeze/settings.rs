@@ -86,7 +86,7 @@ impl SettingRules for Settings {
         ("corridor", Self { start: [1.4, 4.4, 0.0], ..Self::DEFAULT }),
     ];
 
-    /// Copies the setting `steps` into the sub-stepped sampler. Other samplers leave it unchanged.
+    /// Copies the setting `steps` into the sub-stepped sampler. Other samplers have no number of steps, and stay unchanged.
     fn adjust(&mut self, _: &Self, _: &[&str]) {
         self.sampler = self.sampler.with_part_count(self.steps);
     }

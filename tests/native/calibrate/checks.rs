@@ -174,8 +174,9 @@ fn legs_that_are_longer_than_asked_for_are_reported() {
     assert_fails(SamplingDense, &calibrate_log(&[odometry, sparse_reference], &sim.calibration_options()));
 }
 
-/// A tenth of the legs are outliers. The kurtosis of Student's t is infinite with four degrees of freedom, and 9 with five. If the noise
-/// grows in the second half, a fit to the first half covers only two thirds of the second half.
+/// Each of the three violations is large enough for its check. A tenth of the legs are outliers. Noise of Student's t distribution has a
+/// kurtosis of 9 with five degrees of freedom, and an infinite one with four. If noise grows in the second half, the 95 % region of a fit to
+/// the first half covers only two thirds of the legs in the second half.
 #[test]
 fn violations_of_the_model_are_reported() {
     let noise_factor_at: fn(f64) -> f64 = |fraction_of_log| if fraction_of_log < 0.5 { 1.0 } else { 1.5 };

@@ -1,4 +1,4 @@
-//! Plans with many walls in one place. A collision check must measure the distance to few of them.
+//! Plans with many walls in one place. A collision check may measure the distance to only a few of the walls.
 
 use crate::common::{draw_uniform, seeded_rng};
 use motion::geom::arc::Arc;

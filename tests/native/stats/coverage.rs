@@ -37,7 +37,8 @@ fn assert_covered(case: &str, fraction: f64, seed_count: u64) {
     assert!((fraction - 0.95).abs() <= tolerance, "{case}: {:.2} % hold the exact value", 100.0 * fraction);
 }
 
-/// Returns the fractions of clouds whose skew, pose gain and floor gain differ by at most 1.96 standard errors from the exact value.
+/// Returns the fractions of clouds whose statistics differ by at most 1.96 standard errors from the exact values: cross-track skew, and
+/// likelihood gain of poses and of positions on the floor.
 fn measure_error_coverage(settings: Settings, seed_count: u64) -> [f64; 3] {
     let mut simulation = BananaMachine::new(settings).expect("valid settings");
     let (exact_skew, exact_gain) =

@@ -38,7 +38,7 @@ const LOG_FILE_EXTENSIONS = ['.csv', '.txt', '.tum', '.log', '.mcap', '.bag', '.
 export class LogOpener extends FileOpener<Figure> {
   resultElementId = 'log';
   chosenFiles: ChosenFiles | undefined;
-  /** Files of the latest results, unless the page or the user has closed their log. */
+  /** Files whose log the results on screen describe; undefined after the page or the user has set another log. */
   #resultFiles: ChosenFiles | undefined;
   /** Files with only one log of a drive. The next file may contain the other log. */
   #loneLogFiles: ChosenFiles | undefined;

@@ -92,7 +92,7 @@ export function diagnosticsHtml({ viewModel: { stats } }: Figure) {
     ${fieldsetHtml(lostLegs.title, readoutsHtml(LOST_LEG_CAUSES.map((cause) => [lostLegs[cause], formatInteger(stats.lost[cause])])))}`;
 }
 
-/** Minimum squared distance or rotation at the end of an axis: (1 mm)², or (1 mrad)². */
+/** Minimum of the largest value on a plot's horizontal axis, which shows squared distances (m²) or rotations (rad²): (1 mm)², or (1 mrad)². */
 const MIN_AXIS_END = 1e-6;
 
 /** Returns plots of each noise component: its squared residuals against squared rotation, and against squared translation. */

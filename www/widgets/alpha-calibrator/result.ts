@@ -152,8 +152,8 @@ export function formatNav2Yaml({ stats, legCount, model, rule, legLength, logNam
 const failedChecksOf = (checks: CalibrationCheck[]) => checks.filter(({ passed }) => !passed);
 
 /**
- * Returns a sentence that says how to correct the robot's odometry, because AMCL gets the odometry as the robot reports it. The sentence
- * has the scales that were corrected and differ from 1 beyond their intervals. There is none without such scales or recommended α's.
+ * Returns a list with one sentence on how to correct the robot's odometry, because AMCL gets the odometry as the robot reports it. The sentence
+ * names each corrected scale whose interval excludes 1. Without such a scale, or without recommended α's, the list is empty.
  *
  * @param formatLocally formats numbers
  */
@@ -166,7 +166,7 @@ export function adviseCorrection({ recommended, systematicErrors }: CalibrationS
   return distanceFactor || turnFactor ? [texts.correctionAdvice(distanceFactor, turnFactor)] : [];
 }
 
-/** Lists the systematic errors that were corrected, in one text or none. */
+/** Returns a list with one text, which names all corrected systematic errors. The list is empty if none was corrected. */
 function listCorrectedErrors(systematicErrors: CalibrationStats['systematicErrors']): string[] {
   const correctedErrors = Object.entries(systematicErrors).filter(([, error]) => error.corrected);
   const errorTexts = correctedErrors.map(([name, error]) => `${name} ${errorComponentsOf(error).map(({ value, interval }) => formatEstimate(value, interval)).join(', ')}`);

@@ -15,7 +15,7 @@ import { formErrorsPlotHtml, factorBarsHtml, headlineHtml, likelihoodReadoutsHtm
 import { LINE_STYLES, UNDERWAY_AT_END, definition, CONTOUR_STYLES, ALPHA_SLIDERS, COMMAND_SLIDERS, type ViewModel } from './settings.ts';
 import type { ArcAnatomy as Simulation, Motion } from '../../types.d.ts';
 
-/** Returns the controls of the likelihood: the sign of the radius, and the heat map with the names of its contours. */
+/** Returns the controls of the likelihood: a checkbox for the printed sign of the radius, radio buttons for the heat map, and a legend of its contours. */
 function likelihoodControlsHtml(figure: ArcAnatomyElement) {
   const { likelihoodTitle, mapNames, printedRadiusLabel } = words.anatomy;
   const { map } = figure.settings.requested;

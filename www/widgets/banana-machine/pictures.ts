@@ -53,7 +53,7 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     return simulation.nearest(view.morph, ...view.toWorld(x, y), SELECTION_RADIUS / view.scaleX, SELECTION_RADIUS / view.scaleY);
   }
 
-  /** Returns the outlines of a view model at the morph of the picture. */
+  /** Returns the outlines in a view model at the stage of the morph that the picture shows. */
   outlinesOf(viewModel: ViewModel, scene: Scene): Outlines {
     return scene.outlinesOf(viewModel, this.view.morph);
   }

@@ -109,7 +109,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     return handle;
   }
 
-  /** Returns the end of a wall that a grip moves, and for its side the first end. */
+  /** Returns the end of a wall that a grip moves. A grip on the side moves the whole wall; the point is its first end. */
   #gripPointOf({ wallOffset, grippedPart: part }: Grip) {
     return this.host.picture.plan.walls.subarray(part === 'to' ? wallOffset + 2 : wallOffset, wallOffset + 4);
   }

@@ -147,7 +147,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
 
   /** Turns the robot to a heading in radians. */
   #turnTo(theta: number) {
-    // Wraps to (−π, π] without sines, whose last digits differ between engines, so that equal keys give equal headings.
+    // Wraps to (−π, π] without sines. Last digits of sines differ between JavaScript engines, and the same keys pressed must give the same heading.
     this.#requestPose({ ...this.#pose, theta: theta - 2 * Math.PI * Math.ceil(theta / (2 * Math.PI) - 0.5) });
   }
 

@@ -117,10 +117,10 @@ function chooseLog(recording: Recording, role: Role, userChoices: UserChoices, o
   const { series, frames } = userChoices[role] ?? {};
   if (series === undefined && !frames) return guessChoice(recording, role, userChoices, otherRoleChoice);
   const kind = role === 'reference' ? 'poses' : userChoices.kind;
-  const namedSeries = series === undefined
+  const chosenSeries = series === undefined
     ? recording.series.find((entry) => entry.frames)
     : findSeriesByName(recording.series, series);
-  if (!namedSeries) {
+  if (!chosenSeries) {
     const names = seriesNamesFor(recording, role);
     throw new LogError(
       { file: recording.name, topic: series },
@@ -128,10 +128,10 @@ function chooseLog(recording: Recording, role: Role, userChoices: UserChoices, o
       { option: 'series', role, choices: names },
     );
   }
-  if (namedSeries.kind !== 'transforms' || frames) return { series: namedSeries.name, ...(kind && { kind }), ...(frames && { frames }) };
-  const chains = findLikeliestChoices(recording, role, userChoices, (choice) => choice.series === namedSeries.name);
+  if (chosenSeries.kind !== 'transforms' || frames) return { series: chosenSeries.name, ...(kind && { kind }), ...(frames && { frames }) };
+  const chains = findLikeliestChoices(recording, role, userChoices, (choice) => choice.series === chosenSeries.name);
   if (chains.length === 1) return chains[0];
-  throw createFramesError(recording, namedSeries, role);
+  throw createFramesError(recording, chosenSeries, role);
 }
 
 function createFramesError({ name: file }: Recording, { name: topic, frames = [] }: Series, role: Role): LogError {

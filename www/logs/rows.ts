@@ -146,8 +146,8 @@ export class RowCollector {
     const rowsOfDistinctTime = this.#dropEqualTimes(sortedRows);
     const rows = kind === 'poses' ? this.#dropRepeatedPoses(rowsOfDistinctTime) : rowsOfDistinctTime;
     if (rows.length < 2) {
-      const [cause, firstDrop] = (Object.entries(this.#dropped) as [DropCause, { first: number }][])[0] ?? [];
-      throw new LogError({ ...this.#logPlace, line: firstDrop?.first }, (texts) => texts.few(rows.length, rowCount, cause));
+      const [cause, firstDroppedRows] = (Object.entries(this.#dropped) as [DropCause, { first: number }][])[0] ?? [];
+      throw new LogError({ ...this.#logPlace, line: firstDroppedRows?.first }, (texts) => texts.few(rows.length, rowCount, cause));
     }
     const [times, a, b, c, z] = [this.#times, this.#columns.a, this.#columns.b, this.#columns.c, this.#columns.z].map((column) => new Float64Array(rows.length).map((_, i) => column[rows[i]]));
     const t = times.map((time) => time - start);

@@ -163,7 +163,7 @@ impl CheckName {
                 "No inflation up to 30 covers the errors over 1 m: they are not noise of the wheels. Find their cause first: kept outliers, a reference that jumps or drifts, or slip."
             }
             Self::ResidualsUncorrelated => {
-                "Errors of neighbouring legs are correlated: they persist over several legs, a systematic error is not corrected, or the reference has few rows (below 30 Hz). Over longer distances the fitted α's are too small if errors persist, and too large if they cancel. Recommended α's hold over 1 m."
+                "Errors of neighbouring legs are correlated: they persist, a systematic error is left, or the reference is below 30 Hz. Over longer distances the fitted α's are too small if errors persist, too large if they cancel. Recommended α's hold over 1 m."
             }
             Self::TailsNormal => {
                 "A few errors are much larger than a normal distribution predicts. Intervals of the predicted pose are too narrow in the tails. Look at the largest residuals. Recommended α's allow for these errors."

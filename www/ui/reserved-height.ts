@@ -8,7 +8,7 @@ const WIDTH_CLASS_BOUNDS_EM = [20, 30, 38, 46, 56, 80];
 
 /** Heights in em by tag and width class, at the lower and the upper bound of the class. Measured in a window 900 px high, with a small margin. */
 const HEIGHTS_EM: Record<string, ([number, number] | string)[]> = {
-  'banana-machine': [[88, 87], [71, 60], [53, 51], [51, 50.5], [51, 56.5]],
+  'banana-machine': [[90, 87], [71, 60], [53, 51], [51, 50.5], [51, 56.5]],
   'map-squeeze': [[80, 75], [75, 71], [42, 42], [42, 46], [46.5, 44]],
   'arc-anatomy': [[75.5, 75.5], [75.5, 69], [41.5, 43.5], [43.5, 49.5], [49, 48.5]],
   'odometry-decomposer': [[99, 101], [97, 92.5], 'clamp(44.9em, 100svh - 0.1em, 56.1em)', 'clamp(44.9em, 100svh - 0.1em, 56.1em)', 'clamp(45.1em, 100svh + 0.1em, 52.7em)'],

@@ -101,6 +101,8 @@ test('if a control removes or disables itself, a nearby control gets the focus',
   await mapSqueeze.evaluate((element) => void Object.assign(element, { samples: 1 }));
   await mapSqueeze.getByRole('button', { name: 'Clear' }).press('Enter');
   const stepButton = mapSqueeze.getByRole('button', { name: 'Step' });
+  // A button that is still disabled would ignore the key.
+  await expect(stepButton).toBeEnabled();
   await stepButton.press('Enter');
   await expect(stepButton).toBeDisabled();
   expect(await focusedGroupClassOf(mapSqueeze)).toBe('buttons');

@@ -89,9 +89,6 @@ impl Check {
             CheckName::ReferenceMatches if value < expected[0] => {
                 "No error of the odometry is visible: the reference is a copy of it, computed from it, or too noisy. The α's mean nothing. Use a precise and independent measurement, such as motion capture or SLAM."
             }
-            CheckName::ReferenceMatches if is_mirrored(value) => {
-                "The reference turns left where the odometry turns right: one of the two has Z down or a mirrored axis. The α's mean nothing. Negate y and the heading of that one."
-            }
             _ => name.failure_message(),
         };
         Self { name, value, expected, passed, message: message.to_owned() }
@@ -197,10 +194,12 @@ const MIN_USABLE_LEGS: f64 = 30.0;
 const MAX_TURN_MISMATCH: f64 = 0.7;
 const MAX_DRIVE_MISMATCH: f64 = 0.4;
 
-/// Returns true for the mismatch of a mirrored reference: its turns are opposite to those of the odometry, so that they differ by twice the turn.
-fn is_mirrored(mismatch: f64) -> bool {
-    (mismatch - 2.0).abs() < 0.1
-}
+/// Median ratio of the turns of a mirrored reference to those of the odometry, up to a tolerance.
+const MIRRORED_TURN_RATIO: f64 = -1.0;
+const MIRRORED_TOLERANCE: f64 = 0.1;
+
+/// Message of a failed check of a mirrored reference.
+const MIRRORED_MESSAGE: &str = "The reference turns left where the odometry turns right: one of the two has Z down or a mirrored axis. The α's mean nothing. Negate y and the heading of that one.";
 
 /// Relative error below which the reference is a copy of the odometry: no wheels measure every motion to a thousandth. A copy may be rounded
 /// or have noise of its own, which does not accumulate.
@@ -225,10 +224,8 @@ pub(super) fn log_checks(
     // errors. Any other unsuitable reference is recognized by the difference of its motions from the odometry's.
     let max_alpha = alpha_intervals.iter().flatten().map(|[start, _]| *start).reduce(f64::max);
     let copy_error = max_alpha.map(f64::sqrt).filter(|error| *error < MIN_RELATIVE_ERROR);
-    let copy_mismatch = copy_error.map(|error| [error, MAX_DRIVE_MISMATCH]);
-    let mismatch = copy_mismatch.or_else(|| {
-        measure_mismatch(leg_set, systematic).map(|[mismatch, max]| [mismatch.max(MIN_RELATIVE_ERROR), max])
-    });
+    let copy_check = copy_error.map(|error| new_match_check(error, MAX_DRIVE_MISMATCH));
+    let match_check = copy_check.or_else(|| check_ratios(leg_set, systematic));
     let mut length_ratios: Vec<f64> =
         leg_set.legs.iter().map(|leg| leg_set.options.legs.ratio(&leg.odometry, leg.duration())).collect();
     let outlier_count = leg_set.outliers.iter().filter(|is| **is).count();
@@ -238,9 +235,7 @@ pub(super) fn log_checks(
     if !legs_lost.passed {
         legs_lost.message += lost.remedy();
     }
-    let mismatch_check = mismatch
-        .map(|[value, max]| Check::new(CheckName::ReferenceMatches, value, [MIN_RELATIVE_ERROR, max]));
-    let mut checks = Vec::from_iter(mismatch_check);
+    let mut checks = Vec::from_iter(match_check);
     checks.extend([
         Check::new(CheckName::EnoughLegs, leg_count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
         // The inflation is infinite if no inflation covers the windows.
@@ -257,12 +252,17 @@ pub(super) fn log_checks(
     checks
 }
 
-/// Returns the mismatch of odometry and reference, and its maximum; `None` if too few legs turn and too few drive. Turns and drives have one
-/// mismatch each, and the one that is further above its maximum counts.
+/// Returns the check that the reference matches the odometry, from their mismatch or from the relative error of a copy.
+fn new_match_check(value: f64, max_mismatch: f64) -> Check {
+    Check::new(CheckName::ReferenceMatches, value, [MIN_RELATIVE_ERROR, max_mismatch])
+}
+
+/// Returns the check of the mismatch of odometry and reference; `None` if too few legs turn and too few drive. Turns and drives have one
+/// mismatch each, and the one that is larger relative to its maximum counts.
 ///
-/// The mismatch is the median over the legs of the reference's motion along the odometry's motion, divided by the odometry's motion, minus 1.
-/// Its sign is dropped. Scales are not corrected, because a scale far from 1 is another unit.
-fn measure_mismatch(leg_set: &LegSet, systematic: &Systematic) -> Option<[f64; 2]> {
+/// The mismatch is the distance from 1 of the median ratio: over the legs, the reference's motion along the odometry's motion is divided by
+/// the odometry's motion. Scales are not corrected, because a scale far from 1 is another unit.
+fn check_ratios(leg_set: &LegSet, systematic: &Systematic) -> Option<Check> {
     let systematic = Systematic { distance_scale: 1.0, turn_scale: 1.0, ..*systematic };
     let [mut turn_ratios, mut drive_ratios]: [Vec<f64>; 2] = Default::default();
     for leg in &leg_set.legs {
@@ -275,15 +275,19 @@ fn measure_mismatch(leg_set: &LegSet, systematic: &Systematic) -> Option<[f64; 2
             drive_ratios.push(along / distance(&expected).powi(2));
         }
     }
-    let mismatch_of =
-        |mut ratios: Vec<f64>| (ratios.len() >= MIN_LEGS).then(|| (median(&mut ratios) - 1.0).abs());
-    let turn_mismatch = mismatch_of(turn_ratios).map(|mismatch| [mismatch, MAX_TURN_MISMATCH]);
-    let drive_mismatch = mismatch_of(drive_ratios).map(|mismatch| [mismatch, MAX_DRIVE_MISMATCH]);
+    let median_of = |mut ratios: Vec<f64>| (ratios.len() >= MIN_LEGS).then(|| median(&mut ratios));
+    let [turn_ratio, drive_ratio] = [turn_ratios, drive_ratios].map(median_of);
+    // Only a copy has a value below the range.
+    let mismatch_of = |ratio: f64| (ratio - 1.0).abs().max(MIN_RELATIVE_ERROR);
+    let turn_check = turn_ratio.map(|ratio| new_match_check(mismatch_of(ratio), MAX_TURN_MISMATCH));
+    let drive_check = drive_ratio.map(|ratio| new_match_check(mismatch_of(ratio), MAX_DRIVE_MISMATCH));
     // The drives of a mirrored reference differ by chance, because its mount yaw and lever arm are meaningless.
-    turn_mismatch.filter(|[mismatch, _]| is_mirrored(*mismatch)).or_else(|| {
-        let mismatches = [turn_mismatch, drive_mismatch].into_iter().flatten();
-        mismatches.max_by(|[a, a_max], [b, b_max]| (a / a_max).total_cmp(&(b / b_max)))
-    })
+    if turn_ratio.is_some_and(|ratio| (ratio - MIRRORED_TURN_RATIO).abs() < MIRRORED_TOLERANCE) {
+        return turn_check.map(|check| Check { message: MIRRORED_MESSAGE.to_owned(), ..check });
+    }
+    let relative_mismatch_of = |check: &Check| check.value / check.expected[1];
+    let checks = turn_check.into_iter().chain(drive_check);
+    checks.max_by(|a, b| relative_mismatch_of(a).total_cmp(&relative_mismatch_of(b)))
 }
 
 /// Returns the checks of the innovations: correlation of neighbours and tails.

@@ -91,6 +91,20 @@ fn a_reference_that_turns_the_other_way_is_recognized_at_any_clock_offset() {
     }
 }
 
+/// The drives differ by twice the drive, as do the turns of a mirrored reference.
+#[test]
+fn a_reference_three_times_as_long_is_not_called_mirrored() {
+    let sim = new_passing_simulation(600, 1);
+    let [odometry, reference] = sim.log();
+    let three_times_as_long =
+        change_poses(&reference, |pose| SE2::new(3.0 * pose.x(), 3.0 * pose.y(), pose.theta()));
+    let calibration = calibrate_log(&[odometry, three_times_as_long], &sim.calibration_options());
+    let check = &calibration.diagnostics.checks[0];
+    assert!((check.value - 2.0).abs() < 0.1, "{check:?}");
+    assert!(check.message.starts_with("The reference does not follow the odometry"), "{check:?}");
+    assert_unusable(&calibration, "three times as long");
+}
+
 #[test]
 fn a_copy_of_the_odometry_is_no_reference() {
     // These references are copies of the odometry in another frame, with lengths scaled by 1.02, times delayed by 0.1 s, and rounded

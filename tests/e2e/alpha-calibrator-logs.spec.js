@@ -130,6 +130,9 @@ test('the figure asks for missing names and units of columns, and the answer app
   await chooseTables(widget, { 'notes.txt': 'hello', 'empty.csv': '' });
   await expect(errorAlert).toHaveText(/^notes\.txt: it does not look like a log,/);
   await expect(widget.locator('.choosers > p')).toHaveText([/^Not used: empty\.csv: there is nothing in it/]);
+  // A question about one of several files is asked before an earlier file, which lacked its other log, is added to them.
+  await chooseTables(widget, { 'wheels.csv': readExampleTable('odometry') });
+  await expect(errorAlert).toHaveText(/^wheels\.csv: it has one log only,/);
   await chooseTables(widget, { 'odom.csv': rowsInMillimetres.join('\n'), 'slam.csv': readExampleTable('reference') });
   await expect(errorAlert).toHaveText(/^odom\.csv, line 1: the table has no header, .* name its 4 columns\.$/);
   await expect(widget.getByRole('group', { name: 'Columns of odom.csv (proposed): choose, then read' }).getByLabel('time', { exact: true })).toBeFocused();

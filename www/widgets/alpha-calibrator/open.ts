@@ -140,10 +140,11 @@ export class LogOpener extends FileOpener<Figure> {
       this.readFraction = readFraction;
       this.host.requestUpdate();
     }));
-    const { refusal, recordings } = openedFiles;
+    const { refusal, recordings, skipped } = openedFiles;
     if (!refusal) return;
     const loneLogFiles = this.#loneLogFiles;
-    const isLoneLog = recordings.length === 1 && !recordings[0].choices && refusal.question !== undefined;
+    // A question about a skipped file is asked before other files are added.
+    const isLoneLog = recordings.length === 1 && !recordings[0].choices && refusal.question !== undefined && !skipped.includes(refusal);
     if (isLoneLog) this.#loneLogFiles = { ...openedFiles };
     if (!isLoneLog || !loneLogFiles || loneLogFiles.files === openedFiles.files) throw refusal;
     const [files, questions] = [[...loneLogFiles.files, ...openedFiles.files], [...loneLogFiles.questions, ...openedFiles.questions]];

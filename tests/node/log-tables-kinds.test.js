@@ -274,6 +274,11 @@ test('a heading without a prefix belongs to the only path of a table', async () 
   assert.deepEqual(columns, { t: 'Frame Time', x: 'Center X', y: 'Center Y', yaw: 'Rotation' });
 });
 
+test('a heading beside velocities is not that of a path with a prefix', async () => {
+  const [{ series }] = await openRecordings([new File(['t,v,omega,theta,gps.x,gps.y\n0,1,0,0,0,0\n1,1,0,0,1,0\n'], 'run.csv')]);
+  assert.deepEqual(series.map(({ kind }) => kind), ['commands', 'positions']);
+});
+
 test('a table with more rows than a day at 100 Hz is refused', async () => {
   const rows = Object.assign(new RowCollector({ file: 'run.csv' }), { rowCount: 1e7 - 1 });
   const addRow = async () => rows.addRow({ time: 0, a: 0, b: 0, c: 0 }, 1);

@@ -180,12 +180,13 @@ export function groupColumnsByPrefix(names: string[], isTime: (index: number) =>
   const tableGroup = groups.find(({ name }) => name === '');
   const sharedClocks = tableGroup?.clocks ?? [];
   const allClocks = groups.flatMap(({ clocks }) => clocks);
+  const isOdometryHeading = tableGroup?.columns.v !== undefined || tableGroup?.columns.omega !== undefined;
   const pathGroups = groups.filter(({ columns }) => hasFields(columns, 'x', 'y'));
   for (const columnGroup of groups) {
     const { columns, hasCommands } = columnGroup;
     if (tableGroup?.columns.source) columns.source ??= tableGroup.columns.source;
-    // In a table with one path, a heading without a prefix is that of the path.
-    if (tableGroup?.columns.yaw && pathGroups.length === 1 && columnGroup === pathGroups[0]) columns.yaw ??= tableGroup.columns.yaw;
+    // In a table with one path, a heading without a prefix is that of the path. Beside velocities without a prefix, it is that of the odometry.
+    if (tableGroup?.columns.yaw && !isOdometryHeading && pathGroups.length === 1 && columnGroup === pathGroups[0]) columns.yaw ??= tableGroup.columns.yaw;
     columnGroup.clocks = [...new Set([...columnGroup.clocks, ...sharedClocks])].slice(0, 2);
     // If a table has only one clock, all of its groups use it.
     if (columnGroup.clocks.length === 0 && allClocks.length === 1) columnGroup.clocks = allClocks;

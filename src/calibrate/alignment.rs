@@ -23,7 +23,8 @@ const CONFIDENT_CORRELATION: f64 = 0.9;
 /// Minimum increase of the correlation for which an offset beyond [`MAX_NEAR_OFFSET`] is preferred to an offset within.
 const MIN_CORRELATION_GAIN: f64 = 0.05;
 
-/// Maximum of the lowest correlation of a mirrored recording over all offsets. Its turns are opposite at the right offset, and agree less at all others.
+/// Maximum of the lowest correlation of a mirrored recording over all offsets. At the right offset its turns are opposite, and nearer to −1
+/// than the correlation at any other offset is to 1.
 const MAX_MIRRORED_CORRELATION: f64 = -0.8;
 
 /// Maximum of (1 + lowest correlation) / (1 − highest correlation) of a mirrored recording.
@@ -43,23 +44,23 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Opt
     let overlap = odom_end.min(ref_end) - odom_start.max(ref_start);
     let finest_step =
         FINEST_STEP.max(0.5 * odometry.median_period()).max((odom_end - odom_start) / MAX_SAMPLES);
-    let best_match_within =
-        |range: [f64; 2], step: f64| best_match(odometry, reference, range, finest_step.max(step));
+    // Near offsets alone do not show that a recording is mirrored. In a drive along an eight, turns are also opposite if the clock offset is
+    // wrong by half a period.
     let near_match = if overlap < min_overlap {
         None
     } else {
-        best_match_within([-MAX_NEAR_OFFSET, MAX_NEAR_OFFSET], 0.0)
+        best_match(odometry, reference, [-MAX_NEAR_OFFSET, MAX_NEAR_OFFSET], finest_step, false)
     };
     if let Some((offset, _)) = near_match.filter(|(_, correlation)| *correlation >= CONFIDENT_CORRELATION) {
         return Some(offset);
     }
     let range = [ref_start - odom_end + min_overlap, ref_end - odom_start - min_overlap];
     let mut step = finest_step.max((range[1] - range[0]) / COARSE_OFFSETS);
-    let mut far_match = best_match_within(range, step);
+    let mut far_match = best_match(odometry, reference, range, step, true);
     while let Some((rough_offset, _)) = far_match.filter(|_| step > finest_step) {
         let nearby_range = [rough_offset - 2.0 * step, rough_offset + 2.0 * step];
         step = finest_step.max(step / 50.0);
-        far_match = best_match_within(nearby_range, step);
+        far_match = best_match(odometry, reference, nearby_range, step, true);
     }
     // An offset beyond the first scan has to be clearly better.
     let near_match = near_match.map(|(offset, correlation)| (offset, correlation + MIN_CORRELATION_GAIN));
@@ -67,14 +68,14 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Opt
     best_match.map(|(offset, _)| offset).or((overlap >= 0.0).then_some(0.0))
 }
 
-/// Returns the offset within a range at which the turn rates correlate most, interpolated between steps. At the offset of a mirrored
-/// recording the correlation counts as positive. None if the largest correlation is
-/// below [`MIN_CORRELATION`].
+/// Returns the offset within a range at which the turn rates correlate most, interpolated between steps. None if the largest correlation is
+/// below [`MIN_CORRELATION`]. If a recording `can_be_mirrored`, and the correlations show that it is, their signs are changed.
 fn best_match(
     odometry: &Trajectory,
     reference: &Trajectory,
     [min_offset, max_offset]: [f64; 2],
     step: f64,
+    can_be_mirrored: bool,
 ) -> Option<OffsetMatch> {
     let [start, end] = odometry.span()?;
     let turn_count = ((end - start) / step) as usize;
@@ -88,7 +89,9 @@ fn best_match(
         .collect();
     let (lowest, highest) =
         correlations.iter().fold((0.0_f64, 0.0_f64), |(low, high), r| (low.min(*r), high.max(*r)));
-    if lowest < MAX_MIRRORED_CORRELATION && 1.0 + lowest < MAX_MIRRORED_DISTANCE_RATIO * (1.0 - highest) {
+    let is_mirrored =
+        lowest < MAX_MIRRORED_CORRELATION && 1.0 + lowest < MAX_MIRRORED_DISTANCE_RATIO * (1.0 - highest);
+    if can_be_mirrored && is_mirrored {
         correlations.iter_mut().for_each(|correlation| *correlation = -*correlation);
     }
     let (best_offset, max_correlation) =

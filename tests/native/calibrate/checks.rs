@@ -5,7 +5,7 @@ use super::{NAV2, add_step_noise, calibrate_log, calibrate_simulation, new_traje
 use crate::common::seeded_rng;
 use motion::calibrate::CheckName::{self, *};
 use motion::calibrate::{
-    Calibration, LegLength, Model, Options, Outliers, SystematicError, Trajectory, Verdict,
+    Calibration, LegLength, Model, Options, Outliers, Systematic, SystematicError, Trajectory, Verdict,
 };
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
@@ -89,6 +89,25 @@ fn a_reference_that_turns_the_other_way_is_recognized_at_any_clock_offset() {
         );
         assert_unusable(&calibration, "mirrored");
     }
+}
+
+/// A loop takes 20 s, and the clocks differ by as much. Without a clock offset the robot turns right where the reference turns left.
+#[test]
+fn a_drive_along_an_eight_is_not_called_mirrored() {
+    let sim = Simulation {
+        systematic_errors: Systematic { clock_offset: 20.0, ..Systematic::NONE },
+        velocity_of_leg: Some(|leg_index| {
+            [0.3, if leg_index < 30 { 0.0 } else { [0.4, -0.4][leg_index / 40 % 2] }]
+        }),
+        ..new_passing_simulation(600, 1)
+    };
+    let calibration = calibrate_simulation(&sim);
+    assert!(
+        (calibration.systematic.clock_offset - 20.0).abs() < 0.1,
+        "{}",
+        calibration.systematic.clock_offset
+    );
+    assert!(!failed_check_names_of(&calibration).contains(&ReferenceMatches));
 }
 
 /// The drives differ by twice the drive, as do the turns of a mirrored reference.

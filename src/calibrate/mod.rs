@@ -121,7 +121,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let correlation = persistence.correlation.value;
     let error_stds = fit.maximum.filtered.error_stds(correlation);
     let (scale_checks, is_constant) = checks::scale_checks(&fit, correlation);
-    let is_corrected: ErrorMask =
+    let mut is_corrected: ErrorMask =
         std::array::from_fn(|i| error_stds[i] > 0.0 && options.correct[i].unwrap_or(is_constant[i]));
     let mut corrected = Systematic::NONE;
     for error in SystematicError::ALL.into_iter().filter(|error| is_corrected[*error as usize]) {
@@ -129,7 +129,8 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     }
     if corrected != systematic {
         fit = fit::fit(&log, options, is_corrected, Some((corrected, fit.maximum.parameters)))?;
-        corrected = fit.sample.systematic;
+        // Errors that are left uncorrected act as noise, which can make another error unidentifiable.
+        (corrected, is_corrected) = (fit.sample.systematic, fit.sample.estimated);
     }
     let all_legs = fit.all_legs(&log);
     let parameters = &fit.maximum.parameters;

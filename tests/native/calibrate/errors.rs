@@ -165,6 +165,22 @@ fn an_error_that_the_log_does_not_identify_is_not_corrected() {
     }
 }
 
+/// The effect of a lever arm that is not corrected hides the turn scale.
+#[test]
+fn an_error_that_uncorrected_errors_hide_is_not_corrected() {
+    let true_errors = Systematic { lever_arm: [0.3, -0.2], ..Systematic::NONE };
+    let simulation = simulation_with_errors(NAV2, 300, true_errors);
+    let mut corrections = [None; 6];
+    corrections[SystematicError::LeverArmAhead as usize] = Some(false);
+    let options = Options { correct: corrections, ..simulation.calibration_options() };
+    let calibration = calibrate_log(&simulation.log(), &options);
+    let turn_scale_index = SystematicError::TurnScale as usize;
+    assert!(calibration.is_constant[turn_scale_index]);
+    assert!(calibration.systematic_stds[turn_scale_index].is_some());
+    assert!(!calibration.is_corrected[turn_scale_index]);
+    assert_eq!(calibration.corrected.get(SystematicError::TurnScale), 1.0);
+}
+
 /// The reference has fewer rows than the odometry, or rows at other times. Without noise, all errors are nevertheless estimated up to
 /// rounding.
 #[test]

@@ -45,7 +45,8 @@ const LEGS_PER_BLOCK: usize = 100;
 
 const MAX_ROUNDS: usize = 15;
 
-/// Gain of log-likelihood (nats) below which the search in a round ends: that of a step of half a standard error. The next round continues the search.
+/// Gain of log-likelihood (nats) below which the search in a round ends: that of a step of half a standard error. The next round continues
+/// the search.
 const ROUND_GAIN: f64 = 0.1;
 
 /// Change of a systematic error between rounds, relative to its standard error, below which the rounds end.
@@ -192,8 +193,8 @@ fn with_max_legs(legs: &[Leg]) -> Vec<Leg> {
 }
 
 /// Fits the variances and the systematic errors in rounds, because residuals depend on the errors, weights on the variances, and outliers on
-/// residuals and weights. Each round chooses the errors in `correctable` that are identifiable, and corrects them by generalized least squares.
-/// The first round starts at the given errors and variances, or at a guess.
+/// residuals and weights. Each round chooses the errors in `correctable` that are identifiable, and corrects them by generalized least
+/// squares. The first round starts at the given errors and variances, or at a guess.
 pub(super) fn fit(
     log: &Log,
     options: &Options,

@@ -375,8 +375,8 @@ pub(super) fn reference_covariance(parameters: &Parameters) -> Matrix3<f64> {
     Matrix3::from_diagonal(&REFERENCE_VARIANCES.map(|variance| parameters[variance]).into())
 }
 
-/// Returns the mask of the systematic errors in `candidates` that are identifiable. The error with the largest standard error relative to its limit is
-/// removed until no error exceeds its limit.
+/// Returns the mask of the systematic errors in `candidates` that are identifiable. The error with the largest standard error relative to
+/// its limit is removed until no error exceeds its limit.
 pub(super) fn identifiable_errors(information: &ErrorMatrix, candidates: ErrorMask) -> ErrorMask {
     let mut mask: ErrorMask = std::array::from_fn(|i| candidates[i] && information[(i, i)] > 0.0);
     loop {

@@ -13,8 +13,8 @@ const MAX_HALVINGS: i32 = 10;
 /// Relative rounding error of a step that makes a variance 0.
 const ROUNDING_TOLERANCE: f64 = 1e-9;
 
-/// Returns the expansion around the maximum, by Fisher scoring from another expansion. A step that does not increase the likelihood is halved. The search ends at a
-/// step whose predicted or actual gain of log-likelihood (nats) is below `min_gain`.
+/// Returns the expansion around the maximum, by Fisher scoring from another expansion. A step that does not increase the likelihood is
+/// halved. The search ends at a step whose predicted or actual gain of log-likelihood (nats) is below `min_gain`.
 pub(super) fn maximize(residuals: &Residuals, mut expansion: Expansion, min_gain: f64) -> Expansion {
     for _ in 0..MAX_STEPS {
         let Expansion { parameters, score, filtered, .. } = &expansion;

@@ -130,7 +130,8 @@ fn an_image_that_is_cut_short_is_refused() {
             .expect(&error_message);
         assert!(error_offset.parse::<usize>().is_ok_and(|offset| offset <= cut_length), "{error_message}");
     }
-    assert!(read_grid(&file_bytes[..60], &PixelClassifier::default(), 0.05, SE2::identity()).is_err());
+    let grid_error = read_grid(&file_bytes[..60], &PixelClassifier::default(), 0.05, SE2::identity());
+    assert_eq!(grid_error.expect_err("it ends"), read_png(&file_bytes[..60]).expect_err("it ends"));
 }
 
 /// A small file may contain an enormous image. Such a file must be refused because of the size in its header.

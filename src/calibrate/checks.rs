@@ -64,6 +64,23 @@ pub enum CheckName {
     Window5Covered,
 }
 
+/// Causes that a check tells apart, if it fails.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "camelCase")]
+pub enum FailureCause {
+    /// The reference is a copy of the odometry, computed from it, or too noisy.
+    Copied,
+    /// The reference turns the other way than the odometry.
+    Mirrored,
+    /// Most lost legs lack a pose of the reference.
+    WithoutReference,
+    /// Most lost legs cross a break.
+    AcrossBreaks,
+    /// Most lost legs are stretched by a pause.
+    AcrossPauses,
+}
+
 /// One check.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(rename = "CalibrationCheck"))]
@@ -76,6 +93,8 @@ pub struct Check {
     pub expected: [f64; 2],
     /// True if the value is in the range.
     pub passed: bool,
+    /// Cause of the failure, if the check tells causes apart.
+    pub cause: Option<FailureCause>,
     /// Meaning of a failure for the α's, and the remedy; empty if the check passed.
     pub message: String,
 }
@@ -84,14 +103,16 @@ impl Check {
     /// Returns the check of a value, which passes within the expected range.
     pub(super) fn new(name: CheckName, value: f64, expected: [f64; 2]) -> Self {
         let passed = (expected[0]..=expected[1]).contains(&value);
-        let message = match name {
-            _ if passed => "",
-            CheckName::ReferenceMatches if value < expected[0] => {
-                "No error of the odometry is visible: the reference is a copy of it, computed from it, or too noisy. The α's mean nothing. Use a precise and independent measurement, such as motion capture or SLAM."
-            }
-            _ => name.failure_message(),
-        };
-        Self { name, value, expected, passed, message: message.to_owned() }
+        let message = if passed { "" } else { name.failure_message() };
+        Self { name, value, expected, passed, cause: None, message: message.to_owned() }
+    }
+
+    /// Returns the check with the cause of its failure, and the message of that cause. A check that passed stays as it is.
+    fn with_cause(self, cause: FailureCause) -> Self {
+        if self.passed {
+            return self;
+        }
+        Self { cause: Some(cause), message: cause.message().to_owned(), ..self }
     }
 }
 
@@ -175,6 +196,29 @@ impl CheckName {
     }
 }
 
+impl FailureCause {
+    /// Returns what a failure of this cause means for the α's, and the remedy.
+    fn message(self) -> &'static str {
+        match self {
+            Self::Copied => {
+                "No error of the odometry is visible: the reference is a copy of it, computed from it, or too noisy. The α's mean nothing. Use a precise and independent measurement, such as motion capture or SLAM."
+            }
+            Self::Mirrored => {
+                "The reference turns left where the odometry turns right: one of the two has Z down or a mirrored axis. The α's mean nothing. Negate y and the heading of that one."
+            }
+            Self::WithoutReference => {
+                "Many legs were lost. The α's describe the remaining legs. Most lack the reference: record it for the whole drive."
+            }
+            Self::AcrossBreaks => {
+                "Many legs were lost. The α's describe the remaining legs. Most cross a break: look at the jumps and at the rows left out."
+            }
+            Self::AcrossPauses => {
+                "Many legs were lost. The α's describe the remaining legs. Most are stretched by a pause: record both logs without gaps."
+            }
+        }
+    }
+}
+
 /// Number of standard errors by which a sample statistic may differ from its expectation. Logs simulated by the model rarely differ more.
 const MAX_STD_ERRORS: f64 = 3.0;
 
@@ -197,9 +241,6 @@ const MAX_DRIVE_MISMATCH: f64 = 0.4;
 /// Median ratio of the turns of a mirrored reference to those of the odometry, up to a tolerance.
 const MIRRORED_TURN_RATIO: f64 = -1.0;
 const MIRRORED_TOLERANCE: f64 = 0.1;
-
-/// Message of a failed check of a mirrored reference.
-const MIRRORED_MESSAGE: &str = "The reference turns left where the odometry turns right: one of the two has Z down or a mirrored axis. The α's mean nothing. Negate y and the heading of that one.";
 
 /// Relative error below which the reference is a copy of the odometry: no wheels measure every motion to a thousandth. A copy may be rounded
 /// or have noise of its own, which does not accumulate.
@@ -224,17 +265,15 @@ pub(super) fn log_checks(
     // errors. Any other unsuitable reference is recognized by the difference of its motions from the odometry's.
     let max_alpha = alpha_intervals.iter().flatten().map(|[start, _]| *start).reduce(f64::max);
     let copy_error = max_alpha.map(f64::sqrt).filter(|error| *error < MIN_RELATIVE_ERROR);
-    let copy_check = copy_error.map(|error| new_match_check(error, MAX_DRIVE_MISMATCH));
+    let copy_check =
+        copy_error.map(|error| new_match_check(error, MAX_DRIVE_MISMATCH).with_cause(FailureCause::Copied));
     let match_check = copy_check.or_else(|| check_ratios(leg_set, systematic));
     let mut length_ratios: Vec<f64> =
         leg_set.legs.iter().map(|leg| leg_set.options.legs.ratio(&leg.odometry, leg.duration())).collect();
     let outlier_count = leg_set.outliers.iter().filter(|is| **is).count();
     let lost_count = lost.total() - lost.standing;
-    let mut legs_lost =
-        Check::new(CheckName::LegsLost, lost_count as f64 / (leg_count + lost_count) as f64, [0.0, 0.2]);
-    if !legs_lost.passed {
-        legs_lost.message += lost.remedy();
-    }
+    let lost_fraction = lost_count as f64 / (leg_count + lost_count) as f64;
+    let legs_lost = Check::new(CheckName::LegsLost, lost_fraction, [0.0, 0.2]).with_cause(lost.main_cause());
     let mut checks = Vec::from_iter(match_check);
     checks.extend([
         Check::new(CheckName::EnoughLegs, leg_count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
@@ -283,7 +322,7 @@ fn check_ratios(leg_set: &LegSet, systematic: &Systematic) -> Option<Check> {
     let drive_check = drive_ratio.map(|ratio| new_match_check(mismatch_of(ratio), MAX_DRIVE_MISMATCH));
     // The drives of a mirrored reference differ by chance, because its mount yaw and lever arm are meaningless.
     if turn_ratio.is_some_and(|ratio| (ratio - MIRRORED_TURN_RATIO).abs() < MIRRORED_TOLERANCE) {
-        return turn_check.map(|check| Check { message: MIRRORED_MESSAGE.to_owned(), ..check });
+        return turn_check.map(|check| check.with_cause(FailureCause::Mirrored));
     }
     let relative_mismatch_of = |check: &Check| check.value / check.expected[1];
     let checks = turn_check.into_iter().chain(drive_check);

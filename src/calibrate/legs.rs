@@ -4,6 +4,7 @@
 //! real wheels mostly grows with the length itself.
 
 use super::Drive;
+use super::checks::FailureCause;
 use super::trajectory::Trajectory;
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::models::MAX_SPIN_DISTANCE;
@@ -106,14 +107,15 @@ impl LostLegs {
         self.without_reference + self.across_breaks + self.across_pauses + self.standing
     }
 
-    /// Returns the remedy of the most frequent cause. A standing robot needs none.
-    pub(super) fn remedy(&self) -> &'static str {
-        let remedies = [
-            (self.without_reference, " Most lack the reference: record it for the whole drive."),
-            (self.across_breaks, " Most cross a break: look at the jumps and at the rows left out."),
-            (self.across_pauses, " Most are stretched by a pause: record both logs without gaps."),
-        ];
-        remedies.into_iter().max_by_key(|(count, _)| *count).map_or("", |(_, remedy)| remedy)
+    /// Returns the most frequent cause. A standing robot needs no remedy, and does not count.
+    pub(super) fn main_cause(&self) -> FailureCause {
+        if self.without_reference > self.across_breaks.max(self.across_pauses) {
+            FailureCause::WithoutReference
+        } else if self.across_breaks > self.across_pauses {
+            FailureCause::AcrossBreaks
+        } else {
+            FailureCause::AcrossPauses
+        }
     }
 }
 

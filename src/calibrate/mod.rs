@@ -19,7 +19,7 @@ mod systematic;
 mod trajectory;
 mod windows;
 
-pub use checks::{Check, CheckName, Diagnostics, Verdict, WindowCoverage};
+pub use checks::{Check, CheckName, Diagnostics, FailureCause, Verdict, WindowCoverage};
 pub use intervals::NotIdentifiable;
 pub use legs::{Leg, LegLength, LostLegs, MIN_LEGS, split_into_legs};
 pub use residuals::{Model, Observation};

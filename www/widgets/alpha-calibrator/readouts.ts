@@ -85,7 +85,7 @@ const stackedTextsHtml = (cell: string) => cell.split('\n').map((line) => html`<
 export function diagnosticsHtml({ viewModel: { stats } }: Figure) {
   const { checks, windowTable, noiseTable, lostLegs } = words.calibrator;
   const checkTable = checkTableOf(stats, words);
-  const checkRows = checkTable.rows.map(([name, ...cells], i) => [html`${name}<div class="muted">${checkMessage(stats.diagnostics.checks[i], stats, words.calibrator)}</div>`, ...cells]);
+  const checkRows = checkTable.rows.map(([name, ...cells], i) => [html`${name}<div class="muted">${checkMessage(stats.diagnostics.checks[i], words.calibrator)}</div>`, ...cells]);
   return html`${fieldsetHtml(checks.title, tableHtml({ ...checkTable, rows: checkRows }))}
     ${fieldsetHtml(windowTable.title, tableHtml({ caption: windowTable.caption, ...windowTableOf(stats, words) }))}
     ${fieldsetHtml(noiseTable.title, tableHtml(noiseTableOf(stats, words)))}

@@ -1,6 +1,5 @@
 /** Result of a fit as text, which the page and the command line share: numbers, the verdict, and lines for nav2_params.yaml. */
 
-import { greatest } from 'd3-array';
 import { MINUS, NO_VALUE, formatFixed, formatPowerOfTen, formatInteger } from '../../ui/format.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { en, yamlWords } from './en.ts';
@@ -214,23 +213,15 @@ export function judgementOf({ stats, legCount, model, corrections, warnings }: R
   const usageSentences = !isUsable ? [] : [rating === 'consistent' ? texts.useRecommended : texts.useRecommendedAnyway, ...adviseCorrection(stats, texts.nav2, localizeNumber)];
   const clockOffset = systematicErrors.clockOffset.value ?? 0;
   const clockNote = Math.abs(clockOffset) > MENTIONED_CLOCK_OFFSET ? [texts.clockOffsetNote(formatInteger(Math.round(Math.abs(clockOffset))), clockOffset > 0)] : [];
-  const advice = [...otherFindings, ...(failedCheck ? [checkMessage(failedCheck, stats, texts)] : []), ...clockNote, ...usageSentences];
+  const advice = [...otherFindings, ...(failedCheck ? [checkMessage(failedCheck, texts)] : []), ...clockNote, ...usageSentences];
   return { rating, badge: texts.ratingBadges[rating], finding, advice };
 }
 
-/** Mismatch of a reference with a mirrored axis, as in the core: its turns are opposite to those of the odometry. */
-const MIRRORED_MISMATCH = 2;
-
-/** Causes of lost legs. The last cause, a standing robot, is not counted by the check of lost legs. */
+/** Causes of lost legs. */
 export const LOST_LEG_CAUSES = ['withoutReference', 'acrossBreaks', 'acrossPauses', 'standing'] as const;
 
-/** Returns what a failed check means and what to do. Each cause of lost legs has its own message, and so have copied and mirrored references. */
-export function checkMessage({ name, value, expected: [minExpected], passed, message }: CalibrationCheck, { lost }: CalibrationStats, { checks }: Texts) {
-  if (passed) return '';
-  const cause = name === 'legs-lost' ? greatest(LOST_LEG_CAUSES.slice(0, -1), (lostLegCause) => lost[lostLegCause])
-    : name !== 'reference-matches' ? '' : value < minExpected ? 'copied' : Math.abs(value - MIRRORED_MISMATCH) < 0.1 ? 'mirrored' : '';
-  return checks.translateMessage(cause ? `${name}-${cause}` : name, message);
-}
+/** Returns what a failed check means and what to do. Causes that a check tells apart have their own messages. */
+export const checkMessage = ({ name, cause, passed, message }: CalibrationCheck, { checks }: Texts) => (passed ? '' : checks.translateMessage(cause ? `${name}-${cause}` : name, message));
 
 /** Returns a sentence for each reason why α's are not identifiable, with the drive that would identify them. */
 function explainMissingAlphas({ notIdentifiable, diagnostics: { checks } }: CalibrationStats, model: string, { missingAlphasSentence, alphas: { missingMotions } }: Texts) {

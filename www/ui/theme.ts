@@ -181,10 +181,6 @@ export const themeStyles = css`
       margin: 0 1.5em 0 0 !important;
     }
 
-    [data-longest]::after {
-      display: none !important;
-    }
-
     :is(figure, table, .stage, fieldset) {
       break-inside: avoid;
     }

@@ -35,7 +35,7 @@ test('two tables of a user replace the simulated log, and a button restores the 
   await chooseTables(calibrator, { 'odom.csv': logTables.odometry });
   await expect(errorAlert).toHaveText(/^odom\.csv: it has one log only, .* the odometry; give the reference too\. Drop or choose the other file too,/);
   // The α's on screen belong to the previous log. They cannot be copied until the user confirms these results.
-  const outdatedResultsText = 'The results are still those of the simulated log, read before. The files chosen last are not used.';
+  const outdatedResultsText = 'The results are still those of the simulated log. The files chosen last are not used.';
   await expect(calibrator.locator('.drop-zone .muted')).toContainText(outdatedResultsText);
   await expect(calibrator.locator('.to-do')).toHaveText(outdatedResultsText);
   await openDisclosures(calibrator);
@@ -50,7 +50,7 @@ test('two tables of a user replace the simulated log, and a button restores the 
   await expect(captionOf(calibrator)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
   await chooseTables(calibrator, { 'odom.csv': '', 'truth.csv': '' });
   await expect(errorAlert).toHaveText(/^odom\.csv: there is nothing in it/);
-  await expect(calibrator.locator('.to-do')).toHaveText('The results are still those of odom.csv, truth.csv, read before. The files chosen last are not used.');
+  await expect(calibrator.locator('.to-do')).toHaveText('The results are still those of odom.csv, truth.csv. The files chosen last are not used.');
   // Keeping the results restores the controls with which the user assigns roles to their logs.
   await calibrator.getByRole('button', { name: 'Keep these results' }).click();
   await calibrator.getByLabel('odom.csv', { exact: true }).selectOption('Reference');

@@ -201,7 +201,7 @@ export const de: typeof import('./en.ts').en = {
     resultsOfLog: (name) => `Ergebnisse von ${name}.`,
 
     refusedLog: (refusalMessage) => `Aufzeichnung abgelehnt: ${refusalMessage}`,
-    resultsOfOtherLog: (log) => `Gezeigt wird noch das vorher gelesene Log, ${log}. Die zuletzt gewählten Dateien werden nicht verwendet.`,
+    resultsOfOtherLog: (log) => `Gezeigt wird noch das vorige Ergebnis: ${log}. Die zuletzt gewählten Dateien werden nicht verwendet.`,
     keepResultsLabel: 'Diese Ergebnisse behalten',
   },
   nav2: {

@@ -179,7 +179,7 @@ export const en = {
     resultsOfLog: (name) => `Results of ${name}.`,
 
     refusedLog: (refusalMessage) => `Log refused: ${refusalMessage}`,
-    resultsOfOtherLog: (log) => `The results are still those of ${log}, read before. The files chosen last are not used.`,
+    resultsOfOtherLog: (log) => `The results are still those of ${log}. The files chosen last are not used.`,
     keepResultsLabel: 'Keep these results',
   },
   nav2: {

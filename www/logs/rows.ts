@@ -3,7 +3,7 @@
 import { group, max, min, range, sum } from 'd3-array';
 import { LogError, type ErrorPlace, type DropCause, type Log, type LogKind, type Note, type OpenOptions, type ErrorReason, type Question, type Summary, type Words } from './log.ts';
 import { distanceOf, quantileOf, sampleEvenly, wrapAngle } from './path.ts';
-import { FIELDS_WITH_Y_UP, epochTimeUnitOf, judgeUnits, type Columns, type ColumnNames, type Units } from './units.ts';
+import { epochTimeUnitOf, judgeUnits, type Columns, type ColumnNames, type Units } from './units.ts';
 
 /** Pose (x, y and heading) or command (v, omega and 0). `time` is in s, or 0 if unknown. The heading is undefined if the quaternion is no rotation. */
 export interface Sample {
@@ -136,7 +136,7 @@ export class RowCollector {
       const composeSentences = (texts: Words['refused']) => [damage.formatReason(texts), ...(damage.count > 1 && damage.count < rowCount ? [texts.manyBad(damage.count, rowCount, 100 * MAX_DAMAGED_FRACTION)] : [])];
       throw new LogError({ ...this.#logPlace, line: damage.line }, (texts) => composeSentences(texts).join(' '));
     }
-    const question: Question | undefined = columnNames && { option: 'columns', choices: [columnNames.renameFields(FIELDS_WITH_Y_UP).join()], columns: columnNames.allNames };
+    const question: Question | undefined = columnNames && { option: 'columns', choices: [columnNames.renameFields(columnNames.fieldsOfTiltedPoses).join()], columns: columnNames.allNames };
     if (this.tiltSpread > MAX_TILT_SPREAD) throw new LogError(this.#logPlace, (texts) => texts.tilted(columnNames !== undefined), question);
     const usesOtherClock = clocks[1] !== undefined && this.#isClockStill();
     if (usesOtherClock) this.#times = this.#columns.otherTime;

@@ -6,7 +6,7 @@ import { splitCells, detectTableFormat, parseDate, parseNumber, parseTime, type 
 import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Log, type Note, type OpenOptions, type Recording, type Series, type Source, type Summary, type TimeUnit } from './log.ts';
 import { rotationOf, type Quaternion } from './path.ts';
 import { RowCollector } from './rows.ts';
-import { UNIT_EXPONENTS, epochTimeUnitOf } from './units.ts';
+import { FIELDS_WITH_W_FIRST, FIELDS_WITH_Y_UP, UNIT_EXPONENTS, epochTimeUnitOf } from './units.ts';
 
 const BLOCK_BYTES = 2 ** 22;
 
@@ -149,6 +149,8 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
   const rowNames = new Set<string>();
   /** Numbers of decimals in the last column. */
   const decimalCounts = new Set<number>();
+  /** Sum of qx² − qy². It is negative if robots turn about Y, and positive if the column qx contains w. */
+  let rollExcess = 0;
 
   const dropTextRow = (line: number, columnName: string, cell: string) => rows.dropRow('text', line, (texts) => texts.number(truncate(columnName), truncate(cell.trim())));
 
@@ -168,6 +170,7 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
     if (nameColumns.length > 0) rowNames.add(nameColumns.map(({ index }) => cells[index].trim()).join(' to '));
     const [[time, otherTime], [a, b, c = 0, ...quaternion]] = [times, values];
     const rotation = fields.at(-1) === 'qw' ? rotationOf(...(fields.length === 6 ? [c, ...quaternion] : [0, 0, c, ...quaternion]) as Quaternion) : { c, tiltCosine: undefined };
+    if (fields.length === 6) rollExcess += c * c - quaternion[0] * quaternion[0];
     rows.addRow({ time, a, b, c: rotation.c, tiltCosine: rotation.tiltCosine, z: hasHeight ? parseNumber(normalizeCell(cells[z.index])) : undefined }, line, otherTime);
   };
 
@@ -204,6 +207,7 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
         columns: Object.fromEntries([['t', ''], ...fields.map((field, i) => [field, columns[i].name])]),
         columnNames: {
           allNames: columnNames,
+          fieldsOfTiltedPoses: rollExcess > 0 ? FIELDS_WITH_W_FIRST : FIELDS_WITH_Y_UP,
           renameFields: (newFields) => columnNames.map((name, i) => {
             const field = (Object.keys(newFields) as Field[]).find((oldField) => group.columns[oldField]?.index === i);
             return group.columns[newFields[field as Field] as Field]?.name ?? name.trim();

@@ -13,11 +13,20 @@ export interface Columns { start: number; t: Float64Array; a: Float64Array; b: F
 type NewFields = Partial<Record<Field, Field>>;
 
 /** Names of all columns of a table, and a function that gives columns of some fields the names of other fields. */
-export interface ColumnNames { allNames: string[]; renameFields(newFields: NewFields): string[] }
+export interface ColumnNames {
+  allNames: string[];
+  renameFields(newFields: NewFields): string[];
+  /** New names of fields that probably make the robot turn about Z, if it does not do so with the present names. */
+  fieldsOfTiltedPoses: NewFields;
+}
 
-/** New names of fields that read a table with Y up, or with another handedness: headings grow from z to x, from x to z, and from y to x. */
+/** New names of fields for a table with Y up, whose headings grow from z to x. */
 export const FIELDS_WITH_Y_UP: NewFields = { x: 'y', y: 'z', z: 'x', qx: 'qy', qy: 'qz', qz: 'qx' };
+/** New names of fields for a table whose quaternions start with w. */
+export const FIELDS_WITH_W_FIRST: NewFields = { qx: 'qw', qy: 'qx', qz: 'qy', qw: 'qz' };
+/** New names of fields for a table with Y up, whose headings grow from x to z. */
 const LEFT_HANDED_FIELDS_WITH_Y_UP: NewFields = { y: 'z', z: 'y' };
+/** New names of fields for a table whose headings grow from y to x. */
 const MIRRORED_FIELDS: NewFields = { x: 'y', y: 'x' };
 
 /** Decimal exponent of the number of units in a second, by unit of time. */

@@ -1,6 +1,6 @@
 // Generates TypeScript types from the declarations: build/simulations.d.ts for the core, build/elements.d.ts for the elements, and the tags
 // in templates of Solid and Svelte. www/types.d.ts exports the types of the core and the elements, and contains the types that are written
-// by hand.
+// by hand, such as those of options.
 
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -14,6 +14,9 @@ const GENERATED_HEADER = '// Generated from the declarations: not to be edited.\
 
 /** Declaration of `Symbol.dispose`, which may be missing in the `lib` setting of a project. */
 const DISPOSABLE_LIBRARY = '/// <reference lib="esnext.disposable" />\n';
+
+/** Import of the types of the core's arguments. */
+const OPTIONS_IMPORT = "import type { Calibration, CalibrationOptions, MorphedView, OdometryModelOptions, Propagation, Twist, VelocityModelOptions } from '../www/types.d.ts';\n";
 
 /**
  * Frameworks with typed templates. Each has the module and the interface that the tags extend, the type of the attributes of any element,
@@ -29,7 +32,7 @@ export async function writeTypes() {
   const widgetDescriptions = await describeWidgets();
   // wasm-bindgen writes a comment inside a Rust macro as a raw string literal.
   const coreTypes = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8').replaceAll('* r" ', '* ');
-  writeFileSync(join(ROOT, 'build/simulations.d.ts'), [DISPOSABLE_LIBRARY, GENERATED_HEADER, ...composeGroupInterfaces(), ...Object.keys(settings).map(settingsInterfaceOf), coreTypes].join('\n'));
+  writeFileSync(join(ROOT, 'build/simulations.d.ts'), [DISPOSABLE_LIBRARY, GENERATED_HEADER, OPTIONS_IMPORT, ...composeGroupInterfaces(), ...Object.keys(settings).map(settingsInterfaceOf), coreTypes].join('\n'));
   writeFileSync(join(ROOT, 'build/elements.d.ts'), [GENERATED_HEADER, importLineOf(widgetDescriptions), await composeFigureTypes(widgetDescriptions), ...widgetDescriptions.map(elementTypesOf), tagTypesOf(widgetDescriptions)].join('\n'));
   for (const [frameworkName, { module, namespace, any, prefix }] of Object.entries(TEMPLATE_FRAMEWORKS)) {
     writeFileSync(

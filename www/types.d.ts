@@ -1,6 +1,6 @@
 /** Types that the code imports. scripts/types.mjs generates those of settings, simulations and elements from their declarations. */
 
-import type { CalibrationOptions, MapSqueezeSettings, Start } from '../build/simulations.d.ts';
+import type { ByRecursion, CalibrationLegs, CalibrationStats, CartesianMoments, Command, ExponentialMoments, MapSqueezeSettings, Start, SystematicErrors } from '../build/simulations.d.ts';
 
 export type * from '../build/simulations.d.ts';
 export type * from '../build/elements.d.ts';
@@ -61,6 +61,91 @@ export type MapData =
   | Readonly<{ name?: string; bounds: readonly number[]; walls: readonly (readonly number[])[] }>
   | Readonly<{ name?: string; columns: number; rows: number; resolution: number; origin: readonly number[]; occupied: string; unknown?: string }>;
 
+/** Options of a velocity model. */
+export interface VelocityModelOptions {
+  /** Variance coefficients: α₁…α₆ of the velocity model, α₁…α₄ of the odometry model. */
+  alphas: ArrayLike<number>;
+  /** Default: "normal". */
+  noise?: 'normal' | 'triangular';
+}
+
+/** Options of an odometry model. */
+export interface OdometryModelOptions extends VelocityModelOptions {
+  /** True if a drive in reverse gets noise for the rotations that the robot made, and not for two additional half turns; default false. */
+  reverseAware?: boolean;
+}
+
+/**
+ * Three numbers: a twist, with the speeds along the body's x and y (m/s) and the turn rate (rad/s), or the exponential coordinates of a
+ * motion, along (m), lateral (m) and heading (rad).
+ */
+export type Twist = ArrayLike<number>;
+
+/** Options of `propagate`. */
+export interface Propagation {
+  /** Covariance of the start pose in exponential coordinates about its mean, three rows of three; default 0. */
+  sigma?: ArrayLike<ArrayLike<number>>;
+  command: Command;
+  /** α₁…α₆ of the velocity model. */
+  alphas: ArrayLike<number>;
+  /** Default: "chapter". */
+  compounding?: keyof ByRecursion<unknown>;
+  /** Number of times the command is driven; default 1. */
+  steps?: number;
+}
+
+/** Poses, in arrays of the same length: increasing times in s, x and y in m, headings in rad. */
+export interface LoggedPoses {
+  t: ArrayLike<number>;
+  x: ArrayLike<number>;
+  y: ArrayLike<number>;
+  theta: ArrayLike<number>;
+  /** Indices of poses before which the path is unknown, in addition to those after a pause: where rows are missing, or the path jumps. */
+  breaks?: ArrayLike<number>;
+}
+
+/** Commands, each held until the next: increasing times in s, speeds in m/s, turn rates in rad/s. */
+export interface LoggedCommands {
+  t: ArrayLike<number>;
+  v: ArrayLike<number>;
+  omega: ArrayLike<number>;
+  /** Indices of commands before which the path is unknown, as for poses. */
+  breaks?: ArrayLike<number>;
+}
+
+/** Options of `calibrate`. */
+export interface CalibrationOptions {
+  /** Odometry of one drive, or of several. */
+  odometry: LoggedPoses | LoggedCommands | (LoggedPoses | LoggedCommands)[];
+  /** Reference of each drive. */
+  reference: LoggedPoses | LoggedPoses[];
+  /** Four α's of odometry (default), five of a robot that can drive sideways, six of velocity commands. */
+  model?: 'odometry' | 'omnidirectional' | 'velocity';
+  /** Rule of the odometry variances: Table 5.6 as printed (default), Nav2 or Beluga; "omni" belongs to the omnidirectional model. */
+  rule?: 'thrun' | 'nav2' | 'beluga' | 'omni';
+  /** Length of a leg: at AMCL's `update_min_d` (m, default 0.25) and `update_min_a` (rad, default 0.2), or a duration (s). */
+  legs?: { distance?: number; angle?: number } | { duration: number };
+  /** Treatment of outliers: excluded (default), or fitted as noise. */
+  outliers?: 'reject' | 'keep';
+  /**
+   * Systematic errors that are corrected. The default is all errors that the log identifies, except for scales that are not constant.
+   * With true these are corrected too, with false none.
+   */
+  correct?: boolean | { [Name in keyof SystematicErrors]?: boolean };
+  /** Standard deviation of each coordinate of the reference, m; estimated if it is not given. */
+  positionStd?: number;
+  /** Standard deviation of the reference's heading, rad; estimated if it is not given. */
+  yawStd?: number;
+}
+
+/** Result of a calibration. */
+export interface Calibration extends CalibrationStats {
+  legs: CalibrationLegs;
+}
+
+/** View of the robots: "plane" is (x, y), "twist" is (ξ along, ξ heading), and a number is a stage of the morph from the plane, 0, to the twists, 1. */
+export type MorphedView = 'plane' | 'twist' | number;
+
 /** Odometry of a robot and a reference of its true poses: of one drive, or of several in arrays. */
 export interface CalibrationLog extends Pick<CalibrationOptions, 'odometry' | 'reference'> {
   name?: string;
@@ -69,3 +154,4 @@ export interface CalibrationLog extends Pick<CalibrationOptions, 'odometry' | 'r
 // Short names of generated types.
 export type Pose = Start;
 export type SamplerName = MapSqueezeSettings['sampler'];
+export type Moments = CartesianMoments | ExponentialMoments;

@@ -26,7 +26,7 @@ simulation_class! {
         /// True values of the simulated log; null for any other log.
         truth: "CalibrationTruth | null" = to_plain_js(&simulation.truth());
         /// Result of the calibration, without its legs. All α’s are null if the log has too few legs.
-        stats: "Omit<Calibration, 'legs'>" = calibration_to_js(simulation.calibration());
+        stats: "CalibrationStats" = calibration_to_js(simulation.calibration());
         /// Copy of the legs, in the form that `calibrate` returns.
         legs: "CalibrationLegs" = legs_to_js(simulation.calibration());
         /// Number of legs.

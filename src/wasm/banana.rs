@@ -17,18 +17,6 @@ use js_sys::{Float64Array, RangeError, Uint8ClampedArray, Uint32Array};
 use nalgebra::{Matrix3, Vector3};
 use wasm_bindgen::prelude::*;
 
-#[wasm_bindgen(typescript_custom_section)]
-const TYPESCRIPT_TYPES: &str = r#"
-/** "plane" is (x, y); "twist" is (ξ along, ξ heading). */
-export type ViewName = 'plane' | 'twist';
-
-/** View by its name, or by a stage of the morph from 0 (the plane) to 1 (the twists). */
-export type MorphedView = ViewName | number;
-
-/** Mean and covariance of the pose or of its exponential coordinates. */
-export type Moments = CartesianMoments | ExponentialMoments;
-"#;
-
 cloud_simulation_class! {
     /// One command from the origin, many robots that execute it with noise, and Gaussians fitted to their end poses.
     JsBananaMachine(BananaMachine), "BananaMachine", "BananaMachineSettings", "Partial<BananaMachineSettings>", MAX_SAMPLES, |simulation|

@@ -10,40 +10,6 @@ use js_sys::{RangeError, Reflect};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
 
-#[wasm_bindgen(typescript_custom_section)]
-const TYPESCRIPT_TYPES: &str = r#"
-/** Names of the systematic errors. */
-export type SystematicErrorName = 'clockOffset' | 'mountYaw' | 'leverArm' | 'distanceScale' | 'turnScale';
-
-/** Options of `calibrate`. */
-export interface CalibrationOptions {
-  /** Odometry of one drive, or of several. */
-  odometry: LoggedPoses | LoggedCommands | (LoggedPoses | LoggedCommands)[];
-  /** Reference of each drive. */
-  reference: LoggedPoses | LoggedPoses[];
-  /** Four α's of odometry (default), five of a robot that can drive sideways, six of velocity commands. */
-  model?: 'odometry' | 'omnidirectional' | 'velocity';
-  /** Rule of the odometry variances: Table 5.6 as printed (default), Nav2 or Beluga; "omni" belongs to the omnidirectional model. */
-  rule?: 'thrun' | 'nav2' | 'beluga' | 'omni';
-  /**
-   * Length of a leg: at AMCL's `update_min_d` (m, default 0.25) and `update_min_a` (rad, default 0.2), or a duration
-   * (s).
-   */
-  legs?: { distance?: number; angle?: number } | { duration: number };
-  /** Treatment of outliers: excluded (default), or fitted as noise. */
-  outliers?: 'reject' | 'keep';
-  /**
-   * Systematic errors that are corrected. The default is all errors that the log identifies, except for scales that are not constant.
-   * With true these are corrected too, with false none.
-   */
-  correct?: boolean | { [name in SystematicErrorName]?: boolean };
-  /** Standard deviation of each coordinate of the reference, m; estimated if it is not given. */
-  positionStd?: number;
-  /** Standard deviation of the reference's heading, rad; estimated if it is not given. */
-  yawStd?: number;
-}
-"#;
-
 /// Allowed lengths of legs, m, rad or s.
 const LEG_LENGTH_RANGE: RangeInclusive<f64> = 1e-6..=1e6;
 

@@ -10,17 +10,6 @@ use serde::Serialize;
 use tsify::Tsify;
 use wasm_bindgen::prelude::*;
 
-#[wasm_bindgen(typescript_custom_section)]
-const TYPESCRIPT_TYPES: &str = r#"
-/** 95 % confidence interval: it contains the true value in 95 of 100 logs. */
-export type Interval = [number, number];
-
-/** Result of a calibration. */
-export interface Calibration extends CalibrationStats {
-  legs: CalibrationLegs;
-}
-"#;
-
 /// Keys of the systematic errors in JavaScript, each with its variants of [`SystematicError`].
 pub const SYSTEMATIC_ERROR_KEYS: [(&str, &[SystematicError]); 5] = [
     ("clockOffset", &[SystematicError::ClockOffset]),

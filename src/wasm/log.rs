@@ -9,31 +9,6 @@ use js_sys::{Float64Array, RangeError};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
 
-#[wasm_bindgen(typescript_custom_section)]
-const TYPESCRIPT_TYPES: &str = r#"
-/** Poses, in arrays of the same length: increasing times in s, x and y in m, headings in rad. */
-export interface LoggedPoses {
-  t: ArrayLike<number>;
-  x: ArrayLike<number>;
-  y: ArrayLike<number>;
-  theta: ArrayLike<number>;
-  /**
-   * Indices of poses before which the path is unknown, in addition to those after a pause: where rows are missing, or the
-   * path jumps.
-   */
-  breaks?: ArrayLike<number>;
-}
-
-/** Commands, each held until the next: increasing times in s, speeds in m/s, turn rates in rad/s. */
-export interface LoggedCommands {
-  t: ArrayLike<number>;
-  v: ArrayLike<number>;
-  omega: ArrayLike<number>;
-  /** Indices of commands before which the path is unknown, as for poses. */
-  breaks?: ArrayLike<number>;
-}
-"#;
-
 /// Maximum number of samples of a trajectory: a day at 100 Hz.
 const MAX_ROWS: usize = 10_000_000;
 

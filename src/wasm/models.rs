@@ -20,49 +20,6 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use wasm_bindgen::prelude::*;
 
-#[wasm_bindgen(typescript_custom_section)]
-const TYPESCRIPT_TYPES: &str = r#"
-/**
- * Three numbers: a twist, with the speeds along the body's x and y (m/s) and the turn rate (rad/s), or the exponential coordinates of a
- * motion, along (m), lateral (m) and heading (rad).
- */
-export type Twist = ArrayLike<number>;
-
-/** Options of a velocity model. */
-export interface VelocityModelOptions {
-  /** α₁…α₆, variance coefficients. */
-  alphas: ArrayLike<number>;
-  /** Default: "normal". */
-  noise?: 'normal' | 'triangular';
-}
-
-/** Options of an odometry model. */
-export interface OdometryModelOptions {
-  /** α₁…α₄, variance coefficients. */
-  alphas: ArrayLike<number>;
-  /** Default: "normal". */
-  noise?: 'normal' | 'triangular';
-  /**
-   * True if a drive in reverse gets noise for the rotations that the robot made, and not for two additional half turns;
-   * default false.
-   */
-  reverseAware?: boolean;
-}
-
-/** Options of `propagate`. */
-export interface Propagation {
-  /** Covariance of the start pose in exponential coordinates about its mean, three rows of three; default 0. */
-  sigma?: ArrayLike<ArrayLike<number>>;
-  command: Command;
-  /** α₁…α₆ of the velocity model. */
-  alphas: ArrayLike<number>;
-  /** Default: "chapter". */
-  compounding?: 'chapter' | 'first-order' | 'fourth-order';
-  /** Number of times the command is driven; default 1. */
-  steps?: number;
-}
-"#;
-
 js_structs! {
     /// Arc that leaves a start pose along its heading and reaches the position of another pose.
     pub struct InvertedArc as "ArcInversion" {

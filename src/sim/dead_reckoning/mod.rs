@@ -50,7 +50,6 @@ pub struct Stats {
     /// Number of robots driven.
     pub n: usize,
     /// Moments of ξ (m, m, rad) about the commanded pose, after the selected step.
-    #[cfg_attr(target_arch = "wasm32", tsify(type = "Moments"))]
     pub measured: ExponentialMoments,
     /// Predicted covariance after the selected step; null (None) if the recursion has none.
     #[cfg_attr(target_arch = "wasm32", tsify(type = "ByRecursion<number[][] | null>"))]

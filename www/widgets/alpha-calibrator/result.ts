@@ -3,10 +3,10 @@
 import { MINUS, NO_VALUE, formatFixed, formatPowerOfTen, formatInteger } from '../../ui/format.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { en, yamlWords } from './en.ts';
-import type { CalibrationCheck, CalibrationStats, Interval as CertainInterval } from '../../types.d.ts';
+import type { CalibrationCheck, CalibrationStats } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 
-type Interval = CertainInterval | null;
+type Interval = [number, number] | null;
 
 /** Fit of α's to a log, and the options of the fit. */
 export interface Result {

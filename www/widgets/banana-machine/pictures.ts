@@ -40,7 +40,7 @@ const PAINT_ORDER = ['additive', 'linearized', 'ellipse', 'exponential', 'comman
 const LEGEND_ORDER = ['ellipse', 'exponential', 'linearized', 'additive', 'command'] as const satisfies LineName[];
 
 /** Picture of the robots at a morph, from the floor (0) to exponential coordinates (1). */
-class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
+class MorphPicture extends Picture<Scene, 'plane' | 'twist'> {
   view: MorphView = new MorphView({ left: 46, right: 10 });
   /** Names of the outlines that the picture may draw. */
   outlineNames: readonly LineName[] = PAINT_ORDER;

@@ -38,11 +38,12 @@ pub fn check_input(input_bytes: &[u8]) {
     else {
         return;
     };
-    match calibrate(&[Drive { odometry: &odometry_trajectory, reference: &reference_trajectory }], &options) {
+    let drive = Drive { odometry: odometry_trajectory, reference: reference_trajectory };
+    match calibrate(std::slice::from_ref(&drive), &options) {
         Ok(calibration) => assert_calibration(&calibration, &options),
         Err(CalibrateError::TooFewLegs { legs: leg_count }) => assert!(leg_count < MIN_LEGS),
         Err(CalibrateError::NoCommonTime) => {
-            let [odometry_span, reference_span] = [&odometry_trajectory, &reference_trajectory].map(|trajectory| trajectory.span().expect("a row at least"));
+            let [odometry_span, reference_span] = [&drive.odometry, &drive.reference].map(|trajectory| trajectory.span().expect("a row at least"));
             assert!(odometry_span[1] < reference_span[0] || reference_span[1] < odometry_span[0], "{odometry_span:?} {reference_span:?}");
         }
     }

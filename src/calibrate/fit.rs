@@ -138,15 +138,16 @@ const INITIAL_REFERENCE_STD: f64 = 1e-2;
 
 /// Legs of all drives.
 pub(super) struct Log<'a> {
-    drives: &'a [Drive<'a>],
+    drives: &'a [Drive],
     /// Clock offset (s) of each drive, as found by the correlation of turn rates.
     offsets: Vec<f64>,
 }
 
 impl<'a> Log<'a> {
-    pub fn new(drives: &'a [Drive<'a>]) -> Result<Self, CalibrateError> {
-        let clock_offset_of =
-            |drive: &Drive| clock_offset(drive.odometry, drive.reference).ok_or(CalibrateError::NoCommonTime);
+    pub fn new(drives: &'a [Drive]) -> Result<Self, CalibrateError> {
+        let clock_offset_of = |drive: &Drive| {
+            clock_offset(&drive.odometry, &drive.reference).ok_or(CalibrateError::NoCommonTime)
+        };
         Ok(Self { drives, offsets: drives.iter().map(clock_offset_of).collect::<Result<_, _>>()? })
     }
 

@@ -154,7 +154,7 @@ struct LegEnd {
     reference: Option<SE2>,
 }
 
-impl Drive<'_> {
+impl Drive {
     /// Returns the end of a leg at the sample of the reference nearest to a reading of the odometry.
     ///
     /// The odometry is interpolated. An interpolated reference would lose noise of the wheels, and mix the noise of neighbouring legs.
@@ -200,7 +200,7 @@ impl Drive<'_> {
         legs: &mut Vec<Leg>,
         lost: &mut LostLegs,
     ) {
-        let Self { odometry, reference } = *self;
+        let Self { odometry, reference } = self;
         let mut leg_start: Option<LegEnd> = None;
         let mut follows_previous = false;
         for reading in odometry.samples() {
@@ -263,6 +263,7 @@ pub fn split_into_legs(
     clock_offset: f64,
 ) -> (Vec<Leg>, LostLegs) {
     let (mut legs, mut lost_legs) = (Vec::new(), LostLegs::default());
-    Drive { odometry, reference }.cut_into_legs(length, clock_offset, &mut legs, &mut lost_legs);
+    let drive = Drive { odometry: odometry.clone(), reference: reference.clone() };
+    drive.cut_into_legs(length, clock_offset, &mut legs, &mut lost_legs);
     (legs, lost_legs)
 }

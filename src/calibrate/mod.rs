@@ -34,12 +34,12 @@ use likelihood::{POSITION_VARIANCE, YAW_VARIANCE};
 use thiserror::Error;
 
 /// Odometry and reference of one drive.
-#[derive(Clone, Copy, Debug)]
-pub struct Drive<'a> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drive {
     /// Poses by the odometry, in its own frame.
-    pub odometry: &'a Trajectory,
+    pub odometry: Trajectory,
     /// Poses by the reference, in another frame and by another clock.
-    pub reference: &'a Trajectory,
+    pub reference: Trajectory,
 }
 
 /// Treatment of outliers: legs whose residuals the fit does not explain.
@@ -109,7 +109,7 @@ pub enum CalibrateError {
 ///     yaw_std: None,
 /// };
 /// // Ten samples are too short a log.
-/// let result = calibrate(&[Drive { odometry: &odometry, reference: &reference }], &options);
+/// let result = calibrate(&[Drive { odometry, reference }], &options);
 /// assert!(matches!(result, Err(CalibrateError::TooFewLegs { .. })));
 /// # Ok::<(), motion::calibrate::TrajectoryError>(())
 /// ```

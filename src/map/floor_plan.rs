@@ -7,6 +7,7 @@ use super::wall_tree::{Node, WallTree};
 use crate::geom::arc::{Arc, ArcPiece, DrivenArc, LocalArc, PreparedPose};
 use crate::geom::lanes::{LANE_COUNT, is_any_lane_set};
 use crate::geom::segment::Segment;
+use crate::number_text::number_text;
 use std::cell::OnceCell;
 use std::ops::RangeInclusive;
 use std::sync::OnceLock;
@@ -33,11 +34,15 @@ struct CollisionIndex {
 
 /// Reason why a floor plan is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[error("{}", self.message(|number| number.to_string()))]
 pub enum FloorPlanError {
     /// A bound is beyond ±10⁶ m, or a side shorter than a centimetre or longer than 100 km.
+    #[error(
+        "bounds is [{}]; allowed is min x, min y, max x, max y: numbers from -1000000 to 1000000, the sides from 0.01 to 100000",
+        join_numbers(.0)
+    )]
     BadBounds([f64; 4]),
     /// A wall has an end that is not finite or outside the bounds.
+    #[error("walls[{wall_index}] ends at [{}]; allowed is a point inside the bounds", join_numbers(.invalid_end))]
     BadWall {
         /// Index of the wall.
         wall_index: usize,
@@ -45,45 +50,25 @@ pub enum FloorPlanError {
         invalid_end: [f64; 2],
     },
     /// More than [`FloorPlan::MAX_WALLS`] walls.
+    #[error("walls has a length of {0} or more; allowed is at most {max}", max = FloorPlan::MAX_WALLS)]
     TooManyWalls(usize),
     /// The bounds of a grid are outside the range of a plan.
+    #[error(
+        "origin has the cells from [{}] to [{}]; allowed are coordinates from -1000000 to 1000000, and a grid with sides from 0.01 to 100000",
+        join_numbers(&.0[..2]),
+        join_numbers(&.0[2..])
+    )]
     BadGrid([f64; 4]),
     /// The outlines of the occupied cells of a grid have more than [`FloorPlan::MAX_WALLS`] sides.
+    #[error(
+        "image has blocked cells with {0} sides or more; allowed are at most {max}: remove specks or use larger cells",
+        max = FloorPlan::MAX_WALLS
+    )]
     TooManySides(usize),
 }
 
-impl FloorPlanError {
-    /// Returns the error message. `format_number` formats its numbers.
-    pub fn message(&self, format_number: impl Fn(f64) -> String) -> String {
-        let join_numbers =
-            |numbers: &[f64]| numbers.iter().map(|x| format_number(*x)).collect::<Vec<_>>().join(", ");
-        match self {
-            Self::BadBounds(bounds) => format!(
-                "bounds is [{}]; allowed is min x, min y, max x, max y: numbers from -1000000 to 1000000, the sides \
-                 from 0.01 to 100000",
-                join_numbers(bounds)
-            ),
-            Self::BadGrid(bounds) => format!(
-                "origin has the cells from [{}] to [{}]; allowed are coordinates from -1000000 to 1000000, and a grid with \
-                 sides from 0.01 to 100000",
-                join_numbers(&bounds[..2]),
-                join_numbers(&bounds[2..])
-            ),
-            Self::BadWall { wall_index, invalid_end } => {
-                format!(
-                    "walls[{wall_index}] ends at [{}]; allowed is a point inside the bounds",
-                    join_numbers(invalid_end)
-                )
-            }
-            Self::TooManyWalls(count) => {
-                format!("walls has a length of {count} or more; allowed is at most {}", FloorPlan::MAX_WALLS)
-            }
-            Self::TooManySides(count) => format!(
-                "image has blocked cells with {count} sides or more; allowed are at most {}: remove specks or use larger cells",
-                FloorPlan::MAX_WALLS
-            ),
-        }
-    }
+fn join_numbers(numbers: &[f64]) -> String {
+    numbers.iter().copied().map(number_text).collect::<Vec<_>>().join(", ")
 }
 
 /// Result of a collision test. The distance field alone decides most tests.

@@ -3,9 +3,9 @@
 use super::calibration::{SYSTEMATIC_ERROR_KEYS, calibration_to_js, legs_to_js};
 use super::fields::{FieldReader, read_boolean, read_value, type_error};
 use super::log::read_logs;
-use crate::calibrate::{Drive, ERROR_COUNT, LegLength, Model, Options, Outliers, calibrate};
+use crate::calibrate::{ERROR_COUNT, LegLength, Model, Options, Outliers, calibrate};
 use crate::models::OdometryRule;
-use crate::sim::alpha_calibrator::{Log, Model as ModelChoice};
+use crate::sim::alpha_calibrator::Model as ModelChoice;
 use js_sys::{RangeError, Reflect};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
@@ -34,9 +34,7 @@ pub fn js_calibrate(
         position_std: read_std("positionStd")?,
         yaw_std: read_std("yawStd")?,
     };
-    let logs = read_logs(&fields.value("odometry")?, &fields.value("reference")?)?;
-    let drives: Vec<Drive> =
-        logs.iter().map(|Log { odometry, reference }| Drive { odometry, reference }).collect();
+    let drives = read_logs(&fields.value("odometry")?, &fields.value("reference")?)?;
     let calibration = calibrate(&drives, &options).map_err(|error| RangeError::new(&error.to_string()))?;
     let calibration_object = calibration_to_js(&calibration);
     Reflect::set(&calibration_object, &"legs".into(), &legs_to_js(&calibration))?;

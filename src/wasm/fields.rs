@@ -1,15 +1,16 @@
 //! Readers of JavaScript values. Every error is a TypeError or RangeError that names the field, the value and the allowed values.
 
+use crate::number_text::number_text;
 use crate::sim::settings::{
     KeywordSetting, Setting, SettingRules, SettingValue, SettingsError, check_integer, check_real,
 };
-use js_sys::{Array, JSON, Number, RangeError, Reflect, TypeError};
+use js_sys::{Array, JSON, RangeError, Reflect, TypeError};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
 
 impl From<SettingsError> for JsValue {
     fn from(error: SettingsError) -> Self {
-        RangeError::new(&error.message(number_text)).into()
+        RangeError::new(&error.to_string()).into()
     }
 }
 
@@ -233,12 +234,6 @@ pub fn array_item(value: &JsValue, index: usize) -> Result<JsValue, JsValue> {
 
 pub fn type_error(field: &str, value: &JsValue, allowed: &str) -> JsValue {
     TypeError::new(&format!("{field} is {}; allowed is {allowed}", describe_value(value))).into()
-}
-
-/// Returns a number as JavaScript prints it.
-pub fn number_text(number: f64) -> String {
-    // Radix 10 never throws.
-    Number::from(number).to_string_with_radix(10).map_or_else(|_| String::new(), String::from)
 }
 
 /// Maximum number of quoted characters. It suffices to recognize a text, and is longer than any key or keyword.

@@ -1,9 +1,8 @@
 //! Reader of the logs that JavaScript passes: odometry and reference.
 
 use super::fields::{FieldReader, array_item, array_length, read_integer, read_number};
-use crate::calibrate::{Trajectory, TrajectoryError};
+use crate::calibrate::{Drive, Trajectory, TrajectoryError};
 use crate::geom::se2::SE2;
-use crate::sim::alpha_calibrator::Log;
 use crate::sim::settings::check_real;
 use js_sys::{Float64Array, RangeError};
 use std::ops::RangeInclusive;
@@ -19,7 +18,7 @@ const TIME_RANGE: RangeInclusive<f64> = -1e12..=1e12;
 const COORDINATE_RANGE: RangeInclusive<f64> = -1e9..=1e9;
 
 /// Reads odometry and reference of one drive, or arrays with the logs of several drives.
-pub fn read_logs(odometry: &JsValue, reference: &JsValue) -> Result<Vec<Log>, JsValue> {
+pub fn read_logs(odometry: &JsValue, reference: &JsValue) -> Result<Vec<Drive>, JsValue> {
     let odometry = read_drives("odometry", odometry, read_odometry)?;
     let reference = read_drives("reference", reference, read_poses)?;
     if odometry.len() != reference.len() {
@@ -29,7 +28,11 @@ pub fn read_logs(odometry: &JsValue, reference: &JsValue) -> Result<Vec<Log>, Js
         );
         return Err(RangeError::new(&message).into());
     }
-    Ok(odometry.into_iter().zip(reference).map(|(odometry, reference)| Log { odometry, reference }).collect())
+    Ok(odometry
+        .into_iter()
+        .zip(reference)
+        .map(|(odometry, reference)| Drive { odometry, reference })
+        .collect())
 }
 
 fn read_drives(

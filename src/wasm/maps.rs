@@ -1,8 +1,8 @@
 //! Readers of floor plans and occupancy grids from JavaScript.
 
 use super::fields::{
-    FieldReader, array_item, array_length, check_range, number_text, read_array, read_array_in_range,
-    read_integer, type_error,
+    FieldReader, array_item, array_length, check_range, read_array, read_array_in_range, read_integer,
+    type_error,
 };
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
@@ -10,6 +10,7 @@ use crate::map::{
     FloorPlan, FloorPlanError, Image, MAX_BYTES, MAX_PIXELS, MapMode, OccupancyGrid, PixelClassifier,
     RESOLUTION_RANGE, read_grid,
 };
+use crate::number_text::number_text;
 use crate::sim::settings::{HasKeywords, QUANTITY_RANGE};
 use js_sys::{Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
@@ -21,7 +22,7 @@ impl HasKeywords for MapMode {
 
 impl From<FloorPlanError> for JsValue {
     fn from(error: FloorPlanError) -> Self {
-        RangeError::new(&error.message(number_text)).into()
+        RangeError::new(&error.to_string()).into()
     }
 }
 

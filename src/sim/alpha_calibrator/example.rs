@@ -4,8 +4,7 @@
 //! odometry differ by noise with the variances of Table 5.6. The reference has a lever arm, a mount yaw, a clock offset, and jumps. The
 //! wheels deviate from their nominal size.
 
-use super::Log;
-use crate::calibrate::Trajectory;
+use crate::calibrate::{Drive, Trajectory};
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::models::{OdomDelta, OdometryRule};
 use crate::noise::{NoiseKind, Variance};
@@ -96,7 +95,7 @@ struct CurrentLeg {
 }
 
 /// Simulates the odometry and the reference of a log, with random numbers from a seed.
-pub fn simulate_log(seed: u64) -> Log {
+pub fn simulate_log(seed: u64) -> Drive {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let [x, y] = target_position(0.0);
     let start_pose = SE2::new(x, y, 1.6);
@@ -147,7 +146,7 @@ pub fn simulate_log(seed: u64) -> Log {
         let Ok(trajectory) = Trajectory::new(timed_poses) else { unreachable!() };
         trajectory
     };
-    Log {
+    Drive {
         odometry: create_trajectory(odometry_poses),
         reference: create_trajectory(simulate_reference(&true_poses, &mut rng)),
     }

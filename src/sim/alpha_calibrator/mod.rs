@@ -7,7 +7,7 @@ pub use settings::*;
 
 use super::cloud::draws::Draws;
 use super::settings::{HasKeywords, SettingRules, SettingsError};
-use crate::calibrate::{self, Calibration, Drive, Leg, Trajectory, calibrate};
+use crate::calibrate::{self, Calibration, Drive, Leg, calibrate};
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
 use crate::js::js_structs;
@@ -20,15 +20,6 @@ const OUTCOME_COUNT: usize = 400;
 
 /// Number of chords of the outline of a leg's cloud.
 const OUTLINE_SEGMENTS: usize = 64;
-
-/// Odometry and reference of one drive.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Log {
-    /// Poses measured by odometry.
-    pub odometry: Trajectory,
-    /// Poses measured by the reference.
-    pub reference: Trajectory,
-}
 
 js_structs! {
     /// True values of the simulated log.
@@ -77,7 +68,7 @@ enum LogSource {
     /// Simulated with the seed of the settings.
     Simulated,
     /// Loaded logs of the user, one for each drive.
-    Loaded(Vec<Log>),
+    Loaded(Vec<Drive>),
     /// Unknown log: the fit comes from another simulation.
     Restored,
 }
@@ -144,9 +135,9 @@ impl AlphaCalibrator {
         Ok(())
     }
 
-    /// Replaces the log by `logs`, one for each drive.
-    pub fn set_log(&mut self, logs: Vec<Log>) {
-        self.log_source = LogSource::Loaded(logs);
+    /// Replaces the log by the logs of `drives`.
+    pub fn set_log(&mut self, drives: Vec<Drive>) {
+        self.log_source = LogSource::Loaded(drives);
         self.invalidate_fit();
     }
 
@@ -167,14 +158,12 @@ impl AlphaCalibrator {
         self.fit.calibration.get_or_init(|| {
             let Settings { seed, .. } = self.fit.settings;
             let options = self.fit.settings.options();
-            let logs = match &self.log_source {
+            let drives = match &self.log_source {
                 LogSource::Simulated => &[example::simulate_log(seed)],
-                LogSource::Loaded(logs) => &logs[..],
+                LogSource::Loaded(drives) => &drives[..],
                 LogSource::Restored => &[],
             };
-            let drives: Vec<Drive> =
-                logs.iter().map(|Log { odometry, reference }| Drive { odometry, reference }).collect();
-            calibrate(&drives, &options).unwrap_or_else(|_| Calibration::empty(options.model))
+            calibrate(drives, &options).unwrap_or_else(|_| Calibration::empty(options.model))
         })
     }
 

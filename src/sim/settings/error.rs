@@ -1,11 +1,12 @@
 //! Error for a setting that is not allowed, and checks of numbers.
 
+use crate::number_text::number_text;
 use std::ops::RangeInclusive;
 use thiserror::Error;
 
 /// Error for a setting whose value is not allowed. The message has the field, the value and the allowed values.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("{}", self.message(|number| number.to_string()))]
+#[error("{}", self.message())]
 pub struct SettingsError {
     /// Name of the setting.
     pub key: String,
@@ -39,22 +40,20 @@ impl SettingsError {
         Self { key: "samples".to_owned(), value: samples as f64, allowed: AllowedValues::FitsInMemory }
     }
 
-    /// Returns the message. `format_number` formats its numbers. In WebAssembly JavaScript formats numbers, because Rust's code for
-    /// printing floats would take an eighth of the module.
-    pub fn message(&self, format_number: impl Fn(f64) -> String) -> String {
+    fn message(&self) -> String {
         let allowed_text = match &self.allowed {
             AllowedValues::Keyword { given, allowed } => {
                 return format!("{} is {given}; allowed is {allowed}", self.key);
             }
             AllowedValues::Real(range) => {
-                format!("a number from {} to {}", format_number(*range.start()), format_number(*range.end()))
+                format!("a number from {} to {}", number_text(*range.start()), number_text(*range.end()))
             }
             AllowedValues::Integer(range) => {
                 format!("a whole number from {} to {}", range.start(), range.end())
             }
             AllowedValues::FitsInMemory => "a number for which there is memory".to_owned(),
         };
-        format!("{} is {}; allowed is {allowed_text}", self.key, format_number(self.value))
+        format!("{} is {}; allowed is {allowed_text}", self.key, number_text(self.value))
     }
 }
 

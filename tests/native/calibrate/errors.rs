@@ -86,7 +86,7 @@ fn clocks_are_aligned_by_the_turns_of_a_broken_reference() {
 #[test]
 fn trajectories_without_a_common_time_are_refused() {
     let calibrate_logs = |odometry: &Trajectory, reference: &Trajectory| {
-        calibrate(&[Drive { odometry, reference }], &options_of(NAV2))
+        calibrate(&[Drive { odometry: odometry.clone(), reference: reference.clone() }], &options_of(NAV2))
             .map(|calibration| calibration.systematic)
     };
     let delay_trajectory = |trajectory: &Trajectory, time_shift: f64| {
@@ -118,8 +118,7 @@ fn trajectories_without_a_common_time_are_refused() {
 fn too_few_legs_are_refused() {
     let simulation = Simulation::of(Model::Velocity, 7, 1);
     let [odometry, reference] = simulation.log();
-    let calibration_result =
-        calibrate(&[Drive { odometry: &odometry, reference: &reference }], &simulation.calibration_options());
+    let calibration_result = calibrate(&[Drive { odometry, reference }], &simulation.calibration_options());
     assert!(matches!(calibration_result, Err(CalibrateError::TooFewLegs { legs: 6 | 7 })));
 }
 
@@ -251,13 +250,12 @@ fn four_drives_are_as_informative_as_one_of_the_same_length() {
         let true_errors = Systematic { clock_offset, ..Systematic::NONE };
         Simulation { seed, ..simulation_with_errors(NAV2, leg_count, true_errors) }
     };
-    let drive_logs: Vec<[Trajectory; 2]> = [0.0, 0.4, -3.0, 900.0]
+    let drives: Vec<Drive> = [0.0, 0.4, -3.0, 900.0]
         .into_iter()
         .zip(20..)
         .map(|(clock_offset, seed)| new_simulation_with_offset(clock_offset, 300, seed).log())
+        .map(|[odometry, reference]| Drive { odometry, reference })
         .collect();
-    let drives: Vec<Drive> =
-        drive_logs.iter().map(|[odometry, reference]| Drive { odometry, reference }).collect();
     let fit_of_four_drives = calibrate(&drives, &options_of(NAV2)).expect("legs enough");
     let fit_of_one_drive = calibrate_simulation(&new_simulation_with_offset(0.0, 1200, 20));
     assert!(fit_of_four_drives.legs.len() > 1190, "{}", fit_of_four_drives.legs.len());

@@ -2,9 +2,9 @@
 
 use super::simulated::{MODELS, Simulation, Violation};
 use super::{NAV2, calibrate_log, calibrate_simulation, options_of};
-use motion::calibrate::{Calibration, Leg, LegLength, Options, Outliers, Systematic, SystematicError};
+use motion::calibrate::{Calibration, Drive, Leg, LegLength, Options, Outliers, Systematic, SystematicError};
 use motion::geom::se2::{SE2, wrap_angle};
-use motion::sim::alpha_calibrator::{Log, example::simulate_log};
+use motion::sim::alpha_calibrator::example::simulate_log;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
 
@@ -304,7 +304,7 @@ fn the_noise_of_the_reference_maximizes_the_likelihood() {
 /// likelihood.
 #[test]
 fn the_search_finds_the_larger_of_two_maxima() {
-    let Log { odometry, reference } = simulate_log(3);
+    let Drive { odometry, reference } = simulate_log(3);
     let log_likelihood_with = |position_std| {
         let options = Options { outliers: Outliers::Keep, position_std, ..options_of(MODELS[0]) };
         calibrate_log(&[odometry.clone(), reference.clone()], &options).log_likelihood

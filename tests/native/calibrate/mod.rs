@@ -23,7 +23,8 @@ fn calibrate_simulation(simulation: &Simulation) -> Calibration {
     calibrate_log(&simulation.log(), &simulation.calibration_options())
 }
 
-fn calibrate_log([odometry, reference]: &[Trajectory; 2], options: &Options) -> Calibration {
+fn calibrate_log(log: &[Trajectory; 2], options: &Options) -> Calibration {
+    let [odometry, reference] = log.clone();
     calibrate(&[Drive { odometry, reference }], options).expect("enough legs")
 }
 

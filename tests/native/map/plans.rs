@@ -52,6 +52,12 @@ fn draw_walls(wall_count: usize, max_extent: f64, bounds: [f64; 4], rng: &mut im
 }
 
 #[test]
+fn messages_print_large_and_small_numbers_with_an_exponent() {
+    let plan_error = FloorPlan::new(Vec::new(), [-2.5e300, 0.0, 1e-9, 1e6]).expect_err("too far");
+    assert!(plan_error.to_string().starts_with("bounds is [-2.5e300, 0, 1e-9, 1000000];"), "{plan_error}");
+}
+
+#[test]
 fn plans_with_too_many_walls_are_refused() {
     let repeated_wall = new_wall(1.0, 1.0, 9.0, 1.0);
     let floor_plan_error =

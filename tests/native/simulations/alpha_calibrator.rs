@@ -2,10 +2,10 @@
 //! are compared with an independent computation.
 
 use crate::common::seeded_rng;
-use motion::calibrate::{Calibration, Leg, SystematicError, Trajectory, Verdict};
+use motion::calibrate::{Calibration, Drive, Leg, SystematicError, Trajectory, Verdict};
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
-use motion::sim::alpha_calibrator::{AlphaCalibrator, Log, Model, Regressor, Settings};
+use motion::sim::alpha_calibrator::{AlphaCalibrator, Model, Regressor, Settings};
 use motion::{NoiseKind, OdomDelta, Variance};
 use nalgebra::Vector3;
 
@@ -186,7 +186,7 @@ fn turns_that_the_robot_did_not_make_are_in_no_panel() {
     });
     let reference = Trajectory::new(reference_samples.collect::<Vec<_>>()).expect("times rise");
     let odometry = Trajectory::new(odometry_samples).expect("times rise");
-    simulation.set_log(vec![Log { odometry, reference }]);
+    simulation.set_log(vec![Drive { odometry, reference }]);
     let rot1_readings =
         simulation.calibration().observations.iter().map(|observation| observation.reading[0]);
     assert!(rot1_readings.filter(|rot1| rot1.abs() > 3.0).count() > 50);
@@ -310,7 +310,7 @@ fn a_log_without_legs_gives_an_empty_calibration() {
     let mut simulation = new_simulation(Settings::default());
     let standing_trajectory =
         |count: usize| Trajectory::new((0..count).map(|i| (i as f64, SE2::identity()))).expect("times rise");
-    simulation.set_log(vec![Log { odometry: standing_trajectory(10), reference: standing_trajectory(10) }]);
+    simulation.set_log(vec![Drive { odometry: standing_trajectory(10), reference: standing_trajectory(10) }]);
     assert!(simulation.truth().is_none());
     let Calibration { alphas, legs, diagnostics, recommended: recommendation, .. } = simulation.calibration();
     assert!(legs.is_empty() && alphas.iter().all(Option::is_none) && recommendation.is_none());

@@ -204,7 +204,7 @@ impl FailureCause {
                 "No error of the odometry is visible: the reference is a copy of it, computed from it, or too noisy. The α's mean nothing. Use a precise and independent measurement, such as motion capture or SLAM."
             }
             Self::Mirrored => {
-                "The reference turns left where the odometry turns right: one of the two has Z down or a mirrored axis. The α's mean nothing. Negate y and the heading of that one."
+                "The reference turns left where the odometry turns right: one of the two has Z down or a mirrored axis. The α's mean nothing. Negate y and the heading of either: the logs cannot show which one is wrong, and the α's are the same."
             }
             Self::WithoutReference => {
                 "Many legs were lost. The α's describe the remaining legs. Most lack the reference: record it for the whole drive."

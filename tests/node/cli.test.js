@@ -111,35 +111,34 @@ test('one recording can contain both logs, with topics and frames that are guess
   for (const [args, expectedError] of /** @type {const} */ ([
     [
       await writeRecordingArgs('unclear.mcap', '/odom', '/other', '/third'),
-      'unclear.mcap: it is not clear what the reference is: /odom (Odometry), /other (PoseStamped), /third (PoseStamped). Choose with --reference-topic, as in --reference-topic /other.\n',
+      'unclear.mcap: it is not clear what the reference is: /odom (Odometry), /other (PoseStamped), /third (PoseStamped). For example:\n  npx motion-widgets calibrate --recording DIR/unclear.mcap --reference-topic /other\n',
     ],
-    [await writeRecordingArgs('alone.mcap', '/odom'), 'alone.mcap: it has one log only, /odom (Odometry), by name or type the odometry; give the reference too. Name both, with --odometry FILE and --reference FILE.\n'],
-  ])) assert.equal((await runCalibrate(args)).stderr, expectedError);
+    [await writeRecordingArgs('alone.mcap', '/odom'), 'alone.mcap: it has one log only, /odom (Odometry), by name or type the odometry; give the reference too. For example:\n  npx motion-widgets calibrate --recording DIR/alone.mcap --reference FILE\n'],
+  ])) assert.equal((await runCalibrate(args)).stderr.replace(temporaryFolder, 'DIR'), expectedError);
 });
 
 test('invalid input gives exit code 2 and an error message', async () => {
   const straightLogPath = writeInFolder('straight.csv', ['t,x,y,yaw', ...Array.from({ length: 2000 }, (_, i) => `${1_600_000_000 + i / 20},${i / 40},0,0`)].join('\n'));
   for (const [args, expectedErrorStart] of /** @type {[string[], string][]} */ ([
-    [[examplePathOf('odometry')], 'odometry.csv: it has one log only, t, x, y, yaw, by name or type the odometry; give the reference too. Name both, '],
-    [['a.csv', 'b.csv', '--time-unit', 'ms,s'], '--time-unit ms,s has two units; give the files with --odometry and --reference.'],
-    [['a.csv', 'b.csv', '--reference-columns', 't,x,y,yaw'], '--reference-columns needs --reference FILE.'],
+    [[examplePathOf('odometry')], 'odometry.csv: it has one log only, t, x, y, yaw, by name or type the odometry; give the reference too. For example:\n'],
+    [[...LOG_ARGS, '--columns', 'other.csv=t,x,y,yaw'], 'an option names the file other.csv; the files are odometry.csv, reference.csv.\n'],
     [['--odometri', 'a'], "Unknown option '--odometri'. --help lists all options.\n"],
     [['--update-min-d', '--json'], "Option '--update-min-d' argument is ambiguous. "],
     [['--columns', '-,t,x,y,yaw'], "Option '--columns' argument is ambiguous. Did you forget to specify the option argument for '--columns'? To specify an option argument starting with a dash use '--columns=-XYZ'. --help "],
     [['a.bag', '--help=3'], "Option '-h, --help' does not take an argument. --help lists all options.\n"],
-    [[writeInFolder('twice.csv', 't,t,x,y,yaw\n0,0,0,0,0\n1,1,0,0,0\n'), LOG_ARGS[3]], 'twice.csv, line 1: both “t” and “t” may be the column of time; expected is one of them. Choose with --columns, as in --columns t,x,y,yaw,-; if only one file has these columns, with --odometry FILE --reference FILE --reference-columns t,x,y,yaw,- '],
+    [[writeInFolder('twice.csv', 't,t,x,y,yaw\n0,0,0,0,0\n1,1,0,0,0\n'), LOG_ARGS[3]], 'twice.csv, line 1: both “t” and “t” may be the column of time; expected is one of them. For example:\n'],
     [[writeInFolder('days.csv', ['t,x,y,yaw', ...Array.from({ length: 40 }, (_, i) => `${45_244 + i / 1_728_000},${i / 40},0,0`)].join('\n')), LOG_ARGS[3]], 'days.csv: in s, the times would mean 1.73e+6 rows a second; write them in s, or as dates such as 2024-01-31 12:00:00.5 (a spreadsheet counts days).\n'],
     [['no/metadata.yaml', 'no/run.mcap'], 'no: there is no such file or folder.\n'],
     [['no.bag', '--rule', 'Nav2'], '--rule is "Nav2"; allowed is '],
     [
       [writeInFolder('two.csv', ['t,x,y,yaw,b_x,b_y,b_yaw', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 39},0,0`)].join('\n'))],
-      "two.csv: it is not clear what the odometry is: t, x, y, yaw (t, x, y, yaw), b (b_x, b_y, b_yaw). Choose with --odometry-topic, as in --odometry-topic 't, x, y, yaw'.\n",
+      "two.csv: it is not clear what the odometry is: t, x, y, yaw (t, x, y, yaw), b (b_x, b_y, b_yaw). For example:\n",
     ],
     [['--json'], 'no logs are given; give a recording, as in calibrate run.bag, or two files, odometry and reference.'],
     [['--odometry', examplePathOf('odometry')], '--reference is missing; give a file or folder, or a recording with both.'],
     [
       [examplePathOf('odometry'), writeInFolder('lidar_odom.csv', readFileSync(examplePathOf('reference')))],
-      'odometry.csv: the odometry is in odometry.csv, lidar_odom.csv, and the reference in no file; give one of each for a drive. Name both, with --odometry FILE and --reference FILE.\n',
+      'odometry.csv: the odometry is in odometry.csv, lidar_odom.csv, and the reference in no file; give one of each for a drive. For example:\n',
     ],
     [[...LOG_ARGS, '--plot', 'x.png'], '--plot writes SVG; the name must end in .svg (got “x.png”).'],
     [[...LOG_ARGS, '--json', '--yaml'], '--json excludes --yaml: give one or the other.'],
@@ -148,10 +147,9 @@ test('invalid input gives exit code 2 and an error message', async () => {
     [[...LOG_ARGS, '--duration', '1', '--update-min-a', '1'], '--duration excludes --update-min-d and --update-min-a: give one or the other.'],
     [[...LOG_ARGS, '--no-correct', 'yaw'], '--no-correct must be all, or names of clockOffset, mountYaw, leverArm, distanceScale, turnScale (got “yaw”).'],
     [[...LOG_ARGS, '--reference-frames', 'map'], '--reference-frames must be a parent and a child frame, as in map,base_link (got “map”).'],
-    [[...LOG_ARGS, '--time-unit', 'min'], '--time-unit must be s, ms, us, or ns, or two of these for odometry and reference (got “min”).'],
+    [[...LOG_ARGS, '--time-unit', 'min'], '--time-unit must be s, ms, us, or ns, or FILE=s for one file (got “min”).'],
     [[...LOG_ARGS, '--reference-frames', 'map,base_link'], 'reference.csv: it has no such topic, group of columns or transforms; expected is one of t, x, y, yaw.'],
     [[...LOG_ARGS, '--odometry-topic', '/odom'], 'odometry.csv, topic /odom: it has no such topic, group of columns or transforms; expected is one of t, x, y, yaw.'],
-    [[LOG_ARGS[1], LOG_ARGS[1]], 'odometry.csv: it is given twice; give two independent measurements of one drive, odometry and reference.'],
     [[...LOG_ARGS.slice(0, 2), '--reference', join(temporaryFolder, 'no.csv')], `${join(temporaryFolder, 'no.csv')}: there is no such file or folder.`],
     [[...LOG_ARGS, '--plot', join(temporaryFolder, 'no', 'plot.svg')], '--plot '],
     // Error messages of the core name options and files of the command line.
@@ -211,16 +209,24 @@ test('doc/calibration.md shows the report of the example log', async () => {
   assert.equal(documentedReport.replace(/\d{4}-\d\d-\d\d$/m, '2026-01-02'), stdout.trimEnd());
 });
 
-test('units can be stated for both logs together or for each log', async () => {
-  const [header, ...csvRows] = readFileSync(examplePathOf('odometry'), 'utf8').trim().split('\n');
-  const scaledPath = writeInFolder('scaled.csv', [header, ...csvRows.map((csvRow) => csvRow.split(',').map((cell, i) => Number(cell) * [1000, 1000, 1000, 180 / Math.PI][i]).join(','))].join('\n'));
-  const unitArgs = ['--time-unit', 'ms,s', '--length-unit', 'mm,m', '--angle-unit', 'deg,rad'];
-  const [siOptions, statedUnitOptions] = [await readCoreOptions(LOG_ARGS), await readCoreOptions(['--odometry', scaledPath, ...LOG_ARGS.slice(2), ...unitArgs])];
-  assert.deepEqual(statedUnitOptions.reference, siOptions.reference);
-  for (const name of ['t', 'x', 'theta']) assert.ok(Math.abs(statedUnitOptions.odometry[0][name][999] - siOptions.odometry[0][name][999]) < 1e-9, name);
-  const degreesPath = writeInFolder('degrees.csv', [header, ...csvRows.map((row) => row.split(',').map((cell, i) => Number(cell) * [1, 1, 1, 180 / Math.PI][i]).join(','))].join('\n'));
-  const refusalOutput = await runCalibrate(['--odometry', degreesPath, ...LOG_ARGS.slice(2), '--angle-unit', 'rad']);
-  assert.match(refusalOutput.stderr, /^degrees\.csv: headings in rad would turn at .*; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit rad,deg\.$/m);
+test('the command below an error or a verdict answers the question about a file', async () => {
+  const { alphas } = JSON.parse((await runCalibrate([...LOG_ARGS, '--json'])).stdout);
+  for (const [role, header, changeRow, ...answer] of /** @type {[string, string, (row: number[]) => number[], ...string[]][]} */ ([
+    ['odometry', 't,x,y,yaw', ([t, x, y, yaw]) => [t, x / 0.3048, y / 0.3048, yaw], '--length-unit', 'odometry.csv=ft'],
+    ['reference', 't,x,y,yaw', ([t, x, y, yaw]) => [t, x, y, (180 / Math.PI) * yaw], '--angle-unit', 'reference.csv=rad', '--angle-unit', 'reference.csv=deg'],
+    ['reference', 'zeit,ost,nord,richtung', (row) => row, '--columns', 'reference.csv=t,x,y,yaw'],
+    ['odometry', 't,x,y,yaw', ([t, x, y, yaw]) => [t, x, -y, yaw], '--columns', 'odometry.csv=t,x,-y,yaw'],
+    ['reference', 't,x [m],y [m],yaw', ([t, x, y, yaw]) => [t, x, -y, -yaw], '--columns', 'reference.csv=t,x [m],-y [m],-yaw'],
+  ])) {
+    const changedRows = readFileSync(examplePathOf(role), 'utf8').trim().split('\n').slice(1).map((csvRow) => changeRow(csvRow.split(',').map(Number)).join(','));
+    const logPaths = [writeInFolder(`${role}.csv`, [header, ...changedRows].join('\n')), examplePathOf(role === 'odometry' ? 'reference' : 'odometry')];
+    const { stdout, stderr } = await runCalibrate([...logPaths, ...answer.slice(0, -2)]);
+    const [, command = ''] = /^ {2}npx motion-widgets calibrate (.*)$/m.exec(stdout + stderr) ?? [];
+    const commandArgs = [...command.matchAll(/'([^']*)'|\S+/g)].map(([argument, quotedText]) => quotedText ?? argument);
+    assert.deepEqual(commandArgs, [...logPaths, ...answer], stderr);
+    const answeredResult = JSON.parse((await runCalibrate([...commandArgs, '--json'])).stdout);
+    for (const [i, alpha] of alphas.entries()) assert.ok(Math.abs(answeredResult.alphas[i] / alpha - 1) < 1e-6, `${role} ${header} ${answeredResult.alphas}`);
+  }
 });
 
 test('logs in a folder are read, and its other files are skipped', async () => {
@@ -341,17 +347,17 @@ test('inspect lists the contents of a file, and suggests the next command', asyn
     /^ {2}npx motion-widgets calibrate DIR\/run\.mcap --odometry-topic \/odom --reference-topic '\/vicon\/robot 1' --rule nav2$/m,
   ]) assert.match(recordingInspection, linePattern);
   for (const [givenRole, missingRole] of [['odometry', 'reference'], ['reference', 'odometry']]) {
-    assert.match(await inspectionOf([examplePathOf(givenRole)]), new RegExp(`; give the ${missingRole} too\\. Name both, with --odometry FILE and --reference FILE\\.$`, 'm'));
+    assert.match(await inspectionOf([examplePathOf(givenRole)]), new RegExp(`^ {2}npx motion-widgets inspect \\S+ --${missingRole} FILE$`, 'm'));
   }
   const [referenceCopy, odometryCopy] = [['b', 'reference'], ['a', 'odometry']].map(([copyName, logRole]) => writeInFolder(`${copyName}.csv`, readFileSync(examplePathOf(logRole))));
-  assert.match(await inspectionOf([referenceCopy, odometryCopy]), /^b\.csv: its name does not say whether it is odometry or reference; .* Name both, with --odometry FILE and --reference FILE\.$/m);
+  assert.match(await inspectionOf([referenceCopy, odometryCopy]), /^b\.csv: its name does not say whether it is odometry or reference; .* For example:\n {2}npx motion-widgets inspect --odometry DIR\/b\.csv --reference DIR\/a\.csv$/m);
   const millimetrePath = writeInFolder('mm.csv', readFileSync(examplePathOf('reference'), 'utf8').replaceAll(/^([\d.]+),([\d.e-]+),([\d.e-]+)/gm, (_, t, x, y) => [t, 1000 * x, 1000 * y].join(',')));
-  assert.match(await inspectionOf([millimetrePath], 2), /^mm\.csv: in m, the robot would drive at .* Choose with --length-unit, as in --length-unit /m);
+  assert.match(await inspectionOf([millimetrePath], 2), /^mm\.csv: in m, the robot would drive at .* For example:\n.* --length-unit mm\.csv=mm$/m);
   assert.match(await inspectionOf([referenceCopy, odometryCopy, writeInFolder('empty_table.csv', 't,x,y,yaw\n')], 2), /^b\.csv: its name does not say whether it is odometry or reference;/m);
   const alternatingPath = writeInFolder('alternating.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw', ...Array.from({ length: 40 }, (_, i) => `${i >> 1},${i % 2},0,0,${i % 2},1,0`)].join('\n'));
   assert.equal((await inspectionOf([alternatingPath], 2)).match(/give the log of one robot/g)?.length, 1);
   assert.doesNotMatch(await inspectionOf([examplePathOf('odometry'), millimetrePath], 2), /give the reference too/);
-  assert.match(await inspectionOf(['--odometry', examplePathOf('odometry'), '--reference', millimetrePath, '--length-unit', 'm,mm']), /^ {2}npx motion-widgets calibrate --odometry \S+odometry\.csv --reference DIR\/mm\.csv --length-unit m,mm --rule nav2$/m);
+  assert.match(await inspectionOf(['--odometry', examplePathOf('odometry'), '--reference', millimetrePath, '--length-unit', 'mm.csv=mm']), /^ {2}npx motion-widgets calibrate --odometry \S+odometry\.csv --reference DIR\/mm\.csv --length-unit mm\.csv=mm --rule nav2$/m);
   const pathWithoutHeadings = writeInFolder('headless.csv', ['t,x,y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},1`)].join('\n'));
   assert.match(await inspectionOf([pathWithoutHeadings], 2), /^headless\.csv: t, x, y are positions without a heading; give a reference that measures the heading/m);
   const positionsPath = writeInFolder('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
@@ -394,7 +400,7 @@ test('the report names failed checks, lost legs and unidentified α’s, and rec
   const { odometry: odometryLogs, reference, ...options } = await readCoreOptions(LOG_ARGS);
   const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: odometryLogs, reference });
   const { diagnostics, lost, persistence, systematicErrors } = calibration;
-  const formatChangedReport = (/** @type {any} */ calibrationChange, optionsChange = {}) => formatReport({ calibration: { ...calibration, ...calibrationChange }, options: { ...options, ...optionsChange }, logs: [], start: 0, driveStarts: [10, 1000], date: '' });
+  const formatChangedReport = (/** @type {any} */ calibrationChange, optionsChange = {}) => formatReport({ calibration: { ...calibration, ...calibrationChange }, options: { ...options, ...optionsChange }, logs: [], command: '', start: 0, driveStarts: [10, 1000], date: '' });
   const failedChecks = [{ name: 'enough-legs', value: 20, expected: [100, Infinity], passed: false, message: 'Drive on.' }];
   const reportOfFailure = formatChangedReport({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: failedChecks } });
   assert.match(reportOfFailure, /^\nCaution\. Failed: number of legs \(1 of 1 checks\)\.\nDrive on\.\nIf the log .*\n[^]*^enough-legs +20 +≥ 100 +✕ failed +number of legs\nenough-legs: Drive on\.$/m);

@@ -214,10 +214,10 @@ test('logs with mirrored axes, or with different units of length, are refused', 
   }
   // If the log of a slow robot is read alone, no question about its unit is asked.
   const createSlowTable = (/** @type {number} */ factor) => createChangedTable(([t, x, y, yaw]) => [20 * t, factor * x, factor * y, yaw]);
-  for (const [odometry, reference, file, pair] of /** @type {const} */ ([[1, 100, 'truth', 'm,cm'], [100, 1, 'odom', 'cm,m']])) {
+  for (const [odometry, reference, file, unit] of /** @type {const} */ ([[1, 100, 'truth', 'cm'], [100, 1, 'odom', 'cm'], [3.281, 1, 'odom', 'ft']])) {
     const { message, question } = await catchRefusalError(readDrivesOf({ 'odom.csv': createSlowTable(odometry), 'truth.csv': createSlowTable(reference) }));
-    assert.match(message, RegExp(`^${file}\\.csv: the robot would drive \\d+ times as fast as in \\w+\\.csv: its lengths seem to be in cm; state their unit\\.`));
-    assert.deepEqual([question?.option, question?.unitPair], ['lengthUnit', pair]);
+    assert.match(message, RegExp(`^${file}\\.csv: the robot would drive \\d+ times as fast as in \\w+\\.csv: its lengths seem to be in ${unit}; state their unit\\.`));
+    assert.deepEqual([question?.option, question?.choices], ['lengthUnit', [unit, 'm']]);
   }
 });
 

@@ -9,7 +9,7 @@ import { catchRefusalError, catchRefusalSentence } from './log-support.js';
 
 /** Reads one log of a table. @param {string | Uint8Array<ArrayBuffer>} tableText @param {import('../../www/logs/log.ts').OpenOptions} [openOptions] @param {string} [seriesName] */
 async function readTable(tableText, openOptions, seriesName = '') {
-  const [recording] = await openRecordings([new File([tableText], 'run.csv')], openOptions);
+  const [recording] = await openRecordings([new File([tableText], 'run.csv')], () => openOptions);
   const [log] = await recording.read([{ series: seriesName }]);
   return { ...log, data: /** @type {any} */ (log.data) };
 }

@@ -149,7 +149,7 @@ const READABLE_TABLES = [
 
 for (const { name, tableText, kind = 'poses', start = 0, series = [''], choice, options, summaryPattern } of READABLE_TABLES) {
   test(`the reader reads ${name}`, async () => {
-    const [recording] = await openRecordings([new File([tableText], 'run.csv')], options);
+    const [recording] = await openRecordings([new File([tableText], 'run.csv')], () => options);
     assert.deepEqual(recording.series.map((foundSeries) => foundSeries.name), series);
     const [log] = await recording.read([{ series: '', ...choice }]);
     const { t, ...columns } = /** @type {any} */ (log.data);

@@ -2,23 +2,22 @@
 
 import { openAsBlob } from 'node:fs';
 import { readFile, readdir, stat } from 'node:fs/promises';
-import { basename, join, relative, resolve } from 'node:path';
-import { LogError, type Recording, type Source } from '../logs/log.ts';
+import { basename, join, relative } from 'node:path';
+import { LogError, type OptionsByName, type Recording, type Source } from '../logs/log.ts';
 import { openRecordings } from '../logs/open.ts';
 import type { InputPath } from './options.ts';
 
-/** Opens a file or a folder; rejects with a LogError if it has no log. Calls `onSkip` with the error of each file that is not a log. */
-export async function openRecordingsAt({ path, openOptions }: InputPath, onSkip: (error: LogError) => void): Promise<Recording[]> {
+/** Opens a file or a folder, which errors call `name`; rejects with a LogError if it has no log. Calls `onSkip` with the error of each file that is not a log. */
+export async function openRecordingsAt({ path, role }: InputPath, name: string, optionsOf: OptionsByName, onSkip: (error: LogError) => void): Promise<Recording[]> {
   const errors: LogError[] = [];
-  const recordings = await openRecordings(await openSources(path), openOptions, (error) => errors.push(error));
+  const recordings = await openRecordings(await openSources(path, name), (file) => ({ ...optionsOf(file), role }), (error) => errors.push(error));
   const refusalError = recordings.length === 0 ? errors.shift() : undefined;
   errors.forEach(onSkip);
   if (refusalError) throw refusalError;
   return recordings;
 }
 
-async function openSources(path: string): Promise<Source[]> {
-  const name = basename(resolve(path));
+async function openSources(path: string, name: string): Promise<Source[]> {
   try {
     if (!(await stat(path)).isDirectory()) {
       // The write-ahead log of SQLite beside the file has messages that the file lacks.

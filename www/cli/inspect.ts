@@ -4,31 +4,32 @@ import { group } from 'd3-array';
 import { findCandidates, isLocalizer, planDrives } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
 import { LogError, truncate, ROLES, formatFramesOption, formatFrames, summarySentencesOf, type LogChoice, type Recording, type Role, type Summary } from '../logs/log.ts';
-import { adviseOption, quoteForShell } from './advice.ts';
+import { explainWithCommand, formatCommand } from './advice.ts';
 import { alignRows } from './report.ts';
 import type { OpenedInputs } from './run.ts';
 
 const FORMAT_NAMES: Record<Recording['format'], string> = { mcap: 'MCAP recording', rosbag: 'ROS 1 bag', sqlite: 'rosbag2 SQLite recording', csv: 'table' };
 
 /**
- * Returns the contents of recordings, and the command that calibrates from them with the stated options, or sentences about what is missing.
+ * Returns the contents of recordings, and the typed command with what it needs to calibrate from them, or sentences about what is missing.
  * `isUsable` is true if a log can be read, and none that the command needs is refused.
  */
-export async function inspect({ givenRecordings, userChoices }: OpenedInputs, statedOptions: [name: string, value: string][], onProgress?: (fraction: number | undefined) => void) {
+export async function inspect({ givenRecordings, userChoices }: OpenedInputs, typedArgs: string[], onProgress?: (fraction: number | undefined) => void) {
   const recordings: Awaited<ReturnType<typeof contentsOf>>[] = [];
-  for (const { recording } of givenRecordings) recordings.push(await contentsOf(recording, onProgress));
+  for (const { recording } of givenRecordings) recordings.push(await contentsOf(recording, typedArgs, onProgress));
   onProgress?.(undefined);
   const usableRecordings = givenRecordings.filter((_, i) => recordings[i].series.some(({ summary }) => summary));
+  const unusablePaths = givenRecordings.filter(({ path }) => usableRecordings.every((usable) => usable.path !== path)).map(({ path }) => path);
   const refusalErrors = recordings.flatMap((recording) => recording.refused);
-  const { command } = usableRecordings.length > 0 ? proposeCommand({ givenRecordings: usableRecordings, userChoices }, statedOptions) : {};
+  const { command } = usableRecordings.length > 0 ? proposeCommand({ givenRecordings: usableRecordings, userChoices }, typedArgs.filter((arg) => !unusablePaths.includes(arg))) : {};
   // A log that was found and refused does not count as missing.
-  const { missing } = command === undefined ? proposeCommand({ givenRecordings, userChoices }, statedOptions) : {};
+  const { missing } = command === undefined ? proposeCommand({ givenRecordings, userChoices }, typedArgs) : {};
   const isUsable = usableRecordings.length > 0 && (command !== undefined || refusalErrors.length === 0);
   return { inspection: { recordings, command, missing }, sentences: [...refusalErrors, ...(missing ? [missing] : [])], isUsable };
 }
 
 /** Returns the series of a recording with their logs, and sentences about the logs that cannot be read. */
-async function contentsOf(recording: Recording, onProgress?: (fraction: number | undefined) => void) {
+async function contentsOf(recording: Recording, typedArgs: string[], onProgress?: (fraction: number | undefined) => void) {
   const { name, format } = recording;
   const series: { name: string; type: string; rows: number; uses: string[]; summary?: Summary; sentences?: string[] }[] = [];
   const refusalErrors = new Set<string>();
@@ -44,7 +45,7 @@ async function contentsOf(recording: Recording, onProgress?: (fraction: number |
       } catch (error) {
         if (!(error instanceof LogError)) throw error;
         series.push(seriesEntry);
-        refusalErrors.add(`${error.message}${adviseOption(error)}`);
+        refusalErrors.add(explainWithCommand(error, typedArgs));
       }
     }
   }
@@ -73,26 +74,18 @@ function usesOfSeries(recording: Recording, name: string): { choice: LogChoice; 
   }));
 }
 
-/** Returns the command that calibrates from the recordings, or a sentence about missing logs. */
-function proposeCommand({ givenRecordings, userChoices }: OpenedInputs, statedOptions: [name: string, value: string][]): { command?: string; missing?: string } {
-  const quotePath = (recording: Recording) => quoteForShell(givenRecordings.find((given) => given.recording === recording)?.path ?? recording.name);
-  const quotedPaths = givenRecordings.map(({ recording }) => quotePath(recording));
+/** Returns the command that calibrates from the recordings of an inspection, or a sentence about missing logs. */
+function proposeCommand({ givenRecordings, userChoices }: OpenedInputs, typedArgs: string[]): { command?: string; missing?: string } {
   try {
     const plan = planDrives(givenRecordings.map(({ recording }) => recording), userChoices);
-    const choiceOptions = ROLES.flatMap((role) => plan.flatMap(({ choices: { [role]: choice } }) => [
-      ...(choice?.series ? [`--${role}-topic ${quoteForShell(choice.series)}`] : []),
-      ...(choice?.frames ? [`--${role}-frames ${quoteForShell(formatFramesOption(choice.frames))}`] : []),
-    ]));
-    const fileArguments = plan.map(({ recording, choices }) => {
-      const [role, ...otherRoles] = Object.keys(choices);
-      return otherRoles.length ? quotePath(recording) : `--${role} ${quotePath(recording)}`;
-    });
-    // The logs of one folder may have different roles, so that the folder is given without a role.
-    const isPathShared = new Set(quotedPaths).size < quotedPaths.length;
-    const optionTexts = [...new Set([...(isPathShared ? quotedPaths : fileArguments), ...choiceOptions]), ...statedOptions.map(([name, value]) => `--${name} ${quoteForShell(value)}`)];
-    return { command: ['npx motion-widgets calibrate', ...optionTexts, '--rule nav2'].join(' ') };
+    const valueByOption = new Map(ROLES.flatMap((role) => plan.flatMap(({ choices: { [role]: choice } }): [string, string][] => [
+      ...(choice?.series ? [[`--${role}-topic`, choice.series] as [string, string]] : []),
+      ...(choice?.frames ? [[`--${role}-frames`, formatFramesOption(choice.frames)] as [string, string]] : []),
+    ])));
+    const addedOptions = [...valueByOption].filter(([option]) => !typedArgs.includes(option));
+    return { command: formatCommand(['calibrate', ...typedArgs.slice(1).filter((arg) => arg !== '--json'), ...addedOptions.flat(), '--rule', 'nav2']) };
   } catch (error) {
     if (!(error instanceof LogError)) throw error;
-    return { missing: `${error.message}${adviseOption(error)}` };
+    return { missing: explainWithCommand(error, typedArgs) };
   }
 }

@@ -2,9 +2,9 @@
 
 import { basename, dirname } from 'node:path';
 import { parseArgs } from 'node:util';
+import { sort } from 'd3-array';
 import { truncate, ROLES, UNITS, type FramePair, type OpenOptions, type Role } from '../logs/log.ts';
 import { SYSTEMATIC_ERRORS } from '../widgets/alpha-calibrator/result.ts';
-import { quoteForShell } from './advice.ts';
 
 /** Error about the options; its message is a sentence. */
 export class UsageError extends Error {}
@@ -28,12 +28,12 @@ Logs: ROS 1 bags, rosbag2 (MCAP, SQLite, folders), CSV and other tables, TUM.
   --reference-topic NAME     the same for the reference
   --odometry-frames P,C      parent and child frame, of a topic of transforms: odom,base_link
   --reference-frames P,C     the same for the reference: map,base_link
-  --columns NAMES            names of the columns of a table without a header: t,x,y,yaw or t,v,omega
-  --odometry-columns NAMES, --reference-columns NAMES   the same for one of the logs
-  --time-unit UNIT           s, ms, us or ns; default: judged. Where the two files differ: that of the odometry
-                             and of the reference, as in --time-unit ms,s
+  --columns NAMES            names of the columns of a table without a header: t,x,y,yaw or t,v,omega; - for a
+                             column that is not read, and -y for one whose sign is wrong
+  --time-unit UNIT           s, ms, us or ns; default: judged
   --length-unit UNIT         m, cm, mm, ft or in; likewise
   --angle-unit UNIT          rad or deg; likewise
+                             These four apply to all files, or to one: --length-unit odom.csv=ft
 
 Fit:
   --model NAME               odometry (default), omnidirectional, velocity (from commands)
@@ -65,7 +65,7 @@ const flagOption = { type: 'boolean' } as const;
 /** Options about the logs, which both commands accept. */
 const LOG_OPTIONS = {
   odometry: repeatedTextOption, reference: repeatedTextOption, recording: repeatedTextOption, 'odometry-topic': textOption, 'reference-topic': textOption, 'odometry-frames': textOption,
-  'reference-frames': textOption, columns: textOption, 'odometry-columns': textOption, 'reference-columns': textOption, 'time-unit': textOption, 'length-unit': textOption, 'angle-unit': textOption,
+  'reference-frames': textOption, columns: repeatedTextOption, 'time-unit': repeatedTextOption, 'length-unit': repeatedTextOption, 'angle-unit': repeatedTextOption,
 } as const;
 
 const OPTIONS = {
@@ -86,7 +86,8 @@ export function replaceFieldByOption(message: string): string | undefined {
   return Object.hasOwn(OPTION_BY_FIELD, field) ? `--${OPTION_BY_FIELD[field]}${message.slice(field.length)}.` : undefined;
 }
 
-export interface InputPath { path: string; openOptions: OpenOptions }
+/** File or folder, with the role that the user chose for it. */
+export interface InputPath { path: string; role?: Role }
 
 export type CalibrateArguments = Extract<ReturnType<typeof parseOptions>, { command: 'calibrate' }>;
 
@@ -97,25 +98,20 @@ export function parseOptions(args: string[]) {
   const positionalPaths = [...new Set(listedFolders), ...givenPaths.filter((path) => !listedFolders.includes(dirname(path)))];
   if (optionValues.version) return 'version';
   if (optionValues.help || args.length === 0) return 'help';
-  const parseColumnNames = (name: 'columns' | 'odometry-columns' | 'reference-columns') => optionValues[name]?.split(',').map((column) => column.trim());
-  const openOptionsOf = (role?: Role) => withoutUndefined({ role, ...unitsOf(optionValues, role), columns: (role && parseColumnNames(`${role}-columns`)) ?? parseColumnNames('columns') });
-  const inputPathsOf = (paths: string[] = [], role?: Role) => paths.map((path): InputPath => ({ path, openOptions: openOptionsOf(role) }));
+  const inputPathsOf = (paths: string[] = [], role?: Role) => paths.map((path): InputPath => ({ path, role }));
   const seriesChoiceOf = (role: Role) => withoutUndefined({ series: optionValues[`${role}-topic`], frames: parseFrames(`${role}-frames`, optionValues[`${role}-frames`]) });
   const recording = [...positionalPaths, ...(optionValues.recording ?? [])];
   const { odometry = [], reference = [] } = optionValues;
-  for (const role of ROLES) {
-    if (optionValues[`${role}-columns`] !== undefined && !optionValues[role]) throw new UsageError(`--${role}-columns needs --${role} FILE.`);
-  }
   const logs = {
     inputs: [...inputPathsOf(recording), ...inputPathsOf(odometry, 'odometry'), ...inputPathsOf(reference, 'reference')],
+    optionsByFile: parseFileOptions(optionValues),
     userChoices: { odometry: seriesChoiceOf('odometry'), reference: seriesChoiceOf('reference'), ...(optionValues.model === 'velocity' && { kind: 'commands' as const }) },
   };
   if (command === 'inspect') {
     if (logs.inputs.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
     const ignoredOption = Object.keys(optionValues).find((name) => !(name in LOG_OPTIONS) && name !== 'json');
     if (ignoredOption !== undefined) throw new UsageError(`--${ignoredOption} is an option of calibrate; inspect accepts only the options about logs, and --json.`);
-    const statedOptions = Object.entries(optionValues).filter((entry): entry is [string, string] => typeof entry[1] === 'string' && /unit$|columns$/.test(entry[0]));
-    return { command: 'inspect' as const, ...logs, statedOptions, isJson: optionValues.json ?? false };
+    return { command: 'inspect' as const, ...logs, isJson: optionValues.json ?? false };
   }
   if (command !== 'calibrate') {
     const path = [command, ...positionalPaths].find(isPath) ?? 'run.bag';
@@ -156,18 +152,28 @@ export function parseOptions(args: string[]) {
   };
 }
 
-/** Returns the units that the options state for a log. If an option has two units, the role of the log selects one. */
-function unitsOf(optionValues: { [name in 'time-unit' | 'length-unit' | 'angle-unit']?: string }, role: Role | undefined): OpenOptions {
-  return Object.fromEntries((['time', 'length', 'angle'] as const).flatMap((quantity) => {
-    const givenUnits = optionValues[`${quantity}-unit`];
-    if (givenUnits === undefined) return [];
-    const unitNames = givenUnits.split(',').map((unit) => unit.trim());
-    if (unitNames.length > 2 || !unitNames.every((unit) => (UNITS[`${quantity}Unit`] as readonly string[]).includes(unit))) {
-      throw new UsageError(`--${quantity}-unit must be ${formatAlternatives(UNITS[`${quantity}Unit`])}, or two of these for odometry and reference (got “${truncate(givenUnits)}”).`);
-    }
-    if (unitNames.length > 1 && !role) throw new UsageError(`--${quantity}-unit ${truncate(givenUnits)} has two units; give the files with --odometry and --reference.`);
-    return [[`${quantity}Unit`, role === 'reference' ? unitNames.at(-1) : unitNames[0]]];
+/** Fields of the options of files, by the names of the command-line options. */
+const FILE_OPTIONS = { columns: 'columns', 'time-unit': 'timeUnit', 'length-unit': 'lengthUnit', 'angle-unit': 'angleUnit' } as const;
+
+/** Returns the options of files: those of all files, with the file "", and then those of one file, as in `--length-unit odom.csv=ft`. */
+function parseFileOptions(optionValues: { [name in keyof typeof FILE_OPTIONS]?: string[] }): [file: string, OpenOptions][] {
+  const optionsByFile = (Object.entries(FILE_OPTIONS) as Entries<typeof FILE_OPTIONS>).flatMap(([name, field]) => (optionValues[name] ?? []).map((optionValue): [string, OpenOptions] => {
+    const [, file = '', answer = ''] = /^(?:(.*)=)?(.*)$/s.exec(optionValue) ?? [];
+    if (field === 'columns') return [file, { columns: answer.split(',').map((column) => column.trim()) }];
+    if (!(UNITS[field] as readonly string[]).includes(answer)) throw new UsageError(`--${name} must be ${formatAlternatives(UNITS[field])}, or FILE=${UNITS[field][0]} for one file (got “${truncate(optionValue)}”).`);
+    return [file, { [field]: answer }];
   }));
+  return sort(optionsByFile, ([file]) => file !== '');
+}
+
+type Entries<T> = { [key in keyof T]: [key, T[key]] }[keyof T][];
+
+/** Gives the paths of a command roles, odometry and reference in turn. Returns undefined if there are no two paths without a role. */
+export function nameRoles(args: string[]): string[] | undefined {
+  const { tokens } = parseArgs({ args, options: OPTIONS, allowPositionals: true, tokens: true });
+  const pathIndices = tokens.filter(({ kind }) => kind === 'positional').map(({ index }) => index).slice(1);
+  if (pathIndices.length < 2) return undefined;
+  return args.flatMap((arg, i) => (pathIndices.includes(i) ? [`--${ROLES[pathIndices.indexOf(i) % 2]}`, arg] : [arg]));
 }
 
 const withoutUndefined = <T extends object>(object: T): T => Object.fromEntries(Object.entries(object).filter(([, value]) => value !== undefined)) as T;
@@ -194,6 +200,9 @@ function parseArguments(args: string[]) {
     throw new UsageError(`${reason}. --help lists all options.`);
   }
 }
+
+/** Quotes a text as one argument of a shell command, if necessary. */
+export const quoteForShell = (text: string): string => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
 
 /** Returns true if an argument has an extension or is in a folder. */
 const isPath = (argument = '') => /\.\w+$|\//.test(argument);

@@ -15,6 +15,8 @@ interface ReadLog { name: string; summary: Summary; sentences: string[] }
 
 export interface CalibrationReport {
   calibration: Calibration;
+  /** Command that remedies a failed check; empty if there is none. */
+  command: string;
   options: Record<string, any>;
   /** Odometry and reference of each drive. */
   logs: ReadLog[];
@@ -88,7 +90,7 @@ const judgeReport = (report: CalibrationReport) => judgementOf(resultOf(report),
 /** Returns the verdict as on the page, and what to do, in a line for each sentence. */
 export function formatVerdict(report: CalibrationReport): string[] {
   const { badge, finding, advice } = judgeReport(report);
-  return [`${badge}. ${finding}`, ...advice];
+  return [`${badge}. ${finding}`, ...advice, ...(report.command ? [`  ${report.command}`] : [])];
 }
 
 /** Returns the lines of a table, as plain text: with minus signs that can be copied, and several values of a cell in one line. */

@@ -1,11 +1,13 @@
 /** Commands `calibrate` and `inspect`. */
 
 import { writeFile } from 'node:fs/promises';
+import { basename, resolve } from 'node:path';
 import { planDrives } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
-import { LogError, truncate, summarySentencesOf, type Recording } from '../logs/log.ts';
+import { LogError, truncate, mirroringQuestionsOf, summarySentencesOf, type Recording } from '../logs/log.ts';
+import { optionsByNameOf } from '../logs/open.ts';
 import { calibrationLogOf, readDrives, type Drive } from '../logs/pairs.ts';
-import { adviseOption } from './advice.ts';
+import { answerQuestion, explainWithCommand, formatCommand } from './advice.ts';
 import { openRecordingsAt } from './files.ts';
 import { inspect, formatInspection } from './inspect.ts';
 import { HELP, UsageError, parseOptions, replaceFieldByOption, type CalibrateArguments } from './options.ts';
@@ -34,34 +36,42 @@ export async function run(args: string[], environment: CliEnvironment): Promise<
     if (options === 'help') print(HELP);
     else if (options === 'version') print(`${environment.version}\n`);
     else if (options.command === 'inspect') {
-      const contents = await inspect(await openInputs(options, onSkip), options.statedOptions, onProgress);
+      const contents = await inspect(await openInputs(options, onSkip), args, onProgress);
       print(options.isJson ? `${JSON.stringify(contents.inspection, undefined, 1)}\n` : formatInspection(contents));
       if (!contents.isUsable) {
         printError(`${contents.sentences.join('\n')}\n`);
         return EXIT_BAD_INPUT;
       }
-    } else return await calibrate(options, environment, onSkip);
+    } else return await calibrate(options, args, environment, onSkip);
     return EXIT_SUCCESS;
   } catch (error) {
     onProgress?.(undefined);
     if (!(error instanceof LogError || error instanceof UsageError)) throw error;
-    printError(`${error.message}${error instanceof LogError ? adviseOption(error) : ''}\n`);
+    printError(`${error instanceof LogError ? explainWithCommand(error, args) : error.message}\n`);
     return EXIT_BAD_INPUT;
   }
 }
 
 /** Opens the recordings of all inputs, and returns each with the path of its input. */
-async function openInputs({ inputs, userChoices }: Pick<CalibrateArguments, 'inputs' | 'userChoices'>, onSkip: (error: LogError) => void) {
+async function openInputs({ inputs, optionsByFile, userChoices }: Pick<CalibrateArguments, 'inputs' | 'optionsByFile' | 'userChoices'>, onSkip: (error: LogError) => void) {
+  const baseNames = inputs.map(({ path }) => basename(resolve(path)));
+  // Files of the same name are called by their paths.
+  const names = baseNames.map((baseName, i) => (baseNames.indexOf(baseName) === baseNames.lastIndexOf(baseName) ? baseName : inputs[i].path));
+  const nameByPath = new Map(inputs.map(({ path }, i) => [path, names[i]]));
+  const optionsOf = optionsByNameOf(optionsByFile.map(([file, options]) => [nameByPath.get(file) ?? file, options]));
   const givenRecordings: { recording: Recording; path: string }[] = [];
-  for (const input of inputs) {
-    givenRecordings.push(...(await openRecordingsAt(input, onSkip)).map((recording) => ({ recording, path: input.path })));
+  for (const [i, input] of inputs.entries()) {
+    givenRecordings.push(...(await openRecordingsAt(input, names[i], optionsOf, onSkip)).map((recording) => ({ recording, path: input.path })));
   }
+  const recordingNames = givenRecordings.map(({ recording }) => recording.name);
+  const unknownFile = optionsByFile.map(([file]) => nameByPath.get(file) ?? file).find((file) => file !== '' && !recordingNames.some((name) => file === name || file.startsWith(`${name}, `)));
+  if (unknownFile !== undefined) throw new UsageError(`an option names the file ${truncate(unknownFile)}; the files are ${recordingNames.join(', ')}.`);
   return { givenRecordings, userChoices };
 }
 
 export type OpenedInputs = Awaited<ReturnType<typeof openInputs>>;
 
-async function calibrate({ fit: fitOptions, output: outputFormat, plot: plotPath, ...logArguments }: CalibrateArguments, { load, print, printError, onProgress, isColored = false, now = new Date() }: CliEnvironment, onSkip: (error: LogError) => void): Promise<number> {
+async function calibrate({ fit: fitOptions, output: outputFormat, plot: plotPath, ...logArguments }: CalibrateArguments, args: string[], { load, print, printError, onProgress, isColored = false, now = new Date() }: CliEnvironment, onSkip: (error: LogError) => void): Promise<number> {
   const motion = await load();
   // The core checks the options in a call without drives, so that their errors are reported before files are read.
   calibrateDrives(motion, fitOptions, []);
@@ -74,7 +84,8 @@ async function calibrate({ fit: fitOptions, output: outputFormat, plot: plotPath
   if (outputFormat === 'text') print(formatLogSummaries(logs));
   if (outputFormat === 'yaml') printError(formatLogSummaries(logs));
   const calibration = calibrateDrives(motion, fitOptions, drives);
-  const report: CalibrationReport = { calibration, options: fitOptions, logs, start, driveStarts: drives.map(({ odometry }) => odometry.data.t[0]), date: now.toISOString().slice(0, 10) };
+  const answeringArgs = mirroringQuestionsOf(drives, calibration.diagnostics.checks).reduce((typedArgs, question) => answerQuestion(question, typedArgs) ?? typedArgs, args);
+  const report: CalibrationReport = { calibration, command: answeringArgs === args ? '' : formatCommand(answeringArgs), options: fitOptions, logs, start, driveStarts: drives.map(({ odometry }) => odometry.data.t[0]), date: now.toISOString().slice(0, 10) };
   if (plotPath !== undefined) await saveFile(plotPath, createDrivesSvg(drives, calibration));
   const isUnusableLog = calibration.recommended === null;
   if (outputFormat === 'yaml') {

@@ -8,6 +8,8 @@ export type Field = 't' | 'seconds' | 'subseconds' | 'x' | 'y' | 'z' | 'yaw' | '
 interface Column {
   index: number;
   name: string;
+  /** Factor of the column's numbers: −1 if its name starts with a minus, as in "-y". */
+  sign: 1 | -1;
   /** Unit of time, length or angle in the column's name. A speed has the unit of its length or angle. */
   unit?: string;
   /** Priority among columns of the same field. The column with the lowest number is used. */
@@ -168,7 +170,7 @@ export function groupColumnsByPrefix(names: string[], isTime: (index: number) =>
     if (!meaning) return [];
     const { field, prefix, rank, unit } = meaning;
     // Headings in radians are preferred. Headings in degrees beside them are usually derived.
-    const column: Column = { index, name: name.trim(), rank: rank + (unit === 'deg' ? 0.5 : 0), ...(unit !== undefined && { unit }) };
+    const column: Column = { index, name: name.trim(), sign: /^\s*-/.test(name) ? -1 : 1, rank: rank + (unit === 'deg' ? 0.5 : 0), ...(unit !== undefined && { unit }) };
     return [{ field, prefix: toDottedName(topic + prefix), column }];
   });
   const groups = Array.from(group(columnsWithMeaning, ({ prefix }) => prefix), ([name, members]): ColumnGroup => {

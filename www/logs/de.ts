@@ -68,9 +68,9 @@ export const german: Words = {
     positions: (columns) =>
       `${columns} sind Positionen ohne Richtung; nötig ist eine Referenz, die die Richtung misst, wie mit zwei Prismen, Markern oder Scan-Matching (in einer Tabelle in einer Spalte namens yaw mit dem Präfix von x und y): Die Fahrtrichtung verbirgt Drehfehler und würde alpha1 und alpha2 halbieren.`,
     euler: (rotation) => `die Drehungen sind Eulerwinkel (${rotation}); die Aufnahme noch einmal aus Motive exportieren, mit Rotation Type „Quaternion“.`,
-    tilted: (isTable) => `die Posen drehen sich nicht um eine senkrechte Z-Achse; ${isTable ? 'mit Z nach oben exportieren, oder die Spalten auswählen: bei Y nach oben x,y,z als y,z,x und qx,qy,qz als qy,qz,qx; ist w die erste Zahl der Quaternionen, diese als qw' : 'die Fahrt noch einmal mit Z nach oben aufzeichnen'}.`,
+    tilted: (isTable) => `die Posen drehen sich nicht um eine senkrechte Z-Achse; ${isTable ? 'mit Z nach oben exportieren, oder die Spalten in anderer Reihenfolge auswählen' : 'die Fahrt noch einmal mit Z nach oben aufzeichnen'}.`,
     yUp: 'die Richtungen folgen dem Weg in x und z, die senkrechte Achse ist also Y; mit Z nach oben exportieren, oder die Spalten in anderer Reihenfolge auswählen.',
-    mirrored: 'die Richtungen drehen sich anders herum als der Weg; erwartet werden Richtungen, die gegen den Uhrzeigersinn wachsen, von x nach y; die Spalten x und y umgekehrt benennen, oder y in der Datei negieren.',
+    mirrored: 'die Richtungen drehen sich anders herum als der Weg; erwartet werden Richtungen, die gegen den Uhrzeigersinn wachsen, von x nach y; x und y vertauschen, oder eines davon negieren.',
     mixed: (frames) => `die Zeilen gehören zu mehreren Frames, Topics oder Robotern (${frames}); nur die eines davon behalten.`,
     unknownUnit: (unit) => `die Einheit ${unit} einer Spalte ist unbekannt, oder nicht die einer anderen; erwartet wird s, ms, us oder ns, m, cm, mm, ft oder in, und rad oder deg.`,
     turns: (metres) => `Posen zweier Wege wechseln sich ab, ${withDecimalComma(metres, 2)} m auseinander: Sie sind von zwei Robotern, oder von zwei Knoten, die auf einem Topic senden; nur die eines davon behalten.`,
@@ -107,7 +107,6 @@ export const german: Words = {
       `keine Transformationen verbinden ${frames}; ${knownFrames ? `verbundene Frames wählen: ${knownFrames}` : 'ein anderes Topic wählen, denn dieses hat keine Transformationen'}.`,
     constant: (frames, otherFrames) =>
       `die Transformation ${frames} ändert sich nie und ist daher kein Weg eines Roboters; erwartet werden Frames, die sich bewegen${otherFrames ? `, wie ${otherFrames}` : ''}.`,
-    givenTwice: 'sie ist zweimal angegeben; gebraucht werden zwei unabhängige Messungen einer Fahrt, Odometrie und Referenz.',
     ownReference: (name) => `${name} ist die Odometrie selbst; gebraucht wird eine Referenz, die nicht von den Rädern kommt, wie Motion-Capture oder Scan-Matching.`,
     otherUnit: (factor, otherName, unit) => `der Roboter führe ${Math.round(factor)}-mal so schnell wie in ${otherName}: Die Längen sind wohl in ${unit}; ihre Einheit angeben.`,
     held: 'ihre Pose steht, während die Odometrie weitergeht: Sie hat den Roboter verloren; gebraucht wird eine, die ihm folgt.',

@@ -67,9 +67,8 @@ export function planDrives(allRecordings: Recording[], userChoices: UserChoices 
     const unpairedRecordings = odometry.length > reference.length ? odometry : reference;
     // If a recording has several candidates for the missing log, the LogError of this call asks for a choice, which helps more than the error below.
     for (const recording of unpairedRecordings) tryUnlessLogError(() => chooseBothLogs(recording, userChoices), ({ question }) => question?.option !== 'series');
-    const isSameFile = recordings.length === 2 && recordings[0].name === recordings[1].name;
     const [odometryNames, referenceNames] = [odometry, reference].map((recordingsOfRole) => listNames(recordingsOfRole.map(({ name }) => name)));
-    throw new LogError({ file: unpairedRecordings[0].name }, (texts) => (isSameFile ? texts.givenTwice : texts.unpaired(odometryNames, referenceNames)), isSameFile ? undefined : { option: 'roles', choices: [] });
+    throw new LogError({ file: unpairedRecordings[0].name }, (texts) => texts.unpaired(odometryNames, referenceNames), { option: 'roles', choices: [] });
   }
   return sort(plan, ({ choices }) => Number(!choices.odometry));
 }

@@ -69,9 +69,9 @@ export const english = {
     positions: (columns: string) =>
       `${columns} are positions without a heading; give a reference that measures the heading, as by two prisms, markers or scan matching (in a table, in a column named yaw with the prefix of x and y): the direction of travel hides turning errors, and would halve alpha1 and alpha2.`,
     euler: (rotation: string) => `the rotations are Euler angles (${rotation}); export the take from Motive again with the rotation type Quaternion.`,
-    tilted: (isTable: boolean) => `the poses do not turn about a vertical Z axis; ${isTable ? 'export with Z up, or choose the columns: with Y up, name x,y,z as y,z,x and qx,qy,qz as qy,qz,qx; if w is the first number of quaternions, name it qw' : 'record the drive again with Z up'}.`,
+    tilted: (isTable: boolean) => `the poses do not turn about a vertical Z axis; ${isTable ? 'export with Z up, or choose the columns in another order' : 'record the drive again with Z up'}.`,
     yUp: 'the headings follow the path in x and z, so the vertical axis is Y; export with Z up, or choose the columns in another order.',
-    mirrored: 'the headings turn the other way than the path; expected are headings that grow counterclockwise, from x to y; name the columns x and y the other way round, or negate y in the file.',
+    mirrored: 'the headings turn the other way than the path; expected are headings that grow counterclockwise, from x to y; swap x and y, or negate one of them.',
     mixed: (frames: string) => `the rows are of several frames, topics or robots (${frames}); keep those of one.`,
     unknownUnit: (unit: string) => `the unit ${unit} of a column is not known, or differs from that of another; expected is s, ms, us or ns, m, cm, mm, ft or in, and rad or deg.`,
     turns: (metres: number) => `poses of two paths alternate, ${metres.toPrecision(2)} m apart: they are of two robots, or of two nodes that publish one topic; keep those of one.`,
@@ -109,7 +109,6 @@ export const english = {
       `no transforms connect ${frames}; ${knownFrames ? `choose among the connected frames: ${knownFrames}` : 'choose another topic, since this one has no transforms'}.`,
     constant: (frames: string, otherFrames: string) =>
       `the transform ${frames} never changes, so it is not the path of a robot; expected are frames that move${otherFrames ? `, such as ${otherFrames}` : ''}.`,
-    givenTwice: 'it is given twice; give two independent measurements of one drive, odometry and reference.',
     ownReference: (name: string) => `${name} is the odometry itself; choose a reference that does not come from the wheels, such as motion capture or scan matching.`,
     otherUnit: (factor: number, otherName: string, unit: string) => `the robot would drive ${Math.round(factor)} times as fast as in ${otherName}: its lengths seem to be in ${unit}; state their unit.`,
     held: 'its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.',

@@ -1,6 +1,7 @@
 /** Logs of robots, the recordings that they are read from, their summaries, and their errors. */
 
 import { english } from './en.ts';
+import type { CalibrationCheck } from '../types.d.ts';
 
 /** File, or other bytes with a name. `path` is the path of a file in a dropped folder. */
 export type Source = Pick<File, 'name' | 'size' | 'slice'> & { path?: string };
@@ -77,19 +78,24 @@ export interface OpenOptions {
   role?: Role;
 }
 
+/** Returns the options of a file or log by its name. */
+export type OptionsByName = (name: string) => OpenOptions | undefined;
+
 /** Question of a LogError to the user: the option that answers it, and the possible answers. */
 export interface Question {
   option: keyof typeof UNITS | 'series' | 'columns' | 'frames' | 'roles' | 'other';
   /** Role of the log that has to be chosen. If the other log is missing (`other`), the role of the log that was found. */
   role?: Role;
+  /** Possible answers, the likeliest first. */
   choices: string[];
-  /** Unit that was assumed, and may be wrong. */
-  assumedUnit?: string;
-  /** Units of odometry and reference with which the two logs agree, in the form of an option. */
-  unitPair?: string;
   /** Columns of the table: their names, or the cells of its first row. */
   columns?: string[];
+  /** Fields of the columns by the likeliest choice, with a minus if the sign is changed. By default they are the names in that choice. */
+  fields?: string[];
 }
+
+/** Question about a file. */
+export type FileQuestion = Question & { file: string };
 
 /** Poses in s, m and rad. `breaks` has the rising indices of rows before which the path is unknown: after unusable rows, and at jumps. */
 export interface Poses { t: Float64Array; x: Float64Array; y: Float64Array; theta: Float64Array; breaks: Uint32Array }
@@ -107,7 +113,13 @@ export interface Log {
   /** Rows for the core: times rise strictly, in seconds after the start. */
   data: Poses | Commands;
   summary: Summary;
+  /** Question whose proposed columns mirror the log; undefined for a topic, whose axes cannot be changed. */
+  mirroring?: FileQuestion;
 }
+
+/** Returns the questions whose proposals mirror one log of each drive, if the checks show that odometry or reference is mirrored. The α's are the same whichever log is mirrored. */
+export const mirroringQuestionsOf = (drives: Record<Role, Log>[], checks: CalibrationCheck[]): FileQuestion[] =>
+  (checks.some(({ cause }) => cause === 'mirrored') ? drives.flatMap(({ odometry, reference }) => reference.mirroring ?? odometry.mirroring ?? []) : []);
 
 export type DropCause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'text' | 'duplicate' | 'repeated' | 'held';
 

@@ -1,9 +1,9 @@
 /** Opens recordings. The first bytes of a file determine its format. A recording of rosbag2 may consist of several files, which its metadata.yaml lists. */
 
-import { sort } from 'd3-array';
+import { group, sort } from 'd3-array';
 import type { UNSUPPORTED_FORMATS } from './en.ts';
 import type { Container } from './formats/container.ts';
-import { LogError, readBytes, type OpenOptions, type Recording, type Source } from './log.ts';
+import { LogError, readBytes, type OpenOptions, type OptionsByName, type Recording, type Source } from './log.ts';
 import { openTable } from './table.ts';
 
 type FileFormat = 'mcap' | 'rosbag' | 'sqlite' | 'zstd' | 'metadata';
@@ -25,19 +25,23 @@ const UNSUPPORTED_MAGIC: [keyof typeof UNSUPPORTED_FORMATS, string][] = [
 
 const MAX_MAGIC_BYTES = 32;
 
+/** Returns the options of a file or log from options by files. The options of a file apply to its logs, and those of the file "" to all. */
+export const optionsByNameOf = (optionsByFile: [file: string, OpenOptions][]): OptionsByName => (name) =>
+  Object.assign({}, ...optionsByFile.filter(([file]) => file === '' || name === file || name.startsWith(`${file}, `)).map(([, options]) => options));
+
 /**
  * Opens files; rejects with a LogError that names the file, the line or topic, and what to do. Files that a metadata.yaml of rosbag2
  * lists become one recording.
  *
- * @param options options of all files, or a function from the name of a file to its options
+ * @param optionsOf returns the options of a file, and of a log in it
  * @param onSkip called with the error of each file that is not a log, and is skipped; without `onSkip` the first error rejects
  */
-export async function openRecordings(files: Source[], options: OpenOptions | ((file: string) => OpenOptions | undefined) = {}, onSkip?: (error: LogError) => void): Promise<Recording[]> {
-  const optionsOf = (file: string) => (typeof options === 'function' ? options(file) : options) ?? {};
+export async function openRecordings(givenFiles: Source[], optionsOf: OptionsByName = () => undefined, onSkip?: (error: LogError) => void): Promise<Recording[]> {
   const reportSkipped = (doWork: () => Promise<void>) => doWork().catch((error) => {
     if (!(error instanceof LogError) || !onSkip) throw error;
     onSkip(error);
   });
+  const files = distinguishNames(givenFiles);
   const formatByFile = new Map<Source, FileFormat | undefined>();
   for (const file of files) {
     await reportSkipped(async () => {
@@ -48,22 +52,31 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
   }
   const openedSources = [...formatByFile.keys()];
   const recordings: Recording[] = [];
-  const addRecording = (recording: Recording) => void recordings.push({ ...recording, role: optionsOf(recording.name).role });
+  const addRecording = (recording: Recording) => void recordings.push({ ...recording, role: optionsOf(recording.name)?.role });
   // Files that a metadata.yaml lists are opened with the metadata.yaml, and not as recordings of their own.
   for (const source of sort(openedSources, (opened) => Number(formatByFile.get(opened) !== 'metadata'))) {
     if (!formatByFile.has(source)) continue;
     await reportSkipped(async () => {
       const format = formatByFile.get(source);
       formatByFile.delete(source);
-      if (!format) return addRecording(await openTable(source, optionsOf(source.name)));
+      if (!format) return addRecording(await openTable(source, optionsOf));
       const { name, files: sources } = format === 'metadata' ? await (await import('./formats/metadata.ts')).findListedFiles(source, openedSources) : { name: source.name, files: [source] };
       const partFormats = sources.map((part) => (part === source ? format : formatByFile.get(part)));
       for (const part of sources) formatByFile.delete(part);
       const container = joinContainers(await Promise.all(sources.map((part, i) => openContainer(part, partFormats[i]))));
-      addRecording(await (await import('./topics.ts')).createRecording(name, container, optionsOf(name)));
+      addRecording(await (await import('./topics.ts')).createRecording(name, container, optionsOf));
     });
   }
   return recordings;
+}
+
+/** Returns files with distinct names: files of the same name are called by their paths, or are numbered. */
+function distinguishNames(files: Source[]): Source[] {
+  return Array.from(group(files, ({ name }) => name).values()).flatMap((sameNamed) => sameNamed.map((file, i) => {
+    if (sameNamed.length === 1) return file;
+    const { name, path, size } = file;
+    return { name: path || `${name} (${i + 1})`, path, size, slice: (start?: number, end?: number) => file.slice(start, end) };
+  }));
 }
 
 /** Returns the format according to the first bytes; undefined for a table. */

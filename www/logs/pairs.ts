@@ -19,9 +19,6 @@ const END_MARGIN_SECONDS = 1;
 /** Minimum motion of the odometry during a frozen pose, metres and radians added up. Encoders at rest may count a pulse or two. */
 const MIN_ODOMETRY_MOTION = 0.05;
 
-/** Minimum ratio of two speeds that shows another unit of length: inches, centimetres or millimetres for metres. Drives of one robot may differ by less. */
-const MIN_UNIT_RATIO = 10;
-
 /** Maximum ratio of a measured size of a unit to its real size, and its inverse. The odometry's wheels may have another size than assumed. */
 const MAX_UNIT_ERROR = 1.2;
 
@@ -116,10 +113,9 @@ function checkLengthUnits(logs: Record<Role, Log>): void {
     const { unit: assumedUnit, by } = logs[role].summary.units.length;
     const likelyUnit = UNITS.lengthUnit.find((unit) => {
       const unitRatio = METRES_PER_UNIT[assumedUnit] / METRES_PER_UNIT[unit];
-      return unitRatio >= MIN_UNIT_RATIO && Math.max(speedRatio / unitRatio, unitRatio / speedRatio) < MAX_UNIT_ERROR;
+      return unitRatio > 1 && Math.max(speedRatio / unitRatio, unitRatio / speedRatio) < MAX_UNIT_ERROR;
     });
     if (!likelyUnit || by !== 'usage') continue;
-    const pair = ROLES.map((logRole) => (logRole === role ? likelyUnit : logs[logRole].summary.units.length.unit)).join();
-    throw new LogError({ file: logs[role].name }, (texts) => texts.otherUnit(speedRatio, logs[otherRole].name, likelyUnit), { option: 'lengthUnit', choices: [], unitPair: pair });
+    throw new LogError({ file: logs[role].name }, (texts) => texts.otherUnit(speedRatio, logs[otherRole].name, likelyUnit), { option: 'lengthUnit', choices: [likelyUnit, assumedUnit] });
   }
 }

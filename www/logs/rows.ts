@@ -1,9 +1,9 @@
 /** Rows of a log. Unusable rows are dropped, with the cause. */
 
 import { group, max, min, range, sum } from 'd3-array';
-import { LogError, type ErrorPlace, type DropCause, type Log, type LogKind, type Note, type OpenOptions, type ErrorReason, type Question, type Summary, type Words } from './log.ts';
+import { LogError, type ErrorPlace, type DropCause, type Log, type LogKind, type Note, type OpenOptions, type ErrorReason, type Summary, type Words } from './log.ts';
 import { distanceOf, quantileOf, sampleEvenly, wrapAngle } from './path.ts';
-import { epochTimeUnitOf, judgeUnits, type Columns, type ColumnNames, type Units } from './units.ts';
+import { MIRRORED_FIELDS, epochTimeUnitOf, judgeUnits, type Columns, type ColumnNames, type Units } from './units.ts';
 
 /** Pose (x, y and heading) or command (v, omega and 0). `time` is in s, or 0 if unknown. The heading is undefined if the quaternion is no rotation. */
 export interface Sample {
@@ -136,8 +136,7 @@ export class RowCollector {
       const composeSentences = (texts: Words['refused']) => [damage.formatReason(texts), ...(damage.count > 1 && damage.count < rowCount ? [texts.manyBad(damage.count, rowCount, 100 * MAX_DAMAGED_FRACTION)] : [])];
       throw new LogError({ ...this.#logPlace, line: damage.line }, (texts) => composeSentences(texts).join(' '));
     }
-    const question: Question | undefined = columnNames && { option: 'columns', choices: [columnNames.renameFields(columnNames.fieldsOfTiltedPoses).join()], columns: columnNames.allNames };
-    if (this.tiltSpread > MAX_TILT_SPREAD) throw new LogError(this.#logPlace, (texts) => texts.tilted(columnNames !== undefined), question);
+    if (this.tiltSpread > MAX_TILT_SPREAD) throw new LogError(this.#logPlace, (texts) => texts.tilted(columnNames !== undefined), columnNames?.createQuestion(columnNames.fieldsOfTiltedPoses));
     const usesOtherClock = clocks[1] !== undefined && this.#isClockStill();
     if (usesOtherClock) this.#times = this.#columns.otherTime;
     const stampedRows = this.#dropUnsetTimes();
@@ -167,7 +166,7 @@ export class RowCollector {
       rows: rowCount, used: t.length, dropped: this.#dropped, seconds, distance: distanceOf(data, jumpRows), ...foundGaps,
       ...decisions, ...(decisions.columns && { columns: { ...decisions.columns, t: clock } }), units, clock, notes,
     };
-    return { name, kind, start: columns.start, data, summary };
+    return { name, kind, start: columns.start, data, summary, ...(columnNames && { mirroring: { ...columnNames.createQuestion({}, MIRRORED_FIELDS), file: this.#logPlace.file } }) };
   }
 
   /** Returns true if most rows have the time of the previous row, because the stamps are 0 or never change. */

@@ -7,7 +7,7 @@ import { planDrives, type PlannedRecording, type UserChoices } from './drives.ts
 import { calibrationLogOf, readDrives, warningsOf, type Drive } from './pairs.ts';
 import { english } from './en.ts';
 import { LogError, choiceLabelOf, type OpenOptions, type Recording, type Source, type Warning } from './log.ts';
-import { openRecordings } from './open.ts';
+import { openRecordings, optionsByNameOf } from './open.ts';
 
 /** LogError as posted to the page, with its sentence in each language. */
 export type LogFailure = Pick<LogError, 'message' | 'place' | 'question'> & { sentences: Record<'en' | 'de', string> };
@@ -48,7 +48,7 @@ export class LogSession {
     const describeRecordings = () => recordings.map(({ name, format, series }, i) => ({ name, format, series, choices: plan?.find(({ recording }) => recording === recordings[i])?.choices }));
     let nextProgress = 0;
     try {
-      recordings = await openRecordings(files, (name) => optionsByFile[name], onSkip);
+      recordings = await openRecordings(files, optionsByNameOf(Object.entries(optionsByFile)), onSkip);
       if (recordings.length === 0) return { recordings, skipped, refusal: skipped[0] };
       plan = planDrives(recordings, userChoices, onSkip);
       const drives = await readDrives(plan, (fraction) => {

@@ -3,7 +3,7 @@
 import { least } from 'd3-array';
 import { findLogLayout, type Clock, type ColumnGroup, type Field } from './columns.ts';
 import { splitCells, detectTableFormat, parseDate, parseNumber, parseTime, type TableFormat } from './format.ts';
-import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Log, type Note, type OpenOptions, type Recording, type Series, type Source, type Summary, type TimeUnit } from './log.ts';
+import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Log, type Note, type OpenOptions, type OptionsByName, type Recording, type Series, type Source, type Summary, type TimeUnit } from './log.ts';
 import { rotationOf, type Quaternion } from './path.ts';
 import { RowCollector } from './rows.ts';
 import { FIELDS_WITH_W_FIRST, FIELDS_WITH_Y_UP, UNIT_EXPONENTS, epochTimeUnitOf } from './units.ts';
@@ -22,7 +22,7 @@ const MAX_LINE_LENGTH = 2 ** 16;
 /** Minimum number of rows, all with equally many decimals in the last column, after which fewer decimals show that the file is cut off. */
 const MIN_UNIFORM_ROWS = 20;
 
-export async function openTable(source: Source, options: OpenOptions = {}): Promise<Recording> {
+export async function openTable(source: Source, optionsOf: OptionsByName): Promise<Recording> {
   const headBytes = await readBytes(source, 0, Math.min(HEAD_BYTES, source.size));
   const encoding = detectEncoding(headBytes);
   const headText = new TextDecoder(encoding).decode(headBytes, { stream: true });
@@ -30,7 +30,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
   const headLines = headText.split('\n');
   // The last line of the head may be incomplete. It is dropped unless it is the only line.
   if (source.size > HEAD_BYTES && headLines.length > 1) headLines.pop();
-  const format = detectTableFormat(headLines, source.name, options.columns);
+  const format = detectTableFormat(headLines, source.name, optionsOf(source.name)?.columns);
   const readableGroups = format.columnGroups.filter(({ kind }) => kind !== null);
   const headerPlace = { file: source.name, line: Math.max(1, format.firstRowNumber - 1) };
   // If no group can be read, `findLogLayout` throws the reason for the group with most columns.
@@ -51,7 +51,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
       const readersOfChoices = choices.map(({ series: seriesName, kind }) => {
         const chosenGroup = format.columnGroups[allSeries.findIndex(({ name }) => name === seriesName)];
         const name = readableGroups.length === 1 ? source.name : `${source.name}, ${seriesOfGroup(chosenGroup).name}`;
-        const readerOf = (group: ColumnGroup, upAxis?: 'Y' | 'Z') => createLogReader(name, { file: source.name }, format, group, findLogLayout(group, format.columnNames, headerPlace, kind), options, upAxis);
+        const readerOf = (group: ColumnGroup, upAxis?: 'Y' | 'Z') => createLogReader(name, { file: source.name }, format, group, findLogLayout(group, format.columnNames, headerPlace, kind), optionsOf(name), upAxis);
         return format.hasUnknownAxis ? [readerOf(chosenGroup, 'Z'), readerOf(withYAxisUp(chosenGroup), 'Y')] : [readerOf(chosenGroup)];
       });
       const allReaders = readersOfChoices.flat();
@@ -134,7 +134,7 @@ function createClockReader({ columns: [{ index }, subseconds], unit: namedUnit }
 }
 
 /** Returns a reader of the log of one series, line by line. `upAxis` is the vertical axis, if the format does not define it. */
-function createLogReader(name: string, errorPlace: ErrorPlace, format: TableFormat, group: ColumnGroup, layout: ReturnType<typeof findLogLayout>, options: OpenOptions, upAxis?: 'Y' | 'Z') {
+function createLogReader(name: string, errorPlace: ErrorPlace, format: TableFormat, group: ColumnGroup, layout: ReturnType<typeof findLogLayout>, options: OpenOptions = {}, upAxis?: 'Y' | 'Z') {
   const { separator, hasDecimalCommas, isSparse, columnNames } = format;
   const { clocks, columns, fields, kind, lengthUnit, angleUnit } = layout;
   const rows = new RowCollector(errorPlace);
@@ -162,10 +162,10 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
       times.push(time);
     }
     const values: number[] = [];
-    for (const { index, name: columnName } of columns) {
+    for (const { index, name: columnName, sign } of columns) {
       const value = parseNumber(normalizeCell(cells[index]));
       if (value === undefined) return dropTextRow(line, columnName, cells[index]);
-      values.push(value);
+      values.push(sign * value);
     }
     if (nameColumns.length > 0) rowNames.add(nameColumns.map(({ index }) => cells[index].trim()).join(' to '));
     const [[time, otherTime], [a, b, c = 0, ...quaternion]] = [times, values];
@@ -206,12 +206,18 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
         clocks: [clocks[0].name, clocks[1]?.name],
         columns: Object.fromEntries([['t', ''], ...fields.map((field, i) => [field, columns[i].name])]),
         columnNames: {
-          allNames: columnNames,
           fieldsOfTiltedPoses: rollExcess > 0 ? FIELDS_WITH_W_FIRST : FIELDS_WITH_Y_UP,
-          renameFields: (newFields) => columnNames.map((name, i) => {
-            const field = (Object.keys(newFields) as Field[]).find((oldField) => group.columns[oldField]?.index === i);
-            return group.columns[newFields[field as Field] as Field]?.name ?? name.trim();
-          }),
+          createQuestion(newFields, negatedFields = []) {
+            const newColumns = columnNames.map((oldName, i) => {
+              const field = (Object.keys(group.columns) as Field[]).find((fieldOfGroup) => group.columns[fieldOfGroup]?.index === i);
+              if (!field) return { name: oldName.trim(), field: '-' };
+              const newField = newFields[field] ?? field;
+              const name = group.columns[newField]?.name ?? oldName.trim();
+              const sign = name.startsWith('-') === negatedFields.includes(field) ? '' : '-';
+              return { name: `${sign}${name.replace(/^-/, '')}`, field: `${sign}${newField}` };
+            });
+            return { option: 'columns', choices: [newColumns.map(({ name }) => name).join()], columns: columnNames, fields: newColumns.map(({ field }) => field) };
+          },
         },
         notes,
       }, options);

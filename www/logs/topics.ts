@@ -3,7 +3,7 @@
 import { group, sort, sum } from 'd3-array';
 import type { Channel, Container, Message } from './formats/container.ts';
 import { FrameTree } from './frames.ts';
-import { LogError, truncate, listNames, reasonOf, RECORDING_CLOCK, formatFrames, type ErrorReason, type LogChoice, type Log, type Note, type OpenOptions, type Recording, type Series } from './log.ts';
+import { LogError, truncate, listNames, reasonOf, RECORDING_CLOCK, formatFrames, type ErrorReason, type LogChoice, type Log, type Note, type OptionsByName, type Recording, type Series } from './log.ts';
 import { isReadable, logKindOfType, sampleReaderOf, readTransforms } from './messages.ts';
 import { RowCollector } from './rows.ts';
 
@@ -16,7 +16,7 @@ const MAX_TYPE_LENGTH = 100;
 /** Returns true for a topic of static transforms. */
 const isStaticTopic = ({ topic, type }: Pick<Channel, 'topic' | 'type'>) => logKindOfType(type) === 'transforms' && /(^|\/)tf_static$/.test(topic);
 
-export async function createRecording(name: string, container: Container, options: OpenOptions): Promise<Recording> {
+export async function createRecording(name: string, container: Container, optionsOf: OptionsByName): Promise<Recording> {
   const { format, channels } = container;
   if (channels.every(({ count }) => count === 0)) {
     const damageReason = damageReasonOf(container);
@@ -35,7 +35,7 @@ export async function createRecording(name: string, container: Container, option
     // Static transforms are read first, because they also hold before the time of their recording.
     if (choices.some(({ frames }) => frames)) await container.readMessages(isStaticTopic, passMessage);
     await container.readMessages((channel) => wantedChannels.has(channel), passMessage, onProgress);
-    return choiceReaders.map((reader) => reader.buildLog(options));
+    return choiceReaders.map((reader) => reader.buildLog(optionsOf));
   }
 }
 
@@ -97,7 +97,7 @@ function createTopicReader(file: string, container: Container, { series: topic, 
     },
 
     /** Returns the log; throws a LogError if the messages do not form a log. */
-    buildLog(options: OpenOptions): Log {
+    buildLog(optionsOf: OptionsByName): Log {
       const { format, damageReasons, truncationReason } = container;
       const lossReason = damageReasonOf(container);
       if (messageCount === 0 && lossReason) refuse((texts) => texts.damaged(lossReason, format));
@@ -111,12 +111,13 @@ function createTopicReader(file: string, container: Container, { series: topic, 
         ...(damageReasons.length > 0 ? [{ name: 'damaged' as const, values: [damageReasons.length, damageReasons[0]] }] : []),
         ...(truncationReason ? [{ name: 'cutShort' as const, values: [] }] : []),
       ];
-      return rows.buildLog(`${file}, ${topic}${frames ? ` (${formatFrames(frames)})` : ''}`, logKind, {
+      const name = `${file}, ${topic}${frames ? ` (${formatFrames(frames)})` : ''}`;
+      return rows.buildLog(name, logKind, {
         units: { time: { unit: 'ns', by: 'format' }, length: { unit: 'm', by: 'format' }, angle: { unit: logKind === 'poses' ? 'quaternion' : 'none', by: 'format' } },
         clocks: ['header.stamp', RECORDING_CLOCK],
         ...(frames && { frames }),
         notes,
-      }, options);
+      }, optionsOf(name));
     },
   };
 }

@@ -12,10 +12,10 @@ export interface Columns { start: number; t: Float64Array; a: Float64Array; b: F
 
 type NewFields = Partial<Record<Field, Field>>;
 
-/** Names of all columns of a table, and a function that gives columns of some fields the names of other fields. */
+/** Names of the columns of a table, which the user may change. */
 export interface ColumnNames {
-  allNames: string[];
-  renameFields(newFields: NewFields): string[];
+  /** Returns a question about the columns. It proposes to give columns the names of other fields, and to change the signs of some fields. */
+  createQuestion(newFields: NewFields, negatedFields?: Field[]): Question;
   /** New names of fields that probably make the robot turn about Z, if it does not do so with the present names. */
   fieldsOfTiltedPoses: NewFields;
 }
@@ -27,7 +27,9 @@ export const FIELDS_WITH_W_FIRST: NewFields = { qx: 'qw', qy: 'qx', qz: 'qy', qw
 /** New names of fields for a table with Y up, whose headings grow from x to z. */
 const LEFT_HANDED_FIELDS_WITH_Y_UP: NewFields = { y: 'z', z: 'y' };
 /** New names of fields for a table whose headings grow from y to x. */
-const MIRRORED_FIELDS: NewFields = { x: 'y', y: 'x' };
+const SWAPPED_FIELDS: NewFields = { x: 'y', y: 'x' };
+/** Fields that change their sign if the y axis is mirrored. */
+export const MIRRORED_FIELDS: Field[] = ['y', 'yaw', 'qx', 'qz'];
 
 /** Decimal exponent of the number of units in a second, by unit of time. */
 export const UNIT_EXPONENTS = { s: 0, ms: 3, us: 6, ns: 9 } as const;
@@ -87,10 +89,13 @@ export function judgeUnits(errorPlace: ErrorPlace, kind: LogKind, columns: Colum
 
   const { unit, by } = options.angleUnit ? { unit: options.angleUnit, by: 'option' as const } : assumedUnits.angle;
   const alignment = isJudged && kind === 'poses' ? alignmentWithPath(t, a, b, c) : undefined;
-  const createQuestion = (newFields: NewFields): Question | undefined => columnNames && { option: 'columns', choices: [columnNames.renameFields(newFields).join()], columns: columnNames.allNames };
-  if (alignment?.sign === -1) throw new LogError(errorPlace, (texts) => texts.mirrored, createQuestion(MIRRORED_FIELDS));
+  if (alignment?.sign === -1) {
+    // Headings and path differ by a right angle if x and y are swapped, but not if y is negated.
+    const isSwapped = alignment.cosine < 0;
+    throw new LogError(errorPlace, (texts) => texts.mirrored, columnNames?.createQuestion(isSwapped ? SWAPPED_FIELDS : {}, isSwapped ? [] : ['y']));
+  }
   const alignmentWithYUp = isJudged && kind === 'poses' && columnNames && !alignment ? alignmentWithPath(t, a, z, c) : undefined;
-  if (columnNames && alignmentWithYUp) throw new LogError(errorPlace, (texts) => texts.yUp, createQuestion(alignmentWithYUp.sign > 0 ? LEFT_HANDED_FIELDS_WITH_Y_UP : FIELDS_WITH_Y_UP));
+  if (columnNames && alignmentWithYUp) throw new LogError(errorPlace, (texts) => texts.yUp, columnNames.createQuestion(alignmentWithYUp.sign > 0 ? LEFT_HANDED_FIELDS_WITH_Y_UP : FIELDS_WITH_Y_UP));
   const turnRateAt = kind === 'poses' ? (i: number) => (c[i + 1] - c[i]) / (t[i + 1] - t[i]) : (i: number) => b[i];
   const turnRate = quantileOf(sampleEvenly(t.length - 1, (i) => Math.abs(turnRateAt(i))), 0.9);
   const mayBeDegrees = kind === 'poses' ? c.some((heading) => Math.abs(heading) > MAX_WRAPPED_HEADING) : turnRate > MAX_SPEED;
@@ -104,7 +109,7 @@ export function judgeUnits(errorPlace: ErrorPlace, kind: LogKind, columns: Colum
 
 /** Returns an error that asks for a unit; without a question if no unit is possible. */
 const createUnitError = (errorPlace: ErrorPlace, option: keyof typeof UNITS, value: number, assumedUnit: string, choices: string[]) =>
-  new LogError(errorPlace, (texts) => texts[option](value, assumedUnit, choices), choices.length > 0 ? { option, choices, assumedUnit } : undefined);
+  new LogError(errorPlace, (texts) => texts[option](value, assumedUnit, choices), choices.length > 0 ? { option, choices: sort(choices, (unit) => Number(unit === assumedUnit)) } : undefined);
 
 /** Judges a unit of times that is not stated, by the rate of the rows and the speed of the robot. */
 function judgeTimeUnit(errorPlace: ErrorPlace, kind: LogKind, { t, a, b }: Columns, assumedUnit: Units['time']): Units['time'] {
@@ -124,10 +129,10 @@ function judgeTimeUnit(errorPlace: ErrorPlace, kind: LogKind, { t, a, b }: Colum
 }
 
 /**
- * Returns the unit and the sign with which the headings differ by a constant angle from the direction of the path. The sign is −1 if they turn
- * the other way. Undefined if the path is short, or several units or signs fit (on a straight path), or none (for a robot that drives sideways).
+ * Returns the unit and the sign with which the headings differ by a constant angle from the direction of the path, and the cosine of twice that
+ * angle, times a positive factor. The sign is −1 if they turn the other way. Undefined if the path is short, or several units or signs fit (on a straight path), or none (for a robot that drives sideways).
  */
-function alignmentWithPath(t: Float64Array, x: Float64Array, y: Float64Array, heading: Float64Array): { unit: AngleUnit; sign: number } | undefined {
+function alignmentWithPath(t: Float64Array, x: Float64Array, y: Float64Array, heading: Float64Array): { unit: AngleUnit; sign: number; cosine: number } | undefined {
   const stride = Math.max(2, Math.ceil(STEP_DURATION / medianStepOf(t)));
   const candidates = UNITS.angleUnit.flatMap((unit) => [1, -1].map((sign) => ({ unit, sign, cosine: 0, sine: 0 })));
   let stepCount = 0;
@@ -143,7 +148,7 @@ function alignmentWithPath(t: Float64Array, x: Float64Array, y: Float64Array, he
     }
   }
   // The mean resultant length is 1 if all differences are equal, and near 0 if they are random.
-  const alignments = candidates.map(({ unit, sign, cosine, sine }) => ({ unit, sign, alignment: Math.hypot(cosine, sine) / stepCount }));
+  const alignments = candidates.map((candidate) => ({ ...candidate, alignment: Math.hypot(candidate.cosine, candidate.sine) / stepCount }));
   const [bestAlignment, secondBestAlignment] = alignments.sort((alignment, otherAlignment) => otherAlignment.alignment - alignment.alignment);
   return stepCount >= MIN_STEPS && bestAlignment.alignment > MIN_ALIGNMENT && bestAlignment.alignment - secondBestAlignment.alignment > MIN_ALIGNMENT_LEAD ? bestAlignment : undefined;
 }

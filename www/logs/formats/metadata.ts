@@ -22,7 +22,7 @@ export async function findListedFiles(metadata: Source, sources: Source[]): Prom
   }
   const filesInFolder = sources.filter((source) => folderOf(source) === folderOf(metadata));
   // A decompressed file has no ".zstd" at the end of its name.
-  const files = fileNames.map((name) => filesInFolder.find((source) => source.name === name || `${source.name}.zstd` === name));
+  const files = fileNames.map((name) => filesInFolder.find((source) => [name, name.replace(/\.zstd$/, '')].includes(baseNameOf(source.name))));
   const missingNames = fileNames.filter((_, i) => !files[i]);
   if (missingNames.length > 0 || files.length === 0) throw new LogError(errorPlace, (texts) => texts.noFiles(listNames(missingNames)));
   const folder = baseNameOf(folderOf(metadata).replace(/\/$/, ''));

@@ -6,7 +6,7 @@ const formatLegCount = (count: string) => `${count} Etappe${count === '1' ? '' :
 /** Messages of failed checks. */
 const CHECK_MESSAGES: Record<string, string> = {
   'reference-matches-mirrored':
-    'Die Referenz dreht sich nach links, wo sich die Odometrie nach rechts dreht: Bei einer von beiden zeigt Z nach unten, oder eine Achse ist gespiegelt. Die α sind bedeutungslos. Bei dieser y und den Winkel negieren.',
+    'Die Referenz dreht sich nach links, wo sich die Odometrie nach rechts dreht: Bei einer von beiden zeigt Z nach unten, oder eine Achse ist gespiegelt. Die α sind bedeutungslos. Bei einer von beiden y und den Winkel negieren: Welche falsch ist, zeigen die Logs nicht, und die α sind dieselben.',
   'reference-matches-copied':
     'Kein Fehler der Odometrie ist sichtbar: Die Referenz ist eine Kopie davon, daraus berechnet oder zu ungenau. Die α sind bedeutungslos. Eine genaue, unabhängige Messung verwenden, zum Beispiel Motion Capture oder SLAM.',
   'reference-matches':

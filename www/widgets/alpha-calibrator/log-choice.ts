@@ -2,19 +2,21 @@
 
 import { html, nothing, svg } from 'lit';
 import { guard } from 'lit/directives/guard.js';
+import { keyed } from 'lit/directives/keyed.js';
 import { live } from 'lit/directives/live.js';
-import { ROLES, UNITS, choiceLabelOf, readableSeriesOf, summaryLinesOf, type LogChoice, type Question, type Role } from '../../logs/log.ts';
+import { ROLES, UNITS, choiceLabelOf, readableSeriesOf, summaryLinesOf, type FileQuestion, type LogChoice, type Question, type Role } from '../../logs/log.ts';
 import { alignPath, pathOf, svgPathDataOf, type Path } from '../../logs/path.ts';
 import { language } from '../../messages/registry.ts';
 import { radioGroupHtml } from '../../ui/controls.ts';
-import { formatFixed } from '../../ui/format.ts';
+import { MINUS, formatFixed } from '../../ui/format.ts';
 import type { AlphaCalibratorElement } from './alpha-calibrator.ts';
 import type { Drive } from '../../logs/pairs.ts';
 import type { FileContents } from '../../logs/session.ts';
-import type { OpenQuestion, ChosenFiles, LogOpener, LogWords } from './open.ts';
+import type { ChosenFiles, LogOpener, LogWords } from './open.ts';
 
 export { english as en } from '../../logs/en.ts';
 export { german as de } from '../../logs/de.ts';
+export { mirroringQuestionsOf } from '../../logs/log.ts';
 
 type Recording = FileContents['recordings'][number];
 
@@ -80,9 +82,9 @@ function roleSelectHtml(opener: LogOpener, { recordings, answers }: ChosenFiles,
   }, texts.open);
 }
 
-function questionHtml(opener: LogOpener, { answers }: ChosenFiles, question: OpenQuestion, { choose: texts }: LogWords) {
+function questionHtml(opener: LogOpener, { answers }: ChosenFiles, question: FileQuestion, { choose: texts }: LogWords) {
   const { file, option, choices: unitChoices } = question;
-  if (option === 'columns') return columnsFormHtml(opener, question, answers[file]?.columns, texts);
+  if (option === 'columns') return columnsFormHtml(opener, question, answers[file]?.columns?.join(), texts);
   if (option !== 'timeUnit' && option !== 'lengthUnit' && option !== 'angleUnit') return nothing;
   const unitLabels: Record<string, string> = Object.fromEntries((unitChoices.length ? unitChoices : UNITS[option]).map((unit) => [unit, texts.units[unit as keyof typeof texts.units]]));
   return html`<div id=${questionIdOf(question)}>
@@ -91,37 +93,44 @@ function questionHtml(opener: LogOpener, { answers }: ChosenFiles, question: Ope
 }
 
 /** Returns a form with one `<select>` for each field, which assigns a column to it. */
-function columnsFormHtml(opener: LogOpener, question: OpenQuestion, answeredFields: string[] | undefined, texts: LogWords['choose']) {
-  const { file, choices: [defaultFieldNames = ''], columns = [] } = question;
-  const assignedFields = answeredFields ?? defaultFieldNames.split(',');
-  const options = columns.map((headerCell, columnIndex): [string, string] => [String(columnIndex), texts.column(columnIndex + 1, headerCell.trim().slice(0, MAX_CELL_LENGTH))]);
+function columnsFormHtml(opener: LogOpener, question: FileQuestion, answeredNames: string | undefined, texts: LogWords['choose']) {
+  const { file, choices: [chosenNames = ''], columns = [], fields = chosenNames.split(',') } = question;
+  const columnNames = chosenNames.split(',');
+  // A column with a changed sign is a separate option.
+  const options = ['', '-'].flatMap((sign) => columns.map((headerCell, columnIndex) =>
+    ({ sign, columnIndex, label: `${sign && `${MINUS} `}${texts.column(columnIndex + 1, headerCell.trim().slice(0, MAX_CELL_LENGTH))}` })));
   const submitColumns = (event: Event) => {
     event.preventDefault();
-    const fieldNames = columns.map(() => '-');
-    for (const [field, columnIndex] of new FormData(event.target as HTMLFormElement)) if (columnIndex !== '') fieldNames[Number(columnIndex)] = String(field);
-    opener.answer({ [file]: { columns: fieldNames } });
+    const newFields = columns.map(() => '-');
+    for (const [field, optionIndex] of new FormData(event.target as HTMLFormElement)) {
+      if (optionIndex !== '') newFields[options[Number(optionIndex)].columnIndex] = `${options[Number(optionIndex)].sign}${field}`;
+    }
+    // The name of a column that is not changed may have a unit.
+    const newNames = newFields.map((field, i) => (field === fields[i] ? columnNames[i] : field));
+    Object.assign(question, { choices: [newNames.join()], fields: newFields });
+    opener.answer({ [file]: { columns: newNames } });
   };
-  return html`<form id=${questionIdOf(question)} @submit=${submitColumns}>
+  return keyed(question, html`<form id=${questionIdOf(question)} @submit=${submitColumns}>
     <fieldset>
-      <legend>${texts.columns(file, !answeredFields && defaultFieldNames !== '')}</legend>
+      <legend>${texts.columns(file, chosenNames !== '' && chosenNames !== answeredNames)}</legend>
       <div class="choices">
         ${COLUMN_FIELDS.map((field) => html`<label>
           ${texts.fields[field]}
           <select name=${field} aria-label=${texts.fields[field]} aria-describedby="refusal">
             <option value="">${texts.none}</option>
-            ${options.map(([columnIndex, label]) => html`<option value=${columnIndex} ?selected=${assignedFields[Number(columnIndex)] === field}>${label}</option>`)}
+            ${options.map(({ sign, columnIndex, label }, i) => html`<option value=${i} ?selected=${fields[columnIndex] === `${sign}${field}`}>${label}</option>`)}
           </select>
         </label>`)}
         <button type="submit" part="button">${texts.read}</button>
       </div>
     </fieldset>
-  </form>`;
+  </form>`);
 }
 
-const questionIdOf = ({ file, option }: OpenQuestion) => `log-${option}-${file.replaceAll(/[^\w-]/g, '_')}`;
+const questionIdOf = ({ file, option }: FileQuestion) => `log-${option}-${file.replaceAll(/[^\w-]/g, '_')}`;
 
 /** Moves the focus to the control that answers a question, unless such a control already has it. Returns true if there is a control. */
-export function focusChooser({ renderRoot }: AlphaCalibratorElement, question: OpenQuestion): boolean {
+export function focusChooser({ renderRoot }: AlphaCalibratorElement, question: FileQuestion): boolean {
   const { option, role = 'odometry' } = question;
   const selectors = { series: `#log-${role}`, frames: `#log-${role}`, roles: '[id^=log-role-]' } as Partial<Record<Question['option'], string>>;
   const chooserElement = renderRoot.querySelector<HTMLElement>(selectors[option] ?? `#${questionIdOf(question)}`);

@@ -7,7 +7,7 @@ import { FileOpener } from '../shared/files.ts';
 import { instantiateShared, moduleForWorker, startWorker } from '../../core.ts';
 import type { UserChoices } from '../../logs/drives.ts';
 import type { FileContents, LogFailure, LogSession } from '../../logs/session.ts';
-import type { OpenOptions, Question, Source } from '../../logs/log.ts';
+import type { FileQuestion, OpenOptions, Source } from '../../logs/log.ts';
 import type { AlphaCalibratorSettings, CalibrationLog } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
@@ -18,15 +18,13 @@ type Refusal = Pick<Error, 'message'> & Partial<LogFailure>;
 
 type LogModule = typeof import('./log-choice.ts');
 
-/** Question about a file that the user has answered, or still has to answer. */
-export type OpenQuestion = Question & { file: string };
-
 /** Files with their contents, and the user's choices by which these were read. Missing choices are guessed. */
 export interface ChosenFiles extends FileContents {
   files: File[];
   /** Options for reading each file, by its name. */
   answers: Record<string, OpenOptions>;
-  questions: OpenQuestion[];
+  /** Questions that the user has answered, or still has to answer. */
+  questions: FileQuestion[];
   userChoices: UserChoices;
   /** True if the figure has shown a fit to these files. */
   isFitted?: boolean;
@@ -152,11 +150,12 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   async #fit(openedFiles: ChosenFiles) {
-    const { log, warnings } = openedFiles as Required<ChosenFiles>;
+    const { log, warnings, drives } = openedFiles as Required<ChosenFiles>;
     // The summary of logs is shown while they are fitted.
     this.host.requestUpdate();
-    await this.host.openLog(log, warnings, ({ count }) => {
+    await this.host.openLog(log, warnings, ({ count, stats }) => {
       if (count === 0) throw new RangeError(words.calibrator.tooFewLegs);
+      for (const question of this.logModule!.mirroringQuestionsOf(drives, stats.diagnostics.checks)) askQuestion(openedFiles, question);
     });
     openedFiles.isFitted = true;
     this.#resultFiles = openedFiles;
@@ -176,9 +175,14 @@ export class LogOpener extends FileOpener<Figure> {
     if (isAbortError(error)) return;
     const { chosenFiles } = this;
     const newQuestion = error.question && { ...error.question, file: error.place?.file ?? '' };
-    if (newQuestion && !chosenFiles?.questions.some(({ file, option }) => file === newQuestion.file && option === newQuestion.option)) chosenFiles?.questions.push(newQuestion);
+    if (newQuestion && chosenFiles) askQuestion(chosenFiles, newQuestion);
     await super.showRefusal(error, () => newQuestion && this.logModule?.focusChooser(this.host, newQuestion));
   }
+}
+
+/** Asks a question about files, which replaces an earlier question with the same option. */
+function askQuestion(chosenFiles: ChosenFiles, newQuestion: FileQuestion) {
+  chosenFiles.questions = [...chosenFiles.questions.filter(({ file, option }) => file !== newQuestion.file || option !== newQuestion.option), newQuestion];
 }
 
 /** Checks whether a file may be a log, because folders also have other files. */

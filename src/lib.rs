@@ -45,7 +45,7 @@ mod js;
 pub mod map;
 pub mod models;
 pub mod noise;
-mod number_text;
+mod numbers;
 pub mod sim;
 pub mod stats;
 

@@ -8,7 +8,7 @@ mod quantile;
 use crate::geom::angle::wrap_angle;
 use crate::geom::lanes::LANE_COUNT;
 use crate::geom::sinc::sinc;
-use crate::number_text::number_text;
+use crate::numbers::format_number;
 use rand::Rng;
 use std::f64::consts::{PI, TAU};
 use thiserror::Error;
@@ -31,7 +31,7 @@ impl Variance {
 
 /// Error of [`Variance::new`]: a negative number or NaN.
 #[derive(Clone, Copy, Debug, Error)]
-#[error("variance is {}; a number that is 0 or more is needed", number_text(*.0))]
+#[error("variance is {}; a number that is 0 or more is needed", format_number(*.0))]
 pub struct NegativeVariance(pub f64);
 
 /// Largest residual that counts as 0 for a noise of zero variance (m/s or rad/s, or m or rad for rotations and translations of odometry).

@@ -262,7 +262,7 @@ fn assert_nearest_pose(simulation: &BananaMachine, input: &mut InputReader) {
     let search_point = [0; 2].map(|_| input.next_number());
     let search_radii = [0; 2].map(|_| input.draw_number_within(0.0..=f64::INFINITY));
     let Some(nearest_index) = simulation.nearest(View::Plane, search_point, search_radii) else { return };
-    let nearest_pose: SE2 = simulation.pose(nearest_index).expect("a sample that is shown");
+    let nearest_pose: SE2 = simulation.poses().nth(nearest_index).expect("a sample that is shown");
     let relative_distance_to = |pose: &SE2| ((pose.x() - search_point[0]) / search_radii[0]).hypot((pose.y() - search_point[1]) / search_radii[1]);
     // The absolute tolerance is 1e-150, because squares of distances below 1e-154 underflow to 0.
     let min_relative_distance = simulation.poses().map(|pose| relative_distance_to(&pose)).fold(f64::INFINITY, f64::min);

@@ -11,7 +11,7 @@ const SPEED: f64 = 1.0;
 const DURATION: f64 = 0.1;
 
 /// Turn rate |ω̂| (rad/s) below which the code of the book's chapter drives a straight line.
-pub const STRAIGHT_LINE_THRESHOLD: f64 = 1e-6;
+const STRAIGHT_LINE_THRESHOLD: f64 = 1e-6;
 
 /// Decimal exponents of the first and last turn rate (rad/s), and number of turn rates per decade.
 const FIRST_AND_LAST_DECADE: [i32; 2] = [-12, 1];

@@ -7,7 +7,7 @@ use super::wall_tree::{Node, WallTree};
 use crate::geom::arc::{Arc, ArcPiece, DrivenArc, LocalArc, PreparedPose};
 use crate::geom::lanes::{LANE_COUNT, is_any_lane_set};
 use crate::geom::segment::Segment;
-use crate::number_text::number_text;
+use crate::numbers::format_number;
 use std::cell::OnceCell;
 use std::ops::RangeInclusive;
 use std::sync::OnceLock;
@@ -68,7 +68,7 @@ pub enum FloorPlanError {
 }
 
 fn join_numbers(numbers: &[f64]) -> String {
-    numbers.iter().copied().map(number_text).collect::<Vec<_>>().join(", ")
+    numbers.iter().copied().map(format_number).collect::<Vec<_>>().join(", ")
 }
 
 /// Result of a collision test. The distance field alone decides most tests.

@@ -85,15 +85,6 @@ impl JsBananaMachine {
         Ok(to_plain_js(&sample))
     }
 
-    /// Returns the heading (rad) of a sample by its index, counted from 0.
-    pub fn heading(&self, index: f64) -> Result<f64, JsValue> {
-        let index = read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize;
-        self.0
-            .pose(index)
-            .map(|pose| pose.theta())
-            .ok_or_else(|| not_shown_error(index, self.0.shown_count()))
-    }
-
     /// Returns the index of the nearest sample inside the ellipse with these semi-axes around a point of the view; −1 for none.
     pub fn nearest(
         &self,

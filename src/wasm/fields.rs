@@ -1,6 +1,6 @@
 //! Readers of JavaScript values. Every error is a TypeError or RangeError that names the field, the value and the allowed values.
 
-use crate::number_text::number_text;
+use crate::numbers::format_number;
 use crate::sim::settings::{
     KeywordSetting, Setting, SettingRules, SettingValue, SettingsError, check_integer, check_real,
 };
@@ -261,7 +261,7 @@ fn describe_value(value: &JsValue) -> String {
         return quote(&shorten(&text));
     }
     if let Some(number) = value.as_f64() {
-        return number_text(number);
+        return format_number(number);
     }
     if let Some(boolean) = value.as_bool() {
         return boolean.to_string();

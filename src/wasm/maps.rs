@@ -10,7 +10,7 @@ use crate::map::{
     FloorPlan, FloorPlanError, Image, MAX_BYTES, MAX_PIXELS, MapMode, OccupancyGrid, PixelClassifier,
     RESOLUTION_RANGE, read_grid,
 };
-use crate::number_text::number_text;
+use crate::numbers::format_number;
 use crate::sim::settings::{HasKeywords, QUANTITY_RANGE};
 use js_sys::{Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
@@ -64,7 +64,7 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let default_free_thresh = defaults.free_thresh.min(occupied_thresh);
     let free_thresh = fields.read_or("free_thresh", default_free_thresh, 0.0..=1.0)?;
     if free_thresh > occupied_thresh {
-        let [free_text, limit_text] = [free_thresh, occupied_thresh].map(number_text);
+        let [free_text, limit_text] = [free_thresh, occupied_thresh].map(format_number);
         let message = format!("free_thresh is {free_text}; allowed is at most occupied_thresh, {limit_text}");
         return Err(RangeError::new(&message).into());
     }

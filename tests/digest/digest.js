@@ -49,7 +49,7 @@ export const resultFunctions = {
       contours: simulation.contours,
       curve: simulation.skewCurve(-3, 3, 25),
       samples: {
-        inspected: listMultiplesBelow(shown, 501).map((sampleIndex) => ({ ...simulation.inspect(sampleIndex), heading: simulation.heading(sampleIndex) })),
+        inspected: listMultiplesBelow(shown, 501).map((sampleIndex) => simulation.inspect(sampleIndex)).map((sample) => ({ ...sample, heading: sample.pose[2] })),
         nearest: VIEWS.map((viewName) => simulation.nearest(viewName, 0.9, 0.2, 0.5, 0.3)),
         reaching: [[1, 0.5], [-0.3, 0.8], [0, 0], [2, -1.5]].map(([x, y]) => commandReaching(x, y, command)),
       },

@@ -185,11 +185,6 @@ impl BananaMachine {
         (0..self.shown_count()).map(|index| self.cloud.pose(index))
     }
 
-    /// Returns the pose of a shown sample.
-    pub fn pose(&self, index: usize) -> Option<SE2> {
-        (index < self.shown_count()).then(|| self.cloud.pose(index))
-    }
-
     /// Returns the exponential coordinates of the samples shown (along, lateral, heading), on the branch of the
     /// logarithm that belongs to the commanded turn.
     pub fn twists(&self) -> impl ExactSizeIterator<Item = Vector3<f64>> {
@@ -334,7 +329,7 @@ impl BananaMachine {
 
     /// Returns sample `index` of the samples shown.
     pub fn inspect(&self, index: usize) -> Option<Sample> {
-        let pose = self.pose(index)?;
+        let pose = (index < self.shown_count()).then(|| self.cloud.pose(index))?;
         let model_with_input = self.settings.model_with_input(self.settings.command);
         let executed_motion = model_with_input.executed_motion(self.cloud.unit_noise(index));
         let ([v_hat, omega_hat, gamma_hat], legs, path) = match model_with_input {

@@ -1,6 +1,6 @@
 //! Error for a setting that is not allowed, and checks of numbers.
 
-use crate::number_text::number_text;
+use crate::numbers::format_number;
 use std::ops::RangeInclusive;
 use thiserror::Error;
 
@@ -46,14 +46,14 @@ impl SettingsError {
                 return format!("{} is {given}; allowed is {allowed}", self.key);
             }
             AllowedValues::Real(range) => {
-                format!("a number from {} to {}", number_text(*range.start()), number_text(*range.end()))
+                format!("a number from {} to {}", format_number(*range.start()), format_number(*range.end()))
             }
             AllowedValues::Integer(range) => {
                 format!("a whole number from {} to {}", range.start(), range.end())
             }
             AllowedValues::FitsInMemory => "a number for which there is memory".to_owned(),
         };
-        format!("{} is {}; allowed is {allowed_text}", self.key, number_text(self.value))
+        format!("{} is {}; allowed is {allowed_text}", self.key, format_number(self.value))
     }
 }
 

@@ -2,7 +2,7 @@
 
 /// Returns a number as text, with an exponent if it is very large or very small. In WebAssembly, JavaScript formats the number, because
 /// Rust's code for printing doubles would take an eighth of the module.
-pub(crate) fn number_text(number: f64) -> String {
+pub(crate) fn format_number(number: f64) -> String {
     #[cfg(target_arch = "wasm32")]
     // Radix 10 never throws.
     return js_sys::Number::from(number)

@@ -16,11 +16,11 @@ simulation_class! {
     /// Settings, and the revision of the fit, in one call. `stats` and `legs` change only if that revision changes.
     read as "AlphaCalibratorView" {
         /// Settings of the present fit. They differ from `config` until a fit with the settings in `config` is finished.
-        fitted_config as fittedConfig: "AlphaCalibratorSettings" = to_plain_js(simulation.fitted_settings());
+        fitted_config as "fittedConfig": "AlphaCalibratorSettings" = to_plain_js(simulation.fitted_settings());
         /// Revision of the fit, a number that changes with each new fit.
-        fit_revision as fits: "number" = simulation.fit_revision();
+        fit_revision as "fits": "number" = simulation.fit_revision();
         /// True while the settings need another fit, which only a simulation with the log can compute.
-        is_pending as isPending: "boolean" = simulation.is_pending();
+        is_pending as "isPending": "boolean" = simulation.is_pending();
     }
     others {
         /// True values of the simulated log; null for any other log.

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use super::fields::{check_range, not_shown_error, read_integer, read_value};
 use super::pictures::{RADIUS_RANGE, pixel_view, read_grid, read_ramps};
-use super::simulation_class::{cloud_simulation_class, simulation_class};
+use super::simulation_class::cloud_simulation_class;
 use super::values::{flat_float_array, js_array, js_object, to_plain_js, triple_array};
 use crate::geom::se2::SE2;
 use crate::geom::unbend::unbend_line;
@@ -29,9 +29,9 @@ cloud_simulation_class! {
         table: "Table" = to_plain_js(&simulation.table());
         /// True if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise statistics and
         /// contours in exponential coordinates are undefined.
-        is_exponential_defined as chartHolds: "boolean" = simulation.is_exponential_defined();
+        is_exponential_defined as "chartHolds": "boolean" = simulation.is_exponential_defined();
         /// Noise parameters of each model. A model that is not selected keeps its own.
-        alphas_of_models as alphasOfModels: "{ velocity: number[]; odometry: number[] }" = js_object(&[
+        alphas_of_models as "alphasOfModels": "{ velocity: number[]; odometry: number[] }" = js_object(&[
             ("velocity", js_array(&simulation.settings().velocity_alphas)),
             ("odometry", js_array(&simulation.settings().odometry_alphas)),
         ]);
@@ -45,7 +45,7 @@ cloud_simulation_class! {
         twists: "Float64Array" = triple_array(simulation.twists());
         /// Motion executed by each sample shown: v̂ (m/s), ω̂, γ̂ (rad/s); or δ̂_rot1 (rad), δ̂_trans (m), δ̂_rot2 (rad) under the odometry
         /// model. A copy.
-        executed_motions as executed: "Float64Array" = triple_array(simulation.executed_motions());
+        executed_motions as "executed": "Float64Array" = triple_array(simulation.executed_motions());
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::fields::{not_shown_error, read_integer};
 use super::pictures::nearest_index;
-use super::simulation_class::{cloud_simulation_class, simulation_class};
+use super::simulation_class::cloud_simulation_class;
 use super::values::{flat_float_array, js_object, number_or_null, to_plain_js, triple_array};
 use crate::models::Compounding;
 use crate::sim::dead_reckoning::{DeadReckoning, MAX_SAMPLES};
@@ -23,7 +23,7 @@ cloud_simulation_class! {
         ratios: "ByRecursion<Float64Array>" =
             js_by_recursion(|recursion| triple_array(simulation.comparison(recursion).ratios.iter().copied()));
         /// Standard errors of the measured variances, as fractions of the variances.
-        relative_errors as relativeErrors: "Float64Array" =
+        relative_errors as "relativeErrors": "Float64Array" =
             triple_array(simulation.measured_moments().iter().map(|moments| moments.relative_error));
         /// Path driven without noise, as x, y pairs (m) from the start.
         commanded: "Float64Array" = flat_float_array(&simulation.commanded_path());
@@ -41,7 +41,7 @@ cloud_simulation_class! {
     }
     others {
         /// Level h of the heading noise; null if α₃ to α₆ do not have the ratios of a level.
-        heading_noise as headingNoise: "number | null" = number_or_null(simulation.settings().heading_noise());
+        heading_noise as "headingNoise": "number | null" = number_or_null(simulation.settings().heading_noise());
         /// Predicted variances of along, lateral (m²) and heading (rad²) after each step, three numbers a step; NaN if undefined.
         predicted: "ByRecursion<Float64Array>" = js_by_recursion(|recursion| {
             let to_variances = |cov: &Matrix3<f64>| cov.diagonal();
@@ -51,7 +51,7 @@ cloud_simulation_class! {
         /// Measured variances, in the form of `predicted`.
         measured: "Float64Array" = triple_array(simulation.measured_moments().iter().map(|moments| moments.cov.diagonal()));
         /// Variances of a straight drive as functions of its duration, at the present speed and noise. Each drive is one command.
-        straight_growth as straightGrowth: "StraightGrowth" = to_plain_js(&simulation.straight_growth());
+        straight_growth as "straightGrowth": "StraightGrowth" = to_plain_js(&simulation.straight_growth());
     }
 }
 

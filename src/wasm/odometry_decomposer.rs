@@ -2,7 +2,7 @@
 
 use super::fields::{check_range, read_integer};
 use super::pictures::nearest_index;
-use super::simulation_class::{cloud_simulation_class, simulation_class};
+use super::simulation_class::cloud_simulation_class;
 use super::values::{flat_float_array, pose_to_js, to_plain_js, triple_array};
 use crate::sim::odometry_decomposer::{MAX_CURVE_POINTS, MAX_SAMPLES, OdometryDecomposer};
 use crate::sim::settings::QUANTITY_RANGE;
@@ -21,12 +21,12 @@ cloud_simulation_class! {
         /// x, y (m), θ (rad) of each outcome shown, in the odometry frame; a copy.
         poses: "Float64Array" = triple_array(simulation.poses().iter().copied());
         /// Noise-free reading as four poses x, y, θ: at the start, after the first rotation, after the drive, after the second rotation.
-        leg_poses as linkage: "Float64Array" = triple_array(simulation.leg_poses());
+        leg_poses as "linkage": "Float64Array" = triple_array(simulation.leg_poses());
         /// Pose of the robot at the progress that the setting `phase` gives.
         robot: "Start" = pose_to_js(simulation.robot_pose());
         drifted: "Drifted" = to_plain_js(&simulation.drifted_odometry());
         /// The four poses of each of the first outcomes shown, one outcome after the other, in the form of `linkage`.
-        sample_leg_poses as ghosts: "Float64Array" =
+        sample_leg_poses as "ghosts": "Float64Array" =
             triple_array(simulation.sample_leg_poses(MAX_SHOWN_LINKAGES).into_iter().flatten());
     }
     others {}

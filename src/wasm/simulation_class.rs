@@ -14,18 +14,26 @@ macro_rules! simulation_class {
         $class:ident($simulation:ident), $name:literal, $settings:literal, $options:literal, |$this:ident|
         $(#[$read_doc:meta])+
         read as $view:literal {
-            $($(#[$view_doc:meta])* $view_getter:ident $(as $view_key:ident)?: $view_type:literal = $view_value:expr;)+
+            $($(#[$view_doc:meta])* $view_getter:ident $(as $view_key:literal)?: $view_type:literal = $view_value:expr;)+
         }
         others {
-            $($(#[$other_doc:meta])* $other_getter:ident $(as $other_key:ident)?: $other_type:literal = $other_value:expr;)*
+            $($(#[$other_doc:meta])* $other_getter:ident $(as $other_key:literal)?: $other_type:literal = $other_value:expr;)*
         }
     ) => {
-        #[wasm_bindgen(typescript_custom_section)]
-        const VIEW_TYPE: &str = concat!(
-            "/** Result of `read`. */\nexport type ", $view, " = Pick<", $name, ", 'config'",
-            $(" | '", simulation_class!(@key $view_getter $($view_key)?), "'",)+
-            ">;"
-        );
+        $(#[$read_doc])+
+        #[derive(serde::Serialize, tsify::Tsify)]
+        #[tsify(rename = $view)]
+        pub struct SimulationView {
+            #[serde(with = "serde_wasm_bindgen::preserve")]
+            #[tsify(type = $settings)]
+            config: JsValue,
+            $(
+                $(#[$view_doc])*
+                #[serde($(rename = $view_key,)? with = "serde_wasm_bindgen::preserve")]
+                #[tsify(type = $view_type)]
+                $view_getter: JsValue,
+            )+
+        }
 
         $(#[$doc])+
         /// All units are metres, radians and seconds. An argument out of range throws a TypeError or RangeError that names the field,
@@ -63,10 +71,10 @@ macro_rules! simulation_class {
             $(#[$read_doc])+
             #[wasm_bindgen(unchecked_return_type = $view)]
             pub fn read(&self) -> JsValue {
-                $crate::wasm::values::js_object(&[
-                    ("config", self.config()),
-                    $((simulation_class!(@key $view_getter $($view_key)?), self.$view_getter())),+
-                ])
+                $crate::wasm::values::to_plain_js(&SimulationView {
+                    config: self.config(),
+                    $($view_getter: self.$view_getter()),+
+                })
             }
 
             $(
@@ -88,8 +96,6 @@ macro_rules! simulation_class {
             )*
         }
     };
-    (@key $getter:ident) => { stringify!($getter) };
-    (@key $getter:ident $key:ident) => { stringify!($key) };
 }
 
 /// Declares the JavaScript class of a simulation with a cloud of at most `$max_samples` samples. The class has the members of
@@ -108,9 +114,9 @@ macro_rules! cloud_simulation_class {
             $(#[$read_doc])+
             read as $view {
                 /// Number of samples shown, 0 to `config.samples`.
-                shown_count as shown: "number" = $this.shown_count();
+                shown_count as "shown": "number" = $this.shown_count();
                 /// Number of samples that `addSamples` adds within a few milliseconds.
-                block_size as block: "number" = $this.block_size();
+                block_size as "block": "number" = $this.block_size();
                 $($view_getters)+
             }
             others { $($other_getters)* }

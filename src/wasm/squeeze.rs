@@ -3,7 +3,7 @@
 use super::fields::{quote, read_integer, read_value};
 use super::maps::{read_map, read_plan};
 use super::pictures::{nearest_index, pixel_view, read_grid, read_ramps};
-use super::simulation_class::{cloud_simulation_class, simulation_class};
+use super::simulation_class::cloud_simulation_class;
 use super::values::{ToJs, flat_float_array, number_or_null, pose_to_js, to_plain_js, triple_array};
 use crate::geom::arc::Arc;
 use crate::geom::segment::Segment;
@@ -54,9 +54,9 @@ cloud_simulation_class! {
         /// Noise-free path of the command, as x, y pairs.
         commanded: "Float64Array" = flat_float_array(&simulation.commanded_arc().points());
         /// True if the robot collides with nothing at its start pose.
-        is_start_free as startFree: "boolean" = simulation.is_start_free();
+        is_start_free as "startFree": "boolean" = simulation.is_start_free();
         /// Paths of the first attempts that are accepted through a wall, each as x, y pairs.
-        wall_paths as paths: "Float64Array[]" = {
+        wall_paths as "paths": "Float64Array[]" = {
             let attempts = simulation.attempts().iter().enumerate();
             let through_wall = attempts.filter(|(_, attempt)| attempt.is_through_wall()).take(MAX_SHOWN_PATHS);
             through_wall.map(|(index, _)| path_of(simulation, index)).collect::<Array>()
@@ -79,7 +79,7 @@ cloud_simulation_class! {
         }));
         /// Free start pose: in the middle of the largest square that is known to be free, heading where the path is free
         /// for longest. If the robot does not fit there, another pose where it fits; null if there is none.
-        find_free_pose as openPlace: "Start | null" = simulation.find_free_pose().map_or(JsValue::NULL, pose_to_js);
+        find_free_pose as "openPlace": "Start | null" = simulation.find_free_pose().map_or(JsValue::NULL, pose_to_js);
     }
 }
 

@@ -126,7 +126,7 @@ export function describeWidgets() {
 
 /** Returns the description of a widget. @param {string} widgetTag @returns {Promise<Widget>} */
 async function describeWidget(widgetTag) {
-  const { COMMON_ATTRS } = await importTypeScript('www/figure/definition.ts');
+  const { COMMON_PROPERTIES } = await importTypeScript('www/figure/definition.ts');
   const { definition: { attributes, declarations, elementFields }, documentation } = await importTypeScript(`www/widgets/${widgetTag}/settings.ts`);
   /** @type {Documentation[]} */
   const memberDocumentations = [...('marked' in elementFields ? [CLOUD_DOCUMENTATION] : []), ...(documentation ? [documentation] : [])];
@@ -139,27 +139,29 @@ async function describeWidget(widgetTag) {
   const settingOf = (/** @type {string} */ name) => declarations.find((/** @type {Declaration} */ { key }) => key === name);
 
   /** Returns the description of an attribute. @returns {Omit<Attribute, 'isCommon'>} */
-  const describeAttribute = (/** @type {[string, any]} */ [attributeName, attributeDefinition]) => {
-    const declaration = settingOf(attributeName);
+  const describeAttribute = (/** @type {[string, any]} */ [property, propertyDefinition]) => {
+    const declaration = settingOf(property);
     if (declaration) {
       const defaultValue = declaration.default;
       const openingText = defaultValue === null ? undefined : String(defaultValue);
       const formattedDefault = typeof defaultValue === 'number' ? numberTextOf(defaultValue) : openingText;
       const withoutRange = descriptionOf({ ...declaration, min: undefined }, formattedDefault);
-      return { name: attributeName, type: typeTextOf(declaration), description: descriptionOf(declaration, formattedDefault), opening: openingText, allowed: rangeTextOf(declaration), withoutRange };
+      return { name: property, type: typeTextOf(declaration), description: descriptionOf(declaration, formattedDefault), opening: openingText, allowed: rangeTextOf(declaration), withoutRange };
     }
-    const { words, coveredAttributes, property } = attributeDefinition;
-    const elementField = elementFields[attributeName];
-    const nullable = coveredAttributes || attributeDefinition.nullable;
-    const openingText = elementField?.default ?? (coveredAttributes ? openingPresetOf(widgetTag) : nullable ? undefined : words?.[0]);
+    const { words, attribute, default: commonDefault } = propertyDefinition;
+    const name = typeof attribute === 'string' ? attribute : property;
+    const elementField = elementFields[property];
+    const isPreset = property === 'preset';
+    const nullable = isPreset || commonDefault === null;
+    const openingText = elementField?.default ?? (isPreset ? openingPresetOf(widgetTag) : commonDefault || undefined);
     const type = elementField?.type === 'number' ? 'number' : words === undefined ? 'boolean' : elementField?.type === 'words' ? `(${unionTypeOf(words)})[]` : unionTypeOf(words);
     const typeText = Array.isArray(openingText) ? openingText.join(' ') : openingText;
-    const description = descriptionOf({ ...attributeDefinition, ...elementField, sentence: attributeSentences[attributeName] }, typeText);
-    return { name: attributeName, property, type: nullable ? `${type} | null` : type, description, opening: typeText, allowed: elementField && rangeTextOf(elementField), withoutRange: description };
+    const description = descriptionOf({ ...propertyDefinition, ...elementField, sentence: attributeSentences[name] }, typeText);
+    return { name, property, type: nullable ? `${type} | null` : type, description, opening: typeText, allowed: elementField && rangeTextOf(elementField), withoutRange: description };
   };
   const toNamedDescription = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
 
-  const describedAttributes = Object.entries({ ...attributes, ...COMMON_ATTRS }).map((entry) => ({ ...describeAttribute(entry), isCommon: entry[0] in COMMON_ATTRS }));
+  const describedAttributes = Object.entries({ ...attributes, ...COMMON_PROPERTIES }).map((entry) => ({ ...describeAttribute(entry), isCommon: entry[0] in COMMON_PROPERTIES }));
   /** @type {Declaration[]} */
   const topLevelSettings = declarations.filter((/** @type {Declaration} */ declaration) => !declaration.in && !declaration.of);
   const groupFields = topLevelSettings.filter(({ key }) => !(key in attributes)).map(fieldOf);

@@ -8,7 +8,7 @@
 
 import './de.ts';
 import './motion-widgets.ts';
-import { COMMON_ATTRS } from './figure/definition.ts';
+import { COMMON_PROPERTIES } from './figure/definition.ts';
 import { includesFields } from './data/checks.ts';
 import { GLOBAL_ATTRIBUTES, createWidget, createErrorParagraph } from './named.ts';
 
@@ -121,12 +121,11 @@ function withoutKernel(callKernel: () => void) {
 /** Returns all spellings of traits with their properties. Properties on which others depend come first. */
 function traitsOf(element: any): [trait: string, property: string][] {
   const { properties } = element.constructor.definition;
-  const propertiesByName: Record<string, { property?: string }> = { ...properties, ...COMMON_ATTRS, ...Object.fromEntries(GLOBAL_ATTRIBUTES.map((name) => [name, {}])) };
-  return Object.entries(propertiesByName).flatMap(([name, { property = name }]) => {
-    if (!(property in element)) return [];
+  const propertiesByName: Record<string, { attribute?: boolean | string }> = { ...properties, ...COMMON_PROPERTIES, ...Object.fromEntries(GLOBAL_ATTRIBUTES.map((name) => [name, {}])) };
+  return Object.entries(propertiesByName).flatMap(([property, { attribute }]) => {
     const pythonName = property.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);
     // In Python a name that is a keyword ends with an underscore, as in `from_`.
-    const spellings = new Set([name, property, pythonName, `${pythonName}_`]);
+    const spellings = new Set([typeof attribute === 'string' ? attribute : property, property, pythonName, `${pythonName}_`]);
     return [...spellings].map((trait) => [trait, property] as [string, string]);
   });
 }

@@ -376,11 +376,9 @@ test('removed figures free their memory, observers and DOM nodes @nightly', NEW_
     for (let roundIndex = 0; roundIndex < roundCount; roundIndex++) {
       for (const name of ALL_FIGURE_NAMES) {
         await page.evaluate(async ([widgetTag, sampleCount]) => {
-          const figure = Object.assign(document.createElement(widgetTag), sampleCount);
-          const loadEvent = new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
+          const figure = /** @type {any} */ (Object.assign(document.createElement(widgetTag), sampleCount));
           document.body.append(figure);
-          await loadEvent;
-          await new Promise(requestAnimationFrame);
+          await figure.settled;
           figure.remove();
         }, /** @type {const} */ ([name, CLOUD_FIGURE_NAMES.includes(name) ? { samples: 200 } : {}]));
       }

@@ -229,8 +229,8 @@ export const fuzzTargets = {
       const inputAttribute = Object.hasOwn(attributes, attributeName) ? attributes[attributeName] : Object.values(attributes)[bytes.length % 9];
       // Millions of samples would take too much memory.
       if (/^(samples|steps)$/.test(attributeName) && Number(valueParts.join('=')) > 1e5) return false;
-      if (!isAccepted(() => simulation.configure(inputAttribute.changesFor(inputAttribute.converter.parse(valueParts.join('=')), simulation.config)))) return false;
-      assert.equal(typeof inputAttribute.converter.format(inputAttribute.get(simulation.config)), 'string');
+      if (!isAccepted(() => simulation.configure(inputAttribute.changesFor(inputAttribute.converter.fromAttribute(valueParts.join('=')), simulation.config)))) return false;
+      assert.equal(typeof inputAttribute.converter.toAttribute(inputAttribute.get(simulation.config)), 'string');
       simulation.configure(opening);
       return true;
     },

@@ -9,8 +9,8 @@ import { formatScaleRatios } from '../../www/widgets/dead-reckoning/pictures.ts'
 
 test('boolean attributes may be empty or "true", and lists may contain any white space', () => {
   const { conditioned } = selectAttributes(propertiesOf(settings['map-squeeze']));
-  assert.deepEqual(['false', 'true', ''].map((attributeText) => conditioned.converter.parse(attributeText)), [false, true, true]);
-  assert.deepEqual([' linearized\n  command ', ''].map((text) => WORD_LIST_CONVERTER.parse(text)), [['linearized', 'command'], []]);
+  assert.deepEqual(['false', 'true', ''].map((attributeText) => conditioned.converter.fromAttribute(attributeText)), [false, true, true]);
+  assert.deepEqual([' linearized\n  command ', ''].map((text) => WORD_LIST_CONVERTER.fromAttribute(text)), [['linearized', 'command'], []]);
 });
 
 test('a view that was fitted to a tiny canvas zooms in after its canvas has grown; other views do not zoom in', () => {

@@ -2,28 +2,26 @@
 
 import { presets, settings, type Declaration } from '../../build/settings.js';
 import { checkNumber, checkWord, includesFields, type FieldRange } from '../data/checks.ts';
+import type { PropertyDeclaration } from 'lit';
 import type { LineStyle } from '../ui/swatch.ts';
 import type { SliderSpec } from './controls.ts';
 import type { StateValues } from './settings.ts';
 
-/** Conversion of a value from and to the text of an attribute. */
+/** Converter of Lit that returns an invalid text unchanged, which the check of the value then refuses. */
 interface AttributeConverter {
-  /** Converts a text to a value. Returns an invalid text unchanged, which the check of the value then refuses. */
-  parse: (text: string) => unknown;
-  /** Converts a value to a text; null removes the attribute. */
-  format: (value: any) => string | null;
+  fromAttribute: (text: string | null) => unknown;
+  /** Converts a value to a text; null removes the attribute. Values without this method are read from attributes, but not written. */
+  toAttribute?: (value: any) => string | null;
 }
 
-interface Property {
-  /** Conversion of a property that is also an attribute. */
+/** Reactive property of Lit whose value follows from the configuration. */
+interface Property extends PropertyDeclaration {
   converter?: AttributeConverter;
   get: (config: StateValues) => unknown;
   /** Returns the changed part of the configuration for a new value. */
   changesFor: (value: any, config: StateValues) => StateValues;
   /** Name of the setting in errors of the core, if it differs from the property's name. */
   corePath?: string;
-  /** Names of the attributes that this attribute determines, as a preset does. They are written only while this attribute has no value. */
-  coveredAttributes?: string[];
   /** Words that are allowed as values of the property, if the declaration of the setting does not list them. */
   words?: readonly string[];
 }
@@ -31,48 +29,71 @@ interface Property {
 /** Properties by name, in the order in which they are applied. */
 type Properties = Record<string, Property>;
 
-type Attribute = Property & { converter: AttributeConverter };
+/** Property that is written to its attribute. */
+type Attribute = Property & { converter: Required<AttributeConverter> };
 
 const NUMBER_CONVERTER: AttributeConverter = {
-  parse: (text) => (text.trim() === '' || Number.isNaN(Number(text)) ? text : Number(text)),
-  format: (value) => (value === null ? null : String(value)),
+  fromAttribute: (text) => (text?.trim() && !Number.isNaN(Number(text)) ? Number(text) : text),
+  toAttribute: (value) => (value === null ? null : String(value)),
 };
 
-const WORD_CONVERTER: AttributeConverter = { parse: (text) => text, format: (value) => value };
+/** Converter of lists of numbers, such as "0.1,0.2" or "[0.1, 0.2]". */
+const NUMBERS_CONVERTER: AttributeConverter = {
+  fromAttribute: (text) => {
+    const numbers = text?.match(/[^\s,[\]]+/g)?.map(Number);
+    return numbers?.every(Number.isFinite) ? numbers : text;
+  },
+};
 
-/** Boolean attribute. Without a value it is true, as in HTML. The value "false" makes it false. Other values are refused. */
+const WORD_CONVERTER: Required<AttributeConverter> = { fromAttribute: (text) => text, toAttribute: (value) => value };
+
+/** Converter of boolean attributes. Without a value they are true, as in HTML. The value "false" makes them false. Other values are refused. */
 const BOOLEAN_CONVERTER: AttributeConverter = {
-  parse: (text) => text !== 'false' && (text === '' || text === 'true' || text),
-  format: String,
+  fromAttribute: (text) => text !== 'false' && (text === '' || text === 'true' || text),
+  toAttribute: String,
 };
 
-/** Conversion of a list of words, which are separated by spaces in the text. */
-export const WORD_LIST_CONVERTER: AttributeConverter = { parse: (text) => text.split(/\s/).filter(Boolean), format: (value) => value.join(' ') };
+/** Converter of lists of words, which are separated by spaces in the text. */
+export const WORD_LIST_CONVERTER: AttributeConverter = { fromAttribute: (text) => text?.split(/\s/).filter(Boolean), toAttribute: (value) => value.join(' ') };
 
-/** Converters by type of setting. Objects and arrays have no attribute, and so no converter. */
-const CONVERTERS: Record<string, AttributeConverter> = { number: NUMBER_CONVERTER, whole: NUMBER_CONVERTER, word: WORD_CONVERTER, words: WORD_LIST_CONVERTER, boolean: BOOLEAN_CONVERTER };
+/** Converters by type of setting. The texts of groups of settings are refused. */
+const CONVERTERS: Record<string, AttributeConverter> = {
+  number: NUMBER_CONVERTER, whole: NUMBER_CONVERTER, numbers: NUMBERS_CONVERTER, word: WORD_CONVERTER, words: WORD_LIST_CONVERTER, boolean: BOOLEAN_CONVERTER,
+};
 
 export const THEMES = ['auto', 'light', 'dark'] as const;
 
 export const HEADING_LEVELS = ['1', '2', '3', '4', '5', '6'] as const;
 
-/** Attributes of every figure. The default is the first of `words`, or null if `nullable`. An attribute without `words` is boolean. */
-export const COMMON_ATTRS: Record<string, { words?: readonly string[], nullable?: true, property?: string }> = {
-  theme: { words: THEMES },
-  share: {},
-  presentation: {},
-  'heading-level': { words: HEADING_LEVELS, nullable: true, property: 'headingLevel' },
+/** Reactive property of Lit that every figure has. */
+export interface CommonProperty extends PropertyDeclaration {
+  words?: readonly string[];
+  default: unknown;
+}
+
+/** Properties of every figure that are also attributes. */
+export const COMMON_PROPERTIES: Record<string, CommonProperty> = {
+  theme: { reflect: true, words: THEMES, default: 'auto' },
+  share: { reflect: true, type: Boolean, default: false },
+  presentation: { reflect: true, type: Boolean, default: false },
+  headingLevel: { reflect: true, attribute: 'heading-level', words: HEADING_LEVELS, default: null },
 };
+
+/** Returns a value of such a property after a check; null for the default. An empty text is true, as in HTML. */
+export function checkCommonValue(name: string, value: unknown, { words, type }: CommonProperty) {
+  if (type === Boolean) return value === '' || Boolean(value);
+  return words && (value ?? null) !== null ? checkWord(name, String(value), words) : value;
+}
 
 export const propertiesOf = (declarations: Declaration[]): Properties => Object.fromEntries(declarations.map((declaration) => [declaration.key, propertyOf(declaration)]));
 
 export const selectAttributes = (properties: Properties) =>
-  Object.fromEntries(Object.entries(properties).filter(([, { converter }]) => converter)) as Record<string, Attribute>;
+  Object.fromEntries(Object.entries(properties).filter(([, { attribute, converter }]) => attribute !== false && converter?.toAttribute)) as Record<string, Attribute>;
 
-export const createFieldProperty = (key: string, converter?: AttributeConverter): Property => ({ converter, get: (config) => config[key], changesFor: (value) => ({ [key]: value }) });
+export const createFieldProperty = (key: string, type = ''): Property => ({ converter: CONVERTERS[type], get: (config) => config[key], changesFor: (value) => ({ [key]: value }) });
 
 function propertyOf({ key, in: group, field = key, index, of, weights = [], type, min = -Infinity, max = Infinity }: Declaration): Property {
-  const plainProperty = createFieldProperty(key, CONVERTERS[type]);
+  const plainProperty = createFieldProperty(key, type);
   // The property is a factor: the last numbers of the list setting named by `of` are the `weights` times that factor.
   if (of) {
     return {
@@ -109,13 +130,11 @@ export function defaultConfigOf(declarations: Declaration[]): StateValues {
 }
 
 /** Returns the attribute of a figure's presets. A preset sets all settings except samples and seed. */
-export function presetAttributeOf(presets: readonly { name: string, settings: StateValues }[], declarations: Declaration[]): Attribute {
+export function presetAttributeOf(presets: readonly { name: string, settings: StateValues }[]): Attribute {
   const presetNames = presets.map(({ name }) => name);
-  const isSetByPresets = (key: string) => !KEYS_KEPT_BY_PRESETS.includes(key);
-  const presetSettings = presets.map(({ settings }) => Object.fromEntries(Object.entries(settings).filter(([key]) => isSetByPresets(key))));
+  const presetSettings = presets.map(({ settings }) => Object.fromEntries(Object.entries(settings).filter(([key]) => !KEYS_KEPT_BY_PRESETS.includes(key))));
   return {
     converter: WORD_CONVERTER,
-    coveredAttributes: Object.keys(selectAttributes(propertiesOf(declarations))).filter(isSetByPresets),
     words: presetNames,
     get: (config) => presetNames[presetSettings.findIndex((settings) => includesFields(config, settings))] ?? null,
     changesFor: (name) => presetSettings[presetNames.indexOf(checkWord('preset', name, presetNames))],
@@ -176,11 +195,11 @@ export function createDefinition(tag: string, { overlayStyles, openingOverlays =
     overlays: { type: 'words', words: overlays, default: openingOverlays, access: 'attribute' },
   };
   const properties: Properties = {
-    ...(widgetPresets.length > 0 && { preset: presetAttribute ?? presetAttributeOf(widgetPresets, declarations) }),
+    ...(widgetPresets.length > 0 && { preset: presetAttribute ?? presetAttributeOf(widgetPresets) }),
     ...propertiesOf(declarations),
   };
-  for (const [key, { type = '', words, access }] of Object.entries(elementFields)) {
-    if (access) properties[key] = { ...createFieldProperty(key, access === 'attribute' ? CONVERTERS[type] : undefined), words };
+  for (const [key, { type, words, access }] of Object.entries(elementFields)) {
+    if (access) properties[key] = { ...createFieldProperty(key, type), attribute: access === 'attribute', words };
   }
   const elementDefaults = Object.fromEntries(Object.entries(elementFields).map(([key, field]) => [key, field.default]));
   return { ...otherOptions, tag, declarations, properties, attributes: selectAttributes(properties), elementFields, elementDefaults };

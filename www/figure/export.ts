@@ -125,7 +125,7 @@ const PUBLISHED_SCRIPT_URL = 'https://cdn.jsdelivr.net/npm/motion-widgets@0.1/di
 
 /** Returns HTML for any page: the script, and the tag with the attributes that differ from the defaults. */
 export function embedCodeOf(figure: Figure) {
-  const pageAttributes = ['theme', 'lang', 'dir'].map((name) => [name, figure.getAttribute(name) ?? ''] as [string, string]);
+  const pageAttributes = Object.entries({ theme: figure.theme === 'auto' ? '' : figure.theme, lang: figure.lang, dir: figure.dir });
   const stateAttributes = figure.simulation ? figure.reflection.findNeededAttributes() : [];
   // Addresses of local files and inline scripts do not work on other pages.
   const isWebAddress = /^https?:/.test(address);

@@ -9,15 +9,14 @@ import { plotStyles } from '../ui/plot.ts';
 import { presentationStyles } from '../ui/presentation.ts';
 import { reservedHeightCssOf } from '../ui/reserved-height.ts';
 import { themeStyles } from '../ui/theme.ts';
-import { checkWord } from '../data/checks.ts';
 import { Colours } from './colours.ts';
-import { COMMON_ATTRS, type HEADING_LEVELS, type THEMES } from './definition.ts';
+import { COMMON_PROPERTIES, checkCommonValue, type CommonProperty, type HEADING_LEVELS, type THEMES } from './definition.ts';
 import { csvOf, embedCodeOf, pngOf, svgOf } from './export.ts';
 import { Gesture } from './gesture.ts';
 import { StateLink } from './link.ts';
 import { Announcer, Notice } from './notice.ts';
 import { Presentation } from './presentation.ts';
-import { Reflection } from './reflection.ts';
+import { Reflection, settingAccessorsOf } from './reflection.ts';
 import { Renderer } from './renderer.ts';
 import { Runtime } from './runtime.ts';
 import { STATE_VERSION, Settings, type StateValues } from './settings.ts';
@@ -78,6 +77,8 @@ addEnglishMessages(en);
 export abstract class FigureElement<Simulation extends { free(): void, stats: object, config: StateValues, configure(settings: StateValues): StateValues }, ViewModel extends { config: StateValues, stats: object }> extends LitElement {
   static definition: import('./definition.ts').WidgetDefinition;
 
+  static properties: Record<string, Partial<CommonProperty>> = { ...COMMON_PROPERTIES, highlight: { attribute: false, default: null } };
+
   /** Puts the styles of all figures before those of the widget. */
   static finalizeStyles(widgetStyles: CSSResultGroup = []) {
     // Lit also calls this method on the base class, which has no definition.
@@ -93,6 +94,11 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   declare presentation: boolean;
   /** Heading level of the title; null if it is no heading. */
   declare headingLevel: (typeof HEADING_LEVELS)[number] | null;
+  /**
+   * Name of the highlighted line, a word of `overlays`; null for none. No part of the state.
+   * @public
+   */
+  declare highlight: string | null;
   /** Controller aborted when the element is removed from the page. Its signal removes the listeners on other objects. */
   lifetime = new AbortController();
   runtime = new Runtime(this);
@@ -120,7 +126,8 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   handles: { render(): unknown, place(scene: any): void }[] = [];
   /** View model of the simulation: all values that pictures, texts and tables show, read at one time. Undefined before the first frame. */
   viewModel: ViewModel = undefined as any;
-  #highlight: string | null = null;
+  #placeholderDelay: Promise<void> | undefined;
+  #isPlaceholderDue = false;
   #settledResolvers: (() => void)[] = [];
 
   get definition() {
@@ -263,19 +270,6 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   }
 
   /**
-   * Name of the highlighted line, a word of `overlays`; null for none. No part of the state.
-   * @public
-   */
-  get highlight(): string | null {
-    return this.#highlight;
-  }
-
-  set highlight(name) {
-    this.#highlight = name;
-    this.renderer.requestFrame();
-  }
-
-  /**
    * Returns the whole state as plain data for `setState` and JSON. Returns null until the element first comes near the viewport.
    * @public
    */
@@ -337,6 +331,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   connectedCallback() {
     this.lifetime = new AbortController();
     super.connectedCallback();
+    this.#placeholderDelay ??= this.#delayPlaceholder();
   }
 
   disconnectedCallback() {
@@ -344,31 +339,41 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
     super.disconnectedCallback();
   }
 
-  static get observedAttributes() {
-    // Attributes are in lower case in HTML.
-    return [...super.observedAttributes, ...Object.keys({ ...this.definition?.attributes, ...COMMON_ATTRS }).map((k) => k.toLowerCase())];
+  /** Returns the accessors of a property. A widget's property is kept in the settings, unless the widget has accessors of its own. */
+  static getPropertyDescriptor(name: string, key: symbol, options: CommonProperty): PropertyDescriptor | undefined {
+    if (this.definition) return Object.hasOwn(this.prototype, name) ? undefined : settingAccessorsOf(name);
+    const { get, set } = super.getPropertyDescriptor(name, key, options) as Required<PropertyDescriptor>;
+    return {
+      get(this: Figure) { return get.call(this) ?? options.default; },
+      set(this: Figure, value: unknown) { this.runtime.attemptOrReport(() => set.call(this, checkCommonValue(name, value, options))); },
+    };
   }
 
-  attributeChangedCallback(name: string, oldText: string | null, text: string | null) {
-    super.attributeChangedCallback(name, oldText, text);
-    if (oldText === text) return;
-    this.reflection.applyAttribute(name, text);
-    if (!(name in COMMON_ATTRS)) return;
-    this.requestUpdate();
-    this.presentationMode.syncWithAttribute();
-    this.colours.applyAndDraw();
-  }
-
-  /** Delays the first rendering by a task. If the core is ready by then, no placeholder is rendered before the content. */
-  protected async scheduleUpdate() {
+  /** Reserves the space of the figure for a task. If the core is ready by then, no placeholder is rendered before the content. */
+  async #delayPlaceholder() {
     // In forced colours, Chromium keeps light colours in content that is rendered before `colours` has found a dark scheme.
-    if (!this.hasUpdated && !matchMedia('(forced-colors: active)').matches) {
+    if (!matchMedia('(forced-colors: active)').matches) {
       const reservedSpace = this.renderRoot.appendChild(document.createElement('div'));
       reservedSpace.className = 'reserved';
       await new Promise((resolve) => setTimeout(resolve));
       reservedSpace.remove();
     }
-    return super.scheduleUpdate();
+    this.#isPlaceholderDue = true;
+    if (!this.hasUpdated) this.requestUpdate();
+  }
+
+  protected shouldUpdate() {
+    return this.#isPlaceholderDue || this.simulation !== undefined;
+  }
+
+  protected async getUpdateComplete() {
+    await this.#placeholderDelay;
+    return super.getUpdateComplete();
+  }
+
+  /** Draws again after a change of a property of every figure. */
+  updated(changedProperties: Parameters<LitElement['updated']>[0]) {
+    if (changedProperties.size > 0) this.colours.applyAndDraw();
   }
 
   update(changedProperties: Parameters<LitElement['update']>[0]) {
@@ -389,20 +394,4 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   render() {
     return figureHtml(this);
   }
-}
-
-// Properties of every figure whose values are stored in its attributes.
-for (const [name, { property = name, words: allowedWords, nullable }] of Object.entries(COMMON_ATTRS)) {
-  Object.defineProperty(FigureElement.prototype, property, {
-    configurable: true,
-    get(this: Figure) {
-      if (!allowedWords) return this.hasAttribute(name);
-      return allowedWords.find((word) => word === this.getAttribute(name)) ?? (nullable ? null : allowedWords[0]);
-    },
-    set(this: Figure, value) {
-      if (!allowedWords) this.toggleAttribute(name, value || value === '');
-      else if (value === null || value === undefined) this.removeAttribute(name);
-      else this.runtime.attemptOrReport(() => this.setAttribute(name, checkWord(property, String(value), allowedWords)));
-    },
-  });
 }

@@ -19,7 +19,7 @@ export class Presentation extends FigureController {
 
   hostConnected() {
     const { host } = this;
-    this.syncWithAttribute();
+    this.#syncWithProperty();
     // The user can also leave full screen by keys of the browser.
     host.addEventListener('fullscreenchange', () => {
       if (!host.matches(':fullscreen')) host.presentation = false;
@@ -30,7 +30,11 @@ export class Presentation extends FigureController {
     void this.#endPresentation();
   }
 
-  syncWithAttribute() {
+  hostUpdate() {
+    this.#syncWithProperty();
+  }
+
+  #syncWithProperty() {
     const { host } = this;
     if (!host.isConnected || host.presentation === (this.#keyListenerAbort !== undefined)) return;
     if (host.presentation) void this.#beginPresentation();

@@ -1,8 +1,8 @@
 /** Synchronization of attributes and properties with the settings: values of the page are applied, and changed settings are written as attributes. */
 
-import { includesFields, withFieldRenamed, checkWord } from '../data/checks.ts';
+import { includesFields, withFieldRenamed } from '../data/checks.ts';
 import { FigureController } from './controller.ts';
-import { COMMON_ATTRS, defaultConfigOf } from './definition.ts';
+import { defaultConfigOf } from './definition.ts';
 import type { Figure } from './figure.ts';
 import type { StateValues } from './settings.ts';
 
@@ -14,30 +14,6 @@ export class Reflection extends FigureController {
   /** Assignments made before the simulation exists. The key is the name of a property, or a new object for each assigned state. */
   #earlyAssignments: Map<unknown, { value?: unknown, apply: () => void }> = new Map();
   #isWritingAttributes = false;
-  #previousTexts: Map<string, string> | undefined;
-
-  /** Applies properties that were set before the element was upgraded, and lists that the page gives as attributes. */
-  hostConnected() {
-    const host = this.host as unknown as Record<string, unknown>;
-    // An element that is moved in the page keeps its settings.
-    if (!host.hasUpdated) this.#applyListAttributes(host);
-    for (const name of Object.keys(host)) {
-      if (!(name in Object.getPrototypeOf(host))) continue;
-      const assignedValue = host[name];
-      delete host[name];
-      Reflect.set(host, name, assignedValue);
-    }
-  }
-
-  /** Reads list properties from attributes such as `alphas="0.1,0.2"` or `"[0.1, 0.2]"`. The property refuses and reports any other text. */
-  #applyListAttributes(host: Record<string, unknown>) {
-    for (const [name, { converter }] of Object.entries(this.#properties)) {
-      const listText = converter || name in this.host.settings.elementState ? null : this.host.getAttribute(name);
-      if (listText === null || Object.hasOwn(host, name)) continue;
-      const numbers = (listText.match(/[^\s,[\]]+/g) ?? []).map(Number);
-      host[name] = numbers.every(Number.isFinite) ? numbers : listText;
-    }
-  }
 
   /** Applies the early assignments. Whole states keep their order in time. Properties assigned between two states are sorted by dependency. */
   applyEarlyAssignments() {
@@ -56,8 +32,9 @@ export class Reflection extends FigureController {
 
   /** Sets a property to a value, which may be given as text. Null or undefined sets the default. A value that is refused is reported. */
   setProperty(name: string, value: any, apply: (value: any) => void) {
+    if (this.#isWritingAttributes) return;
     const property = this.#properties[name];
-    const parsedValue = typeof value === 'string' && property?.converter ? property.converter.parse(value) : value;
+    const parsedValue = typeof value === 'string' && property?.converter ? property.converter.fromAttribute(value) : value;
     const applyIfChanged = () => {
       const newValue = parsedValue ?? property?.get(this.#defaultConfig) ?? null;
       const currentValue = property ? property.get(this.host.settings.requested) : Reflect.get(this.host, name);
@@ -94,78 +71,58 @@ export class Reflection extends FigureController {
     });
   }
 
-  /** Applies an attribute's new text. The name is in lower case. */
-  applyAttribute(attribute: string, text: string | null) {
-    const { words } = COMMON_ATTRS[attribute] ?? {};
-    if (words && text !== null) this.host.runtime.attemptOrReport(() => checkWord(attribute, text, words));
-    const name = Object.keys(this.#attributes).find((key) => key.toLowerCase() === attribute);
-    if (name !== undefined && !this.#isWritingAttributes) Reflect.set(this.host, name, text);
-  }
-
   /** Default configuration. Some defaults depend on the present settings. */
   get #defaultConfig(): StateValues {
     const { definition, settings } = this.host;
     return { ...defaultConfigOf(definition.declarations), ...definition.elementDefaults, ...definition.dependentDefaultsOf?.(settings.requested) };
   }
 
-  /** Updates attributes that differ from the settings. A missing attribute is added if a new figure would need it, or if a preset has changed it. */
+  /** Writes the attributes that differ from the settings, with those that a new figure would need besides. */
   updateAttributes() {
-    const { simulation, viewModel, settings } = this.host;
+    const { simulation, viewModel } = this.host;
     // Before the first frame, the page's attributes still wait in `#earlyAssignments`.
     if (!simulation || !viewModel) return;
-    const attributeTexts = this.#attributeTextsOf(settings.requested);
-    const previousTexts = this.#previousTexts ?? attributeTexts;
-    const neededTexts = this.findNeededAttributes((name, text) => text !== previousTexts.get(name));
-    this.#previousTexts = attributeTexts;
+    const attributeTexts = this.findNeededAttributes(this.host.getAttributeNames());
     this.#isWritingAttributes = true;
-    for (const [name, { converter: { parse, format } }] of Object.entries(this.#attributes)) {
+    for (const [name, { converter: { fromAttribute, toAttribute } }] of Object.entries(this.#attributes)) {
       const currentText = this.host.getAttribute(name);
-      const text = (currentText === null ? neededTexts : attributeTexts).get(name);
+      const text = attributeTexts.get(name);
       if (text === undefined) this.host.removeAttribute(name);
       // An attribute stays as the page wrote it if it has the same value.
-      else if (currentText === null || format(parse(currentText)) !== text) this.host.setAttribute(name, text);
+      else if (currentText === null || toAttribute(fromAttribute(currentText)) !== text) this.host.setAttribute(name, text);
     }
     this.#isWritingAttributes = false;
   }
 
-  /**
-   * Returns the attributes with which a new figure opens in the present state: those that differ from the defaults, without those that another
-   * attribute determines, such as a preset, unless `isWanted` accepts them.
-   */
-  findNeededAttributes(isWanted = (_name: string, _text: string) => false): Map<string, string> {
-    const attributeTexts = this.#attributeTextsOf(this.host.settings.requested);
-    const defaultTexts = this.#attributeTextsOf(this.#defaultConfig);
-    const coveredNames: Set<string> = new Set();
+  /** Returns attributes with which a new figure opens in the present state: all with the given names, and others where the default or the preset differs. */
+  findNeededAttributes(givenNames: string[] = []): Map<string, string> {
+    const { requested } = this.host.settings;
     const neededTexts = new Map<string, string>();
-    for (const [name, { coveredAttributes = [] }] of Object.entries(this.#attributes)) {
-      const text = attributeTexts.get(name);
-      if (text === undefined) continue;
-      if (text !== defaultTexts.get(name) && (!coveredNames.has(name) || isWanted(name, text))) neededTexts.set(name, text);
-      for (const coveredName of coveredAttributes) coveredNames.add(coveredName);
+    let newConfig = this.#defaultConfig;
+    for (const [name, { converter: { toAttribute }, get, changesFor }] of Object.entries(this.#attributes)) {
+      const value = get(requested) ?? null;
+      const text = toAttribute(value);
+      if (text === null || (text === toAttribute(get(newConfig) ?? null) && !givenNames.includes(name.toLowerCase()))) continue;
+      neededTexts.set(name, text);
+      newConfig = { ...newConfig, ...changesFor(value, newConfig) };
     }
     return neededTexts;
   }
-
-  #attributeTextsOf(stateValues: StateValues): Map<string, string> {
-    const textEntries = Object.entries(this.#attributes).map(([name, { converter, get }]) => [name, converter.format(get(stateValues) ?? null)] as const);
-    return new Map(textEntries.filter((entry): entry is [string, string] => entry[1] !== null));
-  }
 }
+
+/** Returns the accessors of a property that is kept in the settings. */
+export const settingAccessorsOf = (name: string): PropertyDescriptor & ThisType<Figure> => ({
+  configurable: true,
+  enumerable: true,
+  get() { return this.reflection.get(name); },
+  set(value) { this.reflection.set(name, value); },
+});
 
 /** Defines a widget's element with its properties, and further ones. If the page loads the script twice, the second call does nothing. */
 export function defineElement(Widget: typeof import('./figure.ts').FigureElement<any, any> & CustomElementConstructor, furtherProperties: PropertyDescriptorMap = {}) {
   const { prototype, definition: { tag, properties } } = Widget;
   if (customElements.get(tag)) return;
-  for (const name of Object.keys(properties)) {
-    // A widget defines a property itself if its accessors do more than read and write the value.
-    if (Object.hasOwn(prototype, name)) continue;
-    Object.defineProperty(prototype, name, {
-      configurable: true,
-      enumerable: true,
-      get(this: Figure) { return this.reflection.get(name); },
-      set(this: Figure, value) { this.reflection.set(name, value); },
-    });
-  }
+  for (const [name, property] of Object.entries(properties)) Widget.createProperty(name, property);
   Object.defineProperties(prototype, furtherProperties);
   customElements.define(tag, Widget);
 }

@@ -192,6 +192,8 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   static definition = definition;
 
+  static properties = { log: { attribute: false } };
+
   #pathPicture = new PathPicture();
   #legPicture = new LegPicture();
   pictures = [this.#pathPicture, this.#legPicture];

@@ -11,7 +11,7 @@ import type { MapSqueeze, MapSqueezeSettings, SamplerName, SqueezeStats } from '
 const settingDeclarations = settings['map-squeeze'];
 
 /** Presets: positions in the apartment, with settings that show their effect. */
-export const PRESET_SETTING = presetAttributeOf(presets['map-squeeze'], settingDeclarations);
+export const PRESET_SETTING = presetAttributeOf(presets['map-squeeze']);
 
 /** Pose of the robot in the apartment after the user has left a map. */
 export const OPENING_POSE = presets['map-squeeze'][0].settings.start;

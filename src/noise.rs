@@ -110,7 +110,9 @@ impl NoiseKind {
     /// Replaces each number q by the quantile of the probability ½ + q, with the same bits as [`NoiseKind::quantile`].
     pub(crate) fn replace_by_quantiles(self, numbers: &mut [f64x4]) {
         match self {
-            Self::Normal => quantile::replace_by_normal_quantiles(numbers),
+            Self::Normal => {
+                numbers.chunks_mut(quantile::CHUNK_VECTORS).for_each(quantile::replace_chunk_by_quantiles)
+            }
             Self::Triangular => numbers
                 .iter_mut()
                 .for_each(|q| *q = *q * (SQRT_6 * 2.0) / (1.0 + (1.0 - 2.0 * q.abs()).sqrt())),

@@ -6,7 +6,7 @@ use super::settings::{are_settings_allowed, change_settings};
 use motion::geom::se2::SE2;
 use motion::sim::View;
 use motion::sim::banana::{
-    BananaMachine, Contours, Stats, Settings, TableColumn, command_reaching,
+    BananaMachine, Contours, Stats, Settings, TableColumn, command_drawn_at,
 };
 use motion::sim::picture::RAMP_STEP_COUNT;
 use motion::sim::settings::QUANTITY_RANGE;
@@ -71,7 +71,7 @@ fn call_method(simulation: &mut BananaMachine, input: &mut InputReader) {
         _ => {
             let [x, y] = [0; 2].map(|_| input.draw_number_within(QUANTITY_RANGE));
             let current_command = simulation.settings().command;
-            let reaching_command = command_reaching(x, y, &current_command);
+            let reaching_command = command_drawn_at([x, y], &current_command, 0.0);
             // The speed may be infinite, because the circle of a nearly straight arc may be too long for a double.
             assert!(!reaching_command.v.is_nan() && reaching_command.omega.is_finite(), "{reaching_command:?} to {x}, {y}");
         }

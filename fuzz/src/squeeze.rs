@@ -129,7 +129,7 @@ fn assert_equals_new_simulation(simulation: &MapSqueeze) {
 
 /// Asserts that the robot fits at the free pose that the simulation finds.
 fn assert_free_pose(simulation: &MapSqueeze) {
-    let Some(free_pose) = simulation.find_free_pose() else { return };
+    let Some(free_pose) = simulation.plan().find_free_pose(simulation.settings().clearance) else { return };
     assertions::assert_pose("a free pose", &free_pose);
     let does_robot_fit = simulation.plan().test_point([free_pose.x(), free_pose.y()], simulation.settings().clearance).free;
     assert!(does_robot_fit, "{free_pose:?}");

@@ -4,7 +4,7 @@
 use super::arc::arc_end;
 use crate::js::js_structs;
 use std::f64::consts::TAU;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Sub};
 
 /// Speed, m/s, and duration, s, of the arcs of Exercise 1.
 const SPEED: f64 = 1.0;
@@ -141,13 +141,6 @@ impl From<f64> for DoubleDouble {
     }
 }
 
-impl Neg for DoubleDouble {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self { high: -self.high, low: -self.low }
-    }
-}
-
 impl Add for DoubleDouble {
     type Output = Self;
     /// Returns the sum, with a relative error of at most 2⁻¹⁰⁵.
@@ -161,7 +154,7 @@ impl Add for DoubleDouble {
 impl Sub for DoubleDouble {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
-        self + -other
+        self + Self { high: -other.high, low: -other.low }
     }
 }
 
@@ -171,6 +164,16 @@ impl Mul for DoubleDouble {
     fn mul(self, other: Self) -> Self {
         let product = Self::product(self.high, other.high);
         quick_two_sum(product.high, product.low + (self.high * other.low + self.low * other.high))
+    }
+}
+
+impl Div for DoubleDouble {
+    type Output = Self;
+    /// Returns the quotient, with a relative error of at most 2⁻¹⁰⁴: the quotient of doubles, corrected by its remainder.
+    fn div(self, divisor: Self) -> Self {
+        let quotient = self.high / divisor.high;
+        let remainder = self - divisor * Self::from(quotient);
+        quick_two_sum(quotient, remainder.high / divisor.high)
     }
 }
 
@@ -192,13 +195,6 @@ impl DoubleDouble {
         self.high + self.low
     }
 
-    /// Returns the quotient by a double, with a relative error of at most 2⁻¹⁰⁴.
-    pub fn divided_by(self, divisor: f64) -> Self {
-        let high = self.high / divisor;
-        let remainder = self - Self::product(high, divisor);
-        quick_two_sum(high, remainder.high / divisor)
-    }
-
     /// Returns the sine and cosine of an angle within a full circle, with an error below 1e-30.
     ///
     /// The function evaluates Taylor's series for a sixteenth of the angle, and then doubles the angle four times: sin 2a = 2 sin a cos a
@@ -212,31 +208,21 @@ impl DoubleDouble {
         let mut versine_sum = Self::from(1.0);
         for k in (1..SERIES_TERM_COUNT).rev() {
             let n = f64::from(2 * k);
-            sine_sum = Self::from(1.0) - (angle_squared * sine_sum).divided_by(n * (n + 1.0));
-            versine_sum = Self::from(1.0) - (angle_squared * versine_sum).divided_by((n + 1.0) * (n + 2.0));
+            sine_sum = Self::from(1.0) - angle_squared * sine_sum / Self::from(n * (n + 1.0));
+            versine_sum = Self::from(1.0) - angle_squared * versine_sum / Self::from((n + 1.0) * (n + 2.0));
         }
         let mut sine_sum = a * sine_sum;
-        let mut versine_sum = (angle_squared * versine_sum).divided_by(2.0);
+        let mut versine_sum = angle_squared * versine_sum / Self::from(2.0);
         for _ in 0..HALVING_COUNT {
             let cosine = Self::from(1.0) - versine_sum;
-            (sine_sum, versine_sum) = (times_two(sine_sum * cosine), times_two(sine_sum * sine_sum));
+            let (half_sine, half_versine) = (sine_sum * cosine, sine_sum * sine_sum);
+            (sine_sum, versine_sum) = (half_sine + half_sine, half_versine + half_versine);
         }
         (sine_sum, Self::from(1.0) - versine_sum)
     }
 
     /// Returns sin(a)/a of an angle within a full circle, and 1 at 0.
     pub fn sinc(self) -> Self {
-        if self.high == 0.0 {
-            return Self::from(1.0);
-        }
-        let (sine, _) = self.sin_cos();
-        // The quotient is computed in doubles, and corrected by its remainder.
-        let quotient = sine.high / self.high;
-        let remainder = sine - self * Self::from(quotient);
-        quick_two_sum(quotient, remainder.high / self.high)
+        if self.high == 0.0 { Self::from(1.0) } else { self.sin_cos().0 / self }
     }
-}
-
-fn times_two(x: DoubleDouble) -> DoubleDouble {
-    DoubleDouble { high: 2.0 * x.high, low: 2.0 * x.low }
 }

@@ -49,7 +49,8 @@ impl Segment {
 
     /// Returns [`Segment::distance_to_arc`] for an arc that is prepared for several segments.
     pub(crate) fn distance_to_local_arc(&self, arc: &LocalArc) -> f64 {
-        let local_segment = self.transform_to_arc_frame(arc);
+        let local_segment =
+            Self { from: arc.transform_to_local(self.from), to: arc.transform_to_local(self.to) };
         if local_segment.crosses_arc(arc) { 0.0 } else { local_segment.distance_without_crossing(arc) }
     }
 
@@ -72,10 +73,6 @@ impl Segment {
                     / direction_length
             })
             .fold(0.0, f64::max)
-    }
-
-    fn transform_to_arc_frame(&self, arc: &LocalArc) -> Self {
-        Self { from: arc.transform_to_local(self.from), to: arc.transform_to_local(self.to) }
     }
 
     /// Returns true if this segment, in the frame of the arc, has a point in common with the arc.

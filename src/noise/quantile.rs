@@ -27,16 +27,11 @@ pub(super) fn normal_quantile(q: f64) -> f64 {
 
 /// Number of SIMD vectors in a chunk. Numbers of a chunk that are in the tails are gathered into full vectors. 1024 numbers take 10 kB of
 /// stack. Smaller chunks would leave more incomplete vectors.
-const CHUNK_VECTORS: usize = 256;
+pub(super) const CHUNK_VECTORS: usize = 256;
 
-/// Replaces each number q by Φ⁻¹(½ + q), with the same bits as [`normal_quantile`].
-pub(super) fn replace_by_normal_quantiles(numbers: &mut [f64x4]) {
-    numbers.chunks_mut(CHUNK_VECTORS).for_each(replace_chunk_by_quantiles);
-}
-
-/// Replaces the numbers of a chunk by their quantiles. One number in seven is in a tail, and every second vector has one. Gathering these
-/// numbers into full vectors saves most of their cost, and avoids unpredictable branches.
-fn replace_chunk_by_quantiles(numbers: &mut [f64x4]) {
+/// Replaces each number q of a chunk by Φ⁻¹(½ + q), with the same bits as [`normal_quantile`]. One number in seven is in a tail, and every
+/// second vector has one. Gathering these numbers into full vectors saves most of their cost, and avoids unpredictable branches.
+pub(super) fn replace_chunk_by_quantiles(numbers: &mut [f64x4]) {
     let mut tail_numbers = [0.0; LANE_COUNT * CHUNK_VECTORS + LANE_COUNT];
     let mut tail_indices = [0u16; LANE_COUNT * CHUNK_VECTORS + LANE_COUNT];
     let mut tail_count = 0;

@@ -23,12 +23,8 @@ pub struct FieldReader<'a> {
 
 impl<'a> FieldReader<'a> {
     pub fn new(name: &str, prefix: &'a str, object: &'a JsValue, keys: &[&str]) -> Result<Self, JsValue> {
-        let describe_keys = || format!("an object with keys from {}", keys.join(", "));
-        if Array::is_array(object) {
-            return Err(TypeError::new(&format!("{name} is an array; allowed is {}", describe_keys())).into());
-        }
-        if !object.is_object() {
-            return Err(type_error(name, object, &describe_keys()));
+        if Array::is_array(object) || !object.is_object() {
+            return Err(type_error(name, object, &format!("an object with keys from {}", keys.join(", "))));
         }
         for key in Reflect::own_keys(object)?.iter().filter_map(|key| key.as_string()) {
             if !keys.contains(&key.as_str()) {
@@ -271,6 +267,7 @@ fn describe_value(value: &JsValue) -> String {
     }
     match value.js_typeof().as_string() {
         Some(type_name) if type_name != "object" => format!("a {type_name}"),
+        _ if Array::is_array(value) => "an array".to_owned(),
         _ => "an object".to_owned(),
     }
 }

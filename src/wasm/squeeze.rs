@@ -79,7 +79,8 @@ cloud_simulation_class! {
         }));
         /// Free start pose: in the middle of the largest square that is known to be free, heading where the path is free
         /// for longest. If the robot does not fit there, another pose where it fits; null if there is none.
-        find_free_pose as "openPlace": "Start | null" = simulation.find_free_pose().map_or(JsValue::NULL, pose_to_js);
+        find_free_pose as "openPlace": "Start | null" =
+            simulation.plan().find_free_pose(simulation.settings().clearance).map_or(JsValue::NULL, pose_to_js);
     }
 }
 

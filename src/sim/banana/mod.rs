@@ -25,7 +25,7 @@ use crate::stats::{
     CartesianMoments, Ellipse, ExactGain, ExactMoments, ExponentialContour, ExponentialMoments,
     LikelihoodGain,
 };
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix2, Matrix3, Vector3};
 use std::array;
 use std::f64::consts::TAU;
 use wide::f64x4;
@@ -89,23 +89,16 @@ impl ModelWithInput {
     }
 }
 
-/// Returns the command whose arc ends at (x, y), with the duration of `near_command`. Of all such arcs, the arc with the turn nearest to
-/// the turn of `near_command` is taken.
-pub fn command_reaching(x: f64, y: f64, near_command: &VelocityCmd) -> VelocityCmd {
-    let dt = near_command.dt;
-    let (length, turn) = arc_with_turn_near(&START_POSE, &SE2::new(x, y, 0.0), near_command.omega * dt);
-    VelocityCmd { v: length / dt, omega: turn / dt, dt }
-}
-
 /// Returns the command whose end is drawn at the point (x, y) of the picture, with the duration of `near_command`. `morph` is the stage of
-/// the picture, from 0 (the plane, where the result is [`command_reaching`]) to 1 (exponential coordinates). The search starts at
-/// `near_command`, which is returned if there is no solution.
+/// the picture, from 0 (the plane) to 1 (exponential coordinates). In the plane many arcs lead to a point. The arc with the turn nearest to
+/// the turn of `near_command` is taken. At other stages the search starts at `near_command`, which is returned if there is no solution.
 pub fn command_drawn_at([x, y]: [f64; 2], near_command: &VelocityCmd, morph: f64) -> VelocityCmd {
     let VelocityCmd { v, omega, dt } = *near_command;
-    if morph == 0.0 {
-        return command_reaching(x, y, near_command);
-    }
-    let found_arc = find_arc([x, y], [v * dt, omega * dt], morph);
+    let found_arc = if morph == 0.0 {
+        Some(arc_with_turn_near(&START_POSE, &SE2::new(x, y, 0.0), omega * dt).into())
+    } else {
+        find_arc([x, y], [v * dt, omega * dt], morph)
+    };
     found_arc.map_or(*near_command, |[length, turn]| VelocityCmd { v: length / dt, omega: turn / dt, dt })
 }
 
@@ -120,8 +113,8 @@ const MIN_SIGMAS_TO_FULL_CIRCLE: f64 = 4.0;
 /// Maximum number of points of a curve of the exact skew. Each takes about ten microseconds.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
-/// Standard deviation (m) of the noise that [`BananaMachine::additive_moments`] adds to x and y. It is √(½ tr Σ) on the arc of the preset
-/// "gentle", rounded. For other distances the standard deviation would differ.
+/// Standard deviation (m) in x and y of additive noise, the model that the chapter argues against: x_t = x̄ + ε with the noise-free end x̄.
+/// It is √(½ tr Σ) on the arc of the preset "gentle", rounded. For other distances the standard deviation would differ.
 pub const ADDITIVE_NOISE_STD: f64 = 0.2;
 
 /// Number of samples of the first block, which takes a few milliseconds.
@@ -239,14 +232,6 @@ impl BananaMachine {
         }
     }
 
-    /// Returns the moments of additive noise, the model that the chapter argues against: x_t = x̄ + ε with the noise-free end
-    /// x̄ and ε ~ N(0, [`ADDITIVE_NOISE_STD`]²·I) in x and y. It does not depend on the command and the α's.
-    pub fn additive_moments(&self) -> CartesianMoments {
-        let additive_variance = ADDITIVE_NOISE_STD * ADDITIVE_NOISE_STD;
-        let cov = Matrix3::from_diagonal(&Vector3::new(additive_variance, additive_variance, 0.0));
-        CartesianMoments { cov, ..self.linearized_moments() }
-    }
-
     /// Returns the exact moments of the model, by quadrature.
     pub fn exact_moments(&self) -> ExactMoments {
         ExactMoments::new(&self.settings.polar_motion(&self.settings.command))
@@ -314,16 +299,19 @@ impl BananaMachine {
         let has_exponential = has_outlines && self.is_exponential_defined();
         let VelocityCmd { v, omega, dt } = self.settings.command;
         let contour = ExponentialContour::new(exponential, &START_POSE);
+        let (linearized, additive_variance) =
+            (self.linearized_moments(), ADDITIVE_NOISE_STD * ADDITIVE_NOISE_STD);
         Contours {
             command: arc_points(v * dt, omega * dt),
             ellipse: outline_or_empty(
                 has_outlines,
                 Ellipse::from_moments(cartesian).boundary(OUTLINE_SEGMENTS),
             ),
-            linearized: Ellipse::from_moments(&self.linearized_moments()).boundary(OUTLINE_SEGMENTS),
+            linearized: Ellipse::from_moments(&linearized).boundary(OUTLINE_SEGMENTS),
             exponential: outline_or_empty(has_exponential, contour.boundary(OUTLINE_SEGMENTS)),
             twist_ellipse: outline_or_empty(has_exponential, contour.ellipse.boundary(OUTLINE_SEGMENTS)),
-            additive: Ellipse::from_moments(&self.additive_moments()).boundary(OUTLINE_SEGMENTS),
+            additive: Ellipse::new(linearized.mean.xy(), Matrix2::from_diagonal_element(additive_variance))
+                .boundary(OUTLINE_SEGMENTS),
         }
     }
 

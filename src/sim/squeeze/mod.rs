@@ -239,11 +239,6 @@ impl MapSqueeze {
         Ok(total_cost)
     }
 
-    /// Returns a free pose, see [`FloorPlan::find_free_pose`].
-    pub fn find_free_pose(&self) -> Option<SE2> {
-        self.plan.find_free_pose(self.settings.clearance)
-    }
-
     /// Returns true if the robot collides with nothing at its start pose.
     pub fn is_start_free(&self) -> bool {
         let [x, y, _] = self.settings.start;

@@ -97,7 +97,13 @@ pub fn hash_map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
         HashedPart::new("verdicts", attempts.iter().map(Attempt::verdict_bits).collect::<Vec<_>>()),
         HashedPart::new(
             "statistics",
-            (attempts.len(), simulation.is_start_free(), simulation.find_free_pose(), noise, stat_fields),
+            (
+                attempts.len(),
+                simulation.is_start_free(),
+                simulation.plan().find_free_pose(simulation.settings().clearance),
+                noise,
+                stat_fields,
+            ),
         ),
         HashedPart::new(
             "picture",

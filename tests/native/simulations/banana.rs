@@ -4,7 +4,7 @@ use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, max_difference, seeded_rng
 use motion::geom::lanes::MAX_SIN_COS_ERROR;
 use motion::geom::se2::SE2;
 use motion::sim::View;
-use motion::sim::banana::{ADDITIVE_NOISE_STD, BananaMachine, ModelKind, Sample, Settings, command_reaching};
+use motion::sim::banana::{ADDITIVE_NOISE_STD, BananaMachine, ModelKind, Sample, Settings, command_drawn_at};
 use motion::stats::ExponentialMoments;
 use motion::{
     ConfiguredOdometry, MotionModel, OdomAlphas, OdomDelta, OdometryModel, VelocityAlphas, VelocityCmd,
@@ -224,7 +224,7 @@ fn isolating_an_alpha_sets_the_others_to_zero() {
 fn the_reaching_command_ends_at_the_target() {
     for (x, y) in [(1.0, 0.2), (1.0, -2.0), (-1.0, 0.3), (-0.5, -0.5), (2.0, 0.0), (-2.0, 0.0), (0.0, 1.0)] {
         for (omega, duration) in [(0.3, 0.5), (-0.2, 2.0), (2.0, 3.0), (-1.5, 2.5)] {
-            let command = command_reaching(x, y, &VelocityCmd { v: 1.0, omega, dt: duration });
+            let command = command_drawn_at([x, y], &VelocityCmd { v: 1.0, omega, dt: duration }, 0.0);
             let settings = Settings { command, ..settings_of_preset("gentle") };
             let end_pose = simulation(settings).linearized_moments().mean;
             let end_position = SE2::new(end_pose.x, end_pose.y, 0.0);
@@ -240,7 +240,10 @@ fn the_reaching_command_ends_at_the_target() {
         }
     }
     let current_command = VelocityCmd { v: 1.0, omega: 1.2, dt: 3.0 };
-    assert_eq!(command_reaching(0.0, 0.0, &current_command), VelocityCmd { v: 0.0, omega: 0.0, dt: 3.0 });
+    assert_eq!(
+        command_drawn_at([0.0; 2], &current_command, 0.0),
+        VelocityCmd { v: 0.0, omega: 0.0, dt: 3.0 }
+    );
 }
 
 /// Exponential coordinates are infinite for a full turn. Only statistics in these coordinates are then undefined.

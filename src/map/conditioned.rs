@@ -90,7 +90,7 @@ pub struct AcceptedMotion {
 
 /// Cost of rejection sampling.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), serde(rename_all = "camelCase"))]
 pub struct Cost {
     /// Draws of the model, accepted or not.
     pub draws: usize,

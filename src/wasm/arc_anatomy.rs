@@ -3,10 +3,11 @@
 use super::fields::check_range;
 use super::pictures::read_bounds;
 use super::simulation_class::simulation_class;
-use super::values::{to_plain_js, triple_array};
-use crate::geom::arc_forms::form_errors;
+use super::values::{to_plain_js, to_ts, triple_array};
+use crate::geom::arc_forms::{FormErrors, form_errors};
 use crate::sim::arc_anatomy::ArcAnatomy;
 use js_sys::Float64Array;
+use tsify::Ts;
 use wasm_bindgen::prelude::*;
 
 simulation_class! {
@@ -24,9 +25,9 @@ simulation_class! {
 #[wasm_bindgen(js_class = ArcAnatomy)]
 impl JsArcAnatomy {
     /// Errors of three formulas for the end of an arc at small turn rates: exercise 1.
-    #[wasm_bindgen(js_name = formErrors, unchecked_return_type = "FormErrors")]
-    pub fn form_errors() -> JsValue {
-        to_plain_js(&form_errors())
+    #[wasm_bindgen(js_name = formErrors)]
+    pub fn form_errors() -> Ts<FormErrors> {
+        to_ts(&form_errors())
     }
 
     /// Heat map over the positions of a rectangle (m), for the heading of the final pose; null if no heat map is selected.

@@ -5,16 +5,17 @@ use std::ops::RangeInclusive;
 use super::fields::{check_range, not_shown_error, read_integer, read_value};
 use super::pictures::{RADIUS_RANGE, pixel_view, read_grid, read_ramps};
 use super::simulation_class::cloud_simulation_class;
-use super::values::{flat_float_array, js_array, js_object, to_plain_js, triple_array};
+use super::values::{flat_float_array, js_array, js_object, to_plain_js, to_ts, triple_array};
 use crate::geom::se2::SE2;
 use crate::geom::unbend::unbend_line;
 use crate::sim::View;
-use crate::sim::banana::{BananaMachine, MAX_CURVE_POINTS, MAX_SAMPLES, OUTLINE_SEGMENTS};
+use crate::sim::banana::{BananaMachine, MAX_CURVE_POINTS, MAX_SAMPLES, OUTLINE_SEGMENTS, Sample};
 use crate::sim::settings::QUANTITY_RANGE;
 use crate::sim::views::MORPH_RANGE;
 use crate::stats::{ExponentialContour, ExponentialMoments};
 use js_sys::{Float64Array, RangeError, Uint8ClampedArray, Uint32Array};
 use nalgebra::{Matrix3, Vector3};
+use tsify::Ts;
 use wasm_bindgen::prelude::*;
 
 cloud_simulation_class! {
@@ -78,11 +79,10 @@ impl JsBananaMachine {
     }
 
     /// Returns a sample by its index among those shown, counted from 0.
-    #[wasm_bindgen(unchecked_return_type = "Inspection")]
-    pub fn inspect(&self, index: f64) -> Result<JsValue, JsValue> {
+    pub fn inspect(&self, index: f64) -> Result<Ts<Sample>, JsValue> {
         let index = read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize;
         let sample = self.0.inspect(index).ok_or_else(|| not_shown_error(index, self.0.shown_count()))?;
-        Ok(to_plain_js(&sample))
+        Ok(to_ts(&sample))
     }
 
     /// Returns the index of the nearest sample inside the ellipse with these semi-axes around a point of the view; −1 for none.

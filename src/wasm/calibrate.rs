@@ -44,23 +44,18 @@ pub fn js_calibrate(
 fn read_model(fields: &FieldReader) -> Result<Model, JsValue> {
     let read_model_name = |path: &str, name: &JsValue| read_value(path, name, ModelChoice::Odometry, ());
     let read_rule = |path: &str, name: &JsValue| read_value(path, name, OdometryRule::Table, ());
-    let model_name = fields.read_optional("model", read_model_name)?;
-    let rule = fields.read_optional("rule", read_rule)?;
-    let is_omni = rule == Some(OdometryRule::Omni);
-    let rule_fits_model = match model_name {
-        None => true,
-        Some(ModelChoice::Odometry) => !is_omni,
-        Some(ModelChoice::Omnidirectional) => is_omni || rule.is_none(),
-        Some(ModelChoice::Velocity) => rule.is_none(),
-    };
-    if !rule_fits_model {
-        let error_message = "rule does not go with the model; allowed is thrun, nav2 or beluga with odometry, omni with omnidirectional, and none with velocity";
-        return Err(RangeError::new(error_message).into());
-    }
-    Ok(match model_name {
-        Some(ModelChoice::Velocity) => Model::Velocity,
-        Some(ModelChoice::Omnidirectional) => Model::Odometry(OdometryRule::Omni),
-        Some(ModelChoice::Odometry) | None => Model::Odometry(rule.unwrap_or(OdometryRule::Table)),
+    Ok(match (fields.read_optional("model", read_model_name)?, fields.read_optional("rule", read_rule)?) {
+        (None | Some(ModelChoice::Odometry), None) => Model::Odometry(OdometryRule::Table),
+        (None, Some(rule)) => Model::Odometry(rule),
+        (Some(ModelChoice::Odometry), Some(rule)) if rule != OdometryRule::Omni => Model::Odometry(rule),
+        (Some(ModelChoice::Omnidirectional), None | Some(OdometryRule::Omni)) => {
+            Model::Odometry(OdometryRule::Omni)
+        }
+        (Some(ModelChoice::Velocity), None) => Model::Velocity,
+        _ => {
+            let error_message = "rule does not go with the model; allowed is thrun, nav2 or beluga with odometry, omni with omnidirectional, and none with velocity";
+            return Err(RangeError::new(error_message).into());
+        }
     })
 }
 

@@ -3,7 +3,7 @@
 use super::fields::{
     FieldReader, array_item, array_length, check_range, read_array_in_range, read_integer, read_value,
 };
-use super::values::{js_array, number_or_null, pose_to_js, to_plain_js, triple_array};
+use super::values::{JsPose, js_array, number_or_null, pose_to_js, to_ts, triple_array};
 use crate::geom::arc::invert_arc;
 use crate::geom::se2::SE2;
 use crate::js::js_structs;
@@ -18,6 +18,7 @@ use js_sys::{Array, Float64Array, RangeError};
 use nalgebra::{Matrix3, Vector3};
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
+use tsify::Ts;
 use wasm_bindgen::prelude::*;
 
 js_structs! {
@@ -46,8 +47,6 @@ js_structs! {
 
 #[wasm_bindgen]
 extern "C" {
-    #[wasm_bindgen(typescript_type = "Start")]
-    pub type JsPose;
     #[wasm_bindgen(typescript_type = "Command")]
     pub type JsCommand;
     #[wasm_bindgen(typescript_type = "OdomDelta")]
@@ -152,14 +151,14 @@ model_methods! {
 
 /// Returns the arc that leaves `start` along its heading and reaches the position of `next` in `dt` seconds (Table 5.1, with a signed
 /// radius). Of the arcs on that circle, it is the one that turns by at most half a circle.
-#[wasm_bindgen(js_name = invertArc, unchecked_return_type = "ArcInversion")]
-pub fn js_invert_arc(start: &JsPose, next: &JsPose, dt: f64) -> Result<JsValue, JsValue> {
+#[wasm_bindgen(js_name = invertArc)]
+pub fn js_invert_arc(start: &JsPose, next: &JsPose, dt: f64) -> Result<Ts<InvertedArc>, JsValue> {
     let (start, next, dt) =
         (read_pose("start", start)?, read_pose("next", next)?, check_range("dt", dt, &DURATION_RANGE)?);
     let inversion = invert_arc(&start, &next, dt);
     // A straight drive in reverse has the turn rate −0. Adding 0 removes the minus.
     let omega_hat = inversion.omega_hat + 0.0;
-    Ok(to_plain_js(&InvertedArc {
+    Ok(to_ts(&InvertedArc {
         v_hat: inversion.v_hat,
         omega_hat,
         gamma_hat: inversion.gamma_hat,
@@ -170,9 +169,9 @@ pub fn js_invert_arc(start: &JsPose, next: &JsPose, dt: f64) -> Result<JsValue, 
 }
 
 /// Returns rotation, translation and rotation between two odometry poses (Table 5.5). A turn on the spot is all in `rot2`.
-#[wasm_bindgen(unchecked_return_type = "OdomDelta")]
-pub fn decompose(start: &JsPose, next: &JsPose) -> Result<JsValue, JsValue> {
-    Ok(to_plain_js(&OdomDelta::from_poses(&read_pose("start", start)?, &read_pose("next", next)?)))
+#[wasm_bindgen]
+pub fn decompose(start: &JsPose, next: &JsPose) -> Result<Ts<OdomDelta>, JsValue> {
+    Ok(to_ts(&OdomDelta::from_poses(&read_pose("start", start)?, &read_pose("next", next)?)))
 }
 
 /// Returns the covariance, in exponential coordinates about the noise-free pose, after a command was driven several times. The fourth order
@@ -204,8 +203,8 @@ pub fn propagate(options: &JsPropagation) -> Result<Array, JsValue> {
 }
 
 /// Exponential map: returns the pose to which a twist leads from the origin in one unit of time.
-#[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
-pub fn exp(twist: &JsTwist) -> Result<JsValue, JsValue> {
+#[wasm_bindgen(js_namespace = se2)]
+pub fn exp(twist: &JsTwist) -> Result<JsPose, JsValue> {
     Ok(pose_to_js(SE2::exp(&read_twist("twist", twist)?)))
 }
 
@@ -216,20 +215,20 @@ pub fn log(pose: &JsPose) -> Result<JsValue, JsValue> {
 }
 
 /// Composition a · b: returns the pose `b`, which is given in the frame of `a`, in the reference frame of `a`.
-#[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
-pub fn compose(a: &JsPose, b: &JsPose) -> Result<JsValue, JsValue> {
+#[wasm_bindgen(js_namespace = se2)]
+pub fn compose(a: &JsPose, b: &JsPose) -> Result<JsPose, JsValue> {
     Ok(pose_to_js(read_pose("a", a)? * read_pose("b", b)?))
 }
 
 /// Inverse: returns the origin in the frame of a pose.
-#[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
-pub fn inverse(pose: &JsPose) -> Result<JsValue, JsValue> {
+#[wasm_bindgen(js_namespace = se2)]
+pub fn inverse(pose: &JsPose) -> Result<JsPose, JsValue> {
     Ok(pose_to_js(read_pose("pose", pose)?.inverse()))
 }
 
 /// Returns x ⊞ τ = x · exp(τ).
-#[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
-pub fn boxplus(pose: &JsPose, twist: &JsTwist) -> Result<JsValue, JsValue> {
+#[wasm_bindgen(js_namespace = se2)]
+pub fn boxplus(pose: &JsPose, twist: &JsTwist) -> Result<JsPose, JsValue> {
     Ok(pose_to_js(read_pose("pose", pose)?.boxplus(read_twist("twist", twist)?)))
 }
 

@@ -4,14 +4,15 @@ use super::fields::{quote, read_integer, read_value};
 use super::maps::{read_map, read_plan};
 use super::pictures::{nearest_index, pixel_view, read_grid, read_ramps};
 use super::simulation_class::cloud_simulation_class;
-use super::values::{ToJs, flat_float_array, number_or_null, pose_to_js, to_plain_js, triple_array};
+use super::values::{ToJs, flat_float_array, number_or_null, pose_to_js, to_plain_js, to_ts, triple_array};
 use crate::geom::arc::Arc;
 use crate::geom::segment::Segment;
 use crate::js::js_structs;
-use crate::map::{Cell, FloorPlan, MAX_DRAWS, Sampler};
+use crate::map::{Cell, Cost, FloorPlan, MAX_DRAWS, Sampler};
 use crate::sim::settings::KeywordSetting;
 use crate::sim::squeeze::{Attempt, MAX_SAMPLES, MAX_STEPS, MAX_TRIAL_PARTS, MapSqueeze, max_draws};
 use js_sys::{Array, Float64Array, RangeError, Uint8ClampedArray};
+use tsify::Ts;
 use wasm_bindgen::prelude::*;
 
 js_structs! {
@@ -80,7 +81,7 @@ cloud_simulation_class! {
         /// Free start pose: in the middle of the largest square that is known to be free, heading where the path is free
         /// for longest. If the robot does not fit there, another pose where it fits; null if there is none.
         find_free_pose as "openPlace": "Start | null" =
-            simulation.plan().find_free_pose(simulation.settings().clearance).map_or(JsValue::NULL, pose_to_js);
+            simulation.plan().find_free_pose(simulation.settings().clearance).map_or(JsValue::NULL, |pose| pose_to_js(pose).into());
     }
 }
 
@@ -115,13 +116,12 @@ impl JsMapSqueeze {
     }
 
     /// Draws `count` accepted samples with a sampler and discards them, to measure the time. Throws if too many draws are rejected.
-    #[wasm_bindgen(unchecked_return_type = "{ draws: number; wallTests: number }")]
     pub fn trial(
         &self,
         #[wasm_bindgen(unchecked_param_type = "MapSqueezeSettings['sampler']")] sampler: &JsValue,
         steps: f64,
         count: f64,
-    ) -> Result<JsValue, JsValue> {
+    ) -> Result<Ts<Cost>, JsValue> {
         let steps = read_integer("steps", steps, 1..=MAX_STEPS)?;
         let sampler = read_value("sampler", sampler, Sampler::Endpoint, ())?.with_part_count(steps as u32);
         let count = read_integer("count", count, 1..=MAX_TRIAL_PARTS / steps)? as usize;
@@ -133,7 +133,7 @@ impl JsMapSqueeze {
                 quote(sampler.get()),
             ))
         })?;
-        Ok(to_plain_js(&cost))
+        Ok(to_ts(&cost))
     }
 
     /// Returns the density of the ends of the attempts shown, as RGBA pixels of a grid, row by row from the top. `ramps` are three ramps of

@@ -5,6 +5,7 @@ use crate::sim::settings::{HasKeywords, KeywordSetting, SettingValue};
 use js_sys::{Array, Float64Array, Object, Uint8Array};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Serialize, Serializer};
+use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::*;
 
 /// Converts a value to a plain JavaScript value, in which None is null.
@@ -12,6 +13,11 @@ pub fn to_plain_js<T: Serialize>(value: &T) -> JsValue {
     let serializer = serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true);
     // Serialization fails only for maps whose keys are not strings. Results of the core contain no such maps.
     value.serialize(&serializer).unwrap_or(JsValue::NULL)
+}
+
+/// Converts a value as [`to_plain_js`] does, with its TypeScript type.
+pub fn to_ts<T: Serialize + Tsify>(value: &T) -> Ts<T> {
+    Ts::new_unchecked(to_plain_js(value))
 }
 
 /// Conversion of Rust values to JavaScript values that serde does not create, such as a Float64Array.
@@ -58,8 +64,14 @@ pub fn number_or_null(number: Option<f64>) -> JsValue {
     number.map_or(JsValue::NULL, JsValue::from)
 }
 
-pub fn pose_to_js(pose: SE2) -> JsValue {
-    to_plain_js(&<[f64; 3]>::from(pose).setting(()))
+#[wasm_bindgen]
+extern "C" {
+    #[wasm_bindgen(typescript_type = "Start")]
+    pub type JsPose;
+}
+
+pub fn pose_to_js(pose: SE2) -> JsPose {
+    to_plain_js(&<[f64; 3]>::from(pose).setting(())).unchecked_into()
 }
 
 pub fn js_array(numbers: &[f64]) -> JsValue {

@@ -162,11 +162,13 @@ export class TextHeights extends FigureController {
     }
     [this.#lastWidth, this.#language] = [clientWidth, language];
     // Changing a size now would call the observer again in this frame.
-    requestAnimationFrame(() => {
-      this.#sizeObserver.disconnect();
-      for (const textElement of this.#textElements) textElement.style.minHeight = '';
-      this.#textElements.clear();
-      this.hostUpdated();
-    });
+    requestAnimationFrame(() => this.measureAgain());
+  }
+
+  measureAgain() {
+    this.#sizeObserver.disconnect();
+    for (const textElement of this.#textElements) textElement.style.minHeight = '';
+    this.#textElements.clear();
+    this.hostUpdated();
   }
 }

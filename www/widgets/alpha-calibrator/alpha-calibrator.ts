@@ -110,9 +110,9 @@ const styles = css`
     line-height: 1.3;
   }
 
-  /* The minimum height reserves space for the advice of a failed check, so that the advice does not move a slider that is dragged. */
+  /* The minimum height reserves space for advice, so that the advice rarely moves a slider that is dragged. */
   .to-do {
-    min-height: 6.5em;
+    min-height: 3.9em;
   }
 
   /* In the presentation the pictures take the space that the verdict and the table leave. */
@@ -142,6 +142,10 @@ const styles = css`
       grid-column: 1 / -1;
     }
 
+    .to-do {
+      min-height: 6.5em;
+    }
+
     .one canvas {
       aspect-ratio: 5 / 2;
     }
@@ -164,6 +168,11 @@ const styles = css`
 
     .fitted {
       grid-column: auto;
+    }
+
+    /* The pictures are higher than the column with the advice. */
+    .to-do {
+      min-height: 0;
     }
 
     .fitted .panel-title {
@@ -207,6 +216,8 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   #givenLog: OpenedLog | null = null;
   /** Log of the page; null for the simulated log. */
   #pageLog: CalibrationLog | null = null;
+  /** Log that the latest rendering is about; null for the simulated log. */
+  #renderedLog: CalibrationLog | null = null;
 
   createSimulation = ({ AlphaCalibrator }: Motion, givenLog = this.#givenLog) => (givenLog ? AlphaCalibrator.restored(givenLog.config, givenLog.fit) : new AlphaCalibrator());
 
@@ -229,6 +240,14 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   disconnectedCallback() {
     super.disconnectedCallback();
     this.service.endWorker();
+  }
+
+  updated() {
+    const { viewModel } = this;
+    if (!viewModel || viewModel.log === this.#renderedLog) return;
+    // Texts about another log need not keep the heights of the present ones.
+    this.#renderedLog = viewModel.log;
+    this.textHeights.measureAgain();
   }
 
   /** Index of the leg that is shown; −1 if there is none. */

@@ -118,7 +118,7 @@ function columnsFormHtml(opener: LogOpener, question: FileQuestion, answeredName
           ${texts.fields[field]}
           <select name=${field} aria-label=${texts.fields[field]} aria-describedby="refusal">
             <option value="">${texts.none}</option>
-            ${options.map(({ sign, columnIndex, label }, i) => html`<option value=${i} ?selected=${fields[columnIndex] === `${sign}${field}`}>${label}</option>`)}
+            ${options.slice(0, field === 't' ? columns.length : undefined).map(({ sign, columnIndex, label }, i) => html`<option value=${i} ?selected=${fields[columnIndex] === `${sign}${field}`}>${label}</option>`)}
           </select>
         </label>`)}
         <button type="submit" part="button">${texts.read}</button>

@@ -258,10 +258,11 @@ for (const [name, tableText, expectedMessage, options] of REFUSED_TABLES) {
 
 for (const [axesName, tableText] of [
   ['Y up, and headings from x to z', circleTableOf(([t, x, y, yaw]) => [t, x, 0.1, y, yaw], 't,x,y,z,yaw')],
-  ['Y up, and headings from z to x', circleTableOf(([t, x, y, yaw]) => [t, y, 0.1, x, yaw], 't,x,y,z,yaw')],
-  ['Y up and quaternions', circleTableOf(([t, x, y, yaw]) => [t, y, 0.1, x, 0, Math.sin(yaw / 2), 0, Math.cos(yaw / 2)], 't,x,y,z,qx,qy,qz,qw')],
+  ['Y up, and headings from x to −z', circleTableOf(([t, x, y, yaw]) => [t, x, 0.1, -y, yaw], 't,x,y,z,yaw')],
+  ['Y up and quaternions', circleTableOf(([t, x, y, yaw]) => [t, x, 0.1, -y, 0, Math.sin(yaw / 2), 0, Math.cos(yaw / 2)], 't,x,y,z,qx,qy,qz,qw')],
   ['quaternions that start with w', circleTableOf(([t, x, y, yaw]) => [t, x, y, 0, Math.cos(yaw / 2), 0, 0, Math.sin(yaw / 2)], 't,x,y,z,qx,qy,qz,qw')],
   ['x and y exchanged', circleTableOf(([t, x, y, yaw]) => [t, y, x, yaw])],
+  ['y negated', circleTableOf(([t, x, y, yaw]) => [t, x, -y, yaw])],
 ]) {
   test(`the columns proposed for a table with ${axesName} give the path on the floor`, async () => {
     const { question } = await catchRefusalError(readTable(tableText));

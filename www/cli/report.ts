@@ -6,7 +6,7 @@ import { warningsOf } from '../logs/pairs.ts';
 import { en as sharedTexts } from '../messages/en.ts';
 import { MINUS } from '../ui/format.ts';
 import { en } from '../widgets/alpha-calibrator/en.ts';
-import { LOST_LEG_CAUSES, describeLegLength, formatJson, formatNav2Yaml, isNav2Rule, judgementOf, type Result } from '../widgets/alpha-calibrator/result.ts';
+import { LOST_LEG_CAUSES, describeLegLength, explainRecommendation, formatJson, formatNav2Yaml, isNav2Rule, judgementOf, type Result } from '../widgets/alpha-calibrator/result.ts';
 import { alphaTableOf, checkTableOf, noiseTableOf, systematicTableOf, windowTableOf, type ResultTable } from '../widgets/alpha-calibrator/tables.ts';
 import type { Calibration } from '../types.d.ts';
 
@@ -64,7 +64,7 @@ export function formatReport(report: CalibrationReport, isColored = false): stri
     `${legs.count} legs ${describeLegLength(legLength)}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,
     '',
     ...formatTable(alphaTableOf(calibration, model, REPORT_WORDS)),
-    ...(recommended ? [recommended.reason] : []),
+    ...(recommended ? [explainRecommendation(calibration, en)] : []),
     '',
     ...formatTable(systematicTableOf(calibration, REPORT_WORDS)),
     '',

@@ -3,7 +3,7 @@
 import { group, max, min, range, sum } from 'd3-array';
 import { LogError, type ErrorPlace, type DropCause, type Log, type LogKind, type Note, type OpenOptions, type ErrorReason, type Summary, type Words } from './log.ts';
 import { distanceOf, quantileOf, sampleEvenly, wrapAngle } from './path.ts';
-import { MIRRORED_FIELDS, epochTimeUnitOf, judgeUnits, type Columns, type ColumnNames, type Units } from './units.ts';
+import { COLUMN_CHANGES, epochTimeUnitOf, judgeUnits, type Columns, type ColumnNames, type Units } from './units.ts';
 
 /** Pose (x, y and heading) or command (v, omega and 0). `time` is in s, or 0 if unknown. The heading is undefined if the quaternion is no rotation. */
 export interface Sample {
@@ -136,7 +136,7 @@ export class RowCollector {
       const composeSentences = (texts: Words['refused']) => [damage.formatReason(texts), ...(damage.count > 1 && damage.count < rowCount ? [texts.manyBad(damage.count, rowCount, 100 * MAX_DAMAGED_FRACTION)] : [])];
       throw new LogError({ ...this.#logPlace, line: damage.line }, (texts) => composeSentences(texts).join(' '));
     }
-    if (this.tiltSpread > MAX_TILT_SPREAD) throw new LogError(this.#logPlace, (texts) => texts.tilted(columnNames !== undefined), columnNames?.createQuestion(columnNames.fieldsOfTiltedPoses));
+    if (this.tiltSpread > MAX_TILT_SPREAD) throw new LogError(this.#logPlace, (texts) => texts.tilted(columnNames !== undefined), columnNames?.createQuestion(columnNames.changeOfTiltedPoses));
     const usesOtherClock = clocks[1] !== undefined && this.#isClockStill();
     if (usesOtherClock) this.#times = this.#columns.otherTime;
     const stampedRows = this.#dropUnsetTimes();
@@ -166,7 +166,7 @@ export class RowCollector {
       rows: rowCount, used: t.length, dropped: this.#dropped, seconds, distance: distanceOf(data, jumpRows), ...foundGaps,
       ...decisions, ...(decisions.columns && { columns: { ...decisions.columns, t: clock } }), units, clock, notes,
     };
-    return { name, kind, start: columns.start, data, summary, ...(columnNames && { mirroring: { ...columnNames.createQuestion({}, MIRRORED_FIELDS), file: this.#logPlace.file } }) };
+    return { name, kind, start: columns.start, data, summary, ...(columnNames && { mirroring: { ...columnNames.createQuestion(COLUMN_CHANGES.mirrored), file: this.#logPlace.file } }) };
   }
 
   /** Returns true if most rows have the time of the previous row, because the stamps are 0 or never change. */

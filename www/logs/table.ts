@@ -6,7 +6,7 @@ import { splitCells, detectTableFormat, parseDate, parseNumber, parseTime, type 
 import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Log, type Note, type OpenOptions, type OptionsByName, type Recording, type Series, type Source, type Summary, type TimeUnit } from './log.ts';
 import { rotationOf, type Quaternion } from './path.ts';
 import { RowCollector } from './rows.ts';
-import { FIELDS_WITH_W_FIRST, FIELDS_WITH_Y_UP, UNIT_EXPONENTS, epochTimeUnitOf } from './units.ts';
+import { COLUMN_CHANGES, UNIT_EXPONENTS, epochTimeUnitOf } from './units.ts';
 
 const BLOCK_BYTES = 2 ** 22;
 
@@ -206,8 +206,8 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
         clocks: [clocks[0].name, clocks[1]?.name],
         columns: Object.fromEntries([['t', ''], ...fields.map((field, i) => [field, columns[i].name])]),
         columnNames: {
-          fieldsOfTiltedPoses: rollExcess > 0 ? FIELDS_WITH_W_FIRST : FIELDS_WITH_Y_UP,
-          createQuestion(newFields, negatedFields = []) {
+          changeOfTiltedPoses: COLUMN_CHANGES[rollExcess > 0 ? 'wFirst' : 'yUp'],
+          createQuestion([newFields, negatedFields]) {
             const newColumns = columnNames.map((oldName, i) => {
               const field = (Object.keys(group.columns) as Field[]).find((fieldOfGroup) => group.columns[fieldOfGroup]?.index === i);
               if (!field) return { name: oldName.trim(), field: '-' };

@@ -10,26 +10,29 @@ export type Units = Summary['units'];
 /** Columns of a log in the units of the file: x, y, heading and height, or v, omega, 0 and 0. `start` is what was subtracted from all times, s. */
 export interface Columns { start: number; t: Float64Array; a: Float64Array; b: Float64Array; c: Float64Array; z: Float64Array }
 
-type NewFields = Partial<Record<Field, Field>>;
+/** New names of fields, and the fields whose sign changes. */
+type ColumnChange = [newFields: Partial<Record<Field, Field>>, negatedFields: Field[]];
 
 /** Names of the columns of a table, which the user may change. */
 export interface ColumnNames {
-  /** Returns a question about the columns. It proposes to give columns the names of other fields, and to change the signs of some fields. */
-  createQuestion(newFields: NewFields, negatedFields?: Field[]): Question;
-  /** New names of fields that probably make the robot turn about Z, if it does not do so with the present names. */
-  fieldsOfTiltedPoses: NewFields;
+  /** Returns a question about the columns, which proposes a change. */
+  createQuestion(change: ColumnChange): Question;
+  /** Change that probably makes the robot turn about Z, if it does not do so with the present names. */
+  changeOfTiltedPoses: ColumnChange;
 }
 
-/** New names of fields for a table with Y up, whose headings grow from z to x. */
-export const FIELDS_WITH_Y_UP: NewFields = { x: 'y', y: 'z', z: 'x', qx: 'qy', qy: 'qz', qz: 'qx' };
-/** New names of fields for a table whose quaternions start with w. */
-export const FIELDS_WITH_W_FIRST: NewFields = { qx: 'qw', qy: 'qx', qz: 'qy', qw: 'qz' };
-/** New names of fields for a table with Y up, whose headings grow from x to z. */
-const LEFT_HANDED_FIELDS_WITH_Y_UP: NewFields = { y: 'z', z: 'y' };
-/** New names of fields for a table whose headings grow from y to x. */
-const SWAPPED_FIELDS: NewFields = { x: 'y', y: 'x' };
-/** Fields that change their sign if the y axis is mirrored. */
-export const MIRRORED_FIELDS: Field[] = ['y', 'yaw', 'qx', 'qz'];
+/** Changes of the columns of tables with other axes. */
+export const COLUMN_CHANGES = {
+  /** Y is up, and headings grow from x to −z. */
+  yUp: [{ y: 'z', z: 'y', qy: 'qz', qz: 'qy' }, ['z', 'qz']],
+  /** Y is up, and headings grow from x to z. */
+  leftHandedWithYUp: [{ y: 'z', z: 'y' }, []],
+  wFirst: [{ qx: 'qw', qy: 'qx', qz: 'qy', qw: 'qz' }, []],
+  swapped: [{ x: 'y', y: 'x' }, []],
+  negatedY: [{}, ['y']],
+  /** The y axis is mirrored, and so are the rotations. */
+  mirrored: [{}, ['y', 'yaw', 'qx', 'qz']],
+} satisfies Record<string, ColumnChange>;
 
 /** Decimal exponent of the number of units in a second, by unit of time. */
 export const UNIT_EXPONENTS = { s: 0, ms: 3, us: 6, ns: 9 } as const;
@@ -91,11 +94,10 @@ export function judgeUnits(errorPlace: ErrorPlace, kind: LogKind, columns: Colum
   const alignment = isJudged && kind === 'poses' ? alignmentWithPath(t, a, b, c) : undefined;
   if (alignment?.sign === -1) {
     // Headings and path differ by a right angle if x and y are swapped, but not if y is negated.
-    const isSwapped = alignment.cosine < 0;
-    throw new LogError(errorPlace, (texts) => texts.mirrored, columnNames?.createQuestion(isSwapped ? SWAPPED_FIELDS : {}, isSwapped ? [] : ['y']));
+    throw new LogError(errorPlace, (texts) => texts.mirrored, columnNames?.createQuestion(COLUMN_CHANGES[alignment.cosine < 0 ? 'swapped' : 'negatedY']));
   }
   const alignmentWithYUp = isJudged && kind === 'poses' && columnNames && !alignment ? alignmentWithPath(t, a, z, c) : undefined;
-  if (columnNames && alignmentWithYUp) throw new LogError(errorPlace, (texts) => texts.yUp, columnNames.createQuestion(alignmentWithYUp.sign > 0 ? LEFT_HANDED_FIELDS_WITH_Y_UP : FIELDS_WITH_Y_UP));
+  if (columnNames && alignmentWithYUp) throw new LogError(errorPlace, (texts) => texts.yUp, columnNames.createQuestion(COLUMN_CHANGES[alignmentWithYUp.sign > 0 ? 'leftHandedWithYUp' : 'yUp']));
   const turnRateAt = kind === 'poses' ? (i: number) => (c[i + 1] - c[i]) / (t[i + 1] - t[i]) : (i: number) => b[i];
   const turnRate = quantileOf(sampleEvenly(t.length - 1, (i) => Math.abs(turnRateAt(i))), 0.9);
   const mayBeDegrees = kind === 'poses' ? c.some((heading) => Math.abs(heading) > MAX_WRAPPED_HEADING) : turnRate > MAX_SPEED;

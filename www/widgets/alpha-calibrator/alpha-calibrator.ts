@@ -14,7 +14,8 @@ import { startOverButtonHtml } from '../shared/controls.ts';
 import { LogOpener, LogService, dropZoneHtml, isAbortError } from './open.ts';
 import { legControlsHtml, legReadoutsHtml, modelControlsHtml, referenceControlsHtml } from './controls.ts';
 import { LegPicture, PathPicture } from './pictures.ts';
-import { alphaTableHtml, captionOf, diagnosticsHtml, judgeFit, nav2ButtonHtml, nav2ExportControlsHtml, explainRecommendation, regressionPanelsHtml, systematicTableHtml, verdictHtml } from './readouts.ts';
+import { alphaTableHtml, captionOf, diagnosticsHtml, judgeFit, nav2ButtonHtml, nav2ExportControlsHtml, regressionPanelsHtml, systematicTableHtml, verdictHtml } from './readouts.ts';
+import { explainRecommendation } from './result.ts';
 import { NOISE_COMPONENTS, LINE_STYLES, REGRESSORS, definition, modelRuleOf, viewModelOf, type ViewModel } from './settings.ts';
 import type { AlphaCalibrator as Simulation, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
@@ -415,7 +416,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
           </div>
           <p class="to-do">${this.#opener.otherResultsNote || judgeFit(this).advice.join(' ')}</p>
           ${alphaTableHtml(viewModel)}
-          <p class="muted small">${explainRecommendation(viewModel)}</p>
+          <p class="muted small">${explainRecommendation(viewModel.stats, texts)}</p>
         </div>`)}
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`

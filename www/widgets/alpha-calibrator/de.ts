@@ -111,13 +111,9 @@ export const de: typeof import('./en.ts').en = {
     },
     translateMessage: (name, englishMessage) => CHECK_MESSAGES[name] ?? englishMessage,
   },
-  recommendationReasons: {
-    unusableLog: 'Es gibt keine empfohlenen α: Die Aufzeichnung ist unbrauchbar.',
-    tooFewWindows: (count) => `Empfohlen: die angepassten α. ${count} zurückgehaltene Fenster von ≥ 1 m reichen nicht, sie zu beurteilen.`,
-    goodCoverage: (coverage, count) => `Empfohlen: die angepassten α. Sie decken ${coverage} von ${count} zurückgehaltenen Fenstern von ≥ 1 m; erwartet sind 95 %.`,
-    inflated: (inflation, coverage, count, nees) =>
-      `Empfohlen: angepasst × ${inflation}, deckt mindestens 95 % von ${count} zurückgehaltenen Fenstern von ≥ 1 m. Die Anpassung deckt ${coverage}; ihr quadrierter Fehler durch vorhergesagte Varianz (NEES) ist ${nees}, erwartet 1.`,
-  },
+  noRecommendation: 'Es gibt keine empfohlenen α: Die Aufzeichnung ist unbrauchbar.',
+  translateRecommendationReason: (_englishReason, inflation, coverage, count, nees) =>
+    `Empfohlen: angepasst × ${inflation}. Die Anpassung deckt ${coverage} von ${count} zurückgehaltenen Fenstern von ≥ 1 m (erwartet 95 %; nötig sind 20 Fenster); ihr quadrierter Fehler durch vorhergesagte Varianz (NEES) ist ${nees}, erwartet 1.`,
   alphas: {
     title: (modelRuleName) => `Angepasste Rauschparameter (${modelRuleName})`,
     noiseColumn: 'Rauschen',

@@ -11,8 +11,6 @@ export const yamlWords = {
   logSource: (legs, lengthText, logName, date) => `${formatCount(legs, 'leg')} ${lengthText} of ${logName}, ${date}`,
   legsByMotion: (distance, angle) => `of ${distance} m or ${angle} rad`,
   legsByDuration: (duration) => `of ${duration} s`,
-  coveredFitNote: (inflation, coverage, windowCount) => `recommended = fitted × ${inflation}: the fit covers ${coverage} of ${windowCount} held-out windows of ≥ 1 m`,
-  unjudgedFitNote: (windowCount) => `recommended = fitted: ${formatCount(windowCount, 'held-out window')} of ≥ 1 m cannot judge the fit`,
   fittedNote: (fittedAlpha, interval) => `fitted ${fittedAlpha}${interval && `, 95 % ${interval}`}`,
   longerLegsNote: (legLengthRatio) => `The log’s legs are ${legLengthRatio} times as long as requested. The α’s are valid for this length, so update_min_d and update_min_a are multiplied by ${legLengthRatio}.`,
   failedChecksNote: (checkNames) => `Caution, these checks failed: ${checkNames}`,
@@ -89,13 +87,8 @@ export const en = {
     },
     translateMessage: (_name, englishMessage) => englishMessage.replaceAll("'", '’'),
   },
-  recommendationReasons: {
-    unusableLog: 'There are no recommended α’s: the log is unusable.',
-    tooFewWindows: (count) => `Recommended: the fitted α’s. ${formatCount(count, 'held-out window')} of ≥ 1 m cannot judge them.`,
-    goodCoverage: (coverage, count) => `Recommended: the fitted α’s. They cover ${coverage} of ${count} held-out windows of ≥ 1 m; 95 % is expected.`,
-    inflated: (inflation, coverage, count, nees) =>
-      `Recommended: fitted × ${inflation}, which covers at least 95 % of ${count} held-out windows of ≥ 1 m. The fit covers ${coverage}, with a squared error over predicted variance (NEES) of ${nees}, expected 1.`,
-  },
+  noRecommendation: 'There are no recommended α’s: the log is unusable.',
+  translateRecommendationReason: (englishReason, _inflation, _coverage, _count, _nees) => englishReason,
   alphas: {
     title: (modelRuleName) => `Fitted noise parameters (${modelRuleName})`,
     noiseColumn: 'noise',

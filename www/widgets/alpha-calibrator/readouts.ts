@@ -4,7 +4,7 @@ import { html } from 'lit';
 import { copyButtonHtml, downloadFile } from '../../figure/export.ts';
 import { addEnglishMessages, words } from '../../messages/registry.ts';
 import { buttonHtml, fieldsetHtml, formatMarkup, checkboxHtml } from '../../ui/controls.ts';
-import { NO_VALUE, formatInteger, formatFixed, formatPercent, formatPowerOfTen } from '../../ui/format.ts';
+import { NO_VALUE, formatInteger, formatPowerOfTen } from '../../ui/format.ts';
 import { plotHtml, type Curve, type PlotOptions } from '../../ui/plot.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
@@ -26,16 +26,6 @@ function resultOf({ viewModel: { stats, legs, fittedConfig }, warnings, logName 
 }
 
 export const judgeFit = (figure: Fitted) => judgementOf(resultOf(figure), words.calibrator, words.moreControls);
-
-/** Returns the reason for the recommended α's. */
-export function explainRecommendation({ stats: { recommended, diagnostics: { checks, windows } } }: ViewModel) {
-  const texts = words.calibrator.recommendationReasons;
-  if (!recommended) return texts.unusableLog;
-  const [{ count, coverage, nees }] = windows;
-  if (!checks.some(({ name }) => name === 'window-1m-covered')) return texts.tooFewWindows(formatInteger(count));
-  const { inflation } = recommended;
-  return inflation === 1 ? texts.goodCoverage(formatPercent(coverage), formatInteger(count)) : texts.inflated(formatFixed(inflation, 2), formatPercent(coverage), formatInteger(count), formatFixed(nees, 2));
-}
 
 /** Returns the number of legs and outliers of the named log in a sentence; empty if there are no legs. */
 function describeLegs({ viewModel: { legs }, logName }: Fitted) {

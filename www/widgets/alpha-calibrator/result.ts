@@ -1,6 +1,6 @@
 /** Result of a fit as text, which the page and the command line share: numbers, the verdict, and lines for nav2_params.yaml. */
 
-import { MINUS, NO_VALUE, formatFixed, formatPowerOfTen, formatInteger } from '../../ui/format.ts';
+import { MINUS, NO_VALUE, formatFixed, formatPercent, formatPowerOfTen, formatInteger } from '../../ui/format.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { en, yamlWords } from './en.ts';
 import type { CalibrationCheck, CalibrationStats } from '../../types.d.ts';
@@ -88,8 +88,6 @@ export const localizeNumber = (numberText: string) =>
 export const localizeInterval = (interval: Interval | undefined) =>
   (interval?.every(Number.isFinite) ? interval.map((bound) => localizeNumber(formatEstimate(bound, interval))).join(' – ') : NO_VALUE);
 
-export const formatPercent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${formatNumber(100 * fraction)} %` : NO_NUMBER);
-
 const formatUpperEnd = (interval: Interval | undefined) => formatNumber(interval?.[1] ?? null, WIDTH_DIGITS);
 
 const scaleInterval = (interval: Interval, inflation: number): Interval => interval && [inflation * interval[0], inflation * interval[1]];
@@ -106,16 +104,14 @@ export const describeLegLength = ({ distance = NaN, angle = NaN, duration }: Res
  * no such model, or if no α's are recommended.
  */
 export function formatNav2Yaml({ stats, legCount, model, rule, legLength, logName, warnings }: Result, date: string): string {
-  const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks, windows: [firstWindow] } } = stats;
+  const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks } } = stats;
   if (!Object.hasOwn(NAV2_PLUGINS, model) || recommended === null) return '';
   const { inflation } = recommended;
   const { distance, angle, duration } = legLength;
   const failedCheckNames = failedChecksOf(checks).map(({ name }) => name).join(', ');
   const commentTexts = [
     yamlWords.logSource(String(legCount), describeLegLength(legLength), logName, date),
-    checks.some(({ name }) => name === 'window-1m-covered')
-      ? yamlWords.coveredFitNote(formatNumber(inflation), formatPercent(firstWindow.coverage), String(firstWindow.count))
-      : yamlWords.unjudgedFitNote(String(firstWindow.count)),
+    recommended.reason,
     ...(isNav2Rule(model, rule) ? [] : [yamlWords.otherRuleNote]),
     ...listCorrectedErrors(systematicErrors).map((errors) => yamlWords.correctedErrorsNote(errors)),
     ...adviseCorrection(stats, en.nav2),
@@ -215,6 +211,13 @@ export function judgementOf({ stats, legCount, model, corrections, warnings }: R
   const clockNote = Math.abs(clockOffset) > MENTIONED_CLOCK_OFFSET ? [texts.clockOffsetNote(formatInteger(Math.round(Math.abs(clockOffset))), clockOffset > 0)] : [];
   const advice = [...otherFindings, ...(failedCheck ? [checkMessage(failedCheck, texts)] : []), ...clockNote, ...usageSentences];
   return { rating, badge: texts.ratingBadges[rating], finding, advice };
+}
+
+/** Returns the reason for the recommended α's. In English it is the core's. */
+export function explainRecommendation({ recommended, diagnostics: { windows } }: CalibrationStats, texts: Texts) {
+  if (!recommended) return texts.noRecommendation;
+  const [{ count, coverage, nees }] = windows;
+  return texts.translateRecommendationReason(recommended.reason.replaceAll("'", '’'), formatFixed(recommended.inflation, 2), formatPercent(coverage), formatInteger(count), formatFixed(nees, 2));
 }
 
 /** Causes of lost legs. */

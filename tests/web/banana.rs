@@ -58,7 +58,7 @@ fn a_cloud_made_in_blocks_equals_one_made_at_once() {
     assert!(are_equal());
     let changed_settings = "{ command: { v: 1, omega: 1.2, dt: 1.4 }, samples: 120_000, seed: 5 }";
     js.run(&format!("it.blocks.configureFirst({changed_settings}, Infinity)"));
-    js.assert("it.blocks.shown === 25_000 && it.blocks.stats.n === 25_000");
+    js.assert("it.blocks.shown === 10_000 && it.blocks.stats.n === 10_000");
     js.run("(() => { while (it.blocks.shown < 120_000) it.blocks.addSamples(it.blocks.block); })()");
     js.run(&format!("it.whole.configure({changed_settings})"));
     assert!(are_equal());

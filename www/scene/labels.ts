@@ -1,6 +1,6 @@
 /** Callouts in pictures: texts about a point, each with a line to the point. A text may have a symbol with a subscript before it. */
 
-import { pairs, sort } from 'd3-array';
+import { sort } from 'd3-array';
 import { clamp } from '../ui/format.ts';
 import { drawDisc, paintWithOpacity, strokeLine, type TextBox, type DrawContext } from './canvas.ts';
 
@@ -72,8 +72,7 @@ export interface Callout {
 export function drawCallouts(drawContext: DrawContext, callouts: Callout[], { shapeCentre, lines }: { shapeCentre: [number, number], lines: Float64Array[] }) {
   const { context, view, palette, placedBoxes } = drawContext;
   const [centreX, centreY] = view.toPixel(...shapeCentre);
-  const linePoints = lines.flatMap((line) => pairs(view.toPixels(line)).flatMap(([start, end]) => sampleLine(start, end)));
-  const avoidedPoints: number[][] = [...callouts.map(({ point }) => view.toPixel(...point)), ...linePoints];
+  const avoidedPoints = [...callouts.map(({ point }): number[] => view.toPixel(...point)), ...lines.filter(({ length }) => length > 0).flatMap((line) => sampleLine(view.toPixels(line)))];
   const { left, right, top, bottom } = view.plotArea;
   for (const { point, colour = palette.ink, text = '', ...symbolAndSubscript } of callouts) {
     const textLines = text.split('\n').map((textLine, i) => measureTextParts(drawContext, { text: textLine, ...(i === 0 && symbolAndSubscript) }));
@@ -96,7 +95,7 @@ export function drawCallouts(drawContext: DrawContext, callouts: Callout[], { sh
     }
     const leaderStart = [clamp(x, bestBox.x - halfWidth, bestBox.x + halfWidth), clamp(y, bestBox.y - halfHeight, bestBox.y + halfHeight)];
     placedBoxes.push(bestBox);
-    avoidedPoints.push(...sampleLine(leaderStart, [x, y]));
+    avoidedPoints.push(...sampleLine([leaderStart, [x, y]]));
 
     strokeLine(context, [leaderStart, [x, y]], { colour, width: 1 });
     drawDisc(context, [x, y], 2.5, colour);
@@ -106,13 +105,20 @@ export function drawCallouts(drawContext: DrawContext, callouts: Callout[], { sh
   }
 }
 
-/** Maximum number of points that represent a line, because a line that leaves the picture may have any length. */
-const MAX_LINE_POINTS = 200;
+/** Maximum number of points that represent a chord, because a line that leaves the picture may have any length. */
+const MAX_CHORD_POINTS = 200;
 
-/** Returns evenly spaced points of a line, which a sentence must not cover: the start of the line, but not its end; pixels. */
-function sampleLine([x, y]: number[], [endX, endY]: number[]) {
-  const pointCount = Math.min(MAX_LINE_POINTS, Math.ceil(Math.hypot(endX - x, endY - y) / (2 * MIN_TEXT_DISTANCE)) || 1);
-  return Array.from({ length: pointCount }, (_, i) => [x + (i / pointCount) * (endX - x), y + (i / pointCount) * (endY - y)]);
+/** Returns points of a line, in pixels, about as far from each other as a sentence keeps from lines on both sides. */
+function sampleLine([firstPoint, ...otherPoints]: number[][]) {
+  let [lastX, lastY] = firstPoint;
+  const samples = [firstPoint];
+  for (const [x, y] of otherPoints) {
+    // A chord that is too short for a point is added to the next one.
+    const pointCount = Math.min(MAX_CHORD_POINTS, Math.floor(Math.hypot(x - lastX, y - lastY) / (2 * MIN_TEXT_DISTANCE)));
+    for (let i = 1; i <= pointCount; i++) samples.push([lastX + (i / pointCount) * (x - lastX), lastY + (i / pointCount) * (y - lastY)]);
+    if (pointCount > 0) [lastX, lastY] = [x, y];
+  }
+  return samples;
 }
 
 /** Returns the maximum depth by which points and other boxes of texts reach into a box, pixels. The depth of boxes counts twice. */

@@ -117,8 +117,8 @@ pub const MAX_CURVE_POINTS: u64 = 10_000;
 /// It is √(½ tr Σ) on the arc of the preset "gentle", rounded. For other distances the standard deviation would differ.
 pub const ADDITIVE_NOISE_STD: f64 = 0.2;
 
-/// Number of samples of the first block, which takes a few milliseconds.
-const FIRST_BLOCK_SAMPLES: usize = 25_000;
+/// Number of samples of the first block. A device four times slower than a laptop computes and draws them in a few milliseconds.
+const FIRST_BLOCK_SAMPLES: usize = 10_000;
 
 /// Number of chords of an outline. The sagitta of 128 chords is 0.03 % of the radius, a fifth of a pixel on the largest screen.
 pub const OUTLINE_SEGMENTS: usize = 128;

@@ -136,14 +136,14 @@ fn changed_settings_move_the_same_robots() {
     );
 }
 
-/// Blocks have 25,000 robots or more. The growth of smaller clouds is tested in `tests/fuzz.rs`.
+/// Blocks have 10,000 robots or more. The growth of smaller clouds is tested in `tests/fuzz.rs`.
 #[test]
 fn a_large_cloud_grows_in_blocks() {
     for settings in settings_of_both_models() {
         let larger_settings = Settings { samples: 60_000, ..settings };
         let mut growing_simulation = BananaMachine::with_shown_count(settings, 0).unwrap();
         growing_simulation.configure_first(larger_settings, usize::MAX).unwrap();
-        assert_eq!(growing_simulation.shown_count(), 25_000);
+        assert_eq!(growing_simulation.shown_count(), 10_000);
         while growing_simulation.shown_count() < larger_settings.samples {
             growing_simulation.add_samples(growing_simulation.block_size());
         }

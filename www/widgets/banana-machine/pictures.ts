@@ -114,7 +114,7 @@ class MorphPicture extends Picture<Scene, 'plane' | 'twist'> {
         drawCrosshair(drawContext, { x, y, heading: morph < 1 ? (1 - morph) * markedMotion.pose[2] : null });
       }
     });
-    const calloutLines = isFloorPicture ? [outlines.command, outlines.ellipse, outlines.exponential] : [outlines.exponential, Float64Array.of(...cloudMean)];
+    const calloutLines = isFloorPicture ? [outlines.command, outlines.ellipse, outlines.exponential] : [outlines.exponential];
     drawCallouts(drawContext, callouts, { shapeCentre: cloudMean, lines: [...calloutLines, ...earlierOutlines.map(({ points }) => points)] });
   };
 

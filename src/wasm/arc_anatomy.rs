@@ -30,16 +30,13 @@ impl JsArcAnatomy {
         to_ts(&form_errors())
     }
 
-    /// Heat map over the positions of a rectangle (m), for the heading of the final pose; null if no heat map is selected.
+    /// Heat map over the positions of the rectangle with the bounds xMin, yMin, xMax and yMax (m), for the heading of the final pose; null if no heat map is selected.
     #[wasm_bindgen(unchecked_return_type = "AnatomySurface | null")]
     pub fn surface(
         &self,
-        #[wasm_bindgen(js_name = xMin)] x_min: f64,
-        #[wasm_bindgen(js_name = yMin)] y_min: f64,
-        #[wasm_bindgen(js_name = xMax)] x_max: f64,
-        #[wasm_bindgen(js_name = yMax)] y_max: f64,
+        #[wasm_bindgen(unchecked_param_type = "ArrayLike<number>")] bounds: &JsValue,
     ) -> Result<JsValue, JsValue> {
-        let [min, max] = read_bounds([x_min, y_min, x_max, y_max])?;
+        let [min, max] = read_bounds(bounds)?;
         Ok(to_plain_js(&self.0.surface(min, max)))
     }
 

@@ -102,39 +102,31 @@ impl JsBananaMachine {
         Ok(nearest.map_or(-1, |index| index as i32))
     }
 
-    /// Returns the number of samples in each cell of a grid over a part of the view, row by row from yMax down. The grid has at most 2²⁴
-    /// cells, and at most 2¹⁴ on a side.
-    #[expect(clippy::too_many_arguments, reason = "a view, a rectangle and a size")]
+    /// Returns the number of samples in each cell of a grid over a part of the view, row by row from yMax down. `bounds` are xMin, yMin,
+    /// xMax and yMax. The grid has at most 2²⁴ cells, and at most 2¹⁴ on a side.
     pub fn density(
         &self,
         #[wasm_bindgen(unchecked_param_type = "MorphedView")] view: &JsValue,
-        #[wasm_bindgen(js_name = xMin)] x_min: f64,
-        #[wasm_bindgen(js_name = yMin)] y_min: f64,
-        #[wasm_bindgen(js_name = xMax)] x_max: f64,
-        #[wasm_bindgen(js_name = yMax)] y_max: f64,
+        #[wasm_bindgen(unchecked_param_type = "ArrayLike<number>")] bounds: &JsValue,
         columns: f64,
         rows: f64,
     ) -> Result<Uint32Array, JsValue> {
-        let grid = read_grid([x_min, y_min, x_max, y_max], columns, rows)?;
+        let grid = read_grid(bounds, columns, rows)?;
         Ok(Uint32Array::from(&self.0.density(read_view(view)?, &grid)[..]))
     }
 
-    /// Returns the density of the samples as RGBA pixels. A count c has the colour ramp[255·√(c/max)], one of 256, where max is the largest
+    /// Returns the `density` of the samples as RGBA pixels. A count c has the colour ramp[255·√(c/max)], one of 256, where max is the largest
     /// count. Empty cells are transparent. The result is a view of the core's memory, valid until the next call of the simulation.
-    #[expect(clippy::too_many_arguments, reason = "a view, a rectangle, a size and colours")]
     #[wasm_bindgen(unchecked_return_type = "Uint8ClampedArray<ArrayBuffer>")]
     pub fn picture(
         &mut self,
         #[wasm_bindgen(unchecked_param_type = "MorphedView")] view: &JsValue,
-        #[wasm_bindgen(js_name = xMin)] x_min: f64,
-        #[wasm_bindgen(js_name = yMin)] y_min: f64,
-        #[wasm_bindgen(js_name = xMax)] x_max: f64,
-        #[wasm_bindgen(js_name = yMax)] y_max: f64,
+        #[wasm_bindgen(unchecked_param_type = "ArrayLike<number>")] bounds: &JsValue,
         columns: f64,
         rows: f64,
         ramp: &[u8],
     ) -> Result<Uint8ClampedArray, JsValue> {
-        let grid = read_grid([x_min, y_min, x_max, y_max], columns, rows)?;
+        let grid = read_grid(bounds, columns, rows)?;
         let [ramp] = read_ramps("ramp", ramp)?;
         Ok(pixel_view(self.0.paint(read_view(view)?, &grid, &ramp)))
     }

@@ -1,6 +1,6 @@
 //! Density pictures for JavaScript: readers of arguments, and Uint8ClampedArray views of pixels in the core's memory.
 
-use super::fields::{check_range, read_integer};
+use super::fields::{check_range, read_array, read_integer};
 use crate::sim::picture::{RAMP_STEP_COUNT, Ramp};
 use crate::sim::views::{EXTENT_RANGE, MAX_CELLS, MAX_CELLS_PER_SIDE, ViewGrid};
 use js_sys::{RangeError, Uint8ClampedArray, WebAssembly};
@@ -31,8 +31,9 @@ pub fn nearest_index(
     Ok(find([x, y], check_range("radius", radius, &RADIUS_RANGE)?).map_or(-1, |index| index as i32))
 }
 
-/// Checks the bounds of a rectangle, and returns its minimum and maximum corner.
-pub fn read_bounds([x_min, y_min, x_max, y_max]: [f64; 4]) -> Result<[[f64; 2]; 2], JsValue> {
+/// Reads the bounds of a rectangle, xMin, yMin, xMax and yMax, and returns its minimum and maximum corner.
+pub fn read_bounds(bounds: &JsValue) -> Result<[[f64; 2]; 2], JsValue> {
+    let [x_min, y_min, x_max, y_max] = read_array("bounds", bounds)?;
     let min = [check_range("xMin", x_min, &EXTENT_RANGE)?, check_range("yMin", y_min, &EXTENT_RANGE)?];
     let limit = *EXTENT_RANGE.end();
     let max =
@@ -40,7 +41,7 @@ pub fn read_bounds([x_min, y_min, x_max, y_max]: [f64; 4]) -> Result<[[f64; 2]; 
     Ok([min, max])
 }
 
-pub fn read_grid(bounds: [f64; 4], columns: f64, rows: f64) -> Result<ViewGrid, JsValue> {
+pub fn read_grid(bounds: &JsValue, columns: f64, rows: f64) -> Result<ViewGrid, JsValue> {
     let [min, max] = read_bounds(bounds)?;
     let columns = read_integer("columns", columns, 1..=MAX_CELLS_PER_SIDE)?;
     let rows = read_integer("rows", rows, 1..=MAX_CELLS_PER_SIDE.min(MAX_CELLS / columns))?;

@@ -136,23 +136,19 @@ impl JsMapSqueeze {
         Ok(to_ts(&cost))
     }
 
-    /// Returns the density of the ends of the attempts shown, as RGBA pixels of a grid, row by row from the top. `ramps` are three ramps of
-    /// 256 colours: for rejected attempts, accepted attempts, and attempts accepted through a wall. The most frequent kind in a cell
+    /// Returns the density of the ends of the attempts shown, as RGBA pixels of a grid, row by row from the top. `bounds` are xMin, yMin,
+    /// xMax and yMax of the grid. `ramps` are three ramps of 256 colours: for rejected attempts, accepted attempts, and attempts accepted through a wall. The most frequent kind in a cell
     /// selects the ramp. A count c of attempts in the cell has the colour ramp[255·√(c/max)], where max is the largest count of all cells.
     /// Empty cells are transparent. The result is a view of the core's memory, valid until the next call of the simulation.
-    #[expect(clippy::too_many_arguments, reason = "a rectangle, a size and colours")]
     #[wasm_bindgen(unchecked_return_type = "Uint8ClampedArray<ArrayBuffer>")]
     pub fn picture(
         &mut self,
-        #[wasm_bindgen(js_name = xMin)] x_min: f64,
-        #[wasm_bindgen(js_name = yMin)] y_min: f64,
-        #[wasm_bindgen(js_name = xMax)] x_max: f64,
-        #[wasm_bindgen(js_name = yMax)] y_max: f64,
+        #[wasm_bindgen(unchecked_param_type = "ArrayLike<number>")] bounds: &JsValue,
         columns: f64,
         rows: f64,
         ramps: &[u8],
     ) -> Result<Uint8ClampedArray, JsValue> {
-        let grid = read_grid([x_min, y_min, x_max, y_max], columns, rows)?;
+        let grid = read_grid(bounds, columns, rows)?;
         let ramps = read_ramps("ramps", ramps)?;
         Ok(pixel_view(self.0.paint(&grid, &ramps)))
     }

@@ -33,10 +33,9 @@ export const resultFunctions = {
     const { command: presetCommand } = presetSettingsOf('banana-machine', preset);
     const simulation = new BananaMachine({ command: presetCommand, ...settings });
     const { shown, config: { command } } = simulation;
-    const [xMin, yMin, xMax, yMax] = bounds;
     const { columns, rows } = configurations.picture;
     const readPictureOf = (/** @type {'plane' | 'twist'} */ viewName) =>
-      simulation.picture(viewName, xMin, yMin, xMax, yMax, columns, rows, createRamps(1)).slice();
+      simulation.picture(viewName, bounds, columns, rows, createRamps(1)).slice();
     // The native digest does not contain the standard error of the area ratio.
     const stats = { ...simulation.stats, areaRatioError: undefined };
     delete stats.areaRatioError;
@@ -53,7 +52,7 @@ export const resultFunctions = {
         nearest: VIEWS.map((viewName) => simulation.nearest(viewName, 0.9, 0.2, 0.5, 0.3)),
         reaching: [[1, 0.5], [-0.3, 0.8], [0, 0], [2, -1.5]].map(([x, y]) => commandReaching(x, y, command)),
       },
-      densities: VIEWS.map((view) => simulation.density(view, xMin, yMin, xMax, yMax, columns, rows)),
+      densities: VIEWS.map((view) => simulation.density(view, bounds, columns, rows)),
       plane: readPictureOf('plane'),
       twist: readPictureOf('twist'),
     };
@@ -68,7 +67,6 @@ export const resultFunctions = {
     if (plan) simulation.setPlan(plan);
     if (description) simulation.setGrid(description, new TextEncoder().encode(`${configurations.images[image].join('\n')}\n`));
     const { shown, startFree, openPlace, noise, stats } = simulation;
-    const [xMin, yMin, xMax, yMax] = bounds;
     const { columns, rows } = configurations.picture;
     const simulationResults = {
       map: { ...simulation.plan, grid: simulation.grid },
@@ -88,7 +86,7 @@ export const resultFunctions = {
           return null;
         }
       }),
-      picture: simulation.picture(xMin, yMin, xMax, yMax, columns, rows, createRamps(3)).slice(),
+      picture: simulation.picture(bounds, columns, rows, createRamps(3)).slice(),
     };
     simulation.free();
     return simulationResults;
@@ -97,12 +95,11 @@ export const resultFunctions = {
   'arc-anatomy'({ ArcAnatomy }, configurations, { preset, bounds = configurations.widgets['arc-anatomy'].bounds, settings }) {
     const { command, next } = presetSettingsOf('arc-anatomy', preset);
     const simulation = new ArcAnatomy({ command, next, ...settings });
-    const [xMin, yMin, xMax, yMax] = bounds;
     const simulationResults = {
       statistics: simulation.stats,
       table: simulation.table,
       paths: { ...simulation.paths, underway: [0, 0.3, 1].map((pathFraction) => simulation.underway(pathFraction)) },
-      surface: simulation.surface(xMin, yMin, xMax, yMax),
+      surface: simulation.surface(bounds),
       forms: ArcAnatomy.formErrors(),
     };
     simulation.free();

@@ -13,10 +13,10 @@ fn paths_heat_maps_and_errors_of_arc_forms_are_arrays() {
         "(({ columns, rows, shades, prob, density }) =>
         shades instanceof Uint8Array && shades.length === columns * rows && Math.max(...shades) > 200
         && density.every((line) => line instanceof Float64Array) && density.length > 0)
-        (it.surface(0, -0.5, 2, 1.5))",
+        (it.surface([0, -0.5, 2, 1.5]))",
     );
     js.run("it.configure({ map: 'none' })");
-    assert_eq!(js.get::<Option<()>>("it.surface(0, 0, 1, 1)"), None);
+    assert_eq!(js.get::<Option<()>>("it.surface([0, 0, 1, 1])"), None);
     assert!(get::<bool>("motion.ArcAnatomy.formErrors().arc instanceof Float64Array"));
 }
 
@@ -30,7 +30,7 @@ fn a_refused_call_changes_nothing() {
         RangeError: map is "all"; allowed is "none" or "prob" or "density"
         it.underway(1.1)
         RangeError: share is 1.1; allowed is a number from 0 to 1
-        it.surface(0, 0, -1, 1)
+        it.surface([0, 0, -1, 1])
         RangeError: xMax is -1; allowed is a number from 0 to 1000000000000000000
         "#,
     );

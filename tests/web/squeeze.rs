@@ -95,7 +95,7 @@ fn a_refused_call_changes_nothing() {
         RangeError: index is NaN; allowed is a whole number from 0 to 1000000
         it.simulation.trial('endpoint', 1, 0)
         RangeError: count is 0; allowed is a whole number from 1 to 100000
-        it.simulation.picture(0, 0, 1, 1, 1, 1, new Uint8Array(1024))
+        it.simulation.picture([0, 0, 1, 1], 1, 1, new Uint8Array(1024))
         RangeError: ramps has length 1024; allowed is a Uint8Array of 3072 bytes, 768 colours of four
         "#,
     );

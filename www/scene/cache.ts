@@ -80,12 +80,12 @@ export class CachedImage {
    *
    * @param cellSide side in CSS pixels
    * @param cacheKey values, besides the view, on which the pixels depend
-   * @param computePixels returns the pixels of the density in a part of the plane
+   * @param computePixels returns the pixels of the density in a part of the plane, whose bounds are xMin, yMin, xMax and yMax
    */
-  drawDensity(drawContext: DrawContext, cellSide: number, cacheKey: unknown[], computePixels: (...view: [xMin: number, yMin: number, xMax: number, yMax: number, columns: number, rows: number]) => Uint8ClampedArray<ArrayBuffer>) {
+  drawDensity(drawContext: DrawContext, cellSide: number, cacheKey: unknown[], computePixels: (bounds: number[], columns: number, rows: number) => Uint8ClampedArray<ArrayBuffer>) {
     const { left, right, top, bottom } = drawContext.view.plotArea;
     const { xMin, yMin, xMax, yMax } = drawContext.view.extent;
     const [columns, rows] = [right - left, bottom - top].map((length) => Math.max(1, Math.round(length / cellSide)));
-    this.draw(drawContext, [...cacheKey, xMin, yMin, xMax, yMax, columns, rows], () => ({ pixels: computePixels(xMin, yMin, xMax, yMax, columns, rows), columns }));
+    this.draw(drawContext, [...cacheKey, xMin, yMin, xMax, yMax, columns, rows], () => ({ pixels: computePixels([xMin, yMin, xMax, yMax], columns, rows), columns }));
   }
 }

@@ -116,7 +116,7 @@ export class ArcPicture extends Picture<ArcScene> {
     const { context, palette, view } = drawContext;
     const { xMin, yMin, xMax, yMax } = view.extent;
     // The cached heat map is reused until the settings change: `config` is a new object after every change.
-    const likelihoodSurface = this.#surfaceMemo.get([config, xMin, yMin, xMax, yMax], () => simulation.surface(xMin, yMin, xMax, yMax));
+    const likelihoodSurface = this.#surfaceMemo.get([config, xMin, yMin, xMax, yMax], () => simulation.surface([xMin, yMin, xMax, yMax]));
     if (!likelihoodSurface) return;
     this.#heatMapImage.draw(drawContext, [likelihoodSurface, palette], () => {
       const rampColours = new Uint32Array(createDensityRamp(palette).buffer);

@@ -143,6 +143,17 @@ test('the figure asks for missing names and units of columns, and the answer app
   await expect(widget.getByText('Warning: the reference is a localizer’s own estimate.').first()).toBeVisible();
 });
 
+test('two files of the same name get roles of their own, and columns are proposed that mirror one of them', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const mirroredRows = exampleRowsOf('reference').map(([t, x, y, yaw]) => [t, x, -y, -yaw].join(','));
+  await widget.locator('#log-files').setInputFiles([readExampleTable('odometry'), ['t,x,y,yaw', ...mirroredRows].join('\n')].map((tableText) => ({ name: 'log.csv', mimeType: 'text/csv', buffer: Buffer.from(tableText) })));
+  await widget.getByLabel('log.csv (2)', { exact: true }).selectOption('Reference');
+  await expect(captionOf(widget)).toHaveText(/Do not use[^]* of log\.csv \(1\), log\.csv \(2\)[.,]/);
+  await expect(widget.getByRole('group', { name: 'Columns of log.csv (2) (proposed)' }).getByLabel('yaw', { exact: true }).locator('option:checked')).toHaveText('− column 4: yaw');
+  await widget.getByRole('button', { name: 'Read', exact: true }).click();
+  await expect(captionOf(widget)).toHaveText(/Trust/);
+});
+
 test('the files of a dropped folder are one recording, and files that do not belong to it are ignored', async ({ page }) => {
   const widget = await openCalibrator(page);
   const cameraRecording = await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } })));

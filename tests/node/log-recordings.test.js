@@ -125,17 +125,11 @@ test('unusable quaternions, numbers and times are left out', async () => {
   assert.deepEqual([...data.breaks], [3, 4, 8]);
 });
 
-test('messages in any order are read in the order of their times', async () => {
+test('messages in chunks that overlap in time are read in the order of their times', async () => {
   const messages = createOdometryMessages(200);
-  const lateMessages = [...messages.slice(0, 50), messages[53], ...messages.slice(50, 53), ...messages.slice(54)];
   const shuffledMessages = messages.map((_, i) => messages[(i * 77) % 200]);
-  // The messages are in one chunk, or in dozens of chunks that overlap in time.
-  for (const chunkSize of [1e6, 4096]) {
-    for (const [writtenMessages, lateCount] of /** @type {const} */ ([[lateMessages, 3], [shuffledMessages, 182]])) {
-      const { data, summary } = await readLog(mcapFileOf(await recordingOf(writtenMessages, { chunkSize })), { series: '/odom' });
-      assert.deepEqual([[.../** @type {any} */ (data).x], summary.notes], [Array.from({ length: 200 }, (_, i) => i), [{ name: 'sorted', values: [lateCount] }]]);
-    }
-  }
+  const { data } = await readLog(mcapFileOf(await recordingOf(shuffledMessages, { chunkSize: 4096 })), { series: '/odom' });
+  assert.deepEqual([.../** @type {any} */ (data).x], Array.from({ length: 200 }, (_, i) => i));
 });
 
 test('topics and frames that cannot be read are refused', async () => {

@@ -32,6 +32,22 @@ test('a digit typed on a slider edits its value, Enter returns to the slider, an
   await expect(helpOf(widget, 'alpha1')).not.toContainText('Ends at');
 });
 
+test('arrow keys in the field of a value move the slider by a step, and not beyond its end', async ({ page }) => {
+  const widget = await openBananaWithDisclosures(page);
+  const valueInput = valueFieldOf(widget, 'v');
+  await valueInput.click();
+  for (const [pressedKey, expectedSpeed] of /** @type {const} */ ([['ArrowUp', 1.01], ['ArrowDown', 1]])) {
+    await page.keyboard.press(pressedKey);
+    await expect(valueInput).toHaveValue(`${expectedSpeed.toFixed(2)} m/s`);
+    expect(await readProperty(widget, 'v')).toBe(expectedSpeed);
+  }
+  expect((await takeEvents(page, ['input', 'change'])).map(({ name }) => name)).toEqual(['input', 'change', 'input', 'change']);
+  // A value beyond the slider stays.
+  await page.keyboard.type('7');
+  for (const pressedKey of ['ArrowUp', 'ArrowUp']) await page.keyboard.press(pressedKey);
+  expect(await readProperty(widget, 'v')).toBe(7);
+});
+
 test('a typed value may have its unit, a minus sign U+2212 and more decimals, and Escape cancels typing', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
   const valueInput = valueFieldOf(widget, 'v');
@@ -61,9 +77,9 @@ test('a typed value may have its unit, a minus sign U+2212 and more decimals, an
 test('a refused value is reported with the allowed range, and the last valid value stays', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
   for (const [settingKey, typedText, expectedError] of [
-    ['alpha1', ' -1 ', 'α₁ must be between 0 and 1\u202f000\u202f000 (got −1).'],
-    ['omega', '1,5', 'ω must be between −1\u202f000\u202f000 and 1\u202f000\u202f000, with a decimal point (got "1,5").'],
-    ['omega', '', 'ω must be between −1\u202f000\u202f000 and 1\u202f000\u202f000 (got "").'],
+    ['alpha1', ' -1 ', 'α₁ must be a number between 0 and 1\u202f000\u202f000 (got −1).'],
+    ['omega', '1,5', 'ω must be a number between −1\u202f000\u202f000 and 1\u202f000\u202f000, with a decimal point (got "1,5").'],
+    ['omega', 'abc', 'ω must be a number between −1\u202f000\u202f000 and 1\u202f000\u202f000 (got "abc").'],
     ['samples', '2.5', 'N must be a whole number between 1 and 10\u202f000\u202f000 (got 2.5).'],
   ]) {
     const valueBefore = await readProperty(widget, settingKey);
@@ -77,11 +93,13 @@ test('a refused value is reported with the allowed range, and the last valid val
     await expect(valueInput).toBeFocused();
     await expect(valueInput).toHaveValue(shownText);
     await expect(valueInput).toHaveAttribute('aria-describedby', `${settingKey}-effect`);
+    await expect(valueInput).toHaveAttribute('aria-invalid', 'true');
     expect(await readProperty(widget, settingKey)).toBe(valueBefore);
     expect(await takeEvents(page, ['input', 'change', 'error'])).toEqual([]);
     if (settingKey === 'samples') await expectAccessible(page, undefined, 'banana-machine');
     await page.keyboard.type('1');
     await expect(widget.locator('[role=alert]')).toHaveCount(0);
+    await expect(valueInput).toHaveAttribute('aria-invalid', 'false');
     await page.keyboard.press('Escape');
   }
   // Thousands separators are accepted in the English form and in the form of the page.

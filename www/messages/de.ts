@@ -59,7 +59,7 @@ export const de: typeof import('./en.ts').en = {
   },
   sliderEnds: (end) => `Endet bei ${end}; weitere Werte eintippen.`,
   refused: (name, given, min, max, isWhole) =>
-    `${name} muss ${isWhole ? 'eine ganze Zahl ' : ''}von ${min} bis ${max} sein (gegeben: ${given}).`,
+    `${name} muss eine ${isWhole ? 'ganze ' : ''}Zahl von ${min} bis ${max} sein (gegeben: ${given}).`,
   exports: {
     label: 'Abbildung sichern',
     png: 'PNG',

@@ -65,7 +65,7 @@ export const en = {
   },
   sliderEnds: (end) => `Ends at ${end}; type values beyond.`,
   refused: (name, given, min, max, isWhole) =>
-    `${name} must be ${isWhole ? 'a whole number ' : ''}between ${min} and ${max}${given.includes(',') && !isWhole ? ', with a decimal point' : ''} (got ${given}).`,
+    `${name} must be ${isWhole ? 'a whole number' : 'a number'} between ${min} and ${max}${given.includes(',') && !isWhole ? ', with a decimal point' : ''} (got ${given}).`,
   exports: {
     label: 'Save the figure',
     png: 'PNG',

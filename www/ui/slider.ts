@@ -12,7 +12,7 @@ export const sliderStyles = css`
     grid-template: 'name value' auto 'track track' auto / 1fr auto;
     align-items: baseline;
     column-gap: 0.5em;
-    padding-bottom: 1.1em;
+    padding-bottom: 0.9em;
   }
 
   /* Slider next to a button. */
@@ -25,7 +25,7 @@ export const sliderStyles = css`
 
   /* The button is centred on the slider's track, not on track and hint together. */
   .playable > button {
-    margin-bottom: 1em;
+    margin-bottom: 0.8em;
   }
 
   .slider > :first-child {
@@ -56,7 +56,7 @@ export const sliderStyles = css`
     box-sizing: content-box;
     width: 0;
     min-width: 100%;
-    margin: -0.2em 0 -0.2em -0.4em;
+    margin: -0.2em 0 0 -0.4em;
     padding: 0.1em 0.1em 0.1em 0.2em;
     background: none;
     border: 1px solid transparent;
@@ -72,7 +72,7 @@ export const sliderStyles = css`
   /* A text of more lines covers the content below. */
   .slider .effect {
     position: absolute;
-    top: calc(100% - 1.3em);
+    top: calc(100% - 1.1em);
     right: 0;
     left: 0;
     z-index: 1;
@@ -131,7 +131,7 @@ const NUMBER_START = /^[\d.,+\-\u2212]$/;
 
 /**
  * Returns a slider row. The printed value is also a text field, in which a value beyond the slider may be typed. Tab skips the field. Enter
- * or a digit on the slider moves the focus into the field; Enter and Escape move it back.
+ * or a digit on the slider moves the focus into the field; Enter and Escape move it back. Arrow keys up and down in the field move the slider.
  */
 export function sliderRowHtml(sliderRow: SliderRow) {
   const printedValue = sliderRow.formatValue(sliderRow.value);
@@ -240,7 +240,7 @@ export function sliderTrackHtml({ id, name, min, max, step, value, valueText, de
 }
 
 /** Returns the field of a value. Its default is the printed value, which a browser shows unless the user has typed another text. */
-function valueFieldHtml({ id, inputMode, applyTypedText, clearRefusal }: Pick<SliderRow, 'id' | 'inputMode' | 'applyTypedText' | 'clearRefusal'>, printedValue: string) {
+function valueFieldHtml({ id, inputMode, stops, formatValue, applyTypedText, refusal, clearRefusal }: SliderRow, printedValue: string) {
   /** Applies the typed text; returns true if it became the value. */
   const applyText = (input: HTMLInputElement): boolean => {
     if (input.value === input.defaultValue) return true;
@@ -249,14 +249,27 @@ function valueFieldHtml({ id, inputMode, applyTypedText, clearRefusal }: Pick<Sl
     input.form?.reset();
     return appliedText !== undefined;
   };
+  /** Moves the slider by a step, as an arrow key does, and selects the new text in the field. */
+  const stepSlider = (slider: HTMLInputElement, stepCount: number, input: HTMLInputElement) => {
+    const valueBefore = slider.value;
+    slider.stepUp(stepCount);
+    if (slider.value === valueBefore) return;
+    for (const eventType of ['input', 'change']) slider.dispatchEvent(new Event(eventType));
+    input.defaultValue = formatValue(stops ? stops[slider.valueAsNumber] : slider.valueAsNumber);
+    input.select();
+  };
   const handleKey = (event: KeyboardEvent) => {
     const input = inputOf(event);
+    const slider = controlOfRow(input, 'input[type=range]');
+    const isArrow = ['ArrowUp', 'ArrowDown'].includes(event.key);
     if (event.key === 'Escape') input.form?.reset();
-    else if (event.key !== 'Enter') return;
+    else if (event.key !== 'Enter' && !isArrow) return;
     // A handled Escape does not end a presentation.
     event.preventDefault();
-    if (applyText(input)) controlOfRow(input, 'input[type=range]').focus();
-    else input.select();
+    const isUnchanged = input.value === input.defaultValue;
+    if (!applyText(input)) input.select();
+    else if (!isArrow) slider.focus();
+    else if (isUnchanged) stepSlider(slider, event.key === 'ArrowUp' ? 1 : -1, input);
   };
   return html`<input
     class="typed"
@@ -268,6 +281,7 @@ function valueFieldHtml({ id, inputMode, applyTypedText, clearRefusal }: Pick<Sl
     spellcheck="false"
     aria-labelledby="${id}-name"
     aria-describedby="${id}-effect"
+    aria-invalid=${refusal !== undefined}
     value=${printedValue}
     @focus=${(event: Event) => inputOf(event).select()}
     @input=${clearRefusal}

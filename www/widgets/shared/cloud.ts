@@ -254,6 +254,7 @@ function seedFieldHtml(figure: Figure) {
       type="text"
       inputmode="numeric"
       autocomplete="off"
+      aria-invalid=${seedRefusal !== undefined}
       .value=${seedRefusal ? noChange : live(String(settings.requested.seed))}
       @input=${enterSeed}
       @change=${() => gesture.commit()}
@@ -288,6 +289,7 @@ export function sampleFieldHtml(figure: CloudFigure, id: 'robot' | 'sample', sho
         max=${Math.max(1, shownCount)}
         placeholder=${shownCount === 0 ? '' : `1–${formatInteger(shownCount)}`}
         ?disabled=${shownCount === 0}
+        aria-invalid=${refusalText !== undefined}
         .value=${refusalText ? noChange : live(cloud.selectedIndex < 0 ? '' : String(cloud.selectedIndex + 1))}
         @input=${enterSampleNumber}
         @blur=${() => notice.dismiss()}

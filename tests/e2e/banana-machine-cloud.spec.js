@@ -63,7 +63,7 @@ test('the figure opens with the whole cloud of the default command, and shows th
   expect(await readReadoutText('area covered')).toBe(`${stats.areaRatio.toFixed(2)} ×`);
   const coverageTexts = [stats.coverage.ellipse, stats.coverage.exponential].map((coverageShare) => `${(100 * coverageShare).toFixed(1)}\u202f%`);
   await expect(readoutDetailOf(widget, 'area covered')).toHaveText(`± ${stats.areaRatioError.toPrecision(1)}; inside: ellipse ${coverageTexts.join(', outline ')}`);
-  await expect(readoutDetailOf(widget, 'gain in fit')).toHaveText(`exactly ${table.exact.likelihoodGain.pose.toFixed(3)}; 1 nat: e times as likely`);
+  await expect(readoutDetailOf(widget, 'gain in fit')).toHaveText(new RegExp(`^exactly ${table.exact.likelihoodGain.pose.toFixed(3)}; a robot is \\d\\.\\d\\d times as likely$`));
   const varianceRow = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name: 'Σxx', exact: true }) });
   const xVariances = (await varianceRow.getByRole('cell').allTextContents()).map(parseNumberIn);
   for (const [i, tableColumn] of [table.linearized, table.exact, table.measured].entries()) expect(xVariances[i] / tableColumn.cov[0][0]).toBeCloseTo(1, 2);

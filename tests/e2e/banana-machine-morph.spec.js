@@ -83,7 +83,7 @@ test('Pin keeps numbers and outlines for comparison, and a second press removes 
   expect(await readPicture(widget.locator('canvas.plane'))).not.toBe(pictureWithPin);
   await pinButton.click();
   await widget.getByRole('button', { name: 'Start over' }).click();
-  await expect(pinButton).toHaveText('Pin');
+  await expect(pinButton).toHaveText('Pin to compare');
   const restoreState = (/** @type {object} */ savedState) => widget.evaluate((element, newState) => void (/** @type {any} */ (element).setState(newState)), savedState);
   await restoreState(pinnedState);
   await expect(areaReadout).toContainText(`pinned: ${areaTextBefore}`);

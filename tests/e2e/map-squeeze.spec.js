@@ -150,7 +150,7 @@ test('for a robot without any free path, the figure states the number of attempt
   await expect(verdictNote).toHaveCount(0);
   await openDisclosures(widget);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
-  await widget.getByLabel('Sub-stepped').check();
+  await widget.getByLabel('Each sub-step').check();
   await widget.getByRole('slider', { name: 'sub-steps' }).fill('32');
   const { stats, config } = await readSqueezeResults(widget);
   expect(stats.gaveUp).toBe(true);

@@ -41,7 +41,7 @@ export const en = {
     symmetric: (skew) => `Both sides are alike: skew ${skew}, exactly 0 by symmetry.`,
     /** Sentence that is followed by the sentence on the skew. */
     largeEllipse: (areaRatio) => `The cloud is bent: its ellipse covers ${areaRatio} times the area of the ξ outline.`,
-    betterFit: (gain, isBent) => `${isBent ? 'Bent: the' : 'The'} ξ outline fits better by ${gain} nats per robot.`,
+    betterFit: (likelihoodRatio, isBent) => `${isBent ? 'Bent: the' : 'The'} Gaussian in ξ fits better: a robot is ${likelihoodRatio} times as likely.`,
     bowTie: (driveLength, deviation, skew) =>
       `A bow-tie: noise spreads a drive of ${driveLength} m by ${deviation} m, ahead of the start and behind it. Skew ${skew}.`,
     bent: (skew, isLeft) => `The cloud is bent, with its tail to the ${isLeft ? 'left' : 'right'} of the mean heading: skew ${skew}, where any Gaussian in (x, y) has 0.`,
@@ -68,7 +68,7 @@ export const en = {
   handleName: 'End of the commanded arc',
   handleKeysHint: 'Arrow keys move it over the floor, with Shift by larger steps; Page Up and Page Down move it far in y, Home and End to the ends along x',
   dragHint: 'drag me',
-  pinLabel: 'Pin',
+  pinLabel: 'Pin to compare',
   unpinLabel: 'Unpin',
   pinnedLabel: 'pinned',
   pinTooltip: 'Keep these outlines and numbers for comparison',
@@ -86,7 +86,7 @@ export const en = {
     exactUnwrappedValue: (value) => `exactly ${value} without wrapping at ±π`,
     gain: 'gain in fit by *ξ* (log-likelihood, nats per robot)',
     gainOnFloor: 'gain in fit on the floor (log-likelihood, nats per robot)',
-    natNote: '1 nat: *e* times as likely',
+    likelihoodNote: (likelihoodRatio) => `a robot is ${likelihoodRatio} times as likely`,
     unlimitedGain: 'in *ξ* without limit, as there is no *γ̂*',
     unlimitedGainOnLine: 'no limit: in *ξ* all on one line',
     areaRatio: 'area covered: ellipse / *ξ* outline',

@@ -3,7 +3,7 @@
 import { html } from 'lit';
 import { addEnglishMessages, words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
-import { formatInteger, formatFixed, formatPercent, formatWithError, NO_VALUE, formatSignificant } from '../../ui/format.ts';
+import { formatInteger, formatRounded, formatFixed, formatPercent, formatWithError, NO_VALUE, formatSignificant } from '../../ui/format.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { sampleFieldHtml } from '../shared/cloud.ts';
 import { en } from './en.ts';
@@ -62,7 +62,7 @@ function bendSentenceOf({ stats: { crossTrackSkew: skew, crossTrackSkewError: er
     const lesserDefinedOf = (sampledNumber: number, exact: number) => (Number.isNaN(exact) ? sampledNumber : Math.min(sampledNumber, exact));
     if (lesserDefinedOf(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${texts.largeEllipse(formatFixed(areaRatio, 2))} ${skewSentence}`;
     const smallerGain = lesserDefinedOf(gain.value, gain.exact);
-    return smallerGain > MIN_DISTINGUISHABLE_GAIN ? `${texts.betterFit(joinWithNonBreakingSpaces(formatWithError(gain.value, gain.error, 3)), smallerGain > VISIBLE_GAINS.pose)} ${skewSentence}` : skewSentence;
+    return smallerGain > MIN_DISTINGUISHABLE_GAIN ? `${texts.betterFit(formatRounded(Math.exp(gain.value), 3), smallerGain > VISIBLE_GAINS.pose)} ${skewSentence}` : skewSentence;
   }
   if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return texts.tooFewRobots(skewText, exactText);
   return texts.bent(skewText, exactSkew > 0);
@@ -114,12 +114,13 @@ function printedStatisticsOf({ stats, exponentialGain: gain }: ViewModel) {
 
 /** Returns a text on the exact gain, or the reason why the gain is unbounded. */
 function formatGain({ unbounded, value, exact, wrapsHeadings }: ViewModel['exponentialGain']) {
-  const { unlimitedGain, unlimitedGainOnLine, exactValue, exactUnwrappedValue, natNote } = words.banana.readouts;
+  const { unlimitedGain, unlimitedGainOnLine, exactValue, exactUnwrappedValue, likelihoodNote } = words.banana.readouts;
   if (Number.isNaN(value)) return NO_VALUE;
   if (value === Infinity) return unlimitedGainOnLine;
   if (unbounded) return unlimitedGain;
-  if (Number.isNaN(exact)) return natNote;
-  return wrapsHeadings ? exactUnwrappedValue(formatFixed(exact, 3)) : `${exactValue(formatFixed(exact, 3))}; ${natNote}`;
+  const likelihoodText = likelihoodNote(formatRounded(Math.exp(value), 3));
+  if (Number.isNaN(exact)) return likelihoodText;
+  return wrapsHeadings ? exactUnwrappedValue(formatFixed(exact, 3)) : `${exactValue(formatFixed(exact, 3))}; ${likelihoodText}`;
 }
 
 export function otherReadoutsHtml({ config, stats }: ViewModel) {

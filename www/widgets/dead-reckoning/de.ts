@@ -9,7 +9,7 @@ export const de: typeof import('./en.ts').en = {
     step: { name: 'gewählter Schritt' },
     steps: { name: 'Schritte', effect: 'Derselbe Weg in mehr und kürzeren Schritten.' },
     headingNoise: { name: 'Richtungsrauschen *α*₃ bis *α*₆', effect: '*α*₃ und *α*₄; *α*₅ und *α*₆ sind ein Viertel. Sie skalieren Varianzen: mal 4 verdoppelt *σ*.' },
-    compounding: { name: 'Rekursion' },
+    compounding: { name: 'Rekursion: sagt die Streuung voraus' },
     perNames: { name: 'Die α gelten für' },
     samples: { name: 'Roboter', effect: 'Je mehr Roboter, desto schmaler die Bänder.' },
   },

@@ -100,7 +100,7 @@ const styles = css`
 
     .summary {
       grid-area: 2 / 1 / auto / -1;
-      grid-template-columns: fit-content(12em) 1fr auto;
+      grid-template-columns: fit-content(12em) minmax(13.5em, 1fr) minmax(0, max-content);
       column-gap: 2em;
     }
 

@@ -11,7 +11,7 @@ export const en = {
     step: { name: 'selected step' },
     steps: { name: 'steps', effect: 'The same path in more and shorter steps.' },
     headingNoise: { name: 'heading noise *α*₃ to *α*₆', effect: '*α*₃ and *α*₄; *α*₅ and *α*₆ are a quarter. They scale variances: times 4 doubles *σ*.' },
-    compounding: { name: 'Recursion' },
+    compounding: { name: 'Recursion: predicts the spread step by step' },
     perNames: { name: 'α’s apply per' },
     samples: { name: 'robots', effect: 'The more robots, the narrower the bands.' },
   },

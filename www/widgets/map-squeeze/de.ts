@@ -4,12 +4,12 @@ export const de: typeof import('./en.ts').en = {
   title: 'Map Squeeze: mit Karte durch die Wand',
   floorTitle: 'Auf dem Boden: wo ein Befehl enden kann',
   presets: { doorway: 'Vor einer Tür', wall: 'Vor einer Wand', corridor: 'Im freien Flur' },
-  samplerNames: { endpoint: 'Endpunkt', 'whole-arc': 'Ganzer Bogen', 'sub-stepped': 'Teilschritte' },
+  samplerNames: { endpoint: 'Endpunkt', 'whole-arc': 'Ganzer Bogen', 'sub-stepped': 'Jeder Teilschritt' },
   settings: {
     noise: { name: 'Rauschpegel', effect: 'Verbreitert die Wolke: setzt α₁ bis α₄; α₅ und α₆ sind ein Viertel.' },
     clearance: { name: 'Roboterradius', effect: 'Ein breiterer Roboter hat an weniger Stellen Platz und trifft mehr Wände.' },
     unknown: { name: 'Unbekannte Zellen' },
-    sampler: { name: 'Verfahren' },
+    sampler: { name: 'Verfahren: wo es auf Wände prüft' },
     steps: { name: 'Teilschritte', effect: 'Teile des Befehls, jeder mit eigenem Rauschen.' },
     samples: { effect: 'Mehr Stichproben verengen das Intervall.' },
     view: { name: 'Ansicht' },
@@ -53,6 +53,7 @@ export const de: typeof import('./en.ts').en = {
   wallHandles: {
     doorwayEdgeName: 'Türkante',
     wallName: 'Wand',
+    hint: '□ ziehen: verschiebt eine Wand',
     keysHint: 'Pfeiltasten bewegen sie, mit Umschalt in größeren Schritten; Komma und Punkt oder [ und ] führen zu den anderen Wänden',
   },
   tallyReadouts: {

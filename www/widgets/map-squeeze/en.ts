@@ -6,12 +6,12 @@ export const en = {
   title: 'Map Squeeze',
   floorTitle: 'On the floor: where one command may end',
   presets: { doorway: 'Facing a doorway', wall: 'Facing a wall', corridor: 'Open corridor' },
-  samplerNames: { endpoint: 'Endpoint', 'whole-arc': 'Whole arc', 'sub-stepped': 'Sub-stepped' },
+  samplerNames: { endpoint: 'Endpoint', 'whole-arc': 'Whole arc', 'sub-stepped': 'Each sub-step' },
   settings: {
     noise: { name: 'noise level', effect: 'Spreads the cloud: sets α₁ to α₄; α₅ and α₆ are a quarter.' },
     clearance: { name: 'robot radius', effect: 'A wider robot fits in fewer places and meets more walls.' },
     unknown: { name: 'Unknown cells' },
-    sampler: { name: 'Sampler' },
+    sampler: { name: 'Sampler: where it tests for walls' },
     steps: { name: 'sub-steps', effect: 'Parts of the command, each with noise of its own.' },
     samples: { effect: 'More samples narrow the interval of the share.' },
     view: { name: 'View' },
@@ -55,6 +55,7 @@ export const en = {
   wallHandles: {
     doorwayEdgeName: 'Edge of a doorway',
     wallName: 'Wall',
+    hint: '□ Drag to move a wall',
     keysHint: 'Arrow keys move it, with Shift by larger steps; comma and period, or [ and ], go to the other walls',
   },
   tallyReadouts: {

@@ -78,6 +78,14 @@ const styles = css`
     }
   }
 
+  /* Beside the label of the vertical axis. */
+  .wall-hint {
+    position: absolute;
+    top: 0;
+    inset-inline-end: 0;
+    pointer-events: none;
+  }
+
   .headline {
     margin: 0.15em 0 0;
     font-size: 1.8em;

@@ -1,6 +1,7 @@
 /** Handles of walls, for the pointer or keys: edges of doorways move along their walls, and whole walls move across their direction. */
 
 import { range } from 'd3-array';
+import { html, nothing } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
 import { words } from '../../messages/registry.ts';
 import { Handle, stepsOfKey, turnStepsOfKey } from '../../scene/handle.ts';
@@ -53,7 +54,9 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   render() {
     const texts = words.squeeze.wallHandles;
     const { bounds: [left, bottom, right, top] } = this.host.picture.plan;
-    return this.host.renderer.renderAfterFirstPicture(() => this.#shownGrips.map(({ grip, handle, isTabbable }) => {
+    const shownGrips = this.#shownGrips;
+    const hintHtml = shownGrips.length > 0 ? html`<span class="wall-hint muted small" aria-hidden="true">${texts.hint}</span>` : nothing;
+    return this.host.renderer.renderAfterFirstPicture(() => [hintHtml, ...shownGrips.map(({ grip, handle, isTabbable }) => {
       const { grippedPart: part, axis: [ux, uy] } = grip;
       const [x, y] = this.#gripPointOf(grip);
       return handle.handleHtml({
@@ -65,7 +68,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
         valueText: `x = ${formatFixed(x, 2)} m, y = ${formatFixed(y, 2)} m`,
         tabIndex: isTabbable ? 0 : -1,
       });
-    }));
+    })]);
   }
 
   /** Places the handles again, because new handles are rendered after the picture was drawn. */

@@ -36,7 +36,7 @@ export function commandAt(eventNumber) {
  * @returns {Uint8ClampedArray}
  */
 export function readDensityPixels(simulation, { xMin, yMin, xMax, yMax, columns, rows } = PICTURE_VIEW) {
-  return simulation.picture('plane', [xMin, yMin, xMax, yMax], columns, rows, COLOUR_RAMP);
+  return simulation.picture(0, [xMin, yMin, xMax, yMax], columns, rows, COLOUR_RAMP);
 }
 
 /** Returns everything that a page needs after an event, except for the pixels of the picture. @param {BananaMachine} simulation @param {number} event */

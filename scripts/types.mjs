@@ -16,7 +16,7 @@ const GENERATED_HEADER = '// Generated from the declarations: not to be edited.\
 const DISPOSABLE_LIBRARY = '/// <reference lib="esnext.disposable" />\n';
 
 /** Import of the types of the core's arguments. */
-const OPTIONS_IMPORT = "import type { Calibration, CalibrationOptions, MorphedView, OdometryModelOptions, Propagation, Twist, VelocityModelOptions } from '../www/types.d.ts';\n";
+const OPTIONS_IMPORT = "import type { Calibration, CalibrationOptions, OdometryModelOptions, Propagation, Twist, VelocityModelOptions } from '../www/types.d.ts';\n";
 
 /**
  * Frameworks with typed templates. Each has the module and the interface that the tags extend, the type of the attributes of any element,

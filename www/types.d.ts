@@ -143,9 +143,6 @@ export interface Calibration extends CalibrationStats {
   legs: CalibrationLegs;
 }
 
-/** View of the robots: "plane" is (x, y), "twist" is (ξ along, ξ heading), and a number is a stage of the morph from the plane, 0, to the twists, 1. */
-export type MorphedView = 'plane' | 'twist' | number;
-
 /** Odometry of a robot and a reference of its true poses: of one drive, or of several in arrays. */
 export interface CalibrationLog extends Pick<CalibrationOptions, 'odometry' | 'reference'> {
   name?: string;

@@ -4,7 +4,6 @@ use super::input::InputReader;
 use super::assertions;
 use super::settings::{are_settings_allowed, change_settings};
 use motion::geom::se2::SE2;
-use motion::sim::View;
 use motion::sim::banana::{
     BananaMachine, Contours, Stats, Settings, TableColumn, command_drawn_at,
 };
@@ -249,11 +248,11 @@ pub fn read_view_grid(input: &mut InputReader) -> ViewGrid {
 }
 
 fn assert_picture(simulation: &mut BananaMachine, input: &mut InputReader) {
-    let (view, view_grid) = (input.choose_one(&[View::Plane, View::Twist]), read_view_grid(input));
-    let cell_counts = simulation.density(view, &view_grid);
+    let (morph, view_grid) = (input.choose_one(&[0.0, 1.0]), read_view_grid(input));
+    let cell_counts = simulation.density(morph, &view_grid);
     assert_eq!(cell_counts.len(), view_grid.columns * view_grid.rows);
     assert!(cell_counts.iter().sum::<u32>() as usize <= simulation.shown_count(), "{view_grid:?}: {cell_counts:?}");
-    let pixels = simulation.paint(view, &view_grid, &[[1; 4]; RAMP_STEP_COUNT]);
+    let pixels = simulation.paint(morph, &view_grid, &[[1; 4]; RAMP_STEP_COUNT]);
     assert_eq!(pixels.len(), cell_counts.len());
     assert!(pixels.iter().zip(&cell_counts).all(|(pixel_rgba, cell_count)| (pixel_rgba[3] > 0) == (*cell_count > 0)), "{view_grid:?}");
 }
@@ -261,7 +260,7 @@ fn assert_picture(simulation: &mut BananaMachine, input: &mut InputReader) {
 fn assert_nearest_pose(simulation: &BananaMachine, input: &mut InputReader) {
     let search_point = [0; 2].map(|_| input.next_number());
     let search_radii = [0; 2].map(|_| input.draw_number_within(0.0..=f64::INFINITY));
-    let Some(nearest_index) = simulation.nearest(View::Plane, search_point, search_radii) else { return };
+    let Some(nearest_index) = simulation.nearest(0.0, search_point, search_radii) else { return };
     let nearest_pose: SE2 = simulation.poses().nth(nearest_index).expect("a sample that is shown");
     let relative_distance_to = |pose: &SE2| ((pose.x() - search_point[0]) / search_radii[0]).hypot((pose.y() - search_point[1]) / search_radii[1]);
     // The absolute tolerance is 1e-150, because squares of distances below 1e-154 underflow to 0.

@@ -142,18 +142,19 @@ impl<M: RotTransRot> MotionModel for M {
     }
 }
 
-/// Function from a rotation to the angle by which it enters the noise variances, rad.
-pub(super) type EffectiveAngle = fn(f64) -> f64;
-
-/// Returns the variances of the three legs of `reading` (rad², m², rad²).
+/// Returns the variances of the three legs of `reading` (rad², m², rad²). If `is_reverse_aware`, a rotation δ counts as min(|δ|, |π − |δ||).
+/// This is the smallest turn of a robot that may drive in reverse instead.
 pub(super) fn leg_variances(
     alphas: OdomAlphas,
     reading: &OdomDelta,
-    effective_angle_of: EffectiveAngle,
+    is_reverse_aware: bool,
 ) -> [Variance; 3] {
     let [a1, a2, a3, a4] = alphas.0;
-    let [rot1_sq, rot2_sq] = [reading.rot1, reading.rot2]
-        .map(|rotation| effective_angle_of(rotation) * effective_angle_of(rotation));
+    let [rot1_sq, rot2_sq] = [reading.rot1, reading.rot2].map(|rotation| {
+        let turn = rotation.abs();
+        let counted_turn = if is_reverse_aware { turn.min((PI - turn).abs()) } else { turn };
+        counted_turn * counted_turn
+    });
     let trans_sq = reading.trans * reading.trans;
     [
         Variance(a1 * rot1_sq + a2 * trans_sq),
@@ -168,14 +169,8 @@ impl RotTransRot for OdometryModel {
     }
 
     fn variances(&self, reading: &OdomDelta) -> [Variance; 3] {
-        leg_variances(self.alphas, reading, f64::abs)
+        leg_variances(self.alphas, reading, false)
     }
-}
-
-/// Returns min(|δ|, |π − |δ||) of a rotation δ. This is the smallest turn of a robot that may drive in reverse instead.
-pub(super) fn turn_allowing_reverse(rotation: f64) -> f64 {
-    let turn = rotation.abs();
-    turn.min((PI - turn).abs())
 }
 
 /// The odometry model, optionally for robots that reverse: a rotation δ then counts as min(|δ|, |π − |δ||) in the variances.
@@ -196,8 +191,6 @@ impl RotTransRot for ConfiguredOdometry {
     }
 
     fn variances(&self, reading: &OdomDelta) -> [Variance; 3] {
-        let effective_angle: EffectiveAngle =
-            if self.reverse_aware { turn_allowing_reverse } else { f64::abs };
-        leg_variances(self.model.alphas, reading, effective_angle)
+        leg_variances(self.model.alphas, reading, self.reverse_aware)
     }
 }

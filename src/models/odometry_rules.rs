@@ -1,6 +1,6 @@
 //! Rules by which localizers add noise to an odometry reading: Table 5.6, and the rules of deployed software.
 
-use super::odometry::{EffectiveAngle, OdomAlphas, OdomDelta, leg_variances, turn_allowing_reverse};
+use super::odometry::{OdomAlphas, OdomDelta, leg_variances};
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::noise::{NoiseKind, Variance};
 
@@ -73,13 +73,12 @@ impl OdometryRule {
     pub fn variances(self, reading: &OdomDelta, alphas: &RuleAlphas) -> LegVariances {
         let [a1, a2, a3, a4, a5] = *alphas;
         let legs = self.legs(reading);
-        let differential_variances_by = |effective_angle_of: EffectiveAngle| {
-            let [rot1, trans, rot2] = leg_variances(OdomAlphas([a1, a2, a3, a4]), &legs, effective_angle_of);
-            LegVariances { rot1, trans, rot2, strafe: Variance(0.0) }
-        };
         match self {
-            Self::Table => differential_variances_by(f64::abs),
-            Self::Nav2 | Self::Beluga => differential_variances_by(turn_allowing_reverse),
+            Self::Table | Self::Nav2 | Self::Beluga => {
+                let alphas = OdomAlphas([a1, a2, a3, a4]);
+                let [rot1, trans, rot2] = leg_variances(alphas, &legs, self != Self::Table);
+                LegVariances { rot1, trans, rot2, strafe: Variance(0.0) }
+            }
             Self::Omni => {
                 let turn = wrap_angle(legs.rot1 + legs.rot2);
                 let (trans_sq, turn_sq) = (legs.trans * legs.trans, turn * turn);

@@ -54,13 +54,13 @@ pub enum Compounding {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum TangentNoiseError {
     /// An entry is infinite or NaN.
-    #[error("R has an entry that is not finite; a covariance is needed")]
+    #[error("the matrix has an entry that is not finite; a covariance has none")]
     NotFinite,
     /// The matrix differs from its transpose by more than rounding.
-    #[error("R differs from its transpose; a covariance is symmetric")]
+    #[error("the matrix differs from its transpose; a covariance is symmetric")]
     NotSymmetric,
     /// The matrix has a negative eigenvalue.
-    #[error("R has a negative variance in some direction; a covariance has none")]
+    #[error("the matrix has a negative variance in some direction; a covariance has none")]
     NotPositiveSemidefinite,
 }
 

@@ -11,5 +11,4 @@ pub mod odometry_decomposer;
 pub mod settings;
 pub mod squeeze;
 
-pub use cloud::View;
 pub use cloud::{picture, views};

@@ -77,11 +77,6 @@ impl Ellipse {
         (self.whitening_matrix * (Vector2::new(x, y) - self.centre)).norm()
     }
 
-    /// Returns the point on the line from the centre to a point, at a fraction from 0 (the centre) to 1 (the point).
-    pub fn interpolate_from_centre(&self, [x, y]: [f64; 2], fraction: f64) -> [f64; 2] {
-        (self.centre + (Vector2::new(x, y) - self.centre) * fraction).into()
-    }
-
     /// Returns true if a point lies inside.
     pub fn contains(&self, point: [f64; 2]) -> bool {
         let [x, y] = point.map(f64x4::splat);

@@ -2,13 +2,12 @@
 
 use std::ops::RangeInclusive;
 
-use super::fields::{check_range, not_shown_error, read_integer, read_value};
+use super::fields::{check_range, not_shown_error, read_integer};
 use super::pictures::{RADIUS_RANGE, pixel_view, read_grid, read_ramps};
 use super::simulation_class::cloud_simulation_class;
 use super::values::{flat_float_array, js_array, js_object, to_plain_js, to_ts, triple_array};
 use crate::geom::se2::SE2;
 use crate::geom::unbend::unbend_line;
-use crate::sim::View;
 use crate::sim::banana::{BananaMachine, MAX_CURVE_POINTS, MAX_SAMPLES, OUTLINE_SEGMENTS, Sample};
 use crate::sim::settings::QUANTITY_RANGE;
 use crate::sim::views::MORPH_RANGE;
@@ -85,10 +84,11 @@ impl JsBananaMachine {
         Ok(to_ts(&sample))
     }
 
-    /// Returns the index of the nearest sample inside the ellipse with these semi-axes around a point of the view; −1 for none.
+    /// Returns the index of the nearest sample inside the ellipse with these semi-axes around a point of the picture; −1 for none. `morph` is
+    /// the stage of the picture, from 0 (the plane) to 1 (exponential coordinates).
     pub fn nearest(
         &self,
-        #[wasm_bindgen(unchecked_param_type = "MorphedView")] view: &JsValue,
+        morph: f64,
         x: f64,
         y: f64,
         #[wasm_bindgen(js_name = radiusX)] radius_x: f64,
@@ -98,21 +98,21 @@ impl JsBananaMachine {
             check_range("radiusX", radius_x, &RADIUS_RANGE)?,
             check_range("radiusY", radius_y, &RADIUS_RANGE)?,
         ];
-        let nearest = self.0.nearest(read_view(view)?, [x, y], radii);
+        let nearest = self.0.nearest(check_range("morph", morph, &MORPH_RANGE)?, [x, y], radii);
         Ok(nearest.map_or(-1, |index| index as i32))
     }
 
-    /// Returns the number of samples in each cell of a grid over a part of the view, row by row from yMax down. `bounds` are xMin, yMin,
+    /// Returns the number of samples in each cell of a grid over a part of the picture, row by row from yMax down. `bounds` are xMin, yMin,
     /// xMax and yMax. The grid has at most 2²⁴ cells, and at most 2¹⁴ on a side.
     pub fn density(
         &self,
-        #[wasm_bindgen(unchecked_param_type = "MorphedView")] view: &JsValue,
+        morph: f64,
         #[wasm_bindgen(unchecked_param_type = "ArrayLike<number>")] bounds: &JsValue,
         columns: f64,
         rows: f64,
     ) -> Result<Uint32Array, JsValue> {
         let grid = read_grid(bounds, columns, rows)?;
-        Ok(Uint32Array::from(&self.0.density(read_view(view)?, &grid)[..]))
+        Ok(Uint32Array::from(&self.0.density(check_range("morph", morph, &MORPH_RANGE)?, &grid)[..]))
     }
 
     /// Returns the `density` of the samples as RGBA pixels. A count c has the colour ramp[255·√(c/max)], one of 256, where max is the largest
@@ -120,7 +120,7 @@ impl JsBananaMachine {
     #[wasm_bindgen(unchecked_return_type = "Uint8ClampedArray<ArrayBuffer>")]
     pub fn picture(
         &mut self,
-        #[wasm_bindgen(unchecked_param_type = "MorphedView")] view: &JsValue,
+        morph: f64,
         #[wasm_bindgen(unchecked_param_type = "ArrayLike<number>")] bounds: &JsValue,
         columns: f64,
         rows: f64,
@@ -128,15 +128,7 @@ impl JsBananaMachine {
     ) -> Result<Uint8ClampedArray, JsValue> {
         let grid = read_grid(bounds, columns, rows)?;
         let [ramp] = read_ramps("ramp", ramp)?;
-        Ok(pixel_view(self.0.paint(read_view(view)?, &grid, &ramp)))
-    }
-}
-
-/// Reads a view: its name, or a stage of the morph.
-fn read_view(view: &JsValue) -> Result<View, JsValue> {
-    match view.as_f64() {
-        Some(morph) => Ok(View::from_morph(check_range("view", morph, &MORPH_RANGE)?)),
-        None => read_value("view", view, View::Plane, ()),
+        Ok(pixel_view(self.0.paint(check_range("morph", morph, &MORPH_RANGE)?, &grid, &ramp)))
     }
 }
 

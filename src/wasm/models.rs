@@ -8,8 +8,8 @@ use crate::geom::arc::invert_arc;
 use crate::geom::se2::SE2;
 use crate::js::js_structs;
 use crate::models::{
-    Compounding, ConfiguredOdometry, MotionModel, OdomAlphas, OdomDelta, OdometryModel, TangentNoiseError,
-    TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel, covariance_root,
+    Compounding, ConfiguredOdometry, MotionModel, OdomAlphas, OdomDelta, OdometryModel, TangentNoiseModel,
+    VelocityAlphas, VelocityCmd, VelocityModel, covariance_root,
 };
 use crate::noise::NoiseKind;
 use crate::sim::banana::MAX_SAMPLES;
@@ -275,7 +275,7 @@ fn read_twist(field: &str, value: &JsValue) -> Result<Vector3<f64>, JsValue> {
 }
 
 fn read_covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue> {
-    let allowed_text = "three rows of three numbers, symmetric, of no negative variance";
+    let allowed_text = "three rows of three numbers";
     let row_count = array_length(field, value, allowed_text)?;
     if row_count != 3 {
         return Err(
@@ -288,13 +288,9 @@ fn read_covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue
             read_array_in_range(&format!("{field}[{i}]"), &array_item(value, i)?, &QUANTITY_RANGE)?;
         matrix.set_row(i, &Vector3::from(row).transpose());
     }
-    let refusal_reason = match covariance_root(&matrix) {
-        Ok(_) => return Ok(matrix),
-        Err(TangentNoiseError::NotSymmetric) => "it differs from its transpose",
-        Err(_) => "some direction has a negative variance",
-    };
-    Err(RangeError::new(&format!("{field} is no covariance: {refusal_reason}; allowed are {allowed_text}"))
-        .into())
+    covariance_root(&matrix)
+        .map_err(|error| RangeError::new(&format!("{field} is no covariance: {error}")))?;
+    Ok(matrix)
 }
 
 fn matrix_rows(matrix: &Matrix3<f64>) -> Array {

@@ -34,8 +34,8 @@ export const resultFunctions = {
     const simulation = new BananaMachine({ command: presetCommand, ...settings });
     const { shown, config: { command } } = simulation;
     const { columns, rows } = configurations.picture;
-    const readPictureOf = (/** @type {'plane' | 'twist'} */ viewName) =>
-      simulation.picture(viewName, bounds, columns, rows, createRamps(1)).slice();
+    const readPictureOf = (/** @type {number} */ morph) =>
+      simulation.picture(morph, bounds, columns, rows, createRamps(1)).slice();
     // The native digest does not contain the standard error of the area ratio.
     const stats = { ...simulation.stats, areaRatioError: undefined };
     delete stats.areaRatioError;
@@ -49,12 +49,12 @@ export const resultFunctions = {
       curve: simulation.skewCurve(-3, 3, 25),
       samples: {
         inspected: listMultiplesBelow(shown, 501).map((sampleIndex) => simulation.inspect(sampleIndex)).map((sample) => ({ ...sample, heading: sample.pose[2] })),
-        nearest: VIEWS.map((viewName) => simulation.nearest(viewName, 0.9, 0.2, 0.5, 0.3)),
+        nearest: MORPH_ENDS.map((morph) => simulation.nearest(morph, 0.9, 0.2, 0.5, 0.3)),
         reaching: [[1, 0.5], [-0.3, 0.8], [0, 0], [2, -1.5]].map(([x, y]) => commandReaching(x, y, command)),
       },
-      densities: VIEWS.map((view) => simulation.density(view, bounds, columns, rows)),
-      plane: readPictureOf('plane'),
-      twist: readPictureOf('twist'),
+      densities: MORPH_ENDS.map((morph) => simulation.density(morph, bounds, columns, rows)),
+      plane: readPictureOf(0),
+      twist: readPictureOf(1),
     };
     simulation.free();
     return simulationResults;
@@ -178,7 +178,8 @@ export const resultFunctions = {
   },
 };
 
-const VIEWS = /** @type {const} */ (['plane', 'twist']);
+/** Stages of the morph: the plane, and exponential coordinates. */
+const MORPH_ENDS = [0, 1];
 const SAMPLERS = /** @type {const} */ (['endpoint', 'whole-arc', 'sub-stepped']);
 
 /** Returns the multiples of `indexStep` below `count`. @type {(count: number, indexStep: number) => number[]} */

@@ -13,7 +13,7 @@ fn arrays_are_copies_of_the_samples() {
         && array.length === 3000)",
     );
     js.assert("Object.values(it.contours).every((outline) => outline instanceof Float64Array)");
-    js.assert("it.density('twist', [-4, -4, 4, 4], 20, 10) instanceof Uint32Array");
+    js.assert("it.density(1, [-4, -4, 4, 4], 20, 10) instanceof Uint32Array");
     js.assert("it.firstPoses(18).join() === it.poses.slice(0, 54).join()");
     js.assert("it.firstTwists(18).join() === it.twists.slice(0, 54).join()");
     js.run(
@@ -110,12 +110,12 @@ fn every_kind_of_bad_value_is_refused_and_changes_nothing() {
         it.skewCurve(NaN, 1, 5)
         RangeError: omegaMin is NaN; allowed is a number from -1000000 to 1000000
         it.nearest('side', 0, 0, 1, 1)
-        RangeError: view is "side"; allowed is "plane" or "twist"
-        it.density('plane', [0, 0, -1, 1], 9, 9)
+        RangeError: morph is NaN; allowed is a number from 0 to 1
+        it.density(0, [0, 0, -1, 1], 9, 9)
         RangeError: xMax is -1; allowed is a number from 0 to 1000000000000000000
-        it.density('plane', [0, 0, 1, 1], 2 ** 14, 2 ** 10 + 1)
+        it.density(0, [0, 0, 1, 1], 2 ** 14, 2 ** 10 + 1)
         RangeError: rows is 1025; allowed is a whole number from 1 to 1024
-        it.picture('plane', [0, 0, 1, 1], 9, 9, new Uint8Array(1023))
+        it.picture(0, [0, 0, 1, 1], 9, 9, new Uint8Array(1023))
         RangeError: ramp has length 1023; allowed is a Uint8Array of 1024 bytes, 256 colours of four
         "#,
     );

@@ -209,11 +209,9 @@ fn errors_name_the_refused_value_and_what_is_allowed() {
         motion.propagate({ command: it.command, alphas: Array(6).fill(0.1), compounding: 'third' })
         RangeError: compounding is "third"; allowed is "chapter" or "first-order" or "fourth-order"
         motion.propagate({ command: it.command, alphas: Array(6).fill(0.1), sigma: [[1, 2, 0], [2, 1, 0], [0, 0, 1]] })
-        RangeError: sigma is no covariance: some direction has a negative variance; allowed are three rows of three numbers,
-            symmetric, of no negative variance
+        RangeError: sigma is no covariance: the matrix has a negative variance in some direction; a covariance has none
         motion.propagate({ command: it.command, alphas: Array(6).fill(0.1), sigma: [[1, 2, 0], [0, 1, 0], [0, 0, 1]] })
-        RangeError: sigma is no covariance: it differs from its transpose; allowed are three rows of three numbers, symmetric,
-            of no negative variance
+        RangeError: sigma is no covariance: the matrix differs from its transpose; a covariance is symmetric
         motion.propagate({ command: { v: 1, omega: 3, dt: 0.7 }, alphas: Array(6).fill(1), compounding: 'fourth-order',
             steps: 7, })
         RangeError: steps is 7; allowed are at most 2 here: the next leaves no covariance, for the noise is too large

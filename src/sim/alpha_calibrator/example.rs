@@ -4,6 +4,7 @@
 //! odometry differ by noise with the variances of Table 5.6. The reference has a lever arm, a mount yaw, a clock offset, and jumps. The
 //! wheels deviate from their nominal size.
 
+use super::Truth;
 use crate::calibrate::{Drive, Trajectory};
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::models::{OdomDelta, OdometryRule};
@@ -13,24 +14,20 @@ use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::f64::consts::TAU;
 
-/// True α's of the simulation, with the rule of Table 5.6.
-pub const TRUE_ALPHAS: [f64; 4] = [0.05, 0.008, 0.004, 0.003];
+/// True values of the simulation.
+pub const TRUTH: Truth = Truth {
+    alphas: [0.05, 0.008, 0.004, 0.003],
+    clock_offset: 0.15,
+    mount_yaw: 0.07,
+    lever_arm: [0.12, 0.0],
+    distance_scale: 1.02,
+    turn_scale: 0.97,
+};
 
 /// Length of the legs to which the true α's apply, m: the default of `update_min_d` in Nav2's AMCL.
 const LEG_DISTANCE: f64 = 0.25;
 /// Turn of the legs to which the true α's apply, rad: the default of `update_min_a` in Nav2's AMCL.
-pub const LEG_ANGLE: f64 = 0.2;
-
-/// Offset of the reference's clock from the odometry's clock, s.
-pub const CLOCK_OFFSET: f64 = 0.15;
-/// True yaw of the reference's sensor on the robot, rad.
-pub const MOUNT_YAW: f64 = 0.07;
-/// True position of the reference's sensor on the robot, m ahead and to the left.
-pub const LEVER_ARM: [f64; 2] = [0.12, 0.0];
-/// Ratio of true distances to odometry distances.
-pub const DISTANCE_SCALE: f64 = 1.02;
-/// Ratio of true turns to odometry turns.
-pub const TURN_SCALE: f64 = 0.97;
+const LEG_ANGLE: f64 = 0.2;
 
 /// Jumps of the reference: size (m), duration in rows, and probability that a jump begins at a row. One leg in 70 becomes an outlier.
 const JUMP_SIZE: f64 = 0.5;
@@ -113,8 +110,11 @@ pub fn simulate_log(seed: u64) -> Drive {
         // The robot steers by its odometry. Steering by the true pose would correct the errors, and correlate them with the turns.
         let [v, omega] = controller.next_speeds(time, &(start_pose * odometry_poses[row - 1].1), &mut rng);
         let next_motion = leg_motion * SE2::exp(&Vector3::new(v * ROW_INTERVAL, 0.0, omega * ROW_INTERVAL));
-        let odometry_twist =
-            Vector3::new(v * ROW_INTERVAL / DISTANCE_SCALE, 0.0, omega * ROW_INTERVAL / TURN_SCALE);
+        let odometry_twist = Vector3::new(
+            v * ROW_INTERVAL / TRUTH.distance_scale,
+            0.0,
+            omega * ROW_INTERVAL / TRUTH.turn_scale,
+        );
         let odometry_pose = odometry_poses[row - 1].1 * SE2::exp(&odometry_twist);
         odometry_poses.push((time, odometry_pose));
         current_leg.motions.push((time, next_motion));
@@ -155,7 +155,7 @@ pub fn simulate_log(seed: u64) -> Drive {
 /// Appends the true poses of a finished leg, and returns its true end. Each row adds an independent part of the noise. If the
 /// noise of a leg were spread evenly over its rows, legs with other boundaries would have too little noise.
 fn finish_leg(leg: &CurrentLeg, true_poses: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus) -> SE2 {
-    let [a1, a2, a3, a4] = TRUE_ALPHAS;
+    let [a1, a2, a3, a4] = TRUTH.alphas;
     let row_motions = &leg.motions[1..];
     let (_, leg_motion) = leg.motions[row_motions.len()];
     let leg_reading = OdomDelta::from_poses(&SE2::identity(), &leg_motion);
@@ -186,13 +186,14 @@ fn simulate_reference(true_poses: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -
                 remaining_rows = ROWS_PER_JUMP;
             }
             let current_offset = if remaining_rows > 0 { jump_offset } else { SE2::identity() };
-            let sensor_pose = *pose * SE2::new(LEVER_ARM[0], LEVER_ARM[1], MOUNT_YAW);
+            let [ahead, left] = TRUTH.lever_arm;
+            let sensor_pose = *pose * SE2::new(ahead, left, TRUTH.mount_yaw);
             let measured_pose = SE2::new(
                 sensor_pose.x() + current_offset.x(),
                 sensor_pose.y() + current_offset.y(),
                 sensor_pose.theta(),
             );
-            (time + CLOCK_OFFSET, measured_pose)
+            (time + TRUTH.clock_offset, measured_pose)
         })
         .collect()
 }

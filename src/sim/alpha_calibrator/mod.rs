@@ -169,14 +169,7 @@ impl AlphaCalibrator {
 
     /// Returns the true values, if the log is simulated. Its α's hold for the simulated leg length and odometry rule.
     pub fn truth(&self) -> Option<Truth> {
-        matches!(self.log_source, LogSource::Simulated).then_some(Truth {
-            alphas: example::TRUE_ALPHAS,
-            clock_offset: example::CLOCK_OFFSET,
-            mount_yaw: example::MOUNT_YAW,
-            lever_arm: example::LEVER_ARM,
-            distance_scale: example::DISTANCE_SCALE,
-            turn_scale: example::TURN_SCALE,
-        })
+        matches!(self.log_source, LogSource::Simulated).then_some(example::TRUTH)
     }
 
     /// Returns the legs of the log, drive by drive in the order of time.

@@ -9,7 +9,7 @@ pub use stats::{Contours, Coverage, Sample, Stats, Table, TableColumn};
 
 use super::cloud::drive::NoisyDrive;
 use super::cloud::picture::{self, Ramp};
-use super::cloud::views::{View, ViewGrid, nearest_index};
+use super::cloud::views::{ViewGrid, nearest_index};
 use super::cloud::{Cloud, START_POSE};
 use super::cloud_simulation::cloud_simulation;
 use super::settings::{SettingRules, SettingsError};
@@ -347,25 +347,25 @@ impl BananaMachine {
         OdomDelta::from_poses(&START_POSE, &command_end(&self.settings.command))
     }
 
-    /// Counts the shown samples in each cell of a grid over a view: see [`picture::count_samples_in_cells`].
-    pub fn density(&self, view: View, grid: &ViewGrid) -> Vec<u32> {
-        picture::count_samples_in_cells(&self.cloud, view, grid)
+    /// Counts the shown samples in each cell of a grid at a stage of the morph: see [`picture::count_samples_in_cells`].
+    pub fn density(&self, morph: f64, grid: &ViewGrid) -> Vec<u32> {
+        picture::count_samples_in_cells(&self.cloud, morph, grid)
     }
 
     /// Paints the density of the shown samples: see [`picture::paint_cell_counts`].
-    pub fn paint(&mut self, view: View, grid: &ViewGrid, ramp: &Ramp) -> &[[u8; 4]] {
-        let cell_counts = self.density(view, grid);
+    pub fn paint(&mut self, morph: f64, grid: &ViewGrid, ramp: &Ramp) -> &[[u8; 4]] {
+        let cell_counts = self.density(morph, grid);
         self.picture = picture::paint_cell_counts(cell_counts.as_chunks().0, array::from_ref(ramp));
         &self.picture
     }
 
-    /// Returns the shown sample nearest to a point of a view, inside the ellipse of the given radii around it.
-    pub fn nearest(&self, view: View, target: [f64; 2], radii: [f64; 2]) -> Option<usize> {
+    /// Returns the shown sample nearest to a point of a stage of the morph, inside the ellipse of the given radii around it.
+    pub fn nearest(&self, morph: f64, target: [f64; 2], radii: [f64; 2]) -> Option<usize> {
         let points_of_group = |[x, y]: [f64x4; 2]| {
             let (x, y) = (x.to_array(), y.to_array());
             (0..LANE_COUNT).map(move |lane| [x[lane], y[lane]])
         };
-        nearest_index(self.cloud.point_groups(view).flat_map(points_of_group), target, radii)
+        nearest_index(self.cloud.point_groups(morph).flat_map(points_of_group), target, radii)
     }
 }
 

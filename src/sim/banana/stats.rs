@@ -11,7 +11,7 @@ use crate::stats::{
     CartesianMoments, Ellipse, ExponentialContour, ExponentialMoments, LikelihoodGain,
     predicted_cross_track_skew,
 };
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector2, Vector3};
 
 js_structs! {
     /// Statistics of the samples shown. They are NaN if all samples are equal, or if there are too few.
@@ -189,12 +189,12 @@ impl BananaMachine {
         }
         let plane_ellipse = Ellipse::from_moments(&stats.cartesian);
         let contour = ExponentialContour::new(&stats.exponential, &START_POSE);
-        let twist_mean = stats.exponential.mean;
+        let (centre, twist_mean) = (stats.cartesian.mean.xy(), stats.exponential.mean);
         let gap_candidates: Vec<_> = plane_ellipse
             .boundary(OUTLINE_SEGMENTS)
             .into_iter()
             .map(|point| {
-                let [x, y] = plane_ellipse.interpolate_from_centre(point, GAP_FRACTION);
+                let [x, y]: [f64; 2] = (centre + (Vector2::from(point) - centre) * GAP_FRACTION).into();
                 let (length, turn) = arc_with_turn_near(&START_POSE, &SE2::new(x, y, 0.0), twist_mean.z);
                 ([x, y], contour.ellipse.mahalanobis_distance([length, turn]), length < twist_mean.x)
             })

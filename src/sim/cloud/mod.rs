@@ -5,8 +5,6 @@ pub(super) mod drive;
 pub mod picture;
 pub mod views;
 
-pub use views::View;
-
 use crate::geom::lanes::{LANE_COUNT, first_lanes_mask};
 use crate::geom::se2::SE2;
 use crate::noise::NoiseKind;
@@ -107,17 +105,18 @@ impl Cloud {
         SE2::new(x, y, 2.0 * half_heading.to_array()[lane])
     }
 
-    /// Returns the points of the samples in a view, in groups of four. In the last group, lanes without a sample are infinitely far away.
+    /// Returns the points of the samples at a stage of the morph, in groups of four. The stages 0 and 1 are exactly the plane (x, y) and
+    /// exponential coordinates (along, heading). In the last group, lanes without a sample are infinitely far away.
     #[inline(always)]
-    pub fn point_groups(&self, view: View) -> impl Iterator<Item = [f64x4; 2]> {
-        let points_of_group = move |group: usize| match view {
-            View::Plane => self.positions[group],
-            View::Twist => {
+    pub fn point_groups(&self, morph: f64) -> impl Iterator<Item = [f64x4; 2]> {
+        let points_of_group = move |group: usize| match morph {
+            0.0 => self.positions[group],
+            1.0 => {
                 let motions = self.drive.motions(&self.draws.unit_noise[group]);
                 let poses = self.drive.poses(&motions, &self.positions[group]);
                 [poses.along, poses.half_heading * 2.0]
             }
-            View::Morph(morph) => {
+            _ => {
                 let motions = self.drive.motions(&self.draws.unit_noise[group]);
                 self.drive.morphed_points(&motions, &self.positions[group], morph)
             }

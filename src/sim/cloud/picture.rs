@@ -1,7 +1,7 @@
 //! Density of a cloud, as counts and as an image.
 
 use super::Cloud;
-use super::views::{View, ViewGrid};
+use super::views::ViewGrid;
 use crate::geom::lanes::LANE_COUNT;
 
 /// Colour ramp (RGBA, one byte each) by the count of a cell relative to the largest count.
@@ -11,10 +11,10 @@ pub type Ramp = [[u8; 4]; RAMP_STEP_COUNT];
 pub const RAMP_STEP_COUNT: usize = 256;
 
 /// Counts the shown samples in each cell, row by row from the top (largest second coordinate). Samples outside are not counted.
-pub fn count_samples_in_cells(cloud: &Cloud, view: View, grid: &ViewGrid) -> Vec<u32> {
+pub fn count_samples_in_cells(cloud: &Cloud, morph: f64, grid: &ViewGrid) -> Vec<u32> {
     let (ViewGrid { min_corner, max_corner, .. }, cells_per_unit) = (*grid, grid.cells_per_unit());
     let mut cell_counts = vec![0; grid.columns * grid.rows];
-    cloud.point_groups(view).for_each(|[x, y]| {
+    cloud.point_groups(morph).for_each(|[x, y]| {
         let column = ((x - min_corner[0]) * cells_per_unit[0]).floor().to_array();
         let row = ((max_corner[1] - y) * cells_per_unit[1]).floor().to_array();
         for cell_index in (0..LANE_COUNT).filter_map(|lane| grid.cell_index(column[lane], row[lane])) {

@@ -1,38 +1,12 @@
-//! Views of a cloud, grids of their cells, and the nearest sample to a point.
+//! Grids over parts of a picture of a cloud, and the nearest sample to a point.
 
-use crate::sim::settings::HasKeywords;
 use std::ops::RangeInclusive;
 
-/// Coordinates in which the cloud is drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum View {
-    /// Positions (x, y), m.
-    Plane,
-    /// Exponential coordinates (along, heading), m and rad.
-    Twist,
-    /// Points between plane and twist, for a morph from 0 (plane) to 1 (twist): see [`crate::geom::unbend`].
-    Morph(f64),
-}
-
-impl View {
-    /// Returns the view at a stage of the morph. The stages 0 and 1 are exactly the plane and the twists.
-    pub fn from_morph(morph: f64) -> Self {
-        match morph {
-            0.0 => Self::Plane,
-            1.0 => Self::Twist,
-            _ => Self::Morph(morph),
-        }
-    }
-}
-
-impl HasKeywords for View {
-    const KEYWORDS: &'static [(&'static str, Self)] = &[("plane", Self::Plane), ("twist", Self::Twist)];
-}
-
-/// Range of the stages of the morph, from the plane to the twists.
+/// Range of the stages of the morph of pictures: from the plane (x, y) to exponential coordinates (along, heading), see
+/// [`crate::geom::unbend`].
 pub const MORPH_RANGE: RangeInclusive<f64> = 0.0..=1.0;
 
-/// Allowed coordinates of a view. They include every position that the largest settings reach.
+/// Allowed coordinates of a picture. They include every position that the largest settings reach.
 pub const EXTENT_RANGE: RangeInclusive<f64> = -1e18..=1e18;
 
 /// Largest number of cells of a [`ViewGrid`], beyond any screen. They take 64 MB.
@@ -42,7 +16,7 @@ pub const MAX_CELLS: u64 = 1 << 24;
 /// one cell around a longer grid would take more memory than the grid.
 pub const MAX_CELLS_PER_SIDE: u64 = 1 << 14;
 
-/// Rectangle of a view, divided into cells of equal size.
+/// Rectangle of a picture, divided into cells of equal size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ViewGrid {
     /// Smallest coordinates of the rectangle, finite.

@@ -6,7 +6,6 @@ use motion::calibrate::{Estimate, SystematicError};
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{Cell, FloorPlan, MapMode, OccupancyGrid, PixelClassifier, read_pgm};
-use motion::sim::View;
 use motion::sim::alpha_calibrator::AlphaCalibrator;
 use motion::sim::banana::{BananaMachine, TableColumn};
 use motion::sim::dead_reckoning::{DeadReckoning, Misses, RECURSIONS};
@@ -41,8 +40,8 @@ pub fn hash_banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
         flatten(&contours.twist_ellipse),
         flatten(&contours.additive),
     );
-    let mut paint_view = |view| flatten(simulation.paint(view, &configuration.view_grid(), &test_ramp(0)));
-    let [plane_pixels, twist_pixels] = [View::Plane, View::Twist].map(&mut paint_view);
+    let mut paint_stage = |morph| flatten(simulation.paint(morph, &configuration.view_grid(), &test_ramp(0)));
+    let [plane_pixels, twist_pixels] = [0.0, 1.0].map(&mut paint_stage);
     vec![
         HashedPart::new("poses", simulation.poses().flat_map(coordinates_of).collect::<Vec<_>>()),
         HashedPart::new("twists", simulation.twists().flat_map(<[f64; 3]>::from).collect::<Vec<_>>()),

@@ -3,7 +3,6 @@
 use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, max_difference, seeded_rng, settings_of_preset};
 use motion::geom::lanes::MAX_SIN_COS_ERROR;
 use motion::geom::se2::SE2;
-use motion::sim::View;
 use motion::sim::banana::{ADDITIVE_NOISE_STD, BananaMachine, ModelKind, Sample, Settings, command_drawn_at};
 use motion::stats::ExponentialMoments;
 use motion::{
@@ -278,14 +277,14 @@ fn exponential_statistics_are_undefined_near_a_full_turn() {
 #[test]
 fn both_views_find_the_nearest_sample() {
     let simulation = simulation(Settings { samples: 3000, ..settings_of_preset("gentle") });
-    for view in [View::Plane, View::Twist] {
+    for morph in [0.0, 1.0] {
         let view_points: Vec<[f64; 2]> = simulation
             .poses()
             .zip(simulation.twists())
-            .map(|(pose, twist)| if view == View::Plane { [pose.x(), pose.y()] } else { [twist.x, twist.z] })
+            .map(|(pose, twist)| if morph == 0.0 { [pose.x(), pose.y()] } else { [twist.x, twist.z] })
             .collect();
-        assert_eq!(simulation.nearest(view, view_points[17], [1e-9, 1e-9]), Some(17));
-        assert_eq!(simulation.nearest(view, [50.0, 50.0], [1.0, 1.0]), None);
+        assert_eq!(simulation.nearest(morph, view_points[17], [1e-9, 1e-9]), Some(17));
+        assert_eq!(simulation.nearest(morph, [50.0, 50.0], [1.0, 1.0]), None);
         // The outermost sample is found from a target just inside of the search radius, and not from a target just outside.
         let rightmost_index =
             (0..view_points.len()).max_by(|&a, &b| view_points[a][0].total_cmp(&view_points[b][0])).unwrap();
@@ -293,10 +292,10 @@ fn both_views_find_the_nearest_sample() {
             [view_points[rightmost_index][0] + target_distance, view_points[rightmost_index][1]]
         };
         assert_eq!(
-            simulation.nearest(view, position_right_of_rightmost(0.0099), [0.01, 1e-9]),
+            simulation.nearest(morph, position_right_of_rightmost(0.0099), [0.01, 1e-9]),
             Some(rightmost_index)
         );
-        assert_eq!(simulation.nearest(view, position_right_of_rightmost(0.0101), [0.01, 1e-9]), None);
+        assert_eq!(simulation.nearest(morph, position_right_of_rightmost(0.0101), [0.01, 1e-9]), None);
     }
 }
 

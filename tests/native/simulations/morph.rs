@@ -5,7 +5,6 @@ use crate::simulations::banana::simulation;
 use motion::VelocityCmd;
 use motion::geom::se2::SE2;
 use motion::geom::unbend::{find_arc, unbend, unbend_line};
-use motion::sim::View;
 use motion::sim::banana::{ModelKind, OUTLINE_SEGMENTS, Settings};
 use motion::stats::ExponentialContour;
 use nalgebra::Vector3;
@@ -40,7 +39,7 @@ fn nearest_finds_robots_at_their_morphed_positions() {
             for morph in MORPH_FRACTIONS {
                 let morphed_position = unbend(&twist, morph);
                 assert_eq!(
-                    simulation.nearest(View::from_morph(morph), morphed_position, [1e-10; 2]),
+                    simulation.nearest(morph, morphed_position, [1e-10; 2]),
                     Some(robot_index),
                     "{morph}"
                 );
@@ -150,7 +149,7 @@ fn gaps_of_a_cloud_are_inside_the_ellipse_only_and_contain_no_robot() {
     assert_eq!(empty_regions.len(), 2);
     for gap in empty_regions {
         assert!(is_point_inside(&contours.ellipse, gap) && !is_point_inside(&contours.exponential, gap));
-        assert_eq!(simulation.nearest(View::Plane, gap, [0.03; 2]), None, "{gap:?}");
+        assert_eq!(simulation.nearest(0.0, gap, [0.03; 2]), None, "{gap:?}");
     }
     for preset_name in ["straight", "gentle", "hard", "pivot", "worked"] {
         assert!(self::simulation(settings_of_preset(preset_name)).gaps().is_empty(), "{preset_name}");

@@ -1,7 +1,6 @@
 //! Density images, in which the colour of a pixel shows the number of samples in its cell.
 
 use crate::common::settings_of_preset;
-use motion::sim::View;
 use motion::sim::banana::{BananaMachine, Settings};
 use motion::sim::picture::{RAMP_STEP_COUNT, Ramp};
 use motion::sim::squeeze::{self, MapSqueeze, OUTCOME_KIND_COUNT};
@@ -43,10 +42,10 @@ fn pixels_show_the_density_of_the_cloud() {
     let mut simulation = BananaMachine::new(settings).expect("a valid setting");
     let positions: Vec<[f64; 2]> = simulation.poses().map(|pose| [pose.x(), pose.y()]).collect();
     let twist_points: Vec<[f64; 2]> = simulation.twists().map(|twist| [twist.x, twist.z]).collect();
-    let create_case = |view, sample_points| move |grid| (view, sample_points, grid);
-    let plane_cases = new_grids_over([0.75, -0.2], [1.2, 0.4]).map(create_case(View::Plane, &positions));
-    let twist_cases = new_grids_over([0.75, 0.1], [1.2, 0.7]).map(create_case(View::Twist, &twist_points));
-    for (view, cloud_points, grid) in plane_cases.into_iter().chain(twist_cases) {
+    let create_case = |morph, sample_points| move |grid| (morph, sample_points, grid);
+    let plane_cases = new_grids_over([0.75, -0.2], [1.2, 0.4]).map(create_case(0.0, &positions));
+    let twist_cases = new_grids_over([0.75, 0.1], [1.2, 0.7]).map(create_case(1.0, &twist_points));
+    for (morph, cloud_points, grid) in plane_cases.into_iter().chain(twist_cases) {
         let mut cell_counts = vec![0u32; grid.columns * grid.rows];
         cloud_points
             .iter()
@@ -56,14 +55,14 @@ fn pixels_show_the_density_of_the_cloud() {
         assert!((1..3000).contains(&cell_counts.iter().sum::<u32>()), "some are outside");
         // The picture is painted twice, because no pixel may remain from the first time.
         for paint_pass in ["first", "second"] {
-            let pixels = simulation.paint(view, &grid, &new_numbered_ramp(3));
+            let pixels = simulation.paint(morph, &grid, &new_numbered_ramp(3));
             assert_eq!(pixels.len(), cell_counts.len());
             for (i, (rgba, cell_count)) in pixels.iter().zip(&cell_counts).enumerate() {
                 let expected_pixel =
                     if *cell_count == 0 { [0; 4] } else { [ramp_step_of(*cell_count, max_count), 3, 7, 255] };
                 assert_eq!(*rgba, expected_pixel, "{paint_pass}, cell {i} of {grid:?}");
             }
-            assert_eq!(simulation.density(view, &grid), cell_counts, "{paint_pass}");
+            assert_eq!(simulation.density(morph, &grid), cell_counts, "{paint_pass}");
         }
     }
 }

@@ -114,7 +114,7 @@ test('poses with rotations about other axes than Z are refused', async () => {
     const message = odometryMessageOf(timeOf(i), 0, 0, 0);
     return { ...message, pose: { ...message.pose, pose: { position: { x: i / 100, y: 0, z: 0 }, orientation: { x: 0, y: Math.sin(i / 50), z: 0, w: Math.cos(i / 50) } } } };
   });
-  assert.match(await catchRefusalSentence(readLog(mcapFileOf(await recordingOf(messages)), { series: '/odom' })), /^run\.mcap, topic \/odom: the poses do not turn about a vertical Z axis; record the drive again with Z up\.$/);
+  assert.match(await catchRefusalSentence(readLog(mcapFileOf(await recordingOf(messages)), { series: '/odom' })), /^run\.mcap, topic \/odom: the poses do not turn about a vertical Z axis; export or record them again with Z up\.$/);
 });
 
 test('unusable quaternions, numbers and times are left out', async () => {

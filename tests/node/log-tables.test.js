@@ -76,7 +76,7 @@ function motiveTableOf(lengthUnit, isYUp) {
     'Frame,Time (Seconds),X,Y,Z,W,X,Y,Z,,X,Y,Z',
     ...CIRCLE_ROWS.map(({ i, t, x, y, qz, qw }) => {
       // A heading about Y turns Z towards X.
-      const bodyCells = isYUp ? [0, qz, 0, qw, y * unitsPerMetre, 0.1, x * unitsPerMetre] : [0, 0, qz, qw, x * unitsPerMetre, y * unitsPerMetre, 0.1];
+      const bodyCells = isYUp ? [0, qz, 0, qw, x * unitsPerMetre, 0.1, -y * unitsPerMetre] : [0, 0, qz, qw, x * unitsPerMetre, y * unitsPerMetre, 0.1];
       return [i, t, ...bodyCells, 0.0001, 1, 2, 3].join(',');
     }),
   ].join('\r\n');
@@ -135,7 +135,8 @@ const READABLE_TABLES = [
   { name: 'a suffix', series: ['gt', 'odom'], choice: { series: 'gt' }, tableText: tableOf('t,x_gt,y_gt,theta_gt,x_odom,y_odom,theta_odom', ({ t, x, y, theta }) => [t, x, y, theta, 7, 8, 9]) },
   { name: 'an own message before one that it contains', tableText: tableOf('time,object.pose.position.x,pose.position.x,pose.position.y,pose.yaw', ({ t, x, y, theta }) => [t, 9, x, y, theta]), series: ['', 'object'] },
   { name: 'Motive in metres, Y up', tableText: motiveTableOf('Meters', true), summaryPattern: /Y is the vertical axis/ },
-  { name: 'Motive in millimetres, Z up', tableText: motiveTableOf('Millimeters', false), summaryPattern: /Z is the vertical axis/ },
+  { name: 'Motive in millimetres, Z up', tableText: motiveTableOf('Millimeters', false) },
+  { name: 'quaternions that start with w, against their header', tableText: tableOf('t,x,y,z,qx,qy,qz,qw', ({ t, x, y, qz, qw }) => [t, x, y, 0, qw, 0, 0, qz]), summaryPattern: /the quaternions start with w/ },
   { name: 'TUM', start: EPOCH_SECONDS, tableText: tableOf('# timestamp tx ty tz qx qy qz qw', (row) => [EPOCH_SECONDS + row.t, ...poseCellsOf(row)], ' ') },
   { name: 'TUM without a header, tabs', tableText: tableOf('', (row) => [row.t, ...poseCellsOf(row)], '\t').slice(1) },
   { name: 'UTIAS', start: EPOCH_SECONDS, tableText: tableOf('# Ground truth\n# Time [s]    x [m]    y [m]    orientation [rad]', ({ t, x, y, theta }) => [EPOCH_SECONDS + t, x, y, theta], '    ') },

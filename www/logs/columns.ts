@@ -5,11 +5,11 @@ import { LogError, truncate, listNames, UNITS, type ErrorPlace, type AngleUnit, 
 
 export type Field = 't' | 'seconds' | 'subseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child' | 'source';
 
-interface Column {
+export interface Column {
   index: number;
   name: string;
   /** Factor of the column's numbers: −1 if its name starts with a minus, as in "-y". */
-  sign: 1 | -1;
+  sign: number;
   /** Unit of time, length or angle in the column's name. A speed has the unit of its length or angle. */
   unit?: string;
   /** Priority among columns of the same field. The column with the lowest number is used. */
@@ -196,6 +196,27 @@ export function groupColumnsByPrefix(names: string[], isTime: (index: number) =>
     if (columnGroup.clocks.length > 0) columnGroup.kind = hasPoses ? 'poses' : hasCommands ? 'commands' : hasFields(columns, 'x', 'y') ? 'positions' : null;
   }
   return groups.filter(({ columns }) => columns.x || columns.y || columns.v || columns.omega || columns.yaw || columns.qw);
+}
+
+/** New names of fields, and the fields whose sign changes. */
+export type ColumnChange = [newFields: Partial<Record<Field, Field>>, negatedFields: Field[]];
+
+/** Changes of the columns of tables with other axes. */
+export const COLUMN_CHANGES = {
+  /** Y is up, and headings grow from x to −z. */
+  yUp: [{ y: 'z', z: 'y', qy: 'qz', qz: 'qy' }, ['z', 'qz']],
+  /** Y is up, and headings grow from x to z. */
+  leftHandedWithYUp: [{ y: 'z', z: 'y' }, []],
+  wFirst: [{ qx: 'qw', qy: 'qx', qz: 'qy', qw: 'qz' }, []],
+  swapped: [{ x: 'y', y: 'x' }, []],
+  negatedY: [{}, ['y']],
+  /** The y axis is mirrored, and so are the rotations. */
+  mirrored: [{}, ['y', 'yaw', 'qx', 'qz']],
+} satisfies Record<string, ColumnChange>;
+
+export function changeColumns(columns: ColumnGroup['columns'], [newFields, negatedFields]: ColumnChange): ColumnGroup['columns'] {
+  return Object.fromEntries((Object.entries(columns) as [Field, Column][]).map(([field, column]) =>
+    [newFields[field] ?? field, negatedFields.includes(field) ? { ...column, sign: -column.sign } : column]));
 }
 
 const hasFields = (columns: ColumnGroup['columns'], ...fields: Field[]) => fields.every((field) => columns[field]);

@@ -68,7 +68,7 @@ export const german: Words = {
     positions: (columns) =>
       `${columns} sind Positionen ohne Richtung; nötig ist eine Referenz, die die Richtung misst, wie mit zwei Prismen, Markern oder Scan-Matching (in einer Tabelle in einer Spalte namens yaw mit dem Präfix von x und y): Die Fahrtrichtung verbirgt Drehfehler und würde alpha1 und alpha2 halbieren.`,
     euler: (rotation) => `die Drehungen sind Eulerwinkel (${rotation}); die Aufnahme noch einmal aus Motive exportieren, mit Rotation Type „Quaternion“.`,
-    tilted: (isTable) => `die Posen drehen sich nicht um eine senkrechte Z-Achse; ${isTable ? 'mit Z nach oben exportieren, oder die Spalten in anderer Reihenfolge auswählen' : 'die Fahrt noch einmal mit Z nach oben aufzeichnen'}.`,
+    tilted: 'die Posen drehen sich nicht um eine senkrechte Z-Achse; mit Z nach oben exportieren oder aufzeichnen.',
     yUp: 'die Richtungen folgen dem Weg in x und z, die senkrechte Achse ist also Y; mit Z nach oben exportieren, oder die Spalten in anderer Reihenfolge auswählen.',
     mirrored: 'die Richtungen drehen sich anders herum als der Weg; erwartet werden Richtungen, die gegen den Uhrzeigersinn wachsen, von x nach y; x und y vertauschen, oder eines davon negieren.',
     mixed: (frames) => `die Zeilen gehören zu mehreren Frames, Topics oder Robotern (${frames}); nur die eines davon behalten.`,
@@ -144,7 +144,8 @@ export const german: Words = {
     notes: {
       damaged: (count, reason) => `${count} ${count === 1 ? 'beschädigter Block' : 'beschädigte Blöcke'} ausgelassen (${reason})`,
       cutShort: 'die Datei ist unvollständig: Sie endet mitten in einer Zeile oder einem Record',
-      upAxis: (axis) => `${axis} ist die senkrechte Achse`,
+      yUp: 'Y ist die senkrechte Achse',
+      wFirst: 'die Quaternionen beginnen mit w',
       swapped: (odometry) => `sie heißt wie eine Odometrie, und ${odometry} nicht: Ist die Odometrie als Referenz angegeben?`,
       sorted: (count) => `${countWithNoun(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,
       apart: (name, period, otherPeriod) => `keine Zeit gemeinsam mit ${name} (${period}, und ${otherPeriod}): Die Uhren werden nach den Drehungen des Roboters gestellt`,

@@ -69,7 +69,7 @@ export const english = {
     positions: (columns: string) =>
       `${columns} are positions without a heading; give a reference that measures the heading, as by two prisms, markers or scan matching (in a table, in a column named yaw with the prefix of x and y): the direction of travel hides turning errors, and would halve alpha1 and alpha2.`,
     euler: (rotation: string) => `the rotations are Euler angles (${rotation}); export the take from Motive again with the rotation type Quaternion.`,
-    tilted: (isTable: boolean) => `the poses do not turn about a vertical Z axis; ${isTable ? 'export with Z up, or choose the columns in another order' : 'record the drive again with Z up'}.`,
+    tilted: 'the poses do not turn about a vertical Z axis; export or record them again with Z up.',
     yUp: 'the headings follow the path in x and z, so the vertical axis is Y; export with Z up, or choose the columns in another order.',
     mirrored: 'the headings turn the other way than the path; expected are headings that grow counterclockwise, from x to y; swap x and y, or negate one of them.',
     mixed: (frames: string) => `the rows are of several frames, topics or robots (${frames}); keep those of one.`,
@@ -148,7 +148,8 @@ export const english = {
     notes: {
       damaged: (count: number, reason: string) => `${count} damaged ${count === 1 ? 'block' : 'blocks'} skipped (${reason})`,
       cutShort: 'the file is incomplete: it ends in the middle of a row or record',
-      upAxis: (axis: string) => `${axis} is the vertical axis`,
+      yUp: 'Y is the vertical axis',
+      wFirst: 'the quaternions start with w',
       swapped: (odometry: string) => `it is named like odometry, and ${odometry} is not: was the odometry given as the reference?`,
       sorted: (count: number) => `${count} late ${count === 1 ? 'row' : 'rows'} sorted by time`,
       apart: (name: string, period: string, otherPeriod: string) =>

@@ -13,8 +13,6 @@ export interface TableFormat {
   columnGroups: ColumnGroup[];
   /** True if a row may have empty cells, because it is a sample of another topic. */
   isSparse: boolean;
-  /** True if either Y or Z may be the vertical axis, as in exports of Motive. */
-  hasUnknownAxis?: boolean;
 }
 
 /** Maximum number of lines at the start of a file, of lines at its end, and of rows that are read to detect the format. */
@@ -182,7 +180,7 @@ function columnsByContent(rows: string[][]): string[] | undefined {
 }
 
 /** Returns the format of a Motive export, with a group for each rigid body. Throws a LogError for Euler angles. */
-function detectMotiveFormat(preambleRows: string[][], errorPlace: ErrorPlace): Pick<TableFormat, 'columnNames' | 'columnGroups' | 'hasUnknownAxis'> | undefined {
+function detectMotiveFormat(preambleRows: string[][], errorPlace: ErrorPlace): Pick<TableFormat, 'columnNames' | 'columnGroups'> | undefined {
   const findRowByName = (name: string) => preambleRows.find((row) => row.slice(0, 3).some((cell) => cell.trim() === name));
   const [axisRow, quantityRow] = preambleRows.toReversed();
   const bodyNames = findRowByName('Name');
@@ -201,7 +199,7 @@ function detectMotiveFormat(preambleRows: string[][], errorPlace: ErrorPlace): P
     if (quantityRow[i]?.trim() === 'Rotation') return `${bodyName}/q${axisName}`;
     return quantityRow[i]?.trim() === 'Position' ? `${bodyName}/${axisName} [${unit}]` : '-';
   });
-  return { columnNames: names, columnGroups: groupColumnsByPrefix(names), hasUnknownAxis: true };
+  return { columnNames: names, columnGroups: groupColumnsByPrefix(names) };
 }
 
 /** Parses a number. Returns NaN for an empty cell or a word such as "nan", and undefined for any other text. */

@@ -131,7 +131,7 @@ export type Warning = Extract<Note['name'], 'localizer' | 'swapped'>;
 
 /** Note about a log: key of its sentence in `found.notes` of the messages, and the values in that sentence. */
 export interface Note {
-  name: 'cutShort' | 'damaged' | 'sorted' | 'upAxis' | 'swapped' | 'apart' | 'localizer';
+  name: 'cutShort' | 'damaged' | 'sorted' | 'yUp' | 'wFirst' | 'swapped' | 'apart' | 'localizer';
   values: (string | number)[];
 }
 

@@ -1,9 +1,10 @@
 /** Rows of a log. Unusable rows are dropped, with the cause. */
 
 import { group, max, min, range, sum } from 'd3-array';
+import { COLUMN_CHANGES } from './columns.ts';
 import { LogError, type ErrorPlace, type DropCause, type Log, type LogKind, type Note, type OpenOptions, type ErrorReason, type Summary, type Words } from './log.ts';
 import { distanceOf, quantileOf, sampleEvenly, wrapAngle } from './path.ts';
-import { COLUMN_CHANGES, epochTimeUnitOf, judgeUnits, type Columns, type ColumnNames, type Units } from './units.ts';
+import { epochTimeUnitOf, judgeUnits, type Columns, type CreateColumnQuestion, type Units } from './units.ts';
 
 /** Pose (x, y and heading) or command (v, omega and 0). `time` is in s, or 0 if unknown. The heading is undefined if the quaternion is no rotation. */
 export interface Sample {
@@ -26,7 +27,7 @@ interface LogFacts {
   frames?: Summary['frames'];
   columns?: Summary['columns'];
   notes: Note[];
-  columnNames?: ColumnNames;
+  createColumnQuestion?: CreateColumnQuestion;
 }
 
 /** Maximum number of rows: a day at 100 Hz. */
@@ -129,14 +130,14 @@ export class RowCollector {
   }
 
   /** Returns the log with the rows that were added. Throws a LogError if they are no log, or their units or axes are in doubt. */
-  buildLog(name: string, kind: LogKind, { units: assumedUnits, clocks, columnNames, ...decisions }: LogFacts, options: OpenOptions = {}): Log {
+  buildLog(name: string, kind: LogKind, { units: assumedUnits, clocks, createColumnQuestion, ...decisions }: LogFacts, options: OpenOptions = {}): Log {
     const { rowCount } = this;
     const damage = this.#damage;
     if (damage && damage.count > MAX_DAMAGED_FRACTION * rowCount) {
       const composeSentences = (texts: Words['refused']) => [damage.formatReason(texts), ...(damage.count > 1 && damage.count < rowCount ? [texts.manyBad(damage.count, rowCount, 100 * MAX_DAMAGED_FRACTION)] : [])];
       throw new LogError({ ...this.#logPlace, line: damage.line }, (texts) => composeSentences(texts).join(' '));
     }
-    if (this.tiltSpread > MAX_TILT_SPREAD) throw new LogError(this.#logPlace, (texts) => texts.tilted(columnNames !== undefined), columnNames?.createQuestion(columnNames.changeOfTiltedPoses));
+    if (this.tiltSpread > MAX_TILT_SPREAD) throw new LogError(this.#logPlace, (texts) => texts.tilted);
     const usesOtherClock = clocks[1] !== undefined && this.#isClockStill();
     if (usesOtherClock) this.#times = this.#columns.otherTime;
     const stampedRows = this.#dropUnsetTimes();
@@ -151,7 +152,7 @@ export class RowCollector {
     const [times, a, b, c, z] = [this.#times, this.#columns.a, this.#columns.b, this.#columns.c, this.#columns.z].map((column) => new Float64Array(rows.length).map((_, i) => column[rows[i]]));
     const t = times.map((time) => time - start);
     const columns: Columns = { start, t, a, b, c, z };
-    const units = judgeUnits(this.#logPlace, kind, columns, assumedUnits, options, columnNames);
+    const units = judgeUnits(this.#logPlace, kind, columns, assumedUnits, options, createColumnQuestion);
     const pathDistance = kind === 'poses' ? distanceOfPaths(t, a, b) : 0;
     if (pathDistance > 0) throw new LogError(this.#logPlace, (texts) => texts.turns(pathDistance));
     const { breaks, jumpRows, ...foundGaps } = this.#findEvents(kind, [t, a, b, c], (i) => this.#columns.breakFlags[rows[i]] === 1);
@@ -166,7 +167,7 @@ export class RowCollector {
       rows: rowCount, used: t.length, dropped: this.#dropped, seconds, distance: distanceOf(data, jumpRows), ...foundGaps,
       ...decisions, ...(decisions.columns && { columns: { ...decisions.columns, t: clock } }), units, clock, notes,
     };
-    return { name, kind, start: columns.start, data, summary, ...(columnNames && { mirroring: { ...columnNames.createQuestion(COLUMN_CHANGES.mirrored), file: this.#logPlace.file } }) };
+    return { name, kind, start: columns.start, data, summary, ...(createColumnQuestion && { mirroring: createColumnQuestion(COLUMN_CHANGES.mirrored) }) };
   }
 
   /** Returns true if most rows have the time of the previous row, because the stamps are 0 or never change. */

@@ -1,12 +1,12 @@
 /** Reader of logs in text tables of robots, recorders and spreadsheets. */
 
 import { least } from 'd3-array';
-import { findLogLayout, type Clock, type ColumnGroup, type Field } from './columns.ts';
+import { COLUMN_CHANGES, changeColumns, findLogLayout, type Clock, type ColumnGroup, type Field } from './columns.ts';
 import { splitCells, detectTableFormat, parseDate, parseNumber, parseTime, type TableFormat } from './format.ts';
 import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Log, type Note, type OpenOptions, type OptionsByName, type Recording, type Series, type Source, type Summary, type TimeUnit } from './log.ts';
 import { rotationOf, type Quaternion } from './path.ts';
 import { RowCollector } from './rows.ts';
-import { COLUMN_CHANGES, UNIT_EXPONENTS, epochTimeUnitOf } from './units.ts';
+import { UNIT_EXPONENTS, epochTimeUnitOf } from './units.ts';
 
 const BLOCK_BYTES = 2 ** 22;
 
@@ -18,6 +18,12 @@ const CHECKED_CHARACTERS = 4096;
 
 /** Maximum number of characters of a line. A row of a thousand columns is shorter. */
 const MAX_LINE_LENGTH = 2 ** 16;
+
+/** Change of the columns with which the robot turns about Z. */
+type TiltChange = 'yUp' | 'wFirst';
+
+/** Minimum spread of the cosine of the tilt, above that of noise, and maximum ratio of the spreads after and before a change that is made. */
+const [MIN_TILT_SPREAD, MAX_TILT_RATIO] = [0.001, 0.1];
 
 /** Minimum number of rows, all with equally many decimals in the last column, after which fewer decimals show that the file is cut off. */
 const MIN_UNIFORM_ROWS = 20;
@@ -48,18 +54,28 @@ export async function openTable(source: Source, optionsOf: OptionsByName): Promi
     format: 'csv',
     series: allSeries,
     async read(choices, onProgress) {
-      const readersOfChoices = choices.map(({ series: seriesName, kind }) => {
-        const chosenGroup = format.columnGroups[allSeries.findIndex(({ name }) => name === seriesName)];
-        const name = readableGroups.length === 1 ? source.name : `${source.name}, ${seriesOfGroup(chosenGroup).name}`;
-        const readerOf = (group: ColumnGroup, upAxis?: 'Y' | 'Z') => createLogReader(name, { file: source.name }, format, group, findLogLayout(group, format.columnNames, headerPlace, kind), optionsOf(name), upAxis);
-        return format.hasUnknownAxis ? [readerOf(chosenGroup, 'Z'), readerOf(withYAxisUp(chosenGroup), 'Y')] : [readerOf(chosenGroup)];
-      });
-      const allReaders = readersOfChoices.flat();
-      await readLines(source, encoding, format.firstRowNumber, onProgress, (line, number, isUnterminated) => {
-        for (const reader of allReaders) reader.addLine(line, number, isUnterminated);
-      });
+      /** Reads the choices, or, with a change, those that have the columns that change. */
+      const readWith = async (changeName?: TiltChange) => {
+        const readers = choices.map(({ series: seriesName, kind }) => {
+          const chosenGroup = format.columnGroups[allSeries.findIndex(({ name }) => name === seriesName)];
+          const name = readableGroups.length === 1 ? source.name : `${source.name}, ${seriesOfGroup(chosenGroup).name}`;
+          if (changeName && !(Object.keys(COLUMN_CHANGES[changeName][0]) as Field[]).every((field) => chosenGroup.columns[field])) return undefined;
+          const group = changeName ? { ...chosenGroup, columns: changeColumns(chosenGroup.columns, COLUMN_CHANGES[changeName]) } : chosenGroup;
+          return createLogReader(name, { file: source.name }, format, group, findLogLayout(group, format.columnNames, headerPlace, kind), optionsOf(name), chosenGroup.columns, changeName);
+        });
+        await readLines(source, encoding, format.firstRowNumber, onProgress, (line, number, isUnterminated) => {
+          for (const reader of readers) reader?.addLine(line, number, isUnterminated);
+        });
+        return readers;
+      };
+      let readers = (await readWith()) as LogReader[];
       // The vertical axis is the one about which the robot turns.
-      return readersOfChoices.map((readers) => (least(readers, ({ rows }) => rows.tiltSpread) ?? readers[0]).buildLog());
+      for (const changeName of ['yUp', 'wFirst'] as const) {
+        if (!readers.some(({ rows }) => rows.tiltSpread > MIN_TILT_SPREAD)) break;
+        const changedReaders = await readWith(changeName);
+        readers = readers.map((reader, i) => least([reader, changedReaders[i] ?? reader], ({ rows }) => rows.tiltSpread * (rows === reader.rows ? MAX_TILT_RATIO : 1)) as LogReader);
+      }
+      return readers.map((reader) => reader.buildLog());
     },
   };
 }
@@ -98,12 +114,6 @@ async function readLines(source: Source, encoding: string, firstLineNumber: numb
   passLine(incompleteLine + decoder.decode(), true);
 }
 
-/** Returns a group for a file whose vertical axis is Y: its columns z and x are x and y of the robot's plane. */
-function withYAxisUp(group: ColumnGroup): ColumnGroup {
-  const { x, y, z, qx, qy, qz } = group.columns;
-  return { ...group, columns: { ...group.columns, x: z, y: x, z: y, qx: qz, qy: qx, qz: qy } };
-}
-
 /** Returns a reader of the times of a table. If no unit is stated, the first time that is not 0 determines it. */
 function createClockReader({ columns: [{ index }, subseconds], unit: namedUnit }: Clock, statedUnit: TimeUnit | undefined, normalizeCell: (cell: string) => string) {
   const unitBasis = statedUnit ? 'option' : namedUnit ? 'name' : 'usage';
@@ -133,12 +143,14 @@ function createClockReader({ columns: [{ index }, subseconds], unit: namedUnit }
   return { judgedUnit, readTime };
 }
 
-/** Returns a reader of the log of one series, line by line. `upAxis` is the vertical axis, if the format does not define it. */
-function createLogReader(name: string, errorPlace: ErrorPlace, format: TableFormat, group: ColumnGroup, layout: ReturnType<typeof findLogLayout>, options: OpenOptions = {}, upAxis?: 'Y' | 'Z') {
+type LogReader = ReturnType<typeof createLogReader>;
+
+/** Returns a reader of the log of one series, line by line. `namedColumns` are the columns before a change. */
+function createLogReader(name: string, errorPlace: ErrorPlace, format: TableFormat, group: ColumnGroup, layout: ReturnType<typeof findLogLayout>, options: OpenOptions = {}, namedColumns: ColumnGroup['columns'], changeName?: TiltChange) {
   const { separator, hasDecimalCommas, isSparse, columnNames } = format;
   const { clocks, columns, fields, kind, lengthUnit, angleUnit } = layout;
   const rows = new RowCollector(errorPlace);
-  const notes: Note[] = upAxis ? [{ name: 'upAxis', values: [upAxis] }] : [];
+  const notes: Note[] = changeName ? [{ name: changeName, values: [] }] : [];
   const normalizeCell = hasDecimalCommas ? withDecimalPoint : (cell: string) => cell;
   const clockReaders = clocks.map((clock, i) => createClockReader(clock, i === 0 ? options.timeUnit : undefined, normalizeCell));
   // Columns that name the frames, topic or robot of a row.
@@ -149,8 +161,6 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
   const rowNames = new Set<string>();
   /** Numbers of decimals in the last column. */
   const decimalCounts = new Set<number>();
-  /** Sum of qx² − qy². It is negative if robots turn about Y, and positive if the column qx contains w. */
-  let rollExcess = 0;
 
   const dropTextRow = (line: number, columnName: string, cell: string) => rows.dropRow('text', line, (texts) => texts.number(truncate(columnName), truncate(cell.trim())));
 
@@ -170,7 +180,6 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
     if (nameColumns.length > 0) rowNames.add(nameColumns.map(({ index }) => cells[index].trim()).join(' to '));
     const [[time, otherTime], [a, b, c = 0, ...quaternion]] = [times, values];
     const rotation = fields.at(-1) === 'qw' ? rotationOf(...(fields.length === 6 ? [c, ...quaternion] : [0, 0, c, ...quaternion]) as Quaternion) : { c, tiltCosine: undefined };
-    if (fields.length === 6) rollExcess += c * c - quaternion[0] * quaternion[0];
     rows.addRow({ time, a, b, c: rotation.c, tiltCosine: rotation.tiltCosine, z: hasHeight ? parseNumber(normalizeCell(cells[z.index])) : undefined }, line, otherTime);
   };
 
@@ -205,19 +214,15 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
         },
         clocks: [clocks[0].name, clocks[1]?.name],
         columns: Object.fromEntries([['t', ''], ...fields.map((field, i) => [field, columns[i].name])]),
-        columnNames: {
-          changeOfTiltedPoses: COLUMN_CHANGES[rollExcess > 0 ? 'wFirst' : 'yUp'],
-          createQuestion([newFields, negatedFields]) {
-            const newColumns = columnNames.map((oldName, i) => {
-              const field = (Object.keys(group.columns) as Field[]).find((fieldOfGroup) => group.columns[fieldOfGroup]?.index === i);
-              if (!field) return { name: oldName.trim(), field: '-' };
-              const newField = newFields[field] ?? field;
-              const name = group.columns[newField]?.name ?? oldName.trim();
-              const sign = name.startsWith('-') === negatedFields.includes(field) ? '' : '-';
-              return { name: `${sign}${name.replace(/^-/, '')}`, field: `${sign}${newField}` };
-            });
-            return { option: 'columns', choices: [newColumns.map(({ name }) => name).join()], columns: columnNames, fields: newColumns.map(({ field }) => field) };
-          },
+        createColumnQuestion(change) {
+          const changedColumns = changeColumns(group.columns, change);
+          const newColumns = columnNames.map((oldName, i) => {
+            const field = (Object.keys(changedColumns) as Field[]).find((changedField) => changedColumns[changedField]?.index === i);
+            const sign = field && (changedColumns[field]?.sign ?? 1) < 0 ? '-' : '';
+            const name = ((field && namedColumns[field]?.name) ?? oldName.trim()).replace(/^-/, '');
+            return { name: `${sign}${name}`, field: field ? `${sign}${field}` : '-' };
+          });
+          return { file: errorPlace.file, option: 'columns', choices: [newColumns.map(({ name }) => name).join()], columns: columnNames, fields: newColumns.map(({ field }) => field) };
         },
         notes,
       }, options);

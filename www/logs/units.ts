@@ -1,8 +1,8 @@
 /** Units of a log, judged by names, sizes and the motion of the robot. If they are in doubt, the log is refused with a question. */
 
 import { sort } from 'd3-array';
-import type { Field } from './columns.ts';
-import { LogError, UNITS, type ErrorPlace, type AngleUnit, type Commands, type LogKind, type OpenOptions, type Poses, type Question, type Summary, type TimeUnit } from './log.ts';
+import { COLUMN_CHANGES, type ColumnChange } from './columns.ts';
+import { LogError, UNITS, type ErrorPlace, type AngleUnit, type Commands, type LogKind, type OpenOptions, type Poses, type FileQuestion, type Summary, type TimeUnit } from './log.ts';
 import { quantileOf, sampleEvenly } from './path.ts';
 
 export type Units = Summary['units'];
@@ -10,29 +10,8 @@ export type Units = Summary['units'];
 /** Columns of a log in the units of the file: x, y, heading and height, or v, omega, 0 and 0. `start` is what was subtracted from all times, s. */
 export interface Columns { start: number; t: Float64Array; a: Float64Array; b: Float64Array; c: Float64Array; z: Float64Array }
 
-/** New names of fields, and the fields whose sign changes. */
-type ColumnChange = [newFields: Partial<Record<Field, Field>>, negatedFields: Field[]];
-
-/** Names of the columns of a table, which the user may change. */
-export interface ColumnNames {
-  /** Returns a question about the columns, which proposes a change. */
-  createQuestion(change: ColumnChange): Question;
-  /** Change that probably makes the robot turn about Z, if it does not do so with the present names. */
-  changeOfTiltedPoses: ColumnChange;
-}
-
-/** Changes of the columns of tables with other axes. */
-export const COLUMN_CHANGES = {
-  /** Y is up, and headings grow from x to −z. */
-  yUp: [{ y: 'z', z: 'y', qy: 'qz', qz: 'qy' }, ['z', 'qz']],
-  /** Y is up, and headings grow from x to z. */
-  leftHandedWithYUp: [{ y: 'z', z: 'y' }, []],
-  wFirst: [{ qx: 'qw', qy: 'qx', qz: 'qy', qw: 'qz' }, []],
-  swapped: [{ x: 'y', y: 'x' }, []],
-  negatedY: [{}, ['y']],
-  /** The y axis is mirrored, and so are the rotations. */
-  mirrored: [{}, ['y', 'yaw', 'qx', 'qz']],
-} satisfies Record<string, ColumnChange>;
+/** Returns a question about the columns of a table, which proposes a change. */
+export type CreateColumnQuestion = (change: ColumnChange) => FileQuestion;
 
 /** Decimal exponent of the number of units in a second, by unit of time. */
 export const UNIT_EXPONENTS = { s: 0, ms: 3, us: 6, ns: 9 } as const;
@@ -76,7 +55,7 @@ const isInRange = (value: number, [low, high]: readonly [number, number]) => val
 export const epochTimeUnitOf = (time: number): TimeUnit | undefined => MIN_EPOCH_TIMES.find(([, minTime]) => Math.abs(time) >= minTime)?.[0];
 
 /** Judges the units that no name or option states, and converts the columns to s, m and rad. Throws a LogError if a unit is in doubt. */
-export function judgeUnits(errorPlace: ErrorPlace, kind: LogKind, columns: Columns, assumedUnits: Units, options: OpenOptions, columnNames?: ColumnNames): Units {
+export function judgeUnits(errorPlace: ErrorPlace, kind: LogKind, columns: Columns, assumedUnits: Units, options: OpenOptions, createColumnQuestion?: CreateColumnQuestion): Units {
   const { t, a, b, c, z } = columns;
   const isJudged = t.length >= MIN_ROWS;
   const length = options.lengthUnit ? { unit: options.lengthUnit, by: 'option' as const } : assumedUnits.length;
@@ -94,10 +73,10 @@ export function judgeUnits(errorPlace: ErrorPlace, kind: LogKind, columns: Colum
   const alignment = isJudged && kind === 'poses' ? alignmentWithPath(t, a, b, c) : undefined;
   if (alignment?.sign === -1) {
     // Headings and path differ by a right angle if x and y are swapped, but not if y is negated.
-    throw new LogError(errorPlace, (texts) => texts.mirrored, columnNames?.createQuestion(COLUMN_CHANGES[alignment.cosine < 0 ? 'swapped' : 'negatedY']));
+    throw new LogError(errorPlace, (texts) => texts.mirrored, createColumnQuestion?.(COLUMN_CHANGES[alignment.cosine < 0 ? 'swapped' : 'negatedY']));
   }
-  const alignmentWithYUp = isJudged && kind === 'poses' && columnNames && !alignment ? alignmentWithPath(t, a, z, c) : undefined;
-  if (columnNames && alignmentWithYUp) throw new LogError(errorPlace, (texts) => texts.yUp, columnNames.createQuestion(COLUMN_CHANGES[alignmentWithYUp.sign > 0 ? 'leftHandedWithYUp' : 'yUp']));
+  const alignmentWithYUp = isJudged && kind === 'poses' && createColumnQuestion && !alignment ? alignmentWithPath(t, a, z, c) : undefined;
+  if (createColumnQuestion && alignmentWithYUp) throw new LogError(errorPlace, (texts) => texts.yUp, createColumnQuestion(COLUMN_CHANGES[alignmentWithYUp.sign > 0 ? 'leftHandedWithYUp' : 'yUp']));
   const turnRateAt = kind === 'poses' ? (i: number) => (c[i + 1] - c[i]) / (t[i + 1] - t[i]) : (i: number) => b[i];
   const turnRate = quantileOf(sampleEvenly(t.length - 1, (i) => Math.abs(turnRateAt(i))), 0.9);
   const mayBeDegrees = kind === 'poses' ? c.some((heading) => Math.abs(heading) > MAX_WRAPPED_HEADING) : turnRate > MAX_SPEED;

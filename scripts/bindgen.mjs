@@ -1,5 +1,5 @@
 // Programs of the crate scripts/bind, which use wasm-bindgen. One generates the glue of the core, and one runs its tests in a browser. The
-// programs are not optimized, so that they compile five times as fast. Generating the glue still takes only 0.3 s.
+// programs are not optimized, so that they compile five times as fast. Even without optimization, generating the glue takes only 0.3 s.
 
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
@@ -14,7 +14,7 @@ export const ensureBindProgram = memoize(() => compileProgram('bind', []));
 
 /** Returns the path of the program that runs WebAssembly tests in a browser. The first call builds it. */
 export const ensureTestRunner = memoize(async () => {
-  // Building the glue generator first compiles most crates that the test runner needs.
+  // The glue generator is built first, because its build compiles most crates that the test runner needs too.
   await ensureBindProgram();
   return compileProgram('test-runner', ['--features', 'test-runner']);
 });
@@ -30,7 +30,7 @@ async function compileProgram(programName, cargoFeatures) {
   const { cargoDirectory, env } = await ensureNativeRust();
   printStep(`Building ${programName} of wasm-bindgen ${bindgenVersion}, once`);
   const cargoArguments = ['install', '--quiet', '--debug', '--path', BINDGEN_CRATE, '--bin', programName, ...cargoFeatures, '--root', installDirectory, '--no-track', '--force'];
-  // Cargo locks its directory while it builds. This build therefore has its own directory.
+  // Cargo locks its target directory during a build. A separate target directory avoids waiting for other builds.
   const cargoOptions = { env: { ...env, CARGO_TARGET_DIR: join(ROOT, 'target/bind') }, seconds: 1200 };
   const installResult = await run(join(cargoDirectory, 'cargo'), [...cargoArguments, '--locked'], { ...cargoOptions, quiet: true });
   // A mirror of the registry may lack a crate of the lock file.

@@ -23,7 +23,7 @@ export const CHROME_ARGUMENTS = [
   '--disable-background-networking',
   '--disable-component-update',
   '--disable-sync',
-  // Without this argument, headless Chromium crashes on an out-of-bounds access in WebAssembly, which should be a catchable error.
+  // With this argument, an out-of-bounds access in WebAssembly is a catchable error. Otherwise it crashes headless Chromium.
   '--enable-crash-reporter',
 ];
 
@@ -45,7 +45,7 @@ async function ensureChrome() {
   const existingBrowser = await pairBrowserWithDriver(CHROME ?? findChrome(), CHROMEDRIVER ?? findProgram('chromedriver'));
   if (existingBrowser !== undefined) return existingBrowser;
   if (CHROME !== undefined || CHROMEDRIVER !== undefined) throw new UserError(MISSING_BROWSER_MESSAGE);
-  // On Ubuntu, packages with these names only install snaps. This script cannot drive the Chromium in a snap.
+  // On Ubuntu, the Chromium packages of apt only install snaps. This script cannot drive the Chromium in a snap.
   const isDebian = existsSync('/etc/os-release') && /^ID=debian$/m.test(readFileSync('/etc/os-release', 'utf8'));
   if (isDebian) await installByApt(['chromium-headless-shell', 'chromium-driver'], MISSING_BROWSER_MESSAGE);
   const installedBrowser = isDebian ? await pairBrowserWithDriver(findChrome(), findProgram('chromedriver')) : await installChromeForTesting();

@@ -91,7 +91,7 @@ function isUpToDate(stampPath, sourceHash, productPaths) {
  * @param {boolean} isLocal
  */
 async function buildCores(coreNames, isLocal) {
-  // The build waits for Rust first. Otherwise another failure would end the process before the message about missing Rust.
+  // If Rust is missing, the build ends here with a message. Tasks that start later cannot hide this message by another failure.
   const rustTools = await ensureRustForWasm();
   const [bindProgramPromise, packagesPromise] = [ensureBindProgram(), ensurePackages(isLocal ? undefined : 'scripts')];
   printStep(`Compiling the core to WebAssembly (${rustTools.description}): ${coreNames.join(', ')}`);
@@ -257,7 +257,7 @@ async function shortenNames(name) {
  */
 async function writeGlue(name, glueNames) {
   const glueChanges = /** @type {[RegExp, string][]} */ ([
-    // Errors of wasm-bindgen itself end a core like a trap. Errors of other classes come from callbacks of the page.
+    // An error that wasm-bindgen itself throws makes a core unusable, like a trap. Errors of other classes come from callbacks of the page.
     [/throw new Error\((?=getStringFromWasm)/g, 'throw new WebAssembly.RuntimeError('],
     // The lines for freeing objects are removed, because www/core.ts frees the objects of all classes.
     [/^if \(Symbol\.dispose\) .*$/gm, ''],

@@ -50,7 +50,7 @@ const startWorkerSource = (distPath, fallbackStatement = '') =>
   `  ${fallbackStatement} ` +
   '}';
 
-/** Sources of the modules by which each kind of bundle replaces its import of the WebAssembly module. They export the cores with their glue. */
+/** Sources of the modules that replace a bundle's import of the WebAssembly module. These modules export the cores with their glue. */
 const MODULE_SOURCES = {
   /**
    * Module whose text contains one character for each byte. The character's code, modulo 256, is the byte. Brotli and gzip compress this
@@ -121,15 +121,15 @@ function hashedFileOf(baseName, fileExtension, fileContents) {
   return { path: `dist/chunks/${baseName}-${contentHash}${fileExtension}`, contents: fileContents };
 }
 
-/** Characters of an inlined module to which 256 is added, because bundlers or minifiers of a page might damage these characters. */
+/** Characters of an inlined module to whose codes 256 is added, because bundlers or minifiers of a page might damage these characters. */
 const SHIFTED_CHARACTERS = {
   /** Characters that some minifiers escape with a backslash. 256 is added to their codes in scripts in UTF-8. */
   utf8: /[^ -~\x80-\xff]|["$'\\`]/g,
-  /** Digits after a zero byte, which could become part of an octal escape. Shifting other characters too would double the size. */
+  /** Digits after a zero byte. If a minifier writes this byte as `\0`, the digit would continue the octal escape. */
   ascii: /(?<=\0)\d/g,
 };
 
-/** Replacements of www/address.ts in bundles that are not the script named by the page. */
+/** Replacements of www/address.ts in bundles whose script may not be the script that the page names. */
 const ADDRESS_MODULES = {
   /** Address of a classic script, which is known only while the script is evaluated. */
   classic: "export const address = globalThis.document?.currentScript?.src ?? ''; export const isClassic = true;",
@@ -196,7 +196,7 @@ export async function bundle({ tags = WIDGET_TAGS } = {}) {
             const bytesPath = { core: `./chunks/${basename(bytesScript.path)}`, external: `./${basename(bytesScript.path)}`, inlined: undefined, worker: undefined }[bundleForm];
             onResolve({ filter: new RegExp(`^${BYTES_MODULE_NAME}$`) }, ({ path }) => (bytesPath ? { path: bytesPath, external: true } : { path, namespace: 'core' }));
             onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE_SOURCES.bytes(moduleBytes, SHIFTED_CHARACTERS[buildOptions.charset === 'ascii' ? 'ascii' : 'utf8']) }));
-            // A page without workers runs the worker's script itself.
+            // A page that cannot start a worker runs the worker's script itself.
             if (bundleForm === 'external') onResolve({ filter: /\/logs\/session\.ts$/ }, () => ({ path: `./${basename(LOG_WORKER_PATH)}`, external: true }));
             onLoad({ filter: /[/\\]build[/\\]settings\.js$/ }, () => ({ contents: composeMinimalDeclarations(), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]address\.ts$/ }, ({ path }) => ({
@@ -257,7 +257,7 @@ export async function bundle({ tags = WIDGET_TAGS } = {}) {
     writeOutput(absolutePath(join('dist', relative('www', path))), path.endsWith('.html') ? insertTables(text, elementDeclarations, widgetDescriptions) : text);
   }
   const { createPreUpgradeCss } = await importTypeScript('www/ui/reserved-height.ts');
-  // If scripts are disabled, no height is reserved.
+  // Figures need scripts. If scripts are disabled, no height is reserved for figures.
   const reservedHeightCss = `@media (scripting:enabled){\n${createPreUpgradeCss()}\n}`;
   // Slides have a large font, which is too large for figures. `:where` has no specificity, so that any rule of a page takes precedence.
   const slideCss = `:where(.reveal) :where(${WIDGET_TAGS}){font-size:.28em;text-align:start}`;
@@ -322,8 +322,8 @@ const composeWidgetLoaders = () =>
   `/** @type {Record<string, () => Promise<unknown>>} by their tags */\nexport const widgets = {\n${WIDGET_TAGS.map((tag) => `  '${tag}': () => import('../www/widgets/${tag}/${tag}.ts'),\n`).join('')}};\n`;
 
 /**
- * Returns the declarations of settings without parts that no page uses. These are documentation, and defaults that the defaults of a group
- * contain.
+ * Returns the declarations of settings without documentation, and without defaults that the default of the group contains. No page uses
+ * these parts.
  */
 function composeMinimalDeclarations() {
   const toJson = (/** @type {unknown} */ declarationValue) => JSON.stringify(declarationValue, function (memberKey, memberValue) {
@@ -344,16 +344,16 @@ function markConstantsPure(librarySource) {
     .replaceAll(/^(var \w+ = )(?=\w+\(|new \w)/gm, '$1/* @__PURE__ */ ');
 }
 
-/** Passages of libraries that are replaced, by the file name of the library. */
+/** Replaced passages of libraries, by the file name of the library. */
 const REPLACED_PASSAGES = {
-  // The library contains the module as text. Strict content security policies forbid the fetch that reads it.
+  // The library fetches its module from a data URL, which strict content security policies forbid. The module is decoded instead.
   'zstddec-stream.mjs': [
     ['typeof fetch !== "undefined"', 'false'],
     ['Buffer.from(wasm, "base64")', 'Uint8Array.from(atob(wasm), (character) => character.charCodeAt(0))'],
   ],
   'lit-html.js': [
-    // The Trusted Types policy gets its own name, because another copy of Lit on the page may use the name "lit-html". Without a policy only
-    // rendering fails.
+    // The Trusted Types policy gets its own name, because another copy of Lit on the page may use the name "lit-html". If the page allows
+    // neither name, loading continues, and only rendering fails.
     [
       's.createPolicy("lit-html",{createHTML:t=>t})',
       '((...names)=>{for(const name of names)try{return s.createPolicy(name,{createHTML:t=>t})}catch{}})("motion-widgets","lit-html")',

@@ -60,7 +60,7 @@ const CLOUD_DOCUMENTATION = {
 export function toPascalCase(tagOrKey) {
   const scriptName = tagOrKey.replaceAll(/(?:^|-)(.)/g, (_, letter) => letter.toUpperCase());
   if (!/^[A-Z]\w*$/.test(scriptName)) throw new Error(`${scriptName} cannot name a declaration in JavaScript: rename it.`);
-  // A declared type of this name would hide a global type of every script, such as Map or Event.
+  // A type with the name of a global type, such as Map or Event, would hide the global type in every script.
   if (scriptName in globalThis) throw new Error(`${scriptName} is a global of JavaScript: give the setting or element another name.`);
   return scriptName;
 }

@@ -22,18 +22,18 @@ fn main() -> serde_json::Result<()> {
     let constants = json!({
         // Initial noise parameters of each model.
         "openingAlphas": { "velocity": velocity_alphas, "odometry": odometry_alphas },
-        // Maximum number of cells of a grid and of pixels of an image; maximum size of an image file, bytes. `trial`: maximum product of
-        // samples and parts in a call of `MapSqueeze.trial`. `ramp`: number of colours of a ramp.
+        // Limits of files and calls. `cells`: number of cells of a grid and of pixels of an image. `bytes`: size of an image file. `trial`:
+        // product of samples and parts in a call of `MapSqueeze.trial`. `ramp`: number of colours of a ramp.
         "limits": { "cells": MAX_PIXELS, "bytes": MAX_BYTES, "trial": MAX_TRIAL_PARTS, "ramp": RAMP_STEP_COUNT },
-        // Bits of a verdict on an attempt of Map Squeeze.
+        // Bit flags of the verdict on each attempt of Map Squeeze to draw a motion.
         "verdict": { "endFree": END_FREE_BIT, "pathFree": PATH_FREE_BIT, "accepted": ACCEPTED_BIT },
     });
     println!("{}", serde_json::to_string(&(widgets, constants))?);
     Ok(())
 }
 
-/// Returns the tag of a widget, its settings and its presets as JSON. Each setting has its declaration, its type with what belongs to this
-/// type, and its default.
+/// Returns the tag of a widget, its settings and its presets as JSON. Each setting has its declaration, its type with the allowed values,
+/// and its default.
 fn describe_widget<S: SettingRules>(tag: &'static str) -> serde_json::Result<Box<RawValue>> {
     let mut settings = Vec::new();
     S::default().try_visit_settings(|declaration, setting| {

@@ -14,7 +14,7 @@ export const EXAMPLE_LOG_PATHS = { odometry: 'examples/calibration/odometry.csv'
 /** True parameters of the simulation. */
 export const TRUE_PARAMETERS = { alphas: [0.03, 0.008, 0.002, 0.002], mountYaw: 0.03, clockOffset: 0.12, distanceScale: 1.01 };
 
-/** Length of a leg in AMCL: metres along either axis, and radians. */
+/** Motion after which AMCL updates, and a leg ends: metres along either axis, and radians. */
 export const AMCL_LEG_LENGTH = { distance: 0.25, angle: 0.2 };
 
 /** Start and duration of the drive, its integration step, and the time between two rows of a log, s. */
@@ -25,7 +25,7 @@ const STEPS_PER_ROW = Math.round(ROW_INTERVAL / TIME_STEP);
 
 /**
  * Time in s by which the reference begins earlier and ends later than the odometry. Apart from the offset of the clocks, the two logs have
- * rows at the same times. Interpolation would cause errors of a few per cent, because a turn takes only five rows.
+ * rows at the same times. With other times, interpolation would cause errors of a few per cent, because a turn takes only five rows.
  */
 const EXTRA_REFERENCE_TIME = 1;
 
@@ -42,7 +42,7 @@ const DRIVE_SPEEDS = { v: 0.8, turn: 0.9 };
 
 /** Generates commands without end: straight drives, arcs, turns on the spot and pauses. @returns {Generator<Command>} */
 function* generateCommands() {
-  // Returns item `i` of a sequence that covers the range between two limits evenly. The golden ratio ensures that items never repeat.
+  // Returns item `i` of a sequence that is spread evenly over a range. The golden ratio ensures that items never repeat.
   const spreadEvenly = (/** @type {number} */ i, /** @type {number} */ lowerLimit, /** @type {number} */ upperLimit) => lowerLimit + (upperLimit - lowerLimit) * ((i * 0.6180339887) % 1);
   for (let i = 1; ; i++) {
     const turnSign = i % 3 === 0 ? -1 : 1;

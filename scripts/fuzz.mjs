@@ -58,7 +58,7 @@ async function keepInputs(fuzzTargetName) {
   const mergedFolder = inputFolderOf(fuzzTargetName, 'merged');
   rmSync(mergedFolder, { recursive: true, force: true });
   mkdirSync(mergedFolder);
-  // Hit counts of edges would make the corpus five times as large.
+  // The merge keeps one input for each control-flow edge. With hit counts of edges, the corpus would be five times as large.
   const mergeOptions = ['-set_cover_merge=1', '-use_counters=0', ...INPUT_LIMITS];
   const { ok, output } = await runCargoFuzz(fuzzTargetName, [mergedFolder, inputFolderOf(fuzzTargetName, 'known'), inputFolderOf(fuzzTargetName, 'found')], mergeOptions);
   if (!ok) throw new UserError(output);

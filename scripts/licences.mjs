@@ -45,7 +45,7 @@ export function readLicenceTexts(packages) {
   const packagesByText = new Map();
   for (const { name, version, licence, directory } of packages) {
     const licenceFiles = readdirSync(directory).filter((fileName) => /^(licen[cs]e|copying)/i.test(fileName));
-    // MIT is chosen from several licences, because it is the shortest.
+    // From the licences that a package offers, MIT is chosen, because its text is the shortest.
     const licenceFile = licenceFiles.find((licenceFileName) => /mit/i.test(licenceFileName)) ?? licenceFiles[0];
     if (licenceFile === undefined) throw new Error(`${name} ${version} (${licence}) comes without the text of its licence.`);
     const licenceText = readFileSync(join(directory, licenceFile), 'utf8').replaceAll('\r', '').trim();

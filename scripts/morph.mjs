@@ -1,4 +1,4 @@
-// `node scripts/morph.mjs`: records the animation in README, the morph of the Banana Machine.
+// `node scripts/morph.mjs`: records the animation in README, in which the Banana Machine's cloud is deformed from one view to the other.
 
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -12,7 +12,7 @@ import { startServer } from './serve.mjs';
 const FIGURE_WIDTH_PX = 690;
 const FONT_SIZE_PX = 24;
 
-/** Number of frames of the animation, the duration of a frame, and the duration of the first and last frame. */
+/** Number of frames of the animation, the duration of each frame, and the longer duration of the first and last frame. */
 const FRAME_COUNT = 24;
 const FRAME_DURATIONS_MS = { each: 100, end: 1600 };
 

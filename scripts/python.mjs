@@ -1,5 +1,5 @@
-// Generates sources of the Python package in python/src/motion_widgets: the script, and a class for each element. The class has a trait for
-// each setting.
+// Generates sources of the Python package in python/src/motion_widgets: a class for each element, with a trait for each setting. Copies the
+// script that shows the elements in notebooks.
 
 import { copyFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -39,7 +39,7 @@ export function pythonNameOf(propertyName) {
 const TRAITS_WITHOUT_RANGE = { Bool: 't.Bool(None, allow_none=True)', Dict: 't.Dict(default_value=None, allow_none=True)', Unicode: 't.Unicode(None, allow_none=True)' };
 
 /**
- * Writes the Python module of the elements. Copies the script and the licences into the package, because pip reads only the directory of
+ * Writes the Python module of the elements. Copies anywidget.js and the licences into the package, because pip reads only the directory of
  * the package.
  */
 export async function writePython() {

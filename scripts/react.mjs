@@ -21,7 +21,7 @@ export async function writeComponents() {
 function componentSourceOf({ tag, className, attributes, properties }) {
   const propNames = {
     attributes: Object.fromEntries(attributes.map(({ name, property = name }) => [property, name])),
-    // A boolean attribute without a default is true if it is present. Other boolean attributes are written as true or false.
+    // Boolean attributes without a default are true if they are present. Other boolean attributes are written as true or false.
     flags: attributes.filter(({ type, opening }) => type === 'boolean' && opening === undefined).map(({ name }) => name),
     properties: properties.filter(({ readonly }) => !readonly).map(({ name }) => name),
   };
@@ -65,7 +65,7 @@ type OwnProps<Element extends FigureElement<any, any>, Names extends keyof Eleme
 type Props<Element extends FigureElement<any, any>, Names extends keyof Element> = OwnProps<Element, Names> &
   Omit<HTMLAttributes<Element>, keyof OwnProps<Element, Names>>;
 
-/** Type of an attribute in a tag. React would set properties only if the element is already defined, which is not certain. */
+/** Type of an attribute in a JSX tag, with values that HTML can express. React may set the attribute and not the property. */
 type AttributeValue<Value> = Value extends boolean
   ? true | \`\${Value}\`
   : Value extends number

@@ -39,7 +39,7 @@ const navigationHtmlOf = (pagePath) => {
   return `<nav class="site" aria-label="Site">${linkHtmls.join('\n')}\n<a href="${homepage}">Source</a></nav>`;
 };
 
-/** Returns the address to which inline code of a document links. It is a page of the site, or for a tag a page with only this figure. */
+/** Returns the address to which inline code of a document links: a page of the site, or for a tag a page with only this figure. */
 function linkAddressOf(/** @type {string} */ codeText, /** @type {string[]} */ figureTags) {
   if (codeText in TOP_LINKS) return codeText;
   const [, widgetTag, attributeText] = codeText.match(/^<([a-z-]+)((?: [a-z-]+(?:="[^"]*")?)+)>$/) ?? [];
@@ -124,7 +124,7 @@ function checkLinks() {
 
 await runAsScript(import.meta.url, async () => {
   await build();
-  // WIDGET_TAGS lists the elements' names, which the module reads from a file that the build writes.
+  // bundle.mjs reads the elements' names from a file that the build writes. It is therefore imported after the build.
   const { WIDGET_TAGS } = await import('./bundle.mjs');
   await ensurePackages('scripts');
   const rustTools = await ensureNativeRust();

@@ -64,7 +64,7 @@ async function installPackages(workspaceKey) {
 const [enqueueForApt, enqueueForRustup] = [createTaskQueue(), createTaskQueue()];
 
 /**
- * Installs packages by apt, if apt needs no password.
+ * Installs packages by apt, if apt needs no password. Otherwise throws a `UserError`.
  *
  * @param {string[]} debianPackages
  * @param {string} purposeSentence thrown as `UserError` otherwise
@@ -159,8 +159,8 @@ async function hasWasmTarget({ cargoDirectory, env }) {
   if (existsSync(join(sysrootResult.stdout.trim(), 'lib/rustlib', WASM_TARGET))) return true;
   const rustupPath = findProgram('rustup', [cargoDirectory]);
   if (rustupPath === undefined) return false;
-  // Behind some firewalls rustup never returns. A daily probe detects such a firewall. It waits longer if Debian's packages cannot replace
-  // rustup.
+  // Behind some firewalls rustup never returns. Such a firewall is detected once a day, by a time limit. The limit is longer if Debian's
+  // packages cannot replace rustup.
   const unreachableMarkPath = join(CACHE_DIRECTORY, 'rustup-unreachable');
   const canFallBack = findProgram('apt-get') !== undefined;
   const dayInMs = 24 * 3600 * 1000;

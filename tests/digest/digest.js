@@ -18,7 +18,7 @@ import { presets } from '../../build/settings.js';
  * @property {Record<string, { bounds: number[], configurations: Record<string, Configuration> }>} widgets
  */
 
-/** Bits that replace those of every NaN (not a number). The reason is in tests/native/digest/encoding.rs. */
+/** Bits that replace those of every NaN, because the sign and payload of a computed NaN are not specified. */
 const NAN_BITS = 0x7ff8_0000_0000_0000n;
 
 /** Returns the settings of a widget's preset, or an empty object if the configuration has no preset. @param {keyof typeof presets} widgetTag @param {string} [presetName] @returns {Record<string, any>} */
@@ -36,7 +36,7 @@ export const resultFunctions = {
     const { columns, rows } = configurations.picture;
     const readPictureOf = (/** @type {number} */ morph) =>
       simulation.picture(morph, bounds, columns, rows, createRamps(1)).slice();
-    // The native digest does not contain the standard error of the area ratio.
+    // The standard error of the area ratio is left out, because the native digest does not contain it.
     const stats = { ...simulation.stats, areaRatioError: undefined };
     delete stats.areaRatioError;
     const simulationResults = {
@@ -110,7 +110,7 @@ export const resultFunctions = {
     const { command, steps, alphas } = presetSettingsOf('dead-reckoning', preset);
     const simulation = new DeadReckoning({ command, steps, alphas, ...settings });
     const { shown, config, headingNoise, stats } = simulation;
-    // Poses of the robots in the picture after the first step.
+    // Poses after the first step, of the robots that the picture shows.
     const robotIndices = Array.from({ length: simulation.poses.length / 3 }, (_, index) => index);
     const firstPoses = Float64Array.from(robotIndices.flatMap((index) => [...simulation.rollout(index).subarray(0, 3)]));
     const simulationResults = {
@@ -150,7 +150,7 @@ export const resultFunctions = {
       leg: simulation.leg(5),
       nearest: simulation.nearest(0.5, 1, 3),
     };
-    // The poses at the starts of the legs are the second log.
+    // The poses at the starts of the legs are given to the calibrator as a second log.
     const { count, times, odometry, reference } = legs;
     const columnOf = (/** @type {Float64Array} */ flatArray, /** @type {number} */ itemSize, /** @type {number} */ columnOffset) =>
       Float64Array.from({ length: count }, (_, leg) => flatArray[itemSize * leg + columnOffset]);

@@ -30,7 +30,7 @@ test('two tables of a user replace the simulated log, and a button restores the 
   await expect(captionOf(calibrator)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
   await calibrator.getByRole('button', { name: 'Back to the simulated log' }).click();
   await expect(captionOf(calibrator)).toHaveText(/of the simulated log/);
-  // A single file is used only together with a second one.
+  // A single file that contains one log is used only together with a second file.
   const errorAlert = calibrator.getByRole('alert');
   await chooseTables(calibrator, { 'odom.csv': logTables.odometry });
   await expect(errorAlert).toHaveText(/^odom\.csv: it has one log only, .* the odometry; give the reference too\. Drop or choose the other file too,/);
@@ -93,7 +93,7 @@ test('the velocity model uses the commands of a file, and other models use the p
     await expect.poll(readOdometryKeys).toContain(modelKey);
     await waitUntilSettled(widget);
   };
-  // The command of a row is driven until the next row.
+  // The command in a row applies until the time of the next row.
   const odometryRows = exampleRowsOf('odometry');
   const rowsWithCommands = odometryRows.map(([t, x, y, yaw], i) => {
     const [nextTime, nextX, nextY, nextYaw] = odometryRows[i + 1] ?? [t + 1, x, y, yaw];
@@ -130,7 +130,7 @@ test('the figure asks for missing names and units of columns, and the answer app
   await chooseTables(widget, { 'notes.txt': 'hello', 'empty.csv': '' });
   await expect(errorAlert).toHaveText(/^notes\.txt: it does not look like a log,/);
   await expect(widget.locator('.choosers > p')).toHaveText([/^Not used: empty\.csv: there is nothing in it/]);
-  // A question about one of several files is asked before an earlier file, which lacked its other log, is added to them.
+  // A question about new files is asked first. Then an earlier file, which lacked its other log, is added to the new files.
   await chooseTables(widget, { 'wheels.csv': readExampleTable('odometry') });
   await expect(errorAlert).toHaveText(/^wheels\.csv: it has one log only,/);
   await chooseTables(widget, { 'odom.csv': rowsInMillimetres.join('\n'), 'slam.csv': readExampleTable('reference') });
@@ -188,7 +188,7 @@ test('a log with too few legs is refused, and the figure still shows the previou
   expect(await captionOf(widget).innerText()).toBe(captionBefore);
   expect((await readStats(widget)).alphas).toEqual(alphas);
   await expect(widget.locator('.drop-zone .present')).toHaveText('Results of odometry.csv, reference.csv.');
-  // The results stay marked as outdated until the figure shows its simulated log again.
+  // The previous results are marked as outdated until the figure shows its simulated log again.
   await expect(widget.locator('.verdict')).toHaveCSS('filter', 'grayscale(1)');
   await widget.getByRole('button', { name: 'Start over' }).click();
   await expect(captionOf(widget)).toHaveText(/of the simulated log/);
@@ -229,13 +229,13 @@ test('a log is read and fitted in a worker, so that the page stays responsive', 
     const taskDurations = recentEntries.filter(({ entryType }) => entryType === 'longtask').map(({ duration }) => duration);
     return { longestTaskShare: Math.max(0, ...taskDurations) / (performance.now() - startTime), layoutShifts: recentEntries.flatMap(({ value, hadRecentInput }) => (value && !hadRecentInput ? value : [])) };
   }, startTime);
-  // If the main thread read the log, a single task would take a third of the measured time.
+  // A worker reads the log. On the main thread, reading would be a single task of a third of the measured time.
   expect(longestTaskShare).toBeLessThan(0.2);
   // The Web Vitals call a layout unstable if its shift is 0.1 or more.
   expect(layoutShifts.reduce((shiftSum, layoutShift) => shiftSum + layoutShift, 0)).toBeLessThan(0.1);
   await widget.locator('.slider:has(#angle) .typed').fill('x');
   await widget.locator('.slider:has(#angle) .typed').press('Enter');
-  // A changed setting starts another fit. The figure shows the previous result meanwhile, and other notices stay.
+  // A changed setting starts another fit. Until it ends, the figure shows the previous result, and notices about other fields stay.
   const { alphas } = await readStats(widget);
   const resultsWhileFitting = await widget.evaluate((element) => {
     const calibratorElement = /** @type {any} */ (element);
@@ -348,7 +348,7 @@ test('a log set by the page is fitted and not saved in states, and a refused log
     return [log?.name, count > 100];
   })).toEqual(['of the page', true]);
   expect(await readState(widget)).toEqual(stateBefore);
-  // The view is fitted to the new path, although the path had room in the previous view.
+  // The view is fitted to the new path, although the new path would fit into the previous view.
   await expect.poll(readLeftEdge).not.toBe(leftEdgeBefore);
   await chooseTables(widget, { 'odometry.csv': readExampleTable('odometry'), 'reference.csv': readExampleTable('reference') });
   await expect(captionOf(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);

@@ -58,7 +58,7 @@ test('outliers are marked by rings, and change the fit strongly if they are not 
   await waitUntilSettled(widget);
   const statsAfter = await readStats(widget);
   expect(statsAfter.referenceNoise.positionStd.value).toBeGreaterThan(10 * statsBefore.referenceNoise.positionStd.interval[1]);
-  // The text of www/index.html contains the computed ratios.
+  // The ratios in the text of www/index.html must equal the computed ratios.
   const outlierCheck = statsBefore.diagnostics.checks.find(({ name }) => name === 'outliers-few');
   const [outlierRatioText, alpha3RatioText] = [10 * Math.round(0.1 / (outlierCheck?.value ?? NaN)), Number(statsAfter.alphas[2]) / Number(statsBefore.alphas[2])].map((ratio) => ({ 6: 'six', 60: 'sixty' })[Math.round(ratio)]);
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toMatch(RegExp(`One in ${outlierRatioText} is an outlier[^]* becomes ${alpha3RatioText} times as large, and two checks fail`));
@@ -75,7 +75,7 @@ test('a systematic error that is not corrected is named in the advice', async ({
   const statsAfter = await readStats(widget);
   expect(statsAfter.systematicErrors.mountYaw.corrected).toBe(false);
   expect(statsAfter.systematicErrors.mountYaw.value).toBeCloseTo(0.07, 2);
-  // The text of www/index.html contains the two estimates.
+  // The two estimates in the text of www/index.html must equal the computed estimates.
   const [yawStdBefore, yawStdAfter] = [statsBefore, statsAfter].map(({ referenceNoise: { yawStd } }) => yawStd.value.toFixed(3));
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toContain(`goes from ${yawStdBefore} to ${yawStdAfter}&nbsp;rad`);
   await expect(captionOf(widget)).toHaveText(/^! Caution\s+Failed: correlation of neighbouring residuals \(1 of 14 checks\)\.\s+\d+ legs /);
@@ -165,7 +165,7 @@ test('sliders set the duration of the legs and the noise of the reference', asyn
   await durationSlider.locator('#duration').fill('0');
   await waitUntilSettled(widget);
   expect((await readStats(widget)).alphas).toEqual(statsBefore.alphas);
-  // Stated noise of the reference lowers the estimated noise of the wheels.
+  // If the noise of the reference is set instead of estimated, the estimated noise of the wheels is lower.
   await expect(widget.locator('.slider:has(#positionStd) .typed')).toHaveValue('estimated');
   await widget.getByRole('slider', { name: /reference position σ/ }).fill('0.004');
   await widget.getByRole('slider', { name: /reference yaw σ/ }).fill('0.003');

@@ -109,7 +109,7 @@ test('if a centre of rotation is outside the picture, its angle is labelled insi
   await waitForFrames(page);
   const centreLabels = [...(await readSVG()).matchAll(/<text x="([\d.]+)" y="([\d.]+)"[^>]*>(ω[^<]*)</g)];
   expect(centreLabels.map(([, , , labelText]) => labelText).sort()).toEqual(['ω̂Δt = 0.02', 'ωΔt = 0.03']);
-  // Neither label covers the other.
+  // The two labels do not overlap.
   const [[, firstX, firstY], [, secondX, secondY]] = centreLabels.map((labelParts) => labelParts.map(Number));
   expect(Math.max(Math.abs(firstX - secondX) / 60, Math.abs(firstY - secondY) / 12)).toBeGreaterThan(1);
 });
@@ -151,9 +151,9 @@ test('each line of the table highlights its construction in the picture, and its
     expect(parseNumberIn(/= ([−\d.]+)(?: \S+)?$/.exec(lineContent)?.[1] ?? '')).toBeCloseTo(lineValue, 2);
     planePictures.push(await readPicture(canvasOf(widget)));
   }
-  // The last row of the table highlights the bars of its factors.
+  // The last row of the table highlights the bars of the density's factors.
   await expect(widget.locator('.factors')).toHaveClass(/lit/);
-  // The table rows of x* and y* highlight the same construction, the centre.
+  // The table rows of x* and y* both highlight the centre of the arc, so that their pictures are equal.
   expect(new Set(planePictures.slice(0, 9)).size).toBe(8);
   expect(planePictures[2]).toBe(planePictures[3]);
   expect(planePictures[9]).toBe(planePictures[0]);
@@ -175,7 +175,7 @@ test('heat maps of p and of the density are drawn below the arcs, with contours 
 test('entries of the legend show and hide the lines', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   expect(await countPixelsOfRole(canvasOf(widget), 'posterior')).toBe(0);
-  // A toggle highlights its line while the pointer or the focus is on the toggle.
+  // A toggle in the legend highlights its line while the pointer or the focus is on the toggle.
   const clickToggle = async (/** @type {string} */ name) => {
     await widget.getByRole('checkbox', { name }).click();
     await page.mouse.move(0, 0);

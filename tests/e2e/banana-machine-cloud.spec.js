@@ -8,7 +8,7 @@ test.use(REDUCED_MOTION);
 
 const OPENING_ALPHAS = [0.002, 0.002, 0.1, 0.1, 0.002, 0.002];
 
-/** Number of steps in which a cloud grows. */
+/** Number of steps in which a cloud grows to its full size. */
 const GROWTH_STEPS = 150;
 
 /** @param {Locator} widget */
@@ -37,7 +37,7 @@ test('the cloud grows automatically, and can be paused and resumed', async ({ pa
   await playButton.click();
   await widget.getByRole('button', { name: 'Pin' }).click();
   await expect.poll(async () => (await readBananaResults(widget)).shown, { timeout: 20_000 }).toBe(pausedResults.config.samples);
-  // Numbers that are pinned while the cloud grows must be those of the complete cloud.
+  // If the readouts are pinned while the cloud grows, the pinned numbers are replaced by those of the complete cloud.
   await expect(readoutValueOf(widget, 'cross-track skew')).toHaveText(/^(.+ ± .+) pinned: \1$/);
   await expect(playButton).toBeVisible();
   expect((await readPoses(widget)).slice(0, firstPoses.length)).toEqual(firstPoses);
@@ -152,13 +152,13 @@ test('the caption states the exact statistics of the model, and those of the rob
   await widget.locator('#omega').fill('-0.5');
   await expect(captionOf(widget)).toHaveText(/tail to the left/);
 
-  // The cloud of the preset "Banana" is symmetric. Its skew is exactly 0 for any number of robots, and its ellipse has twice the area.
+  // The cloud of the preset "Banana" is symmetric: its exact skew is 0. Its 2σ ellipse has twice the area of the outline in ξ.
   await pressPreset('Banana');
   await waitForFrames(page);
   const { table } = await readBananaResults(widget);
   expect(Math.abs(table.exact.crossTrackSkew)).toBeLessThan(1e-9);
   expect(Math.abs(table.exact.areaRatio - 1.97)).toBeLessThan(0.005);
-  // The caption contains the area ratio of the readout.
+  // The caption states the same area ratio as the readout.
   const [areaRatioText] = (await readoutValueOf(widget, 'area covered').innerText()).split(' ');
   await expect(captionOf(widget)).toHaveText(
     new RegExp(`^The cloud is bent: its ellipse covers ${areaRatioText} times the area of the ξ outline\\. Both sides are alike: skew −?0\\.\\d+\\s±\\s0\\.\\d+, exactly 0 by symmetry\\.$`),
@@ -167,7 +167,7 @@ test('the caption states the exact statistics of the model, and those of the rob
   await widget.locator('#omega').fill('0.02');
   await expect(captionOf(widget)).toHaveText(/^The cloud is bent: its ellipse covers .* Both sides are nearly alike: skew −?0\.\d+\s±\s0\.\d+, exactly −?0\.0\d+\.$/);
   await widget.locator('#omega').fill('0');
-  // A cloud with little noise of the turn is not bent.
+  // A cloud with little noise of the turn rate is not bent.
   for (const sliderId of ['alpha3', 'alpha4']) await widget.locator(`#${sliderId}`).fill('0.001');
   await expect(captionOf(widget)).toHaveText(/^Both sides are alike: skew [^.]*\.\d+\s±\s[\d.]+, exactly 0 by symmetry\.$/);
 });

@@ -90,7 +90,7 @@ test('Pin keeps numbers and outlines for comparison, and a second press removes 
   expect(await readPicture(widget.locator('canvas.plane'))).toBe(pictureWithPin);
   await expect(restoreState({ ...pinnedState, pinned: { ...pinnedState.pinned, samples: 0 } })).rejects.toThrow('state.pinned.samples is 0; allowed is');
   await expect(areaReadout).toContainText(`pinned: ${areaTextBefore}`);
-  // The pinned gain is the gain of the poses. It must not be compared with the gain on the floor.
+  // The pinned likelihood gain is that of the poses. It must not appear next to the gain of the positions on the floor.
   await widget.getByRole('button', { name: 'Worked example' }).click();
   await expect(widget.locator('.readouts div').filter({ hasText: 'gain in fit on the floor' })).not.toContainText('pinned');
 });
@@ -101,12 +101,12 @@ test('the title of the floor view states how well the ellipse fits', async ({ pa
   for (const [changedSettings, fitText, expectedCallouts] of /** @type {const} */ ([
     [{ preset: 'banana' }, 'no ellipse fits', 2],
     [{ preset: 'pivot' }, 'the ellipse fits in size only', 0],
-    // In the preset "gentle" only the skew is visible.
+    // In the preset "gentle" the cloud is visibly skewed, and not visibly bent.
     [{ preset: 'gentle' }, 'the ellipse fits in size only', 0],
     [{ preset: 'straight', alphas: [0.002, 0.002, 0.002, 0.002, 0, 0] }, 'the ellipse nearly fits', 0],
-    // The straight cloud is symmetric, and its ellipse is as large as the outline in ξ. Only the gain of the poses shows the bend.
+    // The straight cloud is symmetric. Its ellipse has the area of the outline in ξ. Only the likelihood gain of the poses shows a bend.
     [{ preset: 'straight', alpha3: 0.2 }, 'the ellipse fits in size only', 0],
-    // After 3 s the robots turn by up to π, where no exact statistics exist.
+    // In 3 s some robots turn by π or more, where no exact statistics exist.
     [{ preset: 'straight', alpha3: 0.2, dt: 3 }, 'the ellipse fits in size only', 0],
   ])) {
     await widget.evaluate((element, settings) => void Object.assign(element, settings), changedSettings);

@@ -39,7 +39,7 @@ test('the view keeps its scale while its handle is dragged, and zooms out at the
   expect(extentAfter.yMin).toBeLessThanOrEqual(extentBefore.yMin);
   expect(extentAfter.xMax).toBeGreaterThanOrEqual(extentBefore.xMax);
   expect(extentAfter.yMax).toBeGreaterThanOrEqual(extentBefore.yMax);
-  // A smaller cloud does not zoom the view in. A preset fits the view again.
+  // If the cloud becomes smaller, the view does not zoom in. A preset fits the view again.
   await dragSlider(widget.locator('#dt'), 0.05);
   await waitForFrames(page);
   expect(await readViewExtent()).toEqual(extentAfter);

@@ -53,7 +53,7 @@ test('attributes stay as written until their setting changes, and then reflect t
   const readAttributes = (/** @type {import('@playwright/test').Locator} */ widget) =>
     widget.evaluate((element) => Object.fromEntries([...element.attributes].map(({ name, value }) => [name, value])));
   expect(await readAttributes(bananaMachine)).toEqual({ preset: 'hard', seed: '3' });
-  // The preset "hard" does not apply after a change. Its values are then reflected as attributes.
+  // After a change the settings differ from the preset "hard". The values of the preset are then reflected as attributes.
   const alphaAttributes = { alpha1: '0.05', alpha2: '0.05', alpha3: '0.05', alpha4: '0.09', alpha5: '0.01', alpha6: '0.01' };
   await bananaMachine.locator('#v').fill('0.5');
   await waitForFrames(page);
@@ -145,7 +145,7 @@ testEach('the code to embed a figure reproduces the settings of its state, with 
       const reorderedCopy = document.createElement(element.localName);
       for (const { name, value } of [...embeddedCopy.attributes].reverse()) reorderedCopy.setAttribute(name, value);
       const loadPromises = [embeddedCopy, reorderedCopy].map((figureCopy) => new Promise((resolve) => figureCopy.addEventListener('load', resolve)));
-      // A figure inside the window starts at once.
+      // A figure that is visible in the window starts at once.
       for (const figureCopy of [embeddedCopy, reorderedCopy]) figureCopy.style.cssText = 'position: fixed; inset: 0';
       element.before(embeddedCopy, reorderedCopy);
       await Promise.all(loadPromises);

@@ -8,7 +8,7 @@ test.use(REDUCED_MOTION);
 /** Preferred width of a figure in CSS pixels, equal to `preferredWidthCss`. */
 const PREFERRED_WIDTH = 44 * 16;
 
-/** HTML of containers in which the width of an element, the X, may depend on its contents. @type {Record<string, string>} */
+/** HTML of containers in which the width of an element (X) may depend on its contents. @type {Record<string, string>} */
 const CONTAINERS_BY_NAME = {
   block: 'X',
   'flex with auto margins': '<div style="display: flex"><X style="margin: auto"></X></div>',
@@ -77,7 +77,7 @@ test('the size of a figure is proportional to the surrounding font size, and doe
   const [firstLayout, ...otherLayouts] = partLayouts;
   for (const { root, em, boxes } of otherLayouts) {
     expect(boxes.map(({ part }) => part)).toEqual(firstLayout.boxes.map(({ part }) => part));
-    // Browsers round the widths of letters to pixels, so that boxes differ by up to a quarter of the font size.
+    // Browsers round the widths of letters to pixels. Boxes may therefore differ by a quarter of the font size.
     const differingBoxes = boxes.filter(({ numbers }, i) => numbers.some((boxNumber, k) => Math.abs(boxNumber - firstLayout.boxes[i].numbers[k]) > 0.25));
     expect(differingBoxes, `${em} px, root ${root}`).toEqual([]);
   }
@@ -153,7 +153,7 @@ test.describe('on a screen with two device pixels per CSS pixel', () => {
   });
 });
 
-/** Sliders below texts of variable length. Each entry has element, language, page width, slider, and the values at which the texts are short or long. */
+/** Sliders below texts of variable length. Each item has element, language, page width, slider, and slider values for short and long texts. */
 const SLIDERS_BELOW_TEXTS = /** @type {const} */ ([
   ['arc-anatomy', 'de', 375, 'v', ['1', '-0.25', '0.3']],
   ['alpha-calibrator', 'en', 375, 'angle', ['0.25', '0.96']],

@@ -6,8 +6,8 @@ import { REDUCED_MOTION, holdRequests, waitForFrames, readProperty, showPage, te
 test.use(REDUCED_MOTION);
 
 /**
- * Opens a page with a figure far below the window, between a link and a button. Observers are disabled, so that they do not start the
- * figure.
+ * Opens a page with a figure far below the window, between a link and a button. Intersection observers are disabled, so that they do not
+ * start the figure.
  *
  * @param {Page} page
  * @param {string} figureName

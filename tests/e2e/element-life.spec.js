@@ -33,7 +33,7 @@ async function countFramesAndModules(page) {
  */
 const readPageCounts = (page) => page.evaluate(() => Reflect.get(window, 'counts'));
 
-/** Waits for six frames, which the counts of the page do not include. @param {Page} page */
+/** Waits for six animation frames that are not counted as frames of the page. @param {Page} page */
 const waitForSixFrames = (page) =>
   page.evaluate(async () => {
     for (let i = 0; i < 6; i++) await new Promise(Reflect.get(window, 'requestUncountedFrame'));
@@ -106,7 +106,7 @@ test('a cloud that is out of sight requests no frames, and resumes its growth wh
     /** @type {AnyElement} */ (element).setState({ widget: element.localName, version: 1, shown: 0, playing: true });
     await statsEvent;
     scrollTo(0, 6000);
-    // The test waits for its own observer. The observer of the figure reports in the same frame.
+    // The test's intersection observer fires in the same frame as that of the figure.
     await new Promise((resolve) => new IntersectionObserver(([{ isIntersecting }]) => isIntersecting || resolve(undefined)).observe(element));
   });
   expect(await readProperty(widget, 'playing')).toBe(true);
@@ -153,7 +153,7 @@ test('a partly grown cloud keeps its size if its figure is moved, or removed and
   await showPage(page, `<div id="a"><${cloudFigureName}></${cloudFigureName}></div><div id="b"></div>`);
   const widget = page.locator(cloudFigureName);
   await waitUntilReady(widget);
-  // With this seed every robot is inside the view, so that the view does not zoom out.
+  // With seed 11 every robot is inside the view, so that the view does not zoom out.
   await setProperty(widget, 'seed', 11);
   await openDisclosures(widget);
   const pressButton = (/** @type {string} */ buttonName) => widget.locator('.cloud').getByRole('button', { name: buttonName, exact: true }).click();
@@ -209,7 +209,7 @@ test('open disclosures, typed text and height are kept if a figure is moved, or 
   expect(await readOpenFolds()).toEqual(openFoldsBefore);
   await expect(fieldInDisclosure).toHaveValue(fieldInFold.value);
   await expect(foldDisclosures.nth(fieldInFold.disclosureIndex).locator('.folded')).not.toBeEmpty();
-  // In the first and in the second frame the figure has the height that it had before.
+  // In the first two frames after the figure is moved within the page, its height stays the same.
   expect(heightsAfter).toEqual([heightBefore, heightBefore]);
 });
 

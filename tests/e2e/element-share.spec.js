@@ -44,7 +44,7 @@ test('a link with the states of two figures and an anchor in its fragment restor
   expect(await page.evaluate(() => history.length)).toBe(historyLength);
 
   const sharedLink = await readShareLink(firstFigure);
-  // A link scrolls to the figure that is named in its first part.
+  // The fragment of the link begins with the state of the shared figure, because a page scrolls to the first figure of its fragment.
   const [pageAnchor, themePart, firstFigurePart, secondFigurePart] = hashBefore.slice(1).split('&');
   expect(new URL(sharedLink).hash).toBe(`#${[firstFigurePart, pageAnchor, themePart, secondFigurePart].join('&')}`);
   const newPage = await context.newPage();
@@ -94,19 +94,19 @@ test('a link scrolls once to the figure from which it was copied, and a reload d
   for (const i of [0, 1]) {
     await nthFigureOf(page, i).scrollIntoViewIfNeeded();
     await waitUntilReady(nthFigureOf(page, i));
-    // When the link to the next figure is copied, the address already contains the state of the previous figure.
+    // The address already contains the state of the previous figure when the link to the next figure is copied.
     linkFragments.push(await readLinkFragment(nthFigureOf(page, i)));
     await page.evaluate((linkFragment) => history.replaceState(null, '', linkFragment), linkFragments[i]);
   }
   expect(linkFragments[1]).toMatch(/^#banana-machine\.2=.*&banana-machine\.1=/);
-  // A figure whose state is in the address gets no second part in the address.
+  // If the address already contains the state of a figure, a link to the figure contains that state only once.
   expect(await readLinkFragment(nthFigureOf(page, 1))).toBe(linkFragments[1]);
   for (const [i, fragment] of linkFragments.entries()) {
     const newPage = await context.newPage();
     await showPage(newPage, pageBody, { fragment });
     await waitUntilReady(nthFigureOf(newPage, i));
     await expect.poll(async () => (await readFigureTops(newPage))[i]).toBeCloseTo(0);
-    // Elements that are added or moved later do not scroll the page.
+    // The page does not scroll to elements that are added or moved later.
     const scrollYAfterMove = await newPage.evaluate(async () => {
       scrollTo(0, 100);
       document.body.append(document.createElement('banana-machine'));
@@ -164,7 +164,7 @@ test('a figure without the attribute share adds nothing to the address, but open
   await waitUntilReady(newPage.locator(figureName));
   const openedState = await readState(newPage.locator(figureName));
   expect(openedState).toEqual(await readState(widget));
-  // From the first change on, the address follows the figure. The "back" button leaves the page.
+  // From the first change on, the address contains the figure's state. No history entry is added: the "back" button leaves the page.
   const historyLength = await newPage.evaluate(() => history.length);
   await newPage.locator(figureName).locator(`#${sliderId}`).fill(String(sliderValues[1]));
   await expect.poll(async () => (await newPage.evaluate(() => location.hash)) === (await readLinkFragment(newPage.locator(figureName)))).toBe(true);
@@ -250,7 +250,7 @@ test('copies a link, and the code to embed with the address of the script', asyn
 
 test('the menu shows a link that the browser refuses to copy to the clipboard @nightly', async ({ page }) => {
   await page.addInitScript(() => Object.defineProperty(navigator, 'clipboard', { value: undefined }));
-  // In a lower window, the open disclosure covers a part of the legend after the page has scrolled.
+  // The window is high: in a lower window, the open disclosure would cover a part of the legend after the page has scrolled.
   await page.setViewportSize({ width: 1280, height: 1300 });
   const widget = await mountFigure(page, 'map-squeeze', { attributes: 'seed="4"' });
   await widget.getByText('Numbers and data').click();

@@ -12,7 +12,7 @@ function trapNextCall(widget, sliderId) {
   return widget.evaluate((element, inputId) => {
     const { simulation, shadowRoot } = /** @type {AnyElement} */ (element);
     Object.assign(window, { trapped: simulation });
-    // The simulation's address is outside of the core's memory, so that the next call crashes.
+    // The simulation's pointer is set to an address outside of the core's memory, so that the next call crashes.
     simulation.__wbg_ptr = 0x7ffffff0;
     shadowRoot?.querySelector(`#${inputId}`)?.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
   }, sliderId);
@@ -48,7 +48,7 @@ test('after a trap the core restarts with the same state and picture, and other 
   expect(await otherWidget.evaluate((element) => /** @type {AnyElement} */ (element).simulation === Reflect.get(window, 'otherSimulation'))).toBe(true);
   await widget.locator(`#${sliderId}`).fill(String(sliderValues[1]));
   await expect(widget).toHaveAttribute(sliderId, String(sliderValues[1]));
-  // After the next picture, the figure recovers from a second trap too.
+  // A figure that has drawn a picture after a crash recovers from a second crash too.
   await waitForFrames(page);
   await trapNextCall(widget, sliderId);
   await expectRestarted(widget);

@@ -1,11 +1,11 @@
 /**
- * Facts about each element for the tests. A test of a behaviour that all elements share runs on one of them, which is chosen here.
+ * Facts about each element for the tests, and the choice of the element on which a test of common behaviour runs.
  *
  * @module
  */
 
 /**
- * Facts about an element that tests use.
+ * Facts that tests need about an element.
  *
  * @typedef {object} FigureFacts
  * @property {boolean} [hasCloud] true if the figure has a cloud that grows, by Play, Step and Clear

@@ -91,7 +91,7 @@ test('unknown cells are hatched, and free or blocked as the user chooses', async
   expect(await readPicture(planeCanvas)).not.toBe(pictureIfFree);
   await expect(widget.locator('.legend').getByLabel('unknown cells')).toBeChecked();
 
-  // A state contains the map and the setting for unknown cells. Setting the state restores both.
+  // A state contains the map and the setting for unknown cells. `setState` restores the map and this setting.
   const stateJson = await widget.evaluate((element) => JSON.stringify(/** @type {any} */ (element).getState()));
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
   await expect(unknownCellsChoice).toHaveCount(0);

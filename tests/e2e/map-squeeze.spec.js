@@ -138,8 +138,8 @@ test('the table of costs lists each sampler, with its time and the share of a pr
   );
   for (const [, , printedMicroseconds, corePercent] of cellTextsOfRows.map((rowTexts) => rowTexts.map(parseNumberIn))) {
     expect(printedMicroseconds).toBeGreaterThan(0);
-    // 2000 motions at 20 Hz take 4 % of a core for each microsecond. The microseconds and the percentage are each rounded to two digits, by
-    // up to 5 %.
+    // At 2000 motions per update and 20 updates per second, each microsecond per motion takes 4 % of a processor core. Microseconds and
+    // percentage are rounded to two digits.
     expect(Math.abs(corePercent / (4 * printedMicroseconds) - 1)).toBeLessThan(0.11);
   }
 });
@@ -156,7 +156,7 @@ test('for a robot without any free path, the figure states the number of attempt
   expect(stats.gaveUp).toBe(true);
   await expect(verdictNote).toContainText('The robot is wedged');
   const noteText = ((await verdictNote.textContent()) ?? '').replaceAll('\u202f', '');
-  // The note is a single sentence, without a second count of the same motions.
+  // The note is a single sentence. It states only once how many motions went through a wall.
   const throughWallText = stats.throughWall === 0 ? 'none of them' : `${stats.throughWall} of them, ${(100 * stats.throughWallRate).toFixed(1)}%,`;
   const completedText = `completed only ${stats.accepted} of ${config.samples} motions; ${throughWallText} went through a wall`;
   expect(noteText.trim()).toBe(`The robot is wedged: ${stats.drawn} sub-steps drawn ${completedText}.`);
@@ -230,7 +230,7 @@ test('the edge of a doorway and a wall can be dragged, and Back to the apartment
     await page.mouse.up();
     return readSqueezeResults(widget);
   };
-  // The left edge of the doorway ahead is dragged from x = 1.6 m to its limit near the right edge, at 2.5 m.
+  // The left edge of the doorway ahead is dragged from x = 1.6 m to near the right edge, where it stops at 2.5 m.
   const resultsAfterEdgeDrag = await dragHandle(widget.locator('.handle.to-4'), 300, 40);
   expect(resultsAfterEdgeDrag.walls.slice(16, 20)).toEqual([0, 3.8, expect.closeTo(2.45, 9), 3.8]);
   expect(resultsAfterEdgeDrag.stats.throughWall).toBeGreaterThan(resultsBefore.stats.throughWall);
@@ -285,7 +285,7 @@ test('the picture has a description, and a change by the user is announced to sc
   await widget.getByLabel('Check samples against the map').uncheck();
   const { throughWall } = (await readSqueezeResults(widget)).stats;
   await expect(statusLine).toContainText(`Without the map all 600 motions are accepted; ${throughWall} of them, `);
-  // A change by the page is not announced, and ends the last announcement.
+  // A change by the page is not announced, and clears the announcement of the previous change.
   await widget.evaluate((element) => Object.assign(element, { conditioned: true }));
   await expect(statusLine).toBeEmpty();
   await widget.evaluate((element) => Object.assign(element, { conditioned: false }));
@@ -334,7 +334,7 @@ test('many samples are drawn as a density, with a separate colour for samples th
   await widget.evaluate((element) => Object.assign(element, { samples: 20_000 }));
   await expect(densityNote).toContainText('Density');
   expect((await readSqueezeResults(widget)).stats.throughWall).toBeGreaterThan(4000);
-  // All samples behind the wall at y = 5 went through a wall. Hardly any sample between the posts of the doorway did.
+  // All samples behind the wall at y = 5 went through a wall. Samples between the posts of the doorway hardly ever went through a wall.
   const [greenExcessBehindWall, greenExcessBetweenPosts] = await widget.evaluate((element) => {
     const { picture: { view }, renderRoot } = /** @type {any} */ (element);
     const canvas = renderRoot.querySelector('canvas.plane');

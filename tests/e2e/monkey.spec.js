@@ -86,7 +86,7 @@ const RANDOM_ACTIONS = {
     await page.mouse.move(pointedPart.x, pointedPart.y);
     await page.mouse.down();
     await page.mouse.move(pointedPart.x + dragOffset[0], pointedPart.y + dragOffset[1], { steps: 4 });
-    // Sometimes another event happens during a drag.
+    // One drag in four is not released, so that other random actions happen during the drag.
     if (randomSource.integerBelow(4) > 0) await page.mouse.up();
     return `${pointedPart.description} by ${dragOffset}`;
   },
@@ -174,7 +174,7 @@ const RANDOM_ACTIONS = {
       return `${name} ${choiceNumber === 0 ? `${fieldName}: ${JSON.stringify(newValue)}` : 'a former state'}`;
     }, [name, choiceNumber, fieldIndex, newValue]);
   },
-  /** Sets a small number of samples, because events are slow with millions of samples. */
+  /** Sets a small number of samples, because handling an event takes long with millions of samples. */
   async reduceSamples(page, randomSource) {
     const [figureName, sampleCount] = [randomSource.itemOf(ALL_FIGURE_NAMES), randomSource.itemOf([1, 20, 300, 2000])];
     return page.evaluate(([figureName, sampleCount]) => {

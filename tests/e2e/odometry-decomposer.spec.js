@@ -126,7 +126,7 @@ test('on paper every noise rule has its name, and the selected rule is highlight
   for (const rule of ['Table 5.6', 'AMCL of Nav2', 'Beluga 2', 'AMCL, omnidirectional']) await expect(ruleLabelOf(rule)).toBeVisible();
   await expect(ruleLabelOf('Table 5.6')).toHaveCSS('font-weight', '700');
   await expect(ruleLabelOf('Beluga 2')).not.toHaveCSS('font-weight', '700');
-  // Each other group of radio buttons prints only its selected button.
+  // Every other group of radio buttons is printed with only its selected button.
   await page.emulateMedia({ media: 'screen' });
   await openDisclosures(widget);
   await page.emulateMedia({ media: 'print' });

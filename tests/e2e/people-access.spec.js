@@ -101,7 +101,7 @@ test('if a control removes or disables itself, a nearby control gets the focus',
   await mapSqueeze.evaluate((element) => void Object.assign(element, { samples: 1 }));
   await mapSqueeze.getByRole('button', { name: 'Clear' }).press('Enter');
   const stepButton = mapSqueeze.getByRole('button', { name: 'Step' });
-  // A button that is still disabled would ignore the key.
+  // Waits until the button is enabled, because a disabled button would ignore the key.
   await expect(stepButton).toBeEnabled();
   await stepButton.press('Enter');
   await expect(stepButton).toBeDisabled();
@@ -187,7 +187,7 @@ test.describe('a finger on a figure', () => {
       const stateBefore = await readState(widget);
       const { x, y, width, height } = await readBox(swipedPart);
       const scrollYBefore = await page.evaluate(() => scrollY);
-      // No slider has its thumb at a third of the width, so that the track is visible there.
+      // The swipe starts on the slider's track, because no slider has its thumb at a third of the width.
       await swipeUpFrom(page, { x: x + 0.3 * width, y: y + height / 2 });
       await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(scrollYBefore + 60);
       expect(await readState(widget), swipedSelector).toEqual(stateBefore);
@@ -225,7 +225,7 @@ test('a printed figure has its picture and settings in light colours, and no con
   await page.emulateMedia({ colorScheme: 'light' });
   const widget = await mountFigure(page, 'banana-machine', { head: '<style>:root { color-scheme: light dark }</style>' });
   const planeCanvas = widget.locator('canvas.plane');
-  // Two print events are fired synchronously, without a frame between them.
+  // The events `beforeprint` and `afterprint` are fired in one task, without a frame between them.
   const takePrintedPicture = () => planeCanvas.evaluate((element) => {
     dispatchEvent(new Event('beforeprint'));
     const printedPixels = /** @type {HTMLCanvasElement} */ (element).toDataURL();
@@ -247,10 +247,10 @@ test('a printed figure has its picture and settings in light colours, and no con
   for (const [settingKey, valueText] of [['v', '1.00 m/s'], ['dt', '2.00 s']]) {
     const valueField = widget.locator(`.slider:has(#${settingKey}) .typed`);
     await expect(valueField).toHaveValue(valueText);
-    // The text of a narrower field would be cut off.
+    // In a narrower field the text would be cut off.
     expect(await valueField.evaluate(({ clientWidth }) => clientWidth)).toBeGreaterThan(40);
   }
-  // On paper the pixels of a canvas determine its proportions. Setting them in every frame would resize the canvas each time.
+  // On paper the pixel size of a canvas determines its aspect ratio. If the pixel size were set in every frame, the ratio would change.
   await page.evaluate(() => {
     addEventListener('error', ({ message }) => Object.assign(window, { recordedError: message }));
     document.querySelector('banana-machine')?.replaceWith(document.createElement('banana-machine'));

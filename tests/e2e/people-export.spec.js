@@ -74,7 +74,7 @@ test('SVG has a title, a description and vector graphics; few samples are dots, 
   const widget = await openBanana(page);
   const floorCanvas = widget.locator('canvas.plane');
   await openDisclosures(widget);
-  // Position 6 of the slider means a thousand samples.
+  // Position 6 of the slider stands for a thousand samples.
   await widget.locator('#samples').fill('6');
   await waitForFrames(page);
   const svgOfFewSamples = await describeSVG(page, await readSVG(widget));
@@ -137,7 +137,7 @@ test('the menu saves files with descriptive names, also by keyboard', async ({ p
   }
 });
 
-/** Characters that XML forbids, and characters that end a part of an XML document. */
+/** Characters that XML forbids, and character sequences that end a comment, a CDATA section or an element. */
 const HOSTILE_TEXT = ']]> --> <!-- <![CDATA[ </svg><script>alert(1)</script> & &amp; " \u0027 \u0000\u0001\u0008\u000b\u000c\u001f\ufffe\uffff \ud800 \udc00 \u{1f916} é';
 
 /** Returns a text with the replacements that an export to SVG makes. @param {string} text */

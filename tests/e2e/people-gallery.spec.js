@@ -12,7 +12,7 @@ test('examples on the reference page start when they are opened, and match the c
   for (const exampleSection of await exampleSections.all()) {
     const exampleFigure = exampleSection.locator('banana-machine, map-squeeze');
     expect(await exampleFigure.evaluate((figureElement) => Reflect.get(figureElement, 'simulation') === undefined)).toBe(true);
-    // The attributes are read before the figure starts. A starting figure adds attributes if its settings match no preset.
+    // The attributes are read before the figure starts, because a starting figure adds attributes if its settings match no preset.
     const figureAttributes = await exampleFigure.evaluate((figureElement) => Object.fromEntries([...figureElement.attributes].map(({ name, value }) => [name, value])));
     await exampleSection.locator('summary').first().click();
     await exampleFigure.locator('canvas').first().scrollIntoViewIfNeeded();
@@ -27,7 +27,7 @@ test('examples on the reference page start when they are opened, and match the c
   }
 });
 
-/** Settings of gallery items that belong to no preset. */
+/** Settings that gallery items set in addition to the settings of a preset. */
 const KEYS_OUTSIDE_PRESETS = ['preset', 'samples', 'overlays', 'line', 'morph'];
 
 testEach('each gallery item sets its complete state, independent of items pressed before', async (page, name) => {

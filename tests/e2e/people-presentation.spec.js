@@ -4,7 +4,7 @@ import { REDUCED_MOTION, readBox, readCentre, waitForFrames, mountFigure, showPa
 
 test.use({ ...REDUCED_MOTION, viewport: { width: 1920, height: 1080 } });
 
-/** Returns true if a presented figure fits without scrolling. @param {import('@playwright/test').Locator} widget */
+/** Returns true if a figure in presentation mode fits without scrolling. @param {import('@playwright/test').Locator} widget */
 const fitsSurface = (widget) => widget.locator('.surface').evaluate((element) => element.scrollHeight <= element.clientHeight && element.scrollWidth <= element.clientWidth);
 
 test('the button presents the figure in full screen, C shows the controls, and Escape ends the presentation', async ({ page }) => {
@@ -46,7 +46,7 @@ test('if full screen is refused, a presented figure fills the window, and the bu
   const boxBefore = await readBox(widget);
   await widget.evaluate((element) => void Object.assign(element, { presentation: true }));
   await expect.poll(() => readBox(widget)).toEqual({ x: 0, y: 0, width: 1920, height: 1080 });
-  // A handle stays under the pointer at any font size.
+  // A dragged handle stays under the pointer at any font size.
   const arcEndHandle = widget.getByRole('slider', { name: 'End of the commanded arc' });
   await waitForFrames(page);
   const centreBefore = await readCentre(arcEndHandle);

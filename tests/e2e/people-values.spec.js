@@ -23,7 +23,7 @@ test('a digit typed on a slider edits its value, Enter returns to the slider, an
   await expect(alpha1Slider).toHaveAttribute('aria-valuetext', '0.400');
   await expect(helpOf(widget, 'alpha1')).toHaveText('Ends at 0.200; type values beyond.');
   await expect(helpOf(widget, 'alpha1')).toBeVisible();
-  // An arrow key starts from the end of the slider, not from the typed value beyond the end.
+  // An arrow key starts from the end of the slider's range, even if the typed value is beyond this end.
   await page.keyboard.press('ArrowLeft');
   expect(await readProperty(widget, 'alpha1')).toBeLessThan(0.2);
   await page.keyboard.press('End');

@@ -47,7 +47,7 @@ export function createRandomStates(seed) {
       start: { x: drawNumber(1, 5), y: drawNumber(1, 3), theta: drawNumber(-3, 3) },
       alphas: drawAlphas(6),
       clearance: drawNumber(0, 0.2),
-      // The sampler 'whole-arc' finds all samples under any other settings. Settings can therefore be applied in any order.
+      // With the sampler 'whole-arc' no combination of other settings is refused. Settings can therefore be applied in any order.
       sampler: 'whole-arc',
       steps: drawInteger(1, 64),
       view: drawItem(['whole', 'close']),
@@ -104,7 +104,7 @@ export function createRandomStates(seed) {
     },
   };
   return Object.fromEntries(Object.entries(fieldsByTag).map(([widgetTag, stateFields]) => {
-    // A keyword setting may have each of its words, and a Boolean setting both values.
+    // Each keyword setting gets one of its allowed words, and each Boolean setting gets true or false.
     const settingChoices = settings[widgetTag].flatMap(({ key, type, words = [true, false] }) => (['word', 'boolean'].includes(type) ? [[key, drawItem(words)]] : []));
     return [widgetTag, { version: 1, widget: widgetTag, ...Object.fromEntries(settingChoices), ...stateFields }];
   }));

@@ -47,7 +47,7 @@ test('with a title and a caption, loading the script does not move the text belo
   const textBelow = page.locator('#after');
   const readTextTop = async () => (await readBox(textBelow)).y;
   await textBelow.waitFor();
-  // The first frame comes after the stylesheet, which reserves the height of the figure.
+  // The first frame is drawn after the stylesheet is loaded, which reserves the height of the figure.
   await waitForFrames(page);
   const topBefore = await readTextTop();
   allowScript();

@@ -26,7 +26,7 @@ import { ALL_FIGURE_NAMES, CLOUD_FIGURE_NAMES, HANDLE_FIGURE_NAMES, chooseFigure
  */
 
 /**
- * Test that fails on any warning or error in the console.
+ * Playwright's test function, extended by the fixtures, and by a failure on any warning or error in the console.
  *
  * @type {import('@playwright/test').TestType<import('@playwright/test').PlaywrightTestArgs & import('@playwright/test').PlaywrightTestOptions & FigureFixtures, import('@playwright/test').PlaywrightWorkerArgs & import('@playwright/test').PlaywrightWorkerOptions>}
  */
@@ -76,7 +76,7 @@ function skipIntroduction() {
   }
 }
 
-/** Tag of tests of a first visit or of the browser history. Such tests get a new page, see playwright.config.js. */
+/** Tag of tests of a first visit or of the browser history. Each of these tests gets a new page, see playwright.config.js. */
 export const NEW_PAGE_TAG = { tag: '@fresh' };
 
 /** Options of tests that need a complete cloud. With reduced motion a cloud is complete at once. */
@@ -228,8 +228,8 @@ export async function openBanana(page, attributes = '') {
 }
 
 /**
- * Pauses the first figure with this name after one step of its cloud's growth. The code runs in the page, because code of the test could be
- * too late.
+ * Pauses the first figure with this name after one step of its cloud's growth. The code runs in the page, because a call from the test
+ * could come too late.
  *
  * @param {Page} page which is opened later
  * @param {string} name of the widget
@@ -345,7 +345,7 @@ export async function readColours(coloredPart, colorRoles) {
     const colorContext = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true }));
     return roleNames.map((name) => {
       const colourSwatch = document.createElement('span');
-      // In forced colours a figure keeps the hues of its colour roles. The swatch keeps them only with this property.
+      // In forced colours a figure keeps the hues of its colour roles. The swatch needs `forced-color-adjust: none` to keep them too.
       colourSwatch.style.cssText = `color: var(--${name}); forced-color-adjust: none`;
       (element.shadowRoot?.querySelector('.surface') ?? element).append(colourSwatch);
       // The canvas converts a colour of any notation to numbers.

@@ -57,7 +57,7 @@ function checksOf({ definition, serving }) {
 /** Collects errors and warnings of the console and failed requests of a page. @param {Page} page @param {string[]} messages */
 export function recordMessages(page, messages) {
   page.on('console', (message) => {
-    // The events requestfailed and response have the addresses of failed requests.
+    // This message does not name the address. The events requestfailed and response do, and are recorded below.
     if (/^Failed to load resource/.test(message.text())) return;
     if (['error', 'warning', 'assert'].includes(message.type())) messages.push(message.text());
   });
@@ -138,7 +138,7 @@ async function checkAwayAndBack(page, site) {
  */
 async function checkFromOtherPage(page, site) {
   await page.goto(addressOf(site, site.definition.pages.second ?? ''));
-  // The platform's script handles links only after it has loaded. By then the network is idle.
+  // The platform handles clicks on links only after its script has loaded. The network is idle then.
   await page.waitForLoadState('networkidle');
   await followLink(page, site, 'first');
   await untilLive(page, site);

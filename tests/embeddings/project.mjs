@@ -26,7 +26,7 @@ import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
  * @property {Serving[]} servings ways to serve the site; the first is that for users
  * @property {{ first: string, second?: string }} pages paths; the first has the figures
  * @property {(page: import('@playwright/test').Page, path: string) => Promise<unknown>} [goToPage] clicks a link to a path,
- *   or to "first" or "second" where both have one address
+ *   or to "first" or "second" if both pages have the same address
  * @property {(page: import('@playwright/test').Page, isDark: boolean) => Promise<unknown>} [setDarkMode] turns dark mode on or off
  * @property {ExpectedFigure[]} expectedFigures figures that the example contains
  * @property {{ message: RegExp, reason: string }[]} [allowedMessages] messages of the console that the platform causes
@@ -161,8 +161,8 @@ function createTools(directory, toolEnvironment) {
 const KEPT_NAMES = ['node_modules', '.venv', '.installed'];
 
 /**
- * Makes a fresh copy of a platform's example with the package installed. The installation is kept until the example's pins, or
- * the package, change.
+ * Makes a fresh copy of a platform's example with the package installed. The installation is kept until the pinned versions or the package
+ * change.
  *
  * @param {string} name
  * @param {Platform} platformDefinition

@@ -44,7 +44,7 @@ export const serveByProgram = (commandOf, base = '/') => async (directory, { sta
     await platformServer.stop();
     throw error;
   }
-  // From here on, an end of the server is no error.
+  // After the server has answered, the end of its process is not an error.
   earlyEndPromise.catch(() => {});
   return { url, stop: platformServer.stop };
 };
@@ -63,7 +63,7 @@ async function untilAnswered(url) {
     const lastStatus = await fetch(url, { signal: AbortSignal.timeout(TIMEOUT_SECONDS * 1000) }).then(({ status }) => status, String);
     if (lastStatus === 200) return;
     if (Date.now() > answerDeadline) throw new Error(`${url} has not answered for ${TIMEOUT_SECONDS} s; the last was ${lastStatus}.`);
-    // A server fires no event when it begins to listen.
+    // A server sends no event when it begins to listen, so that it must be polled.
     await new Promise((resolve) => setTimeout(resolve, 200));
   }
 }
@@ -75,8 +75,8 @@ async function untilAnswered(url) {
  * @param {string[]} commandArguments
  * @param {{ env?: Record<string, string>, cwd?: string }} [options]
  * @returns {{ getOutput: () => string, waitForOutput: (pattern: RegExp) => Promise<string>, whenEnded: Promise<void>, stop: () => Promise<void> }}
- *   `output` returns the text printed so far; `waitForOutput` waits for a match of a pattern and returns its first group; both other
- *   promises are resolved when the program has ended
+ *   `getOutput` returns the text printed so far; `waitForOutput` waits for a match of a pattern and returns its first group;
+ *   `whenEnded`, and the promise of `stop`, are resolved when the program has ended
  */
 export function startProgram(command, commandArguments, { env = {}, cwd = ROOT } = {}) {
   const childProcess = spawn(command, commandArguments, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'], detached: true });

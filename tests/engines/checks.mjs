@@ -1,5 +1,5 @@
 /**
- * Checks of every browser engine: the bits of the results, and the reactions of the page to a user.
+ * Checks that run in every browser engine: results must be equal to the last bit, and the page must react to a user.
  *
  * @module
  */
@@ -175,7 +175,7 @@ async function checkHandleKeys(page, tag, { name }) {
   assert.notEqual(hash, hashBefore, 'Nothing has moved.');
 }
 
-/** Moves each slider by keys, and compares its value. @type {(page: BrowserPage, tag: string) => Promise<void>} */
+/** Moves each slider by keys, and compares the setting with the expected value. @type {(page: BrowserPage, tag: string) => Promise<void>} */
 async function checkSliderKeys(page, tag) {
   await page.open(tag);
   await page.callInPage('renderAfterInputs', tag);

@@ -11,8 +11,8 @@ import { toPascalCase } from '../../scripts/declarations.mjs';
  * @typedef {object} Handle
  * @property {string} name class of its element
  * @property {number[]} target position to which it is dragged, m
- * @property {(simulation: any, target: number[]) => number[]} positionOf position of the handle by the simulation's settings after
- *   the drag to `target`
+ * @property {(simulation: any, target: number[]) => number[]} positionOf computes the position of the handle from the simulation's
+ *   settings after the drag to `target`
  */
 
 /** Handles of the figures by tag. Two figures have no handles. @type {Record<string, Handle[] | undefined>} */

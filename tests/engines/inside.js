@@ -30,7 +30,7 @@ export async function untilSettled(tag) {
   // A browser reports that a figure has come into view in a later frame.
   for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
   await figureElement.settled;
-  // The statistics of some figures count attempts, and other figures have no samples.
+  // The number of samples is `n`, or in some figures the number of attempts. It is 0 for figures without samples.
   return { statisticsCount: figureElement.stats?.n ?? figureElement.stats?.attempts ?? figureElement.stats?.drawn ?? 0, requestedCount: figureElement.samples ?? 0 };
 }
 
@@ -96,7 +96,7 @@ export function sliderStatesOf(tag) {
     .map((slider) => {
       const { id, value, step, max } = /** @type {HTMLInputElement} */ (slider);
       const sliderPosition = Number(value);
-      // The id of a slider in a chart is not the name of a setting.
+      // The id of a slider in a chart is not the name of a setting. The setting's value is then the slider's position.
       const settingValue = { [id]: sliderPosition, ...figure.getState() }[id];
       return { key: id, value: figure[id] ?? settingValue, position: sliderPosition, step: Number(step), end: Number(max) };
     });

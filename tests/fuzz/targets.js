@@ -21,7 +21,7 @@ import { createFile, catchRefusalMessage } from '../node/map-support.js';
 
 /**
  * @typedef {object} Target
- * @property {Uint8Array[]} corpus valid inputs, most of them
+ * @property {Uint8Array[]} corpus inputs, most of them valid
  * @property {(bytes: Buffer<ArrayBuffer>) => Promise<boolean>} run
  */
 
@@ -66,7 +66,7 @@ async function areFilesAccepted(...mapFiles) {
   return false;
 }
 
-/** Returns true if the core accepts the value, and checks the message of a refusal. @param {() => void} passValue */
+/** Returns true if a call of the core succeeds. If the core refuses the call, checks the message. @param {() => void} passValue */
 function isAccepted(passValue) {
   try {
     passValue();
@@ -118,7 +118,7 @@ async function createRecordings() {
 function clearChecksums(recordingBytes) {
   const [CHUNK_CODE, FOOTER_CODE] = [6, 2];
   for (let i = 8; i + 9 < recordingBytes.length; i += 9 + Number(recordingBytes.readBigUInt64LE(i + 1))) {
-    // The checksum of an MCAP chunk follows two times and a size. The checksum of the footer follows two file positions.
+    // The checksum of an MCAP chunk follows two timestamps and a size. The checksum of the footer follows two file positions.
     const checksumOffset = { [CHUNK_CODE]: 24, [FOOTER_CODE]: 16 }[recordingBytes[i]];
     if (checksumOffset) recordingBytes.writeUInt32LE(0, i + 9 + checksumOffset);
   }

@@ -1,4 +1,4 @@
-// The baseline of `npm run bench` computes what the core computes.
+// The JavaScript baseline of `npm run bench` computes the same results as the core.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

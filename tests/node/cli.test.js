@@ -140,7 +140,7 @@ test('invalid input gives exit code 2 and an error message', async () => {
     [[...LOG_ARGS, '--time-unit', 'min'], '--time-unit must be s, ms, us, or ns, or FILE=s for one file (got “min”).'],
     [[...LOG_ARGS.slice(0, 2), '--reference', join(temporaryFolder, 'no.csv')], `${join(temporaryFolder, 'no.csv')}: there is no such file or folder.`],
     [[...LOG_ARGS, '--plot', join(temporaryFolder, 'no', 'plot.svg')], '--plot '],
-    // Error messages of the core name options and files of the command line.
+    // Error messages of the core are adapted to the command line: they name its options and files.
     [[...LOG_ARGS, '--update-min-d=-1'], '--update-min-d is -1; allowed is '],
     [[...LOG_ARGS, '--reference-position-std=-1'], '--reference-position-std is -1; allowed is '],
     [[...LOG_ARGS.slice(0, 2), '--reference', straightLogPath], 'odometry.csv and straight.csv: odometry and reference have no time in common, and their turn rates correlate at no clock offset; '],
@@ -237,7 +237,7 @@ test('a database journal next to a recording is reported, unless the journal is 
     const { exitCode, stderr } = await runCalibrate(['--odometry', writeInFolder('odometry.db3', readFileSync(examplePathOf('odometry'))), ...LOG_ARGS.slice(2)]);
     assert.deepEqual([exitCode, stderr.split(' with')[0]], [0, expectedMessage]);
   }
-  // All messages of the recording are in the journal of the database.
+  // The database file is empty: all messages of the recording are still in its write-ahead journal.
   const databasePath = writeInFolder('run.db3', 'SQLite format 3\0');
   writeInFolder('run.db3-wal', Buffer.from('377f0682', 'hex'));
   for (const jsonArgs of [[], ['--json']]) {
@@ -279,7 +279,7 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
   const plotPath = join(temporaryFolder, 'plot.svg');
   assert.equal((await runCalibrate([...LOG_ARGS, '--plot', plotPath])).exitCode, 0);
   assert.match(readFileSync(plotPath, 'utf8'), /^<svg xmlns=/);
-  /** Returns a drive of ten seconds along x. Its odometry leads along y, and begins half a second earlier. @returns {any} */
+  /** Returns a drive of ten seconds. The reference leads along x. The odometry leads along y, and begins half a second earlier. @returns {any} */
   const createDriveAt = (/** @type {number} */ startTime) => {
     const drivePositions = Float64Array.from({ length: 101 }, (_, i) => i / 10);
     const createLog = (/** @type {string} */ logRole, /** @type {number} */ delay, /** @type {Float64Array} */ x, /** @type {Float64Array} */ y) => ({ name: `${logRole}${startTime}.csv`, data: { t: drivePositions.map((t) => startTime + t + delay), x, y, theta: drivePositions, breaks: [] } });
@@ -291,7 +291,7 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
   assert.deepEqual(panelSvgs.map((panelSvg) => panelSvg.split('<')[0]), ['odom0.csv and truth0.csv: 2 legs, 1 outlier', 'odom20.csv and truth20.csv: 1 legs, 0 outliers']);
   for (const panelSvg of panelSvgs) {
     for (const labelPattern of [/>x \(m\)</, />y \(m\)</, />odometry, aligned</]) assert.match(panelSvg, labelPattern);
-    // The pixels of two axis marks are compared with the pixels of the ends of paths.
+    // The pixel positions of two axis marks are compared with those of the ends of the drawn paths.
     const [axisLeft, axisMiddle] = ['0', '5'].map((axisMark) => Number(RegExp(`<text x="([\\d.]+)" [^>]*text-anchor="middle"[^>]*>${axisMark}<`).exec(panelSvg)?.[1]));
     const axisRight = 2 * axisMiddle - axisLeft;
     const isNear = (/** @type {number} */ x, /** @type {number} */ expectedX) => Math.abs(x - expectedX) < 2;

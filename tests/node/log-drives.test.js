@@ -1,4 +1,4 @@
-// Drives: the guess which logs are odometry and reference, the pairing of logs, checks of two logs, and summaries.
+// Plans of drives. A drive is an odometry log with its reference log. The tests check which logs are chosen and paired, and summaries.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -18,7 +18,7 @@ const SERIES_TYPE_AND_KIND = /** @type {const} */ ({
 });
 
 /**
- * Returns a recording with series that are never read.
+ * Returns a recording with series (topics or tables) whose rows are never read.
  *
  * @param {Record<string, keyof typeof SERIES_TYPE_AND_KIND>} kindsBySeries types by name
  * @param {Partial<Recording>} [moreFields]
@@ -39,12 +39,12 @@ const createRecording = (kindsBySeries, moreFields, framePairs = []) => ({
 /** Returns the choice of a series and its frames as text. @param {import('../../www/logs/log.ts').LogChoice | undefined} choice */
 const choiceTextOf = ({ series, frames } = { series: '' }) => (frames ? `${series} ${frames.parent} ${frames.child}` : series);
 
-/** Plans drives. If the plan is refused, the promise is rejected. @param {Recording[]} recordings @param {import('../../www/logs/drives.ts').UserChoices} [userChoices] */
+/** Plans drives (pairs of logs), or rejects the promise. @param {Recording[]} recordings @param {import('../../www/logs/drives.ts').UserChoices} [userChoices] */
 const planDrivesAsync = async (recordings, userChoices) => planDrives(recordings, userChoices);
 
 /**
- * Cases with a single answer. Each has the series of a recording, the expected odometry and reference, the frames in /tf, and the user's
- * options.
+ * Recordings with a single plausible choice of odometry and reference. Each has the series of a recording, the expected odometry and
+ * reference, the frames in /tf, and the user's options.
  * @type {[Parameters<typeof createRecording>[0], string, string, string[]?, any?][]}
  */
 const UNAMBIGUOUS_ROLE_CASES = [
@@ -108,12 +108,12 @@ test('ambiguous roles lead to a question', async () => {
 
 test('several recordings are separate drives, or each contains one log of the same drive', async () => {
   const recordingWithBothLogs = createRecording({ '/odom': 'odometry', '/mocap': 'pose' });
-  /** Returns the series that are read of each recording. @param {Parameters<typeof planDrives>} planArguments */
+  /** Returns the series that are chosen from each recording: odometry and reference. @param {Parameters<typeof planDrives>} planArguments */
   const plannedSeriesOf = (...planArguments) => planDrives(...planArguments).map(({ choices: { odometry, reference } }) => [odometry?.series, reference?.series]);
   assert.deepEqual(plannedSeriesOf([recordingWithBothLogs, recordingWithBothLogs]), [['/odom', '/mocap'], ['/odom', '/mocap']]);
   assert.deepEqual(plannedSeriesOf([createRecording({ '/mocap': 'pose' }), createRecording({ '/odom': 'odometry', '/cmd_vel': 'twist' })]), [['/odom', undefined], [undefined, '/mocap']]);
   assert.deepEqual(plannedSeriesOf([recordingWithBothLogs, createRecording({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]), [['/odom', undefined], [undefined, '']]);
-  // A recording without odometry and reference is left out, unless the user chose it for one of these roles.
+  // A recording that has neither odometry nor reference is left out, unless the user chose it for one of these roles.
   const cameraRecording = createRecording({ '/image': 'text' }, { name: 'camera.mcap' });
   const skippedMessages = /** @type {string[]} */ ([]);
   assert.deepEqual(plannedSeriesOf([cameraRecording, recordingWithBothLogs], {}, ({ message }) => void skippedMessages.push(message.slice(0, 48))), [['/odom', '/mocap']]);

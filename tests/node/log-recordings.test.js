@@ -71,7 +71,7 @@ test('topics are listed, and logs of topics and of chains of frames are read in 
   assertAllClose(odometryData.t, (i) => i / 20);
   // Messages of a type without a stamp have the time of recording.
   assertAllClose(commandData.t, (i) => i / 20 + 0.01);
-  // The chain has the drifting odom frame and a static transform, which is recorded last. The frame base_link is half a metre ahead.
+  // The chain of transforms contains the drifting odom frame, and a static transform that is recorded last. base_link is 0.5 m ahead.
   assertAllClose(mapToBase.t, (i) => i / 20);
   assertAllClose(mapToBase.x, (i) => 1 - i / 200 - 0.5 * Math.sin(i / 50));
   assertAllClose(mapToBase.y, (i) => 2 + i / 100 + 0.5 * Math.cos(i / 50));
@@ -154,7 +154,7 @@ test('a static transform is valid from the beginning, and a changing transform f
     return [data.t.length, start + data.t[0], /** @type {any} */ (data).x[0], summary.rows];
   };
   assert.deepEqual(await readLogWithMount(() => 0.5), [60, 0, 0.5, 60]);
-  // A static transform may be published again with another value. The times of this transform are not times of poses.
+  // A static transform may be published again with another value. Its times are not times of the pose.
   const staticTransformMessages = [0, 3].map((t) => ({ topic: '/tf_static', type: TF_TYPE, t, message: { transforms: [transformMessageOf(t, 'base', 'laser', t, 0, 0)] } }));
   const recalibratedFile = mcapFileOf(await recordingOf([...createTransformMessages(() => 0.5), ...staticTransformMessages].sort((messageA, messageB) => messageA.t - messageB.t)));
   const { data: { t } } = await readLog(recalibratedFile, { series: '/tf', frames: { parent: 'world', child: 'laser' } });

@@ -48,7 +48,7 @@ test('unusable rows are dropped and interrupt the path; the summary names the fi
   assert.deepEqual([[...data.t], [...data.breaks]], [[0, 3, 4, 6, ...createTimes(90, 8), 18], [1, 3, 4, 94]]);
   assert.deepEqual(dropped, { notFinite: { count: 4, first: 3 }, short: { count: 3, first: 11 }, text: { count: 1, first: 103 }, duplicate: { count: 1, first: 6 } });
   assert.deepEqual([count, notes], [tableRows.length, [{ name: 'cutShort', values: [] }]]);
-  // A last number with fewer decimals than all others is cut off, if no line break follows.
+  // If the last number has fewer decimals than all others, and no line break follows, the number is taken for truncated.
   const cutShortCounts = ['0.1', '0.1\n', '0.25'].map(async (lastYaw) => (await readTable(`t,x,y,yaw\n${createTimes(30).map((t) => `${t},0,0,0.25\n`).join('')}99,0,0,${lastYaw}`)).summary.notes.length);
   assert.deepEqual(await Promise.all(cutShortCounts), [1, 0, 0]);
 });
@@ -75,7 +75,7 @@ test('a shuffled log is sorted, but a log with alternating times of two clocks i
     assert.deepEqual([[...data.x], [...data.breaks], summary.used], [CIRCLE_ROWS.map(([, x]) => x), [], rowLines.length]);
     assert.ok(summary.notes[0].name === 'sorted' && Number(summary.notes[0].values[0]) > rowLines.length / 8, JSON.stringify(summary.notes));
   }
-  // Stamps vary by a fifth of a step, and every third row comes late.
+  // Times of rows vary by a fifth of a step, and every third row comes late.
   const jitteredRows = CIRCLE_ROWS.map(([t, ...poseCells], i) => [t + ((rowOrder[i] % 21) - 10) / 1000, ...poseCells]);
   const lateTable = jitteredRows.map((_, i) => i).toSorted((index, otherIndex) => index + (index % 3 ? 0 : 3.5) - otherIndex - (otherIndex % 3 ? 0 : 3.5)).map((i) => jitteredRows[i].join(','));
   assert.deepEqual([...(await readTable([header, ...lateTable].join('\n'))).data.x], CIRCLE_ROWS.map(([, x]) => x));
@@ -91,7 +91,7 @@ test('a log whose clock was set back is refused', async () => {
     const refusalSentence = await catchRefusalSentence(readTable(createStraightTable([...firstTimes, ...nextTimes])));
     assert.match(refusalSentence, RegExp(`^run\\.csv, line ${expectedLine}: times go back by ${expectedSeconds} s and repeat those before; split the file there, give one recording only, or write fractions with their leading zeros .*\\.$`));
   }
-  // If one recording is given twice, its rows are used once.
+  // If a table contains the same recording twice, the rows of the second copy are left out.
   const twiceGiven = createStraightTable(createTimes(50));
   assert.equal((await readTable(twiceGiven + twiceGiven.slice(twiceGiven.indexOf('\n')))).data.t.length, 50);
 });
@@ -142,8 +142,8 @@ test('pauses and jumps are found, and a heading that wraps around is not a jump'
 test('ordinary logs are not mistaken for two paths or for another unit', async () => {
   const wrapAngle = (/** @type {number} */ angle) => Math.atan2(Math.sin(angle), Math.cos(angle));
   for (const tableText of [
-    // Tables with few rows per lap, vibrations, a single pose elsewhere, a robot that reverses on a curve, a car, and a unit in a column
-    // name.
+    // The tables have few rows per lap, vibrations, a single distant pose, a robot that reverses on a curve, a car, and a column name with
+    // a unit.
     circleTableOf((_, i) => [2 * i, Math.sin(i), -Math.cos(i), wrapAngle(i)]),
     circleTableOf(([t, , , yaw], i) => [t, (i % 2) / 25, 0, yaw]),
     circleTableOf(([t], i) => (i < 10 ? [t, i === 4 ? 5 : 0, 0, 0] : [])),

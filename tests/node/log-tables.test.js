@@ -159,7 +159,7 @@ for (const { name, tableText, kind = 'poses', start = 0, series = [''], choice, 
     assert.equal(t.length, CIRCLE_ROWS.length);
     for (const row of CIRCLE_ROWS) {
       assert.equal(log.start - start + t[row.i], row.t);
-      // Conversion from other units or from quaternions rounds values, by up to 1.25 in the last place.
+      // Conversion from other units or from quaternions rounds values, by up to 1.25 units in the last place.
       for (const fieldName of fieldNames) assert.ok(Math.abs(columns[fieldName][row.i] - row[fieldName]) <= Number.EPSILON, `${fieldName} ${columns[fieldName][row.i]} ${row[fieldName]}`);
     }
     const summaryLines = summarySentencesOf(log, english.found);

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { findWallContact, gripsOf, moveWall } from '../../www/widgets/map-squeeze/walls.ts';
 
-/** Room of 6 m × 4 m. A wall at x = 3 has a doorway, and another wall ends at the part below the doorway. */
+/** Room of 6 m × 4 m. A wall at x = 3 has a doorway. Another wall ends at the lower part of the wall with the doorway. */
 const ROOM_BOUNDS = Float64Array.of(0, 0, 6, 4);
 const OUTER_WALLS = [0, 0, 6, 0, 6, 0, 6, 4, 6, 4, 0, 4, 0, 4, 0, 0];
 const WALLS = Float64Array.of(...OUTER_WALLS, 3, 0, 3, 1.5, 3, 2.5, 3, 4, 0, 1, 3, 1);

@@ -1,4 +1,4 @@
-// Module for notebooks (anywidget). The trait models of the tests are those of Jupyter notebooks and MyST books.
+// Module for notebooks (anywidget). The tests use models with the methods of models in Jupyter notebooks and in MyST books.
 
 import assert from 'node:assert/strict';
 import { join } from 'node:path';

@@ -13,7 +13,7 @@ const pathOf = (/** @type {string} */ repositoryPath) => join(ROOT, repositoryPa
 /** Report of esbuild on each written file, by the path from the root. @type {Record<string, { entryPoint?: string, imports: { path: string, kind: string }[] }>} */
 const esbuildOutputs = JSON.parse(readFileSync(pathOf('build/outputs.json'), 'utf8'));
 
-/** Returns a module with its static imports, which a browser loads together. Dynamic imports are left out. @param {string} path */
+/** Returns the paths of a module and of its static imports, which a browser loads together. Dynamic imports are left out. @param {string} path */
 function loadedFilesOf(path) {
   const loadedPaths = new Set([path]);
   for (const loadedPath of loadedPaths) {

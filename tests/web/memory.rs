@@ -13,7 +13,7 @@ fn memory_size_in_bytes() -> u32 {
     wasm_memory.buffer().unchecked_into::<ArrayBuffer>().byte_length()
 }
 
-/// Constructor calls, each with an expression that reads the object.
+/// Constructor calls, each with a property or call that accesses the object's memory.
 const CLASSES_AND_READS: [(&str, &str); 8] = [
     ("BananaMachine({ samples: 20_000 })", "stats"),
     ("MapSqueeze({ samples: 20_000 })", "stats"),

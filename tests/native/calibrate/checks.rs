@@ -89,7 +89,7 @@ fn a_reference_that_turns_the_other_way_is_recognized_at_any_clock_offset() {
     }
 }
 
-/// A loop takes 20 s, and the clocks differ by as much. Without a clock offset the robot turns right where the reference turns left.
+/// A loop takes 20 s, and the clocks also differ by 20 s. Without a clock offset the robot turns right where the reference turns left.
 #[test]
 fn a_drive_along_an_eight_is_not_called_mirrored() {
     let sim = Simulation {
@@ -108,7 +108,7 @@ fn a_drive_along_an_eight_is_not_called_mirrored() {
     assert!(!failed_check_names_of(&calibration).contains(&ReferenceMatches));
 }
 
-/// The drives differ by twice the drive, as do the turns of a mirrored reference.
+/// This reference differs from the odometry by twice the driven distance, just as a mirrored reference differs by twice the turns.
 #[test]
 fn a_reference_three_times_as_long_is_not_called_mirrored() {
     let sim = new_passing_simulation(600, 1);
@@ -124,8 +124,8 @@ fn a_reference_three_times_as_long_is_not_called_mirrored() {
 
 #[test]
 fn a_copy_of_the_odometry_is_no_reference() {
-    // These references are copies of the odometry in another frame, with lengths scaled by 1.02, times delayed by 0.1 s, and rounded
-    // coordinates.
+    // Each reference is a copy of the odometry in another frame. Its lengths are scaled by 1.02, its times are delayed by 0.1 s, and its
+    // coordinates are rounded.
     for (leg_count, decimal_count) in [(600, 6), (600, 3), (250, 3), (600, 2), (250, 2)] {
         let sim = new_passing_simulation(leg_count, 1);
         let [odometry, _] = sim.log();
@@ -227,8 +227,7 @@ fn violations_of_the_model_are_reported() {
     }
 }
 
-/// A jump of 10 m is fitted as noise. The fit to the half of the log without the jump predicts too little noise. No inflation of its α's
-/// covers the half with the jump.
+/// The fit to the half without the jump predicts too little noise. No inflation of the α's of this fit covers a jump of 10 m.
 #[test]
 fn a_log_that_no_inflation_covers_is_unusable() {
     let sim = new_passing_simulation(600, 12);

@@ -122,8 +122,8 @@ fn too_few_legs_are_refused() {
     assert!(matches!(calibration_result, Err(CalibrateError::TooFewLegs { legs: 6 | 7 })));
 }
 
-/// A mount yaw of 0.07 rad changes each rotation of a leg by 0.07 rad. On legs of a quarter of a metre this has the effect of an α₂ of 0.08,
-/// and of a larger α₂ on shorter legs with turns. If the noise of the reference is estimated, it absorbs the error instead of α₂.
+/// A mount yaw of 0.07 rad changes each rotation of a leg by 0.07 rad. On legs of a quarter of a metre this has the effect of an α₂ of
+/// 0.08, and of a larger α₂ on shorter legs with turns. If the noise of the reference is estimated, the estimate increases instead of α₂.
 #[test]
 fn an_uncorrected_error_appears_as_noise_of_the_wheels_or_of_the_reference() {
     let simulation = simulation_with_errors(NAV2, 600, Systematic { mount_yaw: 0.07, ..Systematic::NONE });
@@ -215,8 +215,8 @@ fn errors_of_a_robot_without_noise_are_exact() {
     }
 }
 
-/// The reference has half the rate of the odometry, so that legs end between steps of the odometry. The noise of a split step is in the
-/// residuals and in the velocities. It must not bias the clock offset.
+/// The reference has half the rate of the odometry, so that legs end between steps of the odometry. The noise of a split step affects both
+/// the residuals and the velocities. This correlation must not bias the clock offset.
 #[test]
 fn noise_of_the_odometry_does_not_bias_the_clock_offset() {
     const CLOCK_OFFSET: f64 = 0.06;

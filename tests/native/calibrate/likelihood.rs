@@ -1,4 +1,4 @@
-//! The restricted likelihood, compared with a reference from a dense covariance matrix, and its maximum.
+//! The restricted likelihood and its maximum, compared with a likelihood that is computed from a dense covariance matrix.
 
 use super::simulated::{MODELS, Simulation, Violation};
 use super::{NAV2, calibrate_log, calibrate_simulation, options_of};
@@ -300,8 +300,8 @@ fn the_noise_of_the_reference_maximizes_the_likelihood() {
     }
 }
 
-/// The reference jumps by half a metre and back. If its jumps are kept, a fit without noise of the reference is a smaller maximum of the
-/// likelihood.
+/// The reference jumps by half a metre and back. If the legs with the jumps are kept, the likelihood has a lower, local maximum at zero
+/// reference noise.
 #[test]
 fn the_search_finds_the_larger_of_two_maxima() {
     let Drive { odometry, reference } = simulate_log(3);

@@ -70,8 +70,8 @@ fn rounding_does_not_decide_where_a_leg_ends() {
     assert_eq!(leg_end_times_with(|exact_heading| (exact_heading * 1e6).round() / 1e6), exact_leg_times);
 }
 
-/// A leg normally has five steps. A leg with a pause of six steps after its first step is 0.44 m long. With the pause after the fourth
-/// step it would be 0.63 m long, more than twice the requested length, and is lost.
+/// A leg normally has five steps. A leg with a pause of six steps after its first step is 0.44 m long. With the pause after the fourth step
+/// it would be 0.63 m long, more than twice the requested length, and is left out.
 #[test]
 fn a_leg_leads_across_a_pause_if_it_stays_short_enough() {
     let drive = new_straight_drive(101, 0.0625);
@@ -85,12 +85,12 @@ fn a_leg_leads_across_a_pause_if_it_stays_short_enough() {
             leg_across_pause.map(|leg| leg.times[1]),
             (lost_across_pauses == 0).then_some(times_of(&drive)[next_leg_row])
         );
-        // A leg after a lost leg does not follow the previous leg of the list.
+        // A leg after an omitted leg is not marked as the successor of the previous leg in the list.
         let next_leg =
             legs.iter().find(|leg| leg.times[0] == times_of(&drive)[next_leg_row]).expect("it goes on");
         assert_eq!(next_leg.follows, lost_across_pauses == 0);
     }
-    // If the reference lacks rows between the ends of a leg, the leg is not lost.
+    // If the reference lacks only rows between the ends of a leg, the leg is kept.
     let (legs, lost_legs) = split_into_legs(&drive, &remove_rows_between(&drive, 30, 35), AMCL_LENGTH, 0.0);
     assert_eq!((legs, lost_legs), split_into_legs(&drive, &drive, AMCL_LENGTH, 0.0));
 }
@@ -128,7 +128,7 @@ fn no_leg_leads_across_a_break() {
         break_rows.into_iter().any(contains_row)
     };
     let kept_legs: Vec<Leg> = all_legs.iter().filter(|leg| !spans_break(leg)).copied().collect();
-    // A break of the reference removes the legs across it, and no others.
+    // A break of the reference removes only the legs that contain the break.
     let (legs, lost_legs) = split_into_legs(&drive, &drive_with_breaks, AMCL_LENGTH, 0.0);
     assert_eq!(times_of_legs(&legs), times_of_legs(&kept_legs));
     let lost_across_breaks = all_legs.len() - kept_legs.len();
@@ -138,7 +138,7 @@ fn no_leg_leads_across_a_break() {
     assert!(legs.len() > 25 && !legs.iter().any(spans_break));
     assert_eq!(lost_legs, LostLegs { across_breaks: 4, ..LostLegs::default() });
     assert!([17, 34, 70].iter().all(|row| legs.iter().any(|leg| leg.times[0] == times_of(&drive)[*row])));
-    // There is no pose between the rows of a break, and no break before the first row or after the last.
+    // No pose exists between the two rows of a break. Breaks before the first row or after the last row are ignored.
     assert!(drive_with_breaks.pose_at(times_of(&drive)[16] + 0.01).is_none());
     assert!([16, 17].iter().all(|row| drive_with_breaks.pose_at(times_of(&drive)[*row]).is_some()));
     assert_eq!(drive.clone().with_breaks_before([0, 101]), drive);

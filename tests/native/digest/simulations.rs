@@ -175,7 +175,7 @@ pub fn hash_alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
     let error_fields = |error| (estimate_of(error), interval_of(error), is_constant_and_corrected(&[error]));
     let lever_arm = [SystematicError::LeverArmAhead, SystematicError::LeverArmLeft];
     let systematic_errors = (
-        // The number of errors comes first, because JavaScript has them as a list. The lever arm is one error with two coordinates.
+        // The length of JavaScript's list of errors is encoded first. The lever arm is a single error with two coordinates.
         5usize,
         error_fields(SystematicError::ClockOffset),
         error_fields(SystematicError::MountYaw),

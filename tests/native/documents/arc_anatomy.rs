@@ -6,7 +6,7 @@ use crate::common::text::PrintedNumber;
 use crate::simulations::arc_anatomy::stats;
 use motion::sim::arc_anatomy::{ArcAnatomy, HeatMapKind, Settings, Stats};
 
-/// Returns settings with the final pose turned until the wedge disappears.
+/// Returns settings in which the final pose has the heading of the arc's end. The wedge of the final turn is then empty.
 fn remove_wedge(settings: Settings) -> Settings {
     let arc_heading = stats(settings).driven.end[2];
     Settings { next: [settings.next[0], settings.next[1], arc_heading], ..settings }
@@ -37,7 +37,7 @@ fn the_printed_table_gives_nearly_no_probability_to_arcs_to_the_right() {
         let settings = Settings { printed: true, ..settings_of_preset(preset_name) };
         let Stats { factors: density_factors, share, inverted: inverted_arc, .. } = stats(settings);
         assert!(inverted_arc.radius < 0.0 && share < 1e-15);
-        // The estimated speed has the opposite sign of the command.
+        // The estimated speed and the commanded speed have opposite signs.
         printed_speed.assert_near(-density_factors[0].estimate.abs(), 0.0);
         assert!(density_factors[0].estimate * settings.command.v < 0.0);
         // With the unsigned radius of the printed table, contours of equal score stay near the start. With the signed radius they do not.

@@ -20,8 +20,8 @@ fn new_velocity_model(alphas: [f64; 6]) -> VelocityModel {
     VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal }
 }
 
-/// Returns the root mean square error (m) of the arc form over all headings, at v = 1 m/s. The exact end is computed by a
-/// series for small turns.
+/// Returns the root mean square error (m) of the arc form of the velocity model over all headings, at v = 1 m/s. The exact end is computed
+/// by a series for small turns.
 fn rms_error_of_arc_form(omega: f64, dt: f64) -> f64 {
     let (arc_radius, arc_turn) = (1.0 / omega, omega * dt);
     let (forward_distance, left_offset) =

@@ -1,4 +1,4 @@
-//! Sine and cosine of four angles: accuracy over the whole range, and independence of the lanes.
+//! Sine and cosine of four angles in SIMD lanes: accuracy over the whole range, and independence of the lanes from each other.
 
 use crate::common::seeded_rng;
 use motion::geom::lanes::{MAX_SIN_COS_ERROR, Trigonometry};

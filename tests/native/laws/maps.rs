@@ -17,7 +17,7 @@ fn any_separator() -> impl Strategy<Value = String> {
 proptest! {
     #![proptest_config(new_proptest_config(250))]
 
-    /// The image depends neither on white space and comments in the file, nor on its kind (plain or binary).
+    /// The image depends neither on white space and comments in the file, nor on the kind of the file (plain or binary).
     #[test]
     fn pgm_headers_may_have_any_white_space_and_comments(
         (width, height) in (1..6usize, 1..6usize), max_value in 1..=65_535u32, grey_seeds in vec(any::<u32>(), 36),

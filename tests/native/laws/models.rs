@@ -71,7 +71,7 @@ proptest! {
         prop_assert!(range_start <= range_end + 2e-15 * range_end.abs(), "{} {}", range_start, range_end);
     }
 
-    /// Residuals are arbitrary. Variances do not overflow when multiplied by six.
+    /// Residuals have any finite value. Variances are small enough not to overflow when multiplied by six.
     #[test]
     fn noise_densities_are_at_most_their_peak(noise_kind in any_noise_kind(), noise_residual in finite_doubles(), noise_variance in doubles_up_to(1e307)) {
         let noise_variance = noise_variance.abs();

@@ -34,12 +34,12 @@ proptest! {
     #[test]
     fn inverting_a_driven_arc_returns_its_controls(arc_length in doubles_up_to(1e300), arc_turn in doubles_up_to(3.1), last_turn in doubles_up_to(3.1), dt in any_duration()) {
         let (forward_offset, left_offset) = arc_end(arc_length, arc_turn);
-        // The bearing of a chord outside these limits is inaccurate.
+        // If a chord is shorter or longer than these limits, its computed bearing is inaccurate.
         prop_assume!(forward_offset.hypot(left_offset) > 1e-290 && forward_offset.hypot(left_offset) < 1e290);
         let inverted_arc = invert_arc(&SE2::identity(), &SE2::new(forward_offset, left_offset, arc_turn + last_turn), dt);
         let rounding_tolerance = TOLERANCE_ULPS * f64::EPSILON;
         prop_assert!((inverted_arc.v_hat * dt - arc_length).abs() <= rounding_tolerance * arc_length.abs(), "{:?}", inverted_arc);
-        // Turns below `smallest_turn` are lost in the rounding of the chord.
+        // If a turn is below `smallest_turn`, the rounding of the chord hides the turn.
         let smallest_turn = f64::MIN_POSITIVE * (1.0 + 1.0 / forward_offset.hypot(left_offset));
         prop_assert!((inverted_arc.omega_hat * dt - arc_turn).abs() <= rounding_tolerance * arc_turn.abs() + smallest_turn, "{:?}", inverted_arc);
         prop_assert!((inverted_arc.gamma_hat * dt - last_turn).abs() <= rounding_tolerance * PI, "{:?}", inverted_arc);
@@ -50,7 +50,7 @@ proptest! {
     fn arcs_with_additional_full_turns_end_at_the_same_position(x in -50.0..50.0, y in -50.0..50.0, requested_turn in -300.0..300.0) {
         let target_pose = SE2::new(x, y, 0.0);
         let (arc_length, arc_turn) = arc_with_turn_near(&SE2::identity(), &target_pose, requested_turn);
-        // The circle of a nearly straight arc is so long that its end cannot be represented.
+        // A nearly straight arc that adds full turns is so long that its end cannot be represented.
         prop_assume!(arc_length.abs() < 1e6);
         prop_assert!(arc_turn == 0.0 || (arc_turn - requested_turn).abs() <= PI * (1.0 + 1e-12), "{}", arc_turn);
         let end_pose = Arc { start: SE2::identity(), length: arc_length, turn: arc_turn }.end();

@@ -59,7 +59,7 @@ fn a_displacement_with_a_subnormal_square_counts_as_zero() {
     assert_eq!(velocity_model.pose_density(&next, &u, &x), velocity_model.pose_density(&x, &u, &x));
 }
 
-/// The density solves twice with a root of the covariance, which divides by a subnormal variance. The product 0 · ∞ must not become NaN.
+/// The inverse of a covariance's root is applied twice, and is huge for a subnormal variance. The product 0 · ∞ must not become NaN.
 #[test]
 fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
     let u = VelocityCmd { v: 56.0, omega: 0.0, dt: 1e-6 };
@@ -69,8 +69,8 @@ fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
     assert!(log_prob < 0.0, "{log_prob}");
 }
 
-/// The search for a free pose divides the area into squares. It must divide the shorter side of these plans too, although the longer side
-/// is over 256 times as long.
+/// The search for a free pose divides the area into squares. On a plan whose sides differ by a factor above 256, it must divide the shorter
+/// side too.
 #[test]
 fn a_narrow_plan_has_a_free_pose() {
     for plan_bounds in [[0.0, 0.0, 100.0, 0.3], [0.0, 0.0, 0.01, 100.0], [-1e6, 5.0, -9e5, 5.02]] {

@@ -162,7 +162,7 @@ fn a_grid_of_too_many_walls_is_refused() {
     );
 }
 
-/// The error message names the origin, which is a field of the map.
+/// The origin of a grid is a field of the map file. The error message names this field.
 #[test]
 fn a_grid_outside_the_range_of_coordinates_is_refused() {
     let create_grid = |resolution, origin| {

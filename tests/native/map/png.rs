@@ -32,7 +32,7 @@ fn encode_png(png_format: &PngFormat, image_width: u32, samples: &[u16]) -> Vec<
     encoder.set_color(png_format.color_type);
     encoder.set_depth(BitDepth::from_u8(png_format.bit_depth as u8).expect("a depth"));
     encoder.set_filter(Filter::Adaptive);
-    // A gamma chunk changes the shades in browsers. It must not affect the reader under test.
+    // A gamma chunk changes the shades in browsers. The tested reader must ignore this chunk.
     encoder.set_source_gamma(png::ScaledFloat::new(0.3));
     if let Some(palette) = &png_format.palette {
         encoder.set_palette(palette.clone());

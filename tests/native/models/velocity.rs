@@ -88,7 +88,7 @@ fn without_noise_samples_are_exact_and_prob_is_zero_or_one() {
     }
 }
 
-/// If γ̂ has no variance, it must be 0 up to rounding. Its rounding is proportional to the distance from the origin divided by |v|Δt².
+/// If γ̂ has no variance, γ̂ must be 0 up to rounding. This rounding is proportional to the distance from the origin divided by |v|Δt².
 #[test]
 fn samples_far_from_the_origin_have_a_positive_score() {
     let mut rng = seeded_rng(56);
@@ -121,7 +121,7 @@ fn new_grid_around(velocity_model: &VelocityModel, u: &VelocityCmd, x: &SE2) -> 
     PolarGrid::new(x, &noise_free_end_of(u, x), 2.0, [v, 0.5 * omega, last_turn_reach], [8; 3])
 }
 
-/// With noise as large as the motion, robots also drive backwards and turn by more than a circle. The v̂ of a spin has either sign.
+/// With noise as large as the motion, robots also drive backwards and turn by more than a circle. On the spot, v̂ has either sign.
 #[test]
 fn the_pose_density_integrates_to_one_for_large_noise() {
     let x = SE2::new(1.0, -1.0, -2.0);

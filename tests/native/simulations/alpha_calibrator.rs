@@ -294,7 +294,7 @@ fn a_restored_fit_equals_the_saved_one_to_the_last_bit() {
             && restored_simulation.truth().is_none()
             && !restored_simulation.is_pending()
     );
-    // A new inflation changes only predictions. Another rule needs the log.
+    // A change of the inflation changes only predictions. A change of the noise rule requires a new fit to the log.
     restored_simulation.configure(Settings { inflation: 2.0, ..new_settings }).expect("allowed");
     assert!(!restored_simulation.is_pending() && fit_results(&restored_simulation) != results_before);
     restored_simulation.configure(Settings::default()).expect("allowed");
@@ -319,7 +319,7 @@ fn a_log_without_legs_gives_an_empty_calibration() {
     assert!(
         simulation.panels(Regressor::Turn).iter().all(|panel| panel.x.is_empty() && panel.slope.is_none())
     );
-    // A user's log replaces the simulated log. If the seed of the simulation changes later, the simulated log does not return.
+    // A user's log replaces the simulated log. A later change of the simulation's seed does not bring the simulated log back.
     simulation.configure(Settings { seed: 1, ..Settings::default() }).expect("allowed");
     assert!(simulation.truth().is_none());
 }

@@ -27,7 +27,7 @@ fn settings_of_both_models() -> [Settings; 2] {
     [settings_of_preset("gentle"), Settings { model: ModelKind::Odometry, ..settings_of_preset("gentle") }]
 }
 
-/// Runs a check for clouds of both models and both kinds of noise: forward, in reverse, nearly on the spot, straight, and of one more command.
+/// Runs a check for clouds of both models and noises, for the given command and four more: forward, reverse, nearly on the spot, straight.
 pub fn check_in_varied_clouds(
     command: [f64; 3],
     sample_counts: &[usize],
@@ -285,7 +285,7 @@ fn both_views_find_the_nearest_sample() {
             .collect();
         assert_eq!(simulation.nearest(morph, view_points[17], [1e-9, 1e-9]), Some(17));
         assert_eq!(simulation.nearest(morph, [50.0, 50.0], [1.0, 1.0]), None);
-        // The outermost sample is found from a target just inside of the search radius, and not from a target just outside.
+        // The search finds the outermost sample from a position just inside of the search radius, and not from a position just outside.
         let rightmost_index =
             (0..view_points.len()).max_by(|&a, &b| view_points[a][0].total_cmp(&view_points[b][0])).unwrap();
         let position_right_of_rightmost = |target_distance| {
@@ -344,7 +344,7 @@ fn a_reverse_aware_robot_has_no_noise_of_half_turns() {
     }
 }
 
-/// The circle of additive noise is equally large for a short and a long drive. It fits the cloud of the preset "gentle".
+/// The outline of additive noise is a circle, equally large for a short and a long drive. The circle fits the cloud of the preset "gentle".
 #[test]
 fn additive_noise_does_not_depend_on_the_motion() {
     for [v, omega, duration] in [[0.05, 0.0, 1.0], [1.0, 0.5, 1.0], [1.0, 0.5, 10.0]] {

@@ -127,7 +127,7 @@ fn moments_are_those_of_the_cloud() {
     }
 }
 
-/// A ratio is the predicted variance divided by the measured variance. A step misses if its ratio is off by more than 5 %. Steps are
+/// A ratio is the predicted variance divided by the measured variance. A step is a miss if the ratio is off by more than 5 %. Steps are
 /// counted from 1.
 #[test]
 fn ratios_and_misses_are_counted() {
@@ -160,12 +160,12 @@ fn ratios_and_misses_are_counted() {
     }
 }
 
-/// Returns for each component whether there are enough robots to decide if the chapter's recursion misses.
+/// Returns for each component whether there are enough robots to decide at which steps the chapter's recursion is wrong.
 fn misses_decidable(settings: Settings) -> [bool; 3] {
     simulation(settings).comparison(Compounding::Chapter).misses.map(|axis_misses| axis_misses.decidable)
 }
 
-/// Misses of the chapter's recursion are reported only if there are enough robots to measure their variance, which must not be 0.
+/// A step at which the chapter's recursion is wrong is reported only if enough robots measure the variance, and the variance is not 0.
 #[test]
 fn misses_are_reported_with_enough_robots_only() {
     assert_eq!(misses_decidable(Settings::default()), [true; 3]);
@@ -205,7 +205,7 @@ fn a_zero_variance_has_no_relative_error() {
     })
     .into();
     assert!(along_error.is_nan() && heading_error.is_finite(), "{along_error} {heading_error}");
-    // The squares of such small variances underflow to 0.
+    // At v = 1e-100 m/s the squares of the variances underflow to 0.
     let slow_drive_settings =
         Settings { command: VelocityCmd { v: 1e-100, omega: 0.0, dt: 0.2 }, ..robot_settings(300) };
     assert_eq!(misses_decidable(slow_drive_settings), [false; 3]);

@@ -1,4 +1,4 @@
-//! The morph of a cloud from positions on the floor to exponential coordinates.
+//! Interpolation (morph) of a cloud between positions on the floor and exponential coordinates.
 
 use crate::common::{is_point_inside, settings_of_preset};
 use crate::simulations::banana::simulation;
@@ -66,8 +66,8 @@ fn robots_move_smoothly_with_the_morph() {
     }
 }
 
-/// Without the last turn γ̂ the morph is one-to-one, so that the same robots stay inside an outline. Exceptions are robots between the curve
-/// of an outline and the chords with which it is drawn.
+/// Without the last turn γ̂ the interpolated map is one-to-one, so that the same robots stay inside an outline. Exceptions are robots
+/// between the curve of an outline and the chords with which it is drawn.
 #[test]
 fn the_same_robots_stay_inside_an_outline() {
     let alphas = [0.002, 0.002, 0.1, 0.1, 0.0, 0.0];
@@ -101,7 +101,7 @@ fn the_same_robots_stay_inside_an_outline() {
     }
 }
 
-/// At both ends of the morph, the outline of the Gaussian in exponential coordinates equals the outline of that view, even with a last turn γ̂.
+/// At its two ends, the interpolated outline of the Gaussian in ξ equals the outline of that view, even with a last turn γ̂.
 #[test]
 fn the_morphed_outline_equals_that_of_each_view_at_its_end() {
     let simulation = simulation(Settings { samples: 5000, ..settings_of_preset("hard") });
@@ -113,7 +113,7 @@ fn the_morphed_outline_equals_that_of_each_view_at_its_end() {
     }
 }
 
-/// A line that does not surround the start stays connected. A line around the start would be torn, and is omitted.
+/// An interpolated line that does not surround the start stays connected. A line around the start would be torn, and is omitted.
 #[test]
 fn a_morphed_line_stays_connected_or_is_omitted() {
     let circle_at = |x: f64| -> Vec<[f64; 2]> {

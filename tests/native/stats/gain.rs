@@ -1,4 +1,4 @@
-//! Likelihood gains and area ratios, compared with their definitions and with references. Degenerate clouds have none.
+//! Likelihood gains and area ratios, compared with their definitions and with reference values. Degenerate clouds have neither.
 
 use crate::common::{NOISE_KINDS, ReferenceTable, mean, variance};
 use crate::simulations::banana::check_in_varied_clouds;
@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use std::f64::consts::TAU;
 
 const GENTLE_ALPHAS: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
-/// α's with noise mainly in the turn. They bend the cloud strongly, but without skew.
+/// α's with noise mainly in the turn rate. Such noise bends the cloud strongly, but without skew.
 const BANANA_ALPHAS: [f64; 6] = [0.002, 0.002, 0.1, 0.1, 0.002, 0.002];
 const GENTLE_COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 const SHARP_TURN_COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 1.2, dt: 1.4 };
@@ -27,8 +27,8 @@ fn poses_of(simulation: &BananaMachine) -> Vec<SE2> {
     simulation.poses().collect()
 }
 
-/// Returns the gain of log-likelihood of a Gaussian in exponential coordinates over one in (x, y, θ), with its standard error, and the same
-/// for positions (x, y).
+/// Returns two gains in log-likelihood with their standard errors: for poses, of a Gaussian in exponential coordinates over one in (x, y,
+/// θ), and for positions (x, y).
 fn gains_with_errors(gain_stats: &Stats) -> [[f64; 2]; 2] {
     let (likelihood_gain, gain_error) = (gain_stats.likelihood_gain, gain_stats.likelihood_gain_error);
     [[likelihood_gain.pose, gain_error.pose], [likelihood_gain.floor, gain_error.floor]]

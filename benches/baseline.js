@@ -10,7 +10,7 @@
  * @typedef {import('./scene.js').Picture} Picture
  */
 
-/** Keys of the sums over all samples, in order: x, y, length, lateral offset, turn, sine and cosine of the turn, and products. */
+/** Keys of the sums over all samples, in order: x, y, length, lateral offset, turn, sine and cosine of the turn, and products of these. */
 const MEAN_KEYS = ['x', 'y', 'l', 'm', 't', 's', 'c', 'xx', 'xy', 'yy', 'xt', 'yt', 'tt', 'll', 'lm', 'mm', 'lt', 'mt'];
 
 export class Baseline {
@@ -94,7 +94,7 @@ export class Baseline {
  * First pass: computes the motion of every sample, and adds up the moments.
  *
  * @param {Float64Array} unitNoise
- * @param {Float64Array} cloud is filled
+ * @param {Float64Array} cloud output: offsets of each sample
  * @param {number[]} commandVector v, ω, Δt
  * @param {number[]} noiseStds standard deviations of v̂, ω̂, γ̂
  * @param {{ x: number, y: number, l: number, t: number }} noiseFree noise-free motion
@@ -150,7 +150,7 @@ function driveBaselineCloud(unitNoise, cloud, commandVector, noiseStds, noiseFre
  * Second pass: counts the samples in both contours and in the cells of the picture, and adds up central moments across the mean heading.
  *
  * @param {Float64Array} cloud
- * @param {Uint32Array} counts are added to
+ * @param {Uint32Array} counts numbers of samples in the cells, which the function increases
  * @param {number[]} normalization centre, whitening of both ellipses, sine and cosine of the mean heading
  * @param {number[]} pixelTransform offset and pixels a metre of both axes, columns and rows
  * @returns {number[]} samples inside each contour, sums of squares and cubes, largest count

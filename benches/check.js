@@ -41,6 +41,6 @@ export function unitNoiseOf({ config: { command: { v, omega }, alphas: [a1, a2, 
 /** Returns the numbers of the baseline that differ from those of the core, with their paths. @param {any} baselineValue @param {any} coreValue @param {string[]} parentKeys @returns {string[]} */
 function differingNumbers(baselineValue, coreValue, ...parentKeys) {
   if (typeof baselineValue === 'object') return Object.entries(baselineValue).flatMap(([key, member]) => differingNumbers(member, coreValue[key], ...parentKeys, key));
-  // The condition is false for NaN, so that a difference of NaN is reported too.
+  // A comparison with NaN is false, so that a difference of NaN counts as too large.
   return Math.abs(baselineValue - coreValue) <= MAX_DIFFERENCE ? [] : [`${parentKeys.join('.')}: ${baselineValue}, core ${coreValue}`];
 }

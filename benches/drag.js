@@ -9,7 +9,7 @@
 /** Factor by which Chromium slows the processor. */
 export const CPU_SLOWDOWN = 4;
 
-/** Selector of sliders and handles. Excluded are handles of walls and played sliders, which change no setting of the simulation. */
+/** Selector of sliders and handles. Excluded are handles of walls and sliders of animations, which change no setting of the simulation. */
 const DRAGGABLE_SELECTOR = '.slider input[type=range]:not(.playable *), .handle:not(.jamb, .side)';
 
 /**
@@ -55,7 +55,7 @@ async function timeDrag({ widget, selector, i, steps }) {
   const shadowRoot = /** @type {ShadowRoot} */ (figureElement.shadowRoot);
   const draggedElement = /** @type {HTMLInputElement} */ (shadowRoot.querySelectorAll(selector)[i]);
   const isSlider = draggedElement.localName === 'input';
-  // The text update of the previous drag may still set the slider.
+  // A late update after the previous drag could still set the value of the slider.
   await figureElement.settled;
   const openingValue = draggedElement.value;
   // A figure clears the canvas before it paints a picture.
@@ -65,7 +65,7 @@ async function timeDrag({ widget, selector, i, steps }) {
     pictureCount++;
     clearRect.apply(this, rectangleSides);
   };
-  /** Returns the time at which the current frame is finished. The page receives a message to itself only then. @returns {Promise<number>} */
+  /** Returns the time at which the current frame is finished. A message that the page sends to itself arrives only then. @returns {Promise<number>} */
   const waitForFrameEnd = () =>
     new Promise((resolve) => {
       const { port1, port2 } = new MessageChannel();

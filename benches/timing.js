@@ -1,10 +1,10 @@
 /**
- * Timings of several functions (contenders) in rounds. If the machine is slower during a round, ratios of that round stay the same.
+ * Timings of several functions (contenders) in rounds. If the machine is slower during a round, the ratios of the times in that round stay the same.
  */
 
-/** Minimum duration (ms) of a contender's run in a round: 200 times the resolution of the clock in an isolated page. */
+/** Minimum duration (ms) of a contender's run in a round: 200 times the resolution of the clock in a cross-origin isolated page. */
 const MIN_RUN_MS = 1;
-/** Number of rounds before the measured ones. After these rounds V8 has compiled all functions. */
+/** Number of rounds before the measured rounds. After these rounds V8 has compiled all functions. */
 const WARM_UP_ROUNDS = 8;
 /** Limits of the number of measured rounds. Quartiles of fewer rounds are not meaningful, and more rounds do not change the quartiles. */
 const [MIN_ROUNDS, MAX_ROUNDS] = [5, 60];
@@ -13,7 +13,7 @@ const [MIN_ROUNDS, MAX_ROUNDS] = [5, 60];
  * Runs contenders in rounds, and returns their times.
  *
  * @template {string} Name
- * @param {Record<Name, (event: number) => void>} contenders what each does at an event
+ * @param {Record<Name, (event: number) => void>} contenders functions that are called with the number of an event
  * @param {number} totalSeconds for all rounds, if that is enough time for the minimum number of rounds
  * @returns {Promise<Record<Name, number[]>>} ms an event, round by round
  */

@@ -2,7 +2,7 @@
 
 /// Declares structs of results, which JavaScript gets as objects whose keys are the names of the fields in camel case. `as "Name"` after a
 /// struct is the name of its TypeScript type. `as "Type"` after a field is the TypeScript type of the field, which `wasm::values::ToJs`
-/// then converts. In native builds they are plain structs.
+/// then converts. In native builds the structs have no conversion to JavaScript.
 macro_rules! js_structs {
     ($(
         $(#[$meta:meta])*

@@ -97,8 +97,7 @@ impl NoiseKind {
         let Variance(b2) = b2;
         match self {
             Self::Normal => -0.5 * libm::expm1(-2.0 * b2),
-            // The series in b up to b⁴. For such a small variance, the next term is smaller than the rounding error of the difference
-            // below.
+            // The series in b up to b⁴. For such a small variance, the next term is smaller than the rounding error of 1 − sinc².
             Self::Triangular if b2 < 1e-5 => b2 * (1.0 - 0.8 * b2),
             Self::Triangular => {
                 let cosine = sinc(SQRT_6 * b2.sqrt());
@@ -131,7 +130,7 @@ impl NoiseKind {
     }
 }
 
-/// Returns the product of independent densities. It is 0 if one of them is 0, also if another one has overflowed to infinity.
+/// Returns the product of independent densities. The product is 0 if one density is 0, even if another density has overflowed to infinity.
 pub(crate) fn product_or_zero<const N: usize>(densities: [f64; N]) -> f64 {
     if densities.contains(&0.0) { 0.0 } else { densities.into_iter().product() }
 }

@@ -71,7 +71,7 @@ fn call_method(simulation: &mut BananaMachine, input: &mut InputReader) {
             let [x, y] = [0; 2].map(|_| input.draw_number_within(QUANTITY_RANGE));
             let current_command = simulation.settings().command;
             let reaching_command = command_drawn_at([x, y], &current_command, 0.0);
-            // The speed may be infinite, because the circle of a nearly straight arc may be too long for a double.
+            // The speed may be infinite, because the length of a nearly straight arc may exceed the range of doubles.
             assert!(!reaching_command.v.is_nan() && reaching_command.omega.is_finite(), "{reaching_command:?} to {x}, {y}");
         }
     }
@@ -114,7 +114,7 @@ fn assert_equals_new_simulation(simulation: &BananaMachine) {
     }
 }
 
-/// Returns the poses and statistics.
+/// Returns the poses and statistics of a simulation as numbers.
 fn collect_results(simulation: &BananaMachine) -> Vec<f64> {
     let mut result_numbers: Vec<f64> = simulation.poses().flat_map(|pose| [pose.x(), pose.y(), pose.theta()]).collect();
     let stats @ Stats { cartesian: cartesian_moments, exponential: exponential_moments, coverage: contour_coverage, .. } = simulation.stats();
@@ -239,7 +239,7 @@ fn distance_between(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Reads a rectangle in the coordinates of a view, divided into at most 40 × 40 cells.
+/// Reads a random rectangle of a view from the fuzz input, divided into at most 40 × 40 cells.
 pub fn read_view_grid(input: &mut InputReader) -> ViewGrid {
     let view_min = [0; 2].map(|_| input.draw_number_within(EXTENT_RANGE));
     let view_max = view_min.map(|min_coordinate| input.draw_number_within(min_coordinate..=*EXTENT_RANGE.end()));

@@ -69,7 +69,7 @@ fn read_options(input: &mut InputReader) -> Options {
     }
 }
 
-/// Reads a random size of a leg: a distance in m, an angle in rad, or a duration in s.
+/// Reads a random leg length from the fuzz input: a distance in m, an angle in rad, or a duration in s.
 fn read_leg_size(input: &mut InputReader) -> f64 {
     if input.next_bool() { input.choose_one(&[0.1, 0.2, 0.25, 0.5]) } else { input.draw_number_within(1e-6..=1e6) }
 }
@@ -140,7 +140,7 @@ fn edit_rows(log_rows: &mut Vec<LogRow>, input: &mut InputReader) {
 /// Returns the trajectory of the rows, with breaks before some rows. Returns None if the trajectory refuses a row.
 fn build_trajectory(rows: &[LogRow], input: &mut InputReader) -> Option<Trajectory> {
     let trajectory_or_error = match input.next_below(4) {
-        // The velocities of such a trajectory are arbitrary: the coordinates x and θ are used as speed and turn rate.
+        // The velocities are arbitrary: the coordinates x and θ of the poses are used as speed and turn rate.
         0 => Trajectory::from_commands(rows.iter().map(|(time, pose)| (*time, pose.x(), pose.theta()))),
         _ => Trajectory::new(rows.iter().copied()),
     };

@@ -136,7 +136,7 @@ fn assert_results(simulation: &OdometryDecomposer) {
         }
     }
 
-    // The drawn legs of the reading end at the second odometry pose. Noise rules may ignore the direction of a tiny translation.
+    // The decomposed reading ends at the second odometry pose, up to the length at which noise rules ignore the direction of a translation.
     let [x, y, _] = settings.to;
     let [.., final_leg_pose] = simulation.leg_poses();
     let distance_to_second_pose = (final_leg_pose.x() - x).hypot(final_leg_pose.y() - y);

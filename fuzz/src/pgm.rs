@@ -1,4 +1,4 @@
-//! Map images in PGM files.
+//! Reading of map images in PGM format, from arbitrary bytes.
 
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, Image, PixelClassifier, MAX_PIXELS, OccupancyGrid, read_grid, read_pgm};

@@ -21,7 +21,7 @@ pub fn check_input(input_bytes: &[u8]) {
     }
 }
 
-/// Reads a plan of a few walls. Returns None if the plan is refused.
+/// Reads a floor plan with a few walls from the fuzz input. Returns None if the plan is refused.
 pub fn read_floor_plan(input: &mut InputReader) -> Option<FloorPlan> {
     let bounds: [f64; 4] = if input.next_bool() {
         std::array::from_fn(|_| input.next_number())

@@ -1,4 +1,4 @@
-//! PNG images.
+//! Reading of PNG images from arbitrary bytes.
 
 use motion::map::{Image, MAX_PIXELS, read_png};
 

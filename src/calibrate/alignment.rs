@@ -20,14 +20,14 @@ const MIN_CORRELATION: f64 = 0.5;
 /// Correlation at which the search for other clock offsets ends. At the right offset the correlation is 1 up to a few hundredths.
 const CONFIDENT_CORRELATION: f64 = 0.9;
 
-/// Minimum increase of the correlation for which an offset beyond [`MAX_NEAR_OFFSET`] is preferred to an offset within.
+/// Minimum increase of the correlation for which an offset beyond [`MAX_NEAR_OFFSET`] is preferred to a smaller offset.
 const MIN_CORRELATION_GAIN: f64 = 0.05;
 
-/// Maximum of the lowest correlation of a mirrored recording over all offsets. At the right offset its turns are opposite, and nearer to −1
-/// than the correlation at any other offset is to 1.
+/// Lowest correlation of turn rates over all clock offsets, above which a recording does not count as mirrored. In a mirrored recording the
+/// turns are opposite, so that the correlation at the right offset is near −1.
 const MAX_MIRRORED_CORRELATION: f64 = -0.8;
 
-/// Maximum of (1 + lowest correlation) / (1 − highest correlation) of a mirrored recording.
+/// Maximum of (1 + lowest correlation) / (1 − highest correlation) over all clock offsets, if a recording is mirrored.
 const MAX_MIRRORED_DISTANCE_RATIO: f64 = 0.3;
 
 /// Clock offset (s), and the correlation of the two turn rates at this offset.
@@ -37,15 +37,15 @@ type OffsetMatch = (f64, f64);
 /// rates.
 ///
 /// If turn rates do not correlate at any offset, for example because the robot does not turn, the offset is 0. None if the recordings do
-/// not overlap either. An offset is compared only if half of the shorter recording overlaps the longer recording.
+/// not overlap in time either. An offset is compared only if half of the shorter recording overlaps the longer recording.
 pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Option<f64> {
     let ([odom_start, odom_end], [ref_start, ref_end]) = (odometry.span()?, reference.span()?);
     let min_overlap = 0.5 * (odom_end - odom_start).min(ref_end - ref_start);
     let overlap = odom_end.min(ref_end) - odom_start.max(ref_start);
     let finest_step =
         FINEST_STEP.max(0.5 * odometry.median_period()).max((odom_end - odom_start) / MAX_SAMPLES);
-    // Near offsets alone do not show that a recording is mirrored. In a drive along an eight, turns are also opposite if the clock offset is
-    // wrong by half a period.
+    // Near offsets alone do not show that a recording is mirrored. In a drive along a figure eight, turns are also opposite if the clock
+    // offset is wrong by half a period.
     let near_match = if overlap < min_overlap {
         None
     } else {
@@ -62,14 +62,15 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Opt
         step = finest_step.max(step / 50.0);
         far_match = best_match(odometry, reference, nearby_range, step, true);
     }
-    // An offset beyond the first scan has to be clearly better.
+    // An offset outside of the first scan is accepted only if its correlation is clearly larger.
     let near_match = near_match.map(|(offset, correlation)| (offset, correlation + MIN_CORRELATION_GAIN));
     let best_match = [near_match, far_match].into_iter().flatten().max_by(|a, b| a.1.total_cmp(&b.1));
     best_match.map(|(offset, _)| offset).or((overlap >= 0.0).then_some(0.0))
 }
 
 /// Returns the offset within a range at which the turn rates correlate most, interpolated between steps. None if the largest correlation is
-/// below [`MIN_CORRELATION`]. If a recording `can_be_mirrored`, and the correlations show that it is, their signs are changed.
+/// below [`MIN_CORRELATION`]. The signs of all correlations are changed if `can_be_mirrored` is true and the correlations show that one
+/// recording is mirrored.
 fn best_match(
     odometry: &Trajectory,
     reference: &Trajectory,

@@ -28,28 +28,30 @@ pub enum Verdict {
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
 pub enum CheckName {
-    /// Difference from 1 of the median ratio of the reference's motion to the odometry's: of turns or of drives. If the reference is a copy of
-    /// the odometry: square root of the largest lower end of the α's intervals.
+    /// Mismatch of reference and odometry: difference from 1 of the median ratio of their turns, or of their driven distances. If the
+    /// reference is a copy of the odometry, it is the square root of the largest lower end of the α's 95 % intervals.
     ReferenceMatches,
     /// Number of legs.
     EnoughLegs,
-    /// Fraction of the legs that were lost.
+    /// Fraction of the legs that were left out of the fit.
     LegsLost,
     /// Median length of a leg, divided by the length that the options ask for.
     SamplingDense,
     /// Fraction of outliers.
     OutliersFew,
-    /// Fraction of the legs in which the odometry moves sideways. Under rules that decompose reverse motion into two turns, backwards counts too.
+    /// Fraction of the legs in which the odometry moves sideways. Motion backwards also counts under rules that decompose it into two
+    /// turns.
     SidewaysRare,
     /// Difference of the distance scales of straight and turning legs, or of both halves of the log, whichever is larger.
     DistanceScaleConstant,
     /// Difference of the turn scales of both halves of the log.
     TurnScaleConstant,
-    /// Smallest inflation with which the α's cover 95 % of the windows of 1 m.
+    /// Inflation: smallest factor on the α's with which they cover 95 % of the windows of 1 m.
     InflationBounded,
     /// Correlation of the innovations of neighbouring legs.
     ResidualsUncorrelated,
-    /// Kurtosis of the innovations. It is 3 for a normal distribution and at least 1 for any; values below 3 do no harm.
+    /// Kurtosis of the innovations. The kurtosis of a normal distribution is 3. Smaller values do no harm, and no distribution has less
+    /// than 1.
     TailsNormal,
     /// Fraction of the legs whose error is inside of the 95 % region that the fit to the other half of the log predicts.
     HoldoutCovered,
@@ -64,7 +66,7 @@ pub enum CheckName {
     Window5Covered,
 }
 
-/// Causes that a check tells apart, if it fails.
+/// Causes of the failure of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "camelCase")]
@@ -75,9 +77,9 @@ pub enum FailureCause {
     Mirrored,
     /// Most lost legs lack a pose of the reference.
     WithoutReference,
-    /// Most lost legs cross a break.
+    /// Most lost legs cross a break, at which the pose may have jumped.
     AcrossBreaks,
-    /// Most lost legs are stretched by a pause.
+    /// Most lost legs are too long because of a pause of the recording.
     AcrossPauses,
 }
 
@@ -93,7 +95,7 @@ pub struct Check {
     pub expected: [f64; 2],
     /// True if the value is in the range.
     pub passed: bool,
-    /// Cause of the failure, if the check tells causes apart.
+    /// Cause of the failure, if the check can determine a cause.
     pub cause: Option<FailureCause>,
     /// Meaning of a failure for the α's, and the remedy; empty if the check passed.
     pub message: String,
@@ -233,8 +235,8 @@ const NEGLIGIBLE_COVERAGE: f64 = 0.015;
 const SUFFICIENT_LEGS: f64 = 100.0;
 const MIN_USABLE_LEGS: f64 = 30.0;
 
-/// Maximum mismatch of the turns and of the drives of a log. A wrong track width, or slip of skid steering, scales turns by up to two; no wheels
-/// scale drives that much, but feet do (0.305), and a reference whose y is a height (0.5).
+/// Maximum mismatch of the turns and of the drives of a log. A wrong track width, or slip of skid steering, scales turns by a factor of up
+/// to two. Wheels never scale distances as much as the unit foot does (0.305 m), or a reference whose y is a height (0.5).
 const MAX_TURN_MISMATCH: f64 = 0.7;
 const MAX_DRIVE_MISMATCH: f64 = 0.4;
 
@@ -242,8 +244,8 @@ const MAX_DRIVE_MISMATCH: f64 = 0.4;
 const MIRRORED_TURN_RATIO: f64 = -1.0;
 const MIRRORED_TOLERANCE: f64 = 0.1;
 
-/// Relative error below which the reference is a copy of the odometry: no wheels measure every motion to a thousandth. A copy may be rounded
-/// or have noise of its own, which does not accumulate.
+/// Relative error below which the reference is a copy of the odometry: wheels never measure every motion to a thousandth. A copy may be
+/// rounded or have noise of its own, which does not accumulate.
 const MIN_RELATIVE_ERROR: f64 = 1e-3;
 
 /// Minimum number of windows for conclusions from their coverage.
@@ -316,7 +318,7 @@ fn check_ratios(leg_set: &LegSet, systematic: &Systematic) -> Option<Check> {
     }
     let median_of = |mut ratios: Vec<f64>| (ratios.len() >= MIN_LEGS).then(|| median(&mut ratios));
     let [turn_ratio, drive_ratio] = [turn_ratios, drive_ratios].map(median_of);
-    // Only a copy has a value below the range.
+    // Values below the allowed range are reserved for a reference that is a copy of the odometry.
     let mismatch_of = |ratio: f64| (ratio - 1.0).abs().max(MIN_RELATIVE_ERROR);
     let turn_check = turn_ratio.map(|ratio| new_match_check(mismatch_of(ratio), MAX_TURN_MISMATCH));
     let drive_check = drive_ratio.map(|ratio| new_match_check(mismatch_of(ratio), MAX_DRIVE_MISMATCH));

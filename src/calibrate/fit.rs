@@ -73,8 +73,8 @@ impl LegSet {
         self.legs[leg].follows && leg > 0 && select(leg - 1) && select(leg)
     }
 
-    /// Returns the residuals of the legs that `select` accepts. The α's of the model are fitted, and the variances of the reference that the
-    /// options do not state.
+    /// Returns the residuals of the legs that `select` accepts. Fitted parameters are the α's of the model, and each variance of the
+    /// reference that the options do not state.
     pub fn residuals(&self, estimated: ErrorMask, select: impl Fn(usize) -> bool) -> Residuals {
         let selected_legs = (0..self.legs.len()).filter(|leg| select(*leg));
         let term_of_leg = |leg: usize| self.terms[leg].with_follows(self.follows(leg, &select));
@@ -92,8 +92,8 @@ impl LegSet {
         self.residuals(self.estimated, |leg| range.contains(&leg) && !self.outliers[leg])
     }
 
-    /// Returns the systematic errors after a step of generalized least squares, and true if the step is small. Errors that are not identifiable
-    /// have no correction, and the clock offset stays unchanged if it is not identifiable.
+    /// Returns the systematic errors after a step of generalized least squares, and true if the step is small. Errors that are not
+    /// estimated are reset to their neutral value, except for the clock offset, which stays unchanged.
     fn corrected_errors(&self, maximum: &Expansion) -> (Systematic, bool) {
         let mut corrected = Systematic { clock_offset: self.systematic.clock_offset, ..Systematic::NONE };
         let (mut is_small_change, solution) = (true, &maximum.filtered);
@@ -132,8 +132,8 @@ impl LegSet {
 /// Median of χ² with one degree of freedom, the distribution of the square of a standard normal number.
 const MEDIAN_CHI2_1: f64 = 0.4549;
 
-/// Initial guess of the standard deviations of the reference, m and rad. It is large: if outliers are kept, a search from a small guess can
-/// end at a local maximum of the likelihood at which the reference has no noise.
+/// Initial guess of the standard deviations of the reference, m and rad. The guess is large: if outliers are kept, a search from a small
+/// guess can end at a local maximum of the likelihood at which the reference has no noise.
 const INITIAL_REFERENCE_STD: f64 = 1e-2;
 
 /// Legs of all drives.
@@ -237,7 +237,7 @@ pub(super) fn fit(
 }
 
 impl Fit {
-    /// Returns all legs with their residuals. The sample has only some of them if there are many.
+    /// Returns all legs with their residuals. The sample that was fitted has only some of the legs if there are many.
     pub fn all_legs(&self, log: &Log) -> LegSet {
         let Self { sample, maximum, .. } = self;
         if self.uncorrected_legs.len() == sample.legs.len() {

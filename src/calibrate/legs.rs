@@ -179,8 +179,8 @@ impl Drive {
         })
     }
 
-    /// Moves a leg of this drive to another clock offset, `offset_change` (s) larger than before. An end beyond the first or last reading of
-    /// the odometry is extrapolated at its last velocity, so that neighbouring legs still share it.
+    /// Moves a leg of this drive to another clock offset, `offset_change` (s) larger than before. An end beyond the first or last reading
+    /// of the odometry is extrapolated at its last velocity, so that neighbouring legs still share one end pose.
     pub(super) fn realign(&self, leg: &mut Leg, offset_change: f64) {
         for end in 0..2 {
             leg.times[end] -= offset_change;

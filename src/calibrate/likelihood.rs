@@ -49,7 +49,7 @@ const MIN_STD: f64 = 1e-7;
 /// because their squares would overflow.
 const MAX_ENTRY: f64 = 1e30;
 
-/// Residuals of one leg in the form that the likelihood needs. By default it has no observed component.
+/// Residuals of one leg in the form that the likelihood needs. The default has no observed component.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct LegTerm {
     columns: Columns,
@@ -82,7 +82,7 @@ pub(super) struct Innovation {
     columns: Columns,
     /// Variance of each component; NaN for a component that is not observed.
     variances: [f64; 3],
-    /// Inverse covariance.
+    /// Inverse covariance of the innovation.
     weight: Matrix3<f64>,
     /// Kalman gain of the reference's error at the end of the leg.
     gain: Matrix3<f64>,
@@ -130,7 +130,7 @@ impl LegTerm {
         let mut columns = Columns::zeros();
         columns.fixed_columns_mut::<ERROR_COUNT>(0).copy_from(&error_jacobian);
         columns.set_column(ERROR_COUNT, &observed_residuals.into());
-        // Errors of the reference displace the measured end, whose heading differs from that of the expected end.
+        // Errors of the reference are given in the frame of the measured end pose. The Jacobian expects the frame of the expected end pose.
         let heading_error = expected.between(measured).theta();
         let end_jacobian = jacobian * SE2::new(0.0, 0.0, heading_error).adjoint();
         let [start, end] =
@@ -145,7 +145,7 @@ impl LegTerm {
 
 /// Returns the innovations of legs, by a Kalman filter whose state is the error of the reference at the end of a leg. A leg that does not
 /// follow the previous leg starts at a new pose of the reference.
-// Not generic, because a second copy would make the module larger.
+// The function is not generic, because a second instance would make the module larger.
 pub(super) fn innovations<'a>(
     model: Model,
     parameters: &Parameters,
@@ -277,7 +277,7 @@ impl Residuals {
     /// Returns the score of each leg: its part of −½ tr[(V⁻¹ − U M Uᵀ) ∂V], with U = V⁻¹ (X, r).
     ///
     /// With the estimated errors β and their covariance C, M is (−β, 1)(−β, 1)ᵀ + C. A backward pass gives the blocks of U and V⁻¹
-    /// (disturbance smoother, Koopman and Shephard 1992). Those of the next leg have a prime, K is the gain, and T = A' K:
+    /// (disturbance smoother, Koopman and Shephard 1992). Blocks of the next leg have a prime, K is the gain, and T = A' K:
     ///
     /// - Uᵢ = F⁻¹ν − Tᵀ U'
     /// - (V⁻¹)ᵢᵢ = F⁻¹ + Tᵀ (V⁻¹)' T, and (V⁻¹)ᵢ,ᵢ₊₁ = −Tᵀ (V⁻¹)'

@@ -78,7 +78,7 @@ pub struct Observation {
     pub residuals: [f64; 3],
     /// Coefficients of the two α's in the variance of each component.
     pub coefficients: [[f64; 2]; 3],
-    /// Reading in the model's coordinates: rot1, trans, rot2 (rad, m, rad), or v, ω, Δt (m/s, rad/s, s).
+    /// Odometry reading in the model's coordinates: rot1, trans, rot2 (rad, m, rad), or v, ω, Δt (m/s, rad/s, s).
     pub reading: [f64; 3],
     /// Motion that the model expects from the odometry, in the frame of the leg's start.
     pub expected: SE2,
@@ -125,7 +125,7 @@ impl Observation {
         }
         let is_observed = match model {
             Model::Velocity => [true, false, false],
-            // The second rotation is the whole turn, with the noise of both rotations.
+            // A leg without a direction has no first rotation. Its second rotation is the whole turn, with the noise of both rotations.
             Model::Odometry(_) => [false, true, true],
         };
         if !is_observed[0] {
@@ -164,12 +164,12 @@ impl Observation {
     }
 }
 
-/// Returns the variances of a reading per unit of the first α of each component, and per unit of the second α.
+/// Returns the variances of an odometry reading per unit of the first α of each component, and per unit of the second α.
 fn unit_variances(rule: OdometryRule, reading: &OdomDelta) -> [LegVariances; 2] {
     [[1.0, 0.0, 1.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0, 0.0]].map(|alphas| rule.variances(reading, &alphas))
 }
 
-/// Motion that a model expects from a reading, and its noise.
+/// Motion that a model expects from an odometry reading, and the noise of this motion.
 struct Prediction {
     /// As [`Observation::reading`].
     reading: [f64; 3],
@@ -181,7 +181,7 @@ struct Prediction {
 }
 
 impl Prediction {
-    /// Returns the prediction of a rule, with noise of rot1, trans and rot2.
+    /// Returns the prediction of an odometry rule, with noise of rot1, trans and rot2.
     fn differential(rule: OdometryRule, expected: &SE2) -> Self {
         let odometry_reading = OdomDelta::from_poses(&SE2::identity(), expected);
         let OdomDelta { rot1, trans, rot2 } = rule.legs(&odometry_reading);
@@ -198,7 +198,7 @@ impl Prediction {
         Self { reading: [rot1, trans, rot2], motion, coefficients, noise_jacobian }
     }
 
-    /// Returns the prediction with noise of the turn, of the translation and of the strafe across the translation.
+    /// Returns the prediction of the omnidirectional rule, with noise of the turn, the translation, and the strafe across the translation.
     fn omnidirectional(expected: &SE2) -> Self {
         let odometry_reading = OdomDelta::from_poses(&SE2::identity(), expected);
         let OdomDelta { rot1, trans, rot2 } = odometry_reading;

@@ -37,7 +37,7 @@ pub enum TrajectoryError {
 /// Number of median periods above which a period is a pause. Shorter gaps are only dropped messages.
 const MAX_PERIOD_RATIO: f64 = 5.0;
 
-/// Longest step (s) between the poses to which a held command is integrated. Legs end at these poses.
+/// Maximum time (s) between two poses of the integration of a command. Legs end at these poses.
 const MAX_COMMAND_STEP: f64 = 0.1;
 
 impl Trajectory {

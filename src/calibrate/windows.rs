@@ -44,7 +44,7 @@ impl LegSet {
         parameters: &Parameters,
     ) -> Vec<Window> {
         let mut windows = Vec::new();
-        // First leg of the open window, and its driven distance, expected motion and covariance.
+        // Window that is not long enough yet: its first leg, driven distance, expected motion and covariance.
         let mut open_window = None;
         for leg in range {
             let previous_legs = open_window.take().filter(|_| self.legs[leg].follows);
@@ -105,7 +105,7 @@ fn coverage(windows: &[Window], min_window_length: f64, inflation: f64) -> Windo
     let window_count = squared_distances.len();
     let covered_count = squared_distances.iter().filter(|square| **square < CHI2_95[2]).count();
     WindowCoverage {
-        // The mean of no windows is NaN, which `max` replaces.
+        // Without windows the mean is NaN, and `max` returns its argument.
         length: (windows.iter().map(|window| window.length).sum::<f64>() / window_count as f64)
             .max(min_window_length),
         count: window_count,
@@ -162,7 +162,8 @@ pub(super) fn cross_validate(fit: &Fit, all_legs: &LegSet, alphas: &[Option<f64>
         covered_legs +=
             residuals.filtered(parameters).leg_fits().filter(|fit| fit.is_within(&CHI2_95)).count();
     }
-    // Variances estimated from the 3n components of n legs have the relative variance 2/(3n); several α's share them.
+    // Variances estimated from the 3n components of n legs have the relative variance 2/(3n). With k α's, each α has a k-th of the
+    // components.
     let variance_std_error = (2.0 * alphas.len() as f64 / (3 * leg_count / 2).max(1) as f64).sqrt();
     let coverage_by_other_half = covered_legs as f64 / compared_legs as f64;
     let expected_coverage = coverage_range(compared_legs, variance_std_error);

@@ -102,7 +102,7 @@ fn exact_end(theta: f64, omega: f64) -> [DoubleDouble; 2] {
     [chord_length * cos, chord_length * sin]
 }
 
-/// Number with twice the digits of a double, as the sum `high` + `low` of two doubles of 106 bits in all.
+/// Number with twice the digits of a double, as the sum `high` + `low` of two doubles, which have 106 bits together.
 ///
 /// Sums and products use the error-free transformations of Dekker (Numerische Mathematik 18, 1971) and Knuth.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Sine and cosine of four angles at once, with the same bits on every target.
 //!
-//! The scalar functions of this crate come from `libm`, and agree with these to [`MAX_SIN_COS_ERROR`]. The polynomials use only +, −, ×,
-//! ÷ and comparisons, without fused operations, and so round equally on all targets.
+//! The scalar functions of this crate come from `libm`, and agree with the functions of this module to [`MAX_SIN_COS_ERROR`]. The
+//! polynomials use only +, −, ×, ÷ and comparisons, without fused operations, and so round equally on all targets.
 
 use super::angle::wrap_angle;
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
@@ -166,7 +166,7 @@ const LOG_COEFFICIENTS: [f64; 7] = [
 ];
 
 /// Maximum angle (rad) that is reduced with [`PI_PARTS`], a π of 119 bits. The first two parts of π have 33 bits, so that their products
-/// with integers of up to 20 bits are exact. `libm` computes larger angles, by which no robot turns.
+/// with integers of up to 20 bits are exact. For larger angles, which robots do not reach, `libm` is used.
 const MAX_REDUCED_ANGLE: f64 = 3e6;
 const PI_PARTS: [f64; 3] = [3.141_592_653_468_251_2, 1.215_420_101_260_793_2e-10, 4.044_532_497_591_901e-21];
 

@@ -1,4 +1,4 @@
-//! Morph of the plane from positions (x, y) to exponential coordinates (along, heading).
+//! Morph: gradual transition of a picture from positions (x, y) to exponential coordinates (along, heading).
 //!
 //! Stage μ of the morph takes the twist ξ to the point F_μ(ξ), with D = diag(1, 1 − μ, 1 − μ):
 //!
@@ -14,7 +14,8 @@ use super::se2::SE2;
 use nalgebra::{Matrix2, Matrix2x3, Vector2, Vector3};
 use std::f64::consts::PI;
 
-/// Returns the point F_μ(ξ) of a twist ξ (m, m, rad) at a stage μ of the morph, from 0 to 1.
+/// Returns the point F_μ(ξ) of a twist ξ (m, m, rad) at a stage μ of the transition: 0 is the plane of positions, 1 exponential
+/// coordinates.
 pub fn unbend(twist: &Vector3<f64>, morph_fraction: f64) -> [f64; 2] {
     let bend_factor = 1.0 - morph_fraction;
     let pose = SE2::exp(&Vector3::new(twist.x, bend_factor * twist.y, bend_factor * twist.z));
@@ -35,8 +36,8 @@ pub fn unbend_jacobian(twist: &Vector3<f64>, morph_fraction: f64) -> Matrix2x3<f
     morph_jacobian
 }
 
-/// Returns a polyline of positions (x, y) at a stage of the morph: 0 is the plane, 1 exponential coordinates. Each position counts as the
-/// end of the arc whose turn is nearest to `expected_turn` (rad).
+/// Returns the points F_μ of a polyline of positions (x, y), for μ from 0 (positions) to 1 (exponential coordinates). Each position counts
+/// as the end of the arc whose turn is nearest to `expected_turn` (rad).
 ///
 /// The result is empty if some of these arcs lead forward and others backward, as for a polyline around the start.
 pub fn unbend_line(points: &[[f64; 2]], expected_turn: f64, morph_fraction: f64) -> Vec<[f64; 2]> {
@@ -52,7 +53,7 @@ pub fn unbend_line(points: &[[f64; 2]], expected_turn: f64, morph_fraction: f64)
         .collect()
 }
 
-/// Maximum number of Newton steps. Three steps are enough from one picture of a drag to the next.
+/// Maximum number of Newton steps. During a drag three steps are enough from one picture to the next.
 const MAX_NEWTON_STEPS: usize = 20;
 
 /// Returns the length and turn of the arc whose point F_μ is `target_point`, by Newton's method from an initial guess. Returns None if the

@@ -5,7 +5,7 @@ use crate::geom::segment::Segment;
 /// Bounding box: minimum x, minimum y, maximum x, maximum y, m.
 pub(super) const BOUNDS: [f64; 4] = [0.0, 0.0, 12.0, 9.0];
 
-/// Walls in the memory layout of a plan. Code that adds them one by one would take twice the bytes.
+/// Walls in the memory layout of a floor plan. Code that adds them one by one would take twice the bytes.
 pub(super) static WALLS: [Segment; 18] = [
     // Outer walls.
     wall(0.0, 0.0, 12.0, 0.0),

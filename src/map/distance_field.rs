@@ -110,12 +110,12 @@ struct FieldBuilder<'a> {
     cell_side: f64,
     /// Bound on the rounding error of any coordinate on the map, m.
     rounding_slack: f64,
-    /// Candidates of the current block for the nearest wall: those still to be measured, and those measured with their distances (m).
+    /// Candidates for the wall nearest to the current block: unmeasured walls, and measured walls with their distances (m).
     unmeasured: Vec<WallSet>,
     measured: Vec<(f64, WallSet)>,
 }
 
-/// Single wall, or all walls of a node of the tree.
+/// Single wall, or all walls of a node of the wall tree.
 #[derive(Clone, Copy, Debug)]
 enum WallSet {
     Wall(u32),
@@ -185,7 +185,8 @@ impl<'a> FieldBuilder<'a> {
             }
             return;
         }
-        // If `min_distance > block_radius`, no wall passes through the block: all of it is inside, or all is outside, the occupied cells.
+        // If `min_distance > block_radius`, no wall passes through the block: the whole block is either inside or outside of the occupied
+        // cells.
         let is_in_blocked_cell = min_distance > block_radius
             && self.occupied_grid.is_some_and(|occupied_grid| occupied_grid.is_blocked_at(block_centre));
         for row in bottom..top {

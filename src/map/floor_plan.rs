@@ -20,7 +20,8 @@ pub struct FloorPlan {
     walls: Vec<Segment>,
     /// Minimum x, minimum y, maximum x, maximum y, m.
     bounds: [f64; 4],
-    /// Cells of a grid whose outlines are the walls, if the plan is from a grid. A point inside an occupied cell is never free.
+    /// Cells of the grid from which the plan was made, if any. The walls are the outlines of its occupied cells. A point inside an occupied
+    /// cell is never free.
     occupied_grid: Option<OccupancyGrid>,
     /// Search structures of the collision tests, created by the first test.
     collision_index: OnceLock<CollisionIndex>,
@@ -52,7 +53,7 @@ pub enum FloorPlanError {
     /// More than [`FloorPlan::MAX_WALLS`] walls.
     #[error("walls has a length of {0} or more; allowed is at most {max}", max = FloorPlan::MAX_WALLS)]
     TooManyWalls(usize),
-    /// The bounds of a grid are outside the range of a plan.
+    /// The bounds of a grid exceed the range that is allowed for a floor plan.
     #[error(
         "origin has the cells from [{}] to [{}]; allowed are coordinates from -1000000 to 1000000, and a grid with sides from 0.01 to 100000",
         join_numbers(&.0[..2]),
@@ -152,7 +153,7 @@ impl FloorPlan {
             .unwrap_or_else(|_| unreachable!("a constant that the tests build"))
     }
 
-    /// Returns the walls; of a grid, the outlines of its blocked cells.
+    /// Returns the walls. If the plan was made from a grid, they are the outlines of its blocked cells.
     pub fn walls(&self) -> &[Segment] {
         &self.walls
     }
@@ -162,7 +163,7 @@ impl FloorPlan {
         self.bounds
     }
 
-    /// Returns the cells of the grid, if the plan is from one.
+    /// Returns the cells of the grid from which the plan was made; None if the plan was made from walls.
     pub fn grid(&self) -> Option<&OccupancyGrid> {
         self.occupied_grid.as_ref()
     }
@@ -197,7 +198,7 @@ impl FloorPlan {
         self.test_arc_after_end(&driven_arc, self.test_point(driven_arc.end, clearance), clearance)
     }
 
-    /// Tests an arc as [`FloorPlan::test_arc`] does, after its end was tested. The result includes the cost of the test of the end.
+    /// Tests an arc as [`FloorPlan::test_arc`] does, if its end was tested before. The result includes the cost of that test.
     pub(super) fn test_arc_after_end(
         &self,
         driven_arc: &DrivenArc,
@@ -265,7 +266,8 @@ impl FloorPlan {
         if !self.contains(arc.start.position()) || !self.contains(driven_arc.end) {
             return true;
         }
-        // The start and the end of the arc are inside. An arc that only touches an edge counts as inside, up to rounding.
+        // At this point the start and the end of the arc are inside the map. An arc that only touches an edge counts as inside, up to
+        // rounding.
         let corners = self.corners();
         let rounding_slack = rounding_bound(corners.as_flattened());
         (0..4).any(|i| {
@@ -327,7 +329,8 @@ impl ArcSweep<'_> {
         if distance_field.upper_bound(min_lower_bound) <= self.clearance - piece.max_error {
             return false;
         }
-        // A part no longer than the diagonal of a cell is not divided, because the field is too coarse. Distances to walls are computed.
+        // A part no longer than the diagonal of a cell is not divided, because the distance field is too coarse. Distances to walls are
+        // computed instead.
         let is_divisible = half_part_length > distance_field.cell_radius;
         let [x, y] = part_middles.map(|lanes| lanes.to_array());
         (0..LANE_COUNT).all(|i| {
@@ -352,7 +355,7 @@ impl ArcSweep<'_> {
             &mut self.wall_tests,
             |node| {
                 node.is_farther_than(part_middle, clear_distance)
-                    // This test of a node of the wall tree saves time only if the node's capsule is thinner than the part is long.
+                    // The test of a node saves time only if its capsule is thinner than the length of the tested part of the arc.
                     || node.capsule_radius < part_radius
                         && node.capsule_axis.distance_to_local_arc(get_local_arc()) - node.capsule_radius > clearance
             },

@@ -100,7 +100,7 @@ impl PixelClassifier {
     pub fn classify_pixel(&self, pixel: Pixel) -> Cell {
         let Pixel { brightness, opacity } = pixel;
         let occupancy = if self.negate { brightness } else { 1.0 - brightness };
-        // Thresholds are rounded to f32, as the brightness is, so that a pixel at a threshold is not beyond it.
+        // Thresholds are rounded to f32, as the brightness is, so that a pixel exactly at a threshold does not exceed the threshold.
         let (occupied_threshold, free_threshold) = (self.occupied_thresh as f32, self.free_thresh as f32);
         // The grey value is computed only if needed, because rounding is slow on processors without an instruction for it.
         let grey_value_of = || (brightness * 255.0).round();
@@ -156,7 +156,7 @@ impl OccupancyGrid {
             }
             classifier.classify_pixel(pixel)
         };
-        // The first row of an image is its highest, the first of a grid its lowest.
+        // The first row of an image is the top row, but the first row of a grid is the bottom row.
         let cells = pixels.chunks(width.max(1)).rev().flatten().map(to_cell).collect();
         let (plane_to_grid, unknown) = (PreparedPose::new(origin.inverse()), UnknownCells::default());
         Self { width, height, resolution, origin, plane_to_grid, cells, unknown_treatment: unknown }
@@ -194,7 +194,7 @@ impl OccupancyGrid {
         column >= 0.0 && row >= 0.0 && self.is_blocked(self.row_cells(row as usize), column as usize)
     }
 
-    /// Returns true if a cell is known to be free; cells off the grid are not.
+    /// Returns true if a cell is known to be free; false for a cell outside of the grid.
     pub(super) fn is_known_free(&self, column: usize, row: usize) -> bool {
         self.row_cells(row).get(column) == Some(&Cell::Free)
     }
@@ -225,7 +225,7 @@ impl OccupancyGrid {
         self.plane_to_grid.transform_point([x, y]).map(|coordinate| coordinate / self.resolution)
     }
 
-    /// Returns true if a cell of a row is an obstacle; cells off the grid are not.
+    /// Returns true if a cell of a row is an obstacle; false for a cell outside of the grid.
     fn is_blocked(&self, row: &[Cell], column: usize) -> bool {
         match row.get(column) {
             Some(Cell::Occupied) => true,

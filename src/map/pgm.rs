@@ -34,7 +34,7 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, ImageError> {
     }
     let bytes_per_pixel = if max_value < 256 { 1 } else { 2 };
     let raster_byte_count = pixel_count * bytes_per_pixel;
-    // One white space character ends the header. Windows editors write two: carriage return and line feed.
+    // One white space character ends the header. Windows editors write two characters: carriage return and line feed.
     let is_crlf = bytes[reader.position..].starts_with(b"\r\n")
         && bytes.len() >= reader.position + 2 + raster_byte_count;
     let available_bytes = bytes.get(reader.position + if is_crlf { 2 } else { 1 }..).unwrap_or_default();
@@ -50,7 +50,7 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, ImageError> {
     Ok(Image { width, height, pixels })
 }
 
-/// Reader of the tokens of a header, and of plain pixels.
+/// Tokenizer of the header and of the pixels of a plain file.
 struct TokenReader<'a> {
     bytes: &'a [u8],
     position: usize,

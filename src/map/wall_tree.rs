@@ -102,7 +102,7 @@ impl WallTree {
         let mut narrowest_capsule = (f64::INFINITY, ZERO_SEGMENT);
         for ([x, y], [back, right, front, left]) in candidate_axes.into_iter().zip(bounds_along_axes) {
             let (axis_offset, width) = (0.5 * (right + left), left - right);
-            // The ends of a capsule are round, so that its axis is shorter than the walls at both ends.
+            // The ends of a capsule are round, so that the axis of a capsule can be shorter than the walls inside.
             let axis_shortening = (0.25 * width).min(0.5 * (front - back));
             let point_at = |along: f64| [along * x - axis_offset * y, along * y + axis_offset * x];
             if width < narrowest_capsule.0 {
@@ -150,7 +150,7 @@ impl WallTree {
                 }
             }
             // Goes to the next node outside this subtree: the right sibling of this node, or of its nearest ancestor with a right sibling.
-            // After the last node this is the root.
+            // The node after the last node is the root.
             node_index += 1;
             node_index >>= node_index.trailing_zeros();
             if node_index == 1 {
@@ -176,7 +176,7 @@ impl Node {
 }
 
 /// Moves the `count` walls with the smallest sort keys to the front, by Hoare's selection. After [`MAX_SELECTION_ROUNDS`] rounds the
-/// selection may still be incomplete. The capsules of the search tree are then larger, but it is correct.
+/// selection may still be incomplete. The capsules of the search tree are then larger, but searches remain correct.
 fn select_smallest(walls: &mut [Segment], count: usize, key_index: usize) {
     let (mut range_start, mut range_end) = (0, walls.len());
     for _ in 0..MAX_SELECTION_ROUNDS {

@@ -14,9 +14,9 @@ pub enum OdometryRule {
     /// turns; a reading shorter than a centimetre has no first rotation. The sums of α·δ² are variances. In AMCL of ROS 1 the same sums
     /// were the standard deviations themselves.
     Nav2,
-    /// Beluga for a differential drive: `beluga/motion/differential_drive_model.hpp` (Ekumen-OS/beluga, release 2.0 and
-    /// later). As [`OdometryRule::Nav2`], but for a reading of exactly a centimetre, which has no first rotation here.
-    /// Before 2.0, α₄ applied to the whole turn rot1 + rot2 instead of to each rotation.
+    /// Beluga for a differential drive: `beluga/motion/differential_drive_model.hpp` (Ekumen-OS/beluga, release 2.0 and later). As
+    /// [`OdometryRule::Nav2`], except that a reading of exactly a centimetre has no first rotation. Before release 2.0, α₄ applied to the
+    /// whole turn rot1 + rot2 instead of to each rotation.
     Beluga,
     /// AMCL of Navigation2 for a robot that can drive sideways: `nav2_amcl/src/motion_model/omni_motion_model.cpp` (same commit). The
     /// bearing is exact. Noise is in the distance, across it (the strafe, α₄ and α₅), and in the turn as a whole. The variance of the
@@ -93,7 +93,7 @@ impl OdometryRule {
     }
 }
 
-/// Motion that a robot executed instead of the measured one: three legs, and a displacement across the drive.
+/// Motion that a robot executed instead of the measured one: rotation, translation, rotation, and a displacement across the translation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExecutedLegs {
     /// Rotation, translation and rotation of the executed motion.

@@ -112,11 +112,11 @@ js_structs! {
     pub struct Factor {
         /// Value of v̂, ω̂ or γ̂ that the final pose implies (m/s, rad/s).
         pub estimate: f64,
-        /// Residual v − v̂, ω − ω̂ or γ̂: the argument of `prob` in the table.
+        /// Residual v − v̂, ω − ω̂ or γ̂: the argument of `prob` in Table 5.1.
         pub residual: f64,
         /// Standard deviation σ of the noise.
         pub deviation: f64,
-        /// Residual divided by σ. If σ is 0, it is 0 for a residual of 0 up to rounding, and infinite otherwise.
+        /// Residual divided by σ. If σ is 0, the quotient is 0 for a residual of 0 up to rounding, and infinite otherwise.
         pub deviations: f64,
         /// Probability density `prob` at the residual.
         pub value: f64,
@@ -149,7 +149,7 @@ js_structs! {
         pub xi: [f64; 3],
     }
 
-    /// Values of the lines of Table 5.1. Line 4 is signed, unless the settings select the unsigned radius.
+    /// Values of the lines of Table 5.1. The radius r* of line 4 is signed, unless the settings select the unsigned radius.
     ///
     /// μ, the centre and r* are infinite if the displacement is parallel to the heading. μ is NaN without a displacement.
     #[derive(Clone, Copy, Debug, PartialEq)]

@@ -36,7 +36,7 @@ macro_rules! cloud_simulation {
                 Ok(())
             }
 
-            /// Shows up to `count` samples more; returns how many are shown.
+            /// Shows up to `count` more samples, and returns the total number of samples shown.
             pub fn add_samples(&mut self, count: usize) -> usize {
                 let target_count = self.shown_count().saturating_add(count).min(self.settings.samples);
                 if target_count > self.shown_count() {

@@ -1,4 +1,4 @@
-//! The Odometry Decomposer: an odometry reading as rotation, drive and rotation, and the effect of noise on these three legs.
+//! The Odometry Decomposer: an odometry reading as rotation, drive and rotation, and the effect of noise on these three motions.
 
 use super::cloud::draws::Draws;
 use super::cloud::views::nearest_index;
@@ -48,7 +48,8 @@ settings! {
 }
 
 impl SettingRules for Settings {
-    /// Readings with one, two or three legs; a drive in reverse and jitter of half a centimetre, on which the rules disagree.
+    /// Odometry readings with one, two or all three of rotation, translation and rotation; a drive in reverse and jitter of half a
+    /// centimetre, on which the rules disagree.
     const PRESETS: &'static [(&'static str, Self)] = &[
         ("all", preset_ending_at([1.2, 1.0, 1.2])),
         // 0.6435 rad is the direction of (4, 3).
@@ -196,7 +197,7 @@ impl OdometryDecomposer {
         &self.poses
     }
 
-    /// Returns the poses of the noise-free legs: at the start, after the first rotation, after the drive, after the second rotation.
+    /// Returns four poses of the noise-free motion: at the start, after the first rotation, after the drive, after the second rotation.
     pub fn leg_poses(&self) -> [SE2; 4] {
         ExecutedLegs { legs: self.legs(), strafe: 0.0 }.poses(&self.start_pose())
     }

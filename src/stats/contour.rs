@@ -129,8 +129,8 @@ impl ExponentialContour {
         self.outline(segment_count).map(|(_, point)| point).collect()
     }
 
-    /// Returns the closed outline at a stage of the morph, in the frame of the start. At stage 0 the outline is
-    /// [`ExponentialContour::boundary`], and at stage 1 the boundary of `ellipse`.
+    /// Returns the closed outline, in the frame of the start, at a stage of the transition from positions to exponential coordinates. At
+    /// stage 0 the outline is [`ExponentialContour::boundary`], and at stage 1 the boundary of `ellipse`.
     pub fn morphed_boundary(&self, segment_count: usize, morph: f64) -> Vec<[f64; 2]> {
         self.silhouette_twists(segment_count, morph).map(|twist| unbend(&twist, morph)).collect()
     }
@@ -165,7 +165,7 @@ impl ExponentialContour {
             .map(|twist| (twist.x, self.start.boxplus(twist).position()))
     }
 
-    /// Returns twists on the silhouette of the ellipsoid at a stage of the morph.
+    /// Returns twists on the silhouette of the 2σ ellipsoid, at a stage of the transition from positions to exponential coordinates.
     ///
     /// The ellipsoid is ξ = m + 2·G·u with |u| = 1, and H(ξ) = ∂position/∂ξ. On the silhouette u is perpendicular to the null vector k with
     /// H(ξ)·G·k = 0. The direction of k varies little over the ellipsoid. So the great circle perpendicular to the principal direction of k

@@ -20,8 +20,8 @@ pub struct CrossTrackStats {
     pub rho_heading: f64,
 }
 
-/// Standard deviation, relative to the extent of the cloud and its distance from the origin, below which it counts as 0. The rounding error
-/// of an operation is about 1e-16. With a larger bound narrow clouds would count as lines.
+/// Standard deviation below which it counts as 0, relative to the extent of the cloud and the cloud's distance from the origin. The
+/// rounding error of an operation is about 1e-16. With a larger bound narrow clouds would count as lines.
 pub(super) const MIN_RELATIVE_STD: f64 = 1e-12;
 
 /// Variance (m²) below which a standard deviation also counts as 0. Otherwise its sixth power would underflow in the standard error.

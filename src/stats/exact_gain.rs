@@ -47,8 +47,8 @@ impl ExactGain {
         let PolarMotion {
             length: [length, length_std], bearing: [bearing, bearing_std], commanded_turn, ..
         } = *motion;
-        // The length in a reading is never negative. After a drive in reverse, the first rotation of the reading therefore differs by half
-        // a circle.
+        // The translation of an odometry reading is never negative. After a drive in reverse, the first rotation of the reading therefore
+        // differs by half a circle.
         let half_circles = ((bearing - 0.5 * commanded_turn) / PI).round();
         let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
         let turn = commanded_turn + wrap_angle(motion.mean_turn() - commanded_turn);

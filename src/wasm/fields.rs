@@ -198,7 +198,7 @@ fn read_setting(field: &str, value: &JsValue, setting: &mut Setting) -> Result<(
         Setting::Numbers(slots, _) => fill_array(field, value, slots)?,
         // The level is checked before it is converted to α's, because a later error message would name an α.
         Setting::Level(slot, allowed) => slot.set(check_range(field, read_number(field, value)?, allowed)?),
-        // A group must be complete: speeds without their duration would mean another motion.
+        // A group of numbers, such as a command, must be complete: speeds without their duration would mean another motion.
         Setting::Group(members, numbers) => {
             let keys = members.each_ref().map(|member| member.declaration.key);
             let prefix = format!("{field}.");

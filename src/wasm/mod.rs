@@ -45,7 +45,7 @@ pub fn random_seed() -> Result<f64, JsError> {
 
 /// Returns the command that leads from the origin, heading along x, to the point (x, y) of the picture. Its duration is that of the given
 /// command. x and y are from −1e6 to 1e6 m. Of the many arcs that lead there, it is the one whose turn is nearest to that of the given
-/// command. `morph` is the stage of the picture, from 0 (the default, the plane) to 1 (exponential coordinates).
+/// command. `morph` is the stage of the picture's transition from positions (0, the default) to exponential coordinates (1).
 #[wasm_bindgen(js_name = commandReaching, unchecked_return_type = "{ v: number; omega: number }")]
 pub fn js_command_reaching(
     x: f64,

@@ -1,4 +1,4 @@
-//! Simulated log that the widget opens with. Its true α's are known.
+//! Simulated log that the Alpha Calibrator shows first. Its true α's are known.
 //!
 //! A robot follows a curve through a hall, and sometimes turns on the spot. Between two updates of a localizer, the true motion and the
 //! odometry differ by noise with the variances of Table 5.6. The reference has a lever arm, a mount yaw, a clock offset, and jumps. The

@@ -18,7 +18,7 @@ use std::cell::OnceCell;
 /// Number of end poses that are predicted for a leg.
 const OUTCOME_COUNT: usize = 400;
 
-/// Number of chords of the outline of a leg's cloud.
+/// Number of chords of the outline of the predicted end poses of a leg.
 const OUTLINE_SEGMENTS: usize = 64;
 
 js_structs! {
@@ -65,9 +65,9 @@ pub struct AlphaCalibrator {
 
 #[derive(Clone, Debug)]
 enum LogSource {
-    /// Simulated with the seed of the settings.
+    /// Log that is simulated with the seed of the settings.
     Simulated,
-    /// Loaded logs of the user, one for each drive.
+    /// Logs that the user has loaded, one for each drive.
     Loaded(Vec<Drive>),
     /// Unknown log: the fit comes from another simulation.
     Restored,

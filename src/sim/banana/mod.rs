@@ -90,8 +90,8 @@ impl ModelWithInput {
 }
 
 /// Returns the command whose end is drawn at the point (x, y) of the picture, with the duration of `near_command`. `morph` is the stage of
-/// the picture, from 0 (the plane) to 1 (exponential coordinates). In the plane many arcs lead to a point. The arc with the turn nearest to
-/// the turn of `near_command` is taken. At other stages the search starts at `near_command`, which is returned if there is no solution.
+/// the transition from the plane (0) to exponential coordinates (1). In the plane many arcs lead to a point. The arc with the turn nearest
+/// to the turn of `near_command` is taken. At other stages the search starts at `near_command`, which is returned if there is no solution.
 pub fn command_drawn_at([x, y]: [f64; 2], near_command: &VelocityCmd, morph: f64) -> VelocityCmd {
     let VelocityCmd { v, omega, dt } = *near_command;
     let found_arc = if morph == 0.0 {
@@ -107,7 +107,7 @@ fn command_end(command: &VelocityCmd) -> SE2 {
 }
 
 /// Minimum distance of the mean turn from a full circle, in standard deviations, at which exponential coordinates count as defined. At a
-/// full circle they diverge. With a smaller distance, single samples of a large cloud would dominate the moments.
+/// full circle the coordinates diverge. With a smaller distance, single samples of a large cloud would dominate the moments.
 const MIN_SIGMAS_TO_FULL_CIRCLE: f64 = 4.0;
 
 /// Maximum number of points of a curve of the exact skew. Each takes about ten microseconds.
@@ -247,7 +247,8 @@ impl BananaMachine {
         let linearized = self.linearized_moments();
         let Stats { cartesian, cross_track_skew, likelihood_gain, area_ratio, .. } = self.stats;
         Table {
-            // A Gaussian in (x, y) has no skew. To first order in the noise, all coordinate systems have the same Gaussian.
+            // A Gaussian in (x, y) has no skew. To first order in the noise, its Gaussian is the same in all coordinate systems, so that
+            // the gain is 0.
             linearized: TableColumn {
                 mean: linearized.mean,
                 cov: linearized.cov,

@@ -30,7 +30,7 @@ pub const MAX_SAMPLES: usize = 10_000_000;
 /// error of the initial skew is 0.007.
 const INITIAL_SAMPLES: usize = 50_000;
 
-/// Seed from 0 to 99 with a typical initial cloud: its area ratio and gain are nearest to the exact values.
+/// Seed from 0 to 99 with a typical initial cloud: its area ratio and likelihood gain are nearest to the exact values.
 const INITIAL_SEED: u64 = 87;
 
 settings! {
@@ -56,7 +56,7 @@ settings! {
         /// Seed of the random numbers. Equal seeds draw equal robots.
         seed: u64 = INITIAL_SEED, in 0..=MAX_SEED;
         kept {
-            /// Noise parameters of the velocity model. Each model keeps its own, so that switching between models loses none.
+            /// Noise parameters of the velocity model. Each model keeps its own α's, so that switching between models loses no α's.
             velocity_alphas: [f64; 6] = [0.002, 0.002, 0.1, 0.1, 0.002, 0.002];
             /// Noise parameters of the odometry model.
             odometry_alphas: [f64; 4] = [0.05, 0.05, 0.05, 0.05];

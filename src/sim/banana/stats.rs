@@ -53,7 +53,7 @@ js_structs! {
     }
 }
 
-/// Definedness of exponential and arc coordinates for the turns of a cloud.
+/// Flags that tell whether exponential and arc coordinates are defined for the turns of a cloud.
 #[derive(Clone, Copy, Debug)]
 pub struct DefinedCoordinates {
     /// True if exponential coordinates are defined.
@@ -132,8 +132,8 @@ js_structs! {
         pub tangent: Option<ExponentialMoments>,
     }
 
-    /// Curves over the cloud, as x, y pairs in m. Outlines are closed: the first point is repeated at the end. They are empty for
-    /// fewer than two samples, or if their coordinates are undefined.
+    /// Curves over the cloud, as x, y pairs in m. Outlines are closed: the first point is repeated at the end. A curve is empty for fewer
+    /// than two samples, or if its coordinates are undefined.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Contours {
         /// Arc driven without noise, from the start to its end; not closed.
@@ -170,13 +170,14 @@ js_structs! {
     }
 }
 
-/// Minimum ratio of the areas of ellipse and banana outline at which gaps are looked for. Below it the outlines nearly coincide.
+/// Ratio of the areas of the ellipse and the banana outline below which gaps are not searched, because both outlines nearly coincide.
 const MIN_AREA_RATIO: f64 = 1.15;
 
-/// Minimum Mahalanobis distance, in exponential coordinates, of a gap from the mean. One robot in 900 ends beyond it.
+/// Minimum Mahalanobis distance, in exponential coordinates, from the mean to a gap (a point where no robot ends). One robot in 900 ends
+/// farther away.
 const MIN_GAP_DISTANCE: f64 = 3.7;
 
-/// Distance of a gap from the centre of the ellipse, as a fraction of the distance to its boundary: clearly inside.
+/// Position of a gap between the centre (0) and the boundary (1) of the 2σ ellipse: clearly inside.
 const GAP_FRACTION: f64 = 0.95;
 
 impl BananaMachine {

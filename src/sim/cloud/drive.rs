@@ -24,7 +24,7 @@ pub struct NoisyDrive {
     half_heading_offset: AffineInNoise,
     /// Half of the commanded turn (rad), which selects the branches of the logarithm and of the arc to a position.
     half_commanded_turn: f64,
-    /// Middle and half the width (rad) of the interval of half turns for which the short formulas hold.
+    /// Middle and half the width (rad) of the interval of half turns for which formulas for angles up to π/2 suffice.
     short_formula_interval: [f64; 2],
     trigonometry: Trigonometry,
 }
@@ -134,7 +134,8 @@ impl NoisyDrive {
         with_logarithms(*end_points, turn)
     }
 
-    /// Returns the points to which a stage of the morph moves the ends of four motions: see [`crate::geom::unbend`].
+    /// Returns the ends of four motions at a stage of the transition from positions to exponential coordinates: see
+    /// [`crate::geom::unbend`].
     #[inline(always)]
     pub fn morphed_points(&self, motions: &FourMotions, end_points: &[f64x4; 2], morph: f64) -> [f64x4; 2] {
         let FourPoses { along, lateral, half_heading, .. } = self.poses(motions, end_points);
@@ -195,7 +196,7 @@ fn with_logarithms([x, y]: [f64x4; 2], turn: (f64x4, SinCos)) -> FourPoses {
     FourPoses { x, y, along, lateral, half_heading, half_sin: sin, half_cos: cos, sinc }
 }
 
-/// Largest angle of the short formulas, rad: π/2 minus a margin for rounding.
+/// Maximum angle (rad) for the sine and cosine formulas of small angles: π/2 minus a margin for rounding.
 pub const MAX_SHORT_FORMULA_ANGLE: f64 = FRAC_PI_2 * (1.0 - 1e-12);
 
 /// Returns the middle and half the width (rad) of the interval of half turns that are within π/2 of 0 and of `half_commanded_turn`.

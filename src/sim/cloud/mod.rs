@@ -130,7 +130,7 @@ impl Cloud {
 }
 
 /// Divides `sample_count` samples into blocks of groups of four, at least one block. Each block has a range of groups whose four lanes all
-/// have samples, and a range of groups with free lanes, each with its lane mask.
+/// have samples, and a range of groups with unused lanes, each with its lane mask.
 fn sample_blocks(sample_count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
     let group_count = sample_count.div_ceil(LANE_COUNT);
     let lane_mask = first_lanes_mask(sample_count % LANE_COUNT);

@@ -25,8 +25,9 @@ pub fn count_samples_in_cells(cloud: &Cloud, morph: f64, grid: &ViewGrid) -> Vec
 }
 
 /// Paints the counts of the cells of a grid, one pixel for each cell, with a ramp for each of `K` kinds of samples. The most frequent kind
-/// in a cell selects the ramp, and the last of several equally frequent kinds. The colour is ramp[255·√(count/max_count)], where `count` is
-/// the number of samples of all kinds. With the square root the sparse ends of a cloud stay visible. Empty cells are transparent.
+/// in a cell selects the ramp. Of several equally frequent kinds, the last one counts. The colour is ramp[255·√(count/max_count)], where
+/// `count` is the number of samples of all kinds. With the square root the sparse ends of a cloud stay visible. Empty cells are
+/// transparent.
 pub fn paint_cell_counts<const K: usize>(counts: &[[u32; K]], ramps: &[Ramp; K]) -> Vec<[u8; 4]> {
     let total_count_of = |kind_counts: &[u32; K]| kind_counts.iter().sum::<u32>();
     let max_count = counts.iter().map(total_count_of).max().unwrap_or(0);

@@ -51,7 +51,7 @@ pub struct Stats {
     pub n: usize,
     /// Moments of ξ (m, m, rad) about the commanded pose, after the selected step.
     pub measured: ExponentialMoments,
-    /// Predicted covariance after the selected step; null (None) if the recursion has none.
+    /// Predicted covariance after the selected step; null (None) if the recursion gives no covariance at this step.
     #[cfg_attr(target_arch = "wasm32", tsify(type = "ByRecursion<number[][] | null>"))]
     pub predicted: ByRecursion<Option<CovarianceRows>>,
     /// Steps at which a predicted variance is off, for the components along, lateral and heading.
@@ -74,7 +74,8 @@ pub struct ByRecursion<T> {
 pub type CovarianceRows = [[f64; 3]; 3];
 
 js_structs! {
-    /// 2σ outlines after a step as x, y pairs, the first point repeated at the end; empty if the recursion has no covariance there.
+    /// 2σ outlines after a step as x, y pairs, the first point repeated at the end; empty if the recursion gives no covariance at this
+    /// step.
     #[derive(Clone, Debug, PartialEq)]
     pub struct StepOutlines {
         /// Outline of the predicted Gaussian in (x, y), m, as in a filter that estimates x, y and θ.
@@ -200,7 +201,7 @@ impl DeadReckoning {
         nearest_index(positions, target, [radius, radius])
     }
 
-    /// Returns the moments and predicted covariances after the selected step, and the misses of all steps.
+    /// Returns the moments and predicted covariances after the selected step, and the steps at which predicted variances are off.
     pub fn stats(&self) -> Stats {
         let step_index = self.settings.step as usize - 1;
         let MeasuredMoments { mean, cov, .. } = self.measured_moments()[step_index];
@@ -254,7 +255,8 @@ impl DeadReckoning {
             .collect()
     }
 
-    /// Returns the milestones after each quarter of the path, except at the selected step. A path of fewer than four steps has fewer.
+    /// Returns the robots and outlines after each quarter of the path, except at the selected step. A path of fewer than four steps has
+    /// fewer quarters.
     pub fn milestones(&self) -> Vec<Milestone> {
         let Settings { step: selected_step, steps, .. } = self.settings;
         let mut quarter_ends: Vec<u32> =
@@ -313,8 +315,8 @@ pub const RECURSIONS: [Compounding; 3] =
 /// Relative error of a variance above which a step counts as a miss.
 pub const MISS_TOLERANCE: f64 = 0.05;
 
-/// Maximum relative standard error of a measured variance at which a miss can be established, a quarter of the tolerance. Of dozens of
-/// variance ratios, some deviate by three standard errors by chance, but hardly any by four.
+/// Maximum relative standard error of a measured variance at which a step can count as a miss (a prediction that is off): a quarter of the
+/// tolerance. Of dozens of variance ratios, some deviate by three standard errors by chance, but hardly any by four.
 const MAX_STANDARD_ERROR: f64 = MISS_TOLERANCE / 4.0;
 
 /// Standard deviation, relative to the length of the path or in radians, below which a measured spread counts as rounding error.
@@ -333,11 +335,11 @@ js_structs! {
     /// Misses of one component: steps at which its variance ratio is off by more than 5 % ([`MISS_TOLERANCE`]).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Misses {
-        /// True if the robots differ, and are enough to decide whether a step is a miss.
+        /// True if the robots have a spread, and are enough to decide whether a predicted variance is off.
         pub decidable: bool,
-        /// First step with a miss; null (None) if there is none, or if that cannot be decided.
+        /// First step at which the predicted variance is off; null (None) if there is no such step, or if it cannot be decided.
         pub first: Option<u32>,
-        /// Last step with a miss.
+        /// Last step at which the predicted variance is off; null (None) as for `first`.
         pub last: Option<u32>,
         /// Predicted divided by measured variance after the last step, minus 1; NaN without a prediction or a measured spread.
         pub end: f64,

@@ -149,8 +149,8 @@ impl Rollouts {
         })
     }
 
-    /// Drives complete blocks of robots, up to `target_count` robots. If more have been driven already, it starts again from the first
-    /// block. [`Rollouts::measured_moments`] drives the remaining robots.
+    /// Drives complete blocks of robots, up to `target_count` robots. If more robots have been driven already, driving starts again from
+    /// the first block. [`Rollouts::measured_moments`] drives the remaining robots.
     pub fn drive_blocks_to(&mut self, target_count: usize) {
         if target_count < self.driven_count {
             self.reset();

@@ -30,8 +30,8 @@ pub const MAX_SAMPLES: usize = 1_000_000;
 /// Maximum number of steps, ten times that of the chapter. Longer paths would show nothing new.
 pub const MAX_STEPS: u64 = 200;
 
-/// Seed with typical rollouts. Of the seeds 0 to 99 whose first miss is at the exact step, it has the variance ratios nearest to the exact
-/// ratios.
+/// Seed with typical rollouts. Of the seeds 0 to 99 with the exact first step at which the predicted variance is off, it has the variance
+/// ratios nearest to the exact ratios.
 const INITIAL_SEED: u64 = 29;
 
 settings! {

@@ -27,7 +27,7 @@ impl SettingValue for [f64; 3] {
     type Range = ();
 
     fn setting(&mut self, (): ()) -> Setting<'_> {
-        // Each setting with a pose completes these phrases in its `each`.
+        // A setting appends its own text to these descriptions, for example "of the robot after the command".
         const MEMBERS: &[GroupMember; 3] = &[
             GroupMember::new("x", "Position x", "m", QUANTITY_RANGE),
             GroupMember::new("y", "Position y", "m", QUANTITY_RANGE),

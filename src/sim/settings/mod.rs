@@ -36,13 +36,14 @@ pub struct Declaration {
     /// Unit; "" for a number without one.
     #[cfg(not(target_arch = "wasm32"))]
     pub unit: &'static str,
-    /// Description of each number of a list that is an attribute. For a pose or command, the phrase after the name of each of its numbers.
+    /// Description of each number of a list that is an attribute. For a pose or command: text that is appended to the description of each
+    /// of its numbers.
     #[cfg(not(target_arch = "wasm32"))]
     pub each: &'static str,
 }
 
 impl Declaration {
-    /// Creates a declaration; `of` is "" for a setting that is no other form of another setting.
+    /// Creates a declaration; `of` is "" if the setting does not set another setting in another form.
     #[cfg_attr(target_arch = "wasm32", expect(unused_variables, reason = "modules omit the descriptions"))]
     pub(crate) const fn new(
         key: &'static str,
@@ -333,7 +334,7 @@ pub trait SettingRules: DeclaredSettings + 'static {
 /// - `up to` names a method that returns the end of the range, if it depends on other settings.
 /// - `by` names a method that returns a reference to the value, if the setting is not a field.
 /// - `of` names the setting that this setting sets in another form, such as `alphas` for a noise level.
-/// - `each` describes each number of a list. For a pose or command, it is the phrase after the name of each of its numbers.
+/// - `each` describes each number of a list. For a pose or command, it is appended to the description of each of its numbers.
 /// - `kept` lists fields of the struct that are not settings.
 macro_rules! settings {
     (

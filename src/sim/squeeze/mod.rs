@@ -136,7 +136,7 @@ impl MapSqueeze {
         self.tally = Tally::default();
     }
 
-    /// Makes attempts up to a number. If nearly every draw collides, the simulation gives up, and further calls make none.
+    /// Makes attempts up to a number. If nearly every draw collides, the simulation gives up, and further calls make no attempts.
     fn show_samples(&mut self, target_count: usize) {
         self.draws.reset_if_changed(self.settings.seed, NoiseKind::Normal);
         self.draws.extend_to(target_count);

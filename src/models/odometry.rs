@@ -73,11 +73,11 @@ pub trait RotTransRot {
     /// Returns the distribution of the noise.
     fn noise(&self) -> NoiseKind;
 
-    /// Returns the variances of the three legs of `reading` (rad², m², rad²).
+    /// Returns the variances of rot1, trans and rot2 of `reading` (rad², m², rad²).
     fn variances(&self, reading: &OdomDelta) -> [Variance; 3];
 
-    /// Returns the legs driven when their noises take the values `unit_noise` times their standard deviations. As in
-    /// Table 5.6, noise is subtracted.
+    /// Returns the rotation, translation and rotation that the robot executes. Their noises are `unit_noise` times their standard
+    /// deviations. As in Table 5.6, noise is subtracted.
     fn executed_motion(&self, u: &OdomDelta, unit_noise: [f64; 3]) -> OdomDelta {
         let [rot1, trans, rot2] = self.variances(u).map(|variance| variance.0.sqrt());
         OdomDelta {
@@ -87,7 +87,7 @@ pub trait RotTransRot {
         }
     }
 
-    /// Returns the covariance of (x, y, θ) that an EKF carries, from the three legs linearized at the reading. The covariance is 3 × 3, in
+    /// Returns the covariance of (x, y, θ) that an EKF carries, by linearizing the three noises at the reading. The covariance is 3 × 3, in
     /// the frame of `x` (m², m·rad, rad²).
     fn cartesian_cov(&self, u: &OdomDelta, x: &SE2) -> Matrix3<f64> {
         let (sin, cos) = libm::sincos(x.theta() + u.rot1);
@@ -102,7 +102,8 @@ impl<M: RotTransRot> MotionModel for M {
     /// Odometry reading, as [`OdomDelta::from_poses`] computes it from two poses of the odometry frame.
     type Control = OdomDelta;
 
-    /// Returns the score of Table 5.5. As in the table, the variances are those of the hypothetical legs, not of the reading.
+    /// Returns the score of Table 5.5. As in the table, the variances are those of the hypothetical motion between the two poses, not of
+    /// the reading.
     fn prob(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> f64 {
         let (noise, hypothetical_legs) = (self.noise(), OdomDelta::from_poses(x, x_next));
         let [rot1_variance, trans_variance, rot2_variance] = self.variances(&hypothetical_legs);
@@ -142,7 +143,7 @@ impl<M: RotTransRot> MotionModel for M {
     }
 }
 
-/// Returns the variances of the three legs of `reading` (rad², m², rad²). If `is_reverse_aware`, a rotation δ counts as min(|δ|, |π − |δ||).
+/// Returns the variances of rot1, trans and rot2 of `reading` (rad², m², rad²). If `is_reverse_aware`, a rotation δ counts as min(|δ|, |π − |δ||).
 /// This is the smallest turn of a robot that may drive in reverse instead.
 pub(super) fn leg_variances(
     alphas: OdomAlphas,
@@ -175,8 +176,8 @@ impl RotTransRot for OdometryModel {
 
 /// The odometry model, optionally for robots that reverse: a rotation δ then counts as min(|δ|, |π − |δ||) in the variances.
 ///
-/// A robot that backs up decomposes into rot1 ≈ π, drive, rot2 ≈ −π. With the tables' variances it gets the noise of two half
-/// turns that it never made. Deployed localizers also use the smaller angle.
+/// A drive in reverse decomposes into rot1 ≈ π, drive, rot2 ≈ −π. With the variances of the tables it has the noise of two half turns that
+/// the robot never made. Deployed localizers also use the smaller angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConfiguredOdometry {
     /// Model of Tables 5.5 and 5.6.

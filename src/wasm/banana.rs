@@ -135,16 +135,16 @@ impl JsBananaMachine {
 /// Range of turns of commands, rad: the product of the ranges of turn rate and duration.
 const TURN_RANGE: RangeInclusive<f64> = -1e12..=1e12;
 
-/// Returns the points to which a stage of the morph moves a polyline of points of the plane, as x, y pairs in m. Each point counts as the
-/// end of the arc whose turn is nearest to `turn` (rad). Empty for a polyline around the start.
+/// Returns a polyline at a stage of the transition from positions (0) to exponential coordinates (1), as x, y pairs in m. Each of `points`
+/// is a position (x, y), and counts as the end of the arc whose turn is nearest to `turn` (rad). Empty for a polyline around the start.
 #[wasm_bindgen(js_name = unbendLine)]
 pub fn js_unbend_line(points: &[f64], turn: f64, morph: f64) -> Result<Float64Array, JsValue> {
     let (turn, morph) = (check_range("turn", turn, &TURN_RANGE)?, check_range("morph", morph, &MORPH_RANGE)?);
     Ok(flat_float_array(&unbend_line(points.as_chunks().0, turn, morph)))
 }
 
-/// Returns the 2σ outline, at a stage of the morph, of a Gaussian in exponential coordinates, as x, y pairs. `moments` are the Gaussian's
-/// mean (three numbers) and covariance (nine numbers).
+/// Returns the 2σ outline of a Gaussian in exponential coordinates, as x, y pairs. `morph` is the stage of the transition from positions
+/// (0) to exponential coordinates (1). `moments` are the Gaussian's mean (three numbers) and covariance (nine numbers).
 #[wasm_bindgen(js_name = unbendGaussian)]
 pub fn js_unbend_gaussian(moments: &[f64], morph: f64) -> Result<Float64Array, JsValue> {
     let morph = check_range("morph", morph, &MORPH_RANGE)?;

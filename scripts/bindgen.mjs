@@ -1,5 +1,5 @@
-// Programs of the crate scripts/bind, which use wasm-bindgen. One generates the glue of the core, and one runs its tests in a browser. The
-// programs are not optimized, so that they compile five times as fast. Even without optimization, generating the glue takes only 0.3 s.
+// Programs of the crate scripts/bind, which use wasm-bindgen. One generates the JavaScript glue (bindings) of the core. One runs its
+// browser tests. The programs are not optimized, so that they compile five times as fast. Even then, generating the glue takes only 0.3 s.
 
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
@@ -9,12 +9,12 @@ import { CACHE_DIRECTORY, readManifestValue, ensureNativeRust } from './toolchai
 
 const BINDGEN_CRATE = 'scripts/bind';
 
-/** Returns the path of the program that generates the glue of the core. The first call builds it. */
+/** Returns the path of the program that generates the core's JavaScript glue. The first call builds it. */
 export const ensureBindProgram = memoize(() => compileProgram('bind', []));
 
 /** Returns the path of the program that runs WebAssembly tests in a browser. The first call builds it. */
 export const ensureTestRunner = memoize(async () => {
-  // The glue generator is built first, because its build compiles most crates that the test runner needs too.
+  // The generator of JavaScript glue is built first, because its build compiles most crates that the test runner needs too.
   await ensureBindProgram();
   return compileProgram('test-runner', ['--features', 'test-runner']);
 });

@@ -97,7 +97,7 @@ async function buildCores(coreNames, isLocal) {
   printStep(`Compiling the core to WebAssembly (${rustTools.description}): ${coreNames.join(', ')}`);
   const completionPromises = [];
   for (const coreName of coreNames) {
-    // Cargo writes all cores to one path. The glue of a core is therefore generated before the next core is compiled.
+    // Cargo writes all cores to one path. The JavaScript glue of a core is therefore generated before the next core is compiled.
     const [modulePath, bindProgramPath] = await settleAll([compileCore(rustTools, coreName, isLocal), bindProgramPromise, packagesPromise]);
     await runOrThrow('wasm-bindgen failed: see above.', bindProgramPath, [modulePath, absolutePath(`build/bound/${coreName}`)]);
     completionPromises.push(completeCore(coreName, isLocal));
@@ -152,7 +152,7 @@ async function writeSettings() {
 }
 
 /**
- * Returns the declarations of a widget's settings, and of each number of a group or list.
+ * Returns the declarations of a widget's settings, including those of each number in a group or list.
  *
  * @param {any[]} settingsOfWidget as scripts/declarations.rs prints them
  * @returns {import('../www/types.d.ts').Declaration[]}

@@ -69,7 +69,7 @@ const MODULE_SOURCES = {
     );
   },
   /**
-   * Glue of the worker that reads logs, without WebAssembly modules. The page sends a compiled module to the worker.
+   * JavaScript glue for the worker that reads logs, without WebAssembly modules. The page sends a compiled module to the worker.
    *
    * @param {string[]} widgetTags of the figures with logs that have a module of their own
    */
@@ -141,7 +141,7 @@ const ADDRESS_MODULES = {
 const ELEMENT_DECLARATIONS = `export * from './core.js';
 /** Sets messages of the elements in a language (a BCP 47 tag). The messages are those of messages/en.ts, or some of them. */
 export declare function setMessages(lang: string, messages: object): void;
-/** Returns true for the tag of a figure. Compilers of templates ask this function for custom elements. */
+/** Returns true for the tag of a figure. Template compilers call this function to recognize custom elements. */
 export declare function isFigureTag(tag: string): boolean;
 `;
 
@@ -279,7 +279,7 @@ export async function bundle({ tags = WIDGET_TAGS } = {}) {
   await writePython();
 }
 
-/** Expression in a template string. It may contain template strings, but no braces outside of them. */
+/** Expression in a template string. The expression may contain template strings, but no braces outside of them. */
 const EXPRESSION_SOURCE = String.raw`\$\{(?:[^{}\x60]|\x60[^\x60]*\x60)*\}`;
 const EXPRESSIONS_RE = new RegExp(EXPRESSION_SOURCE, 'g');
 const STYLES_RE = new RegExp(String.raw`(?<=\b(?:css|unsafeCSS\()\x60)(?:[^\x60$]|${EXPRESSION_SOURCE})*(?=\x60)`, 'g');

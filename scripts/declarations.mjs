@@ -94,7 +94,7 @@ function rangeTextOf({ min, max, unit }) {
   return min === undefined || max === undefined ? undefined : `${numberTextOf(min)} to ${numberTextOf(max)}${unit ? ` ${unit}` : ''}`;
 }
 
-/** Returns a limit or default as text. @param {number} limitValue */
+/** Returns the limit or default of a setting as text. @param {number} limitValue */
 function numberTextOf(limitValue) {
   if (limitValue === Number.MAX_SAFE_INTEGER) return '2⁵³ − 1';
   const numberFormat = new Intl.NumberFormat('en', { maximumSignificantDigits: 7, useGrouping: 'min2' });

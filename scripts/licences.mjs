@@ -6,7 +6,7 @@ import { ROOT } from './process.mjs';
 
 /** @typedef {{ name: string, version: string, licence: string, directory: string }} Package */
 
-/** Licence of the standard library, which is not a package. A toolchain may be installed without its documents. */
+/** Licence notice of Rust's standard library, which is not a package. Some toolchains lack the library's licence files. */
 const STANDARD_LIBRARY_NOTICE = 'The standard library of Rust (MIT OR Apache-2.0), copyright The Rust Project contributors: see rust-lang.org.';
 
 /**

@@ -1,5 +1,5 @@
 // `npm test` runs the checks of every change. `npm run test:all` also runs the nightly checks, which take longer. `npm test -- PART` runs
-// one part, and passes the remaining arguments to its program. All parts run, even if one fails.
+// one part, and passes the remaining arguments to its program. All parts run, even if a part fails.
 //
 // Nightly tests have `#[ignore = "nightly: …"]` in Rust, and `@nightly` in their title in JavaScript. `*.nightly.test.js` has only nightly
 // tests.
@@ -179,8 +179,8 @@ const TEST_PARTS = {
 };
 
 /**
- * Lanes of parts. Lanes run side by side, so that no processor core is idle while a linker, a download, a frame or a test waits. Parts of a
- * lane run one after the other. Cargo itself waits while a part of another lane uses Cargo's directory.
+ * Parts of the test run, in lanes. Lanes run side by side, so that no processor core is idle while a linker, a download, a frame or a test
+ * waits. Parts of a lane run one after the other. Cargo itself waits while a part of another lane uses Cargo's directory.
  */
 const PART_LANES = [
   ['build', 'browser', ...(IS_NIGHTLY ? ['engines', 'embeddings'] : [])],

@@ -138,7 +138,7 @@ export const ensureRustForWasm = memoize(/** @returns {Promise<Rust>} */ async (
   if (![...requiredFiles, '/usr/lib/rustlib/src/rust/library/Cargo.lock'].every(existsSync)) {
     await installByApt(['rustc-web', 'cargo-web', 'rust-web-src', 'lld'], missingMessage);
   }
-  // Tests abort on panic, as the published module does, and therefore share its compiled library.
+  // Tests abort on panic, like the published module. The standard library is therefore compiled only once for both.
   const env = { ...createDebianEnvironment(), CARGO_UNSTABLE_PANIC_ABORT_TESTS: 'true' };
   const rustcVersion = await requireRustVersion(DEBIAN_BIN, env, 'run `sudo apt-get update && sudo apt-get install rustc-web`');
   return {

@@ -30,7 +30,7 @@ const TEMPLATE_FRAMEWORKS = {
 /** Writes all declaration files. */
 export async function writeTypes() {
   const widgetDescriptions = await describeWidgets();
-  // wasm-bindgen writes a comment inside a Rust macro as a raw string literal.
+  // wasm-bindgen writes a comment inside a Rust macro as a raw string literal, whose prefix is removed.
   const coreTypes = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8').replaceAll('* r" ', '* ');
   writeFileSync(join(ROOT, 'build/simulations.d.ts'), [DISPOSABLE_LIBRARY, GENERATED_HEADER, OPTIONS_IMPORT, ...composeGroupInterfaces(), ...Object.keys(settings).map(settingsInterfaceOf), coreTypes].join('\n'));
   writeFileSync(join(ROOT, 'build/elements.d.ts'), [GENERATED_HEADER, importLineOf(widgetDescriptions), await composeFigureTypes(widgetDescriptions), ...widgetDescriptions.map(elementTypesOf), tagTypesOf(widgetDescriptions)].join('\n'));

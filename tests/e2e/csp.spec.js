@@ -43,7 +43,7 @@ async function openUnderPolicy(page, policy, pagePath) {
 const trustedTypesPolicyOf = (policyNames) => `${STRICT_POLICY}; require-trusted-types-for 'script'; trusted-types ${policyNames}`;
 
 test('a figure complies with a strict policy, even if the page has loaded another copy of Lit with its own Trusted Types policy', async ({ page, figureName }) => {
-  // A copy of Lit that the page loads before the figures makes this Trusted Types policy.
+  // The policy "lit-html" is created before the figures load, as another copy of Lit on the page would do.
   await page.addInitScript(() => void Reflect.get(window, 'trustedTypes').createPolicy('lit-html', { createHTML: (/** @type {string} */ htmlText) => htmlText }));
   const readViolations = await openUnderPolicy(page, trustedTypesPolicyOf('lit-html motion-widgets'), `embed.html?widget=${figureName}`);
   const widget = page.locator(figureName);

@@ -67,7 +67,7 @@ export const CLOUD_FIGURE_NAMES = ALL_FIGURE_NAMES.filter((figureName) => FIGURE
 export const HANDLE_FIGURE_NAMES = ALL_FIGURE_NAMES.filter((figureName) => FIGURE_FACTS[figureName].handleSelectors);
 
 /**
- * Returns the figure on which a test about all figures runs. The choice depends on the title only, and every figure has some tests.
+ * Returns the figure with which a test of common behaviour runs. The choice depends on the title only, and every figure has some tests.
  *
  * @param {string} testTitle of the test; a tag at its end has no effect
  * @param {Name[]} [candidateNames]

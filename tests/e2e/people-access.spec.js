@@ -156,7 +156,7 @@ test.describe('a finger on a figure', () => {
     await waitForFrames(page);
   }
 
-  /** Scrolls a part of a figure to the lower half of the screen, below the picture that stays in sight. @param {Locator} partLocator */
+  /** Scrolls a part of a figure to the lower half of the screen, because a sticky picture covers the upper half. @param {Locator} partLocator */
   async function scrollToLowerHalf(partLocator) {
     await partLocator.evaluate((element) => {
       const { top, height } = element.getBoundingClientRect();
@@ -207,7 +207,7 @@ test.describe('a finger on a figure', () => {
       const { pictures: [{ view }], poses, viewModel: { arcEnd } } = /** @type {any} */ (element);
       const robotPixelOf = (/** @type {number} */ i) => [view.toPixelX(poses[3 * i]), view.toPixelY(poses[3 * i + 1])];
       const handlePixel = [view.toPixelX(arcEnd[0]), view.toPixelY(arcEnd[1])];
-      // Finds a robot in the plot area that the handle does not cover.
+      // Finds a robot that is in the plot area and not covered by the handle.
       for (let i = 0; i < poses.length / 3; i++) {
         const [x, y] = robotPixelOf(i);
         const { left, right, top, bottom } = view.plotArea;

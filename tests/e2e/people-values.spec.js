@@ -102,7 +102,7 @@ test('a refused value is reported with the allowed range, and the last valid val
     await expect(valueInput).toHaveAttribute('aria-invalid', 'false');
     await page.keyboard.press('Escape');
   }
-  // Thousands separators are accepted in the English form and in the form of the page.
+  // Thousands separators are accepted in the notation of English and in that of the page's language.
   for (const numberText of ['2,000', '3\u202f000']) {
     await valueFieldOf(widget, 'samples').fill(numberText);
     await page.keyboard.press('Enter');

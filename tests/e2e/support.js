@@ -19,8 +19,8 @@ import { ALL_FIGURE_NAMES, CLOUD_FIGURE_NAMES, HANDLE_FIGURE_NAMES, chooseFigure
  */
 
 /**
- * Fixtures. The first three fixtures are the names of the element on which a test about all figures, all clouds or all handles runs. The
- * title of the test decides which element that is. The last fixture marks the introduction of a figure as seen.
+ * Fixtures. The first three fixtures are names of elements, on which a test of behaviour that all figures, all clouds or all handles share
+ * runs. The title of the test selects the element. The last fixture marks the introduction of a figure as seen.
  *
  * @typedef {{ figureName: Name, cloudFigureName: Name, handleFigureName: Name, isIntroductionSkipped: boolean }} FigureFixtures
  */
@@ -51,7 +51,7 @@ export const test = playwrightTest.extend({
 });
 
 /**
- * Declares a test about all figures. Daily tests run it with one figure, chosen by the title. Nightly tests run it with each figure.
+ * Declares a test of behaviour that all figures share. Daily it runs with one figure, chosen by the title, and nightly with each figure.
  *
  * @param {string} testTitle
  * @param {(page: Page, name: Name, isNightly: boolean) => Promise<void>} testBody body of the test; `isNightly` is true in nightly tests
@@ -67,7 +67,7 @@ export function testEach(testTitle, testBody, testDetails = {}) {
   }
 }
 
-/** Marks the introduction of a figure as seen. It runs in the page before the page's scripts. */
+/** Marks the introduction of a figure as seen. This function runs in the page before the page's scripts. */
 function skipIntroduction() {
   try {
     sessionStorage.setItem('motion-widgets.introduced', 'yes');

@@ -1,5 +1,5 @@
 /**
- * Platforms that need no code of their own. `npm run build` writes their site, and `npm run dev` serves it for authors.
+ * Platforms (site generators, frameworks) that need no test code of their own. `npm run build` writes a site, and `npm run dev` serves it.
  *
  * @module
  */
@@ -120,5 +120,5 @@ const platformEntries = Object.entries(PLATFORM_DEFINITIONS).map(([name, { packa
   ...otherFields,
 }]);
 
-/** Platforms that need no code of their own, by the name of the example. */
+/** Platforms (site generators and frameworks) that need no test code of their own, by the name of the example. */
 export const plainPlatforms = Object.fromEntries(platformEntries);

@@ -14,7 +14,7 @@ import { startProgram } from './serving.mjs';
 import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
 
 /**
- * Description of a platform, which is the default export of a file in this folder.
+ * Description of a platform (a tool that makes web pages, such as Hugo), which a file in this folder exports by default.
  *
  * @typedef {object} Platform
  * @property {string} heading of its section in doc/embedding/, and its name in the table of doc/embedding.md
@@ -30,14 +30,14 @@ import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
  * @property {(page: import('@playwright/test').Page, isDark: boolean) => Promise<unknown>} [setDarkMode] turns dark mode on or off
  * @property {ExpectedFigure[]} expectedFigures figures that the example contains
  * @property {{ message: RegExp, reason: string }[]} [allowedMessages] messages of the console that the platform causes
- *
+ * 
  * @typedef {object} Serving
  * @property {string} name
  * @property {(directory: string, tools: Tools) => Promise<RunningServer>} serve
  * @property {Record<string, (page: import('@playwright/test').Page, site: import('./checks.mjs').Site) => Promise<void>>} [checks] for
  *   servings that are not sites, in place of the usual checks
  * @property {Platform['setDarkMode']} [setDarkMode] replaces that of the platform, if only some servings have dark mode
- *
+ * 
  * @typedef {{ url: string, stop: () => unknown }} RunningServer
  * @typedef {{ selector: string, properties: Record<string, unknown> }} ExpectedFigure selector of a figure, and properties that it must have
  * @typedef {{ npmTarball: string, pythonWheel: string }} PackagePaths paths of the packages; pythonWheel is empty for platforms without Python
@@ -62,7 +62,7 @@ const SILENT_ENVIRONMENT = {
 /** Directory of the packages and copies for this clone of the repository. Tests of other clones may run at the same time. */
 const SCRATCH_DIRECTORY = join(CACHE_DIRECTORY, 'embeddings', createHash('sha256').update(ROOT).digest('hex').slice(0, 8));
 
-/** Returns the names of all platforms. @returns {Promise<string[]>} */
+/** Returns the names of all tested platforms, such as "hugo" or "next". @returns {Promise<string[]>} */
 export async function findPlatformNames() {
   const { plainPlatforms } = await import('./plain.mjs');
   return [...Object.keys(plainPlatforms), ...readdirSync(join(ROOT, 'tests/embeddings')).flatMap((fileName) => fileName.match(/^(.+)\.js$/)?.slice(1) ?? [])];
@@ -90,7 +90,7 @@ export function pinnedVersionsOf(exampleName, ...packageNames) {
     .join(', ');
 }
 
-/** Installs the npm packages of a platform. @param {string} _directory @param {Tools & PackagePaths} tools */
+/** Installs the npm packages of a platform's example. @param {string} _directory @param {Tools & PackagePaths} tools */
 export async function installNpmPackages(_directory, { run, npmTarball }) {
   await run('npm', ['install', '--no-audit', '--no-fund', '--prefer-offline', '--loglevel', 'error', npmTarball]);
 }
@@ -106,7 +106,7 @@ export const pythonDirectoryOf = (directory) => `${directory}.tools`;
 export const pythonProgramPathOf = (directory, name) => join(pythonDirectoryOf(directory), 'bin', name);
 
 /**
- * Installs the Python packages of a platform.
+ * Installs the Python packages of a platform's example.
  *
  * @param {string} directory
  * @param {Tools} tools

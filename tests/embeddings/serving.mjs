@@ -25,7 +25,7 @@ export const serveFiles = (outputDirectory, basePath) => async (directory) => {
 };
 
 /**
- * Starts the server of a platform, and waits until it answers.
+ * Starts the server of a site generator or framework, and waits until the server answers.
  *
  * @param {(port: string, directory: string) => [command: string, args: string[], env?: Record<string, string>]} commandOf returns the command that starts the server
  * @param {string} [base] the path of the site, with a slash at both ends

@@ -1,4 +1,4 @@
-/** Records the errors of a page, because WebKit's driver has no access to the console. It runs before the other scripts of the page. */
+/** Records the errors of a page, because WebKit's driver has no access to the console. This script runs before the other scripts of the page. */
 {
   const recordedErrors = /** @type {string[]} */ ([]);
   Object.assign(globalThis, { recordedErrors });

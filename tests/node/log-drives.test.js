@@ -127,7 +127,7 @@ test('several recordings are separate drives, or each contains one log of the sa
   assert.deepEqual(await unpairedNamesOf('odom1.csv', 'x.csv', 'y.csv', 'odom2.csv'), [['odom1.csv', 'odom2.csv'], ['x.csv', 'y.csv']]);
   assert.match(await catchRefusalSentence(unpairedNamesOf('a.csv', 'b.csv')), /^a\.csv: its name does not say whether it is odometry or reference; /);
   assert.match(await catchRefusalSentence(unpairedNamesOf('odom1.csv', 'odom2.csv', 'truth.csv')), /^odom1\.csv: the odometry is in odom1\.csv, odom2\.csv, and the reference in truth\.csv; /);
-  // A log may be ambiguous in one of its roles only.
+  // If one file is the odometry and the other has two series, only the choice of the reference is ambiguous.
   const twoBodyRecording = createRecording({ Robot: 'columns', Cart: 'columns' }, { name: 'take.csv', format: 'csv' });
   const odometryTable = createRecording({ '': 'columns' }, { name: 'odom.csv', format: 'csv' });
   const { question } = await catchRefusalError(planDrivesAsync([odometryTable, twoBodyRecording]));

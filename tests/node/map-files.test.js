@@ -40,7 +40,7 @@ test('YAML features other than fields and values are refused at once', async () 
   await assertRefusedAtOnce(`image: !${'x'.repeat(9e4)} y`, 'unknown scalar tag .{81}…');
   await assertRefusedAtOnce('image: map.pgm\n---\nimage: map.pgm', 'expected a single document in the stream, but found more');
   await assertRefusedAtOnce('image: *a', 'unidentified alias "a"|aliases exceeded maxAliases \\(0\\)');
-  // A long key is ignored like other unknown fields. So is a key that is the name of a property of objects.
+  // Unknown keys are ignored, even if they are long or are names of properties that every object has.
   for (const ignoredKey of ['x'.repeat(9e4), '__proto__', 'constructor', 'toString', '<<']) {
     const { grid } = await createSimulationWithMap(createMapYamlFile({ image: 'map.pgm', [ignoredKey]: '{resolution: 9, image: [1]}' }), PGM_FILE);
     assert.deepEqual([grid?.columns, grid?.rows, grid?.resolution], [2, 1, 0.05]);

@@ -36,7 +36,7 @@ fn a_freed_object_is_gone_with_its_memory() {
         for _ in 0..10 {
             js.run(&use_and_free);
         }
-        // A cloud that is not freed takes more than a page of WebAssembly memory, which has 64 KiB.
+        // If a cloud were not freed, the memory would grow by more than a WebAssembly page of 64 KiB.
         assert!(
             memory_size_in_bytes() <= byte_length_before + 65_536,
             "{class_name} left {} bytes",

@@ -1,5 +1,5 @@
-//! `bind MODULE DIRECTORY`: makes the JavaScript glue of the core. It writes `motion_bg.wasm`, the glue `motion_bg.js`, and `motion.d.ts`,
-//! the types of the core's exports.
+//! `bind MODULE DIRECTORY`: makes the JavaScript glue (bindings) of the core. It writes `motion_bg.wasm`, the glue `motion_bg.js`, and
+//! `motion.d.ts`, the types of the core's exports.
 
 use std::error::Error;
 use std::path::PathBuf;

@@ -33,7 +33,7 @@ fn assert_fails(check_name: CheckName, calibration: &Calibration) {
     assert!(recommended_alphas.inflation >= 1.0 && !recommended_alphas.reason.is_empty());
 }
 
-/// Asserts that the log was judged unusable, and gives no recommendation.
+/// Asserts that the calibration judges the log unusable, and recommends no α's.
 fn assert_unusable(calibration: &Calibration, case_description: &str) {
     assert_eq!(
         (calibration.diagnostics.verdict, &calibration.recommended),
@@ -148,8 +148,8 @@ fn a_copy_of_the_odometry_is_no_reference() {
         );
         assert_unusable(&calibration, "a copy");
     }
-    // The reference of a precise robot differs from the odometry by a millimetre and half a milliradian over a metre. It is not taken for a
-    // copy.
+    // The reference of a precise robot differs from the odometry by a millimetre and half a milliradian over a metre. This reference is not
+    // taken for a copy.
     for seed in 1..=12 {
         for leg_count in [600, 200] {
             let violation = Violation::Scaled(0.01);
@@ -157,7 +157,7 @@ fn a_copy_of_the_odometry_is_no_reference() {
             let failed_checks = failed_check_names_of(&calibrate_simulation(&precise_simulation));
             assert!(!failed_checks.contains(&ReferenceMatches), "{leg_count} legs, seed {seed}");
         }
-        // Noise of 3 cm and 0.03 rad hides a precise robot, but not an ordinary one.
+        // Reference noise of 3 cm and 0.03 rad hides the noise of a precise robot, but not that of an ordinary robot.
         let noisy_simulation = Simulation { reference_stds: [0.03; 2], ..new_passing_simulation(100, seed) };
         let failed_checks = failed_check_names_of(&calibrate_simulation(&noisy_simulation));
         assert!(!failed_checks.contains(&ReferenceMatches), "noisy reference, seed {seed}");

@@ -32,8 +32,8 @@ struct IncompleteDrive {
     velocity_of_leg: VelocityOfLeg,
     odometry_reasons: [Option<NotIdentifiable>; 5],
     velocity_reasons: [Option<NotIdentifiable>; 6],
-    /// Drives with fifty additional legs of the motion that is missing. The first drive is for odometry models. The second is for the
-    /// velocity model, which does not use turns on the spot.
+    /// Drives with fifty additional legs, which identify all α's. The first drive is for odometry models. The second is for the velocity
+    /// model, which does not use turns on the spot.
     completed_drives: [VelocityOfLeg; 2],
 }
 

@@ -1,4 +1,4 @@
-//! Recommended α's, tested on windows of a metre in another log of the same robot.
+//! Recommended α's, tested on windows (successive legs of a metre in total) of another log of the same robot.
 
 use super::calibrate_simulation;
 use super::simulated::{MODELS, Simulation, Violation, execute_motion};

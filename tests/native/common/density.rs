@@ -1,8 +1,8 @@
 //! Integrals of pose densities, and their comparison with samples.
 //!
-//! The coordinates are polar, around the start of the motion: signed distance c, bearing β in a half circle, and
-//! heading θ relative to `heading_slope` · β. Their volume element is dx dy dθ = |c| dc dβ dθ. A density that grows as 1/|c| towards the start is smooth in
-//! them. The slope is 2 for arcs, which turn by twice their bearing, and 1 for odometry legs, so that cells lie along the cloud.
+//! The coordinates are polar, around the start of the motion: signed distance c, bearing β in a half circle, and heading θ relative to
+//! `heading_slope` · β. Their volume element is dx dy dθ = |c| dc dβ dθ. A density that grows as 1/|c| towards the start is smooth in these
+//! coordinates. The slope is 2 for arcs, which turn by twice their bearing, and 1 for odometry legs, so that cells lie along the cloud.
 
 use super::{SAMPLE_COUNT, chi_square_limit, seeded_rng};
 use motion::MotionModel;

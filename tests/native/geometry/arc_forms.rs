@@ -37,14 +37,14 @@ fn sine_cosine_and_sinc_match_fifty_digit_references() {
 #[test]
 fn errors_of_the_three_arc_forms_grow_as_their_formulas_say() {
     let errors = form_errors();
-    // The chord form loses no digits. Its error is the rounding of a product and two sums.
+    // The chord form of the arc loses no digits. Its error is the rounding of a product and two sums.
     assert!(errors.chord.iter().all(|error_of_chord| *error_of_chord < 3e-17), "{:?}", errors.chord);
     for (i, omega) in errors.omega.iter().enumerate() {
         let straight_line_error = 0.5 * omega * 0.01;
         if (1e-9..1e-2).contains(omega) {
             assert!((errors.straight[i] / straight_line_error - 1.0).abs() < 1e-3, "{omega}: {errors:?}");
         }
-        // The error of the arc form is about ε/ω.
+        // The error of the form with the arc's radius is about ε/ω.
         let ratio_of_arc_errors = errors.arc[i] / (f64::EPSILON / omega);
         if (1e-11..0.1).contains(omega) {
             assert!((0.05..3.0).contains(&ratio_of_arc_errors), "{omega} {ratio_of_arc_errors}");

@@ -55,8 +55,8 @@ fn half_headings_lie_on_the_requested_branch() {
                 lane_trigonometry.sin_cos_on_branch(f64x4::splat(half_heading), branch_centre);
             let expected_half_turn = branch_centre + 0.5 * wrap_angle(2.0 * (half_heading - branch_centre));
             let half_turn = first_lane_of(half_turn_lanes);
-            // Reducing the angle by half circles causes rounding in proportion to their number. At the end of the branch the half heading
-            // may lie on either end.
+            // Reducing the angle by half circles causes rounding in proportion to their number. An angle at one end of the branch may be
+            // reduced to the other end.
             let rounding_tolerance = MAX_SIN_COS_ERROR * (1.0 + half_heading.abs());
             let half_turn_error = (half_turn - expected_half_turn)
                 .abs()

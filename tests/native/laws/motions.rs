@@ -17,7 +17,7 @@ fn any_duration() -> impl Strategy<Value = f64> {
 proptest! {
     #![proptest_config(new_proptest_config(400))]
 
-    /// For any two poses, the inverted controls lead from one to the other.
+    /// Inverting an arc between any two poses gives controls that lead from one pose to the other.
     #[test]
     fn an_inverted_arc_ends_at_the_given_pose(x in any_pose(), x_next in any_pose(), dt in any_duration()) {
         let inverted_arc = invert_arc(&x, &x_next, dt);

@@ -1,4 +1,4 @@
-//! Plans with many walls in one place. A collision check may measure the distance to only a few of the walls.
+//! Plans with many walls in one place. A collision check must be fast there, and measure the distance to only a few walls.
 
 use crate::common::{draw_uniform, seeded_rng};
 use motion::geom::arc::Arc;

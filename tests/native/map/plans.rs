@@ -162,7 +162,7 @@ fn touching_a_wall_is_not_free() {
     let parallel_arc = Arc { start: SE2::new(4.0, 2.25, 0.0), length: 2.0, turn: 0.0 };
     assert!(!plan.test_arc(&parallel_arc, 0.25).free);
     assert!(plan.test_arc(&parallel_arc, 0.2499).free);
-    // A half circle leads around the end of the wall. Its middle is 0.25 m from that end, and the rest is farther away.
+    // A half circle leads around the end of the wall. Its middle is 0.25 m from the wall's end. All other points are farther away.
     let half_circle = Arc { start: SE2::new(9.0, 2.25, 0.0), length: -0.25 * PI, turn: PI };
     assert!(!plan.test_arc(&half_circle, 0.0).free, "in reverse it goes through the wall");
     let half_circle = Arc { length: 0.25 * PI, turn: -PI, ..half_circle };

@@ -129,7 +129,7 @@ fn the_pose_density_divides_by_the_jacobian() {
                     .map(|leg_index| kind.prob(leg_noise[leg_index], Variance(table_variances[leg_index])));
                 let expected_density = rot1_variance * t * rot2_variance / executed_legs.trans;
                 let density = new_model(kind).pose_density(&executed_legs.apply(&x), &u, &x).unwrap();
-                // Other legs lead to the same pose, in reverse or with full turns. They add less than 1e-6 to the density with this noise.
+                // Motions in reverse or with full turns lead to the same pose. With this noise they add less than 1e-6 to the density.
                 assert!(
                     (density / expected_density - 1.0).abs() < 1e-6,
                     "{u:?} at {executed_legs:?}: {density}, not {expected_density}"

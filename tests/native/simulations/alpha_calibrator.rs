@@ -13,7 +13,7 @@ fn new_simulation(new_settings: Settings) -> AlphaCalibrator {
     AlphaCalibrator::new(new_settings).expect("allowed")
 }
 
-/// Returns the poses of the base at start and end of a leg, by the reference.
+/// Returns the poses of the base at start and end of a leg, as measured by the reference.
 fn base_poses_of_leg(calibration: &Calibration, leg_index: usize) -> [SE2; 2] {
     calibration.legs[leg_index].reference.map(|pose| pose * calibration.corrected.base())
 }
@@ -139,7 +139,7 @@ fn panel_points_are_means_of_squared_innovations() {
     );
 }
 
-/// If the model is true, no more bins are off by over two or three error bars than with normal errors. This includes bins
+/// If the model is true, bins that differ by over two or three error bars are as rare as normal errors of that size. This includes bins
 /// where one leg with a large turn dominates.
 #[test]
 #[ignore = "nightly: 40 calibrations"]
@@ -213,7 +213,7 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
             .zip([odometry_end.x(), odometry_end.y(), odometry_end.theta()])
             .all(|(computed_value, expected_value)| (computed_value - expected_value).abs() < 1e-12)
     );
-    // Outcomes are drawn by the rule, with variances that are inflated by four.
+    // Outcomes are drawn by the rule, with variances that the inflation multiplies by four.
     let mut alphas = [0.0; 5];
     for (alpha, fitted_alpha) in alphas.iter_mut().zip(&calibration.alphas) {
         *alpha = fitted_alpha.expect("known");

@@ -194,7 +194,7 @@ fn a_zero_variance_has_no_relative_error() {
         );
     }
     assert!(errors_with(robot_settings(1)).iter().all(|relative_error| relative_error.is_nan()));
-    // Two robots always have a kurtosis of 1. The formula would therefore give an error of 0.
+    // Two robots always have a kurtosis of 1. The formula for large clouds would therefore give an error of 0.
     assert!(errors_with(robot_settings(2)).iter().all(|error| error.is_finite() && *error >= 2f64.sqrt()));
     // Robots that only turn have no variance along the track.
     let command_on_the_spot = VelocityCmd { v: 0.0, omega: 0.5, dt: 0.2 };
@@ -381,7 +381,7 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
             let middle_time = f64::sqrt(low * high);
             if exact_variance_ratio_at(middle_time) < 1.0 { low = middle_time } else { high = middle_time }
         }
-        // The formula is exact to first order in the noise. Its relative error is a few times the variances, 1e-6.
+        // The formula of exercise 2 is exact to first order in the noise. Its relative error is a few times the variances, 1e-6.
         assert!((crossing_time / low - 1.0).abs() < 1e-4, "{crossing_time}, found {low}");
         // Exact variances equal first-order variances while headings are small, here for three seconds.
         for (first_order_cov, exact_variances) in [

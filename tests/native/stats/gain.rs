@@ -124,7 +124,7 @@ fn the_gain_equals_its_definition_over_all_poses() {
     });
 }
 
-/// The tolerances are the errors of the references. The references integrate each noise up to 6 or 6.6 standard deviations, in steps across
+/// The tolerances are the errors of the reference values, which integrate each noise up to 6 or 6.6 standard deviations, in steps across
 /// the jump between two branches. Where an outline crosses itself, a chord may belong to either loop.
 #[test]
 fn exact_gains_match_the_references() {
@@ -158,7 +158,7 @@ fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
             }
         }
     }
-    // The gain on the floor is also defined if headings spread over a full turn, where exponential coordinates are undefined.
+    // The gain of positions on the floor is defined even if headings spread over a full turn, where exponential coordinates are undefined.
     let wide_simulation = simulation(GENTLE_COMMAND, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
     assert!(!wide_simulation.is_exponential_defined());
     let Stats { likelihood_gain: gain, likelihood_gain_error: gain_error, area_ratio, .. } =

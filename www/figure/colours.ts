@@ -8,7 +8,7 @@ export class Colours extends FigureController {
   #palette: Palette | undefined;
 
   hostConnected() {
-    // A background of the page has its final colour only when its CSS transition ends.
+    // If the page's background changes by a CSS transition, its final colour is known only at the end of the transition.
     const onTransitionEnd = ({ target, propertyName }: TransitionEvent) => {
       if (propertyName === 'background-color' && listElementAndAncestors(this.host).includes(target as Element)) this.applyAndDraw();
     };
@@ -38,7 +38,7 @@ export class Colours extends FigureController {
     const hasOwnColours = isPrinting || surfaceStyle.colorScheme !== scheme;
     for (const [name, colour] of Object.entries(pageColours)) surfaceStyle.setProperty(`--${name}`, hasOwnColours ? '' : colour);
     surfaceStyle.setProperty('--back', hasOwnColours ? 'var(--paper)' : '');
-    // The page's colours of muted text and rules suit its own background. On the figure's background they would be illegible.
+    // The page's colours for muted text and rules suit the page's background. On the figure's own background they would be illegible.
     for (const role of ['muted', 'rule']) surfaceStyle.setProperty(`--mw-${role}`, hasOwnColours ? 'initial' : '');
     this.#palette = undefined;
   }

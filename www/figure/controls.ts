@@ -92,7 +92,7 @@ export function parseTypedNumber({ notice }: Figure, key: string, name: string, 
   notice.show(() => words.refused(name.replaceAll(/[*_{}]/g, ''), quotedText, formatLimit(min), formatLimit(max), isInteger), { control: key });
 }
 
-/** Returns a picture with its title. The first picture has the handles. The pointer selects samples in it. `Canvases` sets the size of its canvas. */
+/** Returns a picture with its title. The pointer selects samples in the picture. The first picture has the handles. `Canvases` sizes the canvas. */
 export function pictureHtml(figure: Figure, picture: Picture<any>, title: string, options: { className?: string, description?: string, below?: unknown } = {}) {
   const isFirst = picture === figure.pictures[0];
   const { className, description = isFirst ? figure.description : title, below } = options;

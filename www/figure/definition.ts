@@ -10,7 +10,7 @@ import type { StateValues } from './settings.ts';
 /** Converter of Lit that returns an invalid text unchanged, which the check of the value then refuses. */
 interface AttributeConverter {
   fromAttribute: (text: string | null) => unknown;
-  /** Converts a value to a text; null removes the attribute. Values without this method are read from attributes, but not written. */
+  /** Converts a value to a text; null removes the attribute. Without this function, the attribute is read but not written. */
   toAttribute?: (value: any) => string | null;
 }
 
@@ -56,7 +56,7 @@ const BOOLEAN_CONVERTER: AttributeConverter = {
 /** Converter of lists of words, which are separated by spaces in the text. */
 export const WORD_LIST_CONVERTER: AttributeConverter = { fromAttribute: (text) => text?.split(/\s/).filter(Boolean), toAttribute: (value) => value.join(' ') };
 
-/** Converters by type of setting. The texts of groups of settings are refused. */
+/** Converters by type of setting. A group of settings cannot be given as an attribute. */
 const CONVERTERS: Record<string, AttributeConverter> = {
   number: NUMBER_CONVERTER, whole: NUMBER_CONVERTER, numbers: NUMBERS_CONVERTER, word: WORD_CONVERTER, words: WORD_LIST_CONVERTER, boolean: BOOLEAN_CONVERTER,
 };
@@ -79,7 +79,7 @@ export const COMMON_PROPERTIES: Record<string, CommonProperty> = {
   headingLevel: { reflect: true, attribute: 'heading-level', words: HEADING_LEVELS, default: null },
 };
 
-/** Returns a value of such a property after a check; null for the default. An empty text is true, as in HTML. */
+/** Returns the checked value of a property that every figure has; null for the default. An empty text is true, as in HTML. */
 export function checkCommonValue(name: string, value: unknown, { words, type }: CommonProperty) {
   if (type === Boolean) return value === '' || Boolean(value);
   return words && (value ?? null) !== null ? checkWord(name, String(value), words) : value;
@@ -94,7 +94,7 @@ export const createFieldProperty = (key: string, type = ''): Property => ({ conv
 
 function propertyOf({ key, in: group, field = key, index, of, weights = [], type, min = -Infinity, max = Infinity }: Declaration): Property {
   const plainProperty = createFieldProperty(key, type);
-  // The property is a factor: the last numbers of the list setting named by `of` are the `weights` times that factor.
+  // This property is a common factor: the last numbers of the list setting named by `of` are this factor times the `weights`.
   if (of) {
     return {
       ...plainProperty,
@@ -149,7 +149,7 @@ interface ElementField extends FieldRange {
   isResetByPreset?: true;
   /** Attribute or property by which a page sets the field. Without it, a page sets the field by `setState` only. */
   access?: 'attribute' | 'property';
-  /** Returns the maximum in a state, if it depends on other fields. */
+  /** Returns the field's maximum for a state, if the maximum depends on other fields. */
   maxInState?: (state: StateValues) => number;
 }
 

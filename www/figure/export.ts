@@ -81,7 +81,7 @@ export function csvOf(figure: Figure) {
 export function downloadFile(fileName: string, blob: Blob) {
   const downloadLink = Object.assign(document.createElement('a'), { href: URL.createObjectURL(blob), download: fileName });
   downloadLink.click();
-  // The address is released after a minute, when the download has started.
+  // The file's object URL is released after a minute. By then the download has started.
   setTimeout(() => URL.revokeObjectURL(downloadLink.href), 60_000);
 }
 

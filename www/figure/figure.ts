@@ -99,7 +99,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
    * @public
    */
   declare highlight: string | null;
-  /** Controller aborted when the element is removed from the page. Its signal removes the listeners on other objects. */
+  /** AbortController that is aborted when the element is removed from the page. Its signal removes the listeners on other objects. */
   lifetime = new AbortController();
   runtime = new Runtime(this);
   canvases = new Canvases(() => this.renderer.drawResized());
@@ -371,7 +371,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
     return super.getUpdateComplete();
   }
 
-  /** Draws again after a change of a property of every figure. */
+  /** Draws again after a change of a property that every figure has, such as the theme. */
   updated(changedProperties: Parameters<LitElement['updated']>[0]) {
     if (changedProperties.size > 0) this.colours.applyAndDraw();
   }

@@ -20,7 +20,7 @@ export class Gesture extends FigureController {
     this.#endPress();
     this.#pressListenerAbort = new AbortController();
     const { signal } = this.#pressListenerAbort;
-    // If the pointer is released over a list or dialog of the browser, the next event is a `pointermove`.
+    // No `pointerup` arrives if the pointer is released over a list or dialog of the browser. The next event is then a `pointermove`.
     for (const eventType of ['pointerup', 'pointercancel', 'pointermove'] as const) addEventListener(eventType, ({ buttons }) => buttons === 0 && this.#endPress(), { capture: true, signal });
   }
 
@@ -62,7 +62,7 @@ export class Gesture extends FigureController {
     this.commit();
   }
 
-  /** Changes settings as a complete gesture, such as a click. */
+  /** Changes settings in one step, such as a click, and fires `input` and `change`. */
   requestAndCommit(change: StateValues | ((requested: StateValues) => StateValues)) {
     this.host.settings.requestChange(change);
     this.commit();

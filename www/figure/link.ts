@@ -1,6 +1,6 @@
 /**
- * State in the page's address. Each figure has a part of the fragment:
- * `#banana-machine.1=…&map-squeeze:my-id=…`. A figure opens its part and keeps it up to date; with `share`, it adds one.
+ * State in the page's address. Each figure has a part of the fragment: `#banana-machine.1=…&map-squeeze:my-id=…`. A figure opens its part
+ * and keeps it up to date; with `share`, it adds its part.
  */
 
 import { packJson, unpackJson } from '../data/packing.ts';
@@ -33,7 +33,7 @@ export class StateLink extends FigureController {
 
   #scrollHere() {
     const { host } = this;
-    // After the update the figure has its height.
+    // The page scrolls after the update, which gives the figure its height.
     void host.updateComplete.then(() => host.scrollIntoView());
   }
 
@@ -75,7 +75,7 @@ export class StateLink extends FigureController {
     const state = this.host.getState() ?? {};
     const packedState = await packJson(state);
     this.lacksMap = packedState.length > MAX_PACKED_LENGTH;
-    // The start pose is valid only on its map.
+    // Without its map, the start pose may be invalid, and is left out too.
     return this.lacksMap ? packJson({ ...state, map: undefined, start: undefined }) : packedState;
   }
 }

@@ -5,13 +5,13 @@ import { words } from '../messages/registry.ts';
 import { buttonHtml } from '../ui/controls.ts';
 import { FigureController } from './controller.ts';
 
-/** Notice beside a control, or over the lower edge of the figure or window. There it has a button that closes it. A notice moves no other content. */
+/** Notice beside a control or, with a close button, at the lower edge of the figure or window. A notice moves no other content. */
 export class Notice extends FigureController {
   #latestNotice: { renderContent: () => unknown, control?: string } | undefined;
   /** Notice about long work, shown until `endWork` is called. At the lower edge it takes the place of the latest notice. */
   #workNotice: { renderContent: () => unknown, stop: () => void } | undefined;
 
-  /** Shows a notice: beside the control named `control`, or otherwise with a button. A notice about long work has a button that calls `stop`. */
+  /** Shows a notice beside the control named `control`, or else at the lower edge. A notice about long work has a button that calls `stop`. */
   show(renderContent: () => unknown, { control, stop }: { control?: string, stop?: () => void } = {}) {
     if (stop) this.#workNotice = { renderContent, stop };
     else this.#latestNotice = { renderContent, control };

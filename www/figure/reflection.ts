@@ -45,7 +45,7 @@ export class Reflection extends FigureController {
     if (this.host.simulation) {
       this.host.runtime.attemptOrReport(applyIfChanged);
     } else {
-      // The latest assignment is applied last.
+      // A map keeps the place of an existing key. Deleting the key moves the latest assignment to the end, where it is applied last.
       this.#earlyAssignments.delete(name);
       this.#earlyAssignments.set(name, { value: parsedValue, apply: applyIfChanged });
     }
@@ -77,7 +77,7 @@ export class Reflection extends FigureController {
     return { ...defaultConfigOf(definition.declarations), ...definition.elementDefaults, ...definition.dependentDefaultsOf?.(settings.requested) };
   }
 
-  /** Writes the attributes that differ from the settings, with those that a new figure would need besides. */
+  /** Updates the attributes, so that a new figure with them has the present settings. Removes attributes that it would not need. */
   updateAttributes() {
     const { simulation, viewModel } = this.host;
     // Before the first frame, the page's attributes still wait in `#earlyAssignments`.
@@ -94,7 +94,7 @@ export class Reflection extends FigureController {
     this.#isWritingAttributes = false;
   }
 
-  /** Returns attributes with which a new figure opens in the present state: all with the given names, and others where the default or the preset differs. */
+  /** Returns attributes with which a new figure opens in the present state: all `givenNames`, and those whose default or preset value differs. */
   findNeededAttributes(givenNames: string[] = []): Map<string, string> {
     const { requested } = this.host.settings;
     const neededTexts = new Map<string, string>();
@@ -118,7 +118,7 @@ export const settingAccessorsOf = (name: string): PropertyDescriptor & ThisType<
   set(value) { this.reflection.set(name, value); },
 });
 
-/** Defines a widget's element with its properties, and further ones. If the page loads the script twice, the second call does nothing. */
+/** Defines a widget's element. Adds `furtherProperties` to its prototype. If the page loads the script twice, the second call does nothing. */
 export function defineElement(Widget: typeof import('./figure.ts').FigureElement<any, any> & CustomElementConstructor, furtherProperties: PropertyDescriptorMap = {}) {
   const { prototype, definition: { tag, properties } } = Widget;
   if (customElements.get(tag)) return;

@@ -19,7 +19,7 @@ const MAX_DRAW_MS_PER_FRAME = 8;
 
 const MAX_TEXT_DELAY_MS = 100;
 
-/** Distance from the viewport at which a figure starts. Less would show empty frames; more would start unseen figures. */
+/** Distance from the viewport at which a figure starts. A smaller distance would show empty frames. A larger one would start figures that nobody sees. */
 const NEAR_MARGIN_CSS = '600px';
 
 /** Longest time step of an animation, ms. After a pause it continues without a jump. */
@@ -60,7 +60,7 @@ export class Renderer extends FigureController {
     if (this.isPrinting !== printQuery.matches) this.#setPrinting(printQuery.matches);
     onLanguage(this.host, () => this.#applyLanguage(), signal);
     this.#nearObserver.observe(this.host);
-    // The script that defines the element may still call `load(source)`.
+    // The figure starts in a microtask, because the script that defines the element may first call `load(source)`.
     queueMicrotask(() => {
       this.#checkPosition();
       this.#observeVisibility();
@@ -81,7 +81,7 @@ export class Renderer extends FigureController {
 
   #observeVisibility() {
     const target = this.host.shadowRoot?.querySelector('.simulation') ?? this.host;
-    // An element that was removed may still be updated.
+    // An element may still be updated after its removal. It is then not observed.
     if (target === this.#visibleTarget || !this.host.isConnected) return;
     if (this.#visibleTarget) this.#visibleObserver.unobserve(this.#visibleTarget);
     this.#visibleTarget = target;
@@ -123,7 +123,7 @@ export class Renderer extends FigureController {
     if (!isVisible && (this.isOpening || this.#textPendingSince !== undefined)) this.#renderText();
     const hasAppeared = isVisible && !this.isVisible;
     this.isVisible = isVisible;
-    // No events report changes of colours while the figure is out of the viewport.
+    // Changes of colours are not observed while the figure is out of the viewport. The colours are therefore applied again.
     if (hasAppeared) this.host.colours.applyAndDraw();
     else if (!isVisible && this.host.isSettledAwaited) this.requestFrame();
   }
@@ -159,7 +159,7 @@ export class Renderer extends FigureController {
       const { simulation, cloud, settings } = host;
       if (!simulation) return;
       settings.applyPending();
-      // A script awaits all samples, and nobody sees the cloud grow.
+      // If a script waits for all samples, they are added at once, because nobody sees the cloud grow.
       if (host.isSettledAwaited) cloud?.addAllSamples();
       if (cloud && !cloud.addSamplesUnseen()) this.#scheduleFrame();
       else if (settings.isViewModelStale) host.updateViewModel();
@@ -184,7 +184,7 @@ export class Renderer extends FigureController {
 
   /** Draws the pending pictures, if a canvas is visible. During a resize no text is rendered, because it could change sizes again. */
   #attemptDraw(elapsedMs: number, isResizing = false) {
-    // In a closed disclosure all sizes are 0.
+    // In a closed disclosure of the page, all canvases have size 0, and nothing is drawn.
     if (!this.host.simulation || !this.host.canvases.canvasElements?.some(hasPixels)) return;
     this.host.runtime.attemptOrFail(() => {
       this.#draw(elapsedMs, isResizing);
@@ -253,7 +253,7 @@ export class Renderer extends FigureController {
   async #setPrinting(isPrinting: boolean) {
     const { host } = this;
     this.isPrinting = isPrinting;
-    // Browsers run microtasks before they print. The start needs no more than these if another figure has loaded the module.
+    // Browsers run only microtasks before they print. If another figure has already loaded the core, they are enough to start this figure.
     if (isPrinting && !host.simulation) {
       await host.runtime.start();
       await host.updateComplete;

@@ -39,14 +39,14 @@ export class Runtime extends FigureController {
     } finally {
       this.#startPromise = undefined;
     }
-    // The core may have trapped again.
+    // The core may have trapped again. Otherwise this call of `start` does nothing.
     if (this.failureMessage === undefined) void this.start();
   }
 
   async #showContent() {
     this.host.requestUpdate();
     await this.host.updateComplete;
-    // A trap during rendering removes the simulation.
+    // If rendering trapped, the simulation is removed.
     if (!this.simulation) return;
     this.host.renderer.requestFrame();
     if (this.#hasLoaded) return;
@@ -62,7 +62,7 @@ export class Runtime extends FigureController {
     this.host.onSimulationReplaced();
   }
 
-  /** Runs work. After a trap, replaces the core and returns undefined. Other errors go to `handleError`, by default to the caller. */
+  /** Calls `doWork`. After a trap, replaces the core and returns undefined. Other errors go to `handleError`, by default to the caller. */
   attempt<Result>(doWork: () => Result, handleError = (error: unknown): void => { throw error; }): Result | undefined {
     try {
       return doWork();
@@ -72,10 +72,10 @@ export class Runtime extends FigureController {
     }
   }
 
-  /** Runs work as `attempt` does; an error ends the figure with a message. */
+  /** Calls `doWork` as `attempt` does. If it throws, the figure ends with a message. */
   attemptOrFail = <Result>(doWork: () => Result) => this.attempt(doWork, (error) => this.fail(error));
 
-  /** Runs work as `attempt` does; an error is reported. */
+  /** Calls `doWork` as `attempt` does. If it throws, an `error` event is fired. */
   attemptOrReport = (doWork: () => void) => this.attempt(doWork, (error) => this.reportError(error));
 
   /** Fires an `error` event, and warns on the console if no listener prevents that. */
@@ -113,7 +113,7 @@ export class Runtime extends FigureController {
   }
 }
 
-/** Returns true for a trap, and for the error of a simulation used after one: see writeGlue in scripts/build.mjs. */
+/** Returns true for a trap, and for an error that wasm-bindgen throws for a simulation used after a trap: see writeGlue in scripts/build.mjs. */
 const isWasmTrap = (error: unknown) => typeof WebAssembly !== 'undefined' && error instanceof WebAssembly.RuntimeError;
 
 const TRUSTED_TYPES_ERROR = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";

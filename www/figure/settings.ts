@@ -28,7 +28,7 @@ export class Settings extends FigureController {
     this.#pendingChanges = {};
   }
 
-  /** Returns the declared settings among other values. */
+  /** Returns those of the values that are declared settings. */
   pickSettings(values: StateValues) {
     const keys = this.host.definition.declarations.filter((declaration) => !declaration.in && !declaration.of).map(({ key }) => key);
     return Object.fromEntries(keys.map((key) => [key, values[key]]));
@@ -96,7 +96,7 @@ export class Settings extends FigureController {
       [name, checkValue(path + name, values[name], { ...range, max: maxInState ? maxInState(getState()) : max })]));
   }
 
-  /** Applies early assignments of the page to a new simulation, and shows it. `state` is the state restored after a trap, if any. */
+  /** Applies early assignments of the page to a new simulation, and shows the simulation. `state` is the state restored after a trap, if any. */
   resume(state?: StateValues) {
     const { host } = this;
     this.reset();

@@ -103,7 +103,7 @@ export class FocusKeeper extends FigureController {
   hostUpdate() {
     this.#focusPath = [];
     const focusedControl = (this.host.renderRoot as ShadowRoot | undefined)?.activeElement;
-    // The placeholder moves the focus itself.
+    // If the placeholder has the focus, the placeholder itself moves the focus to a control.
     if (!focusedControl || focusedControl.matches('.reserved')) return;
     for (let element = focusedControl as Element | null; element; element = element.parentElement) this.#focusPath.push(element);
   }
@@ -129,7 +129,7 @@ async function moveFocusInto(figure: Figure, previousFocus: EventTarget | null) 
   // After the removal of the focused placeholder, the focus is on the body unless the user has moved it.
   if (!figure.simulation || document.activeElement !== document.body) return;
   const focusableElements = focusableElementsIn(figure.renderRoot);
-  // Shift+Tab moves the focus from an element below the figure.
+  // If the previous focus was below the figure, Shift+Tab was pressed.
   const comesFromBelow = previousFocus instanceof Node && figure.compareDocumentPosition(previousFocus) & Node.DOCUMENT_POSITION_FOLLOWING;
   focusableElements.at(comesFromBelow ? -1 : 0)?.focus();
 }

@@ -67,22 +67,34 @@ const HIGHLIGHT_WIDTH_FACTOR = 1.9;
 
 const DIMMED_OPACITY = 0.3;
 
-/** Returns the line styles by name, in the colours of their roles. The highlighted line is thicker, and all others are faint. */
-export function createLineStyles<Name extends string>({ palette, highlight }: Pick<DrawContext, 'palette' | 'highlight'>, lineStyles: Record<Name, LineStyle>) {
+type ShownLine = Required<Omit<LineStroke, 'lineCap'>> & Pick<LineStyle, 'shape'>;
+
+/** Styles of the lines and marks that are shown, by name. */
+type ShownLines<Name extends string> = { [Key in Name]?: ShownLine };
+
+/** Returns the styles of the shown lines and marks, in the colours of their roles. The highlighted line is thicker, and all others are faint. */
+export function createLineStyles<Name extends string>({ palette, highlight }: Pick<DrawContext, 'palette' | 'highlight'>, lineStyles: Record<Name, LineStyle>, shownNames: readonly string[]) {
   const hasHighlight = Object.keys(lineStyles).some((name) => name === highlight);
-  const styleEntries = Object.entries(lineStyles as Record<string, LineStyle>).map(([name, { role, width = 2.25, dash = [] }]) => {
+  const shownStyles = Object.entries(lineStyles as Record<string, LineStyle>).filter(([name]) => shownNames.includes(name));
+  const styleEntries = shownStyles.map(([name, { role, width = 2.25, dash = [], shape }]) => {
     const colour = hasHighlight && name !== highlight ? `rgb(${colourChannelsOf(palette[role]).join(' ')} / ${DIMMED_OPACITY})` : palette[role];
-    return [name, { colour, width: name === highlight ? HIGHLIGHT_WIDTH_FACTOR * width : width, dash }];
+    return [name, { colour, width: name === highlight ? HIGHLIGHT_WIDTH_FACTOR * width : width, dash, shape }];
   });
-  return Object.fromEntries(styleEntries) as Record<Name, { colour: string, width: number, dash: number[] }>;
+  return Object.fromEntries(styleEntries) as ShownLines<Name>;
 }
 
-/** Returns the legend of an exported picture: the named lines and marks with their words. On the page there is a legend beside the picture. */
-export function createLineLegend<Name extends string>(drawContext: DrawContext, lines: Record<Name, LineStyle>, lineNames: Name[], labels: Record<Name, string>): LegendEntry[] {
-  const stylesByName = createLineStyles(drawContext, lines);
-  return drawContext.isExported ? lineNames.map((name) => ({
+/** Returns the shown lines with their points, in the order of the points. */
+export const styleOutlines = <Name extends string>(lines: ShownLines<Name>, pointsByName: { [Key in Name]?: Float64Array }): Outline[] =>
+  (Object.keys(pointsByName) as Name[]).flatMap((name) => {
+    const style = lines[name];
+    return style ? [{ points: pointsByName[name] as Float64Array, ...style }] : [];
+  });
+
+/** Returns the legend of an exported picture: the shown ones among the named lines and marks. On the page there is a legend beside the picture. */
+export function createLineLegend<Name extends string>(drawContext: DrawContext, lines: ShownLines<Name>, lineNames: readonly Name[], labels: Record<Name, string>): LegendEntry[] {
+  return drawContext.isExported ? lineNames.filter((name) => lines[name]).map((name) => ({
     name: labels[name].replaceAll('*', ''),
-    drawSample: (x, y, width) => drawSwatch(drawContext, lines[name].shape, stylesByName[name], [x, y], width),
+    drawSample: (x, y, width) => drawSwatch(drawContext, lines[name] as ShownLine, [x, y], width),
   })) : [];
 }
 
@@ -96,7 +108,7 @@ export function addCross(context: DrawContext['context'], x: number, y: number) 
 }
 
 /** Draws the symbol of a legend entry, as `swatchHtml` does on the page. The point is its left end, in pixels. */
-function drawSwatch({ context }: DrawContext, shape: LineStyle['shape'], style: LineStroke, [x, y]: [x: number, y: number], width: number) {
+function drawSwatch({ context }: DrawContext, { shape, ...style }: ShownLine, [x, y]: [x: number, y: number], width: number) {
   const [middleX, { colour }] = [x + width / 2, style];
   if (shape === 'area') fillPath(context, colour, () => context.rect(middleX - 5.5, y - 5.5, 11, 11));
   else if (shape === 'cross') strokePath(context, { colour, width: 1 }, () => addCross(context, middleX, y));

@@ -5,7 +5,7 @@ import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { LINES_PER_STROKE, CachedLayer, Memo, strokeInBatches, type LayerDrawContext } from '../../scene/cache.ts';
 import { strokePath } from '../../scene/canvas.ts';
-import { drawDots, drawCrosshair, drawOutline, drawOutlines, drawRobot, createLineLegend, createLineStyles } from '../../scene/draw.ts';
+import { drawDots, drawCrosshair, drawOutline, drawOutlines, drawRobot, createLineLegend, createLineStyles, styleOutlines } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf, widenExtent } from '../../scene/view.ts';
 import { LEG_CLASSES, LINE_STYLES, type LineName, type ViewModel } from './settings.ts';
@@ -60,8 +60,8 @@ export class PathPicture extends SamplesPicture<Scene> {
 
   paint: Picture<Scene>['paint'] = (drawContext, { legs, legClasses, chosenLegIndex, overlays }) => {
     const { palette } = drawContext;
-    const legendNames = ([...LEG_CLASSES.toReversed(), 'odometry'] as const).filter((name) => overlays.includes(name));
-    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, LINE_STYLES, legendNames, words.calibrator.overlays));
+    const lines = createLineStyles(drawContext, LINE_STYLES, overlays);
+    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, lines, [...LEG_CLASSES.toReversed(), 'odometry'], words.calibrator.overlays));
     clipToPlot(drawContext, () => {
       const paintLegs = (layerContext: LayerDrawContext) => drawPath(layerContext, legs, this.#odometryPathOf(legs), legClasses, overlays);
       if ('isVector' in drawContext.context || legs.count <= MAX_WIDE_LEGS) paintLegs(drawContext);
@@ -77,22 +77,22 @@ export class PathPicture extends SamplesPicture<Scene> {
 function drawPath(drawContext: LayerDrawContext, legs: CalibrationLegs, odometry: Float64Array, legClasses: Uint8Array, overlays: LineName[]) {
   const { context, view } = drawContext;
   const { count, reference, outliers } = legs;
-  const lineStyles = createLineStyles(drawContext, LINE_STYLES);
-  if (overlays.includes('odometry')) {
+  const lines = createLineStyles(drawContext, LINE_STYLES, overlays);
+  if (lines.odometry) {
     const odometryPixels = view.toPixels(odometry);
     const pathPieces = range(0, odometryPixels.length, LINES_PER_STROKE).map((pieceStart) => odometryPixels.slice(pieceStart, pieceStart + LINES_PER_STROKE + 1));
-    strokeInBatches(context, pathPieces, lineStyles.odometry, 1);
+    strokeInBatches(context, pathPieces, lines.odometry, 1);
   }
   for (const [classIndex, name] of LEG_CLASSES.entries()) {
-    if (!overlays.includes(name)) continue;
+    const lineStyle = lines[name];
+    if (!lineStyle) continue;
     const legsOfClass = [...legClasses.keys()].filter((leg) => legClasses[leg] === classIndex);
     const legLines = legsOfClass.map((leg) => [0, 3].map((poseOffset) => view.toPixel(reference[6 * leg + poseOffset], reference[6 * leg + poseOffset + 1])));
-    const legStyle = { ...lineStyles[name], lineCap: 'round' } as const;
+    const legStyle = { ...lineStyle, lineCap: 'round' } as const;
     strokeInBatches(context, legLines, count > MAX_WIDE_LEGS ? { ...legStyle, width: HAIRLINE_WIDTH } : legStyle);
   }
-  const outlierLegs = overlays.includes('outlier') ? [...outliers.keys()].filter((leg) => outliers[leg] > 0) : [];
-  strokePath(context, lineStyles.outlier, () => {
-    for (const leg of outlierLegs) {
+  if (lines.outlier) strokePath(context, lines.outlier, () => {
+    for (const leg of [...outliers.keys()].filter((leg) => outliers[leg] > 0)) {
       const [x, y] = view.toPixel(reference[6 * leg + 3], reference[6 * leg + 4]);
       context.moveTo(x + OUTLIER_RING_RADIUS, y);
       context.arc(x, y, OUTLIER_RING_RADIUS, 0, 2 * Math.PI);
@@ -122,19 +122,13 @@ export class LegPicture extends Picture<Scene> {
     drawAxes(drawContext, { x: words.calibrator.aheadAxisLabel, y: words.calibrator.leftAxisLabel }, []);
     if (!leg) return;
     const { outcomes, outline, read, ended } = leg;
-    const isLineShown = (name: LineName) => overlays.includes(name);
-    const lineStyles = createLineStyles(drawContext, LINE_STYLES);
-    const styledLineOf = (name: LineName, points: Float64Array) => (isLineShown(name) ? [{ points, ...lineStyles[name] }] : []);
+    const lines = createLineStyles(drawContext, LINE_STYLES, overlays);
     clipToPlot(drawContext, () => {
-      if (isLineShown('predicted')) drawDots(drawContext, outcomes);
-      drawOutlines(drawContext, [
-        ...styledLineOf('predicted', outline),
-        ...styledLineOf('odometry', Float64Array.of(0, 0, read[0], read[1])),
-        ...styledLineOf('reference', Float64Array.of(0, 0, ended[0], ended[1])),
-      ]);
+      if (lines.predicted) drawDots(drawContext, outcomes);
+      drawOutlines(drawContext, styleOutlines(lines, { predicted: outline, odometry: Float64Array.of(0, 0, read[0], read[1]), reference: Float64Array.of(0, 0, ended[0], ended[1]) }));
       drawRobot(drawContext, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      if (isLineShown('odometry')) drawCrosshair(drawContext, { x: read[0], y: read[1], heading: read[2] }, palette.prior);
-      if (isLineShown('reference')) drawCrosshair(drawContext, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
+      if (lines.odometry) drawCrosshair(drawContext, { x: read[0], y: read[1], heading: read[2] }, palette.prior);
+      if (lines.reference) drawCrosshair(drawContext, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
     });
   };
 }

@@ -3,7 +3,7 @@
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { addLine, drawDisc, fillPath, paintWithOpacity, strokePath, strokeLine, type DrawContext, type LineStroke } from '../../scene/canvas.ts';
-import { addTurnArc, drawOutlines, drawRobot, createLineLegend, createLineStyles, strokeLines, createDensityRamp } from '../../scene/draw.ts';
+import { addTurnArc, drawOutlines, drawRobot, createLineLegend, createLineStyles, strokeLines, styleOutlines, createDensityRamp } from '../../scene/draw.ts';
 import { drawCallouts, type Callout } from '../../scene/labels.ts';
 import { Memo, CachedImage } from '../../scene/cache.ts';
 import { Picture } from '../../scene/picture.ts';
@@ -66,46 +66,50 @@ export class ArcPicture extends Picture<ArcScene> {
   }
 
   paint: Picture<ArcScene>['paint'] = (drawContext, scene) => {
-    const { config: { start, next, printed }, stats, paths, overlays } = scene;
+    const { config: { start, next, printed, map }, stats, paths, overlays } = scene;
     const { palette } = drawContext;
-    const isOverlayShown = (name: LineName) => overlays.includes(name);
-    const lineStyles = createLineStyles(drawContext, LINE_STYLES);
-    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, legendEntriesOf(drawContext, scene));
+    const lines = createLineStyles(drawContext, LINE_STYLES, overlays);
+    const contours = createLineStyles(drawContext, CONTOUR_STYLES, map === 'none' ? [] : Object.keys(CONTOUR_STYLES));
+    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, [
+      // The last turn has a label in the picture, and so no entry in the legend.
+      ...createLineLegend(drawContext, lines, ['inverted', 'commanded', 'chord', 'twist'], words.anatomy.overlays),
+      ...createLineLegend(drawContext, contours, ['prob', 'density'], words.anatomy.mapNames),
+    ]);
     const callouts: Callout[] = [];
     clipToPlot(drawContext, () => {
       this.#drawHeatMap(drawContext, scene);
       const { commanded, inverted, driven, lastTurn } = stats;
-      if (isOverlayShown('commanded')) {
-        drawArcConstruction(drawContext, start, commanded, { ...lineStyles.commanded, shiftSide: -1 });
-        callouts.push(...arcCalloutsOf(drawContext, start, commanded, lineStyles.commanded.colour, `ωΔt = ${formatFixed(commanded.turn, 2)}`));
+      if (lines.commanded) {
+        drawArcConstruction(drawContext, start, commanded, { ...lines.commanded, shiftSide: -1 });
+        callouts.push(...arcCalloutsOf(drawContext, start, commanded, lines.commanded.colour, `ωΔt = ${formatFixed(commanded.turn, 2)}`));
       }
-      if (isOverlayShown('inverted')) {
-        drawArcConstruction(drawContext, start, inverted, { ...lineStyles.inverted, shiftSide: 1 });
+      if (lines.inverted) {
+        drawArcConstruction(drawContext, start, inverted, { ...lines.inverted, shiftSide: 1 });
         // The radius is positive if the centre is to the left. The radius has no sign in Table 5.1 as printed in the book.
         const radiusLabel = `r* = ${inverted.radius > 0 && !printed ? '+' : ''}${formatFixed(printed ? Math.abs(inverted.radius) : inverted.radius, 2)} m`;
-        callouts.push(...arcCalloutsOf(drawContext, start, inverted, lineStyles.inverted.colour, `ω̂Δt = ${formatFixed(inverted.turn, 2)}`, radiusLabel));
+        callouts.push(...arcCalloutsOf(drawContext, start, inverted, lines.inverted.colour, `ω̂Δt = ${formatFixed(inverted.turn, 2)}`, radiusLabel));
       }
-      if (isOverlayShown('chord')) strokeLines(drawContext, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...lineStyles.chord }]);
-      if (isOverlayShown('wedge')) drawWedge(drawContext, next, lastTurn, lineStyles.wedge.colour);
+      if (lines.chord) strokeLines(drawContext, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...lines.chord }]);
+      if (lines.wedge) drawWedge(drawContext, next, lastTurn, lines.wedge.colour);
       // Short lines across the path of the constant twist show the displacements by its lateral velocity.
-      if (isOverlayShown('twist')) strokePath(drawContext.context, { colour: lineStyles.twist.colour, width: 1.25 }, () => {
+      if (lines.twist) strokePath(drawContext.context, { colour: lines.twist.colour, width: 1.25 }, () => {
         for (let i = 0; i < paths.ticks.length; i += 4) addLine(drawContext.context, drawContext.view.toPixels(paths.ticks.subarray(i, i + 4)));
       });
       const drivenPaths = { commanded: paths.commanded, twist: paths.lie, inverted: paths.driven };
-      drawOutlines(drawContext, (['commanded', 'twist', 'inverted'] as const).filter(isOverlayShown).map((name) => ({ points: drivenPaths[name], ...lineStyles[name] })));
-      if (isOverlayShown('inverted') && driven.arcLength !== inverted.arcLength) {
-        drawOutlines(drawContext, [{ points: paths.inverted, colour: lineStyles.inverted.colour, width: 1, dash: [2, 3] }]);
+      drawOutlines(drawContext, styleOutlines(lines, drivenPaths));
+      if (lines.inverted && driven.arcLength !== inverted.arcLength) {
+        drawOutlines(drawContext, [{ points: paths.inverted, colour: lines.inverted.colour, width: 1, dash: [2, 3] }]);
       }
       drawTableLineConstruction(drawContext, scene);
-      if (isOverlayShown('commanded')) {
+      if (lines.commanded) {
         const [endX, endY, endTheta] = commanded.end;
-        drawRobotOutline(drawContext, endX, endY, ROBOT_RADIUS, lineStyles.commanded.colour);
-        strokeLine(drawContext.context, drawContext.view.headingLineFrom({ x: endX, y: endY, theta: endTheta }, HEADING_LINE_LENGTH), { colour: lineStyles.commanded.colour, width: 1.5 });
+        drawRobotOutline(drawContext, endX, endY, ROBOT_RADIUS, lines.commanded.colour);
+        strokeLine(drawContext.context, drawContext.view.headingLineFrom({ x: endX, y: endY, theta: endTheta }, HEADING_LINE_LENGTH), { colour: lines.commanded.colour, width: 1.5 });
       }
       drawMovingRobots(drawContext, scene);
       drawDraggableRobot(drawContext, start, ROBOT_RADIUS, palette.truth);
       drawDraggableRobot(drawContext, next, ROBOT_RADIUS, palette.prediction);
-      if (isOverlayShown('wedge')) callouts.push(wedgeCalloutOf(drawContext, next, lastTurn, lineStyles.wedge.colour));
+      if (lines.wedge) callouts.push(wedgeCalloutOf(drawContext, next, lastTurn, lines.wedge.colour));
     });
     const radii = [stats.commanded, stats.inverted].flatMap(({ center, end }) => (center ? [Float64Array.of(start.x, start.y, ...center, end[0], end[1])] : []));
     drawCallouts(drawContext, callouts, { shapeCentre: [(start.x + next.x) / 2, (start.y + next.y) / 2], lines: [paths.commanded, paths.driven, ...radii] });
@@ -129,15 +133,6 @@ export class ArcPicture extends Picture<ArcScene> {
       paintWithOpacity(context, 0.7, () => strokePath(context, { ...style, colour: palette[role] }, () => likelihoodSurface[name].forEach((contourLine) => addLine(context, view.toPixels(contourLine)))));
     }
   }
-}
-
-/** Returns the legend of an exported picture. The last turn has a label in the picture, and so no entry in the legend. */
-function legendEntriesOf(drawContext: DrawContext, { overlays, config: { map } }: ArcScene) {
-  const drawnLineNames = (['inverted', 'commanded', 'chord', 'twist'] as LineName[]).filter((name) => overlays.includes(name));
-  return [
-    ...createLineLegend(drawContext, LINE_STYLES, drawnLineNames, words.anatomy.overlays),
-    ...createLineLegend(drawContext, CONTOUR_STYLES, map === 'none' ? [] : ['prob', 'density'], words.anatomy.mapNames),
-  ];
 }
 
 /**

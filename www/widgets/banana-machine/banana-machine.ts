@@ -207,16 +207,15 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const viewModel = this.currentViewModel;
     const { motion } = this;
     const pinned = this.#pinnedViewModel;
-    const { overlays, morph } = this.settings.elementState;
-    const overlayVisibility = Object.fromEntries(OVERLAY_NAMES.map((name) => [name, overlays.includes(name)]));
+    const { overlays, morph } = this.settings.elementState as { overlays: string[], morph: number };
     // Callouts are hidden while a cloud grows or is dragged, because outlines move. During a morph their texts would be wrong.
     const areOutlinesMoving = this.cloud.playing || (this.gesture.isPressed && viewModel !== this.gesture.previousViewModel);
-    const shownOutlineNames = OVERLAY_NAMES.filter((name) => name !== 'command' && overlayVisibility[name] && hasLength(viewModel.contours[name]));
+    const shownOutlineNames = OVERLAY_NAMES.filter((name) => name !== 'command' && overlays.includes(name) && hasLength(viewModel.contours[name]));
     const callouts = areOutlinesMoving || morph > 0 || shownOutlineNames.join() !== 'ellipse,exponential' ? [] : calloutsOf(viewModel);
     return {
       ...viewModel,
       simulation: this.simulation as Simulation,
-      overlays: overlayVisibility,
+      overlays,
       markedMotion: this.#selectedMotion,
       morph,
       outlinesOf: (otherViewModel: ViewModel, outlineMorph: number) => morphOutlines(motion, otherViewModel, outlineMorph),
@@ -224,7 +223,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       pinned,
       /** Returns the points of the pinned outlines that are shown, at a morph. */
       pinnedPointsAt: (outlineMorph: number) =>
-        pinned ? Object.entries(morphOutlines(motion, pinned, outlineMorph)).flatMap(([name, outlinePoints]) => (overlayVisibility[name] ? [...outlinePoints] : [])) : [],
+        pinned ? Object.entries(morphOutlines(motion, pinned, outlineMorph)).flatMap(([name, outlinePoints]) => (overlays.includes(name) ? [...outlinePoints] : [])) : [],
       drivingProgress: this.cloud.drivingProgress,
     };
   }

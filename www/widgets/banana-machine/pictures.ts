@@ -4,7 +4,7 @@ import { quantile } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/labels.ts';
-import { addTurnArc, createDensityRamp, drawDots, drawEarlierOutlines, drawHandle, drawCrosshair, drawOutline, drawOutlines, drawRobot, hasLength, createLineLegend, createLineStyles } from '../../scene/draw.ts';
+import { addTurnArc, createDensityRamp, drawDots, drawEarlierOutlines, drawHandle, drawCrosshair, drawOutline, drawOutlines, drawRobot, hasLength, createLineLegend, createLineStyles, styleOutlines } from '../../scene/draw.ts';
 import { Memo, CachedImage } from '../../scene/cache.ts';
 import { Picture } from '../../scene/picture.ts';
 import { cornersAround, extentOf } from '../../scene/view.ts';
@@ -70,9 +70,9 @@ class MorphPicture extends Picture<Scene, 'plane' | 'twist'> {
     const { morph, endViews: [floorView, twistView] } = this.view;
     const isFloorPicture = this.name === 'plane';
     const outlines = this.outlinesOf(scene, scene);
-    const outlineStyles = createLineStyles(drawContext, LINE_STYLES);
-    const isOutlineDrawn = (name: LineName) => this.outlineNames.includes(name) && overlays[name] && hasLength(outlines[name]);
-    const legendEntries = createLineLegend(drawContext, LINE_STYLES, LEGEND_ORDER.filter(isOutlineDrawn), words.banana.overlays);
+    const lines = createLineStyles(drawContext, LINE_STYLES, overlays);
+    const legendNames = LEGEND_ORDER.filter((name) => this.outlineNames.includes(name) && hasLength(outlines[name]));
+    const legendEntries = createLineLegend(drawContext, lines, legendNames, words.banana.overlays);
     // One pair of axes fades out before the other fades in.
     const axesOfEndViews = [
       { view: floorView, opacity: 1 - 2 * morph, axisLabels: { x: 'x (m)', y: 'y (m)' } },
@@ -84,7 +84,7 @@ class MorphPicture extends Picture<Scene, 'plane' | 'twist'> {
       if (opacity > 0) paintWithOpacity(context, Math.min(1, opacity), () => drawAxes({ ...drawContext, view: axesView }, axisLabels, legendEntries, gridOpacity));
     }
     const cloudMean = morphPoint(twistMomentsOf(scene)[0].mean, morph);
-    const styledOutlinesOf = (outlinePoints: Outlines) => this.outlineNames.filter(isOutlineDrawn).map((name) => ({ points: outlinePoints[name], ...outlineStyles[name] }));
+    const styledOutlinesOf = (outlinePoints: Outlines) => styleOutlines(lines, Object.fromEntries(this.outlineNames.map((name) => [name, outlinePoints[name]])));
     // Outlines of the pinned settings, or those before the current gesture, stay in the picture for comparison.
     const earlierViewModel: ViewModel | undefined = pinned ?? drawContext.previousViewModel;
     const earlierOutlines = earlierViewModel ? styledOutlinesOf(this.outlinesOf(earlierViewModel, scene)) : [];
@@ -102,11 +102,11 @@ class MorphPicture extends Picture<Scene, 'plane' | 'twist'> {
       drawOutlines(drawContext, styledOutlinesOf(outlines));
       const [endX, endY] = outlines.command.slice(-2);
       if (isFloorPicture) {
-        if (overlays.command && scene.odometryReading && morph === 0) callouts.push(...drawOdometryReading(drawContext, scene.odometryReading, scene.arcEnd));
+        if (lines.command && scene.odometryReading && morph === 0) callouts.push(...drawOdometryReading(drawContext, scene.odometryReading, scene.arcEnd));
         if (isSinglePoint && scene.shown > 0) callouts.push(drawCoincidentRobots(drawContext, this.#dotPositionsOf(scene), scene.shown));
         drawHandle(drawContext, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: HANDLE_RADIUS, colour: palette.prior });
-      } else if (overlays.command) {
-        drawDisc(context, view.toPixel(endX, endY), 5, palette.paper, { ...outlineStyles.command, dash: [] });
+      } else if (lines.command) {
+        drawDisc(context, view.toPixel(endX, endY), 5, palette.paper, { ...lines.command, dash: [] });
       }
       if (markedMotion) {
         if (morph === 0) drawOutline(drawContext, markedMotion.path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
@@ -167,13 +167,13 @@ export class PlanePicture extends MorphPicture {
     const [xExtent, yExtent] = [VIEWED_DEVIATIONS * stdOfVariance(cov[0][0]), VIEWED_DEVIATIONS * stdOfVariance(cov[1][1])];
     const shownCoordinates = [...cornersAround(mean[0], mean[1], xExtent, yExtent), ...contours.command, ...pinnedPointsAt(0)];
     // The additive outline may be much larger than the cloud, and counts only if it is shown.
-    if (overlays.additive) shownCoordinates.push(...contours.additive);
+    if (overlays.includes('additive')) shownCoordinates.push(...contours.additive);
     const floorExtent = extentOf(shownCoordinates, 0.4);
     // Adds space for the fan of headings around the end of the arc. If all robots stop at one point, only the fan is visible.
     const fanMargin = 0.2 * (floorExtent.xMax - floorExtent.xMin);
     this.view.fitEnd(extentOf([...shownCoordinates, ...cornersAround(x, y, fanMargin)], 0.4), 0);
     if (scene.morph === 0) return;
-    this.view.fitEnd(extentOf([...twistCoordinatesToShowOf(scene), ...(overlays.ellipse ? scene.outlinesOf(scene, 1).ellipse : []), ...pinnedPointsAt(1)], 0.1), 1);
+    this.view.fitEnd(extentOf([...twistCoordinatesToShowOf(scene), ...(overlays.includes('ellipse') ? scene.outlinesOf(scene, 1).ellipse : []), ...pinnedPointsAt(1)], 0.1), 1);
   }
 }
 

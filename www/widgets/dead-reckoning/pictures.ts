@@ -3,7 +3,7 @@
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/labels.ts';
-import { drawDots, drawEarlierOutlines, drawCrosshair, drawOutlines, drawRobot, createLineLegend, createLineStyles, strokeLines } from '../../scene/draw.ts';
+import { drawDots, drawEarlierOutlines, drawCrosshair, drawOutlines, drawRobot, createLineLegend, createLineStyles, strokeLines, styleOutlines } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, cornersAround, extentAround, extentOf } from '../../scene/view.ts';
 import { formatSignificant } from '../../ui/format.ts';
@@ -41,19 +41,15 @@ export class PathPicture extends SamplesPicture<Scene> {
 
   paint: Picture<Scene>['paint'] = (drawContext, { commanded, outlines, milestones, poses, commandedPose, markedPoses, overlays, config: { step } }) => {
     const { palette } = drawContext;
-    const lineStyles = createLineStyles(drawContext, OUTLINE_STYLES);
-    const shownNamesOf = (outlineNames: (keyof typeof OUTLINE_STYLES)[]) => outlineNames.filter((name) => overlays.includes(name));
-    const shownOutlineNames = shownNamesOf(['ellipse', 'exponential']) as ('ellipse' | 'exponential')[];
-    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, OUTLINE_STYLES, shownNamesOf(['ellipse', 'exponential', 'command']), words.reckoning.overlays));
-    const outlinesOfStep = (stepOutlines: Scene['outlines']) => shownOutlineNames.map((name) => ({ points: stepOutlines[name], ...lineStyles[name] }));
+    const lines = createLineStyles(drawContext, OUTLINE_STYLES, overlays);
+    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, lines, ['ellipse', 'exponential', 'command'], words.reckoning.overlays));
+    const outlinesOfStep = ({ ellipse, exponential }: Scene['outlines']) => styleOutlines(lines, { ellipse, exponential });
     const callouts: Callout[] = [];
     clipToPlot(drawContext, () => {
       paintWithOpacity(drawContext.context, MILESTONE_DOTS.opacity, () => milestones.forEach((milestone) => drawDots(drawContext, milestone.poses.subarray(0, 3 * MILESTONE_DOTS.maxCount))));
       drawDots(drawContext, poses);
-      drawOutlines(drawContext, [
-        ...shownNamesOf(['command']).map((name) => ({ points: commanded, ...lineStyles[name] })),
-        ...shownOutlineNames.flatMap((name) => milestones.map(({ outlines: milestoneOutlines }) => ({ points: milestoneOutlines[name], ...lineStyles[name], width: 1 }))),
-      ]);
+      const milestoneOutlines = milestones.flatMap((milestone) => outlinesOfStep(milestone.outlines)).map((outline) => ({ ...outline, width: 1 }));
+      drawOutlines(drawContext, [...styleOutlines(lines, { command: commanded }), ...milestoneOutlines]);
       if (drawContext.previousViewModel) callouts.push(...drawEarlierOutlines(drawContext, outlinesOfStep(drawContext.previousViewModel.outlines), [commandedPose, [0, 0]], words.before));
       drawOutlines(drawContext, outlinesOfStep(outlines));
       drawRobot(drawContext, { x: 0, y: 0, heading: 0, colour: palette.truth });
@@ -83,15 +79,13 @@ export class StepPicture extends Picture<Scene> {
   }
 
   paint: Picture<Scene>['paint'] = (drawContext, { outlines: { predicted, measured }, overlays, twists }) => {
-    const lineStyles = createLineStyles(drawContext, OUTLINE_STYLES);
-    const shownOutlineNames = (['exponential', 'measured'] as ('exponential' | 'measured')[]).filter((name) => overlays.includes(name));
+    const lines = createLineStyles(drawContext, OUTLINE_STYLES, overlays);
     drawAxes(drawContext, axisNamesOf(this.view));
-    const outlinePoints = { exponential: predicted, measured };
     const callouts: Callout[] = [];
     clipToPlot(drawContext, () => {
       drawDots(drawContext, twists);
-      if (drawContext.previousViewModel && overlays.includes('exponential')) callouts.push(...drawEarlierOutlines(drawContext, [{ points: drawContext.previousViewModel.outlines.predicted, ...lineStyles.exponential }], [[0, 0]], words.before));
-      drawOutlines(drawContext, shownOutlineNames.map((name) => ({ points: outlinePoints[name], ...lineStyles[name] })));
+      if (drawContext.previousViewModel) callouts.push(...drawEarlierOutlines(drawContext, styleOutlines(lines, { exponential: drawContext.previousViewModel.outlines.predicted }), [[0, 0]], words.before));
+      drawOutlines(drawContext, styleOutlines(lines, { exponential: predicted, measured }));
     });
     drawCallouts(drawContext, callouts, { shapeCentre: [0, 0], lines: [predicted, measured] });
   };

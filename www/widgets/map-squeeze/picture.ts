@@ -121,24 +121,23 @@ export class FloorPicture extends SamplesPicture<Scene> {
   paint: SamplesPicture<Scene>['paint'] = (drawContext, scene) => {
     const { posesByOutcome, paths, commanded, config, markedSample, overlays } = scene;
     const { palette } = drawContext;
-    const isLineShown = (name: string) => overlays.includes(name);
-    const { accepted, through, rejected, commanded: commandStyle } = createLineStyles(drawContext, LINE_STYLES);
-    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, LINE_STYLES, (['accepted', 'through', 'rejected'] as const).filter(isLineShown), words.squeeze.overlays));
+    const { accepted, through, rejected, commanded: commandStyle, unknown } = createLineStyles(drawContext, LINE_STYLES, overlays);
+    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, { accepted, through, rejected }, ['accepted', 'through', 'rejected'], words.squeeze.overlays));
     clipToPlot(drawContext, () => {
       // The walls are drawn after the paths, so that a path through a wall does not hide the wall.
       if (posesByOutcome) {
-        if (isLineShown('through')) drawPaths(drawContext, paths, through.colour);
-        if (isLineShown('accepted')) drawSamples(drawContext, posesByOutcome.accepted, accepted.colour);
-        if (isLineShown('through')) drawSamples(drawContext, posesByOutcome.through, through.colour);
-        this.#wallLayer.draw(drawContext, isLineShown('unknown'));
-        if (isLineShown('rejected')) drawCrosses(drawContext, posesByOutcome.rejected, rejected.colour);
+        if (through) drawPaths(drawContext, paths, through.colour);
+        if (accepted) drawSamples(drawContext, posesByOutcome.accepted, accepted.colour);
+        if (through) drawSamples(drawContext, posesByOutcome.through, through.colour);
+        this.#wallLayer.draw(drawContext, unknown !== undefined);
+        if (rejected) drawCrosses(drawContext, posesByOutcome.rejected, rejected.colour);
       } else {
         this.#drawDensity(drawContext, scene);
-        this.#wallLayer.draw(drawContext, isLineShown('unknown'));
-        if (isLineShown('through')) drawPaths(drawContext, paths.slice(0, MAX_PATHS_ON_DENSITY), through.colour);
+        this.#wallLayer.draw(drawContext, unknown !== undefined);
+        if (through) drawPaths(drawContext, paths.slice(0, MAX_PATHS_ON_DENSITY), through.colour);
       }
       const { start, clearance } = config;
-      if (isLineShown('commanded')) {
+      if (commandStyle) {
         drawOutline(drawContext, commanded, commandStyle);
         const [endX, endY] = commanded.slice(-2);
         drawRobotOutline(drawContext, endX, endY, clearance, commandStyle.colour);

@@ -155,31 +155,28 @@ export class LegsPicture extends SamplesPicture<Scene> {
     const { palette } = drawContext;
     const { linkage, legs, deviations, config, overlays } = scene;
     const [startPose, turnedPose, drivenPose] = [0, 1, 2].map((poseIndex) => poseAt(linkage, poseIndex));
-    const legendNames = (['legs', 'deviation', 'outcomes'] as const).filter((name) => overlays.includes(name));
-    drawAxes(drawContext, AXIS_NAMES, createLineLegend(drawContext, LINE_STYLES, legendNames, words.decomposer.overlays));
+    const lines = createLineStyles(drawContext, LINE_STYLES, overlays);
+    drawAxes(drawContext, AXIS_NAMES, createLineLegend(drawContext, lines, ['legs', 'deviation', 'outcomes'], words.decomposer.overlays));
     const [firstTurnRadius, secondTurnRadius] = turnRadiiOf(this.view);
     const turnArcs: TurnArc[] = [[startPose, legs.rot1, firstTurnRadius], [drivenPose, legs.rot2, secondTurnRadius]];
-    const lineStyles = createLineStyles(drawContext, LINE_STYLES);
-    const isDeviationShown = overlays.includes('deviation');
-    const { colour } = lineStyles.deviation;
-    const spreadEllipses = isDeviationShown ? spreadEllipsesOf(drawContext, scene) : [];
+    const spreadEllipses = lines.deviation ? spreadEllipsesOf(drawContext, scene) : [];
     clipToPlot(drawContext, () => {
-      if (isDeviationShown) drawDeviationFan(drawContext, turnedPose, deviations.rot1, Math.max(legs.trans * this.view.scaleX, secondTurnRadius), colour);
-      if (overlays.includes('outcomes')) this.#paintGhosts(drawContext, scene);
+      if (lines.deviation) drawDeviationFan(drawContext, turnedPose, deviations.rot1, Math.max(legs.trans * this.view.scaleX, secondTurnRadius), lines.deviation.colour);
+      if (lines.outcomes) this.#paintGhosts(drawContext, scene);
       drawOutcomes(drawContext, scene);
       drawOutlines(drawContext, spreadEllipses);
-      if (overlays.includes('legs')) drawSegment(drawContext, startPose, drivenPose, lineStyles.legs);
+      if (lines.legs) drawSegment(drawContext, startPose, drivenPose, lines.legs);
       drawDraggableRobot(drawContext, startPose, ROBOT_RADIUS, palette.prior);
       drawDraggableRobot(drawContext, config.to, ROBOT_RADIUS, palette.prior);
-      if (isDeviationShown) drawDeviationFan(drawContext, { ...drivenPose, theta: drivenPose.theta + legs.rot2 }, deviations.rot2, secondTurnRadius, colour);
+      if (lines.deviation) drawDeviationFan(drawContext, { ...drivenPose, theta: drivenPose.theta + legs.rot2 }, deviations.rot2, secondTurnRadius, lines.deviation.colour);
       if (config.phase < 3) drawRobot(drawContext, { ...scene.robot, heading: scene.robot.theta, colour: palette.accent });
-      if (overlays.includes('legs')) {
-        for (const [turnPose, turn, turnRadius] of turnArcs) if (Math.abs(turn) >= MIN_DRAWN_TURN) drawTurn(drawContext, turnPose, turn, turnRadius, lineStyles.legs.colour);
+      if (lines.legs) {
+        for (const [turnPose, turn, turnRadius] of turnArcs) if (Math.abs(turn) >= MIN_DRAWN_TURN) drawTurn(drawContext, turnPose, turn, turnRadius, lines.legs.colour);
       }
       drawMarkedPose(drawContext, scene);
     });
     const turnArcOutlines = turnArcs.map(([turnPose, turn, turnRadius]) => Float64Array.from(turnArcPoints(turnPose, turn, turnRadius / this.view.scaleX)));
-    const legCallouts = overlays.includes('legs') ? this.#createLegCallouts(drawContext, scene, turnArcs) : [];
+    const legCallouts = lines.legs ? this.#createLegCallouts(drawContext, scene, turnArcs) : [];
     drawCallouts(drawContext, [...legCallouts, ...spreadEllipses.map(({ callout }) => callout)], {
       shapeCentre: [drivenPose.x, drivenPose.y], lines: [...spreadEllipses.map(({ points }) => points), ...turnArcOutlines, segmentCoordinatesOf(startPose, drivenPose)],
     });
@@ -224,34 +221,33 @@ export class WorldPicture extends SamplesPicture<Scene> {
 
   paint: SamplesPicture<Scene>['paint'] = (drawContext, scene) => {
     const { palette, context, view } = drawContext;
-    const { overlays } = scene;
+    const lines = createLineStyles(drawContext, LINE_STYLES, scene.overlays);
     const [framePose, odometryStart, odometryEnd] = [0, 1, 2].map((poseIndex) => poseAt(scene.drifted.poses, poseIndex));
     const [startPose, predictedPose] = [poseAt(scene.linkage, 0), poseAt(scene.linkage, 3)];
-    const lineStyles = createLineStyles(drawContext, LINE_STYLES);
     drawAxes(drawContext, AXIS_NAMES);
     clipToPlot(drawContext, () => {
-      if (overlays.includes('odometry')) {
+      if (lines.odometry) {
         const axisLength = FRAME_AXIS_LENGTH * view.scaleX;
         const [, yAxisEnd] = view.headingLineFrom({ ...framePose, theta: framePose.theta + Math.PI / 2 }, axisLength);
         strokeLine(context, [yAxisEnd, ...view.headingLineFrom(framePose, axisLength)], { colour: palette.prior, width: 1.25 });
-        drawSegment(drawContext, odometryStart, odometryEnd, lineStyles.odometry);
+        drawSegment(drawContext, odometryStart, odometryEnd, lines.odometry);
         for (const pose of [odometryStart, odometryEnd]) {
           drawRobotOutline(drawContext, pose.x, pose.y, ROBOT_RADIUS, palette.prior);
           strokeLine(context, view.headingLineFrom(pose, ROBOT_RADIUS * view.scaleX + 8), { colour: palette.prior, width: 1.5 });
         }
       }
       drawOutcomes(drawContext, scene);
-      if (overlays.includes('prediction')) drawSegment(drawContext, startPose, predictedPose, lineStyles.prediction);
-      if (overlays.includes('difference')) drawSegment(drawContext, odometryEnd, predictedPose, lineStyles.difference);
+      if (lines.prediction) drawSegment(drawContext, startPose, predictedPose, lines.prediction);
+      if (lines.difference) drawSegment(drawContext, odometryEnd, predictedPose, lines.difference);
       drawDraggableRobot(drawContext, startPose, ROBOT_RADIUS, palette.truth);
       drawMarkedPose(drawContext, scene);
     });
     const { outcomesLabel, ruleNames } = words.decomposer;
     const lowestOutcome = leastIndex(scene.poses.filter((_, i) => i % 3 === 1)) ?? -1;
     const callouts = [
-      ...(overlays.includes('prediction') ? createPoseCallouts(drawContext, [startPose, predictedPose], 'x', [palette.ink, palette.prediction]) : []),
-      ...(overlays.includes('odometry') ? createPoseCallouts(drawContext, [odometryStart, odometryEnd], 'x̄', [palette.prior, palette.prior]) : []),
-      ...(overlays.includes('outcomes') && lowestOutcome >= 0 ? [{ text: outcomesLabel(ruleNames[scene.config.rule]), point: [scene.poses[3 * lowestOutcome], scene.poses[3 * lowestOutcome + 1]] as [number, number], colour: palette.prediction }] : []),
+      ...(lines.prediction ? createPoseCallouts(drawContext, [startPose, predictedPose], 'x', [palette.ink, palette.prediction]) : []),
+      ...(lines.odometry ? createPoseCallouts(drawContext, [odometryStart, odometryEnd], 'x̄', [palette.prior, palette.prior]) : []),
+      ...(lines.outcomes && lowestOutcome >= 0 ? [{ text: outcomesLabel(ruleNames[scene.config.rule]), point: [scene.poses[3 * lowestOutcome], scene.poses[3 * lowestOutcome + 1]] as [number, number], colour: palette.prediction }] : []),
     ];
     drawCallouts(drawContext, callouts, {
       shapeCentre: [(startPose.x + predictedPose.x) / 2, (startPose.y + predictedPose.y) / 2], lines: [segmentCoordinatesOf(startPose, predictedPose), segmentCoordinatesOf(odometryStart, odometryEnd)],

@@ -1,7 +1,6 @@
 //! Settings of three numbers with names: poses, commands and odometry readings.
 
-use super::{DURATION_RANGE, Declaration, QUANTITY_RANGE, Setting, SettingValue};
-use crate::models::{OdomDelta, VelocityCmd};
+use super::{DURATION_RANGE, Declaration, QUANTITY_RANGE};
 use std::ops::RangeInclusive;
 
 /// Declaration of a number of a [`Setting::Group`].
@@ -23,42 +22,21 @@ impl GroupMember {
     }
 }
 
-impl SettingValue for [f64; 3] {
-    type Range = ();
+/// Members of a pose. A setting appends its own text to these descriptions, for example "of the robot after the command".
+pub static POSE_MEMBERS: [GroupMember; 3] = [
+    GroupMember::new("x", "Position x", "m", QUANTITY_RANGE),
+    GroupMember::new("y", "Position y", "m", QUANTITY_RANGE),
+    GroupMember::new("theta", "Heading", "rad", QUANTITY_RANGE),
+];
 
-    fn setting(&mut self, (): ()) -> Setting<'_> {
-        // A setting appends its own text to these descriptions, for example "of the robot after the command".
-        const MEMBERS: &[GroupMember; 3] = &[
-            GroupMember::new("x", "Position x", "m", QUANTITY_RANGE),
-            GroupMember::new("y", "Position y", "m", QUANTITY_RANGE),
-            GroupMember::new("theta", "Heading", "rad", QUANTITY_RANGE),
-        ];
-        Setting::Group(MEMBERS, self.each_mut())
-    }
-}
+pub static COMMAND_MEMBERS: [GroupMember; 3] = [
+    GroupMember::new("v", "Commanded speed; negative in reverse.", "m/s", QUANTITY_RANGE),
+    GroupMember::new("omega", "Commanded turn rate; positive to the left.", "rad/s", QUANTITY_RANGE),
+    GroupMember::new("dt", "Duration of the command.", "s", DURATION_RANGE),
+];
 
-impl SettingValue for VelocityCmd {
-    type Range = ();
-
-    fn setting(&mut self, (): ()) -> Setting<'_> {
-        const MEMBERS: &[GroupMember; 3] = &[
-            GroupMember::new("v", "Commanded speed; negative in reverse.", "m/s", QUANTITY_RANGE),
-            GroupMember::new("omega", "Commanded turn rate; positive to the left.", "rad/s", QUANTITY_RANGE),
-            GroupMember::new("dt", "Duration of the command.", "s", DURATION_RANGE),
-        ];
-        Setting::Group(MEMBERS, [&mut self.v, &mut self.omega, &mut self.dt])
-    }
-}
-
-impl SettingValue for OdomDelta {
-    type Range = ();
-
-    fn setting(&mut self, (): ()) -> Setting<'_> {
-        const MEMBERS: &[GroupMember; 3] = &[
-            GroupMember::new("rot1", "First turn.", "rad", QUANTITY_RANGE),
-            GroupMember::new("trans", "Drive.", "m", 0.0..=*QUANTITY_RANGE.end()),
-            GroupMember::new("rot2", "Second turn.", "rad", QUANTITY_RANGE),
-        ];
-        Setting::Group(MEMBERS, [&mut self.rot1, &mut self.trans, &mut self.rot2])
-    }
-}
+pub static READING_MEMBERS: [GroupMember; 3] = [
+    GroupMember::new("rot1", "First turn.", "rad", QUANTITY_RANGE),
+    GroupMember::new("trans", "Drive.", "m", 0.0..=*QUANTITY_RANGE.end()),
+    GroupMember::new("rot2", "Second turn.", "rad", QUANTITY_RANGE),
+];

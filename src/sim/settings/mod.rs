@@ -8,6 +8,7 @@ pub(crate) use error::{check_integer, check_real};
 pub use groups::GroupMember;
 
 use super::noise_level::NoiseLevel;
+use crate::models::{OdomDelta, VelocityCmd};
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 use std::ops::RangeInclusive;
@@ -199,27 +200,6 @@ pub trait SettingValue {
     fn setting(&mut self, allowed: Self::Range) -> Setting<'_>;
 }
 
-impl SettingValue for f64 {
-    type Range = RangeInclusive<f64>;
-    fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
-        Setting::Number(self, allowed)
-    }
-}
-
-impl SettingValue for Option<usize> {
-    type Range = RangeInclusive<u64>;
-    fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
-        Setting::OptionalInteger(self, allowed)
-    }
-}
-
-impl SettingValue for bool {
-    type Range = ();
-    fn setting(&mut self, (): ()) -> Setting<'_> {
-        Setting::Boolean(self)
-    }
-}
-
 impl<T: HasKeywords> SettingValue for T {
     type Range = ();
     fn setting(&mut self, (): ()) -> Setting<'_> {
@@ -227,26 +207,39 @@ impl<T: HasKeywords> SettingValue for T {
     }
 }
 
-impl SettingValue for NoiseLevel<'_> {
-    type Range = RangeInclusive<f64>;
-    fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
-        Setting::Level(NoiseLevel(self.0), allowed)
-    }
-}
-
-macro_rules! numbers {
-    ($($type:ty),+) => {$(
+/// Implements [`SettingValue`] for types, each with its range and the expression of the setting.
+macro_rules! setting_values {
+    ($($type:ty, $range:ty: |$value:ident, $allowed:pat_param| $setting:expr;)+) => {$(
         impl SettingValue for $type {
-            type Range = RangeInclusive<f64>;
-            fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
-                Setting::Numbers(self, allowed)
+            type Range = $range;
+            fn setting(&mut self, $allowed: $range) -> Setting<'_> {
+                let $value = self;
+                $setting
             }
         }
     )+};
 }
-numbers!([f64], [f64; 5], [f64; 6]);
+setting_values! {
+    f64, RangeInclusive<f64>: |number, allowed| Setting::Number(number, allowed);
+    u32, RangeInclusive<u64>: |integer, allowed| Setting::Integer(integer, allowed);
+    u64, RangeInclusive<u64>: |integer, allowed| Setting::Integer(integer, allowed);
+    usize, RangeInclusive<u64>: |integer, allowed| Setting::Integer(integer, allowed);
+    Option<usize>, RangeInclusive<u64>: |integer, allowed| Setting::OptionalInteger(integer, allowed);
+    bool, (): |boolean, ()| Setting::Boolean(boolean);
+    [f64], RangeInclusive<f64>: |numbers, allowed| Setting::Numbers(numbers, allowed);
+    [f64; 5], RangeInclusive<f64>: |numbers, allowed| Setting::Numbers(numbers, allowed);
+    [f64; 6], RangeInclusive<f64>: |numbers, allowed| Setting::Numbers(numbers, allowed);
+    NoiseLevel<'_>, RangeInclusive<f64>: |level, allowed| Setting::Level(NoiseLevel(level.0), allowed);
+    [f64; 3], (): |pose, ()| Setting::Group(&groups::POSE_MEMBERS, pose.each_mut());
+    VelocityCmd, (): |command, ()| {
+        Setting::Group(&groups::COMMAND_MEMBERS, [&mut command.v, &mut command.omega, &mut command.dt])
+    };
+    OdomDelta, (): |reading, ()| {
+        Setting::Group(&groups::READING_MEMBERS, [&mut reading.rot1, &mut reading.trans, &mut reading.rot2])
+    };
+}
 
-macro_rules! integer {
+macro_rules! integers {
     ($($type:ty),+) => {$(
         impl IntegerSetting for $type {
             fn get(&self) -> u64 {
@@ -256,15 +249,9 @@ macro_rules! integer {
                 *self = integer as $type;
             }
         }
-        impl SettingValue for $type {
-            type Range = RangeInclusive<u64>;
-            fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
-                Setting::Integer(self, allowed)
-            }
-        }
     )+};
 }
-integer!(u32, u64, usize);
+integers!(u32, u64, usize);
 
 /// Visitor that is called for each setting.
 pub type SettingVisitor<'a> = dyn FnMut(&'static Declaration, Setting) + 'a;

@@ -12,10 +12,7 @@ export interface DrawSurface {
 /** Box of a text in a picture: middle, half width and half height, pixels. */
 export type TextBox = { x: number, y: number, halfWidth: number, halfHeight: number };
 
-/**
- * Canvas context, view and colours for drawing a picture. A pixel of the view is a CSS pixel at a font size of 13 px, and scales with the
- * font size.
- */
+/** Canvas context, view and colours for drawing a picture. Pixels of the view scale with the font size: at 13 px, a pixel of the view is a CSS pixel. */
 export interface DrawContext {
   context: CanvasRenderingContext2D;
   view: import('./view.ts').View;
@@ -60,7 +57,7 @@ export function createDrawContext({ width, height, clientWidth, fontStyle: { fon
   view.resize(width / pixelRatio, height / pixelRatio);
   context.setTransform(pixelRatio, 0, 0, pixelRatio, 0, 0);
   context.clearRect(0, 0, view.width, view.height);
-  // In right-to-left languages numbers and units stay in the order of the text.
+  // Labels are drawn from left to right, also in right-to-left languages, so that the unit follows the number.
   context.direction = 'ltr';
   return { context, view, palette, pixelRatio, font: `${FONT_SIZE_PX}px ${fontFamily}`, placedBoxes: [] as TextBox[] };
 }

@@ -21,7 +21,7 @@ interface HandleLabels {
   valueRange: number[];
   value: number;
   valueText: string;
-  /** Text about the limit at which the handle has arrived, if any. */
+  /** Text about the end of the range that the handle has reached, if any. */
   limitText?: string | false;
   /** Hint for a user who has not used the handle yet, shown while the handle pulses once. */
   hint?: string | false;
@@ -43,7 +43,7 @@ const KEY_STEPS: Record<string, [number, number]> = {
 
 const SHIFT_STEP_FACTOR = 5;
 
-/** Returns the steps along x and y by which a key moves something; undefined for other keys and for key shortcuts of the browser. */
+/** Returns the steps along x and y by which a key moves the target; undefined for other keys and for key shortcuts of the browser. */
 export function stepsOfKey({ key, shiftKey, ctrlKey, metaKey, altKey }: KeyboardEvent): [number, number] | undefined {
   const steps = ctrlKey || metaKey || altKey ? undefined : KEY_STEPS[key];
   if (!steps || !shiftKey || !key.startsWith('Arrow')) return steps;
@@ -53,7 +53,7 @@ export function stepsOfKey({ key, shiftKey, ctrlKey, metaKey, altKey }: Keyboard
 /** Steps of rotation by key, positive to the left. Comma and period are for keyboards on which brackets need a modifier key. */
 const KEY_TURN_STEPS: Record<string, number> = { ',': 1, '.': -1, '[': 1, ']': -1 };
 
-/** Returns the steps by which a key turns something, positive to the left; undefined for other keys. */
+/** Returns the steps by which a key turns the target, positive to the left; undefined for other keys. */
 export const turnStepsOfKey = ({ key, metaKey }: KeyboardEvent): number | undefined => (metaKey ? undefined : KEY_TURN_STEPS[key]);
 
 export class Handle {
@@ -71,7 +71,7 @@ export class Handle {
     this.#callbacks = callbacks;
   }
 
-  /** True while a pointer drags the handle. Browsers release the pointer of a removed element without an event. */
+  /** True while a pointer drags the handle. This is computed, because browsers release the pointer of a removed element without an event. */
   get isHeld() {
     return this.#heldPointer?.element.hasPointerCapture(this.#heldPointer.id) ?? false;
   }

@@ -46,7 +46,7 @@ const MIN_TEXT_DISTANCE = 9;
 const CANDIDATE_ANGLES = Array.from({ length: 24 }, (_, i) => (Math.PI * (i - 12)) / 12);
 const LEADER_LENGTHS = [MIN_LEADER_LENGTH, 2 * MIN_LEADER_LENGTH, 3 * MIN_LEADER_LENGTH];
 
-/** Costs of a leader: for each radian from its preferred direction, and for each pixel of length. Each pixel by which a text overlaps others costs 1. */
+/** Costs of a leader (callout line): for each radian from its preferred direction, and for each pixel of length. Each pixel of text overlap costs 1. */
 const COST_PER_RADIAN = 1;
 const COST_PER_PIXEL = 0.1;
 
@@ -66,8 +66,8 @@ export interface Callout {
 }
 
 /**
- * Draws sentences about points on the outline of a shape with the centre `shapeCentre`. A sentence is outside of the shape, where it covers the
- * lines (x, y pairs) and other texts least. The cost of a position is continuous in all points, so that a sentence seldom jumps.
+ * Draws sentences about points on the outline of a shape with the centre `shapeCentre`. A sentence is outside of the shape, where it covers
+ * the fewest lines (x, y pairs) and texts. The cost of a position is continuous in all points, so that a sentence seldom jumps.
  */
 export function drawCallouts(drawContext: DrawContext, callouts: Callout[], { shapeCentre, lines }: { shapeCentre: [number, number], lines: Float64Array[] }) {
   const { context, view, palette, placedBoxes } = drawContext;
@@ -82,7 +82,7 @@ export function drawCallouts(drawContext: DrawContext, callouts: Callout[], { sh
     const outwardAngle = Math.atan2(y - centreY, x - centreX);
     let bestBox = { x, y, halfWidth, halfHeight, cost: Infinity };
     for (const { turn, length, cost } of CANDIDATE_POSITIONS) {
-      // Further positions cost more by their leaders alone.
+      // The candidates are in the order of their leaders' costs: no later candidate can cost less than the best position so far.
       if (cost >= bestBox.cost) break;
       const [idealX, idealY] = [x + (length + halfWidth) * Math.cos(outwardAngle + turn), y + (length + halfHeight) * Math.sin(outwardAngle + turn)];
       const textBox = {
@@ -105,15 +105,15 @@ export function drawCallouts(drawContext: DrawContext, callouts: Callout[], { sh
   }
 }
 
-/** Maximum number of points that represent a chord, because a line that leaves the picture may have any length. */
+/** Maximum number of points that are sampled on a chord, because a line that leaves the picture may have any length. */
 const MAX_CHORD_POINTS = 200;
 
-/** Returns points of a line, in pixels, about as far from each other as a sentence keeps from lines on both sides. */
+/** Samples points of a line, in pixels. Their spacing is about twice the distance that a sentence keeps from lines. */
 function sampleLine([firstPoint, ...otherPoints]: number[][]) {
   let [lastX, lastY] = firstPoint;
   const samples = [firstPoint];
   for (const [x, y] of otherPoints) {
-    // A chord that is too short for a point is added to the next one.
+    // If a chord is too short for a point, its length is added to that of the next chord.
     const pointCount = Math.min(MAX_CHORD_POINTS, Math.floor(Math.hypot(x - lastX, y - lastY) / (2 * MIN_TEXT_DISTANCE)));
     for (let i = 1; i <= pointCount; i++) samples.push([lastX + (i / pointCount) * (x - lastX), lastY + (i / pointCount) * (y - lastY)]);
     if (pointCount > 0) [lastX, lastY] = [x, y];

@@ -23,7 +23,7 @@ export class View {
   #requiredExtent: Extent | undefined;
   /** Minimum fraction of the view that its content fills after the next fit. With 0 the view only zooms out. */
   #minFill = 0;
-  /** True after the view has zoomed out. The picture resets it. */
+  /** True after the view has zoomed out. The picture resets this flag. */
   hasZoomedOut = false;
   /** Limits of the extent, such as the bounds of a map. An extent larger than the limits is centred on them. */
   extentLimits: Extent | undefined;
@@ -51,7 +51,7 @@ export class View {
     const { left, right, top, bottom } = this.#margins;
     this.plotArea = { left, top, right: Math.max(left + 1, width - right), bottom: Math.max(top + 1, height - bottom) };
     if (this.#requiredExtent) this.extent = this.#targetExtent = this.#findCoveringExtent(this.#requiredExtent);
-    // Marks of a size in pixels need more metres on a smaller canvas, such as that of an unfinished layout.
+    // On a small canvas, such as that of an unfinished layout, marks of a fixed pixel size need more metres. A larger canvas may zoom in.
     this.allowZoomIn();
   }
 
@@ -84,7 +84,7 @@ export class View {
     return Math.min((right - left - 2 * margin) / (xMax - xMin), (bottom - top - 2 * margin) / (yMax - yMin));
   }
 
-  /** Returns the length (m) of a mark with a length in pixels beside a part of the world that fits into the view. A mark takes at most a quarter of the view. */
+  /** Returns the length (m) of a mark that is `pixels` long, if the view fits the extent and the mark. A mark takes at most a quarter of the view. */
   markLengthOf(extent: Extent, pixels: number) {
     const { left, right, top, bottom } = this.plotArea;
     const margin = Math.min(pixels, (right - left) / 4, (bottom - top) / 4);
@@ -137,7 +137,7 @@ export class View {
     if (!keptTarget) this.extent = this.#targetExtent;
   }
 
-  /** Moves the extent towards its target by the time `elapsedMs` since the last call, or completely. Returns true if it has not arrived there. */
+  /** Moves the extent towards its target for the elapsed time, or at once if `isImmediate`. Returns true if the target is not reached yet. */
   moveTowardsTarget(elapsedMs: number, isImmediate: boolean): boolean {
     const targetExtent = this.#targetExtent;
     if (!targetExtent || targetExtent === this.extent) return false;

@@ -46,7 +46,7 @@ export const controlStyles = css`
     font: 0.85em / 1.4 ui-monospace, monospace;
   }
 
-  /* Browsers have their own fonts for controls. */
+  /* Controls have the font of the figure instead of the browser's font for controls. */
   :is(button, input) {
     font: inherit;
     font-variant-numeric: inherit;
@@ -88,7 +88,7 @@ export const controlStyles = css`
     }
   }
 
-  /* The longest text that an element may have reserves its width. */
+  /* Reserves the width of the longest text that the element may have. */
   [data-longest]::after {
     content: attr(data-longest);
     display: block;
@@ -198,7 +198,7 @@ const FORMULA_REGEXP = new RegExp(`((?:${FORMULA_PIECE_PATTERN})+)`);
 
 /** Returns a message as HTML, with italics and subscripts in its formulas. The text \\* is an asterisk. */
 export function formatMarkup(message: string) {
-  // Every second part is a formula.
+  // Formulas and other text alternate in the split message. Parts with odd indices are formulas.
   return message.split(FORMULA_REGEXP).map((proseOrFormula, i) => (i % 2 ? untranslatedHtml(proseOrFormula.match(FORMULA_PIECE)?.map(formulaPieceHtml)) : proseOrFormula));
 }
 

@@ -10,7 +10,7 @@ const decimalSeparators: Map<string, string> = new Map([['en', '.']]);
 
 /** Returns the decimal separator of the current language between Latin digits. The first use of `Intl` takes longer than the rest of the first frame. */
 function getDecimalSeparator(): string {
-  // The text is "0.5" or "0,5".
+  // The decimal separator is the second character of "0.5" or "0,5".
   if (!decimalSeparators.has(language)) decimalSeparators.set(language, (0.5).toLocaleString(language, { numberingSystem: 'latn' })[1]);
   return decimalSeparators.get(language) as string;
 }
@@ -38,7 +38,7 @@ export function formatEditable(value: number, decimals: number): string {
 
 /**
  * Parses a number in the present language, or with a decimal point: "−0,301", "1.5 m/s", "2 000", "2,000"; NaN for other texts. In English
- * a comma may separate groups of three; elsewhere a point may, if a whole number is meant.
+ * a comma may separate groups of three digits. In languages with a decimal comma a point may, if a whole number is expected.
  */
 export function parseNumber(text: string, unit: string = '', isWhole: boolean = false): number {
   const compactText = text.replace(/\s/g, '').replace(MINUS, '-');

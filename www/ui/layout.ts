@@ -1,6 +1,6 @@
 /**
- * Layout of a widget from top to bottom: pictures side by side, their sentence, the main numbers, controls in compact rows, and
- * disclosures. In a column of 700 pixels most of it is visible without scrolling.
+ * Layout of a widget from top to bottom: pictures side by side, the caption, the main numbers, controls in compact rows, and disclosures.
+ * In a column of 700 pixels most of it is visible without scrolling.
  */
 
 import { css } from 'lit';
@@ -45,7 +45,7 @@ const figureLayout = css`
     visibility: hidden;
   }
 
-  /* Files are dragged over the figure. */
+  /* Outline while the user drags files over the figure. */
   .dropping {
     outline: 2px dashed var(--accent);
     outline-offset: 4px;
@@ -179,7 +179,7 @@ const figureLayout = css`
 
   .stage {
     position: relative;
-    /* After a change of the width, handles stay in their old places until the next frame. */
+    /* After a change of the width, handles keep their old places until the next frame, and may lie outside of the picture. */
     overflow-x: clip;
   }
 
@@ -188,7 +188,7 @@ const figureLayout = css`
     width: 100%;
     aspect-ratio: 5 / 4;
     touch-action: pan-y pinch-zoom;
-    /* 13 px in text of 16 px: pictures scale with the font size of the page, see FONT_SIZE_PX in scene/canvas.ts. */
+    /* At a font size of 16 px, text in pictures has 13 px. It scales with the page's font size, see FONT_SIZE_PX in scene/canvas.ts. */
     font-size: 0.8125em;
     cursor: crosshair;
   }
@@ -385,7 +385,7 @@ const figureLayout = css`
     }
   }
 
-  /* Window at 200 % zoom. */
+  /* Low windows, such as those of desktop browsers at a zoom of 200 %. */
   @media (22em <= height < 40em) {
     @container (width < 56em) {
       ${stickyPicture}

@@ -22,7 +22,7 @@ const FAR_OUTSIDE_PX = 10_000;
 
 const ERROR_BAR_CAP = 4;
 
-/** Size of the bar that marks the value of a slider over the chart. A dot would look like data. */
+/** Size of the bar that marks a slider's value in the chart. A dot would look like a data point. */
 const GRIP_SIZE = { width: 8, height: 28 };
 
 export const plotStyles = css`

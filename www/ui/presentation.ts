@@ -91,7 +91,7 @@ export const presentationStyles = css`
     }
   }
 
-  /* Buttons in the row of the title. */
+  /* The buttons are in the row of the title. */
   @media (width > 30em) and (height > 30em) {
     :host([presentation]) .title-slot {
       margin-top: -1.55em;

@@ -15,7 +15,7 @@ export const readoutStyles = css`
     margin: 0;
   }
 
-  /* The message of the figure beside its caption. */
+  /* In a wide figure the headline readout is beside the caption. */
   @container (min-width: 30em) {
     .summary {
       display: grid;

@@ -58,7 +58,7 @@ export const themeStyles = css`
     --top: var(--motion-sticky-top, var(--mw-top, 0px));
   }
 
-  /* In a style sheet, because extensions that darken pages do not rewrite custom properties of elements. */
+  /* These colours are set in a style sheet, because extensions that darken pages do not rewrite custom properties of elements. */
   ${unsafeCSS(COLOUR_ROLES.map((role) => `[data-role='${role}'] { --role: var(--${role}); }`).join('\n'))}
 
   :host([hidden]) {
@@ -134,14 +134,14 @@ export const themeStyles = css`
     display: none;
   }
 
-  /* In print: the figure and its settings, without buttons. */
+  /* A printed figure has pictures and settings, but no buttons. */
   @media print {
-    /* Values of settings whose sliders are in a closed disclosure. */
+    /* If the disclosure with more sliders is closed, the values of their settings are printed as text. */
     .folds:not(:has(> #more[open])) + .on-paper {
       display: block;
     }
 
-    /* Browsers print no background behind text otherwise. */
+    /* Without this property, browsers do not print the background behind text. */
     .options .choice {
       print-color-adjust: exact;
     }
@@ -162,7 +162,7 @@ export const themeStyles = css`
       display: none !important;
     }
 
-    /* Labels in a table or list are names of its rows, and are all printed; that of the selected row is bold. */
+    /* Labels of radio buttons in a table or list name the rows, and are all printed. The label of the selected row is bold. */
     :is(th, li) > label:has(input:checked) {
       font-weight: bold;
     }
@@ -194,7 +194,7 @@ export function resolvePalette(parent: HTMLElement) {
     const colourProbe = document.createElement('span');
     colourProbe.hidden = true;
     colourProbe.style.color = `var(--${role})`;
-    // The roles keep their hues in forced colours, too.
+    // Without this property, forced colours would replace the hues of the colour roles.
     colourProbe.style.forcedColorAdjust = 'none';
     return colourProbe;
   });

@@ -80,7 +80,7 @@ export class Baseline {
     };
   }
 
-  /** Paints each pixel in the colour of its number of samples. @param {Uint8Array} colourRamp @param {number} maxCount */
+  /** Paints each pixel in the colour for its number of samples. @param {Uint8Array} colourRamp @param {number} maxCount */
   #paint(colourRamp, maxCount) {
     const { counts, pixels } = this;
     const colours = new Uint32Array(colourRamp.buffer, colourRamp.byteOffset, 256);

@@ -1,5 +1,5 @@
 /**
- * Model, slider and picture of the measured refreshes. The core and the baseline share them.
+ * Model, slider and picture of the benchmark of refreshes. The core and the baseline share them.
  *
  * @module
  */

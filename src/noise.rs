@@ -151,7 +151,8 @@ pub(crate) fn wrapped_density(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
         NoiseKind::Triangular if std == 0.0 => noise.prob(a, b2),
         NoiseKind::Triangular => {
             let half_width = SQRT_6 * std;
-            // Sums half_width − x over x = first, first + 2π, … up to half_width: the triangle's terms on one side of its peak.
+            // Sums half_width − x over x = first, first + 2π, … up to half_width: the terms of the triangular density on one side of its
+            // peak.
             let density_sum_on_side = |first_term: f64| {
                 let term_count = ((half_width - first_term) / TAU).ceil().max(0.0);
                 term_count * (half_width - first_term) - TAU * term_count * (term_count - 1.0) / 2.0

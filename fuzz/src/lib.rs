@@ -8,7 +8,7 @@ macro_rules! targets {
     ($($name:ident),+) => {
         $(pub mod $name;)+
 
-        /// Names and functions of the targets.
+        /// Names and functions of the fuzz targets.
         pub const TARGETS: &[(&str, fn(&[u8]))] = &[$((stringify!($name), $name::check_input)),+];
     };
 }

@@ -159,7 +159,7 @@ fn assert_results(simulation: &DeadReckoning) {
                 "{variance_ratios:?}"
             );
             let Some(predicted_cov) = predicted_cov else { continue };
-            // All entries have the same tolerance, because rotations by the heading mix them and their rounding errors.
+            // All entries of a covariance have the same tolerance, because rotations by the heading mix them and their rounding errors.
             assert_covariance("predicted", predicted_cov, |_, _| 1e-12 * predicted_cov.amax());
         }
         variance_comparison.misses.iter().for_each(|component_misses| assert_misses(component_misses, step_count));

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 pub enum Verdict {
     /// Every check passed.
     Consistent,
-    /// A check failed, so the α's may be wrong. The recommended α's compensate for some of the error.
+    /// A check failed, so the α's may be wrong. The recommended α's compensate for a part of the error of the α's.
     Questionable,
     /// The log gives no α's.
     #[default]
@@ -29,7 +29,7 @@ pub enum Verdict {
 #[serde(rename_all = "kebab-case")]
 pub enum CheckName {
     /// Mismatch of reference and odometry: difference from 1 of the median ratio of their turns, or of their driven distances. If the
-    /// reference is a copy of the odometry, it is the square root of the largest lower end of the α's 95 % intervals.
+    /// reference is a copy of the odometry, the value is the square root of the largest lower end of the α's 95 % intervals.
     ReferenceMatches,
     /// Number of legs.
     EnoughLegs,
@@ -58,10 +58,10 @@ pub enum CheckName {
     /// Fraction of the windows of 1 m whose error is inside of the 95 % ellipsoid that the fit to the other half of the log predicts.
     #[serde(rename = "window-1m-covered")]
     Window1Covered,
-    /// As `Window1Covered`, for windows of 2 m.
+    /// Fraction of the windows of 2 m whose error is inside of the 95 % ellipsoid that the fit to the other half of the log predicts.
     #[serde(rename = "window-2m-covered")]
     Window2Covered,
-    /// As `Window1Covered`, for windows of 5 m.
+    /// Fraction of the windows of 5 m whose error is inside of the 95 % ellipsoid that the fit to the other half of the log predicts.
     #[serde(rename = "window-5m-covered")]
     Window5Covered,
 }
@@ -73,7 +73,7 @@ pub enum CheckName {
 pub enum FailureCause {
     /// The reference is a copy of the odometry, computed from it, or too noisy.
     Copied,
-    /// The reference turns the other way than the odometry.
+    /// The turns of the reference and of the odometry have opposite signs.
     Mirrored,
     /// Most lost legs lack a pose of the reference.
     WithoutReference,
@@ -83,7 +83,7 @@ pub enum FailureCause {
     AcrossPauses,
 }
 
-/// One check.
+/// Check of a log or of a fit, with its outcome.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(rename = "CalibrationCheck"))]
 pub struct Check {
@@ -138,7 +138,7 @@ pub struct WindowCoverage {
 pub struct Diagnostics {
     /// Judgement of the whole calibration.
     pub verdict: Verdict,
-    /// All checks, those of the log first.
+    /// All checks: first those of the log, then those of the fit.
     #[cfg_attr(target_arch = "wasm32", tsify(type = "CalibrationCheck[]"))]
     pub checks: Vec<Check>,
     /// Coverage of windows of 1, 2 and 5 m by the fitted α's.
@@ -224,11 +224,11 @@ impl FailureCause {
 /// Number of standard errors by which a sample statistic may differ from its expectation. Logs simulated by the model rarely differ more.
 const MAX_STD_ERRORS: f64 = 3.0;
 
-/// Correlation of neighbours, and excess kurtosis, that are negligible in a long log.
+/// Correlation of neighbouring legs, and excess kurtosis, that are negligible in a long log.
 const NEGLIGIBLE_CORRELATION: f64 = 0.1;
 const NEGLIGIBLE_KURTOSIS: f64 = 0.5;
 
-/// Difference of the coverage from 95 % that is too small to matter in a long log.
+/// Difference from 95 % of the coverage (fraction of errors inside their 95 % region) that is too small to matter in a long log.
 const NEGLIGIBLE_COVERAGE: f64 = 0.015;
 
 /// Number of legs below which the check [`CheckName::EnoughLegs`] fails, and below which the log is unusable.
@@ -236,7 +236,7 @@ const SUFFICIENT_LEGS: f64 = 100.0;
 const MIN_USABLE_LEGS: f64 = 30.0;
 
 /// Maximum mismatch of the turns and of the drives of a log. A wrong track width, or slip of skid steering, scales turns by a factor of up
-/// to two. Wheels never scale distances as much as the unit foot does (0.305 m), or a reference whose y is a height (0.5).
+/// to two. Wheels never scale distances as much as a reference in feet (factor 0.305), or a reference whose y is a height (factor 0.5).
 const MAX_TURN_MISMATCH: f64 = 0.7;
 const MAX_DRIVE_MISMATCH: f64 = 0.4;
 
@@ -251,7 +251,7 @@ const MIN_RELATIVE_ERROR: f64 = 1e-3;
 /// Minimum number of windows for conclusions from their coverage.
 pub(super) const MIN_WINDOWS: usize = 20;
 
-/// Maximum inflation. α's that need a larger inflation do not describe the robot.
+/// Maximum inflation (factor on the fitted α's). α's that need a larger factor do not describe the robot.
 pub(super) const MAX_INFLATION: f64 = 30.0;
 
 /// Returns the checks of the log itself. Checks that decide whether a log is usable come first, because the first failure is displayed.
@@ -279,7 +279,7 @@ pub(super) fn log_checks(
     let mut checks = Vec::from_iter(match_check);
     checks.extend([
         Check::new(CheckName::EnoughLegs, leg_count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
-        // The inflation is infinite if no inflation covers the windows.
+        // The inflation is infinite if no factor on the α's covers the windows.
         Check::new(CheckName::InflationBounded, inflation, [1.0, MAX_INFLATION]),
         legs_lost,
         Check::new(CheckName::SamplingDense, median(&mut length_ratios), [0.0, 1.5]),

@@ -172,7 +172,7 @@ impl<'a> Log<'a> {
         }
     }
 
-    /// Moves legs to a clock offset that is `change` (s) larger.
+    /// Recomputes the ends of legs for a clock offset that is `change` (s) larger.
     fn realign(&self, legs: &mut [Leg], change: f64) {
         legs.iter_mut().for_each(|leg| self.drives[leg.drive].realign(leg, change));
     }

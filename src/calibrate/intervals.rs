@@ -105,11 +105,12 @@ pub enum NotIdentifiable {
 /// Fisher information below which an α is not identifiable. An information of 4 is a standard error of 0.5, far above any plausible α.
 const MIN_INFORMATION: f64 = 4.0;
 
-/// Minimum ratio of the information on an α if all α's are estimated to the information if only this α is estimated. Below it, the ratio of
-/// turn to distance varies by less than a seventh between legs.
+/// Minimum of A/B, where A is the information on an α if all α's are estimated, and B the information if only this α is estimated. Below
+/// this minimum, the ratio of turn to distance varies by less than a seventh between legs.
 const MIN_FREE_INFORMATION: f64 = 0.02;
 
-/// Minimum number of legs with a motion that identify an α against an exact reference. With 50 legs the standard error of the α is 20 %.
+/// Minimum number of legs with a motion (drive or turn) that identify an α, if the reference is exact. With 50 legs the standard error of
+/// the α is 20 %.
 const MIN_MOVING_LEGS: usize = 50;
 
 /// Returns, for each α, the reason why it is not identifiable; None if it is identifiable.

@@ -18,8 +18,8 @@ const LENGTH_TOLERANCE: f64 = 1e-5;
 /// Condition on which a leg ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LegLength {
-    /// A leg ends as in AMCL (`update_min_d`, `update_min_a`): at the first reading that is more than `distance` (m) away from its start, or
-    /// turned by more than `angle` (rad). The distance is compared along each axis of the odometry frame.
+    /// A leg ends as in AMCL (`update_min_d`, `update_min_a`): at the first odometry reading that is more than `distance` (m) away from its
+    /// start, or turned by more than `angle` (rad). The distance is compared along each axis of the odometry frame.
     Displacement {
         /// `update_min_d`, m.
         distance: f64,
@@ -136,7 +136,7 @@ pub(super) fn turn(motion: &SE2) -> f64 {
 /// Number of legs below which no fit is tried.
 pub const MIN_LEGS: usize = 8;
 
-/// Turn (rad) below which the robot stands during a leg without translation.
+/// Turn (rad) below which the robot counts as standing during a leg without translation.
 const MAX_STANDING_TURN: f64 = 0.02;
 
 /// Maximum ratio of the length of a leg across a pause to the length in the options. Longer legs are left out.
@@ -144,13 +144,13 @@ const MAX_RATIO_ACROSS_PAUSE: f64 = 2.0;
 
 #[derive(Clone, Copy, Debug)]
 struct LegEnd {
-    /// Time and pose of the reading at which the leg ends by its length.
+    /// Time and pose of the odometry reading that completes the leg.
     reading: (f64, SE2),
     /// Time by the clock of the odometry, s.
     time: f64,
     odometry: SE2,
     velocity: Vector3<f64>,
-    /// Pose by the reference; None if the reference has no sample near the reading.
+    /// Pose by the reference; None if the reference has no sample near the odometry reading.
     reference: Option<SE2>,
 }
 

@@ -55,7 +55,7 @@ pub(super) struct LegTerm {
     columns: Columns,
     /// Factors of the α's in the variance of each component.
     coefficients: [[f64; 2]; 3],
-    /// False for a component without a residual. Its residual is 0 here, and its variance 1.
+    /// False for a component without a residual. The residual of such a component is stored as 0, and its variance as 1.
     observed: [bool; 3],
     /// Jacobians with respect to the reference's errors at the start and at the end of the leg.
     start: Matrix3<f64>,
@@ -94,7 +94,7 @@ pub(super) struct Innovation {
 pub(super) struct FilterResult {
     pub innovations: Vec<Innovation>,
     pub log_likelihood: f64,
-    /// Information on all errors, XᵀV⁻¹X.
+    /// Information on all systematic errors, XᵀV⁻¹X.
     pub information: ErrorMatrix,
     /// XᵀV⁻¹r.
     weighted_residual: ErrorVector,
@@ -215,7 +215,8 @@ impl Innovation {
         self.columns * -errors.push(-1.0)
     }
 
-    /// Returns the innovation, without the part that systematic errors explain, with its standard deviations and its squared distance.
+    /// Returns the innovation, without the part that systematic errors explain, with its standard deviations and its squared Mahalanobis
+    /// distance.
     pub fn leg_fit(&self, errors: &ErrorVector, is_outlier: bool) -> LegFit {
         let (innovation, stds) = (self.without(errors), self.variances.map(f64::sqrt));
         LegFit {
@@ -238,7 +239,7 @@ impl Residuals {
         for innovation in &innovations {
             det *= innovation.determinant;
             if innovation.determinant <= 0.0 {
-                // Variances differ by so many orders of magnitude that rounding makes the covariance indefinite.
+                // If variances differ by many orders of magnitude, rounding can make the covariance indefinite.
                 log_det = f64::INFINITY;
             } else if !(1e-200..1e200).contains(&det) {
                 log_det += libm::log(det);
@@ -266,7 +267,7 @@ impl Residuals {
         self.expansion(parameters, self.filtered(parameters))
     }
 
-    /// Returns the expansion of the log-likelihood around parameters, from the filter's result under them.
+    /// Returns the expansion of the log-likelihood around parameters, from the result of the Kalman filter with these parameters.
     pub fn expansion(&self, parameters: &Parameters, filtered: FilterResult) -> Expansion {
         let (scores, information) = (self.scores(&filtered), self.information(&filtered));
         let (covariance, _) = masked_inverse(&information, &self.free);

@@ -13,7 +13,8 @@ const CHI2_9999: [f64; 3] = [15.137, 18.421, 21.108];
 /// Median of χ² with 3 degrees of freedom.
 const MEDIAN_CHI2: f64 = 2.366;
 
-/// Last round in which an outlier may become an inlier again. In later rounds a leg near the gate could otherwise alternate forever.
+/// Last round in which an outlier may become an inlier again. In later rounds a leg near the gate that defines outliers could otherwise
+/// alternate forever.
 const LAST_RETURN_ROUND: usize = 4;
 
 impl LegSet {
@@ -40,7 +41,8 @@ impl LegSet {
             return false;
         }
         let fits = self.leg_fits(parameters, errors);
-        // Variances may be too small in early rounds. The gate is then wider, so that at most half of the legs are outliers.
+        // Variances may be too small in early rounds. The gate that defines outliers is then wider, so that at most half of the legs are
+        // outliers.
         let mut squared_distances: Vec<f64> = fits.iter().map(|fit| fit.squared).collect();
         let gate_factor = (median(&mut squared_distances) / MEDIAN_CHI2).max(1.0);
         let gate = CHI2_9999.map(|quantile| gate_factor * quantile);

@@ -33,9 +33,9 @@ impl Model {
     /// Returns the indices, from 0, of the two α's in the variance of each component of [`Observation::residuals`].
     pub fn component_alphas(self) -> [[usize; 2]; 3] {
         match self {
-            // Second rotation, translation, strafe.
+            // Components of this rule: second rotation, translation, strafe.
             Self::Odometry(OdometryRule::Omni) => [[0, 1], [2, 3], [4, 3]],
-            // First rotation, translation, second rotation.
+            // Components of all other rules: first rotation, translation, second rotation.
             Self::Odometry(_) => [[0, 1], [2, 3], [0, 1]],
             // v, ω, γ.
             Self::Velocity => [[0, 1], [2, 3], [4, 5]],
@@ -118,7 +118,7 @@ impl Observation {
         let displacement = Vector3::from(<[f64; 3]>::from(motion.between(&measured)));
         if has_direction {
             let jacobian = noise_jacobian.try_inverse().unwrap_or_default();
-            // Angles of linear residuals are not wrapped at π, because their covariances are linear too.
+            // Angles of linearized residuals are not wrapped at π, because their covariances are linearized too.
             let residuals =
                 exact_residuals.map_or_else(|| (jacobian * displacement).into(), |(_, residuals)| residuals);
             return Self { residuals, coefficients, reading, expected, measured, jacobian, noise_jacobian };
@@ -171,10 +171,10 @@ fn unit_variances(rule: OdometryRule, reading: &OdomDelta) -> [LegVariances; 2] 
 
 /// Motion that a model expects from an odometry reading, and the noise of this motion.
 struct Prediction {
-    /// As [`Observation::reading`].
+    /// Odometry reading: see [`Observation::reading`].
     reading: [f64; 3],
     motion: SE2,
-    /// As [`Observation::coefficients`].
+    /// Coefficients of the α's in the variances: see [`Observation::coefficients`].
     coefficients: [[f64; 2]; 3],
     /// Jacobian of the end of the motion with respect to the noise, in the frame of the end.
     noise_jacobian: Matrix3<f64>,

@@ -18,7 +18,7 @@ pub struct Estimate {
 }
 
 impl Default for Estimate {
-    /// Returns the estimate of an unknown number of 0 or more.
+    /// Returns the estimate 0, with the interval from 0 to ∞.
     fn default() -> Self {
         Self { value: 0.0, interval: [0.0, f64::INFINITY] }
     }
@@ -42,7 +42,7 @@ pub struct Recommendation {
     pub alphas: Vec<Option<f64>>,
     /// Factor on the fitted α's, 1 or more.
     pub inflation: f64,
-    /// Sentence on the windows from which the factor follows.
+    /// Sentence that names the windows on which the factor is based.
     pub reason: String,
 }
 

@@ -24,21 +24,21 @@ pub struct Systematic {
 /// One systematic error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SystematicError {
-    /// [`Systematic::clock_offset`].
+    /// Offset of the clocks: [`Systematic::clock_offset`].
     ClockOffset,
-    /// [`Systematic::mount_yaw`].
+    /// Yaw of the reference's mount: [`Systematic::mount_yaw`].
     MountYaw,
     /// First coordinate of [`Systematic::lever_arm`].
     LeverArmAhead,
     /// Second coordinate of [`Systematic::lever_arm`].
     LeverArmLeft,
-    /// [`Systematic::distance_scale`].
+    /// Scale of distances: [`Systematic::distance_scale`].
     DistanceScale,
-    /// [`Systematic::turn_scale`].
+    /// Scale of turns: [`Systematic::turn_scale`].
     TurnScale,
 }
 
-/// Number of systematic errors.
+/// Number of kinds of systematic errors.
 pub const ERROR_COUNT: usize = 6;
 
 impl SystematicError {
@@ -52,8 +52,8 @@ impl SystematicError {
         Self::TurnScale,
     ];
 
-    /// Returns the maximum standard error (s, rad or m; no unit for a scale) with which the error counts as identifiable. An error this
-    /// large is visible without a calibration.
+    /// Returns the maximum standard error (s, rad or m; no unit for a scale) with which a systematic error counts as identifiable. An error
+    /// this large is visible without a calibration.
     pub(super) fn identifiability_limit(self) -> f64 {
         match self {
             Self::ClockOffset | Self::LeverArmAhead | Self::LeverArmLeft => 0.25,
@@ -74,12 +74,12 @@ impl Systematic {
     pub const NONE: Self =
         Self { clock_offset: 0.0, mount_yaw: 0.0, lever_arm: [0.0; 2], distance_scale: 1.0, turn_scale: 1.0 };
 
-    /// Returns the value of one error.
+    /// Returns the value of one systematic error.
     pub fn get(mut self, error: SystematicError) -> f64 {
         *self.get_mut(error)
     }
 
-    /// Returns a reference to the value of one error.
+    /// Returns a reference to the value of one systematic error.
     pub fn get_mut(&mut self, error: SystematicError) -> &mut f64 {
         match error {
             SystematicError::ClockOffset => &mut self.clock_offset,
@@ -191,5 +191,5 @@ const MIN_INITIAL_YAW: f64 = 0.5;
 /// have about 0.05.
 const MIN_RESULTANT: f64 = 0.5;
 
-/// Mask over [`SystematicError::ALL`].
+/// Mask of systematic errors: one boolean for each of [`SystematicError::ALL`].
 pub type ErrorMask = [bool; ERROR_COUNT];

@@ -89,7 +89,7 @@ impl Trajectory {
         commands: impl IntoIterator<Item = (f64, f64, f64)>,
     ) -> Result<Self, TrajectoryError> {
         let commands: Vec<(f64, f64, f64)> = commands.into_iter().collect();
-        // A command that is not finite is refused at its own index.
+        // A command that is not finite is reported by its own index.
         let command_times = commands.iter().map(|(t, v, omega)| {
             (if v.is_finite() && omega.is_finite() { *t } else { f64::NAN }, SE2::identity())
         });
@@ -140,7 +140,7 @@ impl Trajectory {
     /// The velocity is interpolated between the samples before and after the time. Noise of a step is both in its velocity and in the residuals
     /// of legs. Interpolated velocities have equal noise from the leg that ends and from the leg that begins. Otherwise the clock offset would
     /// be biased.
-    // Not inlined, because two calls would make the module larger.
+    // The function is not inlined, because two copies would make the module larger.
     #[inline(never)]
     pub(super) fn motion_at(&self, time: f64) -> Option<(SE2, Vector3<f64>)> {
         let (sample, fraction) = self.locate(time)?;
@@ -209,7 +209,7 @@ impl Trajectory {
     }
 
     /// Returns the pose after a fraction of the step to a sample.
-    // Not inlined, because the code for arcs is long.
+    // The function is not inlined, because the code for arcs is long.
     #[inline(never)]
     fn pose_in_step(&self, sample: usize, fraction: f64) -> SE2 {
         let pose = self.poses[sample];

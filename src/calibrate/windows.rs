@@ -34,8 +34,8 @@ impl Window {
 }
 
 impl LegSet {
-    /// Cuts the legs in `range` into windows of `length` (m) driven. Legs without a covariance are in no window, and no window leads across
-    /// a gap.
+    /// Cuts the legs in `range` into windows with the driven distance `length` (m). Legs without a covariance are in no window, and no
+    /// window leads across a gap.
     fn windows(
         &self,
         range: Range<usize>,

@@ -149,7 +149,7 @@ impl Arc {
     }
 }
 
-/// Pose with the sine and cosine of its heading, for many arcs that start there.
+/// Pose with the sine and cosine of its heading, for many arcs that start at this pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PreparedPose {
     pub pose: SE2,
@@ -263,9 +263,9 @@ pub(crate) struct ArcPiece {
     /// Direction of travel in the middle of the piece.
     tangent: [f64; 2],
     curvature: f64,
-    /// Half the length of the piece, m.
+    /// Half the length of the arc piece, m.
     pub half_length: f64,
-    /// Maximum error of a point, m.
+    /// Maximum error of a computed point of the arc, m.
     pub max_error: f64,
 }
 
@@ -296,8 +296,8 @@ impl ArcPiece {
         }
     }
 
-    /// Returns the coordinates, ahead and to the left of the middle of the piece, of the point `s` metres after the middle. `T` is a number
-    /// or four SIMD lanes.
+    /// Returns the coordinates, ahead and to the left of the middle of the arc piece, of the point `s` metres after the middle. `T` is a
+    /// number or four SIMD lanes.
     #[inline(always)]
     fn local_point<T>(&self, s: T) -> [T; 2]
     where

@@ -190,7 +190,7 @@ impl DoubleDouble {
         Self { high, low: ((a_high * b_high - high) + a_high * b_low + a_low * b_high) + a_low * b_low }
     }
 
-    /// Returns the nearest double.
+    /// Returns the double nearest to the number.
     pub fn to_f64(self) -> f64 {
         self.high + self.low
     }

@@ -109,12 +109,13 @@ impl Segment {
         ]
         .into_iter()
         .fold(f64::INFINITY, f64::min);
-        // Another candidate is the foot of the perpendicular from the circle's centre to the segment. A straight arc has no centre.
+        // Another candidate for the nearest point is the foot of the perpendicular from the circle's centre to the segment. A straight arc
+        // has no centre.
         if arc.curvature > 0.0 && squared_length > 0.0 {
             let t = (direction[1] / arc.curvature - dot(from, direction)) / squared_length;
             if (0.0..=1.0).contains(&t) {
-                // A foot inside the circle is not the nearest point, but its distance does no harm. The foot on a tangent is needed, even
-                // if rounding moves it inside.
+                // A foot inside the circle is not the nearest point, but its distance does no harm, because it is larger. The foot on a
+                // tangent is needed, even if rounding moves it inside.
                 min_distance = min_distance
                     .min(arc.distance_to_point([from[0] + t * direction[0], from[1] + t * direction[1]]));
             }

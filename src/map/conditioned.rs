@@ -56,7 +56,7 @@ pub struct MapConditioned<'a> {
     pub model: VelocityModel,
     /// Walls and bounds.
     pub plan: &'a FloorPlan,
-    /// Radius of the robot, m: its centre stays further away from walls.
+    /// Radius of the robot, m. The centre of the robot stays further away from walls than this radius.
     pub clearance: f64,
     /// Condition for accepting a draw.
     pub sampler: Sampler,
@@ -67,7 +67,7 @@ pub struct MapConditioned<'a> {
 pub struct TestedDraw {
     /// End pose.
     pub pose: SE2,
-    /// Arc driven with (v̂, ω̂); `pose` is its end turned by γ̂Δt.
+    /// Arc driven with (v̂, ω̂); `pose` is the end of the arc, turned by γ̂Δt.
     pub arc: Arc,
     /// Result of the collision test of the end pose.
     pub end_verdict: CollisionVerdict,
@@ -110,8 +110,8 @@ impl Cost {
 #[error("the robot is wedged: {} draws were tried and too few accepted", .0.draws)]
 pub struct NoAcceptedSample(pub Cost);
 
-/// Number of rejected draws in a row after which sampling fails. They take about a tenth of a second. A motion that is accepted less than
-/// once in ten thousand draws is useless to a particle filter; more draws would block a page.
+/// Number of rejected draws in a row after which sampling fails. So many draws take about a tenth of a second. A motion that is accepted
+/// less than once in ten thousand draws is useless to a particle filter; more draws would block a page.
 pub const MAX_DRAWS: usize = 10_000;
 
 /// Tester of drawn motions for collisions, all from one pose under one command.

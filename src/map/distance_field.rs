@@ -15,7 +15,7 @@ pub(super) struct DistanceField {
     columns: usize,
     /// Index of the last column and of the last row.
     last_indices: [f64; 2],
-    /// Half the diagonal of a cell, m: the resolution of the field.
+    /// Half the diagonal of a cell, m: the resolution of the distance field.
     pub cell_radius: f64,
     /// Uncertainty (m) of the distance from the middle of a cell to the nearest wall.
     cell_uncertainty: f64,
@@ -24,21 +24,21 @@ pub(super) struct DistanceField {
     lower_bounds: Vec<f32>,
 }
 
-/// Number of cells for each wall, and minimum and maximum number of cells of a map. With fewer cells, the bounds would decide fewer
-/// collision tests; more cells take longer to fill. The apartment's cells have sides of 4 cm and take a millisecond; 2²⁰ cells take 4 MB.
-/// Fuzzing fills millions of fields, and therefore uses few cells. The results of collision tests are the same.
+/// Number of cells for each wall, and minimum and maximum number of cells of a map. With fewer cells, the bounds on distances would decide
+/// fewer collision tests; more cells take longer to fill. The apartment's cells have sides of 4 cm and take a millisecond; 2²⁰ cells take 4
+/// MB. Fuzzing fills millions of fields, and therefore uses few cells. The results of collision tests are the same.
 const CELLS_PER_WALL: f64 = MIN_CELLS;
 const MIN_CELLS: f64 = if cfg!(fuzzing) { 64.0 } else { 4096.0 };
 const MAX_CELLS: f64 = 1_048_576.0;
 
-/// Limit of the distances to walls, or to nodes of the wall tree, that are computed for a block of cells: a fixed number, plus a number for
-/// each cell. Where more walls are near, filling would take seconds. The lower bound is then [`NOT_COMPUTED`], and collision tests search
-/// the tree.
+/// Maximum number of distances to walls, or to nodes of the wall tree, that are computed for a block of cells: a fixed number, plus a
+/// number for each cell. Where more walls are near, filling would take seconds. The lower bound is then [`NOT_COMPUTED`], and collision
+/// tests search the tree.
 const MAX_WALLS_PER_BLOCK: usize = 32;
 const MAX_WALLS_PER_CELL: usize = 3;
 
 /// Accepted error of the distance from a block of cells to the nearest wall, as a fraction of half the block's diagonal. Walls closer
-/// together than this error are measured as one. A map whose walls fit into a single leaf of the wall tree is measured exactly.
+/// together than this error are measured as one wall. A map whose walls fit into a single leaf of the wall tree is measured exactly.
 const RELATIVE_UNCERTAINTY: f64 = 0.125;
 
 /// Lower bound of a cell whose distance to the walls was not computed.
@@ -101,7 +101,7 @@ impl DistanceField {
     }
 }
 
-/// Distance field during filling.
+/// Distance field that is being computed.
 struct FieldBuilder<'a> {
     tree: &'a WallTree,
     occupied_grid: Option<&'a OccupancyGrid>,
@@ -156,8 +156,8 @@ impl<'a> FieldBuilder<'a> {
         }
     }
 
-    /// Computes the lower bounds of the cells of a block, or divides the block into four. `candidates` contain every wall that may be
-    /// nearest to a point of the block.
+    /// Computes the lower bounds of the cells of a block, or divides the block into four. `candidates` has every wall that may be nearest
+    /// to a point of the block.
     fn fill_block(&mut self, candidates: &[WallSet], [left, bottom]: [usize; 2], width: usize) {
         if left >= self.distance_field.columns || bottom >= self.rows {
             return;

@@ -67,7 +67,7 @@ pub struct Image<P = Pixel> {
     pub width: usize,
     /// Number of rows.
     pub height: usize,
-    /// Pixels, in number width · height.
+    /// Pixels. Their number is width · height.
     pub pixels: Vec<P>,
 }
 
@@ -168,7 +168,7 @@ impl OccupancyGrid {
         Self { unknown_treatment: unknown, ..self }
     }
 
-    /// Returns the columns and rows.
+    /// Returns the numbers of columns and rows.
     pub fn size(&self) -> [usize; 2] {
         [self.width, self.height]
     }
@@ -234,7 +234,7 @@ impl OccupancyGrid {
         }
     }
 
-    /// Returns the cells of a row, counted from the bottom; empty for a row off the grid.
+    /// Returns the cells of a row, counted from the bottom; empty for a row outside of the grid.
     fn row_cells(&self, row: usize) -> &[Cell] {
         let first_cell_index = row.saturating_mul(self.width).min(self.cells.len());
         &self.cells[first_cell_index..(first_cell_index + self.width).min(self.cells.len())]

@@ -34,7 +34,7 @@ fn damage_error(cursor: &Cursor<&[u8]>) -> ImageError {
 }
 
 fn decode_pixels(cursor: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingError> {
-    // Pixels take up to eight bytes.
+    // A decoded pixel has at most eight bytes.
     let mut decoder = Decoder::new_with_limits(cursor, Limits { bytes: 8 * MAX_PIXELS });
     decoder.set_transformations(Transformations::EXPAND);
     decoder.set_ignore_text_chunk(true);

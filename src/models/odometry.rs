@@ -20,7 +20,7 @@ pub struct OdomDelta {
 }
 
 /// Displacement (m) below which a reading counts as a turn on the spot. The direction of such a displacement is only rounding, because no
-/// encoder resolves a nanometre. A larger bound would turn slow motion into turns.
+/// encoder resolves a nanometre. With a larger bound, slow motion would count as turns on the spot.
 const MIN_TRANSLATION: f64 = 1e-9;
 
 impl OdomDelta {

@@ -48,8 +48,8 @@ impl OdometryRule {
     /// All rules.
     pub const ALL: [Self; 4] = [Self::Table, Self::Nav2, Self::Beluga, Self::Omni];
 
-    /// Returns the rotation, translation and rotation into which the rule decomposes a reading. They are the same motion to within
-    /// [`MAX_SPIN_DISTANCE`]. If the rule treats the reading as a turn on the spot, the second rotation is the whole turn.
+    /// Returns the rotation, translation and rotation into which the rule decomposes a reading. Together the three are the same motion to
+    /// within [`MAX_SPIN_DISTANCE`]. If the rule treats the reading as a turn on the spot, the second rotation is the whole turn.
     pub fn legs(self, reading: &OdomDelta) -> OdomDelta {
         let is_spin = match self {
             Self::Table | Self::Omni => false,

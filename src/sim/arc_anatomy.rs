@@ -36,7 +36,7 @@ settings! {
         /// Noise parameters, the six of the velocity model.
         alphas: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], in ALPHA_RANGE,
             each "Noise parameter of the velocity model.";
-        /// Distribution of the noise; the variances are the same.
+        /// Distribution of the noise, which does not change the variances.
         noise: NoiseKind = NoiseKind::Normal;
         /// True for a radius without a sign, as Table 5.1 prints it.
         printed: bool = false;
@@ -100,7 +100,7 @@ js_structs! {
         pub turn: f64,
         /// Radius, m; positive with the centre to the left of the heading, infinite for a straight arc.
         pub radius: f64,
-        /// Centre, m; null (None) for a straight arc.
+        /// Centre of the circle, m; null (None) for a straight arc.
         #[cfg_attr(target_arch = "wasm32", serde(rename = "center"))]
         pub centre: Option<[f64; 2]>,
         /// End pose: x, y (m) and θ (rad).
@@ -190,7 +190,7 @@ js_structs! {
         pub shades: Vec<u8> as "Uint8Array",
         /// Contours of the score p at a half, a tenth and a hundredth of its maximum, as x, y pairs in m.
         pub prob: Vec<Vec<[f64; 2]>> as "Float64Array[]",
-        /// Contours of the sampler's density at the same fractions of its maximum.
+        /// Contours of the sampler's density at a half, a tenth and a hundredth of its maximum, as x, y pairs in m.
         pub density: Vec<Vec<[f64; 2]>> as "Float64Array[]",
     }
 }
@@ -379,7 +379,7 @@ impl ArcAnatomy {
         };
         let contours_of = |values: &[f64]| {
             let max_value = maximum_of(values);
-            // Contours are interpolated between logarithms, which are closer to linear between cells.
+            // Contours are interpolated between logarithms of the values, which are closer to linear between cells.
             let log_values: Vec<f64> =
                 values.iter().map(|value| libm::log(value.max(f64::MIN_POSITIVE))).collect();
             let log_levels = CONTOUR_LEVELS

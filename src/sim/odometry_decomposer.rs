@@ -31,13 +31,13 @@ settings! {
         /// Noise parameters of the rule; only the rule omni has the fifth.
         alphas: RuleAlphas = [0.03, 0.01, 0.01, 0.02, 0.01], in ALPHA_RANGE,
             each "Noise parameter; the first four are every rule’s, the fifth the omnidirectional one’s.";
-        /// Distribution of the noise; its variances do not depend on it.
+        /// Distribution of the noise, which does not change the variances.
         noise: NoiseKind = NoiseKind::Normal;
         /// Correlation of the noises of the two rotations, which the rules assume to be 0.
         correlation: f64 = 0.0, in -1.0..=1.0;
         /// Time for which the frame of the odometry has drifted away from the world.
         drift: f64 = 40.0, "s", in 0.0..=1e6;
-        /// Progress of the robot: in the first rotation up to 1, in the drive up to 2, in the second rotation up to 3.
+        /// Progress of the robot: from 0 to 1 in the first rotation, to 2 in the drive, to 3 in the second rotation.
         phase: f64 = 3.0, in 0.0..=3.0;
         /// Number of outcomes in the whole cloud.
         samples: usize = 500, in 1..=MAX_SAMPLES;

@@ -21,7 +21,7 @@ use std::f64::consts::{LN_2, PI, TAU};
 /// turns, [`LikelihoodGain::pose`] of the cloud differs from the exact gain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExactGain {
-    /// Gain without sampling error.
+    /// Likelihood gain without sampling error.
     pub value: LikelihoodGain,
     /// Mean and covariance of ξ, on the branch of the turn that was made.
     pub exponential: ExponentialMoments,

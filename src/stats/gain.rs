@@ -25,7 +25,7 @@ pub struct LikelihoodGain {
     pub floor: f64,
 }
 
-/// Gain with its standard errors.
+/// Likelihood gain with its standard errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredGain {
     /// Likelihood gain of a cloud of samples.

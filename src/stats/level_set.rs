@@ -52,7 +52,7 @@ pub fn trace_level_set(field_values: &[f64], columns: usize, level: f64) -> Vec<
     let mut contour_lines = Vec::new();
     let border_edges = (0..edge_links.len())
         .filter(|edge| edge_links[*edge][0] != NO_EDGE && edge_links[*edge][1] == NO_EDGE);
-    // Lines that end at the border are followed first. The remaining lines are closed.
+    // Contour lines that end at the border are followed first. The remaining contour lines are closed.
     for first_edge in border_edges.chain(0..edge_links.len()).collect::<Vec<_>>() {
         if edge_links[first_edge][0] == NO_EDGE {
             continue;

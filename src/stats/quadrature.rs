@@ -29,7 +29,8 @@ pub fn noise_nodes(noise: NoiseKind) -> &'static [Node] {
 
 /// Returns the trapezoidal rule for a Gaussian weight. Its error at the step h and the frequency k is about exp(−(2π/h − k)²/2).
 fn normal_nodes() -> Vec<Node> {
-    /// Step of the rule. The error stays below rounding up to k ≈ 16; twice this step would suffice only up to k ≈ 4.
+    /// Step of the quadrature rule. The error stays below rounding up to the frequency k ≈ 16; twice this step would suffice only up to k ≈
+    /// 4.
     const STEP_SIZE: f64 = 0.25;
     /// Number of steps on each side of 0. They reach nine standard deviations, where the density is 1e-18 of its maximum.
     const STEPS_PER_SIDE: i32 = 36;
@@ -61,12 +62,12 @@ fn triangular_nodes() -> Vec<Node> {
 /// positive. Gauss–Legendre rules are used between the breaks. Moments of normal noise up to six standard deviations are off by 1e-10.
 #[inline(never)]
 pub(super) fn piecewise_nodes(noise: NoiseKind, limit: f64, breaks: [f64; 2]) -> Vec<Node> {
-    /// Number of nodes between two breaks. Nodes of two noises are combined, so that the cost grows with the square of this number. Fewer
-    /// nodes would make displayed digits wrong.
+    /// Number of quadrature nodes between two break points. Nodes of two noises are combined, so that the cost grows with the square of
+    /// this number. Fewer nodes would make displayed digits wrong.
     const NODES_PER_PIECE: usize = 16;
     let unit_nodes = legendre_nodes(NODES_PER_PIECE);
     let (mut nodes, mut piece_start) = (Vec::with_capacity(4 * NODES_PER_PIECE), -limit);
-    // The triangular density has another break at 0.
+    // The triangular density has another break point at 0.
     for piece_end in [breaks[0].max(-limit).min(0.0), 0.0, breaks[1].max(0.0).min(limit), limit] {
         if piece_end > piece_start {
             let half_width = 0.5 * (piece_end - piece_start);

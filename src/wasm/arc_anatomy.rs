@@ -13,7 +13,7 @@ use wasm_bindgen::prelude::*;
 simulation_class! {
     /// The arc between two poses, and how likely its end is after a command.
     JsArcAnatomy(ArcAnatomy), "ArcAnatomy", "ArcAnatomySettings", "Partial<ArcAnatomySettings>", |simulation|
-    /// All values that a figure shows besides the heat map, in one call.
+    /// All values that a figure shows, except for the heat map, in one call.
     read as "ArcAnatomyView" {
         stats: "AnatomyStats" = to_plain_js(&simulation.stats());
         table: "AnatomyTable" = to_plain_js(&simulation.table());

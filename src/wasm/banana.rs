@@ -20,7 +20,7 @@ use wasm_bindgen::prelude::*;
 cloud_simulation_class! {
     /// One command from the origin, many robots that execute it with noise, and Gaussians fitted to their end poses.
     JsBananaMachine(BananaMachine), "BananaMachine", "BananaMachineSettings", "Partial<BananaMachineSettings>", MAX_SAMPLES, |simulation|
-    /// All values that a figure shows besides the robots, in one call.
+    /// All values that a figure shows, except for the robots, in one call.
     read as "BananaMachineView" {
         stats: "Stats" = to_plain_js(simulation.stats());
         contours: "Contours" = to_plain_js(&simulation.contours());
@@ -30,7 +30,7 @@ cloud_simulation_class! {
         /// True if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise statistics and
         /// contours in exponential coordinates are undefined.
         is_exponential_defined as "chartHolds": "boolean" = simulation.is_exponential_defined();
-        /// Noise parameters of each model. A model that is not selected keeps its own.
+        /// Noise parameters of each model. A model that is not selected keeps its own parameters.
         alphas_of_models as "alphasOfModels": "{ velocity: number[]; odometry: number[] }" = js_object(&[
             ("velocity", js_array(&simulation.settings().velocity_alphas)),
             ("odometry", js_array(&simulation.settings().odometry_alphas)),

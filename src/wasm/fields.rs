@@ -247,7 +247,7 @@ fn shorten(text: &str) -> String {
     shortened_text
 }
 
-/// Returns a text in quotation marks. `Debug` would include Unicode tables, which would be 5 % of the module.
+/// Returns a text in quotation marks. Rust's `Debug` format would include Unicode tables, which would be 5 % of the module.
 pub fn quote(text: &str) -> String {
     JSON::stringify(&text.into()).map_or_else(|_| String::new(), String::from)
 }

@@ -49,5 +49,5 @@ impl JsOdometryDecomposer {
 }
 
 /// Maximum number of outcomes for which rotation, translation and rotation are drawn as lines. More lines would hide the lines of the
-/// reading.
+/// noise-free reading.
 const MAX_SHOWN_LINKAGES: usize = 12;

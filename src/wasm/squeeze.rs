@@ -18,9 +18,9 @@ use wasm_bindgen::prelude::*;
 js_structs! {
     /// Map of the simulation, in m.
     pub struct Plan {
-        /// Smallest x and y, and largest x and y.
+        /// Smallest x and y, and largest x and y, of the map.
         pub bounds: [f64; 4] as "Float64Array",
-        /// Walls as x0, y0, x1, y1 of each.
+        /// Walls as the coordinates of both ends, x0, y0, x1, y1, of each wall.
         pub walls: Vec<[f64; 4]> as "Float64Array",
     }
 
@@ -30,7 +30,7 @@ js_structs! {
         pub rows: usize,
         /// Side of a cell, m.
         pub resolution: f64,
-        /// x, y (m) and yaw (rad) of the lower left corner.
+        /// x, y (m) and yaw (rad) of the lower left corner of the grid.
         pub origin: [f64; 3] as "Float64Array",
         /// One byte for each cell: 1 if occupied, 0 otherwise.
         pub occupied: Vec<u8> as "Uint8Array",
@@ -44,7 +44,7 @@ cloud_simulation_class! {
     /// `alphas`.
     JsMapSqueeze(MapSqueeze), "MapSqueeze", "MapSqueezeSettings",
     "Partial<MapSqueezeSettings> & { noise?: number }", MAX_SAMPLES, |simulation|
-    /// All values that a figure shows besides the map, in one call.
+    /// All values that a figure shows, except for the map, in one call.
     read as "MapSqueezeView" {
         stats: "SqueezeStats" = to_plain_js(&simulation.stats());
         /// Outcome of each attempt as one byte: 1 for a free end, plus 2 for a free path, plus 4 if it is accepted.

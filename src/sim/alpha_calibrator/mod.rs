@@ -27,7 +27,7 @@ js_structs! {
     pub struct Truth as "CalibrationTruth" {
         /// Noise parameters of the rule of Table 5.6, on legs of 0.25 m or 0.2 rad.
         pub alphas: [f64; 4],
-        /// Time by the reference's clock minus time by the odometry's, s.
+        /// Time by the reference's clock minus time by the odometry's clock, s.
         pub clock_offset: f64,
         /// Yaw of the reference's sensor on the robot, rad.
         pub mount_yaw: f64,
@@ -242,7 +242,7 @@ impl AlphaCalibrator {
     }
 }
 
-/// Regressor of the variance of a noise component, which has one α for a rotation and one for a distance.
+/// Regressor of the variance of a noise component. Each component has one α for a rotation, and one for a distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Regressor {
     /// Squared distance, or squared speed.

@@ -37,7 +37,7 @@ settings! {
         model: Model = Model::Odometry;
         /// Rule that relates the α’s to the noise of odometry. The rule omni belongs to the omnidirectional model.
         rule: OdometryRule = OdometryRule::Table;
-        /// Distribution of the noise in the predicted outcomes of a leg; the variances are the same.
+        /// Distribution of the noise in the predicted outcomes of a leg, which does not change the variances.
         noise: NoiseKind = NoiseKind::Normal;
         /// Treatment of outliers, such as jumps of the reference: excluded, or fitted as noise.
         outliers: Outliers = Outliers::Reject;

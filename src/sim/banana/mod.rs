@@ -348,7 +348,7 @@ impl BananaMachine {
         OdomDelta::from_poses(&START_POSE, &command_end(&self.settings.command))
     }
 
-    /// Counts the shown samples in each cell of a grid at a stage of the morph: see [`picture::count_samples_in_cells`].
+    /// Counts the shown samples in each cell of a grid over a picture: see [`picture::count_samples_in_cells`].
     pub fn density(&self, morph: f64, grid: &ViewGrid) -> Vec<u32> {
         picture::count_samples_in_cells(&self.cloud, morph, grid)
     }
@@ -360,7 +360,7 @@ impl BananaMachine {
         &self.picture
     }
 
-    /// Returns the shown sample nearest to a point of a stage of the morph, inside the ellipse of the given radii around it.
+    /// Returns the shown sample nearest to a point of the picture, inside the ellipse of the given radii around it.
     pub fn nearest(&self, morph: f64, target: [f64; 2], radii: [f64; 2]) -> Option<usize> {
         let points_of_group = |[x, y]: [f64x4; 2]| {
             let (x, y) = (x.to_array(), y.to_array());

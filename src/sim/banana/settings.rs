@@ -38,7 +38,7 @@ settings! {
     pub struct Settings {
         /// Motion model; each model keeps its own alphas.
         model: ModelKind = ModelKind::Velocity;
-        /// Distribution of the noise; the variances are the same.
+        /// Distribution of the noise, which does not change the variances.
         noise: NoiseKind = NoiseKind::Normal;
         // A straight drive with much noise in the turn and little in the length: the clearest banana shape. By symmetry its cloud has no
         // skew, although no ellipse fits it.
@@ -104,7 +104,7 @@ impl SettingRules for Settings {
     ];
 
     fn adjust(&mut self, previous: &Self, changed_keys: &[&str]) {
-        // The α of a given number has another meaning in the other model.
+        // A new model deselects the isolated α, because the α with the same number has another meaning in the other model.
         if self.model != previous.model && !changed_keys.contains(&"isolate") {
             self.isolate = None;
         }

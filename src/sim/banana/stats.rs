@@ -33,9 +33,10 @@ js_structs! {
         pub rho_cross_heading: f64,
         /// Fractions of the samples within 2σ.
         pub coverage: Coverage,
-        /// Gain in mean log-likelihood of Gaussians in exponential coordinates over (x, y, θ), and in arc coordinates over (x, y).
+        /// Gains in mean log-likelihood: of a Gaussian in exponential coordinates over one in (x, y, θ), and of a Gaussian in arc
+        /// coordinates over one in (x, y).
         pub likelihood_gain: LikelihoodGain,
-        /// Standard errors of the gains.
+        /// Standard errors of the likelihood gains.
         pub likelihood_gain_error: LikelihoodGain,
         /// Area of the 2σ ellipse in (x, y), divided by the area of the 2σ outline in the plane that exponential coordinates give.
         pub area_ratio: f64,
@@ -112,8 +113,8 @@ js_structs! {
         pub cov: Matrix3<f64> as "number[][]",
         /// Third standardized moment of the position across the mean heading.
         pub cross_track_skew: f64,
-        /// Gain in mean log-likelihood of Gaussians in exponential coordinates over (x, y, θ), and in arc coordinates over (x, y); 0 for
-        /// the linearization.
+        /// Gains in mean log-likelihood: of a Gaussian in exponential coordinates over one in (x, y, θ), and of a Gaussian in arc
+        /// coordinates over one in (x, y). Both gains are 0 for the linearization.
         pub likelihood_gain: LikelihoodGain,
         /// Area of the 2σ ellipse in (x, y), divided by that of the 2σ outline in exponential coordinates; 1 for the linearization.
         pub area_ratio: f64,
@@ -177,7 +178,7 @@ const MIN_AREA_RATIO: f64 = 1.15;
 /// farther away.
 const MIN_GAP_DISTANCE: f64 = 3.7;
 
-/// Position of a gap between the centre (0) and the boundary (1) of the 2σ ellipse: clearly inside.
+/// Distance of a gap from the centre, as a fraction of the radius of the 2σ ellipse in this direction. Such a gap is clearly inside.
 const GAP_FRACTION: f64 = 0.95;
 
 impl BananaMachine {

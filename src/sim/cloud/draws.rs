@@ -12,7 +12,7 @@ use wide::f64x4;
 ///
 /// Standard errors are expensive, and therefore computed from a weighted subsample of the groups. A few distant robots may contribute most
 /// of a variance, so that distant groups are sampled more densely. With Gaussian noise 1.8 % of the groups are far and 0.07 % farthest.
-/// With triangular noise none is farthest.
+/// With triangular noise no group is farthest.
 const FAR_SQUARED_DISTANCE: f64 = 13.0;
 const FARTHEST_SQUARED_DISTANCE: f64 = 20.0;
 

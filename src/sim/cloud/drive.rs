@@ -164,7 +164,7 @@ impl NoisyDrive {
         (with_logarithms(end_points, turn), self.arcs_to_points(motions.bearing, end_points))
     }
 
-    /// Returns the reference point of all sums, which is the noise-free end in all coordinates, and the scales of the Jacobians.
+    /// Returns the reference point of all sums (the noise-free end in all coordinates), and the scales of the Jacobians.
     pub fn nominal_coordinates(&self) -> (ReferencePoint, JacobianScale) {
         let (poses, arcs) = self.coordinates_of_four(&[f64x4::splat(0.0); 3]);
         let mut reference_coordinates =

@@ -105,8 +105,8 @@ impl Cloud {
         SE2::new(x, y, 2.0 * half_heading.to_array()[lane])
     }
 
-    /// Returns the points of the samples at a stage of the morph, in groups of four. The stages 0 and 1 are exactly the plane (x, y) and
-    /// exponential coordinates (along, heading). In the last group, lanes without a sample are infinitely far away.
+    /// Returns the points of the samples in a picture, in groups of four. `morph` is 0 for positions (x, y), and 1 for exponential
+    /// coordinates (along, heading). In the last group, lanes without a sample are infinitely far away.
     #[inline(always)]
     pub fn point_groups(&self, morph: f64) -> impl Iterator<Item = [f64x4; 2]> {
         let points_of_group = move |group: usize| match morph {

@@ -7,10 +7,10 @@ use crate::geom::lanes::LANE_COUNT;
 /// Colour ramp (RGBA, one byte each) by the count of a cell relative to the largest count.
 pub type Ramp = [[u8; 4]; RAMP_STEP_COUNT];
 
-/// Number of steps of a ramp, one for each value of a byte.
+/// Number of colours of a ramp, one for each value of a byte.
 pub const RAMP_STEP_COUNT: usize = 256;
 
-/// Counts the shown samples in each cell, row by row from the top (largest second coordinate). Samples outside are not counted.
+/// Counts the shown samples in each cell, row by row from the top (largest second coordinate). Samples outside of the grid are not counted.
 pub fn count_samples_in_cells(cloud: &Cloud, morph: f64, grid: &ViewGrid) -> Vec<u32> {
     let (ViewGrid { min_corner, max_corner, .. }, cells_per_unit) = (*grid, grid.cells_per_unit());
     let mut cell_counts = vec![0; grid.columns * grid.rows];

@@ -56,7 +56,8 @@ pub struct MeasuredMoments {
     pub mean: Vector3<f64>,
     /// Sample covariance of ξ, 3 × 3.
     pub cov: Matrix3<f64>,
-    /// Relative standard errors of the three variances, from the fourth moments: √((κ − 1)/n). NaN for a variance of 0.
+    /// Relative standard errors of the variances along, lateral and heading, from the fourth moments: √((κ − 1)/n). NaN for a variance of
+    /// 0.
     pub relative_error: Vector3<f64>,
 }
 

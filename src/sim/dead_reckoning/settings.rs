@@ -50,7 +50,7 @@ settings! {
         heading_noise as "headingNoise", by heading_noise_level_mut of alphas, in ALPHA_RANGE;
         /// Motion to which the noise parameters apply: each step, or the whole path. Each of n steps then has 1/n of its variance.
         per: NoisePer = NoisePer::Step;
-        /// Recursion of the covariance that is shown.
+        /// Recursion whose predicted covariance is shown.
         compounding: Compounding = Compounding::Chapter;
         /// Number of rollouts of the whole path.
         samples: usize = 50_000, in 1..=MAX_SAMPLES as u64;

@@ -16,7 +16,7 @@ use std::ops::RangeInclusive;
 /// Range of positions (m), angles (rad) and speeds (m/s, rad/s). The range is far larger than any robot needs. Products of squares of its
 /// numbers are finite.
 pub const QUANTITY_RANGE: RangeInclusive<f64> = -1e6..=1e6;
-/// Range of the noise parameters α, chosen as [`QUANTITY_RANGE`].
+/// Range of the noise parameters α, chosen for the same reasons as [`QUANTITY_RANGE`].
 pub const ALPHA_RANGE: RangeInclusive<f64> = 0.0..=1e6;
 /// Range of durations. With shorter durations v̂ = length/Δt would lose the digits that distinguish samples.
 pub const DURATION_RANGE: RangeInclusive<f64> = 1e-6..=1e6;
@@ -28,7 +28,7 @@ pub const MAX_SEED: u64 = (1 << 53) - 1;
 pub struct Declaration {
     /// Name of the setting in attributes and states.
     pub key: &'static str,
-    /// Key of the setting that this setting sets in another form: `alphas` for the setting of a noise level.
+    /// Key of another setting that this setting sets in another form: a noise level sets `alphas`.
     pub of: Option<&'static str>,
     // WebAssembly modules omit the descriptions, which no page shows.
     /// Description of the setting.
@@ -149,7 +149,7 @@ pub(crate) fn serialize_settings<S: DeclaredSettings, Z: Serializer>(
     object.end()
 }
 
-/// Access to an integer of any type.
+/// Reference to an integer setting, whatever its integer type.
 pub trait IntegerSetting {
     /// Returns the number.
     fn get(&self) -> u64;
@@ -163,7 +163,7 @@ pub trait HasKeywords: Copy + 'static {
     const KEYWORDS: &'static [(&'static str, Self)];
 }
 
-/// Access to a value of any type that implements [`HasKeywords`].
+/// Reference to a setting of any enum that implements [`HasKeywords`].
 pub trait KeywordSetting {
     /// Returns the keyword of the value.
     fn get(&self) -> &'static str;

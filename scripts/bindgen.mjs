@@ -33,7 +33,7 @@ async function compileProgram(programName, cargoFeatures) {
   // Cargo locks its target directory during a build. A separate target directory avoids waiting for other builds.
   const cargoOptions = { env: { ...env, CARGO_TARGET_DIR: join(ROOT, 'target/bind') }, seconds: 1200 };
   const installResult = await run(join(cargoDirectory, 'cargo'), [...cargoArguments, '--locked'], { ...cargoOptions, quiet: true });
-  // A mirror of the registry may lack a crate of the lock file.
+  // The second attempt ignores the lock file, because a mirror of the registry may lack a crate of the lock file.
   if (installResult.ok || (await run(join(cargoDirectory, 'cargo'), cargoArguments, cargoOptions)).ok) return programPath;
   throw new UserError(
     `wasm-bindgen ${bindgenVersion} could not be built: check that this machine reaches the registry of Rust packages and start again.`,

@@ -94,7 +94,7 @@ async function installChromeForTesting() {
   const chrome = await downloadProgram(browsersDirectory, 'chrome@stable');
   if (chrome === undefined) return undefined;
   if ((await readVersion(chrome)) === undefined) {
-    // A downloaded Chrome does not include the system libraries with which it is linked.
+    // Installs the system libraries that Chrome needs, because a downloaded Chrome does not include them.
     const installLibraries = [absolutePath('node_modules/@playwright/test/cli.js'), 'install-deps', 'chromium'];
     await runOrThrow('Libraries that Chrome needs are missing: run `npx playwright install-deps chromium` and start again.', process.execPath, installLibraries, { seconds: 600 });
   }

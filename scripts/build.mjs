@@ -1,5 +1,5 @@
-// `npm run build`: compiles src/ to build/ (WebAssembly and its glue), then bundles www/ to dist/. Files that are up to date are not built
-// again.
+// `npm run build`: compiles src/ to build/ (WebAssembly modules and their JavaScript glue), then bundles www/ to dist/. Files that are up
+// to date are not built again.
 
 import { createHash } from 'node:crypto';
 import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';

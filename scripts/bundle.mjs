@@ -225,7 +225,7 @@ export async function bundle({ tags = WIDGET_TAGS } = {}) {
   const bundleResults = await Promise.all([
     bundleScripts({ core: 'core.ts' }, 'core', { inject: [] }),
     bundleScripts({ 'motion-widgets': 'motion-widgets.ts' }, 'inlined', {}),
-    // Jupyter sends the anywidget module as text, without a source map next to it.
+    // The module for notebooks has no source map, because Jupyter sends only the text of the module.
     bundleScripts({ anywidget: 'anywidget.ts' }, 'inlined', { sourcemap: false }),
     bundleScripts({ external: 'external.ts' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
     bundleScripts({ [LOG_WORKER_PATH.replace('.js', '')]: 'log-worker.ts' }, 'worker', { inject: [] }),

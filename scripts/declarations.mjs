@@ -7,7 +7,7 @@ import { register } from 'tsx/esm/api';
 import { presets, settings } from '../build/settings.js';
 import { ROOT, absolutePath, memoize } from './process.mjs';
 
-// Node itself does not run TypeScript.
+// tsx lets Node import TypeScript modules.
 register();
 
 /**

@@ -2,7 +2,7 @@ export default {
   title: 'Motion',
   head: `<link rel="stylesheet" href="motion-widgets.css">
 <script type="module" src="motion-widgets.iife.js"></script>`,
-  // By default the pages load fonts from another server.
+  // The default style sheets are left out, because they load fonts from another server.
   globalStylesheets: [],
   // Links keep the extension `.html`, so that any file server finds the pages.
   preserveExtension: true,

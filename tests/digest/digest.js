@@ -82,7 +82,7 @@ export const resultFunctions = {
         try {
           return simulation.trial(sampler, 4, 50);
         } catch {
-          // If the robot cannot move, the trial throws.
+          // `trial` throws if the robot cannot move.
           return null;
         }
       }),

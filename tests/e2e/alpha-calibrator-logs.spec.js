@@ -80,7 +80,7 @@ test('the figure and the command line give the same results to the last bit, als
   await expect(captionOf(widget)).toHaveText(/of run\.mcap, \/odom, \/mocap\/pose[.,]/);
   await waitUntilSettled(widget);
   const { alphas } = await readStats(widget);
-  // The recording has quaternions, whose conversion rounds the headings.
+  // Results differ slightly, because converting the recording's quaternions rounds the headings.
   for (const [i, cliAlpha] of cliResults.alphas.entries()) expect(Number(alphas[i]) / cliAlpha).toBeCloseTo(1, 9);
 });
 

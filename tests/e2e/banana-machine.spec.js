@@ -96,7 +96,7 @@ test('clicks and keys in the skew chart set ω', async ({ page }) => {
 });
 
 test('a change of an α moves the same robots, and updates the figure once per frame', async ({ page }) => {
-  // All samples are in the first block, so that no later block changes the statistics.
+  // Clouds are computed in blocks of samples. The first block has all 10,000 samples, so that no later block changes the statistics.
   const widget = await openBananaWithDisclosures(page, `${GENTLE_PRESET} samples="10000"`);
   const resultsBefore = await readBananaResults(widget);
   const pictureBefore = await readPicture(widget.locator('canvas.plane'));

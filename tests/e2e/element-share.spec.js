@@ -234,7 +234,7 @@ test('copies a link, and the code to embed with the address of the script', asyn
     await widget.getByRole('button', { name: 'Copy link' }).click();
     await expect(widget.getByText('Copied.')).toHaveText('Copied.');
     const drawRandom = createRandomGenerator(1);
-    // A map of random cells cannot be compressed.
+    // A map of random cells cannot be compressed, and is too long for a link.
     const [columnCount, rowCount] = [4000, 2000];
     const byteCount = (columnCount * rowCount) / 8;
     const map = { columns: columnCount, rows: rowCount, resolution: 0.05, origin: [0, 0, 0], occupied: Buffer.alloc(byteCount).toString('base64'), unknown: Buffer.from(Array.from({ length: byteCount }, () => 256 * drawRandom())).toString('base64') };

@@ -350,7 +350,7 @@ test('many samples are drawn as a density, with a separate colour for samples th
       return greenExcess;
     });
   });
-  // The purple of the palette has more blue than green, and the orange has more green than blue.
+  // Purple samples went through a wall, and orange samples did not. Only purple has more blue than green.
   expect(greenExcessBehindWall).toBeLessThan(0);
   expect(greenExcessBetweenPosts).toBeGreaterThan(0);
   await widget.evaluate((element) => Object.assign(element, { samples: 600 }));

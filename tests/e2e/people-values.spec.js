@@ -52,7 +52,7 @@ test('a typed value may have its unit, a minus sign U+2212 and more decimals, an
   const widget = await openBananaWithDisclosures(page);
   const valueInput = valueFieldOf(widget, 'v');
   await expect(helpOf(widget, 'v')).toHaveText('How far the robot drives: vΔt; below zero it backs up.');
-  // The numeric keyboard of a phone has no minus sign.
+  // This field needs the full keyboard of a phone, because the numeric keyboard has no minus sign.
   await expect(valueInput).toHaveAttribute('inputmode', 'text');
   await valueInput.click();
   await page.keyboard.type('\u22122.125 m/s');

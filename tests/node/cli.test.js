@@ -248,7 +248,7 @@ test('a database journal next to a recording is reported, unless the journal is 
   }
 });
 
-/** Writes the reference of another drive. It is the path of the example from its end to its start. */
+/** Writes the reference of another drive: the path of the example from end to start. */
 const writeReversedReference = () => {
   const [header, ...rowsOfCells] = readFileSync(examplePathOf('reference'), 'utf8').trim().split('\n').map((row) => row.split(','));
   return writeInFolder('other.csv', [header, ...rowsOfCells.map(([t], i) => [t, ...rowsOfCells[rowsOfCells.length - 1 - i].slice(1)])].join('\n'));

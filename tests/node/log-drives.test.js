@@ -187,7 +187,7 @@ test('a frozen reference is interrupted only while the odometry moves', async ()
   const { data, summary } = await readReference(frozenTable);
   assert.deepEqual([data.t.length, [...data.breaks], summary.used, summary.dropped], [400, Array.from({ length: 100 }, (_, i) => 201 + i), 301, { held: { count: 99, first: 0 } }]);
   assert.equal(await catchRefusalSentence(readReference(straightTableOf(() => 7))), 'truth.csv: its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.');
-  // A pause of two seconds does not count as lost. A pause in which the odometry moves by five centimetres does not count as lost either.
+  // The reference is not lost during a pause of two seconds, or a pause in which the odometry moves by five centimetres.
   const countDroppedDuring = async (/** @type {number} */ pauseSeconds, /** @type {number} */ pauseSpeed) => {
     const xOf = (/** @type {number} */ i) => (pauseSpeed * i) / 20;
     return (await readReference(straightTableOf((i) => 1.01 * xOf(i >= 200 && i <= 200 + 20 * pauseSeconds ? 200 : i)), straightTableOf(xOf))).summary.dropped.held?.count;

@@ -62,7 +62,7 @@ const plotjugglerTable = [
   ]).map((cells) => cells.join(',')),
 ].join('\n');
 
-/** Returns an export of the Motive software, with preamble, body and marker. @param {'Meters' | 'Millimeters'} lengthUnit @param {boolean} isYUp */
+/** Returns a Motive export: preamble, and columns of a body and a marker. @param {'Meters' | 'Millimeters'} lengthUnit @param {boolean} isYUp */
 function motiveTableOf(lengthUnit, isYUp) {
   const unitsPerMetre = lengthUnit === 'Meters' ? 1 : 1000;
   const repeatCell = (/** @type {string} */ text, /** @type {number} */ count) => Array.from({ length: count }, () => text).join(',');

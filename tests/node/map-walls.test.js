@@ -9,7 +9,7 @@ const ROOM_BOUNDS = Float64Array.of(0, 0, 6, 4);
 const OUTER_WALLS = [0, 0, 6, 0, 6, 0, 6, 4, 6, 4, 0, 4, 0, 4, 0, 0];
 const WALLS = Float64Array.of(...OUTER_WALLS, 3, 0, 3, 1.5, 3, 2.5, 3, 4, 0, 1, 3, 1);
 const ROOM = { bounds: ROOM_BOUNDS, walls: WALLS };
-/** Index in WALLS of the part of the wall below the doorway. */
+/** Index in WALLS of the wall's part below the doorway. */
 const LOWER_WALL_OFFSET = OUTER_WALLS.length;
 
 /** Returns the drag handle (grip) of a part of a wall. @param {string} gripPart @param {number} [wallOffset] index in WALLS */

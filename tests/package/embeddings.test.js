@@ -23,7 +23,7 @@ for (const platformName of await findPlatformNames()) {
     const tableRow = embeddingDocuments.split('\n').find((line) => line.startsWith(`| ${heading} |`));
     assert.ok(tableRow?.includes(` ${versions()} `), `The row "${heading}" of what was tried has to say ${versions()}.`);
     const documentSection = embeddingDocuments.split(/^## /m).find((text) => text.startsWith(`${heading}\n`)) ?? '';
-    // The files of the example contain no shell commands.
+    // Shell commands are left out, because the files of the example contain none.
     const codeBlocks = [...documentSection.matchAll(/^```(\w*)\n(.*?)^```$/gms)].filter(([, codeLanguage]) => codeLanguage !== 'sh');
     const exampleLines = new Set(filesOf(join('examples', platformName)).flatMap(fileLinesOf));
     const missingLines = codeBlocks.flatMap(([, , codeBlock]) => linesOf(codeBlock)).filter((line) => !exampleLines.has(line));

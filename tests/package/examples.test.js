@@ -63,7 +63,7 @@ test('the single-file page for classrooms works from a disk', async () => {
   assert.deepEqual((await openWithCloud(installedProject, href)).requests, [href]);
 });
 
-// The bundlers below do not copy the WebAssembly modules into their output. They do not process `new URL(…, import.meta.url)`.
+// Esbuild and Rollup do not copy the WebAssembly modules to their output: they do not process `new URL(…, import.meta.url)`.
 
 /** Returns a function by which esbuild bundles main.js into a directory. @param {import('esbuild').BuildOptions} buildOptions */
 const createEsbuildBundler = (buildOptions) => async (/** @type {string} */ outputDirectory) => {

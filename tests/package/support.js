@@ -28,7 +28,7 @@ function installPackage(installDirectory) {
   execFileSync('tar', ['-xzf', tarballPath, '-C', modulesDirectory]);
   renameSync(join(modulesDirectory, 'package'), join(modulesDirectory, 'motion-widgets'));
   writeFileSync(join(installDirectory, 'package.json'), '{ "private": true }');
-  // The application must install peer dependencies by itself.
+  // Peer dependencies are copied too, because npm leaves them to the application.
   const { peerDependencies } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
   for (const packageName of Object.keys(peerDependencies)) cpSync(join(ROOT, 'node_modules', packageName), join(modulesDirectory, packageName), { recursive: true });
   cpSync(join(ROOT, 'examples'), installDirectory, { recursive: true });
@@ -61,7 +61,7 @@ export function serveDirectory(prepareDirectory, basePath) {
   };
   let closeServer = () => {};
   before(async () => {
-    // The test file must be evaluated before `prepareDirectory` is called.
+    // Waits until the test file is evaluated, because `prepareDirectory` may use its variables.
     await null;
     const { address, close } = await startServer(prepareDirectory(), { port: 0, base: basePath });
     closeServer = close;

@@ -201,7 +201,7 @@ fn lost_legs_are_reported() {
     );
 }
 
-/// The reference has only one row in two seconds.
+/// The reference has only one row every two seconds.
 #[test]
 fn legs_that_are_longer_than_asked_for_are_reported() {
     let sim = new_passing_simulation(600, 5);

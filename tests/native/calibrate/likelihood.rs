@@ -227,7 +227,7 @@ fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
         for interval_bound in calibration.intervals[alpha_index].expect("identifiable") {
             let alpha_ratio = interval_bound / expected_alpha;
             let deviance = leg_count * (libm::log(alpha_ratio) + 1.0 / alpha_ratio - 1.0);
-            // The deviance is 3.84, or higher if squared residuals of neighbouring legs are correlated by chance.
+            // At the ends of a 95 % interval the deviance is 3.84, or higher if neighbouring squared residuals are correlated by chance.
             assert!((3.7..5.2).contains(&deviance), "{deviance}");
         }
     }

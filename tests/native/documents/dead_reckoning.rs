@@ -113,7 +113,7 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
     assert!(first_missed_steps[1] > first_missed_steps[0] / 2.0);
 }
 
-/// Checks the crossing times on the page and in doc/exercises.md.
+/// Checks the times at which the variances along and across a straight drive are equal, on the page and in doc/exercises.md.
 #[test]
 fn the_crossing_times_are_those_of_exercise_2() {
     let initial_simulation = simulation(Settings { samples: 1, ..Settings::default() });

@@ -57,7 +57,7 @@ proptest! {
         assert_same_pose(&SE2::exp(&twist), &pose, TOLERANCE_ULPS, 2.0 * sum_of_coordinates(&pose))?;
     }
 
-    /// Turns are on the principal branch. The turn is returned exactly.
+    /// Turns are on the principal branch, where the logarithm returns the turn exactly.
     #[test]
     fn log_inverts_exp(twist in any_twist(3.1)) {
         let pose_log = SE2::exp(&twist).log();

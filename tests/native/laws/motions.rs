@@ -29,7 +29,7 @@ proptest! {
         assert_same_pose(&end_pose, &x_next, TOLERANCE_ULPS, sum_of_coordinates(&x) + sum_of_coordinates(&x_next))?;
     }
 
-    /// The start is the origin, whose coordinates add no rounding. Turns stay below half a turn, where rounding would decide
+    /// The start is the origin, whose coordinates add no rounding. Turns stay below half a turn. At half a turn, rounding would decide
     /// between forward and reverse.
     #[test]
     fn inverting_a_driven_arc_returns_its_controls(arc_length in doubles_up_to(1e300), arc_turn in doubles_up_to(3.1), last_turn in doubles_up_to(3.1), dt in any_duration()) {

@@ -227,7 +227,7 @@ fn the_reaching_command_ends_at_the_target() {
             let settings = Settings { command, ..settings_of_preset("gentle") };
             let end_pose = simulation(settings).linearized_moments().mean;
             let end_position = SE2::new(end_pose.x, end_pose.y, 0.0);
-            // The rounding of the end is proportional to the length |v|Δt of the arc.
+            // The rounding of the end pose is proportional to the length |v|Δt of the arc.
             let rounding_tolerance = 1e-14 * (1.0 + (command.v * duration).abs());
             assert!(
                 max_difference(&end_position, &SE2::new(x, y, 0.0)) < rounding_tolerance,

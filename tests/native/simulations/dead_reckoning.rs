@@ -233,8 +233,8 @@ fn a_fourth_order_without_a_covariance_has_no_ratio() {
     assert!(!outlines.measured.is_empty());
 }
 
-/// Equal seeds give equal random numbers. A smaller cloud or a shorter path is the first part of a larger cloud or a longer path. Other α's
-/// scale the noise.
+/// Equal seeds give equal random numbers. A smaller cloud or a shorter path is the first part of a larger cloud or a longer path. A change
+/// of the α's only scales the noise.
 #[test]
 fn a_seed_gives_the_same_draws() {
     let large_simulation = simulation(robot_settings(1500));

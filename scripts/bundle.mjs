@@ -129,7 +129,7 @@ const SHIFTED_CHARACTERS = {
   ascii: /(?<=\0)\d/g,
 };
 
-/** Replacements of www/address.ts in bundles whose script may not be the script that the page names. */
+/** Modules that replace www/address.ts in classic scripts and in chunks. */
 const ADDRESS_MODULES = {
   /** Address of a classic script, which is known only while the script is evaluated. */
   classic: "export const address = globalThis.document?.currentScript?.src ?? ''; export const isClassic = true;",

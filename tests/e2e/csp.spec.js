@@ -54,7 +54,7 @@ test('a figure complies with a strict policy, even if the page has loaded anothe
   expect(await readViolations()).toEqual([]);
 });
 
-// The browser reports violations of these policies in the console. The tests must not fail on these messages.
+// The browser reports violations of a page's policy in the console. These tests must not fail on such messages.
 testWithWarnings('a figure runs if the page allows only the Trusted Types policy with Lit’s name @nightly', async ({ page }) => {
   await openUnderPolicy(page, trustedTypesPolicyOf('lit-html'), 'embed.html?widget=banana-machine');
   await expect(page.locator('banana-machine canvas').first()).toBeVisible();

@@ -1,4 +1,4 @@
-// Plans of drives. A drive is an odometry log with its reference log. The tests check which logs are chosen and paired, and summaries.
+// Plans of drives (pairs of an odometry log and a reference log): choice and pairing of logs, checks, and summaries.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -43,7 +43,7 @@ const choiceTextOf = ({ series, frames } = { series: '' }) => (frames ? `${serie
 const planDrivesAsync = async (recordings, userChoices) => planDrives(recordings, userChoices);
 
 /**
- * Recordings with a single plausible choice of odometry and reference. Each has the series of a recording, the expected odometry and
+ * Recordings with a single plausible choice of odometry and reference. Each item has the series of a recording, the expected odometry and
  * reference, the frames in /tf, and the user's options.
  * @type {[Parameters<typeof createRecording>[0], string, string, string[]?, any?][]}
  */

@@ -115,7 +115,7 @@ function propertyOf({ key, in: group, field = key, index, of, weights = [], type
   };
 }
 
-/** Returns the factor by which the last numbers are multiples of their weights; null if there is no such common factor. */
+/** Returns the factor f for which the last numbers of a list are f times their weights; null if there is no such factor. */
 function commonFactorOf(numbers: number[], weights: number[]): number | null {
   const lastNumbers = numbers.slice(-weights.length);
   const commonFactor = lastNumbers[0] / weights[0];

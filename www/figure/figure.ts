@@ -223,7 +223,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
     return this.viewModel;
   }
 
-  /** Returns the answer of the simulation to a question, after all pending changes; null without a simulation. */
+  /** Returns the result of a query to the simulation, after all pending changes; null without a simulation. */
   querySimulation<Answer>(askSimulation: (simulation: Simulation) => Answer): Answer | null {
     this.settings.applyPending();
     return this.simulation ? askSimulation(this.simulation) : null;
@@ -349,7 +349,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
     };
   }
 
-  /** Reserves the space of the figure for a task. If the core is ready by then, no placeholder is rendered before the content. */
+  /** Reserves the figure's space until the next task of the event loop. If the core is ready by then, no placeholder is rendered. */
   async #delayPlaceholder() {
     // In forced colours, Chromium keeps light colours in content that is rendered before `colours` has found a dark scheme.
     if (!matchMedia('(forced-colors: active)').matches) {

@@ -253,7 +253,7 @@ export class Renderer extends FigureController {
   async #setPrinting(isPrinting: boolean) {
     const { host } = this;
     this.isPrinting = isPrinting;
-    // Browsers run only microtasks before they print. If another figure has already loaded the core, they are enough to start this figure.
+    // Browsers run only microtasks before they print. Microtasks suffice to start this figure if another one has loaded the core.
     if (isPrinting && !host.simulation) {
       await host.runtime.start();
       await host.updateComplete;

@@ -100,15 +100,13 @@ export function parseOptions(args: string[]) {
   if (optionValues.help || args.length === 0) return 'help';
   const inputPathsOf = (paths: string[] = [], role?: Role) => paths.map((path): InputPath => ({ path, role }));
   const seriesChoiceOf = (role: Role) => withoutUndefined({ series: optionValues[`${role}-topic`], frames: parseFrames(`${role}-frames`, optionValues[`${role}-frames`]) });
-  const recording = [...positionalPaths, ...(optionValues.recording ?? [])];
-  const { odometry = [], reference = [] } = optionValues;
   const logs = {
-    inputs: [...inputPathsOf(recording), ...inputPathsOf(odometry, 'odometry'), ...inputPathsOf(reference, 'reference')],
+    inputs: [...inputPathsOf(positionalPaths), ...inputPathsOf(optionValues.recording), ...ROLES.flatMap((role) => inputPathsOf(optionValues[role], role))],
     optionsByFile: parseFileOptions(optionValues),
     userChoices: { odometry: seriesChoiceOf('odometry'), reference: seriesChoiceOf('reference'), ...(optionValues.model === 'velocity' && { kind: 'commands' as const }) },
   };
+  if (logs.inputs.length === 0 && (command === 'inspect' || command === 'calibrate')) throw new UsageError('no logs are given; give a recording, as in npx motion-widgets inspect run.bag, or two files, odometry and reference.');
   if (command === 'inspect') {
-    if (logs.inputs.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
     const ignoredOption = Object.keys(optionValues).find((name) => !(name in LOG_OPTIONS) && name !== 'json');
     if (ignoredOption !== undefined) throw new UsageError(`--${ignoredOption} is an option of calibrate; inspect accepts only the options about logs, and --json.`);
     return { command: 'inspect' as const, ...logs, isJson: optionValues.json ?? false };
@@ -129,12 +127,6 @@ export function parseOptions(args: string[]) {
   if (duration !== undefined && (distance ?? angle) !== undefined) throw new UsageError('--duration excludes --update-min-d and --update-min-a: give one or the other.');
   if (optionValues.plot !== undefined && !/\.svg$/i.test(optionValues.plot)) throw new UsageError(`--plot writes SVG; the name must end in .svg (got “${truncate(optionValues.plot)}”).`);
   if (optionValues.json && optionValues.yaml) throw new UsageError('--json excludes --yaml: give one or the other.');
-  if (recording.length === 0) {
-    for (const [pathsOfRole, otherRole] of [[odometry, 'reference'], [reference, 'odometry']] as const) {
-      if (pathsOfRole.length > 0 && !optionValues[otherRole]) throw new UsageError(`--${otherRole} is missing; give a file or folder, or a recording with both.`);
-    }
-    if (odometry.length === 0) throw new UsageError('no logs are given; give a recording, as in calibrate run.bag, or two files, odometry and reference.');
-  }
   return {
     command: 'calibrate' as const,
     ...logs,
@@ -181,15 +173,13 @@ const withoutUndefined = <T extends object>(object: T): T => Object.fromEntries(
 const formatAlternatives = (names: readonly string[]) => new Intl.ListFormat('en', { type: 'disjunction' }).format(names);
 
 /** Returns true or false for each named systematic error: corrected or not. Single names override `all`. */
-function parseCorrections(uncorrected?: string, corrected?: string): Record<string, boolean> | undefined {
-  const entries = ([['no-correct', uncorrected], ['correct', corrected]] as const).flatMap(([option, value]) => (value?.split(',') ?? []).map((text): [string, boolean] => {
-    const name = text.trim();
-    if (['all', ...SYSTEMATIC_ERRORS].includes(name)) return [name, option === 'correct'];
-    throw new UsageError(`--${option} must be all, or names of ${SYSTEMATIC_ERRORS.join(', ')} (got “${truncate(name)}”).`);
+function parseCorrections(uncorrectedNames?: string, correctedNames?: string): Record<string, boolean> | undefined {
+  const entries = ([['no-correct', uncorrectedNames], ['correct', correctedNames]] as const).flatMap(([option, names]) => (names?.split(',') ?? []).map((name) => ({ option, name: name.trim() })));
+  if (entries.length === 0) return undefined;
+  return Object.fromEntries(sort(entries, ({ name }) => name !== 'all').flatMap(({ option, name }) => {
+    if (!['all', ...SYSTEMATIC_ERRORS].includes(name)) throw new UsageError(`--${option} must be all, or names of ${SYSTEMATIC_ERRORS.join(', ')} (got “${truncate(name)}”).`);
+    return (name === 'all' ? SYSTEMATIC_ERRORS : [name]).map((errorName) => [errorName, option === 'correct']);
   }));
-  const entryForAll = entries.findLast(([name]) => name === 'all');
-  const allEntries = [...(entryForAll ? SYSTEMATIC_ERRORS.map((name) => [name, entryForAll[1]]) : []), ...entries.filter(([name]) => name !== 'all')];
-  return allEntries.length ? Object.fromEntries(allEntries) : undefined;
 }
 
 function parseArguments(args: string[]) {

@@ -68,7 +68,7 @@ export function planDrives(allRecordings: Recording[], userChoices: UserChoices 
     // If a recording has several candidates for the missing log, the LogError of this call asks for a choice, which helps more than the error below.
     for (const recording of unpairedRecordings) tryUnlessLogError(() => chooseBothLogs(recording, userChoices), ({ question }) => question?.option !== 'series');
     const [odometryNames, referenceNames] = [odometry, reference].map((recordingsOfRole) => listNames(recordingsOfRole.map(({ name }) => name)));
-    throw new LogError({ file: unpairedRecordings[0].name }, (texts) => texts.unpaired(odometryNames, referenceNames), { option: 'roles', choices: [] });
+    throw new LogError({ file: unpairedRecordings[0].name }, (texts) => texts.unpaired(odometryNames, referenceNames), { option: recordings.length === 1 ? 'other' : 'roles', role: odometryNames ? 'odometry' : 'reference', choices: [] });
   }
   return sort(plan, ({ choices }) => Number(!choices.odometry));
 }

@@ -19,6 +19,9 @@ const END_MARGIN_SECONDS = 1;
 /** Minimum motion of the odometry during a frozen pose, metres and radians added up. Encoders at rest may count a pulse or two. */
 const MIN_ODOMETRY_MOTION = 0.05;
 
+/** Minimum 90 % quantile of the speeds (m/s) that are compared. In a log of a robot that mostly stands, it is that of noise. */
+const MIN_COMPARED_SPEED = 0.02;
+
 /** Maximum ratio of a measured size of a unit to its real size, and its inverse. The odometry's wheels may have another size than assumed. */
 const MAX_UNIT_ERROR = 1.2;
 
@@ -109,6 +112,7 @@ export async function readDrives(plan: PlannedRecording[], onProgress?: (fractio
 /** Throws a LogError with a question if the speeds of two logs of a drive differ like two units of length. */
 function checkLengthUnits(logs: Record<Role, Log>): void {
   const [odometrySpeed, referenceSpeed] = ROLES.map((role) => speedOf(logs[role].data));
+  if (Math.min(odometrySpeed, referenceSpeed) < MIN_COMPARED_SPEED) return;
   for (const [role, otherRole, speedRatio] of [['reference', 'odometry', referenceSpeed / odometrySpeed], ['odometry', 'reference', odometrySpeed / referenceSpeed]] as const) {
     const { unit: assumedUnit, by } = logs[role].summary.units.length;
     const likelyUnit = UNITS.lengthUnit.find((unit) => {

@@ -56,7 +56,7 @@ const CLOUD_DOCUMENTATION = {
   },
 };
 
-/** Returns the name of the class or type for a tag or key, if JavaScript and TypeScript allow it. @param {string} tagOrKey */
+/** Returns the name of the class or type for a tag or key. Throws if the name is invalid or taken in JavaScript. @param {string} tagOrKey */
 export function toPascalCase(tagOrKey) {
   const scriptName = tagOrKey.replaceAll(/(?:^|-)(.)/g, (_, letter) => letter.toUpperCase());
   if (!/^[A-Z]\w*$/.test(scriptName)) throw new Error(`${scriptName} cannot name a declaration in JavaScript: rename it.`);

@@ -50,7 +50,7 @@ async function installPackages(workspaceKey) {
   const stampFile = join(ROOT, `node_modules/.installed-${workspaceName}`);
   if (existsSync(stampFile) && readFileSync(stampFile, 'utf8') === lockHash) return;
   printStep(`Installing npm packages${workspaceKey === 'root' ? '' : ` of ${workspaceKey}`}`);
-  // No package needs its install script. `npm ci` would remove the packages of the other workspaces.
+  // Install scripts are skipped, because no package needs them. `npm ci` would remove the packages of the other workspaces.
   await runOrThrow(
     'The npm packages could not be installed: check that this machine reaches its npm registry and start again.',
     'npm',

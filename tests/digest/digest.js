@@ -178,7 +178,7 @@ export const resultFunctions = {
   },
 };
 
-/** Stages of the morph: the plane, and exponential coordinates. */
+/** Stages of a cloud’s deformation (morph): positions in the plane, and exponential coordinates. */
 const MORPH_ENDS = [0, 1];
 const SAMPLERS = /** @type {const} */ (['endpoint', 'whole-arc', 'sub-stepped']);
 

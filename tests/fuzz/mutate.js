@@ -11,10 +11,10 @@ const INSERTED_TOKENS = [
   ...['yaw', 't_ns', 'stamp', 'qw', 'v', ';', '1e17', '1700000000.123456789', 'zstd', 'lz4', '/tf', 'cdr'],
 ].map((tokenText) => Buffer.from(tokenText));
 
-/** Small bytes, and bytes at the limits of ranges. */
+/** Bytes that mutations insert: small numbers, and numbers at the ends of integer ranges. */
 const SPECIAL_BYTES = [0, 1, 2, 3, 4, 8, 16, 32, 127, 128, 255];
 
-/** Largest size of a mutation in bytes. */
+/** Maximum size of a mutated input in bytes. */
 const MAX_MUTANT_BYTES = 4096;
 
 /** Returns a valid input of the corpus, changed in one to four places. @param {Uint8Array[]} corpusInputs @param {() => number} nextRandom from 0 to 1 */

@@ -7,7 +7,7 @@ import { test } from 'node:test';
 import { build } from 'esbuild';
 import { settings } from '../../build/settings.js';
 
-/** Layers from top to bottom. A file imports from its own layer and from lower layers. */
+/** Folders of www/ as layers, from top to bottom. A file imports from its own layer and from lower layers. */
 const LAYERS = ['www/widgets', 'www/figure', 'www/scene', 'www/ui', 'www/messages', 'www/data'];
 
 const { metafile } = await build({

@@ -42,7 +42,7 @@ const ODOMETRY_AND_REFERENCE: LogChoice[] = [{ series: '/odom' }, { series: '/tr
 
 const fileListOf = (name: string) => [createFile(decompressFile(name), name)];
 
-/** Metadata of a recording in two files. */
+/** Metadata of a recording that consists of two files. */
 const SPLIT_METADATA = 'rosbag2_bagfile_information:\n  version: 5\n  relative_file_paths: [split0.mcap, split1.mcap]\n';
 const splitRecordingFilesOf = (...partNumbers: number[]) => [
   ...partNumbers.map((partNumber) => createFile(decompressFile(`split${partNumber}-split${partNumber}.mcap`), `split${partNumber}.mcap`, `drive/split${partNumber}.mcap`)),
@@ -108,10 +108,10 @@ test('a recording with a missing file is refused', async () => {
   assert.match(await catchRefusalSentence(openRecordings([createFile(SPLIT_METADATA, 'metadata.yaml', '')])), /^metadata\.yaml: it describes/);
 });
 
-/** Reads the odometry of a file's contents. */
+/** Reads the odometry from a file's contents. */
 const readOdometry = async (bytes: Uint8Array, name: string) => (await (await openRecording(createFile(bytes, name))).read([{ series: '/odom' }]))[0];
 
-/** Reads the odometry of a file in which some bytes are overwritten. */
+/** Reads the odometry from a file in which some bytes are overwritten. */
 const readDamagedOdometry = (name: string, damagePosition: number) => readOdometry(decompressFile(name).fill(0xff, damagePosition, damagePosition + 40), name);
 
 const findPositions = (bytes: Buffer, searchText: string) => Array.from(bytes.toString('latin1').matchAll(RegExp(searchText, 'g')), ({ index }) => index);

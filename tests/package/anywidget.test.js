@@ -78,7 +78,7 @@ const readTraitsAndProperties = (page, requestedNames) =>
     return { traits: pickTraits(state), figure: pickTraits(el.firstElementChild) };
   }, requestedNames);
 
-/** Sets traits of the model and clears its log. @param {import('@playwright/test').Page} page @param {Record<string, unknown>} changedTraits */
+/** Sets traits of the model, after clearing the recorded calls. @param {import('@playwright/test').Page} page @param {Record<string, unknown>} changedTraits */
 const setTraits = async (page, changedTraits) => {
   await page.evaluate((newValues) => {
     const { model: widgetModel, log } = /** @type {any} */ (globalThis).view;

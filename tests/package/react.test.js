@@ -69,7 +69,7 @@ function prepareProject() {
   writeInProject('index.html', pageHtmlOf(''));
   writeInProject('sent.html', pageHtmlOf(renderServerHtml({ omega: 0.8 })));
   const appDirectory = join(installedProject.directory, 'react');
-  // The development build of React reports errors.
+  // The tests use the development build of React, because it reports errors.
   const esbuildDefine = { 'process.env.NODE_ENV': '"development"' };
   buildSync({ entryPoints: [join(appDirectory, 'client.js')], bundle: true, format: 'esm', define: esbuildDefine, outfile: join(appDirectory, 'bundle.js'), logLevel: 'silent' });
 }

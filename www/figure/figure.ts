@@ -199,7 +199,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
 
   updateViewModel() {
     const { simulation } = this;
-    // The simulation is missing after a trap.
+    // Without a simulation, as after a trap, the previous view model stays.
     if (!simulation) return;
     useLanguageOf(this);
     this.cloud?.clearStaleSelection();

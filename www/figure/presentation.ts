@@ -51,7 +51,7 @@ export class Presentation extends FigureController {
     await host.updateComplete;
     // A click should leave no focus ring in the presentation.
     this.#focusElement(focusedButton ? '.presenting button' : '.presenting');
-    // Browsers allow a full screen only after a key press or a click. Some phones have no full screen.
+    // Full screen may fail: browsers allow it only after a key press or a click, and some phones do not have it.
     if (navigator.userActivation.isActive) await host.requestFullscreen?.().catch(() => {});
     if (!this.#keyListenerAbort) await this.#exitFullScreen();
     else if (!host.matches(':fullscreen')) {

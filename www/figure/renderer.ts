@@ -22,7 +22,7 @@ const MAX_TEXT_DELAY_MS = 100;
 /** Distance from the viewport at which a figure starts. A smaller distance would show empty frames. A larger one would start figures that nobody sees. */
 const NEAR_MARGIN_CSS = '600px';
 
-/** Longest time step of an animation, ms. After a pause it continues without a jump. */
+/** Maximum time step of an animation, ms. An animation therefore continues after a pause without a jump. */
 const MAX_TIME_STEP_MS = 100;
 
 export const prefersReducedMotion = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
@@ -39,7 +39,7 @@ export class Renderer extends FigureController {
     for (const { isIntersecting } of entries) this.#setNear(isIntersecting);
   }, { rootMargin: NEAR_MARGIN_CSS });
   #hasRenderedText = false;
-  /** Pictures to draw, the one that has waited longest first. */
+  /** Queue of the pictures to draw. The picture that has waited longest is first. */
   #undrawnPictures: Set<AnyPicture> = new Set();
   /** Time (ms) of the first picture that is newer than the text; undefined if the text is up to date. */
   #textPendingSince: number | undefined;
@@ -167,7 +167,7 @@ export class Renderer extends FigureController {
     });
   }
 
-  /** True if pictures or text have to follow in later frames. */
+  /** True if pictures or text remain to be drawn in later frames. */
   get hasPendingFrames() {
     return (this.isVisible && this.#undrawnPictures.size > 0) || this.#textPendingSince !== undefined;
   }
@@ -197,7 +197,7 @@ export class Renderer extends FigureController {
     const { viewModel } = host;
     const startTimeMs = performance.now();
     host.settings.applyPending();
-    // The simulation is missing after a trap.
+    // Without a simulation, as after a trap, nothing is drawn.
     if (!host.simulation) return;
     host.cloud?.addSamplesWhileDrawing();
     const { scene } = host;

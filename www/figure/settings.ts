@@ -102,7 +102,7 @@ export class Settings extends FigureController {
     this.reset();
     host.onSimulationReplaced();
     host.reflection.applyEarlyAssignments();
-    // The simulation is missing after a trap. The view model is up to date if an assigned state was shown already.
+    // After another trap there is no simulation. After an assigned state is shown, the view model is up to date.
     if (host.simulation && this.isViewModelStale) this.#showState(state);
   }
 

@@ -35,7 +35,7 @@ fn times_of(trajectory: &Trajectory) -> Vec<f64> {
 fn legs_end_as_amcl_ends_them() {
     let odometry = new_straight_drive(41, 0.0625);
     let (legs, lost_legs) = split_into_legs(&odometry, &odometry, AMCL_LENGTH, 0.0);
-    // A leg ends beyond a quarter of a metre, and not at exactly that distance. Each leg therefore has five steps.
+    // Four steps reach exactly the limit of a quarter of a metre, at which no leg ends. Each leg therefore has five steps.
     assert_eq!((legs.len(), lost_legs), (8, LostLegs::default()));
     for (i, leg) in legs.iter().enumerate() {
         assert_eq!(leg.odometry[1].x() - leg.odometry[0].x(), 0.3125);
@@ -65,7 +65,7 @@ fn rounding_does_not_decide_where_a_leg_ends() {
         times_of_legs(&split_into_legs(&turning_drive, &turning_drive, AMCL_LENGTH, 0.0).0)
     };
     let exact_leg_times = leg_end_times_with(|exact_heading| exact_heading);
-    // A leg does not end at exactly the limit. Each leg therefore has eleven steps.
+    // Ten steps reach exactly the limit, at which no leg ends. Each leg therefore has eleven steps.
     assert_eq!(exact_leg_times.len(), 36);
     assert_eq!(leg_end_times_with(|exact_heading| (exact_heading * 1e6).round() / 1e6), exact_leg_times);
 }

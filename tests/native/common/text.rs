@@ -77,7 +77,7 @@ fn is_group_of_thousands(word: &str) -> bool {
     word_digits.len() == 3 && word_digits.chars().all(|c| c.is_ascii_digit())
 }
 
-/// Returns the numbers between the parts of a sentence. Returns None if the text does not begin with the sentence.
+/// Returns the numbers that a text has between the given parts of a sentence, or None if the text begins otherwise.
 fn parse_numbers(remaining_text: &str, sentence_parts: &[&str]) -> Option<Vec<PrintedNumber>> {
     let mut remaining_text = remaining_text.strip_prefix(sentence_parts[0])?;
     sentence_parts[1..]

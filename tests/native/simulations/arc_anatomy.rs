@@ -56,7 +56,7 @@ fn the_printed_option_computes_the_lines_of_the_table() {
     for settings in draw_settings(1).take(20_000) {
         let computed_lines = new_simulation(Settings { printed: true, ..settings }).table().lines;
         let expected_lines = compute_printed_table(&settings);
-        // The table loses digits if the radius is much larger than the distance, and for nearly full circles.
+        // The formulas of the printed table lose digits if the radius is much larger than the distance, and for nearly full circles.
         let error_factor = 1.0 + expected_lines[0].abs() + expected_lines[3].abs();
         for (line_index, expected_value) in expected_lines.iter().enumerate() {
             let line_deviation = (computed_lines[line_index] - expected_value).abs();

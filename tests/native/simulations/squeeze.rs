@@ -67,7 +67,7 @@ fn changed_samplers_and_maps_move_no_sample() {
     );
 }
 
-/// A rejected part is drawn again, which moves the parts after it. Without a rejection, conditioning moves no sample.
+/// A rejected part of a motion is drawn again, which moves the parts after it. Without a rejection, conditioning moves no sample.
 #[test]
 fn only_rejected_parts_move_samples() {
     let settings = Settings { sampler: Sampler::SubStepped(4), samples: 500, ..Settings::default() };

@@ -25,7 +25,7 @@ test('the button presents the figure in full screen, C shows the controls, and E
   await page.keyboard.press('c');
   await expect(controlsButton).toHaveAttribute('aria-pressed', 'true');
   await expect(widget.locator('.slider:has(#v)')).toBeVisible();
-  // In the text field of a value, C is a letter, and Escape leaves the field.
+  // In the text field of a value, the key C types a letter, and Escape leaves the field. Neither key acts on the presentation.
   await widget.locator('.typed').first().click();
   await page.keyboard.press('c');
   await expect(controlsButton).toHaveAttribute('aria-pressed', 'true');

@@ -19,8 +19,8 @@ import { ALL_FIGURE_NAMES, CLOUD_FIGURE_NAMES, HANDLE_FIGURE_NAMES, chooseFigure
  */
 
 /**
- * Fixtures. The first three fixtures are names of elements, on which a test of behaviour that all figures, all clouds or all handles share
- * runs. The title of the test selects the element. The last fixture marks the introduction of a figure as seen.
+ * Fixtures. The first three fixtures are names of elements, for tests of the common behaviour of all figures, clouds or handles. The title
+ * of the test selects the element. The last fixture marks the introduction of a figure as seen.
  *
  * @typedef {{ figureName: Name, cloudFigureName: Name, handleFigureName: Name, isIntroductionSkipped: boolean }} FigureFixtures
  */

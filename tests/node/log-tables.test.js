@@ -75,7 +75,7 @@ function motiveTableOf(lengthUnit, isYUp) {
     `,,${repeatCell('Rotation', 4)},${repeatCell('Position', 3)},Mean Marker Error,${repeatCell('Position', 3)}`,
     'Frame,Time (Seconds),X,Y,Z,W,X,Y,Z,,X,Y,Z',
     ...CIRCLE_ROWS.map(({ i, t, x, y, qz, qw }) => {
-      // A heading about Y turns Z towards X.
+      // A positive heading about the vertical axis Y turns Z towards X.
       const bodyCells = isYUp ? [0, qz, 0, qw, x * unitsPerMetre, 0.1, -y * unitsPerMetre] : [0, 0, qz, qw, x * unitsPerMetre, y * unitsPerMetre, 0.1];
       return [i, t, ...bodyCells, 0.0001, 1, 2, 3].join(',');
     }),

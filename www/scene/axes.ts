@@ -25,7 +25,7 @@ export function drawAxes(drawContext: DrawContext, axisNames: { x: string, y: st
 
   const xTicks = ticksOfAxis(xMin, xMax, (right - left) / MIN_TICK_SPACING.x);
   Object.assign(context, { font, fillStyle: palette.muted, textAlign: 'center', textBaseline: 'top' });
-  // The name of the axis takes the place of the last tick label.
+  // At the right end, the name of the axis replaces tick labels.
   const xAxisName = axisNames.x.replace('(', `(${xTicks.unitFactor}`);
   const maxLabelX = right - context.measureText(xAxisName).width - 10;
   for (const tickValue of xTicks.tickValues) {

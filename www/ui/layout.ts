@@ -154,7 +154,7 @@ const figureLayout = css`
   }
 
   @container (width < 56em) {
-    /* Narrow columns of sliders have texts of two lines, which end above the rule. */
+    /* In narrow columns, texts below sliders have two lines. The margin keeps these texts above the rule. */
     .folds {
       margin-top: 1.3em;
     }
@@ -365,7 +365,7 @@ const figureLayout = css`
       scroll-margin-top: calc(45svh + 2em + var(--top));
     }
 
-    /* Covers handles that overlap the sides, and fades text that scrolls below. */
+    /* Shadow that covers handles at the sides of a sticky picture, and fades text that scrolls below the picture. */
     .simulation {
       --fade: -0.5em 0 var(--paper), 0.5em 0 var(--paper), 0 0.4em 0.4em var(--paper);
     }

@@ -96,7 +96,7 @@ export const readoutStyles = css`
     white-space: nowrap;
   }
 
-  /* Name of a row above its numbers, which then have the whole width. */
+  /* In a narrow table the name of a row is above the numbers, which then have the whole width. */
   @container (width < 26em) {
     table {
       font-size: 0.82em;

@@ -16,7 +16,7 @@ const HEIGHTS_EM: Record<string, ([number, number] | string)[]> = {
   'alpha-calibrator': [[102.5, 107.5], [105.5, 97.5], [54, 56.5], [56.5, 59.5], [42.5, 41]],
 };
 
-/** Returns the height for any width as a CSS maximum over the classes. Outside of its class, a term is hugely negative. */
+/** Returns the height for any width as a CSS maximum over the classes. Outside of its class, the term of a class is a large negative number. */
 function heightCssOf(tag: string, unit: '%' | 'cqi') {
   const heightTerms = HEIGHTS_EM[tag].map((height, i, { length }) => {
     const [lowerBoundEm, upperBoundEm] = [WIDTH_CLASS_BOUNDS_EM[i], WIDTH_CLASS_BOUNDS_EM[i + 1]];

@@ -69,7 +69,7 @@ export const sliderStyles = css`
     border-color: var(--muted);
   }
 
-  /* A text of more lines covers the content below. */
+  /* A text that is too long for this space covers the content below. */
   .slider .effect {
     position: absolute;
     top: calc(100% - 1.1em);

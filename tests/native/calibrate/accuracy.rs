@@ -200,7 +200,7 @@ fn alphas_are_right_with_an_exact_reference() {
     assert_right_in_every_model(&EXACT_REFERENCE, |_| Vec::new());
 }
 
-/// A yaw noise of two milliradians is a tenth of the wheels' rotation error on a leg. The log therefore gives only an upper bound for its σ.
+/// A yaw noise of two milliradians is a tenth of the wheels' rotation error on a leg. The log therefore bounds this noise only from above.
 #[test]
 #[ignore = "nightly: 500 calibrations"]
 fn alphas_are_right_with_an_unstated_reference_noise_of_5_mm_and_2_mrad() {

@@ -27,8 +27,8 @@ fn poses_of(simulation: &BananaMachine) -> Vec<SE2> {
     simulation.poses().collect()
 }
 
-/// Returns two gains in log-likelihood with their standard errors: for poses, of a Gaussian in exponential coordinates over one in (x, y,
-/// θ), and for positions (x, y).
+/// Returns two gains in log-likelihood with their standard errors: of poses in exponential coordinates over (x, y, θ), and of positions in
+/// arc coordinates over (x, y).
 fn gains_with_errors(gain_stats: &Stats) -> [[f64; 2]; 2] {
     let (likelihood_gain, gain_error) = (gain_stats.likelihood_gain, gain_stats.likelihood_gain_error);
     [[likelihood_gain.pose, gain_error.pose], [likelihood_gain.floor, gain_error.floor]]

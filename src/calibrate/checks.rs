@@ -3,7 +3,6 @@
 use super::fit::{Fit, LegSet};
 use super::legs::{LostLegs, MIN_DRIVE_DISTANCE, MIN_LEGS, MIN_TURN_ANGLE, distance, turn};
 use super::residuals::Model;
-use super::result::LegFit;
 use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
 use crate::models::OdometryRule;
@@ -222,14 +221,7 @@ impl FailureCause {
 }
 
 /// Number of standard errors by which a sample statistic may differ from its expectation. Logs simulated by the model rarely differ more.
-const MAX_STD_ERRORS: f64 = 3.0;
-
-/// Correlation of neighbouring legs, and excess kurtosis, that are negligible in a long log.
-const NEGLIGIBLE_CORRELATION: f64 = 0.1;
-const NEGLIGIBLE_KURTOSIS: f64 = 0.5;
-
-/// Difference from 95 % of the coverage (fraction of errors inside their 95 % region) that is too small to matter in a long log.
-const NEGLIGIBLE_COVERAGE: f64 = 0.015;
+pub(super) const MAX_STD_ERRORS: f64 = 3.0;
 
 /// Number of legs below which the check [`CheckName::EnoughLegs`] fails, and below which the log is unusable.
 const SUFFICIENT_LEGS: f64 = 100.0;
@@ -247,9 +239,6 @@ const MIRRORED_TOLERANCE: f64 = 0.1;
 /// Relative error below which the reference is a copy of the odometry: wheels never measure every motion to a thousandth. A copy may be
 /// rounded or have noise of its own, which does not accumulate.
 const MIN_RELATIVE_ERROR: f64 = 1e-3;
-
-/// Minimum number of windows for conclusions from their coverage.
-pub(super) const MIN_WINDOWS: usize = 20;
 
 /// Maximum inflation (factor on the fitted α's). α's that need a larger factor do not describe the robot.
 pub(super) const MAX_INFLATION: f64 = 30.0;
@@ -329,43 +318,6 @@ fn check_ratios(leg_set: &LegSet, systematic: &Systematic) -> Option<Check> {
     let relative_mismatch_of = |check: &Check| check.value / check.expected[1];
     let checks = turn_check.into_iter().chain(drive_check);
     checks.max_by(|a, b| relative_mismatch_of(a).total_cmp(&relative_mismatch_of(b)))
-}
-
-/// Returns the checks of the innovations: correlation of neighbours and tails.
-pub(super) fn residual_checks(fits: &[LegFit], correlation: f64) -> Vec<Check> {
-    let standardized = fits.iter().filter(|fit| !fit.is_outlier).flat_map(|fit| fit.standardized);
-    let standardized: Vec<f64> = standardized.filter(|residual| !residual.is_nan()).collect();
-    let component_count = standardized.len() as f64;
-    let mean_power =
-        |power: i32| standardized.iter().map(|residual| residual.powi(power)).sum::<f64>() / component_count;
-    let kurtosis = mean_power(4) / mean_power(2).powi(2);
-    let correlation_limit = NEGLIGIBLE_CORRELATION.max(MAX_STD_ERRORS / component_count.sqrt());
-    // Kurtosis of a normal sample has variance 24/n.
-    let max_excess_kurtosis = NEGLIGIBLE_KURTOSIS.max(MAX_STD_ERRORS * (24.0 / component_count).sqrt());
-    vec![
-        Check::new(CheckName::ResidualsUncorrelated, correlation, [-correlation_limit, correlation_limit]),
-        Check::new(CheckName::TailsNormal, kurtosis, [1.0, 3.0 + max_excess_kurtosis]),
-    ]
-}
-
-/// Returns the range of the coverage of logs that the model simulates. `variance_std_error` is the relative standard error of the variances.
-/// The factor 0.14 is the density of ln χ² with 3 degrees of freedom at the quantile 0.95.
-pub(super) fn coverage_range(count: usize, variance_std_error: f64) -> [f64; 2] {
-    let variance = 0.95 * 0.05 / count as f64;
-    let tolerance =
-        NEGLIGIBLE_COVERAGE.max(MAX_STD_ERRORS * (variance + (0.14 * variance_std_error).powi(2)).sqrt());
-    [0.95 - tolerance, (0.95 + tolerance).min(1.0)]
-}
-
-/// Returns the checks of windows, for the lengths with at least [`MIN_WINDOWS`] windows.
-pub(super) fn window_checks(windows: &[WindowCoverage], variance_std_error: f64) -> Vec<Check> {
-    let check_names = [CheckName::Window1Covered, CheckName::Window2Covered, CheckName::Window5Covered];
-    let sufficient_windows =
-        windows.iter().zip(check_names).filter(|(window, _)| window.count >= MIN_WINDOWS);
-    let check_coverage = |(window, name): (&WindowCoverage, CheckName)| {
-        Check::new(name, window.coverage, coverage_range(window.count, variance_std_error))
-    };
-    sufficient_windows.map(check_coverage).collect()
 }
 
 /// Turn (rad) above which a leg counts as turning. All other legs count as straight.

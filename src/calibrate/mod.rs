@@ -151,7 +151,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let identifies_any_alpha = alphas.iter().any(Option::is_some);
     let mut checks = checks::log_checks(&all_legs, &fit.lost, &systematic, &alpha_intervals, inflation);
     checks.extend(scale_checks);
-    checks.extend(checks::residual_checks(&leg_fits, neighbour_correlation(&fit).0));
+    checks.extend(outliers::residual_checks(&leg_fits, neighbour_correlation(&fit).0));
     checks.extend(cross_validation.checks);
     let verdict = checks::verdict(&checks, identifies_any_alpha);
     Ok(Calibration {

@@ -1,7 +1,8 @@
 //! Outliers: legs whose innovation is outside a gate, for example because the reference jumped. Outliers are listed in the result, and not
-//! fitted.
+//! fitted. The innovations of the other legs are tested for correlation and heavy tails.
 
 use super::Outliers;
+use super::checks::{Check, CheckName, MAX_STD_ERRORS};
 use super::fit::LegSet;
 use super::likelihood::{ErrorVector, Parameters, innovations};
 use super::result::LegFit;
@@ -52,4 +53,25 @@ impl LegSet {
         self.outliers = new_outliers;
         has_changed
     }
+}
+
+/// Correlation of neighbouring legs, and excess kurtosis, that are negligible in a long log.
+const NEGLIGIBLE_CORRELATION: f64 = 0.1;
+const NEGLIGIBLE_KURTOSIS: f64 = 0.5;
+
+/// Returns the checks of the innovations of legs that are no outliers: correlation of neighbouring legs, and kurtosis.
+pub(super) fn residual_checks(fits: &[LegFit], correlation: f64) -> Vec<Check> {
+    let standardized = fits.iter().filter(|fit| !fit.is_outlier).flat_map(|fit| fit.standardized);
+    let standardized: Vec<f64> = standardized.filter(|residual| !residual.is_nan()).collect();
+    let component_count = standardized.len() as f64;
+    let mean_power =
+        |power: i32| standardized.iter().map(|residual| residual.powi(power)).sum::<f64>() / component_count;
+    let kurtosis = mean_power(4) / mean_power(2).powi(2);
+    let correlation_limit = NEGLIGIBLE_CORRELATION.max(MAX_STD_ERRORS / component_count.sqrt());
+    // Kurtosis of a normal sample has variance 24/n.
+    let max_excess_kurtosis = NEGLIGIBLE_KURTOSIS.max(MAX_STD_ERRORS * (24.0 / component_count).sqrt());
+    vec![
+        Check::new(CheckName::ResidualsUncorrelated, correlation, [-correlation_limit, correlation_limit]),
+        Check::new(CheckName::TailsNormal, kurtosis, [1.0, 3.0 + max_excess_kurtosis]),
+    ]
 }

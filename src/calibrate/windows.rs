@@ -2,9 +2,7 @@
 //!
 //! Errors of real wheels persist over several legs. A filter needs α's that hold between two corrections of its pose.
 
-use super::checks::{
-    Check, CheckName, MAX_INFLATION, MIN_WINDOWS, WindowCoverage, coverage_range, window_checks,
-};
+use super::checks::{Check, CheckName, MAX_INFLATION, MAX_STD_ERRORS, WindowCoverage};
 use super::fit::{Fit, LegSet};
 use super::legs::{Leg, distance};
 use super::likelihood::{Parameters, Residuals, reference_covariance};
@@ -114,6 +112,9 @@ fn coverage(windows: &[Window], min_window_length: f64, inflation: f64) -> Windo
     }
 }
 
+/// Minimum number of windows for conclusions from their coverage.
+const MIN_WINDOWS: usize = 20;
+
 /// Ratio of two successive inflations that are tried.
 const INFLATION_STEP: f64 = 1.005;
 
@@ -139,6 +140,29 @@ const WINDOW_LENGTHS: [f64; 3] = [1.0, 2.0, 5.0];
 
 /// Quantiles 0.95 of χ² with 1, 2 and 3 degrees of freedom.
 const CHI2_95: [f64; 3] = [3.841, 5.991, 7.815];
+
+/// Difference from 95 % of the coverage (fraction of errors inside their 95 % region) that is too small to matter in a long log.
+const NEGLIGIBLE_COVERAGE: f64 = 0.015;
+
+/// Returns the range of the coverage of logs that the model simulates. `variance_std_error` is the relative standard error of the variances.
+/// The factor 0.14 is the density of ln χ² with 3 degrees of freedom at the quantile 0.95.
+fn coverage_range(count: usize, variance_std_error: f64) -> [f64; 2] {
+    let variance = 0.95 * 0.05 / count as f64;
+    let tolerance =
+        NEGLIGIBLE_COVERAGE.max(MAX_STD_ERRORS * (variance + (0.14 * variance_std_error).powi(2)).sqrt());
+    [0.95 - tolerance, (0.95 + tolerance).min(1.0)]
+}
+
+/// Returns the checks of windows, for the lengths with at least [`MIN_WINDOWS`] windows.
+fn window_checks(windows: &[WindowCoverage], variance_std_error: f64) -> Vec<Check> {
+    let check_names = [CheckName::Window1Covered, CheckName::Window2Covered, CheckName::Window5Covered];
+    let sufficient_windows =
+        windows.iter().zip(check_names).filter(|(window, _)| window.count >= MIN_WINDOWS);
+    let check_coverage = |(window, name): (&WindowCoverage, CheckName)| {
+        Check::new(name, window.coverage, coverage_range(window.count, variance_std_error))
+    };
+    sufficient_windows.map(check_coverage).collect()
+}
 
 /// Recommended α's, with the checks and windows of held-out data on which they are based.
 pub(super) struct CrossValidation {

@@ -68,7 +68,6 @@ impl NoiseKind {
         self.quantile(draw_centred_uniform(rng)) * b2.0.sqrt()
     }
 
-    /// Returns three independent draws of variance 1.
     pub(crate) fn sample_unit_triple<R: Rng + ?Sized>(self, rng: &mut R) -> [f64; 3] {
         std::array::from_fn(|_| self.quantile(draw_centred_uniform(rng)))
     }

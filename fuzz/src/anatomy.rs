@@ -7,7 +7,6 @@ use motion::geom::se2::SE2;
 use motion::sim::arc_anatomy::{ArcAnatomy, ArcWithCircle, HeatMapKind, Paths, Settings, Stats, Surface, Table};
 use motion::sim::views::ViewGrid;
 
-/// Maximum number of calls in a run.
 const MAX_CALLS: usize = 4;
 
 pub fn check_input(fuzz_input_bytes: &[u8]) {

@@ -8,7 +8,6 @@ pub fn assert_finite(quantity_name: &str, numbers: &[f64]) {
     assert!(numbers.iter().all(|number| number.is_finite()), "{quantity_name}: {numbers:?}");
 }
 
-/// Asserts that all numbers are finite, or that all numbers are NaN.
 pub fn assert_all_finite_or_all_nan(quantity_name: &str, numbers: &[f64]) {
     if !numbers.iter().all(|number| number.is_nan()) {
         assert_finite(quantity_name, numbers);

@@ -44,7 +44,6 @@ pub fn check_input(input_bytes: &[u8]) {
     }
 }
 
-/// Returns the settings with at most `MAX_SAMPLES` samples.
 fn limit_settings(settings: Settings) -> Settings {
     Settings { samples: settings.samples.min(MAX_SAMPLES), ..settings }
 }

@@ -76,7 +76,6 @@ fn read_leg_size(input: &mut InputReader) -> f64 {
 
 type LogRow = (f64, SE2);
 
-/// Returns one of the given numbers, or sometimes any other number.
 fn choose_number_or_draw_any(number_choices: &[f64], input: &mut InputReader) -> f64 {
     let choice_index = input.next_below(number_choices.len() + 1);
     number_choices.get(choice_index).copied().unwrap_or_else(|| input.draw_number_within(-1e9..=1e9))

@@ -30,7 +30,6 @@ pub fn check_input(input_bytes: &[u8]) {
     assert_results(&simulation);
 }
 
-/// Returns the settings with at most `MAX_SAMPLES` outcomes.
 fn limit_settings(settings: Settings) -> Settings {
     Settings { samples: settings.samples.min(MAX_SAMPLES), ..settings }
 }

@@ -11,7 +11,6 @@ use motion::sim::settings::QUANTITY_RANGE;
 
 /// Maximum number of arcs that are tested on a grid.
 const MAX_ARCS: usize = 3;
-/// Maximum number of cells along a side.
 const MAX_CELLS_PER_SIDE: usize = 3;
 
 pub fn check_input(input_bytes: &[u8]) {

@@ -87,7 +87,6 @@ impl LegSet {
         Residuals { model, free, estimated, terms: selected_legs.map(term_of_leg).collect() }
     }
 
-    /// Returns the residuals of the legs in a range that are not outliers.
     pub fn inlier_residuals(&self, range: Range<usize>) -> Residuals {
         self.residuals(self.estimated, |leg| range.contains(&leg) && !self.outliers[leg])
     }

@@ -229,7 +229,6 @@ impl Innovation {
 }
 
 impl Residuals {
-    /// Runs the Kalman filter under the given variances.
     pub fn filtered(&self, parameters: &Parameters) -> FilterResult {
         let terms = Box::new(self.terms.iter().map(|term| (term, term.follows)));
         let innovations: Vec<Innovation> = innovations(self.model, parameters, terms).collect();
@@ -262,7 +261,6 @@ impl Residuals {
         FilterResult { innovations, log_likelihood, information, weighted_residual, errors, covariance }
     }
 
-    /// Returns the expansion of the log-likelihood around parameters.
     pub fn expansion_at(&self, parameters: &Parameters) -> Expansion {
         self.expansion(parameters, self.filtered(parameters))
     }

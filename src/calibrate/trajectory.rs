@@ -174,7 +174,6 @@ impl Trajectory {
         self.has_any_between(&self.gaps, start_time, end_time)
     }
 
-    /// Returns true if a break lies between two times (s).
     pub(super) fn has_break(&self, start_time: f64, end_time: f64) -> bool {
         self.has_any_between(&self.breaks, start_time, end_time)
     }
@@ -197,7 +196,6 @@ impl Trajectory {
         Some((sample, (time - self.times[before]) / (time_after - self.times[before])))
     }
 
-    /// Returns the time (s) and pose of a sample.
     pub(super) fn sample(&self, sample: usize) -> (f64, SE2) {
         (self.times[sample], self.poses[sample])
     }

@@ -94,7 +94,6 @@ fn end_by_chord(theta: f64, omega: f64) -> [f64; 2] {
     [cos * ahead - sin * left, sin * ahead + cos * left]
 }
 
-/// Returns the end of the motion in double-double arithmetic.
 fn exact_end(theta: f64, omega: f64) -> [DoubleDouble; 2] {
     let half_turn = DoubleDouble::product(0.5 * omega, DURATION);
     let chord_length = DoubleDouble::product(SPEED, DURATION) * half_turn.sinc();
@@ -128,7 +127,6 @@ fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
     DoubleDouble { high, low: b - (high - a) }
 }
 
-/// Returns a + b without rounding error.
 fn two_sum(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
     let rounded_b = high - a;

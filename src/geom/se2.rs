@@ -49,7 +49,6 @@ impl SE2 {
         self.y
     }
 
-    /// Returns the position (x, y), m.
     pub(crate) fn position(&self) -> [f64; 2] {
         [self.x, self.y]
     }

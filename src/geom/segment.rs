@@ -25,7 +25,6 @@ impl Segment {
         dot(nearest_offset, nearest_offset)
     }
 
-    /// Returns the vector from the nearest point of the segment to `point`.
     fn offset_from_nearest_point(&self, point: [f64; 2]) -> [f64; 2] {
         let direction = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
         let offset = [point[0] - self.from[0], point[1] - self.from[1]];

@@ -101,7 +101,6 @@ impl DistanceField {
     }
 }
 
-/// Distance field that is being computed.
 struct FieldBuilder<'a> {
     tree: &'a WallTree,
     occupied_grid: Option<&'a OccupancyGrid>,

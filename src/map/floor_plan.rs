@@ -245,7 +245,6 @@ impl FloorPlan {
         (left..=right).contains(&x) && (bottom..=top).contains(&y)
     }
 
-    /// Returns the corners of the map, in order around it.
     fn corners(&self) -> [[f64; 2]; 4] {
         let [left, bottom, right, top] = self.bounds;
         let bounds_corners = [[left, bottom], [right, bottom], [right, top], [left, top]];

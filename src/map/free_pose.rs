@@ -67,7 +67,6 @@ fn middle_of_largest_free_square(grid: &OccupancyGrid) -> Option<[f64; 2]> {
     square_middle
 }
 
-/// Returns the heading along which the path over free cells is longest.
 fn heading_of_longest_path(
     grid: &OccupancyGrid,
     [x, y]: [f64; 2],

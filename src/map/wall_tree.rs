@@ -35,7 +35,6 @@ const MAX_SINGLE_LEAF_WALLS: usize = 32;
 const ZERO_SEGMENT: Segment = Segment { from: [0.0; 2], to: [0.0; 2] };
 
 impl WallTree {
-    /// Creates the tree of the walls, all of which are inside `bounds`.
     pub fn new(walls: &[Segment], bounds: [f64; 4]) -> Self {
         // Equal walls would fill leaves whose distances all have to be computed.
         let mut known_walls = BTreeSet::new();
@@ -119,7 +118,6 @@ impl WallTree {
         Node { capsule_axis, capsule_radius: max_distance + self.rounding_slack }
     }
 
-    /// Returns the indices of the walls of a node.
     pub fn wall_range(&self, node_index: usize) -> Range<usize> {
         let depth = node_index.ilog2();
         let (wall_count, index_in_level) = (self.walls.len() as u64, (node_index - (1 << depth)) as u64);

@@ -9,7 +9,6 @@ pub const fn alphas_of_noise_level(n: f64) -> [f64; 6] {
 pub struct NoiseLevel<'a>(pub &'a mut [f64]);
 
 impl NoiseLevel<'_> {
-    /// Returns the ratio of each α to the level.
     pub fn ratios(&self) -> impl Iterator<Item = f64> + use<> {
         let alpha_count = self.0.len();
         (0..alpha_count).map(move |i| if i + 2 < alpha_count { 1.0 } else { 0.25 })
@@ -21,7 +20,6 @@ impl NoiseLevel<'_> {
         self.ratios().zip(&*self.0).all(|(ratio, alpha)| *alpha == n * ratio).then_some(n)
     }
 
-    /// Sets the α's to the level times their ratios.
     pub fn set(&mut self, level: f64) {
         self.ratios().zip(&mut *self.0).for_each(|(ratio, alpha)| *alpha = level * ratio);
     }

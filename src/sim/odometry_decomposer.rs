@@ -181,7 +181,6 @@ impl OdometryDecomposer {
         self.settings.rule.variances(&self.reading(), &self.settings.alphas)
     }
 
-    /// Returns the executed motions of the first `count` outcomes.
     fn executed_motions(&self, count: usize) -> impl Iterator<Item = ExecutedLegs> + Clone + '_ {
         let rho = self.settings.correlation;
         let (legs, variances) = (self.legs(), self.variances());

@@ -58,7 +58,6 @@ pub(super) struct FittedGaussians {
     mean_jacobian: f64,
 }
 
-/// Mean and covariance.
 pub(super) type MeanAndCov = (Vector3<f64>, Matrix3<f64>);
 
 impl FittedGaussians {

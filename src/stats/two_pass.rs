@@ -222,7 +222,6 @@ pub struct SecondPass {
     sums: CompensatedSums<17>,
 }
 
-/// Statistics of a cloud, computed in two passes.
 #[derive(Clone, Copy, Debug)]
 pub struct CloudStats {
     pub cartesian: CartesianMoments,

@@ -31,7 +31,6 @@ use std::f64::consts::TAU;
 use wide::f64x4;
 
 impl Settings {
-    /// Returns the motion of the selected model under a command.
     fn polar_motion(&self, command: &VelocityCmd) -> PolarMotion {
         match self.model_with_input(*command) {
             ModelWithInput::Velocity(model, command) => PolarMotion::of_velocity(&model, &command),

@@ -29,7 +29,6 @@ pub struct NoisyDrive {
     trigonometry: Trigonometry,
 }
 
-/// Motions of four robots.
 #[derive(Clone, Copy)]
 pub struct FourMotions {
     length: f64x4,
@@ -56,7 +55,6 @@ impl NoisyDrive {
         }
     }
 
-    /// Returns the standard deviation of the turn, rad.
     pub fn turn_std(&self) -> f64 {
         2.0 * libm::hypot(self.bearing_weight * self.bearing[1], self.half_heading_offset[1])
     }

@@ -64,7 +64,6 @@ pub struct MeasuredMoments {
 /// Maximum number of robots in the picture, beyond which dots are not distinguishable. A pose takes 24 bytes.
 pub const MAX_SHOWN_ROBOTS: usize = 600;
 
-/// Rollouts that have been driven so far.
 #[derive(Clone, Debug)]
 pub struct Rollouts {
     step: StepInErrorFrame,

@@ -151,7 +151,7 @@ pub(crate) fn serialize_settings<S: DeclaredSettings, Z: Serializer>(
 
 /// Reference to an integer setting, whatever its integer type.
 pub trait IntegerSetting {
-    /// Returns the number.
+    /// Returns the integer.
     fn get(&self) -> u64;
     /// Sets the number, which must be in the range of the type.
     fn set(&mut self, integer: u64);
@@ -169,7 +169,6 @@ pub trait KeywordSetting {
     fn get(&self) -> &'static str;
     /// Sets the value by its keyword. Returns false if the keyword is not in [`KeywordSetting::all_keywords`].
     fn set(&mut self, keyword: &str) -> bool;
-    /// Returns the keywords of all values.
     fn all_keywords(&self) -> Vec<&'static str>;
 }
 

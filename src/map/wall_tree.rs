@@ -35,6 +35,7 @@ const MAX_SINGLE_LEAF_WALLS: usize = 32;
 const ZERO_SEGMENT: Segment = Segment { from: [0.0; 2], to: [0.0; 2] };
 
 impl WallTree {
+    /// Creates the tree of the walls, all of which are inside `bounds`.
     pub fn new(walls: &[Segment], bounds: [f64; 4]) -> Self {
         // Equal walls would fill leaves whose distances all have to be computed.
         let mut known_walls = BTreeSet::new();

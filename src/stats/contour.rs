@@ -77,6 +77,7 @@ impl Ellipse {
         (self.whitening_matrix * (Vector2::new(x, y) - self.centre)).norm()
     }
 
+    /// Returns true if a point lies inside the ellipse.
     pub fn contains(&self, point: [f64; 2]) -> bool {
         let [x, y] = point.map(f64x4::splat);
         self.contains_four(x, y).any()

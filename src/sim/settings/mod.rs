@@ -169,6 +169,7 @@ pub trait KeywordSetting {
     fn get(&self) -> &'static str;
     /// Sets the value by its keyword. Returns false if the keyword is not in [`KeywordSetting::all_keywords`].
     fn set(&mut self, keyword: &str) -> bool;
+    /// Returns the keywords of all values.
     fn all_keywords(&self) -> Vec<&'static str>;
 }
 

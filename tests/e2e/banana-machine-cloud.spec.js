@@ -67,7 +67,6 @@ test('the figure opens with the whole cloud of the default command, and shows th
   const varianceRow = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name: 'Σxx', exact: true }) });
   const xVariances = (await varianceRow.getByRole('cell').allTextContents()).map(parseNumberIn);
   for (const [i, tableColumn] of [table.linearized, table.exact, table.measured].entries()) expect(xVariances[i] / tableColumn.cov[0][0]).toBeCloseTo(1, 2);
-  // The picture has a text equivalent.
   const floorCanvas = widget.locator('canvas.plane');
   await expect(floorCanvas).toHaveAttribute('aria-label', /^On the floor: no ellipse fits\. Command: v = .*\. The cloud is bent: /);
 });

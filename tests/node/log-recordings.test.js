@@ -100,7 +100,7 @@ test('stamps that begin at 0 are used; messages without stamps get the recording
   };
   const simulatedLog = await readLogWithStamps((i) => i / 10);
   assert.deepEqual([simulatedLog.start, simulatedLog.summary.rows, simulatedLog.data.t[0], simulatedLog.data.t[99]], [0, 100, 0, 9.9]);
-  // Most of these messages have no stamp.
+  // Only 48 of the 100 messages have a stamp, and the others have the stamp 0.
   const unstampedLog = await readLogWithStamps((i) => (i < 48 ? i : 0));
   assert.deepEqual([unstampedLog.start, unstampedLog.data.t.length, unstampedLog.data.t[20]], [1_700_000_000, 100, 1]);
   assert.match(unstampedLog.sentences, /times: when messages were recorded/);

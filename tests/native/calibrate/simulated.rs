@@ -51,7 +51,6 @@ pub struct Simulation {
     pub seed: u64,
     /// Standard deviations of the reference, m and rad.
     pub reference_stds: [f64; 2],
-    /// Times of the samples.
     pub times: SampleTimes,
 }
 

@@ -56,7 +56,6 @@ pub fn derivative_by_noise(unit_noise: [f64; 3], pose_of_noise: impl Fn([f64; 3]
     }))
 }
 
-/// Returns the settings of a preset.
 pub fn settings_of_preset<S: SettingRules>(preset_name: &str) -> S {
     S::PRESETS.iter().find(|named_preset| named_preset.0 == preset_name).expect("a preset of that name").1
 }

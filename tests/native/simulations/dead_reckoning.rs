@@ -283,7 +283,7 @@ fn noise_of_the_whole_path_is_divided_among_its_steps() {
                 "{step_count}, {i}"
             );
         }
-        // The heading variances of all steps add up.
+        // The predicted heading variance is the sum of the heading variances of all steps.
         let covariance = simulation(settings).predicted_covariances(Compounding::FirstOrder)
             [step_count as usize - 1]
             .expect("a covariance");

@@ -126,7 +126,9 @@ impl SE2 {
     /// Each entry is off by at most 4e-16 · max(1, ‖τ‖) for |ω| ≤ π. det J_r = sinc²(ω/2).
     pub fn right_jacobian(twist: &Vector3<f64>) -> Matrix3<f64> {
         let (a, b) = unit_arc_end(twist.z);
-        let (c, d) = (sine_defect(twist.z), 0.5 * squared_sinc_of_half(twist.z));
+        let (c, half_sinc) = (sine_defect(twist.z), sinc(0.5 * twist.z));
+        // (1 − cos ω)/ω², without the cancellation of 1 − cos ω.
+        let d = 0.5 * (half_sinc * half_sinc);
         Matrix3::new(a, b, c * twist.x - d * twist.y, -b, a, d * twist.x + c * twist.y, 0.0, 0.0, 1.0)
     }
 
@@ -174,12 +176,6 @@ fn h_cot_h(turn: f64) -> f64 {
     }
     let (sin, cos) = libm::sincos(0.5 * turn);
     0.5 * turn * cos / sin
-}
-
-/// Returns sinc²(ω/2) = 2(1 − cos ω)/ω², without the cancellation of 1 − cos ω.
-fn squared_sinc_of_half(turn: f64) -> f64 {
-    let half_sinc = sinc(0.5 * turn);
-    half_sinc * half_sinc
 }
 
 /// Maximum |ω| (rad) at which [`sine_defect`] and [`cotangent_defect`] are computed by series, because their closed forms cancel. At

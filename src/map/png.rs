@@ -45,8 +45,9 @@ fn decode_pixels(cursor: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingErr
     reader.next_frame(&mut samples)?;
     reader.finish()?;
     if bit_depth == BitDepth::Sixteen {
-        samples =
-            samples.as_chunks().0.iter().map(|bytes| round_to_byte(u16::from_be_bytes(*bytes))).collect();
+        // 16 bits are scaled to 8 with rounding, by the factor 65535/255 = 257.
+        let to_byte = |bytes: &[u8; 2]| ((u32::from(u16::from_be_bytes(*bytes)) + 128) / 257) as u8;
+        samples = samples.as_chunks().0.iter().map(to_byte).collect();
     }
     let with_full_opacity = |[red, green, blue]: [u8; 3]| [red, green, blue, u8::MAX];
     Ok(match color_type {
@@ -58,9 +59,4 @@ fn decode_pixels(cursor: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingErr
         ColorType::Rgba => samples.as_chunks().0.to_vec(),
         ColorType::Indexed => unreachable!("a palette is expanded"),
     })
-}
-
-/// Scales 16 bits to 8 with rounding, by the factor 65535/255 = 257.
-fn round_to_byte(sample: u16) -> u8 {
-    ((u32::from(sample) + 128) / 257) as u8
 }

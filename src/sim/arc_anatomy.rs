@@ -1,6 +1,6 @@
 //! Arc Anatomy: the arc between two poses, the motion that it implies, and the likelihood of that motion (Tables 5.1 and 5.3).
 
-use super::settings::{ALPHA_RANGE, HasKeywords, SettingRules, SettingsError, settings};
+use super::settings::{ALPHA_RANGE, SettingRules, SettingsError, keywords, settings};
 use crate::geom::arc::{Arc, ArcInversion, PreparedPose, invert_arc};
 use crate::geom::se2::SE2;
 use crate::js::js_structs;
@@ -19,10 +19,7 @@ pub enum HeatMapKind {
     Density,
 }
 
-impl HasKeywords for HeatMapKind {
-    const KEYWORDS: &'static [(&'static str, Self)] =
-        &[("none", Self::NoHeatMap), ("prob", Self::Prob), ("density", Self::Density)];
-}
+keywords!(HeatMapKind: "none" = Self::NoHeatMap, "prob" = Self::Prob, "density" = Self::Density);
 
 settings! {
     /// Settings of the user.

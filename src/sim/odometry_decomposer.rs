@@ -3,17 +3,17 @@
 use super::cloud::draws::Draws;
 use super::cloud::views::nearest_index;
 use super::cloud_simulation::cloud_simulation;
-use super::settings::{ALPHA_RANGE, HasKeywords, MAX_SEED, SettingRules, SettingsError, settings};
+use super::settings::{ALPHA_RANGE, MAX_SEED, SettingRules, SettingsError, keywords, settings};
 use crate::geom::se2::SE2;
 use crate::js::js_structs;
 use crate::models::{ExecutedLegs, LegVariances, OdomDelta, OdometryRule, RuleAlphas};
 use crate::noise::NoiseKind;
 use nalgebra::Vector3;
 
-impl HasKeywords for OdometryRule {
-    const KEYWORDS: &'static [(&'static str, Self)] =
-        &[("thrun", Self::Table), ("nav2", Self::Nav2), ("beluga", Self::Beluga), ("omni", Self::Omni)];
-}
+keywords!(
+    OdometryRule:
+    "thrun" = Self::Table, "nav2" = Self::Nav2, "beluga" = Self::Beluga, "omni" = Self::Omni
+);
 
 /// Maximum number of outcomes. This many can be computed within a frame. More dots would not be distinguishable.
 pub const MAX_SAMPLES: u64 = 5000;

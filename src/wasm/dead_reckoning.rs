@@ -3,7 +3,7 @@
 use super::fields::{not_shown_error, read_integer};
 use super::pictures::nearest_index;
 use super::simulation_class::cloud_simulation_class;
-use super::values::{flat_float_array, js_object, number_or_null, to_plain_js, triple_array};
+use super::values::{flat_float_array, js_object, to_plain_js, triple_array};
 use crate::models::Compounding;
 use crate::sim::dead_reckoning::{DeadReckoning, MAX_SAMPLES};
 use crate::sim::settings::HasKeywords;
@@ -41,7 +41,7 @@ cloud_simulation_class! {
     }
     others {
         /// Level h of the heading noise; null if α₃ to α₆ do not have the ratios of a level.
-        heading_noise as "headingNoise": "number | null" = number_or_null(simulation.settings().heading_noise());
+        heading_noise as "headingNoise": "number | null" = to_plain_js(&simulation.settings().heading_noise());
         /// Predicted variances of along, lateral (m²) and heading (rad²) after each step, three numbers a step; NaN if undefined.
         predicted: "ByRecursion<Float64Array>" = js_by_recursion(|recursion| {
             let to_variances = |cov: &Matrix3<f64>| cov.diagonal();

@@ -11,14 +11,11 @@ use crate::map::{
     RESOLUTION_RANGE, read_grid,
 };
 use crate::numbers::format_number;
-use crate::sim::settings::{HasKeywords, QUANTITY_RANGE};
+use crate::sim::settings::{QUANTITY_RANGE, keywords};
 use js_sys::{Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
 
-impl HasKeywords for MapMode {
-    const KEYWORDS: &'static [(&'static str, Self)] =
-        &[("trinary", Self::Trinary), ("scale", Self::Scale), ("raw", Self::Raw)];
-}
+keywords!(MapMode: "trinary" = Self::Trinary, "scale" = Self::Scale, "raw" = Self::Raw);
 
 impl From<FloorPlanError> for JsValue {
     fn from(error: FloorPlanError) -> Self {

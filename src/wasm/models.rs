@@ -3,7 +3,7 @@
 use super::fields::{
     FieldReader, array_item, array_length, check_range, read_array_in_range, read_integer, read_value,
 };
-use super::values::{JsPose, js_array, number_or_null, pose_to_js, to_ts, triple_array};
+use super::values::{JsPose, js_array, pose_to_js, to_plain_js, to_ts, triple_array};
 use crate::geom::arc::invert_arc;
 use crate::geom::se2::SE2;
 use crate::js::js_structs;
@@ -121,7 +121,7 @@ macro_rules! model_methods {
             ) -> Result<JsValue, JsValue> {
                 let (next, control, start) =
                     (read_pose("next", next)?, $read_control(control)?, read_pose("start", start)?);
-                Ok(number_or_null(self.0.pose_density(&next, &control, &start)))
+                Ok(to_plain_js(&self.0.pose_density(&next, &control, &start)))
             }
 
             /// Returns samples of the pose after the motion, as x, y, θ triples. Equal seeds (whole numbers) give equal samples.

@@ -4,7 +4,7 @@ use super::fields::{quote, read_integer, read_value};
 use super::maps::{read_map, read_plan};
 use super::pictures::{nearest_index, pixel_view, read_grid, read_ramps};
 use super::simulation_class::cloud_simulation_class;
-use super::values::{ToJs, flat_float_array, number_or_null, pose_to_js, to_plain_js, to_ts, triple_array};
+use super::values::{ToJs, flat_float_array, pose_to_js, to_plain_js, to_ts, triple_array};
 use crate::geom::arc::Arc;
 use crate::geom::segment::Segment;
 use crate::js::js_structs;
@@ -65,7 +65,7 @@ cloud_simulation_class! {
     }
     others {
         /// Level n of the noise parameters; null if they do not have the ratios of a level.
-        noise: "number | null" = number_or_null(simulation.settings().noise());
+        noise: "number | null" = to_plain_js(&simulation.settings().noise());
         plan: "Plan" = {
             let wall_coordinates_of = |Segment { from, to }: &Segment| [from[0], from[1], to[0], to[1]];
             let walls = simulation.plan().walls().iter().map(wall_coordinates_of).collect();

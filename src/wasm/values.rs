@@ -60,10 +60,6 @@ impl<T: HasKeywords> ToJs for T {
     }
 }
 
-pub fn number_or_null(number: Option<f64>) -> JsValue {
-    number.map_or(JsValue::NULL, JsValue::from)
-}
-
 #[wasm_bindgen]
 extern "C" {
     #[wasm_bindgen(typescript_type = "Start")]

@@ -6,7 +6,7 @@ mod settings;
 pub use settings::*;
 
 use super::cloud::draws::Draws;
-use super::settings::{HasKeywords, SettingRules, SettingsError};
+use super::settings::{SettingRules, SettingsError, keywords};
 use crate::calibrate::{self, Calibration, Drive, Leg, calibrate};
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
@@ -251,9 +251,7 @@ pub enum Regressor {
     Turn,
 }
 
-impl HasKeywords for Regressor {
-    const KEYWORDS: &'static [(&'static str, Self)] = &[("distance", Self::Distance), ("turn", Self::Turn)];
-}
+keywords!(Regressor: "distance" = Self::Distance, "turn" = Self::Turn);
 
 /// Maximum number of bins of a panel, which have about equal numbers of legs. Legs with equal motions are in one bin.
 pub const BIN_COUNT: usize = 8;

@@ -4,7 +4,7 @@ use crate::calibrate::{self, ERROR_COUNT, LegLength, Options, Outliers};
 use crate::models::OdometryRule;
 use crate::noise::NoiseKind;
 use crate::sim::settings::{
-    AllowedValues, HasKeywords, KeywordSetting, MAX_SEED, SettingRules, SettingsError, settings,
+    AllowedValues, KeywordSetting, MAX_SEED, SettingRules, SettingsError, keywords, settings,
 };
 
 /// Motion model whose α's are calibrated.
@@ -18,17 +18,12 @@ pub enum Model {
     Velocity,
 }
 
-impl HasKeywords for Model {
-    const KEYWORDS: &'static [(&'static str, Self)] = &[
-        ("odometry", Self::Odometry),
-        ("omnidirectional", Self::Omnidirectional),
-        ("velocity", Self::Velocity),
-    ];
-}
+keywords!(
+    Model:
+    "odometry" = Self::Odometry, "omnidirectional" = Self::Omnidirectional, "velocity" = Self::Velocity
+);
 
-impl HasKeywords for Outliers {
-    const KEYWORDS: &'static [(&'static str, Self)] = &[("reject", Self::Reject), ("keep", Self::Keep)];
-}
+keywords!(Outliers: "reject" = Self::Reject, "keep" = Self::Keep);
 
 settings! {
     /// Settings of the user.

@@ -319,7 +319,7 @@ impl BananaMachine {
     pub fn inspect(&self, index: usize) -> Option<Sample> {
         let pose = (index < self.shown_count()).then(|| self.cloud.pose(index))?;
         let model_with_input = self.settings.model_with_input(self.settings.command);
-        let executed_motion = model_with_input.executed_motion(self.cloud.unit_noise(index));
+        let executed_motion = model_with_input.executed_motion(self.cloud.draws.noise_of_sample(index));
         let ([v_hat, omega_hat, gamma_hat], legs, path) = match model_with_input {
             ModelWithInput::Velocity(_, VelocityCmd { dt, .. }) => {
                 (executed_motion, None, arc_points(executed_motion[0] * dt, executed_motion[1] * dt))
@@ -339,7 +339,7 @@ impl BananaMachine {
     pub fn executed_motions(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
         let model_with_input = self.settings.model_with_input(self.settings.command);
         (0..self.shown_count())
-            .map(move |index| model_with_input.executed_motion(self.cloud.unit_noise(index)))
+            .map(move |index| model_with_input.executed_motion(self.cloud.draws.noise_of_sample(index)))
     }
 
     /// Returns the noise-free odometry reading of the command.

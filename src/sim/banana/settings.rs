@@ -2,7 +2,7 @@
 
 use crate::models::VelocityCmd;
 use crate::noise::NoiseKind;
-use crate::sim::settings::{ALPHA_RANGE, HasKeywords, MAX_SEED, SettingRules, settings};
+use crate::sim::settings::{ALPHA_RANGE, MAX_SEED, SettingRules, keywords, settings};
 
 /// Motion model of the simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,15 +13,9 @@ pub enum ModelKind {
     Odometry,
 }
 
-impl HasKeywords for ModelKind {
-    const KEYWORDS: &'static [(&'static str, Self)] =
-        &[("velocity", Self::Velocity), ("odometry", Self::Odometry)];
-}
+keywords!(ModelKind: "velocity" = Self::Velocity, "odometry" = Self::Odometry);
 
-impl HasKeywords for NoiseKind {
-    const KEYWORDS: &'static [(&'static str, Self)] =
-        &[("normal", Self::Normal), ("triangular", Self::Triangular)];
-}
+keywords!(NoiseKind: "normal" = Self::Normal, "triangular" = Self::Triangular);
 
 /// Maximum number of samples, which take 400 MB. A browser allows a page 4 GB.
 pub const MAX_SAMPLES: usize = 10_000_000;

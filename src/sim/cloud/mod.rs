@@ -26,7 +26,7 @@ const GROUPS_PER_BLOCK: usize = 64;
 /// and logarithms are cheap to compute, and not stored.
 #[derive(Clone, Debug)]
 pub struct Cloud {
-    draws: Draws,
+    pub draws: Draws,
     pub drive: NoisyDrive,
     positions: Vec<[f64x4; 2]>,
     pub shown_count: usize,
@@ -91,10 +91,6 @@ impl Cloud {
             first_pass.flush_block();
         }
         first_pass
-    }
-
-    pub fn unit_noise(&self, sample_index: usize) -> [f64; 3] {
-        self.draws.noise_of_sample(sample_index)
     }
 
     #[inline(always)]

@@ -153,7 +153,9 @@ impl Rollouts {
     /// the first block. [`Rollouts::measured_moments`] drives the remaining robots.
     pub fn drive_blocks_to(&mut self, target_count: usize) {
         if target_count < self.driven_count {
-            self.reset();
+            self.block_rng = Xoshiro256PlusPlus::seed_from_u64(self.seed);
+            self.driven_count = 0;
+            self.sums.fill(CompensatedSums::new());
         }
         while self.driven_count + ROLLOUTS_PER_BLOCK <= target_count {
             let mut sums = std::mem::take(&mut self.sums);
@@ -162,12 +164,6 @@ impl Rollouts {
             self.block_rng.jump();
             self.driven_count += ROLLOUTS_PER_BLOCK;
         }
-    }
-
-    fn reset(&mut self) {
-        self.block_rng = Xoshiro256PlusPlus::seed_from_u64(self.seed);
-        self.driven_count = 0;
-        self.sums.fill(CompensatedSums::new());
     }
 
     /// Returns the moments of `target_count` robots after each step. Robots of the last, incomplete block are driven again.

@@ -4,13 +4,13 @@ use crate::models::{Compounding, VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use crate::sim::noise_level::NoiseLevel;
 use crate::sim::settings::{
-    ALPHA_RANGE, HasKeywords, MAX_SEED, SettingRules, SettingsError, check_integer, settings,
+    ALPHA_RANGE, MAX_SEED, SettingRules, SettingsError, check_integer, keywords, settings,
 };
 
-impl HasKeywords for Compounding {
-    const KEYWORDS: &'static [(&'static str, Self)] =
-        &[("chapter", Self::Chapter), ("first-order", Self::FirstOrder), ("fourth-order", Self::FourthOrder)];
-}
+keywords!(
+    Compounding:
+    "chapter" = Self::Chapter, "first-order" = Self::FirstOrder, "fourth-order" = Self::FourthOrder
+);
 
 /// Motion to which the α's apply: each step, or the whole path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,9 +21,7 @@ pub enum NoisePer {
     Path,
 }
 
-impl HasKeywords for NoisePer {
-    const KEYWORDS: &'static [(&'static str, Self)] = &[("step", Self::Step), ("path", Self::Path)];
-}
+keywords!(NoisePer: "step" = Self::Step, "path" = Self::Path);
 
 /// Maximum number of rollouts. With two hundred steps they take about ten seconds. They take no memory.
 pub const MAX_SAMPLES: usize = 1_000_000;

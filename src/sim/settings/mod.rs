@@ -163,6 +163,16 @@ pub trait HasKeywords: Copy + 'static {
     const KEYWORDS: &'static [(&'static str, Self)];
 }
 
+/// Implements [`HasKeywords`] for an enum.
+macro_rules! keywords {
+    ($enum:ty: $($keyword:literal = $value:expr),+) => {
+        impl $crate::sim::settings::HasKeywords for $enum {
+            const KEYWORDS: &'static [(&'static str, Self)] = &[$(($keyword, $value)),+];
+        }
+    };
+}
+pub(crate) use keywords;
+
 /// Reference to a setting of any enum that implements [`HasKeywords`].
 pub trait KeywordSetting {
     /// Returns the keyword of the value.

@@ -5,22 +5,17 @@ use crate::map::{Sampler, UnknownCells};
 use crate::models::VelocityCmd;
 use crate::sim::noise_level::{NoiseLevel, alphas_of_noise_level};
 use crate::sim::settings::{
-    ALPHA_RANGE, HasKeywords, MAX_SEED, SettingRules, SettingsError, check_integer, settings,
+    ALPHA_RANGE, MAX_SEED, SettingRules, SettingsError, check_integer, keywords, settings,
 };
 use std::f64::consts::FRAC_PI_2;
 
-impl HasKeywords for Sampler {
-    const KEYWORDS: &'static [(&'static str, Self)] = &[
-        ("endpoint", Self::Endpoint),
-        ("whole-arc", Self::WholeArc),
-        // Sub-stepped sampler. The setting `steps` is its number of parts.
-        ("sub-stepped", Self::SubStepped(1)),
-    ];
-}
+// The setting `steps` is the number of parts of the sub-stepped sampler.
+keywords!(
+    Sampler:
+    "endpoint" = Self::Endpoint, "whole-arc" = Self::WholeArc, "sub-stepped" = Self::SubStepped(1)
+);
 
-impl HasKeywords for UnknownCells {
-    const KEYWORDS: &'static [(&'static str, Self)] = &[("free", Self::Free), ("blocked", Self::Blocked)];
-}
+keywords!(UnknownCells: "free" = Self::Free, "blocked" = Self::Blocked);
 
 /// Start pose x, y (m) and θ (rad) in front of a doorway of the apartment.
 const DOORWAY_START: [f64; 3] = [2.05, 2.6, FRAC_PI_2];

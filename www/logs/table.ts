@@ -1,6 +1,5 @@
 /** Reader of logs in text tables of robots, recorders and spreadsheets. */
 
-import { least } from 'd3-array';
 import { COLUMN_CHANGES, changeColumns, findLogLayout, type Clock, type ColumnGroup, type Field } from './columns.ts';
 import { splitCells, detectTableFormat, parseDate, parseNumber, parseTime, type TableFormat } from './format.ts';
 import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Log, type Note, type OpenOptions, type OptionsByName, type Recording, type Series, type Source, type Summary, type TimeUnit } from './log.ts';
@@ -73,7 +72,10 @@ export async function openTable(source: Source, optionsOf: OptionsByName): Promi
       for (const changeName of ['yUp', 'wFirst'] as const) {
         if (!readers.some(({ rows }) => rows.tiltSpread > MIN_TILT_SPREAD)) break;
         const changedReaders = await readWith(changeName);
-        readers = readers.map((reader, i) => least([reader, changedReaders[i] ?? reader], ({ rows }) => rows.tiltSpread * (rows === reader.rows ? MAX_TILT_RATIO : 1)) as LogReader);
+        readers = readers.map((reader, i) => {
+          const changedReader = changedReaders[i];
+          return changedReader && changedReader.rows.tiltSpread < MAX_TILT_RATIO * reader.rows.tiltSpread ? changedReader : reader;
+        });
       }
       return readers.map((reader) => reader.buildLog());
     },

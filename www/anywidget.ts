@@ -57,7 +57,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
     isScheduled = true;
     queueMicrotask(() => {
       isScheduled = false;
-      // Before its start, the figure has no values.
+      // The figure has no values before its simulation starts. Its start calls `sendValues` again.
       if (!element.simulation) return;
       const ownTraits = traits.filter(([, property]) => !GLOBAL_ATTRIBUTES.includes(property));
       const traitValues = ownTraits.map(([trait, property]) => [trait, toJsonValue(element[property])] as [string, unknown]);
@@ -65,7 +65,8 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
       isWriting = true;
       for (const isNull of [false, true]) for (const [trait, value] of traitValues) if ((value === null) === isNull) setTrait(trait, value);
       isWriting = false;
-      // `_shown` has all values of one moment, and the number of the last request that was applied. The kernel compares it with its newer requests.
+      // `_shown` has the values of all traits at one moment, and the number of the latest request that the figure has applied. The kernel ignores the
+      // values of settings for which it has sent newer requests.
       setTrait('_shown', { heard: model.get('_asked'), settings: Object.fromEntries(traitValues.filter(([trait]) => model.get(trait) !== undefined)) });
       saveChanges();
     });
@@ -92,7 +93,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
     const applyTrait = () => {
       if (isWriting) return;
       setTrait('error', '');
-      // Global attributes are texts. A missing attribute is the empty text.
+      // A global attribute such as `lang` is a string; the empty string stands for a missing attribute.
       element[property] = model.get(trait) ?? (GLOBAL_ATTRIBUTES.includes(property) ? '' : null);
       sendValues();
     };
@@ -114,7 +115,7 @@ function withoutKernel(callKernel: () => void) {
   try {
     callKernel();
   } catch {
-    // The figure works without a kernel.
+    // The error is ignored, because the figure also works without a kernel.
   }
 }
 

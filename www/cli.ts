@@ -5,7 +5,7 @@ import { readFileSync } from 'node:fs';
 import { load } from './core.ts';
 import { run } from './cli/run.ts';
 
-// A reader such as `head` may close the pipe.
+// A program that reads this output through a pipe, such as `head`, may close the pipe before the end. That is no error.
 process.stdout.on('error', (error) => {
   if ((error as NodeJS.ErrnoException).code !== 'EPIPE') throw error;
 });

@@ -1,5 +1,5 @@
 /**
- * Loader of the WebAssembly core, which a page or process compiles once. It is the only file that uses wasm-bindgen's glue.
+ * Loader of the WebAssembly core, which a page or process compiles once. It is the only file that uses the JavaScript that wasm-bindgen generates.
  * Importing this file has no effects: it needs no DOM, and fetches and compiles nothing before `load()`.
  */
 
@@ -13,10 +13,10 @@ export type ModuleSource = BufferSource | URL | string | WebAssembly.Module;
 
 /** Source that the first caller passed to `load` or `instantiate`. */
 let requestedSource: ModuleSource | undefined;
-/** Functions that load a WebAssembly module of the bundle, and its glue: the JavaScript that wasm-bindgen generated for the module. */
+/** Functions that load a WebAssembly module of the bundle, and its glue code: the JavaScript that wasm-bindgen generated for the module. */
 type BundledCore = typeof bundledCores.motion;
 
-/** Promises of compiled modules by source. For a bundled core, the key is the core itself. */
+/** Promises of compiled modules. The key is the module's source, or for a bundled core the core itself. */
 const modulesBySource: Map<ModuleSource | BundledCore, Promise<WebAssembly.Module>> = new Map();
 /** Tags of the widgets that external.js has found in the page. */
 export const foundTags: Set<string> = new Set();
@@ -47,7 +47,7 @@ export function instantiate(source?: ModuleSource): Promise<Motion> {
   return instantiateFor('motion');
 }
 
-/** Returns a new core. For "motion" it serves all widgets. For a widget's tag it may serve that widget alone: external.js has such smaller cores for pages with one kind of widget. */
+/** Returns a new core for a widget's tag, or for all widgets if the tag is "motion". external.js has smaller cores that serve one kind of widget each. */
 export async function instantiateFor(widgetTag: string): Promise<Motion> {
   if (typeof WebAssembly === 'undefined') {
     throw new Error('WebAssembly is not available here, and motion-widgets needs it.');
@@ -69,13 +69,13 @@ export async function instantiateFor(widgetTag: string): Promise<Motion> {
   return motion;
 }
 
-/** Compiled WebAssembly module of a widget, and the key of its JavaScript glue in the bundle. A worker instantiates the simulation core from these. */
+/** Compiled WebAssembly module of a widget, and the key of its wasm-bindgen JavaScript in `bundledCores`. A worker instantiates the core from these. */
 export interface SharedCore {
   module: WebAssembly.Module;
   glueKey: string;
 }
 
-/** Returns what a worker needs to start a widget's core: the compiled WebAssembly module, and the key of its bindings in the list of bundled cores. */
+/** Returns what a worker needs to instantiate a widget's core. */
 export async function moduleForWorker(widgetTag: string): Promise<SharedCore> {
   const [module] = await loadModuleAndGlue(widgetTag);
   const bundledCore = bundledCoreOf(widgetTag);
@@ -88,15 +88,15 @@ export async function instantiateShared({ module, glueKey }: SharedCore): Promis
   return createCore(module);
 }
 
-/** Prevents the garbage collector from freeing a simulation of a core that has trapped: the memory of the core may be damaged. */
+/** Prevents the garbage collector from freeing a simulation after a trap in its core, because the core's memory may be damaged. */
 export function abandonSimulation(simulation: { free(): void }) {
   (simulation as unknown as { __destroy_into_raw(): number }).__destroy_into_raw();
 }
 
-/** True after a fetch of the module has failed; the embedded module is used then. */
+/** True after the module's file could not be fetched. The embedded module is used from then on. */
 let isModuleUnreachable = false;
 
-/** Returns the compiled module and the glue for a widget, or the embedded ones if the module cannot be fetched. */
+/** Returns the compiled module of a widget and its wasm-bindgen JavaScript. If the module cannot be fetched, returns the embedded module. */
 async function loadModuleAndGlue(widgetTag: string): Promise<[WebAssembly.Module, Awaited<ReturnType<BundledCore['glue']>>]> {
   const sourceAtStart = requestedSource;
   const bundledCore = bundledCoreOf(widgetTag);
@@ -135,13 +135,13 @@ function compileOnce(bundledCore: BundledCore): Promise<WebAssembly.Module> {
   return module;
 }
 
-/** Starts to compile the module of a bundle that contains it, while this thread still evaluates scripts. */
+/** Compiles the module that is embedded in the bundle, if any, in the background while this thread evaluates scripts. */
 export function precompile() {
-  // A bundle with an embedded fallback core loads the other cores from files.
+  // If `embedded` is set, the embedded core is only a fallback for cores in separate files. They are not compiled in advance.
   if (!bundledCores.embedded && requestedSource === undefined) compileOnce(bundledCores.motion).catch(() => {});
 }
 
-/** Advice for the author of a site that lacks the module's file. */
+/** Advice in the error message for a site that lacks the module's file. */
 const MISSING_MODULE_ADVICE =
   "Copy motion.wasm from the package's dist/ into the site and give its address to load(), or leave the address out.";
 

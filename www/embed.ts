@@ -7,7 +7,7 @@
 import './de.ts';
 import { GLOBAL_ATTRIBUTES, createWidget, createErrorParagraph } from './named.ts';
 
-/** Returns the widget that a query describes. Throws an error that names the parameter and what is allowed. */
+/** Returns the widget that a query describes. Throws an error that names a parameter that is not allowed, and the allowed ones. */
 function widgetFromQuery(query: URLSearchParams) {
   const widget = createWidget(query.get('widget'));
   const tagName = widget.localName;
@@ -30,6 +30,6 @@ try {
 }
 new ResizeObserver(() => {
   const height = Math.ceil(document.body.getBoundingClientRect().height);
-  // Any page may know the height of a frame that it embeds.
+  // The message is sent to pages of any origin ('*'), because the height is no secret.
   parent.postMessage({ type: 'motion-widgets:height', height }, '*');
 }).observe(document.body);

@@ -10,7 +10,7 @@ import { createPreUpgradeCss } from './ui/reserved-height.ts';
 export { load } from './core.ts';
 export { setMessages } from './messages/registry.ts';
 
-/** Returns true for the tag of a figure. Template compilers, such as Vue's, need it to recognize custom elements. */
+/** Returns true if a tag is that of a figure. Template compilers, such as Vue's, use this function to recognize custom elements. */
 export const isFigureTag = (tag: string) => tag in widgets;
 
 /** Tags of widgets whose scripts are not loaded yet. */
@@ -25,7 +25,7 @@ function defineWidgetsIn(root: ParentNode) {
       foundTags.add(localName);
       widgets[localName]();
     }
-    // Widgets contain no other widgets, so that their contents are not searched.
+    // A widget contains no other widgets, so that its shadow root need not be searched.
     else if (localName in widgets) continue;
     else if (element.shadowRoot) watchRoot(element.shadowRoot);
     else if (!element.matches(':defined')) customElements.whenDefined(localName).then(() => element.shadowRoot && watchRoot(element.shadowRoot));
@@ -46,9 +46,9 @@ function watchRoot(root: Document | ShadowRoot) {
   defineWidgetsIn(root);
 }
 
-// Without a DOM, as in Node, there are no tags.
+// Without a DOM, as in Node, there is no document to search for tags.
 if (elementObserver) {
-  // Space is reserved, so that nothing moves when the elements are defined.
+  // Reserves the height of the elements, so that the page does not shift when they are defined.
   const reservedHeights = new CSSStyleSheet();
   reservedHeights.replaceSync(createPreUpgradeCss());
   document.adoptedStyleSheets.push(reservedHeights);

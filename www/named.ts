@@ -7,7 +7,7 @@ const TAGS = Object.keys(settings);
 /** Attributes of every HTML element that affect a widget. */
 export const GLOBAL_ATTRIBUTES = ['dir', 'lang'];
 
-/** Creates a widget that is not in a page yet. Throws an error that lists the allowed names. */
+/** Creates a widget that is not in a page yet. Throws an error that lists the names of all widgets if the name is not one of them. */
 export function createWidget(name: unknown): HTMLElement {
   const tag = TAGS.find((candidate) => candidate === name);
   if (tag) return document.createElement(tag);

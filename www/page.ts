@@ -21,7 +21,7 @@ const figureOf = (element: Element) => element.closest('article')?.querySelector
 async function enterState(figure: Figure, values: Record<string, unknown>) {
   if (!openingStates.has(figure)) await new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
   const openingState = openingStates.get(figure) ?? {};
-  // The text with the pressed button refers to the whole cloud, so that it is shown without growing.
+  // The page's text describes the complete cloud of samples, so that all samples are shown at once instead of a growing cloud.
   const completeCloudFields = 'shown' in openingState ? { shown: openingState.samples, playing: false } : {};
   const { widget, version } = openingState;
   figure.setState({ ...openingState, ...completeCloudFields });
@@ -75,7 +75,7 @@ function prepareBet(form: HTMLFormElement) {
   const formatValue = (value: number) => `${isPercent ? value.toFixed(slider.valueAsNumber === value ? 0 : 1) + '\u00a0%' : value}`;
   const showValue = () => (slider.ariaValueText = valueOutput.textContent = formatValue(slider.valueAsNumber));
 
-  // A bet is made by moving the slider.
+  // The bet can be submitted only after the slider has been moved.
   slider.addEventListener('input', () => {
     submitButton.disabled = false;
     showValue();

@@ -13,17 +13,17 @@ export declare function load(source?: BufferSource | URL | string | WebAssembly.
 /** Returns a new core with its own memory. */
 export declare function instantiate(source?: BufferSource | URL | string | WebAssembly.Module): Promise<Motion>;
 
-/** Declaration of a setting, or of a number in a group or list. */
+/** Declaration of a setting, or of one number that belongs to a group or list of numbers. */
 export interface Declaration {
   /** Name of the setting as attribute, as property and in states. */
   key: string;
   /** Key of the group or list that contains the setting. */
   in?: string;
-  /** Key of a list setting whose last numbers are multiples of this setting. Changing this setting changes those numbers. */
+  /** Key of a list setting. If this setting changes, the last numbers of the list become this setting times the factors in `weights`. */
   of?: string;
-  /** Factors of the last numbers of the list setting `of`: each of these numbers is its factor times this setting. */
+  /** Factors by which this setting is multiplied to give the last numbers of the list setting `of`. */
   weights?: number[];
-  /** Key in the group, if it differs from `key` because a field of another group has the same name. */
+  /** Key within the group; only given if it differs from `key`, because another group has a field of the same name. */
   field?: string;
   /** Index in the list, from 0. */
   index?: number;
@@ -65,7 +65,7 @@ export type MapData =
 export interface VelocityModelOptions {
   /** Variance coefficients: α₁…α₆ of the velocity model, α₁…α₄ of the odometry model. */
   alphas: ArrayLike<number>;
-  /** Default: "normal". */
+  /** Distribution of the noise; default "normal". */
   noise?: 'normal' | 'triangular';
 }
 
@@ -88,9 +88,9 @@ export interface Propagation {
   command: Command;
   /** α₁…α₆ of the velocity model. */
   alphas: ArrayLike<number>;
-  /** Default: "chapter". */
+  /** Recursion that propagates the covariance; default "chapter". */
   compounding?: keyof ByRecursion<unknown>;
-  /** Number of times the command is driven; default 1. */
+  /** Number of repetitions of the command; default 1. */
   steps?: number;
 }
 
@@ -109,7 +109,7 @@ export interface LoggedCommands {
   t: ArrayLike<number>;
   v: ArrayLike<number>;
   omega: ArrayLike<number>;
-  /** Indices of commands before which the path is unknown, as for poses. */
+  /** Indices of commands before which the path is unknown, as for `LoggedPoses`. */
   breaks?: ArrayLike<number>;
 }
 
@@ -121,15 +121,15 @@ export interface CalibrationOptions {
   reference: LoggedPoses | LoggedPoses[];
   /** Four α's of odometry (default), five of a robot that can drive sideways, six of velocity commands. */
   model?: 'odometry' | 'omnidirectional' | 'velocity';
-  /** Rule of the odometry variances: Table 5.6 as printed (default), Nav2 or Beluga; "omni" belongs to the omnidirectional model. */
+  /** Noise rule of the odometry model: Table 5.6 as printed (default), Nav2 or Beluga. The omnidirectional model has the rule "omni". */
   rule?: 'thrun' | 'nav2' | 'beluga' | 'omni';
-  /** Length of a leg: at AMCL's `update_min_d` (m, default 0.25) and `update_min_a` (rad, default 0.2), or a duration (s). */
+  /** Length of a leg: thresholds of translation (m, default 0.25) and rotation (rad, default 0.2), as AMCL's `update_min_d` and `update_min_a`, or a duration (s). */
   legs?: { distance?: number; angle?: number } | { duration: number };
   /** Treatment of outliers: excluded (default), or fitted as noise. */
   outliers?: 'reject' | 'keep';
   /**
-   * Systematic errors that are corrected. The default is all errors that the log identifies, except for scales that are not constant.
-   * With true these are corrected too, with false none.
+   * Systematic errors that are corrected. The default is all errors that the log identifies, except scales that are not constant. True also corrects such
+   * scales; false corrects no errors.
    */
   correct?: boolean | { [Name in keyof SystematicErrors]?: boolean };
   /** Standard deviation of each coordinate of the reference, m; estimated if it is not given. */

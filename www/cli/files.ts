@@ -7,7 +7,10 @@ import { LogError, type OptionsByName, type Recording, type Source } from '../lo
 import { openRecordings } from '../logs/open.ts';
 import type { InputPath } from './options.ts';
 
-/** Opens a file or a folder, which errors call `name`; rejects with a LogError if it has no log. Calls `onSkip` with the error of each file that is not a log. */
+/**
+ * Opens the recordings of a file or folder. Error messages refer to it by `name`. Rejects with a LogError if it has no log. Calls `onSkip` with the error
+ * of each file that is not a log.
+ */
 export async function openRecordingsAt({ path, role }: InputPath, name: string, optionsOf: OptionsByName, onSkip: (error: LogError) => void): Promise<Recording[]> {
   const errors: LogError[] = [];
   const recordings = await openRecordings(await openSources(path, name), (file) => ({ ...optionsOf(file), role }), (error) => errors.push(error));
@@ -20,7 +23,7 @@ export async function openRecordingsAt({ path, role }: InputPath, name: string, 
 async function openSources(path: string, name: string): Promise<Source[]> {
   try {
     if (!(await stat(path)).isDirectory()) {
-      // The write-ahead log of SQLite beside the file has messages that the file lacks.
+      // The file `-wal` (write-ahead log) next to an SQLite database has its latest messages, and is opened too.
       const hasJournal = await stat(`${path}-wal`).then(({ size }) => size > 0, () => false);
       return await Promise.all(['', ...(hasJournal ? ['-wal'] : [])].map((ending) => openSource(`${path}${ending}`, `${name}${ending}`)));
     }
@@ -37,7 +40,7 @@ async function openSources(path: string, name: string): Promise<Source[]> {
 
 /** Returns a file whose bytes are read when they are needed. */
 async function openSource(file: string, name: string, path?: string): Promise<Source> {
-  // A pipe, such as <(zcat odom.csv.gz) in a shell, can be read only once.
+  // A pipe, such as <(zcat odom.csv.gz) in a shell, can be read only once, and is therefore read into memory.
   const fileContents = (await stat(file)).isFile() ? await openAsBlob(file) : await readFile(file);
   return Object.assign(new File([fileContents as BlobPart], name), path !== undefined && { path });
 }

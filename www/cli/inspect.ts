@@ -11,8 +11,8 @@ import type { OpenedInputs } from './run.ts';
 const FORMAT_NAMES: Record<Recording['format'], string> = { mcap: 'MCAP recording', rosbag: 'ROS 1 bag', sqlite: 'rosbag2 SQLite recording', csv: 'table' };
 
 /**
- * Returns the contents of recordings, and the typed command with what it needs to calibrate from them, or sentences about what is missing.
- * `isUsable` is true if a log can be read, and none that the command needs is refused.
+ * Returns the contents of recordings, and the `calibrate` command for them, or sentences about the logs that this command lacks. `isUsable` is true if at
+ * least one log can be read, and no log that `calibrate` needs was refused.
  */
 export async function inspect({ givenRecordings, userChoices }: OpenedInputs, typedArgs: string[], onProgress?: (fraction: number | undefined) => void) {
   const recordings: Awaited<ReturnType<typeof contentsOf>>[] = [];
@@ -22,7 +22,7 @@ export async function inspect({ givenRecordings, userChoices }: OpenedInputs, ty
   const unusablePaths = givenRecordings.filter(({ path }) => usableRecordings.every((usable) => usable.path !== path)).map(({ path }) => path);
   const refusalErrors = recordings.flatMap((recording) => recording.refused);
   const { command } = usableRecordings.length > 0 ? proposeCommand({ givenRecordings: usableRecordings, userChoices }, typedArgs.filter((arg) => !unusablePaths.includes(arg))) : {};
-  // A log that was found and refused does not count as missing.
+  // A log that was found but refused is not reported as missing.
   const { missing } = command === undefined ? proposeCommand({ givenRecordings, userChoices }, typedArgs) : {};
   const isUsable = usableRecordings.length > 0 && (command !== undefined || refusalErrors.length === 0);
   return { inspection: { recordings, command, missing }, sentences: [...refusalErrors, ...(missing ? [missing] : [])], isUsable };
@@ -61,7 +61,7 @@ export function formatInspection({ inspection: { recordings, command }, sentence
   return [...recordingLines, ...(isUsable ? sentences : []), ...(command ? ['', `  ${command}`] : []), ''].join('\n');
 }
 
-/** Returns the logs that can be read from a series, each with texts about its possible roles. A series of transforms may have several logs. */
+/** Returns the logs that can be read from a series, each with its possible roles in words. A series of transforms may have several logs. */
 function usesOfSeries(recording: Recording, name: string): { choice: LogChoice; uses: string[] }[] {
   const rolesAndKinds: [Role, 'commands'?][] = [['odometry'], ['odometry', 'commands'], ['reference']];
   const uses = rolesAndKinds.flatMap(([role, wantedKind]) => {

@@ -62,7 +62,7 @@ const textOption = { type: 'string' } as const;
 const repeatedTextOption = { type: 'string', multiple: true } as const;
 const flagOption = { type: 'boolean' } as const;
 
-/** Options about the logs, which both commands accept. */
+/** Options about logs, for the commands `calibrate` and `inspect`. */
 const LOG_OPTIONS = {
   odometry: repeatedTextOption, reference: repeatedTextOption, recording: repeatedTextOption, 'odometry-topic': textOption, 'reference-topic': textOption, 'odometry-frames': textOption,
   'reference-frames': textOption, columns: repeatedTextOption, 'time-unit': repeatedTextOption, 'length-unit': repeatedTextOption, 'angle-unit': repeatedTextOption,
@@ -144,10 +144,10 @@ export function parseOptions(args: string[]) {
   };
 }
 
-/** Fields of the options of files, by the names of the command-line options. */
+/** Names of fields of `OpenOptions`, by the command-line options that set them. */
 const FILE_OPTIONS = { columns: 'columns', 'time-unit': 'timeUnit', 'length-unit': 'lengthUnit', 'angle-unit': 'angleUnit' } as const;
 
-/** Returns the options of files: those of all files, with the file "", and then those of one file, as in `--length-unit odom.csv=ft`. */
+/** Returns the options for reading files, by file name: first those of all files, under the name "", then those of single files, as in `--length-unit odom.csv=ft`. */
 function parseFileOptions(optionValues: { [name in keyof typeof FILE_OPTIONS]?: string[] }): [file: string, OpenOptions][] {
   const optionsByFile = (Object.entries(FILE_OPTIONS) as Entries<typeof FILE_OPTIONS>).flatMap(([name, field]) => (optionValues[name] ?? []).map((optionValue): [string, OpenOptions] => {
     const [, file = '', answer = ''] = /^(?:(.*)=)?(.*)$/s.exec(optionValue) ?? [];
@@ -172,7 +172,7 @@ const withoutUndefined = <T extends object>(object: T): T => Object.fromEntries(
 
 const formatAlternatives = (names: readonly string[]) => new Intl.ListFormat('en', { type: 'disjunction' }).format(names);
 
-/** Returns true or false for each named systematic error: corrected or not. Single names override `all`. */
+/** Returns a flag for each named systematic error: true to correct it, false otherwise. A named error takes precedence over `all`. */
 function parseCorrections(uncorrectedNames?: string, correctedNames?: string): Record<string, boolean> | undefined {
   const entries = ([['no-correct', uncorrectedNames], ['correct', correctedNames]] as const).flatMap(([option, names]) => (names?.split(',') ?? []).map((name) => ({ option, name: name.trim() })));
   if (entries.length === 0) return undefined;

@@ -1,4 +1,4 @@
-/** Picture of the drives: both paths, the ends of legs, and outliers, as SVG. */
+/** Picture of the drives as SVG: the paths by odometry and by reference, the ends of legs, and outliers. */
 
 import type { Drive } from '../logs/pairs.ts';
 import { alignPath, pathOf, poseAt, type Pose } from '../logs/path.ts';
@@ -29,7 +29,7 @@ ${drives.map((drive, i) => `<g transform="translate(0 ${PANEL_HEIGHT * i})">${cr
 
 function createDrivePanel({ odometry, reference }: Drive, { legs, systematicErrors }: any, idPrefix: string): string {
   const [drivenPath, referencePath] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / MAX_PATH_POINTS)));
-  // Times of legs are in the odometry's clock.
+  // The start and end times of legs are in the clock of the odometry. The clock of the reference differs by `clockOffset`.
   const clockOffset = systematicErrors.clockOffset.value ?? 0;
   const odometryPath = alignPath(drivenPath, referencePath, clockOffset);
   const [startTime, endTime] = [odometry.data.t[0], odometry.data.t[odometry.data.t.length - 1]];

@@ -10,7 +10,7 @@ import { LOST_LEG_CAUSES, describeLegLength, explainRecommendation, formatJson, 
 import { alphaTableOf, checkTableOf, noiseTableOf, systematicTableOf, windowTableOf, type ResultTable } from '../widgets/alpha-calibrator/tables.ts';
 import type { Calibration } from '../types.d.ts';
 
-/** Log with its summary, as numbers and as sentences. */
+/** Log that was read, with its summary as numbers and as sentences. */
 interface ReadLog { name: string; summary: Summary; sentences: string[] }
 
 export interface CalibrationReport {
@@ -20,7 +20,7 @@ export interface CalibrationReport {
   options: Record<string, any>;
   /** Odometry and reference of each drive. */
   logs: ReadLog[];
-  /** Whole seconds that were subtracted from all times. */
+  /** Whole seconds that were subtracted from all times of the logs. */
   start: number;
   /** Times of the odometry's first row in each drive. */
   driveStarts: number[];
@@ -32,7 +32,7 @@ const resultOf = ({ calibration, options: { model = 'odometry', rule = 'thrun', 
   logName: new Intl.ListFormat('en').format(new Set(logs.map(({ name }) => name))), warnings: warningsOf(logs),
 });
 
-/** Words of the tables. */
+/** Labels and texts of the report's tables. */
 const REPORT_WORDS = { alphas: sharedTexts.alphas, calibrator: en };
 
 const MAX_LISTED_OUTLIERS = 5;
@@ -87,7 +87,7 @@ export function formatReport(report: CalibrationReport, isColored = false): stri
 
 const judgeReport = (report: CalibrationReport) => judgementOf(resultOf(report), en, '--no-correct');
 
-/** Returns the verdict as on the page, and what to do, in a line for each sentence. */
+/** Returns the verdict as on the page, and the advice, with one sentence per line. */
 export function formatVerdict(report: CalibrationReport): string[] {
   const { badge, finding, advice } = judgeReport(report);
   return [`${badge}. ${finding}`, ...advice, ...(report.command ? [`  ${report.command}`] : [])];
@@ -99,7 +99,7 @@ function formatTable({ columnHeadings, rows }: ResultTable): string[] {
   return alignRows([columnHeadings, ...rows].map((row) => row.map(toPlainText)));
 }
 
-/** Returns the table of the checks with the names of the checks in JSON and documents, and what to do about those that failed. */
+/** Returns the table of the checks, and the message of each failed check. Checks have the same names as in JSON and in documents. */
 function formatChecks(calibration: Calibration): string[] {
   const { checks } = calibration.diagnostics;
   const { columnHeadings, rows } = checkTableOf(calibration, REPORT_WORDS);
@@ -107,7 +107,7 @@ function formatChecks(calibration: Calibration): string[] {
   return [...formatTable({ columnHeadings: [...columnHeadings, ''], rows: namedRows }), ...checks.filter(({ passed }) => !passed).map(({ name, message }) => `${name}: ${message}`)];
 }
 
-/** Lists outliers by their times after the start of the odometry. */
+/** Lists outliers by their times, in seconds after the start of the odometry. */
 function formatOutliers({ count, times, outliers }: Calibration['legs'], driveStarts: number[]): string[] {
   const outlierLegs = Array.from({ length: count }, (_, leg) => leg).filter((leg) => outliers[leg] === 1);
   const timeTexts = outlierLegs.slice(0, MAX_LISTED_OUTLIERS).map((leg) => {
@@ -117,7 +117,7 @@ function formatOutliers({ count, times, outliers }: Calibration['legs'], driveSt
   return outlierLegs.length ? [`outliers: ${outlierLegs.length} of ${count} legs, at ${timeTexts}${outlierLegs.length > MAX_LISTED_OUTLIERS ? ', …' : ''} after the start`] : [];
 }
 
-/** Returns the lines for nav2_params.yaml, and sentences about why there are none, or that they are of another rule than that of Nav2's AMCL. */
+/** Returns the lines for nav2_params.yaml. The notes say why there are no lines, or that the fit used another noise rule than Nav2's AMCL. */
 export function formatYamlWithNotes(report: CalibrationReport): { yaml: string; notes: string[] } {
   const result = resultOf(report);
   const yaml = formatNav2Yaml(result, report.date);
@@ -126,7 +126,7 @@ export function formatYamlWithNotes(report: CalibrationReport): { yaml: string; 
 }
 
 export function alignRows(rows: string[][]): string[] {
-  // The last cell of a short row may be longer than its column.
+  // The last cell of a row does not count for the width of its column, because nothing follows it.
   const columnWidths = rows[0].map((_, column) => Math.max(...rows.map((row) => (column < row.length - 1 ? row[column].length : 0))));
   return rows.map((row) => row.map((cell, column) => cell.padEnd(columnWidths[column])).join('  ').trimEnd());
 }

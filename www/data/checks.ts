@@ -4,7 +4,7 @@ export function createRefusalError(field: string, value: unknown, allowed: strin
   return new ErrorClass(`${field} is ${describeValue(value)}; allowed is ${allowed}`);
 }
 
-/** Returns the error. If its message starts with `corePath`, the core's name of a field, that name is replaced by `newName`. */
+/** Returns the error. If its message starts with `corePath`, the core's name of a field, the message gets `newName` instead. */
 export function withFieldRenamed(error: unknown, newName: string, corePath: string = newName) {
   if (error instanceof Error && error.message.startsWith(corePath)) error.message = newName + error.message.slice(corePath.length);
   return error;
@@ -44,14 +44,14 @@ export function checkNumber(field: string, value: unknown, min: number, max: num
   return value;
 }
 
-/** Returns the allowed names that the array contains, in the order of `allowed`. */
+/** Checks that an array contains only allowed names. Returns these names in the order of `allowed`. */
 function checkSubset(field: string, value: unknown, allowed: readonly string[]): string[] {
   if (!Array.isArray(value)) throw createRefusalError(field, value, `an array of ${allowed.join(', ')}`, TypeError);
   const checkedNames = value.map((name, i) => checkWord(`${field}[${i}]`, name, allowed));
   return allowed.filter((name) => checkedNames.includes(name));
 }
 
-/** Type and range of a field. A field without a type is checked elsewhere. */
+/** Type and range of a field. `checkField` does not check a field without a type. */
 export interface FieldRange {
   type?: 'number' | 'whole' | 'word' | 'words' | 'boolean';
   words?: readonly string[];

@@ -30,7 +30,7 @@ export async function unpackJson(text: string): Promise<unknown> {
 }
 
 export function toBase64(bytes: Uint8Array & { toBase64?: () => string }) {
-  // Newer browsers have this method, which is a hundred times as fast.
+  // The native `toBase64`, which only newer browsers have, is a hundred times as fast as `btoa`.
   return bytes.toBase64?.() ?? btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(''));
 }
 

@@ -28,9 +28,9 @@ export interface ColumnGroup {
   kind: Series['kind'];
   hasCommands: boolean;
   columns: Partial<Record<Field, Column>>;
-  /** Second column that matches a field as well as the first one, which makes the field ambiguous. */
+  /** Second column that matches a field equally well. The field is then ambiguous. */
   duplicateColumns: Partial<Record<Field, Column>>;
-  /** Clock of the rows, and a fallback clock for times that are mostly 0, or never change. */
+  /** Clock of the rows, and a fallback clock, which is used if the times of the first clock are mostly 0 or never change. */
   clocks: Clock[];
 }
 
@@ -58,13 +58,13 @@ const FIELD_PATTERNS: [Field, string[]][] = [
   ...Array.from('xyz', (axis): [Field, string[]] => [axis as Field, [`p\\..*\\.${axis}`, `${POSE_PREFIX}(?:position|translation|location|pos|loc|trans|[pt])\\.?${axis}`, `${POSE_PREFIX}${axis}(?:\\.?pos(?:ition)?)?`]]),
 ];
 
-/** Patterns of whole names: an optional prefix, and the name of a field. The lazy match keeps the prefix as short as possible. */
+/** Patterns of whole names: an optional prefix, followed by the name of a field. The prefix is matched lazily, so that it is as short as possible. */
 const PREFIXED_PATTERNS = FIELD_PATTERNS.flatMap(([field, namePatterns]) => namePatterns.map((name, rank) => ({ field, rank, pattern: new RegExp(`^(?:(.*?)\\.)??(?:${name})$`, 'u') })));
 
-/** Name in which the field comes before the group: x_gt, yaw_odom, x1. */
+/** Pattern of a name in which the group follows the field, as in x_gt, yaw_odom and x1. */
 const SUFFIXED_NAME = /^((?:pos\.|position\.)?[xy]|yaw|theta|heading|q\.?[xyzw]|t|time|v|omega)\.?(\d+|(?<=\.)(?!rate|dot)\p{L}.*)$/u;
 
-/** Words in the prefixes of columns that are not read: uncertainty, acceleration, vectors of an IMU, goals. */
+/** Words in prefixes that mark columns to be ignored: uncertainties, accelerations, vectors of an IMU, and goals. */
 const UNREAD_QUANTITIES = /(^|\.)(cov(ariance)?|std(dev)?|sigma|var(iance)?|err(or)?|residual|acc(el(eration)?)?|force|torque|effort|bias|mag(netic)?|dot|linear|angular|lin|ang|vel(ocity)?|twist|goal|setpoint|euler|rpy)(\.|\d|$)|^[vabw]\./;
 
 type ParsedUnit = { quantity: 'time' | 'length' | 'angle'; unit: TimeUnit | 'min' | 'h' | LengthUnit | AngleUnit; isRate: boolean };
@@ -85,13 +85,13 @@ const UNIT_WORDS: [RegExp, ParsedUnit['quantity'], ParsedUnit['unit']][] = [
   [/^(deg|degrees?|°)$/, 'angle', 'deg'],
 ];
 
-/** Division by a second: "m/s", "m s^-1", "m_s", "mps". */
+/** Pattern of the part of a unit that means "per second", as in "m/s", "m s^-1", "m_s" and "mps". */
 const PER_SECOND = /(\/|[ ._*]|p|per)\.?s(ec(ond)?)?(\^?-1)?$/;
 
-/** Texts in brackets that stand for no unit. */
+/** Pattern of texts in brackets that mean "no unit". */
 const EMPTY_UNIT = /^(|-|1|quat(ernion)?|unitless|none)$/;
 
-/** Unit at the end of a name: in brackets ("x [m]"), or after a separator ("x_m"). "x_in" and "x_out" are no lengths in inches. */
+/** Patterns of a unit at the end of a name: in brackets ("x [m]"), or after a separator ("x_m"). The "in" of "x_in" means input, not inches. */
 const UNIT_IN_BRACKETS = /\s*[[({]([^\])}]*)[\])}]\s*$/;
 const UNIT_AT_END = /(?:[._ ]+|\s*\/\s*|\s+in\s+)((?:m|mm|cm|ft|rad|deg)[._ /]s|(?!in_?$)[^._ /]+)_?$/;
 
@@ -105,7 +105,7 @@ function unitOf(text: string): ParsedUnit | undefined {
 
 export const isUnit = (text: string) => unitOf(text) !== undefined;
 
-/** Physical quantity of each field, and true if the field is its rate of change. */
+/** Physical quantity of each field, and a flag: true if the field is a rate of change, such as a speed. */
 const QUANTITY_OF_FIELD: Partial<Record<Field, [ParsedUnit['quantity'], boolean]>> = {
   t: ['time', false], seconds: ['time', false], subseconds: ['time', false], x: ['length', false], y: ['length', false], z: ['length', false], yaw: ['angle', false], v: ['length', true], omega: ['angle', true],
 };
@@ -118,7 +118,7 @@ function toDottedName(name: string): string {
 
 interface ColumnMeaning { field: Field; rank: number; prefix: string; unit?: string }
 
-/** Returns the field, prefix and unit that a column's name means; undefined for other quantities. */
+/** Returns the field, the prefix and the unit that the name of a column states; undefined if the column has none of the known fields. */
 function parseColumnName(name: string): ColumnMeaning | undefined {
   const [bracketedUnit = '', unitText = ''] = UNIT_IN_BRACKETS.exec(name) ?? [];
   const nameWithoutUnit = name.slice(0, name.length - bracketedUnit.length);
@@ -128,10 +128,10 @@ function parseColumnName(name: string): ColumnMeaning | undefined {
     const unit = unitOf(unitText);
     return fullNameMeaning && canHaveUnit(fullNameMeaning.field, unit) ? { ...fullNameMeaning, unit: unit?.unit ?? unitText.trim() } : undefined;
   }
-  // Times of rostopic are always in nanoseconds, also the small times of a simulation.
+  // `rostopic echo -p` prints all times in nanoseconds. Small times of a simulation would otherwise be taken for seconds.
   if (fullNameMeaning?.field === 't' && /^%time|^field\..*stamp$/.test(name)) return { ...fullNameMeaning, unit: 'ns' };
   if (fullNameMeaning) {
-    // Clocks of microcontrollers are named after their unit.
+    // The name of a microcontroller's clock may state the unit, as in "millis".
     const unit = unitOf(dottedPath.replace(/.*\./, ''));
     return { ...fullNameMeaning, ...(unit && canHaveUnit(fullNameMeaning.field, unit) && { unit: unit.unit }) };
   }
@@ -144,7 +144,7 @@ function parseColumnName(name: string): ColumnMeaning | undefined {
   return baseMeaning && suffix !== undefined && !UNREAD_QUANTITIES.test(suffix) ? { ...baseMeaning, prefix: suffix } : undefined;
 }
 
-/** Checks that a field can have a unit. Unknown units pass this check. `findLogLayout` refuses them. */
+/** Checks that a unit fits the quantity of a field. Unknown units pass this check; `findLogLayout` refuses them. */
 function canHaveUnit(field: Field, unit: ParsedUnit | undefined): boolean {
   const [quantity, isRate] = QUANTITY_OF_FIELD[field] ?? [];
   return unit === undefined || (unit.quantity === quantity && unit.isRate === isRate);
@@ -161,7 +161,7 @@ function matchField(path: string): ColumnMeaning | undefined {
 
 /** Groups the columns of a table that hold times, poses or commands; other columns are left out. `isTime` checks whether a column without a name holds times. */
 export function groupColumnsByPrefix(names: string[], isTime: (index: number) => boolean = () => false): ColumnGroup[] {
-  // PlotJuggler puts the topic before each name. A topic may have the name of its message's fields, as in /mocap/pose and /cmd_vel.
+  // PlotJuggler puts the topic before the name of each column. The topic is cut off, because topics such as /mocap/pose may look like fields of a message.
   const topics = names.flatMap((name) => /^\s*(\/.+\/)header\/stamp\s*$/.exec(name)?.[1] ?? []);
   const columnsWithMeaning = names.flatMap((name, index) => {
     const isUnnamed = /^\s*(|unnamed: \d+|index)\s*$/i.test(name);
@@ -169,7 +169,7 @@ export function groupColumnsByPrefix(names: string[], isTime: (index: number) =>
     const meaning: ColumnMeaning | undefined = isUnnamed ? (isTime(index) ? { field: 't', rank: 9, prefix: '' } : undefined) : parseColumnName(name.trim().slice(topic.length));
     if (!meaning) return [];
     const { field, prefix, rank, unit } = meaning;
-    // Headings in radians are preferred. Headings in degrees beside them are usually derived.
+    // A heading in radians takes precedence over a heading in degrees in the same table, which is usually derived from it.
     const column: Column = { index, name: name.trim(), sign: /^\s*-/.test(name) ? -1 : 1, rank: rank + (unit === 'deg' ? 0.5 : 0), ...(unit !== undefined && { unit }) };
     return [{ field, prefix: toDottedName(topic + prefix), column }];
   });
@@ -187,7 +187,7 @@ export function groupColumnsByPrefix(names: string[], isTime: (index: number) =>
   for (const columnGroup of groups) {
     const { columns, hasCommands } = columnGroup;
     if (tableGroup?.columns.source) columns.source ??= tableGroup.columns.source;
-    // In a table with one path, a heading without a prefix is that of the path. Beside velocities without a prefix, it is that of the odometry.
+    // If a table has only one path, a heading without a prefix belongs to that path. Next to velocities without a prefix, the heading belongs to the odometry instead.
     if (tableGroup?.columns.yaw && !isOdometryHeading && pathGroups.length === 1 && columnGroup === pathGroups[0]) columns.yaw ??= tableGroup.columns.yaw;
     columnGroup.clocks = [...new Set([...columnGroup.clocks, ...sharedClocks])].slice(0, 2);
     // If a table has only one clock, all of its groups use it.
@@ -198,19 +198,19 @@ export function groupColumnsByPrefix(names: string[], isTime: (index: number) =>
   return groups.filter(({ columns }) => columns.x || columns.y || columns.v || columns.omega || columns.yaw || columns.qw);
 }
 
-/** New names of fields, and the fields whose sign changes. */
+/** Change of the columns: the new field of each renamed field, and the fields whose sign changes. */
 export type ColumnChange = [newFields: Partial<Record<Field, Field>>, negatedFields: Field[]];
 
-/** Changes of the columns of tables with other axes. */
+/** Column changes for tables whose axes or order of quaternion components differ from those of ROS. */
 export const COLUMN_CHANGES = {
-  /** Y is up, and headings grow from x to −z. */
+  /** Axes of a table in which y points up and headings are positive from x towards −z. */
   yUp: [{ y: 'z', z: 'y', qy: 'qz', qz: 'qy' }, ['z', 'qz']],
-  /** Y is up, and headings grow from x to z. */
+  /** Axes of a table in which y points up and headings are positive from x towards z. */
   leftHandedWithYUp: [{ y: 'z', z: 'y' }, []],
   wFirst: [{ qx: 'qw', qy: 'qx', qz: 'qy', qw: 'qz' }, []],
   swapped: [{ x: 'y', y: 'x' }, []],
   negatedY: [{}, ['y']],
-  /** The y axis is mirrored, and so are the rotations. */
+  /** Mirrors the y axis, and with it the headings and rotations. */
   mirrored: [{}, ['y', 'yaw', 'qx', 'qz']],
 } satisfies Record<string, ColumnChange>;
 
@@ -226,7 +226,7 @@ const headingFieldsOf = (columns: ColumnGroup['columns']): Field[] =>
 
 const clockOf = (column: Column): Clock => ({ name: column.name, columns: [column], ...(column.unit !== undefined && { unit: column.unit as TimeUnit }) });
 
-/** Returns the clocks of a group. `timeColumns` are sorted, the best first. The first clock is the message's stamp. A second clock may be the time of recording. */
+/** Returns the clocks of a group; `timeColumns` are sorted by priority. The first clock is the message's stamp. The second clock, if any, may be the time of recording. */
 function clocksOf({ seconds, subseconds }: ColumnGroup['columns'], timeColumns: Column[]): Clock[] {
   const singleColumnClocks = timeColumns.map(clockOf);
   if (seconds && subseconds) return [{ name: `${seconds.name}, ${subseconds.name}`, columns: [seconds, subseconds], unit: 's' }, ...singleColumnClocks];
@@ -234,7 +234,7 @@ function clocksOf({ seconds, subseconds }: ColumnGroup['columns'], timeColumns: 
   return singleColumnClocks.length > 0 || !timePartColumn ? singleColumnClocks : [clockOf(timePartColumn)];
 }
 
-/** Returns the columns of a log: x, y and heading, or v and omega. Throws a LogError if one is missing, the heading included, or if two may be the same field. */
+/** Returns the columns of a log: x, y and heading, or v and omega. Throws a LogError if one of these columns is missing, or if two columns may be the same field. */
 export function findLogLayout(columnGroup: ColumnGroup | undefined, names: string[], errorPlace: ErrorPlace, wantedKind: LogKind | undefined) {
   const columnNames = listNames(names.map((name) => name.trim()));
   const question: Question = { option: 'columns', choices: [], columns: names };
@@ -261,5 +261,5 @@ export function findLogLayout(columnGroup: ColumnGroup | undefined, names: strin
   return { kind, clocks, columns: usedColumns, fields, lengthUnit: usedLengthUnits[0] as LengthUnit | undefined, angleUnit: angleUnit as AngleUnit | undefined };
 }
 
-/** Returns true for a header, which has names in some cells. */
+/** Returns true for a header: a line with at least one cell that contains letters and is not a number. */
 export const isHeader = (cells: string[]) => cells.some((cell) => /\p{L}/u.test(cell) && !/^[+-]?(nan|inf(inity)?|[\d.,]+e[+-]?\d+)$/i.test(cell.trim()));

@@ -3,12 +3,12 @@
 import { sort } from 'd3-array';
 import { LogError, listNames, readableSeriesOf, ROLES, formatFramesOption, formatFrames, type LogChoice, type FramePair, type LogKind, type Recording, type Role, type Series } from './log.ts';
 
-/** Recording with its logs that are read, by role. A recording with one log is paired with another one after both are read. */
+/** Recording, with the choice of the log to read for each role. A recording with only one log is paired with another recording after both have been read. */
 export interface PlannedRecording { recording: Recording; choices: Partial<Record<Role, LogChoice>> }
 
-/** Choices of the user. Missing choices are guessed. */
+/** Choices of the user. The program guesses the choices that are missing. */
 export interface UserChoices {
-  /** `series` is the name of a series, or the common prefix of its columns without a final separator. `frames` selects among transforms. */
+  /** `series` is the name of a series. For a table, that is the common prefix of its columns without the separator at the end. `frames` selects a pair of frames among transforms. */
   odometry?: { series?: string; frames?: FramePair };
   reference?: { series?: string; frames?: FramePair };
   /** Kind of odometry: `commands` prefers commands to poses, and `poses` excludes commands. By default poses come first. */
@@ -25,13 +25,13 @@ const MEASUREMENT_NAMES = /truth|(^|[^a-z])(gt|ref|true)([^a-z]|$)|mocap|vicon|o
 /** Names of poses estimated by localizers. Their errors are correlated with those of the odometry that they use. */
 const LOCALIZER_NAMES = /slam|amcl|locali[sz]|carto|tracked[_.]pose|icp|loam|scan[_.]?match|pose[_.]graph/i;
 
-/** Names of poses estimated by filters of the odometry. */
+/** Patterns of names of poses that a filter estimated from the odometry. */
 const FILTER_NAMES = /odometry[/_.]filtered|ekf|ukf|odom[_.]combined/i;
 
-/** Names of topics with poses that are not a path of the robot. */
+/** Patterns of topics whose poses are goals or clicked points, and not a path of the robot. */
 const GOAL_NAMES = /goal|initial[_.]?pose|waypoint|target|setpoint|clicked[_.]?point/i;
 
-/** Names of base frames of a robot, and of fixed frames by the role of the log, the likeliest first. */
+/** Patterns of names of a robot's base frames, and of fixed frames by the role of the log, the likeliest first. */
 const BASE_FRAME_NAMES = [/(^|\/)base_footprint$/, /(^|\/)base_link$/, /(^|\/)base/];
 const FIXED_FRAME_NAMES = { odometry: [/(^|[/_])odom(etry)?$/], reference: [/mocap|vicon|optitrack|world/, /(^|\/)map$/] };
 
@@ -52,20 +52,20 @@ export function planDrives(allRecordings: Recording[], userChoices: UserChoices 
   const rolesByName = recordings.map((recording) => recording.role ?? (recordings.length > 1 ? roleOfRecording(recording, userChoices) : 'both'));
   const isHalfOf = (role: Role) => 2 * rolesByName.filter((otherRole) => otherRole === role).length >= recordings.length;
   const plan = recordings.map((recording, i): PlannedRecording => {
-    // If a file's name shows no role, the roles of the other files determine its role.
+    // If at least half of the recordings have the same role, a recording of unknown role gets the other role.
     const role = rolesByName[i] ?? (isHalfOf('odometry') ? 'reference' : isHalfOf('reference') ? 'odometry' : undefined);
     if (!role) throw new LogError({ file: recording.name }, (texts) => texts.noRole, { option: 'roles', choices: [] });
     return { recording, choices: role === 'both' ? chooseBothLogs(recording, userChoices) : { [role]: chooseLog(recording, role, userChoices) } };
   });
   const recordingsWith = (role: Role) => plan.filter(({ choices }) => choices[role]);
-  // Separate files of one role replace the logs of that role in recordings that have odometry and reference.
+  // If there are separate files for one role, the logs of that role in recordings with odometry and reference are not used.
   const [scarceRole, replacedRole] = recordingsWith('odometry').length < recordingsWith('reference').length ? ROLES : ROLES.toReversed();
   const completeRecordings = plan.filter(({ choices }) => choices.odometry && choices.reference);
   if (completeRecordings.length === recordingsWith(replacedRole).length - recordingsWith(scarceRole).length) for (const { choices } of completeRecordings) delete choices[replacedRole];
   const [odometry, reference] = ROLES.map((role) => recordingsWith(role).map(({ recording }) => recording));
   if (odometry.length !== reference.length) {
     const unpairedRecordings = odometry.length > reference.length ? odometry : reference;
-    // If a recording has several candidates for the missing log, the LogError of this call asks for a choice, which helps more than the error below.
+    // If a recording has several candidates for the missing log, this call throws a LogError that asks which one to read. Such a question helps more than the error below.
     for (const recording of unpairedRecordings) tryUnlessLogError(() => chooseBothLogs(recording, userChoices), ({ question }) => question?.option !== 'series');
     const [odometryNames, referenceNames] = [odometry, reference].map((recordingsOfRole) => listNames(recordingsOfRole.map(({ name }) => name)));
     throw new LogError({ file: unpairedRecordings[0].name }, (texts) => texts.unpaired(odometryNames, referenceNames), { option: recordings.length === 1 ? 'other' : 'roles', role: odometryNames ? 'odometry' : 'reference', choices: [] });
@@ -73,12 +73,12 @@ export function planDrives(allRecordings: Recording[], userChoices: UserChoices 
   return sort(plan, ({ choices }) => Number(!choices.odometry));
 }
 
-/** Returns the role of the log in one of several recordings, or "both". Undefined if there is a single log whose role neither contents nor name tell. */
+/** Returns the role of the log in one of several recordings; "both" for a recording with odometry and reference. Undefined if neither name nor contents show the role of a single log. */
 function roleOfRecording(recording: Recording, userChoices: UserChoices): Role | 'both' | undefined {
   if (tryUnlessLogError(() => chooseBothLogs(recording, userChoices))) return 'both';
   const [isOdometry, isReference] = ROLES.map((role) => tryUnlessLogError(() => chooseLog(recording, role, userChoices)) !== undefined);
   if (isOdometry !== isReference) return isOdometry ? 'odometry' : 'reference';
-  // A file with several rigid bodies has logs, although the choice is ambiguous in both roles.
+  // A file with several rigid bodies has candidates for both roles, although it is unclear which candidate to read.
   const hasLogs = isOdometry || ROLES.every((role) => findCandidates(recording, role, userChoices).some(({ length }) => length > 0));
   if (!hasLogs) return 'both';
   return roleByName(recording.name) ?? (recording.series.some(({ hasCommands }) => hasCommands) ? 'odometry' : undefined);
@@ -95,7 +95,7 @@ function tryUnlessLogError<Result>(doWork: () => Result, isExpected: (error: Log
 }
 
 function chooseBothLogs(recording: Recording, userChoices: UserChoices): Record<Role, LogChoice> {
-  // A series that the user chose as the reference is not guessed as the odometry.
+  // The reference that the user chose is excluded from the guess of the odometry.
   const { series, frames } = userChoices.reference ?? {};
   const chosenReference = series !== undefined || frames ? chooseLog(recording, 'reference', userChoices) : undefined;
   const odometry = tryUnlessLogError(() => chooseLog(recording, 'odometry', userChoices, chosenReference)) ?? chooseLog(recording, 'odometry', userChoices);
@@ -111,7 +111,7 @@ function chooseBothLogs(recording: Recording, userChoices: UserChoices): Record<
 const findLikeliestChoices = (recording: Recording, role: Role, userChoices: UserChoices, isPossible: (choice: LogChoice) => boolean) =>
   findCandidates(recording, role, userChoices).map((choiceTier) => choiceTier.filter(isPossible)).find(({ length }) => length) ?? [];
 
-/** Returns the choice of a log for a role. It differs from `otherRoleChoice`, the choice for the other role. */
+/** Returns the choice of a log for a role. It is another log than `otherRoleChoice`, the choice for the other role. */
 function chooseLog(recording: Recording, role: Role, userChoices: UserChoices, otherRoleChoice?: LogChoice): LogChoice {
   const { series, frames } = userChoices[role] ?? {};
   if (series === undefined && !frames) return guessChoice(recording, role, userChoices, otherRoleChoice);
@@ -170,13 +170,13 @@ function createUnusableError({ name: file, series }: Recording): LogError {
   return new LogError({ file, topic: shortSeries?.name }, (texts) => (shortSeries ? texts.few(shortSeries.count, shortSeries.count) : texts.noTopics(describeSeries(series))));
 }
 
-/** Returns the role of the only series of a recording by its name, its contents or the name of the file; undefined if none shows it. */
+/** Returns the role of the only series in a recording, from the name of the series, its contents or the name of the file; undefined if none of these shows a role. */
 function roleOfSeries({ name: file }: Recording, { name, type, kind, hasCommands }: Series): Role | undefined {
   if (kind === 'commands') return 'odometry';
   return roleByName(name) ?? (hasCommands || /Odometry$/.test(type) ? 'odometry' : roleByName(file));
 }
 
-/** Returns true if the name or the frames of a log show that a localizer or a filter of the odometry estimated its poses. */
+/** Returns true if the name or the frames of a log show that its poses are estimates of a localizer, or of a filter of the odometry. */
 export const isLocalizer = (name: string, frames?: FramePair): boolean => frames?.parent === 'map' || ((LOCALIZER_NAMES.test(name) || FILTER_NAMES.test(name)) && !MEASUREMENT_NAMES.test(name));
 
 /** Returns the role that the name of a file shows; undefined if it shows none. */
@@ -185,7 +185,7 @@ export function roleByName(name: string): Role | undefined {
   return ODOMETRY_FILE_NAMES.test(name) ? 'odometry' : undefined;
 }
 
-/** Returns the series with a name. Separators and capitals do not count. */
+/** Returns the series with a name, or the series whose name differs only in separators and capitals. */
 function findSeriesByName(series: Series[], wantedName: string): Series | undefined {
   const wordsOfName = (name: string) => name.toLowerCase().split(/[^\p{L}\p{N}]+/u).filter(Boolean).join('.');
   return series.find(({ name }) => name === wantedName) ?? series.find(({ name }) => wordsOfName(name) !== '' && wordsOfName(name) === wordsOfName(wantedName));
@@ -207,7 +207,7 @@ export function findCandidates(recording: Recording, role: Role, { kind }: { kin
     const unfilteredPaths = poseSeries.filter(({ name }) => !FILTER_NAMES.test(name) && !ODOMETRY_NAMES[0].test(name));
     return [...choiceTiersByName(poseSeries, [MEASUREMENT_NAMES, LOCALIZER_NAMES], 'poses'), choicesOf(unfilteredPaths, 'poses'), ...(isTableFile && seriesWithoutGoals.length === 1 ? [choicesOf(poseSeries, 'poses')] : []), chainChoices];
   }
-  // A topic of the type Odometry is likely to be odometry.
+  // A topic of the message type Odometry probably has odometry of wheels.
   const wheelPaths = poseSeries.filter(({ name, type }) => !MEASUREMENT_NAMES.test(name) && !LOCALIZER_NAMES.test(name) && (isTableFile || /Odometry$/.test(type)));
   const poseTiers = [...choiceTiersByName(wheelPaths, ODOMETRY_NAMES), choicesOf(wheelPaths), chainChoices];
   const commandSeries = seriesWithoutGoals.filter((entry) => entry.kind === 'commands' || entry.hasCommands);

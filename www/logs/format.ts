@@ -11,44 +11,44 @@ export interface TableFormat {
   firstRowNumber: number;
   columnNames: string[];
   columnGroups: ColumnGroup[];
-  /** True if a row may have empty cells, because it is a sample of another topic. */
+  /** True if rows may have empty cells, because each row holds a sample of only one of several topics. */
   isSparse: boolean;
 }
 
-/** Maximum number of lines at the start of a file, of lines at its end, and of rows that are read to detect the format. */
+/** Maximum number of lines from the start and from the end of a file, and of rows, from which the format is detected. */
 const SAMPLED_LINE_COUNT = 50;
 
-/** Names of the columns in tables without a header, which are recognized by their number of columns. */
+/** Names of the columns in tables without a header. The number of columns in a table determines which of these lists applies. */
 const TUM_COLUMNS = ['t', 'x', 'y', 'z', 'qx', 'qy', 'qz', 'qw'];
 const POSE_COLUMNS = ['pose.position.x', 'pose.position.y', 'pose.position.z', 'pose.orientation.x', 'pose.orientation.y', 'pose.orientation.z', 'pose.orientation.w'];
 const TWIST_COLUMNS = ['linear.x', 'linear.y', 'linear.z', 'angular.x', 'angular.y', 'angular.z'];
 const STAMP_COLUMNS = ['header.stamp.sec', 'header.stamp.nanosec', 'header.frame_id'];
 const COVARIANCE_COLUMNS = Array.from({ length: 36 }, () => '-');
 
-/** Columns of `ros2 topic echo --csv`: PoseStamped, TwistStamped, one transform, and with covariances Odometry and PoseStamped. */
+/** Columns printed by `ros2 topic echo --csv` for PoseStamped, TwistStamped, a transform, Odometry, and PoseWithCovarianceStamped. */
 const ROS2_LAYOUTS = [
   [...STAMP_COLUMNS, ...POSE_COLUMNS],
   [...STAMP_COLUMNS, ...TWIST_COLUMNS],
   [...STAMP_COLUMNS, 'child_frame_id', ...POSE_COLUMNS],
-  // With --no-arr one cell replaces a covariance.
+  // With the option --no-arr, `ros2 topic echo` prints one cell instead of the 36 numbers of a covariance.
   ...[COVARIANCE_COLUMNS, ['-']].flatMap((covariance) => [
     [...STAMP_COLUMNS, 'child_frame_id', ...POSE_COLUMNS, ...covariance, ...TWIST_COLUMNS, ...covariance],
     [...STAMP_COLUMNS, ...POSE_COLUMNS, ...covariance],
   ]),
 ];
 
-/** Patterns of the first line of texts that are not tables, with the name of their notation. */
+/** Patterns of the first line of texts that are not tables, each with the name of the text's format. */
 const NON_TABLE_PATTERNS: [RegExp, string][] = [[/^\s*(\{\s*("|$)|\[\s*([-\d"[{]|$))/, 'JSON'], [/^(---|header:|pose:|transforms:|- header:)\s*$/, 'YAML']];
 
-/** Pattern of texts for a missing or infinite number. */
+/** Pattern of words that stand for a missing or infinite number. */
 const NOT_FINITE_WORDS = /^(?:[+-]?(?:nan|inf(?:inity)?)|null|none|nat|na|n\/a|-)?$/i;
 
 const ISO_DATE = /^\s*(\d{4})[-/](\d{1,2})[-/](\d{1,2})(?:[T\s]+(\d{1,2}):(\d{2})(?::(\d{2})(?:[.,](\d+))?)?\s*(Z|UTC|GMT|[+-]\d{2}(?::?\d{2})?)?)?\s*$/i;
 
-/** Duration as printed by pandas ("0 days 00:00:01.5") and MATLAB ("00:00:01.5"). */
+/** Pattern of a duration as pandas ("0 days 00:00:01.5") or MATLAB ("00:00:01.5") prints it. */
 const DURATION_TEXT = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*$/;
 
-/** Splits a line into cells. May return only the first `neededCellCount` cells. A separator in quotes does not count. */
+/** Splits a line into cells, or at least into the first `neededCellCount` cells. A separator in quotes does not separate cells. */
 export function splitCells(line: string, separator: string, neededCellCount?: number): string[] {
   if (separator === ' ') return line.trim().split(/[ \t]+/);
   if (!line.includes('"')) return line.split(separator, neededCellCount);
@@ -66,7 +66,7 @@ const THOUSANDS_COMMA = /^\s*[+-]?[1-9]\d{0,2},\d{3}\s*$/;
 const DECIMAL_COMMA = /^\s*[+-]?\d*,\d+(e[+-]?\d+)?\s*$/i;
 const isNumber = (cell: string) => cell.trim() !== '' && (parseNumber(cell) !== undefined || DECIMAL_COMMA.test(cell) || parseDate(cell) !== undefined);
 
-/** Returns true for a row of data: at least two cells, and at least half of the cells that are not empty, are numbers or dates. */
+/** Returns true for a row of data: it has at least two cells, and at least half of the cells that are not empty are numbers or dates. */
 function isDataRow(cells: string[]): boolean {
   const filledCells = cells.filter((cell) => cell.trim() !== '');
   const numberCount = filledCells.filter(isNumber).length;
@@ -97,7 +97,7 @@ export function detectTableFormat(lines: string[], file: string, givenColumnName
   const cellsOfLine = (line: string) => splitCells(line, separator);
   const firstRowLine = textLines.find(({ line }, i) => isDataRow(cellsOfLine(line)) && (i + 1 === textLines.length || isDataRow(cellsOfLine(textLines[i + 1].line)))) ?? textLines.findLast(({ line }) => isDataRow(cellsOfLine(line)));
   const rows = firstRowLine ? textLines.filter(({ number }) => number >= firstRowLine.number).slice(0, SAMPLED_LINE_COUNT).map(({ line }) => cellsOfLine(line)) : [];
-  // If commas separate the cells, a comma in a quoted cell may also separate thousands.
+  // If commas separate the cells, a comma within a quoted cell may be a thousands separator instead of a decimal comma.
   const hasDecimalComma = (cell: string) => DECIMAL_COMMA.test(cell) && (separator !== ',' || !THOUSANDS_COMMA.test(cell));
   const hasDecimalCommas = rows.flat().some(hasDecimalComma);
   const rowWidth = Math.max(0, ...rows.map((row) => row.length - (row.at(-1)?.trim() === '' ? 1 : 0)));
@@ -119,7 +119,7 @@ export function detectTableFormat(lines: string[], file: string, givenColumnName
   if (header) {
     const { number } = header;
     const columnNames = addUnits(header.names, preambleLines.flatMap((preambleLine) => (preambleLine.number > number ? [cellsOfLine(preambleLine.line)] : [])));
-    // If commas separate the cells and are also decimal commas, rows have more cells than the header.
+    // A row has more cells than the header if commas serve both as separator and as decimal comma.
     if (rowWidth > columnNames.length) throw new LogError({ file, line: firstRowLine?.number }, (texts) => texts.wide(rowWidth, columnNames.length, number));
     const columnGroups = findColumnGroups(columnNames, rows[0]);
     if (!firstRowLine && columnGroups.every(({ kind }) => kind === null)) throw noLogError();
@@ -139,7 +139,7 @@ function addUnits(names: string[], rowsBelowHeader: string[][]): string[] {
   return names.map((name, i) => (unitTexts && isUnit(unitTexts[i]) ? `${name} [${unitTexts[i]}]` : name));
 }
 
-/** Groups columns. A column without a name has times if its first cell is a date or a fraction. It has row numbers if that is a whole number. */
+/** Groups columns by prefix. A column without a name holds times if its first cell is a date, a fraction or a time since 1970, and row numbers otherwise. */
 function findColumnGroups(names: string[], firstRow: string[] | undefined): ColumnGroup[] {
   return groupColumnsByPrefix(names, (columnIndex) => {
     const cell = firstRow?.[columnIndex]?.trim() ?? '';
@@ -153,12 +153,12 @@ function headerOf(preambleLines: { line: string; number: number }[], separator: 
     const textLine = line.trim().replace(/^\/\//, '');
     const isComment = /^#|^%(?!time)/.test(textLine) || textLine !== line.trim();
     const commentText = textLine.replace(/^[#%]+\s*(?=[^,;])/, isComment ? '' : '$&');
-    // A commented header may have another separator than the rows.
+    // The header in a comment may have another separator than the rows.
     const possibleCells = [splitCells(commentText, separator), ...(isComment ? [commentText.split(/\s{2,}/), commentText.split(/[\s,;]+(?![[(])/)] : [])];
     const names = possibleCells.find((cells) => cells.length === rowWidth) ?? possibleCells[0];
     if (!isHeader(names)) continue;
     const fieldNames = findColumnGroups(names, firstRow).flatMap(({ columns }) => Object.keys(columns));
-    // In a row of units below the header, V for volts looks like the name of a speed.
+    // In a row of units below the header, the unit V (volt) looks like the name of a speed. A line that consists mostly of units is therefore not the header.
     if (names.filter((name) => isUnit(stripUnitBrackets(name))).length > fieldNames.length) continue;
     if (isComment && (fieldNames.length < 3 || (names.length !== rowWidth && fieldNames.length < 4))) continue;
     if (isComment || fieldNames.length > 0 || !preambleLines.some((earlierLine) => earlierLine.number < number && !/^\s*["#%]?sep=/i.test(earlierLine.line) && findColumnGroups(splitCells(earlierLine.line, separator), firstRow).length > 0)) {
@@ -205,16 +205,16 @@ function detectMotiveFormat(preambleRows: string[][], errorPlace: ErrorPlace): P
 /** Parses a number. Returns NaN for an empty cell or a word such as "nan", and undefined for any other text. */
 export function parseNumber(cell: string): number | undefined {
   const parsedValue = Number(cell);
-  // `Number` parses an empty cell as 0, and hexadecimal digits. `parseFloat` returns other numbers for both.
+  // `Number` accepts an empty cell (as 0) and hexadecimal digits. `parseFloat` gives other numbers for such cells, so that the comparison rejects them.
   if (parsedValue === parsedValue && (Math.trunc(parsedValue) !== parsedValue || parsedValue === parseFloat(cell))) return parsedValue;
   return NOT_FINITE_WORDS.test(cell.trim()) ? NaN : undefined;
 }
 
-/** Parses a time in units of 10^−unitExponent s. Returns seconds, or NaN or undefined as `parseNumber`. */
+/** Parses a time in units of 10^−unitExponent s, and returns it in seconds. For a cell that is not a number it returns the same as `parseNumber`. */
 export function parseTime(cell: string, unitExponent: number): number | undefined {
   const parsedValue = parseNumber(cell);
   if (unitExponent === 0 || parsedValue === undefined || !Number.isFinite(parsedValue)) return parsedValue;
-  // A double cannot hold nanoseconds since 1970 exactly. With the exponent in the text, they are rounded only once.
+  // A double cannot represent nanoseconds since 1970 exactly. The exponent is therefore changed in the text, and the time is rounded only once.
   const [digits, exponent = '0'] = cell.trim().toLowerCase().split('e');
   return Number(`${digits}e${Number(exponent) - unitExponent}`);
 }

@@ -6,10 +6,10 @@ import { rowOfPose, withoutSlash, type StampedTransform, type Transform } from '
 import { multiplyQuaternions } from './path.ts';
 import type { Sample } from './rows.ts';
 
-/** Minimum motion (m) of a frame that counts as travelling. Frames of joints only turn, and those of suspensions move less. */
+/** Minimum motion (m) of a frame that counts as travelling. The frame of a joint only turns, and the frame of a suspension moves less. */
 const MIN_TRAVEL = 0.05;
 
-/** Usual names of a robot's base frame, which may be fixed to a frame that travels. */
+/** Pattern of usual names of a robot's base frame. A base frame counts as travelling if it is fixed to a frame that travels. */
 const BASE_FRAME = /base|body|chassis|robot/i;
 
 /** Transform with the time of recording (s) and the number of its message. */
@@ -23,20 +23,20 @@ interface FrameLink extends FramePair {
   /** First recorded transform of the link. */
   firstTransform: Transform;
   hasChanged: boolean;
-  /** Largest distance (m) of the child from its first position in the parent. */
+  /** Largest distance (m) of the child frame from its first position, in the frame of the parent. */
   maxDistance: number;
-  /** Transforms in the order of their messages, if poses are read. */
+  /** Recorded transforms in the order of their messages. The list is filled only if poses are read. */
   samples: RecordedTransform[];
 }
 
 /**
- * Graph of transforms between frames. A frame may have several parents, for example the map and the odometry frame. With two end frames it
- * also composes the poses of the one relative to the other, by the transforms on the chain between them.
+ * Graph of transforms between frames. A frame may have several parents, for example the map and the odometry frame. Given two end frames, the graph also
+ * computes the poses of one end frame relative to the other, from the transforms on the chain between them.
  */
 export class FrameTree {
   #links = new Map<string, FrameLink>();
   readonly #endFrames: FramePair | undefined;
-  /** Links of the chain between the end frames, from the first to the last; empty until they are connected. */
+  /** Links of the chain between the two end frames, in order; empty until transforms connect the end frames. */
   #chainLinks: FrameLink[] = [];
 
   constructor(endFrames?: FramePair) {
@@ -80,8 +80,8 @@ export class FrameTree {
   }
 
   /**
-   * Returns the pairs of frames between which the transform may be the pose of a robot. The child travels, or is a base fixed to a frame that
-   * travels. If no frame travels, all frames whose transform is not static count as travelling.
+   * Returns the pairs of frames, parent and child, between which the transform may be the pose of a robot. The child is a frame that travels, or a base
+   * frame that is fixed to such a frame. If no frame travels, all frames whose transform is not static count as travelling.
    */
   findPoseFrames(): FramePair[] {
     const { links } = this;
@@ -92,14 +92,14 @@ export class FrameTree {
       const ancestors = this.#ancestorsOf(child);
       const isMoving = movingFrames.has(child);
       const hasMovingDescendant = isMoving && children.some((otherChild) => otherChild !== child && movingFrames.has(otherChild) && this.#ancestorsOf(otherChild).includes(child));
-      // In the chain odom → base_footprint → base_link, if only base_footprint moves, the pose of base_link is that in odom. The moving frame, and frames
-      // between it and the child, are skipped as parents.
+      // Example: the chain odom → base_footprint → base_link, in which only base_footprint moves. The pose of base_link is relative to odom: the moving
+      // frame, and frames between it and the child, are skipped as parents.
       const skipCount = isMoving || !BASE_FRAME.test(child) ? 0 : ancestors.findIndex((frame) => movingFrames.has(frame)) + 1;
       return hasMovingDescendant || (!isMoving && skipCount === 0) ? [] : ancestors.slice(skipCount).map((parent) => ({ parent, child }));
     });
   }
 
-  /** Returns the parent of a frame, the parent of that frame and so on. */
+  /** Returns the ancestors of a frame: its parent, the parent of its parent, and so on. */
   #ancestorsOf(frame: string): string[] {
     const ancestorFrames = new Set<string>([frame]);
     for (const ancestor of ancestorFrames) for (const { parent } of this.#linksTo(ancestor)) ancestorFrames.add(parent);
@@ -107,11 +107,11 @@ export class FrameTree {
   }
 
   /**
-   * Calls `onPose` for each message of the changing transform nearest to the child. All other links have their latest transforms. A
-   * transform that never changes also holds before its first message. Returns false if no transform ever changes.
+   * Calls `onPose` for each message of one link: of the changing links, the nearest to the child. The other links contribute their latest transforms. A
+   * transform that never changes also holds before its first message. Returns false if all transforms are constant.
    */
   readPoses(onPose: (poseSample: Sample, recordedTransform: RecordedTransform) => void): boolean {
-    // A static transform may be published again with other values, which is no motion.
+    // A static transform that is published again with other values does not count as motion.
     const nearestMovingLink = this.#chainLinks.findLast(({ isStatic, hasChanged }) => !isStatic && hasChanged);
     const samplesByLink = new Map(this.#chainLinks.map((link) => [link, sort(link.samples, ({ recordTime }) => recordTime)]));
     const transformAt = (link: FrameLink, time: number) => {
@@ -126,7 +126,7 @@ export class FrameTree {
   }
 }
 
-/** Returns the composition of two transforms: the second one is relative to the frame of the first. */
+/** Returns the composition of two transforms. The second transform is relative to the frame that the first one defines. */
 function composeTransforms([x, y, z, ...rotation]: Transform, [x2, y2, z2, ...rotation2]: Transform): Transform {
   const [qx, qy, qz, qw] = rotation;
   const [dx, dy, dz] = multiplyQuaternions(multiplyQuaternions(rotation, [x2, y2, z2, 0]), [-qx, -qy, -qz, qw]);

@@ -21,7 +21,7 @@ export interface Series {
   type: string;
   /** Kind of log that can be read from the series; null if none. `positions` have no heading. */
   kind: LogKind | 'positions' | 'transforms' | null;
-  /** True if a table also has columns of commands. They are read if commands are preferred. */
+  /** True if a table has columns of poses and of commands. The commands are read if the user prefers commands. */
   hasCommands?: boolean;
   /** Number of messages; 0 for a table, whose rows are counted when it is read. */
   count: number;
@@ -78,19 +78,19 @@ export interface OpenOptions {
   role?: Role;
 }
 
-/** Returns the options of a file or log by its name. */
+/** Function that returns the options for the file or log with a name. */
 export type OptionsByName = (name: string) => OpenOptions | undefined;
 
 /** Question of a LogError to the user: the option that answers it, and the possible answers. */
 export interface Question {
   option: keyof typeof UNITS | 'series' | 'columns' | 'frames' | 'roles' | 'other';
-  /** Role of the log that has to be chosen. If the other log is missing (`other`), the role of the log that was found. */
+  /** Role of the log that the user has to choose. If the option is `other`, one log of a pair is missing, and this is the role of the log that was found. */
   role?: Role;
   /** Possible answers, the likeliest first. */
   choices: string[];
   /** Columns of the table: their names, or the cells of its first row. */
   columns?: string[];
-  /** Fields of the columns by the likeliest choice, with a minus if the sign is changed. By default they are the names in that choice. */
+  /** Proposed field of each column, with a minus sign if the sign of its numbers changes. Without `fields`, `choices` has the proposed fields. */
   fields?: string[];
 }
 
@@ -108,22 +108,22 @@ export interface Log {
   /** Name of the file, with the series and the frames if it has several logs. */
   name: string;
   kind: LogKind;
-  /** Whole seconds that were subtracted from all times. */
+  /** Whole seconds that were subtracted from all times of the log. */
   start: number;
-  /** Rows for the core: times rise strictly, in seconds after the start. */
+  /** Rows in the form that the core takes: times rise strictly, and count in seconds from `start`. */
   data: Poses | Commands;
   summary: Summary;
-  /** Question whose proposed columns mirror the log; undefined for a topic, whose axes cannot be changed. */
+  /** Question that proposes other columns, which mirror the log; undefined for a topic, because the axes of a topic cannot be changed. */
   mirroring?: FileQuestion;
 }
 
-/** Returns the questions whose proposals mirror one log of each drive, if the checks show that odometry or reference is mirrored. The α's are the same whichever log is mirrored. */
+/** Returns questions that propose to mirror one log of each drive, if a check shows that odometry or reference is mirrored. Mirroring either log gives the same α's. */
 export const mirroringQuestionsOf = (drives: Record<Role, Log>[], checks: CalibrationCheck[]): FileQuestion[] =>
   (checks.some(({ cause }) => cause === 'mirrored') ? drives.flatMap(({ odometry, reference }) => reference.mirroring ?? odometry.mirroring ?? []) : []);
 
 export type DropCause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'text' | 'duplicate' | 'repeated' | 'held';
 
-/** Evidence for a unit: a name, the size of the numbers, rate and speed, the format, dates, an option, or (`usage`) only that it is usual. */
+/** Basis on which a unit was determined: a name, the size of the numbers, the rate of the rows, the format, dates, an option, or only usage (`usage`). */
 export type UnitBasis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'usage';
 
 /** Notes that make the α's doubtful even if all checks pass. */
@@ -185,7 +185,7 @@ export function summaryLinesOf({ summary }: Log, texts: Words['found']): Partial
   };
 }
 
-/** Returns the summary of a log as sentences, the one about its rows first. */
+/** Returns the summary of a log as sentences. The first sentence is about the rows. */
 export function summarySentencesOf(log: Log, texts: Words['found']): string[] {
   const { rows = [], ...otherLines } = summaryLinesOf(log, texts);
   return [...rows, ...Object.entries(otherLines).flatMap(([label, lines]) => lines.map((line) => `${texts.labels[label as Label]}: ${line}`))];
@@ -195,15 +195,15 @@ export type Words = typeof english;
 
 export interface ErrorPlace {
   file: string;
-  /** Number of a line, or of a message of the topic, from 1. */
+  /** Number of a line in a file, or of a message in a topic, counted from 1. */
   line?: number;
   topic?: string;
 }
 
-/** Returns the end of an error's sentence, after its place, in the language of the given words. */
+/** Function that returns the end of an error message, which follows the place of the error, in the language of the given words. */
 export type ErrorReason = (texts: Words['refused']) => string;
 
-/** Maximum number of quoted characters in a sentence: of a name or value, and of a library's message. */
+/** Maximum number of characters of a quoted name or value, and of a quoted error message of a library. */
 const [MAX_QUOTED_LENGTH, MAX_REASON_LENGTH] = [40, 100];
 
 /** Error of a log. Its message is one sentence that names the file, the line or topic, the value, and what is expected. */
@@ -237,7 +237,7 @@ export function reasonOf(error: unknown): string {
   return truncate(message.replace(/ \[(library=[^\]]*|no header)\]$/, ''), MAX_REASON_LENGTH);
 }
 
-/** Returns a text with the first eight names of a list, for a sentence. */
+/** Returns the first eight names of a list, separated by commas, for use in a sentence. */
 export function listNames(names: string[]): string {
   const maxNames = 8;
   return [...names.slice(0, maxNames).map((name) => truncate(name)), ...(names.length > maxNames ? ['…'] : [])].join(', ');

@@ -1,4 +1,4 @@
-/** Readers of ROS 1 and ROS 2 messages with poses, commands or transforms. They ignore later fields, such as covariances. */
+/** Readers of ROS 1 and ROS 2 messages with poses, commands or transforms. Fields at the end of a message, such as covariances, are ignored. */
 
 import { dataViewOf, type Channel, type Message } from './formats/container.ts';
 import { decompressZstdMessage } from './formats/decompression.ts';
@@ -15,7 +15,7 @@ const CDR_HEADER_BYTES = 4;
 
 type MessageBytes = Pick<Message, 'block' | 'start' | 'end'>;
 
-/** Reader of the values of a message: packed in ROS 1, aligned to their size in ROS 2. */
+/** Reader of the values in a message. ROS 1 packs values without padding; ROS 2 aligns each value to its size. */
 class MessageReader {
   #view;
   #position;
@@ -43,7 +43,7 @@ class MessageReader {
     return this.#view.getInt32(this.#takeAlignedPosition(4), this.#isLittle) + this.readUint32() / 1e9;
   }
 
-  /** Skips bytes; throws a RangeError at the end of the message. */
+  /** Skips bytes. Throws a RangeError if the message ends before. */
   skip(bytes: number): void {
     this.#position += bytes;
     if (this.#position > this.#end) throw new RangeError('the message is too short');
@@ -63,7 +63,7 @@ class MessageReader {
     return new TextDecoder().decode(bytesOf(this.#view, this.#position - length, this.#position)).replace(/\0$/, '');
   }
 
-  /** Returns the position of the next value after alignment, and moves past the value. */
+  /** Returns the aligned position of the next value, and moves the reader past the value. */
   #takeAlignedPosition(size: number): number {
     const valueAlignment = Math.min(size, this.#alignment);
     const valuePosition = this.#position + ((this.#start - this.#position) & (valueAlignment - 1));
@@ -74,7 +74,7 @@ class MessageReader {
 
 const bytesOf = (block: DataView, start: number, end: number) => new Uint8Array(block.buffer, block.byteOffset + start, end - start);
 
-/** Returns the stamp of a header, and skips its frame. Decoding a string would take as long as reading the rest of the message. */
+/** Returns the stamp of a message header, and skips its frame. Decoding the frame's name would take as long as reading the rest of the message. */
 function readHeader(reader: MessageReader): number {
   const stamp = reader.readStamp();
   reader.skip(reader.readUint32());
@@ -91,7 +91,7 @@ export function rowOfPose(time: number, [x, y, , qx, qy, qz, qw]: Transform): Sa
 
 function readTwist(time: number, reader: MessageReader): Sample {
   const v = reader.readFloat64();
-  // Skips speeds in other directions and turn rates about other axes.
+  // Skips the lateral and vertical speeds, and the turn rates about x and y.
   reader.skip(4 * 8);
   return { time, a: v, b: reader.readFloat64(), c: 0 };
 }
@@ -105,7 +105,7 @@ function readFrameTransform(reader: MessageReader): Sample {
 
 const readStampedPose = (reader: MessageReader) => rowOfPose(readHeader(reader), readTransform(reader));
 
-/** Kinds of logs of message types, by their ROS 1 names, and the readers of poses and commands. */
+/** Kind of log for each message type, by the type's ROS 1 name, with the reader of its poses or commands. */
 const MESSAGE_TYPES = new Map<string, [kind: Series['kind'], readSample?: (reader: MessageReader) => Sample]>([
   ['nav_msgs/Odometry', ['poses', readFrameTransform]],
   ['geometry_msgs/TransformStamped', ['poses', readFrameTransform]],
@@ -130,7 +130,7 @@ export const logKindOfType = (type: string): Series['kind'] => messageTypeOf(typ
 /** Returns true if messages have the serialization of ROS 1 or ROS 2. */
 export const isReadable = ({ encoding }: Channel) => encoding === 'cdr' || encoding === 'ros1';
 
-/** Magic number of a message that rosbag2 compressed. Other messages of ROS 2 start with 0. */
+/** First four bytes of a message that rosbag2 compressed with Zstandard. An uncompressed ROS 2 message starts with 0. */
 const ZSTD_MAGIC = 0x28b52ffd;
 
 function readerOf(channel: Channel, message: MessageBytes): MessageReader {
@@ -140,7 +140,7 @@ function readerOf(channel: Channel, message: MessageBytes): MessageReader {
   return new MessageReader(channel, { block: dataViewOf(bytes), start: 0, end: bytes.length });
 }
 
-/** Returns a reader of messages of a type with poses or commands. It throws an error for bytes of another type. Undefined for all other types. */
+/** Returns a reader of messages of a type; undefined if the type has no poses or commands. The reader throws an error if the bytes are of another type. */
 export function sampleReaderOf(type: string): ((message: Message) => Sample) | undefined {
   const [, readSample] = messageTypeOf(type);
   return readSample && ((message) => readSample(readerOf(message.channel, message)));
@@ -149,7 +149,7 @@ export function sampleReaderOf(type: string): ((message: Message) => Sample) | u
 /** Returns the name of a coordinate frame without the leading slash that ROS 1's old tf library wrote. */
 export const withoutSlash = (name: string) => name.replace(/^\/+/, '');
 
-/** Reads transforms; throws an error for bytes of another message type. */
+/** Reads the transforms of a message. Throws an error if the bytes are of another message type. */
 export function readTransforms(message: Message): StampedTransform[] {
   const reader = readerOf(message.channel, message);
   const transforms: StampedTransform[] = [];

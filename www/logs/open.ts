@@ -16,7 +16,7 @@ const FORMAT_MAGIC: Record<FileFormat, string> = {
   metadata: 'rosbag2_bagfile_information:',
 };
 
-/** First bytes of known formats that cannot be read. The error names the format. */
+/** First bytes of file formats that are recognized but not supported, for an error that names the format. */
 const UNSUPPORTED_MAGIC: [keyof typeof UNSUPPORTED_FORMATS, string][] = [
   ['rosbag1', '#ROSBAG V1'], ['rosbag1', '#ROSRECORD'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'], ['wal', '\x37\x7f\x06\x82'], ['wal', '\x37\x7f\x06\x83'],
   ['zip', 'PK\x03\x04'], ['compressed', '\x1f\x8b'], ['compressed', 'BZh'], ['compressed', '\xfd7zXZ\0'], ['compressed', '\x04\x22\x4d\x18'],
@@ -25,7 +25,7 @@ const UNSUPPORTED_MAGIC: [keyof typeof UNSUPPORTED_FORMATS, string][] = [
 
 const MAX_MAGIC_BYTES = 32;
 
-/** Returns the options of a file or log from options by files. The options of a file apply to its logs, and those of the file "" to all. */
+/** Returns a function for the options of a file or log, from options by file name. The options of a file apply to its logs; those under the name "" apply to all files. */
 export const optionsByNameOf = (optionsByFile: [file: string, OpenOptions][]): OptionsByName => (name) =>
   Object.assign({}, ...optionsByFile.filter(([file]) => file === '' || name === file || name.startsWith(`${file}, `)).map(([, options]) => options));
 
@@ -87,7 +87,7 @@ async function detectFormat(source: Source): Promise<FileFormat | undefined> {
   return (Object.keys(FORMAT_MAGIC) as FileFormat[]).find((format) => firstBytes.startsWith(FORMAT_MAGIC[format]));
 }
 
-/** Opens a container. The module of its format is loaded only now. */
+/** Opens a container. The module for its format is imported only when it is needed. */
 async function openContainer(source: Source, format: FileFormat | undefined): Promise<Container> {
   if (format === 'mcap') return (await import('./formats/mcap.ts')).openMcap(source);
   if (format === 'rosbag') return (await import('./formats/rosbag.ts')).openRosbag(source);

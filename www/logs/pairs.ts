@@ -1,4 +1,4 @@
-/** Reading of the odometry and reference of each drive, and checks that both logs belong together. */
+/** Reads the odometry and reference of each drive, and checks that the two logs of a drive belong together. */
 
 import { min, zip } from 'd3-array';
 import type { CalibrationLog } from '../types.d.ts';
@@ -7,22 +7,22 @@ import { LogError, ROLES, UNITS, formatFrames, type Log, type LogChoice, type No
 import { pathOf, poseAt, wrapAngle } from './path.ts';
 import { METRES_PER_UNIT, speedOf } from './units.ts';
 
-/** Two logs of one drive, with times after the same start. */
+/** Two logs of one drive. The times of both logs count from the same start. */
 export interface Drive { odometry: Log; reference: Log }
 
-/** Minimum overlap in time of two logs of one drive, as a fraction of the shorter log's duration. */
+/** Minimum overlap in time of odometry and reference, as a fraction of the shorter log's duration. */
 const MIN_OVERLAP = 0.5;
 
-/** Duration (s) at both ends of a run of equal poses that is left out of the comparison, because the clocks may differ by this much. */
+/** Duration (s) at each end of a frozen pose (equal poses in succession) in which the odometry may move, because the clocks may differ by this much. */
 const END_MARGIN_SECONDS = 1;
 
-/** Minimum motion of the odometry during a frozen pose, metres and radians added up. Encoders at rest may count a pulse or two. */
+/** Minimum motion of the odometry, in metres plus radians, that shows that a constant reference pose is frozen. Encoders of a robot at rest may still count a pulse or two. */
 const MIN_ODOMETRY_MOTION = 0.05;
 
-/** Minimum 90 % quantile of the speeds (m/s) that are compared. In a log of a robot that mostly stands, it is that of noise. */
+/** Minimum speed (m/s) at which the speeds of two logs are compared: the 90 % quantile of a log. In a log of a robot that mostly stands, this quantile measures only noise. */
 const MIN_COMPARED_SPEED = 0.02;
 
-/** Maximum ratio of a measured size of a unit to its real size, and its inverse. The odometry's wheels may have another size than assumed. */
+/** Maximum deviation of a speed ratio from the ratio of two units, as a factor, because wheels may have another size than the odometry assumes. */
 const MAX_UNIT_ERROR = 1.2;
 
 const timeSpanOf = ({ start, data: { t } }: Log): [number, number] => [start + t[0], start + t[t.length - 1]];
@@ -35,7 +35,7 @@ function overlapSecondsOf(log: Log, otherLog: Log): number {
   return Math.min(b, d) - Math.max(a, c);
 }
 
-/** Pairs logs of several drives: by their times, or in their order. */
+/** Pairs the odometry and reference logs of several drives: by their times if these are unique, otherwise by their order. */
 function matchLogs(odometry: Log[], reference: Log[]): Log[][] {
   const partnersOfEach = odometry.map((odometryLog) => reference.filter((referenceLog) =>
     overlapSecondsOf(odometryLog, referenceLog) > MIN_OVERLAP * Math.min(odometryLog.summary.seconds, referenceLog.summary.seconds)));
@@ -43,7 +43,7 @@ function matchLogs(odometry: Log[], reference: Log[]): Log[][] {
   return odometry.map((odometryLog, i) => [odometryLog, hasUniquePartners ? partnersOfEach[i][0] : reference[i]]);
 }
 
-/** Pairs two logs of one drive, whose times are after one start. Throws a LogError if they do not fit, or if one may have another unit of length. */
+/** Pairs the odometry and reference of one drive, whose times count from the same start. Throws a LogError if the logs do not fit together, or one may have another unit of length. */
 export function pairLogs(odometry: Log, reference: Log): Drive {
   const referencePlace = { file: reference.name };
   if (reference.kind === 'commands') throw new LogError(referencePlace, (texts) => texts.noColumns('poses', 't, v, omega'));
@@ -62,7 +62,7 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
   return { ...logs, reference: { ...brokenReference, summary: { ...brokenReference.summary, notes } } };
 }
 
-/** Returns the reference with breaks where it repeats a pose while the odometry moves on: motion capture may have lost the robot. */
+/** Returns the reference with a break at each pose that is repeated although the odometry moves: motion capture has probably lost the robot. */
 function breakFrozenPoses(reference: Log, odometry: Log): Log {
   const { data, summary } = reference;
   const { t, x, y, theta } = data as Poses;
@@ -86,14 +86,14 @@ function breakFrozenPoses(reference: Log, odometry: Log): Log {
 export const warningsOf = (logs: Pick<Log, 'summary'>[]): Warning[] =>
   (['localizer', 'swapped'] as const).filter((warning) => logs.some(({ summary }) => summary.notes.some(({ name }) => name === warning)));
 
-/** Returns the logs of drives in the form that the core takes: arrays if there are several drives. */
+/** Returns the logs of drives in the form that the core takes: one log of each role, or an array for several drives. */
 export function calibrationLogOf(drives: Drive[]): Pick<CalibrationLog, Role> {
   const odometry = drives.map((drive) => drive.odometry.data);
   const reference = drives.map((drive) => drive.reference.data as Poses);
   return drives.length === 1 ? { odometry: odometry[0], reference: reference[0] } : { odometry, reference };
 }
 
-/** Reads the logs of planned recordings and pairs them. Their times are relative to one start. Rejects with a LogError. */
+/** Reads the logs of planned recordings, and pairs them. All times count from the same start. Rejects with a LogError. */
 export async function readDrives(plan: PlannedRecording[], onProgress?: (fraction: number) => void): Promise<Drive[]> {
   const logs: { log: Log; role: Role; isPaired: boolean }[] = [];
   for (const [i, { recording, choices }] of plan.entries()) {
@@ -109,7 +109,7 @@ export async function readDrives(plan: PlannedRecording[], onProgress?: (fractio
   return logPairs.map(([odometryLog, referenceLog]) => pairLogs(odometryLog, referenceLog));
 }
 
-/** Throws a LogError with a question if the speeds of two logs of a drive differ like two units of length. */
+/** Throws a LogError with a question if the ratio of two logs' speeds is that of two units of length, such as metres and feet. */
 function checkLengthUnits(logs: Record<Role, Log>): void {
   const [odometrySpeed, referenceSpeed] = ROLES.map((role) => speedOf(logs[role].data));
   if (Math.min(odometrySpeed, referenceSpeed) < MIN_COMPARED_SPEED) return;

@@ -11,7 +11,7 @@ export interface Path { t: number[]; poses: Pose[]; breaks: Set<number> }
 /** Returns an angle between −π and π. */
 export const wrapAngle = (angle: number) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 
-/** Returns the path of poses, or of commands from the origin, with a pose for each `rowsPerPose` rows and one for the last row. */
+/** Returns the path through the poses of a log, or from the origin by its commands. The path has a pose for each `rowsPerPose` rows, and one for the last row. */
 export function pathOf(data: Poses | Commands, rowsPerPose = 1): Path {
   const { t, breaks } = data;
   const path: Path = { t: [], poses: [], breaks: new Set() };
@@ -33,7 +33,7 @@ export function pathOf(data: Poses | Commands, rowsPerPose = 1): Path {
   return path;
 }
 
-/** Returns the interpolated pose at a time. Outside of the path's times, returns its first or last pose. */
+/** Returns the interpolated pose of a path at a time. Before the first time of the path it returns the first pose, and after the last time the last pose. */
 export function poseAt({ t, poses }: Path, time: number): Pose {
   const nextIndex = Math.min(Math.max(bisectLeft(t, time), 1), t.length - 1);
   const fraction = Math.min(Math.max((time - t[nextIndex - 1]) / (t[nextIndex] - t[nextIndex - 1]), 0), 1);
@@ -44,7 +44,10 @@ export function poseAt({ t, poses }: Path, time: number): Pose {
 export const svgPathDataOf = ({ poses, breaks }: Path, toPixel: (pose: Pose) => number[]) =>
   poses.map((pose, i) => `${i === 0 || breaks.has(i) ? 'M' : 'L'}${toPixel(pose).map((value) => value.toFixed(1)).join(' ')}`).join('');
 
-/** Rotates and moves a path so that its squared distance to the target is smallest. Paths without a common time are not aligned. Times of the target are later by `offset`. */
+/**
+ * Rotates and moves a path to minimize its squared distance to a target path. Times of the target are later by `offset`. A path that has no time in common
+ * with the target stays as it is.
+ */
 export function alignPath(path: Path, target: Path, offset = 0): Path {
   const posePairs = path.poses.flatMap((pose, i): [Pose, Pose][] => {
     const time = path.t[i] + offset;
@@ -66,10 +69,10 @@ export function alignPath(path: Path, target: Path, offset = 0): Path {
   return { ...path, poses: path.poses.map(transformPose) };
 }
 
-/** Minimum distance (m) between points whose distances are added up, so that the noise of poses at rest is left out. */
+/** Minimum distance (m) between points whose distances add up to a path length. Shorter distances are mostly noise of a robot at rest. */
 const MIN_STEP_METRES = 0.05;
 
-/** Returns the distance driven (m), without the jumps, which are before the rows `jumpRows`. */
+/** Returns the distance driven (m). The step that leads to each row in `jumpRows` is a jump, and does not count. */
 export function distanceOf(data: Poses | Commands, jumpRows: number[]): number {
   const { t } = data;
   let distance = 0;
@@ -91,17 +94,17 @@ export function distanceOf(data: Poses | Commands, jumpRows: number[]): number {
 
 export type Quaternion = [x: number, y: number, z: number, w: number];
 
-/** Maximum deviation of a quaternion's length from 1. A larger one is not explained by rounding. */
+/** Maximum deviation of a quaternion's length from 1. Rounding explains smaller deviations. */
 const QUATERNION_LENGTH_TOLERANCE = 0.1;
 
-/** Number of steps per radian to which headings are rounded. */
+/** Number of steps per radian to which headings are rounded, so that results are equal in all JavaScript engines. */
 const HEADING_STEPS_PER_RADIAN = 1e12;
 
-/** Returns the angle `c` about Z, and the cosine of the tilt of Z. The angle is undefined for a quaternion that is no rotation, and NaN for one with NaN. */
+/** Returns the heading `c` (rotation about Z), and the cosine of the tilt of Z. The heading is undefined if the quaternion is not a rotation, and NaN if the quaternion contains NaN. */
 export function rotationOf(qx: number, qy: number, qz: number, qw: number): { c: number | undefined; tiltCosine: number } {
   const tiltCosine = 1 - 2 * (qx * qx + qy * qy);
   if (Math.abs(Math.sqrt(qx * qx + qy * qy + qz * qz + qw * qw) - 1) > QUATERNION_LENGTH_TOLERANCE) return { c: undefined, tiltCosine };
-  // The arc tangent differs between engines in its last bits. Rounding makes results equal everywhere.
+  // The last bits of the arc tangent differ between JavaScript engines. Rounding makes the heading equal in all of them.
   const heading = Math.round(Math.atan2(2 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz) * HEADING_STEPS_PER_RADIAN) / HEADING_STEPS_PER_RADIAN;
   return { c: heading, tiltCosine };
 }
@@ -113,10 +116,10 @@ export const multiplyQuaternions = ([ax, ay, az, aw]: Quaternion, [bx, by, bz, b
   aw * bw - ax * bx - ay * by - az * bz,
 ];
 
-/** Maximum number of values from which a quantile is computed. */
+/** Maximum size of the sample from which a quantile is computed. */
 const MAX_SAMPLED_VALUES = 10_000;
 
-/** Returns the values of `valueAt` at evenly spaced indices below `count`, at most `MAX_SAMPLED_VALUES` of them. */
+/** Returns a sample of `valueAt` at evenly spaced indices from 0 to `count`. The sample has at most `MAX_SAMPLED_VALUES` values. */
 export function sampleEvenly(count: number, valueAt: (i: number) => number): Float64Array {
   const stride = Math.max(1, Math.ceil(count / MAX_SAMPLED_VALUES));
   const values = new Float64Array(Math.max(0, Math.ceil(count / stride)));
@@ -124,5 +127,5 @@ export function sampleEvenly(count: number, valueAt: (i: number) => number): Flo
   return values;
 }
 
-/** Sorts the values in place and returns a quantile of them; NaN of no values. */
+/** Returns a quantile of an array, which it sorts in place; NaN for an empty array. */
 export const quantileOf = (values: Float64Array, fraction: number) => values.sort()[Math.floor(fraction * (values.length - 1))] ?? NaN;

@@ -6,21 +6,21 @@ import { LogError, type ErrorPlace, type DropCause, type Log, type LogKind, type
 import { distanceOf, quantileOf, sampleEvenly, wrapAngle } from './path.ts';
 import { epochTimeUnitOf, judgeUnits, type Columns, type CreateColumnQuestion, type Units } from './units.ts';
 
-/** Pose (x, y and heading) or command (v, omega and 0). `time` is in s, or 0 if unknown. The heading is undefined if the quaternion is no rotation. */
+/** Sample of a log: a pose (x, y and heading) or a command (v, omega and 0). `time` is in s; 0 if unknown. The heading is undefined if the quaternion is not a rotation. */
 export interface Sample {
   time: number;
   a: number;
   b: number;
   c: number | undefined;
-  /** Height, if the heading is an angle. */
+  /** Height of a pose; only given if its heading is stored as an angle. */
   z?: number;
-  /** Cosine of the tilt of Z, if the heading is from a quaternion. */
+  /** Cosine of the tilt of Z; only given if the heading is stored as a quaternion. */
   tiltCosine?: number;
 }
 
-/** Facts about a log that the reader of its format provides. */
+/** Facts about a log that come from the reader of its file format. */
 interface LogFacts {
-  /** Units that a name or the format states. */
+  /** Units that the names of columns or the file format state. */
   units: Units;
   /** Name of the clock of the rows, and of the other clock if there is one. */
   clocks: [string, string?];
@@ -30,43 +30,46 @@ interface LogFacts {
   createColumnQuestion?: CreateColumnQuestion;
 }
 
-/** Maximum number of rows: a day at 100 Hz. */
+/** Maximum number of rows in a log, about a day at 100 Hz. */
 const MAX_ROWS = 10_000_000;
 
-/** Maximum coordinate or speed that the core accepts. */
+/** Maximum absolute value of a coordinate or speed that the core accepts. */
 export const MAX_VALUE = 1e9;
 
-/** Minimum duration of a gap in median steps, as in the core. */
+/** Minimum duration of a gap, in median steps between rows. The core uses the same number. */
 const MIN_GAP_STEPS = 5;
 
-/** Minimum speed of a jump, as a multiple of the 90 % quantile of the speeds of a moving robot. */
+/** Minimum speed of a jump, as a multiple of a moving robot's usual speed (90 % quantile). */
 const JUMP_FACTOR = 8;
 
-/** Minimum number of different poses of a log, in which the usual number of repetitions of a pose can be judged. */
+/** Minimum number of different poses from which to judge how often a log usually repeats a pose. */
 const MIN_POSES = 20;
 
-/** Minimum number of rows with one pose for a robot that stands, relative to the usual number. A localizer also repeats poses of a robot that has moved little. */
+/** Minimum number of repetitions of a pose that shows a standing robot, as a multiple of the usual number. A localizer also repeats poses while the robot moves slowly. */
 const STANDSTILL_FACTOR = 8;
 
-/** Maximum time between two overlapping rows, in median steps, and maximum number of overlapping rows in a run of rising times, and as a fraction of all rows. */
+/** Limits for overlapping rows: maximum time between them, in median steps between rows; maximum number of overlaps in a run of rising times; maximum fraction of all rows. */
 const [MAX_OVERLAP_STEPS, MAX_RUN_OVERLAPS, MAX_OVERLAP_FRACTION] = [0.75, 2, 0.02];
 
-/** Limits for rows that are only late: maximum ratio of the path's length in order of times to its length in order of the file, and minimum number of late rows. */
+/** Limits for rows that are late: maximum length of the path in order of time, relative to its length in order of the file, and minimum number of late rows. */
 const [MAX_LATE_PATH_RATIO, MIN_LATE_ROWS] = [0.75, 20];
 
-/** Minimum distance (m) of two paths whose poses alternate, above that of vibrations, and minimum number of long steps, above that of jumps. */
+/** Limits for two paths in one log: minimum distance (m) between them, above vibrations, and minimum number of long steps, above the number of jumps. */
 const [MIN_PATH_DISTANCE, MIN_LONG_STEPS] = [0.05, 20];
 
-/** Limits for two alternating paths: maximum number of rows, and of seconds, until the next pose of the same path, and maximum ratio of the long steps within a path to those between neighbouring rows. */
+/**
+ * Limits for two paths whose rows alternate: maximum rows and seconds until the same path continues; maximum number of long steps within a path, relative
+ * to long steps between successive rows.
+ */
 const [MAX_RETURN_ROWS, MAX_RETURN_SECONDS, MAX_LONG_FRACTION] = [8, 1, 0.2];
 
-/** Minimum length of a jump in metres and radians, above the noise of a fast log. */
+/** Minimum size of a jump: a distance in metres or a turn in radians. The noise of a log with a high rate is smaller. */
 const [MIN_JUMP, MIN_JUMP_TURN] = [0.1, 0.2];
 
 /** Minimum speed of a moving robot, in m/s or rad/s. */
 const MIN_MOVING_SPEED = 0.01;
 
-/** Maximum fraction of rows that have the time of another row and other values. */
+/** Maximum fraction of rows that have the same time as another row, but other values. */
 const MAX_CONTRADICTING_FRACTION = 0.4;
 
 /** Maximum fraction of damaged rows. */
@@ -80,23 +83,23 @@ export class RowCollector {
   /** Columns of the rows that were added. `breakFlags` is 1 if the path before a row is unknown. */
   #columns = { time: [] as number[], a: [] as number[], b: [] as number[], c: [] as number[], z: [] as number[], line: [] as number[], otherTime: [] as number[], breakFlags: [] as number[] };
   #tiltCosines: number[] = [];
-  /** Times of the clock that is used. */
+  /** Times of the clock in use, which is the first or the fallback clock. */
   #times = this.#columns.time;
   /** True if the path before the next row is unknown, because an unusable row was dropped. */
   #isPathBroken = false;
   #dropped: Summary['dropped'] = {};
-  /** Number of damaged rows, and reason of the first damaged row. */
+  /** Number of damaged rows, and line and reason of the first damaged row. */
   #damage: { count: number; line: number; formatReason: ErrorReason } | undefined;
 
   /** Number of all rows, including dropped rows. */
   rowCount = 0;
 
-  /** @param logPlace file and topic that error messages name */
+  /** @param logPlace file and topic for error messages @param logPlace file and topic that error messages name */
   constructor(logPlace: ErrorPlace) {
     this.#logPlace = logPlace;
   }
 
-  /** Drops a row. If many rows are dropped with a reason, the log is refused with the reason of the first. */
+  /** Drops a row. If too many rows are dropped with a reason, the log is refused with the reason given for the first such row. */
   dropRow(cause: DropCause, line: number, formatReason?: ErrorReason): void {
     this.rowCount += 1;
     this.#countDropped(cause, line);
@@ -104,7 +107,7 @@ export class RowCollector {
     if (formatReason) this.#damage = { line, formatReason, ...this.#damage, count: (this.#damage?.count ?? 0) + 1 };
   }
 
-  /** Adds a row, or drops an unusable row. `otherTime` is the time of the fallback clock, which is used if the first clock stands still. */
+  /** Adds a row, or drops it if it is unusable. `otherTime` is the time by the fallback clock, which is used if the first clock stands still. */
   addRow({ time, a, b, c, z = 0, tiltCosine }: Sample, line: number, otherTime = 0): void {
     if (c === undefined) return this.dropRow('noRotation', line);
     if (!(Number.isFinite(time) && Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) <= MAX_VALUE)) return this.dropRow('notFinite', line);
@@ -123,13 +126,13 @@ export class RowCollector {
     this.#isPathBroken = false;
   }
 
-  /** Difference of the 95 % and the 5 % quantile of the cosine of the tilt. It is small if Z is vertical. */
+  /** Spread of the cosine of the tilt: the difference between its 95 % and 5 % quantiles. A small spread shows that Z is the vertical axis. */
   get tiltSpread(): number {
     const [low, high] = [0.05, 0.95].map((fraction) => quantileOf(sampleEvenly(this.#tiltCosines.length, (i) => this.#tiltCosines[i]), fraction));
     return high - low || 0;
   }
 
-  /** Returns the log with the rows that were added. Throws a LogError if they are no log, or their units or axes are in doubt. */
+  /** Returns the log of the rows that were added. Throws a LogError if the rows do not form a log, or if their units or axes are in doubt. */
   buildLog(name: string, kind: LogKind, { units: assumedUnits, clocks, createColumnQuestion, ...decisions }: LogFacts, options: OpenOptions = {}): Log {
     const { rowCount } = this;
     const damage = this.#damage;
@@ -170,7 +173,7 @@ export class RowCollector {
     return { name, kind, start: columns.start, data, summary, ...(createColumnQuestion && { mirroring: createColumnQuestion(COLUMN_CHANGES.mirrored) }) };
   }
 
-  /** Returns true if most rows have the time of the previous row, because the stamps are 0 or never change. */
+  /** Returns true if most rows have the same time as the row before, because the stamps are 0 or never change. */
   #isClockStill(): boolean {
     const { time } = this.#columns;
     return 2 * time.filter((rowTime, row) => rowTime === time[row - 1]).length > time.length;
@@ -181,26 +184,26 @@ export class RowCollector {
     return a[rowIndex] === a[otherRowIndex] && b[rowIndex] === b[otherRowIndex] && c[rowIndex] === c[otherRowIndex];
   }
 
-  /** Returns the rows without those whose stamp was not set. Such a stamp is 0 although all other times are since 1970. */
+  /** Drops the rows whose stamp was not set: their stamp is 0, although all others are times since 1970. Returns the remaining rows. */
   #dropUnsetTimes(): Uint32Array {
     const rows = new Uint32Array(this.#times.length).map((_, row) => row);
     const isSince1970 = this.#times.every((time) => time === 0 || epochTimeUnitOf(time) !== undefined);
     return isSince1970 ? this.#dropRows(rows, 'noStamp', (row) => this.#times[row] === 0) : rows;
   }
 
-  /** Returns the rows in the order of their times, and the number of late rows. Throws a LogError if the clock was set back. */
+  /** Returns the rows sorted by time, and the number of late rows. Throws a LogError if the clock was set back. */
   #sortByTime(rows: Uint32Array): { sortedRows: Uint32Array; lateCount: number } {
     const { a, b } = this.#columns;
     const times = Array.from(rows, (row) => this.#times[row]);
-    // Runs are rows with rising times.
+    // Runs are sequences of rows in the file with rising times.
     const runOfRow = new Uint32Array(rows.length);
     for (let i = 1; i < rows.length; i++) runOfRow[i] = runOfRow[i - 1] + Number(times[i] < times[i - 1]);
     if (!runOfRow.at(-1)) return { sortedRows: rows, lateCount: 0 };
     const sortedOrder = rows.map((_, i) => i).sort((position, otherPosition) => times[position] - times[otherPosition] || position - otherPosition);
     const medianStep = quantileOf(sampleEvenly(times.length - 1, (i) => times[sortedOrder[i + 1]] - times[sortedOrder[i]]).filter((step) => step > 0), 0.5);
     const distanceBetween = (position: number, otherPosition: number) => Math.hypot(a[rows[position]] - a[rows[otherPosition]], b[rows[position]] - b[rows[otherPosition]]);
-    // Two rows overlap if they are close in time, but in different runs of the file. If rows were only late, sorting makes the path shorter. If the
-    // clock was set back, sorting makes the path longer.
+    // Two rows from different runs overlap if their times are nearly equal. If the rows of a run were only written late, sorting by time shortens the path.
+    // If the clock was set back, sorting lengthens the path, because it mixes two parts of the drive.
     const overlaps: { run: number; sortedLength: number; fileLength: number }[] = [];
     for (let i = 1; i < sortedOrder.length; i++) {
       const [previousPosition, position] = [sortedOrder[i - 1], sortedOrder[i]];
@@ -224,7 +227,7 @@ export class RowCollector {
     return { sortedRows: sortedOrder.map((i) => rows[i]), lateCount: times.filter(isLate).length };
   }
 
-  /** Returns the first row of each time. Throws a LogError if many rows have the time of another row but other values. */
+  /** Returns the first row of each time. Throws a LogError if too many rows have the same time as another row, but other values. */
   #dropEqualTimes(rows: Uint32Array): Uint32Array {
     let [lastTime, contradictions] = [-Infinity, 0];
     const distinctRows = this.#dropRows(rows, 'duplicate', (row, i) => {
@@ -242,8 +245,8 @@ export class RowCollector {
   }
 
   /**
-   * Returns the rows with each pose of a moving robot kept once. A table with topics of different rates repeats the poses of the slower ones,
-   * and a localizer may publish its last pose again. While the robot stands, the same fraction of rows is dropped.
+   * Drops repetitions of poses of a moving robot, and returns the remaining rows. Slow topics in a table with faster ones, and localizers, repeat their
+   * last pose. While the robot stands, the same fraction of rows is dropped as usual.
    */
   #dropRepeatedPoses(rows: Uint32Array): Uint32Array {
     const isRepeated = (i: number) => i > 0 && this.#hasSameValues(rows[i - 1], rows[i]);
@@ -262,7 +265,7 @@ export class RowCollector {
     });
   }
 
-  /** Returns the rows for which `isDropped` is false. A break before a dropped row is moved to the next row. */
+  /** Returns the rows for which `isDropped` is false. If the path is unknown before a dropped row, it is also unknown before the next row that is kept. */
   #dropRows(rows: Uint32Array, cause: DropCause, isDropped: (row: number, i: number) => boolean): Uint32Array {
     const { line, breakFlags } = this.#columns;
     return rows.filter((row, i) => {
@@ -273,7 +276,7 @@ export class RowCollector {
     });
   }
 
-  /** Returns the rate, the gaps, the jumps, and the breaks: rows before which the path is unknown. */
+  /** Returns the rate, the gaps, the jumps, and the breaks of a log. A break is a row before which the path is unknown. */
   #findEvents(kind: LogKind, [t, a, b, c]: Float64Array[], hasBreakBefore: (i: number) => boolean) {
     const medianStep = quantileOf(sampleEvenly(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
     const [gapRows, jumpRows, breaks]: number[][] = [[], [], []];
@@ -296,7 +299,7 @@ export class RowCollector {
   }
 }
 
-/** Returns the distance (m) of two paths whose poses alternate; 0 for one path. With two paths, many poses are far from the next pose, and near a pose a few rows later. */
+/** Returns the distance (m) between two paths whose poses alternate in a log; 0 for one path. With two paths, many poses are far from the next pose, but near a pose a few rows later. */
 function distanceOfPaths(t: Float64Array, x: Float64Array, y: Float64Array): number {
   const distancesAfterRows = (rows: number) => sampleEvenly(x.length - rows, (i) => Math.sqrt((x[i + rows] - x[i]) ** 2 + (y[i + rows] - y[i]) ** 2));
   const longStep = quantileOf(distancesAfterRows(1), 0.9);
@@ -306,14 +309,14 @@ function distanceOfPaths(t: Float64Array, x: Float64Array, y: Float64Array): num
   return longStep > MIN_PATH_DISTANCE && countLongDistances(1) >= MIN_LONG_STEPS && range(2, maxRows + 1).some(hasReturnedAfter) ? longStep : 0;
 }
 
-/** Returns a function that checks for a jump between a row and the one before it. */
+/** Returns a function that checks for a jump from the previous row to a row. */
 function createJumpChecker(t: Float64Array, x: Float64Array, y: Float64Array, theta: Float64Array): (i: number) => boolean {
   const distanceToPrevious = (i: number) => Math.sqrt((x[i] - x[i - 1]) ** 2 + (y[i] - y[i - 1]) ** 2);
   const turnFromPrevious = (i: number) => Math.abs(wrapAngle(theta[i] - theta[i - 1]));
   const jumpTests = ([[distanceToPrevious, MIN_JUMP], [turnFromPrevious, MIN_JUMP_TURN]] as const).map(([lengthOfStep, minLength]) => {
     const stepRates = sampleEvenly(t.length - 1, (i) => lengthOfStep(i + 1) / (t[i + 1] - t[i]));
     const jumpLimit = JUMP_FACTOR * quantileOf(stepRates.filter((rate) => rate > MIN_MOVING_SPEED), 0.9);
-    // For a robot that never moves the limit is NaN.
+    // If the robot never moves, `jumpLimit` is NaN, and only the minimum length applies.
     return (i: number) => lengthOfStep(i) > Math.max(minLength, (jumpLimit || 0) * (t[i] - t[i - 1]));
   });
   return (i) => jumpTests.some((isJumpBy) => isJumpBy(i));

@@ -14,22 +14,22 @@ export type LogFailure = Pick<LogError, 'message' | 'place' | 'question'> & { se
 
 /** Contents of files as posted to the page. */
 export interface FileContents {
-  /** Recordings without their methods, each with its logs that are read. Without `choices`, the logs have not been chosen. */
+  /** Recordings without their methods, each with the choice of its logs. `choices` is missing if the logs were not chosen because of an error. */
   recordings: (Pick<Recording, 'name' | 'format' | 'series'> & Partial<Pick<PlannedRecording, 'choices'>>)[];
-  /** Errors of files that are not used. */
+  /** Errors of files that were skipped. */
   skipped: LogFailure[];
-  /** Error by which the files were refused. */
+  /** Error because of which all files were refused. */
   refusal?: LogFailure;
   drives?: Drive[];
-  /** Logs of all drives, and notes that make their α's doubtful. */
+  /** Logs of all drives, and warnings that the α's are doubtful. */
   log?: CalibrationLog;
   warnings?: Warning[];
 }
 
-/** Minimum time (ms) between progress reports. The page renders the figure after each report. */
+/** Minimum time (ms) between reports of progress, because the page renders the figure after each report. */
 const PROGRESS_INTERVAL_MS = 50;
 
-/** Maximum number of files in the name of a log. */
+/** Maximum number of files that the name of a log lists. */
 const MAX_NAMED_FILES = 4;
 
 export class LogSession {
@@ -63,13 +63,13 @@ export class LogSession {
       return transfer(contents, [...new Set(columns.map(({ buffer }) => buffer as ArrayBuffer))]);
     } catch (error) {
       if (!(error instanceof LogError)) throw error;
-      // A file that was skipped because of a question may be the missing log. Its question is asked first.
+      // If a file was skipped because of an open question, its log may be the missing one. That question is asked before the error is reported.
       const questionAboutSkipped = plan ? undefined : skipped.find(({ question }) => question);
       return { recordings: describeRecordings(), skipped, refusal: questionAboutSkipped ?? failureOf(error) };
     }
   }
 
-  /** Returns the serialized fit to a log, for `AlphaCalibrator.restored`. */
+  /** Returns the serialized fit to a log, which `AlphaCalibrator.restored` reads. */
   async calibrate(config: AlphaCalibratorSettings, { odometry, reference }: CalibrationLog): Promise<Uint8Array> {
     this.#simulation.setLog(odometry, reference);
     this.#simulation.configure(config);
@@ -77,7 +77,7 @@ export class LogSession {
   }
 }
 
-/** Returns the name of a log: its files, and its topics if a single recording has both odometry and reference. */
+/** Returns the name of a log: the names of its files. For a single recording with odometry and reference, the topics are added. */
 function nameOf(plan: PlannedRecording[]): string {
   const [{ choices }] = plan;
   const names = plan.map(({ recording }) => recording.name);

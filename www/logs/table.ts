@@ -9,22 +9,22 @@ import { UNIT_EXPONENTS, epochTimeUnitOf } from './units.ts';
 
 const BLOCK_BYTES = 2 ** 22;
 
-/** Number of bytes at the start of a file, with a preamble and some rows, from which the format is detected. */
+/** Number of bytes at the start of a file from which the format is detected. They contain the preamble and some rows. */
 const HEAD_BYTES = 2 ** 18;
 
 /** Number of characters at the start of a text that are checked for NUL characters. */
 const CHECKED_CHARACTERS = 4096;
 
-/** Maximum number of characters of a line. A row of a thousand columns is shorter. */
+/** Maximum number of characters in a line. A row of a thousand columns is shorter. */
 const MAX_LINE_LENGTH = 2 ** 16;
 
-/** Change of the columns with which the robot turns about Z. */
+/** Change of columns after which the vertical axis is Z: the file has Y up, or quaternions that start with w. */
 type TiltChange = 'yUp' | 'wFirst';
 
-/** Minimum spread of the cosine of the tilt, above that of noise, and maximum ratio of the spreads after and before a change that is made. */
+/** Limits for changing columns: minimum spread of the tilt's cosine, above that of noise, and maximum ratio of the spread after the change to that before. */
 const [MIN_TILT_SPREAD, MAX_TILT_RATIO] = [0.001, 0.1];
 
-/** Minimum number of rows, all with equally many decimals in the last column, after which fewer decimals show that the file is cut off. */
+/** Minimum number of rows after which a last number with fewer decimals than all others shows that the file is cut off. */
 const MIN_UNIFORM_ROWS = 20;
 
 export async function openTable(source: Source, optionsOf: OptionsByName): Promise<Recording> {
@@ -33,12 +33,12 @@ export async function openTable(source: Source, optionsOf: OptionsByName): Promi
   const headText = new TextDecoder(encoding).decode(headBytes, { stream: true });
   if (headText.slice(0, CHECKED_CHARACTERS).includes('\0')) throw new LogError({ file: source.name }, (texts) => texts.binary);
   const headLines = headText.split('\n');
-  // The last line of the head may be incomplete. It is dropped unless it is the only line.
+  // The last line of the sampled text may be incomplete. It is dropped unless it is the only line.
   if (source.size > HEAD_BYTES && headLines.length > 1) headLines.pop();
   const format = detectTableFormat(headLines, source.name, optionsOf(source.name)?.columns);
   const readableGroups = format.columnGroups.filter(({ kind }) => kind !== null);
   const headerPlace = { file: source.name, line: Math.max(1, format.firstRowNumber - 1) };
-  // If no group can be read, `findLogLayout` throws the reason for the group with most columns.
+  // This call throws a LogError: it gives the reason why the group with most columns cannot be read.
   if (readableGroups.length === 0) findLogLayout(format.columnGroups.toSorted((a, b) => Object.keys(b.columns).length - Object.keys(a.columns).length)[0], format.columnNames, headerPlace, undefined);
   const seriesOfGroup = (group: ColumnGroup): Series => ({
     name: readableGroups.length === 1 && group.kind !== null ? '' : group.name || listNames(columnNamesOf(group)),
@@ -53,7 +53,7 @@ export async function openTable(source: Source, optionsOf: OptionsByName): Promi
     format: 'csv',
     series: allSeries,
     async read(choices, onProgress) {
-      /** Reads the choices, or, with a change, those that have the columns that change. */
+      /** Reads the chosen logs. With a change of columns, it reads only logs that have the changed columns. */
       const readWith = async (changeName?: TiltChange) => {
         const readers = choices.map(({ series: seriesName, kind }) => {
           const chosenGroup = format.columnGroups[allSeries.findIndex(({ name }) => name === seriesName)];
@@ -68,7 +68,7 @@ export async function openTable(source: Source, optionsOf: OptionsByName): Promi
         return readers;
       };
       let readers = (await readWith()) as LogReader[];
-      // The vertical axis is the one about which the robot turns.
+      // A robot turns about its vertical axis. A change is made if Z then has a far smaller spread of its tilt.
       for (const changeName of ['yUp', 'wFirst'] as const) {
         if (!readers.some(({ rows }) => rows.tiltSpread > MIN_TILT_SPREAD)) break;
         const changedReaders = await readWith(changeName);
@@ -84,7 +84,7 @@ export async function openTable(source: Source, optionsOf: OptionsByName): Promi
 
 const columnNamesOf = ({ columns }: ColumnGroup) => Object.values(columns).toSorted((a, b) => a.index - b.index).map(({ name }) => name);
 
-/** Returns the encoding of a text. Signs are a byte order mark, the zeros of UTF-16, and bytes that UTF-8 does not have. */
+/** Detects the encoding of a text from a byte order mark, the zero bytes of UTF-16, or bytes that are invalid in UTF-8. */
 function detectEncoding(bytes: Uint8Array): string {
   const [byte0, byte1, byte2, byte3] = bytes;
   if ((byte0 === 0xff && byte1 === 0xfe) || (byte0 !== 0 && byte1 === 0 && byte2 !== 0 && byte3 === 0)) return 'utf-16le';
@@ -97,7 +97,7 @@ function detectEncoding(bytes: Uint8Array): string {
   }
 }
 
-/** Calls `addLine` for each line from `firstLineNumber` on. `isUnterminated` is true for text after the last line feed: the file may be cut off there. */
+/** Calls `addLine` for each line from `firstLineNumber` on. `isUnterminated` is true for a last line without a line feed, because the file may be cut off there. */
 async function readLines(source: Source, encoding: string, firstLineNumber: number, onProgress: ((fraction: number) => void) | undefined, addLine: (line: string, number: number, isUnterminated: boolean) => void) {
   const decoder = new TextDecoder(encoding);
   let [incompleteLine, number] = ['', 0];
@@ -116,12 +116,12 @@ async function readLines(source: Source, encoding: string, firstLineNumber: numb
   passLine(incompleteLine + decoder.decode(), true);
 }
 
-/** Returns a reader of the times of a table. If no unit is stated, the first time that is not 0 determines it. */
+/** Returns a reader of the times of a table. If the unit is not stated, the reader judges it by the size of the first time that is not 0. */
 function createClockReader({ columns: [{ index }, subseconds], unit: namedUnit }: Clock, statedUnit: TimeUnit | undefined, normalizeCell: (cell: string) => string) {
   const unitBasis = statedUnit ? 'option' : namedUnit ? 'name' : 'usage';
   const judgedUnit: { unit?: TimeUnit; by: Summary['units']['time']['by'] } = { unit: statedUnit ?? namedUnit, by: unitBasis };
   let isDate: boolean | undefined;
-  /** Returns the time of a row in seconds; undefined if its cell is neither a number nor a date. */
+  /** Returns the time of a row in seconds; undefined if the row's cell contains neither a number nor a date. */
   const readTime = (cells: string[]): number | undefined => {
     const text = normalizeCell(cells[index]);
     if (subseconds) {
@@ -147,7 +147,7 @@ function createClockReader({ columns: [{ index }, subseconds], unit: namedUnit }
 
 type LogReader = ReturnType<typeof createLogReader>;
 
-/** Returns a reader of the log of one series, line by line. `namedColumns` are the columns before a change. */
+/** Returns a reader of the log of one series, line by line. `namedColumns` are the original columns; the columns in `group` may have been changed. */
 function createLogReader(name: string, errorPlace: ErrorPlace, format: TableFormat, group: ColumnGroup, layout: ReturnType<typeof findLogLayout>, options: OpenOptions = {}, namedColumns: ColumnGroup['columns'], changeName?: TiltChange) {
   const { separator, hasDecimalCommas, isSparse, columnNames } = format;
   const { clocks, columns, fields, kind, lengthUnit, angleUnit } = layout;
@@ -155,13 +155,13 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
   const notes: Note[] = changeName ? [{ name: changeName, values: [] }] : [];
   const normalizeCell = hasDecimalCommas ? withDecimalPoint : (cell: string) => cell;
   const clockReaders = clocks.map((clock, i) => createClockReader(clock, i === 0 ? options.timeUnit : undefined, normalizeCell));
-  // Columns that name the frames, topic or robot of a row.
+  // Columns with the frames, the topic or the robot of a row.
   const nameColumns = [group.columns.source, group.columns.frame, group.columns.child].filter((column) => column !== undefined);
   const { z } = group.columns;
   const hasHeight = fields.at(-1) === 'yaw' && z !== undefined;
   const neededCellCount = Math.max(...[...columns, ...(hasHeight ? [z] : []), ...clocks.flatMap((clock) => clock.columns), ...nameColumns].map(({ index }) => index)) + 1;
   const rowNames = new Set<string>();
-  /** Numbers of decimals in the last column. */
+  /** Numbers of decimals that occur in the last column. */
   const decimalCounts = new Set<number>();
 
   const dropTextRow = (line: number, columnName: string, cell: string) => rows.dropRow('text', line, (texts) => texts.number(truncate(columnName), truncate(cell.trim())));
@@ -200,7 +200,7 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
         notes.push({ name: 'cutShort', values: [] });
         return rows.dropRow('short', number);
       }
-      // A row of another topic has empty cells in the columns of this topic.
+      // In a table with several topics, a row of another topic has empty cells in the columns of this topic, and is skipped.
       if (!(isSparse && columns.every(({ index }) => Number.isNaN(parseNumber(cells[index]))))) addCellsAsRow(cells, number);
     },
 
@@ -232,5 +232,5 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
   };
 }
 
-/** Replaces a decimal comma by a point. A cell that also has a point is ambiguous, and is made invalid by a question mark. */
+/** Replaces a decimal comma by a point. If the cell also has a point, it is ambiguous: a question mark is appended, so that it is refused as a number. */
 const withDecimalPoint = (cell: string) => (cell.includes('.') && !cell.includes(':') && /^\s*[+-]?[\d.]+,?\d*\s*$/.test(cell) ? `${cell}?` : cell.replace(',', '.'));

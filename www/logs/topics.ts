@@ -7,10 +7,10 @@ import { LogError, truncate, listNames, reasonOf, RECORDING_CLOCK, formatFrames,
 import { isReadable, logKindOfType, sampleReaderOf, readTransforms } from './messages.ts';
 import { RowCollector } from './rows.ts';
 
-/** Maximum number of messages with transforms that are read to find the frames. */
+/** Maximum number of messages with transforms from which the pairs of frames are found. */
 const MAX_FRAME_MESSAGES = 2000;
 
-/** Maximum length of the types of a topic in a sentence. */
+/** Maximum number of characters of a topic's message types in a sentence. */
 const MAX_TYPE_LENGTH = 100;
 
 /** Returns true for a topic of static transforms. */
@@ -32,14 +32,14 @@ export async function createRecording(name: string, container: Container, option
       for (const reader of readersByChannel.get(message.channel) ?? []) reader.addMessage(message);
     };
     const wantedChannels = new Set(container.channels.filter((channel) => readersByChannel.get(channel)?.length && !isStaticTopic(channel)));
-    // Static transforms are read first, because they also hold before the time of their recording.
+    // Static transforms are read before the other messages, because they also apply to times before their recording.
     if (choices.some(({ frames }) => frames)) await container.readMessages(isStaticTopic, passMessage);
     await container.readMessages((channel) => wantedChannels.has(channel), passMessage, onProgress);
     return choiceReaders.map((reader) => reader.buildLog(optionsOf));
   }
 }
 
-/** Returns the reason why a part of a recording cannot be read; undefined for an undamaged recording. */
+/** Returns the first reason why a part of a recording cannot be read; undefined for an undamaged recording. */
 const damageReasonOf = ({ damageReasons, truncationReason }: Container): string | undefined => [...damageReasons, truncationReason][0];
 
 async function listSeries(container: Container): Promise<Series[]> {
@@ -59,7 +59,7 @@ async function listSeries(container: Container): Promise<Series[]> {
       try {
         for (const transform of readTransforms(message)) frameTree.addTransform(transform, isStaticTopic(message.channel), message.time, messageCount);
       } catch {
-        // A damaged message is counted when the log is read.
+        // A damaged message is ignored here. It is counted when the log is read.
       }
     };
     await container.readMessages(isStaticTopic, addMessage);
@@ -69,7 +69,7 @@ async function listSeries(container: Container): Promise<Series[]> {
   return sort(series, ({ name }) => name);
 }
 
-/** Returns a reader of one topic. For a topic of transforms it also reads the static transforms. Throws a LogError if the topic has no such log. */
+/** Returns a reader of the log in one topic. For a topic of transforms, the reader also takes static transforms. Throws a LogError if the topic has no such log. */
 function createTopicReader(file: string, container: Container, { series: topic, kind: wantedKind, frames }: LogChoice, { type, kind }: Pick<Series, 'type' | 'kind'> = { type: '', kind: null }) {
   const refuse = (formatReason: ErrorReason): never => {
     throw new LogError({ file, topic }, formatReason);

@@ -1,4 +1,4 @@
-/** Units of a log, judged by names, sizes and the motion of the robot. If they are in doubt, the log is refused with a question. */
+/** Units of a log, judged by names, the size of numbers, and the motion of the robot. If a unit is in doubt, the log is refused with a question to the user. */
 
 import { sort } from 'd3-array';
 import { COLUMN_CHANGES, type ColumnChange } from './columns.ts';
@@ -7,13 +7,13 @@ import { quantileOf, sampleEvenly } from './path.ts';
 
 export type Units = Summary['units'];
 
-/** Columns of a log in the units of the file: x, y, heading and height, or v, omega, 0 and 0. `start` is what was subtracted from all times, s. */
+/** Columns of a log in the units of its file: x, y, heading and height for poses; v, omega, 0 and 0 for commands. `start` (s) was subtracted from all times. */
 export interface Columns { start: number; t: Float64Array; a: Float64Array; b: Float64Array; c: Float64Array; z: Float64Array }
 
-/** Returns a question about the columns of a table, which proposes a change. */
+/** Function that returns a question to the user, which proposes a change of a table's columns. */
 export type CreateColumnQuestion = (change: ColumnChange) => FileQuestion;
 
-/** Decimal exponent of the number of units in a second, by unit of time. */
+/** Decimal exponent of each unit of time: a second has 10 to this power of units. */
 export const UNIT_EXPONENTS = { s: 0, ms: 3, us: 6, ns: 9 } as const;
 
 /** Sizes of the units of length in m, and of the units of angle in rad. */
@@ -23,30 +23,33 @@ const RADIANS_PER_UNIT = { rad: 1, deg: Math.PI / 180 } as const;
 /** Minimum value of times since 1970, by unit. 1e8 s is the year 1973, and 1e11 s the year 5138. */
 const MIN_EPOCH_TIMES = [['ns', 1e17], ['us', 1e14], ['ms', 1e11], ['s', 1e8]] as const;
 
-/** Largest heading of an angle that is wrapped at a full circle, rad, with a margin for rounding. */
+/** Maximum heading (rad) of an angle that is wrapped at a full circle, with a margin for rounding. */
 const MAX_WRAPPED_HEADING = 2 * Math.PI + 0.1;
 
 const MIN_ROWS = 10;
 
-/** Usual range of the rate of a log, Hz, and possible range of a log whose times are since 1970. */
+/** Usual range of the rate of a log (Hz), and wider range that is accepted for times since 1970. */
 const [USUAL_RATES, POSSIBLE_RATES] = [[0.2, 2000], [0.05, 5000]] as const;
 
-/** Minimum and maximum speed of moving robots, m/s or rad/s. */
+/** Minimum and maximum plausible speed of a robot, m/s or rad/s. */
 const [MIN_SPEED, MAX_SPEED] = [0.005, 20.5];
 
-/** Limits above which the unit of lengths is in doubt: a speed (m/s) together with an acceleration (m/s²) that tyres do not reach, or a higher speed alone. */
+/**
+ * Limits for doubts about the unit of length: a speed (m/s) that is doubtful with an acceleration (m/s²) beyond that of tyres, this acceleration, and a
+ * speed that is always doubtful.
+ */
 const [DOUBTFUL_SPEED, MAX_ACCELERATION, MAX_VEHICLE_SPEED] = [5, 10, 50];
 
 /** Most usual speed of a robot, m/s. */
 const USUAL_SPEED = 0.5;
 
-/** Duration (s) of the steps whose speed is judged. In shorter steps noise would look like a high speed. */
+/** Duration (s) of the steps from which speeds are computed. In shorter steps, noise would look like a high speed. */
 const STEP_DURATION = 0.5;
 
-/** Minimum length (m) of a step with a direction, and minimum number of such steps. */
+/** Minimum length (m) of a step whose direction is compared with the heading, and minimum number of such steps. */
 const [MIN_STEP_LENGTH, MIN_STEPS] = [0.02, 20];
 
-/** Minimum mean resultant length of the angles between headings and path, and minimum lead over that of other units or signs. */
+/** Limits for accepting a unit and sign of headings: minimum mean resultant length of the angles between headings and path, and minimum lead over all other combinations. */
 const [MIN_ALIGNMENT, MIN_ALIGNMENT_LEAD] = [0.8, 0.3];
 
 const isInRange = (value: number, [low, high]: readonly [number, number]) => value >= low && value <= high;
@@ -65,14 +68,14 @@ export function judgeUnits(errorPlace: ErrorPlace, kind: LogKind, columns: Colum
   convertTimes(columns, 10 ** (UNIT_EXPONENTS[time.unit] - UNIT_EXPONENTS[assumedUnits.time.unit]));
   const speed = kind === 'poses' ? pathSpeedOf(t, a, b) : commandSpeedOf(a);
   const isDoubtful = speed > MAX_VEHICLE_SPEED || (speed > DOUBTFUL_SPEED && accelerationOf(kind, columns) > MAX_ACCELERATION);
-  // Feet and inches are rare, and come last.
+  // Feet and inches are proposed last, because robots rarely use them.
   const likelyUnits = sort(UNITS.lengthUnit, (unit) => Number(unit === 'ft' || unit === 'in'), (unit) => Math.abs(Math.log((speed * METRES_PER_UNIT[unit]) / USUAL_SPEED)));
   if (isJudged && length.by === 'usage' && isDoubtful) throw createUnitError(errorPlace, 'lengthUnit', speed, length.unit, likelyUnits);
 
   const { unit, by } = options.angleUnit ? { unit: options.angleUnit, by: 'option' as const } : assumedUnits.angle;
   const alignment = isJudged && kind === 'poses' ? alignmentWithPath(t, a, b, c) : undefined;
   if (alignment?.sign === -1) {
-    // Headings and path differ by a right angle if x and y are swapped, but not if y is negated.
+    // The cosine is negative if x and y are swapped, because headings and path then differ by a right angle. Otherwise y has the wrong sign.
     throw new LogError(errorPlace, (texts) => texts.mirrored, createColumnQuestion?.(COLUMN_CHANGES[alignment.cosine < 0 ? 'swapped' : 'negatedY']));
   }
   const alignmentWithYUp = isJudged && kind === 'poses' && createColumnQuestion && !alignment ? alignmentWithPath(t, a, z, c) : undefined;
@@ -88,11 +91,11 @@ export function judgeUnits(errorPlace: ErrorPlace, kind: LogKind, columns: Colum
   return { time, length, angle };
 }
 
-/** Returns an error that asks for a unit; without a question if no unit is possible. */
+/** Returns an error with a question for the unit. If no unit is possible, the error has no question. */
 const createUnitError = (errorPlace: ErrorPlace, option: keyof typeof UNITS, value: number, assumedUnit: string, choices: string[]) =>
   new LogError(errorPlace, (texts) => texts[option](value, assumedUnit, choices), choices.length > 0 ? { option, choices: sort(choices, (unit) => Number(unit === assumedUnit)) } : undefined);
 
-/** Judges a unit of times that is not stated, by the rate of the rows and the speed of the robot. */
+/** Judges a unit of time that is not stated, from the rate of the rows and the speed of the robot. */
 function judgeTimeUnit(errorPlace: ErrorPlace, kind: LogKind, { t, a, b }: Columns, assumedUnit: Units['time']): Units['time'] {
   if (assumedUnit.by !== 'usage' && assumedUnit.by !== 'size') return assumedUnit;
   const rate = 1 / medianStepOf(t);
@@ -104,14 +107,15 @@ function judgeTimeUnit(errorPlace: ErrorPlace, kind: LogKind, { t, a, b }: Colum
   const possibleUnits = UNITS.timeUnit.filter(hasUsualRate);
   const [unit, ...otherUnits] = possibleUnits.filter(hasUsualSpeed);
   if (unit && otherUnits.length === 0 && speed > 0) return { unit, by: 'rate' };
-  // A robot that is too fast may have its lengths in another unit.
+  // The assumed unit of time is kept if it gives a usual rate. An unusual speed may be due to the unit of length.
   if (hasUsualRate(assumedUnit.unit)) return assumedUnit;
   throw createUnitError(errorPlace, 'timeUnit', rate, assumedUnit.unit, possibleUnits);
 }
 
 /**
- * Returns the unit and the sign with which the headings differ by a constant angle from the direction of the path, and the cosine of twice that
- * angle, times a positive factor. The sign is −1 if they turn the other way. Undefined if the path is short, or several units or signs fit (on a straight path), or none (for a robot that drives sideways).
+ * Returns the unit and sign with which headings and direction of the path differ by a constant angle. The sign is −1 if headings turn the other way.
+ * `cosine` is proportional to the cosine of twice that angle. Undefined for a short path, or if no combination fits (a robot that drives sideways) or
+ * several do (a straight path).
  */
 function alignmentWithPath(t: Float64Array, x: Float64Array, y: Float64Array, heading: Float64Array): { unit: AngleUnit; sign: number; cosine: number } | undefined {
   const stride = Math.max(2, Math.ceil(STEP_DURATION / medianStepOf(t)));
@@ -122,13 +126,13 @@ function alignmentWithPath(t: Float64Array, x: Float64Array, y: Float64Array, he
     if (Math.hypot(dx, dy) < MIN_STEP_LENGTH) continue;
     stepCount += 1;
     for (const candidate of candidates) {
-      // Twice the difference is the same for a robot that reverses.
+      // Doubling the angle makes it equal for forward and reverse driving, because the two differ by half a turn.
       const angle = 2 * (Math.atan2(dy, dx) - candidate.sign * RADIANS_PER_UNIT[candidate.unit] * heading[i + (stride >> 1)]);
       candidate.cosine += Math.cos(angle);
       candidate.sine += Math.sin(angle);
     }
   }
-  // The mean resultant length is 1 if all differences are equal, and near 0 if they are random.
+  // The mean resultant length of the angles is 1 if all angles are equal, and near 0 if they are random.
   const alignments = candidates.map((candidate) => ({ ...candidate, alignment: Math.hypot(candidate.cosine, candidate.sine) / stepCount }));
   const [bestAlignment, secondBestAlignment] = alignments.sort((alignment, otherAlignment) => otherAlignment.alignment - alignment.alignment);
   return stepCount >= MIN_STEPS && bestAlignment.alignment > MIN_ALIGNMENT && bestAlignment.alignment - secondBestAlignment.alignment > MIN_ALIGNMENT_LEAD ? bestAlignment : undefined;
@@ -136,7 +140,7 @@ function alignmentWithPath(t: Float64Array, x: Float64Array, y: Float64Array, he
 
 const medianStepOf = (t: Float64Array) => quantileOf(sampleEvenly(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
 
-/** Returns the 90 % quantile of the speeds of steps. Their duration assumes that times are in seconds. */
+/** Returns the 90 % quantile of the speeds of steps along a path, given times in seconds. */
 function pathSpeedOf(t: Float64Array, x: Float64Array, y: Float64Array): number {
   const stride = Math.min(Math.max(1, Math.round(STEP_DURATION / medianStepOf(t))), t.length - 1);
   return quantileOf(sampleEvenly(t.length - stride, (i) => Math.hypot(x[i + stride] - x[i], y[i + stride] - y[i]) / (t[i + stride] - t[i])), 0.9);
@@ -147,7 +151,7 @@ const commandSpeedOf = (v: Float64Array): number => quantileOf(sampleEvenly(v.le
 /** Returns the 90 % quantile of the speeds of a log (m/s). */
 export const speedOf = (data: Poses | Commands): number => ('x' in data ? pathSpeedOf(data.t, data.x, data.y) : commandSpeedOf(data.v));
 
-/** Returns the 99 % quantile of the accelerations between steps. For commands it is that of v. */
+/** Returns the 99 % quantile of the accelerations between steps; for commands, that of the accelerations of v. */
 function accelerationOf(kind: LogKind, { t, a, b }: Columns): number {
   const stride = Math.max(1, Math.round(STEP_DURATION / medianStepOf(t)));
   const velocityAt = (i: number, column: Float64Array) => (column[i + stride] - column[i]) / (t[i + stride] - t[i]);

@@ -15,7 +15,7 @@ export interface Message {
   channel: Channel;
   /** Time of recording, s. */
   time: number;
-  /** View of the block that contains the serialized message. Messages share it, because creating a view takes as long as reading a message. */
+  /** View of the block that contains the serialized message. All messages of a block share one view, because creating a view takes as long as reading a message. */
   block: DataView;
   /** Range of the message in the block. */
   start: number;
@@ -24,7 +24,7 @@ export interface Message {
 
 export type IsWanted = (channel: Channel) => boolean;
 export type OnMessage = (message: Message) => void;
-/** Callback after each block, with the fraction of the file that has been read. Reading stops if the callback returns true. */
+/** Callback after each block with the fraction of the file that has been read. If the callback returns true, reading stops. */
 export type OnBlock = (fraction: number) => boolean | void;
 
 /** Container of messages: one file, or several files of a recording. */
@@ -39,7 +39,7 @@ export abstract class MessageFile {
   readonly #damageByPosition = new Map<number, string>();
   protected readonly source: Source;
   protected readonly channelsById = new Map<number, Channel>();
-  /** Chunks of the index, each with the ids of its channels; undefined without an index. */
+  /** Chunks that the index of the file lists, each with the ids of its channels; undefined for a file without an index. */
   protected chunks: { position: number; ids: number[] }[] | undefined;
 
   constructor(source: Source) {
@@ -57,15 +57,15 @@ export abstract class MessageFile {
   /** Reads blocks, and passes each message of the wanted channels to `onMessage`. Damaged blocks are skipped. */
   abstract readMessages(isWanted: IsWanted, onMessage: OnMessage, onBlock?: OnBlock): Promise<void>;
 
-  /** Notes the damage of a block. An error of reading the file itself is thrown again. */
+  /** Records the damage of a block as a reason. An error while reading the file itself is thrown again. */
   protected noteDamage(position: number, error: unknown): void {
     if (error instanceof LogError) throw error;
     this.#damageByPosition.set(position, reasonOf(error));
   }
 
   /**
-   * Reads the chunks with wanted messages, or, without an index, all blocks one after the other. Damaged blocks are noted. Without an index, the
-   * blocks after one whose end is unknown cannot be found. `readBlock` calls `setEnd` when it knows the end of the block.
+   * Reads the chunks that contain wanted messages, or all blocks in order if there is no index. Damaged blocks are recorded and skipped. `readBlock` calls
+   * `setEnd` when it knows the end of its block. Without an index, reading stops at a damaged block whose end is unknown.
    */
   protected async readBlocks(start: number, isWanted: IsWanted, readBlock: (position: number, setEnd: (end: number) => void) => Promise<void>, onBlock?: OnBlock): Promise<void> {
     const { size } = this.source;
@@ -84,13 +84,13 @@ export abstract class MessageFile {
   }
 }
 
-/** Maximum size of a block in bytes. Recorders write one to four million. */
+/** Maximum size of a block in bytes. Recorders write blocks of one to four million bytes. */
 export const MAX_BLOCK_BYTES = 2 ** 26;
 
-/** Number of bytes that are read at once, called a piece, and number of pieces that are read in advance. */
+/** Number of bytes in a piece, which is read at once, and number of pieces that are requested in advance. */
 const [PIECE_BYTES, PIECES_AHEAD] = [2 ** 22, 3];
 
-/** Returns a reader of bytes at increasing positions. It requests the next pieces in advance, which saves a quarter of the time in a browser. */
+/** Returns a reader of bytes at increasing positions. The reader requests the next pieces in advance, which saves a quarter of the reading time in a browser. */
 export function createAheadReader(source: Source): (start: number, requestedEnd: number) => Promise<Uint8Array> {
   const pieces = new Map<number, Promise<Uint8Array>>();
   let lastPieceIndex = -1;
@@ -103,7 +103,7 @@ export function createAheadReader(source: Source): (start: number, requestedEnd:
     for (let i = firstPieceIndex; i <= lastPieceIndex + piecesAhead && i * PIECE_BYTES < source.size; i++) {
       if (pieces.has(i)) continue;
       const piece = readBytes(source, i * PIECE_BYTES, Math.min((i + 1) * PIECE_BYTES, source.size));
-      // A failure to read a piece is reported only when the piece is needed.
+      // If reading a piece fails, the error is reported only when a caller needs that piece.
       piece.catch(() => {});
       pieces.set(i, piece);
     }

@@ -7,30 +7,30 @@ const zstdDecoder = new ZSTDDecoder();
 
 const MAX_FILE_BYTES = 2 ** 30;
 
-/** Maximum size (bytes) of a message that is compressed by itself: the decoder returns it in one part. Transforms have a hundred bytes each. */
+/** Maximum decompressed size (bytes) of a single compressed message, because the decoder returns a message as a whole. A transform has about a hundred bytes. */
 const MAX_LOG_MESSAGE_BYTES = 2 ** 17;
 
 const INPUT_PIECE_BYTES = 2 ** 20;
 
-/** Maximum number of successive empty outputs of the decoder. It returns one at the end of each piece of input, and of each frame. */
+/** Maximum number of successive empty outputs of the decoder. Valid data gives one empty output at the end of each piece of input, and of each frame. */
 const MAX_EMPTY_PARTS = 100;
 
 export const loadZstd = () => zstdDecoder.init();
 
 /** Decompresses a block of known size; throws a RangeError if it has another size. */
 export function decompressZstd(bytes: Uint8Array, size: number): Uint8Array {
-  // The decoder treats size 0 as unknown.
+  // The decoder would take a size of 0 for an unknown size.
   const output = size === 0 ? new Uint8Array() : zstdDecoder.decode(bytes, size);
   if (output.length !== size) throw new RangeError('a compressed block is not what was written');
   return output;
 }
 
-/** Decompresses pieces of a file or message; undefined if the content has more than `maxBytes`. Throws an error if it is damaged. */
+/** Decompresses the pieces of a file or message. Returns undefined if the content has more than `maxBytes`; throws an error if the pieces are damaged. */
 function decompressZstdPieces(pieces: Iterable<Uint8Array>, maxBytes: number): Uint8Array<ArrayBuffer>[] | undefined {
   const outputParts: Uint8Array<ArrayBuffer>[] = [];
   let [size, emptyPartCount] = [0, 0];
   for (const outputPart of zstdDecoder.decodeStreaming(pieces)) {
-    // The decoder does not stop at damage, but returns empty outputs.
+    // The decoder does not report damaged data, but returns empty outputs without end.
     emptyPartCount = outputPart.length === 0 ? emptyPartCount + 1 : 0;
     if (emptyPartCount > MAX_EMPTY_PARTS) throw new RangeError('its compression is damaged');
     outputParts.push(outputPart as Uint8Array<ArrayBuffer>);
@@ -66,13 +66,13 @@ function* piecesOf(bytes: Uint8Array) {
 
 const LZ4_MAGIC = 0x184d2204;
 
-/** Bits of the flags in the header of an LZ4 frame. */
+/** Flags in the header of an LZ4 frame. */
 const [VERSION_MASK, VERSION_1, BLOCK_CHECKSUMS, CONTENT_SIZE, CONTENT_CHECKSUM, DICTIONARY] = [0xc0, 0x40, 0x10, 0x08, 0x04, 0x01];
 
 /** Bit that is set in the length of an uncompressed block. */
 const UNCOMPRESSED_BIT = 0x80000000;
 
-/** Minimum length of a match. The format stores lengths minus this minimum. */
+/** Minimum length of a match. An LZ4 block stores the length of a match minus this minimum. */
 const MIN_MATCH = 4;
 
 function assertValid(condition: boolean): void {
@@ -91,7 +91,7 @@ export async function decompressLz4(bytes: Uint8Array, size: number): Promise<Ui
   const verifyChecksum = (checkedBytes: Uint8Array, position: number) => assertValid(xxhash32?.(checkedBytes) === view.getUint32(position, true));
   const output = new Uint8Array(size);
   let filledBytes = 0;
-  // The header has a magic number, two bytes of flags, the size if there is one, and a checksum.
+  // The header of an LZ4 frame has a magic number, two bytes of flags, an optional content size, and a checksum.
   for (let position = 7 + (flags & CONTENT_SIZE ? 8 : 0); ; ) {
     const blockWord = view.getUint32(position, true);
     if (blockWord === 0) {
@@ -114,10 +114,10 @@ export async function decompressLz4(bytes: Uint8Array, size: number): Promise<Ui
   return output;
 }
 
-/** Appends a decompressed block to `output`, whose first `filledBytes` bytes are filled. Returns the new number of filled bytes. */
+/** Appends a decompressed block to `output`, whose first `filledBytes` bytes are already filled. Returns the new number of filled bytes. */
 function decompressBlock(block: Uint8Array, output: Uint8Array, filledBytes: number): number {
   let position = 0;
-  /** Returns a length from its first four bits. If they are 15, bytes are added up to the first one below 255. */
+  /** Returns the length that starts with the given four bits. If these bits are 15, the following bytes are added, up to the first byte below 255. */
   const readLength = (length: number) => {
     if (length < 15) return length;
     for (let byte = 255; byte === 255; length += byte) {
@@ -133,13 +133,13 @@ function decompressBlock(block: Uint8Array, output: Uint8Array, filledBytes: num
     output.set(block.subarray(position, position + literalLength), filledBytes);
     position += literalLength;
     filledBytes += literalLength;
-    // The last sequence has no match.
+    // The last sequence of a block has only literals and no match.
     if (position === block.length) break;
     const matchDistance = block[position] | (block[position + 1] << 8);
     position += 2;
     const end = filledBytes + readLength(lengthsToken & 15) + MIN_MATCH;
     assertValid(matchDistance > 0 && matchDistance <= filledBytes && end <= output.length);
-    // A match that is longer than its distance also copies bytes that it has just written.
+    // If a match is longer than its distance, the copy overlaps itself and repeats bytes that it has just written.
     for (const matchStart = filledBytes - matchDistance; filledBytes < end; ) {
       const copyLength = Math.min(end - filledBytes, filledBytes - matchStart);
       output.copyWithin(filledBytes, matchStart, matchStart + copyLength);

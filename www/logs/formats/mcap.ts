@@ -12,7 +12,7 @@ const RECORD_HEAD_BYTES = 9;
 
 const MAGIC_BYTES = 8;
 
-/** Opens a recording by its index. Without an index it is read from its start up to its end. */
+/** Opens a recording by its index. A recording without an index is read from start to end. */
 export async function openMcap(source: Source): Promise<Container> {
   await loadZstd();
   const size = BigInt(source.size);
@@ -30,7 +30,7 @@ export async function openMcap(source: Source): Promise<Container> {
   return mcap;
 }
 
-/** Checks that an index lists all chunks, and the channels of each chunk with messages. */
+/** Returns true if an index lists all chunks, and the channels of each chunk that has messages. */
 const isCompleteIndex = ({ chunkIndexes, statistics }: McapIndexedReader) =>
   statistics?.chunkCount === chunkIndexes.length &&
   (chunkIndexes.length > 0 || statistics.messageCount === 0n) &&

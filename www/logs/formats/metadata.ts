@@ -8,7 +8,7 @@ const MAX_METADATA_BYTES = 2 ** 24;
 const folderOf = ({ path = '' }: Source) => path.replace(/[^/]*$/, '');
 const baseNameOf = (path: string) => path.replace(/^.*\//, '');
 
-/** Returns the files that a metadata.yaml lists, in its folder. */
+/** Returns the files in the folder of a metadata.yaml that the metadata.yaml lists. */
 export async function findListedFiles(metadata: Source, sources: Source[]): Promise<{ name: string; files: Source[] }> {
   const errorPlace = { file: metadata.path || metadata.name };
   const fileNames: string[] = [];
@@ -21,7 +21,7 @@ export async function findListedFiles(metadata: Source, sources: Source[]): Prom
     throw new LogError(errorPlace, (texts) => texts.damaged(reasonOf(error)));
   }
   const filesInFolder = sources.filter((source) => folderOf(source) === folderOf(metadata));
-  // A decompressed file has no ".zstd" at the end of its name.
+  // A file that the user has decompressed lacks the ending ".zstd" of the listed name.
   const files = fileNames.map((name) => filesInFolder.find((source) => [name, name.replace(/\.zstd$/, '')].includes(baseNameOf(source.name))));
   const missingNames = fileNames.filter((_, i) => !files[i]);
   if (missingNames.length > 0 || files.length === 0) throw new LogError(errorPlace, (texts) => texts.noFiles(listNames(missingNames)));

@@ -9,17 +9,17 @@ const [MESSAGE_OPCODE, BAG_OPCODE, CHUNK_OPCODE, CHUNK_INFO_OPCODE, CONNECTION_O
 
 const MAGIC_BYTES = 13;
 
-/** Maximum size of a record's header in bytes. The largest headers have the name of a topic. */
+/** Maximum size of a record's header in bytes. The largest headers contain the name of a topic. */
 const MAX_HEADER_BYTES = 4096;
 
-/** Opens a bag by its index. Without an index it is read from its start up to its end, or to a damaged length. */
+/** Opens a bag by its index. A bag without an index is read from its start up to its end, or to a damaged length. */
 export async function openRosbag(source: Source): Promise<Container> {
   const bag = new Rosbag(source);
   if (!(await bag.readIndex())) await bag.readMessages(() => true, ({ channel }) => (channel.count += 1));
   return bag;
 }
 
-/** Returns the value of a field of a header: "name=value" after its length. Throws a RangeError if there is no such field. */
+/** Returns the value of a field in a header. A field is the text "name=value", preceded by its length. Throws a RangeError if the field is missing. */
 function fieldOf(header: DataView, name: string): DataView {
   const prefix = `${name}=`;
   for (let fieldStart = 0; fieldStart < header.byteLength; ) {
@@ -89,7 +89,7 @@ class Rosbag extends MessageFile {
     }
   }
 
-  /** Adds the channel of a connection record. The record's data also consists of fields. */
+  /** Adds the channel that a connection record describes. Both the header and the data of the record consist of fields. */
   #addConnection(header: DataView, connectionData: Uint8Array): void {
     const id = uint32Of(header, 'conn');
     if (this.channelsById.has(id)) return;

@@ -4,7 +4,7 @@ import { LogError, readBytes, type Source } from '../log.ts';
 import { MessageFile, createAheadReader, dataViewOf, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
 import { loadZstd } from './decompression.ts';
 
-/** First byte of pages with the rows of a table, and largest first byte of other pages: of indexes, interior nodes, and the ends of long rows. */
+/** First byte of pages with rows of a table, and largest first byte of all other pages: index pages, interior pages, and overflow pages of long rows. */
 const [LEAF_PAGE_TYPE, MAX_OTHER_PAGE_TYPE] = [13, 10];
 
 const HEADER_BYTES = 100;
@@ -46,7 +46,7 @@ export async function openSqlite(source: Source): Promise<Container> {
 class Rosbag2 extends MessageFile {
   readonly format = 'sqlite';
   #pageSize = 0;
-  /** Bytes of a page without those reserved at its end. */
+  /** Number of bytes in a page, without the bytes that are reserved at its end. */
   #usableBytes = 0;
   #tableNames = new Set<string>();
   #readBytesAt = createAheadReader(this.source);
@@ -61,7 +61,7 @@ class Rosbag2 extends MessageFile {
     this.#pageSize = view.getUint16(16) === 1 ? 65536 : view.getUint16(16);
     this.#usableBytes = this.#pageSize - view.getUint8(20);
     if (this.#usableBytes < 480) throw createNotRosbag2Error();
-    // Pages beyond the number in the header belong to an unfinished transaction.
+    // The header has the number of pages of the last complete transaction. If the file has another size, the recorder did not close it.
     const pageCount = view.getUint32(28);
     if (pageCount > 0 && pageCount * this.#pageSize !== this.source.size) this.truncationReason = 'the recorder did not close it';
     const countsById = new Map<number, number>();
@@ -75,14 +75,14 @@ class Rosbag2 extends MessageFile {
     if (!['topics', 'messages'].every((name) => this.#tableNames.has(name)) && !this.truncationReason) throw createNotRosbag2Error();
   }
 
-  /** Adds the topic of a row, or the name of a table. */
+  /** Adds the topic that a row describes, or the name of the table that it describes. */
   async #addTopic(row: Row): Promise<void> {
     const isTable = isRowOf('tables', row);
     if (!isTable && !isRowOf('topics', row)) return;
     const bytes = await this.#readWholeRow(row);
     const [, name, type, encoding] = row.columns.map(({ start, end }) => new TextDecoder().decode(bytes.subarray(start, end)));
     if (isTable) this.#tableNames.add(name);
-    // Names of topics are absolute. Definitions of message types have the same columns.
+    // Names of topics start with a slash. Other rows with the same columns are definitions of message types.
     else if (name.startsWith('/')) this.channelsById.set(row.id, { topic: name, type, encoding, count: 0 });
   }
 
@@ -99,7 +99,7 @@ class Rosbag2 extends MessageFile {
     }, onProgress);
   }
 
-  /** Calls `onRow` for the rows of all tables in the order of the pages. Damaged pages are skipped. */
+  /** Calls `onRow` for the rows of all tables, in the order of the pages in the file. Damaged pages are skipped. */
   async #visitRows(onRow: (row: Row) => void | Promise<void>, onProgress?: OnBlock): Promise<void> {
     const pageCount = Math.floor(this.source.size / this.#pageSize) || 0;
     for (let pageNumber = 1; pageNumber <= pageCount; pageNumber++) {
@@ -110,7 +110,7 @@ class Rosbag2 extends MessageFile {
           if (pendingRow) await pendingRow;
         }
       } catch (error) {
-        // In an incomplete file, the last rows continue on pages that are missing.
+        // If the end of the file is missing, the last rows continue on missing pages. That is no damage.
         if (!this.truncationReason || error instanceof LogError) this.noteDamage(pageNumber, error);
       }
       if (onProgress?.(pageNumber / pageCount)) return;
@@ -132,7 +132,7 @@ class Rosbag2 extends MessageFile {
     return { id, localBytes, columns: columnsOf(localBytes, length), byteCount: length, overflowPage: localEnd - start < length ? dataViewOf(page).getUint32(localEnd) : 0 };
   }
 
-  /** Returns the number of bytes of a row on its own page. The other bytes are on overflow pages. */
+  /** Returns the number of bytes of a row that are stored on its own page. All other bytes are on overflow pages. */
   #localByteCountOf(length: number): number {
     const maxLocalBytes = this.#usableBytes - 35;
     if (length <= maxLocalBytes) return length;
@@ -157,7 +157,7 @@ class Rosbag2 extends MessageFile {
   }
 }
 
-/** Returns the positions of the rows on a page; none on a page of another kind. Throws a RangeError if there is no such kind. */
+/** Returns the positions of the rows on a page; an empty list for a page without rows of a table. Throws a RangeError if the type of the page is invalid. */
 function cellOffsetsOf(page: Uint8Array, pageNumber: number): number[] {
   const view = dataViewOf(page);
   const start = pageNumber === 1 ? HEADER_BYTES : 0;

@@ -20,16 +20,16 @@ import { NOISE_COMPONENTS, LINE_STYLES, REGRESSORS, definition, modelRuleOf, vie
 import type { AlphaCalibrator as Simulation, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 
-/** Log of the user or of the page, with its fit as computed by the service, and the settings of the fit. */
+/** Log of the user or of the page, with the serialized fit to the log and the settings of that fit. */
 interface OpenedLog {
   log: CalibrationLog;
-  /** Notes on the logs that make the α's doubtful. */
+  /** Warnings about the logs. They make the α's doubtful. */
   warnings: Warning[];
   config: Simulation['config'];
   fit: Uint8Array;
 }
 
-/** Time that a fit may take before a notice says so, ms. */
+/** Duration (ms) of a fit after which a notice is shown. */
 const NOTICE_DELAY_MS = 200;
 
 const styles = css`
@@ -49,7 +49,7 @@ const styles = css`
     font: inherit;
   }
 
-  /* In the presentation, the figure fills the screen, which leaves no space for these parts. */
+  /* In a presentation the figure fills the screen, and has no space for the questions about logs and the summary of logs. */
   :host([presentation]) :is(.choosers, .found) {
     display: none;
   }
@@ -88,12 +88,12 @@ const styles = css`
     forced-color-adjust: none;
   }
 
-  /* The results on screen are those of the previous log or settings, while another log is read or a fit takes long. */
+  /* Dims the results on screen while another log is read or a fit takes long, because they belong to the previous log or settings. */
   .spoken:has(progress) :is(.verdict, .fitted) {
     opacity: 0.4;
   }
 
-  /* The results on screen are those of the previous log, after other files were refused. */
+  /* Greys out the results on screen if files were refused, because the results belong to the previous log. */
   .spoken:has(.other-results) :is(.verdict, canvas, .fitted, #numbers) {
     color: var(--muted);
     filter: grayscale(1);
@@ -111,12 +111,12 @@ const styles = css`
     line-height: 1.3;
   }
 
-  /* The minimum height reserves space for advice, so that the advice rarely moves a slider that is dragged. */
+  /* Reserves space for advice. Otherwise a slider would move during a drag whenever advice appears. */
   .to-do {
     min-height: 3.9em;
   }
 
-  /* In the presentation the pictures take the space that the verdict and the table leave. */
+  /* In a presentation, the pictures fill the space that the verdict and the table leave free. */
   :host([presentation]) .views {
     grid-template-rows: auto 1fr;
   }
@@ -152,7 +152,7 @@ const styles = css`
     }
   }
 
-  /* The pictures do not stay visible in a low window, because pictures and table together would leave no space for the controls. */
+  /* In a low window the pictures scroll away with the page. If they stayed in view, there would be no space for the controls. */
   @media (40em <= height < 60em) {
     @container (30em <= width < 56em) {
       .views {
@@ -163,7 +163,7 @@ const styles = css`
 
   @container (min-width: 56em) {
     .views {
-      /* The table of the α's is rendered after the pictures. Its column has a fixed width, so that it moves nothing. */
+      /* The table of the α's appears later than the pictures. The fixed width of its column prevents the pictures from moving then. */
       grid-template-columns: minmax(0, 1.2fr) minmax(0, 1fr) clamp(24em, 34cqi, 29em);
     }
 
@@ -171,7 +171,7 @@ const styles = css`
       grid-column: auto;
     }
 
-    /* The pictures are higher than the column with the advice. */
+    /* No space is reserved for advice in this column, because the pictures next to it are higher. */
     .to-do {
       min-height: 0;
     }
@@ -217,7 +217,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   #givenLog: OpenedLog | null = null;
   /** Log of the page; null for the simulated log. */
   #pageLog: CalibrationLog | null = null;
-  /** Log that the latest rendering is about; null for the simulated log. */
+  /** Log that was rendered most recently; null for the simulated log. */
   #renderedLog: CalibrationLog | null = null;
 
   createSimulation = ({ AlphaCalibrator }: Motion, givenLog = this.#givenLog) => (givenLog ? AlphaCalibrator.restored(givenLog.config, givenLog.fit) : new AlphaCalibrator());
@@ -234,7 +234,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   connectedCallback() {
     super.connectedCallback();
-    // A figure outside the document does not fit. Settings that were changed there are fitted now.
+    // An element outside the document does not fit. After it has been connected, it fits with the settings that were changed in between.
     this.settings.isViewModelStale = true;
   }
 
@@ -246,18 +246,18 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   updated() {
     const { viewModel } = this;
     if (!viewModel || viewModel.log === this.#renderedLog) return;
-    // Texts about another log need not keep the heights of the present ones.
+    // A new log may have shorter texts. The heights that were reserved for the texts on the previous log are therefore measured again.
     this.#renderedLog = viewModel.log;
     this.textHeights.measureAgain();
   }
 
-  /** Index of the leg that is shown; −1 if there is none. */
+  /** Index of the leg that the picture shows; −1 if the fit has no legs. */
   get chosenLegIndex() {
     const { viewModel: { defaultLeg, legs }, settings: { elementState: { leg } } } = this;
     return leg !== null && leg < legs.count ? leg : defaultLeg;
   }
 
-  /** Predicted cloud of the selected leg by the latest complete fit, with its start pose, and its end poses by odometry and reference; null without a leg. */
+  /** Selected leg in the latest complete fit: its predicted cloud, start pose, and end poses by odometry and reference. Null if the fit has no legs. */
   get predictedLeg() {
     const { chosenLegIndex, simulation, viewModel: { config } } = this;
     return chosenLegIndex < 0 || !simulation ? null : this.#predictedLegMemo.get([config, chosenLegIndex], () => simulation.leg(chosenLegIndex));
@@ -313,8 +313,8 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   };
 
   /**
-   * Fits a log, and then replaces the present log by it; null is the simulated log. If `checkSimulation` throws, the present log stays.
-   * `warnings` are notes on the new log that make its α's doubtful.
+   * Fits a log, and then shows it in place of the present log; null stands for the simulated log. If `checkSimulation` throws, the present log stays.
+   * `warnings` are about the new log, and make its α's doubtful.
    */
   async openLog(log: CalibrationLog | null, warnings: Warning[], checkSimulation?: (simulation: Simulation) => void) {
     const config = this.settings.pickSettings(this.settings.current) as Simulation['config'];
@@ -335,7 +335,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     });
   }
 
-  /** Fits the present log with the pending settings. The figure shows the previous fit until then. */
+  /** Fits the present log with the requested settings. Until the fit is complete, the figure shows the previous fit. */
   async #refit() {
     const { log, service, notice } = this;
     if (!log || service.isBusy || !this.isConnected) return;
@@ -355,13 +355,13 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     }
   }
 
-  /** Returns to the settings of the fit that is shown. */
+  /** Aborts a running fit, and restores the settings of the fit on screen. */
   #revertSettings() {
     this.service.stopRequest();
     this.settings.assign(this.viewModel.fittedConfig);
   }
 
-  /** Notes on the logs that make the α's doubtful. */
+  /** Warnings about the logs. They make the α's doubtful. */
   get warnings() {
     return this.#givenLog?.warnings ?? [];
   }

@@ -12,7 +12,7 @@ import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 export function legControlsHtml(figure: Figure) {
   const { viewModel: { legs, worstLegs }, chosenLegIndex } = figure;
   const texts = words.calibrator.leg;
-  // The button selects the leg after the selected one in the list of worst legs, or the first of the list.
+  // The button selects the next leg in the list of the worst legs. After the last leg, or if the selected leg is not in the list, it selects the first.
   const nextLeg = worstLegs[(worstLegs.indexOf(figure.settings.elementState.leg) + 1) % Math.max(1, worstLegs.length)];
   return html`${editableSliderHtml(figure, texts.name, { min: 1, max: legs.count, type: 'whole' }, {
       id: 'leg',
@@ -48,7 +48,7 @@ export function modelControlsHtml(figure: Figure) {
     ${settingRadiosHtml(figure, 'outliers', outlierTreatments)} ${settingSliderHtml(figure, 'duration', { formatValue: formatDuration })}`, 'fit');
 }
 
-/** Returns the controls of the noise of the reference. A sentence says what the simulated log is. */
+/** Returns the controls for the noise of the reference. If the log is simulated, a sentence describes it. */
 export function referenceControlsHtml(figure: Figure) {
   const stdSliderHtml = (stdSettingKey: string, unit: string) =>
     settingSliderHtml(figure, stdSettingKey, { formatValue: (std: number) => (std > 0 ? `${formatEditable(std, 3)} ${unit}` : words.calibrator.estimatedLabel) });

@@ -2,7 +2,7 @@
 
 import { formatCount } from '../../messages/en.ts';
 
-/** Words in the lines for nav2_params.yaml, which are English in every language. */
+/** Texts in the lines for nav2_params.yaml. They are in English in all languages. */
 export const yamlWords = {
   otherRuleNote: 'Fitted by another rule than Nav2’s; fit again with the rule nav2.',
   notIdentifiable: 'not identifiable from this log; Nav2 uses its default',

@@ -22,17 +22,17 @@ type Recording = FileContents['recordings'][number];
 
 const COLUMN_FIELDS = ['t', 'x', 'y', 'yaw', 'qx', 'qy', 'qz', 'qw', 'v', 'omega'] as const;
 
-/** Maximum number of characters of a cell in the label of its column. The label also has the number of the column. */
+/** Maximum number of characters of a cell that labels a column. The label also has the number of the column. */
 const MAX_CELL_LENGTH = 16;
 
-/** Returns all logs that can be chosen for a role, with labels. Each pair of frames is a separate choice. */
+/** Returns all logs that can be chosen for a role, each with a label. Every pair of frames is a separate log. */
 function labelledChoicesOf(recording: Recording, role?: Role): [label: string, LogChoice][] {
   const usableSeries = readableSeriesOf(recording).filter(({ kind }) => role !== 'reference' || kind !== 'commands');
   const logChoices = usableSeries.flatMap(({ name: series, kind, frames = [] }): LogChoice[] => (kind === 'transforms' ? frames.map((framePair) => ({ series, frames: framePair })) : [{ series }]));
   return logChoices.map((choice) => [choiceLabelOf(choice) || recording.name, choice]);
 }
 
-/** Returns the form controls for the open choices about the present files. */
+/** Returns the controls by which the user answers questions about the chosen files. */
 export function logChoosersHtml(opener: LogOpener) {
   const { chosenFiles, texts } = opener;
   if (!chosenFiles || !texts) return nothing;
@@ -75,7 +75,7 @@ function roleSelectHtml(opener: LogOpener, { recordings, answers }: ChosenFiles,
   const currentRole = answers[name]?.role ?? ROLES.find((role) => choices?.[role]);
   return selectHtml(`log-role-${recordingIndex}`, name, currentRole ?? '', ROLES.map((role) => [role, texts.roles[role]]), (chosenValue) => {
     const role = chosenValue as Role;
-    // If there are two files, the other file gets the other role.
+    // If there are two files with one log each, and the user chooses the role of one file, the other file gets the other role.
     const otherRecording = recordings.length === 2 ? recordings[1 - recordingIndex] : undefined;
     const hasOtherRole = otherRecording && labelledChoicesOf(otherRecording).length === 1;
     opener.answer({ ...(hasOtherRole && { [otherRecording.name]: { role: role === 'odometry' ? 'reference' : 'odometry' } }), [name]: { role } });
@@ -92,11 +92,11 @@ function questionHtml(opener: LogOpener, { answers }: ChosenFiles, question: Fil
   </div>`;
 }
 
-/** Returns a form with one `<select>` for each field, which assigns a column to it. */
+/** Returns a form with a `<select>` for each field, by which the user assigns a column to the field. */
 function columnsFormHtml(opener: LogOpener, question: FileQuestion, answeredNames: string | undefined, texts: LogWords['choose']) {
   const { file, choices: [chosenNames = ''], columns = [], fields = chosenNames.split(',') } = question;
   const columnNames = chosenNames.split(',');
-  // A column with a changed sign is a separate option.
+  // Each column is offered twice: as it is, and with the opposite sign.
   const options = ['', '-'].flatMap((sign) => columns.map((headerCell, columnIndex) =>
     ({ sign, columnIndex, label: `${sign && `${MINUS} `}${texts.column(columnIndex + 1, headerCell.trim().slice(0, MAX_CELL_LENGTH))}` })));
   const submitColumns = (event: Event) => {
@@ -105,7 +105,7 @@ function columnsFormHtml(opener: LogOpener, question: FileQuestion, answeredName
     for (const [field, optionIndex] of new FormData(event.target as HTMLFormElement)) {
       if (optionIndex !== '') newFields[options[Number(optionIndex)].columnIndex] = `${options[Number(optionIndex)].sign}${field}`;
     }
-    // The name of a column that is not changed may have a unit.
+    // A column that keeps its field also keeps its name, because the name may contain a unit.
     const newNames = newFields.map((field, i) => (field === fields[i] ? columnNames[i] : field));
     Object.assign(question, { choices: [newNames.join()], fields: newFields });
     opener.answer({ [file]: { columns: newNames } });
@@ -129,7 +129,7 @@ function columnsFormHtml(opener: LogOpener, question: FileQuestion, answeredName
 
 const questionIdOf = ({ file, option }: FileQuestion) => `log-${option}-${file.replaceAll(/[^\w-]/g, '_')}`;
 
-/** Moves the focus to the control that answers a question, unless such a control already has it. Returns true if there is a control. */
+/** Moves the focus to the first control that answers a question, unless a control for the question already has the focus. Returns false if there is no such control. */
 export function focusChooser({ renderRoot }: AlphaCalibratorElement, question: FileQuestion): boolean {
   const { option, role = 'odometry' } = question;
   const selectors = { series: `#log-${role}`, frames: `#log-${role}`, roles: '[id^=log-role-]' } as Partial<Record<Question['option'], string>>;
@@ -140,18 +140,18 @@ export function focusChooser({ renderRoot }: AlphaCalibratorElement, question: F
   return true;
 }
 
-/** Size of the picture, CSS pixels, and its margin for the width of lines. */
+/** Size of the picture in CSS pixels, and margin that prevents lines at its edges from being cut. */
 const [PICTURE_WIDTH, PICTURE_HEIGHT, PICTURE_MARGIN] = [220, 150, 4];
 
-/** Maximum number of points of a path. More than one per pixel would be invisible. */
+/** Maximum number of points of a drawn path. The picture has too few pixels to show more. */
 const MAX_PATH_POINTS = 1500;
 
-/** Returns the summary of the logs of each drive. It is shown while the logs are fitted, and below the result. */
+/** Returns the summary of the logs of each drive. The summary is shown during the fit, and later below the results. */
 export function logSummaryHtml({ chosenFiles, texts, host }: LogOpener) {
-  // The page may have set another log in the meantime.
+  // If the page has set another log in the meantime, no summary is shown.
   if (!chosenFiles?.drives || !texts || (chosenFiles.isFitted && chosenFiles.log !== host.log)) return nothing;
   const { drives } = chosenFiles;
-  // The clock offset is an estimate of the fit. Before the fit it is taken as 0.
+  // The clock offset is known only after the fit. Until then it is taken as 0.
   const clockOffset = (chosenFiles.isFitted ? host.viewModel.stats.systematicErrors.clockOffset.value : undefined) ?? 0;
   return html`<details class="found" open>
     <summary>${texts.found.title}</summary>
@@ -178,7 +178,7 @@ function logTableHtml({ odometry, reference }: Drive, caption: string, { choose,
   </table>`;
 }
 
-/** Returns a picture of both paths, with the odometry aligned to the reference if they have times in common. `clockOffset` is how much later the reference's times are. */
+/** Returns a picture of the paths by odometry and reference. If the logs have times in common, the odometry is aligned to the reference, whose times are later by `clockOffset`. */
 function pathsPictureHtml({ odometry, reference }: Drive, clockOffset: number, { found }: LogWords) {
   const [drivenPath, referencePath] = [odometry.data, reference.data].map((poseColumns) => pathOf(poseColumns, Math.ceil(poseColumns.t.length / MAX_PATH_POINTS)));
   const odometryPath = alignPath(drivenPath, referencePath, clockOffset);

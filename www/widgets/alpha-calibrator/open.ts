@@ -13,20 +13,20 @@ import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 export type LogWords = typeof import('../../logs/en.ts').english;
 
-/** Reason why files were refused: an error, or a failure that the worker has posted. */
+/** Reason why files were refused: an error, or the data of an error that the worker has posted. */
 type Refusal = Pick<Error, 'message'> & Partial<LogFailure>;
 
 type LogModule = typeof import('./log-choice.ts');
 
-/** Files with their contents, and the user's choices by which these were read. Missing choices are guessed. */
+/** Files with their contents, and the choices of the user with which the files were read. Missing choices are guessed. */
 export interface ChosenFiles extends FileContents {
   files: File[];
-  /** Options for reading each file, by its name. */
+  /** Options for reading each file, by the name of the file. */
   answers: Record<string, OpenOptions>;
-  /** Questions that the user has answered, or still has to answer. */
+  /** Questions to the user about the files, both answered and open. */
   questions: FileQuestion[];
   userChoices: UserChoices;
-  /** True if the figure has shown a fit to these files. */
+  /** True if the figure has shown a fit to the logs in these files. */
   isFitted?: boolean;
 }
 
@@ -36,32 +36,32 @@ const LOG_FILE_EXTENSIONS = ['.csv', '.txt', '.tum', '.log', '.mcap', '.bag', '.
 export class LogOpener extends FileOpener<Figure> {
   resultElementId = 'log';
   chosenFiles: ChosenFiles | undefined;
-  /** Files whose log the results on screen describe; undefined after the page or the user has set another log. */
+  /** Files with the log whose results are on screen; undefined after the page or the user has set another log. */
   #resultFiles: ChosenFiles | undefined;
-  /** Files with only one log of a drive. The next file may contain the other log. */
+  /** Files that contain only one log of a drive. If the next file contains the other log, the two logs are paired. */
   #loneLogFiles: ChosenFiles | undefined;
-  /** Module that plans and shows logs, with their texts. It is loaded when a file is chosen. */
+  /** Module with the code and the texts for choosing and showing logs. It is loaded when the user chooses a file. */
   logModule: LogModule | undefined;
   /** Fraction of the files that has been read; undefined if no file is being read. */
   readFraction: number | undefined;
 
-  /** Kind of odometry that is preferred if a log has several: commands for the velocity model. */
+  /** Kind of log that is preferred as odometry if a file has several: commands for the velocity model. */
   get preferredKind(): 'commands' | undefined {
     return this.host.viewModel.config.model === 'velocity' ? 'commands' : undefined;
   }
 
-  /** Messages about logs in the current language; undefined until their module is loaded. */
+  /** Texts about logs in the current language; undefined until the module with the texts is loaded. */
   get texts(): LogWords | undefined {
     return this.logModule?.[language === 'de' ? 'de' : 'en'];
   }
 
-  /** Reads the files again if the model has changed and prefers another odometry in them. */
+  /** Reads the files again if the user has changed the model, and the new model prefers another kind of odometry. */
   hostUpdated() {
     const { chosenFiles } = this;
     if (chosenFiles?.isFitted && chosenFiles.log === this.host.log && this.readFraction === undefined && chosenFiles.userChoices.kind !== this.preferredKind) this.#open(chosenFiles);
   }
 
-  /** Forgets the chosen files, and shows a log of the page or, by default, the simulated one. */
+  /** Forgets the chosen files, and shows a log of the page, or the simulated log. */
   async closeLog(log: CalibrationLog | null = null) {
     this.#endReading();
     this.#resultFiles = undefined;
@@ -71,14 +71,14 @@ export class LogOpener extends FileOpener<Figure> {
     this.host.gesture.commitOneStep();
   }
 
-  /** Forgets files that were refused or not fitted, and returns to the files whose results are on screen. */
+  /** Forgets files that were refused or not yet fitted. The files with the results on screen become the chosen files again. */
   restoreResults() {
     this.chosenFiles = this.#resultFiles?.log === this.host.log ? this.#resultFiles : undefined;
     this.#loneLogFiles = this.refusal = undefined;
     this.host.requestUpdate();
   }
 
-  /** Sentence that the results are those of another log, while the chosen files are refused; empty otherwise. */
+  /** Sentence which says that the results are those of another log, because the chosen files were refused; empty otherwise. */
   get otherResultsNote() {
     return this.refusal === undefined || isAbortError(this.refusal) ? '' : words.calibrator.logControls.resultsOfOtherLog(this.host.logName);
   }
@@ -95,7 +95,7 @@ export class LogOpener extends FileOpener<Figure> {
     this.#setIdle();
   }
 
-  /** Shows that no log is being read, and lets the figure apply the changes that waited for the end of reading. */
+  /** Ends the display of progress. The figure then applies the changes of settings that were postponed until the log was read. */
   #setIdle() {
     this.readFraction = undefined;
     this.host.settings.isViewModelStale = true;
@@ -108,7 +108,7 @@ export class LogOpener extends FileOpener<Figure> {
     this.#open({ files: logFiles.length ? logFiles : files, recordings: [], skipped: [], answers: {}, questions: [], userChoices: {} });
   }
 
-  /** Opens the files with answers to questions about them, by their names. */
+  /** Opens the chosen files again, with answers to questions about them. The answers have the names of the files as keys. */
   answer(newAnswers: ChosenFiles['answers']) {
     const answers = { ...this.chosenFiles?.answers };
     for (const [file, answer] of Object.entries(newAnswers)) answers[file] = { ...answers[file], ...answer };
@@ -119,7 +119,7 @@ export class LogOpener extends FileOpener<Figure> {
     if (this.chosenFiles) this.#open({ ...this.chosenFiles, ...changedChoices });
   }
 
-  /** Reads and fits the logs in files, which replaces an earlier attempt. */
+  /** Reads files and fits their logs. An earlier attempt that is still running is cancelled. */
   async #open({ files, recordings, skipped, answers, questions, userChoices }: ChosenFiles) {
     const openedFiles: ChosenFiles = (this.chosenFiles = { files, recordings, skipped, answers, questions, userChoices: { ...userChoices, kind: this.preferredKind } });
     this.host.service.stopRequest();
@@ -132,7 +132,7 @@ export class LogOpener extends FileOpener<Figure> {
     if (isLatest) this.#setIdle();
   }
 
-  /** Reads the logs of files. A file with one log is paired with the previous file if that also has only one log. */
+  /** Reads the logs of files. If the files have only one log, and the previous files also had only one, the two logs are paired. */
   async #read(openedFiles: ChosenFiles): Promise<void> {
     Object.assign(openedFiles, await this.host.service.read(openedFiles.files, openedFiles.answers, openedFiles.userChoices, (readFraction) => {
       this.readFraction = readFraction;
@@ -141,7 +141,7 @@ export class LogOpener extends FileOpener<Figure> {
     const { refusal, recordings, skipped } = openedFiles;
     if (!refusal) return;
     const loneLogFiles = this.#loneLogFiles;
-    // A question about a skipped file is asked before other files are added.
+    // If the question is about a skipped file, the user has to answer it before logs of two files are paired.
     const isLoneLog = recordings.length === 1 && !recordings[0].choices && refusal.question !== undefined && !skipped.includes(refusal);
     if (isLoneLog) this.#loneLogFiles = { ...openedFiles };
     if (!isLoneLog || !loneLogFiles || loneLogFiles.files === openedFiles.files) throw refusal;
@@ -170,7 +170,7 @@ export class LogOpener extends FileOpener<Figure> {
     return [refusalReason, ...(question?.option === 'other' && this.texts ? [this.texts.choose.other] : [])].join(' ');
   }
 
-  /** Shows why a log was refused, and what to choose. */
+  /** Shows why files were refused, and asks the user to answer the error's question if it has one. */
   async showRefusal(error: Refusal) {
     if (isAbortError(error)) return;
     const { chosenFiles } = this;
@@ -180,15 +180,15 @@ export class LogOpener extends FileOpener<Figure> {
   }
 }
 
-/** Asks a question about files, which replaces an earlier question with the same option. */
+/** Asks a question about a file. The question replaces an earlier question of the same kind. */
 function askQuestion(chosenFiles: ChosenFiles, newQuestion: FileQuestion) {
   chosenFiles.questions = [...chosenFiles.questions.filter(({ file, option }) => file !== newQuestion.file || option !== newQuestion.option), newQuestion];
 }
 
-/** Checks whether a file may be a log, because folders also have other files. */
+/** Returns true if a file may be a log. A dropped folder may also contain files of other kinds. */
 const isPossibleLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || [...LOG_FILE_EXTENSIONS.slice(0, -1), '-wal'].some((fileExtension) => name.endsWith(fileExtension));
 
-/** Returns the drop zone for logs. Below it are the choosers, the progress or name of the log, and the reason for a refusal. */
+/** Returns the area on which logs are dropped. Below it are the questions about logs, the progress or the name of the log, and the reason for a refusal. */
 export function dropZoneHtml(figure: Figure, opener: LogOpener) {
   const texts = words.calibrator.logControls;
   const { readFraction, logModule } = opener;
@@ -213,10 +213,10 @@ interface WorkerConnection {
   proxy: typeof import('comlink').proxy;
 }
 
-/** Returns true if a request was aborted, which needs no message. */
+/** Returns true if a request was aborted. An abort needs no message, because the user or a newer request caused it. */
 export const isAbortError = (error: unknown) => error instanceof DOMException && error.name === 'AbortError';
 
-/** Client of the worker. A request aborts the one in progress. */
+/** Client of the worker. A new request aborts the previous one. */
 export class LogService {
   #connection: Promise<WorkerConnection> | undefined;
   /** Aborts the request in progress; undefined if there is none. */
@@ -226,19 +226,19 @@ export class LogService {
     return this.#abortController !== undefined;
   }
 
-  /** Reads the logs of files, with the options of each file by its name. */
+  /** Reads the logs of files. `answers` has the options for each file, by the name of the file. */
   read(files: Source[], answers: Record<string, OpenOptions>, userChoices: UserChoices, onProgress: (fraction: number) => void) {
-    // The path is sent separately, because the copy of a `File` in the worker lacks this property.
+    // The path is posted separately, because a copy of a `File` in the worker lacks the property `path`.
     const sources = files.map((file) => ({ file, path: file.path ?? '' }));
     return this.#sendRequest(({ session, proxy }, signal) => session.read(sources, answers, userChoices, proxy((fraction) => void (signal.aborted || onProgress(fraction)))));
   }
 
-  /** Returns the fit to a log, for `AlphaCalibrator.restored`. */
+  /** Returns the serialized fit to a log, which `AlphaCalibrator.restored` reads. */
   calibrate(config: AlphaCalibratorSettings, log: CalibrationLog) {
     return this.#sendRequest(({ session }) => session.calibrate(config, log));
   }
 
-  /** Cancels the current request, which rejects. */
+  /** Cancels the current request. The promise of the request rejects. */
   stopRequest() {
     if (this.isBusy) this.endWorker();
   }
@@ -254,7 +254,7 @@ export class LogService {
     this.stopRequest();
     const abortController = (this.#abortController = new AbortController());
     const connection = (this.#connection ??= connectWorker());
-    // After a failed start, the next request tries again.
+    // If the worker cannot be started, the next request tries again.
     connection.catch(() => connection === this.#connection && (this.#connection = undefined));
     const { signal } = abortController;
     const aborted = new Promise<never>((_, reject) => signal.addEventListener('abort', () => reject(signal.reason)));
@@ -266,9 +266,9 @@ export class LogService {
   }
 }
 
-/** Starts a session in a worker; in the page's thread if the browser has no workers, or the page's policy or origin forbids them. */
+/** Starts a session in a worker. If the browser has no workers, or a policy or the page's origin forbids them, the session runs in the thread of the page. */
 async function connectWorker(): Promise<WorkerConnection> {
-  // comlink is only loaded when a log is opened.
+  // comlink is imported only when a log is opened, so that the page starts faster.
   const [sharedCore, { proxy, wrap }] = await Promise.all([moduleForWorker('alpha-calibrator'), import('comlink')]);
   let worker: Worker | undefined;
   const endWorker = () => worker?.terminate();
@@ -279,7 +279,7 @@ async function connectWorker(): Promise<WorkerConnection> {
       return { session, endWorker, proxy };
     }
   } catch {
-    // If a policy forbids workers, some browsers throw an error, and others fire an `error` event.
+    // If a policy forbids workers, some browsers throw an error, and others fire an `error` event at the worker.
     endWorker();
   }
   const { LogSession } = await import('../../logs/session.ts');

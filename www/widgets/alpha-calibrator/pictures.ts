@@ -11,30 +11,30 @@ import { View, extentAround, extentOf, widenExtent } from '../../scene/view.ts';
 import { LEG_CLASSES, LINE_STYLES, type LineName, type ViewModel } from './settings.ts';
 import type { CalibrationLegs, LegView } from '../../types.d.ts';
 
-/** View model of the pictures: the fit, and the leg that is shown. */
+/** Data that the pictures show: the fit, the selected leg, and the names of the visible lines. */
 export type Scene = ViewModel & { chosenLegIndex: number, leg: LegView | null, overlays: LineName[] };
 
-/** Number of legs above which the path is cached, on another canvas, and drawn as hairlines, because wide lines would hide each other. */
+/** Number of legs above which the path is drawn as hairlines into a cached layer. Wide lines would hide each other. */
 const MAX_WIDE_LEGS = 2000;
 
 /** Radius of the rings around outliers, CSS pixels. */
 const OUTLIER_RING_RADIUS = 6;
 
-/** Width of the lines of a path with many legs, CSS pixels. */
+/** Width of the lines of a path with too many legs for wide lines, CSS pixels. */
 const HAIRLINE_WIDTH = 1;
 
-/** Margin around the reference, relative to its size, in which odometry that drifts away is visible. */
+/** Margin around the reference's path as a fraction of its size. It leaves space for odometry that drifts away. */
 const DRIFT_MARGIN = 0.15;
 
 /** Picture of the path from above, in the frame of the reference. */
 export class PathPicture extends SamplesPicture<Scene> {
   name = 'plane';
   view: View = new View();
-  /** Cached drawing of the path. There may be a hundred thousand legs, and the drawing changes only with the log, the view or the colours. */
+  /** Cached drawing of the path, which may have a hundred thousand legs. It changes only with the log, the view or the colours. */
   #pathLayer = new CachedLayer();
   #odometryPathMemo: Memo<Float64Array> = new Memo();
 
-  /** Returns the ends of the legs by odometry (x, y pairs). The path starts at the first pose of the reference, and drifts away from it. */
+  /** Returns the end points of the legs by odometry, as x, y pairs. The path starts at the first pose of the reference. */
   #odometryPathOf(legs: CalibrationLegs): Float64Array {
     return this.#odometryPathMemo.get([legs], () => {
       const { count, odometry, reference } = legs;
@@ -54,7 +54,7 @@ export class PathPicture extends SamplesPicture<Scene> {
     this.view.allowZoomIn();
     const extent = legs.count > 0 ? extentAround(legs.reference, 3) : extentOf([0, 0], 1);
     this.view.fit(widenExtent(extent, DRIFT_MARGIN * Math.max(1, extent.xMax - extent.xMin, extent.yMax - extent.yMin)));
-    // The view is not animated, because an animation would draw all legs in each frame.
+    // The view changes without animation, because an animation would draw all legs in each frame.
     this.view.moveTowardsTarget(0, true);
   }
 
@@ -100,10 +100,10 @@ function drawPath(drawContext: LayerDrawContext, legs: CalibrationLegs, odometry
   });
 }
 
-/** Margin around the mark of a leg's end, as a fraction of the leg's length. */
+/** Margin of the view around a mark at the end of a leg, as a fraction of the leg's length. */
 const RELATIVE_MARK_MARGIN = 0.08;
 
-/** Picture of one leg in the frame of its start: the predicted ends, and the ends by odometry and reference. */
+/** Picture of one leg in the frame of its start pose: the predicted end poses, and the end poses by odometry and by reference. */
 export class LegPicture extends Picture<Scene> {
   name = 'leg';
   view: View = new View({ left: 50 });

@@ -1,4 +1,4 @@
-/** Readouts of the Alpha Calibrator in words and tables: verdict, α's, systematic errors, diagnostics of the fit, and lines for Nav2. */
+/** Results of the Alpha Calibrator as words and tables: verdict, α's, systematic errors, checks of the fit, and lines for nav2_params.yaml. */
 
 import { html } from 'lit';
 import { copyButtonHtml, downloadFile } from '../../figure/export.ts';
@@ -17,7 +17,7 @@ import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 addEnglishMessages({ calibrator: en });
 
-/** Parts of a figure from which its result is described. */
+/** Properties of a figure from which its results are described. */
 type Fitted = Pick<Figure, 'viewModel' | 'warnings' | 'logName'>;
 
 function resultOf({ viewModel: { stats, legs, fittedConfig }, warnings, logName }: Fitted): Result {
@@ -27,7 +27,7 @@ function resultOf({ viewModel: { stats, legs, fittedConfig }, warnings, logName 
 
 export const judgeFit = (figure: Fitted) => judgementOf(resultOf(figure), words.calibrator, words.moreControls);
 
-/** Returns the number of legs and outliers of the named log in a sentence; empty if there are no legs. */
+/** Returns a sentence with the name of the log, and its numbers of legs and outliers; empty if there are no legs. */
 function describeLegs({ viewModel: { legs }, logName }: Fitted) {
   if (legs.count === 0) return '';
   const outlierCount = legs.outliers.reduce((sum, outlierFlag) => sum + outlierFlag, 0);
@@ -42,7 +42,7 @@ export function captionOf(figure: Fitted) {
 /** Icons and colours of the ratings. */
 const RATING_ICONS = { consistent: ['✓', 'posterior'], questionable: ['!', 'prediction'], unusable: ['✕', 'accent'] };
 
-/** Returns the badge that rates the α's, the finding, and the number of legs. On a wide page it has at most two lines. */
+/** Returns the verdict: a badge with the rating of the α's, the main finding, and the number of legs. */
 export function verdictHtml(figure: Fitted) {
   const { rating, badge, finding } = judgeFit(figure);
   const [icon, role] = RATING_ICONS[rating];
@@ -50,7 +50,7 @@ export function verdictHtml(figure: Fitted) {
     <strong>${finding}</strong> <span class="muted">${describeLegs(figure)}</span>`;
 }
 
-/** Returns the table of the α's, with the true values where they are comparable. */
+/** Returns the table of the α's. It includes the true values of the simulated log if the fit has the same rule and leg length. */
 export function alphaTableHtml(viewModel: ViewModel) {
   const { stats, truth, fittedConfig: { model } } = viewModel;
   const { columnHeadings, rows } = alphaTableOf(stats, model, words, isTruthComparable(viewModel) ? truth?.alphas : undefined);
@@ -60,7 +60,7 @@ export function alphaTableHtml(viewModel: ViewModel) {
   return html`<div class="alphas">${tableHtml({ columnHeadings, rows: rows.map(rowHtml) })}</div>`;
 }
 
-/** Returns the table of the systematic errors, each with a checkbox that corrects it. */
+/** Returns the table of the systematic errors. Each row has a checkbox by which the user corrects the error. */
 export function systematicTableHtml(figure: Figure) {
   const { viewModel: { stats, truth }, settings: { requested } } = figure;
   const { columnHeadings, rows } = systematicTableOf(stats, words, truth);
@@ -82,10 +82,10 @@ export function diagnosticsHtml({ viewModel: { stats } }: Figure) {
     ${fieldsetHtml(lostLegs.title, readoutsHtml(LOST_LEG_CAUSES.map((cause) => [lostLegs[cause], formatInteger(stats.lost[cause])])))}`;
 }
 
-/** Minimum of the largest value on a plot's horizontal axis, which shows squared distances (m²) or rotations (rad²): (1 mm)², or (1 mrad)². */
+/** Minimum range of a plot's horizontal axis, which shows squared distances (m²) or squared rotations (rad²): (1 mm)² or (1 mrad)². */
 const MIN_AXIS_END = 1e-6;
 
-/** Returns plots of each noise component: its squared residuals against squared rotation, and against squared translation. */
+/** Returns two plots for each noise component: its squared residuals against squared rotation, and against squared translation. */
 export function regressionPanelsHtml({ viewModel: { fittedConfig: { model }, legs }, panels }: Figure) {
   const texts = words.calibrator.panels;
   const axisNames = model === 'velocity' ? { turn: texts.turnRateAxisLabel, distance: texts.speedAxisLabel } : { turn: texts.turnAxisLabel, distance: texts.distanceAxisLabel };
@@ -97,13 +97,13 @@ export function regressionPanelsHtml({ viewModel: { fittedConfig: { model }, leg
     <figcaption>${formatMarkup(texts.caption)}</figcaption></figure>`;
 }
 
-/** Returns the plot of a panel. `panelTitle` is the name of its noise component, and `regressorLabel` that of its regressor. */
+/** Returns the plot of squared residuals against a regressor. `panelTitle` names the noise component, and `regressorLabel` the regressor. */
 function panelPlotHtml({ alpha, x, y, error, slope, interval }: CalibrationPanel, panelTitle: string, regressorLabel: string): PlotOptions {
   const texts = words.calibrator.panels;
   const maxRegressor = Math.max(0, ...x);
-  // If the log has no rotation or no translation, the axis of that regressor ends at 1.
+  // If the log has no rotation or no translation, the horizontal axis of that plot ends at 1.
   const axisEnd = maxRegressor > MIN_AXIS_END ? 1.06 * maxRegressor : 1;
-  // The axis has half as much space for error bars as for the bins and the line. A longer bar is cut, so that it does not compress all others.
+  // The vertical axis leaves half as much space for error bars as for bins and line. Longer error bars are cut, so that they do not compress everything else.
   const [minSquare, maxSquare] = [Math.min(0, ...y), Math.max(x.length ? 1e-12 : 1, (slope ?? 0) * axisEnd, ...y)];
   const [axisBottom, axisTop] = [1.5 * minSquare, 1.5 * maxSquare];
   // Small numbers are scaled by a power of 1000, so that labels fit next to the axis.
@@ -132,8 +132,8 @@ const jsonOf = ({ viewModel: { fittedConfig, stats, legs, truth }, logName }: Fi
   formatJson({ log: logName, date: new Date().toISOString(), settings: fittedConfig, ...stats, ...(truth && { truth }), legs });
 
 /**
- * Returns the button that copies the lines for nav2_params.yaml. For α's of another rule than Nav2's, it is a button that fits Nav2's rule.
- * `disabledReason` is the reason why the button is disabled; empty if it is enabled.
+ * Returns the button that copies the lines for nav2_params.yaml. If the α's were not fitted with a noise rule of Nav2, the button fits with Nav2's rule
+ * instead. `disabledReason` says why the button is disabled; empty if it is enabled.
  */
 export function nav2ButtonHtml(figure: Figure, disabledReason: string) {
   const texts = words.calibrator.nav2;
@@ -142,7 +142,7 @@ export function nav2ButtonHtml(figure: Figure, disabledReason: string) {
   return copyButtonHtml(figure, texts.copyLabel, () => yaml, { disabled: !yaml || disabledReason !== '', title: disabledReason || (yaml ? texts.yamlLabel : texts.noYamlNote) });
 }
 
-/** Returns the lines for nav2_params.yaml, and the button that saves all results. `disabledReason` is the reason why the button is disabled; empty if it is enabled. */
+/** Returns the lines for nav2_params.yaml, and the button that saves all results. `disabledReason` says why the button is disabled; empty if it is enabled. */
 export function nav2ExportControlsHtml(figure: Figure, disabledReason: string) {
   const texts = words.calibrator.nav2;
   const yaml = yamlOf(figure);

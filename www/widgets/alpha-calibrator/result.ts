@@ -1,4 +1,4 @@
-/** Result of a fit as text, which the page and the command line share: numbers, the verdict, and lines for nav2_params.yaml. */
+/** Results of a fit as text, for the page and the command line: numbers, the verdict, and lines for nav2_params.yaml. */
 
 import { MINUS, NO_VALUE, formatFixed, formatPercent, formatPowerOfTen, formatInteger } from '../../ui/format.ts';
 import { subscriptOf } from '../shared/sliders.ts';
@@ -11,37 +11,36 @@ type Interval = [number, number] | null;
 /** Fit of α's to a log, and the options of the fit. */
 export interface Result {
   stats: CalibrationStats;
-  /** Number of legs. */
   legCount: number;
   model: string;
   rule: string;
-  /** Lengths at which a leg ends. */
+  /** Distance, rotation or duration at which a leg ends. */
   legLength: { distance?: number, angle?: number, duration?: number };
-  /** False for each systematic error that is not to be corrected. */
+  /** False for each systematic error that the user does not want to correct. */
   corrections: { [name in (typeof SYSTEMATIC_ERRORS)[number]]?: boolean };
-  /** Names of odometry and reference. */
+  /** Names of the odometry and reference logs. */
   logName: string;
-  /** Notes on the logs that make the α's doubtful. */
+  /** Warnings about the logs. They make the α's doubtful. */
   warnings: Warning[];
 }
 
 type Texts = typeof import('./en.ts').en;
 
-/** Number of significant digits to which the width of an interval is printed, and number for values without an interval. */
+/** Number of significant digits of an interval's width, which determines the decimals, and number of significant digits of values without an interval. */
 const [WIDTH_DIGITS, VALUE_DIGITS] = [2, 3];
 
-/** Absolute value below which numbers are printed with an exponent. */
+/** Absolute value below which numbers are printed with an exponent of ten. */
 const MIN_PLAIN_NUMBER = 1e-6;
 
 const MAX_DECIMALS = 12;
 
-/** Absolute value from which numbers are printed with an exponent. Times since 1970 are below it. */
+/** Absolute value from which numbers are printed with an exponent of ten. Times since 1970 are smaller, and printed without it. */
 const MAX_PLAIN_NUMBER = 1e15;
 
-/** Largest plausible α. With it the error is as large as the motion, or one radian per metre. */
+/** Largest plausible α. An α of 1 means noise as large as the motion itself, or of one radian per metre. */
 const MAX_PLAUSIBLE_ALPHA = 1;
 
-/** Maximum number of failed checks that are named in a sentence, which has little space on the page. */
+/** Maximum number of failed checks that a sentence names, because the page has little space. */
 const MAX_NAMED_CHECKS = 2;
 
 /** Text for a missing number. */
@@ -50,7 +49,7 @@ const NO_NUMBER = '–';
 /** Names of Nav2's motion model plugins, by motion model. */
 const NAV2_PLUGINS: Record<string, string> = { odometry: 'nav2_amcl::DifferentialMotionModel', omnidirectional: 'nav2_amcl::OmniMotionModel' };
 
-/** Noise rules of Nav2's motion models: the formulas by which the α's give variances. */
+/** Noise rules that Nav2's motion models use. A noise rule is a set of formulas for the variances, given the α's. */
 export const NAV2_RULES = ['nav2', 'omni'];
 
 /** Returns true if Nav2 can use α's that were fitted with a model and a noise rule. */
@@ -64,7 +63,7 @@ const withPointInMantissa = (numberText: string) => numberText.replace(/^(-?\d)e
 /** Adds a decimal to a whole number, because Nav2 refuses integers for parameters of type double. */
 const withDecimalPoint = (numberText: string) => (numberText.includes('.') ? numberText : `${numberText}.0`);
 
-/** Prints a value with the decimals that are significant for its interval. A value that rounds to 0 has no sign. */
+/** Prints a value with the decimals that its interval justifies. A value that rounds to 0 is printed without a sign. */
 export function formatEstimate(number: number | null, interval: Interval | undefined) {
   const intervalWidth = interval ? interval[1] - interval[0] : 0;
   if (number === null || !(Math.abs(number) < MAX_PLAIN_NUMBER) || !(intervalWidth > 0 && intervalWidth < Infinity)) return formatNumber(number);
@@ -74,17 +73,17 @@ export function formatEstimate(number: number | null, interval: Interval | undef
   return mantissaDecimals < 0 ? '0' : withPointInMantissa(number.toExponential(Math.min(MAX_DECIMALS, mantissaDecimals)));
 }
 
-/** Prints an interval; returns an empty text if an end is not finite. */
+/** Prints an interval; returns an empty text if one of its bounds is not finite. */
 export const formatInterval = (interval: Interval | undefined) => (interval?.every(Number.isFinite) ? interval.map((bound) => formatEstimate(bound, interval)).join(' to ') : '');
 
-/** Returns true if an α prints as 0 with the digits that its interval allows. A printed 0 would look like a result. */
+/** Returns true if an α would be printed as 0 with the decimals that its interval justifies. A reader could take such a 0 for an exact result. */
 const isPrintedAsZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(formatEstimate(alpha, interval)) === 0;
 
-/** Converts a number as printed in files (-1.5e-7) to the signs of the language and a power of ten. */
+/** Converts a printed number such as -1.5e-7 to the decimal sign and minus sign of the language, and a power of ten. */
 export const localizeNumber = (numberText: string) =>
   numberText.replace(/^-/, MINUS).replace('.', formatFixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${formatPowerOfTen(Number(exponent))}`);
 
-/** Prints an interval in the current language; a dash if an end is not finite. */
+/** Prints an interval in the current language; a dash if one of its bounds is not finite. */
 export const localizeInterval = (interval: Interval | undefined) =>
   (interval?.every(Number.isFinite) ? interval.map((bound) => localizeNumber(formatEstimate(bound, interval))).join(' – ') : NO_VALUE);
 
@@ -92,16 +91,16 @@ const formatUpperEnd = (interval: Interval | undefined) => formatNumber(interval
 
 const scaleInterval = (interval: Interval, inflation: number): Interval => interval && [inflation * interval[0], inflation * interval[1]];
 
-/** Prints an α times a factor, or its upper bound if it is not significantly different from 0. */
+/** Prints an α times a factor. If the α is not significantly different from 0, prints its upper bound instead. */
 export const formatAlphaOrBound = (alpha: number | null, interval: Interval, inflation = 1) => (isPrintedAsZero(alpha, interval) ? `≤ ${formatUpperEnd(scaleInterval(interval, inflation))}` : formatEstimate(alpha && inflation * alpha, scaleInterval(interval, inflation)));
 
-/** Returns the lengths at which a leg ends, as text. */
+/** Returns the distance and rotation, or the duration, at which a leg ends, as text. */
 export const describeLegLength = ({ distance = NaN, angle = NaN, duration }: Result['legLength']) =>
   (duration === undefined ? yamlWords.legsByMotion(formatNumber(distance), formatNumber(angle)) : yamlWords.legsByDuration(formatNumber(duration)));
 
 /**
- * Returns the lines for nav2_params.yaml with the recommended α's, and with the fitted α's in comments. Returns an empty text if Nav2 has
- * no such model, or if no α's are recommended.
+ * Returns the lines for nav2_params.yaml with the recommended α's; comments in them have the fitted α's. The text is empty if Nav2 lacks the motion model,
+ * or if no α's are recommended.
  */
 export function formatNav2Yaml({ stats, legCount, model, rule, legLength, logName, warnings }: Result, date: string): string {
   const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks } } = stats;
@@ -123,15 +122,15 @@ export function formatNav2Yaml({ stats, legCount, model, rule, legLength, logNam
     if (alpha === null) return `# alpha${i + 1}: ${yamlWords.notIdentifiable}`;
     const [scaledInterval, isBound] = [scaleInterval(interval, inflation), isPrintedAsZero(alpha, interval)];
     const formattedAlpha = isBound ? formatUpperEnd(scaledInterval) : formatEstimate(inflation * alpha, scaledInterval);
-    // The upper bound is written for an α that is not significantly above 0. Without a line, Nav2 would use its default, which is far larger.
+    // If an α is not significantly above 0, its upper bound is written. Without this line, Nav2 would use its default, which is far larger.
     if (isBound && (scaledInterval?.[1] ?? Infinity) <= MAX_PLAUSIBLE_ALPHA) return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${yamlWords.notSignificantNote(formatUpperEnd(interval))}`;
     if (isBound || inflation * alpha > MAX_PLAUSIBLE_ALPHA) return `# alpha${i + 1}: ${formattedAlpha}, ${yamlWords.tooLargeNote}`;
     return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${yamlWords.fittedNote(formatEstimate(alpha, interval), formatInterval(interval))}`;
   });
-  // A line break in a file's name would end the YAML comment.
+  // A line break in the name of a file would end the comment in YAML.
   const commentLines = commentTexts.map((commentText) => `# ${commentText.replaceAll(/\s+/g, ' ')}`);
   const fifthAlphaLines = alphas.length < 5 ? [`# ${yamlWords.fifthAlphaNote}`] : [];
-  // The α's belong to the legs of the log, which are longer than asked if its rows are sparse.
+  // If the rows of a log are sparse, its legs are longer than requested. AMCL should then update at these longer distances, because the α's hold for them.
   const sparseCheck = failedChecksOf(checks).find(({ name }) => name === 'sampling-dense');
   const legRatio = sparseCheck?.value ?? 1;
   const updateTriggers = duration === undefined
@@ -147,8 +146,8 @@ export function formatNav2Yaml({ stats, legCount, model, rule, legLength, logNam
 const failedChecksOf = (checks: CalibrationCheck[]) => checks.filter(({ passed }) => !passed);
 
 /**
- * Returns a list with one sentence on how to correct the robot's odometry, because AMCL gets the odometry as the robot reports it. The sentence
- * names each corrected scale whose interval excludes 1. Without such a scale, or without recommended α's, the list is empty.
+ * Returns a list with one sentence on how to correct the robot's odometry, which AMCL receives uncorrected. The sentence names each corrected scale whose
+ * interval excludes 1. The list is empty if no α's are recommended, or if there is no such scale.
  *
  * @param formatLocally formats numbers
  */
@@ -161,14 +160,14 @@ export function adviseCorrection({ recommended, systematicErrors }: CalibrationS
   return distanceFactor || turnFactor ? [texts.correctionAdvice(distanceFactor, turnFactor)] : [];
 }
 
-/** Returns a list with one text, which names all corrected systematic errors. The list is empty if none was corrected. */
+/** Returns a list with one text that names all corrected systematic errors, or an empty list if no error was corrected. */
 function listCorrectedErrors(systematicErrors: CalibrationStats['systematicErrors']): string[] {
   const correctedErrors = Object.entries(systematicErrors).filter(([, error]) => error.corrected);
   const errorTexts = correctedErrors.map(([name, error]) => `${name} ${errorComponentsOf(error).map(({ value, interval }) => formatEstimate(value, interval)).join(', ')}`);
   return errorTexts.length ? [errorTexts.join('; ')] : [];
 }
 
-/** Returns the components of a systematic error (two for a lever arm) with their intervals. Both are null if the component is not identifiable. */
+/** Returns the components of a systematic error (two for a lever arm), each with its interval. Value and interval are null if the component is not identifiable. */
 export function errorComponentsOf({ value, interval }: CalibrationStats['systematicErrors'][keyof CalibrationStats['systematicErrors']]) {
   const intervals = (Array.isArray(value) ? interval : [interval]) as Interval[];
   return [value].flat().map((component, i) => ({ value: component, interval: intervals[i] }));
@@ -177,16 +176,16 @@ export function errorComponentsOf({ value, interval }: CalibrationStats['systema
 /** Returns an object as JSON, with typed arrays as plain arrays. */
 export const formatJson = (object: object) => JSON.stringify(object, (_, value) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value), 1);
 
-/** Systematic errors that can be corrected before the α's are fitted, in the order of tables. */
+/** Systematic errors that can be corrected before the α's are fitted, in the order of the results. */
 export const SYSTEMATIC_ERRORS = ['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale'] as const;
 
-/** Clock offset (s) that is mentioned. Clocks that are synchronized differ by less. */
+/** Minimum clock offset (s) that the advice mentions. Synchronized clocks differ by less. */
 const MENTIONED_CLOCK_OFFSET = 10;
 
 /**
- * Returns the rating of the α's with its badge, the finding in a sentence, and what to do in sentences. A missing α, or a warning such as a
- * localizer as the reference, makes consistent α's questionable. Nothing says to use the α's
- * after a warning, or if the odometry moves sideways, which makes them too small. `correctionPlace` is where corrections are chosen.
+ * Returns the rating of the α's with its badge, the main finding as a sentence, and advice as sentences. A missing α or a warning, for example that the
+ * reference is a localizer, changes the rating "consistent" to "questionable". After a warning, no advice says to use the α's; nor if the robot moves
+ * sideways, because the α's are then too small. `correctionPlace` names the place where the user chooses corrections.
  */
 export function judgementOf({ stats, legCount, model, corrections, warnings }: Result, texts: Texts, correctionPlace: string) {
   const { systematicErrors, diagnostics: { verdict, checks } } = stats;
@@ -213,22 +212,22 @@ export function judgementOf({ stats, legCount, model, corrections, warnings }: R
   return { rating, badge: texts.ratingBadges[rating], finding, advice };
 }
 
-/** Returns the reason for the recommended α's. In English it is the core's. */
+/** Returns a sentence on why these α's are recommended. The core has the English sentence. */
 export function explainRecommendation({ recommended, diagnostics: { windows } }: CalibrationStats, texts: Texts) {
   if (!recommended) return texts.noRecommendation;
   const [{ count, coverage, nees }] = windows;
   return texts.translateRecommendationReason(recommended.reason.replaceAll("'", '’'), formatFixed(recommended.inflation, 2), formatPercent(coverage), formatInteger(count), formatFixed(nees, 2));
 }
 
-/** Causes of lost legs. */
+/** Causes for which legs of a log are not fitted. */
 export const LOST_LEG_CAUSES = ['withoutReference', 'acrossBreaks', 'acrossPauses', 'standing'] as const;
 
-/** Returns what a failed check means and what to do. Causes that a check tells apart have their own messages. */
+/** Returns what a failed check means and what to do. If a check has several possible causes, each cause has its own message. */
 export const checkMessage = ({ name, cause, passed, message }: CalibrationCheck, { checks }: Texts) => (passed ? '' : checks.translateMessage(cause ? `${name}-${cause}` : name, message));
 
-/** Returns a sentence for each reason why α's are not identifiable, with the drive that would identify them. */
+/** Returns a sentence for each reason why α's are not identifiable. The sentence names a drive that would make them identifiable. */
 function explainMissingAlphas({ notIdentifiable, diagnostics: { checks } }: CalibrationStats, model: string, { missingAlphasSentence, alphas: { missingMotions } }: Texts) {
-  // If the reference does not match, it is of another drive or has other units. Advice to drive differently would not help.
+  // If the reference does not match the odometry, it is from another drive or has other units. Advice on how to drive would not help.
   if (failedChecksOf(checks).some(({ name }) => name === 'reference-matches')) return [];
   const reasons = [...new Set(notIdentifiable)].filter((reason) => reason !== null);
   return reasons.map((reason) => {
@@ -237,13 +236,13 @@ function explainMissingAlphas({ notIdentifiable, diagnostics: { checks } }: Cali
   });
 }
 
-/** Returns two texts about an α that is not identifiable: what the log lacks, and the drive that would identify the α. */
+/** Returns two texts about an α that is not identifiable: the motion that the log lacks, and a drive that contains this motion. */
 export function adviceOf(missingMotions: Texts['alphas']['missingMotions'], model: string, reason: keyof typeof missingMotions) {
   const { lack, drive, byCommands } = missingMotions[reason];
   return { lack, drive: model === 'velocity' ? byCommands : drive };
 }
 
-/** Returns true if the interval of an error excludes 0, or that of a scale excludes 1. */
+/** Returns true if a systematic error is significant: its interval excludes 0, or for a scale 1. */
 function isSignificant(name: string, error: Parameters<typeof errorComponentsOf>[0]) {
   const neutralValue = name.endsWith('Scale') ? 1 : 0;
   return errorComponentsOf(error).some(({ interval }) => interval && (interval[0] > neutralValue || interval[1] < neutralValue));

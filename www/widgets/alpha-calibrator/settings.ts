@@ -1,10 +1,10 @@
-/** Settings of the Alpha Calibrator: attributes, shared state and sliders; and the view model. */
+/** Settings of the Alpha Calibrator: their attributes, state fields and sliders. Also the data that the figure shows, derived from a fit. */
 
 import { createDefinition } from '../../figure/definition.ts';
 import type { Memo } from '../../scene/cache.ts';
 import type { AlphaCalibrator as Simulation, AlphaCalibratorSettings, CalibrationLegs, CalibrationLog } from '../../types.d.ts';
 
-/** Styles of the lines and marks in the pictures: the classes of legs, in the order of `LEG_CLASSES`, and then all others. */
+/** Styles of lines and marks in the pictures: first the classes of legs in the order of `LEG_CLASSES`, then all other lines. */
 export const LINE_STYLES = {
   likely: { role: 'truth', width: 1.5, dash: [] },
   plausible: { role: 'muted', width: 2, dash: [] },
@@ -18,13 +18,13 @@ export const LINE_STYLES = {
 
 export type LineName = keyof typeof LINE_STYLES;
 
-/** Classes of legs by the p-values of their residuals, from the most common to the rarest. */
+/** Classes of legs by the p-values of their residuals, from the highest p-value to the lowest. */
 export const LEG_CLASSES = ['likely', 'plausible', 'unlikely', 'implausible'] as const satisfies LineName[];
 
-/** Motions that squared residuals are plotted against. */
+/** Motions against which squared residuals are plotted. */
 export const REGRESSORS = ['turn', 'distance'] as const;
 
-/** Maximum index of a leg in a shared link. The number of legs is not known before the fit, so that it cannot be the limit. */
+/** Maximum index of a leg in a shared link. It is larger than any number of legs, which is known only after the fit. */
 const MAX_LEG_INDEX = 9_999_999;
 
 export const documentation = {
@@ -33,10 +33,10 @@ export const documentation = {
   },
 };
 
-/** Leg length to which the true α's of the simulated log apply, and with which the element opens. */
+/** Leg length for which the true α's of the simulated log hold. It is also the initial setting of the element. */
 export const SIMULATED_LEG_LENGTHS = { distance: 0.25, angle: 0.2 };
 
-/** Combination of model and rule, which is one choice on screen but two settings. */
+/** Combination of a motion model and a noise rule. On screen it is one choice, in the settings two fields. */
 export type ModelRule = keyof typeof import('./en.ts').en.modelRuleNames;
 
 export const modelRuleOf = ({ model, rule }: AlphaCalibratorSettings): ModelRule => (model === 'velocity' ? 'velocity' : rule);
@@ -71,14 +71,14 @@ export const definition = createDefinition('alpha-calibrator', {
 
 export type ViewModel = ReturnType<typeof viewModelOf>;
 
-/** Returns the view model of a simulation: its latest complete fit, and the requested settings. */
+/** Returns the data that the figure shows: the latest complete fit of a simulation, and the requested settings. */
 export function viewModelOf(simulation: Simulation, log: CalibrationLog | null, fitMemo: Memo<ReturnType<typeof readFit>>) {
-  // `fits` is the revision number of the fit.
+  // `fits` is a counter that increases with each complete fit, and serves as the cache key.
   const { config, fittedConfig, fits, isPending } = simulation.read();
   return { ...fitMemo.get([simulation, fits], () => readFit(simulation, fittedConfig)), log, config, fittedConfig, isPending };
 }
 
-/** Returns the fit of a simulation, the true values of the simulated log, and the legs to show. */
+/** Returns the fit of a simulation, the true values if the log is simulated, and the legs that are selected by default. */
 function readFit(simulation: Simulation, { distance }: Simulation['config']) {
   const { stats, legs, truth } = simulation;
   return {
@@ -89,12 +89,12 @@ function readFit(simulation: Simulation, { distance }: Simulation['config']) {
     legClasses: legClassesOf(legs),
     /** Legs with the largest residuals, the largest first. */
     worstLegs: worstLegsOf(legs),
-    /** Leg that is shown if none was chosen. */
+    /** Leg that is shown if the user has selected none. */
     defaultLeg: defaultLegOf(legs, distance),
   };
 }
 
-/** Number of legs in the list of the largest residuals. */
+/** Number of legs in the list of legs with the largest residuals. */
 const LISTED_LEG_COUNT = 10;
 
 /** Quantiles 0.5, 0.95 and 0.999 of χ² with 0 to 3 degrees of freedom. */
@@ -109,7 +109,7 @@ export function legClassesOf({ count, squared, residuals }: Pick<CalibrationLegs
   });
 }
 
-/** Returns the number of residuals of a leg that are defined. */
+/** Returns the number of residuals that are defined for a leg. */
 export const countObserved = (residuals: Float64Array, leg: number) => residuals.subarray(3 * leg, 3 * leg + 3).reduce((count, residual) => count + Number(!Number.isNaN(residual)), 0);
 
 function worstLegsOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
@@ -119,8 +119,8 @@ function worstLegsOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
 }
 
 /**
- * Returns the leg with the largest residual that is not an outlier and has at least the length `distance`. An outlier is no evidence against
- * the model, and a turn on the spot shows no cloud. Returns leg 0 if there is no such leg, and −1 if there are no legs.
+ * Returns the leg with the largest residual, except outliers and legs shorter than `distance`. An outlier is no evidence against the model, and a turn on
+ * the spot shows no cloud. Returns 0 if all legs are excluded, and −1 if there are none.
  */
 function defaultLegOf({ squared, outliers, odometry }: CalibrationLegs, distance: number): number {
   const hasFullLength = (leg: number) => Math.hypot(odometry[6 * leg + 3] - odometry[6 * leg], odometry[6 * leg + 4] - odometry[6 * leg + 1]) >= distance;
@@ -128,6 +128,6 @@ function defaultLegOf({ squared, outliers, odometry }: CalibrationLegs, distance
   return worstLeg < 0 && squared.length > 0 ? 0 : worstLeg;
 }
 
-/** Returns true if the true α's belong to the rule and the leg length of the present fit. */
+/** Returns true if the fit has the noise rule and leg length for which the true α's hold. */
 export const isTruthComparable = ({ truth, fittedConfig: { rule, model, distance, angle, duration } }: Pick<ViewModel, 'truth' | 'fittedConfig'>) =>
   truth !== null && model === 'odometry' && rule === 'thrun' && distance === SIMULATED_LEG_LENGTHS.distance && angle === SIMULATED_LEG_LENGTHS.angle && duration === 0;

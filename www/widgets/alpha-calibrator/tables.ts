@@ -6,7 +6,7 @@ import { SYSTEMATIC_ERRORS, adviceOf, errorComponentsOf, formatAlphaOrBound, for
 import type { CalibrationCheck, CalibrationStats, CalibrationTruth, Estimate } from '../../types.d.ts';
 import type { Messages } from '../../messages/registry.ts';
 
-/** Table of texts. A text with several values has each in a line of its own. A single cell after the name of a row spans all columns. */
+/** Table of texts. If a cell contains several values, each is on its own line. If a row has only one cell after its name, the cell spans all columns. */
 export interface ResultTable { columnHeadings: string[]; rows: string[][] }
 
 type Words = Pick<Messages, 'alphas' | 'calibrator'>;
@@ -51,10 +51,10 @@ export function systematicTableOf({ systematicErrors }: CalibrationStats, { cali
   return { columnHeadings: [texts.errorColumn, texts.valueColumn, intervalColumn, texts.treatmentColumn, ...(truth ? [texts.simulatedColumn] : [])], rows };
 }
 
-/** Returns the table of the noise of the reference and the persistence of errors. */
+/** Returns the table of the reference's noise, and of the persistence (correlation) of the odometry's errors. */
 export function noiseTableOf({ referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } }: CalibrationStats, { calibrator }: Words): ResultTable {
   const { noiseTable: texts, systematic, settings, alphas: { intervalColumn } } = calibrator;
-  // A stated value has no interval.
+  // A standard deviation that the user has entered is not an estimate, and has no interval.
   const formatIntervalOf = ({ interval }: Estimate) => (interval[0] < interval[1] ? localizeInterval(interval) : NO_VALUE);
   const rowOf = (name: string, estimate: Estimate) => [name, formatLocally(estimate), formatIntervalOf(estimate)];
   return {
@@ -68,19 +68,19 @@ export function noiseTableOf({ referenceNoise: { positionStd, yawStd }, persiste
   };
 }
 
-/** Pattern of the names of checks whose value is a fraction. */
+/** Pattern of the names of checks whose measured value is a fraction. */
 const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
 
-/** Prints the value of a check, or a limit of it. */
+/** Prints the measured value of a check, or a bound of its allowed range. */
 function formatCheckValue(checkName: CalibrationCheck['name'], checkValue: number, digits: number) {
   if (!Number.isFinite(checkValue)) return formatFixed(checkValue, 0);
   return checkName === 'enough-legs' ? formatInteger(checkValue) : FRACTION_CHECKS.test(checkName) ? formatPercent(checkValue, digits - 2) : formatSignificant(checkValue, digits);
 }
 
-/** Returns the table of the checks, in their order. */
+/** Returns the table of the checks, in the order of the fit. */
 export function checkTableOf({ diagnostics: { checks } }: CalibrationStats, { calibrator: { checks: texts } }: Words): ResultTable {
   const rows = checks.map(({ name, value, expected: [low, high], passed }) => {
-    // If a value that fails its check would round to a limit of the check, both are printed with more digits.
+    // More digits are printed if a failed value would otherwise look equal to the bound of the allowed range that it violates.
     const digits = [3, 4, 6].find((count) => passed || [low, high].every((limit) => formatCheckValue(name, value, count) !== formatCheckValue(name, limit, count))) ?? 9;
     const [lowText, highText] = [low, high].map((limit) => formatCheckValue(name, limit, digits));
     return [
@@ -93,7 +93,7 @@ export function checkTableOf({ diagnostics: { checks } }: CalibrationStats, { ca
   return { columnHeadings: [texts.checkColumn, texts.observedColumn, texts.expectedColumn, texts.resultColumn], rows };
 }
 
-/** Returns the table of the held-out windows. */
+/** Returns the table of prediction errors in held-out windows of the log. */
 export function windowTableOf({ diagnostics: { windows } }: CalibrationStats, { calibrator: { windowTable: texts } }: Words): ResultTable {
   return {
     columnHeadings: [texts.length, texts.countColumn, texts.coverageColumn, texts.neesColumn],

@@ -15,7 +15,7 @@ import { formErrorsPlotHtml, factorBarsHtml, headlineHtml, likelihoodReadoutsHtm
 import { LINE_STYLES, UNDERWAY_AT_END, definition, CONTOUR_STYLES, ALPHA_SLIDERS, COMMAND_SLIDERS, type ViewModel } from './settings.ts';
 import type { ArcAnatomy as Simulation, Motion } from '../../types.d.ts';
 
-/** Returns the controls of the likelihood: a checkbox for the printed sign of the radius, radio buttons for the heat map, and a legend of its contours. */
+/** Returns the controls of the likelihood: a checkbox that switches to the printed sign of the radius, radio buttons that choose a heat map, and a legend of the contours. */
 function likelihoodControlsHtml(figure: ArcAnatomyElement) {
   const { likelihoodTitle, mapNames, printedRadiusLabel } = words.anatomy;
   const { map } = figure.settings.requested;
@@ -89,7 +89,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
   /** Handles of both poses. The handle of the final pose is on top if both poses are at the same place. */
   handles: PoseHandles[] = ['start', 'next'].map((setting) => new PoseHandles(this, setting, () => ROBOT_RADIUS));
 
-  /** Player that animates the arcs. The animation takes the same time for every command. */
+  /** Player of the animation in which robots drive along the arcs. It takes the same time for every command. */
   player: Player<'underway'> = new Player(this, { underway: { max: UNDERWAY_AT_END, durationMs: 2000 } });
 
   createSimulation = ({ ArcAnatomy }: Motion) => new ArcAnatomy();

@@ -18,13 +18,13 @@ type ArcScene = ViewModel & { simulation: ArcAnatomy, overlays: LineName[], line
 /** Radius of the robots, m. */
 export const ROBOT_RADIUS = 0.06;
 
-/** Largest radius of an arc whose centre the view includes: the larger of a multiple of the path length and a length in metres. */
+/** Maximum radius of an arc whose centre the view has to include: a multiple of the path length, or if larger, a length in metres. */
 const MAX_CENTRE_RADIUS = { pathLengths: 3, metres: 1.5 };
 
 /** Margin around the paths, m. */
 const MARGIN_METRES = 0.15;
 
-/** Maximum radius of the arcs that mark angles, CSS pixels. */
+/** Maximum radius (CSS pixels) of the arc that marks an angle. */
 const MAX_ANGLE_MARK_RADIUS = 40;
 
 /** Radius of the wedge that shows the last turn, CSS pixels. */
@@ -33,10 +33,10 @@ const WEDGE_RADIUS = 64;
 /** Half the size of the cross at the centre of an arc, CSS pixels. */
 const CROSS_HALF_SIZE = 4;
 
-/** Length of the heading line at the commanded end, CSS pixels. */
+/** Length of the line that shows the heading at the end of the command, CSS pixels. */
 const HEADING_LINE_LENGTH = 24;
 
-/** Constructions in the picture that are highlighted with a line of Table 5.1. */
+/** Constructions in the picture (bisector, centre, radius, angle) that the selected line of Table 5.1 highlights. */
 const CONSTRUCTIONS_BY_LINE: Record<number, string[]> = {
   1: ['bisector'],
   2: ['bisector', 'centre'],
@@ -71,7 +71,7 @@ export class ArcPicture extends Picture<ArcScene> {
     const lines = createLineStyles(drawContext, LINE_STYLES, overlays);
     const contours = createLineStyles(drawContext, CONTOUR_STYLES, map === 'none' ? [] : Object.keys(CONTOUR_STYLES));
     drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, [
-      // The last turn has a label in the picture, and so no entry in the legend.
+      // The last turn is labelled in the picture, and therefore not listed in the legend.
       ...createLineLegend(drawContext, lines, ['inverted', 'commanded', 'chord', 'twist'], words.anatomy.overlays),
       ...createLineLegend(drawContext, contours, ['prob', 'density'], words.anatomy.mapNames),
     ]);
@@ -91,7 +91,7 @@ export class ArcPicture extends Picture<ArcScene> {
       }
       if (lines.chord) strokeLines(drawContext, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...lines.chord }]);
       if (lines.wedge) drawWedge(drawContext, next, lastTurn, lines.wedge.colour);
-      // Short lines across the path of the constant twist show the displacements by its lateral velocity.
+      // Short lines across the path of the constant twist show its displacements in the lateral direction.
       if (lines.twist) strokePath(drawContext.context, { colour: lines.twist.colour, width: 1.25 }, () => {
         for (let i = 0; i < paths.ticks.length; i += 4) addLine(drawContext.context, drawContext.view.toPixels(paths.ticks.subarray(i, i + 4)));
       });
@@ -119,12 +119,12 @@ export class ArcPicture extends Picture<ArcScene> {
   #drawHeatMap(drawContext: DrawContext, { simulation, config }: ArcScene) {
     const { context, palette, view } = drawContext;
     const { xMin, yMin, xMax, yMax } = view.extent;
-    // The cached heat map is reused until the settings change: `config` is a new object after every change.
+    // `config` is a new object after every change of settings. The cached heat map is used until `config` or the view changes.
     const likelihoodSurface = this.#surfaceMemo.get([config, xMin, yMin, xMax, yMax], () => simulation.surface([xMin, yMin, xMax, yMax]));
     if (!likelihoodSurface) return;
     this.#heatMapImage.draw(drawContext, [likelihoodSurface, palette], () => {
       const rampColours = new Uint32Array(createDensityRamp(palette).buffer);
-      // The lowest shade is transparent.
+      // The lowest colour of the heat map is transparent, so that the axes remain visible.
       rampColours[0] = 0;
       return { pixels: new Uint8ClampedArray(Uint32Array.from(likelihoodSurface.shades, (shade) => rampColours[shade]).buffer), columns: likelihoodSurface.columns };
     });
@@ -136,8 +136,8 @@ export class ArcPicture extends Picture<ArcScene> {
 }
 
 /**
- * Draws the centre of an arc, both radii and the turn between them. `shiftSide` (±1) is the direction in which the first radius is shifted, so
- * that another radius on the same line stays visible.
+ * Draws the centre of an arc, the radii to both of its ends, and the turn between the radii. The first radius is shifted slightly in the direction
+ * `shiftSide` (±1), so that it does not hide another radius.
  */
 function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, end, turn }: ArcWithCircle, { colour, dash, shiftSide }: { colour: string, dash: number[], shiftSide: number }) {
   if (!center) return;
@@ -157,7 +157,7 @@ function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, en
   strokeAngleArc(context, [x, y], [startX, startY], turn, { colour, width: 1.5 });
 }
 
-/** Returns callouts of the turn, at the centre of an arc, and of its radius. If the centre is outside of the picture, they are at the visible part of the radius. */
+/** Returns callouts for the turn, at the centre of an arc, and for its radius. If the centre is outside the picture, both callouts are at the visible part of the radius. */
 function arcCalloutsOf({ view }: DrawContext, start: Pose, { center }: ArcWithCircle, colour: string, angleLabel: string, radiusLabel?: string): Callout[] {
   if (!center) return [];
   const visibleFraction = visibleFractionOf(view.plotArea, view.toPixel(start.x, start.y), view.toPixel(center[0], center[1]));
@@ -165,7 +165,7 @@ function arcCalloutsOf({ view }: DrawContext, start: Pose, { center }: ArcWithCi
   return [{ text: angleLabel, point: radiusPointAt(visibleFraction), colour }, ...(radiusLabel ? [{ text: radiusLabel, point: radiusPointAt(visibleFraction / 2), colour }] : [])];
 }
 
-/** Returns the visible fraction of the line from a visible point to another point. */
+/** Returns the visible fraction of a line. The first point of the line is visible. */
 function visibleFractionOf({ left, right, top, bottom }: import('../../scene/view.ts').View['plotArea'], [startX, startY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
   const visibleFractionOfRange = (start: number, end: number, min: number, max: number) =>
     end >= min && end <= max ? 1 : (clamp(end, min, max) - start) / (end - start);
@@ -179,7 +179,7 @@ function drawWedge({ context, view }: DrawContext, finalPose: Pose, lastTurn: nu
     context.moveTo(x, y);
     addTurnArc(context, [x, y], WEDGE_RADIUS, finalPose.theta - lastTurn, lastTurn);
   }));
-  // This edge of the wedge has the robot's heading at the end of the arc.
+  // This edge of the wedge shows the heading at the end of the arc, before the last turn.
   strokeLine(context, view.headingLineFrom({ ...finalPose, theta: finalPose.theta - lastTurn }, WEDGE_RADIUS), { colour, width: 1.25 });
 }
 
@@ -188,7 +188,7 @@ function wedgeCalloutOf({ view }: DrawContext, finalPose: Pose, lastTurn: number
   return { text: `γ̂Δt = ${formatFixed(lastTurn, 2)}`, point: view.toWorld(...wedgeEdgeMiddle), colour };
 }
 
-/** Draws a robot on each path that is shown, at the same time since the start. */
+/** Draws a robot on each visible path. All robots have driven for the same time. */
 function drawMovingRobots(drawContext: DrawContext, { simulation, underway, overlays }: ArcScene) {
   if (underway === UNDERWAY_AT_END) return;
   const robotPoses = simulation.underway(underway / UNDERWAY_AT_END);
@@ -221,7 +221,7 @@ function drawTableLineConstruction(drawContext: DrawContext, { config: { start, 
   if (highlightedConstructions.includes('angle')) strokeAngleArc(context, centrePixel, startPixel, inverted.turn, { colour: accent, width: 4 });
 }
 
-/** Strokes the arc of an angle: a turn (rad) about a centre that begins in the direction of another point. The points are in pixels. */
+/** Strokes an arc that marks an angle. The arc starts in the direction from its centre to another point, and spans `turn` radians. Points are in pixels. */
 function strokeAngleArc(context: DrawContext['context'], [x, y]: number[], [startX, startY]: number[], turn: number, style: LineStroke) {
   const radius = Math.min(MAX_ANGLE_MARK_RADIUS, 0.4 * Math.hypot(startX - x, startY - y));
   strokePath(context, style, () => addTurnArc(context, [x, y], radius, Math.atan2(y - startY, startX - x), turn));

@@ -1,4 +1,4 @@
-/** Readouts of Arc Anatomy, sentences and text equivalents: the likelihood, its factors as bars, Table 5.1, and errors of three forms of the arc. */
+/** Readouts of Arc Anatomy and their text alternatives: the likelihood, its factors as bars, Table 5.1, and errors of three formulas for the arc. */
 
 import { html, nothing, svg } from 'lit';
 import { addEnglishMessages, words } from '../../messages/registry.ts';
@@ -12,7 +12,7 @@ import type { FormErrors, Motion } from '../../types.d.ts';
 
 addEnglishMessages({ anatomy: en });
 
-/** Limit below which numbers are printed as powers of ten: p is a product of three densities, and spans many decades. */
+/** Absolute value below which a number is printed as a power of ten. The density p is a product of three densities, and spans many decades. */
 const MIN_PLAIN_NUMBER = 0.0005;
 
 function formatScientific(number: number) {
@@ -27,7 +27,7 @@ const formatShare = (share: number) => (isPrintedAsPower(share) ? formatScientif
 
 const formatDensity = (density: number) => (isPrintedAsPower(density) ? formatScientific(density) : formatSignificant(density, 3));
 
-/** Returns the caption: a sentence about the factor that makes the probability density p small. */
+/** Returns the caption: a sentence about the factor that reduces the probability density p most. */
 export function captionOf({ config, stats: { factors, weakest, share, driven, inverted } }: ViewModel) {
   const texts = words.anatomy.captionSentences;
   const { deviations, share: keptShare, deviation } = factors[weakest];
@@ -38,13 +38,13 @@ export function captionOf({ config, stats: { factors, weakest, share, driven, in
   return texts.worstFactor(estimateName, formatFixed(Math.abs(deviations), 1), formatShare(keptShare), formatShare(share));
 }
 
-/** Scale of the bars: maximum number of standard deviations to either side, and pixels per standard deviation. */
+/** Scale of the bars for errors: maximum number of standard deviations to either side, and number of pixels per standard deviation. */
 const BAR_SCALE = { maxDeviations: 4, pixelsPerDeviation: 22 };
 const BAR_MIDDLE = BAR_SCALE.maxDeviations * BAR_SCALE.pixelsPerDeviation + 4;
 
 /**
- * Symbol, residual, sign and unit of each factor. The bars show the residuals with the sign of v̂ − v, so that a bar to the right means more than commanded.
- * Table 5.1 has the residuals of v and ω with the opposite sign.
+ * Symbol, error, sign and unit of each factor of the likelihood. The bars show v̂ − v, so that a bar to the right means more than commanded. Table 5.1 has
+ * the errors of v and ω with the opposite sign.
  */
 const FACTOR_NOTATIONS = [
   { symbol: '*v̂*', error: '(*v̂* − *v*)', residualSign: -1, unit: 'm/s' },
@@ -58,8 +58,8 @@ export function headlineHtml({ stats: { share } }: ViewModel) {
 }
 
 /**
- * Returns the three errors in standard deviations, each with its factor as a share of the peak. The last line of Table 5.1 highlights
- * them.
+ * Returns bars of the three errors in standard deviations, each with its factor of the likelihood relative to the peak. They are highlighted together with
+ * the last line of Table 5.1.
  */
 export function factorBarsHtml({ stats: { factors, weakest, share } }: ViewModel, tableLine: number) {
   const texts = words.anatomy.factorBars;
@@ -100,7 +100,7 @@ export function likelihoodReadoutsHtml({ stats: { prob, density, xi } }: ViewMod
   ]);
 }
 
-/** Lines of Table 5.1, in the markup of messages. */
+/** Formulas in the lines of Table 5.1, in the markup of messages (*stars* for italics). */
 const TABLE_LINE_FORMULAS = [
   '*μ* = ½ · [(*x* − *x*′) cos *θ* + (*y* − *y*′) sin *θ*] / [(*y* − *y*′) cos *θ* − (*x* − *x*′) sin *θ*]',
   '*x\\** = (*x* + *x*′)/2 + *μ*(*y* − *y*′)',
@@ -115,7 +115,7 @@ const TABLE_LINE_FORMULAS = [
 
 const TABLE_LINE_UNITS = ['', ' m', ' m', ' m', ' rad', ' m/s', ' rad/s', ' rad/s', ''];
 
-/** Returns the lines of the table with their values, as radio buttons that highlight constructions in the picture. */
+/** Returns the lines of Table 5.1 with their values as radio buttons. The selected line highlights constructions in the picture. */
 export function tableLinesHtml({ viewModel: { table: { lines }, config: { printed } }, settings: { elementState }, gesture }: import('./arc-anatomy.ts').ArcAnatomyElement) {
   const texts = words.anatomy.table;
   const lineTextOf = (formula: string, i: number) => {
@@ -131,10 +131,10 @@ export function tableLinesHtml({ viewModel: { table: { lines }, config: { printe
     <p class="muted">${formatMarkup(texts.signNote)}</p>`;
 }
 
-/** Range (m) of the error axis, from below the rounding error of the distance to above the whole distance. */
+/** Range (m) of the plot's error axis. It starts below the rounding error of the driven distance, and ends above the distance itself. */
 const ERROR_AXIS_RANGE = { min: 1e-18, max: 1 };
 
-/** Cached errors of three formulas for the end of a motion: arc, straight line and chord. They depend on no setting. */
+/** Cached errors of three formulas for the end of a motion: arc, straight line and chord. The errors do not depend on the settings. */
 let cachedFormErrors: FormErrors | undefined;
 
 export function formErrorsPlotHtml({ ArcAnatomy }: Motion) {

@@ -1,16 +1,15 @@
-/** Arc Anatomy's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
+/** Settings of Arc Anatomy: their attributes, state fields and sliders. Also line styles, and the data that the figure shows. */
 
 import { createDefinition } from '../../figure/definition.ts';
 import { COMMAND_DASH, createAlphaSliderSpecs, createCommandSliderSpecs } from '../shared/sliders.ts';
 import type { ArcAnatomy } from '../../types.d.ts';
 
-/** Values of the simulation that the picture and the readouts need. */
+/** Results of a simulation that the picture and the readouts show. */
 export type ViewModel = ReturnType<ArcAnatomy['read']>;
 
-/** Number of lines of Table 5.1. */
 export const TABLE_LINES = 9;
 
-/** Value of `underway` at the end of the command, per cent of its duration. */
+/** Value of the setting `underway` (per cent of the command's duration) when the command ends. */
 export const UNDERWAY_AT_END = 100;
 
 /** Styles of the lines in the picture. */
@@ -22,7 +21,7 @@ export const LINE_STYLES = {
   twist: { role: 'posterior', width: 2, dash: [7, 3] },
 } satisfies Record<string, import('../../ui/swatch.ts').LineStyle>;
 
-/** Styles of the contours. They do not depend on the quantity that is shown as an image. */
+/** Styles of the contours. They are the same whether the heat map shows the density or the probability. */
 export const CONTOUR_STYLES = {
   prob: { role: 'ink', width: 1, dash: [5, 4] },
   density: { role: 'ink', width: 1, dash: [] },

@@ -27,19 +27,19 @@ import type { BananaMachine as Simulation, BananaMachineSettings as Settings, In
 /** Displacement of the end of the arc per press of an arrow key, metres. */
 const KEY_STEP = 0.02;
 
-/** Column names of the executed motions in the exported table, by motion model. */
+/** Names of the columns for executed motions in the exported table, by motion model. */
 const EXECUTED_COLUMNS = {
   velocity: 'v_hat_m_per_s omega_hat_rad_per_s gamma_hat_rad_per_s',
   odometry: 'delta_hat_rot1_rad delta_hat_trans_m delta_hat_rot2_rad',
 };
 
-/** Number of points of the skew chart's curve. With fewer, the steep fall of the skew at ω = 0 would have visible corners. */
+/** Number of points of the curve in the skew chart. With fewer points, the steep part at ω = 0 would show corners. */
 const CURVE_POINT_COUNT = 241;
 
-/** Allowed maxima of the skew chart's vertical axis. With few of them, the axis seldom changes during a drag. */
+/** Values that the maximum of the skew chart's vertical axis can have. They are few, so that the axis seldom changes during a drag. */
 const CHART_MAXIMA = [0.25, 0.5, 1, 2, 4, 8];
 
-/** Number of the α that stays in effect when the user turns on Isolate: α₄, turn rate noise from turning. */
+/** Number of the α that is isolated first: with Isolate, only one α has an effect. α₄ is the noise of the turn rate from turning. */
 const FIRST_ISOLATED_ALPHA = 4;
 
 function modelControlsHtml(figure: BananaMachineElement) {
@@ -55,19 +55,19 @@ function modelControlsHtml(figure: BananaMachineElement) {
 }
 
 /**
- * Indices of the α's that are always visible, by model: those that add noise to the distance and to the turn of a straight drive. The cloud is
- * a banana if the turn has much more.
+ * Indices of the α's whose sliders are always visible, by motion model. They set the noise of distance and turn on a straight drive. The cloud looks like a
+ * banana if the noise of the turn is much larger.
  */
 const VISIBLE_ALPHAS: Record<string, number[]> = { velocity: [0, 2], odometry: [1, 2] };
 
-/** Returns a group with the sliders of the α's that are always visible, or of all other α's. */
+/** Returns a group of sliders: those of the α's that are always visible, or those of all other α's. */
 function alphaGroupHtml(figure: BananaMachineElement, isVisible: boolean) {
   const { model, alphas } = figure.viewModel.config;
   const alphaIndices = [...alphas.keys()].filter((alphaIndex) => VISIBLE_ALPHAS[model].includes(alphaIndex) === isVisible);
   return fieldsetHtml(words.noise, alphaIndices.map((alphaIndex) => alphaSliderHtml(figure, alphaIndex + 1, words.alphas[model as 'velocity' | 'odometry'][alphaIndex])), isVisible ? 'pair' : 'alphas');
 }
 
-/** Returns the slider of an α, counted from 1. */
+/** Returns the slider of an α. α's are numbered from 1. */
 function alphaSliderHtml(figure: BananaMachineElement, alphaNumber: number, [alphaLabel, effectText]: string[]) {
   const { isolate } = figure.viewModel.config;
   const hasNoEffect = isolate !== null && isolate !== alphaNumber;
@@ -86,14 +86,14 @@ function alphaSliderHtml(figure: BananaMachineElement, alphaNumber: number, [alp
 }
 
 const styles = css`
-  /* A narrow figure has one picture: the one with the morph, which can show both. */
+  /* A narrow figure shows only the first picture, which can be morphed from the floor to exponential coordinates. */
   @container (width < 30em) {
     .views > .twist {
       display: none;
     }
   }
 
-  /* Margin for the gradient that fades scrolled text below the pictures. */
+  /* The margin keeps these controls clear of the gradient that fades scrolled text below the pictures. */
   .morphing {
     display: flex;
     flex-wrap: wrap;
@@ -114,7 +114,7 @@ const styles = css`
     margin-bottom: 0;
   }
 
-  /* In a narrow figure the slider has a row of its own, so that its track is long. */
+  /* In a narrow figure, the slider of the morph is on a separate row, so that its track is long enough. */
   @container (width < 30em) {
     .morph {
       display: contents;
@@ -171,7 +171,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       const keySteps = stepsOfKey(event);
       if (!keySteps || !this.simulation) return false;
       const [x, y] = this.visibleArcEnd;
-      // The straight arc ends further away than any other arc with the maximum speed.
+      // At the maximum speed, the straight arc ends further from the start than any other arc. It thus limits x.
       const maxX = sliderSpecs.v.max * this.settings.requested.command.dt;
       this.#moveArcEnd(clamp(x + KEY_STEP * keySteps[0], -maxX, maxX), y + KEY_STEP * keySteps[1]);
       return true;
@@ -188,15 +188,15 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
 
   player: Player<'morph'> = new Player(this, { morph: { max: 1, durationMs: MORPH_DURATION_MS } });
 
-  // The simulation starts empty: the cloud grows visibly, and the first frame need not wait for samples.
+  // The simulation starts without samples. The first frame then appears quickly, and the user sees the cloud grow.
   createSimulation = ({ BananaMachine }: Motion) => BananaMachine.empty();
 
   enterState(simulation: Simulation, state: StateValues) {
     const { model, alphas, pinned } = state;
-    // The simulation also gets the α's of the other model, because each model keeps its own α's.
+    // The α's of the other motion model are also passed to the simulation, because each model keeps its own α's.
     const otherModel = model === 'velocity' ? 'odometry' : 'velocity';
     simulation.configureFirst({ model: otherModel, alphas: alphas[otherModel] }, 0);
-    // Throws an error if the pinned settings are invalid.
+    // This call throws an error if the pinned settings (saved for comparison) are invalid.
     this.#viewModelOfPinned(pinned);
     super.enterState(simulation, { ...state, alphas: alphas[model] });
   }
@@ -208,7 +208,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const { motion } = this;
     const pinned = this.#pinnedViewModel;
     const { overlays, morph } = this.settings.elementState as { overlays: string[], morph: number };
-    // Callouts are hidden while a cloud grows or is dragged, because outlines move. During a morph their texts would be wrong.
+    // Callouts are hidden while the outlines move, because the cloud grows or is dragged. During a morph their texts would be wrong.
     const areOutlinesMoving = this.cloud.playing || (this.gesture.isPressed && viewModel !== this.gesture.previousViewModel);
     const shownOutlineNames = OVERLAY_NAMES.filter((name) => name !== 'command' && overlays.includes(name) && hasLength(viewModel.contours[name]));
     const callouts = areOutlinesMoving || morph > 0 || shownOutlineNames.join() !== 'ellipse,exponential' ? [] : calloutsOf(viewModel);
@@ -221,14 +221,14 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       outlinesOf: (otherViewModel: ViewModel, outlineMorph: number) => morphOutlines(motion, otherViewModel, outlineMorph),
       callouts,
       pinned,
-      /** Returns the points of the pinned outlines that are shown, at a morph. */
+      /** Returns the points of the visible outlines of the pinned settings, at a stage of the morph (0: floor, 1: exponential coordinates). */
       pinnedPointsAt: (outlineMorph: number) =>
         pinned ? Object.entries(morphOutlines(motion, pinned, outlineMorph)).flatMap(([name, outlinePoints]) => (overlays.includes(name) ? [...outlinePoints] : [])) : [],
       drivingProgress: this.cloud.drivingProgress,
     };
   }
 
-  /** View model of the pinned settings, with which the current cloud is compared. */
+  /** Results for the pinned settings, which the figure compares with the current cloud. */
   get #pinnedViewModel() {
     return this.#viewModelOfPinned(this.settings.elementState.pinned);
   }
@@ -237,7 +237,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     return pinned ? this.#pinnedViewModelMemo.get([pinned], () => viewModelOfSettings(this.motion, pinned)) : undefined;
   }
 
-  /** Pins the current settings for comparison, or unpins them. The pinned outlines and numbers are those of the complete cloud. */
+  /** Pins the current settings (saves them for comparison), or unpins them. The pinned results are those of the complete cloud, even while the cloud grows. */
   #togglePin() {
     const { config } = this.currentViewModel;
     this.gesture.setElementField('pinned', this.settings.elementState.pinned ? null : { ...config, samples: Math.max(1, this.cloud.selectableCount) });
@@ -264,21 +264,21 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     return { ...super.withDerivedFields(currentState, changes), alphas: { ...currentState.alphas, ...alphas } };
   }
 
-  /** Position at which the end of the commanded arc is drawn, in the view's world. */
+  /** Position (in the view's world coordinates) at which the end of the commanded arc is drawn. */
   get visibleArcEnd() {
     const { v, omega, dt } = this.currentViewModel.config.command;
     return morphPoint([v * dt, 0, omega * dt], this.settings.elementState.morph);
   }
 
-  /** Executed motion of the selected robot; undefined if no robot is selected or the robot is not shown. */
+  /** Executed motion of the selected robot; undefined if no robot is selected, or the selected robot is not shown. */
   get #selectedMotion() {
     const { simulation, viewModel, cloud: { isSelectionShown, selectedIndex } } = this;
     return isSelectionShown && simulation ? this.#executedMotionMemo.get([viewModel.stats, selectedIndex], () => simulation.inspect(selectedIndex)) : undefined;
   }
 
   /**
-   * Sets the command to an arc that ends at a point of the view's world, within the range of the sliders. Of several arcs it takes the one
-   * nearest to the current arc.
+   * Sets the command so that its arc ends at a point in the view's world coordinates, within the range of the sliders. If several arcs end there, it takes
+   * the one nearest to the current arc.
    */
   #moveArcEnd(x: number, y: number) {
     this.settings.requestChange(({ command }) => {
@@ -288,7 +288,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     });
   }
 
-  /** Renders the handle of the arc's end, with a hint to drag it during the introduction. */
+  /** Renders the handle at the end of the commanded arc. During the introduction, a hint invites the user to drag it. */
   #handleHtml({ v, omega }: Settings['command']) {
     const texts = words.banana;
     const { min, max } = sliderSpecs.omega;
@@ -349,7 +349,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const { model, noise, command: { v, omega, dt }, alphas, isolate } = config;
     const texts = words.banana;
     const { min, max, step } = sliderSpecs.omega;
-    // The curve is cached by the settings on which it depends.
+    // The curve of the skew is computed again only if one of these settings changes.
     const skews = this.#skewCurveMemo.get([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.simulation as Simulation).skewCurve(min, max, CURVE_POINT_COUNT));
     const maxSkew = skews.reduce((largest, skew) => Math.max(largest, Math.abs(skew) || 0), 0);
     const chartMaximum = CHART_MAXIMA.find((maxShownSkew) => maxShownSkew >= maxSkew) ?? maxSkew;

@@ -39,7 +39,7 @@ export const en = {
     tooFewRobots: (skew, exactSkew) => `Too few robots to show the lean: skew ${skew}, exactly ${exactSkew}.`,
     nearlySymmetric: (skew, exactSkew) => `Both sides are nearly alike: skew ${skew}, exactly ${exactSkew}.`,
     symmetric: (skew) => `Both sides are alike: skew ${skew}, exactly 0 by symmetry.`,
-    /** Sentence that is followed by the sentence on the skew. */
+    /** The sentence on the skew follows this sentence. */
     largeEllipse: (areaRatio) => `The cloud is bent: its ellipse covers ${areaRatio} times the area of the ξ outline.`,
     betterFit: (likelihoodRatio, isBent) => `${isBent ? 'Bent: the' : 'The'} Gaussian in ξ fits better: a robot is ${likelihoodRatio} times as likely.`,
     bowTie: (driveLength, deviation, skew) =>
@@ -63,7 +63,7 @@ export const en = {
     morphingTitle: 'On the way to exponential coordinates',
     morphedTitle: 'The floor, morphed to exponential coordinates ξ',
   },
-  /** Texts of the callouts in the picture, with line breaks. */
+  /** Texts of the callouts in the picture. They contain line breaks. */
   callouts: ['only the ellipse\ncovers this floor', 'no robot\nstops here'],
   handleName: 'End of the commanded arc',
   handleKeysHint: 'Arrow keys move it over the floor, with Shift by larger steps; Page Up and Page Down move it far in y, Home and End to the ends along x',

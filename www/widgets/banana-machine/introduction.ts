@@ -2,10 +2,10 @@
 
 import { Cloud } from '../shared/cloud.ts';
 
-/** Duration (ms) of each of the two drives: the first robot alone, then all robots. Both drives and the growth of the cloud take less than four seconds. */
+/** Duration (ms) of each of two drives: first one robot alone, then all robots. Drives and growth of the cloud together take less than four seconds. */
 const DRIVE_DURATION_MS = 650;
 
-/** Number of robots that drive. */
+/** Number of robots that drive in the introduction. */
 const DRIVING_ROBOT_COUNT = 10;
 
 /** Key in the session's storage that marks the introduction as seen. */
@@ -18,24 +18,24 @@ function isFirstInSession() {
     if (!wasShown) sessionStorage.setItem(INTRODUCED_STORAGE_KEY, 'yes');
     return !wasShown;
   } catch {
-    // Without storage the introduction would be shown again and again.
+    // If the browser blocks storage, the introduction is skipped. Otherwise it would be shown again and again.
     return false;
   }
 }
 
-/** Cloud of samples that starts to grow after the introduction. */
+/** Cloud of samples that starts to grow when the robots of the introduction have driven. */
 export class IntroducedCloud extends Cloud {
   /** Time at which the first robot started, ms. */
   #startTimeMs: number | undefined;
-  /** Phase of the introduction: `driving` robots, then a pulsing handle (`asking`) while the cloud grows. */
+  /** Phase of the introduction: first robots drive (`driving`), then the handle pulses while the cloud grows (`asking`). */
   #phase: 'none' | 'driving' | 'asking' = 'none';
 
-  /** True while the ring at the end of the arc pulses, as a hint to drag it. */
+  /** True while the ring at the end of the arc pulses. The pulse invites the user to drag the ring. */
   get isAsking() {
     return this.#phase === 'asking';
   }
 
-  /** Number of driving robots, and the completed fraction of their path. */
+  /** Number of robots in the current drive of the introduction, and completed fraction of their paths. */
   get drivingProgress(): { robotCount: number, pathFraction: number } | undefined {
     if (this.#phase !== 'driving') return undefined;
     const elapsedMs = performance.now() - (this.#startTimeMs ?? performance.now());

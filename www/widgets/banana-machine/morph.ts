@@ -1,4 +1,4 @@
-/** Morph that transforms the floor continuously to exponential coordinates, and the grid that it straightens: see doc/statistics.md. */
+/** Morph: continuous transformation of the floor (stage 0) to exponential coordinates (stage 1), and of the grid that it straightens; see doc/statistics.md. */
 
 import { ticks } from 'd3-array';
 import { addLine, paintWithOpacity, strokePath, type DrawContext } from '../../scene/canvas.ts';
@@ -6,16 +6,13 @@ import { View, interpolateExtent, type Extent } from '../../scene/view.ts';
 import type { Motion } from '../../types.d.ts';
 import type { ViewModel } from './settings.ts';
 
-/** Outlines by name, on the floor or transformed by the morph. */
+/** Outlines by name, in floor coordinates or transformed to a stage of the morph. */
 export type Outlines = Omit<ViewModel['contours'], 'twistEllipse'>;
 
 /** Duration of the animated morph, ms. */
 export const MORPH_DURATION_MS = 5000;
 
-/**
- * Returns the point in a morphed picture for a twist (m, m, rad), like `geom::unbend` of the core. The morph runs from 0, the floor, to 1,
- * exponential coordinates.
- */
+/** Returns the position of a twist (m, m, rad) in a picture at a stage of the morph: 0 is the floor, 1 is exponential coordinates. `geom::unbend` of the core has the same formula. */
 export function morphPoint({ 0: along, 1: lateral, 2: heading }: ArrayLike<number>, morph: number): [number, number] {
   const halfHeading = ((1 - morph) * heading) / 2;
   const sinc = halfHeading === 0 ? 1 : Math.sin(halfHeading) / halfHeading;
@@ -24,7 +21,7 @@ export function morphPoint({ 0: along, 1: lateral, 2: heading }: ArrayLike<numbe
   return [alongOffset * cos - lateralOffset * sin, alongOffset * sin + lateralOffset * cos + morph * heading];
 }
 
-/** Returns the outlines after a morph. Outlines on the floor are transformed point by point. The outline of the Gaussian in exponential coordinates is computed directly. */
+/** Returns the outlines at a stage of the morph. Floor outlines are transformed point by point. The outline of the Gaussian in exponential coordinates is computed directly. */
 export function morphOutlines(motion: Motion, viewModel: ViewModel, morph: number): Outlines {
   const { config: { command: { v, omega, dt } }, contours, stats } = viewModel;
   if (morph === 0) return contours;
@@ -41,14 +38,11 @@ export function morphOutlines(motion: Motion, viewModel: ViewModel, morph: numbe
   };
 }
 
-/**
- * View during a morph. It is interpolated between the view of the floor and the view of exponential coordinates, which move to their own target
- * extents.
- */
+/** View at a stage of the morph: it interpolates between a view of the floor and a view of exponential coordinates. Each of these two views has its own target extent. */
 export class MorphView extends View {
-  /** Morph, from the floor (0) to exponential coordinates (1). */
+  /** Stage of the morph: 0 is the floor, 1 is exponential coordinates. */
   morph = 0;
-  /** Views at both ends of the morph: of the floor, and of exponential coordinates. */
+  /** Views at the two ends of the morph: first the floor, then exponential coordinates. */
   endViews;
 
   constructor(margins: { left: number, right: number }) {
@@ -73,7 +67,7 @@ export class MorphView extends View {
     return this.endViews[this.morph > 0 ? 1 : 0].hasTarget;
   }
 
-  /** Sets the region that the view shows at an end of the morph. */
+  /** Sets the region that the view shows at one end of the morph: `endIndex` is 0 for the floor, 1 for exponential coordinates. */
   fitEnd(shownExtent: Extent, endIndex: 0 | 1) {
     const view = this.endViews[endIndex];
     view.hasZoomedOut = false;
@@ -88,17 +82,17 @@ export class MorphView extends View {
   }
 }
 
-/** Approximate number of grid lines in each direction, and number of chords of a grid line. */
+/** Approximate number of grid lines in each direction, and number of straight segments that approximate a curved grid line. */
 const GRID_LINE_COUNT = 7;
 const CHORDS_PER_LINE = 32;
 
-/** Draws the grid of exponential coordinates at a morph. The second parameter is the view at the end of the morph. */
+/** Draws the grid of exponential coordinates at a stage of the morph. The second parameter is the view of exponential coordinates. */
 export function drawMorphGrid({ context, view, palette }: DrawContext, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
   const drawGridLine = (pointOfFraction: (fraction: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS_PER_LINE + 1 }, (_, i) => {
     const [along, heading] = pointOfFraction(i / CHORDS_PER_LINE);
     return view.toPixel(...morphPoint([along, 0, heading], morph));
   }));
-  // The grid becomes visible early in the morph, and ends as the straight grid of the axes.
+  // The grid fades in at the start of the morph. At the end it coincides with the straight grid of the axes.
   paintWithOpacity(context, 0.7 * Math.min(1, 5 * morph), () => strokePath(context, { colour: palette.rule, width: 1 }, () => {
     for (const along of ticks(xMin, xMax, GRID_LINE_COUNT)) drawGridLine((fraction) => [along, yMin + fraction * (yMax - yMin)]);
     for (const heading of ticks(yMin, yMax, GRID_LINE_COUNT)) drawGridLine((fraction) => [xMin + fraction * (xMax - xMin), heading]);

@@ -14,10 +14,10 @@ import { stdOfVariance, type ViewModel, LINE_STYLES, type LineName } from './set
 import type { BananaMachine, Moments } from '../../types.d.ts';
 import { addLine, drawDisc, paintWithOpacity, strokeLine, strokePath, type DrawContext } from '../../scene/canvas.ts';
 
-/** View model of the floor and twist pictures. */
+/** Data that the two pictures show: results of the simulation and display settings. */
 export type Scene = import('./banana-machine.ts').BananaMachineElement['scene'];
 
-/** Number of robots above which a cloud is drawn as a density: dots would be indistinguishable, and take longer than a frame. */
+/** Maximum number of robots drawn as dots. A larger cloud is drawn as a density, because dots would overlap, and take longer than a frame. */
 const MAX_DOT_COUNT = 1000;
 
 /** Maximum number of rays in a fan of headings. More rays would look the same. */
@@ -26,7 +26,7 @@ const MAX_HEADING_RAYS = 400;
 /** Standard deviation (pixels) below which a cloud is drawn as one point. */
 const MIN_CLOUD_DEVIATION = 0.6;
 
-/** Distance from a cloud's mean that a view includes, in standard deviations. */
+/** Distance from the mean of a cloud, in standard deviations, up to which a view shows the cloud. */
 const VIEWED_DEVIATIONS = 3.2;
 
 /** Radius of the ring at the end of the arc, pixels. */
@@ -39,7 +39,7 @@ const SELECTION_RADIUS = 14;
 const PAINT_ORDER = ['additive', 'linearized', 'ellipse', 'exponential', 'command'] as const satisfies LineName[];
 const LEGEND_ORDER = ['ellipse', 'exponential', 'linearized', 'additive', 'command'] as const satisfies LineName[];
 
-/** Picture of the robots at a morph, from the floor (0) to exponential coordinates (1). */
+/** Picture of the robots at a stage of the morph, from the floor (0) to exponential coordinates (1). */
 class MorphPicture extends Picture<Scene, 'plane' | 'twist'> {
   view: MorphView = new MorphView({ left: 46, right: 10 });
   /** Names of the outlines that the picture may draw. */
@@ -47,18 +47,18 @@ class MorphPicture extends Picture<Scene, 'plane' | 'twist'> {
   #densityImage = new CachedImage();
   #dotPositionsMemo: Memo<Float64Array> = new Memo();
 
-  /** Returns the robot nearest to a point in CSS pixels; −1 for none. */
+  /** Returns the index of the robot nearest to a point (CSS pixels); −1 if no robot is near enough. */
   findNearestSample(simulation: BananaMachine, x: number, y: number) {
     const { view } = this;
     return simulation.nearest(view.morph, ...view.toWorld(x, y), SELECTION_RADIUS / view.scaleX, SELECTION_RADIUS / view.scaleY);
   }
 
-  /** Returns the outlines in a view model at the stage of the morph that the picture shows. */
+  /** Returns the outlines at the stage of the morph that the picture shows. */
   outlinesOf(viewModel: ViewModel, scene: Scene): Outlines {
     return scene.outlinesOf(viewModel, this.view.morph);
   }
 
-  /** Returns the positions of the robots that are drawn as dots, with their headings scaled down by the morph. */
+  /** Returns the poses of the robots that are drawn as dots. Towards exponential coordinates, the morph scales their headings down to 0. */
   #dotPositionsOf({ simulation, stats }: Scene): Float64Array {
     const { morph } = this.view;
     return this.#dotPositionsMemo.get([stats, morph], () => (morph === 0 ? simulation.firstPoses(MAX_DOT_COUNT) : morphPoses(simulation.firstTwists(MAX_DOT_COUNT), morph)));
@@ -73,19 +73,19 @@ class MorphPicture extends Picture<Scene, 'plane' | 'twist'> {
     const lines = createLineStyles(drawContext, LINE_STYLES, overlays);
     const legendNames = LEGEND_ORDER.filter((name) => this.outlineNames.includes(name) && hasLength(outlines[name]));
     const legendEntries = createLineLegend(drawContext, lines, legendNames, words.banana.overlays);
-    // One pair of axes fades out before the other fades in.
+    // The axes of the floor fade out before the axes of exponential coordinates fade in.
     const axesOfEndViews = [
       { view: floorView, opacity: 1 - 2 * morph, axisLabels: { x: 'x (m)', y: 'y (m)' } },
       { view: twistView, opacity: 2 * morph - 1, axisLabels: { x: words.banana.alongAxisLabel, y: words.banana.headingAxisLabel } },
     ];
     for (const { view: axesView, opacity, axisLabels } of axesOfEndViews) {
-      // While the grid of exponential coordinates is curved, `drawMorphGrid` draws it.
+      // At all other stages of the morph the grid is curved, and `drawMorphGrid` draws it.
       const gridOpacity = axesView === twistView && morph < 1 ? 0 : undefined;
       if (opacity > 0) paintWithOpacity(context, Math.min(1, opacity), () => drawAxes({ ...drawContext, view: axesView }, axisLabels, legendEntries, gridOpacity));
     }
     const cloudMean = morphPoint(twistMomentsOf(scene)[0].mean, morph);
     const styledOutlinesOf = (outlinePoints: Outlines) => styleOutlines(lines, Object.fromEntries(this.outlineNames.map((name) => [name, outlinePoints[name]])));
-    // Outlines of the pinned settings, or those before the current gesture, stay in the picture for comparison.
+    // For comparison, the picture also has the outlines of the pinned settings, or of the settings before the current drag.
     const earlierViewModel: ViewModel | undefined = pinned ?? drawContext.previousViewModel;
     const earlierOutlines = earlierViewModel ? styledOutlinesOf(this.outlinesOf(earlierViewModel, scene)) : [];
     const callouts = isFloorPicture ? [...scene.callouts] : [];
@@ -118,7 +118,7 @@ class MorphPicture extends Picture<Scene, 'plane' | 'twist'> {
     drawCallouts(drawContext, callouts, { shapeCentre: cloudMean, lines: [...calloutLines, ...earlierOutlines.map(({ points }) => points)] });
   };
 
-  /** Returns true if the robots on the floor are drawn as one point. */
+  /** Returns true if all robots are so close together on the floor that they are drawn as one point. */
   #isSinglePoint({ table: { exact: { cov } } }: Scene) {
     return this.view.morph === 0 && stdOfVariance(cov[0][0] + cov[1][1]) * this.view.scaleX < MIN_CLOUD_DEVIATION;
   }
@@ -128,22 +128,22 @@ class MorphPicture extends Picture<Scene, 'plane' | 'twist'> {
     const { view: { morph, scaleX, scaleY } } = this;
     const { simulation, shown, stats, table: { exact: { cov } } } = scene;
     if (shown <= MAX_DOT_COUNT) {
-      // Ticks for headings shrink during the morph: exponential coordinates show the turn as an axis.
+      // The lines that show the robots' headings shrink during the morph, because exponential coordinates show the turn as an axis.
       drawDots(drawContext, this.#dotPositionsOf(scene), 1 - morph);
       return;
     }
-    // Products of the cloud's two principal standard deviations, on the floor and in exponential coordinates.
+    // Products of the cloud's two standard deviations, on the floor and in exponential coordinates. They are proportional to the cloud's area.
     const floorStdProduct = Math.sqrt(Math.max(0, cov[0][0] * cov[1][1] - cov[0][1] * cov[1][0]));
     const [{ cov: twistCov }] = twistMomentsOf(scene);
     const twistStdProduct = stdOfVariance(twistCov[0][0]) * stdOfVariance(twistCov[2][2]);
     const cloudArea = 4 * Math.PI * ((1 - morph) * floorStdProduct + morph * twistStdProduct) * scaleX * scaleY;
-    // A cloud of many robots allows small cells. Sizes are in CSS pixels.
+    // The cell size of the density (CSS pixels) is small if there are many robots per area.
     const cellSize = Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * cloudArea) / shown))));
     this.#densityImage.drawDensity(drawContext, cellSize, [stats, morph, drawContext.palette], (...viewPart) => simulation.picture(morph, ...viewPart, createDensityRamp(drawContext.palette)));
   }
 }
 
-/** Returns x, y and heading of each robot at a morph. The heading shrinks to 0 towards exponential coordinates. */
+/** Returns x, y and heading of each robot at a stage of the morph. The heading shrinks to 0 towards exponential coordinates. */
 function morphPoses(twists: Float64Array, morph: number) {
   const poses = new Float64Array(twists.length);
   for (let i = 0; i < twists.length; i += 3) {
@@ -166,10 +166,10 @@ export class PlanePicture extends MorphPicture {
     const { mean, cov } = table.exact;
     const [xExtent, yExtent] = [VIEWED_DEVIATIONS * stdOfVariance(cov[0][0]), VIEWED_DEVIATIONS * stdOfVariance(cov[1][1])];
     const shownCoordinates = [...cornersAround(mean[0], mean[1], xExtent, yExtent), ...contours.command, ...pinnedPointsAt(0)];
-    // The additive outline may be much larger than the cloud, and counts only if it is shown.
+    // The view includes the additive outline only if it is shown, because it may be much larger than the cloud.
     if (overlays.includes('additive')) shownCoordinates.push(...contours.additive);
     const floorExtent = extentOf(shownCoordinates, 0.4);
-    // Adds space for the fan of headings around the end of the arc. If all robots stop at one point, only the fan is visible.
+    // Adds space around the end of the arc for a fan of headings. If all robots stop at the same point, only this fan is visible.
     const fanMargin = 0.2 * (floorExtent.xMax - floorExtent.xMin);
     this.view.fitEnd(extentOf([...shownCoordinates, ...cornersAround(x, y, fanMargin)], 0.4), 0);
     if (scene.morph === 0) return;
@@ -177,7 +177,7 @@ export class PlanePicture extends MorphPicture {
   }
 }
 
-/** Picture of the same robots in exponential coordinates. Its only outline is that of the Gaussian in these coordinates. */
+/** Picture of the same robots in exponential coordinates, with the outline of the Gaussian in these coordinates. */
 export class TwistPicture extends MorphPicture {
   name = 'twist' as const;
   outlineNames = ['exponential'] as const;
@@ -187,7 +187,7 @@ export class TwistPicture extends MorphPicture {
     this.view.morph = 1;
   }
 
-  /** Returns the outline of the Gaussian, and the command as a point. The picture draws no other outlines, so that none is transformed. */
+  /** Returns the outline of the Gaussian in exponential coordinates, and the command as a point. This picture has no floor outlines that would have to be transformed. */
   outlinesOf({ contours, config: { command: { v, omega, dt } } }: ViewModel): Outlines {
     return { ...contours, command: Float64Array.of(v * dt, omega * dt), exponential: contours.twistEllipse };
   }
@@ -201,7 +201,7 @@ function drawDrivingRobots(drawContext: DrawContext, simulation: BananaMachine, 
   const { palette } = drawContext;
   for (let i = 0; i < robotCount; i++) {
     const { path, pose } = simulation.inspect(i);
-    // The first robot has arrived when the other robots start.
+    // If several robots drive, the first robot has already arrived.
     const chordCount = path.length / 2 - 1;
     const chordPosition = (i === 0 && robotCount > 1 ? 1 : pathFraction) * chordCount;
     const chordIndex = Math.min(Math.floor(chordPosition), chordCount - 1);
@@ -213,11 +213,11 @@ function drawDrivingRobots(drawContext: DrawContext, simulation: BananaMachine, 
   }
 }
 
-/** Radius of the arcs of rotations, and length of the lines from which rotations start, CSS pixels. */
+/** Radius of the arcs that show rotations, and length of the lines from which these rotations start, CSS pixels. */
 const TURN_RADIUS = 26;
 const TURN_LINE_LENGTH = 38;
 
-/** Draws the odometry reading of the command: rotation, drive, rotation. The drive ends at x, y in metres. Returns callouts that name them. */
+/** Draws the odometry reading of the command: rotation, drive and rotation. The drive ends at x, y (m). Returns callouts that name the three motions. */
 function drawOdometryReading(drawContext: DrawContext, { rot1, trans, rot2 }: import('../../types.d.ts').OdomDelta, [x, y]: [number, number]): Callout[] {
   const { context, view, palette } = drawContext;
   const [startPose, drivenPose] = [{ x: 0, y: 0, theta: 0 }, { x, y, theta: rot1 }];
@@ -226,7 +226,7 @@ function drawOdometryReading(drawContext: DrawContext, { rot1, trans, rot2 }: im
   const colour = palette.prior;
   const lineStroke = { colour, width: 1.5 };
   strokePath(context, lineStroke, () => {
-    // The heading at the start, the drive, and its continuation, from which the second rotation starts.
+    // Three lines: the heading at the start, the drive, and the continuation of the drive, from which the second rotation starts.
     addLine(context, [startHeadingEnd, startPixel, endPixel, continuationEnd]);
     addLine(context, view.headingLineFrom({ x, y, theta: rot1 + rot2 }, TURN_LINE_LENGTH));
   });
@@ -239,7 +239,7 @@ function drawOdometryReading(drawContext: DrawContext, { rot1, trans, rot2 }: im
   return [...turnCallouts, ...(trans > 0 ? [{ symbol: 'δ', subscript: 'trans', point: [x / 2, y / 2] as [number, number], colour }] : [])];
 }
 
-/** Draws robots at the same position as one marker, with a ray for the heading of each of the first robots. Returns a callout with their number. */
+/** Draws robots at the same position as one disc. Rays show the headings of the first robots. Returns a callout with the number of robots. */
 function drawCoincidentRobots(drawContext: DrawContext, poses: Float64Array, shown: number): Callout {
   const { context, view, palette: { prediction: colour } } = drawContext;
   const headings = [...poses.subarray(0, 3 * MAX_HEADING_RAYS)].filter((_, i) => i % 3 === 2);
@@ -247,15 +247,15 @@ function drawCoincidentRobots(drawContext: DrawContext, poses: Float64Array, sho
   paintWithOpacity(context, Math.min(1, 30 / headings.length), () => {
     for (const theta of headings) strokeLine(context, view.headingLineFrom({ x, y, theta }, 64), { colour, width: 1 });
   });
-  // The disc is larger than the handle at the end of the arc, which is often at the same position.
+  // The disc is larger than the handle at the end of the arc, which often hides its middle.
   const [pixelX, pixelY] = view.toPixel(x, y);
   drawDisc(context, [pixelX, pixelY], 14, colour);
   return { text: words.banana.robotsHere(formatInteger(shown)), point: view.toWorld(pixelX, pixelY - 14), colour };
 }
 
 /**
- * Returns the moments of the model and of the samples in exponential coordinates. If neither are defined, they are replaced by the
- * commanded twist, with the total variance of the position as the variance along the track.
+ * Returns moments in exponential coordinates: those of the model and of the samples, as far as they are defined. If neither is defined, returns the
+ * commanded twist as the mean, with the total variance of the position as the variance along the track.
  */
 function twistMomentsOf({ config, stats, table }: Scene): Moments[] {
   const definedMoments = [table.tangent, stats.exponential].filter((moments) => moments !== null);
@@ -267,10 +267,10 @@ function twistMomentsOf({ config, stats, table }: Scene): Moments[] {
   return [{ mean: [v * dt, 0, omega * dt], cov: [[alongVariance, 0, 0], [0, 0, 0], [0, 0, cov[2][2]]] }];
 }
 
-/** Quantiles of the samples that limit a view if their moments are undefined. Tails may then be kilometres long. */
+/** Quantiles of the samples that limit the view if their moments are undefined. The tails of such samples may be kilometres long. */
 const VIEW_QUANTILES = [0.025, 0.975];
 
-/** Returns points around everything that is visible in exponential coordinates. */
+/** Returns points around everything that a view of exponential coordinates has to show. */
 function twistCoordinatesToShowOf(scene: Scene) {
   const { v, omega, dt } = scene.config.command;
   const shownCoordinates = [v * dt, omega * dt];

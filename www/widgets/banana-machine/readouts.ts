@@ -1,4 +1,4 @@
-/** The Banana Machine's readouts, sentences and text equivalents: the statistics of the cloud, the marked robot, and the tables of moments. */
+/** Readouts of the Banana Machine and their text alternatives: statistics of the cloud, the marked robot, and tables of moments. */
 
 import { html } from 'lit';
 import { addEnglishMessages, words } from '../../messages/registry.ts';
@@ -17,48 +17,48 @@ function formatDeviation(variance: number) {
   return formatFixed(stdOfVariance(variance), 2);
 }
 
-/** Absolute value of an exact skew below which it counts as 0. The rounding of the quadrature is about 1e-15. */
+/** Absolute skew below which an exact skew counts as 0. Rounding errors of the quadrature are about 1e-15. */
 const MIN_NONZERO_SKEW = 1e-9;
 
 /** Absolute skew below which the asymmetry of a cloud is not visible. */
 const VISIBLE_SKEW = 0.05;
 
-/** Minimum gain, nats per robot, at which a hundred robots distinguish the two Gaussians: their likelihood ratio is e² or more. */
+/** Minimum gain in log-likelihood (nats per robot) at which a hundred robots distinguish two Gaussians: the likelihood ratio is then at least e². */
 const MIN_DISTINGUISHABLE_GAIN = 0.02;
 
-/** Area ratio above which the ellipse is visibly too large. */
+/** Ratio of the ellipse's area to that of the ξ outline, above which the ellipse is visibly too large. */
 const VISIBLE_AREA_RATIO = 1.1;
 
-/** Gains (nats per robot) above which the cloud is visibly bent: a likelihood ratio of e for 20 positions, or for 10 poses. */
+/** Gains in log-likelihood (nats per robot) above which the cloud is visibly bent: a likelihood ratio of e for 20 positions (`floor`), or for 10 poses (`pose`). */
 const VISIBLE_GAINS = { floor: 0.05, pose: 0.1 };
 
-/** Returns the title of the floor view, which says how well the ellipse fits. It uses exact values, or those of the samples if exact values are undefined. */
+/** Returns the title of the floor picture, which says how well the ellipse fits the cloud. It uses exact statistics, or if they are undefined, those of the samples. */
 export function floorTitleOf({ stats, table: { exact } }: Pick<ViewModel, 'stats' | 'table'>) {
   const { floorTitle, ellipseDescriptions } = words.banana;
   if (stats.n < 2 || Number.isNaN(stats.areaRatio)) return floorTitle;
   const { areaRatio, likelihoodGain: { floor: floorGain, pose } } = Number.isNaN(exact.areaRatio) ? stats : exact;
-  // The gain of poses is infinite if their covariance is singular, and then says nothing about the bend.
+  // If the covariance of poses is singular, their gain in log-likelihood is infinite, whether the cloud is bent or not.
   const isMisshapen = floorGain > VISIBLE_GAINS.floor || (pose > VISIBLE_GAINS.pose && pose < Infinity) || Math.abs(exact.crossTrackSkew) > VISIBLE_SKEW;
   const ellipseFit = areaRatio > VISIBLE_AREA_RATIO ? 'tooLarge' : isMisshapen ? 'wrongShape' : 'nearlyFitting';
   return `${floorTitle}: ${ellipseDescriptions[ellipseFit]}`;
 }
 
-/** Returns the callouts of the floor picture. They are at points inside the ellipse at which no robots end. */
+/** Returns the callouts of the floor picture. They are at points inside the ellipse where no robots are. */
 export const calloutsOf = ({ gaps }: ViewModel): Callout[] =>
   words.banana.callouts.slice(0, gaps.length / 2).map((calloutText, i) => ({ text: calloutText, point: [gaps[2 * i], gaps[2 * i + 1]] }));
 
-/** Returns a sentence on the bend of the cloud. The exact skew determines its side, and the skew of the samples its significance. */
+/** Returns a sentence on the bend of the cloud. The exact skew determines the side of the bend, and the samples' skew whether it is significant. */
 function bendSentenceOf({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio, exponential: { mean, cov } }, exactSkew, table, exponentialGain: gain }: ViewModel) {
   if (Number.isNaN(skew)) return '';
   const texts = words.banana.bend;
   // A line break must not separate a number from its error.
   const joinWithNonBreakingSpaces = (numberText: string) => numberText.replaceAll(' ', '\u00a0');
   const [skewText, exactText] = [joinWithNonBreakingSpaces(formatWithError(skew, error, 3)), formatFixed(exactSkew, 3)];
-  // The cloud is a bow-tie: some robots end ahead of the start, others behind it.
+  // The cloud is shaped like a bow-tie, because some robots end ahead of the start, and others behind it.
   if (stdOfVariance(cov[0][0]) > Math.abs(mean[0])) return texts.bowTie(formatFixed(mean[0], 2), formatDeviation(cov[0][0]), skewText);
   if (Math.abs(exactSkew) < VISIBLE_SKEW) {
     const skewSentence = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? texts.symmetric(skewText) : texts.nearlySymmetric(skewText, exactText);
-    // There are no exact values if robots turn by more than π.
+    // Exact statistics are undefined if robots turn by more than π. Those of the samples are used then.
     const lesserDefinedOf = (sampledNumber: number, exact: number) => (Number.isNaN(exact) ? sampledNumber : Math.min(sampledNumber, exact));
     if (lesserDefinedOf(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${texts.largeEllipse(formatFixed(areaRatio, 2))} ${skewSentence}`;
     const smallerGain = lesserDefinedOf(gain.value, gain.exact);
@@ -73,7 +73,7 @@ export function captionOf(viewModel: ViewModel) {
   return unusualCloudNote || (stats.n === 0 ? words.banana.noRobots : bendSentenceOf(viewModel) || words.banana.fewRobots);
 }
 
-/** Returns the caption of the view in exponential coordinates, which says whether the cloud is Gaussian in them. */
+/** Returns the caption of the picture in exponential coordinates. It says whether the cloud is Gaussian in these coordinates. */
 export function twistCaptionOf({ config: { model, noise, alphas, isolate }, unusualCloudNote }: ViewModel) {
   const { twistTitle, twistDescriptions } = words.banana;
   if (unusualCloudNote) return `${twistTitle}.`;
@@ -82,12 +82,12 @@ export function twistCaptionOf({ config: { model, noise, alphas, isolate }, unus
   return `${twistTitle}: ${twistDescriptions[captionKind]}`;
 }
 
-/** Fraction of a Gaussian in the plane inside its 2σ ellipse, 1 − e⁻². */
+/** Fraction of a two-dimensional Gaussian that is inside its 2σ ellipse: 1 − e⁻². */
 const FRACTION_IN_ELLIPSE = 1 - Math.exp(-2);
 
 /**
- * Returns the three main numbers: the area ratio of the ellipse, the gain of exponential coordinates, and the skew of the cloud. The
- * numbers of a pinned cloud are next to them.
+ * Returns the three main numbers: the ellipse's area ratio, the gain in log-likelihood by exponential coordinates, and the skew. Next to them are the
+ * numbers of the pinned cloud, if any.
  */
 export function mainReadoutsHtml(viewModel: ViewModel, pinnedViewModel?: ViewModel) {
   const texts = words.banana.readouts;
@@ -97,13 +97,13 @@ export function mainReadoutsHtml(viewModel: ViewModel, pinnedViewModel?: ViewMod
   const coverages = [coverage.ellipse, coverage.exponential];
   return readoutsHtml([
     [texts.areaRatio, printedStatistics[0], coverages.every(Number.isNaN) ? NO_VALUE : texts.areaRatioDetail(Number.isNaN(areaRatioError) ? '' : formatSignificant(areaRatioError, 1), formatPercent(coverages[0]), formatPercent(coverages[1])), pinnedStatistics?.[0]],
-    // A gain of positions on the floor and a gain of poses are not comparable.
+    // The gain of the pinned cloud is left out if one of the gains is of positions and the other of poses, because these are not comparable.
     [gain.unbounded ? texts.gainOnFloor : texts.gain, printedStatistics[1], formatGain(gain), pinnedViewModel?.exponentialGain.unbounded === gain.unbounded ? pinnedStatistics?.[1] : undefined],
     [texts.skew, printedStatistics[2], Number.isNaN(exactSkew) ? NO_VALUE : texts.exactValue(formatFixed(exactSkew, 3)), pinnedStatistics?.[2]],
   ], 0);
 }
 
-/** Returns the area ratio, the gain and the skew as they are printed. */
+/** Returns the printed area ratio, gain in log-likelihood, and skew. */
 function printedStatisticsOf({ stats, exponentialGain: gain }: ViewModel) {
   return [
     Number.isNaN(stats.areaRatio) ? NO_VALUE : `${formatFixed(stats.areaRatio, 2)} ×`,
@@ -112,7 +112,7 @@ function printedStatisticsOf({ stats, exponentialGain: gain }: ViewModel) {
   ];
 }
 
-/** Returns a text on the exact gain, or the reason why the gain is unbounded. */
+/** Returns a text on the exact gain in log-likelihood, or the reason why the gain is unbounded. */
 function formatGain({ unbounded, value, exact, wrapsHeadings }: ViewModel['exponentialGain']) {
   const { unlimitedGain, unlimitedGainOnLine, exactValue, exactUnwrappedValue, likelihoodNote } = words.banana.readouts;
   if (Number.isNaN(value)) return NO_VALUE;
@@ -134,25 +134,25 @@ export function otherReadoutsHtml({ config, stats }: ViewModel) {
   ]);
 }
 
-/** Returns the field with the number of the marked robot, and the motion of that robot. */
+/** Returns the input field for the number of the marked robot, followed by the motion of that robot. */
 export function markedRobotFieldHtml(figure: import('./banana-machine.ts').BananaMachineElement, inspection: Inspection | undefined): import('lit').TemplateResult {
   const { shown, odometryReading } = figure.viewModel;
   const quantityHtml = (symbol: string, quantity: number, unit: string) => html`<span>${formatMarkup(symbol)} = ${formatFixed(quantity, 3)} ${unit}</span>`;
   if (!inspection) return sampleFieldHtml(figure, 'robot', shown, undefined);
   const { legs, vHat, omegaHat, gammaHat } = inspection;
-  // The noise of a leg is the reading minus the executed motion, as Table 5.6 subtracts it.
+  // The noise of a leg is the odometry reading minus the executed motion, as in Table 5.6.
   return sampleFieldHtml(figure, 'robot', shown, legs && odometryReading
     ? ([['rot1', 'rad'], ['trans', 'm'], ['rot2', 'rad']] as const).map(([leg, unit]) => quantityHtml(`*ε*_{${leg}}`, odometryReading[leg] - legs[leg], unit))
     : [quantityHtml('*v̂*', vHat, 'm/s'), quantityHtml('*ω̂*', omegaHat, 'rad/s'), quantityHtml('*γ̂*', gammaHat, 'rad/s')]);
 }
 
-/** Significant digits of computed moments, as in the book, and of moments measured from samples. */
+/** Significant digits of computed moments (as many as in the book), and of moments measured from samples. */
 const COMPUTED_DIGITS = 5;
 const MEASURED_DIGITS = 3;
 
 type MomentsRow = [name: unknown, (column: Moments & { crossTrackSkew: number }) => number];
 
-/** Returns the table of the worked example: moments linearized, exact, and measured on the robots. */
+/** Returns the table of the worked example: moments by linearization, exact moments, and moments of the samples. */
 export function workedExampleTableHtml({ table: { linearized, exact, measured } }: ViewModel) {
   const texts = words.banana.table;
   const symbolHtml = (symbolLetter: string, indices: string) => html`<i>${symbolLetter}</i><sub><i>${indices}</i></sub>`;

@@ -1,4 +1,4 @@
-/** The Banana Machine's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
+/** Settings of the Banana Machine: their attributes, state fields and sliders. Also line styles, and the data that the figure shows. */
 
 import { withFieldRenamed } from '../../data/checks.ts';
 import { createDefinition } from '../../figure/definition.ts';
@@ -38,7 +38,7 @@ export const definition = createDefinition('banana-machine', {
   openingOverlays: ['command', 'ellipse', 'exponential'],
   sliderSpecs: { ...sliderSpecs, morph: { role: 'truth', min: 0, max: 1, step: 0.01, decimals: 2 }, samples: createSamplesSliderSpec(1_000_000) },
   elementFields: {
-    /** Settings whose outlines are pinned; null for none. `BananaMachineElement.enterState` checks them. */
+    /** Settings that the user has pinned (saved for comparison); null for none. `BananaMachineElement.enterState` checks them. */
     pinned: { default: null },
     morph: { type: 'number', default: 0, min: 0, max: 1, isResetByPreset: true, access: 'attribute' },
   },
@@ -47,7 +47,7 @@ export const definition = createDefinition('banana-machine', {
 
 export type ViewModel = ReturnType<typeof viewModelOf>;
 
-/** Standard deviation (m or rad) up to which poses count as equal, because the quadrature has rounding errors of this size. */
+/** Standard deviation (m or rad) up to which poses count as equal. The quadrature has rounding errors of this size. */
 const MIN_SPREAD = 1e-9;
 
 export function viewModelOf(simulation: Simulation) {
@@ -58,14 +58,14 @@ export function viewModelOf(simulation: Simulation) {
     unusualCloudNote: explainUnusualCloud(config, table, stats, chartHolds),
     exactSkew: table.exact.crossTrackSkew,
     exponentialGain: exponentialGainOf(stats, table),
-    /** Command as an odometry reading; null under the velocity model. */
+    /** Odometry reading of the command; null for the velocity model. */
     odometryReading: config.model === 'odometry' ? simulationResults.reading : null,
     /** End of the commanded arc, metres. */
     arcEnd: [...contours.command.slice(-2)] as [number, number],
   };
 }
 
-/** Returns the view model of a new simulation with these settings; throws a TypeError or RangeError that names a field of `state.pinned`. */
+/** Returns the results of a new simulation with the given settings. Throws a TypeError or RangeError that names a field of `state.pinned`. */
 export function viewModelOfSettings(motion: Motion, settings: Settings): ViewModel {
   let simulation;
   try {
@@ -79,8 +79,8 @@ export function viewModelOfSettings(motion: Motion, settings: Settings): ViewMod
 }
 
 /**
- * Returns the gain of log-likelihood by the Gaussian in exponential coordinates over that in (x, y, θ). If its covariance is singular, that
- * gain is unbounded, and the gain of arc coordinates over (x, y) is returned.
+ * Returns the gain in log-likelihood of the Gaussian in exponential coordinates over the Gaussian in (x, y, θ). If the covariance in (x, y, θ) is singular,
+ * that gain is unbounded. The gain of arc coordinates over (x, y) is returned instead.
  */
 function exponentialGainOf({ n, likelihoodGain, likelihoodGainError }: Stats, { exact }: Table) {
   const isUnbounded = exact.likelihoodGain.pose === Infinity;
@@ -88,20 +88,20 @@ function exponentialGainOf({ n, likelihoodGain, likelihoodGainError }: Stats, { 
   return { n, unbounded: isUnbounded, value: likelihoodGain[gainKind], error: likelihoodGainError[gainKind], exact: exact.likelihoodGain[gainKind], wrapsHeadings: 4 * Math.sqrt(exact.cov[2][2]) > Math.PI };
 }
 
-/** Returns the standard deviation of a variance. Rounding may have made the variance slightly negative. */
+/** Returns the standard deviation for a variance. A slightly negative variance, due to rounding, counts as 0. */
 export function stdOfVariance(variance: number) {
   return Math.sqrt(Math.max(0, variance));
 }
 
-/** Returns the kind of spread according to the exact covariance: one pose, one position with many headings, or a cloud. */
+/** Returns the kind of cloud by its exact covariance: one pose, one position with many headings, or an extended cloud. */
 function spreadKindOf({ exact: { cov } }: Table): 'point' | 'headings' | 'cloud' {
   if (stdOfVariance(Math.max(cov[0][0], cov[1][1])) > MIN_SPREAD) return 'cloud';
   return stdOfVariance(cov[2][2]) > MIN_SPREAD ? 'headings' : 'point';
 }
 
 /**
- * Returns a sentence about an unusual cloud, with the settings that cause it; empty for a usual cloud. `isChartDefined` is false if robots turn
- * so far that exponential coordinates are undefined.
+ * Returns a sentence about an unusual cloud and the settings that cause it; empty for a usual cloud. `isChartDefined` is false if robots turn so far that
+ * exponential coordinates are undefined.
  */
 function explainUnusualCloud({ model, command, reverseAware }: Settings, table: Table, stats: Stats, isChartDefined: boolean): string {
   const { notes } = words.banana;

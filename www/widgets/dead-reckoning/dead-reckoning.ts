@@ -20,10 +20,10 @@ import type { DeadReckoning as Simulation, Motion } from '../../types.d.ts';
 /** Units of the components' variances. */
 const VARIANCE_UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
 
-/** Returns the column names of an exported quantity, one name for each component. */
+/** Returns the names of an exported quantity's columns: one for each component of the exponential coordinates. */
 const columnTitlesOf = (quantity: string) => TWIST_COMPONENTS.map((name) => `${quantity}_${name}_${VARIANCE_UNITS[name]}`).join(' ');
 
-/** Returns the settings for the same path in another number of steps, with the selected step at the same point of the path. */
+/** Returns settings that divide the same path into another number of steps. The selected step stays at about the same point of the path. */
 function settingsForSteps({ command, steps: previousSteps, step }: Record<string, any>, steps: number) {
   return { steps, step: Math.max(1, Math.round((step * steps) / previousSteps)), command: { ...command, dt: (command.dt * previousSteps) / steps } };
 }
@@ -68,7 +68,7 @@ const styles = css`
       aspect-ratio: 2;
     }
 
-    /* Two columns: the chart above its message, and the picture of the floor above that of the selected step. */
+    /* Two columns: the chart above its message, and the picture of the floor above the picture of the selected step. */
     .views {
       grid-template: auto auto / minmax(0, 1.45fr) minmax(0, 1fr);
       grid-auto-flow: column;
@@ -130,11 +130,11 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   #rolloutMemo: Memo<Float64Array> = new Memo();
   #straightGrowthMemo: Memo<Simulation['straightGrowth']> = new Memo();
 
-  // The simulation starts without robots: the user sees them appear, and the first frame does not wait for them.
+  // The simulation starts without robots. The first frame then appears quickly, and the user sees the robots appear.
   createSimulation = ({ DeadReckoning }: Motion) => DeadReckoning.empty();
 
   withDerivedFields(currentState: StateValues, changes: StateValues) {
-    // If the path has fewer steps than the selected step's number, the last step is selected.
+    // If the new path has fewer steps than the number of the selected step, its last step is selected.
     const { steps = currentState.steps } = changes;
     return { step: Math.min(currentState.step, steps), ...super.withDerivedFields(currentState, changes) };
   }
@@ -162,7 +162,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
 
   announcementOf = (viewModel: ViewModel) => captionOf(viewModel, this.settings.elementState.overlays);
 
-  /** Poses of the selected robot after each step, if that robot has been driven. */
+  /** Poses of the selected robot after each step; undefined if no robot is selected, or the selected robot is not shown. */
   get #markedPoses() {
     const { simulation, viewModel, cloud: { isSelectionShown, selectedIndex } } = this;
     return isSelectionShown && simulation ? this.#rolloutMemo.get([viewModel.stats, selectedIndex], () => simulation.rollout(selectedIndex)) : undefined;

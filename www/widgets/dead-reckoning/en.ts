@@ -33,13 +33,13 @@ export const en = {
   },
   alongAxisLabel: 'ξ along (m)',
   lateralAxisLabel: 'ξ lateral (m)',
-  /** Notes after the name of the lateral axis. They say which axis has the larger scale, and by which factor. */
+  /** Notes after the name of the lateral axis: they name the axis with the larger scale, and the ratio of the scales. */
   enlargementNotes: { along: (scaleRatio) => `ξ along enlarged ${scaleRatio} times`, lateral: (scaleRatio) => `enlarged ${scaleRatio} times` },
   componentAdjectives: { along: 'along-track', lateral: 'lateral', heading: 'heading' },
   ratioAxisLabel: 'predicted / measured variance',
   stepAxisLabel: 'step',
   stepMark: (step) => `step ${step}`,
-  /** Headline: text before the ratio of predicted to measured variance, and text after the ratio. */
+  /** Parts of the headline: the text before the ratio of predicted to measured variance, and the text after it. */
   beforeRatio: (component) => `predicted ${component} variance`,
   afterRatio: (ratioError, step, robotCount) => `${ratioError && `± ${ratioError} `}times the measured, at step ${step}, ${formatCount(robotCount, 'robot')}`,
   chartDescription: (recursion, step, ratioTexts) =>

@@ -10,20 +10,20 @@ import { formatSignificant } from '../../ui/format.ts';
 import { OUTLINE_STYLES } from './settings.ts';
 import { drawDisc, paintWithOpacity } from '../../scene/canvas.ts';
 
-/** View model of the path and step pictures, with the poses of the selected robot after each step. */
+/** Data that the two pictures show: results of the simulation, and the poses of the selected robot after each step. */
 export type Scene = import('./settings.ts').ViewModel & { markedPoses: Float64Array | undefined, overlays: string[] };
 
-/** Distance from a cloud's mean that the view of a step includes, in standard deviations. */
+/** Distance from the mean of a cloud, in standard deviations, up to which the picture of a step shows the cloud. */
 const VIEWED_DEVIATIONS = 3.2;
 
-/** Dots of the clouds at milestones: maximum number, and opacity. */
+/** Dots of the clouds at some steps (milestones) along the path: maximum number per cloud, and opacity. */
 const MILESTONE_DOTS = { maxCount: 200, opacity: 0.4 };
 
-/** Minimum width (m) of the view of a step, and minimum height relative to the width. */
+/** Minimum width (m) of the view of a step, and minimum ratio of its height to its width. */
 const MIN_STEP_VIEW_WIDTH = 1e-6;
 const MIN_STEP_VIEW_ASPECT = 1e-3;
 
-/** Radius of the mark at the commanded end, CSS pixels. */
+/** Radius of the mark at the end of the commanded path, CSS pixels. */
 const END_MARK_RADIUS = 4;
 
 /** Picture of the floor from above, with the path. */
@@ -34,7 +34,7 @@ export class PathPicture extends SamplesPicture<Scene> {
   fitView({ commanded, outlines, milestones, poses }: Scene) {
     const outlineCoordinates = [outlines, ...milestones.map((milestone) => milestone.outlines)].flatMap(({ ellipse, exponential }) => [...ellipse, ...exponential]);
     const shownCoordinates = [...commanded, ...outlineCoordinates];
-    // Without a prediction the view shows the robots.
+    // If no outline is defined, the view includes the robots instead.
     if (outlineCoordinates.length === 0) shownCoordinates.push(...poses.filter((_, i) => i % 3 < 2));
     this.view.fit(extentOf(shownCoordinates, 0.4));
   }
@@ -53,7 +53,7 @@ export class PathPicture extends SamplesPicture<Scene> {
       if (drawContext.previousViewModel) callouts.push(...drawEarlierOutlines(drawContext, outlinesOfStep(drawContext.previousViewModel.outlines), [commandedPose, [0, 0]], words.before));
       drawOutlines(drawContext, outlinesOfStep(outlines));
       drawRobot(drawContext, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      // The mark of the commanded position is small, so that the cloud around it is visible.
+      // The mark at the commanded position is small, so that it does not hide the cloud.
       drawDisc(drawContext.context, drawContext.view.toPixel(commandedPose[0], commandedPose[1]), END_MARK_RADIUS, palette.prior, { colour: palette.paper, width: 1.5 });
       if (!markedPoses) return;
       strokeLines(drawContext, [{ points: Float64Array.from([0, 0, ...markedPoses.filter((_, i) => i % 3 < 2)]), colour: palette.accent, width: 1.25, dash: [6, 2] }]);
@@ -64,7 +64,7 @@ export class PathPicture extends SamplesPicture<Scene> {
   };
 }
 
-/** Picture of ξ along and ξ lateral about the commanded pose. Each axis has its own scale, because the lateral spread is small at first. */
+/** Picture of the selected step in the coordinates ξ along and ξ lateral about the commanded pose. The axes have different scales, because the lateral spread is small at first. */
 export class StepPicture extends Picture<Scene> {
   name = 'twist';
   view: View = new View({ hasEqualScales: false, left: 52, right: 10 });
@@ -74,7 +74,7 @@ export class StepPicture extends Picture<Scene> {
     const [alongExtent, lateralExtent] = [0, 1].map((componentIndex) => VIEWED_DEVIATIONS * Math.sqrt(cov[componentIndex][componentIndex]));
     if (alongExtent + lateralExtent > 0) shownCoordinates.push(...cornersAround(mean[0], mean[1], alongExtent, lateralExtent));
     const { xMin, xMax } = extentAround(shownCoordinates, 2);
-    // The minimum width and height of the view keep both scales finite if the cloud is narrow.
+    // The minimum width and height of the view keep the scales of both axes finite if all robots are at nearly the same position.
     this.view.fit(extentOf(shownCoordinates, MIN_STEP_VIEW_WIDTH, Math.max(MIN_STEP_VIEW_WIDTH, MIN_STEP_VIEW_ASPECT * (xMax - xMin))));
   }
 
@@ -91,15 +91,15 @@ export class StepPicture extends Picture<Scene> {
   };
 }
 
-/** Ratio of the scales of x and y above which their difference is visible. */
+/** Ratio of the scales of x and y above which a reader sees that they differ. */
 const MIN_VISIBLE_SCALE_RATIO = 1.05;
 
-/** Returns texts of the ratios scale x : scale y and scale y : scale x. The text of a ratio that is not visible is empty. */
+/** Returns two texts: the ratio of scale x to scale y, and its inverse. If a ratio is too close to 1 or below, its text is empty. */
 export function formatScaleRatios({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>) {
   return [scaleX / scaleY, scaleY / scaleX].map((scaleRatio) => (scaleRatio > MIN_VISIBLE_SCALE_RATIO ? formatSignificant(scaleRatio, scaleRatio < 10 ? 2 : 1) : ''));
 }
 
-/** Returns the labels of the axes. The label of the lateral axis also has the ratio of the scales, which would hide ticks near the other label. */
+/** Returns the labels of the axes. The label of the lateral axis includes the ratio of the scales. In the other label, the ratio would hide ticks. */
 function axisNamesOf(view: View) {
   const { alongAxisLabel, lateralAxisLabel, enlargementNotes } = words.reckoning;
   const [alongRatio, lateralRatio] = formatScaleRatios(view);

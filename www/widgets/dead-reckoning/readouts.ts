@@ -1,4 +1,4 @@
-/** Readouts of Dead Reckoning, sentences and text equivalents: chart of predicted over measured variance by step, and table of wrong predictions (misses). */
+/** Readouts of Dead Reckoning and their text alternatives: chart of predicted over measured variance by step, and table of steps with wrong predictions (misses). */
 
 import { greatest, max } from 'd3-array';
 import { html, nothing } from 'lit';
@@ -14,7 +14,7 @@ import type { Misses } from '../../types.d.ts';
 
 addEnglishMessages({ reckoning: en });
 
-/** Steps at which the caption states the ratio of the component whose prediction is worst. */
+/** Steps for which the caption states the ratio of predicted to measured variance of the worst component. */
 const CAPTION_STEPS = [1, 2, 5];
 
 /** Prints a fraction in per cent, with a sign unless it rounds to 0. */
@@ -26,20 +26,20 @@ function formatSignedPercent(fraction: number, printedPercent: string = formatFi
 /** Returns the relative error of the predicted variance after the last step, as text. */
 const formatFinalError = ({ end, error }: { end: number, error: number }) => formatSignedPercent(end, formatWithError(100 * end, 100 * error, 1));
 
-/** Returns a caption that says how well the recursion predicts the components that are shown. */
+/** Returns a caption that says how well the recursion predicts the variances of the visible components. */
 export function captionOf({ config: { compounding }, stats: { misses, n }, ratioCondition, curves }: ViewModel, overlays: string[]) {
   const texts = words.reckoning;
   if (ratioCondition !== 'certain') return texts.conditions[ratioCondition];
   const recursionMisses = misses[compounding];
   if (recursionMisses.every(({ first }) => first === null)) return texts.correctPrediction(formatInteger(n));
-  // `endIndex` is the component with the ratio furthest from 1 at the end, and `worstIndex` the component with the ratio furthest from 1 at any step.
+  // `endIndex` is the component whose ratio is furthest from 1 at the last step, `worstIndex` the component whose ratio is furthest from 1 at any step.
   const endIndex = worstComponentIndexOf(overlays, (componentIndex) => Math.abs(recursionMisses[componentIndex].end));
   const worstIndex = worstComponentIndexOf(overlays, (componentIndex) => max(curves[componentIndex].ratio, (ratio) => Math.abs(ratio - 1)) ?? NaN);
   const ratioList = formatRatiosAtSteps(Array.from(curves[worstIndex].ratio));
   return texts.wrongPrediction(texts.componentAdjectives[TWIST_COMPONENTS[worstIndex]], ratioList, formatSignedPercent(recursionMisses[endIndex].end), texts.componentAdjectives[TWIST_COMPONENTS[endIndex]]);
 }
 
-/** Returns the index of the shown component whose miss (error of the prediction) is greatest; NaN is not a miss. */
+/** Returns the index of the visible component with the greatest miss (error of the predicted variance). A miss of NaN does not count. */
 function worstComponentIndexOf(overlays: string[], missOf: (componentIndex: number) => number) {
   const shownIndices = shownComponentsOf(overlays).map((name) => TWIST_COMPONENTS.indexOf(name));
   return greatest(shownIndices, missOf) ?? shownIndices[0];
@@ -63,13 +63,13 @@ function describeRatios({ config: { step, compounding }, curves }: ViewModel, ov
   return texts.chartDescription(texts.recursions[compounding], String(step), ratioTexts.join(', '));
 }
 
-/** Upper ends of the ratio axis to choose from, so that the axis does not change with every step of a drag. */
+/** Values that the maximum of the ratio axis can have. They are few, so that the axis seldom changes during a drag. */
 const CHART_MAXIMA = [1.2, 1.6, 2, 3, 5, 10];
 
-/** Relative error up to which a predicted variance counts as correct. */
+/** Maximum relative error with which a predicted variance counts as correct. */
 const RATIO_TOLERANCE = 0.05;
 
-/** Returns the chart of predicted over measured variance, whose line at the selected step is a slider. */
+/** Returns the chart of predicted over measured variance. The line at the selected step is a slider. */
 export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckoningElement, viewModel: ViewModel): ReturnType<typeof plotHtml> {
   const { config: { step, steps }, curves } = viewModel;
   const { overlays } = figure.settings.elementState;
@@ -101,14 +101,14 @@ export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckonin
   });
 }
 
-/** Returns role, dash and highlight of a curve in the chart of ratios. */
+/** Returns the colour role, the dash and the highlight of a curve in the chart of predicted over measured variance. */
 function curveStyleOf(name: keyof typeof CURVE_STYLES, highlight: string | null) {
   const { role, dash } = CURVE_STYLES[name] as import('../../ui/swatch.ts').LineStyle & { role: ColourRole };
   const isHighlighted = highlight !== null && highlight in CURVE_STYLES ? name === highlight : undefined;
   return { role, dash, isHighlighted };
 }
 
-/** Returns the headline of the figure: the ratio at the selected step that is furthest from 1. */
+/** Returns the headline of the figure: of the ratios at the selected step, the one that is furthest from 1. */
 export function headlineHtml({ config: { step }, curves, shown }: ViewModel, overlays: string[]) {
   const texts = words.reckoning;
   const componentIndex = worstComponentIndexOf(overlays, (i) => Math.abs(curves[i].ratio[step - 1] - 1));
@@ -117,7 +117,7 @@ export function headlineHtml({ config: { step }, curves, shown }: ViewModel, ove
   return readoutsHtml([[texts.beforeRatio(texts.componentAdjectives[TWIST_COMPONENTS[componentIndex]]), formatFixed(curves[componentIndex].ratio[step - 1], 2), headlineDetail]], 0);
 }
 
-/** Ranges of both logarithmic axes: fixed, so that a slider moves the curves and not the axes. */
+/** Fixed ranges of the two logarithmic axes. A slider then moves only the curves, and not the axes. */
 const GROWTH_AXIS_RANGES = { durations: [0.1, 10], variances: [1e-6, 100] };
 
 export function straightGrowthPlotHtml({ durations: x, along, across, alongFirstOrder, acrossFirstOrder, crossing }: import('../../types.d.ts').StraightGrowth) {
@@ -134,7 +134,7 @@ export function straightGrowthPlotHtml({ durations: x, along, across, alongFirst
       curves: [
         { name: texts.alongCurve, role: 'ink', dash: [8, 4], x, y: alongFirstOrder },
         { name: texts.acrossCurve, role: 'prediction', x, y: acrossFirstOrder },
-        // The exact curves along and across the track are one curve with a gap, so that they have one name.
+        // The exact curves along and across the track are drawn as one curve with a gap, so that the legend lists them once.
         { name: texts.exactCurves, role: 'truth', dash: [2, 3], x: [...x, NaN, ...x], y: [...along, NaN, ...across] },
       ],
       marks: crossing !== null && crossing >= minDuration && crossing <= maxDuration ? [{ x: crossing, text: `${crossingText} s` }] : [],
@@ -143,14 +143,14 @@ export function straightGrowthPlotHtml({ durations: x, along, across, alongFirst
   </figure>`;
 }
 
-/** Returns the range of steps at which a recursion misses the measured variance, as text. */
+/** Returns as text the range of steps at which a recursion's variance differs too much from the measured variance. */
 function formatMissRange({ decidable, first, last, end }: Misses) {
   const { noMiss, tooFewRobots, stepRange } = words.reckoning.missTable;
   if (!decidable) return Number.isNaN(end) ? NO_VALUE : tooFewRobots;
   return first === null || last === null ? noMiss : stepRange(first, last);
 }
 
-/** Returns the table of the steps at which each recursion misses the measured variance, by component. */
+/** Returns a table of the steps at which the variance of each recursion differs too much from the measured variance, by component. */
 export function missTableHtml({ stats: { misses } }: ViewModel, overlays: string[]) {
   const texts = words.reckoning;
   return tableHtml({
@@ -163,7 +163,7 @@ export function missTableHtml({ stats: { misses } }: ViewModel, overlays: string
   });
 }
 
-/** Returns the field with the number of the marked robot, and the pose of that robot at the step. */
+/** Returns the input field for the number of the marked robot, followed by the pose of that robot at the selected step. */
 export function markedRobotFieldHtml(figure: import('./dead-reckoning.ts').DeadReckoningElement, markedPoses: Float64Array | undefined): import('lit').TemplateResult {
   const { config: { step }, shown } = figure.viewModel;
   const [x, y, theta] = Array.from(markedPoses?.subarray(3 * (step - 1), 3 * step) ?? [], (coordinate) => formatFixed(coordinate, 3));

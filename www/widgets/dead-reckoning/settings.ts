@@ -1,4 +1,4 @@
-/** Dead Reckoning's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
+/** Settings of Dead Reckoning: their attributes, state fields and sliders. Also line styles, and the data that the figure shows. */
 
 import { defaultConfigOf, createDefinition } from '../../figure/definition.ts';
 import { settings } from '../../../build/settings.js';
@@ -8,7 +8,7 @@ import type { DeadReckoning as Simulation, DeadReckoningSettings } from '../../t
 
 const settingDeclarations = settings['dead-reckoning'];
 
-/** Recursions in the order in which they are offered. */
+/** Recursions for the covariance, in the order in which the figure offers them. */
 export const RECURSIONS = settingDeclarations.find(({ key }) => key === 'compounding')?.words as DeadReckoningSettings['compounding'][];
 
 /** Styles of the curves in the chart of predicted over measured variance. */
@@ -37,11 +37,11 @@ export const definition = createDefinition('dead-reckoning', {
   sliderSpecs: {
     ...COMMAND_SLIDERS,
     ...NOISE_SLIDERS,
-    // The slider offers at most this number of robots, because larger clouds would lag behind the slider.
+    // A cloud of more robots would lag behind this slider during a drag.
     samples: createSamplesSliderSpec(200_000),
     step: { symbol: '*k*', role: 'truth', min: 1, max: 200, step: 1, decimals: 0 },
     steps: { symbol: '*K*', role: 'prior', min: 1, max: 200, step: 1, decimals: 0 },
-    // The slider shows α₃, even if α₄ to α₆ are not in the ratios to α₃ that the slider sets.
+    // This slider sets α₃, and α₄ to α₆ in fixed ratios to α₃. It shows α₃ even if the user has set α₄ to α₆ to other ratios.
     headingNoise: { ...ALPHA_SLIDER, step: 0.005, combinedValueOf: ({ alphas }) => alphas[2] },
   },
   dependentDefaultsOf: ({ steps }) => ({ step: Math.min(defaultConfigOf(settingDeclarations).step, steps) }),
@@ -49,7 +49,7 @@ export const definition = createDefinition('dead-reckoning', {
 
 export type ViewModel = ReturnType<typeof viewModelOf>;
 
-/** Components of the exponential coordinates ξ, in the order in which arrays of triples have them. */
+/** Names of the components of the exponential coordinates ξ, in the order of arrays with three numbers for each step. */
 export const TWIST_COMPONENTS = ['along', 'lateral', 'heading'] as const;
 
 export function viewModelOf(simulation: Simulation) {
@@ -74,16 +74,13 @@ function curveOfComponent(ratios: Float64Array, relativeErrors: Float64Array, co
   return { ratio: componentRatios, error: componentOf(relativeErrors).map((error, i) => error * componentRatios[i]) };
 }
 
-/**
- * Returns the reason why the ratios are undefined or uncertain: no robots, no spread, no covariance at the end, or too few robots.
- * Returns 'certain' if no such reason applies.
- */
+/** Returns 'certain', or the reason why the ratios are undefined or uncertain: no robots, no spread, no covariance at the last step, or too few robots. */
 function ratioConditionOf({ compounding }: DeadReckoningSettings, { n, predicted, measured, misses }: Simulation['stats'], ratios: Float64Array): 'noRobots' | 'noNoise' | 'noCovariance' | 'fewRobots' | 'certain' {
   if (n === 0) return 'noRobots';
-  // A single robot has no variance.
+  // The variance of a single robot is undefined.
   if (n === 1) return 'fewRobots';
   if (measured.cov.every((covRow) => covRow.every((covariance) => Math.abs(covariance) < Number.EPSILON ** 2))) return 'noNoise';
-  // The ratio of a single component may be undefined, because that component has no noise.
+  // If only some components have undefined ratios, these components have no noise. The other ratios are valid.
   if (predicted[compounding] === null || ratios.slice(-TWIST_COMPONENTS.length).every(Number.isNaN)) return 'noCovariance';
   return misses[compounding].some(({ decidable, end }) => !decidable && !Number.isNaN(end)) ? 'fewRobots' : 'certain';
 }

@@ -36,7 +36,7 @@ export const en = {
     `The robot is wedged: ${drawnCount} sub-steps drawn completed only ${accepted} of ${requestedCount} motions; ${through}.`,
   nothingAcceptedNote: (drawnCount) => `No sample was accepted: none of the ${drawnCount} drawn is collision-free.`,
   startCollisionNote: 'The start pose is in collision.',
-  /** Sentences on the number of accepted motions, by sampler. A clause on the motions through a wall follows. */
+  /** Sentences on the number of accepted motions, by sampler. In the caption, a clause on motions through walls follows. */
   testedSentences: {
     endpoint: (accepted, attemptCount) => `${accepted} of ${attemptCount} motions end where the robot fits and are accepted`,
     'whole-arc': (accepted, attemptCount) => `${accepted} of ${attemptCount} motions keep clear of walls all the way and are accepted`,
@@ -84,7 +84,7 @@ export const en = {
     planFieldLabel: 'Or a floor plan here, in metres',
     usePlanLabel: 'Use this plan',
   },
-  /** Reasons why files are refused: the file, the line or field, and what was expected. */
+  /** Reasons for refusing files. A reason names the file, the line or field, and what was expected. */
   refusals: {
     cannotOpen: (reason) => `The map cannot be opened: ${reason}.`,
     wrongFiles: (fileNames) => `${fileNames}: expected is one .json floor plan, or one .yaml file together with its .pgm or .png image.`,

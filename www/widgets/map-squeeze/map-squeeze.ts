@@ -1,4 +1,4 @@
-/** <map-squeeze>: motion conditioned on a map, and walls on the path that a test of the end pose does not see. */
+/** <map-squeeze>: motion conditioned on a map, and walls across the path that a test of the end pose alone misses. */
 
 import { html, nothing, css } from 'lit';
 import { pictureHtml, disclosuresHtml, settingCheckboxHtml, settingRadiosHtml, settingSliderHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
@@ -24,7 +24,7 @@ import type { CellGrid } from '../../scene/walls.ts';
 import type { MapData, MapSqueeze as Simulation, Motion, Pose } from '../../types.d.ts';
 import type { UserMap } from './maps/files.ts';
 
-/** Returns the buttons of start positions in the current map. The presets are only offered in the apartment. */
+/** Returns the preset buttons for the apartment. For another map, returns the buttons that go back to the apartment, or restore the initial state. */
 function startControlsHtml(figure: MapSqueezeElement) {
   const { userMap } = words.squeeze;
   if (!figure.map) return presetButtonsHtml(figure);
@@ -36,7 +36,7 @@ function startControlsHtml(figure: MapSqueezeElement) {
 function samplerControlsHtml(figure: MapSqueezeElement) {
   const { conditioned, sampler, samples, steps } = figure.viewModel.config;
   const { settings, samplerNames } = words.squeeze;
-  // With sub-steps each sample takes several draws.
+  // A sample of the sub-stepped sampler takes one draw per sub-step. The maximum number of samples is therefore smaller.
   const maxSampleCountOf = (samplerName: string) => (samplerName === 'sub-stepped' ? Math.floor(MAX_SAMPLES / steps) : MAX_SAMPLES);
   const chooseSampler = (samplerName: string) => figure.gesture.requestAndCommit({ sampler: samplerName, ...(samples > maxSampleCountOf(samplerName) && { samples: maxSampleCountOf(samplerName) }) });
   return html`<div class="judge">
@@ -45,7 +45,7 @@ function samplerControlsHtml(figure: MapSqueezeElement) {
   </div>`;
 }
 
-/** Returns the controls that are changed less often. One of them is for unknown cells, if the map has any. */
+/** Returns the controls that users change rarely. If the map has unknown cells, the controls include the treatment of these cells. */
 function robotAndMapControlsHtml(figure: MapSqueezeElement, hasUnknownCells: boolean) {
   const { robotAndMapTitle, conditionedLabel, settings, unknownCellNames, viewNames } = words.squeeze;
   return fieldsetHtml(robotAndMapTitle, html`${settingSliderHtml(figure, 'clearance')} ${settingCheckboxHtml(figure, 'conditioned', conditionedLabel)}
@@ -78,7 +78,7 @@ const styles = css`
     }
   }
 
-  /* Beside the label of the vertical axis. */
+  /* This hint is at the same height as the label of the vertical axis, at the opposite edge. */
   .wall-hint {
     position: absolute;
     top: 0;
@@ -101,7 +101,7 @@ const styles = css`
     margin-bottom: 0.5em;
   }
 
-  /* The picture is as high as possible. The headline, the caption and the presets are next to it. */
+  /* The picture is as high as possible. The headline, the caption and the presets are in the column next to it. */
   @container (min-width: 38em) {
     .views {
       grid-template-columns: minmax(0, 60svh) minmax(18.25em, 1fr);
@@ -154,13 +154,13 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   #opener = new MapOpener(this);
   dropHandlers = this.#opener;
   handles: (WallHandles | PoseHandles)[] = [new WallHandles(this), new PoseHandles(this, 'start', ({ clearance }) => clearance, () => this.picture.plan.bounds)];
-  /** Value of the setting `unknown` (treatment of unknown cells) with which the picture was created. */
+  /** Value of the setting `unknown` (treatment of unknown cells) for which the picture was created. */
   #unknownCellsOfPicture = '';
-  /** Costs of the samplers, and the settings with which they were measured. */
+  /** Measured costs of the samplers, and the settings with which they were measured. */
   #measurement: { config: StateValues, samplerCosts: ReturnType<typeof measureCosts> } | undefined;
   /** Path of the selected sample. */
   #pathMemo: Memo<Float64Array> = new Memo();
-  /** Cached grid of a simulation's map, because copying a grid takes long. */
+  /** Cached grid of the map in a simulation, because copying a large grid takes long. */
   #gridMemo: Memo<CellGrid | null> = new Memo();
 
   createSimulation = ({ MapSqueeze }: Motion) => MapSqueeze.empty();
@@ -198,7 +198,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     return { ...scene, markedSample: isSelectionShown ? this.#markedSampleOf(selectedIndex) : undefined };
   }
 
-  /** Returns pose and path of the marked sample. If it was accepted although its path goes through a wall, `contact` is the point at the wall. */
+  /** Returns the pose and the path of the marked sample. If the sample was accepted although its path goes through a wall, `contact` is the first point of contact. */
   #markedSampleOf(sampleIndex: number) {
     const { poses, verdicts, config } = this.currentViewModel;
     const path = this.#pathMemo.get([poses, sampleIndex], () => (this.simulation as Simulation).path(sampleIndex));
@@ -223,7 +223,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
 
   describePicture = ({ config }: ViewModel) => [words.squeeze.floorTitle, this.#mapDescription, describeCommand(config.command)];
 
-  /** Name of the preset, a place in the apartment; null if the settings match no preset, or on another map. */
+  /** Name of the preset (a place in the apartment); null if the settings match no preset, or if another map is shown. */
   get preset(): string | null {
     return (this.reflection.get('preset') as string | undefined) ?? null;
   }
@@ -254,7 +254,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     });
   }
 
-  /** Costs of the samplers with the present settings; undefined until they are measured. */
+  /** Costs of the samplers with the present settings; undefined if they have not been measured with these settings. */
   get samplerCosts() {
     return this.#measurement?.config === this.settings.current ? this.#measurement.samplerCosts : undefined;
   }
@@ -267,7 +267,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     });
   }
 
-  /** Puts the robot into a map of the user, or for null into the apartment, as the user asked. */
+  /** Shows a map of the user, or for null the apartment, as one step that the user can undo. */
   openMap(map: UserMap | null) {
     if (!this.simulation) return;
     this.runtime.attempt(() => {
@@ -276,7 +276,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     });
   }
 
-  /** Replaces the map by the plan with moved walls. Few samples are drawn in the same frame, and the others when the user has stopped moving. */
+  /** Replaces the map by a plan with moved walls. In the same frame only a few samples are drawn, and the others when the user has stopped moving the wall. */
   moveWalls(walls: Float64Array) {
     const { bounds } = this.picture.plan;
     const name = this.map?.name ?? words.squeeze.editedMapName;
@@ -289,8 +289,8 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   }
 
   /**
-   * Puts the robot into a map of the user, or for null into the apartment. A new simulation tries the map first; the present simulation stays
-   * if the map or the start pose is refused.
+   * Puts the robot into a map of the user, or for null into the apartment. The map is tested in a new simulation. If the map or the start pose is refused,
+   * the present simulation stays.
    */
   #enterMap(map: UserMap & { start?: Pose } | null) {
     const { motion, settings } = this;
@@ -299,7 +299,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     const simulation = motion.MapSqueeze.empty();
     simulation.configureFirst(settings.pickSettings(settings.requested), 0);
     map?.applyTo(simulation);
-    // In an occupancy grid the present pose is not kept, because it may be outside the mapped area.
+    // In an occupancy grid, the robot is moved to a free pose, because its present pose may be outside the mapped area.
     const needsFreePose = this.#gridOf(simulation) !== null || !simulation.startFree;
     const startPose = map ? map.start ?? (needsFreePose ? freePoseOf(simulation) : undefined) : OPENING_POSE;
     simulation.configureFirst(startPose ? { start: startPose } : {}, this.cloud.targetCount);
@@ -343,7 +343,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   }
 }
 
-/** Returns a free start pose, or the middle of a map that has none. */
+/** Returns a free start pose. If the map has no free pose, returns its middle. */
 function freePoseOf({ openPlace, config, plan: { bounds: [left, bottom, right, top] } }: Simulation): Pose {
   return openPlace ?? { ...config.start, x: (left + right) / 2, y: (bottom + top) / 2 };
 }

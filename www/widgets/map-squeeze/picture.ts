@@ -22,10 +22,10 @@ export interface Scene extends ViewModel {
   markedSample: { pose: Float64Array, path: Float64Array, contact: number[] | undefined } | undefined;
 }
 
-/** Dot of a sample: minimum and maximum radius (CSS pixels), ratio of the picture's width to the radius, and opacity. */
+/** Dot of a sample: minimum and maximum radius (CSS pixels), ratio of the picture's width to the dot's radius, and opacity. */
 const SAMPLE_DOT = { minRadius: 2, maxRadius: 3, widthPerRadius: 240, opacity: 0.4 };
 
-/** Half the size of the area around the end of the command that a close view shows: a multiple of the command's length, at least a minimum (m). */
+/** A close view shows a square around the end of the command. Half of its side is this multiple of the command's length, or this minimum (m). */
 const END_HALF_SIZE_FACTOR = 0.8;
 const MIN_END_HALF_SIZE = 0.8;
 
@@ -35,16 +35,16 @@ const PATH_MARGIN = 0.45;
 /** Margin around the map, relative to its longer side. */
 const MAP_MARGIN = 0.025;
 
-/** Cells of the density picture: minimum and maximum side (CSS pixels), and number of samples for which the side is half the maximum. */
+/** Cells of the density: minimum and maximum side (CSS pixels), and number of samples at which the side is half the maximum. */
 const DENSITY_CELL = { minSize: 2, maxSize: 5, samplesAtHalfSize: 40_000 };
 
-/** Maximum number of paths that are drawn over a density. More would hide it. */
+/** Maximum number of paths that are drawn over a density. More paths would hide the density. */
 const MAX_PATHS_ON_DENSITY = 25;
 
-/** Number of paths in one stroke. More are faster, but paths of one stroke do not darken each other where they cross. */
+/** Number of paths that are drawn in one stroke. A larger number is faster, but crossing paths of the same stroke do not darken each other. */
 const PATHS_PER_STROKE = 10;
 
-/** Transparent ramp for kinds of samples that are hidden in a density. */
+/** Transparent colours for samples of a kind that the user has hidden. */
 const TRANSPARENT_RAMP = new Uint8Array(4 * limits.ramp);
 
 export class FloorPicture extends SamplesPicture<Scene> {
@@ -53,17 +53,17 @@ export class FloorPicture extends SamplesPicture<Scene> {
   plan: Plan = { bounds: new Float64Array(4), walls: new Float64Array() };
   /** True if the map has unknown cells. */
   hasUnknownCells = false;
-  /** False for a grid, whose walls outline its cells and cannot be moved. */
+  /** True for a floor plan, false for a grid. The walls of a grid outline its cells, and cannot be moved. */
   hasMovableWalls = true;
   #closeView = new View();
   #wholeView = this.view;
   #wallLayer = new WallLayer(this.plan, null);
-  /** Corners of the known part of the map, which may be much smaller than the map. */
+  /** Corners of cells around the known part of the map. This part may be much smaller than the map. */
   #knownCorners: ArrayLike<number> = [];
   #densityImage = new CachedImage();
   #wallPathMemo: Memo<string> = new Memo();
 
-  /** Sets the map. The views stay if it has the same bounds as the previous map. */
+  /** Sets the map. If the new map has the same bounds as the previous one, the views do not change. */
   setMap(plan: Plan, grid: CellGrid | null) {
     if (plan.bounds.some((bound, i) => bound !== this.plan.bounds[i])) for (const view of [this.#closeView, this.#wholeView]) view.clearTarget();
     this.plan = plan;
@@ -73,7 +73,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     this.#knownCorners = grid?.unknown ? knownCornersOf(grid, grid.unknown) : plan.walls;
   }
 
-  /** Walls as the `d` attribute of an SVG path, metres. */
+  /** Walls as an SVG path (attribute `d`), in metres. */
   get wallPathData() {
     const { walls } = this.plan;
     return this.#wallPathMemo.get([walls], () => range(0, walls.length, 4).map((i) => `M${walls[i]} ${walls[i + 1]}L${walls[i + 2]} ${walls[i + 3]}`).join(''));
@@ -109,7 +109,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     });
   }
 
-  /** Returns the known part of the plan if the robot is inside it, and the whole plan otherwise. */
+  /** Returns the extent of the known part of the map if the robot is in it, and of the whole map otherwise. */
   knownExtentOf({ x, y }: { x: number, y: number }) {
     const [xMin, yMin, xMax, yMax] = this.plan.bounds;
     const knownExtent = extentAround(this.#knownCorners, 2, { xMin: x, yMin: y, xMax: x, yMax: y });
@@ -124,7 +124,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const { accepted, through, rejected, commanded: commandStyle, unknown } = createLineStyles(drawContext, LINE_STYLES, overlays);
     drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, { accepted, through, rejected }, ['accepted', 'through', 'rejected'], words.squeeze.overlays));
     clipToPlot(drawContext, () => {
-      // The walls are drawn after the paths, so that a path through a wall does not hide the wall.
+      // The walls are drawn after the paths, so that a path through a wall does not cover the wall.
       if (posesByOutcome) {
         if (through) drawPaths(drawContext, paths, through.colour);
         if (accepted) drawSamples(drawContext, posesByOutcome.accepted, accepted.colour);
@@ -161,7 +161,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
   }
 }
 
-/** Returns the outer corners of the first and the last known cell of each row of a grid, as x, y pairs. */
+/** Returns the outer corners of the first and last known cells in each row of a grid, as x, y pairs. */
 function knownCornersOf(grid: CellGrid, unknownFlags: Uint8Array) {
   const { columns } = grid;
   return Array.from({ length: unknownFlags.length / columns }, (_, rowIndex) => {
@@ -181,7 +181,7 @@ function drawPaths({ context, view }: DrawContext, paths: Float64Array[], colour
   paintWithOpacity(context, 0.3, () => strokeInBatches(context, paths.map((points) => view.toPixels(points)), { colour, width: 1 }, PATHS_PER_STROKE));
 }
 
-/** Draws samples as dots that darken where they overlap. */
+/** Draws samples as transparent dots, which look darker where they overlap. */
 function drawSamples({ context, view }: DrawContext, poses: Float64Array, colour: string) {
   const dotRadius = clamp(view.width / SAMPLE_DOT.widthPerRadius, SAMPLE_DOT.minRadius, SAMPLE_DOT.maxRadius);
   paintWithOpacity(context, SAMPLE_DOT.opacity, () => {

@@ -1,4 +1,4 @@
-/** Map Squeeze's readouts, sentences and text equivalents: outcomes of the samples, the measured cost of each sampler, and the map beside a close view. */
+/** Readouts of Map Squeeze and their text alternatives: outcomes of the samples, the measured costs of the samplers, and an overview of the map. */
 
 import { html, nothing } from 'lit';
 import { addEnglishMessages, words } from '../../messages/registry.ts';
@@ -13,7 +13,7 @@ import type { MapSqueezeElement as Figure } from './map-squeeze.ts';
 
 addEnglishMessages({ squeeze: en });
 
-/** Returns the headline: the share of accepted motions that went through a wall. */
+/** Returns the headline: the share of accepted motions that go through a wall. */
 export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'attempts' | 'accepted' | 'throughWall'>) {
   const texts = words.squeeze.headline;
   if (attempts === 0) return texts.noMotionTried;
@@ -21,11 +21,11 @@ export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'att
   return throughWall === 0 ? texts.noneThroughWall : texts.shareThroughWall(formatPercent(throughWall / accepted));
 }
 
-/** Returns the caption: the counts of the samples, or why the robot cannot move. */
+/** Returns the caption: the numbers of samples by outcome, or the reason why the robot cannot move. */
 export function captionOf({ config: { conditioned, sampler }, stats, stuckNote }: ViewModel) {
   const { accepted, attempts, gaveUp } = stats;
   const texts = words.squeeze;
-  // If the robot cannot move, the note contains the number of motions.
+  // The note about a robot that cannot move also has the number of motions.
   if (stuckNote && (accepted === 0 || gaveUp)) return stuckNote;
   if (attempts === 0) return `${texts.headline.noMotionTried}.`;
   const testedText = texts.testedSentences[conditioned ? sampler : 'off'](formatInteger(accepted), formatInteger(attempts));
@@ -47,20 +47,20 @@ export function tallyReadoutsHtml({ stats }: ViewModel) {
   ]);
 }
 
-/** Cost of one accepted sample: time in microseconds, draws and wall tests. 'wedged' if no sample is accepted. */
+/** Cost of an accepted sample: time in microseconds, number of draws, and number of wall tests; 'wedged' if no sample is accepted. */
 type SampleCost = { micros: number, drawCount: number, wallTestCount: number } | 'wedged';
 
-/** Samples per second in the chapter's exercise: 2000 particles, 20 updates per second. */
+/** Samples per second that the chapter's exercise needs: 2000 particles, 20 updates per second. */
 const SAMPLES_PER_SECOND = 2000 * 20;
 
-/** Minimum duration of the measured run, ms. Clocks of browsers may have steps of 1 ms. */
+/** Minimum duration of a measured run, ms. It is much longer than 1 ms, which is the resolution of the clock in some browsers. */
 const MIN_RUN_MS = 20;
 
-/** Measures each sampler, in less than half a second together. */
+/** Measures the cost of every sampler. All measurements together take less than half a second. */
 export const measureCosts = (simulation: MapSqueeze, subStepCount: number) =>
   Object.fromEntries(SAMPLERS.map((sampler) => [sampler, measureCost(simulation, sampler, sampler === 'sub-stepped' ? subStepCount : 1)])) as Record<SamplerName, SampleCost>;
 
-/** Doubles the number of samples until a run is long enough to be measured. */
+/** Measures the cost of a sampler. The number of samples is doubled until the run takes long enough. */
 function measureCost(simulation: MapSqueeze, sampler: SamplerName, subStepCount: number): SampleCost {
   const maxSampleCount = Math.floor(limits.trial / subStepCount);
   let sampleCount = 1;
@@ -92,10 +92,10 @@ export function costTableHtml(figure: Figure) {
   </div>`;
 }
 
-/** Maximum fraction of the map's area that a close view with an overview shows. */
+/** Maximum fraction of the map's area that a close view may show if an overview is to be shown next to it. */
 const MAX_SHOWN_FRACTION = 0.6;
 
-/** Returns the overview, or nothing if the picture already shows most of the map. */
+/** Returns the overview of the map, or nothing if the picture already shows most of the map. */
 export function overviewMapHtml(picture: import('./picture.ts').FloorPicture, { config, commanded }: import('./settings.ts').ViewModel) {
   const { xMin, yMin, xMax, yMax } = picture.knownExtentOf(config.start);
   const [width, height] = [xMax - xMin, yMax - yMin];

@@ -1,4 +1,4 @@
-/** Map Squeeze's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
+/** Settings of Map Squeeze: their attributes, state fields and sliders. Also line styles, and the data that the figure shows. */
 
 import { presetAttributeOf, createDefinition } from '../../figure/definition.ts';
 import { words } from '../../messages/registry.ts';
@@ -10,13 +10,13 @@ import type { MapSqueeze, MapSqueezeSettings, SamplerName, SqueezeStats } from '
 
 const settingDeclarations = settings['map-squeeze'];
 
-/** Presets: positions in the apartment, with settings that show their effect. */
+/** Presets: places in the apartment, each with settings that suit the place. */
 export const PRESET_SETTING = presetAttributeOf(presets['map-squeeze']);
 
-/** Pose of the robot in the apartment after the user has left a map. */
+/** Pose of the robot when the user returns from another map to the apartment. */
 export const OPENING_POSE = presets['map-squeeze'][0].settings.start;
 
-/** Marks and lines of the picture. */
+/** Styles of the marks and lines in the picture. */
 export const LINE_STYLES = {
   accepted: { role: 'cloud', shape: 'dot' },
   through: { role: 'accent', shape: 'dot' },
@@ -27,7 +27,7 @@ export const LINE_STYLES = {
 
 export const COMMAND_SLIDERS = createCommandSliderSpecs(4);
 
-/** Names of the parts of the map that the picture can show. */
+/** Names of the views: the surroundings of the robot, and the whole map. */
 const VIEW_NAMES = ['close', 'whole'];
 
 export const definition = createDefinition('map-squeeze', {
@@ -40,24 +40,24 @@ export const definition = createDefinition('map-squeeze', {
     samples: createSamplesSliderSpec(100_000),
     steps: { role: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
   },
-  // Presets are places in the apartment.
+  // Presets are places in the apartment, so that no preset matches on another map.
   presetAttribute: { ...PRESET_SETTING, get: (config) => (config.map ? null : PRESET_SETTING.get(config)) },
   elementFields: {
     view: { type: 'word', words: VIEW_NAMES, default: VIEW_NAMES[0], access: 'attribute' },
-    /** Map of the user; null for the apartment. A simulation has checked it. */
+    /** Map of the user; null for the apartment. Only maps that a simulation has accepted are stored. */
     map: { default: null, access: 'property' },
   },
 });
 
-/** Samplers in the order in which they are offered. */
+/** Samplers in the order in which the figure offers them. */
 export const SAMPLERS = settingDeclarations.find(({ key }) => key === 'sampler')?.words as SamplerName[];
 
-/** Maximum number of samples for a command in one step; it is divided by the number of sub-steps. */
+/** Maximum number of samples without sub-steps. With sub-steps, it is divided by their number. */
 export const MAX_SAMPLES = settingDeclarations.find(({ key }) => key === 'samples')?.max ?? 0;
 
 export type ViewModel = ReturnType<typeof viewModelOf>;
 
-/** Number of samples above which they are drawn as a density: dots would be indistinguishable, and take longer than a frame. */
+/** Maximum number of samples drawn as dots. More samples are drawn as a density, because dots would overlap, and take longer than a frame. */
 const MAX_DOT_COUNT = 1500;
 
 export function viewModelOf(simulation: MapSqueeze) {
@@ -78,22 +78,22 @@ function groupByOutcome(poses: Float64Array, verdicts: Uint8Array) {
   return { rejected: posesOf('rejected'), accepted: posesOf('accepted'), through: posesOf('through') };
 }
 
-/** Returns the outcome of a sample, a word of `overlays`: `through` is accepted although its path goes through a wall. */
+/** Returns the outcome of a sample, as a word of the setting `overlays`. `through` means that the sample was accepted although its path goes through a wall. */
 export function outcomeOf(verdict: number): 'rejected' | 'accepted' | 'through' {
   if ((verdict & bits.accepted) === 0) return 'rejected';
   return (verdict & bits.pathFree) === 0 ? 'through' : 'accepted';
 }
 
 /**
- * Returns a text on the accepted motions that went through a wall: their number, and their share with its interval. There is no interval if
- * the sampler excludes such motions (`isCertain`), or if the simulation gave up, because giving up depends on chance.
+ * Returns a text on accepted motions through a wall: their number, and their share with its confidence interval. The interval is left out if the sampler
+ * excludes such motions (`isCertain`), or if the simulation gave up, because giving up depends on chance.
  */
 export function formatThroughWallRate({ throughWall, throughWallRate, throughWallInterval: [low, high], gaveUp }: Pick<SqueezeStats, 'throughWall' | 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>, isCertain: boolean) {
   const intervalText = isCertain || gaveUp ? '' : `${formatFixed(100 * low, 1)}\u2060–\u2060${formatPercent(high)}`;
   return words.squeeze.throughWallClause(throughWall, formatInteger(throughWall), formatPercent(throughWallRate), intervalText);
 }
 
-/** Returns a sentence on a robot that cannot move; empty for an ordinary cloud. */
+/** Returns a sentence that explains why the robot cannot move; empty if it can move. */
 function explainStuckRobot(config: MapSqueezeSettings, stats: SqueezeStats, startFree: boolean): string {
   const { wedgedNote, nothingAcceptedNote, startCollisionNote } = words.squeeze;
   const { accepted, drawn } = stats;

@@ -1,4 +1,4 @@
-/** Handles of walls, for the pointer or keys: edges of doorways move along their walls, and whole walls move across their direction. */
+/** Handles by which the user moves walls with a pointer or keys. Edges of doorways move along their walls, and whole walls move sideways. */
 
 import { range } from 'd3-array';
 import { html, nothing } from 'lit';
@@ -12,20 +12,20 @@ import { gripsOf, moveWall, type Grip } from './walls.ts';
 /** Displacement of a wall per key press, metres. */
 const KEY_STEP = 0.05;
 
-/** Largest number of walls with handles. */
+/** Maximum number of walls in a map whose walls have handles. */
 const MAX_HANDLED_WALLS = 50;
 
-/** Fractions of a wall at which the handle of the whole wall may be. The handle is at the middle one of the visible points. */
+/** Fractions of a wall's length at which the handle of the whole wall may be. It is at the middle one of the visible points. */
 const SIDE_FRACTIONS = range(0.02, 0.99, 0.02);
 
-/** Distance between the edge of a doorway and its handle, and its maximum as a fraction of the wall. It keeps the handle apart from a robot in the doorway. */
+/** Distance between the edge of a doorway and its handle, and maximum of this distance as a fraction of the wall. The distance keeps the handle away from a robot in the doorway. */
 const EDGE_INSET_PX = 12;
 const MAX_EDGE_INSET = 1 / 6;
 
 export class WallHandles extends FigureController<import('./map-squeeze.ts').MapSqueezeElement> {
   #handles: Map<string, Handle> = new Map();
   #gripsMemo: Memo<Grip[]> = new Memo();
-  /** Name of the handle that is in the tab order. If no handle has this name, the first handle is in the tab order. */
+  /** Name of the handle that is in the tab order. If this handle does not exist, the first handle is in the tab order. */
   #tabbableName = '';
 
   get #grips() {
@@ -33,7 +33,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     return this.#gripsMemo.get([plan], () => (hasMovableWalls && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? gripsOf(plan) : []));
   }
 
-  /** Visible grips with their handles and points in the picture. A handle that is dragged stays. */
+  /** Visible grips, each with its handle and its point in the picture. While a handle is dragged, its grip counts as visible. */
   get #shownGrips() {
     const { plan: { walls }, view } = this.host.picture;
     const { xMin, xMax, yMin, yMax } = view.extent;
@@ -71,7 +71,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     })]);
   }
 
-  /** Places the handles again, because new handles are rendered after the picture was drawn. */
+  /** The handles are placed again after each rendering, because new handles are rendered after the picture was drawn. */
   hostUpdated() {
     this.place();
   }
@@ -85,7 +85,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 
   #handleOf(grip: Grip) {
     const name = nameOf(grip);
-    // Calls a function with the grip of the current plan. A new plan may lack the grip until the handle is removed.
+    // Calls a function with the grip of this handle in the current plan. If the plan has no such grip, because it has changed, the function is not called.
     const callWithGrip = <Result>(useGrip: (currentGrip: Grip) => Result) => {
       const currentGrip = this.#grips.find((otherGrip) => nameOf(otherGrip) === name);
       return currentGrip && useGrip(currentGrip);
@@ -102,7 +102,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
       handleKey: (event) => {
         const [keyTurns, keySteps] = [turnStepsOfKey(event), stepsOfKey(event)];
         if (keyTurns) this.#focusHandle(name, -keyTurns);
-        // Arrow keys across the axis act like those along it, as for any slider.
+        // Arrow keys perpendicular to the axis also move the handle, like the arrow keys of any slider.
         else if (keySteps) callWithGrip(({ axis: [ux, uy] }) => (keySteps[0] * ux + keySteps[1] * uy ? moveBy(KEY_STEP * keySteps[0], KEY_STEP * keySteps[1]) : moveBy(KEY_STEP * keySteps[1], KEY_STEP * keySteps[0])));
         return keySteps !== undefined;
       },
@@ -112,12 +112,12 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     return handle;
   }
 
-  /** Returns the end of a wall that a grip moves. A grip on the side moves the whole wall; the point is its first end. */
+  /** Returns the end of the wall that a grip moves. For a grip that moves the whole wall, returns the first end of the wall. */
   #gripPointOf({ wallOffset, grippedPart: part }: Grip) {
     return this.host.picture.plan.walls.subarray(part === 'to' ? wallOffset + 2 : wallOffset, wallOffset + 4);
   }
 
-  /** Moves the focus from the named handle to the handle that is `indexOffset` further in the list of visible handles. */
+  /** Moves the focus to another handle: from the named handle, `indexOffset` places further in the list of visible handles. */
   #focusHandle(name: string, indexOffset: number) {
     const handleNames = this.#shownGrips.map((shownGrip) => shownGrip.name);
     this.#tabbableName = handleNames[(handleNames.indexOf(name) + indexOffset + handleNames.length) % handleNames.length];

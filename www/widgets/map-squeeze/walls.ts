@@ -4,17 +4,17 @@ import { clamp } from '../../ui/format.ts';
 import { extentAround } from '../../scene/view.ts';
 import type { Plan } from '../../types.d.ts';
 
-/** Distance below which two walls touch. */
+/** Maximum distance between two walls that touch, m. */
 const TOUCH_DISTANCE = 1e-6;
 
-/** Minimum gap between the end of a wall and another wall, and minimum length of a wall, m. */
+/** Minimum gap between the end of a moved wall and another wall, and minimum length of a wall, m. */
 const MIN_WALL_GAP = 0.05;
 
-/** Minimum distance (m) at which a path counts as touching a wall, and number of tested points of a path in such a distance. */
+/** Minimum distance (m) from a wall at which a path touches it. Points of the path are tested at intervals of the robot's radius divided by `POINTS_PER_RADIUS`. */
 const MIN_TOUCH_RADIUS = 0.02;
 const POINTS_PER_RADIUS = 4;
 
-/** Returns the point of a wall that is nearest to another point, with the distance. `k` is the index of the wall's first number. */
+/** Returns the point of a wall that is nearest to a given point, and its distance. `k` is the index of the first of the wall's numbers. */
 function nearestPointOfWall(walls: ArrayLike<number>, k: number, x: number, y: number) {
   const [x0, y0] = [walls[k], walls[k + 1]];
   const [dx, dy] = [walls[k + 2] - x0, walls[k + 3] - y0];
@@ -23,7 +23,7 @@ function nearestPointOfWall(walls: ArrayLike<number>, k: number, x: number, y: n
   return { point: nearestPoint, distance: Math.hypot(x - nearestPoint[0], y - nearestPoint[1]) };
 }
 
-/** Returns the first point of a wall that a robot with this radius touches on a path of x, y pairs; undefined for none. */
+/** Returns the first point of a wall that a robot of a given radius touches while it drives along a path of x, y pairs; undefined if it touches no wall. */
 export function findWallContact(path: ArrayLike<number>, walls: Float64Array, robotRadius: number) {
   const touchRadius = Math.max(robotRadius, MIN_TOUCH_RADIUS);
   const pathExtent = extentAround(path, 2);
@@ -42,20 +42,20 @@ export function findWallContact(path: ArrayLike<number>, walls: Float64Array, ro
   }
 }
 
-/** Returns the index of the first number of each wall. */
+/** Returns the indices at which walls start in an array with four numbers for each wall. */
 const wallOffsetsOf = (walls: Float64Array) => Array.from({ length: walls.length / 4 }, (_, i) => 4 * i);
 
-/** Part of a wall that can be moved along an axis. */
+/** Grip: an end of a wall, or the whole wall, that can be moved along an axis. */
 export interface Grip {
-  /** Index of the wall's first number in the list of all walls. */
+  /** Index of the first of the wall's numbers in the array of all walls. */
   wallOffset: number;
-  /** An end of the wall, or the whole wall, which moves across its direction. */
+  /** Moved part: an end of the wall, or the whole wall (`side`), which moves sideways. */
   grippedPart: 'from' | 'to' | 'side';
   /** Direction in which the grip moves, as a unit vector. */
   axis: number[];
 }
 
-/** Returns the grips of the inner walls: each end that touches no other wall, and the side. */
+/** Returns the grips of inner walls: one for each end that touches no other wall, and one for the whole wall. */
 export function gripsOf({ bounds, walls }: Plan): Grip[] {
   return wallOffsetsOf(walls).flatMap((wallOffset): Grip[] => {
     const [x0, y0, x1, y1] = walls.subarray(wallOffset, wallOffset + 4);
@@ -72,8 +72,8 @@ const distanceToOtherWallsOf = (walls: Float64Array, wallOffset: number, [x, y]:
   Math.min(...wallOffsetsOf(walls).filter((k) => k !== wallOffset).map((k) => nearestPointOfWall(walls, k, x, y).distance));
 
 /**
- * Returns the walls after a grip has moved along its axis, within the bounds of the plan. The end of a wall stops at the next wall. If a wall
- * moves sideways, walls that end on it become longer or shorter, unless they would change their direction.
+ * Returns the walls after a grip has been moved along its axis, within the bounds of the plan. A moved end stops near the next wall. If a whole wall moves,
+ * walls that end at it become longer or shorter, unless this would turn them.
  */
 export function moveWall({ bounds, walls }: Plan, { wallOffset, grippedPart: part, axis: [ux, uy] }: Grip, distance: number) {
   const movedWalls = walls.slice();
@@ -97,18 +97,18 @@ export function moveWall({ bounds, walls }: Plan, { wallOffset, grippedPart: par
   return movedWalls;
 }
 
-/** Returns a distance along an axis, limited so that points that move by it stay within the bounds of a plan. */
+/** Returns the distance that points can move along an axis, up to a requested distance, without leaving the bounds of a plan. */
 function limitToBounds(distance: number, bounds: ArrayLike<number>, points: number[][], axis: number[]) {
   const limits = points.flatMap((point) => [0, 1].filter((i) => Math.abs(axis[i]) > TOUCH_DISTANCE).map((i) => [bounds[i] + MIN_WALL_GAP, bounds[i + 2] - MIN_WALL_GAP].map((bound) => (bound - point[i]) / axis[i])));
   return limits.reduce((limitedDistance, [distanceToBound, distanceToOtherBound]) =>
     clamp(limitedDistance, Math.min(0, distanceToBound, distanceToOtherBound), Math.max(0, distanceToBound, distanceToOtherBound)), distance);
 }
 
-/** Returns how far the end of a wall can move along an axis, up to a distance, before it is near another wall. */
+/** Returns the distance that the end of a wall can move along an axis, up to a requested distance, before it comes too close to another wall. */
 function freeDistanceOf(walls: Float64Array, wallOffset: number, [x, y]: number[], [ux, uy]: number[], distance: number) {
   let freeDistance = 0;
   let gap = Infinity;
-  // Each step is as long as the distance to the nearest wall allows.
+  // The end moves in steps. Each step is as long as the distance to the nearest wall allows.
   while (freeDistance < distance && gap > TOUCH_DISTANCE) {
     gap = distanceToOtherWallsOf(walls, wallOffset, [x + freeDistance * ux, y + freeDistance * uy]) - MIN_WALL_GAP;
     freeDistance += Math.max(0, gap);

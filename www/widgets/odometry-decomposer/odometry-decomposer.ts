@@ -17,7 +17,7 @@ import { headlineHtml, outcomeReadoutsHtml, spreadPlotHtml, driftDistanceOf, cap
 import { LINE_STYLES, definition, sliderSpecs, NOISE_SLIDERS, viewModelOf, type ViewModel } from './settings.ts';
 import type { Motion, OdometryDecomposer as Simulation } from '../../types.d.ts';
 
-/** Returns the table of standard deviations by noise model. Values that differ from Table 5.6 are bold. */
+/** Returns the table of standard deviations by noise model. Numbers that differ from the model of Table 5.6 are bold. */
 function noiseModelTableHtml(figure: OdometryDecomposerElement) {
   const { ruleNames, table: texts, settings } = words.decomposer;
   const { rules } = figure.viewModel;
@@ -44,12 +44,12 @@ function noiseControlsHtml(figure: OdometryDecomposerElement) {
 }
 
 const styles = css`
-  /* On a phone, the handles of two robots need space side by side. */
+  /* The picture is square, because on a phone the handles of two robots need space side by side. */
   .legs canvas {
     aspect-ratio: 1;
   }
 
-  /* Two columns: the picture of the legs with its text, and the picture of the world with its text. */
+  /* Two columns: the picture of the three legs with its texts, and the picture of the world with its texts. */
   @container (min-width: 38em) {
     .views {
       grid-template-columns: minmax(0, 3fr) minmax(0, 2fr);
@@ -91,7 +91,7 @@ const styles = css`
     margin-bottom: 0.5em;
   }
 
-  /* Values that differ from Table 5.6 are bold, and have a tinted background. */
+  /* Numbers that differ from the noise model of Table 5.6 are bold, on a tinted background. */
   .rules td:has(strong) {
     background: color-mix(in srgb, var(--prediction) 16%, var(--paper));
   }
@@ -124,7 +124,7 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
   #legsPicture = new LegsPicture();
   #worldPicture = new WorldPicture();
   pictures = [this.#legsPicture, this.#worldPicture];
-  /** Handles of both poses. The handle of the second pose is on top if both poses are at the same place. */
+  /** Handles of the poses before and after the motion. If both poses are at the same place, the handle of the second pose is on top. */
   handles: PoseHandles[] = ['from', 'to'].map((setting) => new PoseHandles(this, setting, () => ROBOT_RADIUS));
 
   createSimulation = ({ OdometryDecomposer }: Motion) => new OdometryDecomposer();

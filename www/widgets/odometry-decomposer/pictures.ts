@@ -1,4 +1,4 @@
-/** The Odometry Decomposer's two pictures: the three legs in the odometry frame, and both odometry poses in the world. */
+/** Two pictures of the Odometry Decomposer: the three legs (rotation, drive, rotation) in the odometry frame, and the two odometry poses in the world. */
 
 import { greatest, leastIndex } from 'd3-array';
 import { words } from '../../messages/registry.ts';
@@ -16,10 +16,10 @@ import type { Pose, RuleNoise } from '../../types.d.ts';
 /** Half width and length of an arrow head, pixels. */
 const ARROW_HEAD_SIZE = { halfWidth: 4, length: 9 };
 
-/** Angle of a chord of a drawn arc, radians. */
+/** Angle (radians) between successive points of an arc, which is drawn as a polygon. */
 const CHORD_ANGLE = 0.1;
 
-/** Number of points of a drawn ellipse. */
+/** Number of points of the polygon that approximates an ellipse. */
 const ELLIPSE_POINT_COUNT = 64;
 
 /** Returns the points of an ellipse about a pose with semi-axes along and across its heading. Lengths are in metres. */
@@ -32,7 +32,7 @@ function ellipsePointsOf({ x, y, theta }: Pose, alongRadius: number, acrossRadiu
   });
 }
 
-/** Draws a turn (rad) from the heading of a pose as an arc with an arrow head. The radius is in pixels. */
+/** Draws a turn (rad) as an arc with an arrow head. The arc starts at the heading of a pose, and its radius is in pixels. */
 function drawTurn({ context, view }: DrawContext, startPose: Pose, turn: number, arcRadius: number, colour: string) {
   strokePath(context, { colour, width: 1.75 }, () => addTurnArc(context, view.toPixel(startPose.x, startPose.y), arcRadius, startPose.theta, turn));
   // The arrow head is smaller on a short arc.
@@ -44,7 +44,7 @@ function drawTurn({ context, view }: DrawContext, startPose: Pose, turn: number,
   fillPath(context, colour, () => addLine(context, [arrowTip, arrowCornerOf(1), arrowCornerOf(-1)]));
 }
 
-/** Draws a standard deviation (rad) to either side of a heading as a fan. The radius is in pixels. */
+/** Draws a standard deviation (rad) as a fan to both sides of a heading. The radius of the fan is in pixels. */
 function drawDeviationFan({ context, view }: DrawContext, { x, y, theta }: Pose, deviation: number, fanRadius: number, colour: string) {
   const halfAngle = Math.min(deviation, Math.PI);
   if (halfAngle === 0) return;
@@ -58,22 +58,22 @@ function drawDeviationFan({ context, view }: DrawContext, { x, y, theta }: Pose,
   paintWithOpacity(context, 0.75, () => strokePath(context, { colour, width: 1, dash: [5, 3] }, addFan));
 }
 
-/** View model of the legs and world pictures, with the names of the lines that are shown. */
+/** Data that the two pictures show: results of the simulation, and the names of the visible lines. */
 export type Scene = import('./settings.ts').ViewModel & { markedPose: Float64Array | undefined, overlays: string[] };
 
 /** Radius of the robot, m. */
 export const ROBOT_RADIUS = 0.11;
 
-/** Margins around the robots (m), and around the outcomes (in standard deviations). */
+/** Margins of the view: around the robots (m), and around the outcomes (in standard deviations). */
 const VIEW_MARGINS = { aroundRobot: 0.3, deviationsAroundOutcomes: 2.4 };
 
-/** Maximum number of outcomes that are drawn with headings. Headings of more outcomes would be indistinguishable. */
+/** Maximum number of outcomes that are drawn with headings. More headings would overlap. */
 const MAX_HEADING_TICKS = 1000;
 
-/** Gap between the handle that turns a robot and the arc of a turn around it, and between two arcs, CSS pixels. */
+/** Gap between the turning handle of a robot and the arc around it that shows a turn, and gap between two such arcs, CSS pixels. */
 const ARC_GAPS = { afterHandle: 14, betweenArcs: 16 };
 
-/** Minimum length (CSS pixels) of a drive with a label. */
+/** Minimum length (CSS pixels) on the screen of a drive that gets a label. */
 const MIN_LABELLED_LENGTH = 24;
 
 /** Minimum angle (rad) of a turn that is drawn as an arc. */
@@ -81,15 +81,15 @@ const MIN_DRAWN_TURN = 0.005;
 
 const AXIS_NAMES = { x: 'x (m)', y: 'y (m)' };
 
-/** Length of the axes of the odometry frame, m. It is less than the margin, so that no axis is clipped. */
+/** Length (m) at which the axes of the odometry frame are drawn. It is less than the margin of the view, so that no axis is cut off. */
 const FRAME_AXIS_LENGTH = 0.28;
 
-/** Returns points around the start and the outcomes, as x, y pairs, that a picture has to show. */
+/** Returns points around the start pose and the outcomes that a picture has to show, as x, y pairs. */
 function coordinatesToShowOf({ linkage, legs, rules }: Scene): number[] {
   const [{ x, y }, drivenPose] = [poseAt(linkage, 0), poseAt(linkage, 2)];
-  // The scale is the same for all noise models, so that their spreads can be compared.
+  // The margin covers the outcomes of all noise models. The scale then stays the same, and the user can compare their spreads.
   const alongMargin = Math.min(VIEW_MARGINS.deviationsAroundOutcomes * Math.max(...rules.map(({ deviations }) => deviations[1])), legs.trans + 2);
-  // This margin needs no limit: a rotation moves the end across the path by at most the length of the drive.
+  // Unlike the margin along the path, this margin has no upper limit: a rotation moves the end sideways by at most the length of the drive.
   const acrossMargin = VIEW_MARGINS.deviationsAroundOutcomes * Math.max(...rules.map(({ crossTrack }) => crossTrack));
   const [absCos, absSin] = [Math.abs(Math.cos(drivenPose.theta)), Math.abs(Math.sin(drivenPose.theta))];
   return [
@@ -103,7 +103,7 @@ function drawOutcomes(drawContext: DrawContext, { poses, overlays }: Scene) {
   drawDots(drawContext, poses, poses.length <= 3 * MAX_HEADING_TICKS ? 1 : 0);
 }
 
-/** Returns the 2σ ellipses of the current noise model and, if it differs, of a noise model for comparison. Each ellipse has a callout. */
+/** Returns the 2σ ellipse of the current noise model, and for comparison the ellipse of another noise model if it differs. Each ellipse has a callout. */
 function spreadEllipsesOf({ palette }: DrawContext, { linkage, rules, config }: Scene) {
   const currentNoise = rules.find(({ rule }) => rule === config.rule) as RuleNoise;
   const comparedNoise = rules[config.rule === 'thrun' ? 1 : 0];
@@ -111,8 +111,7 @@ function spreadEllipsesOf({ palette }: DrawContext, { linkage, rules, config }: 
   return [currentNoise, ...(hasOtherDeviations ? [comparedNoise] : [])].map(({ rule, deviations, crossTrack }) => {
     const ellipsePoints = ellipsePointsOf(poseAt(linkage, 2), 2 * deviations[1], 2 * crossTrack);
     const colour = rule === config.rule ? palette.prediction : palette.ink;
-    // The callouts of the two ellipses are at different sides: the ellipse of Table 5.6 has its callout at the front, the smaller ellipse of another
-    // noise model at the top.
+    // The callouts are placed apart: at the front of the ellipse of Table 5.6, and at the top of the smaller ellipse of another noise model.
     const calloutPoint = rule === 'thrun' ? ellipsePoints[0] : greatest(ellipsePoints, ([, y]) => y) as [number, number];
     const callout: Callout = { text: words.decomposer.spreadLabel(words.decomposer.ruleNames[rule]), point: calloutPoint, colour };
     return { points: Float64Array.from(ellipsePoints.flat()), colour, width: 2, callout };
@@ -123,20 +122,20 @@ function drawMarkedPose(drawContext: DrawContext, { markedPose }: Scene) {
   if (markedPose) drawCrosshair(drawContext, { x: markedPose[0], y: markedPose[1], heading: markedPose[2] });
 }
 
-/** Arc that shows a turn: the pose from whose heading the turn starts, the turn (rad), and the radius of the arc (pixels). */
+/** Arc that shows a turn: the pose at whose heading the turn starts, the turn (rad), and the radius of the arc (pixels). */
 type TurnArc = [Pose, turn: number, radius: number];
 
-/** Returns the radii of the arcs of both turns, pixels. */
+/** Returns the radii (pixels) of the arcs that show the two turns. */
 const turnRadiiOf = (view: Pick<View, 'scaleX'>) => [0, 1].map((arcIndex) => turnHandleDistanceOf(view, ROBOT_RADIUS) + ARC_GAPS.afterHandle + arcIndex * ARC_GAPS.betweenArcs);
 
-/** Returns points of an arc about a pose that starts at its heading, as x, y pairs. The turn is in radians, and the radius in metres. */
+/** Returns points of an arc about a pose as x, y pairs. The arc starts at the heading of the pose. Its turn is in radians, and its radius in metres. */
 function turnArcPoints({ x, y, theta }: Pose, turn: number, arcRadius: number) {
   const chordCount = Math.max(1, Math.ceil(Math.abs(turn) / CHORD_ANGLE));
   return Array.from({ length: chordCount + 1 }, (_, i) => theta + (turn * i) / chordCount)
     .flatMap((direction) => [x + arcRadius * Math.cos(direction), y + arcRadius * Math.sin(direction)]);
 }
 
-/** Picture in the odometry frame: the legs as a linkage, and the effect of noise on it. */
+/** Picture in the odometry frame: the three legs (rotation, drive, rotation) as a linkage, and the effect of noise on them. */
 export class LegsPicture extends SamplesPicture<Scene> {
   name = 'plane';
   view: View = new View({ relativeMargin: 0 });
@@ -205,7 +204,7 @@ export class LegsPicture extends SamplesPicture<Scene> {
   }
 }
 
-/** Picture of the world, in which the odometry frame drifts. */
+/** Picture of the world frame, in which the odometry frame has drifted. */
 export class WorldPicture extends SamplesPicture<Scene> {
   name = 'world';
   view: View = new View({ relativeMargin: 0 });
@@ -258,7 +257,7 @@ export class WorldPicture extends SamplesPicture<Scene> {
 /** Returns the end points of a segment between two poses as x, y pairs. */
 const segmentCoordinatesOf = (startPose: Pose, endPose: Pose) => Float64Array.of(startPose.x, startPose.y, endPose.x, endPose.y);
 
-/** Returns callouts of the poses before and after a motion; only the second if both are at one place on the screen. */
+/** Returns callouts for the poses before and after a motion. If the two poses are at the same place on the screen, returns only the second callout. */
 function createPoseCallouts({ view }: DrawContext, poses: Pose[], symbol: string, colours: string[]): Callout[] {
   const [firstCallout, secondCallout] = poses.map(({ x, y }, i): Callout => ({ point: [x, y], symbol, subscript: ['t−1', 't'][i], colour: colours[i] }));
   const distance = Math.hypot(poses[0].x - poses[1].x, poses[0].y - poses[1].y) * view.scaleX;

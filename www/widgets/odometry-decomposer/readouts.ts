@@ -1,4 +1,4 @@
-/** The Odometry Decomposer's readouts, sentences and text equivalents: statistics of the outcomes, and standard deviations against the length of the drive. */
+/** Readouts of the Odometry Decomposer and their text alternatives: statistics of the outcomes, and standard deviations over the length of the drive. */
 
 import { html } from 'lit';
 import { addEnglishMessages, words } from '../../messages/registry.ts';
@@ -11,7 +11,7 @@ import { poseAt, type ViewModel } from './settings.ts';
 
 addEnglishMessages({ decomposer: en });
 
-/** Length (m) of a drive below which a reading is called jitter of the encoders. */
+/** Length (m) of a drive below which the caption calls an odometry reading jitter of the encoders. */
 const MAX_JITTER_LENGTH = 0.01;
 
 export function captionOf({ config: { rule, alphas }, rules, legs, deviations, stats }: ViewModel) {
@@ -45,7 +45,7 @@ export function headlineHtml({ rules: [thrun, nav2] }: ViewModel) {
   return readoutsHtml([[texts.beforeRatio, Number.isFinite(headingNoiseRatio) ? `${formatRounded(headingNoiseRatio, 2)} ×` : NO_VALUE, texts.afterRatio]], 0);
 }
 
-/** Returns the readouts: the contribution of the first rotation, and the standard deviations of the outcomes. */
+/** Returns the readouts: the lateral standard deviation due to the first rotation, and the standard deviations of the outcomes. */
 export function outcomeReadoutsHtml({ stats }: ViewModel) {
   const texts = words.decomposer.readouts;
   const { crossTrack, crossTrackError, exactCrossTrack, heading, headingError, exactHeading, independentHeading } = stats;
@@ -58,7 +58,7 @@ export function outcomeReadoutsHtml({ stats }: ViewModel) {
   ]);
 }
 
-/** Number of points of the curves, about one for each pixel on a large screen. */
+/** Number of points of each curve. On a large screen, that is about one point per pixel. */
 const CURVE_POINT_COUNT = 121;
 
 export function spreadPlotHtml(readCurve: (maxLength: number, pointCount: number) => Float64Array, { legs, stats }: ViewModel) {

@@ -1,4 +1,4 @@
-/** The Odometry Decomposer's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
+/** Settings of the Odometry Decomposer: their attributes, state fields and sliders. Also line styles, and the data that the figure shows. */
 
 import { createDefinition } from '../../figure/definition.ts';
 import { createSamplesSliderSpec } from '../shared/cloud.ts';
@@ -15,7 +15,7 @@ export const LINE_STYLES = {
   difference: { role: 'accent', width: 1.5, dash: [2, 4] },
 } satisfies Record<string, import('../../ui/swatch.ts').LineStyle>;
 
-/** Sliders of the noise parameters and of the correlation. */
+/** Sliders of the noise parameters, and of the correlation between the noise of the two rotations. */
 export const NOISE_SLIDERS = {
   ...createAlphaSliderSpecs(5, 'odometry'),
   correlation: { symbol: '*ρ*', role: 'prediction' as const, min: -1, max: 1, step: 0.05, decimals: 2 },
@@ -34,12 +34,12 @@ export type ViewModel = ReturnType<typeof viewModelOf>;
 
 export function viewModelOf(simulation: OdometryDecomposer) {
   const simulationResults = simulation.read();
-  // Legs and standard deviations of the current rule.
+  // Legs and standard deviations of the selected noise rule.
   const { legs, deviations: [rot1, trans, rot2, strafe] } = simulationResults.rules.find(({ rule }) => rule === simulationResults.config.rule) as RuleNoise;
   return { ...simulationResults, legs, deviations: { rot1, trans, rot2, strafe } };
 }
 
-/** Returns one of several poses in an array of x, y, θ triples. */
+/** Returns the pose with the given index from an array of x, y, θ triples. */
 export function poseAt(triples: Float64Array, poseIndex: number) {
   const [x, y, theta] = triples.subarray(3 * poseIndex, 3 * poseIndex + 3);
   return { x, y, theta };

@@ -14,36 +14,36 @@ import type { Figure } from '../../figure/figure.ts';
 import type { StateValues } from '../../figure/settings.ts';
 import type { Picture } from '../../scene/picture.ts';
 
-/** Sample counts of a simulation or of its view model. */
+/** Numbers of samples in a simulation, or in the data that was read from it. */
 interface SampleCount {
   shown: number;
-  /** Number of samples that the simulation adds in a few milliseconds. */
+  /** Number of samples that the simulation can add in a few milliseconds. */
   block: number;
 }
 
 interface GrowingSimulation extends SampleCount {
   config: { samples: number, seed: number };
-  /** Changes settings and shows the first block of `goalCount` samples. Returns all settings. */
+  /** Changes settings, and draws the first block of at most `goalCount` samples. Returns all settings. */
   configureFirst: (settings: StateValues, goalCount: number) => StateValues;
-  /** Returns the number of samples shown. */
+  /** Adds samples, and returns the number of all samples. */
   addSamples: (sampleCount: number) => number;
 }
 
 const GROWTH_STEP_COUNT = 150;
 
-/** Maximum time (ms) for adding samples in a frame. A frame with its pictures then takes less than 50 ms. */
+/** Maximum time (ms) for adding samples in a frame. The whole frame with its pictures then takes less than 50 ms. */
 const MAX_ADDING_MS = 12;
 
 export class Cloud extends FigureController {
   #hasGivenUp;
 
-  /** Creates the cloud. `hasGivenUp` returns true if a simulation, given by itself or its view model, stopped before it had drawn all requested samples. */
+  /** Creates the cloud. `hasGivenUp` returns true if a simulation stopped before it had drawn all requested samples. Its argument is the simulation, or data that was read from it. */
   constructor(host: Figure, hasGivenUp: (latestCounts: any) => boolean = () => false) {
     super(host);
     this.#hasGivenUp = hasGivenUp;
   }
 
-  /** Fields of the cloud in the state of the element. */
+  /** Fields in the state of the element that belong to the cloud. */
   get #state() {
     return this.host.settings.elementState as { playing: boolean, shown: number, marked: number | null };
   }
@@ -57,13 +57,13 @@ export class Cloud extends FigureController {
     return this.host.simulation as GrowingSimulation;
   }
 
-  /** Latest sample counts: those of the view model, or of the simulation if it has changed since. */
+  /** Latest numbers of samples: those in the data on screen, or if the simulation has changed since then, those of the simulation. */
   get #latestCounts(): SampleCount {
     const { settings, viewModel } = this.host;
     return (settings.isViewModelStale && this.#simulation) || viewModel;
   }
 
-  /** True if all requested samples are to be shown, or the simulation cannot draw more. */
+  /** True if the cloud has to show all requested samples, or as many as the simulation can draw. */
   get isComplete() {
     return this.#state.shown >= this.#requestedCount || this.#hasGivenUp(this.#latestCounts);
   }
@@ -76,17 +76,17 @@ export class Cloud extends FigureController {
     return Math.ceil(this.#requestedCount / GROWTH_STEP_COUNT);
   }
 
-  /** Number of samples to show: all that were requested if the cloud is complete. */
+  /** Number of samples that the cloud has to show. If the cloud is complete, this is the requested number. */
   get targetCount() {
     return this.isComplete ? this.#requestedCount : this.#state.shown;
   }
 
-  /** True if the cloud is not playing, and has as many samples as requested or as the simulation can draw. */
+  /** True if the cloud does not grow, and has all the samples that it has to show, or as many as the simulation can draw. */
   get isSettled(): boolean {
     return !this.playing && (this.#latestCounts.shown >= this.targetCount || this.#hasGivenUp(this.#latestCounts));
   }
 
-  /** Starts the growth, or shows the samples of a state. With reduced motion all samples are shown at once. */
+  /** Starts to grow the cloud, or shows the samples of a given state. If the user prefers reduced motion, all samples are shown at once. */
   showOrGrow(state?: StateValues) {
     if (!state) this.#state.playing = true;
     if (!state || this.isComplete) this.#state.shown = Infinity;
@@ -94,7 +94,7 @@ export class Cloud extends FigureController {
     if (this.playing && prefersReducedMotion()) this.addAllSamples();
   }
 
-  /** Changes settings and shows one block of samples; later frames add the others. Returns all settings. */
+  /** Changes settings, and draws one block of samples. Later frames add the other samples. Returns all settings. */
   configure(simulation: GrowingSimulation, settings: StateValues, shownCount = this.#state.shown): StateValues {
     return simulation.configureFirst(settings, shownCount);
   }
@@ -105,7 +105,7 @@ export class Cloud extends FigureController {
     this.host.settings.isViewModelStale = true;
   }
 
-  /** Shows all requested samples at once. A growing cloud is complete then. */
+  /** Shows all requested samples at once. If the cloud was growing, it is then complete. */
   addAllSamples() {
     if (this.playing) this.#state.shown = Infinity;
     this.#state.playing = false;
@@ -117,7 +117,7 @@ export class Cloud extends FigureController {
     this.addSamplesUnseen(Infinity);
   }
 
-  /** Adds samples for `limitMs` milliseconds; returns true if all are shown. */
+  /** Adds samples for at most `limitMs` milliseconds. Returns true if the cloud has all samples that it has to show. */
   addSamplesUnseen(limitMs = MAX_ADDING_MS): boolean {
     const { targetCount } = this;
     const endTime = performance.now() + limitMs;
@@ -128,7 +128,7 @@ export class Cloud extends FigureController {
       if (performance.now() > endTime) return false;
       const shownBefore = shown;
       shown = this.#simulation.addSamples(Math.min(targetCount - shown, block));
-      // The simulation cannot draw more samples.
+      // If no sample was added, the simulation has given up.
       if (shown === shownBefore) break;
       this.host.settings.isViewModelStale = true;
     }
@@ -139,7 +139,7 @@ export class Cloud extends FigureController {
     return { shown: this.targetCount, marked: this.#isSelectionPossible ? this.selectedIndex : null };
   }
 
-  /** Returns the number of shown samples that follows from a state in which it is missing. */
+  /** Returns the field `shown` (number of samples to show) for a change of settings that does not contain it. */
   withDerivedFields(currentState: StateValues, { samples = currentState.samples }: StateValues): StateValues {
     return { shown: currentState.shown === currentState.samples ? samples : Math.min(currentState.shown, samples) };
   }
@@ -157,7 +157,7 @@ export class Cloud extends FigureController {
 
   selectAtPointer(picture: Picture<any>, event: PointerEvent) {
     const { simulation, gesture } = this.host;
-    // On a touch screen only a tap selects a sample, because a moving finger scrolls.
+    // On a touch screen a moving finger scrolls the page, so that only a tap selects a sample.
     if (!simulation || gesture.isPressed || (event.pointerType === 'touch' && event.type !== 'click')) return;
     const [x, y] = toViewPixels(event.currentTarget as Element, picture.view, event);
     const sampleIndex = picture.findNearestSample(simulation, x, y);
@@ -169,22 +169,22 @@ export class Cloud extends FigureController {
     return this.selectedIndex >= 0 && this.selectedIndex < this.#latestCounts.shown;
   }
 
-  /** True if the selected sample is shown or will be. */
+  /** True if the selected sample is shown, or will be shown when the cloud has grown. */
   get #isSelectionPossible() {
     return this.selectedIndex >= 0 && this.selectedIndex < this.selectableCount;
   }
 
-  /** Number of samples that can be selected or pinned, including those that are still to be added. */
+  /** Number of samples that the user can select or pin. It includes samples that will be added. */
   get selectableCount() {
     return this.playing ? this.#requestedCount : this.targetCount;
   }
 
-  /** Clears the selection if the selected sample is not shown and will not be. */
+  /** Clears the selection if the selected sample will never be shown. */
   clearStaleSelection() {
     if (!this.#isSelectionPossible) this.select(-1);
   }
 
-  /** Adds samples in a frame. The first frame after a change shows one block, so that drags are quick. */
+  /** Adds samples during a frame. In the first frame after a change no samples are added to the first block, so that dragging a slider stays smooth. */
   addSamplesWhileDrawing() {
     if (this.playing) this.addGrowthStep();
     else if (!this.host.settings.isViewModelStale) this.addSamplesUnseen();
@@ -198,7 +198,7 @@ export class Cloud extends FigureController {
     this.host.announcer.requestAnnouncement();
   }
 
-  /** Runs the action of a button below the cloud. The cloud then grows if `shouldPlay` is true, and is stopped otherwise. */
+  /** Runs the action of a button below the cloud. After the action the cloud grows if `shouldPlay` is true, and stops otherwise. */
   #runControl(shouldPlay: boolean, runAction: () => void) {
     if (!this.host.simulation) return;
     runAction();
@@ -222,7 +222,7 @@ export class Cloud extends FigureController {
   }
 }
 
-/** Read-only properties of elements with a cloud, for `defineElement`. */
+/** Read-only properties that `defineElement` adds to elements with a cloud. */
 export const cloudProperties: PropertyDescriptorMap & ThisType<Figure> = {
   playing: { get() { return (this.cloud as Cloud).playing; } },
   poses: { get() { return this.querySimulation((simulation) => simulation.poses); } },
@@ -230,13 +230,13 @@ export const cloudProperties: PropertyDescriptorMap & ThisType<Figure> = {
 
 type CloudFigure = Figure & { cloud: Cloud };
 
-/** Returns the specification of the slider of the number of samples, from ten to a maximum in the steps 1–2–5 of a logarithmic scale. */
+/** Returns the specification of a slider for the number of samples. Its stops are 10, 20, 50, 100 and so on, up to a maximum. */
 export function createSamplesSliderSpec(max: number): SliderSpec {
   const stops = range(1, 7).flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).filter((count) => count <= max);
   return { symbol: '*N*', role: 'truth', min: stops[0], max, step: 1, decimals: 0, stops };
 }
 
-/** Returns the controls of growth, seed and size of the cloud. */
+/** Returns the controls of the cloud: its size, its growth and its seed. */
 export function cloudControlsHtml(figure: CloudFigure) {
   return fieldsetHtml(words.samples, html`${settingSliderHtml(figure, 'samples')} ${figure.cloud.buttonsHtml()}`, 'cloud');
 }
@@ -265,8 +265,8 @@ function seedFieldHtml(figure: Figure) {
 }
 
 /**
- * Returns the field with the number of the selected sample, one of `shownCount`, and a text about it, if there is one. `id` is also the key of the
- * label in the catalogue. Refused text stays until the user corrects or leaves it.
+ * Returns the input field for the number of the selected sample (from 1 to `shownCount`), followed by a text about this sample. `id` is also the key of the
+ * field's label among the messages. Text that was refused stays in the field until the user corrects it or leaves the field.
  */
 export function sampleFieldHtml(figure: CloudFigure, id: 'robot' | 'sample', shownCount: number, selectedSampleText: unknown) {
   const { cloud, notice } = figure;

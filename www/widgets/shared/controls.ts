@@ -1,4 +1,4 @@
-/** Controls of several figures: the buttons of the presets, the button that restores the initial state, and the player of an animation. */
+/** Controls that several figures share: buttons of the presets, the button that restores the initial state, and the player of an animation. */
 
 import { html, nothing } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
@@ -7,7 +7,7 @@ import { prefersReducedMotion } from '../../figure/renderer.ts';
 import { words } from '../../messages/registry.ts';
 import { buttonHtml } from '../../ui/controls.ts';
 
-/** Returns a button for each preset, of which the current one is pressed, and the button to start over. */
+/** Returns a button for each preset, and the button that restores the initial state. The button of the current preset is pressed. */
 export function presetButtonsHtml(figure: import('../../figure/figure.ts').Figure) {
   const { definition, settings } = figure;
   const { presets } = (words as any)[definition.messageKey];
@@ -22,13 +22,13 @@ export function presetButtonsHtml(figure: import('../../figure/figure.ts').Figur
 /** Returns the button that restores the state that the figure opened with. */
 export const startOverButtonHtml = ({ settings }: import('../../figure/figure.ts').Figure, restoreState = () => settings.restoreAsUser()) => buttonHtml(words.startOver, restoreState, { title: words.startOverTitle, className: 'start-over' });
 
-/** Player that animates a slider from its current value to its maximum. At the maximum it starts again from 0. */
+/** Player that animates a setting with a slider, from the current value to the maximum. At the maximum, it starts again from 0. */
 export class Player<Key extends string> extends FigureController {
   /** Key of the animated setting. */
   #playedKey: Key | undefined;
   #playedSettings;
 
-  /** Creates the player. `animatedSettings` has the maximum of each animated setting, and the duration of the animation from 0 to the maximum. */
+  /** Creates the player. `animatedSettings` has the maximum of each animated setting, and the duration of an animation from 0 to this maximum. */
   constructor(host: import('../../figure/figure.ts').Figure, animatedSettings: Record<Key, { max: number, durationMs: number }>) {
     super(host);
     this.#playedSettings = animatedSettings;
@@ -38,7 +38,7 @@ export class Player<Key extends string> extends FigureController {
     this.#playedKey = undefined;
   }
 
-  /** Sets a value that the user has chosen, and stops the animation. */
+  /** Sets a setting to the value that the user has chosen, and stops the animation. */
   #setByUser(settingKey: Key, newValue: number) {
     this.stop();
     this.host.settings.requestChange({ [settingKey]: newValue });
@@ -58,10 +58,10 @@ export class Player<Key extends string> extends FigureController {
     renderer.requestFrame();
   }
 
-  /** Advances the animation by the time since the previous frame. Returns true until the animation has reached its end. */
+  /** Advances the animation by the time since the previous frame. Returns true if the animation has to continue. */
   advance(elapsedMs: number): boolean {
     if (!this.#playedKey) return false;
-    // A picture that is drawn again only because of its size has no elapsed time, and does not advance the animation.
+    // No time has elapsed if the picture is drawn again only because its size has changed. The animation does not advance then.
     if (elapsedMs === 0) return true;
     const { max, durationMs } = this.#playedSettings[this.#playedKey];
     const nextValue = Math.min(max, this.#valueOf(this.#playedKey) + (max * elapsedMs) / durationMs);

@@ -1,4 +1,4 @@
-/** Opener of files that the user chooses, or drops on a figure. If files are refused, the reason is shown beside the result. */
+/** Opener of files that the user chooses, or drops on a figure. If the files are refused, the figure shows the reason. */
 
 import { html } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
@@ -7,17 +7,17 @@ import { inputOf } from '../../ui/controls.ts';
 type Figure = import('../../figure/figure.ts').Figure;
 
 export abstract class FileOpener<Host extends Figure> extends FigureController<Host> {
-  /** Id of the element that shows the result. If it is a disclosure, a drop opens it. */
+  /** Id of the element that shows the contents of the files. If this element is a disclosure, dropping files opens it. */
   abstract resultElementId: string;
-  /** Error by which the latest files were refused; undefined if the files were accepted. */
+  /** Error because of which the latest files were refused; undefined if they were accepted. */
   refusal: unknown;
-  /** Number of the latest attempt to open files. Results of earlier attempts are ignored. */
+  /** Sequence number of the latest attempt to open files. Results of earlier attempts are ignored. */
   #latestAttemptId = 0;
 
   /** Opens files that were chosen or dropped. */
   abstract chooseFiles(files: File[]): void;
 
-  /** Returns the sentence about a refusal, in the present language. */
+  /** Returns a sentence on why the files were refused, in the current language. */
   abstract explainRefusal(refusal: any): string;
 
   get refusalNoteHtml() {
@@ -25,12 +25,12 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     return html`<p class="note" id="refusal" role="alert" ?hidden=${refusalText === ''}>${refusalText}</p>`;
   }
 
-  /** Cancels the latest attempt: its result will be ignored. */
+  /** Cancels the latest attempt to open files. Its result will be ignored. */
   cancel() {
     this.#latestAttemptId++;
   }
 
-  /** Runs an attempt to open files, which replaces an earlier attempt. Returns false if a later attempt has replaced this one. */
+  /** Runs an attempt to open files, which cancels any earlier attempt. Returns false if a later attempt has cancelled this attempt in the meantime. */
   async runAttempt(openFiles: (isLatest: () => boolean) => Promise<void>) {
     const attemptId = ++this.#latestAttemptId;
     const isLatest = () => attemptId === this.#latestAttemptId;
@@ -44,7 +44,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     return isLatest();
   }
 
-  /** Shows why files were refused. `focusAnswer` moves the focus to a control that answers the refusal, and returns true if there is one. */
+  /** Shows why files were refused. `focusAnswer` moves the focus to a control by which the user can correct the cause. It returns false if there is no such control. */
   async showRefusal(error: unknown, focusAnswer: () => boolean | undefined = () => false) {
     const { host } = this;
     this.refusal = error;
@@ -68,19 +68,19 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   onDrop = (event: DragEvent) => {
     (event.currentTarget as HTMLElement).classList.remove('dropping');
     if (!event.dataTransfer?.types.includes('Files')) return;
-    // By default, the browser would navigate to the dropped file.
+    // Without this call, the browser would leave the page and open the dropped file.
     event.preventDefault();
     const resultElement = this.host.renderRoot.querySelector(`#${this.resultElementId}`);
     if (resultElement instanceof HTMLDetailsElement) resultElement.open = true;
     readDroppedFiles(event.dataTransfer).then((files) => files.length > 0 && this.chooseFiles(files));
   };
 
-  /** Returns a button that opens a file dialog for files with these extensions. */
+  /** Returns a button that opens a file dialog for files with the given extensions. */
   fileButtonHtml(id: string, label: string, extensions: string[]) {
     const openChosenFiles = (event: Event) => {
       const fileInput = inputOf(event);
       this.chooseFiles([...(fileInput.files ?? [])]);
-      // The field is cleared, so that choosing the same file again after a correction fires a `change` event.
+      // The input is cleared. Otherwise, choosing a file with the same name again after a correction would not fire a `change` event.
       fileInput.value = '';
     };
     return html`<label class="choice files">
@@ -89,9 +89,9 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   }
 }
 
-/** Returns the dropped files, and the files in dropped folders with their paths in the folders. */
+/** Returns the dropped files, and all files in dropped folders. Files in folders have their paths in the property `path`. */
 async function readDroppedFiles({ items }: DataTransfer): Promise<File[]> {
-  // All entries are read synchronously, because the browser empties the list afterwards.
+  // All items are read before the first `await`, because the browser then empties the list.
   const droppedItems = [...items].filter(({ kind }) => kind === 'file').map((item) => ({ entry: item.webkitGetAsEntry(), file: item.getAsFile() }));
   const files = await Promise.all(droppedItems.map(({ entry, file }) => (entry?.isDirectory ? readDirectory(entry as FileSystemDirectoryEntry) : file ? [file] : [])));
   return files.flat();
@@ -101,7 +101,7 @@ async function readDirectory(folder: FileSystemDirectoryEntry): Promise<File[]> 
   const directoryReader = folder.createReader();
   const entries: FileSystemEntry[] = [];
   const readEntries = () => new Promise<FileSystemEntry[]>((resolve, reject) => directoryReader.readEntries(resolve, reject));
-  // A call of `readEntries` returns at most a hundred entries in some browsers.
+  // In some browsers, a call of `readEntries` returns at most a hundred entries. It is called until it returns none.
   for (let entryBatch = await readEntries(); entryBatch.length > 0; entryBatch = await readEntries()) entries.push(...entryBatch);
   const files = await Promise.all(entries.filter(({ name }) => !name.startsWith('.')).map(async (entry) => {
     if (entry.isDirectory) return readDirectory(entry as FileSystemDirectoryEntry);

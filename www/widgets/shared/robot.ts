@@ -1,4 +1,4 @@
-/** Robot that the user drags with a pointer or keys: its drawing from above, and its handles. */
+/** Robot that the user moves with a pointer or keys: its drawing from above, and its handles. */
 
 import { FigureController } from '../../figure/controller.ts';
 import { words } from '../../messages/registry.ts';
@@ -20,7 +20,7 @@ export function turnHandleDistanceOf(view: Pick<View, 'scaleX'>, robotRadius: nu
   return Math.max(34, robotRadius * view.scaleX + 22);
 }
 
-/** Draws a robot that the user can drag and turn. Its radius is in metres. Labels drawn later avoid the robot. */
+/** Draws a robot that the user can drag and turn. Its radius is in metres. Labels that are drawn later do not overlap the robot. */
 export function drawDraggableRobot(drawContext: DrawContext, pose: Pose, robotRadius: number, colour: string) {
   const { context, view, palette, placedBoxes } = drawContext;
   const [centre, turnHandle] = view.headingLineFrom(pose, turnHandleDistanceOf(view, robotRadius));
@@ -46,16 +46,16 @@ function pixelRadiusOf(view: View, robotRadius: number): number {
 const KEY_STEP = 0.05;
 const KEY_TURN = Math.PI / 36;
 
-/** Minimum size of the body's handle, CSS pixels. */
+/** Minimum size of the handle on a robot's body, CSS pixels. */
 const MIN_BODY_HANDLE_SIZE = 32;
 
-/** Allowed positions without a map: left, bottom, right and top, m. */
+/** Bounds of the robot's position in a figure without a map: left, bottom, right and top (m). */
 const DEFAULT_BOUNDS = [-4, -4, 4, 4];
 
-/** Minimum distance of the turning handle from the edge of the picture, CSS pixels. */
+/** Minimum distance between the turning handle and the edge of the picture, CSS pixels. */
 const MIN_EDGE_DISTANCE = 12;
 
-/** Handles of a robot: a handle on its body moves the robot, and a handle ahead of it turns the robot. */
+/** Handles of a robot: the handle on its body moves the robot, and the handle in front of it turns the robot. */
 export class PoseHandles extends FigureController<import('../../figure/figure.ts').Figure> {
   #settingKey;
   #getRadius;
@@ -64,8 +64,8 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   #turnHandle;
 
   /**
-   * Creates the handles of a setting that is a pose. `getRadius` returns the radius of the robot, and `getBounds` left, bottom, right and top of
-   * the allowed positions, metres. The catalogue of the figure has the names of both handles under `handles`.
+   * Creates the handles for a setting whose value is a pose. `getRadius` returns the radius of the robot (m). `getBounds` returns left, bottom, right and
+   * top of the allowed positions (m). The messages of the figure have the names of the handles under the key `handles`.
    */
   constructor(host: import('../../figure/figure.ts').Figure, settingKey: string, getRadius: (config: Record<string, any>) => number, getBounds: () => number[] | Float64Array = () => DEFAULT_BOUNDS) {
     super(host);
@@ -85,7 +85,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
       drag: (x, y) => this.#turnTo(Math.atan2(y - this.#pose.y, x - this.#pose.x)),
       handleKey: (event) => {
         const keySteps = stepsOfKey(event);
-        // The left arrow key turns the robot counter-clockwise, as a driver would steer.
+        // The left arrow key turns the robot counter-clockwise (to the left, from the driver's seat).
         return this.#applyKey(undefined, turnStepsOfKey(event) ?? (keySteps && keySteps[1] - keySteps[0]));
       },
     });
@@ -131,7 +131,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     this.#turnHandle.placeElementAt(figureRoot, clampToPicture(turnX, view.width), clampToPicture(turnY, view.height));
   }
 
-  /** Moves the robot by steps along x and y, and turns it by steps counter-clockwise, or to a heading of ±π for ±∞ steps. Returns false without steps. */
+  /** Moves the robot by steps along x and y, and turns it by steps counter-clockwise. ±∞ steps turn it to a heading of ±π. Returns false if no steps are given. */
   #applyKey(steps: [number, number] | undefined, turnSteps: number | undefined): boolean {
     const { x, y, theta } = this.#pose;
     if (steps) this.#moveTo(x + KEY_STEP * steps[0], y + KEY_STEP * steps[1]);
@@ -139,7 +139,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     return steps !== undefined || turnSteps !== undefined;
   }
 
-  /** Moves the robot to a point (m), or to the nearest allowed position. */
+  /** Moves the robot to a point (m). If the point is out of bounds, moves the robot to the nearest allowed position. */
   #moveTo(x: number, y: number) {
     const [left, bottom, right, top] = this.#getBounds();
     this.#requestPose({ ...this.#pose, x: clamp(x, left, right), y: clamp(y, bottom, top) });
@@ -147,7 +147,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
 
   /** Turns the robot to a heading in radians. */
   #turnTo(theta: number) {
-    // Wraps to (−π, π] without sines. Last digits of sines differ between JavaScript engines, and the same keys pressed must give the same heading.
+    // Wraps the heading to (−π, π] without sines. The last digits of sines differ between JavaScript engines, and equal key presses must give equal headings.
     this.#requestPose({ ...this.#pose, theta: theta - 2 * Math.PI * Math.ceil(theta / (2 * Math.PI) - 0.5) });
   }
 

@@ -1,4 +1,4 @@
-/** Maps as plain data, the form in which a state contains a map of the user. */
+/** Maps as plain data. States contain maps of the user in this form. */
 
 import { range } from 'd3-array';
 import { checkObject, createRefusalError, withFieldRenamed, checkNumber } from '../../../data/checks.ts';
@@ -14,10 +14,10 @@ const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied'
 
 const GRID_ONLY_KEYS = GRID_KEYS.filter((key) => !PLAN_KEYS.includes(key));
 
-/** Grey values of occupied and unknown cells in the image by which a grid is passed to the core. Occupied cells are the brightest. */
+/** Grey values of occupied and unknown cells in the image that passes a grid to the core. Occupied cells are brightest, and free cells are black. */
 const [OCCUPIED_SHADE, UNKNOWN_SHADE] = [2, 1];
 
-/** Returns the grid of a simulation, if it has one. Copying a large grid takes long. */
+/** Returns the occupancy grid of a simulation; null for a floor plan. Each call copies the grid, which takes long if it is large. */
 export function gridOf({ grid }: MapSqueeze): CellGrid | null {
   return grid && { ...grid, unknown: grid.unknown.includes(1) ? grid.unknown : undefined };
 }
@@ -35,7 +35,7 @@ export function mapDataOf(simulation: MapSqueeze, mapName: string, grid: CellGri
   return freeze({ name: mapName, bounds: freeze([...bounds]), walls: freeze(wallObjects) });
 }
 
-/** Sets the map of a simulation. Throws a TypeError or RangeError that names the field, and then changes nothing. */
+/** Sets the map of a simulation. If the map is refused, throws a TypeError or RangeError that names the field, and changes nothing. */
 export function applyMap(simulation: MapSqueeze, mapData: unknown) {
   if (typeof mapData !== 'object' || mapData === null || Array.isArray(mapData)) {
     throw createRefusalError('map', mapData, `a plan, an object of ${PLAN_KEYS.join(', ')}, or a grid, one of ${GRID_KEYS.join(', ')}`, TypeError);
@@ -57,7 +57,7 @@ export function applyMap(simulation: MapSqueeze, mapData: unknown) {
   withRenamedFields(GRID_KEYS, () => simulation.setGrid(gridDescription, pgmImage));
 }
 
-/** Calls a function that passes the fields of a map to a simulation. Error messages name the field as the map does, not as the simulation does. */
+/** Calls a function that passes a map to a simulation. Its error messages use the field names of the map instead of those of the simulation. */
 function withRenamedFields(keys: string[], setMap: () => void) {
   try {
     setMap();
@@ -68,7 +68,10 @@ function withRenamedFields(keys: string[], setMap: () => void) {
   }
 }
 
-/** Returns cells as a PGM image, which is read with `negate`: white is occupied. The first row of an image is at the top, that of a grid at the bottom. */
+/**
+ * Returns cells as a PGM image for reading with `negate`, in which white cells are occupied. The rows are reversed: the first row of an image is at the
+ * top, and of a grid at the bottom.
+ */
 function pgmImageOf(columns: number, rows: number, occupiedBits: Uint8Array, unknownBits: Uint8Array) {
   const pgmHeader = new TextEncoder().encode(`P5 ${columns} ${rows} ${OCCUPIED_SHADE}\n`);
   const pgmImage = new Uint8Array(pgmHeader.length + columns * rows);
@@ -81,7 +84,7 @@ function pgmImageOf(columns: number, rows: number, occupiedBits: Uint8Array, unk
   return pgmImage;
 }
 
-/** Returns cells of 0 or 1 as base64, with eight cells in a byte, the first one in the highest bit. */
+/** Returns cells of 0 or 1 as base64 text. A byte has eight cells, with the first cell in the highest bit. */
 function packBits(cells: Uint8Array): string {
   const packedBytes = new Uint8Array(Math.ceil(cells.length / 8));
   for (let i = 0; i < cells.length; i++) packedBytes[i >> 3] |= cells[i] << (7 - (i & 7));
@@ -96,7 +99,7 @@ function decodeBits(fieldName: string, encodedBits: unknown, cellCount: number) 
     const packedBytes = fromBase64(encodedBits);
     if (packedBytes.length === byteLength) return packedBytes;
   } catch {
-    // `fromBase64` throws for other texts. They are refused below.
+    // `fromBase64` throws an error for a text that is not base64. Such a text is refused below.
   }
   throw createError();
 }

@@ -1,4 +1,4 @@
-/** Map files of the user: a JSON floor plan, or a pair of files as for ROS map_server. */
+/** Map files of the user: a floor plan as JSON, or a YAML file with an image, as ROS map_server reads them. */
 
 import { YAMLException, load } from 'js-yaml';
 import { limits } from '../../../../build/settings.js';
@@ -20,19 +20,19 @@ export class MapFileError extends Error {
   name = 'MapFileError';
 }
 
-/** Maximum size of a floor plan, in bytes: a hundred for each allowed wall. */
+/** Maximum size of a floor plan in bytes. It allows a hundred bytes for each of the allowed walls. */
 const MAX_PLAN_BYTES = 2_000_000;
 
 /** Maximum size of a YAML file, in bytes. */
 const MAX_YAML_BYTES = 100_000;
 
-/** Maximum number of quoted characters of a name or a value. */
+/** Maximum number of characters of a quoted name or value. */
 const MAX_QUOTED_LENGTH = 100;
 
 /** First bytes of a PNG image. */
 const PNG_MAGIC = [0x89, 0x50, 0x4e, 0x47];
 
-/** Reads the map in files; rejects with a MapFileError in the words of a language. */
+/** Reads the map in the user's files. Rejects with a MapFileError, whose message is in the language of the given words. */
 export async function readMapFiles(files: File[], decodePng: DecodePng, texts: RefusalWords): Promise<UserMap> {
   const filesOfPattern = (fileNamePattern: RegExp) => files.filter(({ name }) => fileNamePattern.test(name));
   const [planFiles, yamlFiles, imageFiles] = [filesOfPattern(/\.json$/i), filesOfPattern(/\.ya?ml$/i), filesOfPattern(/\.(pgm|png)$/i)];
@@ -85,23 +85,23 @@ async function readGrid(file: File, imageFiles: File[], decodePng: DecodePng, te
   };
 }
 
-/** Words for true and false, which are texts in YAML 1.2 and booleans for map_server. */
+/** Words that map_server reads as true and false, although YAML 1.2 reads most of them as strings. */
 const BOOLEAN_WORDS = new Map([['true', true], ['yes', true], ['on', true], ['false', false], ['no', false], ['off', false]]);
 
-/** Fields whose values are numbers. map_server also reads numbers in quotes. */
+/** Fields that have numbers as values. map_server also accepts numbers in quotes. */
 const NUMBER_FIELDS = ['resolution', 'origin', 'negate', 'occupied_thresh', 'free_thresh'];
 
-/** Returns a number in quotes as a number, and other values unchanged. */
+/** Returns a number for a number in quotes, and any other value unchanged. */
 function parseQuotedNumber(yamlValue: unknown): unknown {
   if (Array.isArray(yamlValue)) return yamlValue.map(parseQuotedNumber);
   return typeof yamlValue === 'string' && yamlValue.trim() !== '' && Number.isFinite(Number(yamlValue)) ? Number(yamlValue) : yamlValue;
 }
 
-/** Parses the fields of a YAML description as leniently as map_server does. For a file without fields, the missing image is reported later. */
+/** Parses the fields of a map's YAML file as leniently as map_server. If the file has no fields, the caller reports that the image is missing. */
 function parseDescription(quotedName: string, yamlText: string, texts: RefusalWords): Record<string, unknown> {
   try {
-    // YAML forbids tabs as indentation, and the fields need no indentation. Aliases are refused: no map needs them, and with them a short
-    // text can expand to billions of values, or contain itself.
+    // YAML forbids indentation by tabs. Tabs are removed, because the fields need no indentation. Aliases are refused: no map needs them, and they let a
+    // short text expand to billions of values, or contain itself.
     const fields: Record<string, unknown> = { ...(load(yamlText.replaceAll(/^\t+/gm, '').replaceAll('\t', ' '), { maxAliases: 0 }) as object) };
     for (const key of NUMBER_FIELDS) if (key in fields) fields[key] = parseQuotedNumber(fields[key]);
     const { negate, mode } = fields;
@@ -114,14 +114,14 @@ function parseDescription(quotedName: string, yamlText: string, texts: RefusalWo
   }
 }
 
-/** Returns the sentence about a grid that the core refuses, with the name of the YAML file or of the image. */
+/** Returns a sentence about a grid that the core has refused. The sentence names the YAML file or the image. */
 function explainGridError(texts: RefusalWords, yamlName: string, imageName: string, reason: string) {
   const errorLine = /^line (\d+): (.*)$/.exec(reason);
   if (errorLine) return texts.invalidLine(imageName, errorLine[1], errorLine[2]);
   return `${reason.startsWith('image') ? imageName : yamlName}: ${reason}.`;
 }
 
-/** Runs a parser or the core with a file, and explains why the file is refused. */
+/** Calls a parser or the core with a file. If they refuse the file, throws a MapFileError with the reason. */
 function explainErrors<Result>(readOrApply: () => Result, explainReason: (reason: string) => string): Result {
   try {
     return readOrApply();

@@ -1,4 +1,4 @@
-/** Opener of maps of the user: chosen, dropped or pasted; and its controls. */
+/** Opener of the user's maps, which are chosen, dropped or pasted, with its controls. */
 
 import { html } from 'lit';
 import { instantiate } from '../../../core.ts';
@@ -8,7 +8,7 @@ import { FileOpener } from '../../shared/files.ts';
 import type { MapSqueezeElement } from '../map-squeeze.ts';
 import type { DecodePng, UserMap } from './files.ts';
 
-/** Example of a floor plan: a room with a gap in its wall. */
+/** Example of a floor plan: a room that is divided by a wall with a gap. */
 const EXAMPLE_PLAN = `{
   "bounds": [0, 0, 6, 4],
   "walls": [
@@ -21,21 +21,21 @@ const EXAMPLE_PLAN = `{
 /** Extensions of map files. */
 const MAP_FILE_EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];
 
-/** Size of map files in bytes above which a message is shown while the files are read. */
+/** Total size of map files (bytes) above which a notice is shown while the files are read. */
 const LARGE_MAP_BYTES = 1_000_000;
 
-/** Decodes a PNG image with the whole core, because the core of the figure has no decoder. */
+/** Decodes a PNG image with the core for all widgets, because the smaller core for this widget has no decoder. */
 const decodePng: DecodePng = async (bytes) => (await instantiate()).readMapImage(bytes);
 
-/** Opener of map files and pasted plans. Shows why the latest map was refused. */
+/** Opener of map files and pasted plans. If it refuses a map, it shows the reason. */
 export class MapOpener extends FileOpener<MapSqueezeElement> {
-  /** Disclosure with the current map and the reason why another one was refused. */
+  /** Id of the disclosure that shows the current map, and the reason why a new map was refused. */
   resultElementId = 'more';
 
   async chooseFiles(files: File[]) {
     if (files.reduce((sum, { size }) => sum + size, 0) > LARGE_MAP_BYTES) {
       this.host.notice.show(() => words.squeeze.userMap.readingNotice);
-      // Waits for two frames, because the message is on the screen only after the first one was drawn.
+      // Waits for two frames, because the notice is visible only after the first frame has been drawn.
       for (let frameIndex = 0; frameIndex < 2; frameIndex++) await new Promise(requestAnimationFrame);
     }
     await this.#readAndEnter(({ readMapFiles }) => readMapFiles(files, decodePng, words.squeeze.refusals));

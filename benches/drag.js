@@ -58,7 +58,7 @@ async function timeDrag({ widget, selector, i, steps }) {
   // A late update after the previous drag could still set the value of the slider.
   await figureElement.settled;
   const openingValue = draggedElement.value;
-  // A figure clears the canvas before it paints a picture.
+  // A figure clears the canvas before each picture, so that the number of calls is the number of pictures.
   let pictureCount = 0;
   const { clearRect } = CanvasRenderingContext2D.prototype;
   CanvasRenderingContext2D.prototype.clearRect = function (...rectangleSides) {

@@ -1,4 +1,4 @@
-//! Arc Anatomy under any settings and calls.
+//! Fuzz target of Arc Anatomy: arbitrary settings and calls.
 
 use super::input::{InputReader, is_selected_by_hash};
 use super::settings::{are_settings_allowed, change_settings};

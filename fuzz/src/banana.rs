@@ -1,4 +1,4 @@
-//! The Banana Machine under any settings and calls.
+//! Fuzz target of the Banana Machine: arbitrary settings and calls.
 
 use super::input::InputReader;
 use super::assertions;

@@ -1,4 +1,4 @@
-//! Calibration of random logs with random options.
+//! Fuzz target of the calibration: random logs and options.
 
 use super::input::{InputReader, is_selected_by_hash};
 use super::assertions;
@@ -116,7 +116,7 @@ fn read_reference_rows(odometry: &[LogRow], input: &mut InputReader) -> Vec<LogR
     reference_log
 }
 
-/// Changes or removes some rows.
+/// Changes or removes some rows of a log.
 fn edit_rows(log_rows: &mut Vec<LogRow>, input: &mut InputReader) {
     for _ in 0..input.next_below(4) {
         let row_index = usize::from(u16::from_le_bytes(input.next_bytes())) % log_rows.len();

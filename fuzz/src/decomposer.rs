@@ -1,4 +1,4 @@
-//! The Odometry Decomposer under any settings and calls.
+//! Fuzz target of the Odometry Decomposer: arbitrary settings and calls.
 
 use super::input::InputReader;
 use super::assertions;

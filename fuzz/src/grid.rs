@@ -1,4 +1,4 @@
-//! Grids with arbitrary cells, thresholds, resolution and origin.
+//! Fuzz target of occupancy grids: arbitrary cells, thresholds, resolution and origin.
 
 use super::input::InputReader;
 use super::plan;

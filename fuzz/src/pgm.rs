@@ -1,4 +1,4 @@
-//! Reading of map images in PGM format, from arbitrary bytes.
+//! Fuzz target of the reader of PGM images: arbitrary bytes.
 
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, Image, PixelClassifier, MAX_PIXELS, OccupancyGrid, read_grid, read_pgm};

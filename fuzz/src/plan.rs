@@ -1,4 +1,4 @@
-//! Floor plans with any walls, and collision verdicts on arcs and points in them.
+//! Fuzz target of floor plans: arbitrary walls, and collision verdicts on arcs and points.
 
 use super::input::InputReader;
 use motion::geom::arc::Arc;
@@ -107,8 +107,8 @@ pub fn assert_collision_verdicts(floor_plan: &FloorPlan, input: &mut InputReader
     let distance_tolerance = rounding_tolerance_of(floor_plan, &driven_arc, clearance);
     let edge_distance_at = |x: f64, y: f64| signed_distance_from_edge(floor_plan, [x, y]);
 
-    // Upper bound of the minimum distance of the path from the edge of the map, computed at some points of the path. `min_depth -
-    // max_distance_to_tested_point` is a lower bound.
+    // Upper bound of the distance between the path and the edge of the map, computed at some points of the path. A lower bound is
+    // `min_depth - max_distance_to_tested_point`.
     const PATH_INTERVAL_COUNT: u32 = 16;
     let min_edge_distance = (0..=PATH_INTERVAL_COUNT).fold(f64::INFINITY, |min_so_far, i| {
         let path_fraction = f64::from(i) / f64::from(PATH_INTERVAL_COUNT);

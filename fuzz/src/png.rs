@@ -1,4 +1,4 @@
-//! Reading of PNG images from arbitrary bytes.
+//! Fuzz target of the reader of PNG images: arbitrary bytes.
 
 use motion::map::{Image, MAX_PIXELS, read_png};
 

@@ -1,4 +1,4 @@
-//! Dead Reckoning under any settings and calls.
+//! Fuzz target of Dead Reckoning: arbitrary settings and calls.
 
 use super::input::{InputReader, is_selected_by_hash};
 use super::assertions;

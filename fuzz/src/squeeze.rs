@@ -1,4 +1,4 @@
-//! Map Squeeze under any settings, maps and calls.
+//! Fuzz target of Map Squeeze: arbitrary settings, maps and calls.
 
 use super::input::InputReader;
 use super::settings::{are_settings_allowed, change_settings};

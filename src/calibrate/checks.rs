@@ -90,7 +90,7 @@ pub struct Check {
     pub name: CheckName,
     /// Value that is compared with the range.
     pub value: f64,
-    /// Smallest and largest value that passes.
+    /// Smallest and largest value with which the check passes.
     pub expected: [f64; 2],
     /// True if the value is in the range.
     pub passed: bool,
@@ -101,7 +101,7 @@ pub struct Check {
 }
 
 impl Check {
-    /// Returns the check of a value, which passes within the expected range.
+    /// Returns the check of a value. The check passes if the value is in the expected range.
     pub(super) fn new(name: CheckName, value: f64, expected: [f64; 2]) -> Self {
         let passed = (expected[0]..=expected[1]).contains(&value);
         let message = if passed { "" } else { name.failure_message() };

@@ -53,7 +53,7 @@ const MAX_ENTRY: f64 = 1e30;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct LegTerm {
     columns: Columns,
-    /// Factors of the α's in the variance of each component.
+    /// Coefficients of the α's in the variance of each component.
     coefficients: [[f64; 2]; 3],
     /// False for a component without a residual. The residual of such a component is stored as 0, and its variance as 1.
     observed: [bool; 3],

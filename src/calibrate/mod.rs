@@ -63,9 +63,9 @@ pub struct Options {
     pub outliers: Outliers,
     /// Correction of each of [`SystematicError::ALL`]: true or false. None: the error is corrected if it is identifiable and constant.
     pub correct: [Option<bool>; ERROR_COUNT],
-    /// Standard deviation of each coordinate of the reference, m. None: estimated.
+    /// Standard deviation of each coordinate of the reference, m. None if it is estimated.
     pub position_std: Option<f64>,
-    /// Standard deviation of the reference's heading, rad. None: estimated.
+    /// Standard deviation of the reference's heading, rad. None if it is estimated.
     pub yaw_std: Option<f64>,
 }
 

@@ -33,11 +33,11 @@ impl Model {
     /// Returns the indices, from 0, of the two α's in the variance of each component of [`Observation::residuals`].
     pub fn component_alphas(self) -> [[usize; 2]; 3] {
         match self {
-            // Components of this rule: second rotation, translation, strafe.
+            // Components of the omnidirectional rule: second rotation, translation, strafe.
             Self::Odometry(OdometryRule::Omni) => [[0, 1], [2, 3], [4, 3]],
             // Components of all other rules: first rotation, translation, second rotation.
             Self::Odometry(_) => [[0, 1], [2, 3], [0, 1]],
-            // v, ω, γ.
+            // Components of the velocity model: v, ω, γ.
             Self::Velocity => [[0, 1], [2, 3], [4, 5]],
         }
     }

@@ -55,7 +55,7 @@ pub struct LegFit {
     pub standardized: [f64; 3],
     /// Squared Mahalanobis distance of the innovation: χ² distributed, with one degree of freedom per observed component.
     pub squared: f64,
-    /// True if the fit leaves the leg out.
+    /// True if the leg is an outlier, which is left out of the fit.
     pub is_outlier: bool,
 }
 

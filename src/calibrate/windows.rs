@@ -18,7 +18,7 @@ use std::ops::Range;
 pub(super) struct Window {
     /// Distance driven by the odometry, m.
     length: f64,
-    /// Logarithm of (expected motion)⁻¹ (motion that the reference measured).
+    /// SE(2) logarithm of (expected motion)⁻¹ · (motion that the reference measured).
     error: Vector3<f64>,
     wheel_covariance: Matrix3<f64>,
     reference_covariance: Matrix3<f64>,

@@ -21,7 +21,7 @@ pub(super) static WALLS: [Segment; 18] = [
     wall(0.0, 5.0, 2.8, 5.0),
     wall(3.7, 5.0, 7.4, 5.0),
     wall(8.3, 5.0, 12.0, 5.0),
-    // Walls between the rooms below and above the corridor.
+    // Walls between rooms, first below and then above the corridor.
     wall(4.0, 0.0, 4.0, 3.8),
     wall(8.0, 0.0, 8.0, 3.8),
     wall(6.0, 5.0, 6.0, 9.0),

@@ -92,7 +92,7 @@ pub struct AcceptedMotion {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), serde(rename_all = "camelCase"))]
 pub struct Cost {
-    /// Draws of the model, accepted or not.
+    /// Number of draws of the model, accepted or rejected.
     pub draws: usize,
     /// Number of wall distances computed for the tests, see [`CollisionVerdict`].
     pub wall_tests: usize,

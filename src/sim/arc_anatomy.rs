@@ -33,7 +33,7 @@ settings! {
         /// Noise parameters, the six of the velocity model.
         alphas: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], in ALPHA_RANGE,
             each "Noise parameter of the velocity model.";
-        /// Distribution of the noise, which does not change the variances.
+        /// Distribution of the noise. Its choice does not change the variances.
         noise: NoiseKind = NoiseKind::Normal;
         /// True for a radius without a sign, as Table 5.1 prints it.
         printed: bool = false;
@@ -117,7 +117,7 @@ js_structs! {
         pub deviations: f64,
         /// Probability density `prob` at the residual.
         pub value: f64,
-        /// Factor relative to its maximum, which is `prob` at residual 0; from 0 to 1.
+        /// Value of the factor divided by its maximum (`prob` at residual 0), from 0 to 1.
         pub share: f64,
     }
 

@@ -31,7 +31,7 @@ settings! {
         /// Noise parameters of the rule; only the rule omni has the fifth.
         alphas: RuleAlphas = [0.03, 0.01, 0.01, 0.02, 0.01], in ALPHA_RANGE,
             each "Noise parameter; the first four are every rule’s, the fifth the omnidirectional one’s.";
-        /// Distribution of the noise, which does not change the variances.
+        /// Distribution of the noise. Its choice does not change the variances.
         noise: NoiseKind = NoiseKind::Normal;
         /// Correlation of the noises of the two rotations, which the rules assume to be 0.
         correlation: f64 = 0.0, in -1.0..=1.0;
@@ -75,9 +75,9 @@ js_structs! {
     /// Rotation, translation and rotation of the reading, as one of the rules decomposes it, and the standard deviations of their noises.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RuleNoise {
-        /// Rule of the decomposition and of the noise.
+        /// Odometry rule that gives the decomposition and the noise.
         pub rule: OdometryRule as "OdometryDecomposerSettings['rule']",
-        /// Rotation, translation and rotation. If the rule sees a turn on the spot, the second rotation is the whole turn.
+        /// Rotation, translation and rotation. If the rule treats the reading as a turn on the spot, the second rotation is the whole turn.
         pub legs: OdomDelta,
         /// Standard deviations of the first rotation (rad), the translation (m) and the second rotation (rad), and of the sideways noise of
         /// the translation (m).
@@ -121,7 +121,7 @@ js_structs! {
     }
 }
 
-/// Simulation of the widget: settings, draws, and the outcomes shown.
+/// Simulation of the Odometry Decomposer widget: settings, draws, and the outcomes shown.
 #[derive(Clone, Debug)]
 pub struct OdometryDecomposer {
     settings: Settings,

@@ -1,4 +1,4 @@
-//! `AlphaCalibrator` for JavaScript.
+//! JavaScript class `AlphaCalibrator`.
 
 use super::calibration::{calibration_to_js, legs_to_js};
 use super::fields::{read_initial_settings, read_integer, read_value};

@@ -1,4 +1,4 @@
-//! `ArcAnatomy` for JavaScript.
+//! JavaScript class `ArcAnatomy`.
 
 use super::fields::check_range;
 use super::pictures::read_bounds;

@@ -1,4 +1,4 @@
-//! `BananaMachine` for JavaScript.
+//! JavaScript class `BananaMachine`.
 
 use std::ops::RangeInclusive;
 

@@ -1,4 +1,4 @@
-//! `motion.calibrate` for JavaScript: computes α's from logs.
+//! JavaScript function `calibrate`, which computes α's from logs.
 
 use super::calibration::{SYSTEMATIC_ERROR_KEYS, calibration_to_js, legs_to_js};
 use super::fields::{FieldReader, read_boolean, read_value, type_error};

@@ -1,4 +1,4 @@
-//! `DeadReckoning` for JavaScript.
+//! JavaScript class `DeadReckoning`.
 
 use super::fields::{not_shown_error, read_integer};
 use super::pictures::nearest_index;

@@ -97,7 +97,7 @@ pub fn not_shown_error(index: usize, shown_count: usize) -> JsValue {
     RangeError::new(&format!("index is {index}; allowed is {allowed_text}")).into()
 }
 
-/// Reads a value of any type that a setting may have, in its range. `initial_value` is any value of the type.
+/// Reads a value of any type that a setting may have, and checks its range. `initial_value` is any value of the type.
 pub fn read_value<T: SettingValue>(
     field: &str,
     value: &JsValue,

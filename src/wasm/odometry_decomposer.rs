@@ -1,4 +1,4 @@
-//! `OdometryDecomposer` for JavaScript.
+//! JavaScript class `OdometryDecomposer`.
 
 use super::fields::{check_range, read_integer};
 use super::pictures::nearest_index;

@@ -1,4 +1,4 @@
-//! `MapSqueeze` for JavaScript.
+//! JavaScript class `MapSqueeze`.
 
 use super::fields::{quote, read_integer, read_value};
 use super::maps::{read_map, read_plan};

@@ -14,7 +14,7 @@ use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::f64::consts::TAU;
 
-/// True values of the simulation.
+/// True values of the simulated log.
 pub const TRUTH: Truth = Truth {
     alphas: [0.05, 0.008, 0.004, 0.003],
     clock_offset: 0.15,

@@ -53,7 +53,7 @@ js_structs! {
     }
 }
 
-/// Simulation of the widget: settings, a log, and its fit, which is computed on first use.
+/// Simulation of the Alpha Calibrator widget: settings, a log, and the fit to the log, which is computed on first use.
 #[derive(Clone, Debug)]
 pub struct AlphaCalibrator {
     settings: Settings,
@@ -264,7 +264,7 @@ js_structs! {
     /// are subtracted, so that the expectation is α·x.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Panel as "CalibrationPanel" {
-        /// Index of the α that is the slope, from 0.
+        /// Index (from 0) of the α that is the slope of the line.
         pub alpha: usize,
         /// Mean of the regressor in each bin.
         pub x: Vec<f64>,
@@ -273,7 +273,7 @@ js_structs! {
         /// Standard errors of `y`: from the scatter of the squares, or from the model, whichever is larger. In a bin with
         /// one dominating leg the scatter is too small.
         pub error: Vec<f64>,
-        /// Slope of the line, which is the α; null (None) if the log does not identify the α.
+        /// Fitted α, which is the slope of the line; null (None) if the log does not identify the α.
         pub slope: Option<f64>,
         /// 95 % interval of the slope; null (None) if the log does not identify the α.
         pub interval: Option<[f64; 2]>,

@@ -32,7 +32,7 @@ settings! {
         model: Model = Model::Odometry;
         /// Rule that relates the α’s to the noise of odometry. The rule omni belongs to the omnidirectional model.
         rule: OdometryRule = OdometryRule::Table;
-        /// Distribution of the noise in the predicted outcomes of a leg, which does not change the variances.
+        /// Distribution of the noise in the predicted outcomes of a leg. Its choice does not change the variances.
         noise: NoiseKind = NoiseKind::Normal;
         /// Treatment of outliers, such as jumps of the reference: excluded, or fitted as noise.
         outliers: Outliers = Outliers::Reject;
@@ -52,9 +52,9 @@ settings! {
         turn_scale as "turnScale": bool = true;
         /// Correction of the offset between the two clocks, if the log identifies it.
         clock_offset as "clockOffset": bool = true;
-        /// Standard deviation of each coordinate of the reference; 0: estimated.
+        /// Standard deviation of each coordinate of the reference; 0 if it is estimated.
         position_std as "positionStd": f64 = 0.0, "m", in 0.0..=1e3;
-        /// Standard deviation of the reference’s heading; 0: estimated.
+        /// Standard deviation of the reference’s heading; 0 if it is estimated.
         yaw_std as "yawStd": f64 = 0.0, "rad", in 0.0..=1e3;
         /// Factor by which the fitted α’s are multiplied in predictions.
         inflation: f64 = 1.0, in 0.01..=100.0;

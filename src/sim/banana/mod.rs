@@ -122,7 +122,7 @@ const FIRST_BLOCK_SAMPLES: usize = 10_000;
 /// Number of chords of an outline. The sagitta of 128 chords is 0.03 % of the radius, a fifth of a pixel on the largest screen.
 pub const OUTLINE_SEGMENTS: usize = 128;
 
-/// Simulation of the widget: settings, draws, and the cloud shown.
+/// Simulation of the Banana Machine widget: settings, draws, and the cloud shown.
 #[derive(Clone, Debug)]
 pub struct BananaMachine {
     settings: Settings,

@@ -32,7 +32,7 @@ settings! {
     pub struct Settings {
         /// Motion model; each model keeps its own alphas.
         model: ModelKind = ModelKind::Velocity;
-        /// Distribution of the noise, which does not change the variances.
+        /// Distribution of the noise. Its choice does not change the variances.
         noise: NoiseKind = NoiseKind::Normal;
         // A straight drive with much noise in the turn and little in the length: the clearest banana shape. By symmetry its cloud has no
         // skew, although no ellipse fits it.

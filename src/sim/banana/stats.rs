@@ -31,14 +31,15 @@ js_structs! {
         pub gaussian_skew: f64,
         /// Correlation of cross-track position and heading, −1 to 1.
         pub rho_cross_heading: f64,
-        /// Fractions of the samples within 2σ.
+        /// Fractions of the samples inside the 2σ outlines.
         pub coverage: Coverage,
         /// Gains in mean log-likelihood: of a Gaussian in exponential coordinates over one in (x, y, θ), and of a Gaussian in arc
         /// coordinates over one in (x, y).
         pub likelihood_gain: LikelihoodGain,
         /// Standard errors of the likelihood gains.
         pub likelihood_gain_error: LikelihoodGain,
-        /// Area of the 2σ ellipse in (x, y), divided by the area of the 2σ outline in the plane that exponential coordinates give.
+        /// Area of the 2σ ellipse in (x, y), divided by the area that the 2σ outline of the Gaussian in exponential coordinates has in (x,
+        /// y).
         pub area_ratio: f64,
         /// Standard error of the area ratio.
         pub area_ratio_error: f64,

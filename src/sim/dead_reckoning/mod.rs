@@ -30,7 +30,7 @@ const MAX_CHORDS: usize = 16;
 const FIRST_BLOCK_STEPS: usize = 80_000;
 const STEPS_PER_BLOCK: usize = 200_000;
 
-/// Simulation of the widget: settings, rollouts, and predictions of the recursions.
+/// Simulation of the Dead Reckoning widget: settings, rollouts, and predictions of the recursions.
 #[derive(Clone, Debug)]
 pub struct DeadReckoning {
     settings: Settings,
@@ -54,7 +54,7 @@ pub struct Stats {
     /// Predicted covariance after the selected step; null (None) if the recursion gives no covariance at this step.
     #[cfg_attr(target_arch = "wasm32", tsify(type = "ByRecursion<number[][] | null>"))]
     pub predicted: ByRecursion<Option<CovarianceRows>>,
-    /// Steps at which a predicted variance is off, for the components along, lateral and heading.
+    /// Steps at which the predicted variance is off by more than 5 %, for the components along, lateral and heading.
     pub misses: ByRecursion<[Misses; 3]>,
 }
 
@@ -327,7 +327,7 @@ const NEGLIGIBLE_STD: f64 = 1e-12;
 pub struct RecursionComparison {
     /// Predicted divided by measured variance of along, lateral and heading after each step; NaN if one of them is undefined.
     pub ratios: Vec<Vector3<f64>>,
-    /// Steps at which the prediction is off, for along, lateral and heading.
+    /// Steps at which the predicted variance is off by more than 5 %, for along, lateral and heading.
     pub misses: [Misses; 3],
 }
 
@@ -373,7 +373,7 @@ impl RecursionComparison {
 /// from the step at which the fourth-order terms make it indefinite.
 fn propagate_covariances(settings: &Settings, recursion: Compounding) -> Vec<Option<Matrix3<f64>>> {
     let twist = TangentNoiseModel::twist(&settings.command);
-    // All allowed settings have finite variances of 0 or more.
+    // `ok` drops no error, because all allowed settings have finite variances of 0 or more.
     let tangent_noise = TangentNoiseModel::from_velocity(&settings.model(), &settings.command).ok();
     let mut covariance = Some(Matrix3::zeros());
     (0..settings.steps)

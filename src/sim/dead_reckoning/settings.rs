@@ -23,7 +23,7 @@ pub enum NoisePer {
 
 keywords!(NoisePer: "step" = Self::Step, "path" = Self::Path);
 
-/// Maximum number of rollouts. With two hundred steps they take about ten seconds. They take no memory.
+/// Maximum number of rollouts. With two hundred steps, so many rollouts take about ten seconds, and no memory.
 pub const MAX_SAMPLES: usize = 1_000_000;
 /// Maximum number of steps, ten times that of the chapter. Longer paths would show nothing new.
 pub const MAX_STEPS: u64 = 200;

@@ -28,7 +28,7 @@ use std::ops::Range;
 /// block the page.
 pub const MAX_TRIAL_PARTS: u64 = 100_000;
 
-/// Simulation of the widget: a map, settings, draws, and the attempts shown.
+/// Simulation of the Map Squeeze widget: a map, settings, draws, and the attempts shown.
 #[derive(Clone, Debug)]
 pub struct MapSqueeze {
     plan: FloorPlan,
@@ -40,7 +40,7 @@ pub struct MapSqueeze {
     picture: Vec<[u8; 4]>,
 }
 
-/// Counts of outcomes and costs of the attempts shown.
+/// Numbers of attempts shown, by outcome, and costs of these attempts.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tally {
     cost: Cost,
@@ -345,7 +345,7 @@ impl Attempt {
     }
 }
 
-/// Driver that makes attempts, each from the noise of its index.
+/// Generator of attempts. Each attempt has the noise that belongs to its index.
 struct AttemptDriver<'a> {
     model: &'a MapConditioned<'a>,
     collision_tester: CollisionTester<'a>,

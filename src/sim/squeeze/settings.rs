@@ -45,7 +45,7 @@ settings! {
         /// Acceptance test of the draws.
         sampler: Sampler = Sampler::Endpoint;
         // The default is the smallest number of parts with a visible effect.
-        /// Parts of the command, for the sub-stepped sampler.
+        /// Number of parts into which the sub-stepped sampler splits the command.
         steps: u32 = 4, in 1..=MAX_STEPS;
         /// Number of attempts.
         samples: usize = 600, in 1..=MAX_SAMPLES as u64;

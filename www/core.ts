@@ -1,5 +1,5 @@
 /**
- * Loader of the WebAssembly core, which a page or process compiles once. It is the only file that uses the JavaScript that wasm-bindgen generates.
+ * Loader of the WebAssembly core, which a page or process compiles once. This is the only file that uses the JavaScript that wasm-bindgen generates.
  * Importing this file has no effects: it needs no DOM, and fetches and compiles nothing before `load()`.
  */
 
@@ -39,8 +39,8 @@ export function load(source?: ModuleSource): Promise<Motion> {
 }
 
 /**
- * Returns another core from the same compiled module, with its own memory. A trap in it does not affect other cores. Its memory is freed
- * with the last reference to it.
+ * Returns another core from the same compiled module, with its own memory. A trap in the new core does not affect other cores. The memory is freed when
+ * nothing refers to the new core any more.
  */
 export function instantiate(source?: ModuleSource): Promise<Motion> {
   requestedSource ??= source;
@@ -149,7 +149,7 @@ const MISSING_MODULE_ADVICE =
 const MAX_ADDRESS_LENGTH = 200;
 
 async function compileSource(sourceOrPromise: ModuleSource | Promise<BufferSource> | undefined) {
-  // Bytes are not awaited, so that the compilation starts before this task ends.
+  // There is no `await` for a source of bytes, so that its compilation starts at once and not in a later task.
   const source = (sourceOrPromise instanceof Promise ? await sourceOrPromise : sourceOrPromise) as ModuleSource;
   if (source instanceof WebAssembly.Module) return source;
   if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);
@@ -194,14 +194,14 @@ async function compileStreamed(source: URL | string) {
 /** Reads a file in Node, whose `fetch` refuses file: addresses and paths. Returns undefined for addresses that `fetch` can read. */
 function readNodeFile(source: URL | string): Promise<BufferSource> | undefined {
   if (/^(https?|data|blob):/.test(String(source))) return undefined;
-  // An import of node:fs would fail in bundlers for browsers.
+  // A static import of node:fs would fail in bundlers for browsers.
   const nodeFileSystem = globalThis.process?.getBuiltinModule?.('node:fs/promises');
   return nodeFileSystem?.readFile(String(source).startsWith('file:') ? new URL(source) : source);
 }
 
 /**
- * Makes a class of the generated glue disposable. `free()` and `[Symbol.dispose]()` can be called several times, also in engines without
- * that symbol. Any other call after them throws a TypeError.
+ * Makes a class that wasm-bindgen has generated disposable. `free()` and `[Symbol.dispose]()` can be called several times, also in engines without that
+ * symbol. Any other call after them throws a TypeError.
  */
 function makeDisposable(className: string, prototype: any) {
   if (!Symbol.dispose) Object.defineProperty(Symbol, 'dispose', { value: Symbol('Symbol.dispose') });

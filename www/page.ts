@@ -5,7 +5,7 @@
  * @module
  */
 
-/** Any of the elements. */
+/** Element of any of the figures. */
 type Figure = HTMLElement & Record<string, any>;
 
 /** Whole state that each figure opened with. */
@@ -15,7 +15,7 @@ const openingStates: WeakMap<Element, Record<string, any>> = new WeakMap();
 const figureOf = (element: Element) => element.closest('article')?.querySelector('.stand') as Figure;
 
 /**
- * Returns a figure to the state that it opened with, and then sets values in their order. Each is a property of the element, or else a field
+ * Returns a figure to the state that it opened with, and then sets values in their order. The key of a value is a property of the element, or else a field
  * of its state. A preset has to be the first value, because it replaces the others.
  */
 async function enterState(figure: Figure, values: Record<string, unknown>) {

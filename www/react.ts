@@ -49,7 +49,7 @@ class PropWriter {
     Object.assign(this, { element, props });
     for (const eventType of EVENT_TYPES) element.addEventListener(eventType, this);
     if (!previousProps && element.stats) {
-      // An element in the server's HTML may have started before React attached the listeners. They get its first events again.
+      // An element in the server's HTML may have started before React attached the listeners. The element's first events are sent to them again.
       element.dispatchEvent(new Event('load'));
       element.dispatchEvent(new CustomEvent('stats', { detail: element.stats }));
     }

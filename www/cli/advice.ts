@@ -1,17 +1,17 @@
-/** Command that answers the question of an error. */
+/** Command that is proposed after an error with a question: the typed command, with an option that answers the question. */
 
 import { UNITS, type FileQuestion, type LogError } from '../logs/log.ts';
 import { nameRoles, quoteForShell } from './options.ts';
 
 export const formatCommand = (args: string[]): string => ['npx motion-widgets', ...args.map(quoteForShell)].join(' ');
 
-/** Returns the message of an error, and below it the typed command with the option that answers the question of the error. */
+/** Returns the message of an error. If the error has a question, the typed command follows, with the option that answers the question. */
 export function explainWithCommand({ message, place: { file }, question }: LogError, typedArgs: string[]): string {
   const answeringArgs = question && answerQuestion({ ...question, file }, typedArgs);
   return answeringArgs ? `${message} For example:\n  ${formatCommand(answeringArgs)}` : message;
 }
 
-/** Adds to the arguments of a command the option that answers a question. Returns undefined if no option answers it. */
+/** Returns the arguments of a command together with the option that answers a question; undefined if no option answers it. */
 export function answerQuestion({ file, option, role, choices, columns = [] }: FileQuestion, typedArgs: string[]): string[] | undefined {
   const [likeliestChoice] = choices.filter(Boolean);
   const logRole = role ?? 'odometry';

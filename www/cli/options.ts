@@ -74,13 +74,13 @@ const OPTIONS = {
   help: { ...flagOption, short: 'h' }, version: flagOption,
 } as const;
 
-/** Command-line options by the fields of the core's function `calibrate`. */
+/** Names of command-line options, by the fields of `calibrate` in the core that they set. */
 const OPTION_BY_FIELD: Record<string, string> = {
   'legs.distance': 'update-min-d', 'legs.angle': 'update-min-a', 'legs.duration': 'duration',
   positionStd: 'reference-position-std', yawStd: 'reference-yaw-std', model: 'model', rule: 'rule', outliers: 'outliers',
 };
 
-/** Replaces the field at the start of an error message of the core by its option. Returns undefined if the message does not start with a field. */
+/** Replaces the field name at the start of an error message of the core by the command-line option for this field. Returns undefined if the message starts with no such field. */
 export function replaceFieldByOption(message: string): string | undefined {
   const [field] = message.split(' ');
   return Object.hasOwn(OPTION_BY_FIELD, field) ? `--${OPTION_BY_FIELD[field]}${message.slice(field.length)}.` : undefined;
@@ -160,7 +160,7 @@ function parseFileOptions(optionValues: { [name in keyof typeof FILE_OPTIONS]?: 
 
 type Entries<T> = { [key in keyof T]: [key, T[key]] }[keyof T][];
 
-/** Gives the paths of a command roles, odometry and reference in turn. Returns undefined if there are no two paths without a role. */
+/** Returns command arguments in which the paths without roles have the options --odometry and --reference in turn; undefined for fewer than two such paths. */
 export function nameRoles(args: string[]): string[] | undefined {
   const { tokens } = parseArgs({ args, options: OPTIONS, allowPositionals: true, tokens: true });
   const pathIndices = tokens.filter(({ kind }) => kind === 'positional').map(({ index }) => index).slice(1);

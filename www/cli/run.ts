@@ -18,7 +18,7 @@ interface CliEnvironment {
   load(): Promise<any>;
   print(text: string): void;
   printError(text: string): void;
-  /** Shows the progress of reading; undefined hides it. */
+  /** Shows the fraction that has been read; undefined hides it. */
   onProgress?(fraction: number | undefined): void;
   version?: string;
   isColored?: boolean;
@@ -55,7 +55,7 @@ export async function run(args: string[], environment: CliEnvironment): Promise<
 /** Opens the recordings of all inputs, and returns each with the path of its input. */
 async function openInputs({ inputs, optionsByFile, userChoices }: Pick<CalibrateArguments, 'inputs' | 'optionsByFile' | 'userChoices'>, onSkip: (error: LogError) => void) {
   const baseNames = inputs.map(({ path }) => basename(resolve(path)));
-  // Files of the same name are called by their paths.
+  // A file is named by its path if another file has the same base name.
   const names = baseNames.map((baseName, i) => (baseNames.indexOf(baseName) === baseNames.lastIndexOf(baseName) ? baseName : inputs[i].path));
   const nameByPath = new Map(inputs.map(({ path }, i) => [path, names[i]]));
   const optionsOf = optionsByNameOf(optionsByFile.map(([file, options]) => [nameByPath.get(file) ?? file, options]));
@@ -80,7 +80,7 @@ async function calibrate({ fit: fitOptions, output: outputFormat, plot: plotPath
   onProgress?.(undefined);
   const [{ odometry: { start } }] = drives;
   const logs = drives.flatMap(({ odometry, reference }) => [odometry, reference]).map(({ name, ...log }) => ({ name, summary: log.summary, sentences: summarySentencesOf({ name, ...log }, english.found) }));
-  // The summary is shown even if the fit is refused.
+  // The summaries are printed before the fit, so that the user sees them even if the fit is refused.
   if (outputFormat === 'text') print(formatLogSummaries(logs));
   if (outputFormat === 'yaml') printError(formatLogSummaries(logs));
   const calibration = calibrateDrives(motion, fitOptions, drives);

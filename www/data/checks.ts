@@ -51,7 +51,7 @@ function checkSubset(field: string, value: unknown, allowed: readonly string[]):
   return allowed.filter((name) => checkedNames.includes(name));
 }
 
-/** Type and range of a field. `checkField` does not check a field without a type. */
+/** Type and range of a field. `checkValue` accepts all values of a field without a type. */
 export interface FieldRange {
   type?: 'number' | 'whole' | 'word' | 'words' | 'boolean';
   words?: readonly string[];

@@ -65,7 +65,8 @@ export function planDrives(allRecordings: Recording[], userChoices: UserChoices 
   const [odometry, reference] = ROLES.map((role) => recordingsWith(role).map(({ recording }) => recording));
   if (odometry.length !== reference.length) {
     const unpairedRecordings = odometry.length > reference.length ? odometry : reference;
-    // If a recording has several candidates for the missing log, this call throws a LogError that asks which one to read. Such a question helps more than the error below.
+    // If a recording has several candidates for the missing log, this call throws a LogError that asks which one to read. Such a question helps more than
+    // the error that is thrown below.
     for (const recording of unpairedRecordings) tryUnlessLogError(() => chooseBothLogs(recording, userChoices), ({ question }) => question?.option !== 'series');
     const [odometryNames, referenceNames] = [odometry, reference].map((recordingsOfRole) => listNames(recordingsOfRole.map(({ name }) => name)));
     throw new LogError({ file: unpairedRecordings[0].name }, (texts) => texts.unpaired(odometryNames, referenceNames), { option: recordings.length === 1 ? 'other' : 'roles', role: odometryNames ? 'odometry' : 'reference', choices: [] });
@@ -107,7 +108,7 @@ function chooseBothLogs(recording: Recording, userChoices: UserChoices): Record<
   return { odometry, reference };
 }
 
-/** Returns the likeliest logs for a role, of those that are possible. */
+/** Returns the likeliest candidates for a role among those for which `isPossible` returns true. */
 const findLikeliestChoices = (recording: Recording, role: Role, userChoices: UserChoices, isPossible: (choice: LogChoice) => boolean) =>
   findCandidates(recording, role, userChoices).map((choiceTier) => choiceTier.filter(isPossible)).find(({ length }) => length) ?? [];
 

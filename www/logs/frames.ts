@@ -20,7 +20,7 @@ const byRecordTime = bisector(({ recordTime }: RecordedTransform) => recordTime)
 /** Transforms between a frame and its parent. */
 interface FrameLink extends FramePair {
   isStatic: boolean;
-  /** First recorded transform of the link. */
+  /** First recorded transform between the two frames. */
   firstTransform: Transform;
   hasChanged: boolean;
   /** Largest distance (m) of the child frame from its first position, in the frame of the parent. */

@@ -78,7 +78,7 @@ export interface OpenOptions {
   role?: Role;
 }
 
-/** Function that returns the options for the file or log with a name. */
+/** Function that returns the options for reading the file or log with the given name. */
 export type OptionsByName = (name: string) => OpenOptions | undefined;
 
 /** Question of a LogError to the user: the option that answers it, and the possible answers. */
@@ -123,7 +123,7 @@ export const mirroringQuestionsOf = (drives: Record<Role, Log>[], checks: Calibr
 
 export type DropCause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'text' | 'duplicate' | 'repeated' | 'held';
 
-/** Basis on which a unit was determined: a name, the size of the numbers, the rate of the rows, the format, dates, an option, or only usage (`usage`). */
+/** Basis on which a unit was determined: a name, the size of the numbers, the rate of the rows, the format, dates, an option, or only that the unit is usual (`usage`). */
 export type UnitBasis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'usage';
 
 /** Notes that make the α's doubtful even if all checks pass. */

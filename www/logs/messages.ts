@@ -10,7 +10,7 @@ export type Transform = [x: number, y: number, z: number, qx: number, qy: number
 
 export interface StampedTransform { time: number; parent: string; child: string; transform: Transform }
 
-/** Number of bytes of the CDR header. Its second byte is 0 for big-endian and 1 for little-endian. Values are aligned relative to its end. */
+/** Number of bytes of the CDR header. The second byte of the header is 0 for big-endian and 1 for little-endian. Values are aligned relative to the end of the header. */
 const CDR_HEADER_BYTES = 4;
 
 type MessageBytes = Pick<Message, 'block' | 'start' | 'end'>;
@@ -43,7 +43,7 @@ class MessageReader {
     return this.#view.getInt32(this.#takeAlignedPosition(4), this.#isLittle) + this.readUint32() / 1e9;
   }
 
-  /** Skips bytes. Throws a RangeError if the message ends before. */
+  /** Skips bytes. Throws a RangeError if the message has fewer bytes left. */
   skip(bytes: number): void {
     this.#position += bytes;
     if (this.#position > this.#end) throw new RangeError('the message is too short');

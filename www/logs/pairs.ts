@@ -35,7 +35,7 @@ function overlapSecondsOf(log: Log, otherLog: Log): number {
   return Math.min(b, d) - Math.max(a, c);
 }
 
-/** Pairs the odometry and reference logs of several drives: by their times if these are unique, otherwise by their order. */
+/** Pairs odometry and reference logs of several drives. If each odometry overlaps exactly one reference in time, these two are a pair. Otherwise logs are paired in their order. */
 function matchLogs(odometry: Log[], reference: Log[]): Log[][] {
   const partnersOfEach = odometry.map((odometryLog) => reference.filter((referenceLog) =>
     overlapSecondsOf(odometryLog, referenceLog) > MIN_OVERLAP * Math.min(odometryLog.summary.seconds, referenceLog.summary.seconds)));

@@ -48,7 +48,7 @@ const MIN_POSES = 20;
 /** Minimum number of repetitions of a pose that shows a standing robot, as a multiple of the usual number. A localizer also repeats poses while the robot moves slowly. */
 const STANDSTILL_FACTOR = 8;
 
-/** Limits for overlapping rows: maximum time between them, in median steps between rows; maximum number of overlaps in a run of rising times; maximum fraction of all rows. */
+/** Limits for rows of different runs (rows with rising times) that overlap: maximum time between them, in median steps; maximum number in a run; maximum fraction of all rows. */
 const [MAX_OVERLAP_STEPS, MAX_RUN_OVERLAPS, MAX_OVERLAP_FRACTION] = [0.75, 2, 0.02];
 
 /** Limits for rows that are late: maximum length of the path in order of time, relative to its length in order of the file, and minimum number of late rows. */
@@ -94,7 +94,7 @@ export class RowCollector {
   /** Number of all rows, including dropped rows. */
   rowCount = 0;
 
-  /** @param logPlace file and topic for error messages @param logPlace file and topic that error messages name */
+  /** @param logPlace file and topic that error messages name */
   constructor(logPlace: ErrorPlace) {
     this.#logPlace = logPlace;
   }
@@ -246,7 +246,7 @@ export class RowCollector {
 
   /**
    * Drops repetitions of poses of a moving robot, and returns the remaining rows. Slow topics in a table with faster ones, and localizers, repeat their
-   * last pose. While the robot stands, the same fraction of rows is dropped as usual.
+   * last pose. While the robot stands, the usual fraction of rows is dropped.
    */
   #dropRepeatedPoses(rows: Uint32Array): Uint32Array {
     const isRepeated = (i: number) => i > 0 && this.#hasSameValues(rows[i - 1], rows[i]);

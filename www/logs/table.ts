@@ -68,7 +68,7 @@ export async function openTable(source: Source, optionsOf: OptionsByName): Promi
         return readers;
       };
       let readers = (await readWith()) as LogReader[];
-      // A robot turns about its vertical axis. A change is made if Z then has a far smaller spread of its tilt.
+      // A robot turns about its vertical axis. A change of columns is made if the tilt of Z then varies far less.
       for (const changeName of ['yUp', 'wFirst'] as const) {
         if (!readers.some(({ rows }) => rows.tiltSpread > MIN_TILT_SPREAD)) break;
         const changedReaders = await readWith(changeName);

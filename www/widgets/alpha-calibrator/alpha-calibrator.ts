@@ -171,7 +171,7 @@ const styles = css`
       grid-column: auto;
     }
 
-    /* No space is reserved for advice in this column, because the pictures next to it are higher. */
+    /* A wide figure reserves no space for advice, because the pictures next to the advice are higher. */
     .to-do {
       min-height: 0;
     }

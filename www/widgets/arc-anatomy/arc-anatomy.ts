@@ -55,7 +55,7 @@ const styles = css`
     height: 1.3em;
   }
 
-  /* The likelihood is next to the picture. */
+  /* In a wide figure, the likelihood is next to the picture. */
   @container (min-width: 38em) {
     .views {
       grid-template-columns: minmax(0, 1fr) 16em;

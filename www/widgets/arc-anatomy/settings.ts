@@ -12,7 +12,6 @@ export const TABLE_LINES = 9;
 /** Value of the setting `underway` (per cent of the command's duration) when the command ends. */
 export const UNDERWAY_AT_END = 100;
 
-/** Styles of the lines in the picture. */
 export const LINE_STYLES = {
   commanded: { role: 'prior', width: 2.5, dash: COMMAND_DASH },
   inverted: { role: 'prediction', width: 2.75, dash: [] },

@@ -171,7 +171,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       const keySteps = stepsOfKey(event);
       if (!keySteps || !this.simulation) return false;
       const [x, y] = this.visibleArcEnd;
-      // At the maximum speed, the straight arc ends further from the start than any other arc. It thus limits x.
+      // At the maximum speed, the straight arc ends further from the start than any other arc. Its length therefore limits x.
       const maxX = sliderSpecs.v.max * this.settings.requested.command.dt;
       this.#moveArcEnd(clamp(x + KEY_STEP * keySteps[0], -maxX, maxX), y + KEY_STEP * keySteps[1]);
       return true;
@@ -349,7 +349,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const { model, noise, command: { v, omega, dt }, alphas, isolate } = config;
     const texts = words.banana;
     const { min, max, step } = sliderSpecs.omega;
-    // The curve of the skew is computed again only if one of these settings changes.
+    // The cached curve is computed again only if a setting that affects it changes.
     const skews = this.#skewCurveMemo.get([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.simulation as Simulation).skewCurve(min, max, CURVE_POINT_COUNT));
     const maxSkew = skews.reduce((largest, skew) => Math.max(largest, Math.abs(skew) || 0), 0);
     const chartMaximum = CHART_MAXIMA.find((maxShownSkew) => maxShownSkew >= maxSkew) ?? maxSkew;

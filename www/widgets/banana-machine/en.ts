@@ -39,7 +39,7 @@ export const en = {
     tooFewRobots: (skew, exactSkew) => `Too few robots to show the lean: skew ${skew}, exactly ${exactSkew}.`,
     nearlySymmetric: (skew, exactSkew) => `Both sides are nearly alike: skew ${skew}, exactly ${exactSkew}.`,
     symmetric: (skew) => `Both sides are alike: skew ${skew}, exactly 0 by symmetry.`,
-    /** The sentence on the skew follows this sentence. */
+    /** Sentence on an ellipse that is too large. The sentence on the skew follows it. */
     largeEllipse: (areaRatio) => `The cloud is bent: its ellipse covers ${areaRatio} times the area of the ξ outline.`,
     betterFit: (likelihoodRatio, isBent) => `${isBent ? 'Bent: the' : 'The'} Gaussian in ξ fits better: a robot is ${likelihoodRatio} times as likely.`,
     bowTie: (driveLength, deviation, skew) =>

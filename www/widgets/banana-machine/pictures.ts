@@ -79,7 +79,7 @@ class MorphPicture extends Picture<Scene, 'plane' | 'twist'> {
       { view: twistView, opacity: 2 * morph - 1, axisLabels: { x: words.banana.alongAxisLabel, y: words.banana.headingAxisLabel } },
     ];
     for (const { view: axesView, opacity, axisLabels } of axesOfEndViews) {
-      // At all other stages of the morph the grid is curved, and `drawMorphGrid` draws it.
+      // Before the last stage of the morph, the grid of exponential coordinates is curved, and `drawMorphGrid` draws it.
       const gridOpacity = axesView === twistView && morph < 1 ? 0 : undefined;
       if (opacity > 0) paintWithOpacity(context, Math.min(1, opacity), () => drawAxes({ ...drawContext, view: axesView }, axisLabels, legendEntries, gridOpacity));
     }

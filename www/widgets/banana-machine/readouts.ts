@@ -37,7 +37,7 @@ export function floorTitleOf({ stats, table: { exact } }: Pick<ViewModel, 'stats
   const { floorTitle, ellipseDescriptions } = words.banana;
   if (stats.n < 2 || Number.isNaN(stats.areaRatio)) return floorTitle;
   const { areaRatio, likelihoodGain: { floor: floorGain, pose } } = Number.isNaN(exact.areaRatio) ? stats : exact;
-  // If the covariance of poses is singular, their gain in log-likelihood is infinite, whether the cloud is bent or not.
+  // If the covariance of poses is singular, their gain in log-likelihood is infinite, and does not show whether the cloud is bent.
   const isMisshapen = floorGain > VISIBLE_GAINS.floor || (pose > VISIBLE_GAINS.pose && pose < Infinity) || Math.abs(exact.crossTrackSkew) > VISIBLE_SKEW;
   const ellipseFit = areaRatio > VISIBLE_AREA_RATIO ? 'tooLarge' : isMisshapen ? 'wrongShape' : 'nearlyFitting';
   return `${floorTitle}: ${ellipseDescriptions[ellipseFit]}`;

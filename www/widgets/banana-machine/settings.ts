@@ -8,7 +8,6 @@ import { createSamplesSliderSpec } from '../shared/cloud.ts';
 import { COMMAND_DASH, createAlphaSliderSpecs, createCommandSliderSpecs } from '../shared/sliders.ts';
 import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Motion, Stats, Table } from '../../types.d.ts';
 
-/** Styles of the lines in the pictures. */
 export const LINE_STYLES = {
   command: { role: 'prior', width: 2.5, dash: COMMAND_DASH },
   ellipse: { role: 'prediction', width: 2, dash: [7, 4] },

@@ -25,7 +25,7 @@ export interface Scene extends ViewModel {
 /** Dot of a sample: minimum and maximum radius (CSS pixels), ratio of the picture's width to the dot's radius, and opacity. */
 const SAMPLE_DOT = { minRadius: 2, maxRadius: 3, widthPerRadius: 240, opacity: 0.4 };
 
-/** A close view shows a square around the end of the command. Half of its side is this multiple of the command's length, or this minimum (m). */
+/** A close view shows a square around the end of the command. Half of its side is the command's length times this factor, but at least this minimum (m). */
 const END_HALF_SIZE_FACTOR = 0.8;
 const MIN_END_HALF_SIZE = 0.8;
 

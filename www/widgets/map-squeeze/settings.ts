@@ -16,7 +16,6 @@ export const PRESET_SETTING = presetAttributeOf(presets['map-squeeze']);
 /** Pose of the robot when the user returns from another map to the apartment. */
 export const OPENING_POSE = presets['map-squeeze'][0].settings.start;
 
-/** Styles of the marks and lines in the picture. */
 export const LINE_STYLES = {
   accepted: { role: 'cloud', shape: 'dot' },
   through: { role: 'accent', shape: 'dot' },

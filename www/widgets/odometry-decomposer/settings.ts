@@ -5,7 +5,6 @@ import { createSamplesSliderSpec } from '../shared/cloud.ts';
 import { createAlphaSliderSpecs } from '../shared/sliders.ts';
 import type { OdometryDecomposer, RuleNoise } from '../../types.d.ts';
 
-/** Styles of the lines and marks in the pictures. */
 export const LINE_STYLES = {
   legs: { role: 'prior', width: 3, dash: [] },
   deviation: { role: 'prediction', width: 1.25, dash: [5, 3] },

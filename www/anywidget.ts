@@ -61,7 +61,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
       if (!element.simulation) return;
       const ownTraits = traits.filter(([, property]) => !GLOBAL_ATTRIBUTES.includes(property));
       const traitValues = ownTraits.map(([trait, property]) => [trait, toJsonValue(element[property])] as [string, unknown]);
-      // Nulls come last, because a null (no preset, for example) follows from the other values, and other views apply values in this order.
+      // Null values are written last. A null such as "no preset" follows from the other values, and other views of the model apply the values in this order.
       isWriting = true;
       for (const isNull of [false, true]) for (const [trait, value] of traitValues) if ((value === null) === isNull) setTrait(trait, value);
       isWriting = false;
@@ -119,7 +119,7 @@ function withoutKernel(callKernel: () => void) {
   }
 }
 
-/** Returns all spellings of traits with their properties. Properties on which others depend come first. */
+/** Returns the names of all traits, in JavaScript's and in Python's spelling, each with the property that it sets. Properties on which others depend come first. */
 function traitsOf(element: any): [trait: string, property: string][] {
   const { properties } = element.constructor.definition;
   const propertiesByName: Record<string, { attribute?: boolean | string }> = { ...properties, ...COMMON_PROPERTIES, ...Object.fromEntries(GLOBAL_ATTRIBUTES.map((name) => [name, {}])) };

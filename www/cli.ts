@@ -11,7 +11,7 @@ process.stdout.on('error', (error) => {
 });
 
 const { stdout, stderr } = process;
-/** Percentage that the terminal shows; −1 if it shows none. */
+/** Percentage of progress that the terminal shows; −1 if it shows none. */
 let shownPercent = -1;
 
 process.exitCode = await run(process.argv.slice(2), {

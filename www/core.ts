@@ -11,7 +11,7 @@ export { startWorker } from '../build/motion.wasm';
 /** WebAssembly module as bytes, as an address, or compiled. */
 export type ModuleSource = BufferSource | URL | string | WebAssembly.Module;
 
-/** Source that the first caller passed to `load` or `instantiate`. */
+/** Source of the module that the first caller passed to `load` or `instantiate`. */
 let requestedSource: ModuleSource | undefined;
 /** Functions that load a WebAssembly module of the bundle, and its glue code: the JavaScript that wasm-bindgen generated for the module. */
 type BundledCore = typeof bundledCores.motion;

@@ -7,7 +7,7 @@
 import './de.ts';
 import { GLOBAL_ATTRIBUTES, createWidget, createErrorParagraph } from './named.ts';
 
-/** Returns the widget that a query describes. Throws an error that names a parameter that is not allowed, and the allowed ones. */
+/** Returns the widget that a query describes. If a parameter is not allowed, throws an error that names it and lists the allowed ones. */
 function widgetFromQuery(query: URLSearchParams) {
   const widget = createWidget(query.get('widget'));
   const tagName = widget.localName;

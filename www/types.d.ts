@@ -45,7 +45,7 @@ export interface Declaration {
   sentence: string;
 }
 
-/** Fields of every state, also of a partial one. */
+/** Fields that the state of every figure has, even a partial state. */
 export interface FigureState {
   /** Tag of the element. */
   widget: string;
@@ -71,7 +71,7 @@ export interface VelocityModelOptions {
 
 /** Options of an odometry model. */
 export interface OdometryModelOptions extends VelocityModelOptions {
-  /** True if a drive in reverse gets noise for the rotations that the robot made, and not for two additional half turns; default false. */
+  /** If true, a drive in reverse is read with its own small rotations. If false (default), it is read as a drive between two half turns, whose noise is added. */
   reverseAware?: boolean;
 }
 

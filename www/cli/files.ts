@@ -1,4 +1,4 @@
-/** Recordings of files and folders. */
+/** Opens recordings that are files or folders. */
 
 import { openAsBlob } from 'node:fs';
 import { readFile, readdir, stat } from 'node:fs/promises';

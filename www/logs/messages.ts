@@ -20,7 +20,7 @@ class MessageReader {
   #view;
   #position;
   #end;
-  /** Position from which values are aligned. */
+  /** Position in the message from which the alignment of values counts. */
   #start;
   #isLittle = true;
   #alignment = 1;

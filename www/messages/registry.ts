@@ -10,7 +10,7 @@ export type Message = string | ((...values: any[]) => string) | Message[] | { [k
 
 export type Messages = typeof import('./en.ts').en & import('../de.ts').WidgetWords;
 
-/** Catalogues that all scripts of a page share, because a language may be in its own file. */
+/** Catalogues of words that all scripts of a page share, because each language may be in a separate script. */
 interface SharedCatalogues {
   english: object;
   catalogues: Record<string, Record<string, object>>;

@@ -69,7 +69,7 @@ const LZ4_MAGIC = 0x184d2204;
 /** Flags in the header of an LZ4 frame. */
 const [VERSION_MASK, VERSION_1, BLOCK_CHECKSUMS, CONTENT_SIZE, CONTENT_CHECKSUM, DICTIONARY] = [0xc0, 0x40, 0x10, 0x08, 0x04, 0x01];
 
-/** Bit that is set in the length of an uncompressed block. */
+/** Flag in the length of an LZ4 block, which marks an uncompressed block. */
 const UNCOMPRESSED_BIT = 0x80000000;
 
 /** Minimum length of a match. An LZ4 block stores the length of a match minus this minimum. */

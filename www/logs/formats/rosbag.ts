@@ -58,7 +58,7 @@ function* recordsIn(view: DataView): Generator<BagRecord> {
 class Rosbag extends MessageFile {
   readonly format = 'rosbag';
 
-  /** Reads the index at the end, and returns false if there is none or it is damaged. */
+  /** Reads the index at the end of the bag. Returns false if the index is missing or damaged. */
   async readIndex(): Promise<boolean> {
     const { size } = this.source;
     try {

@@ -193,7 +193,7 @@ const styles = css`
 /**
  * Noise parameters (α's) fitted to a log, with their confidence intervals, and checks of the model.
  *
- * @attr overlays - The lines that are drawn; in the attribute with spaces between.
+ * @attr overlays - The lines that are drawn, separated by spaces in the attribute.
  * @csspart drop - The line that logs are dropped on.
  * @csspart chart - A plot of residuals.
  */

@@ -76,7 +76,7 @@ const styles = css`
  * The arc between two poses, and how likely it is after a command.
  *
  * @attr preset - Command from the origin, and a final pose near its arc; null if the settings match no preset.
- * @attr overlays - The lines that are drawn; in the attribute with spaces between.
+ * @attr overlays - The lines that are drawn, separated by spaces in the attribute.
  * @csspart chart - The plot of three forms of the arc near straight.
  */
 export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
@@ -86,7 +86,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
 
   #picture = new ArcPicture();
   pictures = [this.#picture];
-  /** Handles of both poses. The handle of the final pose is on top if both poses are at the same place. */
+  /** Handles of the start pose and the final pose. If the poses are at the same place, the handle of the final pose is on top. */
   handles: PoseHandles[] = ['start', 'next'].map((setting) => new PoseHandles(this, setting, () => ROBOT_RADIUS));
 
   /** Player of the animation in which robots drive along the arcs. It takes the same time for every command. */

@@ -147,7 +147,7 @@ const styles = css`
  * One command, thousands of outcomes, and the coordinates in which they are close to an ordinary Gaussian.
  *
  * @attr preset - A command to start from; null if the settings match no preset.
- * @attr overlays - The outlines that are drawn; in the attribute with spaces between.
+ * @attr overlays - The outlines that are drawn, separated by spaces in the attribute.
  * @attr morph - Stage of the picture, from 0 (the floor) to 1 (exponential coordinates).
  * @csspart figures - Readouts, chart and table.
  * @csspart chart - The chart of the skew.

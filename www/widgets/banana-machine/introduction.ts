@@ -1,4 +1,4 @@
-/** Introduction of the figure: one robot drives, then ten, then the cloud grows while the ring pulses. */
+/** Introduction of the figure: one robot drives, then ten robots. Then the cloud grows while the ring at the end of the arc pulses. */
 
 import { Cloud } from '../shared/cloud.ts';
 

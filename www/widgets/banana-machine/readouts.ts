@@ -51,7 +51,7 @@ export const calloutsOf = ({ gaps }: ViewModel): Callout[] =>
 function bendSentenceOf({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio, exponential: { mean, cov } }, exactSkew, table, exponentialGain: gain }: ViewModel) {
   if (Number.isNaN(skew)) return '';
   const texts = words.banana.bend;
-  // A line break must not separate a number from its error.
+  // A line break must not separate a number from its standard error.
   const joinWithNonBreakingSpaces = (numberText: string) => numberText.replaceAll(' ', '\u00a0');
   const [skewText, exactText] = [joinWithNonBreakingSpaces(formatWithError(skew, error, 3)), formatFixed(exactSkew, 3)];
   // The cloud is shaped like a bow-tie, because some robots end ahead of the start, and others behind it.

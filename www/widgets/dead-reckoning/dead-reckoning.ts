@@ -17,7 +17,7 @@ import { CURVE_STYLES, OUTLINE_STYLES, RECURSIONS, definition, COMMAND_SLIDERS, 
 import type { StateValues } from '../../figure/settings.ts';
 import type { DeadReckoning as Simulation, Motion } from '../../types.d.ts';
 
-/** Units of the components' variances. */
+/** Units of variances in column names, by component of the exponential coordinates. */
 const VARIANCE_UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
 
 /** Returns the names of an exported quantity's columns: one for each component of the exponential coordinates. */
@@ -114,7 +114,7 @@ const styles = css`
  * One command driven step after step, and how well its growing uncertainty is predicted.
  *
  * @attr preset - A path to start from; null if the settings match no preset.
- * @attr overlays - Curves and outlines that are drawn; in the attribute with spaces between.
+ * @attr overlays - Curves and outlines that are drawn, separated by spaces in the attribute.
  * @csspart chart - The plot of predicted over measured variance.
  */
 export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {

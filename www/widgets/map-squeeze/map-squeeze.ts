@@ -140,7 +140,7 @@ const styles = css`
  *
  * @attr preset - A place in the apartment to start from; null if the settings match no preset.
  * @attr view - The whole map, or what is near the robot.
- * @attr overlays - The marks and lines that are drawn; in the attribute with spaces between.
+ * @attr overlays - The marks and lines that are drawn, separated by spaces in the attribute.
  */
 export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   static styles = styles;

@@ -111,7 +111,7 @@ const styles = css`
  * Odometry read as rotate, drive, rotate, with the noise that localizers add to each part.
  *
  * @attr preset - An odometry reading to start from; null if the settings match no preset.
- * @attr overlays - Lines and marks that are drawn; in the attribute with spaces between.
+ * @attr overlays - Lines and marks that are drawn, separated by spaces in the attribute.
  * @csspart chart - Plot of the lateral standard deviation over the length of the drive.
  */
 export class OdometryDecomposerElement extends FigureElement<Simulation, ViewModel> {

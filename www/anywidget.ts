@@ -30,7 +30,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
     el.append(createErrorParagraph('This cell', error));
     return;
   }
-  // Without this, JupyterLab would treat letters and digits typed in a figure as shortcuts, and change the cell.
+  // Without this attribute, JupyterLab would treat letters and digits typed in a figure as shortcuts, and change the cell.
   element.dataset.lmSuppressShortcuts = 'true';
   // JupyterLab's themes change the background of a cell's output but leave its text black. This variable has the theme's text colour.
   element.style.color = 'var(--jp-content-font-color1, inherit)';

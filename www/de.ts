@@ -11,7 +11,7 @@ import { de as calibrator } from './widgets/alpha-calibrator/de.ts';
 
 const widgetWords = { banana, squeeze, anatomy, decomposer, reckoning, calibrator };
 
-/** Messages of each widget by the widget's short name. Their type is the same in every language. */
+/** Messages of each widget, by the widget's short name. The messages of all languages have the same type. */
 export type WidgetWords = typeof widgetWords;
 
 setMessages('de', { ...de, ...widgetWords });

@@ -49,13 +49,13 @@ class PropWriter {
     Object.assign(this, { element, props });
     for (const eventType of EVENT_TYPES) element.addEventListener(eventType, this);
     if (!previousProps && element.stats) {
-      // An element in the server's HTML may have started before React attached the listeners. The element's first events are sent to them again.
+      // An element in the server's HTML may have started before React attached the listeners. Its first events are therefore fired again.
       element.dispatchEvent(new Event('load'));
       element.dispatchEvent(new CustomEvent('stats', { detail: element.stats }));
     }
     for (const [name, attribute] of Object.entries(this.propNames.attributes)) {
       const text = this.attributeTextOf(name, props);
-      // Attributes sent by the server are kept at first: the user may have changed the figure since.
+      // Attributes that the server has sent are kept at first, because the user may have changed the figure in the meantime.
       if (previousProps ? text === this.attributeTextOf(name, previousProps) : text === null || element.hasAttribute(attribute)) continue;
       if (text === null) element.removeAttribute(attribute);
       else element.setAttribute(attribute, text);

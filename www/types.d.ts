@@ -28,7 +28,7 @@ export interface Declaration {
   /** Index in the list, from 0. */
   index?: number;
   type: 'word' | 'number' | 'whole' | 'boolean' | 'numbers' | 'group';
-  /** Allowed words. */
+  /** Words that the setting allows. */
   words?: string[];
   /** Keys of the fields of a group. */
   fields?: string[];
@@ -39,9 +39,9 @@ export interface Declaration {
   min?: number;
   /** Maximum of the number, or of each number of a list. */
   max?: number;
-  /** Initial value. */
+  /** Initial value of the setting. */
   default: string | number | boolean | number[] | Record<string, number> | null;
-  /** Description. */
+  /** Sentence that describes the setting. */
   sentence: string;
 }
 
@@ -119,7 +119,7 @@ export interface CalibrationOptions {
   odometry: LoggedPoses | LoggedCommands | (LoggedPoses | LoggedCommands)[];
   /** Reference of each drive. */
   reference: LoggedPoses | LoggedPoses[];
-  /** Four α's of odometry (default), five of a robot that can drive sideways, six of velocity commands. */
+  /** Motion model: odometry with four α's (default), odometry of a robot that can drive sideways with five, or velocity commands with six. */
   model?: 'odometry' | 'omnidirectional' | 'velocity';
   /** Noise rule of the odometry model: Table 5.6 as printed (default), Nav2 or Beluga. The omnidirectional model has the rule "omni". */
   rule?: 'thrun' | 'nav2' | 'beluga' | 'omni';

@@ -74,7 +74,7 @@ const OPTIONS = {
   help: { ...flagOption, short: 'h' }, version: flagOption,
 } as const;
 
-/** Names of command-line options, by the fields of `calibrate` in the core that they set. */
+/** Names of command-line options, by the option of `calibrate` in the core that they set. */
 const OPTION_BY_FIELD: Record<string, string> = {
   'legs.distance': 'update-min-d', 'legs.angle': 'update-min-a', 'legs.duration': 'duration',
   positionStd: 'reference-position-std', yawStd: 'reference-yaw-std', model: 'model', rule: 'rule', outliers: 'outliers',

@@ -73,7 +73,7 @@ export type OpenedInputs = Awaited<ReturnType<typeof openInputs>>;
 
 async function calibrate({ fit: fitOptions, output: outputFormat, plot: plotPath, ...logArguments }: CalibrateArguments, args: string[], { load, print, printError, onProgress, isColored = false, now = new Date() }: CliEnvironment, onSkip: (error: LogError) => void): Promise<number> {
   const motion = await load();
-  // The core checks the options in a call without drives, so that their errors are reported before files are read.
+  // The core checks the options in a call without drives, so that errors in options are reported before files are read.
   calibrateDrives(motion, fitOptions, []);
   const { givenRecordings, userChoices } = await openInputs(logArguments, onSkip);
   const drives = await readDrives(planDrives(givenRecordings.map(({ recording }) => recording), userChoices, onSkip), onProgress);

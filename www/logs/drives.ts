@@ -15,14 +15,14 @@ export interface UserChoices {
   kind?: LogKind;
 }
 
-/** Names of odometry and of commands, the likeliest first. */
+/** Patterns of names of odometry and of commands, the likeliest first. */
 const ODOMETRY_NAMES = [/(^|[/_.])odom(etry)?[/_.]?$/i, /odom|wheel|encoder/i];
 const COMMAND_NAMES = [/(^|[/_.])cmd[_.]?vel[/_.]?$/i, /cmd|command|twist/i];
 
-/** Names of external measurements of the pose, such as motion capture or a total station. */
+/** Patterns of names of external measurements of the pose, such as motion capture or a total station. */
 const MEASUREMENT_NAMES = /truth|(^|[^a-z])(gt|ref|true)([^a-z]|$)|mocap|vicon|optitrack|qualisys|vrpn|motive|natnet|phasespace|reference|station|leica|prism|tracker/i;
 
-/** Names of poses estimated by localizers. Their errors are correlated with those of the odometry that they use. */
+/** Patterns of names of poses estimated by localizers. The errors of such poses are correlated with those of the odometry that a localizer uses. */
 const LOCALIZER_NAMES = /slam|amcl|locali[sz]|carto|tracked[_.]pose|icp|loam|scan[_.]?match|pose[_.]graph/i;
 
 /** Patterns of names of poses that a filter estimated from the odometry. */
@@ -79,7 +79,7 @@ function roleOfRecording(recording: Recording, userChoices: UserChoices): Role |
   if (tryUnlessLogError(() => chooseBothLogs(recording, userChoices))) return 'both';
   const [isOdometry, isReference] = ROLES.map((role) => tryUnlessLogError(() => chooseLog(recording, role, userChoices)) !== undefined);
   if (isOdometry !== isReference) return isOdometry ? 'odometry' : 'reference';
-  // A file with several rigid bodies has candidates for both roles, although it is unclear which candidate to read.
+  // A file with several rigid bodies has candidates for both roles, and therefore logs, although it is unclear which candidate to read.
   const hasLogs = isOdometry || ROLES.every((role) => findCandidates(recording, role, userChoices).some(({ length }) => length > 0));
   if (!hasLogs) return 'both';
   return roleByName(recording.name) ?? (recording.series.some(({ hasCommands }) => hasCommands) ? 'odometry' : undefined);
@@ -208,7 +208,7 @@ export function findCandidates(recording: Recording, role: Role, { kind }: { kin
     const unfilteredPaths = poseSeries.filter(({ name }) => !FILTER_NAMES.test(name) && !ODOMETRY_NAMES[0].test(name));
     return [...choiceTiersByName(poseSeries, [MEASUREMENT_NAMES, LOCALIZER_NAMES], 'poses'), choicesOf(unfilteredPaths, 'poses'), ...(isTableFile && seriesWithoutGoals.length === 1 ? [choicesOf(poseSeries, 'poses')] : []), chainChoices];
   }
-  // A topic of the message type Odometry probably has odometry of wheels.
+  // A topic of the message type Odometry probably contains wheel odometry.
   const wheelPaths = poseSeries.filter(({ name, type }) => !MEASUREMENT_NAMES.test(name) && !LOCALIZER_NAMES.test(name) && (isTableFile || /Odometry$/.test(type)));
   const poseTiers = [...choiceTiersByName(wheelPaths, ODOMETRY_NAMES), choicesOf(wheelPaths), chainChoices];
   const commandSeries = seriesWithoutGoals.filter((entry) => entry.kind === 'commands' || entry.hasCommands);

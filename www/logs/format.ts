@@ -147,7 +147,7 @@ function findColumnGroups(names: string[], firstRow: string[] | undefined): Colu
   });
 }
 
-/** Returns the header: the last line above the rows with names of fields, or a comment with as many names as a row has cells. */
+/** Returns the header: the last line above the rows that contains names of fields, or a comment with as many names as a row has cells. */
 function headerOf(preambleLines: { line: string; number: number }[], separator: string, rowWidth: number, firstRow: string[] | undefined) {
   for (const { line, number } of preambleLines.toReversed()) {
     const textLine = line.trim().replace(/^\/\//, '');
@@ -179,7 +179,7 @@ function columnsByContent(rows: string[][]): string[] | undefined {
   });
 }
 
-/** Returns the format of a Motive export, with a group for each rigid body. Throws a LogError for Euler angles. */
+/** Returns the format of a Motive export, with a group for each rigid body. Throws a LogError if the rotations are Euler angles instead of quaternions. */
 function detectMotiveFormat(preambleRows: string[][], errorPlace: ErrorPlace): Pick<TableFormat, 'columnNames' | 'columnGroups'> | undefined {
   const findRowByName = (name: string) => preambleRows.find((row) => row.slice(0, 3).some((cell) => cell.trim() === name));
   const [axisRow, quantityRow] = preambleRows.toReversed();

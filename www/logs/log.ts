@@ -58,7 +58,7 @@ export interface Recording {
   read(choices: LogChoice[], onProgress?: (fraction: number) => void): Promise<Log[]>;
 }
 
-/** Returns the series that can be read. A topic needs two messages. */
+/** Returns the series that can be read. A topic needs at least two messages. */
 export const readableSeriesOf = ({ series, format }: Pick<Recording, 'series' | 'format'>): Series[] => series.filter(({ kind, count }) => kind !== null && (format === 'csv' || count > 1));
 
 /** Units that logs may have, by the name of the option for the unit. */
@@ -135,7 +135,7 @@ export interface Note {
   values: (string | number)[];
 }
 
-/** Numbers and decisions about a log. */
+/** Summary of a log: statistics, and the decisions with which the log was read. */
 export interface Summary {
   rows: number;
   used: number;
@@ -155,7 +155,7 @@ export interface Summary {
     length: { unit: LengthUnit; by: UnitBasis };
     angle: { unit: AngleUnit | 'quaternion' | 'none'; by: UnitBasis };
   };
-  /** Source of the times: "header.stamp", "log time", or the column. */
+  /** Source of the times: "header.stamp", "log time", or the name of a column. */
   clock: string;
   frames?: FramePair;
   columns?: Record<string, string>;

@@ -79,7 +79,7 @@ function distinguishNames(files: Source[]): Source[] {
   }));
 }
 
-/** Returns the format according to the first bytes; undefined for a table. */
+/** Returns the format of a file by its first bytes; undefined for a table. */
 async function detectFormat(source: Source): Promise<FileFormat | undefined> {
   const firstBytes = String.fromCharCode(...(await readBytes(source, 0, MAX_MAGIC_BYTES)));
   const unsupportedFormat = UNSUPPORTED_MAGIC.find(([, magic]) => firstBytes.startsWith(magic));

@@ -75,7 +75,7 @@ const MAX_CONTRADICTING_FRACTION = 0.4;
 /** Maximum fraction of damaged rows. */
 const MAX_DAMAGED_FRACTION = 0.1;
 
-/** Maximum spread of the cosine of the tilt. Above it, the robot does not drive on a plane. */
+/** Maximum spread of the cosine of the tilt. If the spread is larger, the robot does not drive on a plane. */
 const MAX_TILT_SPREAD = 0.5;
 
 export class RowCollector {

@@ -24,7 +24,7 @@ type TiltChange = 'yUp' | 'wFirst';
 /** Limits for changing columns: minimum spread of the tilt's cosine, above that of noise, and maximum ratio of the spread after the change to that before. */
 const [MIN_TILT_SPREAD, MAX_TILT_RATIO] = [0.001, 0.1];
 
-/** Minimum number of rows after which a last number with fewer decimals than all others shows that the file is cut off. */
+/** Minimum number of rows with equally many decimals in the last column. If the last row after them has fewer decimals, the file is cut off. */
 const MIN_UNIFORM_ROWS = 20;
 
 export async function openTable(source: Source, optionsOf: OptionsByName): Promise<Recording> {

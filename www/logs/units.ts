@@ -34,13 +34,10 @@ const [USUAL_RATES, POSSIBLE_RATES] = [[0.2, 2000], [0.05, 5000]] as const;
 /** Minimum and maximum plausible speed of a robot, m/s or rad/s. */
 const [MIN_SPEED, MAX_SPEED] = [0.005, 20.5];
 
-/**
- * Limits for doubts about the unit of length: a speed (m/s) that is doubtful with an acceleration (m/s²) beyond that of tyres, this acceleration, and a
- * speed that is always doubtful.
- */
+/** Limits for the unit of length: a speed (m/s) that is doubtful if the acceleration (m/s²) is also beyond that of tyres; this acceleration; and a speed that is always doubtful. */
 const [DOUBTFUL_SPEED, MAX_ACCELERATION, MAX_VEHICLE_SPEED] = [5, 10, 50];
 
-/** Most usual speed of a robot, m/s. */
+/** Typical speed of a robot, m/s. */
 const USUAL_SPEED = 0.5;
 
 /** Duration (s) of the steps from which speeds are computed. In shorter steps, noise would look like a high speed. */
@@ -126,7 +123,7 @@ function alignmentWithPath(t: Float64Array, x: Float64Array, y: Float64Array, he
     if (Math.hypot(dx, dy) < MIN_STEP_LENGTH) continue;
     stepCount += 1;
     for (const candidate of candidates) {
-      // Doubling the angle makes it equal for forward and reverse driving, because the two differ by half a turn.
+      // The doubled angle between heading and path is the same for forward and reverse driving, which differ by half a turn.
       const angle = 2 * (Math.atan2(dy, dx) - candidate.sign * RADIANS_PER_UNIT[candidate.unit] * heading[i + (stride >> 1)]);
       candidate.cosine += Math.cos(angle);
       candidate.sine += Math.sin(angle);

@@ -24,7 +24,7 @@ const sharedCatalogues: SharedCatalogues = ((globalThis as any)[REGISTRY_KEY] ??
 
 export let words: Messages;
 
-/** Current language as a BCP 47 tag, for numbers. */
+/** Current language as a BCP 47 tag, for the format of numbers. */
 export let language = 'en';
 
 const wordsByLanguage: Map<string, { words: Messages, language: string }> = new Map();
@@ -95,7 +95,7 @@ function languageOf(element: Element): string {
 
 let languageObserver: MutationObserver | undefined;
 
-/** Defined outside of `onLanguage`: a closure would keep the element of that call alive for as long as the page lives. */
+/** This function is defined outside of `onLanguage`. A closure inside would keep the element of each call alive for as long as the page lives. */
 function notifyListeners() {
   sharedCatalogues.changeEvents.dispatchEvent(new Event('change'));
 }

@@ -30,7 +30,7 @@ export type OnBlock = (fraction: number) => boolean | void;
 /** Container of messages: one file, or several files of a recording. */
 export type Container = Pick<MessageFile, 'format' | 'channels' | 'truncationReason' | 'damageReasons' | 'readMessages'>;
 
-/** Base class of files of messages, with their channels by id. */
+/** Base class of readers of message files. It has the channels of the file by id. */
 export abstract class MessageFile {
   abstract readonly format: Recording['format'];
   /** Reason why the end of the file cannot be read; undefined for a complete file. */

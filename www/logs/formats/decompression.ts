@@ -19,7 +19,7 @@ export const loadZstd = () => zstdDecoder.init();
 
 /** Decompresses a block of known size; throws a RangeError if it has another size. */
 export function decompressZstd(bytes: Uint8Array, size: number): Uint8Array {
-  // The decoder would take a size of 0 for an unknown size.
+  // The decoder would take size 0 for an unknown size. A block of size 0 is therefore not decoded.
   const output = size === 0 ? new Uint8Array() : zstdDecoder.decode(bytes, size);
   if (output.length !== size) throw new RangeError('a compressed block is not what was written');
   return output;

@@ -234,7 +234,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   connectedCallback() {
     super.connectedCallback();
-    // An element outside the document does not fit. After it has been connected, it fits with the settings that were changed in between.
+    // An element outside the document computes no fits. Once it is in the document, it fits with the settings that were changed in between.
     this.settings.isViewModelStale = true;
   }
 

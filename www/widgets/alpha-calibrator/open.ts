@@ -151,7 +151,7 @@ export class LogOpener extends FileOpener<Figure> {
 
   async #fit(openedFiles: ChosenFiles) {
     const { log, warnings, drives } = openedFiles as Required<ChosenFiles>;
-    // The summary of logs is shown while they are fitted.
+    // The summary of the logs is shown while the logs are fitted.
     this.host.requestUpdate();
     await this.host.openLog(log, warnings, ({ count, stats }) => {
       if (count === 0) throw new RangeError(words.calibrator.tooFewLegs);

@@ -101,7 +101,7 @@ export function regressionPanelsHtml({ viewModel: { fittedConfig: { model }, leg
 function panelPlotHtml({ alpha, x, y, error, slope, interval }: CalibrationPanel, panelTitle: string, regressorLabel: string): PlotOptions {
   const texts = words.calibrator.panels;
   const maxRegressor = Math.max(0, ...x);
-  // If the log has no rotation or no translation, the axis for it ends at 1.
+  // If the log lacks the motion (rotation or translation) of a plot's horizontal axis, this axis ends at 1.
   const axisEnd = maxRegressor > MIN_AXIS_END ? 1.06 * maxRegressor : 1;
   // The vertical axis leaves half as much space for error bars as for bins and line. Longer error bars are cut, so that they do not compress everything else.
   const [minSquare, maxSquare] = [Math.min(0, ...y), Math.max(x.length ? 1e-12 : 1, (slope ?? 0) * axisEnd, ...y)];

@@ -97,7 +97,7 @@ export function mainReadoutsHtml(viewModel: ViewModel, pinnedViewModel?: ViewMod
   const coverages = [coverage.ellipse, coverage.exponential];
   return readoutsHtml([
     [texts.areaRatio, printedStatistics[0], coverages.every(Number.isNaN) ? NO_VALUE : texts.areaRatioDetail(Number.isNaN(areaRatioError) ? '' : formatSignificant(areaRatioError, 1), formatPercent(coverages[0]), formatPercent(coverages[1])), pinnedStatistics?.[0]],
-    // The gain of the pinned cloud is left out if one of the gains is of positions and the other of poses, because these are not comparable.
+    // The pinned cloud's gain in log-likelihood is left out if it is a gain of positions and the current cloud's a gain of poses, or the reverse. Such gains are not comparable.
     [gain.unbounded ? texts.gainOnFloor : texts.gain, printedStatistics[1], formatGain(gain), pinnedViewModel?.exponentialGain.unbounded === gain.unbounded ? pinnedStatistics?.[1] : undefined],
     [texts.skew, printedStatistics[2], Number.isNaN(exactSkew) ? NO_VALUE : texts.exactValue(formatFixed(exactSkew, 3)), pinnedStatistics?.[2]],
   ], 0);

@@ -67,7 +67,7 @@ export function viewModelOf(simulation: Simulation) {
   };
 }
 
-/** Returns the curve of a component. `ratios` has three numbers for each step. */
+/** Returns the curve of a component. `ratios` has three numbers for each step, one for each component. */
 function curveOfComponent(ratios: Float64Array, relativeErrors: Float64Array, componentIndex: number) {
   const componentOf = (triples: Float64Array) => triples.filter((_, i) => i % 3 === componentIndex);
   const componentRatios = componentOf(ratios);
@@ -77,7 +77,7 @@ function curveOfComponent(ratios: Float64Array, relativeErrors: Float64Array, co
 /** Returns 'certain', or the reason why the ratios are undefined or uncertain: no robots, no spread, no covariance at the last step, or too few robots. */
 function ratioConditionOf({ compounding }: DeadReckoningSettings, { n, predicted, measured, misses }: Simulation['stats'], ratios: Float64Array): 'noRobots' | 'noNoise' | 'noCovariance' | 'fewRobots' | 'certain' {
   if (n === 0) return 'noRobots';
-  // The variance of a single robot is undefined.
+  // A single robot has no variance with which a prediction could be compared.
   if (n === 1) return 'fewRobots';
   if (measured.cov.every((covRow) => covRow.every((covariance) => Math.abs(covariance) < Number.EPSILON ** 2))) return 'noNoise';
   // If only some components have undefined ratios, these components have no noise. The other ratios are valid.

@@ -78,7 +78,7 @@ const styles = css`
     }
   }
 
-  /* This hint is at the same height as the label of the vertical axis, at the opposite edge. */
+  /* The hint about walls is at the top of the picture, at the same height as the label of the vertical axis. */
   .wall-hint {
     position: absolute;
     top: 0;

@@ -72,7 +72,7 @@ export class Player<Key extends string> extends FigureController {
     return false;
   }
 
-  /** Returns the slider of a setting with the button that plays and pauses. With reduced motion there is only the slider. */
+  /** Returns the slider of a setting with the button that plays and pauses. If the user prefers reduced motion, there is only the slider. */
   sliderHtml(key: Key, playLabel: string) {
     const [currentLabel, otherLabel] = this.#playedKey === key ? [words.pause, playLabel] : [playLabel, words.pause];
     return html`<div class="playable with-button ${key}">

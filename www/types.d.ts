@@ -25,7 +25,7 @@ export interface Declaration {
   weights?: number[];
   /** Key within the group; only given if it differs from `key`, because another group has a field of the same name. */
   field?: string;
-  /** Index in the list, from 0. */
+  /** Index of the number in the list, from 0. */
   index?: number;
   type: 'word' | 'number' | 'whole' | 'boolean' | 'numbers' | 'group';
   /** Words that the setting allows. */
@@ -76,8 +76,8 @@ export interface OdometryModelOptions extends VelocityModelOptions {
 }
 
 /**
- * Three numbers: a twist, with the speeds along the body's x and y (m/s) and the turn rate (rad/s), or the exponential coordinates of a
- * motion, along (m), lateral (m) and heading (rad).
+ * Three numbers. A twist has the speeds along the body's x and y (m/s), and the turn rate (rad/s). Exponential coordinates describe a motion by its
+ * components along (m), lateral (m) and heading (rad).
  */
 export type Twist = ArrayLike<number>;
 

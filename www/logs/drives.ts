@@ -177,7 +177,7 @@ function roleOfSeries({ name: file }: Recording, { name, type, kind, hasCommands
   return roleByName(name) ?? (hasCommands || /Odometry$/.test(type) ? 'odometry' : roleByName(file));
 }
 
-/** Returns true if the name or the frames of a log show that its poses are estimates of a localizer, or of a filter of the odometry. */
+/** Returns true if a localizer, or a filter of the odometry, probably estimated the poses of a log, judging by the log's name or frames. */
 export const isLocalizer = (name: string, frames?: FramePair): boolean => frames?.parent === 'map' || ((LOCALIZER_NAMES.test(name) || FILTER_NAMES.test(name)) && !MEASUREMENT_NAMES.test(name));
 
 /** Returns the role that the name of a file shows; undefined if it shows none. */

@@ -31,7 +31,7 @@ interface FrameLink extends FramePair {
 
 /**
  * Graph of transforms between frames. A frame may have several parents, for example the map and the odometry frame. Given two end frames, the graph also
- * computes the poses of one end frame relative to the other, from the transforms on the chain between them.
+ * computes their relative poses, from the transforms on the chain between them.
  */
 export class FrameTree {
   #links = new Map<string, FrameLink>();

@@ -13,7 +13,7 @@ export interface Drive { odometry: Log; reference: Log }
 /** Minimum overlap in time of odometry and reference, as a fraction of the shorter log's duration. */
 const MIN_OVERLAP = 0.5;
 
-/** Duration (s) at each end of a frozen pose (equal poses in succession) in which the odometry may move, because the clocks may differ by this much. */
+/** Duration (s) at both ends of a frozen pose (equal poses in succession) in which the odometry may move. The two clocks may differ by this much. */
 const END_MARGIN_SECONDS = 1;
 
 /** Minimum motion of the odometry, in metres plus radians, that shows that a constant reference pose is frozen. Encoders of a robot at rest may still count a pulse or two. */

@@ -1,4 +1,4 @@
-/** Rows of a log. Unusable rows are dropped, with the cause. */
+/** Collector of the rows of a log. Unusable rows are dropped, and counted by cause. */
 
 import { group, max, min, range, sum } from 'd3-array';
 import { COLUMN_CHANGES } from './columns.ts';

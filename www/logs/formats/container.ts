@@ -57,7 +57,7 @@ export abstract class MessageFile {
   /** Reads blocks, and passes each message of the wanted channels to `onMessage`. Damaged blocks are skipped. */
   abstract readMessages(isWanted: IsWanted, onMessage: OnMessage, onBlock?: OnBlock): Promise<void>;
 
-  /** Records the damage of a block as a reason. An error while reading the file itself is thrown again. */
+  /** Stores the reason why a block is damaged. An error while reading the file itself is thrown again. */
   protected noteDamage(position: number, error: unknown): void {
     if (error instanceof LogError) throw error;
     this.#damageByPosition.set(position, reasonOf(error));

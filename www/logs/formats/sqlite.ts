@@ -15,7 +15,7 @@ const MAX_ROW_BYTES = 2 ** 28;
 interface Row {
   /** Bytes of the row on the leaf page. All other bytes are on overflow pages. */
   localBytes: Uint8Array;
-  /** Number of all bytes of the row. */
+  /** Number of bytes of the row, including those on overflow pages. */
   byteCount: number;
   /** Number of the first overflow page; 0 if there is none. */
   overflowPage: number;
@@ -23,7 +23,7 @@ interface Row {
   columns: Column[];
 }
 
-/** Value of a row: its serial type, and the range of its bytes. */
+/** Value in a row: its SQLite serial type, and the range of its bytes. */
 interface Column { type: number; start: number; end: number }
 
 const isInteger = (type: number) => type > 0 && type < 10;

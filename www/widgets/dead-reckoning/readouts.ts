@@ -32,7 +32,7 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, ratio
   if (ratioCondition !== 'certain') return texts.conditions[ratioCondition];
   const recursionMisses = misses[compounding];
   if (recursionMisses.every(({ first }) => first === null)) return texts.correctPrediction(formatInteger(n));
-  // `endIndex` is the component whose ratio is furthest from 1 at the last step, `worstIndex` the component whose ratio is furthest from 1 at any step.
+  // `endIndex` is the component whose ratio is furthest from 1 at the last step. `worstIndex` is the component whose ratio is furthest from 1 at any step.
   const endIndex = worstComponentIndexOf(overlays, (componentIndex) => Math.abs(recursionMisses[componentIndex].end));
   const worstIndex = worstComponentIndexOf(overlays, (componentIndex) => max(curves[componentIndex].ratio, (ratio) => Math.abs(ratio - 1)) ?? NaN);
   const ratioList = formatRatiosAtSteps(Array.from(curves[worstIndex].ratio));

@@ -97,14 +97,14 @@ export function moveWall({ bounds, walls }: Plan, { wallOffset, grippedPart: par
   return movedWalls;
 }
 
-/** Returns the distance that points can move along an axis, up to a requested distance, without leaving the bounds of a plan. */
+/** Returns the distance that points can move along an axis without leaving the bounds of a plan; at most the requested distance. */
 function limitToBounds(distance: number, bounds: ArrayLike<number>, points: number[][], axis: number[]) {
   const limits = points.flatMap((point) => [0, 1].filter((i) => Math.abs(axis[i]) > TOUCH_DISTANCE).map((i) => [bounds[i] + MIN_WALL_GAP, bounds[i + 2] - MIN_WALL_GAP].map((bound) => (bound - point[i]) / axis[i])));
   return limits.reduce((limitedDistance, [distanceToBound, distanceToOtherBound]) =>
     clamp(limitedDistance, Math.min(0, distanceToBound, distanceToOtherBound), Math.max(0, distanceToBound, distanceToOtherBound)), distance);
 }
 
-/** Returns the distance that the end of a wall can move along an axis, up to a requested distance, before it comes too close to another wall. */
+/** Returns the distance that the end of a wall can move along an axis before it comes too close to another wall; at most the requested distance. */
 function freeDistanceOf(walls: Float64Array, wallOffset: number, [x, y]: number[], [ux, uy]: number[], distance: number) {
   let freeDistance = 0;
   let gap = Infinity;

@@ -3,7 +3,7 @@
 import { words } from '../../messages/registry.ts';
 import { formatFixed } from '../../ui/format.ts';
 
-/** Dash of the commanded path, CSS pixels. */
+/** Dash pattern of the commanded path (lengths of dash and gap), CSS pixels. */
 export const COMMAND_DASH = [2.5, 3.5];
 
 const SPEED_SLIDER = { role: 'prior' as const, step: 0.01, decimals: 2 };

@@ -81,7 +81,7 @@ export function createComponent(displayName: string, tag: string, propNames: Pro
     useImperativeHandle(ref, () => elementRef.current, []);
     useLayout(() => propWriter.update(elementRef.current, props));
     useLayout(() => () => propWriter.removeListeners(), [propWriter]);
-    // React 18 does not translate `className` for custom elements.
+    // `className` is passed as `class`, because React 18 does not translate it for custom elements.
     const { className, ...otherProps } = Object.fromEntries(Object.entries(props).filter(([name]) => !ownProps.has(name)));
     const attributeTexts = isOnServer ? Object.entries(propNames.attributes).map(([name, attribute]) => [attribute, propWriter.attributeTextOf(name, props)]) : [];
     return createElement(tag, { ...otherProps, ...Object.fromEntries(attributeTexts), class: className, ref: elementRef, suppressHydrationWarning: true });

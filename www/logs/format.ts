@@ -153,7 +153,7 @@ function headerOf(preambleLines: { line: string; number: number }[], separator: 
     const textLine = line.trim().replace(/^\/\//, '');
     const isComment = /^#|^%(?!time)/.test(textLine) || textLine !== line.trim();
     const commentText = textLine.replace(/^[#%]+\s*(?=[^,;])/, isComment ? '' : '$&');
-    // The header in a comment may have another separator than the rows.
+    // A header in a comment may have another separator than the rows. Spaces, commas and semicolons are therefore tried too.
     const possibleCells = [splitCells(commentText, separator), ...(isComment ? [commentText.split(/\s{2,}/), commentText.split(/[\s,;]+(?![[(])/)] : [])];
     const names = possibleCells.find((cells) => cells.length === rowWidth) ?? possibleCells[0];
     if (!isHeader(names)) continue;

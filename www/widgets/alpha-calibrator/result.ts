@@ -127,7 +127,7 @@ export function formatNav2Yaml({ stats, legCount, model, rule, legLength, logNam
     if (isBound || inflation * alpha > MAX_PLAUSIBLE_ALPHA) return `# alpha${i + 1}: ${formattedAlpha}, ${yamlWords.tooLargeNote}`;
     return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${yamlWords.fittedNote(formatEstimate(alpha, interval), formatInterval(interval))}`;
   });
-  // A line break in the name of a file would end the comment in YAML.
+  // Line breaks in the name of a file are replaced by spaces, because they would end the comment in YAML.
   const commentLines = commentTexts.map((commentText) => `# ${commentText.replaceAll(/\s+/g, ' ')}`);
   const fifthAlphaLines = alphas.length < 5 ? [`# ${yamlWords.fifthAlphaNote}`] : [];
   // If the rows of a log are sparse, its legs are longer than requested. AMCL should then update at these longer distances, because the α's hold for them.

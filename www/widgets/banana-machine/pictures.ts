@@ -201,7 +201,7 @@ function drawDrivingRobots(drawContext: DrawContext, simulation: BananaMachine, 
   const { palette } = drawContext;
   for (let i = 0; i < robotCount; i++) {
     const { path, pose } = simulation.inspect(i);
-    // If several robots drive, the first robot has already arrived.
+    // If several robots drive, the first robot has already arrived, and is drawn at its end.
     const chordCount = path.length / 2 - 1;
     const chordPosition = (i === 0 && robotCount > 1 ? 1 : pathFraction) * chordCount;
     const chordIndex = Math.min(Math.floor(chordPosition), chordCount - 1);

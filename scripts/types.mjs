@@ -50,7 +50,7 @@ declare module '${module}' {
   }
 }
 
-/** Returns the interfaces of groups of settings. A group must be the same in all widgets that have it. */
+/** Returns the text of the interfaces of groups of settings. A group must be the same in all widgets that have it. */
 function composeGroupInterfaces() {
   /** @type {Map<string, string>} */
   const interfaceByGroup = new Map();
@@ -66,17 +66,17 @@ function composeGroupInterfaces() {
   return interfaceByGroup.values();
 }
 
-/** Returns the interface of a widget's settings. @param {string} widgetTag */
+/** Returns the text of the interface of a widget's settings. @param {string} widgetTag */
 function settingsInterfaceOf(widgetTag) {
   return interfaceOf(`${toPascalCase(widgetTag)}Settings`, settings[widgetTag].filter((settingDeclaration) => !settingDeclaration.in && !settingDeclaration.of).map(fieldOf));
 }
 
-/** Returns the type of a figure with the public members of its class. @param {import('./declarations.mjs').Widget[]} widgets */
+/** Returns the text of the types that all figures share; any widget has their common attributes. @param {import('./declarations.mjs').Widget[]} widgets */
 async function composeFigureTypes([{ attributes }]) {
   const { classes } = await readClassComments();
   /** @type {any[]} */
   const publicMembers = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
-  /** Replaces the type of any widget by a type parameter. @param {{ type: { text: string } }} [typedItem] */
+  /** Returns a type, with type parameters for what depends on the widget. @param {{ type: { text: string } }} [typedItem] */
   const specializedTypeOf = (typedItem) => (typedItem?.type.text ?? 'void').replace(/\bSimulation\['stats'\]/, 'Stats').replace(/\bStateValues\b/, 'State');
   const memberFields = publicMembers.map(({ kind, name, description, parameters = [], type, return: returnType, readonly }) => {
     const parameterTexts = parameters.map((/** @type {any} */ methodParameter) => `${methodParameter.name}: ${specializedTypeOf(methodParameter)}`);
@@ -106,7 +106,7 @@ const LISTENER_METHODS = ['add', 'remove'].flatMap((listenerVerb) => {
   return overloadLines.map((name) => ({ name, type: 'void', description: '' }));
 });
 
-/** Returns the types of an element and of its state. @param {import('./declarations.mjs').Widget} widget */
+/** Returns the text of the types of an element and of its state. @param {import('./declarations.mjs').Widget} widget */
 function elementTypesOf({ tag, className, attributes, properties, state }) {
   const baseType = `FigureElement<${className}State, ${className}['stats']>`;
   const widgetField = { name: 'widget', type: `'${tag}'`, description: '' };
@@ -119,7 +119,7 @@ function elementTypesOf({ tag, className, attributes, properties, state }) {
   );
 }
 
-/** Returns the import of the types that the elements use. @param {import('./declarations.mjs').Widget[]} widgets */
+/** Returns the text of the import of the types that the elements use. @param {import('./declarations.mjs').Widget[]} widgets */
 function importLineOf(widgets) {
   const typeNames = widgets.flatMap(({ properties, state }) => [...properties, ...state]).flatMap(({ type }) => type.match(/\b[A-Z]\w*/g) ?? []);
   const neededTypeNames = new Set(['FigureState', ...widgets.map(({ className }) => className), ...typeNames]);
@@ -127,7 +127,7 @@ function importLineOf(widgets) {
   return `import type { ${importedNames.sort().join(', ')} } from '../www/types.d.ts';\n`;
 }
 
-/** Returns the types of the elements by tag. @param {import('./declarations.mjs').Widget[]} widgets */
+/** Returns the text of the types of the elements by tag. @param {import('./declarations.mjs').Widget[]} widgets */
 function tagTypesOf(widgets) {
   const tagMapLines = widgets.map(({ tag, className }) => `    '${tag}': ${className}Element;\n`);
   const tagLines = widgets.map(({ tag, className, attributes, properties }) => {
@@ -148,7 +148,7 @@ ${tagMapLines.join('')}  }
 `;
 }
 
-/** Returns an interface of TypeScript. @param {string} interfaceName @param {Field[]} interfaceFields @param {string} [baseInterface] */
+/** Returns an interface as TypeScript text. @param {string} interfaceName @param {Field[]} interfaceFields @param {string} [baseInterface] */
 function interfaceOf(interfaceName, interfaceFields, baseInterface) {
   const memberLines = interfaceFields.map(({ name: key, type, description, readonly, isText }) => {
     const commentText = description && `  /** ${description} */\n`;

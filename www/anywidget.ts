@@ -51,7 +51,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
   const traits = traitsOf(element);
   let isScheduled = false;
   let isWriting = false;
-  /** Writes the figure's values into the model, once after several changes. */
+  /** Writes the figure's values into the model. Several calls in the same task cause one write. */
   const sendValues = () => {
     if (isScheduled) return;
     isScheduled = true;

@@ -51,8 +51,8 @@ impl LegLength {
         }
     }
 
-    /// Returns true if a leg with these end poses is complete: beyond the limit of a displacement, or at the limit of a duration, up to
-    /// [`LENGTH_TOLERANCE`].
+    /// Returns true if a leg with these start and end poses is complete. Displacements must exceed their limit by more than
+    /// [`LENGTH_TOLERANCE`]. Durations may be shorter than their limit by this tolerance.
     fn is_complete(&self, end_poses: &[SE2; 2], elapsed: f64) -> bool {
         let excess_ratio = self.ratio(end_poses, elapsed) - 1.0;
         match self {

@@ -150,8 +150,8 @@ impl Observation {
 const MIN_SIDEWAYS_SINE: f64 = 0.5;
 
 impl Observation {
-    /// Returns true if the reading is a drive to the side, which the rule decomposes into large turns. Under Table 5.6 a drive backwards
-    /// also counts. A reading without a first rotation has no direction, and does not count.
+    /// Returns true if the reading is a drive to the side, which the model's odometry rule decomposes into large turns. Under Table 5.6 a
+    /// drive backwards also counts. A turn on the spot, with the first rotation 0, has no direction and does not count.
     pub(crate) fn moves_sideways(&self, model: Model) -> bool {
         let [rot1, _, rot2] = self.reading;
         let (sin, cos) = libm::sincos(rot1 - 0.5 * wrap_angle(rot1 + rot2));

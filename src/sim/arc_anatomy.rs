@@ -37,14 +37,14 @@ settings! {
         noise: NoiseKind = NoiseKind::Normal;
         /// True for a radius without a sign, as Table 5.1 prints it.
         printed: bool = false;
-        /// Quantity of the heat map over all final positions, at the heading of the final pose.
+        /// Quantity that the heat map shows at each possible final position, with the heading of the final pose.
         map: HeatMapKind = HeatMapKind::NoHeatMap;
     }
 }
 
 impl SettingRules for Settings {
-    /// An arc to the left, its mirror images to the right and in reverse, and a straight drive. The final pose is off the commanded arc, so
-    /// that no residual is 0.
+    /// An arc to the left, its mirror images to the right and in reverse, and a straight drive. The final pose is not on the commanded arc,
+    /// so that no residual is 0.
     const PRESETS: &'static [(&'static str, Self)] = &[
         ("left", Self::DEFAULT),
         ("right", preset([1.0, -0.5], [1.1, -0.5, -1.1])),
@@ -176,7 +176,7 @@ js_structs! {
         pub ticks: Vec<[f64; 4]> as "Float64Array",
     }
 
-    /// Heat map over positions, at the heading of the final pose: the score p of Table 5.1, or the probability density of the sampler.
+    /// Heat map over final positions, with the heading of the final pose: the score p of Table 5.1, or the density of the sampler.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Surface as "AnatomySurface" {
         /// Number of cells along x.

@@ -5,7 +5,7 @@ pub const fn alphas_of_noise_level(n: f64) -> [f64; 6] {
     [n, n, n, n, 0.25 * n, 0.25 * n]
 }
 
-/// Access to α's through one noise level. α's have the level n only if they equal `alphas_of_noise_level(n)`.
+/// Access to α's through one noise level n: the last two α's are n/4, and all others are n.
 pub struct NoiseLevel<'a>(pub &'a mut [f64]);
 
 impl NoiseLevel<'_> {
@@ -14,7 +14,7 @@ impl NoiseLevel<'_> {
         (0..alpha_count).map(move |i| if i + 2 < alpha_count { 1.0 } else { 0.25 })
     }
 
-    /// Returns the level; None if the α's do not have the ratios of a level.
+    /// Returns the noise level n; None if the α's have other ratios than those that a noise level sets.
     pub fn get(&self) -> Option<f64> {
         let n = self.0[0];
         self.ratios().zip(&*self.0).all(|(ratio, alpha)| *alpha == n * ratio).then_some(n)

@@ -15,7 +15,7 @@ keywords!(
     "thrun" = Self::Table, "nav2" = Self::Nav2, "beluga" = Self::Beluga, "omni" = Self::Omni
 );
 
-/// Maximum number of outcomes. This many can be computed within a frame. More dots would not be distinguishable.
+/// Maximum number of outcomes (end poses drawn with noise). This many can be computed within a frame. More dots would be indistinguishable.
 pub const MAX_SAMPLES: u64 = 5000;
 
 settings! {
@@ -23,23 +23,23 @@ settings! {
     pub struct Settings {
         /// Odometry pose before the motion.
         from: [f64; 3] = [0.0; 3], each "that odometry reports";
-        // A drive in reverse, on which the rules disagree.
+        // A drive in reverse, on which the odometry rules disagree.
         /// Odometry pose after the motion.
         to: [f64; 3] = [-1.2, -0.3, 0.1], each "that odometry reports";
-        /// Rule that relates the α’s to the noise.
+        /// Odometry rule, which decomposes the reading and relates the α’s to its noise.
         rule: OdometryRule = OdometryRule::Table;
         /// Noise parameters of the rule; only the rule omni has the fifth.
         alphas: RuleAlphas = [0.03, 0.01, 0.01, 0.02, 0.01], in ALPHA_RANGE,
             each "Noise parameter; the first four are every rule’s, the fifth the omnidirectional one’s.";
         /// Distribution of the noise. Its choice does not change the variances.
         noise: NoiseKind = NoiseKind::Normal;
-        /// Correlation of the noises of the two rotations, which the rules assume to be 0.
+        /// Correlation of the noises of the two rotations, which the odometry rules assume to be 0.
         correlation: f64 = 0.0, in -1.0..=1.0;
-        /// Time for which the frame of the odometry has drifted away from the world.
+        /// Drift time: time since the odometry frame coincided with the world frame. The prediction does not depend on it.
         drift: f64 = 40.0, "s", in 0.0..=1e6;
         /// Progress of the robot: from 0 to 1 in the first rotation, to 2 in the drive, to 3 in the second rotation.
         phase: f64 = 3.0, in 0.0..=3.0;
-        /// Number of outcomes in the whole cloud.
+        /// Number of outcomes (end poses drawn with noise) in the whole cloud.
         samples: usize = 500, in 1..=MAX_SAMPLES;
         // Among the seeds 0 to 39, the default has the initial standard deviations nearest to the exact ones.
         /// Seed of the random numbers. Equal seeds draw equal outcomes.
@@ -72,7 +72,7 @@ const DRIFT_TWIST: [f64; 3] = [0.015, 0.008, -0.01];
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
 js_structs! {
-    /// Rotation, translation and rotation of the reading, as one of the rules decomposes it, and the standard deviations of their noises.
+    /// Rotation, translation and rotation of the reading, as an odometry rule decomposes it, and the standard deviations of their noises.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RuleNoise {
         /// Odometry rule that gives the decomposition and the noise.
@@ -100,7 +100,7 @@ js_structs! {
     /// Statistics of the outcomes shown, and exact values under the selected rule. Statistics are NaN without outcomes.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Stats as "DecomposerStats" {
-        /// Number of outcomes shown.
+        /// Number of outcomes shown, which are end poses drawn with noise.
         pub n: usize,
         /// Root mean square of the distance of the end position from the line along the measured bearing, m.
         pub cross_track: f64,
@@ -221,7 +221,7 @@ impl OdometryDecomposer {
         legs.apply(&self.start_pose())
     }
 
-    /// Returns the decomposition and the noise of the reading under each rule, with the current α's.
+    /// Returns the decomposition of the reading and its noise by each of the four odometry rules, with the current α's.
     pub fn rule_noises(&self) -> [RuleNoise; 4] {
         let Settings { alphas, noise, correlation, .. } = self.settings;
         let reading = self.reading();

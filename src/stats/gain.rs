@@ -28,7 +28,7 @@ pub struct LikelihoodGain {
 /// Likelihood gain with its standard errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredGain {
-    /// Likelihood gain of a cloud of samples.
+    /// Gain in mean log-likelihood of a cloud of samples by exponential or arc coordinates over (x, y, θ) or (x, y).
     pub value: LikelihoodGain,
     /// Standard errors: the standard deviation, over all robots, of the difference of the two log-densities, divided by √n. The fitted
     /// moments add nothing to first order, because they maximize the likelihood of each Gaussian. NaN if the gain is not finite.

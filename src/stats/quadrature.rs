@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 /// Node of a quadrature rule for a noise of variance 1. The weights of a rule sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
-    /// Value of the noise.
+    /// Value of the noise at the node, in standard deviations.
     pub value: f64,
     /// Weight of the node.
     pub weight: f64,
@@ -59,7 +59,7 @@ fn triangular_nodes() -> Vec<Node> {
 }
 
 /// Returns a rule from −`limit` to `limit` for a function that is smooth except at the two `breaks`, of which one is negative and one is
-/// positive. Gauss–Legendre rules are used between the breaks. Moments of normal noise up to six standard deviations are off by 1e-10.
+/// positive. Gauss–Legendre rules are used between the breaks. Moments of normal noise up to six standard deviations have errors of 1e-10.
 #[inline(never)]
 pub(super) fn piecewise_nodes(noise: NoiseKind, limit: f64, breaks: [f64; 2]) -> Vec<Node> {
     /// Number of quadrature nodes between two break points. Nodes of two noises are combined, so that the cost grows with the square of

@@ -40,7 +40,7 @@ cloud_simulation_class! {
         milestones: "Milestone[]" = to_plain_js(&simulation.milestones());
     }
     others {
-        /// Level h of the heading noise; null if α₃ to α₆ do not have the ratios of a level.
+        /// Level h of the heading noise; null unless α₃ and α₄ are h, and α₅ and α₆ are h/4.
         heading_noise as "headingNoise": "number | null" = to_plain_js(&simulation.settings().heading_noise());
         /// Predicted variances of along, lateral (m²) and heading (rad²) after each step, three numbers a step; NaN if undefined.
         predicted: "ByRecursion<Float64Array>" = js_by_recursion(|recursion| {

@@ -16,7 +16,7 @@ cloud_simulation_class! {
     /// All values that a figure shows, in one call.
     read as "OdometryDecomposerView" {
         stats: "DecomposerStats" = to_plain_js(&simulation.stats());
-        /// Decomposition and noise of the reading under each rule.
+        /// Decomposition of the reading and its noise by each odometry rule.
         rules: "RuleNoise[]" = to_plain_js(&simulation.rule_noises());
         /// x, y (m), θ (rad) of each outcome shown, in the odometry frame; a copy.
         poses: "Float64Array" = triple_array(simulation.poses().iter().copied());

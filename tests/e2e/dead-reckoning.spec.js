@@ -20,7 +20,7 @@ const captionOf = (/** @type {Locator} */ widget) => widget.locator('p[part=capt
 const plotOf = (/** @type {Locator} */ widget) => widget.locator('.ratios svg.plot');
 
 /**
- * Returns a text such as "steps 15–20" for each variance. It names the steps at which the predicted variance is off by more than 5 %.
+ * Returns a text such as "steps 15–20" for each variance. It names the steps at which the predicted variance is wrong by more than 5 %.
  *
  * @param {Locator} widget
  * @param {number} [recursionColumn] index of a column of the table; each has the predictions of one recursion

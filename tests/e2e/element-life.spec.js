@@ -28,12 +28,12 @@ async function countFramesAndModules(page) {
 }
 
 /**
- * Returns the numbers of frames and modules that the page has counted.
+ * Returns the numbers of frames and modules since `countFramesAndModules`.
  * @param {Page} page @returns {Promise<{ frames: number, compiled: number, instances: number }>}
  */
 const readPageCounts = (page) => page.evaluate(() => Reflect.get(window, 'counts'));
 
-/** Waits for six animation frames that are not counted as frames of the page. @param {Page} page */
+/** Waits for six animation frames, which `countFramesAndModules` does not count. Figures may request frames meanwhile. @param {Page} page */
 const waitForSixFrames = (page) =>
   page.evaluate(async () => {
     for (let i = 0; i < 6; i++) await new Promise(Reflect.get(window, 'requestUncountedFrame'));

@@ -61,7 +61,7 @@ test('a partial state changes only its own fields, and both models keep their α
   await openDisclosures(widget);
   await widget.locator('#alpha1').fill('0.15');
   await widget.getByLabel('odometry').check();
-  // In each model a different α bends the cloud. The slider of that α is in the element `.pair`.
+  // The element `.pair` has the two sliders that are always visible: those of α₂ and α₃ in the odometry model.
   await widget.locator('.pair #alpha2').fill('0.07');
   const stateBefore = /** @type {any} */ (await readState(widget));
   expect(stateBefore.alphas.velocity[0]).toBe(0.15);

@@ -256,7 +256,7 @@ test('random actions cause no fault in any figure @nightly', NEW_PAGE_TAG, async
   page.on('dialog', (dialog) => dialog.dismiss());
   await page.addInitScript(() => {
     Object.assign(window, { keptStates: [], unexpectedErrors: [] });
-    // The page refuses full screen, as in many iframes, because a window in full screen cannot be resized.
+    // Full screen is refused, as in many iframes. The test resizes the window, which is impossible in full screen.
     Element.prototype.requestFullscreen = () => Promise.reject(new TypeError('Fullscreen is not permitted'));
     // A refused value fires an `error` event, which is expected. Other errors are not expected.
     addEventListener('error', (errorEvent) => {

@@ -82,7 +82,7 @@ test('the key 0 restores the state in which the presentation began', async ({ pa
   await widget.evaluate((element) => void Object.assign(element, { preset: 'hard', omega: 0.7 }));
   const preparedState = await readState(widget);
   await widget.getByRole('button', { name: 'Present' }).click();
-  // While a slider has the focus, digits select presets of the presentation.
+  // The test leaves the focus on a slider, where digit keys must still act on the presentation.
   await page.keyboard.press('c');
   await widget.locator('#v').press('ArrowUp');
   expect(await readState(widget)).not.toEqual(preparedState);

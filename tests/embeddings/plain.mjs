@@ -13,7 +13,7 @@ import { serveFiles, serveByProgram } from './serving.mjs';
 /** @typedef {import('./project.mjs').Platform} Platform */
 
 /**
- * @typedef {object} Plain
+ * @typedef {object} Plain platform whose built site (`production`) and development server (`development`) are tested
  * @property {string} heading
  * @property {string[]} packages names of packages, whose versions the documents state
  * @property {string} [output] directory of the site, relative to the example; without it, `npm start` serves the site at PORT
@@ -21,7 +21,7 @@ import { serveFiles, serveByProgram } from './serving.mjs';
  * @property {string} [devBase] path of the site for authors
  * @property {string} [copyDirectory] directory into which an author copies the single files
  * @property {boolean} [hasListProperty] true if the page sets a property that is a list (`alphas`)
- * @property {'development'} [onlyServing] name of the only serving that works
+ * @property {'development'} [onlyServing] 'development' if the built site does not work, and is not tested
  */
 
 /** Settings of the figure in the examples. */

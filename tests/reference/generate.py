@@ -302,8 +302,8 @@ def likelihood_gains(kind, alphas, v, omega, dt):
     weighted_moments = lambda weights, *values: (np.average(values, -1, weights), np.cov(values, aweights=weights, ddof=0))
     log_det = lambda matrices: np.log(abs(np.linalg.det(matrices)))
 
-    # A position is assigned to the arc with the turn nearest to the command. This turn jumps half a circle off the command, so that the
-    # quadrature needs finer steps.
+    # Each position is described by the arc whose turn is within ±π of the commanded turn. If the noise of the turn exceeds ±π, the arc's
+    # turn jumps by 2π, so that the quadrature needs finer steps.
     z, wz = quadrature_rule(kind, 6.0, 0.001, 1000)
     turn, nearest_turn = omega * dt + sw * z, omega * dt + np.remainder(sw * z + np.pi, 2 * np.pi) - np.pi
     arc_length_ratio = np.divide(nearest_turn, turn, out=np.ones_like(turn), where=abs(turn - nearest_turn) > 1e-9)

@@ -13,7 +13,7 @@ export class Settings extends FigureController {
   isViewModelStale: boolean | undefined;
   #openingState: StateValues | undefined;
   #elementFields = this.host.definition.elementFields;
-  /** Values of the state fields that the simulation does not have. Changes take effect at once. */
+  /** Values of the state fields that the simulation does not have. Changes take effect immediately. */
   elementState: StateValues = { ...this.host.definition.elementDefaults };
   /** Cached settings that are in effect in the simulation; undefined until they are read. */
   #currentSettings: StateValues | undefined;
@@ -51,7 +51,7 @@ export class Settings extends FigureController {
     return this.isViewModelStale || Object.keys(this.#pendingChanges).length > 0;
   }
 
-  /** Changes values as the user asked: settings in the next frame, so that a drag configures the simulation once in each frame. */
+  /** Changes values for the user, with an `input` event. Settings wait for the next frame, so that a drag configures the simulation once in each frame. */
   requestChange(change: StateValues | ((requested: StateValues) => StateValues)) {
     const { simulation, gesture, renderer } = this.host;
     if (!simulation) return;
@@ -61,7 +61,7 @@ export class Settings extends FigureController {
     renderer.requestFrame();
   }
 
-  /** Changes values at once, as a change by the page. Throws a TypeError or RangeError, without a change, for invalid values. */
+  /** Changes values for the page, immediately and without an `input` event. Throws a TypeError or RangeError, and changes nothing, if a value is invalid. */
   assign(values: StateValues) {
     const { host } = this;
     this.applyPending();
@@ -136,7 +136,7 @@ export class Settings extends FigureController {
     host.gesture.commitOneStep();
   }
 
-  /** Restores a state, by default the one that the figure opened with, as a change by the user. */
+  /** Restores a state for the user, with a `change` event. By default this is the state that the figure opened with. */
   restoreAsUser(state: StateValues | undefined = this.#openingState) {
     this.applyState(state);
     this.host.gesture.commitOneStep();

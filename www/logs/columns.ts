@@ -110,7 +110,7 @@ const QUANTITY_OF_FIELD: Partial<Record<Field, [ParsedUnit['quantity'], boolean]
   t: ['time', false], seconds: ['time', false], subseconds: ['time', false], x: ['length', false], y: ['length', false], z: ['length', false], yaw: ['angle', false], v: ['length', true], omega: ['angle', true],
 };
 
-/** Returns a name in lower case, with dots between its parts. */
+/** Returns the name of a column in lower case, with dots between its words: pose.x for poseX, pose_x or "pose x". */
 function toDottedName(name: string): string {
   const lowerCaseName = name.replace(/^%/, '').replace(/^field\./, '').replaceAll(/(\p{Ll})(\p{Lu})/gu, '$1.$2').toLowerCase();
   return lowerCaseName.replaceAll(/[^\p{L}\p{N}°]+/gu, '.').replaceAll(/^\.+|\.+$/g, '');

@@ -54,7 +54,7 @@ export interface Recording {
   series: Series[];
   /** Role that the user chose for the log. */
   role?: Role;
-  /** Reads the logs of all choices in one pass; rejects with a LogError. */
+  /** Reads one log for each of `choices`, all in one pass over the file; rejects with a LogError if a log cannot be read. */
   read(choices: LogChoice[], onProgress?: (fraction: number) => void): Promise<Log[]>;
 }
 
@@ -113,7 +113,7 @@ export interface Log {
   /** Rows in the form that the core takes: times rise strictly, and count in seconds from `start`. */
   data: Poses | Commands;
   summary: Summary;
-  /** Question that proposes other columns, which mirror the log; undefined for a topic, because the axes of a topic cannot be changed. */
+  /** Question that proposes to mirror the log by negating y and the headings; undefined for a topic, because the axes of a topic cannot be changed. */
   mirroring?: FileQuestion;
 }
 

@@ -82,7 +82,7 @@ export function drawCallouts(drawContext: DrawContext, callouts: Callout[], { sh
     const outwardAngle = Math.atan2(y - centreY, x - centreX);
     let bestBox = { x, y, halfWidth, halfHeight, cost: Infinity };
     for (const { turn, length, cost } of CANDIDATE_POSITIONS) {
-      // The candidates are in the order of their leaders' costs: no later candidate can cost less than the best position so far.
+      // The candidates are sorted by the cost of their leader, to which overlaps only add. No later candidate can cost less than the best box.
       if (cost >= bestBox.cost) break;
       const [idealX, idealY] = [x + (length + halfWidth) * Math.cos(outwardAngle + turn), y + (length + halfHeight) * Math.sin(outwardAngle + turn)];
       const textBox = {

@@ -46,7 +46,7 @@ class Figure(anywidget.AnyWidget):
             raise TypeError(f"{unknown_names[0]} is no setting of {type(self).__name__}; it has {', '.join(sorted(self._settings))}")
         # Sequence number of the latest change that Python made to each setting.
         self._asked_at: dict[str, int] = {}
-        # Settings in the figure's report that Python is applying.
+        # Settings of the figure's report while `set_state` copies them to the traits; otherwise empty.
         self._reported: dict[str, Any] = {}
         super().__init__(**settings)
 

@@ -31,12 +31,12 @@ js_structs! {
         pub gaussian_skew: f64,
         /// Correlation of cross-track position and heading, −1 to 1.
         pub rho_cross_heading: f64,
-        /// Fractions of the samples inside the 2σ outlines.
+        /// Fractions of the samples inside the 2σ outlines of the Gaussians in (x, y) and in exponential coordinates.
         pub coverage: Coverage,
         /// Gains in mean log-likelihood: of a Gaussian in exponential coordinates over one in (x, y, θ), and of a Gaussian in arc
         /// coordinates over one in (x, y).
         pub likelihood_gain: LikelihoodGain,
-        /// Standard errors of the likelihood gains.
+        /// Standard errors of the two gains in mean log-likelihood.
         pub likelihood_gain_error: LikelihoodGain,
         /// Area of the 2σ ellipse in (x, y), divided by the area that the 2σ outline of the Gaussian in exponential coordinates has in (x,
         /// y).

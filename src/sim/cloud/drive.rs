@@ -17,7 +17,7 @@ pub struct NoisyDrive {
     is_arc: bool,
     /// Length of the motion, m.
     length: AffineInNoise,
-    /// Bearing of the end, rad.
+    /// Bearing of the end of the motion, seen from the origin, rad.
     bearing: AffineInNoise,
     /// Coefficients of the half heading (half the heading angle): `bearing_weight` · bearing + `half_heading_offset` (rad).
     bearing_weight: f64,

@@ -54,7 +54,7 @@ pub struct Stats {
     /// Predicted covariance after the selected step; null (None) if the recursion gives no covariance at this step.
     #[cfg_attr(target_arch = "wasm32", tsify(type = "ByRecursion<number[][] | null>"))]
     pub predicted: ByRecursion<Option<CovarianceRows>>,
-    /// Steps at which the predicted variance is off by more than 5 %, for the components along, lateral and heading.
+    /// Misses (steps with a wrong predicted variance) of the components along, lateral and heading.
     pub misses: ByRecursion<[Misses; 3]>,
 }
 
@@ -201,7 +201,7 @@ impl DeadReckoning {
         nearest_index(positions, target, [radius, radius])
     }
 
-    /// Returns the moments and predicted covariances after the selected step, and the steps at which predicted variances are off.
+    /// Returns the moments and predicted covariances after the selected step, and the misses of each recursion over all steps.
     pub fn stats(&self) -> Stats {
         let step_index = self.settings.step as usize - 1;
         let MeasuredMoments { mean, cov, .. } = self.measured_moments()[step_index];
@@ -312,11 +312,11 @@ fn xi_ellipse_outline(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> Vec<[f64; 2]> 
 pub const RECURSIONS: [Compounding; 3] =
     [Compounding::Chapter, Compounding::FirstOrder, Compounding::FourthOrder];
 
-/// Relative error of a variance above which a step counts as a miss.
+/// Relative error of a predicted variance above which a step counts as a miss.
 pub const MISS_TOLERANCE: f64 = 0.05;
 
-/// Maximum relative standard error of a measured variance at which a step can count as a miss (a prediction that is off): a quarter of the
-/// tolerance. Of dozens of variance ratios, some deviate by three standard errors by chance, but hardly any by four.
+/// Maximum relative standard error of a measured variance with which misses can be decided: a quarter of the tolerance [`MISS_TOLERANCE`].
+/// Of dozens of variance ratios, some deviate by three standard errors by chance, but hardly any by four.
 const MAX_STANDARD_ERROR: f64 = MISS_TOLERANCE / 4.0;
 
 /// Standard deviation, relative to the length of the path or in radians, below which a measured spread counts as rounding error.
@@ -325,21 +325,21 @@ const NEGLIGIBLE_STD: f64 = 1e-12;
 /// Comparison of a recursion with the robots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecursionComparison {
-    /// Predicted divided by measured variance of along, lateral and heading after each step; NaN if one of them is undefined.
+    /// Predicted divided by measured variance of along, lateral and heading after each step; NaN if either variance is undefined.
     pub ratios: Vec<Vector3<f64>>,
-    /// Steps at which the predicted variance is off by more than 5 %, for along, lateral and heading.
+    /// Misses of along, lateral and heading.
     pub misses: [Misses; 3],
 }
 
 js_structs! {
-    /// Misses of one component: steps at which its variance ratio is off by more than 5 % ([`MISS_TOLERANCE`]).
+    /// Misses of one component: steps at which its predicted variance differs from the measured variance by more than 5 %.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Misses {
-        /// True if the robots have a spread, and are enough to decide whether a predicted variance is off.
+        /// True if the robots have a spread, and are enough to decide which steps are misses.
         pub decidable: bool,
-        /// First step at which the predicted variance is off; null (None) if there is no such step, or if it cannot be decided.
+        /// Number of the first miss; null (None) if no step is a miss, or if misses cannot be decided.
         pub first: Option<u32>,
-        /// Last step at which the predicted variance is off; null (None) as for `first`.
+        /// Number of the last miss; null (None) as for `first`.
         pub last: Option<u32>,
         /// Predicted divided by measured variance after the last step, minus 1; NaN without a prediction or a measured spread.
         pub end: f64,

@@ -23,13 +23,13 @@ pub enum NoisePer {
 
 keywords!(NoisePer: "step" = Self::Step, "path" = Self::Path);
 
-/// Maximum number of rollouts. With two hundred steps, so many rollouts take about ten seconds, and no memory.
+/// Maximum number of rollouts. With two hundred steps, this many rollouts take about ten seconds. Only those in the picture are stored.
 pub const MAX_SAMPLES: usize = 1_000_000;
 /// Maximum number of steps, ten times that of the chapter. Longer paths would show nothing new.
 pub const MAX_STEPS: u64 = 200;
 
-/// Seed with typical rollouts. Of the seeds 0 to 99 with the exact first step at which the predicted variance is off, it has the variance
-/// ratios nearest to the exact ratios.
+/// Seed with typical rollouts. With some of the seeds 0 to 99, the first miss (see [`super::Misses`]) is at the same step as with exact
+/// variances. Of these seeds, this one has the variance ratios nearest to the exact ratios.
 const INITIAL_SEED: u64 = 29;
 
 settings! {
@@ -63,7 +63,7 @@ impl Settings {
         NoiseLevel(heading_alphas)
     }
 
-    /// Returns the level of the heading noise; None if α₃ to α₆ are not in the ratios of a level.
+    /// Returns the level h of the heading noise; None unless α₃ and α₄ are h, and α₅ and α₆ are h/4.
     pub fn heading_noise(mut self) -> Option<f64> {
         self.heading_noise_level_mut().get()
     }

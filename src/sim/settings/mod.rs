@@ -80,7 +80,7 @@ pub enum Setting<'a> {
     Keyword(&'a mut dyn KeywordSetting),
     /// List of fixed length, whose numbers have one common range.
     Numbers(&'a mut [f64], RangeInclusive<f64>),
-    /// Noise level, which sets several numbers in fixed ratios, and its range.
+    /// Noise level, which sets several α's in fixed ratios, and its range.
     Level(NoiseLevel<'a>, RangeInclusive<f64>),
     /// Three numbers with names, such as the coordinates of a pose.
     Group(&'static [GroupMember; 3], [&'a mut f64; 3]),
@@ -109,7 +109,7 @@ impl Setting<'_> {
                     check_real(&format!("{key}.{}", declaration.key), *number, allowed)
                 })
             }
-            // The numbers that a level sets are checked instead of the level.
+            // The α's that a noise level sets are checked instead of the level.
             Self::OptionalInteger(None, _) | Self::Boolean(_) | Self::Keyword(_) | Self::Level(..) => Ok(()),
         }
     }
@@ -157,9 +157,9 @@ pub trait IntegerSetting {
     fn set(&mut self, integer: u64);
 }
 
-/// Enum whose values have keywords in settings, attributes and states.
+/// Enum whose values are written as keywords (strings) in settings, attributes and states.
 pub trait HasKeywords: Copy + 'static {
-    /// Keywords with their values.
+    /// Pairs of a keyword and the value of the enum that it stands for.
     const KEYWORDS: &'static [(&'static str, Self)];
 }
 

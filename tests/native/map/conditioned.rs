@@ -125,7 +125,7 @@ fn a_robot_that_cannot_move_is_an_error_with_the_number_of_draws() {
         assert_eq!(refusal.0.draws, MAX_DRAWS);
         assert_eq!(refusal.to_string(), "the robot is wedged: 10000 draws were tried and too few accepted");
     }
-    // The first part of the motion, 1 m ± 1 mm, is free. A wall blocks the second part. The draws of the first part are counted too.
+    // The motion has two sub-steps. The first, 1 m ± 1 mm, is free and needs one draw. A wall blocks the second. All draws are counted.
     let dead_end_plan =
         FloorPlan::new(vec![Segment { from: [1.5, 0.0], to: [1.5, 2.0] }], [0.0, 0.0, 2.0, 2.0])
             .expect("a valid plan");

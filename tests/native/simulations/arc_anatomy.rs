@@ -83,8 +83,8 @@ fn robots_end_where_their_arcs_do_and_the_last_turn_gives_the_final_heading() {
     }
 }
 
-/// The printed table is wrong only if the centre is to the right of the heading. Its arc then ends at the final position reflected through
-/// the start.
+/// The unsigned radius of Table 5.1 as printed is wrong only if the centre is to the right of the heading. The arc then ends at the final
+/// position reflected through the start position.
 #[test]
 fn the_printed_option_mirrors_centres_to_the_right() {
     let mut right_count = 0;

@@ -127,7 +127,7 @@ fn moments_are_those_of_the_cloud() {
     }
 }
 
-/// A ratio is the predicted variance divided by the measured variance. A step is a miss if the ratio is off by more than 5 %. Steps are
+/// A ratio is the predicted variance divided by the measured variance. A step is a miss if the ratio is not in 1 ± 5 %. Steps are
 /// counted from 1.
 #[test]
 fn ratios_and_misses_are_counted() {

@@ -12,7 +12,7 @@ use motion::{NoiseKind, VelocityAlphas, VelocityModel};
 /// Number of seeds of each case. A fraction of 95 % then has a standard error of 0.2 %. The tolerance, 4.5 standard errors, is 1 %.
 const REPETITION_COUNT: u64 = 10_000;
 
-/// Number of seeds for clouds that are ten times as large. The tolerance is then 1.8 %.
+/// Number of seeds for clouds of ten times [`ROBOT_COUNT`] robots. The tolerance of the fraction 95 % is then 1.8 %.
 const LARGE_CLOUD_REPETITION_COUNT: u64 = 3000;
 
 /// Number of robots of a cloud, a tenth of the widget's default. In smaller clouds the skew and its error are biased.

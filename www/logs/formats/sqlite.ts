@@ -75,7 +75,7 @@ class Rosbag2 extends MessageFile {
     if (!['topics', 'messages'].every((name) => this.#tableNames.has(name)) && !this.truncationReason) throw createNotRosbag2Error();
   }
 
-  /** Adds the topic that a row describes, or the name of the table that it describes. */
+  /** Stores the topic from a row of the table `topics`, or the table name from a row of the list of all tables. Ignores other rows. */
   async #addTopic(row: Row): Promise<void> {
     const isTable = isRowOf('tables', row);
     if (!isTable && !isRowOf('topics', row)) return;

@@ -38,7 +38,7 @@ export class LogOpener extends FileOpener<Figure> {
   chosenFiles: ChosenFiles | undefined;
   /** Files with the log whose results are on screen; undefined after the page or the user has set another log. */
   #resultFiles: ChosenFiles | undefined;
-  /** Files that contain only one log of a drive. If the next file contains the other log, the two logs are paired. */
+  /** Files that contain only the odometry or only the reference of a drive. The next file with one log is paired with them. */
   #loneLogFiles: ChosenFiles | undefined;
   /** Module with the code and the texts for choosing and showing logs. It is loaded when the user chooses a file. */
   logModule: LogModule | undefined;
@@ -132,7 +132,7 @@ export class LogOpener extends FileOpener<Figure> {
     if (isLatest) this.#setIdle();
   }
 
-  /** Reads the logs of files. If the files have only one log, and the previous files also had only one, the two logs are paired. */
+  /** Reads the logs of files. If these and the previous files have one log each, the two logs become odometry and reference of a drive. */
   async #read(openedFiles: ChosenFiles): Promise<void> {
     Object.assign(openedFiles, await this.host.service.read(openedFiles.files, openedFiles.answers, openedFiles.userChoices, (readFraction) => {
       this.readFraction = readFraction;

@@ -67,7 +67,7 @@ export function viewModelOf(simulation: Simulation) {
   };
 }
 
-/** Returns the curve of a component. `ratios` has three numbers for each step, one for each component. */
+/** Returns the variance ratios of one component of ξ, and their standard errors. The arrays have the numbers of all three components for each step. */
 function curveOfComponent(ratios: Float64Array, relativeErrors: Float64Array, componentIndex: number) {
   const componentOf = (triples: Float64Array) => triples.filter((_, i) => i % 3 === componentIndex);
   const componentRatios = componentOf(ratios);

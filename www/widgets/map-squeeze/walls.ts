@@ -10,7 +10,7 @@ const TOUCH_DISTANCE = 1e-6;
 /** Minimum gap between the end of a moved wall and another wall, and minimum length of a wall, m. */
 const MIN_WALL_GAP = 0.05;
 
-/** Minimum distance (m) from a wall at which a path touches it. Points of the path are tested at intervals of the robot's radius divided by `POINTS_PER_RADIUS`. */
+/** Minimum radius (m) for the search of contacts; a smaller robot counts as this large. The radius divided by `POINTS_PER_RADIUS` is the step along the path. */
 const MIN_TOUCH_RADIUS = 0.02;
 const POINTS_PER_RADIUS = 4;
 

@@ -63,7 +63,7 @@ export class Cloud extends FigureController {
     return (settings.isViewModelStale && this.#simulation) || viewModel;
   }
 
-  /** True if the cloud has to show all requested samples, or as many as the simulation can draw. */
+  /** True if the goal is the whole cloud: all requested samples, or as many as the simulation can draw. */
   get isComplete() {
     return this.#state.shown >= this.#requestedCount || this.#hasGivenUp(this.#latestCounts);
   }
@@ -76,12 +76,12 @@ export class Cloud extends FigureController {
     return Math.ceil(this.#requestedCount / GROWTH_STEP_COUNT);
   }
 
-  /** Number of samples that the cloud has to show. If the cloud is complete, this is the requested number. */
+  /** Number of samples up to which samples are added: the requested number if the cloud is complete, otherwise the number `shown` of the state. */
   get targetCount() {
     return this.isComplete ? this.#requestedCount : this.#state.shown;
   }
 
-  /** True if the cloud does not grow, and has all the samples that it has to show, or as many as the simulation can draw. */
+  /** True if the cloud does not grow, and has `targetCount` samples, or as many as the simulation can draw. */
   get isSettled(): boolean {
     return !this.playing && (this.#latestCounts.shown >= this.targetCount || this.#hasGivenUp(this.#latestCounts));
   }
@@ -117,7 +117,7 @@ export class Cloud extends FigureController {
     this.addSamplesUnseen(Infinity);
   }
 
-  /** Adds samples for at most `limitMs` milliseconds. Returns true if the cloud has all samples that it has to show. */
+  /** Adds samples for at most `limitMs` milliseconds. Returns true if the cloud has `targetCount` samples, or as many as the simulation can draw. */
   addSamplesUnseen(limitMs = MAX_ADDING_MS): boolean {
     const { targetCount } = this;
     const endTime = performance.now() + limitMs;

@@ -22,7 +22,7 @@ pub enum Verdict {
     Unusable,
 }
 
-/// Names of the checks.
+/// Names of the checks that judge a calibration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
@@ -123,7 +123,7 @@ impl Check {
 pub struct WindowCoverage {
     /// Mean distance driven in a window, m. A window ends with the leg that completes 1, 2 or 5 m.
     pub length: f64,
-    /// Number of windows.
+    /// Number of windows of this length.
     pub count: usize,
     /// Fraction of the windows whose error is inside the 95 % ellipsoid.
     pub coverage: f64,

@@ -41,7 +41,7 @@ impl LegLength {
     /// AMCL's parameter `update_min_a`, rad.
     pub const AMCL_ANGLE: f64 = 0.2;
 
-    /// Returns the length of a leg divided by the length at which it should end.
+    /// Returns the displacement, turn or duration of a leg divided by its limit; for a displacement and a turn, the larger quotient.
     pub(super) fn ratio(&self, [start, end]: &[SE2; 2], elapsed: f64) -> f64 {
         match *self {
             Self::Displacement { distance, angle } => ((end.x() - start.x()).abs() / distance)

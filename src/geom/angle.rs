@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 /// Returns the representative of `angle` in (−π, π], radians.
 ///
-/// The result is exact for |angle| ≤ π. For larger angles the remainder is taken against the double nearest to 2π, so that the result is
-/// off by about 1.2e-16 · |angle|. NaN and infinities give NaN.
+/// The result is exact for |angle| ≤ π. For larger angles the remainder is taken against the double nearest to 2π, so that the result
+/// has an error of about 1.2e-16 · |angle|. NaN and infinities give NaN.
 #[inline(always)]
 pub fn wrap_angle(angle: f64) -> f64 {
     // Fast path: most angles are in range, and the remainder is slow.

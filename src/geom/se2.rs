@@ -123,7 +123,7 @@ impl SE2 {
 
     /// Returns the right Jacobian J_r (eq. 163), 3 × 3: exp(τ + δ) = exp(τ) · exp(J_r(τ)·δ) to first order in δ.
     ///
-    /// Each entry is off by at most 4e-16 · max(1, ‖τ‖) for |ω| ≤ π. det J_r = sinc²(ω/2).
+    /// The error of each entry is at most 4e-16 · max(1, ‖τ‖) for |ω| ≤ π. det J_r = sinc²(ω/2).
     pub fn right_jacobian(twist: &Vector3<f64>) -> Matrix3<f64> {
         let (a, b) = unit_arc_end(twist.z);
         let (c, half_sinc) = (sine_defect(twist.z), sinc(0.5 * twist.z));

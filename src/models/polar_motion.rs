@@ -18,7 +18,7 @@ pub struct PolarMotion {
     pub length: [f64; 2],
     /// Variance of the length, m². It is not computed from the standard deviation, because roots are rounded.
     pub length_variance: f64,
-    /// Bearing, rad.
+    /// Bearing of the end of the motion, seen from the origin, rad.
     pub bearing: [f64; 2],
     /// Last turn, rad.
     pub last_turn: [f64; 2],

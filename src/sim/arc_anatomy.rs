@@ -305,7 +305,7 @@ impl ArcAnatomy {
         }
     }
 
-    /// Returns the curves of the picture.
+    /// Returns the arcs, the path of the constant twist and its sideways displacements, as lines of the picture.
     pub fn paths(&self) -> Paths {
         let (start, next) = (self.settings.start(), self.settings.next());
         let [commanded, inverted, driven] = self.arcs().map(|arc| arc.points());

@@ -31,7 +31,7 @@ struct UnitMotion {
 /// Sums over motions of `unit_end`, called u, and of `excess_turn`, with the weights of the nodes. The weights may sum to less than 1.
 #[derive(Default)]
 pub(super) struct UnitMotionMoments {
-    /// Value of u of the first motion. Sums contain differences from this value, so that few digits are lost if u varies little.
+    /// End u of the first motion. Sums contain differences from this value, so that few digits are lost if u varies little.
     first_end: Option<[f64; 2]>,
     pub weight_sum: f64,
     weighted_sums: Vector3<f64>,

@@ -229,7 +229,7 @@ export async function computeHash(value) {
 const toHex = (hashBytes) => Array.from(new Uint8Array(hashBytes), (byte) => byte.toString(16).padStart(2, '0')).join('');
 
 /**
- * Returns the text that golden.txt must have, or only the lines of some widgets.
+ * Computes the digest: the text that golden.txt must equal, or only its lines about `widgetTags`.
  *
  * @param {Motion} core
  * @param {Configurations} configurations

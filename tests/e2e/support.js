@@ -79,7 +79,7 @@ function skipIntroduction() {
 /** Tag of tests of a first visit or of the browser history. Each of these tests gets a new page, see playwright.config.js. */
 export const NEW_PAGE_TAG = { tag: '@fresh' };
 
-/** Options of tests that need a complete cloud. With reduced motion a cloud is complete at once. */
+/** Options of tests that need a complete cloud. With reduced motion a cloud is complete immediately. */
 export const REDUCED_MOTION = { contextOptions: { reducedMotion: /** @type {const} */ ('reduce') } };
 
 /**

@@ -17,8 +17,8 @@ import { serveFiles, serveByProgram } from './serving.mjs';
  * @property {string} heading
  * @property {string[]} packages names of packages, whose versions the documents state
  * @property {string} [output] directory of the site, relative to the example; without it, `npm start` serves the site at PORT
- * @property {string} [base] path of the site
- * @property {string} [devBase] path of the site for authors
+ * @property {string} [base] path of the built site
+ * @property {string} [devBase] path of the site on the development server
  * @property {string} [copyDirectory] directory into which an author copies the single files
  * @property {boolean} [hasListProperty] true if the page sets a property that is a list (`alphas`)
  * @property {'development'} [onlyServing] 'development' if the built site does not work, and is not tested

@@ -23,7 +23,7 @@ import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
  * @property {number} [node] major version of Node that it needs, if newer than that of our package
  * @property {(directory: string, tools: Tools & PackagePaths) => Promise<unknown>} install installs the packages in a fresh copy of the example
  * @property {(directory: string, tools: Tools) => Promise<unknown>} [build]
- * @property {Serving[]} servings ways to serve the site; the first is that for users
+ * @property {Serving[]} servings ways to serve the site, such as a development server; readers get the first
  * @property {{ first: string, second?: string }} pages paths; the first has the figures
  * @property {(page: import('@playwright/test').Page, path: string) => Promise<unknown>} [goToPage] clicks a link to a path,
  *   or to "first" or "second" if both pages have the same address

@@ -1,5 +1,5 @@
 /**
- * Browser engines, driven by WebDriver. All engines report reduced motion, so that clouds are complete at once. A growing cloud would
+ * Browser engines, driven by WebDriver. All engines report reduced motion, so that clouds are complete immediately. A growing cloud would
  * depend on the number of frames, and therefore on the load of the computer.
  *
  * @module

@@ -40,7 +40,7 @@ def draw_signed_log_uniform(low, high):
 
 
 def generate_twists():
-    """Twists: rotations log-uniform over 1e-12 .. π in equal strata, translations over seven decade_count, and extreme cases."""
+    """Twists: rotations log-uniform over 1e-12 .. π in equal strata, translations over seven decades, and extreme cases."""
     decade_count = float(log(pi, 10)) + 12.0
     count = 110
     for i in range(count):

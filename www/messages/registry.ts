@@ -37,7 +37,7 @@ export function addEnglishMessages(messages: { [key: string]: Message }) {
 }
 
 /**
- * Sets words of the elements in a language, at once and on the whole page. Words that are left out stay as they were, and are English in a
+ * Sets words of the elements in a language, immediately and on the whole page. Words that are left out stay as they were, and are English in a
  * new language.
  *
  * @param lang a BCP 47 tag: "de", "pt-BR"

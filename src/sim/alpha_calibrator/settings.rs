@@ -78,7 +78,7 @@ impl Settings {
         with_other_prediction == *other
     }
 
-    /// Returns the motion model, with the rule for the noise of odometry.
+    /// Returns the motion model, which contains the odometry rule if it is an odometry model.
     pub fn model(&self) -> calibrate::Model {
         match self.model {
             Model::Odometry | Model::Omnidirectional => calibrate::Model::Odometry(self.rule),
@@ -115,7 +115,7 @@ impl Settings {
 }
 
 impl SettingRules for Settings {
-    /// Keeps model and rule consistent: changes the rule if the chosen model does not have it, or the model if the chosen rule belongs to
+    /// Keeps model and odometry rule consistent: changes the rule if the chosen model does not have it, or the model if the chosen rule belongs to
     /// another model.
     fn adjust(&mut self, _: &Self, changed_keys: &[&str]) {
         let does_model_fit_rule = self.is_omnidirectional() == (self.rule == OdometryRule::Omni);

@@ -290,7 +290,7 @@ impl BananaMachine {
             .collect()
     }
 
-    /// Returns the curves that are drawn over the cloud.
+    /// Returns the commanded arc, and the 2σ outlines of the fitted and predicted Gaussians.
     pub fn contours(&self) -> Contours {
         let Stats { cartesian, exponential, .. } = &self.stats;
         let outline_or_empty =

@@ -148,7 +148,7 @@ js_structs! {
         pub exponential: Vec<[f64; 2]> as "Float64Array",
         /// 2σ ellipse of the samples in exponential coordinates: along the track (m) and heading (rad).
         pub twist_ellipse: Vec<[f64; 2]> as "Float64Array",
-        /// 2σ circle of noise added to the pose: 0.4 m around the noise-free end, for every command and noise.
+        /// 2σ circle of a naive model that adds noise to the noise-free end. Its radius is 0.4 m for every command and noise.
         pub additive: Vec<[f64; 2]> as "Float64Array",
     }
 

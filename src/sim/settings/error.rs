@@ -8,7 +8,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{}", self.message())]
 pub struct SettingsError {
-    /// Name of the setting.
+    /// Name of the setting, as in attributes and states.
     pub key: String,
     /// The number that is not allowed; NaN for a keyword.
     pub value: f64,

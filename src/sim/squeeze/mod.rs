@@ -266,7 +266,7 @@ js_structs! {
     /// Statistics of the attempts shown. Fractions of no attempts are NaN. Costs per accepted attempt are infinite if none is accepted.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Stats as "SqueezeStats" {
-        /// Number of attempts.
+        /// Number of attempts shown.
         pub attempts: usize,
         /// Number of motions that were drawn. The sub-stepped sampler counts the parts of motions that it drew.
         pub drawn: usize,

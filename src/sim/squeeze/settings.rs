@@ -47,7 +47,7 @@ settings! {
         // The default is the smallest number of parts with a visible effect.
         /// Number of parts into which the sub-stepped sampler splits the command.
         steps: u32 = 4, in 1..=MAX_STEPS;
-        /// Number of attempts.
+        /// Number of attempts to draw a motion that the map allows.
         samples: usize = 600, in 1..=MAX_SAMPLES as u64;
         /// Seed of the random numbers. Equal seeds draw equal motions.
         seed: u64 = 7, in 0..=MAX_SEED;

@@ -134,7 +134,7 @@ fn report_wrong_coverage(quantity_name: &str, covered_count: usize, log_count: u
         .then(|| format!("{covered_count} of {log_count} intervals hold {quantity_name}"))
 }
 
-/// Reports α's whose medians are off by more than the allowed bias plus three standard errors, and α's with wrong intervals.
+/// Reports α's whose medians have a larger error than the allowed bias plus three standard errors, and α's with wrong intervals.
 fn report_wrong_alphas(model: Model, scenario: &Scenario, study: &StudyResults) -> Vec<String> {
     let report_wrong_alpha = |alpha_index: usize| {
         let (ratios, name) = (&study.alpha_ratios[alpha_index], format!("α{}", alpha_index + 1));
@@ -167,7 +167,7 @@ fn assert_right_in_every_model(
     assert!(failure_reports.is_empty(), "{}", failure_reports.join("\n"));
 }
 
-/// Reports a standard deviation of the reference that is off by more than 10 % plus three standard errors.
+/// Reports a standard deviation of the reference whose error is larger than 10 % plus three standard errors.
 fn report_wrong_std(study: &StudyResults, component_index: usize, true_std: f64) -> Vec<String> {
     let median_std = median_of_sorted(&study.reference_stds[component_index]);
     let tolerance = 0.1 * true_std + 3.0 * estimate_error_of_median(&study.reference_stds[component_index]);

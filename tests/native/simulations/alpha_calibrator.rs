@@ -213,7 +213,7 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
             .zip([odometry_end.x(), odometry_end.y(), odometry_end.theta()])
             .all(|(computed_value, expected_value)| (computed_value - expected_value).abs() < 1e-12)
     );
-    // Outcomes are drawn by the rule, with variances that the inflation multiplies by four.
+    // The outcomes are drawn by the rule of Table 5.6, with variances that the inflation multiplies by four.
     let mut alphas = [0.0; 5];
     for (alpha, fitted_alpha) in alphas.iter_mut().zip(&calibration.alphas) {
         *alpha = fitted_alpha.expect("known");

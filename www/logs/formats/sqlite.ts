@@ -110,7 +110,7 @@ class Rosbag2 extends MessageFile {
           if (pendingRow) await pendingRow;
         }
       } catch (error) {
-        // If the end of the file is missing, the last rows continue on missing pages. That is no damage.
+        // If the end of the file is missing, the last rows continue on missing pages. Such rows are not reported as damaged.
         if (!this.truncationReason || error instanceof LogError) this.noteDamage(pageNumber, error);
       }
       if (onProgress?.(pageNumber / pageCount)) return;

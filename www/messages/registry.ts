@@ -37,8 +37,8 @@ export function addEnglishMessages(messages: { [key: string]: Message }) {
 }
 
 /**
- * Sets words of the elements in a language, immediately and on the whole page. Words that are left out stay as they were, and are English in a
- * new language.
+ * Sets words of the elements in a language, immediately and on the whole page. Words that are left out stay as they were, and are English
+ * in a new language.
  *
  * @param lang a BCP 47 tag: "de", "pt-BR"
  * @param messages in the shape of the English ones, or a part of it. A list must have as many entries as the English one

@@ -115,8 +115,8 @@ impl Settings {
 }
 
 impl SettingRules for Settings {
-    /// Keeps model and odometry rule consistent: changes the rule if the chosen model does not have it, or the model if the chosen rule belongs to
-    /// another model.
+    /// Keeps model and odometry rule consistent: changes the rule if the chosen model does not have it, or the model if the chosen rule
+    /// belongs to another model.
     fn adjust(&mut self, _: &Self, changed_keys: &[&str]) {
         let does_model_fit_rule = self.is_omnidirectional() == (self.rule == OdometryRule::Omni);
         match [changed_keys.contains(&"model"), changed_keys.contains(&"rule")] {

@@ -1,7 +1,7 @@
 //! Checks of a fit: validity of the log, and goodness of fit of the model.
 
 use super::fit::{Fit, LegSet};
-use super::legs::{LostLegs, MIN_DRIVE_DISTANCE, MIN_LEGS, MIN_TURN_ANGLE, distance, turn};
+use super::legs::{Leg, LostLegs, MIN_DRIVE_DISTANCE, MIN_LEGS, MIN_TURN_ANGLE, distance, turn};
 use super::residuals::Model;
 use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
@@ -157,7 +157,7 @@ impl CheckName {
     fn failure_message(self) -> &'static str {
         match self {
             Self::ReferenceMatches => {
-                "The reference does not follow the odometry: it may be of another drive, have other units (degrees, feet, millimetres), a mirrored y axis or another vertical axis than z, or its columns may be swapped. The α's mean nothing. Compare both files row by row."
+                "The reference does not follow the odometry: it may be of another drive, have other units (degrees, feet, millimetres), a mirrored y axis or another vertical axis than z, or its columns may be swapped. The α's mean nothing. Compare both files of each drive."
             }
             Self::EnoughLegs => {
                 "There are few legs, so the intervals are wide and the other checks weak. Record a longer drive: a quarter of an hour of straight drives, arcs and turns on the spot."
@@ -258,7 +258,9 @@ pub(super) fn log_checks(
     let copy_error = max_alpha.map(f64::sqrt).filter(|error| *error < MIN_RELATIVE_ERROR);
     let copy_check =
         copy_error.map(|error| new_match_check(error, MAX_DRIVE_MISMATCH).with_cause(FailureCause::Copied));
-    let match_check = copy_check.or_else(|| check_ratios(leg_set, systematic));
+    let ratio_check = check_ratios(leg_set, systematic);
+    let failed_ratio_check = ratio_check.clone().filter(|check| !check.passed);
+    let match_check = failed_ratio_check.or(copy_check).or(ratio_check);
     let mut length_ratios: Vec<f64> =
         leg_set.legs.iter().map(|leg| leg_set.options.legs.ratio(&leg.odometry, leg.duration())).collect();
     let outlier_count = leg_set.outliers.iter().filter(|is| **is).count();
@@ -287,16 +289,29 @@ fn new_match_check(value: f64, max_mismatch: f64) -> Check {
     Check::new(CheckName::ReferenceMatches, value, [MIN_RELATIVE_ERROR, max_mismatch])
 }
 
+/// Returns the check of the drive whose odometry and reference differ most. In the median over several drives, a short drive could not be
+/// recognized.
+fn check_ratios(leg_set: &LegSet, systematic: &Systematic) -> Option<Check> {
+    let drives = leg_set.legs.chunk_by(|leg, next| leg.drive == next.drive);
+    let checks = drives.filter_map(|legs| check_ratios_of_drive(legs, leg_set.options.model, systematic));
+    checks.max_by(|a, b| relative_mismatch(a).total_cmp(&relative_mismatch(b)))
+}
+
+/// Returns the value of a check divided by the largest value that passes.
+fn relative_mismatch(check: &Check) -> f64 {
+    check.value / check.expected[1]
+}
+
 /// Returns the check of the mismatch of odometry and reference; `None` if too few legs turn and too few drive. Turns and drives have one
 /// mismatch each, and the one that is larger relative to its maximum counts.
 ///
 /// The mismatch is the distance from 1 of the median ratio: over the legs, the reference's motion along the odometry's motion is divided by
 /// the odometry's motion. Scales are not corrected, because a scale far from 1 is another unit.
-fn check_ratios(leg_set: &LegSet, systematic: &Systematic) -> Option<Check> {
+fn check_ratios_of_drive(legs: &[Leg], model: Model, systematic: &Systematic) -> Option<Check> {
     let systematic = Systematic { distance_scale: 1.0, turn_scale: 1.0, ..*systematic };
     let [mut turn_ratios, mut drive_ratios]: [Vec<f64>; 2] = Default::default();
-    for leg in &leg_set.legs {
-        let (expected, measured) = (systematic.expected(leg_set.options.model, leg), systematic.motion(leg));
+    for leg in legs {
+        let (expected, measured) = (systematic.expected(model, leg), systematic.motion(leg));
         if turn(&expected) > MIN_TURN_ANGLE {
             turn_ratios.push(measured.theta() / expected.theta());
         }
@@ -315,9 +330,8 @@ fn check_ratios(leg_set: &LegSet, systematic: &Systematic) -> Option<Check> {
     if turn_ratio.is_some_and(|ratio| (ratio - MIRRORED_TURN_RATIO).abs() < MIRRORED_TOLERANCE) {
         return turn_check.map(|check| check.with_cause(FailureCause::Mirrored));
     }
-    let relative_mismatch_of = |check: &Check| check.value / check.expected[1];
     let checks = turn_check.into_iter().chain(drive_check);
-    checks.max_by(|a, b| relative_mismatch_of(a).total_cmp(&relative_mismatch_of(b)))
+    checks.max_by(|a, b| relative_mismatch(a).total_cmp(&relative_mismatch(b)))
 }
 
 /// Turn (rad) above which a leg counts as turning. All other legs count as straight.

@@ -41,7 +41,7 @@ test('two tables of a user replace the simulated log, and a button restores the 
   await openDisclosures(calibrator);
   const resultButtons = ['Fit for Nav2', 'Save all as JSON'].map((name) => calibrator.getByRole('button', { name }));
   for (const resultButton of resultButtons) await expect(resultButton).toBeDisabled();
-  await calibrator.getByRole('button', { name: 'Keep these results' }).click();
+  await calibrator.getByRole('button', { name: 'Dismiss these files' }).click();
   for (const resultButton of resultButtons) await expect(resultButton).toBeEnabled();
   await expect(errorAlert).toHaveCount(0);
   await chooseTables(calibrator, { 'odom.csv': logTables.odometry });
@@ -52,7 +52,7 @@ test('two tables of a user replace the simulated log, and a button restores the 
   await expect(errorAlert).toHaveText(/^odom\.csv: there is nothing in it/);
   await expect(calibrator.locator('.to-do')).toHaveText('The results are still those of odom.csv, truth.csv. The files chosen last are not used.');
   // Keeping the results restores the controls with which the user assigns roles to their logs.
-  await calibrator.getByRole('button', { name: 'Keep these results' }).click();
+  await calibrator.getByRole('button', { name: 'Dismiss these files' }).click();
   await calibrator.getByLabel('odom.csv', { exact: true }).selectOption('Reference');
   await expect(captionOf(calibrator)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
 });
@@ -178,14 +178,15 @@ test('a log with too few legs is refused, and the figure still shows the previou
   await chooseTables(widget, { 'odometry.csv': readExampleTable('odometry'), 'reference.csv': readExampleTable('reference') });
   await expect(captionOf(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
   await waitUntilSettled(widget);
-  const captionBefore = await captionOf(widget).innerText();
+  const captionBefore = await captionOf(widget).textContent();
   const { alphas } = await readStats(widget);
   const standstillTable = Buffer.from('t,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n');
   await dropFiles(widget.locator('.stage').first(), ['odom.csv', 'truth.csv'].map((name) => ({ name, buffer: standstillTable })));
   await expect(widget.locator('.drop-zone').getByRole('alert')).toBeInViewport();
   await expect(widget.getByRole('alert')).toHaveText('Log refused: Not enough data: fewer than 8 legs have poses in both logs. Take both logs from one drive, choose shorter legs, or drive longer.');
   await waitUntilSettled(widget);
-  expect(await captionOf(widget).innerText()).toBe(captionBefore);
+  expect(await captionOf(widget).textContent()).toBe(captionBefore);
+  await expect(captionOf(widget).getByText('Trust')).toBeHidden();
   expect((await readStats(widget)).alphas).toEqual(alphas);
   await expect(widget.locator('.drop-zone .present')).toHaveText('Results of odometry.csv, reference.csv.');
   // The previous results are marked as outdated until the figure shows its simulated log again.

@@ -144,6 +144,7 @@ const READABLE_TABLES = [
   { name: 'a commented header in another order', tableText: tableOf('# ground truth\n# timestamp tx ty tz qw qx qy qz', ({ t, x, y, qz, qw }) => [t, x, y, 0, qw, 0, 0, qz], ' ') },
   { name: 'EuRoC', start: EPOCH_SECONDS, tableText: tableOf('#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1], v_RS_R_y [m s^-1]', ({ t, x, y, qz, qw }) => [formatNanoseconds(t), x, y, 0, qw, 0, 0, qz, 1, 1]) },
   { name: 'columns that are given, some skipped', options: { columns: ['-', 't', 'x', 'y', 'yaw_deg'] }, tableText: tableOf('a,b,c,d,e', ({ i, t, x, y, theta }) => [i, t, x, y, toDegrees(theta)]) },
+  { name: 'columns that are given, with the units of the header', options: { columns: ['t', 'x', 'y', 'yaw'] }, tableText: tableOf('Zeit [ms],X [mm],Y [mm],Winkel [deg]', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta)]) },
   { name: 'dates with a zone, in a column without a name', start: EPOCH_SECONDS, tableText: tableOf(',x,y,yaw', ({ t, x, y, theta }) => [`${isoDateOf(t + 7200)}+02:00`, x, y, theta]) },
   { name: 'times in ms, by rate and speed', tableText: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t * 1000, x, y, theta]), summaryPattern: /time in ms \(by rate and speed\)/ },
 ];

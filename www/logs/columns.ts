@@ -144,6 +144,13 @@ function parseColumnName(name: string): ColumnMeaning | undefined {
   return baseMeaning && suffix !== undefined && !UNREAD_QUANTITIES.test(suffix) ? { ...baseMeaning, prefix: suffix } : undefined;
 }
 
+/** Returns the name that the user gives a column, with the unit that the column's name in the file states, if the given name states none and can have it. */
+export function withUnitInFile(givenName: string, nameInFile: string): string {
+  const unitText = (UNIT_IN_BRACKETS.exec(nameInFile) ?? UNIT_AT_END.exec(nameInFile))?.[1] ?? '';
+  const nameWithUnit = `${givenName} [${unitText}]`;
+  return isUnit(unitText) && parseColumnName(givenName)?.unit === undefined && parseColumnName(nameWithUnit) ? nameWithUnit : givenName;
+}
+
 /** Checks that a unit fits the quantity of a field. Unknown units pass this check; `findLogLayout` refuses them. */
 function canHaveUnit(field: Field, unit: ParsedUnit | undefined): boolean {
   const [quantity, isRate] = QUANTITY_OF_FIELD[field] ?? [];

@@ -1,6 +1,6 @@
 /** Format of a table (separator, preamble and header) from its first lines, and parsers of the numbers and dates in its cells. */
 
-import { groupColumnsByPrefix, isHeader, isUnit, type ColumnGroup } from './columns.ts';
+import { groupColumnsByPrefix, isHeader, isUnit, withUnitInFile, type ColumnGroup } from './columns.ts';
 import { LogError, truncate, type ErrorPlace } from './log.ts';
 import { epochTimeUnitOf } from './units.ts';
 
@@ -107,7 +107,9 @@ export function detectTableFormat(lines: string[], file: string, givenColumnName
 
   if (givenColumnNames) {
     if (firstRowLine && givenColumnNames.length !== rowWidth) throw new LogError(errorPlace, (texts) => texts.given(rowWidth, givenColumnNames.length));
-    return { ...commonFormat, columnNames: givenColumnNames, columnGroups: findColumnGroups(givenColumnNames, rows[0]) };
+    const namesInFile = textLines.filter(({ number }) => number < commonFormat.firstRowNumber).map(({ line }) => cellsOfLine(line)).findLast((cells) => cells.length === rowWidth);
+    const columnNames = givenColumnNames.map((name, i) => withUnitInFile(name, namesInFile?.[i] ?? ''));
+    return { ...commonFormat, columnNames, columnGroups: findColumnGroups(columnNames, rows[0]) };
   }
   // At least half of the lines must be rows: prose can also contain single rows of numbers.
   if (2 * rows.filter(isDataRow).length < rows.length) throw noLogError();

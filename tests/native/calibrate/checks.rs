@@ -5,8 +5,8 @@ use super::{NAV2, add_step_noise, calibrate_log, calibrate_simulation, new_traje
 use crate::common::seeded_rng;
 use motion::calibrate::CheckName::{self, *};
 use motion::calibrate::{
-    Calibration, FailureCause, LegLength, Model, Options, Outliers, Systematic, SystematicError, Trajectory,
-    Verdict,
+    Calibration, Drive, FailureCause, LegLength, Model, Options, Outliers, Systematic, SystematicError,
+    Trajectory, Verdict, calibrate,
 };
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
@@ -87,6 +87,17 @@ fn a_reference_that_turns_the_other_way_is_recognized_at_any_clock_offset() {
         assert_eq!(check.cause, Some(FailureCause::Mirrored), "{seed}: {check:?}");
         assert_unusable(&calibration, "mirrored");
     }
+}
+
+#[test]
+fn one_mirrored_drive_of_two_is_recognized() {
+    let [good_log, [odometry, reference]] =
+        [(1200, 1), (60, 2)].map(|(legs, seed)| new_passing_simulation(legs, seed).log());
+    let mirrored = change_poses(&reference, |pose| SE2::new(pose.x(), -pose.y(), -pose.theta()));
+    let drives = [good_log, [odometry, mirrored]].map(|[odometry, reference]| Drive { odometry, reference });
+    let calibration = calibrate(&drives, &new_passing_simulation(0, 0).calibration_options()).unwrap();
+    assert_eq!(calibration.diagnostics.checks[0].cause, Some(FailureCause::Mirrored));
+    assert_unusable(&calibration, "one drive mirrored");
 }
 
 /// A loop takes 20 s, and the clocks also differ by 20 s. Without a clock offset the robot turns right where the reference turns left.

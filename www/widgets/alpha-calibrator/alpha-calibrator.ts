@@ -99,6 +99,11 @@ const styles = css`
     filter: grayscale(1);
   }
 
+  /* A verdict below the reason for a refusal would be taken for the verdict on the refused files. */
+  .spoken:has(.other-results) .verdict > :is(.badge, strong) {
+    display: none;
+  }
+
   table {
     max-width: none;
     margin: 0.2em 0 0.5em;

@@ -10,7 +10,7 @@ const CHECK_MESSAGES: Record<string, string> = {
   'reference-matches-copied':
     'Kein Fehler der Odometrie ist sichtbar: Die Referenz ist eine Kopie davon, daraus berechnet oder zu ungenau. Die α sind bedeutungslos. Eine genaue, unabhängige Messung verwenden, zum Beispiel Motion Capture oder SLAM.',
   'reference-matches':
-    'Die Referenz folgt der Odometrie nicht: Vielleicht ist sie von einer anderen Fahrt, hat andere Einheiten (Grad, Fuß, Millimeter), eine gespiegelte y-Achse oder eine andere senkrechte Achse als z, oder ihre Spalten sind vertauscht. Die α sind bedeutungslos. Beide Dateien Zeile für Zeile vergleichen.',
+    'Die Referenz folgt der Odometrie nicht: Vielleicht ist sie von einer anderen Fahrt, hat andere Einheiten (Grad, Fuß, Millimeter), eine gespiegelte y-Achse oder eine andere senkrechte Achse als z, oder ihre Spalten sind vertauscht. Die α sind bedeutungslos. Beide Dateien jeder Fahrt vergleichen.',
   'enough-legs':
     'Es sind wenige Etappen: Die Intervalle sind breit und die anderen Prüfungen schwach. Länger aufzeichnen: eine Viertelstunde mit Geraden, Bögen und Drehungen auf der Stelle.',
   'legs-lost-withoutReference':
@@ -198,7 +198,7 @@ export const de: typeof import('./en.ts').en = {
 
     refusedLog: (refusalMessage) => `Aufzeichnung abgelehnt: ${refusalMessage}`,
     resultsOfOtherLog: (log) => `Gezeigt wird noch das vorige Ergebnis: ${log}. Die zuletzt gewählten Dateien werden nicht verwendet.`,
-    keepResultsLabel: 'Diese Ergebnisse behalten',
+    dismissFilesLabel: 'Diese Dateien verwerfen',
   },
   nav2: {
     title: 'Für Nav2',

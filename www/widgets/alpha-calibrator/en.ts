@@ -173,7 +173,7 @@ export const en = {
 
     refusedLog: (refusalMessage) => `Log refused: ${refusalMessage}`,
     resultsOfOtherLog: (log) => `The results are still those of ${log}. The files chosen last are not used.`,
-    keepResultsLabel: 'Keep these results',
+    dismissFilesLabel: 'Dismiss these files',
   },
   nav2: {
     title: 'For Nav2',

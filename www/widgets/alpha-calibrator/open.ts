@@ -202,7 +202,7 @@ export function dropZoneHtml(figure: Figure, opener: LogOpener) {
       ? html`<p><progress aria-label=${words.progress.label} .value=${readFraction}></progress> ${buttonHtml(words.progress.stop, () => opener.stopReading())}</p>`
       : figure.log ? html`<p><span class="present">${texts.resultsOfLog(figure.logName)}</span> ${buttonHtml(texts.leaveLabel, () => opener.closeLog())}</p>` : nothing}
     ${opener.refusalNoteHtml}
-    ${opener.otherResultsNote ? html`<p class="muted other-results">${opener.otherResultsNote} ${buttonHtml(texts.keepResultsLabel, () => opener.restoreResults())}</p>` : nothing}
+    ${opener.otherResultsNote ? html`<p class="muted other-results">${opener.otherResultsNote} ${buttonHtml(texts.dismissFilesLabel, () => opener.restoreResults())}</p>` : nothing}
   </div>`;
 }
 

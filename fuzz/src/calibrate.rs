@@ -199,7 +199,7 @@ fn assert_calibration(calibration: &Calibration, options: &Options) {
 }
 
 fn assert_diagnostics(Calibration { alphas, diagnostics, persistence: error_persistence, recommended: recommendation, .. }: &Calibration) {
-    for Check { name: check_name, value: check_value, expected: [low, high], passed: has_passed, cause, message: failure_message } in &diagnostics.checks {
+    for Check { name: check_name, value: check_value, expected: [low, high], passed: has_passed, cause, drives: _, message: failure_message } in &diagnostics.checks {
         assert_eq!(failure_message.is_empty(), *has_passed, "{check_name:?}");
         assert!(cause.is_none() || !has_passed, "{check_name:?}");
         assert_eq!(*has_passed, low <= check_value && check_value <= high, "{check_name:?}: {check_value} {low} {high}");

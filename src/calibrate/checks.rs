@@ -96,6 +96,8 @@ pub struct Check {
     pub passed: bool,
     /// Cause of the failure, if the check can determine a cause.
     pub cause: Option<FailureCause>,
+    /// Indices of the drives that fail a check of each drive; empty for checks of the whole log.
+    pub drives: Vec<usize>,
     /// Meaning of a failure for the α's, and the remedy; empty if the check passed.
     pub message: String,
 }
@@ -105,7 +107,7 @@ impl Check {
     pub(super) fn new(name: CheckName, value: f64, expected: [f64; 2]) -> Self {
         let passed = (expected[0]..=expected[1]).contains(&value);
         let message = if passed { "" } else { name.failure_message() };
-        Self { name, value, expected, passed, cause: None, message: message.to_owned() }
+        Self { name, value, expected, passed, cause: None, drives: Vec::new(), message: message.to_owned() }
     }
 
     /// Returns the check with the cause of its failure, and the message of that cause. A check that passed stays as it is.
@@ -232,6 +234,9 @@ const MIN_USABLE_LEGS: f64 = 30.0;
 const MAX_TURN_MISMATCH: f64 = 0.7;
 const MAX_DRIVE_MISMATCH: f64 = 0.4;
 
+/// Maximum fraction of the legs of one drive that may be outliers.
+const MAX_OUTLIERS_OF_DRIVE: f64 = 0.5;
+
 /// Median ratio of the turns of a mirrored reference to those of the odometry, up to a tolerance.
 const MIRRORED_TURN_RATIO: f64 = -1.0;
 const MIRRORED_TOLERANCE: f64 = 0.1;
@@ -292,9 +297,17 @@ fn new_match_check(value: f64, max_mismatch: f64) -> Check {
 /// Returns the check of the drive whose odometry and reference differ most. In the median over several drives, a short drive could not be
 /// recognized.
 fn check_ratios(leg_set: &LegSet, systematic: &Systematic) -> Option<Check> {
-    let drives = leg_set.legs.chunk_by(|leg, next| leg.drive == next.drive);
-    let checks = drives.filter_map(|legs| check_ratios_of_drive(legs, leg_set.options.model, systematic));
-    checks.max_by(|a, b| relative_mismatch(a).total_cmp(&relative_mismatch(b)))
+    let legs_with_outliers: Vec<(Leg, bool)> =
+        leg_set.legs.iter().copied().zip(leg_set.outliers.iter().copied()).collect();
+    let drives = legs_with_outliers.chunk_by(|(leg, _), (next_leg, _)| leg.drive == next_leg.drive);
+    let check_drive = |drive: &[(Leg, bool)]| {
+        Some((drive[0].0.drive, check_ratios_of_drive(drive, leg_set.options.model, systematic)?))
+    };
+    let checks: Vec<(usize, Check)> = drives.filter_map(check_drive).collect();
+    let failed_drives = checks.iter().filter(|(_, check)| !check.passed).map(|(drive, _)| *drive).collect();
+    let (_, worst_check) =
+        checks.into_iter().max_by(|(_, a), (_, b)| relative_mismatch(a).total_cmp(&relative_mismatch(b)))?;
+    Some(Check { drives: failed_drives, ..worst_check })
 }
 
 /// Returns the value of a check divided by the largest value that passes.
@@ -307,10 +320,14 @@ fn relative_mismatch(check: &Check) -> f64 {
 ///
 /// The mismatch is the distance from 1 of the median ratio: over the legs, the reference's motion along the odometry's motion is divided by
 /// the odometry's motion. Scales are not corrected, because a scale far from 1 is another unit.
-fn check_ratios_of_drive(legs: &[Leg], model: Model, systematic: &Systematic) -> Option<Check> {
+fn check_ratios_of_drive(
+    legs_with_outliers: &[(Leg, bool)],
+    model: Model,
+    systematic: &Systematic,
+) -> Option<Check> {
     let systematic = Systematic { distance_scale: 1.0, turn_scale: 1.0, ..*systematic };
     let [mut turn_ratios, mut drive_ratios]: [Vec<f64>; 2] = Default::default();
-    for leg in legs {
+    for (leg, _) in legs_with_outliers {
         let (expected, measured) = (systematic.expected(model, leg), systematic.motion(leg));
         if turn(&expected) > MIN_TURN_ANGLE {
             turn_ratios.push(measured.theta() / expected.theta());
@@ -330,7 +347,12 @@ fn check_ratios_of_drive(legs: &[Leg], model: Model, systematic: &Systematic) ->
     if turn_ratio.is_some_and(|ratio| (ratio - MIRRORED_TURN_RATIO).abs() < MIRRORED_TOLERANCE) {
         return turn_check.map(|check| check.with_cause(FailureCause::Mirrored));
     }
-    let checks = turn_check.into_iter().chain(drive_check);
+    // If most legs are outliers, the fit to the other drives does not describe this drive.
+    let outlier_count = legs_with_outliers.iter().filter(|(_, is_outlier)| *is_outlier).count();
+    let outlier_fraction = outlier_count as f64 / legs_with_outliers.len() as f64;
+    let outlier_check = (legs_with_outliers.len() >= MIN_LEGS && outlier_fraction > MAX_OUTLIERS_OF_DRIVE)
+        .then(|| new_match_check(outlier_fraction, MAX_OUTLIERS_OF_DRIVE));
+    let checks = turn_check.into_iter().chain(drive_check).chain(outlier_check);
     checks.max_by(|a, b| relative_mismatch(a).total_cmp(&relative_mismatch(b)))
 }
 

@@ -130,7 +130,7 @@ export function detectTableFormat(lines: string[], file: string, givenColumnName
   if (!firstRowLine) throw noLogError();
   const names = columnsByContent(rows);
   if (names) return { ...commonFormat, columnNames: names, columnGroups: findColumnGroups(names, rows[0]) };
-  const defaultNames = ({ 3: 't,v,omega', 4: 't,x,y,yaw' } as Record<number, string>)[rowWidth] ?? `t,x,y,yaw${',-'.repeat(Math.max(0, rowWidth - 4))}`;
+  const defaultNames = ({ 3: 't,v,omega', 4: 't,x,y,yaw', 7: 't,odom_x,odom_y,odom_yaw,ref_x,ref_y,ref_yaw' } as Record<number, string>)[rowWidth] ?? `t,x,y,yaw${',-'.repeat(Math.max(0, rowWidth - 4))}`;
   throw new LogError(errorPlace, (texts) => texts.noHeader(rowWidth, truncate(firstRowLine.line.trim().replaceAll('\t', ' '))), { option: 'columns', choices: [defaultNames], columns: rows[0].slice(0, rowWidth) });
 }
 

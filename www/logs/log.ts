@@ -117,9 +117,9 @@ export interface Log {
   mirroring?: FileQuestion;
 }
 
-/** Returns questions that propose to mirror one log of each drive, if a check shows that odometry or reference is mirrored. Mirroring either log gives the same α's. */
+/** Returns questions that propose to mirror one log of each drive whose odometry or reference is mirrored, as a check shows. Mirroring either log gives the same α's. */
 export const mirroringQuestionsOf = (drives: Record<Role, Log>[], checks: CalibrationCheck[]): FileQuestion[] =>
-  (checks.some(({ cause }) => cause === 'mirrored') ? drives.flatMap(({ odometry, reference }) => reference.mirroring ?? odometry.mirroring ?? []) : []);
+  checks.filter(({ cause }) => cause === 'mirrored').flatMap((check) => check.drives.flatMap((drive) => drives[drive].reference.mirroring ?? drives[drive].odometry.mirroring ?? []));
 
 export type DropCause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'text' | 'duplicate' | 'repeated' | 'held';
 

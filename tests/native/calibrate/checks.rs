@@ -90,14 +90,17 @@ fn a_reference_that_turns_the_other_way_is_recognized_at_any_clock_offset() {
 }
 
 #[test]
-fn one_mirrored_drive_of_two_is_recognized() {
-    let [good_log, [odometry, reference]] =
-        [(1200, 1), (60, 2)].map(|(legs, seed)| new_passing_simulation(legs, seed).log());
+fn one_bad_drive_of_two_is_recognized() {
+    let [good_log, [odometry, reference], [_, other_reference]] =
+        [(1200, 1), (60, 2), (60, 3)].map(|(legs, seed)| new_passing_simulation(legs, seed).log());
     let mirrored = change_poses(&reference, |pose| SE2::new(pose.x(), -pose.y(), -pose.theta()));
-    let drives = [good_log, [odometry, mirrored]].map(|[odometry, reference]| Drive { odometry, reference });
-    let calibration = calibrate(&drives, &new_passing_simulation(0, 0).calibration_options()).unwrap();
-    assert_eq!(calibration.diagnostics.checks[0].cause, Some(FailureCause::Mirrored));
-    assert_unusable(&calibration, "one drive mirrored");
+    for (reference, cause) in [(mirrored, Some(FailureCause::Mirrored)), (other_reference, None)] {
+        let logs = [good_log.clone(), [odometry.clone(), reference]];
+        let drives = logs.map(|[odometry, reference]| Drive { odometry, reference });
+        let calibration = calibrate(&drives, &new_passing_simulation(0, 0).calibration_options()).unwrap();
+        let check = &calibration.diagnostics.checks[0];
+        assert_eq!((check.cause, &check.drives), (cause, &vec![1]));
+    }
 }
 
 /// A loop takes 20 s, and the clocks also differ by 20 s. Without a clock offset the robot turns right where the reference turns left.

@@ -1,7 +1,7 @@
 //! Checks of a fit: validity of the log, and goodness of fit of the model.
 
 use super::fit::{Fit, LegSet};
-use super::legs::{Leg, LostLegs, MIN_DRIVE_DISTANCE, MIN_LEGS, MIN_TURN_ANGLE, distance, turn};
+use super::legs::{LostLegs, MIN_DRIVE_DISTANCE, MIN_LEGS, MIN_TURN_ANGLE, distance, turn};
 use super::residuals::Model;
 use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
@@ -263,9 +263,10 @@ pub(super) fn log_checks(
     let copy_error = max_alpha.map(f64::sqrt).filter(|error| *error < MIN_RELATIVE_ERROR);
     let copy_check =
         copy_error.map(|error| new_match_check(error, MAX_DRIVE_MISMATCH).with_cause(FailureCause::Copied));
-    let ratio_check = check_ratios(leg_set, systematic);
-    let failed_ratio_check = ratio_check.clone().filter(|check| !check.passed);
-    let match_check = failed_ratio_check.or(copy_check).or(ratio_check);
+    let match_check = match (check_ratios(leg_set, systematic), copy_check) {
+        (Some(ratio_check), Some(copy_check)) if ratio_check.passed => Some(copy_check),
+        (ratio_check, copy_check) => ratio_check.or(copy_check),
+    };
     let mut length_ratios: Vec<f64> =
         leg_set.legs.iter().map(|leg| leg_set.options.legs.ratio(&leg.odometry, leg.duration())).collect();
     let outlier_count = leg_set.outliers.iter().filter(|is| **is).count();
@@ -297,17 +298,17 @@ fn new_match_check(value: f64, max_mismatch: f64) -> Check {
 /// Returns the check of the drive whose odometry and reference differ most. In the median over several drives, a short drive could not be
 /// recognized.
 fn check_ratios(leg_set: &LegSet, systematic: &Systematic) -> Option<Check> {
-    let legs_with_outliers: Vec<(Leg, bool)> =
-        leg_set.legs.iter().copied().zip(leg_set.outliers.iter().copied()).collect();
-    let drives = legs_with_outliers.chunk_by(|(leg, _), (next_leg, _)| leg.drive == next_leg.drive);
-    let check_drive = |drive: &[(Leg, bool)]| {
-        Some((drive[0].0.drive, check_ratios_of_drive(drive, leg_set.options.model, systematic)?))
-    };
-    let checks: Vec<(usize, Check)> = drives.filter_map(check_drive).collect();
-    let failed_drives = checks.iter().filter(|(_, check)| !check.passed).map(|(drive, _)| *drive).collect();
-    let (_, worst_check) =
-        checks.into_iter().max_by(|(_, a), (_, b)| relative_mismatch(a).total_cmp(&relative_mismatch(b)))?;
-    Some(Check { drives: failed_drives, ..worst_check })
+    let (mut worst_check, mut failed_drives): (Option<Check>, _) = (None, Vec::new());
+    for drive in 0..=leg_set.legs.last()?.drive {
+        let Some(check) = check_ratios_of_drive(leg_set, drive, systematic) else { continue };
+        if !check.passed {
+            failed_drives.push(drive);
+        }
+        if worst_check.as_ref().is_none_or(|worst| relative_mismatch(&check) > relative_mismatch(worst)) {
+            worst_check = Some(check);
+        }
+    }
+    Some(Check { drives: failed_drives, ..worst_check? })
 }
 
 /// Returns the value of a check divided by the largest value that passes.
@@ -320,15 +321,15 @@ fn relative_mismatch(check: &Check) -> f64 {
 ///
 /// The mismatch is the distance from 1 of the median ratio: over the legs, the reference's motion along the odometry's motion is divided by
 /// the odometry's motion. Scales are not corrected, because a scale far from 1 is another unit.
-fn check_ratios_of_drive(
-    legs_with_outliers: &[(Leg, bool)],
-    model: Model,
-    systematic: &Systematic,
-) -> Option<Check> {
+fn check_ratios_of_drive(leg_set: &LegSet, drive: usize, systematic: &Systematic) -> Option<Check> {
     let systematic = Systematic { distance_scale: 1.0, turn_scale: 1.0, ..*systematic };
     let [mut turn_ratios, mut drive_ratios]: [Vec<f64>; 2] = Default::default();
-    for (leg, _) in legs_with_outliers {
-        let (expected, measured) = (systematic.expected(model, leg), systematic.motion(leg));
+    let (mut leg_count, mut outlier_count) = (0, 0);
+    for (leg, is_outlier) in leg_set.legs.iter().zip(&leg_set.outliers).filter(|(leg, _)| leg.drive == drive)
+    {
+        leg_count += 1;
+        outlier_count += usize::from(*is_outlier);
+        let (expected, measured) = (systematic.expected(leg_set.options.model, leg), systematic.motion(leg));
         if turn(&expected) > MIN_TURN_ANGLE {
             turn_ratios.push(measured.theta() / expected.theta());
         }
@@ -348,9 +349,8 @@ fn check_ratios_of_drive(
         return turn_check.map(|check| check.with_cause(FailureCause::Mirrored));
     }
     // If most legs are outliers, the fit to the other drives does not describe this drive.
-    let outlier_count = legs_with_outliers.iter().filter(|(_, is_outlier)| *is_outlier).count();
-    let outlier_fraction = outlier_count as f64 / legs_with_outliers.len() as f64;
-    let outlier_check = (legs_with_outliers.len() >= MIN_LEGS && outlier_fraction > MAX_OUTLIERS_OF_DRIVE)
+    let outlier_fraction = outlier_count as f64 / leg_count as f64;
+    let outlier_check = (leg_count >= MIN_LEGS && outlier_fraction > MAX_OUTLIERS_OF_DRIVE)
         .then(|| new_match_check(outlier_fraction, MAX_OUTLIERS_OF_DRIVE));
     let checks = turn_check.into_iter().chain(drive_check).chain(outlier_check);
     checks.max_by(|a, b| relative_mismatch(a).total_cmp(&relative_mismatch(b)))

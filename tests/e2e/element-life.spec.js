@@ -69,7 +69,7 @@ test('a page with one figure fetches the module of that figure @nightly', async 
   }
 });
 
-test('a script that contains the module compiles the module at once, so that no frame shows a placeholder', async ({ page }) => {
+test('a script that contains the module compiles the module at once, so that no placeholder is rendered', async ({ page }) => {
   await countFramesAndModules(page);
   // The two imports are evaluated in one task, so that the second script sees what the first has compiled.
   const countRecorderUrl = 'data:text/javascript,window.compiledDuringScript = counts.compiled';
@@ -79,7 +79,7 @@ test('a script that contains the module compiles the module at once, so that no 
   const [hasSimulation, hasPlaceholder] = await page.evaluate(async () => {
     const bananaMachine = /** @type {any} */ (document.createElement('banana-machine'));
     document.body.prepend(bananaMachine);
-    await new Promise(requestAnimationFrame);
+    await bananaMachine.updateComplete;
     return ['.simulation', '.reserved'].map((partSelector) => bananaMachine.shadowRoot.querySelector(partSelector) !== null);
   });
   expect([hasSimulation, hasPlaceholder]).toEqual([true, false]);

@@ -126,6 +126,8 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   handles: { render(): unknown, place(scene: any): void }[] = [];
   /** View model of the simulation: all values that pictures, texts and tables show, read at one time. Undefined before the first frame. */
   viewModel: ViewModel = undefined as any;
+  #placeholderDelay: Promise<void> | undefined;
+  #isPlaceholderDue = false;
   #settledResolvers: (() => void)[] = [];
 
   get definition() {
@@ -329,6 +331,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   connectedCallback() {
     this.lifetime = new AbortController();
     super.connectedCallback();
+    this.#placeholderDelay ??= this.#delayPlaceholder();
   }
 
   disconnectedCallback() {
@@ -344,6 +347,28 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
       get(this: Figure) { return get.call(this) ?? options.default; },
       set(this: Figure, value: unknown) { this.runtime.attemptOrReport(() => set.call(this, checkCommonValue(name, value, options))); },
     };
+  }
+
+  /** Reserves the figure's space until the next task of the event loop. If the core is ready by then, no placeholder is rendered. */
+  async #delayPlaceholder() {
+    // In forced colours, Chromium keeps light colours in content that is rendered before `colours` has found a dark scheme.
+    if (!matchMedia('(forced-colors: active)').matches) {
+      const reservedSpace = this.renderRoot.appendChild(document.createElement('div'));
+      reservedSpace.className = 'reserved';
+      await new Promise((resolve) => setTimeout(resolve));
+      reservedSpace.remove();
+    }
+    this.#isPlaceholderDue = true;
+    if (!this.hasUpdated) this.requestUpdate();
+  }
+
+  protected shouldUpdate() {
+    return this.#isPlaceholderDue || this.simulation !== undefined;
+  }
+
+  protected async getUpdateComplete() {
+    await this.#placeholderDelay;
+    return super.getUpdateComplete();
   }
 
   /** Draws again after a change of a property that every figure has, such as the theme. */

@@ -173,7 +173,7 @@ test('custom-elements.json lists the attributes, properties, events and parts of
       await element.settled;
       const cssText = [...new Set(constructor.elementStyles.map(String))].join('');
       return {
-        attributes: [...constructor.observedAttributes],
+        attributes: [...constructor.elementProperties].flatMap(([name, { attribute, reflect, converter }]) => (attribute !== false && (reflect || converter?.toAttribute) ? [(typeof attribute === 'string' ? attribute : name).toLowerCase()] : [])),
         missingMembers: memberNames.filter((name) => !(name in element)),
         parts: [...shadowRoot.querySelectorAll('[part]')].flatMap(({ part }) => [...part]),
         properties: [...new Set(cssText.match(/--motion-[a-z-]+/g))],

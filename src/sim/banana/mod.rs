@@ -162,9 +162,9 @@ impl BananaMachine {
     }
 
     /// Returns the number of samples that can be added within a few milliseconds. Adding a block sums all samples again. Therefore a block
-    /// is as large as the cloud shown, or as the first block if that is larger.
+    /// is as large as the cloud shown, and at least four times as large as the first block.
     pub fn block_size(&self) -> usize {
-        self.shown_count().max(FIRST_BLOCK_SAMPLES)
+        self.shown_count().max(4 * FIRST_BLOCK_SAMPLES)
     }
 
     /// Returns the number of samples shown.

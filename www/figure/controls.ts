@@ -73,7 +73,7 @@ export function editableSliderHtml(figure: Figure, symbol: string, { min, max: d
       if (typedNumber === undefined) return undefined;
       sliderRow.onInput(typedNumber);
       sliderRow.onCommit();
-      return sliderRow.formatValue(typedNumber);
+      return typedNumber;
     },
     refusal: figure.notice.findTextBeside(sliderRow.id),
     clearRefusal: () => figure.notice.dismiss(),

@@ -179,8 +179,8 @@ export interface SliderRow extends SliderRange {
   leadingControl?: unknown;
   /** Keyboard of a phone for typing the value. */
   inputMode: 'decimal' | 'numeric' | 'text';
-  /** Applies a typed text. Returns the text to display, or undefined if it is refused. */
-  applyTypedText: (text: string) => string | undefined;
+  /** Applies a typed text. Returns the number in it, or undefined if it is refused. */
+  applyTypedText: (text: string) => number | undefined;
   /** Sentence about a refused text. */
   refusal?: string;
   /** Hides the sentence about a refused text. */
@@ -240,14 +240,19 @@ export function sliderTrackHtml({ id, name, min, max, step, value, valueText, de
 }
 
 /** Returns the field of a value. Its default is the printed value, which a browser shows unless the user has typed another text. */
-function valueFieldHtml({ id, inputMode, stops, formatValue, applyTypedText, refusal, clearRefusal }: SliderRow, printedValue: string) {
+function valueFieldHtml(sliderRow: SliderRow, printedValue: string) {
+  const { id, inputMode, stops, formatValue, applyTypedText, refusal, clearRefusal } = sliderRow;
   /** Applies the typed text; returns true if it became the value. */
   const applyText = (input: HTMLInputElement): boolean => {
     if (input.value === input.defaultValue) return true;
-    const appliedText = applyTypedText(input.value);
-    input.defaultValue = appliedText ?? input.defaultValue;
+    const number = applyTypedText(input.value);
+    if (number !== undefined) {
+      input.defaultValue = formatValue(number);
+      // The next key may come before the slider is rendered with the new value.
+      controlOfRow(input, 'input[type=range]').value = String(rangeOfStops({ ...sliderRow, value: number }).value ?? number);
+    }
     input.form?.reset();
-    return appliedText !== undefined;
+    return number !== undefined;
   };
   /** Moves the slider by a step, as an arrow key does, and selects the new text in the field. */
   const stepSlider = (slider: HTMLInputElement, stepCount: number, input: HTMLInputElement) => {

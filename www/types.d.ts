@@ -86,7 +86,7 @@ export interface Propagation {
   /** Covariance of the start pose in exponential coordinates about its mean, three rows of three; default 0. */
   sigma?: ArrayLike<ArrayLike<number>>;
   command: Command;
-  /** α₁…α₆ of the velocity model. */
+  /** Noise parameters α₁…α₆ of the velocity model. */
   alphas: ArrayLike<number>;
   /** Recursion that propagates the covariance; default "chapter". */
   compounding?: keyof ByRecursion<unknown>;

@@ -12,13 +12,13 @@ export function explainWithCommand({ message, place: { file }, question }: LogEr
 }
 
 /** Returns the arguments of a command together with the option that answers a question; undefined if no option answers it. */
-export function answerQuestion({ file, option, role, choices, columns = [] }: FileQuestion, typedArgs: string[]): string[] | undefined {
+export function answerQuestion({ file, option, role, choices }: FileQuestion, typedArgs: string[]): string[] | undefined {
   const [likeliestChoice] = choices.filter(Boolean);
   const logRole = role ?? 'odometry';
   if (option === 'roles') return nameRoles(typedArgs);
   if (option === 'other') return [...typedArgs, ...(role ? [`--${role === 'odometry' ? 'reference' : 'odometry'}`] : []), 'FILE'];
-  if (option === 'columns') return [...typedArgs, '--columns', `${file}=${likeliestChoice ?? `t,x,y,yaw${',-'.repeat(Math.max(0, columns.length - 4))}`}`];
   if (likeliestChoice === undefined) return undefined;
+  if (option === 'columns') return [...typedArgs, '--columns', `${file}=${likeliestChoice}`];
   if (option in UNITS) return [...typedArgs, `--${option.replace('Unit', '-unit')}`, `${file}=${likeliestChoice}`];
   return [...typedArgs, `--${logRole}-${option === 'series' ? 'topic' : 'frames'}`, likeliestChoice];
 }

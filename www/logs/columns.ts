@@ -241,10 +241,17 @@ function clocksOf({ seconds, subseconds }: ColumnGroup['columns'], timeColumns: 
   return singleColumnClocks.length > 0 || !timePartColumn ? singleColumnClocks : [clockOf(timePartColumn)];
 }
 
+/** Names that columns probably have, by the number of columns. */
+const LIKELY_NAMES: Record<number, string> = { 3: 't,v,omega', 4: 't,x,y,yaw', 7: 't,odom_x,odom_y,odom_yaw,ref_x,ref_y,ref_yaw' };
+
+/** Returns a question about the columns of a table, with the names that they probably have. */
+export const columnQuestionOf = (columns: string[]): Question =>
+  ({ option: 'columns', choices: [LIKELY_NAMES[columns.length] ?? ['t,x,y,yaw', ...Array<string>(Math.max(0, columns.length - 4)).fill('-')].join()], columns });
+
 /** Returns the columns of a log: x, y and heading, or v and omega. Throws a LogError if one of these columns is missing, or if two columns may be the same field. */
 export function findLogLayout(columnGroup: ColumnGroup | undefined, names: string[], errorPlace: ErrorPlace, wantedKind: LogKind | undefined) {
   const columnNames = listNames(names.map((name) => name.trim()));
-  const question: Question = { option: 'columns', choices: [], columns: names };
+  const question = columnQuestionOf(names);
   if (!columnGroup) throw new LogError(errorPlace, (texts) => texts.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), question);
   const { columns, duplicateColumns, clocks } = columnGroup;
   if (clocks.length === 0) throw new LogError(errorPlace, (texts) => texts.noTime(columnNames), question);

@@ -1,6 +1,6 @@
 /** Format of a table (separator, preamble and header) from its first lines, and parsers of the numbers and dates in its cells. */
 
-import { groupColumnsByPrefix, isHeader, isUnit, withUnitInFile, type ColumnGroup } from './columns.ts';
+import { columnQuestionOf, groupColumnsByPrefix, isHeader, isUnit, withUnitInFile, type ColumnGroup } from './columns.ts';
 import { LogError, truncate, type ErrorPlace } from './log.ts';
 import { epochTimeUnitOf } from './units.ts';
 
@@ -130,8 +130,7 @@ export function detectTableFormat(lines: string[], file: string, givenColumnName
   if (!firstRowLine) throw noLogError();
   const names = columnsByContent(rows);
   if (names) return { ...commonFormat, columnNames: names, columnGroups: findColumnGroups(names, rows[0]) };
-  const defaultNames = ({ 3: 't,v,omega', 4: 't,x,y,yaw', 7: 't,odom_x,odom_y,odom_yaw,ref_x,ref_y,ref_yaw' } as Record<number, string>)[rowWidth] ?? `t,x,y,yaw${',-'.repeat(Math.max(0, rowWidth - 4))}`;
-  throw new LogError(errorPlace, (texts) => texts.noHeader(rowWidth, truncate(firstRowLine.line.trim().replaceAll('\t', ' '))), { option: 'columns', choices: [defaultNames], columns: rows[0].slice(0, rowWidth) });
+  throw new LogError(errorPlace, (texts) => texts.noHeader(rowWidth, truncate(firstRowLine.line.trim().replaceAll('\t', ' '))), columnQuestionOf(rows[0].slice(0, rowWidth)));
 }
 
 const stripUnitBrackets = (cell: string) => cell.replaceAll(/[\s"[\](){}]/g, '');

@@ -11,6 +11,7 @@ mod fit;
 mod intervals;
 mod legs;
 mod likelihood;
+mod mismatch;
 mod optimizer;
 mod outliers;
 mod residuals;
@@ -149,7 +150,10 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let cross_validation = windows::cross_validate(&fit, &all_legs, &alphas);
     let inflation = cross_validation.recommended.as_ref().map_or(f64::INFINITY, |found| found.inflation);
     let identifies_any_alpha = alphas.iter().any(Option::is_some);
-    let mut checks = checks::log_checks(&all_legs, &fit.lost, &systematic, &alpha_intervals, inflation);
+    // The reference comes first, because the first failure is displayed.
+    let reference_check = mismatch::check_reference(&all_legs, &systematic, &alpha_intervals);
+    let mut checks = Vec::from_iter(reference_check);
+    checks.extend(checks::log_checks(&all_legs, &fit.lost, inflation));
     checks.extend(scale_checks);
     checks.extend(outliers::residual_checks(&leg_fits, neighbour_correlation(&fit).0));
     checks.extend(cross_validation.checks);

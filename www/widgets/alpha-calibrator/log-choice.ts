@@ -22,6 +22,9 @@ type Recording = FileContents['recordings'][number];
 
 const COLUMN_FIELDS = ['t', 'x', 'y', 'yaw', 'qx', 'qy', 'qz', 'qw', 'v', 'omega'] as const;
 
+/** Minimum number of columns of a table with quaternions: time, x, y, qz and qw. */
+const MIN_QUATERNION_COLUMNS = 5;
+
 /** Maximum number of characters of a cell that labels a column. The label also has the number of the column. */
 const MAX_CELL_LENGTH = 16;
 
@@ -114,7 +117,7 @@ function columnsFormHtml(opener: LogOpener, question: FileQuestion, answeredName
     <fieldset>
       <legend>${texts.columns(file, chosenNames !== '' && chosenNames !== answeredNames)}</legend>
       <div class="choices">
-        ${COLUMN_FIELDS.map((field) => html`<label>
+        ${COLUMN_FIELDS.filter((field) => !field.startsWith('q') || columns.length >= MIN_QUATERNION_COLUMNS).map((field) => html`<label>
           ${texts.fields[field]}
           <select name=${field} aria-label=${texts.fields[field]} aria-describedby="refusal">
             <option value="">${texts.none}</option>

@@ -1,8 +1,4 @@
-/**
- * Comparison of the baseline with the core on the core's own samples.
- *
- * @module
- */
+// Comparison of the baseline with the core on the core's own samples.
 
 import { Baseline } from './baseline.js';
 import { ALPHAS, COLOUR_RAMP, PICTURE_VIEW, commandAt, readDensityPixels, readStatsAndContours } from './scene.js';

@@ -1,15 +1,11 @@
-/**
- * Durations of the steps of a drag, at the initial sample counts and with a processor four times slower. The first duration is that of the
- * frame that paints the picture: JavaScript, WebAssembly, style, layout and paint. The second is the time until the text is updated. The
- * third is the time between frames.
- *
- * @module
- */
+// Three durations of each step of a drag, at the initial sample counts and with a processor four times slower. The first duration is that
+// of the frame that paints the picture: JavaScript, WebAssembly, style, layout and paint. The second is the time until the text is updated.
+// The third is the time between frames.
 
 /** Factor by which Chromium slows the processor. */
 export const CPU_SLOWDOWN = 4;
 
-/** Selector of sliders and handles. Excluded are handles of walls and sliders of animations, which change no setting of the simulation. */
+/** Selector of sliders and handles. Handles of walls and sliders of animations change no setting of the simulation, and are left out. */
 const DRAGGABLE_SELECTOR = '.slider input[type=range]:not(.playable *), .handle:not(.jamb, .side)';
 
 /**

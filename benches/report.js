@@ -1,8 +1,4 @@
-/**
- * Report of the results of a run, as Markdown.
- *
- * @module
- */
+// Report of the results of a run, as Markdown.
 
 import { quantileSorted } from 'd3-array';
 import { CPU_SLOWDOWN } from './drag.js';

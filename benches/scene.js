@@ -1,8 +1,4 @@
-/**
- * Model, slider and picture of the benchmark of refreshes. The core and the baseline share them.
- *
- * @module
- */
+// Model, slider and picture of the benchmark of refreshes. The core and the baseline share them.
 
 /** @typedef {import('../www/types.d.ts').BananaMachine} BananaMachine */
 /** @typedef {import('../www/types.d.ts').Command} Command */

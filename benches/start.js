@@ -1,8 +1,4 @@
-/**
- * Measurement of the time from the start of the page's script to the first cloud on screen, without caches.
- *
- * @module
- */
+// Measurement of the time from the start of the page's script to the first cloud on screen, without caches.
 
 /** Stages of the start. The key of a stage is the performance mark that is set at its end. */
 const STAGE_OF_MARK = /** @type {const} */ ({

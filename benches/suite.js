@@ -1,8 +1,4 @@
-/**
- * Measurements that run both in Node and in a page.
- *
- * @module
- */
+// Measurements that run both in Node and in a page.
 
 import { Baseline } from './baseline.js';
 import { differencesFromCore, unitNoiseOf } from './check.js';

@@ -75,7 +75,7 @@ await runAsScript(import.meta.url, async () => {
   const [odometry, reference] = [EXAMPLE_LOG_PATHS.odometry, EXAMPLE_LOG_PATHS.reference].map((logPath) => readFileSync(join(ROOT, logPath), 'utf8'));
   const benchOptions = { quick: isQuickRun, log: { odometry, reference } };
   printStep('Node');
-  // These modules import dist/, which exists only after the build.
+  // The modules of benches/ import dist/, which exists only after the build.
   const { measureCore } = await import('../benches/suite.js');
   const { load } = await import('../dist/core.js');
   const nodeTimings = await measureCore(/** @type {import('../www/types.d.ts').Motion} */ (await load()), benchOptions);

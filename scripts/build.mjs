@@ -242,7 +242,7 @@ function readGlueNames(name) {
   };
 }
 
-/** Shortens the names in the module, which saves some 2 kB of transfer. @param {string} name of the core @returns {Promise<Names>} */
+/** Shortens the names of imports and exports, which saves some 2 kB of transfer. @param {string} name of the core @returns {Promise<Names>} */
 async function shortenNames(name) {
   const { imports, exports } = JSON.parse(await optimizeModule(`build/${name}.wasm`, ['--minify-imports-and-exports-and-modules']));
   return { exports, imports: imports.map((/** @type {string[]} */ [, importName, shortName]) => ['a', importName, shortName]) };

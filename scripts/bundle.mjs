@@ -279,7 +279,7 @@ export async function bundle({ tags = WIDGET_TAGS } = {}) {
   await writePython();
 }
 
-/** Expression in a template string. The expression may contain template strings, but no braces outside of them. */
+/** Pattern of an expression in a template string. The expression may contain template strings, but no braces outside of them. */
 const EXPRESSION_SOURCE = String.raw`\$\{(?:[^{}\x60]|\x60[^\x60]*\x60)*\}`;
 const EXPRESSIONS_RE = new RegExp(EXPRESSION_SOURCE, 'g');
 const STYLES_RE = new RegExp(String.raw`(?<=\b(?:css|unsafeCSS\()\x60)(?:[^\x60$]|${EXPRESSION_SOURCE})*(?=\x60)`, 'g');
@@ -352,8 +352,8 @@ const REPLACED_PASSAGES = {
     ['Buffer.from(wasm, "base64")', 'Uint8Array.from(atob(wasm), (character) => character.charCodeAt(0))'],
   ],
   'lit-html.js': [
-    // The Trusted Types policy gets its own name, because another copy of Lit on the page may use the name "lit-html". If the page allows
-    // neither name, loading continues, and only rendering fails.
+    // The Trusted Types policy first tries its own name, because another copy of Lit on the page may use the name "lit-html". If its own
+    // name is refused, it tries "lit-html". If that name is refused too, loading continues, and only rendering fails.
     [
       's.createPolicy("lit-html",{createHTML:t=>t})',
       '((...names)=>{for(const name of names)try{return s.createPolicy(name,{createHTML:t=>t})}catch{}})("motion-widgets","lit-html")',

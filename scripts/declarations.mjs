@@ -44,7 +44,7 @@ register();
  */
 const TYPE_NAMES = { number: 'number', whole: 'number', boolean: 'boolean', numbers: 'number[]' };
 
-/** Properties and state of every element with a cloud. @type {Documentation} */
+/** Documentation of the properties and state fields that every element with a cloud has. @type {Documentation} */
 const CLOUD_DOCUMENTATION = {
   properties: {
     marked: { type: 'number | null', sentence: 'The sample that is marked, counted from 0.' },
@@ -106,9 +106,9 @@ export const importTypeScript = (repositoryPath) => import(pathToFileURL(absolut
 
 /** Returns the comments of the elements' classes by the names of the classes. */
 export const readClassComments = memoize(async () => {
-  // @ts-expect-error It comes without types.
+  // @ts-expect-error The analyzer has no types.
   const { cli } = await import('@custom-elements-manifest/analyzer/cli.js');
-  // With `noWrite` the analyzer returns the manifest. It writes only package.json, into which it puts the path of the manifest in dist/.
+  // With `noWrite` the analyzer returns the manifest and does not write it. It still writes the manifest's path in dist/ into package.json.
   const analyzerArguments = ['analyze', '--litelement', '--quiet', '--outdir', 'dist', '--globs', 'www/figure/figure.ts', 'www/widgets/*/*.ts'];
   const { schemaVersion, modules } = await cli({ argv: analyzerArguments, cwd: ROOT, noWrite: true });
   /** @type {any[]} */

@@ -9,7 +9,7 @@ import { ensureNativeRust } from './toolchain.mjs';
 
 const FUZZ_TARGETS = readdirSync(join(ROOT, 'fuzz/corpus')).map((corpusFile) => corpusFile.replace(/\.txt$/, ''));
 
-/** Limits of one input: seconds, allocated megabytes, and bytes. The target program itself takes 30 MB. */
+/** Limits for each input: time (s), allocated memory (MB), memory of the process (30 MB without an input), and size (bytes). */
 const INPUT_LIMITS = ['-timeout=1', '-malloc_limit_mb=256', '-rss_limit_mb=286', '-max_len=256'];
 
 /** Options of the build. Safe Rust needs no sanitizer, and tracing of comparisons would halve the speed. */

@@ -114,7 +114,7 @@ export function killProcessGroup(processGroupId) {
   }
 }
 
-/** Ends this process and all process groups. */
+/** Ends this process, and all process groups that it has started. */
 function endAfterSignal() {
   processGroups.forEach(killProcessGroup);
   process.exit(130);

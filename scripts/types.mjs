@@ -76,7 +76,7 @@ async function composeFigureTypes([{ attributes }]) {
   const { classes } = await readClassComments();
   /** @type {any[]} */
   const publicMembers = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
-  /** Returns a type, with type parameters for what depends on the widget. @param {{ type: { text: string } }} [typedItem] */
+  /** Returns a type, with type parameters in place of types that depend on the widget. @param {{ type: { text: string } }} [typedItem] */
   const specializedTypeOf = (typedItem) => (typedItem?.type.text ?? 'void').replace(/\bSimulation\['stats'\]/, 'Stats').replace(/\bStateValues\b/, 'State');
   const memberFields = publicMembers.map(({ kind, name, description, parameters = [], type, return: returnType, readonly }) => {
     const parameterTexts = parameters.map((/** @type {any} */ methodParameter) => `${methodParameter.name}: ${specializedTypeOf(methodParameter)}`);

@@ -1,9 +1,5 @@
-/**
- * Digests of simulation results, read through the JavaScript interface, to the last bit. Node and web pages can run this
- * module. tests/native/digest computes the same digests in Rust.
- *
- * @module
- */
+// Digests of simulation results, read through the JavaScript interface, to the last bit. Node and web pages can run this module.
+// tests/native/digest computes the same digests in Rust.
 
 import { presets } from '../../build/settings.js';
 

@@ -22,7 +22,6 @@ test('two tables of a user replace the simulated log, and a button restores the 
   expect(await captionOf(calibrator).innerText()).toMatch(/ \d+ legs of odom\.csv, truth\.csv[.,]/);
   expect(await calibrator.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.truth)).toBeNull();
   await expect(calibrator.locator('.drop-zone .present')).toHaveText('Results of odom.csv, truth.csv.');
-  // The summary of the logs stays visible next to the result.
   await expect(calibrator.getByRole('row', { name: /^read \d+ of \d+ rows/ })).toBeVisible();
   await expect(calibrator.getByRole('img', { name: /^Paths from above: .*, aligned with it\); .* m by .* m\.$/ })).toBeVisible();
   // File names decide the roles of the logs. The order of the chosen files has no effect.

@@ -10,7 +10,7 @@ test.use(REDUCED_MOTION);
 /** Opens a page with an Arc Anatomy. @param {Page} page @param {string} [attributes] */
 const openArcAnatomy = (page, attributes) => mountFigure(page, 'arc-anatomy', { attributes });
 
-/** Returns the results of the simulation after the requested frames. @param {Locator} widget */
+/** Waits for all requested animation frames, and returns the results of the simulation. @param {Locator} widget */
 async function readResults(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {
@@ -109,7 +109,7 @@ test('if a centre of rotation is outside the picture, its angle is labelled insi
   await waitForFrames(page);
   const centreLabels = [...(await readSVG()).matchAll(/<text x="([\d.]+)" y="([\d.]+)"[^>]*>(ω[^<]*)</g)];
   expect(centreLabels.map(([, , , labelText]) => labelText).sort()).toEqual(['ω̂Δt = 0.02', 'ωΔt = 0.03']);
-  // The two labels do not overlap.
+  // The labels of both angles do not overlap. They are 60 px wide and 12 px high.
   const [[, firstX, firstY], [, secondX, secondY]] = centreLabels.map((labelParts) => labelParts.map(Number));
   expect(Math.max(Math.abs(firstX - secondX) / 60, Math.abs(firstY - secondY) / 12)).toBeGreaterThan(1);
 });
@@ -229,16 +229,6 @@ test('without noise the figure says that there is none, and draws no heat map @n
   await openDisclosures(widget);
   await expect(readoutValueOf(widget, 'density')).toHaveText('none: a variance is 0');
   await expect(widget.locator('.lines li')).toHaveCount(10);
-});
-
-test('a button plays the drive along the arcs', async ({ page }) => {
-  await page.emulateMedia({ reducedMotion: 'no-preference' });
-  const widget = await openArcAnatomy(page);
-  const { sliderValues, buttonLabel } = await playSliderOf(widget, 'underway', 3);
-  expect(buttonLabel).toBe('Pause');
-  expect(sliderValues[0]).toBe(0);
-  expect(sliderValues[2]).toBeGreaterThan(sliderValues[1]);
-  await expect(widget.getByRole('button', { name: 'Play' })).toBeVisible();
 });
 
 test('a resize during playback of a slider does not advance the slider', async ({ page }) => {

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { NEW_PAGE_TAG, REDUCED_MOTION, readBananaResults, readBox, readCentre, openBanana, readPicture, playSliderOf, readProperty, readoutValueOf, showPage, readState, test, waitUntilReady } from './support.js';
+import { NEW_PAGE_TAG, REDUCED_MOTION, readBananaResults, readBox, readCentre, openBanana, readPicture, readProperty, readoutValueOf, showPage, readState, test, waitUntilReady } from './support.js';
 
 test.use(REDUCED_MOTION);
 
@@ -29,15 +29,6 @@ test('every preset ends the morph, even the preset that is selected already', as
     await widget.getByRole('button', { name }).click();
     await expect(widget).toHaveAttribute('morph', '0');
   }
-});
-
-test('Play moves the morph slider from the floor to exponential coordinates', async ({ page }) => {
-  await page.emulateMedia({ reducedMotion: 'no-preference' });
-  const widget = await openBanana(page, 'samples="1000"');
-  const { sliderValues, buttonLabel } = await playSliderOf(widget, 'morph');
-  expect(buttonLabel).toBe('Pause');
-  expect(sliderValues.at(-1)).toBe(1);
-  for (const [i, sliderValue] of sliderValues.entries()) expect(sliderValue).toBeGreaterThan(sliderValues[i - 1] ?? 0);
 });
 
 test('the handle at the end of the arc can be dragged during the morph @nightly', async ({ page }) => {

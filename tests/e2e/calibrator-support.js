@@ -1,16 +1,11 @@
-/**
- * Helpers of the tests of the Alpha Calibrator: the element on its page, its parts, and logs.
- *
- * @module
- */
+// Helpers of the tests of the Alpha Calibrator: the element on its page, its parts, and logs.
 
 import { readFileSync } from 'node:fs';
 import { odometryMessageOf, poseOf, recordingOf, stampOf } from '../mcap.js';
 import { mountFigure, waitUntilSettled } from './support.js';
 
 /**
- * @typedef {import('@playwright/test').Page} Page
- * @typedef {import('@playwright/test').Locator} Locator
+ * @import { Locator, Page } from '@playwright/test'
  * @typedef {import('../../www/types.d.ts').AlphaCalibrator} Simulation
  * @typedef {HTMLElement & { simulation: Simulation, log: import('../../www/types.d.ts').CalibrationLog | null, settings: any, service: { isBusy: boolean } }} AlphaCalibratorElement
  */

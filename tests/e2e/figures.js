@@ -1,8 +1,4 @@
-/**
- * Facts about each element for the tests, and the choice of the element on which a test of common behaviour runs.
- *
- * @module
- */
+// Facts about each element for the tests, and the choice of the element on which a test of common behaviour runs.
 
 /**
  * Facts that tests need about an element.

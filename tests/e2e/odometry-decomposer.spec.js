@@ -9,7 +9,7 @@ test.use(REDUCED_MOTION);
 /** Opens a page with an Odometry Decomposer. @param {Page} page @param {string} [attributes] */
 const openDecomposer = (page, attributes) => mountFigure(page, 'odometry-decomposer', { attributes });
 
-/** Returns the results of the simulation after the requested frames. @param {Locator} widget */
+/** Waits for all requested animation frames, and returns the results of the simulation. @param {Locator} widget */
 async function readResults(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {
@@ -126,7 +126,7 @@ test('on paper every noise rule has its name, and the selected rule is highlight
   for (const rule of ['Table 5.6', 'AMCL of Nav2', 'Beluga 2', 'AMCL, omnidirectional']) await expect(ruleLabelOf(rule)).toBeVisible();
   await expect(ruleLabelOf('Table 5.6')).toHaveCSS('font-weight', '700');
   await expect(ruleLabelOf('Beluga 2')).not.toHaveCSS('font-weight', '700');
-  // Every other group of radio buttons is printed with only its selected button.
+  // A group of radio buttons other than the noise rules is printed with its selected button only.
   await page.emulateMedia({ media: 'screen' });
   await openDisclosures(widget);
   await page.emulateMedia({ media: 'print' });

@@ -4,7 +4,7 @@ import { openSqueeze, readSqueezeResults } from './squeeze-support.js';
 import { REDUCED_MOTION, readBananaResults, readBox, waitForFrames, mountFigure, openBanana, readPoses, readProperty, test, openDisclosures } from './support.js';
 
 /** @import { Locator } from '@playwright/test' */
-/** @typedef {import('../../www/types.d.ts').BananaMachineElement} Figure any element, as far as exports are concerned */
+/** @typedef {import('../../www/types.d.ts').BananaMachineElement} Figure stands for any figure, because all have the same methods to export pictures and data */
 
 test.use(REDUCED_MOTION);
 

@@ -42,7 +42,7 @@ test('arrow keys in the field of a value move the slider by a step, and not beyo
     expect(await readProperty(widget, 'v')).toBe(expectedSpeed);
   }
   expect((await takeEvents(page, ['input', 'change'])).map(({ name }) => name)).toEqual(['input', 'change', 'input', 'change']);
-  // A value beyond the end of the slider stays.
+  // A typed value beyond the end of the slider's range is kept.
   await page.keyboard.type('7');
   for (const pressedKey of ['ArrowUp', 'ArrowUp']) await page.keyboard.press(pressedKey);
   expect(await readProperty(widget, 'v')).toBe(7);

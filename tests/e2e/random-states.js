@@ -1,8 +1,4 @@
-/**
- * Random states of the elements, from a seed.
- *
- * @module
- */
+// Random states of the elements, from a seed.
 
 import { settings } from '../../build/settings.js';
 import { createRandomGenerator } from '../random.js';

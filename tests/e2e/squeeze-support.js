@@ -1,14 +1,9 @@
-/**
- * Helpers for tests of Map Squeeze: a page with the figure, results of its simulation, and map files.
- *
- * @module
- */
+// Helpers for tests of Map Squeeze: a page with the figure, results of its simulation, and map files.
 
 import { waitForFrames, showPage, waitUntilReady } from './support.js';
 
 /**
- * @typedef {import('@playwright/test').Page} Page
- * @typedef {import('@playwright/test').Locator} Locator
+ * @import { Locator, Page } from '@playwright/test'
  * @typedef {import('../../www/types.d.ts').MapSqueeze} MapSqueeze
  * @typedef {import('../../www/types.d.ts').Motion} Motion
  * @typedef {HTMLElement & { simulation: MapSqueeze, motion: Motion }} MapSqueezeElement
@@ -24,7 +19,7 @@ export async function openSqueeze(page, attributes = '') {
   return widget;
 }
 
-/** Returns the results of the simulation after the requested frames. @param {Locator} widget */
+/** Waits for all requested animation frames, and returns the results of the simulation. @param {Locator} widget */
 export async function readSqueezeResults(widget) {
   await waitForFrames(widget.page());
   const { plan: { bounds, walls }, poses, verdicts, ...others } = await widget.evaluate((element) => {

@@ -1,15 +1,10 @@
-/**
- * Helpers of the browser tests: the test function, test pages, results of a simulation, and actions on controls.
- *
- * @module
- */
+// Helpers of the browser tests: the test function, test pages, results of a simulation, and actions on controls.
 
 import { expect, test as playwrightTest } from '@playwright/test';
 import { ALL_FIGURE_NAMES, CLOUD_FIGURE_NAMES, HANDLE_FIGURE_NAMES, chooseFigureName } from './figures.js';
 
 /**
- * @typedef {import('@playwright/test').Page} Page
- * @typedef {import('@playwright/test').Locator} Locator
+ * @import { Locator, Page } from '@playwright/test'
  * @typedef {import('../../www/types.d.ts').BananaMachine} BananaMachine
  * @typedef {import('../../www/types.d.ts').Motion} Motion
  * @typedef {import('./figures.js').Name} Name
@@ -269,7 +264,7 @@ export async function waitForFrames(page) {
   });
 }
 
-/** Returns results of a Banana Machine after the requested frames, without its many poses. @param {Locator} widget */
+/** Waits for all requested animation frames, and returns the results of a Banana Machine without its poses. @param {Locator} widget */
 export async function readBananaResults(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {
@@ -278,7 +273,7 @@ export async function readBananaResults(widget) {
   });
 }
 
-/** Returns the poses of a simulation after the requested frames. @param {Locator} widget @returns {Promise<number[]>} */
+/** Waits for all requested animation frames, and returns the poses of a simulation. @param {Locator} widget @returns {Promise<number[]>} */
 export async function readPoses(widget) {
   await waitForFrames(widget.page());
   return [...(await widget.evaluate((element) => /** @type {BananaMachineElement} */ (element).simulation.poses))];
@@ -333,7 +328,7 @@ export async function readPicture(canvasLocator) {
 }
 
 /**
- * Returns the colours of some roles on a figure, or on a part of a figure.
+ * Returns the colours that custom properties (CSS variables) have on a figure, or on a part of it.
  *
  * @param {Locator} coloredPart
  * @param {string[]} colorRoles names of custom properties
@@ -345,7 +340,7 @@ export async function readColours(coloredPart, colorRoles) {
     const colorContext = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true }));
     return roleNames.map((name) => {
       const colourSwatch = document.createElement('span');
-      // In forced colours a figure keeps the hues of its colour roles. The swatch needs `forced-color-adjust: none` to keep them too.
+      // In forced colours, figures keep their own colours. The tested element needs `forced-color-adjust: none` to keep them too.
       colourSwatch.style.cssText = `color: var(--${name}); forced-color-adjust: none`;
       (element.shadowRoot?.querySelector('.surface') ?? element).append(colourSwatch);
       // The canvas converts a colour of any notation to numbers.
@@ -357,7 +352,7 @@ export async function readColours(coloredPart, colorRoles) {
   }, colorRoles);
 }
 
-/** Returns the number of pixels of a canvas that have a role's colour. @param {Locator} canvasLocator @param {string} colorRole */
+/** Returns the number of a canvas's pixels in the colour of a custom property. @param {Locator} canvasLocator @param {string} colorRole */
 export async function countPixelsOfRole(canvasLocator, colorRole) {
   const [roleColour] = await readColours(canvasLocator, [colorRole]);
   return canvasLocator.evaluate((element, roleColour) => {

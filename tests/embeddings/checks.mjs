@@ -1,8 +1,4 @@
-/**
- * Checks that run on the pages of every platform. A platform is a tool that makes web pages, such as Hugo, Next or JupyterLab.
- *
- * @module
- */
+// Checks that run on the pages of every platform. A platform is a tool that makes web pages, such as Hugo, Next or JupyterLab.
 
 import assert from 'node:assert/strict';
 import { join } from 'node:path';

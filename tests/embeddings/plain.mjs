@@ -1,8 +1,4 @@
-/**
- * Platforms (site generators, frameworks) that need no test code of their own. `npm run build` writes a site, and `npm run dev` serves it.
- *
- * @module
- */
+// Platforms (site generators, frameworks) that need no test code of their own. `npm run build` writes a site, and `npm run dev` serves it.
 
 import { copyFileSync, mkdirSync } from 'node:fs';
 import { join } from 'node:path';

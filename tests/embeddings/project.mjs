@@ -1,9 +1,5 @@
-/**
- * Projects for the tests: packs the npm and Python packages, and copies each example to a directory outside of this repository. There no
- * file of the repository can be imported by accident. The copies and the packages installed in them are kept between runs.
- *
- * @module
- */
+// Projects for the tests: packs the npm and Python packages, and copies each example to a directory outside of this repository. There no
+// file of the repository can be imported by accident. The copies and the packages installed in them are kept between runs.
 
 import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';

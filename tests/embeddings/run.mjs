@@ -1,9 +1,5 @@
-/**
- * `npm run test:embeddings`: builds, packs, and opens each example as its platform serves it. `npm run test:embeddings -- PLATFORM…`
- * selects some of the platforms. Pictures of the pages are in test-results/embeddings.
- *
- * @module
- */
+// `npm run test:embeddings`: builds, packs, and opens each example as its platform serves it. `npm run test:embeddings -- PLATFORM…`
+// selects some of the platforms. Pictures of the pages are in test-results/embeddings.
 
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';

@@ -1,8 +1,4 @@
-/**
- * Servers for the test sites that site generators and frameworks build. A site has a file server, or the server of its framework.
- *
- * @module
- */
+// Servers for the test sites that site generators and frameworks build. A site has a file server, or the server of its framework.
 
 import { spawn } from 'node:child_process';
 import { join } from 'node:path';

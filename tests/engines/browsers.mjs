@@ -1,9 +1,5 @@
-/**
- * Browser engines, driven by WebDriver. All engines report reduced motion, so that clouds are complete immediately. A growing cloud would
- * depend on the number of frames, and therefore on the load of the computer.
- *
- * @module
- */
+// Browser engines, driven by WebDriver. All engines report reduced motion, so that clouds are complete immediately. A growing cloud would
+// depend on the number of frames, and therefore on the load of the computer.
 
 import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';

@@ -1,8 +1,4 @@
-/**
- * Checks that run in every browser engine: results must be equal to the last bit, and the page must react to a user.
- *
- * @module
- */
+// Checks that run in every browser engine: results must be equal to the last bit, and the page must react to a user.
 
 import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';

@@ -1,8 +1,4 @@
-/**
- * Handles of each figure, and the positions to which the tests drag them.
- *
- * @module
- */
+// Handles of each figure, and the positions to which the tests drag them.
 
 import { load } from '../../dist/core.js';
 import { toPascalCase } from '../../scripts/declarations.mjs';

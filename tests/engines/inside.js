@@ -1,8 +1,4 @@
-/**
- * Functions that checks.mjs calls in the page; `simulationStateOf` runs in Node too.
- *
- * @module
- */
+// Functions that checks.mjs calls in the page; `simulationStateOf` runs in Node too.
 
 import { computeDigest, computeHash } from '../digest/digest.js';
 

@@ -1,9 +1,5 @@
-/**
- * `npm run test:engines`: builds the page, and checks it in Chromium, Firefox and WebKit. `npm run test:engines -- ENGINE…` selects some of
- * the engines. Screenshots are written to test-results/engines.
- *
- * @module
- */
+// `npm run test:engines`: builds the page, and checks it in Chromium, Firefox and WebKit. `npm run test:engines -- ENGINE…` selects some of
+// the engines. Screenshots are written to test-results/engines.
 
 import { mkdtempSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';

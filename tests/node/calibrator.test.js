@@ -1,4 +1,4 @@
-// Text of the Alpha Calibrator without a page: numbers, sentences, and lines for Nav2.
+// Texts of the Alpha Calibrator, made without a DOM: numbers, sentences, and parameter lines for Nav2.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

@@ -1,4 +1,4 @@
-// Plans of drives (pairs of an odometry log and a reference log): choice and pairing of logs, checks, and summaries.
+// Choice of the logs of a calibration, their pairing into drives (an odometry log and a reference log each), checks, and summaries.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -39,7 +39,7 @@ const createRecording = (kindsBySeries, moreFields, framePairs = []) => ({
 /** Returns the choice of a series and its frames as text. @param {import('../../www/logs/log.ts').LogChoice | undefined} choice */
 const choiceTextOf = ({ series, frames } = { series: '' }) => (frames ? `${series} ${frames.parent} ${frames.child}` : series);
 
-/** Plans drives (pairs of logs), or rejects the promise. @param {Recording[]} recordings @param {import('../../www/logs/drives.ts').UserChoices} [userChoices] */
+/** Returns the plan of drives, or rejects the promise if planning throws. @param {Recording[]} recordings @param {import('../../www/logs/drives.ts').UserChoices} [userChoices] */
 const planDrivesAsync = async (recordings, userChoices) => planDrives(recordings, userChoices);
 
 /**

@@ -149,7 +149,8 @@ for (const [name, findBlocks] of Object.entries(BLOCK_FINDERS)) {
 test('all messages of a database with an unfinished transaction are read', async () => {
   const bytes = decompressFile('sqlite-sqlite.db3');
   const rootPage = createRange(0, bytes.length / 4096).map((pageStart) => 4096 * pageStart).find((bytePosition) => bytes[bytePosition] === 5) ?? 0;
-  // Overwrites the number of pages with 8, and the first page of the messages with an empty page, as before the transaction.
+  // Overwrites the number of pages of the SQLite database with 8, and the first page of the messages with an empty page, as before the
+  // transaction.
   bytes.writeUInt32BE(8, 28);
   bytes.fill(0, rootPage, rootPage + 5)[rootPage] = 13;
   const log = await readOdometry(bytes, 'run.db3');
@@ -175,7 +176,7 @@ test('LZ4 frames of a wrong size are refused, and so are damaged frames with che
   const lz4Frame = bytes.subarray(namePosition + 11, namePosition + 11 + lz4FrameSize);
   const chunkRecords = await decompressLz4(lz4Frame, contentSize);
   for (const wrongSize of [contentSize - 1, contentSize + 1]) await assert.rejects(decompressLz4(lz4Frame, wrongSize), RangeError);
-  // Checksums of the only block and of the contents are added.
+  // A checksum of the only block and a checksum of the contents are added to the LZ4 frame.
   const { h32Raw } = await xxhash();
   const checksumOf = (bytes: Uint8Array) => Buffer.from(Uint32Array.of(h32Raw(bytes)).buffer);
   const blockStart = lz4Frame[4] & 0x08 ? 15 : 7;

@@ -1,8 +1,4 @@
-/**
- * Installs the package as npm would publish it in a separate directory, with the examples.
- *
- * @module
- */
+// Installs the package as npm would publish it in a separate directory, with the examples.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';

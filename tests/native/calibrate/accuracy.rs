@@ -134,7 +134,7 @@ fn report_wrong_coverage(quantity_name: &str, covered_count: usize, log_count: u
         .then(|| format!("{covered_count} of {log_count} intervals hold {quantity_name}"))
 }
 
-/// Reports α's whose medians have a larger error than the allowed bias plus three standard errors, and α's with wrong intervals.
+/// Reports α's with a median error above the allowed bias plus three standard errors, or with too narrow or too wide intervals.
 fn report_wrong_alphas(model: Model, scenario: &Scenario, study: &StudyResults) -> Vec<String> {
     let report_wrong_alpha = |alpha_index: usize| {
         let (ratios, name) = (&study.alpha_ratios[alpha_index], format!("α{}", alpha_index + 1));

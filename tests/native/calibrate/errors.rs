@@ -180,8 +180,7 @@ fn an_error_that_uncorrected_errors_hide_is_not_corrected() {
     assert_eq!(calibration.corrected.get(SystematicError::TurnScale), 1.0);
 }
 
-/// The reference has fewer rows than the odometry, or rows at other times. Without noise, all errors are nevertheless estimated up to
-/// rounding.
+/// The reference has fewer rows than the odometry, or rows at other times.
 #[test]
 fn errors_of_a_robot_without_noise_are_exact() {
     const CLOCK_OFFSET: f64 = 0.123;
@@ -243,7 +242,6 @@ fn noise_of_the_odometry_does_not_bias_the_clock_offset() {
     assert!(error_sum.abs() < 4.0 * variance_sum.sqrt(), "{error_sum} {}", variance_sum.sqrt());
 }
 
-/// Four drives, each with a quarter of the legs and its own clock, give intervals as narrow as one drive with all legs.
 #[test]
 fn four_drives_are_as_informative_as_one_of_the_same_length() {
     let new_simulation_with_offset = |clock_offset: f64, leg_count: usize, seed: u64| {
@@ -273,8 +271,7 @@ fn four_drives_are_as_informative_as_one_of_the_same_length() {
     }
 }
 
-/// The encoders jitter by 3 mm and 3 mrad, and the robot stands still half of the time. The jitter of a standing robot must not count as
-/// motion with a scale of 0.
+/// The encoders jitter by 3 mm and 3 mrad, and the robot stands still half of the time.
 #[test]
 fn encoder_jitter_of_a_standing_robot_does_not_change_the_scales() {
     let mut rng = seeded_rng(5);

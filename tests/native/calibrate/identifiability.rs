@@ -26,7 +26,7 @@ const BEND_LEG: [f64; 2] = [0.2, 0.8];
 const LACKS_TURNS: Option<NotIdentifiable> = Some(InsufficientRotation);
 const LACKS_DISTANCE: Option<NotIdentifiable> = Some(InsufficientTranslation);
 
-/// Drive that does not identify all α's, with the reason for each α.
+/// Drive from which some α's are not identifiable, with the reason for each of them.
 struct IncompleteDrive {
     name: &'static str,
     velocity_of_leg: VelocityOfLeg,

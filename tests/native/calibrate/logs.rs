@@ -153,7 +153,7 @@ fn velocities_are_not_computed_across_a_declared_jump() {
         .enumerate()
         .map(|(row, (time, pose))| (time, SE2::new(pose.x(), jump_offset_at(row), 0.0)));
     let drive_with_jumps = new_trajectory(rows_with_jumps).with_breaks_before([40, 43]);
-    // The three rows between the two jumps are long enough for a leg.
+    // The three rows between the jumps of the drive are long enough for a leg.
     let leg_length = LegLength::Displacement { distance: 0.15, angle: 0.2 };
     let legs = split_into_legs(&drive_with_jumps, &drive_with_jumps, leg_length, 0.0).0;
     assert!(legs.len() > 45 && legs.iter().any(|leg| leg.odometry[0].y() == 5.0));

@@ -9,8 +9,8 @@ use motion::{NoiseKind, Variance};
 use nalgebra::{Matrix3, Vector3};
 use rand::Rng;
 
-/// Number of samples of a window. Their variances then have relative standard errors of 7 %, which change the coverage by less than a
-/// hundredth.
+/// Number of motions that are sampled for each window. Their variances then have relative standard errors of 7 %, which change the coverage
+/// by less than a hundredth.
 const SAMPLES_PER_WINDOW: usize = 400;
 
 /// Quantile 0.95 of χ² with 3 degrees of freedom.

@@ -152,7 +152,7 @@ impl PolarGrid {
             pooled_cell.1
         );
         let chi_square_term_of = |(observed, expected): &(f64, f64)| (observed - expected).powi(2) / expected;
-        // The pooled cell is left out if it expects few poses, because the quadrature error may exceed their number.
+        // The cell that pools all sparse cells is left out if it expects few poses, because the quadrature error may exceed their number.
         let pooled_term = if pooled_cell.1 >= 20.0 { chi_square_term_of(&pooled_cell) } else { 0.0 };
         (
             full_cells.iter().map(chi_square_term_of).sum::<f64>() + pooled_term,

@@ -1,6 +1,6 @@
 //! Numbers printed in the text of a page or a document, which tests compare with computed numbers.
 
-/// Text of a page or a document in one line.
+/// Text of a page or a document, joined to one line.
 pub struct PlainText(String);
 
 #[derive(Clone, Copy, Debug)]

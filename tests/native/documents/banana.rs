@@ -33,8 +33,7 @@ fn presets_equal_those_printed_in_the_document() {
     }
 }
 
-/// Checks the rows of the table in doc/statistics.md, and the sentences of the page about the same presets. Fractions may differ by 4.5
-/// standard errors.
+/// The fractions of robots may differ by 4.5 standard errors.
 #[test]
 fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
     const ROBOT_COUNT: usize = 300_000;

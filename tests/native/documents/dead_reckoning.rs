@@ -73,8 +73,7 @@ fn printed_variance_errors_of_the_recursion_equal_those_of_the_simulation() {
     }
 }
 
-/// Checks the error ratios on the page and in doc/exercises.md. A ratio to the variance of n robots has the standard error √(2/n), or more
-/// if the tails are heavy.
+/// A ratio to the variance of n robots has the standard error √(2/n), or more if the tails are heavy.
 #[test]
 fn ratios_and_crossings_are_those_of_exercise_7() {
     let exercises_text = read_exercises();
@@ -113,7 +112,6 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
     assert!(first_missed_steps[1] > first_missed_steps[0] / 2.0);
 }
 
-/// Checks the times at which the variances along and across a straight drive are equal, on the page and in doc/exercises.md.
 #[test]
 fn the_crossing_times_are_those_of_exercise_2() {
     let initial_simulation = simulation(Settings { samples: 1, ..Settings::default() });

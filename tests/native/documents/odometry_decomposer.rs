@@ -58,7 +58,6 @@ fn the_correlation_of_both_rotations_changes_the_heading_deviation_from_differen
     }
 }
 
-/// Checks the table of doc/model.md, which has the standard deviations of rot1, trans and rot2 for three odometry readings.
 #[test]
 fn the_deviations_of_the_rules_are_those_in_the_document() {
     let preset_row_names = [("reverse", "reverse"), ("spin", "spin"), ("rest", "at rest")];

@@ -178,7 +178,6 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
     }
 }
 
-/// Compares the fraction of motions for which the collision tests of the geodesic and of the arc differ.
 #[test]
 #[ignore = "nightly: clouds of 100,000"]
 fn testing_the_geodesic_changes_the_documented_fraction_of_verdicts() {

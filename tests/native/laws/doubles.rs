@@ -37,7 +37,7 @@ pub fn finite_doubles() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Returns limits of common ranges, with either sign, and their neighbouring doubles.
+/// Returns limits of floating-point arithmetic and of angles, such as the smallest normal double or π, and their neighbouring doubles.
 fn range_limits() -> impl Strategy<Value = f64> {
     const LIMITS_OF_RANGES: [f64; 15] = [
         0.0,

@@ -80,7 +80,6 @@ proptest! {
         assert_close(&(a.adjoint() * a.inverse().adjoint()), &Matrix3::identity(), sum_of_coordinates(&a))?;
     }
 
-    /// x · exp(τ) = exp(Ad τ) · x.
     #[test]
     fn the_adjoint_moves_a_twist_from_the_right_to_the_left(pose in any_pose(), twist in any_twist(PI)) {
         prop_assume!(sum_of_coordinates(&pose) < 1e290);

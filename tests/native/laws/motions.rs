@@ -17,7 +17,6 @@ fn any_duration() -> impl Strategy<Value = f64> {
 proptest! {
     #![proptest_config(new_proptest_config(400))]
 
-    /// Inverting an arc between any two poses gives controls that lead from one pose to the other.
     #[test]
     fn an_inverted_arc_ends_at_the_given_pose(x in any_pose(), x_next in any_pose(), dt in any_duration()) {
         let inverted_arc = invert_arc(&x, &x_next, dt);
@@ -45,7 +44,6 @@ proptest! {
         prop_assert!((inverted_arc.gamma_hat * dt - last_turn).abs() <= rounding_tolerance * PI, "{:?}", inverted_arc);
     }
 
-    /// With any number of additional full turns the arc ends at the same place.
     #[test]
     fn arcs_with_additional_full_turns_end_at_the_same_position(x in -50.0..50.0, y in -50.0..50.0, requested_turn in -300.0..300.0) {
         let target_pose = SE2::new(x, y, 0.0);
@@ -68,7 +66,6 @@ proptest! {
         assert_same_pose(&odometry_reading.apply(&first_pose), &second_pose, TOLERANCE_ULPS, coordinate_extent + if odometry_reading.trans == 0.0 { displacement_tolerance } else { 0.0 })?;
     }
 
-    /// The reading depends on the relative pose only. It stays the same if both poses move with their frame.
     #[test]
     fn an_odometry_reading_does_not_depend_on_the_frame(x in -1e3..1e3, y in -1e3..1e3, theta in -3.0..3.0, frame_shift in (-1e3..1e3, -1e3..1e3, -3.0..3.0)) {
         let (first_pose, second_pose) = (SE2::new(1.0, 2.0, 0.5), SE2::new(x, y, theta));

@@ -8,7 +8,6 @@ use motion::stats::CrossTrackStats;
 use motion::{MotionModel, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel};
 use std::f64::consts::PI;
 
-/// Sixth powers of small residuals underflow. The standard error of the skew must not become 0 for that reason.
 #[test]
 fn the_skew_error_is_not_zero_if_sixth_powers_underflow() {
     for (unit, is_finite) in [(1.0, true), (1e-48, true), (1e-52, false), (1e-60, false), (1e-110, false)] {
@@ -50,7 +49,6 @@ fn an_arc_around_a_circle_too_long_for_a_double_has_density_zero() {
     assert_eq!(velocity_model.pose_density(&x_next, &u, &x), Some(0.0));
 }
 
-/// A displacement whose square underflows must count as 0, instead of giving 0 / 0.
 #[test]
 fn a_displacement_with_a_subnormal_square_counts_as_zero() {
     let velocity_model = new_model([0.0, 0.73, 0.06, 0.0, 0.0, 0.33]);

@@ -44,7 +44,6 @@ const MAX_ROBOT_DISTANCE: f64 = 20.0;
 proptest! {
     #![proptest_config(new_proptest_config(300))]
 
-    /// In another frame the cloud has the transformed mean and the same covariance, rotated.
     #[test]
     fn moments_transform_with_the_frame(robot_cloud in any_cloud(), other_frame in any_frame()) {
         let moved_cloud: Vec<SE2> = robot_cloud.iter().map(|pose| other_frame * *pose).collect();

@@ -67,7 +67,6 @@ impl DrawnGrid {
     }
 }
 
-/// For points outside the occupied cells, the distance to the walls of a grid equals the distance to the cells.
 #[test]
 fn distances_to_walls_equal_distances_to_cells() {
     let mut rng = seeded_rng(9900);
@@ -190,8 +189,7 @@ fn parse_drawn_grid(drawn_rows: &[&str], unknown_cells: UnknownCells) -> Occupan
     OccupancyGrid::new(&image, &PixelClassifier::default(), 0.1, SE2::identity()).with_unknown(unknown_cells)
 }
 
-/// The pose is in the middle of the largest square of free cells. Its heading is that of the longest free straight path. Unknown
-/// cells do not count as free.
+/// The heading is that of the longest free straight path. Unknown cells do not count as free.
 #[test]
 fn the_free_pose_is_in_the_largest_free_square() {
     let drawn_rows = [

@@ -76,7 +76,6 @@ fn pgm_rasters_may_hold_any_bytes() {
     assert_eq!(shades_of(&read_pgm(b"P5 2 1 255\r\n#").expect("two pixels")), [10.0 / 255.0, 35.0 / 255.0]);
 }
 
-/// The error message names the line, the field, its value and what is allowed.
 #[test]
 fn errors_of_malformed_pgm_files_name_line_field_and_value() {
     let files_and_messages: [(&[u8], &str); 13] = [

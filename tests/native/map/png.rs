@@ -134,7 +134,6 @@ fn an_image_that_is_cut_short_is_refused() {
     assert_eq!(grid_error.expect_err("it ends"), read_png(&file_bytes[..60]).expect_err("it ends"));
 }
 
-/// A small file may contain an enormous image. Such a file must be refused because of the size in its header.
 #[test]
 fn an_image_that_is_too_large_is_refused_by_its_header() {
     let mut file_bytes = Vec::new();

@@ -38,7 +38,7 @@ fn the_variances_of_each_rule_match_its_source() {
     let nav2_reverse_variances = [0.202004848, 0.316038784, 0.202004848, 0.0];
     // The robot turns on the spot by more than a quarter turn.
     let spin_reading = new_odom_delta(0.0, 0.0, 2.2);
-    // The encoders jitter by half a centimetre, to the left and backwards, with a turn of 0.01 rad.
+    // While the robot stands, the odometry pose jitters half a centimetre to the left and half a centimetre back, and turns by 0.01 rad.
     let jitter_reading = new_odom_delta(2.0, 0.005, -1.99);
     let variance_cases = [
         (Table, bend_reading, bend_variances),

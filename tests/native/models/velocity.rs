@@ -175,7 +175,6 @@ fn the_noise_of_the_last_turn_does_not_change_the_density_of_positions() {
     }
 }
 
-/// A χ² test over a grid of poses shows that sampler and density are the same distribution, even where the turn exceeds half a circle.
 #[test]
 fn sampler_and_density_agree() {
     let x = SE2::new(0.5, -0.25, 1.0);
@@ -190,7 +189,6 @@ fn sampler_and_density_agree() {
     }
 }
 
-/// The chapter says that the normalized scoring function of Table 5.1 differs from the density by a few percent.
 #[test]
 fn the_tables_prob_differs_from_the_density_by_a_few_percent() {
     let (u, x) = (new_command(1.0, 0.5, 1.0), SE2::identity());

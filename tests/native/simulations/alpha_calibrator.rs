@@ -54,7 +54,6 @@ fn a_small_noise_of_the_reference_does_not_narrow_the_intervals_of_alphas() {
     }
 }
 
-/// If a duration is set, the settings of distance and angle have no effect.
 #[test]
 fn legs_end_after_a_duration_where_one_is_set() {
     let new_settings = Settings { duration: 0.8, ..Settings::default() };
@@ -294,7 +293,7 @@ fn a_restored_fit_equals_the_saved_one_to_the_last_bit() {
             && restored_simulation.truth().is_none()
             && !restored_simulation.is_pending()
     );
-    // A change of the inflation changes only predictions. A change of the noise rule requires a new fit to the log.
+    // A change of the factor that inflates the α's changes only predictions. A change of the noise rule requires a new fit to the log.
     restored_simulation.configure(Settings { inflation: 2.0, ..new_settings }).expect("allowed");
     assert!(!restored_simulation.is_pending() && fit_results(&restored_simulation) != results_before);
     restored_simulation.configure(Settings::default()).expect("allowed");

@@ -63,7 +63,6 @@ fn format_results(simulation: &BananaMachine) -> String {
 /// Accuracy of a pose after a metre or two. The factors of its coordinates have the accuracy of a sine or cosine.
 const POSE_TOLERANCE: f64 = 4.0 * MAX_SIN_COS_ERROR;
 
-/// The poses equal samples of the model with the same seed, forward and in reverse.
 #[test]
 fn the_cloud_equals_samples_of_the_model() {
     let origin_pose = SE2::identity();
@@ -94,7 +93,6 @@ fn the_cloud_equals_samples_of_the_model() {
     }
 }
 
-/// Each robot keeps its unit noises, such as (v̂ − v)/σ, when settings change.
 #[test]
 fn changed_settings_move_the_same_robots() {
     let first_settings = Settings { samples: 300, ..settings_of_preset("gentle") };
@@ -133,21 +131,6 @@ fn changed_settings_move_the_same_robots() {
         unit_noises_of(&simulation).iter().zip(&initial_noises).all(|(a, b)| a != b),
         "a new seed changes it"
     );
-}
-
-/// Blocks have 10,000 robots or more. The growth of smaller clouds is tested in `tests/fuzz.rs`.
-#[test]
-fn a_large_cloud_grows_in_blocks() {
-    for settings in settings_of_both_models() {
-        let larger_settings = Settings { samples: 60_000, ..settings };
-        let mut growing_simulation = BananaMachine::with_shown_count(settings, 0).unwrap();
-        growing_simulation.configure_first(larger_settings, usize::MAX).unwrap();
-        assert_eq!(growing_simulation.shown_count(), 10_000);
-        while growing_simulation.shown_count() < larger_settings.samples {
-            growing_simulation.add_samples(growing_simulation.block_size());
-        }
-        assert_eq!(format_results(&growing_simulation), format_results(&simulation(larger_settings)));
-    }
 }
 
 /// If a command turns by more than half a circle, its samples still form one cloud in exponential coordinates, around the twist τ.
@@ -245,7 +228,6 @@ fn the_reaching_command_ends_at_the_target() {
     );
 }
 
-/// Exponential coordinates are infinite for a full turn. Only statistics in these coordinates are then undefined.
 #[test]
 fn exponential_statistics_are_undefined_near_a_full_turn() {
     let simulate_turn = |omega: f64| {
@@ -323,7 +305,6 @@ fn the_executed_motion_leads_to_the_pose() {
     }
 }
 
-/// In reverse, Table 5.6 adds the noise of two half turns to the heading. The option `reverse_aware` does not.
 #[test]
 fn a_reverse_aware_robot_has_no_noise_of_half_turns() {
     let command = VelocityCmd { v: -1.0, ..GENTLE_COMMAND };

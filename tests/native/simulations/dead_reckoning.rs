@@ -48,7 +48,6 @@ fn assert_same_pose([x, y, theta]: [f64; 3], expected_pose: &SE2, path_scale: f6
     );
 }
 
-/// Paths that are computed in lanes equal poses that are composed one by one, from the same random numbers.
 #[test]
 fn lanes_agree_with_poses_composed_one_by_one() {
     use motion::noise::draw_centred_uniform;
@@ -182,7 +181,6 @@ fn misses_are_reported_with_enough_robots_only() {
     assert_eq!(empty_simulation.stats().n, 0);
 }
 
-/// A component without variance has no relative error, however small the numbers are.
 #[test]
 fn a_zero_variance_has_no_relative_error() {
     let errors_with = |settings| simulation(settings).measured_moments()[1].relative_error;
@@ -263,7 +261,6 @@ fn a_seed_gives_the_same_draws() {
     assert_eq!(large_simulation.rollout(1500), None);
 }
 
-/// The variance of the whole path is divided equally among its steps. For any number of steps, their variances add up to the same total.
 #[test]
 fn noise_of_the_whole_path_is_divided_among_its_steps() {
     let whole_command = VelocityCmd { v: 1.0, omega: 0.5, dt: 4.0 };

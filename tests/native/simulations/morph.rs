@@ -101,7 +101,6 @@ fn the_same_robots_stay_inside_an_outline() {
     }
 }
 
-/// At its two ends, the interpolated outline of the Gaussian in ξ equals the outline of that view, even with a last turn γ̂.
 #[test]
 fn the_morphed_outline_equals_that_of_each_view_at_its_end() {
     let simulation = simulation(Settings { samples: 5000, ..settings_of_preset("hard") });

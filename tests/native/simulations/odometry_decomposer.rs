@@ -10,7 +10,6 @@ pub fn simulation(settings: Settings) -> OdometryDecomposer {
     OdometryDecomposer::new(settings).expect("a valid setting")
 }
 
-/// With the rule of Table 5.6 the outcomes equal samples of `OdometryModel` with the same seed.
 #[test]
 fn the_outcomes_equal_samples_of_the_model() {
     for noise in NOISE_KINDS {
@@ -90,7 +89,6 @@ fn the_leg_poses_follow_the_legs_of_the_reading() {
     }
 }
 
-/// The prediction depends only on the relative motion. A drift of the odometry frame does not change it.
 #[test]
 fn the_prediction_does_not_depend_on_the_drift() {
     let simulate_drift = |drift_seconds| simulation(Settings { drift: drift_seconds, ..Settings::default() });

@@ -152,8 +152,7 @@ fn the_product_of_samples_and_parts_is_limited() {
     }
 }
 
-/// If no motion fits, the simulation stops after a bounded number of draws and reports this. It continues once the settings let the robot
-/// move.
+/// The simulation continues as soon as the settings let the robot move.
 #[test]
 fn the_simulation_stops_after_a_bounded_number_of_draws() {
     let settings =

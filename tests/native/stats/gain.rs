@@ -172,7 +172,6 @@ fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
     );
 }
 
-/// The expected areas are those of the drawn outlines, by the shoelace formula.
 #[test]
 fn the_area_ratio_is_that_of_the_drawn_outlines() {
     let area_of_outline = |closed_outline: &[[f64; 2]]| -> f64 {
@@ -249,7 +248,6 @@ fn the_gain_is_infinite_if_only_exponential_coordinates_have_no_volume() {
     assert_eq!(fan_simulation.table().exact.likelihood_gain, *gain);
 }
 
-/// The gain of robots on a line through the start is undefined, whatever their headings are.
 #[test]
 fn robots_on_a_line_have_no_gain() {
     for (command, alphas) in [

@@ -6,8 +6,8 @@ use motion::stats::{CartesianMoments, cross_track_skew};
 use motion::{MotionModel, NoiseKind, Variance, VelocityAlphas, VelocityCmd, VelocityModel};
 use rand::{Rng, RngExt, SeedableRng, rngs::SmallRng};
 
-/// Returns a draw of triangular noise with standard deviation b. Two uniform numbers on ±1 have the variance ⅓ each. Their sum times b·√6/2
-/// has the variance b², and an absolute value of at most √6·b.
+/// Returns a random number with a triangular distribution and the standard deviation b. Two uniform numbers on ±1 have the variance ⅓ each.
+/// Their sum times b·√6/2 has the variance b², and an absolute value of at most √6·b.
 fn sample_triangular_distribution<R: Rng + ?Sized>(variance: Variance, rng: &mut R) -> f64 {
     let mut draw_uniform = || rng.random::<f64>() * 2.0 - 1.0;
     (6.0 * variance.0).sqrt() / 2.0 * (draw_uniform() + draw_uniform())

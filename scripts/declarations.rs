@@ -25,7 +25,7 @@ fn main() -> serde_json::Result<()> {
         // Limits of files and calls. `cells`: number of cells of a grid and of pixels of an image. `bytes`: size of an image file. `trial`:
         // product of samples and parts in a call of `MapSqueeze.trial`. `ramp`: number of colours of a ramp.
         "limits": { "cells": MAX_PIXELS, "bytes": MAX_BYTES, "trial": MAX_TRIAL_PARTS, "ramp": RAMP_STEP_COUNT },
-        // Bit flags of the verdict on each attempt of Map Squeeze to draw a motion.
+        // Bit flags of the verdict on an attempt of Map Squeeze to draw a motion.
         "verdict": { "endFree": END_FREE_BIT, "pathFree": PATH_FREE_BIT, "accepted": ACCEPTED_BIT },
     });
     println!("{}", serde_json::to_string(&(widgets, constants))?);
@@ -63,7 +63,7 @@ fn describe_widget<S: SettingRules>(tag: &'static str) -> serde_json::Result<Box
     to_raw_value(&(tag, settings, S::PRESETS))
 }
 
-/// Returns the minimum length of a list whose length depends on a preceding keyword, such as the motion model.
+/// Returns the minimum length of a list setting whose length depends on a preceding keyword, such as the motion model.
 fn min_length<S: SettingRules>(list_key: &str) -> usize {
     let mut min_length = usize::MAX;
     S::default().visit_settings(&mut |keyword_declaration, setting| {

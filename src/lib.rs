@@ -52,7 +52,6 @@ pub mod stats;
 #[cfg(target_arch = "wasm32")]
 mod wasm;
 
-/// The README's example must run.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

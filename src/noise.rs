@@ -1,7 +1,7 @@
 //! Zero-mean noises of the chapter: `sample(b²)` and `prob(a, b²)` of Tables 5.2 and 5.4, with variances as arguments.
 //!
-//! Each draw is the quantile of one uniform number, so that both kinds of noise give similar robots for the same seed. No
-//! result depends on the mathematics library of a platform.
+//! Each random number is the quantile of one uniform number. Both kinds of noise therefore give similar robots for the same seed. No result
+//! depends on the mathematics library of a platform.
 
 mod quantile;
 
@@ -37,8 +37,8 @@ pub struct NegativeVariance(pub f64);
 /// Largest residual that counts as 0 for a noise of zero variance (m/s or rad/s, or m or rad for rotations and translations of odometry).
 ///
 /// Inverting an arc of 0.01 s at 1 m/s, a kilometre from the origin, gives an error of up to 4e-9 in γ̂. At lower speeds the error is
-/// larger. A smaller bound would therefore reject poses of the sampler itself. No robot is controlled to 0.1 µm/s, so that the bound
-/// accepts no motion that deviates from the command.
+/// larger. A smaller bound would therefore reject poses of the sampler itself. The bound does not hide real deviations from a command,
+/// which are far larger than 0.1 µm/s.
 const MAX_ZERO_RESIDUAL: f64 = 1e-7;
 
 /// √6: the triangular density of variance b² is positive within ±√6·b.
@@ -63,7 +63,7 @@ pub enum NoiseKind {
 }
 
 impl NoiseKind {
-    /// Returns a draw of variance `b2`; 0 where the variance is 0, NaN where it is negative or NaN. Consumes one 64-bit number of `rng`.
+    /// Returns a random number of variance `b2`; 0 if the variance is 0, NaN if it is negative or NaN. Consumes one 64-bit number of `rng`.
     pub fn sample<R: Rng + ?Sized>(self, b2: Variance, rng: &mut R) -> f64 {
         self.quantile(draw_centred_uniform(rng)) * b2.0.sqrt()
     }
@@ -96,7 +96,7 @@ impl NoiseKind {
         let Variance(b2) = b2;
         match self {
             Self::Normal => -0.5 * libm::expm1(-2.0 * b2),
-            // The series in b up to b⁴. For such a small variance, the next term is smaller than the rounding error of 1 − sinc².
+            // The series up to b⁴ is used for small b. Its next term is then smaller than the rounding error of 1 − sinc².
             Self::Triangular if b2 < 1e-5 => b2 * (1.0 - 0.8 * b2),
             Self::Triangular => {
                 let cosine = sinc(SQRT_6 * b2.sqrt());
@@ -105,7 +105,7 @@ impl NoiseKind {
         }
     }
 
-    /// Replaces each number q by the quantile of the probability ½ + q, with the same bits as [`NoiseKind::quantile`].
+    /// Replaces each number q by the quantile of the probability ½ + q. The results have the same bits as those of [`NoiseKind::quantile`].
     pub(crate) fn replace_by_quantiles(self, numbers: &mut [f64x4]) {
         match self {
             Self::Normal => {
@@ -140,10 +140,10 @@ pub(crate) fn wrapped_density(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
     let a = wrap_angle(a);
     let std = b2.0.sqrt();
     match noise {
-        // Beyond this deviation the wrapped Gaussian is uniform to the last bit: its first harmonic is exp(−b²/2) < 1e-17.
+        // If the standard deviation is larger the wrapped Gaussian is uniform to the last bit: its first harmonic is exp(−b²/2) < 1e-17.
         NoiseKind::Normal if std > 9.0 => 1.0 / TAU,
         NoiseKind::Normal => {
-            // Beyond nine standard deviations a term is below the rounding of the sum.
+            // A term at more than nine standard deviations is below the rounding error of the sum.
             let max_turns = (9.0 * std / TAU).ceil() as i32;
             (-max_turns..=max_turns).map(|k| noise.prob(a + f64::from(k) * TAU, b2)).sum()
         }
@@ -163,8 +163,8 @@ pub(crate) fn wrapped_density(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
     }
 }
 
-/// Returns a uniform number in (−½, ½). It is one of the 2⁵³ odd multiples of 2⁻⁵⁴, all equally likely. So the distribution is
-/// exactly symmetric, and contains neither 0 nor the ends, whose quantiles are infinite.
+/// Returns a uniform number in (−½, ½). It is one of the 2⁵³ odd multiples of 2⁻⁵⁴, all equally likely. The distribution is exactly
+/// symmetric. It contains neither 0 nor ±½, whose quantiles are infinite.
 #[inline(always)]
 pub fn draw_centred_uniform<R: Rng + ?Sized>(rng: &mut R) -> f64 {
     const UNIFORM_SPACING: f64 = 1.0 / (1u64 << 53) as f64;

@@ -29,7 +29,7 @@ pub fn check_input(fuzz_input_bytes: &[u8]) {
         }
     }
     assert_results(&simulation);
-    // Paths are checked in few runs, because each of their thousand points needs a sine and a cosine.
+    // The points of paths are checked in few runs, because each of a thousand points needs a sine and a cosine.
     if should_check_paths && is_selected_by_hash(4, fuzz_input_bytes) {
         assert_paths(&simulation);
     }
@@ -50,7 +50,7 @@ fn change_simulation_settings(simulation: &mut ArcAnatomy, input: &mut InputRead
     assert_eq!(*simulation.settings(), settings_before);
 }
 
-/// Asserts that all results are finite. An undefined result must have its documented value.
+/// Asserts that all results are finite. A result that is undefined must have the value that its documentation states.
 fn assert_results(simulation: &ArcAnatomy) {
     let settings = simulation.settings();
     let Stats { commanded: commanded_arc, inverted: inverted_arc, driven: driven_arc, last_turn,
@@ -123,7 +123,7 @@ fn assert_arc(arc_name: &str, tested_arc: &ArcWithCircle) {
     assertions::assert_finite(arc_name, &tested_arc.centre.unwrap_or_default());
 }
 
-/// Returns the position on the path with constant twist after `time_fraction` of the time.
+/// Returns the position after `time_fraction` of the time on the path with constant twist.
 fn find_position_at(simulation: &ArcAnatomy, time_fraction: f64) -> [f64; 2] {
     let poses = simulation.poses_at(time_fraction);
     poses.iter().for_each(|pose| assertions::assert_pose("poses_at", pose));

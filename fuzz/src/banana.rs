@@ -35,7 +35,6 @@ pub fn check_input(input_bytes: &[u8]) {
         call_method(&mut simulation, &mut input);
     }
     assert_results(&simulation);
-    // Slow checks run for some inputs only.
     if should_check_contours {
         assert_contours(&simulation);
     }
@@ -70,7 +69,7 @@ fn call_method(simulation: &mut BananaMachine, input: &mut InputReader) {
             let [x, y] = [0; 2].map(|_| input.draw_number_within(QUANTITY_RANGE));
             let current_command = simulation.settings().command;
             let reaching_command = command_drawn_at([x, y], &current_command, 0.0);
-            // The speed may be infinite, because the length of a nearly straight arc may exceed the range of doubles.
+            // The executed speed may be infinite, because the length of a nearly straight arc may exceed the range of doubles.
             assert!(!reaching_command.v.is_nan() && reaching_command.omega.is_finite(), "{reaching_command:?} to {x}, {y}");
         }
     }
@@ -113,7 +112,7 @@ fn assert_equals_new_simulation(simulation: &BananaMachine) {
     }
 }
 
-/// Returns the poses and statistics of a simulation as numbers.
+/// Returns the poses and statistics of a simulation as a list of numbers.
 fn collect_results(simulation: &BananaMachine) -> Vec<f64> {
     let mut result_numbers: Vec<f64> = simulation.poses().flat_map(|pose| [pose.x(), pose.y(), pose.theta()]).collect();
     let stats @ Stats { cartesian: cartesian_moments, exponential: exponential_moments, coverage: contour_coverage, .. } = simulation.stats();

@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// Maximum number of additional sections of a drive. Each section has a constant velocity.
+/// Maximum number of sections of a drive after the first section. Each section has a constant velocity.
 const MAX_ADDED_SECTIONS: usize = 6;
 
 /// Maximum number of rows in a section of a drive, in most runs. The time of a calibration grows with the number of rows.
@@ -95,7 +95,7 @@ fn read_odometry_rows(input: &mut InputReader, max_section_rows: usize) -> Vec<L
     log_rows
 }
 
-/// Returns the rows of the reference. The reference is the odometry with an error in each step, and with occasional jumps.
+/// Returns the rows of the reference log. They are the rows of the odometry with an error in each step, and with occasional jumps.
 fn read_reference_rows(odometry: &[LogRow], input: &mut InputReader) -> Vec<LogRow> {
     let clock_offset = choose_number_or_draw_any(&[0.0, 0.12, -3.0, 50.0], input);
     let mount_pose = SE2::new(0.1 * f64::from(input.next_below(3) as u8), 0.0, choose_number_or_draw_any(&[0.0, 0.07, 3.0], input));
@@ -116,7 +116,7 @@ fn read_reference_rows(odometry: &[LogRow], input: &mut InputReader) -> Vec<LogR
     reference_log
 }
 
-/// Changes or removes some rows of a log.
+/// Changes or removes randomly chosen rows of a log.
 fn edit_rows(log_rows: &mut Vec<LogRow>, input: &mut InputReader) {
     for _ in 0..input.next_below(4) {
         let row_index = usize::from(u16::from_le_bytes(input.next_bytes())) % log_rows.len();
@@ -136,10 +136,11 @@ fn edit_rows(log_rows: &mut Vec<LogRow>, input: &mut InputReader) {
     }
 }
 
-/// Returns the trajectory of the rows, with breaks before some rows. Returns None if the trajectory refuses a row.
+/// Returns the trajectory of the rows, with breaks (positions at which the pose may jump) before randomly chosen rows. Returns None if the
+/// trajectory is refused because of a row.
 fn build_trajectory(rows: &[LogRow], input: &mut InputReader) -> Option<Trajectory> {
     let trajectory_or_error = match input.next_below(4) {
-        // The velocities are arbitrary: the coordinates x and θ of the poses are used as speed and turn rate.
+        // The coordinates x and θ of the poses are used as speed and turn rate, because the velocities are arbitrary.
         0 => Trajectory::from_commands(rows.iter().map(|(time, pose)| (*time, pose.x(), pose.theta()))),
         _ => Trajectory::new(rows.iter().copied()),
     };
@@ -153,7 +154,7 @@ fn build_trajectory(rows: &[LogRow], input: &mut InputReader) -> Option<Trajecto
             assert!(refused_index > 0 && rows[refused_index].0 <= rows[refused_index - 1].0);
             None
         }
-        // Poses after large commands may overflow, so that the trajectory is refused.
+        // Poses after large commands may exceed the range of doubles, so that the trajectory is refused.
         Err(TrajectoryError::NotFinite { sample: refused_index }) => {
             assert!(refused_index < rows.len());
             None
@@ -177,7 +178,7 @@ fn assert_calibration(calibration: &Calibration, options: &Options) {
         let [low, high] = noise_estimate.interval;
         assert!(0.0 <= low && low <= noise_estimate.value && noise_estimate.value <= high, "{noise_estimate:?}");
     }
-    // A log is unusable if squares of its coordinates overflow.
+    // A log is unusable if squares of its coordinates exceed the range of doubles.
     let is_usable = calibration.diagnostics.verdict != Verdict::Unusable;
     assert!(!is_usable || !calibration.log_likelihood.is_nan());
     for (i, error_kind) in SystematicError::ALL.into_iter().enumerate() {

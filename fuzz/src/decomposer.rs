@@ -8,7 +8,7 @@ use motion::models::{OdomDelta, MAX_SPIN_DISTANCE};
 use motion::sim::odometry_decomposer::{DriftedOdometry, OdometryDecomposer, Settings, Stats};
 use motion::sim::settings::QUANTITY_RANGE;
 
-/// Maximum numbers of outcomes, of points of a curve, and of calls in a run.
+/// Maximum numbers of outcomes, of points of a deviation curve, and of calls in a run.
 const MAX_SAMPLES: usize = 12;
 const MAX_CURVE_POINTS: usize = 6;
 const MAX_CALLS: usize = 4;
@@ -135,7 +135,8 @@ fn assert_results(simulation: &OdometryDecomposer) {
         }
     }
 
-    // The decomposed reading ends at the second odometry pose, up to the length at which noise rules ignore the direction of a translation.
+    // The rotation, translation and rotation of the reading lead to the second odometry pose, to within the distance below which odometry
+    // rules ignore the direction of a translation.
     let [x, y, _] = settings.to;
     let [.., final_leg_pose] = simulation.leg_poses();
     let distance_to_second_pose = (final_leg_pose.x() - x).hypot(final_leg_pose.y() - y);

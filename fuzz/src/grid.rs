@@ -41,8 +41,8 @@ pub fn check_input(input_bytes: &[u8]) {
     }
 }
 
-/// Returns the middle of each cell, and whether the cell is an obstacle. The list is empty if the coordinates are too large to distinguish
-/// cells.
+/// Returns the middle of each cell of the grid, and true if the cell is an obstacle. The list is empty if the coordinates are too large to
+/// distinguish cells.
 fn find_middles_and_obstacles(grid: &OccupancyGrid, unknown_cell_rule: UnknownCells) -> Vec<([f64; 2], bool)> {
     let ([column_count, row_count], grid_origin, cell_side) = (grid.size(), grid.origin(), grid.resolution());
     let largest_coordinate = grid_origin.x().abs().max(grid_origin.y().abs()) + (column_count + row_count) as f64 * cell_side;
@@ -60,8 +60,8 @@ fn find_middles_and_obstacles(grid: &OccupancyGrid, unknown_cell_rule: UnknownCe
     indexed_cells.map(|(i, cell)| (middle_of_cell(i), is_blocking(cell))).collect()
 }
 
-/// Asserts that each cell contains its middle, and that the total length of the outlines equals the total length of the
-/// sides between obstacles and other cells.
+/// Asserts that the grid finds the middle of each cell in this cell. Asserts that the total length of the outlines equals the total length
+/// of the sides between obstacles and other cells.
 fn assert_outlines(grid: &OccupancyGrid, unknown_cell_rule: UnknownCells) {
     let middles_and_obstacles = find_middles_and_obstacles(grid, unknown_cell_rule);
     for (cell_middle, is_obstacle) in &middles_and_obstacles {
@@ -120,8 +120,8 @@ pub fn read_random_grid(input: &mut InputReader) -> Option<(OccupancyGrid, Unkno
     Some((OccupancyGrid::new(&image, &pixel_classifier, resolution, SE2::new(x, y, yaw)), unknown_cell_rule))
 }
 
-/// Checks the cell of a pixel against the documentation of `map_server`. If the pixel is within rounding of a threshold, both states are
-/// right.
+/// Checks the cell of a pixel against the documentation of `map_server`. If the pixel is within rounding of a threshold, both states of the
+/// cell are right.
 fn assert_cell_of_pixel(pixel_classifier: &PixelClassifier, pixel: Pixel) {
     let PixelClassifier { mode: map_mode, negate: is_negated, occupied_thresh, free_thresh } = *pixel_classifier;
     let pixel_shade = f64::from(pixel.brightness);

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 /// Remaining bytes of a fuzz input. All bytes after the end of the input are 0.
 pub struct InputReader<'a>(pub &'a [u8]);
 
-/// Returns true for one in `selection_interval` inputs, which a hash of all bytes selects. Slow checks run for the selected inputs only.
+/// Returns true for one in `selection_interval` inputs, selected by a hash of all bytes. Slow checks run for the selected inputs only.
 ///
 /// A single byte cannot select inputs, because most mutations of an input keep that byte.
 pub fn is_selected_by_hash(selection_interval: u64, input_bytes: &[u8]) -> bool {
@@ -16,7 +16,7 @@ pub fn is_selected_by_hash(selection_interval: u64, input_bytes: &[u8]) -> bool 
     (input_hash >> 32) % selection_interval == 0
 }
 
-/// Limits of the ranges of settings, and limits of doubles.
+/// Limits of the ranges of settings, and limits of the range of doubles.
 const RANGE_AND_DOUBLE_LIMITS: [f64; 24] = [
     0.0,
     -0.0,
@@ -63,7 +63,7 @@ impl InputReader<'_> {
         self.next_byte() & 1 == 1
     }
 
-    /// Returns an integer from 0 to `exclusive_limit` − 1.
+    /// Returns a random integer from 0 to `exclusive_limit` − 1.
     pub fn next_below(&mut self, exclusive_limit: usize) -> usize {
         usize::from(self.next_byte()) % exclusive_limit
     }
@@ -72,7 +72,7 @@ impl InputReader<'_> {
         choices[self.next_below(choices.len())]
     }
 
-    /// Returns any double: a round number, a limit of a range, or any bits.
+    /// Returns an arbitrary double: a round number, a limit of a range, or any bits.
     pub fn next_number(&mut self) -> f64 {
         match self.next_below(8) {
             0 => f64::from_le_bytes(self.next_bytes()),
@@ -84,7 +84,7 @@ impl InputReader<'_> {
         }
     }
 
-    /// Returns a double, mostly in the given range.
+    /// Returns a random double, mostly in the given range.
     pub fn draw_number_near(&mut self, range: &RangeInclusive<f64>) -> f64 {
         let drawn_number = self.next_number();
         if self.next_below(8) == 0 || drawn_number.is_nan() {
@@ -93,13 +93,13 @@ impl InputReader<'_> {
         drawn_number.clamp(*range.start(), *range.end())
     }
 
-    /// Returns a double in the given range.
+    /// Returns a random double in the given range.
     pub fn draw_number_within(&mut self, range: RangeInclusive<f64>) -> f64 {
         let number = self.next_number();
         if number.is_nan() { *range.start() } else { number.clamp(*range.start(), *range.end()) }
     }
 
-    /// Returns a whole number, mostly in the given range.
+    /// Returns a random whole number, mostly in the given range.
     pub fn draw_integer_near(&mut self, range: &RangeInclusive<u64>) -> u64 {
         let integer = match self.next_below(4) {
             0 => u64::from_le_bytes(self.next_bytes()),

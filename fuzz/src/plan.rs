@@ -43,7 +43,7 @@ pub fn read_floor_plan(input: &mut InputReader) -> Option<FloorPlan> {
         let mut read_point = || [read_coordinate(input, left, right), read_coordinate(input, bottom, top)];
         let wall_start = read_point();
         let wall_end = read_point();
-        // Some walls equal the previous wall, or start at the end of the previous wall.
+        // Some walls equal the wall before them, or start at its end.
         walls.push(match (input.next_below(8), earlier_wall) {
             (0, Some(wall)) => wall,
             (1, Some(wall)) => Segment { from: wall.to, to: wall_end },
@@ -55,7 +55,7 @@ pub fn read_floor_plan(input: &mut InputReader) -> Option<FloorPlan> {
     }
     let has_valid_bounds = bounds.iter().all(|bound| bound.abs() <= 1e6)
         && [right - left, top - bottom].iter().all(|side_length| (0.01..=1e5).contains(side_length));
-    // A wall that ends beyond the edge of the map by no more than rounding is accepted.
+    // A wall that ends beyond the edge of the map by no more than the rounding error is accepted.
     let edge_tolerance = 1e-12 * bounds.iter().fold(0.0, |max_so_far: f64, bound| max_so_far.max(bound.abs()));
     let is_outside_bounds = |[x, y]: [f64; 2]| {
         !(left - edge_tolerance..=right + edge_tolerance).contains(&x) || !(bottom - edge_tolerance..=top + edge_tolerance).contains(&y)
@@ -97,7 +97,7 @@ pub fn draw_pose(floor_plan: &FloorPlan, input: &mut InputReader) -> SE2 {
     SE2::new(x, y, input.draw_number_within(-1e6..=1e6))
 }
 
-/// Asserts that the collision verdicts on an arc and on its end equal those of a loop over all walls.
+/// Asserts that the collision verdicts on an arc and on its end point equal those of a loop over all walls.
 pub fn assert_collision_verdicts(floor_plan: &FloorPlan, input: &mut InputReader) {
     let start_pose = draw_pose(floor_plan, input);
     let arc_length = input.draw_number_within(-1e12..=1e12);
@@ -107,8 +107,8 @@ pub fn assert_collision_verdicts(floor_plan: &FloorPlan, input: &mut InputReader
     let distance_tolerance = rounding_tolerance_of(floor_plan, &driven_arc, clearance);
     let edge_distance_at = |x: f64, y: f64| signed_distance_from_edge(floor_plan, [x, y]);
 
-    // Upper bound of the distance between the path and the edge of the map, computed at some points of the path. A lower bound is
-    // `min_depth - max_distance_to_tested_point`.
+    // Upper bound of the distance between the path and the edge of the map: the smallest distance of the tested points of the path. A lower
+    // bound is `min_depth - max_distance_to_tested_point`.
     const PATH_INTERVAL_COUNT: u32 = 16;
     let min_edge_distance = (0..=PATH_INTERVAL_COUNT).fold(f64::INFINITY, |min_so_far, i| {
         let path_fraction = f64::from(i) / f64::from(PATH_INTERVAL_COUNT);

@@ -38,7 +38,7 @@ fn read_u32_at(png_bytes: &[u8], byte_offset: usize) -> Option<usize> {
     Some(four_bytes.iter().fold(0, |number_so_far, byte| number_so_far << 8 | usize::from(*byte)))
 }
 
-/// Returns the image with the checksum of every complete chunk corrected.
+/// Returns a copy of the image in which the checksum of every complete chunk is corrected.
 fn correct_checksums(png_bytes: &[u8]) -> Vec<u8> {
     let mut png_bytes = png_bytes.to_vec();
     let mut chunk_start = 8;

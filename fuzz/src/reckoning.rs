@@ -8,8 +8,8 @@ use motion::sim::dead_reckoning::{
 };
 use nalgebra::Matrix3;
 
-/// Maximum numbers of robots, steps and calls in a run. The simulation drives robots in blocks of 256. Most runs have one block, and a few
-/// have several.
+/// Maximum numbers of robots, steps and calls in a run. The simulation drives robots in blocks of 256. Most runs need one block of robots,
+/// and a few need several blocks.
 const MAX_SAMPLES_OF_MOST_RUNS: usize = 200;
 const MAX_SAMPLES: usize = 800;
 const MAX_STEPS: u32 = 5;
@@ -37,7 +37,6 @@ pub fn check_input(input_bytes: &[u8]) {
         call_method(&mut simulation, &limit_settings, &mut input);
     }
     assert_results(&simulation);
-    // Slow checks run for some inputs only.
     if should_check_straight_growth && is_selected_by_hash(8, input_bytes) {
         assert_straight_growth(&simulation);
     }
@@ -111,7 +110,7 @@ fn assert_equals_new_simulation(simulation: &DeadReckoning) {
     assert_eq!(collect_results(&new_simulation), collect_results(simulation));
 }
 
-/// Returns the settings and statistics as text, in which NaN equals NaN, and the coordinates of the selected step as bits.
+/// Returns the settings and statistics as text, in which NaN equals NaN, and the coordinates of the robots after the selected step as bits.
 fn collect_results(simulation: &DeadReckoning) -> (String, Vec<u64>) {
     let (settings, stats, measured_moments) = (simulation.settings(), simulation.stats(), simulation.measured_moments());
     let outlines = simulation.outlines(settings.step);
@@ -122,7 +121,7 @@ fn collect_results(simulation: &DeadReckoning) -> (String, Vec<u64>) {
     (format!("{settings:?} {stats:?} {measured_moments:?}"), outline_and_pose_coordinates.map(|coordinate| coordinate.to_bits()).collect())
 }
 
-/// Asserts that every result of the simulation is finite. An undefined result must be NaN or empty.
+/// Asserts that every result of the simulation is finite, or has the documented value (NaN or an empty list) if it is undefined.
 fn assert_results(simulation: &DeadReckoning) {
     let settings = simulation.settings();
     let (n, step_count) = (simulation.shown_count(), settings.steps as usize);
@@ -139,7 +138,7 @@ fn assert_results(simulation: &DeadReckoning) {
         }
         for (i, relative_error) in measured_moments.relative_error.iter().enumerate() {
             assert!(relative_error.is_nan() || *relative_error >= 0.0, "{measured_moments:?}");
-            // A relative error is defined only for a variance above 0.
+            // A relative error of a variance is defined only if the variance is above 0.
             let has_variance = n > 1 && measured_moments.cov[(i, i)] > 0.0;
             assert!(relative_error.is_nan() || has_variance, "{measured_moments:?} of {n}");
         }

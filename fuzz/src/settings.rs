@@ -1,4 +1,4 @@
-//! Changes settings to any values, as users do.
+//! Changes settings to arbitrary values, as a user can.
 
 use super::input::InputReader;
 use motion::sim::settings::{AllowedValues, Setting, SettingRules, SettingsError};
@@ -39,7 +39,7 @@ fn set_any_value(setting: Setting, input: &mut InputReader) {
         Setting::Numbers(setting_values, allowed) => setting_values
             .iter_mut()
             .for_each(|setting_value| *setting_value = input.draw_number_near(&allowed)),
-        // A noise level sets several α's. A level outside of its range is refused before it is converted to α's.
+        // A noise level is one number that sets several α's. A noise level outside of its range is refused before it is converted to α's.
         Setting::Level(mut setting_value, allowed) => setting_value.set(input.draw_number_within(allowed)),
         Setting::Group(group_members, group_numbers) => {
             for (group_member, number) in group_members.iter().zip(group_numbers) {

@@ -9,7 +9,7 @@ use motion::sim::picture::RAMP_STEP_COUNT;
 use motion::sim::squeeze::{OUTCOME_KIND_COUNT, MapSqueeze, Settings};
 use std::cell::LazyCell;
 
-/// Maximum numbers of samples, of sub-steps of the command, and of calls in a run.
+/// Maximum numbers of samples, of sub-steps (parts) of the command, and of calls in a run.
 const MAX_SAMPLES: usize = 8;
 const MAX_SUB_STEPS: u32 = 3;
 const MAX_CALLS: usize = 3;
@@ -82,7 +82,7 @@ fn call_method(simulation: &mut MapSqueeze, input: &mut InputReader) {
             let nearest_index = simulation.nearest(search_point, search_radius);
             assert!(nearest_index.is_none_or(|attempt_index| attempt_index < simulation.attempts().len()));
         }
-        // The search for a free pose is tested in few runs: it tries 72 headings, which takes as long as ten other calls.
+        // The search for a free pose is tested in few runs. It tries 72 headings, and takes as long as ten other calls.
         8 => assert_equals_new_simulation(simulation),
         _ if input.next_below(64) == 1 => assert_free_pose(simulation),
         _ => {}

@@ -1,8 +1,8 @@
 //! Circular arcs driven from a pose, in the chord form.
 //!
-//! A robot at the origin with heading 0 drives the signed length `s` while turning by `φ`. It ends at distance
-//! s · sinc(φ/2) on the bearing φ/2. The formula equals the arc update of Table 5.3 with the radius r = s/φ cancelled. It
-//! needs no branch for straight lines. It loses no digits as φ → 0, where the centre of the circle goes to infinity.
+//! A robot at the origin with heading 0 drives the signed length `s` while turning by `φ`. It ends at distance s · sinc(φ/2) on the bearing
+//! φ/2. The formula equals the arc update of Table 5.3 with the radius r = s/φ cancelled. The formula needs no branch for straight lines.
+//! It loses no digits as φ → 0, where the centre of the circle goes to infinity.
 
 use super::angle::wrap_angle;
 use super::lanes::{SinCos, Trigonometry};
@@ -19,7 +19,7 @@ pub fn arc_end(length: f64, turn: f64) -> (f64, f64) {
     (length * forward, length * left)
 }
 
-/// Controls that a pair of poses implies: an arc at (v̂, ω̂), then a final rotation at the rate γ̂.
+/// Controls that explain the motion between two poses: an arc at (v̂, ω̂), then a final rotation at the rate γ̂.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArcInversion {
     /// Translational velocity along the arc, m/s, which is negative in reverse.
@@ -115,7 +115,8 @@ impl Arc {
         SE2::new(x, y, heading)
     }
 
-    /// Returns the ends of chords of about one degree, for at most two revolutions. They are within 0.05 mm of an arc of 1 m and 1 rad.
+    /// Returns the ends of chords of about one degree, for at most two revolutions. The chords are within 0.05 mm of an arc of 1 m and 1
+    /// rad.
     pub fn points(&self) -> Vec<[f64; 2]> {
         let chord_count = (self.turn.abs() / 0.02).clamp(1.0, 640.0).ceil();
         (0..=chord_count as u32)
@@ -123,7 +124,7 @@ impl Arc {
             .collect()
     }
 
-    /// Returns the part of the arc from its start to a fraction of its length.
+    /// Returns the first part of the arc, whose length is `fraction` of the length of the arc.
     pub(crate) fn leading_part(&self, fraction: f64) -> Self {
         Self { length: self.length * fraction, turn: self.turn * fraction, ..*self }
     }
@@ -149,7 +150,7 @@ impl Arc {
     }
 }
 
-/// Pose with the sine and cosine of its heading, for many arcs that start at this pose.
+/// Pose with the sine and cosine of its heading, which many arcs from this pose need.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PreparedPose {
     pub pose: SE2,
@@ -157,7 +158,7 @@ pub(crate) struct PreparedPose {
     cos: f64,
 }
 
-/// Arc with its end pose.
+/// Arc with its end pose, computed from its start.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DrivenArc {
     pub arc: Arc,
@@ -217,7 +218,8 @@ impl PreparedPose {
 }
 
 impl DrivenArc {
-    /// Returns the arc as one or two pieces of up to half a turn. The part after a full turn is omitted, because it repeats the circle.
+    /// Returns the arc as one or two pieces of up to half a turn. The part of the arc after a full turn is omitted, because it covers the
+    /// same circle again.
     pub fn split_into_pieces(&self) -> impl Iterator<Item = ArcPiece> {
         let Arc { start, length, turn } = self.arc;
         let start_point = start.position();
@@ -260,7 +262,7 @@ impl DrivenArc {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ArcPiece {
     middle: [f64; 2],
-    /// Direction of travel in the middle of the piece.
+    /// Direction of travel (unit vector) in the middle of the arc piece.
     tangent: [f64; 2],
     curvature: f64,
     /// Half the length of the arc piece, m.
@@ -324,8 +326,8 @@ impl ArcPiece {
 /// cause visible errors. A much smaller limit would let the curvature underflow.
 const MIN_ARC_TURN: f64 = 1e-30;
 
-/// Length (m) below which arcs count as points. Products of the curvature of a shorter arc and areas of some km² might exceed the
-/// range of doubles.
+/// Length (m) below which arcs count as points. The product of a larger curvature and the area of a map (some km²) might exceed the range
+/// of doubles.
 const MIN_ARC_LENGTH: f64 = 1e-100;
 
 /// Arc in the frame of its start, mirrored so that it leads forward and to the left. It starts at the origin along x, with
@@ -367,7 +369,7 @@ impl LocalArc {
         if !self.contains_nearest_circle_point(point) {
             return distance_to_ends;
         }
-        // |p − c| − 1/κ = (|p − c|² − 1/κ²)/(|p − c| + 1/κ). The quotient is expanded by κ, because the centre c may be far away.
+        // |p − c| − 1/κ = (|p − c|² − 1/κ²)/(|p − c| + 1/κ). Numerator and denominator are multiplied by κ, because the centre c may be far away.
         let scaled_centre_distance = libm::hypot(self.curvature * point[0], 1.0 - self.curvature * point[1]);
         (2.0 * self.circle_equation_value(point) / (1.0 + scaled_centre_distance)).abs().min(distance_to_ends)
     }

@@ -6,7 +6,6 @@ use crate::js::js_structs;
 use std::f64::consts::TAU;
 use std::ops::{Add, Div, Mul, Sub};
 
-/// Speed, m/s, and duration, s, of the arcs of Exercise 1.
 const SPEED: f64 = 1.0;
 const DURATION: f64 = 0.1;
 
@@ -17,7 +16,6 @@ const STRAIGHT_LINE_THRESHOLD: f64 = 1e-6;
 const FIRST_AND_LAST_DECADE: [i32; 2] = [-12, 1];
 const POINTS_PER_DECADE: i32 = 8;
 
-/// Number of headings over which the error is averaged (root mean square).
 const HEADING_COUNT: u32 = 24;
 
 js_structs! {
@@ -108,17 +106,17 @@ fn exact_end(theta: f64, omega: f64) -> [DoubleDouble; 2] {
 pub struct DoubleDouble {
     /// Double nearest to the number.
     pub high: f64,
-    /// Remainder, at most half a unit in the last place of `high`.
+    /// Difference of the number from `high`, at most half a unit in the last place of `high`.
     pub low: f64,
 }
 
-/// The factor 2²⁷ + 1 splits a double into halves of 26 bits, whose products are exact.
+/// Factor 2²⁷ + 1, which splits a double into halves of 26 bits, so that products of halves are exact.
 const SPLIT_FACTOR: f64 = 134_217_729.0;
 
 /// Number of terms of the series of sine and cosine for angles up to π/8. The first omitted term is below 2⁻¹¹⁰ of the sum.
 const SERIES_TERM_COUNT: i32 = 12;
 
-/// Number of times that the angle is halved before the series, and doubled after it.
+/// Number of times that the angle is halved before the series is evaluated, and doubled afterwards.
 const HALVING_COUNT: i32 = 4;
 
 /// Returns a + b without rounding error, if |a| ≥ |b|.

@@ -53,7 +53,7 @@ impl Trigonometry {
     }
 
     /// Returns the sines and cosines of any finite angles (rad). For an angle up to π/2 the result equals that of
-    /// [`Trigonometry::sin_cos_small_angle`] to the bit, unless another lane is beyond a million radians.
+    /// [`Trigonometry::sin_cos_small_angle`] to the bit, unless another of the four angles is beyond a million radians.
     #[inline(never)]
     pub fn sin_cos_any_angle(&self, x: f64x4) -> SinCos {
         if is_any_lane_beyond(x, MAX_REDUCED_ANGLE) {
@@ -63,7 +63,8 @@ impl Trigonometry {
         }
         let half_circles = half_circle_count(x);
         let reduced_sin_cos = self.sin_cos_small_angle(subtract_half_circles(x, half_circles));
-        // Parity of `half_circles`: 0 if the number is even, ±1 if it is odd. Twice [`ROUND_TO_INTEGER`] rounds to the nearest even number.
+        // Parity of `half_circles`: 0 if it is even, ±1 if it is odd. Adding and subtracting twice [`ROUND_TO_INTEGER`] rounds to the
+        // nearest even number.
         let parity = half_circles - (half_circles + 2.0 * ROUND_TO_INTEGER - 2.0 * ROUND_TO_INTEGER);
         let parity_sign = f64x4::splat(1.0) - 2.0 * parity.abs();
         let (sin, cos) = (reduced_sin_cos.sin * parity_sign, reduced_sin_cos.cos * parity_sign);
@@ -71,9 +72,10 @@ impl Trigonometry {
         SinCos { sinc, sin, cos }
     }
 
-    /// Moves half headings h (headings divided by 2, rad) by multiples of π to within π/2 of `branch_centre` (rad), and returns them with
-    /// their sines and cosines. An odd multiple of π reverses the signs of sine and cosine, but leaves the heading unchanged. For half
-    /// headings within π/2 of 0 and of `branch_centre`, the result equals that of [`Trigonometry::sin_cos_small_angle`] to the bit.
+    /// Adds a multiple of π to each half heading h (heading divided by 2, rad), so that it is within π/2 of `branch_centre` (rad). Returns
+    /// the sums with their sines and cosines. An odd multiple of π reverses the signs of sine and cosine, but leaves the heading unchanged.
+    /// For half headings within π/2 of 0 and of `branch_centre`, the result equals that of [`Trigonometry::sin_cos_small_angle`] to the
+    /// bit.
     #[inline(never)]
     pub fn sin_cos_on_branch(&self, half_heading: f64x4, branch_centre: f64) -> (f64x4, SinCos) {
         let mut half_heading_on_branch =
@@ -121,7 +123,7 @@ pub(crate) fn from_lanes(value_of_lane: impl FnMut(usize) -> f64) -> f64x4 {
     f64x4::new(std::array::from_fn(value_of_lane))
 }
 
-/// Returns a lane mask with all bits set in the first `lane_count` lanes, and none in the others.
+/// Returns a mask of SIMD lanes: all bits are set in the first `lane_count` lanes, and none in the others.
 pub(crate) fn first_lanes_mask(lane_count: usize) -> f64x4 {
     from_lanes(|lane| if lane < lane_count { f64::from_bits(u64::MAX) } else { 0.0 })
 }
@@ -129,7 +131,7 @@ pub(crate) fn first_lanes_mask(lane_count: usize) -> f64x4 {
 /// Returns ln of positive normal numbers, by the same operations as `libm::log`. FreeBSD's e_log.c explains the algorithm.
 #[inline(always)]
 pub(crate) fn ln(x: f64x4) -> f64x4 {
-    /// Upper 32 bits of √2/2, the smallest reduced mantissa.
+    /// Upper 32 bits of √2/2, the lower limit of the reduced mantissa.
     const HALF_SQRT_2: u64 = 0x3fe6_a09e << 32;
     const BITS_OF_ONE: u64 = 0x3ff0_0000 << 32;
     const TWO_52: f64 = 4_503_599_627_370_496.0;
@@ -153,7 +155,6 @@ pub(crate) fn ln(x: f64x4) -> f64x4 {
 /// ln 2 as the sum of two parts. The second part has the digits that the first part lacks.
 #[expect(clippy::excessive_precision, reason = "the digits as published")]
 const LN_2_PARTS: [f64; 2] = [6.931_471_803_691_238_164_90e-1, 1.908_214_929_270_587_700_02e-10];
-/// Coefficients of the polynomial in s² of [`ln`].
 #[expect(clippy::excessive_precision, reason = "the digits as published")]
 const LOG_COEFFICIENTS: [f64; 7] = [
     6.666_666_666_666_735_130e-1,
@@ -165,8 +166,8 @@ const LOG_COEFFICIENTS: [f64; 7] = [
     1.479_819_860_511_658_591e-1,
 ];
 
-/// Maximum angle (rad) that is reduced with [`PI_PARTS`], a π of 119 bits. The first two parts of π have 33 bits, so that their products
-/// with integers of up to 20 bits are exact. For larger angles, which robots do not reach, `libm` is used.
+/// Maximum angle (rad) that is reduced with [`PI_PARTS`], which give π to 119 bits. The first two parts of π have 33 bits, so that their
+/// products with integers of up to 20 bits are exact. Larger angles, which robots do not reach, are reduced by `libm`.
 const MAX_REDUCED_ANGLE: f64 = 3e6;
 const PI_PARTS: [f64; 3] = [3.141_592_653_468_251_2, 1.215_420_101_260_793_2e-10, 4.044_532_497_591_901e-21];
 
@@ -176,7 +177,7 @@ pub(crate) const ROUND_TO_INTEGER: f64 = 6_755_399_441_055_744.0;
 /// Returns the number of times that π is subtracted from each angle x so that the remainder is within ±π/2.
 #[inline(always)]
 fn half_circle_count(x: f64x4) -> f64x4 {
-    // Angles within ±π/2 stay as they are. At ±π/2 the rounded quotient might be ±1.
+    // Angles within ±π/2 stay as they are: at ±π/2, a rounded quotient might be ±1.
     let is_small = x.abs().simd_le(f64x4::splat(FRAC_PI_2));
     is_small.bitselect(f64x4::splat(0.0), x * FRAC_1_PI + ROUND_TO_INTEGER - ROUND_TO_INTEGER)
 }

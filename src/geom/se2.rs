@@ -145,7 +145,8 @@ impl SE2 {
 impl Mul for SE2 {
     type Output = Self;
 
-    /// Returns the composition (eq. 154). `other` is in the frame of `self`, and the result is in the reference frame of `self`.
+    /// Returns the composition of two poses (eq. 154). `other` is in the frame of `self`, and the result is in the reference frame of
+    /// `self`.
     fn mul(self, other: Self) -> Self {
         let (sin, cos) = libm::sincos(self.theta);
         Self::new(
@@ -169,7 +170,8 @@ impl From<[f64; 3]> for SE2 {
     }
 }
 
-/// Returns h·cot h with h = ω/2. Near 0 a series is used, because rounding of the closed form would dominate the error of the logarithm.
+/// Returns h·cot h with h = ω/2. Near 0 a series is used, because the rounding error of the closed form would dominate the error of the
+/// logarithm.
 fn h_cot_h(turn: f64) -> f64 {
     if turn.abs() < MAX_SERIES_ANGLE {
         return 1.0 - turn * cotangent_defect(turn);
@@ -178,9 +180,9 @@ fn h_cot_h(turn: f64) -> f64 {
     0.5 * turn * cos / sin
 }
 
-/// Maximum |ω| (rad) at which [`sine_defect`] and [`cotangent_defect`] are computed by series, because their closed forms cancel. At
-/// larger angles, the closed forms lose at most four bits. Their values are small there, so that sums with them are exact to rounding. A
-/// smaller bound would lose more bits, and a larger bound would need more terms.
+/// Maximum |ω| (rad) at which [`sine_defect`] and [`cotangent_defect`] are computed by series, because their closed forms cancel. At larger
+/// angles the closed forms lose at most four bits. Their values are small there, so that this error vanishes in the sums that contain them.
+/// A smaller bound would lose more bits, and a larger bound would need more terms.
 const MAX_SERIES_ANGLE: f64 = 1.0;
 
 /// Returns (ω − sin ω)/ω² = ω/3! − ω³/5! + ω⁵/7! − …
@@ -204,8 +206,8 @@ fn cotangent_defect(turn: f64) -> f64 {
     if turn.abs() >= MAX_SERIES_ANGLE {
         return (1.0 - h_cot_h(turn)) / turn;
     }
-    /// Coefficients of the series: |B₂ₖ|/(2k)! for k = 1, 2, …, with Bernoulli numbers B. Each coefficient is about 1/(2π)² of the previous one. The first
-    /// omitted coefficient is 1e-18.
+    /// Coefficients of the series: |B₂ₖ|/(2k)! for k = 1, 2, …, with Bernoulli numbers B. Each coefficient is about 1/(2π)² of the previous
+    /// one. The first omitted coefficient is 1e-18.
     const SERIES_COEFFICIENTS: [f64; 10] = [
         1.0 / 12.0,
         1.0 / 720.0,

@@ -39,26 +39,25 @@ impl Segment {
 
     /// Returns the distance (m) between the segment and an arc, which is 0 if they cross.
     ///
-    /// The nearest points are a crossing, or an end of one and a point of the other, or two inner points. At inner points the segment is
-    /// parallel to the arc and outside the arc's circle. Inside the circle there is no minimum at inner points, because the distance to the
-    /// circle is concave along a line.
+    /// The nearest points are a crossing, or an end of the segment or arc and a point of the other, or inner points of both. At inner
+    /// points the segment is parallel to the arc and outside the arc's circle. Inside the circle there is no minimum at inner points,
+    /// because the distance to the circle is concave along a line.
     pub fn distance_to_arc(&self, arc: &Arc) -> f64 {
         self.distance_to_local_arc(&arc.local_arc())
     }
 
-    /// Returns [`Segment::distance_to_arc`] for an arc that is prepared for several segments.
     pub(crate) fn distance_to_local_arc(&self, arc: &LocalArc) -> f64 {
         let local_segment =
             Self { from: arc.transform_to_local(self.from), to: arc.transform_to_local(self.to) };
         if local_segment.crosses_arc(arc) { 0.0 } else { local_segment.distance_without_crossing(arc) }
     }
 
-    /// Returns the maximum distance (m) of the points of an arc to the right of the line through the segment. The ends of the arc must not
-    /// be to the right.
+    /// Returns the maximum distance (m) of the points of an arc to the right of the line through the segment. The ends of the arc must lie
+    /// on the line or to its left.
     pub(crate) fn max_distance_on_right(&self, arc: &Arc) -> f64 {
         let direction = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
         let direction_length = libm::hypot(direction[0], direction[1]);
-        // A point of the arc is furthest from the line where arc and line are parallel.
+        // The point of the arc that is furthest from the line is where the arc is parallel to the line.
         let bearing = libm::atan2(direction[1], direction[0]) - arc.start.theta();
         let parallel_turn = libm::remainder(bearing * arc.turn.signum(), PI);
         let first_parallel_turn = if parallel_turn < 0.0 { parallel_turn + PI } else { parallel_turn };
@@ -108,13 +107,14 @@ impl Segment {
         ]
         .into_iter()
         .fold(f64::INFINITY, f64::min);
-        // Another candidate for the nearest point is the foot of the perpendicular from the circle's centre to the segment. A straight arc
-        // has no centre.
+        // If the nearest point is inside the segment, it is the foot of the perpendicular from the circle's centre to the segment. A
+        // straight arc has no centre.
         if arc.curvature > 0.0 && squared_length > 0.0 {
             let t = (direction[1] / arc.curvature - dot(from, direction)) / squared_length;
             if (0.0..=1.0).contains(&t) {
-                // A foot inside the circle is not the nearest point, but its distance does no harm, because it is larger. The foot on a
-                // tangent is needed, even if rounding moves it inside.
+                // A foot of the perpendicular inside the circle is farther from the arc than the nearest point of the segment. Including it
+                // in the minimum therefore does no harm. If the segment touches the circle, rounding may move the foot inside, and it must
+                // be included.
                 min_distance = min_distance
                     .min(arc.distance_to_point([from[0] + t * direction[0], from[1] + t * direction[1]]));
             }

@@ -6,7 +6,7 @@ pub fn sinc(t: f64) -> f64 {
     if t == 0.0 { 1.0 } else { libm::sin(t) / t }
 }
 
-/// Returns the end (sin φ/φ, (1 − cos φ)/φ) of an arc of length 1 that turns by φ, without cancellation.
+/// Returns the end point (sin φ/φ, (1 − cos φ)/φ) of an arc of length 1 that turns by φ, without cancellation.
 pub(crate) fn unit_arc_end(turn: f64) -> (f64, f64) {
     let half_turn = 0.5 * turn;
     let sin = libm::sin(half_turn);

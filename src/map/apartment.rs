@@ -2,10 +2,9 @@
 
 use crate::geom::segment::Segment;
 
-/// Bounding box: minimum x, minimum y, maximum x, maximum y, m.
 pub(super) const BOUNDS: [f64; 4] = [0.0, 0.0, 12.0, 9.0];
 
-/// Walls in the memory layout of a floor plan. Code that adds them one by one would take twice the bytes.
+/// Walls in the memory layout of a floor plan. Code that adds the walls one by one would take twice the bytes.
 pub(super) static WALLS: [Segment; 18] = [
     // Outer walls.
     wall(0.0, 0.0, 12.0, 0.0),
@@ -25,7 +24,6 @@ pub(super) static WALLS: [Segment; 18] = [
     wall(4.0, 0.0, 4.0, 3.8),
     wall(8.0, 0.0, 8.0, 3.8),
     wall(6.0, 5.0, 6.0, 9.0),
-    // A counter, the side of a closet, the corner of a bathroom.
     wall(4.0, 1.4, 6.2, 1.4),
     wall(2.0, 7.6, 2.0, 9.0),
     wall(9.6, 7.4, 9.6, 9.0),

@@ -23,12 +23,12 @@ pub enum Sampler {
 }
 
 impl Sampler {
-    /// Returns the number of parts of a motion.
+    /// Returns the number of parts into which the sampler splits a motion.
     pub fn part_count(self) -> u32 {
         if let Self::SubStepped(part_count) = self { part_count } else { 1 }
     }
 
-    /// Returns this sampler with another number of parts, if it splits motions.
+    /// Returns the sampler with another number of parts, if it splits motions.
     pub fn with_part_count(self, part_count: u32) -> Self {
         if let Self::SubStepped(_) = self { Self::SubStepped(part_count) } else { self }
     }
@@ -62,10 +62,10 @@ pub struct MapConditioned<'a> {
     pub sampler: Sampler,
 }
 
-/// Motion drawn from the model without a map, and the results of its collision tests.
+/// Motion drawn from the model without a map, and the verdicts of its collision tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TestedDraw {
-    /// End pose.
+    /// End pose of the motion.
     pub pose: SE2,
     /// Arc driven with (v̂, ω̂); `pose` is the end of the arc, turned by γ̂Δt.
     pub arc: Arc,
@@ -78,7 +78,7 @@ pub struct TestedDraw {
 /// Accepted motion and its cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AcceptedMotion {
-    /// End pose.
+    /// End pose of the motion.
     pub pose: SE2,
     /// True if the end pose is free. A conditioned motion always ends at a free pose.
     pub end_free: bool,
@@ -114,7 +114,7 @@ pub struct NoAcceptedSample(pub Cost);
 /// less than once in ten thousand draws is useless to a particle filter; more draws would block a page.
 pub const MAX_DRAWS: usize = 10_000;
 
-/// Tester of drawn motions for collisions, all from one pose under one command.
+/// Collision tester for random motions that all start at one pose under one command.
 #[derive(Clone, Copy, Debug)]
 pub struct CollisionTester<'a> {
     conditioned_model: &'a MapConditioned<'a>,
@@ -150,7 +150,7 @@ impl CollisionTester<'_> {
     }
 }
 
-/// Part of a motion: a command, and the standard deviations of its noise.
+/// Command of one part of a motion, and the standard deviations of its noise.
 #[derive(Clone, Copy, Debug)]
 struct NoisyCommand {
     u: VelocityCmd,
@@ -187,7 +187,6 @@ impl NoisyCommand {
     }
 }
 
-/// Returns the end pose of an arc, turned on the spot by `last_turn` (rad).
 fn with_last_turn(driven_arc: DrivenArc, last_turn: f64) -> (SE2, DrivenArc) {
     let [x, y] = driven_arc.end;
     (SE2::new(x, y, driven_arc.heading + last_turn), driven_arc)
@@ -246,7 +245,7 @@ impl MapConditioned<'_> {
     }
 
     /// Draws each part of a motion until it is accepted. Calls `visit_part` with the arc of each part and the collision test of its end.
-    /// Returns the end pose of the last part, and the cost of all parts.
+    /// Returns the end pose of the last part, and the total cost.
     fn drive_parts<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
@@ -293,7 +292,7 @@ impl MapConditioned<'_> {
         Err(NoAcceptedSample(*cost))
     }
 
-    /// Returns a tester of many draws from one pose. It computes the terms that the draws share only once.
+    /// Returns a collision tester for many draws from one pose. It computes terms that all draws have in common only once.
     pub fn collision_tester(&self, u: &VelocityCmd, x: &SE2) -> CollisionTester<'_> {
         let (command, start) = (self.noisy_command(u), PreparedPose::new(*x));
         CollisionTester { conditioned_model: self, command, start, trigonometry: Trigonometry::default() }

@@ -13,7 +13,6 @@ pub(super) struct DistanceField {
     min_corner: [f64; 2],
     cells_per_metre: f64,
     columns: usize,
-    /// Index of the last column and of the last row.
     last_indices: [f64; 2],
     /// Half the diagonal of a cell, m: the resolution of the distance field.
     pub cell_radius: f64,
@@ -26,14 +25,14 @@ pub(super) struct DistanceField {
 
 /// Number of cells for each wall, and minimum and maximum number of cells of a map. With fewer cells, the bounds on distances would decide
 /// fewer collision tests; more cells take longer to fill. The apartment's cells have sides of 4 cm and take a millisecond; 2²⁰ cells take 4
-/// MB. Fuzzing fills millions of fields, and therefore uses few cells. The results of collision tests are the same.
+/// MB. Fuzzing fills millions of fields, and therefore uses few cells. The number of cells does not change the results of collision tests.
 const CELLS_PER_WALL: f64 = MIN_CELLS;
 const MIN_CELLS: f64 = if cfg!(fuzzing) { 64.0 } else { 4096.0 };
 const MAX_CELLS: f64 = 1_048_576.0;
 
 /// Maximum number of distances to walls, or to nodes of the wall tree, that are computed for a block of cells: a fixed number, plus a
-/// number for each cell. Where more walls are near, filling would take seconds. The lower bound is then [`NOT_COMPUTED`], and collision
-/// tests search the tree.
+/// number for each cell. If more walls are near, filling the field would take seconds. The lower bound of a cell is then [`NOT_COMPUTED`],
+/// and collision tests search the tree.
 const MAX_WALLS_PER_BLOCK: usize = 32;
 const MAX_WALLS_PER_CELL: usize = 3;
 
@@ -78,7 +77,8 @@ impl DistanceField {
     #[inline(always)]
     pub fn lower_bounds(&self, points: &[f64x4; 2]) -> f64x4 {
         let zero = f64x4::splat(0.0);
-        // A point on the border of two cells may be rounded into either cell, because the lower bound of each cell includes its border.
+        // A point on the border between two cells may be rounded into either of them, because the lower bound of each cell includes its
+        // border.
         let [column, row] = [0, 1].map(|axis| {
             let cell_coordinate = (points[axis] - self.min_corner[axis]) * self.cells_per_metre - 0.5;
             cell_coordinate.fast_max(zero).fast_min(f64x4::splat(self.last_indices[axis])) + ROUND_TO_INTEGER
@@ -89,9 +89,9 @@ impl DistanceField {
         from_lanes(|i| self.lower_bound_of_cell(cell_indices[i].to_bits() as u32 as usize))
     }
 
-    /// Returns an upper bound (m) on a distance to the nearest wall from its lower bound; −∞ inside an occupied cell.
+    /// Returns an upper bound (m) on the distance to the nearest wall, given a lower bound; −∞ inside an occupied cell.
     pub fn upper_bound(&self, lower_bound: f64) -> f64 {
-        // If d is the distance from the middle of the cell to the nearest wall, the lower bound is d − radius, and the upper bound d +
+        // With the distance d from the middle of the cell to the nearest wall, the lower bound is d − radius, and the upper bound is d +
         // radius. In an undivided block d is only known up to a factor of (1 + 1/8)/(1 − 1/8).
         let cell_radius = 1.001 * self.cell_radius;
         let upper_bound = (UNDIVIDED_DISTANCE_RATIO + 1.0) / (UNDIVIDED_DISTANCE_RATIO - 1.0)
@@ -107,14 +107,13 @@ struct FieldBuilder<'a> {
     distance_field: DistanceField,
     rows: usize,
     cell_side: f64,
-    /// Bound on the rounding error of any coordinate on the map, m.
     rounding_slack: f64,
     /// Candidates for the wall nearest to the current block: unmeasured walls, and measured walls with their distances (m).
     unmeasured: Vec<WallSet>,
     measured: Vec<(f64, WallSet)>,
 }
 
-/// Single wall, or all walls of a node of the wall tree.
+/// Single wall, or node of the wall tree, which stands for all of its walls.
 #[derive(Clone, Copy, Debug)]
 enum WallSet {
     Wall(u32),
@@ -195,7 +194,7 @@ impl<'a> FieldBuilder<'a> {
                     + ((x - block_centre[0]) * (x - block_centre[0])
                         + (y - block_centre[1]) * (y - block_centre[1]))
                         .sqrt();
-                // The bound is reduced by a factor of 1e-6, which is more than the rounding to an f32.
+                // The bound is reduced by the fraction 1e-6 of the distance, which is more than the error of rounding it to an f32.
                 let cell_lower_bound = if is_in_blocked_cell {
                     f64::NEG_INFINITY
                 } else {
@@ -275,7 +274,6 @@ impl<'a> FieldBuilder<'a> {
     }
 }
 
-/// Returns an upper bound on the rounding error of `coordinates`, m.
 #[inline(never)]
 pub(super) fn rounding_bound(coordinates: &[f64]) -> f64 {
     1e-12 * coordinates.iter().fold(0.0, |largest: f64, coordinate| largest.max(coordinate.abs()))

@@ -72,7 +72,7 @@ fn join_numbers(numbers: &[f64]) -> String {
     numbers.iter().copied().map(format_number).collect::<Vec<_>>().join(", ")
 }
 
-/// Result of a collision test. The distance field alone decides most tests.
+/// Verdict of a collision test. The distance field alone decides most tests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CollisionVerdict {
     /// True if the pose or the motion is free of collisions.
@@ -88,7 +88,6 @@ impl CollisionVerdict {
 
 /// Range of the coordinates of a plan's bounds, m. A robot's coordinates have the same range.
 const COORDINATE_RANGE: RangeInclusive<f64> = -1e6..=1e6;
-/// Range of the width and height of a plan, m.
 const SIDE_RANGE: RangeInclusive<f64> = 0.01..=1e5;
 
 impl FloorPlan {
@@ -103,7 +102,7 @@ impl FloorPlan {
         Self::with_grid(walls, bounds, None)
     }
 
-    /// Returns the plan of a grid. Its walls are the outlines of the blocked cells; its bounds are those of the grid.
+    /// Returns the floor plan of a grid. Its walls are the outlines of the blocked cells; its bounds are those of the grid.
     ///
     /// # Errors
     /// [`FloorPlanError`] if there are too many walls, or the grid is too large or too small.
@@ -198,7 +197,7 @@ impl FloorPlan {
         self.test_arc_after_end(&driven_arc, self.test_point(driven_arc.end, clearance), clearance)
     }
 
-    /// Tests an arc as [`FloorPlan::test_arc`] does, if its end was tested before. The result includes the cost of that test.
+    /// Tests an arc whose end was tested before, see [`FloorPlan::test_arc`]. The cost includes that of the earlier test.
     pub(super) fn test_arc_after_end(
         &self,
         driven_arc: &DrivenArc,
@@ -265,8 +264,8 @@ impl FloorPlan {
         if !self.contains(arc.start.position()) || !self.contains(driven_arc.end) {
             return true;
         }
-        // At this point the start and the end of the arc are inside the map. An arc that only touches an edge counts as inside, up to
-        // rounding.
+        // Both ends of the arc are inside the map if this line is reached. An arc that only touches an edge of the map counts as inside, up
+        // to rounding.
         let corners = self.corners();
         let rounding_slack = rounding_bound(corners.as_flattened());
         (0..4).any(|i| {
@@ -305,7 +304,7 @@ struct ArcSweep<'a> {
     distance_field: &'a DistanceField,
     arc: &'a Arc,
     clearance: f64,
-    /// Arc in the frame of its start, computed when the distance to a wall is first measured.
+    /// Arc in the frame of its start. It is computed when the distance to a wall is needed for the first time.
     local_arc: OnceCell<LocalArc>,
     wall_tests: usize,
 }
@@ -328,8 +327,8 @@ impl ArcSweep<'_> {
         if distance_field.upper_bound(min_lower_bound) <= self.clearance - piece.max_error {
             return false;
         }
-        // A part no longer than the diagonal of a cell is not divided, because the distance field is too coarse. Distances to walls are
-        // computed instead.
+        // A part of the arc that is no longer than the diagonal of a cell is not divided, because the distance field is too coarse.
+        // Distances to walls are computed instead.
         let is_divisible = half_part_length > distance_field.cell_radius;
         let [x, y] = part_middles.map(|lanes| lanes.to_array());
         (0..LANE_COUNT).all(|i| {
@@ -343,7 +342,8 @@ impl ArcSweep<'_> {
         })
     }
 
-    /// Tests whether all walls near a part of the arc keep the clearance. For most walls the distance to the middle of the part decides.
+    /// Tests whether all walls near a part of the arc are farther away than the clearance. For most walls the distance to the middle of the
+    /// part decides.
     fn are_walls_clear(&mut self, part_middle: [f64; 2], part_radius: f64, max_error: f64) -> bool {
         let (arc, clearance) = (self.arc, self.clearance);
         let get_local_arc = || self.local_arc.get_or_init(|| arc.local_arc());

@@ -6,7 +6,6 @@ use crate::geom::se2::SE2;
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-/// Number of headings that are tried: one every five degrees.
 const HEADING_COUNT: u32 = 72;
 
 /// Number of cells along the longer side of the grid to which a plan of walls is converted.
@@ -48,7 +47,7 @@ impl FloorPlan {
 /// squares, it is the one whose upper right corner comes first, row by row.
 fn middle_of_largest_free_square(grid: &OccupancyGrid) -> Option<[f64; 2]> {
     let ([columns, rows], mut largest_side_so_far, mut square_middle) = (grid.size(), 0, None);
-    // Side length (cells) of the largest free square whose upper right corner is in each column of the previous row.
+    // For each column: side length (cells) of the largest free square whose upper right corner is the cell of the previous row.
     let mut square_sides = vec![0u32; columns];
     for row in 0..rows {
         let [mut side_at_left, mut side_at_lower_left] = [0, 0];

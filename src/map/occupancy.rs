@@ -8,7 +8,7 @@ use std::ops::RangeInclusive;
 /// Classifier of pixels as free, occupied or unknown cells, with the fields of the YAML file of `map_server`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelClassifier {
-    /// Meaning of the pixels.
+    /// Meaning of the pixel values.
     pub mode: MapMode,
     /// True if dark pixels are free instead of occupied.
     pub negate: bool,
@@ -102,7 +102,7 @@ impl PixelClassifier {
         let occupancy = if self.negate { brightness } else { 1.0 - brightness };
         // Thresholds are rounded to f32, as the brightness is, so that a pixel exactly at a threshold does not exceed the threshold.
         let (occupied_threshold, free_threshold) = (self.occupied_thresh as f32, self.free_thresh as f32);
-        // The grey value is computed only if needed, because rounding is slow on processors without an instruction for it.
+        // The grey value is computed only if needed, because processors without an instruction for rounding are slow.
         let grey_value_of = || (brightness * 255.0).round();
         match self.mode {
             MapMode::Scale if opacity < 1.0 => Cell::Unknown,

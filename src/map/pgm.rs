@@ -9,7 +9,6 @@ pub const MAX_PIXELS: usize = 1 << 25;
 /// Maximum size of a file, bytes. A plain file takes six characters for a pixel.
 pub const MAX_BYTES: usize = 6 * MAX_PIXELS + 4096;
 
-/// Maximum number of characters that an error quotes.
 const MAX_QUOTED_CHARACTERS: usize = 20;
 
 /// Reads the brightness values of a PGM image, binary (P5) or plain (P2), of 8 or 16 bits. The maximum value of the header is white.
@@ -34,7 +33,7 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, ImageError> {
     }
     let bytes_per_pixel = if max_value < 256 { 1 } else { 2 };
     let raster_byte_count = pixel_count * bytes_per_pixel;
-    // One white space character ends the header. Windows editors write two characters: carriage return and line feed.
+    // One white space character ends the header. Windows editors write a line end of two characters: carriage return and line feed.
     let is_crlf = bytes[reader.position..].starts_with(b"\r\n")
         && bytes.len() >= reader.position + 2 + raster_byte_count;
     let available_bytes = bytes.get(reader.position + if is_crlf { 2 } else { 1 }..).unwrap_or_default();

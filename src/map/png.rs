@@ -45,7 +45,7 @@ fn decode_pixels(cursor: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingErr
     reader.next_frame(&mut samples)?;
     reader.finish()?;
     if bit_depth == BitDepth::Sixteen {
-        // 16 bits are scaled to 8 with rounding, by the factor 65535/255 = 257.
+        // Samples of 16 bits are scaled to 8 bits with rounding, by the factor 65535/255 = 257.
         let to_byte = |bytes: &[u8; 2]| ((u32::from(u16::from_be_bytes(*bytes)) + 128) / 257) as u8;
         samples = samples.as_chunks().0.iter().map(to_byte).collect();
     }

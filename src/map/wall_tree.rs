@@ -13,9 +13,7 @@ pub(super) struct WallTree {
     /// Distinct walls, ordered so that the walls of each node are contiguous.
     pub walls: Vec<Segment>,
     pub nodes: Vec<Node>,
-    /// Number of levels below the root.
     depth: u32,
-    /// Upper bound on the rounding error of any distance on the map, m.
     rounding_slack: f64,
 }
 
@@ -37,7 +35,7 @@ const ZERO_SEGMENT: Segment = Segment { from: [0.0; 2], to: [0.0; 2] };
 impl WallTree {
     /// Creates the tree of the walls, all of which are inside `bounds`.
     pub fn new(walls: &[Segment], bounds: [f64; 4]) -> Self {
-        // Equal walls would fill leaves whose distances all have to be computed.
+        // Copies of a wall would fill leaves of which every distance must be computed.
         let mut known_walls = BTreeSet::new();
         let is_new =
             |wall: &&Segment| known_walls.insert([wall.from, wall.to].map(|end| end.map(f64::to_bits)));
@@ -130,7 +128,7 @@ impl WallTree {
         node_index >> self.depth > 0
     }
 
-    /// Returns true if `is_wall_clear` holds for all walls. Nodes for which `is_node_clear` holds are skipped.
+    /// Returns true if `is_wall_clear` holds for all walls. The walls of a node for which `is_node_clear` holds are not tested.
     #[inline(always)]
     pub fn are_all_walls_clear(
         &self,
@@ -200,7 +198,7 @@ fn select_smallest(walls: &mut [Segment], count: usize, key_index: usize) {
                 break;
             }
         }
-        // Walls before `right` have keys up to the pivot key. Walls from `left` on have keys of at least the pivot key.
+        // Walls before `right` have sort keys of at most the pivot key, and walls from `left` on of at least the pivot key.
         if count < right {
             range_end = right;
         } else if count > left {

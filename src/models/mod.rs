@@ -17,8 +17,8 @@ use crate::geom::se2::SE2;
 use nalgebra::Matrix3;
 use rand::Rng;
 
-/// Probabilistic motion model. All poses are in the same frame. A model whose control is a command can predict; a model whose control is an
-/// odometry reading is used after the motion.
+/// Probabilistic motion model. All poses are in the same frame. A model whose control is a command can predict a motion. A model whose
+/// control is an odometry reading needs a motion that has been measured.
 ///
 /// Arguments are not checked: a negative α, or a command whose `dt` is not positive, gives meaningless results, NaN for most.
 pub trait MotionModel {

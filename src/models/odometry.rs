@@ -20,7 +20,7 @@ pub struct OdomDelta {
 }
 
 /// Displacement (m) below which a reading counts as a turn on the spot. The direction of such a displacement is only rounding, because no
-/// encoder resolves a nanometre. With a larger bound, slow motion would count as turns on the spot.
+/// encoder resolves a nanometre. With a larger bound, slow drives would count as turns on the spot.
 const MIN_TRANSLATION: f64 = 1e-9;
 
 impl OdomDelta {
@@ -37,7 +37,7 @@ impl OdomDelta {
         Self { rot1, trans, rot2: wrap_angle(turn - rot1) }
     }
 
-    /// Returns the pose that is reached from `x` by exactly this motion.
+    /// Returns the pose that this motion reaches from `x` without noise.
     pub fn apply(&self, x: &SE2) -> SE2 {
         let (sin, cos) = libm::sincos(self.rot1);
         *x * SE2::new(self.trans * cos, self.trans * sin, self.rot1 + self.rot2)
@@ -68,7 +68,7 @@ pub struct OdometryModel {
     pub noise: NoiseKind,
 }
 
-/// Odometry model with independent noises of first rotation, translation and second rotation. Any rule may give their variances.
+/// Odometry model with independent noises of first rotation, translation and second rotation. The implementation defines their variances.
 pub trait RotTransRot {
     /// Returns the distribution of the noise.
     fn noise(&self) -> NoiseKind;
@@ -143,8 +143,8 @@ impl<M: RotTransRot> MotionModel for M {
     }
 }
 
-/// Returns the variances of rot1, trans and rot2 of `reading` (rad², m², rad²). If `is_reverse_aware`, a rotation δ counts as min(|δ|, |π − |δ||).
-/// This is the smallest turn of a robot that may drive in reverse instead.
+/// Returns the variances of rot1, trans and rot2 of `reading` (rad², m², rad²). If `is_reverse_aware`, a rotation δ counts as min(|δ|, |π −
+/// |δ||). This is the smallest turn of a robot that may drive in reverse instead.
 pub(super) fn leg_variances(
     alphas: OdomAlphas,
     reading: &OdomDelta,

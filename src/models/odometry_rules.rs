@@ -62,7 +62,7 @@ impl OdometryRule {
         OdomDelta { rot1: 0.0, trans: reading.trans, rot2: wrap_angle(reading.rot1 + reading.rot2) }
     }
 
-    /// Returns the variances of the noises of a measured reading, or of the result of [`OdometryRule::legs`].
+    /// Returns the variances of the noises of a measured reading, which may already be decomposed by [`OdometryRule::legs`].
     ///
     /// | rule | rot1 | trans | rot2 | strafe |
     /// |---|---|---|---|---|
@@ -93,7 +93,7 @@ impl OdometryRule {
     }
 }
 
-/// Motion that a robot executed instead of the measured one: rotation, translation, rotation, and a displacement across the translation.
+/// Motion that a robot executed instead of the measured motion: rotation, translation, rotation, and a displacement across the translation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExecutedLegs {
     /// Rotation, translation and rotation of the executed motion.
@@ -103,8 +103,8 @@ pub struct ExecutedLegs {
 }
 
 impl ExecutedLegs {
-    /// Returns the poses of a robot that starts from `x`: at the start, after the first turn, at the end of the drive, and after the second
-    /// turn. All poses are in the frame of `x`.
+    /// Returns four poses of a robot that starts from `x`: at the start, after the first turn, at the end of the drive, and after the
+    /// second turn. All poses are in the frame of `x`.
     pub fn poses(&self, x: &SE2) -> [SE2; 4] {
         let OdomDelta { rot1, trans, rot2 } = self.legs;
         let pose_after_rot1 = *x * SE2::new(0.0, 0.0, rot1);

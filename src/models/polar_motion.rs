@@ -3,8 +3,8 @@
 use super::{OdomDelta, RotTransRot, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 
-/// Motion of a model from the origin: a length along a bearing, and a last turn, with independent noises. Pairs of numbers are a mean and a
-/// standard deviation.
+/// Motion of a model from the origin: a length along a bearing, and a last turn, with independent noises. Each pair of numbers is a mean
+/// and a standard deviation.
 ///
 /// An arc of length s and turn φ ends at the distance s·sinc(φ/2) on the bearing φ/2. The last turn is γ̂Δt. An odometry motion ends at the
 /// distance δ̂_trans on the bearing δ̂_rot1. The last turn is δ̂_rot2.
@@ -14,17 +14,17 @@ pub struct PolarMotion {
     pub noise: NoiseKind,
     /// True if `length` is the length of an arc, false if it is the length of its chord.
     pub is_arc: bool,
-    /// Length, m.
+    /// Length of the motion (mean, standard deviation), m.
     pub length: [f64; 2],
     /// Variance of the length, m². It is not computed from the standard deviation, because roots are rounded.
     pub length_variance: f64,
     /// Bearing of the end of the motion, seen from the origin, rad.
     pub bearing: [f64; 2],
-    /// Last turn, rad.
+    /// Turn after the arc or the translation (mean, standard deviation), rad.
     pub last_turn: [f64; 2],
     /// Variance of the last turn, rad².
     pub last_turn_variance: f64,
-    /// Turn of the command, rad, which selects branches of logarithms and arcs.
+    /// Turn of the command, rad. It selects the branch of a logarithm, and the arc to a position.
     pub commanded_turn: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Gaussian noise in exponential coordinates, and its growth along a path.
+//! Gaussian noise in exponential coordinates, and the growth of its covariance along a path.
 
 use super::{VelocityCmd, VelocityModel};
 use crate::geom::arc::invert_arc;
@@ -35,11 +35,10 @@ pub struct TangentNoiseModel {
     pub r: Matrix3<f64>,
     /// Variance (rad²) of the turn after the arc.
     last_turn_variance: f64,
-    /// Lower triangular L with L·Lᵀ = R.
     cov_root: Matrix3<f64>,
 }
 
-/// Recursion that propagates the covariance of x_k ⊟ x̄_k by one step.
+/// Recursion that propagates the covariance of x_k ⊟ x̄_k by one step of the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compounding {
     /// The chapter's recursion A·Σ·Aᵀ + R, A = Ad(exp(τ)⁻¹). It approximates exp(τ + w) by exp(τ)·exp(w).
@@ -50,7 +49,7 @@ pub enum Compounding {
     FourthOrder,
 }
 
-/// Reason for which a matrix is not a covariance.
+/// Reason why a matrix is not a covariance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum TangentNoiseError {
     /// An entry is infinite or NaN.
@@ -65,7 +64,7 @@ pub enum TangentNoiseError {
 }
 
 /// Tolerance for symmetry and positive semidefiniteness of R, relative to its largest entry. A smaller tolerance would refuse computed
-/// covariances because of rounding. A larger tolerance would accept mistakes.
+/// covariances because of rounding. A larger tolerance would accept matrices that are not covariances.
 const RELATIVE_TOLERANCE: f64 = 1e-12;
 
 /// Variance (m² and rad²) that [`TangentNoiseModel::log_prob`] adds to the diagonal of R, so that a singular R has a density. It is a
@@ -86,7 +85,7 @@ impl TangentNoiseModel {
     /// α₆ω²) after the arc. Only the variances of the velocity model are used; the noise here is Gaussian.
     ///
     /// # Errors
-    /// [`TangentNoiseError`] where α's or command make a variance negative or not finite.
+    /// [`TangentNoiseError`] if the α's or the command make a variance negative or not finite.
     pub fn from_velocity(model: &VelocityModel, u: &VelocityCmd) -> Result<Self, TangentNoiseError> {
         let [length_var, turn_var, last_turn_var] =
             model.variances(u).map(|Variance(variance)| u.dt * u.dt * variance);
@@ -146,8 +145,8 @@ impl TangentNoiseModel {
     }
 
     /// Returns the covariance of x_k ⊟ x̄_k after a step by the twist `tau`, from the covariance `sigma` of x_{k−1} ⊟ x̄_{k−1}. Both
-    /// covariances are 3 × 3, in the body frame of their pose. The turn after the arc only adds to the heading, without J_r, because it
-    /// happens at the end of the arc.
+    /// covariances are 3 × 3, in the body frame of their pose. The turn after the arc happens at the end of the arc. Its variance is
+    /// therefore added to that of the heading, without J_r.
     pub fn propagate(
         &self,
         sigma: &Matrix3<f64>,
@@ -214,7 +213,7 @@ fn log_gaussian_density(residual: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
     -0.5 * (whitened_residual.norm_squared() + log_det + 3.0 * libm::log(2.0 * PI))
 }
 
-/// Returns a lower triangular L with L·Lᵀ = cov. The columns of directions without variance are 0.
+/// Returns a lower triangular L with L·Lᵀ = cov. Columns of L for directions without variance are 0.
 pub(crate) fn covariance_root(cov: &Matrix3<f64>) -> Result<Matrix3<f64>, TangentNoiseError> {
     if cov.iter().any(|entry| !entry.is_finite()) {
         return Err(TangentNoiseError::NotFinite);

@@ -45,8 +45,8 @@ pub struct VelocityModel {
     pub noise: NoiseKind,
 }
 
-/// Maximum number of full turns in each direction that [`VelocityModel::pose_density`] adds up. Noise that turns the robot more than 64
-/// times in a step makes its heading uniform.
+/// Maximum number of full turns in each direction that [`VelocityModel::pose_density`] adds up. If noise turns the robot more than 64 times
+/// in a step, its heading is uniform.
 const MAX_WINDINGS: f64 = 64.0;
 
 impl VelocityModel {
@@ -58,7 +58,7 @@ impl VelocityModel {
     }
 
     /// Returns the motion that the robot executes when the noises of v̂, ω̂ and γ̂ take the values `unit_noise` times their standard
-    /// deviations. With the same unit noise, a changed command or α moves the same robot.
+    /// deviations. With the same `unit_noise`, the motion changes continuously with the command and the α's.
     pub fn executed_motion(&self, u: &VelocityCmd, unit_noise: [f64; 3]) -> ArcInversion {
         let [v_std, omega_std, gamma_std] = self.noise_stds(u);
         ArcInversion {
@@ -72,8 +72,8 @@ impl VelocityModel {
         self.variances(u).map(|variance| variance.0.sqrt())
     }
 
-    /// Returns the number of full turns in each direction that [`VelocityModel::pose_density`] adds up. The turn nearest to the commanded
-    /// turn is counted in addition.
+    /// Returns the number of full turns in each direction, beyond the turn nearest to the commanded turn, that
+    /// [`VelocityModel::pose_density`] adds up.
     pub(crate) fn max_windings(&self, u: &VelocityCmd) -> i32 {
         let [_, omega_std, _] = self.noise_stds(u);
         (9.0 * omega_std * u.dt / TAU).ceil().min(MAX_WINDINGS) as i32
@@ -146,14 +146,14 @@ impl MotionModel for VelocityModel {
                 let arc_turn = shortest_turn + TAU * full_turns;
                 (inversion.v_hat * (arc_turn / shortest_turn), arc_turn)
             };
-            // With |sinc(φ/2)| = d/|v̂Δt| the determinant is d²Δt/(2|v̂|) times the Δt of γ̂.
+            // Because |sinc(φ/2)| = d/|v̂Δt|, the determinant is d²Δt/(2|v̂|) times Δt (from the final turn γ̂Δt).
             product_or_zero([
                 2.0 * v_hat.abs() / squared_distance_times_dt,
                 self.noise.prob(v_hat - u.v, v_variance),
                 self.noise.prob(arc_turn / u.dt - u.omega, omega_variance),
             ])
         };
-        // A range of nine standard deviations contains every turn whose Gaussian density is above the rounding of the sum.
+        // A range of nine standard deviations contains every turn whose Gaussian density is above the rounding error of the sum.
         let nearest_winding = ((u.omega * u.dt - shortest_turn) / TAU).round();
         let max_windings = self.max_windings(u);
         let arc_density: f64 =

@@ -38,7 +38,7 @@ pub(super) fn replace_chunk_by_quantiles(numbers: &mut [f64x4]) {
     for (vector_index, q) in numbers.iter_mut().enumerate() {
         let tail_mask = q.abs().simd_gt(f64x4::splat(CENTRE_HALF_WIDTH)).to_bitmask();
         for (lane, number) in q.to_array().into_iter().enumerate() {
-            // Every number is stored, but a number that is not in a tail is overwritten by the next number.
+            // Each number is stored in the next free place. The next number overwrites a number that is not in a tail.
             tail_numbers[tail_count] = number;
             tail_indices[tail_count] = (LANE_COUNT * vector_index + lane) as u16;
             tail_count += (tail_mask >> lane & 1) as usize;

@@ -22,7 +22,7 @@ pub enum HeatMapKind {
 keywords!(HeatMapKind: "none" = Self::NoHeatMap, "prob" = Self::Prob, "density" = Self::Density);
 
 settings! {
-    /// Settings of the user.
+    /// Settings of Arc Anatomy.
     pub struct Settings {
         /// Start pose of the robot.
         start: [f64; 3] = [0.0; 3], each "at which the robot starts";
@@ -43,8 +43,8 @@ settings! {
 }
 
 impl SettingRules for Settings {
-    /// An arc to the left, its mirror images to the right and in reverse, and a straight drive. The final pose is not on the commanded arc,
-    /// so that no residual is 0.
+    /// Presets: an arc to the left, its mirror images to the right and in reverse, and a straight drive. The final pose is not on the
+    /// commanded arc, so that no residual is 0.
     const PRESETS: &'static [(&'static str, Self)] = &[
         ("left", Self::DEFAULT),
         ("right", preset([1.0, -0.5], [1.1, -0.5, -1.1])),
@@ -71,7 +71,6 @@ impl Settings {
     }
 }
 
-/// Number of chords of the path of the constant twist.
 const TWIST_PATH_CHORDS: usize = 64;
 /// Number of ticks on the path of the constant twist, at equal intervals of time.
 const TWIST_PATH_TICKS: usize = 8;
@@ -104,7 +103,7 @@ js_structs! {
         pub end: [f64; 3],
     }
 
-    /// One of the three factors of the score p.
+    /// One of the three factors of the score p of Table 5.1.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Factor {
         /// Value of v̂, ω̂ or γ̂ that the final pose implies (m/s, rad/s).
@@ -128,13 +127,13 @@ js_structs! {
         pub commanded: ArcWithCircle,
         /// Arc to the final position.
         pub inverted: ArcWithCircle,
-        /// Arc that v̂ and ω̂ drive. It leads to the final position, unless the settings select the unsigned radius of Table 5.1.
+        /// Arc that v̂ and ω̂ drive. It is the arc to the final position, unless the settings select the unsigned radius of Table 5.1.
         pub driven: ArcWithCircle,
         /// Final turn γ̂Δt, rad.
         pub last_turn: f64,
         /// Factors of v̂, ω̂ and γ̂.
         pub factors: [Factor; 3],
-        /// Index of the factor with the largest residual in standard deviations.
+        /// Index of the factor whose residual is the largest, in standard deviations.
         pub weakest: usize,
         /// p, the product of the three factors.
         pub prob: f64,
@@ -151,7 +150,7 @@ js_structs! {
     /// μ, the centre and r* are infinite if the displacement is parallel to the heading. μ is NaN without a displacement.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Table as "AnatomyTable" {
-        /// Values of μ, x* (m), y* (m), r* (m), Δθ (rad), v̂ (m/s), ω̂ (rad/s), γ̂ (rad/s) and p.
+        /// Values of the lines: μ, x* (m), y* (m), r* (m), Δθ (rad), v̂ (m/s), ω̂ (rad/s), γ̂ (rad/s) and p.
         pub lines: [f64; 9],
         /// Midpoint of the start and final positions, m. The centre is the midpoint plus μ times `normal`.
         pub middle: [f64; 2],
@@ -166,7 +165,7 @@ js_structs! {
         pub commanded: Vec<[f64; 2]> as "Float64Array",
         /// Arc to the final position.
         pub inverted: Vec<[f64; 2]> as "Float64Array",
-        /// Arc driven with the estimated v̂ and ω̂.
+        /// Arc driven with the estimates v̂ and ω̂. It is the arc to the final position, unless the radius is unsigned.
         pub driven: Vec<[f64; 2]> as "Float64Array",
         /// Path of the constant twist ξ: start · exp(tξ) for t from 0 to 1. If γ̂ ≠ 0 it differs from the driven arc, and has a
         /// lateral velocity, which wheels do not allow.
@@ -242,7 +241,8 @@ impl ArcAnatomy {
         }
     }
 
-    /// Returns the arc of the command, the arc to the final position, and the arc that the estimates v̂ and ω̂ drive.
+    /// Returns the arc of the command, the arc to the final position, and the arc that the estimates v̂ and ω̂ drive. The last two differ
+    /// only for the unsigned radius of Table 5.1.
     fn arcs(&self) -> [Arc; 3] {
         let VelocityCmd { v, omega, dt } = self.settings.command;
         let (inverted, estimates) = (self.signed_inversion(), self.selected_inversion());
@@ -251,7 +251,6 @@ impl ArcAnatomy {
         speeds.map(|[v, omega]| Arc { start: self.settings.start(), length: v * dt, turn: omega * dt })
     }
 
-    /// Returns the arc to the final position, with a signed radius.
     fn signed_inversion(&self) -> ArcInversion {
         let inversion = invert_arc(&self.settings.start(), &self.settings.next(), self.settings.command.dt);
         // A straight drive in reverse has the turn rate −0. Adding 0 makes it 0, so that no minus is shown.
@@ -269,7 +268,7 @@ impl ArcAnatomy {
         ArcInversion { v_hat: v_hat.abs().copysign(omega_hat), ..inversion }
     }
 
-    /// Returns the estimate v̂, ω̂ or γ̂, its residual, and the variance of its noise, for each of the three.
+    /// Returns the estimate v̂, ω̂ or γ̂, its residual, and the variance of its noise, for each of the three controls.
     fn noise_residuals(&self, estimates: &ArcInversion) -> [(f64, f64, Variance); 3] {
         let ArcInversion { v_hat, omega_hat, gamma_hat } = *estimates;
         let command = &self.settings.command;
@@ -328,8 +327,8 @@ impl ArcAnatomy {
         }
     }
 
-    /// Returns the poses after a fraction of the time, from 0 to 1: on the commanded arc, on the arc that v̂ and ω̂ drive, and on
-    /// the path of the constant twist.
+    /// Returns the poses after a fraction of the time, from 0 to 1: on the commanded arc, on the arc that the estimates v̂ and ω̂ drive,
+    /// and on the path of the constant twist.
     pub fn poses_at(&self, fraction: f64) -> [SE2; 3] {
         let start_pose = self.settings.start();
         let [commanded, _, driven] = self.arcs().map(|arc| arc.leading_part(fraction).end());
@@ -376,7 +375,7 @@ impl ArcAnatomy {
         };
         let contours_of = |values: &[f64]| {
             let max_value = maximum_of(values);
-            // Contours are interpolated between logarithms of the values, which are closer to linear between cells.
+            // Contours are interpolated between the logarithms of the values, which are more nearly linear between cells.
             let log_values: Vec<f64> =
                 values.iter().map(|value| libm::log(value.max(f64::MIN_POSITIVE))).collect();
             let log_levels = CONTOUR_LEVELS

@@ -19,7 +19,7 @@ keywords!(
 pub const MAX_SAMPLES: u64 = 5000;
 
 settings! {
-    /// Settings of the user.
+    /// Settings of the Odometry Decomposer.
     pub struct Settings {
         /// Odometry pose before the motion.
         from: [f64; 3] = [0.0; 3], each "that odometry reports";
@@ -48,7 +48,7 @@ settings! {
 }
 
 impl SettingRules for Settings {
-    /// Odometry readings with one, two or all three of rotation, translation and rotation; a drive in reverse and jitter of half a
+    /// Presets: readings with one, two or all three of rotation, translation and rotation; a drive in reverse and jitter of half a
     /// centimetre, on which the rules disagree.
     const PRESETS: &'static [(&'static str, Self)] = &[
         ("all", preset_ending_at([1.2, 1.0, 1.2])),
@@ -68,7 +68,7 @@ const fn preset_ending_at(to: [f64; 3]) -> Settings {
 /// Velocity of the odometry frame in the world (m/s, m/s, rad/s). The frame drifts on a slow curve, as with slightly wrong wheel diameters.
 const DRIFT_TWIST: [f64; 3] = [0.015, 0.008, -0.01];
 
-/// Maximum number of points of a curve. Each takes a microsecond.
+/// Maximum number of points of a deviation curve. Each point takes a microsecond.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
 js_structs! {
@@ -88,7 +88,7 @@ js_structs! {
         pub heading: f64,
     }
 
-    /// Odometry in the world, after the drift of the odometry frame.
+    /// Poses of the odometry in the world, after the odometry frame has drifted.
     #[derive(Clone, Debug, PartialEq)]
     pub struct DriftedOdometry as "Drifted" {
         /// Poses x, y (m), θ (rad) in the world: the odometry frame, the start pose and the end pose.
@@ -266,8 +266,8 @@ impl OdometryDecomposer {
     }
 
     /// Returns the standard deviations of drives of `point_count` lengths from 0 to `max_length` (m), with the measured rotations. A point
-    /// has the length, the standard deviation of the end across the bearing, its part due to the first rotation, and the standard deviation
-    /// of the length, in m.
+    /// of the curve has four numbers in m. They are the length of the drive, the standard deviation of the end position across the bearing,
+    /// its part due to the first rotation, and the standard deviation of the length.
     pub fn deviation_curve(&self, max_length: f64, point_count: usize) -> Vec<[f64; 4]> {
         let Settings { rule, alphas, noise, .. } = self.settings;
         let reading = self.reading();
@@ -282,7 +282,7 @@ impl OdometryDecomposer {
             .collect()
     }
 
-    /// Returns the odometry poses in the world. In the drift time t, the odometry frame moves by exp(t·d), with a constant twist d.
+    /// Returns the odometry poses in the world. During the drift time t, the odometry frame moves by exp(t·d) with a constant twist d.
     pub fn drifted_odometry(&self) -> DriftedOdometry {
         let drifted_frame = SE2::exp(&(Vector3::from(DRIFT_TWIST) * self.settings.drift));
         let (drifted_start, drifted_end) =
@@ -297,7 +297,8 @@ impl OdometryDecomposer {
     }
 }
 
-/// Returns the root mean square of offsets with mean 0, and its standard error by the delta method: √((m₄ − m₂²)/n)/(2√m₂).
+/// Returns the root mean square of n offsets with mean 0, and its standard error by the delta method: √((m₄ − m₂²)/n)/(2√m₂) with their
+/// moments m₂ and m₄.
 fn rms_with_error(offsets: impl Iterator<Item = f64>, count: usize) -> [f64; 2] {
     if count == 0 {
         return [f64::NAN; 2];

@@ -1,4 +1,4 @@
-//! 2σ contours of Gaussians in the plane and in exponential coordinates, which exp maps to the plane.
+//! 2σ contours of Gaussians in the plane, and of Gaussians in exponential coordinates, which exp maps to the plane.
 
 use super::cross_track::MIN_RELATIVE_STD;
 use super::moments::{CartesianMoments, ExponentialMoments};
@@ -14,7 +14,7 @@ use wide::f64x4;
 const CONTOUR_SIGMAS: f64 = 2.0;
 
 /// Limit of 1 − ρ², with the correlation ρ of the coordinates, below which an ellipse counts as a line, because its width may be a rounding
-/// error. With a larger limit narrow ellipses would count as lines. With a smaller limit divisors could be rounding errors.
+/// error. A larger limit would turn narrow ellipses into lines. With a smaller limit, divisors could be rounding errors.
 const MIN_UNCORRELATED_FRACTION: f64 = 1e-12;
 
 /// 2σ ellipse of a Gaussian in two coordinates.
@@ -50,7 +50,7 @@ impl Ellipse {
         Self::new(moments.mean.xy(), moments.cov.fixed_view::<2, 2>(0, 0).into_owned())
     }
 
-    /// Returns false if the ellipse is a line or a point. No point is then inside.
+    /// Returns true if the ellipse has an area, so that points can be inside. A line or a point has none.
     pub fn has_area(&self) -> bool {
         self.cov_root[(0, 0)] > 0.0 && self.cov_root[(1, 1)] > 0.0
     }
@@ -98,9 +98,9 @@ impl Ellipse {
 
 /// 2σ contour of a Gaussian N(m, Σ) in exponential coordinates.
 ///
-/// Poses are counted inside the 2σ ellipse of the coordinates (along, heading). The outline in the plane approximates the boundary of the
-/// image of the 2σ ellipsoid under exp. It is the image of a great circle of the ellipsoid. Without γ̂ the ellipsoid is flat, and this
-/// circle is its edge.
+/// A pose counts as inside if its coordinates (along, heading) are inside their 2σ ellipse. The outline in the plane approximates the
+/// boundary of the image of the 2σ ellipsoid under exp. It is the image of a great circle of the ellipsoid. Without γ̂ the ellipsoid is
+/// flat, and this circle is its edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExponentialContour {
     start: SE2,
@@ -129,8 +129,8 @@ impl ExponentialContour {
         self.outline(segment_count).map(|(_, point)| point).collect()
     }
 
-    /// Returns the closed outline, in the frame of the start, at a stage of the transition from positions to exponential coordinates. At
-    /// stage 0 the outline is [`ExponentialContour::boundary`], and at stage 1 the boundary of `ellipse`.
+    /// Returns the closed outline, in the frame of the start, at a stage `morph` of the transition from positions to exponential
+    /// coordinates. At stage 0 the outline is [`ExponentialContour::boundary`], and at stage 1 the boundary of `ellipse`.
     pub fn morphed_boundary(&self, segment_count: usize, morph: f64) -> Vec<[f64; 2]> {
         self.silhouette_twists(segment_count, morph).map(|twist| unbend(&twist, morph)).collect()
     }
@@ -144,8 +144,7 @@ impl ExponentialContour {
         if !ellipse.has_area() || !self.ellipse.has_area() {
             return f64::NAN;
         }
-        // `doubled_area` sums twice the signed areas of the triangles from the start to each chord. The sign is reversed for motions in
-        // reverse.
+        // The sum has twice the signed areas of the triangles from the start to each chord. The sign is reversed for motions in reverse.
         let (mut doubled_area, mut previous_point) = (0.0, [0.0; 2]);
         for (i, (along, [x, y])) in self.outline(segment_count).enumerate() {
             let [x, y] = [x - self.start.x(), y - self.start.y()];
@@ -172,7 +171,7 @@ impl ExponentialContour {
     /// approximates the silhouette.
     fn silhouette_twists(&self, segment_count: usize, morph: f64) -> impl Iterator<Item = Vector3<f64>> {
         let twist_at = move |u: &Vector3<f64>| self.mean + self.cov_root * u * CONTOUR_SIGMAS;
-        // Sum of k·kᵀ over both ends of the three axes of the ellipsoid. Each k is the cross product of the two rows of H·G.
+        // Sum of k·kᵀ over the ends of the three axes of the ellipsoid. The null vector k is the cross product of the two rows of H·G.
         let mut null_direction_scatter = Matrix3::zeros();
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
             for axis_end in [axis, -axis] {
@@ -182,7 +181,7 @@ impl ExponentialContour {
             }
         }
         let null_direction = principal_direction(&null_direction_scatter);
-        // Two directions that span the great circle. The coordinate axis least parallel to k makes the first direction well-conditioned.
+        // Two directions span the great circle. The coordinate axis least parallel to k makes the first direction well-conditioned.
         let least_parallel_axis = Matrix3::identity().column(null_direction.iamin()).into_owned();
         let circle_x =
             (least_parallel_axis - null_direction * least_parallel_axis.dot(&null_direction)).normalize();

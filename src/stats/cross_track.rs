@@ -6,12 +6,12 @@ use std::ops::Mul;
 
 /// Cross-track skew of a cloud with its standard error, and correlation of cross-track residual and heading.
 ///
-/// The cross-track residual of a pose is its distance to the left of the mean position, perpendicular to the circular mean
-/// heading h: d = −(x − x̄)·sin h + (y − ȳ)·cos h. All values are NaN if the residuals are all equal, or for fewer than three
-/// poses. The skew of small samples is biased towards 0: of ten poses by about half.
+/// The cross-track residual of a pose is its distance to the left of the mean position, perpendicular to the circular mean heading h: d =
+/// −(x − x̄)·sin h + (y − ȳ)·cos h. All values are NaN if the residuals are all equal, or for fewer than three poses. The skew of a small
+/// sample is biased towards 0, for ten poses by about half.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrossTrackStats {
-    /// Skewness m₃/m₂^1.5, with central moments over n; 0 for every Gaussian in (x, y).
+    /// Skewness m₃/m₂^1.5, with central moments over n; 0 for a Gaussian in (x, y).
     pub skew: f64,
     /// Standard error of `skew` by the delta method, from the moments of the sample up to the sixth. It includes the
     /// uncertainty of the mean heading.
@@ -20,11 +20,12 @@ pub struct CrossTrackStats {
     pub rho_heading: f64,
 }
 
-/// Standard deviation below which it counts as 0, relative to the extent of the cloud and the cloud's distance from the origin. The
-/// rounding error of an operation is about 1e-16. With a larger bound narrow clouds would count as lines.
+/// Relative limit below which a standard deviation counts as 0. It is multiplied by the extent of the cloud and the cloud's distance from
+/// the origin. The rounding error of an operation is about 1e-16. With a larger bound narrow clouds would count as lines.
 pub(super) const MIN_RELATIVE_STD: f64 = 1e-12;
 
-/// Variance (m²) below which a standard deviation also counts as 0. Otherwise its sixth power would underflow in the standard error.
+/// Variance (m²) below which a standard deviation also counts as 0, because the standard error needs its sixth power, which must not
+/// underflow.
 const MIN_VARIANCE: f64 = 1e-100;
 
 impl CrossTrackStats {
@@ -55,7 +56,7 @@ impl CrossTrackStats {
         if pose_count < 3 || m2 <= (MIN_RELATIVE_STD * MIN_RELATIVE_STD * squared_extent).max(MIN_VARIANCE) {
             return Self::UNDEFINED;
         }
-        // The means of dᵏ for k = 0 … 6, and of sin(t)·dᵏ for k = 0 … 3. The means of d and of sin(t) are 0.
+        // Means of dᵏ for k = 0 … 6, and of sin(t)·dᵏ for k = 0 … 3. The means of d and of sin(t) are 0.
         let (d, sin_d) = ([1.0, 0.0, m2, m3, d4, d5, d6], [0.0, s_d, s_d2, s_d3]);
         let std = m2.sqrt();
         let skew = m3 / (m2 * std);
@@ -81,7 +82,8 @@ impl CrossTrackStats {
     }
 }
 
-/// Moments across the track: means over a cloud of products of the residuals d across the mean heading, a along it, and t of the heading.
+/// Moments across the track: means of products of three residuals of a cloud. The residual d is across the mean heading, a is along it, and
+/// t is that of the heading.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TrackMoments {
     /// Means of the products that [`track_products`] returns.
@@ -92,7 +94,7 @@ pub(super) struct TrackMoments {
     pub resultant_length: f64,
 }
 
-/// Returns the products ad, ad², d², …, d⁶, s², sd, sd², sd³, t, t² and td of the residuals, with s = sin t.
+/// Returns the products ad, ad², d², …, d⁶, s², sd, sd², sd³, t², t² and td of the residuals of `TrackMoments`, with s = sin t.
 #[inline(always)]
 pub(super) fn track_products<T: Copy + Mul<Output = T>>(a: T, d: T, s: T, t: T) -> [T; 14] {
     let d2 = d * d;

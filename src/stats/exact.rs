@@ -16,11 +16,12 @@ pub struct ExactMoments {
     pub mean: Vector3<f64>,
     /// Covariance, 3 × 3, of the position and of the turn made (not wrapped).
     pub cov: Matrix3<f64>,
-    /// Skewness of the position across the mean heading; NaN if there is no spread across it.
+    /// Skewness of the position across the mean heading; NaN if no position deviates across it.
     pub cross_track_skew: f64,
 }
 
-/// Node of the quadrature: motion of length 1 for one value of the noise that turns the robot. A motion of length L ends at L·`unit_end`.
+/// Node of the quadrature: motion of length 1, for one value of the noise that turns the robot. With a length L, the motion ends at
+/// L·`unit_end`.
 struct UnitMotion {
     weight: f64,
     unit_end: [f64; 2],
@@ -28,7 +29,7 @@ struct UnitMotion {
     excess_turn: f64,
 }
 
-/// Sums over motions of `unit_end`, called u, and of `excess_turn`, with the weights of the nodes. The weights may sum to less than 1.
+/// Weighted sums over the motions of the quadrature: of `unit_end`, called u, and of `excess_turn`. The weights may sum to less than 1.
 #[derive(Default)]
 pub(super) struct UnitMotionMoments {
     /// End u of the first motion. Sums contain differences from this value, so that few digits are lost if u varies little.
@@ -62,7 +63,7 @@ impl UnitMotionMoments {
         let mean_unit_end = [mean.x + x, mean.y + y, 0.0];
         let length_factors = [mean_length, mean_length, 1.0];
         let cov = Matrix3::from_fn(|i, j| {
-            // A deviation of the length moves the position along u.
+            // A deviation of the length moves the end position along u.
             let second_moment =
                 if i < 2 && j < 2 { unit_end_cov[(i, j)] + mean_unit_end[i] * mean_unit_end[j] } else { 0.0 };
             unit_end_cov[(i, j)] * length_factors[i] * length_factors[j]
@@ -143,7 +144,7 @@ struct MixtureComponent {
     variance: f64,
 }
 
-/// Returns the skewness of the mixture; NaN if its spread is only rounding relative to `squared_extent`.
+/// Returns the skewness of the mixture; NaN if its variance is only rounding error relative to `squared_extent`.
 fn mixture_skew(components: impl Iterator<Item = MixtureComponent> + Clone, squared_extent: f64) -> f64 {
     let mixture_mean: f64 = components.clone().map(|component| component.weight * component.mean).sum();
     let (mut m2, mut m3) = (0.0, 0.0);

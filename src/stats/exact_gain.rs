@@ -17,18 +17,18 @@ use std::f64::consts::{LN_2, PI, TAU};
 /// of ξ are infinite. Turns beyond `MAX_SIGMAS` standard deviations are therefore omitted, which changes a variance by a fraction of 1e-7.
 /// The values are NaN if a full circle is within `MAX_SIGMAS`.
 ///
-/// Turns are not wrapped here. In a cloud, turns of more than half a circle beyond the commanded turn are wrapped. If many robots make such
-/// turns, [`LikelihoodGain::pose`] of the cloud differs from the exact gain.
+/// Turns are not wrapped here. In the statistics of a cloud, however, turns of more than half a circle beyond the commanded turn are
+/// wrapped. If many robots make such turns, [`LikelihoodGain::pose`] of the cloud differs from the exact gain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExactGain {
-    /// Likelihood gain without sampling error.
+    /// Likelihood gain of exponential and arc coordinates, without sampling error.
     pub value: LikelihoodGain,
     /// Mean and covariance of ξ, on the branch of the turn that was made.
     pub exponential: ExponentialMoments,
 }
 
-/// Integration limit of a normally distributed turn, in standard deviations. The largest of ten million samples is at 5.3. A smaller limit
-/// would change the fourth digit. A larger limit would reach a full circle for commands whose clouds do not.
+/// Integration limit of a normally distributed turn, in standard deviations. The largest of ten million samples is at 5.3 standard
+/// deviations. A smaller limit would change the fourth digit. A larger limit would reach a full circle for commands whose clouds do not.
 const MAX_SIGMAS: f64 = 6.0;
 
 /// Break points for [`piecewise_nodes`] of a function that is smooth everywhere.
@@ -37,7 +37,8 @@ const NO_BREAKS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 /// Motion whose bearing is near half the commanded turn, and not wrapped to ±π.
 struct BranchedMotion {
     polar: PolarMotion,
-    /// Mean of the turn, standard deviation of the turn due to the noise of the bearing, and standard deviation of the last turn, rad.
+    /// Mean of the turn, standard deviation of the turn due to the noise of the bearing, and standard deviation of the turn after the
+    /// motion, rad.
     turn: [f64; 3],
 }
 
@@ -98,8 +99,8 @@ impl BranchedMotion {
         }
     }
 
-    /// Returns the moments of ξ, and the mean of ln sinc²(ξ_ω/2). A motion that ends at the distance r on the bearing β with the heading θ
-    /// has ξ = r/sinc(θ/2) · (cos(β − θ/2), sin(β − θ/2)).
+    /// Returns the moments of the exponential coordinates ξ, and the mean of ln sinc²(ξ_ω/2). A motion that ends at the distance r on the
+    /// bearing β with the heading θ has ξ = r/sinc(θ/2) · (cos(β − θ/2), sin(β − θ/2)).
     fn twist_moments(&self) -> (MeanAndCov, f64) {
         let ([bearing, bearing_std], [turn, bearing_turn_std, last_turn_std]) =
             (self.polar.bearing, self.turn);
@@ -169,18 +170,19 @@ impl BranchedMotion {
 /// (m + Z)² is noncentral χ² with one degree of freedom. It is a mixture of χ² with 1 + 2j degrees of freedom, where j has
 /// a Poisson distribution of mean m²/2. The mean logarithm of χ² with 1 + 2j degrees is ln 2 + ψ(½ + j).
 fn mean_log_abs_of_normal(m: f64) -> f64 {
-    /// Value of m from which the fourth term of the asymptotic series is below 1e-10. Far beyond it, exp(−m²/2) underflows.
+    /// Value of m from which the fourth term of the asymptotic series is below 1e-10. The other method would fail for large m, because
+    /// exp(−m²/2) underflows.
     const MIN_ASYMPTOTIC_MEAN: f64 = 30.0;
     /// ψ(½) = −γ − 2 ln 2.
     const DIGAMMA_HALF: f64 = -1.963_510_026_021_423_5;
     if m > MIN_ASYMPTOTIC_MEAN {
-        // Terms of the asymptotic series use E (Z/m)²ᵏ = (2k − 1)!!/m²ᵏ.
+        // The terms of the asymptotic series contain the moments E (Z/m)²ᵏ = (2k − 1)!!/m²ᵏ.
         let inverse_square = 1.0 / (m * m);
         return libm::log(m) - inverse_square * (0.5 + inverse_square * (0.75 + inverse_square * 2.5));
     }
     let poisson_mean = 0.5 * m * m;
     let (mut poisson_probability, mut digamma, mut sum) = (libm::exp(-poisson_mean), DIGAMMA_HALF, LN_2);
-    // The sum ends twelve standard deviations or more beyond the Poisson mean, which is at most 450.
+    // The sum over j ends twelve standard deviations or more beyond the mean of the Poisson distribution, which is at most 450.
     for j in 0..720 {
         let j = f64::from(j);
         sum += poisson_probability * digamma;

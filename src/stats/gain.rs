@@ -11,9 +11,8 @@ use wide::f64x4;
 /// Mean log-likelihood of a cloud under one Gaussian minus that under another Gaussian, in nats per robot. Each Gaussian has the cloud's
 /// moments in its own coordinates. The densities are over the same measure, so that neither units nor the frame matter.
 ///
-/// A gain is NaN if there are too few poses. It is also NaN if the poses fill no volume in (x, y, θ), or no area in (x, y). It is infinite
-/// if they fill a volume in (x, y, θ) but none in exponential coordinates, or an area in (x, y) but none in arc coordinates. The Gaussian
-/// is then infinitely narrow.
+/// A gain is NaN if there are too few poses. It is also NaN if the Gaussian in (x, y, θ) has no volume, or the Gaussian in (x, y) no area.
+/// It is infinite if only the Gaussian in exponential coordinates has no volume, or only the Gaussian in arc coordinates no area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify))]
 pub struct LikelihoodGain {
@@ -35,7 +34,7 @@ pub struct MeasuredGain {
     pub error: LikelihoodGain,
 }
 
-/// End poses of four robots in each of the three coordinate systems.
+/// End poses of four robots in three coordinate systems.
 #[derive(Clone, Copy)]
 pub(super) struct FourRobots {
     /// x and y (m), and the heading relative to the mean heading (rad).
@@ -61,7 +60,7 @@ pub(super) struct FittedGaussians {
 pub(super) type MeanAndCov = (Vector3<f64>, Matrix3<f64>);
 
 impl FittedGaussians {
-    /// Creates the Gaussians from the moments of the coordinates in [`FourRobots`], and the mean logarithms of their Jacobians.
+    /// Fits the Gaussians to the moments of the coordinates in [`FourRobots`], given the mean logarithms of the Jacobians.
     pub fn new(cartesian: MeanAndCov, twist: MeanAndCov, arc: MeanAndCov, log_jacobians: [f64; 2]) -> Self {
         let (cartesian, twist, arc) =
             (Gaussian::new(&cartesian, 2), Gaussian::new(&twist, 2), Gaussian::new(&arc, 1));
@@ -77,13 +76,13 @@ impl FittedGaussians {
     }
 }
 
-/// Weighted sums over a sample of robots, for the standard errors of the likelihood gain and of the area ratio.
+/// Weighted sums over a subsample of the robots, for the standard errors of the likelihood gain and of the area ratio.
 #[derive(Clone, Debug)]
 pub(super) struct LogDensityDifferences {
     gaussians: FittedGaussians,
     weight_sums: f64x4,
-    /// Sums of squared deviations of the log-density difference from the gain, for (x, y, θ) and (x, y). The mean difference is the gain of
-    /// all robots, so that its own sum is not needed.
+    /// Sums of the squared deviations of the log-density difference from the gain: for (x, y, θ), and for (x, y). The mean difference is
+    /// the gain of all robots. It needs no sum over the subsample.
     squared_deviations: [f64x4; 2],
     /// Sums of u, u², h·u and h² for [`LogDensityDifferences::log_area_ratio_error`]. u is the Jacobian divided by its geometric mean,
     /// minus 1. h is half the difference of the squared Mahalanobis distances in (x, y) and in arc coordinates.
@@ -126,7 +125,8 @@ impl LogDensityDifferences {
         self.weight_sums += weights;
     }
 
-    /// Returns the gain of a cloud of `count` poses, of which the added robots are a weighted sample.
+    /// Returns the likelihood gain of a cloud of `count` poses, of which the added robots are a weighted subsample, with its standard
+    /// errors.
     pub fn measured_gain(&self, count: usize) -> MeasuredGain {
         let degrees_of_freedom = self.weight_sums.reduce_add() - 1.0;
         let [pose, floor] = self.squared_deviations.map(|squared_deviations| {
@@ -156,9 +156,11 @@ impl LogDensityDifferences {
 #[derive(Clone, Copy, Debug)]
 struct Gaussian {
     mean: Vector3<f64>,
-    /// Lower triangular L with L·Lᵀ = covariance, except that its diagonal has the reciprocals, or 0 for a direction without extent.
+    /// Lower triangular L with L·Lᵀ = covariance, except that the diagonal has the reciprocals of the entries of L, or 0 for a direction
+    /// without extent.
     cov_root: Matrix3<f64>,
-    /// ½ ln det of the covariance of the first, of the first two and of all three coordinates; −∞ if it is 0 up to rounding.
+    /// Three values of ½ ln det of the covariance: of the first, of the first two and of all three coordinates; −∞ if the determinant is 0
+    /// up to rounding.
     log_volumes: [f64; 3],
 }
 
@@ -180,7 +182,7 @@ impl Gaussian {
         Self { mean: *mean, cov_root, log_volumes }
     }
 
-    /// Returns the squared Mahalanobis distances of four points in the first, in the first two and in all three coordinates.
+    /// Returns the squared Mahalanobis distances of four points: in the first coordinate, in the first two, and in all three.
     #[inline(never)]
     fn squared_distances(&self, points: &[f64x4; 3]) -> [f64x4; 3] {
         let mut centred_points: [f64x4; 3] = std::array::from_fn(|j| points[j] - self.mean[j]);

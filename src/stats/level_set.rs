@@ -1,10 +1,10 @@
-//! Contour lines of a field that is known at the points of a grid (marching squares).
+//! Contour lines (level sets) of a field that is known at the points of a grid, by marching squares.
 
 /// Index that marks a missing edge of the grid.
 const NO_EDGE: usize = usize::MAX;
 
-/// Returns the lines on which a field has the value `level`, by marching squares. Between neighbouring points the field is interpolated
-/// linearly. The mean of the four corners decides how a saddle is connected.
+/// Returns the lines on which a field has the value `level`. Between neighbouring points the field is interpolated linearly. The mean of
+/// the four corners decides how a saddle is connected.
 ///
 /// `field_values` are finite, at the points of a grid, row by row with `columns` in each row. The points of the returned lines are (column,
 /// row), in steps of the grid from its first point. A line ends where it began, or at the border of the grid.
@@ -22,7 +22,7 @@ pub fn trace_level_set(field_values: &[f64], columns: usize, level: f64) -> Vec<
     for grid_row in 1..row_count {
         for grid_column in 1..columns {
             let i = (grid_row - 1) * columns + grid_column - 1;
-            // Values at the corners and indices of the edges of the cell: corner k lies between the edges k − 1 and k.
+            // Field values at the corners of the cell, and indices of its edges. Corner k lies between the edges k − 1 and k.
             let corner_values =
                 [i, i + 1, i + columns + 1, i + columns].map(|point_index| field_values[point_index]);
             let cell_edges = [2 * i, 2 * i + 3, 2 * (i + columns), 2 * i + 1];

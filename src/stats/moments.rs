@@ -41,7 +41,7 @@ js_structs! {
 }
 
 impl ExponentialMoments {
-    /// Returns the moments of ξ = pose ⊟ start of `poses`, which were all driven from the pose `start`. NaN as for
+    /// Returns the moments of ξ = pose ⊟ start of `poses`, which were all driven from the pose `start`. They are NaN as in
     /// [`CartesianMoments::from_poses`].
     ///
     /// The turn of each ξ is within half a turn of the mean heading. A cloud around a half turn therefore stays in one piece. Usually ξ is

@@ -1,10 +1,10 @@
-//! Quadrature rules for expectations over one noise, to the accuracy of doubles.
+//! Quadrature rules for expectations over one random number, as accurate as doubles.
 
 use crate::noise::NoiseKind;
 use std::f64::consts::{PI, TAU};
 use std::sync::OnceLock;
 
-/// Node of a quadrature rule for a noise of variance 1. The weights of a rule sum to 1.
+/// Node of a quadrature rule for the distribution of a noise of variance 1. The weights of a rule sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
     /// Value of the noise at the node, in standard deviations.
@@ -13,10 +13,10 @@ pub struct Node {
     pub weight: f64,
 }
 
-/// Returns a rule with E[f(z)] = Σ weight · f(value) for z of unit variance and the given kind.
+/// Returns a rule with E[f(z)] = Σ weight · f(value) for a noise z of variance 1 and the given kind.
 ///
-/// The rule is correct to rounding if f is a polynomial times trigonometric functions of k·z with k below 16. The third
-/// moment of headings with a standard deviation of five radians needs that frequency.
+/// The rule is correct to rounding if f is a polynomial times trigonometric functions of k·z with k below 16. The third moment of headings
+/// with a standard deviation of five radians needs that frequency.
 pub fn noise_nodes(noise: NoiseKind) -> &'static [Node] {
     // The nodes are cached, because every evaluation needs them.
     static NORMAL: OnceLock<Vec<Node>> = OnceLock::new();
@@ -58,16 +58,16 @@ fn triangular_nodes() -> Vec<Node> {
         .collect()
 }
 
-/// Returns a rule from −`limit` to `limit` for a function that is smooth except at the two `breaks`, of which one is negative and one is
-/// positive. Gauss–Legendre rules are used between the breaks. Moments of normal noise up to six standard deviations have errors of 1e-10.
+/// Returns a rule from −`limit` to `limit` for a function that is smooth except at the two `breaks`, a negative and a positive number.
+/// Gauss–Legendre rules are used between the breaks. Moments of normal noise up to six standard deviations have errors of 1e-10.
 #[inline(never)]
 pub(super) fn piecewise_nodes(noise: NoiseKind, limit: f64, breaks: [f64; 2]) -> Vec<Node> {
-    /// Number of quadrature nodes between two break points. Nodes of two noises are combined, so that the cost grows with the square of
-    /// this number. Fewer nodes would make displayed digits wrong.
+    /// Number of quadrature nodes between two break points. Rules for two noises are combined, so that the time grows with the square of
+    /// this number. With fewer nodes, displayed digits would be wrong.
     const NODES_PER_PIECE: usize = 16;
     let unit_nodes = legendre_nodes(NODES_PER_PIECE);
     let (mut nodes, mut piece_start) = (Vec::with_capacity(4 * NODES_PER_PIECE), -limit);
-    // The triangular density has another break point at 0.
+    // The triangular density has a kink at 0, which needs another break point.
     for piece_end in [breaks[0].max(-limit).min(0.0), 0.0, breaks[1].max(0.0).min(limit), limit] {
         if piece_end > piece_start {
             let half_width = 0.5 * (piece_end - piece_start);

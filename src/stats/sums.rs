@@ -54,7 +54,7 @@ pub fn add_to_block<const N: usize>(block: &mut [f64x2; N], terms: [f64x4; N]) {
     }
 }
 
-/// Sums of two quantities, and of their squares and product: a, b, a², a·b, b².
+/// Sums over pairs of numbers a and b: of a, b, a², a·b and b².
 pub type PairSums = CompensatedSums<5>;
 
 impl PairSums {

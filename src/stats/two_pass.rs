@@ -28,7 +28,7 @@ pub struct FourPoses {
     pub half_heading: f64x4,
     pub half_sin: f64x4,
     pub half_cos: f64x4,
-    /// sin h/h of the half heading h.
+    /// sinc of the half heading h: sin h/h.
     pub sinc: f64x4,
 }
 
@@ -49,19 +49,19 @@ pub type ReferencePoint = [f64; 7];
 /// sinc(ξ_ω/2), with the turn ξ_ω of a twist. The other is |s|·sinc²(φ/2), with the length s and the turn φ of an arc.
 pub type JacobianScale = [f64; 2];
 
-/// First pass: accumulates means, covariances and the mean logarithms of the Jacobians.
+/// First pass: sums for means, covariances and the mean logarithms of the Jacobians.
 #[derive(Clone, Debug)]
 pub struct FirstPass {
     reference_point: ReferencePoint,
     pub jacobian_scale: JacobianScale,
     sums: CompensatedSums<16>,
-    /// Sums of the first two unit noises of each robot.
+    /// Sums of the first two random numbers of variance 1 of each robot.
     pub unit_noise: PairSums,
-    /// Corrections for irregular arcs, which differ from the driven arcs (see `NoisyDrive::end_points`). Each correction adds the values of
-    /// the irregular arc, and subtracts those of the driven arc, because the sums of the unit noise contain the driven arc.
+    /// Corrections for irregular arcs, which differ from the driven arcs (see `NoisyDrive::end_points`). The sums of the noise stand for
+    /// the driven arcs. A correction therefore adds the values of an irregular arc, and subtracts those of its driven arc.
     irregular_arcs: PairSums,
-    /// Products of the scaled factors sinc(ξ_ω/2) and |s|·sinc²(φ/2) over a block, and sums of the logarithms of these products. Logarithms
-    /// of products of a whole block take hardly any time. The factors average above e⁻¹, so that a product is above 1e-111.
+    /// Products of the scaled factors sinc(ξ_ω/2) and |s|·sinc²(φ/2) over a block, and sums of the logarithms of these products. One
+    /// logarithm for a block takes hardly any time. The factors are on average above e⁻¹, so that a product is above 1e-111.
     jacobian_products: [f64x2; 2],
     log_jacobian_sums: [f64; 2],
 }
@@ -79,7 +79,7 @@ impl FirstPass {
         }
     }
 
-    /// Adds the poses in the lanes of `mask` that have all bits set, and the first two unit noises of their robots.
+    /// Adds poses, and the first two random numbers of variance 1 of their robots. Only lanes that are set in `mask` are added.
     #[inline(always)]
     pub fn add(&mut self, poses: &FourPoses, unit_noise: [f64x4; 2], mask: f64x4) {
         self.unit_noise.add(unit_noise, mask);
@@ -107,7 +107,7 @@ impl FirstPass {
             multiply_lanes(arcs.length) * (arc_sincs * arc_sincs) * (arc_scale * arc_scale);
     }
 
-    /// Multiplies the products by the Jacobians of the poses in the lanes of `mask` that have all bits set.
+    /// Multiplies the products by the Jacobians of the poses in the lanes that are set in `mask`.
     #[inline(never)]
     pub fn multiply_masked_jacobians(&mut self, poses: &FourPoses, arcs: &FourArcs, mask: f64x4) {
         let masked_or_one = |values: f64x4| mask.bitselect(values, f64x4::splat(1.0));
@@ -118,7 +118,7 @@ impl FirstPass {
         );
     }
 
-    /// Adds the values of irregular arcs. Subtracts those of the driven `regular_arcs`, which the sums of the unit noise contain.
+    /// Adds the values of irregular arcs. Subtracts the values of the driven arcs (`regular_arcs`), for which the sums of the noise stand.
     #[inline(never)]
     pub fn add_irregular_arcs(&mut self, arcs: &FourArcs, regular_arcs: [f64x4; 2], mask: f64x4) {
         let [.., length, half_turn] = self.reference_point;
@@ -162,7 +162,7 @@ impl FirstPass {
         let [aa, al, ll] = [variance_of_sums(aa, a), cov_of(al, a, l), variance_of_sums(ll, l)];
         let [ah, lh, hh] = [2.0 * cov_of(ah, a, h), 2.0 * cov_of(lh, l, h), 4.0 * variance_of_sums(hh, h)];
         let [ss, st, tt] = [variance_of_sums(ss, s), 2.0 * cov_of(st, s, t), 4.0 * variance_of_sums(tt, t)];
-        // All four lanes are scaled, including lanes without a pose.
+        // The scale applies to all four lanes, including lanes without a pose.
         let scaled_lane_count = count.next_multiple_of(LANE_COUNT) as f64;
         let [mean_log_twist, mean_log_arc] = [0, 1]
             .map(|i| (self.log_jacobian_sums[i] - scaled_lane_count * libm::log(self.jacobian_scale[i])) / n);
@@ -183,8 +183,8 @@ impl FirstPass {
         }
     }
 
-    /// Returns the means as a better reference point if cancellation lost more than two digits of the sums. That happens if the mean of a
-    /// small cloud is many of its standard deviations away from the reference point.
+    /// Returns the means as a better reference point if the sums have lost more than two digits by cancellation. That happens if the mean
+    /// of a small cloud is many of its standard deviations away from the reference point.
     pub fn better_reference_point(&self, count: usize) -> Option<ReferencePoint> {
         let n = count as f64;
         let sums = self.sums.totals();
@@ -202,7 +202,7 @@ pub struct FirstPassMoments {
     position: [f64; 2],
     /// Entries xx, xy and yy of the covariance of the position.
     position_cov: [f64; 3],
-    /// Circular mean of the headings, not wrapped.
+    /// Circular mean of the headings, in the turn of the noise-free heading. It may lie outside of (−π, π].
     mean_turn: f64,
     /// Length of the mean of the unit vectors in the directions of the headings.
     resultant_length: f64,
@@ -212,7 +212,7 @@ pub struct FirstPassMoments {
     log_jacobians: [f64; 2],
 }
 
-/// Second pass: accumulates moments across the track and counts poses inside the contours.
+/// Second pass: sums for moments across the track, and counts of poses inside the contours.
 #[derive(Clone, Debug)]
 pub struct SecondPass {
     first_pass: FirstPassMoments,
@@ -249,12 +249,11 @@ impl SecondPass {
         }
     }
 
-    /// Adds the poses in the lanes of `mask` that have all bits set.
+    /// Adds the poses in the lanes that are set in `mask`.
     #[inline(always)]
     pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
         let ([mean_x, mean_y], (sin, cos)) = (self.first_pass.position, self.heading_sin_cos);
         let (x, y) = (poses.x - mean_x, poses.y - mean_y);
-        // The residuals a, d, s and t are defined at `TrackMoments`.
         let d = (y * cos - x * sin) & mask;
         let a = (x * cos + y * sin) & mask;
         let t = wrap_turns(poses.half_heading * 2.0 - self.first_pass.mean_turn) & mask;
@@ -276,7 +275,8 @@ impl SecondPass {
         self.sums.flush_block();
     }
 
-    /// Returns the statistics of `count` poses. `sample` is a weighted sample of the poses, for the standard errors of the gains.
+    /// Returns the statistics of `count` poses. `sample` is a weighted subsample of the poses, for the standard errors of the likelihood
+    /// gain.
     pub fn stats(
         &self,
         count: usize,

@@ -23,7 +23,7 @@ simulation_class! {
         is_pending as "isPending": "boolean" = simulation.is_pending();
     }
     others {
-        /// True values of the simulated log; null for any other log.
+        /// True parameters of the simulated log; null for any other log.
         truth: "CalibrationTruth | null" = to_plain_js(&simulation.truth());
         /// Result of the calibration, without its legs. All α’s are null if the log has too few legs.
         stats: "CalibrationStats" = calibration_to_js(simulation.calibration());
@@ -64,7 +64,7 @@ impl JsAlphaCalibrator {
         Ok(())
     }
 
-    /// Returns one panel for each of the three noise components of the model: squared residuals against the square of the distance or of
+    /// Returns a diagram for each of the three noise components of the model: squared residuals against the square of the distance or of
     /// the turn.
     #[wasm_bindgen(unchecked_return_type = "CalibrationPanel[]")]
     pub fn panels(
@@ -81,7 +81,7 @@ impl JsAlphaCalibrator {
         Ok(to_plain_js(&self.0.leg(read_integer("index", index, 0..=u64::from(u32::MAX))? as usize)))
     }
 
-    /// Returns the index of the leg whose path by the reference is nearest to a point and within `radius` of it; −1 for none.
+    /// Returns the index of the leg whose path, as measured by the reference, is nearest to a point and within `radius` of it; −1 for none.
     pub fn nearest(&self, x: f64, y: f64, radius: f64) -> Result<i32, JsValue> {
         nearest_index(x, y, radius, |target, radius| self.0.nearest(target, radius))
     }

@@ -30,7 +30,8 @@ impl JsArcAnatomy {
         to_ts(&form_errors())
     }
 
-    /// Heat map over the positions of the rectangle with the bounds xMin, yMin, xMax and yMax (m), for the heading of the final pose; null if no heat map is selected.
+    /// Heat map over the positions of the rectangle with the bounds xMin, yMin, xMax and yMax (m), for the heading of the final pose; null
+    /// if no heat map is selected.
     #[wasm_bindgen(unchecked_return_type = "AnatomySurface | null")]
     pub fn surface(
         &self,
@@ -40,8 +41,8 @@ impl JsArcAnatomy {
         Ok(to_plain_js(&self.0.surface(min, max)))
     }
 
-    /// Returns the poses after a fraction of the time, 0 to 1, as x, y (m) and θ (rad): on the commanded arc, on the arc that v̂ and ω̂
-    /// drive, and on the path of constant twist.
+    /// Returns three poses after a fraction of the time, 0 to 1, as x, y (m) and θ (rad). They are on the commanded arc, on the arc that
+    /// the estimates v̂ and ω̂ drive, and on the path of constant twist.
     #[wasm_bindgen(js_name = underway)]
     pub fn poses_at(&self, share: f64) -> Result<Float64Array, JsValue> {
         let poses = self.0.poses_at(check_range("share", share, &(0.0..=1.0))?);

@@ -24,7 +24,8 @@ cloud_simulation_class! {
     read as "BananaMachineView" {
         stats: "Stats" = to_plain_js(simulation.stats());
         contours: "Contours" = to_plain_js(&simulation.contours());
-        /// Up to two positions inside the 2σ ellipse where no robot stops, as x, y pairs in m; empty if the outlines nearly coincide.
+        /// Up to two positions inside the 2σ ellipse where practically no robot ends, as x, y pairs in m; empty if the outlines nearly
+        /// coincide.
         gaps: "Float64Array" = flat_float_array(&simulation.gaps());
         table: "Table" = to_plain_js(&simulation.table());
         /// True if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise statistics and
@@ -51,13 +52,13 @@ cloud_simulation_class! {
 
 #[wasm_bindgen(js_class = BananaMachine)]
 impl JsBananaMachine {
-    /// Returns `poses` of the first `count` samples, or of all if there are fewer.
+    /// Returns `poses` of the first `count` samples, or of all samples if there are fewer.
     #[wasm_bindgen(js_name = firstPoses)]
     pub fn first_poses(&self, count: usize) -> Float64Array {
         triple_array(self.0.poses().take(count))
     }
 
-    /// Returns `twists` of the first `count` samples, or of all if there are fewer.
+    /// Returns `twists` of the first `count` samples, or of all samples if there are fewer.
     #[wasm_bindgen(js_name = firstTwists)]
     pub fn first_twists(&self, count: usize) -> Float64Array {
         triple_array(self.0.twists().take(count))
@@ -84,8 +85,8 @@ impl JsBananaMachine {
         Ok(to_ts(&sample))
     }
 
-    /// Returns the index of the nearest sample inside the ellipse with these semi-axes around a point of the picture; −1 for none. `morph` is
-    /// the stage of the picture, from 0 (the plane) to 1 (exponential coordinates).
+    /// Returns the index of the nearest sample inside the ellipse with these semi-axes around a point of the picture; −1 for none. `morph`
+    /// is the stage of the picture, from 0 (the plane) to 1 (exponential coordinates).
     pub fn nearest(
         &self,
         morph: f64,
@@ -115,8 +116,8 @@ impl JsBananaMachine {
         Ok(Uint32Array::from(&self.0.density(check_range("morph", morph, &MORPH_RANGE)?, &grid)[..]))
     }
 
-    /// Returns the `density` of the samples as RGBA pixels. A count c has the colour ramp[255·√(c/max)], one of 256, where max is the largest
-    /// count. Empty cells are transparent. The result is a view of the core's memory, valid until the next call of the simulation.
+    /// Returns the `density` of the samples as RGBA pixels. A count c has the colour ramp[255·√(c/max)], one of 256, where max is the
+    /// largest count. Empty cells are transparent. The result is a view of the core's memory, valid until the next call of the simulation.
     #[wasm_bindgen(unchecked_return_type = "Uint8ClampedArray<ArrayBuffer>")]
     pub fn picture(
         &mut self,
@@ -136,7 +137,8 @@ impl JsBananaMachine {
 const TURN_RANGE: RangeInclusive<f64> = -1e12..=1e12;
 
 /// Returns a polyline at a stage of the transition from positions (0) to exponential coordinates (1), as x, y pairs in m. Each of `points`
-/// is a position (x, y), and counts as the end of the arc whose turn is nearest to `turn` (rad). Empty for a polyline around the start.
+/// is a position (x, y), and counts as the end of the arc whose turn is nearest to `turn` (rad). The result is empty for a polyline around
+/// the start.
 #[wasm_bindgen(js_name = unbendLine)]
 pub fn js_unbend_line(points: &[f64], turn: f64, morph: f64) -> Result<Float64Array, JsValue> {
     let (turn, morph) = (check_range("turn", turn, &TURN_RANGE)?, check_range("morph", morph, &MORPH_RANGE)?);

@@ -73,7 +73,7 @@ pub struct CalibrationStats<'a> {
     persistence: Persistence,
     /// Parts of the log that give no legs, by cause.
     lost: LostLegs,
-    /// Restricted log-likelihood of the residuals, nats.
+    /// Restricted log-likelihood of the residuals (REML), nats.
     log_likelihood: f64,
     diagnostics: &'a Diagnostics,
     /// Recommended α's for a filter: the fitted α's multiplied by the inflation under which held-out windows of 1 m are covered. Null if
@@ -124,7 +124,7 @@ fn systematic_errors(calibration: &Calibration) -> SystematicErrors {
 }
 
 js_structs! {
-    /// Columns of numbers of the legs, with one or several numbers a leg, leg after leg.
+    /// Legs of a calibration as columns of numbers. A column has one or several numbers for each leg, leg after leg.
     #[derive(Default)]
     pub struct CalibrationLegs {
         pub count: usize,

@@ -162,7 +162,7 @@ pub fn read_initial_settings<S: SettingRules>(options: &JsValue) -> Result<S, Js
     if options.is_undefined() { Ok(S::default()) } else { read_settings(&S::default(), options) }
 }
 
-/// Returns the current settings, changed to the values in `options`. The simulation checks ranges of doubles later.
+/// Returns the current settings, changed to the values in `options`. The simulation checks the ranges of doubles later.
 pub fn read_settings<S: SettingRules>(current_settings: &S, options: &JsValue) -> Result<S, JsValue> {
     let fields = FieldReader::new("options", "", options, S::KEYS)?;
     let (mut settings, mut given_keys) = (*current_settings, Vec::new());
@@ -235,7 +235,6 @@ pub fn type_error(field: &str, value: &JsValue, allowed: &str) -> JsValue {
 /// Maximum number of quoted characters. It suffices to recognize a text, and is longer than any key or keyword.
 const MAX_QUOTED_CHARACTERS: usize = 40;
 
-/// Shortens a text for quotation in an error message.
 fn shorten(text: &str) -> String {
     let mut characters = text
         .chars()

@@ -1,6 +1,7 @@
 //! JavaScript interface of the crate: reads arguments, calls the simulation and returns copies.
 
-// A page with one widget loads a module that has only that widget. The module is compiled with the widget's tag as the cfg `widget`.
+// A page with one widget loads a module that has only this widget. The module is compiled with the widget's tag as the value of the cfg
+// `widget`.
 #![cfg_attr(widget, allow(dead_code, reason = "used by the other widgets"))]
 
 #[cfg(any(not(widget), widget = "alpha-calibrator"))]

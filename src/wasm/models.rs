@@ -191,7 +191,7 @@ pub fn propagate(options: &JsPropagation) -> Result<Array, JsValue> {
     let twist = TangentNoiseModel::twist(&command);
     for step in 0..steps {
         sigma = noise_model.propagate(&sigma, &twist, recursion);
-        // The first-order and chapter recursions add covariances. Only the fourth order can give an indefinite matrix.
+        // The first-order and chapter recursions only add covariances. Only the fourth order can give an indefinite matrix.
         if recursion == Compounding::FourthOrder && covariance_root(&sigma).is_err() {
             let message = format!(
                 "steps is {steps}; allowed are at most {step} here: the next leaves no covariance, for the noise is too large"

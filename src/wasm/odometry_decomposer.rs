@@ -34,8 +34,9 @@ cloud_simulation_class! {
 
 #[wasm_bindgen(js_class = OdometryDecomposer)]
 impl JsOdometryDecomposer {
-    /// Returns standard deviations for `count` lengths of the drive from 0 to `longest` (m). A point has the length, the standard deviation
-    /// across the bearing, the part of it due to the first rotation, and the standard deviation of the length, all in m.
+    /// Returns standard deviations for `count` lengths of the drive from 0 to `longest` (m). A point of the curve has four numbers in m.
+    /// They are the length of the drive, the standard deviation of the end position across the bearing, its part due to the first rotation,
+    /// and the standard deviation of the length.
     pub fn curve(&self, longest: f64, count: f64) -> Result<Float64Array, JsValue> {
         let max_length = check_range("longest", longest, &(0.0..=*QUANTITY_RANGE.end()))?;
         let count = read_integer("count", count, 1..=MAX_CURVE_POINTS)? as usize;

@@ -1,4 +1,4 @@
-//! Density pictures for JavaScript: readers of arguments, and Uint8ClampedArray views of pixels in the core's memory.
+//! Pictures of densities for JavaScript: readers of their arguments, and Uint8ClampedArray views of their pixels in the core's memory.
 
 use super::fields::{check_range, read_array, read_integer};
 use crate::sim::picture::{RAMP_STEP_COUNT, Ramp};

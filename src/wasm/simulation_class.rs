@@ -1,6 +1,5 @@
-//! JavaScript classes of simulations, with the members that several simulations have.
+//! JavaScript classes of simulations, whose members several simulations have.
 
-// The core of a single widget uses only some of these macros.
 #![allow(unused_macros, unused_imports)]
 
 /// Declares the JavaScript class of a simulation, with its constructor, `configure`, `config`, `read` and getters. `$options` is the

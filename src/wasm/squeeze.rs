@@ -137,9 +137,10 @@ impl JsMapSqueeze {
     }
 
     /// Returns the density of the ends of the attempts shown, as RGBA pixels of a grid, row by row from the top. `bounds` are xMin, yMin,
-    /// xMax and yMax of the grid. `ramps` are three ramps of 256 colours: for rejected attempts, accepted attempts, and attempts accepted through a wall. The most frequent kind in a cell
-    /// selects the ramp. A count c of attempts in the cell has the colour ramp[255·√(c/max)], where max is the largest count of all cells.
-    /// Empty cells are transparent. The result is a view of the core's memory, valid until the next call of the simulation.
+    /// xMax and yMax of the grid. `ramps` are three ramps of 256 colours: for rejected attempts, accepted attempts, and attempts accepted
+    /// through a wall. The most frequent kind in a cell selects the ramp. A count c of attempts in the cell has the colour
+    /// ramp[255·√(c/max)], where max is the largest count of all cells. Empty cells are transparent. The result is a view of the core's
+    /// memory, valid until the next call of the simulation.
     #[wasm_bindgen(unchecked_return_type = "Uint8ClampedArray<ArrayBuffer>")]
     pub fn picture(
         &mut self,
@@ -163,7 +164,7 @@ fn path_of(simulation: &MapSqueeze, index: usize) -> Float64Array {
     flat_float_array(&simulation.arcs(index).iter().flat_map(Arc::points).collect::<Vec<_>>())
 }
 
-/// Maximum number of paths shown: more would be indistinguishable, and take longer than a frame.
+/// Maximum number of paths shown. More paths would be indistinguishable, and take longer than a frame.
 const MAX_SHOWN_PATHS: usize = 60;
 
 /// Decodes a PNG image to red, green, blue and opacity of its pixels, for cores of single widgets, which have no decoder.

@@ -14,7 +14,7 @@ use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::f64::consts::TAU;
 
-/// True values of the simulated log.
+/// True parameters of the simulated log, which a calibration should find.
 pub const TRUTH: Truth = Truth {
     alphas: [0.05, 0.008, 0.004, 0.003],
     clock_offset: 0.15,
@@ -29,7 +29,8 @@ const LEG_DISTANCE: f64 = 0.25;
 /// Turn of the legs to which the true α's apply, rad: the default of `update_min_a` in Nav2's AMCL.
 const LEG_ANGLE: f64 = 0.2;
 
-/// Jumps of the reference: size (m), duration in rows, and probability that a jump begins at a row. One leg in 70 becomes an outlier.
+/// Jumps of the reference: size (m), duration in rows, and probability that a jump begins at a row. With these values one leg in 70 is an
+/// outlier.
 const JUMP_SIZE: f64 = 0.5;
 const ROWS_PER_JUMP: usize = 25;
 const JUMP_PROBABILITY: f64 = 4e-4;
@@ -38,7 +39,6 @@ const JUMP_PROBABILITY: f64 = 4e-4;
 const ROW_INTERVAL: f64 = 0.02;
 const ROW_COUNT: usize = 9000;
 
-/// Maximum speed, m/s, and maximum turn rate, rad/s, of the robot.
 const MAX_SPEED: f64 = 0.6;
 const MAX_TURN_RATE: f64 = 0.8;
 
@@ -152,8 +152,8 @@ pub fn simulate_log(seed: u64) -> Drive {
     }
 }
 
-/// Appends the true poses of a finished leg, and returns its true end. Each row adds an independent part of the noise. If the
-/// noise of a leg were spread evenly over its rows, legs with other boundaries would have too little noise.
+/// Appends the true poses of a finished leg, and returns its true end pose. Each row adds an independent part of the noise. If the noise of
+/// a leg were spread evenly over its rows, legs with other boundaries would have too little noise.
 fn finish_leg(leg: &CurrentLeg, true_poses: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus) -> SE2 {
     let [a1, a2, a3, a4] = TRUTH.alphas;
     let row_motions = &leg.motions[1..];
@@ -171,7 +171,7 @@ fn finish_leg(leg: &CurrentLeg, true_poses: &mut Vec<(f64, SE2)>, rng: &mut Xosh
     leg.true_start * leg_end
 }
 
-/// Returns the measurements of the true trajectory by the reference.
+/// Returns the poses that the reference measures along the true trajectory.
 fn simulate_reference(true_poses: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -> Vec<(f64, SE2)> {
     let mut jump_offset = SE2::identity();
     let mut remaining_rows = 0;

@@ -15,14 +15,14 @@ use crate::models::{OdomDelta, OdometryRule, RuleAlphas, VelocityAlphas, Velocit
 use crate::stats::{CartesianMoments, Ellipse};
 use std::cell::OnceCell;
 
-/// Number of end poses that are predicted for a leg.
+/// Number of end poses that are drawn from the model for a leg.
 const OUTCOME_COUNT: usize = 400;
 
 /// Number of chords of the outline of the predicted end poses of a leg.
 const OUTLINE_SEGMENTS: usize = 64;
 
 js_structs! {
-    /// True values of the simulated log.
+    /// True parameters of the simulated log, which a calibration should find.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Truth as "CalibrationTruth" {
         /// Noise parameters of the rule of Table 5.6, on legs of 0.25 m or 0.2 rad.
@@ -39,7 +39,7 @@ js_structs! {
         pub turn_scale: f64,
     }
 
-    /// One leg in the frame of the robot at the leg's start, m and rad.
+    /// One leg of a log in the frame of the robot at the leg's start, m and rad.
     #[derive(Clone, Debug, PartialEq)]
     pub struct LegView {
         /// End poses x, y, θ drawn from the model, with the fitted α’s multiplied by the inflation.
@@ -59,7 +59,7 @@ pub struct AlphaCalibrator {
     settings: Settings,
     log_source: LogSource,
     fit: Fit,
-    /// Revision of the fit, which increases when the log changes, or a setting on which the fit depends.
+    /// Revision of the fit: a number that increases when the log changes, or a setting on which the fit depends.
     fit_revision: u32,
 }
 
@@ -69,7 +69,7 @@ enum LogSource {
     Simulated,
     /// Logs that the user has loaded, one for each drive.
     Loaded(Vec<Drive>),
-    /// Unknown log: the fit comes from another simulation.
+    /// Log that is not known, because the fit comes from another simulation.
     Restored,
 }
 
@@ -167,7 +167,7 @@ impl AlphaCalibrator {
         })
     }
 
-    /// Returns the true values, if the log is simulated. Its α's hold for the simulated leg length and odometry rule.
+    /// Returns the true parameters, if the log is simulated. Its α's hold for the simulated leg length and odometry rule.
     pub fn truth(&self) -> Option<Truth> {
         matches!(self.log_source, LogSource::Simulated).then_some(example::TRUTH)
     }
@@ -177,7 +177,7 @@ impl AlphaCalibrator {
         &self.calibration().legs
     }
 
-    /// Returns one panel of squared residuals against the regressor for each noise component.
+    /// Returns a diagram for each noise component of the model: squared residuals against the regressor.
     pub fn panels(&self, regressor: Regressor) -> [Panel; 3] {
         let model = self.fit.settings.model();
         [0, 1, 2].map(|component| create_panel(model, self.calibration(), component, regressor))
@@ -227,7 +227,7 @@ impl AlphaCalibrator {
         end_pose
     }
 
-    /// Returns the leg whose path is nearest to a point (m), within `radius`.
+    /// Returns the index of the leg whose path is nearest to a point (m), within `radius`.
     pub fn nearest(&self, point: [f64; 2], radius: f64) -> Option<usize> {
         let corrected_errors = &self.calibration().corrected;
         let distance_to_path_of = |leg: &Leg| {
@@ -253,15 +253,15 @@ pub enum Regressor {
 
 keywords!(Regressor: "distance" = Self::Distance, "turn" = Self::Turn);
 
-/// Maximum number of bins of a panel, which have about equal numbers of legs. Legs with equal motions are in one bin.
+/// Maximum number of bins of a panel (diagram). Bins have about equal numbers of legs. Legs with equal motions are in one bin.
 pub const BIN_COUNT: usize = 8;
 
 /// Minimum number of legs in a bin. With fewer legs the standard error of their mean is meaningless.
 const MIN_LEGS_PER_BIN: usize = 5;
 
 js_structs! {
-    /// Squared innovations of one noise component against a regressor x. The variances due to the component's other α and to the reference
-    /// are subtracted, so that the expectation is α·x.
+    /// Diagram of the squared innovations of one noise component against a regressor x. The variances due to the component's other α and to
+    /// the reference are subtracted, so that the expectation is α·x.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Panel as "CalibrationPanel" {
         /// Index (from 0) of the α that is the slope of the line.
@@ -270,8 +270,8 @@ js_structs! {
         pub x: Vec<f64>,
         /// Mean squared innovation in each bin, less the variances due to the component's other α and to the reference.
         pub y: Vec<f64>,
-        /// Standard errors of `y`: from the scatter of the squares, or from the model, whichever is larger. In a bin with
-        /// one dominating leg the scatter is too small.
+        /// Standard errors of `y`: from the scatter of the squared innovations, or from the model, whichever is larger. In a bin that one
+        /// leg dominates the scatter is too small.
         pub error: Vec<f64>,
         /// Fitted α, which is the slope of the line; null (None) if the log does not identify the α.
         pub slope: Option<f64>,
@@ -306,8 +306,8 @@ fn create_panel(
         .iter()
         .zip(leg_fits)
         .filter(|(observation, fit)| !observation.residuals[component].is_nan() && !fit.is_outlier)
-        // Legs with sideways motion are omitted, because their odometry readings have large rotations that the robot did not make. A
-        // diagnostic check counts these legs.
+        // Legs with sideways motion are omitted, because their odometry readings have large rotations that the robot did not make. A check
+        // of the diagnostics counts these legs.
         .filter(|(observation, _)| !observation.moves_sideways(model))
         .map(|(observation, fit)| {
             let coefficient = observation.coefficients[component][position_in_component];

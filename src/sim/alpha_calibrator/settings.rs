@@ -26,7 +26,7 @@ keywords!(
 keywords!(Outliers: "reject" = Self::Reject, "keep" = Self::Keep);
 
 settings! {
-    /// Settings of the user.
+    /// Settings of the Alpha Calibrator.
     pub struct Settings {
         /// Model whose α’s are calibrated: four of odometry, five of a robot that can drive sideways, or six of commands.
         model: Model = Model::Odometry;
@@ -58,7 +58,7 @@ settings! {
         yaw_std as "yawStd": f64 = 0.0, "rad", in 0.0..=1e3;
         /// Factor by which the fitted α’s are multiplied in predictions.
         inflation: f64 = 1.0, in 0.01..=100.0;
-        // With the default seed all intervals contain the true values.
+        // With the default seed, all confidence intervals contain the true values.
         /// Seed of the simulated log, and of the predicted outcomes.
         seed: u64 = 8, in 0..=MAX_SEED;
     }
@@ -71,7 +71,7 @@ impl Settings {
         *self = Self { inflation, noise, seed, ..*self };
     }
 
-    /// Returns true if `other` settings give the same fit, because they differ only in the predicted outcomes.
+    /// Returns true if `other` settings give the same fit, because they differ at most in settings of the predicted outcomes.
     pub(super) fn has_same_fit(&self, other: &Self) -> bool {
         let mut with_other_prediction = *self;
         with_other_prediction.copy_prediction_settings(other);
@@ -115,8 +115,8 @@ impl Settings {
 }
 
 impl SettingRules for Settings {
-    /// Keeps model and odometry rule consistent: changes the rule if the chosen model does not have it, or the model if the chosen rule
-    /// belongs to another model.
+    /// Keeps model and odometry rule consistent: if the chosen model does not have the rule, it changes the rule; if the chosen rule
+    /// belongs to another model, it changes the model.
     fn adjust(&mut self, _: &Self, changed_keys: &[&str]) {
         let does_model_fit_rule = self.is_omnidirectional() == (self.rule == OdometryRule::Omni);
         match [changed_keys.contains(&"model"), changed_keys.contains(&"rule")] {

@@ -40,7 +40,7 @@ impl Settings {
         }
     }
 
-    /// Returns the selected model with its input: the command, or the noise-free odometry reading of the command.
+    /// Returns the selected model with its input: the command, or the odometry reading of noise-free wheels for the command.
     fn model_with_input(&self, command: VelocityCmd) -> ModelWithInput {
         match self.model {
             ModelKind::Velocity => {
@@ -88,9 +88,10 @@ impl ModelWithInput {
     }
 }
 
-/// Returns the command whose end is drawn at the point (x, y) of the picture, with the duration of `near_command`. `morph` is the stage of
-/// the transition from the plane (0) to exponential coordinates (1). In the plane many arcs lead to a point. The arc with the turn nearest
-/// to the turn of `near_command` is taken. At other stages the search starts at `near_command`, which is returned if there is no solution.
+/// Returns the command whose end pose is drawn at the point (x, y) of the picture, with the duration of `near_command`. `morph` is the
+/// stage of the transition from the plane (0) to exponential coordinates (1). In the plane many arcs lead to a point. The arc with the turn
+/// nearest to the turn of `near_command` is taken. At other stages the search starts at `near_command`, which is returned if there is no
+/// solution.
 pub fn command_drawn_at([x, y]: [f64; 2], near_command: &VelocityCmd, morph: f64) -> VelocityCmd {
     let VelocityCmd { v, omega, dt } = *near_command;
     let found_arc = if morph == 0.0 {
@@ -161,8 +162,8 @@ impl BananaMachine {
         self.stats = Stats::of_cloud(count, &cloud_stats, self.defined_coordinates());
     }
 
-    /// Returns the number of samples that can be added within a few milliseconds. Adding a block sums all samples again. Therefore a block
-    /// is as large as the cloud shown, and at least four times as large as the first block.
+    /// Returns the number of samples that can be added within a few milliseconds. Adding a block needs new sums over all samples. Therefore
+    /// a block is as large as the cloud shown, and at least four times as large as the first block.
     pub fn block_size(&self) -> usize {
         self.shown_count().max(4 * FIRST_BLOCK_SAMPLES)
     }
@@ -193,8 +194,8 @@ impl BananaMachine {
         &self.stats
     }
 
-    /// Returns true if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise their statistics
-    /// and contours are undefined.
+    /// Returns true if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise statistics and
+    /// contours in these coordinates are undefined.
     pub fn is_exponential_defined(&self) -> bool {
         self.defined_coordinates().pose
     }
@@ -222,7 +223,8 @@ impl BananaMachine {
         }
     }
 
-    /// Returns the mean and covariance that an EKF predicts by linearization: the noise-free end, and J·Σ·Jᵀ.
+    /// Returns the mean and covariance that an EKF predicts by linearization: the noise-free end pose, and J·Σ·Jᵀ with the Jacobian J of
+    /// the motion and the covariance Σ of its noise.
     pub fn linearized_moments(&self) -> CartesianMoments {
         let end_pose = command_end(&self.settings.command);
         CartesianMoments {
@@ -236,7 +238,7 @@ impl BananaMachine {
         ExactMoments::new(&self.settings.polar_motion(&self.settings.command))
     }
 
-    /// Returns the exact likelihood gain and the exact moments of the exponential coordinates, by quadrature.
+    /// Returns the exact likelihood gain of exponential coordinates, and their exact moments, by quadrature.
     pub fn exact_gain(&self) -> ExactGain {
         ExactGain::new(&self.settings.polar_motion(&self.settings.command))
     }
@@ -247,7 +249,7 @@ impl BananaMachine {
         let Stats { cartesian, cross_track_skew, likelihood_gain, area_ratio, .. } = self.stats;
         Table {
             // A Gaussian in (x, y) has no skew. To first order in the noise, its Gaussian is the same in all coordinate systems, so that
-            // the gain is 0.
+            // the likelihood gain is 0.
             linearized: TableColumn {
                 mean: linearized.mean,
                 cov: linearized.cov,

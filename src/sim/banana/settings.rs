@@ -17,7 +17,7 @@ keywords!(ModelKind: "velocity" = Self::Velocity, "odometry" = Self::Odometry);
 
 keywords!(NoiseKind: "normal" = Self::Normal, "triangular" = Self::Triangular);
 
-/// Maximum number of samples, which take 400 MB. A browser allows a page 4 GB.
+/// Maximum number of samples. They take 400 MB of the 4 GB that a browser allows a page.
 pub const MAX_SAMPLES: usize = 10_000_000;
 
 /// Initial number of samples. A device four times slower than a laptop computes and draws them within a frame. The standard
@@ -28,14 +28,14 @@ const INITIAL_SAMPLES: usize = 50_000;
 const INITIAL_SEED: u64 = 87;
 
 settings! {
-    /// Settings of the user.
+    /// Settings of the Banana Machine.
     pub struct Settings {
         /// Motion model; each model keeps its own alphas.
         model: ModelKind = ModelKind::Velocity;
         /// Distribution of the noise. Its choice does not change the variances.
         noise: NoiseKind = NoiseKind::Normal;
-        // A straight drive with much noise in the turn and little in the length: the clearest banana shape. By symmetry its cloud has no
-        // skew, although no ellipse fits it.
+        // By default a straight drive has much noise in the turn and little in the length, which gives the clearest banana shape. By
+        // symmetry its cloud has no skew, although no ellipse fits it.
         /// Command of all robots.
         command: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
         /// Noise parameters of the present model: six of the velocity model, four of the odometry model.
@@ -78,7 +78,7 @@ impl Settings {
         self.alphas().len() as u64
     }
 
-    /// Returns the α's in effect: all α's, or the isolated α with all others 0.
+    /// Returns the α's with which the simulation draws: all α's, or the isolated α and 0 for all others.
     pub(super) fn effective_alphas<const N: usize>(&self, alphas: [f64; N]) -> [f64; N] {
         std::array::from_fn(|i| {
             if self.isolate.is_none_or(|isolated_number| isolated_number == i + 1) { alphas[i] } else { 0.0 }
@@ -87,7 +87,7 @@ impl Settings {
 }
 
 impl SettingRules for Settings {
-    /// The four commands of the chapter, the command with the clearest banana shape, and the chapter's example to check by hand.
+    /// Presets: the four commands of the chapter, the command with the clearest banana shape, and the chapter's example to check by hand.
     const PRESETS: &'static [(&'static str, Self)] = &[
         ("straight", preset([1.0, 0.0, 2.0], PRESET_ALPHAS)),
         ("gentle", preset([1.0, 0.5, 1.0], PRESET_ALPHAS)),
@@ -98,14 +98,14 @@ impl SettingRules for Settings {
     ];
 
     fn adjust(&mut self, previous: &Self, changed_keys: &[&str]) {
-        // A new model deselects the isolated α, because the α with the same number has another meaning in the other model.
+        // A change of the model deselects the isolated α, because the α with the same number has another meaning in the other model.
         if self.model != previous.model && !changed_keys.contains(&"isolate") {
             self.isolate = None;
         }
     }
 }
 
-/// Noise parameters of the presets whose commands differ from the default.
+/// Noise parameters of the presets whose commands differ from the default command.
 const PRESET_ALPHAS: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 
 const fn preset([v, omega, dt]: [f64; 3], velocity_alphas: [f64; 6]) -> Settings {

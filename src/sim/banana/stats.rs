@@ -45,7 +45,7 @@ js_structs! {
         pub area_ratio_error: f64,
     }
 
-    /// Fractions of the samples, from 0 to 1, inside the 2σ outlines.
+    /// Coverage: fractions of the samples, from 0 to 1, inside the 2σ outlines.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Coverage {
         /// Fraction inside the ellipse in (x, y).
@@ -105,7 +105,7 @@ impl Stats {
 }
 
 js_structs! {
-    /// Moments of the pose, in m and rad, and measures of how far its distribution is from a Gaussian.
+    /// Moments of the pose, in m and rad, and measures of how far the distribution of the pose is from a Gaussian.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TableColumn {
         /// Mean pose, m, m, rad.
@@ -175,16 +175,18 @@ js_structs! {
 /// Ratio of the areas of the ellipse and the banana outline below which gaps are not searched, because both outlines nearly coincide.
 const MIN_AREA_RATIO: f64 = 1.15;
 
-/// Minimum Mahalanobis distance, in exponential coordinates, from the mean to a gap (a point where no robot ends). One robot in 900 ends
-/// farther away.
+/// Minimum Mahalanobis distance, in exponential coordinates, from the mean to a gap (a point inside the 2σ ellipse where practically no
+/// robot ends). One robot in 900 ends farther away than this distance.
 const MIN_GAP_DISTANCE: f64 = 3.7;
 
-/// Distance of a gap from the centre, as a fraction of the radius of the 2σ ellipse in this direction. Such a gap is clearly inside.
+/// Distance of a gap from the centre of the 2σ ellipse, as a fraction of the radius of the ellipse in this direction. A point at this
+/// distance is clearly inside the ellipse.
 const GAP_FRACTION: f64 = 0.95;
 
 impl BananaMachine {
-    /// Returns up to two gaps: points (x, y) in m inside the 2σ ellipse where no robot ends, one before and one beyond the mean. On its
-    /// side of the mean, each gap has the largest Mahalanobis distance in exponential coordinates.
+    /// Returns up to two gaps: points (x, y) in m that lie inside the 2σ ellipse of (x, y), but where practically no robot ends. One gap is
+    /// behind the mean in the direction of travel, and one is beyond it. Each is the candidate on its side with the largest Mahalanobis
+    /// distance in exponential coordinates.
     pub fn gaps(&self) -> Vec<[f64; 2]> {
         let Self { stats, .. } = self;
         if stats.area_ratio.is_nan() || stats.area_ratio < MIN_AREA_RATIO {

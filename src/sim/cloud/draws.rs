@@ -1,4 +1,4 @@
-//! Common random numbers: the unit noise of every sample, drawn once for a seed.
+//! Common random numbers: noise of variance 1 for every sample, drawn once for a seed.
 
 use crate::geom::lanes::{LANE_COUNT, first_lanes_mask, is_any_lane_set};
 use crate::noise::{NoiseKind, draw_four_uniform_triples};
@@ -7,8 +7,9 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use std::collections::TryReserveError;
 use wide::f64x4;
 
-/// Thresholds of the squared distance above which a group of four robots counts as far or farthest; other groups are near. The squared
-/// distance of a robot is the sum of its squared unit noises. The squared distance of a group is the largest of its four robots.
+/// Thresholds of the squared distance of a group of four robots: above the first the group counts as far, above the second as farthest,
+/// otherwise as near. The squared distance of a robot is the sum of the squares of its three random numbers of variance 1. That of a group
+/// is the largest of its four robots.
 ///
 /// Standard errors are expensive, and therefore computed from a weighted subsample of the groups. A few distant robots may contribute most
 /// of a variance, so that distant groups are sampled more densely. With Gaussian noise 1.8 % of the groups are far and 0.07 % farthest.
@@ -16,7 +17,7 @@ use wide::f64x4;
 const FAR_SQUARED_DISTANCE: f64 = 13.0;
 const FARTHEST_SQUARED_DISTANCE: f64 = 20.0;
 
-/// Number of leading groups of the cloud from which the subsample takes the near, the far and the farthest groups. They are the first 2048
+/// Numbers of groups at the start of the cloud from which the subsample takes near, far and farthest groups. They are the first 2048
 /// robots, the first 65 536, and all. With fewer groups the first digit of standard errors would be wrong; more groups would take time.
 const SUBSAMPLE_GROUP_LIMITS: [usize; 3] = [512, 16_384, usize::MAX];
 
@@ -39,7 +40,8 @@ pub struct Draws {
     noise: NoiseKind,
     /// Generator with the same stream on every target, which `SmallRng` does not guarantee.
     rng: Xoshiro256PlusPlus,
-    /// Unit noise of the samples in groups of four. The last group may contain noise of samples beyond those requested.
+    /// Three random numbers of variance 1 for each sample, in groups of four samples. The last group may contain numbers of samples beyond
+    /// those requested.
     pub unit_noise: Vec<[f64x4; 3]>,
 }
 
@@ -60,7 +62,7 @@ impl Draws {
         }
     }
 
-    /// Draws the unit noise of further samples until there are `count`, for which memory must be reserved.
+    /// Draws random numbers of further samples until there are `count` samples. Memory must have been reserved.
     pub fn extend_to(&mut self, count: usize) {
         let Self { noise, rng, unit_noise, .. } = self;
         let (first_group, end_group) = (unit_noise.len(), count.div_ceil(LANE_COUNT));
@@ -70,8 +72,9 @@ impl Draws {
         noise.replace_by_quantiles(unit_noise.get_mut(first_group..).unwrap_or_default().as_flattened_mut());
     }
 
-    /// Returns the weighted subsample of the first `sample_count` robots, in groups of four: unit noise, and the number of robots
-    /// that each robot represents. Lanes beyond `sample_count` have the weight 0. A cloud of up to 2048 robots is sampled completely.
+    /// Returns a weighted subsample of the first `sample_count` robots of the cloud, in groups of four: the random numbers of variance 1 of
+    /// each robot, and its weight. The weight is the number of robots that the robot represents, and 0 for places of a group beyond
+    /// `sample_count`. All robots of a cloud of up to 2048 are in the subsample.
     pub fn weighted_subsample(&self, sample_count: usize) -> impl Iterator<Item = (&[f64x4; 3], f64x4)> {
         let group_count = sample_count.div_ceil(LANE_COUNT);
         self.unit_noise[..group_count].iter().enumerate().filter_map(move |(group, noise)| {

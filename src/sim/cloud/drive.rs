@@ -6,25 +6,23 @@ use crate::stats::two_pass::{FourArcs, FourPoses, JacobianScale, ReferencePoint}
 use std::f64::consts::FRAC_PI_2;
 use wide::f64x4;
 
-/// Affine function of a unit noise: mean + deviation · noise.
+/// Affine function of a noise of variance 1: mean + deviation · noise.
 type AffineInNoise = [f64; 2];
 
-/// Motion of all robots under given settings, as a function of three unit noises in the order of the model's draws. Lengths, bearings and
-/// headings of a [`PolarMotion`] are affine functions of the noises.
+/// Motion of all robots under given settings, as a function of three noises of variance 1, in the order in which the model draws them.
+/// Lengths, bearings and headings of a [`PolarMotion`] are affine functions of the noises.
 #[derive(Clone, Copy, Debug)]
 pub struct NoisyDrive {
-    /// True if `length` is an arc length; false if it is a chord length.
     is_arc: bool,
-    /// Length of the motion, m.
     length: AffineInNoise,
     /// Bearing of the end of the motion, seen from the origin, rad.
     bearing: AffineInNoise,
-    /// Coefficients of the half heading (half the heading angle): `bearing_weight` · bearing + `half_heading_offset` (rad).
+    /// Coefficients of half the heading angle: `bearing_weight` · bearing + `half_heading_offset` (rad).
     bearing_weight: f64,
     half_heading_offset: AffineInNoise,
     /// Half of the commanded turn (rad), which selects the branches of the logarithm and of the arc to a position.
     half_commanded_turn: f64,
-    /// Middle and half the width (rad) of the interval of half turns for which formulas for angles up to π/2 suffice.
+    /// Middle and half the width (rad) of the interval of half turns for which the formulas for angles up to π/2 suffice.
     short_formula_interval: [f64; 2],
     trigonometry: Trigonometry,
 }
@@ -40,7 +38,6 @@ pub struct FourMotions {
 impl NoisyDrive {
     pub fn new(motion: &PolarMotion) -> Self {
         let PolarMotion { is_arc, length, bearing, last_turn, .. } = *motion;
-        // Table 5.6 subtracts the noise of odometry.
         let noise_sign = if is_arc { 1.0 } else { -1.0 };
         let half_commanded_turn = 0.5 * motion.commanded_turn;
         Self {
@@ -73,8 +70,9 @@ impl NoisyDrive {
         }
     }
 
-    /// Returns the ends (x, y) of four motions, the arcs from the origin to these ends, and true if the arcs are regular. A regular arc is
-    /// the arc that the robot drove. Its length and half turn differ from the noise-free ones by [`NoisyDrive::regular_arc_deviations`].
+    /// Returns the end points (x, y) of four motions, the arcs from the origin to these points, and a mask that is set for regular arcs. A
+    /// regular arc is the arc that the robot drove. Its length and half turn differ from the noise-free ones by
+    /// [`NoisyDrive::regular_arc_deviations`].
     #[inline(always)]
     pub fn end_points(&self, motions: &FourMotions) -> ([f64x4; 2], FourArcs, bool) {
         let FourMotions { length, bearing, .. } = *motions;
@@ -132,7 +130,7 @@ impl NoisyDrive {
         with_logarithms(*end_points, turn)
     }
 
-    /// Returns the ends of four motions at a stage of the transition from positions to exponential coordinates: see
+    /// Returns the points of four end poses in a picture, at a stage of its transition from positions to exponential coordinates: see
     /// [`crate::geom::unbend`].
     #[inline(always)]
     pub fn morphed_points(&self, motions: &FourMotions, end_points: &[f64x4; 2], morph: f64) -> [f64x4; 2] {
@@ -162,14 +160,14 @@ impl NoisyDrive {
         (with_logarithms(end_points, turn), self.arcs_to_points(motions.bearing, end_points))
     }
 
-    /// Returns the reference point of all sums (the noise-free end in all coordinates), and the scales of the Jacobians.
+    /// Returns the reference point of all sums (the noise-free end pose in all coordinates), and the scales of the Jacobians.
     pub fn nominal_coordinates(&self) -> (ReferencePoint, JacobianScale) {
         let (poses, arcs) = self.coordinates_of_four(&[f64x4::splat(0.0); 3]);
         let mut reference_coordinates =
             [poses.x, poses.y, poses.along, poses.lateral, poses.half_heading, arcs.length, arcs.half_turn]
                 .map(|lanes| lanes.to_array()[0]);
         if self.is_arc {
-            // The commanded length and half turn are exact. Inverting the end pose would change their last bits.
+            // The length and half turn of the command are used, because inverting the end pose would change their last bits.
             [reference_coordinates[5], reference_coordinates[6]] = [self.length[0], self.bearing[0]];
         }
         let [half_heading_sinc, arc_sinc] = [poses.sinc, arcs.sinc].map(|lanes| lanes.to_array()[0].abs());
@@ -184,11 +182,10 @@ impl NoisyDrive {
     }
 }
 
-/// Returns the poses at the given ends with the half headings of `turn`, and their logarithms.
+/// Returns the poses at the given end points with the half headings of `turn`, and the logarithms of the poses.
 #[inline(always)]
 fn with_logarithms([x, y]: [f64x4; 2], turn: (f64x4, SinCos)) -> FourPoses {
     let (half_heading, SinCos { sinc, sin, cos }) = turn;
-    // The factor h·cot h of the logarithm, for the half heading h.
     let h_cot_h = cos / sinc;
     let (along, lateral) = (h_cot_h * x + half_heading * y, h_cot_h * y - half_heading * x);
     FourPoses { x, y, along, lateral, half_heading, half_sin: sin, half_cos: cos, sinc }

@@ -1,4 +1,4 @@
-//! Cloud of robots that start at the origin: draws, end poses, and statistics.
+//! Cloud of robots that start at the origin: random numbers, end poses, and statistics.
 
 pub(super) mod draws;
 pub(super) mod drive;
@@ -18,7 +18,7 @@ use wide::f64x4;
 /// Start pose of every robot: the origin, heading along x.
 pub const START_POSE: SE2 = SE2::identity();
 
-/// Number of groups of four (256 poses) that are summed without compensation of rounding errors. With fewer groups, compensation would take
+/// Number of groups of four that are summed without compensation of rounding errors (256 poses). With fewer groups, compensation would take
 /// noticeable time; with more groups, the rounding error would grow in proportion.
 const GROUPS_PER_BLOCK: usize = 64;
 
@@ -53,7 +53,8 @@ impl Cloud {
     ) -> CloudStats {
         self.draws.reset_if_changed(seed, noise);
         (self.drive, self.shown_count) = (drive, shown_count);
-        // The sums contain differences from the expected mean. The first pass is repeated if the mean of the cloud is far from it.
+        // The sums contain differences from the expected mean. If the mean of the cloud is far from the expected mean, the first pass is
+        // repeated.
         let (reference_point, jacobian_scale) = drive.nominal_coordinates();
         let mut first_pass = self.run_first_pass(FirstPass::new(reference_point, jacobian_scale));
         if let Some(better_point) = first_pass.better_reference_point(shown_count) {
@@ -75,7 +76,7 @@ impl Cloud {
         second_pass.stats(shown_count, weighted_robots)
     }
 
-    /// Draws and drives all samples, and adds them to the sums of the first pass.
+    /// Draws the noise of all samples, drives them, and adds them to the sums of the first pass.
     fn run_first_pass(&mut self, mut first_pass: FirstPass) -> FirstPass {
         let Self { draws, drive, positions, shown_count } = self;
         for block in sample_blocks(*shown_count) {
@@ -125,8 +126,8 @@ impl Cloud {
     }
 }
 
-/// Divides `sample_count` samples into blocks of groups of four, at least one block. Each block has a range of groups whose four lanes all
-/// have samples, and a range of groups with unused lanes, each with its lane mask.
+/// Divides `sample_count` samples into blocks of groups of four, at least one block. Each block has two ranges of groups, each with its
+/// lane mask: groups whose four lanes all have samples, and groups with unused lanes.
 fn sample_blocks(sample_count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
     let group_count = sample_count.div_ceil(LANE_COUNT);
     let lane_mask = first_lanes_mask(sample_count % LANE_COUNT);
@@ -164,7 +165,7 @@ fn add_to_first_pass(
     }
 }
 
-/// Adds the robots that [`add_to_first_pass`] drove to the sums of the second pass.
+/// Adds robots to the sums of the second pass, after [`add_to_first_pass`] has driven them.
 #[inline(never)]
 fn add_to_second_pass(
     drive: &NoisyDrive,

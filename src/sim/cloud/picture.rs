@@ -4,7 +4,7 @@ use super::Cloud;
 use super::views::ViewGrid;
 use crate::geom::lanes::LANE_COUNT;
 
-/// Colour ramp (RGBA, one byte each) by the count of a cell relative to the largest count.
+/// Colour ramp (RGBA, one byte each) by the number of samples in a cell relative to the largest number.
 pub type Ramp = [[u8; 4]; RAMP_STEP_COUNT];
 
 /// Number of colours of a ramp, one for each value of a byte.

@@ -2,14 +2,14 @@
 
 use std::ops::RangeInclusive;
 
-/// Stages of the transition of pictures from positions (x, y) (0) to exponential coordinates (along, heading) (1), see
+/// Range of the stages of the transition of pictures from positions (x, y) (0) to exponential coordinates (along, heading) (1), see
 /// [`crate::geom::unbend`].
 pub const MORPH_RANGE: RangeInclusive<f64> = 0.0..=1.0;
 
 /// Allowed coordinates of a picture. The range includes every position that the largest settings reach.
 pub const EXTENT_RANGE: RangeInclusive<f64> = -1e18..=1e18;
 
-/// Maximum number of cells of a [`ViewGrid`], more than any screen has pixels. The counts of the cells take 64 MB.
+/// Maximum number of cells of a [`ViewGrid`], more than the pixels of any screen. The counts of so many cells take 64 MB.
 pub const MAX_CELLS: u64 = 1 << 24;
 
 /// Maximum number of rows or columns of a [`ViewGrid`], more than a browser's canvas may have on some devices. Margins of

@@ -22,11 +22,10 @@ use rollouts::{ROLLOUTS_PER_BLOCK, Rollouts};
 /// Number of chords of an outline. Fewer chords would have visible corners; more chords would be shorter than a pixel.
 const OUTLINE_SEGMENTS: usize = 96;
 
-/// Maximum number of chords of the commanded arc in a step.
 const MAX_CHORDS: usize = 16;
 
-/// Number of steps, summed over all robots, in the first block, and in further blocks. While a handle is dragged, each frame waits for the
-/// first block. Further blocks take some milliseconds.
+/// Number of steps, summed over all robots, that are driven in the first block and in each further block. While a handle is dragged, each
+/// frame waits for the first block. Further blocks take some milliseconds.
 const FIRST_BLOCK_STEPS: usize = 80_000;
 const STEPS_PER_BLOCK: usize = 200_000;
 
@@ -35,7 +34,6 @@ const STEPS_PER_BLOCK: usize = 200_000;
 pub struct DeadReckoning {
     settings: Settings,
     rollouts: Rollouts,
-    /// Number of robots driven.
     shown_count: usize,
     /// Predicted covariances after each step, by each of [`RECURSIONS`]; None where undefined.
     predicted_covariances: [Vec<Option<Matrix3<f64>>>; 3],
@@ -54,11 +52,11 @@ pub struct Stats {
     /// Predicted covariance after the selected step; null (None) if the recursion gives no covariance at this step.
     #[cfg_attr(target_arch = "wasm32", tsify(type = "ByRecursion<number[][] | null>"))]
     pub predicted: ByRecursion<Option<CovarianceRows>>,
-    /// Misses (steps with a wrong predicted variance) of the components along, lateral and heading.
+    /// Steps with a wrong predicted variance (misses), for the components along, lateral and heading.
     pub misses: ByRecursion<[Misses; 3]>,
 }
 
-/// One value for each of [`RECURSIONS`].
+/// Values for each of the recursions in [`RECURSIONS`].
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), serde(rename_all = "kebab-case"))]
 pub struct ByRecursion<T> {
@@ -160,12 +158,12 @@ impl DeadReckoning {
         &self.measured_moments
     }
 
-    /// Returns the covariance that a recursion predicts after each step; None from the first step at which the covariance is undefined.
+    /// Returns the covariance that a recursion predicts after each step; None from the step on at which the covariance is undefined.
     pub fn predicted_covariances(&self, recursion: Compounding) -> &[Option<Matrix3<f64>>] {
         &self.predicted_covariances[recursion as usize]
     }
 
-    /// Returns the comparison of a recursion's predictions with the moments of the robots.
+    /// Returns the comparison of a recursion's predicted variances with those of the robots.
     pub fn comparison(&self, recursion: Compounding) -> &RecursionComparison {
         &self.comparisons[recursion as usize]
     }
@@ -201,7 +199,8 @@ impl DeadReckoning {
         nearest_index(positions, target, [radius, radius])
     }
 
-    /// Returns the moments and predicted covariances after the selected step, and the misses of each recursion over all steps.
+    /// Returns the moments and predicted covariances after the selected step, and for each recursion the steps at which a predicted
+    /// variance is wrong.
     pub fn stats(&self) -> Stats {
         let step_index = self.settings.step as usize - 1;
         let MeasuredMoments { mean, cov, .. } = self.measured_moments()[step_index];
@@ -255,8 +254,8 @@ impl DeadReckoning {
             .collect()
     }
 
-    /// Returns the robots and outlines after each quarter of the path, except at the selected step. A path of fewer than four steps has
-    /// fewer quarters.
+    /// Returns the robots and outlines after each quarter of the path, except at the selected step. A path of fewer than four steps gives
+    /// fewer entries.
     pub fn milestones(&self) -> Vec<Milestone> {
         let Settings { step: selected_step, steps, .. } = self.settings;
         let mut quarter_ends: Vec<u32> =
@@ -308,15 +307,15 @@ fn xi_ellipse_outline(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> Vec<[f64; 2]> 
     Ellipse::new(mean.xy(), cov.fixed_view::<2, 2>(0, 0).into_owned()).boundary(OUTLINE_SEGMENTS)
 }
 
-/// Recursions that are compared with the robots, in the order in which the widget lists them.
+/// Recursions whose predictions are compared with the robots, in the order in which the widget lists them.
 pub const RECURSIONS: [Compounding; 3] =
     [Compounding::Chapter, Compounding::FirstOrder, Compounding::FourthOrder];
 
-/// Relative error of a predicted variance above which a step counts as a miss.
+/// Relative error of a predicted variance above which the prediction at this step is wrong (a miss).
 pub const MISS_TOLERANCE: f64 = 0.05;
 
-/// Maximum relative standard error of a measured variance with which misses can be decided: a quarter of the tolerance [`MISS_TOLERANCE`].
-/// Of dozens of variance ratios, some deviate by three standard errors by chance, but hardly any by four.
+/// Maximum relative standard error of a measured variance at which wrong predictions can be recognized: a quarter of [`MISS_TOLERANCE`]. Of
+/// dozens of variance ratios, some deviate by three standard errors by chance, but hardly any by four.
 const MAX_STANDARD_ERROR: f64 = MISS_TOLERANCE / 4.0;
 
 /// Standard deviation, relative to the length of the path or in radians, below which a measured spread counts as rounding error.
@@ -327,19 +326,19 @@ const NEGLIGIBLE_STD: f64 = 1e-12;
 pub struct RecursionComparison {
     /// Predicted divided by measured variance of along, lateral and heading after each step; NaN if either variance is undefined.
     pub ratios: Vec<Vector3<f64>>,
-    /// Misses of along, lateral and heading.
+    /// Steps with a wrong predicted variance, for along, lateral and heading.
     pub misses: [Misses; 3],
 }
 
 js_structs! {
-    /// Misses of one component: steps at which its predicted variance differs from the measured variance by more than 5 %.
+    /// Steps at which the predicted variance of a component differs from the measured variance by more than 5 % (misses).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Misses {
-        /// True if the robots have a spread, and are enough to decide which steps are misses.
+        /// True if the spread of the robots is above 0, and there are enough robots to recognize wrong predictions.
         pub decidable: bool,
-        /// Number of the first miss; null (None) if no step is a miss, or if misses cannot be decided.
+        /// Number of the first step with a wrong prediction; null (None) if there is none, or if wrong predictions cannot be recognized.
         pub first: Option<u32>,
-        /// Number of the last miss; null (None) as for `first`.
+        /// Number of the last step with a wrong prediction; null (None) as for `first`.
         pub last: Option<u32>,
         /// Predicted divided by measured variance after the last step, minus 1; NaN without a prediction or a measured spread.
         pub end: f64,
@@ -373,7 +372,7 @@ impl RecursionComparison {
 /// from the step at which the fourth-order terms make it indefinite.
 fn propagate_covariances(settings: &Settings, recursion: Compounding) -> Vec<Option<Matrix3<f64>>> {
     let twist = TangentNoiseModel::twist(&settings.command);
-    // `ok` drops no error, because all allowed settings have finite variances of 0 or more.
+    // `ok` hides no error, because all allowed settings have finite variances of 0 or more.
     let tangent_noise = TangentNoiseModel::from_velocity(&settings.model(), &settings.command).ok();
     let mut covariance = Some(Matrix3::zeros());
     (0..settings.steps)
@@ -407,8 +406,8 @@ fn find_misses(ratios: &[Vector3<f64>], measured: &[MeasuredMoments], axis: usiz
     }
 }
 
-/// Decimal logarithms, in tenths, of the first and last duration of the curves: 0.1 s to 10 s. Durations at which the variances along and
-/// across are equal are in this range for common settings. Smaller steps would not make the curves look smoother.
+/// Decimal logarithms, in tenths, of the first and last duration of the curves: 0.1 s to 10 s. For common settings, the duration at which
+/// the variances along and across the track are equal is in this range. Smaller intervals would not make the curves look smoother.
 const LOG10_DURATIONS_IN_TENTHS: [i32; 2] = [-10, 10];
 
 js_structs! {

@@ -61,7 +61,7 @@ pub struct MeasuredMoments {
     pub relative_error: Vector3<f64>,
 }
 
-/// Maximum number of robots in the picture, beyond which dots are not distinguishable. A pose takes 24 bytes.
+/// Maximum number of robots in the picture, because more dots would not be distinguishable. A pose takes 24 bytes.
 pub const MAX_SHOWN_ROBOTS: usize = 600;
 
 #[derive(Clone, Debug)]
@@ -149,8 +149,8 @@ impl Rollouts {
         })
     }
 
-    /// Drives complete blocks of robots, up to `target_count` robots. If more robots have been driven already, driving starts again from
-    /// the first block. [`Rollouts::measured_moments`] drives the remaining robots.
+    /// Drives blocks of robots, as many complete blocks as `target_count` robots contain. If more robots have been driven already, driving
+    /// starts again from the first block. [`Rollouts::measured_moments`] drives the remaining robots.
     pub fn drive_blocks_to(&mut self, target_count: usize) {
         if target_count < self.driven_count {
             self.block_rng = Xoshiro256PlusPlus::seed_from_u64(self.seed);
@@ -235,7 +235,7 @@ impl ErrorPoses {
 struct RobotBlock {
     rng: Xoshiro256PlusPlus,
     groups: [ErrorPoses; GROUPS_PER_BLOCK],
-    /// Random numbers of a step, which are replaced by the resulting ξ.
+    /// Random numbers of each step. The exponential coordinates ξ after the step replace them.
     noise_or_xi: [[f64x4; 3]; GROUPS_PER_BLOCK],
 }
 
@@ -281,8 +281,8 @@ fn moments_from_sums(sums: &[f64; SUMMED_TERM_COUNT], n: f64) -> MeasuredMoments
         let m4 = mean_fourth - 4.0 * m * mean_cube + 6.0 * m * m * mean_square - 3.0 * m * m * m * m;
         let kurtosis = if m2 > 0.0 { m4 / (m2 * m2) } else { f64::NAN };
         let kurtosis_error = non_negative(kurtosis - 1.0) / n;
-        // The kurtosis of a few robots is unreliable; for two robots it is always 1. The standard error is then at least that of a normal
-        // distribution. `f64::max` would hide a NaN.
+        // The kurtosis of a few robots is unreliable; for two robots it is always 1. Therefore the standard error is at least that of a
+        // normal distribution. `f64::max` would hide a NaN.
         let gaussian_error = if n < MIN_RELIABLE_COUNT { 2.0 / (n - 1.0) } else { 0.0 };
         if kurtosis_error < gaussian_error { gaussian_error.sqrt() } else { kurtosis_error.sqrt() }
     });

@@ -23,17 +23,18 @@ pub enum NoisePer {
 
 keywords!(NoisePer: "step" = Self::Step, "path" = Self::Path);
 
-/// Maximum number of rollouts. With two hundred steps, this many rollouts take about ten seconds. Only those in the picture are stored.
+/// Maximum number of rollouts. With two hundred steps, this many rollouts take about ten seconds. Only the poses of the robots in the
+/// picture are stored.
 pub const MAX_SAMPLES: usize = 1_000_000;
 /// Maximum number of steps, ten times that of the chapter. Longer paths would show nothing new.
 pub const MAX_STEPS: u64 = 200;
 
-/// Seed with typical rollouts. With some of the seeds 0 to 99, the first miss (see [`super::Misses`]) is at the same step as with exact
-/// variances. Of these seeds, this one has the variance ratios nearest to the exact ratios.
+/// Seed with typical rollouts. For some of the seeds 0 to 99, the first wrong prediction (see [`super::Misses`]) is at the same step as
+/// with exact variances. Of these seeds, this one has the variance ratios nearest to the exact ratios.
 const INITIAL_SEED: u64 = 29;
 
 settings! {
-    /// Settings of the user.
+    /// Settings of Dead Reckoning.
     pub struct Settings {
         /// Command of each step.
         command: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 0.2 };
@@ -68,7 +69,7 @@ impl Settings {
         self.heading_noise_level_mut().get()
     }
 
-    /// Returns the noise of one step.
+    /// Returns the noise parameters of one step.
     pub fn model(&self) -> VelocityModel {
         let variance_factor = match self.per {
             NoisePer::Step => 1.0,
@@ -95,8 +96,8 @@ impl Settings {
 }
 
 impl SettingRules for Settings {
-    /// The chapter's path of twenty steps; the path with twice the standard deviation of the heading (exercise 7); the path in two hundred
-    /// steps, each so short that J_r is nearly the identity; a straight path.
+    /// Presets: the chapter's path of twenty steps, the path with twice the standard deviation of the heading (exercise 7), the path in two
+    /// hundred steps, and a straight path. Each of the two hundred steps is so short that J_r is nearly the identity.
     const PRESETS: &'static [(&'static str, Self)] = &[
         ("chapter", Self::DEFAULT),
         ("doubled", path([1.0, 0.5, 0.2], 20, 0.08)),

@@ -1,4 +1,4 @@
-//! Settings of three numbers with names: poses, commands and odometry readings.
+//! Settings that consist of three numbers with names: poses, commands and odometry readings.
 
 use super::{DURATION_RANGE, Declaration, QUANTITY_RANGE};
 use std::ops::RangeInclusive;

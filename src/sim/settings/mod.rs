@@ -28,7 +28,7 @@ pub const MAX_SEED: u64 = (1 << 53) - 1;
 pub struct Declaration {
     /// Name of the setting in attributes and states.
     pub key: &'static str,
-    /// Key of another setting that this setting sets in another form: a noise level sets `alphas`.
+    /// Name of another setting that this setting sets in another form (a noise level sets `alphas`); "" if there is none.
     pub of: Option<&'static str>,
     // WebAssembly modules omit the descriptions, which no page shows.
     /// Description of the setting.
@@ -44,7 +44,6 @@ pub struct Declaration {
 }
 
 impl Declaration {
-    /// Creates a declaration; `of` is "" if the setting does not set another setting in another form.
     #[cfg_attr(target_arch = "wasm32", expect(unused_variables, reason = "modules omit the descriptions"))]
     pub(crate) const fn new(
         key: &'static str,
@@ -72,7 +71,7 @@ pub enum Setting<'a> {
     Number(&'a mut f64, RangeInclusive<f64>),
     /// Integer.
     Integer(&'a mut dyn IntegerSetting, RangeInclusive<u64>),
-    /// Integer that may be missing.
+    /// Integer that may be missing (null).
     OptionalInteger(&'a mut Option<usize>, RangeInclusive<u64>),
     /// Boolean.
     Boolean(&'a mut bool),
@@ -153,11 +152,11 @@ pub(crate) fn serialize_settings<S: DeclaredSettings, Z: Serializer>(
 pub trait IntegerSetting {
     /// Returns the integer.
     fn get(&self) -> u64;
-    /// Sets the number, which must be in the range of the type.
+    /// Sets the integer, which must be in the range of its type.
     fn set(&mut self, integer: u64);
 }
 
-/// Enum whose values are written as keywords (strings) in settings, attributes and states.
+/// Enum whose values users write as keywords (strings) in settings, attributes and states.
 pub trait HasKeywords: Copy + 'static {
     /// Pairs of a keyword and the value of the enum that it stands for.
     const KEYWORDS: &'static [(&'static str, Self)];
@@ -204,7 +203,7 @@ impl<T: HasKeywords> KeywordSetting for T {
 
 /// Types that a setting may have.
 pub trait SettingValue {
-    /// Type in which the declaration of a setting states the allowed values.
+    /// Type that states the allowed values of the setting in its declaration, for example a range.
     type Range;
     /// Returns a reference to the value, with its allowed values.
     fn setting(&mut self, allowed: Self::Range) -> Setting<'_>;
@@ -217,7 +216,7 @@ impl<T: HasKeywords> SettingValue for T {
     }
 }
 
-/// Implements [`SettingValue`] for types, each with its range and the expression of the setting.
+/// Implements [`SettingValue`] for each listed type, with the type of its range, and the expression that makes the setting.
 macro_rules! setting_values {
     ($($type:ty, $range:ty: |$value:ident, $allowed:pat_param| $setting:expr;)+) => {$(
         impl SettingValue for $type {

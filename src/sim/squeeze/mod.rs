@@ -40,7 +40,7 @@ pub struct MapSqueeze {
     picture: Vec<[u8; 4]>,
 }
 
-/// Numbers of attempts shown, by outcome, and costs of these attempts.
+/// Numbers of the attempts shown that are accepted, or accepted through a wall, and the costs of the attempts.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tally {
     cost: Cost,
@@ -50,12 +50,12 @@ struct Tally {
     gave_up: bool,
 }
 
-/// Number of draws per part of a motion, on average over all parts, at which the simulation gives up. Only the sub-stepped sampler has
-/// several parts in a motion. A smaller limit would stop the simulation where a filter still works. A larger limit (acceptance below 5 %)
-/// would let a page wait for seconds.
+/// Average number of draws for a part of a motion above which the simulation gives up. Only the sub-stepped sampler has several parts in a
+/// motion. A smaller limit would stop the simulation where a filter still works. A larger limit (acceptance below 5 %) would let a page
+/// wait for seconds.
 const MAX_MEAN_DRAWS_PER_PART: usize = 20;
 
-/// Number of parts of motions that one block of attempts tests against the map. A block takes some milliseconds.
+/// Number of parts of motions in one block of attempts. A block takes some milliseconds.
 const PARTS_PER_BLOCK: usize = 4096;
 
 cloud_simulation!(MapSqueeze);
@@ -86,7 +86,8 @@ impl MapSqueeze {
         &self.plan
     }
 
-    /// Replaces the map, and keeps start pose and draws. Makes as many attempts as before, or all if the simulation had given up.
+    /// Replaces the map, and keeps the start pose and the random numbers. Makes as many attempts as before, or all if the simulation had
+    /// given up.
     pub fn set_plan(&mut self, plan: FloorPlan) {
         self.plan = plan;
         let attempt_count = if self.tally.gave_up { self.settings.samples } else { self.shown_count() };
@@ -105,14 +106,14 @@ impl MapSqueeze {
     /// `target_count`.
     ///
     /// # Errors
-    /// [`SettingsError`] as in [`MapSqueeze::new`], or if the map has too many walls under the new setting `unknown`. Errors change
-    /// nothing.
+    /// [`SettingsError`] as in [`MapSqueeze::new`], or if the map has too many walls under the new setting `unknown`. After an
+    /// error nothing has changed.
     pub fn configure_first(&mut self, settings: Settings, target_count: usize) -> Result<(), SettingsError> {
         settings.check()?;
         let outdated_grid = self.plan.grid().filter(|_| settings.unknown != self.settings.unknown);
         let plan =
             outdated_grid.map(|grid| FloorPlan::from_grid(grid.clone().with_unknown(settings.unknown)));
-        // A grid that was accepted before can only be refused because its unknown cells became obstacles.
+        // A grid that was accepted before is refused only if its unknown cells, which are now obstacles, have too many outlines.
         let plan = plan.transpose().map_err(|_| SettingsError {
             key: "unknown".to_owned(),
             value: f64::NAN,
@@ -223,7 +224,7 @@ impl MapSqueeze {
     /// Draws `sample_count` accepted samples with a sampler and returns their cost. The caller measures the time.
     ///
     /// # Errors
-    /// [`NoAcceptedSample`] if one of the samples is not accepted, or if the simulation would give up because of the number of draws.
+    /// [`NoAcceptedSample`] if one of the samples is not accepted, or if there are so many draws that the simulation would give up.
     pub fn sampling_trial(&self, sampler: Sampler, sample_count: usize) -> Result<Cost, NoAcceptedSample> {
         let model = conditioned_model(&self.settings, &self.plan, sampler);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.settings.seed);
@@ -297,7 +298,7 @@ pub fn wilson_interval(successes: usize, trials: usize) -> [f64; 2] {
     let z = NoiseKind::Normal.quantile(0.475);
     let (numerator, denominator) = (p + z * z / (2.0 * n), 1.0 + z * z / n);
     let half_width = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
-    // The interval of a fraction of 0 begins at exactly 0, and that of a fraction of 1 ends at exactly 1, despite rounding.
+    // Despite rounding, the interval of the fraction 0 begins at exactly 0, and that of the fraction 1 ends at exactly 1.
     let lower = if successes == 0 { 0.0 } else { (numerator - half_width) / denominator };
     let upper = if successes == trials { 1.0 } else { (numerator + half_width) / denominator };
     if n > 0.0 { [lower, upper] } else { [0.0, 1.0] }
@@ -345,7 +346,7 @@ impl Attempt {
     }
 }
 
-/// Generator of attempts. Each attempt has the noise that belongs to its index.
+/// Generator of attempts. The index of an attempt selects its random numbers.
 struct AttemptDriver<'a> {
     model: &'a MapConditioned<'a>,
     collision_tester: CollisionTester<'a>,

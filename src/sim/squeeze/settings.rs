@@ -9,7 +9,6 @@ use crate::sim::settings::{
 };
 use std::f64::consts::FRAC_PI_2;
 
-// The setting `steps` is the number of parts of the sub-stepped sampler.
 keywords!(
     Sampler:
     "endpoint" = Self::Endpoint, "whole-arc" = Self::WholeArc, "sub-stepped" = Self::SubStepped(1)
@@ -26,7 +25,7 @@ pub const MAX_SAMPLES: usize = 1_000_000;
 pub const MAX_STEPS: u64 = 1000;
 
 settings! {
-    /// Settings of the user, except for the map.
+    /// Settings of Map Squeeze, except for the map.
     pub struct Settings {
         /// Start pose of the robot.
         start: [f64; 3] = DOORWAY_START, each "at which the robot starts";
@@ -44,7 +43,7 @@ settings! {
         unknown: UnknownCells = UnknownCells::Free;
         /// Acceptance test of the draws.
         sampler: Sampler = Sampler::Endpoint;
-        // The default is the smallest number of parts with a visible effect.
+        // The default is the smallest number of parts whose effect is visible.
         /// Number of parts into which the sub-stepped sampler splits the command.
         steps: u32 = 4, in 1..=MAX_STEPS;
         /// Number of attempts to draw a motion that the map allows.

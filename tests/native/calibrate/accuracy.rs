@@ -29,7 +29,7 @@ const PERSISTENT_ERRORS: Scenario = Scenario {
 };
 
 const UNRELATED_TIMES: Scenario =
-    new_scenario("67 Hz and 29 Hz", |sim| sim.times = SampleTimes::Unrelated([3, 7]));
+    new_scenario("67 Hz and 29 Hz", |sim| sim.times = SampleTimes::Asynchronous([3, 7]));
 
 const TRUE_SYSTEMATIC_ERRORS: Systematic = Systematic {
     clock_offset: 0.12,
@@ -72,7 +72,7 @@ fn run_calibration_study(model: Model, scenario: &Scenario, log_count: usize) ->
         log_count,
     };
     for seed in 0..log_count as u64 {
-        let mut sim = Simulation::of(model, LEGS_PER_LOG, 5000 + seed);
+        let mut sim = Simulation::new(model, LEGS_PER_LOG, 5000 + seed);
         (scenario.modify_simulation)(&mut sim);
         let calibration = calibrate_simulation(&sim);
         for (alpha_index, true_alpha) in ALPHAS.into_iter().enumerate().take(alpha_count) {

@@ -14,7 +14,7 @@ use motion::{NoiseKind, Variance};
 use nalgebra::Vector3;
 
 fn new_passing_simulation(leg_count: usize, seed: u64) -> Simulation {
-    Simulation::of(NAV2, leg_count, seed)
+    Simulation::new(NAV2, leg_count, seed)
 }
 
 fn failed_check_names_of(calibration: &Calibration) -> Vec<CheckName> {
@@ -50,8 +50,8 @@ fn change_poses(trajectory: &Trajectory, mut change_pose: impl FnMut(SE2) -> SE2
 #[test]
 fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
     let sim = new_passing_simulation(600, 1);
-    let [odometry, reference] = sim.log();
-    let [_, other_reference] = new_passing_simulation(600, 2).log();
+    let [odometry, reference] = sim.simulate_log();
+    let [_, other_reference] = new_passing_simulation(600, 2).simulate_log();
     type PoseChange = fn(SE2) -> SE2;
     let pose_changes: [(&str, PoseChange); 8] = [
         ("degrees", |pose| SE2::new(pose.x(), pose.y(), pose.theta().to_degrees())),
@@ -78,7 +78,7 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
 fn a_reference_that_turns_the_other_way_is_recognized_at_any_clock_offset() {
     for (seed, clock_offset) in [(1, 0.0), (2, -3.7), (3, 3600.0)] {
         let sim = new_passing_simulation(600, seed);
-        let [odometry, reference] = sim.log();
+        let [odometry, reference] = sim.simulate_log();
         let mirrored = reference.samples().map(|(sample_time, pose)| {
             (sample_time + clock_offset, SE2::new(pose.x(), -pose.y(), -pose.theta()))
         });
@@ -92,7 +92,7 @@ fn a_reference_that_turns_the_other_way_is_recognized_at_any_clock_offset() {
 #[test]
 fn one_bad_drive_of_two_is_recognized() {
     let [good_log, [odometry, reference], [_, other_reference]] =
-        [(1200, 1), (60, 2), (60, 3)].map(|(legs, seed)| new_passing_simulation(legs, seed).log());
+        [(1200, 1), (60, 2), (60, 3)].map(|(legs, seed)| new_passing_simulation(legs, seed).simulate_log());
     let mirrored = change_poses(&reference, |pose| SE2::new(pose.x(), -pose.y(), -pose.theta()));
     for (reference, cause) in [(mirrored, Some(FailureCause::Mirrored)), (other_reference, None)] {
         let logs = [good_log.clone(), [odometry.clone(), reference]];
@@ -126,7 +126,7 @@ fn a_drive_along_an_eight_is_not_called_mirrored() {
 #[test]
 fn a_reference_three_times_as_long_is_not_called_mirrored() {
     let sim = new_passing_simulation(600, 1);
-    let [odometry, reference] = sim.log();
+    let [odometry, reference] = sim.simulate_log();
     let three_times_as_long =
         change_poses(&reference, |pose| SE2::new(3.0 * pose.x(), 3.0 * pose.y(), pose.theta()));
     let calibration = calibrate_log(&[odometry, three_times_as_long], &sim.calibration_options());
@@ -142,7 +142,7 @@ fn a_copy_of_the_odometry_is_no_reference() {
     // coordinates are rounded.
     for (leg_count, decimal_count) in [(600, 6), (600, 3), (250, 3), (600, 2), (250, 2)] {
         let sim = new_passing_simulation(leg_count, 1);
-        let [odometry, _] = sim.log();
+        let [odometry, _] = sim.simulate_log();
         let round_to_decimals =
             |coordinate: f64| (coordinate * 10_f64.powi(decimal_count)).round() / 10_f64.powi(decimal_count);
         let copied_samples = odometry.samples().map(|(sample_time, pose)| {
@@ -166,7 +166,7 @@ fn a_copy_of_the_odometry_is_no_reference() {
     // taken for a copy.
     for seed in 1..=12 {
         for leg_count in [600, 200] {
-            let violation = Violation::Scaled(0.01);
+            let violation = Violation::ScaledNoise(0.01);
             let precise_simulation = Simulation { violation, ..new_passing_simulation(leg_count, seed) };
             let failed_checks = failed_check_names_of(&calibrate_simulation(&precise_simulation));
             assert!(!failed_checks.contains(&ReferenceMatches), "{leg_count} legs, seed {seed}");
@@ -201,7 +201,7 @@ fn few_legs_are_questionable_and_fewer_unusable() {
 #[test]
 fn lost_legs_are_reported() {
     let sim = new_passing_simulation(600, 4);
-    let [odometry, reference] = sim.log();
+    let [odometry, reference] = sim.simulate_log();
     let reference_with_gaps =
         new_trajectory(reference.samples().filter(|(sample_time, _)| sample_time.rem_euclid(90.0) > 30.0));
     let calibration = calibrate_log(&[odometry, reference_with_gaps], &sim.calibration_options());
@@ -219,7 +219,7 @@ fn lost_legs_are_reported() {
 #[test]
 fn legs_that_are_longer_than_asked_for_are_reported() {
     let sim = new_passing_simulation(600, 5);
-    let [odometry, reference] = sim.log();
+    let [odometry, reference] = sim.simulate_log();
     let sparse_reference = new_trajectory(reference.samples().step_by(40));
     assert_fails(SamplingDense, &calibrate_log(&[odometry, sparse_reference], &sim.calibration_options()));
 }
@@ -245,7 +245,7 @@ fn violations_of_the_model_are_reported() {
 #[test]
 fn a_log_that_no_inflation_covers_is_unusable() {
     let sim = new_passing_simulation(600, 12);
-    let [odometry, reference] = sim.log();
+    let [odometry, reference] = sim.simulate_log();
     let jump_time = 0.75 * reference.span().expect("samples")[1];
     let jump_offset = SE2::new(10.0, 0.0, 0.0);
     let jumped_samples = reference.samples().map(|(sample_time, pose)| {
@@ -260,7 +260,7 @@ fn a_log_that_no_inflation_covers_is_unusable() {
 /// Returns the calibration of a log whose odometry is divided by varying scales. `scale_at` returns the scales of distance and turn at a time
 /// (as a fraction of the log) and a velocity.
 fn calibrate_with_scales(sim: &Simulation, scale_at: impl Fn(f64, &Vector3<f64>) -> [f64; 2]) -> Calibration {
-    let [odometry, reference] = sim.log();
+    let [odometry, reference] = sim.simulate_log();
     let odometry_rows: Vec<(f64, SE2)> = odometry.samples().collect();
     let log_duration = odometry_rows[odometry_rows.len() - 1].0;
     let mut odometry_pose = SE2::identity();
@@ -281,7 +281,7 @@ fn calibrate_with_scales(sim: &Simulation, scale_at: impl Fn(f64, &Vector3<f64>)
 #[test]
 fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
     let sim = new_passing_simulation(600, 12);
-    let [odometry, reference] = sim.log();
+    let [odometry, reference] = sim.simulate_log();
     let jitter_odometry = |jitter_std: f64| {
         let mut noise_rng = seeded_rng(12);
         let mut draw_noise = || NoiseKind::Normal.sample(Variance(jitter_std * jitter_std), &mut noise_rng);
@@ -318,8 +318,10 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
         ..new_passing_simulation(300, 12)
     };
     let is_sideways_motion_reported = |model| {
-        let calibration =
-            calibrate_log(&reversing_simulation.log(), &Options { model, ..sim.calibration_options() });
+        let calibration = calibrate_log(
+            &reversing_simulation.simulate_log(),
+            &Options { model, ..sim.calibration_options() },
+        );
         failed_check_names_of(&calibration).contains(&SidewaysRare)
     };
     assert_eq!([table_5_6_model, NAV2].map(is_sideways_motion_reported), [true, false]);
@@ -360,7 +362,7 @@ fn a_turn_scale_of_noisy_encoders_is_not_corrected() {
         }),
         ..new_passing_simulation(600, 8)
     };
-    let [odometry, reference] = sim.log();
+    let [odometry, reference] = sim.simulate_log();
     let calibration =
         calibrate_log(&[add_step_noise(&odometry, [0.001, 0.03], 8), reference], &sim.calibration_options());
     assert!(calibration.systematic.turn_scale < 0.9, "{}", calibration.systematic.turn_scale);
@@ -397,7 +399,7 @@ fn errors_that_persist_over_legs_are_correlated_and_leave_windows_uncovered() {
 /// Returns the number of consistent logs among `log_count` simulated logs, and prints the checks that failed.
 fn count_consistent_logs(model: Model, log_count: u64) -> usize {
     let mut failed_check_names = Vec::new();
-    let calibrate_log_of_seed = |seed: u64| calibrate_simulation(&Simulation::of(model, 600, 3000 + seed));
+    let calibrate_log_of_seed = |seed: u64| calibrate_simulation(&Simulation::new(model, 600, 3000 + seed));
     let is_consistent = |calibration: &Calibration| {
         failed_check_names.extend(failed_check_names_of(calibration));
         calibration.diagnostics.verdict == Verdict::Consistent

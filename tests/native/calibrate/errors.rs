@@ -13,7 +13,7 @@ use rand::RngExt;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn simulation_with_errors(model: Model, leg_count: usize, systematic_errors: Systematic) -> Simulation {
-    Simulation { systematic_errors, ..Simulation::of(model, leg_count, 77) }
+    Simulation { systematic_errors, ..Simulation::new(model, leg_count, 77) }
 }
 
 /// Asserts that an estimated error is within four standard errors of the truth. Standard errors below 1e-3 are raised to 1e-3, because they
@@ -59,7 +59,7 @@ fn clocks_with_any_offset_are_aligned() {
 fn clocks_are_aligned_by_the_turns_of_a_broken_reference() {
     let true_errors = Systematic { clock_offset: 3.2, ..Systematic::NONE };
     let simulation = simulation_with_errors(NAV2, 2000, true_errors);
-    let [odometry, reference] = simulation.log();
+    let [odometry, reference] = simulation.simulate_log();
     let row_count = reference.samples().len();
     let mut rng = seeded_rng(2);
     let mut frame_heading = 0.0;
@@ -92,8 +92,8 @@ fn trajectories_without_a_common_time_are_refused() {
     let delay_trajectory = |trajectory: &Trajectory, time_shift: f64| {
         new_trajectory(trajectory.samples().map(|(time, pose)| (time + time_shift, pose)))
     };
-    let [odometry, _] = Simulation::of(NAV2, 500, 6).log();
-    let [_, other_reference] = Simulation::of(NAV2, 500, 7).log();
+    let [odometry, _] = Simulation::new(NAV2, 500, 6).simulate_log();
+    let [_, other_reference] = Simulation::new(NAV2, 500, 7).simulate_log();
     assert_eq!(
         calibrate_logs(&odometry, &delay_trajectory(&other_reference, 1e6)),
         Err(CalibrateError::NoCommonTime)
@@ -116,8 +116,8 @@ fn trajectories_without_a_common_time_are_refused() {
 
 #[test]
 fn too_few_legs_are_refused() {
-    let simulation = Simulation::of(Model::Velocity, 7, 1);
-    let [odometry, reference] = simulation.log();
+    let simulation = Simulation::new(Model::Velocity, 7, 1);
+    let [odometry, reference] = simulation.simulate_log();
     let calibration_result = calibrate(&[Drive { odometry, reference }], &simulation.calibration_options());
     assert!(matches!(calibration_result, Err(CalibrateError::TooFewLegs { legs: 6 | 7 })));
 }
@@ -127,7 +127,7 @@ fn too_few_legs_are_refused() {
 #[test]
 fn an_uncorrected_error_appears_as_noise_of_the_wheels_or_of_the_reference() {
     let simulation = simulation_with_errors(NAV2, 600, Systematic { mount_yaw: 0.07, ..Systematic::NONE });
-    let uncorrected_log = simulation.log();
+    let uncorrected_log = simulation.simulate_log();
     let exact_reference_options =
         Options { position_std: Some(0.0), yaw_std: Some(0.0), ..simulation.calibration_options() };
     let calibrate_uncorrected =
@@ -153,7 +153,7 @@ fn an_uncorrected_error_appears_as_noise_of_the_wheels_or_of_the_reference() {
 
 #[test]
 fn an_error_that_the_log_does_not_identify_is_not_corrected() {
-    let simulation = Simulation { velocity_of_leg: Some(|_| [0.4, 0.0]), ..Simulation::of(NAV2, 600, 4) };
+    let simulation = Simulation { velocity_of_leg: Some(|_| [0.4, 0.0]), ..Simulation::new(NAV2, 600, 4) };
     let calibration = calibrate_simulation(&simulation);
     let is_unidentified =
         |error_kind: SystematicError| calibration.systematic_stds[error_kind as usize].is_none();
@@ -172,7 +172,7 @@ fn an_error_that_uncorrected_errors_hide_is_not_corrected() {
     let mut corrections = [None; 6];
     corrections[SystematicError::LeverArmAhead as usize] = Some(false);
     let options = Options { correct: corrections, ..simulation.calibration_options() };
-    let calibration = calibrate_log(&simulation.log(), &options);
+    let calibration = calibrate_log(&simulation.simulate_log(), &options);
     let turn_scale_index = SystematicError::TurnScale as usize;
     assert!(calibration.is_constant[turn_scale_index]);
     assert!(calibration.systematic_stds[turn_scale_index].is_some());
@@ -251,7 +251,7 @@ fn four_drives_are_as_informative_as_one_of_the_same_length() {
     let drives: Vec<Drive> = [0.0, 0.4, -3.0, 900.0]
         .into_iter()
         .zip(20..)
-        .map(|(clock_offset, seed)| new_simulation_with_offset(clock_offset, 300, seed).log())
+        .map(|(clock_offset, seed)| new_simulation_with_offset(clock_offset, 300, seed).simulate_log())
         .map(|[odometry, reference]| Drive { odometry, reference })
         .collect();
     let fit_of_four_drives = calibrate(&drives, &options_of(NAV2)).expect("legs enough");

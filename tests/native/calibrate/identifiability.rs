@@ -14,7 +14,7 @@ type VelocityOfLeg = fn(usize) -> [f64; 2];
 fn calibrate_velocities(model: Model, velocity_of_leg: VelocityOfLeg) -> Calibration {
     calibrate_simulation(&Simulation {
         velocity_of_leg: Some(velocity_of_leg),
-        ..Simulation::of(model, 400, 17)
+        ..Simulation::new(model, 400, 17)
     })
 }
 
@@ -119,9 +119,9 @@ fn assert_reasons_and_intervals(models: &[Model]) {
 /// The reference noise is set to 100 m and 100 rad. An α of 1 adds only about 0.3 m and 0.3 rad of noise to a leg.
 #[test]
 fn a_reference_that_hides_the_noise_of_the_wheels_is_too_noisy() {
-    let sim = Simulation::of(NAV2, 400, 32);
+    let sim = Simulation::new(NAV2, 400, 32);
     let options = Options { position_std: Some(100.0), yaw_std: Some(100.0), ..sim.calibration_options() };
-    let calibration = calibrate_log(&sim.log(), &options);
+    let calibration = calibrate_log(&sim.simulate_log(), &options);
     assert_eq!(calibration.not_identifiable, [Some(ReferenceTooNoisy); 4]);
     assert_eq!(calibration.diagnostics.verdict, Verdict::Unusable);
 }

@@ -13,7 +13,7 @@ fn new_bend_simulation(leg_count: usize) -> Simulation {
     Simulation {
         velocity_of_leg: Some(|leg_index| [0.3, [0.3, -0.2, 0.1][leg_index / 3 % 3]]),
         reference_stds: [0.004, 0.01],
-        ..Simulation::of(NAV2, leg_count, 12)
+        ..Simulation::new(NAV2, leg_count, 12)
     }
 }
 
@@ -159,8 +159,10 @@ fn the_filter_gives_the_likelihood_of_a_dense_covariance_matrix() {
     ];
     for corrected_kinds in [&five_errors[..0], &five_errors] {
         let corrections = SystematicError::ALL.map(|error_kind| Some(corrected_kinds.contains(&error_kind)));
-        let calibration =
-            calibrate_log(&sim.log(), &Options { correct: corrections, ..sim.calibration_options() });
+        let calibration = calibrate_log(
+            &sim.simulate_log(),
+            &Options { correct: corrections, ..sim.calibration_options() },
+        );
         assert_eq!(calibration.leg_fits.iter().filter(|leg_fit| leg_fit.is_outlier).count(), 0);
         let (log_likelihood, dense_value) =
             (calibration.log_likelihood, compute_dense_log_likelihood(&calibration, corrected_kinds));
@@ -176,7 +178,7 @@ fn rotations_of_a_short_leg_add_up_to_its_turn() {
         velocity_of_leg: Some(|_| [0.02, 0.1]),
         leg_length: LegLength::Duration { duration: 0.8 },
         reference_stds: [0.02, 0.02],
-        ..Simulation::of(NAV2, 200, 9)
+        ..Simulation::new(NAV2, 200, 9)
     };
     let residuals =
         calibrate_simulation(&sim).observations.into_iter().map(|observation| observation.residuals);
@@ -191,9 +193,10 @@ fn rotations_of_a_short_leg_add_up_to_its_turn() {
 #[test]
 fn an_outlier_shares_no_reference_error_with_its_neighbours() {
     let sim =
-        Simulation { jump_fraction: 0.05, reference_stds: [0.005, 0.002], ..Simulation::of(NAV2, 300, 8) };
+        Simulation { jump_fraction: 0.05, reference_stds: [0.005, 0.002], ..Simulation::new(NAV2, 300, 8) };
     let uncorrected_options = Options { correct: [Some(false); 6], ..sim.calibration_options() };
-    let Calibration { leg_fits, legs, observations, .. } = calibrate_log(&sim.log(), &uncorrected_options);
+    let Calibration { leg_fits, legs, observations, .. } =
+        calibrate_log(&sim.simulate_log(), &uncorrected_options);
     assert!(leg_fits.iter().filter(|leg_fit| leg_fit.is_outlier).count() > 10);
     for (i, (leg_fit, observation)) in leg_fits.iter().zip(observations).enumerate() {
         let has_no_prior_error = !legs[i].follows || leg_fit.is_outlier || leg_fits[i - 1].is_outlier;
@@ -206,7 +209,7 @@ fn an_outlier_shares_no_reference_error_with_its_neighbours() {
 /// is higher by n(ln s + 1/s − 1).
 #[test]
 fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
-    let sim = Simulation { velocity_of_leg: Some(|_| [0.3, 0.0]), ..Simulation::of(MODELS[3], 400, 3) };
+    let sim = Simulation { velocity_of_leg: Some(|_| [0.3, 0.0]), ..Simulation::new(MODELS[3], 400, 3) };
     let exact_options = Options {
         correct: [Some(false); 6],
         position_std: Some(0.0),
@@ -214,7 +217,7 @@ fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
         outliers: Outliers::Keep,
         ..sim.calibration_options()
     };
-    let calibration = calibrate_log(&sim.log(), &exact_options);
+    let calibration = calibrate_log(&sim.simulate_log(), &exact_options);
     let leg_count = calibration.legs.len() as f64;
     // The noise of translation and strafe grows with the distance only.
     for (component_index, alpha_index) in [(1, 2), (2, 4)] {
@@ -239,11 +242,13 @@ fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
 fn alphas_and_their_intervals_scale_with_the_noise() {
     for model in [MODELS[1], MODELS[3]] {
         let calibrate_scaled_noise = |std_factor: f64| {
-            let sim =
-                Simulation { violation: Violation::Scaled(std_factor), ..Simulation::of(model, 1000, 103) };
+            let sim = Simulation {
+                violation: Violation::ScaledNoise(std_factor),
+                ..Simulation::new(model, 1000, 103)
+            };
             let exact_options =
                 Options { position_std: Some(0.0), yaw_std: Some(0.0), ..sim.calibration_options() };
-            let Calibration { alphas, intervals, .. } = calibrate_log(&sim.log(), &exact_options);
+            let Calibration { alphas, intervals, .. } = calibrate_log(&sim.simulate_log(), &exact_options);
             let divide_by_squared_factor = |interval_bound: f64| interval_bound / (std_factor * std_factor);
             let bounds_and_alphas = alphas.into_iter().zip(intervals).map(|(alpha, alpha_interval)| {
                 let [low, high] = alpha_interval.expect("identifiable");
@@ -271,8 +276,8 @@ fn alphas_and_their_intervals_scale_with_the_noise() {
 /// smaller likelihood.
 #[test]
 fn the_noise_of_the_reference_maximizes_the_likelihood() {
-    let sim = Simulation { reference_stds: [0.02, 0.02], ..Simulation::of(NAV2, 1500, 5) };
-    let simulated_log = sim.log();
+    let sim = Simulation { reference_stds: [0.02, 0.02], ..Simulation::new(NAV2, 1500, 5) };
+    let simulated_log = sim.simulate_log();
     // Systematic errors are not corrected, so that all likelihoods are of the same residuals.
     let calibrate_with_stds = |position_std: Option<f64>, yaw_std: Option<f64>| {
         calibrate_log(

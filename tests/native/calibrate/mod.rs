@@ -20,7 +20,7 @@ use simulated::Simulation;
 const NAV2: Model = Model::Odometry(OdometryRule::Nav2);
 
 fn calibrate_simulation(simulation: &Simulation) -> Calibration {
-    calibrate_log(&simulation.log(), &simulation.calibration_options())
+    calibrate_log(&simulation.simulate_log(), &simulation.calibration_options())
 }
 
 fn calibrate_log(log: &[Trajectory; 2], options: &Options) -> Calibration {
@@ -29,7 +29,7 @@ fn calibrate_log(log: &[Trajectory; 2], options: &Options) -> Calibration {
 }
 
 fn options_of(model: Model) -> Options {
-    Simulation::of(model, 0, 0).calibration_options()
+    Simulation::new(model, 0, 0).calibration_options()
 }
 
 fn new_trajectory(timed_poses: impl IntoIterator<Item = (f64, SE2)>) -> Trajectory {

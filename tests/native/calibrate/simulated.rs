@@ -32,7 +32,7 @@ pub enum Violation {
     /// Autocorrelated noise, with this correlation between successive legs.
     AutocorrelatedNoise(f64),
     /// Noise whose standard deviation is multiplied by this factor.
-    Scaled(f64),
+    ScaledNoise(f64),
     /// Noise whose standard deviation is a function of the position in the log, from 0 to 1.
     ChangingNoise(fn(f64) -> f64),
 }
@@ -58,17 +58,17 @@ pub struct Simulation {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SampleTimes {
     /// Odometry and reference both have a sample each 50 ms.
-    Common,
+    Synchronous,
     /// Odometry and reference have samples at unrelated times. Their sample intervals are these multiples of [`FINE_STEP_SECONDS`]. The
     /// noise of a leg is then a random walk.
-    Unrelated([usize; 2]),
+    Asynchronous([usize; 2]),
 }
 
 const STEP_SECONDS: f64 = 0.05;
 const FINE_STEP_SECONDS: f64 = 0.005;
 
 impl Simulation {
-    pub fn of(model: Model, leg_count: usize, seed: u64) -> Self {
+    pub fn new(model: Model, leg_count: usize, seed: u64) -> Self {
         Self {
             model,
             leg_length: LegLength::AMCL,
@@ -79,7 +79,7 @@ impl Simulation {
             violation: Violation::None,
             seed,
             reference_stds: [0.0; 2],
-            times: SampleTimes::Common,
+            times: SampleTimes::Synchronous,
         }
     }
 
@@ -96,10 +96,10 @@ impl Simulation {
     }
 
     /// Returns odometry and reference.
-    pub fn log(&self) -> [Trajectory; 2] {
+    pub fn simulate_log(&self) -> [Trajectory; 2] {
         let (step_seconds, [rows_per_reading, rows_per_reference]) = match self.times {
-            SampleTimes::Common => (STEP_SECONDS, [1, 1]),
-            SampleTimes::Unrelated(sample_intervals) => (FINE_STEP_SECONDS, sample_intervals),
+            SampleTimes::Synchronous => (STEP_SECONDS, [1, 1]),
+            SampleTimes::Asynchronous(sample_intervals) => (FINE_STEP_SECONDS, sample_intervals),
         };
         let rows_per_step = (STEP_SECONDS / step_seconds).round() as usize;
         let mut rng = seeded_rng(self.seed);
@@ -189,7 +189,11 @@ impl Simulation {
 
     /// Returns a step of the random walk of the noise within a leg.
     fn draw_walk_step(&self, rng: &mut impl Rng) -> f64 {
-        if self.times == SampleTimes::Common { 0.0 } else { NoiseKind::Normal.sample(Variance(1.0), rng) }
+        if self.times == SampleTimes::Synchronous {
+            0.0
+        } else {
+            NoiseKind::Normal.sample(Variance(1.0), rng)
+        }
     }
 
     /// Returns v and ω of a straight drive, a bend, a turn on the spot, or a drive in reverse if the rule allows it.
@@ -219,7 +223,7 @@ impl Simulation {
                     autocorrelation * previous_noise
                         + (1.0 - autocorrelation * autocorrelation).sqrt() * normal_noise
                 }
-                Violation::Scaled(std_factor) => std_factor * normal_noise,
+                Violation::ScaledNoise(std_factor) => std_factor * normal_noise,
                 Violation::ChangingNoise(noise_std_at) => noise_std_at(log_fraction) * normal_noise,
             }
         })

@@ -25,22 +25,22 @@ pub fn cross_product(a: Point, b: Point) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
-pub fn norm(a: Point) -> f64 {
+pub fn norm_of(a: Point) -> f64 {
     a[0].hypot(a[1])
 }
 
 pub fn distance_to_segment(p: Point, [a, b]: [Point; 2]) -> f64 {
     let (d, r) = (subtract_points(b, a), subtract_points(p, a));
-    let segment_length = norm(d);
+    let segment_length = norm_of(d);
     if segment_length == 0.0 {
-        return norm(r);
+        return norm_of(r);
     }
     let unit_direction = [d[0] / segment_length, d[1] / segment_length];
     let projected_length = unit_direction[0] * r[0] + unit_direction[1] * r[1];
     if projected_length <= 0.0 {
-        norm(r)
+        norm_of(r)
     } else if projected_length >= segment_length {
-        norm(subtract_points(p, b))
+        norm_of(subtract_points(p, b))
     } else {
         cross_product(unit_direction, r).abs()
     }
@@ -109,8 +109,8 @@ pub fn bound_distance(arc: &Arc, wall: &Segment) -> [f64; 2] {
 /// the coordinates of random walls.
 pub fn extent_of(arc: &Arc, wall: &Segment) -> f64 {
     let arc_start = [arc.start.x(), arc.start.y()];
-    norm(subtract_points(wall.from, arc_start))
-        .max(norm(subtract_points(wall.to, arc_start)))
+    norm_of(subtract_points(wall.from, arc_start))
+        .max(norm_of(subtract_points(wall.to, arc_start)))
         .max(arc.length.abs())
         .max(15.0)
 }

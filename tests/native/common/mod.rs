@@ -160,12 +160,12 @@ pub fn chi_square_limit(cell_count: usize) -> f64 {
     k * (1.0 - 2.0 / (9.0 * k) + 3.719 * (2.0 / (9.0 * k)).sqrt()).powi(3)
 }
 
-pub fn mean(numbers: &[f64]) -> f64 {
+pub fn mean_of(numbers: &[f64]) -> f64 {
     numbers.iter().sum::<f64>() / numbers.len() as f64
 }
 
-pub fn variance(numbers: &[f64]) -> f64 {
-    let mean_value = mean(numbers);
+pub fn variance_of(numbers: &[f64]) -> f64 {
+    let mean_value = mean_of(numbers);
     numbers.iter().map(|number| (number - mean_value).powi(2)).sum::<f64>() / (numbers.len() - 1) as f64
 }
 
@@ -173,5 +173,5 @@ pub fn variance(numbers: &[f64]) -> f64 {
 pub fn estimate_with_standard_error<T>(sample: &[T], compute_statistic: impl Fn(&[T]) -> f64) -> (f64, f64) {
     let batch_size = sample.len() / 100;
     let batch_statistics: Vec<f64> = sample.chunks_exact(batch_size).map(&compute_statistic).collect();
-    (compute_statistic(sample), (variance(&batch_statistics) / batch_statistics.len() as f64).sqrt())
+    (compute_statistic(sample), (variance_of(&batch_statistics) / batch_statistics.len() as f64).sqrt())
 }

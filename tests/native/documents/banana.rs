@@ -3,7 +3,7 @@
 use super::read_page_text;
 use crate::common::text::{PlainText, PrintedNumber};
 use crate::common::{MAX_STANDARD_ERRORS, is_point_inside, settings_of_preset};
-use crate::simulations::banana::simulation;
+use crate::simulations::banana::new_simulation;
 use motion::VelocityCmd;
 use motion::sim::banana::{BananaMachine, ModelKind, Settings};
 
@@ -39,7 +39,7 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
     const ROBOT_COUNT: usize = 300_000;
     let coverage_error = MAX_STANDARD_ERRORS * (0.117 / ROBOT_COUNT as f64).sqrt();
     let simulate_preset =
-        |preset_name| simulation(Settings { samples: ROBOT_COUNT, ..settings_of_preset(preset_name) });
+        |preset_name| new_simulation(Settings { samples: ROBOT_COUNT, ..settings_of_preset(preset_name) });
     let assert_row = |simulation: &BananaMachine, printed_row: [PrintedNumber; 4]| {
         let [printed_floor_gain, printed_area_ratio, printed_ellipse_percentage, printed_skew] = printed_row;
         let exact_column = simulation.table().exact;
@@ -83,10 +83,10 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
         [banana_exact.area_ratio, banana_gain, 1.0, gentle_gain, hard_gain],
     );
     assert_eq!(Settings::default(), settings_of_preset("banana"));
-    let opening_simulation = simulation(Settings::default());
+    let opening_simulation = new_simulation(Settings::default());
     read_statistics_document().assert_numbers(
         "α₁₋₄ = 0.02, α₅,₆ = 0: skew #; the Gentle arc's α = (0.05, 0.05, 0.05, 0.09, 0.01, 0.01): #.",
-        [simulation(settings_of_preset("worked")), simulation(settings_of_preset("gentle"))]
+        [new_simulation(settings_of_preset("worked")), new_simulation(settings_of_preset("gentle"))]
             .map(|simulation| simulation.exact_moments().cross_track_skew),
     );
     read_statistics_document().assert_numbers(
@@ -101,7 +101,7 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
     read_page_text().assert_contains(
         "where it alone lies, robots stop a seventh as densely as where the outline alone does.",
     );
-    let simulation = simulation(Settings { samples: 300_000, ..settings_of_preset("banana") });
+    let simulation = new_simulation(Settings { samples: 300_000, ..settings_of_preset("banana") });
     let outlines = simulation.contours();
     let is_inside_outlines = |floor_point| {
         [&outlines.ellipse, &outlines.exponential].map(|outline| is_point_inside(outline, floor_point))
@@ -136,7 +136,7 @@ fn a_tenth_of_the_time_shrinks_the_cloud_to_less_than_a_tenth() {
         ..long_drive_settings
     };
     let [long_drive_simulation, short_drive_simulation] = [long_drive_settings, short_drive_settings]
-        .map(|drive_settings| simulation(Settings { samples: 10, ..drive_settings }));
+        .map(|drive_settings| new_simulation(Settings { samples: 10, ..drive_settings }));
     let position_std_of = |simulation: &BananaMachine| {
         let exact_cov = simulation.table().exact.cov;
         (exact_cov[(0, 0)] + exact_cov[(1, 1)]).sqrt()
@@ -157,7 +157,7 @@ fn the_predicted_skew_is_wrong_under_the_odometry_model() {
     let mut velocity_alphas = settings.velocity_alphas;
     velocity_alphas[4..].fill(0.0);
     let skew_miss_of = |settings| {
-        let simulation = simulation(settings);
+        let simulation = new_simulation(settings);
         let stats = simulation.stats();
         (stats.cross_track_skew - stats.gaussian_skew).abs() / stats.cross_track_skew_error
     };
@@ -169,7 +169,7 @@ fn the_predicted_skew_is_wrong_under_the_odometry_model() {
 fn a_hundred_times_the_robots_reduce_the_error_to_a_tenth() {
     read_page_text().assert_contains("A hundred times the robots leave a tenth of the standard error.");
     let skew_error_of = |samples| {
-        simulation(Settings { samples, ..settings_of_preset("gentle") }).stats().cross_track_skew_error
+        new_simulation(Settings { samples, ..settings_of_preset("gentle") }).stats().cross_track_skew_error
     };
     let error_ratio = skew_error_of(2000) / skew_error_of(200_000);
     assert!((error_ratio - 10.0).abs() < 1.0, "{error_ratio}");

@@ -3,12 +3,12 @@
 use super::{read_exercises, read_page_text};
 use crate::common::text::PrintedNumber;
 use crate::common::{MAX_STANDARD_ERRORS, settings_of_preset};
-use crate::simulations::dead_reckoning::simulation;
+use crate::simulations::dead_reckoning::new_simulation;
 use motion::Compounding;
 use motion::sim::dead_reckoning::{DeadReckoning, MISS_TOLERANCE, Settings};
 
 fn simulation_of_preset(preset_name: &str) -> DeadReckoning {
-    simulation(settings_of_preset(preset_name))
+    new_simulation(settings_of_preset(preset_name))
 }
 
 /// Returns the predicted variances of an axis after each step, divided by those of the fourth order, which are accurate to a few
@@ -33,7 +33,7 @@ fn missed_steps_of(variance_ratios: &[f64]) -> Vec<usize> {
 
 #[test]
 fn printed_variance_errors_of_the_recursion_equal_those_of_the_simulation() {
-    let initial_simulation = simulation(Settings::default());
+    let initial_simulation = new_simulation(Settings::default());
     let [printed_percentage]: [PrintedNumber; 1] = read_page_text()
         .sentence_numbers("what its own loses by the end: # % of the variance along the track");
     let chapter_comparison = initial_simulation.comparison(Compounding::Chapter);
@@ -114,7 +114,7 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
 
 #[test]
 fn the_crossing_times_are_those_of_exercise_2() {
-    let initial_simulation = simulation(Settings { samples: 1, ..Settings::default() });
+    let initial_simulation = new_simulation(Settings { samples: 1, ..Settings::default() });
     let straight_growth = initial_simulation.straight_growth();
     let last_index = straight_growth.durations.len() - 1;
     let growth_exponent_of = |variances_by_step: &[f64]| {
@@ -125,7 +125,7 @@ fn the_crossing_times_are_those_of_exercise_2() {
         .map(|variances| growth_exponent_of(variances));
     let heading_alpha = 4.0 * initial_simulation.settings().heading_noise().expect("a level");
     let alphas = [0.02, 0.02, heading_alpha, heading_alpha, heading_alpha / 4.0, heading_alpha / 4.0];
-    let doubled_simulation = simulation(Settings { alphas, samples: 1, ..Settings::default() });
+    let doubled_simulation = new_simulation(Settings { alphas, samples: 1, ..Settings::default() });
     let crossing_times = [&straight_growth, &doubled_simulation.straight_growth()]
         .map(|straight_growth| straight_growth.crossing.expect("a crossing"));
     let exercises_text = read_exercises();

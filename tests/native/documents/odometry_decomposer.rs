@@ -2,12 +2,12 @@
 
 use super::{model_text, read_page_text};
 use crate::common::settings_of_preset;
-use crate::simulations::odometry_decomposer::simulation;
+use crate::simulations::odometry_decomposer::new_simulation;
 use motion::models::OdometryRule::{self, Beluga, Nav2, Omni, Table};
 use motion::sim::odometry_decomposer::{RuleNoise, Settings};
 
 fn find_rule_noise(settings: Settings, rule: OdometryRule) -> RuleNoise {
-    simulation(settings).rule_noises().into_iter().find(|noise| noise.rule == rule).expect("all rules")
+    new_simulation(settings).rule_noises().into_iter().find(|noise| noise.rule == rule).expect("all rules")
 }
 
 #[test]
@@ -17,13 +17,13 @@ fn the_lateral_deviation_grows_faster_than_the_drive() {
         "the noise of the first rotation: ± # rad at the start are ± # m across at the end. Twice as far it is # times as much",
     );
     let settings = settings_of_preset("all");
-    let stats = simulation(settings).stats();
+    let stats = new_simulation(settings).stats();
     printed_rot1_std.assert_near(find_rule_noise(settings, Table).deviations[0], 0.0);
     printed_lateral_std.assert_near(stats.exact_cross_track, 0.0);
     let [x, y, final_heading] = settings.to;
     let long_drive_settings = Settings { to: [2.0 * x, 2.0 * y, final_heading], ..settings };
     printed_growth.assert_near(
-        simulation(long_drive_settings).stats().exact_cross_track / stats.exact_cross_track,
+        new_simulation(long_drive_settings).stats().exact_cross_track / stats.exact_cross_track,
         0.0,
     );
 }
@@ -49,8 +49,9 @@ fn the_correlation_of_both_rotations_changes_the_heading_deviation_from_differen
     let [printed_min_std, printed_max_std] = read_page_text().sentence_numbers(
         "No outcome moves, and the standard deviation of the heading goes from # to # rad.",
     );
-    let simulate_correlation =
-        |leg_correlation| simulation(Settings { correlation: leg_correlation, ..settings_of_preset("all") });
+    let simulate_correlation = |leg_correlation| {
+        new_simulation(Settings { correlation: leg_correlation, ..settings_of_preset("all") })
+    };
     printed_min_std.assert_near(simulate_correlation(-1.0).stats().exact_heading, 0.0);
     printed_max_std.assert_near(simulate_correlation(1.0).stats().exact_heading, 0.0);
     for (a, b) in simulate_correlation(-1.0).poses().iter().zip(simulate_correlation(1.0).poses()) {
@@ -80,6 +81,6 @@ fn table_5_6_adds_heading_noise_to_encoders_at_rest() {
     read_page_text().assert_contains("The encoders have jittered by half a centimetre.");
     let [x, y, _] = settings_of_preset::<Settings>("rest").to;
     assert_eq!((1000.0 * x.hypot(y)).round(), 5.0);
-    let stats = simulation(settings_of_preset("rest")).stats();
+    let stats = new_simulation(settings_of_preset("rest")).stats();
     printed_heading_std.assert_near(stats.exact_heading, 0.0);
 }

@@ -1,6 +1,8 @@
 //! Distance between a driven arc and a wall, compared with an independent reference without the equation of a circle.
 
-use crate::common::distance::{Point, bound_distance, extent_of, norm, position_along_arc, subtract_points};
+use crate::common::distance::{
+    Point, bound_distance, extent_of, norm_of, position_along_arc, subtract_points,
+};
 use crate::common::{draw_signed_log_uniform, draw_uniform, seeded_rng};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
@@ -171,7 +173,7 @@ fn chords_of_an_arc_stay_within_a_twentieth_of_a_millimetre() {
         let chord_count = chord_points.len() - 1;
         assert_eq!(chord_points[0], [arc.start.x(), arc.start.y()]);
         assert!(
-            norm(subtract_points(
+            norm_of(subtract_points(
                 chord_points[chord_count],
                 to_absolute(&arc, position_along_arc(&arc, 1.0))
             )) < 1e-14
@@ -180,7 +182,7 @@ fn chords_of_an_arc_stay_within_a_twentieth_of_a_millimetre() {
             let middle_of_chord = [0, 1].map(|axis| 0.5 * (chord_ends[0][axis] + chord_ends[1][axis]));
             let arc_middle =
                 to_absolute(&arc, position_along_arc(&arc, (i as f64 + 0.5) / chord_count as f64));
-            let chord_deviation = norm(subtract_points(middle_of_chord, arc_middle));
+            let chord_deviation = norm_of(subtract_points(middle_of_chord, arc_middle));
             let max_deviation = 0.02 * 0.02 / 8.0 * (arc_length / arc_turn.abs().max(0.02)).abs() * 1.001;
             assert!(chord_deviation <= max_deviation, "{arc_turn}: {chord_deviation}");
         }

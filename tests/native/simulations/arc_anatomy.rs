@@ -10,7 +10,7 @@ fn new_simulation(settings: Settings) -> ArcAnatomy {
     ArcAnatomy::new(settings).expect("valid settings")
 }
 
-pub fn stats(settings: Settings) -> Stats {
+pub fn stats_of(settings: Settings) -> Stats {
     new_simulation(settings).stats()
 }
 
@@ -74,7 +74,7 @@ fn the_printed_option_computes_the_lines_of_the_table() {
 fn robots_end_where_their_arcs_do_and_the_last_turn_gives_the_final_heading() {
     for settings in draw_settings(3).take(2000) {
         let (_, next_pose) = start_and_next_pose_of(&settings);
-        let Stats { commanded: commanded_arc, driven, last_turn, .. } = stats(settings);
+        let Stats { commanded: commanded_arc, driven, last_turn, .. } = stats_of(settings);
         assert!(wrap_angle(driven.end[2] + last_turn - next_pose.theta()).abs() < 1e-13, "{settings:?}");
         let [commanded_end, driven_end, _] = new_simulation(settings).poses_at(1.0);
         for (end_pose, driven_arc) in [(commanded_end, commanded_arc), (driven_end, driven)] {
@@ -89,8 +89,8 @@ fn robots_end_where_their_arcs_do_and_the_last_turn_gives_the_final_heading() {
 fn the_printed_option_mirrors_centres_to_the_right() {
     let mut right_count = 0;
     for settings in draw_settings(4).take(2000) {
-        let signed_stats = stats(settings);
-        let printed_stats = stats(Settings { printed: true, ..settings });
+        let signed_stats = stats_of(settings);
+        let printed_stats = stats_of(Settings { printed: true, ..settings });
         let [x, y, _] = printed_stats.driven.end;
         let (start_pose, next_pose) = start_and_next_pose_of(&settings);
         let mirrored_end = [2.0 * start_pose.x() - next_pose.x(), 2.0 * start_pose.y() - next_pose.y()];
@@ -114,7 +114,7 @@ fn p_is_the_product_of_the_factors_and_that_of_the_model() {
         let settings = Settings { noise, ..settings };
         let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise };
         let (start_pose, next_pose) = start_and_next_pose_of(&settings);
-        let stats = stats(settings);
+        let stats = stats_of(settings);
         assert_eq!(stats.prob, model.prob(&next_pose, &settings.command, &start_pose));
         assert_eq!(stats.density, model.pose_density(&next_pose, &settings.command, &start_pose));
         let noise_free_pose = model.apply_noise(&settings.command, &start_pose, [0.0; 3]);
@@ -143,12 +143,12 @@ fn without_noise_a_residual_is_zero_or_infinite() {
         density: pose_density,
         weakest: weakest_index,
         ..
-    } = stats(settings);
+    } = stats_of(settings);
     assert_eq!(probability_factors.map(|factor| factor.deviations), [f64::NEG_INFINITY, 0.0, f64::INFINITY]);
     assert_eq!((table_score, share_of_peak, pose_density, weakest_index), (0.0, 0.0, None, 0));
     let arc_end = [1.0, 0.0, 0.0];
     let Stats { factors: probability_factors, prob: table_score, share: share_of_peak, .. } =
-        stats(Settings { next: arc_end, ..settings });
+        stats_of(Settings { next: arc_end, ..settings });
     assert_eq!(probability_factors.map(|factor| factor.deviations), [0.0; 3]);
     assert_eq!((table_score, share_of_peak), (1.0, 1.0));
 }
@@ -184,7 +184,7 @@ fn a_last_turn_gives_the_twist_a_lateral_velocity() {
         // Without the last turn the lateral component of the twist is 0.
         let Stats { driven, .. } = simulation.stats();
         let next_without_last_turn = [settings.next[0], settings.next[1], driven.end[2]];
-        let twist_to_next = stats(Settings { next: next_without_last_turn, ..settings }).xi;
+        let twist_to_next = stats_of(Settings { next: next_without_last_turn, ..settings }).xi;
         assert!(twist_to_next[1].abs() < 1e-12 * (1.0 + twist_to_next[0].abs()), "{twist_to_next:?}");
     }
 }
@@ -202,12 +202,12 @@ fn straight_motion_has_no_centre_and_no_motion_has_no_arc() {
     let simulation_with_tiny_motion =
         ArcAnatomy::new(Settings { next: tiny_motion, ..settings }).expect("valid settings");
     assert!(simulation_with_tiny_motion.table().lines[0].is_infinite());
-    let backward_stats = stats(Settings { next: [-2.0, 0.0, 0.0], printed: true, ..settings });
+    let backward_stats = stats_of(Settings { next: [-2.0, 0.0, 0.0], printed: true, ..settings });
     assert_eq!(backward_stats.factors[0].estimate, -2.0);
     assert!(backward_stats.factors[1].estimate.to_bits() == 0, "a turn of −0");
     let settings_on_the_spot = Settings { next: [0.0, 0.0, 0.7], ..settings };
     let Stats { factors: probability_factors, density: pose_density, xi: twist_to_next, .. } =
-        stats(settings_on_the_spot);
+        stats_of(settings_on_the_spot);
     assert_eq!(probability_factors.map(|factor| factor.estimate), [0.0, 0.7, 0.0]);
     assert_eq!((pose_density, twist_to_next), (Some(f64::INFINITY), [0.0, 0.0, 0.7]));
     assert!(ArcAnatomy::new(settings_on_the_spot).expect("valid settings").table().lines[0].is_nan());

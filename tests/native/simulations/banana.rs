@@ -15,11 +15,11 @@ use std::f64::consts::PI;
 
 const GENTLE_COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 
-pub fn simulation(settings: Settings) -> BananaMachine {
+pub fn new_simulation(settings: Settings) -> BananaMachine {
     BananaMachine::new(settings).expect("a valid setting")
 }
 
-fn poses(simulation: &BananaMachine) -> Vec<SE2> {
+fn poses_of(simulation: &BananaMachine) -> Vec<SE2> {
     simulation.poses().collect()
 }
 
@@ -43,7 +43,7 @@ pub fn check_in_varied_clouds(
                     let odometry_alphas = [0.02, 0.01, 0.02, 0.01];
                     let settings =
                         Settings { noise, command, odometry_alphas, samples: sample_count, ..settings };
-                    check_simulation(&simulation(settings), &format!("{settings:?}"));
+                    check_simulation(&new_simulation(settings), &format!("{settings:?}"));
                 }
             }
         }
@@ -54,7 +54,7 @@ fn format_results(simulation: &BananaMachine) -> String {
     format!(
         "{:?} {:?} {:?} {:?}",
         simulation.settings(),
-        poses(simulation),
+        poses_of(simulation),
         simulation.stats(),
         simulation.contours()
     )
@@ -75,7 +75,7 @@ fn the_cloud_equals_samples_of_the_model() {
         let assert_same_poses =
             |settings: Settings, draw_pose: &mut dyn FnMut(&mut Xoshiro256PlusPlus) -> SE2| {
                 let mut rng = seeded_rng(2005);
-                for pose in simulation(settings).poses() {
+                for pose in new_simulation(settings).poses() {
                     assert!(max_difference(&pose, &draw_pose(&mut rng)) < POSE_TOLERANCE, "{settings:?}");
                 }
             };
@@ -96,7 +96,7 @@ fn the_cloud_equals_samples_of_the_model() {
 #[test]
 fn changed_settings_move_the_same_robots() {
     let first_settings = Settings { samples: 300, ..settings_of_preset("gentle") };
-    let mut simulation = simulation(first_settings);
+    let mut simulation = new_simulation(first_settings);
     let unit_noises_of = |simulation: &BananaMachine| -> Vec<[f64; 3]> {
         let settings = simulation.settings();
         let model = VelocityModel { alphas: VelocityAlphas(settings.velocity_alphas), noise: settings.noise };
@@ -139,7 +139,7 @@ fn long_turns_stay_on_the_branch_of_the_command() {
     for omega in [3.1, -4.5, 5.0] {
         let command = VelocityCmd { v: 1.0, omega, dt: 1.0 };
         let velocity_alphas = [0.01, 0.0, 0.0, 0.001, 0.0, 0.0];
-        let simulation = simulation(Settings {
+        let simulation = new_simulation(Settings {
             command,
             velocity_alphas,
             samples: 20_000,
@@ -172,7 +172,7 @@ fn isolating_an_alpha_sets_the_others_to_zero() {
     };
     let commanded_end = SE2::new(2.0, 0.0, 0.0);
     let simulate_isolated =
-        |isolated_alpha| simulation(Settings { isolate: Some(isolated_alpha), ..straight_settings });
+        |isolated_alpha| new_simulation(Settings { isolate: Some(isolated_alpha), ..straight_settings });
     for alpha_number in [4, 6] {
         let simulation = simulate_isolated(alpha_number);
         assert!(
@@ -199,7 +199,7 @@ fn isolating_an_alpha_sets_the_others_to_zero() {
         "the sliders stay where they are"
     );
     reconfigured_simulation.configure(straight_settings).unwrap();
-    assert_eq!(format_results(&reconfigured_simulation), format_results(&simulation(straight_settings)));
+    assert_eq!(format_results(&reconfigured_simulation), format_results(&new_simulation(straight_settings)));
 }
 
 #[test]
@@ -208,7 +208,7 @@ fn the_reaching_command_ends_at_the_target() {
         for (omega, duration) in [(0.3, 0.5), (-0.2, 2.0), (2.0, 3.0), (-1.5, 2.5)] {
             let command = command_drawn_at([x, y], &VelocityCmd { v: 1.0, omega, dt: duration }, 0.0);
             let settings = Settings { command, ..settings_of_preset("gentle") };
-            let end_pose = simulation(settings).linearized_moments().mean;
+            let end_pose = new_simulation(settings).linearized_moments().mean;
             let end_position = SE2::new(end_pose.x, end_pose.y, 0.0);
             // The rounding of the end pose is proportional to the length |v|Δt of the arc.
             let rounding_tolerance = 1e-14 * (1.0 + (command.v * duration).abs());
@@ -232,7 +232,7 @@ fn the_reaching_command_ends_at_the_target() {
 fn exponential_statistics_are_undefined_near_a_full_turn() {
     let simulate_turn = |omega: f64| {
         let command = VelocityCmd { v: 1.0, omega, dt: 3.0 };
-        simulation(Settings {
+        new_simulation(Settings {
             command,
             velocity_alphas: [0.01; 6],
             samples: 500,
@@ -258,7 +258,7 @@ fn exponential_statistics_are_undefined_near_a_full_turn() {
 
 #[test]
 fn both_views_find_the_nearest_sample() {
-    let simulation = simulation(Settings { samples: 3000, ..settings_of_preset("gentle") });
+    let simulation = new_simulation(Settings { samples: 3000, ..settings_of_preset("gentle") });
     for morph in [0.0, 1.0] {
         let view_points: Vec<[f64; 2]> = simulation
             .poses()
@@ -284,7 +284,7 @@ fn both_views_find_the_nearest_sample() {
 #[test]
 fn the_executed_motion_leads_to_the_pose() {
     for settings in settings_of_both_models() {
-        let simulation = simulation(Settings { samples: 200, ..settings });
+        let simulation = new_simulation(Settings { samples: 200, ..settings });
         for ((i, executed_motion), pose) in simulation.executed_motions().enumerate().zip(simulation.poses())
         {
             let Sample { v_hat, omega_hat, gamma_hat, legs, .. } = simulation.inspect(i).unwrap();
@@ -311,7 +311,7 @@ fn a_reverse_aware_robot_has_no_noise_of_half_turns() {
     let odometry_settings =
         Settings { model: ModelKind::Odometry, command, samples: 10, ..settings_of_preset("gentle") };
     let aware_and_unaware_simulations =
-        [false, true].map(|reverse_aware| simulation(Settings { reverse_aware, ..odometry_settings }));
+        [false, true].map(|reverse_aware| new_simulation(Settings { reverse_aware, ..odometry_settings }));
     let [alpha1, alpha2, ..] = odometry_settings.odometry_alphas;
     let reading = aware_and_unaware_simulations[0].reading();
     // Without `reverse_aware`, both rotations are half a turn minus half the turn of the command. With `reverse_aware`, they are half the
@@ -330,14 +330,14 @@ fn a_reverse_aware_robot_has_no_noise_of_half_turns() {
 fn additive_noise_does_not_depend_on_the_motion() {
     for [v, omega, duration] in [[0.05, 0.0, 1.0], [1.0, 0.5, 1.0], [1.0, 0.5, 10.0]] {
         let command = VelocityCmd { v, omega, dt: duration };
-        let simulation = simulation(Settings { command, samples: 10, ..settings_of_preset("gentle") });
+        let simulation = new_simulation(Settings { command, samples: 10, ..settings_of_preset("gentle") });
         let commanded_end = simulation.linearized_moments().mean;
         for [x, y] in simulation.contours().additive {
             let circle_radius = libm::hypot(x - commanded_end.x, y - commanded_end.y);
             assert!((circle_radius - 2.0 * ADDITIVE_NOISE_STD).abs() < 1e-12);
         }
     }
-    let cov = simulation(Settings { samples: 10, ..settings_of_preset("gentle") }).exact_moments().cov;
+    let cov = new_simulation(Settings { samples: 10, ..settings_of_preset("gentle") }).exact_moments().cov;
     let rounded_position_std = (10.0 * (0.5 * (cov[(0, 0)] + cov[(1, 1)])).sqrt()).round() / 10.0;
     assert_eq!(rounded_position_std, ADDITIVE_NOISE_STD);
 }
@@ -345,7 +345,7 @@ fn additive_noise_does_not_depend_on_the_motion() {
 /// The default seed is chosen so that each readout differs from its exact value by less than a fifth of a standard error.
 #[test]
 fn statistics_of_the_initial_cloud_are_close_to_the_exact_values() {
-    let simulation = simulation(Settings::default());
+    let simulation = new_simulation(Settings::default());
     let (cloud_stats, exact_column) = (simulation.stats(), simulation.table().exact);
     assert!(
         (cloud_stats.cross_track_skew - exact_column.cross_track_skew).abs()

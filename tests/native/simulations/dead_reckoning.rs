@@ -8,7 +8,7 @@ use motion::{Compounding, NoiseKind, TangentNoiseModel, VelocityAlphas, Velocity
 use nalgebra::{Matrix3, Vector3};
 
 /// Returns a simulation. If the selected step is beyond the end of the path, the last step is selected instead.
-pub fn simulation(settings: Settings) -> DeadReckoning {
+pub fn new_simulation(settings: Settings) -> DeadReckoning {
     let selected_step = settings.step.min(settings.steps);
     DeadReckoning::new(Settings { step: selected_step, ..settings }).expect("valid settings")
 }
@@ -52,7 +52,7 @@ fn assert_same_pose([x, y, theta]: [f64; 3], expected_pose: &SE2, path_scale: f6
 fn lanes_agree_with_poses_composed_one_by_one() {
     use motion::noise::draw_centred_uniform;
     for settings in list_challenging_settings() {
-        let simulation = simulation(settings);
+        let simulation = new_simulation(settings);
         let (u, model) = (settings.command, settings.model());
         // Robot 513 is the second robot of the third block of 256. Each block has its own stream of random numbers.
         let mut block_rng = seeded_rng(settings.seed);
@@ -80,7 +80,7 @@ fn lanes_agree_with_poses_composed_one_by_one() {
 #[test]
 fn moments_are_those_of_the_cloud() {
     for (i, settings) in list_challenging_settings().into_iter().enumerate() {
-        let simulation = simulation(settings);
+        let simulation = new_simulation(settings);
         let n = settings.samples as f64;
         let rollout_paths: Vec<_> = (0..settings.samples)
             .map(|robot_index| simulation.rollout(robot_index).expect("a robot"))
@@ -130,7 +130,7 @@ fn moments_are_those_of_the_cloud() {
 /// counted from 1.
 #[test]
 fn ratios_and_misses_are_counted() {
-    let simulation = simulation(Settings::default());
+    let simulation = new_simulation(Settings::default());
     for recursion in RECURSIONS {
         let variance_comparison = simulation.comparison(recursion);
         for (axis, axis_misses) in variance_comparison.misses.iter().enumerate() {
@@ -161,7 +161,7 @@ fn ratios_and_misses_are_counted() {
 
 /// Returns for each component whether there are enough robots to decide at which steps the chapter's recursion is wrong.
 fn misses_decidable(settings: Settings) -> [bool; 3] {
-    simulation(settings).comparison(Compounding::Chapter).misses.map(|axis_misses| axis_misses.decidable)
+    new_simulation(settings).comparison(Compounding::Chapter).misses.map(|axis_misses| axis_misses.decidable)
 }
 
 /// A step at which the chapter's recursion is wrong is reported only if enough robots measure the variance, and the variance is not 0.
@@ -183,7 +183,7 @@ fn misses_are_reported_with_enough_robots_only() {
 
 #[test]
 fn a_zero_variance_has_no_relative_error() {
-    let errors_with = |settings| simulation(settings).measured_moments()[1].relative_error;
+    let errors_with = |settings| new_simulation(settings).measured_moments()[1].relative_error;
     for sample_count in [1, 2] {
         assert!(
             errors_with(Settings { alphas: [0.0; 6], ..robot_settings(sample_count) })
@@ -213,7 +213,7 @@ fn a_zero_variance_has_no_relative_error() {
 #[test]
 fn a_fourth_order_without_a_covariance_has_no_ratio() {
     let settings = Settings { alphas: [0.02, 0.02, 60.0, 60.0, 5.0, 5.0], ..robot_settings(1000) };
-    let simulation = simulation(settings);
+    let simulation = new_simulation(settings);
     let predicted_covs = simulation.predicted_covariances(Compounding::FourthOrder);
     let first_undefined = predicted_covs.iter().position(Option::is_none).expect("some step without");
     assert!(predicted_covs[first_undefined..].iter().all(Option::is_none));
@@ -235,11 +235,11 @@ fn a_fourth_order_without_a_covariance_has_no_ratio() {
 /// of the α's only scales the noise.
 #[test]
 fn a_seed_gives_the_same_draws() {
-    let large_simulation = simulation(robot_settings(1500));
-    let small_simulation = simulation(robot_settings(300));
-    let short_simulation = simulation(Settings { steps: 7, ..robot_settings(300) });
+    let large_simulation = new_simulation(robot_settings(1500));
+    let small_simulation = new_simulation(robot_settings(300));
+    let short_simulation = new_simulation(Settings { steps: 7, ..robot_settings(300) });
     let noisy_simulation =
-        simulation(Settings { alphas: [0.08, 0.08, 0.08, 0.08, 0.02, 0.02], ..robot_settings(300) });
+        new_simulation(Settings { alphas: [0.08, 0.08, 0.08, 0.08, 0.02, 0.02], ..robot_settings(300) });
     for robot_index in [0, 1, 255, 256, 299] {
         let path = large_simulation.rollout(robot_index).expect("a robot");
         assert_eq!(small_simulation.rollout(robot_index).as_ref(), Some(&path));
@@ -256,7 +256,7 @@ fn a_seed_gives_the_same_draws() {
     }
     assert_ne!(
         large_simulation.rollout(0),
-        simulation(Settings { seed: 4, ..robot_settings(300) }).rollout(0)
+        new_simulation(Settings { seed: 4, ..robot_settings(300) }).rollout(0)
     );
     assert_eq!(large_simulation.rollout(1500), None);
 }
@@ -281,7 +281,7 @@ fn noise_of_the_whole_path_is_divided_among_its_steps() {
             );
         }
         // The predicted heading variance is the sum of the heading variances of all steps.
-        let covariance = simulation(settings).predicted_covariances(Compounding::FirstOrder)
+        let covariance = new_simulation(settings).predicted_covariances(Compounding::FirstOrder)
             [step_count as usize - 1]
             .expect("a covariance");
         assert!((covariance[(2, 2)] / (expected_variances[1] + expected_variances[2]) - 1.0).abs() < 1e-12);
@@ -305,7 +305,7 @@ fn the_level_of_heading_noise_is_that_of_four_alphas() {
 #[test]
 fn outlines_are_two_standard_deviations_from_the_commanded_pose() {
     let settings = Settings { step: 20, compounding: Compounding::FirstOrder, ..robot_settings(300) };
-    let simulation = simulation(settings);
+    let simulation = new_simulation(settings);
     let covariance = simulation.predicted_covariances(Compounding::FirstOrder)[19].expect("a covariance");
     let nominal_pose = simulation.nominal_poses()[19];
     let outlines = simulation.outlines(20).expect("a step");
@@ -327,7 +327,7 @@ fn outlines_are_two_standard_deviations_from_the_commanded_pose() {
 #[test]
 fn milestones_are_the_quarters_of_the_path_but_not_the_selected_step() {
     let milestone_steps_of = |step_count: u32, step: u32| {
-        let simulation = simulation(Settings { steps: step_count, step, ..robot_settings(20) });
+        let simulation = new_simulation(Settings { steps: step_count, step, ..robot_settings(20) });
         let step_of = |poses: &[[f64; 3]]| (1..=step_count).find(|step| simulation.poses(*step) == poses);
         simulation.milestones().iter().map(|milestone| step_of(&milestone.poses)).collect::<Vec<_>>()
     };
@@ -339,7 +339,7 @@ fn milestones_are_the_quarters_of_the_path_but_not_the_selected_step() {
 #[test]
 fn the_commanded_path_leads_through_its_poses() {
     for settings in list_challenging_settings() {
-        let simulation = simulation(settings);
+        let simulation = new_simulation(settings);
         let path = simulation.commanded_path();
         let chords_per_step = (path.len() - 1) / settings.steps as usize;
         assert_eq!((path.len() - 1) % settings.steps as usize, 0);
@@ -361,7 +361,7 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
     for (v, [along_alpha, turn_alpha]) in [(1.0, [1e-6, 1e-6]), (-0.5, [2e-6, 1e-6]), (1.4, [1e-6, 7e-6])] {
         let command = VelocityCmd { v, omega: 0.3, dt: 0.2 };
         let alphas = [along_alpha, 1e-6, turn_alpha, 1e-6, 0.0, 0.0];
-        let simulation = simulation(Settings { command, alphas, ..robot_settings(1) });
+        let simulation = new_simulation(Settings { command, alphas, ..robot_settings(1) });
         let straight_growth = simulation.straight_growth();
         let crossing_time = straight_growth.crossing.expect("a crossing");
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
@@ -397,7 +397,7 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
     }
     let crossing_time_of_simulation = |v, alphas| {
         let command = VelocityCmd { v, ..Settings::default().command };
-        simulation(Settings { command, alphas, ..robot_settings(1) }).straight_growth().crossing
+        new_simulation(Settings { command, alphas, ..robot_settings(1) }).straight_growth().crossing
     };
     for (v, alphas) in [(0.0, [0.02; 6]), (1.0, [0.0; 6]), (1.0, [0.02, 0.0, 0.0, 0.0, 0.0, 0.0])] {
         assert_eq!(crossing_time_of_simulation(v, alphas), None, "{v} {alphas:?}");

@@ -1,7 +1,7 @@
 //! Statistics of up to ten million robots, compared with sums in twice the precision.
 
 use crate::common::settings_of_preset;
-use crate::simulations::banana::{check_in_varied_clouds, simulation};
+use crate::simulations::banana::{check_in_varied_clouds, new_simulation};
 use motion::VelocityCmd;
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, MAX_SAMPLES, Settings, Stats};
@@ -137,7 +137,7 @@ fn assert_stats_are_exact(simulation: &BananaMachine) {
 #[ignore = "nightly: 10 million robots"]
 fn statistics_of_ten_million_robots_agree_with_exact_sums() {
     let command = VelocityCmd { v: 1.0, omega: 1.2, dt: 1.4 };
-    assert_stats_are_exact(&simulation(Settings {
+    assert_stats_are_exact(&new_simulation(Settings {
         command,
         samples: MAX_SAMPLES,
         ..settings_of_preset("gentle")

@@ -1,7 +1,7 @@
 //! Interpolation (morph) of a cloud between positions on the floor and exponential coordinates.
 
 use crate::common::{is_point_inside, settings_of_preset};
-use crate::simulations::banana::simulation;
+use crate::simulations::banana::new_simulation;
 use motion::VelocityCmd;
 use motion::geom::se2::SE2;
 use motion::geom::unbend::{find_arc, unbend, unbend_line};
@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 
 const MORPH_FRACTIONS: [f64; 5] = [0.0, 0.2, 0.5, 0.9, 1.0];
 
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+fn distance_between(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
@@ -34,7 +34,7 @@ fn nearest_finds_robots_at_their_morphed_positions() {
         Settings { model: ModelKind::Odometry, ..settings_of_preset("hard") },
         Settings { command: VelocityCmd { v: 1.0, omega: 2.4, dt: 1.5 }, ..settings_of_preset("banana") },
     ] {
-        let simulation = simulation(Settings { samples: 103, ..settings });
+        let simulation = new_simulation(Settings { samples: 103, ..settings });
         for (robot_index, (pose, twist)) in simulation.poses().zip(simulation.twists()).enumerate() {
             for morph in MORPH_FRACTIONS {
                 let morphed_position = unbend(&twist, morph);
@@ -45,9 +45,12 @@ fn nearest_finds_robots_at_their_morphed_positions() {
                 );
                 let bend_factor = 1.0 - morph;
                 let [x, y] = integrate_twist([twist.x, bend_factor * twist.y, bend_factor * twist.z]);
-                assert!(distance(morphed_position, [x, y + morph * twist.z]) < 1e-5, "{morph}: {twist}");
+                assert!(
+                    distance_between(morphed_position, [x, y + morph * twist.z]) < 1e-5,
+                    "{morph}: {twist}"
+                );
             }
-            assert!(distance(unbend(&twist, 0.0), [pose.x(), pose.y()]) < 1e-12);
+            assert!(distance_between(unbend(&twist, 0.0), [pose.x(), pose.y()]) < 1e-12);
             assert_eq!(unbend(&twist, 1.0), [twist.x, twist.z]);
         }
     }
@@ -56,11 +59,11 @@ fn nearest_finds_robots_at_their_morphed_positions() {
 #[test]
 fn robots_move_smoothly_with_the_morph() {
     const MORPH_STEP: f64 = 1e-3;
-    let simulation = simulation(Settings { samples: 200, ..settings_of_preset("banana") });
+    let simulation = new_simulation(Settings { samples: 200, ..settings_of_preset("banana") });
     for twist in simulation.twists() {
         let max_speed = twist.y.abs() + twist.z.abs() * (1.0 + twist.x.abs() + twist.y.abs());
         for morph in (0..1000).map(|i| f64::from(i) * MORPH_STEP) {
-            let displacement = distance(unbend(&twist, morph), unbend(&twist, morph + MORPH_STEP));
+            let displacement = distance_between(unbend(&twist, morph), unbend(&twist, morph + MORPH_STEP));
             assert!(displacement <= MORPH_STEP * max_speed * (1.0 + 1e-9), "{twist} at {morph}");
         }
     }
@@ -73,7 +76,7 @@ fn the_same_robots_stay_inside_an_outline() {
     let alphas = [0.002, 0.002, 0.1, 0.1, 0.0, 0.0];
     for omega in [0.0, 0.4] {
         let command = VelocityCmd { v: 1.0, omega, dt: 2.0 };
-        let simulation = simulation(Settings {
+        let simulation = new_simulation(Settings {
             command,
             velocity_alphas: alphas,
             samples: 5000,
@@ -103,7 +106,7 @@ fn the_same_robots_stay_inside_an_outline() {
 
 #[test]
 fn the_morphed_outline_equals_that_of_each_view_at_its_end() {
-    let simulation = simulation(Settings { samples: 5000, ..settings_of_preset("hard") });
+    let simulation = new_simulation(Settings { samples: 5000, ..settings_of_preset("hard") });
     let stats = simulation.stats();
     let xi_contour = ExponentialContour::new(&stats.exponential, &SE2::identity());
     assert_eq!(xi_contour.morphed_boundary(OUTLINE_SEGMENTS, 0.0), simulation.contours().exponential);
@@ -123,10 +126,10 @@ fn a_morphed_line_stays_connected_or_is_omitted() {
         assert!(unbend_line(&circle_at(0.1), 0.3, morph).is_empty());
         let morphed_line = unbend_line(&circle_at(0.7), 0.3, morph);
         assert_eq!(morphed_line.len(), 129);
-        assert!(morphed_line.windows(2).all(|ends| distance(ends[0], ends[1]) < 0.4), "{morph}");
+        assert!(morphed_line.windows(2).all(|ends| distance_between(ends[0], ends[1]) < 0.4), "{morph}");
     }
     for (circle_point, morphed_point) in circle_at(0.7).iter().zip(unbend_line(&circle_at(0.7), 0.3, 0.0)) {
-        assert!(distance(*circle_point, morphed_point) < 1e-12);
+        assert!(distance_between(*circle_point, morphed_point) < 1e-12);
     }
 }
 
@@ -136,14 +139,14 @@ fn find_arc_inverts_the_morph() {
         for [arc_length, arc_turn] in [[1.0, 0.5], [2.0, -1.0], [1.4, 1.7], [0.3, 0.0]] {
             let arc_end = unbend(&Vector3::new(arc_length, 0.0, arc_turn), morph);
             let found_arc = find_arc(arc_end, [arc_length + 0.1, arc_turn - 0.1], morph).expect("an arc");
-            assert!(distance(found_arc, [arc_length, arc_turn]) < 1e-9, "{morph}: {found_arc:?}");
+            assert!(distance_between(found_arc, [arc_length, arc_turn]) < 1e-9, "{morph}: {found_arc:?}");
         }
     }
 }
 
 #[test]
 fn gaps_of_a_cloud_are_inside_the_ellipse_only_and_contain_no_robot() {
-    let simulation = simulation(settings_of_preset("banana"));
+    let simulation = new_simulation(settings_of_preset("banana"));
     let (empty_regions, contours) = (simulation.gaps(), simulation.contours());
     assert_eq!(empty_regions.len(), 2);
     for gap in empty_regions {
@@ -151,6 +154,6 @@ fn gaps_of_a_cloud_are_inside_the_ellipse_only_and_contain_no_robot() {
         assert_eq!(simulation.nearest(0.0, gap, [0.03; 2]), None, "{gap:?}");
     }
     for preset_name in ["straight", "gentle", "hard", "pivot", "worked"] {
-        assert!(self::simulation(settings_of_preset(preset_name)).gaps().is_empty(), "{preset_name}");
+        assert!(self::new_simulation(settings_of_preset(preset_name)).gaps().is_empty(), "{preset_name}");
     }
 }

@@ -6,7 +6,7 @@ use motion::sim::odometry_decomposer::{OdometryDecomposer, Settings};
 use motion::sim::settings::SettingRules;
 use motion::{MotionModel, OdomAlphas, OdometryModel};
 
-pub fn simulation(settings: Settings) -> OdometryDecomposer {
+pub fn new_simulation(settings: Settings) -> OdometryDecomposer {
     OdometryDecomposer::new(settings).expect("a valid setting")
 }
 
@@ -14,7 +14,7 @@ pub fn simulation(settings: Settings) -> OdometryDecomposer {
 fn the_outcomes_equal_samples_of_the_model() {
     for noise in NOISE_KINDS {
         let settings = Settings { from: [0.5, -1.0, 2.0], noise, samples: 1001, ..Settings::default() };
-        let simulation = simulation(settings);
+        let simulation = new_simulation(settings);
         let [alpha1, alpha2, alpha3, alpha4, _] = settings.alphas;
         let model = OdometryModel { alphas: OdomAlphas([alpha1, alpha2, alpha3, alpha4]), noise };
         let mut rng = seeded_rng(settings.seed);
@@ -31,7 +31,7 @@ fn the_outcomes_equal_samples_of_the_model() {
 fn changed_settings_move_the_same_outcomes() {
     let settings_with_alpha3_only =
         |alpha3: f64| Settings { alphas: [0.0, 0.0, alpha3, 0.0, 0.0], ..settings_of_preset("drive-turn") };
-    let mut simulation = simulation(settings_with_alpha3_only(0.01));
+    let mut simulation = new_simulation(settings_with_alpha3_only(0.01));
     let excesses_of = |simulation: &OdometryDecomposer| -> Vec<f64> {
         simulation.poses().iter().map(|pose| pose.x() - 1.5).collect()
     };
@@ -51,7 +51,7 @@ fn changed_settings_move_the_same_outcomes() {
 fn the_leg_poses_follow_the_legs_of_the_reading() {
     for (preset_name, preset) in Settings::PRESETS {
         for rule in OdometryRule::ALL {
-            let simulation = simulation(Settings { rule, ..*preset });
+            let simulation = new_simulation(Settings { rule, ..*preset });
             let [start_pose, pose_after_rot1, pose_after_drive, final_pose] = simulation.leg_poses();
             let reading_legs = simulation.legs();
             assert_eq!(start_pose, preset.from.into());
@@ -80,10 +80,10 @@ fn the_leg_poses_follow_the_legs_of_the_reading() {
         }
     }
     // Without noise the leg poses of every outcome equal those of the reading.
-    let noise_free_simulation = simulation(Settings { alphas: [0.0; 5], ..Settings::default() });
+    let noise_free_simulation = new_simulation(Settings { alphas: [0.0; 5], ..Settings::default() });
     assert_eq!(noise_free_simulation.sample_leg_poses(7), [noise_free_simulation.leg_poses(); 7]);
     assert_eq!(noise_free_simulation.sample_leg_poses(usize::MAX).len(), 500);
-    let initial_simulation = simulation(Settings::default());
+    let initial_simulation = new_simulation(Settings::default());
     for (leg_poses, pose) in initial_simulation.sample_leg_poses(20).iter().zip(initial_simulation.poses()) {
         assert_eq!(leg_poses[3], *pose);
     }
@@ -91,7 +91,8 @@ fn the_leg_poses_follow_the_legs_of_the_reading() {
 
 #[test]
 fn the_prediction_does_not_depend_on_the_drift() {
-    let simulate_drift = |drift_seconds| simulation(Settings { drift: drift_seconds, ..Settings::default() });
+    let simulate_drift =
+        |drift_seconds| new_simulation(Settings { drift: drift_seconds, ..Settings::default() });
     let (simulation_without_drift, simulation_with_long_drift) = (simulate_drift(0.0), simulate_drift(300.0));
     assert_eq!(simulation_without_drift.poses(), simulation_with_long_drift.poses());
     assert_eq!(simulation_without_drift.rule_noises(), simulation_with_long_drift.rule_noises());
@@ -113,7 +114,7 @@ fn the_prediction_does_not_depend_on_the_drift() {
 #[test]
 fn the_curve_contains_the_values_of_the_readouts() {
     for rule in OdometryRule::ALL {
-        let simulation = simulation(Settings { rule, ..Settings::default() });
+        let simulation = new_simulation(Settings { rule, ..Settings::default() });
         let stats = simulation.stats();
         let drive_distance = simulation.legs().trans;
         let curve_points = simulation.deviation_curve(2.0 * drive_distance, 3);
@@ -128,7 +129,8 @@ fn the_curve_contains_the_values_of_the_readouts() {
         assert_eq!((rule_noise.deviations[1], rule_noise.cross_track), (along_deviation, cross_track));
         assert_eq!(simulation.deviation_curve(1.0, 1).len(), 1);
     }
-    let noisy_simulation = simulation(Settings { alphas: [2.0, 2.0, 0.0, 0.0, 0.0], ..Settings::default() });
+    let noisy_simulation =
+        new_simulation(Settings { alphas: [2.0, 2.0, 0.0, 0.0, 0.0], ..Settings::default() });
     let [distance, cross_track, lever_estimate, _] = noisy_simulation.deviation_curve(10.0, 2)[1];
     assert!(cross_track < distance && lever_estimate > 10.0 * distance);
 }

@@ -1,6 +1,6 @@
 //! Likelihood gains and area ratios, compared with their definitions and with reference values. Degenerate clouds have neither.
 
-use crate::common::{NOISE_KINDS, ReferenceTable, mean, variance};
+use crate::common::{NOISE_KINDS, ReferenceTable, mean_of, variance_of};
 use crate::simulations::banana::check_in_varied_clouds;
 use motion::VelocityCmd;
 use motion::geom::arc::{arc_end, arc_with_turn_near};
@@ -18,7 +18,7 @@ const GENTLE_COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 const SHARP_TURN_COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 1.2, dt: 1.4 };
 const STRAIGHT_COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
 
-fn simulation(command: VelocityCmd, velocity_alphas: [f64; 6], samples: usize) -> BananaMachine {
+fn new_simulation(command: VelocityCmd, velocity_alphas: [f64; 6], samples: usize) -> BananaMachine {
     let settings = Settings { command, velocity_alphas, samples, ..Settings::default() };
     BananaMachine::new(settings).expect("a valid setting")
 }
@@ -112,9 +112,9 @@ fn the_gain_equals_its_definition_over_all_poses() {
         if samples > 4 {
             let expected_gains = robot_gains(&poses_of(simulation), command.omega * command.dt);
             for ([computed_gain, gain_error], robot_gains) in computed_gains.into_iter().zip(expected_gains) {
-                assert_close(case, computed_gain, mean(&robot_gains), 1e-9);
+                assert_close(case, computed_gain, mean_of(&robot_gains), 1e-9);
                 if samples <= 2048 {
-                    let expected_error = (variance(&robot_gains) / samples as f64).sqrt();
+                    let expected_error = (variance_of(&robot_gains) / samples as f64).sqrt();
                     assert_close(case, gain_error, expected_error, 1e-8 * expected_error);
                 }
             }
@@ -147,7 +147,7 @@ fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
     for &(_, Settings { command, .. }) in Settings::PRESETS {
         let gains_with = |last_turn_alpha: f64| {
             let simulation =
-                simulation(command, [0.05, 0.05, 0.05, 0.09, last_turn_alpha, last_turn_alpha], 10_000);
+                new_simulation(command, [0.05, 0.05, 0.05, 0.09, last_turn_alpha, last_turn_alpha], 10_000);
             [simulation.stats().likelihood_gain.floor, simulation.exact_gain().value.floor]
         };
         let gains_without_turn = gains_with(0.0);
@@ -159,7 +159,7 @@ fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
         }
     }
     // The gain of positions on the floor is defined even if headings spread over a full turn, where exponential coordinates are undefined.
-    let wide_simulation = simulation(GENTLE_COMMAND, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
+    let wide_simulation = new_simulation(GENTLE_COMMAND, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
     assert!(!wide_simulation.is_exponential_defined());
     let Stats { likelihood_gain: gain, likelihood_gain_error: gain_error, area_ratio, .. } =
         wide_simulation.stats();
@@ -167,7 +167,7 @@ fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
     assert_close(
         "floor",
         gain.floor,
-        simulation(GENTLE_COMMAND, GENTLE_ALPHAS, 10_000).stats().likelihood_gain.floor,
+        new_simulation(GENTLE_COMMAND, GENTLE_ALPHAS, 10_000).stats().likelihood_gain.floor,
         1e-12,
     );
 }
@@ -183,7 +183,7 @@ fn the_area_ratio_is_that_of_the_drawn_outlines() {
         (STRAIGHT_COMMAND, BANANA_ALPHAS),
         (VelocityCmd { v: -1.0, ..SHARP_TURN_COMMAND }, BANANA_ALPHAS),
     ] {
-        let simulation = simulation(command, alphas, 5000);
+        let simulation = new_simulation(command, alphas, 5000);
         let outlines = simulation.contours();
         let expected_ratio = area_of_outline(&outlines.ellipse) / area_of_outline(&outlines.exponential);
         assert_close("ratio", simulation.stats().area_ratio, expected_ratio, 1e-12 * expected_ratio);
@@ -204,9 +204,9 @@ fn the_error_of_the_area_ratio_matches_its_deviation_over_clouds() {
         };
         let stats_of_clouds: Vec<Stats> = (0..CLOUD_COUNT).map(stats_of_seed).collect();
         let ratio_std =
-            variance(&stats_of_clouds.iter().map(|cloud| cloud.area_ratio).collect::<Vec<_>>()).sqrt();
+            variance_of(&stats_of_clouds.iter().map(|cloud| cloud.area_ratio).collect::<Vec<_>>()).sqrt();
         let mean_error =
-            mean(&stats_of_clouds.iter().map(|cloud| cloud.area_ratio_error).collect::<Vec<_>>());
+            mean_of(&stats_of_clouds.iter().map(|cloud| cloud.area_ratio_error).collect::<Vec<_>>());
         // The relative standard error of a standard deviation is 1/√(2·CLOUD_COUNT).
         assert_close(name, mean_error / ratio_std, 0.94, 0.05 + 4.0 / (2.0 * CLOUD_COUNT as f64).sqrt());
     }
@@ -233,7 +233,7 @@ fn the_gain_is_infinite_if_only_exponential_coordinates_have_no_volume() {
             }
             // With a tiny variance of γ̂ the gain is finite. It grows by half a nat if the variance falls by a factor e.
             let pose_gain_with = |last_turn_alpha: f64| {
-                simulation(command, [0.05, 0.05, 0.05, 0.09, last_turn_alpha, last_turn_alpha], 5000)
+                new_simulation(command, [0.05, 0.05, 0.05, 0.09, last_turn_alpha, last_turn_alpha], 5000)
                     .stats()
                     .likelihood_gain
                     .pose
@@ -242,7 +242,7 @@ fn the_gain_is_infinite_if_only_exponential_coordinates_have_no_volume() {
         }
     }
     // The cloud is a curve in the plane, and a straight line in exponential coordinates.
-    let fan_simulation = simulation(STRAIGHT_COMMAND, [0.0, 0.0, 0.02, 0.0, 0.0, 0.0], 2000);
+    let fan_simulation = new_simulation(STRAIGHT_COMMAND, [0.0, 0.0, 0.02, 0.0, 0.0, 0.0], 2000);
     let Stats { likelihood_gain: gain, area_ratio, .. } = fan_simulation.stats();
     assert!(gain.pose == f64::INFINITY && gain.floor == f64::INFINITY && area_ratio.is_nan());
     assert_eq!(fan_simulation.table().exact.likelihood_gain, *gain);
@@ -255,7 +255,7 @@ fn robots_on_a_line_have_no_gain() {
         (STRAIGHT_COMMAND, [0.1, 0.0, 0.0, 0.0, 0.1, 0.0]),
         (GENTLE_COMMAND, [0.1, 0.1, 0.0, 0.0, 0.0, 0.0]),
     ] {
-        let simulation = simulation(command, alphas, 5000);
+        let simulation = new_simulation(command, alphas, 5000);
         for gain in [simulation.stats().likelihood_gain, simulation.table().exact.likelihood_gain] {
             assert!(gain.pose.is_nan() && gain.floor.is_nan(), "{command:?} {alphas:?}: {gain:?}");
         }

@@ -10,7 +10,7 @@ use serde_json::json;
 use serde_json::value::{RawValue, to_raw_value};
 
 fn main() -> serde_json::Result<()> {
-    let widgets = [
+    let widget_declarations = [
         describe_widget::<banana::Settings>("banana-machine")?,
         describe_widget::<squeeze::Settings>("map-squeeze")?,
         describe_widget::<arc_anatomy::Settings>("arc-anatomy")?,
@@ -19,7 +19,7 @@ fn main() -> serde_json::Result<()> {
         describe_widget::<alpha_calibrator::Settings>("alpha-calibrator")?,
     ];
     let banana::Settings { velocity_alphas, odometry_alphas, .. } = banana::Settings::DEFAULT;
-    let constants = json!({
+    let core_constants = json!({
         // Initial noise parameters of each model.
         "openingAlphas": { "velocity": velocity_alphas, "odometry": odometry_alphas },
         // Limits of files and calls. `cells`: number of cells of a grid and of pixels of an image. `bytes`: size of an image file. `trial`:
@@ -28,7 +28,7 @@ fn main() -> serde_json::Result<()> {
         // Bit flags of the verdict on an attempt of Map Squeeze to draw a motion.
         "verdict": { "endFree": END_FREE_BIT, "pathFree": PATH_FREE_BIT, "accepted": ACCEPTED_BIT },
     });
-    println!("{}", serde_json::to_string(&(widgets, constants))?);
+    println!("{}", serde_json::to_string(&(widget_declarations, core_constants))?);
     Ok(())
 }
 
@@ -48,13 +48,13 @@ fn describe_widget<S: SettingRules>(tag: &'static str) -> serde_json::Result<Box
             Setting::Numbers(_, allowed) => {
                 json!({ "type": "numbers", "allowed": allowed, "minLength": min_length::<S>(declaration.key) })
             }
-            Setting::Level(level, allowed) => {
-                let weights: Vec<_> = level.ratios().collect();
-                json!({ "type": "number", "allowed": allowed, "nullable": true, "weights": weights })
+            Setting::Level(noise_level, allowed) => {
+                let alpha_weights: Vec<_> = noise_level.ratios().collect();
+                json!({ "type": "number", "allowed": allowed, "nullable": true, "weights": alpha_weights })
             }
-            Setting::Group(members, _) => {
-                let fields = members.each_ref().map(|member| (&member.declaration, &member.allowed));
-                json!({ "type": "group", "fields": fields })
+            Setting::Group(group_members, _) => {
+                let member_fields = group_members.each_ref().map(|group_member| (&group_member.declaration, &group_member.allowed));
+                json!({ "type": "group", "fields": member_fields })
             }
         };
         settings.push(to_raw_value(&(declaration, setting_type, &setting))?);
@@ -73,8 +73,8 @@ fn min_length<S: SettingRules>(list_key: &str) -> usize {
                 Setting::Keyword(keyword) if declaration.key == keyword_declaration.key => {
                     assert!(keyword.set(word))
                 }
-                Setting::Numbers(numbers, _) if declaration.key == list_key => {
-                    min_length = min_length.min(numbers.len());
+                Setting::Numbers(listed_numbers, _) if declaration.key == list_key => {
+                    min_length = min_length.min(listed_numbers.len());
                 }
                 _ => {}
             });

@@ -20,8 +20,8 @@ const JS_VALUES: &str = "{
     aware: new motion.OdometryModel({ alphas: [0.1, 0.05, 0.02, 0.03], reverseAware: true }),
     back: { x: 0.1, y: -2.4, theta: 0.55 }, reverse: { rot1: 3, trans: 1, rot2: -3 },
 }";
-const COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
-const READING: OdomDelta = OdomDelta { rot1: 0.2, trans: 1.0, rot2: 0.3 };
+const VELOCITY_COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
+const ODOMETRY_READING: OdomDelta = OdomDelta { rot1: 0.2, trans: 1.0, rot2: 0.3 };
 const REVERSE_READING: OdomDelta = OdomDelta { rot1: 3.0, trans: 1.0, rot2: -3.0 };
 const VELOCITY_MODEL: VelocityModel = VelocityModel {
     alphas: VelocityAlphas([0.02, 0.03, 0.04, 0.05, 0.01, 0.02]),
@@ -113,8 +113,8 @@ fn models_score_and_draw_as_in_rust() {
             .map(([model, next, control]) =>
                 [model.prob(next, control, it.start), model.poseDensity(next, control, it.start)])",
     );
-    assert_eq!(velocity_scores, score_and_density_of(&VELOCITY_MODEL, &new_next_pose(), &COMMAND));
-    assert_eq!(odometry_scores, score_and_density_of(&ODOMETRY_MODEL, &new_next_pose(), &READING));
+    assert_eq!(velocity_scores, score_and_density_of(&VELOCITY_MODEL, &new_next_pose(), &VELOCITY_COMMAND));
+    assert_eq!(odometry_scores, score_and_density_of(&ODOMETRY_MODEL, &new_next_pose(), &ODOMETRY_READING));
     let reverse_aware_model = ConfiguredOdometry { model: ODOMETRY_MODEL, reverse_aware: true };
     assert_eq!(
         reverse_aware_scores,
@@ -126,8 +126,8 @@ fn models_score_and_draw_as_in_rust() {
     );
 
     for (js_call, expected) in [
-        ("velocity.sample(it.command", sample_coordinates(&VELOCITY_MODEL, &COMMAND)),
-        ("odometry.sample(it.control", sample_coordinates(&ODOMETRY_MODEL, &READING)),
+        ("velocity.sample(it.command", sample_coordinates(&VELOCITY_MODEL, &VELOCITY_COMMAND)),
+        ("odometry.sample(it.control", sample_coordinates(&ODOMETRY_MODEL, &ODOMETRY_READING)),
         ("aware.sample(it.reverse", sample_coordinates(&reverse_aware_model, &REVERSE_READING)),
     ] {
         assert_eq!(js.get::<Vec<f64>>(&format!("it.{js_call}, it.start, 5, 9)")), expected, "{js_call}");
@@ -145,8 +145,9 @@ fn models_score_and_draw_as_in_rust() {
 
 #[wasm_bindgen_test]
 fn covariances_are_propagated_as_in_rust() {
-    let noise_model = TangentNoiseModel::from_velocity(&VELOCITY_MODEL, &COMMAND).expect("a covariance");
-    let twist = TangentNoiseModel::twist(&COMMAND);
+    let noise_model =
+        TangentNoiseModel::from_velocity(&VELOCITY_MODEL, &VELOCITY_COMMAND).expect("a covariance");
+    let twist = TangentNoiseModel::twist(&VELOCITY_COMMAND);
     let js = JsObject::new(JS_VALUES);
     for (js_keyword, recursion) in [
         ("chapter", Compounding::Chapter),

@@ -116,7 +116,8 @@ fn median_of_sorted(sorted_numbers: &[f64]) -> f64 {
 /// Returns the standard error of the median of normal numbers, estimated from the range of their middle 68 %.
 fn estimate_error_of_median(sorted_numbers: &[f64]) -> f64 {
     let number_count = sorted_numbers.len();
-    let [low, high] = [0.16, 0.84].map(|level| sorted_numbers[(level * number_count as f64) as usize]);
+    let [low, high] =
+        [0.16, 0.84].map(|quantile_level| sorted_numbers[(quantile_level * number_count as f64) as usize]);
     1.25 * 0.5 * (high - low) / (number_count as f64).sqrt()
 }
 

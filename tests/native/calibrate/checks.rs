@@ -79,10 +79,11 @@ fn a_reference_that_turns_the_other_way_is_recognized_at_any_clock_offset() {
     for (seed, clock_offset) in [(1, 0.0), (2, -3.7), (3, 3600.0)] {
         let sim = new_passing_simulation(600, seed);
         let [odometry, reference] = sim.simulate_log();
-        let mirrored = reference.samples().map(|(sample_time, pose)| {
+        let mirrored_reference = reference.samples().map(|(sample_time, pose)| {
             (sample_time + clock_offset, SE2::new(pose.x(), -pose.y(), -pose.theta()))
         });
-        let calibration = calibrate_log(&[odometry, new_trajectory(mirrored)], &sim.calibration_options());
+        let calibration =
+            calibrate_log(&[odometry, new_trajectory(mirrored_reference)], &sim.calibration_options());
         let check = &calibration.diagnostics.checks[0];
         assert_eq!(check.cause, Some(FailureCause::Mirrored), "{seed}: {check:?}");
         assert_unusable(&calibration, "mirrored");
@@ -93,13 +94,15 @@ fn a_reference_that_turns_the_other_way_is_recognized_at_any_clock_offset() {
 fn one_bad_drive_of_two_is_recognized() {
     let [good_log, [odometry, reference], [_, other_reference]] =
         [(1200, 1), (60, 2), (60, 3)].map(|(legs, seed)| new_passing_simulation(legs, seed).simulate_log());
-    let mirrored = change_poses(&reference, |pose| SE2::new(pose.x(), -pose.y(), -pose.theta()));
-    for (reference, cause) in [(mirrored, Some(FailureCause::Mirrored)), (other_reference, None)] {
+    let mirrored_reference = change_poses(&reference, |pose| SE2::new(pose.x(), -pose.y(), -pose.theta()));
+    for (reference, failure_cause) in
+        [(mirrored_reference, Some(FailureCause::Mirrored)), (other_reference, None)]
+    {
         let logs = [good_log.clone(), [odometry.clone(), reference]];
         let drives = logs.map(|[odometry, reference]| Drive { odometry, reference });
         let calibration = calibrate(&drives, &new_passing_simulation(0, 0).calibration_options()).unwrap();
         let check = &calibration.diagnostics.checks[0];
-        assert_eq!((check.cause, &check.drives), (cause, &vec![1]));
+        assert_eq!((check.cause, &check.drives), (failure_cause, &vec![1]));
     }
 }
 
@@ -144,7 +147,7 @@ fn a_copy_of_the_odometry_is_no_reference() {
         let sim = new_passing_simulation(leg_count, 1);
         let [odometry, _] = sim.simulate_log();
         let round_to_decimals =
-            |coordinate: f64| (coordinate * 10_f64.powi(decimal_count)).round() / 10_f64.powi(decimal_count);
+            |unrounded: f64| (unrounded * 10_f64.powi(decimal_count)).round() / 10_f64.powi(decimal_count);
         let copied_samples = odometry.samples().map(|(sample_time, pose)| {
             let transformed_pose =
                 SE2::new(3.0, 1.0, 0.5) * SE2::new(1.02 * pose.x(), 1.02 * pose.y(), pose.theta());

@@ -64,11 +64,11 @@ fn clocks_are_aligned_by_the_turns_of_a_broken_reference() {
     let mut rng = seeded_rng(2);
     let mut frame_heading = 0.0;
     let restarting_reference =
-        new_trajectory(reference.samples().enumerate().map(|(row_index, (time, pose))| {
+        new_trajectory(reference.samples().enumerate().map(|(row_index, (sample_time, pose))| {
             if row_index % 400 == 0 {
                 frame_heading = rng.random_range(-3.0..3.0);
             }
-            (time, SE2::new(0.0, 0.0, frame_heading) * pose)
+            (sample_time, SE2::new(0.0, 0.0, frame_heading) * pose)
         }));
     let partly_visible_reference =
         new_trajectory(reference.samples().filter(|(time, _)| time.rem_euclid(60.0) < 20.0));

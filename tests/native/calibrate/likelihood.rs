@@ -182,9 +182,10 @@ fn rotations_of_a_short_leg_add_up_to_its_turn() {
     };
     let residuals =
         calibrate_simulation(&sim).observations.into_iter().map(|observation| observation.residuals);
-    let (max_rotation, max_turn) = residuals.fold((0.0, 0.0), |(rotation_so_far, turn), [rot1, _, rot2]| {
-        (f64::max(rotation_so_far, rot2.abs()), f64::max(turn, (rot1 + rot2).abs()))
-    });
+    let (max_rotation, max_turn) =
+        residuals.fold((0.0, 0.0), |(rotation_so_far, turn_so_far), [rot1, _, rot2]| {
+            (f64::max(rotation_so_far, rot2.abs()), f64::max(turn_so_far, (rot1 + rot2).abs()))
+        });
     assert!(max_rotation > PI && max_turn < 0.2, "{max_rotation} {max_turn}");
 }
 

@@ -119,16 +119,18 @@ impl Simulation {
             rows_left -= 1;
             let drawn_velocity =
                 self.velocity_of_leg.map_or(drawn_velocity, |velocity_of_leg| velocity_of_leg(leg_index));
-            let time = odometry_samples.len() as f64 * step_seconds;
+            let row_time = odometry_samples.len() as f64 * step_seconds;
             let step_twist = Vector3::new(drawn_velocity[0], 0.0, drawn_velocity[1]) * step_seconds;
             leg_motion = leg_motion.boxplus(step_twist);
             let odometry_twist = Vector3::new(step_twist.x / distance_scale, 0.0, step_twist.z / turn_scale);
-            odometry_samples.push((time, odometry_samples.last().expect("some").1.boxplus(odometry_twist)));
-            leg_rows.push((time, leg_motion));
+            odometry_samples
+                .push((row_time, odometry_samples.last().expect("some").1.boxplus(odometry_twist)));
+            leg_rows.push((row_time, leg_motion));
             let [(start_time, start_pose), (_, odometry_pose)] =
                 [odometry_samples[start_row], odometry_samples[odometry_samples.len() - 1]];
             let has_reading = (odometry_samples.len() - 1) % rows_per_reading == 0;
-            if !has_reading || !has_leg_ended(self.leg_length, time - start_time, &start_pose, &odometry_pose)
+            if !has_reading
+                || !has_leg_ended(self.leg_length, row_time - start_time, &start_pose, &odometry_pose)
             {
                 continue;
             }
@@ -142,7 +144,7 @@ impl Simulation {
                 random_walk.push(random_walk[row].map(|sum| sum + step_std * self.draw_walk_step(&mut rng)));
             }
             let twist_noise_of = |unit_noise| {
-                let duration = time - start_time;
+                let duration = row_time - start_time;
                 let noisy_motion = execute_motion(self.model, &ALPHAS, &leg_motion, duration, unit_noise);
                 (leg_motion.inverse() * noisy_motion).log()
             };

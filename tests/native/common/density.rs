@@ -82,18 +82,19 @@ impl PolarGrid {
         for i in 0..self.cell_counts[0] {
             for j in 0..self.cell_counts[1] {
                 for k in 0..self.cell_counts[2] {
-                    let mut mass = 0.0;
+                    let mut probability_mass = 0.0;
                     for (c, c_weight) in nodes_and_weights_of(0, i) {
                         for (beta, beta_weight) in nodes_and_weights_of(1, j) {
                             let (x, y) =
                                 (self.start_pose.x() + c * beta.cos(), self.start_pose.y() + c * beta.sin());
                             for (relative_heading, heading_weight) in nodes_and_weights_of(2, k) {
                                 let pose = SE2::new(x, y, self.heading_slope * beta + relative_heading);
-                                mass += c_weight * beta_weight * heading_weight * c.abs() * density_at(&pose);
+                                probability_mass +=
+                                    c_weight * beta_weight * heading_weight * c.abs() * density_at(&pose);
                             }
                         }
                     }
-                    cell_masses.push(mass);
+                    cell_masses.push(probability_mass);
                 }
             }
         }
@@ -139,19 +140,24 @@ impl PolarGrid {
         let n = counted_poses.len() as f64;
         let mut observed_counts = self.count_poses(counted_poses);
         let mut expected_counts: Vec<f64> =
-            self.cell_masses(density_at).iter().map(|mass| mass * n).collect();
+            self.cell_masses(density_at).iter().map(|probability_mass| probability_mass * n).collect();
         observed_counts.push(n - observed_counts.iter().sum::<f64>());
         expected_counts.push(n - expected_counts.iter().sum::<f64>());
-        let (sparse_cells, full_cells): (Vec<_>, Vec<_>) =
-            observed_counts.into_iter().zip(expected_counts).partition(|(_, expected)| *expected < 20.0);
-        let pooled_cell = sparse_cells.iter().fold((0.0, 0.0), |(o, e), counts| (o + counts.0, e + counts.1));
+        let (sparse_cells, full_cells): (Vec<_>, Vec<_>) = observed_counts
+            .into_iter()
+            .zip(expected_counts)
+            .partition(|(_, expected_count)| *expected_count < 20.0);
+        let pooled_cell =
+            sparse_cells.iter().fold((0.0, 0.0), |(o, e), count_pair| (o + count_pair.0, e + count_pair.1));
         assert!(full_cells.len() > 40, "{} cells test little", full_cells.len());
         assert!(
             pooled_cell.1 > -1e-4 * n,
             "the density has more mass than 1: {} poses remain",
             pooled_cell.1
         );
-        let chi_square_term_of = |(observed, expected): &(f64, f64)| (observed - expected).powi(2) / expected;
+        let chi_square_term_of = |(observed_count, expected_count): &(f64, f64)| {
+            (observed_count - expected_count).powi(2) / expected_count
+        };
         // The cell that pools all sparse cells is left out if it expects few poses, because the quadrature error may exceed their number.
         let pooled_term = if pooled_cell.1 >= 20.0 { chi_square_term_of(&pooled_cell) } else { 0.0 };
         (

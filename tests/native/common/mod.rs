@@ -121,7 +121,7 @@ impl ReferenceRow<'_> {
     }
 
     /// Returns the absolute error of `computed_value`. The reference is the sum of two columns: the nearest double and a remainder (`_lo`).
-    pub fn deviation(&self, column_name: &str, computed_value: f64) -> f64 {
+    pub fn deviation_of(&self, column_name: &str, computed_value: f64) -> f64 {
         ((computed_value - self.cell_number(column_name)) - self.cell_number(&format!("{column_name}_lo")))
             .abs()
     }

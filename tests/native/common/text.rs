@@ -7,7 +7,7 @@ pub struct PlainText(String);
 pub struct PrintedNumber {
     pub value: f64,
     /// Half a unit of the last printed digit.
-    pub rounding: f64,
+    pub rounding_error: f64,
 }
 
 impl PrintedNumber {
@@ -15,7 +15,7 @@ impl PrintedNumber {
     pub fn assert_near(&self, computed_value: f64, tolerance: f64) {
         let absolute_error = (computed_value - self.value).abs();
         assert!(
-            absolute_error <= self.rounding * (1.0 + 1e-9) + tolerance,
+            absolute_error <= self.rounding_error * (1.0 + 1e-9) + tolerance,
             "{computed_value} ± {tolerance} is printed as {}",
             self.value
         );
@@ -34,7 +34,8 @@ impl PlainText {
         let mut plain_text = String::new();
         for tag_and_text in html.split('<') {
             // The text before the first tag has no markup.
-            plain_text.push_str(tag_and_text.split_once('>').map_or(tag_and_text, |(_, text)| text));
+            plain_text
+                .push_str(tag_and_text.split_once('>').map_or(tag_and_text, |(_, plain_part)| plain_part));
         }
         for (entity, character) in [("&nbsp;", " "), ("&#8239;", "\u{202f}"), ("&lt;", "<"), ("&gt;", ">")] {
             plain_text = plain_text.replace(entity, character);
@@ -95,9 +96,13 @@ fn parse_numbers(remaining_text: &str, sentence_parts: &[&str]) -> Option<Vec<Pr
             number_end -= usize::from(remaining_text[..number_end].ends_with('.'));
             let digits: String =
                 remaining_text[..number_end].replace('−', "-").replace([THIN_SPACE, ' '], "");
-            let decimal_count = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
+            let decimal_count =
+                digits.split_once('.').map_or(0, |(_, decimal_digits)| decimal_digits.len() as i32);
             remaining_text = remaining_text[number_end..].strip_prefix(sentence_part)?;
-            Some(PrintedNumber { value: digits.parse().ok()?, rounding: 0.5 * 10f64.powi(-decimal_count) })
+            Some(PrintedNumber {
+                value: digits.parse().ok()?,
+                rounding_error: 0.5 * 10f64.powi(-decimal_count),
+            })
         })
         .collect()
 }

@@ -22,10 +22,10 @@ pub fn configurations_of(configurations_json: &Value) -> impl Iterator<Item = Co
     let widgets_json = configurations_json["widgets"].as_object().expect("widgets");
     widgets_json.iter().flat_map(move |(widget, widget_json)| {
         let settings_by_name = widget_json["configurations"].as_object().expect("configurations");
-        settings_by_name.iter().map(move |(name, settings_json)| Configuration {
+        settings_by_name.iter().map(move |(configuration_name, settings_json)| Configuration {
             configurations_json,
             widget_tag: widget,
-            configuration_name: name,
+            configuration_name,
             settings_json,
         })
     })
@@ -36,7 +36,7 @@ impl Configuration<'_> {
     pub fn read_settings<S: SettingRules>(&self) -> S {
         let preset_name =
             self.settings_json.get("preset").map(|name_json| name_json.as_str().expect("a name"));
-        let is_named_preset = |(name, _): &&(&str, S)| preset_name == Some(*name);
+        let is_named_preset = |(configuration_name, _): &&(&str, S)| preset_name == Some(*configuration_name);
         let default_settings = match S::PRESETS.iter().find(is_named_preset) {
             Some((_, configured_settings)) => *configured_settings,
             None if preset_name.is_none() => S::default(),
@@ -62,7 +62,8 @@ impl Configuration<'_> {
             .get("bounds")
             .unwrap_or(&self.configurations_json["widgets"][self.widget_tag]["bounds"]);
         let [x_min, y_min, x_max, y_max] = to_numbers(view_bounds);
-        let view_size_of = |key| self.configurations_json["picture"][key].as_u64().expect("a size") as usize;
+        let view_size_of =
+            |size_key| self.configurations_json["picture"][size_key].as_u64().expect("a size") as usize;
         ViewGrid {
             min_corner: [x_min, y_min],
             max_corner: [x_max, y_max],

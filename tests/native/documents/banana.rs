@@ -107,10 +107,11 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
         [&outlines.ellipse, &outlines.exponential].map(|outline| is_point_inside(outline, floor_point))
     };
     const CELL_SIZE: f64 = 0.02;
-    let cell_indices = (0..250).flat_map(|column_index| (0..250).map(move |row| (column_index, row)));
+    let cell_indices =
+        (0..250).flat_map(|column_index| (0..250).map(move |row_index| (column_index, row_index)));
     let cell_flags: Vec<[bool; 2]> = cell_indices
-        .map(|(column_index, row)| {
-            is_inside_outlines([f64::from(column_index) * CELL_SIZE, f64::from(row) * CELL_SIZE - 2.5])
+        .map(|(column_index, row_index)| {
+            is_inside_outlines([f64::from(column_index) * CELL_SIZE, f64::from(row_index) * CELL_SIZE - 2.5])
         })
         .collect();
     let robot_flags: Vec<[bool; 2]> =
@@ -168,8 +169,10 @@ fn the_predicted_skew_is_wrong_under_the_odometry_model() {
 #[test]
 fn a_hundred_times_the_robots_reduce_the_error_to_a_tenth() {
     read_page_text().assert_contains("A hundred times the robots leave a tenth of the standard error.");
-    let skew_error_of = |samples| {
-        new_simulation(Settings { samples, ..settings_of_preset("gentle") }).stats().cross_track_skew_error
+    let skew_error_of = |sample_count| {
+        new_simulation(Settings { samples: sample_count, ..settings_of_preset("gentle") })
+            .stats()
+            .cross_track_skew_error
     };
     let error_ratio = skew_error_of(2000) / skew_error_of(200_000);
     assert!((error_ratio - 10.0).abs() < 1.0, "{error_ratio}");

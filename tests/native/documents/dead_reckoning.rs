@@ -67,8 +67,11 @@ fn printed_variance_errors_of_the_recursion_equal_those_of_the_simulation() {
         "With the right Jacobian Jr, the turn during a step, every ratio is 1 to a hundredth, and fourth order looks the same.",
     );
     for recursion in [Compounding::FirstOrder, Compounding::FourthOrder] {
-        for ratio in &initial_simulation.comparison(recursion).ratios {
-            assert!(ratio.iter().all(|ratio| (ratio - 1.0).abs() < 0.01), "{recursion:?}: {ratio}");
+        for variance_ratio in &initial_simulation.comparison(recursion).ratios {
+            assert!(
+                variance_ratio.iter().all(|variance_ratio| (variance_ratio - 1.0).abs() < 0.01),
+                "{recursion:?}: {variance_ratio}"
+            );
         }
     }
 }
@@ -87,11 +90,9 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
     let first_missed_steps = simulations.map(|simulation| {
         let ratio_tolerance = MAX_STANDARD_ERRORS * (2.3 / simulation.settings().samples as f64).sqrt();
         let variance_ratios = &simulation.comparison(Compounding::FourthOrder).ratios;
-        assert!(
-            variance_ratios
-                .iter()
-                .all(|ratios| ratios.iter().all(|ratio| (ratio - 1.0).abs() < ratio_tolerance))
-        );
+        assert!(variance_ratios.iter().all(|ratios| {
+            ratios.iter().all(|variance_ratio| (variance_ratio - 1.0).abs() < ratio_tolerance)
+        }));
         let first_missed_step = simulation.comparison(Compounding::Chapter).misses[0].first.expect("a miss");
         assert_eq!(
             first_missed_step as usize,

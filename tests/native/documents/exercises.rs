@@ -133,8 +133,16 @@ fn exercise_4_prints_the_effect_of_each_alpha() {
 fn exercise_5_prints_the_fractions_through_walls() {
     let new_settings = |noise_level: f64, omega: f64, sampler: Sampler| {
         let command = VelocityCmd { omega, ..squeeze::Settings::default().command };
-        let (alphas, steps, samples) = (alphas_of_noise_level(noise_level), sampler.part_count(), 20_000);
-        squeeze::Settings { command, alphas, sampler, steps, samples, ..Default::default() }
+        let (alphas, substep_count, sample_count) =
+            (alphas_of_noise_level(noise_level), sampler.part_count(), 20_000);
+        squeeze::Settings {
+            command,
+            alphas,
+            sampler,
+            steps: substep_count,
+            samples: sample_count,
+            ..Default::default()
+        }
     };
     let squeeze_stats_of = |settings| MapSqueeze::new(settings).expect("valid settings").stats();
     for n in ["0.02", "0.05", "0.12", "0.4"] {
@@ -186,7 +194,8 @@ fn exercise_6_prints_the_skew_of_the_triangular_sampler() {
     printed_tail.assert_percent(2.0 * unit_cdf(NoiseKind::Normal, -6f64.sqrt()), 0.0);
     assert!(
         iter_poses(NoiseKind::Triangular)
-            .all(|end_pose| (end_pose.theta() - 0.5).abs() <= printed_limit.value + printed_limit.rounding)
+            .all(|end_pose| (end_pose.theta() - 0.5).abs()
+                <= printed_limit.value + printed_limit.rounding_error)
     );
     let printed_skews: [PrintedNumber; 2] =
         read_exercises().sentence_numbers("the skew is # with normal noise and # with triangular noise");

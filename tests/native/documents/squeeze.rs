@@ -17,16 +17,16 @@ const WALL_PRESET: usize = 1;
 const CORRIDOR_PRESET: usize = 2;
 
 /// Returns the initial settings with another start, sampler and turn rate.
-fn new_settings(preset: usize, sampler: Sampler, omega: f64) -> Settings {
+fn new_settings(preset_index: usize, sampler: Sampler, omega: f64) -> Settings {
     let command = VelocityCmd { omega, ..Settings::default().command };
     let part_count = sampler.part_count();
-    let samples = 100_000.min(800_000 / part_count as usize);
+    let sample_count = 100_000.min(800_000 / part_count as usize);
     Settings {
-        start: Settings::PRESETS[preset].1.start,
+        start: Settings::PRESETS[preset_index].1.start,
         sampler,
         steps: part_count,
         command,
-        samples,
+        samples: sample_count,
         seed: 3,
         ..Settings::default()
     }
@@ -46,8 +46,8 @@ fn fraction_through_wall_of(settings: Settings) -> (f64, f64) {
     (fraction, ((fraction * (1.0 - fraction)).max(1.0 / accepted_count) / accepted_count).sqrt())
 }
 
-fn fraction_in_parts(preset: usize, part_count: u32, omega: f64) -> (f64, f64) {
-    fraction_through_wall_of(new_settings(preset, Sampler::SubStepped(part_count), omega))
+fn fraction_in_parts(preset_index: usize, part_count: u32, omega: f64) -> (f64, f64) {
+    fraction_through_wall_of(new_settings(preset_index, Sampler::SubStepped(part_count), omega))
 }
 
 /// Asserts that a printed percentage equals a computed fraction, within its standard error.
@@ -56,11 +56,11 @@ fn assert_printed_percentage((fraction, standard_error): (f64, f64), printed_per
 }
 
 /// Asserts that `smaller_fraction` is less than `larger_fraction` by more than [`MAX_STANDARD_ERRORS`] of their difference.
-fn assert_smaller_fraction(smaller_fraction: (f64, f64), larger_fraction: (f64, f64), case: &str) {
+fn assert_smaller_fraction(smaller_fraction: (f64, f64), larger_fraction: (f64, f64), case_name: &str) {
     assert!(
         larger_fraction.0 - smaller_fraction.0
             > MAX_STANDARD_ERRORS * smaller_fraction.1.hypot(larger_fraction.1),
-        "{case}: {smaller_fraction:?} is not less than {larger_fraction:?}"
+        "{case_name}: {smaller_fraction:?} is not less than {larger_fraction:?}"
     );
 }
 
@@ -103,11 +103,11 @@ fn fractions_through_walls_by_substeps_are_those_in_the_documents() {
     let printed_fractions = model_text().sentence_numbers(
         "On a straight command it falls with k: to # % at k = 16 facing the doorway, and to # % in the corridor.",
     );
-    for (preset, printed_fraction) in
+    for (preset_index, printed_fraction) in
         [DOORWAY_PRESET, CORRIDOR_PRESET].into_iter().zip::<[PrintedNumber; 2]>(printed_fractions)
     {
-        assert_printed_percentage(fraction_in_parts(preset, 16, 0.0), printed_fraction);
-        assert!(fraction_in_parts(preset, 64, 0.0).0 < 1e-3, "nearly nothing at the end of the slider");
+        assert_printed_percentage(fraction_in_parts(preset_index, 16, 0.0), printed_fraction);
+        assert!(fraction_in_parts(preset_index, 64, 0.0).0 < 1e-3, "nearly nothing at the end of the slider");
     }
     let [printed_omega, printed_endpoint_percentage, printed_parts_percentage, printed_part_count] = read_page_text().sentence_numbers(
         "With ω = # more pass at first, from # % by the endpoint test to # % in # parts, and only then fewer.",
@@ -125,16 +125,19 @@ fn fractions_through_walls_by_substeps_are_those_in_the_documents() {
          over # and # % to # % at k = 8, and falls to # % at 12.",
     );
     let (doorway_percentages, corridor_percentages) = printed_numbers.split_at(5);
-    for (preset, part_counts, percentages) in [
+    for (preset_index, part_counts, printed_percentages) in [
         (DOORWAY_PRESET, [4, 6, 8, 16], doorway_percentages),
         (CORRIDOR_PRESET, [4, 6, 8, 12], corridor_percentages),
     ] {
         assert_printed_percentage(
-            fraction_through_wall_of(new_settings(preset, Sampler::Endpoint, printed_omega.value)),
-            percentages[0],
+            fraction_through_wall_of(new_settings(preset_index, Sampler::Endpoint, printed_omega.value)),
+            printed_percentages[0],
         );
-        for (part_count, &percentage) in part_counts.into_iter().zip(&percentages[1..]) {
-            assert_printed_percentage(fraction_in_parts(preset, part_count, printed_omega.value), percentage);
+        for (part_count, &percentage) in part_counts.into_iter().zip(&printed_percentages[1..]) {
+            assert_printed_percentage(
+                fraction_in_parts(preset_index, part_count, printed_omega.value),
+                percentage,
+            );
         }
     }
 }
@@ -170,9 +173,11 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
     assert_eq!(printed_wedged_parts.value, 16.0);
     assert!(!new_simulation(new_settings(WALL_PRESET, Sampler::SubStepped(12), 0.0)).stats().gave_up);
     for part_count in [16, 24, 32, 64] {
-        for samples in [600, 10_000] {
-            let settings =
-                Settings { samples, ..new_settings(WALL_PRESET, Sampler::SubStepped(part_count), 0.0) };
+        for sample_count in [600, 10_000] {
+            let settings = Settings {
+                samples: sample_count,
+                ..new_settings(WALL_PRESET, Sampler::SubStepped(part_count), 0.0)
+            };
             assert!(new_simulation(settings).stats().gave_up, "{part_count} parts");
         }
     }

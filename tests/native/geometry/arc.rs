@@ -73,8 +73,8 @@ fn draw_wall_near_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let other_end = if rng.next_u32().is_multiple_of(2) {
         draw_point(rng, 8.0)
     } else {
-        let (heading, reach) = (draw_uniform(rng, -PI, PI), draw_uniform(rng, -3.0, 3.0));
-        [near_end[0] + reach * heading.cos(), near_end[1] + reach * heading.sin()]
+        let (heading, distance) = (draw_uniform(rng, -PI, PI), draw_uniform(rng, -3.0, 3.0));
+        [near_end[0] + distance * heading.cos(), near_end[1] + distance * heading.sin()]
     };
     Segment { from: near_end, to: other_end }
 }
@@ -85,9 +85,12 @@ fn draw_wall_from_centre(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let mut draw_offset = || draw_signed_log_uniform(rng, 1e-16, 1e-1);
     let near_end =
         to_absolute(arc, [draw_offset() - radius * theta.sin(), draw_offset() + radius * theta.cos()]);
-    let reach = draw_uniform(rng, 0.0, 1.2) * radius;
+    let distance = draw_uniform(rng, 0.0, 1.2) * radius;
     let heading = draw_uniform(rng, -PI, PI);
-    Segment { from: near_end, to: [near_end[0] + reach * heading.cos(), near_end[1] + reach * heading.sin()] }
+    Segment {
+        from: near_end,
+        to: [near_end[0] + distance * heading.cos(), near_end[1] + distance * heading.sin()],
+    }
 }
 
 fn draw_point_wall(rng: &mut impl Rng, _: &Arc) -> Segment {

@@ -9,7 +9,8 @@ fn read_reference_rows() -> impl Iterator<Item = [f64; 7]> {
         .filter(|csv_line| !csv_line.starts_with('#'))
         .skip(1)
         .map(|csv_line| {
-            let mut row_numbers = csv_line.split(',').map(|number| number.parse().expect("a number"));
+            let mut row_numbers =
+                csv_line.split(',').map(|number_text| number_text.parse().expect("a number"));
             std::array::from_fn(|_| row_numbers.next().expect("seven numbers"))
         })
 }

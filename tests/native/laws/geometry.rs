@@ -109,11 +109,11 @@ proptest! {
     }
 }
 
-/// Asserts equality up to rounding, which is relative to 1 for turns and to `extent` for positions.
-fn assert_close(a: &Matrix3<f64>, b: &Matrix3<f64>, extent: f64) -> Result<(), TestCaseError> {
+/// Asserts equality up to rounding, which is relative to 1 for turns and to `position_extent` for positions.
+fn assert_close(a: &Matrix3<f64>, b: &Matrix3<f64>, position_extent: f64) -> Result<(), TestCaseError> {
     for i in 0..3 {
         for j in 0..3 {
-            let tolerance_scale = if j == 2 { 1.0 + extent } else { 1.0 };
+            let tolerance_scale = if j == 2 { 1.0 + position_extent } else { 1.0 };
             let difference = (a[(i, j)] - b[(i, j)]).abs();
             prop_assert!(
                 difference <= TOLERANCE_ULPS * f64::EPSILON * tolerance_scale,

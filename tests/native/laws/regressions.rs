@@ -53,8 +53,8 @@ fn an_arc_around_a_circle_too_long_for_a_double_has_density_zero() {
 fn a_displacement_with_a_subnormal_square_counts_as_zero() {
     let velocity_model = new_model([0.0, 0.73, 0.06, 0.0, 0.0, 0.33]);
     let u = VelocityCmd { v: 78.0, omega: 38.0, dt: 633_457.9 };
-    let (x, next) = (SE2::new(2.2e-308, 0.0, PI), SE2::identity());
-    assert_eq!(velocity_model.pose_density(&next, &u, &x), velocity_model.pose_density(&x, &u, &x));
+    let (x, next_pose) = (SE2::new(2.2e-308, 0.0, PI), SE2::identity());
+    assert_eq!(velocity_model.pose_density(&next_pose, &u, &x), velocity_model.pose_density(&x, &u, &x));
 }
 
 /// The inverse of a covariance's root is applied twice, and is huge for a subnormal variance. The product 0 · ∞ must not become NaN.

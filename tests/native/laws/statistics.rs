@@ -16,10 +16,12 @@ const RELATIVE_ROUNDING: f64 = 256.0 * f64::EPSILON;
 /// Returns robots around a pose, with headings that differ by less than a quarter turn. Their mean heading is therefore well defined.
 fn any_cloud() -> impl Strategy<Value = Vec<SE2>> {
     let coordinates_strategy = (-1.0..1.0, -1.0..1.0, -1.5..1.5);
-    (vec(coordinates_strategy, 1..50), (-5.0..5.0, -5.0..5.0, -PI..PI)).prop_map(|(robots, (x, y, theta))| {
-        let centre_pose = SE2::new(x, y, theta);
-        robots.into_iter().map(|(x, y, theta)| centre_pose * SE2::new(x, y, theta)).collect()
-    })
+    (vec(coordinates_strategy, 1..50), (-5.0..5.0, -5.0..5.0, -PI..PI)).prop_map(
+        |(robot_coordinates, (x, y, theta))| {
+            let centre_pose = SE2::new(x, y, theta);
+            robot_coordinates.into_iter().map(|(x, y, theta)| centre_pose * SE2::new(x, y, theta)).collect()
+        },
+    )
 }
 
 fn any_frame() -> impl Strategy<Value = SE2> {

@@ -58,12 +58,16 @@ fn acceptance_and_wall_fractions_equal_the_published_ones() {
             .map(|_| endpoint_model.collision_tester(&command, &start_pose).test_draw(unit_noise(&mut rng)))
             .collect();
         let accepted_count = tested_draws.iter().filter(|tested_draw| tested_draw.end_verdict.free).count();
-        let through_wall_count =
-            tested_draws.iter().filter(|draw| draw.end_verdict.free && !draw.path_verdict.free).count();
+        let through_wall_count = tested_draws
+            .iter()
+            .filter(|tested_draw| tested_draw.end_verdict.free && !tested_draw.path_verdict.free)
+            .count();
         assert_fraction(preset_name, accepted_count, DRAW_COUNT, published_acceptance);
         assert_fraction(preset_name, through_wall_count, accepted_count, published_through_wall);
         assert!(
-            tested_draws.iter().all(|draw| draw.end_verdict.free || !draw.path_verdict.free),
+            tested_draws
+                .iter()
+                .all(|tested_draw| tested_draw.end_verdict.free || !tested_draw.path_verdict.free),
             "the end is part of the path"
         );
     }

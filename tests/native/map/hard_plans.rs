@@ -21,7 +21,8 @@ fn create_hard_plans(wall_count: usize) -> Vec<(&'static str, Vec<Segment>)> {
     let make_walls = |make_wall: &mut dyn FnMut(f64) -> Segment| {
         (0..wall_count).map(|i| make_wall(i as f64 / wall_count as f64)).collect()
     };
-    let diagonal_of = |offset: f64| move |s: f64| new_wall(offset * s, 0.0, 10.0, 10.0 - offset * s);
+    let diagonal_of =
+        |line_offset: f64| move |s: f64| new_wall(line_offset * s, 0.0, 10.0, 10.0 - line_offset * s);
     let wall_along_ray = |s: f64, ray_length: f64| {
         let (sin, cos) = (TAU * s).sin_cos();
         new_wall(5.0, 5.0, 5.0 + ray_length * cos, 5.0 + ray_length * sin)

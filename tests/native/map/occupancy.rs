@@ -110,8 +110,10 @@ fn distances_to_walls_equal_distances_to_cells() {
 #[test]
 fn sides_of_neighbouring_cells_form_one_wall() {
     let drawn_rows = ["##.", "#..", "..#"];
-    let occupied =
-        drawn_rows.iter().flat_map(|row| row.chars().map(|drawn_cell| drawn_cell == '#')).collect();
+    let occupied = drawn_rows
+        .iter()
+        .flat_map(|drawn_row| drawn_row.chars().map(|drawn_cell| drawn_cell == '#'))
+        .collect();
     let grid_cells = DrawnGrid { width: 3, height: 3, occupied, resolution: 0.5, origin: [1.0, 2.0, 0.0] };
     let plan = FloorPlan::from_grid(grid_cells.grid()).expect("a small grid");
     let mut walls: Vec<[f64; 4]> =
@@ -184,7 +186,7 @@ fn parse_drawn_grid(drawn_rows: &[&str], unknown_cells: UnknownCells) -> Occupan
         '?' => 0.5,
         _ => 1.0,
     };
-    let cell_pixels = drawn_rows.iter().flat_map(|row| row.chars()).map(shade_of_cell).collect();
+    let cell_pixels = drawn_rows.iter().flat_map(|drawn_row| drawn_row.chars()).map(shade_of_cell).collect();
     let image = Image::<f32> { width: drawn_rows[0].len(), height: drawn_rows.len(), pixels: cell_pixels };
     OccupancyGrid::new(&image, &PixelClassifier::default(), 0.1, SE2::identity()).with_unknown(unknown_cells)
 }

@@ -31,7 +31,7 @@ fn draw_arc_from(start_position: [f64; 2], rng: &mut impl Rng) -> Arc {
 
 /// Returns walls whose coordinates extend by at most `max_extent` m, a third of them along the axes.
 fn draw_walls(wall_count: usize, max_extent: f64, bounds: [f64; 4], rng: &mut impl Rng) -> Vec<Segment> {
-    let [left, bottom, right, top] = bounds;
+    let [min_x, min_y, max_x, max_y] = bounds;
     (0..wall_count)
         .map(|_| {
             let start_point = draw_point(bounds, rng);
@@ -45,7 +45,7 @@ fn draw_walls(wall_count: usize, max_extent: f64, bounds: [f64; 4], rng: &mut im
             }
             Segment {
                 from: start_point,
-                to: [end_point[0].clamp(left, right), end_point[1].clamp(bottom, top)],
+                to: [end_point[0].clamp(min_x, max_x), end_point[1].clamp(min_y, max_y)],
             }
         })
         .collect()
@@ -82,7 +82,9 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
         let wall_offsets = (0..wall_count).map(|i| 20.0 * (f64::from(i) + 0.5) / f64::from(wall_count));
         wall_offsets
             .map(end_coordinates)
-            .map(|(high, smaller_coordinate)| new_wall(smaller_coordinate, high, high, smaller_coordinate))
+            .map(|(larger_coordinate, smaller_coordinate)| {
+                new_wall(smaller_coordinate, larger_coordinate, larger_coordinate, smaller_coordinate)
+            })
             .collect()
     };
     let new_pixel = |is_dark: bool| Pixel { brightness: if is_dark { 0.0 } else { 1.0 }, opacity: 1.0 };
@@ -100,8 +102,8 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
         FloorPlan::from_grid(grid).expect("a small grid"),
     ];
     for (plan_index, plan) in tested_plans.iter().enumerate() {
-        let [left, bottom, right, top] = plan.bounds();
-        let corners_of_bounds = [[left, bottom], [right, bottom], [right, top], [left, top]];
+        let [min_x, min_y, max_x, max_y] = plan.bounds();
+        let corners_of_bounds = [[min_x, min_y], [max_x, min_y], [max_x, max_y], [min_x, max_y]];
         let map_corners = plan.grid().map_or(corners_of_bounds, OccupancyGrid::corners);
         let mut verdict_counts = [0; 3];
         for _ in 0..3_000 {
@@ -184,9 +186,9 @@ fn the_free_pose_is_in_the_largest_free_square() {
     for bounds in [[-3.0, -2.0, 7.0, 5.0], [3.0, 2.0, 7.0, 5.0]] {
         let empty_plan = FloorPlan::new(vec![], bounds).expect("a valid plan");
         let free_pose = empty_plan.find_free_pose(0.3).expect("there is room");
-        let [left, bottom, right, top] = bounds;
+        let [min_x, min_y, max_x, max_y] = bounds;
         let distances_to_edges =
-            [free_pose.x() - left, right - free_pose.x(), free_pose.y() - bottom, top - free_pose.y()];
+            [free_pose.x() - min_x, max_x - free_pose.x(), free_pose.y() - min_y, max_y - free_pose.y()];
         assert!(
             distances_to_edges.into_iter().all(|distances_to_edges| distances_to_edges > 1.4),
             "not at the edge: {free_pose:?}"

@@ -15,12 +15,13 @@ struct PngFormat {
 }
 
 /// Returns the file of an image. The samples of a pixel are adjacent.
-fn encode_png(png_format: &PngFormat, image_width: u32, samples: &[u16]) -> Vec<u8> {
+fn encode_png(png_format: &PngFormat, image_width: u32, channel_values: &[u16]) -> Vec<u8> {
     let row_length = image_width as usize * png_format.color_type.samples();
     let mut packed_rows = Vec::new();
-    for sample_row in samples.chunks(row_length) {
+    for sample_row in channel_values.chunks(row_length) {
         let bit_depth = png_format.bit_depth as usize;
-        let binary_row: String = sample_row.iter().map(|channel| format!("{channel:0bit_depth$b}")).collect();
+        let binary_row: String =
+            sample_row.iter().map(|channel_value| format!("{channel_value:0bit_depth$b}")).collect();
         let row_bytes = binary_row.as_bytes().chunks(8).map(|byte_digits| {
             let byte_value = byte_digits.iter().fold(0, |byte, digit| 2 * byte + (digit - b'0'));
             byte_value << (8 - byte_digits.len())
@@ -28,7 +29,7 @@ fn encode_png(png_format: &PngFormat, image_width: u32, samples: &[u16]) -> Vec<
         packed_rows.extend(row_bytes);
     }
     let mut file_bytes = Vec::new();
-    let mut encoder = Encoder::new(&mut file_bytes, image_width, (samples.len() / row_length) as u32);
+    let mut encoder = Encoder::new(&mut file_bytes, image_width, (channel_values.len() / row_length) as u32);
     encoder.set_color(png_format.color_type);
     encoder.set_depth(BitDepth::from_u8(png_format.bit_depth as u8).expect("a depth"));
     encoder.set_filter(Filter::Adaptive);
@@ -44,10 +45,10 @@ fn encode_png(png_format: &PngFormat, image_width: u32, samples: &[u16]) -> Vec<
     file_bytes
 }
 
-fn encode_grey_png(width: u32, samples: &[u16]) -> Vec<u8> {
+fn encode_grey_png(image_width: u32, channel_values: &[u16]) -> Vec<u8> {
     let grey_format =
         PngFormat { color_type: ColorType::Grayscale, bit_depth: 8, palette: None, transparency: None };
-    encode_png(&grey_format, width, samples)
+    encode_png(&grey_format, image_width, channel_values)
 }
 
 #[test]
@@ -67,14 +68,15 @@ fn every_kind_of_image_is_decoded_exactly() {
             for has_transparency in [false, true] {
                 let sample_count = image_width as usize * image_height * color_type.samples();
                 let mut draw_below = |exclusive_limit: u32| (rng.next_u32() % exclusive_limit) as u16;
-                let samples: Vec<u16> = (0..sample_count).map(|_| draw_below(1 << bit_depth)).collect();
+                let channel_values: Vec<u16> =
+                    (0..sample_count).map(|_| draw_below(1 << bit_depth)).collect();
                 let palette: Vec<u8> = (0..3 << bit_depth.min(8)).map(|_| draw_below(256) as u8).collect();
                 let opacities: Vec<u8> =
                     (0..1 << (bit_depth.min(8) - 1)).map(|_| draw_below(256) as u8).collect();
-                let first_pixel = &samples[..color_type.samples()];
+                let first_pixel = &channel_values[..color_type.samples()];
                 let transparency = match color_type {
                     ColorType::Indexed => opacities.clone(),
-                    _ => first_pixel.iter().flat_map(|channel| channel.to_be_bytes()).collect(),
+                    _ => first_pixel.iter().flat_map(|channel_value| channel_value.to_be_bytes()).collect(),
                 };
                 let has_transparent_colour =
                     has_transparency && !matches!(color_type, ColorType::GrayscaleAlpha | ColorType::Rgba);
@@ -85,16 +87,20 @@ fn every_kind_of_image_is_decoded_exactly() {
                     transparency: has_transparent_colour.then_some(transparency),
                 };
                 let max_sample = f64::from((1u32 << bit_depth) - 1);
-                let scale_to_byte = |channel: u16| (255.0 * f64::from(channel) / max_sample).round() as u8;
-                let expected_pixels: Vec<[u8; 4]> = samples
+                let scale_to_byte =
+                    |channel_value: u16| (255.0 * f64::from(channel_value) / max_sample).round() as u8;
+                let expected_pixels: Vec<[u8; 4]> = channel_values
                     .chunks(color_type.samples())
-                    .map(|samples| {
-                        let sample_bytes: Vec<u8> =
-                            samples.iter().map(|channel| scale_to_byte(*channel)).collect();
-                        let opacity = if has_transparent_colour && samples == first_pixel { 0 } else { 255 };
+                    .map(|channel_values| {
+                        let sample_bytes: Vec<u8> = channel_values
+                            .iter()
+                            .map(|channel_value| scale_to_byte(*channel_value))
+                            .collect();
+                        let opacity =
+                            if has_transparent_colour && channel_values == first_pixel { 0 } else { 255 };
                         match *sample_bytes {
                             [_] if color_type == ColorType::Indexed => {
-                                let palette_index = usize::from(samples[0]);
+                                let palette_index = usize::from(channel_values[0]);
                                 let opacity = opacities.get(palette_index).filter(|_| has_transparent_colour);
                                 let [red, green, blue] = [0, 1, 2].map(|k| palette[3 * palette_index + k]);
                                 [red, green, blue, opacity.copied().unwrap_or(255)]
@@ -107,7 +113,8 @@ fn every_kind_of_image_is_decoded_exactly() {
                         }
                     })
                     .collect();
-                let image = read_png(&encode_png(&png_format, image_width, &samples)).expect("an image");
+                let image =
+                    read_png(&encode_png(&png_format, image_width, &channel_values)).expect("an image");
                 assert_eq!((image.width, image.height), (image_width as usize, image_height));
                 assert_eq!(
                     image.pixels, expected_pixels,
@@ -126,7 +133,9 @@ fn an_image_that_is_cut_short_is_refused() {
         let error_message = read_png(&file_bytes[..cut_length]).expect_err("it ends").to_string();
         let error_offset = error_message
             .strip_prefix("the PNG image is damaged or cut short before byte ")
-            .and_then(|rest| rest.strip_suffix(&format!(" of {cut_length}; allowed is a complete one")))
+            .and_then(|remaining_message| {
+                remaining_message.strip_suffix(&format!(" of {cut_length}; allowed is a complete one"))
+            })
             .expect(&error_message);
         assert!(error_offset.parse::<usize>().is_ok_and(|offset| offset <= cut_length), "{error_message}");
     }

@@ -43,20 +43,21 @@ fn table_variances(reading: &OdomDelta, angle_used_for: impl Fn(f64) -> f64) -> 
 fn a_spin_on_the_spot_counts_as_the_second_rotation() {
     for spin_angle in [0.0, 0.4, -2.9, PI] {
         for displacement in [0.0, 1e-13, -1e-10] {
-            let prev = SE2::new(3.0, -2.0, 1.0);
+            let previous_pose = SE2::new(3.0, -2.0, 1.0);
             let second_pose = SE2::new(3.0 + displacement, -2.0 - displacement, 1.0 + spin_angle);
-            let spin_reading = OdomDelta::from_poses(&prev, &second_pose);
+            let spin_reading = OdomDelta::from_poses(&previous_pose, &second_pose);
             assert_eq!((spin_reading.rot1, spin_reading.trans), (0.0, 0.0));
             assert!((spin_reading.rot2 - spin_angle).abs() < 1e-15);
         }
     }
     // A translation of a nanometre or more has a direction.
-    let prev = SE2::identity();
-    let reading_of_distance = |distance: f64| OdomDelta::from_poses(&prev, &SE2::new(0.0, distance, 0.5));
+    let previous_pose = SE2::identity();
+    let reading_of_distance =
+        |distance: f64| OdomDelta::from_poses(&previous_pose, &SE2::new(0.0, distance, 0.5));
     assert_eq!(reading_of_distance(1e-9f64.next_down()), new_odom_delta(0.0, 0.0, 0.5));
     assert_eq!(reading_of_distance(1e-9), new_odom_delta(FRAC_PI_2, 1e-9, 0.5 - FRAC_PI_2));
     let u = new_odom_delta(0.0, 0.0, 0.8);
-    assert_eq!(new_model(NoiseKind::Normal).pose_density(&u.apply(&prev), &u, &prev), None);
+    assert_eq!(new_model(NoiseKind::Normal).pose_density(&u.apply(&previous_pose), &u, &previous_pose), None);
 }
 
 /// Table 5.5 computes its variances from the hypothetical motion, not from the reading.
@@ -67,7 +68,8 @@ fn prob_is_the_score_of_table_5_5() {
     for noise_kind in NOISE_KINDS {
         for u in draw_odometry_readings() {
             for _ in 0..200 {
-                let mut perturb_value = |component: f64| component + draw_uniform(&mut rng, -0.4, 0.4);
+                let mut perturb_value =
+                    |unperturbed_value: f64| unperturbed_value + draw_uniform(&mut rng, -0.4, 0.4);
                 let executed_legs =
                     new_odom_delta(perturb_value(u.rot1), perturb_value(u.trans), perturb_value(u.rot2));
                 let [rot1_variance, t, rot2_variance] = table_variances(&executed_legs, f64::abs);
@@ -117,7 +119,7 @@ fn without_noise_samples_are_exact_and_there_is_no_density() {
 fn the_pose_density_divides_by_the_jacobian() {
     let mut rng = seeded_rng(94);
     let x = SE2::new(1.0, -2.0, 0.3);
-    for kind in NOISE_KINDS {
+    for noise in NOISE_KINDS {
         for u in draw_odometry_readings() {
             let table_variances = table_variances(&u, f64::abs);
             for _ in 0..100 {
@@ -126,9 +128,9 @@ fn the_pose_density_divides_by_the_jacobian() {
                 let executed_legs =
                     new_odom_delta(u.rot1 - leg_noise[0], u.trans - leg_noise[1], u.rot2 - leg_noise[2]);
                 let [rot1_variance, t, rot2_variance] = [0, 1, 2]
-                    .map(|leg_index| kind.prob(leg_noise[leg_index], Variance(table_variances[leg_index])));
+                    .map(|leg_index| noise.prob(leg_noise[leg_index], Variance(table_variances[leg_index])));
                 let expected_density = rot1_variance * t * rot2_variance / executed_legs.trans;
-                let density = new_model(kind).pose_density(&executed_legs.apply(&x), &u, &x).unwrap();
+                let density = new_model(noise).pose_density(&executed_legs.apply(&x), &u, &x).unwrap();
                 // Motions in reverse or with full turns lead to the same pose. With this noise they add less than 1e-6 to the density.
                 assert!(
                     (density / expected_density - 1.0).abs() < 1e-6,
@@ -150,16 +152,16 @@ fn grid_around(u: &OdomDelta, x: &SE2, table_variances: [f64; 3]) -> PolarGrid {
 #[test]
 fn the_pose_density_integrates_to_one_for_large_noise() {
     let x = SE2::new(0.4, 0.4, -2.2);
-    for (kind, integral_tolerance, u) in [
+    for (noise, integral_tolerance, u) in [
         (NoiseKind::Normal, 1e-6, draw_odometry_readings()[5]),
         (NoiseKind::Triangular, 1e-3, new_odom_delta(0.7, 0.8, -0.4)),
     ] {
-        let odometry_model = OdometryModel { alphas: OdomAlphas([0.9, 0.9, 1.1, 0.4]), noise: kind };
+        let odometry_model = OdometryModel { alphas: OdomAlphas([0.9, 0.9, 1.1, 0.4]), noise };
         let max_distance =
             u.trans + 7.0 * (1.1 * u.trans.powi(2) + 0.4 * (u.rot1.powi(2) + u.rot2.powi(2))).sqrt();
         let density_integral = PolarGrid::around_start(&x, 1.0, max_distance, [14, 8, 8])
             .integrate_density(|pose| odometry_model.pose_density(pose, &u, &x).unwrap());
-        assert!((density_integral - 1.0).abs() < integral_tolerance, "{kind:?} {u:?}: {density_integral}");
+        assert!((density_integral - 1.0).abs() < integral_tolerance, "{noise:?} {u:?}: {density_integral}");
     }
 }
 
@@ -167,9 +169,9 @@ fn the_pose_density_integrates_to_one_for_large_noise() {
 fn sampler_and_density_agree() {
     let x = SE2::new(0.5, -0.25, 1.0);
     for (seed, u) in (100..).zip([draw_odometry_readings()[0], draw_odometry_readings()[3]]) {
-        for kind in NOISE_KINDS {
+        for noise in NOISE_KINDS {
             let grid = grid_around(&u, &x, table_variances(&u, f64::abs));
-            grid.assert_samples_fit(&new_model(kind), &u, &x, seed);
+            grid.assert_samples_fit(&new_model(noise), &u, &x, seed);
         }
     }
 }
@@ -194,8 +196,8 @@ fn reverse_aware_noise_excludes_half_turns() {
     let backward_reading = OdomDelta::from_poses(&x, &x.boxplus(Vector3::new(-0.5, 0.0, 0.02)));
     assert!(backward_reading.rot1.abs() > 3.0 && backward_reading.rot2.abs() > 3.0, "{backward_reading:?}");
     let effective_angle_of = |angle: f64| angle.abs().min((PI - angle.abs()).abs());
-    for kind in NOISE_KINDS {
-        let aware_model = ConfiguredOdometry { model: new_model(kind), reverse_aware: true };
+    for noise in NOISE_KINDS {
+        let aware_model = ConfiguredOdometry { model: new_model(noise), reverse_aware: true };
         let grid = grid_around(&backward_reading, &x, table_variances(&backward_reading, effective_angle_of));
         grid.assert_samples_fit(&aware_model, &backward_reading, &x, 110);
 
@@ -207,9 +209,9 @@ fn reverse_aware_noise_excludes_half_turns() {
         );
         let [rot1_variance, t, rot2_variance] =
             table_variances(&OdomDelta::from_poses(&x, &executed_legs.apply(&x)), effective_angle_of);
-        let expected_score = kind.prob(0.02, Variance(rot1_variance))
-            * kind.prob(0.05, Variance(t))
-            * kind.prob(0.03, Variance(rot2_variance));
+        let expected_score = noise.prob(0.02, Variance(rot1_variance))
+            * noise.prob(0.05, Variance(t))
+            * noise.prob(0.03, Variance(rot2_variance));
         assert!(
             (aware_model.prob(&executed_legs.apply(&x), &backward_reading, &x) / expected_score - 1.0).abs()
                 < 1e-9

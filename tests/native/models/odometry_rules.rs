@@ -18,8 +18,8 @@ fn new_odom_delta(rot1: f64, trans: f64, rot2: f64) -> OdomDelta {
     OdomDelta { rot1, trans, rot2 }
 }
 
-fn leg_variances(rule: OdometryRule, reading: OdomDelta) -> [f64; 4] {
-    let LegVariances { rot1, trans, rot2, strafe: lateral } = rule.variances(&reading, &ALPHAS);
+fn leg_variances(rule: OdometryRule, odometry_reading: OdomDelta) -> [f64; 4] {
+    let LegVariances { rot1, trans, rot2, strafe: lateral } = rule.variances(&odometry_reading, &ALPHAS);
     [rot1, trans, rot2, lateral].map(|variance| variance.0)
 }
 
@@ -60,11 +60,13 @@ fn the_variances_of_each_rule_match_its_source() {
         (Beluga, jitter_reading, [0.000005, 0.0000475, 0.000015, 0.0]),
         (Omni, jitter_reading, [0.0, 0.0000475, 0.000015, 0.0000525]),
     ];
-    for (rule, reading, expected_variances) in variance_cases {
-        for (computed, expected) in leg_variances(rule, reading).into_iter().zip(expected_variances) {
+    for (rule, odometry_reading, expected_variances) in variance_cases {
+        for (computed_variance, expected_variance) in
+            leg_variances(rule, odometry_reading).into_iter().zip(expected_variances)
+        {
             assert!(
-                (computed - expected).abs() < 2e-9,
-                "{rule:?} of {reading:?}: {computed}, not {expected}"
+                (computed_variance - expected_variance).abs() < 2e-9,
+                "{rule:?} of {odometry_reading:?}: {computed_variance}, not {expected_variance}"
             );
         }
     }
@@ -95,7 +97,7 @@ fn the_mean_squared_sine_is_that_of_the_noise() {
             let std = 10f64.powf(f64::from(decade_tenths) / 10.0);
             let expected_mean_square: f64 = noise_nodes(noise_kind)
                 .iter()
-                .map(|node| node.weight * (std * node.value).sin().powi(2))
+                .map(|quadrature_node| quadrature_node.weight * (std * quadrature_node.value).sin().powi(2))
                 .sum();
             let computed_mean_square = noise_kind.mean_squared_sine(Variance(std * std));
             assert!(
@@ -113,11 +115,14 @@ fn the_mean_squared_sine_is_that_of_the_noise() {
 fn exact_variances_match_samples() {
     let tested_readings =
         [new_odom_delta(0.7, 1.5, 0.5), new_odom_delta(3.0, 1.0, -3.0), new_odom_delta(0.2, 0.3, FRAC_PI_2)];
-    for (kind, rule) in NOISE_KINDS.into_iter().flat_map(|kind| OdometryRule::ALL.map(|rule| (kind, rule))) {
-        for reading in tested_readings {
-            let (executed_legs, leg_variances) = (rule.legs(&reading), rule.variances(&reading, &[0.05; 5]));
+    for (noise_kind, rule) in
+        NOISE_KINDS.into_iter().flat_map(|noise_kind| OdometryRule::ALL.map(|rule| (noise_kind, rule)))
+    {
+        for odometry_reading in tested_readings {
+            let (executed_legs, leg_variances) =
+                (rule.legs(&odometry_reading), rule.variances(&odometry_reading, &[0.05; 5]));
             let mut rng = seeded_rng(192);
-            let mut draw_unit_noise = || kind.quantile(draw_centred_uniform(&mut rng));
+            let mut draw_unit_noise = || noise_kind.quantile(draw_centred_uniform(&mut rng));
             let start_pose = SE2::new(0.4, -0.2, 1.0);
             let drive_direction = start_pose.theta() + executed_legs.rot1;
             let correlation: f64 = -0.6;
@@ -137,7 +142,7 @@ fn exact_variances_match_samples() {
                 })
                 .collect();
             let exact_variances = [
-                leg_variances.cross_track_variance(executed_legs.trans, kind),
+                leg_variances.cross_track_variance(executed_legs.trans, noise_kind),
                 leg_variances.heading_variance(correlation),
             ];
             for (k, exact_variances) in exact_variances.into_iter().enumerate() {
@@ -150,7 +155,7 @@ fn exact_variances_match_samples() {
                     ((mean_fourth_power - mean_square * mean_square) / SAMPLE_COUNT as f64).sqrt();
                 assert!(
                     (mean_square - exact_variances).abs() < MAX_STANDARD_ERRORS * standard_error,
-                    "{kind:?} {rule:?} {reading:?} {k}: {mean_square} ± {standard_error}, exactly {exact_variances}"
+                    "{noise_kind:?} {rule:?} {odometry_reading:?} {k}: {mean_square} ± {standard_error}, exactly {exact_variances}"
                 );
             }
         }

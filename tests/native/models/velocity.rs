@@ -67,8 +67,8 @@ fn prob_falls_off_as_the_noise_does() {
 #[test]
 fn without_noise_samples_are_exact_and_prob_is_zero_or_one() {
     let mut rng = seeded_rng(53);
-    for kind in NOISE_KINDS {
-        let noise_free_model = new_model(VelocityAlphas([0.0; 6]), kind);
+    for noise in NOISE_KINDS {
+        let noise_free_model = new_model(VelocityAlphas([0.0; 6]), noise);
         for u in new_commands() {
             for x in new_start_poses() {
                 let end_pose = noise_free_end_of(&u, &x);
@@ -82,8 +82,8 @@ fn without_noise_samples_are_exact_and_prob_is_zero_or_one() {
         }
         let standstill_command = new_command(0.0, 0.0, 1.0);
         for x in new_start_poses() {
-            assert_eq!(new_model(ALPHAS_WITH_LAST_TURN, kind).sample(&standstill_command, &x, &mut rng), x);
-            assert_eq!(new_model(ALPHAS_WITH_LAST_TURN, kind).prob(&x, &standstill_command, &x), 1.0);
+            assert_eq!(new_model(ALPHAS_WITH_LAST_TURN, noise).sample(&standstill_command, &x, &mut rng), x);
+            assert_eq!(new_model(ALPHAS_WITH_LAST_TURN, noise).prob(&x, &standstill_command, &x), 1.0);
         }
     }
 }
@@ -126,11 +126,11 @@ fn new_grid_around(velocity_model: &VelocityModel, u: &VelocityCmd, x: &SE2) -> 
 fn the_pose_density_integrates_to_one_for_large_noise() {
     let x = SE2::new(1.0, -1.0, -2.0);
     let alphas_of_large_noise = VelocityAlphas([0.5, 0.5, 1.5, 1.5, 0.5, 0.5]);
-    for (kind, tolerance, v, omega) in
+    for (noise, tolerance, v, omega) in
         [(NoiseKind::Normal, 1e-5, 0.6, 0.9), (NoiseKind::Triangular, 2e-3, 0.0, 1.2)]
     {
         let u = new_command(v, omega, 1.5);
-        let velocity_model = new_model(alphas_of_large_noise, kind);
+        let velocity_model = new_model(alphas_of_large_noise, noise);
         // No robot is further away than the length of its arc, and none drives seven standard deviations more than commanded.
         let max_distance = (v.abs() + 7.0 * velocity_model.variances(&u)[0].0.sqrt()) * u.dt;
         let integrate_over_cells = |cell_counts| {
@@ -140,7 +140,7 @@ fn the_pose_density_integrates_to_one_for_large_noise() {
         // Arcs of a full turn end near the start. The integrand has a corner there, and the error is proportional to the width
         // of a cell. Extrapolation from two numbers of cells removes that error.
         let extrapolated_integral = 2.0 * integrate_over_cells(12) - integrate_over_cells(6);
-        assert!((extrapolated_integral - 1.0).abs() < tolerance, "{kind:?} {u:?}: {extrapolated_integral}");
+        assert!((extrapolated_integral - 1.0).abs() < tolerance, "{noise:?} {u:?}: {extrapolated_integral}");
     }
 }
 
@@ -182,8 +182,8 @@ fn sampler_and_density_agree() {
     let alphas_and_velocities = [(ALPHAS_WITH_LAST_TURN, -1.0, 0.5), (small_alphas, 0.9, 3.6)];
     for (seed, (alphas, v, omega)) in (60..).zip(alphas_and_velocities) {
         let u = new_command(v, omega, 1.0);
-        for kind in NOISE_KINDS {
-            let velocity_model = new_model(alphas, kind);
+        for noise in NOISE_KINDS {
+            let velocity_model = new_model(alphas, noise);
             new_grid_around(&velocity_model, &u, &x).assert_samples_fit(&velocity_model, &u, &x, seed);
         }
     }

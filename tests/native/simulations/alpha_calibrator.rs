@@ -307,8 +307,9 @@ fn a_restored_fit_equals_the_saved_one_to_the_last_bit() {
 #[test]
 fn a_log_without_legs_gives_an_empty_calibration() {
     let mut simulation = new_simulation(Settings::default());
-    let standing_trajectory =
-        |count: usize| Trajectory::new((0..count).map(|i| (i as f64, SE2::identity()))).expect("times rise");
+    let standing_trajectory = |pose_count: usize| {
+        Trajectory::new((0..pose_count).map(|i| (i as f64, SE2::identity()))).expect("times rise")
+    };
     simulation.set_log(vec![Drive { odometry: standing_trajectory(10), reference: standing_trajectory(10) }]);
     assert!(simulation.truth().is_none());
     let Calibration { alphas, legs, diagnostics, recommended: recommendation, .. } = simulation.calibration();

@@ -36,18 +36,19 @@ fn draw_settings(seed: u64) -> impl Iterator<Item = Settings> {
 
 /// Returns lines 1 to 8 of Table 5.1 as printed, except that angles are wrapped.
 fn compute_printed_table(settings: &Settings) -> [f64; 8] {
-    let (x, next) = start_and_next_pose_of(settings);
+    let (x, next_pose) = start_and_next_pose_of(settings);
     let dt = settings.command.dt;
     let (sin, cos) = x.theta().sin_cos();
-    let (start_dx, start_dy) = (x.x() - next.x(), x.y() - next.y());
+    let (start_dx, start_dy) = (x.x() - next_pose.x(), x.y() - next_pose.y());
     let centre_mu = 0.5 * (start_dx * cos + start_dy * sin) / (start_dy * cos - start_dx * sin);
-    let centre_x = 0.5 * (x.x() + next.x()) + centre_mu * start_dy;
-    let centre_y = 0.5 * (x.y() + next.y()) - centre_mu * start_dx;
+    let centre_x = 0.5 * (x.x() + next_pose.x()) + centre_mu * start_dy;
+    let centre_y = 0.5 * (x.y() + next_pose.y()) - centre_mu * start_dx;
     let arc_radius = (x.x() - centre_x).hypot(x.y() - centre_y);
     let arc_turn = wrap_angle(
-        (next.y() - centre_y).atan2(next.x() - centre_x) - (x.y() - centre_y).atan2(x.x() - centre_x),
+        (next_pose.y() - centre_y).atan2(next_pose.x() - centre_x)
+            - (x.y() - centre_y).atan2(x.x() - centre_x),
     );
-    let gamma = wrap_angle(next.theta() - x.theta() - arc_turn) / dt;
+    let gamma = wrap_angle(next_pose.theta() - x.theta() - arc_turn) / dt;
     [centre_mu, centre_x, centre_y, arc_radius, arc_turn, arc_turn / dt * arc_radius, arc_turn / dt, gamma]
 }
 
@@ -196,8 +197,10 @@ fn straight_motion_has_no_centre_and_no_motion_has_no_arc() {
     let Stats { inverted: inverted_arc, factors: probability_factors, .. } = simulation.stats();
     assert_eq!((inverted_arc.centre, inverted_arc.radius, inverted_arc.turn), (None, f64::INFINITY, 0.0));
     assert_eq!(probability_factors[0].estimate, 2.0);
-    let [centre_mu, x, y, table_radius, turn, v, ..] = simulation.table().lines;
-    assert!([centre_mu, x, y, table_radius].iter().all(|line| line.is_infinite()) && turn == 0.0 && v == 2.0);
+    let [centre_mu, x, y, table_radius, arc_turn, v, ..] = simulation.table().lines;
+    assert!(
+        [centre_mu, x, y, table_radius].iter().all(|line| line.is_infinite()) && arc_turn == 0.0 && v == 2.0
+    );
     let tiny_motion = [f64::from_bits(1), 0.0, 0.0];
     let simulation_with_tiny_motion =
         ArcAnatomy::new(Settings { next: tiny_motion, ..settings }).expect("valid settings");

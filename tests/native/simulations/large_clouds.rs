@@ -94,8 +94,10 @@ fn assert_exact_moments(poses: &[SE2], computed_moments: &CartesianMoments, cros
         z * z * z - expected_skew - 3.0 * z - 1.5 * expected_skew * (z * z - 1.0)
             + heading_factor * libm::sin(turn)
     };
-    let expected_skew_error =
-        (exact_mean(iter_track_coordinates().map(|robot| influence_on_skew(robot).powi(2))) / n).sqrt();
+    let expected_skew_error = (exact_mean(
+        iter_track_coordinates().map(|track_coordinates| influence_on_skew(track_coordinates).powi(2)),
+    ) / n)
+        .sqrt();
     assert_close("skew error", cross_track[1], expected_skew_error, expected_skew_error);
     let heading_variance = exact_mean(iter_pose_residuals().map(|r| (r.z - mean_heading_residual).powi(2)));
     let expected_correlation = exact_mean(iter_track_coordinates().map(|(_, d, turn)| d * turn))

@@ -9,11 +9,11 @@ use motion::sim::views::ViewGrid;
 /// Returns grids over the middle of a cloud, so that samples are outside on every side. Painting skips sixteen empty cells at once. One grid
 /// is therefore 16 cells wide, one 17, and the others have different widths.
 fn new_grids_over(min_corner: [f64; 2], max_corner: [f64; 2]) -> [ViewGrid; 4] {
-    [(16, 9), (17, 1), (53, 40), (3, 2)].map(|(columns, rows)| ViewGrid {
+    [(16, 9), (17, 1), (53, 40), (3, 2)].map(|(column_count, row_count)| ViewGrid {
         min_corner,
         max_corner,
-        columns,
-        rows,
+        columns: column_count,
+        rows: row_count,
     })
 }
 
@@ -24,11 +24,12 @@ fn new_numbered_ramp(ramp_number: u8) -> Ramp {
 
 /// Returns the index of the cell that contains a point, row by row from the top.
 fn find_cell_index(view_grid: &ViewGrid, [x, y]: [f64; 2]) -> Option<usize> {
-    let ViewGrid { min_corner: min, max_corner: max, columns, rows } = *view_grid;
-    let column_number = ((x - min[0]) / (max[0] - min[0]) * columns as f64).floor();
-    let row_index = ((max[1] - y) / (max[1] - min[1]) * rows as f64).floor();
-    let is_inside = (0.0..columns as f64).contains(&column_number) && (0.0..rows as f64).contains(&row_index);
-    is_inside.then(|| row_index as usize * columns + column_number as usize)
+    let ViewGrid { min_corner: min, max_corner: max, columns: column_count, rows: row_count } = *view_grid;
+    let column_number = ((x - min[0]) / (max[0] - min[0]) * column_count as f64).floor();
+    let row_index = ((max[1] - y) / (max[1] - min[1]) * row_count as f64).floor();
+    let is_inside =
+        (0.0..column_count as f64).contains(&column_number) && (0.0..row_count as f64).contains(&row_index);
+    is_inside.then(|| row_index as usize * column_count + column_number as usize)
 }
 
 /// Returns the step of the ramp for a count: 255·√(count/max_count), rounded.
@@ -98,7 +99,9 @@ fn cells_have_the_colour_of_their_most_frequent_outcome() {
                 let expected_step = ramp_step_of(*cell_total, max_count);
                 assert_eq!(*rgba, [expected_step, outcome_index, 7, 255], "{outcome_counts:?}");
                 assert!(
-                    outcome_counts.iter().all(|count| *count <= outcome_counts[usize::from(outcome_index)]),
+                    outcome_counts
+                        .iter()
+                        .all(|outcome_count| *outcome_count <= outcome_counts[usize::from(outcome_index)]),
                     "{ramp_shade}: {outcome_counts:?}"
                 );
                 painted_cell_counts[usize::from(outcome_index)] += 1;

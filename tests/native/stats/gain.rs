@@ -34,9 +34,12 @@ fn gains_with_errors(gain_stats: &Stats) -> [[f64; 2]; 2] {
     [[likelihood_gain.pose, gain_error.pose], [likelihood_gain.floor, gain_error.floor]]
 }
 
-fn assert_close(case: &str, actual: f64, exact: f64, tolerance: f64) {
-    let are_equal = actual == exact || actual.is_nan() && exact.is_nan();
-    assert!(are_equal || (actual - exact).abs() <= tolerance, "{case}: {actual} is not {exact}");
+fn assert_close(case_name: &str, actual_value: f64, exact_value: f64, tolerance: f64) {
+    let are_equal = actual_value == exact_value || actual_value.is_nan() && exact_value.is_nan();
+    assert!(
+        are_equal || (actual_value - exact_value).abs() <= tolerance,
+        "{case_name}: {actual_value} is not {exact_value}"
+    );
 }
 
 /// Returns the log-density of each point under the Gaussian with the moments of all points, by inverse and determinant.
@@ -55,14 +58,15 @@ fn log_densities_of(point_vectors: &[DVector<f64>]) -> Vec<f64> {
 
 /// Returns the Jacobian determinant of a map, by differences of fourth order. Its absolute error is about 1e-13.
 fn jacobian_determinant(map_point: impl Fn(&DVector<f64>) -> DVector<f64>, point: &DVector<f64>) -> f64 {
-    const STEP: f64 = 1e-3;
+    const DIFFERENCE_STEP: f64 = 1e-3;
     let jacobian_columns: Vec<DVector<f64>> = (0..point.len())
         .map(|i| {
             let central_difference_of = |step_factor: f64| {
                 let mut shifted_points = [point.clone(), point.clone()];
-                shifted_points[0][i] += step_factor * STEP;
-                shifted_points[1][i] -= step_factor * STEP;
-                (map_point(&shifted_points[0]) - map_point(&shifted_points[1])) / (2.0 * step_factor * STEP)
+                shifted_points[0][i] += step_factor * DIFFERENCE_STEP;
+                shifted_points[1][i] -= step_factor * DIFFERENCE_STEP;
+                (map_point(&shifted_points[0]) - map_point(&shifted_points[1]))
+                    / (2.0 * step_factor * DIFFERENCE_STEP)
             };
             (4.0 * central_difference_of(1.0) - central_difference_of(2.0)) / 3.0
         })
@@ -90,12 +94,15 @@ fn robot_gains(cloud: &[SE2], commanded_turn: f64) -> [Vec<f64>; 2] {
         let (x, y) = arc_end(arc_vector[0], arc_vector[1]);
         DVector::from_vec(vec![x, y])
     };
-    let log_density_gains =
-        |cartesian: &[DVector<f64>], curved: &[DVector<f64>], map: &dyn Fn(&DVector<f64>) -> DVector<f64>| {
-            let log_densities = log_densities_of(cartesian).into_iter().zip(log_densities_of(curved));
-            let log_volume_factors = curved.iter().map(|point| jacobian_determinant(map, point).abs().ln());
-            log_volume_factors.zip(log_densities).map(|(log_factor, (p, q))| q - log_factor - p).collect()
-        };
+    let log_density_gains = |cartesian_points: &[DVector<f64>],
+                             curved_points: &[DVector<f64>],
+                             map_point: &dyn Fn(&DVector<f64>) -> DVector<f64>| {
+        let log_densities =
+            log_densities_of(cartesian_points).into_iter().zip(log_densities_of(curved_points));
+        let log_volume_factors =
+            curved_points.iter().map(|point| jacobian_determinant(map_point, point).abs().ln());
+        log_volume_factors.zip(log_densities).map(|(log_factor, (p, q))| q - log_factor - p).collect()
+    };
     [
         log_density_gains(&pose_vectors, &twist_vectors, &pose_of_twist),
         log_density_gains(&position_vectors, &arc_vectors, &position_of_arc),
@@ -106,21 +113,21 @@ fn robot_gains(cloud: &[SE2], commanded_turn: f64) -> [Vec<f64>; 2] {
 /// clouds.
 #[test]
 fn the_gain_equals_its_definition_over_all_poses() {
-    check_in_varied_clouds([1.0, 2.2, 1.2], &[1, 3, 4, 257, 2048, 5_003], |simulation, case| {
+    check_in_varied_clouds([1.0, 2.2, 1.2], &[1, 3, 4, 257, 2048, 5_003], |simulation, case_name| {
         let Settings { samples, command, .. } = *simulation.settings();
         let computed_gains = gains_with_errors(simulation.stats());
         if samples > 4 {
             let expected_gains = robot_gains(&poses_of(simulation), command.omega * command.dt);
             for ([computed_gain, gain_error], robot_gains) in computed_gains.into_iter().zip(expected_gains) {
-                assert_close(case, computed_gain, mean_of(&robot_gains), 1e-9);
+                assert_close(case_name, computed_gain, mean_of(&robot_gains), 1e-9);
                 if samples <= 2048 {
                     let expected_error = (variance_of(&robot_gains) / samples as f64).sqrt();
-                    assert_close(case, gain_error, expected_error, 1e-8 * expected_error);
+                    assert_close(case_name, gain_error, expected_error, 1e-8 * expected_error);
                 }
             }
         }
-        assert_eq!(computed_gains[0][0].is_nan(), samples < 4, "{case}");
-        assert_eq!(computed_gains[1][0].is_nan(), samples < 3, "{case}");
+        assert_eq!(computed_gains[0][0].is_nan(), samples < 4, "{case_name}");
+        assert_eq!(computed_gains[1][0].is_nan(), samples < 3, "{case_name}");
     });
 }
 
@@ -135,10 +142,10 @@ fn exact_gains_match_the_references() {
         let noise = csv_row.noise_kind();
         let settings = Settings { command, velocity_alphas, noise, samples: 1, ..Settings::default() };
         let exact_column = BananaMachine::new(settings).expect("a valid setting").table().exact;
-        let case = format!("{command:?} {velocity_alphas:?}");
-        assert_close(&case, exact_column.likelihood_gain.pose, csv_row.cell_number("pose"), 1e-6);
-        assert_close(&case, exact_column.likelihood_gain.floor, csv_row.cell_number("floor"), 1e-6);
-        assert_close(&case, exact_column.area_ratio, csv_row.cell_number("area_ratio"), 1e-4);
+        let case_name = format!("{command:?} {velocity_alphas:?}");
+        assert_close(&case_name, exact_column.likelihood_gain.pose, csv_row.cell_number("pose"), 1e-6);
+        assert_close(&case_name, exact_column.likelihood_gain.floor, csv_row.cell_number("floor"), 1e-6);
+        assert_close(&case_name, exact_column.area_ratio, csv_row.cell_number("area_ratio"), 1e-4);
     }
 }
 

@@ -100,8 +100,9 @@ fn the_outline_is_nearly_the_projection_of_the_ellipsoid() {
 fn predicted_skews_match_the_references() {
     for csv_row in ReferenceTable::parse(include_str!("../../reference/pushed_skew.csv")).rows() {
         let mean = Vector3::from(csv_row.cell_numbers(["a", "b", "w"]));
-        let [cov_aa, ab, aw, bb, bw, ww] = csv_row.cell_numbers(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
-        let cov = Matrix3::new(cov_aa, ab, aw, ab, bb, bw, aw, bw, ww);
+        let [cov_aa, cov_ab, cov_aw, cov_bb, cov_bw, cov_ww] =
+            csv_row.cell_numbers(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
+        let cov = Matrix3::new(cov_aa, cov_ab, cov_aw, cov_ab, cov_bb, cov_bw, cov_aw, cov_bw, cov_ww);
         let skew = predicted_cross_track_skew(&mean, &cov);
         assert!(
             (skew - csv_row.cell_number("skew")).abs() < 1e-12,

@@ -49,7 +49,6 @@ fn every_target_of_cargo_fuzz_has_a_test() {
     assert_eq!(target_names, TESTED_TARGETS);
 }
 
-/// Defines a test for each input that once failed.
 macro_rules! regressions {
     ($($name:ident: $target:ident $hex:literal,)+) => {
         $(#[test]

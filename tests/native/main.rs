@@ -5,7 +5,6 @@
 )]
 
 mod calibrate;
-/// The chapter's listings and its worked example.
 mod chapter {
     mod listings;
     mod worked_example;
@@ -42,7 +41,6 @@ mod map {
     mod plans;
     mod png;
 }
-/// Noises and motion models.
 mod models {
     mod noise;
     mod odometry;
@@ -50,7 +48,6 @@ mod models {
     mod tangent;
     mod velocity;
 }
-/// The simulation of each figure.
 mod simulations {
     mod alpha_calibrator;
     pub mod arc_anatomy;
@@ -62,7 +59,6 @@ mod simulations {
     mod pictures;
     mod squeeze;
 }
-/// Statistics of clouds and exact values of models.
 mod stats {
     mod coverage;
     mod gain;

@@ -37,7 +37,6 @@ impl JsObject {
         assert!(self.get::<bool>(expression), "{expression}");
     }
 
-    /// Returns the class and message of the error that an expression throws.
     pub fn error(&self, expression: &str) -> String {
         match evaluate_js(expression, &self.0) {
             Ok(returned_value) => panic!("{expression} is {returned_value:?} and throws nothing"),
@@ -79,12 +78,10 @@ impl<T: serde::Serialize> From<&T> for JsObject {
     }
 }
 
-/// Returns the value of a JavaScript expression that does not use `object_it`.
 pub fn get<T: DeserializeOwned>(expression: &str) -> T {
     JsObject(JsValue::UNDEFINED).get(expression)
 }
 
-/// Asserts that numbers are equal to within a tolerance.
 pub fn assert_near<const N: usize>(actual_numbers: [f64; N], expected_numbers: [f64; N], tolerance: f64) {
     for (actual_number, expected_number) in actual_numbers.iter().zip(&expected_numbers) {
         assert!(

@@ -43,7 +43,6 @@ const TRUE_SYSTEMATIC_ERRORS: Systematic = Systematic {
 /// products of noise and clock offset within the 50 ms between two rows.
 const INTERVAL_MARGIN: f64 = 1e-3;
 
-/// Results of the calibrations of many simulated logs.
 struct StudyResults {
     /// Sorted ratios of fitted α to true α, for each α.
     alpha_ratios: Vec<Vec<f64>>,
@@ -56,7 +55,6 @@ struct StudyResults {
     log_count: usize,
 }
 
-/// Returns 1 if the interval contains the true value, and 0 otherwise.
 fn count_covered(confidence_interval: Option<[f64; 2]>, true_value: f64) -> usize {
     usize::from(confidence_interval.is_some_and(|[low, high]| (low..=high).contains(&true_value)))
 }

@@ -33,7 +33,6 @@ fn assert_fails(check_name: CheckName, calibration: &Calibration) {
     assert!(recommended_alphas.inflation >= 1.0 && !recommended_alphas.reason.is_empty());
 }
 
-/// Asserts that the calibration judges the log unusable, and recommends no α's.
 fn assert_unusable(calibration: &Calibration, case_description: &str) {
     assert_eq!(
         (calibration.diagnostics.verdict, &calibration.recommended),
@@ -42,7 +41,6 @@ fn assert_unusable(calibration: &Calibration, case_description: &str) {
     );
 }
 
-/// Returns a trajectory with changed poses and the same times.
 fn change_poses(trajectory: &Trajectory, mut change_pose: impl FnMut(SE2) -> SE2) -> Trajectory {
     new_trajectory(trajectory.samples().map(|(sample_time, old_pose)| (sample_time, change_pose(old_pose))))
 }

@@ -10,7 +10,6 @@ use motion::calibrate::{Calibration, Model, Options, Verdict};
 /// Function from the index of a leg to its v and ω.
 type VelocityOfLeg = fn(usize) -> [f64; 2];
 
-/// Returns the calibration of a simulated log whose legs have the given velocities.
 fn calibrate_velocities(model: Model, velocity_of_leg: VelocityOfLeg) -> Calibration {
     calibrate_simulation(&Simulation {
         velocity_of_leg: Some(velocity_of_leg),

@@ -12,7 +12,6 @@ fn new_straight_drive(row_count: usize, step_length: f64) -> Trajectory {
     new_trajectory((0..row_count).map(|row| (0.1 * row as f64, SE2::new(step_length * row as f64, 0.0, 0.0))))
 }
 
-/// Returns the trajectory without the rows between `first_row` and `last_row`.
 fn remove_rows_between(trajectory: &Trajectory, first_row: usize, last_row: usize) -> Trajectory {
     super::new_trajectory(
         trajectory

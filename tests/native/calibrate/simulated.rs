@@ -25,7 +25,6 @@ pub const MODELS: [Model; 5] = [
 /// Violation of the model's assumption that the unit noises of all legs are independent and normal, with variance 1.
 #[derive(Clone, Copy, Debug)]
 pub enum Violation {
-    /// Noise as the model assumes it.
     None,
     /// Noise with Student's t distribution, with this number of degrees of freedom.
     HeavyTailedNoise(usize),
@@ -189,7 +188,6 @@ impl Simulation {
         ]
     }
 
-    /// Returns a step of the random walk of the noise within a leg.
     fn draw_walk_step(&self, rng: &mut impl Rng) -> f64 {
         if self.times == SampleTimes::Synchronous {
             0.0

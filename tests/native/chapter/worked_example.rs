@@ -23,7 +23,6 @@ fn sample_cloud(model: &VelocityModel) -> Vec<SE2> {
     (0..SAMPLE_COUNT).map(|_| model.sample(&U, &SE2::identity(), &mut rng)).collect()
 }
 
-/// Asserts that a value equals a number printed with `decimals` decimals.
 fn assert_equals_printed(computed_value: f64, printed: f64, decimals: i32, quantity: &str) {
     let tolerance = 0.5 * 10f64.powi(-decimals) * (1.0 + 1e-9);
     assert!((computed_value - printed).abs() <= tolerance, "{quantity}: {computed_value}, printed {printed}");

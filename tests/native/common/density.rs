@@ -47,7 +47,6 @@ impl PolarGrid {
         Self { start_pose: *start_pose, heading_slope: slope, middle: cell_centre, cell_size, cell_counts }
     }
 
-    /// Returns the box of all poses within `max_distance` of the start.
     pub fn around_start(start_pose: &SE2, slope: f64, max_distance: f64, cell_counts: [usize; 3]) -> Self {
         Self::new(start_pose, start_pose, slope, [max_distance, PI / 2.0, PI], cell_counts)
     }
@@ -65,7 +64,6 @@ impl PolarGrid {
         [signed_distance, bearing, self.middle[2] + heading_offset]
     }
 
-    /// Returns the lower bound of a cell along an axis.
     fn lower_bound(&self, axis: usize, cell_index: usize) -> f64 {
         self.middle[axis] + (cell_index as f64 - 0.5 * self.cell_counts[axis] as f64) * self.cell_size[axis]
     }

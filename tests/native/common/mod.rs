@@ -18,17 +18,15 @@ pub const SAMPLE_COUNT: usize = 100_000;
 /// Maximum deviation of an estimate in standard errors. With random seeds one comparison in 150 000 would fail.
 pub const MAX_STANDARD_ERRORS: f64 = 4.5;
 
-/// Returns a generator with a fixed seed, which gives the same random numbers in every run.
 pub fn seeded_rng(seed: u64) -> Xoshiro256PlusPlus {
     Xoshiro256PlusPlus::seed_from_u64(seed)
 }
 
-/// Returns a number that is uniform in [low, high).
 pub fn draw_uniform(rng: &mut impl Rng, range_start: f64, range_end: f64) -> f64 {
     range_start + (range_end - range_start) * (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// Returns a number of either sign, with a magnitude that is log-uniform in [low, high).
+/// Returns a number of either sign, whose magnitude is log-uniform in the range.
 pub fn draw_signed_log_uniform(rng: &mut impl Rng, range_start: f64, range_end: f64) -> f64 {
     let log_uniform_magnitude = draw_uniform(rng, range_start.ln(), range_end.ln()).exp();
     if rng.next_u64() >> 63 == 0 { log_uniform_magnitude } else { -log_uniform_magnitude }
@@ -60,7 +58,6 @@ pub fn settings_of_preset<S: SettingRules>(preset_name: &str) -> S {
     S::PRESETS.iter().find(|named_preset| named_preset.0 == preset_name).expect("a preset of that name").1
 }
 
-/// Returns true if a closed outline winds around a point.
 pub fn is_point_inside(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     let winding_count: i32 = outline
         .windows(2)
@@ -153,8 +150,8 @@ pub fn unit_cdf(noise_kind: NoiseKind, z: f64) -> f64 {
     }
 }
 
-/// Returns the χ² value that `row_cells` cells exceed with probability 1e-4 (Wilson and Hilferty, z = 3.719). One degree of
-/// freedom goes to the fixed total.
+/// Returns the χ² value that `cell_count` cells exceed with probability 1e-4 (Wilson and Hilferty, z = 3.719). One degree of freedom goes
+/// to the fixed total.
 pub fn chi_square_limit(cell_count: usize) -> f64 {
     let k = (cell_count - 1) as f64;
     k * (1.0 - 2.0 / (9.0 * k) + 3.719 * (2.0 / (9.0 * k)).sqrt()).powi(3)

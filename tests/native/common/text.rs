@@ -60,7 +60,6 @@ impl PlainText {
         std::array::from_fn(|i| number_lists[0][i])
     }
 
-    /// Asserts that the numbers printed in a sentence equal computed numbers.
     pub fn assert_numbers<const N: usize>(&self, sentence: &str, computed_numbers: [f64; N]) {
         self.sentence_numbers::<N>(sentence)
             .iter()

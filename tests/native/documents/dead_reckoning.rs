@@ -26,7 +26,6 @@ fn divide_by_fourth_order(simulation: &DeadReckoning, recursion: Compounding, ax
         .collect()
 }
 
-/// Returns the steps at which a ratio differs from 1 by more than the tolerance.
 fn missed_steps_of(variance_ratios: &[f64]) -> Vec<usize> {
     (1..=variance_ratios.len()).filter(|k| (variance_ratios[k - 1] - 1.0).abs() > MISS_TOLERANCE).collect()
 }

@@ -16,7 +16,6 @@ const DOORWAY_PRESET: usize = 0;
 const WALL_PRESET: usize = 1;
 const CORRIDOR_PRESET: usize = 2;
 
-/// Returns the initial settings with another start, sampler and turn rate.
 fn new_settings(preset_index: usize, sampler: Sampler, omega: f64) -> Settings {
     let command = VelocityCmd { omega, ..Settings::default().command };
     let part_count = sampler.part_count();
@@ -50,7 +49,6 @@ fn fraction_in_parts(preset_index: usize, part_count: u32, omega: f64) -> (f64, 
     fraction_through_wall_of(new_settings(preset_index, Sampler::SubStepped(part_count), omega))
 }
 
-/// Asserts that a printed percentage equals a computed fraction, within its standard error.
 fn assert_printed_percentage((fraction, standard_error): (f64, f64), printed_percentage: PrintedNumber) {
     printed_percentage.assert_percent(fraction, MAX_STANDARD_ERRORS * standard_error);
 }

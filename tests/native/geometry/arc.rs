@@ -40,7 +40,6 @@ fn draw_wall(rng: &mut impl Rng, _: &Arc) -> Segment {
     Segment { from: draw_point(rng, 8.0), to: draw_point(rng, 8.0) }
 }
 
-/// Returns the position of a point that is given relative to the start of the arc.
 fn to_absolute(arc: &Arc, relative_point: Point) -> Point {
     [arc.start.x() + relative_point[0], arc.start.y() + relative_point[1]]
 }

@@ -66,7 +66,6 @@ fn range_limits() -> impl Strategy<Value = f64> {
     })
 }
 
-/// Returns finite doubles up to `max_abs` in absolute value.
 pub fn doubles_up_to(max_abs: f64) -> impl Strategy<Value = f64> {
     prop_oneof![
         4 => finite_doubles().prop_filter("too large", move |drawn_number| drawn_number.abs() <= max_abs),
@@ -83,13 +82,11 @@ pub fn any_pose() -> impl Strategy<Value = SE2> {
         .prop_map(|(x, y, theta)| SE2::new(x, y, theta))
 }
 
-/// Returns twists that turn by up to `max_turn`.
 pub fn any_twist(max_turn: f64) -> impl Strategy<Value = Vector3<f64>> {
     (doubles_up_to(MAX_COORDINATE), doubles_up_to(MAX_COORDINATE), doubles_up_to(max_turn))
         .prop_map(|(x, y, twist_turn)| Vector3::new(x, y, twist_turn))
 }
 
-/// Returns the sum of the absolute coordinates of a pose.
 pub fn sum_of_coordinates(pose: &SE2) -> f64 {
     pose.x().abs() + pose.y().abs()
 }

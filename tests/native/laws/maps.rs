@@ -5,7 +5,6 @@ use motion::map::read_pgm;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-/// Returns allowed separators between two words of a header.
 fn any_separator() -> impl Strategy<Value = String> {
     prop_oneof![
         "[ \t\r\n]{1,3}",

@@ -14,7 +14,6 @@ fn any_noise_kind() -> impl Strategy<Value = NoiseKind> {
     prop_oneof![Just(NoiseKind::Normal), Just(NoiseKind::Triangular)]
 }
 
-/// Returns numbers in the range of a setting, including its ends.
 fn numbers_in(setting_range: std::ops::RangeInclusive<f64>) -> impl Strategy<Value = f64> {
     let [range_start, range_end] = [*setting_range.start(), *setting_range.end()];
     doubles_up_to(range_end)

@@ -40,7 +40,6 @@ fn is_close(a: f64, b: f64, number_scale: f64) -> bool {
     a == b || (a.is_nan() && b.is_nan()) || (a - b).abs() <= RELATIVE_ROUNDING * number_scale
 }
 
-/// Maximum distance of a robot from the origin in any frame, m.
 const MAX_ROBOT_DISTANCE: f64 = 20.0;
 
 proptest! {

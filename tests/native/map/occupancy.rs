@@ -12,7 +12,6 @@ use std::f64::consts::{FRAC_PI_2, PI};
 const BLACK_PIXEL: Pixel = Pixel { brightness: 0.0, opacity: 1.0 };
 const WHITE_PIXEL: Pixel = Pixel { brightness: 1.0, opacity: 1.0 };
 
-/// Description of a grid by its cells.
 struct DrawnGrid {
     width: usize,
     height: usize,

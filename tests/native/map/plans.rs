@@ -18,7 +18,6 @@ fn draw_point([min_x, min_y, max_x, max_y]: [f64; 4], rng: &mut impl Rng) -> [f6
     [draw_uniform(rng, min_x, max_x), draw_uniform(rng, min_y, max_y)]
 }
 
-/// Returns a straight or curved, long or short arc, forward or in reverse.
 fn draw_arc_from(start_position: [f64; 2], rng: &mut impl Rng) -> Arc {
     let turn = match rng.next_u32() % 3 {
         0 => draw_signed_log_uniform(rng, 1e-18, 1e-3),

@@ -6,7 +6,6 @@ use motion::map::{MAX_PIXELS, PixelClassifier, read_grid, read_png};
 use png::{BitDepth, ColorType, Encoder, Filter};
 use rand::Rng;
 
-/// Colour type, depth and tables of an image.
 struct PngFormat {
     color_type: ColorType,
     bit_depth: u32,

@@ -21,7 +21,6 @@ fn new_velocity_model(alphas: VelocityAlphas) -> VelocityModel {
     VelocityModel { alphas, noise: NoiseKind::Normal }
 }
 
-/// Returns a covariance without zero entries.
 fn new_full_cov() -> Matrix3<f64> {
     Matrix3::new(0.09, 0.02, 0.03, 0.02, 0.05, -0.02, 0.03, -0.02, 0.12)
 }

@@ -29,10 +29,9 @@ test('two tables of a user replace the simulated log, and a button restores the 
   await expect(captionOf(calibrator)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
   await calibrator.getByRole('button', { name: 'Back to the simulated log' }).click();
   await expect(captionOf(calibrator)).toHaveText(/of the simulated log/);
-  // A single file that contains one log is used only together with a second file.
   const errorAlert = calibrator.getByRole('alert');
   await chooseTables(calibrator, { 'odom.csv': logTables.odometry });
-  await expect(errorAlert).toHaveText(/^odom\.csv: it has one log only, .* the odometry; give the reference too\. Drop or choose the other file too,/);
+  await expect(errorAlert).toHaveText(/^odom\.csv: it has one log only, .* the odometry; give the reference too\. Drop or choose both files at once\.$/);
   // The α's on screen belong to the previous log. They cannot be copied until the user confirms these results.
   const outdatedResultsText = 'The results are still those of the simulated log. The files chosen last are not used.';
   await expect(calibrator.locator('.drop-zone .muted')).toContainText(outdatedResultsText);
@@ -43,9 +42,7 @@ test('two tables of a user replace the simulated log, and a button restores the 
   await calibrator.getByRole('button', { name: 'Dismiss these files' }).click();
   for (const resultButton of resultButtons) await expect(resultButton).toBeEnabled();
   await expect(errorAlert).toHaveCount(0);
-  await chooseTables(calibrator, { 'odom.csv': logTables.odometry });
-  await expect(errorAlert).toHaveCount(1);
-  await chooseTables(calibrator, { 'truth.csv': logTables.reference });
+  await chooseTables(calibrator, { 'odom.csv': logTables.odometry, 'truth.csv': logTables.reference });
   await expect(captionOf(calibrator)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
   await chooseTables(calibrator, { 'odom.csv': '', 'truth.csv': '' });
   await expect(errorAlert).toHaveText(/^odom\.csv: there is nothing in it/);
@@ -129,9 +126,6 @@ test('the figure asks for missing names and units of columns, and the answer app
   await chooseTables(widget, { 'notes.txt': 'hello', 'empty.csv': '' });
   await expect(errorAlert).toHaveText(/^notes\.txt: it does not look like a log,/);
   await expect(widget.locator('.choosers > p')).toHaveText([/^Not used: empty\.csv: there is nothing in it/]);
-  // A question about new files is asked first. Then an earlier file, which lacked its other log, is added to the new files.
-  await chooseTables(widget, { 'wheels.csv': readExampleTable('odometry') });
-  await expect(errorAlert).toHaveText(/^wheels\.csv: it has one log only,/);
   await chooseTables(widget, { 'odom.csv': rowsInMillimetres.join('\n'), 'slam.csv': readExampleTable('reference') });
   await expect(errorAlert).toHaveText(/^odom\.csv, line 1: the table has no header, .* name its 4 columns\.$/);
   await expect(widget.getByRole('group', { name: 'Columns of odom.csv (proposed): choose, then read' }).getByLabel('time', { exact: true })).toBeFocused();

@@ -35,17 +35,6 @@ const DROP_REASONS: Record<DropCause, string> = {
   held: 'die Pose steht, während die Odometrie weitergeht',
 };
 
-const UNSUPPORTED_FORMATS: typeof import('./en.ts').UNSUPPORTED_FORMATS = {
-  rosbag1: 'eine ROS-Bag der Version 1.2; mit „rosbag reindex“ umwandeln.',
-  ulog: 'ein PX4-Log (ULog); mit „ulog2csv“ umwandeln und zwei der Tabellen angeben.',
-  dataflash: 'ein ArduPilot-Log; mit „mavlogdump.py --format csv --types POS“ umwandeln.',
-  wal: `ein Journal mit Nachrichten, die seiner .db3-Datei fehlen; das Aufzeichnen beenden, oder sie mit „sqlite3 DATEI.db3 'PRAGMA wal_checkpoint'“ zurückschreiben.`,
-  zip: 'ein Zip-Archiv oder eine Arbeitsmappe (.xlsx, .ods); entpacken und die Dateien angeben, oder die Tabelle als CSV speichern.',
-  compressed: 'mit gzip, bzip2, xz oder LZ4 komprimiert; mit „gunzip“, „bunzip2“, „unxz“ oder „unlz4“ dekomprimieren und das Ergebnis angeben.',
-  hdf5: 'eine HDF5- oder MATLAB-Datei; Zeiten und Posen als CSV exportieren.',
-  parquet: 'eine Parquet-Tabelle; als CSV exportieren.',
-};
-
 export const german: Words = {
   place: (file, line, topic) => `${file}${topic ? `, Topic ${topic}` : ''}${line ? `, ${topic ? 'Nachricht' : 'Zeile'} ${line}` : ''}`,
   refused: {
@@ -92,7 +81,8 @@ export const german: Words = {
     largeFile: (command, max) => `sie hat dekomprimiert mehr als ${max} Bytes; mit „${command}“ dekomprimieren und das Ergebnis angeben.`,
     noRosbag2: 'das ist eine SQLite-Datenbank ohne die Tabellen „topics“ und „messages“ von rosbag2; erwartet wird eine Aufzeichnung von „ros2 bag record“.',
     notRosbag2: 'sie steht in der metadata.yaml einer Aufzeichnung, ist aber keine Aufzeichnung; erwartet wird eine MCAP- oder .db3-Datei.',
-    notRead: (format) => `das ist ${UNSUPPORTED_FORMATS[format]}`,
+    journal: 'das ist ein Journal mit Nachrichten, die seiner .db3-Datei fehlen; das Aufzeichnen beenden, oder sie mit „sqlite3 DATEI.db3 \'PRAGMA wal_checkpoint\'“ zurückschreiben.',
+    notRead: (format, command) => `das hat das Format ${format}; ${command ? `mit „${command}“ umwandeln und das Ergebnis angeben` : 'entpacken, oder als CSV exportieren'}.`,
     noFiles: (files) => `sie beschreibt eine Aufzeichnung in ${files}; auch diese Datei angeben, oder den ganzen Ordner.`,
     noTopic: (series) => `es gibt kein solches Topic, keine solche Gruppe von Spalten und keine solchen Transformationen; erwartet wird eines von ${series}.`,
     noTopics: (topics) => `die Topics sind ${topics}; erwartet wird eines vom Typ ${MESSAGE_TYPES.either}.`,
@@ -126,7 +116,7 @@ export const german: Words = {
     fields: FIELD_NAMES,
     none: 'keine',
     read: 'Lesen',
-    other: 'Die andere Datei auch hierher ziehen oder wählen, oder beide zugleich.',
+    other: 'Beide Dateien zugleich hierher ziehen oder wählen.',
   },
   found: {
     title: 'Was gelesen wurde',

@@ -29,18 +29,6 @@ const DROP_REASONS = {
   held: 'the pose stands still while the odometry moves on',
 };
 
-/** Formats that are recognized but not read, each with a remedy. */
-export const UNSUPPORTED_FORMATS = {
-  rosbag1: 'a ROS bag of version 1.2; convert it with “rosbag reindex”.',
-  ulog: 'a PX4 log (ULog); convert it with “ulog2csv”, and give two of the tables.',
-  dataflash: 'an ArduPilot log; convert it with “mavlogdump.py --format csv --types POS”.',
-  wal: `a journal with messages that its .db3 file lacks; end the recorder, or write them back with “sqlite3 FILE.db3 'PRAGMA wal_checkpoint'”.`,
-  zip: 'a zip archive or a workbook (.xlsx, .ods); unzip it and give its files, or save the sheet as CSV.',
-  compressed: 'compressed by gzip, bzip2, xz or LZ4; decompress it with “gunzip”, “bunzip2”, “unxz” or “unlz4”, and give the result.',
-  hdf5: 'an HDF5 or MATLAB file; export times and poses as CSV.',
-  parquet: 'a Parquet table; export it as CSV.',
-};
-
 export const REPAIR_COMMANDS: Record<Recording['format'], string> = { mcap: 'mcap recover', rosbag: 'rosbag reindex', sqlite: 'sqlite3 FILE .recover | sqlite3 NEW.db3', csv: '' };
 
 export const english = {
@@ -94,7 +82,8 @@ export const english = {
     largeFile: (command: string, max: number) => `it has more than ${max} bytes when it is decompressed; decompress it with “${command}”, and give the result.`,
     noRosbag2: 'it is an SQLite database without the tables “topics” and “messages” of rosbag2; expected is a recording of “ros2 bag record”.',
     notRosbag2: 'it is listed in the metadata.yaml of a recording, but is not a recording; expected is an MCAP or .db3 file.',
-    notRead: (format: keyof typeof UNSUPPORTED_FORMATS) => `it is ${UNSUPPORTED_FORMATS[format]}`,
+    journal: 'it is a journal with messages that its .db3 file lacks; end the recorder, or write them back with “sqlite3 FILE.db3 \'PRAGMA wal_checkpoint\'”.',
+    notRead: (format: string, command?: string) => `it is in the format ${format}; ${command ? `convert it with “${command}”, and give the result` : 'unpack it, or export it as CSV'}.`,
     noFiles: (files: string) => `it describes a recording in ${files}; give that file too, or the whole folder.`,
     noTopic: (series: string) => `it has no such topic, group of columns or transforms; expected is one of ${series}.`,
     noTopics: (topics: string) => `the topics are ${topics}; expected is one of type ${MESSAGE_TYPES.either}.`,
@@ -128,7 +117,7 @@ export const english = {
     fields: FIELD_NAMES,
     none: 'none',
     read: 'Read',
-    other: 'Drop or choose the other file too, or both at once.',
+    other: 'Drop or choose both files at once.',
   },
   found: {
     title: 'What was read',

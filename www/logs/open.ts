@@ -1,7 +1,6 @@
 /** Opens recordings. The first bytes of a file determine its format. A recording of rosbag2 may consist of several files, which its metadata.yaml lists. */
 
 import { group, sort } from 'd3-array';
-import type { UNSUPPORTED_FORMATS } from './en.ts';
 import type { Container } from './formats/container.ts';
 import { LogError, readBytes, type OpenOptions, type OptionsByName, type Recording, type Source } from './log.ts';
 import { openTable } from './table.ts';
@@ -16,12 +15,15 @@ const FORMAT_MAGIC: Record<FileFormat, string> = {
   metadata: 'rosbag2_bagfile_information:',
 };
 
-/** First bytes of file formats that are recognized but not supported, for an error that names the format. */
-const UNSUPPORTED_MAGIC: [keyof typeof UNSUPPORTED_FORMATS, string][] = [
-  ['rosbag1', '#ROSBAG V1'], ['rosbag1', '#ROSRECORD'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'], ['wal', '\x37\x7f\x06\x82'], ['wal', '\x37\x7f\x06\x83'],
-  ['zip', 'PK\x03\x04'], ['compressed', '\x1f\x8b'], ['compressed', 'BZh'], ['compressed', '\xfd7zXZ\0'], ['compressed', '\x04\x22\x4d\x18'],
-  ['hdf5', '\x89HDF\r\n\x1a\n'], ['hdf5', 'MATLAB 5.0 MAT-file'], ['parquet', 'PAR1'],
+/** First bytes of formats that are recognized but not read, each with the name of the format, and with the command that converts it if there is one. */
+const UNREAD_FORMATS: [magic: string, name: string, command?: string][] = [
+  ['#ROSBAG V1', 'ROS bag 1', 'rosbag reindex'], ['#ROSRECORD', 'ROS bag 1', 'rosbag reindex'], ['ULog\x01\x12\x35', 'PX4 ULog', 'ulog2csv'],
+  ['\xa3\x95\x80', 'ArduPilot DataFlash', 'mavlogdump.py --format csv --types POS'], ['\x1f\x8b', 'gzip', 'gunzip'], ['BZh', 'bzip2', 'bunzip2'], ['\xfd7zXZ\0', 'xz', 'unxz'],
+  ['\x04\x22\x4d\x18', 'LZ4', 'unlz4'], ['PK\x03\x04', 'ZIP (.zip, .xlsx, .ods)'], ['\x89HDF\r\n\x1a\n', 'HDF5'], ['MATLAB 5.0 MAT-file', 'MATLAB'], ['PAR1', 'Parquet'],
 ];
+
+/** First bytes of the journal of an SQLite database. */
+const JOURNAL_MAGIC = '\x37\x7f\x06';
 
 const MAX_MAGIC_BYTES = 32;
 
@@ -82,8 +84,9 @@ function distinguishNames(files: Source[]): Source[] {
 /** Returns the format of a file by its first bytes; undefined for a table. */
 async function detectFormat(source: Source): Promise<FileFormat | undefined> {
   const firstBytes = String.fromCharCode(...(await readBytes(source, 0, MAX_MAGIC_BYTES)));
-  const unsupportedFormat = UNSUPPORTED_MAGIC.find(([, magic]) => firstBytes.startsWith(magic));
-  if (unsupportedFormat) throw new LogError({ file: source.name }, (texts) => texts.notRead(unsupportedFormat[0]));
+  if (firstBytes.startsWith(JOURNAL_MAGIC)) throw new LogError({ file: source.name }, (texts) => texts.journal);
+  const unreadFormat = UNREAD_FORMATS.find(([magic]) => firstBytes.startsWith(magic));
+  if (unreadFormat) throw new LogError({ file: source.name }, (texts) => texts.notRead(unreadFormat[1], unreadFormat[2]));
   return (Object.keys(FORMAT_MAGIC) as FileFormat[]).find((format) => firstBytes.startsWith(FORMAT_MAGIC[format]));
 }
 

@@ -38,8 +38,6 @@ export class LogOpener extends FileOpener<Figure> {
   chosenFiles: ChosenFiles | undefined;
   /** Files with the log whose results are on screen; undefined after the page or the user has set another log. */
   #resultFiles: ChosenFiles | undefined;
-  /** Files that contain only the odometry or only the reference of a drive. The next file with one log is paired with them. */
-  #loneLogFiles: ChosenFiles | undefined;
   /** Module with the code and the texts for choosing and showing logs. It is loaded when the user chooses a file. */
   logModule: LogModule | undefined;
   /** Fraction of the files that has been read; undefined if no file is being read. */
@@ -74,7 +72,7 @@ export class LogOpener extends FileOpener<Figure> {
   /** Forgets files that were refused or not yet fitted. The files with the results on screen become the chosen files again. */
   restoreResults() {
     this.chosenFiles = this.#resultFiles?.log === this.host.log ? this.#resultFiles : undefined;
-    this.#loneLogFiles = this.refusal = undefined;
+    this.refusal = undefined;
     this.host.requestUpdate();
   }
 
@@ -126,27 +124,14 @@ export class LogOpener extends FileOpener<Figure> {
     this.readFraction = 0;
     const isLatest = await this.runAttempt(async () => {
       this.logModule ??= await import('./log-choice.ts');
-      await this.#read(openedFiles);
+      Object.assign(openedFiles, await this.host.service.read(files, answers, openedFiles.userChoices, (readFraction) => {
+        this.readFraction = readFraction;
+        this.host.requestUpdate();
+      }));
+      if (openedFiles.refusal) throw openedFiles.refusal;
       await this.#fit(openedFiles);
     });
     if (isLatest) this.#setIdle();
-  }
-
-  /** Reads the logs of files. If these and the previous files have one log each, the two logs become odometry and reference of a drive. */
-  async #read(openedFiles: ChosenFiles): Promise<void> {
-    Object.assign(openedFiles, await this.host.service.read(openedFiles.files, openedFiles.answers, openedFiles.userChoices, (readFraction) => {
-      this.readFraction = readFraction;
-      this.host.requestUpdate();
-    }));
-    const { refusal, recordings, skipped } = openedFiles;
-    if (!refusal) return;
-    const loneLogFiles = this.#loneLogFiles;
-    // If the question is about a skipped file, the user has to answer it before logs of two files are paired.
-    const isLoneLog = recordings.length === 1 && !recordings[0].choices && refusal.question !== undefined && !skipped.includes(refusal);
-    if (isLoneLog) this.#loneLogFiles = { ...openedFiles };
-    if (!isLoneLog || !loneLogFiles || loneLogFiles.files === openedFiles.files) throw refusal;
-    const [files, questions] = [[...loneLogFiles.files, ...openedFiles.files], [...loneLogFiles.questions, ...openedFiles.questions]];
-    await this.#read(Object.assign(openedFiles, { files, questions, refusal: undefined, answers: { ...loneLogFiles.answers, ...openedFiles.answers } }));
   }
 
   async #fit(openedFiles: ChosenFiles) {
@@ -159,7 +144,6 @@ export class LogOpener extends FileOpener<Figure> {
     });
     openedFiles.isFitted = true;
     this.#resultFiles = openedFiles;
-    this.#loneLogFiles = undefined;
     this.host.gesture.commitOneStep();
   }
 

@@ -136,18 +136,18 @@ pub(crate) fn product_or_zero<const N: usize>(densities: [f64; N]) -> f64 {
 
 /// Returns the density at the angle `a` of noise of variance `b2` wrapped around the circle: Σₖ prob(a + 2πk), per
 /// radian. 1 or 0 as [`NoiseKind::prob`] where the variance is 0.
-pub(crate) fn wrapped_density(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
+pub(crate) fn wrapped_density(noise_kind: NoiseKind, a: f64, b2: Variance) -> f64 {
     let a = wrap_angle(a);
     let std = b2.0.sqrt();
-    match noise {
+    match noise_kind {
         // If the standard deviation is larger the wrapped Gaussian is uniform to the last bit: its first harmonic is exp(−b²/2) < 1e-17.
         NoiseKind::Normal if std > 9.0 => 1.0 / TAU,
         NoiseKind::Normal => {
             // A term at more than nine standard deviations is below the rounding error of the sum.
             let max_turns = (9.0 * std / TAU).ceil() as i32;
-            (-max_turns..=max_turns).map(|k| noise.prob(a + f64::from(k) * TAU, b2)).sum()
+            (-max_turns..=max_turns).map(|k| noise_kind.prob(a + f64::from(k) * TAU, b2)).sum()
         }
-        NoiseKind::Triangular if std == 0.0 => noise.prob(a, b2),
+        NoiseKind::Triangular if std == 0.0 => noise_kind.prob(a, b2),
         NoiseKind::Triangular => {
             let half_width = SQRT_6 * std;
             // Sums half_width − x over x = first, first + 2π, … up to half_width: the terms of the triangular density on one side of its

@@ -10,22 +10,22 @@ use motion::sim::views::ViewGrid;
 const MAX_CALLS: usize = 4;
 
 pub fn check_input(fuzz_input_bytes: &[u8]) {
-    let mut input = InputReader(fuzz_input_bytes);
-    let should_check_paths = input.next_below(8) == 1;
-    let first_settings = change_settings(&Settings::default(), &mut input);
+    let mut fuzz_input = InputReader(fuzz_input_bytes);
+    let should_check_paths = fuzz_input.next_below(8) == 1;
+    let first_settings = change_settings(&Settings::default(), &mut fuzz_input);
     if !are_settings_allowed(&first_settings) {
         assert!(ArcAnatomy::new(first_settings).is_err());
         return;
     }
     let mut simulation = ArcAnatomy::new(first_settings).expect("allowed");
     for _ in 0..MAX_CALLS {
-        if input.is_empty() {
+        if fuzz_input.is_empty() {
             break;
         }
-        if input.next_below(3) == 0 {
-            find_position_at(&simulation, input.draw_number_within(0.0..=1.0));
+        if fuzz_input.next_below(3) == 0 {
+            find_position_at(&simulation, fuzz_input.draw_number_within(0.0..=1.0));
         } else {
-            change_simulation_settings(&mut simulation, &mut input);
+            change_simulation_settings(&mut simulation, &mut fuzz_input);
         }
     }
     assert_results(&simulation);
@@ -35,12 +35,12 @@ pub fn check_input(fuzz_input_bytes: &[u8]) {
     }
     // Heat maps are checked in few runs, because a heat map takes as long as hundreds of other calls.
     if is_selected_by_hash(256, fuzz_input_bytes) {
-        assert_surface(&simulation, &mut input);
+        assert_surface(&simulation, &mut fuzz_input);
     }
 }
 
-fn change_simulation_settings(simulation: &mut ArcAnatomy, input: &mut InputReader) {
-    let settings = change_settings(simulation.settings(), input);
+fn change_simulation_settings(simulation: &mut ArcAnatomy, fuzz_input: &mut InputReader) {
+    let settings = change_settings(simulation.settings(), fuzz_input);
     if are_settings_allowed(&settings) {
         simulation.configure(settings).expect("allowed");
         return;
@@ -131,8 +131,8 @@ fn find_position_at(simulation: &ArcAnatomy, time_fraction: f64) -> [f64; 2] {
 }
 
 /// Asserts that the contours of the heat map are inside its rectangle.
-fn assert_surface(simulation: &ArcAnatomy, input: &mut InputReader) {
-    let ViewGrid { min_corner: view_min, max_corner: view_max, .. } = banana::read_view_grid(input);
+fn assert_surface(simulation: &ArcAnatomy, fuzz_input: &mut InputReader) {
+    let ViewGrid { min_corner: view_min, max_corner: view_max, .. } = banana::read_view_grid(fuzz_input);
     let heat_map = simulation.surface(view_min, view_max);
     assert_eq!(heat_map.is_none(), simulation.settings().map == HeatMapKind::NoHeatMap);
     let Some(Surface { columns: column_count, rows: row_count, shades: pixel_shades, prob: score_contours, density: density_contours }) = heat_map else { return };

@@ -17,22 +17,22 @@ const MAX_SAMPLES: usize = 12;
 const MAX_CALLS: usize = 4;
 
 pub fn check_input(input_bytes: &[u8]) {
-    let mut input = InputReader(input_bytes);
-    let [should_check_contours, should_compare_new_simulation] = [0; 2].map(|_| input.next_below(4) == 1);
-    let first_settings = change_settings(&limit_settings(Settings::default()), &mut input);
+    let mut fuzz_input = InputReader(input_bytes);
+    let [should_check_contours, should_compare_new_simulation] = [0; 2].map(|_| fuzz_input.next_below(4) == 1);
+    let first_settings = change_settings(&limit_settings(Settings::default()), &mut fuzz_input);
     if !are_settings_allowed(&first_settings) {
         assert!(BananaMachine::with_shown_count(first_settings, 0).is_err());
         return;
     }
     let mut simulation = BananaMachine::with_shown_count(limit_settings(first_settings), 0).expect("allowed");
-    if input.next_bool() {
+    if fuzz_input.next_bool() {
         simulation.add_samples(MAX_SAMPLES);
     }
     for _ in 0..MAX_CALLS {
-        if input.is_empty() {
+        if fuzz_input.is_empty() {
             break;
         }
-        call_method(&mut simulation, &mut input);
+        call_method(&mut simulation, &mut fuzz_input);
     }
     assert_results(&simulation);
     if should_check_contours {
@@ -47,13 +47,13 @@ fn limit_settings(settings: Settings) -> Settings {
     Settings { samples: settings.samples.min(MAX_SAMPLES), ..settings }
 }
 
-fn call_method(simulation: &mut BananaMachine, input: &mut InputReader) {
-    match input.next_below(9) {
-        0 => change_simulation_settings(simulation, input),
-        1 => assert_same_if_added_in_blocks(simulation, input),
+fn call_method(simulation: &mut BananaMachine, fuzz_input: &mut InputReader) {
+    match fuzz_input.next_below(9) {
+        0 => change_simulation_settings(simulation, fuzz_input),
+        1 => assert_same_if_added_in_blocks(simulation, fuzz_input),
         2 => {
             let count_before = simulation.shown_count();
-            let added_count = input.next_below(MAX_SAMPLES);
+            let added_count = fuzz_input.next_below(MAX_SAMPLES);
             let count_after = simulation.add_samples(added_count);
             assert_eq!(count_after, (count_before + added_count).min(simulation.settings().samples));
         }
@@ -61,12 +61,12 @@ fn call_method(simulation: &mut BananaMachine, input: &mut InputReader) {
             simulation.configure_first(*simulation.settings(), 0).expect("allowed");
             assert_eq!(simulation.shown_count(), 0);
         }
-        4 => assert_picture(simulation, input),
-        5 => assert_nearest_pose(simulation, input),
-        6 => assert_executed_motion(simulation, usize::from(input.next_byte())),
+        4 => assert_picture(simulation, fuzz_input),
+        5 => assert_nearest_pose(simulation, fuzz_input),
+        6 => assert_executed_motion(simulation, usize::from(fuzz_input.next_byte())),
         7 => assert_table(simulation),
         _ => {
-            let [x, y] = [0; 2].map(|_| input.draw_number_within(QUANTITY_RANGE));
+            let [x, y] = [0; 2].map(|_| fuzz_input.draw_number_within(QUANTITY_RANGE));
             let current_command = simulation.settings().command;
             let reaching_command = command_drawn_at([x, y], &current_command, 0.0);
             // The executed speed may be infinite, because the length of a nearly straight arc may exceed the range of doubles.
@@ -75,8 +75,8 @@ fn call_method(simulation: &mut BananaMachine, input: &mut InputReader) {
     }
 }
 
-fn change_simulation_settings(simulation: &mut BananaMachine, input: &mut InputReader) {
-    let settings = change_settings(simulation.settings(), input);
+fn change_simulation_settings(simulation: &mut BananaMachine, fuzz_input: &mut InputReader) {
+    let settings = change_settings(simulation.settings(), fuzz_input);
     if are_settings_allowed(&settings) {
         simulation.configure(limit_settings(settings)).expect("allowed");
         return;
@@ -88,14 +88,14 @@ fn change_simulation_settings(simulation: &mut BananaMachine, input: &mut InputR
 }
 
 /// Asserts that samples that are added in several blocks equal samples that are added in one call.
-fn assert_same_if_added_in_blocks(simulation: &mut BananaMachine, input: &mut InputReader) {
-    let settings = change_settings(simulation.settings(), input);
+fn assert_same_if_added_in_blocks(simulation: &mut BananaMachine, fuzz_input: &mut InputReader) {
+    let settings = change_settings(simulation.settings(), fuzz_input);
     if !are_settings_allowed(&settings) {
         return;
     }
     let mut simulation_in_one_call = simulation.clone();
     simulation_in_one_call.configure(limit_settings(settings)).expect("allowed");
-    let block_size = 1 + usize::from(input.next_byte());
+    let block_size = 1 + usize::from(fuzz_input.next_byte());
     simulation.configure_first(limit_settings(settings), block_size).expect("allowed");
     while simulation.shown_count() < simulation.settings().samples {
         simulation.add_samples(block_size);
@@ -238,15 +238,15 @@ fn distance_between(a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 /// Reads a random rectangle of a view from the fuzz input, divided into at most 40 × 40 cells.
-pub fn read_view_grid(input: &mut InputReader) -> ViewGrid {
-    let view_min = [0; 2].map(|_| input.draw_number_within(EXTENT_RANGE));
-    let view_max = view_min.map(|min_coordinate| input.draw_number_within(min_coordinate..=*EXTENT_RANGE.end()));
-    let [column_count, row_count] = [0; 2].map(|_| 1 + input.next_below(40));
+pub fn read_view_grid(fuzz_input: &mut InputReader) -> ViewGrid {
+    let view_min = [0; 2].map(|_| fuzz_input.draw_number_within(EXTENT_RANGE));
+    let view_max = view_min.map(|min_coordinate| fuzz_input.draw_number_within(min_coordinate..=*EXTENT_RANGE.end()));
+    let [column_count, row_count] = [0; 2].map(|_| 1 + fuzz_input.next_below(40));
     ViewGrid { min_corner: view_min, max_corner: view_max, columns: column_count, rows: row_count }
 }
 
-fn assert_picture(simulation: &mut BananaMachine, input: &mut InputReader) {
-    let (morph, view_grid) = (input.choose_one(&[0.0, 1.0]), read_view_grid(input));
+fn assert_picture(simulation: &mut BananaMachine, fuzz_input: &mut InputReader) {
+    let (morph, view_grid) = (fuzz_input.choose_one(&[0.0, 1.0]), read_view_grid(fuzz_input));
     let cell_counts = simulation.density(morph, &view_grid);
     assert_eq!(cell_counts.len(), view_grid.columns * view_grid.rows);
     assert!(cell_counts.iter().sum::<u32>() as usize <= simulation.shown_count(), "{view_grid:?}: {cell_counts:?}");
@@ -255,9 +255,9 @@ fn assert_picture(simulation: &mut BananaMachine, input: &mut InputReader) {
     assert!(pixels.iter().zip(&cell_counts).all(|(pixel_rgba, cell_count)| (pixel_rgba[3] > 0) == (*cell_count > 0)), "{view_grid:?}");
 }
 
-fn assert_nearest_pose(simulation: &BananaMachine, input: &mut InputReader) {
-    let search_point = [0; 2].map(|_| input.next_number());
-    let search_radii = [0; 2].map(|_| input.draw_number_within(0.0..=f64::INFINITY));
+fn assert_nearest_pose(simulation: &BananaMachine, fuzz_input: &mut InputReader) {
+    let search_point = [0; 2].map(|_| fuzz_input.next_number());
+    let search_radii = [0; 2].map(|_| fuzz_input.draw_number_within(0.0..=f64::INFINITY));
     let Some(nearest_index) = simulation.nearest(0.0, search_point, search_radii) else { return };
     let nearest_pose: SE2 = simulation.poses().nth(nearest_index).expect("a sample that is shown");
     let relative_distance_to = |pose: &SE2| ((pose.x() - search_point[0]) / search_radii[0]).hypot((pose.y() - search_point[1]) / search_radii[1]);

@@ -14,18 +14,18 @@ const MAX_CURVE_POINTS: usize = 6;
 const MAX_CALLS: usize = 4;
 
 pub fn check_input(input_bytes: &[u8]) {
-    let mut input = InputReader(input_bytes);
-    let first_settings = change_settings(&limit_settings(Settings::default()), &mut input);
+    let mut fuzz_input = InputReader(input_bytes);
+    let first_settings = change_settings(&limit_settings(Settings::default()), &mut fuzz_input);
     if !are_settings_allowed(&first_settings) {
         assert!(OdometryDecomposer::new(first_settings).is_err());
         return;
     }
     let mut simulation = OdometryDecomposer::new(limit_settings(first_settings)).expect("allowed");
     for _ in 0..MAX_CALLS {
-        if input.is_empty() {
+        if fuzz_input.is_empty() {
             break;
         }
-        call_method(&mut simulation, &mut input);
+        call_method(&mut simulation, &mut fuzz_input);
     }
     assert_results(&simulation);
 }
@@ -34,12 +34,12 @@ fn limit_settings(settings: Settings) -> Settings {
     Settings { samples: settings.samples.min(MAX_SAMPLES), ..settings }
 }
 
-fn call_method(simulation: &mut OdometryDecomposer, input: &mut InputReader) {
+fn call_method(simulation: &mut OdometryDecomposer, fuzz_input: &mut InputReader) {
     let shown_count = simulation.poses().len();
-    match input.next_below(7) {
-        0 | 1 => change_simulation_settings(simulation, input),
+    match fuzz_input.next_below(7) {
+        0 | 1 => change_simulation_settings(simulation, fuzz_input),
         2 => {
-            let added_count = input.next_below(MAX_SAMPLES);
+            let added_count = fuzz_input.next_below(MAX_SAMPLES);
             assert_eq!(simulation.add_samples(added_count), (shown_count + added_count).min(simulation.settings().samples));
         }
         3 => {
@@ -47,18 +47,18 @@ fn call_method(simulation: &mut OdometryDecomposer, input: &mut InputReader) {
             assert!(simulation.poses().is_empty());
         }
         4 => {
-            let leg_poses = simulation.sample_leg_poses(usize::from(input.next_byte()));
+            let leg_poses = simulation.sample_leg_poses(usize::from(fuzz_input.next_byte()));
             assert!(leg_poses.len() <= shown_count);
             leg_poses.as_flattened().iter().for_each(|pose| assertions::assert_pose("a leg pose", pose));
             assert!(leg_poses.iter().zip(simulation.poses()).all(|(poses_of_outcome, pose)| poses_of_outcome[3] == *pose));
         }
-        5 => assert_deviation_curve(simulation, input.draw_number_within(0.0..=*QUANTITY_RANGE.end()), 1 + input.next_below(MAX_CURVE_POINTS)),
-        _ => assert_nearest_pose(simulation, input),
+        5 => assert_deviation_curve(simulation, fuzz_input.draw_number_within(0.0..=*QUANTITY_RANGE.end()), 1 + fuzz_input.next_below(MAX_CURVE_POINTS)),
+        _ => assert_nearest_pose(simulation, fuzz_input),
     }
 }
 
-fn change_simulation_settings(simulation: &mut OdometryDecomposer, input: &mut InputReader) {
-    let settings = change_settings(simulation.settings(), input);
+fn change_simulation_settings(simulation: &mut OdometryDecomposer, fuzz_input: &mut InputReader) {
+    let settings = change_settings(simulation.settings(), fuzz_input);
     let (settings_before, poses_before) = (*simulation.settings(), simulation.poses().to_vec());
     if !are_settings_allowed(&settings) {
         assert!(simulation.configure(settings).is_err());
@@ -80,9 +80,9 @@ fn assert_deviation_curve(simulation: &OdometryDecomposer, max_distance: f64, po
     }
 }
 
-fn assert_nearest_pose(simulation: &OdometryDecomposer, input: &mut InputReader) {
-    let search_point = [0; 2].map(|_| input.next_number());
-    let search_radius = input.draw_number_within(0.0..=f64::INFINITY);
+fn assert_nearest_pose(simulation: &OdometryDecomposer, fuzz_input: &mut InputReader) {
+    let search_point = [0; 2].map(|_| fuzz_input.next_number());
+    let search_radius = fuzz_input.draw_number_within(0.0..=f64::INFINITY);
     let Some(nearest_index) = simulation.nearest(search_point, search_radius) else { return };
     let relative_distance_to = |pose: &SE2| ((pose.x() - search_point[0]) / search_radius).hypot((pose.y() - search_point[1]) / search_radius);
     let min_relative_distance = simulation.poses().iter().map(relative_distance_to).fold(f64::INFINITY, f64::min);

@@ -14,12 +14,12 @@ const MAX_ARCS: usize = 3;
 const MAX_CELLS_PER_SIDE: usize = 3;
 
 pub fn check_input(input_bytes: &[u8]) {
-    let mut input = InputReader(input_bytes);
-    let Some((grid, unknown_cell_rule)) = read_random_grid(&mut input) else { return };
+    let mut fuzz_input = InputReader(input_bytes);
+    let Some((grid, unknown_cell_rule)) = read_random_grid(&mut fuzz_input) else { return };
     let [column_count, row_count] = grid.size();
     assert_eq!(grid.cells().len(), column_count * row_count);
     // Most runs make no floor plan, because its distance field takes a hundred times as long as everything else.
-    if input.next_below(16) != 1 {
+    if fuzz_input.next_below(16) != 1 {
         assert_outlines(&grid.with_unknown(unknown_cell_rule), unknown_cell_rule);
         return;
     }
@@ -34,8 +34,8 @@ pub fn check_input(input_bytes: &[u8]) {
         assert_eq!(floor_plan.test_point(cell_middle, 0.0).free, !is_cell_obstacle, "{cell_middle:?} in {grid:?}");
     }
     for _ in 0..MAX_ARCS {
-        plan::assert_collision_verdicts(&floor_plan, &mut input);
-        if input.is_empty() {
+        plan::assert_collision_verdicts(&floor_plan, &mut fuzz_input);
+        if fuzz_input.is_empty() {
             break;
         }
     }
@@ -94,23 +94,23 @@ fn wall_length_of(wall: &Segment) -> f64 {
 }
 
 /// Reads a grid of a few cells, and the setting for its unknown cells.
-pub fn read_random_grid(input: &mut InputReader) -> Option<(OccupancyGrid, UnknownCells)> {
-    let resolution = input.draw_number_near(&RESOLUTION_RANGE);
-    let [x, y, yaw] = [0; 3].map(|_| input.draw_number_near(&QUANTITY_RANGE));
+pub fn read_random_grid(fuzz_input: &mut InputReader) -> Option<(OccupancyGrid, UnknownCells)> {
+    let resolution = fuzz_input.draw_number_near(&RESOLUTION_RANGE);
+    let [x, y, yaw] = [0; 3].map(|_| fuzz_input.draw_number_near(&QUANTITY_RANGE));
     if !RESOLUTION_RANGE.contains(&resolution) || ![x, y, yaw].iter().all(|origin_coordinate| QUANTITY_RANGE.contains(origin_coordinate)) {
         return None;
     }
-    let [image_width, image_height] = [0; 2].map(|_| 1 + input.next_below(MAX_CELLS_PER_SIDE));
-    let map_mode = input.choose_one(&[MapMode::Trinary, MapMode::Scale, MapMode::Raw]);
-    let is_negated = input.next_bool();
-    let [first_threshold, second_threshold] = [0; 2].map(|_| f64::from(input.next_byte()) / 255.0);
+    let [image_width, image_height] = [0; 2].map(|_| 1 + fuzz_input.next_below(MAX_CELLS_PER_SIDE));
+    let map_mode = fuzz_input.choose_one(&[MapMode::Trinary, MapMode::Scale, MapMode::Raw]);
+    let is_negated = fuzz_input.next_bool();
+    let [first_threshold, second_threshold] = [0; 2].map(|_| f64::from(fuzz_input.next_byte()) / 255.0);
     let pixel_classifier = PixelClassifier { mode: map_mode, negate: is_negated, occupied_thresh: first_threshold.max(second_threshold), free_thresh: first_threshold.min(second_threshold) };
-    let unknown_cell_rule = input.choose_one(&[UnknownCells::Free, UnknownCells::Blocked]);
-    let is_opaque = input.next_bool();
+    let unknown_cell_rule = fuzz_input.choose_one(&[UnknownCells::Free, UnknownCells::Blocked]);
+    let is_opaque = fuzz_input.next_bool();
     let pixels: Vec<Pixel> = (0..image_width * image_height)
         .map(|_| Pixel {
-            brightness: f32::from(input.next_byte()) / 255.0,
-            opacity: if is_opaque { 1.0 } else { f32::from(input.next_byte()) / 255.0 },
+            brightness: f32::from(fuzz_input.next_byte()) / 255.0,
+            opacity: if is_opaque { 1.0 } else { f32::from(fuzz_input.next_byte()) / 255.0 },
         })
         .collect();
     for pixel in &pixels {

@@ -7,9 +7,9 @@ use std::fmt::Write;
 pub fn check_input(pgm_bytes: &[u8]) {
     match read_pgm(pgm_bytes).map_err(|pgm_error| pgm_error.to_string()) {
         Ok(image) => {
-            let Image { width, height, ref pixels } = image;
-            assert!(width > 0 && height > 0 && width * height <= MAX_PIXELS);
-            assert_eq!(pixels.len(), width * height);
+            let Image { width: image_width, height: image_height, ref pixels } = image;
+            assert!(image_width > 0 && image_height > 0 && image_width * image_height <= MAX_PIXELS);
+            assert_eq!(pixels.len(), image_width * image_height);
             assert!(pixels.iter().all(|brightness| (0.0..=1.0).contains(brightness)));
             if pixels.len() <= 64 {
                 assert_same_after_writing(&image);

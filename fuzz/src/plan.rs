@@ -11,40 +11,40 @@ const MAX_WALLS: usize = 4;
 const MAX_ARCS: usize = 3;
 
 pub fn check_input(input_bytes: &[u8]) {
-    let mut input = InputReader(input_bytes);
-    let Some(floor_plan) = read_floor_plan(&mut input) else { return };
+    let mut fuzz_input = InputReader(input_bytes);
+    let Some(floor_plan) = read_floor_plan(&mut fuzz_input) else { return };
     for _ in 0..MAX_ARCS {
-        assert_collision_verdicts(&floor_plan, &mut input);
-        if input.is_empty() {
+        assert_collision_verdicts(&floor_plan, &mut fuzz_input);
+        if fuzz_input.is_empty() {
             break;
         }
     }
 }
 
 /// Reads a floor plan with a few walls from the fuzz input. Returns None if the plan is refused.
-pub fn read_floor_plan(input: &mut InputReader) -> Option<FloorPlan> {
-    let bounds: [f64; 4] = if input.next_bool() {
-        std::array::from_fn(|_| input.next_number())
+pub fn read_floor_plan(fuzz_input: &mut InputReader) -> Option<FloorPlan> {
+    let bounds: [f64; 4] = if fuzz_input.next_bool() {
+        std::array::from_fn(|_| fuzz_input.next_number())
     } else {
-        let [left, bottom] = [0, 1].map(|_| input.draw_number_within(-1e6..=1e6));
-        let [width, height] = [0, 1].map(|_| input.draw_number_within(0.01..=1e5));
-        [left, bottom, left + width, bottom + height]
+        let [map_left, map_bottom] = [0, 1].map(|_| fuzz_input.draw_number_within(-1e6..=1e6));
+        let [map_width, map_height] = [0, 1].map(|_| fuzz_input.draw_number_within(0.01..=1e5));
+        [map_left, map_bottom, map_left + map_width, map_bottom + map_height]
     };
-    let [left, bottom, right, top] = bounds;
-    let read_coordinate = |input: &mut InputReader, min_coordinate: f64, max_coordinate: f64| {
-        let fraction_of_range = f64::from(input.next_byte()) / 255.0;
+    let [map_left, map_bottom, map_right, map_top] = bounds;
+    let read_coordinate = |fuzz_input: &mut InputReader, min_coordinate: f64, max_coordinate: f64| {
+        let fraction_of_range = f64::from(fuzz_input.next_byte()) / 255.0;
         let coordinate_within_range = min_coordinate + (max_coordinate - min_coordinate) * fraction_of_range;
-        if input.next_below(16) == 0 { input.next_number() } else { coordinate_within_range }
+        if fuzz_input.next_below(16) == 0 { fuzz_input.next_number() } else { coordinate_within_range }
     };
-    let wall_count = input.next_below(1 + MAX_WALLS);
+    let wall_count = fuzz_input.next_below(1 + MAX_WALLS);
     let mut walls: Vec<Segment> = Vec::new();
     for i in 0..wall_count {
         let earlier_wall = walls.get(i.wrapping_sub(1)).copied();
-        let mut read_point = || [read_coordinate(input, left, right), read_coordinate(input, bottom, top)];
+        let mut read_point = || [read_coordinate(fuzz_input, map_left, map_right), read_coordinate(fuzz_input, map_bottom, map_top)];
         let wall_start = read_point();
         let wall_end = read_point();
         // Some walls equal the wall before them, or start at its end.
-        walls.push(match (input.next_below(8), earlier_wall) {
+        walls.push(match (fuzz_input.next_below(8), earlier_wall) {
             (0, Some(wall)) => wall,
             (1, Some(wall)) => Segment { from: wall.to, to: wall_end },
             (2, _) => Segment { from: wall_start, to: wall_start },
@@ -54,11 +54,11 @@ pub fn read_floor_plan(input: &mut InputReader) -> Option<FloorPlan> {
         });
     }
     let has_valid_bounds = bounds.iter().all(|bound| bound.abs() <= 1e6)
-        && [right - left, top - bottom].iter().all(|side_length| (0.01..=1e5).contains(side_length));
+        && [map_right - map_left, map_top - map_bottom].iter().all(|side_length| (0.01..=1e5).contains(side_length));
     // A wall that ends beyond the edge of the map by no more than the rounding error is accepted.
     let edge_tolerance = 1e-12 * bounds.iter().fold(0.0, |max_so_far: f64, bound| max_so_far.max(bound.abs()));
     let is_outside_bounds = |[x, y]: [f64; 2]| {
-        !(left - edge_tolerance..=right + edge_tolerance).contains(&x) || !(bottom - edge_tolerance..=top + edge_tolerance).contains(&y)
+        !(map_left - edge_tolerance..=map_right + edge_tolerance).contains(&x) || !(map_bottom - edge_tolerance..=map_top + edge_tolerance).contains(&y)
     };
     match FloorPlan::new(walls.clone(), bounds) {
         Ok(floor_plan) => {
@@ -76,7 +76,7 @@ pub fn read_floor_plan(input: &mut InputReader) -> Option<FloorPlan> {
                 FloorPlanError::BadWall { wall_index: refused_wall_index, invalid_end: refused_end } => {
                     assert!(refused_wall_index < wall_count, "{error_message}");
                     let [x, y] = refused_end;
-                    assert!(!((left..=right).contains(&x) && (bottom..=top).contains(&y)), "{error_message}");
+                    assert!(!((map_left..=map_right).contains(&x) && (map_bottom..=map_top).contains(&y)), "{error_message}");
                 }
                 FloorPlanError::TooManyWalls(_)
                 | FloorPlanError::BadGrid(_)
@@ -88,21 +88,21 @@ pub fn read_floor_plan(input: &mut InputReader) -> Option<FloorPlan> {
 }
 
 /// Returns a pose, mostly inside the bounds.
-pub fn draw_pose(floor_plan: &FloorPlan, input: &mut InputReader) -> SE2 {
+pub fn draw_pose(floor_plan: &FloorPlan, fuzz_input: &mut InputReader) -> SE2 {
     let [left, bottom, right, top] = floor_plan.bounds();
     let [x, y] = [[left, right], [bottom, top]].map(|[min_coordinate, max_coordinate]| {
-        let fraction_of_range = f64::from(u16::from_le_bytes(input.next_bytes())) / 65_535.0;
+        let fraction_of_range = f64::from(u16::from_le_bytes(fuzz_input.next_bytes())) / 65_535.0;
         min_coordinate + (max_coordinate - min_coordinate) * fraction_of_range
     });
-    SE2::new(x, y, input.draw_number_within(-1e6..=1e6))
+    SE2::new(x, y, fuzz_input.draw_number_within(-1e6..=1e6))
 }
 
 /// Asserts that the collision verdicts on an arc and on its end point equal those of a loop over all walls.
-pub fn assert_collision_verdicts(floor_plan: &FloorPlan, input: &mut InputReader) {
-    let start_pose = draw_pose(floor_plan, input);
-    let arc_length = input.draw_number_within(-1e12..=1e12);
-    let arc_turn = input.draw_number_within(-1e12..=1e12);
-    let clearance = input.draw_number_within(0.0..=10.0);
+pub fn assert_collision_verdicts(floor_plan: &FloorPlan, fuzz_input: &mut InputReader) {
+    let start_pose = draw_pose(floor_plan, fuzz_input);
+    let arc_length = fuzz_input.draw_number_within(-1e12..=1e12);
+    let arc_turn = fuzz_input.draw_number_within(-1e12..=1e12);
+    let clearance = fuzz_input.draw_number_within(0.0..=10.0);
     let driven_arc = Arc { start: start_pose, length: arc_length, turn: arc_turn };
     let distance_tolerance = rounding_tolerance_of(floor_plan, &driven_arc, clearance);
     let edge_distance_at = |x: f64, y: f64| signed_distance_from_edge(floor_plan, [x, y]);

@@ -16,9 +16,9 @@ pub fn check_input(png_bytes: &[u8]) {
 
 fn assert_read_or_refused(png_bytes: &[u8]) {
     match read_png(png_bytes) {
-        Ok(Image { width, height, pixels }) => {
-            assert!(width > 0 && height > 0);
-            assert_eq!(pixels.len(), width * height);
+        Ok(Image { width: image_width, height: image_height, pixels }) => {
+            assert!(image_width > 0 && image_height > 0);
+            assert_eq!(pixels.len(), image_width * image_height);
         }
         Err(png_error) => {
             let error_message = png_error.to_string();

@@ -16,10 +16,10 @@ const MAX_STEPS: u32 = 5;
 const MAX_CALLS: usize = 4;
 
 pub fn check_input(input_bytes: &[u8]) {
-    let mut input = InputReader(input_bytes);
-    let [should_check_straight_growth, should_compare_new_simulation] = [0; 2].map(|_| input.next_below(4) == 1);
+    let mut fuzz_input = InputReader(input_bytes);
+    let [should_check_straight_growth, should_compare_new_simulation] = [0; 2].map(|_| fuzz_input.next_below(4) == 1);
     let first_settings = Settings { samples: 3, steps: MAX_STEPS, ..Settings::default() };
-    let first_settings = change_settings(&first_settings, &mut input);
+    let first_settings = change_settings(&first_settings, &mut fuzz_input);
     if !are_settings_allowed(&first_settings) {
         assert!(DeadReckoning::with_shown_count(first_settings, 0).is_err());
         return;
@@ -27,14 +27,14 @@ pub fn check_input(input_bytes: &[u8]) {
     let max_samples = if is_selected_by_hash(16, input_bytes) { MAX_SAMPLES } else { MAX_SAMPLES_OF_MOST_RUNS };
     let limit_settings = |settings| limit_settings(settings, max_samples);
     let mut simulation = DeadReckoning::with_shown_count(limit_settings(first_settings), 0).expect("allowed");
-    if input.next_bool() {
+    if fuzz_input.next_bool() {
         simulation.add_samples(MAX_SAMPLES);
     }
     for _ in 0..MAX_CALLS {
-        if input.is_empty() {
+        if fuzz_input.is_empty() {
             break;
         }
-        call_method(&mut simulation, &limit_settings, &mut input);
+        call_method(&mut simulation, &limit_settings, &mut fuzz_input);
     }
     assert_results(&simulation);
     if should_check_straight_growth && is_selected_by_hash(8, input_bytes) {
@@ -55,27 +55,27 @@ fn limit_settings(settings: Settings, max_samples: usize) -> Settings {
     }
 }
 
-fn call_method(simulation: &mut DeadReckoning, limit_settings: &dyn Fn(Settings) -> Settings, input: &mut InputReader) {
+fn call_method(simulation: &mut DeadReckoning, limit_settings: &dyn Fn(Settings) -> Settings, fuzz_input: &mut InputReader) {
     let shown_count = simulation.shown_count();
-    match input.next_below(9) {
-        0 | 1 => change_simulation_settings(simulation, limit_settings, input),
-        2 | 3 => assert_same_if_added_in_blocks(simulation, limit_settings, input),
+    match fuzz_input.next_below(9) {
+        0 | 1 => change_simulation_settings(simulation, limit_settings, fuzz_input),
+        2 | 3 => assert_same_if_added_in_blocks(simulation, limit_settings, fuzz_input),
         4 => {
-            let added_count = usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
+            let added_count = usize::from(u16::from_le_bytes(fuzz_input.next_bytes())) % MAX_SAMPLES;
             assert_eq!(simulation.add_samples(added_count), (shown_count + added_count).min(simulation.settings().samples));
         }
         5 => {
             simulation.configure_first(*simulation.settings(), 0).expect("allowed");
             assert_eq!(simulation.shown_count(), 0);
         }
-        6 => assert_nearest_pose(simulation, input),
-        7 => assert_outlines(simulation, 1 + input.next_below(MAX_STEPS as usize) as u32),
-        _ => assert_rollout(simulation, usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES),
+        6 => assert_nearest_pose(simulation, fuzz_input),
+        7 => assert_outlines(simulation, 1 + fuzz_input.next_below(MAX_STEPS as usize) as u32),
+        _ => assert_rollout(simulation, usize::from(u16::from_le_bytes(fuzz_input.next_bytes())) % MAX_SAMPLES),
     }
 }
 
-fn change_simulation_settings(simulation: &mut DeadReckoning, limit_settings: &dyn Fn(Settings) -> Settings, input: &mut InputReader) {
-    let settings = change_settings(simulation.settings(), input);
+fn change_simulation_settings(simulation: &mut DeadReckoning, limit_settings: &dyn Fn(Settings) -> Settings, fuzz_input: &mut InputReader) {
+    let settings = change_settings(simulation.settings(), fuzz_input);
     if are_settings_allowed(&settings) {
         simulation.configure(limit_settings(settings)).expect("allowed");
         return;
@@ -86,15 +86,15 @@ fn change_simulation_settings(simulation: &mut DeadReckoning, limit_settings: &d
 }
 
 /// Asserts that robots that are added in several blocks equal robots that are added in one call.
-fn assert_same_if_added_in_blocks(simulation: &mut DeadReckoning, limit_settings: &dyn Fn(Settings) -> Settings, input: &mut InputReader) {
-    let settings = change_settings(simulation.settings(), input);
+fn assert_same_if_added_in_blocks(simulation: &mut DeadReckoning, limit_settings: &dyn Fn(Settings) -> Settings, fuzz_input: &mut InputReader) {
+    let settings = change_settings(simulation.settings(), fuzz_input);
     if !are_settings_allowed(&settings) {
         return;
     }
     let settings = limit_settings(settings);
     let mut simulation_in_one_call = simulation.clone();
     simulation_in_one_call.configure(settings).expect("allowed");
-    let block_size = 1 + usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
+    let block_size = 1 + usize::from(u16::from_le_bytes(fuzz_input.next_bytes())) % MAX_SAMPLES;
     simulation.configure_first(settings, block_size).expect("allowed");
     while simulation.shown_count() < settings.samples {
         simulation.add_samples(block_size);
@@ -174,10 +174,10 @@ fn assert_covariance(cov_name: &str, cov: &Matrix3<f64>, rounding_of_entry: impl
     for i in 0..3 {
         assert!(cov[(i, i)] >= 0.0, "{cov_name}: {cov:?}");
         for j in 0..i {
-            let tolerance = rounding_of_entry(i, j) + f64::MIN_POSITIVE;
-            assert!((cov[(i, j)] - cov[(j, i)]).abs() <= tolerance, "{cov_name}: {cov:?}");
+            let entry_tolerance = rounding_of_entry(i, j) + f64::MIN_POSITIVE;
+            assert!((cov[(i, j)] - cov[(j, i)]).abs() <= entry_tolerance, "{cov_name}: {cov:?}");
             let [row_std, column_std] = [i, j].map(|k| (cov[(k, k)] + rounding_of_entry(k, k)).sqrt());
-            assert!(cov[(i, j)].abs() <= row_std * column_std + tolerance, "{cov_name}: {cov:?}");
+            assert!(cov[(i, j)].abs() <= row_std * column_std + entry_tolerance, "{cov_name}: {cov:?}");
         }
     }
 }
@@ -236,9 +236,9 @@ fn assert_rollout(simulation: &DeadReckoning, robot_index: usize) {
     }
 }
 
-fn assert_nearest_pose(simulation: &DeadReckoning, input: &mut InputReader) {
-    let search_point = [0; 2].map(|_| input.next_number());
-    let search_radius = input.draw_number_within(0.0..=f64::INFINITY);
+fn assert_nearest_pose(simulation: &DeadReckoning, fuzz_input: &mut InputReader) {
+    let search_point = [0; 2].map(|_| fuzz_input.next_number());
+    let search_radius = fuzz_input.draw_number_within(0.0..=f64::INFINITY);
     let Some(nearest_index) = simulation.nearest(search_point, search_radius) else { return };
     let poses = simulation.poses(simulation.settings().step);
     let relative_distance_to = |[x, y, _]: &[f64; 3]| ((x - search_point[0]) / search_radius).hypot((y - search_point[1]) / search_radius);

@@ -27,13 +27,13 @@ thread_local! {
 }
 
 pub fn check_input(input_bytes: &[u8]) {
-    let mut input = InputReader(input_bytes);
+    let mut fuzz_input = InputReader(input_bytes);
     let mut simulation = OPENING_SIMULATION.with(|opening_simulation| (**opening_simulation).clone());
     for _ in 0..MAX_CALLS {
-        if input.is_empty() {
+        if fuzz_input.is_empty() {
             break;
         }
-        call_method(&mut simulation, &mut input);
+        call_method(&mut simulation, &mut fuzz_input);
     }
     assert_results(&simulation);
 }
@@ -51,49 +51,49 @@ fn remove_sub_steps(sampler: Sampler) -> Sampler {
     if let Sampler::SubStepped(_) = sampler { Sampler::WholeArc } else { sampler }
 }
 
-fn call_method(simulation: &mut MapSqueeze, input: &mut InputReader) {
-    match input.next_below(10) {
-        0 => change_simulation_settings(simulation, input),
-        1 => assert_same_if_added_in_blocks(simulation, input),
+fn call_method(simulation: &mut MapSqueeze, fuzz_input: &mut InputReader) {
+    match fuzz_input.next_below(10) {
+        0 => change_simulation_settings(simulation, fuzz_input),
+        1 => assert_same_if_added_in_blocks(simulation, fuzz_input),
         2 => {
-            if let Some(floor_plan) = plan::read_floor_plan(input) {
+            if let Some(floor_plan) = plan::read_floor_plan(fuzz_input) {
                 simulation.set_plan(floor_plan);
             }
         }
         3 => {
-            if let Some((occupancy_grid, _)) = grid::read_random_grid(input) {
+            if let Some((occupancy_grid, _)) = grid::read_random_grid(fuzz_input) {
                 let (wall_count, is_refused) = (simulation.plan().walls().len(), simulation.set_grid(occupancy_grid).is_err());
                 assert!(!is_refused || simulation.plan().walls().len() == wall_count);
             }
         }
         4 => {
             let count_before = simulation.attempts().len();
-            let count_after = simulation.add_samples(input.next_below(MAX_SAMPLES));
+            let count_after = simulation.add_samples(fuzz_input.next_below(MAX_SAMPLES));
             assert!(count_before <= count_after && count_after <= simulation.settings().samples);
         }
         5 => {
             simulation.configure_first(*simulation.settings(), 0).expect("allowed");
             assert!(simulation.attempts().is_empty());
         }
-        6 => assert_picture(simulation, input),
+        6 => assert_picture(simulation, fuzz_input),
         7 => {
-            let search_point = [0; 2].map(|_| input.next_number());
-            let search_radius = input.draw_number_within(0.0..=f64::INFINITY);
+            let search_point = [0; 2].map(|_| fuzz_input.next_number());
+            let search_radius = fuzz_input.draw_number_within(0.0..=f64::INFINITY);
             let nearest_index = simulation.nearest(search_point, search_radius);
             assert!(nearest_index.is_none_or(|attempt_index| attempt_index < simulation.attempts().len()));
         }
         // The search for a free pose is tested in few runs. It tries 72 headings, and takes as long as ten other calls.
         8 => assert_equals_new_simulation(simulation),
-        _ if input.next_below(64) == 1 => assert_free_pose(simulation),
+        _ if fuzz_input.next_below(64) == 1 => assert_free_pose(simulation),
         _ => {}
     }
 }
 
-fn change_simulation_settings(simulation: &mut MapSqueeze, input: &mut InputReader) {
-    let settings = change_settings(simulation.settings(), input);
+fn change_simulation_settings(simulation: &mut MapSqueeze, fuzz_input: &mut InputReader) {
+    let settings = change_settings(simulation.settings(), fuzz_input);
     let settings_before = *simulation.settings();
     if are_settings_allowed(&settings) {
-        let should_divide_command = input.next_below(16) == 1;
+        let should_divide_command = fuzz_input.next_below(16) == 1;
         simulation.configure(limit_settings(settings, should_divide_command)).expect("allowed");
         return;
     }
@@ -104,14 +104,14 @@ fn change_simulation_settings(simulation: &mut MapSqueeze, input: &mut InputRead
 }
 
 /// Asserts that attempts that are added in several blocks equal attempts that are added in one call.
-fn assert_same_if_added_in_blocks(simulation: &mut MapSqueeze, input: &mut InputReader) {
-    let settings = limit_settings(change_settings(simulation.settings(), input), false);
+fn assert_same_if_added_in_blocks(simulation: &mut MapSqueeze, fuzz_input: &mut InputReader) {
+    let settings = limit_settings(change_settings(simulation.settings(), fuzz_input), false);
     if !are_settings_allowed(&settings) {
         return;
     }
     let mut simulation_in_one_call = simulation.clone();
     simulation_in_one_call.configure(settings).expect("allowed");
-    let block_size = 1 + input.next_below(MAX_SAMPLES);
+    let block_size = 1 + fuzz_input.next_below(MAX_SAMPLES);
     simulation.configure_first(settings, block_size).expect("allowed");
     while simulation.shown_count() < settings.samples && !simulation.stats().gave_up {
         simulation.add_samples(block_size);
@@ -176,15 +176,15 @@ fn assert_results(simulation: &MapSqueeze) {
     assert_finite_plan(simulation.plan());
 }
 
-fn assert_finite_plan(plan: &FloorPlan) {
-    assertions::assert_finite("bounds", &plan.bounds());
-    for wall in plan.walls() {
+fn assert_finite_plan(floor_plan: &FloorPlan) {
+    assertions::assert_finite("bounds", &floor_plan.bounds());
+    for wall in floor_plan.walls() {
         assertions::assert_finite("wall", &[wall.from, wall.to].concat());
     }
 }
 
-fn assert_picture(simulation: &mut MapSqueeze, input: &mut InputReader) {
-    let view_grid = banana::read_view_grid(input);
+fn assert_picture(simulation: &mut MapSqueeze, fuzz_input: &mut InputReader) {
+    let view_grid = banana::read_view_grid(fuzz_input);
     let shown_count = simulation.attempts().len();
     let pixels = simulation.paint(&view_grid, &[[[1; 4]; RAMP_STEP_COUNT]; OUTCOME_KIND_COUNT]);
     assert_eq!(pixels.len(), view_grid.columns * view_grid.rows);

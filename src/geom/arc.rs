@@ -15,8 +15,8 @@ use wide::f64x4;
 /// Returns the end (x, y) of an arc of signed length `length` (m) that turns by `turn` (rad), in the frame of its start: x forward, y left.
 /// The end is (s·sin φ/φ, s·(1 − cos φ)/φ), with (1 − cos φ)/φ = sin(φ/2)·sinc(φ/2).
 pub fn arc_end(length: f64, turn: f64) -> (f64, f64) {
-    let (forward, left) = unit_arc_end(turn);
-    (length * forward, length * left)
+    let (forward_offset, left_offset) = unit_arc_end(turn);
+    (length * forward_offset, length * left_offset)
 }
 
 /// Controls that explain the motion between two poses: an arc at (v̂, ω̂), then a final rotation at the rate γ̂.
@@ -67,15 +67,15 @@ impl ArcInversion {
 /// ```
 pub fn invert_arc(x: &SE2, x_next: &SE2, dt: f64) -> ArcInversion {
     let relative_pose = x.between(x_next);
-    let distance = libm::hypot(relative_pose.x(), relative_pose.y());
-    if distance == 0.0 {
+    let end_distance = libm::hypot(relative_pose.x(), relative_pose.y());
+    if end_distance == 0.0 {
         return ArcInversion { v_hat: 0.0, omega_hat: relative_pose.theta() / dt, gamma_hat: 0.0 };
     }
     let drive_sign = if relative_pose.x() < 0.0 { -1.0 } else { 1.0 };
     let bearing = libm::atan2(drive_sign * relative_pose.y(), drive_sign * relative_pose.x());
     let turn = 2.0 * bearing;
     ArcInversion {
-        v_hat: drive_sign * distance / sinc(bearing) / dt,
+        v_hat: drive_sign * end_distance / sinc(bearing) / dt,
         omega_hat: turn / dt,
         gamma_hat: wrap_angle(relative_pose.theta() - turn) / dt,
     }

@@ -39,9 +39,9 @@ js_structs! {
 
 /// Returns the errors of the three formulas, relative to the same motion in double-double arithmetic.
 pub fn form_errors() -> FormErrors {
-    let [first, last] = FIRST_AND_LAST_DECADE.map(|exponent| exponent * POINTS_PER_DECADE);
+    let [first_index, last] = FIRST_AND_LAST_DECADE.map(|exponent| exponent * POINTS_PER_DECADE);
     let omega: Vec<f64> =
-        (first..=last).map(|i| libm::exp10(f64::from(i) / f64::from(POINTS_PER_DECADE))).collect();
+        (first_index..=last).map(|i| libm::exp10(f64::from(i) / f64::from(POINTS_PER_DECADE))).collect();
     let rms_errors: Vec<[f64; 3]> = omega.iter().map(|omega| rms_errors_at(*omega)).collect();
     let errors_of_form = |form: usize| rms_errors.iter().map(|form_errors| form_errors[form]).collect();
     FormErrors {
@@ -87,9 +87,9 @@ fn end_by_straight_line(theta: f64) -> [f64; 2] {
 }
 
 fn end_by_chord(theta: f64, omega: f64) -> [f64; 2] {
-    let (ahead, left) = arc_end(SPEED * DURATION, omega * DURATION);
+    let (ahead_offset, left_offset) = arc_end(SPEED * DURATION, omega * DURATION);
     let (sin, cos) = libm::sincos(theta);
-    [cos * ahead - sin * left, sin * ahead + cos * left]
+    [cos * ahead_offset - sin * left_offset, sin * ahead_offset + cos * left_offset]
 }
 
 fn exact_end(theta: f64, omega: f64) -> [DoubleDouble; 2] {
@@ -141,9 +141,9 @@ impl Add for DoubleDouble {
     type Output = Self;
     /// Returns the sum, with a relative error of at most 2⁻¹⁰⁵.
     fn add(self, other: Self) -> Self {
-        let (sum, low_sum) = (two_sum(self.high, other.high), two_sum(self.low, other.low));
-        let sum = quick_two_sum(sum.high, sum.low + low_sum.high);
-        quick_two_sum(sum.high, sum.low + low_sum.low)
+        let (high_sum, low_sum) = (two_sum(self.high, other.high), two_sum(self.low, other.low));
+        let high_sum = quick_two_sum(high_sum.high, high_sum.low + low_sum.high);
+        quick_two_sum(high_sum.high, high_sum.low + low_sum.low)
     }
 }
 

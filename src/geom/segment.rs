@@ -27,14 +27,14 @@ impl Segment {
 
     fn offset_from_nearest_point(&self, point: [f64; 2]) -> [f64; 2] {
         let direction = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
-        let offset = [point[0] - self.from[0], point[1] - self.from[1]];
+        let offset_from_start = [point[0] - self.from[0], point[1] - self.from[1]];
         let squared_length = dot(direction, direction);
         let t = if squared_length > 0.0 {
-            (dot(offset, direction) / squared_length).clamp(0.0, 1.0)
+            (dot(offset_from_start, direction) / squared_length).clamp(0.0, 1.0)
         } else {
             0.0
         };
-        [offset[0] - t * direction[0], offset[1] - t * direction[1]]
+        [offset_from_start[0] - t * direction[0], offset_from_start[1] - t * direction[1]]
     }
 
     /// Returns the distance (m) between the segment and an arc, which is 0 if they cross.
@@ -63,8 +63,8 @@ impl Segment {
         let first_parallel_turn = if parallel_turn < 0.0 { parallel_turn + PI } else { parallel_turn };
         [first_parallel_turn, first_parallel_turn + PI]
             .into_iter()
-            .map(|turn| turn / arc.turn.abs())
-            .filter(|fraction| *fraction < 1.0)
+            .map(|parallel_turn| parallel_turn / arc.turn.abs())
+            .filter(|arc_fraction| *arc_fraction < 1.0)
             .map(|fraction| arc.leading_part(fraction).end())
             .map(|pose| {
                 ((pose.x() - self.from[0]) * direction[1] - (pose.y() - self.from[1]) * direction[0])

@@ -40,10 +40,10 @@ pub fn unbend_jacobian(twist: &Vector3<f64>, morph_fraction: f64) -> Matrix2x3<f
 /// as the end of the arc whose turn is nearest to `expected_turn` (rad).
 ///
 /// The result is empty if some of these arcs lead forward and others backward, as for a polyline around the start.
-pub fn unbend_line(points: &[[f64; 2]], expected_turn: f64, morph_fraction: f64) -> Vec<[f64; 2]> {
+pub fn unbend_line(positions: &[[f64; 2]], expected_turn: f64, morph_fraction: f64) -> Vec<[f64; 2]> {
     let arc_to_position =
         |[x, y]: &[f64; 2]| arc_with_turn_near(&SE2::identity(), &SE2::new(*x, *y, 0.0), expected_turn);
-    let arcs_to_points: Vec<_> = points.iter().map(arc_to_position).collect();
+    let arcs_to_points: Vec<_> = positions.iter().map(arc_to_position).collect();
     if arcs_to_points.windows(2).any(|adjacent_arcs| (adjacent_arcs[1].1 - adjacent_arcs[0].1).abs() > PI) {
         return Vec::new();
     }

@@ -99,9 +99,9 @@ pub struct Cost {
 }
 
 impl Cost {
-    pub(crate) fn add(&mut self, other: Self) {
-        self.draws += other.draws;
-        self.wall_tests += other.wall_tests;
+    pub(crate) fn add(&mut self, added_cost: Self) {
+        self.draws += added_cost.draws;
+        self.wall_tests += added_cost.wall_tests;
     }
 }
 
@@ -136,17 +136,17 @@ impl CollisionTester<'_> {
         lanes.map(|lane| self.test_motion(motion_of_lane(lane))).for_each(visit);
     }
 
-    fn test_motion(&self, (pose, driven): (SE2, DrivenArc)) -> TestedDraw {
+    fn test_motion(&self, (pose, driven_arc): (SE2, DrivenArc)) -> TestedDraw {
         let MapConditioned { plan, clearance, .. } = *self.conditioned_model;
-        let end_verdict = plan.test_point(driven.end, clearance);
-        let path_verdict = plan.test_arc_after_end(&driven, end_verdict, clearance);
-        TestedDraw { pose, arc: driven.arc, end_verdict, path_verdict }
+        let end_verdict = plan.test_point(driven_arc.end, clearance);
+        let path_verdict = plan.test_arc_after_end(&driven_arc, end_verdict, clearance);
+        TestedDraw { pose, arc: driven_arc.arc, end_verdict, path_verdict }
     }
 
     /// Returns the arc driven with the noise `unit_noise` (three random numbers of variance 1).
     pub fn arc(&self, unit_noise: [f64; 3]) -> Arc {
-        let [length, turn, _] = self.command.executed_motion(unit_noise);
-        Arc { start: self.start.pose, length, turn }
+        let [arc_length, arc_turn, _] = self.command.executed_motion(unit_noise);
+        Arc { start: self.start.pose, length: arc_length, turn: arc_turn }
     }
 }
 
@@ -207,18 +207,18 @@ impl MapConditioned<'_> {
     }
 
     /// Returns an accepted motion as [`MapConditioned::sample`] does, and calls `visit_arc` with the arc of each of its parts. If
-    /// `conditioned` is false, every draw is accepted. For equal random numbers, conditioned and unconditioned motions are equal up to the
+    /// `is_conditioned` is false, every draw is accepted. For equal random numbers, conditioned and unconditioned motions are equal up to the
     /// first rejected draw.
     pub fn sample_with_arcs<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
         x: &SE2,
         rng: &mut R,
-        conditioned: bool,
+        is_conditioned: bool,
         mut visit_arc: impl FnMut(&Arc),
     ) -> Result<AcceptedMotion, NoAcceptedSample> {
         let (mut end_free, mut path_free) = (true, true);
-        let (pose, cost) = self.drive_parts(u, x, rng, conditioned, &mut |driven, end_verdict| {
+        let (pose, cost) = self.drive_parts(u, x, rng, is_conditioned, &mut |driven, end_verdict| {
             visit_arc(&driven.arc);
             end_free = end_verdict.free;
             path_free = path_free && self.plan.test_arc_after_end(driven, end_verdict, self.clearance).free;

@@ -47,15 +47,15 @@ const NOT_COMPUTED: f32 = f32::MIN;
 const UNDIVIDED_DISTANCE_RATIO: f64 = 8.0;
 
 impl DistanceField {
-    /// Fills the field from the walls of a tree within `bounds` (minimum x, minimum y, maximum x, maximum y; m). `occupied_grid` is the
+    /// Fills the field from the walls of a tree within `map_bounds` (minimum x, minimum y, maximum x, maximum y; m). `occupied_grid` is the
     /// grid whose occupied cells the walls outline, if there is one.
-    pub fn new(tree: &WallTree, bounds: [f64; 4], occupied_grid: Option<&OccupancyGrid>) -> Self {
-        let mut builder = FieldBuilder::new(tree, bounds, occupied_grid);
+    pub fn new(tree: &WallTree, map_bounds: [f64; 4], occupied_grid: Option<&OccupancyGrid>) -> Self {
+        let mut field_builder = FieldBuilder::new(tree, map_bounds, occupied_grid);
         let root_candidates =
             if tree.is_leaf(1) { walls_of_node(tree, 1).collect() } else { vec![WallSet::Node(1)] };
-        let whole_width = builder.distance_field.columns.max(builder.rows).next_power_of_two();
-        builder.fill_block(&root_candidates, [0, 0], whole_width);
-        builder.distance_field
+        let whole_width = field_builder.distance_field.columns.max(field_builder.rows).next_power_of_two();
+        field_builder.fill_block(&root_candidates, [0, 0], whole_width);
+        field_builder.distance_field
     }
 
     /// Returns a lower bound (m) on the distance from a point inside the bounds to the nearest wall.
@@ -125,9 +125,9 @@ fn walls_of_node(tree: &WallTree, node_index: usize) -> impl Iterator<Item = Wal
 }
 
 impl<'a> FieldBuilder<'a> {
-    fn new(tree: &'a WallTree, bounds: [f64; 4], occupied_grid: Option<&'a OccupancyGrid>) -> Self {
-        let [left, bottom, right, top] = bounds;
-        let (width, height) = (right - left, top - bottom);
+    fn new(tree: &'a WallTree, map_bounds: [f64; 4], occupied_grid: Option<&'a OccupancyGrid>) -> Self {
+        let [map_left, map_bottom, map_right, map_top] = map_bounds;
+        let (width, height) = (map_right - map_left, map_top - map_bottom);
         let cell_count = (CELLS_PER_WALL * tree.walls.len() as f64).clamp(MIN_CELLS, MAX_CELLS);
         // A narrow map could otherwise get more than `cell_count` cells in a single row.
         let cell_side = (width * height / cell_count).sqrt().max(width.max(height) / cell_count);
@@ -138,7 +138,7 @@ impl<'a> FieldBuilder<'a> {
             tree,
             occupied_grid,
             distance_field: DistanceField {
-                min_corner: [left, bottom],
+                min_corner: [map_left, map_bottom],
                 cells_per_metre: 1.0 / cell_side,
                 columns,
                 last_indices: [columns, rows].map(|count| count as f64 - 1.0),
@@ -148,15 +148,15 @@ impl<'a> FieldBuilder<'a> {
             },
             rows,
             cell_side,
-            rounding_slack: rounding_bound(&bounds),
+            rounding_slack: rounding_bound(&map_bounds),
             unmeasured: Vec::new(),
             measured: Vec::new(),
         }
     }
 
-    /// Computes the lower bounds of the cells of a block, or divides the block into four. `candidates` has every wall that may be nearest
+    /// Computes the lower bounds of the cells of a block, or divides the block into four. `candidate_walls` has every wall that may be nearest
     /// to a point of the block.
-    fn fill_block(&mut self, candidates: &[WallSet], [left, bottom]: [usize; 2], width: usize) {
+    fn fill_block(&mut self, candidate_walls: &[WallSet], [left, bottom]: [usize; 2], width: usize) {
         if left >= self.distance_field.columns || bottom >= self.rows {
             return;
         }
@@ -165,7 +165,7 @@ impl<'a> FieldBuilder<'a> {
         let block_radius = width as f64 * self.distance_field.cell_radius;
         let block_uncertainty = width as f64 * self.distance_field.cell_uncertainty;
         let Some([min_distance, max_distance]) =
-            self.measure_candidates(candidates, block_centre, width, block_uncertainty)
+            self.measure_candidates(candidate_walls, block_centre, width, block_uncertainty)
         else {
             return;
         };
@@ -176,7 +176,7 @@ impl<'a> FieldBuilder<'a> {
             let max_lower_bound = max_distance + 2.0 * block_radius + self.rounding_slack;
             let is_near = |(lower_bound, _): &&(f64, WallSet)| *lower_bound <= max_lower_bound;
             let near_candidates: Vec<_> =
-                self.measured.iter().filter(is_near).map(|(_, candidate)| *candidate).collect();
+                self.measured.iter().filter(is_near).map(|(_, candidate_walls)| *candidate_walls).collect();
             let half_width = width / 2;
             for [column, row] in [[0, 0], [half_width, 0], [0, half_width], [half_width, half_width]] {
                 self.fill_block(&near_candidates, [left + column, bottom + row], half_width);

@@ -120,10 +120,10 @@ impl FloorPlan {
         bounds: [f64; 4],
         occupied_grid: Option<OccupancyGrid>,
     ) -> Result<Self, FloorPlanError> {
-        let [left, bottom, right, top] = bounds;
-        let side_lengths = [right - left, top - bottom];
+        let [map_left, map_bottom, map_right, map_top] = bounds;
+        let side_lengths = [map_right - map_left, map_top - map_bottom];
         if !bounds.iter().all(|bound| COORDINATE_RANGE.contains(bound))
-            || !side_lengths.iter().all(|side| SIDE_RANGE.contains(side))
+            || !side_lengths.iter().all(|side_length| SIDE_RANGE.contains(side_length))
         {
             let bounds_error =
                 if occupied_grid.is_some() { FloorPlanError::BadGrid } else { FloorPlanError::BadBounds };
@@ -135,8 +135,8 @@ impl FloorPlan {
         // Rounding can move a corner of a rotated grid slightly outside the grid's own bounds.
         let rounding_slack = rounding_bound(&bounds);
         let is_inside = |[x, y]: [f64; 2]| {
-            (left - rounding_slack..=right + rounding_slack).contains(&x)
-                && (bottom - rounding_slack..=top + rounding_slack).contains(&y)
+            (map_left - rounding_slack..=map_right + rounding_slack).contains(&x)
+                && (map_bottom - rounding_slack..=map_top + rounding_slack).contains(&y)
         };
         for (wall_index, wall) in walls.iter().enumerate() {
             if let Some(invalid_end) = [wall.from, wall.to].into_iter().find(|end| !is_inside(*end)) {
@@ -218,7 +218,7 @@ impl FloorPlan {
         };
         let is_free = driven_arc
             .split_into_pieces()
-            .all(|piece| arc_sweep.is_free(&piece, -piece.half_length, piece.half_length));
+            .all(|arc_piece| arc_sweep.is_free(&arc_piece, -arc_piece.half_length, arc_piece.half_length));
         CollisionVerdict { free: is_free, wall_tests: arc_sweep.wall_tests }
     }
 
@@ -285,11 +285,11 @@ impl FloorPlan {
         mut is_wall_clear: impl FnMut(&Segment) -> bool,
     ) -> bool {
         self.collision_index().wall_tree.are_all_walls_clear(is_node_clear, |wall| {
-            let Segment { from, to } = wall;
-            let is_near = from[0].min(to[0]) <= x + max_distance
-                && from[0].max(to[0]) >= x - max_distance
-                && from[1].min(to[1]) <= y + max_distance
-                && from[1].max(to[1]) >= y - max_distance;
+            let Segment { from: wall_start, to: wall_end } = wall;
+            let is_near = wall_start[0].min(wall_end[0]) <= x + max_distance
+                && wall_start[0].max(wall_end[0]) >= x - max_distance
+                && wall_start[1].min(wall_end[1]) <= y + max_distance
+                && wall_start[1].max(wall_end[1]) >= y - max_distance;
             !is_near || {
                 *wall_tests += 1;
                 is_wall_clear(wall)
@@ -330,7 +330,7 @@ impl ArcSweep<'_> {
         // A part of the arc that is no longer than the diagonal of a cell is not divided, because the distance field is too coarse.
         // Distances to walls are computed instead.
         let is_divisible = half_part_length > distance_field.cell_radius;
-        let [x, y] = part_middles.map(|lanes| lanes.to_array());
+        let [x, y] = part_middles.map(|coordinate_lanes| coordinate_lanes.to_array());
         (0..LANE_COUNT).all(|i| {
             part_lower_bounds[i] > needed_distance
                 || if is_divisible {

@@ -28,18 +28,18 @@ impl FloorPlan {
 
     /// Returns a grid for a plan of walls. Cells that may touch a wall are occupied.
     fn rasterize(&self) -> OccupancyGrid {
-        let [left, bottom, right, top] = self.bounds();
-        let (width, height) = (right - left, top - bottom);
-        let cell_side = (width.max(height) / CELLS_ALONG_LONGER_SIDE).min(width).min(height);
-        let [columns, rows] = [width, height].map(|side_length| (side_length / cell_side) as usize);
+        let [map_left, bottom, map_right, map_top] = self.bounds();
+        let (map_width, map_height) = (map_right - map_left, map_top - bottom);
+        let cell_side = (map_width.max(map_height) / CELLS_ALONG_LONGER_SIDE).min(map_width).min(map_height);
+        let [columns, rows] = [map_width, map_height].map(|side_length| (side_length / cell_side) as usize);
         let is_free = |i: usize| {
             let [column, row] = [i % columns, rows - 1 - i / columns].map(|index| index as f64 + 0.5);
-            let cell_middle = [left + column * cell_side, bottom + row * cell_side];
+            let cell_middle = [map_left + column * cell_side, bottom + row * cell_side];
             self.distance_field().lower_bound(cell_middle) > 0.75 * cell_side
         };
         let pixels = (0..columns * rows).map(|i| f32::from(u8::from(is_free(i)))).collect();
         let image = Image { width: columns, height: rows, pixels };
-        OccupancyGrid::new(&image, &PixelClassifier::default(), cell_side, SE2::new(left, bottom, 0.0))
+        OccupancyGrid::new(&image, &PixelClassifier::default(), cell_side, SE2::new(map_left, bottom, 0.0))
     }
 }
 
@@ -80,8 +80,8 @@ fn heading_of_longest_path(
         let tried_heading = TAU * f64::from(i) / f64::from(HEADING_COUNT);
         let (sin, cos) = libm::sincos(tried_heading);
         let free_steps = (1..)
-            .map(|steps| 0.5 * grid.resolution() * f64::from(steps))
-            .map(|distance| [x + distance * cos, y + distance * sin])
+            .map(|half_cell_steps| 0.5 * grid.resolution() * f64::from(half_cell_steps))
+            .map(|tested_distance| [x + tested_distance * cos, y + tested_distance * sin])
             .take_while(|point| is_free(point) && does_disc_fit(point))
             .count();
         if free_steps > max_steps {

@@ -89,8 +89,8 @@ impl From<f32> for Pixel {
 
 /// Creates a pixel from red, green, blue and opacity, each from 0 to 255.
 impl From<[u8; 4]> for Pixel {
-    fn from(rgba: [u8; 4]) -> Self {
-        let [red, green, blue, opacity] = rgba.map(f32::from);
+    fn from(rgba_bytes: [u8; 4]) -> Self {
+        let [red, green, blue, opacity] = rgba_bytes.map(f32::from);
         Self { brightness: (red + green + blue) / 765.0, opacity: opacity / 255.0 }
     }
 }
@@ -281,7 +281,7 @@ impl OccupancyGrid {
         walls.extend(
             vertical_walls
                 .into_iter()
-                .map(|[column, from, to]| self.wall_between([column, from], [column, to])),
+                .map(|[column, from, line_end]| self.wall_between([column, from], [column, line_end])),
         );
         Ok(walls)
     }

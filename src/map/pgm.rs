@@ -15,8 +15,8 @@ const MAX_QUOTED_CHARACTERS: usize = 20;
 ///
 /// # Errors
 /// [`ImageError`] with the line of the header, or the line where plain pixels end.
-pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, ImageError> {
-    let mut reader = TokenReader { bytes, position: 0, line: 1 };
+pub fn read_pgm(file_bytes: &[u8]) -> Result<Image<f32>, ImageError> {
+    let mut reader = TokenReader { bytes: file_bytes, position: 0, line: 1 };
     let is_plain = match reader.next_token() {
         b"P5" => false,
         b"P2" => true,
@@ -34,13 +34,13 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, ImageError> {
     let bytes_per_pixel = if max_value < 256 { 1 } else { 2 };
     let raster_byte_count = pixel_count * bytes_per_pixel;
     // One white space character ends the header. Windows editors write a line end of two characters: carriage return and line feed.
-    let is_crlf = bytes[reader.position..].starts_with(b"\r\n")
-        && bytes.len() >= reader.position + 2 + raster_byte_count;
-    let available_bytes = bytes.get(reader.position + if is_crlf { 2 } else { 1 }..).unwrap_or_default();
+    let is_crlf = file_bytes[reader.position..].starts_with(b"\r\n")
+        && file_bytes.len() >= reader.position + 2 + raster_byte_count;
+    let available_bytes = file_bytes.get(reader.position + if is_crlf { 2 } else { 1 }..).unwrap_or_default();
     let Some(raster) = available_bytes.get(..raster_byte_count) else {
-        let (line, byte_count) = (reader.line, available_bytes.len());
+        let (line_number, byte_count) = (reader.line, available_bytes.len());
         return Err(ImageError(format!(
-            "line {line}: the length of the raster in bytes is {byte_count}; allowed is {raster_byte_count} for {width} × {height} pixels"
+            "line {line_number}: the length of the raster in bytes is {byte_count}; allowed is {raster_byte_count} for {width} × {height} pixels"
         )));
     };
     // A pixel of 16 bits has its higher byte first.
@@ -81,9 +81,9 @@ impl<'a> TokenReader<'a> {
 
     fn read_number(&mut self, field_name: &'static str, min: usize, max: usize) -> Result<usize, ImageError> {
         let token = self.next_token();
-        let digits = str::from_utf8(token).ok().filter(|_| token.iter().all(u8::is_ascii_digit));
-        digits
-            .and_then(|digits| digits.parse().ok())
+        let digit_text = str::from_utf8(token).ok().filter(|_| token.iter().all(u8::is_ascii_digit));
+        digit_text
+            .and_then(|digit_text| digit_text.parse().ok())
             .filter(|number| (min..=max).contains(number))
             .ok_or_else(|| {
                 self.create_error(field_name, token, format!("a whole number from {min} to {max}"))

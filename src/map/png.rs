@@ -13,40 +13,40 @@ pub const PNG_SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 ///
 /// # Errors
 /// [`ImageError`] for an image that is cut short, damaged or too large.
-pub fn read_png(bytes: &[u8]) -> Result<Image<[u8; 4]>, ImageError> {
-    let mut cursor = Cursor::new(bytes);
-    let image_size = Decoder::new(&mut cursor).read_header_info().map(Info::size);
-    let (width, height) = image_size.map_err(|_| damage_error(&cursor))?;
+pub fn read_png(png_bytes: &[u8]) -> Result<Image<[u8; 4]>, ImageError> {
+    let mut byte_cursor = Cursor::new(png_bytes);
+    let image_size = Decoder::new(&mut byte_cursor).read_header_info().map(Info::size);
+    let (width, height) = image_size.map_err(|_| damage_error(&byte_cursor))?;
     if u64::from(width) * u64::from(height) > MAX_PIXELS as u64 {
-        let message = format!("image has {width} × {height} pixels; allowed are at most {MAX_PIXELS}");
-        return Err(ImageError(message));
+        let error_message = format!("image has {width} × {height} pixels; allowed are at most {MAX_PIXELS}");
+        return Err(ImageError(error_message));
     }
-    cursor.set_position(0);
-    let pixels = decode_pixels(&mut cursor).map_err(|_| damage_error(&cursor))?;
+    byte_cursor.set_position(0);
+    let pixels = decode_pixels(&mut byte_cursor).map_err(|_| damage_error(&byte_cursor))?;
     Ok(Image { width: width as usize, height: height as usize, pixels })
 }
 
-fn damage_error(cursor: &Cursor<&[u8]>) -> ImageError {
-    let (offset, length) = (cursor.position(), cursor.get_ref().len());
+fn damage_error(byte_cursor: &Cursor<&[u8]>) -> ImageError {
+    let (read_position, byte_count) = (byte_cursor.position(), byte_cursor.get_ref().len());
     ImageError(format!(
-        "the PNG image is damaged or cut short before byte {offset} of {length}; allowed is a complete one"
+        "the PNG image is damaged or cut short before byte {read_position} of {byte_count}; allowed is a complete one"
     ))
 }
 
-fn decode_pixels(cursor: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingError> {
+fn decode_pixels(byte_cursor: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingError> {
     // A decoded pixel has at most eight bytes.
-    let mut decoder = Decoder::new_with_limits(cursor, Limits { bytes: 8 * MAX_PIXELS });
-    decoder.set_transformations(Transformations::EXPAND);
-    decoder.set_ignore_text_chunk(true);
-    decoder.set_ignore_iccp_chunk(true);
-    let mut reader = decoder.read_info()?;
-    let (color_type, bit_depth) = reader.output_color_type();
-    let mut samples = vec![0; reader.output_buffer_size().unwrap_or_default()];
-    reader.next_frame(&mut samples)?;
-    reader.finish()?;
+    let mut png_decoder = Decoder::new_with_limits(byte_cursor, Limits { bytes: 8 * MAX_PIXELS });
+    png_decoder.set_transformations(Transformations::EXPAND);
+    png_decoder.set_ignore_text_chunk(true);
+    png_decoder.set_ignore_iccp_chunk(true);
+    let mut png_reader = png_decoder.read_info()?;
+    let (color_type, bit_depth) = png_reader.output_color_type();
+    let mut samples = vec![0; png_reader.output_buffer_size().unwrap_or_default()];
+    png_reader.next_frame(&mut samples)?;
+    png_reader.finish()?;
     if bit_depth == BitDepth::Sixteen {
         // Samples of 16 bits are scaled to 8 bits with rounding, by the factor 65535/255 = 257.
-        let to_byte = |bytes: &[u8; 2]| ((u32::from(u16::from_be_bytes(*bytes)) + 128) / 257) as u8;
+        let to_byte = |png_bytes: &[u8; 2]| ((u32::from(u16::from_be_bytes(*png_bytes)) + 128) / 257) as u8;
         samples = samples.as_chunks().0.iter().map(to_byte).collect();
     }
     let with_full_opacity = |[red, green, blue]: [u8; 3]| [red, green, blue, u8::MAX];

@@ -45,7 +45,7 @@ impl WallTree {
         } else {
             walls.len().div_ceil(MAX_LEAF_WALLS).next_power_of_two()
         };
-        let mut tree = Self {
+        let mut wall_tree = Self {
             walls,
             // Node 0 is unused. The root has no capsule, because it is always visited.
             nodes: vec![Node { capsule_axis: ZERO_SEGMENT, capsule_radius: f64::INFINITY }; 2],
@@ -53,11 +53,11 @@ impl WallTree {
             rounding_slack: 1e-9 * bounds.iter().fold(0.0, |largest: f64, bound| largest.max(bound.abs())),
         };
         for parent in 1..leaf_count {
-            tree.sort_into_halves(parent);
-            let child_nodes = [2 * parent, 2 * parent + 1].map(|child| tree.create_node(child));
-            tree.nodes.extend(child_nodes);
+            wall_tree.sort_into_halves(parent);
+            let child_nodes = [2 * parent, 2 * parent + 1].map(|child| wall_tree.create_node(child));
+            wall_tree.nodes.extend(child_nodes);
         }
-        tree
+        wall_tree
     }
 
     /// Sorts the walls of a node into two halves, one for each child. The sort key is the component of [`sort_keys`] with the widest range.
@@ -66,11 +66,11 @@ impl WallTree {
         let node_walls = &mut self.walls[wall_range.clone()];
         let mut key_ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
         for wall in &*node_walls {
-            for ([min, max], key) in key_ranges.iter_mut().zip(sort_keys(wall)) {
-                (*min, *max) = (min.min(key), max.max(key));
+            for ([min_key, max_key], sort_key) in key_ranges.iter_mut().zip(sort_keys(wall)) {
+                (*min_key, *max_key) = (min_key.min(sort_key), max_key.max(sort_key));
             }
         }
-        let key_range_widths = key_ranges.map(|[min, max]| max - min);
+        let key_range_widths = key_ranges.map(|[min_key, max_key]| max_key - min_key);
         let widest_key_index = (1..4).fold(0, |widest, key_index| {
             if key_range_widths[key_index] > key_range_widths[widest] { key_index } else { widest }
         });
@@ -92,9 +92,9 @@ impl WallTree {
         let mut bounds_along_axes = [[f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY]; 3];
         for end in walls.iter().flat_map(|wall| [wall.from, wall.to]) {
             for ([x, y], [back, right, front, left]) in candidate_axes.iter().zip(&mut bounds_along_axes) {
-                let (along, across) = (end[0] * x + end[1] * y, end[1] * x - end[0] * y);
-                (*back, *right) = (back.min(along), right.min(across));
-                (*front, *left) = (front.max(along), left.max(across));
+                let (end_along, end_across) = (end[0] * x + end[1] * y, end[1] * x - end[0] * y);
+                (*back, *right) = (back.min(end_along), right.min(end_across));
+                (*front, *left) = (front.max(end_along), left.max(end_across));
             }
         }
         let mut narrowest_capsule = (f64::INFINITY, ZERO_SEGMENT);
@@ -172,9 +172,9 @@ impl Node {
     }
 }
 
-/// Moves the `count` walls with the smallest sort keys to the front, by Hoare's selection. After [`MAX_SELECTION_ROUNDS`] rounds the
+/// Moves the `smallest_count` walls with the smallest sort keys to the front, by Hoare's selection. After [`MAX_SELECTION_ROUNDS`] rounds the
 /// selection may still be incomplete. The capsules of the search tree are then larger, but searches remain correct.
-fn select_smallest(walls: &mut [Segment], count: usize, key_index: usize) {
+fn select_smallest(walls: &mut [Segment], smallest_count: usize, key_index: usize) {
     let (mut range_start, mut range_end) = (0, walls.len());
     for _ in 0..MAX_SELECTION_ROUNDS {
         if range_end - range_start < 2 {
@@ -199,9 +199,9 @@ fn select_smallest(walls: &mut [Segment], count: usize, key_index: usize) {
             }
         }
         // Walls before `right` have sort keys of at most the pivot key, and walls from `left` on of at least the pivot key.
-        if count < right {
+        if smallest_count < right {
             range_end = right;
-        } else if count > left {
+        } else if smallest_count > left {
             range_start = left;
         } else {
             return;

@@ -26,14 +26,14 @@ const MIN_TRANSLATION: f64 = 1e-9;
 impl OdomDelta {
     /// Returns the decomposition of the motion between two poses of the odometry frame (Table 5.5, lines 2–4). For a turn
     /// on the spot, `rot1` is 0 and `rot2` the whole turn.
-    pub fn from_poses(prev: &SE2, curr: &SE2) -> Self {
-        let (dx, dy) = (curr.x() - prev.x(), curr.y() - prev.y());
+    pub fn from_poses(previous_pose: &SE2, current_pose: &SE2) -> Self {
+        let (dx, dy) = (current_pose.x() - previous_pose.x(), current_pose.y() - previous_pose.y());
         let trans = libm::hypot(dx, dy);
-        let turn = curr.theta() - prev.theta();
+        let turn = current_pose.theta() - previous_pose.theta();
         if trans < MIN_TRANSLATION {
             return Self { rot1: 0.0, trans: 0.0, rot2: wrap_angle(turn) };
         }
-        let rot1 = wrap_angle(libm::atan2(dy, dx) - prev.theta());
+        let rot1 = wrap_angle(libm::atan2(dy, dx) - previous_pose.theta());
         Self { rot1, trans, rot2: wrap_angle(turn - rot1) }
     }
 
@@ -123,9 +123,9 @@ impl<M: RotTransRot> MotionModel for M {
         }
         let [rot1_variance, trans_variance, rot2_variance] = variances;
         let relative_pose = x.between(x_next);
-        let distance = libm::hypot(relative_pose.x(), relative_pose.y());
+        let end_distance = libm::hypot(relative_pose.x(), relative_pose.y());
         let bearing = libm::atan2(relative_pose.y(), relative_pose.x());
-        let leg_density: f64 = [(bearing, distance), (bearing + PI, -distance)]
+        let leg_density: f64 = [(bearing, end_distance), (bearing + PI, -end_distance)]
             .into_iter()
             .map(|(rot1, trans)| {
                 product_or_zero([
@@ -135,7 +135,7 @@ impl<M: RotTransRot> MotionModel for M {
                 ])
             })
             .sum();
-        Some(if leg_density > 0.0 { leg_density / distance } else { 0.0 })
+        Some(if leg_density > 0.0 { leg_density / end_distance } else { 0.0 })
     }
 
     fn sample<R: Rng + ?Sized>(&self, u: &OdomDelta, x: &SE2, rng: &mut R) -> SE2 {

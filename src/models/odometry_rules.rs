@@ -134,8 +134,8 @@ impl LegVariances {
 
     /// Returns the variance (m²) of the end position across the measured bearing, after a drive of `trans` metres. The closed form is (t² +
     /// σ²_trans)·E[sin² ε_rot1] + σ²_strafe. The mean of the end position across the bearing is 0.
-    pub fn cross_track_variance(&self, trans: f64, noise: NoiseKind) -> f64 {
-        (trans * trans + self.trans.0) * noise.mean_squared_sine(self.rot1) + self.strafe.0
+    pub fn cross_track_variance(&self, trans: f64, noise_kind: NoiseKind) -> f64 {
+        (trans * trans + self.trans.0) * noise_kind.mean_squared_sine(self.rot1) + self.strafe.0
     }
 
     /// Returns the variance (rad²) of the unwrapped turn, for a `correlation` of the noises of the two rotations: σ₁² + σ₂² + 2ρσ₁σ₂.

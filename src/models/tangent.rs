@@ -124,10 +124,10 @@ impl TangentNoiseModel {
             let padded_cov = self.r + Matrix3::identity() * PADDING_VARIANCE;
             return log_gaussian_density(&(x_next.boxminus(x) - Self::twist(u)), &padded_cov);
         }
-        let inversion = invert_arc(x, x_next, u.dt);
-        let (arc_length, arc_turn) = (inversion.v_hat * u.dt, inversion.omega_hat * u.dt);
+        let inverted_arc = invert_arc(x, x_next, u.dt);
+        let (arc_length, arc_turn) = (inverted_arc.v_hat * u.dt, inverted_arc.omega_hat * u.dt);
         let residual =
-            Vector3::new(arc_length - u.v * u.dt, arc_turn - u.omega * u.dt, inversion.gamma_hat * u.dt);
+            Vector3::new(arc_length - u.v * u.dt, arc_turn - u.omega * u.dt, inverted_arc.gamma_hat * u.dt);
         let noise_variances = Vector3::new(
             self.r[(0, 0)] + PADDING_VARIANCE,
             self.r[(2, 2)] + PADDING_VARIANCE,
@@ -215,7 +215,7 @@ fn log_gaussian_density(residual: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
 
 /// Returns a lower triangular L with L·Lᵀ = cov. Columns of L for directions without variance are 0.
 pub(crate) fn covariance_root(cov: &Matrix3<f64>) -> Result<Matrix3<f64>, TangentNoiseError> {
-    if cov.iter().any(|entry| !entry.is_finite()) {
+    if cov.iter().any(|cov_entry| !cov_entry.is_finite()) {
         return Err(TangentNoiseError::NotFinite);
     }
     if (cov - cov.transpose()).amax() > RELATIVE_TOLERANCE * cov.amax() {

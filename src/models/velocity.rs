@@ -82,8 +82,8 @@ impl VelocityModel {
     /// Returns the pose reached from `x` if the noises are `unit_noise` times their standard deviations (Table 5.3 after its draws).
     pub fn apply_noise(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> SE2 {
         let ArcInversion { v_hat, omega_hat, gamma_hat } = self.executed_motion(u, unit_noise);
-        let (forward, left) = arc_end(v_hat * u.dt, omega_hat * u.dt);
-        *x * SE2::new(forward, left, (omega_hat + gamma_hat) * u.dt)
+        let (forward_offset, left_offset) = arc_end(v_hat * u.dt, omega_hat * u.dt);
+        *x * SE2::new(forward_offset, left_offset, (omega_hat + gamma_hat) * u.dt)
     }
 
     /// Returns the 3 × 3 covariance of (x, y, θ) that an EKF carries. The arc is linearized in (v̂, ω̂, γ̂) at the command. The covariance
@@ -108,12 +108,12 @@ impl MotionModel for VelocityModel {
     type Control = VelocityCmd;
 
     fn prob(&self, x_next: &SE2, u: &VelocityCmd, x: &SE2) -> f64 {
-        let inversion = invert_arc(x, x_next, u.dt);
+        let inverted_arc = invert_arc(x, x_next, u.dt);
         let [v_variance, omega_variance, gamma_variance] = self.variances(u);
         product_or_zero([
-            self.noise.prob(u.v - inversion.v_hat, v_variance),
-            self.noise.prob(u.omega - inversion.omega_hat, omega_variance),
-            self.noise.prob(inversion.gamma_hat, gamma_variance),
+            self.noise.prob(u.v - inverted_arc.v_hat, v_variance),
+            self.noise.prob(u.omega - inverted_arc.omega_hat, omega_variance),
+            self.noise.prob(inverted_arc.gamma_hat, gamma_variance),
         ])
     }
 
@@ -127,11 +127,11 @@ impl MotionModel for VelocityModel {
             return None;
         }
         let [v_variance, omega_variance, gamma_variance] = variances;
-        let inversion = invert_arc(x, x_next, u.dt);
+        let inverted_arc = invert_arc(x, x_next, u.dt);
         let relative_pose = x.between(x_next);
-        let distance = libm::hypot(relative_pose.x(), relative_pose.y());
-        let shortest_turn = inversion.omega_hat * u.dt;
-        let squared_distance_times_dt = distance * distance * u.dt;
+        let end_distance = libm::hypot(relative_pose.x(), relative_pose.y());
+        let shortest_turn = inverted_arc.omega_hat * u.dt;
+        let squared_distance_times_dt = end_distance * end_distance * u.dt;
         if squared_distance_times_dt == 0.0 {
             return Some(if self.noise.prob(u.v, v_variance) > 0.0 { f64::INFINITY } else { 0.0 });
         }
@@ -139,12 +139,12 @@ impl MotionModel for VelocityModel {
         // is no full turn.
         let density_of_turn = |full_turns: f64| {
             let (v_hat, arc_turn) = if full_turns == 0.0 {
-                (inversion.v_hat, shortest_turn)
-            } else if inversion.omega_hat == 0.0 {
+                (inverted_arc.v_hat, shortest_turn)
+            } else if inverted_arc.omega_hat == 0.0 {
                 return 0.0;
             } else {
                 let arc_turn = shortest_turn + TAU * full_turns;
-                (inversion.v_hat * (arc_turn / shortest_turn), arc_turn)
+                (inverted_arc.v_hat * (arc_turn / shortest_turn), arc_turn)
             };
             // Because |sinc(φ/2)| = d/|v̂Δt|, the determinant is d²Δt/(2|v̂|) times Δt (from the final turn γ̂Δt).
             product_or_zero([

@@ -76,12 +76,12 @@ where
 }
 
 #[inline(always)]
-fn horner<T>(r: T, coefficients: &[f64; 8]) -> T
+fn horner<T>(r: T, polynomial_coefficients: &[f64; 8]) -> T
 where
     T: Copy + From<f64> + Mul<Output = T> + Add<f64, Output = T>,
 {
-    let highest_coefficient = T::from(coefficients[7]);
-    coefficients[..7].iter().rev().fold(highest_coefficient, |sum_so_far, c| sum_so_far * r + *c)
+    let highest_coefficient = T::from(polynomial_coefficients[7]);
+    polynomial_coefficients[..7].iter().rev().fold(highest_coefficient, |sum_so_far, c| sum_so_far * r + *c)
 }
 
 const CENTRE_NUMERATOR: [f64; 8] = [

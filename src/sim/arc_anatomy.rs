@@ -53,8 +53,8 @@ impl SettingRules for Settings {
     ];
 }
 
-const fn preset([v, omega]: [f64; 2], next: [f64; 3]) -> Settings {
-    Settings { command: VelocityCmd { v, omega, dt: 1.0 }, next, ..Settings::DEFAULT }
+const fn preset([v, omega]: [f64; 2], next_pose: [f64; 3]) -> Settings {
+    Settings { command: VelocityCmd { v, omega, dt: 1.0 }, next: next_pose, ..Settings::DEFAULT }
 }
 
 impl Settings {
@@ -220,10 +220,10 @@ impl ArcAnatomy {
 
     /// Returns the arcs of the command and to the final pose, with the likelihood of that pose.
     pub fn stats(&self) -> Stats {
-        let Settings { command, noise, .. } = &self.settings;
+        let Settings { command, noise: noise_kind, .. } = &self.settings;
         let (start, next) = (self.settings.start(), self.settings.next());
         let estimates = self.selected_inversion();
-        let factors = self.noise_residuals(&estimates).map(|residual| Factor::new(*noise, residual));
+        let factors = self.noise_residuals(&estimates).map(|residual| Factor::new(*noise_kind, residual));
         let size_of = |i: &usize| factors[*i].deviations.abs();
         let weakest = (0..3).rev().max_by(|a, b| size_of(a).total_cmp(&size_of(b))).unwrap_or(0);
         let [commanded, inverted, driven] = self.arcs().map(ArcWithCircle::from);
@@ -296,9 +296,9 @@ impl ArcAnatomy {
         let [x, y] = self.signed_inversion().centre(&start).unwrap_or([f64::INFINITY; 2]);
         // The quotient is halved last, because half of the smallest double is 0.
         let mu = 0.5 * (displacement.x() / displacement.y());
-        let turn = omega_hat * self.settings.command.dt;
+        let arc_turn = omega_hat * self.settings.command.dt;
         Table {
-            lines: [mu, x, y, inversion.radius(), turn, v_hat, omega_hat, gamma_hat, self.prob()],
+            lines: [mu, x, y, inversion.radius(), arc_turn, v_hat, omega_hat, gamma_hat, self.prob()],
             middle: [0.5 * (start.x() + next.x()), 0.5 * (start.y() + next.y())],
             normal: [start.y() - next.y(), next.x() - start.x()],
         }
@@ -307,7 +307,7 @@ impl ArcAnatomy {
     /// Returns the arcs, the path of the constant twist and its sideways displacements, as lines of the picture.
     pub fn paths(&self) -> Paths {
         let (start, next) = (self.settings.start(), self.settings.next());
-        let [commanded, inverted, driven] = self.arcs().map(|arc| arc.points());
+        let [commanded, inverted, driven] = self.arcs().map(|picture_arc| picture_arc.points());
         let xi = next.boxminus(&start);
         let pose_on_twist_path =
             |i: usize, segment_count: usize| start.boxplus(xi * (i as f64 / segment_count as f64));
@@ -368,7 +368,7 @@ impl ArcAnatomy {
         let density_values =
             evaluate_cells(&|next| model.pose_density(&next.into(), &command, &start).unwrap_or(0.0));
         let shown_values = if heat_map == HeatMapKind::Prob { &prob_values } else { &density_values };
-        let maximum_of = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+        let maximum_of = |field_values: &[f64]| field_values.iter().copied().fold(0.0, f64::max);
         let shown_maximum = maximum_of(shown_values);
         let shade_of = |cell_value: &f64| {
             if shown_maximum > 0.0 { (255.0 * (cell_value / shown_maximum)).round() as u8 } else { 0 }
@@ -383,7 +383,7 @@ impl ArcAnatomy {
                 .filter(|_| max_value > 0.0)
                 .map(|fraction| libm::log(fraction * max_value));
             let contour_lines = log_levels.flat_map(|level| trace_level_set(&log_values, columns, level));
-            contour_lines.map(|line| line.into_iter().map(cell_centre_at).collect()).collect()
+            contour_lines.map(|contour_line| contour_line.into_iter().map(cell_centre_at).collect()).collect()
         };
         Some(Surface {
             columns,
@@ -412,12 +412,12 @@ impl From<Arc> for ArcWithCircle {
 impl Factor {
     fn new(noise: NoiseKind, (estimate, residual, variance): (f64, f64, Variance)) -> Self {
         let (value, prob_at_zero) = (noise.prob(residual, variance), noise.prob(0.0, variance));
-        let deviation = variance.0.sqrt();
-        let deviations = match (deviation == 0.0, value > 0.0) {
-            (false, _) => residual / deviation,
+        let noise_std = variance.0.sqrt();
+        let deviations = match (noise_std == 0.0, value > 0.0) {
+            (false, _) => residual / noise_std,
             (true, true) => 0.0,
             (true, false) => f64::INFINITY.copysign(residual),
         };
-        Self { estimate, residual, deviation, deviations, value, share: value / prob_at_zero }
+        Self { estimate, residual, deviation: noise_std, deviations, value, share: value / prob_at_zero }
     }
 }

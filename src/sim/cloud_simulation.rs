@@ -15,11 +15,11 @@ macro_rules! cloud_simulation {
                 Self::with_shown_count(settings, settings.samples)
             }
 
-            /// Creates a simulation that shows the first `count` samples. Errors are those of `new`.
-            pub fn with_shown_count(settings: Settings, count: usize) -> Result<Self, SettingsError> {
+            /// Creates a simulation that shows the first `sample_count` samples. Errors are those of `new`.
+            pub fn with_shown_count(settings: Settings, sample_count: usize) -> Result<Self, SettingsError> {
                 settings.check()?;
                 let mut simulation = Self::empty(settings)?;
-                simulation.show_samples(count.min(settings.samples));
+                simulation.show_samples(sample_count.min(settings.samples));
                 Ok(simulation)
             }
 
@@ -36,9 +36,9 @@ macro_rules! cloud_simulation {
                 Ok(())
             }
 
-            /// Shows up to `count` more samples, and returns the total number of samples shown.
-            pub fn add_samples(&mut self, count: usize) -> usize {
-                let target_count = self.shown_count().saturating_add(count).min(self.settings.samples);
+            /// Shows up to `sample_count` more samples, and returns the total number of samples shown.
+            pub fn add_samples(&mut self, sample_count: usize) -> usize {
+                let target_count = self.shown_count().saturating_add(sample_count).min(self.settings.samples);
                 if target_count > self.shown_count() {
                     self.show_samples(target_count);
                 }

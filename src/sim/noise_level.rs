@@ -17,10 +17,10 @@ impl NoiseLevel<'_> {
     /// Returns the noise level n; None if the α's have other ratios than those that a noise level sets.
     pub fn get(&self) -> Option<f64> {
         let n = self.0[0];
-        self.ratios().zip(&*self.0).all(|(ratio, alpha)| *alpha == n * ratio).then_some(n)
+        self.ratios().zip(&*self.0).all(|(alpha_ratio, alpha)| *alpha == n * alpha_ratio).then_some(n)
     }
 
-    pub fn set(&mut self, level: f64) {
-        self.ratios().zip(&mut *self.0).for_each(|(ratio, alpha)| *alpha = level * ratio);
+    pub fn set(&mut self, noise_level: f64) {
+        self.ratios().zip(&mut *self.0).for_each(|(alpha_ratio, alpha)| *alpha = noise_level * alpha_ratio);
     }
 }

@@ -61,8 +61,8 @@ impl SettingRules for Settings {
     ];
 }
 
-const fn preset_ending_at(to: [f64; 3]) -> Settings {
-    Settings { to, ..Settings::DEFAULT }
+const fn preset_ending_at(end_pose: [f64; 3]) -> Settings {
+    Settings { to: end_pose, ..Settings::DEFAULT }
 }
 
 /// Velocity of the odometry frame in the world (m/s, m/s, rad/s). The frame drifts on a slow curve, as with slightly wrong wheel diameters.
@@ -291,23 +291,23 @@ impl OdometryDecomposer {
         DriftedOdometry { poses: [drifted_frame, drifted_start, drifted_end].map(Into::into).to_vec(), legs }
     }
 
-    /// Returns the outcome shown that ends nearest to a point (m), within `radius`.
-    pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
-        nearest_index(self.poses.iter().map(SE2::position), target, [radius, radius])
+    /// Returns the outcome shown that ends nearest to a point (m), within `search_radius`.
+    pub fn nearest(&self, target_point: [f64; 2], search_radius: f64) -> Option<usize> {
+        nearest_index(self.poses.iter().map(SE2::position), target_point, [search_radius, search_radius])
     }
 }
 
 /// Returns the root mean square of n offsets with mean 0, and its standard error by the delta method: √((m₄ − m₂²)/n)/(2√m₂) with their
 /// moments m₂ and m₄.
-fn rms_with_error(offsets: impl Iterator<Item = f64>, count: usize) -> [f64; 2] {
-    if count == 0 {
+fn rms_with_error(offsets: impl Iterator<Item = f64>, offset_count: usize) -> [f64; 2] {
+    if offset_count == 0 {
         return [f64::NAN; 2];
     }
     let (mut m2, mut m4) = (0.0, 0.0);
-    for square in offsets.map(|offset| offset * offset) {
-        m2 += square / count as f64;
-        m4 += square * square / count as f64;
+    for squared_offset in offsets.map(|offset| offset * offset) {
+        m2 += squared_offset / offset_count as f64;
+        m4 += squared_offset * squared_offset / offset_count as f64;
     }
-    let rms_error = ((m4 - m2 * m2).max(0.0) / count as f64).sqrt() / (2.0 * m2.sqrt());
+    let rms_error = ((m4 - m2 * m2).max(0.0) / offset_count as f64).sqrt() / (2.0 * m2.sqrt());
     [m2.sqrt(), if m2 == 0.0 { 0.0 } else { rms_error }]
 }

@@ -173,8 +173,8 @@ impl ExponentialContour {
         let twist_at = move |u: &Vector3<f64>| self.mean + self.cov_root * u * CONTOUR_SIGMAS;
         // Sum of k·kᵀ over the ends of the three axes of the ellipsoid. The null vector k is the cross product of the two rows of H·G.
         let mut null_direction_scatter = Matrix3::zeros();
-        for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
-            for axis_end in [axis, -axis] {
+        for ellipsoid_axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
+            for axis_end in [ellipsoid_axis, -ellipsoid_axis] {
                 let jacobian = unbend_jacobian(&twist_at(&axis_end), morph) * self.cov_root;
                 let null_direction = jacobian.row(0).transpose().cross(&jacobian.row(1).transpose());
                 null_direction_scatter += null_direction * null_direction.transpose();
@@ -187,7 +187,7 @@ impl ExponentialContour {
             (least_parallel_axis - null_direction * least_parallel_axis.dot(&null_direction)).normalize();
         let circle_y = null_direction.cross(&circle_x);
         unit_circle_points(segment_count)
-            .map(move |direction| twist_at(&(circle_x * direction.x + circle_y * direction.y)))
+            .map(move |unit_vector| twist_at(&(circle_x * unit_vector.x + circle_y * unit_vector.y)))
     }
 
     /// Returns true if the exponential coordinates of `pose` lie inside the ellipse.

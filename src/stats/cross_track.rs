@@ -40,8 +40,8 @@ impl CrossTrackStats {
             let (dx, dy, t) = (pose.x() - mean.x, pose.y() - mean.y, wrap_angle(pose.theta() - mean.z));
             let (s, c) = libm::sincos(t);
             let [products @ .., squared_distance, resultant_length] = &mut term_sums;
-            let terms = track_products(dx * cos + dy * sin, dy * cos - dx * sin, s, t);
-            products.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+            let added_products = track_products(dx * cos + dy * sin, dy * cos - dx * sin, s, t);
+            products.iter_mut().zip(added_products).for_each(|(sum, added_product)| *sum += added_product);
             *squared_distance += dx * dx + dy * dy;
             *resultant_length += c;
         }

@@ -43,11 +43,11 @@ impl UnitMotionMoments {
     #[inline(never)]
     pub fn add(&mut self, weight: f64, unit_end: [f64; 2], excess_turn: f64) {
         let [x, y] = *self.first_end.get_or_insert(unit_end);
-        let offset = Vector3::new(unit_end[0] - x, unit_end[1] - y, excess_turn);
+        let end_offset = Vector3::new(unit_end[0] - x, unit_end[1] - y, excess_turn);
         self.weight_sum += weight;
-        self.weighted_sums += offset * weight;
+        self.weighted_sums += end_offset * weight;
         // The weight is multiplied last, so that the matrix is symmetric to the last bit.
-        self.product_sums += offset * offset.transpose() * weight;
+        self.product_sums += end_offset * end_offset.transpose() * weight;
     }
 
     /// Returns the mean and covariance of the end L·u (x, y) and the excess turn of motions. Their length L is independent of u and of the
@@ -79,12 +79,12 @@ impl ExactMoments {
     #[inline(never)]
     pub fn new(motion: &PolarMotion) -> Self {
         let (turn_per_bearing, [mean_bearing, bearing_std]) = (motion.turn_per_bearing(), motion.bearing);
-        let unit_motion_at = |node: &Node| {
-            let excess_turn = turn_per_bearing * bearing_std * node.value;
+        let unit_motion_at = |noise_node: &Node| {
+            let excess_turn = turn_per_bearing * bearing_std * noise_node.value;
             let turn = turn_per_bearing * mean_bearing + excess_turn;
             let unit_end =
                 if motion.is_arc { unit_arc_end(turn).into() } else { [libm::cos(turn), libm::sin(turn)] };
-            UnitMotion { weight: node.weight, unit_end, excess_turn }
+            UnitMotion { weight: noise_node.weight, unit_end, excess_turn }
         };
         let motions: Vec<_> = noise_nodes(motion.noise).iter().map(unit_motion_at).collect();
         let mut moments = UnitMotionMoments::default();
@@ -123,13 +123,13 @@ pub fn predicted_cross_track_skew(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> f6
     let residual_cov = cov.fixed_view::<2, 2>(0, 0)
         - regression_coefficients * regression_coefficients.transpose() * heading_variance;
     let (sin, cos) = libm::sincos(mean.z);
-    let lateral_components = noise_nodes(NoiseKind::Normal).iter().map(|node| {
-        let excess_turn = heading_variance.max(0.0).sqrt() * node.value;
+    let lateral_components = noise_nodes(NoiseKind::Normal).iter().map(|noise_node| {
+        let excess_turn = heading_variance.max(0.0).sqrt() * noise_node.value;
         let (a, b) = unit_arc_end(mean.z + excess_turn);
         // The lateral component of V(ω)·ξ, as a row over (along, lateral).
         let lateral_row = nalgebra::RowVector2::new(b * cos - a * sin, a * cos + b * sin);
         MixtureComponent {
-            weight: node.weight,
+            weight: noise_node.weight,
             mean: (lateral_row * (mean.xy() + regression_coefficients * excess_turn)).x,
             variance: (lateral_row * residual_cov * lateral_row.transpose()).x.max(0.0),
         }

@@ -44,24 +44,24 @@ struct BranchedMotion {
 
 impl ExactGain {
     /// Returns the exact likelihood gain of a motion.
-    pub fn new(motion: &PolarMotion) -> Self {
+    pub fn new(polar_motion: &PolarMotion) -> Self {
         let PolarMotion {
             length: [length, length_std], bearing: [bearing, bearing_std], commanded_turn, ..
-        } = *motion;
+        } = *polar_motion;
         // The translation of an odometry reading is never negative. After a drive in reverse, the first rotation of the reading therefore
         // differs by half a circle.
         let half_circles = ((bearing - 0.5 * commanded_turn) / PI).round();
         let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
-        let turn = commanded_turn + wrap_angle(motion.mean_turn() - commanded_turn);
+        let turn = commanded_turn + wrap_angle(polar_motion.mean_turn() - commanded_turn);
         let branched_motion = BranchedMotion {
             polar: PolarMotion {
                 length: [drive_sign * length, length_std],
                 bearing: [bearing - half_circles * PI, bearing_std],
-                ..*motion
+                ..*polar_motion
             },
-            turn: [turn, motion.turn_per_bearing() * bearing_std, motion.last_turn[1]],
+            turn: [turn, polar_motion.turn_per_bearing() * bearing_std, polar_motion.last_turn[1]],
         };
-        branched_motion.gain(&ExactMoments::new(motion))
+        branched_motion.gain(&ExactMoments::new(polar_motion))
     }
 }
 
@@ -84,11 +84,11 @@ impl BranchedMotion {
         }
     }
 
-    fn nodes(&self, std: f64, breaks: [f64; 2]) -> Vec<Node> {
+    fn nodes(&self, std: f64, break_points: [f64; 2]) -> Vec<Node> {
         if std == 0.0 {
             return vec![Node { value: 0.0, weight: 1.0 }];
         }
-        piecewise_nodes(self.polar.noise, self.integration_limit(1.0, 0.0), breaks)
+        piecewise_nodes(self.polar.noise, self.integration_limit(1.0, 0.0), break_points)
     }
 
     /// Returns the integration limit of the sum of two noises with the given standard deviations.
@@ -112,7 +112,7 @@ impl BranchedMotion {
             let chord_ratio = if self.polar.is_arc { sinc(bearing) } else { 1.0 };
             for turn_node in &last_turn_nodes {
                 let excess_turn = bearing_turn_std * bearing_node.value + last_turn_std * turn_node.value;
-                let weight = bearing_node.weight * turn_node.weight;
+                let node_weight = bearing_node.weight * turn_node.weight;
                 if excess_turn.abs() > max_excess_turn {
                     continue;
                 }
@@ -120,8 +120,8 @@ impl BranchedMotion {
                 let twist_sinc = sinc(half_turn);
                 let (sin, cos) = libm::sincos(bearing - half_turn);
                 let scaled_direction = [cos, sin].map(|component| component * (chord_ratio / twist_sinc));
-                log_sum += weight * libm::log(twist_sinc * twist_sinc);
-                moments.add(weight, scaled_direction, excess_turn);
+                log_sum += node_weight * libm::log(twist_sinc * twist_sinc);
+                moments.add(node_weight, scaled_direction, excess_turn);
             }
         }
         let (mean, cov) = moments.mean_and_cov(self.polar.length);
@@ -135,9 +135,9 @@ impl BranchedMotion {
         let (mut moments, mut log_sum) = (UnitMotionMoments::default(), 0.0);
         // Statistics of a cloud use the arc whose turn is nearest to the commanded turn. This arc is driven in the opposite direction if
         // the bearing differs from half the commanded turn by more than π/2.
-        let breaks =
-            [-0.5 * PI, 0.5 * PI].map(|offset| (half_commanded_turn + offset - bearing) / bearing_std);
-        for node in self.nodes(bearing_std, breaks) {
+        let break_points = [-0.5 * PI, 0.5 * PI]
+            .map(|bearing_offset| (half_commanded_turn + bearing_offset - bearing) / bearing_std);
+        for node in self.nodes(bearing_std, break_points) {
             let driven_bearing = bearing + bearing_std * node.value;
             let half_circles = ((driven_bearing - half_commanded_turn) / PI).round();
             let half_turn = driven_bearing - half_circles * PI;

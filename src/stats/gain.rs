@@ -64,10 +64,10 @@ impl FittedGaussians {
     pub fn new(cartesian: MeanAndCov, twist: MeanAndCov, arc: MeanAndCov, log_jacobians: [f64; 2]) -> Self {
         let (cartesian, twist, arc) =
             (Gaussian::new(&cartesian, 2), Gaussian::new(&twist, 2), Gaussian::new(&arc, 1));
-        let gain_in = |dimensions: usize, curved: &Gaussian| {
-            let (cartesian, curved) =
-                (cartesian.log_volumes[dimensions - 1], curved.log_volumes[dimensions - 1]);
-            let gain = cartesian - curved - log_jacobians[3 - dimensions];
+        let gain_in = |dimensions: usize, curved_gaussian: &Gaussian| {
+            let (cartesian, curved_gaussian) =
+                (cartesian.log_volumes[dimensions - 1], curved_gaussian.log_volumes[dimensions - 1]);
+            let gain = cartesian - curved_gaussian - log_jacobians[3 - dimensions];
             // The gain is undefined if the Gaussian in (x, y, θ), or in (x, y), has no volume, up to rounding.
             if gain > f64::NEG_INFINITY { gain } else { f64::NAN }
         };
@@ -101,36 +101,36 @@ impl LogDensityDifferences {
 
     /// Adds four robots with their weights; lanes without a robot have the weight 0.
     #[inline(never)]
-    pub fn add(&mut self, robots: &FourRobots, weights: f64x4) {
+    pub fn add(&mut self, robots: &FourRobots, robot_weights: f64x4) {
         let FittedGaussians { cartesian, twist, arc, gain, mean_jacobian } = &self.gaussians;
-        let has_robot = weights.simd_gt(f64x4::splat(0.0));
+        let has_robot = robot_weights.simd_gt(f64x4::splat(0.0));
         let cartesian_distances = cartesian.squared_distances(&robots.cartesian);
         let twist_distance = twist.squared_distances(&robots.twist)[2];
         let arc_distance = arc.squared_distances(&robots.arc)[1];
         let cartesian_log_volumes = [2, 1].map(|last_coordinate| cartesian.log_volumes[last_coordinate]);
-        let (curved_log_volumes, gains) =
+        let (curved_log_volumes, likelihood_gains) =
             ([twist.log_volumes[2], arc.log_volumes[1]], [gain.pose, gain.floor]);
         let squared_distance_differences =
             [cartesian_distances[2] - twist_distance, cartesian_distances[1] - arc_distance];
         for i in 0..2 {
-            let log_ratio = cartesian_log_volumes[i] - curved_log_volumes[i] - gains[i];
+            let log_ratio = cartesian_log_volumes[i] - curved_log_volumes[i] - likelihood_gains[i];
             let log_density_differences =
                 (squared_distance_differences[i] * 0.5 - ln(robots.jacobians[i]) + log_ratio) & has_robot;
-            self.squared_deviations[i] += log_density_differences * log_density_differences * weights;
+            self.squared_deviations[i] += log_density_differences * log_density_differences * robot_weights;
         }
         let (u, h) = (robots.jacobians[1] / *mean_jacobian - 1.0, squared_distance_differences[1] * 0.5);
-        for (sum, term) in self.area_sums.iter_mut().zip([u, u * u, h * u, h * h]) {
-            *sum += (term & has_robot) * weights;
+        for (sum, added_term) in self.area_sums.iter_mut().zip([u, u * u, h * u, h * h]) {
+            *sum += (added_term & has_robot) * robot_weights;
         }
-        self.weight_sums += weights;
+        self.weight_sums += robot_weights;
     }
 
-    /// Returns the likelihood gain of a cloud of `count` poses, of which the added robots are a weighted subsample, with its standard
+    /// Returns the likelihood gain of a cloud of `pose_count` poses, of which the added robots are a weighted subsample, with its standard
     /// errors.
-    pub fn measured_gain(&self, count: usize) -> MeasuredGain {
+    pub fn measured_gain(&self, pose_count: usize) -> MeasuredGain {
         let degrees_of_freedom = self.weight_sums.reduce_add() - 1.0;
         let [pose, floor] = self.squared_deviations.map(|squared_deviations| {
-            (squared_deviations.reduce_add() / degrees_of_freedom / count as f64).sqrt()
+            (squared_deviations.reduce_add() / degrees_of_freedom / pose_count as f64).sqrt()
         });
         MeasuredGain { value: self.gaussians.gain, error: LikelihoodGain { pose, floor } }
     }
@@ -143,12 +143,12 @@ impl LogDensityDifferences {
     /// over the robots to third order. The influence of a robot on ln(A/B) is then ½(z² − w²) − J/mean J, up to a constant. Here z and w
     /// are the robot's Mahalanobis distances in (x, y) and in arc coordinates. The area of the outline in exponential coordinates has the
     /// same error as B to first order. With the presets the estimate is 0 to 14 % smaller than the standard deviation of the ratio.
-    pub fn log_area_ratio_error(&self, count: usize) -> f64 {
+    pub fn log_area_ratio_error(&self, pose_count: usize) -> f64 {
         let total_weight = self.weight_sums.reduce_add();
         let [u, uu, hu, hh] = self.area_sums.map(|sum| sum.reduce_add() / total_weight);
         let mean_jacobian = 1.0 + u;
         let influence_var = hh - 2.0 * hu / mean_jacobian + (uu - u * u) / (mean_jacobian * mean_jacobian);
-        (non_negative(influence_var) / (total_weight - 1.0) * total_weight / count as f64).sqrt()
+        (non_negative(influence_var) / (total_weight - 1.0) * total_weight / pose_count as f64).sqrt()
     }
 }
 
@@ -184,8 +184,8 @@ impl Gaussian {
 
     /// Returns the squared Mahalanobis distances of four points: in the first coordinate, in the first two, and in all three.
     #[inline(never)]
-    fn squared_distances(&self, points: &[f64x4; 3]) -> [f64x4; 3] {
-        let mut centred_points: [f64x4; 3] = std::array::from_fn(|j| points[j] - self.mean[j]);
+    fn squared_distances(&self, four_points: &[f64x4; 3]) -> [f64x4; 3] {
+        let mut centred_points: [f64x4; 3] = std::array::from_fn(|j| four_points[j] - self.mean[j]);
         let mut squared_distance = f64x4::splat(0.0);
         std::array::from_fn(|j| {
             let whitened_offset = centred_points[j] * self.cov_root[(j, j)];

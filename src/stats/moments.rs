@@ -41,14 +41,14 @@ js_structs! {
 }
 
 impl ExponentialMoments {
-    /// Returns the moments of ξ = pose ⊟ start of `poses`, which were all driven from the pose `start`. They are NaN as in
+    /// Returns the moments of ξ = pose ⊟ start of `poses`, which were all driven from the pose `start_pose`. They are NaN as in
     /// [`CartesianMoments::from_poses`].
     ///
     /// The turn of each ξ is within half a turn of the mean heading. A cloud around a half turn therefore stays in one piece. Usually ξ is
     /// x_t ⊟ x_{t−1} itself.
-    pub fn from_poses(poses: &[SE2], start: &SE2) -> Self {
-        let mean_turn = wrap_angle(mean_heading(poses) - start.theta());
-        let start_inverse = start.inverse();
+    pub fn from_poses(poses: &[SE2], start_pose: &SE2) -> Self {
+        let mean_turn = wrap_angle(mean_heading(poses) - start_pose.theta());
+        let start_inverse = start_pose.inverse();
         let twists = poses.iter().map(|pose| (start_inverse * *pose).log_near(mean_turn));
         let first_twist = twists.clone().next().unwrap_or_else(Vector3::zeros);
         let (mean_offset, cov) = mean_and_cov(twists.map(|twist| twist - first_twist), poses.len());
@@ -76,10 +76,10 @@ pub(crate) fn non_negative(variance: f64) -> f64 {
 
 fn mean_and_cov(
     vectors: impl Iterator<Item = Vector3<f64>> + Clone,
-    count: usize,
+    vector_count: usize,
 ) -> (Vector3<f64>, Matrix3<f64>) {
-    let count = count as f64;
-    let mean = vectors.clone().sum::<Vector3<f64>>() / count;
+    let vector_count = vector_count as f64;
+    let mean = vectors.clone().sum::<Vector3<f64>>() / vector_count;
     let scatter = vectors.map(|vector| (vector - mean) * (vector - mean).transpose()).sum::<Matrix3<f64>>();
-    (mean, if count > 1.0 { scatter / (count - 1.0) } else { Matrix3::repeat(f64::NAN) })
+    (mean, if vector_count > 1.0 { scatter / (vector_count - 1.0) } else { Matrix3::repeat(f64::NAN) })
 }

@@ -17,11 +17,11 @@ pub struct Node {
 ///
 /// The rule is correct to rounding if f is a polynomial times trigonometric functions of k·z with k below 16. The third moment of headings
 /// with a standard deviation of five radians needs that frequency.
-pub fn noise_nodes(noise: NoiseKind) -> &'static [Node] {
+pub fn noise_nodes(noise_kind: NoiseKind) -> &'static [Node] {
     // The nodes are cached, because every evaluation needs them.
     static NORMAL: OnceLock<Vec<Node>> = OnceLock::new();
     static TRIANGULAR: OnceLock<Vec<Node>> = OnceLock::new();
-    match noise {
+    match noise_kind {
         NoiseKind::Normal => NORMAL.get_or_init(normal_nodes),
         NoiseKind::Triangular => TRIANGULAR.get_or_init(triangular_nodes),
     }
@@ -58,26 +58,26 @@ fn triangular_nodes() -> Vec<Node> {
         .collect()
 }
 
-/// Returns a rule from −`limit` to `limit` for a function that is smooth except at the two `breaks`, a negative and a positive number.
+/// Returns a rule from −`limit` to `limit` for a function that is smooth except at the two `break_points`, a negative and a positive number.
 /// Gauss–Legendre rules are used between the breaks. Moments of normal noise up to six standard deviations have errors of 1e-10.
 #[inline(never)]
-pub(super) fn piecewise_nodes(noise: NoiseKind, limit: f64, breaks: [f64; 2]) -> Vec<Node> {
+pub(super) fn piecewise_nodes(noise_kind: NoiseKind, limit: f64, break_points: [f64; 2]) -> Vec<Node> {
     /// Number of quadrature nodes between two break points. Rules for two noises are combined, so that the time grows with the square of
     /// this number. With fewer nodes, displayed digits would be wrong.
     const NODES_PER_PIECE: usize = 16;
     let unit_nodes = legendre_nodes(NODES_PER_PIECE);
     let (mut nodes, mut piece_start) = (Vec::with_capacity(4 * NODES_PER_PIECE), -limit);
     // The triangular density has a kink at 0, which needs another break point.
-    for piece_end in [breaks[0].max(-limit).min(0.0), 0.0, breaks[1].max(0.0).min(limit), limit] {
+    for piece_end in [break_points[0].max(-limit).min(0.0), 0.0, break_points[1].max(0.0).min(limit), limit] {
         if piece_end > piece_start {
             let half_width = 0.5 * (piece_end - piece_start);
             nodes.extend(unit_nodes.iter().map(|node| {
                 let value = piece_start + half_width * (1.0 + node.value);
-                let density = match noise {
+                let noise_density = match noise_kind {
                     NoiseKind::Normal => libm::exp(-0.5 * value * value) / TAU.sqrt(),
                     NoiseKind::Triangular => (6f64.sqrt() - value.abs()) / 6.0,
                 };
-                Node { value, weight: node.weight * half_width * density }
+                Node { value, weight: node.weight * half_width * noise_density }
             }));
             piece_start = piece_end;
         }
@@ -92,17 +92,17 @@ fn legendre_nodes(node_count: usize) -> Vec<Node> {
         .map(|i| {
             // Tricomi's initial guess is within 1e-4. Each of the four steps of Newton's method doubles the number of correct digits.
             let mut x = libm::cos(PI * (i as f64 + 0.75) / (n + 0.5));
-            let mut derivative = 1.0;
+            let mut polynomial_derivative = 1.0;
             for _ in 0..4 {
                 let (mut previous, mut value) = (1.0, x);
                 for k in 2..=node_count {
                     let k = k as f64;
                     (previous, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * previous) / k);
                 }
-                derivative = n * (x * value - previous) / (x * x - 1.0);
-                x -= value / derivative;
+                polynomial_derivative = n * (x * value - previous) / (x * x - 1.0);
+                x -= value / polynomial_derivative;
             }
-            Node { value: x, weight: 2.0 / ((1.0 - x * x) * derivative * derivative) }
+            Node { value: x, weight: 2.0 / ((1.0 - x * x) * polynomial_derivative * polynomial_derivative) }
         })
         .collect()
 }

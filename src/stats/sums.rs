@@ -30,8 +30,8 @@ impl<const N: usize> CompensatedSums<N> {
 
 /// Adds the sums of blocks to the totals, and the rounding errors of these additions to `compensation` (Knuth's two-sum).
 #[inline(never)]
-fn flush_blocks(blocks: &mut [f64x2], totals: &mut [f64x2], compensation: &mut [f64x2]) {
-    for ((block, total), compensation) in blocks.iter_mut().zip(totals).zip(compensation) {
+fn flush_blocks(block_sums: &mut [f64x2], totals: &mut [f64x2], compensation: &mut [f64x2]) {
+    for ((block, total), compensation) in block_sums.iter_mut().zip(totals).zip(compensation) {
         let block_sum = std::mem::replace(block, f64x2::splat(0.0));
         let sum = *total + block_sum;
         let rounded_term = sum - *total;
@@ -47,9 +47,9 @@ fn compensated_total(total: f64x2, compensation: f64x2) -> f64 {
 }
 
 #[inline(always)]
-pub fn add_to_block<const N: usize>(block: &mut [f64x2; N], terms: [f64x4; N]) {
+pub fn add_to_block<const N: usize>(block: &mut [f64x2; N], summed_terms: [f64x4; N]) {
     for i in 0..N {
-        let [lower_lanes, upper_lanes] = split_into_lane_pairs(terms[i]);
+        let [lower_lanes, upper_lanes] = split_into_lane_pairs(summed_terms[i]);
         block[i] += lower_lanes + upper_lanes;
     }
 }
@@ -58,13 +58,13 @@ pub fn add_to_block<const N: usize>(block: &mut [f64x2; N], terms: [f64x4; N]) {
 pub type PairSums = CompensatedSums<5>;
 
 impl PairSums {
-    pub fn add(&mut self, [a, b]: [f64x4; 2], mask: f64x4) {
-        let (a, b) = (a & mask, b & mask);
+    pub fn add(&mut self, [a, b]: [f64x4; 2], lane_mask: f64x4) {
+        let (a, b) = (a & lane_mask, b & lane_mask);
         add_to_block(&mut self.block, [a, b, a * a, a * b, b * b]);
     }
 
-    pub fn subtract(&mut self, [a, b]: [f64x4; 2], mask: f64x4) {
-        let (a, b) = (a & mask, b & mask);
+    pub fn subtract(&mut self, [a, b]: [f64x4; 2], lane_mask: f64x4) {
+        let (a, b) = (a & lane_mask, b & lane_mask);
         add_to_block(&mut self.block, [-a, -b, -(a * a), -(a * b), -(b * b)]);
     }
 }

@@ -79,26 +79,26 @@ impl FirstPass {
         }
     }
 
-    /// Adds poses, and the first two random numbers of variance 1 of their robots. Only lanes that are set in `mask` are added.
+    /// Adds poses, and the first two random numbers of variance 1 of their robots. Only lanes that are set in `lane_mask` are added.
     #[inline(always)]
-    pub fn add(&mut self, poses: &FourPoses, unit_noise: [f64x4; 2], mask: f64x4) {
-        self.unit_noise.add(unit_noise, mask);
+    pub fn add(&mut self, poses: &FourPoses, unit_noise: [f64x4; 2], lane_mask: f64x4) {
+        self.unit_noise.add(unit_noise, lane_mask);
         let [x, y, along, lateral, half_heading, ..] = self.reference_point;
-        let (sin, cos) = (poses.half_sin & mask, poses.half_cos);
-        let [x, y] = [(poses.x - x) & mask, (poses.y - y) & mask];
-        let [a, l] = [(poses.along - along) & mask, (poses.lateral - lateral) & mask];
-        let h = (poses.half_heading - half_heading) & mask;
+        let (sin, cos) = (poses.half_sin & lane_mask, poses.half_cos);
+        let [x, y] = [(poses.x - x) & lane_mask, (poses.y - y) & lane_mask];
+        let [a, l] = [(poses.along - along) & lane_mask, (poses.lateral - lateral) & lane_mask];
+        let h = (poses.half_heading - half_heading) & lane_mask;
         let [xx, xy, yy] = [x * x, x * y, y * y];
         let [aa, al, ll, ah, lh, hh] = [a * a, a * l, l * l, a * h, l * h, h * h];
-        let terms = [x, y, a, l, h, xx, xy, yy, aa, al, ll, ah, lh, hh, sin * cos, sin * sin];
-        add_to_block(&mut self.sums.block, terms);
+        let summed_terms = [x, y, a, l, h, xx, xy, yy, aa, al, ll, ah, lh, hh, sin * cos, sin * sin];
+        add_to_block(&mut self.sums.block, summed_terms);
     }
 
     #[inline(always)]
     pub fn multiply_jacobians(&mut self, poses: &FourPoses, arcs: &FourArcs) {
-        let multiply_lanes = |lanes: f64x4| {
-            let [low, high] = split_into_lane_pairs(lanes);
-            low * high
+        let multiply_lanes = |four_factors: f64x4| {
+            let [low_lanes, high_lanes] = split_into_lane_pairs(four_factors);
+            low_lanes * high_lanes
         };
         let (twist_sincs, arc_sincs) = (multiply_lanes(poses.sinc), multiply_lanes(arcs.sinc));
         let [twist_scale, arc_scale] = self.jacobian_scale;
@@ -107,10 +107,10 @@ impl FirstPass {
             multiply_lanes(arcs.length) * (arc_sincs * arc_sincs) * (arc_scale * arc_scale);
     }
 
-    /// Multiplies the products by the Jacobians of the poses in the lanes that are set in `mask`.
+    /// Multiplies the products by the Jacobians of the poses in the lanes that are set in `lane_mask`.
     #[inline(never)]
-    pub fn multiply_masked_jacobians(&mut self, poses: &FourPoses, arcs: &FourArcs, mask: f64x4) {
-        let masked_or_one = |values: f64x4| mask.bitselect(values, f64x4::splat(1.0));
+    pub fn multiply_masked_jacobians(&mut self, poses: &FourPoses, arcs: &FourArcs, lane_mask: f64x4) {
+        let masked_or_one = |factors: f64x4| lane_mask.bitselect(factors, f64x4::splat(1.0));
         let [twist, length, arc] = [poses.sinc, arcs.length, arcs.sinc].map(masked_or_one);
         self.multiply_jacobians(
             &FourPoses { sinc: twist, ..*poses },
@@ -120,10 +120,10 @@ impl FirstPass {
 
     /// Adds the values of irregular arcs. Subtracts the values of the driven arcs (`regular_arcs`), for which the sums of the noise stand.
     #[inline(never)]
-    pub fn add_irregular_arcs(&mut self, arcs: &FourArcs, regular_arcs: [f64x4; 2], mask: f64x4) {
+    pub fn add_irregular_arcs(&mut self, arcs: &FourArcs, regular_arcs: [f64x4; 2], lane_mask: f64x4) {
         let [.., length, half_turn] = self.reference_point;
-        self.irregular_arcs.add([arcs.length - length, arcs.half_turn - half_turn], mask);
-        self.irregular_arcs.subtract(regular_arcs, mask);
+        self.irregular_arcs.add([arcs.length - length, arcs.half_turn - half_turn], lane_mask);
+        self.irregular_arcs.subtract(regular_arcs, lane_mask);
     }
 
     pub fn flush_block(&mut self) {
@@ -137,16 +137,16 @@ impl FirstPass {
         }
     }
 
-    /// Returns the moments of `count` poses. The Cartesian covariance contains only the position. `regular_sums` are the sums over the
+    /// Returns the moments of `pose_count` poses. The Cartesian covariance contains only the position. `regular_sums` are the sums over the
     /// driven arcs, in the order of [`PairSums`]; the corrections for irregular arcs are added to them.
-    pub fn moments(&self, count: usize, regular_sums: [f64; 5]) -> FirstPassMoments {
-        let n = count as f64;
+    pub fn moments(&self, pose_count: usize, regular_sums: [f64; 5]) -> FirstPassMoments {
+        let n = pose_count as f64;
         let [x, y, a, l, h, xx, xy, yy, aa, al, ll, ah, lh, hh, sin_cos, sin_sin] = self.sums.totals();
         let irregular_sums = self.irregular_arcs.totals();
         let [s, t, ss, st, tt] = std::array::from_fn(|i| regular_sums[i] + irregular_sums[i]);
         // A covariance is the mean of the products minus the product of the means.
         let cov_of = |product_sum: f64, first_sum: f64, second_sum: f64| {
-            if count > 1 { (product_sum - first_sum * (second_sum / n)) / (n - 1.0) } else { f64::NAN }
+            if pose_count > 1 { (product_sum - first_sum * (second_sum / n)) / (n - 1.0) } else { f64::NAN }
         };
         let variance_of_sums = |square_sum: f64, sum: f64| non_negative(cov_of(square_sum, sum, sum));
         let [x0, y0, along, lateral, half_heading, length, half_turn] = self.reference_point;
@@ -163,7 +163,7 @@ impl FirstPass {
         let [ah, lh, hh] = [2.0 * cov_of(ah, a, h), 2.0 * cov_of(lh, l, h), 4.0 * variance_of_sums(hh, h)];
         let [ss, st, tt] = [variance_of_sums(ss, s), 2.0 * cov_of(st, s, t), 4.0 * variance_of_sums(tt, t)];
         // The scale applies to all four lanes, including lanes without a pose.
-        let scaled_lane_count = count.next_multiple_of(LANE_COUNT) as f64;
+        let scaled_lane_count = pose_count.next_multiple_of(LANE_COUNT) as f64;
         let [mean_log_twist, mean_log_arc] = [0, 1]
             .map(|i| (self.log_jacobian_sums[i] - scaled_lane_count * libm::log(self.jacobian_scale[i])) / n);
         FirstPassMoments {
@@ -237,38 +237,38 @@ pub struct CloudStats {
 }
 
 impl SecondPass {
-    /// Starts the second pass over the same poses, all of which were driven from `start`.
-    pub fn new(first_pass: FirstPassMoments, start: &SE2) -> Self {
+    /// Starts the second pass over the same poses, all of which were driven from `start_pose`.
+    pub fn new(first_pass: FirstPassMoments, start_pose: &SE2) -> Self {
         let [xx, xy, yy] = first_pass.position_cov;
         Self {
             first_pass,
             heading_sin_cos: libm::sincos(first_pass.mean_turn),
             ellipse: Ellipse::new(first_pass.position.into(), Matrix2::new(xx, xy, xy, yy)),
-            twist_ellipse: ExponentialContour::new(&first_pass.exponential, start).ellipse,
+            twist_ellipse: ExponentialContour::new(&first_pass.exponential, start_pose).ellipse,
             sums: CompensatedSums::new(),
         }
     }
 
-    /// Adds the poses in the lanes that are set in `mask`.
+    /// Adds the poses in the lanes that are set in `lane_mask`.
     #[inline(always)]
-    pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
+    pub fn add(&mut self, poses: &FourPoses, lane_mask: f64x4) {
         let ([mean_x, mean_y], (sin, cos)) = (self.first_pass.position, self.heading_sin_cos);
         let (x, y) = (poses.x - mean_x, poses.y - mean_y);
-        let d = (y * cos - x * sin) & mask;
-        let a = (x * cos + y * sin) & mask;
-        let t = wrap_turns(poses.half_heading * 2.0 - self.first_pass.mean_turn) & mask;
+        let d = (y * cos - x * sin) & lane_mask;
+        let a = (x * cos + y * sin) & lane_mask;
+        let t = wrap_turns(poses.half_heading * 2.0 - self.first_pass.mean_turn) & lane_mask;
         // sin(θ − h) of the heading θ and the mean heading h, from the sine and cosine of θ/2.
         let theta_sin = poses.half_sin * poses.half_cos * 2.0;
         let theta_cos = 1.0 - poses.half_sin * poses.half_sin * 2.0;
-        let s = (theta_sin * cos - theta_cos * sin) & mask;
-        let lane_counts = f64x4::splat(1.0) & mask;
+        let s = (theta_sin * cos - theta_cos * sin) & lane_mask;
+        let lane_counts = f64x4::splat(1.0) & lane_mask;
         let ellipse_counts = self.ellipse.contains_four(poses.x, poses.y) & lane_counts;
         let contour_counts =
             self.twist_ellipse.contains_four(poses.along, poses.half_heading * 2.0) & lane_counts;
         let [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td] = track_products(a, d, s, t);
-        let terms =
+        let summed_terms =
             [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td, t * a, ellipse_counts, contour_counts];
-        add_to_block(&mut self.sums.block, terms);
+        add_to_block(&mut self.sums.block, summed_terms);
     }
 
     pub fn flush_block(&mut self) {
@@ -305,16 +305,16 @@ impl SecondPass {
             log_jacobians,
         );
         let mut density_differences = LogDensityDifferences::new(gaussians);
-        for (poses, arcs, weights) in sample {
+        for (poses, arcs, robot_weights) in sample {
             let FourPoses { x, y, along, lateral, half_heading, sinc, .. } = poses;
-            let turn = wrap_turns(half_heading * 2.0 - self.first_pass.mean_turn);
-            let robots = FourRobots {
-                cartesian: [x, y, turn],
+            let turn_residual = wrap_turns(half_heading * 2.0 - self.first_pass.mean_turn);
+            let four_robots = FourRobots {
+                cartesian: [x, y, turn_residual],
                 twist: [along, lateral, half_heading * 2.0],
                 arc: [arcs.length, arcs.half_turn * 2.0, f64x4::splat(0.0)],
                 jacobians: [sinc * sinc, arcs.length.abs() * 0.5 * (arcs.sinc * arcs.sinc)],
             };
-            density_differences.add(&robots, weights);
+            density_differences.add(&four_robots, robot_weights);
         }
         let fraction_or_nan =
             |ellipse: &Ellipse, fraction: f64| if ellipse.has_area() { fraction } else { f64::NAN };
@@ -335,11 +335,11 @@ impl SecondPass {
 
 /// Wraps differences of angles to [−π, π]. The differences must be in [−3π, 3π].
 #[inline(always)]
-fn wrap_turns(turn: f64x4) -> f64x4 {
-    let needs_wrapping = turn.abs().simd_gt(f64x4::splat(PI));
+fn wrap_turns(turn_residual: f64x4) -> f64x4 {
+    let needs_wrapping = turn_residual.abs().simd_gt(f64x4::splat(PI));
     if is_any_lane_set(needs_wrapping) {
-        needs_wrapping.bitselect(turn - f64x4::splat(TAU).copysign(turn), turn)
+        needs_wrapping.bitselect(turn_residual - f64x4::splat(TAU).copysign(turn_residual), turn_residual)
     } else {
-        turn
+        turn_residual
     }
 }

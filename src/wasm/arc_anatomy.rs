@@ -37,8 +37,8 @@ impl JsArcAnatomy {
         &self,
         #[wasm_bindgen(unchecked_param_type = "ArrayLike<number>")] bounds: &JsValue,
     ) -> Result<JsValue, JsValue> {
-        let [min, max] = read_bounds(bounds)?;
-        Ok(to_plain_js(&self.0.surface(min, max)))
+        let [min_corner, max_corner] = read_bounds(bounds)?;
+        Ok(to_plain_js(&self.0.surface(min_corner, max_corner)))
     }
 
     /// Returns three poses after a fraction of the time, 0 to 1, as x, y (m) and θ (rad). They are on the commanded arc, on the arc that

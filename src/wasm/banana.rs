@@ -95,11 +95,11 @@ impl JsBananaMachine {
         #[wasm_bindgen(js_name = radiusX)] radius_x: f64,
         #[wasm_bindgen(js_name = radiusY)] radius_y: f64,
     ) -> Result<i32, JsValue> {
-        let radii = [
+        let search_radii = [
             check_range("radiusX", radius_x, &RADIUS_RANGE)?,
             check_range("radiusY", radius_y, &RADIUS_RANGE)?,
         ];
-        let nearest = self.0.nearest(check_range("morph", morph, &MORPH_RANGE)?, [x, y], radii);
+        let nearest = self.0.nearest(check_range("morph", morph, &MORPH_RANGE)?, [x, y], search_radii);
         Ok(nearest.map_or(-1, |index| index as i32))
     }
 

@@ -87,10 +87,10 @@ fn read_corrections(field: &str, value: &JsValue) -> Result<[Option<bool>; ERROR
         return Err(type_error(field, value, &allowed_text));
     }
     let fields = FieldReader::new(field, "correct.", value, &keys)?;
-    let mut correct = [None; ERROR_COUNT];
+    let mut should_correct = [None; ERROR_COUNT];
     for (key, errors) in SYSTEMATIC_ERROR_KEYS {
         let is_corrected = fields.read_optional(key, read_boolean)?;
-        errors.iter().for_each(|error| correct[*error as usize] = is_corrected);
+        errors.iter().for_each(|error| should_correct[*error as usize] = is_corrected);
     }
-    Ok(correct)
+    Ok(should_correct)
 }

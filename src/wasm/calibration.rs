@@ -152,19 +152,19 @@ js_structs! {
 pub fn legs_to_js(calibration: &Calibration) -> JsValue {
     let Calibration { legs, observations, leg_fits, corrected, .. } = calibration;
     let mut leg_columns = CalibrationLegs { count: legs.len(), ..Default::default() };
-    let base = corrected.base();
-    for ((leg, observation), fit) in legs.iter().zip(observations).zip(leg_fits) {
+    let base_trajectory = corrected.base();
+    for ((leg, observation), leg_fit) in legs.iter().zip(observations).zip(leg_fits) {
         leg_columns.times.extend_from_slice(&leg.times);
         for end_index in [0, 1] {
             leg_columns.odometry.extend(<[f64; 3]>::from(leg.odometry[end_index]));
-            leg_columns.reference.extend(<[f64; 3]>::from(leg.reference[end_index] * base));
+            leg_columns.reference.extend(<[f64; 3]>::from(leg.reference[end_index] * base_trajectory));
         }
         leg_columns.readings.extend_from_slice(&observation.reading);
         leg_columns.residuals.extend_from_slice(&observation.residuals);
-        leg_columns.standardized.extend_from_slice(&fit.standardized);
-        leg_columns.stds.extend_from_slice(&fit.stds);
-        leg_columns.squared.push(fit.squared);
-        leg_columns.outliers.push(f64::from(u8::from(fit.is_outlier)));
+        leg_columns.standardized.extend_from_slice(&leg_fit.standardized);
+        leg_columns.stds.extend_from_slice(&leg_fit.stds);
+        leg_columns.squared.push(leg_fit.squared);
+        leg_columns.outliers.push(f64::from(u8::from(leg_fit.is_outlier)));
     }
     to_plain_js(&leg_columns)
 }

@@ -56,14 +56,14 @@ impl<'a> FieldReader<'a> {
         Reflect::get(self.object, &key.into())
     }
 
-    /// Reads a field with the function `read`; None if the field is missing or undefined.
+    /// Reads a field with the function `read_value`; None if the field is missing or undefined.
     pub fn read_optional<T>(
         &self,
         key: &str,
-        read: impl FnOnce(&str, &JsValue) -> Result<T, JsValue>,
+        read_value: impl FnOnce(&str, &JsValue) -> Result<T, JsValue>,
     ) -> Result<Option<T>, JsValue> {
         let value = self.value(key)?;
-        if value.is_undefined() { Ok(None) } else { read(&self.path(key), &value).map(Some) }
+        if value.is_undefined() { Ok(None) } else { read_value(&self.path(key), &value).map(Some) }
     }
 
     /// Reads a field that is a value of any type that a setting may have; `default` if the field is missing or undefined.
@@ -108,9 +108,9 @@ pub fn read_value<T: SettingValue>(
     Ok(initial_value)
 }
 
-fn read_setting_in_range(field: &str, value: &JsValue, mut setting: Setting) -> Result<(), JsValue> {
-    read_setting(field, value, &mut setting)?;
-    Ok(setting.check(field)?)
+fn read_setting_in_range(field: &str, value: &JsValue, mut target_setting: Setting) -> Result<(), JsValue> {
+    read_setting(field, value, &mut target_setting)?;
+    Ok(target_setting.check(field)?)
 }
 
 fn set_keyword(field: &str, value: &JsValue, setting: &mut dyn KeywordSetting) -> Result<(), JsValue> {
@@ -164,17 +164,17 @@ pub fn read_initial_settings<S: SettingRules>(options: &JsValue) -> Result<S, Js
 
 /// Returns the current settings, changed to the values in `options`. The simulation checks the ranges of doubles later.
 pub fn read_settings<S: SettingRules>(current_settings: &S, options: &JsValue) -> Result<S, JsValue> {
-    let fields = FieldReader::new("options", "", options, S::KEYS)?;
+    let option_fields = FieldReader::new("options", "", options, S::KEYS)?;
     let (mut settings, mut given_keys) = (*current_settings, Vec::new());
     settings.try_visit_settings(|declaration, mut setting| {
         let key = declaration.key;
-        let value = fields.value(key)?;
+        let value = option_fields.value(key)?;
         if value.is_undefined() {
             return Ok(());
         }
         if let Some(original) = declaration.of.filter(|original| given_keys.contains(original)) {
-            let message = format!("{key} is given beside {original}; allowed is one of the two");
-            return Err(TypeError::new(&message).into());
+            let error_message = format!("{key} is given beside {original}; allowed is one of the two");
+            return Err(TypeError::new(&error_message).into());
         }
         given_keys.push(key);
         read_setting(key, &value, &mut setting)
@@ -195,16 +195,16 @@ fn read_setting(field: &str, value: &JsValue, setting: &mut Setting) -> Result<(
         }
         Setting::Boolean(slot) => **slot = read_boolean(field, value)?,
         Setting::Keyword(slot) => set_keyword(field, value, *slot)?,
-        Setting::Numbers(slots, _) => fill_array(field, value, slots)?,
+        Setting::Numbers(number_slots, _) => fill_array(field, value, number_slots)?,
         // The level is checked before it is converted to α's, because a later error message would name an α.
         Setting::Level(slot, allowed) => slot.set(check_range(field, read_number(field, value)?, allowed)?),
         // A group of numbers, such as a command, must be complete: speeds without their duration would mean another motion.
-        Setting::Group(members, numbers) => {
-            let keys = members.each_ref().map(|member| member.declaration.key);
+        Setting::Group(group_members, numbers) => {
+            let keys = group_members.each_ref().map(|group_member| group_member.declaration.key);
             let prefix = format!("{field}.");
-            let fields = FieldReader::new(field, &prefix, value, &keys)?;
+            let option_fields = FieldReader::new(field, &prefix, value, &keys)?;
             for (key, number) in keys.iter().zip(numbers) {
-                **number = fields.number(key)?;
+                **number = option_fields.number(key)?;
             }
         }
     }
@@ -215,12 +215,12 @@ pub fn read_boolean(field: &str, value: &JsValue) -> Result<bool, JsValue> {
     value.as_bool().ok_or_else(|| type_error(field, value, "true or false"))
 }
 
-pub fn array_length(field: &str, value: &JsValue, expected: &str) -> Result<usize, JsValue> {
+pub fn array_length(field: &str, value: &JsValue, expected_text: &str) -> Result<usize, JsValue> {
     if !value.is_object() {
-        return Err(type_error(field, value, expected));
+        return Err(type_error(field, value, expected_text));
     }
     let length = Reflect::get(value, &"length".into())?;
-    let length = length.as_f64().ok_or_else(|| type_error(field, value, expected))?;
+    let length = length.as_f64().ok_or_else(|| type_error(field, value, expected_text))?;
     Ok(check_integer(&format!("{field}.length"), length, &(0..=u64::from(u32::MAX)))? as usize)
 }
 
@@ -235,8 +235,8 @@ pub fn type_error(field: &str, value: &JsValue, allowed: &str) -> JsValue {
 /// Maximum number of quoted characters. It suffices to recognize a text, and is longer than any key or keyword.
 const MAX_QUOTED_CHARACTERS: usize = 40;
 
-fn shorten(text: &str) -> String {
-    let mut characters = text
+fn shorten(original_text: &str) -> String {
+    let mut characters = original_text
         .chars()
         .map(|character| if character.is_control() { char::REPLACEMENT_CHARACTER } else { character });
     let mut shortened_text: String = characters.by_ref().take(MAX_QUOTED_CHARACTERS).collect();

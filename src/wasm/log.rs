@@ -23,10 +23,10 @@ pub fn read_logs(odometry: &JsValue, reference: &JsValue) -> Result<Vec<Drive>, 
     let reference = read_drives("reference", reference, read_poses)?;
     if odometry.len() != reference.len() {
         let [odometry, reference] = [odometry.len(), reference.len()];
-        let message = format!(
+        let error_message = format!(
             "reference has {reference} drives; allowed is one for each of the {odometry} of odometry"
         );
-        return Err(RangeError::new(&message).into());
+        return Err(RangeError::new(&error_message).into());
     }
     Ok(odometry
         .into_iter()
@@ -53,51 +53,51 @@ fn read_drives(
 fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     let path_prefix = format!("{field}.");
     let allowed_text = "an object with keys from t, x, y, theta, breaks or from t, v, omega, breaks";
-    let fields = FieldReader::with_any_keys(field, &path_prefix, value, allowed_text)?;
-    if fields.value("v")?.is_undefined() && fields.value("omega")?.is_undefined() {
+    let log_fields = FieldReader::with_any_keys(field, &path_prefix, value, allowed_text)?;
+    if log_fields.value("v")?.is_undefined() && log_fields.value("omega")?.is_undefined() {
         return read_poses(field, value);
     }
-    let fields = FieldReader::new(field, &path_prefix, value, &["t", "v", "omega", "breaks"])?;
-    let columns = read_columns(&fields, ["t", "v", "omega"])?;
+    let log_fields = FieldReader::new(field, &path_prefix, value, &["t", "v", "omega", "breaks"])?;
+    let columns = read_columns(&log_fields, ["t", "v", "omega"])?;
     let [t, v, omega] = &columns;
     let commands = t.iter().zip(v).zip(omega).map(|((t, v), omega)| (*t, *v, *omega));
-    checked_trajectory(&fields, Trajectory::from_commands(commands))
+    checked_trajectory(&log_fields, Trajectory::from_commands(commands))
 }
 
 fn read_poses(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     let path_prefix = format!("{field}.");
-    let fields = &FieldReader::new(field, &path_prefix, value, &["t", "x", "y", "theta", "breaks"])?;
-    let columns = read_columns(fields, ["t", "x", "y", "theta"])?;
+    let log_fields = &FieldReader::new(field, &path_prefix, value, &["t", "x", "y", "theta", "breaks"])?;
+    let columns = read_columns(log_fields, ["t", "x", "y", "theta"])?;
     let [t, x, y, theta] = &columns;
     let poses = x.iter().zip(y).zip(theta).map(|((x, y), theta)| SE2::new(*x, *y, *theta));
-    checked_trajectory(fields, Trajectory::new(t.iter().copied().zip(poses)))
+    checked_trajectory(log_fields, Trajectory::new(t.iter().copied().zip(poses)))
 }
 
-/// Returns a trajectory of the columns in `fields`, with the breaks before the samples that `fields.breaks` lists.
+/// Returns a trajectory of the columns in `log_fields`, with the breaks before the samples that `log_fields.breaks` lists.
 fn checked_trajectory(
-    fields: &FieldReader,
+    log_fields: &FieldReader,
     trajectory: Result<Trajectory, TrajectoryError>,
 ) -> Result<Trajectory, JsValue> {
-    let name_field = |error| format!("{}: {error}", fields.path("").trim_end_matches('.'));
+    let name_field = |error| format!("{}: {error}", log_fields.path("").trim_end_matches('.'));
     let trajectory = trajectory.map_err(|error| RangeError::new(&name_field(error)))?;
     let last_sample = trajectory.samples().len() as u64 - 1;
-    let read_breaks = |path: &str, breaks: &JsValue| {
-        let break_count = array_length(path, breaks, "an array of numbers")?;
-        let numbers = read_numbers_of_column(path, breaks, break_count)?;
+    let read_breaks = |path: &str, break_values: &JsValue| {
+        let break_count = array_length(path, break_values, "an array of numbers")?;
+        let numbers = read_numbers_of_column(path, break_values, break_count)?;
         let indexed_numbers = numbers.into_iter().enumerate();
-        let samples =
+        let sample_range =
             indexed_numbers.map(|(i, sample)| read_integer(&format!("{path}[{i}]"), sample, 1..=last_sample));
-        samples.collect::<Result<Vec<u64>, JsValue>>()
+        sample_range.collect::<Result<Vec<u64>, JsValue>>()
     };
-    let breaks = fields.read_optional("breaks", read_breaks)?.unwrap_or_default();
-    Ok(trajectory.with_breaks_before(breaks.into_iter().map(|sample| sample as usize)))
+    let break_values = log_fields.read_optional("breaks", read_breaks)?.unwrap_or_default();
+    Ok(trajectory.with_breaks_before(break_values.into_iter().map(|sample| sample as usize)))
 }
 
 /// Reads arrays of numbers, all of which must have the length of the first array, the times.
-fn read_columns<const N: usize>(fields: &FieldReader, keys: [&str; N]) -> Result<[Vec<f64>; N], JsValue> {
+fn read_columns<const N: usize>(log_fields: &FieldReader, keys: [&str; N]) -> Result<[Vec<f64>; N], JsValue> {
     let mut columns = [const { Vec::new() }; N];
     for (i, key) in keys.into_iter().enumerate() {
-        let (path, value) = (fields.path(key), fields.value(key)?);
+        let (path, value) = (log_fields.path(key), log_fields.value(key)?);
         let expected_text = "an array of numbers";
         let row_count = array_length(&path, &value, expected_text)?;
         let allowed = if i == 0 { 2..=MAX_ROWS } else { columns[0].len()..=columns[0].len() };
@@ -105,7 +105,7 @@ fn read_columns<const N: usize>(fields: &FieldReader, keys: [&str; N]) -> Result
             let allowed = if i == 0 {
                 format!("2 to {MAX_ROWS}")
             } else {
-                format!("{}, as of {}", columns[0].len(), fields.path(keys[0]))
+                format!("{}, as of {}", columns[0].len(), log_fields.path(keys[0]))
             };
             return Err(
                 RangeError::new(&format!("{path} has length {row_count}; allowed is {allowed}")).into()
@@ -123,8 +123,8 @@ fn read_columns<const N: usize>(fields: &FieldReader, keys: [&str; N]) -> Result
 }
 
 fn read_numbers_of_column(path: &str, value: &JsValue, row_count: usize) -> Result<Vec<f64>, JsValue> {
-    if let Some(doubles) = value.dyn_ref::<Float64Array>() {
-        return Ok(doubles.to_vec());
+    if let Some(float64_array) = value.dyn_ref::<Float64Array>() {
+        return Ok(float64_array.to_vec());
     }
     let read_numbers = (0..row_count).map(|row| {
         let js_number = array_item(value, row)?;

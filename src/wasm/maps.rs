@@ -25,9 +25,9 @@ impl From<FloorPlanError> for JsValue {
 
 /// Reads a floor plan { bounds: [x, y, x, y], walls: [[x, y, x, y], …] }, as in JSON. The walls may also be a Float64Array.
 pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
-    let fields = FieldReader::new("plan", "", plan, &["bounds", "walls"])?;
-    let bounds = read_array("bounds", &fields.value("bounds")?)?;
-    let walls = fields.value("walls")?;
+    let plan_fields = FieldReader::new("plan", "", plan, &["bounds", "walls"])?;
+    let bounds = read_array("bounds", &plan_fields.value("bounds")?)?;
+    let walls = plan_fields.value("walls")?;
     if let Some(walls) = walls.dyn_ref::<Float64Array>() {
         if !walls.length().is_multiple_of(4) {
             let allowed_text = "an array of walls, or a Float64Array of four numbers a wall";
@@ -40,11 +40,11 @@ pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
     if wall_count > FloorPlan::MAX_WALLS {
         return Err(FloorPlanError::TooManyWalls(wall_count).into());
     }
-    let segments = (0..wall_count).map(|i| {
+    let wall_segments = (0..wall_count).map(|i| {
         let [x0, y0, x1, y1] = read_array(&format!("walls[{i}]"), &array_item(&walls, i)?)?;
         Ok(Segment { from: [x0, y0], to: [x1, y1] })
     });
-    Ok(FloorPlan::new(segments.collect::<Result<_, JsValue>>()?, bounds)?)
+    Ok(FloorPlan::new(wall_segments.collect::<Result<_, JsValue>>()?, bounds)?)
 }
 
 /// Reads a map as `map_server` does: from an image (the bytes of a file, or pixels), and the fields of its YAML file with their defaults.
@@ -52,20 +52,20 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let fields = FieldReader::with_any_keys("description", "", description, "an object")?;
     let resolution = check_range("resolution", fields.number("resolution")?, &RESOLUTION_RANGE)?;
     let origin: [f64; 3] = read_array_in_range("origin", &fields.value("origin")?, &QUANTITY_RANGE)?;
-    let defaults = PixelClassifier::default();
+    let default_classifier = PixelClassifier::default();
     let negate = match fields.value("negate")?.as_bool() {
         Some(negate) => negate,
-        None => fields.read_or("negate", u32::from(defaults.negate), 0..=1)? == 1,
+        None => fields.read_or("negate", u32::from(default_classifier.negate), 0..=1)? == 1,
     };
-    let occupied_thresh = fields.read_or("occupied_thresh", defaults.occupied_thresh, 0.0..=1.0)?;
-    let default_free_thresh = defaults.free_thresh.min(occupied_thresh);
+    let occupied_thresh = fields.read_or("occupied_thresh", default_classifier.occupied_thresh, 0.0..=1.0)?;
+    let default_free_thresh = default_classifier.free_thresh.min(occupied_thresh);
     let free_thresh = fields.read_or("free_thresh", default_free_thresh, 0.0..=1.0)?;
     if free_thresh > occupied_thresh {
         let [free_text, limit_text] = [free_thresh, occupied_thresh].map(format_number);
         let message = format!("free_thresh is {free_text}; allowed is at most occupied_thresh, {limit_text}");
         return Err(RangeError::new(&message).into());
     }
-    let mode = fields.read_or("mode", defaults.mode, ())?;
+    let mode = fields.read_or("mode", default_classifier.mode, ())?;
     let classifier = PixelClassifier { mode, negate, occupied_thresh, free_thresh };
     let origin = SE2::from(origin);
     if let Some(file_bytes) = image.dyn_ref::<Uint8Array>() {

@@ -155,15 +155,15 @@ model_methods! {
 pub fn js_invert_arc(start: &JsPose, next: &JsPose, dt: f64) -> Result<Ts<InvertedArc>, JsValue> {
     let (start, next, dt) =
         (read_pose("start", start)?, read_pose("next", next)?, check_range("dt", dt, &DURATION_RANGE)?);
-    let inversion = invert_arc(&start, &next, dt);
+    let inverted_arc = invert_arc(&start, &next, dt);
     // A straight drive in reverse has the turn rate −0. Adding 0 removes the minus.
-    let omega_hat = inversion.omega_hat + 0.0;
+    let omega_hat = inverted_arc.omega_hat + 0.0;
     Ok(to_ts(&InvertedArc {
-        v_hat: inversion.v_hat,
+        v_hat: inverted_arc.v_hat,
         omega_hat,
-        gamma_hat: inversion.gamma_hat,
-        center: inversion.centre(&start).map(|[x, y]| Point { x, y }),
-        radius: inversion.radius(),
+        gamma_hat: inverted_arc.gamma_hat,
+        center: inverted_arc.centre(&start).map(|[x, y]| Point { x, y }),
+        radius: inverted_arc.radius(),
         turn: omega_hat * dt,
     }))
 }
@@ -193,10 +193,10 @@ pub fn propagate(options: &JsPropagation) -> Result<Array, JsValue> {
         sigma = noise_model.propagate(&sigma, &twist, recursion);
         // The first-order and chapter recursions only add covariances. Only the fourth order can give an indefinite matrix.
         if recursion == Compounding::FourthOrder && covariance_root(&sigma).is_err() {
-            let message = format!(
+            let error_message = format!(
                 "steps is {steps}; allowed are at most {step} here: the next leaves no covariance, for the noise is too large"
             );
-            return Err(RangeError::new(&message).into());
+            return Err(RangeError::new(&error_message).into());
         }
     }
     Ok(matrix_rows(&sigma))
@@ -282,17 +282,17 @@ fn read_covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue
             RangeError::new(&format!("{field} has length {row_count}; allowed are {allowed_text}")).into()
         );
     }
-    let mut matrix = Matrix3::zeros();
+    let mut covariance_matrix = Matrix3::zeros();
     for i in 0..3 {
         let row: [f64; 3] =
             read_array_in_range(&format!("{field}[{i}]"), &array_item(value, i)?, &QUANTITY_RANGE)?;
-        matrix.set_row(i, &Vector3::from(row).transpose());
+        covariance_matrix.set_row(i, &Vector3::from(row).transpose());
     }
-    covariance_root(&matrix)
+    covariance_root(&covariance_matrix)
         .map_err(|error| RangeError::new(&format!("{field} is no covariance: {error}")))?;
-    Ok(matrix)
+    Ok(covariance_matrix)
 }
 
-fn matrix_rows(matrix: &Matrix3<f64>) -> Array {
-    matrix.row_iter().map(|row| js_array(&[row[0], row[1], row[2]])).collect()
+fn matrix_rows(covariance_matrix: &Matrix3<f64>) -> Array {
+    covariance_matrix.row_iter().map(|row| js_array(&[row[0], row[1], row[2]])).collect()
 }

@@ -21,14 +21,14 @@ pub fn pixel_view(pixels: &[[u8; 4]]) -> Uint8ClampedArray {
     if first_view.length() == byte_count { first_view } else { create_view() }
 }
 
-/// Returns the index that `find` returns for the point (x, y) (m) and the radius (m); −1 if it returns None.
+/// Returns the index that `find_index` returns for the point (x, y) (m) and the radius (m); −1 if it returns None.
 pub fn nearest_index(
     x: f64,
     y: f64,
     radius: f64,
-    find: impl FnOnce([f64; 2], f64) -> Option<usize>,
+    find_index: impl FnOnce([f64; 2], f64) -> Option<usize>,
 ) -> Result<i32, JsValue> {
-    Ok(find([x, y], check_range("radius", radius, &RADIUS_RANGE)?).map_or(-1, |index| index as i32))
+    Ok(find_index([x, y], check_range("radius", radius, &RADIUS_RANGE)?).map_or(-1, |index| index as i32))
 }
 
 /// Reads the bounds of a rectangle, xMin, yMin, xMax and yMax, and returns its minimum and maximum corner.
@@ -36,30 +36,30 @@ pub fn read_bounds(bounds: &JsValue) -> Result<[[f64; 2]; 2], JsValue> {
     let [x_min, y_min, x_max, y_max] = read_array("bounds", bounds)?;
     let min = [check_range("xMin", x_min, &EXTENT_RANGE)?, check_range("yMin", y_min, &EXTENT_RANGE)?];
     let limit = *EXTENT_RANGE.end();
-    let max =
+    let max_corner =
         [check_range("xMax", x_max, &(min[0]..=limit))?, check_range("yMax", y_max, &(min[1]..=limit))?];
-    Ok([min, max])
+    Ok([min, max_corner])
 }
 
 pub fn read_grid(bounds: &JsValue, columns: f64, rows: f64) -> Result<ViewGrid, JsValue> {
-    let [min, max] = read_bounds(bounds)?;
+    let [min, max_corner] = read_bounds(bounds)?;
     let columns = read_integer("columns", columns, 1..=MAX_CELLS_PER_SIDE)?;
     let rows = read_integer("rows", rows, 1..=MAX_CELLS_PER_SIDE.min(MAX_CELLS / columns))?;
-    Ok(ViewGrid { min_corner: min, max_corner: max, columns: columns as usize, rows: rows as usize })
+    Ok(ViewGrid { min_corner: min, max_corner, columns: columns as usize, rows: rows as usize })
 }
 
 /// Reads consecutive colour ramps from their bytes.
 pub fn read_ramps<const RAMP_COUNT: usize>(field: &str, bytes: &[u8]) -> Result<[Ramp; RAMP_COUNT], JsValue> {
-    let mut ramps = [[[0; 4]; RAMP_STEP_COUNT]; RAMP_COUNT];
-    let ramp_bytes = ramps.as_flattened_mut().as_flattened_mut();
+    let mut colour_ramps = [[[0; 4]; RAMP_STEP_COUNT]; RAMP_COUNT];
+    let ramp_bytes = colour_ramps.as_flattened_mut().as_flattened_mut();
     if bytes.len() != ramp_bytes.len() {
-        let (length, expected_length) = (bytes.len(), ramp_bytes.len());
-        let message = format!(
-            "{field} has length {length}; allowed is a Uint8Array of {expected_length} bytes, {} colours of four",
+        let (byte_length, expected_length) = (bytes.len(), ramp_bytes.len());
+        let error_message = format!(
+            "{field} has length {byte_length}; allowed is a Uint8Array of {expected_length} bytes, {} colours of four",
             RAMP_STEP_COUNT * RAMP_COUNT
         );
-        return Err(RangeError::new(&message).into());
+        return Err(RangeError::new(&error_message).into());
     }
     ramp_bytes.copy_from_slice(bytes);
-    Ok(ramps)
+    Ok(colour_ramps)
 }

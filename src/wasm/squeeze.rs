@@ -74,7 +74,7 @@ cloud_simulation_class! {
         /// Cells of the map; null for a floor plan without cells.
         grid: "Grid | null" = to_plain_js(&simulation.plan().grid().map(|grid| {
             let ([columns, rows], origin) = (grid.size(), grid.origin().into());
-            let cell_flags_of = |state| grid.cells().map(|cell| u8::from(cell == state)).collect();
+            let cell_flags_of = |cell_state| grid.cells().map(|cell| u8::from(cell == cell_state)).collect();
             let [occupied, unknown] = [Cell::Occupied, Cell::Unknown].map(cell_flags_of);
             Grid { columns, rows, resolution: grid.resolution(), origin, occupied, unknown }
         }));
@@ -125,7 +125,7 @@ impl JsMapSqueeze {
         let steps = read_integer("steps", steps, 1..=MAX_STEPS)?;
         let sampler = read_value("sampler", sampler, Sampler::Endpoint, ())?.with_part_count(steps as u32);
         let count = read_integer("count", count, 1..=MAX_TRIAL_PARTS / steps)? as usize;
-        let cost = self.0.sampling_trial(sampler, count).map_err(|no_sample| {
+        let trial_cost = self.0.sampling_trial(sampler, count).map_err(|no_sample| {
             let max_total_draws = max_draws(sampler.part_count() as usize * count);
             RangeError::new(&format!(
                 "sampler is {}, by which {no_sample}; allowed is one of at most {MAX_DRAWS} draws an accepted sample and {max_total_draws} \
@@ -133,7 +133,7 @@ impl JsMapSqueeze {
                 quote(sampler.get()),
             ))
         })?;
-        Ok(to_ts(&cost))
+        Ok(to_ts(&trial_cost))
     }
 
     /// Returns the density of the ends of the attempts shown, as RGBA pixels of a grid, row by row from the top. `bounds` are xMin, yMin,

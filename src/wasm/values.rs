@@ -80,8 +80,8 @@ pub fn flat_float_array<const N: usize>(numbers: &[[f64; N]]) -> Float64Array {
 }
 
 /// Returns a Float64Array of the three numbers of each pose or vector in order.
-pub fn triple_array<T: Into<[f64; 3]>>(triples: impl IntoIterator<Item = T>) -> Float64Array {
-    flat_float_array(&triples.into_iter().map(Into::into).collect::<Vec<[f64; 3]>>())
+pub fn triple_array<T: Into<[f64; 3]>>(three_numbers: impl IntoIterator<Item = T>) -> Float64Array {
+    flat_float_array(&three_numbers.into_iter().map(Into::into).collect::<Vec<[f64; 3]>>())
 }
 
 #[inline(never)]

@@ -46,9 +46,9 @@ const MAX_TURN_RATE: f64 = 0.8;
 const TURN_INTERVAL: f64 = 20.0;
 
 /// Returns the point (m) that the robot follows, at a phase (rad) of its path: a rosette, which crosses the hall in all directions.
-fn target_position(phase: f64) -> [f64; 2] {
-    let radius = 2.1 + 1.1 * libm::cos(2.4 * phase);
-    [1.35 * radius * libm::cos(phase), radius * libm::sin(phase)]
+fn target_position(path_phase: f64) -> [f64; 2] {
+    let radius = 2.1 + 1.1 * libm::cos(2.4 * path_phase);
+    [1.35 * radius * libm::cos(path_phase), radius * libm::sin(path_phase)]
 }
 
 struct Controller {
@@ -61,8 +61,8 @@ struct Controller {
 
 impl Controller {
     /// Returns the speed (m/s) and turn rate (rad/s) of the robot at a time and estimated pose.
-    fn next_speeds(&mut self, time: f64, pose: &SE2, rng: &mut Xoshiro256PlusPlus) -> [f64; 2] {
-        if time >= self.next_turn_time {
+    fn next_speeds(&mut self, row_time: f64, pose: &SE2, rng: &mut Xoshiro256PlusPlus) -> [f64; 2] {
+        if row_time >= self.next_turn_time {
             self.next_turn_time += TURN_INTERVAL;
             self.remaining_turn = rng.random_range(1.2..3.0) * if rng.random_bool(0.5) { 1.0 } else { -1.0 };
         }
@@ -72,12 +72,12 @@ impl Controller {
             return [0.0, turn / ROW_INTERVAL];
         }
         // The followed point stays 0.7 m or more ahead of the robot.
-        let mut target = target_position(self.phase);
-        while libm::hypot(target[0] - pose.x(), target[1] - pose.y()) < 0.7 {
+        let mut target_point = target_position(self.phase);
+        while libm::hypot(target_point[0] - pose.x(), target_point[1] - pose.y()) < 0.7 {
             self.phase += 0.002;
-            target = target_position(self.phase);
+            target_point = target_position(self.phase);
         }
-        let bearing = libm::atan2(target[1] - pose.y(), target[0] - pose.x());
+        let bearing = libm::atan2(target_point[1] - pose.y(), target_point[0] - pose.x());
         let heading_error = wrap_angle(bearing - pose.theta());
         let v = MAX_SPEED * libm::cos(heading_error).max(0.0);
         [v, (2.0 * heading_error).clamp(-MAX_TURN_RATE, MAX_TURN_RATE)]
@@ -118,7 +118,7 @@ pub fn simulate_log(seed: u64) -> Drive {
         let odometry_pose = odometry_poses[row - 1].1 * SE2::exp(&odometry_twist);
         odometry_poses.push((time, odometry_pose));
         current_leg.motions.push((time, next_motion));
-        let has_moved_far = |from: f64, to: f64| (to - from).abs() > LEG_DISTANCE;
+        let has_moved_far = |first_coordinate: f64, to: f64| (to - first_coordinate).abs() > LEG_DISTANCE;
         let has_turned =
             wrap_angle(odometry_pose.theta() - current_leg.odometry_start.theta()).abs() > LEG_ANGLE;
         if has_moved_far(current_leg.odometry_start.x(), odometry_pose.x())
@@ -163,10 +163,10 @@ fn finish_leg(leg: &CurrentLeg, true_poses: &mut Vec<(f64, SE2)>, rng: &mut Xosh
     let variance_per_row = Variance(1.0 / row_motions.len() as f64);
     let mut unit_noise = [0.0; 3];
     let mut leg_end = leg_motion;
-    for (time, motion) in row_motions {
+    for (time, row_motion) in row_motions {
         unit_noise.iter_mut().for_each(|noise| *noise += NoiseKind::Normal.sample(variance_per_row, rng));
         [.., leg_end] = leg_variances.executed_motion(&leg_reading, unit_noise).poses(&SE2::identity());
-        true_poses.push((*time, leg.true_start * motion.boxplus(leg_end.boxminus(&leg_motion))));
+        true_poses.push((*time, leg.true_start * row_motion.boxplus(leg_end.boxminus(&leg_motion))));
     }
     leg.true_start * leg_end
 }
@@ -186,8 +186,8 @@ fn simulate_reference(true_poses: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -
                 remaining_rows = ROWS_PER_JUMP;
             }
             let current_offset = if remaining_rows > 0 { jump_offset } else { SE2::identity() };
-            let [ahead, left] = TRUTH.lever_arm;
-            let sensor_pose = *pose * SE2::new(ahead, left, TRUTH.mount_yaw);
+            let [lever_arm_ahead, lever_arm_left] = TRUTH.lever_arm;
+            let sensor_pose = *pose * SE2::new(lever_arm_ahead, lever_arm_left, TRUTH.mount_yaw);
             let measured_pose = SE2::new(
                 sensor_pose.x() + current_offset.x(),
                 sensor_pose.y() + current_offset.y(),

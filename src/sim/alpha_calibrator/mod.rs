@@ -180,17 +180,17 @@ impl AlphaCalibrator {
     /// Returns a diagram for each noise component of the model: squared residuals against the regressor.
     pub fn panels(&self, regressor: Regressor) -> [Panel; 3] {
         let model = self.fit.settings.model();
-        [0, 1, 2].map(|component| create_panel(model, self.calibration(), component, regressor))
+        [0, 1, 2].map(|component_index| create_panel(model, self.calibration(), component_index, regressor))
     }
 
     /// Returns one leg in the frame of the leg's start; None if the index is too large.
     pub fn leg(&self, index: usize) -> Option<LegView> {
         let leg = self.legs().get(index)?;
         let leg_reading = self.calibration().observations[index].reading;
-        let mut draws = Draws::new(self.fit.settings.seed, self.fit.settings.noise);
-        draws.extend_to(OUTCOME_COUNT);
+        let mut outcome_draws = Draws::new(self.fit.settings.seed, self.fit.settings.noise);
+        outcome_draws.extend_to(OUTCOME_COUNT);
         let outcome_poses: Vec<SE2> = (0..OUTCOME_COUNT)
-            .map(|index| self.outcome_pose(&leg_reading, draws.noise_of_sample(index)))
+            .map(|index| self.outcome_pose(&leg_reading, outcome_draws.noise_of_sample(index)))
             .collect();
         let outcome_ellipse = Ellipse::from_moments(&CartesianMoments::from_poses(&outcome_poses));
         let outline =
@@ -208,16 +208,16 @@ impl AlphaCalibrator {
         // An α that the log does not identify counts as 0.
         let inflated_alpha =
             |k: usize| settings.inflation * calibration.alphas.get(k).copied().flatten().unwrap_or(0.0);
-        let [first, second, third] = *reading;
+        let [first_coordinate, second_coordinate, third_coordinate] = *reading;
         if settings.model == Model::Velocity {
             let fitted_model = VelocityModel {
                 alphas: VelocityAlphas(std::array::from_fn(inflated_alpha)),
                 noise: settings.noise,
             };
-            let command = VelocityCmd { v: first, omega: second, dt: third };
+            let command = VelocityCmd { v: first_coordinate, omega: second_coordinate, dt: third_coordinate };
             return fitted_model.apply_noise(&command, &SE2::identity(), unit_noise);
         }
-        let reading = OdomDelta { rot1: first, trans: second, rot2: third };
+        let reading = OdomDelta { rot1: first_coordinate, trans: second_coordinate, rot2: third_coordinate };
         let alphas: RuleAlphas = std::array::from_fn(inflated_alpha);
         let [.., end_pose] = settings
             .rule
@@ -231,8 +231,8 @@ impl AlphaCalibrator {
     pub fn nearest(&self, point: [f64; 2], radius: f64) -> Option<usize> {
         let corrected_errors = &self.calibration().corrected;
         let distance_to_path_of = |leg: &Leg| {
-            let [from, to] = leg.reference.map(|pose| (pose * corrected_errors.base()).position());
-            Segment { from, to }.distance_to_point(point)
+            let [leg_start, leg_end] = leg.reference.map(|pose| (pose * corrected_errors.base()).position());
+            Segment { from: leg_start, to: leg_end }.distance_to_point(point)
         };
         let path_distances = self.legs().iter().map(distance_to_path_of).enumerate();
         path_distances
@@ -310,14 +310,14 @@ fn create_panel(
         // of the diagnostics counts these legs.
         .filter(|(observation, _)| !observation.moves_sideways(model))
         .map(|(observation, fit)| {
-            let coefficient = observation.coefficients[component][position_in_component];
+            let alpha_coefficient = observation.coefficients[component][position_in_component];
             let total_variance = fit.stds[component] * fit.stds[component];
-            let variance_from_other_noise = total_variance - slope.unwrap_or(0.0) * coefficient;
+            let variance_from_other_noise = total_variance - slope.unwrap_or(0.0) * alpha_coefficient;
             let squared_innovation =
                 fit.standardized[component] * fit.standardized[component] * total_variance;
             // The square of a normal variate of variance v has variance 2v².
             [
-                coefficient,
+                alpha_coefficient,
                 squared_innovation - variance_from_other_noise,
                 2.0 * total_variance * total_variance,
             ]

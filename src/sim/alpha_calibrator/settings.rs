@@ -66,8 +66,8 @@ settings! {
 
 impl Settings {
     /// Copies the settings on which the fit does not depend: inflation, noise distribution and seed of the predicted outcomes.
-    pub(super) fn copy_prediction_settings(&mut self, other: &Self) {
-        let Self { inflation, noise, seed, .. } = *other;
+    pub(super) fn copy_prediction_settings(&mut self, other_settings: &Self) {
+        let Self { inflation, noise, seed, .. } = *other_settings;
         *self = Self { inflation, noise, seed, ..*self };
     }
 
@@ -96,7 +96,7 @@ impl Settings {
             model: self.model(),
             legs: self.leg_length(),
             outliers: self.outliers,
-            correct: is_corrected.map(|corrected| if corrected { None } else { Some(false) }),
+            correct: is_corrected.map(|should_correct| if should_correct { None } else { Some(false) }),
             position_std: none_unless_positive(self.position_std),
             yaw_std: none_unless_positive(self.yaw_std),
         }
@@ -136,7 +136,7 @@ impl SettingRules for Settings {
             return Ok(());
         }
         let allowed_rules = if self.is_omnidirectional() { "omni" } else { "thrun, nav2 or beluga" };
-        let allowed = AllowedValues::Keyword { given: self.rule.get(), allowed: allowed_rules };
-        Err(SettingsError { key: "rule".to_owned(), value: f64::NAN, allowed })
+        let allowed_values = AllowedValues::Keyword { given: self.rule.get(), allowed: allowed_rules };
+        Err(SettingsError { key: "rule".to_owned(), value: f64::NAN, allowed: allowed_values })
     }
 }

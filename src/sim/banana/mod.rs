@@ -137,10 +137,10 @@ cloud_simulation!(BananaMachine);
 
 impl BananaMachine {
     fn empty(settings: Settings) -> Result<Self, SettingsError> {
-        let drive = NoisyDrive::new(&settings.polar_motion(&settings.command));
-        let mut cloud = Cloud::new(settings.seed, settings.noise, drive);
+        let noisy_drive = NoisyDrive::new(&settings.polar_motion(&settings.command));
+        let mut cloud = Cloud::new(settings.seed, settings.noise, noisy_drive);
         cloud.reserve(settings.samples).map_err(|_| SettingsError::out_of_memory(settings.samples))?;
-        let cloud_stats = cloud.drive_and_summarize(settings.seed, settings.noise, drive, 0);
+        let cloud_stats = cloud.drive_and_summarize(settings.seed, settings.noise, noisy_drive, 0);
         let stats = Stats::of_cloud(0, &cloud_stats, DefinedCoordinates { pose: false, arc: false });
         Ok(Self { settings, cloud, stats, picture: Vec::new() })
     }
@@ -155,11 +155,11 @@ impl BananaMachine {
         Ok(())
     }
 
-    fn show_samples(&mut self, count: usize) {
+    fn show_samples(&mut self, sample_count: usize) {
         let Settings { seed, noise, command, .. } = self.settings;
         let drive = NoisyDrive::new(&self.settings.polar_motion(&command));
-        let cloud_stats = self.cloud.drive_and_summarize(seed, noise, drive, count);
-        self.stats = Stats::of_cloud(count, &cloud_stats, self.defined_coordinates());
+        let cloud_stats = self.cloud.drive_and_summarize(seed, noise, drive, sample_count);
+        self.stats = Stats::of_cloud(sample_count, &cloud_stats, self.defined_coordinates());
     }
 
     /// Returns the number of samples that can be added within a few milliseconds. Adding a block needs new sums over all samples. Therefore
@@ -273,9 +273,9 @@ impl BananaMachine {
     fn exact_column(&self) -> TableColumn {
         let (ExactMoments { mean, cov, cross_track_skew }, exact_gain) =
             (self.exact_moments(), self.exact_gain());
-        let ellipse = Ellipse::from_moments(&CartesianMoments { mean, cov });
-        let contour = ExponentialContour::new(&exact_gain.exponential, &START_POSE);
-        let area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
+        let exact_ellipse = Ellipse::from_moments(&CartesianMoments { mean, cov });
+        let exact_contour = ExponentialContour::new(&exact_gain.exponential, &START_POSE);
+        let area_ratio = exact_contour.area_ratio(&exact_ellipse, OUTLINE_SEGMENTS);
         TableColumn { mean, cov, cross_track_skew, likelihood_gain: exact_gain.value, area_ratio }
     }
 
@@ -362,12 +362,12 @@ impl BananaMachine {
     }
 
     /// Returns the shown sample nearest to a point of the picture, inside the ellipse of the given radii around it.
-    pub fn nearest(&self, morph: f64, target: [f64; 2], radii: [f64; 2]) -> Option<usize> {
+    pub fn nearest(&self, morph: f64, target_point: [f64; 2], search_radii: [f64; 2]) -> Option<usize> {
         let points_of_group = |[x, y]: [f64x4; 2]| {
             let (x, y) = (x.to_array(), y.to_array());
             (0..LANE_COUNT).map(move |lane| [x[lane], y[lane]])
         };
-        nearest_index(self.cloud.point_groups(morph).flat_map(points_of_group), target, radii)
+        nearest_index(self.cloud.point_groups(morph).flat_map(points_of_group), target_point, search_radii)
     }
 }
 

@@ -77,11 +77,11 @@ impl Draws {
     /// `sample_count`. All robots of a cloud of up to 2048 are in the subsample.
     pub fn weighted_subsample(&self, sample_count: usize) -> impl Iterator<Item = (&[f64x4; 3], f64x4)> {
         let group_count = sample_count.div_ceil(LANE_COUNT);
-        self.unit_noise[..group_count].iter().enumerate().filter_map(move |(group, noise)| {
+        self.unit_noise[..group_count].iter().enumerate().filter_map(move |(group_index, noise)| {
             let group_limit = subsample_group_limit(noise);
-            let weight = f64x4::splat((group_count as f64 / group_limit as f64).max(1.0));
-            (group < group_limit)
-                .then(|| (noise, weight & first_lanes_mask(sample_count - LANE_COUNT * group)))
+            let robot_weight = f64x4::splat((group_count as f64 / group_limit as f64).max(1.0));
+            (group_index < group_limit)
+                .then(|| (noise, robot_weight & first_lanes_mask(sample_count - LANE_COUNT * group_index)))
         })
     }
 

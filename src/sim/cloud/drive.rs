@@ -36,15 +36,15 @@ pub struct FourMotions {
 }
 
 impl NoisyDrive {
-    pub fn new(motion: &PolarMotion) -> Self {
-        let PolarMotion { is_arc, length, bearing, last_turn, .. } = *motion;
+    pub fn new(polar_motion: &PolarMotion) -> Self {
+        let PolarMotion { is_arc, length, bearing, last_turn, .. } = *polar_motion;
         let noise_sign = if is_arc { 1.0 } else { -1.0 };
-        let half_commanded_turn = 0.5 * motion.commanded_turn;
+        let half_commanded_turn = 0.5 * polar_motion.commanded_turn;
         Self {
             is_arc,
             length: [length[0], noise_sign * length[1]],
             bearing: [bearing[0], noise_sign * bearing[1]],
-            bearing_weight: 0.5 * motion.turn_per_bearing(),
+            bearing_weight: 0.5 * polar_motion.turn_per_bearing(),
             half_heading_offset: [0.5 * last_turn[0], noise_sign * 0.5 * last_turn[1]],
             half_commanded_turn,
             short_formula_interval: short_formula_interval(half_commanded_turn),
@@ -165,7 +165,7 @@ impl NoisyDrive {
         let (poses, arcs) = self.coordinates_of_four(&[f64x4::splat(0.0); 3]);
         let mut reference_coordinates =
             [poses.x, poses.y, poses.along, poses.lateral, poses.half_heading, arcs.length, arcs.half_turn]
-                .map(|lanes| lanes.to_array()[0]);
+                .map(|coordinate_lanes| coordinate_lanes.to_array()[0]);
         if self.is_arc {
             // The length and half turn of the command are used, because inverting the end pose would change their last bits.
             [reference_coordinates[5], reference_coordinates[6]] = [self.length[0], self.bearing[0]];
@@ -196,9 +196,9 @@ pub const MAX_SHORT_FORMULA_ANGLE: f64 = FRAC_PI_2 * (1.0 - 1e-12);
 
 /// Returns the middle and half the width (rad) of the interval of half turns that are within π/2 of 0 and of `half_commanded_turn`.
 fn short_formula_interval(half_commanded_turn: f64) -> [f64; 2] {
-    let (low, high) = (
+    let (interval_start, interval_end) = (
         (half_commanded_turn - MAX_SHORT_FORMULA_ANGLE).max(-MAX_SHORT_FORMULA_ANGLE),
         (half_commanded_turn + MAX_SHORT_FORMULA_ANGLE).min(MAX_SHORT_FORMULA_ANGLE),
     );
-    [0.5 * (low + high), 0.5 * (high - low)]
+    [0.5 * (interval_start + interval_end), 0.5 * (interval_end - interval_start)]
 }

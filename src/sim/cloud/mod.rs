@@ -62,8 +62,8 @@ impl Cloud {
         }
         let regular_sums = drive.sums_of_regular_arc_deviations(first_pass.unit_noise.totals());
         let mut second_pass = SecondPass::new(first_pass.moments(shown_count, regular_sums), &START_POSE);
-        for block in sample_blocks(shown_count) {
-            for (group_range, lane_mask) in block {
+        for sample_block in sample_blocks(shown_count) {
+            for (group_range, lane_mask) in sample_block {
                 let noise = &self.draws.unit_noise[group_range.clone()];
                 add_to_second_pass(&drive, noise, &self.positions[group_range], lane_mask, &mut second_pass);
             }
@@ -79,13 +79,13 @@ impl Cloud {
     /// Draws the noise of all samples, drives them, and adds them to the sums of the first pass.
     fn run_first_pass(&mut self, mut first_pass: FirstPass) -> FirstPass {
         let Self { draws, drive, positions, shown_count } = self;
-        for block in sample_blocks(*shown_count) {
-            let end_group = block[1].0.end;
+        for sample_block in sample_blocks(*shown_count) {
+            let end_group = sample_block[1].0.end;
             draws.extend_to(end_group * LANE_COUNT);
             if positions.len() < end_group {
                 positions.resize(end_group, [f64x4::splat(0.0); 2]);
             }
-            for (group_range, lane_mask) in block {
+            for (group_range, lane_mask) in sample_block {
                 let noise = &draws.unit_noise[group_range.clone()];
                 add_to_first_pass(drive, noise, &mut positions[group_range], lane_mask, &mut first_pass);
             }
@@ -96,26 +96,26 @@ impl Cloud {
 
     #[inline(always)]
     pub fn pose(&self, sample_index: usize) -> SE2 {
-        let [group, lane] = [sample_index / LANE_COUNT, sample_index % LANE_COUNT];
-        let [x, y] = self.positions[group].map(|lanes| lanes.to_array()[lane]);
-        let half_heading = self.drive.motions(&self.draws.unit_noise[group]).half_heading;
-        SE2::new(x, y, 2.0 * half_heading.to_array()[lane])
+        let [group_index, lane_index] = [sample_index / LANE_COUNT, sample_index % LANE_COUNT];
+        let [x, y] = self.positions[group_index].map(|lanes| lanes.to_array()[lane_index]);
+        let half_heading = self.drive.motions(&self.draws.unit_noise[group_index]).half_heading;
+        SE2::new(x, y, 2.0 * half_heading.to_array()[lane_index])
     }
 
-    /// Returns the points of the samples in a picture, in groups of four. `morph` is 0 for positions (x, y), and 1 for exponential
+    /// Returns the points of the samples in a picture, in groups of four. `morph_fraction` is 0 for positions (x, y), and 1 for exponential
     /// coordinates (along, heading). In the last group, lanes without a sample are infinitely far away.
     #[inline(always)]
-    pub fn point_groups(&self, morph: f64) -> impl Iterator<Item = [f64x4; 2]> {
-        let points_of_group = move |group: usize| match morph {
-            0.0 => self.positions[group],
+    pub fn point_groups(&self, morph_fraction: f64) -> impl Iterator<Item = [f64x4; 2]> {
+        let points_of_group = move |group_index: usize| match morph_fraction {
+            0.0 => self.positions[group_index],
             1.0 => {
-                let motions = self.drive.motions(&self.draws.unit_noise[group]);
-                let poses = self.drive.poses(&motions, &self.positions[group]);
+                let motions = self.drive.motions(&self.draws.unit_noise[group_index]);
+                let poses = self.drive.poses(&motions, &self.positions[group_index]);
                 [poses.along, poses.half_heading * 2.0]
             }
             _ => {
-                let motions = self.drive.motions(&self.draws.unit_noise[group]);
-                self.drive.morphed_points(&motions, &self.positions[group], morph)
+                let motions = self.drive.motions(&self.draws.unit_noise[group_index]);
+                self.drive.morphed_points(&motions, &self.positions[group_index], morph_fraction)
             }
         };
         let (full_groups, remaining) = (self.shown_count / LANE_COUNT, self.shown_count % LANE_COUNT);
@@ -143,16 +143,16 @@ fn sample_blocks(sample_count: usize) -> impl Iterator<Item = [(Range<usize>, f6
 fn add_to_first_pass(
     drive: &NoisyDrive,
     noise: &[[f64x4; 3]],
-    ends: &mut [[f64x4; 2]],
+    end_points: &mut [[f64x4; 2]],
     lane_mask: f64x4,
     first_pass: &mut FirstPass,
 ) {
     let is_full_group = lane_mask.all();
-    for (noise, ends) in noise.iter().zip(ends) {
+    for (noise, end_points) in noise.iter().zip(end_points) {
         let motions = drive.motions(noise);
         let (arcs, is_regular);
-        (*ends, arcs, is_regular) = drive.end_points(&motions);
-        let poses = drive.poses(&motions, ends);
+        (*end_points, arcs, is_regular) = drive.end_points(&motions);
+        let poses = drive.poses(&motions, end_points);
         first_pass.add(&poses, [noise[0], noise[1]], lane_mask);
         if is_full_group {
             first_pass.multiply_jacobians(&poses, &arcs);
@@ -170,11 +170,11 @@ fn add_to_first_pass(
 fn add_to_second_pass(
     drive: &NoisyDrive,
     noise: &[[f64x4; 3]],
-    ends: &[[f64x4; 2]],
+    end_points: &[[f64x4; 2]],
     lane_mask: f64x4,
     second_pass: &mut SecondPass,
 ) {
-    for (noise, ends) in noise.iter().zip(ends) {
-        second_pass.add(&drive.poses(&drive.motions(noise), ends), lane_mask);
+    for (noise, end_points) in noise.iter().zip(end_points) {
+        second_pass.add(&drive.poses(&drive.motions(noise), end_points), lane_mask);
     }
 }

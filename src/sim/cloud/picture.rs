@@ -11,10 +11,10 @@ pub type Ramp = [[u8; 4]; RAMP_STEP_COUNT];
 pub const RAMP_STEP_COUNT: usize = 256;
 
 /// Counts the shown samples in each cell, row by row from the top (largest second coordinate). Samples outside of the grid are not counted.
-pub fn count_samples_in_cells(cloud: &Cloud, morph: f64, grid: &ViewGrid) -> Vec<u32> {
+pub fn count_samples_in_cells(cloud: &Cloud, morph_fraction: f64, grid: &ViewGrid) -> Vec<u32> {
     let (ViewGrid { min_corner, max_corner, .. }, cells_per_unit) = (*grid, grid.cells_per_unit());
     let mut cell_counts = vec![0; grid.columns * grid.rows];
-    cloud.point_groups(morph).for_each(|[x, y]| {
+    cloud.point_groups(morph_fraction).for_each(|[x, y]| {
         let column = ((x - min_corner[0]) * cells_per_unit[0]).floor().to_array();
         let row = ((max_corner[1] - y) * cells_per_unit[1]).floor().to_array();
         for cell_index in (0..LANE_COUNT).filter_map(|lane| grid.cell_index(column[lane], row[lane])) {
@@ -28,18 +28,18 @@ pub fn count_samples_in_cells(cloud: &Cloud, morph: f64, grid: &ViewGrid) -> Vec
 /// in a cell selects the ramp. Of several equally frequent kinds, the last one counts. The colour is ramp[255·√(count/max_count)], where
 /// `count` is the number of samples of all kinds. With the square root the sparse ends of a cloud stay visible. Empty cells are
 /// transparent.
-pub fn paint_cell_counts<const K: usize>(counts: &[[u32; K]], ramps: &[Ramp; K]) -> Vec<[u8; 4]> {
+pub fn paint_cell_counts<const K: usize>(counts_of_cells: &[[u32; K]], ramps: &[Ramp; K]) -> Vec<[u8; 4]> {
     let total_count_of = |kind_counts: &[u32; K]| kind_counts.iter().sum::<u32>();
-    let max_count = counts.iter().map(total_count_of).max().unwrap_or(0);
+    let max_count = counts_of_cells.iter().map(total_count_of).max().unwrap_or(0);
     let colour_of = |kind_counts: &[u32; K]| {
-        let count = total_count_of(kind_counts);
-        if count == 0 {
+        let total_count = total_count_of(kind_counts);
+        if total_count == 0 {
             return [0; 4];
         }
-        let most_frequent_kind = (0..K).max_by_key(|kind| kind_counts[*kind]).unwrap_or(0);
-        ramps[most_frequent_kind][ramp_step(count, max_count)]
+        let most_frequent_kind = (0..K).max_by_key(|kind_index| kind_counts[*kind_index]).unwrap_or(0);
+        ramps[most_frequent_kind][ramp_step(total_count, max_count)]
     };
-    counts.iter().map(colour_of).collect()
+    counts_of_cells.iter().map(colour_of).collect()
 }
 
 /// Returns the index in a colour ramp for a count: 255·√(count/max_count).

@@ -44,19 +44,19 @@ impl ViewGrid {
     }
 }
 
-/// Returns the index of the point nearest to `target` inside the ellipse around it, in units of the ellipse's semi-axes `radii`.
+/// Returns the index of the point nearest to `target_point` inside the ellipse around it, in units of the ellipse's semi-axes `search_radii`.
 pub fn nearest_index(
-    points: impl IntoIterator<Item = [f64; 2]>,
-    target: [f64; 2],
-    radii: [f64; 2],
+    candidate_points: impl IntoIterator<Item = [f64; 2]>,
+    target_point: [f64; 2],
+    search_radii: [f64; 2],
 ) -> Option<usize> {
     let squared_distance_to = |[x, y]: [f64; 2]| {
-        let (dx, dy) = ((x - target[0]) / radii[0], (y - target[1]) / radii[1]);
+        let (dx, dy) = ((x - target_point[0]) / search_radii[0], (y - target_point[1]) / search_radii[1]);
         dx * dx + dy * dy
     };
-    let squared_distances = points.into_iter().map(squared_distance_to).enumerate();
+    let squared_distances = candidate_points.into_iter().map(squared_distance_to).enumerate();
     squared_distances
-        .filter(|(_, distance)| *distance <= 1.0)
+        .filter(|(_, squared_distance)| *squared_distance <= 1.0)
         .min_by(|(_, a), (_, b)| a.total_cmp(b))
         .map(|(index, _)| index)
 }

@@ -128,13 +128,13 @@ impl DeadReckoning {
         Ok(())
     }
 
-    fn show_samples(&mut self, count: usize) {
-        if count == self.shown_count {
+    fn show_samples(&mut self, sample_count: usize) {
+        if sample_count == self.shown_count {
             return;
         }
-        self.rollouts.drive_blocks_to(count);
-        self.shown_count = count;
-        self.measured_moments = self.rollouts.measured_moments(count);
+        self.rollouts.drive_blocks_to(sample_count);
+        self.shown_count = sample_count;
+        self.measured_moments = self.rollouts.measured_moments(sample_count);
         self.comparisons =
             compare_recursions(&self.settings, &self.predicted_covariances, &self.measured_moments);
     }
@@ -193,10 +193,10 @@ impl DeadReckoning {
         (robot_index < self.shown_count).then(|| self.rollouts.rollout(robot_index))
     }
 
-    /// Returns the robot in the picture that is nearest to a point (m) after the selected step, within `radius`.
-    pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
-        let positions = self.poses(self.settings.step).iter().map(|[x, y, _]| [*x, *y]);
-        nearest_index(positions, target, [radius, radius])
+    /// Returns the robot in the picture that is nearest to a point (m) after the selected step, within `search_radius`.
+    pub fn nearest(&self, target_point: [f64; 2], search_radius: f64) -> Option<usize> {
+        let robot_positions = self.poses(self.settings.step).iter().map(|[x, y, _]| [*x, *y]);
+        nearest_index(robot_positions, target_point, [search_radius, search_radius])
     }
 
     /// Returns the moments and predicted covariances after the selected step, and for each recursion the steps at which a predicted
@@ -221,24 +221,24 @@ impl DeadReckoning {
         let [alpha1, _, alpha3, ..] = alphas;
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
         let [first_tenth, last_tenth] = LOG10_DURATIONS_IN_TENTHS;
-        let durations: Vec<f64> =
+        let drive_durations: Vec<f64> =
             (first_tenth..=last_tenth).map(|i| libm::pow(10.0, f64::from(i) / 10.0)).collect();
-        let exact_variances = durations.iter().map(|dt| {
-            let motion = PolarMotion::of_velocity(&model, &VelocityCmd { v, omega: 0.0, dt: *dt });
-            let cov = ExactMoments::new(&motion).cov;
+        let exact_variances = drive_durations.iter().map(|dt| {
+            let straight_motion = PolarMotion::of_velocity(&model, &VelocityCmd { v, omega: 0.0, dt: *dt });
+            let cov = ExactMoments::new(&straight_motion).cov;
             (cov[(0, 0)], cov[(1, 1)])
         });
-        let (along, across) = exact_variances.unzip();
+        let (along_variances, across_variances) = exact_variances.unzip();
         let crossing_time = 2.0 / v.abs() * (alpha1 / alpha3).sqrt();
         StraightGrowth {
-            along,
-            across,
-            along_first_order: durations.iter().map(|dt| alpha1 * v * v * dt * dt).collect(),
+            along: along_variances,
+            across: across_variances,
+            along_first_order: drive_durations.iter().map(|dt| alpha1 * v * v * dt * dt).collect(),
             // To first order, an arc of length vΔt that turns by a small φ ends ½vΔt·φ to the side.
-            across_first_order: (durations.iter())
+            across_first_order: (drive_durations.iter())
                 .map(|dt| alpha3 * v * v * dt * dt * (0.5 * v * dt) * (0.5 * v * dt))
                 .collect(),
-            durations,
+            durations: drive_durations,
             crossing: (crossing_time.is_finite() && crossing_time > 0.0).then_some(crossing_time),
         }
     }
@@ -280,9 +280,9 @@ impl DeadReckoning {
         let (sin, cos) = libm::sincos(nominal_pose.theta());
         let heading_rotation = Matrix2::new(cos, -sin, sin, cos);
         let position_cov = heading_rotation * cov.fixed_view::<2, 2>(0, 0) * heading_rotation.transpose();
-        let ellipse = Ellipse::new(nominal_pose.position().into(), position_cov);
+        let position_ellipse = Ellipse::new(nominal_pose.position().into(), position_cov);
         Some(StepOutlines {
-            ellipse: ellipse.boundary(OUTLINE_SEGMENTS),
+            ellipse: position_ellipse.boundary(OUTLINE_SEGMENTS),
             exponential: ExponentialContour::new(&xi_moments, nominal_pose).boundary(OUTLINE_SEGMENTS),
             predicted: xi_ellipse_outline(&Vector3::zeros(), &cov),
             measured,
@@ -295,7 +295,7 @@ fn compare_recursions(
     predicted: &[Vec<Option<Matrix3<f64>>>; 3],
     measured: &[MeasuredMoments],
 ) -> [RecursionComparison; 3] {
-    predicted.each_ref().map(|covs| RecursionComparison::new(settings, covs, measured))
+    predicted.each_ref().map(|predicted_covs| RecursionComparison::new(settings, predicted_covs, measured))
 }
 
 fn evaluate_recursions<T>(value_of: impl Fn(Compounding) -> T) -> ByRecursion<T> {
@@ -374,14 +374,14 @@ fn propagate_covariances(settings: &Settings, recursion: Compounding) -> Vec<Opt
     let twist = TangentNoiseModel::twist(&settings.command);
     // `ok` hides no error, because all allowed settings have finite variances of 0 or more.
     let tangent_noise = TangentNoiseModel::from_velocity(&settings.model(), &settings.command).ok();
-    let mut covariance = Some(Matrix3::zeros());
+    let mut predicted_cov = Some(Matrix3::zeros());
     (0..settings.steps)
         .map(|_| {
-            covariance = covariance
+            predicted_cov = predicted_cov
                 .zip(tangent_noise)
                 .map(|(sigma, tangent_noise)| tangent_noise.propagate(&sigma, &twist, recursion))
                 .filter(|next_sigma| covariance_root(next_sigma).is_ok());
-            covariance
+            predicted_cov
         })
         .collect()
 }

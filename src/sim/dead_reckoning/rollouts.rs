@@ -102,17 +102,17 @@ impl StepInErrorFrame {
 
     /// Drives four robots by one step, and returns their exponential coordinates ξ.
     #[inline(always)]
-    fn drive_one_step(&self, robots: &mut ErrorPoses, unit_noise: &[f64x4; 3]) -> [f64x4; 3] {
+    fn drive_one_step(&self, error_poses: &mut ErrorPoses, unit_noise: &[f64x4; 3]) -> [f64x4; 3] {
         let length = unit_noise[0] * self.length[1] + self.length[0];
         let turn_noise = unit_noise[1] * self.half_turn[1];
         let SinCos { sinc, sin, cos } = self.trigonometry.sin_cos(turn_noise + self.half_turn[0]);
         let chord_length = length * sinc;
         // The bearing of the chord is the heading of the robot plus half the turn of its arc.
-        let heading_sin = 2.0 * robots.sin * robots.cos;
-        let heading_cos = 1.0 - 2.0 * robots.sin * robots.sin;
-        let x = robots.x + chord_length * (heading_cos * cos - heading_sin * sin) - self.end[0];
-        let y = robots.y + chord_length * (heading_sin * cos + heading_cos * sin) - self.end[1];
-        let half_turn = robots.half_heading + (turn_noise + unit_noise[2] * self.half_last_turn_std);
+        let heading_sin = 2.0 * error_poses.sin * error_poses.cos;
+        let heading_cos = 1.0 - 2.0 * error_poses.sin * error_poses.sin;
+        let x = error_poses.x + chord_length * (heading_cos * cos - heading_sin * sin) - self.end[0];
+        let y = error_poses.y + chord_length * (heading_sin * cos + heading_cos * sin) - self.end[1];
+        let half_turn = error_poses.half_heading + (turn_noise + unit_noise[2] * self.half_last_turn_std);
         let is_outside_short_formula =
             is_any_lane_set(half_turn.abs().simd_gt(f64x4::splat(MAX_SHORT_FORMULA_ANGLE)));
         let (half_heading, SinCos { sinc, sin, cos }) = if is_outside_short_formula {
@@ -122,7 +122,7 @@ impl StepInErrorFrame {
         };
         let h_cot_h = cos / sinc;
         let (x, y) = (x * self.cos + y * self.sin, y * self.cos - x * self.sin);
-        *robots = ErrorPoses { x, y, half_heading, sin, cos };
+        *error_poses = ErrorPoses { x, y, half_heading, sin, cos };
         [h_cot_h * x + half_heading * y, h_cot_h * y - half_heading * x, half_heading * 2.0]
     }
 }
@@ -182,10 +182,10 @@ impl Rollouts {
     #[inline(never)]
     fn drive_next_block(&mut self, robot_count: usize, sums: &mut [CompensatedSums<SUMMED_TERM_COUNT>]) {
         let Self { step, block_rng, driven_count, nominal_poses, poses, .. } = self;
-        let mut block = RobotBlock::new(block_rng.clone());
+        let mut robot_block = RobotBlock::new(block_rng.clone());
         for (k, (sums, nominal_poses)) in sums.iter_mut().zip(nominal_poses).enumerate() {
-            block.drive_one_step(step);
-            for (i, xi) in block.noise_or_xi.iter().enumerate() {
+            robot_block.drive_one_step(step);
+            for (i, xi) in robot_block.noise_or_xi.iter().enumerate() {
                 let remaining_lanes = robot_count.saturating_sub(LANE_COUNT * i);
                 if remaining_lanes >= LANE_COUNT {
                     add_to_sums(sums, *xi);
@@ -198,7 +198,7 @@ impl Rollouts {
             let robot_poses =
                 poses[k * MAX_SHOWN_ROBOTS..][..MAX_SHOWN_ROBOTS].iter_mut().skip(*driven_count);
             for (i, pose) in robot_poses.take(ROLLOUTS_PER_BLOCK).enumerate() {
-                *pose = block.groups[i / LANE_COUNT].pose(i % LANE_COUNT, nominal_poses);
+                *pose = robot_block.groups[i / LANE_COUNT].pose(i % LANE_COUNT, nominal_poses);
             }
         }
     }
@@ -212,11 +212,11 @@ impl Rollouts {
     pub fn rollout(&self, robot_index: usize) -> Vec<[f64; 3]> {
         let mut block_rng = Xoshiro256PlusPlus::seed_from_u64(self.seed);
         (0..robot_index / ROLLOUTS_PER_BLOCK).for_each(|_| block_rng.jump());
-        let (group, lane) = (robot_index % ROLLOUTS_PER_BLOCK / LANE_COUNT, robot_index % LANE_COUNT);
-        let mut block = RobotBlock::new(block_rng);
+        let (group_index, lane) = (robot_index % ROLLOUTS_PER_BLOCK / LANE_COUNT, robot_index % LANE_COUNT);
+        let mut robot_block = RobotBlock::new(block_rng);
         let pose_after = |nominal_pose| {
-            block.drive_one_step(&self.step);
-            block.groups[group].pose(lane, nominal_pose)
+            robot_block.drive_one_step(&self.step);
+            robot_block.groups[group_index].pose(lane, nominal_pose)
         };
         self.nominal_poses.iter().map(pose_after).collect()
     }
@@ -241,8 +241,8 @@ struct RobotBlock {
 
 impl RobotBlock {
     fn new(rng: Xoshiro256PlusPlus) -> Self {
-        let [zero, one] = [0.0, 1.0].map(f64x4::splat);
-        let zero_errors = ErrorPoses { x: zero, y: zero, half_heading: zero, sin: zero, cos: one };
+        let [zero, one_lanes] = [0.0, 1.0].map(f64x4::splat);
+        let zero_errors = ErrorPoses { x: zero, y: zero, half_heading: zero, sin: zero, cos: one_lanes };
         Self { rng, groups: [zero_errors; GROUPS_PER_BLOCK], noise_or_xi: [[zero; 3]; GROUPS_PER_BLOCK] }
     }
 

@@ -36,8 +36,8 @@ pub enum AllowedValues {
 
 impl SettingsError {
     /// Returns the error for a number of samples that need more memory than there is.
-    pub(crate) fn out_of_memory(samples: usize) -> Self {
-        Self { key: "samples".to_owned(), value: samples as f64, allowed: AllowedValues::FitsInMemory }
+    pub(crate) fn out_of_memory(sample_count: usize) -> Self {
+        Self { key: "samples".to_owned(), value: sample_count as f64, allowed: AllowedValues::FitsInMemory }
     }
 
     fn message(&self) -> String {

@@ -28,7 +28,7 @@ pub const MAX_SEED: u64 = (1 << 53) - 1;
 pub struct Declaration {
     /// Name of the setting in attributes and states.
     pub key: &'static str,
-    /// Name of another setting that this setting sets in another form (a noise level sets `alphas`); "" if there is none.
+    /// Name of another setting that this setting sets in another form, if there is one: a noise level sets `alphas`.
     pub of: Option<&'static str>,
     // WebAssembly modules omit the descriptions, which no page shows.
     /// Description of the setting.
@@ -125,11 +125,11 @@ impl Serialize for Setting<'_> {
             Self::Numbers(numbers, _) => numbers.serialize(serializer),
             Self::Level(level, _) => level.get().serialize(serializer),
             Self::Group(members, numbers) => {
-                let mut object = serializer.serialize_struct("", numbers.len())?;
+                let mut serialized_object = serializer.serialize_struct("", numbers.len())?;
                 for (member, number) in members.iter().zip(numbers) {
-                    object.serialize_field(member.declaration.key, number)?;
+                    serialized_object.serialize_field(member.declaration.key, number)?;
                 }
-                object.end()
+                serialized_object.end()
             }
         }
     }
@@ -184,10 +184,10 @@ pub trait KeywordSetting {
 
 impl<T: HasKeywords> KeywordSetting for T {
     fn get(&self) -> &'static str {
-        let discriminant = std::mem::discriminant(self);
+        let enum_discriminant = std::mem::discriminant(self);
         T::KEYWORDS
             .iter()
-            .find(|(_, value)| std::mem::discriminant(value) == discriminant)
+            .find(|(_, value)| std::mem::discriminant(value) == enum_discriminant)
             .map_or("", |(keyword, _)| keyword)
     }
 
@@ -270,21 +270,21 @@ pub trait DeclaredSettings: Copy + Default + Serialize {
     /// Names of the settings, in the order of declaration.
     const KEYS: &'static [&'static str];
 
-    /// Calls `visit` for each setting, in the order of declaration.
-    fn visit_settings(&mut self, visit: &mut SettingVisitor);
+    /// Calls `visit_setting` for each setting, in the order of declaration.
+    fn visit_settings(&mut self, visit_setting: &mut SettingVisitor);
 
-    /// Calls `visit` for each setting, in the order of declaration, until it returns an error.
+    /// Calls `visit_setting` for each setting, in the order of declaration, until it returns an error.
     ///
     /// # Errors
-    /// The error of `visit`.
+    /// The error of `visit_setting`.
     fn try_visit_settings<E>(
         &mut self,
-        mut visit: impl FnMut(&'static Declaration, Setting) -> Result<(), E>,
+        mut visit_setting: impl FnMut(&'static Declaration, Setting) -> Result<(), E>,
     ) -> Result<(), E> {
         let mut visit_result = Ok(());
         self.visit_settings(&mut |declaration, setting| {
             if visit_result.is_ok() {
-                visit_result = visit(declaration, setting);
+                visit_result = visit_setting(declaration, setting);
             }
         });
         visit_result

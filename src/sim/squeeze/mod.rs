@@ -146,11 +146,11 @@ impl MapSqueeze {
         let model = conditioned_model(settings, plan, settings.sampler);
         let attempt_driver = AttemptDriver::new(&model, settings, draws);
         while attempts.len() < target_count && !tally.gave_up {
-            attempt_driver.make_next_attempts(attempts.len()..target_count, |attempt, cost| {
+            attempt_driver.make_next_attempts(attempts.len()..target_count, |next_attempt, cost| {
                 tally.cost.add(cost);
-                tally.accepted += usize::from(attempt.accepted);
-                tally.through_wall += usize::from(attempt.is_through_wall());
-                attempts.push(attempt);
+                tally.accepted += usize::from(next_attempt.accepted);
+                tally.through_wall += usize::from(next_attempt.is_through_wall());
+                attempts.push(next_attempt);
             });
             tally.gave_up = tally.cost.draws > max_draws(part_count * attempts.len());
         }
@@ -192,7 +192,7 @@ impl MapSqueeze {
     }
 
     /// Paints the density of the ends of the attempts shown, by [`Attempt::outcome_kind`]: see [`picture::paint_cell_counts`].
-    pub fn paint(&mut self, grid: &ViewGrid, ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> &[[u8; 4]] {
+    pub fn paint(&mut self, grid: &ViewGrid, colour_ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> &[[u8; 4]] {
         let (ViewGrid { min_corner, max_corner, .. }, cells_per_metre) = (*grid, grid.cells_per_unit());
         let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; grid.columns * grid.rows];
         for attempt in &self.attempts {
@@ -202,14 +202,14 @@ impl MapSqueeze {
                 cell_counts[cell_index][attempt.outcome_kind()] += 1;
             }
         }
-        self.picture = picture::paint_cell_counts(&cell_counts, ramps);
+        self.picture = picture::paint_cell_counts(&cell_counts, colour_ramps);
         &self.picture
     }
 
-    /// Returns the attempt that ends nearest to the point `target` (m), within `radius` (m).
-    pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
-        let positions = self.attempts.iter().map(|attempt| attempt.pose.position());
-        nearest_index(positions, target, [radius, radius])
+    /// Returns the attempt that ends nearest to the point `target_point` (m), within `search_radius` (m).
+    pub fn nearest(&self, target_point: [f64; 2], search_radius: f64) -> Option<usize> {
+        let end_positions = self.attempts.iter().map(|attempt| attempt.pose.position());
+        nearest_index(end_positions, target_point, [search_radius, search_radius])
     }
 
     /// Returns the arcs driven in an attempt that is shown.
@@ -290,18 +290,18 @@ js_structs! {
     }
 }
 
-/// Returns the 95 % interval of the fraction of which `successes` in `trials` were observed (Wilson, 1927), which is also valid at 0 and 1.
-pub fn wilson_interval(successes: usize, trials: usize) -> [f64; 2] {
-    let n = trials as f64;
-    let p = successes as f64 / n;
+/// Returns the 95 % interval of the fraction of which `success_count` in `trial_count` were observed (Wilson, 1927), which is also valid at 0 and 1.
+pub fn wilson_interval(success_count: usize, trial_count: usize) -> [f64; 2] {
+    let n = trial_count as f64;
+    let p = success_count as f64 / n;
     // 97.5 % quantile of the normal distribution. `quantile` takes the probability above the median.
     let z = NoiseKind::Normal.quantile(0.475);
     let (numerator, denominator) = (p + z * z / (2.0 * n), 1.0 + z * z / n);
     let half_width = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
     // Despite rounding, the interval of the fraction 0 begins at exactly 0, and that of the fraction 1 ends at exactly 1.
-    let lower = if successes == 0 { 0.0 } else { (numerator - half_width) / denominator };
-    let upper = if successes == trials { 1.0 } else { (numerator + half_width) / denominator };
-    if n > 0.0 { [lower, upper] } else { [0.0, 1.0] }
+    let lower_bound = if success_count == 0 { 0.0 } else { (numerator - half_width) / denominator };
+    let upper_bound = if success_count == trial_count { 1.0 } else { (numerator + half_width) / denominator };
+    if n > 0.0 { [lower_bound, upper_bound] } else { [0.0, 1.0] }
 }
 
 /// Number of kinds of outcomes, each with a colour ramp: rejected, accepted with a free path, and accepted through a wall.
@@ -364,26 +364,26 @@ impl<'a> AttemptDriver<'a> {
         }
     }
 
-    /// Makes the first attempts of the range `indices`: up to four in SIMD lanes, or one with the sub-stepped sampler. Calls `visit` with
+    /// Makes the first attempts of the range `attempt_indices`: up to four in SIMD lanes, or one with the sub-stepped sampler. Calls `visit` with
     /// each attempt and its cost.
     #[inline(always)]
-    fn make_next_attempts(&self, indices: Range<usize>, mut visit: impl FnMut(Attempt, Cost)) {
+    fn make_next_attempts(&self, attempt_indices: Range<usize>, mut visit: impl FnMut(Attempt, Cost)) {
         if let Sampler::SubStepped(_) = self.settings.sampler {
-            let (attempt, cost) = self.drive_parts(indices.start, &mut |_| ());
+            let (attempt, cost) = self.drive_parts(attempt_indices.start, &mut |_| ());
             return visit(attempt, cost);
         }
-        let conditioned = self.settings.conditioned;
-        let (group, first_lane) = (indices.start / LANE_COUNT, indices.start % LANE_COUNT);
-        let lane_range = first_lane..LANE_COUNT.min(first_lane + indices.len());
-        self.collision_tester.test_lanes(&self.draws.unit_noise[group], lane_range, |draw| {
-            let deciding_verdict = self.model.deciding_verdict(&draw);
+        let is_conditioned = self.settings.conditioned;
+        let (group, first_lane) = (attempt_indices.start / LANE_COUNT, attempt_indices.start % LANE_COUNT);
+        let lane_range = first_lane..LANE_COUNT.min(first_lane + attempt_indices.len());
+        self.collision_tester.test_lanes(&self.draws.unit_noise[group], lane_range, |tested_draw| {
+            let deciding_verdict = self.model.deciding_verdict(&tested_draw);
             let attempt = Attempt {
-                pose: draw.pose,
-                accepted: !conditioned || deciding_verdict.free,
-                end_free: draw.end_verdict.free,
-                path_free: draw.path_verdict.free,
+                pose: tested_draw.pose,
+                accepted: !is_conditioned || deciding_verdict.free,
+                end_free: tested_draw.end_verdict.free,
+                path_free: tested_draw.path_verdict.free,
             };
-            let wall_tests = if conditioned { deciding_verdict.wall_tests } else { 0 };
+            let wall_tests = if is_conditioned { deciding_verdict.wall_tests } else { 0 };
             visit(attempt, Cost { draws: 1, wall_tests });
         });
     }

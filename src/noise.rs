@@ -20,10 +20,7 @@ use wide::f64x4;
 pub struct Variance(pub f64);
 
 impl Variance {
-    /// Creates a variance, after checking that it is 0 or more.
-    ///
-    /// # Errors
-    /// [`NegativeVariance`] where `b2` is negative or not a number.
+    /// Creates a variance, after checking that it is 0 or more. Fails with [`NegativeVariance`] if `b2` is negative or not a number.
     pub fn new(b2: f64) -> Result<Self, NegativeVariance> {
         if b2 >= 0.0 { Ok(Self(b2)) } else { Err(NegativeVariance(b2)) }
     }
@@ -177,7 +174,7 @@ pub fn draw_centred_uniform<R: Rng + ?Sized>(rng: &mut R) -> f64 {
 pub(crate) fn draw_four_uniform_triples<R: Rng + ?Sized>(rng: &mut R) -> [f64x4; 3] {
     let mut uniform_triples = [[0.0; LANE_COUNT]; 3];
     for lane in 0..LANE_COUNT {
-        uniform_triples.iter_mut().for_each(|variate| variate[lane] = draw_centred_uniform(rng));
+        uniform_triples.iter_mut().for_each(|numbers| numbers[lane] = draw_centred_uniform(rng));
     }
     uniform_triples.map(f64x4::from)
 }

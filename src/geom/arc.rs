@@ -316,9 +316,12 @@ impl ArcPiece {
     /// Returns x and y of the points `s` metres after the middle of the piece.
     #[inline(always)]
     pub fn points_at(&self, s: f64x4) -> [f64x4; 2] {
-        let [ahead, left] = self.local_point(s);
+        let [ahead_offset, left] = self.local_point(s);
         let [cos, sin] = self.tangent;
-        [(ahead * cos - left * sin) + self.middle[0], (ahead * sin + left * cos) + self.middle[1]]
+        [
+            (ahead_offset * cos - left * sin) + self.middle[0],
+            (ahead_offset * sin + left * cos) + self.middle[1],
+        ]
     }
 }
 

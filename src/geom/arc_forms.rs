@@ -39,11 +39,11 @@ js_structs! {
 
 /// Returns the errors of the three formulas, relative to the same motion in double-double arithmetic.
 pub fn form_errors() -> FormErrors {
-    let [first_index, last] = FIRST_AND_LAST_DECADE.map(|exponent| exponent * POINTS_PER_DECADE);
+    let [first_index, end_index] = FIRST_AND_LAST_DECADE.map(|exponent| exponent * POINTS_PER_DECADE);
     let omega: Vec<f64> =
-        (first_index..=last).map(|i| libm::exp10(f64::from(i) / f64::from(POINTS_PER_DECADE))).collect();
+        (first_index..=end_index).map(|i| libm::exp10(f64::from(i) / f64::from(POINTS_PER_DECADE))).collect();
     let rms_errors: Vec<[f64; 3]> = omega.iter().map(|omega| rms_errors_at(*omega)).collect();
-    let errors_of_form = |form: usize| rms_errors.iter().map(|form_errors| form_errors[form]).collect();
+    let errors_of_form = |column: usize| rms_errors.iter().map(|form_errors| form_errors[column]).collect();
     FormErrors {
         arc: errors_of_form(0),
         straight: errors_of_form(1),

@@ -59,15 +59,16 @@ const MAX_NEWTON_STEPS: usize = 20;
 /// Returns the length and turn of the arc whose point F_μ is `target_point`, by Newton's method from an initial guess. Returns None if the
 /// method does not converge, as on a fold of F_μ.
 pub fn find_arc(target_point: [f64; 2], initial_guess: [f64; 2], morph_fraction: f64) -> Option<[f64; 2]> {
-    let mut arc = Vector2::from(initial_guess);
+    let mut length_and_turn = Vector2::from(initial_guess);
     for _ in 0..MAX_NEWTON_STEPS {
-        let twist = Vector3::new(arc.x, 0.0, arc.y);
+        let twist = Vector3::new(length_and_turn.x, 0.0, length_and_turn.y);
         let residual = Vector2::from(target_point) - Vector2::from(unbend(&twist, morph_fraction));
-        if residual.amax() < 1e-12 * (1.0 + arc.amax()) {
-            return Some(arc.into());
+        if residual.amax() < 1e-12 * (1.0 + length_and_turn.amax()) {
+            return Some(length_and_turn.into());
         }
         let jacobian = unbend_jacobian(&twist, morph_fraction);
-        arc += Matrix2::from_columns(&[jacobian.column(0), jacobian.column(2)]).try_inverse()? * residual;
+        length_and_turn +=
+            Matrix2::from_columns(&[jacobian.column(0), jacobian.column(2)]).try_inverse()? * residual;
     }
     None
 }

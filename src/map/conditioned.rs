@@ -193,10 +193,7 @@ fn with_last_turn(driven_arc: DrivenArc, last_turn: f64) -> (SE2, DrivenArc) {
 }
 
 impl MapConditioned<'_> {
-    /// Returns an accepted motion from `x`.
-    ///
-    /// # Errors
-    /// [`NoAcceptedSample`] after [`MAX_DRAWS`] rejected draws.
+    /// Returns an accepted motion from `x`. Fails with [`NoAcceptedSample`] after [`MAX_DRAWS`] rejected draws.
     pub fn sample<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
@@ -227,10 +224,7 @@ impl MapConditioned<'_> {
     }
 
     /// Returns the number of draws and of computed wall distances for one accepted motion in a particle filter. A filter makes only the
-    /// collision test on which the acceptance depends.
-    ///
-    /// # Errors
-    /// [`NoAcceptedSample`] after [`MAX_DRAWS`] rejected draws.
+    /// collision test on which the acceptance depends. Fails with [`NoAcceptedSample`] after [`MAX_DRAWS`] rejected draws.
     pub fn sampling_cost<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,

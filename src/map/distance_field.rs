@@ -49,10 +49,10 @@ const UNDIVIDED_DISTANCE_RATIO: f64 = 8.0;
 impl DistanceField {
     /// Fills the field from the walls of a tree within `map_bounds` (minimum x, minimum y, maximum x, maximum y; m). `occupied_grid` is the
     /// grid whose occupied cells the walls outline, if there is one.
-    pub fn new(tree: &WallTree, map_bounds: [f64; 4], occupied_grid: Option<&OccupancyGrid>) -> Self {
-        let mut field_builder = FieldBuilder::new(tree, map_bounds, occupied_grid);
+    pub fn new(wall_tree: &WallTree, map_bounds: [f64; 4], occupied_grid: Option<&OccupancyGrid>) -> Self {
+        let mut field_builder = FieldBuilder::new(wall_tree, map_bounds, occupied_grid);
         let root_candidates =
-            if tree.is_leaf(1) { walls_of_node(tree, 1).collect() } else { vec![WallSet::Node(1)] };
+            if wall_tree.is_leaf(1) { walls_of_node(wall_tree, 1).collect() } else { vec![WallSet::Node(1)] };
         let whole_width = field_builder.distance_field.columns.max(field_builder.rows).next_power_of_two();
         field_builder.fill_block(&root_candidates, [0, 0], whole_width);
         field_builder.distance_field
@@ -76,12 +76,13 @@ impl DistanceField {
     /// Returns [`DistanceField::lower_bound`] of four points, given as their x and y in SIMD lanes.
     #[inline(always)]
     pub fn lower_bounds(&self, points: &[f64x4; 2]) -> f64x4 {
-        let zero = f64x4::splat(0.0);
+        let zero_lanes = f64x4::splat(0.0);
         // A point on the border between two cells may be rounded into either of them, because the lower bound of each cell includes its
         // border.
         let [column, row] = [0, 1].map(|axis| {
             let cell_coordinate = (points[axis] - self.min_corner[axis]) * self.cells_per_metre - 0.5;
-            cell_coordinate.fast_max(zero).fast_min(f64x4::splat(self.last_indices[axis])) + ROUND_TO_INTEGER
+            cell_coordinate.fast_max(zero_lanes).fast_min(f64x4::splat(self.last_indices[axis]))
+                + ROUND_TO_INTEGER
                 - ROUND_TO_INTEGER
         });
         // Adding this number to a small integer puts that integer into the last bits of the sum.
@@ -120,22 +121,22 @@ enum WallSet {
     Node(u32),
 }
 
-fn walls_of_node(tree: &WallTree, node_index: usize) -> impl Iterator<Item = WallSet> {
-    tree.wall_range(node_index).map(|wall_index| WallSet::Wall(wall_index as u32))
+fn walls_of_node(wall_tree: &WallTree, node_index: usize) -> impl Iterator<Item = WallSet> {
+    wall_tree.wall_range(node_index).map(|wall_index| WallSet::Wall(wall_index as u32))
 }
 
 impl<'a> FieldBuilder<'a> {
-    fn new(tree: &'a WallTree, map_bounds: [f64; 4], occupied_grid: Option<&'a OccupancyGrid>) -> Self {
+    fn new(wall_tree: &'a WallTree, map_bounds: [f64; 4], occupied_grid: Option<&'a OccupancyGrid>) -> Self {
         let [map_left, map_bottom, map_right, map_top] = map_bounds;
         let (width, height) = (map_right - map_left, map_top - map_bottom);
-        let cell_count = (CELLS_PER_WALL * tree.walls.len() as f64).clamp(MIN_CELLS, MAX_CELLS);
+        let cell_count = (CELLS_PER_WALL * wall_tree.walls.len() as f64).clamp(MIN_CELLS, MAX_CELLS);
         // A narrow map could otherwise get more than `cell_count` cells in a single row.
         let cell_side = (width * height / cell_count).sqrt().max(width.max(height) / cell_count);
         let [columns, rows] =
             [width, height].map(|side_length| (side_length / cell_side).ceil() as usize + 1);
         let cell_radius = FRAC_1_SQRT_2 * cell_side;
         Self {
-            tree,
+            tree: wall_tree,
             occupied_grid,
             distance_field: DistanceField {
                 min_corner: [map_left, map_bottom],
@@ -143,7 +144,7 @@ impl<'a> FieldBuilder<'a> {
                 columns,
                 last_indices: [columns, rows].map(|count| count as f64 - 1.0),
                 cell_radius,
-                cell_uncertainty: if tree.is_leaf(1) { 0.0 } else { RELATIVE_UNCERTAINTY * cell_radius },
+                cell_uncertainty: if wall_tree.is_leaf(1) { 0.0 } else { RELATIVE_UNCERTAINTY * cell_radius },
                 lower_bounds: vec![NOT_COMPUTED; columns * rows],
             },
             rows,
@@ -156,12 +157,13 @@ impl<'a> FieldBuilder<'a> {
 
     /// Computes the lower bounds of the cells of a block, or divides the block into four. `candidate_walls` has every wall that may be nearest
     /// to a point of the block.
-    fn fill_block(&mut self, candidate_walls: &[WallSet], [left, bottom]: [usize; 2], width: usize) {
-        if left >= self.distance_field.columns || bottom >= self.rows {
+    fn fill_block(&mut self, candidate_walls: &[WallSet], [left, first_row]: [usize; 2], width: usize) {
+        if left >= self.distance_field.columns || first_row >= self.rows {
             return;
         }
-        let [right, top] = [(left + width).min(self.distance_field.columns), (bottom + width).min(self.rows)];
-        let block_centre = self.block_centre([left, bottom], width);
+        let [right, top] =
+            [(left + width).min(self.distance_field.columns), (first_row + width).min(self.rows)];
+        let block_centre = self.block_centre([left, first_row], width);
         let block_radius = width as f64 * self.distance_field.cell_radius;
         let block_uncertainty = width as f64 * self.distance_field.cell_uncertainty;
         let Some([min_distance, max_distance]) =
@@ -179,7 +181,7 @@ impl<'a> FieldBuilder<'a> {
                 self.measured.iter().filter(is_near).map(|(_, candidate_walls)| *candidate_walls).collect();
             let half_width = width / 2;
             for [column, row] in [[0, 0], [half_width, 0], [0, half_width], [half_width, half_width]] {
-                self.fill_block(&near_candidates, [left + column, bottom + row], half_width);
+                self.fill_block(&near_candidates, [left + column, first_row + row], half_width);
             }
             return;
         }
@@ -187,7 +189,7 @@ impl<'a> FieldBuilder<'a> {
         // cells.
         let is_in_blocked_cell = min_distance > block_radius
             && self.occupied_grid.is_some_and(|occupied_grid| occupied_grid.is_blocked_at(block_centre));
-        for row in bottom..top {
+        for row in first_row..top {
             for column in left..right {
                 let [x, y] = self.block_centre([column, row], 1);
                 let max_offset = self.distance_field.cell_radius
@@ -211,11 +213,11 @@ impl<'a> FieldBuilder<'a> {
     fn measure_candidates(
         &mut self,
         candidates: &[WallSet],
-        centre: [f64; 2],
+        block_centre: [f64; 2],
         width: usize,
         allowed_uncertainty: f64,
     ) -> Option<[f64; 2]> {
-        let Self { tree, unmeasured, measured, .. } = self;
+        let Self { tree: wall_tree, unmeasured, measured, .. } = self;
         // A wall can be nearest to a point of the block only if its distance from the middle exceeds the smallest distance by at most the
         // diameter of the block.
         let max_excess = 2.0 * width as f64 * self.distance_field.cell_radius + self.rounding_slack;
@@ -229,10 +231,11 @@ impl<'a> FieldBuilder<'a> {
             if measured_count > MAX_WALLS_PER_BLOCK + MAX_WALLS_PER_CELL * width * width {
                 return None;
             }
-            let distance_to_wall = |wall: usize| tree.walls[wall].squared_distance_to_point(centre).sqrt();
+            let distance_to_wall =
+                |wall: usize| wall_tree.walls[wall].squared_distance_to_point(block_centre).sqrt();
             let lower_bound = match candidate {
                 WallSet::Wall(wall) => distance_to_wall(wall as usize),
-                WallSet::Node(node) => tree.nodes[node as usize].lower_bound(centre),
+                WallSet::Node(node) => wall_tree.nodes[node as usize].lower_bound(block_centre),
             };
             if lower_bound > least_upper_bound + max_excess {
                 continue;
@@ -240,7 +243,7 @@ impl<'a> FieldBuilder<'a> {
             if lower_bound < least_upper_bound {
                 least_upper_bound = least_upper_bound.min(match candidate {
                     WallSet::Wall(_) => lower_bound,
-                    WallSet::Node(node) => distance_to_wall(tree.wall_range(node as usize).start),
+                    WallSet::Node(node) => distance_to_wall(wall_tree.wall_range(node as usize).start),
                 });
             }
             if width == 1 && least_upper_bound <= allowed_uncertainty {
@@ -249,10 +252,10 @@ impl<'a> FieldBuilder<'a> {
             match candidate {
                 WallSet::Node(node)
                     if lower_bound < least_upper_bound - allowed_uncertainty
-                        || tree.nodes[node as usize].capsule_radius > 0.5 * max_excess =>
+                        || wall_tree.nodes[node as usize].capsule_radius > 0.5 * max_excess =>
                 {
-                    if tree.is_leaf(node as usize) {
-                        unmeasured.extend(walls_of_node(tree, node as usize));
+                    if wall_tree.is_leaf(node as usize) {
+                        unmeasured.extend(walls_of_node(wall_tree, node as usize));
                     } else {
                         unmeasured.extend([2 * node, 2 * node + 1].map(WallSet::Node));
                     }

@@ -94,17 +94,13 @@ impl FloorPlan {
     /// Maximum number of walls of a plan.
     pub const MAX_WALLS: usize = 20_000;
 
-    /// Creates a plan of `walls` within `bounds` (minimum x, minimum y, maximum x, maximum y), m.
-    ///
-    /// # Errors
-    /// [`FloorPlanError`] for the first wall or bound that is not allowed.
+    /// Creates a plan of `walls` within `bounds` (minimum x, minimum y, maximum x, maximum y), m. Fails with [`FloorPlanError`] for the
+    /// first wall or bound that is not allowed.
     pub fn new(walls: Vec<Segment>, bounds: [f64; 4]) -> Result<Self, FloorPlanError> {
         Self::with_grid(walls, bounds, None)
     }
 
-    /// Returns the floor plan of a grid. Its walls are the outlines of the blocked cells; its bounds are those of the grid.
-    ///
-    /// # Errors
+    /// Returns the floor plan of a grid. Its walls are the outlines of the blocked cells; its bounds are those of the grid. Fails with
     /// [`FloorPlanError`] if there are too many walls, or the grid is too large or too small.
     pub fn from_grid(grid: OccupancyGrid) -> Result<Self, FloorPlanError> {
         let walls = grid.outlines(Self::MAX_WALLS).map_err(FloorPlanError::TooManySides)?;
@@ -139,7 +135,7 @@ impl FloorPlan {
                 && (map_bottom - rounding_slack..=map_top + rounding_slack).contains(&y)
         };
         for (wall_index, wall) in walls.iter().enumerate() {
-            if let Some(invalid_end) = [wall.from, wall.to].into_iter().find(|end| !is_inside(*end)) {
+            if let Some(invalid_end) = [wall.from, wall.to].into_iter().find(|point| !is_inside(*point)) {
                 return Err(FloorPlanError::BadWall { wall_index, invalid_end });
             }
         }

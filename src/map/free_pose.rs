@@ -15,15 +15,16 @@ impl FloorPlan {
     /// Returns a free pose for a disc of radius `clearance` (m): the centre of the largest square that is known to be free, with the
     /// heading of the longest free path. If the disc does not fit there, the first cell where it fits is taken; None if it fits nowhere.
     pub fn find_free_pose(&self, clearance: f64) -> Option<SE2> {
-        let raster = self.grid().map_or_else(|| Cow::Owned(self.rasterize()), Cow::Borrowed);
+        let occupancy_grid = self.grid().map_or_else(|| Cow::Owned(self.rasterize()), Cow::Borrowed);
         let does_disc_fit = |point: &[f64; 2]| self.test_point(*point, clearance).free;
-        let [columns, rows] = raster.size();
+        let [columns, rows] = occupancy_grid.size();
         let middle_coordinates =
             (0..rows).flat_map(|row| (0..columns).map(move |column| [column as f64 + 0.5, row as f64 + 0.5]));
-        let mut cell_middles = middle_coordinates.map(|middle| raster.world_point(middle));
-        let square_middle = middle_of_largest_free_square(&raster).map(|middle| raster.world_point(middle));
+        let mut cell_middles = middle_coordinates.map(|middle| occupancy_grid.world_point(middle));
+        let square_middle =
+            middle_of_largest_free_square(&occupancy_grid).map(|middle| occupancy_grid.world_point(middle));
         let [x, y] = square_middle.filter(does_disc_fit).or_else(|| cell_middles.find(does_disc_fit))?;
-        Some(SE2::new(x, y, heading_of_longest_path(&raster, [x, y], does_disc_fit)))
+        Some(SE2::new(x, y, heading_of_longest_path(&occupancy_grid, [x, y], does_disc_fit)))
     }
 
     /// Returns a grid for a plan of walls. Cells that may touch a wall are occupied.

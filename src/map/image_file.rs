@@ -12,10 +12,8 @@ use thiserror::Error;
 #[error("{0}")]
 pub struct ImageError(pub(super) String);
 
-/// Makes the grid of an image file with [`OccupancyGrid::new`]. The first bytes distinguish PNG from PGM.
-///
-/// # Errors
-/// [`ImageError`] for a file that is neither, or damaged.
+/// Makes the grid of an image file with [`OccupancyGrid::new`]. The first bytes distinguish PNG from PGM. Fails with [`ImageError`] for a
+/// file that is neither, or damaged.
 pub fn read_grid(
     file_bytes: &[u8],
     classifier: &PixelClassifier,

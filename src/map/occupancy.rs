@@ -158,8 +158,8 @@ impl OccupancyGrid {
         };
         // The first row of an image is the top row, but the first row of a grid is the bottom row.
         let cells = pixels.chunks(width.max(1)).rev().flatten().map(to_cell).collect();
-        let (plane_to_grid, unknown) = (PreparedPose::new(origin.inverse()), UnknownCells::default());
-        Self { width, height, resolution, origin, plane_to_grid, cells, unknown_treatment: unknown }
+        let (plane_to_grid, treatment) = (PreparedPose::new(origin.inverse()), UnknownCells::default());
+        Self { width, height, resolution, origin, plane_to_grid, cells, unknown_treatment: treatment }
     }
 
     /// Returns the grid with another treatment of unknown cells.
@@ -240,11 +240,9 @@ impl OccupancyGrid {
         &self.cells[first_cell_index..(first_cell_index + self.width).min(self.cells.len())]
     }
 
-    /// Returns the outlines of the blocked cells, with neighbouring sides joined. From outside the cells, the distance to the
-    /// outlines is the distance to the cells. Lines along rows come first, then lines along columns.
-    ///
-    /// # Errors
-    /// A lower bound of the number of outlines, if there are more than `max_outlines`.
+    /// Returns the outlines of the blocked cells, with neighbouring sides joined. From outside the cells, the distance to the outlines is
+    /// the distance to the cells. Lines along rows come first, then lines along columns. Fails with a lower bound of the number of
+    /// outlines, if there are more than `max_outlines`.
     pub fn outlines(&self, max_outlines: usize) -> Result<Vec<Segment>, usize> {
         let [columns, rows] = self.size();
         let (mut walls, mut vertical_walls) = (Vec::new(), Vec::new());

@@ -9,10 +9,8 @@ use std::io::Cursor;
 /// First bytes of every PNG image.
 pub const PNG_SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
-/// Decodes a PNG image of any kind into red, green, blue and opacity; samples of 16 bits are rounded to 8 bits.
-///
-/// # Errors
-/// [`ImageError`] for an image that is cut short, damaged or too large.
+/// Decodes a PNG image of any kind into red, green, blue and opacity; samples of 16 bits are rounded to 8 bits. Fails with [`ImageError`]
+/// for an image that is cut short, damaged or too large.
 pub fn read_png(png_bytes: &[u8]) -> Result<Image<[u8; 4]>, ImageError> {
     let mut byte_cursor = Cursor::new(png_bytes);
     let image_size = Decoder::new(&mut byte_cursor).read_header_info().map(Info::size);
@@ -41,22 +39,22 @@ fn decode_pixels(byte_cursor: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, Decodi
     png_decoder.set_ignore_iccp_chunk(true);
     let mut png_reader = png_decoder.read_info()?;
     let (color_type, bit_depth) = png_reader.output_color_type();
-    let mut samples = vec![0; png_reader.output_buffer_size().unwrap_or_default()];
-    png_reader.next_frame(&mut samples)?;
+    let mut raw_bytes = vec![0; png_reader.output_buffer_size().unwrap_or_default()];
+    png_reader.next_frame(&mut raw_bytes)?;
     png_reader.finish()?;
     if bit_depth == BitDepth::Sixteen {
         // Samples of 16 bits are scaled to 8 bits with rounding, by the factor 65535/255 = 257.
         let to_byte = |png_bytes: &[u8; 2]| ((u32::from(u16::from_be_bytes(*png_bytes)) + 128) / 257) as u8;
-        samples = samples.as_chunks().0.iter().map(to_byte).collect();
+        raw_bytes = raw_bytes.as_chunks().0.iter().map(to_byte).collect();
     }
     let with_full_opacity = |[red, green, blue]: [u8; 3]| [red, green, blue, u8::MAX];
     Ok(match color_type {
-        ColorType::Grayscale => samples.iter().map(|grey| with_full_opacity([*grey; 3])).collect(),
+        ColorType::Grayscale => raw_bytes.iter().map(|grey| with_full_opacity([*grey; 3])).collect(),
         ColorType::GrayscaleAlpha => {
-            samples.as_chunks().0.iter().map(|&[grey, opacity]| [grey, grey, grey, opacity]).collect()
+            raw_bytes.as_chunks().0.iter().map(|&[grey, opacity]| [grey, grey, grey, opacity]).collect()
         }
-        ColorType::Rgb => samples.as_chunks().0.iter().map(|colours| with_full_opacity(*colours)).collect(),
-        ColorType::Rgba => samples.as_chunks().0.to_vec(),
+        ColorType::Rgb => raw_bytes.as_chunks().0.iter().map(|rgb| with_full_opacity(*rgb)).collect(),
+        ColorType::Rgba => raw_bytes.as_chunks().0.to_vec(),
         ColorType::Indexed => unreachable!("a palette is expanded"),
     })
 }

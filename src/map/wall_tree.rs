@@ -54,7 +54,7 @@ impl WallTree {
         };
         for parent in 1..leaf_count {
             wall_tree.sort_into_halves(parent);
-            let child_nodes = [2 * parent, 2 * parent + 1].map(|child| wall_tree.create_node(child));
+            let child_nodes = [2 * parent, 2 * parent + 1].map(|child_id| wall_tree.create_node(child_id));
             wall_tree.nodes.extend(child_nodes);
         }
         wall_tree
@@ -91,21 +91,27 @@ impl WallTree {
         let candidate_axes = [mean_direction, [1.0, 0.0], [0.0, 1.0]];
         let mut bounds_along_axes = [[f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY]; 3];
         for end in walls.iter().flat_map(|wall| [wall.from, wall.to]) {
-            for ([x, y], [back, right, front, left]) in candidate_axes.iter().zip(&mut bounds_along_axes) {
+            for ([x, y], [min_along, min_across, max_along, max_across]) in
+                candidate_axes.iter().zip(&mut bounds_along_axes)
+            {
                 let (end_along, end_across) = (end[0] * x + end[1] * y, end[1] * x - end[0] * y);
-                (*back, *right) = (back.min(end_along), right.min(end_across));
-                (*front, *left) = (front.max(end_along), left.max(end_across));
+                (*min_along, *min_across) = (min_along.min(end_along), min_across.min(end_across));
+                (*max_along, *max_across) = (max_along.max(end_along), max_across.max(end_across));
             }
         }
         let mut narrowest_capsule = (f64::INFINITY, ZERO_SEGMENT);
-        for ([x, y], [back, right, front, left]) in candidate_axes.into_iter().zip(bounds_along_axes) {
-            let (axis_offset, width) = (0.5 * (right + left), left - right);
+        for ([x, y], [min_along, min_across, max_along, max_across]) in
+            candidate_axes.into_iter().zip(bounds_along_axes)
+        {
+            let (axis_offset, width) = (0.5 * (min_across + max_across), max_across - min_across);
             // The ends of a capsule are round, so that the axis of a capsule can be shorter than the walls inside.
-            let axis_shortening = (0.25 * width).min(0.5 * (front - back));
+            let axis_shortening = (0.25 * width).min(0.5 * (max_along - min_along));
             let point_at = |along: f64| [along * x - axis_offset * y, along * y + axis_offset * x];
             if width < narrowest_capsule.0 {
-                let axis =
-                    Segment { from: point_at(back + axis_shortening), to: point_at(front - axis_shortening) };
+                let axis = Segment {
+                    from: point_at(min_along + axis_shortening),
+                    to: point_at(max_along - axis_shortening),
+                };
                 narrowest_capsule = (width, axis);
             }
         }

@@ -73,19 +73,15 @@ const RELATIVE_TOLERANCE: f64 = 1e-12;
 const PADDING_VARIANCE: f64 = 1e-12;
 
 impl TangentNoiseModel {
-    /// Creates the model with the covariance `r` of the exponential coordinates, and without noise of a final rotation.
-    ///
-    /// # Errors
+    /// Creates the model with the covariance `r` of the exponential coordinates, and without noise of a final rotation. Fails with
     /// [`TangentNoiseError`] if `r` is not a covariance.
     pub fn new(r: Matrix3<f64>) -> Result<Self, TangentNoiseError> {
         Self::with_last_turn(r, 0.0)
     }
 
-    /// Returns the velocity model under one command, with the final turn γ̂Δt kept apart: R = R_u, and a turn of variance Δt²(α₅v² +
-    /// α₆ω²) after the arc. Only the variances of the velocity model are used; the noise here is Gaussian.
-    ///
-    /// # Errors
-    /// [`TangentNoiseError`] if the α's or the command make a variance negative or not finite.
+    /// Returns the velocity model under one command, with the final turn γ̂Δt kept apart: R = R_u, and a turn of variance Δt²(α₅v² + α₆ω²)
+    /// after the arc. Only the variances of the velocity model are used; the noise here is Gaussian. Fails with [`TangentNoiseError`] if
+    /// the α's or the command make a variance negative or not finite.
     pub fn from_velocity(model: &VelocityModel, u: &VelocityCmd) -> Result<Self, TangentNoiseError> {
         let [length_var, turn_var, last_turn_var] =
             model.variances(u).map(|Variance(variance)| u.dt * u.dt * variance);
@@ -226,17 +222,17 @@ pub(crate) fn covariance_root(cov: &Matrix3<f64>) -> Result<Matrix3<f64>, Tangen
         let remaining_covariance =
             |row: usize| cov[(row, j)] - (0..j).map(|k| cov_root[(row, k)] * cov_root[(j, k)]).sum::<f64>();
         let remaining_column = [remaining_covariance(0), remaining_covariance(1), remaining_covariance(2)];
-        let (pivot, rounding_variance) = (remaining_column[j], RELATIVE_TOLERANCE * cov[(j, j)].abs());
-        if pivot > rounding_variance {
+        let (diagonal, rounding_variance) = (remaining_column[j], RELATIVE_TOLERANCE * cov[(j, j)].abs());
+        if diagonal > rounding_variance {
             for row in j..3 {
-                cov_root[(row, j)] = remaining_column[row] / pivot.sqrt();
+                cov_root[(row, j)] = remaining_column[row] / diagonal.sqrt();
             }
             continue;
         }
         // A coordinate without remaining variance must have no remaining covariance, because |c_ij| ≤ √(c_ii · c_jj).
         let has_no_covariance =
             |row: usize| remaining_column[row].abs() <= (rounding_variance * cov[(row, row)].abs()).sqrt();
-        if pivot < -rounding_variance || !(j + 1..3).all(has_no_covariance) {
+        if diagonal < -rounding_variance || !(j + 1..3).all(has_no_covariance) {
             return Err(TangentNoiseError::NotPositiveSemidefinite);
         }
     }

@@ -198,10 +198,7 @@ pub struct ArcAnatomy {
 }
 
 impl ArcAnatomy {
-    /// Creates a simulation with `settings`.
-    ///
-    /// # Errors
-    /// [`SettingsError`] for the first setting out of range.
+    /// Creates a simulation with `settings`. Fails with [`SettingsError`] for the first setting out of range.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
         settings.check()?;
         Ok(Self { settings })
@@ -252,9 +249,9 @@ impl ArcAnatomy {
     }
 
     fn signed_inversion(&self) -> ArcInversion {
-        let inversion = invert_arc(&self.settings.start(), &self.settings.next(), self.settings.command.dt);
+        let signed_arc = invert_arc(&self.settings.start(), &self.settings.next(), self.settings.command.dt);
         // A straight drive in reverse has the turn rate −0. Adding 0 makes it 0, so that no minus is shown.
-        ArcInversion { omega_hat: inversion.omega_hat + 0.0, ..inversion }
+        ArcInversion { omega_hat: signed_arc.omega_hat + 0.0, ..signed_arc }
     }
 
     /// Returns the arc to the final position with the radius that the settings select. With the unsigned radius r* of Table 5.1, v̂ = Δθ/Δt

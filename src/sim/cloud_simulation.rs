@@ -7,10 +7,8 @@
 macro_rules! cloud_simulation {
     ($simulation:ident) => {
         impl $simulation {
-            /// Creates a simulation that shows all samples.
-            ///
-            /// # Errors
-            /// [`SettingsError`] for the first setting out of range, or where memory does not suffice for the samples.
+            /// Creates a simulation that shows all samples. Fails with [`SettingsError`] for the first setting out of range, or where
+            /// memory does not suffice for the samples.
             pub fn new(settings: Settings) -> Result<Self, SettingsError> {
                 Self::with_shown_count(settings, settings.samples)
             }

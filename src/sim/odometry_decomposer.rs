@@ -156,11 +156,12 @@ impl OdometryDecomposer {
         self.poses.len()
     }
 
-    fn show_samples(&mut self, count: usize) {
+    fn show_samples(&mut self, sample_count: usize) {
         self.draws.reset_if_changed(self.settings.seed, self.settings.noise);
-        self.draws.extend_to(count);
+        self.draws.extend_to(sample_count);
         let start_pose = self.start_pose();
-        self.poses = self.executed_motions(count).map(|executed| executed.poses(&start_pose)[3]).collect();
+        self.poses =
+            self.executed_motions(sample_count).map(|executed| executed.poses(&start_pose)[3]).collect();
     }
 
     /// Returns the odometry reading: the motion between the two odometry poses.

@@ -86,20 +86,23 @@ impl ExactMoments {
                 if motion.is_arc { unit_arc_end(turn).into() } else { [libm::cos(turn), libm::sin(turn)] };
             UnitMotion { weight: noise_node.weight, unit_end, excess_turn }
         };
-        let motions: Vec<_> = noise_nodes(motion.noise).iter().map(unit_motion_at).collect();
-        let mut moments = UnitMotionMoments::default();
-        motions.iter().for_each(|motion| moments.add(motion.weight, motion.unit_end, motion.excess_turn));
+        let unit_motions: Vec<_> = noise_nodes(motion.noise).iter().map(unit_motion_at).collect();
+        let mut unit_sums = UnitMotionMoments::default();
+        unit_motions
+            .iter()
+            .for_each(|motion| unit_sums.add(motion.weight, motion.unit_end, motion.excess_turn));
         let PolarMotion { length: [mean_length, _], length_variance, .. } = *motion;
-        let (mean, mut cov) = moments.mean_and_cov([mean_length, length_variance.sqrt()]);
+        let (mean, mut cov) = unit_sums.mean_and_cov([mean_length, length_variance.sqrt()]);
         cov[(2, 2)] += motion.last_turn_variance;
         let mean_turn = motion.mean_turn();
         let (sin, cos) = libm::sincos(mean_turn);
-        let lateral_components = motions.iter().map(|UnitMotion { weight, unit_end: end, .. }| {
-            let lateral_unit_end = end[1] * cos - end[0] * sin;
-            let (mean, variance) =
-                (mean_length * lateral_unit_end, length_variance * lateral_unit_end * lateral_unit_end);
-            MixtureComponent { weight: *weight, mean, variance }
-        });
+        let lateral_components =
+            unit_motions.iter().map(|UnitMotion { weight, unit_end: end_point, .. }| {
+                let lateral_unit_end = end_point[1] * cos - end_point[0] * sin;
+                let (mean, variance) =
+                    (mean_length * lateral_unit_end, length_variance * lateral_unit_end * lateral_unit_end);
+                MixtureComponent { weight: *weight, mean, variance }
+            });
         Self {
             mean: Vector3::new(mean.x, mean.y, wrap_angle(mean_turn)),
             cov,
@@ -146,7 +149,7 @@ struct MixtureComponent {
 
 /// Returns the skewness of the mixture; NaN if its variance is only rounding error relative to `squared_extent`.
 fn mixture_skew(components: impl Iterator<Item = MixtureComponent> + Clone, squared_extent: f64) -> f64 {
-    let mixture_mean: f64 = components.clone().map(|component| component.weight * component.mean).sum();
+    let mixture_mean: f64 = components.clone().map(|part| part.weight * part.mean).sum();
     let (mut m2, mut m3) = (0.0, 0.0);
     for MixtureComponent { weight, mean, variance } in components {
         let mean_offset = mean - mixture_mean;

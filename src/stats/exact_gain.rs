@@ -119,7 +119,8 @@ impl BranchedMotion {
                 let half_turn = 0.5 * (turn + excess_turn);
                 let twist_sinc = sinc(half_turn);
                 let (sin, cos) = libm::sincos(bearing - half_turn);
-                let scaled_direction = [cos, sin].map(|component| component * (chord_ratio / twist_sinc));
+                let scaled_direction =
+                    [cos, sin].map(|direction_component| direction_component * (chord_ratio / twist_sinc));
                 log_sum += node_weight * libm::log(twist_sinc * twist_sinc);
                 moments.add(node_weight, scaled_direction, excess_turn);
             }
@@ -181,15 +182,15 @@ fn mean_log_abs_of_normal(m: f64) -> f64 {
         return libm::log(m) - inverse_square * (0.5 + inverse_square * (0.75 + inverse_square * 2.5));
     }
     let poisson_mean = 0.5 * m * m;
-    let (mut poisson_probability, mut digamma, mut sum) = (libm::exp(-poisson_mean), DIGAMMA_HALF, LN_2);
+    let (mut poisson_probability, mut psi, mut mean_log) = (libm::exp(-poisson_mean), DIGAMMA_HALF, LN_2);
     // The sum over j ends twelve standard deviations or more beyond the mean of the Poisson distribution, which is at most 450.
     for j in 0..720 {
         let j = f64::from(j);
-        sum += poisson_probability * digamma;
+        mean_log += poisson_probability * psi;
         poisson_probability *= poisson_mean / (j + 1.0);
-        digamma += 1.0 / (j + 0.5);
+        psi += 1.0 / (j + 0.5);
     }
-    0.5 * sum
+    0.5 * mean_log
 }
 
 /// Returns E ln|m + T| to 1e-14, with T triangular on ±`half_width`. For m far from 0 it is a series of moments of T. Otherwise it is a

@@ -101,12 +101,12 @@ impl LogDensityDifferences {
 
     /// Adds four robots with their weights; lanes without a robot have the weight 0.
     #[inline(never)]
-    pub fn add(&mut self, robots: &FourRobots, robot_weights: f64x4) {
+    pub fn add(&mut self, four_robots: &FourRobots, robot_weights: f64x4) {
         let FittedGaussians { cartesian, twist, arc, gain, mean_jacobian } = &self.gaussians;
         let has_robot = robot_weights.simd_gt(f64x4::splat(0.0));
-        let cartesian_distances = cartesian.squared_distances(&robots.cartesian);
-        let twist_distance = twist.squared_distances(&robots.twist)[2];
-        let arc_distance = arc.squared_distances(&robots.arc)[1];
+        let cartesian_distances = cartesian.squared_distances(&four_robots.cartesian);
+        let twist_distance = twist.squared_distances(&four_robots.twist)[2];
+        let arc_distance = arc.squared_distances(&four_robots.arc)[1];
         let cartesian_log_volumes = [2, 1].map(|last_coordinate| cartesian.log_volumes[last_coordinate]);
         let (curved_log_volumes, likelihood_gains) =
             ([twist.log_volumes[2], arc.log_volumes[1]], [gain.pose, gain.floor]);
@@ -115,10 +115,11 @@ impl LogDensityDifferences {
         for i in 0..2 {
             let log_ratio = cartesian_log_volumes[i] - curved_log_volumes[i] - likelihood_gains[i];
             let log_density_differences =
-                (squared_distance_differences[i] * 0.5 - ln(robots.jacobians[i]) + log_ratio) & has_robot;
+                (squared_distance_differences[i] * 0.5 - ln(four_robots.jacobians[i]) + log_ratio)
+                    & has_robot;
             self.squared_deviations[i] += log_density_differences * log_density_differences * robot_weights;
         }
-        let (u, h) = (robots.jacobians[1] / *mean_jacobian - 1.0, squared_distance_differences[1] * 0.5);
+        let (u, h) = (four_robots.jacobians[1] / *mean_jacobian - 1.0, squared_distance_differences[1] * 0.5);
         for (sum, added_term) in self.area_sums.iter_mut().zip([u, u * u, h * u, h * h]) {
             *sum += (added_term & has_robot) * robot_weights;
         }

@@ -130,10 +130,11 @@ impl FirstPass {
         self.sums.flush_block();
         self.unit_noise.flush_block();
         self.irregular_arcs.flush_block();
-        for (product, log_sum) in self.jacobian_products.iter_mut().zip(&mut self.log_jacobian_sums) {
-            let [a, b] = product.to_array();
+        for (jacobian_product, log_sum) in self.jacobian_products.iter_mut().zip(&mut self.log_jacobian_sums)
+        {
+            let [a, b] = jacobian_product.to_array();
             *log_sum += libm::log((a * b).abs());
-            *product = f64x2::splat(1.0);
+            *jacobian_product = f64x2::splat(1.0);
         }
     }
 
@@ -284,13 +285,13 @@ impl SecondPass {
     ) -> CloudStats {
         let n = count as f64;
         let means = self.sums.totals().map(|sum| sum / n);
-        let [products @ .., ta, fraction_in_ellipse, inside_contour] = means;
+        let [products @ .., mean_ta, fraction_in_ellipse, inside_contour] = means;
         let [.., t, tt, td] = products;
         let FirstPassMoments { position: [x, y], position_cov: [xx, xy, yy], .. } = self.first_pass;
         let (sin, cos) = self.heading_sin_cos;
         let bessel_factor = if count > 1 { n / (n - 1.0) } else { f64::NAN };
         let [x_turn, y_turn, turn_variance] =
-            [ta * cos - td * sin, ta * sin + td * cos, tt - t * t].map(|mean| bessel_factor * mean);
+            [mean_ta * cos - td * sin, mean_ta * sin + td * cos, tt - t * t].map(|mean| bessel_factor * mean);
         let cov = Matrix3::new(xx, xy, x_turn, xy, yy, y_turn, x_turn, y_turn, turn_variance);
         let track_moments = TrackMoments {
             products,
@@ -317,7 +318,7 @@ impl SecondPass {
             density_differences.add(&four_robots, robot_weights);
         }
         let fraction_or_nan =
-            |ellipse: &Ellipse, fraction: f64| if ellipse.has_area() { fraction } else { f64::NAN };
+            |ellipse: &Ellipse, share_inside: f64| if ellipse.has_area() { share_inside } else { f64::NAN };
         CloudStats {
             cartesian: CartesianMoments {
                 mean: Vector3::new(x, y, wrap_angle(self.first_pass.mean_turn)),

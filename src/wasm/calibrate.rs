@@ -24,8 +24,9 @@ pub fn js_calibrate(
     const KEYS: [&str; 9] =
         ["odometry", "reference", "model", "rule", "legs", "outliers", "correct", "positionStd", "yawStd"];
     let fields = FieldReader::new("options", "", options, &KEYS)?;
-    let read_std =
-        |key: &str| fields.read_optional(key, |path, value| read_value(path, value, 0.0, STD_RANGE));
+    let read_std = |key: &str| {
+        fields.read_optional(key, |field_path, value| read_value(field_path, value, 0.0, STD_RANGE))
+    };
     let options = Options {
         model: read_model(&fields)?,
         legs: fields.read_optional("legs", read_leg_length)?.unwrap_or(LegLength::AMCL),
@@ -42,8 +43,9 @@ pub fn js_calibrate(
 }
 
 fn read_model(fields: &FieldReader) -> Result<Model, JsValue> {
-    let read_model_name = |path: &str, name: &JsValue| read_value(path, name, ModelChoice::Odometry, ());
-    let read_rule = |path: &str, name: &JsValue| read_value(path, name, OdometryRule::Table, ());
+    let read_model_name =
+        |path: &str, model_name: &JsValue| read_value(path, model_name, ModelChoice::Odometry, ());
+    let read_rule = |path: &str, model_name: &JsValue| read_value(path, model_name, OdometryRule::Table, ());
     Ok(match (fields.read_optional("model", read_model_name)?, fields.read_optional("rule", read_rule)?) {
         (None | Some(ModelChoice::Odometry), None) => Model::Odometry(OdometryRule::Table),
         (None, Some(rule)) => Model::Odometry(rule),
@@ -66,8 +68,9 @@ fn read_leg_length(field: &str, value: &JsValue) -> Result<LegLength, JsValue> {
     let (distance, angle) = (distance?, angle?);
     match duration? {
         Some(_) if distance.is_some() || angle.is_some() => {
-            let message = "legs.duration is given beside a distance or an angle; allowed is one of the two";
-            Err(RangeError::new(message).into())
+            let error_message =
+                "legs.duration is given beside a distance or an angle; allowed is one of the two";
+            Err(RangeError::new(error_message).into())
         }
         Some(duration) => Ok(LegLength::Duration { duration }),
         None => Ok(LegLength::Displacement {

@@ -81,12 +81,12 @@ fn checked_trajectory(
     let name_field = |error| format!("{}: {error}", log_fields.path("").trim_end_matches('.'));
     let trajectory = trajectory.map_err(|error| RangeError::new(&name_field(error)))?;
     let last_sample = trajectory.samples().len() as u64 - 1;
-    let read_breaks = |path: &str, break_values: &JsValue| {
-        let break_count = array_length(path, break_values, "an array of numbers")?;
-        let numbers = read_numbers_of_column(path, break_values, break_count)?;
+    let read_breaks = |field_path: &str, break_values: &JsValue| {
+        let break_count = array_length(field_path, break_values, "an array of numbers")?;
+        let numbers = read_numbers_of_column(field_path, break_values, break_count)?;
         let indexed_numbers = numbers.into_iter().enumerate();
-        let sample_range =
-            indexed_numbers.map(|(i, sample)| read_integer(&format!("{path}[{i}]"), sample, 1..=last_sample));
+        let sample_range = indexed_numbers
+            .map(|(i, sample)| read_integer(&format!("{field_path}[{i}]"), sample, 1..=last_sample));
         sample_range.collect::<Result<Vec<u64>, JsValue>>()
     };
     let break_values = log_fields.read_optional("breaks", read_breaks)?.unwrap_or_default();
@@ -97,38 +97,39 @@ fn checked_trajectory(
 fn read_columns<const N: usize>(log_fields: &FieldReader, keys: [&str; N]) -> Result<[Vec<f64>; N], JsValue> {
     let mut columns = [const { Vec::new() }; N];
     for (i, key) in keys.into_iter().enumerate() {
-        let (path, value) = (log_fields.path(key), log_fields.value(key)?);
+        let (field_path, value) = (log_fields.path(key), log_fields.value(key)?);
         let expected_text = "an array of numbers";
-        let row_count = array_length(&path, &value, expected_text)?;
-        let allowed = if i == 0 { 2..=MAX_ROWS } else { columns[0].len()..=columns[0].len() };
-        if !allowed.contains(&row_count) {
-            let allowed = if i == 0 {
+        let row_count = array_length(&field_path, &value, expected_text)?;
+        let row_counts = if i == 0 { 2..=MAX_ROWS } else { columns[0].len()..=columns[0].len() };
+        if !row_counts.contains(&row_count) {
+            let row_counts = if i == 0 {
                 format!("2 to {MAX_ROWS}")
             } else {
                 format!("{}, as of {}", columns[0].len(), log_fields.path(keys[0]))
             };
-            return Err(
-                RangeError::new(&format!("{path} has length {row_count}; allowed is {allowed}")).into()
-            );
+            return Err(RangeError::new(&format!(
+                "{field_path} has length {row_count}; allowed is {row_counts}"
+            ))
+            .into());
         }
-        columns[i] = read_numbers_of_column(&path, &value, row_count)?;
+        columns[i] = read_numbers_of_column(&field_path, &value, row_count)?;
         for (row, number) in columns[i].iter().enumerate() {
             let column_range = if i == 0 { &TIME_RANGE } else { &COORDINATE_RANGE };
             if !column_range.contains(number) {
-                check_real(&format!("{path}[{row}]"), *number, column_range)?;
+                check_real(&format!("{field_path}[{row}]"), *number, column_range)?;
             }
         }
     }
     Ok(columns)
 }
 
-fn read_numbers_of_column(path: &str, value: &JsValue, row_count: usize) -> Result<Vec<f64>, JsValue> {
+fn read_numbers_of_column(field_path: &str, value: &JsValue, row_count: usize) -> Result<Vec<f64>, JsValue> {
     if let Some(float64_array) = value.dyn_ref::<Float64Array>() {
         return Ok(float64_array.to_vec());
     }
     let read_numbers = (0..row_count).map(|row| {
         let js_number = array_item(value, row)?;
-        js_number.as_f64().map_or_else(|| read_number(&format!("{path}[{row}]"), &js_number), Ok)
+        js_number.as_f64().map_or_else(|| read_number(&format!("{field_path}[{row}]"), &js_number), Ok)
     });
     read_numbers.collect()
 }

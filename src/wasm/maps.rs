@@ -62,8 +62,9 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let free_thresh = fields.read_or("free_thresh", default_free_thresh, 0.0..=1.0)?;
     if free_thresh > occupied_thresh {
         let [free_text, limit_text] = [free_thresh, occupied_thresh].map(format_number);
-        let message = format!("free_thresh is {free_text}; allowed is at most occupied_thresh, {limit_text}");
-        return Err(RangeError::new(&message).into());
+        let error_message =
+            format!("free_thresh is {free_text}; allowed is at most occupied_thresh, {limit_text}");
+        return Err(RangeError::new(&error_message).into());
     }
     let mode = fields.read_or("mode", default_classifier.mode, ())?;
     let classifier = PixelClassifier { mode, negate, occupied_thresh, free_thresh };
@@ -91,8 +92,8 @@ fn read_pixels(image: &JsValue) -> Result<(usize, usize, Vec<u8>), JsValue> {
     };
     let (byte_count, expected_byte_count) = (rgba.length() as usize, 4 * width * height);
     if byte_count != expected_byte_count {
-        let message = format!("image.data has length {byte_count}; allowed is {expected_byte_count}");
-        return Err(RangeError::new(&message).into());
+        let error_message = format!("image.data has length {byte_count}; allowed is {expected_byte_count}");
+        return Err(RangeError::new(&error_message).into());
     }
     Ok((width, height, rgba.to_vec()))
 }

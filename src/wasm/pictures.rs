@@ -34,18 +34,20 @@ pub fn nearest_index(
 /// Reads the bounds of a rectangle, xMin, yMin, xMax and yMax, and returns its minimum and maximum corner.
 pub fn read_bounds(bounds: &JsValue) -> Result<[[f64; 2]; 2], JsValue> {
     let [x_min, y_min, x_max, y_max] = read_array("bounds", bounds)?;
-    let min = [check_range("xMin", x_min, &EXTENT_RANGE)?, check_range("yMin", y_min, &EXTENT_RANGE)?];
+    let min_corner = [check_range("xMin", x_min, &EXTENT_RANGE)?, check_range("yMin", y_min, &EXTENT_RANGE)?];
     let limit = *EXTENT_RANGE.end();
-    let max_corner =
-        [check_range("xMax", x_max, &(min[0]..=limit))?, check_range("yMax", y_max, &(min[1]..=limit))?];
-    Ok([min, max_corner])
+    let max_corner = [
+        check_range("xMax", x_max, &(min_corner[0]..=limit))?,
+        check_range("yMax", y_max, &(min_corner[1]..=limit))?,
+    ];
+    Ok([min_corner, max_corner])
 }
 
 pub fn read_grid(bounds: &JsValue, columns: f64, rows: f64) -> Result<ViewGrid, JsValue> {
-    let [min, max_corner] = read_bounds(bounds)?;
+    let [min_corner, max_corner] = read_bounds(bounds)?;
     let columns = read_integer("columns", columns, 1..=MAX_CELLS_PER_SIDE)?;
     let rows = read_integer("rows", rows, 1..=MAX_CELLS_PER_SIDE.min(MAX_CELLS / columns))?;
-    Ok(ViewGrid { min_corner: min, max_corner, columns: columns as usize, rows: rows as usize })
+    Ok(ViewGrid { min_corner, max_corner, columns: columns as usize, rows: rows as usize })
 }
 
 /// Reads consecutive colour ramps from their bytes.

@@ -81,19 +81,13 @@ struct Fit {
 }
 
 impl AlphaCalibrator {
-    /// Creates a simulation with the simulated log.
-    ///
-    /// # Errors
-    /// [`SettingsError`] for the first setting out of range.
+    /// Creates a simulation with the simulated log. Fails with [`SettingsError`] for the first setting out of range.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
         Self::from_source(settings, LogSource::Simulated, OnceCell::new())
     }
 
     /// Creates a simulation without a log, with a fit that another simulation has saved. Settings that need another fit stay
-    /// [pending](AlphaCalibrator::is_pending).
-    ///
-    /// # Errors
-    /// [`SettingsError`] for the first setting out of range.
+    /// [pending](AlphaCalibrator::is_pending). Fails with [`SettingsError`] for the first setting out of range.
     pub fn restore(settings: Settings, calibration: Calibration) -> Result<Self, SettingsError> {
         Self::from_source(settings, LogSource::Restored, OnceCell::from(calibration))
     }

@@ -66,10 +66,11 @@ pub struct DefinedCoordinates {
 
 impl Stats {
     /// Returns the statistics of a cloud of `n` samples. Statistics in coordinates that are undefined for the cloud are NaN.
-    pub fn of_cloud(n: usize, cloud: &CloudStats, defined: DefinedCoordinates) -> Self {
+    pub fn of_cloud(n: usize, cloud: &CloudStats, defined_coordinates: DefinedCoordinates) -> Self {
         let CloudStats { cartesian, cross_track, gain, .. } = *cloud;
         let one_or_nan_of = |is_defined: bool| if is_defined { 1.0 } else { f64::NAN };
-        let [pose_factor, arc_factor] = [defined.pose, defined.arc].map(one_or_nan_of);
+        let [pose_factor, arc_factor] =
+            [defined_coordinates.pose, defined_coordinates.arc].map(one_or_nan_of);
         let exponential = ExponentialMoments {
             mean: cloud.exponential.mean * pose_factor,
             cov: cloud.exponential.cov * pose_factor,
@@ -81,7 +82,7 @@ impl Stats {
         let ellipse = Ellipse::from_moments(&cartesian);
         // The cross-track statistics are undefined if all positions are equal. Statistics of exponential coordinates may still be defined,
         // because the headings may differ.
-        let shape_factor = one_or_nan_of(defined.pose && !ellipse.is_point());
+        let shape_factor = one_or_nan_of(defined_coordinates.pose && !ellipse.is_point());
         let contour = ExponentialContour::new(&exponential, &START_POSE);
         let area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
         Self {
@@ -194,12 +195,13 @@ impl BananaMachine {
         }
         let plane_ellipse = Ellipse::from_moments(&stats.cartesian);
         let contour = ExponentialContour::new(&stats.exponential, &START_POSE);
-        let (centre, twist_mean) = (stats.cartesian.mean.xy(), stats.exponential.mean);
+        let (ellipse_centre, twist_mean) = (stats.cartesian.mean.xy(), stats.exponential.mean);
         let gap_candidates: Vec<_> = plane_ellipse
             .boundary(OUTLINE_SEGMENTS)
             .into_iter()
             .map(|point| {
-                let [x, y]: [f64; 2] = (centre + (Vector2::from(point) - centre) * GAP_FRACTION).into();
+                let [x, y]: [f64; 2] =
+                    (ellipse_centre + (Vector2::from(point) - ellipse_centre) * GAP_FRACTION).into();
                 let (arc_length, turn) = arc_with_turn_near(&START_POSE, &SE2::new(x, y, 0.0), twist_mean.z);
                 ([x, y], contour.ellipse.mahalanobis_distance([arc_length, turn]), arc_length < twist_mean.x)
             })

@@ -50,8 +50,9 @@ impl Draws {
         Self { seed, noise, rng: Xoshiro256PlusPlus::seed_from_u64(seed), unit_noise: Vec::new() }
     }
 
-    pub fn reserve(&mut self, count: usize) -> Result<(), TryReserveError> {
-        self.unit_noise.try_reserve_exact(count.div_ceil(LANE_COUNT).saturating_sub(self.unit_noise.len()))
+    pub fn reserve(&mut self, sample_count: usize) -> Result<(), TryReserveError> {
+        self.unit_noise
+            .try_reserve_exact(sample_count.div_ceil(LANE_COUNT).saturating_sub(self.unit_noise.len()))
     }
 
     pub fn reset_if_changed(&mut self, seed: u64, noise: NoiseKind) {
@@ -62,10 +63,10 @@ impl Draws {
         }
     }
 
-    /// Draws random numbers of further samples until there are `count` samples. Memory must have been reserved.
-    pub fn extend_to(&mut self, count: usize) {
+    /// Draws random numbers of further samples until there are `sample_count` samples. Memory must have been reserved.
+    pub fn extend_to(&mut self, sample_count: usize) {
         let Self { noise, rng, unit_noise, .. } = self;
-        let (first_group, end_group) = (unit_noise.len(), count.div_ceil(LANE_COUNT));
+        let (first_group, end_group) = (unit_noise.len(), sample_count.div_ceil(LANE_COUNT));
         while unit_noise.len() < end_group {
             unit_noise.push(draw_four_uniform_triples(rng));
         }

@@ -97,7 +97,7 @@ impl Cloud {
     #[inline(always)]
     pub fn pose(&self, sample_index: usize) -> SE2 {
         let [group_index, lane_index] = [sample_index / LANE_COUNT, sample_index % LANE_COUNT];
-        let [x, y] = self.positions[group_index].map(|lanes| lanes.to_array()[lane_index]);
+        let [x, y] = self.positions[group_index].map(|four_lanes| four_lanes.to_array()[lane_index]);
         let half_heading = self.drive.motions(&self.draws.unit_noise[group_index]).half_heading;
         SE2::new(x, y, 2.0 * half_heading.to_array()[lane_index])
     }
@@ -118,10 +118,10 @@ impl Cloud {
                 self.drive.morphed_points(&motions, &self.positions[group_index], morph_fraction)
             }
         };
-        let (full_groups, remaining) = (self.shown_count / LANE_COUNT, self.shown_count % LANE_COUNT);
+        let (full_groups, used_lanes) = (self.shown_count / LANE_COUNT, self.shown_count % LANE_COUNT);
         let mask_points =
-            move |points: f64x4| first_lanes_mask(remaining).bitselect(points, f64x4::splat(f64::INFINITY));
-        let last_group = (remaining > 0).then(|| points_of_group(full_groups).map(mask_points));
+            move |points: f64x4| first_lanes_mask(used_lanes).bitselect(points, f64x4::splat(f64::INFINITY));
+        let last_group = (used_lanes > 0).then(|| points_of_group(full_groups).map(mask_points));
         (0..full_groups).map(points_of_group).chain(last_group)
     }
 }

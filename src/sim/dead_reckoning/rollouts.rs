@@ -128,10 +128,7 @@ impl StepInErrorFrame {
 }
 
 impl Rollouts {
-    /// Creates rollouts without robots.
-    ///
-    /// # Errors
-    /// [`TryReserveError`] if memory does not suffice for the robots in the picture.
+    /// Creates rollouts without robots. Fails with [`TryReserveError`] if memory does not suffice for the robots in the picture.
     pub fn new(settings: &Settings) -> Result<Self, TryReserveError> {
         let step_count = settings.steps as usize;
         let mut poses = Vec::new();

@@ -82,16 +82,17 @@ impl Settings {
         }
     }
 
-    /// Returns true if rollouts under `other` settings are equal to the last bit. The number of robots, the selected step and the recursion
+    /// Returns true if rollouts under `other_settings` settings are equal to the last bit. The number of robots, the selected step and the recursion
     /// may differ.
-    pub(super) fn has_same_rollouts(&self, other: &Self) -> bool {
-        let Self { step, compounding, samples, .. } = *other;
+    pub(super) fn has_same_rollouts(&self, other_settings: &Self) -> bool {
+        let Self { step, compounding, samples, .. } = *other_settings;
         // −0 equals 0, but leads to other signs of zeros in the results.
         let sign_bits_of = |settings: &Self| {
             let VelocityCmd { v, omega, dt } = settings.command;
             ([v, omega, dt].map(f64::is_sign_negative), settings.alphas.map(f64::is_sign_negative))
         };
-        Self { step, compounding, samples, ..*self } == *other && sign_bits_of(self) == sign_bits_of(other)
+        Self { step, compounding, samples, ..*self } == *other_settings
+            && sign_bits_of(self) == sign_bits_of(other_settings)
     }
 }
 

@@ -86,10 +86,7 @@ pub enum Setting<'a> {
 }
 
 impl Setting<'_> {
-    /// Checks that the numbers are in their ranges.
-    ///
-    /// # Errors
-    /// [`SettingsError`] for the first number out of its range.
+    /// Checks that the numbers are in their ranges. Fails with [`SettingsError`] for the first number out of its range.
     pub(crate) fn check(self, key: &str) -> Result<(), SettingsError> {
         match self {
             Self::Number(number, allowed) => check_real(key, *number, &allowed),
@@ -192,7 +189,7 @@ impl<T: HasKeywords> KeywordSetting for T {
     }
 
     fn set(&mut self, keyword: &str) -> bool {
-        let matching_keyword = T::KEYWORDS.iter().find(|(candidate, _)| *candidate == keyword);
+        let matching_keyword = T::KEYWORDS.iter().find(|(known_keyword, _)| *known_keyword == keyword);
         matching_keyword.inspect(|(_, value)| *self = *value).is_some()
     }
 
@@ -273,10 +270,7 @@ pub trait DeclaredSettings: Copy + Default + Serialize {
     /// Calls `visit_setting` for each setting, in the order of declaration.
     fn visit_settings(&mut self, visit_setting: &mut SettingVisitor);
 
-    /// Calls `visit_setting` for each setting, in the order of declaration, until it returns an error.
-    ///
-    /// # Errors
-    /// The error of `visit_setting`.
+    /// Calls `visit_setting` for each setting, in the order of declaration, until it returns an error. Returns that error.
     fn try_visit_settings<E>(
         &mut self,
         mut visit_setting: impl FnMut(&'static Declaration, Setting) -> Result<(), E>,
@@ -299,18 +293,13 @@ pub trait SettingRules: DeclaredSettings + 'static {
     /// Adjusts other settings to the settings whose keys are `changed_keys`.
     fn adjust(&mut self, _previous: &Self, _changed_keys: &[&str]) {}
 
-    /// Checks combinations of settings, each of which is in its range.
-    ///
-    /// # Errors
-    /// [`SettingsError`] for settings that contradict each other.
+    /// Checks combinations of settings, each of which is in its range. Fails with [`SettingsError`] for settings that contradict each
+    /// other.
     fn check_combinations(&self) -> Result<(), SettingsError> {
         Ok(())
     }
 
-    /// Checks each setting, and combinations of settings.
-    ///
-    /// # Errors
-    /// [`SettingsError`] for the first setting out of range.
+    /// Checks each setting, and combinations of settings. Fails with [`SettingsError`] for the first setting out of range.
     fn check(&self) -> Result<(), SettingsError> {
         let mut settings = *self;
         settings.try_visit_settings(|declaration, setting| setting.check(declaration.key))?;

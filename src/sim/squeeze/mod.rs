@@ -103,11 +103,8 @@ impl MapSqueeze {
     }
 
     /// Changes the settings and makes the first block of attempts. [`MapSqueeze::add_samples`] makes the remaining attempts up to
-    /// `target_count`.
-    ///
-    /// # Errors
-    /// [`SettingsError`] as in [`MapSqueeze::new`], or if the map has too many walls under the new setting `unknown`. After an
-    /// error nothing has changed.
+    /// `target_count`. Fails with [`SettingsError`] as in [`MapSqueeze::new`], or if the map has too many walls under the new setting
+    /// `unknown`. After an error nothing has changed.
     pub fn configure_first(&mut self, settings: Settings, target_count: usize) -> Result<(), SettingsError> {
         settings.check()?;
         let outdated_grid = self.plan.grid().filter(|_| settings.unknown != self.settings.unknown);
@@ -221,9 +218,7 @@ impl MapSqueeze {
         AttemptDriver::new(&model, &self.settings, &self.draws).arcs(attempt_index)
     }
 
-    /// Draws `sample_count` accepted samples with a sampler and returns their cost. The caller measures the time.
-    ///
-    /// # Errors
+    /// Draws `sample_count` accepted samples with a sampler and returns their cost. The caller measures the time. Fails with
     /// [`NoAcceptedSample`] if one of the samples is not accepted, or if there are so many draws that the simulation would give up.
     pub fn sampling_trial(&self, sampler: Sampler, sample_count: usize) -> Result<Cost, NoAcceptedSample> {
         let model = conditioned_model(&self.settings, &self.plan, sampler);
@@ -373,9 +368,9 @@ impl<'a> AttemptDriver<'a> {
             return visit(attempt, cost);
         }
         let is_conditioned = self.settings.conditioned;
-        let (group, first_lane) = (attempt_indices.start / LANE_COUNT, attempt_indices.start % LANE_COUNT);
+        let (group_id, first_lane) = (attempt_indices.start / LANE_COUNT, attempt_indices.start % LANE_COUNT);
         let lane_range = first_lane..LANE_COUNT.min(first_lane + attempt_indices.len());
-        self.collision_tester.test_lanes(&self.draws.unit_noise[group], lane_range, |tested_draw| {
+        self.collision_tester.test_lanes(&self.draws.unit_noise[group_id], lane_range, |tested_draw| {
             let deciding_verdict = self.model.deciding_verdict(&tested_draw);
             let attempt = Attempt {
                 pose: tested_draw.pose,

@@ -36,13 +36,13 @@ export class Baseline {
     const halfTurn = 0.5 * omega * dt;
     const chordLength = halfTurn === 0 ? v * dt : (v * dt * Math.sin(halfTurn)) / halfTurn;
     const noiseFree = { x: chordLength * Math.cos(halfTurn), y: chordLength * Math.sin(halfTurn), l: v * dt, t: 2 * halfTurn };
-    const sums = driveBaselineCloud(this.unitNoise, this.cloud, [v, omega, dt], noiseStds, noiseFree);
-    const means = Object.fromEntries(MEAN_KEYS.map((meanKey, i) => [meanKey, sums[i] / n]));
+    const sampleSums = driveBaselineCloud(this.unitNoise, this.cloud, [v, omega, dt], noiseStds, noiseFree);
+    const means = Object.fromEntries(MEAN_KEYS.map((meanKey, i) => [meanKey, sampleSums[i] / n]));
     const covarianceOf = (/** @type {string} */ a, /** @type {string} */ b) => (n / (n - 1)) * ((means[a + b] ?? means[b + a]) - means[a] * means[b]);
     const covarianceMatrixOf = (/** @type {string[]} */ meanKeys) => meanKeys.map((a) => meanKeys.map((b) => covarianceOf(a, b)));
     const heading = noiseFree.t + Math.atan2(means.s, means.c);
-    const cartesian = { mean: [noiseFree.x + means.x, noiseFree.y + means.y, heading], cov: covarianceMatrixOf(['x', 'y', 't']) };
-    const exponential = { mean: [noiseFree.l + means.l, means.m, noiseFree.t + means.t], cov: covarianceMatrixOf(['l', 'm', 't']) };
+    const cartesianMoments = { mean: [noiseFree.x + means.x, noiseFree.y + means.y, heading], cov: covarianceMatrixOf(['x', 'y', 't']) };
+    const exponentialMoments = { mean: [noiseFree.l + means.l, means.m, noiseFree.t + means.t], cov: covarianceMatrixOf(['l', 'm', 't']) };
 
     const { columns: columnCount, rows: rowCount } = pictureView;
     if (this.counts.length !== columnCount * rowCount) {
@@ -51,14 +51,14 @@ export class Baseline {
     }
     this.counts.fill(0);
     const whiteningFactorsOf = (/** @type {number[][]} */ covMatrix, /** @type {number} */ secondIndex) => {
-      const l00 = Math.sqrt(covMatrix[0][0]);
-      const l10 = covMatrix[0][secondIndex] / l00;
-      const l11 = Math.sqrt(covMatrix[secondIndex][secondIndex] - l10 * l10);
+      const factor00 = Math.sqrt(covMatrix[0][0]);
+      const factor10 = covMatrix[0][secondIndex] / factor00;
+      const factor11 = Math.sqrt(covMatrix[secondIndex][secondIndex] - factor10 * factor10);
       // The whitening factors map the ellipse of two standard deviations to the unit circle.
-      return [0.5 / l00, (-0.5 * l10) / (l00 * l11), 0.5 / l11];
+      return [0.5 / factor00, (-0.5 * factor10) / (factor00 * factor11), 0.5 / factor11];
     };
     const cloudCentre = [means.x, means.y, means.l, means.t];
-    const normalization = [...cloudCentre, ...whiteningFactorsOf(cartesian.cov, 1), ...whiteningFactorsOf(exponential.cov, 2), Math.sin(heading), Math.cos(heading)];
+    const normalization = [...cloudCentre, ...whiteningFactorsOf(cartesianMoments.cov, 1), ...whiteningFactorsOf(exponentialMoments.cov, 2), Math.sin(heading), Math.cos(heading)];
     const [pixelsPerMetreX, pixelsPerMetreY] = [columnCount / (pictureView.xMax - pictureView.xMin), rowCount / (pictureView.yMax - pictureView.yMin)];
     const [inEllipse, inExponential, sumOfSquares, sumOfCubes, maxCount] = countCells(
       this.cloud, this.counts, normalization, [(noiseFree.x - pictureView.xMin) * pixelsPerMetreX, pixelsPerMetreX, (pictureView.yMax - noiseFree.y) * pixelsPerMetreY, pixelsPerMetreY, columnCount, rowCount],
@@ -67,8 +67,8 @@ export class Baseline {
     return {
       stats: {
         n,
-        cartesian,
-        exponential,
+        cartesian: cartesianMoments,
+        exponential: exponentialMoments,
         crossTrackSkew: (sumOfCubes / n) / (sumOfSquares / n) ** 1.5,
         coverage: { ellipse: inEllipse / n, exponential: inExponential / n },
       },
@@ -79,9 +79,9 @@ export class Baseline {
   /** Paints each pixel in the colour for its number of samples. @param {Uint8Array} colourRamp @param {number} maxCount */
   #paint(colourRamp, maxCount) {
     const { counts, pixels } = this;
-    const colours = new Uint32Array(colourRamp.buffer, colourRamp.byteOffset, 256);
+    const rampColours = new Uint32Array(colourRamp.buffer, colourRamp.byteOffset, 256);
     const colourOfCount = new Uint32Array(maxCount + 1);
-    for (let count = 1; count <= maxCount; count++) colourOfCount[count] = colours[Math.round(255 * Math.sqrt(count / maxCount))];
+    for (let sampleCount = 1; sampleCount <= maxCount; sampleCount++) colourOfCount[sampleCount] = rampColours[Math.round(255 * Math.sqrt(sampleCount / maxCount))];
     for (let i = 0; i < counts.length; i++) pixels[i] = colourOfCount[counts[i]];
   }
 }
@@ -90,13 +90,13 @@ export class Baseline {
  * First pass: computes the motion of every sample, and adds up the moments.
  *
  * @param {Float64Array} unitNoise
- * @param {Float64Array} cloud output: offsets of each sample
+ * @param {Float64Array} cloudOffsets output: offsets of each sample
  * @param {number[]} commandVector v, ω, Δt
  * @param {number[]} noiseStds standard deviations of v̂, ω̂, γ̂
  * @param {{ x: number, y: number, l: number, t: number }} noiseFree noise-free motion
  * @returns {number[]} sums in the order of SUM_NAMES
  */
-function driveBaselineCloud(unitNoise, cloud, commandVector, noiseStds, noiseFree) {
+function driveBaselineCloud(unitNoise, cloudOffsets, commandVector, noiseStds, noiseFree) {
   const [[v, omega, dt], [vStd, omegaStd, gammaStd], { x: noiseFreeX, y: noiseFreeY, l: noiseFreeLength, t: noiseFreeTurn }] = [commandVector, noiseStds, noiseFree];
   let sumX = 0, sumY = 0, sumLength = 0, sumLateral = 0, sumTurn = 0, sumSin = 0, sumCos = 0;
   let sumXX = 0, sumXY = 0, sumYY = 0, sumXTurn = 0, sumYTurn = 0, sumTurnTurn = 0;
@@ -134,10 +134,10 @@ function driveBaselineCloud(unitNoise, cloud, commandVector, noiseStds, noiseFre
     sumLateralLateral += lateralOffset * lateralOffset;
     sumLengthTurn += lengthOffset * turnOffset;
     sumLateralTurn += lateralOffset * turnOffset;
-    cloud[j] = dx;
-    cloud[j + 1] = dy;
-    cloud[j + 2] = lengthOffset;
-    cloud[j + 3] = turnOffset;
+    cloudOffsets[j] = dx;
+    cloudOffsets[j + 1] = dy;
+    cloudOffsets[j + 2] = lengthOffset;
+    cloudOffsets[j + 3] = turnOffset;
   }
   return [sumX, sumY, sumLength, sumLateral, sumTurn, sumSin, sumCos, sumXX, sumXY, sumYY, sumXTurn, sumYTurn, sumTurnTurn, sumLengthLength, sumLengthLateral, sumLateralLateral, sumLengthTurn, sumLateralTurn];
 }
@@ -171,10 +171,10 @@ function countCells(cloud, counts, normalization, pixelTransform) {
     const z = cos * dy - sin * dx;
     sumOfSquares += z * z;
     sumOfCubes += z * z * z;
-    const column = xOriginPixels + x * pixelsPerMetreX;
-    const row = yOriginPixels - y * pixelsPerMetreY;
-    if (column >= 0 && row >= 0 && column < columnCount && row < rowCount) {
-      const count = ++counts[(row | 0) * columnCount + (column | 0)];
+    const pixelColumn = xOriginPixels + x * pixelsPerMetreX;
+    const pixelRow = yOriginPixels - y * pixelsPerMetreY;
+    if (pixelColumn >= 0 && pixelRow >= 0 && pixelColumn < columnCount && pixelRow < rowCount) {
+      const count = ++counts[(pixelRow | 0) * columnCount + (pixelColumn | 0)];
       if (count > maxCount) maxCount = count;
     }
   }

@@ -31,12 +31,12 @@ export function differencesFromCore(core, sampleCount) {
  */
 export function unitNoiseOf({ config: { command: { v, omega }, alphas: [a1, a2, a3, a4, a5, a6] }, executed: executedMotions }) {
   const stdDevs = [[a1, a2], [a3, a4], [a5, a6]].map(([byV, byOmega]) => Math.sqrt(byV * v * v + byOmega * omega * omega));
-  return executedMotions.map((value, i) => (value - [v, omega, 0][i % 3]) / stdDevs[i % 3]);
+  return executedMotions.map((executedValue, i) => (executedValue - [v, omega, 0][i % 3]) / stdDevs[i % 3]);
 }
 
 /** Returns the numbers of the baseline that differ from those of the core, with their paths. @param {any} baselineValue @param {any} coreValue @param {string[]} parentKeys @returns {string[]} */
 function differingNumbers(baselineValue, coreValue, ...parentKeys) {
-  if (typeof baselineValue === 'object') return Object.entries(baselineValue).flatMap(([key, member]) => differingNumbers(member, coreValue[key], ...parentKeys, key));
+  if (typeof baselineValue === 'object') return Object.entries(baselineValue).flatMap(([memberKey, memberValue]) => differingNumbers(memberValue, coreValue[memberKey], ...parentKeys, memberKey));
   // A comparison with NaN is false, so that a difference of NaN counts as too large.
   return Math.abs(baselineValue - coreValue) <= MAX_DIFFERENCE ? [] : [`${parentKeys.join('.')}: ${baselineValue}, core ${coreValue}`];
 }

@@ -21,12 +21,12 @@ const DRAGGABLE_SELECTOR = '.slider input[type=range]:not(.playable *), .handle:
  * @param {number} stepCount of each drag
  * @returns {Promise<Drag[]>}
  */
-export async function timeDrags(browser, pageUrl, stepCount) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, reducedMotion: 'reduce' });
-  const page = await context.newPage();
+export async function measureDrags(browser, pageUrl, stepCount) {
+  const browserContext = await browser.newContext({ viewport: { width: 1280, height: 900 }, reducedMotion: 'reduce' });
+  const page = await browserContext.newPage();
   await page.goto(pageUrl);
   await page.evaluate(() => document.body.append(document.createElement('map-squeeze')));
-  const cdpSession = await context.newCDPSession(page);
+  const cdpSession = await browserContext.newCDPSession(page);
   /** @type {Drag[]} */
   const dragTimings = [];
   for (const widgetTag of ['banana-machine', 'map-squeeze']) {
@@ -36,16 +36,16 @@ export async function timeDrags(browser, pageUrl, stepCount) {
     const draggedCount = await page.locator(widgetTag).locator(DRAGGABLE_SELECTOR).count();
     await cdpSession.send('Emulation.setCPUThrottlingRate', { rate: CPU_SLOWDOWN });
     for (let i = 0; i < draggedCount; i++) {
-      dragTimings.push({ widget: widgetTag, ...(await page.evaluate(timeDrag, { widget: widgetTag, selector: DRAGGABLE_SELECTOR, i, steps: stepCount })) });
+      dragTimings.push({ widget: widgetTag, ...(await page.evaluate(measureDrag, { widget: widgetTag, selector: DRAGGABLE_SELECTOR, i, steps: stepCount })) });
     }
     await cdpSession.send('Emulation.setCPUThrottlingRate', { rate: 1 });
   }
-  await context.close();
+  await browserContext.close();
   return dragTimings;
 }
 
 /** Measures the times of one drag. Runs in the page. @param {{ widget: string, selector: string, i: number, steps: number }} options */
-async function timeDrag({ widget, selector, i, steps }) {
+async function measureDrag({ widget, selector, i, steps }) {
   const MAX_FRAMES = 30;
   const figureElement = /** @type {any} */ (document.querySelector(widget));
   const shadowRoot = /** @type {ShadowRoot} */ (figureElement.shadowRoot);
@@ -117,11 +117,11 @@ async function timeDrag({ widget, selector, i, steps }) {
     durationsByKind.text.push(Math.max(0, textTime - pictureTime));
   }
   let previousFrameTime = 0;
-  for (let step = 0; step <= steps; step++) {
-    const now = /** @type {number} */ (await new Promise(requestAnimationFrame));
-    if (step > 0) durationsByKind.steady.push(now - previousFrameTime);
-    previousFrameTime = now;
-    sendStep(step);
+  for (let stepIndex = 0; stepIndex <= steps; stepIndex++) {
+    const frameTime = /** @type {number} */ (await new Promise(requestAnimationFrame));
+    if (stepIndex > 0) durationsByKind.steady.push(frameTime - previousFrameTime);
+    previousFrameTime = frameTime;
+    sendStep(stepIndex);
   }
   CanvasRenderingContext2D.prototype.clearRect = clearRect;
   if (isSlider) {

@@ -19,7 +19,7 @@ import { CPU_SLOWDOWN } from './drag.js';
 const FRAME_MS = 16.7;
 
 /** Returns the report as Markdown. @param {Results} results */
-export function formatReport({ ranOn, quick: isQuickRun, node: nodeTimings, chromium: chromiumTimings, start: startTimings, drags: dragTimings }) {
+export function formatReport({ ranOn: benchMachine, quick: isQuickRun, node: nodeTimings, chromium: chromiumTimings, start: pageStartTimes, drags: dragTimings }) {
   const slowestDrag = dragTimings.reduce((slowestSoFar, dragTiming) => (computeQuantile(dragTiming.picture) > computeQuantile(slowestSoFar.picture) ? dragTiming : slowestSoFar));
   const valuesByRuntime = (/** @type {(timings: Timings) => number[]} */ valuesOf) => ({ Node: valuesOf(nodeTimings), Chromium: valuesOf(chromiumTimings) });
   const refreshOfSize = (/** @type {number} */ sampleCount) => (/** @type {Timings} */ { refresh: refreshTimings }) => refreshTimings.find((refreshRow) => refreshRow.samples === sampleCount) ?? refreshTimings[0];
@@ -31,7 +31,7 @@ export function formatReport({ ranOn, quick: isQuickRun, node: nodeTimings, chro
     ['Refresh of 100 000 poses', '≤', 2, 'ms', valuesByRuntime((timings) => findMiddleRefresh(timings).core)],
     ['JavaScript takes longer, at 1 000 000 poses', '≥', 3, '×', valuesByRuntime((timings) => computeSpeedRatios(findLargestRefresh(timings)))],
     ['Calibration of the example log', '≤', 1000, 'ms', valuesByRuntime(({ calibration }) => calibration)],
-    ['From script start to first cloud', '≤', 100, 'ms', { Chromium: Object.values(startTimings).at(-1) ?? [] }],
+    ['From script start to first cloud', '≤', 100, 'ms', { Chromium: Object.values(pageStartTimes).at(-1) ?? [] }],
     [`Step of the slowest drag (${slowestDrag.control}), processor ${CPU_SLOWDOWN} times slower`, '≤', FRAME_MS, 'ms', { Chromium: slowestDrag.picture }],
   ];
   const targetRows = speedTargets.map(([targetName, comparisonSign, targetLimit, targetUnit, { Node = [], Chromium = [] }]) => {
@@ -43,29 +43,29 @@ export function formatReport({ ranOn, quick: isQuickRun, node: nodeTimings, chro
     { where: runtimeName, samples: formatDigits(refreshRow.samples), 'refresh, ms': cellTextOf(refreshRow.core), 'JavaScript, ms': cellTextOf(refreshRow.baseline), ratio: cellTextOf(computeSpeedRatios(refreshRow)) }
   )));
   return [
-    `${Object.entries(ranOn).map(([machinePart, partVersion]) => `${machinePart} ${partVersion}`).join('; ')}. Medians, with quartiles in brackets.${isQuickRun ? ' A quick run: too few rounds to be quoted.' : ''}`,
+    `${Object.entries(benchMachine).map(([machinePart, partVersion]) => `${machinePart} ${partVersion}`).join('; ')}. Medians, with quartiles in brackets.${isQuickRun ? ' A quick run: too few rounds to be quoted.' : ''}`,
     formatMarkdownTable(targetRows),
     `One event of the slider:\n\n${formatMarkdownTable(refreshRows)}`,
-    `First cloud, from the start of the script:\n\n${formatMarkdownTable(Object.entries(startTimings).map(([stageName, stageTimes]) => ({ until: stageName, ms: cellTextOf(stageTimes) })))}`,
+    `First cloud, from the start of the script:\n\n${formatMarkdownTable(Object.entries(pageStartTimes).map(([stageName, stageTimes]) => ({ until: stageName, ms: cellTextOf(stageTimes) })))}`,
     `Step of a drag, processor ${CPU_SLOWDOWN} times slower, opening sizes:\n\n${formatMarkdownTable(dragTimings.map(({ widget, control, picture, text, steady }) => (
       { widget, dragged: control, 'frame with the picture, ms': cellTextOf(picture), 'text after it, ms': cellTextOf(text), 'between frames, a step in each, ms': cellTextOf(steady) }
     )))}`,
   ].join('\n\n');
 }
 
-/** Returns a quantile of the values, by default the median. @param {number[]} sampleValues @param {number} [quantileLevel] */
-function computeQuantile(sampleValues, quantileLevel = 0.5) {
-  return quantileSorted(sampleValues.toSorted((a, b) => a - b), quantileLevel) ?? NaN;
+/** Returns a quantile of the values, by default the median. @param {number[]} sortableValues @param {number} [quantileLevel] */
+function computeQuantile(sortableValues, quantileLevel = 0.5) {
+  return quantileSorted(sortableValues.toSorted((a, b) => a - b), quantileLevel) ?? NaN;
 }
 
-/** Returns the median and the quartiles as text. @param {number[]} values @param {string} [unit] */
-function cellTextOf(values, unit = '') {
-  const [lowerQuartile, median, upperQuartile] = [0.25, 0.5, 0.75].map((quantileLevel) => formatDigits(computeQuantile(values, quantileLevel)));
-  return values.length > 0 ? `${`${median} ${unit}`.trim()} [${lowerQuartile} to ${upperQuartile}]` : '';
+/** Returns the median and the quartiles as text. @param {number[]} measuredValues @param {string} [unitText] */
+function cellTextOf(measuredValues, unitText = '') {
+  const [lowerQuartile, median, upperQuartile] = [0.25, 0.5, 0.75].map((quantileLevel) => formatDigits(computeQuantile(measuredValues, quantileLevel)));
+  return measuredValues.length > 0 ? `${`${median} ${unitText}`.trim()} [${lowerQuartile} to ${upperQuartile}]` : '';
 }
 
-/** Rounds a number to three significant digits. @param {number} value */
-const formatDigits = (value) => value.toLocaleString('en', { maximumSignificantDigits: 3 }).replaceAll(',', '\u202f');
+/** Rounds a number to three significant digits. @param {number} unroundedValue */
+const formatDigits = (unroundedValue) => unroundedValue.toLocaleString('en', { maximumSignificantDigits: 3 }).replaceAll(',', '\u202f');
 
 /** Returns a Markdown table with a column for each key of the rows. @param {Record<string, string>[]} rowObjects */
 function formatMarkdownTable(rowObjects) {

@@ -15,13 +15,13 @@ const STAGE_OF_MARK = /** @type {const} */ ({
  * @param {number} loadCount
  * @returns {Promise<Record<string, number[]>>} ms from the start of the script to the end of each stage, load by load
  */
-export async function timeStarts(browser, pageUrl, loadCount) {
+export async function measureStarts(browser, pageUrl, loadCount) {
   /** @type {Record<string, number[]>} */
-  const stageTimes = Object.fromEntries(Object.values(STAGE_OF_MARK).map((stage) => [stage, []]));
+  const stageTimes = Object.fromEntries(Object.values(STAGE_OF_MARK).map((stageName) => [stageName, []]));
   for (let loadNumber = 0; loadNumber < loadCount; loadNumber++) {
     // Each load has a new process with its own caches.
-    const context = await browser.newContext({ viewport: { width: 1280, height: 900 } });
-    const page = await context.newPage();
+    const browserContext = await browser.newContext({ viewport: { width: 1280, height: 900 } });
+    const page = await browserContext.newPage();
     await page.addInitScript(markStages);
     // Reduced motion is set, because an animated introduction of single robots would delay the cloud.
     await page.addInitScript(() => sessionStorage.setItem('motion-widgets.introduced', 'yes'));
@@ -30,7 +30,7 @@ export async function timeStarts(browser, pageUrl, loadCount) {
     for (const [markName, stage] of Object.entries(STAGE_OF_MARK)) {
       stageTimes[stage].push(await page.evaluate((markName) => performance.measure('', 'begin', markName).duration, markName));
     }
-    await context.close();
+    await browserContext.close();
   }
   return stageTimes;
 }

@@ -43,9 +43,9 @@ export async function measureCore(core, { quick: isQuickRun, log: logCsv }) {
   return { refresh: refreshTimings, calibration };
 }
 
-/** Parses a log in CSV format into columns. @param {string} csv */
-function parseCSVColumns(csv) {
-  const csvRows = csv.trim().split('\n').slice(1).map((csvLine) => csvLine.split(',').map(Number));
+/** Parses a log in CSV format into columns. @param {string} csvText */
+function parseCSVColumns(csvText) {
+  const csvRows = csvText.trim().split('\n').slice(1).map((csvLine) => csvLine.split(',').map(Number));
   const [t, x, y, theta] = [0, 1, 2, 3].map((i) => Float64Array.from(csvRows, (csvRow) => csvRow[i]));
   return { t, x, y, theta };
 }

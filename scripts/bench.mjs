@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
 import { EXAMPLE_LOG_PATHS } from './example-log.mjs';
-import { ROOT, UserError, printStep, run, runAsScript } from './process.mjs';
+import { REPOSITORY_ROOT, UserError, printStep, runProgram, runAsScript } from './process.mjs';
 import { startServer } from './serve.mjs';
 import { ensureNativeRust } from './toolchain.mjs';
 import { formatReport } from '../benches/report.js';
@@ -17,7 +17,7 @@ const ISOLATION_HEADERS = { 'cross-origin-opener-policy': 'same-origin', 'cross-
 
 /** Describes the machine and the versions of the programs. @param {string} chromiumVersion */
 async function describeMachine(chromiumVersion) {
-  const commitResult = await run('git', ['describe', '--always', '--dirty'], { quiet: true });
+  const commitResult = await runProgram('git', ['describe', '--always', '--dirty'], { quiet: true });
   const { description } = await ensureNativeRust();
   return {
     'Measured on': new Date().toISOString().slice(0, 10),
@@ -38,25 +38,25 @@ async function describeMachine(chromiumVersion) {
  */
 async function measureInChromium(executablePath, benchOptions) {
   const { chromium: chromiumLauncher } = await import('@playwright/test');
-  const { timeDrags } = await import('../benches/drag.js');
-  const { timeStarts } = await import('../benches/start.js');
-  const { address, close } = await startServer(ROOT.replace(/[\\/]$/, ''), { port: 0, headers: ISOLATION_HEADERS });
+  const { measureDrags } = await import('../benches/drag.js');
+  const { measureStarts } = await import('../benches/start.js');
+  const { address, close } = await startServer(REPOSITORY_ROOT.replace(/[\\/]$/, ''), { port: 0, headers: ISOLATION_HEADERS });
   const browser = await chromiumLauncher.launch({ executablePath, args: CHROME_ARGUMENTS });
   const figuresAddress = `${address}benches/page.html`;
   try {
     printStep('First cloud');
-    const startDurations = await timeStarts(browser, figuresAddress, benchOptions.quick ? 5 : 11);
+    const startDurations = await measureStarts(browser, figuresAddress, benchOptions.quick ? 5 : 11);
     printStep('Drags');
-    const dragTimes = await timeDrags(browser, figuresAddress, benchOptions.quick ? 10 : 40);
+    const dragTimes = await measureDrags(browser, figuresAddress, benchOptions.quick ? 10 : 40);
     printStep('Refresh and calibration');
     // The page "empty" has no figures, so that its times are those of the page alone.
     const page = await browser.newPage();
     await page.route(`${address}empty`, (route) => route.fulfill({ headers: ISOLATION_HEADERS, contentType: 'text/html', body: '' }));
     await page.goto(`${address}empty`);
     if (!(await page.evaluate('crossOriginIsolated'))) throw new Error('The page is not isolated, and its clock too coarse.');
-    const chromiumTimings = await page.evaluate(async ({ modules: [coreModule, suiteModule], given }) => {
+    const chromiumTimings = await page.evaluate(async ({ modules: [coreModule, suiteModule], given: suiteOptions }) => {
       const [{ load }, { measureCore }] = await Promise.all([import(coreModule), import(suiteModule)]);
-      return measureCore(await load(), given);
+      return measureCore(await load(), suiteOptions);
     }, { modules: [`${address}dist/core.js`, `${address}benches/suite.js`], given: benchOptions });
     return { chromium: chromiumTimings, start: startDurations, drags: dragTimes };
   } finally {
@@ -72,7 +72,7 @@ await runAsScript(import.meta.url, async () => {
   const isQuickRun = commandOptions.length > 0;
   // The full build is measured, because it is published. The local build is not optimized.
   await build();
-  const [odometry, reference] = [EXAMPLE_LOG_PATHS.odometry, EXAMPLE_LOG_PATHS.reference].map((logPath) => readFileSync(join(ROOT, logPath), 'utf8'));
+  const [odometry, reference] = [EXAMPLE_LOG_PATHS.odometry, EXAMPLE_LOG_PATHS.reference].map((logPath) => readFileSync(join(REPOSITORY_ROOT, logPath), 'utf8'));
   const benchOptions = { quick: isQuickRun, log: { odometry, reference } };
   printStep('Node');
   // The modules of benches/ import dist/, which exists only after the build.
@@ -82,6 +82,6 @@ await runAsScript(import.meta.url, async () => {
   const browser = await ensureBrowser();
   printStep('Chromium');
   const benchResults = { ranOn: await describeMachine(browser.version), quick: isQuickRun, node: nodeTimings, ...(await measureInChromium(browser.chrome, benchOptions)) };
-  writeFileSync(join(ROOT, 'build/bench.json'), `${JSON.stringify(benchResults, null, 2)}\n`);
+  writeFileSync(join(REPOSITORY_ROOT, 'build/bench.json'), `${JSON.stringify(benchResults, null, 2)}\n`);
   console.log(`\n${formatReport(benchResults)}\n\nbuild/bench.json has all measurements.`);
 });

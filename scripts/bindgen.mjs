@@ -4,7 +4,7 @@
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { ROOT, UserError, filesOf, isProgram, memoize, printStep, run } from './process.mjs';
+import { REPOSITORY_ROOT, UserError, filesOf, isProgram, memoize, printStep, runProgram } from './process.mjs';
 import { CACHE_DIRECTORY, readManifestValue, ensureNativeRust } from './toolchain.mjs';
 
 const BINDGEN_CRATE = 'scripts/bind';
@@ -23,7 +23,7 @@ export const ensureTestRunner = memoize(async () => {
 async function compileProgram(programName, cargoFeatures) {
   const bindgenVersion = readManifestValue(`${BINDGEN_CRATE}/Cargo.lock`, /^name = "wasm-bindgen-cli-support"\nversion = "(.+)"$/m);
   const sourceHash = createHash('sha256');
-  for (const sourcePath of filesOf(BINDGEN_CRATE)) sourceHash.update(readFileSync(join(ROOT, sourcePath)));
+  for (const sourcePath of filesOf(BINDGEN_CRATE)) sourceHash.update(readFileSync(join(REPOSITORY_ROOT, sourcePath)));
   const installDirectory = join(CACHE_DIRECTORY, `wasm-bindgen-${bindgenVersion}-${sourceHash.digest('hex').slice(0, 12)}`);
   const programPath = join(installDirectory, 'bin', programName);
   if (isProgram(programPath)) return programPath;
@@ -31,10 +31,10 @@ async function compileProgram(programName, cargoFeatures) {
   printStep(`Building ${programName} of wasm-bindgen ${bindgenVersion}, once`);
   const cargoArguments = ['install', '--quiet', '--debug', '--path', BINDGEN_CRATE, '--bin', programName, ...cargoFeatures, '--root', installDirectory, '--no-track', '--force'];
   // Cargo locks its target directory during a build. A separate target directory avoids waiting for other builds.
-  const cargoOptions = { env: { ...env, CARGO_TARGET_DIR: join(ROOT, 'target/bind') }, seconds: 1200 };
-  const installResult = await run(join(cargoDirectory, 'cargo'), [...cargoArguments, '--locked'], { ...cargoOptions, quiet: true });
+  const cargoOptions = { env: { ...env, CARGO_TARGET_DIR: join(REPOSITORY_ROOT, 'target/bind') }, seconds: 1200 };
+  const installResult = await runProgram(join(cargoDirectory, 'cargo'), [...cargoArguments, '--locked'], { ...cargoOptions, quiet: true });
   // The second attempt ignores the lock file, because a mirror of the registry may lack a crate of the lock file.
-  if (installResult.ok || (await run(join(cargoDirectory, 'cargo'), cargoArguments, cargoOptions)).ok) return programPath;
+  if (installResult.ok || (await runProgram(join(cargoDirectory, 'cargo'), cargoArguments, cargoOptions)).ok) return programPath;
   throw new UserError(
     `wasm-bindgen ${bindgenVersion} could not be built: check that this machine reaches the registry of Rust packages and start again.`,
   );

@@ -2,7 +2,7 @@
 
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { UserError, absolutePath, findProgram, runOrThrow, printStep, run } from './process.mjs';
+import { UserError, absolutePath, findProgram, runOrThrow, printStep, runProgram } from './process.mjs';
 import { CACHE_DIRECTORY, installByApt } from './toolchain.mjs';
 
 /** Names of the programs of the full Chromium. Only the full Chromium has a back-forward cache. */
@@ -34,7 +34,7 @@ export async function ensureBrowser() {
   const browser = await ensureChrome();
   // The layout of the pages assumes a font as wide as Arial. If DejaVu is the only font, all text is a tenth wider.
   if (findProgram('fc-match') !== undefined && findProgram('apt-get') !== undefined) {
-    const { stdout: arialFamily } = await run('fc-match', ['--format', '%{family}', 'Arial'], { quiet: true, seconds: 30 });
+    const { stdout: arialFamily } = await runProgram('fc-match', ['--format', '%{family}', 'Arial'], { quiet: true, seconds: 30 });
     if (!/Arial|Liberation|Arimo|Helvetica/.test(arialFamily)) await installByApt(['fonts-liberation'], 'A font as wide as Arial is missing: install fonts-liberation.');
   }
   return browser;
@@ -77,16 +77,16 @@ async function pairBrowserWithDriver(chromePath, driverPath) {
 
 /** Returns the version that a program prints, or undefined if the program does not run. @param {string} programPath */
 async function readVersion(programPath) {
-  const { stdout } = await run(programPath, ['--version'], { quiet: true, seconds: 30 });
+  const { stdout } = await runProgram(programPath, ['--version'], { quiet: true, seconds: 30 });
   return stdout.match(/\d+(\.\d+){3}/)?.[0];
 }
 
 /** Returns Google's Chrome for Testing, which has a matching chromedriver. The browser and the driver are downloaded once. */
 async function installChromeForTesting() {
   const browsersDirectory = join(CACHE_DIRECTORY, 'browsers');
-  const pathsFile = join(browsersDirectory, 'paths.json');
-  if (existsSync(pathsFile)) {
-    const { chrome, driver } = JSON.parse(readFileSync(pathsFile, 'utf8'));
+  const browserPathsFile = join(browsersDirectory, 'paths.json');
+  if (existsSync(browserPathsFile)) {
+    const { chrome, driver } = JSON.parse(readFileSync(browserPathsFile, 'utf8'));
     const existingBrowser = await pairBrowserWithDriver(chrome, driver);
     if (existingBrowser !== undefined) return existingBrowser;
   }
@@ -99,13 +99,13 @@ async function installChromeForTesting() {
     await runOrThrow('Libraries that Chrome needs are missing: run `npx playwright install-deps chromium` and start again.', process.execPath, installLibraries, { seconds: 600 });
   }
   const driver = await downloadProgram(browsersDirectory, `chromedriver@${await readVersion(chrome)}`);
-  writeFileSync(pathsFile, JSON.stringify({ chrome, driver }));
+  writeFileSync(browserPathsFile, JSON.stringify({ chrome, driver }));
   return pairBrowserWithDriver(chrome, driver);
 }
 
 /** Downloads a program, and returns its path. @param {string} installDirectory @param {string} programAndVersion @returns {Promise<string | undefined>} */
 async function downloadProgram(installDirectory, programAndVersion) {
   const installArguments = ['exec', '--yes', '--', '@puppeteer/browsers@2.13.2', 'install', programAndVersion];
-  const { ok, stdout } = await run('npm', [...installArguments, '--path', installDirectory, '--format', '{{path}}'], { seconds: 900 });
+  const { ok, stdout } = await runProgram('npm', [...installArguments, '--path', installDirectory, '--format', '{{path}}'], { seconds: 900 });
   return ok ? stdout.trim().split('\n').pop() : undefined;
 }

@@ -8,7 +8,7 @@ import { join } from 'node:path';
 import { ensureBindProgram } from './bindgen.mjs';
 import { EXAMPLE_LOG_PATHS, writeExampleLog } from './example-log.mjs';
 import { listCrates } from './licences.mjs';
-import { absolutePath, filesOf, runOrThrow, printStep, run, runAsScript, settleAll } from './process.mjs';
+import { absolutePath, filesOf, runOrThrow, printStep, runProgram, runAsScript, settleAll } from './process.mjs';
 import { ensureNativeRust, ensurePackages, ensureRustForWasm } from './toolchain.mjs';
 
 const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'python', 'react', 'tables', 'types'].map((scriptName) => `scripts/${scriptName}.mjs`);
@@ -44,12 +44,12 @@ export async function build({ isLocal = false } = {}) {
   await ensurePackages();
   await buildIfStale('build/core.sha256', compiledHash, coreProducts, () => buildCores(['motion'], isLocal));
   // bundle.mjs imports npm packages and build/settings.js. A static import of bundle.mjs would fail in a bare clone.
-  const { WIDGET_TAGS, bundle } = await import('./bundle.mjs');
+  const { WIDGET_TAGS, bundlePages } = await import('./bundle.mjs');
   const figureProducts = WIDGET_TAGS.flatMap((widgetTag) => [`build/${widgetTag}.js`, `build/${widgetTag}.wasm`]);
   if (!isLocal) await buildIfStale('build/figures.sha256', coreHash, figureProducts, () => buildCores(WIDGET_TAGS, false));
   const tagsWithCore = compiledHash === coreHash && isUpToDate('build/figures.sha256', coreHash, figureProducts) ? WIDGET_TAGS : [];
   const pagesHash = hashOfFiles(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], compiledHash + tagsWithCore);
-  await buildIfStale('build/pages.sha256', pagesHash, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], () => bundle({ tags: tagsWithCore }));
+  await buildIfStale('build/pages.sha256', pagesHash, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], () => bundlePages({ tags: tagsWithCore }));
   await buildIfStale('build/example-log.sha256', hashOfFiles(['scripts/example-log.mjs'], coreHash), Object.values(EXAMPLE_LOG_PATHS), writeExampleLog);
 }
 
@@ -113,25 +113,25 @@ async function buildCores(coreNames, isLocal) {
  * Compiles a core.
  *
  * @param {Awaited<ReturnType<typeof ensureRustForWasm>>} rustTools
- * @param {string} name as in `buildCores`
+ * @param {string} coreName as in `buildCores`
  * @param {boolean} isLocal
  * @returns {Promise<string>} path of the module that rustc has written
  */
-async function compileCore(rustTools, name, isLocal) {
+async function compileCore(rustTools, coreName, isLocal) {
   const cargoPath = join(rustTools.cargoDirectory, 'cargo');
   // `cargo build` also makes a Rust library, and then cannot optimize across crates. `cargo rustc` makes only the module. Panic locations
   // contain paths. In a published module the paths of this machine are removed.
   const registrySources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
-  const { stdout: sysroot } = await run(join(rustTools.cargoDirectory, 'rustc'), ['--print', 'sysroot'], { env: rustTools.env, quiet: true });
+  const { stdout: sysroot } = await runProgram(join(rustTools.cargoDirectory, 'rustc'), ['--print', 'sysroot'], { env: rustTools.env, quiet: true });
   const pathRemovalFlags = [registrySources, join(sysroot.trim(), 'lib/rustlib/src/rust')].map((path) => `"--remap-path-prefix=${path}="`);
   const pathRemovalOption = `target.wasm32-unknown-unknown.rustflags=[${pathRemovalFlags}]`;
   const cargoProfile = isLocal ? 'web' : 'release';
   const cargoOptions = ['--quiet', '--locked', '--profile', cargoProfile, '--lib', '--crate-type', 'cdylib', ...(isLocal ? [] : ['--config', pathRemovalOption])];
-  const widgetOptions = name === 'motion' ? [] : ['--', '--cfg', 'widget', '--cfg', `widget="${name}"`];
+  const widgetOptions = coreName === 'motion' ? [] : ['--', '--cfg', 'widget', '--cfg', `widget="${coreName}"`];
   await runOrThrow('The core does not compile: see the errors above.', cargoPath, ['rustc', ...cargoOptions, ...rustTools.target, ...widgetOptions], { env: rustTools.env });
-  const readCargoOutput = async (/** @type {string[]} */ ...cargoArguments) => (await run(cargoPath, [...cargoArguments, '--locked'], { env: rustTools.env, quiet: true })).stdout;
+  const readCargoOutput = async (/** @type {string[]} */ ...cargoArguments) => (await runProgram(cargoPath, [...cargoArguments, '--locked'], { env: rustTools.env, quiet: true })).stdout;
   const cargoMetadata = JSON.parse(await readCargoOutput('metadata', '--format-version', '1'));
-  if (name === 'motion') {
+  if (coreName === 'motion') {
     const crateTree = await readCargoOutput('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
     writeFileSync(absolutePath('build/crates.json'), JSON.stringify(listCrates(crateTree, cargoMetadata)));
   }
@@ -143,11 +143,11 @@ async function writeSettings() {
   const { cargoDirectory, env } = await ensureNativeRust();
   const cargoArguments = ['run', '--quiet', '--locked', '--example', 'declarations'];
   const { stdout } = await runOrThrow('The settings could not be listed: see above.', join(cargoDirectory, 'cargo'), cargoArguments, { env, quiet: true });
-  const [widgets, otherConstants] = JSON.parse(stdout);
-  const settings = Object.fromEntries(widgets.map((/** @type {any[]} */ [tag, settingsOfWidget]) => [tag, declarationsOf(settingsOfWidget)]));
-  const presets = Object.fromEntries(widgets.map((/** @type {any[]} */ [tag, , presetsOfWidget]) => [tag, presetsOfWidget.map((/** @type {any[]} */ [name, settings]) => ({ name, settings }))]));
+  const [widgetDeclarations, otherConstants] = JSON.parse(stdout);
+  const settings = Object.fromEntries(widgetDeclarations.map((/** @type {any[]} */ [tag, settingsOfWidget]) => [tag, declarationsOf(settingsOfWidget)]));
+  const presetsByTag = Object.fromEntries(widgetDeclarations.map((/** @type {any[]} */ [tag, , presetsOfWidget]) => [tag, presetsOfWidget.map((/** @type {any[]} */ [name, settings]) => ({ name, settings }))]));
   const typeLines = "/** @typedef {import('../www/types.d.ts').Declaration} Declaration */\n\n/** @type {Record<string, Declaration[]>} */\n";
-  const constantLines = Object.entries({ settings, presets, ...otherConstants }).map(([constantName, constantValue]) => `export const ${constantName} = ${JSON.stringify(constantValue, null, 1)};\n`);
+  const constantLines = Object.entries({ settings, presets: presetsByTag, ...otherConstants }).map(([constantName, constantValue]) => `export const ${constantName} = ${JSON.stringify(constantValue, null, 1)};\n`);
   writeFileSync(absolutePath('build/settings.js'), typeLines + constantLines.join('\n'));
 }
 
@@ -161,17 +161,17 @@ function declarationsOf(settingsOfWidget) {
   const fieldKeys = settingsOfWidget.flatMap(([, { fields = [] }]) => fields.map((/** @type {any[]} */ [{ key }]) => key));
   // If several groups have a field of the same name, as two poses have, the group is part of the field's name.
   const isInSeveralGroups = (/** @type {string} */ fieldKey) => fieldKeys.indexOf(fieldKey) < fieldKeys.lastIndexOf(fieldKey);
-  return settingsOfWidget.flatMap(([{ key, of, unit, sentence, each }, { type, allowed, nullable, weights, words, fields, minLength }, value]) => {
-    const limits = { min: allowed?.start, max: allowed?.end };
-    const listItems = type === 'numbers' && each ? value : [];
+  return settingsOfWidget.flatMap(([{ key, of, unit, sentence, each }, { type, allowed, nullable, weights, words, fields, minLength }, defaultValue]) => {
+    const rangeLimits = { min: allowed?.start, max: allowed?.end };
+    const listItems = type === 'numbers' && each ? defaultValue : [];
     return [
-      { key, of: of ?? undefined, weights, type, words, fields: fields?.map((/** @type {any[]} */ [field]) => field.key), unit: unit || undefined, nullable, ...limits, default: value, sentence },
-      ...listItems.map((/** @type {number} */ listItem, /** @type {number} */ index) => (
-        { key: `alpha${index + 1}`, in: key, index, type: 'number', nullable: index >= minLength || undefined, ...limits, default: listItem, sentence: each }
+      { key, of: of ?? undefined, weights, type, words, fields: fields?.map((/** @type {any[]} */ [groupField]) => groupField.key), unit: unit || undefined, nullable, ...rangeLimits, default: defaultValue, sentence },
+      ...listItems.map((/** @type {number} */ listItem, /** @type {number} */ itemIndex) => (
+        { key: `alpha${itemIndex + 1}`, in: key, index: itemIndex, type: 'number', nullable: itemIndex >= minLength || undefined, ...rangeLimits, default: listItem, sentence: each }
       )),
       ...(fields ?? []).map((/** @type {any[]} */ [field, { start: min, end: max }]) => ({
         key: isInSeveralGroups(field.key) ? `${key}${field.key[0].toUpperCase()}${field.key.slice(1)}` : field.key, in: key, field: isInSeveralGroups(field.key) ? field.key : undefined,
-        type: 'number', unit: field.unit, min, max, default: value[field.key], sentence: each ? `${field.sentence} ${each}.` : field.sentence,
+        type: 'number', unit: field.unit, min, max, default: defaultValue[field.key], sentence: each ? `${field.sentence} ${each}.` : field.sentence,
       })),
     ];
   });

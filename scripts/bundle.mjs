@@ -8,7 +8,7 @@ import * as declared from '../build/settings.js';
 import { describeWidgets, importTypeScript } from './declarations.mjs';
 import { readLicenceTexts, listBundledPackages } from './licences.mjs';
 import { createManifest } from './manifest.mjs';
-import { ROOT, UserError, absolutePath, filesOf, printStep } from './process.mjs';
+import { REPOSITORY_ROOT, UserError, absolutePath, filesOf, printStep } from './process.mjs';
 import { writePython } from './python.mjs';
 import { writeComponents } from './react.mjs';
 import { insertTables } from './tables.mjs';
@@ -151,7 +151,7 @@ export declare function isFigureTag(tag: string): boolean;
  * @param {object} [options]
  * @param {string[]} [options.tags] the figures that have a module of their own; the others share the whole core
  */
-export async function bundle({ tags = WIDGET_TAGS } = {}) {
+export async function bundlePages({ tags = WIDGET_TAGS } = {}) {
   printStep('Bundling the pages');
   await writeTypes();
   await writeComponents();
@@ -168,7 +168,7 @@ export async function bundle({ tags = WIDGET_TAGS } = {}) {
   const bundleScripts = (entryPoints, bundleForm, buildOptions) =>
     build({
       entryPoints: Object.entries(entryPoints).map(([outputName, path]) => ({ in: join('www', path), out: outputName })),
-      absWorkingDir: ROOT,
+      absWorkingDir: REPOSITORY_ROOT,
       outdir: absolutePath('dist'),
       bundle: true,
       minify: true,
@@ -288,10 +288,10 @@ const STYLES_RE = new RegExp(String.raw`(?<=\b(?:css|unsafeCSS\()\x60)(?:[^\x60$
  * Minifies the styles in a script. Bundlers do not minify them, because the styles are template strings. An expression at the beginning of
  * a line stands for rules or declarations, and is given to the minifier as an at-rule. Any other expression is given as a name.
  *
- * @param {string} script
+ * @param {string} scriptSource
  */
-function minifyStyles(script) {
-  return script.replace(STYLES_RE, (styleText) => {
+function minifyStyles(scriptSource) {
+  return scriptSource.replace(STYLES_RE, (styleText) => {
     /** @type {string[]} */
     const templateExpressions = [];
     const plainStyle = styleText.replace(EXPRESSIONS_RE, (templateExpression, expressionPosition) => {
@@ -329,7 +329,7 @@ function composeMinimalDeclarations() {
   const toJson = (/** @type {unknown} */ declarationValue) => JSON.stringify(declarationValue, function (memberKey, memberValue) {
     return ['sentence', 'nullable'].includes(memberKey) || (memberKey === 'default' && 'in' in this) ? undefined : memberValue;
   });
-  return Object.entries(declared).map(([name, value]) => `export const ${name} = ${toJson(value)};\n`).join('');
+  return Object.entries(declared).map(([constantName, constantValue]) => `export const ${constantName} = ${toJson(constantValue)};\n`).join('');
 }
 
 /**
@@ -365,12 +365,12 @@ const REPLACED_PASSAGES = {
   ],
 };
 
-/** Returns a library with its `REPLACED_PASSAGES` replaced. @param {string} library @param {keyof typeof REPLACED_PASSAGES} name of its file */
-function replacePassages(library, name) {
-  return REPLACED_PASSAGES[name].reduce((text, [originalPassage, replacementPassage]) => {
-    if (text.split(originalPassage).length !== 2) throw new Error(`${name} does not have ${originalPassage} once, but scripts/bundle.mjs replaces it.`);
+/** Returns a library with its `REPLACED_PASSAGES` replaced. @param {string} librarySource @param {keyof typeof REPLACED_PASSAGES} libraryFileName of its file */
+function replacePassages(librarySource, libraryFileName) {
+  return REPLACED_PASSAGES[libraryFileName].reduce((text, [originalPassage, replacementPassage]) => {
+    if (text.split(originalPassage).length !== 2) throw new Error(`${libraryFileName} does not have ${originalPassage} once, but scripts/bundle.mjs replaces it.`);
     return text.replace(originalPassage, () => replacementPassage);
-  }, library);
+  }, librarySource);
 }
 
 /** Adapts import paths in types to the published directory, in which all types are side by side. @param {string} typesSource */

@@ -5,7 +5,7 @@ import { pathToFileURL } from 'node:url';
 import { isDeepStrictEqual } from 'node:util';
 import { register } from 'tsx/esm/api';
 import { presets, settings } from '../build/settings.js';
-import { ROOT, absolutePath, memoize } from './process.mjs';
+import { REPOSITORY_ROOT, absolutePath, memoize } from './process.mjs';
 
 // tsx lets Node import TypeScript modules.
 register();
@@ -110,7 +110,7 @@ export const readClassComments = memoize(async () => {
   const { cli } = await import('@custom-elements-manifest/analyzer/cli.js');
   // With `noWrite` the analyzer returns the manifest and does not write it. It still writes the manifest's path in dist/ into package.json.
   const analyzerArguments = ['analyze', '--litelement', '--quiet', '--outdir', 'dist', '--globs', 'www/figure/figure.ts', 'www/widgets/*/*.ts'];
-  const { schemaVersion, modules } = await cli({ argv: analyzerArguments, cwd: ROOT, noWrite: true });
+  const { schemaVersion, modules } = await cli({ argv: analyzerArguments, cwd: REPOSITORY_ROOT, noWrite: true });
   /** @type {any[]} */
   const classDeclarations = modules.flatMap((/** @type {any} */ { declarations }) => declarations ?? []);
   return { schemaVersion, classes: new Map(classDeclarations.map((declaration) => [declaration.name, declaration])) };
@@ -139,29 +139,29 @@ async function describeWidget(widgetTag) {
   const settingOf = (/** @type {string} */ name) => declarations.find((/** @type {Declaration} */ { key }) => key === name);
 
   /** Returns the description of an attribute. @returns {Omit<Attribute, 'isCommon'>} */
-  const describeAttribute = (/** @type {[string, any]} */ [property, propertyDefinition]) => {
-    const declaration = settingOf(property);
+  const describeAttribute = (/** @type {[string, any]} */ [propertyName, propertyDefinition]) => {
+    const declaration = settingOf(propertyName);
     if (declaration) {
       const defaultValue = declaration.default;
       const openingText = defaultValue === null ? undefined : String(defaultValue);
       const formattedDefault = typeof defaultValue === 'number' ? numberTextOf(defaultValue) : openingText;
       const withoutRange = descriptionOf({ ...declaration, min: undefined }, formattedDefault);
-      return { name: property, type: typeTextOf(declaration), description: descriptionOf(declaration, formattedDefault), opening: openingText, allowed: rangeTextOf(declaration), withoutRange };
+      return { name: propertyName, type: typeTextOf(declaration), description: descriptionOf(declaration, formattedDefault), opening: openingText, allowed: rangeTextOf(declaration), withoutRange };
     }
     const { words, attribute, default: commonDefault } = propertyDefinition;
-    const name = typeof attribute === 'string' ? attribute : property;
-    const elementField = elementFields[property];
-    const isPreset = property === 'preset';
+    const name = typeof attribute === 'string' ? attribute : propertyName;
+    const elementField = elementFields[propertyName];
+    const isPreset = propertyName === 'preset';
     const nullable = isPreset || commonDefault === null;
     const openingText = elementField?.default ?? (isPreset ? openingPresetOf(widgetTag) : commonDefault || undefined);
     const type = elementField?.type === 'number' ? 'number' : words === undefined ? 'boolean' : elementField?.type === 'words' ? `(${unionTypeOf(words)})[]` : unionTypeOf(words);
     const typeText = Array.isArray(openingText) ? openingText.join(' ') : openingText;
     const description = descriptionOf({ ...propertyDefinition, ...elementField, sentence: attributeSentences[name] }, typeText);
-    return { name, property, type: nullable ? `${type} | null` : type, description, opening: typeText, allowed: elementField && rangeTextOf(elementField), withoutRange: description };
+    return { name, property: propertyName, type: nullable ? `${type} | null` : type, description, opening: typeText, allowed: elementField && rangeTextOf(elementField), withoutRange: description };
   };
   const toNamedDescription = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
 
-  const describedAttributes = Object.entries({ ...attributes, ...COMMON_PROPERTIES }).map((entry) => ({ ...describeAttribute(entry), isCommon: entry[0] in COMMON_PROPERTIES }));
+  const describedAttributes = Object.entries({ ...attributes, ...COMMON_PROPERTIES }).map((propertyEntry) => ({ ...describeAttribute(propertyEntry), isCommon: propertyEntry[0] in COMMON_PROPERTIES }));
   /** @type {Declaration[]} */
   const topLevelSettings = declarations.filter((/** @type {Declaration} */ declaration) => !declaration.in && !declaration.of);
   const groupFields = topLevelSettings.filter(({ key }) => !(key in attributes)).map(fieldOf);
@@ -187,5 +187,5 @@ export function fieldOf(declaration) {
 function openingPresetOf(tag) {
   const defaultOf = (/** @type {string} */ name) => settings[tag].find(({ key }) => key === name)?.default;
   const presetsOfTag = presets[/** @type {keyof typeof presets} */ (tag)];
-  return presetsOfTag.find((preset) => Object.entries(preset.settings).every(([key, value]) => isDeepStrictEqual(value, defaultOf(key))))?.name;
+  return presetsOfTag.find((preset) => Object.entries(preset.settings).every(([settingKey, settingValue]) => isDeepStrictEqual(settingValue, defaultOf(settingKey))))?.name;
 }

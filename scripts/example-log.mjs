@@ -2,7 +2,7 @@
 
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { ROOT } from './process.mjs';
+import { REPOSITORY_ROOT } from './process.mjs';
 
 /** @import { Pose } from '../www/types.d.ts' */
 
@@ -18,7 +18,7 @@ export const TRUE_PARAMETERS = { alphas: [0.03, 0.008, 0.002, 0.002], mountYaw: 
 export const AMCL_LEG_LENGTH = { distance: 0.25, angle: 0.2 };
 
 /** Start and duration of the drive, its integration step, and the time between two rows of a log, s. */
-const [START_TIME, DURATION, TIME_STEP, ROW_INTERVAL] = [10, 225, 0.005, 0.05];
+const [START_TIME, DRIVE_DURATION, TIME_STEP, ROW_INTERVAL] = [10, 225, 0.005, 0.05];
 
 /** Integration steps between two rows. */
 const STEPS_PER_ROW = Math.round(ROW_INTERVAL / TIME_STEP);
@@ -57,13 +57,13 @@ function* generateCommands() {
 
 /** Returns the poses of the odometry, one for each row. @param {Motion} core @returns {Pose[]} */
 function simulateOdometry(core) {
-  const limitChange = (/** @type {number} */ currentValue, /** @type {number} */ goalValue, /** @type {number} */ maxChange) => currentValue + Math.max(-maxChange, Math.min(maxChange, goalValue - currentValue));
+  const limitChange = (/** @type {number} */ currentValue, /** @type {number} */ targetValue, /** @type {number} */ maxChange) => currentValue + Math.max(-maxChange, Math.min(maxChange, targetValue - currentValue));
   let odometryPose = { x: 0, y: 0, theta: 0 };
   const odometryPoses = [odometryPose];
   let [v, omega, stepCount] = [0, 0, 0];
   for (const command of generateCommands()) {
     for (let stepsLeft = Math.round(command.seconds / TIME_STEP); stepsLeft > 0; stepsLeft--) {
-      if (stepCount >= DURATION / TIME_STEP) return odometryPoses;
+      if (stepCount >= DRIVE_DURATION / TIME_STEP) return odometryPoses;
       v = limitChange(v, command.v, MAX_ACCELERATIONS.v * TIME_STEP);
       omega = limitChange(omega, command.omega, MAX_ACCELERATIONS.omega * TIME_STEP);
       if (v !== 0 || omega !== 0) odometryPose = core.se2.boxplus(odometryPose, [v * TIME_STEP, 0, omega * TIME_STEP]);
@@ -142,6 +142,6 @@ export async function writeExampleLog() {
     const pose = truePoses[Math.max(0, Math.min(i, lastRow))];
     return csvLineOf(START_TIME + i * ROW_INTERVAL + TRUE_PARAMETERS.clockOffset, motion.se2.compose(pose, mountPose));
   });
-  writeFileSync(join(ROOT, EXAMPLE_LOG_PATHS.odometry), csvTableOf(odometryLines));
-  writeFileSync(join(ROOT, EXAMPLE_LOG_PATHS.reference), csvTableOf(referenceLines));
+  writeFileSync(join(REPOSITORY_ROOT, EXAMPLE_LOG_PATHS.odometry), csvTableOf(odometryLines));
+  writeFileSync(join(REPOSITORY_ROOT, EXAMPLE_LOG_PATHS.reference), csvTableOf(referenceLines));
 }

@@ -4,10 +4,10 @@
 import { mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
-import { ROOT, UserError, runOrThrow, printStep, run, runAsScript } from './process.mjs';
+import { REPOSITORY_ROOT, UserError, runOrThrow, printStep, runProgram, runAsScript } from './process.mjs';
 import { ensureNativeRust } from './toolchain.mjs';
 
-const FUZZ_TARGETS = readdirSync(join(ROOT, 'fuzz/corpus')).map((corpusFile) => corpusFile.replace(/\.txt$/, ''));
+const FUZZ_TARGETS = readdirSync(join(REPOSITORY_ROOT, 'fuzz/corpus')).map((corpusFile) => corpusFile.replace(/\.txt$/, ''));
 
 /** Limits for each input: time (s), allocated memory (MB), memory of the process (30 MB without an input), and size (bytes). */
 const INPUT_LIMITS = ['-timeout=1', '-malloc_limit_mb=256', '-rss_limit_mb=286', '-max_len=256'];
@@ -16,26 +16,26 @@ const INPUT_LIMITS = ['-timeout=1', '-malloc_limit_mb=256', '-rss_limit_mb=286',
 const BUILD_OPTIONS = ['--sanitizer', 'none', '--no-trace-compares'];
 
 /** Returns the path of the packed inputs of a target. The file has one hexadecimal input a line. @param {string} targetName */
-const packedPathOf = (targetName) => join(ROOT, 'fuzz/corpus', `${targetName}.txt`);
+const packedPathOf = (targetName) => join(REPOSITORY_ROOT, 'fuzz/corpus', `${targetName}.txt`);
 
 /** Returns the folder of unpacked inputs of a target. @param {string} targetName @param {'known' | 'found' | 'merged'} folderKind */
-const inputFolderOf = (targetName, folderKind) => join(ROOT, 'build/fuzz', targetName, folderKind);
+const inputFolderOf = (targetName, folderKind) => join(REPOSITORY_ROOT, 'build/fuzz', targetName, folderKind);
 
 /** Writes the packed inputs of a target as files for libFuzzer. @param {string} targetName */
 function unpackInputs(targetName) {
-  const knownFolder = inputFolderOf(targetName, 'known');
-  rmSync(knownFolder, { recursive: true, force: true });
-  mkdirSync(knownFolder, { recursive: true });
+  const knownInputFolder = inputFolderOf(targetName, 'known');
+  rmSync(knownInputFolder, { recursive: true, force: true });
+  mkdirSync(knownInputFolder, { recursive: true });
   mkdirSync(inputFolderOf(targetName, 'found'), { recursive: true });
   const inputLines = readFileSync(packedPathOf(targetName), 'latin1').split('\n').slice(0, -1);
-  inputLines.forEach((hexLine, i) => writeFileSync(join(knownFolder, String(i)), Buffer.from(hexLine, 'hex')));
+  inputLines.forEach((hexLine, i) => writeFileSync(join(knownInputFolder, String(i)), Buffer.from(hexLine, 'hex')));
 }
 
 /** Runs a target with cargo-fuzz. @param {string} targetName @param {string[]} inputFolders of inputs @param {string[]} fuzzerOptions of libFuzzer */
 async function runCargoFuzz(targetName, inputFolders, fuzzerOptions) {
   const { cargoDirectory, env } = await ensureNativeRust();
   const cargoArguments = ['+nightly', 'fuzz', 'run', ...BUILD_OPTIONS, 'target', ...inputFolders, '--', ...fuzzerOptions];
-  return run(join(cargoDirectory, 'cargo'), cargoArguments, { env: { ...env, FUZZ_TARGET: targetName }, quiet: true });
+  return runProgram(join(cargoDirectory, 'cargo'), cargoArguments, { env: { ...env, FUZZ_TARGET: targetName }, quiet: true });
 }
 
 /**
@@ -71,22 +71,22 @@ async function keepInputs(fuzzTargetName) {
 await runAsScript(import.meta.url, async () => {
   const commandArguments = process.argv.slice(2);
   const isKeepMode = commandArguments[0] === 'keep';
-  const [runs, seed] = isKeepMode ? [] : [commandArguments[0] ?? '1000000', commandArguments[1] ?? '1'];
+  const [runCount, seed] = isKeepMode ? [] : [commandArguments[0] ?? '1000000', commandArguments[1] ?? '1'];
   const namedTargets = commandArguments.slice(isKeepMode ? 1 : 2);
-  for (const [parameterName, parameterText] of Object.entries({ RUNS: runs, SEED: seed })) {
+  for (const [parameterName, parameterText] of Object.entries({ RUNS: runCount, SEED: seed })) {
     if (parameterText !== undefined && !/^[1-9]\d*$/.test(parameterText)) throw new UserError(`${parameterName} must be a whole number from 1 (got "${parameterText}").`);
   }
   const unknownTarget = namedTargets.find((targetName) => !FUZZ_TARGETS.includes(targetName));
   if (unknownTarget !== undefined) throw new UserError(`"${unknownTarget}" is not a target; targets are ${FUZZ_TARGETS.join(', ')}.`);
-  const waitingTargets = namedTargets.length > 0 ? namedTargets : [...FUZZ_TARGETS];
-  printStep(`${isKeepMode ? 'keep' : `${runs} inputs each, seed ${seed}`}: ${waitingTargets.join(', ')}`);
+  const targetQueue = namedTargets.length > 0 ? namedTargets : [...FUZZ_TARGETS];
+  printStep(`${isKeepMode ? 'keep' : `${runCount} inputs each, seed ${seed}`}: ${targetQueue.join(', ')}`);
   const { cargoDirectory, env } = await ensureNativeRust();
   const missingMessage = 'cargo-fuzz or a nightly Rust is missing: run `rustup toolchain install nightly` and `cargo install --locked cargo-fuzz`, and start again.';
   await runOrThrow(missingMessage, join(cargoDirectory, 'cargo'), ['+nightly', 'fuzz', '--version'], { env, quiet: true });
   await runOrThrow('The targets do not compile: see above.', join(cargoDirectory, 'cargo'), ['+nightly', 'fuzz', 'build', ...BUILD_OPTIONS], { env });
   const runWaitingTargets = async () => {
-    for (let fuzzTargetName = waitingTargets.shift(); fuzzTargetName !== undefined; fuzzTargetName = waitingTargets.shift()) {
-      const fuzzResult = isKeepMode ? keepInputs(fuzzTargetName) : runFuzzTarget(fuzzTargetName, `${runs}`, `${seed}`);
+    for (let fuzzTargetName = targetQueue.shift(); fuzzTargetName !== undefined; fuzzTargetName = targetQueue.shift()) {
+      const fuzzResult = isKeepMode ? keepInputs(fuzzTargetName) : runFuzzTarget(fuzzTargetName, `${runCount}`, `${seed}`);
       if (!(await fuzzResult)) process.exitCode = 1;
     }
   };

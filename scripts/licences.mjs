@@ -2,7 +2,7 @@
 
 import { readFileSync, readdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
-import { ROOT } from './process.mjs';
+import { REPOSITORY_ROOT } from './process.mjs';
 
 /** @typedef {{ name: string, version: string, licence: string, directory: string }} Package */
 
@@ -33,7 +33,7 @@ export function listBundledPackages(bundleOutputs) {
   const bundledFiles = Object.values(bundleOutputs).flatMap(({ inputs }) => Object.keys(inputs).filter((inputPath) => inputs[inputPath].bytesInOutput > 0));
   const packageDirectories = bundledFiles.flatMap((bundledFile) => bundledFile.match(/^.*node_modules\/(?:@[^/]+\/)?[^/]+/) ?? []);
   return [...new Set(packageDirectories)].map((path) => {
-    const directory = join(ROOT, path);
+    const directory = join(REPOSITORY_ROOT, path);
     const { name, version, license } = JSON.parse(readFileSync(join(directory, 'package.json'), 'utf8'));
     return { name, version, licence: license, directory };
   });

@@ -27,8 +27,8 @@ import { readClassComments, joinLines, describeWidgets } from './declarations.mj
 export async function createManifest() {
   const { schemaVersion, classes } = await readClassComments();
   const elementDeclarations = (await describeWidgets()).map(({ tag, className, attributes, properties }) => {
-    const name = `${className}Element`;
-    const analyzedClass = classes.get(name);
+    const elementName = `${className}Element`;
+    const analyzedClass = classes.get(elementName);
     /** Replaces the general type names of the common class by those of the element's class. @param {string} typeText */
     const specializeType = (typeText) => ({ text: typeText.replace(/\bSimulation\b/, className).replace(/\bStateValues\b/, `${className}State`) });
     const itemOf = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: specializeType(type.text) }), description: description && joinLines(description) });
@@ -42,7 +42,7 @@ export async function createManifest() {
     });
     return {
       kind: 'class',
-      name,
+      name: elementName,
       tagName: tag,
       customElement: true,
       description: analyzedClass.description,

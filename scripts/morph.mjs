@@ -5,7 +5,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
-import { ROOT, runOrThrow, runAsScript } from './process.mjs';
+import { REPOSITORY_ROOT, runOrThrow, runAsScript } from './process.mjs';
 import { startServer } from './serve.mjs';
 
 /** Width of the figure, at which the figure shows a single picture, and font size of the figure. */
@@ -20,7 +20,7 @@ await runAsScript(import.meta.url, async () => {
   await build({ isLocal: true });
   const { chromium } = await import('@playwright/test');
   const browser = await chromium.launch({ executablePath: (await ensureBrowser()).chrome, args: CHROME_ARGUMENTS });
-  const { address, close } = await startServer(join(ROOT, 'dist'), { port: 0 });
+  const { address, close } = await startServer(join(REPOSITORY_ROOT, 'dist'), { port: 0 });
   const frameDirectory = mkdtempSync(join(tmpdir(), 'morph-'));
   try {
     const page = await browser.newPage({ viewport: { width: FIGURE_WIDTH_PX, height: 1350 } });
@@ -41,7 +41,7 @@ await runAsScript(import.meta.url, async () => {
       await page.screenshot({ path: framePath, clip: clipBox });
       frameArguments.push('-d', String(i % FRAME_COUNT === 0 ? FRAME_DURATIONS_MS.end : FRAME_DURATIONS_MS.each), framePath);
     }
-    await runOrThrow('img2webp is missing: install the package webp.', 'img2webp', ['-loop', '0', '-lossy', '-q', '50', '-m', '6', ...frameArguments, '-o', join(ROOT, 'doc/morph.webp')]);
+    await runOrThrow('img2webp is missing: install the package webp.', 'img2webp', ['-loop', '0', '-lossy', '-q', '50', '-m', '6', ...frameArguments, '-o', join(REPOSITORY_ROOT, 'doc/morph.webp')]);
   } finally {
     await browser.close();
     close();

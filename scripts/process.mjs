@@ -6,10 +6,10 @@ import { accessSync, constants, readdirSync, realpathSync, statSync } from 'node
 import { basename, delimiter, join, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-export const ROOT = fileURLToPath(new URL('..', import.meta.url));
+export const REPOSITORY_ROOT = fileURLToPath(new URL('..', import.meta.url));
 
 /** Returns the absolute path of a file of the repository. @param {string} repositoryPath */
-export const absolutePath = (repositoryPath) => join(ROOT, repositoryPath);
+export const absolutePath = (repositoryPath) => join(REPOSITORY_ROOT, repositoryPath);
 
 /** Error about something that the user has to provide or correct. Its message is printed without a stack trace. */
 export class UserError extends Error {}
@@ -149,7 +149,7 @@ const MAX_SILENCE_MS = 30_000;
  * @returns {Promise<{ ok: boolean, timedOut: boolean, stdout: string, output: string }>} `output` is stdout and
  *   stderr in order of arrival; a program that cannot be started is not ok
  */
-export function run(command, commandArguments, { env = {}, cwd = ROOT, seconds, quiet = false } = {}) {
+export function runProgram(command, commandArguments, { env = {}, cwd = REPOSITORY_ROOT, seconds, quiet = false } = {}) {
   return new Promise((resolve) => {
     // A program with a time limit leads its own process group, so that its children end with it.
     const childProcess = spawn(command, commandArguments, {
@@ -175,25 +175,25 @@ export function run(command, commandArguments, { env = {}, cwd = ROOT, seconds, 
         killProcessGroup(processGroupId);
       }, seconds * 1000);
     }
-    childProcess.stdout.setEncoding('utf8').on('data', (text) => {
-      stdoutText += text;
-      combinedOutput += text;
+    childProcess.stdout.setEncoding('utf8').on('data', (outputText) => {
+      stdoutText += outputText;
+      combinedOutput += outputText;
       silenceTimer?.refresh();
-      if (!quiet) print(text);
+      if (!quiet) print(outputText);
     });
     childProcess.stderr.setEncoding('utf8').on('data', (text) => {
       combinedOutput += text;
       silenceTimer?.refresh();
       if (!quiet) print(text, process.stderr);
     });
-    const settleRun = (/** @type {boolean} */ hasSucceeded) => {
+    const finishRun = (/** @type {boolean} */ hasSucceeded) => {
       clearTimeout(limitTimer);
       clearInterval(silenceTimer);
       if (processGroupId !== undefined) forgetGroup(processGroupId);
       resolve({ ok: hasSucceeded, timedOut, stdout: stdoutText, output: combinedOutput });
     };
-    childProcess.on('error', () => settleRun(false));
-    childProcess.on('close', (exitCode) => settleRun(exitCode === 0));
+    childProcess.on('error', () => finishRun(false));
+    childProcess.on('close', (exitCode) => finishRun(exitCode === 0));
   });
 }
 
@@ -206,7 +206,7 @@ export function run(command, commandArguments, { env = {}, cwd = ROOT, seconds, 
  * @param {RunOptions} [runOptions]
  */
 export async function runOrThrow(failureMessage, command, commandArguments, runOptions) {
-  const runResult = await run(command, commandArguments, runOptions);
+  const runResult = await runProgram(command, commandArguments, runOptions);
   if (!runResult.ok) {
     if (runOptions?.quiet) print(runResult.output, process.stderr);
     throw new UserError(failureMessage);
@@ -242,6 +242,6 @@ export function filesOf(fileOrDirectory) {
   if (statSync(absolutePath(fileOrDirectory)).isFile()) return [fileOrDirectory];
   return readdirSync(absolutePath(fileOrDirectory), { withFileTypes: true, recursive: true })
     .filter((directoryEntry) => directoryEntry.isFile())
-    .map((directoryEntry) => relative(ROOT, join(directoryEntry.parentPath, directoryEntry.name)))
+    .map((directoryEntry) => relative(REPOSITORY_ROOT, join(directoryEntry.parentPath, directoryEntry.name)))
     .sort();
 }

@@ -5,14 +5,14 @@ import { copyFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { settings } from '../build/settings.js';
 import { readClassComments, importTypeScript, joinLines, describeWidgets } from './declarations.mjs';
-import { ROOT } from './process.mjs';
+import { REPOSITORY_ROOT } from './process.mjs';
 
 /**
  * @typedef {import('../build/settings.js').Declaration} Declaration
  * @typedef {import('./declarations.mjs').Field} Field
  */
 
-const PYTHON_DIRECTORY = join(ROOT, 'python');
+const PYTHON_DIRECTORY = join(REPOSITORY_ROOT, 'python');
 
 /** Keywords of Python that consist of lower-case letters, as settings do. */
 const PYTHON_KEYWORDS = new Set(
@@ -45,11 +45,11 @@ const TRAITS_WITHOUT_RANGE = { Bool: 't.Bool(None, allow_none=True)', Dict: 't.D
 export async function writePython() {
   const sourceDirectory = join(PYTHON_DIRECTORY, 'src/motion_widgets');
   writeFileSync(join(sourceDirectory, '_elements.py'), await createElementsSource());
-  copyFileSync(join(ROOT, 'dist/anywidget.js'), join(sourceDirectory, 'anywidget.js'));
-  for (const licenceFileName of readdirSync(ROOT).filter((fileName) => fileName.startsWith('LICENSE'))) {
-    copyFileSync(join(ROOT, licenceFileName), join(PYTHON_DIRECTORY, licenceFileName));
+  copyFileSync(join(REPOSITORY_ROOT, 'dist/anywidget.js'), join(sourceDirectory, 'anywidget.js'));
+  for (const licenceFileName of readdirSync(REPOSITORY_ROOT).filter((fileName) => fileName.startsWith('LICENSE'))) {
+    copyFileSync(join(REPOSITORY_ROOT, licenceFileName), join(PYTHON_DIRECTORY, licenceFileName));
   }
-  copyFileSync(join(ROOT, 'dist/LICENSE-third-party.txt'), join(PYTHON_DIRECTORY, 'LICENSE-third-party.txt'));
+  copyFileSync(join(REPOSITORY_ROOT, 'dist/LICENSE-third-party.txt'), join(PYTHON_DIRECTORY, 'LICENSE-third-party.txt'));
 }
 
 /** Returns the source of the Python module of the elements. */
@@ -106,7 +106,7 @@ function settingTraitCallOf({ key, type, words: allowedWords = [], min, max }, t
     case 'word': return `Word(${allowedWords.map(quotePython).join(', ')})`;
     case 'group': {
       const memberNameOf = (/** @type {Declaration} */ groupMember) => groupMember.field ?? groupMember.key;
-      return `Group(${settings[tag].filter((member) => member.in === key).map((member) => `${memberNameOf(member)}=${settingTraitCallOf(member, tag)}`).join(', ')})`;
+      return `Group(${settings[tag].filter((groupMember) => groupMember.in === key).map((groupMember) => `${memberNameOf(groupMember)}=${settingTraitCallOf(groupMember, tag)}`).join(', ')})`;
     }
   }
 }

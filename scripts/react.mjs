@@ -4,7 +4,7 @@
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { unionTypeOf, describeWidgets } from './declarations.mjs';
-import { ROOT } from './process.mjs';
+import { REPOSITORY_ROOT } from './process.mjs';
 
 /** @typedef {import('./declarations.mjs').Widget} Widget */
 
@@ -13,8 +13,8 @@ const GENERATED_HEADER = '// Generated from the declarations: not to be edited.\
 /** Writes build/react.js and build/react.d.ts. */
 export async function writeComponents() {
   const widgetDescriptions = await describeWidgets();
-  writeFileSync(join(ROOT, 'build/react.js'), `'use client';\n${GENERATED_HEADER}\nimport { createComponent } from '../www/react.ts';\n\n${widgetDescriptions.map(componentSourceOf).join('')}`);
-  writeFileSync(join(ROOT, 'build/react.d.ts'), [GENERATED_HEADER, importLinesOf(widgetDescriptions), PROP_TYPES_SOURCE, ...widgetDescriptions.map(componentTypesOf), jsxTagsOf(widgetDescriptions)].join('\n'));
+  writeFileSync(join(REPOSITORY_ROOT, 'build/react.js'), `'use client';\n${GENERATED_HEADER}\nimport { createComponent } from '../www/react.ts';\n\n${widgetDescriptions.map(componentSourceOf).join('')}`);
+  writeFileSync(join(REPOSITORY_ROOT, 'build/react.d.ts'), [GENERATED_HEADER, importLinesOf(widgetDescriptions), PROP_TYPES_SOURCE, ...widgetDescriptions.map(componentTypesOf), jsxTagsOf(widgetDescriptions)].join('\n'));
 }
 
 /** Returns the source of a component. @param {Widget} widget */

@@ -5,7 +5,7 @@ import { once } from 'node:events';
 import { createServer } from 'node:http';
 import { join } from 'node:path';
 import { build } from './build.mjs';
-import { ROOT, UserError, runAsScript } from './process.mjs';
+import { REPOSITORY_ROOT, UserError, runAsScript } from './process.mjs';
 
 /**
  * Serves the files of a directory on localhost.
@@ -55,6 +55,6 @@ function readRequestedPort() {
 await runAsScript(import.meta.url, async () => {
   const port = readRequestedPort();
   await build({ isLocal: true });
-  const { address } = await startServer(join(ROOT, 'dist'), { port });
+  const { address } = await startServer(join(REPOSITORY_ROOT, 'dist'), { port });
   console.log(`\nThe widgets are at ${address} (Ctrl-C stops).`);
 });

@@ -4,12 +4,12 @@
 import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join, posix } from 'node:path';
 import { build } from './build.mjs';
-import { ROOT, UserError, filesOf, runOrThrow, printStep, runAsScript } from './process.mjs';
+import { REPOSITORY_ROOT, UserError, filesOf, runOrThrow, printStep, runAsScript } from './process.mjs';
 import { escapeHtml } from './tables.mjs';
 import { ensurePackages, ensureNativeRust } from './toolchain.mjs';
 
-const SITE_DIRECTORY = join(ROOT, 'build/site');
-const { homepage } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
+const SITE_DIRECTORY = join(REPOSITORY_ROOT, 'build/site');
+const { homepage } = JSON.parse(readFileSync(join(REPOSITORY_ROOT, 'package.json'), 'utf8'));
 const SOURCES_URL = homepage.replace('#readme', '/blob/main/');
 
 /** Texts of the links at the top of every page. Their keys are addresses relative to the root of the site. */
@@ -66,7 +66,7 @@ function renderPage({ Marked }, documentPath, documentPaths, figureTags) {
     return (documentPaths.includes(targetFile) ? relativeLinkTo(pagePath, pagePathOf(targetFile)) : SOURCES_URL + targetFile) + (linkAnchor ? `#${linkAnchor}` : '');
   };
   const shownFigures = new Set();
-  const markdownText = readFileSync(join(ROOT, documentPath), 'utf8');
+  const markdownText = readFileSync(join(REPOSITORY_ROOT, documentPath), 'utf8');
   const documentHtml = new Marked({
     walkTokens: (markdownToken) => void (markdownToken.type === 'link' && (markdownToken.href = siteLinkOf(markdownToken.href))),
     renderer: {
@@ -112,7 +112,7 @@ ${documentHtml.replaceAll('<table>', '<table class="api">')}</main>
 function checkLinks() {
   const siteFiles = new Set(filesOf('build/site'));
   const pagePaths = [...siteFiles].filter((path) => /^build\/site\/(?!rust|classroom).*html$/.test(path));
-  const textByPage = new Map(pagePaths.map((path) => [path, readFileSync(join(ROOT, path), 'utf8')]));
+  const textByPage = new Map(pagePaths.map((path) => [path, readFileSync(join(REPOSITORY_ROOT, path), 'utf8')]));
   const linkPattern = /\s(?:href|src)="(?!https?:|data:)([^"?#]*)[^"#]*#?([^"]*)"/g;
   const brokenLinks = [...textByPage].flatMap(([page, text]) => [...text.matchAll(linkPattern)].flatMap(([, path, anchor]) => {
     const targetPath = path === '' ? page : posix.join(posix.dirname(page), path);
@@ -129,13 +129,13 @@ await runAsScript(import.meta.url, async () => {
   await ensurePackages('scripts');
   const rustTools = await ensureNativeRust();
   printStep('Documenting the crate');
-  const docOptions = ['--quiet', '--locked', '--no-deps', '--lib', '--target-dir', join(ROOT, 'build/rustdoc')];
+  const docOptions = ['--quiet', '--locked', '--no-deps', '--lib', '--target-dir', join(REPOSITORY_ROOT, 'build/rustdoc')];
   await runOrThrow('The crate is not documented: see above.', join(rustTools.cargoDirectory, 'cargo'), ['doc', ...docOptions], { env: rustTools.env });
   printStep('Rendering the documents');
   rmSync(SITE_DIRECTORY, { recursive: true, force: true });
-  cpSync(join(ROOT, 'dist'), SITE_DIRECTORY, { recursive: true, filter: (path) => !/(\.d\.ts|\.map|cli\.js|motion-widgets\.js)$/.test(path) });
-  cpSync(join(ROOT, 'build/rustdoc/doc'), join(SITE_DIRECTORY, 'rust'), { recursive: true });
-  cpSync(join(ROOT, 'scripts/site.css'), join(SITE_DIRECTORY, 'site.css'));
+  cpSync(join(REPOSITORY_ROOT, 'dist'), SITE_DIRECTORY, { recursive: true, filter: (path) => !/(\.d\.ts|\.map|cli\.js|motion-widgets\.js)$/.test(path) });
+  cpSync(join(REPOSITORY_ROOT, 'build/rustdoc/doc'), join(SITE_DIRECTORY, 'rust'), { recursive: true });
+  cpSync(join(REPOSITORY_ROOT, 'scripts/site.css'), join(SITE_DIRECTORY, 'site.css'));
   for (const path of ['index.html', 'reference.html']) {
     const pageHtml = readFileSync(join(SITE_DIRECTORY, path), 'utf8').replace('src="./motion-widgets.js"', 'src="./external.js"');
     writeFileSync(join(SITE_DIRECTORY, path), pageHtml.replace('</head>', '<link rel="stylesheet" href="./site.css" />\n</head>').replace(/<body[^>]*>/, `$&\n${navigationHtmlOf(path)}`));
@@ -144,7 +144,7 @@ await runAsScript(import.meta.url, async () => {
   const documentPaths = ['README.md', ...filesOf('doc').filter((path) => path.endsWith('.md'))];
   mkdirSync(join(SITE_DIRECTORY, 'doc/embedding'), { recursive: true });
   for (const documentPath of documentPaths) writeFileSync(join(SITE_DIRECTORY, pagePathOf(documentPath)), renderPage(markedLibrary, documentPath, documentPaths, WIDGET_TAGS));
-  cpSync(join(ROOT, 'doc/morph.webp'), join(SITE_DIRECTORY, 'doc/morph.webp'));
+  cpSync(join(REPOSITORY_ROOT, 'doc/morph.webp'), join(SITE_DIRECTORY, 'doc/morph.webp'));
   checkLinks();
   console.log('\nThe site is in build/site/.');
 });

@@ -56,8 +56,8 @@ function renderItemTable(elements, kind, tableCaption, columnHeadings, itemsOf) 
   const findElementsWithItem = (/** @type {string} */ name) => elements.filter((documentedElement) => itemsOf(documentedElement).some((elementItem) => elementItem.name === name));
   const itemRows = [...itemsByName.values()].map(({ name, description }) => {
     const owningElements = findElementsWithItem(name);
-    const ownersText = owningElements.length < elements.length ? ` Only ${owningElements.map(({ tagName }) => renderCode(`<${tagName}>`)).join(' and ')}.` : '';
-    return [renderCode(name), renderProse(description) + ownersText];
+    const ownersSentence = owningElements.length < elements.length ? ` Only ${owningElements.map(({ tagName }) => renderCode(`<${tagName}>`)).join(' and ')}.` : '';
+    return [renderCode(name), renderProse(description) + ownersSentence];
   });
   return renderTable('both', kind, tableCaption, columnHeadings, itemRows);
 }
@@ -94,9 +94,9 @@ function renderProse(proseText = '') {
   return escapeHtml(proseText).replaceAll(/`([^`]+)`/g, '<code>$1</code>');
 }
 
-/** Returns text as an HTML code element. @param {string} text */
-function renderCode(text) {
-  return `<code>${escapeHtml(text)}</code>`;
+/** Returns text as an HTML code element. @param {string} codeText */
+function renderCode(codeText) {
+  return `<code>${escapeHtml(codeText)}</code>`;
 }
 
 /** Escapes text for HTML and its attributes. */

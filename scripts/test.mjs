@@ -10,7 +10,7 @@ import { join } from 'node:path';
 import { ensureTestRunner } from './bindgen.mjs';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
-import { UserError, absolutePath, filesOf, collectOutputOf, memoize, printStep, run, runAsScript, settleAll } from './process.mjs';
+import { UserError, absolutePath, filesOf, collectOutputOf, memoize, printStep, runProgram, runAsScript, settleAll } from './process.mjs';
 import { ensureLints, ensurePackages, ensureNativeRust, ensureRustForWasm } from './toolchain.mjs';
 
 /** @typedef {{ passed: number, failed: number, skipped: number }} Tally */
@@ -65,7 +65,7 @@ const ensureTestBrowser = recordVersionOf(ensureBrowser, ({ version }) => `Chrom
  * @param {Record<string, string>} [programEnvironment]
  * @returns {Job}
  */
-const createProgramJob = ([programName, ...programArguments], programEnvironment) => () => run(programName, programArguments, { env: programEnvironment, seconds: TIME_LIMIT_SECONDS });
+const createProgramJob = ([programName, ...programArguments], programEnvironment) => () => runProgram(programName, programArguments, { env: programEnvironment, seconds: TIME_LIMIT_SECONDS });
 
 /**
  * Returns a job that runs a script of a package.
@@ -189,9 +189,9 @@ const PART_LANES = [
   ['oxlint', 'tsc', 'node', 'package'],
 ];
 
-/** Runs a single part or all parts, and returns true if they pass. @param {string[]} args of the command line */
-async function runParts(args) {
-  const [partName, ...moreArguments] = args.filter((argument) => argument !== '--all');
+/** Runs a single part or all parts, and returns true if they pass. @param {string[]} cliArguments of the command line */
+async function runParts(cliArguments) {
+  const [partName, ...moreArguments] = cliArguments.filter((cliArgument) => cliArgument !== '--all');
   if (partName !== undefined && !Object.hasOwn(TEST_PARTS, partName)) {
     throw new UserError(`"${partName}" is no part of the tests: \`npm test -- PART\` takes ${Object.keys(TEST_PARTS).join(', ')}.`);
   }
@@ -214,27 +214,27 @@ async function runParts(args) {
 /**
  * Runs a part.
  *
- * @param {string} name of a part
+ * @param {string} partName of a part
  * @param {string[]} programArgs
  * @returns {Promise<Outcome>}
  */
-async function runPart(name, programArgs) {
-  const { prepare, counts } = TEST_PARTS[name];
+async function runPart(partName, programArgs) {
+  const { prepare, counts } = TEST_PARTS[partName];
   let startTime = Date.now();
   const getElapsedSeconds = () => (Date.now() - startTime) / 1000;
   try {
     const runJob = await prepare(programArgs);
-    printStep(name);
+    printStep(partName);
     startTime = Date.now();
     const { ok, output, timedOut } = await runJob();
     const sumMatches = (/** @type {RegExp} */ numberPattern) => [...output.matchAll(numberPattern)].reduce((sumSoFar, [, matchedCount]) => sumSoFar + Number(matchedCount), 0);
     const testTally = counts && { passed: sumMatches(counts.passed), failed: sumMatches(counts.failed), skipped: sumMatches(counts.skipped) };
     const hasRunNoTest = testTally !== undefined && testTally.passed + testTally.failed === 0;
     const outcomeNote = timedOut ? `ended after ${TIME_LIMIT_SECONDS} s` : hasRunNoTest ? 'no test ran' : undefined;
-    return { name, ok: ok && !hasRunNoTest && !testTally?.failed, seconds: getElapsedSeconds(), output, tally: testTally, note: outcomeNote };
+    return { name: partName, ok: ok && !hasRunNoTest && !testTally?.failed, seconds: getElapsedSeconds(), output, tally: testTally, note: outcomeNote };
   } catch (error) {
-    printStep(`${name}: ${error instanceof UserError ? error.message : (error instanceof Error && error.stack) || error}`);
-    return { name, ok: false, seconds: getElapsedSeconds(), note: 'not run: see above' };
+    printStep(`${partName}: ${error instanceof UserError ? error.message : (error instanceof Error && error.stack) || error}`);
+    return { name: partName, ok: false, seconds: getElapsedSeconds(), note: 'not run: see above' };
   }
 }
 

@@ -5,7 +5,7 @@ import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { homedir } from 'node:os';
 import { delimiter, dirname, join } from 'node:path';
-import { ROOT, UserError, findProgram, runOrThrow, memoize, printStep, createTaskQueue, run, runAsScript } from './process.mjs';
+import { REPOSITORY_ROOT, UserError, findProgram, runOrThrow, memoize, printStep, createTaskQueue, runProgram, runAsScript } from './process.mjs';
 
 const WASM_TARGET = 'wasm32-unknown-unknown';
 const RUSTUP_BIN = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'bin');
@@ -45,9 +45,9 @@ export async function ensurePackages(workspaceName) {
 
 /** Installs the packages of a workspace. @param {string} workspaceKey a workspace, or "root" */
 async function installPackages(workspaceKey) {
-  const lockHash = createHash('sha256').update(readFileSync(join(ROOT, 'package-lock.json'))).digest('hex');
+  const lockHash = createHash('sha256').update(readFileSync(join(REPOSITORY_ROOT, 'package-lock.json'))).digest('hex');
   const workspaceName = `motion-widgets-${workspaceKey.replace('/', '-')}`;
-  const stampFile = join(ROOT, `node_modules/.installed-${workspaceName}`);
+  const stampFile = join(REPOSITORY_ROOT, `node_modules/.installed-${workspaceName}`);
   if (existsSync(stampFile) && readFileSync(stampFile, 'utf8') === lockHash) return;
   printStep(`Installing npm packages${workspaceKey === 'root' ? '' : ` of ${workspaceKey}`}`);
   // Install scripts are skipped, because no package needs them. `npm ci` would remove the packages of the other workspaces.
@@ -72,10 +72,10 @@ const [enqueueForApt, enqueueForRustup] = [createTaskQueue(), createTaskQueue()]
 export const installByApt = (debianPackages, purposeSentence) => enqueueForApt(async () => {
   if (findProgram('apt-get') === undefined) throw new UserError(purposeSentence);
   const rootCommand = process.getuid?.() === 0 ? [] : ['sudo', '-n'];
-  if (rootCommand.length > 0 && !(await run('sudo', ['-n', 'true'], { quiet: true })).ok) throw new UserError(purposeSentence);
+  if (rootCommand.length > 0 && !(await runProgram('sudo', ['-n', 'true'], { quiet: true })).ok) throw new UserError(purposeSentence);
   printStep(`Installing ${debianPackages.join(' ')} by apt`);
   const [command, ...firstArguments] = [...rootCommand, 'env', 'DEBIAN_FRONTEND=noninteractive', 'apt-get'];
-  await run(command, [...firstArguments, 'update', '-qq'], { seconds: 300 });
+  await runProgram(command, [...firstArguments, 'update', '-qq'], { seconds: 300 });
   // Apt must not remove an installed package, in particular not another installation of Rust.
   const aptOptions = ['-y', '-qq', '--no-remove', '--no-install-recommends', '-o', 'DPkg::Lock::Timeout=300'];
   await runOrThrow(purposeSentence, command, [...firstArguments, 'install', ...aptOptions, ...debianPackages], { seconds: 900 });
@@ -83,7 +83,7 @@ export const installByApt = (debianPackages, purposeSentence) => enqueueForApt(a
 
 /** Ensures that Python and pip, which build the Python package, are installed. */
 export async function ensurePip() {
-  if ((await run('python3', ['-m', 'pip', '--version'], { quiet: true })).ok) return;
+  if ((await runProgram('python3', ['-m', 'pip', '--version'], { quiet: true })).ok) return;
   await installByApt(['python3', 'python3-pip'], 'Python 3 or its pip is missing: install them as python.org says and start again.');
 }
 
@@ -117,9 +117,9 @@ export const ensureNativeRust = memoize(/** @returns {Promise<Rust>} */ async ()
 /** Installs Rust by rustup, and returns true if that succeeded. @returns {Promise<boolean>} */
 async function installRustup() {
   printStep('Installing Rust by rustup');
-  const rustupScript = await run('curl', ['--proto', '=https', '--tlsv1.2', '-sSf', '--max-time', '60', 'https://sh.rustup.rs'], { quiet: true });
+  const rustupScript = await runProgram('curl', ['--proto', '=https', '--tlsv1.2', '-sSf', '--max-time', '60', 'https://sh.rustup.rs'], { quiet: true });
   const rustupArguments = ['-y', '--no-modify-path', '--profile', 'default', '--target', WASM_TARGET];
-  return rustupScript.ok && (await run('sh', ['-c', rustupScript.stdout, 'sh', ...rustupArguments], { seconds: 600 })).ok;
+  return rustupScript.ok && (await runProgram('sh', ['-c', rustupScript.stdout, 'sh', ...rustupArguments], { seconds: 600 })).ok;
 }
 
 /**
@@ -155,7 +155,7 @@ export const ensureRustForWasm = memoize(/** @returns {Promise<Rust>} */ async (
  * @param {Rust} native
  */
 async function hasWasmTarget({ cargoDirectory, env }) {
-  const sysrootResult = await run(join(cargoDirectory, 'rustc'), ['--print', 'sysroot'], { env, quiet: true });
+  const sysrootResult = await runProgram(join(cargoDirectory, 'rustc'), ['--print', 'sysroot'], { env, quiet: true });
   if (existsSync(join(sysrootResult.stdout.trim(), 'lib/rustlib', WASM_TARGET))) return true;
   const rustupPath = findProgram('rustup', [cargoDirectory]);
   if (rustupPath === undefined) return false;
@@ -166,7 +166,7 @@ async function hasWasmTarget({ cargoDirectory, env }) {
   const dayInMs = 24 * 3600 * 1000;
   if (canFallBack && existsSync(unreachableMarkPath) && Date.now() - statSync(unreachableMarkPath).mtimeMs < dayInMs) return false;
   printStep(`Asking rustup for ${WASM_TARGET}`);
-  const installWasmTarget = () => run(rustupPath, ['target', 'add', WASM_TARGET], { env, seconds: canFallBack ? 60 : 600 });
+  const installWasmTarget = () => runProgram(rustupPath, ['target', 'add', WASM_TARGET], { env, seconds: canFallBack ? 60 : 600 });
   const { ok, timedOut } = canFallBack && (await isServerSilent()) ? { ok: false, timedOut: true } : await installWasmTarget();
   if (ok) return true;
   if (timedOut) {
@@ -187,7 +187,7 @@ async function isServerSilent() {
   const rustupServer = process.env.RUSTUP_DIST_SERVER ?? 'https://static.rust-lang.org';
   // Any answer shows that the server is reachable, even an answer with an unknown certificate.
   const curlArguments = ['--silent', '--head', '--insecure', '--output', '/dev/null', `${rustupServer}/dist/channel-rust-stable.toml.sha256`];
-  return (await run('curl', curlArguments, { seconds: 15, quiet: true })).timedOut;
+  return (await runProgram('curl', curlArguments, { seconds: 15, quiet: true })).timedOut;
 }
 
 /** Returns the environment of Debian's stable compiler, with the unstable features that `-Zbuild-std` needs. */
@@ -219,7 +219,7 @@ function createEnvironment(cargoDirectory) {
  */
 async function requireRustVersion(cargoDirectory, env, remedySentence) {
   const requiredVersion = readManifestValue('Cargo.toml', /^rust-version = "(.+)"$/m);
-  const { stdout } = await run(join(cargoDirectory, 'rustc'), ['--version'], { env, quiet: true });
+  const { stdout } = await runProgram(join(cargoDirectory, 'rustc'), ['--version'], { env, quiet: true });
   const [, rustMajor, rustMinor] = stdout.match(/^rustc (\d+)\.(\d+)/) ?? ['', '0', '0'];
   const [minMajor, minMinor] = requiredVersion.split('.').map(Number);
   if (Number(rustMajor) < minMajor || (Number(rustMajor) === minMajor && Number(rustMinor) < minMinor)) {
@@ -231,7 +231,7 @@ async function requireRustVersion(cargoDirectory, env, remedySentence) {
 /** Ensures that rustfmt and clippy are installed for a cargo. @param {Rust} rust */
 export async function ensureLints({ cargoDirectory, env }) {
   const hasLints = async () => {
-    const versionResults = ['cargo-fmt', 'cargo-clippy'].map((lintName) => run(join(cargoDirectory, lintName), ['--version'], { env, quiet: true }));
+    const versionResults = ['cargo-fmt', 'cargo-clippy'].map((lintName) => runProgram(join(cargoDirectory, lintName), ['--version'], { env, quiet: true }));
     return (await Promise.all(versionResults)).every(({ ok }) => ok);
   };
   if (await hasLints()) return;
@@ -248,7 +248,7 @@ export async function ensureLints({ cargoDirectory, env }) {
 
 /** Returns the part of a file that the first group of a pattern matches. @param {string} filePath @param {RegExp} patternWithGroup */
 export function readManifestValue(filePath, patternWithGroup) {
-  const patternMatch = readFileSync(join(ROOT, filePath), 'utf8').match(patternWithGroup);
+  const patternMatch = readFileSync(join(REPOSITORY_ROOT, filePath), 'utf8').match(patternWithGroup);
   if (patternMatch === null) throw new Error(`${filePath} has nothing like ${patternWithGroup}`);
   return patternMatch[1];
 }

@@ -6,7 +6,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { settings } from '../build/settings.js';
 import { readClassComments, fieldOf, joinLines, toPascalCase, unionTypeOf, describeWidgets } from './declarations.mjs';
-import { ROOT } from './process.mjs';
+import { REPOSITORY_ROOT } from './process.mjs';
 
 /** @typedef {import('./declarations.mjs').Field} Field */
 
@@ -31,12 +31,12 @@ const TEMPLATE_FRAMEWORKS = {
 export async function writeTypes() {
   const widgetDescriptions = await describeWidgets();
   // wasm-bindgen writes a comment inside a Rust macro as a raw string literal, whose prefix is removed.
-  const coreTypes = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8').replaceAll('* r" ', '* ');
-  writeFileSync(join(ROOT, 'build/simulations.d.ts'), [DISPOSABLE_LIBRARY, GENERATED_HEADER, OPTIONS_IMPORT, ...composeGroupInterfaces(), ...Object.keys(settings).map(settingsInterfaceOf), coreTypes].join('\n'));
-  writeFileSync(join(ROOT, 'build/elements.d.ts'), [GENERATED_HEADER, importLineOf(widgetDescriptions), await composeFigureTypes(widgetDescriptions), ...widgetDescriptions.map(elementTypesOf), tagTypesOf(widgetDescriptions)].join('\n'));
+  const coreTypes = readFileSync(join(REPOSITORY_ROOT, 'build/core.d.ts'), 'utf8').replaceAll('* r" ', '* ');
+  writeFileSync(join(REPOSITORY_ROOT, 'build/simulations.d.ts'), [DISPOSABLE_LIBRARY, GENERATED_HEADER, OPTIONS_IMPORT, ...composeGroupInterfaces(), ...Object.keys(settings).map(settingsInterfaceOf), coreTypes].join('\n'));
+  writeFileSync(join(REPOSITORY_ROOT, 'build/elements.d.ts'), [GENERATED_HEADER, importLineOf(widgetDescriptions), await composeFigureTypes(widgetDescriptions), ...widgetDescriptions.map(elementTypesOf), tagTypesOf(widgetDescriptions)].join('\n'));
   for (const [frameworkName, { module, namespace, any, prefix }] of Object.entries(TEMPLATE_FRAMEWORKS)) {
     writeFileSync(
-      join(ROOT, `build/${frameworkName}.d.ts`),
+      join(REPOSITORY_ROOT, `build/${frameworkName}.d.ts`),
       `${GENERATED_HEADER}
 import type { FigureTags } from '../build/elements.d.ts';
 
@@ -111,11 +111,11 @@ function elementTypesOf({ tag, className, attributes, properties, state }) {
   const baseType = `FigureElement<${className}State, ${className}['stats']>`;
   const widgetField = { name: 'widget', type: `'${tag}'`, description: '' };
   // The members that every figure has are in FigureElement.
-  const ownFields = attributes.filter(({ isCommon }) => !isCommon).map((attributeDescription) => ({ ...attributeDescription, isText: true }));
+  const widgetFields = attributes.filter(({ isCommon }) => !isCommon).map((attributeDescription) => ({ ...attributeDescription, isText: true }));
   return (
     `${interfaceOf(`${className}State`, [widgetField, ...state], 'FigureState')}\n` +
     `/** \`<${tag}>\`. Its attributes have the properties' names. */\n` +
-    interfaceOf(`${className}Element`, [...ownFields, ...properties], baseType)
+    interfaceOf(`${className}Element`, [...widgetFields, ...properties], baseType)
   );
 }
 

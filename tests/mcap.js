@@ -12,7 +12,7 @@ await zstd.isLoaded;
 /** Returns a time of ROS 2. @param {number} t seconds */
 export const stampOf = (t) => ({ sec: Math.floor(t), nanosec: Math.round((t - Math.floor(t)) * 1e9) });
 
-const fieldsOf = (/** @type {string} */ type, /** @type {string[]} */ ...fieldNames) => fieldNames.map((name) => ({ type, name, isComplex: /[A-Z]/.test(type) }));
+const fieldsOf = (/** @type {string} */ messageType, /** @type {string[]} */ ...fieldNames) => fieldNames.map((name) => ({ type: messageType, name, isComplex: /[A-Z]/.test(messageType) }));
 const covarianceFieldDefinition = { type: 'float64', name: 'covariance', isArray: true, arrayLength: 36 };
 
 /** Definitions of the messages, with all their fields. @type {Record<string, any[]>} */
@@ -35,10 +35,10 @@ const MESSAGE_DEFINITIONS = {
   'std_msgs/msg/String': fieldsOf('string', 'data'),
 };
 
-/** Returns the message of a pose. @param {number} x @param {number} y @param {number} theta @param {number} [scale] norm of the quaternion */
-export const poseOf = (x, y, theta, scale = 1) => ({
+/** Returns the message of a pose. @param {number} x @param {number} y @param {number} theta @param {number} [quaternionNorm] norm of the quaternion */
+export const poseOf = (x, y, theta, quaternionNorm = 1) => ({
   position: { x, y, z: 0.1 },
-  orientation: { x: 0, y: 0, z: scale * Math.sin(theta / 2), w: scale * Math.cos(theta / 2) },
+  orientation: { x: 0, y: 0, z: quaternionNorm * Math.sin(theta / 2), w: quaternionNorm * Math.cos(theta / 2) },
 });
 
 /** Returns a message of odometry. @param {number} t @param {number} x @param {number} y @param {number} theta @param {number} [scale] */
@@ -52,10 +52,10 @@ export const odometryMessageOf = (t, x, y, theta, scale) => ({
 /** Returns the message of a command. @param {number} v @param {number} omega */
 export const twistOf = (v, omega) => ({ linear: { x: v, y: 0, z: 0 }, angular: { x: 0, y: 0, z: omega } });
 
-/** Returns the message of a transform. @param {number} t @param {string} parent @param {string} child @param {number} x @param {number} y @param {number} theta */
-export const transformMessageOf = (t, parent, child, x, y, theta) => {
+/** Returns the message of a transform. @param {number} t @param {string} parentFrame @param {string} childFrame @param {number} x @param {number} y @param {number} theta */
+export const transformMessageOf = (t, parentFrame, childFrame, x, y, theta) => {
   const { position, orientation } = poseOf(x, y, theta);
-  return { header: { stamp: stampOf(t), frame_id: parent }, child_frame_id: child, transform: { translation: position, rotation: orientation } };
+  return { header: { stamp: stampOf(t), frame_id: parentFrame }, child_frame_id: childFrame, transform: { translation: position, rotation: orientation } };
 };
 
 /** Returns an LZ4 frame with one block that is not compressed. @param {Uint8Array} bytes */
@@ -110,18 +110,18 @@ export async function recordingOf(messages, { compression = 'none', hasIndex = t
   const channelsByTopic = new Map();
   let sequenceNumber = 0;
   for (const { topic, type, schema = type, message, t } of messages) {
-    const key = [topic, type, schema].join(' ');
-    let channel = channelsByTopic.get(key);
-    if (!channel) {
+    const channelKey = [topic, type, schema].join(' ');
+    let topicChannel = channelsByTopic.get(channelKey);
+    if (!topicChannel) {
       const schemaId = await mcapWriter.registerSchema({ name: schema, encoding: 'ros2msg', data: Buffer.from(`# ${schema}`) });
-      const id = await mcapWriter.registerChannel({ topic, schemaId, messageEncoding: encoding, metadata: new Map() });
+      const channelId = await mcapWriter.registerChannel({ topic, schemaId, messageEncoding: encoding, metadata: new Map() });
       const typeDefinitions = Object.entries(MESSAGE_DEFINITIONS).map(([name, definitions]) => ({ name, definitions }));
       const messageDefinition = typeDefinitions.find(({ name }) => name === type);
-      channel = { id, writer: new MessageWriter(messageDefinition ? [messageDefinition, ...typeDefinitions] : typeDefinitions) };
-      channelsByTopic.set(key, channel);
+      topicChannel = { id: channelId, writer: new MessageWriter(messageDefinition ? [messageDefinition, ...typeDefinitions] : typeDefinitions) };
+      channelsByTopic.set(channelKey, topicChannel);
     }
     const logTime = BigInt(Math.round(t * 1e3)) * 1_000_000n;
-    await mcapWriter.addMessage({ channelId: channel.id, sequence: sequenceNumber++, logTime, publishTime: logTime, data: channel.writer.writeMessage(message) });
+    await mcapWriter.addMessage({ channelId: topicChannel.id, sequence: sequenceNumber++, logTime, publishTime: logTime, data: topicChannel.writer.writeMessage(message) });
   }
   await mcapWriter.end();
   return Buffer.concat(writtenParts);

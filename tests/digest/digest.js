@@ -44,7 +44,7 @@ export const resultFunctions = {
       contours: simulation.contours,
       curve: simulation.skewCurve(-3, 3, 25),
       samples: {
-        inspected: listMultiplesBelow(shown, 501).map((sampleIndex) => simulation.inspect(sampleIndex)).map((sample) => ({ ...sample, heading: sample.pose[2] })),
+        inspected: listMultiplesBelow(shown, 501).map((sampleIndex) => simulation.inspect(sampleIndex)).map((inspectedSample) => ({ ...inspectedSample, heading: inspectedSample.pose[2] })),
         nearest: MORPH_ENDS.map((morph) => simulation.nearest(morph, 0.9, 0.2, 0.5, 0.3)),
         reaching: [[1, 0.5], [-0.3, 0.8], [0, 0], [2, -1.5]].map(([x, y]) => commandReaching(x, y, command)),
       },
@@ -74,7 +74,7 @@ export const resultFunctions = {
         driven: listMultiplesBelow(shown, 101).map((sampleIndex) => simulation.path(sampleIndex)),
         nearest: simulation.nearest(2.1, 2.4, 0.5),
       },
-      trials: SAMPLERS.map((sampler) => {
+      trials: SAMPLER_NAMES.map((sampler) => {
         try {
           return simulation.trial(sampler, 4, 50);
         } catch {
@@ -107,7 +107,7 @@ export const resultFunctions = {
     const simulation = new DeadReckoning({ command, steps, alphas, ...settings });
     const { shown, config, headingNoise, stats } = simulation;
     // Poses after the first step, of the robots that the picture shows.
-    const robotIndices = Array.from({ length: simulation.poses.length / 3 }, (_, index) => index);
+    const robotIndices = Array.from({ length: simulation.poses.length / 3 }, (_, robotIndex) => robotIndex);
     const firstPoses = Float64Array.from(robotIndices.flatMap((index) => [...simulation.rollout(index).subarray(0, 3)]));
     const simulationResults = {
       statistics: { shown, headingNoise, stats },
@@ -176,7 +176,7 @@ export const resultFunctions = {
 
 /** Stages of a cloud’s deformation (morph): positions in the plane, and exponential coordinates. */
 const MORPH_ENDS = [0, 1];
-const SAMPLERS = /** @type {const} */ (['endpoint', 'whole-arc', 'sub-stepped']);
+const SAMPLER_NAMES = /** @type {const} */ (['endpoint', 'whole-arc', 'sub-stepped']);
 
 /** Returns the multiples of `indexStep` below `count`. @type {(count: number, indexStep: number) => number[]} */
 const listMultiplesBelow = (count, indexStep) => Array.from({ length: Math.ceil(count / indexStep) }, (_, i) => i * indexStep);

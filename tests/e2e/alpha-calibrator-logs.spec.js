@@ -16,8 +16,8 @@ test('two tables of a user replace the simulated log, and a button restores the 
   const calibrator = await openCalibrator(page);
   const logTables = await simulatedTablesOf(calibrator);
   // The clock of the reference is an hour ahead.
-  const laterTable = logTables.reference.replaceAll(/^\d+/gm, (seconds) => `${Number(seconds) + 3600}`);
-  await chooseTables(calibrator, { 'truth.csv': laterTable, 'odom.csv': logTables.odometry });
+  const delayedTable = logTables.reference.replaceAll(/^\d+/gm, (secondsText) => `${Number(secondsText) + 3600}`);
+  await chooseTables(calibrator, { 'truth.csv': delayedTable, 'odom.csv': logTables.odometry });
   await waitUntilSettled(calibrator);
   expect(await captionOf(calibrator).innerText()).toMatch(/ \d+ legs of odom\.csv, truth\.csv[.,]/);
   expect(await calibrator.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.truth)).toBeNull();
@@ -108,7 +108,7 @@ test('files of several drives are read together, and the user assigns the roles 
   const splitExampleTable = (/** @type {'odometry' | 'reference'} */ name) => {
     const [headerLine, ...rowLines] = readExampleTable(name).trim().split('\n');
     const middleTime = Number(rowLines.at(-1)?.split(',')[0]) / 2;
-    return [false, true].map((isLate) => [headerLine, ...rowLines.filter((rowLine) => Number(rowLine.split(',')[0]) > middleTime === isLate)].join('\n'));
+    return [false, true].map((isSecondHalf) => [headerLine, ...rowLines.filter((rowLine) => Number(rowLine.split(',')[0]) > middleTime === isSecondHalf)].join('\n'));
   };
   const [[a, c], [b, d]] = [splitExampleTable('odometry'), splitExampleTable('reference')];
   await chooseTables(widget, { 'a.csv': a, 'b.csv': b, 'c.csv': c, 'd.csv': d });

@@ -60,7 +60,7 @@ test('outliers are marked by rings, and change the fit strongly if they are not 
   expect(statsAfter.referenceNoise.positionStd.value).toBeGreaterThan(10 * statsBefore.referenceNoise.positionStd.interval[1]);
   // The ratios in the text of www/index.html must equal the computed ratios.
   const outlierCheck = statsBefore.diagnostics.checks.find(({ name }) => name === 'outliers-few');
-  const [outlierRatioText, alpha3RatioText] = [10 * Math.round(0.1 / (outlierCheck?.value ?? NaN)), Number(statsAfter.alphas[2]) / Number(statsBefore.alphas[2])].map((ratio) => ({ 6: 'six', 60: 'sixty' })[Math.round(ratio)]);
+  const [outlierRatioText, alpha3RatioText] = [10 * Math.round(0.1 / (outlierCheck?.value ?? NaN)), Number(statsAfter.alphas[2]) / Number(statsBefore.alphas[2])].map((computedRatio) => ({ 6: 'six', 60: 'sixty' })[Math.round(computedRatio)]);
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toMatch(RegExp(`One in ${outlierRatioText} is an outlier[^]* becomes ${alpha3RatioText} times as large, and two checks fail`));
   await expect(captionOf(widget)).toHaveText(/^! Caution\s+Failed: correlation of neighbouring residuals; .* \(2 of 14 checks\)\. \d+ legs of the simulated log\.$/);
   await expect(widget.locator('.to-do')).toHaveText(/ If the log cannot be improved, use the recommended α’s\. First multiply the odometry’s turns by 0\.9\d\d: the α’s are those of the corrected robot\.$/);
@@ -134,7 +134,7 @@ test('the lines for Nav2 contain the numbers of the table, and the button next t
   const widget = await openCalibrator(page, 'rule="nav2" distance="0.3"');
   await openDisclosures(widget);
   const nav2Yaml = await widget.locator('textarea.yaml').inputValue();
-  const alphaTexts = await alphaRowsOf(widget).evaluateAll((rowElements) => rowElements.map((row) => [...row.querySelectorAll('td div, td strong')].map((cellElement) => cellElement.textContent?.trim() ?? '')));
+  const alphaTexts = await alphaRowsOf(widget).evaluateAll((rowElements) => rowElements.map((rowElement) => [...rowElement.querySelectorAll('td div, td strong')].map((cellElement) => cellElement.textContent?.trim() ?? '')));
   expect(alphaTexts).toHaveLength(4);
   alphaTexts.forEach(([fittedText, intervalText, recommendedText], i) => expect(nav2Yaml).toContain(`    alpha${i + 1}: ${recommendedText}  # fitted ${fittedText}, 95 % ${intervalText.replace(' – ', ' to ')}\n`));
   await page.setViewportSize({ width: 360, height: 400 });
@@ -180,7 +180,7 @@ test('the table states why a log does not determine an α, and which motions to 
     const sampleCount = 2000;
     const t = Float64Array.from({ length: sampleCount }, (_, i) => i / 20);
     const zeroColumn = new Float64Array(sampleCount);
-    const createNoisyXColumn = (/** @type {number} */ noiseAmplitude) => t.map((time, i) => 0.5 * time + noiseAmplitude * Math.sin(i * i));
+    const createNoisyXColumn = (/** @type {number} */ noiseAmplitude) => t.map((rowTime, i) => 0.5 * rowTime + noiseAmplitude * Math.sin(i * i));
     Object.assign(element, { log: { odometry: { t, x: createNoisyXColumn(0), y: zeroColumn, theta: zeroColumn }, reference: { t, x: createNoisyXColumn(0.002), y: zeroColumn, theta: zeroColumn } } });
   });
   await waitUntilSettled(widget);

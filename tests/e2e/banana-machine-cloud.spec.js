@@ -182,9 +182,9 @@ test('the caption explains the bow-tie shape of the preset Pivot, and claims no 
 
   await widget.getByRole('button', { name: 'Gentle arc' }).click();
   await widget.locator('#samples').fill('3');
-  const { stats, table: tableOfFew } = await readBananaResults(widget);
+  const { stats, table: tableOfSmallCloud } = await readBananaResults(widget);
   expect(Math.abs(stats.crossTrackSkew)).toBeLessThan(2 * stats.crossTrackSkewError);
-  await expect(captionOf(widget)).toHaveText(new RegExp(`^Too few robots to show the lean: .*exactly −${Math.abs(tableOfFew.exact.crossTrackSkew).toFixed(3)}\\.$`));
+  await expect(captionOf(widget)).toHaveText(new RegExp(`^Too few robots to show the lean: .*exactly −${Math.abs(tableOfSmallCloud.exact.crossTrackSkew).toFixed(3)}\\.$`));
 });
 
 test('the figure states that a cloud with full turns has no exponential coordinates @nightly', async ({ page }) => {

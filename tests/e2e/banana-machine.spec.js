@@ -67,16 +67,16 @@ test('the keys Home and End set v to the ends of its range, and no key of the ha
 
 test('where the range of a slider ends, the handle shows and speaks that the sliders end', async ({ page }) => {
   const widget = await openBanana(page);
-  const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
-  const readHint = () => handle.evaluate((element) => getComputedStyle(element, '::before').content);
+  const arcEndHandle = widget.getByRole('slider', { name: 'End of the commanded arc' });
+  const readHint = () => arcEndHandle.evaluate((element) => getComputedStyle(element, '::before').content);
   await widget.evaluate((element) => void Object.assign(element, { v: 1.49, omega: 0 }));
-  await handle.press('ArrowLeft');
-  await expect(handle).toHaveAttribute('aria-valuetext', /m\/s, ω = −?0\.00 rad\/s$/);
+  await arcEndHandle.press('ArrowLeft');
+  await expect(arcEndHandle).toHaveAttribute('aria-valuetext', /m\/s, ω = −?0\.00 rad\/s$/);
   expect(await readHint()).toBe('none');
-  for (let i = 0; i < 3; i++) await handle.press('ArrowRight');
-  await expect(handle).toHaveAttribute('aria-valuetext', /^v = 1\.50 m\/s, .* rad\/s\. The sliders end here$/);
+  for (let i = 0; i < 3; i++) await arcEndHandle.press('ArrowRight');
+  await expect(arcEndHandle).toHaveAttribute('aria-valuetext', /^v = 1\.50 m\/s, .* rad\/s\. The sliders end here$/);
   expect(await readHint()).toBe('"The sliders end here"');
-  await handle.blur();
+  await arcEndHandle.blur();
   expect(await readHint()).toBe('none');
 });
 

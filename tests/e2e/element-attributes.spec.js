@@ -20,8 +20,8 @@ test('attributes of every type set the opening state of a figure', async ({ page
   await waitUntilReady(bananaWidget);
   await squeezeWidget.scrollIntoViewIfNeeded();
   await waitUntilReady(squeezeWidget);
-  const config = await bananaWidget.evaluate((element) => Reflect.get(element, 'simulation').config);
-  expect(config).toMatchObject({
+  const bananaConfig = await bananaWidget.evaluate((element) => Reflect.get(element, 'simulation').config);
+  expect(bananaConfig).toMatchObject({
     model: 'odometry',
     noise: 'triangular',
     command: { v: -0.5, omega: 1.2, dt: 1.4 },
@@ -29,7 +29,7 @@ test('attributes of every type set the opening state of a figure', async ({ page
     samples: 300,
     seed: 11,
   });
-  expect(config.alphas[3]).toBe(0.125);
+  expect(bananaConfig.alphas[3]).toBe(0.125);
   expect(await readProperty(bananaWidget, 'overlays')).toEqual(['command', 'linearized']);
   expect(await squeezeWidget.evaluate((element) => Reflect.get(element, 'simulation').config)).toMatchObject({
     start: { x: 3.25, y: 2.6, theta: Math.PI / 2 },
@@ -152,7 +152,7 @@ testEach('the code to embed a figure reproduces the settings of its state, with 
       // After a change of its state, a calibrator fits its log in one of the next frames.
       while (/** @type {any} */ (element).isBusy) await new Promise(requestAnimationFrame);
       const figureConfigs = [element, embeddedCopy, reorderedCopy].map((figureElement) => /** @type {AnyElement} */ (figureElement).simulation.config);
-      for (const copy of [embeddedCopy, reorderedCopy]) copy.remove();
+      for (const figureCopy of [embeddedCopy, reorderedCopy]) figureCopy.remove();
       return figureConfigs;
     }, /** @type {any} */ (randomState));
     for (const copiedConfig of copiedConfigs) expect(copiedConfig, `seed ${seed}`).toEqual(originalConfig);
@@ -195,13 +195,13 @@ test('properties that were set before the element was defined are applied, in an
     const namesByFigure = propertyCases.flatMap(([, , checkedNames]) => [checkedNames, checkedNames]);
     return figureElements.map((figure, i) => namesByFigure[i].map((name) => Reflect.get(figure, name)));
   });
-  const repeatTwice = (/** @type {unknown[]} */ repeatedValues) => [repeatedValues, repeatedValues];
+  const makePair = (/** @type {unknown[]} */ repeatedValues) => [repeatedValues, repeatedValues];
   expect(propertyValues).toEqual([
-    ...repeatTwice([3, [0.1, 0.1, 0.1, 0.1, 0, 0], ['ellipse'], 'dark']),
-    ...repeatTwice([0.7, 1, 1.4, [0.1, 0.3, 0.1, 0.1]]),
-    ...repeatTwice([60_000, 70_000]),
-    ...repeatTwice([30, 40]),
-    ...repeatTwice([3, { x: 3, y: 1, theta: 0 }]),
+    ...makePair([3, [0.1, 0.1, 0.1, 0.1, 0, 0], ['ellipse'], 'dark']),
+    ...makePair([0.7, 1, 1.4, [0.1, 0.3, 0.1, 0.1]]),
+    ...makePair([60_000, 70_000]),
+    ...makePair([30, 40]),
+    ...makePair([3, { x: 3, y: 1, theta: 0 }]),
   ]);
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });
@@ -212,7 +212,7 @@ test('properties that are assigned their own value change nothing @nightly', asy
   await takeEvents(page, ['stats']);
   const assignedCount = await widget.evaluate((element, propertyKeys) => {
     const figure = /** @type {any} */ (element);
-    const propertyNames = propertyKeys.filter((key) => key in figure && key !== 'playing');
+    const propertyNames = propertyKeys.filter((propertyKey) => propertyKey in figure && propertyKey !== 'playing');
     for (const key of propertyNames) figure[key] = structuredClone(figure[key]);
     for (const { name, value } of [...element.attributes]) element.setAttribute(name, value);
     return propertyNames.length;

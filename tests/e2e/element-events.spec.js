@@ -168,7 +168,7 @@ testEach('a frame after an input event calls the core at most six times, and the
   expect(Math.max(...callsSinceInput.map(({ length }) => length)), `${name}: ${JSON.stringify(callsSinceInput)}`).toBeLessThanOrEqual(6);
   expect(callsSinceInput.flat(), name).toEqual(expect.arrayContaining([expect.stringMatching(/^configure/), 'read']));
   await page.mouse.up();
-  expect((await takeCallsByFrame()).flat().filter((key) => !['picture', 'surface'].includes(key)), name).toEqual([]);
+  expect((await takeCallsByFrame()).flat().filter((memberName) => !['picture', 'surface'].includes(memberName)), name).toEqual([]);
 });
 
 testEach('each control of a figure fires one input event and one change event', async (page, name) => {

@@ -22,7 +22,7 @@ async function countFramesAndModules(page) {
     WebAssembly.compile = (...compileArguments) => (frameAndModuleCounts.compiled++, compile.apply(WebAssembly, compileArguments));
     WebAssembly.compileStreaming = (...compileArguments) => (frameAndModuleCounts.compiled++, compileStreaming.apply(WebAssembly, compileArguments));
     WebAssembly.instantiate = /** @type {any} */ (
-      (/** @type {[any, any]} */ ...args) => (frameAndModuleCounts.instances++, instantiate.apply(WebAssembly, args))
+      (/** @type {[any, any]} */ ...instantiateArguments) => (frameAndModuleCounts.instances++, instantiate.apply(WebAssembly, instantiateArguments))
     );
   });
 }
@@ -42,7 +42,7 @@ const waitForSixFrames = (page) =>
 test('figures far from the window fetch and compute nothing, and all figures share one module', NEW_PAGE_TAG, async ({ page }) => {
   /** @type {string[]} */
   const fetchedPaths = [];
-  page.on('request', (request) => fetchedPaths.push(new URL(request.url()).pathname));
+  page.on('request', (pageRequest) => fetchedPaths.push(new URL(pageRequest.url()).pathname));
   await countFramesAndModules(page);
   await showPage(page, `<div style="height: 5000px"></div>${TWO_FIGURE_NAMES.map((figureName) => `<${figureName}></${figureName}>`).join('')}`, {
     script: '<script type="module" src="/external.js"></script>',
@@ -61,11 +61,11 @@ test('figures far from the window fetch and compute nothing, and all figures sha
 });
 
 test('a page with one figure fetches the module of that figure @nightly', async ({ page }) => {
-  for (const name of ALL_FIGURE_NAMES) {
+  for (const figureName of ALL_FIGURE_NAMES) {
     const moduleRequest = page.waitForRequest(/\.wasm$/);
-    await showPage(page, `<${name}></${name}>`, { script: '<script type="module" src="/external.js"></script>' });
-    await waitUntilReady(page.locator(name));
-    expect(new URL((await moduleRequest).url()).pathname).toMatch(new RegExp(`^/chunks/${name}-\\w+\\.wasm$`));
+    await showPage(page, `<${figureName}></${figureName}>`, { script: '<script type="module" src="/external.js"></script>' });
+    await waitUntilReady(page.locator(figureName));
+    expect(new URL((await moduleRequest).url()).pathname).toMatch(new RegExp(`^/chunks/${figureName}-\\w+\\.wasm$`));
   }
 });
 

@@ -84,8 +84,8 @@ test('figures in open and closed shadow roots have their own parts in the fragme
 });
 
 test('a link scrolls once to the figure from which it was copied, and a reload does not scroll', NEW_PAGE_TAG, async ({ page, context }) => {
-  const gapHtml = '<p style="margin: 2000px 0">Between</p>';
-  const pageBody = `${gapHtml}<banana-machine></banana-machine>${gapHtml}<banana-machine></banana-machine>${gapHtml}`;
+  const spacerHtml = '<p style="margin: 2000px 0">Between</p>';
+  const pageBody = `${spacerHtml}<banana-machine></banana-machine>${spacerHtml}<banana-machine></banana-machine>${spacerHtml}`;
   await showPage(page, pageBody);
   const nthFigureOf = (/** @type {import('@playwright/test').Page} */ openPage, /** @type {number} */ i) => openPage.locator('banana-machine').nth(i);
   const readFigureTops = (/** @type {import('@playwright/test').Page} */ openPage) =>

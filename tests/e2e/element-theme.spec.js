@@ -50,7 +50,7 @@ const SCHEME_SOURCES = /** @type {[string, string, (scheme: 'light' | 'dark') =>
     '<style>body { background: white; color: #222 } .night body { background: #111; color: oklch(0.9 0 0) }</style>',
     (schemeName) => `document.documentElement.classList.toggle('night', ${schemeName === 'dark'})`,
   ],
-  ['its theme attribute', '<style>:root { color-scheme: light }</style>', (scheme) => `document.querySelector('#it').theme = '${scheme}'`],
+  ['its theme attribute', '<style>:root { color-scheme: light }</style>', (schemeName) => `document.querySelector('#it').theme = '${schemeName}'`],
 ]);
 
 for (const [sourceName, headHtml, schemeScriptOf] of SCHEME_SOURCES) {

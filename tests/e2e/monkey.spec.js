@@ -46,7 +46,7 @@ const DROPPABLE_FILE_GROUPS = [
 /** Returns a generator of random integers and of random list elements. @param {number} seed @returns {Random} */
 function createRandom(seed) {
   const drawUniform = createRandomGenerator(seed);
-  const drawIntegerBelow = (/** @type {number} */ limit) => Math.floor(limit * drawUniform());
+  const drawIntegerBelow = (/** @type {number} */ exclusiveEnd) => Math.floor(exclusiveEnd * drawUniform());
   return { integerBelow: drawIntegerBelow, itemOf: (itemList) => itemList[drawIntegerBelow(itemList.length)] };
 }
 
@@ -92,7 +92,7 @@ const RANDOM_ACTIONS = {
   },
   async pressKeys(page, randomSource) {
     const pressedKeys = Array.from({ length: 1 + randomSource.integerBelow(4) }, () => randomSource.itemOf(PRESSABLE_KEYS));
-    for (const key of pressedKeys) await page.keyboard.press(key);
+    for (const pressedKey of pressedKeys) await page.keyboard.press(pressedKey);
     return pressedKeys.join(' ');
   },
   async typeText(page, randomSource) {
@@ -112,13 +112,13 @@ const RANDOM_ACTIONS = {
   },
   async setAttribute(page, randomSource) {
     const [figureName, choiceNumber, attributeText] = [randomSource.itemOf(ALL_FIGURE_NAMES), randomSource.integerBelow(1e6), randomSource.integerBelow(4) === 0 ? null : randomSource.itemOf(ATTRIBUTE_TEXTS)];
-    return page.evaluate(([name, choiceNumber, attributeText]) => {
-      const attributeNames = [.../** @type {any} */ (customElements.get(`${name}`)).observedAttributes, 'lang', 'dir', 'id', 'hidden'];
+    return page.evaluate(([figureName, choiceNumber, attributeText]) => {
+      const attributeNames = [.../** @type {any} */ (customElements.get(`${figureName}`)).observedAttributes, 'lang', 'dir', 'id', 'hidden'];
       const attributeName = attributeNames[Number(choiceNumber) % attributeNames.length];
-      const figureElement = document.querySelector(`${name}`);
+      const figureElement = document.querySelector(`${figureName}`);
       if (attributeText === null) figureElement?.removeAttribute(attributeName);
       else figureElement?.setAttribute(attributeName, `${attributeText}`);
-      return `${name} ${attributeName}=${attributeText}`;
+      return `${figureName} ${attributeName}=${attributeText}`;
     }, [figureName, choiceNumber, attributeText]);
   },
   async resizeWindow(page, randomSource) {
@@ -146,23 +146,23 @@ const RANDOM_ACTIONS = {
     }, [name, choiceNumber]);
   },
   async dropFiles(page, randomSource) {
-    const files = randomSource.itemOf(DROPPABLE_FILE_GROUPS);
+    const droppedFiles = randomSource.itemOf(DROPPABLE_FILE_GROUPS);
     await page.evaluate(async (files) => {
       const mapSection = document.querySelector('map-squeeze')?.shadowRoot?.querySelector('section');
       const dataTransfer = new DataTransfer();
       for (const { name, bytes } of files) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
       for (const eventType of ['dragover', 'drop']) mapSection?.dispatchEvent(new DragEvent(eventType, { dataTransfer, bubbles: true, composed: true, cancelable: true }));
-    }, files.map(({ name, buffer }) => ({ name, bytes: [...buffer] })));
-    return files.map(({ name }) => name).join(' ');
+    }, droppedFiles.map(({ name, buffer }) => ({ name, bytes: [...buffer] })));
+    return droppedFiles.map(({ name }) => name).join(' ');
   },
   async setState(page, randomSource) {
     const [name, choiceNumber, fieldIndex, newValue] = [randomSource.itemOf(ALL_FIGURE_NAMES), randomSource.integerBelow(3), randomSource.integerBelow(1e6), randomSource.itemOf([0, 1, -1, 0.5, 1e9, null, 'x', [], {}, true])];
     return page.evaluate(([name, choiceNumber, fieldIndex, newValue]) => {
       const element = /** @type {any} */ (document.querySelector(`${name}`));
       const keptStates = /** @type {any} */ (window).keptStates;
-      const state = element.getState();
-      if (state) keptStates.push(state);
-      const { widget, version, ...fields } = state ?? {};
+      const figureState = element.getState();
+      if (figureState) keptStates.push(figureState);
+      const { widget, version, ...fields } = figureState ?? {};
       const fieldNames = Object.keys(fields);
       const fieldName = fieldNames[Number(fieldIndex) % fieldNames.length];
       const nextState = choiceNumber === 0 ? { widget, version, [fieldName]: newValue } : keptStates[Number(fieldIndex) % keptStates.length];
@@ -214,18 +214,18 @@ const WEIGHTED_ACTION_NAMES = Object.entries(ACTION_FREQUENCIES).flatMap(([actio
 function readFaults(page, name) {
   return page.evaluate(async (name) => {
     const element = /** @type {any} */ (document.querySelector(name));
-    const untilShown = async (/** @type {any} */ element) => {
+    const waitUntilShown = async (/** @type {any} */ element) => {
       element.scrollIntoView({ block: 'start', behavior: 'instant' });
       await element.settled;
       await element.updateComplete;
     };
     element.hidden = false;
-    await untilShown(element);
+    await waitUntilShown(element);
     const failureElement = element.shadowRoot.querySelector('.failure');
     if (failureElement || !element.simulation) return [`it shows ${failureElement?.textContent ?? 'nothing'}`];
     const faultMessages = [...element.shadowRoot.querySelectorAll('dd, td, output, .typed, .note, .caption')]
       .map((textElement) => textElement.value ?? textElement.textContent)
-      .filter((text) => /NaN|Infinity|undefined|\[object/.test(text))
+      .filter((visibleText) => /NaN|Infinity|undefined|\[object/.test(visibleText))
       .map((text) => `it says ${text}`);
 
     const resultTextOf = async (/** @type {any} */ figureElement) => {
@@ -241,7 +241,7 @@ function readFaults(page, name) {
     const secondElement = /** @type {any} */ (document.createElement(name));
     secondElement.setState(JSON.parse(JSON.stringify(state)));
     element.after(secondElement);
-    await untilShown(secondElement);
+    await waitUntilShown(secondElement);
     const secondResultText = await resultTextOf(secondElement);
     secondElement.remove();
     if (secondResultText !== resultText) faultMessages.push(`a second figure with its state differs: ${resultText.slice(0, 2000)} became ${secondResultText.slice(0, 2000)}`);
@@ -272,14 +272,14 @@ test('random actions cause no fault in any figure @nightly', NEW_PAGE_TAG, async
     await waitUntilReady(page.locator(name).first());
   }
 
-  const random = createRandom(FIRST_SEED);
+  const randomSource = createRandom(FIRST_SEED);
   /** @type {string[]} */
   const eventLog = [];
   const describeReplay = () => `MONKEY_SEED=${FIRST_SEED} MONKEY_EVENTS=${EVENT_COUNT}, after ${eventLog.length} events; the last:\n${eventLog.slice(-12).join('\n')}\n`;
   while (eventLog.length < EVENT_COUNT) {
-    const name = random.itemOf(WEIGHTED_ACTION_NAMES);
+    const name = randomSource.itemOf(WEIGHTED_ACTION_NAMES);
     eventLog.push(`${name} …`);
-    await test.step(name, async () => eventLog.push(`${name} ${await RANDOM_ACTIONS[name](page, random)}`), { box: true }).catch((error) => {
+    await test.step(name, async () => eventLog.push(`${name} ${await RANDOM_ACTIONS[name](page, randomSource)}`), { box: true }).catch((error) => {
       throw new Error(describeReplay(), { cause: error });
     });
     eventLog.splice(-2, 1);

@@ -49,8 +49,8 @@ test('in forced colours a figure keeps its colour roles, and its pressed button 
   for (const colorRole of ['prior', 'prediction', 'posterior', 'truth']) {
     expect(await countPixelsOfRole(widget.locator('canvas.plane'), colorRole), colorRole).toBeGreaterThan(25);
   }
-  const [pressedColor, otherColor] = await Promise.all(['Banana', 'Straight'].map((name) =>
-    widget.getByRole('button', { name }).evaluate((buttonElement) => getComputedStyle(buttonElement).backgroundColor)));
+  const [pressedColor, otherColor] = await Promise.all(['Banana', 'Straight'].map((buttonName) =>
+    widget.getByRole('button', { name: buttonName }).evaluate((buttonElement) => getComputedStyle(buttonElement).backgroundColor)));
   expect(pressedColor).not.toBe(otherColor);
 });
 
@@ -182,10 +182,10 @@ test.describe('a finger on a figure', () => {
   test('that swipes vertically over a picture or a slider scrolls the page, and changes no setting', async ({ page, figureName }) => {
     const widget = await openWithDisclosures(page, figureName, surroundingHtml);
     for (const swipedSelector of ['canvas.plane', `#${FIGURE_FACTS[figureName].sliderId}`]) {
-      const swipedPart = widget.locator(swipedSelector);
-      await scrollToLowerHalf(swipedPart);
+      const swipedElement = widget.locator(swipedSelector);
+      await scrollToLowerHalf(swipedElement);
       const stateBefore = await readState(widget);
-      const { x, y, width, height } = await readBox(swipedPart);
+      const { x, y, width, height } = await readBox(swipedElement);
       const scrollYBefore = await page.evaluate(() => scrollY);
       // The swipe starts on the slider's track, because no slider has its thumb at a third of the width.
       await swipeUpFrom(page, { x: x + 0.3 * width, y: y + height / 2 });
@@ -256,7 +256,7 @@ test('a printed figure has its picture and settings in light colours, and no con
     document.querySelector('banana-machine')?.replaceWith(document.createElement('banana-machine'));
   });
   await waitUntilReady(widget);
-  const readCanvasSize = () => planeCanvas.evaluate((element) => ['width', 'height'].map((sideName) => Reflect.get(element, sideName)));
+  const readCanvasSize = () => planeCanvas.evaluate((element) => ['width', 'height'].map((dimensionName) => Reflect.get(element, dimensionName)));
   for (const width of [600, 701, 1127, 1920]) {
     await page.setViewportSize({ width, height: 900 });
     await waitForFrames(page);

@@ -33,9 +33,9 @@ test('exercise 4: the figure shows the clouds with α₄ alone and α₆ alone, 
     ['α4, ω = 0.5', 4, 0.5, /Only one noise displaces the robots: they lie on a line/],
     ['α6, ω = 0.5', 6, 0.5, /every robot stops at the same point, and only the headings fan out/],
   ];
-  for (const [buttonName, alphaNumber, omega, caption] of expectedOutcomes) {
+  for (const [buttonName, alphaNumber, omega, expectedCaption] of expectedOutcomes) {
     await sectionArticle.getByRole('button', { name: buttonName }).press('Enter');
-    await expect(bananaMachine.locator('[part=caption]')).toHaveText(caption);
+    await expect(bananaMachine.locator('[part=caption]')).toHaveText(expectedCaption);
     expect(await readIsolateAndOmega()).toEqual([alphaNumber, omega]);
   }
   const { alphas, command } = await bananaMachine.evaluate((figure) => /** @type {any} */ (figure).getState());

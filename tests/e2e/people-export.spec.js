@@ -49,9 +49,9 @@ test('CSV of the Banana Machine contains the samples, and the settings that repr
   expect(rows).toHaveLength(shown);
   expect(rows.flatMap((csvRow) => csvRow.slice(0, 3))).toEqual(cloudPoses);
   expect(settings).toEqual({ element: 'banana-machine', ...config });
-  const recomputedPoses = await widget.evaluate((element, { element: _name, ...given }) => {
+  const recomputedPoses = await widget.evaluate((element, { element: _name, ...exportedSettings }) => {
     const { motion } = /** @type {import('./support.js').BananaMachineElement} */ (element);
-    const simulation = new motion.BananaMachine(given);
+    const simulation = new motion.BananaMachine(exportedSettings);
     const posesCopy = [...simulation.poses];
     simulation.free();
     return posesCopy;
@@ -67,7 +67,7 @@ test('CSV of Map Squeeze contains the verdicts, whose counts equal the readouts'
   expect(columns).toEqual(['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted']);
   expect(rows).toHaveLength(stats.attempts);
   expect(rows.filter((csvRow) => csvRow[5] === 1)).toHaveLength(stats.accepted);
-  expect(rows.filter((row) => row[5] === 1 && row[4] === 0)).toHaveLength(stats.throughWall);
+  expect(rows.filter((csvRow) => csvRow[5] === 1 && csvRow[4] === 0)).toHaveLength(stats.throughWall);
 });
 
 test('SVG has a title, a description and vector graphics; few samples are dots, and many samples are an image', async ({ page }) => {
@@ -140,9 +140,9 @@ test('the menu saves files with descriptive names, also by keyboard', async ({ p
 /** Characters that XML forbids, and character sequences that end a comment, a CDATA section or an element. */
 const HOSTILE_TEXT = ']]> --> <!-- <![CDATA[ </svg><script>alert(1)</script> & &amp; " \u0027 \u0000\u0001\u0008\u000b\u000c\u001f\ufffe\uffff \ud800 \udc00 \u{1f916} é';
 
-/** Returns a text with the replacements that an export to SVG makes. @param {string} text */
+/** Returns a text with the replacements that an export to SVG makes. @param {string} originalText */
 // oxlint-disable-next-line no-control-regex
-const replaceForbiddenCharacters = (text) => text.replace(/[\0-\x08\x0b\x0c\x1f\ufffe\uffff\p{Cs}]/gu, '\ufffd');
+const replaceForbiddenCharacters = (originalText) => originalText.replace(/[\0-\x08\x0b\x0c\x1f\ufffe\uffff\p{Cs}]/gu, '\ufffd');
 
 test('SVG is well-formed even if names set by a page contain forbidden characters @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);

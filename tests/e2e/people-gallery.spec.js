@@ -19,9 +19,9 @@ test('examples on the reference page start when they are opened, and match the c
     await expect(exampleFigure.locator('.cloud button').first()).toBeVisible();
     await waitForFrames(page);
     const exampleCode = (await exampleSection.locator('code').first().textContent()) ?? '';
-    const config = await exampleFigure.evaluate((figureElement) => Reflect.get(figureElement, 'simulation').config);
+    const figureConfig = await exampleFigure.evaluate((figureElement) => Reflect.get(figureElement, 'simulation').config);
     for (const [name, value] of Object.entries(figureAttributes)) expect(exampleCode).toContain(`${name}="${value}"`);
-    for (const name of ['samples', 'isolate', 'sampler']) if (name in figureAttributes) expect(String(config[name])).toBe(figureAttributes[name]);
+    for (const name of ['samples', 'isolate', 'sampler']) if (name in figureAttributes) expect(String(figureConfig[name])).toBe(figureAttributes[name]);
     if (figureAttributes.lang === 'de') await expect(exampleFigure.getByRole('button', { name: 'Stichproben ziehen' })).toBeVisible();
     await exampleSection.locator('summary').first().click();
   }
@@ -47,7 +47,7 @@ testEach('each gallery item sets its complete state, independent of items presse
       const figureState = /** @type {any} */ (exampleFigure).getState();
       return [figureState, Object.fromEntries(propertyKeys.map((propertyKey) => [propertyKey, propertyKey in exampleFigure ? Reflect.get(exampleFigure, propertyKey) : Reflect.get(figureState, propertyKey)]))];
     }, Object.keys(itemSettings));
-    const expectedPreset = Object.keys(itemSettings).every((key) => KEYS_OUTSIDE_PRESETS.includes(key)) ? itemSettings.preset : figureProperties.preset;
+    const expectedPreset = Object.keys(itemSettings).every((settingKey) => KEYS_OUTSIDE_PRESETS.includes(settingKey)) ? itemSettings.preset : figureProperties.preset;
     expect(figureProperties).toEqual({ ...itemSettings, ...(itemSettings.preset && { preset: expectedPreset }) });
     return figureState;
   };
@@ -97,8 +97,8 @@ for (const [pageWidth, pageHeight] of [[1280, 720], [375, 760]]) {
     await page.goto('/');
     const figureArticle = page.locator('#banana');
     await waitUntilReady(figureArticle.locator('banana-machine'));
-    const [headingBox, standBox] = [await readBox(figureArticle.locator('.lead')), await readBox(figureArticle.locator('.stand'))];
-    expect(standBox.y).toBeGreaterThanOrEqual(headingBox.y + headingBox.height);
+    const [headingBox, pictureFrameBox] = [await readBox(figureArticle.locator('.lead')), await readBox(figureArticle.locator('.stand'))];
+    expect(pictureFrameBox.y).toBeGreaterThanOrEqual(headingBox.y + headingBox.height);
     await figureArticle.getByRole('button', { name: 'Odometry model' }).evaluate((button) => button.scrollIntoView({ block: 'end' }));
     await waitForFrames(page);
     await expect(figureArticle.locator('canvas.plane')).toBeInViewport({ ratio: 0.95 });

@@ -46,7 +46,7 @@ function readVisibleTexts(widget) {
 test('the English and German catalogues have the same messages with the same parameters', async () => {
   const [englishMessages, germanMessages] = (await Promise.all(['en', 'de'].map(loadCatalogue))).map((catalogue) => listMessages(catalogue));
   const messageShapesOf = (/** @type {[string, string | Function][]} */ catalogueMessages) =>
-    catalogueMessages.map(([path, message]) => [path, typeof message, typeof message === 'function' ? message.length : 0]);
+    catalogueMessages.map(([messagePath, message]) => [messagePath, typeof message, typeof message === 'function' ? message.length : 0]);
   expect(messageShapesOf(germanMessages)).toEqual(messageShapesOf(englishMessages));
   expect(englishMessages.length).toBeGreaterThan(200);
 });
@@ -58,7 +58,7 @@ testEach('a German figure contains no English text', async (page, figureName) =>
     .map(([, message]) => (typeof message === 'string' ? message : String(message(...'\ue001\ue002\ue003\ue004\ue005'))))
     // The text around the values of an error message is English too.
     .flatMap((message) => message.replace(/[*]/g, '').split(/[\ue001-\ue005]/))
-    .map((messagePart) => messagePart.replace(/[₀-₉]/g, (/** @type {string} */ digit) => String(digit.charCodeAt(0) - 0x2080)).trim())
+    .map((messagePart) => messagePart.replace(/[₀-₉]/g, (/** @type {string} */ subscriptDigit) => String(subscriptDigit.charCodeAt(0) - 0x2080)).trim())
     .filter((messagePart) => /\p{L}{4}/u.test(messagePart) && !UNTRANSLATED_NAMES.includes(messagePart) && !germanTexts.has(messagePart));
   expect(englishTexts.length).toBeGreaterThan(400);
   await showPage(page, `<${figureName} lang="de-AT"></${figureName}>`, {
@@ -144,9 +144,9 @@ test('signs are left of their numbers on a right-to-left page, even within right
     await openDisclosures(widget);
     const signsAndSides = await widget.evaluate(({ shadowRoot }, numberPart) => {
       const characterRange = new Range();
-      const characterBoxOf = (/** @type {Text} */ text, /** @type {number} */ characterIndex) => {
-        characterRange.setStart(text, characterIndex);
-        characterRange.setEnd(text, characterIndex + 1);
+      const characterBoxOf = (/** @type {Text} */ textNode, /** @type {number} */ characterIndex) => {
+        characterRange.setStart(textNode, characterIndex);
+        characterRange.setEnd(textNode, characterIndex + 1);
         return characterRange.getBoundingClientRect();
       };
       return [.../** @type {ShadowRoot} */ (shadowRoot).querySelectorAll(numberPart)].flatMap((element) => {

@@ -170,11 +170,11 @@ export function setProperty(widget, name, propertyValue) {
  * Plays a slider by its button. The code runs in the page, where no step can be missed.
  *
  * @param {Locator} widget
- * @param {string} key of the setting in a state, and class of its group
+ * @param {string} settingKey of the setting in a state, and class of its group
  * @param {number} [maxSteps] steps until it is paused
  * @returns {Promise<{ sliderValues: number[], buttonLabel: string }>} value at each step, and the label of the button at the first step
  */
-export function playSliderOf(widget, key, maxSteps = Infinity) {
+export function playSliderOf(widget, settingKey, maxSteps = Infinity) {
   return widget.evaluate(
     (element, [key, maxSteps]) =>
       new Promise((resolve) => {
@@ -197,7 +197,7 @@ export function playSliderOf(widget, key, maxSteps = Infinity) {
         }, { once: true });
         playButton.click();
       }),
-    /** @type {const} */ ([key, maxSteps]),
+    /** @type {const} */ ([settingKey, maxSteps]),
   );
 }
 

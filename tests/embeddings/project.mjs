@@ -5,7 +5,7 @@ import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, delimiter, join } from 'node:path';
-import { ROOT, runOrThrow, memoize, printStep } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT, runOrThrow, memoize, printStep } from '../../scripts/process.mjs';
 import { startProgram } from './serving.mjs';
 import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
 
@@ -56,32 +56,32 @@ const SILENT_ENVIRONMENT = {
 };
 
 /** Directory of the packages and copies for this clone of the repository. Tests of other clones may run at the same time. */
-const SCRATCH_DIRECTORY = join(CACHE_DIRECTORY, 'embeddings', createHash('sha256').update(ROOT).digest('hex').slice(0, 8));
+const SCRATCH_DIRECTORY = join(CACHE_DIRECTORY, 'embeddings', createHash('sha256').update(REPOSITORY_ROOT).digest('hex').slice(0, 8));
 
 /** Returns the names of all tested platforms, such as "hugo" or "next". @returns {Promise<string[]>} */
 export async function findPlatformNames() {
   const { plainPlatforms } = await import('./plain.mjs');
-  return [...Object.keys(plainPlatforms), ...readdirSync(join(ROOT, 'tests/embeddings')).flatMap((fileName) => fileName.match(/^(.+)\.js$/)?.slice(1) ?? [])];
+  return [...Object.keys(plainPlatforms), ...readdirSync(join(REPOSITORY_ROOT, 'tests/embeddings')).flatMap((fileName) => fileName.match(/^(.+)\.js$/)?.slice(1) ?? [])];
 }
 
-/** Returns the description of a platform. @param {string} name @returns {Promise<Platform>} */
-export async function loadPlatform(name) {
+/** Returns the description of a platform. @param {string} platformName @returns {Promise<Platform>} */
+export async function loadPlatform(platformName) {
   const { plainPlatforms } = await import('./plain.mjs');
-  return plainPlatforms[name] ?? (await import(`./${name}.js`)).default;
+  return plainPlatforms[platformName] ?? (await import(`./${platformName}.js`)).default;
 }
 
 /** Returns packages with the versions to which an example pins them. @param {string} exampleName @param {string[]} packageNames */
 export function pinnedVersionsOf(exampleName, ...packageNames) {
-  const exampleDirectory = join(ROOT, 'examples', exampleName);
+  const exampleDirectory = join(REPOSITORY_ROOT, 'examples', exampleName);
   const readText = (/** @type {string} */ name) => (existsSync(join(exampleDirectory, name)) ? readFileSync(join(exampleDirectory, name), 'utf8') : '');
   const { dependencies = {}, devDependencies = {} } = JSON.parse(readText('package.json') || '{}');
   const versionByPackage = new Map(Object.entries({ ...dependencies, ...devDependencies }));
   for (const [, name, pinnedVersion] of readText('requirements.txt').matchAll(/^([\w.-]+)(?:\[[\w,]+\])?==(\S+)$/gm)) versionByPackage.set(name, pinnedVersion);
   return packageNames
     .map((name) => {
-      const version = versionByPackage.get(name);
-      if (!/^\d+\.\d+[\w.]*$/.test(version ?? '')) throw new Error(`examples/${exampleName}: ${name} is ${version}, and must be one version.`);
-      return `${name} ${version}`;
+      const pinnedVersion = versionByPackage.get(name);
+      if (!/^\d+\.\d+[\w.]*$/.test(pinnedVersion ?? '')) throw new Error(`examples/${exampleName}: ${name} is ${pinnedVersion}, and must be one version.`);
+      return `${name} ${pinnedVersion}`;
     })
     .join(', ');
 }
@@ -119,7 +119,7 @@ export async function installPythonPackages(directory, { run }, pythonWheelPaths
 
 /** Packs the present build as npm would publish it, and returns the path of the package. @param {string} directory */
 export function packNpmPackageInto(directory) {
-  const packageName = execFileSync('npm', ['pack', ROOT, '--ignore-scripts', '--silent', '--pack-destination', directory], { encoding: 'utf8' });
+  const packageName = execFileSync('npm', ['pack', REPOSITORY_ROOT, '--ignore-scripts', '--silent', '--pack-destination', directory], { encoding: 'utf8' });
   return join(directory, packageName.trim());
 }
 
@@ -129,7 +129,7 @@ const packNpmPackage = memoize(async () => packNpmPackageInto(makeEmptyDirectory
 /** Builds the wheel of the Python package once, and returns its path. */
 const buildPythonWheel = memoize(async () => {
   const directory = makeEmptyDirectory('python');
-  execFileSync('python3', ['-m', 'pip', 'wheel', '--quiet', '--no-deps', '--wheel-dir', directory, join(ROOT, 'python')]);
+  execFileSync('python3', ['-m', 'pip', 'wheel', '--quiet', '--no-deps', '--wheel-dir', directory, join(REPOSITORY_ROOT, 'python')]);
   return join(directory, readdirSync(directory)[0]);
 });
 
@@ -149,7 +149,7 @@ function createTools(directory, toolEnvironment) {
       const runOptions = { cwd: directory, env: { ...toolEnvironment, ...moreOptions }, quiet: true, seconds: 900 };
       return (await runOrThrow(errorMessage, command, commandArguments, runOptions)).output;
     },
-    start: (command, args, moreEnvironment) => startProgram(command, args, { cwd: directory, env: { ...toolEnvironment, ...moreEnvironment } }),
+    start: (command, programArguments, moreEnvironment) => startProgram(command, programArguments, { cwd: directory, env: { ...toolEnvironment, ...moreEnvironment } }),
   };
 }
 
@@ -164,7 +164,7 @@ const KEPT_NAMES = ['node_modules', '.venv', '.installed'];
  * @param {Platform} platformDefinition
  */
 export async function prepareExample(name, platformDefinition) {
-  const exampleDirectory = join(ROOT, 'examples', name);
+  const exampleDirectory = join(REPOSITORY_ROOT, 'examples', name);
   const directory = join(SCRATCH_DIRECTORY, name);
   const exampleTools = createTools(directory, { ...SILENT_ENVIRONMENT, ...(await ensureNode(platformDefinition)) });
   mkdirSync(directory, { recursive: true });
@@ -173,9 +173,9 @@ export async function prepareExample(name, platformDefinition) {
   }
   cpSync(exampleDirectory, directory, { recursive: true, filter: (path) => !KEPT_NAMES.includes(basename(path)) });
   const packagePaths = { npmTarball: await packNpmPackage(), pythonWheel: platformDefinition.python ? await buildPythonWheel() : '' };
-  const pinFiles = ['package.json', 'requirements.txt'].map((fileName) => join(exampleDirectory, fileName)).filter((path) => existsSync(path));
+  const versionFiles = ['package.json', 'requirements.txt'].map((fileName) => join(exampleDirectory, fileName)).filter((path) => existsSync(path));
   const packageHash = createHash('sha256');
-  for (const path of [...pinFiles, ...Object.values(packagePaths).filter((path) => path !== '')]) packageHash.update(readFileSync(path));
+  for (const path of [...versionFiles, ...Object.values(packagePaths).filter((path) => path !== '')]) packageHash.update(readFileSync(path));
   const stampFile = join(directory, '.installed');
   const currentHash = packageHash.digest('hex');
   if (existsSync(stampFile) && readFileSync(stampFile, 'utf8') === currentHash) return { directory, tools: exampleTools };

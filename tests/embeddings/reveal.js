@@ -1,5 +1,5 @@
 import assert from 'node:assert/strict';
-import { untilLive } from './checks.mjs';
+import { waitUntilLive } from './checks.mjs';
 import { installNpmPackages, pinnedVersionsOf } from './project.mjs';
 import { serveFiles } from './serving.mjs';
 
@@ -7,7 +7,7 @@ import { serveFiles } from './serving.mjs';
 const SLIDE_CHECKS = {
   async 'a figure fits its slide, keeps its keys, and is presented'(page, site) {
     await page.goto(new URL('index.html#/1', site.url).href);
-    await untilLive(page, site);
+    await waitUntilLive(page, site);
     const bananaMachine = page.locator('banana-machine');
     assert.ok((await bananaMachine.evaluate((element) => element.clientHeight)) <= 700);
     await bananaMachine.getByRole('button', { name: 'Pivot' }).press('Space');

@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { chromium } from '@playwright/test';
 import { CHROME_ARGUMENTS, ensureBrowser } from '../../scripts/browser.mjs';
 import { build } from '../../scripts/build.mjs';
-import { ROOT, UserError, printStep, runAsScript } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT, UserError, printStep, runAsScript } from '../../scripts/process.mjs';
 import { runChecks } from './checks.mjs';
 import { loadPlatform, findPlatformNames, prepareExample } from './project.mjs';
 
@@ -25,18 +25,18 @@ async function testPlatform(browser, platformName) {
   let startTime = Date.now();
   const addOutcome = (/** @type {string} */ servingName, /** @type {number} */ passedCount, /** @type {string[]} */ failures) => {
     servingOutcomes.push({ name: platformName, serving: servingName, passed: passedCount, failures, seconds: (Date.now() - startTime) / 1000 });
-    for (const failure of failures) console.log(`FAILED ${failure}`);
+    for (const failureText of failures) console.log(`FAILED ${failureText}`);
     startTime = Date.now();
   };
   let servingName = 'build';
   try {
-    const { directory, tools } = await prepareExample(platformName, platformDefinition);
+    const { directory, tools: exampleTools } = await prepareExample(platformName, platformDefinition);
     printStep(`${platformName}: building`);
-    await platformDefinition.build?.(directory, tools);
+    await platformDefinition.build?.(directory, exampleTools);
     for (const currentServing of platformDefinition.servings) {
       servingName = currentServing.name;
       printStep(`${platformName}: ${servingName}`);
-      const { url, stop } = await currentServing.serve(directory, tools);
+      const { url, stop } = await currentServing.serve(directory, exampleTools);
       try {
         const { passed, failures } = await runChecks(browser, { name: platformName, definition: platformDefinition, serving: currentServing, url });
         addOutcome(servingName, passed, failures);
@@ -57,18 +57,18 @@ async function testPlatforms(platformNames) {
   if (unknownName !== undefined) throw new UserError(`"${unknownName}" is no platform that is tried; allowed are ${allPlatformNames.join(', ')}.`);
   await build();
   const { chrome, version } = await ensureBrowser();
-  mkdirSync(join(ROOT, 'test-results/embeddings'), { recursive: true });
+  mkdirSync(join(REPOSITORY_ROOT, 'test-results/embeddings'), { recursive: true });
   // With the back/forward cache, going back restores a page in the state in which the user left it.
   const browser = await chromium.launch({ executablePath: chrome, args: CHROME_ARGUMENTS, ignoreDefaultArgs: ['--disable-back-forward-cache'] });
   /** @type {Outcome[]} */
-  const outcomes = [];
+  const allOutcomes = [];
   try {
-    for (const name of platformNames.length > 0 ? platformNames : allPlatformNames) outcomes.push(...(await testPlatform(browser, name)));
+    for (const name of platformNames.length > 0 ? platformNames : allPlatformNames) allOutcomes.push(...(await testPlatform(browser, name)));
   } finally {
     await browser.close();
   }
-  await printSummary(outcomes, version);
-  return outcomes.every(({ failures }) => failures.length === 0);
+  await printSummary(allOutcomes, version);
+  return allOutcomes.every(({ failures }) => failures.length === 0);
 }
 
 /** Prints the versions of the packages and the outcomes. @param {Outcome[]} outcomes @param {string} version of the browser */

@@ -2,7 +2,7 @@
 
 import { spawn } from 'node:child_process';
 import { join } from 'node:path';
-import { ROOT, killProcessGroup, endGroupWithProcess, forgetGroup } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT, killProcessGroup, endGroupWithProcess, forgetGroup } from '../../scripts/process.mjs';
 import { startServer } from '../../scripts/serve.mjs';
 
 /** Time limit in seconds within which a server has to answer. */
@@ -35,7 +35,7 @@ export const serveByProgram = (commandOf, base = '/') => async (directory, { sta
     throw new Error(`The server has ended:\n${platformServer.getOutput()}`);
   });
   try {
-    await Promise.race([untilAnswered(url), earlyEndPromise]);
+    await Promise.race([waitUntilAnswered(url), earlyEndPromise]);
   } catch (error) {
     await platformServer.stop();
     throw error;
@@ -47,13 +47,13 @@ export const serveByProgram = (commandOf, base = '/') => async (directory, { sta
 
 /** Returns a free port, which a temporary server has just released. */
 async function findFreePort() {
-  const { address, close } = await startServer(ROOT, { port: 0 });
+  const { address, close } = await startServer(REPOSITORY_ROOT, { port: 0 });
   close();
   return new URL(address).port;
 }
 
 /** Waits until a server answers with status 200. @param {string} url */
-async function untilAnswered(url) {
+async function waitUntilAnswered(url) {
   const answerDeadline = Date.now() + TIMEOUT_SECONDS * 1000;
   for (;;) {
     const lastStatus = await fetch(url, { signal: AbortSignal.timeout(TIMEOUT_SECONDS * 1000) }).then(({ status }) => status, String);
@@ -74,7 +74,7 @@ async function untilAnswered(url) {
  *   `getOutput` returns the text printed so far; `waitForOutput` waits for a match of a pattern and returns its first group;
  *   `whenEnded`, and the promise of `stop`, are resolved when the program has ended
  */
-export function startProgram(command, commandArguments, { env = {}, cwd = ROOT } = {}) {
+export function startProgram(command, commandArguments, { env = {}, cwd = REPOSITORY_ROOT } = {}) {
   const childProcess = spawn(command, commandArguments, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'], detached: true });
   const groupId = childProcess.pid;
   if (groupId !== undefined) endGroupWithProcess(groupId);

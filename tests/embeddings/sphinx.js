@@ -27,8 +27,8 @@ const themeNames = Object.keys(DARK_SWITCH_OF_THEME);
 export default {
   heading: 'Sphinx',
   readVersions: () => pinnedVersionsOf('sphinx', 'sphinx', ...themeNames.map((themeName) => themeName.replaceAll('_', '-'))),
-  async install(directory, tools) {
-    await installPythonPackages(directory, tools, []);
+  async install(directory, exampleTools) {
+    await installPythonPackages(directory, exampleTools, []);
   },
   async build(directory, { run }) {
     copySingleFiles(join(directory, '_static'));

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { ROOT } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT } from '../../scripts/process.mjs';
 import { settings } from '../../build/settings.js';
 import { findDifferences } from '../digest/digest.js';
 import { createSimulation, handlesByTag } from './figures.mjs';
@@ -17,7 +17,7 @@ const DRAG_STEPS = 8;
 /** Maximum number of colours of a blank picture. Antialiased lines, text and a cloud have many more shades. */
 const MAX_COLOURS_OF_BLANK = 16;
 
-const readSource = (/** @type {string} */ repositoryPath) => readFileSync(join(ROOT, repositoryPath), 'utf8');
+const readSource = (/** @type {string} */ repositoryPath) => readFileSync(join(REPOSITORY_ROOT, repositoryPath), 'utf8');
 
 /** Page in one engine. `callInPage` calls functions of inside.js in that page. */
 class BrowserPage {
@@ -38,7 +38,7 @@ class BrowserPage {
    */
   callInPage(functionName, functionArgument) {
     return this.session.callInPage(
-      async ({ name, given }) => (await import(new URL('/tests/engines/inside.js', location.href).href))[name](given),
+      async ({ name, given: functionArgument }) => (await import(new URL('/tests/engines/inside.js', location.href).href))[name](functionArgument),
       { name: functionName, given: functionArgument },
     );
   }
@@ -46,19 +46,19 @@ class BrowserPage {
   /** Loads the page again. @param {string} [widgetTag] of a figure to scroll to and wait for */
   async open(widgetTag) {
     await this.session.open(this.address);
-    if (widgetTag !== undefined) await this.untilSettled(widgetTag);
+    if (widgetTag !== undefined) await this.waitUntilSettled(widgetTag);
   }
 
   /** Waits until a figure has settled, and checks that no picture of the figure is blank. @param {string} widgetTag */
-  async untilSettled(widgetTag) {
-    const { statisticsCount, requestedCount } = await this.callInPage('untilSettled', widgetTag);
+  async waitUntilSettled(widgetTag) {
+    const { statisticsCount, requestedCount } = await this.callInPage('waitUntilSettled', widgetTag);
     assert.equal(statisticsCount, requestedCount, `The statistics are of ${statisticsCount} samples.`);
     for (const colourCount of await this.callInPage('colourCountsOf', widgetTag)) assert.ok(colourCount > MAX_COLOURS_OF_BLANK, `A picture has ${colourCount} colours.`);
   }
 
   /** Writes a screenshot to a file. @param {string} screenshotName part of the file name */
   async saveScreenshot(screenshotName) {
-    const screenshotDirectory = join(ROOT, 'test-results/engines');
+    const screenshotDirectory = join(REPOSITORY_ROOT, 'test-results/engines');
     mkdirSync(screenshotDirectory, { recursive: true });
     writeFileSync(join(screenshotDirectory, `${this.name}-${screenshotName}.png`), await this.session.screenshot());
   }
@@ -99,9 +99,9 @@ export async function runChecks(name, browserSession, pageUrl) {
   await runCheck('the digest', () => checkDigest(page));
   for (const tag of Object.keys(settings)) {
     await runCheck(`${tag} opens`, () => checkOpening(page, tag));
-    for (const handle of handlesByTag[tag] ?? []) {
-      await runCheck(`${tag} is dragged by its handle "${handle.name}"`, () => checkDragging(page, tag, handle));
-      await runCheck(`the handle "${handle.name}" of ${tag} follows the keyboard`, () => checkHandleKeys(page, tag, handle));
+    for (const figureHandle of handlesByTag[tag] ?? []) {
+      await runCheck(`${tag} is dragged by its handle "${figureHandle.name}"`, () => checkDragging(page, tag, figureHandle));
+      await runCheck(`the handle "${figureHandle.name}" of ${tag} follows the keyboard`, () => checkHandleKeys(page, tag, figureHandle));
     }
     await runCheck(`sliders of ${tag} follow the keyboard`, () => checkSliderKeys(page, tag));
   }
@@ -151,7 +151,7 @@ async function checkDragging(page, tag, { name, target, positionOf }) {
   const dragVector = [handleMeasures.target.x - handleMeasures.position.x, handleMeasures.target.y - handleMeasures.position.y];
   const dragPointOf = (/** @type {number} */ dragFraction) => /** @type {[number, number]} */ (grabPoint.map((coordinate, i) => Math.round(coordinate + dragFraction * dragVector[i])));
   await page.session.drag(Array.from({ length: DRAG_STEPS + 1 }, (_, i) => dragPointOf(i / DRAG_STEPS)));
-  await page.untilSettled(tag);
+  await page.waitUntilSettled(tag);
   await page.saveScreenshot(`${tag}-${name}-dragged`);
   const { simulation } = await compareWithNode(page, tag);
   const [x, y] = positionOf(simulation, target);
@@ -166,7 +166,7 @@ async function checkHandleKeys(page, tag, { name }) {
   const { hash: hashBefore } = await page.callInPage('stateOf', tag);
   assert.ok(await page.callInPage('focusElement', { tag, selector: `.handle.${name}` }), 'It does not take the focus.');
   await page.session.press('ArrowUp', 'ArrowUp', 'ArrowLeft');
-  await page.untilSettled(tag);
+  await page.waitUntilSettled(tag);
   const { hash } = await compareWithNode(page, tag);
   assert.notEqual(hash, hashBefore, 'Nothing has moved.');
 }
@@ -182,7 +182,7 @@ async function checkSliderKeys(page, tag) {
     const sliderBefore = await readSlider();
     assert.ok(sliderBefore && (await page.callInPage('focusElement', { tag, selector: `#${key}` })), `${key} does not take the focus.`);
     await page.session.press('ArrowRight', 'ArrowRight', 'ArrowLeft');
-    await page.untilSettled(tag);
+    await page.waitUntilSettled(tag);
     const sliderAfter = await readSlider();
     const expectedPosition = Math.min(sliderBefore.position + 2 * sliderBefore.step, sliderBefore.end) - sliderBefore.step;
     assert.ok(sliderAfter && Math.abs(sliderAfter.position - expectedPosition) < 1e-9, `The slider of ${key} was at ${sliderBefore.position} and is at ${sliderAfter?.position}.`);

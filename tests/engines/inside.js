@@ -18,7 +18,7 @@ const firstCanvasOf = (/** @type {string} */ tag) => /** @type {HTMLCanvasElemen
  * @param {string} tag
  * @returns {Promise<{ statisticsCount: number, requestedCount: number }>} number of samples in the statistics, and number requested
  */
-export async function untilSettled(tag) {
+export async function waitUntilSettled(tag) {
   await customElements.whenDefined(tag);
   const figureElement = /** @type {any} */ (figureOf(tag));
   await figureElement.settled;

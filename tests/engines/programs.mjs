@@ -1,7 +1,7 @@
 // Programs of Firefox and WebKit for `npm run test:engines`. Missing programs are installed by apt.
 
 import { join } from 'node:path';
-import { UserError, findProgram, runOrThrow, printStep, run } from '../../scripts/process.mjs';
+import { UserError, findProgram, runOrThrow, printStep, runProgram } from '../../scripts/process.mjs';
 import { CACHE_DIRECTORY, installByApt, ensureNativeRust } from '../../scripts/toolchain.mjs';
 
 const FIREFOX_NAMES = ['firefox-esr', 'firefox'];
@@ -15,7 +15,7 @@ export async function ensureFirefox() {
   const findFirefox = () => process.env.FIREFOX ?? FIREFOX_NAMES.map((programName) => findProgram(programName)).find((programPath) => programPath !== undefined);
   if (findFirefox() === undefined) await installByApt(['firefox-esr'], FIREFOX_MISSING_MESSAGE);
   const firefoxPath = findFirefox();
-  if (firefoxPath === undefined || !(await run(firefoxPath, ['--version'], { quiet: true, seconds: 60 })).ok) throw new UserError(FIREFOX_MISSING_MESSAGE);
+  if (firefoxPath === undefined || !(await runProgram(firefoxPath, ['--version'], { quiet: true, seconds: 60 })).ok) throw new UserError(FIREFOX_MISSING_MESSAGE);
   return { firefox: firefoxPath, driver: await ensureGeckodriver() };
 }
 

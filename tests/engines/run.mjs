@@ -5,7 +5,7 @@ import { mkdtempSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileS
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { build } from '../../scripts/build.mjs';
-import { ROOT, UserError, printStep, runAsScript } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT, UserError, printStep, runAsScript } from '../../scripts/process.mjs';
 import { startServer } from '../../scripts/serve.mjs';
 import { browserStarters } from './browsers.mjs';
 
@@ -19,9 +19,9 @@ const LISTENER_TAG = '<script src="/tests/engines/listen.js"></script>';
  */
 async function serveSite() {
   const siteDirectory = mkdtempSync(join(tmpdir(), 'motion-engines-'));
-  for (const fileName of readdirSync(join(ROOT, 'dist'))) if (fileName !== PAGE_NAME) symlinkSync(join(ROOT, 'dist', fileName), join(siteDirectory, fileName));
-  for (const folderName of ['tests', 'build']) symlinkSync(join(ROOT, folderName), join(siteDirectory, folderName));
-  writeFileSync(join(siteDirectory, PAGE_NAME), readFileSync(join(ROOT, 'dist', PAGE_NAME), 'utf8').replace('<head>', `<head>${LISTENER_TAG}`));
+  for (const fileName of readdirSync(join(REPOSITORY_ROOT, 'dist'))) if (fileName !== PAGE_NAME) symlinkSync(join(REPOSITORY_ROOT, 'dist', fileName), join(siteDirectory, fileName));
+  for (const folderName of ['tests', 'build']) symlinkSync(join(REPOSITORY_ROOT, folderName), join(siteDirectory, folderName));
+  writeFileSync(join(siteDirectory, PAGE_NAME), readFileSync(join(REPOSITORY_ROOT, 'dist', PAGE_NAME), 'utf8').replace('<head>', `<head>${LISTENER_TAG}`));
   const { address, close } = await startServer(siteDirectory, { port: 0 });
   return {
     address,
@@ -32,23 +32,23 @@ async function serveSite() {
   };
 }
 
-/** Opens a page in an engine, and returns the failures that the checks found. @param {string} name @param {string} address */
-async function runChecksInBrowser(name, address) {
-  printStep(name);
+/** Opens a page in an engine, and returns the failures that the checks found. @param {string} engineName @param {string} address */
+async function runChecksInBrowser(engineName, address) {
+  printStep(engineName);
   let engineVersion = 'none';
   try {
-    const browserSession = await browserStarters[name]();
+    const browserSession = await browserStarters[engineName]();
     engineVersion = browserSession.version;
     try {
       // checks.mjs is imported only here, because it imports dist/, which has to be built first.
       const { runChecks } = await import('./checks.mjs');
-      return { version: engineVersion, ...(await runChecks(name, browserSession, address)) };
+      return { version: engineVersion, ...(await runChecks(engineName, browserSession, address)) };
     } finally {
       await browserSession.close();
     }
   } catch (error) {
     const failureMessage = error instanceof UserError ? error.message : String(error instanceof Error ? error.stack : error);
-    console.log(`FAILED ${name}: ${failureMessage}`);
+    console.log(`FAILED ${engineName}: ${failureMessage}`);
     return { version: engineVersion, passed: 0, failures: [failureMessage] };
   }
 }

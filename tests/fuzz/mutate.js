@@ -19,25 +19,25 @@ const MAX_MUTANT_BYTES = 4096;
 
 /** Returns a valid input of the corpus, changed in one to four places. @param {Uint8Array[]} corpusInputs @param {() => number} nextRandom from 0 to 1 */
 export function createMutant(corpusInputs, nextRandom) {
-  const drawBelow = (/** @type {number} */ limit) => Math.floor(limit * nextRandom());
-  const drawItem = (/** @type {ArrayLike<any>} */ listItems) => listItems[drawBelow(listItems.length)];
+  const sampleIntegerBelow = (/** @type {number} */ exclusiveEnd) => Math.floor(exclusiveEnd * nextRandom());
+  const drawItem = (/** @type {ArrayLike<any>} */ listItems) => listItems[sampleIntegerBelow(listItems.length)];
   /** @type {Buffer<ArrayBuffer>} */
   let mutantBytes = Buffer.from(drawItem(corpusInputs));
   /** Replaces the bytes between two positions by other bytes. @param {Uint8Array} insertedBytes */
-  const replaceBytes = (insertedBytes, startPosition = drawBelow(mutantBytes.length + 1), endPosition = startPosition) => {
+  const replaceBytes = (insertedBytes, startPosition = sampleIntegerBelow(mutantBytes.length + 1), endPosition = startPosition) => {
     mutantBytes = Buffer.concat([mutantBytes.subarray(0, startPosition), insertedBytes, mutantBytes.subarray(endPosition)]).subarray(0, MAX_MUTANT_BYTES);
   };
-  for (let changesLeft = 1 + drawBelow(4); changesLeft > 0; changesLeft--) {
-    const [rangeStart, rangeEnd] = [drawBelow(mutantBytes.length + 1), drawBelow(mutantBytes.length + 1)].sort((a, b) => a - b);
+  for (let changesLeft = 1 + sampleIntegerBelow(4); changesLeft > 0; changesLeft--) {
+    const [rangeStart, rangeEnd] = [sampleIntegerBelow(mutantBytes.length + 1), sampleIntegerBelow(mutantBytes.length + 1)].sort((a, b) => a - b);
     const mutationFunctions = [
-      () => replaceBytes(Buffer.of(drawBelow(256)), rangeStart, rangeStart + 1),
+      () => replaceBytes(Buffer.of(sampleIntegerBelow(256)), rangeStart, rangeStart + 1),
       () => replaceBytes(Buffer.of(drawItem(SPECIAL_BYTES)), rangeStart, rangeStart + 1),
-      () => replaceBytes(Buffer.of((mutantBytes[rangeStart] ?? 0) ^ (1 << drawBelow(8))), rangeStart, rangeStart + 1),
+      () => replaceBytes(Buffer.of((mutantBytes[rangeStart] ?? 0) ^ (1 << sampleIntegerBelow(8))), rangeStart, rangeStart + 1),
       () => replaceBytes(drawItem(INSERTED_TOKENS)),
       () => replaceBytes(drawItem(INSERTED_TOKENS), rangeStart, Math.min(rangeEnd, rangeStart + 8)),
       () => replaceBytes(Buffer.alloc(0), rangeStart, Math.min(rangeEnd, rangeStart + 16)),
       () => replaceBytes(mutantBytes.subarray(rangeStart, rangeEnd)),
-      () => replaceBytes(Buffer.concat(Array(1 + drawBelow(40)).fill(mutantBytes.subarray(rangeStart, Math.min(rangeEnd, rangeStart + 8))))),
+      () => replaceBytes(Buffer.concat(Array(1 + sampleIntegerBelow(40)).fill(mutantBytes.subarray(rangeStart, Math.min(rangeEnd, rangeStart + 8))))),
       () => replaceBytes(drawItem(corpusInputs).subarray(rangeStart, rangeEnd)),
       () => (mutantBytes = mutantBytes.subarray(0, rangeEnd)),
     ];

@@ -137,7 +137,7 @@ const TOPIC_CHOICES = [{ series: '/odom' }, { series: '/pose' }, { series: '/cmd
 /** Options of the fastest deflation. */
 const FASTEST_DEFLATE = { level: 0, memLevel: 1 };
 
-const bytesOfTexts = (/** @type {string[]} */ ...texts) => texts.map((text) => Buffer.from(text));
+const bytesOfTexts = (/** @type {string[]} */ ...encodedTexts) => encodedTexts.map((encodedText) => Buffer.from(encodedText));
 
 const MAP_YAMLS = bytesOfTexts(
   'image: map.pgm\nresolution: 0.05\norigin: [0.0, 0.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n',
@@ -153,7 +153,7 @@ const FLOOR_PLANS = bytesOfTexts(
 
 /** @type {Record<string, Target>} */
 export const fuzzTargets = {
-  yaml: { corpus: MAP_YAMLS, run: (bytes) => areFilesAccepted(createFile('map.yaml', bytes), createFile('map.pgm', 'P5 2 1 255\nab')) },
+  yaml: { corpus: MAP_YAMLS, run: (yamlBytes) => areFilesAccepted(createFile('map.yaml', yamlBytes), createFile('map.pgm', 'P5 2 1 255\nab')) },
   plan: { corpus: FLOOR_PLANS, run: (bytes) => areFilesAccepted(createFile('map.json', bytes)) },
   csv: {
     corpus: bytesOfTexts(
@@ -188,7 +188,7 @@ export const fuzzTargets = {
     },
   }])),
   link: {
-    corpus: [...bytesOfTexts(...(await Promise.all(createStates().map(packJson)))), ...bytesOfTexts(...createStates().map((state) => JSON.stringify(state)))],
+    corpus: [...bytesOfTexts(...(await Promise.all(createStates().map(packJson)))), ...bytesOfTexts(...createStates().map((linkState) => JSON.stringify(linkState)))],
     async run(bytes) {
       const packedText = bytes.length % 2 ? deflateRawSync(bytes, FASTEST_DEFLATE).toString('base64url') : bytes.toString('latin1');
       try {

@@ -22,7 +22,7 @@ test('numbers in the format of files are formatted for the screen', () => {
 });
 
 test('numbers in files have the significant digits of their interval, and tiny numbers have an exponent', () => {
-  for (const [estimateValue, interval, estimateText, rangeText] of /** @type {[number, [number, number], string, string][]} */ ([
+  for (const [estimateValue, estimateInterval, estimateText, rangeText] of /** @type {[number, [number, number], string, string][]} */ ([
     [0.0123, [0.01, 0.015], '0.0123', '0.0100 to 0.0150'],
     [2.34e-13, [1.8e-13, 2.9e-13], '2.3e-13', '1.8e-13 to 2.9e-13'],
     [3e-8, [0, 1.6e-7], '3.0e-8', '0 to 1.6e-7'],
@@ -30,7 +30,7 @@ test('numbers in files have the significant digits of their interval, and tiny n
     [-0.0024, [-0.0048, -1e-5], '-0.0024', '-0.0048 to 0.0000'],
     [0.5, [0.5 - 1e-9, 0.5 + 1e-9], '0.5000000000', '0.4999999990 to 0.5000000010'],
   ])) {
-    assert.deepEqual([formatEstimate(estimateValue, interval), ends(interval)], [estimateText, rangeText]);
+    assert.deepEqual([formatEstimate(estimateValue, estimateInterval), ends(estimateInterval)], [estimateText, rangeText]);
   }
   assert.deepEqual([formatNumber(1e-7), formatNumber(-2.5e-9), formatNumber(0.25)], ['1.0e-7', '-2.5e-9', '0.25']);
   assert.deepEqual([ends([0, Infinity]), ends([-Infinity, Infinity]), ends(null)], ['', '', '']);
@@ -76,7 +76,7 @@ test('lines for Nav2 omit α’s that are not identifiable, and all α’s if no
   assert.deepEqual(nav2LinesOf({}, { model: 'velocity' }), ['']);
   const exampleAlphas = [null, 1e-7, 103, 1e-8];
   const exampleIntervals = [null, [0, 0.0016], [50, 200], null];
-  assert.deepEqual(nav2LinesOf({ alphas: exampleAlphas, intervals: exampleIntervals }).filter((line) => /alpha[1-4]/.test(line)), [
+  assert.deepEqual(nav2LinesOf({ alphas: exampleAlphas, intervals: exampleIntervals }).filter((nav2Line) => /alpha[1-4]/.test(nav2Line)), [
     `# alpha1: ${yamlWords.notIdentifiable}`, `alpha2: 0.0032  # ${yamlWords.notSignificantNote('0.0016')}`, `# alpha3: 206, ${yamlWords.tooLargeNote}`, 'alpha4: 2.0e-8  # fitted 1.0e-8',
   ]);
 });
@@ -89,11 +89,11 @@ test('lines for Nav2 warn of failed checks, and of another rule', () => {
 });
 
 test('a large clock offset is mentioned, and changes no verdict', () => {
-  const unknown = { value: null, interval: null };
+  const unknownEstimate = { value: null, interval: null };
   const judgeClockOffset = (/** @type {number} */ clockOffset) => judgementOf({
     stats: /** @type {any} */ ({
       ...createCalibration(), notIdentifiable: [], diagnostics: { verdict: 'consistent', checks: [] },
-      systematicErrors: { clockOffset: { value: clockOffset, interval: null }, mountYaw: unknown, leverArm: unknown, distanceScale: unknown, turnScale: unknown },
+      systematicErrors: { clockOffset: { value: clockOffset, interval: null }, mountYaw: unknownEstimate, leverArm: unknownEstimate, distanceScale: unknownEstimate, turnScale: unknownEstimate },
     }),
     legCount: 500, model: 'odometry', rule: 'nav2', legLength: {}, corrections: {}, logName: '', warnings: [],
   }, en, '');
@@ -104,8 +104,8 @@ test('a large clock offset is mentioned, and changes no verdict', () => {
 });
 
 test('the leg settings of the simulated log equal the default settings', () => {
-  const config = Object.fromEntries(settings['alpha-calibrator'].map((setting) => [setting.key, setting.default]));
-  assert.deepEqual(SIMULATED_LEG_LENGTHS, { distance: config.distance, angle: config.angle });
-  const hasTruth = (/** @type {object} */ changedFields) => isTruthComparable(/** @type {any} */ ({ truth: {}, fittedConfig: { ...config, ...changedFields } }));
+  const defaultConfig = Object.fromEntries(settings['alpha-calibrator'].map((setting) => [setting.key, setting.default]));
+  assert.deepEqual(SIMULATED_LEG_LENGTHS, { distance: defaultConfig.distance, angle: defaultConfig.angle });
+  const hasTruth = (/** @type {object} */ changedFields) => isTruthComparable(/** @type {any} */ ({ truth: {}, fittedConfig: { ...defaultConfig, ...changedFields } }));
   assert.deepEqual([hasTruth({}), hasTruth({ distance: 0.3 }), hasTruth({ angle: 0.3 }), hasTruth({ duration: 1 }), hasTruth({ rule: 'nav2' })], [true, false, false, false, false]);
 });

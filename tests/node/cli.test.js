@@ -38,15 +38,15 @@ function writeInFolder(fileName, fileContents) {
 /** Runs the command in this process, and returns its exit code and its output. @param {string[]} cliArguments @param {() => Promise<any>} [loadCore] */
 async function runCalibrate(cliArguments, loadCore = load) {
   let [outputText, errorText] = ['', ''];
-  const exitCode = await run(['calibrate', ...cliArguments], { load: loadCore, print: (text) => (outputText += text), printError: (text) => (errorText += text), now: new Date('2026-01-02T03:04:05Z') });
+  const exitCode = await run(['calibrate', ...cliArguments], { load: loadCore, print: (printedText) => (outputText += printedText), printError: (printedText) => (errorText += printedText), now: new Date('2026-01-02T03:04:05Z') });
   return { exitCode, stdout: outputText, stderr: errorText };
 }
 
-/** Returns the options that the command passes to the core, with logs in arrays. @param {string[]} args @returns {Promise<any>} */
-async function readCoreOptions(args) {
+/** Returns the options that the command passes to the core, with logs in arrays. @param {string[]} cliArguments @returns {Promise<any>} */
+async function readCoreOptions(cliArguments) {
   /** @type {any} */
   let coreOptions;
-  const { stderr } = await runCalibrate(args, async () => ({ calibrate(/** @type {any} */ calibrateOptions) { coreOptions = { ...calibrateOptions, odometry: [calibrateOptions.odometry].flat(), reference: [calibrateOptions.reference].flat() }; throw new RangeError('stop'); } }));
+  const { stderr } = await runCalibrate(cliArguments, async () => ({ calibrate(/** @type {any} */ calibrateOptions) { coreOptions = { ...calibrateOptions, odometry: [calibrateOptions.odometry].flat(), reference: [calibrateOptions.reference].flat() }; throw new RangeError('stop'); } }));
   assert.ok(coreOptions, stderr);
   return coreOptions;
 }
@@ -66,7 +66,7 @@ test('options of the command line are passed to the core', async () => {
 
 test('files without an option are recordings, and single tables are paired as odometry and reference', async () => {
   const [odometryPath, referencePath] = [examplePathOf('odometry'), examplePathOf('reference')];
-  const writeLaterCopy = (/** @type {string} */ copyName, /** @type {string} */ sourcePath) => writeInFolder(copyName, readFileSync(sourcePath, 'utf8').replaceAll(/^(\d+)/gm, (_, seconds) => `${Number(seconds) + 1000}`));
+  const writeLaterCopy = (/** @type {string} */ copyName, /** @type {string} */ sourcePath) => writeInFolder(copyName, readFileSync(sourcePath, 'utf8').replaceAll(/^(\d+)/gm, (_, secondsText) => `${Number(secondsText) + 1000}`));
   const expectedOptions = await readCoreOptions(LOG_ARGS);
   assert.deepEqual(await readCoreOptions([referencePath, odometryPath]), expectedOptions);
   assert.deepEqual(await readCoreOptions([referencePath, '--recording', odometryPath]), expectedOptions);
@@ -96,8 +96,8 @@ test('one recording can contain both logs, with topics and frames that are guess
       { topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transformMessageOf(t, 'odom', 'base_link', i, 1, 0), transformMessageOf(t, 'map', 'base_link', 1.01 * i, 2, 0)] } },
     ];
   }).flat();
-  const writeRecordingArgs = async (/** @type {string} */ name, /** @type {string[]} */ ...recordedTopics) =>
-    ['--recording', writeInFolder(name, await recordingOf(odometryMessages.filter(({ topic }) => recordedTopics.includes(topic)), { compression: 'zstd' }))];
+  const writeRecordingArgs = async (/** @type {string} */ recordingName, /** @type {string[]} */ ...recordedTopics) =>
+    ['--recording', writeInFolder(recordingName, await recordingOf(odometryMessages.filter(({ topic }) => recordedTopics.includes(topic)), { compression: 'zstd' }))];
   const readFourthRow = async (/** @type {string[]} */ ...args) => {
     const coreOptions = await readCoreOptions(args);
     return [coreOptions.odometry[0].y?.[3], coreOptions.odometry[0].omega?.[3], coreOptions.reference[0].y[3]];
@@ -198,21 +198,21 @@ test('doc/calibration.md shows the report of the example log', async () => {
 
 test('the command below an error or a verdict answers the question about a file', async () => {
   const { alphas } = JSON.parse((await runCalibrate([...LOG_ARGS, '--json'])).stdout);
-  for (const [role, header, changeRow, ...answer] of /** @type {[string, string, (row: number[]) => number[], ...string[]][]} */ ([
+  for (const [logRole, headerLine, changeRow, ...answerOptions] of /** @type {[string, string, (row: number[]) => number[], ...string[]][]} */ ([
     ['odometry', 't,x,y,yaw', ([t, x, y, yaw]) => [t, x / 0.3048, y / 0.3048, yaw], '--length-unit', 'odometry.csv=ft'],
     ['reference', 't,x,y,yaw', ([t, x, y, yaw]) => [t, x, y, (180 / Math.PI) * yaw], '--angle-unit', 'rad', '--angle-unit', 'reference.csv=deg'],
     ['reference', 'zeit,ost,nord,richtung', (row) => row, '--columns', 'reference.csv=t,x,y,yaw'],
     ['odometry', 't,x,y,yaw', ([t, x, y, yaw]) => [t, x, -y, yaw], '--columns', 'odometry.csv=t,x,-y,yaw'],
     ['reference', 't,x [m],y [m],yaw', ([t, x, y, yaw]) => [t, x, -y, -yaw], '--columns', 'reference.csv=t,x [m],-y [m],-yaw'],
   ])) {
-    const changedRows = readFileSync(examplePathOf(role), 'utf8').trim().split('\n').slice(1).map((csvRow) => changeRow(csvRow.split(',').map(Number)).join(','));
-    const logPaths = [writeInFolder(`${role}.csv`, [header, ...changedRows].join('\n')), examplePathOf(role === 'odometry' ? 'reference' : 'odometry')];
-    const { stdout, stderr } = await runCalibrate([...logPaths, ...answer.slice(0, -2)]);
+    const changedRows = readFileSync(examplePathOf(logRole), 'utf8').trim().split('\n').slice(1).map((csvRow) => changeRow(csvRow.split(',').map(Number)).join(','));
+    const logPaths = [writeInFolder(`${logRole}.csv`, [headerLine, ...changedRows].join('\n')), examplePathOf(logRole === 'odometry' ? 'reference' : 'odometry')];
+    const { stdout, stderr } = await runCalibrate([...logPaths, ...answerOptions.slice(0, -2)]);
     const [, command = ''] = /^ {2}npx motion-widgets calibrate (.*)$/m.exec(stdout + stderr) ?? [];
-    const commandArgs = [...command.matchAll(/'([^']*)'|\S+/g)].map(([argument, quotedText]) => quotedText ?? argument);
-    assert.deepEqual(commandArgs, [...logPaths, ...answer], stderr);
+    const commandArgs = [...command.matchAll(/'([^']*)'|\S+/g)].map(([shellWord, quotedText]) => quotedText ?? shellWord);
+    assert.deepEqual(commandArgs, [...logPaths, ...answerOptions], stderr);
     const answeredResult = JSON.parse((await runCalibrate([...commandArgs, '--json'])).stdout);
-    for (const [i, alpha] of alphas.entries()) assert.ok(Math.abs(answeredResult.alphas[i] / alpha - 1) < 1e-6, `${role} ${header} ${answeredResult.alphas}`);
+    for (const [i, alpha] of alphas.entries()) assert.ok(Math.abs(answeredResult.alphas[i] / alpha - 1) < 1e-6, `${logRole} ${headerLine} ${answeredResult.alphas}`);
   }
 });
 
@@ -262,8 +262,8 @@ test('--yaml prints only the lines for Nav2, and nothing for an unusable log', a
   const swappedOutput = await runCalibrate(['--odometry', examplePathOf('reference'), '--reference', examplePathOf('odometry'), '--yaml']);
   assert.match(swappedOutput.stderr, /^Caution. Warning: by their names, odometry and reference seem to be swapped\. .*: exchange the two\.$/m);
   // The legs of a reference at 1 Hz are longer than requested.
-  const [header, ...rows] = readFileSync(examplePathOf('reference'), 'utf8').trim().split('\n');
-  const sparsePath = writeInFolder('sparse.csv', [header, ...rows.filter((_, i) => i % 20 === 0)].join('\n'));
+  const [header, ...tableRows] = readFileSync(examplePathOf('reference'), 'utf8').trim().split('\n');
+  const sparsePath = writeInFolder('sparse.csv', [header, ...tableRows.filter((_, i) => i % 20 === 0)].join('\n'));
   const sparseOutput = await runCalibrate([...LOG_ARGS.slice(0, 3), sparsePath, '--yaml', '--rule', 'nav2']);
   const [, lengthRatio, printedDistance, printedAngle] = /legs are (\S+) times as long as requested\. .*\n +update_min_d: (\S+)\n +update_min_a: (\S+)\n$/.exec(sparseOutput.stdout)?.map(Number) ?? [];
   assert.ok(lengthRatio > 1.5, sparseOutput.stdout);
@@ -281,7 +281,7 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
   /** Returns a drive of ten seconds. The reference leads along x. The odometry leads along y, and begins half a second earlier. @returns {any} */
   const createDriveAt = (/** @type {number} */ startTime) => {
     const drivePositions = Float64Array.from({ length: 101 }, (_, i) => i / 10);
-    const createLog = (/** @type {string} */ logRole, /** @type {number} */ delay, /** @type {Float64Array} */ x, /** @type {Float64Array} */ y) => ({ name: `${logRole}${startTime}.csv`, data: { t: drivePositions.map((t) => startTime + t + delay), x, y, theta: drivePositions, breaks: [] } });
+    const createLog = (/** @type {string} */ logRole, /** @type {number} */ startDelay, /** @type {Float64Array} */ x, /** @type {Float64Array} */ y) => ({ name: `${logRole}${startTime}.csv`, data: { t: drivePositions.map((t) => startTime + t + startDelay), x, y, theta: drivePositions, breaks: [] } });
     return { odometry: createLog('odom', 0, drivePositions.map(() => 7), drivePositions), reference: createLog('truth', 0.5, drivePositions, drivePositions.map(() => 2)) };
   };
   const legs = { count: 3, times: [1, 3, 4, 6, 21, 23], outliers: [0, 1, 0] };
@@ -293,12 +293,12 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
     // The pixel positions of two axis marks are compared with those of the ends of the drawn paths.
     const [axisLeft, axisMiddle] = ['0', '5'].map((axisMark) => Number(RegExp(`<text x="([\\d.]+)" [^>]*text-anchor="middle"[^>]*>${axisMark}<`).exec(panelSvg)?.[1]));
     const axisRight = 2 * axisMiddle - axisLeft;
-    const isNear = (/** @type {number} */ x, /** @type {number} */ expectedX) => Math.abs(x - expectedX) < 2;
+    const isNearPixel = (/** @type {number} */ x, /** @type {number} */ expectedX) => Math.abs(x - expectedX) < 2;
     const drawnPaths = Array.from(panelSvg.matchAll(/d="M([\d.]+),[^"]{40,}L([\d.]+),[^"]*" fill="none" stroke="([^"]*)" stroke-width="1.5"/g), ([, startX, endX, strokeColor]) => ({ leftX: Number(startX), rightX: Number(endX), color: strokeColor }));
-    assert.ok(drawnPaths.every(({ leftX, rightX }) => isNear(leftX, axisLeft) && isNear(rightX, axisRight)), JSON.stringify(drawnPaths));
+    assert.ok(drawnPaths.every(({ leftX, rightX }) => isNearPixel(leftX, axisLeft) && isNearPixel(rightX, axisRight)), JSON.stringify(drawnPaths));
     assert.equal(new Set(drawnPaths.map(({ color }) => color)).size, 2);
     // The path of a disc starts at its left side, 2 px from the centre.
-    assert.ok(isNear(Number(/d="M([\d.]+),[\d.]+a2,2 /.exec(panelSvg)?.[1]) + 2, axisLeft + 0.3 * (axisRight - axisLeft)));
+    assert.ok(isNearPixel(Number(/d="M([\d.]+),[\d.]+a2,2 /.exec(panelSvg)?.[1]) + 2, axisLeft + 0.3 * (axisRight - axisLeft)));
   }
 });
 
@@ -366,8 +366,8 @@ test('the report, the lines for Nav2 and the figure agree on whether a localizer
     const [{ stdout }, { stdout: jsonText }] = [await runCalibrate(args), await runCalibrate([...args, '--json'])];
     const { logs, ...stats } = JSON.parse(jsonText);
     const { rating } = judgeFit(/** @type {any} */ ({ viewModel: { stats, legs: stats.legs, fittedConfig: stats.systematicErrors }, warnings: warningsOf(logs) }));
-    const notedPlaces = [stdout.includes(`\nCaution. ${en.nav2.localizer}\n`) && !stdout.includes(en.useRecommendedAnyway), stdout.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
-    assert.deepEqual(notedPlaces, [isLocalizer, isLocalizer, isLocalizer], name);
+    const localizerNotes = [stdout.includes(`\nCaution. ${en.nav2.localizer}\n`) && !stdout.includes(en.useRecommendedAnyway), stdout.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
+    assert.deepEqual(localizerNotes, [isLocalizer, isLocalizer, isLocalizer], name);
   }
 });
 

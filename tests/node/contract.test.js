@@ -14,8 +14,8 @@ test('importing and loading use neither the DOM nor the network, and load always
   const accessedGlobals = [];
   const browserGlobals = ['document', 'window', 'customElements', 'fetch', 'XMLHttpRequest', 'WebSocket'];
   const descriptorsBefore = browserGlobals.map((globalName) => Object.getOwnPropertyDescriptor(globalThis, globalName));
-  for (const name of browserGlobals) {
-    Object.defineProperty(globalThis, name, { configurable: true, get: () => void accessedGlobals.push(name) });
+  for (const globalName of browserGlobals) {
+    Object.defineProperty(globalThis, globalName, { configurable: true, get: () => void accessedGlobals.push(globalName) });
   }
   try {
     const coreModule = await importFreshModule();
@@ -24,8 +24,8 @@ test('importing and loading use neither the DOM nor the network, and load always
     assert.equal(await coreModule.load(), loadedCore);
   } finally {
     browserGlobals.forEach((name, i) => {
-      const descriptor = descriptorsBefore[i];
-      if (descriptor) Object.defineProperty(globalThis, name, descriptor);
+      const globalDescriptor = descriptorsBefore[i];
+      if (globalDescriptor) Object.defineProperty(globalThis, name, globalDescriptor);
       else Reflect.deleteProperty(globalThis, name);
     });
   }
@@ -36,8 +36,8 @@ test('load accepts bytes, a compiled module or an address, and fails with a clea
   const moduleAddress = new URL('../../build/motion.wasm', import.meta.url);
   const moduleBytes = await readFile(moduleAddress);
   for (const moduleSource of [undefined, moduleBytes, new Uint8Array(moduleBytes).buffer, await WebAssembly.compile(moduleBytes), moduleAddress, moduleAddress.href]) {
-    const motion = await (await importFreshModule()).load(moduleSource);
-    const simulation = new motion.BananaMachine({ samples: 5 });
+    const loadedCore = await (await importFreshModule()).load(moduleSource);
+    const simulation = new loadedCore.BananaMachine({ samples: 5 });
     assert.equal(simulation.stats.n, 5);
     simulation.free();
   }

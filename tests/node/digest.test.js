@@ -20,7 +20,7 @@ const EXCLUDED_EXPORTS = new Set(['VelocityModel', 'OdometryModel', 'invertArc',
 const simulationClasses = new Map(
   Object.entries(core)
     .filter(([exportName, exportedValue]) => 'free' in (exportedValue.prototype ?? {}) && !EXCLUDED_EXPORTS.has(exportName))
-    .map(([name, exported]) => [name.replace(/\B[A-Z]/g, '-$&').toLowerCase(), exported]),
+    .map(([className, exportedClass]) => [className.replace(/\B[A-Z]/g, '-$&').toLowerCase(), exportedClass]),
 );
 
 const goldenDigest = readText('tests/digest/golden.txt');
@@ -43,11 +43,11 @@ test('every widget and class of the core has configurations, and the digest call
   assert.equal(configurationCount, readText('tests/digest/golden.txt').match(/^.+$/gm)?.length);
 });
 
-for (const [tag, { configurations }] of Object.entries(configurationList.widgets)) {
+for (const [widgetTag, { configurations }] of Object.entries(configurationList.widgets)) {
   const coveredValuesOf = (/** @type {string} */ settingKey) => new Set(Object.values(configurations).map((configuration) => JSON.stringify(configuration.settings[settingKey])));
 
-  test(`configurations of ${tag} cover every setting, every keyword and every preset`, () => {
-    for (const { key, type, words, nullable, default: defaultValue, in: groupKey } of settings[tag]) {
+  test(`configurations of ${widgetTag} cover every setting, every keyword and every preset`, () => {
+    for (const { key, type, words, nullable, default: defaultValue, in: groupKey } of settings[widgetTag]) {
       if (groupKey) continue;
       const coveredValues = coveredValuesOf(key);
       const allowedValues = type === 'boolean' ? [true, false] : (words ?? []);
@@ -56,14 +56,14 @@ for (const [tag, { configurations }] of Object.entries(configurationList.widgets
       assert.ok(otherValues.length > 0, `${key} is never set`);
       if (nullable && defaultValue !== null && type !== 'number') assert.ok(coveredValues.has('null'), `${key}: null`);
     }
-    for (const { name } of presets[/** @type {keyof typeof presets} */ (tag)]) {
+    for (const { name } of presets[/** @type {keyof typeof presets} */ (widgetTag)]) {
       assert.ok(Object.values(configurations).some(({ preset }) => preset === name), `preset ${name}`);
     }
   });
 
-  test(`the digest of ${tag} contains every result of its simulation`, () => {
-    const functionText = resultFunctions[tag].toString();
-    const memberNames = Object.getOwnPropertyNames(simulationClasses.get(tag).prototype);
+  test(`the digest of ${widgetTag} contains every result of its simulation`, () => {
+    const functionText = resultFunctions[widgetTag].toString();
+    const memberNames = Object.getOwnPropertyNames(simulationClasses.get(widgetTag).prototype);
     const missingNames = memberNames.filter((name) => !MEMBERS_TESTED_ELSEWHERE.has(name) && !new RegExp(`\\b${name}\\b`).test(functionText));
     assert.deepEqual(missingNames, [], `ask for them in digest.js and in tests/digest/`);
   });

@@ -6,7 +6,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { test } from 'node:test';
 import { AMCL_LEG_LENGTH, TRUE_PARAMETERS } from '../../scripts/example-log.mjs';
-import { ROOT, filesOf } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT, filesOf } from '../../scripts/process.mjs';
 import { presets } from '../../build/settings.js';
 
 const readText = (/** @type {string} */ documentPath) => readFileSync(new URL(`../../${documentPath}`, import.meta.url), 'utf8');
@@ -50,7 +50,7 @@ test('files and commands named in doc/reliability.md exist', () => {
   const commandNames = [...reliabilityText.matchAll(/`npm run ([\w:]+)/g)].map(([, name]) => name);
   assert.ok(commandNames.length >= 4, commandNames.join(', '));
   for (const name of commandNames) assert.ok(Object.hasOwn(scripts, name), name);
-  const documentedPaths = [...reliabilityText.matchAll(/`((?:tests|src|scripts|fuzz|www)\/[\w./-]*)`/g)].map(([, path]) => path);
+  const documentedPaths = [...reliabilityText.matchAll(/`((?:tests|src|scripts|fuzz|www)\/[\w./-]*)`/g)].map(([, namedPath]) => namedPath);
   assert.ok(documentedPaths.length > 15, documentedPaths.join(', '));
   for (const path of documentedPaths) assert.ok(existsSync(new URL(`../../${path}`, import.meta.url)), path);
 });
@@ -64,14 +64,14 @@ const anchorsOf = (/** @type {string} */ markdownText, headingPattern = '#+') =>
   [...markdownText.matchAll(new RegExp(`^${headingPattern} (.*)$`, 'gm'))].map(([, headingText]) => headingText.toLowerCase().replace(/[^\p{L}\p{N} _-]/gu, '').replaceAll(' ', '-'));
 
 /** Returns the relative links of a text, as path and anchor. */
-const linksOf = (/** @type {string} */ text) =>
-  [...text.matchAll(/\]\((?!https?:)([^)#\s]*)#?([^)\s]*)\)/g)].map(([, path, anchor]) => ({ path, anchor }));
+const linksOf = (/** @type {string} */ markdownText) =>
+  [...markdownText.matchAll(/\]\((?!https?:)([^)#\s]*)#?([^)\s]*)\)/g)].map(([, path, anchor]) => ({ path, anchor }));
 
 test('links of the documents lead to files and headings that exist', () => {
   for (const [documentPath, text] of TEXT_BY_DOCUMENT) {
     for (const { path, anchor } of linksOf(text)) {
       const targetPath = path === '' ? documentPath : join(dirname(documentPath), path);
-      assert.ok(existsSync(join(ROOT, targetPath)), `${documentPath}: ${path}`);
+      assert.ok(existsSync(join(REPOSITORY_ROOT, targetPath)), `${documentPath}: ${path}`);
       if (anchor !== '') assert.ok(anchorsOf(TEXT_BY_DOCUMENT.get(targetPath) ?? '').includes(anchor), `${documentPath}: ${path}#${anchor}`);
     }
   }

@@ -10,20 +10,20 @@ import { formatScaleRatios } from '../../www/widgets/dead-reckoning/pictures.ts'
 test('boolean attributes may be empty or "true", and lists may contain any white space', () => {
   const { conditioned } = selectAttributes(propertiesOf(settings['map-squeeze']));
   assert.deepEqual(['false', 'true', ''].map((attributeText) => conditioned.converter.fromAttribute(attributeText)), [false, true, true]);
-  assert.deepEqual([' linearized\n  command ', ''].map((text) => WORD_LIST_CONVERTER.fromAttribute(text)), [['linearized', 'command'], []]);
+  assert.deepEqual([' linearized\n  command ', ''].map((attributeText) => WORD_LIST_CONVERTER.fromAttribute(attributeText)), [['linearized', 'command'], []]);
 });
 
 test('a view that was fitted to a tiny canvas zooms in after its canvas has grown; other views do not zoom in', () => {
-  const view = new View();
+  const pictureView = new View();
   const fitTo = (/** @type {number} */ halfSize) => {
-    view.fit({ xMin: -halfSize, xMax: halfSize, yMin: -halfSize, yMax: halfSize });
-    view.moveTowardsTarget(0, true);
-    return view.extent.xMax - view.extent.xMin;
+    pictureView.fit({ xMin: -halfSize, xMax: halfSize, yMin: -halfSize, yMax: halfSize });
+    pictureView.moveTowardsTarget(0, true);
+    return pictureView.extent.xMax - pictureView.extent.xMin;
   };
-  view.resize(100, 60);
+  pictureView.resize(100, 60);
   // In a tiny view a mark of some pixels is many metres long.
   assert.ok(fitTo(20) >= 40);
-  view.resize(600, 400);
+  pictureView.resize(600, 400);
   assert.ok(fitTo(1) < 10);
   const [widthBefore, widthAfter] = [fitTo(2), fitTo(1)];
   assert.equal(widthAfter, widthBefore);

@@ -43,7 +43,7 @@ for (const [targetName, { corpus, run }] of Object.entries(fuzzTargets)) {
         throw new Error(`${targetName} fails on ${inputBytes.toString('hex')}`, { cause: error });
       }
     };
-    for (const bytes of allInputs) await checkInput(Buffer.from(bytes));
+    for (const inputBytes of allInputs) await checkInput(Buffer.from(inputBytes));
     const memoryBefore = process.resourceUsage().maxRSS;
     let acceptedCount = 0;
     for (let i = 0; i < INPUT_COUNT; i++) {

@@ -8,7 +8,7 @@ import { build } from 'esbuild';
 import { settings } from '../../build/settings.js';
 
 /** Folders of www/ as layers, from top to bottom. A file imports from its own layer and from lower layers. */
-const LAYERS = ['www/widgets', 'www/figure', 'www/scene', 'www/ui', 'www/messages', 'www/data'];
+const LAYER_FOLDERS = ['www/widgets', 'www/figure', 'www/scene', 'www/ui', 'www/messages', 'www/data'];
 
 const { metafile } = await build({
   entryPoints: ['www/motion-widgets.ts', 'www/external.ts', 'www/de.ts', 'www/embed.ts', 'www/anywidget.ts'],
@@ -28,16 +28,16 @@ const importPairs = Object.entries(metafile.inputs).flatMap(([importerPath, { im
 
 test('this test checks all scripts of the page', () => {
   assert.ok(importPairs.length > 150, `${importPairs.length} imports`);
-  for (const layer of LAYERS) assert.ok(importPairs.some(([, importedPath]) => importedPath.startsWith(layer)), layer);
+  for (const layerFolder of LAYER_FOLDERS) assert.ok(importPairs.some(([, importedPath]) => importedPath.startsWith(layerFolder)), layerFolder);
 });
 
 test('no file imports from a higher layer, and no widget imports from another widget', () => {
-  const layerOf = (/** @type {string} */ path) => LAYERS.findIndex((layer) => path.startsWith(`${layer}/`));
-  for (const [importer, imported] of importPairs) {
-    const [importerLayer, importedLayer] = [layerOf(importer), layerOf(imported)];
-    if (importerLayer >= 0 && importedLayer >= 0) assert.ok(importerLayer <= importedLayer, `${importer} imports ${imported}`);
-    const [importerWidget, importedWidget] = [importer, imported].map((path) => path.match(/^www\/widgets\/([^/]+)\//)?.[1]);
-    if (importerWidget && importedWidget) assert.ok(importerWidget === importedWidget || importedWidget === 'shared', `${importer} imports ${imported}`);
+  const layerOf = (/** @type {string} */ path) => LAYER_FOLDERS.findIndex((layer) => path.startsWith(`${layer}/`));
+  for (const [importerPath, importedPath] of importPairs) {
+    const [importerLayer, importedLayer] = [layerOf(importerPath), layerOf(importedPath)];
+    if (importerLayer >= 0 && importedLayer >= 0) assert.ok(importerLayer <= importedLayer, `${importerPath} imports ${importedPath}`);
+    const [importerWidget, importedWidget] = [importerPath, importedPath].map((path) => path.match(/^www\/widgets\/([^/]+)\//)?.[1]);
+    if (importerWidget && importedWidget) assert.ok(importerWidget === importedWidget || importedWidget === 'shared', `${importerPath} imports ${importedPath}`);
   }
 });
 

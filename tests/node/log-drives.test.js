@@ -29,8 +29,8 @@ const createRecording = (kindsBySeries, moreFields, framePairs = []) => ({
   name: 'run.mcap',
   format: 'mcap',
   series: Object.entries(kindsBySeries).map(([seriesName, seriesKind]) => {
-    const [type, kind] = SERIES_TYPE_AND_KIND[seriesKind];
-    return { name: seriesName, type, kind, count: 9, ...(kind === 'transforms' && { frames: framePairs.map((framePair) => ({ parent: framePair.split(' ')[0], child: framePair.split(' ')[1] })) }) };
+    const [messageType, logKind] = SERIES_TYPE_AND_KIND[seriesKind];
+    return { name: seriesName, type: messageType, kind: logKind, count: 9, ...(logKind === 'transforms' && { frames: framePairs.map((framePair) => ({ parent: framePair.split(' ')[0], child: framePair.split(' ')[1] })) }) };
   }),
   read: () => Promise.reject(new Error('not read')),
   ...moreFields,
@@ -165,8 +165,8 @@ test('two logs get a common start time, and logs without common time are reporte
 
 test('names that suggest a localizer, or swapped logs, are reported', async () => {
   const noteNamesOf = async (/** @type {string} */ odometry, /** @type {string} */ reference) => {
-    const files = [odometry, reference].map((name, k) => new File([straightTableOf((i) => (i * (k + 1)) / 100)], name));
-    const [drive] = await readDrives(planDrives(await openRecordings(files, (name) => ({ role: name === odometry ? 'odometry' : 'reference' }))));
+    const logFiles = [odometry, reference].map((name, k) => new File([straightTableOf((i) => (i * (k + 1)) / 100)], name));
+    const [drive] = await readDrives(planDrives(await openRecordings(logFiles, (name) => ({ role: name === odometry ? 'odometry' : 'reference' }))));
     return drive.reference.summary.notes.map(({ name }) => name);
   };
   assert.deepEqual(await noteNamesOf('truth.csv', 'wheels.csv'), ['swapped']);
@@ -183,8 +183,8 @@ test('a frozen reference is interrupted only while the odometry moves', async ()
   const referenceXOf = (/** @type {number} */ i) => 1.01 * odometryXOf(i);
   const readReference = async (/** @type {string} */ reference, odometryTable = movingOdometryTable) => (await readDrivesOf({ 'odom.csv': odometryTable, 'truth.csv': reference }))[0].reference;
   assert.deepEqual([(await readReference(straightTableOf(referenceXOf))).summary.dropped, (await readReference(straightTableOf(referenceXOf))).summary.used], [{}, 400]);
-  const frozenTable = straightTableOf((i) => referenceXOf(i >= 200 && i < 300 ? 200 : i));
-  const { data, summary } = await readReference(frozenTable);
+  const tableWithFrozenPose = straightTableOf((i) => referenceXOf(i >= 200 && i < 300 ? 200 : i));
+  const { data, summary } = await readReference(tableWithFrozenPose);
   assert.deepEqual([data.t.length, [...data.breaks], summary.used, summary.dropped], [400, Array.from({ length: 100 }, (_, i) => 201 + i), 301, { held: { count: 99, first: 0 } }]);
   assert.equal(await catchRefusalSentence(readReference(straightTableOf(() => 7))), 'truth.csv: its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.');
   // The reference is not lost during a pause of two seconds, or a pause in which the odometry moves by five centimetres.
@@ -195,7 +195,7 @@ test('a frozen reference is interrupted only while the odometry moves', async ()
   assert.deepEqual([await countDroppedDuring(2, 0.4), await countDroppedDuring(2.2, 0.4), await countDroppedDuring(7, 0.0095), await countDroppedDuring(7, 0.0105)], [undefined, 44, undefined, 140]);
   // A log of commands shows by its speeds that the robot moves.
   const commandTable = ['t,v,omega', ...Array.from({ length: 400 }, (_, i) => `${i / 20},${i < 100 ? 0 : 0.4},0`)].join('\n');
-  assert.equal((await readReference(frozenTable, commandTable)).summary.dropped.held?.count, 99);
+  assert.equal((await readReference(tableWithFrozenPose, commandTable)).summary.dropped.held?.count, 99);
 });
 
 test('logs with mirrored axes, or with different units of length, are refused', async () => {
@@ -213,11 +213,11 @@ test('logs with mirrored axes, or with different units of length, are refused', 
     }
   }
   // If the log of a slow robot is read alone, no question about its unit is asked.
-  const createSlowTable = (/** @type {number} */ factor) => createChangedTable(([t, x, y, yaw]) => [20 * t, factor * x, factor * y, yaw]);
-  for (const [odometry, reference, file, unit] of /** @type {const} */ ([[1, 100, 'truth', 'cm'], [100, 1, 'odom', 'cm'], [3.281, 1, 'odom', 'ft']])) {
+  const createSlowTable = (/** @type {number} */ lengthFactor) => createChangedTable(([t, x, y, yaw]) => [20 * t, lengthFactor * x, lengthFactor * y, yaw]);
+  for (const [odometry, reference, refusedFile, expectedUnit] of /** @type {const} */ ([[1, 100, 'truth', 'cm'], [100, 1, 'odom', 'cm'], [3.281, 1, 'odom', 'ft']])) {
     const { message, question } = await catchRefusalError(readDrivesOf({ 'odom.csv': createSlowTable(odometry), 'truth.csv': createSlowTable(reference) }));
-    assert.match(message, RegExp(`^${file}\\.csv: the robot would drive \\d+ times as fast as in \\w+\\.csv: its lengths seem to be in ${unit}; state their unit\\.`));
-    assert.deepEqual([question?.option, question?.choices], ['lengthUnit', [unit, 'm']]);
+    assert.match(message, RegExp(`^${refusedFile}\\.csv: the robot would drive \\d+ times as fast as in \\w+\\.csv: its lengths seem to be in ${expectedUnit}; state their unit\\.`));
+    assert.deepEqual([question?.option, question?.choices], ['lengthUnit', [expectedUnit, 'm']]);
   }
 });
 

@@ -21,10 +21,10 @@ const decompressFile = (fileName: string) => gunzipSync(Buffer.from(COMPRESSED_F
 const createFile = (fileContents: Uint8Array | string, fileName: string, folderPath?: string): Source => Object.assign(new File([fileContents as BlobPart], fileName), folderPath ? { path: folderPath } : {});
 
 /** Returns the files of a rosbag2 folder. In recordings.json their names begin with the name of the folder. */
-const folderFilesOf = (name: string): Source[] =>
-  Object.keys(COMPRESSED_FILES).filter((fileName) => fileName.startsWith(`${name}-metadata`) || fileName.startsWith(`${name}-${name}.`)).map((fileName) => {
-    const nameInFolder = fileName.slice(name.length + 1);
-    return createFile(decompressFile(fileName), nameInFolder, `${name}/${nameInFolder}`);
+const folderFilesOf = (recordingName: string): Source[] =>
+  Object.keys(COMPRESSED_FILES).filter((fileName) => fileName.startsWith(`${recordingName}-metadata`) || fileName.startsWith(`${recordingName}-${recordingName}.`)).map((fileName) => {
+    const nameInFolder = fileName.slice(recordingName.length + 1);
+    return createFile(decompressFile(fileName), nameInFolder, `${recordingName}/${nameInFolder}`);
   });
 
 async function openRecording(...fileSources: Source[]): Promise<Recording> {
@@ -59,9 +59,9 @@ const SOURCES_BY_RECORDING: Record<string, Source[]> = {
   'split files': splitRecordingFilesOf(0, 1), 'split files in another order': splitRecordingFilesOf(1, 0),
 };
 
-for (const [name, sources] of Object.entries(SOURCES_BY_RECORDING)) {
+for (const [name, recordingSources] of Object.entries(SOURCES_BY_RECORDING)) {
   test(`${name} contains the same rows as the tables, to the last bit`, async () => {
-    const recording = await openRecording(...sources);
+    const recording = await openRecording(...recordingSources);
     assert.deepEqual(recording.series.map(({ name: topic, kind, count }) => [topic, kind, count]), [['/odom', 'poses', 100], ['/truth', 'poses', 100]]);
     const logs = await recording.read(ODOMETRY_AND_REFERENCE);
     for (const [i, tableLog] of [odometryLog, referenceLog].entries()) {
@@ -76,7 +76,7 @@ function rowIndicesOf({ start, data }: Log, headingTolerance = 0): number[] {
   const [logPoses, allPoses] = [data, odometryLog.data] as Poses[];
   const rowIndices = Array.from(logPoses.t, (t) => Math.round(20 * (start - odometryLog.start + t - allPoses.t[0])));
   for (const coordinate of ['x', 'y'] as const) assert.deepEqual([...logPoses[coordinate]], rowIndices.map((rowIndex) => allPoses[coordinate][rowIndex]));
-  for (const [i, row] of rowIndices.entries()) assert.ok(Math.abs(logPoses.theta[i] - allPoses.theta[row]) <= headingTolerance, `${logPoses.theta[i]}, not ${allPoses.theta[row]}`);
+  for (const [i, rowIndex] of rowIndices.entries()) assert.ok(Math.abs(logPoses.theta[i] - allPoses.theta[rowIndex]) <= headingTolerance, `${logPoses.theta[i]}, not ${allPoses.theta[rowIndex]}`);
   return rowIndices;
 }
 
@@ -109,7 +109,7 @@ test('a recording with a missing file is refused', async () => {
 });
 
 /** Reads the odometry from a file's contents. */
-const readOdometry = async (bytes: Uint8Array, name: string) => (await (await openRecording(createFile(bytes, name))).read([{ series: '/odom' }]))[0];
+const readOdometry = async (fileBytes: Uint8Array, name: string) => (await (await openRecording(createFile(fileBytes, name))).read([{ series: '/odom' }]))[0];
 
 /** Reads the odometry from a file in which some bytes are overwritten. */
 const readDamagedOdometry = (name: string, damagePosition: number) => readOdometry(decompressFile(name).fill(0xff, damagePosition, damagePosition + 40), name);
@@ -223,7 +223,7 @@ const timeOf = (i: number) => 1_700_000_000 + i / 20;
 const createTfMessage = (i: number, ...transforms: unknown[]): Message => ({ topic: '/tf', type: TF_TYPE, t: timeOf(i), message: { transforms } });
 const stepCount = 40;
 const createForEachStep = <T>(makeItem: (i: number) => T): T[] => Array.from({ length: stepCount }, (_, i) => makeItem(i));
-const readLogsOf = async (messages: Message[], ...choices: LogChoice[]) => (await openRecording(createFile(await recordingOf(messages), 'run.mcap'))).read(choices);
+const readLogsOf = async (messages: Message[], ...logChoices: LogChoice[]) => (await openRecording(createFile(await recordingOf(messages), 'run.mcap'))).read(logChoices);
 const ODOM_TO_BASE_CHOICE = { series: '/tf', frames: { parent: 'odom', child: 'base_link' } };
 const createMovingTransform = (i: number) => transformMessageOf(timeOf(i), 'odom', 'base_footprint', i / 50, 0, 0);
 

@@ -80,16 +80,16 @@ test('topics are listed, and logs of topics and of chains of frames are read in 
 });
 
 test('an incomplete index is not used', async () => {
-  const bytes = await recordingOf(createDriveMessages());
-  const logWithIndex = await readLog(mcapFileOf(bytes), { series: '/odom' });
+  const recordingBytes = await recordingOf(createDriveMessages());
+  const logWithIndex = await readLog(mcapFileOf(recordingBytes), { series: '/odom' });
   // The checksum of the summary is cleared, and an index of a chunk gets a code that readers skip.
-  const footerStart = bytes.length - 28;
-  bytes.writeUInt32LE(0, footerStart + 16);
+  const footerStart = recordingBytes.length - 28;
+  recordingBytes.writeUInt32LE(0, footerStart + 16);
   const CHUNK_INDEX_CODE = 8;
-  let recordPosition = Number(bytes.readBigUInt64LE(footerStart));
-  while (bytes[recordPosition] !== CHUNK_INDEX_CODE) recordPosition += 9 + Number(bytes.readBigUInt64LE(recordPosition + 1));
-  bytes[recordPosition] = 0x80;
-  assert.deepEqual((await readLog(mcapFileOf(bytes), { series: '/odom' })).data, logWithIndex.data);
+  let recordPosition = Number(recordingBytes.readBigUInt64LE(footerStart));
+  while (recordingBytes[recordPosition] !== CHUNK_INDEX_CODE) recordPosition += 9 + Number(recordingBytes.readBigUInt64LE(recordPosition + 1));
+  recordingBytes[recordPosition] = 0x80;
+  assert.deepEqual((await readLog(mcapFileOf(recordingBytes), { series: '/odom' })).data, logWithIndex.data);
 });
 
 test('stamps that begin at 0 are used; messages without stamps get the recording times, with a note in the summary', async () => {

@@ -27,7 +27,7 @@ const createTimes = (/** @type {number} */ timeCount, startTime = 0) => Array.fr
 test('present Unix times keep their microseconds, in every unit', async () => {
   const nanosecondTexts = ['1699999999999999000', '1700000000000001000'];
   for (const [timeUnit, decimalDigits] of Object.entries({ ns: 0, us: 3, ms: 6, s: 9 })) {
-    const [firstTime, secondTime] = nanosecondTexts.map((time) => (decimalDigits ? `${time.slice(0, -decimalDigits)}.${time.slice(-decimalDigits)}` : time));
+    const [firstTime, secondTime] = nanosecondTexts.map((nanosecondText) => (decimalDigits ? `${nanosecondText.slice(0, -decimalDigits)}.${nanosecondText.slice(-decimalDigits)}` : nanosecondText));
     for (const headerLine of ['t', `t_${timeUnit}`]) {
       const { data, start, summary } = await readTable(`${headerLine},x,y,yaw\n${firstTime},0,0,0\n${secondTime},0,0,0`);
       assert.deepEqual([start, summary.units.time], [1_699_999_999, { unit: timeUnit, by: headerLine === 't' ? 'size' : 'name' }]);
@@ -44,10 +44,10 @@ test('numbers are read as the nearest doubles', async () => {
 
 test('unusable rows are dropped and interrupt the path; the summary names the first line of each cause', async () => {
   const tableRows = ['0,0,0,0', '1,nan,0,0', '2,,0,0', '3,0,0,0', '3,1,0,0', '4,0,0,0', '5,0,inf,0', 'NaN,0,0,0', '6,0,0,0', '7,0', ...createTimes(90, 8).map((t) => `${t},0,0,0`), '17,0', '17.1,0,0.0.1,0', '18,0,0,0', '19,0'];
-  const { data, summary: { dropped, rows: count, notes } } = await readTable(`t,x,y,yaw\n${tableRows.join('\n')}`);
+  const { data, summary: { dropped, rows: rowCount, notes } } = await readTable(`t,x,y,yaw\n${tableRows.join('\n')}`);
   assert.deepEqual([[...data.t], [...data.breaks]], [[0, 3, 4, 6, ...createTimes(90, 8), 18], [1, 3, 4, 94]]);
   assert.deepEqual(dropped, { notFinite: { count: 4, first: 3 }, short: { count: 3, first: 11 }, text: { count: 1, first: 103 }, duplicate: { count: 1, first: 6 } });
-  assert.deepEqual([count, notes], [tableRows.length, [{ name: 'cutShort', values: [] }]]);
+  assert.deepEqual([rowCount, notes], [tableRows.length, [{ name: 'cutShort', values: [] }]]);
   // If the last number has fewer decimals than all others, and no line break follows, the number is taken for truncated.
   const cutShortCounts = ['0.1', '0.1\n', '0.25'].map(async (lastYaw) => (await readTable(`t,x,y,yaw\n${createTimes(30).map((t) => `${t},0,0,0.25\n`).join('')}99,0,0,${lastYaw}`)).summary.notes.length);
   assert.deepEqual(await Promise.all(cutShortCounts), [1, 0, 0]);
@@ -60,27 +60,27 @@ test('late rows are sorted, and an isolated time has gaps before and after it', 
   assert.deepEqual([data.x[20], summary.notes], [21 / 50, [{ name: 'sorted', values: [2] }]]);
   const swappedLog = await readTable(createStraightTable([...createTimes(50, 100), ...createTimes(50)]));
   assert.deepEqual([swappedLog.data.t.length, swappedLog.data.t[0], swappedLog.data.x[0]], [100, 0, 1]);
-  for (const [strayTime, expectedOrder] of /** @type {[number, number[]][]} */ ([[1e6, [...nanosecondTexts.keys()].toSpliced(20, 1).concat(20)], [-1e6, [20, ...[...nanosecondTexts.keys()].toSpliced(20, 1)]]])) {
-    const strayLog = await readTable(createStraightTable(nanosecondTexts.with(20, strayTime)));
-    assert.deepEqual([[...strayLog.data.x], strayLog.summary.gaps.count], [expectedOrder.map((i) => i / 50), 1]);
+  for (const [isolatedTime, expectedOrder] of /** @type {[number, number[]][]} */ ([[1e6, [...nanosecondTexts.keys()].toSpliced(20, 1).concat(20)], [-1e6, [20, ...[...nanosecondTexts.keys()].toSpliced(20, 1)]]])) {
+    const logWithIsolatedTime = await readTable(createStraightTable(nanosecondTexts.with(20, isolatedTime)));
+    assert.deepEqual([[...logWithIsolatedTime.data.x], logWithIsolatedTime.summary.gaps.count], [expectedOrder.map((i) => i / 50), 1]);
   }
 });
 
 test('a shuffled log is sorted, but a log with alternating times of two clocks is not', async () => {
-  const [header, ...rowLines] = circleTableOf().split('\n');
+  const [headerLine, ...rowLines] = circleTableOf().split('\n');
   const rowOrder = rowLines.map((_, i) => (i * 301) % rowLines.length);
   for (const shuffleRange of [8, rowLines.length]) {
-    const shuffledIndices = rowLines.map((_, i) => i).toSorted((index, otherIndex) => index + (rowOrder[index] % shuffleRange) - otherIndex - (rowOrder[otherIndex] % shuffleRange));
-    const { data, summary } = await readTable([header, ...shuffledIndices.map((i) => rowLines[i])].join('\n'));
+    const shuffledIndices = rowLines.map((_, i) => i).toSorted((rowIndex, otherIndex) => rowIndex + (rowOrder[rowIndex] % shuffleRange) - otherIndex - (rowOrder[otherIndex] % shuffleRange));
+    const { data, summary } = await readTable([headerLine, ...shuffledIndices.map((i) => rowLines[i])].join('\n'));
     assert.deepEqual([[...data.x], [...data.breaks], summary.used], [CIRCLE_ROWS.map(([, x]) => x), [], rowLines.length]);
     assert.ok(summary.notes[0].name === 'sorted' && Number(summary.notes[0].values[0]) > rowLines.length / 8, JSON.stringify(summary.notes));
   }
   // Times of rows vary by a fifth of a step, and every third row comes late.
   const jitteredRows = CIRCLE_ROWS.map(([t, ...poseCells], i) => [t + ((rowOrder[i] % 21) - 10) / 1000, ...poseCells]);
-  const lateTable = jitteredRows.map((_, i) => i).toSorted((index, otherIndex) => index + (index % 3 ? 0 : 3.5) - otherIndex - (otherIndex % 3 ? 0 : 3.5)).map((i) => jitteredRows[i].join(','));
-  assert.deepEqual([...(await readTable([header, ...lateTable].join('\n'))).data.x], CIRCLE_ROWS.map(([, x]) => x));
+  const tableWithLateRows = jitteredRows.map((_, i) => i).toSorted((index, otherIndex) => index + (index % 3 ? 0 : 3.5) - otherIndex - (otherIndex % 3 ? 0 : 3.5)).map((i) => jitteredRows[i].join(','));
+  assert.deepEqual([...(await readTable([headerLine, ...tableWithLateRows].join('\n'))).data.x], CIRCLE_ROWS.map(([, x]) => x));
   const rowsOfTwoClocks = rowLines.flatMap((row, i) => [row, [CIRCLE_ROWS[i][0] + 5.02, ...CIRCLE_ROWS[rowLines.length - 1 - i].slice(1)].join(',')]);
-  assert.match(await catchRefusalSentence(readTable([header, ...rowsOfTwoClocks].join('\n'))), /^run\.csv, line 202: times go back by 4\.97 s and repeat those before;/);
+  assert.match(await catchRefusalSentence(readTable([headerLine, ...rowsOfTwoClocks].join('\n'))), /^run\.csv, line 202: times go back by 4\.97 s and repeat those before;/);
 });
 
 test('a log whose clock was set back is refused', async () => {
@@ -92,17 +92,17 @@ test('a log whose clock was set back is refused', async () => {
     assert.match(refusalSentence, RegExp(`^run\\.csv, line ${expectedLine}: times go back by ${expectedSeconds} s and repeat those before; split the file there, give one recording only, or write fractions with their leading zeros .*\\.$`));
   }
   // If a table contains the same recording twice, the rows of the second copy are left out.
-  const twiceGiven = createStraightTable(createTimes(50));
-  assert.equal((await readTable(twiceGiven + twiceGiven.slice(twiceGiven.indexOf('\n')))).data.t.length, 50);
+  const straightTable = createStraightTable(createTimes(50));
+  assert.equal((await readTable(straightTable + straightTable.slice(straightTable.indexOf('\n')))).data.t.length, 50);
 });
 
 test('zero bytes in a table remove only the row that contains them', async () => {
-  const [header, ...rows] = circleTableOf().split('\n');
+  const [header, ...tableRows] = circleTableOf().split('\n');
   for (const rowIndex of [100, 700]) {
-    const { data, summary } = await readTable([header, ...rows.with(rowIndex, `${rows[rowIndex].slice(0, 9)}${'\0'.repeat(100_000)}${rows[rowIndex + 1].slice(5)}`)].join('\n'));
-    assert.deepEqual([data.t.length, summary.dropped, [...data.breaks]], [rows.length - 1, { text: { count: 1, first: rowIndex + 2 } }, [rowIndex]]);
+    const { data, summary } = await readTable([header, ...tableRows.with(rowIndex, `${tableRows[rowIndex].slice(0, 9)}${'\0'.repeat(100_000)}${tableRows[rowIndex + 1].slice(5)}`)].join('\n'));
+    assert.deepEqual([data.t.length, summary.dropped, [...data.breaks]], [tableRows.length - 1, { text: { count: 1, first: rowIndex + 2 } }, [rowIndex]]);
   }
-  assert.match(await catchRefusalSentence(readTable([header, ...rows, '\0'.repeat(5_000_000)].join('\n'))), /^run\.csv, line 802: the line has more than 65536 bytes;/);
+  assert.match(await catchRefusalSentence(readTable([header, ...tableRows, '\0'.repeat(5_000_000)].join('\n'))), /^run\.csv, line 802: the line has more than 65536 bytes;/);
 });
 
 test('rows with the stamp 0 are dropped, and the other stamps are still used as the clock', async () => {
@@ -195,14 +195,14 @@ test('columns of times in minutes or hours are refused because of their name', a
   assert.equal((await readTable(circleTableOf(([t, ...poseCells]) => [`0:00:${t.toFixed(3).padStart(6, '0')}`, ...poseCells], 'Time [HH:MM:SS],x,y,yaw'))).summary.units.time.by, 'date');
 });
 
-for (const [name, tableText, expectedMessage, options, [fieldName, expectedValue]] of UNIT_QUESTIONS) {
+for (const [name, tableText, expectedMessage, answerOptions, [fieldName, expectedValue]] of UNIT_QUESTIONS) {
   test(`the reader asks about ${name}`, async () => {
     const refusalError = await catchRefusalError(readTable(tableText));
     assert.match(refusalError.message, expectedMessage);
-    const [[questionedUnit, chosenUnit]] = Object.entries(options);
+    const [[questionedUnit, chosenUnit]] = Object.entries(answerOptions);
     assert.equal(refusalError.question?.option, questionedUnit);
     assert.ok(refusalError.question.choices.includes(chosenUnit), String(refusalError.question.choices));
-    const { data, summary: { units } } = await readTable(tableText, options);
+    const { data, summary: { units } } = await readTable(tableText, answerOptions);
     assert.deepEqual(units[/** @type {'time' | 'length' | 'angle'} */ (questionedUnit.replace('Unit', ''))], { unit: chosenUnit, by: 'option' });
     assert.ok(Math.abs(data[fieldName][9] - expectedValue) < 1e-12, `${data[fieldName][9]}, not ${expectedValue}`);
   });
@@ -264,7 +264,7 @@ for (const [axesName, tableText] of [
   test(`the columns proposed for a table with ${axesName} give the path on the floor`, async () => {
     const { question } = await catchRefusalError(readTable(tableText));
     const { data } = await readTable(tableText, { columns: question?.choices[0].split(',') });
-    assert.deepEqual([[...data.x], [...data.y]], [1, 2].map((column) => CIRCLE_ROWS.map((row) => row[column])));
+    assert.deepEqual([[...data.x], [...data.y]], [1, 2].map((columnIndex) => CIRCLE_ROWS.map((row) => row[columnIndex])));
   });
 }
 

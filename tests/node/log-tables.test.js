@@ -56,16 +56,16 @@ const bagpyTableOf = (/** @type {string} */ secondsColumn, /** @type {string} */
 const plotjugglerTable = [
   ['__time', ...['position/x', 'position/y', 'orientation/x', 'orientation/y', 'orientation/z', 'orientation/w'].flatMap((name) => [`/odom/pose/pose/${name}`, `/mocap/pose/${name}`]), '/imu/angular_velocity/z'].join(','),
   ...CIRCLE_ROWS.flatMap(({ t, x, y, qz, qw }) => [
-    [EPOCH_SECONDS + t, ...[x, y, 0, 0, qz, qw].flatMap((value) => [value, '']), ''],
+    [EPOCH_SECONDS + t, ...[x, y, 0, 0, qz, qw].flatMap((poseNumber) => [poseNumber, '']), ''],
     [EPOCH_SECONDS + t + 0.01, ...[x + 4, y, 0, 0, qz, qw].flatMap((value) => ['', value]), ''],
     [EPOCH_SECONDS + t + 0.02, ...Array.from({ length: 12 }, () => ''), 0.5],
-  ]).map((cells) => cells.join(',')),
+  ]).map((rowCells) => rowCells.join(',')),
 ].join('\n');
 
 /** Returns a Motive export: preamble, and columns of a body and a marker. @param {'Meters' | 'Millimeters'} lengthUnit @param {boolean} isYUp */
 function motiveTableOf(lengthUnit, isYUp) {
   const unitsPerMetre = lengthUnit === 'Meters' ? 1 : 1000;
-  const repeatCell = (/** @type {string} */ text, /** @type {number} */ count) => Array.from({ length: count }, () => text).join(',');
+  const repeatCell = (/** @type {string} */ text, /** @type {number} */ repeatCount) => Array.from({ length: repeatCount }, () => text).join(',');
   return [
     `Format Version,1.25,Take Name,drive,Take Notes,,Capture Frame Rate,16.000000,Export Frame Rate,16.000000,Capture Start Time,2024-06-10 06.13.20.000 AM,Total Frames in Take,60,Rotation Type,Quaternion,Length Units,${lengthUnit},Coordinate Space,Global`,
     '',

@@ -27,8 +27,8 @@ test('a YAML description that repeats or contains itself is refused at once', as
   await assertRefusedAtOnce('image: &a [*a]', aliasError);
   await assertRefusedAtOnce('image: &a map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nmode: *a', aliasError);
   for (const [nestingLevels, listLength] of [[9, 9], [7, 5], [30, 2]]) {
-    const aliasLines = Array.from({ length: nestingLevels }, (_, i) => `k${i}: &a${i} [${Array(listLength).fill(i ? `*a${i - 1}` : 'x').join(', ')}]`);
-    await assertRefusedAtOnce(`${aliasLines.join('\n')}\nimage: *a${nestingLevels - 1}`, aliasError);
+    const yamlAliasLines = Array.from({ length: nestingLevels }, (_, i) => `k${i}: &a${i} [${Array(listLength).fill(i ? `*a${i - 1}` : 'x').join(', ')}]`);
+    await assertRefusedAtOnce(`${yamlAliasLines.join('\n')}\nimage: *a${nestingLevels - 1}`, aliasError);
   }
 });
 
@@ -60,10 +60,10 @@ test('files that are not exactly one map, and a plan that is not JSON, are refus
 
 test('a YAML map description is read as leniently as map_server reads it', async () => {
   const expectedSimulation = await createSimulationWithMap(createMapYamlFile({ image: 'map.pgm', origin: '[-1, 2, 0]', mode: 'trinary', negate: 1 }), PGM_FILE);
-  for (const yaml of [
+  for (const yamlText of [
     'image: map.pgm\r\nresolution: "0.05"\r\norigin: ["-1.0", \'2\', 0]\r\nnegate: "1"\r\nmode: Trinary\r\n',
     'image:\tmap.pgm\nresolution:\t0.05\t\norigin:\t[-1,\t2,\t0]\n\tnegate: Yes\nmode:\tTRINARY\n',
-  ]) assert.deepEqual((await createSimulationWithMap(createFile('map.yaml', yaml), PGM_FILE)).grid, expectedSimulation.grid, yaml);
+  ]) assert.deepEqual((await createSimulationWithMap(createFile('map.yaml', yamlText), PGM_FILE)).grid, expectedSimulation.grid, yamlText);
 });
 
 test('a PNG image may have any extension', async () => {
@@ -88,8 +88,8 @@ test('the size of a file is checked before the file is read', async () => {
     const largeFile = createFile(name, '');
     Object.defineProperty(largeFile, 'size', { value: maxBytes + 1 });
     largeFile.arrayBuffer = () => assert.fail(`${name} is read.`);
-    const files = name === 'map.pgm' ? [createMapYamlFile({ image: name }), largeFile] : [largeFile];
-    assert.equal(await catchRefusalMessage(files), `${name}: the file has ${maxBytes + 1} bytes; expected are at most ${maxBytes}.`);
+    const mapFiles = name === 'map.pgm' ? [createMapYamlFile({ image: name }), largeFile] : [largeFile];
+    assert.equal(await catchRefusalMessage(mapFiles), `${name}: the file has ${maxBytes + 1} bytes; expected are at most ${maxBytes}.`);
   }
 });
 

@@ -7,16 +7,16 @@ import { findWallContact, gripsOf, moveWall } from '../../www/widgets/map-squeez
 /** Room of 6 m × 4 m. A wall at x = 3 has a doorway. Another wall ends at the lower part of the wall with the doorway. */
 const ROOM_BOUNDS = Float64Array.of(0, 0, 6, 4);
 const OUTER_WALLS = [0, 0, 6, 0, 6, 0, 6, 4, 6, 4, 0, 4, 0, 4, 0, 0];
-const WALLS = Float64Array.of(...OUTER_WALLS, 3, 0, 3, 1.5, 3, 2.5, 3, 4, 0, 1, 3, 1);
-const ROOM = { bounds: ROOM_BOUNDS, walls: WALLS };
+const ROOM_WALLS = Float64Array.of(...OUTER_WALLS, 3, 0, 3, 1.5, 3, 2.5, 3, 4, 0, 1, 3, 1);
+const FLOOR_PLAN = { bounds: ROOM_BOUNDS, walls: ROOM_WALLS };
 /** Index in WALLS of the wall's part below the doorway. */
 const LOWER_WALL_OFFSET = OUTER_WALLS.length;
 
 /** Returns the drag handle (grip) of a part of a wall. @param {string} gripPart @param {number} [wallOffset] index in WALLS */
-const gripOf = (gripPart, wallOffset = LOWER_WALL_OFFSET) => gripsOf(ROOM).find((grip) => grip.grippedPart === gripPart && grip.wallOffset === wallOffset);
+const gripOf = (gripPart, wallOffset = LOWER_WALL_OFFSET) => gripsOf(FLOOR_PLAN).find((grip) => grip.grippedPart === gripPart && grip.wallOffset === wallOffset);
 
 test('free wall ends and inner walls have drag handles; outer walls and ends at other walls have none', () => {
-  const gripNames = gripsOf(ROOM).map(({ grippedPart, wallOffset }) => `${grippedPart} ${(wallOffset - LOWER_WALL_OFFSET) / 4}`);
+  const gripNames = gripsOf(FLOOR_PLAN).map(({ grippedPart, wallOffset }) => `${grippedPart} ${(wallOffset - LOWER_WALL_OFFSET) / 4}`);
   assert.deepEqual(gripNames, ['to 0', 'side 0', 'from 1', 'side 1', 'side 2']);
 });
 
@@ -24,14 +24,14 @@ test('the end of a wall at a doorway moves along the wall, as far as the other e
   const grip = gripOf('to');
   assert.ok(grip);
   assert.deepEqual(grip.axis, [0, 1]);
-  const jambAfter = (/** @type {number} */ distance) => Number(moveWall(ROOM, grip, distance)[LOWER_WALL_OFFSET + 3].toFixed(9));
+  const jambAfter = (/** @type {number} */ distance) => Number(moveWall(FLOOR_PLAN, grip, distance)[LOWER_WALL_OFFSET + 3].toFixed(9));
   assert.deepEqual([0.5, 9, -9].map(jambAfter), [2, 2.45, 0.05]);
 });
 
 test('a dragged wall moves sideways, and a wall that ends at it follows', () => {
   const grip = gripOf('side');
   assert.ok(grip);
-  const wallsAfter = moveWall(ROOM, grip, grip.axis[0] * 0.5);
+  const wallsAfter = moveWall(FLOOR_PLAN, grip, grip.axis[0] * 0.5);
   assert.deepEqual([...wallsAfter.subarray(LOWER_WALL_OFFSET)], [3.5, 0, 3.5, 1.5, 3, 2.5, 3, 4, 0, 1, 3.5, 1]);
   assert.deepEqual([...wallsAfter.subarray(0, LOWER_WALL_OFFSET)], OUTER_WALLS);
 });
@@ -47,7 +47,7 @@ test('a wall that is not parallel to an axis keeps its direction and length wher
 });
 
 test('the contact is at the first wall that the robot touches; a collision-free path has no contact', () => {
-  const [x, y] = findWallContact([1, 0.5, 5.9, 0.5], WALLS, 0.1) ?? [];
+  const [x, y] = findWallContact([1, 0.5, 5.9, 0.5], ROOM_WALLS, 0.1) ?? [];
   assert.deepEqual([x, y], [3, 0.5]);
-  assert.equal(findWallContact([1, 2, 5, 2], WALLS, 0.2), undefined);
+  assert.equal(findWallContact([1, 2, 5, 2], ROOM_WALLS, 0.2), undefined);
 });

@@ -19,7 +19,7 @@ for (const widgetTag of Object.keys(resultFunctions)) {
     assert.equal(moduleNames.length, 1, `one module for ${widgetTag}`);
     const { default: instantiateCore } = await import(`../../build/${widgetTag}.js`);
     const core = await instantiateCore(new WebAssembly.Module(readFileSync(new URL(`chunks/${moduleNames[0]}`, DIST_DIRECTORY))));
-    const simulationNames = Object.keys(resultFunctions).map(toPascalCase).filter((name) => name in core);
+    const simulationNames = Object.keys(resultFunctions).map(toPascalCase).filter((simulationName) => simulationName in core);
     assert.deepEqual(simulationNames, [toPascalCase(widgetTag)]);
     const goldenDigestOfTag = goldenDigest.split('\n').filter((digestLine) => digestLine.startsWith(`${widgetTag}/`)).map((digestLine) => `${digestLine}\n`).join('');
     assert.deepEqual(findDifferences(goldenDigestOfTag, await computeDigest(core, configurations, [widgetTag])), []);

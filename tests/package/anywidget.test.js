@@ -3,11 +3,11 @@
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { ROOT } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT } from '../../scripts/process.mjs';
 import { settings } from '../../build/settings.js';
 import { serveDirectory } from './support.js';
 
-const site = serveDirectory(() => join(ROOT, 'dist'));
+const siteServer = serveDirectory(() => join(REPOSITORY_ROOT, 'dist'));
 
 /**
  * Opens a page that shows a model. The page's global variable `view` is for the test. `log` lists the traits that were set and saved.
@@ -17,10 +17,10 @@ const site = serveDirectory(() => join(ROOT, 'dist'));
  * @param {'notebook' | 'book'} hostKind in a book, some methods of the model throw as MyST's model does, and the figure is in a shadow root
  */
 async function openPageShowing(modelState, hostKind) {
-  const page = await site.openPage();
+  const page = await siteServer.openPage();
   const pageHtml = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><div id="cell"></div>';
   await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
-  await page.goto(`${site.address}page.html`);
+  await page.goto(`${siteServer.address}page.html`);
   await page.evaluate(renderModel, { state: modelState, isInBook: hostKind === 'book' });
   return page;
 }
@@ -29,19 +29,19 @@ async function openPageShowing(modelState, hostKind) {
 async function renderModel({ state, isInBook }) {
   const listeners = new Map();
   const traitLog = /** @type {unknown[]} */ ([]);
-  const throwMissing = (/** @type {string} */ memberName) => {
+  const throwMissingMember = (/** @type {string} */ memberName) => {
     throw new Error(`${memberName} not implemented yet.`);
   };
   const widgetModel = {
-    get: (/** @type {string} */ name) => state[name],
+    get: (/** @type {string} */ traitName) => state[traitName],
     set(/** @type {string} */ traitName, /** @type {unknown} */ traitValue) {
       traitLog.push([traitName, traitValue]);
       state[traitName] = traitValue;
       for (const changeListener of listeners.get(`change:${traitName}`) ?? []) changeListener();
     },
     on: (/** @type {string} */ name, /** @type {() => void} */ listener) => listeners.set(name, (listeners.get(name) ?? new Set()).add(listener)),
-    off: (/** @type {string} */ name, /** @type {() => void} */ listener) => (isInBook ? throwMissing('off') : listeners.get(name)?.delete(listener)),
-    save_changes: () => (isInBook ? throwMissing('save_changes') : traitLog.push('saved')),
+    off: (/** @type {string} */ name, /** @type {() => void} */ listener) => (isInBook ? throwMissingMember('off') : listeners.get(name)?.delete(listener)),
+    save_changes: () => (isInBook ? throwMissingMember('save_changes') : traitLog.push('saved')),
   };
   const cellElement = /** @type {HTMLElement} */ (document.querySelector('#cell'));
   const el = isInBook ? cellElement.attachShadow({ mode: 'open' }).appendChild(document.createElement('div')) : cellElement;
@@ -52,7 +52,7 @@ async function renderModel({ state, isInBook }) {
 }
 
 /** Waits until the figure of a page has all its samples. @param {import('@playwright/test').Page} page */
-async function untilComplete(page) {
+async function waitUntilComplete(page) {
   await page.locator('canvas').first().waitFor();
   await page.evaluate(() => /** @type {any} */ (globalThis).view.el.firstElementChild.settled);
   await waitForFrames(page);
@@ -83,7 +83,7 @@ const setTraits = async (page, changedTraits) => {
   await page.evaluate((newValues) => {
     const { model: widgetModel, log } = /** @type {any} */ (globalThis).view;
     log.length = 0;
-    for (const [name, value] of Object.entries(newValues)) widgetModel.set(name, value);
+    for (const [name, traitValue] of Object.entries(newValues)) widgetModel.set(name, traitValue);
   }, changedTraits);
   await waitForFrames(page);
 };
@@ -94,7 +94,7 @@ const KERNEL_TRAITS = { stats: null, error: '', _asked: 0, _shown: {} };
 test('the figure applies traits under either spelling of their names, and traits without a value get the figure’s value', async () => {
   const state = { ...KERNEL_TRAITS, widget: 'banana-machine', omega: 0.8, samples: '2000', reverse_aware: true, 'heading-level': 3, v: null, alphas: null, preset: null, lang: 'de' };
   const page = await openPageShowing(state, 'notebook');
-  await untilComplete(page);
+  await waitUntilComplete(page);
   const { figure, traits } = await readTraitsAndProperties(page, ['omega', 'samples', 'reverseAware', 'headingLevel', 'v', 'preset', 'alphas', 'lang']);
   assert.deepEqual(figure, { omega: 0.8, samples: 2000, reverseAware: true, headingLevel: '3', v: 1, preset: null, alphas: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002], lang: 'de' });
   assert.equal(traits.v, 1);
@@ -119,7 +119,7 @@ test('a trait with a trailing underscore, as for Python keywords, is synchronize
 
 test('a change of the model is applied to the figure, resulting changes return to the model, and an equal value has no effect', async () => {
   const page = await openPageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, preset: null, omega: null, v: null, dt: null, command: null, isolate: null }, 'notebook');
-  await untilComplete(page);
+  await waitUntilComplete(page);
   await setTraits(page, { _asked: 1, preset: 'hard' });
   const { traits, figure } = await readTraitsAndProperties(page, ['preset', 'v', 'omega', 'dt', 'command']);
   assert.deepEqual(figure, { preset: 'hard', v: 1, omega: 1.2, dt: 1.4, command: { v: 1, omega: 1.2, dt: 1.4 } });
@@ -145,7 +145,7 @@ test('a change of the model is applied to the figure, resulting changes return t
 
 test('a refused value is reported by the trait `error`, and its trait returns to the last valid value', async () => {
   const page = await openPageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, alphas: null }, 'notebook');
-  await untilComplete(page);
+  await waitUntilComplete(page);
   const { traits: { alphas } } = await readTraitsAndProperties(page, ['alphas']);
   await setTraits(page, { alphas: [1, 2, 3] });
   const { traits } = await readTraitsAndProperties(page, ['alphas', 'error']);
@@ -158,7 +158,7 @@ test('a refused value is reported by the trait `error`, and its trait returns to
 test('in a MyST book, whose models cannot save, the figure works, and a removed figure leaves no listeners @nightly', async () => {
   for (const hostKind of /** @type {const} */ (['book', 'notebook'])) {
     const page = await openPageShowing({ widget: 'map-squeeze', preset: 'corridor', samples: '300', view: 'whole' }, hostKind);
-    await untilComplete(page);
+    await waitUntilComplete(page);
     const { figure, traits } = await readTraitsAndProperties(page, ['preset', 'samples', 'view']);
     assert.deepEqual(figure, { preset: 'corridor', samples: 300, view: 'whole' });
     await page.getByRole('slider', { name: /noise level/ }).focus();

@@ -4,24 +4,24 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { ROOT, filesOf } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT, filesOf } from '../../scripts/process.mjs';
 import { loadPlatform, findPlatformNames } from '../embeddings/project.mjs';
 
-const embeddingDocuments = filesOf('doc').filter((path) => /embedding.*\.md$/.test(path)).map((path) => readFileSync(join(ROOT, path), 'utf8')).join('\n');
+const embeddingDocuments = filesOf('doc').filter((path) => /embedding.*\.md$/.test(path)).map((path) => readFileSync(join(REPOSITORY_ROOT, path), 'utf8')).join('\n');
 const linesOf = (/** @type {string} */ sourceText) => sourceText.split('\n').map((line) => line.trim()).filter((line) => line !== '');
 
 /** Returns the lines of a file, or the lines of a notebook's cells. @param {string} path @returns {string[]} */
 function fileLinesOf(path) {
-  const text = readFileSync(join(ROOT, path), 'utf8');
-  return linesOf(path.endsWith('.ipynb') ? JSON.parse(text).cells.map((/** @type {any} */ { source }) => source.join('')).join('\n') : text);
+  const fileText = readFileSync(join(REPOSITORY_ROOT, path), 'utf8');
+  return linesOf(path.endsWith('.ipynb') ? JSON.parse(fileText).cells.map((/** @type {any} */ { source }) => source.join('')).join('\n') : fileText);
 }
 
 for (const platformName of await findPlatformNames()) {
-  const { heading, readVersions: versions } = await loadPlatform(platformName);
+  const { heading, readVersions: packageVersions } = await loadPlatform(platformName);
 
   test(`${heading}: the document quotes the example, and states the tested versions`, () => {
     const tableRow = embeddingDocuments.split('\n').find((line) => line.startsWith(`| ${heading} |`));
-    assert.ok(tableRow?.includes(` ${versions()} `), `The row "${heading}" of what was tried has to say ${versions()}.`);
+    assert.ok(tableRow?.includes(` ${packageVersions()} `), `The row "${heading}" of what was tried has to say ${packageVersions()}.`);
     const documentSection = embeddingDocuments.split(/^## /m).find((text) => text.startsWith(`${heading}\n`)) ?? '';
     // Shell commands are left out, because the files of the example contain none.
     const codeBlocks = [...documentSection.matchAll(/^```(\w*)\n(.*?)^```$/gms)].filter(([, codeLanguage]) => codeLanguage !== 'sh');

@@ -7,7 +7,7 @@ import { cpSync, existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { toPascalCase } from '../../scripts/declarations.mjs';
-import { ROOT } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT } from '../../scripts/process.mjs';
 import { settings } from '../../build/settings.js';
 import { serveProject } from './support.js';
 
@@ -22,9 +22,9 @@ function runNode(moduleSource) {
 }
 
 test('every script of the package can be imported in Node, and defines no global variables', () => {
-  const { exports } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
+  const { exports } = JSON.parse(readFileSync(join(REPOSITORY_ROOT, 'package.json'), 'utf8'));
   const scriptNames = Object.keys(exports).filter((entryName) => /\.js$/.test(exports[entryName].default));
-  const importNames = scriptNames.map((name) => join('motion-widgets', name));
+  const importNames = scriptNames.map((scriptName) => join('motion-widgets', scriptName));
   assert.ok(importNames.length >= 4, importNames.join(' '));
   const scriptOutput = runNode(`
     const before = Object.getOwnPropertyNames(globalThis);
@@ -113,13 +113,13 @@ test('TypeScript finds the types of elements, React components and core under ev
      export { omega, stats };`,
   );
   writeFileSync(join(installedProject.directory, 'typed.tsx'), REACT_SOURCE);
-  for (const name of ['@types/react', 'csstype']) cpSync(join(ROOT, 'node_modules', name), join(installedProject.directory, 'node_modules', name), { recursive: true });
+  for (const name of ['@types/react', 'csstype']) cpSync(join(REPOSITORY_ROOT, 'node_modules', name), join(installedProject.directory, 'node_modules', name), { recursive: true });
   // The script must be in the directory of a module, so that top-level await is allowed.
   writeFileSync(join(installedProject.directory, 'package.json'), '{ "private": true, "type": "module" }');
   for (const [moduleOption, resolutionOption] of [['esnext', 'bundler'], ['nodenext', 'nodenext']]) {
     const compilerOptions = ['--noEmit', '--strict', '--jsx', 'react-jsx', '--target', 'es2023', '--lib', 'es2023,esnext.disposable,dom,dom.iterable', '--types', ''];
     const sourceFiles = ['typed.ts', 'typed.tsx'];
-    const compilerArguments = [join(ROOT, 'node_modules/typescript/bin/tsc'), ...compilerOptions, '--module', moduleOption, '--moduleResolution', resolutionOption, ...sourceFiles];
+    const compilerArguments = [join(REPOSITORY_ROOT, 'node_modules/typescript/bin/tsc'), ...compilerOptions, '--module', moduleOption, '--moduleResolution', resolutionOption, ...sourceFiles];
     const { status, stdout } = spawnSync(process.execPath, compilerArguments, { cwd: installedProject.directory, encoding: 'utf8' });
     assert.equal(status, 0, stdout);
   }
@@ -136,7 +136,7 @@ async function openPageWith(scriptNames) {
   const page = await installedProject.openPage();
   /** @type {string[]} */
   const requestedUrls = [];
-  page.on('request', (request) => requestedUrls.push(request.url()));
+  page.on('request', (pageRequest) => requestedUrls.push(pageRequest.url()));
   await page.route('**/page.html', (route) => {
     route.fulfill({ contentType: 'text/html', body: `<!doctype html><link rel="icon" href="data:,">${scriptNames}${elementsHtml}` });
   });
@@ -232,19 +232,19 @@ test('doc/calibration.md describes every option of the command that the package 
   assert.equal(status, 0);
   const commandOptions = new Set(stdout.match(/--[a-z-]+/g));
   assert.ok(commandOptions.size > 15, [...commandOptions].join(' '));
-  const calibrationDocument = readFileSync(join(ROOT, 'doc/calibration.md'), 'utf8');
+  const calibrationDocument = readFileSync(join(REPOSITORY_ROOT, 'doc/calibration.md'), 'utf8');
   assert.deepEqual([...commandOptions].filter((commandOption) => commandOption !== '--help' && !calibrationDocument.includes(`\`${commandOption}`) && !calibrationDocument.includes(` ${commandOption}`)), []);
 });
 
 test('all released packages have the same version', () => {
   const { version } = JSON.parse(readFileSync(packagedPathOf('package.json'), 'utf8'));
   for (const path of ['Cargo.toml', 'python/pyproject.toml']) {
-    assert.equal(readFileSync(join(ROOT, path), 'utf8').match(/^version = "(.+)"$/m)?.[1], version, path);
+    assert.equal(readFileSync(join(REPOSITORY_ROOT, path), 'utf8').match(/^version = "(.+)"$/m)?.[1], version, path);
   }
 });
 
 test('the classic script is ASCII, so that the encoding of its page has no effect', () => {
-  const scriptBytes = readFileSync(join(ROOT, 'dist/motion-widgets.iife.js'));
+  const scriptBytes = readFileSync(join(REPOSITORY_ROOT, 'dist/motion-widgets.iife.js'));
   assert.equal(scriptBytes.find((scriptByte) => scriptByte > 127), undefined);
 });
 
@@ -265,13 +265,13 @@ test('a script that imports external.js can set the address of the WebAssembly m
 async function openWithoutModules(scriptTag) {
   const page = await installedProject.browser.newPage();
   /** @type {string[]} */
-  const warnings = [];
-  page.on('console', (consoleMessage) => void (consoleMessage.type() === 'warning' && warnings.push(consoleMessage.text())));
+  const consoleWarnings = [];
+  page.on('console', (consoleMessage) => void (consoleMessage.type() === 'warning' && consoleWarnings.push(consoleMessage.text())));
   await page.route('**/*.wasm', (route) => route.fulfill({ contentType: 'text/html', body: '<!doctype html>' }));
   const pageHtml = `<!doctype html><link rel="icon" href="data:,">${scriptTag}<banana-machine></banana-machine>`;
   await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
   await page.goto(`${installedProject.address}page.html`);
-  return { page, warnings };
+  return { page, warnings: consoleWarnings };
 }
 
 const LOAD_ADVICE = "Copy motion.wasm from the package's dist/ into the site and give its address to load(), or leave the address out";

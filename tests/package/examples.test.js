@@ -7,7 +7,7 @@ import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { build } from 'esbuild';
 import { rollup } from 'rollup';
-import { ROOT } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT } from '../../scripts/process.mjs';
 import { openWithCloud, serveProject } from './support.js';
 
 const installedProject = serveProject(() => writeFileSync(join(installedProject.directory, 'main.js'), "import 'motion-widgets';\n"));
@@ -59,7 +59,7 @@ test('the example page with a classic script works from a server and from a disk
 });
 
 test('the single-file page for classrooms works from a disk', async () => {
-  const { href } = pathToFileURL(join(ROOT, 'dist/classroom.html'));
+  const { href } = pathToFileURL(join(REPOSITORY_ROOT, 'dist/classroom.html'));
   assert.deepEqual((await openWithCloud(installedProject, href)).requests, [href]);
 });
 

@@ -8,10 +8,10 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { publint } from 'publint';
 import { formatMessage } from 'publint/utils';
-import { ROOT } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT } from '../../scripts/process.mjs';
 import { packNpmPackageInto } from '../embeddings/project.mjs';
 
-const packageManifest = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
+const packageManifest = JSON.parse(readFileSync(join(REPOSITORY_ROOT, 'package.json'), 'utf8'));
 
 /** @type {string} */
 let temporaryDirectory;
@@ -39,7 +39,7 @@ test('publint reports no problem', async () => {
 test('the tool "Are the types wrong?" reports no problem', () => {
   // Only the entry points of scripts have types.
   const entriesWithoutTypes = Object.keys(packageManifest.exports).filter((entryName) => /\.(css|wasm|json)$/.test(entryName));
-  const attwPath = join(ROOT, 'node_modules/@arethetypeswrong/cli/dist/index.js');
+  const attwPath = join(REPOSITORY_ROOT, 'node_modules/@arethetypeswrong/cli/dist/index.js');
   // All scripts are modules. `require` and resolution without `exports` are not supported.
   const attwArguments = [attwPath, tarballPath, '--profile', 'esm-only', '--exclude-entrypoints', ...entriesWithoutTypes];
   const { status, stdout } = spawnSync(process.execPath, attwArguments, { encoding: 'utf8' });
@@ -48,14 +48,14 @@ test('the tool "Are the types wrong?" reports no problem', () => {
 });
 
 test('the licence file names every library in the bundles, with its licence', () => {
-  const licenceText = readFileSync(join(ROOT, 'dist/LICENSE-third-party.txt'), 'utf8');
-  const esbuildOutputs = JSON.parse(readFileSync(join(ROOT, 'build/outputs.json'), 'utf8'));
+  const licenceText = readFileSync(join(REPOSITORY_ROOT, 'dist/LICENSE-third-party.txt'), 'utf8');
+  const esbuildOutputs = JSON.parse(readFileSync(join(REPOSITORY_ROOT, 'build/outputs.json'), 'utf8'));
   const bundledPaths = Object.values(esbuildOutputs).flatMap(({ inputs }) => Object.keys(inputs).filter((path) => inputs[path].bytesInOutput > 0));
   const packageNames = bundledPaths.flatMap((path) => path.match(/(?<=node_modules\/)(?:@[^/]+\/)?[^/]+/) ?? []);
-  const [, crateList] = readFileSync(join(ROOT, 'Cargo.toml'), 'utf8').match(/\n\[dependencies\]\n(.*?)\n\n/s) ?? [];
+  const [, crateList] = readFileSync(join(REPOSITORY_ROOT, 'Cargo.toml'), 'utf8').match(/\n\[dependencies\]\n(.*?)\n\n/s) ?? [];
   const dependencyNames = [...new Set(packageNames), ...[...(crateList ?? '').matchAll(/^[\w-]+/gm)].map(String)];
   assert.ok(dependencyNames.includes('lit-html') && dependencyNames.includes('nalgebra'), dependencyNames.join(' '));
-  for (const name of dependencyNames) assert.match(licenceText, new RegExp(`^${name} \\d\\S* \\(.+\\)$`, 'm'));
+  for (const dependencyName of dependencyNames) assert.match(licenceText, new RegExp(`^${dependencyName} \\d\\S* \\(.+\\)$`, 'm'));
   const packedFiles = execFileSync('tar', ['-tf', tarballPath], { encoding: 'utf8' }).split('\n');
   assert.ok(packedFiles.includes('package/dist/LICENSE-third-party.txt'));
 });

@@ -8,11 +8,11 @@ import { tmpdir } from 'node:os';
 import { delimiter, join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { toPascalCase } from '../../scripts/declarations.mjs';
-import { ROOT } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT } from '../../scripts/process.mjs';
 import { pythonNameOf } from '../../scripts/python.mjs';
 import { CACHE_DIRECTORY, ensurePip } from '../../scripts/toolchain.mjs';
 
-const SOURCE_DIRECTORY = join(ROOT, 'python');
+const SOURCE_DIRECTORY = join(REPOSITORY_ROOT, 'python');
 const pyprojectText = readFileSync(join(SOURCE_DIRECTORY, 'pyproject.toml'), 'utf8');
 
 /** @type {string} */
@@ -49,7 +49,7 @@ before(async () => {
   const dependencyDirectory = installDependencies();
   runPip(['wheel', '--no-deps', '--no-build-isolation', '--wheel-dir', temporaryDirectory, SOURCE_DIRECTORY], dependencyDirectory);
   const [pythonWheelFileName] = readdirSync(temporaryDirectory);
-  const { version } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
+  const { version } = JSON.parse(readFileSync(join(REPOSITORY_ROOT, 'package.json'), 'utf8'));
   assert.equal(pythonWheelFileName, `motion_widgets-${version}-py3-none-any.whl`);
   const installDirectory = join(temporaryDirectory, 'site');
   runPip(['install', '--no-deps', '--target', installDirectory, join(temporaryDirectory, pythonWheelFileName)]);
@@ -119,5 +119,5 @@ test('names in generated Python and JavaScript code are valid', () => {
   assert.deepEqual(['reverseAware', 'lambda', 'log'].map(pythonNameOf), ['reverse_aware', 'lambda_', 'log_']);
   assert.throws(() => pythonNameOf('2d'), /2d cannot be the name of a trait/);
   assert.equal(toPascalCase('from'), 'From');
-  for (const key of ['map', '2d']) assert.throws(() => toPascalCase(key), { message: new RegExp(`^${key} `, 'i') });
+  for (const invalidKey of ['map', '2d']) assert.throws(() => toPascalCase(invalidKey), { message: new RegExp(`^${invalidKey} `, 'i') });
 });

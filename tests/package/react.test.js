@@ -6,7 +6,7 @@ import { cpSync, mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { buildSync } from 'esbuild';
-import { ROOT } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT } from '../../scripts/process.mjs';
 import { serveProject } from './support.js';
 
 const installedProject = serveProject(prepareProject);
@@ -60,7 +60,7 @@ const CLIENT_SOURCE = `
 
 function prepareProject() {
   for (const packageName of ['react-dom', 'scheduler']) {
-    cpSync(join(ROOT, 'node_modules', packageName), join(installedProject.directory, 'node_modules', packageName), { recursive: true });
+    cpSync(join(REPOSITORY_ROOT, 'node_modules', packageName), join(installedProject.directory, 'node_modules', packageName), { recursive: true });
   }
   mkdirSync(join(installedProject.directory, 'react'));
   writeInProject('application.js', APPLICATION_SOURCE);
@@ -94,7 +94,7 @@ function renderServerHtml(figureProps) {
 }
 
 /** Waits until the last `stats` event of the first figure has 2000 samples. */
-const untilComplete = () => page.getByText('of 2000').waitFor();
+const waitUntilComplete = () => page.getByText('of 2000').waitFor();
 
 /** Opens a page of the application. @param {string} name of the file */
 async function openPage(name) {
@@ -125,7 +125,7 @@ test('server rendering writes props as attributes', () => {
 test('React hydrates the server’s HTML before the elements are defined', async () => {
   await openPage('sent.html');
   await page.evaluate(() => /** @type {any} */ (globalThis).hydrate({ omega: 0.8 }));
-  await untilComplete();
+  await waitUntilComplete();
   assert.equal(await readProperty('omega'), 0.8);
   assert.deepEqual(await readProperty('alphas'), [0.1, 0.1, 0.1, 0.1, 0, 0]);
   assert.deepEqual((await readReceivedEvents())[0], ['onLoad', true]);
@@ -134,7 +134,7 @@ test('React hydrates the server’s HTML before the elements are defined', async
 test('a new rendering keeps the user’s changes, and properties and events do not cause an endless loop', async () => {
   await openPage('index.html');
   await page.evaluate(() => /** @type {any} */ (globalThis).show({}));
-  await untilComplete();
+  await waitUntilComplete();
   await page.locator('banana-machine').first().locator('#v').press('ArrowRight');
   await page.waitForFunction(() => /** @type {any} */ (globalThis).receivedEvents.some((/** @type {string[]} */ [name]) => name === 'onChange'));
   await setProps({ omega: 0.3 });
@@ -153,7 +153,7 @@ test('a new rendering keeps the user’s changes, and properties and events do n
 test('a refused prop calls onError, and removing a prop restores the opening value @nightly', async () => {
   await openPage('index.html');
   await page.evaluate(() => /** @type {any} */ (globalThis).show({ omega: 0.8, marked: 7, conditioned: false }));
-  await untilComplete();
+  await waitUntilComplete();
   assert.equal(await readProperty('marked'), 7);
   await page.evaluate(() => /** @type {any} */ (globalThis).page.setProps({ omega: NaN, alphas: [1, 2] }));
   await page.waitForFunction(() => /** @type {any} */ (globalThis).receivedEvents.filter((/** @type {string[]} */ [name]) => name === 'onError').length === 2);

@@ -4,12 +4,12 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { ROOT, filesOf } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT, filesOf } from '../../scripts/process.mjs';
 import { serveDirectory } from './support.js';
 
 const builtSite = serveDirectory(() => {
-  execFileSync(process.execPath, [join(ROOT, 'scripts/site.mjs')], { stdio: 'inherit' });
-  return join(ROOT, 'build/site');
+  execFileSync(process.execPath, [join(REPOSITORY_ROOT, 'scripts/site.mjs')], { stdio: 'inherit' });
+  return join(REPOSITORY_ROOT, 'build/site');
 }, '/book/');
 
 test('pages of the site fit a phone, load without errors, and start their figures', async () => {

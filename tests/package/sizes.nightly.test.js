@@ -5,10 +5,10 @@ import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { brotliCompressSync, constants } from 'node:zlib';
-import { ROOT } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT } from '../../scripts/process.mjs';
 import { settings } from '../../build/settings.js';
 
-const pathOf = (/** @type {string} */ repositoryPath) => join(ROOT, repositoryPath);
+const pathOf = (/** @type {string} */ repositoryPath) => join(REPOSITORY_ROOT, repositoryPath);
 
 /** Report of esbuild on each written file, by the path from the root. @type {Record<string, { entryPoint?: string, imports: { path: string, kind: string }[] }>} */
 const esbuildOutputs = JSON.parse(readFileSync(pathOf('build/outputs.json'), 'utf8'));

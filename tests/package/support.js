@@ -8,9 +8,9 @@ import { join } from 'node:path';
 import { after, afterEach, before } from 'node:test';
 import { chromium } from '@playwright/test';
 import { CHROME_ARGUMENTS, findChrome } from '../../scripts/browser.mjs';
-import { ROOT } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT } from '../../scripts/process.mjs';
 import { startServer } from '../../scripts/serve.mjs';
-import { recordMessages, untilComplete } from '../embeddings/checks.mjs';
+import { recordMessages, waitUntilComplete } from '../embeddings/checks.mjs';
 import { packNpmPackageInto } from '../embeddings/project.mjs';
 
 /** Files of dist/ that an author copies next to a page. */
@@ -25,13 +25,13 @@ function installPackage(installDirectory) {
   renameSync(join(modulesDirectory, 'package'), join(modulesDirectory, 'motion-widgets'));
   writeFileSync(join(installDirectory, 'package.json'), '{ "private": true }');
   // Peer dependencies are copied too, because npm leaves them to the application.
-  const { peerDependencies } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
-  for (const packageName of Object.keys(peerDependencies)) cpSync(join(ROOT, 'node_modules', packageName), join(modulesDirectory, packageName), { recursive: true });
-  cpSync(join(ROOT, 'examples'), installDirectory, { recursive: true });
+  const { peerDependencies } = JSON.parse(readFileSync(join(REPOSITORY_ROOT, 'package.json'), 'utf8'));
+  for (const packageName of Object.keys(peerDependencies)) cpSync(join(REPOSITORY_ROOT, 'node_modules', packageName), join(modulesDirectory, packageName), { recursive: true });
+  cpSync(join(REPOSITORY_ROOT, 'examples'), installDirectory, { recursive: true });
   for (const name of COPIED_FILES) {
-    for (const exampleName of ['classic-script', 'iframe']) cpSync(join(ROOT, 'dist', name), join(installDirectory, exampleName, name));
+    for (const exampleName of ['classic-script', 'iframe']) cpSync(join(REPOSITORY_ROOT, 'dist', name), join(installDirectory, exampleName, name));
   }
-  for (const exampleEntry of readdirSync(join(ROOT, 'examples'), { withFileTypes: true })) {
+  for (const exampleEntry of readdirSync(join(REPOSITORY_ROOT, 'examples'), { withFileTypes: true })) {
     if (exampleEntry.isDirectory()) symlinkSync(modulesDirectory, join(installDirectory, exampleEntry.name, 'node_modules'));
   }
 }
@@ -102,6 +102,6 @@ export async function openWithCloud(siteServer, address) {
   await cloudCanvas.waitFor({ timeout: 10_000 }).catch((error) => {
     throw new Error([...siteServer.consoleMessages, error.message].join('\n'));
   });
-  await figureFrame.locator('banana-machine').first().evaluate(untilComplete);
+  await figureFrame.locator('banana-machine').first().evaluate(waitUntilComplete);
   return { page, requests: requestedUrls };
 }

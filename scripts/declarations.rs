@@ -49,7 +49,7 @@ fn describe_widget<S: SettingRules>(tag: &'static str) -> serde_json::Result<Box
                 json!({ "type": "numbers", "allowed": allowed, "minLength": min_length::<S>(declaration.key) })
             }
             Setting::Level(noise_level, allowed) => {
-                let alpha_weights: Vec<_> = noise_level.ratios().collect();
+                let alpha_weights: Vec<_> = noise_level.alpha_ratios().collect();
                 json!({ "type": "number", "allowed": allowed, "nullable": true, "weights": alpha_weights })
             }
             Setting::Group(group_members, _) => {

@@ -261,9 +261,9 @@ impl DrivenArc {
 /// Approximation of an arc of up to half a turn, for fast computation of its points.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ArcPiece {
-    middle: [f64; 2],
+    middle_point: [f64; 2],
     /// Direction of travel (unit vector) in the middle of the arc piece.
-    tangent: [f64; 2],
+    travel_direction: [f64; 2],
     curvature: f64,
     /// Half the length of the arc piece, m.
     pub half_length: f64,
@@ -279,26 +279,26 @@ impl ArcPiece {
         let tangent = [(end[0] - start[0]) * inverse_chord, (end[1] - start[1]) * inverse_chord];
         let half_length = 0.5 * length;
         let uncorrected_piece = Self {
-            middle: [0.5 * (start[0] + end[0]), 0.5 * (start[1] + end[1])],
-            tangent,
+            middle_point: [0.5 * (start[0] + end[0]), 0.5 * (start[1] + end[1])],
+            travel_direction: tangent,
             curvature,
             half_length,
             max_error: 0.0,
         };
         let [_, sagitta]: [f64; 2] = uncorrected_piece.local_point(half_length);
         let middle = [
-            uncorrected_piece.middle[0] + sagitta * tangent[1],
-            uncorrected_piece.middle[1] - sagitta * tangent[0],
+            uncorrected_piece.middle_point[0] + sagitta * tangent[1],
+            uncorrected_piece.middle_point[1] - sagitta * tangent[0],
         ];
         let half_turn_squared = 0.25 * turn * turn;
         Self {
-            middle,
+            middle_point: middle,
             max_error: half_length * half_turn_squared * half_turn_squared * half_turn_squared / 2000.0,
             ..uncorrected_piece
         }
     }
 
-    /// Returns the coordinates, ahead and to the left of the middle of the arc piece, of the point `s` metres after the middle. `T` is a
+    /// Returns the coordinates, ahead and to the left of the middle of the arc piece, of the point `s` metres after the middle_point. `T` is a
     /// number or four SIMD lanes.
     #[inline(always)]
     fn local_point<T>(&self, s: T) -> [T; 2]
@@ -317,10 +317,10 @@ impl ArcPiece {
     #[inline(always)]
     pub fn points_at(&self, s: f64x4) -> [f64x4; 2] {
         let [ahead_offset, left] = self.local_point(s);
-        let [cos, sin] = self.tangent;
+        let [cos, sin] = self.travel_direction;
         [
-            (ahead_offset * cos - left * sin) + self.middle[0],
-            (ahead_offset * sin + left * cos) + self.middle[1],
+            (ahead_offset * cos - left * sin) + self.middle_point[0],
+            (ahead_offset * sin + left * cos) + self.middle_point[1],
         ]
     }
 }

@@ -110,7 +110,7 @@ struct FieldBuilder<'a> {
     cell_side: f64,
     rounding_slack: f64,
     /// Candidates for the wall nearest to the current block: unmeasured walls, and measured walls with their distances (m).
-    unmeasured: Vec<WallSet>,
+    unmeasured_walls: Vec<WallSet>,
     measured: Vec<(f64, WallSet)>,
 }
 
@@ -150,7 +150,7 @@ impl<'a> FieldBuilder<'a> {
             rows,
             cell_side,
             rounding_slack: rounding_bound(&map_bounds),
-            unmeasured: Vec::new(),
+            unmeasured_walls: Vec::new(),
             measured: Vec::new(),
         }
     }
@@ -217,7 +217,7 @@ impl<'a> FieldBuilder<'a> {
         width: usize,
         allowed_uncertainty: f64,
     ) -> Option<[f64; 2]> {
-        let Self { tree: wall_tree, unmeasured, measured, .. } = self;
+        let Self { tree: wall_tree, unmeasured_walls: unmeasured, measured, .. } = self;
         // A wall can be nearest to a point of the block only if its distance from the middle exceeds the smallest distance by at most the
         // diameter of the block.
         let max_excess = 2.0 * width as f64 * self.distance_field.cell_radius + self.rounding_slack;

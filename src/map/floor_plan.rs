@@ -3,7 +3,7 @@
 use super::apartment;
 use super::distance_field::{DistanceField, rounding_bound};
 use super::occupancy::OccupancyGrid;
-use super::wall_tree::{Node, WallTree};
+use super::wall_tree::{WallNode, WallTree};
 use crate::geom::arc::{Arc, ArcPiece, DrivenArc, LocalArc, PreparedPose};
 use crate::geom::lanes::{LANE_COUNT, is_any_lane_set};
 use crate::geom::segment::Segment;
@@ -205,7 +205,7 @@ impl FloorPlan {
             return CollisionVerdict { free: false, ..end_verdict };
         }
         let mut arc_sweep = ArcSweep {
-            plan: self,
+            floor_plan: self,
             distance_field: self.distance_field(),
             arc: &driven_arc.arc,
             clearance,
@@ -277,7 +277,7 @@ impl FloorPlan {
         [x, y]: [f64; 2],
         max_distance: f64,
         wall_tests: &mut usize,
-        is_node_clear: impl FnMut(&Node) -> bool,
+        is_node_clear: impl FnMut(&WallNode) -> bool,
         mut is_wall_clear: impl FnMut(&Segment) -> bool,
     ) -> bool {
         self.collision_index().wall_tree.are_all_walls_clear(is_node_clear, |wall| {
@@ -296,7 +296,7 @@ impl FloorPlan {
 
 /// Collision test of a disc that moves along an arc.
 struct ArcSweep<'a> {
-    plan: &'a FloorPlan,
+    floor_plan: &'a FloorPlan,
     distance_field: &'a DistanceField,
     arc: &'a Arc,
     clearance: f64,
@@ -344,7 +344,7 @@ impl ArcSweep<'_> {
         let (arc, clearance) = (self.arc, self.clearance);
         let get_local_arc = || self.local_arc.get_or_init(|| arc.local_arc());
         let (clear_distance, blocked_distance) = (part_radius + clearance, (clearance - max_error).max(0.0));
-        self.plan.are_near_walls_clear(
+        self.floor_plan.are_near_walls_clear(
             part_middle,
             clear_distance,
             &mut self.wall_tests,

@@ -12,14 +12,14 @@ use std::ops::Range;
 pub(super) struct WallTree {
     /// Distinct walls, ordered so that the walls of each node are contiguous.
     pub walls: Vec<Segment>,
-    pub nodes: Vec<Node>,
-    depth: u32,
+    pub nodes: Vec<WallNode>,
+    tree_depth: u32,
     rounding_slack: f64,
 }
 
 /// Node of the tree: the capsule of the walls of its subtree.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Node {
+pub(super) struct WallNode {
     pub capsule_axis: Segment,
     /// Maximum distance from a point of the node's walls to the axis of the capsule, m.
     pub capsule_radius: f64,
@@ -48,8 +48,8 @@ impl WallTree {
         let mut wall_tree = Self {
             walls,
             // Node 0 is unused. The root has no capsule, because it is always visited.
-            nodes: vec![Node { capsule_axis: ZERO_SEGMENT, capsule_radius: f64::INFINITY }; 2],
-            depth: leaf_count.ilog2(),
+            nodes: vec![WallNode { capsule_axis: ZERO_SEGMENT, capsule_radius: f64::INFINITY }; 2],
+            tree_depth: leaf_count.ilog2(),
             rounding_slack: 1e-9 * bounds.iter().fold(0.0, |largest: f64, bound| largest.max(bound.abs())),
         };
         for parent in 1..leaf_count {
@@ -77,7 +77,7 @@ impl WallTree {
         select_smallest(node_walls, middle_index - wall_range.start, widest_key_index);
     }
 
-    fn create_node(&self, node_index: usize) -> Node {
+    fn create_node(&self, node_index: usize) -> WallNode {
         let walls = &self.walls[self.wall_range(node_index)];
         // The axis of the capsule has the mean direction of the walls, or is parallel to x or y, whichever makes the capsule narrowest.
         let direction_sum =
@@ -120,7 +120,7 @@ impl WallTree {
         let wall_ends = walls.iter().flat_map(|wall| [wall.from, wall.to]);
         let max_distance =
             wall_ends.map(|end| capsule_axis.squared_distance_to_point(end)).fold(0.0, f64::max).sqrt();
-        Node { capsule_axis, capsule_radius: max_distance + self.rounding_slack }
+        WallNode { capsule_axis, capsule_radius: max_distance + self.rounding_slack }
     }
 
     pub fn wall_range(&self, node_index: usize) -> Range<usize> {
@@ -131,14 +131,14 @@ impl WallTree {
     }
 
     pub fn is_leaf(&self, node_index: usize) -> bool {
-        node_index >> self.depth > 0
+        node_index >> self.tree_depth > 0
     }
 
     /// Returns true if `is_wall_clear` holds for all walls. The walls of a node for which `is_node_clear` holds are not tested.
     #[inline(always)]
     pub fn are_all_walls_clear(
         &self,
-        mut is_node_clear: impl FnMut(&Node) -> bool,
+        mut is_node_clear: impl FnMut(&WallNode) -> bool,
         mut is_wall_clear: impl FnMut(&Segment) -> bool,
     ) -> bool {
         let mut node_index = 1;
@@ -163,7 +163,7 @@ impl WallTree {
     }
 }
 
-impl Node {
+impl WallNode {
     /// Returns true only if no wall of the node comes within `distance` (m) of a point, because its capsule does not.
     #[inline(always)]
     pub fn is_farther_than(&self, point: [f64; 2], distance: f64) -> bool {

@@ -11,7 +11,7 @@ use crate::noise::NoiseKind;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PolarMotion {
     /// Distribution of the noises.
-    pub noise: NoiseKind,
+    pub noise_kind: NoiseKind,
     /// True if `length` is the length of an arc, false if it is the length of its chord.
     pub is_arc: bool,
     /// Length of the motion (mean, standard deviation), m.
@@ -35,7 +35,7 @@ impl PolarMotion {
         let [v_variance, _, gamma_variance] = model.variances(u).map(|variance| variance.0);
         let commanded_turn = u.omega * u.dt;
         Self {
-            noise: model.noise,
+            noise_kind: model.noise,
             is_arc: true,
             length: [u.v * u.dt, length_std],
             length_variance: u.dt * u.dt * v_variance,
@@ -50,7 +50,7 @@ impl PolarMotion {
     pub fn of_odometry(model: &impl RotTransRot, u: &OdomDelta, commanded_turn: f64) -> Self {
         let [rot1_variance, trans_variance, rot2_variance] = model.variances(u).map(|variance| variance.0);
         Self {
-            noise: model.noise(),
+            noise_kind: model.noise(),
             is_arc: false,
             length: [u.trans, trans_variance.sqrt()],
             length_variance: trans_variance,

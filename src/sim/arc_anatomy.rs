@@ -105,7 +105,7 @@ js_structs! {
 
     /// One of the three factors of the score p of Table 5.1.
     #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct Factor {
+    pub struct ScoreFactor {
         /// Value of v̂, ω̂ or γ̂ that the final pose implies (m/s, rad/s).
         pub estimate: f64,
         /// Residual v − v̂, ω − ω̂ or γ̂: the argument of `prob` in Table 5.1.
@@ -132,7 +132,7 @@ js_structs! {
         /// Final turn γ̂Δt, rad.
         pub last_turn: f64,
         /// Factors of v̂, ω̂ and γ̂.
-        pub factors: [Factor; 3],
+        pub factors: [ScoreFactor; 3],
         /// Index of the factor whose residual is the largest, in standard deviations.
         pub weakest: usize,
         /// p, the product of the three factors.
@@ -220,7 +220,8 @@ impl ArcAnatomy {
         let Settings { command, noise: noise_kind, .. } = &self.settings;
         let (start, next) = (self.settings.start(), self.settings.next());
         let estimates = self.selected_inversion();
-        let factors = self.noise_residuals(&estimates).map(|residual| Factor::new(*noise_kind, residual));
+        let factors =
+            self.noise_residuals(&estimates).map(|residual| ScoreFactor::new(*noise_kind, residual));
         let size_of = |i: &usize| factors[*i].deviations.abs();
         let weakest = (0..3).rev().max_by(|a, b| size_of(a).total_cmp(&size_of(b))).unwrap_or(0);
         let [commanded, inverted, driven] = self.arcs().map(ArcWithCircle::from);
@@ -406,7 +407,7 @@ impl From<Arc> for ArcWithCircle {
     }
 }
 
-impl Factor {
+impl ScoreFactor {
     fn new(noise: NoiseKind, (estimate, residual, variance): (f64, f64, Variance)) -> Self {
         let (value, prob_at_zero) = (noise.prob(residual, variance), noise.prob(0.0, variance));
         let noise_std = variance.0.sqrt();

@@ -9,7 +9,7 @@ pub const fn alphas_of_noise_level(n: f64) -> [f64; 6] {
 pub struct NoiseLevel<'a>(pub &'a mut [f64]);
 
 impl NoiseLevel<'_> {
-    pub fn ratios(&self) -> impl Iterator<Item = f64> + use<> {
+    pub fn alpha_ratios(&self) -> impl Iterator<Item = f64> + use<> {
         let alpha_count = self.0.len();
         (0..alpha_count).map(move |i| if i + 2 < alpha_count { 1.0 } else { 0.25 })
     }
@@ -17,10 +17,12 @@ impl NoiseLevel<'_> {
     /// Returns the noise level n; None if the α's have other ratios than those that a noise level sets.
     pub fn get(&self) -> Option<f64> {
         let n = self.0[0];
-        self.ratios().zip(&*self.0).all(|(alpha_ratio, alpha)| *alpha == n * alpha_ratio).then_some(n)
+        self.alpha_ratios().zip(&*self.0).all(|(alpha_ratio, alpha)| *alpha == n * alpha_ratio).then_some(n)
     }
 
     pub fn set(&mut self, noise_level: f64) {
-        self.ratios().zip(&mut *self.0).for_each(|(alpha_ratio, alpha)| *alpha = noise_level * alpha_ratio);
+        self.alpha_ratios()
+            .zip(&mut *self.0)
+            .for_each(|(alpha_ratio, alpha)| *alpha = noise_level * alpha_ratio);
     }
 }

@@ -103,7 +103,7 @@ impl Ellipse {
 /// flat, and this circle is its edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExponentialContour {
-    start: SE2,
+    start_pose: SE2,
     mean: Vector3<f64>,
     /// 2σ ellipse in (along, heading), m, rad.
     pub ellipse: Ellipse,
@@ -112,12 +112,12 @@ pub struct ExponentialContour {
 }
 
 impl ExponentialContour {
-    /// Creates the contour for `moments` of exponential coordinates about `start`. The outline is in the reference frame of `start`.
+    /// Creates the contour for `moments` of exponential coordinates about `start_pose`. The outline is in the reference frame of `start_pose`.
     pub fn new(moments: &ExponentialMoments, start: &SE2) -> Self {
         let ExponentialMoments { mean, cov } = *moments;
         let along_heading = Matrix2::new(cov[(0, 0)], cov[(0, 2)], cov[(2, 0)], cov[(2, 2)]);
         Self {
-            start: *start,
+            start_pose: *start,
             mean,
             ellipse: Ellipse::new(Vector2::new(mean.x, mean.z), along_heading),
             cov_root: covariance_root(&cov).unwrap_or_else(|_| Matrix3::zeros()),
@@ -147,7 +147,7 @@ impl ExponentialContour {
         // The sum has twice the signed areas of the triangles from the start to each chord. The sign is reversed for motions in reverse.
         let (mut doubled_area, mut previous_point) = (0.0, [0.0; 2]);
         for (i, (along, [x, y])) in self.outline(segment_count).enumerate() {
-            let [x, y] = [x - self.start.x(), y - self.start.y()];
+            let [x, y] = [x - self.start_pose.x(), y - self.start_pose.y()];
             if i > 0 {
                 let doubled_triangle_area = previous_point[0] * y - previous_point[1] * x;
                 doubled_area += if along < 0.0 { -doubled_triangle_area } else { doubled_triangle_area };
@@ -161,7 +161,7 @@ impl ExponentialContour {
     /// Returns the coordinate along (m) and the position of each point of the outline.
     fn outline(&self, segment_count: usize) -> impl Iterator<Item = (f64, [f64; 2])> {
         self.silhouette_twists(segment_count, 0.0)
-            .map(|twist| (twist.x, self.start.boxplus(twist).position()))
+            .map(|twist| (twist.x, self.start_pose.boxplus(twist).position()))
     }
 
     /// Returns twists on the silhouette of the 2σ ellipsoid, at a stage of the transition from positions to exponential coordinates.
@@ -192,7 +192,7 @@ impl ExponentialContour {
 
     /// Returns true if the exponential coordinates of `pose` lie inside the ellipse.
     pub fn contains(&self, pose: &SE2) -> bool {
-        let twist = self.start.between(pose).log_near(self.mean.z);
+        let twist = self.start_pose.between(pose).log_near(self.mean.z);
         self.ellipse.contains([twist.x, twist.z])
     }
 }

@@ -86,7 +86,7 @@ impl ExactMoments {
                 if motion.is_arc { unit_arc_end(turn).into() } else { [libm::cos(turn), libm::sin(turn)] };
             UnitMotion { weight: noise_node.weight, unit_end, excess_turn }
         };
-        let unit_motions: Vec<_> = noise_nodes(motion.noise).iter().map(unit_motion_at).collect();
+        let unit_motions: Vec<_> = noise_nodes(motion.noise_kind).iter().map(unit_motion_at).collect();
         let mut unit_sums = UnitMotionMoments::default();
         unit_motions
             .iter()

@@ -36,10 +36,10 @@ const NO_BREAKS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// Motion whose bearing is near half the commanded turn, and not wrapped to ±π.
 struct BranchedMotion {
-    polar: PolarMotion,
+    polar_motion: PolarMotion,
     /// Mean of the turn, standard deviation of the turn due to the noise of the bearing, and standard deviation of the turn after the
     /// motion, rad.
-    turn: [f64; 3],
+    turn_moments: [f64; 3],
 }
 
 impl ExactGain {
@@ -54,12 +54,12 @@ impl ExactGain {
         let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
         let turn = commanded_turn + wrap_angle(polar_motion.mean_turn() - commanded_turn);
         let branched_motion = BranchedMotion {
-            polar: PolarMotion {
+            polar_motion: PolarMotion {
                 length: [drive_sign * length, length_std],
                 bearing: [bearing - half_circles * PI, bearing_std],
                 ..*polar_motion
             },
-            turn: [turn, polar_motion.turn_per_bearing() * bearing_std, polar_motion.last_turn[1]],
+            turn_moments: [turn, polar_motion.turn_per_bearing() * bearing_std, polar_motion.last_turn[1]],
         };
         branched_motion.gain(&ExactMoments::new(polar_motion))
     }
@@ -67,12 +67,12 @@ impl ExactGain {
 
 impl BranchedMotion {
     fn gain(&self, cartesian: &ExactMoments) -> ExactGain {
-        let (mean_log_length, [bearing, bearing_std]) = (self.mean_log_length(), self.polar.bearing);
+        let (mean_log_length, [bearing, bearing_std]) = (self.mean_log_length(), self.polar_motion.bearing);
         let (twist, twist_log_jacobian) = self.twist_moments();
         let (arc, arc_log_jacobian) = self.arc_moments();
         let mean_log_jacobians = [twist_log_jacobian, mean_log_length + arc_log_jacobian - LN_2];
         let gaussians = FittedGaussians::new((cartesian.mean, cartesian.cov), twist, arc, mean_log_jacobians);
-        let [turn, bearing_turn_std, last_turn_std] = self.turn;
+        let [turn, bearing_turn_std, last_turn_std] = self.turn_moments;
         let one_or_nan_of =
             |turn: f64, max_excess_turn: f64| if turn.abs() + max_excess_turn < TAU { 1.0 } else { f64::NAN };
         let pose_factor = one_or_nan_of(turn, self.integration_limit(bearing_turn_std, last_turn_std));
@@ -88,12 +88,12 @@ impl BranchedMotion {
         if std == 0.0 {
             return vec![Node { value: 0.0, weight: 1.0 }];
         }
-        piecewise_nodes(self.polar.noise, self.integration_limit(1.0, 0.0), break_points)
+        piecewise_nodes(self.polar_motion.noise_kind, self.integration_limit(1.0, 0.0), break_points)
     }
 
     /// Returns the integration limit of the sum of two noises with the given standard deviations.
     fn integration_limit(&self, first_std: f64, second_std: f64) -> f64 {
-        match self.polar.noise {
+        match self.polar_motion.noise_kind {
             NoiseKind::Normal => MAX_SIGMAS * libm::hypot(first_std, second_std),
             NoiseKind::Triangular => 6f64.sqrt() * (first_std + second_std),
         }
@@ -103,13 +103,13 @@ impl BranchedMotion {
     /// bearing β with the heading θ has ξ = r/sinc(θ/2) · (cos(β − θ/2), sin(β − θ/2)).
     fn twist_moments(&self) -> (MeanAndCov, f64) {
         let ([bearing, bearing_std], [turn, bearing_turn_std, last_turn_std]) =
-            (self.polar.bearing, self.turn);
+            (self.polar_motion.bearing, self.turn_moments);
         let max_excess_turn = self.integration_limit(bearing_turn_std, last_turn_std);
         let (mut moments, mut log_sum) = (UnitMotionMoments::default(), 0.0);
         let last_turn_nodes = self.nodes(last_turn_std, NO_BREAKS);
         for bearing_node in self.nodes(bearing_std, NO_BREAKS) {
             let bearing = bearing + bearing_std * bearing_node.value;
-            let chord_ratio = if self.polar.is_arc { sinc(bearing) } else { 1.0 };
+            let chord_ratio = if self.polar_motion.is_arc { sinc(bearing) } else { 1.0 };
             for turn_node in &last_turn_nodes {
                 let excess_turn = bearing_turn_std * bearing_node.value + last_turn_std * turn_node.value;
                 let node_weight = bearing_node.weight * turn_node.weight;
@@ -125,14 +125,15 @@ impl BranchedMotion {
                 moments.add(node_weight, scaled_direction, excess_turn);
             }
         }
-        let (mean, cov) = moments.mean_and_cov(self.polar.length);
+        let (mean, cov) = moments.mean_and_cov(self.polar_motion.length);
         ((mean + Vector3::z() * turn, cov), log_sum / moments.weight_sum)
     }
 
     /// Returns the moments of the length and turn φ of the arc that ends at the robot's final position. Also returns the
     /// mean of ln|c·sinc²(φ/2)|, with c the length of that arc divided by the driven length.
     fn arc_moments(&self) -> (MeanAndCov, f64) {
-        let ([bearing, bearing_std], half_commanded_turn) = (self.polar.bearing, 0.5 * self.turn[0]);
+        let ([bearing, bearing_std], half_commanded_turn) =
+            (self.polar_motion.bearing, 0.5 * self.turn_moments[0]);
         let (mut moments, mut log_sum) = (UnitMotionMoments::default(), 0.0);
         // Statistics of a cloud use the arc whose turn is nearest to the commanded turn. This arc is driven in the opposite direction if
         // the bearing differs from half the commanded turn by more than π/2.
@@ -145,21 +146,21 @@ impl BranchedMotion {
             let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
             let arc_sinc = sinc(half_turn);
             let length_ratio =
-                drive_sign * if self.polar.is_arc { sinc(driven_bearing) } else { 1.0 } / arc_sinc;
+                drive_sign * if self.polar_motion.is_arc { sinc(driven_bearing) } else { 1.0 } / arc_sinc;
             log_sum += node.weight * libm::log((length_ratio * arc_sinc * arc_sinc).abs());
             moments.add(node.weight, [length_ratio, 0.0], 2.0 * (half_turn - bearing));
         }
-        let (mean, cov) = moments.mean_and_cov(self.polar.length);
+        let (mean, cov) = moments.mean_and_cov(self.polar_motion.length);
         let cov = Matrix3::new(cov[(0, 0)], cov[(0, 2)], 0.0, cov[(0, 2)], cov[(2, 2)], 0.0, 0.0, 0.0, 0.0);
         ((Vector3::new(mean.x, mean.z + 2.0 * bearing, 0.0), cov), log_sum / moments.weight_sum)
     }
 
     fn mean_log_length(&self) -> f64 {
-        let [mean, std] = self.polar.length.map(f64::abs);
+        let [mean, std] = self.polar_motion.length.map(f64::abs);
         if std == 0.0 {
             return libm::log(mean);
         }
-        match self.polar.noise {
+        match self.polar_motion.noise_kind {
             NoiseKind::Normal => libm::log(std) + mean_log_abs_of_normal(mean / std),
             NoiseKind::Triangular => triangular_mean_log(mean, 6f64.sqrt() * std),
         }

@@ -79,7 +79,7 @@ impl FittedGaussians {
 /// Weighted sums over a subsample of the robots, for the standard errors of the likelihood gain and of the area ratio.
 #[derive(Clone, Debug)]
 pub(super) struct LogDensityDifferences {
-    gaussians: FittedGaussians,
+    fitted_gaussians: FittedGaussians,
     weight_sums: f64x4,
     /// Sums of the squared deviations of the log-density difference from the gain: for (x, y, θ), and for (x, y). The mean difference is
     /// the gain of all robots. It needs no sum over the subsample.
@@ -92,7 +92,7 @@ pub(super) struct LogDensityDifferences {
 impl LogDensityDifferences {
     pub fn new(gaussians: FittedGaussians) -> Self {
         Self {
-            gaussians,
+            fitted_gaussians: gaussians,
             weight_sums: f64x4::splat(0.0),
             squared_deviations: [f64x4::splat(0.0); 2],
             area_sums: [f64x4::splat(0.0); 4],
@@ -102,7 +102,7 @@ impl LogDensityDifferences {
     /// Adds four robots with their weights; lanes without a robot have the weight 0.
     #[inline(never)]
     pub fn add(&mut self, four_robots: &FourRobots, robot_weights: f64x4) {
-        let FittedGaussians { cartesian, twist, arc, gain, mean_jacobian } = &self.gaussians;
+        let FittedGaussians { cartesian, twist, arc, gain, mean_jacobian } = &self.fitted_gaussians;
         let has_robot = robot_weights.simd_gt(f64x4::splat(0.0));
         let cartesian_distances = cartesian.squared_distances(&four_robots.cartesian);
         let twist_distance = twist.squared_distances(&four_robots.twist)[2];
@@ -133,7 +133,7 @@ impl LogDensityDifferences {
         let [pose, floor] = self.squared_deviations.map(|squared_deviations| {
             (squared_deviations.reduce_add() / degrees_of_freedom / pose_count as f64).sqrt()
         });
-        MeasuredGain { value: self.gaussians.gain, error: LikelihoodGain { pose, floor } }
+        MeasuredGain { value: self.fitted_gaussians.gain, error: LikelihoodGain { pose, floor } }
     }
 
     /// Returns the standard error of ln(A/B) by the delta method. A is the area of the 2σ ellipse of the Gaussian in (x, y). B is the area

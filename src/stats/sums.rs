@@ -8,27 +8,27 @@ use wide::{f64x2, f64x4};
 #[derive(Clone, Debug)]
 pub struct CompensatedSums<const N: usize> {
     /// Sums of the current block, which [`add_to_block`] increases.
-    pub block: [f64x2; N],
-    total: [f64x2; N],
-    compensation: [f64x2; N],
+    pub block_sums: [f64x2; N],
+    total_sums: [f64x2; N],
+    rounding_errors: [f64x2; N],
 }
 
 impl<const N: usize> CompensatedSums<N> {
     pub fn new() -> Self {
         let zero_sums = [f64x2::splat(0.0); N];
-        Self { block: zero_sums, total: zero_sums, compensation: zero_sums }
+        Self { block_sums: zero_sums, total_sums: zero_sums, rounding_errors: zero_sums }
     }
 
     pub fn flush_block(&mut self) {
-        flush_blocks(&mut self.block, &mut self.total, &mut self.compensation);
+        flush_blocks(&mut self.block_sums, &mut self.total_sums, &mut self.rounding_errors);
     }
 
     pub fn totals(&self) -> [f64; N] {
-        std::array::from_fn(|i| compensated_total(self.total[i], self.compensation[i]))
+        std::array::from_fn(|i| compensated_total(self.total_sums[i], self.rounding_errors[i]))
     }
 }
 
-/// Adds the sums of blocks to the totals, and the rounding errors of these additions to `compensation` (Knuth's two-sum).
+/// Adds the sums of blocks to the totals, and the rounding errors of these additions to `rounding_errors` (Knuth's two-sum).
 #[inline(never)]
 fn flush_blocks(block_sums: &mut [f64x2], totals: &mut [f64x2], compensation: &mut [f64x2]) {
     for ((block, total), compensation) in block_sums.iter_mut().zip(totals).zip(compensation) {
@@ -60,11 +60,11 @@ pub type PairSums = CompensatedSums<5>;
 impl PairSums {
     pub fn add(&mut self, [a, b]: [f64x4; 2], lane_mask: f64x4) {
         let (a, b) = (a & lane_mask, b & lane_mask);
-        add_to_block(&mut self.block, [a, b, a * a, a * b, b * b]);
+        add_to_block(&mut self.block_sums, [a, b, a * a, a * b, b * b]);
     }
 
     pub fn subtract(&mut self, [a, b]: [f64x4; 2], lane_mask: f64x4) {
         let (a, b) = (a & lane_mask, b & lane_mask);
-        add_to_block(&mut self.block, [-a, -b, -(a * a), -(a * b), -(b * b)]);
+        add_to_block(&mut self.block_sums, [-a, -b, -(a * a), -(a * b), -(b * b)]);
     }
 }

@@ -54,7 +54,7 @@ pub type JacobianScale = [f64; 2];
 pub struct FirstPass {
     reference_point: ReferencePoint,
     pub jacobian_scale: JacobianScale,
-    sums: CompensatedSums<16>,
+    summed_products: CompensatedSums<16>,
     /// Sums of the first two random numbers of variance 1 of each robot.
     pub unit_noise: PairSums,
     /// Corrections for irregular arcs, which differ from the driven arcs (see `NoisyDrive::end_points`). The sums of the noise stand for
@@ -71,7 +71,7 @@ impl FirstPass {
         Self {
             reference_point,
             jacobian_scale,
-            sums: CompensatedSums::new(),
+            summed_products: CompensatedSums::new(),
             unit_noise: PairSums::new(),
             irregular_arcs: PairSums::new(),
             jacobian_products: [f64x2::splat(1.0); 2],
@@ -91,7 +91,7 @@ impl FirstPass {
         let [xx, xy, yy] = [x * x, x * y, y * y];
         let [aa, al, ll, ah, lh, hh] = [a * a, a * l, l * l, a * h, l * h, h * h];
         let summed_terms = [x, y, a, l, h, xx, xy, yy, aa, al, ll, ah, lh, hh, sin * cos, sin * sin];
-        add_to_block(&mut self.sums.block, summed_terms);
+        add_to_block(&mut self.summed_products.block_sums, summed_terms);
     }
 
     #[inline(always)]
@@ -127,7 +127,7 @@ impl FirstPass {
     }
 
     pub fn flush_block(&mut self) {
-        self.sums.flush_block();
+        self.summed_products.flush_block();
         self.unit_noise.flush_block();
         self.irregular_arcs.flush_block();
         for (jacobian_product, log_sum) in self.jacobian_products.iter_mut().zip(&mut self.log_jacobian_sums)
@@ -142,7 +142,8 @@ impl FirstPass {
     /// driven arcs, in the order of [`PairSums`]; the corrections for irregular arcs are added to them.
     pub fn moments(&self, pose_count: usize, regular_sums: [f64; 5]) -> FirstPassMoments {
         let n = pose_count as f64;
-        let [x, y, a, l, h, xx, xy, yy, aa, al, ll, ah, lh, hh, sin_cos, sin_sin] = self.sums.totals();
+        let [x, y, a, l, h, xx, xy, yy, aa, al, ll, ah, lh, hh, sin_cos, sin_sin] =
+            self.summed_products.totals();
         let irregular_sums = self.irregular_arcs.totals();
         let [s, t, ss, st, tt] = std::array::from_fn(|i| regular_sums[i] + irregular_sums[i]);
         // A covariance is the mean of the products minus the product of the means.
@@ -188,7 +189,7 @@ impl FirstPass {
     /// of a small cloud is many of its standard deviations away from the reference point.
     pub fn better_reference_point(&self, count: usize) -> Option<ReferencePoint> {
         let n = count as f64;
-        let sums = self.sums.totals();
+        let sums = self.summed_products.totals();
         let means = [0, 1, 2, 3, 4].map(|i| sums[i] / n);
         let mean_squares = [5, 7, 8, 10, 13].map(|i| sums[i] / n);
         let has_lost_digits =
@@ -220,7 +221,7 @@ pub struct SecondPass {
     heading_sin_cos: (f64, f64),
     ellipse: Ellipse,
     twist_ellipse: Ellipse,
-    sums: CompensatedSums<17>,
+    summed_products: CompensatedSums<17>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -246,7 +247,7 @@ impl SecondPass {
             heading_sin_cos: libm::sincos(first_pass.mean_turn),
             ellipse: Ellipse::new(first_pass.position.into(), Matrix2::new(xx, xy, xy, yy)),
             twist_ellipse: ExponentialContour::new(&first_pass.exponential, start_pose).ellipse,
-            sums: CompensatedSums::new(),
+            summed_products: CompensatedSums::new(),
         }
     }
 
@@ -269,11 +270,11 @@ impl SecondPass {
         let [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td] = track_products(a, d, s, t);
         let summed_terms =
             [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td, t * a, ellipse_counts, contour_counts];
-        add_to_block(&mut self.sums.block, summed_terms);
+        add_to_block(&mut self.summed_products.block_sums, summed_terms);
     }
 
     pub fn flush_block(&mut self) {
-        self.sums.flush_block();
+        self.summed_products.flush_block();
     }
 
     /// Returns the statistics of `count` poses. `sample` is a weighted subsample of the poses, for the standard errors of the likelihood
@@ -284,7 +285,7 @@ impl SecondPass {
         sample: impl Iterator<Item = (FourPoses, FourArcs, f64x4)>,
     ) -> CloudStats {
         let n = count as f64;
-        let means = self.sums.totals().map(|sum| sum / n);
+        let means = self.summed_products.totals().map(|sum| sum / n);
         let [products @ .., mean_ta, fraction_in_ellipse, inside_contour] = means;
         let [.., t, tt, td] = products;
         let FirstPassMoments { position: [x, y], position_cov: [xx, xy, yy], .. } = self.first_pass;

@@ -88,7 +88,7 @@ struct CurrentLeg {
     odometry_start: SE2,
     true_start: SE2,
     /// Time of each row, and noise-free motion from the start of the leg to that row.
-    motions: Vec<(f64, SE2)>,
+    timed_motions: Vec<(f64, SE2)>,
 }
 
 /// Simulates the odometry and the reference of a log, with random numbers from a seed.
@@ -102,11 +102,11 @@ pub fn simulate_log(seed: u64) -> Drive {
     let mut current_leg = CurrentLeg {
         odometry_start: SE2::identity(),
         true_start: start_pose,
-        motions: vec![(0.0, SE2::identity())],
+        timed_motions: vec![(0.0, SE2::identity())],
     };
     for row in 1..ROW_COUNT {
         let time = ROW_INTERVAL * row as f64;
-        let (_, leg_motion) = current_leg.motions[current_leg.motions.len() - 1];
+        let (_, leg_motion) = current_leg.timed_motions[current_leg.timed_motions.len() - 1];
         // The robot steers by its odometry. Steering by the true pose would correct the errors, and correlate them with the turns.
         let [v, omega] = controller.next_speeds(time, &(start_pose * odometry_poses[row - 1].1), &mut rng);
         let next_motion = leg_motion * SE2::exp(&Vector3::new(v * ROW_INTERVAL, 0.0, omega * ROW_INTERVAL));
@@ -117,7 +117,7 @@ pub fn simulate_log(seed: u64) -> Drive {
         );
         let odometry_pose = odometry_poses[row - 1].1 * SE2::exp(&odometry_twist);
         odometry_poses.push((time, odometry_pose));
-        current_leg.motions.push((time, next_motion));
+        current_leg.timed_motions.push((time, next_motion));
         let has_moved_far = |first_coordinate: f64, to: f64| (to - first_coordinate).abs() > LEG_DISTANCE;
         let has_turned =
             wrap_angle(odometry_pose.theta() - current_leg.odometry_start.theta()).abs() > LEG_ANGLE;
@@ -129,14 +129,14 @@ pub fn simulate_log(seed: u64) -> Drive {
             current_leg = CurrentLeg {
                 odometry_start: odometry_pose,
                 true_start: leg_end,
-                motions: vec![(time, SE2::identity())],
+                timed_motions: vec![(time, SE2::identity())],
             };
         }
     }
     // The motion after the last complete leg has no noise.
     true_poses.extend(
         current_leg
-            .motions
+            .timed_motions
             .iter()
             .skip(1)
             .map(|(time, leg_motion)| (*time, current_leg.true_start * *leg_motion)),
@@ -156,8 +156,8 @@ pub fn simulate_log(seed: u64) -> Drive {
 /// a leg were spread evenly over its rows, legs with other boundaries would have too little noise.
 fn finish_leg(leg: &CurrentLeg, true_poses: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus) -> SE2 {
     let [a1, a2, a3, a4] = TRUTH.alphas;
-    let row_motions = &leg.motions[1..];
-    let (_, leg_motion) = leg.motions[row_motions.len()];
+    let row_motions = &leg.timed_motions[1..];
+    let (_, leg_motion) = leg.timed_motions[row_motions.len()];
     let leg_reading = OdomDelta::from_poses(&SE2::identity(), &leg_motion);
     let leg_variances = OdometryRule::Table.variances(&leg_reading, &[a1, a2, a3, a4, 0.0]);
     let variance_per_row = Variance(1.0 / row_motions.len() as f64);

@@ -58,7 +58,7 @@ js_structs! {
 pub struct AlphaCalibrator {
     settings: Settings,
     log_source: LogSource,
-    fit: Fit,
+    current_fit: Fit,
     /// Revision of the fit: a number that increases when the log changes, or a setting on which the fit depends.
     fit_revision: u32,
 }
@@ -98,7 +98,7 @@ impl AlphaCalibrator {
         calibration: OnceCell<Calibration>,
     ) -> Result<Self, SettingsError> {
         settings.check()?;
-        Ok(Self { settings, log_source, fit: Fit { settings, calibration }, fit_revision: 1 })
+        Ok(Self { settings, log_source, current_fit: Fit { settings, calibration }, fit_revision: 1 })
     }
 
     /// Returns the settings.
@@ -108,12 +108,12 @@ impl AlphaCalibrator {
 
     /// Returns the settings of the fit. They differ from [`AlphaCalibrator::settings`] while the current settings are pending.
     pub fn fitted_settings(&self) -> &Settings {
-        &self.fit.settings
+        &self.current_fit.settings
     }
 
     /// Returns true while the settings need another fit, which only a simulation with the log can compute.
     pub fn is_pending(&self) -> bool {
-        !self.fit.settings.has_same_fit(&self.settings)
+        !self.current_fit.settings.has_same_fit(&self.settings)
     }
 
     /// Changes the settings. Errors are those of [`AlphaCalibrator::new`], and change nothing.
@@ -122,7 +122,7 @@ impl AlphaCalibrator {
         let is_same_log =
             !matches!(self.log_source, LogSource::Simulated) || self.settings.seed == settings.seed;
         self.settings = settings;
-        self.fit.settings.copy_prediction_settings(&settings);
+        self.current_fit.settings.copy_prediction_settings(&settings);
         if !is_same_log || self.is_pending() {
             self.invalidate_fit();
         }
@@ -137,7 +137,7 @@ impl AlphaCalibrator {
 
     fn invalidate_fit(&mut self) {
         if !matches!(self.log_source, LogSource::Restored) {
-            self.fit = Fit { settings: self.settings, calibration: OnceCell::new() };
+            self.current_fit = Fit { settings: self.settings, calibration: OnceCell::new() };
             self.fit_revision += 1;
         }
     }
@@ -149,9 +149,9 @@ impl AlphaCalibrator {
 
     /// Returns the calibration, which is empty if the log has too few legs.
     pub fn calibration(&self) -> &Calibration {
-        self.fit.calibration.get_or_init(|| {
-            let Settings { seed, .. } = self.fit.settings;
-            let options = self.fit.settings.options();
+        self.current_fit.calibration.get_or_init(|| {
+            let Settings { seed, .. } = self.current_fit.settings;
+            let options = self.current_fit.settings.options();
             let drives = match &self.log_source {
                 LogSource::Simulated => &[example::simulate_log(seed)],
                 LogSource::Loaded(drives) => &drives[..],
@@ -173,7 +173,7 @@ impl AlphaCalibrator {
 
     /// Returns a diagram for each noise component of the model: squared residuals against the regressor.
     pub fn panels(&self, regressor: Regressor) -> [Panel; 3] {
-        let model = self.fit.settings.model();
+        let model = self.current_fit.settings.model();
         [0, 1, 2].map(|component_index| create_panel(model, self.calibration(), component_index, regressor))
     }
 
@@ -181,7 +181,7 @@ impl AlphaCalibrator {
     pub fn leg(&self, index: usize) -> Option<LegView> {
         let leg = self.legs().get(index)?;
         let leg_reading = self.calibration().observations[index].reading;
-        let mut outcome_draws = Draws::new(self.fit.settings.seed, self.fit.settings.noise);
+        let mut outcome_draws = Draws::new(self.current_fit.settings.seed, self.current_fit.settings.noise);
         outcome_draws.extend_to(OUTCOME_COUNT);
         let outcome_poses: Vec<SE2> = (0..OUTCOME_COUNT)
             .map(|index| self.outcome_pose(&leg_reading, outcome_draws.noise_of_sample(index)))
@@ -198,7 +198,7 @@ impl AlphaCalibrator {
     /// Returns the end pose that the fitted model predicts for an odometry reading or command, with the noise `unit_noise` (three numbers
     /// of variance 1).
     fn outcome_pose(&self, reading: &[f64; 3], unit_noise: [f64; 3]) -> SE2 {
-        let (settings, calibration) = (&self.fit.settings, self.calibration());
+        let (settings, calibration) = (&self.current_fit.settings, self.calibration());
         // An α that the log does not identify counts as 0.
         let inflated_alpha =
             |k: usize| settings.inflation * calibration.alphas.get(k).copied().flatten().unwrap_or(0.0);

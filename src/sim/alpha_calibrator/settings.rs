@@ -136,7 +136,8 @@ impl SettingRules for Settings {
             return Ok(());
         }
         let allowed_rules = if self.is_omnidirectional() { "omni" } else { "thrun, nav2 or beluga" };
-        let allowed_values = AllowedValues::Keyword { given: self.rule.get(), allowed: allowed_rules };
+        let allowed_values =
+            AllowedValues::Keyword { given_keyword: self.rule.get(), allowed: allowed_rules };
         Err(SettingsError { key: "rule".to_owned(), value: f64::NAN, allowed: allowed_values })
     }
 }

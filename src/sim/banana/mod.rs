@@ -130,7 +130,7 @@ pub struct BananaMachine {
     cloud: Cloud,
     stats: Stats,
     /// Latest picture, which JavaScript reads from the core's memory.
-    picture: Vec<[u8; 4]>,
+    picture_pixels: Vec<[u8; 4]>,
 }
 
 cloud_simulation!(BananaMachine);
@@ -142,7 +142,7 @@ impl BananaMachine {
         cloud.reserve(settings.samples).map_err(|_| SettingsError::out_of_memory(settings.samples))?;
         let cloud_stats = cloud.drive_and_summarize(settings.seed, settings.noise, noisy_drive, 0);
         let stats = Stats::of_cloud(0, &cloud_stats, DefinedCoordinates { pose: false, arc: false });
-        Ok(Self { settings, cloud, stats, picture: Vec::new() })
+        Ok(Self { settings, cloud, stats, picture_pixels: Vec::new() })
     }
 
     /// Changes the settings and shows the first block of `target_count` samples. [`BananaMachine::add_samples`] shows the remaining
@@ -349,16 +349,16 @@ impl BananaMachine {
         OdomDelta::from_poses(&START_POSE, &command_end(&self.settings.command))
     }
 
-    /// Counts the shown samples in each cell of a grid over a picture: see [`picture::count_samples_in_cells`].
+    /// Counts the shown samples in each cell of a grid over a picture: see [`picture_pixels::count_samples_in_cells`].
     pub fn density(&self, morph: f64, grid: &ViewGrid) -> Vec<u32> {
         picture::count_samples_in_cells(&self.cloud, morph, grid)
     }
 
-    /// Paints the density of the shown samples: see [`picture::paint_cell_counts`].
+    /// Paints the density of the shown samples: see [`picture_pixels::paint_cell_counts`].
     pub fn paint(&mut self, morph: f64, grid: &ViewGrid, ramp: &Ramp) -> &[[u8; 4]] {
         let cell_counts = self.density(morph, grid);
-        self.picture = picture::paint_cell_counts(cell_counts.as_chunks().0, array::from_ref(ramp));
-        &self.picture
+        self.picture_pixels = picture::paint_cell_counts(cell_counts.as_chunks().0, array::from_ref(ramp));
+        &self.picture_pixels
     }
 
     /// Returns the shown sample nearest to a point of the picture, inside the ellipse of the given radii around it.

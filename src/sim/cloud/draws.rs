@@ -37,7 +37,7 @@ fn subsample_group_limit([a, b, c]: &[f64x4; 3]) -> usize {
 #[derive(Clone, Debug)]
 pub struct Draws {
     seed: u64,
-    noise: NoiseKind,
+    noise_kind: NoiseKind,
     /// Generator with the same stream on every target, which `SmallRng` does not guarantee.
     rng: Xoshiro256PlusPlus,
     /// Three random numbers of variance 1 for each sample, in groups of four samples. The last group may contain numbers of samples beyond
@@ -47,7 +47,7 @@ pub struct Draws {
 
 impl Draws {
     pub fn new(seed: u64, noise: NoiseKind) -> Self {
-        Self { seed, noise, rng: Xoshiro256PlusPlus::seed_from_u64(seed), unit_noise: Vec::new() }
+        Self { seed, noise_kind: noise, rng: Xoshiro256PlusPlus::seed_from_u64(seed), unit_noise: Vec::new() }
     }
 
     pub fn reserve(&mut self, sample_count: usize) -> Result<(), TryReserveError> {
@@ -56,7 +56,7 @@ impl Draws {
     }
 
     pub fn reset_if_changed(&mut self, seed: u64, noise: NoiseKind) {
-        if self.seed != seed || self.noise != noise {
+        if self.seed != seed || self.noise_kind != noise {
             let unit_noise = std::mem::take(&mut self.unit_noise);
             *self = Self { unit_noise, ..Self::new(seed, noise) };
             self.unit_noise.clear();
@@ -65,7 +65,7 @@ impl Draws {
 
     /// Draws random numbers of further samples until there are `sample_count` samples. Memory must have been reserved.
     pub fn extend_to(&mut self, sample_count: usize) {
-        let Self { noise, rng, unit_noise, .. } = self;
+        let Self { noise_kind: noise, rng, unit_noise, .. } = self;
         let (first_group, end_group) = (unit_noise.len(), sample_count.div_ceil(LANE_COUNT));
         while unit_noise.len() < end_group {
             unit_noise.push(draw_four_uniform_triples(rng));

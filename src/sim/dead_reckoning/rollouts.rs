@@ -66,7 +66,7 @@ pub const MAX_SHOWN_ROBOTS: usize = 600;
 
 #[derive(Clone, Debug)]
 pub struct Rollouts {
-    step: StepInErrorFrame,
+    step_in_error_frame: StepInErrorFrame,
     seed: u64,
     /// Random generator of the next block. Each block has its own stream of numbers, and a longer path continues that stream. The first
     /// steps of a robot therefore depend on the seed alone.
@@ -74,7 +74,7 @@ pub struct Rollouts {
     /// Number of robots driven in complete blocks.
     driven_count: usize,
     /// Sums over the robots of complete blocks, after each step.
-    sums: Vec<CompensatedSums<SUMMED_TERM_COUNT>>,
+    sums_by_step: Vec<CompensatedSums<SUMMED_TERM_COUNT>>,
     /// Commanded pose after each step.
     pub nominal_poses: Vec<SE2>,
     /// Poses x, y (m) and θ (rad) of the first robots, step after step.
@@ -136,11 +136,11 @@ impl Rollouts {
         poses.resize(step_count * MAX_SHOWN_ROBOTS, [0.0; 3]);
         let twist = TangentNoiseModel::twist(&settings.command);
         Ok(Self {
-            step: StepInErrorFrame::new(settings),
+            step_in_error_frame: StepInErrorFrame::new(settings),
             seed: settings.seed,
             block_rng: Xoshiro256PlusPlus::seed_from_u64(settings.seed),
             driven_count: 0,
-            sums: vec![CompensatedSums::new(); step_count],
+            sums_by_step: vec![CompensatedSums::new(); step_count],
             nominal_poses: (1..=step_count).map(|k| SE2::exp(&(twist * k as f64))).collect(),
             poses,
         })
@@ -152,12 +152,12 @@ impl Rollouts {
         if target_count < self.driven_count {
             self.block_rng = Xoshiro256PlusPlus::seed_from_u64(self.seed);
             self.driven_count = 0;
-            self.sums.fill(CompensatedSums::new());
+            self.sums_by_step.fill(CompensatedSums::new());
         }
         while self.driven_count + ROLLOUTS_PER_BLOCK <= target_count {
-            let mut sums = std::mem::take(&mut self.sums);
+            let mut sums = std::mem::take(&mut self.sums_by_step);
             self.drive_next_block(ROLLOUTS_PER_BLOCK, &mut sums);
-            self.sums = sums;
+            self.sums_by_step = sums;
             self.block_rng.jump();
             self.driven_count += ROLLOUTS_PER_BLOCK;
         }
@@ -169,16 +169,16 @@ impl Rollouts {
             sums.iter().map(|sums| moments_from_sums(&sums.totals(), target_count as f64)).collect()
         };
         if target_count == self.driven_count {
-            return moments_of(&self.sums);
+            return moments_of(&self.sums_by_step);
         }
-        let mut sums = self.sums.clone();
+        let mut sums = self.sums_by_step.clone();
         self.drive_next_block(target_count - self.driven_count, &mut sums);
         moments_of(&sums)
     }
 
     #[inline(never)]
     fn drive_next_block(&mut self, robot_count: usize, sums: &mut [CompensatedSums<SUMMED_TERM_COUNT>]) {
-        let Self { step, block_rng, driven_count, nominal_poses, poses, .. } = self;
+        let Self { step_in_error_frame: step, block_rng, driven_count, nominal_poses, poses, .. } = self;
         let mut robot_block = RobotBlock::new(block_rng.clone());
         for (k, (sums, nominal_poses)) in sums.iter_mut().zip(nominal_poses).enumerate() {
             robot_block.drive_one_step(step);
@@ -200,7 +200,7 @@ impl Rollouts {
         }
     }
 
-    /// Returns x, y (m) and θ (rad) of the first `robot_count` robots, at most [`MAX_SHOWN_ROBOTS`], after step `step_number` (from 1).
+    /// Returns x, y (m) and θ (rad) of the first `robot_count` robots, at most [`MAX_SHOWN_ROBOTS`], after step_in_error_frame `step_number` (from 1).
     pub fn poses(&self, step_number: usize, robot_count: usize) -> &[[f64; 3]] {
         &self.poses[(step_number - 1) * MAX_SHOWN_ROBOTS..][..robot_count.min(MAX_SHOWN_ROBOTS)]
     }
@@ -212,7 +212,7 @@ impl Rollouts {
         let (group_index, lane) = (robot_index % ROLLOUTS_PER_BLOCK / LANE_COUNT, robot_index % LANE_COUNT);
         let mut robot_block = RobotBlock::new(block_rng);
         let pose_after = |nominal_pose| {
-            robot_block.drive_one_step(&self.step);
+            robot_block.drive_one_step(&self.step_in_error_frame);
             robot_block.groups[group_index].pose(lane, nominal_pose)
         };
         self.nominal_poses.iter().map(pose_after).collect()
@@ -259,7 +259,7 @@ fn add_to_sums(sums: &mut CompensatedSums<SUMMED_TERM_COUNT>, [a, l, h]: [f64x4;
     let [aa, ll, hh] = [a * a, l * l, h * h];
     let power_products =
         [a, l, h, aa, ll, hh, a * aa, l * ll, h * hh, aa * aa, ll * ll, hh * hh, a * l, a * h, l * h];
-    add_to_block(&mut sums.block, power_products);
+    add_to_block(&mut sums.block_sums, power_products);
 }
 
 /// Minimum number of robots whose kurtosis is reliable enough for standard errors of variances.

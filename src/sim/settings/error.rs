@@ -25,10 +25,10 @@ pub enum AllowedValues {
     Integer(RangeInclusive<u64>),
     /// Numbers of samples for which there is enough memory.
     FitsInMemory,
-    /// Keywords that are allowed instead of `given`.
+    /// Keywords that are allowed instead of `given_keyword`.
     Keyword {
         /// The keyword that is not allowed.
-        given: &'static str,
+        given_keyword: &'static str,
         /// Keywords that are allowed, as text.
         allowed: &'static str,
     },
@@ -42,7 +42,7 @@ impl SettingsError {
 
     fn message(&self) -> String {
         let allowed_text = match &self.allowed {
-            AllowedValues::Keyword { given, allowed } => {
+            AllowedValues::Keyword { given_keyword: given, allowed } => {
                 return format!("{} is {given}; allowed is {allowed}", self.key);
             }
             AllowedValues::Real(range) => {

@@ -31,13 +31,13 @@ pub const MAX_TRIAL_PARTS: u64 = 100_000;
 /// Simulation of the Map Squeeze widget: a map, settings, draws, and the attempts shown.
 #[derive(Clone, Debug)]
 pub struct MapSqueeze {
-    plan: FloorPlan,
+    floor_plan: FloorPlan,
     settings: Settings,
     draws: Draws,
     attempts: Vec<Attempt>,
-    tally: Tally,
+    outcome_tally: Tally,
     /// Latest picture, which JavaScript reads from the core's memory.
-    picture: Vec<[u8; 4]>,
+    picture_pixels: Vec<[u8; 4]>,
 }
 
 /// Numbers of the attempts shown that are accepted, or accepted through a wall, and the costs of the attempts.
@@ -63,12 +63,12 @@ cloud_simulation!(MapSqueeze);
 impl MapSqueeze {
     fn empty(settings: Settings) -> Result<Self, SettingsError> {
         let mut simulation = Self {
-            plan: FloorPlan::apartment(),
+            floor_plan: FloorPlan::apartment(),
             settings,
             draws: Draws::new(settings.seed, NoiseKind::Normal),
             attempts: Vec::new(),
-            tally: Tally::default(),
-            picture: Vec::new(),
+            outcome_tally: Tally::default(),
+            picture_pixels: Vec::new(),
         };
         simulation.reserve_memory(&settings)?;
         Ok(simulation)
@@ -83,19 +83,20 @@ impl MapSqueeze {
 
     /// Returns the floor plan.
     pub fn plan(&self) -> &FloorPlan {
-        &self.plan
+        &self.floor_plan
     }
 
     /// Replaces the map, and keeps the start pose and the random numbers. Makes as many attempts as before, or all if the simulation had
     /// given up.
     pub fn set_plan(&mut self, plan: FloorPlan) {
-        self.plan = plan;
-        let attempt_count = if self.tally.gave_up { self.settings.samples } else { self.shown_count() };
+        self.floor_plan = plan;
+        let attempt_count =
+            if self.outcome_tally.gave_up { self.settings.samples } else { self.shown_count() };
         self.clear_attempts();
         self.add_samples(attempt_count);
     }
 
-    /// Replaces the map by a grid, as [`MapSqueeze::set_plan`] replaces it by a plan. The setting `unknown` defines whether unknown cells
+    /// Replaces the map by a grid, as [`MapSqueeze::set_plan`] replaces it by a floor plan. The setting `unknown` defines whether unknown cells
     /// are obstacles. Errors are those of [`FloorPlan::from_grid`], and change nothing.
     pub fn set_grid(&mut self, grid: OccupancyGrid) -> Result<(), FloorPlanError> {
         self.set_plan(FloorPlan::from_grid(grid.with_unknown(self.settings.unknown))?);
@@ -107,7 +108,7 @@ impl MapSqueeze {
     /// `unknown`. After an error nothing has changed.
     pub fn configure_first(&mut self, settings: Settings, target_count: usize) -> Result<(), SettingsError> {
         settings.check()?;
-        let outdated_grid = self.plan.grid().filter(|_| settings.unknown != self.settings.unknown);
+        let outdated_grid = self.floor_plan.grid().filter(|_| settings.unknown != self.settings.unknown);
         let plan =
             outdated_grid.map(|grid| FloorPlan::from_grid(grid.clone().with_unknown(settings.unknown)));
         // A grid that was accepted before is refused only if its unknown cells, which are now obstacles, have too many outlines.
@@ -115,13 +116,13 @@ impl MapSqueeze {
             key: "unknown".to_owned(),
             value: f64::NAN,
             allowed: AllowedValues::Keyword {
-                given: "blocked",
+                given_keyword: "blocked",
                 allowed: "free, as the cells of this map would have more than 20000 sides",
             },
         })?;
         self.reserve_memory(&settings)?;
         if let Some(plan) = plan {
-            self.plan = plan;
+            self.floor_plan = plan;
         }
         self.settings = settings;
         self.clear_attempts();
@@ -131,7 +132,7 @@ impl MapSqueeze {
 
     fn clear_attempts(&mut self) {
         self.attempts.clear();
-        self.tally = Tally::default();
+        self.outcome_tally = Tally::default();
     }
 
     /// Makes attempts up to a number. If nearly every draw collides, the simulation gives up, and further calls make no attempts.
@@ -139,7 +140,7 @@ impl MapSqueeze {
         self.draws.reset_if_changed(self.settings.seed, NoiseKind::Normal);
         self.draws.extend_to(target_count);
         let part_count = self.settings.part_count() as usize;
-        let Self { plan, settings, draws, attempts, tally, .. } = self;
+        let Self { floor_plan: plan, settings, draws, attempts, outcome_tally: tally, .. } = self;
         let model = conditioned_model(settings, plan, settings.sampler);
         let attempt_driver = AttemptDriver::new(&model, settings, draws);
         while attempts.len() < target_count && !tally.gave_up {
@@ -170,7 +171,7 @@ impl MapSqueeze {
 
     /// Returns the statistics of the attempts shown.
     pub fn stats(&self) -> Stats {
-        let Tally { cost, accepted, through_wall, gave_up } = self.tally;
+        let Tally { cost, accepted, through_wall, gave_up } = self.outcome_tally;
         // The ratio is NaN for 0/0, and infinite for another number over 0.
         let ratio_of = |numerator: usize, denominator: usize| numerator as f64 / denominator as f64;
         Stats {
@@ -188,7 +189,7 @@ impl MapSqueeze {
         }
     }
 
-    /// Paints the density of the ends of the attempts shown, by [`Attempt::outcome_kind`]: see [`picture::paint_cell_counts`].
+    /// Paints the density of the ends of the attempts shown, by [`Attempt::outcome_kind`]: see [`picture_pixels::paint_cell_counts`].
     pub fn paint(&mut self, grid: &ViewGrid, colour_ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> &[[u8; 4]] {
         let (ViewGrid { min_corner, max_corner, .. }, cells_per_metre) = (*grid, grid.cells_per_unit());
         let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; grid.columns * grid.rows];
@@ -199,8 +200,8 @@ impl MapSqueeze {
                 cell_counts[cell_index][attempt.outcome_kind()] += 1;
             }
         }
-        self.picture = picture::paint_cell_counts(&cell_counts, colour_ramps);
-        &self.picture
+        self.picture_pixels = picture::paint_cell_counts(&cell_counts, colour_ramps);
+        &self.picture_pixels
     }
 
     /// Returns the attempt that ends nearest to the point `target_point` (m), within `search_radius` (m).
@@ -214,14 +215,14 @@ impl MapSqueeze {
         if attempt_index >= self.attempts.len() {
             return Vec::new();
         }
-        let model = conditioned_model(&self.settings, &self.plan, self.settings.sampler);
+        let model = conditioned_model(&self.settings, &self.floor_plan, self.settings.sampler);
         AttemptDriver::new(&model, &self.settings, &self.draws).arcs(attempt_index)
     }
 
     /// Draws `sample_count` accepted samples with a sampler and returns their cost. The caller measures the time. Fails with
     /// [`NoAcceptedSample`] if one of the samples is not accepted, or if there are so many draws that the simulation would give up.
     pub fn sampling_trial(&self, sampler: Sampler, sample_count: usize) -> Result<Cost, NoAcceptedSample> {
-        let model = conditioned_model(&self.settings, &self.plan, sampler);
+        let model = conditioned_model(&self.settings, &self.floor_plan, sampler);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.settings.seed);
         let mut total_cost = Cost::default();
         let part_count = sampler.part_count() as usize * sample_count;
@@ -238,7 +239,7 @@ impl MapSqueeze {
     /// Returns true if the robot collides with nothing at its start pose.
     pub fn is_start_free(&self) -> bool {
         let [x, y, _] = self.settings.start;
-        self.plan.test_point([x, y], self.settings.clearance).free
+        self.floor_plan.test_point([x, y], self.settings.clearance).free
     }
 
     /// Returns the noise-free arc of the command.

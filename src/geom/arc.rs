@@ -298,7 +298,7 @@ impl ArcPiece {
         }
     }
 
-    /// Returns the coordinates, ahead and to the left of the middle of the arc piece, of the point `s` metres after the middle_point. `T` is a
+    /// Returns the coordinates, ahead and to the left of the middle of the arc piece, of the point `s` metres after the middle. `T` is a
     /// number or four SIMD lanes.
     #[inline(always)]
     fn local_point<T>(&self, s: T) -> [T; 2]

@@ -204,8 +204,8 @@ impl MapConditioned<'_> {
     }
 
     /// Returns an accepted motion as [`MapConditioned::sample`] does, and calls `visit_arc` with the arc of each of its parts. If
-    /// `is_conditioned` is false, every draw is accepted. For equal random numbers, conditioned and unconditioned motions are equal up to the
-    /// first rejected draw.
+    /// `is_conditioned` is false, every draw is accepted. For equal random numbers, conditioned and unconditioned motions are equal up to
+    /// the first rejected draw.
     pub fn sample_with_arcs<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,

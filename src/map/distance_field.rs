@@ -155,8 +155,8 @@ impl<'a> FieldBuilder<'a> {
         }
     }
 
-    /// Computes the lower bounds of the cells of a block, or divides the block into four. `candidate_walls` has every wall that may be nearest
-    /// to a point of the block.
+    /// Computes the lower bounds of the cells of a block, or divides the block into four. `candidate_walls` has every wall that may be
+    /// nearest to a point of the block.
     fn fill_block(&mut self, candidate_walls: &[WallSet], [left, first_row]: [usize; 2], width: usize) {
         if left >= self.distance_field.columns || first_row >= self.rows {
             return;

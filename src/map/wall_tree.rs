@@ -178,8 +178,8 @@ impl WallNode {
     }
 }
 
-/// Moves the `smallest_count` walls with the smallest sort keys to the front, by Hoare's selection. After [`MAX_SELECTION_ROUNDS`] rounds the
-/// selection may still be incomplete. The capsules of the search tree are then larger, but searches remain correct.
+/// Moves the `smallest_count` walls with the smallest sort keys to the front, by Hoare's selection. After [`MAX_SELECTION_ROUNDS`] rounds
+/// the selection may still be incomplete. The capsules of the search tree are then larger, but searches remain correct.
 fn select_smallest(walls: &mut [Segment], smallest_count: usize, key_index: usize) {
     let (mut range_start, mut range_end) = (0, walls.len());
     for _ in 0..MAX_SELECTION_ROUNDS {

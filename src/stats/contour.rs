@@ -112,7 +112,8 @@ pub struct ExponentialContour {
 }
 
 impl ExponentialContour {
-    /// Creates the contour for `moments` of exponential coordinates about `start_pose`. The outline is in the reference frame of `start_pose`.
+    /// Creates the contour for `moments` of exponential coordinates about `start_pose`. The outline is in the reference frame of
+    /// `start_pose`.
     pub fn new(moments: &ExponentialMoments, start: &SE2) -> Self {
         let ExponentialMoments { mean, cov } = *moments;
         let along_heading = Matrix2::new(cov[(0, 0)], cov[(0, 2)], cov[(2, 0)], cov[(2, 2)]);

@@ -3,8 +3,8 @@
 /// Index that marks a missing edge of the grid.
 const NO_EDGE: usize = usize::MAX;
 
-/// Returns the lines on which a field has the value `contour_level`. Between neighbouring points the field is interpolated linearly. The mean of
-/// the four corners decides how a saddle is connected.
+/// Returns the lines on which a field has the value `contour_level`. Between neighbouring points the field is interpolated linearly. The
+/// mean of the four corners decides how a saddle is connected.
 ///
 /// `field_values` are finite, at the points of a grid, row by row with `columns` in each row. The points of the returned lines are (column,
 /// row), in steps of the grid from its first point. A line ends where it began, or at the border of the grid.

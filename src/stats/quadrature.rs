@@ -58,8 +58,8 @@ fn triangular_nodes() -> Vec<Node> {
         .collect()
 }
 
-/// Returns a rule from −`limit` to `limit` for a function that is smooth except at the two `break_points`, a negative and a positive number.
-/// Gauss–Legendre rules are used between the breaks. Moments of normal noise up to six standard deviations have errors of 1e-10.
+/// Returns a rule from −`limit` to `limit` for a function that is smooth except at the two `break_points`, a negative and a positive
+/// number. Gauss–Legendre rules are used between the breaks. Moments of normal noise up to six standard deviations have errors of 1e-10.
 #[inline(never)]
 pub(super) fn piecewise_nodes(noise_kind: NoiseKind, limit: f64, break_points: [f64; 2]) -> Vec<Node> {
     /// Number of quadrature nodes between two break points. Rules for two noises are combined, so that the time grows with the square of

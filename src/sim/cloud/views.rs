@@ -44,7 +44,8 @@ impl ViewGrid {
     }
 }
 
-/// Returns the index of the point nearest to `target_point` inside the ellipse around it, in units of the ellipse's semi-axes `search_radii`.
+/// Returns the index of the point nearest to `target_point` inside the ellipse around it, in units of the ellipse's semi-axes
+/// `search_radii`.
 pub fn nearest_index(
     candidate_points: impl IntoIterator<Item = [f64; 2]>,
     target_point: [f64; 2],

@@ -200,7 +200,7 @@ impl Rollouts {
         }
     }
 
-    /// Returns x, y (m) and θ (rad) of the first `robot_count` robots, at most [`MAX_SHOWN_ROBOTS`], after step_in_error_frame `step_number` (from 1).
+    /// Returns x, y (m) and θ (rad) of the first `robot_count` robots, at most [`MAX_SHOWN_ROBOTS`], after step `step_number` (from 1).
     pub fn poses(&self, step_number: usize, robot_count: usize) -> &[[f64; 3]] {
         &self.poses[(step_number - 1) * MAX_SHOWN_ROBOTS..][..robot_count.min(MAX_SHOWN_ROBOTS)]
     }

@@ -82,8 +82,8 @@ impl Settings {
         }
     }
 
-    /// Returns true if rollouts under `other_settings` settings are equal to the last bit. The number of robots, the selected step and the recursion
-    /// may differ.
+    /// Returns true if rollouts under `other_settings` settings are equal to the last bit. The number of robots, the selected step and the
+    /// recursion may differ.
     pub(super) fn has_same_rollouts(&self, other_settings: &Self) -> bool {
         let Self { step, compounding, samples, .. } = *other_settings;
         // −0 equals 0, but leads to other signs of zeros in the results.

@@ -96,8 +96,8 @@ impl MapSqueeze {
         self.add_samples(attempt_count);
     }
 
-    /// Replaces the map by a grid, as [`MapSqueeze::set_plan`] replaces it by a floor plan. The setting `unknown` defines whether unknown cells
-    /// are obstacles. Errors are those of [`FloorPlan::from_grid`], and change nothing.
+    /// Replaces the map by a grid, as [`MapSqueeze::set_plan`] replaces it by a floor plan. The setting `unknown` defines whether unknown
+    /// cells are obstacles. Errors are those of [`FloorPlan::from_grid`], and change nothing.
     pub fn set_grid(&mut self, grid: OccupancyGrid) -> Result<(), FloorPlanError> {
         self.set_plan(FloorPlan::from_grid(grid.with_unknown(self.settings.unknown))?);
         Ok(())
@@ -286,7 +286,8 @@ js_structs! {
     }
 }
 
-/// Returns the 95 % interval of the fraction of which `success_count` in `trial_count` were observed (Wilson, 1927), which is also valid at 0 and 1.
+/// Returns the 95 % interval of the fraction of which `success_count` in `trial_count` were observed (Wilson, 1927), which is also valid at
+/// 0 and 1.
 pub fn wilson_interval(success_count: usize, trial_count: usize) -> [f64; 2] {
     let n = trial_count as f64;
     let p = success_count as f64 / n;
@@ -360,8 +361,8 @@ impl<'a> AttemptDriver<'a> {
         }
     }
 
-    /// Makes the first attempts of the range `attempt_indices`: up to four in SIMD lanes, or one with the sub-stepped sampler. Calls `visit` with
-    /// each attempt and its cost.
+    /// Makes the first attempts of the range `attempt_indices`: up to four in SIMD lanes, or one with the sub-stepped sampler. Calls
+    /// `visit` with each attempt and its cost.
     #[inline(always)]
     fn make_next_attempts(&self, attempt_indices: Range<usize>, mut visit: impl FnMut(Attempt, Cost)) {
         if let Sampler::SubStepped(_) = self.settings.sampler {

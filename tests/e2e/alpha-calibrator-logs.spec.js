@@ -31,7 +31,7 @@ test('two tables of a user replace the simulated log, and a button restores the 
   await expect(captionOf(calibrator)).toHaveText(/of the simulated log/);
   const errorAlert = calibrator.getByRole('alert');
   await chooseTables(calibrator, { 'odom.csv': logTables.odometry });
-  await expect(errorAlert).toHaveText(/^odom\.csv: it has one log only, .* the odometry; give the reference too\. Drop or choose both files at once\.$/);
+  await expect(errorAlert).toHaveText(/^odom\.csv: it has one log only, .* the odometry; give the reference too\. Drop or choose the other file too,/);
   // The α's on screen belong to the previous log. They cannot be copied until the user confirms these results.
   const outdatedResultsText = 'The results are still those of the simulated log. The files chosen last are not used.';
   await expect(calibrator.locator('.drop-zone .muted')).toContainText(outdatedResultsText);
@@ -42,7 +42,9 @@ test('two tables of a user replace the simulated log, and a button restores the 
   await calibrator.getByRole('button', { name: 'Dismiss these files' }).click();
   for (const resultButton of resultButtons) await expect(resultButton).toBeEnabled();
   await expect(errorAlert).toHaveCount(0);
-  await chooseTables(calibrator, { 'odom.csv': logTables.odometry, 'truth.csv': logTables.reference });
+  await chooseTables(calibrator, { 'odom.csv': logTables.odometry });
+  await expect(errorAlert).toHaveCount(1);
+  await chooseTables(calibrator, { 'truth.csv': logTables.reference });
   await expect(captionOf(calibrator)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
   await chooseTables(calibrator, { 'odom.csv': '', 'truth.csv': '' });
   await expect(errorAlert).toHaveText(/^odom\.csv: there is nothing in it/);

@@ -116,7 +116,7 @@ export const german: Words = {
     fields: FIELD_NAMES,
     none: 'keine',
     read: 'Lesen',
-    other: 'Beide Dateien zugleich hierher ziehen oder wählen.',
+    other: 'Die andere Datei auch hierher ziehen oder wählen, oder beide zugleich.',
   },
   found: {
     title: 'Was gelesen wurde',

@@ -117,7 +117,7 @@ export const english = {
     fields: FIELD_NAMES,
     none: 'none',
     read: 'Read',
-    other: 'Drop or choose both files at once.',
+    other: 'Drop or choose the other file too, or both at once.',
   },
   found: {
     title: 'What was read',

@@ -101,9 +101,13 @@ export class LogOpener extends FileOpener<Figure> {
     this.host.requestUpdate();
   }
 
+  /** Reads files. If the previous file lacked the other log of its drive, it is read again together with them. */
   chooseFiles(files: File[]) {
     const logFiles = files.filter(isPossibleLog);
-    this.#open({ files: logFiles.length ? logFiles : files, recordings: [], skipped: [], answers: {}, questions: [], userChoices: {} });
+    const newFiles = logFiles.length ? logFiles : files;
+    const { files: previousFiles, answers, questions } = this.chosenFiles?.refusal?.question?.option === 'other' ? this.chosenFiles : { files: [], answers: {}, questions: [] };
+    const loneFiles = previousFiles.filter((file) => !newFiles.some(({ name, size }) => name === file.name && size === file.size));
+    this.#open({ files: [...loneFiles, ...newFiles], recordings: [], skipped: [], answers, questions, userChoices: {} });
   }
 
   /** Opens the chosen files again, with answers to questions about them. The answers have the names of the files as keys. */

@@ -30,7 +30,7 @@ export function differencesFromCore(core, sampleCount) {
  * @param {import('../www/types.d.ts').BananaMachine} simulation
  */
 export function unitNoiseOf({ config: { command: { v, omega }, alphas: [a1, a2, a3, a4, a5, a6] }, executed: executedMotions }) {
-  const stdDevs = [[a1, a2], [a3, a4], [a5, a6]].map(([byV, byOmega]) => Math.sqrt(byV * v * v + byOmega * omega * omega));
+  const stdDevs = [[a1, a2], [a3, a4], [a5, a6]].map(([alphaOfSpeed, alphaOfTurnRate]) => Math.sqrt(alphaOfSpeed * v * v + alphaOfTurnRate * omega * omega));
   return executedMotions.map((executedValue, i) => (executedValue - [v, omega, 0][i % 3]) / stdDevs[i % 3]);
 }
 

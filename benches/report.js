@@ -43,7 +43,7 @@ export function formatReport({ ranOn: benchMachine, quick: isQuickRun, node: nod
     { where: runtimeName, samples: formatDigits(refreshRow.samples), 'refresh, ms': cellTextOf(refreshRow.core), 'JavaScript, ms': cellTextOf(refreshRow.baseline), ratio: cellTextOf(computeSpeedRatios(refreshRow)) }
   )));
   return [
-    `${Object.entries(benchMachine).map(([machinePart, partVersion]) => `${machinePart} ${partVersion}`).join('; ')}. Medians, with quartiles in brackets.${isQuickRun ? ' A quick run: too few rounds to be quoted.' : ''}`,
+    `${Object.entries(benchMachine).map(([versionKey, partVersion]) => `${versionKey} ${partVersion}`).join('; ')}. Medians, with quartiles in brackets.${isQuickRun ? ' A quick run: too few rounds to be quoted.' : ''}`,
     formatMarkdownTable(targetRows),
     `One event of the slider:\n\n${formatMarkdownTable(refreshRows)}`,
     `First cloud, from the start of the script:\n\n${formatMarkdownTable(Object.entries(pageStartTimes).map(([stageName, stageTimes]) => ({ until: stageName, ms: cellTextOf(stageTimes) })))}`,

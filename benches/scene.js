@@ -14,9 +14,9 @@ export const PICTURE_VIEW = { xMin: -0.2, yMin: -0.6, xMax: 2.2, yMax: 1.2, colu
 /** Ramp of 256 colours (red, green, blue, opacity) from sparse to dense, as in the widget. */
 export const COLOUR_RAMP = Uint8Array.from({ length: 1024 }, (_, i) => {
   const shadeShare = (i >> 2) / 255;
-  const inkShare = 0.6 * Math.max(0, shadeShare - 0.5);
+  const opacityExcess = 0.6 * Math.max(0, shadeShare - 0.5);
   const [sparseColour, denseColour] = [[213, 94, 0], [27, 31, 36]];
-  return Math.round(i % 4 === 3 ? 255 * (0.15 + 0.85 * shadeShare) : sparseColour[i % 4] + inkShare * (denseColour[i % 4] - sparseColour[i % 4]));
+  return Math.round(i % 4 === 3 ? 255 * (0.15 + 0.85 * shadeShare) : sparseColour[i % 4] + opacityExcess * (denseColour[i % 4] - sparseColour[i % 4]));
 });
 
 /** Returns the command at an event of the slider. The slider moves up and down and never rests. @param {number} eventNumber @returns {Command} */

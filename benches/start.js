@@ -18,7 +18,7 @@ const STAGE_OF_MARK = /** @type {const} */ ({
 export async function measureStarts(browser, pageUrl, loadCount) {
   /** @type {Record<string, number[]>} */
   const stageTimes = Object.fromEntries(Object.values(STAGE_OF_MARK).map((stageName) => [stageName, []]));
-  for (let loadNumber = 0; loadNumber < loadCount; loadNumber++) {
+  for (let loadIndex = 0; loadIndex < loadCount; loadIndex++) {
     // Each load has a new process with its own caches.
     const browserContext = await browser.newContext({ viewport: { width: 1280, height: 900 } });
     const page = await browserContext.newPage();

@@ -23,15 +23,15 @@ export async function raceContenders(contenders, totalSeconds) {
   const timesByContender = Object.fromEntries(contenderList.map(([contenderName]) => [contenderName, []]));
   let eventNumber = 0;
   let endTime = Infinity;
-  for (let roundNumber = -WARM_UP_ROUNDS; roundNumber < MAX_ROUNDS && (roundNumber < MIN_ROUNDS || performance.now() < endTime); roundNumber++) {
-    if (roundNumber === 0) endTime = performance.now() + 1000 * totalSeconds;
+  for (let roundIndex = -WARM_UP_ROUNDS; roundIndex < MAX_ROUNDS && (roundIndex < MIN_ROUNDS || performance.now() < endTime); roundIndex++) {
+    if (roundIndex === 0) endTime = performance.now() + 1000 * totalSeconds;
     // Between two rounds the page handles pending events.
     await new Promise((resolve) => setTimeout(resolve));
     for (const [contenderName, handleEvent] of contenderList) {
       const [runStart, firstEvent] = [performance.now(), eventNumber];
       let elapsedMs = 0;
       for (; elapsedMs < MIN_RUN_MS; elapsedMs = performance.now() - runStart) handleEvent(eventNumber++);
-      if (roundNumber >= 0) timesByContender[contenderName].push(elapsedMs / (eventNumber - firstEvent));
+      if (roundIndex >= 0) timesByContender[contenderName].push(elapsedMs / (eventNumber - firstEvent));
     }
   }
   return timesByContender;

@@ -45,7 +45,7 @@ async function measureInChromium(executablePath, benchOptions) {
   const figuresAddress = `${address}benches/page.html`;
   try {
     printStep('First cloud');
-    const startDurations = await measureStarts(browser, figuresAddress, benchOptions.quick ? 5 : 11);
+    const pageStartTimes = await measureStarts(browser, figuresAddress, benchOptions.quick ? 5 : 11);
     printStep('Drags');
     const dragTimes = await measureDrags(browser, figuresAddress, benchOptions.quick ? 10 : 40);
     printStep('Refresh and calibration');
@@ -58,7 +58,7 @@ async function measureInChromium(executablePath, benchOptions) {
       const [{ load }, { measureCore }] = await Promise.all([import(coreModule), import(suiteModule)]);
       return measureCore(await load(), suiteOptions);
     }, { modules: [`${address}dist/core.js`, `${address}benches/suite.js`], given: benchOptions });
-    return { chromium: chromiumTimings, start: startDurations, drags: dragTimes };
+    return { chromium: chromiumTimings, start: pageStartTimes, drags: dragTimes };
   } finally {
     await browser.close();
     close();

@@ -57,15 +57,15 @@ function* generateCommands() {
 
 /** Returns the poses of the odometry, one for each row. @param {Motion} core @returns {Pose[]} */
 function simulateOdometry(core) {
-  const limitChange = (/** @type {number} */ currentValue, /** @type {number} */ targetValue, /** @type {number} */ maxChange) => currentValue + Math.max(-maxChange, Math.min(maxChange, targetValue - currentValue));
+  const approachValue = (/** @type {number} */ currentValue, /** @type {number} */ targetValue, /** @type {number} */ maxChange) => currentValue + Math.max(-maxChange, Math.min(maxChange, targetValue - currentValue));
   let odometryPose = { x: 0, y: 0, theta: 0 };
   const odometryPoses = [odometryPose];
   let [v, omega, stepCount] = [0, 0, 0];
   for (const command of generateCommands()) {
-    for (let stepsLeft = Math.round(command.seconds / TIME_STEP); stepsLeft > 0; stepsLeft--) {
+    for (let remainingSteps = Math.round(command.seconds / TIME_STEP); remainingSteps > 0; remainingSteps--) {
       if (stepCount >= DRIVE_DURATION / TIME_STEP) return odometryPoses;
-      v = limitChange(v, command.v, MAX_ACCELERATIONS.v * TIME_STEP);
-      omega = limitChange(omega, command.omega, MAX_ACCELERATIONS.omega * TIME_STEP);
+      v = approachValue(v, command.v, MAX_ACCELERATIONS.v * TIME_STEP);
+      omega = approachValue(omega, command.omega, MAX_ACCELERATIONS.omega * TIME_STEP);
       if (v !== 0 || omega !== 0) odometryPose = core.se2.boxplus(odometryPose, [v * TIME_STEP, 0, omega * TIME_STEP]);
       stepCount += 1;
       if (stepCount % STEPS_PER_ROW === 0) odometryPoses.push(odometryPose);
@@ -110,15 +110,15 @@ function simulateTruth(motion, measuredPoses) {
   for (const [legIndex, legEndRow] of legEnds.entries()) {
     if (legIndex === 0) continue;
     const legStartRow = legEnds[legIndex - 1];
-    const [legStart, legGoal] = [legStartRow, legEndRow].map((rowIndex) => scalePosition(toPose(roundedPoses[rowIndex])));
-    const trueStart = truePoses[legStartRow];
-    const [x, y, theta] = odometryModel.sample(motion.decompose(legStart, legGoal), trueStart, 1, NOISE_SEED + legIndex);
+    const [legStart, legEnd] = [legStartRow, legEndRow].map((rowIndex) => scalePosition(toPose(roundedPoses[rowIndex])));
+    const trueLegStart = truePoses[legStartRow];
+    const [x, y, theta] = odometryModel.sample(motion.decompose(legStart, legEnd), trueLegStart, 1, NOISE_SEED + legIndex);
     const computeMotionFromStart = (/** @type {Pose} */ measuredPose) => se2.compose(se2.inverse(legStart), measuredPose);
-    const legError = se2.boxminus(se2.compose(se2.inverse(trueStart), { x, y, theta }), computeMotionFromStart(legGoal));
+    const legError = se2.boxminus(se2.compose(se2.inverse(trueLegStart), { x, y, theta }), computeMotionFromStart(legEnd));
     for (let i = legStartRow + 1; i <= legEndRow; i++) {
-      const legShare = (i - legStartRow) / (legEndRow - legStartRow);
-      const smoothShare = legShare * legShare * (3 - 2 * legShare);
-      truePoses.push(se2.boxplus(se2.compose(trueStart, computeMotionFromStart(scalePosition(measuredPoses[i]))), legError.map((errorComponent) => smoothShare * errorComponent)));
+      const legFraction = (i - legStartRow) / (legEndRow - legStartRow);
+      const smoothShare = legFraction * legFraction * (3 - 2 * legFraction);
+      truePoses.push(se2.boxplus(se2.compose(trueLegStart, computeMotionFromStart(scalePosition(measuredPoses[i]))), legError.map((errorComponent) => smoothShare * errorComponent)));
     }
   }
   odometryModel.free();

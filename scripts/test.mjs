@@ -168,8 +168,8 @@ const TEST_PARTS = {
   browser: {
     async prepare(programArgs) {
       await ensureBuilt();
-      const tierOptions = IS_NIGHTLY ? [] : ['--grep-invert', '@nightly'];
-      return createNpmJob('@playwright/test/cli.js', ['test', ...tierOptions, ...programArgs], { CHROME: (await ensureTestBrowser()).chrome });
+      const grepOptions = IS_NIGHTLY ? [] : ['--grep-invert', '@nightly'];
+      return createNpmJob('@playwright/test/cli.js', ['test', ...grepOptions, ...programArgs], { CHROME: (await ensureTestBrowser()).chrome });
     },
     counts: COUNT_PATTERNS.playwright,
   },
@@ -227,8 +227,8 @@ async function runPart(partName, programArgs) {
     printStep(partName);
     startTime = Date.now();
     const { ok, output, timedOut } = await runJob();
-    const sumMatches = (/** @type {RegExp} */ numberPattern) => [...output.matchAll(numberPattern)].reduce((sumSoFar, [, matchedCount]) => sumSoFar + Number(matchedCount), 0);
-    const testTally = counts && { passed: sumMatches(counts.passed), failed: sumMatches(counts.failed), skipped: sumMatches(counts.skipped) };
+    const addUpMatches = (/** @type {RegExp} */ numberPattern) => [...output.matchAll(numberPattern)].reduce((sumSoFar, [, matchedCount]) => sumSoFar + Number(matchedCount), 0);
+    const testTally = counts && { passed: addUpMatches(counts.passed), failed: addUpMatches(counts.failed), skipped: addUpMatches(counts.skipped) };
     const hasRunNoTest = testTally !== undefined && testTally.passed + testTally.failed === 0;
     const outcomeNote = timedOut ? `ended after ${TIME_LIMIT_SECONDS} s` : hasRunNoTest ? 'no test ran' : undefined;
     return { name: partName, ok: ok && !hasRunNoTest && !testTally?.failed, seconds: getElapsedSeconds(), output, tally: testTally, note: outcomeNote };
@@ -271,10 +271,10 @@ async function createNodeTestJob(testDirectory, programArgs, env) {
   if (unknownName !== undefined) throw new UserError(`"${unknownName}" is in no name of a test file; ${testDirectory} has ${testFiles.map((path) => path.slice(testDirectory.length + 1)).join(', ')}.`);
   const nodeOptions = programArgs.filter((argument) => !namedFiles.some((path) => path.includes(argument)));
   // Node runs a test if the name of the test or of a parent matches. The root of all tests is named "<root>", and must not match.
-  const tierOptions = IS_NIGHTLY ? [] : ['--test-name-pattern', '/^(?!<root>|.*@nightly)/'];
+  const grepOptions = IS_NIGHTLY ? [] : ['--test-name-pattern', '/^(?!<root>|.*@nightly)/'];
   await ensureBuilt();
   // With Node's default number of processes a processor core stays idle.
-  return createProgramJob([process.execPath, '--import', 'tsx', '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...tierOptions, ...nodeOptions, ...(namedFiles.length > 0 ? namedFiles : testFiles)], env);
+  return createProgramJob([process.execPath, '--import', 'tsx', '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...grepOptions, ...nodeOptions, ...(namedFiles.length > 0 ? namedFiles : testFiles)], env);
 }
 
 /** Number of last lines of a failed program's output that are shown again below the summary, because they contain the errors. */
@@ -287,10 +287,10 @@ function printSummary(partOutcomes) {
   let passedCount = 0;
   let failedCount = 0;
   for (const { name, ok, seconds, tally, note } of partOutcomes) {
-    const countTexts = tally === undefined ? [] : [`${tally.passed} passed`, `${tally.failed} failed`];
-    if (tally?.skipped) countTexts.push(`${tally.skipped} skipped`);
-    if (note !== undefined) countTexts.push(note);
-    console.log(`${ok ? 'ok    ' : 'FAILED'} ${name.padEnd(12)} ${seconds.toFixed(0).padStart(4)} s  ${countTexts.join(', ')}`);
+    const testCountTexts = tally === undefined ? [] : [`${tally.passed} passed`, `${tally.failed} failed`];
+    if (tally?.skipped) testCountTexts.push(`${tally.skipped} skipped`);
+    if (note !== undefined) testCountTexts.push(note);
+    console.log(`${ok ? 'ok    ' : 'FAILED'} ${name.padEnd(12)} ${seconds.toFixed(0).padStart(4)} s  ${testCountTexts.join(', ')}`);
     passedCount += tally?.passed ?? 0;
     // A part that fails without a failed test is counted as one failed test.
     failedCount += ok ? 0 : Math.max(1, tally?.failed ?? 0);

@@ -250,10 +250,10 @@ export function findDifferences(goldenText, computedText) {
   const [expectedByName, computedByName] = [hashesByNameOf(goldenText), hashesByNameOf(computedText)];
   const configurationNames = [...new Set([...expectedByName.keys(), ...computedByName.keys()])];
   return configurationNames.flatMap((name) => {
-    const [goldenHashes, computedHashes] = [expectedByName.get(name), computedByName.get(name)];
-    if (goldenHashes === undefined) return [`${name} is not in golden.txt`];
+    const [expectedHashes, computedHashes] = [expectedByName.get(name), computedByName.get(name)];
+    if (expectedHashes === undefined) return [`${name} is not in golden.txt`];
     if (computedHashes === undefined) return [`${name} is gone`];
-    const changedParts = computedHashes.filter((partHash) => !goldenHashes.includes(partHash)).map((partHash) => partHash.split(':')[0]);
-    return changedParts.length > 0 || goldenHashes.length !== computedHashes.length ? [`${name}: ${changedParts.join(', ')}`] : [];
+    const changedParts = computedHashes.filter((partHash) => !expectedHashes.includes(partHash)).map((partHash) => partHash.split(':')[0]);
+    return changedParts.length > 0 || expectedHashes.length !== computedHashes.length ? [`${name}: ${changedParts.join(', ')}`] : [];
   });
 }

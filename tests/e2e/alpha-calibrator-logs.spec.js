@@ -228,7 +228,7 @@ test('a log is read and fitted in a worker, so that the page stays responsive', 
   // A worker reads the log. On the main thread, reading would be a single task of a third of the measured time.
   expect(longestTaskShare).toBeLessThan(0.2);
   // The Web Vitals call a layout unstable if its shift is 0.1 or more.
-  expect(layoutShifts.reduce((shiftSum, layoutShift) => shiftSum + layoutShift, 0)).toBeLessThan(0.1);
+  expect(layoutShifts.reduce((layoutShiftSum, layoutShift) => layoutShiftSum + layoutShift, 0)).toBeLessThan(0.1);
   await widget.locator('.slider:has(#angle) .typed').fill('x');
   await widget.locator('.slider:has(#angle) .typed').press('Enter');
   // A changed setting starts another fit. Until it ends, the figure shows the previous result, and notices about other fields stay.

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, readBananaResults, readBox, readCentre, waitForFrames, parseNumberIn, openBanana, openBananaWithDisclosures, pauseEarly, readPicture, countPixelsOfRole, readPoses, readoutValueOf, readoutDetailOf, setSliders, test } from './support.js';
+import { REDUCED_MOTION, readBananaResults, readBox, readCentre, waitForFrames, parseNumberIn, openBanana, openBananaWithDisclosures, pauseAfterFirstStep, readPicture, countPixelsOfRole, readPoses, readoutValueOf, readoutDetailOf, setSliders, test } from './support.js';
 
 /** @typedef {import('./support.js').BananaMachineElement} BananaMachineElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -24,7 +24,7 @@ async function readNumbersOfMarkedSample(widget) {
 
 test('the cloud grows automatically, and can be paused and resumed', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
-  await pauseEarly(page, 'banana-machine');
+  await pauseAfterFirstStep(page, 'banana-machine');
   const widget = await openBanana(page);
   const playButton = widget.locator('.cloud').getByRole('button', { name: 'Draw samples' });
   await expect(playButton).toBeVisible();
@@ -174,8 +174,8 @@ test('the caption explains the bow-tie shape of the preset Pivot, and claims no 
   const widget = await openBananaWithDisclosures(page);
   await widget.getByRole('button', { name: 'Pivot' }).click();
   const { table, config, stats: { exponential: { mean, cov } } } = await readBananaResults(widget);
-  const spreadText = `a drive of ${mean[0].toFixed(2)} m by ${Math.sqrt(cov[0][0]).toFixed(2)} m, ahead of the start and behind it`;
-  await expect(captionOf(widget)).toContainText(spreadText);
+  const cloudSizeText = `a drive of ${mean[0].toFixed(2)} m by ${Math.sqrt(cov[0][0]).toFixed(2)} m, ahead of the start and behind it`;
+  await expect(captionOf(widget)).toContainText(cloudSizeText);
   expect(Math.abs(table.exact.crossTrackSkew)).toBeGreaterThan(0.01);
   const behindCount = (await readPoses(widget)).filter((x, i) => i % 3 === 0 && x < 0).length;
   expect(behindCount / config.samples).toBeGreaterThan(0.3);

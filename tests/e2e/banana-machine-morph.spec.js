@@ -89,7 +89,7 @@ test('Pin keeps numbers and outlines for comparison, and a second press removes 
 test('the title of the floor view states how well the ellipse fits', async ({ page }) => {
   const widget = await openBanana(page);
   const panelTitle = widget.locator('.panel-title').first();
-  for (const [changedSettings, fitText, expectedCallouts] of /** @type {const} */ ([
+  for (const [changedSettings, expectedTitle, expectedCallouts] of /** @type {const} */ ([
     [{ preset: 'banana' }, 'no ellipse fits', 2],
     [{ preset: 'pivot' }, 'the ellipse fits in size only', 0],
     // In the preset "gentle" the cloud is visibly skewed, and not visibly bent.
@@ -101,7 +101,7 @@ test('the title of the floor view states how well the ellipse fits', async ({ pa
     [{ preset: 'straight', alpha3: 0.2, dt: 3 }, 'the ellipse fits in size only', 0],
   ])) {
     await widget.evaluate((element, settings) => void Object.assign(element, settings), changedSettings);
-    await expect(panelTitle).toHaveText(`On the floor: ${fitText}`);
+    await expect(panelTitle).toHaveText(`On the floor: ${expectedTitle}`);
     expect(await countCalloutsOf(widget)).toBe(expectedCallouts);
   }
 });

@@ -251,8 +251,8 @@ test('the page receives all keys except arrow keys and spaces that a control has
       await widget.locator(controlSelector).focus();
       const usedKeys = controlSelector === '.to-present' ? ['Space'] : ['ArrowRight', 'ArrowLeft'];
       for (const key of [...usedKeys, 's', '/', 'Escape']) await page.keyboard.press(key);
-      const passedKeys = await page.evaluate(() => /** @type {string[]} */ (Reflect.get(window, 'keys')).splice(0));
-      expect(passedKeys, controlSelector).toEqual(['s', '/', 'Escape']);
+      const keysReceivedByPage = await page.evaluate(() => /** @type {string[]} */ (Reflect.get(window, 'keys')).splice(0));
+      expect(keysReceivedByPage, controlSelector).toEqual(['s', '/', 'Escape']);
     }
   }
 });

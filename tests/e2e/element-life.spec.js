@@ -328,12 +328,12 @@ test('a figure shows changes that were made while `display: none` hid it @nightl
   await waitUntilReady(widget);
   const canvas = widget.locator('canvas.plane');
   const pictureBefore = await readPicture(canvas);
-  const setDisplay = (/** @type {string} */ displayValue) => page.locator('#box').evaluate((boxElement, displayStyle) => void (/** @type {HTMLElement} */ (boxElement).style.display = displayStyle), displayValue);
-  await setDisplay('none');
+  const setCssDisplay = (/** @type {string} */ displayValue) => page.locator('#box').evaluate((boxElement, displayStyle) => void (/** @type {HTMLElement} */ (boxElement).style.display = displayStyle), displayValue);
+  await setCssDisplay('none');
   await waitForFrames(page);
   await setProperty(widget, ...FIGURE_FACTS[figureName].otherSetting);
   await waitForFrames(page);
-  await setDisplay('block');
+  await setCssDisplay('block');
   await expect.poll(() => readPicture(canvas)).not.toBe(pictureBefore);
   await expect(widget).toHaveAttribute(FIGURE_FACTS[figureName].otherSetting[0].replace(/[A-Z]/g, (capitalLetter) => `-${capitalLetter.toLowerCase()}`), String(FIGURE_FACTS[figureName].otherSetting[1]));
 });

@@ -69,8 +69,8 @@ test('figures in open and closed shadow roots have their own parts in the fragme
       });
     }
   });
-  const hostsHtml = '<open-host></open-host><open-host></open-host><closed-host id="c"></closed-host><banana-machine></banana-machine>';
-  await showPage(page, hostsHtml);
+  const shadowHostsHtml = '<open-host></open-host><open-host></open-host><closed-host id="c"></closed-host><banana-machine></banana-machine>';
+  await showPage(page, shadowHostsHtml);
   await page.locator('body > banana-machine').scrollIntoViewIfNeeded();
   await waitUntilReady(page.locator('body > banana-machine'));
   const linkKeys = await page.evaluate(async () => {

@@ -136,7 +136,7 @@ test('the error message about a refused map is scrolled into view @nightly', asy
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openSqueeze(page);
   const resultsBefore = await readSqueezeResults(widget);
-  await widget.locator('.stage').evaluate((stageElement) => stageElement.scrollIntoView());
+  await widget.locator('.stage').evaluate((pictureFrameElement) => pictureFrameElement.scrollIntoView());
   await dropFiles(widget.locator('.stage'), [makeMapFile('room.txt', 'a room')]);
   const errorAlert = widget.getByRole('alert');
   await expect(errorAlert).toHaveText(/^room\.txt: expected is one \.json floor plan/);

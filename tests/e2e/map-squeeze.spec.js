@@ -30,12 +30,12 @@ test('the robot moves and turns by keyboard', async ({ page }) => {
     [headingHandleOf, 'Shift+ArrowRight', 0, 0, -5 * fiveDegrees],
     [headingHandleOf, 'PageDown', 0, 0, -10 * fiveDegrees],
   ]);
-  for (const [handleOf, keyName, expectedDx, expectedDy, dTheta] of keyEffects) {
+  for (const [handleOf, keyName, expectedDx, expectedDy, expectedTurn] of keyEffects) {
     await handleOf(widget).press(keyName);
     const movedStart = /** @type {any} */ (await readState(widget)).start;
     expect(movedStart.x - start.x, keyName).toBeCloseTo(expectedDx, 9);
     expect(movedStart.y - start.y, keyName).toBeCloseTo(expectedDy, 9);
-    expect(movedStart.theta - start.theta, keyName).toBeCloseTo(dTheta, 9);
+    expect(movedStart.theta - start.theta, keyName).toBeCloseTo(expectedTurn, 9);
     start = movedStart;
   }
   await expect(bodyHandleOf(widget)).toHaveAttribute('aria-valuetext', `x = ${start.x.toFixed(2)} m, y = ${start.y.toFixed(2)} m`);
@@ -343,8 +343,8 @@ test('many samples are drawn as a density, with a separate colour for samples th
     const pixelContext = /** @type {CanvasRenderingContext2D} */ (pixelCopy.getContext('2d', { willReadFrequently: true }));
     pixelContext.drawImage(canvas, 0, 0);
     return [[1.75, 5.4], [2.35, 4.2]].map(([x, y]) => {
-      const [patchLeft, patchTop] = [pixelRatio * view.toPixelX(x) - 8, pixelRatio * view.toPixelY(y) - 8];
-      const { data } = pixelContext.getImageData(patchLeft, patchTop, 16, 16);
+      const [sampledLeft, sampledTop] = [pixelRatio * view.toPixelX(x) - 8, pixelRatio * view.toPixelY(y) - 8];
+      const { data } = pixelContext.getImageData(sampledLeft, sampledTop, 16, 16);
       let greenExcess = 0;
       for (let i = 0; i < data.length; i += 4) greenExcess += data[i + 3] * (data[i + 1] - data[i + 2]);
       return greenExcess;

@@ -74,8 +74,8 @@ test('the picture names the deviations of two noise models, which are drawn to t
     await waitForFrames(page);
     return widget.evaluate((element) => {
       const { pictures: [{ view }], toSVG } = /** @type {any} */ (element);
-      const spreadNames = toSVG.call(element).match(/(?<=>)by [^<]*/g);
-      return { scale: view.scaleX, names: spreadNames.toSorted() };
+      const deviationTexts = toSVG.call(element).match(/(?<=>)by [^<]*/g);
+      return { scale: view.scaleX, names: deviationTexts.toSorted() };
     });
   };
   const factsBefore = await readPictureFacts();

@@ -58,11 +58,11 @@ testEach('Tab reaches every handle and control of a figure exactly once, and the
   const widget = await openWithDisclosures(page, name, { before: '<a id="before" href="#">Before</a>', after: '<a id="after" href="#">After</a>' });
   await widget.evaluate((element) => {
     const shadowRoot = /** @type {ShadowRoot} */ (element.shadowRoot);
-    const tabStops = [...shadowRoot.querySelectorAll('button, input, select, textarea, summary, a[href], .handle')].filter((stopElement) => {
-      const { type, name, checked } = /** @type {HTMLInputElement} */ (stopElement);
+    const tabStops = [...shadowRoot.querySelectorAll('button, input, select, textarea, summary, a[href], .handle')].filter((tabStopElement) => {
+      const { type, name, checked } = /** @type {HTMLInputElement} */ (tabStopElement);
       // Tab skips the text field of a slider, which is reached from the slider. Tab also skips radio buttons whose group has a selected
       // button.
-      if (stopElement.matches(':disabled, .typed, [tabindex="-1"]') || !stopElement.checkVisibility({ visibilityProperty: true })) return false;
+      if (tabStopElement.matches(':disabled, .typed, [tabindex="-1"]') || !tabStopElement.checkVisibility({ visibilityProperty: true })) return false;
       return type !== 'radio' || checked || !shadowRoot.querySelector(`input[name="${name}"]:checked`);
     });
     Object.assign(window, { stops: tabStops });
@@ -84,8 +84,8 @@ testEach('Tab reaches every handle and control of a figure exactly once, and the
     reachedTabStops.push(await readFocusedStop());
   } while (reachedTabStops.at(-1) !== 'after' && reachedTabStops.length <= tabStopCount + 5);
   expect(reachedTabStops.at(-1)).toBe('after');
-  const missedTabStops = tabStopTexts.filter((_, i) => !reachedTabStops.includes(i));
-  expect(missedTabStops).toEqual([]);
+  const unreachedTabStops = tabStopTexts.filter((_, i) => !reachedTabStops.includes(i));
+  expect(unreachedTabStops).toEqual([]);
   expect(reachedTabStops.length).toBe(tabStopCount + 1);
 });
 
@@ -148,8 +148,8 @@ test.describe('a finger on a figure', () => {
   async function swipeUpFrom(page, startPoint) {
     const cdpSession = await page.context().newCDPSession(page);
     await cdpSession.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [startPoint] });
-    for (let moveNumber = 1; moveNumber <= 10; moveNumber++) {
-      const touchPoint = { x: startPoint.x + moveNumber / 5, y: startPoint.y - 16 * moveNumber };
+    for (let moveIndex = 1; moveIndex <= 10; moveIndex++) {
+      const touchPoint = { x: startPoint.x + moveIndex / 5, y: startPoint.y - 16 * moveIndex };
       await cdpSession.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: [touchPoint] });
     }
     await cdpSession.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
@@ -232,11 +232,11 @@ test('a printed figure has its picture and settings in light colours, and no con
     dispatchEvent(new Event('afterprint'));
     return printedPixels;
   });
-  const lightPicture = await takePrintedPicture();
+  const printedPicture = await takePrintedPicture();
   const screenPicture = await readPicture(planeCanvas);
   await page.emulateMedia({ colorScheme: 'dark' });
   await expect.poll(() => readPicture(planeCanvas)).not.toBe(screenPicture);
-  expect((await takePrintedPicture()) === lightPicture).toBe(true);
+  expect((await takePrintedPicture()) === printedPicture).toBe(true);
   await page.emulateMedia({ colorScheme: 'dark', media: 'print' });
   const readAspectRatio = () => planeCanvas.evaluate((element) => {
     const { width, height, clientWidth, clientHeight } = /** @type {HTMLCanvasElement} */ (element);

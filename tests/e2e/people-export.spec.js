@@ -52,9 +52,9 @@ test('CSV of the Banana Machine contains the samples, and the settings that repr
   const recomputedPoses = await widget.evaluate((element, { element: _name, ...exportedSettings }) => {
     const { motion } = /** @type {import('./support.js').BananaMachineElement} */ (element);
     const simulation = new motion.BananaMachine(exportedSettings);
-    const posesCopy = [...simulation.poses];
+    const copiedPoses = [...simulation.poses];
     simulation.free();
-    return posesCopy;
+    return copiedPoses;
   }, settings);
   expect(recomputedPoses).toEqual(cloudPoses);
 });

@@ -111,8 +111,8 @@ test('nothing on the page moves while figures load', async ({ page }) => {
     const layoutShifts = /** @type {string[]} */ ([]);
     Object.assign(window, { layoutShifts });
     new PerformanceObserver((entryList) => {
-      const shiftSources = entryList.getEntries().flatMap((shiftEntry) => [...Reflect.get(shiftEntry, 'sources')]);
-      for (const { node, previousRect, currentRect } of shiftSources) layoutShifts.push(`${node?.className ?? node?.nodeName}: ${JSON.stringify([previousRect, currentRect])}`);
+      const layoutShiftSources = entryList.getEntries().flatMap((layoutShiftEntry) => [...Reflect.get(layoutShiftEntry, 'sources')]);
+      for (const { node, previousRect, currentRect } of layoutShiftSources) layoutShifts.push(`${node?.className ?? node?.nodeName}: ${JSON.stringify([previousRect, currentRect])}`);
     }).observe({ type: 'layout-shift', buffered: true });
   });
   await page.goto('/');

@@ -142,7 +142,7 @@ test('signs are left of their numbers on a right-to-left page, even within right
     const widget = page.locator(figureName);
     await waitUntilReady(widget);
     await openDisclosures(widget);
-    const signsAndSides = await widget.evaluate(({ shadowRoot }, numberPart) => {
+    const signTextsAndSides = await widget.evaluate(({ shadowRoot }, numberPart) => {
       const characterRange = new Range();
       const characterBoxOf = (/** @type {Text} */ textNode, /** @type {number} */ characterIndex) => {
         characterRange.setStart(textNode, characterIndex);
@@ -151,17 +151,17 @@ test('signs are left of their numbers on a right-to-left page, even within right
       };
       return [.../** @type {ShadowRoot} */ (shadowRoot).querySelectorAll(numberPart)].flatMap((element) => {
         const treeWalker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
-        const signBoxes = [];
+        const signTexts = [];
         while (treeWalker.nextNode()) {
           const textNode = /** @type {Text} */ (treeWalker.currentNode);
           const signIndex = textNode.data.search(/\u2212\d/);
-          if (signIndex >= 0 && textNode.parentElement?.checkVisibility()) signBoxes.push([textNode.data, characterBoxOf(textNode, signIndex).right <= characterBoxOf(textNode, signIndex + 1).left + 0.5]);
+          if (signIndex >= 0 && textNode.parentElement?.checkVisibility()) signTexts.push([textNode.data, characterBoxOf(textNode, signIndex).right <= characterBoxOf(textNode, signIndex + 1).left + 0.5]);
         }
-        return signBoxes;
+        return signTexts;
       });
     }, numberSelector);
-    expect(signsAndSides.length).toBeGreaterThan(1);
-    expect(signsAndSides.filter(([, isLeftOfNumber]) => !isLeftOfNumber)).toEqual([]);
+    expect(signTextsAndSides.length).toBeGreaterThan(1);
+    expect(signTextsAndSides.filter(([, isLeftOfNumber]) => !isLeftOfNumber)).toEqual([]);
     const readTextDirection = (/** @type {string} */ directedPart) => widget.locator(directedPart).evaluate((element) => getComputedStyle(element).direction);
     expect(await readTextDirection('.simulation')).toBe(textDirection);
     expect(await readTextDirection('[slot=caption]')).toBe('rtl');

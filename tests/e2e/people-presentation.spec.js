@@ -157,7 +157,7 @@ testEach('a figure presented on a phone has its pictures below their titles, and
     }
     const overlapPixels = await widget.evaluate(({ shadowRoot }) => {
       const viewsElement = /** @type {Element} */ (shadowRoot?.querySelector('.views'));
-      const lowestPicture = Math.max(...[...viewsElement.querySelectorAll('.stage')].map((stageElement) => stageElement.getBoundingClientRect().bottom));
+      const lowestPicture = Math.max(...[...viewsElement.querySelectorAll('.stage')].map((pictureFrameElement) => pictureFrameElement.getBoundingClientRect().bottom));
       const elementsBelow = [...(viewsElement.parentElement?.children ?? [])].filter((element) => viewsElement.compareDocumentPosition(element) === Node.DOCUMENT_POSITION_FOLLOWING);
       const followingTops = elementsBelow.map((element) => element.getBoundingClientRect()).filter(({ height }) => height > 0).map(({ top }) => top);
       return lowestPicture - Math.min(...followingTops);

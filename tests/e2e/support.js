@@ -229,7 +229,7 @@ export async function openBanana(page, attributes = '') {
  * @param {Page} page which is opened later
  * @param {string} name of the widget
  */
-export async function pauseEarly(page, name) {
+export async function pauseAfterFirstStep(page, name) {
   await page.addInitScript((tag) => {
     const pauseAnimation = () => {
       const figureElement = /** @type {any} */ (document.querySelector(tag));
@@ -386,9 +386,9 @@ export function dropFiles(dropTarget, droppedFiles) {
       const dataTransfer = new DataTransfer();
       for (const { name, bytes } of newFiles) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
       const dragEvent = (/** @type {string} */ name) => new DragEvent(name, { dataTransfer, bubbles: true, composed: true, cancelable: true });
-      const [overEvent, dropEvent] = [dragEvent('dragover'), dragEvent('drop')];
-      target.dispatchEvent(overEvent);
-      if (!overEvent.defaultPrevented || !target.closest('.dropping')) throw new Error('It does not take files.');
+      const [dragOverEvent, dropEvent] = [dragEvent('dragover'), dragEvent('drop')];
+      target.dispatchEvent(dragOverEvent);
+      if (!dragOverEvent.defaultPrevented || !target.closest('.dropping')) throw new Error('It does not take files.');
       target.dispatchEvent(dropEvent);
       if (!dropEvent.defaultPrevented) throw new Error('The browser takes the file.');
       if (target.closest('.dropping')) throw new Error('It is still marked.');

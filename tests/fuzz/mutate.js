@@ -27,7 +27,7 @@ export function createMutant(corpusInputs, nextRandom) {
   const replaceBytes = (insertedBytes, startPosition = sampleIntegerBelow(mutantBytes.length + 1), endPosition = startPosition) => {
     mutantBytes = Buffer.concat([mutantBytes.subarray(0, startPosition), insertedBytes, mutantBytes.subarray(endPosition)]).subarray(0, MAX_MUTANT_BYTES);
   };
-  for (let changesLeft = 1 + sampleIntegerBelow(4); changesLeft > 0; changesLeft--) {
+  for (let remainingChanges = 1 + sampleIntegerBelow(4); remainingChanges > 0; remainingChanges--) {
     const [rangeStart, rangeEnd] = [sampleIntegerBelow(mutantBytes.length + 1), sampleIntegerBelow(mutantBytes.length + 1)].sort((a, b) => a - b);
     const mutationFunctions = [
       () => replaceBytes(Buffer.of(sampleIntegerBelow(256)), rangeStart, rangeStart + 1),

@@ -66,10 +66,10 @@ async function areFilesAccepted(...mapFiles) {
   return false;
 }
 
-/** Returns true if a call of the core succeeds. If the core refuses the call, checks the message. @param {() => void} passValue */
-function isAccepted(passValue) {
+/** Returns true if a call of the core succeeds. If the core refuses the call, checks the message. @param {() => void} callCore */
+function isAccepted(callCore) {
   try {
-    passValue();
+    callCore();
     return true;
   } catch (error) {
     if (!(error instanceof RangeError || error instanceof TypeError)) throw error;

@@ -53,9 +53,9 @@ const createCalibration = (changedFields) => ({
   ...changedFields,
 });
 
-/** Returns the lines for Nav2 without indentation. @param {object} [changedFields] of the calibration @param {object} [otherFields] options */
-const nav2LinesOf = (changedFields, otherFields) =>
-  formatNav2Yaml({ stats: createCalibration(changedFields), legCount: 9, model: 'odometry', rule: 'nav2', legLength: { distance: 0.25, angle: 0.2 }, corrections: {}, logName: 'a.csv and b.csv', warnings: [], ...otherFields }, '2026-01-02')
+/** Returns the lines for Nav2 without indentation. @param {object} [changedFields] of the calibration @param {object} [otherOptions] options */
+const nav2LinesOf = (changedFields, otherOptions) =>
+  formatNav2Yaml({ stats: createCalibration(changedFields), legCount: 9, model: 'odometry', rule: 'nav2', legLength: { distance: 0.25, angle: 0.2 }, corrections: {}, logName: 'a.csv and b.csv', warnings: [], ...otherOptions }, '2026-01-02')
     .trimEnd().split('\n').map((nav2Line) => nav2Line.trim());
 
 test('lines for Nav2 contain the recommended α’s, and the fitted α’s in comments', () => {
@@ -90,17 +90,17 @@ test('lines for Nav2 warn of failed checks, and of another rule', () => {
 
 test('a large clock offset is mentioned, and changes no verdict', () => {
   const unknownEstimate = { value: null, interval: null };
-  const judgeClockOffset = (/** @type {number} */ clockOffset) => judgementOf({
+  const judgementOfClockOffset = (/** @type {number} */ clockOffset) => judgementOf({
     stats: /** @type {any} */ ({
       ...createCalibration(), notIdentifiable: [], diagnostics: { verdict: 'consistent', checks: [] },
       systematicErrors: { clockOffset: { value: clockOffset, interval: null }, mountYaw: unknownEstimate, leverArm: unknownEstimate, distanceScale: unknownEstimate, turnScale: unknownEstimate },
     }),
     legCount: 500, model: 'odometry', rule: 'nav2', legLength: {}, corrections: {}, logName: '', warnings: [],
   }, en, '');
-  const { advice: [firstSentence], rating } = judgeClockOffset(86_400.06);
+  const { advice: [firstSentence], rating } = judgementOfClockOffset(86_400.06);
   assert.deepEqual([firstSentence, rating], ['The reference’s clock is 86\u202f400 s ahead of the odometry’s. The turns of the robot aligned both: check that they are of one drive.', 'consistent']);
-  assert.match(judgeClockOffset(-3600).advice[0], /is 3\u202f600 s behind the/);
-  assert.deepEqual(judgeClockOffset(-9.5).advice, [en.useRecommended]);
+  assert.match(judgementOfClockOffset(-3600).advice[0], /is 3\u202f600 s behind the/);
+  assert.deepEqual(judgementOfClockOffset(-9.5).advice, [en.useRecommended]);
 });
 
 test('the leg settings of the simulated log equal the default settings', () => {

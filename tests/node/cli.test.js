@@ -211,8 +211,8 @@ test('the command below an error or a verdict answers the question about a file'
     const [, command = ''] = /^ {2}npx motion-widgets calibrate (.*)$/m.exec(stdout + stderr) ?? [];
     const commandArgs = [...command.matchAll(/'([^']*)'|\S+/g)].map(([shellWord, quotedText]) => quotedText ?? shellWord);
     assert.deepEqual(commandArgs, [...logPaths, ...answerOptions], stderr);
-    const answeredResult = JSON.parse((await runCalibrate([...commandArgs, '--json'])).stdout);
-    for (const [i, alpha] of alphas.entries()) assert.ok(Math.abs(answeredResult.alphas[i] / alpha - 1) < 1e-6, `${logRole} ${headerLine} ${answeredResult.alphas}`);
+    const resultOfAnswer = JSON.parse((await runCalibrate([...commandArgs, '--json'])).stdout);
+    for (const [i, alpha] of alphas.entries()) assert.ok(Math.abs(resultOfAnswer.alphas[i] / alpha - 1) < 1e-6, `${logRole} ${headerLine} ${resultOfAnswer.alphas}`);
   }
 });
 

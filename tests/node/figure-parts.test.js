@@ -15,17 +15,17 @@ test('boolean attributes may be empty or "true", and lists may contain any white
 
 test('a view that was fitted to a tiny canvas zooms in after its canvas has grown; other views do not zoom in', () => {
   const pictureView = new View();
-  const fitTo = (/** @type {number} */ halfSize) => {
+  const fitViewTo = (/** @type {number} */ halfSize) => {
     pictureView.fit({ xMin: -halfSize, xMax: halfSize, yMin: -halfSize, yMax: halfSize });
     pictureView.moveTowardsTarget(0, true);
     return pictureView.extent.xMax - pictureView.extent.xMin;
   };
   pictureView.resize(100, 60);
   // In a tiny view a mark of some pixels is many metres long.
-  assert.ok(fitTo(20) >= 40);
+  assert.ok(fitViewTo(20) >= 40);
   pictureView.resize(600, 400);
-  assert.ok(fitTo(1) < 10);
-  const [widthBefore, widthAfter] = [fitTo(2), fitTo(1)];
+  assert.ok(fitViewTo(1) < 10);
+  const [widthBefore, widthAfter] = [fitViewTo(2), fitViewTo(1)];
   assert.equal(widthAfter, widthBefore);
 });
 

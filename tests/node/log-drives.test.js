@@ -189,8 +189,8 @@ test('a frozen reference is interrupted only while the odometry moves', async ()
   assert.equal(await catchRefusalSentence(readReference(straightTableOf(() => 7))), 'truth.csv: its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.');
   // The reference is not lost during a pause of two seconds, or a pause in which the odometry moves by five centimetres.
   const countDroppedDuring = async (/** @type {number} */ pauseSeconds, /** @type {number} */ pauseSpeed) => {
-    const xOf = (/** @type {number} */ i) => (pauseSpeed * i) / 20;
-    return (await readReference(straightTableOf((i) => 1.01 * xOf(i >= 200 && i <= 200 + 20 * pauseSeconds ? 200 : i)), straightTableOf(xOf))).summary.dropped.held?.count;
+    const odometryXOfRow = (/** @type {number} */ i) => (pauseSpeed * i) / 20;
+    return (await readReference(straightTableOf((i) => 1.01 * odometryXOfRow(i >= 200 && i <= 200 + 20 * pauseSeconds ? 200 : i)), straightTableOf(odometryXOfRow))).summary.dropped.held?.count;
   };
   assert.deepEqual([await countDroppedDuring(2, 0.4), await countDroppedDuring(2.2, 0.4), await countDroppedDuring(7, 0.0095), await countDroppedDuring(7, 0.0105)], [undefined, 44, undefined, 140]);
   // A log of commands shows by its speeds that the robot moves.
@@ -207,8 +207,8 @@ test('logs with mirrored axes, or with different units of length, are refused', 
   // The changed tables have mirrored axes, swapped axes, and compass headings, which are clockwise from north.
   const mirrorRows = /** @type {((row: number[]) => number[])[]} */ ([([t, x, y, yaw]) => [t, x, -y, yaw], ([t, x, y, yaw]) => [t, -x, y, yaw], ([t, x, y, yaw]) => [t, y, x, yaw], ([t, x, y, yaw]) => [t, x, y, Math.PI / 2 - yaw]]);
   for (const mirrorRow of mirrorRows) {
-    const [mirroredTable, otherTable] = [createChangedTable((row) => mirrorRow(distortRow(row))), createChangedTable(distortRow)];
-    for (const [odometry, reference, questionedLog] of [[mirroredTable, otherTable, 'odom'], [otherTable, mirroredTable, 'truth'], [mirroredTable, mirroredTable, 'odom']]) {
+    const [mirroredTable, unmirroredTable] = [createChangedTable((row) => mirrorRow(distortRow(row))), createChangedTable(distortRow)];
+    for (const [odometry, reference, questionedLog] of [[mirroredTable, unmirroredTable, 'odom'], [unmirroredTable, mirroredTable, 'truth'], [mirroredTable, mirroredTable, 'odom']]) {
       assert.match(await catchRefusalSentence(readDrivesOf({ 'odom.csv': odometry, 'truth.csv': reference })), RegExp(`^${questionedLog}\\.csv: the headings turn the other way than the path; expected`));
     }
   }

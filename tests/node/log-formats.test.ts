@@ -191,10 +191,10 @@ test('LZ4 frames of a wrong size are refused, and so are damaged frames with che
 });
 
 test('unsupported formats are recognized by their contents, and refused with a command for conversion', async () => {
-  for (const [magicText, expectedMessage] of [
+  for (const [firstBytesText, expectedMessage] of [
     ['#ROSBAG V1.2\n', 'ROS bag 1; convert it with “rosbag reindex”,'], ['ULog\x01\x12\x35', 'PX4 ULog; convert it with “ulog2csv”,'], ['\xa3\x95\x80', 'ArduPilot DataFlash; convert it with “mavlogdump.py'],
     ['\x1f\x8b\x08', 'gzip; convert it with “gunzip”,'], ['BZh9', 'bzip2;'], ['\xfd7zXZ\0', 'xz;'], ['\x04\x22\x4d\x18', 'LZ4;'], ['PK\x03\x04', 'ZIP (.zip, .xlsx, .ods); unpack it, or export'], ['\x89HDF\r\n\x1a\n', 'HDF5;'], ['PAR1', 'Parquet;'],
-  ]) assert.ok((await catchRefusalSentence(openRecordings([createFile(Buffer.from(magicText, 'latin1'), 'run.mcap')]))).startsWith(`run.mcap: it is in the format ${expectedMessage}`), expectedMessage);
+  ]) assert.ok((await catchRefusalSentence(openRecordings([createFile(Buffer.from(firstBytesText, 'latin1'), 'run.mcap')]))).startsWith(`run.mcap: it is in the format ${expectedMessage}`), expectedMessage);
 });
 
 test('a recording without a complete message is refused, and the message names a repair tool', async () => {

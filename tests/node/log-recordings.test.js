@@ -145,12 +145,12 @@ test('topics and frames that cannot be read are refused', async () => {
 });
 
 test('a static transform is valid from the beginning, and a changing transform from its first message', async () => {
-  const createTransformMessages = (/** @type {(i: number) => number} */ mountXOf) => Array.from({ length: 60 }, (_, i) => [
+  const createTransformMessages = (/** @type {(i: number) => number} */ mountXOfMessage) => Array.from({ length: 60 }, (_, i) => [
     transformMessageOf(i / 10, 'world', 'marker', i / 20, 0, 0),
-    ...(i % 3 === 0 && i >= 30 ? [transformMessageOf(i / 10, 'marker', 'base', mountXOf(i), 0, 0)] : []),
+    ...(i % 3 === 0 && i >= 30 ? [transformMessageOf(i / 10, 'marker', 'base', mountXOfMessage(i), 0, 0)] : []),
   ].map((transform) => ({ topic: '/tf', type: TF_TYPE, t: i / 10, message: { transforms: [transform] } }))).flat();
-  const readLogWithMount = async (/** @type {(i: number) => number} */ mountXOf) => {
-    const { start, data, summary } = await readLog(mcapFileOf(await recordingOf(createTransformMessages(mountXOf))), { series: '/tf', frames: { parent: 'world', child: 'base' } });
+  const readLogWithMount = async (/** @type {(i: number) => number} */ mountXOfMessage) => {
+    const { start, data, summary } = await readLog(mcapFileOf(await recordingOf(createTransformMessages(mountXOfMessage))), { series: '/tf', frames: { parent: 'world', child: 'base' } });
     return [data.t.length, start + data.t[0], /** @type {any} */ (data).x[0], summary.rows];
   };
   assert.deepEqual(await readLogWithMount(() => 0.5), [60, 0, 0.5, 60]);

@@ -70,7 +70,7 @@ test('a shuffled log is sorted, but a log with alternating times of two clocks i
   const [headerLine, ...rowLines] = circleTableOf().split('\n');
   const rowOrder = rowLines.map((_, i) => (i * 301) % rowLines.length);
   for (const shuffleRange of [8, rowLines.length]) {
-    const shuffledIndices = rowLines.map((_, i) => i).toSorted((rowIndex, otherIndex) => rowIndex + (rowOrder[rowIndex] % shuffleRange) - otherIndex - (rowOrder[otherIndex] % shuffleRange));
+    const shuffledIndices = rowLines.map((_, i) => i).toSorted((rowIndex, otherRowIndex) => rowIndex + (rowOrder[rowIndex] % shuffleRange) - otherRowIndex - (rowOrder[otherRowIndex] % shuffleRange));
     const { data, summary } = await readTable([headerLine, ...shuffledIndices.map((i) => rowLines[i])].join('\n'));
     assert.deepEqual([[...data.x], [...data.breaks], summary.used], [CIRCLE_ROWS.map(([, x]) => x), [], rowLines.length]);
     assert.ok(summary.notes[0].name === 'sorted' && Number(summary.notes[0].values[0]) > rowLines.length / 8, JSON.stringify(summary.notes));
@@ -122,9 +122,9 @@ test('poses that a table repeats at the rate of another log are used once', asyn
   // The localizer publishes its last pose again and again until the robot has moved far enough.
   const poseOfRow = Array.from({ length: 700 }, (_, i) => Math.floor(i / 10) * 10 - (i % 70 >= 10 && i % 70 < 16 ? 10 : 0));
   const republishedLog = await readTable(circleTableOf((row, i) => [row[0], ...CIRCLE_ROWS[poseOfRow[i] ?? 690].slice(1)]));
-  const firstRows = poseOfRow.flatMap((pose, i) => (pose === poseOfRow[i - 1] ? [] : [i / 20]));
-  assert.deepEqual([...republishedLog.data.t].slice(0, firstRows.length), firstRows);
-  assert.deepEqual([...republishedLog.data.t].slice(firstRows.length).map((t) => Math.round(20 * t)), [700, 710, 720, 730, 740, 750, 760, 770, 780, 790]);
+  const timesOfFirstRows = poseOfRow.flatMap((pose, i) => (pose === poseOfRow[i - 1] ? [] : [i / 20]));
+  assert.deepEqual([...republishedLog.data.t].slice(0, timesOfFirstRows.length), timesOfFirstRows);
+  assert.deepEqual([...republishedLog.data.t].slice(timesOfFirstRows.length).map((t) => Math.round(20 * t)), [700, 710, 720, 730, 740, 750, 760, 770, 780, 790]);
 });
 
 test('pauses and jumps are found, and a heading that wraps around is not a jump', async () => {

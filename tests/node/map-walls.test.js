@@ -24,8 +24,8 @@ test('the end of a wall at a doorway moves along the wall, as far as the other e
   const grip = gripOf('to');
   assert.ok(grip);
   assert.deepEqual(grip.axis, [0, 1]);
-  const jambAfter = (/** @type {number} */ distance) => Number(moveWall(FLOOR_PLAN, grip, distance)[LOWER_WALL_OFFSET + 3].toFixed(9));
-  assert.deepEqual([0.5, 9, -9].map(jambAfter), [2, 2.45, 0.05]);
+  const moveJambBy = (/** @type {number} */ distance) => Number(moveWall(FLOOR_PLAN, grip, distance)[LOWER_WALL_OFFSET + 3].toFixed(9));
+  assert.deepEqual([0.5, 9, -9].map(moveJambBy), [2, 2.45, 0.05]);
 });
 
 test('a dragged wall moves sideways, and a wall that ends at it follows', () => {
@@ -38,10 +38,10 @@ test('a dragged wall moves sideways, and a wall that ends at it follows', () => 
 
 test('a wall that is not parallel to an axis keeps its direction and length where it meets the bounds', () => {
   const plan = { bounds: ROOM_BOUNDS, walls: Float64Array.of(...OUTER_WALLS, 1, 1, 3, 2) };
-  const sideGrip = gripsOf(plan).find(({ grippedPart }) => grippedPart === 'side');
-  assert.ok(sideGrip);
+  const wallSideGrip = gripsOf(plan).find(({ grippedPart }) => grippedPart === 'side');
+  assert.ok(wallSideGrip);
   for (const distance of [9, -9, Infinity]) {
-    const [x0, y0, x1, y1] = moveWall(plan, sideGrip, distance).subarray(OUTER_WALLS.length);
+    const [x0, y0, x1, y1] = moveWall(plan, wallSideGrip, distance).subarray(OUTER_WALLS.length);
     assert.deepEqual([x1 - x0, y1 - y0].map((difference) => Number(difference.toFixed(9))), [2, 1]);
   }
 });

@@ -47,8 +47,8 @@ async function renderModel({ state, isInBook }) {
   const el = isInBook ? cellElement.attachShadow({ mode: 'open' }).appendChild(document.createElement('div')) : cellElement;
   const moduleAddress = '/anywidget.js';
   const { default: anywidgetModule } = await import(moduleAddress);
-  const endView = anywidgetModule.render({ model: widgetModel, el });
-  Object.assign(globalThis, { view: { model: widgetModel, state, log: traitLog, el, end: endView, listeners } });
+  const removeFigure = anywidgetModule.render({ model: widgetModel, el });
+  Object.assign(globalThis, { view: { model: widgetModel, state, log: traitLog, el, end: removeFigure, listeners } });
 }
 
 /** Waits until the figure of a page has all its samples. @param {import('@playwright/test').Page} page */

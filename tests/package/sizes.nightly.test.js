@@ -40,12 +40,12 @@ function modulePathOf(tag) {
   return `dist/chunks/${fileName}`;
 }
 
-/** Asserts that files compressed by brotli are within a limit. @param {string} loadName @param {string[]} filePaths @param {number} maxBytes */
-function assertSize(loadName, filePaths, maxBytes) {
+/** Asserts that files compressed by brotli are within a limit. @param {string} pageLoadName @param {string[]} filePaths @param {number} maxBytes */
+function assertSize(pageLoadName, filePaths, maxBytes) {
   const brotliOptions = { params: { [constants.BROTLI_PARAM_QUALITY]: 11 } };
   const compressedBytes = filePaths.reduce((byteSum, path) => byteSum + brotliCompressSync(readFileSync(pathOf(path)), brotliOptions).length, 0);
-  console.log(`${loadName}: ${compressedBytes} of ${maxBytes} bytes`);
-  assert.ok(compressedBytes <= maxBytes, `${loadName}: ${filePaths.join(' + ')} are ${compressedBytes} bytes by brotli; allowed are ${maxBytes}`);
+  console.log(`${pageLoadName}: ${compressedBytes} of ${maxBytes} bytes`);
+  assert.ok(compressedBytes <= maxBytes, `${pageLoadName}: ${filePaths.join(' + ')} are ${compressedBytes} bytes by brotli; allowed are ${maxBytes}`);
 }
 
 /**

@@ -46,7 +46,7 @@ fn describe_widget<S: SettingRules>(tag: &'static str) -> serde_json::Result<Box
             Setting::Boolean(_) => json!({ "type": "boolean" }),
             Setting::Keyword(keyword) => json!({ "type": "word", "words": keyword.all_keywords() }),
             Setting::Numbers(_, allowed) => {
-                json!({ "type": "numbers", "allowed": allowed, "minLength": min_length::<S>(declaration.key) })
+                json!({ "type": "numbers", "allowed": allowed, "minLength": find_min_length::<S>(declaration.key) })
             }
             Setting::Level(noise_level, allowed) => {
                 let alpha_weights: Vec<_> = noise_level.alpha_ratios().collect();
@@ -64,8 +64,8 @@ fn describe_widget<S: SettingRules>(tag: &'static str) -> serde_json::Result<Box
 }
 
 /// Returns the minimum length of a list setting whose length depends on a preceding keyword, such as the motion model.
-fn min_length<S: SettingRules>(list_key: &str) -> usize {
-    let mut min_length = usize::MAX;
+fn find_min_length<S: SettingRules>(list_key: &str) -> usize {
+    let mut find_min_length = usize::MAX;
     S::default().visit_settings(&mut |keyword_declaration, setting| {
         let Setting::Keyword(keyword) = setting else { return };
         for word in keyword.all_keywords() {
@@ -74,11 +74,11 @@ fn min_length<S: SettingRules>(list_key: &str) -> usize {
                     assert!(keyword.set(word))
                 }
                 Setting::Numbers(listed_numbers, _) if declaration.key == list_key => {
-                    min_length = min_length.min(listed_numbers.len());
+                    find_min_length = find_min_length.min(listed_numbers.len());
                 }
                 _ => {}
             });
         }
     });
-    min_length
+    find_min_length
 }

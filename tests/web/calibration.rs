@@ -140,11 +140,11 @@ fn the_figure_opens_with_a_log_of_known_alphas() {
         ),
         [0, 3, 0, 1, 2, 1]
     );
-    let length_checks: [f64; 2] = it.get(
+    let array_lengths: [f64; 2] = it.get(
         "(({ outcomes, outline, read, ended }) =>
         [outcomes.length % 3 + (outline.length % 2), read.length + ended.length])(it.leg(0))",
     );
-    assert_eq!(length_checks, [0.0, 6.0]);
+    assert_eq!(array_lengths, [0.0, 6.0]);
     assert_eq!(it.get::<Option<()>>("it.leg(it.count)"), None);
     assert_eq!(it.get::<i32>("it.nearest(1e6, 1e6, 1)"), -1);
 }

@@ -30,11 +30,11 @@ const SCORE_CALL: &str = "prob(it.pose, it.pose, it.pose)";
 fn a_freed_object_is_gone_with_its_memory() {
     let js = JsObject::new("({ pose: { x: 0, y: 0, theta: 0 } })");
     for (class_name, read_expression) in CLASSES_AND_READS {
-        let use_and_free = format!("[it.one = new motion.{class_name}, it.one.stats, it.one.free()]");
-        js.run(&use_and_free);
+        let use_and_free_script = format!("[it.one = new motion.{class_name}, it.one.stats, it.one.free()]");
+        js.run(&use_and_free_script);
         let byte_length_before = memory_size_in_bytes();
         for _ in 0..10 {
-            js.run(&use_and_free);
+            js.run(&use_and_free_script);
         }
         // If a cloud were not freed, the memory would grow by more than a WebAssembly page of 64 KiB.
         assert!(

@@ -30,7 +30,7 @@ const VELOCITY_MODEL: VelocityModel = VelocityModel {
 const ODOMETRY_MODEL: OdometryModel =
     OdometryModel { alphas: OdomAlphas([0.1, 0.05, 0.02, 0.03]), noise: NoiseKind::Normal };
 
-fn start_pose() -> SE2 {
+fn new_start_pose() -> SE2 {
     SE2::new(1.0, -2.0, 0.5)
 }
 
@@ -48,11 +48,11 @@ fn coordinates_of(pose: &SE2) -> [f64; 3] {
 
 fn sample_coordinates<M: MotionModel>(model: &M, control: &M::Control) -> Vec<f64> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(9);
-    (0..5).flat_map(|_| coordinates_of(&model.sample(control, &start_pose(), &mut rng))).collect()
+    (0..5).flat_map(|_| coordinates_of(&model.sample(control, &new_start_pose(), &mut rng))).collect()
 }
 
 fn score_and_density_of<M: MotionModel>(model: &M, x_next: &SE2, control: &M::Control) -> (f64, Option<f64>) {
-    (model.prob(x_next, control, &start_pose()), model.pose_density(x_next, control, &start_pose()))
+    (model.prob(x_next, control, &new_start_pose()), model.pose_density(x_next, control, &new_start_pose()))
 }
 
 fn rows_of(matrix: &Matrix3<f64>) -> Vec<Vec<f64>> {
@@ -65,19 +65,19 @@ fn poses_and_twists_are_those_of_rust() {
     let twist = Vector3::new(0.3, -0.1, 0.7);
     let pose_of = |expression: &str| js.get::<[f64; 3]>(&format!("Object.values(motion.se2.{expression})"));
     assert_eq!(pose_of("exp([0.3, -0.1, 0.7])"), coordinates_of(&SE2::exp(&twist)));
-    assert_eq!(pose_of("compose(it.start, it.next)"), coordinates_of(&(start_pose() * new_next_pose())));
-    assert_eq!(pose_of("inverse(it.start)"), coordinates_of(&start_pose().inverse()));
+    assert_eq!(pose_of("compose(it.start, it.next)"), coordinates_of(&(new_start_pose() * new_next_pose())));
+    assert_eq!(pose_of("inverse(it.start)"), coordinates_of(&new_start_pose().inverse()));
     assert_eq!(
         pose_of("boxplus(it.start, new Float64Array([0.3, -0.1, 0.7]))"),
-        coordinates_of(&start_pose().boxplus(twist))
+        coordinates_of(&new_start_pose().boxplus(twist))
     );
     assert_eq!(js.get::<Vec<f64>>("motion.se2.log(it.next)"), new_next_pose().log().as_slice());
     assert_eq!(
         js.get::<Vec<f64>>("motion.se2.boxminus(it.next, it.start)"),
-        new_next_pose().boxminus(&start_pose()).as_slice()
+        new_next_pose().boxminus(&new_start_pose()).as_slice()
     );
     let matrix_of = |expression: &str| js.get::<Vec<Vec<f64>>>(&format!("motion.se2.{expression}"));
-    assert_eq!(matrix_of("adjoint(it.start)"), rows_of(&start_pose().adjoint()));
+    assert_eq!(matrix_of("adjoint(it.start)"), rows_of(&new_start_pose().adjoint()));
     assert_eq!(matrix_of("rightJacobian([0.3, -0.1, 0.7])"), rows_of(&SE2::right_jacobian(&twist)));
     assert_eq!(js.get::<Vec<String>>("Object.keys(motion.se2.inverse(it.start))"), ["x", "y", "theta"]);
 }
@@ -85,8 +85,8 @@ fn poses_and_twists_are_those_of_rust() {
 #[wasm_bindgen_test]
 fn an_arc_is_inverted_and_two_poses_are_decomposed() {
     let js = JsObject::new(JS_VALUES);
-    let arc = invert_arc(&start_pose(), &new_next_pose(), 2.0);
-    let [x, y] = arc.centre(&start_pose()).expect("an arc");
+    let arc = invert_arc(&new_start_pose(), &new_next_pose(), 2.0);
+    let [x, y] = arc.centre(&new_start_pose()).expect("an arc");
     assert_eq!(
         js.get::<Vec<f64>>(
             "(({ vHat, omegaHat, gammaHat, center, radius, turn }) =>
@@ -121,7 +121,8 @@ fn models_score_and_draw_as_in_rust() {
         score_and_density_of(&reverse_aware_model, &pose_behind(), &REVERSE_READING)
     );
     assert!(
-        reverse_aware_scores.0 > 10.0 * ODOMETRY_MODEL.prob(&pose_behind(), &REVERSE_READING, &start_pose()),
+        reverse_aware_scores.0
+            > 10.0 * ODOMETRY_MODEL.prob(&pose_behind(), &REVERSE_READING, &new_start_pose()),
         "the option has an effect"
     );
 

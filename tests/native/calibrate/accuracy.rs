@@ -97,9 +97,9 @@ fn run_calibration_study(model: Model, scenario: &Scenario, log_count: usize) ->
         .chain(&mut study.reference_stds)
         .for_each(|sorted_estimates| sorted_estimates.sort_unstable_by(f64::total_cmp));
     let median_ratios: Vec<f64> =
-        study.alpha_ratios.iter().map(|sorted_ratios| median_of_sorted(sorted_ratios)).collect();
+        study.alpha_ratios.iter().map(|sorted_ratios| median_of(sorted_ratios)).collect();
     let StudyResults { covered_alphas, covered_errors, covered_std_counts: covered_stds, .. } = &study;
-    let median_stds = [0, 1].map(|component_index| median_of_sorted(&study.reference_stds[component_index]));
+    let median_stds = [0, 1].map(|component_index| median_of(&study.reference_stds[component_index]));
     println!(
         "{}, {model:?}: {median_ratios:.3?}, covered {covered_alphas:?}, σ {median_stds:.4?} {covered_stds:?}, errors {covered_errors:?}",
         scenario.name
@@ -107,7 +107,7 @@ fn run_calibration_study(model: Model, scenario: &Scenario, log_count: usize) ->
     study
 }
 
-fn median_of_sorted(sorted_numbers: &[f64]) -> f64 {
+fn median_of(sorted_numbers: &[f64]) -> f64 {
     sorted_numbers[sorted_numbers.len() / 2]
 }
 
@@ -120,7 +120,7 @@ fn estimate_error_of_median(sorted_numbers: &[f64]) -> f64 {
 }
 
 /// Returns three standard errors of a fraction that is estimated from `log_count` logs.
-fn three_errors_of_fraction(true_fraction: f64, log_count: usize) -> f64 {
+fn three_standard_errors_of(true_fraction: f64, log_count: usize) -> f64 {
     3.0 * (true_fraction * (1.0 - true_fraction) / log_count as f64).sqrt()
 }
 
@@ -128,7 +128,7 @@ fn three_errors_of_fraction(true_fraction: f64, log_count: usize) -> f64 {
 fn report_wrong_coverage(quantity_name: &str, covered_count: usize, log_count: usize) -> Option<String> {
     let coverage = covered_count as f64 / log_count as f64;
     let allowed_coverage =
-        0.92 - three_errors_of_fraction(0.92, log_count)..=0.98 + three_errors_of_fraction(0.98, log_count);
+        0.92 - three_standard_errors_of(0.92, log_count)..=0.98 + three_standard_errors_of(0.98, log_count);
     (!allowed_coverage.contains(&coverage))
         .then(|| format!("{covered_count} of {log_count} intervals hold {quantity_name}"))
 }
@@ -137,7 +137,7 @@ fn report_wrong_coverage(quantity_name: &str, covered_count: usize, log_count: u
 fn report_wrong_alphas(model: Model, scenario: &Scenario, study: &StudyResults) -> Vec<String> {
     let report_wrong_alpha = |alpha_index: usize| {
         let (ratios, name) = (&study.alpha_ratios[alpha_index], format!("α{}", alpha_index + 1));
-        let (median_ratio, standard_error) = (median_of_sorted(ratios), estimate_error_of_median(ratios));
+        let (median_ratio, standard_error) = (median_of(ratios), estimate_error_of_median(ratios));
         let is_median_wrong = ratios.len() < study.log_count
             || (median_ratio - 1.0).abs() > scenario.allowed_bias + 3.0 * standard_error;
         let median_report = is_median_wrong.then(|| {
@@ -168,7 +168,7 @@ fn assert_right_in_every_model(
 
 /// Reports a standard deviation of the reference whose error is larger than 10 % plus three standard errors.
 fn report_wrong_std(study: &StudyResults, component_index: usize, true_std: f64) -> Vec<String> {
-    let median_std = median_of_sorted(&study.reference_stds[component_index]);
+    let median_std = median_of(&study.reference_stds[component_index]);
     let tolerance = 0.1 * true_std + 3.0 * estimate_error_of_median(&study.reference_stds[component_index]);
     let is_median_wrong = (median_std - true_std).abs() > tolerance;
     is_median_wrong.then(|| format!("median of std {component_index}: {median_std}")).into_iter().collect()

@@ -90,13 +90,13 @@ fn a_reference_that_turns_the_other_way_is_recognized_at_any_clock_offset() {
 
 #[test]
 fn one_bad_drive_of_two_is_recognized() {
-    let [good_log, [odometry, reference], [_, other_reference]] =
+    let [consistent_log, [odometry, reference], [_, other_reference]] =
         [(1200, 1), (60, 2), (60, 3)].map(|(legs, seed)| new_passing_simulation(legs, seed).simulate_log());
     let mirrored_reference = change_poses(&reference, |pose| SE2::new(pose.x(), -pose.y(), -pose.theta()));
     for (reference, failure_cause) in
         [(mirrored_reference, Some(FailureCause::Mirrored)), (other_reference, None)]
     {
-        let logs = [good_log.clone(), [odometry.clone(), reference]];
+        let logs = [consistent_log.clone(), [odometry.clone(), reference]];
         let drives = logs.map(|[odometry, reference]| Drive { odometry, reference });
         let calibration = calibrate(&drives, &new_passing_simulation(0, 0).calibration_options()).unwrap();
         let check = &calibration.diagnostics.checks[0];

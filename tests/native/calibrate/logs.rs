@@ -167,8 +167,8 @@ fn a_leg_ends_at_the_sample_of_the_reference_nearest_to_a_reading() {
     let drive = new_straight_drive(1001, 0.05);
     let leg_length = LegLength::Duration { duration: 0.5 };
     let all_legs = split_into_legs(&drive, &drive, leg_length, 0.0).0;
-    for row_step in [2, 4, 8] {
-        let sparse_reference = new_trajectory(drive.samples().skip(3).step_by(row_step));
+    for row_stride in [2, 4, 8] {
+        let sparse_reference = new_trajectory(drive.samples().skip(3).step_by(row_stride));
         let (legs, _) = split_into_legs(&drive, &sparse_reference, leg_length, 0.0);
         for leg in &legs {
             assert!(leg.times.iter().all(|time| times_of(&sparse_reference).contains(time)), "{leg:?}");
@@ -177,7 +177,7 @@ fn a_leg_ends_at_the_sample_of_the_reference_nearest_to_a_reading() {
         assert!(legs.windows(2).all(|adjacent_legs| adjacent_legs[0].times[1] == adjacent_legs[1].times[0]));
         // If the samples of the reference are closer together than the ends of legs, the mean length of legs does not change.
         let count_ratio = legs.len() as f64 / all_legs.len() as f64;
-        assert!((count_ratio - if row_step == 8 { 5.0 / 8.0 } else { 1.0 }).abs() < 0.02, "{count_ratio}");
+        assert!((count_ratio - if row_stride == 8 { 5.0 / 8.0 } else { 1.0 }).abs() < 0.02, "{count_ratio}");
     }
     // In the clock offset of 0.01 s the robot drives 5 mm. The sparse odometry is interpolated at the nearest sample of the reference.
     let sparse_odometry = new_trajectory(drive.samples().step_by(8));
@@ -206,8 +206,8 @@ fn times_must_rise_and_numbers_must_be_finite() {
         Trajectory::new(timed_poses).err().map(|trajectory_error| trajectory_error.to_string())
     };
     assert_eq!([error_message_for(&[]), error_message_for(&[(1.0, 2.0)])], [None, None]);
-    let order_message = "sample 2 is not later than the one before; allowed are increasing times";
-    assert_eq!(error_message_for(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0)]).as_deref(), Some(order_message));
+    let time_order_message = "sample 2 is not later than the one before; allowed are increasing times";
+    assert_eq!(error_message_for(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0)]).as_deref(), Some(time_order_message));
     let finite_message = "sample 1 has a time or a coordinate that is not finite; allowed are finite numbers";
     assert_eq!(error_message_for(&[(0.0, 0.0), (f64::NAN, 0.0)]).as_deref(), Some(finite_message));
     assert_eq!(error_message_for(&[(0.0, 0.0), (1.0, f64::INFINITY)]).as_deref(), Some(finite_message));

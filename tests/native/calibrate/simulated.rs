@@ -106,16 +106,16 @@ impl Simulation {
             [Error::DistanceScale, Error::TurnScale].map(|scale_kind| self.systematic_errors.get(scale_kind));
         let mut odometry_samples = vec![(0.0, SE2::identity())];
         let mut base_poses = vec![(0.0, SE2::new(1.0, 2.0, 0.5))];
-        let (mut drawn_velocity, mut rows_left, mut start_row) = ([0.3, 0.0], 40 * rows_per_step, 0);
+        let (mut drawn_velocity, mut remaining_rows, mut start_row) = ([0.3, 0.0], 40 * rows_per_step, 0);
         // Motion since the start of the leg, as the odometry would measure it without systematic errors.
         let (mut leg_motion, mut leg_rows) = (SE2::identity(), Vec::new());
         let (mut leg_index, mut unit_noise) = (0, [0.0; 3]);
         while leg_index < self.leg_count {
-            if rows_left == 0 {
+            if remaining_rows == 0 {
                 drawn_velocity = self.draw_velocity(&mut rng);
-                rows_left = rng.random_range(15..60) * rows_per_step;
+                remaining_rows = rng.random_range(15..60) * rows_per_step;
             }
-            rows_left -= 1;
+            remaining_rows -= 1;
             let drawn_velocity =
                 self.velocity_of_leg.map_or(drawn_velocity, |velocity_of_leg| velocity_of_leg(leg_index));
             let row_time = odometry_samples.len() as f64 * step_seconds;
@@ -242,8 +242,8 @@ pub fn execute_motion(
     match model {
         Model::Odometry(rule) => {
             let odom_delta = OdomDelta::from_poses(&origin_pose, odometry_motion);
-            let model_alphas = std::array::from_fn(|k| alphas[k]);
-            rule.variances(&odom_delta, &model_alphas)
+            let true_alphas_of_model = std::array::from_fn(|k| alphas[k]);
+            rule.variances(&odom_delta, &true_alphas_of_model)
                 .executed_motion(&rule.legs(&odom_delta), unit_noise)
                 .poses(&origin_pose)[3]
         }

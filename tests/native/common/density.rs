@@ -141,13 +141,13 @@ impl PolarGrid {
             self.cell_masses(density_at).iter().map(|probability_mass| probability_mass * n).collect();
         observed_counts.push(n - observed_counts.iter().sum::<f64>());
         expected_counts.push(n - expected_counts.iter().sum::<f64>());
-        let (sparse_cells, full_cells): (Vec<_>, Vec<_>) = observed_counts
+        let (sparse_cells, populated_cells): (Vec<_>, Vec<_>) = observed_counts
             .into_iter()
             .zip(expected_counts)
             .partition(|(_, expected_count)| *expected_count < 20.0);
         let pooled_cell =
             sparse_cells.iter().fold((0.0, 0.0), |(o, e), count_pair| (o + count_pair.0, e + count_pair.1));
-        assert!(full_cells.len() > 40, "{} cells test little", full_cells.len());
+        assert!(populated_cells.len() > 40, "{} cells test little", populated_cells.len());
         assert!(
             pooled_cell.1 > -1e-4 * n,
             "the density has more mass than 1: {} poses remain",
@@ -159,8 +159,8 @@ impl PolarGrid {
         // The cell that pools all sparse cells is left out if it expects few poses, because the quadrature error may exceed their number.
         let pooled_term = if pooled_cell.1 >= 20.0 { chi_square_term_of(&pooled_cell) } else { 0.0 };
         (
-            full_cells.iter().map(chi_square_term_of).sum::<f64>() + pooled_term,
-            chi_square_limit(full_cells.len() + 1),
+            populated_cells.iter().map(chi_square_term_of).sum::<f64>() + pooled_term,
+            chi_square_limit(populated_cells.len() + 1),
         )
     }
 }

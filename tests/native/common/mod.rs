@@ -63,8 +63,9 @@ pub fn is_point_inside(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
         .windows(2)
         .map(|segment_ends| {
             let [[start_x, start_y], [end_x, end_y]] = [segment_ends[0], segment_ends[1]];
-            let is_left = (end_x - start_x) * (y - start_y) > (x - start_x) * (end_y - start_y);
-            i32::from(start_y <= y && end_y > y && is_left) - i32::from(start_y > y && end_y <= y && !is_left)
+            let is_left_of_edge = (end_x - start_x) * (y - start_y) > (x - start_x) * (end_y - start_y);
+            i32::from(start_y <= y && end_y > y && is_left_of_edge)
+                - i32::from(start_y > y && end_y <= y && !is_left_of_edge)
         })
         .sum();
     winding_count != 0
@@ -106,7 +107,7 @@ impl ReferenceRow<'_> {
     }
 
     pub fn cell_numbers<const N: usize>(&self, column_names: [&str; N]) -> [f64; N] {
-        column_names.map(|wanted_name| self.cell_number(wanted_name))
+        column_names.map(|column_name| self.cell_number(column_name))
     }
 
     pub fn noise_kind(&self) -> NoiseKind {

@@ -112,6 +112,6 @@ pub fn to_numbers<const N: usize>(numbers_json: &Value) -> [f64; N] {
 }
 
 /// Returns a colour ramp with the same distinct colours as in digest.js.
-pub fn test_ramp(ramp_index: usize) -> Ramp {
+pub fn new_test_ramp(ramp_index: usize) -> Ramp {
     std::array::from_fn(|i| [i as u8, (RAMP_STEP_COUNT - 1 - i) as u8, 85 * ramp_index as u8, 255])
 }

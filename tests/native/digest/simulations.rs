@@ -1,6 +1,6 @@
 //! Digested results of each simulation, in the order of digest.js.
 
-use super::configuration::{Configuration, test_ramp, to_number, to_numbers};
+use super::configuration::{Configuration, new_test_ramp, to_number, to_numbers};
 use super::encoding::HashedPart;
 use motion::calibrate::{Estimate, SystematicError};
 use motion::geom::se2::SE2;
@@ -40,7 +40,8 @@ pub fn hash_banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
         flatten(&contours.twist_ellipse),
         flatten(&contours.additive),
     );
-    let mut paint_stage = |morph| flatten(simulation.paint(morph, &configuration.view_grid(), &test_ramp(0)));
+    let mut paint_stage =
+        |morph| flatten(simulation.paint(morph, &configuration.view_grid(), &new_test_ramp(0)));
     let [plane_pixels, twist_pixels] = [0.0, 1.0].map(&mut paint_stage);
     vec![
         HashedPart::new("poses", simulation.poses().flat_map(coordinates_of).collect::<Vec<_>>()),
@@ -106,7 +107,7 @@ pub fn hash_map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
         ),
         HashedPart::new(
             "picture",
-            flatten(simulation.paint(&configuration.view_grid(), &[0, 1, 2].map(test_ramp))),
+            flatten(simulation.paint(&configuration.view_grid(), &[0, 1, 2].map(new_test_ramp))),
         ),
     ]
 }

@@ -49,9 +49,9 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
         printed_skew.assert_near(exact_column.cross_track_skew, 1e-12);
         exact_column
     };
-    let worked_row = read_statistics_document()
+    let worked_example_row = read_statistics_document()
         .sentence_numbers("| 1, 0.5, 1; α₁₋₄ = 0.02, α₅,₆ = 0 | ∞ | # | # | # % | # |");
-    assert_row(&simulate_preset("worked"), worked_row);
+    assert_row(&simulate_preset("worked"), worked_example_row);
     let [(gentle_exact, _), (hard_exact, hard_simulation), (banana_exact, _)] = [
         ("gentle", "| 1, 0.5, 1; (0.05, 0.05, 0.05, 0.09, 0.01, 0.01)"),
         ("hard", "| 1, 1.2, 1.4; the same"),

@@ -17,6 +17,6 @@ fn read_exercises() -> PlainText {
     PlainText::from_document(include_str!("../../../doc/exercises.md"))
 }
 
-fn model_text() -> PlainText {
+fn read_model_document() -> PlainText {
     PlainText::from_document(include_str!("../../../doc/model.md"))
 }

@@ -1,6 +1,6 @@
 //! Numbers of the Odometry Decomposer on the page, and of the noise rules in doc/model.md, compared with computed numbers.
 
-use super::{model_text, read_page_text};
+use super::{read_model_document, read_page_text};
 use crate::common::settings_of_preset;
 use crate::simulations::odometry_decomposer::new_simulation;
 use motion::models::OdometryRule::{self, Beluga, Nav2, Omni, Table};
@@ -67,7 +67,8 @@ fn the_deviations_of_the_rules_are_those_in_the_document() {
         preset_row_names.into_iter().flat_map(|preset_name| rule_column_names.map(|rule| (preset_name, rule)))
     {
         let leg_stds = find_rule_noise(settings_of_preset(preset_name), rule).deviations;
-        model_text().assert_numbers(&format!("| {row_name} | {rule_name} | # | # | # | # |"), leg_stds);
+        read_model_document()
+            .assert_numbers(&format!("| {row_name} | {rule_name} | # | # | # | # |"), leg_stds);
         if rule == Nav2 {
             assert_eq!(find_rule_noise(settings_of_preset(preset_name), Beluga).deviations, leg_stds);
         }

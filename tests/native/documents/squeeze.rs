@@ -1,6 +1,6 @@
 //! Fractions of Map Squeeze on the page and in doc/model.md, compared with computed numbers.
 
-use super::{model_text, read_page_text};
+use super::{read_model_document, read_page_text};
 use crate::common::text::PrintedNumber;
 use crate::common::{MAX_STANDARD_ERRORS, seeded_rng};
 use motion::geom::arc::Arc;
@@ -98,7 +98,7 @@ fn a_third_of_the_accepted_motions_went_through_a_wall_at_the_doorway() {
 #[test]
 #[ignore = "nightly: 30 clouds of 100,000"]
 fn fractions_through_walls_by_substeps_are_those_in_the_documents() {
-    let printed_fractions = model_text().sentence_numbers(
+    let printed_fractions = read_model_document().sentence_numbers(
         "On a straight command it falls with k: to # % at k = 16 facing the doorway, and to # % in the corridor.",
     );
     for (preset_index, printed_fraction) in
@@ -118,7 +118,7 @@ fn fractions_through_walls_by_substeps_are_those_in_the_documents() {
         fraction_in_parts(DOORWAY_PRESET, printed_part_count.value as u32, printed_omega.value),
         printed_parts_percentage,
     );
-    let printed_numbers: [_; 10] = model_text().sentence_numbers(
+    let printed_numbers: [_; 10] = read_model_document().sentence_numbers(
         "At the doorway it is # % at k = 1, # % at 4, # % at 6, # % at 8, and # % at 16. In the corridor it rises from # % \
          over # and # % to # % at k = 8, and falls to # % at 12.",
     );
@@ -147,7 +147,7 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
     through_wall_fractions
         .windows(2)
         .for_each(|fraction_pair| assert_smaller_fraction(fraction_pair[0], fraction_pair[1], "more parts"));
-    let [printed_with_endpoint, printed_with_2_parts, printed_with_4_parts, printed_with_8_parts, printed_wedged_parts] = model_text().sentence_numbers(
+    let [printed_with_endpoint, printed_with_2_parts, printed_with_4_parts, printed_with_8_parts, printed_wedged_parts] = read_model_document().sentence_numbers(
         "it rises from # % at k = 1 to # %, # % and # % at k = 2, 4 and 8. From k = # on, so few parts reach across that \
          the widget gives up.",
     );
@@ -184,11 +184,11 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
 #[test]
 #[ignore = "nightly: clouds of 100,000"]
 fn testing_the_geodesic_changes_the_documented_fraction_of_verdicts() {
-    let [min_percent, max_percent, doorway_min_percentage, doorway_max] = model_text().sentence_numbers(
+    let [min_percent, max_percent, doorway_min_percentage, doorway_max_percentage] = read_model_document().sentence_numbers(
         "between # and # % of the accepted samples get the other verdict (n from 0.12 to 0.2, ω from 0 to 1; the doorway \
          # to # %)",
     );
-    assert_eq!(max_percent.value, doorway_max.value);
+    assert_eq!(max_percent.value, doorway_max_percentage.value);
     let floor_plan = FloorPlan::apartment();
     for &(preset_name, Settings { start: [x, y, theta], .. }) in Settings::PRESETS {
         let start_pose = SE2::new(x, y, theta);

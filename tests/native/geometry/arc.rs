@@ -10,34 +10,34 @@ use motion::geom::segment::Segment;
 use rand::Rng;
 use std::f64::consts::{PI, TAU};
 
-fn draw_point(rng: &mut impl Rng, max_coordinate: f64) -> Point {
+fn sample_point(rng: &mut impl Rng, max_coordinate: f64) -> Point {
     [draw_uniform(rng, -max_coordinate, max_coordinate), draw_uniform(rng, -max_coordinate, max_coordinate)]
 }
 
 fn new_arc_anywhere(rng: &mut impl Rng, arc_length: f64, arc_turn: f64) -> Arc {
-    let [x, y] = draw_point(rng, 5.0);
+    let [x, y] = sample_point(rng, 5.0);
     Arc { start: SE2::new(x, y, draw_uniform(rng, -PI, PI)), length: arc_length, turn: arc_turn }
 }
 
 /// Returns an arc of up to 8 m in either direction, which turns by up to two circles to either side.
-fn draw_arc(rng: &mut impl Rng) -> Arc {
+fn sample_arc(rng: &mut impl Rng) -> Arc {
     let (arc_length, arc_turn) = (draw_uniform(rng, -8.0, 8.0), draw_uniform(rng, -2.0 * TAU, 2.0 * TAU));
     new_arc_anywhere(rng, arc_length, arc_turn)
 }
 
-fn draw_nearly_straight_arc(rng: &mut impl Rng) -> Arc {
+fn sample_nearly_straight_arc(rng: &mut impl Rng) -> Arc {
     let (arc_length, arc_turn) = (draw_uniform(rng, -8.0, 8.0), draw_signed_log_uniform(rng, 1e-18, 1e-3));
     new_arc_anywhere(rng, arc_length, arc_turn)
 }
 
-fn draw_turn_nearly_on_the_spot(rng: &mut impl Rng) -> Arc {
+fn sample_turn_nearly_on_the_spot(rng: &mut impl Rng) -> Arc {
     let (arc_length, arc_turn) =
         (draw_signed_log_uniform(rng, 1e-15, 1e-1), draw_uniform(rng, -2.0 * TAU, 2.0 * TAU));
     new_arc_anywhere(rng, arc_length, arc_turn)
 }
 
-fn draw_wall(rng: &mut impl Rng, _: &Arc) -> Segment {
-    Segment { from: draw_point(rng, 8.0), to: draw_point(rng, 8.0) }
+fn sample_wall(rng: &mut impl Rng, _: &Arc) -> Segment {
+    Segment { from: sample_point(rng, 8.0), to: sample_point(rng, 8.0) }
 }
 
 fn to_absolute(arc: &Arc, relative_point: Point) -> Point {
@@ -45,7 +45,7 @@ fn to_absolute(arc: &Arc, relative_point: Point) -> Point {
 }
 
 /// Returns a wall along a tangent of the arc, at a tiny distance.
-fn draw_tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
+fn sample_tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let arc_fraction = draw_uniform(rng, 0.0, 1.0);
     let tangent_heading = arc.start.theta() + arc_fraction * arc.turn;
     let [x, y] = position_along_arc(arc, arc_fraction);
@@ -65,12 +65,12 @@ fn draw_tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
     Segment { from: draw_end(), to: draw_end() }
 }
 
-fn draw_wall_near_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
+fn sample_wall_near_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let [x, y] = position_along_arc(arc, f64::from(rng.next_u32() % 2));
     let mut draw_offset = || draw_signed_log_uniform(rng, 1e-15, 1e-1);
     let near_end = to_absolute(arc, [x + draw_offset(), y + draw_offset()]);
     let other_end = if rng.next_u32().is_multiple_of(2) {
-        draw_point(rng, 8.0)
+        sample_point(rng, 8.0)
     } else {
         let (heading, distance) = (draw_uniform(rng, -PI, PI), draw_uniform(rng, -3.0, 3.0));
         [near_end[0] + distance * heading.cos(), near_end[1] + distance * heading.sin()]
@@ -79,7 +79,7 @@ fn draw_wall_near_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
 }
 
 /// Returns a wall with an end near the centre of the arc's circle, where all points of the circle are equally near.
-fn draw_wall_from_centre(rng: &mut impl Rng, arc: &Arc) -> Segment {
+fn sample_wall_from_centre(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let (radius, theta) = (arc.length / arc.turn, arc.start.theta());
     let mut draw_offset = || draw_signed_log_uniform(rng, 1e-16, 1e-1);
     let near_end =
@@ -92,24 +92,24 @@ fn draw_wall_from_centre(rng: &mut impl Rng, arc: &Arc) -> Segment {
     }
 }
 
-fn draw_point_wall(rng: &mut impl Rng, _: &Arc) -> Segment {
-    let wall_point = draw_point(rng, 8.0);
+fn sample_point_wall(rng: &mut impl Rng, _: &Arc) -> Segment {
+    let wall_point = sample_point(rng, 8.0);
     Segment { from: wall_point, to: wall_point }
 }
 
 type ArcGenerator = fn(&mut rand_xoshiro::Xoshiro256PlusPlus) -> Arc;
 type WallGenerator = fn(&mut rand_xoshiro::Xoshiro256PlusPlus, &Arc) -> Segment;
 
-const DRAW_STRAIGHT_ARC: ArcGenerator = |rng| {
+const SAMPLE_STRAIGHT_ARC: ArcGenerator = |rng| {
     let arc_length = draw_uniform(rng, -8.0, 8.0);
     new_arc_anywhere(rng, arc_length, 0.0)
 };
-const DRAW_TURN_ON_THE_SPOT: ArcGenerator = |rng| {
+const SAMPLE_TURN_ON_THE_SPOT: ArcGenerator = |rng| {
     let arc_turn = draw_uniform(rng, -TAU, TAU);
     new_arc_anywhere(rng, 0.0, arc_turn)
 };
 /// Generator of arcs of up to a kilometre around a circle of any radius.
-const DRAW_LONG_ARC: ArcGenerator = |rng| {
+const SAMPLE_LONG_ARC: ArcGenerator = |rng| {
     let (arc_length, arc_turn) =
         (draw_signed_log_uniform(rng, 1.0, 1e3), draw_signed_log_uniform(rng, 1e-6, 30.0));
     new_arc_anywhere(rng, arc_length, arc_turn)
@@ -117,20 +117,20 @@ const DRAW_LONG_ARC: ArcGenerator = |rng| {
 
 /// Kinds of arcs and walls, and the number of pairs of each.
 const ARC_AND_WALL_KINDS: [(&str, ArcGenerator, WallGenerator, u32); 14] = [
-    ("any arc, any wall", draw_arc, draw_wall, 4000),
-    ("any arc, tangent", draw_arc, draw_tangent_wall, 3000),
-    ("any arc, by its end", draw_arc, draw_wall_near_end, 1500),
-    ("any arc, from its centre", draw_arc, draw_wall_from_centre, 1500),
-    ("any arc, point", draw_arc, draw_point_wall, 1000),
-    ("nearly straight, any wall", draw_nearly_straight_arc, draw_wall, 1500),
-    ("nearly straight, tangent", draw_nearly_straight_arc, draw_tangent_wall, 2000),
-    ("nearly straight, by its end", draw_nearly_straight_arc, draw_wall_near_end, 1000),
-    ("straight, any wall", DRAW_STRAIGHT_ARC, draw_wall, 1000),
-    ("straight, parallel", DRAW_STRAIGHT_ARC, draw_tangent_wall, 1000),
-    ("on the spot", DRAW_TURN_ON_THE_SPOT, draw_wall, 500),
-    ("nearly on the spot, any wall", draw_turn_nearly_on_the_spot, draw_wall, 1000),
-    ("nearly on the spot, tangent", draw_turn_nearly_on_the_spot, draw_tangent_wall, 1500),
-    ("long", DRAW_LONG_ARC, draw_tangent_wall, 1500),
+    ("any arc, any wall", sample_arc, sample_wall, 4000),
+    ("any arc, tangent", sample_arc, sample_tangent_wall, 3000),
+    ("any arc, by its end", sample_arc, sample_wall_near_end, 1500),
+    ("any arc, from its centre", sample_arc, sample_wall_from_centre, 1500),
+    ("any arc, point", sample_arc, sample_point_wall, 1000),
+    ("nearly straight, any wall", sample_nearly_straight_arc, sample_wall, 1500),
+    ("nearly straight, tangent", sample_nearly_straight_arc, sample_tangent_wall, 2000),
+    ("nearly straight, by its end", sample_nearly_straight_arc, sample_wall_near_end, 1000),
+    ("straight, any wall", SAMPLE_STRAIGHT_ARC, sample_wall, 1000),
+    ("straight, parallel", SAMPLE_STRAIGHT_ARC, sample_tangent_wall, 1000),
+    ("on the spot", SAMPLE_TURN_ON_THE_SPOT, sample_wall, 500),
+    ("nearly on the spot, any wall", sample_turn_nearly_on_the_spot, sample_wall, 1000),
+    ("nearly on the spot, tangent", sample_turn_nearly_on_the_spot, sample_tangent_wall, 1500),
+    ("long", SAMPLE_LONG_ARC, sample_tangent_wall, 1500),
 ];
 
 /// Both the analytic distance and the reference round coordinates a few times. The tolerance is eight units in the last place of the

@@ -41,11 +41,11 @@ fn the_logarithm_near_a_turn_is_on_the_branch_of_that_turn() {
         let twist = Vector3::new(draw_within(3.0), draw_within(3.0), draw_within(2.0 * PI - 0.3));
         let pose = SE2::exp(&twist);
         let expected_turn = twist.z + draw_within(3.0);
-        let pose_log = pose.log_near(expected_turn);
+        let twist_to_pose = pose.log_near(expected_turn);
         // The factor 1/sinc(ω/2) amplifies the rounding of the pose, up to 20 times at 0.3 rad from a full turn.
         assert!(
-            (pose_log - twist).amax() < 20.0 * LAW_TOLERANCE * twist.norm().max(1.0),
-            "log_near({expected_turn}) of exp({twist}) = {pose_log}"
+            (twist_to_pose - twist).amax() < 20.0 * LAW_TOLERANCE * twist.norm().max(1.0),
+            "log_near({expected_turn}) of exp({twist}) = {twist_to_pose}"
         );
         assert_eq!(pose.log_near(pose.theta()), pose.log());
         let log_a_turn_further = pose.log_near(twist.z + TAU);

@@ -57,12 +57,12 @@ fn range_limits() -> impl Strategy<Value = f64> {
         f64::MAX,
     ];
     (0..LIMITS_OF_RANGES.len(), any::<bool>(), -1..=1).prop_map(|(i, is_negative, neighbour_step)| {
-        let nearby_limit = match neighbour_step {
+        let neighbouring_double = match neighbour_step {
             -1 => LIMITS_OF_RANGES[i].next_down(),
             0 => LIMITS_OF_RANGES[i],
             _ => LIMITS_OF_RANGES[i].next_up().min(f64::MAX),
         };
-        if is_negative { -nearby_limit } else { nearby_limit }
+        if is_negative { -neighbouring_double } else { neighbouring_double }
     })
 }
 

@@ -60,10 +60,10 @@ proptest! {
     /// Turns are on the principal branch, where the logarithm returns the turn exactly.
     #[test]
     fn log_inverts_exp(twist in any_twist(3.1)) {
-        let pose_log = SE2::exp(&twist).log();
+        let recovered_twist = SE2::exp(&twist).log();
         let tolerance = TOLERANCE_ULPS * f64::EPSILON * (twist.x.abs() + twist.y.abs()) + f64::MIN_POSITIVE;
-        prop_assert_eq!(pose_log.z, twist.z);
-        prop_assert!((pose_log.x - twist.x).abs() <= tolerance && (pose_log.y - twist.y).abs() <= tolerance, "{:?}", pose_log);
+        prop_assert_eq!(recovered_twist.z, twist.z);
+        prop_assert!((recovered_twist.x - twist.x).abs() <= tolerance && (recovered_twist.y - twist.y).abs() <= tolerance, "{:?}", recovered_twist);
     }
 
     #[test]

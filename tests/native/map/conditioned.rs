@@ -27,7 +27,7 @@ fn start_pose_of(preset_name: &str) -> SE2 {
     SE2::new(x, y, theta)
 }
 
-fn unit_noise(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {
+fn draw_unit_noise(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {
     std::array::from_fn(|_| NoiseKind::Normal.quantile(draw_centred_uniform(rng)))
 }
 
@@ -55,7 +55,9 @@ fn acceptance_and_wall_fractions_equal_the_published_ones() {
         let (start_pose, command) = (start_pose_of(preset_name), VelocityCmd { omega, ..STRAIGHT_COMMAND });
         let mut rng = seeded_rng(5);
         let tested_draws: Vec<_> = (0..DRAW_COUNT)
-            .map(|_| endpoint_model.collision_tester(&command, &start_pose).test_draw(unit_noise(&mut rng)))
+            .map(|_| {
+                endpoint_model.collision_tester(&command, &start_pose).test_draw(draw_unit_noise(&mut rng))
+            })
             .collect();
         let accepted_count = tested_draws.iter().filter(|tested_draw| tested_draw.end_verdict.free).count();
         let through_wall_count = tested_draws
@@ -90,7 +92,7 @@ fn samples_are_those_of_table_5_7() {
                     let mut noise_rng = expected_rng.clone();
                     let drawn_pose = new_velocity_model().sample(&command, &start_pose, &mut expected_rng);
                     let executed_motion =
-                        new_velocity_model().executed_motion(&command, unit_noise(&mut noise_rng));
+                        new_velocity_model().executed_motion(&command, draw_unit_noise(&mut noise_rng));
                     let arc = Arc {
                         start: start_pose,
                         length: 2.0 * executed_motion.v_hat,
@@ -122,8 +124,8 @@ pub fn new_too_small_room() -> FloorPlan {
 fn a_robot_that_cannot_move_is_an_error_with_the_number_of_draws() {
     let plan = new_too_small_room();
     let start_pose = SE2::new(2.1, 2.1, 0.0);
-    for part_sampler in SAMPLERS {
-        let refusal = condition_on_map(&plan, part_sampler)
+    for sampler in SAMPLERS {
+        let refusal = condition_on_map(&plan, sampler)
             .sample(&STRAIGHT_COMMAND, &start_pose, &mut seeded_rng(12))
             .expect_err("no room");
         assert_eq!(refusal.0.draws, MAX_DRAWS);
@@ -135,9 +137,9 @@ fn a_robot_that_cannot_move_is_an_error_with_the_number_of_draws() {
             .expect("a valid plan");
     let precise_model =
         VelocityModel { alphas: VelocityAlphas([1e-6, 0.0, 0.0, 0.0, 0.0, 0.0]), noise: NoiseKind::Normal };
-    let part_sampler =
+    let sampler =
         MapConditioned { model: precise_model, ..condition_on_map(&dead_end_plan, Sampler::SubStepped(2)) };
-    let refusal = part_sampler
+    let refusal = sampler
         .sample(&STRAIGHT_COMMAND, &SE2::new(0.3, 1.0, 0.0), &mut seeded_rng(13))
         .expect_err("a dead end");
     assert_eq!(refusal.0.draws, MAX_DRAWS + 1);

@@ -77,7 +77,7 @@ fn create_hard_plans(wall_count: usize) -> Vec<(&'static str, Vec<Segment>)> {
     ]
 }
 
-fn draw_arc(rng: &mut impl Rng) -> Arc {
+fn sample_arc(rng: &mut impl Rng) -> Arc {
     let is_near_centre = rng.next_u32().is_multiple_of(2);
     let [x, y] = std::array::from_fn(|_| {
         if is_near_centre { draw_uniform(rng, 4.9, 5.1) } else { draw_uniform(rng, 2.0, 8.0) }
@@ -99,7 +99,7 @@ fn a_collision_check_in_a_hard_plan_measures_few_walls() {
         let plan = FloorPlan::new(walls, ROOM_BOUNDS).expect("allowed");
         assert_eq!(plan.walls().len(), FloorPlan::MAX_WALLS);
         let mut rng = seeded_rng(9802);
-        let wall_tests: usize = (0..300).map(|_| plan.test_arc(&draw_arc(&mut rng), 0.13).wall_tests).sum();
+        let wall_tests: usize = (0..300).map(|_| plan.test_arc(&sample_arc(&mut rng), 0.13).wall_tests).sum();
         assert!(wall_tests < 300 * MAX_MEAN_WALL_TESTS, "{plan_name}: {wall_tests}");
     }
 }

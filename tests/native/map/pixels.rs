@@ -14,7 +14,8 @@ fn pixels_are_read_as_map_server_reads_them() {
     let set_occupied_threshold = |occupied_thresh| PixelClassifier { occupied_thresh, ..trinary_mode };
     let negate_with_threshold =
         |occupied_thresh| PixelClassifier { negate: true, ..set_occupied_threshold(occupied_thresh) };
-    let with_free_threshold = |free_thresh| PixelClassifier { free_thresh, ..trinary_mode };
+    let with_free_threshold =
+        |free_threshold| PixelClassifier { free_thresh: free_threshold, ..trinary_mode };
     let classifier_cases = [
         ("black", trinary_mode, pixel(0), Cell::Occupied),
         ("white", trinary_mode, pixel(255), Cell::Free),

@@ -14,11 +14,11 @@ fn new_wall(start_x: f64, start_y: f64, end_x: f64, end_y: f64) -> Segment {
     Segment { from: [start_x, start_y], to: [end_x, end_y] }
 }
 
-fn draw_point([min_x, min_y, max_x, max_y]: [f64; 4], rng: &mut impl Rng) -> [f64; 2] {
+fn sample_point([min_x, min_y, max_x, max_y]: [f64; 4], rng: &mut impl Rng) -> [f64; 2] {
     [draw_uniform(rng, min_x, max_x), draw_uniform(rng, min_y, max_y)]
 }
 
-fn draw_arc_from(start_position: [f64; 2], rng: &mut impl Rng) -> Arc {
+fn sample_arc_from(start_position: [f64; 2], rng: &mut impl Rng) -> Arc {
     let turn = match rng.next_u32() % 3 {
         0 => draw_signed_log_uniform(rng, 1e-18, 1e-3),
         1 => 0.0,
@@ -29,11 +29,11 @@ fn draw_arc_from(start_position: [f64; 2], rng: &mut impl Rng) -> Arc {
 }
 
 /// Returns walls whose coordinates extend by at most `max_extent` m, a third of them along the axes.
-fn draw_walls(wall_count: usize, max_extent: f64, bounds: [f64; 4], rng: &mut impl Rng) -> Vec<Segment> {
+fn sample_walls(wall_count: usize, max_extent: f64, bounds: [f64; 4], rng: &mut impl Rng) -> Vec<Segment> {
     let [min_x, min_y, max_x, max_y] = bounds;
     (0..wall_count)
         .map(|_| {
-            let start_point = draw_point(bounds, rng);
+            let start_point = sample_point(bounds, rng);
             let mut end_point = [
                 start_point[0] + draw_uniform(rng, -max_extent, max_extent),
                 start_point[1] + draw_uniform(rng, -max_extent, max_extent),
@@ -91,7 +91,7 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
     let image = Image { width: 40, height: 40, pixels };
     let grid = OccupancyGrid::new(&image, &PixelClassifier::default(), 0.25, SE2::new(3.0, -2.0, 0.4));
     let new_room_plan = |walls| FloorPlan::new(walls, ROOM_BOUNDS).expect("a valid plan");
-    let long_walls = draw_walls(12, 10.0, ROOM_BOUNDS, &mut rng);
+    let long_walls = sample_walls(12, 10.0, ROOM_BOUNDS, &mut rng);
     let tested_plans = [
         FloorPlan::apartment(),
         new_room_plan(new_diagonal_walls(20)),
@@ -106,9 +106,9 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
         let map_corners = plan.grid().map_or(corners_of_bounds, OccupancyGrid::corners);
         let mut verdict_counts = [0; 3];
         for _ in 0..3_000 {
-            let start_point = draw_point(plan.bounds(), &mut rng);
+            let start_point = sample_point(plan.bounds(), &mut rng);
             let length_factor = draw_signed_log_uniform(&mut rng, 1e-3, 1.0);
-            let arc = draw_arc_from(start_point, &mut rng);
+            let arc = sample_arc_from(start_point, &mut rng);
             let turn = if rng.next_u32().is_multiple_of(3) { 2.0 * arc.turn } else { arc.turn };
             let arc = Arc { length: length_factor * arc.length, turn, ..arc };
             let clearance = [0.0, 0.01, 0.13, 0.4][(rng.next_u32() % 4) as usize];

@@ -5,7 +5,7 @@ use crate::common::{
 };
 use motion::{NoiseKind, Variance};
 
-fn draw_noise_sample(noise_kind: NoiseKind, variance: f64, sample_count: usize, seed: u64) -> Vec<f64> {
+fn sample_noise(noise_kind: NoiseKind, variance: f64, sample_count: usize, seed: u64) -> Vec<f64> {
     let mut rng = seeded_rng(seed);
     (0..sample_count).map(|_| noise_kind.sample(Variance(variance), &mut rng)).collect()
 }
@@ -14,7 +14,7 @@ fn draw_noise_sample(noise_kind: NoiseKind, variance: f64, sample_count: usize, 
 fn samples_follow_the_exact_distribution() {
     for noise in NOISE_KINDS {
         for (seed, variance) in [(1, 1.0), (2, 0.025), (3, 1e-8), (4, 400.0)] {
-            let noise_sample = draw_noise_sample(noise, variance, SAMPLE_COUNT, seed);
+            let noise_sample = sample_noise(noise, variance, SAMPLE_COUNT, seed);
             let ks_statistic = scaled_ks_distance(noise_sample, |a| unit_cdf(noise, a / variance.sqrt()));
             assert!(
                 ks_statistic < MAX_KS_STATISTIC,

@@ -19,7 +19,7 @@ fn new_odom_delta(rot1: f64, trans: f64, rot2: f64) -> OdomDelta {
     OdomDelta { rot1, trans, rot2 }
 }
 
-fn draw_odometry_readings() -> [OdomDelta; 6] {
+fn sample_odometry_readings() -> [OdomDelta; 6] {
     [
         new_odom_delta(0.3, 1.0, 0.2),
         new_odom_delta(-0.4, 0.8, 1.0),
@@ -66,7 +66,7 @@ fn prob_is_the_score_of_table_5_5() {
     let mut rng = seeded_rng(92);
     let x = SE2::new(1.0, 2.0, -0.5);
     for noise_kind in NOISE_KINDS {
-        for u in draw_odometry_readings() {
+        for u in sample_odometry_readings() {
             for _ in 0..200 {
                 let mut perturb_value =
                     |unperturbed_value: f64| unperturbed_value + draw_uniform(&mut rng, -0.4, 0.4);
@@ -92,7 +92,7 @@ fn without_noise_samples_are_exact_and_there_is_no_density() {
     let x = SE2::new(-1.0, 0.5, 2.0);
     for noise_kind in NOISE_KINDS {
         let noise_free_model = OdometryModel { alphas: OdomAlphas([0.0; 4]), noise: noise_kind };
-        for u in draw_odometry_readings() {
+        for u in sample_odometry_readings() {
             let noise_free_end = u.apply(&x);
             assert_eq!(noise_free_model.sample(&u, &x, &mut rng), noise_free_end);
             assert_eq!(noise_free_model.prob(&noise_free_end, &u, &x), 1.0);
@@ -120,7 +120,7 @@ fn the_pose_density_divides_by_the_jacobian() {
     let mut rng = seeded_rng(94);
     let x = SE2::new(1.0, -2.0, 0.3);
     for noise in NOISE_KINDS {
-        for u in draw_odometry_readings() {
+        for u in sample_odometry_readings() {
             let table_variances = table_variances(&u, f64::abs);
             for _ in 0..100 {
                 let leg_noise =
@@ -153,7 +153,7 @@ fn grid_around(u: &OdomDelta, x: &SE2, table_variances: [f64; 3]) -> PolarGrid {
 fn the_pose_density_integrates_to_one_for_large_noise() {
     let x = SE2::new(0.4, 0.4, -2.2);
     for (noise, integral_tolerance, u) in [
-        (NoiseKind::Normal, 1e-6, draw_odometry_readings()[5]),
+        (NoiseKind::Normal, 1e-6, sample_odometry_readings()[5]),
         (NoiseKind::Triangular, 1e-3, new_odom_delta(0.7, 0.8, -0.4)),
     ] {
         let odometry_model = OdometryModel { alphas: OdomAlphas([0.9, 0.9, 1.1, 0.4]), noise };
@@ -168,7 +168,7 @@ fn the_pose_density_integrates_to_one_for_large_noise() {
 #[test]
 fn sampler_and_density_agree() {
     let x = SE2::new(0.5, -0.25, 1.0);
-    for (seed, u) in (100..).zip([draw_odometry_readings()[0], draw_odometry_readings()[3]]) {
+    for (seed, u) in (100..).zip([sample_odometry_readings()[0], sample_odometry_readings()[3]]) {
         for noise in NOISE_KINDS {
             let grid = grid_around(&u, &x, table_variances(&u, f64::abs));
             grid.assert_samples_fit(&new_model(noise), &u, &x, seed);
@@ -180,7 +180,7 @@ fn sampler_and_density_agree() {
 fn cartesian_cov_is_the_linearized_motion() {
     let x = SE2::new(4.0, 1.0, -1.2);
     let odometry_model = new_model(NoiseKind::Normal);
-    for u in draw_odometry_readings() {
+    for u in sample_odometry_readings() {
         let noise_jacobian = derivative_by_noise([0.0; 3], |unit_noise| {
             odometry_model.executed_motion(&u, unit_noise).apply(&x)
         });

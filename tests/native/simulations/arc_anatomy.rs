@@ -19,7 +19,7 @@ fn start_and_next_pose_of(settings: &Settings) -> (SE2, SE2) {
 }
 
 /// Returns an infinite stream of settings, each with two random poses some metres apart and a random command.
-fn draw_settings(seed: u64) -> impl Iterator<Item = Settings> {
+fn sample_settings(seed: u64) -> impl Iterator<Item = Settings> {
     let mut rng = seeded_rng(seed);
     std::iter::repeat_with(move || {
         let mut draw_uniform_up_to = |max_abs: f64| draw_uniform(&mut rng, -max_abs, max_abs);
@@ -54,7 +54,7 @@ fn compute_printed_table(settings: &Settings) -> [f64; 8] {
 
 #[test]
 fn the_printed_option_computes_the_lines_of_the_table() {
-    for settings in draw_settings(1).take(20_000) {
+    for settings in sample_settings(1).take(20_000) {
         let computed_lines = new_simulation(Settings { printed: true, ..settings }).table().lines;
         let expected_lines = compute_printed_table(&settings);
         // The formulas of the printed table lose digits if the radius is much larger than the distance, and for nearly full circles.
@@ -73,7 +73,7 @@ fn the_printed_option_computes_the_lines_of_the_table() {
 
 #[test]
 fn robots_end_where_their_arcs_do_and_the_last_turn_gives_the_final_heading() {
-    for settings in draw_settings(3).take(2000) {
+    for settings in sample_settings(3).take(2000) {
         let (_, next_pose) = start_and_next_pose_of(&settings);
         let Stats { commanded: commanded_arc, driven, last_turn, .. } = stats_of(settings);
         assert!(wrap_angle(driven.end[2] + last_turn - next_pose.theta()).abs() < 1e-13, "{settings:?}");
@@ -89,7 +89,7 @@ fn robots_end_where_their_arcs_do_and_the_last_turn_gives_the_final_heading() {
 #[test]
 fn the_printed_option_mirrors_centres_to_the_right() {
     let mut right_count = 0;
-    for settings in draw_settings(4).take(2000) {
+    for settings in sample_settings(4).take(2000) {
         let signed_stats = stats_of(settings);
         let printed_stats = stats_of(Settings { printed: true, ..settings });
         let [x, y, _] = printed_stats.driven.end;
@@ -110,7 +110,7 @@ fn the_printed_option_mirrors_centres_to_the_right() {
 
 #[test]
 fn p_is_the_product_of_the_factors_and_that_of_the_model() {
-    for (i, settings) in draw_settings(5).take(4000).enumerate() {
+    for (i, settings) in sample_settings(5).take(4000).enumerate() {
         let noise = NOISE_KINDS[i % 2];
         let settings = Settings { noise, ..settings };
         let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise };
@@ -157,11 +157,11 @@ fn without_noise_a_residual_is_zero_or_infinite() {
 /// The expected lateral velocity is computed by central differences of the path.
 #[test]
 fn a_last_turn_gives_the_twist_a_lateral_velocity() {
-    for settings in draw_settings(6).take(200) {
+    for settings in sample_settings(6).take(200) {
         let simulation = new_simulation(settings);
         let [along_velocity, xi_lateral, _] = simulation.stats().xi;
         let time_step = 1e-5;
-        for (i, path_tick) in simulation.paths().ticks.iter().enumerate().take(8) {
+        for (i, tick_pose) in simulation.paths().ticks.iter().enumerate().take(8) {
             let path_fraction = 0.125 * i as f64 + time_step;
             let [pose_before, middle_pose, pose_after] =
                 [path_fraction - time_step, path_fraction, path_fraction + time_step]
@@ -177,7 +177,7 @@ fn a_last_turn_gives_the_twist_a_lateral_velocity() {
                     < 1e-8 * (1.0 + along_velocity.abs() + xi_lateral.abs()),
                 "{settings:?}"
             );
-            let [x, y, to_x, to_y] = *path_tick;
+            let [x, y, to_x, to_y] = *tick_pose;
             let lateral_speed = xi_lateral.abs();
             assert!(((to_x - x).hypot(to_y - y) - lateral_speed).abs() < 1e-12 * (1.0 + lateral_speed));
             assert!((pose_before.x() - x).hypot(pose_before.y() - y) < 1e-12 * (1.0 + along_velocity.abs()));

@@ -73,10 +73,10 @@ fn the_cloud_equals_samples_of_the_model() {
     {
         let settings = Settings { noise, command, samples: 500, seed: 2005, ..settings_of_preset("gentle") };
         let assert_same_poses =
-            |settings: Settings, draw_pose: &mut dyn FnMut(&mut Xoshiro256PlusPlus) -> SE2| {
+            |settings: Settings, sample_pose: &mut dyn FnMut(&mut Xoshiro256PlusPlus) -> SE2| {
                 let mut rng = seeded_rng(2005);
                 for pose in new_simulation(settings).poses() {
-                    assert!(max_difference(&pose, &draw_pose(&mut rng)) < POSE_TOLERANCE, "{settings:?}");
+                    assert!(max_difference(&pose, &sample_pose(&mut rng)) < POSE_TOLERANCE, "{settings:?}");
                 }
             };
         let model = VelocityModel { alphas: VelocityAlphas(settings.velocity_alphas), noise };

@@ -160,16 +160,16 @@ fn ratios_and_misses_are_counted() {
 }
 
 /// Returns for each component whether there are enough robots to decide at which steps the chapter's recursion is wrong.
-fn misses_decidable(settings: Settings) -> [bool; 3] {
+fn are_misses_decidable(settings: Settings) -> [bool; 3] {
     new_simulation(settings).comparison(Compounding::Chapter).misses.map(|axis_misses| axis_misses.decidable)
 }
 
 /// A step at which the chapter's recursion is wrong is reported only if enough robots measure the variance, and the variance is not 0.
 #[test]
 fn misses_are_reported_with_enough_robots_only() {
-    assert_eq!(misses_decidable(Settings::default()), [true; 3]);
-    assert_eq!(misses_decidable(robot_settings(5000)), [false; 3]);
-    assert_eq!(misses_decidable(Settings { alphas: [0.0; 6], ..robot_settings(20_000) }), [false; 3]);
+    assert_eq!(are_misses_decidable(Settings::default()), [true; 3]);
+    assert_eq!(are_misses_decidable(robot_settings(5000)), [false; 3]);
+    assert_eq!(are_misses_decidable(Settings { alphas: [0.0; 6], ..robot_settings(20_000) }), [false; 3]);
     let empty_simulation = DeadReckoning::with_shown_count(Settings::default(), 0).expect("valid settings");
     assert!(
         empty_simulation
@@ -206,7 +206,7 @@ fn a_zero_variance_has_no_relative_error() {
     // At v = 1e-100 m/s the squares of the variances underflow to 0.
     let slow_drive_settings =
         Settings { command: VelocityCmd { v: 1e-100, omega: 0.0, dt: 0.2 }, ..robot_settings(300) };
-    assert_eq!(misses_decidable(slow_drive_settings), [false; 3]);
+    assert_eq!(are_misses_decidable(slow_drive_settings), [false; 3]);
 }
 
 /// Fourth-order corrections can produce a matrix that is no covariance. From that step on there is no covariance and no ratio.
@@ -263,13 +263,13 @@ fn a_seed_gives_the_same_draws() {
 
 #[test]
 fn noise_of_the_whole_path_is_divided_among_its_steps() {
-    let whole_command = VelocityCmd { v: 1.0, omega: 0.5, dt: 4.0 };
+    let command_of_path = VelocityCmd { v: 1.0, omega: 0.5, dt: 4.0 };
     let expected_variances =
         VelocityModel { alphas: VelocityAlphas(Settings::default().alphas), noise: NoiseKind::Normal }
-            .variances(&whole_command)
-            .map(|variance| variance.0 * whole_command.dt * whole_command.dt);
+            .variances(&command_of_path)
+            .map(|variance| variance.0 * command_of_path.dt * command_of_path.dt);
     for step_count in [1, 20, 200] {
-        let command = VelocityCmd { dt: whole_command.dt / f64::from(step_count), ..whole_command };
+        let command = VelocityCmd { dt: command_of_path.dt / f64::from(step_count), ..command_of_path };
         let settings =
             Settings { command, steps: step_count, step: 1, per: NoisePer::Path, ..robot_settings(1) };
         let step_variances =

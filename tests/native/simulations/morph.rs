@@ -43,8 +43,8 @@ fn nearest_finds_robots_at_their_morphed_positions() {
                     Some(robot_index),
                     "{morph}"
                 );
-                let bend_factor = 1.0 - morph;
-                let [x, y] = integrate_twist([twist.x, bend_factor * twist.y, bend_factor * twist.z]);
+                let unbent_fraction = 1.0 - morph;
+                let [x, y] = integrate_twist([twist.x, unbent_fraction * twist.y, unbent_fraction * twist.z]);
                 assert!(
                     distance_between(morphed_position, [x, y + morph * twist.z]) < 1e-5,
                     "{morph}: {twist}"

@@ -32,18 +32,18 @@ fn changed_settings_move_the_same_outcomes() {
     let settings_with_alpha3_only =
         |alpha3: f64| Settings { alphas: [0.0, 0.0, alpha3, 0.0, 0.0], ..settings_of_preset("drive-turn") };
     let mut simulation = new_simulation(settings_with_alpha3_only(0.01));
-    let excesses_of = |simulation: &OdometryDecomposer| -> Vec<f64> {
+    let length_errors_of = |simulation: &OdometryDecomposer| -> Vec<f64> {
         simulation.poses().iter().map(|pose| pose.x() - 1.5).collect()
     };
-    let lengths_before = excesses_of(&simulation);
+    let lengths_before = length_errors_of(&simulation);
     simulation.configure(settings_with_alpha3_only(0.04)).expect("a valid setting");
-    for (length_before, length_after) in lengths_before.iter().zip(excesses_of(&simulation)) {
+    for (length_before, length_after) in lengths_before.iter().zip(length_errors_of(&simulation)) {
         assert!((2.0 * length_before - length_after).abs() < 1e-14);
     }
     // A larger cloud begins with the smaller one.
     let settings_with_more_samples = Settings { samples: 900, ..settings_with_alpha3_only(0.01) };
     simulation.configure_first(settings_with_more_samples, 700).expect("a valid setting");
-    assert_eq!((simulation.poses().len(), &excesses_of(&simulation)[..500]), (700, &lengths_before[..]));
+    assert_eq!((simulation.poses().len(), &length_errors_of(&simulation)[..500]), (700, &lengths_before[..]));
     assert_eq!(simulation.add_samples(usize::MAX), 900);
 }
 

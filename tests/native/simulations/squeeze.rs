@@ -225,10 +225,11 @@ fn the_interval_of_the_fraction_through_walls_is_the_wilson_interval() {
                 && (through_wall_interval[1] - expected_high).abs() < 5e-5,
             "{through_wall_interval:?}"
         );
-        let [rest_low, rest_high] = wilson_interval(accepted_count - through_wall_count, accepted_count);
+        let [rest_lower_bound, rest_upper_bound] =
+            wilson_interval(accepted_count - through_wall_count, accepted_count);
         assert!(
-            (rest_low + through_wall_interval[1] - 1.0).abs() < 1e-15
-                && (rest_high + through_wall_interval[0] - 1.0).abs() < 1e-15
+            (rest_lower_bound + through_wall_interval[1] - 1.0).abs() < 1e-15
+                && (rest_upper_bound + through_wall_interval[0] - 1.0).abs() < 1e-15
         );
     }
 }

@@ -114,11 +114,11 @@ fn predicted_skews_match_the_references() {
 
 fn assert_moments_of_row(exact_moments: &ExactMoments, row: &crate::common::ReferenceRow<'_>) {
     let (mean, cov) = (exact_moments.mean, exact_moments.cov);
-    let named_means = [("mx", mean.x), ("my", mean.y)];
+    let means_by_column = [("mx", mean.x), ("my", mean.y)];
     let named_covariances =
         [("sxx", 0, 0), ("sxy", 0, 1), ("syy", 1, 1), ("sxt", 0, 2), ("syt", 1, 2), ("stt", 2, 2)]
             .map(|(column_name, i, j)| (column_name, cov[(i, j)]));
-    for (column_name, computed_value) in named_means.into_iter().chain(named_covariances) {
+    for (column_name, computed_value) in means_by_column.into_iter().chain(named_covariances) {
         assert!(
             (computed_value - row.cell_number(column_name)).abs() < 1e-14,
             "{column_name}: {computed_value}, not {}",

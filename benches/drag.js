@@ -1,6 +1,6 @@
 // Three durations of each step of a drag, at the initial sample counts and with a processor four times slower. The first duration is that
-// of the frame that paints the picture: JavaScript, WebAssembly, style, layout and paint. The second is the time until the text is updated.
-// The third is the time between frames.
+// of the animation frame that paints the picture: JavaScript, WebAssembly, style, layout and paint. The second is the time until the text
+// is updated. The third is the time between frames.
 
 /** Factor by which Chromium slows the processor. */
 export const CPU_SLOWDOWN = 4;
@@ -54,21 +54,21 @@ async function measureDrag({ widget, selector, i, steps }) {
   // A late update after the previous drag could still set the value of the slider.
   await figureElement.settled;
   const openingValue = draggedElement.value;
-  // A figure clears the canvas before each picture, so that the number of calls is the number of pictures.
+  // A figure clears the canvas before each picture, so that the number of `clearRect` calls is the number of pictures.
   let pictureCount = 0;
   const { clearRect } = CanvasRenderingContext2D.prototype;
   CanvasRenderingContext2D.prototype.clearRect = function (...rectangleSides) {
     pictureCount++;
     clearRect.apply(this, rectangleSides);
   };
-  /** Returns the time at which the current frame is finished. A message that the page sends to itself arrives only then. @returns {Promise<number>} */
+  /** Returns the end of the animation frame. A message that the page sends to itself arrives only then. @returns {Promise<number>} */
   const waitForFrameEnd = () =>
     new Promise((resolve) => {
       const { port1, port2 } = new MessageChannel();
       port1.onmessage = () => resolve(performance.now());
       port2.postMessage(undefined);
     });
-  /** Returns the end of the frame in which a text changes, including texts for screen readers. @returns {Promise<number>} */
+  /** Returns the end of the animation frame in which a text changes, including texts for screen readers. @returns {Promise<number>} */
   const waitForTextChange = () =>
     new Promise((resolve) => {
       const textObserver = new MutationObserver(() => {
@@ -95,7 +95,7 @@ async function measureDrag({ widget, selector, i, steps }) {
     await new Promise(requestAnimationFrame);
     const [configBefore, picturesBefore] = [JSON.stringify(figureElement.simulation.config), pictureCount];
     let frameStart = 0;
-    // The frame is requested before the step, so that this callback runs before the callback of the figure.
+    // The animation frame is requested before the step, so that this callback runs before the callback of the figure.
     const picturePromise = new Promise((resolve) =>
       requestAnimationFrame(() => {
         frameStart = performance.now();
@@ -105,7 +105,7 @@ async function measureDrag({ widget, selector, i, steps }) {
     const textPromise = waitForTextChange();
     sendStep(stepNumber);
     let pictureTime = /** @type {number} */ (await picturePromise);
-    // On a busy machine the picture may come a frame late.
+    // On a busy machine the picture may come an animation frame late.
     for (let frameNumber = 1; pictureCount === picturesBefore || JSON.stringify(figureElement.simulation.config) === configBefore; frameNumber++) {
       if (frameNumber === MAX_FRAMES) throw new Error(`A step of ${draggedElement.id || draggedElement.className} has no picture after ${MAX_FRAMES} frames.`);
       await new Promise(requestAnimationFrame);

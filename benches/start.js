@@ -50,7 +50,7 @@ function markStages() {
       if (!(canvasRoot instanceof ShadowRoot) || canvasRoot.host.localName !== 'banana-machine') return;
       if ((methodName === 'arc' && ++dotCount < DOTS_OF_CLOUD) || performance.getEntriesByName('drawn').length > 0) return;
       performance.mark('drawn');
-      // A message that the page sends to itself arrives after the current frame was handed to the screen.
+      // A message that the page sends to itself arrives after the current animation frame was handed to the screen.
       const { port1, port2 } = new MessageChannel();
       port1.onmessage = () => performance.mark('shown');
       port2.postMessage(undefined);

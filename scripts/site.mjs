@@ -39,7 +39,7 @@ const navigationHtmlOf = (pagePath) => {
   return `<nav class="site" aria-label="Site">${linkHtmls.join('\n')}\n<a href="${homepage}">Source</a></nav>`;
 };
 
-/** Returns the address to which inline code of a document links: a page of the site, or for a tag a page with only this figure. */
+/** Returns the target of a link on inline code: a page of the site, or for an element's tag a page with only this figure. */
 function linkAddressOf(/** @type {string} */ codeText, /** @type {string[]} */ figureTags) {
   if (codeText in TOP_LINKS) return codeText;
   const [, widgetTag, attributeText] = codeText.match(/^<([a-z-]+)((?: [a-z-]+(?:="[^"]*")?)+)>$/) ?? [];

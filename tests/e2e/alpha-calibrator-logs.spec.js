@@ -24,7 +24,7 @@ test('two tables of a user replace the simulated log, and a button restores the 
   await expect(calibrator.locator('.drop-zone .present')).toHaveText('Results of odom.csv, truth.csv.');
   await expect(calibrator.getByRole('row', { name: /^read \d+ of \d+ rows/ })).toBeVisible();
   await expect(calibrator.getByRole('img', { name: /^Paths from above: .*, aligned with it\); .* m by .* m\.$/ })).toBeVisible();
-  // File names decide the roles of the logs. The order of the chosen files has no effect.
+  // File names decide which log is the odometry and which is the reference. The order of the chosen files has no effect.
   await calibrator.getByLabel('odom.csv', { exact: true }).selectOption('Reference');
   await expect(captionOf(calibrator)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
   await calibrator.getByRole('button', { name: 'Back to the simulated log' }).click();
@@ -49,7 +49,7 @@ test('two tables of a user replace the simulated log, and a button restores the 
   await chooseTables(calibrator, { 'odom.csv': '', 'truth.csv': '' });
   await expect(errorAlert).toHaveText(/^odom\.csv: there is nothing in it/);
   await expect(calibrator.locator('.to-do')).toHaveText('The results are still those of odom.csv, truth.csv. The files chosen last are not used.');
-  // Keeping the results restores the controls with which the user assigns roles to their logs.
+  // Keeping the results restores the controls with which the user chooses odometry and reference from the files.
   await calibrator.getByRole('button', { name: 'Dismiss these files' }).click();
   await calibrator.getByLabel('odom.csv', { exact: true }).selectOption('Reference');
   await expect(captionOf(calibrator)).toHaveText(/of truth\.csv, odom\.csv[.,]/);

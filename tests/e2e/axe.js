@@ -9,7 +9,7 @@ import axe from 'axe-core';
  * @param {string} [testedSelector] a selector
  */
 export async function expectAccessible(page, pageState, testedSelector = ':root') {
-  // The Playwright wrapper of axe also checks frames, which takes twice as long. The tested pages have no frames.
+  // The Playwright wrapper of axe also checks iframes, which takes twice as long. The tested pages have no iframes.
   if (!(await page.evaluate(() => 'axe' in globalThis))) await page.evaluate(axe.source);
   const accessibilityViolations = await page.evaluate(async (testedSelector) => {
     const ruleTags = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];

@@ -110,7 +110,6 @@ test('a change of an α moves the same robots, and updates the figure once per f
   expect(resultsAfter.shown).toBe(resultsBefore.shown);
   expect(await readPicture(widget.locator('canvas.plane'))).not.toBe(pictureBefore);
   expect(await readoutValueOf(widget, 'cross-track skew').textContent()).not.toBe(skewTextBefore);
-  // Several inputs between two frames change the statistics only once.
   const statsChangeCount = await widget.evaluate(async (element) => {
     let statsEventCount = 0;
     element.addEventListener('stats', () => statsEventCount++);

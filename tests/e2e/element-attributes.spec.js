@@ -128,7 +128,7 @@ test('elements have the attributes that the table of doc/embedding/figures.md sh
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });
 
-/** Fields of states that no single attribute can set. The map has no attribute, and the list of α's is set by two attributes. */
+/** Fields of states that no single attribute can set. No attribute holds a map. No single attribute sets a list of six α's. */
 const VALUES_WITHOUT_ATTRIBUTES = { 'map-squeeze': { map: null, alphas: [0.2, 0.2, 0.2, 0.2, 0.05, 0.05] } };
 
 testEach('the code to embed a figure reproduces the settings of its state, with the attributes in any order', async (page, name, isNightly) => {
@@ -149,7 +149,7 @@ testEach('the code to embed a figure reproduces the settings of its state, with 
       for (const figureCopy of [embeddedCopy, reorderedCopy]) figureCopy.style.cssText = 'position: fixed; inset: 0';
       element.before(embeddedCopy, reorderedCopy);
       await Promise.all(loadPromises);
-      // After a change of its state, a calibrator fits its log in one of the next frames.
+      // After a change of its state, a calibrator fits its log in one of the next animation frames.
       while (/** @type {any} */ (element).isBusy) await new Promise(requestAnimationFrame);
       const figureConfigs = [element, embeddedCopy, reorderedCopy].map((figureElement) => /** @type {AnyElement} */ (figureElement).simulation.config);
       for (const figureCopy of [embeddedCopy, reorderedCopy]) figureCopy.remove();

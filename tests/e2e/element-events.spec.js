@@ -147,7 +147,7 @@ testEach('a frame after an input event calls the core at most six times, and the
     };
     startNextFrame();
   });
-  // Returns the called methods of the simulation, as one list for each frame.
+  // Returns the called methods of the simulation, as one list for each animation frame.
   const takeCallsByFrame = async () => {
     await waitUntilSettled(widget);
     return widget.evaluate((element) => /** @type {string[][]} */ (Reflect.get(element, 'callsByFrame')).splice(0, Infinity, []));

@@ -8,7 +8,7 @@ import { NEW_PAGE_TAG, REDUCED_MOTION, setProperty, readBox, readCentre, waitFor
 
 test.use(REDUCED_MOTION);
 
-/** Counts requested frames and compiled modules from the start of a page. @param {Page} page */
+/** Counts requested animation frames and compiled modules from the start of a page. @param {Page} page */
 async function countFramesAndModules(page) {
   await page.addInitScript(() => {
     const frameAndModuleCounts = { frames: 0, compiled: 0, instances: 0 };
@@ -28,7 +28,7 @@ async function countFramesAndModules(page) {
 }
 
 /**
- * Returns the numbers of frames and modules since `countFramesAndModules`.
+ * Returns the numbers of animation frames and compiled modules since `countFramesAndModules`.
  * @param {Page} page @returns {Promise<{ frames: number, compiled: number, instances: number }>}
  */
 const readPageCounts = (page) => page.evaluate(() => Reflect.get(window, 'counts'));
@@ -47,7 +47,7 @@ test('figures far from the window fetch and compute nothing, and all figures sha
   await showPage(page, `<div style="height: 5000px"></div>${TWO_FIGURE_NAMES.map((figureName) => `<${figureName}></${figureName}>`).join('')}`, {
     script: '<script type="module" src="/external.js"></script>',
   });
-  // The test avoids polling, because polling requests frames.
+  // The test avoids polling, because polling requests animation frames.
   await page.evaluate((widgetTags) => Promise.all(widgetTags.map((widgetTag) => customElements.whenDefined(widgetTag))).then(() => true), [...TWO_FIGURE_NAMES]);
   await waitForSixFrames(page);
   expect(await readPageCounts(page)).toEqual({ frames: 0, compiled: 0, instances: 0 });
@@ -106,7 +106,7 @@ test('a cloud that is out of sight requests no frames, and resumes its growth wh
     /** @type {AnyElement} */ (element).setState({ widget: element.localName, version: 1, shown: 0, playing: true });
     await statsEvent;
     scrollTo(0, 6000);
-    // The test's intersection observer fires in the same frame as that of the figure.
+    // The test's intersection observer fires in the same animation frame as that of the figure.
     await new Promise((resolve) => new IntersectionObserver(([{ isIntersecting }]) => isIntersecting || resolve(undefined)).observe(element));
   });
   expect(await readProperty(widget, 'playing')).toBe(true);
@@ -209,7 +209,7 @@ test('open disclosures, typed text and height are kept if a figure is moved, or 
   expect(await readOpenFolds()).toEqual(openFoldsBefore);
   await expect(fieldInDisclosure).toHaveValue(fieldInFold.value);
   await expect(foldDisclosures.nth(fieldInFold.disclosureIndex).locator('.folded')).not.toBeEmpty();
-  // In the first two frames after the figure is moved within the page, its height stays the same.
+  // In the first two animation frames after the figure is moved within the page, its height stays the same.
   expect(heightsAfter).toEqual([heightBefore, heightBefore]);
 });
 

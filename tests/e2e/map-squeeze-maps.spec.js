@@ -125,7 +125,7 @@ test('a YAML file and an image for map_server can be dropped on the figure', asy
   await expect(currentMapOf(widget)).toBeVisible();
   const { bounds, walls, startFree, config, openPlace } = await readSqueezeResults(widget);
   expect(bounds.map((planBound) => Number(planBound.toFixed(12)))).toEqual([0, 0, 3, 2]);
-  // The plan has eight walls: four along the outer outline of the border, and four along the inner one.
+  // The floor plan has eight walls: four along the outer outline of the border, and four along the inner one.
   expect(walls).toHaveLength(8 * 4);
   expect(startFree).toBe(true);
   expect(config.start).toEqual(openPlace);

@@ -225,7 +225,7 @@ test('a printed figure has its picture and settings in light colours, and no con
   await page.emulateMedia({ colorScheme: 'light' });
   const widget = await mountFigure(page, 'banana-machine', { head: '<style>:root { color-scheme: light dark }</style>' });
   const planeCanvas = widget.locator('canvas.plane');
-  // The events `beforeprint` and `afterprint` are fired in one task, without a frame between them.
+  // The events `beforeprint` and `afterprint` are fired in one task, without an animation frame between them.
   const takePrintedPicture = () => planeCanvas.evaluate((element) => {
     dispatchEvent(new Event('beforeprint'));
     const printedPixels = /** @type {HTMLCanvasElement} */ (element).toDataURL();
@@ -250,7 +250,7 @@ test('a printed figure has its picture and settings in light colours, and no con
     // In a narrower field the text would be cut off.
     expect(await valueField.evaluate(({ clientWidth }) => clientWidth)).toBeGreaterThan(40);
   }
-  // On paper the pixel size of a canvas determines its aspect ratio. If the pixel size were set in every frame, the ratio would change.
+  // On paper the pixel size of a canvas determines its aspect ratio. Setting it in every animation frame would change the ratio.
   await page.evaluate(() => {
     addEventListener('error', ({ message }) => Object.assign(window, { recordedError: message }));
     document.querySelector('banana-machine')?.replaceWith(document.createElement('banana-machine'));

@@ -56,7 +56,7 @@ testEach('a German figure contains no English text', async (page, figureName) =>
   const germanTexts = new Set(listMessages(germanCatalogue).map(([, message]) => message));
   const englishTexts = listMessages(englishCatalogue)
     .map(([, message]) => (typeof message === 'string' ? message : String(message(...'\ue001\ue002\ue003\ue004\ue005'))))
-    // The text around the values of an error message is English too.
+    // The values in a message split its text into parts. Each part is an English text too.
     .flatMap((message) => message.replace(/[*]/g, '').split(/[\ue001-\ue005]/))
     .map((messagePart) => messagePart.replace(/[₀-₉]/g, (/** @type {string} */ subscriptDigit) => String(subscriptDigit.charCodeAt(0) - 0x2080)).trim())
     .filter((messagePart) => /\p{L}{4}/u.test(messagePart) && !UNTRANSLATED_NAMES.includes(messagePart) && !germanTexts.has(messagePart));

@@ -121,8 +121,8 @@ async function openSession(driverUrl, capabilities, stopDriver) {
       return functionResult;
     },
     async drag([[x, y], ...nextPoints]) {
-      // The drag is one chain of actions, because some drivers release the mouse button between two chains. Each move takes longer than a
-      // frame.
+      // The drag is one chain of actions, because some drivers release the mouse button between two chains. Each move takes longer than an
+      // animation frame.
       const dragActions = driverSession.actions({ async: false }).move({ x, y, duration: 0 }).press();
       for (const [x, y] of nextPoints) dragActions.move({ x, y, duration: 40 });
       await dragActions.release().perform();

@@ -23,7 +23,7 @@ export async function waitUntilSettled(tag) {
   const figureElement = /** @type {any} */ (figureOf(tag));
   await figureElement.settled;
   firstCanvasOf(tag).scrollIntoView({ block: 'center' });
-  // A browser reports that a figure has come into view in a later frame.
+  // A browser reports that a figure has come into view in a later animation frame.
   for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
   await figureElement.settled;
   // The number of samples is `n`, or in some figures the number of attempts. It is 0 for figures without samples.
@@ -63,7 +63,7 @@ export function focusElement({ tag, selector }) {
   return shadowRootOf(tag).activeElement === focusTarget;
 }
 
-/** Makes a figure render between each input event and the next frame, because other events can cause such a rendering at any time. @param {string} tag */
+/** Makes a figure render between each input event and the next animation frame, as other events might. @param {string} tag */
 export function renderAfterInputs(tag) {
   const figure = /** @type {any} */ (figureOf(tag));
   figure.addEventListener('input', () => figure.requestUpdate());

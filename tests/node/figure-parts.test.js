@@ -1,4 +1,4 @@
-// Functions of figures that need no page: conversion of attributes, the view of a picture, and the factor of a stretched axis.
+// Functions of figures that need no DOM: conversion of attributes, the view of a picture, and the factor of a stretched axis.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

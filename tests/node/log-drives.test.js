@@ -113,7 +113,7 @@ test('several recordings are separate drives, or each contains one log of the sa
   assert.deepEqual(plannedSeriesOf([recordingWithBothLogs, recordingWithBothLogs]), [['/odom', '/mocap'], ['/odom', '/mocap']]);
   assert.deepEqual(plannedSeriesOf([createRecording({ '/mocap': 'pose' }), createRecording({ '/odom': 'odometry', '/cmd_vel': 'twist' })]), [['/odom', undefined], [undefined, '/mocap']]);
   assert.deepEqual(plannedSeriesOf([recordingWithBothLogs, createRecording({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]), [['/odom', undefined], [undefined, '']]);
-  // A recording that has neither odometry nor reference is left out, unless the user chose it for one of these roles.
+  // A recording that has neither odometry nor reference is left out, unless the user chose it as odometry or reference.
   const cameraRecording = createRecording({ '/image': 'text' }, { name: 'camera.mcap' });
   const skippedMessages = /** @type {string[]} */ ([]);
   assert.deepEqual(plannedSeriesOf([cameraRecording, recordingWithBothLogs], {}, ({ message }) => void skippedMessages.push(message.slice(0, 48))), [['/odom', '/mocap']]);

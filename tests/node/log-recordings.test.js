@@ -1,4 +1,4 @@
-// MCAP recordings of ROS 2: formats, topics and frames, messages that are left out, and errors.
+// MCAP recordings of ROS 2: formats, topics and coordinate frames, messages that are left out, and errors.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

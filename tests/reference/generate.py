@@ -32,8 +32,6 @@ def write_table(name, header, rows):
     print(f"{name}: {len(rows)} rows, {len(text)} bytes")
 
 
-# ---------------------------------------------------------------------------------------------------- the group SE(2)
-
 def draw_signed_log_uniform(low, high):
     exponent = table_rng.uniform(float(log(low, 10)), float(log(high, 10)))
     return table_rng.choice([-1.0, 1.0]) * 10.0**exponent
@@ -101,8 +99,6 @@ def write_group_tables():
     write_table("log.csv", ["x", "y", "w", "a", "a_lo", "b", "b_lo"], log_rows)
 
 
-# ------------------------------------------------------------------------------------ the quantiles of the noise
-
 def write_quantile_table():
     probabilities = [10.0**-k for k in (300, 20, 16, 12, 9, 6, 4, 3, 2)]
     probabilities += [0.05 * k for k in range(1, 10)] + [0.425, 0.42499999, 0.4250001, 0.47575, 0.475]
@@ -117,8 +113,6 @@ def write_quantile_table():
         rows.append([q, *split_into_columns(normal, triangular)])
     write_table("quantile.csv", ["q", "normal", "normal_lo", "triangular", "triangular_lo"], rows)
 
-
-# --------------------------------------------------------------------------------------------------- the moments
 
 def expectation(kind, variance, f, singularity=mpf("inf")):
     """E f(Z) for zero-mean noise Z with a distribution (`kind`) and a variance."""
@@ -234,8 +228,6 @@ def write_exponential_skew_table():
     write_table("pushed_skew.csv", ["a", "b", "w", "caa", "cab", "caw", "cbb", "cbw", "cww", "skew"], rows)
 
 
-# ----------------------------------------------------------------------------------------------- likelihood gains
-
 def quadrature_rule(kind, end=6.6, step=0.2, parts=64):
     """Nodes and weights for E f(Z), Z of unit variance: trapezoidal rule for normal noise, Simpson's rule for triangular noise."""
     if kind == "normal":
@@ -345,8 +337,6 @@ def write_gain_table():
           ["kind", "a1", "a2", "a3", "a4", "a5", "a6", "v", "omega", "dt", "pose", "floor", "area_ratio"], rows)
 
 
-# --------------------------------------------------------------------------------------------------- compounding
-
 def fourth_order_terms(p, q):
     """Fourth-order terms of Cov[log(exp(ξ) exp(η))] for independent ξ ~ N(0, P) and η ~ N(0, Q).
 
@@ -387,8 +377,6 @@ def write_compounding_table():
         rows.append([name] + [float(sigma[i, j]) for i, j in ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))])
     write_table("compounding.csv", ["order", "caa", "cab", "caw", "cbb", "cbw", "cww"], rows)
 
-
-# ------------------------------------------------------------------------------------------ double-double arithmetic
 
 def write_double_double_table():
     """Sine, cosine and sinc of doubles. Each result is two doubles: the nearest double and the remainder."""

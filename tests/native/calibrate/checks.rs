@@ -139,8 +139,8 @@ fn a_reference_three_times_as_long_is_not_called_mirrored() {
 
 #[test]
 fn a_copy_of_the_odometry_is_no_reference() {
-    // Each reference is a copy of the odometry in another frame. Its lengths are scaled by 1.02, its times are delayed by 0.1 s, and its
-    // coordinates are rounded.
+    // Each reference is a copy of the odometry in another coordinate frame. Its lengths are scaled by 1.02, its times are delayed by 0.1 s,
+    // and its coordinates are rounded.
     for (leg_count, decimal_count) in [(600, 6), (600, 3), (250, 3), (600, 2), (250, 2)] {
         let sim = new_passing_simulation(leg_count, 1);
         let [odometry, _] = sim.simulate_log();
@@ -390,7 +390,7 @@ fn errors_that_persist_over_legs_are_correlated_and_leave_windows_uncovered() {
     // A correlation of 1,800 residuals has a standard error of 0.02.
     let error_correlation = calibration.persistence.correlation.value;
     assert!((error_correlation - 0.7).abs() < 0.08, "{error_correlation}");
-    // A window of a given length ends with the leg that completes this length. No leg is longer than 0.4 m.
+    // A window (successive legs) of a given length ends with the leg that completes this length. No leg is longer than 0.4 m.
     for (leg_window, min_length) in calibration.diagnostics.windows.iter().zip([1.0, 2.0, 5.0]) {
         assert!(min_length < leg_window.length && leg_window.length < min_length + 0.4, "{leg_window:?}");
     }

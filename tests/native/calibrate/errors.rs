@@ -53,8 +53,8 @@ fn clocks_with_any_offset_are_aligned() {
     }
 }
 
-/// Three broken references are tested. The first one restarts every twenty seconds in a frame with another heading. The second one has
-/// samples for a third of the time. The third one covers a fifth of the drive.
+/// Three broken references are tested. The first one restarts every twenty seconds in a coordinate frame with another heading. The second
+/// one has samples for a third of the time. The third one covers a fifth of the drive.
 #[test]
 fn clocks_are_aligned_by_the_turns_of_a_broken_reference() {
     let true_errors = Systematic { clock_offset: 3.2, ..Systematic::NONE };

@@ -8,7 +8,7 @@ use motion::sim::alpha_calibrator::example::simulate_log;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
 
-/// Returns a simulation of bends in both directions, where no special case of the model applies.
+/// Returns a simulation of bends to the left and to the right, where no special case of the model applies.
 fn new_bend_simulation(leg_count: usize) -> Simulation {
     Simulation {
         velocity_of_leg: Some(|leg_index| [0.3, [0.3, -0.2, 0.1][leg_index / 3 % 3]]),

@@ -208,7 +208,7 @@ impl Simulation {
         }
     }
 
-    /// Returns the three unit noises of a leg. `log_fraction` is the position of the leg in the log, from 0 to 1.
+    /// Returns the three noises of a leg, with variance 1. `log_fraction` is the position of the leg in the log, from 0 to 1.
     fn draw_unit_noise(&self, log_fraction: f64, previous_noise: [f64; 3], rng: &mut impl Rng) -> [f64; 3] {
         previous_noise.map(|previous_noise| {
             let normal_noise = NoiseKind::Normal.sample(Variance(1.0), rng);

@@ -25,7 +25,7 @@ const GAUSS_LEGENDRE_RULE: [(f64, f64); 8] = [
 pub struct PolarGrid {
     start_pose: SE2,
     heading_slope: f64,
-    /// Middle of the box. Poses in the box differ from it by at most a quarter turn in β and half a turn in θ.
+    /// Middle of the box (c, β, θ). Poses in the box differ from it by at most a quarter turn in β and half a turn in θ.
     middle: [f64; 3],
     cell_size: [f64; 3],
     cell_counts: [usize; 3],

@@ -38,8 +38,8 @@ pub fn max_difference(a: &SE2, b: &SE2) -> f64 {
     (a.x() - b.x()).abs().max((a.y() - b.y()).abs()).max(heading_difference.abs())
 }
 
-/// Returns the derivative of a pose with respect to three unit noises, by central differences. `pose_of_noise` returns the pose for given
-/// noises.
+/// Returns the derivative of a pose with respect to three standardized noises (variance 1), by central differences. `pose_of_noise` returns
+/// the pose for given noises.
 pub fn derivative_by_noise(unit_noise: [f64; 3], pose_of_noise: impl Fn([f64; 3]) -> SE2) -> Matrix3<f64> {
     const DIFFERENCE_STEP: f64 = 1e-5;
     Matrix3::from_columns(&[0, 1, 2].map(|noise_axis| {

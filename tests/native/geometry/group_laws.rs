@@ -1,7 +1,7 @@
-//! The laws of SE(2) and the accuracy of its maps.
+//! The laws of the group SE(2), and the accuracy of exp and log.
 //!
-//! The laws hold up to rounding. Every law below composes at most four maps, each accurate to a few units in the last place of the
-//! largest coordinate. `LAW_TOLERANCE` allows 32 units.
+//! The laws hold up to rounding. Every law below composes at most four maps, each accurate to a few units in the last place of the largest
+//! coordinate. `LAW_TOLERANCE` allows 32 units.
 
 use crate::common::{ReferenceTable, draw_uniform, max_difference, seeded_rng};
 use motion::geom::se2::SE2;

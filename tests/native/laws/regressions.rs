@@ -67,8 +67,8 @@ fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
     assert!(log_prob < 0.0, "{log_prob}");
 }
 
-/// The search for a free pose divides the area into squares. On a plan whose sides differ by a factor above 256, it must divide the shorter
-/// side too.
+/// The search for a free pose divides the area into squares. On a floor plan whose sides differ by a factor above 256, it must divide the
+/// shorter side too.
 #[test]
 fn a_narrow_plan_has_a_free_pose() {
     for plan_bounds in [[0.0, 0.0, 100.0, 0.3], [0.0, 0.0, 0.01, 100.0], [-1e6, 5.0, -9e5, 5.02]] {

@@ -31,7 +31,7 @@ fn draw_unit_noise(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {
     std::array::from_fn(|_| NoiseKind::Normal.quantile(draw_centred_uniform(rng)))
 }
 
-/// Asserts that a fraction equals a published fraction. Both come from 60 000 draws, and the published fraction is rounded.
+/// Asserts that a fraction of 60 000 random draws equals a rounded, published fraction of as many draws.
 fn assert_fraction(fraction_name: &str, accepted_count: usize, draw_count: usize, published_fraction: f64) {
     let computed_fraction = accepted_count as f64 / draw_count as f64;
     let standard_error = (2.0 * published_fraction * (1.0 - published_fraction) / draw_count as f64).sqrt();
@@ -113,7 +113,7 @@ fn samples_are_those_of_table_5_7() {
     }
 }
 
-/// Returns a plan of 20 cm by 20 cm, in which a robot with a radius of 13 cm fits nowhere.
+/// Returns a floor plan of 20 cm by 20 cm, in which a robot with a radius of 13 cm fits nowhere.
 pub fn new_too_small_room() -> FloorPlan {
     let room_corners = [[2.0, 2.0], [2.2, 2.0], [2.2, 2.2], [2.0, 2.2]];
     let walls = (0..4).map(|i| Segment { from: room_corners[i], to: room_corners[(i + 1) % 4] }).collect();
@@ -131,7 +131,7 @@ fn a_robot_that_cannot_move_is_an_error_with_the_number_of_draws() {
         assert_eq!(refusal.0.draws, MAX_DRAWS);
         assert_eq!(refusal.to_string(), "the robot is wedged: 10000 draws were tried and too few accepted");
     }
-    // The motion has two sub-steps. The first, 1 m ± 1 mm, is free and needs one draw. A wall blocks the second. All draws are counted.
+    // The first of two sub-steps, 1 m ± 1 mm, is free and needs one random draw. A wall blocks the second. The draws of both are counted.
     let dead_end_plan =
         FloorPlan::new(vec![Segment { from: [1.5, 0.0], to: [1.5, 2.0] }], [0.0, 0.0, 2.0, 2.0])
             .expect("a valid plan");

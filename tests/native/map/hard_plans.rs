@@ -1,4 +1,4 @@
-//! Plans with many walls in one place. A collision check must be fast there, and measure the distance to only a few walls.
+//! Floor plans with many walls in one place. A collision check must be fast there, and measure the distance to only a few walls.
 
 use crate::common::{draw_uniform, seeded_rng};
 use motion::geom::arc::Arc;
@@ -15,7 +15,8 @@ fn new_wall(start_x: f64, start_y: f64, end_x: f64, end_y: f64) -> Segment {
     Segment { from: [start_x, start_y], to: [end_x, end_y] }
 }
 
-/// Returns names and walls of plans. Their many walls are in one place, on one line, through one point, around one point, or nearly equal.
+/// Returns names and walls of floor plans. Their many walls are in one place, on one line, through one point, around one point, or nearly
+/// equal.
 fn create_hard_plans(wall_count: usize) -> Vec<(&'static str, Vec<Segment>)> {
     let mut rng = seeded_rng(9800);
     let make_walls = |make_wall: &mut dyn FnMut(f64) -> Segment| {

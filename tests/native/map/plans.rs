@@ -71,7 +71,7 @@ fn plans_with_too_many_walls_are_refused() {
     }
 }
 
-/// The plans are the apartment, rooms with long slanted walls close together, and a rotated grid. Arcs of all sizes turn by up to two
+/// The floor plans are the apartment, rooms with long slanted walls close together, and a rotated grid. Arcs of all sizes turn by up to two
 /// circles, and robots have several sizes.
 #[test]
 fn collision_results_equal_those_of_a_loop_over_all_walls() {

@@ -1,4 +1,4 @@
-//! `sample(b²)` and `prob(a, b²)` of both kinds of noise, compared with the exact distributions.
+//! `sample(b²)` and `prob(a, b²)` of normal and triangular noise, compared with the exact distributions.
 
 use crate::common::{
     MAX_KS_STATISTIC, NOISE_KINDS, ReferenceTable, SAMPLE_COUNT, scaled_ks_distance, seeded_rng, unit_cdf,

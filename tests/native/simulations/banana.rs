@@ -27,7 +27,7 @@ fn settings_of_both_models() -> [Settings; 2] {
     [settings_of_preset("gentle"), Settings { model: ModelKind::Odometry, ..settings_of_preset("gentle") }]
 }
 
-/// Runs a check for clouds of both models and noises, for the given command and four more: forward, reverse, nearly on the spot, straight.
+/// Runs a check for clouds of each model and noise, with the given command and with others: forward, reverse, nearly on the spot, straight.
 pub fn check_in_varied_clouds(
     command: [f64; 3],
     sample_counts: &[usize],

@@ -17,7 +17,7 @@ fn new_grids_over(min_corner: [f64; 2], max_corner: [f64; 2]) -> [ViewGrid; 4] {
     })
 }
 
-/// Returns a colour ramp whose colours encode their step and the number of the ramp.
+/// Returns a colour ramp. Each colour encodes its index in the ramp, and the number of the ramp.
 fn new_numbered_ramp(ramp_number: u8) -> Ramp {
     std::array::from_fn(|ramp_step| [ramp_step as u8, ramp_number, 7, 255])
 }
@@ -32,7 +32,7 @@ fn find_cell_index(view_grid: &ViewGrid, [x, y]: [f64; 2]) -> Option<usize> {
     is_inside.then(|| row_index as usize * column_count + column_number as usize)
 }
 
-/// Returns the step of the ramp for a count: 255·√(count/max_count), rounded.
+/// Returns the index of the colour for a sample count: 255·√(count/max_count), rounded.
 fn ramp_step_of(sample_count: u32, max_count: u32) -> u8 {
     ((RAMP_STEP_COUNT - 1) as f64 * (f64::from(sample_count) / f64::from(max_count)).sqrt()).round() as u8
 }

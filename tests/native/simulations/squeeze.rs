@@ -1,4 +1,4 @@
-//! The simulation of Map Squeeze: common random numbers, the limit of draws, and counts of attempts with their confidence intervals.
+//! The simulation of Map Squeeze: common random numbers, the limit of random draws, and counts of attempts with their confidence intervals.
 
 use crate::common::seeded_rng;
 use crate::map::conditioned::{SAMPLERS, STRAIGHT_COMMAND, new_too_small_room};

@@ -26,8 +26,8 @@ fn the_mean_of_the_corners_decides_how_a_saddle_is_connected() {
     }
 }
 
-/// The tested field is random noise. Each edge between a value above the level and a value below it is crossed once. Lines are closed or
-/// end at the rim, and successive points are at most a cell apart.
+/// The tested field is random noise. Each edge of a cell between a value above the level and a value below it is crossed once. Lines are
+/// closed or end at the rim, and successive points are at most a cell apart.
 #[test]
 fn contours_of_noise_contain_every_crossing() {
     let mut rng = seeded_rng(21);

@@ -229,9 +229,7 @@ test('a log is read and fitted in a worker, so that the page stays responsive', 
   expect(longestTaskShare).toBeLessThan(0.2);
   // The Web Vitals call a layout unstable if its shift is 0.1 or more.
   expect(layoutShifts.reduce((layoutShiftSum, layoutShift) => layoutShiftSum + layoutShift, 0)).toBeLessThan(0.1);
-  await widget.locator('.slider:has(#angle) .typed').fill('x');
-  await widget.locator('.slider:has(#angle) .typed').press('Enter');
-  // A changed setting starts another fit. Until it ends, the figure shows the previous result, and notices about other fields stay.
+  // A changed setting starts another fit. Until it ends, the figure shows the previous result.
   const { alphas } = await readStats(widget);
   const resultsWhileFitting = await widget.evaluate((element) => {
     const calibratorElement = /** @type {any} */ (element);
@@ -241,7 +239,6 @@ test('a log is read and fitted in a worker, so that the page stays responsive', 
   expect(resultsWhileFitting).toEqual({ distance: 0.5, alphas });
   await waitUntilSettled(widget);
   expect((await readStats(widget)).alphas).not.toEqual(alphas);
-  await expect(widget.getByRole('alert')).toHaveText(/got "x"/);
 });
 
 testWithWarnings('a log is read even if the page’s security policy forbids workers @nightly', async ({ page }) => {

@@ -154,7 +154,7 @@ test('sliders set the duration of the legs and the noise of the reference', asyn
   await openDisclosures(widget);
   const statsBefore = await readStats(widget);
   const durationSlider = widget.locator('.slider:has(#duration)');
-  await expect(durationSlider.locator('.typed')).toHaveValue('—');
+  await expect(durationSlider.locator('.value')).toHaveText('—');
   await durationSlider.locator('.typed').fill('0.8');
   await durationSlider.locator('.typed').press('Enter');
   await waitUntilSettled(widget);
@@ -166,7 +166,7 @@ test('sliders set the duration of the legs and the noise of the reference', asyn
   await waitUntilSettled(widget);
   expect((await readStats(widget)).alphas).toEqual(statsBefore.alphas);
   // If the noise of the reference is set instead of estimated, the estimated noise of the wheels is lower.
-  await expect(widget.locator('.slider:has(#positionStd) .typed')).toHaveValue('estimated');
+  await expect(widget.locator('.slider:has(#positionStd) .value')).toHaveText('estimated');
   await widget.getByRole('slider', { name: /reference position σ/ }).fill('0.004');
   await widget.getByRole('slider', { name: /reference yaw σ/ }).fill('0.003');
   await waitUntilSettled(widget);

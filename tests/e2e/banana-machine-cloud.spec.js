@@ -117,7 +117,7 @@ test('a robot under the pointer is marked in both views, with the motion that it
   const widget = await openBananaWithDisclosures(page, 'preset="gentle"');
   const floorCanvas = widget.locator('canvas.plane');
   const twistCanvas = widget.locator('canvas.twist');
-  const robotField = widget.getByRole('spinbutton', { name: 'Robot' });
+  const robotField = widget.getByRole('spinbutton', { name: 'Robot', exact: true });
   const countMarkPixels = async () => [await countPixelsOfRole(floorCanvas, 'accent'), await countPixelsOfRole(twistCanvas, 'accent')];
   expect(await countMarkPixels()).toEqual([0, 0]);
 
@@ -141,6 +141,7 @@ test('a robot under the pointer is marked in both views, with the motion that it
   expect(await checkMarkedRobot()).not.toBe(indexInPlane);
 
   await robotField.fill('');
+  await robotField.press('Enter');
   expect(await countMarkPixels()).toEqual([0, 0]);
 });
 
@@ -199,7 +200,8 @@ test('with the odometry model, the figure shows the noise of a marked robot’s 
   const widget = await openBananaWithDisclosures(page, 'preset="gentle"');
   await expect(widget.getByLabel('Reverse without half-turn noise')).toHaveCount(0);
   await widget.getByLabel('odometry').check();
-  await widget.getByRole('spinbutton', { name: 'Robot' }).fill('5');
+  await widget.getByRole('spinbutton', { name: 'Robot', exact: true }).fill('5');
+  await page.keyboard.press('Enter');
   await waitForFrames(page);
   const expectedNoises = await widget.evaluate((element) => {
     const { simulation } = /** @type {BananaMachineElement} */ (element);
@@ -235,17 +237,19 @@ test('captions and notes depend on the model and its noise', async ({ page }) =>
 
 test('the range of the marked robot and the size of a step depend on the size of the cloud @nightly', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
-  const robotField = widget.getByRole('spinbutton', { name: 'Robot' });
+  const robotField = widget.getByRole('spinbutton', { name: 'Robot', exact: true });
   const stepButton = widget.getByRole('button', { name: 'Step' });
   await expect(stepButton).toBeDisabled();
   await expect(robotField).toHaveAttribute('placeholder', '1–50\u202f000');
   await robotField.fill('1500');
+  await robotField.blur();
   await waitForFrames(page);
   await expect(widget.locator('.marked output')).toContainText('m/s');
   await setSliders(widget, { samples: 3 });
   await expect(robotField).toHaveValue('');
   await expect(widget.locator('.marked output')).toContainText('Point at one');
   await robotField.fill('100');
+  await robotField.blur();
   await expect(widget.locator('.marked output')).toContainText('m/s');
   await widget.getByRole('button', { name: 'Clear' }).click();
   await expect(robotField).toBeDisabled();

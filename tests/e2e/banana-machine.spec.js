@@ -130,7 +130,7 @@ test('Isolate sets all α’s except one to 0, marks them as off, and can be swi
   const resultsBefore = await readBananaResults(widget);
   await widget.getByLabel('Isolate one').check();
   expect((await readBananaResults(widget)).config).toEqual({ ...resultsBefore.config, isolate: 4 });
-  await expect(widget.locator('.typed[value$=" off"]')).toHaveCount(5);
+  await expect(widget.locator('.slider .value', { hasText: ' off' })).toHaveCount(5);
   await widget.getByRole('radio', { name: 'Only α₁' }).check();
   expect((await readBananaResults(widget)).config.isolate).toBe(1);
   await widget.getByRole('slider', { name: 'α3' }).fill('0.06');
@@ -138,7 +138,7 @@ test('Isolate sets all α’s except one to 0, marks them as off, and can be swi
   expect(config).toMatchObject({ isolate: 3, alphas: resultsBefore.config.alphas.with(2, 0.06) });
   await widget.getByLabel('Isolate one').uncheck();
   expect((await readBananaResults(widget)).config.isolate).toBeNull();
-  await expect(widget.locator('.typed[value$=" off"]')).toHaveCount(0);
+  await expect(widget.locator('.slider .value', { hasText: ' off' })).toHaveCount(0);
 });
 
 test('sliders keep their position when a note appears or disappears', async ({ page }) => {

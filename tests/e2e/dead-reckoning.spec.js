@@ -156,7 +156,8 @@ test('the path of a robot is shown if its number is entered', async ({ page }) =
   await openDisclosures(widget);
   const floorCanvas = widget.locator('canvas.plane');
   const pixelCountBefore = await countPixelsOfRole(floorCanvas, 'accent');
-  await widget.getByRole('spinbutton', { name: 'Robot' }).fill('40000');
+  await widget.getByRole('spinbutton', { name: 'Robot', exact: true }).fill('40000');
+  await page.keyboard.press('Enter');
   await waitForFrames(page);
   expect(await countPixelsOfRole(floorCanvas, 'accent')).toBeGreaterThan(pixelCountBefore + 100);
   const endPose = await widget.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).simulation.rollout(39_999)].slice(-3));

@@ -182,20 +182,25 @@ test('a sample under the pointer, or with an entered number, shows its verdict',
   const { verdicts, poses } = await readSqueezeResults(widget);
   const throughWallIndex = verdicts.indexOf(5);
   const rejectedIndex = verdicts.findIndex((verdictBits) => (verdictBits & 4) === 0);
-  const sampleField = widget.getByRole('spinbutton', { name: 'Sample' });
+  const sampleField = widget.getByRole('spinbutton', { name: 'Sample', exact: true });
   const verdictOutput = widget.locator('.marked output');
   const planeCanvas = widget.locator('canvas.plane');
   await openDisclosures(widget);
   const pictureBefore = await readPicture(planeCanvas);
 
-  await sampleField.fill(String(throughWallIndex + 1));
+  const enterSampleNumber = async (/** @type {string | number} */ sampleNumber) => {
+    await sampleField.fill(String(sampleNumber));
+    await sampleField.press('Enter');
+  };
+
+  await enterSampleNumber(throughWallIndex + 1);
   await expect(verdictOutput).toHaveText('accepted through a wall');
   expect(await readPicture(planeCanvas)).not.toBe(pictureBefore);
-  await sampleField.fill(String(rejectedIndex + 1));
+  await enterSampleNumber(rejectedIndex + 1);
   await expect(verdictOutput).toHaveText('rejected');
-  await sampleField.fill(String(verdicts.indexOf(7) + 1));
+  await enterSampleNumber(verdicts.indexOf(7) + 1);
   await expect(verdictOutput).toHaveText('accepted');
-  await sampleField.fill('');
+  await enterSampleNumber('');
   expect(await readPicture(planeCanvas)).toBe(pictureBefore);
 
   // The pointer is moved to the rightmost sample, because it has no near neighbour.

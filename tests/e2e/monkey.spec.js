@@ -223,7 +223,7 @@ function readFaults(page, name) {
     await waitUntilShown(element);
     const failureElement = element.shadowRoot.querySelector('.failure');
     if (failureElement || !element.simulation) return [`it shows ${failureElement?.textContent ?? 'nothing'}`];
-    const faultMessages = [...element.shadowRoot.querySelectorAll('dd, td, output, .typed, .note, .caption')]
+    const faultMessages = [...element.shadowRoot.querySelectorAll('dd, td, output, .value, .note, .caption')]
       .map((textElement) => textElement.value ?? textElement.textContent)
       .filter((visibleText) => /NaN|Infinity|undefined|\[object/.test(visibleText))
       .map((text) => `it says ${text}`);

@@ -252,10 +252,11 @@ export async function openDisclosures(widget) {
   await waitForFrames(widget.page());
 }
 
-/** Returns the text field of a slider's value. @param {Locator} widget @param {string} key of the setting */
-export function valueFieldOf(widget, key) {
-  return widget.locator(`.slider:has(#${key}) .typed`);
-}
+/** Returns the printed value of a slider. @param {Locator} widget @param {string} key of the setting */
+export const printedValueOf = (widget, key) => widget.locator(`.slider:has(#${key}) .value`);
+
+/** Returns the field of a slider's value. @param {Locator} widget @param {string} key of the setting */
+export const valueFieldOf = (widget, key) => printedValueOf(widget, key).locator('input');
 
 /** Waits until all requested animation frames have been drawn. @param {Page} page */
 export async function waitForFrames(page) {

@@ -2,8 +2,8 @@
 
 import { html, noChange, nothing } from 'lit';
 import { words } from '../messages/registry.ts';
-import { radioGroupHtml, formatMarkup, checkboxHtml } from '../ui/controls.ts';
-import { formatEditable, formatInteger, formatLimit, parseNumber } from '../ui/format.ts';
+import { radioGroupHtml, formatMarkup, checkboxHtml, type AllowedNumbers } from '../ui/controls.ts';
+import { formatEditable, formatInteger } from '../ui/format.ts';
 import { sliderRowHtml, type SliderRow } from '../ui/slider.ts';
 import { swatchHtml, type LineStyle } from '../ui/swatch.ts';
 import { createFieldProperty } from './definition.ts';
@@ -30,22 +30,17 @@ export interface SliderSpec {
   alpha?: [model: 'velocity' | 'odometry', index: number];
 }
 
-/** Range, type and unit of the numbers that can be typed. */
-type TypedNumberSpec = Pick<Declaration, 'type' | 'unit'> & { min: number, max: number };
-
-/** Fields that replace those of a slider row. `maxTyped` is the maximum of typed values, if it is below the maximum of the declaration. */
-type RowOverrides = Partial<SliderRow> & { maxTyped?: number };
-
 /** Returns the slider of a setting. `overrides` replaces fields of its slider row. */
-export function settingSliderHtml(figure: Figure, key: string, overrides?: RowOverrides, sliderSpec = figure.definition.sliderSpecs[key]) {
+export function settingSliderHtml(figure: Figure, key: string, overrides?: Partial<SliderRow>, sliderSpec = figure.definition.sliderSpecs[key]) {
   const { symbol, decimals, combinedValueOf, ...sliderFields } = sliderSpec;
   const { name, effect } = wordsFor(figure, key);
-  const declaration = declarationOf(figure, key);
-  const { unit } = declaration;
+  const allowed = declarationOf(figure, key);
+  const { unit } = allowed;
   const config = figure.settings.requested;
   const attribute = figure.definition.attributes[key] ?? createFieldProperty(key);
-  return editableSliderHtml(figure, symbol ?? name, declaration, {
+  return sliderRowHtml({
     ...sliderFields,
+    allowed,
     id: key,
     symbol: symbol && formatMarkup(symbol),
     name: formatMarkup(name),
@@ -56,40 +51,6 @@ export function settingSliderHtml(figure: Figure, key: string, overrides?: RowOv
     onCommit: () => figure.gesture.commit(),
     ...overrides,
   });
-}
-
-/** Returns a slider whose value can also be typed, within an allowed range. */
-export function editableSliderHtml(figure: Figure, symbol: string, { min, max: declaredMax, type, unit }: TypedNumberSpec, sliderRow: Omit<SliderRow, 'inputMode' | 'applyTypedText' | 'refusal' | 'clearRefusal'> & { maxTyped?: number }) {
-  const max = sliderRow.maxTyped ?? declaredMax;
-  const isInteger = type === 'whole';
-  // If the thumb is at an end of the slider, a text tells the user that values beyond that end can be typed.
-  const endAtThumb = sliderRow.value >= sliderRow.max && sliderRow.max < max ? sliderRow.max : sliderRow.value <= sliderRow.min && sliderRow.min > min ? sliderRow.min : undefined;
-  return sliderRowHtml({
-    ...sliderRow,
-    effect: endAtThumb === undefined ? sliderRow.effect : words.sliderEnds(sliderRow.formatValue(endAtThumb)),
-    inputMode: min < 0 ? 'text' : isInteger ? 'numeric' : 'decimal',
-    applyTypedText: (text) => {
-      const typedNumber = parseTypedNumber(figure, sliderRow.id, symbol, text, { min, max, type, unit });
-      if (typedNumber === undefined) return undefined;
-      sliderRow.onInput(typedNumber);
-      sliderRow.onCommit();
-      return typedNumber;
-    },
-    refusal: figure.notice.findTextBeside(sliderRow.id),
-    clearRefusal: () => figure.notice.dismiss(),
-  });
-}
-
-/** Parses a number that the user typed. Returns undefined for a text that is refused, and shows the reason. */
-export function parseTypedNumber({ notice }: Figure, key: string, name: string, text: string, { min, max, unit, type }: TypedNumberSpec) {
-  const isInteger = type === 'whole';
-  const number = parseNumber(text, unit, isInteger);
-  if (number >= min && number <= max && (!isInteger || Number.isInteger(number))) {
-    notice.dismiss();
-    return number;
-  }
-  const quotedText = Number.isNaN(number) ? `"${text}"` : text.trim().replace('-', '\u2212');
-  notice.show(() => words.refused(name.replaceAll(/[*_{}]/g, ''), quotedText, formatLimit(min), formatLimit(max), isInteger), { control: key });
 }
 
 /** Returns a picture with its title. The pointer selects samples in the picture. The first picture has the handles. `Canvases` sizes the canvas. */
@@ -155,7 +116,7 @@ export function panelHtml(title: string, content: unknown, className?: string) {
   </figure>`;
 }
 
-export const declarationOf = (figure: Figure, key: string): Declaration & TypedNumberSpec =>
+export const declarationOf = (figure: Figure, key: string): Declaration & AllowedNumbers =>
   (figure.definition.declarations.find((declaration) => declaration.key === key) ?? figure.definition.elementFields[key]) as any;
 
 function wordsFor(figure: Figure, key: string): { name: string, effect?: string } {

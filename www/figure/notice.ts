@@ -5,58 +5,52 @@ import { words } from '../messages/registry.ts';
 import { buttonHtml } from '../ui/controls.ts';
 import { FigureController } from './controller.ts';
 
-/** Notice beside a control or, with a close button, at the lower edge of the figure or window. A notice moves no other content. */
-export class Notice extends FigureController {
-  #latestNotice: { renderContent: () => unknown, control?: string } | undefined;
-  /** Notice about long work, shown until `endWork` is called. At the lower edge it takes the place of the latest notice. */
-  #workNotice: { renderContent: () => unknown, stop: () => void } | undefined;
+interface ShownNotice {
+  renderContent: () => unknown;
+  /** Stops the long work that the notice is about. */
+  stopWork?: () => void;
+}
 
-  /** Shows a notice beside the control named `control`, or else at the lower edge. A notice about long work has a button that calls `stop`. */
-  show(renderContent: () => unknown, { control, stop }: { control?: string, stop?: () => void } = {}) {
-    if (stop) this.#workNotice = { renderContent, stop };
-    else this.#latestNotice = { renderContent, control };
-    this.host.requestUpdate();
+/** Notice at the lower edge of the figure or window. It moves no other content. */
+export class Notice extends FigureController {
+  #notice: ShownNotice | undefined;
+
+  /** Shows a notice with a button that closes it. A notice about long work has a button that calls `stopWork`, and stays until `endWork` is called. */
+  show(renderContent: () => unknown, stopWork?: () => void) {
+    if (stopWork || !this.#notice?.stopWork) this.#set({ renderContent, stopWork });
   }
 
-  /** Hides the latest notice, unless it is about long work. */
+  /** Hides the notice, unless it is about long work. */
   dismiss() {
-    if (this.#latestNotice) this.host.requestUpdate();
-    this.#latestNotice = undefined;
+    if (this.#notice && !this.#notice.stopWork) this.#set();
   }
 
   endWork() {
-    this.#workNotice = undefined;
+    if (this.#notice?.stopWork) this.#set();
+  }
+
+  #set(notice?: ShownNotice) {
+    this.#notice = notice;
     this.host.requestUpdate();
   }
 
-  /** Returns the notice beside a control, such as why a typed text was refused; undefined if there is none. */
-  findTextBeside(control: string) {
-    return this.#latestNotice?.control === control ? (this.#latestNotice.renderContent() as string) : undefined;
-  }
-
-  /** Notice at the lower edge. */
-  get #noticeAtEdge() {
-    return this.#workNotice ?? (this.#latestNotice?.control ? undefined : this.#latestNotice);
-  }
-
-  #stopOrDismiss = () => {
-    if (!this.#workNotice) this.dismiss();
-    this.#workNotice?.stop();
-    this.endWork();
+  #stopOrClose = () => {
+    this.#notice?.stopWork?.();
+    this.#set();
   };
 
   /** Stops the work or closes the notice when the user presses Escape. */
   stopOnEscape(event: KeyboardEvent) {
-    if (!this.#noticeAtEdge || event.key !== 'Escape' || event.defaultPrevented) return;
+    if (!this.#notice || event.key !== 'Escape' || event.defaultPrevented) return;
     event.preventDefault();
-    this.#stopOrDismiss();
+    this.#stopOrClose();
   }
 
   render() {
-    if (!this.#noticeAtEdge) return nothing;
+    if (!this.#notice) return nothing;
     const { stop, stopTitle } = words.progress;
     return html`<div class="notice"><div part="notice">
-      <div role="alert">${this.#noticeAtEdge.renderContent()}</div> ${this.#workNotice ? buttonHtml(stop, this.#stopOrDismiss, { title: stopTitle }) : buttonHtml(words.close, this.#stopOrDismiss)}
+      <div role="alert">${this.#notice.renderContent()}</div> ${this.#notice.stopWork ? buttonHtml(stop, this.#stopOrClose, { title: stopTitle }) : buttonHtml(words.close, this.#stopOrClose)}
     </div></div>`;
   }
 }

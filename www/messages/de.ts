@@ -58,8 +58,6 @@ export const de: typeof import('./en.ts').en = {
     headingKeys: 'Die Pfeiltasten drehen ihn, mit Umschalt in größeren Schritten; Bild auf und Bild ab drehen ihn weit, Pos1 und Ende nach hinten',
   },
   sliderEnds: (end) => `Endet bei ${end}; weitere Werte eintippen.`,
-  refused: (name, given, min, max, isWhole) =>
-    `${name} muss eine ${isWhole ? 'ganze ' : ''}Zahl von ${min} bis ${max} sein (gegeben: ${given}).`,
   exports: {
     label: 'Abbildung sichern',
     png: 'PNG',

@@ -64,8 +64,6 @@ export const en = {
     headingKeys: 'Arrow keys turn it, with Shift by larger steps; Page Up and Page Down turn it far, Home and End to the back',
   },
   sliderEnds: (end) => `Ends at ${end}; type values beyond.`,
-  refused: (name, given, min, max, isWhole) =>
-    `${name} must be ${isWhole ? 'a whole number' : 'a number'} between ${min} and ${max}${given.includes(',') && !isWhole ? ', with a decimal point' : ''} (got ${given}).`,
   exports: {
     label: 'Save the figure',
     png: 'PNG',

@@ -2,6 +2,7 @@
 
 import { css, html, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
+import { MINUS } from './format.ts';
 
 export const controlStyles = css`
   fieldset {
@@ -33,7 +34,7 @@ export const controlStyles = css`
     cursor: pointer;
   }
 
-  :where(button, textarea, select, .seed input, input[type='number'], .files, .options .choice) {
+  :where(button, textarea, select, input[type='number'], .files, .options .choice) {
     background: none;
     border: 1px solid var(--muted);
     border-radius: 3px;
@@ -171,14 +172,30 @@ export const controlStyles = css`
     color: var(--accent);
   }
 
+  .seed {
+    display: block;
+  }
+
   :is(.marked, .seed) input {
-    width: 8em;
+    width: 5em;
     min-height: 2em;
     padding: 0 0.4em;
   }
 
-  .seed input {
-    width: 5em;
+  .marked input {
+    width: 8em;
+  }
+
+  input[type='number'] {
+    appearance: textfield;
+  }
+
+  ::-webkit-inner-spin-button {
+    appearance: none;
+  }
+
+  input:user-invalid {
+    border-color: var(--accent);
   }
 
   input:is([type='radio'], [type='checkbox']) {
@@ -250,6 +267,81 @@ export function buttonHtml(label: unknown, onPress: () => void, { pressed, disab
   >
     ${label}
   </button>`;
+}
+
+/** Range of the numbers that can be typed, and their type: `whole` for whole numbers. */
+export interface AllowedNumbers {
+  min: number;
+  max: number;
+  type?: string;
+}
+
+interface NumberField extends AllowedNumbers {
+  /** Number in the field, or null for an empty field. */
+  value: number | null;
+  /** Range and step for the arrow keys, if not every allowed number can be reached with them. */
+  arrowRange?: { min: number, max: number, step: number };
+  id?: string;
+  /** Id of the element that labels the field, if no `label` does. The Tab key then skips the field. */
+  labelId?: string;
+  /** True if the field may be empty. */
+  isOptional?: boolean;
+  placeholder?: string;
+  isDisabled?: boolean;
+  /** Called for each allowed number that the user has entered, with NaN for an empty field. */
+  onChange: (value: number, field: HTMLInputElement) => void;
+}
+
+/**
+ * Returns a number field, which must be in a form of its own. The browser checks what the user types, and says on Enter why it is not
+ * allowed. Escape, or leaving the field, restores the number.
+ */
+export function numberFieldHtml({ value, min, max, type, arrowRange, id, labelId, isOptional = false, placeholder, isDisabled = false, onChange }: NumberField) {
+  const typingRange = { min, max, step: type === 'whole' ? '1' : 'any' };
+  const handleKey = (event: KeyboardEvent) => {
+    const field = inputOf(event);
+    // The steps of the arrow keys count from `min`.
+    Object.assign(field, event.key.startsWith('Arrow') ? arrowRange : typingRange);
+    if (event.key !== 'Escape') return;
+    field.form?.reset();
+    // A handled Escape does not end a presentation.
+    event.preventDefault();
+  };
+  // Browsers drop characters that are not in the notation of the browser's language: 0,35 would become 35.
+  const replaceSigns = (event: InputEvent) => {
+    const replacedText = event.data?.replace(MINUS, '-').replace(',', type === 'whole' ? '' : '.');
+    if (!replacedText || replacedText === event.data) return;
+    event.preventDefault();
+    document.execCommand('insertText', false, replacedText);
+  };
+  const enterNumber = (event: Event) => {
+    const field = Object.assign(inputOf(event), typingRange);
+    if (!field.validity.valid) return;
+    onChange(field.valueAsNumber, field);
+    // After a reset, the browser shows the value of the next rendering.
+    field.defaultValue = field.value;
+    field.form?.reset();
+  };
+  return html`<input
+    type="number"
+    class=${labelId ? 'typed' : nothing}
+    id=${id ?? nothing}
+    tabindex=${labelId ? -1 : nothing}
+    min=${min}
+    max=${max}
+    step=${typingRange.step}
+    value=${live(String(value ?? ''))}
+    placeholder=${placeholder ?? nothing}
+    aria-labelledby=${labelId ?? nothing}
+    autocomplete="off"
+    ?required=${!isOptional}
+    ?disabled=${isDisabled}
+    @focus=${(event: Event) => inputOf(event).select()}
+    @beforeinput=${replaceSigns}
+    @keydown=${handleKey}
+    @change=${enterNumber}
+    @blur=${(event: Event) => inputOf(event).form?.reset()}
+  />`;
 }
 
 export const inputOf = (event: Event) => event.target as HTMLInputElement;

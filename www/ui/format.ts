@@ -36,25 +36,6 @@ export function formatEditable(value: number, decimals: number): string {
   return formatFixed(value, typedDecimals > decimals && typedDecimals <= decimals + MAX_EXTRA_DECIMALS ? typedDecimals : decimals);
 }
 
-/**
- * Parses a number in the present language, or with a decimal point: "−0,301", "1.5 m/s", "2 000", "2,000"; NaN for other texts. In English
- * a comma may separate groups of three digits. In languages with a decimal comma a point may, if a whole number is expected.
- */
-export function parseNumber(text: string, unit: string = '', isWhole: boolean = false): number {
-  const compactText = text.replace(/\s/g, '').replace(MINUS, '-');
-  const withoutUnit = unit && compactText.endsWith(unit) ? compactText.slice(0, -unit.length) : compactText;
-  const decimalSign = getDecimalSeparator();
-  // In English, commas separate complete groups of three digits. Where the comma is the decimal separator, points may.
-  const groupPattern = decimalSign === '.' ? /^-?[1-9]\d{0,2}(,\d{3})+$/ : isWhole && /^-?[1-9]\d{0,2}(\.\d{3})+$/;
-  const ungroupedText = groupPattern && groupPattern.test(withoutUnit) ? withoutUnit.replace(/[,.]/g, '') : withoutUnit;
-  return withoutUnit === '' ? NaN : Number(ungroupedText.replace(decimalSign, '.'));
-}
-
-/** Prints a limit of a setting: "1 000 000"; "1·10⁻⁶". */
-export function formatLimit(value: number): string {
-  return Number.isInteger(value) ? formatInteger(value) : formatSignificant(value, 1);
-}
-
 /** Magnitude below which a number counts as a rounded 0. */
 const MAX_ROUNDED_ZERO = 1e-13;
 

@@ -2,7 +2,8 @@
 
 import { css, html, noChange, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
-import { inputOf } from './controls.ts';
+import { words } from '../messages/registry.ts';
+import { inputOf, numberFieldHtml, type AllowedNumbers } from './controls.ts';
 
 export const sliderStyles = css`
   /* Name and value above the track, and space for a line of help below it. */
@@ -47,26 +48,38 @@ export const sliderStyles = css`
   }
 
   .slider .value {
+    position: relative;
     grid-area: value;
+    text-align: right;
     white-space: nowrap;
   }
 
-  /* The field is as wide as the longest value. */
+  /* The field covers the printed value while it has the focus. */
   .typed {
-    box-sizing: content-box;
-    width: 0;
-    min-width: 100%;
-    margin: -0.2em 0 0 -0.4em;
-    padding: 0.1em 0.1em 0.1em 0.2em;
-    background: none;
-    border: 1px solid transparent;
-    border-radius: 3px;
-    color: inherit;
-    text-align: right;
+    position: absolute;
+    inset: 50% 0 auto auto;
+    box-sizing: border-box;
+    width: 7em;
+    max-width: 100%;
+    height: max(24px, 1.6em);
+    padding: 0 0.2em;
+    translate: 0 -50%;
+    opacity: 0;
+    cursor: text;
+    text-align: inherit;
   }
 
-  .typed:hover {
-    border-color: var(--muted);
+  .typed:focus {
+    z-index: 1;
+    max-width: none;
+    outline-offset: 0;
+    background: var(--paper);
+    opacity: 1;
+  }
+
+  .value:hover {
+    text-decoration: underline var(--muted);
+    text-underline-offset: 0.25em;
   }
 
   /* A text that is too long for this space covers the content below. */
@@ -83,12 +96,6 @@ export const sliderStyles = css`
 
   .slider:is(:focus-within, :hover) .effect {
     visibility: visible;
-  }
-
-  /* The sentence about a refused value stays until the user types again or changes a setting. */
-  .slider.refused .effect {
-    visibility: visible;
-    color: var(--accent);
   }
 
   input[type='range'] {
@@ -108,11 +115,6 @@ export const sliderStyles = css`
   input[type='range']:focus-visible {
     outline-offset: -2px;
   }
-
-  .typed:focus-visible {
-    outline-offset: 0;
-    background: var(--paper);
-  }
 `;
 
 /** Movement (CSS pixels) below which the direction of a touch is undecided. */
@@ -127,29 +129,43 @@ let undecidedTouch: PointerEvent | undefined;
 const beginTouch = (event: PointerEvent) => (undecidedTouch = event.pointerType === 'touch' ? event : undefined);
 
 /** First character of a number that is typed on a slider. */
-const NUMBER_START = /^[\d.,+\-\u2212]$/;
+const NUMBER_START = /^[\d.,+-]$/;
 
 /**
- * Returns a slider row. The printed value is also a text field, in which a value beyond the slider may be typed. Tab skips the field. Enter
- * or a digit on the slider moves the focus into the field; Enter and Escape move it back. Arrow keys up and down in the field move the slider.
+ * Returns a slider row. A field over the printed value accepts values beyond the slider too. Tab skips the field. Enter or a digit on the
+ * slider moves the focus into the field; Enter and Escape move it back.
  */
 export function sliderRowHtml(sliderRow: SliderRow) {
-  const printedValue = sliderRow.formatValue(sliderRow.value);
-  const longestText = [sliderRow.formatValue(sliderRow.min), sliderRow.formatValue(sliderRow.max)].reduce((longerText, candidate) => (candidate.length > longerText.length ? candidate : longerText), printedValue);
+  const { id, value, min, max, step, allowed, role, symbol, name, effect, formatValue, onInput, onCommit } = sliderRow;
+  const printedValue = formatValue(value);
+  const longestText = [formatValue(min), formatValue(max)].reduce((longerText, candidate) => (candidate.length > longerText.length ? candidate : longerText), printedValue);
+  // If the thumb is at an end of the slider, a text tells the user that values beyond that end can be typed.
+  const endAtThumb = value >= max && max < allowed.max ? max : value <= min && min > allowed.min ? min : undefined;
+  const applyTyped = (typedNumber: number, field: HTMLInputElement) => {
+    onInput(typedNumber);
+    onCommit();
+    // The next key may come before the slider is rendered with the new value.
+    controlOfRow(field, 'input[type=range]').value = String(rangeOfStops({ ...sliderRow, value: typedNumber }).value ?? typedNumber);
+  };
+  const focusTrack = (event: Event) => controlOfRow(event.target as Element, 'input[type=range]').focus();
   return html`
-    <div class="slider ${sliderRow.hasNoEffect ? 'off' : ''} ${sliderRow.refusal ? 'refused' : ''}" part="slider" data-role=${sliderRow.role}>
+    <div class="slider ${sliderRow.hasNoEffect ? 'off' : ''}" part="slider" data-role=${role}>
       <span>
         ${sliderRow.leadingControl ?? nothing}
-        <label for=${sliderRow.id} id="${sliderRow.id}-name">${sliderRow.symbol ? html`<bdi class="symbol notranslate" translate="no">${sliderRow.symbol}</bdi>` : nothing}${sliderRow.name}</label>
+        <label for=${id} id="${id}-name">${symbol ? html`<bdi class="symbol notranslate" translate="no">${symbol}</bdi>` : nothing}${name}</label>
       </span>
-      ${sliderTrackHtml({ ...sliderRow, ...rangeOfStops(sliderRow), name: undefined, valueText: printedValue, describedBy: `${sliderRow.id}-effect`, onKeydown: focusField })}
-      <form method="dialog" class="value notranslate" translate="no" dir="ltr" data-longest=${longestText}>
-        ${valueFieldHtml(sliderRow, printedValue)}
+      ${sliderTrackHtml({ ...sliderRow, ...rangeOfStops(sliderRow), name: undefined, valueText: printedValue, describedBy: `${id}-effect`, onKeydown: focusField })}
+      <form method="dialog" class="value notranslate" translate="no" dir="ltr" data-longest=${longestText} @submit=${focusTrack} @keydown=${(event: KeyboardEvent) => event.key === 'Escape' && focusTrack(event)}>
+        <span>${printedValue}</span>
+        ${numberFieldHtml({ ...allowed, value: Number(value.toPrecision(MAX_FIELD_DIGITS)), arrowRange: { min, max, step }, labelId: `${id}-name`, onChange: applyTyped })}
       </form>
-      <p class="effect muted small" id="${sliderRow.id}-effect" role=${sliderRow.refusal ? 'alert' : nothing}>${sliderRow.refusal || sliderRow.effect}</p>
+      <p class="effect muted small" id="${id}-effect">${endAtThumb === undefined ? effect : words.sliderEnds(formatValue(endAtThumb))}</p>
     </div>
   `;
 }
+
+/** Maximum number of significant digits in the field of a value. */
+const MAX_FIELD_DIGITS = 8;
 
 interface SliderRange {
   /** Id that is unique in the widget. */
@@ -177,14 +193,8 @@ export interface SliderRow extends SliderRange {
   hasNoEffect?: boolean;
   /** HTML of a control in front of the label. */
   leadingControl?: unknown;
-  /** Keyboard of a phone for typing the value. */
-  inputMode: 'decimal' | 'numeric' | 'text';
-  /** Applies a typed text. Returns the number in it, or undefined if it is refused. */
-  applyTypedText: (text: string) => number | undefined;
-  /** Sentence about a refused text. */
-  refusal?: string;
-  /** Hides the sentence about a refused text. */
-  clearRefusal: () => void;
+  /** Values that can be typed. */
+  allowed: AllowedNumbers;
 }
 
 /** Returns the range of a slider over stops, whose positions are the indices of the stops. A value beyond the last stop has the position after it. */
@@ -236,62 +246,6 @@ export function sliderTrackHtml({ id, name, min, max, step, value, valueText, de
     @pointercancel=${endPointer}
     @input=${setValue}
     @change=${onCommit}
-  />`;
-}
-
-/** Returns the field of a value. Its default is the printed value, which a browser shows unless the user has typed another text. */
-function valueFieldHtml(sliderRow: SliderRow, printedValue: string) {
-  const { id, inputMode, stops, formatValue, applyTypedText, refusal, clearRefusal } = sliderRow;
-  /** Applies the typed text; returns true if it became the value. */
-  const applyText = (input: HTMLInputElement): boolean => {
-    if (input.value === input.defaultValue) return true;
-    const number = applyTypedText(input.value);
-    if (number !== undefined) {
-      input.defaultValue = formatValue(number);
-      // The next key may come before the slider is rendered with the new value.
-      controlOfRow(input, 'input[type=range]').value = String(rangeOfStops({ ...sliderRow, value: number }).value ?? number);
-    }
-    input.form?.reset();
-    return number !== undefined;
-  };
-  /** Moves the slider by a step, as an arrow key does, and selects the new text in the field. */
-  const stepSlider = (slider: HTMLInputElement, stepCount: number, input: HTMLInputElement) => {
-    const valueBefore = slider.value;
-    slider.stepUp(stepCount);
-    if (slider.value === valueBefore) return;
-    for (const eventType of ['input', 'change']) slider.dispatchEvent(new Event(eventType));
-    input.defaultValue = formatValue(stops ? stops[slider.valueAsNumber] : slider.valueAsNumber);
-    input.select();
-  };
-  const handleKey = (event: KeyboardEvent) => {
-    const input = inputOf(event);
-    const slider = controlOfRow(input, 'input[type=range]');
-    const isArrow = ['ArrowUp', 'ArrowDown'].includes(event.key);
-    if (event.key === 'Escape') input.form?.reset();
-    else if (event.key !== 'Enter' && !isArrow) return;
-    // A handled Escape does not end a presentation.
-    event.preventDefault();
-    const isUnchanged = input.value === input.defaultValue;
-    if (!applyText(input)) input.select();
-    else if (!isArrow) slider.focus();
-    else if (isUnchanged) stepSlider(slider, event.key === 'ArrowUp' ? 1 : -1, input);
-  };
-  return html`<input
-    class="typed"
-    type="text"
-    tabindex="-1"
-    inputmode=${inputMode}
-    enterkeyhint="done"
-    autocomplete="off"
-    spellcheck="false"
-    aria-labelledby="${id}-name"
-    aria-describedby="${id}-effect"
-    aria-invalid=${refusal !== undefined}
-    value=${printedValue}
-    @focus=${(event: Event) => inputOf(event).select()}
-    @input=${clearRefusal}
-    @keydown=${handleKey}
-    @blur=${(event: Event) => applyText(inputOf(event))}
   />`;
 }
 

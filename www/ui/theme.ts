@@ -157,7 +157,7 @@ export const themeStyles = css`
       aspect-ratio: auto !important;
     }
 
-    :is(button, input:not(.typed), textarea, summary, .notice, .handle, .end, .effect, .marked, .visually-hidden),
+    :is(button, input, textarea, summary, .notice, .handle, .end, .effect, .marked, .visually-hidden),
     :not(th, li) > label:has(input:not(:checked)) {
       display: none !important;
     }

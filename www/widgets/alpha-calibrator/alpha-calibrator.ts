@@ -348,7 +348,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
       this.announcer.announce(words.progress.stopped);
       this.#revertSettings();
     };
-    const noticeTimerId = setTimeout(() => notice.show(() => html`<progress aria-label=${words.progress.label}></progress> ${words.progress.label}`, { stop: stopFit }), NOTICE_DELAY_MS);
+    const noticeTimerId = setTimeout(() => notice.show(() => html`<progress aria-label=${words.progress.label}></progress> ${words.progress.label}`, stopFit), NOTICE_DELAY_MS);
     try {
       await this.openLog(log, this.warnings);
     } catch (error) {

@@ -1,11 +1,12 @@
 /** Controls of the Alpha Calibrator: the leg that is shown, the model and its fit, and the noise of the reference. */
 
 import { html, nothing } from 'lit';
-import { editableSliderHtml, settingRadiosHtml, settingSliderHtml } from '../../figure/controls.ts';
+import { settingRadiosHtml, settingSliderHtml } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { buttonHtml, fieldsetHtml, radioGroupHtml } from '../../ui/controls.ts';
 import { NO_VALUE, formatEditable, formatFixed, formatInteger } from '../../ui/format.ts';
 import { readoutsHtml } from '../../ui/readouts.ts';
+import { sliderRowHtml } from '../../ui/slider.ts';
 import { modelRuleOf, countObserved, settingsOfModelRule } from './settings.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
@@ -14,8 +15,9 @@ export function legControlsHtml(figure: Figure) {
   const texts = words.calibrator.leg;
   // The button selects the next leg in the list of the worst legs. After the last leg, or if the selected leg is not in the list, it selects the first.
   const nextLeg = worstLegs[(worstLegs.indexOf(figure.settings.elementState.leg) + 1) % Math.max(1, worstLegs.length)];
-  return html`${editableSliderHtml(figure, texts.name, { min: 1, max: legs.count, type: 'whole' }, {
+  return html`${sliderRowHtml({
       id: 'leg',
+      allowed: { min: 1, max: legs.count, type: 'whole' },
       name: texts.name,
       value: chosenLegIndex + 1,
       min: 1,

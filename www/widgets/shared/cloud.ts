@@ -1,14 +1,13 @@
 /** Cloud of samples that grows in steps, and its controls. */
 
 import { range } from 'd3-array';
-import { html, noChange, nothing } from 'lit';
-import { live } from 'lit/directives/live.js';
+import { html } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
-import { declarationOf, parseTypedNumber, settingSliderHtml, type SliderSpec } from '../../figure/controls.ts';
+import { declarationOf, settingSliderHtml, type SliderSpec } from '../../figure/controls.ts';
 import { prefersReducedMotion } from '../../figure/renderer.ts';
 import { words } from '../../messages/registry.ts';
 import { toViewPixels } from '../../scene/canvas.ts';
-import { buttonHtml, fieldsetHtml, inputOf } from '../../ui/controls.ts';
+import { buttonHtml, fieldsetHtml, numberFieldHtml } from '../../ui/controls.ts';
 import { formatInteger } from '../../ui/format.ts';
 import type { Figure } from '../../figure/figure.ts';
 import type { StateValues } from '../../figure/settings.ts';
@@ -242,59 +241,32 @@ export function cloudControlsHtml(figure: CloudFigure) {
 }
 
 function seedFieldHtml(figure: Figure) {
-  const { settings, gesture, notice } = figure;
-  const seedRefusal = notice.findTextBeside('seed');
-  const enterSeed = (event: Event) => {
-    const seed = parseTypedNumber(figure, 'seed', words.seed, inputOf(event).value, declarationOf(figure, 'seed'));
-    if (seed !== undefined) settings.requestChange({ seed });
-  };
-  return html`<label class="seed">
-    ${words.seed}
-    <input
-      type="text"
-      inputmode="numeric"
-      autocomplete="off"
-      aria-invalid=${seedRefusal !== undefined}
-      .value=${seedRefusal ? noChange : live(String(settings.requested.seed))}
-      @input=${enterSeed}
-      @change=${() => gesture.commit()}
-      @blur=${() => notice.dismiss()}
-    />
-    ${seedRefusal ? html`<output role="alert">${seedRefusal}</output>` : nothing}
-  </label>`;
+  return html`<form method="dialog">
+    <label class="seed">${words.seed} ${numberFieldHtml({ ...declarationOf(figure, 'seed'), value: figure.settings.requested.seed, onChange: (seed) => figure.gesture.requestAndCommit({ seed }) })}</label>
+  </form>`;
 }
 
 /**
  * Returns the input field for the number of the selected sample (from 1 to `shownCount`), followed by a text about this sample. `id` is also the key of the
- * field's label among the messages. Text that was refused stays in the field until the user corrects it or leaves the field.
+ * field's label among the messages.
  */
-export function sampleFieldHtml(figure: CloudFigure, id: 'robot' | 'sample', shownCount: number, selectedSampleText: unknown) {
-  const { cloud, notice } = figure;
-  const { [id]: label, markHint } = (words as any)[figure.definition.messageKey];
-  const refusalText = notice.findTextBeside('marked');
-  const enterSampleNumber = (event: Event) => {
-    const typedNumber = inputOf(event).value;
-    const sampleNumber = typedNumber === '' ? 0 : parseTypedNumber(figure, 'marked', label, typedNumber, { min: 1, max: shownCount, type: 'whole' });
-    if (sampleNumber === undefined) return;
-    notice.dismiss();
-    cloud.select(sampleNumber - 1);
-  };
-  return html`<p class="marked">
+export function sampleFieldHtml({ cloud, definition }: CloudFigure, id: 'robot' | 'sample', shownCount: number, selectedSampleText: unknown) {
+  const { [id]: label, markHint } = (words as any)[definition.messageKey];
+  return html`<form method="dialog" class="marked">
     <label>
       ${label}
-      <input
-        id=${id}
-        type="number"
-        min="1"
-        max=${Math.max(1, shownCount)}
-        placeholder=${shownCount === 0 ? '' : `1–${formatInteger(shownCount)}`}
-        ?disabled=${shownCount === 0}
-        aria-invalid=${refusalText !== undefined}
-        .value=${refusalText ? noChange : live(cloud.selectedIndex < 0 ? '' : String(cloud.selectedIndex + 1))}
-        @input=${enterSampleNumber}
-        @blur=${() => notice.dismiss()}
-      />
+      ${numberFieldHtml({
+        id,
+        min: 1,
+        max: Math.max(1, shownCount),
+        type: 'whole',
+        value: cloud.selectedIndex < 0 ? null : cloud.selectedIndex + 1,
+        isOptional: true,
+        placeholder: shownCount === 0 ? '' : `1–${formatInteger(shownCount)}`,
+        isDisabled: shownCount === 0,
+        onChange: (sampleNumber) => cloud.select((sampleNumber || 0) - 1),
+      })}
     </label>
-    <output for=${id} role=${refusalText ? 'alert' : nothing}>${refusalText || selectedSampleText || html`<i class="muted">${markHint}</i>`}</output>
-  </p>`;
+    <output for=${id}>${selectedSampleText || html`<i class="muted">${markHint}</i>`}</output>
+  </form>`;
 }

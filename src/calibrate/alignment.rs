@@ -23,12 +23,9 @@ const CONFIDENT_CORRELATION: f64 = 0.9;
 /// Minimum increase of the correlation for which an offset beyond [`MAX_NEAR_OFFSET`] is preferred to a smaller offset.
 const MIN_CORRELATION_GAIN: f64 = 0.05;
 
-/// Lowest correlation of turn rates over all clock offsets, above which a recording does not count as mirrored. In a mirrored recording the
-/// turns are opposite, so that the correlation at the right offset is near −1.
-const MAX_MIRRORED_CORRELATION: f64 = -0.8;
-
-/// Maximum of (1 + lowest correlation) / (1 − highest correlation) over all clock offsets, if a recording is mirrored.
-const MAX_MIRRORED_DISTANCE_RATIO: f64 = 0.3;
+/// Factor on the absolute value of a negative correlation, which a mirrored recording has at the right offset: its turns are opposite. In a
+/// drive along a figure eight, turns are also opposite at an offset that is wrong by half a period, up to small differences.
+const MIRRORED_FACTOR: f64 = 0.85;
 
 /// Clock offset (s), and the correlation of the two turn rates at this offset.
 type OffsetMatch = (f64, f64);
@@ -44,23 +41,21 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Opt
     let overlap = odom_end.min(ref_end) - odom_start.max(ref_start);
     let finest_step =
         FINEST_STEP.max(0.5 * odometry.median_period()).max((odom_end - odom_start) / MAX_SAMPLES);
-    // Near offsets alone do not show that a recording is mirrored. In a drive along a figure eight, turns are also opposite if the clock
-    // offset is wrong by half a period.
     let near_match = if overlap < min_overlap {
         None
     } else {
-        best_match(odometry, reference, [-MAX_NEAR_OFFSET, MAX_NEAR_OFFSET], finest_step, false)
+        best_match(odometry, reference, [-MAX_NEAR_OFFSET, MAX_NEAR_OFFSET], finest_step)
     };
     if let Some((offset, _)) = near_match.filter(|(_, correlation)| *correlation >= CONFIDENT_CORRELATION) {
         return Some(offset);
     }
     let range = [ref_start - odom_end + min_overlap, ref_end - odom_start - min_overlap];
     let mut step = finest_step.max((range[1] - range[0]) / COARSE_OFFSETS);
-    let mut far_match = best_match(odometry, reference, range, step, true);
+    let mut far_match = best_match(odometry, reference, range, step);
     while let Some((rough_offset, _)) = far_match.filter(|_| step > finest_step) {
         let nearby_range = [rough_offset - 2.0 * step, rough_offset + 2.0 * step];
         step = finest_step.max(step / 50.0);
-        far_match = best_match(odometry, reference, nearby_range, step, true);
+        far_match = best_match(odometry, reference, nearby_range, step);
     }
     // An offset outside of the first scan is accepted only if its correlation is clearly larger.
     let near_match = near_match.map(|(offset, correlation)| (offset, correlation + MIN_CORRELATION_GAIN));
@@ -69,14 +64,12 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Opt
 }
 
 /// Returns the offset within a range at which the turn rates correlate most, interpolated between steps. None if the largest correlation is
-/// below [`MIN_CORRELATION`]. The signs of all correlations are changed if `can_be_mirrored` is true and the correlations show that one
-/// recording is mirrored.
+/// below [`MIN_CORRELATION`].
 fn best_match(
     odometry: &Trajectory,
     reference: &Trajectory,
     [min_offset, max_offset]: [f64; 2],
     step: f64,
-    can_be_mirrored: bool,
 ) -> Option<OffsetMatch> {
     let [start, end] = odometry.span()?;
     let turn_count = ((end - start) / step) as usize;
@@ -85,16 +78,11 @@ fn best_match(
     let reference_turns = turns_of_steps(reference, start + min_offset, step, turn_count + offset_count - 1);
     let count_known = |turns: &[Option<f64>]| turns.iter().flatten().count();
     let min_pairs = count_known(&odometry_turns).min(count_known(&reference_turns)) / 2;
-    let mut correlations: Vec<f64> = (0..offset_count)
-        .map(|offset| correlation(&odometry_turns, &reference_turns[offset..], min_pairs))
-        .collect();
-    let (lowest, highest) =
-        correlations.iter().fold((0.0_f64, 0.0_f64), |(low, high), r| (low.min(*r), high.max(*r)));
-    let is_mirrored =
-        lowest < MAX_MIRRORED_CORRELATION && 1.0 + lowest < MAX_MIRRORED_DISTANCE_RATIO * (1.0 - highest);
-    if can_be_mirrored && is_mirrored {
-        correlations.iter_mut().for_each(|correlation| *correlation = -*correlation);
-    }
+    let correlation_of_offset = |offset: usize| {
+        let correlation = correlation(&odometry_turns, &reference_turns[offset..], min_pairs);
+        correlation.max(-MIRRORED_FACTOR * correlation)
+    };
+    let correlations: Vec<f64> = (0..offset_count).map(correlation_of_offset).collect();
     let (best_offset, max_correlation) =
         correlations.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
     if max_correlation < MIN_CORRELATION {

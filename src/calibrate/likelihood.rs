@@ -10,7 +10,7 @@
 //! ℓ = −½ [ln|V| + ln|XᵀV⁻¹X| + rᵀV⁻¹r − rᵀV⁻¹X (XᵀV⁻¹X)⁻¹ XᵀV⁻¹r − (N − q) ln 2π],
 //!
 //! with N residuals and q errors. A Kalman filter with the state eᵢ gives ℓ: it turns residuals into innovations νᵢ, which are independent, with
-//! covariances Fᵢ. A backward pass gives the score (Koopman and Shephard 1992). Derivatives of the innovations give the Fisher information
+//! covariances Fᵢ. Derivatives of the innovations give the score and the Fisher information
 //! Σ ½ tr(F⁻¹ ∂ⱼF F⁻¹ ∂ₖF) + ∂ⱼνᵀ F⁻¹ ∂ₖν (Harvey 1989, 3.4).
 
 use super::legs::Leg;
@@ -267,76 +267,47 @@ impl Residuals {
 
     /// Returns the expansion of the log-likelihood around parameters, from the result of the Kalman filter with these parameters.
     pub fn expansion(&self, parameters: &Parameters, filtered: FilterResult) -> Expansion {
-        let (scores, information) = (self.scores(&filtered), self.information(&filtered));
+        let (scores, information) = self.derivatives(&filtered);
         let (covariance, _) = masked_inverse(&information, &self.free);
         let score = scores.iter().sum();
         Expansion { parameters: *parameters, filtered, score, scores, information, covariance }
     }
 
-    /// Returns the score of each leg: its part of −½ tr[(V⁻¹ − U M Uᵀ) ∂V], with U = V⁻¹ (X, r).
+    /// Returns the score of each leg, and the Fisher information on the fitted parameters.
     ///
-    /// With the estimated errors β and their covariance C, M is (−β, 1)(−β, 1)ᵀ + C. A backward pass gives the blocks of U and V⁻¹
-    /// (disturbance smoother, Koopman and Shephard 1992). Blocks of the next leg have a prime, K is the gain, and T = A' K:
+    /// With ν the innovation of (X, r) and w = F⁻¹ν, the score is −½ tr[(F⁻¹ − w M wᵀ) ∂F] − tr(M wᵀ ∂ν). The estimated errors β and
+    /// their covariance C give M = (−β, 1)(−β, 1)ᵀ + C. The derivatives of a leg follow from those of the previous leg, which have a prime.
+    /// K is the gain of the previous leg, B its Jacobian, and T = A K.
     ///
-    /// - Uᵢ = F⁻¹ν − Tᵀ U'
-    /// - (V⁻¹)ᵢᵢ = F⁻¹ + Tᵀ (V⁻¹)' T, and (V⁻¹)ᵢ,ᵢ₊₁ = −Tᵀ (V⁻¹)'
-    fn scores(&self, FilterResult { innovations, errors, covariance, .. }: &FilterResult) -> Vec<Parameters> {
+    /// - ∂F = T ∂F' Tᵀ + ∂D + A ∂R Aᵀ + Bᵢ ∂R Bᵢᵀ − C − Cᵀ with C = T B ∂R Aᵀ
+    /// - ∂ν = −T (∂ν' − ∂F' w') − A ∂R Bᵀ w'
+    fn derivatives(&self, filtered: &FilterResult) -> (Vec<Parameters>, Information) {
+        let FilterResult { innovations, errors, covariance: error_covariance, .. } = filtered;
         let contrast = -errors.push(-1.0);
         let mut error_weights = contrast * contrast.transpose();
         let mut error_block = error_weights.fixed_view_mut::<ERROR_COUNT, ERROR_COUNT>(0, 0);
-        error_block += covariance;
-        let mut scores = vec![Parameters::zeros(); self.terms.len()];
-        let (mut next_start, mut next_inverse) = (Matrix3::zeros(), Matrix3::zeros());
-        let mut next_smoothed = Columns::zeros();
-        let legs = self.terms.iter().zip(innovations).zip(&mut scores);
-        for ((term, Innovation { columns, weight, gain, .. }), score) in legs.rev() {
-            let transition = product(&next_start, gain);
-            let smoothed = product(weight, columns) - product(&transition.transpose(), &next_smoothed);
-            let carried_inverse = product(&transition.transpose(), &next_inverse);
-            let inverse = weight + product(&carried_inverse, &transition);
-            let weighted = product(&smoothed, &error_weights);
-            let own_block = inverse - product(&weighted, &smoothed.transpose());
-            let next_block = carried_inverse + product(&weighted, &next_smoothed.transpose());
-            for (k, alphas) in self.model.component_alphas().into_iter().enumerate() {
-                for (alpha, coefficient) in alphas.into_iter().zip(term.coefficients[k]) {
-                    score[alpha] -= 0.5 * coefficient * own_block[(k, k)];
-                }
-            }
-            let start_block = product(&own_block, &term.start);
-            let end_block = product(&own_block, &term.end) - 2.0 * product(&next_block, &next_start);
-            for (k, variance) in REFERENCE_VARIANCES.into_iter().enumerate() {
-                let start_part = term.start.column(k).dot(&start_block.column(k));
-                score[variance] -= 0.5 * (start_part + term.end.column(k).dot(&end_block.column(k)));
-            }
-            (next_start, next_smoothed, next_inverse) =
-                if term.follows { (term.start, smoothed, inverse) } else { Default::default() };
-        }
-        scores
-    }
-
-    /// Returns the Fisher information on the fitted parameters.
-    ///
-    /// The derivatives of a leg with respect to a parameter follow from those of the previous leg, which have a prime. K is the gain of the
-    /// previous leg, B its Jacobian, and T = A K.
-    ///
-    /// - ∂F = T ∂F' Tᵀ + ∂D + A ∂R Aᵀ + Bᵢ ∂R Bᵢᵀ − C − Cᵀ with C = T B ∂R Aᵀ
-    /// - ∂ν = −T (∂ν' − ∂F' F'⁻¹ν') − A ∂R Bᵀ F'⁻¹ν'
-    fn information(&self, FilterResult { innovations, errors, .. }: &FilterResult) -> Information {
+        error_block += error_covariance;
         let units: [Parameters; PARAMETER_COUNT] = std::array::from_fn(|j| Parameters::ith(j, 1.0));
         let reference_derivatives = units.map(|unit| reference_covariance(&unit));
         let mut covariance_derivatives = [Matrix3::zeros(); PARAMETER_COUNT];
-        let mut innovation_derivatives = [Vector3::zeros(); PARAMETER_COUNT];
+        let mut innovation_derivatives = [Columns::zeros(); PARAMETER_COUNT];
         let (mut gain_before, mut end_before) = (Matrix3::zeros(), Matrix3::zeros());
-        let (mut weighted_before, mut information) = (Vector3::zeros(), Information::zeros());
-        for (term, innovation) in self.terms.iter().zip(innovations) {
+        let mut weighted_before = Columns::zeros();
+        let (mut scores, mut information) =
+            (vec![Parameters::zeros(); self.terms.len()], Information::zeros());
+        for ((term, innovation), score) in self.terms.iter().zip(innovations).zip(&mut scores) {
             if !term.follows {
-                (gain_before, end_before) = (Matrix3::zeros(), Matrix3::zeros());
+                (gain_before, end_before) = Default::default();
             }
             let weight = &innovation.weight;
+            let weighted = product(weight, &innovation.columns);
+            let score_columns = product(&weighted, &error_weights);
+            let score_block = weight - product(&score_columns, &weighted.transpose());
             let transition = product(&term.start, &gain_before);
             let carried_end = product(&transition, &end_before);
             let at_start = product(&end_before.transpose(), &weighted_before);
             let mut relative_derivatives = [Matrix3::zeros(); PARAMETER_COUNT];
+            let mut residual_derivatives = [Vector3::zeros(); PARAMETER_COUNT];
             for j in (0..PARAMETER_COUNT).filter(|j| self.free[*j]) {
                 let (derivative, covariance) =
                     (&mut innovation_derivatives[j], &mut covariance_derivatives[j]);
@@ -353,19 +324,20 @@ impl Residuals {
                     let start_part = product(&half_start, &term.start.transpose());
                     *covariance += propagated(&term.end, reference) + start_part + start_part.transpose();
                 }
+                score[j] = -0.5 * score_block.dot(covariance) - score_columns.dot(derivative);
                 relative_derivatives[j] = product(weight, covariance);
-                let weighted_derivative = product(weight, derivative);
+                residual_derivatives[j] = product(derivative, &contrast);
+                let weighted_derivative = product(weight, &residual_derivatives[j]);
                 let transposed = relative_derivatives[j].transpose();
                 for k in 0..=j {
                     information[(j, k)] += 0.5 * transposed.dot(&relative_derivatives[k])
-                        + weighted_derivative.dot(&innovation_derivatives[k]);
+                        + weighted_derivative.dot(&residual_derivatives[k]);
                 }
             }
-            weighted_before = product(weight, &innovation.without(errors));
-            (gain_before, end_before) = (innovation.gain, term.end);
+            (gain_before, end_before, weighted_before) = (innovation.gain, term.end, weighted);
         }
         information.fill_upper_triangle_with_lower_triangle();
-        information
+        (scores, information)
     }
 }
 

@@ -91,10 +91,9 @@ impl Systematic {
         }
     }
 
-    /// Returns the initial guess of the mount's yaw: the mean angle between the directions of legs by odometry and by reference. 0 if the
-    /// angle is small, or directions are unrelated.
+    /// Returns the initial guess of the mount's yaw: the mean angle between the directions of legs by odometry and by reference.
     pub(super) fn initial_mount_yaw(legs: &[Leg]) -> f64 {
-        let (mut cos_sum, mut sin_sum, mut max_sum) = (0.0, 0.0, 0.0);
+        let (mut cos_sum, mut sin_sum) = (0.0, 0.0);
         for leg in legs {
             let [odometry_motion, measured_motion] = [leg.odometry, leg.reference].map(|[from, to]| {
                 let motion = from.between(&to);
@@ -102,14 +101,8 @@ impl Systematic {
             });
             cos_sum += odometry_motion.dot(&measured_motion);
             sin_sum += odometry_motion.y * measured_motion.x - odometry_motion.x * measured_motion.y;
-            max_sum += odometry_motion.norm() * measured_motion.norm();
         }
-        let yaw = libm::atan2(sin_sum, cos_sum);
-        if yaw.abs() > MIN_INITIAL_YAW && libm::hypot(cos_sum, sin_sum) > MIN_RESULTANT * max_sum {
-            yaw
-        } else {
-            0.0
-        }
+        libm::atan2(sin_sum, cos_sum)
     }
 
     /// Returns the pose that the reference measures, in the frame of the base.
@@ -183,13 +176,6 @@ impl Systematic {
         ])
     }
 }
-
-/// Mount yaw (rad) above which the fit needs an initial guess: differences of directions may wrap at π.
-const MIN_INITIAL_YAW: f64 = 0.5;
-
-/// Minimum mean resultant length of the direction differences of all legs: 1 if all differences are equal. Logs of unrelated drives
-/// have about 0.05.
-const MIN_RESULTANT: f64 = 0.5;
 
 /// Mask of systematic errors: one boolean for each of [`SystematicError::ALL`].
 pub type ErrorMask = [bool; ERROR_COUNT];

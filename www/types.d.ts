@@ -1,6 +1,6 @@
 /** Types that the code imports. scripts/types.mjs generates those of settings, simulations and elements from their declarations. */
 
-import type { ByRecursion, CalibrationLegs, CalibrationStats, CartesianMoments, Command, ExponentialMoments, MapSqueezeSettings, Start, SystematicErrors } from '../build/simulations.d.ts';
+import type { AlphaCalibratorSettings, BananaMachineSettings, CalibrationLegs, CalibrationStats, CartesianMoments, Command, DeadReckoningSettings, ExponentialMoments, MapSqueezeSettings, Start, SystematicErrors } from '../build/simulations.d.ts';
 
 export type * from '../build/simulations.d.ts';
 export type * from '../build/elements.d.ts';
@@ -61,19 +61,14 @@ export type MapData =
   | Readonly<{ name?: string; bounds: readonly number[]; walls: readonly (readonly number[])[] }>
   | Readonly<{ name?: string; columns: number; rows: number; resolution: number; origin: readonly number[]; occupied: string; unknown?: string }>;
 
-/** Options of a velocity model. */
-export interface VelocityModelOptions {
+/** Options of a velocity model; the default of `noise` is "normal". */
+export interface VelocityModelOptions extends Partial<Pick<BananaMachineSettings, 'noise'>> {
   /** Variance coefficients: α₁…α₆ of the velocity model, α₁…α₄ of the odometry model. */
   alphas: ArrayLike<number>;
-  /** Distribution of the noise; default "normal". */
-  noise?: 'normal' | 'triangular';
 }
 
-/** Options of an odometry model. */
-export interface OdometryModelOptions extends VelocityModelOptions {
-  /** If true, a drive in reverse is read with its own small rotations. If false (default), it is read as a drive between two half turns, whose noise is added. */
-  reverseAware?: boolean;
-}
+/** Options of an odometry model; the default of `reverseAware` is false. */
+export interface OdometryModelOptions extends VelocityModelOptions, Partial<Pick<BananaMachineSettings, 'reverseAware'>> {}
 
 /**
  * Three numbers. A twist has the speeds along the body's x and y (m/s), and the turn rate (rad/s). Exponential coordinates describe a motion by its
@@ -81,17 +76,13 @@ export interface OdometryModelOptions extends VelocityModelOptions {
  */
 export type Twist = ArrayLike<number>;
 
-/** Options of `propagate`. */
-export interface Propagation {
+/** Options of `propagate`; the defaults are the recursion "chapter" and one step. */
+export interface Propagation extends Partial<Pick<DeadReckoningSettings, 'compounding' | 'steps'>> {
   /** Covariance of the start pose in exponential coordinates about its mean, three rows of three; default 0. */
   sigma?: ArrayLike<ArrayLike<number>>;
   command: Command;
   /** Noise parameters α₁…α₆ of the velocity model. */
   alphas: ArrayLike<number>;
-  /** Recursion that propagates the covariance; default "chapter". */
-  compounding?: keyof ByRecursion<unknown>;
-  /** Number of repetitions of the command; default 1. */
-  steps?: number;
 }
 
 /** Poses, in arrays of the same length: increasing times in s, x and y in m, headings in rad. */
@@ -100,33 +91,24 @@ export interface LoggedPoses {
   x: ArrayLike<number>;
   y: ArrayLike<number>;
   theta: ArrayLike<number>;
-  /** Indices of poses before which the path is unknown, in addition to those after a pause: where rows are missing, or the path jumps. */
+  /** Indices before which the path is unknown, in addition to those after a pause: where rows are missing, or the path jumps. */
   breaks?: ArrayLike<number>;
 }
 
 /** Commands, each held until the next: increasing times in s, speeds in m/s, turn rates in rad/s. */
-export interface LoggedCommands {
-  t: ArrayLike<number>;
+export interface LoggedCommands extends Pick<LoggedPoses, 't' | 'breaks'> {
   v: ArrayLike<number>;
   omega: ArrayLike<number>;
-  /** Indices of commands before which the path is unknown, as for `LoggedPoses`. */
-  breaks?: ArrayLike<number>;
 }
 
-/** Options of `calibrate`. */
-export interface CalibrationOptions {
+/** Options of `calibrate`; the defaults are the model "odometry", the rule "thrun" (Table 5.6 as printed), and "reject". */
+export interface CalibrationOptions extends Partial<Pick<AlphaCalibratorSettings, 'model' | 'rule' | 'outliers'>> {
   /** Odometry of one drive, or of several. */
   odometry: LoggedPoses | LoggedCommands | (LoggedPoses | LoggedCommands)[];
   /** Reference of each drive. */
   reference: LoggedPoses | LoggedPoses[];
-  /** Motion model: odometry with four α's (default), odometry of a robot that can drive sideways with five, or velocity commands with six. */
-  model?: 'odometry' | 'omnidirectional' | 'velocity';
-  /** Noise rule of the odometry model: Table 5.6 as printed (default), Nav2 or Beluga. The omnidirectional model has the rule "omni". */
-  rule?: 'thrun' | 'nav2' | 'beluga' | 'omni';
   /** Length of a leg: thresholds of translation (m, default 0.25) and rotation (rad, default 0.2), as AMCL's `update_min_d` and `update_min_a`, or a duration (s). */
   legs?: { distance?: number; angle?: number } | { duration: number };
-  /** Treatment of outliers: excluded (default), or fitted as noise. */
-  outliers?: 'reject' | 'keep';
   /**
    * Systematic errors that are corrected. The default is all errors that the log identifies, except scales that are not constant. True also corrects such
    * scales; false corrects no errors.

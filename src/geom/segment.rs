@@ -19,6 +19,12 @@ impl Segment {
         libm::hypot(x, y)
     }
 
+    /// Returns the point of the segment that is nearest to a given point.
+    pub fn nearest_point(&self, point: [f64; 2]) -> [f64; 2] {
+        let [x, y] = self.offset_from_nearest_point(point);
+        [point[0] - x, point[1] - y]
+    }
+
     /// Returns the squared distance to a point. Distances below 10⁻¹⁶² m underflow to 0.
     pub(crate) fn squared_distance_to_point(&self, point: [f64; 2]) -> f64 {
         let nearest_offset = self.offset_from_nearest_point(point);

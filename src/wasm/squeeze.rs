@@ -115,6 +115,12 @@ impl JsMapSqueeze {
         Ok(path_of(&self.0, read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize))
     }
 
+    /// Returns the point (x, y) of a wall that the robot touches first in an attempt; undefined if it touches no wall.
+    #[wasm_bindgen(js_name = firstContact)]
+    pub fn first_contact(&self, index: usize) -> Option<Vec<f64>> {
+        self.0.first_contact(index).map(Vec::from)
+    }
+
     /// Draws `count` accepted samples with a sampler and discards them, to measure the time. Throws if too many draws are rejected.
     pub fn trial(
         &self,

@@ -1,8 +1,8 @@
-// Walls of a floor plan that a user moves, and the first wall that a path touches.
+// Walls of a floor plan that a user moves.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { findWallContact, gripsOf, moveWall } from '../../www/widgets/map-squeeze/walls.ts';
+import { gripsOf, moveWall } from '../../www/widgets/map-squeeze/walls.ts';
 
 /** Room of 6 m × 4 m. A wall at x = 3 has a doorway. Another wall ends at the lower part of the wall with the doorway. */
 const ROOM_BOUNDS = Float64Array.of(0, 0, 6, 4);
@@ -44,10 +44,4 @@ test('a wall that is not parallel to an axis keeps its direction and length wher
     const [x0, y0, x1, y1] = moveWall(plan, wallSideGrip, distance).subarray(OUTER_WALLS.length);
     assert.deepEqual([x1 - x0, y1 - y0].map((difference) => Number(difference.toFixed(9))), [2, 1]);
   }
-});
-
-test('the contact is at the first wall that the robot touches; a collision-free path has no contact', () => {
-  const [x, y] = findWallContact([1, 0.5, 5.9, 0.5], ROOM_WALLS, 0.1) ?? [];
-  assert.deepEqual([x, y], [3, 0.5]);
-  assert.equal(findWallContact([1, 2, 5, 2], ROOM_WALLS, 0.2), undefined);
 });

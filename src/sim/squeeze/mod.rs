@@ -13,6 +13,7 @@ use super::settings::{AllowedValues, SettingRules, SettingsError};
 use crate::geom::arc::Arc;
 use crate::geom::lanes::LANE_COUNT;
 use crate::geom::se2::SE2;
+use crate::geom::segment::Segment;
 use crate::js::js_structs;
 use crate::map::{
     AcceptedMotion, CollisionTester, Cost, FloorPlan, FloorPlanError, MAX_DRAWS, MapConditioned,
@@ -219,6 +220,23 @@ impl MapSqueeze {
         AttemptDriver::new(&model, &self.settings, &self.draws).arcs(attempt_index)
     }
 
+    /// Returns the point of a wall that the robot touches first in an attempt that is shown; None if it touches no wall.
+    pub fn first_contact(&self, attempt_index: usize) -> Option<[f64; 2]> {
+        let is_free = |arc: &Arc| self.floor_plan.test_arc(arc, self.settings.clearance).free;
+        let arc = self.arcs(attempt_index).into_iter().find(|arc| !is_free(arc))?;
+        // Bisection for the fraction of the arc that the robot has driven at the contact.
+        let mut fractions = 0.0..1.0;
+        for _ in 0..CONTACT_BISECTIONS {
+            let middle = 0.5 * (fractions.start + fractions.end);
+            *(if is_free(&arc.leading_part(middle)) { &mut fractions.start } else { &mut fractions.end }) =
+                middle;
+        }
+        let point = arc.leading_part(fractions.end).end().position();
+        let distance_of = |wall: &Segment| wall.distance_to_point(point);
+        let walls = self.floor_plan.walls().iter();
+        Some(walls.min_by(|a, b| distance_of(a).total_cmp(&distance_of(b)))?.nearest_point(point))
+    }
+
     /// Draws `sample_count` accepted samples with a sampler and returns their cost. The caller measures the time. Fails with
     /// [`NoAcceptedSample`] if one of the samples is not accepted, or if there are so many draws that the simulation would give up.
     pub fn sampling_trial(&self, sampler: Sampler, sample_count: usize) -> Result<Cost, NoAcceptedSample> {
@@ -248,6 +266,9 @@ impl MapSqueeze {
         Arc { start: self.settings.start(), length: v * dt, turn: omega * dt }
     }
 }
+
+/// Number of bisections that locate a contact with a wall, to 10⁻⁹ of an arc.
+const CONTACT_BISECTIONS: u32 = 30;
 
 /// Returns the number of draws for `part_count` parts of motions after which the simulation gives up.
 pub fn max_draws(part_count: usize) -> usize {

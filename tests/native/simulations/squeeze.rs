@@ -3,6 +3,7 @@
 use crate::common::seeded_rng;
 use crate::map::conditioned::{SAMPLERS, STRAIGHT_COMMAND, new_too_small_room};
 use motion::geom::se2::SE2;
+use motion::geom::segment::Segment;
 use motion::map::{FloorPlan, MAX_DRAWS, MapConditioned, Sampler};
 use motion::sim::settings::SettingRules;
 use motion::sim::squeeze::{MapSqueeze, Settings, wilson_interval};
@@ -120,6 +121,19 @@ fn the_arcs_of_an_attempt_end_at_its_pose() {
             assert!(are_joined && (arcs[0].start.x(), arcs[0].start.y()) == (2.05, 2.6));
         }
     }
+}
+
+#[test]
+fn the_first_contact_is_at_the_first_wall_on_the_path() {
+    let command = VelocityCmd { v: 4.0, omega: 0.0, dt: 1.0 };
+    let alphas = [0.0; 6];
+    let mut simulation =
+        new_simulation(Settings { command, alphas, start: [1.0, 0.5, 0.0], ..Settings::default() });
+    assert_eq!(simulation.first_contact(usize::MAX), None);
+    let walls = [[3.0, 0.0, 3.0, 1.5], [4.0, 0.0, 4.0, 1.5]];
+    let to_segment = |[x0, y0, x1, y1]: [f64; 4]| Segment { from: [x0, y0], to: [x1, y1] };
+    simulation.set_plan(FloorPlan::new(walls.map(to_segment).to_vec(), [0.0, 0.0, 6.0, 4.0]).expect("valid"));
+    assert_eq!(simulation.first_contact(0), Some([3.0, 0.5]));
 }
 
 #[test]

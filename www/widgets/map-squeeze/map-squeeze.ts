@@ -18,7 +18,6 @@ import { MapOpener, userMapControlsHtml } from './maps/opener.ts';
 import { FloorPicture } from './picture.ts';
 import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition, COMMAND_SLIDERS, MAX_SAMPLES, outcomeOf, viewModelOf, type ViewModel } from './settings.ts';
 import { WallHandles } from './wall-handles.ts';
-import { findWallContact } from './walls.ts';
 import type { StateValues } from '../../figure/settings.ts';
 import type { CellGrid } from '../../scene/walls.ts';
 import type { MapData, MapSqueeze as Simulation, Motion, Pose } from '../../types.d.ts';
@@ -200,10 +199,10 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
 
   /** Returns the pose and the path of the marked sample. If the sample was accepted although its path goes through a wall, `contact` is the first point of contact. */
   #markedSampleOf(sampleIndex: number) {
-    const { poses, verdicts, config } = this.currentViewModel;
+    const { poses, verdicts } = this.currentViewModel;
     const path = this.#pathMemo.get([poses, sampleIndex], () => (this.simulation as Simulation).path(sampleIndex));
     const isThroughWall = outcomeOf(verdicts[sampleIndex]) === 'through';
-    return { pose: poses.subarray(3 * sampleIndex), path, contact: isThroughWall ? findWallContact(path, this.picture.plan.walls, config.clearance) : undefined };
+    return { pose: poses.subarray(3 * sampleIndex), path, contact: isThroughWall ? this.simulation?.firstContact(sampleIndex) : undefined };
   }
 
   get exportData() {

@@ -19,7 +19,7 @@ import { drawDisc, paintWithOpacity, strokePath, type DrawContext } from '../../
 export interface Scene extends ViewModel {
   simulation: MapSqueeze;
   overlays: string[];
-  markedSample: { pose: Float64Array, path: Float64Array, contact: number[] | undefined } | undefined;
+  markedSample: { pose: Float64Array, path: Float64Array, contact: ArrayLike<number> | undefined } | undefined;
 }
 
 /** Dot of a sample: minimum and maximum radius (CSS pixels), ratio of the picture's width to the dot's radius, and opacity. */

@@ -1,7 +1,6 @@
-/** Geometry of walls: contacts of a path with walls, and moving of walls. Lengths are in metres. */
+/** Moving of walls. Lengths are in metres. */
 
 import { clamp } from '../../ui/format.ts';
-import { extentAround } from '../../scene/view.ts';
 import type { Plan } from '../../types.d.ts';
 
 /** Maximum distance between two walls that touch, m. */
@@ -10,36 +9,12 @@ const TOUCH_DISTANCE = 1e-6;
 /** Minimum gap between the end of a moved wall and another wall, and minimum length of a wall, m. */
 const MIN_WALL_GAP = 0.05;
 
-/** Minimum radius (m) for the search of contacts; a smaller robot counts as this large. The radius divided by `POINTS_PER_RADIUS` is the step along the path. */
-const MIN_TOUCH_RADIUS = 0.02;
-const POINTS_PER_RADIUS = 4;
-
-/** Returns the point of a wall that is nearest to a given point, and its distance. `k` is the index of the first of the wall's numbers. */
-function nearestPointOfWall(walls: ArrayLike<number>, k: number, x: number, y: number) {
+/** Returns the distance from a point to a wall. `k` is the index of the first of the wall's numbers. */
+function distanceToWall(walls: ArrayLike<number>, k: number, x: number, y: number) {
   const [x0, y0] = [walls[k], walls[k + 1]];
   const [dx, dy] = [walls[k + 2] - x0, walls[k + 3] - y0];
   const fraction = clamp(((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy || 1), 0, 1);
-  const nearestPoint = [x0 + fraction * dx, y0 + fraction * dy];
-  return { point: nearestPoint, distance: Math.hypot(x - nearestPoint[0], y - nearestPoint[1]) };
-}
-
-/** Returns the first point of a wall that a robot of a given radius touches while it drives along a path of x, y pairs; undefined if it touches no wall. */
-export function findWallContact(path: ArrayLike<number>, walls: Float64Array, robotRadius: number) {
-  const touchRadius = Math.max(robotRadius, MIN_TOUCH_RADIUS);
-  const pathExtent = extentAround(path, 2);
-  const nearWallOffsets = wallOffsetsOf(walls).filter((k) => {
-    const wallExtent = extentAround(walls.subarray(k, k + 4), 2);
-    return Math.max(wallExtent.xMin - pathExtent.xMax, pathExtent.xMin - wallExtent.xMax, wallExtent.yMin - pathExtent.yMax, pathExtent.yMin - wallExtent.yMax) < touchRadius;
-  });
-  for (let i = 0; i + 3 < path.length; i += 2) {
-    const [dx, dy] = [path[i + 2] - path[i], path[i + 3] - path[i + 1]];
-    const pointCount = Math.ceil((POINTS_PER_RADIUS * Math.hypot(dx, dy)) / touchRadius) || 1;
-    for (let pointIndex = 0; pointIndex <= pointCount; pointIndex++) {
-      const [x, y] = [path[i] + (pointIndex / pointCount) * dx, path[i + 1] + (pointIndex / pointCount) * dy];
-      const [nearestPoint] = nearWallOffsets.map((k) => nearestPointOfWall(walls, k, x, y)).sort((wallPoint, otherWallPoint) => wallPoint.distance - otherWallPoint.distance);
-      if (nearestPoint?.distance < touchRadius) return nearestPoint.point;
-    }
-  }
+  return Math.hypot(x - x0 - fraction * dx, y - y0 - fraction * dy);
 }
 
 /** Returns the indices at which walls start in an array with four numbers for each wall. */
@@ -69,7 +44,7 @@ export function gripsOf({ bounds, walls }: Plan): Grip[] {
 }
 
 const distanceToOtherWallsOf = (walls: Float64Array, wallOffset: number, [x, y]: number[]) =>
-  Math.min(...wallOffsetsOf(walls).filter((k) => k !== wallOffset).map((k) => nearestPointOfWall(walls, k, x, y).distance));
+  Math.min(...wallOffsetsOf(walls).filter((k) => k !== wallOffset).map((k) => distanceToWall(walls, k, x, y)));
 
 /**
  * Returns the walls after a grip has been moved along its axis, within the bounds of the plan. A moved end stops near the next wall. If a whole wall moves,
@@ -91,7 +66,7 @@ export function moveWall({ bounds, walls }: Plan, { wallOffset, grippedPart: par
   }
   for (const k of wallOffsetsOf(walls)) {
     const isAcross = Math.abs((walls[k + 2] - walls[k]) * uy - (walls[k + 3] - walls[k + 1]) * ux) < TOUCH_DISTANCE;
-    const isMoved = (coordinateIndex: number) => k === wallOffset || (isAcross && nearestPointOfWall(walls, wallOffset, walls[coordinateIndex], walls[coordinateIndex + 1]).distance < TOUCH_DISTANCE);
+    const isMoved = (coordinateIndex: number) => k === wallOffset || (isAcross && distanceToWall(walls, wallOffset, walls[coordinateIndex], walls[coordinateIndex + 1]) < TOUCH_DISTANCE);
     for (const coordinateIndex of [k, k + 2]) if (isMoved(coordinateIndex)) moveEnd(coordinateIndex, distanceInBounds);
   }
   return movedWalls;

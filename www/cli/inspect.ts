@@ -4,7 +4,7 @@ import { group } from 'd3-array';
 import { findCandidates, isLocalizer, planDrives } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
 import { LogError, truncate, ROLES, formatFramesOption, formatFrames, summarySentencesOf, type LogChoice, type Recording, type Role, type Summary } from '../logs/log.ts';
-import { explainWithCommand, formatCommand } from './advice.ts';
+import { explainWithCommand, formatCommand } from './options.ts';
 import { alignRows } from './report.ts';
 import type { OpenedInputs } from './run.ts';
 

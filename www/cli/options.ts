@@ -1,9 +1,9 @@
-/** Options of the command line. */
+/** Options of the command line, and commands that are proposed to the user. */
 
 import { basename, dirname } from 'node:path';
 import { parseArgs } from 'node:util';
 import { sort } from 'd3-array';
-import { truncate, ROLES, UNITS, type FramePair, type OpenOptions, type Role } from '../logs/log.ts';
+import { truncate, ROLES, UNITS, type FileQuestion, type FramePair, type LogError, type OpenOptions, type Role } from '../logs/log.ts';
 import { SYSTEMATIC_ERRORS } from '../widgets/alpha-calibrator/result.ts';
 
 /** Error about the options; its message is a sentence. */
@@ -161,7 +161,7 @@ function parseFileOptions(optionValues: { [name in keyof typeof FILE_OPTIONS]?: 
 type Entries<T> = { [key in keyof T]: [key, T[key]] }[keyof T][];
 
 /** Returns command arguments in which the paths without roles have the options --odometry and --reference in turn; undefined for fewer than two such paths. */
-export function nameRoles(args: string[]): string[] | undefined {
+function nameRoles(args: string[]): string[] | undefined {
   const { tokens } = parseArgs({ args, options: OPTIONS, allowPositionals: true, tokens: true });
   const pathIndices = tokens.filter(({ kind }) => kind === 'positional').map(({ index }) => index).slice(1);
   if (pathIndices.length < 2) return undefined;
@@ -192,7 +192,7 @@ function parseArguments(args: string[]) {
 }
 
 /** Quotes a text as one argument of a shell command, if necessary. */
-export const quoteForShell = (text: string): string => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
+const quoteForShell = (text: string): string => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
 
 /** Returns true if an argument has an extension or is in a folder. */
 const isPath = (argument = '') => /\.\w+$|\//.test(argument);
@@ -202,4 +202,24 @@ function parseFrames(name: string, value: string | undefined): FramePair | undef
   const [parent, child, ...excessNames] = value.split(',').map((name) => name.trim());
   if (parent && child && excessNames.length === 0) return { parent, child };
   throw new UsageError(`--${name} must be a parent and a child frame, as in map,base_link (got “${truncate(value)}”).`);
+}
+
+export const formatCommand = (args: string[]): string => ['npx motion-widgets', ...args.map(quoteForShell)].join(' ');
+
+/** Returns the message of an error. If the error has a question, the typed command follows, with the option that answers the question. */
+export function explainWithCommand({ message, place: { file }, question }: LogError, typedArgs: string[]): string {
+  const answeringArgs = question && answerQuestion({ ...question, file }, typedArgs);
+  return answeringArgs ? `${message} For example:\n  ${formatCommand(answeringArgs)}` : message;
+}
+
+/** Returns the arguments of a command together with the option that answers a question; undefined if no option answers it. */
+export function answerQuestion({ file, option, role, choices }: FileQuestion, typedArgs: string[]): string[] | undefined {
+  const [likeliestChoice] = choices.filter(Boolean);
+  const logRole = role ?? 'odometry';
+  if (option === 'roles') return nameRoles(typedArgs);
+  if (option === 'other') return [...typedArgs, ...(role ? [`--${role === 'odometry' ? 'reference' : 'odometry'}`] : []), 'FILE'];
+  if (likeliestChoice === undefined) return undefined;
+  if (option === 'columns') return [...typedArgs, '--columns', `${file}=${likeliestChoice}`];
+  if (option in UNITS) return [...typedArgs, `--${option.replace('Unit', '-unit')}`, `${file}=${likeliestChoice}`];
+  return [...typedArgs, `--${logRole}-${option === 'series' ? 'topic' : 'frames'}`, likeliestChoice];
 }

@@ -7,10 +7,9 @@ import { english } from '../logs/en.ts';
 import { LogError, truncate, mirroringQuestionsOf, summarySentencesOf, type Recording } from '../logs/log.ts';
 import { optionsByNameOf } from '../logs/open.ts';
 import { calibrationLogOf, readDrives, type Drive } from '../logs/pairs.ts';
-import { answerQuestion, explainWithCommand, formatCommand } from './advice.ts';
 import { openRecordingsAt } from './files.ts';
 import { inspect, formatInspection } from './inspect.ts';
-import { HELP, UsageError, parseOptions, replaceFieldByOption, type CalibrateArguments } from './options.ts';
+import { HELP, UsageError, answerQuestion, explainWithCommand, formatCommand, parseOptions, replaceFieldByOption, type CalibrateArguments } from './options.ts';
 import { createDrivesSvg } from './plot.ts';
 import { formatReportJson, formatLogSummaries, formatYamlWithNotes, formatReport, formatVerdict, type CalibrationReport } from './report.ts';
 

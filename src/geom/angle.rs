@@ -8,7 +8,6 @@ use std::f64::consts::{PI, TAU};
 /// has an error of about 1.2e-16 · |angle|. NaN and infinities give NaN.
 #[inline(always)]
 pub fn wrap_angle(angle: f64) -> f64 {
-    // Fast path: most angles are in range, and the remainder is slow.
     if -PI < angle && angle <= PI { angle } else { wrap_far_angle(angle) }
 }
 

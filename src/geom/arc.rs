@@ -187,8 +187,8 @@ impl PreparedPose {
         let half_turn = 0.5 * turn;
         let half_sine = libm::sin(half_turn);
         let chord_ratio = if half_turn == 0.0 { 1.0 } else { half_sine / half_turn };
-        let (forward, left) = (length * sinc(turn), length * (half_sine * chord_ratio));
-        self.create_driven_arc(length, turn, chord_ratio, self.transform_point([forward, left]))
+        let (forward_offset, left_offset) = (length * sinc(turn), length * (half_sine * chord_ratio));
+        self.create_driven_arc(length, turn, chord_ratio, self.transform_point([forward_offset, left_offset]))
     }
 
     /// Computes four arcs from this pose in SIMD lanes. Returns a function from the lane index to the arc. The ends differ from those of
@@ -202,8 +202,8 @@ impl PreparedPose {
     ) -> impl Fn(usize) -> DrivenArc {
         // The end of an arc is on the bearing φ/2, at the distance of the length of its chord.
         let SinCos { sinc, sin, cos } = trigonometry.sin_cos(turn * 0.5);
-        let distance = length * sinc;
-        let (forward, left) = (distance * cos, distance * sin);
+        let chord_length = length * sinc;
+        let (forward, left) = (chord_length * cos, chord_length * sin);
         let x = (forward * self.cos - left * self.sin) + self.pose.x();
         let y = (forward * self.sin + left * self.cos) + self.pose.y();
         let [length, turn, sinc, x, y] = [length, turn, sinc, x, y].map(f64x4::to_array);
@@ -286,13 +286,13 @@ impl ArcPiece {
             max_error: 0.0,
         };
         let [_, sagitta]: [f64; 2] = uncorrected_piece.local_point(half_length);
-        let middle = [
+        let middle_point = [
             uncorrected_piece.middle_point[0] + sagitta * tangent[1],
             uncorrected_piece.middle_point[1] - sagitta * tangent[0],
         ];
         let half_turn_squared = 0.25 * turn * turn;
         Self {
-            middle_point: middle,
+            middle_point,
             max_error: half_length * half_turn_squared * half_turn_squared * half_turn_squared / 2000.0,
             ..uncorrected_piece
         }

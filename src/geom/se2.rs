@@ -157,7 +157,6 @@ impl Mul for SE2 {
     }
 }
 
-/// Position x, y (m) and heading (rad).
 impl From<SE2> for [f64; 3] {
     fn from(SE2 { x, y, theta }: SE2) -> Self {
         [x, y, theta]

@@ -160,8 +160,8 @@ struct NoisyCommand {
 impl NoisyCommand {
     /// Returns the end pose and the driven arc for the noise `unit_noise` (three random numbers of variance 1).
     fn drive_with_noise(&self, start: &PreparedPose, unit_noise: [f64; 3]) -> (SE2, DrivenArc) {
-        let [length, turn, last_turn] = self.executed_motion(unit_noise);
-        with_last_turn(start.drive(length, turn), last_turn)
+        let [arc_length, arc_turn, last_turn] = self.executed_motion(unit_noise);
+        with_last_turn(start.drive(arc_length, arc_turn), last_turn)
     }
 
     /// Computes four motions in SIMD lanes. Returns a function from the lane index to the end pose and the driven arc.
@@ -215,10 +215,11 @@ impl MapConditioned<'_> {
         mut visit_arc: impl FnMut(&Arc),
     ) -> Result<AcceptedMotion, NoAcceptedSample> {
         let (mut end_free, mut path_free) = (true, true);
-        let (pose, cost) = self.drive_parts(u, x, rng, is_conditioned, &mut |driven, end_verdict| {
-            visit_arc(&driven.arc);
+        let (pose, cost) = self.drive_parts(u, x, rng, is_conditioned, &mut |driven_arc, end_verdict| {
+            visit_arc(&driven_arc.arc);
             end_free = end_verdict.free;
-            path_free = path_free && self.plan.test_arc_after_end(driven, end_verdict, self.clearance).free;
+            path_free =
+                path_free && self.plan.test_arc_after_end(driven_arc, end_verdict, self.clearance).free;
         })?;
         Ok(AcceptedMotion { pose, end_free, path_free, cost })
     }

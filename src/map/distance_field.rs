@@ -127,8 +127,8 @@ fn walls_of_node(wall_tree: &WallTree, node_index: usize) -> impl Iterator<Item 
 
 impl<'a> FieldBuilder<'a> {
     fn new(wall_tree: &'a WallTree, map_bounds: [f64; 4], occupied_grid: Option<&'a OccupancyGrid>) -> Self {
-        let [map_left, map_bottom, map_right, map_top] = map_bounds;
-        let (width, height) = (map_right - map_left, map_top - map_bottom);
+        let [min_x, min_y, max_x, max_y] = map_bounds;
+        let (width, height) = (max_x - min_x, max_y - min_y);
         let cell_count = (CELLS_PER_WALL * wall_tree.walls.len() as f64).clamp(MIN_CELLS, MAX_CELLS);
         // A narrow map could otherwise get more than `cell_count` cells in a single row.
         let cell_side = (width * height / cell_count).sqrt().max(width.max(height) / cell_count);
@@ -139,7 +139,7 @@ impl<'a> FieldBuilder<'a> {
             tree: wall_tree,
             occupied_grid,
             distance_field: DistanceField {
-                min_corner: [map_left, map_bottom],
+                min_corner: [min_x, min_y],
                 cells_per_metre: 1.0 / cell_side,
                 columns,
                 last_indices: [columns, rows].map(|count| count as f64 - 1.0),
@@ -157,13 +157,18 @@ impl<'a> FieldBuilder<'a> {
 
     /// Computes the lower bounds of the cells of a block, or divides the block into four. `candidate_walls` has every wall that may be
     /// nearest to a point of the block.
-    fn fill_block(&mut self, candidate_walls: &[WallSet], [left, first_row]: [usize; 2], width: usize) {
-        if left >= self.distance_field.columns || first_row >= self.rows {
+    fn fill_block(
+        &mut self,
+        candidate_walls: &[WallSet],
+        [first_column, first_row]: [usize; 2],
+        width: usize,
+    ) {
+        if first_column >= self.distance_field.columns || first_row >= self.rows {
             return;
         }
-        let [right, top] =
-            [(left + width).min(self.distance_field.columns), (first_row + width).min(self.rows)];
-        let block_centre = self.block_centre([left, first_row], width);
+        let [end_column, end_row] =
+            [(first_column + width).min(self.distance_field.columns), (first_row + width).min(self.rows)];
+        let block_centre = self.block_centre([first_column, first_row], width);
         let block_radius = width as f64 * self.distance_field.cell_radius;
         let block_uncertainty = width as f64 * self.distance_field.cell_uncertainty;
         let Some([min_distance, max_distance]) =
@@ -178,10 +183,10 @@ impl<'a> FieldBuilder<'a> {
             let max_lower_bound = max_distance + 2.0 * block_radius + self.rounding_slack;
             let is_near = |(lower_bound, _): &&(f64, WallSet)| *lower_bound <= max_lower_bound;
             let near_candidates: Vec<_> =
-                self.measured.iter().filter(is_near).map(|(_, candidate_walls)| *candidate_walls).collect();
+                self.measured.iter().filter(is_near).map(|(_, candidate)| *candidate).collect();
             let half_width = width / 2;
             for [column, row] in [[0, 0], [half_width, 0], [0, half_width], [half_width, half_width]] {
-                self.fill_block(&near_candidates, [left + column, first_row + row], half_width);
+                self.fill_block(&near_candidates, [first_column + column, first_row + row], half_width);
             }
             return;
         }
@@ -189,8 +194,8 @@ impl<'a> FieldBuilder<'a> {
         // cells.
         let is_in_blocked_cell = min_distance > block_radius
             && self.occupied_grid.is_some_and(|occupied_grid| occupied_grid.is_blocked_at(block_centre));
-        for row in first_row..top {
-            for column in left..right {
+        for row in first_row..end_row {
+            for column in first_column..end_column {
                 let [x, y] = self.block_centre([column, row], 1);
                 let max_offset = self.distance_field.cell_radius
                     + ((x - block_centre[0]) * (x - block_centre[0])

@@ -116,8 +116,8 @@ impl FloorPlan {
         bounds: [f64; 4],
         occupied_grid: Option<OccupancyGrid>,
     ) -> Result<Self, FloorPlanError> {
-        let [map_left, map_bottom, map_right, map_top] = bounds;
-        let side_lengths = [map_right - map_left, map_top - map_bottom];
+        let [min_x, min_y, max_x, max_y] = bounds;
+        let side_lengths = [max_x - min_x, max_y - min_y];
         if !bounds.iter().all(|bound| COORDINATE_RANGE.contains(bound))
             || !side_lengths.iter().all(|side_length| SIDE_RANGE.contains(side_length))
         {
@@ -131,8 +131,8 @@ impl FloorPlan {
         // Rounding can move a corner of a rotated grid slightly outside the grid's own bounds.
         let rounding_slack = rounding_bound(&bounds);
         let is_inside = |[x, y]: [f64; 2]| {
-            (map_left - rounding_slack..=map_right + rounding_slack).contains(&x)
-                && (map_bottom - rounding_slack..=map_top + rounding_slack).contains(&y)
+            (min_x - rounding_slack..=max_x + rounding_slack).contains(&x)
+                && (min_y - rounding_slack..=max_y + rounding_slack).contains(&y)
         };
         for (wall_index, wall) in walls.iter().enumerate() {
             if let Some(invalid_end) = [wall.from, wall.to].into_iter().find(|point| !is_inside(*point)) {
@@ -236,13 +236,13 @@ impl FloorPlan {
         if let Some(grid) = &self.occupied_grid {
             return grid.contains(point);
         }
-        let ([x, y], [left, bottom, right, top]) = (point, self.bounds);
-        (left..=right).contains(&x) && (bottom..=top).contains(&y)
+        let ([x, y], [min_x, min_y, max_x, max_y]) = (point, self.bounds);
+        (min_x..=max_x).contains(&x) && (min_y..=max_y).contains(&y)
     }
 
     fn corners(&self) -> [[f64; 2]; 4] {
-        let [left, bottom, right, top] = self.bounds;
-        let bounds_corners = [[left, bottom], [right, bottom], [right, top], [left, top]];
+        let [min_x, min_y, max_x, max_y] = self.bounds;
+        let bounds_corners = [[min_x, min_y], [max_x, min_y], [max_x, max_y], [min_x, max_y]];
         self.occupied_grid.as_ref().map_or(bounds_corners, OccupancyGrid::corners)
     }
 
@@ -252,8 +252,8 @@ impl FloorPlan {
     }
 
     fn leaves_bounds(&self, driven_arc: &DrivenArc) -> bool {
-        let (arc, [left, bottom, right, top]) = (&driven_arc.arc, driven_arc.bounding_box());
-        let mut box_corners = [[left, bottom], [right, bottom], [right, top], [left, top]].into_iter();
+        let (arc, [min_x, min_y, max_x, max_y]) = (&driven_arc.arc, driven_arc.bounding_box());
+        let mut box_corners = [[min_x, min_y], [max_x, min_y], [max_x, max_y], [min_x, max_y]].into_iter();
         if box_corners.all(|corner| self.contains(corner)) {
             return false;
         }
@@ -350,7 +350,8 @@ impl ArcSweep<'_> {
             &mut self.wall_tests,
             |node| {
                 node.is_farther_than(part_middle, clear_distance)
-                    // The test of a node saves time only if its capsule is thinner than the length of the tested part of the arc.
+                    // Testing a node of the wall tree saves time only if its capsule is thinner than the length of the tested part of the
+                    // arc.
                     || node.capsule_radius < part_radius
                         && node.capsule_axis.distance_to_local_arc(get_local_arc()) - node.capsule_radius > clearance
             },

@@ -29,18 +29,18 @@ impl FloorPlan {
 
     /// Returns a grid for a plan of walls. Cells that may touch a wall are occupied.
     fn rasterize(&self) -> OccupancyGrid {
-        let [map_left, bottom, map_right, map_top] = self.bounds();
-        let (map_width, map_height) = (map_right - map_left, map_top - bottom);
+        let [min_x, min_y, max_x, max_y] = self.bounds();
+        let (map_width, map_height) = (max_x - min_x, max_y - min_y);
         let cell_side = (map_width.max(map_height) / CELLS_ALONG_LONGER_SIDE).min(map_width).min(map_height);
         let [columns, rows] = [map_width, map_height].map(|side_length| (side_length / cell_side) as usize);
         let is_free = |i: usize| {
             let [column, row] = [i % columns, rows - 1 - i / columns].map(|index| index as f64 + 0.5);
-            let cell_middle = [map_left + column * cell_side, bottom + row * cell_side];
+            let cell_middle = [min_x + column * cell_side, min_y + row * cell_side];
             self.distance_field().lower_bound(cell_middle) > 0.75 * cell_side
         };
         let pixels = (0..columns * rows).map(|i| f32::from(u8::from(is_free(i)))).collect();
         let image = Image { width: columns, height: rows, pixels };
-        OccupancyGrid::new(&image, &PixelClassifier::default(), cell_side, SE2::new(map_left, bottom, 0.0))
+        OccupancyGrid::new(&image, &PixelClassifier::default(), cell_side, SE2::new(min_x, min_y, 0.0))
     }
 }
 

@@ -80,14 +80,12 @@ pub struct Pixel {
     pub opacity: f32,
 }
 
-/// Creates an opaque pixel from its brightness.
 impl From<f32> for Pixel {
     fn from(brightness: f32) -> Self {
         Self { brightness, opacity: 1.0 }
     }
 }
 
-/// Creates a pixel from red, green, blue and opacity, each from 0 to 255.
 impl From<[u8; 4]> for Pixel {
     fn from(rgba_bytes: [u8; 4]) -> Self {
         let [red, green, blue, opacity] = rgba_bytes.map(f32::from);

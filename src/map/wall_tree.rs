@@ -37,8 +37,9 @@ impl WallTree {
     pub fn new(walls: &[Segment], bounds: [f64; 4]) -> Self {
         // Copies of a wall would fill leaves of which every distance must be computed.
         let mut known_walls = BTreeSet::new();
-        let is_new =
-            |wall: &&Segment| known_walls.insert([wall.from, wall.to].map(|end| end.map(f64::to_bits)));
+        let is_new = |wall: &&Segment| {
+            known_walls.insert([wall.from, wall.to].map(|wall_end| wall_end.map(f64::to_bits)))
+        };
         let walls: Vec<Segment> = walls.iter().filter(is_new).copied().collect();
         let leaf_count = if walls.len() <= MAX_SINGLE_LEAF_WALLS {
             1

@@ -151,8 +151,8 @@ pub(super) fn leg_variances(
     is_reverse_aware: bool,
 ) -> [Variance; 3] {
     let [a1, a2, a3, a4] = alphas.0;
-    let [rot1_sq, rot2_sq] = [reading.rot1, reading.rot2].map(|rotation| {
-        let turn = rotation.abs();
+    let [rot1_sq, rot2_sq] = [reading.rot1, reading.rot2].map(|rotation_angle| {
+        let turn = rotation_angle.abs();
         let counted_turn = if is_reverse_aware { turn.min((PI - turn).abs()) } else { turn };
         counted_turn * counted_turn
     });

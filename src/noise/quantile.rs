@@ -57,7 +57,6 @@ pub(super) fn replace_chunk_by_quantiles(numbers: &mut [f64x4]) {
     }
 }
 
-/// Returns [`normal_quantile`] of four numbers, all of which are in the tails.
 #[inline(always)]
 fn tail_quantile_lanes(q: f64x4) -> f64x4 {
     let r = (-ln(f64x4::splat(0.5) - q.abs())).sqrt();

@@ -219,9 +219,8 @@ impl ArcAnatomy {
     pub fn stats(&self) -> Stats {
         let Settings { command, noise: noise_kind, .. } = &self.settings;
         let (start, next) = (self.settings.start(), self.settings.next());
-        let estimates = self.selected_inversion();
-        let factors =
-            self.noise_residuals(&estimates).map(|residual| ScoreFactor::new(*noise_kind, residual));
+        let controls = self.selected_inversion();
+        let factors = self.noise_residuals(&controls).map(|residual| ScoreFactor::new(*noise_kind, residual));
         let size_of = |i: &usize| factors[*i].deviations.abs();
         let weakest = (0..3).rev().max_by(|a, b| size_of(a).total_cmp(&size_of(b))).unwrap_or(0);
         let [commanded, inverted, driven] = self.arcs().map(ArcWithCircle::from);
@@ -229,7 +228,7 @@ impl ArcAnatomy {
             commanded,
             inverted,
             driven,
-            last_turn: estimates.gamma_hat * command.dt,
+            last_turn: controls.gamma_hat * command.dt,
             factors,
             weakest,
             prob: self.prob(),
@@ -243,9 +242,8 @@ impl ArcAnatomy {
     /// only for the unsigned radius of Table 5.1.
     fn arcs(&self) -> [Arc; 3] {
         let VelocityCmd { v, omega, dt } = self.settings.command;
-        let (inverted, estimates) = (self.signed_inversion(), self.selected_inversion());
-        let speeds =
-            [[v, omega], [inverted.v_hat, inverted.omega_hat], [estimates.v_hat, estimates.omega_hat]];
+        let (inverted, controls) = (self.signed_inversion(), self.selected_inversion());
+        let speeds = [[v, omega], [inverted.v_hat, inverted.omega_hat], [controls.v_hat, controls.omega_hat]];
         speeds.map(|[v, omega]| Arc { start: self.settings.start(), length: v * dt, turn: omega * dt })
     }
 
@@ -258,17 +256,17 @@ impl ArcAnatomy {
     /// Returns the arc to the final position with the radius that the settings select. With the unsigned radius r* of Table 5.1, v̂ = Δθ/Δt
     /// · r* has the sign of Δθ. That sign is wrong if the centre is to the right of the heading.
     fn selected_inversion(&self) -> ArcInversion {
-        let inversion = self.signed_inversion();
-        let ArcInversion { v_hat, omega_hat, .. } = inversion;
+        let signed_arc = self.signed_inversion();
+        let ArcInversion { v_hat, omega_hat, .. } = signed_arc;
         if !self.settings.printed || omega_hat == 0.0 {
-            return inversion;
+            return signed_arc;
         }
-        ArcInversion { v_hat: v_hat.abs().copysign(omega_hat), ..inversion }
+        ArcInversion { v_hat: v_hat.abs().copysign(omega_hat), ..signed_arc }
     }
 
     /// Returns the estimate v̂, ω̂ or γ̂, its residual, and the variance of its noise, for each of the three controls.
-    fn noise_residuals(&self, estimates: &ArcInversion) -> [(f64, f64, Variance); 3] {
-        let ArcInversion { v_hat, omega_hat, gamma_hat } = *estimates;
+    fn noise_residuals(&self, controls: &ArcInversion) -> [(f64, f64, Variance); 3] {
+        let ArcInversion { v_hat, omega_hat, gamma_hat } = *controls;
         let command = &self.settings.command;
         let [v_variance, omega_variance, gamma_variance] = self.settings.model().variances(command);
         [
@@ -289,14 +287,14 @@ impl ArcAnatomy {
     pub fn table(&self) -> Table {
         let (start, next) = (self.settings.start(), self.settings.next());
         let displacement = start.between(&next);
-        let inversion @ ArcInversion { v_hat, omega_hat, gamma_hat } = self.selected_inversion();
+        let signed_arc @ ArcInversion { v_hat, omega_hat, gamma_hat } = self.selected_inversion();
         // The centre does not depend on the sign of the radius.
         let [x, y] = self.signed_inversion().centre(&start).unwrap_or([f64::INFINITY; 2]);
         // The quotient is halved last, because half of the smallest double is 0.
         let mu = 0.5 * (displacement.x() / displacement.y());
         let arc_turn = omega_hat * self.settings.command.dt;
         Table {
-            lines: [mu, x, y, inversion.radius(), arc_turn, v_hat, omega_hat, gamma_hat, self.prob()],
+            lines: [mu, x, y, signed_arc.radius(), arc_turn, v_hat, omega_hat, gamma_hat, self.prob()],
             middle: [0.5 * (start.x() + next.x()), 0.5 * (start.y() + next.y())],
             normal: [start.y() - next.y(), next.x() - start.x()],
         }
@@ -371,11 +369,11 @@ impl ArcAnatomy {
         let shade_of = |cell_value: &f64| {
             if shown_maximum > 0.0 { (255.0 * (cell_value / shown_maximum)).round() as u8 } else { 0 }
         };
-        let contours_of = |values: &[f64]| {
-            let max_value = maximum_of(values);
+        let contours_of = |field_values: &[f64]| {
+            let max_value = maximum_of(field_values);
             // Contours are interpolated between the logarithms of the values, which are more nearly linear between cells.
             let log_values: Vec<f64> =
-                values.iter().map(|value| libm::log(value.max(f64::MIN_POSITIVE))).collect();
+                field_values.iter().map(|value| libm::log(value.max(f64::MIN_POSITIVE))).collect();
             let log_levels = CONTOUR_LEVELS
                 .iter()
                 .filter(|_| max_value > 0.0)
@@ -396,20 +394,20 @@ impl ArcAnatomy {
 impl From<Arc> for ArcWithCircle {
     fn from(arc: Arc) -> Self {
         let Arc { start, length, turn } = arc;
-        let inversion = ArcInversion { v_hat: length, omega_hat: turn, gamma_hat: 0.0 };
+        let signed_arc = ArcInversion { v_hat: length, omega_hat: turn, gamma_hat: 0.0 };
         Self {
             arc_length: length,
             turn,
-            radius: inversion.radius(),
-            centre: inversion.centre(&start),
+            radius: signed_arc.radius(),
+            centre: signed_arc.centre(&start),
             end: arc.end().into(),
         }
     }
 }
 
 impl ScoreFactor {
-    fn new(noise: NoiseKind, (estimate, residual, variance): (f64, f64, Variance)) -> Self {
-        let (value, prob_at_zero) = (noise.prob(residual, variance), noise.prob(0.0, variance));
+    fn new(noise_kind: NoiseKind, (estimate, residual, variance): (f64, f64, Variance)) -> Self {
+        let (value, prob_at_zero) = (noise_kind.prob(residual, variance), noise_kind.prob(0.0, variance));
         let noise_std = variance.0.sqrt();
         let deviations = match (noise_std == 0.0, value > 0.0) {
             (false, _) => residual / noise_std,

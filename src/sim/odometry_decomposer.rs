@@ -182,10 +182,10 @@ impl OdometryDecomposer {
         self.settings.rule.variances(&self.reading(), &self.settings.alphas)
     }
 
-    fn executed_motions(&self, count: usize) -> impl Iterator<Item = ExecutedLegs> + Clone + '_ {
+    fn executed_motions(&self, sample_count: usize) -> impl Iterator<Item = ExecutedLegs> + Clone + '_ {
         let rho = self.settings.correlation;
         let (legs, variances) = (self.legs(), self.variances());
-        (0..count).map(move |index| {
+        (0..sample_count).map(move |index| {
             let [rot1_noise, trans_noise, independent_noise] = self.draws.noise_of_sample(index);
             let rot2_noise = rho * rot1_noise + (1.0 - rho * rho).sqrt() * independent_noise;
             variances.executed_motion(&legs, [rot1_noise, trans_noise, rot2_noise])

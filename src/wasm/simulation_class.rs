@@ -1,4 +1,4 @@
-//! JavaScript classes of simulations, whose members several simulations have.
+//! Macros that declare the JavaScript classes of simulations.
 
 #![allow(unused_macros, unused_imports)]
 

@@ -118,7 +118,7 @@ pub fn simulate_log(seed: u64) -> Drive {
         let odometry_pose = odometry_poses[row - 1].1 * SE2::exp(&odometry_twist);
         odometry_poses.push((time, odometry_pose));
         current_leg.timed_motions.push((time, next_motion));
-        let has_moved_far = |first_coordinate: f64, to: f64| (to - first_coordinate).abs() > LEG_DISTANCE;
+        let has_moved_far = |from: f64, to: f64| (to - from).abs() > LEG_DISTANCE;
         let has_turned =
             wrap_angle(odometry_pose.theta() - current_leg.odometry_start.theta()).abs() > LEG_ANGLE;
         if has_moved_far(current_leg.odometry_start.x(), odometry_pose.x())
@@ -171,7 +171,6 @@ fn finish_leg(leg: &CurrentLeg, true_poses: &mut Vec<(f64, SE2)>, rng: &mut Xosh
     leg.true_start * leg_end
 }
 
-/// Returns the poses that the reference measures along the true trajectory.
 fn simulate_reference(true_poses: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -> Vec<(f64, SE2)> {
     let mut jump_offset = SE2::identity();
     let mut remaining_rows = 0;

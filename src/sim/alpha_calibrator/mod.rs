@@ -42,7 +42,7 @@ js_structs! {
     /// One leg of a log in the frame of the robot at the leg's start, m and rad.
     #[derive(Clone, Debug, PartialEq)]
     pub struct LegView {
-        /// End poses x, y, θ drawn from the model, with the fitted α’s multiplied by the inflation.
+        /// End poses x, y, θ drawn from the model, with the fitted α’s multiplied by the setting `inflation`.
         pub outcomes: Vec<[f64; 3]> as "Float64Array",
         /// 2σ ellipse of the drawn positions as x, y pairs; empty without noise.
         pub outline: Vec<[f64; 2]> as "Float64Array",
@@ -73,7 +73,7 @@ enum LogSource {
     Restored,
 }
 
-/// Calibration, computed on first use, and the settings that it depends on.
+/// Calibration, computed on first use, and the settings from which it is computed.
 #[derive(Clone, Debug)]
 struct Fit {
     settings: Settings,
@@ -258,7 +258,7 @@ js_structs! {
     /// the reference are subtracted, so that the expectation is α·x.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Panel as "CalibrationPanel" {
-        /// Index (from 0) of the α that is the slope of the line.
+        /// Index (from 0) of the α that is the slope of the line through the origin.
         pub alpha: usize,
         /// Mean of the regressor in each bin.
         pub x: Vec<f64>,

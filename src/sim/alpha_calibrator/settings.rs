@@ -71,11 +71,11 @@ impl Settings {
         *self = Self { inflation, noise, seed, ..*self };
     }
 
-    /// Returns true if `other` settings give the same fit, because they differ at most in settings of the predicted outcomes.
-    pub(super) fn has_same_fit(&self, other: &Self) -> bool {
+    /// Returns true if `other_settings` give the same fit, because they differ at most in settings of the predicted outcomes.
+    pub(super) fn has_same_fit(&self, other_settings: &Self) -> bool {
         let mut with_other_prediction = *self;
-        with_other_prediction.copy_prediction_settings(other);
-        with_other_prediction == *other
+        with_other_prediction.copy_prediction_settings(other_settings);
+        with_other_prediction == *other_settings
     }
 
     /// Returns the motion model, which contains the odometry rule if it is an odometry model.

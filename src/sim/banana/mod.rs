@@ -110,7 +110,7 @@ fn command_end(command: &VelocityCmd) -> SE2 {
 /// full circle the coordinates diverge. With a smaller distance, single samples of a large cloud would dominate the moments.
 const MIN_SIGMAS_TO_FULL_CIRCLE: f64 = 4.0;
 
-/// Maximum number of points of a curve of the exact skew. Each takes about ten microseconds.
+/// Maximum number of points of a curve of the exact skew. Each point takes about ten microseconds.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
 /// Standard deviation (m) in x and y of additive noise, the model that the chapter argues against: x_t = x̄ + ε with the noise-free end x̄.
@@ -129,7 +129,6 @@ pub struct BananaMachine {
     settings: Settings,
     cloud: Cloud,
     stats: Stats,
-    /// Latest picture, which JavaScript reads from the core's memory.
     picture_pixels: Vec<[u8; 4]>,
 }
 

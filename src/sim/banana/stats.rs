@@ -202,8 +202,8 @@ impl BananaMachine {
             .map(|point| {
                 let [x, y]: [f64; 2] =
                     (ellipse_centre + (Vector2::from(point) - ellipse_centre) * GAP_FRACTION).into();
-                let (arc_length, turn) = arc_with_turn_near(&START_POSE, &SE2::new(x, y, 0.0), twist_mean.z);
-                ([x, y], contour.ellipse.mahalanobis_distance([arc_length, turn]), arc_length < twist_mean.x)
+                let (length, turn) = arc_with_turn_near(&START_POSE, &SE2::new(x, y, 0.0), twist_mean.z);
+                ([x, y], contour.ellipse.mahalanobis_distance([length, turn]), length < twist_mean.x)
             })
             .filter(|(_, distance, _)| *distance > MIN_GAP_DISTANCE)
             .collect();

@@ -46,8 +46,8 @@ pub struct Draws {
 }
 
 impl Draws {
-    pub fn new(seed: u64, noise: NoiseKind) -> Self {
-        Self { seed, noise_kind: noise, rng: Xoshiro256PlusPlus::seed_from_u64(seed), unit_noise: Vec::new() }
+    pub fn new(seed: u64, noise_kind: NoiseKind) -> Self {
+        Self { seed, noise_kind, rng: Xoshiro256PlusPlus::seed_from_u64(seed), unit_noise: Vec::new() }
     }
 
     pub fn reserve(&mut self, sample_count: usize) -> Result<(), TryReserveError> {

@@ -31,7 +31,6 @@ pub struct NoisyDrive {
 pub struct FourMotions {
     length: f64x4,
     bearing: f64x4,
-    /// Half of the heading, not wrapped.
     pub half_heading: f64x4,
 }
 

@@ -33,8 +33,8 @@ pub struct Cloud {
 }
 
 impl Cloud {
-    pub fn new(seed: u64, noise: NoiseKind, drive: NoisyDrive) -> Self {
-        Self { draws: Draws::new(seed, noise), drive, positions: Vec::new(), shown_count: 0 }
+    pub fn new(seed: u64, noise_kind: NoiseKind, drive: NoisyDrive) -> Self {
+        Self { draws: Draws::new(seed, noise_kind), drive, positions: Vec::new(), shown_count: 0 }
     }
 
     pub fn reserve(&mut self, sample_count: usize) -> Result<(), TryReserveError> {

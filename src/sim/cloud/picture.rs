@@ -42,7 +42,6 @@ pub fn paint_cell_counts<const K: usize>(counts_of_cells: &[[u32; K]], ramps: &[
     counts_of_cells.iter().map(colour_of).collect()
 }
 
-/// Returns the index in a colour ramp for a count: 255·√(count/max_count).
 #[inline(always)]
 fn ramp_step(count: u32, max_count: u32) -> usize {
     let root_of_fraction = (f64::from(count) / f64::from(max_count)).sqrt();

@@ -363,7 +363,7 @@ impl RecursionComparison {
         };
         let ratios: Vec<_> =
             predicted.iter().zip(measured).map(|(cov, measured)| ratios_of(*cov, measured)).collect();
-        let misses = std::array::from_fn(|axis| find_misses(&ratios, measured, axis));
+        let misses = std::array::from_fn(|component| find_misses(&ratios, measured, component));
         Self { ratios, misses }
     }
 }
@@ -386,15 +386,17 @@ fn propagate_covariances(settings: &Settings, recursion: Compounding) -> Vec<Opt
         .collect()
 }
 
-fn find_misses(ratios: &[Vector3<f64>], measured: &[MeasuredMoments], axis: usize) -> Misses {
+fn find_misses(ratios: &[Vector3<f64>], measured: &[MeasuredMoments], component: usize) -> Misses {
     let defined_ratios =
-        || ratios.iter().map(|ratio| ratio[axis]).zip(measured).filter(|(ratio, _)| !ratio.is_nan());
+        || ratios.iter().map(|ratio| ratio[component]).zip(measured).filter(|(ratio, _)| !ratio.is_nan());
     let is_decidable = defined_ratios().next().is_some()
-        && defined_ratios().all(|(_, measured)| measured.relative_error[axis] <= MAX_STANDARD_ERROR);
-    let is_miss = |ratio: &Vector3<f64>| is_decidable && (ratio[axis] - 1.0).abs() > MISS_TOLERANCE;
+        && defined_ratios().all(|(_, measured)| measured.relative_error[component] <= MAX_STANDARD_ERROR);
+    let is_miss = |ratio: &Vector3<f64>| is_decidable && (ratio[component] - 1.0).abs() > MISS_TOLERANCE;
     let step_number_of = |index: usize| index as u32 + 1;
     let [end, error] = match (ratios.last(), measured.last()) {
-        (Some(ratio), Some(measured)) => [ratio[axis] - 1.0, ratio[axis] * measured.relative_error[axis]],
+        (Some(ratio), Some(measured)) => {
+            [ratio[component] - 1.0, ratio[component] * measured.relative_error[component]]
+        }
         _ => [f64::NAN; 2],
     };
     Misses {

@@ -209,11 +209,12 @@ impl Rollouts {
     pub fn rollout(&self, robot_index: usize) -> Vec<[f64; 3]> {
         let mut block_rng = Xoshiro256PlusPlus::seed_from_u64(self.seed);
         (0..robot_index / ROLLOUTS_PER_BLOCK).for_each(|_| block_rng.jump());
-        let (group_index, lane) = (robot_index % ROLLOUTS_PER_BLOCK / LANE_COUNT, robot_index % LANE_COUNT);
+        let (group_index, lane_index) =
+            (robot_index % ROLLOUTS_PER_BLOCK / LANE_COUNT, robot_index % LANE_COUNT);
         let mut robot_block = RobotBlock::new(block_rng);
         let pose_after = |nominal_pose| {
             robot_block.drive_one_step(&self.step_in_error_frame);
-            robot_block.groups[group_index].pose(lane, nominal_pose)
+            robot_block.groups[group_index].pose(lane_index, nominal_pose)
         };
         self.nominal_poses.iter().map(pose_after).collect()
     }
@@ -221,9 +222,9 @@ impl Rollouts {
 
 impl ErrorPoses {
     /// Returns x, y (m) and θ (rad) of the robot in a lane.
-    fn pose(&self, lane: usize, nominal_pose: &SE2) -> [f64; 3] {
+    fn pose(&self, lane_index: usize, nominal_pose: &SE2) -> [f64; 3] {
         let [x, y, half_heading] =
-            [self.x, self.y, self.half_heading].map(|lane_values| lane_values.to_array()[lane]);
+            [self.x, self.y, self.half_heading].map(|lane_values| lane_values.to_array()[lane_index]);
         (*nominal_pose * SE2::new(x, y, 2.0 * half_heading)).into()
     }
 }

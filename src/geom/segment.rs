@@ -28,15 +28,15 @@ impl Segment {
     /// Returns the squared distance to a point. Distances below 10⁻¹⁶² m underflow to 0.
     pub(crate) fn squared_distance_to_point(&self, point: [f64; 2]) -> f64 {
         let nearest_offset = self.offset_from_nearest_point(point);
-        dot(nearest_offset, nearest_offset)
+        dot_product(nearest_offset, nearest_offset)
     }
 
     fn offset_from_nearest_point(&self, point: [f64; 2]) -> [f64; 2] {
         let direction = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
         let offset_from_start = [point[0] - self.from[0], point[1] - self.from[1]];
-        let squared_length = dot(direction, direction);
+        let squared_length = dot_product(direction, direction);
         let t = if squared_length > 0.0 {
-            (dot(offset_from_start, direction) / squared_length).clamp(0.0, 1.0)
+            (dot_product(offset_from_start, direction) / squared_length).clamp(0.0, 1.0)
         } else {
             0.0
         };
@@ -84,8 +84,8 @@ impl Segment {
         let Self { from, to } = *self;
         let direction = [to[0] - from[0], to[1] - from[1]];
         // The crossings of the segment with the circle solve a quadratic equation in the position along the segment.
-        let a = 0.5 * arc.curvature * dot(direction, direction);
-        let b = arc.curvature * dot(from, direction) - direction[1];
+        let a = 0.5 * arc.curvature * dot_product(direction, direction);
+        let b = arc.curvature * dot_product(from, direction) - direction[1];
         let c = arc.circle_equation_value(from);
         // The discriminant b² − 4ac is rearranged to avoid cancellation if the segment is much longer than the radius.
         let line_offset = arc.curvature * (from[0] * direction[1] - from[1] * direction[0]);
@@ -104,7 +104,7 @@ impl Segment {
     fn distance_without_crossing(&self, arc: &LocalArc) -> f64 {
         let Self { from, to } = *self;
         let direction = [to[0] - from[0], to[1] - from[1]];
-        let squared_length = dot(direction, direction);
+        let squared_length = dot_product(direction, direction);
         let mut min_distance = [
             arc.distance_to_point(from),
             arc.distance_to_point(to),
@@ -116,7 +116,7 @@ impl Segment {
         // If the nearest point is inside the segment, it is the foot of the perpendicular from the circle's centre to the segment. A
         // straight arc has no centre.
         if arc.curvature > 0.0 && squared_length > 0.0 {
-            let t = (direction[1] / arc.curvature - dot(from, direction)) / squared_length;
+            let t = (direction[1] / arc.curvature - dot_product(from, direction)) / squared_length;
             if (0.0..=1.0).contains(&t) {
                 // A foot of the perpendicular inside the circle is farther from the arc than the nearest point of the segment. Including it
                 // in the minimum therefore does no harm. If the segment touches the circle, rounding may move the foot inside, and it must
@@ -129,6 +129,6 @@ impl Segment {
     }
 }
 
-fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+fn dot_product(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }

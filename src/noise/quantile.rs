@@ -71,11 +71,11 @@ fn rational_function<T>(r: T, numerator: &[f64; 8], denominator: &[f64; 8]) -> T
 where
     T: Copy + From<f64> + Mul<Output = T> + Add<f64, Output = T> + Div<Output = T>,
 {
-    horner(r, numerator) / horner(r, denominator)
+    evaluate_by_horner(r, numerator) / evaluate_by_horner(r, denominator)
 }
 
 #[inline(always)]
-fn horner<T>(r: T, polynomial_coefficients: &[f64; 8]) -> T
+fn evaluate_by_horner<T>(r: T, polynomial_coefficients: &[f64; 8]) -> T
 where
     T: Copy + From<f64> + Mul<Output = T> + Add<f64, Output = T>,
 {

@@ -47,13 +47,13 @@ impl SettingRules for Settings {
     /// commanded arc, so that no residual is 0.
     const PRESETS: &'static [(&'static str, Self)] = &[
         ("left", Self::DEFAULT),
-        ("right", preset([1.0, -0.5], [1.1, -0.5, -1.1])),
-        ("reverse", preset([-1.0, 0.5], [-1.1, -0.5, 1.1])),
-        ("straight", preset([1.0, 0.0], [1.2, 0.0, 0.2])),
+        ("right", create_preset([1.0, -0.5], [1.1, -0.5, -1.1])),
+        ("reverse", create_preset([-1.0, 0.5], [-1.1, -0.5, 1.1])),
+        ("straight", create_preset([1.0, 0.0], [1.2, 0.0, 0.2])),
     ];
 }
 
-const fn preset([v, omega]: [f64; 2], next_pose: [f64; 3]) -> Settings {
+const fn create_preset([v, omega]: [f64; 2], next_pose: [f64; 3]) -> Settings {
     Settings { command: VelocityCmd { v, omega, dt: 1.0 }, next: next_pose, ..Settings::DEFAULT }
 }
 

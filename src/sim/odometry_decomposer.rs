@@ -224,7 +224,7 @@ impl OdometryDecomposer {
 
     /// Returns the decomposition of the reading and its noise by each of the four odometry rules, with the current α's.
     pub fn rule_noises(&self) -> [RuleNoise; 4] {
-        let Settings { alphas, noise, correlation, .. } = self.settings;
+        let Settings { alphas, noise, correlation: rotation_correlation, .. } = self.settings;
         let reading = self.reading();
         OdometryRule::ALL.map(|rule| {
             let legs = rule.legs(&reading);
@@ -235,14 +235,14 @@ impl OdometryDecomposer {
                 legs,
                 deviations: [rot1, trans, rot2, strafe].map(|variance| variance.0.sqrt()),
                 cross_track: variances.cross_track_variance(legs.trans, noise).sqrt(),
-                heading: variances.heading_variance(correlation).sqrt(),
+                heading: variances.heading_variance(rotation_correlation).sqrt(),
             }
         })
     }
 
     /// Returns the measured and exact standard deviations of the end position and of the turn.
     pub fn stats(&self) -> Stats {
-        let Settings { noise, correlation, .. } = self.settings;
+        let Settings { noise, correlation: rotation_correlation, .. } = self.settings;
         let (legs, variances) = (self.legs(), self.variances());
         let executed_motions = self.executed_motions(self.shown_count());
         let cross_track_offsets = executed_motions.clone().map(|ExecutedLegs { legs: executed, strafe }| {
@@ -261,7 +261,7 @@ impl OdometryDecomposer {
             lever: legs.trans * variances.rot1.0.sqrt(),
             heading,
             heading_error,
-            exact_heading: variances.heading_variance(correlation).sqrt(),
+            exact_heading: variances.heading_variance(rotation_correlation).sqrt(),
             independent_heading: variances.heading_variance(0.0).sqrt(),
         }
     }

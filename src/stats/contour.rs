@@ -114,11 +114,11 @@ pub struct ExponentialContour {
 impl ExponentialContour {
     /// Creates the contour for `moments` of exponential coordinates about `start_pose`. The outline is in the reference frame of
     /// `start_pose`.
-    pub fn new(moments: &ExponentialMoments, start: &SE2) -> Self {
+    pub fn new(moments: &ExponentialMoments, start_pose: &SE2) -> Self {
         let ExponentialMoments { mean, cov } = *moments;
         let along_heading = Matrix2::new(cov[(0, 0)], cov[(0, 2)], cov[(2, 0)], cov[(2, 2)]);
         Self {
-            start_pose: *start,
+            start_pose: *start_pose,
             mean,
             ellipse: Ellipse::new(Vector2::new(mean.x, mean.z), along_heading),
             cov_root: covariance_root(&cov).unwrap_or_else(|_| Matrix3::zeros()),
@@ -200,8 +200,8 @@ impl ExponentialContour {
 
 /// Returns the unit eigenvector of the largest eigenvalue of a symmetric, positive semidefinite matrix; (0, 1, 0) for the zero matrix. Ten
 /// squarings raise the ratio of the eigenvalues to its 1024th power.
-fn principal_direction(matrix: &Matrix3<f64>) -> Vector3<f64> {
-    let mut matrix_power = *matrix;
+fn principal_direction(symmetric_matrix: &Matrix3<f64>) -> Vector3<f64> {
+    let mut matrix_power = *symmetric_matrix;
     for _ in 0..10 {
         let largest_entry = matrix_power.amax();
         if largest_entry == 0.0 || !largest_entry.is_finite() {

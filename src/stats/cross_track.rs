@@ -50,8 +50,8 @@ impl CrossTrackStats {
         Self::from_moments(poses.len(), &TrackMoments { products, squared_extent, resultant_length })
     }
 
-    pub(super) fn from_moments(pose_count: usize, moments: &TrackMoments) -> Self {
-        let TrackMoments { products, squared_extent, resultant_length } = *moments;
+    pub(super) fn from_moments(pose_count: usize, track_moments: &TrackMoments) -> Self {
+        let TrackMoments { products, squared_extent, resultant_length } = *track_moments;
         let [along_d, along_d2, m2, m3, d4, d5, d6, s2, s_d, s_d2, s_d3, t, tt, td] = products;
         if pose_count < 3 || m2 <= (MIN_RELATIVE_STD * MIN_RELATIVE_STD * squared_extent).max(MIN_VARIANCE) {
             return Self::UNDEFINED;

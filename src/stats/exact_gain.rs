@@ -69,9 +69,10 @@ impl BranchedMotion {
     fn gain(&self, cartesian: &ExactMoments) -> ExactGain {
         let (mean_log_length, [bearing, bearing_std]) = (self.mean_log_length(), self.polar_motion.bearing);
         let (twist, twist_log_jacobian) = self.twist_moments();
-        let (arc, arc_log_jacobian) = self.arc_moments();
+        let (arc_moments, arc_log_jacobian) = self.arc_moments();
         let mean_log_jacobians = [twist_log_jacobian, mean_log_length + arc_log_jacobian - LN_2];
-        let gaussians = FittedGaussians::new((cartesian.mean, cartesian.cov), twist, arc, mean_log_jacobians);
+        let gaussians =
+            FittedGaussians::new((cartesian.mean, cartesian.cov), twist, arc_moments, mean_log_jacobians);
         let [turn, bearing_turn_std, last_turn_std] = self.turn_moments;
         let one_or_nan_of =
             |turn: f64, max_excess_turn: f64| if turn.abs() + max_excess_turn < TAU { 1.0 } else { f64::NAN };
@@ -84,7 +85,7 @@ impl BranchedMotion {
         }
     }
 
-    fn nodes(&self, std: f64, break_points: [f64; 2]) -> Vec<Node> {
+    fn nodes_up_to_limit(&self, std: f64, break_points: [f64; 2]) -> Vec<Node> {
         if std == 0.0 {
             return vec![Node { value: 0.0, weight: 1.0 }];
         }
@@ -106,8 +107,8 @@ impl BranchedMotion {
             (self.polar_motion.bearing, self.turn_moments);
         let max_excess_turn = self.integration_limit(bearing_turn_std, last_turn_std);
         let (mut moments, mut log_sum) = (UnitMotionMoments::default(), 0.0);
-        let last_turn_nodes = self.nodes(last_turn_std, NO_BREAKS);
-        for bearing_node in self.nodes(bearing_std, NO_BREAKS) {
+        let last_turn_nodes = self.nodes_up_to_limit(last_turn_std, NO_BREAKS);
+        for bearing_node in self.nodes_up_to_limit(bearing_std, NO_BREAKS) {
             let bearing = bearing + bearing_std * bearing_node.value;
             let chord_ratio = if self.polar_motion.is_arc { sinc(bearing) } else { 1.0 };
             for turn_node in &last_turn_nodes {
@@ -139,7 +140,7 @@ impl BranchedMotion {
         // the bearing differs from half the commanded turn by more than π/2.
         let break_points = [-0.5 * PI, 0.5 * PI]
             .map(|bearing_offset| (half_commanded_turn + bearing_offset - bearing) / bearing_std);
-        for node in self.nodes(bearing_std, break_points) {
+        for node in self.nodes_up_to_limit(bearing_std, break_points) {
             let driven_bearing = bearing + bearing_std * node.value;
             let half_circles = ((driven_bearing - half_commanded_turn) / PI).round();
             let half_turn = driven_bearing - half_circles * PI;

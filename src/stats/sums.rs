@@ -30,13 +30,13 @@ impl<const N: usize> CompensatedSums<N> {
 
 /// Adds the sums of blocks to the totals, and the rounding errors of these additions to `rounding_errors` (Knuth's two-sum).
 #[inline(never)]
-fn flush_blocks(block_sums: &mut [f64x2], totals: &mut [f64x2], compensation: &mut [f64x2]) {
-    for ((block, total), compensation) in block_sums.iter_mut().zip(totals).zip(compensation) {
+fn flush_blocks(block_sums: &mut [f64x2], totals: &mut [f64x2], rounding_errors: &mut [f64x2]) {
+    for ((block, total_sum), rounding_error) in block_sums.iter_mut().zip(totals).zip(rounding_errors) {
         let block_sum = std::mem::replace(block, f64x2::splat(0.0));
-        let sum = *total + block_sum;
-        let rounded_term = sum - *total;
-        *compensation += (*total - (sum - rounded_term)) + (block_sum - rounded_term);
-        *total = sum;
+        let sum = *total_sum + block_sum;
+        let rounded_term = sum - *total_sum;
+        *rounding_error += (*total_sum - (sum - rounded_term)) + (block_sum - rounded_term);
+        *total_sum = sum;
     }
 }
 

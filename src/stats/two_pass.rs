@@ -187,8 +187,8 @@ impl FirstPass {
 
     /// Returns the means as a better reference point if the sums have lost more than two digits by cancellation. That happens if the mean
     /// of a small cloud is many of its standard deviations away from the reference point.
-    pub fn better_reference_point(&self, count: usize) -> Option<ReferencePoint> {
-        let n = count as f64;
+    pub fn better_reference_point(&self, pose_count: usize) -> Option<ReferencePoint> {
+        let n = pose_count as f64;
         let sums = self.summed_products.totals();
         let means = [0, 1, 2, 3, 4].map(|i| sums[i] / n);
         let mean_squares = [5, 7, 8, 10, 13].map(|i| sums[i] / n);
@@ -300,13 +300,13 @@ impl SecondPass {
             resultant_length: self.first_pass.resultant_length,
         };
         let FirstPassMoments { exponential, arc, log_jacobians, .. } = self.first_pass;
-        let gaussians = FittedGaussians::new(
+        let fitted_gaussians = FittedGaussians::new(
             (Vector3::new(x, y, t), cov),
             (exponential.mean, exponential.cov),
             arc,
             log_jacobians,
         );
-        let mut density_differences = LogDensityDifferences::new(gaussians);
+        let mut density_differences = LogDensityDifferences::new(fitted_gaussians);
         for (poses, arcs, robot_weights) in sample {
             let FourPoses { x, y, along, lateral, half_heading, sinc, .. } = poses;
             let turn_residual = wrap_turns(half_heading * 2.0 - self.first_pass.mean_turn);

@@ -63,19 +63,19 @@ fn read_model(fields: &FieldReader) -> Result<Model, JsValue> {
 
 fn read_leg_length(field: &str, value: &JsValue) -> Result<LegLength, JsValue> {
     let fields = FieldReader::new(field, "legs.", value, &["distance", "angle", "duration"])?;
-    let [distance, angle, duration] = ["distance", "angle", "duration"]
+    let [leg_distance, leg_angle, leg_duration] = ["distance", "angle", "duration"]
         .map(|key| fields.read_optional(key, |path, value| read_value(path, value, 1.0, LEG_LENGTH_RANGE)));
-    let (distance, angle) = (distance?, angle?);
-    match duration? {
-        Some(_) if distance.is_some() || angle.is_some() => {
+    let (leg_distance, leg_angle) = (leg_distance?, leg_angle?);
+    match leg_duration? {
+        Some(_) if leg_distance.is_some() || leg_angle.is_some() => {
             let error_message =
                 "legs.duration is given beside a distance or an angle; allowed is one of the two";
             Err(RangeError::new(error_message).into())
         }
-        Some(duration) => Ok(LegLength::Duration { duration }),
+        Some(leg_duration) => Ok(LegLength::Duration { duration: leg_duration }),
         None => Ok(LegLength::Displacement {
-            distance: distance.unwrap_or(LegLength::AMCL_DISTANCE),
-            angle: angle.unwrap_or(LegLength::AMCL_ANGLE),
+            distance: leg_distance.unwrap_or(LegLength::AMCL_DISTANCE),
+            angle: leg_angle.unwrap_or(LegLength::AMCL_ANGLE),
         }),
     }
 }
@@ -84,16 +84,16 @@ fn read_corrections(field: &str, value: &JsValue) -> Result<[Option<bool>; ERROR
     if let Some(all_errors) = value.as_bool() {
         return Ok([Some(all_errors); ERROR_COUNT]);
     }
-    let keys = SYSTEMATIC_ERROR_KEYS.map(|(key, _)| key);
+    let error_keys = SYSTEMATIC_ERROR_KEYS.map(|(key, _)| key);
     if !value.is_object() {
-        let allowed_text = format!("true, false or an object with keys from {}", keys.join(", "));
+        let allowed_text = format!("true, false or an object with keys from {}", error_keys.join(", "));
         return Err(type_error(field, value, &allowed_text));
     }
-    let fields = FieldReader::new(field, "correct.", value, &keys)?;
+    let fields = FieldReader::new(field, "correct.", value, &error_keys)?;
     let mut should_correct = [None; ERROR_COUNT];
-    for (key, errors) in SYSTEMATIC_ERROR_KEYS {
+    for (key, systematic_errors) in SYSTEMATIC_ERROR_KEYS {
         let is_corrected = fields.read_optional(key, read_boolean)?;
-        errors.iter().for_each(|error| should_correct[*error as usize] = is_corrected);
+        systematic_errors.iter().for_each(|error| should_correct[*error as usize] = is_corrected);
     }
     Ok(should_correct)
 }

@@ -28,7 +28,7 @@ impl<'a> FieldReader<'a> {
         }
         for key in Reflect::own_keys(object)?.iter().filter_map(|key| key.as_string()) {
             if !keys.contains(&key.as_str()) {
-                let (key, keys) = (shorten(&key), keys.join(", "));
+                let (key, keys) = (shorten_text(&key), keys.join(", "));
                 return Err(
                     TypeError::new(&format!("{prefix}{key} is an unknown key; allowed are {keys}")).into()
                 );
@@ -115,7 +115,7 @@ fn read_setting_in_range(field: &str, value: &JsValue, mut target_setting: Setti
 
 fn set_keyword(field: &str, value: &JsValue, setting: &mut dyn KeywordSetting) -> Result<(), JsValue> {
     let allowed = |setting: &dyn KeywordSetting| {
-        setting.all_keywords().into_iter().map(quote).collect::<Vec<_>>().join(" or ")
+        setting.all_keywords().into_iter().map(quote_text).collect::<Vec<_>>().join(" or ")
     };
     let keyword = value.as_string().ok_or_else(|| type_error(field, value, &allowed(setting)))?;
     if setting.set(&keyword) {
@@ -235,25 +235,25 @@ pub fn type_error(field: &str, value: &JsValue, allowed: &str) -> JsValue {
 /// Maximum number of quoted characters. It suffices to recognize a text, and is longer than any key or keyword.
 const MAX_QUOTED_CHARACTERS: usize = 40;
 
-fn shorten(original_text: &str) -> String {
-    let mut characters = original_text
+fn shorten_text(original_text: &str) -> String {
+    let mut shown_characters = original_text
         .chars()
         .map(|character| if character.is_control() { char::REPLACEMENT_CHARACTER } else { character });
-    let mut shortened_text: String = characters.by_ref().take(MAX_QUOTED_CHARACTERS).collect();
-    if characters.next().is_some() {
+    let mut shortened_text: String = shown_characters.by_ref().take(MAX_QUOTED_CHARACTERS).collect();
+    if shown_characters.next().is_some() {
         shortened_text.push('…');
     }
     shortened_text
 }
 
 /// Returns a text in quotation marks. Rust's `Debug` format would include Unicode tables, which would be 5 % of the module.
-pub fn quote(text: &str) -> String {
+pub fn quote_text(text: &str) -> String {
     JSON::stringify(&text.into()).map_or_else(|_| String::new(), String::from)
 }
 
 fn describe_value(value: &JsValue) -> String {
     if let Some(text) = value.as_string() {
-        return quote(&shorten(&text));
+        return quote_text(&shorten_text(&text));
     }
     if let Some(number) = value.as_f64() {
         return format_number(number);

@@ -60,8 +60,8 @@ fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     let log_fields = FieldReader::new(field, &path_prefix, value, &["t", "v", "omega", "breaks"])?;
     let columns = read_columns(&log_fields, ["t", "v", "omega"])?;
     let [t, v, omega] = &columns;
-    let commands = t.iter().zip(v).zip(omega).map(|((t, v), omega)| (*t, *v, *omega));
-    checked_trajectory(&log_fields, Trajectory::from_commands(commands))
+    let velocity_commands = t.iter().zip(v).zip(omega).map(|((t, v), omega)| (*t, *v, *omega));
+    checked_trajectory(&log_fields, Trajectory::from_commands(velocity_commands))
 }
 
 fn read_poses(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
@@ -113,10 +113,10 @@ fn read_columns<const N: usize>(log_fields: &FieldReader, keys: [&str; N]) -> Re
             .into());
         }
         columns[i] = read_numbers_of_column(&field_path, &value, row_count)?;
-        for (row, number) in columns[i].iter().enumerate() {
+        for (row, column_value) in columns[i].iter().enumerate() {
             let column_range = if i == 0 { &TIME_RANGE } else { &COORDINATE_RANGE };
-            if !column_range.contains(number) {
-                check_real(&format!("{field_path}[{row}]"), *number, column_range)?;
+            if !column_range.contains(column_value) {
+                check_real(&format!("{field_path}[{row}]"), *column_value, column_range)?;
             }
         }
     }

@@ -49,25 +49,26 @@ pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
 
 /// Reads a map as `map_server` does: from an image (the bytes of a file, or pixels), and the fields of its YAML file with their defaults.
 pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid, JsValue> {
-    let fields = FieldReader::with_any_keys("description", "", description, "an object")?;
-    let resolution = check_range("resolution", fields.number("resolution")?, &RESOLUTION_RANGE)?;
-    let origin: [f64; 3] = read_array_in_range("origin", &fields.value("origin")?, &QUANTITY_RANGE)?;
+    let map_fields = FieldReader::with_any_keys("description", "", description, "an object")?;
+    let resolution = check_range("resolution", map_fields.number("resolution")?, &RESOLUTION_RANGE)?;
+    let origin: [f64; 3] = read_array_in_range("origin", &map_fields.value("origin")?, &QUANTITY_RANGE)?;
     let default_classifier = PixelClassifier::default();
-    let negate = match fields.value("negate")?.as_bool() {
-        Some(negate) => negate,
-        None => fields.read_or("negate", u32::from(default_classifier.negate), 0..=1)? == 1,
+    let is_negated = match map_fields.value("negate")?.as_bool() {
+        Some(is_negated) => is_negated,
+        None => map_fields.read_or("negate", u32::from(default_classifier.negate), 0..=1)? == 1,
     };
-    let occupied_thresh = fields.read_or("occupied_thresh", default_classifier.occupied_thresh, 0.0..=1.0)?;
+    let occupied_thresh =
+        map_fields.read_or("occupied_thresh", default_classifier.occupied_thresh, 0.0..=1.0)?;
     let default_free_thresh = default_classifier.free_thresh.min(occupied_thresh);
-    let free_thresh = fields.read_or("free_thresh", default_free_thresh, 0.0..=1.0)?;
+    let free_thresh = map_fields.read_or("free_thresh", default_free_thresh, 0.0..=1.0)?;
     if free_thresh > occupied_thresh {
         let [free_text, limit_text] = [free_thresh, occupied_thresh].map(format_number);
         let error_message =
             format!("free_thresh is {free_text}; allowed is at most occupied_thresh, {limit_text}");
         return Err(RangeError::new(&error_message).into());
     }
-    let mode = fields.read_or("mode", default_classifier.mode, ())?;
-    let classifier = PixelClassifier { mode, negate, occupied_thresh, free_thresh };
+    let mode = map_fields.read_or("mode", default_classifier.mode, ())?;
+    let classifier = PixelClassifier { mode, negate: is_negated, occupied_thresh, free_thresh };
     let origin = SE2::from(origin);
     if let Some(file_bytes) = image.dyn_ref::<Uint8Array>() {
         read_integer("image.length", f64::from(file_bytes.length()), 0..=MAX_BYTES as u64)?;

@@ -1,6 +1,6 @@
 //! JavaScript class `MapSqueeze`.
 
-use super::fields::{quote, read_integer, read_value};
+use super::fields::{quote_text, read_integer, read_value};
 use super::maps::{read_map, read_plan};
 use super::pictures::{nearest_index, pixel_view, read_grid, read_ramps};
 use super::simulation_class::cloud_simulation_class;
@@ -75,8 +75,8 @@ cloud_simulation_class! {
         grid: "Grid | null" = to_plain_js(&simulation.plan().grid().map(|grid| {
             let ([columns, rows], origin) = (grid.size(), grid.origin().into());
             let cell_flags_of = |cell_state| grid.cells().map(|cell| u8::from(cell == cell_state)).collect();
-            let [occupied, unknown] = [Cell::Occupied, Cell::Unknown].map(cell_flags_of);
-            Grid { columns, rows, resolution: grid.resolution(), origin, occupied, unknown }
+            let [occupied_flags, unknown_flags] = [Cell::Occupied, Cell::Unknown].map(cell_flags_of);
+            Grid { columns, rows, resolution: grid.resolution(), origin, occupied: occupied_flags, unknown: unknown_flags }
         }));
         /// Free start pose: in the middle of the largest square that is known to be free, heading where the path is free
         /// for longest. If the robot does not fit there, another pose where it fits; null if there is none.
@@ -136,7 +136,7 @@ impl JsMapSqueeze {
             RangeError::new(&format!(
                 "sampler is {}, by which {no_sample}; allowed is one of at most {MAX_DRAWS} draws an accepted sample and {max_total_draws} \
                  for {count} of them",
-                quote(sampler.get()),
+                quote_text(sampler.get()),
             ))
         })?;
         Ok(to_ts(&trial_cost))

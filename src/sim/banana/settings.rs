@@ -89,12 +89,12 @@ impl Settings {
 impl SettingRules for Settings {
     /// Presets: the four commands of the chapter, the command with the clearest banana shape, and the chapter's example to check by hand.
     const PRESETS: &'static [(&'static str, Self)] = &[
-        ("straight", preset([1.0, 0.0, 2.0], PRESET_ALPHAS)),
-        ("gentle", preset([1.0, 0.5, 1.0], PRESET_ALPHAS)),
-        ("hard", preset([1.0, 1.2, 1.4], PRESET_ALPHAS)),
-        ("pivot", preset([0.06, 1.5, 1.0], PRESET_ALPHAS)),
+        ("straight", create_preset([1.0, 0.0, 2.0], PRESET_ALPHAS)),
+        ("gentle", create_preset([1.0, 0.5, 1.0], PRESET_ALPHAS)),
+        ("hard", create_preset([1.0, 1.2, 1.4], PRESET_ALPHAS)),
+        ("pivot", create_preset([0.06, 1.5, 1.0], PRESET_ALPHAS)),
         ("banana", Self::DEFAULT),
-        ("worked", preset([1.0, 0.5, 1.0], [0.02, 0.02, 0.02, 0.02, 0.0, 0.0])),
+        ("worked", create_preset([1.0, 0.5, 1.0], [0.02, 0.02, 0.02, 0.02, 0.0, 0.0])),
     ];
 
     fn adjust(&mut self, previous_settings: &Self, changed_keys: &[&str]) {
@@ -108,6 +108,6 @@ impl SettingRules for Settings {
 /// Noise parameters of the presets whose commands differ from the default command.
 const PRESET_ALPHAS: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 
-const fn preset([v, omega, dt]: [f64; 3], velocity_alphas: [f64; 6]) -> Settings {
+const fn create_preset([v, omega, dt]: [f64; 3], velocity_alphas: [f64; 6]) -> Settings {
     Settings { command: VelocityCmd { v, omega, dt }, velocity_alphas, ..Settings::DEFAULT }
 }

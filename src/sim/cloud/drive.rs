@@ -56,7 +56,7 @@ impl NoisyDrive {
     }
 
     #[inline(always)]
-    pub fn motions(&self, unit_noise: &[f64x4; 3]) -> FourMotions {
+    pub fn compute_motions(&self, unit_noise: &[f64x4; 3]) -> FourMotions {
         let [first_noise, second_noise, third_noise] = *unit_noise;
         let (length, bearing) =
             if self.is_arc { (first_noise, second_noise) } else { (second_noise, first_noise) };
@@ -152,7 +152,7 @@ impl NoisyDrive {
     /// shorter formulas for angles up to π/2 instead.
     #[inline(never)]
     pub fn coordinates_of_four(&self, unit_noise: &[f64x4; 3]) -> (FourPoses, FourArcs) {
-        let motions = self.motions(unit_noise);
+        let motions = self.compute_motions(unit_noise);
         let bearing_sin_cos = self.trigonometry.sin_cos_any_angle(motions.bearing);
         let end_points = self.end_points_on_bearing(&motions, &bearing_sin_cos);
         let turn = self.trigonometry.sin_cos_on_branch(motions.half_heading, self.half_commanded_turn);

@@ -98,7 +98,7 @@ impl Cloud {
     pub fn pose(&self, sample_index: usize) -> SE2 {
         let [group_index, lane_index] = [sample_index / LANE_COUNT, sample_index % LANE_COUNT];
         let [x, y] = self.positions[group_index].map(|four_lanes| four_lanes.to_array()[lane_index]);
-        let half_heading = self.drive.motions(&self.draws.unit_noise[group_index]).half_heading;
+        let half_heading = self.drive.compute_motions(&self.draws.unit_noise[group_index]).half_heading;
         SE2::new(x, y, 2.0 * half_heading.to_array()[lane_index])
     }
 
@@ -109,12 +109,12 @@ impl Cloud {
         let points_of_group = move |group_index: usize| match morph_fraction {
             0.0 => self.positions[group_index],
             1.0 => {
-                let motions = self.drive.motions(&self.draws.unit_noise[group_index]);
+                let motions = self.drive.compute_motions(&self.draws.unit_noise[group_index]);
                 let poses = self.drive.poses(&motions, &self.positions[group_index]);
                 [poses.along, poses.half_heading * 2.0]
             }
             _ => {
-                let motions = self.drive.motions(&self.draws.unit_noise[group_index]);
+                let motions = self.drive.compute_motions(&self.draws.unit_noise[group_index]);
                 self.drive.morphed_points(&motions, &self.positions[group_index], morph_fraction)
             }
         };
@@ -149,7 +149,7 @@ fn add_to_first_pass(
 ) {
     let is_full_group = lane_mask.all();
     for (noise, end_points) in noise.iter().zip(end_points) {
-        let motions = drive.motions(noise);
+        let motions = drive.compute_motions(noise);
         let (arcs, is_regular);
         (*end_points, arcs, is_regular) = drive.end_points(&motions);
         let poses = drive.poses(&motions, end_points);
@@ -175,6 +175,6 @@ fn add_to_second_pass(
     second_pass: &mut SecondPass,
 ) {
     for (noise, end_points) in noise.iter().zip(end_points) {
-        second_pass.add(&drive.poses(&drive.motions(noise), end_points), lane_mask);
+        second_pass.add(&drive.poses(&drive.compute_motions(noise), end_points), lane_mask);
     }
 }

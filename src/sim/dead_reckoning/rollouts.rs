@@ -249,8 +249,8 @@ impl RobotBlock {
         let Self { rng, groups, noise_or_xi } = self;
         noise_or_xi.iter_mut().for_each(|noise| *noise = draw_four_uniform_triples(rng));
         NoiseKind::Normal.replace_by_quantiles(noise_or_xi.as_flattened_mut());
-        for (robots, noise) in groups.iter_mut().zip(noise_or_xi) {
-            *noise = step.drive_one_step(robots, noise);
+        for (error_poses, noise) in groups.iter_mut().zip(noise_or_xi) {
+            *noise = step.drive_one_step(error_poses, noise);
         }
     }
 }

@@ -13,12 +13,12 @@ pub struct GroupMember {
 
 impl GroupMember {
     const fn new(
-        key: &'static str,
+        number_key: &'static str,
         sentence: &'static str,
         unit: &'static str,
         allowed: RangeInclusive<f64>,
     ) -> Self {
-        Self { declaration: Declaration::new(key, "", sentence, unit, ""), allowed }
+        Self { declaration: Declaration::new(number_key, "", sentence, unit, ""), allowed }
     }
 }
 

@@ -169,7 +169,7 @@ test('names that suggest a localizer, or swapped logs, are reported', async () =
     const [drive] = await readDrives(planDrives(await openRecordings(logFiles, (name) => ({ role: name === odometry ? 'odometry' : 'reference' }))));
     return drive.reference.summary.notes.map(({ name }) => name);
   };
-  assert.deepEqual(await noteNamesOf('truth.csv', 'wheels.csv'), ['swapped']);
+  assert.deepEqual(await noteNamesOf('truth.csv', 'wheels.csv'), ['swappedRoles']);
   assert.deepEqual(await noteNamesOf('odom.csv', 'amcl_pose.csv'), ['localizer']);
   const [{ odometry, reference }] = await readDrivesOf({ 'odom.csv': straightTableOf((i) => i / 90), 'truth.csv': straightTableOf((i) => i / 80) });
   const frameNotesOf = (/** @type {string} */ parent) => pairLogs(odometry, { ...reference, summary: { ...reference.summary, frames: { parent, child: 'base_link' } } }).reference.summary.notes;

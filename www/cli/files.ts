@@ -34,7 +34,7 @@ async function openSources(path: string, name: string): Promise<Source[]> {
   } catch (error) {
     const { code } = error as NodeJS.ErrnoException;
     if (error instanceof LogError || code === undefined) throw error;
-    throw new LogError({ file: path }, (texts) => texts.gone(code));
+    throw new LogError({ file: path }, (texts) => texts.unreadableFileReason(code));
   }
 }
 

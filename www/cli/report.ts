@@ -18,7 +18,7 @@ export interface CalibrationReport {
   /** Command that remedies a failed check; empty if there is none. */
   command: string;
   options: Record<string, any>;
-  /** Odometry and reference of each drive. */
+  /** Logs of the drives in turn: odometry and reference of the first drive, then those of the next. */
   logs: ReadLog[];
   /** Whole seconds that were subtracted from all times of the logs. */
   start: number;
@@ -39,7 +39,7 @@ const MAX_LISTED_OUTLIERS = 5;
 
 /** Returns the summaries of the logs (odometry and reference of each drive), without the result of the fit. */
 export const formatLogSummaries = (logs: ReadLog[]): string =>
-  logs.map(({ name, sentences }, i) => `${[`${english.choose.roles[ROLES[i % 2]]}: ${name}`, ...sentences].join('\n  ')}\n`).join('');
+  logs.map(({ name, sentences }, i) => `${[`${english.choose.roleNames[ROLES[i % 2]]}: ${name}`, ...sentences].join('\n  ')}\n`).join('');
 
 /** Codes of colours in a terminal. */
 const [RED, GREEN, YELLOW] = [31, 32, 33];

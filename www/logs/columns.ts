@@ -28,13 +28,13 @@ export interface ColumnGroup {
   kind: Series['kind'];
   hasCommands: boolean;
   columns: Partial<Record<Field, Column>>;
-  /** Second column that matches a field equally well. The field is then ambiguous. */
+  /** Second column of each field that two columns match equally well. Such a field is ambiguous. */
   duplicateColumns: Partial<Record<Field, Column>>;
   /** Clock of the rows, and a fallback clock, which is used if the times of the first clock are mostly 0 or never change. */
   clocks: Clock[];
 }
 
-/** Patterns of the fields of ROS messages that contain a pose, a twist and a stamp. */
+/** Patterns of the prefixes of fields in ROS messages: of a pose, of a twist, and of a header. */
 const POSE_PREFIX = '(?:(?:pose|transform|odometry)\\.)*';
 const TWIST_PREFIX = '(?:(?:twist|velocity|vel|cmd)\\.)*';
 const HEADER_PREFIX = '(?:header\\.)?';
@@ -144,7 +144,7 @@ function parseColumnName(name: string): ColumnMeaning | undefined {
   return baseMeaning && suffix !== undefined && !UNREAD_QUANTITIES.test(suffix) ? { ...baseMeaning, prefix: suffix } : undefined;
 }
 
-/** Returns the name that the user gives a column, with the unit that the column's name in the file states, if the given name states none and can have it. */
+/** Returns the name that the user gives a column. If this name states no unit, the unit that the file states for the column is added, where it fits. */
 export function withUnitInFile(givenName: string, nameInFile: string): string {
   const unitText = (UNIT_IN_BRACKETS.exec(nameInFile) ?? UNIT_AT_END.exec(nameInFile))?.[1] ?? '';
   const nameWithUnit = `${givenName} [${unitText}]`;
@@ -205,7 +205,7 @@ export function groupColumnsByPrefix(names: string[], isTime: (index: number) =>
   return groups.filter(({ columns }) => columns.x || columns.y || columns.v || columns.omega || columns.yaw || columns.qw);
 }
 
-/** Change of the columns: the new field of each renamed field, and the fields whose sign changes. */
+/** Change of a table's columns: the new field of each column that gets another field, and the fields whose numbers are negated. */
 export type ColumnChange = [newFields: Partial<Record<Field, Field>>, negatedFields: Field[]];
 
 /** Column changes for tables whose axes or order of quaternion components differ from those of ROS. */
@@ -215,7 +215,7 @@ export const COLUMN_CHANGES = {
   /** Axes of a table in which y points up and headings are positive from x towards z. */
   leftHandedWithYUp: [{ y: 'z', z: 'y' }, []],
   wFirst: [{ qx: 'qw', qy: 'qx', qz: 'qy', qw: 'qz' }, []],
-  swapped: [{ x: 'y', y: 'x' }, []],
+  swappedXAndY: [{ x: 'y', y: 'x' }, []],
   negatedY: [{}, ['y']],
   /** Mirrors the y axis, and with it the headings and rotations. */
   mirrored: [{}, ['y', 'yaw', 'qx', 'qz']],
@@ -252,25 +252,25 @@ export const columnQuestionOf = (columns: string[]): Question =>
 export function findLogLayout(columnGroup: ColumnGroup | undefined, names: string[], errorPlace: ErrorPlace, wantedKind: LogKind | undefined) {
   const columnNames = listNames(names.map((name) => name.trim()));
   const question = columnQuestionOf(names);
-  if (!columnGroup) throw new LogError(errorPlace, (texts) => texts.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), question);
+  if (!columnGroup) throw new LogError(errorPlace, (texts) => texts.missingColumnsReason(wantedKind === 'poses' ? wantedKind : 'either', columnNames), question);
   const { columns, duplicateColumns, clocks } = columnGroup;
-  if (clocks.length === 0) throw new LogError(errorPlace, (texts) => texts.noTime(columnNames), question);
+  if (clocks.length === 0) throw new LogError(errorPlace, (texts) => texts.noTimeColumnReason(columnNames), question);
   const takesCommands = columnGroup.hasCommands && wantedKind !== 'poses' && (wantedKind === 'commands' || columnGroup.kind === 'commands');
-  if (!takesCommands && !hasFields(columns, 'x', 'y')) throw new LogError(errorPlace, (texts) => texts.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), question);
+  if (!takesCommands && !hasFields(columns, 'x', 'y')) throw new LogError(errorPlace, (texts) => texts.missingColumnsReason(wantedKind === 'poses' ? wantedKind : 'either', columnNames), question);
   const headingFields = headingFieldsOf(columns);
   const fields: Field[] = takesCommands ? ['v', 'omega'] : ['x', 'y', ...headingFields];
   for (const field of [...(clocks[0].columns[0] === columns.t ? ['t' as const] : []), ...fields]) {
     const [firstColumn, secondColumn] = [columns[field], duplicateColumns[field]];
-    if (firstColumn && secondColumn) throw new LogError(errorPlace, (texts) => texts.twice(field, truncate(firstColumn.name), truncate(secondColumn.name)), question);
+    if (firstColumn && secondColumn) throw new LogError(errorPlace, (texts) => texts.ambiguousColumnReason(field, truncate(firstColumn.name), truncate(secondColumn.name)), question);
   }
   const usedColumns = fields.map((field) => columns[field] as Column);
   const usedLengthUnits = [...new Set((takesCommands ? usedColumns.slice(0, 1) : usedColumns.slice(0, 2)).map(({ unit }) => unit))];
   const angleUnit = takesCommands ? columns.omega?.unit : headingFields[0] === 'yaw' ? columns.yaw?.unit : undefined;
   for (const [units, knownUnits] of [[usedLengthUnits, UNITS.lengthUnit], [[angleUnit], UNITS.angleUnit]] as [(string | undefined)[], readonly string[]][]) {
     const isKnown = units.length === 1 && (units[0] === undefined || knownUnits.includes(units[0]));
-    if (!isKnown) throw new LogError(errorPlace, (texts) => texts.unknownUnit(units.map((unit) => truncate(unit ?? '–')).join(', ')));
+    if (!isKnown) throw new LogError(errorPlace, (texts) => texts.unknownUnitReason(units.map((unit) => truncate(unit ?? '–')).join(', ')));
   }
-  if (!takesCommands && headingFields.length === 0) throw new LogError({ file: errorPlace.file }, (texts) => texts.positions(listNames(usedColumns.map(({ name }) => name))));
+  if (!takesCommands && headingFields.length === 0) throw new LogError({ file: errorPlace.file }, (texts) => texts.noHeadingReason(listNames(usedColumns.map(({ name }) => name))));
   const kind: LogKind = takesCommands ? 'commands' : 'poses';
   return { kind, clocks, columns: usedColumns, fields, lengthUnit: usedLengthUnits[0] as LengthUnit | undefined, angleUnit: angleUnit as AngleUnit | undefined };
 }

@@ -54,7 +54,7 @@ export function planDrives(allRecordings: Recording[], userChoices: UserChoices 
   const plan = recordings.map((recording, i): PlannedRecording => {
     // If at least half of the recordings have the same role, a recording of unknown role gets the other role.
     const role = rolesByName[i] ?? (isHalfOf('odometry') ? 'reference' : isHalfOf('reference') ? 'odometry' : undefined);
-    if (!role) throw new LogError({ file: recording.name }, (texts) => texts.noRole, { option: 'roles', choices: [] });
+    if (!role) throw new LogError({ file: recording.name }, (texts) => texts.unknownRoleReason, { option: 'roles', choices: [] });
     return { recording, choices: role === 'both' ? chooseBothLogs(recording, userChoices) : { [role]: chooseLog(recording, role, userChoices) } };
   });
   const recordingsWith = (role: Role) => plan.filter(({ choices }) => choices[role]);
@@ -69,12 +69,12 @@ export function planDrives(allRecordings: Recording[], userChoices: UserChoices 
     // the error that is thrown below.
     for (const recording of unpairedRecordings) tryUnlessLogError(() => chooseBothLogs(recording, userChoices), ({ question }) => question?.option !== 'series');
     const [odometryNames, referenceNames] = [odometry, reference].map((recordingsOfRole) => listNames(recordingsOfRole.map(({ name }) => name)));
-    throw new LogError({ file: unpairedRecordings[0].name }, (texts) => texts.unpaired(odometryNames, referenceNames), { option: recordings.length === 1 ? 'other' : 'roles', role: odometryNames ? 'odometry' : 'reference', choices: [] });
+    throw new LogError({ file: unpairedRecordings[0].name }, (texts) => texts.unpairedLogsReason(odometryNames, referenceNames), { option: recordings.length === 1 ? 'other' : 'roles', role: odometryNames ? 'odometry' : 'reference', choices: [] });
   }
   return sort(plan, ({ choices }) => Number(!choices.odometry));
 }
 
-/** Returns the role of the log in one of several recordings; "both" for a recording with odometry and reference. Undefined if neither name nor contents show the role of a single log. */
+/** Returns the role of one of several recordings: "both" if it has odometry and reference, and undefined if neither its name nor its contents show a role. */
 function roleOfRecording(recording: Recording, userChoices: UserChoices): Role | 'both' | undefined {
   if (tryUnlessLogError(() => chooseBothLogs(recording, userChoices))) return 'both';
   const [isOdometry, isReference] = ROLES.map((role) => tryUnlessLogError(() => chooseLog(recording, role, userChoices)) !== undefined);
@@ -103,7 +103,7 @@ function chooseBothLogs(recording: Recording, userChoices: UserChoices): Record<
   const reference = chosenReference ?? chooseLog(recording, 'reference', userChoices, odometry);
   if (isSameChoice(odometry, reference)) {
     const question = { option: 'series' as const, role: 'reference' as const, choices: seriesNamesFor(recording, 'reference').filter((name) => name !== reference.series) };
-    throw new LogError({ file: recording.name, topic: reference.series }, (texts) => texts.ownReference(reference.frames ? formatFrames(reference.frames) : reference.series), question);
+    throw new LogError({ file: recording.name, topic: reference.series }, (texts) => texts.sameLogReason(reference.frames ? formatFrames(reference.frames) : reference.series), question);
   }
   return { odometry, reference };
 }
@@ -124,7 +124,7 @@ function chooseLog(recording: Recording, role: Role, userChoices: UserChoices, o
     const names = seriesNamesFor(recording, role);
     throw new LogError(
       { file: recording.name, topic: series },
-      (texts) => texts.noTopic(describeSeries(readableSeriesOf(recording))),
+      (texts) => texts.unknownTopicReason(describeSeries(readableSeriesOf(recording))),
       { option: 'series', role, choices: names },
     );
   }
@@ -136,7 +136,7 @@ function chooseLog(recording: Recording, role: Role, userChoices: UserChoices, o
 
 function createFramesError({ name: file }: Recording, { name: topic, frames = [] }: Series, role: Role): LogError {
   const frameTexts = [...new Set([...findLikeliestFrames(frames, role), ...frames])].map(formatFramesOption);
-  return new LogError({ file, topic }, (texts) => texts.frames(listNames(frames.map(formatFrames))), { option: 'frames', role, choices: frameTexts });
+  return new LogError({ file, topic }, (texts) => texts.missingFramesReason(listNames(frames.map(formatFrames))), { option: 'frames', role, choices: frameTexts });
 }
 
 function guessChoice(recording: Recording, role: Role, userChoices: UserChoices, otherRoleChoice?: LogChoice): LogChoice {
@@ -153,22 +153,22 @@ function guessChoice(recording: Recording, role: Role, userChoices: UserChoices,
   if (chains.length === usableSeries.length && !hasOnlyOtherChoice) throw createFramesError(recording, chains.find((chain) => chain.frames) ?? chains[0], role);
   const positionSeries = usableSeries.filter(({ name, kind }) => kind === 'positions' && !GOAL_NAMES.test(name));
   if (positionSeries.length === usableSeries.length || (role === 'reference' && bestChoices.length === 0 && positionSeries.length > 0)) {
-    throw new LogError({ file }, (texts) => texts.positions(describeSeries(positionSeries)));
+    throw new LogError({ file }, (texts) => texts.noHeadingReason(describeSeries(positionSeries)));
   }
   if (usableSeries.length === 1) {
     const ownRole = roleOfSeries(recording, usableSeries[0]) ?? (otherRoleChoice?.frames && ROLES.find((otherRole) => otherRole !== role));
-    throw new LogError({ file }, (texts) => texts.alone(describeSeries(usableSeries), ownRole), { option: 'other', role: ownRole, choices: [] });
+    throw new LogError({ file }, (texts) => texts.singleLogReason(describeSeries(usableSeries), ownRole), { option: 'other', role: ownRole, choices: [] });
   }
   throw new LogError(
     { file },
-    (texts) => (bestChoices.length > 0 ? texts.choose : texts.lacks)(role, describeSeries(usableSeries)),
+    (texts) => (bestChoices.length > 0 ? texts.ambiguousRoleReason : texts.missingRoleReason)(role, describeSeries(usableSeries)),
     { option: 'series', role, choices: bestChoices.length > 0 ? seriesNamesFor(recording, role).filter((name) => name !== otherRoleChoice?.series) : usableSeries.filter(({ kind }) => role === 'odometry' && kind === 'commands').map(({ name }) => name) },
   );
 }
 
 function createUnusableError({ name: file, series }: Recording): LogError {
   const shortSeries = series.find(({ kind }) => kind !== null);
-  return new LogError({ file, topic: shortSeries?.name }, (texts) => (shortSeries ? texts.few(shortSeries.count, shortSeries.count) : texts.noTopics(describeSeries(series))));
+  return new LogError({ file, topic: shortSeries?.name }, (texts) => (shortSeries ? texts.fewRowsReason(shortSeries.count, shortSeries.count) : texts.noLogTopicsReason(describeSeries(series))));
 }
 
 /** Returns the role of the only series in a recording, from the name of the series, its contents or the name of the file; undefined if none of these shows a role. */

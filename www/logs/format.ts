@@ -15,7 +15,7 @@ export interface TableFormat {
   isSparse: boolean;
 }
 
-/** Maximum number of lines from the start and from the end of a file, and of rows, from which the format is detected. */
+/** Maximum number of lines that are sampled at the start of a text, at its end, and from its first row on. The format is detected from these lines. */
 const SAMPLED_LINE_COUNT = 50;
 
 /** Names of the columns in tables without a header. The number of columns in a table determines which of these lists applies. */
@@ -73,7 +73,7 @@ function isDataRow(cells: string[]): boolean {
   return numberCount >= 2 && 2 * numberCount >= filledCells.length;
 }
 
-/** Returns the separator that splits lines into most numbers, or, if there are no numbers, into most cells. */
+/** Returns the separator with which the lines have most numbers or, if they have no numbers, most cells. */
 function separatorOf(lines: string[]): string {
   const declaredSeparator = lines.map((line) => /^"?sep=(.)"?$/i.exec(line)?.[1]).find((separatorMatch) => separatorMatch !== undefined);
   if (declaredSeparator) return declaredSeparator;
@@ -84,14 +84,14 @@ function separatorOf(lines: string[]): string {
   return [';', '\t', ',', '|', ' '].map((separator) => ({ separator, score: scoreOf(separator) })).reduce((best, candidate) => (candidate.score > best.score ? candidate : best)).separator;
 }
 
-/** Detects the format from the first lines, with at least one row if the file has any. Throws a LogError if the columns are ambiguous. */
+/** Detects the format of a table from its first lines, which include a row if the file has any. Throws a LogError if the columns are ambiguous. */
 export function detectTableFormat(lines: string[], file: string, givenColumnNames: string[] | undefined): TableFormat {
   const filledLines = lines.map((line, i) => ({ line, number: i + 1 })).filter(({ line }) => line.trim() !== '');
   const isComment = ({ line }: { line: string }) => /^\s*(#|%|\/\/)/.test(line);
   const textLines = filledLines.filter((textLine) => !isComment(textLine));
-  if (textLines.length === 0) throw new LogError({ file }, (texts) => texts.empty);
+  if (textLines.length === 0) throw new LogError({ file }, (texts) => texts.emptyFileReason);
   const [, notation] = NON_TABLE_PATTERNS.find(([pattern]) => pattern.test(textLines[0].line)) ?? [];
-  if (notation !== undefined) throw new LogError({ file }, (texts) => texts.noTable(notation));
+  if (notation !== undefined) throw new LogError({ file }, (texts) => texts.noTableReason(notation));
 
   const separator = separatorOf([...textLines.slice(0, SAMPLED_LINE_COUNT), ...textLines.slice(-SAMPLED_LINE_COUNT)].map(({ line }) => line.trim()));
   const cellsOfLine = (line: string) => splitCells(line, separator);
@@ -103,10 +103,10 @@ export function detectTableFormat(lines: string[], file: string, givenColumnName
   const rowWidth = Math.max(0, ...rows.map((row) => row.length - (row.at(-1)?.trim() === '' ? 1 : 0)));
   const commonFormat = { separator, hasDecimalCommas, firstRowNumber: firstRowLine?.number ?? (filledLines.at(-1)?.number ?? 0) + 1, isSparse: false };
   const errorPlace = { file, line: firstRowLine?.number ?? filledLines[0].number };
-  const noLogError = () => new LogError({ file }, (texts) => texts.noLog);
+  const noLogError = () => new LogError({ file }, (texts) => texts.noLogReason);
 
   if (givenColumnNames) {
-    if (firstRowLine && givenColumnNames.length !== rowWidth) throw new LogError(errorPlace, (texts) => texts.given(rowWidth, givenColumnNames.length));
+    if (firstRowLine && givenColumnNames.length !== rowWidth) throw new LogError(errorPlace, (texts) => texts.columnCountReason(rowWidth, givenColumnNames.length));
     const namesInFile = textLines.filter(({ number }) => number < commonFormat.firstRowNumber).map(({ line }) => cellsOfLine(line)).findLast((cells) => cells.length === rowWidth);
     const columnNames = givenColumnNames.map((name, i) => withUnitInFile(name, namesInFile?.[i] ?? ''));
     return { ...commonFormat, columnNames, columnGroups: findColumnGroups(columnNames, rows[0]) };
@@ -122,7 +122,7 @@ export function detectTableFormat(lines: string[], file: string, givenColumnName
     const { number } = header;
     const columnNames = addUnits(header.names, preambleLines.flatMap((preambleLine) => (preambleLine.number > number ? [cellsOfLine(preambleLine.line)] : [])));
     // A row has more cells than the header if commas serve both as separator and as decimal comma.
-    if (rowWidth > columnNames.length) throw new LogError({ file, line: firstRowLine?.number }, (texts) => texts.wide(rowWidth, columnNames.length, number));
+    if (rowWidth > columnNames.length) throw new LogError({ file, line: firstRowLine?.number }, (texts) => texts.wideRowReason(rowWidth, columnNames.length, number));
     const columnGroups = findColumnGroups(columnNames, rows[0]);
     if (!firstRowLine && columnGroups.every(({ kind }) => kind === null)) throw noLogError();
     return { ...commonFormat, columnNames, columnGroups, isSparse: columnGroups.length > 1 || columnNames.some((name) => name.trim() === '__time') };
@@ -130,7 +130,7 @@ export function detectTableFormat(lines: string[], file: string, givenColumnName
   if (!firstRowLine) throw noLogError();
   const names = columnsByContent(rows);
   if (names) return { ...commonFormat, columnNames: names, columnGroups: findColumnGroups(names, rows[0]) };
-  throw new LogError(errorPlace, (texts) => texts.noHeader(rowWidth, truncate(firstRowLine.line.trim().replaceAll('\t', ' '))), columnQuestionOf(rows[0].slice(0, rowWidth)));
+  throw new LogError(errorPlace, (texts) => texts.noHeaderReason(rowWidth, truncate(firstRowLine.line.trim().replaceAll('\t', ' '))), columnQuestionOf(rows[0].slice(0, rowWidth)));
 }
 
 const stripUnitBrackets = (cell: string) => cell.replaceAll(/[\s"[\](){}]/g, '');
@@ -188,7 +188,7 @@ function detectMotiveFormat(preambleRows: string[][], errorPlace: ErrorPlace): P
   if (!bodyNames || !quantityRow) return undefined;
   const exportSettings = new Map(preambleRows[0].flatMap((cell, i) => (i % 2 === 0 ? [[cell.trim(), preambleRows[0][i + 1]?.trim() ?? '']] : [])));
   const rotationType = exportSettings.get('Rotation Type') ?? 'Quaternion';
-  if (rotationType !== 'Quaternion') throw new LogError(errorPlace, (texts) => texts.euler(truncate(rotationType)));
+  if (rotationType !== 'Quaternion') throw new LogError(errorPlace, (texts) => texts.eulerAnglesReason(truncate(rotationType)));
   const unit = (exportSettings.get('Length Units') ?? exportSettings.get('Units') ?? 'Meters').toLowerCase();
   const bodyTypes = findRowByName('Type');
   const names = axisRow.map((axis, i) => {

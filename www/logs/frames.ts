@@ -6,7 +6,7 @@ import { rowOfPose, withoutSlash, type StampedTransform, type Transform } from '
 import { multiplyQuaternions } from './path.ts';
 import type { Sample } from './rows.ts';
 
-/** Minimum motion (m) of a frame that counts as travelling. The frame of a joint only turns, and the frame of a suspension moves less. */
+/** Minimum distance (m) that a frame moves if it counts as travelling. The frame of a joint only turns, and the frame of a suspension moves less. */
 const MIN_TRAVEL = 0.05;
 
 /** Pattern of usual names of a robot's base frame. A base frame counts as travelling if it is fixed to a frame that travels. */
@@ -35,12 +35,12 @@ interface FrameLink extends FramePair {
  */
 export class FrameTree {
   #links = new Map<string, FrameLink>();
-  readonly #endFrames: FramePair | undefined;
+  readonly #chainEnds: FramePair | undefined;
   /** Links of the chain between the two end frames, in order; empty until transforms connect the end frames. */
   #chainLinks: FrameLink[] = [];
 
-  constructor(endFrames?: FramePair) {
-    this.#endFrames = endFrames && { parent: withoutSlash(endFrames.parent), child: withoutSlash(endFrames.child) };
+  constructor(chainEnds?: FramePair) {
+    this.#chainEnds = chainEnds && { parent: withoutSlash(chainEnds.parent), child: withoutSlash(chainEnds.child) };
   }
 
   /** Adds a transform to the link between its frames. */
@@ -51,9 +51,9 @@ export class FrameTree {
     this.#links.set(name, link);
     link.maxDistance = Math.max(link.maxDistance, Math.hypot(transform[0] - link.firstTransform[0], transform[1] - link.firstTransform[1]));
     link.hasChanged ||= transform.some((transformValue, i) => transformValue !== link.firstTransform[i]);
-    if (!this.#endFrames) return;
+    if (!this.#chainEnds) return;
     if (!this.isConnected || this.#chainLinks.includes(link)) link.samples.push({ ...stampedTransform, recordTime, messageNumber });
-    if (!this.isConnected) this.#chainLinks = this.#findChain(this.#endFrames) ?? [];
+    if (!this.isConnected) this.#chainLinks = this.#findChain(this.#chainEnds) ?? [];
   }
 
   get links(): FrameLink[] {
@@ -107,7 +107,7 @@ export class FrameTree {
   }
 
   /**
-   * Calls `onPose` for each message of one link: of the changing links, the nearest to the child. The other links contribute their latest transforms. A
+   * Calls `onPose` for each message of one link: the changing link that is nearest to the child. The other links contribute their latest transforms. A
    * transform that never changes also holds before its first message. Returns false if all transforms are constant.
    */
   readPoses(onPose: (poseSample: Sample, recordedTransform: RecordedTransform) => void): boolean {

@@ -90,11 +90,11 @@ export interface Question {
   choices: string[];
   /** Columns of the table: their names, or the cells of its first row. */
   columns?: string[];
-  /** Proposed field of each column, with a minus sign if the sign of its numbers changes. Without `fields`, `choices` has the proposed fields. */
+  /** Proposed field of each column, after a minus sign if the column's numbers are to be negated. If `fields` is missing, the names in `choices` are the proposed fields. */
   fields?: string[];
 }
 
-/** Question about a file. */
+/** Question to the user about the file of the given name. */
 export type FileQuestion = Question & { file: string };
 
 /** Poses in s, m and rad. `breaks` has the rising indices of rows before which the path is unknown: after unusable rows, and at jumps. */
@@ -127,11 +127,11 @@ export type DropCause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'sh
 export type UnitBasis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'usage';
 
 /** Notes that make the α's doubtful even if all checks pass. */
-export type Warning = Extract<Note['name'], 'localizer' | 'swapped'>;
+export type Warning = Extract<Note['name'], 'localizer' | 'swappedRoles'>;
 
 /** Note about a log: key of its sentence in `found.notes` of the messages, and the values in that sentence. */
 export interface Note {
-  name: 'cutShort' | 'damaged' | 'sorted' | 'yUp' | 'wFirst' | 'swapped' | 'apart' | 'localizer';
+  name: 'cutShort' | 'damaged' | 'sorted' | 'yUp' | 'wFirst' | 'swappedRoles' | 'apart' | 'localizer';
   values: (string | number)[];
 }
 
@@ -165,19 +165,19 @@ export interface Summary {
 /** Name of the clock of messages without stamps: the time of recording. */
 export const RECORDING_CLOCK = 'log time';
 
-type Label = keyof Words['found']['labels'];
+type Label = keyof Words['found']['rowLabels'];
 
 /** Returns the lines of a log's summary by their labels. */
 export function summaryLinesOf({ summary }: Log, texts: Words['found']): Partial<Record<Label, string[]>> {
   const { rows, used, dropped, seconds, rate, distance, units, clock, columns, frames, gaps, jumps, notes } = summary;
   return {
-    rows: [texts.rows(used, rows, seconds, rate, distance)],
-    ...(columns && { columns: [Object.values(columns).join(', ')], units: [texts.units(units)] }),
+    rows: [texts.rowsSummary(used, rows, seconds, rate, distance)],
+    ...(columns && { columns: [Object.values(columns).join(', ')], units: [texts.unitsSummary(units)] }),
     ...(frames && { frames: [formatFrames(frames)] }),
-    ...(clock === RECORDING_CLOCK && { clock: [texts.recorded] }),
-    dropped: (Object.entries(dropped) as [DropCause, { count: number; first: number }][]).map(([cause, { count, first }]) => texts.dropped(cause, count, columns ? first : 0)),
-    gaps: [gaps.count ? texts.gaps(gaps.count, gaps.first, gaps.longest) : texts.noGaps],
-    ...(jumps.count && { jumps: [texts.jumps(jumps.count, jumps.first)] }),
+    ...(clock === RECORDING_CLOCK && { clock: [texts.recordedTimesNote] }),
+    dropped: (Object.entries(dropped) as [DropCause, { count: number; first: number }][]).map(([cause, { count, first }]) => texts.droppedRowsSummary(cause, count, columns ? first : 0)),
+    gaps: [gaps.count ? texts.gapsSummary(gaps.count, gaps.first, gaps.longest) : texts.noGapsSummary],
+    ...(jumps.count && { jumps: [texts.jumpsSummary(jumps.count, jumps.first)] }),
     notes: notes.map(({ name, values }) => {
       const noteText: string | ((...values: any[]) => string) = texts.notes[name];
       return typeof noteText === 'string' ? noteText : noteText(...values);
@@ -188,7 +188,7 @@ export function summaryLinesOf({ summary }: Log, texts: Words['found']): Partial
 /** Returns the summary of a log as sentences. The first sentence is about the rows. */
 export function summarySentencesOf(log: Log, texts: Words['found']): string[] {
   const { rows = [], ...otherLines } = summaryLinesOf(log, texts);
-  return [...rows, ...Object.entries(otherLines).flatMap(([label, lines]) => lines.map((line) => `${texts.labels[label as Label]}: ${line}`))];
+  return [...rows, ...Object.entries(otherLines).flatMap(([label, lines]) => lines.map((line) => `${texts.rowLabels[label as Label]}: ${line}`))];
 }
 
 export type Words = typeof english;
@@ -200,7 +200,7 @@ export interface ErrorPlace {
   topic?: string;
 }
 
-/** Function that returns the end of an error message, which follows the place of the error, in the language of the given words. */
+/** Function that returns the reason in an error message, in the language of the given words. The reason follows the place of the error. */
 export type ErrorReason = (texts: Words['refused']) => string;
 
 /** Maximum number of characters of a quoted name or value, and of a quoted error message of a library. */
@@ -249,6 +249,6 @@ export async function readBytes(source: Source, start: number, end: number): Pro
     return new Uint8Array(await source.slice(start, end).arrayBuffer());
   } catch (error) {
     const reason = error instanceof Error ? error.name : String(error);
-    throw new LogError({ file: source.name }, (texts) => texts.gone(reason));
+    throw new LogError({ file: source.name }, (texts) => texts.unreadableFileReason(reason));
   }
 }

@@ -84,9 +84,9 @@ function distinguishNames(files: Source[]): Source[] {
 /** Returns the format of a file by its first bytes; undefined for a table. */
 async function detectFormat(source: Source): Promise<FileFormat | undefined> {
   const firstBytes = String.fromCharCode(...(await readBytes(source, 0, MAX_MAGIC_BYTES)));
-  if (firstBytes.startsWith(JOURNAL_MAGIC)) throw new LogError({ file: source.name }, (texts) => texts.journal);
+  if (firstBytes.startsWith(JOURNAL_MAGIC)) throw new LogError({ file: source.name }, (texts) => texts.journalFileReason);
   const unreadFormat = UNREAD_FORMATS.find(([magic]) => firstBytes.startsWith(magic));
-  if (unreadFormat) throw new LogError({ file: source.name }, (texts) => texts.notRead(unreadFormat[1], unreadFormat[2]));
+  if (unreadFormat) throw new LogError({ file: source.name }, (texts) => texts.unreadFormatReason(unreadFormat[1], unreadFormat[2]));
   return (Object.keys(FORMAT_MAGIC) as FileFormat[]).find((format) => firstBytes.startsWith(FORMAT_MAGIC[format]));
 }
 
@@ -95,7 +95,7 @@ async function openContainer(source: Source, format: FileFormat | undefined): Pr
   if (format === 'mcap') return (await import('./formats/mcap.ts')).openMcap(source);
   if (format === 'rosbag') return (await import('./formats/rosbag.ts')).openRosbag(source);
   if (format === 'sqlite') return (await import('./formats/sqlite.ts')).openSqlite(source);
-  throw new LogError({ file: source.name }, (texts) => texts.notRosbag2);
+  throw new LogError({ file: source.name }, (texts) => texts.listedFileReason);
 }
 
 /** Returns a container with the messages of several containers, one after the other. */

@@ -5,7 +5,7 @@ import type { CalibrationLog } from '../types.d.ts';
 import { isLocalizer, roleByName, type PlannedRecording } from './drives.ts';
 import { LogError, ROLES, UNITS, formatFrames, type Log, type LogChoice, type Note, type Poses, type Role, type Warning } from './log.ts';
 import { pathOf, poseAt, wrapAngle } from './path.ts';
-import { METRES_PER_UNIT, speedOf } from './units.ts';
+import { METRES_PER_UNIT, logSpeedOf } from './units.ts';
 
 /** Two logs of one drive. The times of both logs count from the same start. */
 export interface Drive { odometry: Log; reference: Log }
@@ -22,7 +22,7 @@ const MIN_ODOMETRY_MOTION = 0.05;
 /** Minimum speed (m/s) at which the speeds of two logs are compared: the 90 % quantile of a log. In a log of a robot that mostly stands, this quantile measures only noise. */
 const MIN_COMPARED_SPEED = 0.02;
 
-/** Maximum deviation of a speed ratio from the ratio of two units, as a factor, because wheels may have another size than the odometry assumes. */
+/** Maximum factor between a ratio of two speeds and a ratio of two units. It allows for wheels of another size than the odometry assumes. */
 const MAX_UNIT_ERROR = 1.2;
 
 const timeSpanOf = ({ start, data: { t } }: Log): [number, number] => [start + t[0], start + t[t.length - 1]];
@@ -46,16 +46,16 @@ function matchLogs(odometry: Log[], reference: Log[]): Log[][] {
 /** Pairs the odometry and reference of one drive, whose times count from the same start. Throws a LogError if the logs do not fit together, or one may have another unit of length. */
 export function pairLogs(odometry: Log, reference: Log): Drive {
   const referencePlace = { file: reference.name };
-  if (reference.kind === 'commands') throw new LogError(referencePlace, (texts) => texts.noColumns('poses', 't, v, omega'));
+  if (reference.kind === 'commands') throw new LogError(referencePlace, (texts) => texts.missingColumnsReason('poses', 't, v, omega'));
   const { frames } = reference.summary;
-  if (frames?.parent === 'odom') throw new LogError(referencePlace, (texts) => texts.ownReference(formatFrames(frames)));
+  if (frames?.parent === 'odom') throw new LogError(referencePlace, (texts) => texts.sameLogReason(formatFrames(frames)));
   const brokenReference = breakFrozenPoses(reference, odometry);
-  if (brokenReference.summary.used < 2) throw new LogError(referencePlace, (texts) => texts.held);
+  if (brokenReference.summary.used < 2) throw new LogError(referencePlace, (texts) => texts.frozenReferenceReason);
   const logs = { odometry, reference: brokenReference };
   checkLengthUnits(logs);
   const notes: Note[] = [
     ...brokenReference.summary.notes,
-    ...(roleByName(odometry.name) !== 'odometry' && roleByName(reference.name) === 'odometry' ? [{ name: 'swapped' as const, values: [odometry.name] }] : []),
+    ...(roleByName(odometry.name) !== 'odometry' && roleByName(reference.name) === 'odometry' ? [{ name: 'swappedRoles' as const, values: [odometry.name] }] : []),
     ...(isLocalizer(reference.name, frames) ? [{ name: 'localizer' as const, values: [] }] : []),
     ...(overlapSecondsOf(odometry, reference) < 0 ? [{ name: 'apart' as const, values: [odometry.name, formatTimeSpan(reference), formatTimeSpan(odometry)] }] : []),
   ];
@@ -84,7 +84,7 @@ function breakFrozenPoses(reference: Log, odometry: Log): Log {
 }
 
 export const warningsOf = (logs: Pick<Log, 'summary'>[]): Warning[] =>
-  (['localizer', 'swapped'] as const).filter((warning) => logs.some(({ summary }) => summary.notes.some(({ name }) => name === warning)));
+  (['localizer', 'swappedRoles'] as const).filter((warning) => logs.some(({ summary }) => summary.notes.some(({ name }) => name === warning)));
 
 /** Returns the logs of drives in the form that the core takes: one log of each role, or an array for several drives. */
 export function calibrationLogOf(drives: Drive[]): Pick<CalibrationLog, Role> {
@@ -111,7 +111,7 @@ export async function readDrives(plan: PlannedRecording[], onProgress?: (fractio
 
 /** Throws a LogError with a question if the ratio of two logs' speeds is that of two units of length, such as metres and feet. */
 function checkLengthUnits(logs: Record<Role, Log>): void {
-  const [odometrySpeed, referenceSpeed] = ROLES.map((role) => speedOf(logs[role].data));
+  const [odometrySpeed, referenceSpeed] = ROLES.map((role) => logSpeedOf(logs[role].data));
   if (Math.min(odometrySpeed, referenceSpeed) < MIN_COMPARED_SPEED) return;
   for (const [role, otherRole, speedRatio] of [['reference', 'odometry', referenceSpeed / odometrySpeed], ['odometry', 'reference', odometrySpeed / referenceSpeed]] as const) {
     const { unit: assumedUnit, by } = logs[role].summary.units.length;
@@ -120,6 +120,6 @@ function checkLengthUnits(logs: Record<Role, Log>): void {
       return unitRatio > 1 && Math.max(speedRatio / unitRatio, unitRatio / speedRatio) < MAX_UNIT_ERROR;
     });
     if (!likelyUnit || by !== 'usage') continue;
-    throw new LogError({ file: logs[role].name }, (texts) => texts.otherUnit(speedRatio, logs[otherRole].name, likelyUnit), { option: 'lengthUnit', choices: [likelyUnit, assumedUnit] });
+    throw new LogError({ file: logs[role].name }, (texts) => texts.otherUnitReason(speedRatio, logs[otherRole].name, likelyUnit), { option: 'lengthUnit', choices: [likelyUnit, assumedUnit] });
   }
 }

@@ -11,7 +11,7 @@ export interface Path { t: number[]; poses: Pose[]; breaks: Set<number> }
 /** Returns an angle between −π and π. */
 export const wrapAngle = (angle: number) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 
-/** Returns the path through the poses of a log, or from the origin by its commands. The path has a pose for each `rowsPerPose` rows, and one for the last row. */
+/** Returns the path of a log: through its poses, or from the origin by its commands. The path has a pose for each `rowsPerPose` rows, and one for the last row. */
 export function pathOf(data: Poses | Commands, rowsPerPose = 1): Path {
   const { t, breaks } = data;
   const path: Path = { t: [], poses: [], breaks: new Set() };

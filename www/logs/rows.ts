@@ -22,7 +22,7 @@ export interface Sample {
 interface LogFacts {
   /** Units that the names of columns or the file format state. */
   units: Units;
-  /** Name of the clock of the rows, and of the other clock if there is one. */
+  /** Name of the first clock, and name of the fallback clock if there is one. */
   clocks: [string, string?];
   frames?: Summary['frames'];
   columns?: Summary['columns'];
@@ -48,13 +48,13 @@ const MIN_POSES = 20;
 /** Minimum number of repetitions of a pose that shows a standing robot, as a multiple of the usual number. A localizer also repeats poses while the robot moves slowly. */
 const STANDSTILL_FACTOR = 8;
 
-/** Limits for rows of different runs (rows with rising times) that overlap: maximum time between them, in median steps; maximum number in a run; maximum fraction of all rows. */
+/** Limits for overlaps of runs. A run is a sequence of rows with rising times. Maximum time between overlapping rows, in median steps; maximum number of overlaps of a run; maximum fraction of all rows. */
 const [MAX_OVERLAP_STEPS, MAX_RUN_OVERLAPS, MAX_OVERLAP_FRACTION] = [0.75, 2, 0.02];
 
 /** Limits for rows that are late: maximum length of the path in order of time, relative to its length in order of the file, and minimum number of late rows. */
 const [MAX_LATE_PATH_RATIO, MIN_LATE_ROWS] = [0.75, 20];
 
-/** Limits for two paths in one log: minimum distance (m) between them, above vibrations, and minimum number of long steps, above the number of jumps. */
+/** Limits for finding two paths in one log: minimum distance (m) between the paths, larger than vibrations, and minimum number of long steps, larger than a usual number of jumps. */
 const [MIN_PATH_DISTANCE, MIN_LONG_STEPS] = [0.05, 20];
 
 /**
@@ -112,7 +112,7 @@ export class RowCollector {
     if (c === undefined) return this.dropRow('noRotation', line);
     if (!(Number.isFinite(time) && Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) <= MAX_VALUE)) return this.dropRow('notFinite', line);
     this.rowCount += 1;
-    if (this.rowCount > MAX_ROWS) throw new LogError(this.#logPlace, (texts) => texts.rows(MAX_ROWS));
+    if (this.rowCount > MAX_ROWS) throw new LogError(this.#logPlace, (texts) => texts.tooManyRowsReason(MAX_ROWS));
     const columns = this.#columns;
     columns.time.push(time);
     columns.a.push(a);
@@ -127,7 +127,7 @@ export class RowCollector {
   }
 
   /** Spread of the cosine of the tilt: the difference between its 95 % and 5 % quantiles. A small spread shows that Z is the vertical axis. */
-  get tiltSpread(): number {
+  get tiltCosineSpread(): number {
     const [low, high] = [0.05, 0.95].map((fraction) => quantileOf(sampleEvenly(this.#tiltCosines.length, (i) => this.#tiltCosines[i]), fraction));
     return high - low || 0;
   }
@@ -137,10 +137,10 @@ export class RowCollector {
     const { rowCount } = this;
     const damage = this.#damage;
     if (damage && damage.count > MAX_DAMAGED_FRACTION * rowCount) {
-      const composeSentences = (texts: Words['refused']) => [damage.formatReason(texts), ...(damage.count > 1 && damage.count < rowCount ? [texts.manyBad(damage.count, rowCount, 100 * MAX_DAMAGED_FRACTION)] : [])];
+      const composeSentences = (texts: Words['refused']) => [damage.formatReason(texts), ...(damage.count > 1 && damage.count < rowCount ? [texts.damagedRowsReason(damage.count, rowCount, 100 * MAX_DAMAGED_FRACTION)] : [])];
       throw new LogError({ ...this.#logPlace, line: damage.line }, (texts) => composeSentences(texts).join(' '));
     }
-    if (this.tiltSpread > MAX_TILT_SPREAD) throw new LogError(this.#logPlace, (texts) => texts.tilted);
+    if (this.tiltCosineSpread > MAX_TILT_SPREAD) throw new LogError(this.#logPlace, (texts) => texts.tiltedPosesReason);
     const usesOtherClock = clocks[1] !== undefined && this.#isClockStill();
     if (usesOtherClock) this.#times = this.#columns.otherTime;
     const stampedRows = this.#dropUnsetTimes();
@@ -150,14 +150,14 @@ export class RowCollector {
     const rows = kind === 'poses' ? this.#dropRepeatedPoses(rowsOfDistinctTime) : rowsOfDistinctTime;
     if (rows.length < 2) {
       const [cause, firstDroppedRows] = (Object.entries(this.#dropped) as [DropCause, { first: number }][])[0] ?? [];
-      throw new LogError({ ...this.#logPlace, line: firstDroppedRows?.first }, (texts) => texts.few(rows.length, rowCount, cause));
+      throw new LogError({ ...this.#logPlace, line: firstDroppedRows?.first }, (texts) => texts.fewRowsReason(rows.length, rowCount, cause));
     }
     const [times, a, b, c, z] = [this.#times, this.#columns.a, this.#columns.b, this.#columns.c, this.#columns.z].map((column) => new Float64Array(rows.length).map((_, i) => column[rows[i]]));
     const t = times.map((time) => time - start);
     const columns: Columns = { start, t, a, b, c, z };
     const units = judgeUnits(this.#logPlace, kind, columns, assumedUnits, options, createColumnQuestion);
     const pathDistance = kind === 'poses' ? distanceOfPaths(t, a, b) : 0;
-    if (pathDistance > 0) throw new LogError(this.#logPlace, (texts) => texts.turns(pathDistance));
+    if (pathDistance > 0) throw new LogError(this.#logPlace, (texts) => texts.alternatingPathsReason(pathDistance));
     const { breaks, jumpRows, ...foundGaps } = this.#findEvents(kind, [t, a, b, c], (i) => this.#columns.breakFlags[rows[i]] === 1);
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
     const notes: Note[] = [
@@ -220,7 +220,7 @@ export class RowCollector {
     if (setBackRun !== undefined) {
       const setBackRow = runOfRow.indexOf(setBackRun);
       const line = this.#columns.line[rows[setBackRow]];
-      throw new LogError({ ...this.#logPlace, line }, (texts) => texts.setBack(times[setBackRow - 1] - times[setBackRow]));
+      throw new LogError({ ...this.#logPlace, line }, (texts) => texts.clockSetBackReason(times[setBackRow - 1] - times[setBackRow]));
     }
     let newestTime = -Infinity;
     const isLate = (time: number) => time < (newestTime = Math.max(newestTime, time));
@@ -239,7 +239,7 @@ export class RowCollector {
     });
     if (rows.length > 3 && contradictions > MAX_CONTRADICTING_FRACTION * rows.length) {
       const line = this.#dropped.duplicate?.first;
-      throw new LogError({ ...this.#logPlace, line }, (texts) => texts.sameTimes(contradictions, rows.length));
+      throw new LogError({ ...this.#logPlace, line }, (texts) => texts.equalTimesReason(contradictions, rows.length));
     }
     return distinctRows;
   }

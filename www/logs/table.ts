@@ -18,10 +18,10 @@ const CHECKED_CHARACTERS = 4096;
 /** Maximum number of characters in a line. A row of a thousand columns is shorter. */
 const MAX_LINE_LENGTH = 2 ** 16;
 
-/** Change of columns after which the vertical axis is Z: the file has Y up, or quaternions that start with w. */
+/** Changes of a table's columns that make Z the vertical axis: for a file with Y up, or with quaternions that start with w. */
 type TiltChange = 'yUp' | 'wFirst';
 
-/** Limits for changing columns: minimum spread of the tilt's cosine, above that of noise, and maximum ratio of the spread after the change to that before. */
+/** Limits for reading columns in another order: minimum spread of the cosine of Z's tilt (noise has less), and maximum spread in the new order, relative to that in the old order. */
 const [MIN_TILT_SPREAD, MAX_TILT_RATIO] = [0.001, 0.1];
 
 /** Minimum number of rows with equally many decimals in the last column. If the last row after them has fewer decimals, the file is cut off. */
@@ -31,7 +31,7 @@ export async function openTable(source: Source, optionsOf: OptionsByName): Promi
   const headBytes = await readBytes(source, 0, Math.min(HEAD_BYTES, source.size));
   const encoding = detectEncoding(headBytes);
   const headText = new TextDecoder(encoding).decode(headBytes, { stream: true });
-  if (headText.slice(0, CHECKED_CHARACTERS).includes('\0')) throw new LogError({ file: source.name }, (texts) => texts.binary);
+  if (headText.slice(0, CHECKED_CHARACTERS).includes('\0')) throw new LogError({ file: source.name }, (texts) => texts.unknownFormatReason);
   const headLines = headText.split('\n');
   // The last line of the sampled text may be incomplete. It is dropped unless it is the only line.
   if (source.size > HEAD_BYTES && headLines.length > 1) headLines.pop();
@@ -53,7 +53,7 @@ export async function openTable(source: Source, optionsOf: OptionsByName): Promi
     format: 'csv',
     series: allSeries,
     async read(choices, onProgress) {
-      /** Reads the chosen logs. With a change of columns, it reads only logs that have the changed columns. */
+      /** Reads the chosen logs. With a change of columns, it reads only logs that have all columns of the change. */
       const readWith = async (changeName?: TiltChange) => {
         const readers = choices.map(({ series: seriesName, kind }) => {
           const chosenGroup = format.columnGroups[allSeries.findIndex(({ name }) => name === seriesName)];
@@ -68,13 +68,13 @@ export async function openTable(source: Source, optionsOf: OptionsByName): Promi
         return readers;
       };
       let readers = (await readWith()) as LogReader[];
-      // A robot turns about its vertical axis. A change of columns is made if the tilt of Z then varies far less.
+      // A robot turns about its vertical axis, so that the tilt of this axis hardly varies. Columns are read in another order if the tilt of Z then varies far less.
       for (const changeName of ['yUp', 'wFirst'] as const) {
-        if (!readers.some(({ rows }) => rows.tiltSpread > MIN_TILT_SPREAD)) break;
+        if (!readers.some(({ rows }) => rows.tiltCosineSpread > MIN_TILT_SPREAD)) break;
         const changedReaders = await readWith(changeName);
         readers = readers.map((reader, i) => {
           const changedReader = changedReaders[i];
-          return changedReader && changedReader.rows.tiltSpread < MAX_TILT_RATIO * reader.rows.tiltSpread ? changedReader : reader;
+          return changedReader && changedReader.rows.tiltCosineSpread < MAX_TILT_RATIO * reader.rows.tiltCosineSpread ? changedReader : reader;
         });
       }
       return readers.map((reader) => reader.buildLog());
@@ -111,7 +111,7 @@ async function readLines(source: Source, encoding: string, firstLineNumber: numb
     const lines = text.split('\n');
     incompleteLine = lines.pop() ?? '';
     for (const line of lines) passLine(line, false);
-    if (incompleteLine.length > MAX_LINE_LENGTH) throw new LogError({ file: source.name, line: number + 1 }, (texts) => texts.longLine(MAX_LINE_LENGTH));
+    if (incompleteLine.length > MAX_LINE_LENGTH) throw new LogError({ file: source.name, line: number + 1 }, (texts) => texts.longLineReason(MAX_LINE_LENGTH));
   }
   passLine(incompleteLine + decoder.decode(), true);
 }
@@ -164,7 +164,7 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
   /** Numbers of decimals that occur in the last column. */
   const decimalCounts = new Set<number>();
 
-  const dropTextRow = (line: number, columnName: string, cell: string) => rows.dropRow('text', line, (texts) => texts.number(truncate(columnName), truncate(cell.trim())));
+  const dropTextRow = (line: number, columnName: string, cell: string) => rows.dropRow('text', line, (texts) => texts.notNumericReason(truncate(columnName), truncate(cell.trim())));
 
   const addCellsAsRow = (cells: string[], line: number) => {
     const times: number[] = [];
@@ -196,7 +196,7 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
       const isCutNumber = isUnterminated && rows.rowCount >= MIN_UNIFORM_ROWS && decimalCounts.size === 1 && decimalCount < Math.min(...decimalCounts) && line.trimEnd().endsWith(lastCell);
       decimalCounts.add(decimalCount);
       if (cells.length < neededCellCount || isCutNumber) {
-        if (!isUnterminated) return rows.dropRow('short', number, (texts) => texts.cells(cells.length, neededCellCount));
+        if (!isUnterminated) return rows.dropRow('short', number, (texts) => texts.shortRowReason(cells.length, neededCellCount));
         notes.push({ name: 'cutShort', values: [] });
         return rows.dropRow('short', number);
       }
@@ -205,9 +205,9 @@ function createLogReader(name: string, errorPlace: ErrorPlace, format: TableForm
     },
 
     buildLog(): Log {
-      if (rowNames.size > 1) throw new LogError(errorPlace, (texts) => texts.mixed(listNames([...rowNames])));
+      if (rowNames.size > 1) throw new LogError(errorPlace, (texts) => texts.mixedSourcesReason(listNames([...rowNames])));
       const { unit = 's', by } = clockReaders[0].judgedUnit;
-      if (!(unit in UNIT_EXPONENTS)) throw new LogError(errorPlace, (texts) => texts.unknownUnit(truncate(unit)));
+      if (!(unit in UNIT_EXPONENTS)) throw new LogError(errorPlace, (texts) => texts.unknownUnitReason(truncate(unit)));
       return rows.buildLog(name, kind, {
         units: {
           time: { unit, by },

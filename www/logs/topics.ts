@@ -7,7 +7,7 @@ import { LogError, truncate, listNames, reasonOf, RECORDING_CLOCK, formatFrames,
 import { isReadable, logKindOfType, sampleReaderOf, readTransforms } from './messages.ts';
 import { RowCollector } from './rows.ts';
 
-/** Maximum number of messages with transforms from which the pairs of frames are found. */
+/** Maximum number of messages that are read to find the pairs of frames of a topic. */
 const MAX_FRAME_MESSAGES = 2000;
 
 /** Maximum number of characters of a topic's message types in a sentence. */
@@ -20,7 +20,7 @@ export async function createRecording(name: string, container: Container, option
   const { format, channels } = container;
   if (channels.every(({ count }) => count === 0)) {
     const damageReason = damageReasonOf(container);
-    throw new LogError({ file: name }, (texts) => (damageReason ? texts.damaged(damageReason, format) : texts.few(0, 0)));
+    throw new LogError({ file: name }, (texts) => (damageReason ? texts.damagedFileReason(damageReason, format) : texts.fewRowsReason(0, 0)));
   }
   const series = await listSeries(container);
   return { name, format, series, read };
@@ -74,9 +74,9 @@ function createTopicReader(file: string, container: Container, { series: topic, 
   const refuse = (formatReason: ErrorReason): never => {
     throw new LogError({ file, topic }, formatReason);
   };
-  if (kind === 'positions') refuse((texts) => texts.positions(type));
+  if (kind === 'positions') refuse((texts) => texts.noHeadingReason(type));
   const hasWantedKind = frames ? kind === 'transforms' : kind !== null && !(wantedKind === 'poses' && kind === 'commands');
-  if (!hasWantedKind) refuse((texts) => texts.type(truncate(type, MAX_TYPE_LENGTH), frames ? 'transforms' : wantedKind === 'poses' ? wantedKind : 'either'));
+  if (!hasWantedKind) refuse((texts) => texts.wrongTypeReason(truncate(type, MAX_TYPE_LENGTH), frames ? 'transforms' : wantedKind === 'poses' ? wantedKind : 'either'));
   const rows = new RowCollector({ file, topic });
   const chain = frames && new FrameTree(frames);
   const readSample = sampleReaderOf(type);
@@ -92,7 +92,7 @@ function createTopicReader(file: string, container: Container, { series: topic, 
         for (const transform of readTransforms(message)) chain?.addTransform(transform, isStaticTopic(message.channel), message.time, messageCount);
       } catch (error) {
         if (error instanceof LogError) throw error;
-        rows.dropRow('damaged', messageCount, (texts) => texts.message(reasonOf(error)));
+        rows.dropRow('damaged', messageCount, (texts) => texts.unreadableMessageReason(reasonOf(error)));
       }
     },
 
@@ -100,11 +100,11 @@ function createTopicReader(file: string, container: Container, { series: topic, 
     buildLog(optionsOf: OptionsByName): Log {
       const { format, damageReasons, truncationReason } = container;
       const lossReason = damageReasonOf(container);
-      if (messageCount === 0 && lossReason) refuse((texts) => texts.damaged(lossReason, format));
-      if (chain && !chain.isConnected) refuse((texts) => texts.noChain(formatFrames(frames), listNames(chain.links.map(formatFrames))));
+      if (messageCount === 0 && lossReason) refuse((texts) => texts.damagedFileReason(lossReason, format));
+      if (chain && !chain.isConnected) refuse((texts) => texts.unconnectedFramesReason(formatFrames(frames), listNames(chain.links.map(formatFrames))));
       if (chain && !chain.readPoses((pose, { recordTime, messageNumber }) => rows.addRow(pose, messageNumber, recordTime))) {
         const otherFrames = chain.findPoseFrames().map(formatFrames).filter((otherText) => otherText !== formatFrames(frames));
-        refuse((texts) => texts.constant(formatFrames(frames), listNames(otherFrames)));
+        refuse((texts) => texts.constantTransformReason(formatFrames(frames), listNames(otherFrames)));
       }
       const logKind = kind === 'commands' ? 'commands' : 'poses';
       const notes: Note[] = [

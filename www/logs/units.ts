@@ -34,7 +34,7 @@ const [USUAL_RATES, POSSIBLE_RATES] = [[0.2, 2000], [0.05, 5000]] as const;
 /** Minimum and maximum plausible speed of a robot, m/s or rad/s. */
 const [MIN_SPEED, MAX_SPEED] = [0.005, 20.5];
 
-/** Limits for the unit of length: a speed (m/s) that is doubtful if the acceleration (m/s²) is also beyond that of tyres; this acceleration; and a speed that is always doubtful. */
+/** Limits above which the unit of length is doubtful: a speed (m/s) together with an acceleration (m/s²) beyond that of tyres, and a speed (m/s) alone. */
 const [DOUBTFUL_SPEED, MAX_ACCELERATION, MAX_VEHICLE_SPEED] = [5, 10, 50];
 
 /** Typical speed of a robot, m/s. */
@@ -73,10 +73,10 @@ export function judgeUnits(errorPlace: ErrorPlace, kind: LogKind, columns: Colum
   const alignment = isJudged && kind === 'poses' ? alignmentWithPath(t, a, b, c) : undefined;
   if (alignment?.sign === -1) {
     // The cosine is negative if x and y are swapped, because headings and path then differ by a right angle. Otherwise y has the wrong sign.
-    throw new LogError(errorPlace, (texts) => texts.mirrored, createColumnQuestion?.(COLUMN_CHANGES[alignment.cosine < 0 ? 'swapped' : 'negatedY']));
+    throw new LogError(errorPlace, (texts) => texts.mirroredPathReason, createColumnQuestion?.(COLUMN_CHANGES[alignment.cosine < 0 ? 'swappedXAndY' : 'negatedY']));
   }
   const alignmentWithYUp = isJudged && kind === 'poses' && createColumnQuestion && !alignment ? alignmentWithPath(t, a, z, c) : undefined;
-  if (createColumnQuestion && alignmentWithYUp) throw new LogError(errorPlace, (texts) => texts.yUp, createColumnQuestion(COLUMN_CHANGES[alignmentWithYUp.sign > 0 ? 'leftHandedWithYUp' : 'yUp']));
+  if (createColumnQuestion && alignmentWithYUp) throw new LogError(errorPlace, (texts) => texts.yUpReason, createColumnQuestion(COLUMN_CHANGES[alignmentWithYUp.sign > 0 ? 'leftHandedWithYUp' : 'yUp']));
   const turnRateAt = kind === 'poses' ? (i: number) => (c[i + 1] - c[i]) / (t[i + 1] - t[i]) : (i: number) => b[i];
   const turnRate = quantileOf(sampleEvenly(t.length - 1, (i) => Math.abs(turnRateAt(i))), 0.9);
   const mayBeDegrees = kind === 'poses' ? c.some((heading) => Math.abs(heading) > MAX_WRAPPED_HEADING) : turnRate > MAX_SPEED;
@@ -146,7 +146,7 @@ function pathSpeedOf(t: Float64Array, x: Float64Array, y: Float64Array): number 
 const commandSpeedOf = (v: Float64Array): number => quantileOf(sampleEvenly(v.length, (i) => Math.abs(v[i])), 0.9);
 
 /** Returns the 90 % quantile of the speeds of a log (m/s). */
-export const speedOf = (data: Poses | Commands): number => ('x' in data ? pathSpeedOf(data.t, data.x, data.y) : commandSpeedOf(data.v));
+export const logSpeedOf = (data: Poses | Commands): number => ('x' in data ? pathSpeedOf(data.t, data.x, data.y) : commandSpeedOf(data.v));
 
 /** Returns the 99 % quantile of the accelerations between steps; for commands, that of the accelerations of v. */
 function accelerationOf(kind: LogKind, { t, a, b }: Columns): number {

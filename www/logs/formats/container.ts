@@ -6,7 +6,7 @@ export interface Channel {
   topic: string;
   /** Message type as it was recorded. */
   type: string;
-  /** Serialization: "cdr" of ROS 2, "ros1", or another. */
+  /** Serialization of the messages: "cdr" (ROS 2), "ros1", or another one, which is not read. */
   encoding: string;
   count: number;
 }

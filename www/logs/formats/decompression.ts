@@ -13,7 +13,7 @@ const MAX_LOG_MESSAGE_BYTES = 2 ** 17;
 const INPUT_PIECE_BYTES = 2 ** 20;
 
 /** Maximum number of successive empty outputs of the decoder. Valid data gives one empty output at the end of each piece of input, and of each frame. */
-const MAX_EMPTY_PARTS = 100;
+const MAX_EMPTY_OUTPUTS = 100;
 
 export const loadZstd = () => zstdDecoder.init();
 
@@ -28,11 +28,11 @@ export function decompressZstd(bytes: Uint8Array, size: number): Uint8Array {
 /** Decompresses the pieces of a file or message. Returns undefined if the content has more than `maxBytes`; throws an error if the pieces are damaged. */
 function decompressZstdPieces(pieces: Iterable<Uint8Array>, maxBytes: number): Uint8Array<ArrayBuffer>[] | undefined {
   const outputParts: Uint8Array<ArrayBuffer>[] = [];
-  let [size, emptyPartCount] = [0, 0];
+  let [size, emptyOutputCount] = [0, 0];
   for (const outputPart of zstdDecoder.decodeStreaming(pieces)) {
     // The decoder does not report damaged data, but returns empty outputs without end.
-    emptyPartCount = outputPart.length === 0 ? emptyPartCount + 1 : 0;
-    if (emptyPartCount > MAX_EMPTY_PARTS) throw new RangeError('its compression is damaged');
+    emptyOutputCount = outputPart.length === 0 ? emptyOutputCount + 1 : 0;
+    if (emptyOutputCount > MAX_EMPTY_OUTPUTS) throw new RangeError('its compression is damaged');
     outputParts.push(outputPart as Uint8Array<ArrayBuffer>);
     size += outputPart.length;
     if (size > maxBytes) return undefined;
@@ -53,9 +53,9 @@ export async function decompressZstdFile(source: Source): Promise<Source> {
     outputParts = source.size > MAX_FILE_BYTES ? undefined : decompressZstdPieces(piecesOf(await readBytes(source, 0, source.size)), MAX_FILE_BYTES);
   } catch (error) {
     if (error instanceof LogError) throw error;
-    throw new LogError({ file: source.name }, (texts) => texts.damaged(reasonOf(error)));
+    throw new LogError({ file: source.name }, (texts) => texts.damagedFileReason(reasonOf(error)));
   }
-  if (!outputParts) throw new LogError({ file: source.name }, (texts) => texts.largeFile('zstd -d', MAX_FILE_BYTES));
+  if (!outputParts) throw new LogError({ file: source.name }, (texts) => texts.largeFileReason('zstd -d', MAX_FILE_BYTES));
   const decompressedFile = new Blob(outputParts);
   return { name: source.name, path: source.path, size: decompressedFile.size, slice: (start, end) => decompressedFile.slice(start, end) };
 }

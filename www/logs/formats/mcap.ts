@@ -53,14 +53,14 @@ class Mcap extends MessageFile {
   async readMessages(isWanted: IsWanted, onMessage: OnMessage, onBlock?: OnBlock): Promise<void> {
     const { size } = this.source;
     const readBytesAt = createAheadReader(this.source);
-    let isComplete = this.chunks !== undefined;
+    let isFileComplete = this.chunks !== undefined;
     const readBlock = async (recordStart: number, setEnd: (end: number) => void) => {
       const recordHead = await readBytesAt(recordStart, recordStart + RECORD_HEAD_BYTES);
       const [opcode, length] = [recordHead[0], readUint53(dataViewOf(recordHead), 1)];
       const end = recordStart + RECORD_HEAD_BYTES + length;
       if (end > size) throw new RangeError('a record is cut short');
-      isComplete ||= opcode === DATA_END_OPCODE;
-      setEnd(isComplete ? size : end);
+      isFileComplete ||= opcode === DATA_END_OPCODE;
+      setEnd(isFileComplete ? size : end);
       if (this.chunks && opcode !== CHUNK_OPCODE) throw new RangeError('no chunk is there');
       if (![SCHEMA_OPCODE, CHANNEL_OPCODE, MESSAGE_OPCODE, CHUNK_OPCODE].includes(opcode)) return;
       if (length > MAX_BLOCK_BYTES) throw new RangeError(`a record of ${length} bytes`);
@@ -68,7 +68,7 @@ class Mcap extends MessageFile {
       this.#readRecords(opcode === CHUNK_OPCODE ? await recordsOf(record.subarray(RECORD_HEAD_BYTES)) : record, isWanted, onMessage);
     };
     await this.readBlocks(MAGIC_BYTES, isWanted, readBlock, onBlock);
-    if (!isComplete) this.truncationReason ??= 'it ends without an index';
+    if (!isFileComplete) this.truncationReason ??= 'it ends without an index';
   }
 
   #readRecords(bytes: Uint8Array, isWanted: IsWanted, onMessage: OnMessage): void {

@@ -18,13 +18,13 @@ export async function findListedFiles(metadata: Source, sources: Source[]): Prom
     fileNames.push(...paths.map((path) => baseNameOf(String(path))));
   } catch (error) {
     if (error instanceof LogError) throw error;
-    throw new LogError(errorPlace, (texts) => texts.damaged(reasonOf(error)));
+    throw new LogError(errorPlace, (texts) => texts.damagedFileReason(reasonOf(error)));
   }
   const filesInFolder = sources.filter((source) => folderOf(source) === folderOf(metadata));
   // A file that the user has decompressed lacks the ending ".zstd" of the listed name.
   const files = fileNames.map((name) => filesInFolder.find((source) => [name, name.replace(/\.zstd$/, '')].includes(baseNameOf(source.name))));
   const missingNames = fileNames.filter((_, i) => !files[i]);
-  if (missingNames.length > 0 || files.length === 0) throw new LogError(errorPlace, (texts) => texts.noFiles(listNames(missingNames)));
+  if (missingNames.length > 0 || files.length === 0) throw new LogError(errorPlace, (texts) => texts.missingFilesReason(listNames(missingNames)));
   const folder = baseNameOf(folderOf(metadata).replace(/\/$/, ''));
   return { name: folder || fileNames[0], files: files as Source[] };
 }

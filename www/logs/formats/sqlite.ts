@@ -53,7 +53,7 @@ class Rosbag2 extends MessageFile {
 
   async open(): Promise<void> {
     const view = dataViewOf(await readBytes(this.source, 0, HEADER_BYTES));
-    const createNotRosbag2Error = () => new LogError({ file: this.source.name }, (texts) => texts.noRosbag2);
+    const createNotRosbag2Error = () => new LogError({ file: this.source.name }, (texts) => texts.foreignDatabaseReason);
     if (view.byteLength < HEADER_BYTES) {
       this.truncationReason = 'its header is cut short';
       return;

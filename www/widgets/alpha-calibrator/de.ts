@@ -188,8 +188,8 @@ export const de: typeof import('./en.ts').en = {
     standing: 'im Stillstand',
   },
   logControls: {
-    dropHint: 'Log hierher ziehen: ROS-Bag (.bag, .db3, .mcap, Ordner), CSV oder TUM, oder',
-    dropTooltip: 'Odometrie und Referenz: eine Aufzeichnung mit beiden oder zwei Dateien; bei mehreren Fahrten alle Dateien zugleich. Nichts verlässt dieses Gerät.',
+    dropZoneHint: 'Log hierher ziehen: ROS-Bag (.bag, .db3, .mcap, Ordner), CSV oder TUM, oder',
+    dropZoneTooltip: 'Odometrie und Referenz: eine Aufzeichnung mit beiden oder zwei Dateien; bei mehreren Fahrten alle Dateien zugleich. Nichts verlässt dieses Gerät.',
     chooseFilesLabel: 'Dateien wählen',
     title: 'Aufzeichnung und Referenz',
     leaveLabel: 'Zurück zur simulierten Aufzeichnung',
@@ -209,7 +209,7 @@ export const de: typeof import('./en.ts').en = {
     saveJsonLabel: 'Alles als JSON speichern',
     noYamlNote: 'Keine Zeilen für nav2_params.yaml: Nav2 hat kein Geschwindigkeitsmodell, oder es werden keine α empfohlen. In JSON steht alles.',
     localizer: 'Warnung: Die Referenz ist die Schätzung eines Lokalisierers. Ihre Fehler folgen der Odometrie: Die α sind zu klein. Eine unabhängig gemessene Referenz verwenden.',
-    swapped: 'Warnung: Nach den Namen scheinen Odometrie und Referenz vertauscht. Sind sie es, so gelten die α für die Referenz: die beiden tauschen.',
+    swappedRoles: 'Warnung: Nach den Namen scheinen Odometrie und Referenz vertauscht. Sind sie es, so gelten die α für die Referenz: die beiden tauschen.',
     correctionAdvice: (distanceFactor, turnFactor) =>
       `Zuerst in der Odometrie ${[distanceFactor && `Strecken mit ${distanceFactor}`, turnFactor && `Drehungen mit ${turnFactor}`].filter(Boolean).join(' und ')} multiplizieren: Die α gelten für den korrigierten Roboter.`,
   },

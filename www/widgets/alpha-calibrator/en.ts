@@ -163,8 +163,8 @@ export const en = {
     standing: 'standing still',
   },
   logControls: {
-    dropHint: 'Drop a log here: ROS bag (.bag, .db3, .mcap, folder), CSV or TUM, or',
-    dropTooltip: 'Odometry and reference: one recording with both, or two files; of several drives, all files at once. Nothing leaves this device.',
+    dropZoneHint: 'Drop a log here: ROS bag (.bag, .db3, .mcap, folder), CSV or TUM, or',
+    dropZoneTooltip: 'Odometry and reference: one recording with both, or two files; of several drives, all files at once. Nothing leaves this device.',
     chooseFilesLabel: 'choose files',
     title: 'Log and reference',
     leaveLabel: 'Back to the simulated log',
@@ -184,7 +184,7 @@ export const en = {
     saveJsonLabel: 'Save all as JSON',
     noYamlNote: 'No lines for nav2_params.yaml: Nav2 has no velocity model, or no α’s are recommended. JSON has everything.',
     localizer: 'Warning: the reference is a localizer’s own estimate. Its errors follow the odometry: the α’s are too small. Use a reference that is measured independently.',
-    swapped: 'Warning: by their names, odometry and reference seem to be swapped. If they are, the α’s are those of the reference: exchange the two.',
+    swappedRoles: 'Warning: by their names, odometry and reference seem to be swapped. If they are, the α’s are those of the reference: exchange the two.',
     correctionAdvice: (distanceFactor, turnFactor) =>
       `First multiply the odometry’s ${[distanceFactor && `distances by ${distanceFactor}`, turnFactor && `turns by ${turnFactor}`].filter(Boolean).join(' and ')}: the α’s are those of the corrected robot.`,
   },

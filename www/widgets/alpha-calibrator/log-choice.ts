@@ -48,7 +48,7 @@ export function logChoosersHtml(opener: LogOpener) {
   return html`<div class="choosers">
     ${roleChoosers.length ? html`<div class="choices">${roleChoosers}</div>` : nothing}
     ${questions.map((question) => questionHtml(opener, chosenFiles, question, texts))}
-    ${skipped.filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${texts.choose.skipped(opener.explainRefusal(failure))}</p>`)}
+    ${skipped.filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${texts.choose.skippedFileNote(opener.explainRefusal(failure))}</p>`)}
   </div>`;
 }
 
@@ -67,29 +67,29 @@ function seriesSelectHtml(opener: LogOpener, { recordings, userChoices }: Chosen
   const plannedRecording = recordings.find(({ choices }) => choices?.[role]);
   const currentChoice = (userChoices[role] as LogChoice | undefined) ?? plannedRecording?.choices?.[role];
   const currentLabel = currentChoice ? choiceLabelOf(currentChoice) || (plannedRecording ?? recordings[0]).name : '';
-  return selectHtml(`log-${role}`, texts.roles[role], currentLabel, [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
+  return selectHtml(`log-${role}`, texts.roleNames[role], currentLabel, [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
     const choice = choiceByLabel.get(label);
     if (choice) opener.changeChoices({ userChoices: { ...userChoices, [role]: choice } });
-  }, texts.open);
+  }, texts.openPlaceholder);
 }
 
 function roleSelectHtml(opener: LogOpener, { recordings, answers }: ChosenFiles, recordingIndex: number, { choose: texts }: LogWords) {
   const { name, choices } = recordings[recordingIndex];
   const currentRole = answers[name]?.role ?? ROLES.find((role) => choices?.[role]);
-  return selectHtml(`log-role-${recordingIndex}`, name, currentRole ?? '', ROLES.map((role) => [role, texts.roles[role]]), (chosenValue) => {
+  return selectHtml(`log-role-${recordingIndex}`, name, currentRole ?? '', ROLES.map((role) => [role, texts.roleNames[role]]), (chosenValue) => {
     const role = chosenValue as Role;
     // If there are two files with one log each, and the user chooses the role of one file, the other file gets the other role.
     const otherRecording = recordings.length === 2 ? recordings[1 - recordingIndex] : undefined;
     const hasOtherRole = otherRecording && labelledChoicesOf(otherRecording).length === 1;
     opener.answer({ ...(hasOtherRole && { [otherRecording.name]: { role: role === 'odometry' ? 'reference' : 'odometry' } }), [name]: { role } });
-  }, texts.open);
+  }, texts.openPlaceholder);
 }
 
 function questionHtml(opener: LogOpener, { answers }: ChosenFiles, question: FileQuestion, { choose: texts }: LogWords) {
   const { file, option, choices: unitChoices } = question;
   if (option === 'columns') return columnsFormHtml(opener, question, answers[file]?.columns?.join(), texts);
   if (option !== 'timeUnit' && option !== 'lengthUnit' && option !== 'angleUnit') return nothing;
-  const unitLabels: Record<string, string> = Object.fromEntries((unitChoices.length ? unitChoices : UNITS[option]).map((unit) => [unit, texts.units[unit as keyof typeof texts.units]]));
+  const unitLabels: Record<string, string> = Object.fromEntries((unitChoices.length ? unitChoices : UNITS[option]).map((unit) => [unit, texts.unitNames[unit as keyof typeof texts.unitNames]]));
   return html`<div id=${questionIdOf(question)}>
     ${radioGroupHtml(texts[option](file), questionIdOf(question), unitLabels, answers[file]?.[option] ?? '', (unit) => opener.answer({ [file]: { [option]: unit } }))}
   </div>`;
@@ -101,7 +101,7 @@ function columnsFormHtml(opener: LogOpener, question: FileQuestion, answeredName
   const columnNames = chosenNames.split(',');
   // Each column is offered twice: as it is, and with the opposite sign.
   const options = ['', '-'].flatMap((sign) => columns.map((headerCell, columnIndex) =>
-    ({ sign, columnIndex, label: `${sign && `${MINUS} `}${texts.column(columnIndex + 1, headerCell.trim().slice(0, MAX_CELL_LENGTH))}` })));
+    ({ sign, columnIndex, label: `${sign && `${MINUS} `}${texts.columnLabel(columnIndex + 1, headerCell.trim().slice(0, MAX_CELL_LENGTH))}` })));
   const submitColumns = (event: Event) => {
     event.preventDefault();
     const newFields = columns.map(() => '-');
@@ -115,16 +115,16 @@ function columnsFormHtml(opener: LogOpener, question: FileQuestion, answeredName
   };
   return keyed(question, html`<form id=${questionIdOf(question)} @submit=${submitColumns}>
     <fieldset>
-      <legend>${texts.columns(file, chosenNames !== '' && chosenNames !== answeredNames)}</legend>
+      <legend>${texts.columnsLegend(file, chosenNames !== '' && chosenNames !== answeredNames)}</legend>
       <div class="choices">
         ${COLUMN_FIELDS.filter((field) => !field.startsWith('q') || columns.length >= MIN_QUATERNION_COLUMNS).map((field) => html`<label>
-          ${texts.fields[field]}
-          <select name=${field} aria-label=${texts.fields[field]} aria-describedby="refusal">
-            <option value="">${texts.none}</option>
+          ${texts.fieldNames[field]}
+          <select name=${field} aria-label=${texts.fieldNames[field]} aria-describedby="refusal">
+            <option value="">${texts.noColumnLabel}</option>
             ${options.slice(0, field === 't' ? columns.length : undefined).map(({ sign, columnIndex, label }, i) => html`<option value=${i} ?selected=${fields[columnIndex] === `${sign}${field}`}>${label}</option>`)}
           </select>
         </label>`)}
-        <button type="submit" part="button">${texts.read}</button>
+        <button type="submit" part="button">${texts.readLabel}</button>
       </div>
     </fieldset>
   </form>`);
@@ -157,9 +157,9 @@ export function logSummaryHtml({ chosenFiles, texts, host }: LogOpener) {
   // The clock offset is known only after the fit. Until then it is taken as 0.
   const clockOffset = (chosenFiles.isFitted ? host.viewModel.stats.systematicErrors.clockOffset.value : undefined) ?? 0;
   return html`<details class="found" open>
-    <summary>${texts.found.title}</summary>
+    <summary>${texts.found.summaryTitle}</summary>
     ${guard([drives, texts, language, clockOffset], () => drives.map((drive, i) => html`<div class="drive">
-      ${logTableHtml(drive, drives.length > 1 ? texts.found.drive(i + 1) : '', texts)}
+      ${logTableHtml(drive, drives.length > 1 ? texts.found.driveCaption(i + 1) : '', texts)}
       ${pathsPictureHtml(drive, clockOffset, texts)}
     </div>`))}
   </details>`;
@@ -169,14 +169,14 @@ function logTableHtml({ odometry, reference }: Drive, caption: string, { choose,
   const logs = [odometry, reference];
   const tableRows = logs.map((driveLog) => summaryLinesOf(driveLog, found));
   const tableCellHtml = (cellLines: string[] = []) => html`<td>${cellLines.length ? cellLines.map((cellLine, i) => html`${i ? html`<br />` : nothing}${cellLine}`) : '—'}</td>`;
-  const labels = (Object.keys(found.labels) as (keyof typeof found.labels)[]).filter((label) => tableRows.some((tableRow) => tableRow[label]?.length));
+  const labels = (Object.keys(found.rowLabels) as (keyof typeof found.rowLabels)[]).filter((label) => tableRows.some((tableRow) => tableRow[label]?.length));
   return html`<table>
     ${caption ? html`<caption>${caption}</caption>` : nothing}
     <thead>
-      <tr><td></td>${ROLES.map((role, i) => html`<th scope="col">${choose.roles[role]}: ${logs[i].name}</th>`)}</tr>
+      <tr><td></td>${ROLES.map((role, i) => html`<th scope="col">${choose.roleNames[role]}: ${logs[i].name}</th>`)}</tr>
     </thead>
     <tbody>
-      ${labels.map((label) => html`<tr><th scope="row">${found.labels[label]}</th>${tableRows.map((tableRow) => tableCellHtml(tableRow[label]))}</tr>`)}
+      ${labels.map((label) => html`<tr><th scope="row">${found.rowLabels[label]}</th>${tableRows.map((tableRow) => tableCellHtml(tableRow[label]))}</tr>`)}
     </tbody>
   </table>`;
 }
@@ -190,7 +190,7 @@ function pathsPictureHtml({ odometry, reference }: Drive, clockOffset: number, {
   const [width, height] = axisRanges.map(([lowEnd, highEnd]) => highEnd - lowEnd);
   const pixelsPerMetre = Math.min((PICTURE_WIDTH - 2 * PICTURE_MARGIN) / Math.max(width, 0.1), (PICTURE_HEIGHT - 2 * PICTURE_MARGIN) / Math.max(height, 0.1));
   const pathDataOf = (path: Path) => svgPathDataOf(path, ([x, y]) => [PICTURE_MARGIN + (x - axisRanges[0][0]) * pixelsPerMetre, PICTURE_HEIGHT - PICTURE_MARGIN - (y - axisRanges[1][0]) * pixelsPerMetre]);
-  const captionText = found.paths(odometryPath !== drivenPath, formatFixed(width, 1), formatFixed(height, 1));
+  const captionText = found.pathsCaption(odometryPath !== drivenPath, formatFixed(width, 1), formatFixed(height, 1));
   return html`<figure class="paths small">
     <svg viewBox="0 0 ${PICTURE_WIDTH} ${PICTURE_HEIGHT}" role="img" aria-label=${captionText}>
       <g fill="none" stroke-width="1.25" stroke-linejoin="round">

@@ -155,7 +155,7 @@ export class LogOpener extends FileOpener<Figure> {
     if (isAbortError(refusal)) return words.progress.stopped;
     const { message, sentences, question } = refusal;
     const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? words.calibrator.logControls.refusedLog(message);
-    return [refusalReason, ...(question?.option === 'other' && this.texts ? [this.texts.choose.other] : [])].join(' ');
+    return [refusalReason, ...(question?.option === 'other' && this.texts ? [this.texts.choose.bothFilesHint] : [])].join(' ');
   }
 
   /** Shows why files were refused, and asks the user to answer the error's question if it has one. */
@@ -181,8 +181,8 @@ export function dropZoneHtml(figure: Figure, opener: LogOpener) {
   const texts = words.calibrator.logControls;
   const { readFraction, logModule } = opener;
   return html`<div class="drop-zone" id=${opener.resultElementId} part="drop">
-    <p title=${texts.dropTooltip}>
-      ${texts.dropHint}
+    <p title=${texts.dropZoneTooltip}>
+      ${texts.dropZoneHint}
       ${opener.fileButtonHtml('log-files', texts.chooseFilesLabel, LOG_FILE_EXTENSIONS)}
     </p>
     ${logModule?.logChoosersHtml(opener)}

@@ -17,7 +17,7 @@ import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 addEnglishMessages({ calibrator: en });
 
-/** Properties of a figure from which its results are described. */
+/** Properties of the figure that are needed to describe its results in words. */
 type Fitted = Pick<Figure, 'viewModel' | 'warnings' | 'logName'>;
 
 function resultOf({ viewModel: { stats, legs, fittedConfig }, warnings, logName }: Fitted): Result {

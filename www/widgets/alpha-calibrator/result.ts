@@ -244,8 +244,8 @@ export function adviceOf(missingMotions: Texts['alphas']['missingMotions'], mode
 
 /** Returns true if a systematic error is significant: its interval excludes 0, or for a scale 1. */
 function isSignificant(name: string, error: Parameters<typeof errorComponentsOf>[0]) {
-  const neutralValue = name.endsWith('Scale') ? 1 : 0;
-  return errorComponentsOf(error).some(({ interval }) => interval && (interval[0] > neutralValue || interval[1] < neutralValue));
+  const errorFreeValue = name.endsWith('Scale') ? 1 : 0;
+  return errorComponentsOf(error).some(({ interval }) => interval && (interval[0] > errorFreeValue || interval[1] < errorFreeValue));
 }
 
 /** Lists systematic errors with their values; empty if none is identifiable. */

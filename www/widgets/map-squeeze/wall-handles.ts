@@ -15,10 +15,10 @@ const KEY_STEP = 0.05;
 /** Maximum number of walls in a map whose walls have handles. */
 const MAX_HANDLED_WALLS = 50;
 
-/** Fractions of a wall's length at which the handle of the whole wall may be. It is at the middle one of the visible points. */
+/** Fractions of a wall's length at which the handle of the whole wall can be. The handle is at the middle one of these points that are visible. */
 const SIDE_FRACTIONS = range(0.02, 0.99, 0.02);
 
-/** Distance between the edge of a doorway and its handle, and maximum of this distance as a fraction of the wall. The distance keeps the handle away from a robot in the doorway. */
+/** Distance between the edge of a doorway and its handle, and maximum of this distance as a fraction of the wall's length. The distance keeps the handle away from a robot in the doorway. */
 const EDGE_INSET_PX = 12;
 const MAX_EDGE_INSET = 1 / 6;
 

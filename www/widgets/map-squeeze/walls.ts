@@ -65,8 +65,8 @@ export function moveWall({ bounds, walls }: Plan, { wallOffset, grippedPart: par
     return movedWalls;
   }
   for (const k of wallOffsetsOf(walls)) {
-    const isAcross = Math.abs((walls[k + 2] - walls[k]) * uy - (walls[k + 3] - walls[k + 1]) * ux) < TOUCH_DISTANCE;
-    const isMoved = (coordinateIndex: number) => k === wallOffset || (isAcross && distanceToWall(walls, wallOffset, walls[coordinateIndex], walls[coordinateIndex + 1]) < TOUCH_DISTANCE);
+    const isParallelToAxis = Math.abs((walls[k + 2] - walls[k]) * uy - (walls[k + 3] - walls[k + 1]) * ux) < TOUCH_DISTANCE;
+    const isMoved = (coordinateIndex: number) => k === wallOffset || (isParallelToAxis && distanceToWall(walls, wallOffset, walls[coordinateIndex], walls[coordinateIndex + 1]) < TOUCH_DISTANCE);
     for (const coordinateIndex of [k, k + 2]) if (isMoved(coordinateIndex)) moveEnd(coordinateIndex, distanceInBounds);
   }
   return movedWalls;

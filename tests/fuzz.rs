@@ -79,7 +79,7 @@ fn run_on_corpus_and_mutations(name: &str, target: FuzzTarget, corpus_step: usiz
     let mut rng = seeded_rng(2911);
     for _ in 0..mutation_count {
         let mut mutated_input = choose_item(&corpus_inputs, &mut rng).clone();
-        for _ in 0..=draw_below(4, &mut rng) {
+        for _ in 0..=sample_below(4, &mut rng) {
             mutate_input(&mut mutated_input, &corpus_inputs, &mut rng);
         }
         run_target(target, &mutated_input);
@@ -102,21 +102,21 @@ fn run_target(target: FuzzTarget, input_bytes: &[u8]) {
     });
 }
 
-fn draw_below(exclusive_limit: usize, rng: &mut impl Rng) -> usize {
+fn sample_below(exclusive_limit: usize, rng: &mut impl Rng) -> usize {
     rng.next_u32() as usize % exclusive_limit
 }
 
 fn choose_item<'a, T>(choices: &'a [T], rng: &mut impl Rng) -> &'a T {
-    &choices[draw_below(choices.len(), rng)]
+    &choices[sample_below(choices.len(), rng)]
 }
 
 /// Returns the input with one of the changes that libFuzzer makes.
 fn mutate_input(mutated_bytes: &mut Vec<u8>, corpus_inputs: &[Vec<u8>], rng: &mut impl Rng) {
     const SPECIAL_BYTES: [u8; 9] = [0, 1, 16, 32, 48, 57, 127, 128, 255];
     let byte_count = mutated_bytes.len();
-    let change_start = draw_below(byte_count + 1, rng);
-    let change_length = draw_below(8, rng).min(byte_count - change_start);
-    match draw_below(6, rng) {
+    let change_start = sample_below(byte_count + 1, rng);
+    let change_length = sample_below(8, rng).min(byte_count - change_start);
+    match sample_below(6, rng) {
         0 => mutated_bytes.insert(change_start, *choose_item(&SPECIAL_BYTES, rng)),
         1 => drop(mutated_bytes.drain(change_start..change_start + change_length)),
         2 => mutated_bytes.extend_from_within(change_start..change_start + change_length),
@@ -124,11 +124,11 @@ fn mutate_input(mutated_bytes: &mut Vec<u8>, corpus_inputs: &[Vec<u8>], rng: &mu
             let other_input = choose_item(corpus_inputs, rng);
             mutated_bytes.splice(
                 change_start..,
-                other_input[draw_below(other_input.len() + 1, rng)..].iter().copied(),
+                other_input[sample_below(other_input.len() + 1, rng)..].iter().copied(),
             );
         }
         _ if change_start == byte_count => mutated_bytes.push(rng.next_u32() as u8),
-        4 => mutated_bytes[change_start] ^= 1 << draw_below(8, rng),
+        4 => mutated_bytes[change_start] ^= 1 << sample_below(8, rng),
         _ => mutated_bytes[change_start] = rng.next_u32() as u8,
     }
 }

@@ -118,16 +118,6 @@ fn commands_have_six_alphas_and_a_straight_drive_identifies_no_turn_alphas() {
 }
 
 #[wasm_bindgen_test]
-fn no_leg_spans_a_break() {
-    let it = simulate_logs();
-    it.run(
-        "it.found = motion.calibrate({ odometry: { ...it.odometry, breaks: Uint16Array.of(2005) },
-        reference: it.reference, legs: { duration: 1 } })",
-    );
-    it.assert("it.found.lost.acrossBreaks >= 1");
-}
-
-#[wasm_bindgen_test]
 fn the_figure_opens_with_a_log_of_known_alphas() {
     let it = JsObject::new("new motion.AlphaCalibrator()");
     it.assert(

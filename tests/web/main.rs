@@ -1,6 +1,6 @@
 //! The JavaScript interface of the core in a browser: its arguments, results, errors and memory.
 //!
-//! Native tests check the computations of models and simulations. These tests call every class and function as a page does, and compare
+//! Native tests check the computations of models and simulations. These tests call classes and functions as a page does, and compare
 //! results with those of Rust.
 #![cfg(target_arch = "wasm32")]
 #![allow(

@@ -176,10 +176,7 @@ fn covariances_are_propagated_as_in_rust() {
 }
 
 #[wasm_bindgen_test]
-fn the_reaching_command_ends_at_its_target_and_seeds_are_random() {
-    let reaching_command =
-        "motion.commandReaching(0.958851077208406, 0.2448348762192546, { v: 2, omega: 0.1, dt: 1 })";
-    assert_near(get(&format!("Object.values({reaching_command})")), [1.0, 0.5], 1e-12);
+fn random_seeds_are_whole_numbers_of_32_bits() {
     let seeds: Vec<f64> = get("Array.from({ length: 20 }, motion.randomSeed)");
     assert!(
         seeds.iter().all(|seed| (0.0..4_294_967_296.0).contains(seed) && seed.fract() == 0.0),

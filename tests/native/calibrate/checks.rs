@@ -285,9 +285,10 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
     let [odometry, reference] = sim.simulate_log();
     let jitter_odometry = |jitter_std: f64| {
         let mut noise_rng = seeded_rng(12);
-        let mut draw_noise = || NoiseKind::Normal.sample(Variance(jitter_std * jitter_std), &mut noise_rng);
+        let mut sample_noise_of =
+            || NoiseKind::Normal.sample(Variance(jitter_std * jitter_std), &mut noise_rng);
         change_poses(&odometry, |pose| {
-            SE2::new(pose.x() + draw_noise(), pose.y() + draw_noise(), pose.theta())
+            SE2::new(pose.x() + sample_noise_of(), pose.y() + sample_noise_of(), pose.theta())
         })
     };
     let shifted_odometry = change_poses(&odometry, |pose| pose * SE2::new(0.05, 0.0, 0.0));

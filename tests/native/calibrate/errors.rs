@@ -275,7 +275,7 @@ fn four_drives_are_as_informative_as_one_of_the_same_length() {
 #[test]
 fn encoder_jitter_of_a_standing_robot_does_not_change_the_scales() {
     let mut rng = seeded_rng(5);
-    let mut draw_uniform_noise = |noise_bound: f64| rng.random_range(-noise_bound..noise_bound);
+    let mut sample_uniform_noise = |noise_bound: f64| rng.random_range(-noise_bound..noise_bound);
     let (mut odometry_pose, mut true_pose, mut pose_rows) = (SE2::identity(), SE2::identity(), Vec::new());
     for row in 0..16_000_usize {
         let section_index = row / 40;
@@ -286,12 +286,12 @@ fn encoder_jitter_of_a_standing_robot_does_not_change_the_scales() {
         };
         let twist = Vector3::new(twist[0], 0.0, twist[1]) * 0.05;
         let encoder_jitter =
-            SE2::new(draw_uniform_noise(0.003), draw_uniform_noise(0.003), draw_uniform_noise(0.003));
+            SE2::new(sample_uniform_noise(0.003), sample_uniform_noise(0.003), sample_uniform_noise(0.003));
         pose_rows.push([(0.05 * row as f64, odometry_pose * encoder_jitter), (0.05 * row as f64, true_pose)]);
         odometry_pose = odometry_pose.boxplus(twist);
         let is_moving = twist.norm() > 0.0;
         let motion_noise = if is_moving {
-            Vector3::new(draw_uniform_noise(0.004), 0.0, draw_uniform_noise(0.008))
+            Vector3::new(sample_uniform_noise(0.004), 0.0, sample_uniform_noise(0.008))
         } else {
             Vector3::zeros()
         };

@@ -112,7 +112,7 @@ impl Simulation {
         let (mut leg_index, mut unit_noise) = (0, [0.0; 3]);
         while leg_index < self.leg_count {
             if remaining_rows == 0 {
-                drawn_velocity = self.draw_velocity(&mut rng);
+                drawn_velocity = self.sample_velocity(&mut rng);
                 remaining_rows = rng.random_range(15..60) * rows_per_step;
             }
             remaining_rows -= 1;
@@ -134,13 +134,15 @@ impl Simulation {
                 continue;
             }
             let base_start = base_poses.last().expect("some").1;
-            unit_noise = self.draw_unit_noise(leg_index as f64 / self.leg_count as f64, unit_noise, &mut rng);
+            unit_noise =
+                self.sample_unit_noise(leg_index as f64 / self.leg_count as f64, unit_noise, &mut rng);
             // The noise of a leg is distributed evenly over its rows, plus a random walk that returns to 0.
             let row_count = leg_rows.len();
             let mut random_walk = vec![[0.0; 3]];
             for row in 0..row_count {
                 let step_std = 1.0 / (row_count as f64).sqrt();
-                random_walk.push(random_walk[row].map(|sum| sum + step_std * self.draw_walk_step(&mut rng)));
+                random_walk
+                    .push(random_walk[row].map(|sum| sum + step_std * self.sample_walk_step(&mut rng)));
             }
             let twist_noise_of = |unit_noise| {
                 let duration = row_time - start_time;
@@ -169,13 +171,13 @@ impl Simulation {
         let mount_pose = SE2::new(lever_ahead, lever_left, self.systematic_errors.mount_yaw);
         let [position_variance, yaw_variance] =
             self.reference_stds.map(|reference_std| Variance(reference_std * reference_std));
-        let mut draw_reference_error = |variance| NoiseKind::Normal.sample(variance, &mut rng);
+        let mut sample_reference_error = |variance| NoiseKind::Normal.sample(variance, &mut rng);
         let reference_samples = base_poses.iter().map(|(t, leg_pose)| {
             let sensor_pose = *leg_pose * mount_pose;
             let [x, y, theta] = [
-                draw_reference_error(position_variance),
-                draw_reference_error(position_variance),
-                draw_reference_error(yaw_variance),
+                sample_reference_error(position_variance),
+                sample_reference_error(position_variance),
+                sample_reference_error(yaw_variance),
             ];
             (
                 t + self.systematic_errors.clock_offset,
@@ -188,7 +190,7 @@ impl Simulation {
         ]
     }
 
-    fn draw_walk_step(&self, rng: &mut impl Rng) -> f64 {
+    fn sample_walk_step(&self, rng: &mut impl Rng) -> f64 {
         if self.times == SampleTimes::Synchronous {
             0.0
         } else {
@@ -197,7 +199,7 @@ impl Simulation {
     }
 
     /// Returns v and ω of a straight drive, a bend, a turn on the spot, or a drive in reverse if the rule allows it.
-    fn draw_velocity(&self, rng: &mut impl Rng) -> [f64; 2] {
+    fn sample_velocity(&self, rng: &mut impl Rng) -> [f64; 2] {
         let [v, turn_rate] = [rng.random_range(0.2..0.6), rng.random_range(-0.5..0.5)];
         match rng.random_range(0..6) {
             0 if self.model != Model::Velocity => [0.0, if turn_rate > 0.0 { 0.6 } else { -0.6 }],
@@ -209,14 +211,14 @@ impl Simulation {
     }
 
     /// Returns the three noises of a leg, with variance 1. `log_fraction` is the position of the leg in the log, from 0 to 1.
-    fn draw_unit_noise(&self, log_fraction: f64, previous_noise: [f64; 3], rng: &mut impl Rng) -> [f64; 3] {
+    fn sample_unit_noise(&self, log_fraction: f64, previous_noise: [f64; 3], rng: &mut impl Rng) -> [f64; 3] {
         previous_noise.map(|previous_noise| {
             let normal_noise = NoiseKind::Normal.sample(Variance(1.0), rng);
             match self.violation {
                 Violation::None => normal_noise,
                 Violation::HeavyTailedNoise(degrees_of_freedom) => {
-                    let draw_normal = |_| NoiseKind::Normal.sample(Variance(1.0), rng);
-                    let chi_squared: f64 = (0..degrees_of_freedom).map(draw_normal).map(|z| z * z).sum();
+                    let sample_normal = |_| NoiseKind::Normal.sample(Variance(1.0), rng);
+                    let chi_squared: f64 = (0..degrees_of_freedom).map(sample_normal).map(|z| z * z).sum();
                     normal_noise * f64::sqrt((degrees_of_freedom as f64 - 2.0) / chi_squared)
                 }
                 Violation::AutocorrelatedNoise(autocorrelation) => {

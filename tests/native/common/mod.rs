@@ -22,13 +22,13 @@ pub fn seeded_rng(seed: u64) -> Xoshiro256PlusPlus {
     Xoshiro256PlusPlus::seed_from_u64(seed)
 }
 
-pub fn draw_uniform(rng: &mut impl Rng, range_start: f64, range_end: f64) -> f64 {
+pub fn sample_uniform(rng: &mut impl Rng, range_start: f64, range_end: f64) -> f64 {
     range_start + (range_end - range_start) * (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
 /// Returns a number of either sign, whose magnitude is log-uniform in the range.
-pub fn draw_signed_log_uniform(rng: &mut impl Rng, range_start: f64, range_end: f64) -> f64 {
-    let log_uniform_magnitude = draw_uniform(rng, range_start.ln(), range_end.ln()).exp();
+pub fn sample_signed_log_uniform(rng: &mut impl Rng, range_start: f64, range_end: f64) -> f64 {
+    let log_uniform_magnitude = sample_uniform(rng, range_start.ln(), range_end.ln()).exp();
     if rng.next_u64() >> 63 == 0 { log_uniform_magnitude } else { -log_uniform_magnitude }
 }
 

@@ -3,7 +3,7 @@
 use crate::common::distance::{
     Point, bound_distance, extent_of, norm_of, position_along_arc, subtract_points,
 };
-use crate::common::{draw_signed_log_uniform, draw_uniform, seeded_rng};
+use crate::common::{sample_signed_log_uniform, sample_uniform, seeded_rng};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
@@ -11,28 +11,32 @@ use rand::Rng;
 use std::f64::consts::{PI, TAU};
 
 fn sample_point(rng: &mut impl Rng, max_coordinate: f64) -> Point {
-    [draw_uniform(rng, -max_coordinate, max_coordinate), draw_uniform(rng, -max_coordinate, max_coordinate)]
+    [
+        sample_uniform(rng, -max_coordinate, max_coordinate),
+        sample_uniform(rng, -max_coordinate, max_coordinate),
+    ]
 }
 
 fn new_arc_anywhere(rng: &mut impl Rng, arc_length: f64, arc_turn: f64) -> Arc {
     let [x, y] = sample_point(rng, 5.0);
-    Arc { start: SE2::new(x, y, draw_uniform(rng, -PI, PI)), length: arc_length, turn: arc_turn }
+    Arc { start: SE2::new(x, y, sample_uniform(rng, -PI, PI)), length: arc_length, turn: arc_turn }
 }
 
 /// Returns an arc of up to 8 m in either direction, which turns by up to two circles to either side.
 fn sample_arc(rng: &mut impl Rng) -> Arc {
-    let (arc_length, arc_turn) = (draw_uniform(rng, -8.0, 8.0), draw_uniform(rng, -2.0 * TAU, 2.0 * TAU));
+    let (arc_length, arc_turn) = (sample_uniform(rng, -8.0, 8.0), sample_uniform(rng, -2.0 * TAU, 2.0 * TAU));
     new_arc_anywhere(rng, arc_length, arc_turn)
 }
 
 fn sample_nearly_straight_arc(rng: &mut impl Rng) -> Arc {
-    let (arc_length, arc_turn) = (draw_uniform(rng, -8.0, 8.0), draw_signed_log_uniform(rng, 1e-18, 1e-3));
+    let (arc_length, arc_turn) =
+        (sample_uniform(rng, -8.0, 8.0), sample_signed_log_uniform(rng, 1e-18, 1e-3));
     new_arc_anywhere(rng, arc_length, arc_turn)
 }
 
 fn sample_turn_nearly_on_the_spot(rng: &mut impl Rng) -> Arc {
     let (arc_length, arc_turn) =
-        (draw_signed_log_uniform(rng, 1e-15, 1e-1), draw_uniform(rng, -2.0 * TAU, 2.0 * TAU));
+        (sample_signed_log_uniform(rng, 1e-15, 1e-1), sample_uniform(rng, -2.0 * TAU, 2.0 * TAU));
     new_arc_anywhere(rng, arc_length, arc_turn)
 }
 
@@ -46,14 +50,14 @@ fn to_absolute(arc: &Arc, relative_point: Point) -> Point {
 
 /// Returns a wall along a tangent of the arc, at a tiny distance.
 fn sample_tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
-    let arc_fraction = draw_uniform(rng, 0.0, 1.0);
+    let arc_fraction = sample_uniform(rng, 0.0, 1.0);
     let tangent_heading = arc.start.theta() + arc_fraction * arc.turn;
     let [x, y] = position_along_arc(arc, arc_fraction);
-    let tangent_offset = draw_signed_log_uniform(rng, 1e-15, 1e-1);
+    let tangent_offset = sample_signed_log_uniform(rng, 1e-15, 1e-1);
     let tangent_point =
         [x - tangent_offset * tangent_heading.sin(), y + tangent_offset * tangent_heading.cos()];
-    let mut draw_end = || {
-        let tangent_length = draw_uniform(rng, -5.0, 5.0);
+    let mut sample_end = || {
+        let tangent_length = sample_uniform(rng, -5.0, 5.0);
         to_absolute(
             arc,
             [
@@ -62,17 +66,17 @@ fn sample_tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
             ],
         )
     };
-    Segment { from: draw_end(), to: draw_end() }
+    Segment { from: sample_end(), to: sample_end() }
 }
 
 fn sample_wall_near_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let [x, y] = position_along_arc(arc, f64::from(rng.next_u32() % 2));
-    let mut draw_offset = || draw_signed_log_uniform(rng, 1e-15, 1e-1);
-    let near_end = to_absolute(arc, [x + draw_offset(), y + draw_offset()]);
+    let mut sample_offset = || sample_signed_log_uniform(rng, 1e-15, 1e-1);
+    let near_end = to_absolute(arc, [x + sample_offset(), y + sample_offset()]);
     let other_end = if rng.next_u32().is_multiple_of(2) {
         sample_point(rng, 8.0)
     } else {
-        let (heading, distance) = (draw_uniform(rng, -PI, PI), draw_uniform(rng, -3.0, 3.0));
+        let (heading, distance) = (sample_uniform(rng, -PI, PI), sample_uniform(rng, -3.0, 3.0));
         [near_end[0] + distance * heading.cos(), near_end[1] + distance * heading.sin()]
     };
     Segment { from: near_end, to: other_end }
@@ -81,11 +85,11 @@ fn sample_wall_near_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
 /// Returns a wall with an end near the centre of the arc's circle, where all points of the circle are equally near.
 fn sample_wall_from_centre(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let (radius, theta) = (arc.length / arc.turn, arc.start.theta());
-    let mut draw_offset = || draw_signed_log_uniform(rng, 1e-16, 1e-1);
+    let mut sample_offset = || sample_signed_log_uniform(rng, 1e-16, 1e-1);
     let near_end =
-        to_absolute(arc, [draw_offset() - radius * theta.sin(), draw_offset() + radius * theta.cos()]);
-    let distance = draw_uniform(rng, 0.0, 1.2) * radius;
-    let heading = draw_uniform(rng, -PI, PI);
+        to_absolute(arc, [sample_offset() - radius * theta.sin(), sample_offset() + radius * theta.cos()]);
+    let distance = sample_uniform(rng, 0.0, 1.2) * radius;
+    let heading = sample_uniform(rng, -PI, PI);
     Segment {
         from: near_end,
         to: [near_end[0] + distance * heading.cos(), near_end[1] + distance * heading.sin()],
@@ -101,17 +105,17 @@ type ArcGenerator = fn(&mut rand_xoshiro::Xoshiro256PlusPlus) -> Arc;
 type WallGenerator = fn(&mut rand_xoshiro::Xoshiro256PlusPlus, &Arc) -> Segment;
 
 const SAMPLE_STRAIGHT_ARC: ArcGenerator = |rng| {
-    let arc_length = draw_uniform(rng, -8.0, 8.0);
+    let arc_length = sample_uniform(rng, -8.0, 8.0);
     new_arc_anywhere(rng, arc_length, 0.0)
 };
 const SAMPLE_TURN_ON_THE_SPOT: ArcGenerator = |rng| {
-    let arc_turn = draw_uniform(rng, -TAU, TAU);
+    let arc_turn = sample_uniform(rng, -TAU, TAU);
     new_arc_anywhere(rng, 0.0, arc_turn)
 };
 /// Generator of arcs of up to a kilometre around a circle of any radius.
 const SAMPLE_LONG_ARC: ArcGenerator = |rng| {
     let (arc_length, arc_turn) =
-        (draw_signed_log_uniform(rng, 1.0, 1e3), draw_signed_log_uniform(rng, 1e-6, 30.0));
+        (sample_signed_log_uniform(rng, 1.0, 1e3), sample_signed_log_uniform(rng, 1e-6, 30.0));
     new_arc_anywhere(rng, arc_length, arc_turn)
 };
 

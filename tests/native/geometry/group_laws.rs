@@ -3,7 +3,7 @@
 //! The laws hold up to rounding. Every law below composes at most four maps, each accurate to a few units in the last place of the largest
 //! coordinate. `LAW_TOLERANCE` allows 32 units.
 
-use crate::common::{ReferenceTable, draw_uniform, max_difference, seeded_rng};
+use crate::common::{ReferenceTable, max_difference, sample_uniform, seeded_rng};
 use motion::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
@@ -37,10 +37,10 @@ fn composition_places_the_second_pose_in_the_frame_of_the_first() {
 fn the_logarithm_near_a_turn_is_on_the_branch_of_that_turn() {
     let mut rng = seeded_rng(6);
     for _ in 0..2000 {
-        let mut draw_within = |max_abs: f64| draw_uniform(&mut rng, -max_abs, max_abs);
-        let twist = Vector3::new(draw_within(3.0), draw_within(3.0), draw_within(2.0 * PI - 0.3));
+        let mut sample_within = |max_abs: f64| sample_uniform(&mut rng, -max_abs, max_abs);
+        let twist = Vector3::new(sample_within(3.0), sample_within(3.0), sample_within(2.0 * PI - 0.3));
         let pose = SE2::exp(&twist);
-        let expected_turn = twist.z + draw_within(3.0);
+        let expected_turn = twist.z + sample_within(3.0);
         let twist_to_pose = pose.log_near(expected_turn);
         // The factor 1/sinc(ω/2) amplifies the rounding of the pose, up to 20 times at 0.3 rad from a full turn.
         assert!(

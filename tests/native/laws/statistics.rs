@@ -24,7 +24,7 @@ fn any_cloud() -> impl Strategy<Value = Vec<SE2>> {
     )
 }
 
-fn any_frame() -> impl Strategy<Value = SE2> {
+fn any_coordinate_frame() -> impl Strategy<Value = SE2> {
     (-10.0..10.0, -10.0..10.0, -PI..PI).prop_map(|(x, y, theta)| SE2::new(x, y, theta))
 }
 
@@ -46,7 +46,7 @@ proptest! {
     #![proptest_config(new_proptest_config(300))]
 
     #[test]
-    fn moments_transform_with_the_frame(robot_cloud in any_cloud(), other_frame in any_frame()) {
+    fn moments_transform_with_the_frame(robot_cloud in any_cloud(), other_frame in any_coordinate_frame()) {
         let moved_cloud: Vec<SE2> = robot_cloud.iter().map(|pose| other_frame * *pose).collect();
         let [cloud_moments, moved_moments] = [&robot_cloud, &moved_cloud].map(|robot_cloud| CartesianMoments::from_poses(robot_cloud));
         let expected_mean = other_frame * SE2::new(cloud_moments.mean.x, cloud_moments.mean.y, cloud_moments.mean.z);

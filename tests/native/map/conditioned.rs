@@ -27,7 +27,7 @@ fn start_pose_of(preset_name: &str) -> SE2 {
     SE2::new(x, y, theta)
 }
 
-fn draw_unit_noise(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {
+fn sample_unit_noise(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {
     std::array::from_fn(|_| NoiseKind::Normal.quantile(draw_centred_uniform(rng)))
 }
 
@@ -56,7 +56,7 @@ fn acceptance_and_wall_fractions_equal_the_published_ones() {
         let mut rng = seeded_rng(5);
         let tested_draws: Vec<_> = (0..DRAW_COUNT)
             .map(|_| {
-                endpoint_model.collision_tester(&command, &start_pose).test_draw(draw_unit_noise(&mut rng))
+                endpoint_model.collision_tester(&command, &start_pose).test_draw(sample_unit_noise(&mut rng))
             })
             .collect();
         let accepted_count = tested_draws.iter().filter(|tested_draw| tested_draw.end_verdict.free).count();
@@ -92,7 +92,7 @@ fn samples_are_those_of_table_5_7() {
                     let mut noise_rng = expected_rng.clone();
                     let drawn_pose = new_velocity_model().sample(&command, &start_pose, &mut expected_rng);
                     let executed_motion =
-                        new_velocity_model().executed_motion(&command, draw_unit_noise(&mut noise_rng));
+                        new_velocity_model().executed_motion(&command, sample_unit_noise(&mut noise_rng));
                     let arc = Arc {
                         start: start_pose,
                         length: 2.0 * executed_motion.v_hat,

@@ -1,6 +1,6 @@
 //! Floor plans with many walls in one place. A collision check must be fast there, and measure the distance to only a few walls.
 
-use crate::common::{draw_uniform, seeded_rng};
+use crate::common::{sample_uniform, seeded_rng};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
@@ -28,7 +28,7 @@ fn create_hard_plans(wall_count: usize) -> Vec<(&'static str, Vec<Segment>)> {
         let (sin, cos) = (TAU * s).sin_cos();
         new_wall(5.0, 5.0, 5.0 + ray_length * cos, 5.0 + ray_length * sin)
     };
-    let mut draw_coordinate = move || draw_uniform(&mut rng, 0.0, 10.0);
+    let mut sample_coordinate = move || sample_uniform(&mut rng, 0.0, 10.0);
     vec![
         ("equal diagonals", make_walls(&mut diagonal_of(0.0))),
         ("nearly equal diagonals", make_walls(&mut diagonal_of(1e-9))),
@@ -60,7 +60,7 @@ fn create_hard_plans(wall_count: usize) -> Vec<(&'static str, Vec<Segment>)> {
         (
             "long ones anywhere",
             make_walls(&mut |_| {
-                let [start_x, start_y, end_x, end_y] = std::array::from_fn(|_| draw_coordinate());
+                let [start_x, start_y, end_x, end_y] = std::array::from_fn(|_| sample_coordinate());
                 new_wall(start_x, start_y, end_x, end_y)
             }),
         ),
@@ -81,13 +81,13 @@ fn create_hard_plans(wall_count: usize) -> Vec<(&'static str, Vec<Segment>)> {
 fn sample_arc(rng: &mut impl Rng) -> Arc {
     let is_near_centre = rng.next_u32().is_multiple_of(2);
     let [x, y] = std::array::from_fn(|_| {
-        if is_near_centre { draw_uniform(rng, 4.9, 5.1) } else { draw_uniform(rng, 2.0, 8.0) }
+        if is_near_centre { sample_uniform(rng, 4.9, 5.1) } else { sample_uniform(rng, 2.0, 8.0) }
     });
     let arc_length = [0.001, 0.3, 2.0][(rng.next_u32() % 3) as usize];
     Arc {
-        start: SE2::new(x, y, draw_uniform(rng, -PI, PI)),
+        start: SE2::new(x, y, sample_uniform(rng, -PI, PI)),
         length: arc_length,
-        turn: draw_uniform(rng, -1.0, 1.0),
+        turn: sample_uniform(rng, -1.0, 1.0),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Occupancy grids: exact distances to cells, outlines, unknown cells, and free poses.
 
-use crate::common::{draw_uniform, seeded_rng};
+use crate::common::{sample_uniform, seeded_rng};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::map::{
@@ -25,11 +25,13 @@ struct DrawnGrid {
 impl DrawnGrid {
     fn new_random(rng: &mut impl Rng) -> Self {
         let (width, height) = (1 + (rng.next_u32() % 12) as usize, 1 + (rng.next_u32() % 12) as usize);
-        let occupied_fraction = draw_uniform(rng, 0.05, 0.9);
-        let occupied = (0..width * height).map(|_| draw_uniform(rng, 0.0, 1.0) < occupied_fraction).collect();
-        let grid_yaw = if rng.next_u32().is_multiple_of(3) { FRAC_PI_2 } else { draw_uniform(rng, -PI, PI) };
-        let origin = [draw_uniform(rng, -50.0, 50.0), draw_uniform(rng, -50.0, 50.0), grid_yaw];
-        Self { width, height, occupied, resolution: draw_uniform(rng, 0.02, 0.5), origin }
+        let occupied_fraction = sample_uniform(rng, 0.05, 0.9);
+        let occupied =
+            (0..width * height).map(|_| sample_uniform(rng, 0.0, 1.0) < occupied_fraction).collect();
+        let grid_yaw =
+            if rng.next_u32().is_multiple_of(3) { FRAC_PI_2 } else { sample_uniform(rng, -PI, PI) };
+        let origin = [sample_uniform(rng, -50.0, 50.0), sample_uniform(rng, -50.0, 50.0), grid_yaw];
+        Self { width, height, occupied, resolution: sample_uniform(rng, 0.02, 0.5), origin }
     }
 
     fn grid(&self) -> OccupancyGrid {
@@ -75,8 +77,8 @@ fn distances_to_walls_equal_distances_to_cells() {
         let plan = FloorPlan::from_grid(grid_cells.grid()).expect("a small grid");
         let [map_left, map_bottom, map_right, map_top] = plan.bounds();
         for _ in 0..50 {
-            let column_coordinate = draw_uniform(&mut rng, 0.0, grid_cells.width as f64);
-            let row_coordinate = draw_uniform(&mut rng, 0.0, grid_cells.height as f64);
+            let column_coordinate = sample_uniform(&mut rng, 0.0, grid_cells.width as f64);
+            let row_coordinate = sample_uniform(&mut rng, 0.0, grid_cells.height as f64);
             let point = grid_cells.map_position_of(column_coordinate, row_coordinate);
             assert!((map_left..=map_right).contains(&point[0]) && (map_bottom..=map_top).contains(&point[1]));
             let cell_distance = grid_cells.distance_to_occupied_cell(point);
@@ -95,7 +97,7 @@ fn distances_to_walls_equal_distances_to_cells() {
                 wall_distance == cell_distance || (wall_distance - cell_distance).abs() < 1e-13,
                 "{wall_distance}, {cell_distance}"
             );
-            let clearance = draw_uniform(&mut rng, 0.0, 1.0);
+            let clearance = sample_uniform(&mut rng, 0.0, 1.0);
             if (clearance - cell_distance).abs() > 1e-12 {
                 assert_eq!(plan.test_point(point, clearance).free, cell_distance > clearance);
             }

@@ -1,6 +1,6 @@
 //! Floor plans: validity, the apartment, and collision tests that skip no wall.
 
-use crate::common::{draw_signed_log_uniform, draw_uniform, seeded_rng};
+use crate::common::{sample_signed_log_uniform, sample_uniform, seeded_rng};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
@@ -15,17 +15,17 @@ fn new_wall(start_x: f64, start_y: f64, end_x: f64, end_y: f64) -> Segment {
 }
 
 fn sample_point([min_x, min_y, max_x, max_y]: [f64; 4], rng: &mut impl Rng) -> [f64; 2] {
-    [draw_uniform(rng, min_x, max_x), draw_uniform(rng, min_y, max_y)]
+    [sample_uniform(rng, min_x, max_x), sample_uniform(rng, min_y, max_y)]
 }
 
 fn sample_arc_from(start_position: [f64; 2], rng: &mut impl Rng) -> Arc {
     let turn = match rng.next_u32() % 3 {
-        0 => draw_signed_log_uniform(rng, 1e-18, 1e-3),
+        0 => sample_signed_log_uniform(rng, 1e-18, 1e-3),
         1 => 0.0,
-        _ => draw_uniform(rng, -TAU, TAU),
+        _ => sample_uniform(rng, -TAU, TAU),
     };
-    let length = draw_uniform(rng, -3.0, 3.0);
-    Arc { start: SE2::new(start_position[0], start_position[1], draw_uniform(rng, -PI, PI)), length, turn }
+    let length = sample_uniform(rng, -3.0, 3.0);
+    Arc { start: SE2::new(start_position[0], start_position[1], sample_uniform(rng, -PI, PI)), length, turn }
 }
 
 /// Returns walls whose coordinates extend by at most `max_extent` m, a third of them along the axes.
@@ -35,8 +35,8 @@ fn sample_walls(wall_count: usize, max_extent: f64, bounds: [f64; 4], rng: &mut 
         .map(|_| {
             let start_point = sample_point(bounds, rng);
             let mut end_point = [
-                start_point[0] + draw_uniform(rng, -max_extent, max_extent),
-                start_point[1] + draw_uniform(rng, -max_extent, max_extent),
+                start_point[0] + sample_uniform(rng, -max_extent, max_extent),
+                start_point[1] + sample_uniform(rng, -max_extent, max_extent),
             ];
             if rng.next_u32().is_multiple_of(3) {
                 let constant_axis = (rng.next_u32() % 2) as usize;
@@ -107,7 +107,7 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
         let mut verdict_counts = [0; 3];
         for _ in 0..3_000 {
             let start_point = sample_point(plan.bounds(), &mut rng);
-            let length_factor = draw_signed_log_uniform(&mut rng, 1e-3, 1.0);
+            let length_factor = sample_signed_log_uniform(&mut rng, 1e-3, 1.0);
             let arc = sample_arc_from(start_point, &mut rng);
             let turn = if rng.next_u32().is_multiple_of(3) { 2.0 * arc.turn } else { arc.turn };
             let arc = Arc { length: length_factor * arc.length, turn, ..arc };

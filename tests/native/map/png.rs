@@ -2,7 +2,7 @@
 
 use crate::common::seeded_rng;
 use motion::geom::se2::SE2;
-use motion::map::{MAX_PIXELS, PixelClassifier, read_grid, read_png};
+use motion::map::{PixelClassifier, read_grid, read_png};
 use png::{BitDepth, ColorType, Encoder, Filter};
 use rand::Rng;
 
@@ -140,16 +140,4 @@ fn an_image_that_is_cut_short_is_refused() {
     }
     let grid_error = read_grid(&file_bytes[..60], &PixelClassifier::default(), 0.05, SE2::identity());
     assert_eq!(grid_error.expect_err("it ends"), read_png(&file_bytes[..60]).expect_err("it ends"));
-}
-
-#[test]
-fn an_image_that_is_too_large_is_refused_by_its_header() {
-    let mut file_bytes = Vec::new();
-    let side_length = 1 + (MAX_PIXELS as f64).sqrt() as u32;
-    drop(Encoder::new(&mut file_bytes, side_length, side_length).write_header().expect("a header"));
-    let error_message = read_png(&file_bytes).expect_err("it is too large").to_string();
-    assert!(
-        error_message.starts_with(&format!("image has {side_length} × {side_length} pixels")),
-        "{error_message}"
-    );
 }

@@ -1,7 +1,7 @@
 //! The odometry model: decomposition, scoring, density and sampler, and the option for robots that reverse.
 
 use crate::common::density::PolarGrid;
-use crate::common::{NOISE_KINDS, derivative_by_noise, draw_uniform, seeded_rng};
+use crate::common::{NOISE_KINDS, derivative_by_noise, sample_uniform, seeded_rng};
 use motion::geom::se2::SE2;
 use motion::{
     ConfiguredOdometry, MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, RotTransRot, Variance,
@@ -69,7 +69,7 @@ fn prob_is_the_score_of_table_5_5() {
         for u in sample_odometry_readings() {
             for _ in 0..200 {
                 let mut perturb_value =
-                    |unperturbed_value: f64| unperturbed_value + draw_uniform(&mut rng, -0.4, 0.4);
+                    |unperturbed_value: f64| unperturbed_value + sample_uniform(&mut rng, -0.4, 0.4);
                 let executed_legs =
                     new_odom_delta(perturb_value(u.rot1), perturb_value(u.trans), perturb_value(u.rot2));
                 let [rot1_variance, t, rot2_variance] = table_variances(&executed_legs, f64::abs);
@@ -124,7 +124,7 @@ fn the_pose_density_divides_by_the_jacobian() {
             let table_variances = table_variances(&u, f64::abs);
             for _ in 0..100 {
                 let leg_noise =
-                    table_variances.map(|variance| draw_uniform(&mut rng, -1.0, 1.0) * variance.sqrt());
+                    table_variances.map(|variance| sample_uniform(&mut rng, -1.0, 1.0) * variance.sqrt());
                 let executed_legs =
                     new_odom_delta(u.rot1 - leg_noise[0], u.trans - leg_noise[1], u.rot2 - leg_noise[2]);
                 let [rot1_variance, t, rot2_variance] = [0, 1, 2]

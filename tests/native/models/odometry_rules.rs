@@ -122,13 +122,13 @@ fn exact_variances_match_samples() {
             let (executed_legs, leg_variances) =
                 (rule.legs(&odometry_reading), rule.variances(&odometry_reading, &[0.05; 5]));
             let mut rng = seeded_rng(192);
-            let mut draw_unit_noise = || noise_kind.quantile(draw_centred_uniform(&mut rng));
+            let mut sample_unit_noise = || noise_kind.quantile(draw_centred_uniform(&mut rng));
             let start_pose = SE2::new(0.4, -0.2, 1.0);
             let drive_direction = start_pose.theta() + executed_legs.rot1;
             let correlation: f64 = -0.6;
             let sampled_error_pairs: Vec<[f64; 2]> = (0..SAMPLE_COUNT)
                 .map(|_| {
-                    let [a, b, c] = [draw_unit_noise(), draw_unit_noise(), draw_unit_noise()];
+                    let [a, b, c] = [sample_unit_noise(), sample_unit_noise(), sample_unit_noise()];
                     let executed_motion = leg_variances.executed_motion(
                         &executed_legs,
                         [a, b, correlation * a + (1.0 - correlation * correlation).sqrt() * c],

@@ -1,7 +1,7 @@
 //! Gaussian noise in exponential coordinates: density, sampler, and covariances propagated along a path.
 
 use crate::common::{
-    MAX_KS_STATISTIC, ReferenceTable, SAMPLE_COUNT, chi_square_limit, draw_uniform, scaled_ks_distance,
+    MAX_KS_STATISTIC, ReferenceTable, SAMPLE_COUNT, chi_square_limit, sample_uniform, scaled_ks_distance,
     seeded_rng, unit_cdf,
 };
 use motion::geom::se2::SE2;
@@ -41,7 +41,7 @@ fn log_prob_is_a_gaussian_in_exponential_coordinates() {
     for x in new_start_poses() {
         let tangent_model = TangentNoiseModel::new(new_full_cov()).unwrap();
         for _ in 0..500 {
-            let twist_deviation = Vector3::from_fn(|_, _| draw_uniform(&mut rng, -1.0, 1.0));
+            let twist_deviation = Vector3::from_fn(|_, _| sample_uniform(&mut rng, -1.0, 1.0));
             let next_pose = x.boxplus(Vector3::new(1.0, 0.0, 0.5) + twist_deviation);
             let (log_prob, expected_log_prob) = (
                 tangent_model.log_prob(&next_pose, &U, &x),
@@ -95,7 +95,7 @@ fn the_tangent_form_has_the_density_of_the_velocity_model() {
             let u = VelocityCmd { v, omega, dt: 1.2 };
             let tangent_model = TangentNoiseModel::from_velocity(&new_velocity_model(alphas), &u).unwrap();
             for _ in 0..200 {
-                let unit_noise = [(); 3].map(|()| draw_uniform(&mut rng, -2.0, 2.0));
+                let unit_noise = [(); 3].map(|()| sample_uniform(&mut rng, -2.0, 2.0));
                 let next_pose = new_velocity_model(alphas).apply_noise(&u, &x, unit_noise);
                 let half_turn = 0.5 * next_pose.boxminus(&x).z;
                 let log_volume = 2.0 * (half_turn.sin() / half_turn).ln();
@@ -150,9 +150,10 @@ fn compounding_is_the_recursion_of_the_chapter() {
     for r in [new_full_cov(), Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.025))] {
         let tangent_model = TangentNoiseModel::new(r).unwrap();
         for _ in 0..100 {
-            let mut draw_within = |max_magnitude: f64| draw_uniform(&mut rng, -max_magnitude, max_magnitude);
-            let step_twist = Vector3::new(draw_within(2.0), draw_within(2.0), draw_within(3.0));
-            let start_cov_root = Matrix3::from_fn(|_, _| draw_within(1.0));
+            let mut sample_within =
+                |max_magnitude: f64| sample_uniform(&mut rng, -max_magnitude, max_magnitude);
+            let step_twist = Vector3::new(sample_within(2.0), sample_within(2.0), sample_within(3.0));
+            let start_cov_root = Matrix3::from_fn(|_, _| sample_within(1.0));
             let sigma = start_cov_root * start_cov_root.transpose();
             let inverse_adjoint = SE2::exp(&step_twist).adjoint().try_inverse().unwrap();
             let expected_cov = inverse_adjoint * sigma * inverse_adjoint.transpose() + r;

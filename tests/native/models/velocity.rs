@@ -1,7 +1,7 @@
 //! The velocity model: scoring, density and sampler.
 
 use crate::common::density::PolarGrid;
-use crate::common::{NOISE_KINDS, derivative_by_noise, draw_uniform, seeded_rng};
+use crate::common::{NOISE_KINDS, derivative_by_noise, sample_uniform, seeded_rng};
 use motion::geom::se2::SE2;
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::Vector3;
@@ -99,9 +99,10 @@ fn samples_far_from_the_origin_have_a_positive_score() {
     ] {
         for alphas in [ALPHAS_WITHOUT_LAST_TURN, VelocityAlphas([0.0; 6])] {
             for _ in 0..1000 {
-                let mut draw_within = |max_abs: f64| draw_uniform(&mut rng, -max_abs, max_abs);
-                let x = SE2::new(draw_within(start_distance), draw_within(start_distance), draw_within(PI));
-                let unit_noise = [draw_within(2.0), draw_within(2.0), 0.0];
+                let mut sample_within = |max_abs: f64| sample_uniform(&mut rng, -max_abs, max_abs);
+                let x =
+                    SE2::new(sample_within(start_distance), sample_within(start_distance), sample_within(PI));
+                let unit_noise = [sample_within(2.0), sample_within(2.0), 0.0];
                 let end_pose = new_model(alphas, NoiseKind::Normal).apply_noise(&u, &x, unit_noise);
                 assert!(
                     new_model(alphas, NoiseKind::Normal).prob(&end_pose, &u, &x) > 0.0,
@@ -116,9 +117,9 @@ fn samples_far_from_the_origin_have_a_positive_score() {
 /// multiples of √6 deviations, lie on bounds of cells. In bearing, the grid reaches half as far as the noise of the turn: a chord turns
 /// by half of the arc's turn.
 fn new_grid_around(velocity_model: &VelocityModel, u: &VelocityCmd, x: &SE2) -> PolarGrid {
-    let [v, omega, last_turn_reach] =
+    let [v, omega, max_last_turn] =
         velocity_model.variances(u).map(|variance| 2.0 * (6.0 * variance.0).sqrt() * u.dt);
-    PolarGrid::new(x, &noise_free_end_of(u, x), 2.0, [v, 0.5 * omega, last_turn_reach], [8; 3])
+    PolarGrid::new(x, &noise_free_end_of(u, x), 2.0, [v, 0.5 * omega, max_last_turn], [8; 3])
 }
 
 /// With noise as large as the motion, robots also drive backwards and turn by more than a circle. On the spot, v̂ has either sign.

@@ -72,14 +72,14 @@ fn legs_end_after_a_duration_where_one_is_set() {
 /// A standard deviation set to 0 is estimated from the log. Any other standard deviation is used as stated.
 #[test]
 fn the_reference_noise_is_estimated_unless_it_is_stated() {
-    let stds_and_is_stated = |position_std: f64, yaw_std: f64| {
+    let stds_and_whether_stated = |position_std: f64, yaw_std: f64| {
         let simulation = new_simulation(Settings { position_std, yaw_std, ..Settings::default() });
         simulation.calibration().reference_noise.map(|std| (std.value, std.interval[0] == std.interval[1]))
     };
-    let [position_std, yaw_std] = stds_and_is_stated(0.0, 0.003);
+    let [position_std, yaw_std] = stds_and_whether_stated(0.0, 0.003);
     assert_eq!((position_std.1, yaw_std.1), (false, true));
     assert!((yaw_std.0 - 0.003).abs() < 1e-12, "{yaw_std:?}");
-    let [position_std, yaw_std] = stds_and_is_stated(0.004, 0.0);
+    let [position_std, yaw_std] = stds_and_whether_stated(0.004, 0.0);
     assert_eq!((position_std.1, yaw_std.1), (true, false));
     assert!((position_std.0 - 0.004).abs() < 1e-12, "{position_std:?}");
 }
@@ -180,8 +180,8 @@ fn turns_that_the_robot_did_not_make_are_in_no_panel() {
         })
         .collect();
     let reference_samples = odometry_samples.iter().map(|(sample_time, pose)| {
-        let draw_error = |_| NoiseKind::Normal.sample(Variance(1e-6), &mut rng);
-        (*sample_time, pose.boxplus([0; 3].map(draw_error).into()))
+        let sample_error = |_| NoiseKind::Normal.sample(Variance(1e-6), &mut rng);
+        (*sample_time, pose.boxplus([0; 3].map(sample_error).into()))
     });
     let reference = Trajectory::new(reference_samples.collect::<Vec<_>>()).expect("times rise");
     let odometry = Trajectory::new(odometry_samples).expect("times rise");

@@ -1,6 +1,6 @@
 //! The simulation of Arc Anatomy: inverted arcs are compared with the printed table, the model, and numeric derivatives.
 
-use crate::common::{NOISE_KINDS, draw_uniform, seeded_rng, settings_of_preset};
+use crate::common::{NOISE_KINDS, sample_uniform, seeded_rng, settings_of_preset};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::arc_anatomy::{ArcAnatomy, Settings, Stats};
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
@@ -22,13 +22,13 @@ fn start_and_next_pose_of(settings: &Settings) -> (SE2, SE2) {
 fn sample_settings(seed: u64) -> impl Iterator<Item = Settings> {
     let mut rng = seeded_rng(seed);
     std::iter::repeat_with(move || {
-        let mut draw_uniform_up_to = |max_abs: f64| draw_uniform(&mut rng, -max_abs, max_abs);
-        let start_pose = [draw_uniform_up_to(3.0), draw_uniform_up_to(3.0), draw_uniform_up_to(PI)];
-        let final_pose = [draw_uniform_up_to(3.0), draw_uniform_up_to(3.0), draw_uniform_up_to(PI)];
+        let mut sample_uniform_up_to = |max_abs: f64| sample_uniform(&mut rng, -max_abs, max_abs);
+        let start_pose = [sample_uniform_up_to(3.0), sample_uniform_up_to(3.0), sample_uniform_up_to(PI)];
+        let final_pose = [sample_uniform_up_to(3.0), sample_uniform_up_to(3.0), sample_uniform_up_to(PI)];
         let command = VelocityCmd {
-            v: draw_uniform_up_to(1.5),
-            omega: draw_uniform_up_to(2.0),
-            dt: 0.1 + draw_uniform_up_to(1.0).abs(),
+            v: sample_uniform_up_to(1.5),
+            omega: sample_uniform_up_to(2.0),
+            dt: 0.1 + sample_uniform_up_to(1.0).abs(),
         };
         Settings { start: start_pose, next: final_pose, command, ..Settings::default() }
     })

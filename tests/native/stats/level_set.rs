@@ -1,6 +1,6 @@
 //! Contour lines of known fields, and of the heat maps of Arc Anatomy.
 
-use crate::common::{draw_uniform, seeded_rng};
+use crate::common::{sample_uniform, seeded_rng};
 use motion::geom::se2::SE2;
 use motion::sim::arc_anatomy::{ArcAnatomy, CONTOUR_LEVELS, HeatMapKind, Settings, Surface};
 use motion::stats::trace_level_set;
@@ -32,7 +32,7 @@ fn the_mean_of_the_corners_decides_how_a_saddle_is_connected() {
 fn contours_of_noise_contain_every_crossing() {
     let mut rng = seeded_rng(21);
     let (columns, rows) = (23, 17);
-    let random_field: Vec<f64> = (0..columns * rows).map(|_| draw_uniform(&mut rng, -1.0, 1.0)).collect();
+    let random_field: Vec<f64> = (0..columns * rows).map(|_| sample_uniform(&mut rng, -1.0, 1.0)).collect();
     let mut crossing_count = 0;
     for i in 0..columns * rows {
         let is_crossed = |k: usize| usize::from((random_field[i] > 0.2) != (random_field[k] > 0.2));

@@ -1,6 +1,6 @@
 //! Moments, skews and contours of clouds, and exact moments of models.
 
-use crate::common::{MAX_STANDARD_ERRORS, ReferenceTable, draw_uniform, seeded_rng};
+use crate::common::{MAX_STANDARD_ERRORS, ReferenceTable, sample_uniform, seeded_rng};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::models::PolarMotion;
 use motion::sim::banana::{BananaMachine, Settings};
@@ -57,9 +57,9 @@ fn the_exponential_contour_covers_the_fraction_of_two_sigma() {
         let inversion = motion::invert_arc(&start_pose, &SE2::new(x, y, 0.0), 1.0);
         let squared_sigmas = ((inversion.v_hat - 1.0).powi(2) + (inversion.omega_hat - 0.5).powi(2)) / 0.025;
         assert!((squared_sigmas - 4.0).abs() < 1e-9, "{squared_sigmas}");
-        for (scale_from_centre, is_inside) in [(0.99, true), (1.01, false)] {
-            let v = 1.0 + scale_from_centre * (inversion.v_hat - 1.0);
-            let omega = 0.5 + scale_from_centre * (inversion.omega_hat - 0.5);
+        for (scale_about_centre, is_inside) in [(0.99, true), (1.01, false)] {
+            let v = 1.0 + scale_about_centre * (inversion.v_hat - 1.0);
+            let omega = 0.5 + scale_about_centre * (inversion.omega_hat - 0.5);
             assert_eq!(outline.contains(&start_pose.boxplus(Vector3::new(v, 0.0, omega))), is_inside);
         }
     }
@@ -161,7 +161,7 @@ fn degenerate_clouds_give_nan() {
         let mut rng = seeded_rng(145);
         (0..100)
             .map(|_| {
-                let s = draw_uniform(&mut rng, -1.0, 1.0);
+                let s = sample_uniform(&mut rng, -1.0, 1.0);
                 SE2::new(0.1 + s * heading.cos(), 0.7 + s * heading.sin(), heading)
             })
             .collect::<Vec<_>>()
@@ -237,8 +237,9 @@ fn a_width_of_the_size_of_position_rounding_counts_as_zero() {
     const TINY_WIDTH: f64 = 1e-10;
     let skew_around = |[x, y]: [f64; 2]| {
         let mut rng = seeded_rng(146);
-        let mut draw_offset = || draw_uniform(&mut rng, -TINY_WIDTH, TINY_WIDTH);
-        let poses: Vec<SE2> = (0..100).map(|_| SE2::new(x + draw_offset(), y + draw_offset(), 0.3)).collect();
+        let mut sample_offset = || sample_uniform(&mut rng, -TINY_WIDTH, TINY_WIDTH);
+        let poses: Vec<SE2> =
+            (0..100).map(|_| SE2::new(x + sample_offset(), y + sample_offset(), 0.3)).collect();
         cross_track_skew(&poses)
     };
     for cloud_centre in [[1e3, 0.0], [-1e3, 0.0], [0.0, 1e3], [1e3, -1e3]] {

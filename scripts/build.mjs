@@ -11,7 +11,7 @@ import { listCrates } from './licences.mjs';
 import { absolutePath, filesOf, runOrThrow, printStep, runProgram, runAsScript, settleAll } from './process.mjs';
 import { ensureNativeRust, ensurePackages, ensureRustForWasm } from './toolchain.mjs';
 
-const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'python', 'react', 'tables', 'types'].map((scriptName) => `scripts/${scriptName}.mjs`);
+const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'pages', 'python', 'react', 'tables', 'types'].map((scriptName) => `scripts/${scriptName}.mjs`);
 
 /** Type declarations of the module by which scripts/bundle.mjs replaces `motion.wasm`. */
 const BUNDLED_CORE_TYPES = `type Bytes = Uint8Array<ArrayBuffer>;
@@ -48,7 +48,7 @@ export async function build({ isLocal = false } = {}) {
   const figureProducts = WIDGET_TAGS.flatMap((widgetTag) => [`build/${widgetTag}.js`, `build/${widgetTag}.wasm`]);
   if (!isLocal) await buildIfStale('build/figures.sha256', coreHash, figureProducts, () => buildCores(WIDGET_TAGS, false));
   const tagsWithCore = compiledHash === coreHash && isUpToDate('build/figures.sha256', coreHash, figureProducts) ? WIDGET_TAGS : [];
-  const pagesHash = hashOfFiles(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], compiledHash + tagsWithCore);
+  const pagesHash = hashOfFiles(['www', 'doc/embedding/figures.md', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], compiledHash + tagsWithCore);
   await buildIfStale('build/pages.sha256', pagesHash, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], () => bundlePages({ tags: tagsWithCore }));
   await buildIfStale('build/example-log.sha256', hashOfFiles(['scripts/example-log.mjs'], coreHash), Object.values(EXAMPLE_LOG_PATHS), writeExampleLog);
 }

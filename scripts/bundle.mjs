@@ -1,17 +1,17 @@
 // Bundles www/ to dist/: variants for a page, a bundler, an iframe, a local file and Node. doc/embedding.md describes them.
 
 import { createHash } from 'node:crypto';
-import { appendFileSync, chmodSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { appendFileSync, chmodSync, copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, relative } from 'node:path';
 import { build, transformSync } from 'esbuild';
 import * as declared from '../build/settings.js';
-import { describeWidgets, importTypeScript } from './declarations.mjs';
+import { importTypeScript } from './declarations.mjs';
 import { readLicenceTexts, listBundledPackages } from './licences.mjs';
 import { createManifest } from './manifest.mjs';
+import { MAIN_PAGES, writePages } from './pages.mjs';
 import { REPOSITORY_ROOT, UserError, absolutePath, filesOf, printStep } from './process.mjs';
 import { writePython } from './python.mjs';
 import { writeComponents } from './react.mjs';
-import { insertTables } from './tables.mjs';
 import { writeTypes } from './types.mjs';
 
 /** Tags of the elements. */
@@ -249,13 +249,9 @@ export async function bundlePages({ tags = WIDGET_TAGS } = {}) {
     const outputContents = text.includes(CHUNK_PLACEHOLDER) ? text.replaceAll(CHUNK_PLACEHOLDER, basename(path, '.map')) : contents;
     writeOutput(path, path.endsWith('.iife.js') ? escapeNonAscii(text) : outputContents);
   }
-  const elementManifest = await createManifest();
-  const elementDeclarations = elementManifest.modules.flatMap(({ declarations }) => declarations);
-  const widgetDescriptions = await describeWidgets();
-  for (const path of filesOf('www').filter((path) => /\.(html|css)$/.test(path))) {
-    const text = readFileSync(absolutePath(path), 'utf8');
-    writeOutput(absolutePath(join('dist', relative('www', path))), path.endsWith('.html') ? insertTables(text, elementDeclarations, widgetDescriptions) : text);
-  }
+  writeOutput(absolutePath('dist/custom-elements.json'), `${JSON.stringify(await createManifest(), null, 1)}\n`);
+  for (const path of filesOf('www').filter((path) => /\.(html|css)$/.test(path))) copyFileSync(absolutePath(path), absolutePath(join('dist', relative('www', path))));
+  await writePages('dist', MAIN_PAGES);
   const { createPreUpgradeCss } = await importTypeScript('www/ui/reserved-height.ts');
   // Figures need scripts. If scripts are disabled, no height is reserved for figures.
   const reservedHeightCss = `@media (scripting:enabled){\n${createPreUpgradeCss()}\n}`;
@@ -270,7 +266,6 @@ export async function bundlePages({ tags = WIDGET_TAGS } = {}) {
   for (const name of ['de', 'motion-widgets.css']) writeOutput(absolutePath(`dist/${name}.d.ts`), 'export {};\n');
   chmodSync(absolutePath('dist/cli.js'), 0o755);
   writeOutput(absolutePath('dist/classroom.html'), composeInlinedPage('index.html'));
-  writeOutput(absolutePath('dist/custom-elements.json'), `${JSON.stringify(elementManifest, null, 1)}\n`);
   // Sizes of the bundles, which tests/package/sizes.nightly.test.js reads.
   const bundleOutputs = Object.assign({}, ...bundleResults.map(({ metafile }) => metafile.outputs));
   writeOutput(absolutePath('build/outputs.json'), JSON.stringify(bundleOutputs));
@@ -386,16 +381,14 @@ function flattenImports(typesSource) {
  */
 function composeInlinedPage(name) {
   const readDistFile = (/** @type {string} */ path) => readFileSync(absolutePath(join('dist', path)), 'utf8').replace(/\n?\/\/# sourceMappingURL=\S+\s*$/, '');
-  const styleLink = /<link rel="stylesheet" href="\.\/([\w.-]+)" \/>/g;
-  const scriptTag = /<script type="module" src="\.\/([\w.-]+)"><\/script>/g;
+  const styleLink = /<link rel="stylesheet" href="([\w.-]+)">/g;
+  const scriptTag = /<script type="module" src="([\w.-]+)"><\/script>/g;
   const pageHtml = readDistFile(name);
-  const externalLink = pageHtml.replace(styleLink, '').replace(scriptTag, '').match(/<(?:script[^>]*\ssrc|link[^>]*\shref)="(?!data:)[^"]*"/);
-  if (externalLink) throw new UserError(`${name}: ${externalLink[0]} cannot be put into one file; expected is "./" and a file of www/.`);
   const inlineScript = (/** @type {string} */ path) =>
     `<script type="module">${readDistFile(path).replaceAll(/<(?=\/script|!--)/gi, '\\x3C')}</script>`;
   // Links to other pages are replaced by their text, because a copied file does not have the other pages next to it.
   return pageHtml
-    .replaceAll(/<a href="\.\/[^"]*">([^<]*)<\/a>/g, '$1')
+    .replaceAll(/<a href="(?!#)[^"]*">([^<]*)<\/a>/g, '$1')
     .replace(styleLink, (_, path) => `<style>\n${readDistFile(path)}</style>`)
-    .replace(scriptTag, (_, path) => inlineScript(path === 'motion-widgets.js' ? 'motion-widgets.iife.js' : path));
+    .replace(scriptTag, (_, path) => inlineScript(path === 'external.js' ? 'motion-widgets.iife.js' : path));
 }

@@ -1,5 +1,8 @@
-// Tables of reference.html that document the elements, made from their declarations and their manifest. Each table replaces a comment in
-// the page.
+// Tables that document the elements, made from their declarations and their manifest. Each table replaces a comment in a page.
+
+import { readFileSync } from 'node:fs';
+import { describeWidgets } from './declarations.mjs';
+import { absolutePath } from './process.mjs';
 
 /**
  * @typedef {import('./declarations.mjs').Widget} Widget
@@ -31,15 +34,11 @@ const TABLE_BUILDERS = {
   parts: (elements) => renderItemTable(elements, 'part', 'Parts, for <code>::part()</code>', ['part', 'description'], ({ cssParts }) => cssParts),
 };
 
-/**
- * Returns a page with tables in place of their comments.
- *
- * @param {string} pageHtml HTML with comments like `<!-- table of events -->`
- * @param {Element[]} elements
- * @param {Widget[]} widgets
- */
-export function insertTables(pageHtml, elements, widgets) {
-  return pageHtml.replaceAll(/^ *<!-- table of (\w+) -->$/gm, (_, name) => TABLE_BUILDERS[name](elements, widgets));
+/** Returns a page with tables in place of comments like `<!-- table of events -->`. @param {string} pageHtml */
+export async function insertTables(pageHtml) {
+  const { modules } = JSON.parse(readFileSync(absolutePath('dist/custom-elements.json'), 'utf8'));
+  const widgets = await describeWidgets();
+  return pageHtml.replaceAll(/<!-- table of (\w+) -->/g, (_, name) => TABLE_BUILDERS[name](modules[0].declarations, widgets));
 }
 
 /**

@@ -58,10 +58,10 @@ test('outliers are marked by rings, and change the fit strongly if they are not 
   await waitUntilSettled(widget);
   const statsAfter = await readStats(widget);
   expect(statsAfter.referenceNoise.positionStd.value).toBeGreaterThan(10 * statsBefore.referenceNoise.positionStd.interval[1]);
-  // The ratios in the text of www/index.html must equal the computed ratios.
+  // The ratios in the text of www/index.md must equal the computed ratios.
   const outlierCheck = statsBefore.diagnostics.checks.find(({ name }) => name === 'outliers-few');
   const [outlierRatioText, alpha3RatioText] = [10 * Math.round(0.1 / (outlierCheck?.value ?? NaN)), Number(statsAfter.alphas[2]) / Number(statsBefore.alphas[2])].map((computedRatio) => ({ 6: 'six', 60: 'sixty' })[Math.round(computedRatio)]);
-  expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toMatch(RegExp(`One in ${outlierRatioText} is an outlier[^]* becomes ${alpha3RatioText} times as large, and two checks fail`));
+  expect(readFileSync(new URL('../../www/index.md', import.meta.url), 'utf8')).toMatch(RegExp(`One in ${outlierRatioText} is an outlier[^]* becomes ${alpha3RatioText} times as large, and two checks fail`));
   await expect(captionOf(widget)).toHaveText(/^! Caution\s+Failed: correlation of neighbouring residuals; .* \(2 of 14 checks\)\. \d+ legs of the simulated log\.$/);
   await expect(widget.locator('.to-do')).toHaveText(/ If the log cannot be improved, use the recommended α’s\. First multiply the odometry’s turns by 0\.9\d\d: the α’s are those of the corrected robot\.$/);
 });
@@ -75,9 +75,9 @@ test('a systematic error that is not corrected is named in the advice', async ({
   const statsAfter = await readStats(widget);
   expect(statsAfter.systematicErrors.mountYaw.corrected).toBe(false);
   expect(statsAfter.systematicErrors.mountYaw.value).toBeCloseTo(0.07, 2);
-  // The two estimates in the text of www/index.html must equal the computed estimates.
+  // The two estimates in the text of www/index.md must equal the computed estimates.
   const [yawStdBefore, yawStdAfter] = [statsBefore, statsAfter].map(({ referenceNoise: { yawStd } }) => yawStd.value.toFixed(3));
-  expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toContain(`goes from ${yawStdBefore} to ${yawStdAfter}&nbsp;rad`);
+  expect(readFileSync(new URL('../../www/index.md', import.meta.url), 'utf8')).toContain(`goes from ${yawStdBefore} to ${yawStdAfter}&nbsp;rad`);
   await expect(captionOf(widget)).toHaveText(/^! Caution\s+Failed: correlation of neighbouring residuals \(1 of 14 checks\)\.\s+\d+ legs /);
   await expect(widget.locator('.to-do')).toHaveText(/^Not corrected: mount yaw \(rad\) 0\.070\d \(0\.06\d\d – 0\.07\d\d\) \(see More controls\)\. Errors of neighbouring legs /);
   await expect(widget.getByRole('row', { name: /mount yaw/ })).toContainText('not corrected');

@@ -19,7 +19,7 @@ test('pages of the site fit a phone, load without errors, and start their figure
   for (const path of pagePaths) {
     await page.goto(builtSite.address + path);
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${path} is too wide`);
-    for (const figureLocator of await page.locator('.stand, .document > :is(banana-machine, map-squeeze)').all()) {
+    for (const figureLocator of await page.locator('main :is(banana-machine, map-squeeze)').all()) {
       await figureLocator.evaluate((figureElement) => figureElement.scrollIntoView());
       await figureLocator.locator('canvas').first().waitFor();
       figureCount++;

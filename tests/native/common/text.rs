@@ -30,14 +30,14 @@ impl PrintedNumber {
 const THIN_SPACE: char = '\u{202f}';
 
 impl PlainText {
-    pub fn from_page(html: &str) -> Self {
+    pub fn from_page(markdown: &str) -> Self {
         let mut plain_text = String::new();
-        for tag_and_text in html.split('<') {
+        for tag_and_text in markdown.split('<') {
             // The text before the first tag has no markup.
             plain_text
                 .push_str(tag_and_text.split_once('>').map_or(tag_and_text, |(_, plain_part)| plain_part));
         }
-        for (entity, character) in [("&nbsp;", " "), ("&#8239;", "\u{202f}"), ("&lt;", "<"), ("&gt;", ">")] {
+        for (entity, character) in [("*", ""), ("&nbsp;", " "), ("&#8239;", "\u{202f}"), ("&lt;", "<"), ("&gt;", ">")] {
             plain_text = plain_text.replace(entity, character);
         }
         Self::from_document(&plain_text)

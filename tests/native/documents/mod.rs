@@ -10,7 +10,7 @@ mod squeeze;
 use crate::common::text::PlainText;
 
 fn read_page_text() -> PlainText {
-    PlainText::from_page(include_str!("../../../www/index.html"))
+    PlainText::from_page(include_str!("../../../www/index.md"))
 }
 
 fn read_exercises() -> PlainText {

@@ -34,7 +34,7 @@ fn main() -> serde_json::Result<()> {
 
 /// Returns the tag of a widget, its settings and its presets as JSON. Each setting has its declaration, its type with the allowed values,
 /// and its default.
-fn describe_widget<S: SettingRules>(tag: &'static str) -> serde_json::Result<Box<RawValue>> {
+fn describe_widget<S: SettingRules>(widget_tag: &'static str) -> serde_json::Result<Box<RawValue>> {
     let mut settings = Vec::new();
     S::default().try_visit_settings(|declaration, setting| {
         let setting_type = match &setting {
@@ -44,7 +44,7 @@ fn describe_widget<S: SettingRules>(tag: &'static str) -> serde_json::Result<Box
                 json!({ "type": "whole", "allowed": allowed, "nullable": true })
             }
             Setting::Boolean(_) => json!({ "type": "boolean" }),
-            Setting::Keyword(keyword) => json!({ "type": "word", "words": keyword.all_keywords() }),
+            Setting::Keyword(setting_keyword) => json!({ "type": "word", "words": setting_keyword.all_keywords() }),
             Setting::Numbers(_, allowed) => {
                 json!({ "type": "numbers", "allowed": allowed, "minLength": find_min_length::<S>(declaration.key) })
             }
@@ -60,18 +60,18 @@ fn describe_widget<S: SettingRules>(tag: &'static str) -> serde_json::Result<Box
         settings.push(to_raw_value(&(declaration, setting_type, &setting))?);
         Ok(())
     })?;
-    to_raw_value(&(tag, settings, S::PRESETS))
+    to_raw_value(&(widget_tag, settings, S::PRESETS))
 }
 
 /// Returns the minimum length of a list setting whose length depends on a preceding keyword, such as the motion model.
 fn find_min_length<S: SettingRules>(list_key: &str) -> usize {
     let mut find_min_length = usize::MAX;
     S::default().visit_settings(&mut |keyword_declaration, setting| {
-        let Setting::Keyword(keyword) = setting else { return };
-        for word in keyword.all_keywords() {
+        let Setting::Keyword(setting_keyword) = setting else { return };
+        for allowed_keyword in setting_keyword.all_keywords() {
             S::default().visit_settings(&mut |declaration, setting| match setting {
-                Setting::Keyword(keyword) if declaration.key == keyword_declaration.key => {
-                    assert!(keyword.set(word))
+                Setting::Keyword(setting_keyword) if declaration.key == keyword_declaration.key => {
+                    assert!(setting_keyword.set(allowed_keyword))
                 }
                 Setting::Numbers(listed_numbers, _) if declaration.key == list_key => {
                     find_min_length = find_min_length.min(listed_numbers.len());

@@ -103,12 +103,12 @@ impl NoiseKind {
     }
 
     /// Replaces each number q by the quantile of the probability ½ + q. The results have the same bits as those of [`NoiseKind::quantile`].
-    pub(crate) fn replace_by_quantiles(self, numbers: &mut [f64x4]) {
+    pub(crate) fn replace_by_quantiles(self, centred_probabilities: &mut [f64x4]) {
         match self {
-            Self::Normal => {
-                numbers.chunks_mut(quantile::CHUNK_VECTORS).for_each(quantile::replace_chunk_by_quantiles)
-            }
-            Self::Triangular => numbers
+            Self::Normal => centred_probabilities
+                .chunks_mut(quantile::CHUNK_VECTORS)
+                .for_each(quantile::replace_chunk_by_quantiles),
+            Self::Triangular => centred_probabilities
                 .iter_mut()
                 .for_each(|q| *q = *q * (SQRT_6 * 2.0) / (1.0 + (1.0 - 2.0 * q.abs()).sqrt())),
         }
@@ -173,8 +173,8 @@ pub fn draw_centred_uniform<R: Rng + ?Sized>(rng: &mut R) -> f64 {
 #[inline(always)]
 pub(crate) fn draw_four_uniform_triples<R: Rng + ?Sized>(rng: &mut R) -> [f64x4; 3] {
     let mut uniform_triples = [[0.0; LANE_COUNT]; 3];
-    for lane in 0..LANE_COUNT {
-        uniform_triples.iter_mut().for_each(|numbers| numbers[lane] = draw_centred_uniform(rng));
+    for lane_index in 0..LANE_COUNT {
+        uniform_triples.iter_mut().for_each(|numbers| numbers[lane_index] = draw_centred_uniform(rng));
     }
     uniform_triples.map(f64x4::from)
 }

@@ -140,8 +140,8 @@ impl From<f64> for DoubleDouble {
 impl Add for DoubleDouble {
     type Output = Self;
     /// Returns the sum, with a relative error of at most 2⁻¹⁰⁵.
-    fn add(self, other: Self) -> Self {
-        let (high_sum, low_sum) = (two_sum(self.high, other.high), two_sum(self.low, other.low));
+    fn add(self, addend: Self) -> Self {
+        let (high_sum, low_sum) = (two_sum(self.high, addend.high), two_sum(self.low, addend.low));
         let high_sum = quick_two_sum(high_sum.high, high_sum.low + low_sum.high);
         quick_two_sum(high_sum.high, high_sum.low + low_sum.low)
     }
@@ -149,17 +149,17 @@ impl Add for DoubleDouble {
 
 impl Sub for DoubleDouble {
     type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        self + Self { high: -other.high, low: -other.low }
+    fn sub(self, subtrahend: Self) -> Self {
+        self + Self { high: -subtrahend.high, low: -subtrahend.low }
     }
 }
 
 impl Mul for DoubleDouble {
     type Output = Self;
     /// Returns the product, with a relative error of at most 2⁻¹⁰².
-    fn mul(self, other: Self) -> Self {
-        let product = Self::product(self.high, other.high);
-        quick_two_sum(product.high, product.low + (self.high * other.low + self.low * other.high))
+    fn mul(self, factor: Self) -> Self {
+        let high_product = Self::product(self.high, factor.high);
+        quick_two_sum(high_product.high, high_product.low + (self.high * factor.low + self.low * factor.high))
     }
 }
 

@@ -125,7 +125,7 @@ pub(crate) fn from_lanes(value_of_lane: impl FnMut(usize) -> f64) -> f64x4 {
 
 /// Returns a mask of SIMD lanes: all bits are set in the first `lane_count` lanes, and none in the others.
 pub(crate) fn first_lanes_mask(lane_count: usize) -> f64x4 {
-    from_lanes(|lane| if lane < lane_count { f64::from_bits(u64::MAX) } else { 0.0 })
+    from_lanes(|lane_index| if lane_index < lane_count { f64::from_bits(u64::MAX) } else { 0.0 })
 }
 
 /// Returns ln of positive normal numbers, by the same operations as `libm::log`. FreeBSD's e_log.c explains the algorithm.

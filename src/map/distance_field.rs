@@ -142,7 +142,7 @@ impl<'a> FieldBuilder<'a> {
                 min_corner: [min_x, min_y],
                 cells_per_metre: 1.0 / cell_side,
                 columns,
-                last_indices: [columns, rows].map(|count| count as f64 - 1.0),
+                last_indices: [columns, rows].map(|cell_count_along_side| cell_count_along_side as f64 - 1.0),
                 cell_radius,
                 cell_uncertainty: if wall_tree.is_leaf(1) { 0.0 } else { RELATIVE_UNCERTAINTY * cell_radius },
                 lower_bounds: vec![NOT_COMPUTED; columns * rows],

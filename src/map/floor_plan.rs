@@ -68,8 +68,8 @@ pub enum FloorPlanError {
     TooManySides(usize),
 }
 
-fn join_numbers(numbers: &[f64]) -> String {
-    numbers.iter().copied().map(format_number).collect::<Vec<_>>().join(", ")
+fn join_numbers(joined_numbers: &[f64]) -> String {
+    joined_numbers.iter().copied().map(format_number).collect::<Vec<_>>().join(", ")
 }
 
 /// Verdict of a collision test. The distance field alone decides most tests.
@@ -181,7 +181,7 @@ impl FloorPlan {
             point,
             clearance,
             &mut wall_tests,
-            |node| node.is_farther_than(point, clearance),
+            |wall_node| wall_node.is_farther_than(point, clearance),
             |wall| wall.distance_to_point(point) > clearance,
         );
         CollisionVerdict { free: is_free, wall_tests }
@@ -254,7 +254,7 @@ impl FloorPlan {
     fn leaves_bounds(&self, driven_arc: &DrivenArc) -> bool {
         let (arc, [min_x, min_y, max_x, max_y]) = (&driven_arc.arc, driven_arc.bounding_box());
         let mut box_corners = [[min_x, min_y], [max_x, min_y], [max_x, max_y], [min_x, max_y]].into_iter();
-        if box_corners.all(|corner| self.contains(corner)) {
+        if box_corners.all(|box_corner| self.contains(box_corner)) {
             return false;
         }
         if !self.contains(arc.start.position()) || !self.contains(driven_arc.end) {
@@ -348,12 +348,12 @@ impl ArcSweep<'_> {
             part_middle,
             clear_distance,
             &mut self.wall_tests,
-            |node| {
-                node.is_farther_than(part_middle, clear_distance)
+            |wall_node| {
+                wall_node.is_farther_than(part_middle, clear_distance)
                     // Testing a node of the wall tree saves time only if its capsule is thinner than the length of the tested part of the
                     // arc.
-                    || node.capsule_radius < part_radius
-                        && node.capsule_axis.distance_to_local_arc(get_local_arc()) - node.capsule_radius > clearance
+                    || wall_node.capsule_radius < part_radius
+                        && wall_node.capsule_axis.distance_to_local_arc(get_local_arc()) - wall_node.capsule_radius > clearance
             },
             |wall| {
                 let squared_distance = wall.squared_distance_to_point(part_middle);

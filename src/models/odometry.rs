@@ -29,12 +29,12 @@ impl OdomDelta {
     pub fn from_poses(previous_pose: &SE2, current_pose: &SE2) -> Self {
         let (dx, dy) = (current_pose.x() - previous_pose.x(), current_pose.y() - previous_pose.y());
         let trans = libm::hypot(dx, dy);
-        let turn = current_pose.theta() - previous_pose.theta();
+        let whole_turn = current_pose.theta() - previous_pose.theta();
         if trans < MIN_TRANSLATION {
-            return Self { rot1: 0.0, trans: 0.0, rot2: wrap_angle(turn) };
+            return Self { rot1: 0.0, trans: 0.0, rot2: wrap_angle(whole_turn) };
         }
         let rot1 = wrap_angle(libm::atan2(dy, dx) - previous_pose.theta());
-        Self { rot1, trans, rot2: wrap_angle(turn - rot1) }
+        Self { rot1, trans, rot2: wrap_angle(whole_turn - rot1) }
     }
 
     /// Returns the pose that this motion reaches from `x` without noise.

@@ -80,8 +80,8 @@ impl OdometryRule {
                 LegVariances { rot1, trans, rot2, strafe: Variance(0.0) }
             }
             Self::Omni => {
-                let turn = wrap_angle(legs.rot1 + legs.rot2);
-                let (trans_sq, turn_sq) = (legs.trans * legs.trans, turn * turn);
+                let whole_turn = wrap_angle(legs.rot1 + legs.rot2);
+                let (trans_sq, turn_sq) = (legs.trans * legs.trans, whole_turn * whole_turn);
                 LegVariances {
                     rot1: Variance(0.0),
                     trans: Variance(a3 * trans_sq + a4 * turn_sq),

@@ -31,11 +31,11 @@ pub(super) const CHUNK_VECTORS: usize = 256;
 
 /// Replaces each number q of a chunk by Φ⁻¹(½ + q), with the same bits as [`normal_quantile`]. One number in seven is in a tail, and every
 /// second vector has one. Gathering these numbers into full vectors saves most of their cost, and avoids unpredictable branches.
-pub(super) fn replace_chunk_by_quantiles(numbers: &mut [f64x4]) {
+pub(super) fn replace_chunk_by_quantiles(centred_probabilities: &mut [f64x4]) {
     let mut tail_numbers = [0.0; LANE_COUNT * CHUNK_VECTORS + LANE_COUNT];
     let mut tail_indices = [0u16; LANE_COUNT * CHUNK_VECTORS + LANE_COUNT];
     let mut tail_count = 0;
-    for (vector_index, q) in numbers.iter_mut().enumerate() {
+    for (vector_index, q) in centred_probabilities.iter_mut().enumerate() {
         let tail_mask = q.abs().simd_gt(f64x4::splat(CENTRE_HALF_WIDTH)).to_bitmask();
         for (lane, number) in q.to_array().into_iter().enumerate() {
             // Each number is stored in the next free place. The next number overwrites a number that is not in a tail.
@@ -46,7 +46,7 @@ pub(super) fn replace_chunk_by_quantiles(numbers: &mut [f64x4]) {
         let r = f64x4::splat(0.180_625) - *q * *q;
         *q *= rational_function(r, &CENTRE_NUMERATOR, &CENTRE_DENOMINATOR);
     }
-    let chunk_numbers: &mut [f64] = bytemuck::cast_slice_mut(numbers);
+    let chunk_numbers: &mut [f64] = bytemuck::cast_slice_mut(centred_probabilities);
     for (tail_vector, vector_indices) in
         tail_numbers[..tail_count].chunks(LANE_COUNT).zip(tail_indices[..tail_count].chunks(LANE_COUNT))
     {

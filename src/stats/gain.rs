@@ -90,9 +90,9 @@ pub(super) struct LogDensityDifferences {
 }
 
 impl LogDensityDifferences {
-    pub fn new(gaussians: FittedGaussians) -> Self {
+    pub fn new(fitted_gaussians: FittedGaussians) -> Self {
         Self {
-            fitted_gaussians: gaussians,
+            fitted_gaussians,
             weight_sums: f64x4::splat(0.0),
             squared_deviations: [f64x4::splat(0.0); 2],
             area_sums: [f64x4::splat(0.0); 4],

@@ -71,13 +71,13 @@ pub(super) fn piecewise_nodes(noise_kind: NoiseKind, limit: f64, break_points: [
     for piece_end in [break_points[0].max(-limit).min(0.0), 0.0, break_points[1].max(0.0).min(limit), limit] {
         if piece_end > piece_start {
             let half_width = 0.5 * (piece_end - piece_start);
-            nodes.extend(unit_nodes.iter().map(|node| {
-                let value = piece_start + half_width * (1.0 + node.value);
+            nodes.extend(unit_nodes.iter().map(|unit_node| {
+                let value = piece_start + half_width * (1.0 + unit_node.value);
                 let noise_density = match noise_kind {
                     NoiseKind::Normal => libm::exp(-0.5 * value * value) / TAU.sqrt(),
                     NoiseKind::Triangular => (6f64.sqrt() - value.abs()) / 6.0,
                 };
-                Node { value, weight: node.weight * half_width * noise_density }
+                Node { value, weight: unit_node.weight * half_width * noise_density }
             }));
             piece_start = piece_end;
         }

@@ -95,26 +95,26 @@ impl FirstPass {
     }
 
     #[inline(always)]
-    pub fn multiply_jacobians(&mut self, poses: &FourPoses, arcs: &FourArcs) {
+    pub fn multiply_jacobians(&mut self, poses: &FourPoses, four_arcs: &FourArcs) {
         let multiply_lanes = |four_factors: f64x4| {
             let [low_lanes, high_lanes] = split_into_lane_pairs(four_factors);
             low_lanes * high_lanes
         };
-        let (twist_sincs, arc_sincs) = (multiply_lanes(poses.sinc), multiply_lanes(arcs.sinc));
+        let (twist_sincs, arc_sincs) = (multiply_lanes(poses.sinc), multiply_lanes(four_arcs.sinc));
         let [twist_scale, arc_scale] = self.jacobian_scale;
         self.jacobian_products[0] *= twist_sincs * (twist_scale * twist_scale);
         self.jacobian_products[1] *=
-            multiply_lanes(arcs.length) * (arc_sincs * arc_sincs) * (arc_scale * arc_scale);
+            multiply_lanes(four_arcs.length) * (arc_sincs * arc_sincs) * (arc_scale * arc_scale);
     }
 
     /// Multiplies the products by the Jacobians of the poses in the lanes that are set in `lane_mask`.
     #[inline(never)]
     pub fn multiply_masked_jacobians(&mut self, poses: &FourPoses, arcs: &FourArcs, lane_mask: f64x4) {
         let masked_or_one = |factors: f64x4| lane_mask.bitselect(factors, f64x4::splat(1.0));
-        let [twist, length, arc] = [poses.sinc, arcs.length, arcs.sinc].map(masked_or_one);
+        let [twist, length, arc_factor] = [poses.sinc, arcs.length, arcs.sinc].map(masked_or_one);
         self.multiply_jacobians(
             &FourPoses { sinc: twist, ..*poses },
-            &FourArcs { length, sinc: arc, ..*arcs },
+            &FourArcs { length, sinc: arc_factor, ..*arcs },
         );
     }
 

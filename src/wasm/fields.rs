@@ -9,8 +9,8 @@ use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
 
 impl From<SettingsError> for JsValue {
-    fn from(error: SettingsError) -> Self {
-        RangeError::new(&error.to_string()).into()
+    fn from(settings_error: SettingsError) -> Self {
+        RangeError::new(&settings_error.to_string()).into()
     }
 }
 

@@ -18,8 +18,8 @@ use wasm_bindgen::prelude::*;
 keywords!(MapMode: "trinary" = Self::Trinary, "scale" = Self::Scale, "raw" = Self::Raw);
 
 impl From<FloorPlanError> for JsValue {
-    fn from(error: FloorPlanError) -> Self {
-        RangeError::new(&error.to_string()).into()
+    fn from(plan_error: FloorPlanError) -> Self {
+        RangeError::new(&plan_error.to_string()).into()
     }
 }
 
@@ -73,7 +73,7 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     if let Some(file_bytes) = image.dyn_ref::<Uint8Array>() {
         read_integer("image.length", f64::from(file_bytes.length()), 0..=MAX_BYTES as u64)?;
         return read_grid(&file_bytes.to_vec(), &classifier, resolution, origin)
-            .map_err(|error| RangeError::new(&error.to_string()).into());
+            .map_err(|plan_error| RangeError::new(&plan_error.to_string()).into());
     }
     let (width, height, pixel_bytes) = read_pixels(image)?;
     let pixels = pixel_bytes.as_chunks::<4>().0.to_vec();

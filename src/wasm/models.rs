@@ -184,17 +184,17 @@ pub fn propagate(options: &JsPropagation) -> Result<Array, JsValue> {
     let command = read_command(&fields.value("command")?)?;
     let model = VelocityModel { alphas: VelocityAlphas(read_alphas(&fields)?), noise: NoiseKind::Normal };
     let recursion = fields.read_or("compounding", Compounding::Chapter, ())?;
-    let steps = fields.read_or("steps", 1u64, 1..=MAX_STEPS)?;
+    let step_count = fields.read_or("steps", 1u64, 1..=MAX_STEPS)?;
     // The ranges of the arguments exclude negative and infinite variances.
     let noise_model = TangentNoiseModel::from_velocity(&model, &command)
-        .map_err(|error| RangeError::new(&error.to_string()))?;
+        .map_err(|model_error| RangeError::new(&model_error.to_string()))?;
     let twist = TangentNoiseModel::twist(&command);
-    for step in 0..steps {
+    for step in 0..step_count {
         sigma = noise_model.propagate(&sigma, &twist, recursion);
         // The first-order and chapter recursions only add covariances. Only the fourth order can give an indefinite matrix.
         if recursion == Compounding::FourthOrder && covariance_root(&sigma).is_err() {
             let error_message = format!(
-                "steps is {steps}; allowed are at most {step} here: the next leaves no covariance, for the noise is too large"
+                "steps is {step_count}; allowed are at most {step} here: the next leaves no covariance, for the noise is too large"
             );
             return Err(RangeError::new(&error_message).into());
         }
@@ -289,7 +289,7 @@ fn read_covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue
         covariance_matrix.set_row(i, &Vector3::from(row).transpose());
     }
     covariance_root(&covariance_matrix)
-        .map_err(|error| RangeError::new(&format!("{field} is no covariance: {error}")))?;
+        .map_err(|model_error| RangeError::new(&format!("{field} is no covariance: {model_error}")))?;
     Ok(covariance_matrix)
 }
 

@@ -58,8 +58,8 @@ cloud_simulation_class! {
         is_start_free as "startFree": "boolean" = simulation.is_start_free();
         /// Paths of the first attempts that are accepted through a wall, each as x, y pairs.
         wall_paths as "paths": "Float64Array[]" = {
-            let attempts = simulation.attempts().iter().enumerate();
-            let through_wall = attempts.filter(|(_, attempt)| attempt.is_through_wall()).take(MAX_SHOWN_PATHS);
+            let indexed_attempts = simulation.attempts().iter().enumerate();
+            let through_wall = indexed_attempts.filter(|(_, attempt)| attempt.is_through_wall()).take(MAX_SHOWN_PATHS);
             through_wall.map(|(index, _)| path_of(simulation, index)).collect::<Array>()
         };
     }
@@ -74,7 +74,7 @@ cloud_simulation_class! {
         /// Cells of the map; null for a floor plan without cells.
         grid: "Grid | null" = to_plain_js(&simulation.plan().grid().map(|grid| {
             let ([columns, rows], origin) = (grid.size(), grid.origin().into());
-            let cell_flags_of = |cell_state| grid.cells().map(|cell| u8::from(cell == cell_state)).collect();
+            let cell_flags_of = |cell_state| grid.cells().map(|grid_cell| u8::from(grid_cell == cell_state)).collect();
             let [occupied_flags, unknown_flags] = [Cell::Occupied, Cell::Unknown].map(cell_flags_of);
             Grid { columns, rows, resolution: grid.resolution(), origin, occupied: occupied_flags, unknown: unknown_flags }
         }));

@@ -10,9 +10,9 @@ use wasm_bindgen::prelude::*;
 
 /// Converts a value to a plain JavaScript value, in which None is null.
 pub fn to_plain_js<T: Serialize>(value: &T) -> JsValue {
-    let serializer = serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true);
+    let js_serializer = serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true);
     // Serialization fails only for maps whose keys are not strings. Results of the core contain no such maps.
-    value.serialize(&serializer).unwrap_or(JsValue::NULL)
+    value.serialize(&js_serializer).unwrap_or(JsValue::NULL)
 }
 
 /// Converts a value as [`to_plain_js`] does, with its TypeScript type.
@@ -26,8 +26,8 @@ pub trait ToJs {
 }
 
 /// Serializes a field of a struct of [`crate::js::js_structs`] by the conversion of [`ToJs`].
-pub fn serialize<T: ToJs, S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {
-    serde_wasm_bindgen::preserve::serialize(&value.to_js(), serializer)
+pub fn serialize<T: ToJs, S: Serializer>(value: &T, js_serializer: S) -> Result<S::Ok, S::Error> {
+    serde_wasm_bindgen::preserve::serialize(&value.to_js(), js_serializer)
 }
 
 macro_rules! to_js {

@@ -191,8 +191,8 @@ impl AlphaCalibrator {
             if outcome_ellipse.has_area() { outcome_ellipse.boundary(OUTLINE_SEGMENTS) } else { vec![] };
         let odometry_end = self.outcome_pose(&leg_reading, [0.0; 3]);
         let reference_end = self.calibration().corrected.motion(leg);
-        let outcomes = outcome_poses.into_iter().map(Into::into).collect();
-        Some(LegView { outcomes, outline, read: odometry_end.into(), ended: reference_end.into() })
+        let end_poses = outcome_poses.into_iter().map(Into::into).collect();
+        Some(LegView { outcomes: end_poses, outline, read: odometry_end.into(), ended: reference_end.into() })
     }
 
     /// Returns the end pose that the fitted model predicts for an odometry reading or command, with the noise `unit_noise` (three numbers
@@ -299,12 +299,12 @@ fn create_panel(
     let leg_points: Vec<[f64; 3]> = observations
         .iter()
         .zip(leg_fits)
-        .filter(|(observation, fit)| !observation.residuals[component].is_nan() && !fit.is_outlier)
+        .filter(|(leg_observation, fit)| !leg_observation.residuals[component].is_nan() && !fit.is_outlier)
         // Legs with sideways motion are omitted, because their odometry readings have large rotations that the robot did not make. A check
         // of the diagnostics counts these legs.
-        .filter(|(observation, _)| !observation.moves_sideways(model))
-        .map(|(observation, fit)| {
-            let alpha_coefficient = observation.coefficients[component][position_in_component];
+        .filter(|(leg_observation, _)| !leg_observation.moves_sideways(model))
+        .map(|(leg_observation, fit)| {
+            let alpha_coefficient = leg_observation.coefficients[component][position_in_component];
             let total_variance = fit.stds[component] * fit.stds[component];
             let variance_from_other_noise = total_variance - slope.unwrap_or(0.0) * alpha_coefficient;
             let squared_innovation =

@@ -75,9 +75,9 @@ impl Stats {
             mean: cloud.exponential.mean * pose_factor,
             cov: cloud.exponential.cov * pose_factor,
         };
-        let gain_if_defined = |LikelihoodGain { pose, floor }: LikelihoodGain| LikelihoodGain {
+        let gain_if_defined = |LikelihoodGain { pose, floor: plane_gain }: LikelihoodGain| LikelihoodGain {
             pose: pose * pose_factor,
-            floor: floor * arc_factor,
+            floor: plane_gain * arc_factor,
         };
         let ellipse = Ellipse::from_moments(&cartesian);
         // The cross-track statistics are undefined if all positions are equal. Statistics of exponential coordinates may still be defined,

@@ -69,9 +69,9 @@ impl Cloud {
             }
             second_pass.flush_block();
         }
-        let weighted_robots = self.draws.weighted_subsample(shown_count).map(|(noise, weights)| {
-            let (poses, arcs) = drive.coordinates_of_four(noise);
-            (poses, arcs, weights)
+        let weighted_robots = self.draws.weighted_subsample(shown_count).map(|(noise, robot_weights)| {
+            let (poses, four_arcs) = drive.coordinates_of_four(noise);
+            (poses, four_arcs, robot_weights)
         });
         second_pass.stats(shown_count, weighted_robots)
     }
@@ -150,17 +150,17 @@ fn add_to_first_pass(
     let is_full_group = lane_mask.all();
     for (noise, end_points) in noise.iter().zip(end_points) {
         let motions = drive.compute_motions(noise);
-        let (arcs, is_regular);
-        (*end_points, arcs, is_regular) = drive.end_points(&motions);
+        let (four_arcs, is_regular);
+        (*end_points, four_arcs, is_regular) = drive.end_points(&motions);
         let poses = drive.poses(&motions, end_points);
         first_pass.add(&poses, [noise[0], noise[1]], lane_mask);
         if is_full_group {
-            first_pass.multiply_jacobians(&poses, &arcs);
+            first_pass.multiply_jacobians(&poses, &four_arcs);
         } else {
-            first_pass.multiply_masked_jacobians(&poses, &arcs, lane_mask);
+            first_pass.multiply_masked_jacobians(&poses, &four_arcs, lane_mask);
         }
         if !is_regular {
-            first_pass.add_irregular_arcs(&arcs, drive.regular_arc_deviations(noise), lane_mask);
+            first_pass.add_irregular_arcs(&four_arcs, drive.regular_arc_deviations(noise), lane_mask);
         }
     }
 }

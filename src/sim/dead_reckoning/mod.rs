@@ -245,11 +245,11 @@ impl DeadReckoning {
 
     /// Returns the noise-free path of the command, as x, y pairs from the start.
     pub fn commanded_path(&self) -> Vec<[f64; 2]> {
-        let Settings { command, steps, .. } = self.settings;
+        let Settings { command, steps: step_count, .. } = self.settings;
         let twist = TangentNoiseModel::twist(&command);
         // A chord of 0.1 rad deviates from its arc by 1/800 of its length.
         let chords_per_step = ((twist.z.abs() * 10.0).ceil() as usize).clamp(1, MAX_CHORDS);
-        (0..=chords_per_step * steps as usize)
+        (0..=chords_per_step * step_count as usize)
             .map(|i| SE2::exp(&(twist * (i as f64 / chords_per_step as f64))).position())
             .collect()
     }
@@ -257,9 +257,9 @@ impl DeadReckoning {
     /// Returns the robots and outlines after each quarter of the path, except at the selected step. A path of fewer than four steps gives
     /// fewer entries.
     pub fn milestones(&self) -> Vec<Milestone> {
-        let Settings { step: selected_step, steps, .. } = self.settings;
+        let Settings { step: selected_step, steps: step_count, .. } = self.settings;
         let mut quarter_ends: Vec<u32> =
-            (1..=4).map(|quarter| ((f64::from(quarter * steps) / 4.0).round() as u32).max(1)).collect();
+            (1..=4).map(|quarter| ((f64::from(quarter * step_count) / 4.0).round() as u32).max(1)).collect();
         quarter_ends.dedup();
         quarter_ends.retain(|step| *step != selected_step);
         let milestone_after =

@@ -74,9 +74,9 @@ pub(crate) fn check_integer(
     value: f64,
     allowed: &RangeInclusive<u64>,
 ) -> Result<u64, SettingsError> {
-    let integer = value as u64;
-    if integer as f64 == value && allowed.contains(&integer) {
-        return Ok(integer);
+    let whole_number = value as u64;
+    if whole_number as f64 == value && allowed.contains(&whole_number) {
+        return Ok(whole_number);
     }
     Err(SettingsError { key: field.to_owned(), value, allowed: AllowedValues::Integer(allowed.clone()) })
 }

@@ -194,11 +194,11 @@ impl MapSqueeze {
     pub fn paint(&mut self, grid: &ViewGrid, colour_ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> &[[u8; 4]] {
         let (ViewGrid { min_corner, max_corner, .. }, cells_per_metre) = (*grid, grid.cells_per_unit());
         let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; grid.columns * grid.rows];
-        for attempt in &self.attempts {
-            let column = ((attempt.pose.x() - min_corner[0]) * cells_per_metre[0]).floor();
-            let row = ((max_corner[1] - attempt.pose.y()) * cells_per_metre[1]).floor();
+        for shown_attempt in &self.attempts {
+            let column = ((shown_attempt.pose.x() - min_corner[0]) * cells_per_metre[0]).floor();
+            let row = ((max_corner[1] - shown_attempt.pose.y()) * cells_per_metre[1]).floor();
             if let Some(cell_index) = grid.cell_index(column, row) {
-                cell_counts[cell_index][attempt.outcome_kind()] += 1;
+                cell_counts[cell_index][shown_attempt.outcome_kind()] += 1;
             }
         }
         self.picture_pixels = picture::paint_cell_counts(&cell_counts, colour_ramps);
@@ -207,7 +207,7 @@ impl MapSqueeze {
 
     /// Returns the attempt that ends nearest to the point `target_point` (m), within `search_radius` (m).
     pub fn nearest(&self, target_point: [f64; 2], search_radius: f64) -> Option<usize> {
-        let end_positions = self.attempts.iter().map(|attempt| attempt.pose.position());
+        let end_positions = self.attempts.iter().map(|shown_attempt| shown_attempt.pose.position());
         nearest_index(end_positions, target_point, [search_radius, search_radius])
     }
 
@@ -387,22 +387,22 @@ impl<'a> AttemptDriver<'a> {
     #[inline(always)]
     fn make_next_attempts(&self, attempt_indices: Range<usize>, mut visit: impl FnMut(Attempt, Cost)) {
         if let Sampler::SubStepped(_) = self.settings.sampler {
-            let (attempt, cost) = self.drive_parts(attempt_indices.start, &mut |_| ());
-            return visit(attempt, cost);
+            let (new_attempt, cost) = self.drive_parts(attempt_indices.start, &mut |_| ());
+            return visit(new_attempt, cost);
         }
         let is_conditioned = self.settings.conditioned;
         let (group_id, first_lane) = (attempt_indices.start / LANE_COUNT, attempt_indices.start % LANE_COUNT);
         let lane_range = first_lane..LANE_COUNT.min(first_lane + attempt_indices.len());
         self.collision_tester.test_lanes(&self.draws.unit_noise[group_id], lane_range, |tested_draw| {
             let deciding_verdict = self.model.deciding_verdict(&tested_draw);
-            let attempt = Attempt {
+            let new_attempt = Attempt {
                 pose: tested_draw.pose,
                 accepted: !is_conditioned || deciding_verdict.free,
                 end_free: tested_draw.end_verdict.free,
                 path_free: tested_draw.path_verdict.free,
             };
             let wall_tests = if is_conditioned { deciding_verdict.wall_tests } else { 0 };
-            visit(attempt, Cost { draws: 1, wall_tests });
+            visit(new_attempt, Cost { draws: 1, wall_tests });
         });
     }
 

@@ -131,7 +131,7 @@ js_structs! {
         pub driven: ArcWithCircle,
         /// Final turn γ̂Δt, rad.
         pub last_turn: f64,
-        /// Factors of v̂, ω̂ and γ̂.
+        /// Factors of the score p, for v̂, ω̂ and γ̂.
         pub factors: [ScoreFactor; 3],
         /// Index of the factor whose residual is the largest, in standard deviations.
         pub weakest: usize,
@@ -158,7 +158,7 @@ js_structs! {
         pub normal: [f64; 2],
     }
 
-    /// Lines of the picture: x, y pairs of their points, m.
+    /// Lines that the picture of the arcs shows: x, y pairs of their points, m.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Paths as "AnatomyPaths" {
         /// Noise-free arc of the command.

@@ -239,7 +239,7 @@ impl AlphaCalibrator {
 /// Regressor of the variance of a noise component. Each component has one α for a rotation, and one for a distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Regressor {
-    /// Squared distance, or squared speed.
+    /// Squared distance of a leg, or squared speed of a command.
     Distance,
     /// Squared rotation or squared turn rate; a sum of squares if several rotations add noise.
     Turn,

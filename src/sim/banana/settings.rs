@@ -34,7 +34,7 @@ settings! {
         model: ModelKind = ModelKind::Velocity;
         /// Distribution of the noise. Its choice does not change the variances.
         noise: NoiseKind = NoiseKind::Normal;
-        // By default a straight drive has much noise in the turn and little in the length, which gives the clearest banana shape. By
+        // The default is a straight drive with much noise in the turn and little in the length, which gives the clearest banana shape. By
         // symmetry its cloud has no skew, although no ellipse fits it.
         /// Command of all robots.
         command: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };

@@ -202,7 +202,7 @@ impl<T: HasKeywords> KeywordSetting for T {
 pub trait SettingValue {
     /// Type that states the allowed values of the setting in its declaration, for example a range.
     type Range;
-    /// Returns a reference to the value, with its allowed values.
+    /// Returns the setting that refers to this value, with the allowed values.
     fn setting(&mut self, allowed: Self::Range) -> Setting<'_>;
 }
 

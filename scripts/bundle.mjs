@@ -256,7 +256,7 @@ export async function bundlePages({ tags = WIDGET_TAGS } = {}) {
   // Figures need scripts. If scripts are disabled, no height is reserved for figures.
   const reservedHeightCss = `@media (scripting:enabled){\n${createPreUpgradeCss()}\n}`;
   // Slides have a large font, which is too large for figures. `:where` has no specificity, so that any rule of a page takes precedence.
-  const slideCss = `:where(.reveal) :where(${WIDGET_TAGS}){font-size:.28em;text-align:start}`;
+  const slideCss = `:where(.reveal) :where(${WIDGET_TAGS}){font-size:.27em;text-align:start}`;
   appendFileSync(absolutePath('dist/motion-widgets.css'), `\n:where(${WIDGET_TAGS}){margin-block:1em}\n${slideCss}\n${reservedHeightCss}\n`);
   writeOutput(absolutePath('dist/motion.wasm'), moduleBytes);
   for (const { path, contents } of [bytesScript, ...tags.map(moduleFileOf)]) writeOutput(absolutePath(path), contents);

@@ -137,7 +137,7 @@ function compileOnce(bundledCore: BundledCore): Promise<WebAssembly.Module> {
 
 /** Compiles the module that is embedded in the bundle, if any, in the background while this thread evaluates scripts. */
 export function precompile() {
-  // If `embedded` is set, the embedded core is only a fallback for cores in separate files. They are not compiled in advance.
+  // If `embedded` is set, the embedded core is only a fallback for cores in separate files, which are not compiled in advance.
   if (!bundledCores.embedded && requestedSource === undefined) compileOnce(bundledCores.motion).catch(() => {});
 }
 

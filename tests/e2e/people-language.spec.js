@@ -99,7 +99,7 @@ test('a page can replace messages and add languages; a text that is no language 
   await openDisclosures(widget);
   const refusalMessage = await page.evaluate(async () => {
     const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);
-    setMessages('fr', { cloud: { play: 'Jouer' }, banana: { robot: 'Automate', bend: { bent: () => 'À droite.' } } });
+    setMessages('fr', { cloud: { play: 'Jouer' }, banana: { robot: 'Automate', skewSentences: { bent: () => 'À droite.' } } });
     setMessages('en', { pause: 'Hold' });
     setMessages('ar', { cloud: { play: 'عيّن' } });
     try {

@@ -134,7 +134,7 @@ export function legendHtml(figure: Figure, styles: Record<string, LineStyle>) {
   const setOverlayShown = (name: string, isShown: boolean) =>
     figure.gesture.setElementField('overlays', allOverlays.filter((overlay) => (overlay === name ? isShown : overlays.includes(overlay))));
   const highlightLine = (name: string | null) => (figure.highlight = name);
-  return html`<div class="legend" part="legend" role="group" aria-label=${words.legend}>
+  return html`<div class="legend" part="legend" role="group" aria-label=${words.legendLabel}>
     ${styleNames.map((name) => html`<span @pointerenter=${() => highlightLine(name)} @pointerleave=${() => highlightLine(null)} @focusin=${() => highlightLine(name)} @focusout=${() => highlightLine(null)}>
       ${checkboxHtml({
         label: html`${swatchHtml(styles[name])}<span>${formatMarkup(overlayNames[name])}</span>`,

@@ -129,7 +129,7 @@ export function defaultConfigOf(declarations: Declaration[]): StateValues {
   return Object.fromEntries(declarations.filter((declaration) => !declaration.in && !declaration.of).map((declaration) => [declaration.key, declaration.default]));
 }
 
-/** Returns the attribute of a figure's presets. A preset sets all settings except samples and seed. */
+/** Returns the attribute `preset`, which selects one of a figure's presets. A preset sets all settings except samples and seed. */
 export function presetAttributeOf(presets: readonly { name: string, settings: StateValues }[]): Attribute {
   const presetNames = presets.map(({ name }) => name);
   const presetSettings = presets.map(({ settings }) => Object.fromEntries(Object.entries(settings).filter(([key]) => !KEYS_KEPT_BY_PRESETS.includes(key))));

@@ -105,17 +105,17 @@ export function copyButtonHtml(figure: Figure, label: string, createText: () => 
     const isCopied = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => false);
     const note = createNote() ?? '';
     figure.notice.show(() => (isCopied
-      ? `${words.copies.done} ${note}`
-      : html`${words.copies.byHand} ${note} <textarea readonly rows="3" aria-label=${words.copies.byHand} .value=${text}></textarea>`));
+      ? `${words.copies.copiedNotice} ${note}`
+      : html`${words.copies.manualCopyLabel} ${note} <textarea readonly rows="3" aria-label=${words.copies.manualCopyLabel} .value=${text}></textarea>`));
   };
   return buttonHtml(label, copyText, buttonOptions);
 }
 
 export const linkButtonHtml = (figure: Figure) =>
-  copyButtonHtml(figure, words.copies.link, () => figure.shareLink(), { title: words.copies.linkTitle }, () => figure.exportData.linkNote);
+  copyButtonHtml(figure, words.copies.linkLabel, () => figure.shareLink(), { title: words.copies.linkTitle }, () => figure.exportData.linkNote);
 
 export function embeddingControlsHtml(figure: Figure) {
-  const { label, code, codeTitle } = words.copies;
+  const { label, codeLabel: code, codeTitle } = words.copies;
   const codeButtonHtml = copyButtonHtml(figure, code, () => figure.embedCode(), { title: codeTitle }, () => figure.exportData.codeNote);
   return fieldsetHtml(label, html`<div class="buttons">${codeButtonHtml}</div>`, 'copies', 'copies');
 }

@@ -172,7 +172,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   /** Returns the announcement for screen readers after a completed change. */
   abstract announcementOf(viewModel: ViewModel): string;
 
-  /** Handles a moving or clicking pointer on a picture. */
+  /** Selects the sample at the pointer when the pointer moves or clicks on a picture. */
   selectAtPointer(picture: Picture<any>, event: PointerEvent) {
     this.cloud?.selectAtPointer(picture, event);
   }
@@ -387,7 +387,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
     } catch {
       // No template can be rendered on this page, so that further updates are useless.
       this.shouldUpdate = () => false;
-      this.renderRoot.textContent = words.failure(this.runtime.failureMessage ?? '');
+      this.renderRoot.textContent = words.failureMessage(this.runtime.failureMessage ?? '');
     }
   }
 

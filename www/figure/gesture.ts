@@ -4,7 +4,7 @@ import { FigureController } from './controller.ts';
 import type { StateValues } from './settings.ts';
 
 export class Gesture extends FigureController {
-  /** True between an `input` event and its `change`. */
+  /** True between an `input` event and the `change` event that follows. */
   #isOpen = false;
   #pressListenerAbort: AbortController | undefined;
   /** View model of the simulation (see FigureElement.viewModel) before the present or latest gesture. */

@@ -48,9 +48,9 @@ export class Notice extends FigureController {
 
   render() {
     if (!this.#notice) return nothing;
-    const { stop, stopTitle } = words.progress;
+    const { stopLabel: stop, stopTitle } = words.progress;
     return html`<div class="notice"><div part="notice">
-      <div role="alert">${this.#notice.renderContent()}</div> ${this.#notice.stopWork ? buttonHtml(stop, this.#stopOrClose, { title: stopTitle }) : buttonHtml(words.close, this.#stopOrClose)}
+      <div role="alert">${this.#notice.renderContent()}</div> ${this.#notice.stopWork ? buttonHtml(stop, this.#stopOrClose, { title: stopTitle }) : buttonHtml(words.closeLabel, this.#stopOrClose)}
     </div></div>`;
   }
 }
@@ -67,11 +67,11 @@ export class Announcer {
     this.#isAnnouncementDue = true;
   }
 
-  /** Announces an outcome if an announcement was requested. `getOutcome` is called only then, or if an earlier outcome may have changed. */
+  /** Announces the outcome of a change if an announcement was requested. Otherwise clears an announced outcome that is no longer true. */
   setOutcome(getOutcome: () => string) {
     if (!this.#isAnnouncementDue && !this.#latestOutcome) return;
     const text = getOutcome();
-    // Changes by the page are not announced. They clear an announced outcome that is no longer true.
+    // Changes by the page are not announced.
     this.#announcedText = this.#latestOutcome = this.#isAnnouncementDue || text === this.#latestOutcome ? text : '';
     this.#isAnnouncementDue = false;
   }

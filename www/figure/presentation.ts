@@ -101,17 +101,17 @@ export class Presentation extends FigureController {
   }
 
   buttonHtml() {
-    return buttonHtml(words.presentation.begin, () => (this.host.presentation = true), { title: words.presentation.title, className: 'to-present' });
+    return buttonHtml(words.presentation.beginLabel, () => (this.host.presentation = true), { title: words.presentation.beginTitle, className: 'to-present' });
   }
 
   render() {
     if (!this.#keyListenerAbort) return nothing;
     const presentationWords = words.presentation;
     const keyHintHtml = (key: string, label: string) => html`<b>${key}</b> ${label}`;
-    return html`<div class="presenting" role="group" tabindex="-1" aria-label=${presentationWords.begin}>
-      ${buttonHtml(keyHintHtml(CONTROLS_KEY.toUpperCase(), presentationWords.controls), () => this.#toggleControls(), { pressed: this.showsControls })}
-      ${buttonHtml(keyHintHtml(RESTORE_KEY, presentationWords.back), () => this.#restoreState(), { title: presentationWords.backTitle })}
-      ${buttonHtml(keyHintHtml('Esc', presentationWords.end), () => (this.host.presentation = false))}
+    return html`<div class="presenting" role="group" tabindex="-1" aria-label=${presentationWords.beginLabel}>
+      ${buttonHtml(keyHintHtml(CONTROLS_KEY.toUpperCase(), presentationWords.controlsLabel), () => this.#toggleControls(), { pressed: this.showsControls })}
+      ${buttonHtml(keyHintHtml(RESTORE_KEY, presentationWords.restoreLabel), () => this.#restoreState(), { title: presentationWords.restoreTitle })}
+      ${buttonHtml(keyHintHtml('Esc', presentationWords.endLabel), () => (this.host.presentation = false))}
     </div>`;
   }
 }

@@ -9,7 +9,7 @@ import type { StateValues } from './settings.ts';
 export class Reflection extends FigureController {
   #attributes = this.host.definition.attributes;
   #properties = this.host.definition.properties;
-  /** Names of properties in the order in which early assignments are applied. Properties on which others depend come first. A log takes long and comes last. */
+  /** Names of properties in the order in which early assignments are applied. Properties on which others depend come first. A log comes last, because its fit takes long. */
   #applicationOrder = ['preset', 'map', ...Object.keys(this.#properties), 'log'];
   /** Assignments made before the simulation exists. The key is the name of a property, or a new object for each assigned state. */
   #earlyAssignments: Map<unknown, { value?: unknown, apply: () => void }> = new Map();
@@ -45,7 +45,7 @@ export class Reflection extends FigureController {
     if (this.host.simulation) {
       this.host.runtime.attemptOrReport(applyIfChanged);
     } else {
-      // A map keeps the place of an existing key. Deleting the key moves the latest assignment to the end, where it is applied last.
+      // A JavaScript `Map` keeps the position of an existing key. Deleting the key moves the latest assignment to the end, where it is applied last.
       this.#earlyAssignments.delete(name);
       this.#earlyAssignments.set(name, { value: parsedValue, apply: applyIfChanged });
     }

@@ -102,11 +102,11 @@ export class Settings extends FigureController {
     this.reset();
     host.onSimulationReplaced();
     host.reflection.applyEarlyAssignments();
-    // After another trap there is no simulation. After an assigned state is shown, the view model is up to date.
+    // If an assignment has trapped, there is no simulation. If an assigned state is shown, the view model is already up to date.
     if (host.simulation && this.isViewModelStale) this.#showState(state);
   }
 
-  /** Applies a state with its widget and version. Missing fields keep their values; an error changes nothing. */
+  /** Applies a state, which must name this widget and version. Fields that the state does not have keep their values. Throws an error for an invalid state, and then changes nothing. */
   applyState(state: unknown) {
     const { host } = this;
     this.applyPending();

@@ -26,7 +26,7 @@ export function figureHtml(figure: Figure) {
 
 function contentHtml(figure: Figure) {
   const { failureMessage } = figure.runtime;
-  if (failureMessage !== undefined) return html`<p class="failure" role="alert">${words.failure(failureMessage)}</p>`;
+  if (failureMessage !== undefined) return html`<p class="failure" role="alert">${words.failureMessage(failureMessage)}</p>`;
   // After a trap the previous content stays.
   if (!figure.simulation) return figure.viewModel ? noChange : placeholderHtml(figure);
   const { announcer, dropHandlers, viewModel } = figure;

@@ -159,7 +159,7 @@ export function sliderRowHtml(sliderRow: SliderRow) {
         <span>${printedValue}</span>
         ${numberFieldHtml({ ...allowed, value: Number(value.toPrecision(MAX_FIELD_DIGITS)), arrowRange: { min, max, step }, labelId: `${id}-name`, onChange: applyTyped })}
       </form>
-      <p class="effect muted small" id="${id}-effect">${endAtThumb === undefined ? effect : words.sliderEnds(formatValue(endAtThumb))}</p>
+      <p class="effect muted small" id="${id}-effect">${endAtThumb === undefined ? effect : words.sliderEndNote(formatValue(endAtThumb))}</p>
     </div>
   `;
 }

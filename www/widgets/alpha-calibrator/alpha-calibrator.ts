@@ -345,7 +345,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     const { log, service, notice } = this;
     if (!log || service.isBusy || !this.isConnected) return;
     const stopFit = () => {
-      this.announcer.announce(words.progress.stopped);
+      this.announcer.announce(words.progress.stoppedNotice);
       this.#revertSettings();
     };
     const noticeTimerId = setTimeout(() => notice.show(() => html`<progress aria-label=${words.progress.label}></progress> ${words.progress.label}`, stopFit), NOTICE_DELAY_MS);
@@ -433,7 +433,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
         renderControls: () => html`${modelControlsHtml(this)}
           ${fieldsetHtml(texts.systematic.title, systematicTableHtml(this))}
           ${fieldsetHtml(texts.logControls.title, referenceControlsHtml(this))}
-          ${fieldsetHtml(texts.predictionTitle, html`${settingRadiosHtml(this, 'noise', words.noises)} ${settingSliderHtml(this, 'inflation')}`, 'fit')}`,
+          ${fieldsetHtml(texts.predictionTitle, html`${settingRadiosHtml(this, 'noise', words.noiseNames)} ${settingSliderHtml(this, 'inflation')}`, 'fit')}`,
         renderNumbers: () => html`${fieldsetHtml(texts.legTitle(formatInteger(chosenLegIndex + 1)), legReadoutsHtml(this))}
           ${diagnosticsHtml(this)}
           ${fieldsetHtml(texts.panels.title, regressionPanelsHtml(this))}

@@ -152,7 +152,7 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   explainRefusal(refusal: Refusal) {
-    if (isAbortError(refusal)) return words.progress.stopped;
+    if (isAbortError(refusal)) return words.progress.stoppedNotice;
     const { message, sentences, question } = refusal;
     const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? words.calibrator.logControls.refusedLog(message);
     return [refusalReason, ...(question?.option === 'other' && this.texts ? [this.texts.choose.bothFilesHint] : [])].join(' ');
@@ -187,7 +187,7 @@ export function dropZoneHtml(figure: Figure, opener: LogOpener) {
     </p>
     ${logModule?.logChoosersHtml(opener)}
     ${readFraction !== undefined
-      ? html`<p><progress aria-label=${words.progress.label} .value=${readFraction}></progress> ${buttonHtml(words.progress.stop, () => opener.stopReading())}</p>`
+      ? html`<p><progress aria-label=${words.progress.label} .value=${readFraction}></progress> ${buttonHtml(words.progress.stopLabel, () => opener.stopReading())}</p>`
       : figure.log ? html`<p><span class="present">${texts.resultsOfLog(figure.logName)}</span> ${buttonHtml(texts.leaveLabel, () => opener.closeLog())}</p>` : nothing}
     ${opener.refusalNoteHtml}
     ${opener.otherResultsNote ? html`<p class="muted other-results">${opener.otherResultsNote} ${buttonHtml(texts.dismissFilesLabel, () => opener.restoreResults())}</p>` : nothing}

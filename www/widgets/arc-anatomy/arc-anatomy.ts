@@ -125,7 +125,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
       <div class="controls" part="controls">${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${fieldsetHtml(texts.timeTitle, this.player.sliderHtml('underway', words.play))}</div>
       ${disclosuresHtml(this, {
         renderControls: () => html`<div class="controls">${likelihoodControlsHtml(this)}
-          ${fieldsetHtml(words.noise, html`${settingRadiosHtml(this, 'noise', words.noises)} ${settingSlidersHtml(this, ALPHA_SLIDERS)}`, 'alphas')}</div>`,
+          ${fieldsetHtml(words.noise, html`${settingRadiosHtml(this, 'noise', words.noiseNames)} ${settingSlidersHtml(this, ALPHA_SLIDERS)}`, 'alphas')}</div>`,
         renderNumbers: () => html`${tableLinesHtml(this)} ${likelihoodReadoutsHtml(viewModel)} ${formErrorsPlotHtml(this.motion)}`,
         fileNameSuffix: 'figure',
         csvTitle: texts.csvTitle,

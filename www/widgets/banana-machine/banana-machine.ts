@@ -45,7 +45,7 @@ const FIRST_ISOLATED_ALPHA = 4;
 function modelControlsHtml(figure: BananaMachineElement) {
   const { model, isolate } = figure.viewModel.config;
   const texts = words.banana;
-  return fieldsetHtml(texts.modelGroupTitle, html`${settingRadiosHtml(figure, 'model', texts.modelNames)} ${settingRadiosHtml(figure, 'noise', words.noises)}
+  return fieldsetHtml(texts.modelGroupTitle, html`${settingRadiosHtml(figure, 'model', texts.modelNames)} ${settingRadiosHtml(figure, 'noise', words.noiseNames)}
     ${model === 'odometry' ? settingCheckboxHtml(figure, 'reverseAware', texts.reverseAwareLabel) : nothing}
     ${checkboxHtml({
       label: texts.isolateLabel,
@@ -77,7 +77,7 @@ function alphaSliderHtml(figure: BananaMachineElement, alphaNumber: number, [alp
     effect: formatMarkup(effectText),
     hasNoEffect,
     leadingControl: isolate === null ? undefined : radioButtonHtml({ group: 'isolate', name: words.banana.isolateAlphaLabel(`α${subscriptOf(alphaNumber - 1)}`), checked: !hasNoEffect, onChoose: chooseAlpha }),
-    formatValue: (newAlpha) => (hasNoEffect ? words.banana.ignoredAlpha(formatEditable(newAlpha, 3)) : formatEditable(newAlpha, 3)),
+    formatValue: (newAlpha) => (hasNoEffect ? words.banana.ignoredAlphaText(formatEditable(newAlpha, 3)) : formatEditable(newAlpha, 3)),
     onInput: (newAlpha) => {
       if (hasNoEffect) chooseAlpha();
       figure.settings.requestChange(({ alphas }) => ({ alphas: alphas.with(alphaNumber - 1, newAlpha) }));

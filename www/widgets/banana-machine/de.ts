@@ -23,7 +23,7 @@ export const de: typeof import('./en.ts').en = {
   reverseAwareLabel: 'Rückwärts ohne halbe Drehungen',
   isolateLabel: 'Nur ein α gelten lassen',
   isolateAlphaLabel: (alphaName) => `Nur ${alphaName}`,
-  ignoredAlpha: (alphaText) => `${alphaText} aus`,
+  ignoredAlphaText: (alphaText) => `${alphaText} aus`,
   notes: {
     standingStill: 'Der Befehl heißt stehen bleiben, und ein Roboter, der steht, hat kein Bewegungsrauschen.',
     noNoise: 'Kein α über 0 hat eine Bewegung zu vervielfachen: gar kein Rauschen, also hält jeder Roboter genau da, wo er soll.',
@@ -32,8 +32,8 @@ export const de: typeof import('./en.ts').en = {
     reverseDrive: 'Die Odometrie liest Rückwärtsfahren als zwei halbe Drehungen und berechnet für beide Rauschen.',
     onLine: 'Nur ein Rauschen versetzt die Roboter: Sie liegen auf einer Linie, und ein Umriss ohne Fläche enthält keinen von ihnen.',
   },
-  noRobots: 'Noch keine Roboter.',
-  bend: {
+  noRobotsNote: 'Noch keine Roboter.',
+  skewSentences: {
     tooFewRobots: (skew, exactSkew) => `Zu wenige Roboter, um die Neigung zu zeigen: Schiefe ${skew}, genau ${exactSkew}.`,
     nearlySymmetric: (skew, exactSkew) => `Beide Seiten sind fast gleich: Schiefe ${skew}, genau ${exactSkew}.`,
     symmetric: (skew) => `Beide Seiten sind gleich: Schiefe ${skew}, genau 0 (Symmetrie).`,
@@ -43,8 +43,8 @@ export const de: typeof import('./en.ts').en = {
       `Eine Fliege: Das Rauschen streut ${driveLength} m Weg um ${deviation} m, vor und hinter den Start. Schiefe ${skew}.`,
     bent: (skew, isLeft) => `Die Wolke ist krumm wie eine Banane, ihr Schweif ${isLeft ? 'links' : 'rechts'} der mittleren Richtung: Schiefe ${skew}; jeder Gauß in (x, y) hat 0.`,
   },
-  fewRobots: 'Zu wenige Roboter für eine Schiefe.',
-  robotsHere: (robotCount) => `hier ${robotCount} Roboter`,
+  fewRobotsNote: 'Zu wenige Roboter für eine Schiefe.',
+  robotCountLabel: (robotCount) => `hier ${robotCount} Roboter`,
   twistTitle: 'Dieselben in Exponentialkoordinaten ξ',
   twistDescriptions: {
     odometry:

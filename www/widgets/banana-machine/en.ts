@@ -25,7 +25,7 @@ export const en = {
   reverseAwareLabel: 'Reverse without half-turn noise',
   isolateLabel: 'Isolate one α',
   isolateAlphaLabel: (alphaName) => `Only ${alphaName}`,
-  ignoredAlpha: (alphaText) => `${alphaText} off`,
+  ignoredAlphaText: (alphaText) => `${alphaText} off`,
   notes: {
     standingStill: 'The command is to stand still, and a robot at rest has no motion noise.',
     noNoise: 'No α above 0 has a motion to multiply: no noise at all, so every robot stops exactly where it was told to.',
@@ -34,8 +34,8 @@ export const en = {
     reverseDrive: 'Odometry reads a drive in reverse as two half turns, and the table adds noise for both.',
     onLine: 'Only one noise displaces the robots: they lie on a line, and an outline without area contains none of them.',
   },
-  noRobots: 'No robots yet.',
-  bend: {
+  noRobotsNote: 'No robots yet.',
+  skewSentences: {
     tooFewRobots: (skew, exactSkew) => `Too few robots to show the lean: skew ${skew}, exactly ${exactSkew}.`,
     nearlySymmetric: (skew, exactSkew) => `Both sides are nearly alike: skew ${skew}, exactly ${exactSkew}.`,
     symmetric: (skew) => `Both sides are alike: skew ${skew}, exactly 0 by symmetry.`,
@@ -46,8 +46,8 @@ export const en = {
       `A bow-tie: noise spreads a drive of ${driveLength} m by ${deviation} m, ahead of the start and behind it. Skew ${skew}.`,
     bent: (skew, isLeft) => `The cloud is bent, with its tail to the ${isLeft ? 'left' : 'right'} of the mean heading: skew ${skew}, where any Gaussian in (x, y) has 0.`,
   },
-  fewRobots: 'Too few robots for a skew.',
-  robotsHere: (robotCount) => `${formatCount(robotCount, 'robot')} here`,
+  fewRobotsNote: 'Too few robots for a skew.',
+  robotCountLabel: (robotCount) => `${formatCount(robotCount, 'robot')} here`,
   twistTitle: 'Same robots, exponential coordinates ξ',
   twistDescriptions: {
     odometry:

@@ -98,7 +98,7 @@ class MorphPicture extends Picture<Scene, 'plane' | 'twist'> {
       const isSinglePoint = this.#isSinglePoint(scene);
       if (!isSinglePoint) this.#paintCloud(drawContext, scene);
       if (isFloorPicture) drawRobot(drawContext, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      callouts.push(...drawEarlierOutlines(drawContext, earlierOutlines, isFloorPicture ? [cloudMean, [0, 0]] : [cloudMean], pinned ? words.banana.pinnedLabel : words.before));
+      callouts.push(...drawEarlierOutlines(drawContext, earlierOutlines, isFloorPicture ? [cloudMean, [0, 0]] : [cloudMean], pinned ? words.banana.pinnedLabel : words.earlierOutlinesLabel));
       drawOutlines(drawContext, styledOutlinesOf(outlines));
       const [endX, endY] = outlines.command.slice(-2);
       if (isFloorPicture) {
@@ -250,7 +250,7 @@ function drawCoincidentRobots(drawContext: DrawContext, poses: Float64Array, sho
   // The disc is larger than the handle at the end of the arc, which often hides its middle.
   const [pixelX, pixelY] = view.toPixel(x, y);
   drawDisc(context, [pixelX, pixelY], 14, colour);
-  return { text: words.banana.robotsHere(formatInteger(shown)), point: view.toWorld(pixelX, pixelY - 14), colour };
+  return { text: words.banana.robotCountLabel(formatInteger(shown)), point: view.toWorld(pixelX, pixelY - 14), colour };
 }
 
 /**

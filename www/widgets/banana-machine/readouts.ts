@@ -50,7 +50,7 @@ export const calloutsOf = ({ gaps }: ViewModel): Callout[] =>
 /** Returns a sentence on the bend of the cloud. The exact skew determines the side of the bend, and the samples' skew whether it is significant. */
 function bendSentenceOf({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio, exponential: { mean, cov } }, exactSkew, table, exponentialGain: gain }: ViewModel) {
   if (Number.isNaN(skew)) return '';
-  const texts = words.banana.bend;
+  const texts = words.banana.skewSentences;
   // A line break must not separate a number from its standard error.
   const joinWithNonBreakingSpaces = (numberText: string) => numberText.replaceAll(' ', '\u00a0');
   const [skewText, exactText] = [joinWithNonBreakingSpaces(formatWithError(skew, error, 3)), formatFixed(exactSkew, 3)];
@@ -70,7 +70,7 @@ function bendSentenceOf({ stats: { crossTrackSkew: skew, crossTrackSkewError: er
 
 export function captionOf(viewModel: ViewModel) {
   const { unusualCloudNote, stats } = viewModel;
-  return unusualCloudNote || (stats.n === 0 ? words.banana.noRobots : bendSentenceOf(viewModel) || words.banana.fewRobots);
+  return unusualCloudNote || (stats.n === 0 ? words.banana.noRobotsNote : bendSentenceOf(viewModel) || words.banana.fewRobotsNote);
 }
 
 /** Returns the caption of the picture in exponential coordinates. It says whether the cloud is Gaussian in these coordinates. */

@@ -50,7 +50,7 @@ export class PathPicture extends SamplesPicture<Scene> {
       drawDots(drawContext, poses);
       const milestoneOutlines = milestones.flatMap((milestone) => outlinesOfStep(milestone.outlines)).map((outline) => ({ ...outline, width: 1 }));
       drawOutlines(drawContext, [...styleOutlines(lines, { command: commanded }), ...milestoneOutlines]);
-      if (drawContext.previousViewModel) callouts.push(...drawEarlierOutlines(drawContext, outlinesOfStep(drawContext.previousViewModel.outlines), [commandedPose, [0, 0]], words.before));
+      if (drawContext.previousViewModel) callouts.push(...drawEarlierOutlines(drawContext, outlinesOfStep(drawContext.previousViewModel.outlines), [commandedPose, [0, 0]], words.earlierOutlinesLabel));
       drawOutlines(drawContext, outlinesOfStep(outlines));
       drawRobot(drawContext, { x: 0, y: 0, heading: 0, colour: palette.truth });
       // The mark at the commanded position is small, so that it does not hide the cloud.
@@ -84,7 +84,7 @@ export class StepPicture extends Picture<Scene> {
     const callouts: Callout[] = [];
     clipToPlot(drawContext, () => {
       drawDots(drawContext, twists);
-      if (drawContext.previousViewModel) callouts.push(...drawEarlierOutlines(drawContext, styleOutlines(lines, { exponential: drawContext.previousViewModel.outlines.predicted }), [[0, 0]], words.before));
+      if (drawContext.previousViewModel) callouts.push(...drawEarlierOutlines(drawContext, styleOutlines(lines, { exponential: drawContext.previousViewModel.outlines.predicted }), [[0, 0]], words.earlierOutlinesLabel));
       drawOutlines(drawContext, styleOutlines(lines, { exponential: predicted, measured }));
     });
     drawCallouts(drawContext, callouts, { shapeCentre: [0, 0], lines: [predicted, measured] });

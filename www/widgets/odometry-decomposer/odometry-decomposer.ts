@@ -37,7 +37,7 @@ function noiseModelTableHtml(figure: OdometryDecomposerElement) {
 
 function noiseControlsHtml(figure: OdometryDecomposerElement) {
   return html`<div class="controls">
-      ${fieldsetHtml(words.noise, html`${settingSlidersHtml(figure, NOISE_SLIDERS)} ${settingRadiosHtml(figure, 'noise', words.noises)}`, 'alphas')}
+      ${fieldsetHtml(words.noise, html`${settingSlidersHtml(figure, NOISE_SLIDERS)} ${settingRadiosHtml(figure, 'noise', words.noiseNames)}`, 'alphas')}
       ${cloudControlsHtml(figure)}
     </div>
     <p>${formatMarkup(words.decomposer.correlationNote)}</p>`;

@@ -214,9 +214,9 @@ export class Cloud extends FigureController {
     const [label, otherLabel] = this.playing ? [words.pause, cloudWords.play] : [cloudWords.play, words.pause];
     return html`<div class="buttons">
       ${buttonHtml(label, togglePlaying, { title: cloudWords.playTitle, otherLabel })}
-      ${buttonHtml(words.step, () => this.#runControl(false, () => this.showSamples(this.#latestCounts.shown + this.#batchSize)), { title: cloudWords.step(formatInteger(this.#batchSize)), disabled: this.isComplete })}
-      ${buttonHtml(words.clear, () => this.#runControl(false, () => this.#restartSampling()), { title: cloudWords.clear })}
-      ${seedFieldHtml(this.host)} ${buttonHtml(words.newSeed, () => this.host.gesture.requestAndCommit(() => ({ seed: this.host.motion.randomSeed() })), { title: cloudWords.reseed })}
+      ${buttonHtml(words.step, () => this.#runControl(false, () => this.showSamples(this.#latestCounts.shown + this.#batchSize)), { title: cloudWords.stepTitle(formatInteger(this.#batchSize)), disabled: this.isComplete })}
+      ${buttonHtml(words.clear, () => this.#runControl(false, () => this.#restartSampling()), { title: cloudWords.clearTitle })}
+      ${seedFieldHtml(this.host)} ${buttonHtml(words.newSeed, () => this.host.gesture.requestAndCommit(() => ({ seed: this.host.motion.randomSeed() })), { title: cloudWords.newSeedTitle })}
     </div>`;
   }
 }

@@ -97,7 +97,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
 
   render() {
     const [bodyName, headingName] = (words as any)[this.host.definition.messageKey].handles[this.#settingKey];
-    const { keys, headingKeys, moveTitle, turnTitle, ends } = words.pose;
+    const { keysHint: keys, headingKeysHint: headingKeys, moveTitle, turnTitle, floorEndNote: ends } = words.pose;
     const { x, y, theta } = this.#pose;
     const [left, bottom, right, top] = this.#getBounds();
     return [

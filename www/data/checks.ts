@@ -11,13 +11,13 @@ export function withFieldRenamed(error: unknown, newName: string, corePath: stri
 }
 
 function describeValue(value: unknown) {
-  if (typeof value === 'string') return JSON.stringify(shorten(value));
+  if (typeof value === 'string') return JSON.stringify(shortenText(value));
   if (typeof value === 'object' && value !== null) return Array.isArray(value) ? 'an array' : 'an object';
   return ['function', 'symbol', 'bigint'].includes(typeof value) ? `a ${typeof value}` : String(value);
 }
 
 /** Returns the first 40 characters of a text, without splitting a surrogate pair. */
-const shorten = (text: string) => text.replace(/^(.{40}).+$/su, '$1…');
+const shortenText = (text: string) => text.replace(/^(.{40}).+$/su, '$1…');
 
 export function checkObject(field: string, value: unknown, keys: readonly string[]) {
   if (typeof value !== 'object' || value === null || Array.isArray(value)) {
@@ -25,7 +25,7 @@ export function checkObject(field: string, value: unknown, keys: readonly string
   }
   const unknownKey = Object.keys(value).find((key) => !keys.includes(key));
   if (unknownKey !== undefined) {
-    throw new TypeError(`${field}.${shorten(unknownKey)} is an unknown key; allowed are ${keys.join(', ')}`);
+    throw new TypeError(`${field}.${shortenText(unknownKey)} is an unknown key; allowed are ${keys.join(', ')}`);
   }
   return value as Record<string, unknown>;
 }

@@ -34,13 +34,13 @@ export interface SliderSpec {
 export function settingSliderHtml(figure: Figure, key: string, overrides?: Partial<SliderRow>, sliderSpec = figure.definition.sliderSpecs[key]) {
   const { symbol, decimals, combinedValueOf, ...sliderFields } = sliderSpec;
   const { name, effect } = wordsFor(figure, key);
-  const allowed = declarationOf(figure, key);
-  const { unit } = allowed;
+  const allowedNumbers = declarationOf(figure, key);
+  const { unit } = allowedNumbers;
   const config = figure.settings.requested;
   const attribute = figure.definition.attributes[key] ?? createFieldProperty(key);
   return sliderRowHtml({
     ...sliderFields,
-    allowed,
+    allowedNumbers,
     id: key,
     symbol: symbol && formatMarkup(symbol),
     name: formatMarkup(name),
@@ -48,15 +48,15 @@ export function settingSliderHtml(figure: Figure, key: string, overrides?: Parti
     formatValue: (value) => (decimals === 0 ? formatInteger(value) : formatEditable(value, decimals)) + (unit ? ` ${unit}` : ''),
     effect: effect && formatMarkup(effect),
     onInput: (value) => figure.settings.requestChange((requested) => attribute.changesFor(value, requested)),
-    onCommit: () => figure.gesture.commit(),
+    onCommit: () => figure.gesture.commitChange(),
     ...overrides,
   });
 }
 
 /** Returns a picture with its title. The pointer selects samples in the picture. The first picture has the handles. `Canvases` sizes the canvas. */
-export function pictureHtml(figure: Figure, picture: Picture<any>, title: string, options: { className?: string, description?: string, below?: unknown } = {}) {
+export function pictureHtml(figure: Figure, picture: Picture<any>, title: string, options: { className?: string, description?: string, contentBelow?: unknown } = {}) {
   const isFirst = picture === figure.pictures[0];
-  const { className, description = isFirst ? figure.description : title, below } = options;
+  const { className, description = isFirst ? figure.description : title, contentBelow: below } = options;
   const selectAtPointer = (event: PointerEvent) => figure.selectAtPointer(picture, event);
   return panelHtml(title, html`<div class="stage" part="picture">
       <canvas width="0" class=${picture.name} role="img" aria-label=${description} @pointermove=${selectAtPointer} @click=${selectAtPointer} @contextrestored=${() => figure.renderer.requestFrame()}></canvas>

@@ -104,7 +104,7 @@ export function copyButtonHtml(figure: Figure, label: string, createText: () => 
     // Iframes without permission may not use the clipboard. Pages without HTTPS do not have it.
     const isCopied = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => false);
     const note = createNote() ?? '';
-    figure.notice.show(() => (isCopied
+    figure.notice.showNotice(() => (isCopied
       ? `${words.copies.copiedNotice} ${note}`
       : html`${words.copies.manualCopyLabel} ${note} <textarea readonly rows="3" aria-label=${words.copies.manualCopyLabel} .value=${text}></textarea>`));
   };

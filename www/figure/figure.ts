@@ -180,8 +180,8 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   /** Runs after the simulation was replaced. */
   onSimulationReplaced() {}
 
-  snapshot(): StateValues {
-    return { widget: this.localName, version: STATE_VERSION, ...this.settings.elementState, ...this.settings.pickSettings(this.settings.current), ...this.cloud?.snapshot() };
+  takeSnapshot(): StateValues {
+    return { widget: this.localName, version: STATE_VERSION, ...this.settings.elementState, ...this.settings.pickSettings(this.settings.current), ...this.cloud?.takeSnapshot() };
   }
 
   /** Returns a partial state, completed by the fields whose values follow from it. */
@@ -247,7 +247,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   get settled(): Promise<void> {
     return new Promise((resolve) => {
       this.#settledResolvers.push(resolve);
-      if (this.isConnected) void this.runtime.start();
+      if (this.isConnected) void this.runtime.startCore();
       this.renderer.requestFrame();
     });
   }
@@ -275,7 +275,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
    */
   getState(): StateValues | null {
     this.settings.applyPending();
-    return this.simulation || this.viewModel ? structuredClone(this.snapshot()) : null;
+    return this.simulation || this.viewModel ? structuredClone(this.takeSnapshot()) : null;
   }
 
   /**

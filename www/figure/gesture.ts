@@ -32,19 +32,19 @@ export class Gesture extends FigureController {
 
   hostDisconnected() {
     this.#endPress();
-    if (this.#isOpen) this.commit();
+    if (this.#isOpen) this.commitChange();
   }
 
   /** Begins a gesture if none is open, and fires `input` for a step of a change that may continue. */
   dispatchInput() {
     if (!this.#isOpen) this.previousViewModel = this.host.viewModel;
     this.#isOpen = true;
-    this.host.notice.dismiss();
-    this.#dispatch('input');
+    this.host.notice.dismissNotice();
+    this.#dispatchEventOfType('input');
   }
 
   /** Ends a change: applies it and announces the outcome. */
-  commit() {
+  commitChange() {
     const { host } = this;
     host.settings.applyPending();
     host.announcer.requestAnnouncement();
@@ -59,13 +59,13 @@ export class Gesture extends FigureController {
   /** Fires `input` and `change` for a change that was made in one step. */
   commitOneStep() {
     this.dispatchInput();
-    this.commit();
+    this.commitChange();
   }
 
   /** Changes settings in one step, such as a click, and fires `input` and `change`. */
   requestAndCommit(change: StateValues | ((requested: StateValues) => StateValues)) {
     this.host.settings.requestChange(change);
-    this.commit();
+    this.commitChange();
   }
 
   /** Changes a field of the element's state in one step, and fires `change`. Screen readers get no announcement of an outcome. */
@@ -78,11 +78,11 @@ export class Gesture extends FigureController {
     if (!this.#isOpen) return;
     this.#isOpen = false;
     this.host.reflection.updateAttributes();
-    this.#dispatch('change');
+    this.#dispatchEventOfType('change');
     void this.host.stateLink.writeToAddress();
   }
 
-  #dispatch(eventType: string) {
+  #dispatchEventOfType(eventType: string) {
     this.host.dispatchEvent(new Event(eventType, { bubbles: true, composed: true }));
   }
 }

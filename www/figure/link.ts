@@ -47,7 +47,7 @@ export class StateLink extends FigureController {
       host.runtime.attemptOrReport(() => host.setState(state as any));
     } catch (error) {
       host.runtime.reportError(error);
-      host.notice.show(() => words.unreadableLinkNotice);
+      host.notice.showNotice(() => words.unreadableLinkNotice);
     }
   }
 

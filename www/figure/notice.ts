@@ -16,27 +16,27 @@ export class Notice extends FigureController {
   #notice: ShownNotice | undefined;
 
   /** Shows a notice with a button that closes it. A notice about long work has a button that calls `stopWork`, and stays until `endWork` is called. */
-  show(renderContent: () => unknown, stopWork?: () => void) {
-    if (stopWork || !this.#notice?.stopWork) this.#set({ renderContent, stopWork });
+  showNotice(renderContent: () => unknown, stopWork?: () => void) {
+    if (stopWork || !this.#notice?.stopWork) this.#setNotice({ renderContent, stopWork });
   }
 
   /** Hides the notice, unless it is about long work. */
-  dismiss() {
-    if (this.#notice && !this.#notice.stopWork) this.#set();
+  dismissNotice() {
+    if (this.#notice && !this.#notice.stopWork) this.#setNotice();
   }
 
   endWork() {
-    if (this.#notice?.stopWork) this.#set();
+    if (this.#notice?.stopWork) this.#setNotice();
   }
 
-  #set(notice?: ShownNotice) {
+  #setNotice(notice?: ShownNotice) {
     this.#notice = notice;
     this.host.requestUpdate();
   }
 
   #stopOrClose = () => {
     this.#notice?.stopWork?.();
-    this.#set();
+    this.#setNotice();
   };
 
   /** Stops the work or closes the notice when the user presses Escape. */
@@ -76,7 +76,7 @@ export class Announcer {
     this.#isAnnouncementDue = false;
   }
 
-  announce(text: string) {
+  announceText(text: string) {
     this.#latestOutcome = undefined;
     this.#announcedText = text;
   }

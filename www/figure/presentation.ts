@@ -43,8 +43,8 @@ export class Presentation extends FigureController {
 
   async #beginPresentation() {
     const { host } = this;
-    this.#stateAtStart = host.simulation && host.snapshot();
-    host.notice.dismiss();
+    this.#stateAtStart = host.simulation && host.takeSnapshot();
+    host.notice.dismissNotice();
     this.#keyListenerAbort = new AbortController();
     addEventListener('keydown', this.#onKeyDown, { signal: this.#keyListenerAbort.signal });
     const focusedButton = host.renderRoot?.querySelector('.to-present:focus-visible');

@@ -26,7 +26,7 @@ export class Reflection extends FigureController {
 
   /** Applies a state, now or as soon as there is a simulation. */
   applyWhenReady(applyState: () => void) {
-    if (this.host.simulation) this.host.runtime.attempt(applyState);
+    if (this.host.simulation) this.host.runtime.attemptWork(applyState);
     else this.#earlyAssignments.set({}, { apply: applyState });
   }
 
@@ -52,19 +52,19 @@ export class Reflection extends FigureController {
   }
 
   /** Returns the value of a property. Before there is a simulation, that is the value assigned to it, if any. */
-  get(name: string) {
+  getProperty(name: string) {
     const { simulation, settings } = this.host;
     if (this.#earlyAssignments.has(name)) return this.#earlyAssignments.get(name)?.value;
     return structuredClone(simulation ? this.#properties[name].get(settings.requested) : settings.elementState[name]);
   }
 
   /** Sets a property of the definition, as `setProperty` does. Errors have the property's name in place of the core's name of the setting. */
-  set(name: string, value: unknown) {
+  assignProperty(name: string, value: unknown) {
     const { settings } = this.host;
     const { changesFor, corePath } = this.#properties[name];
     this.setProperty(name, value, (newValue) => {
       try {
-        settings.assign(changesFor(newValue, settings.requested));
+        settings.assignValues(changesFor(newValue, settings.requested));
       } catch (error) {
         throw withFieldRenamed(error, name, corePath);
       }
@@ -114,8 +114,8 @@ export class Reflection extends FigureController {
 export const settingAccessorsOf = (name: string): PropertyDescriptor & ThisType<Figure> => ({
   configurable: true,
   enumerable: true,
-  get() { return this.reflection.get(name); },
-  set(value) { this.reflection.set(name, value); },
+  get() { return this.reflection.getProperty(name); },
+  set(value) { this.reflection.assignProperty(name, value); },
 });
 
 /** Defines a widget's element. Adds `furtherProperties` to its prototype. If the page loads the script twice, the second call does nothing. */

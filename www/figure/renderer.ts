@@ -98,7 +98,7 @@ export class Renderer extends FigureController {
   }
 
   #setNear(isNear: boolean) {
-    if (isNear && !this.#isNear) void this.host.runtime.start();
+    if (isNear && !this.#isNear) void this.host.runtime.startCore();
     this.#isNear = isNear;
   }
 
@@ -187,12 +187,12 @@ export class Renderer extends FigureController {
     // In a closed disclosure of the page, all canvases have size 0, and nothing is drawn.
     if (!this.host.simulation || !this.host.canvases.canvasElements?.some(hasPixels)) return;
     this.host.runtime.attemptOrFail(() => {
-      this.#draw(elapsedMs, isResizing);
+      this.#drawPictures(elapsedMs, isResizing);
       if (this.host.simulation) this.host.runtime.hasTrapped = false;
     });
   }
 
-  #draw(elapsedMs: number, isResizing: boolean) {
+  #drawPictures(elapsedMs: number, isResizing: boolean) {
     const host = this.host;
     const { viewModel } = host;
     const startTimeMs = performance.now();
@@ -255,7 +255,7 @@ export class Renderer extends FigureController {
     this.isPrinting = isPrinting;
     // Browsers run only microtasks before they print. Microtasks suffice to start this figure if another one has loaded the core.
     if (isPrinting && !host.simulation) {
-      await host.runtime.start();
+      await host.runtime.startCore();
       await host.updateComplete;
     }
     host.settings.applyPending();

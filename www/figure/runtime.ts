@@ -18,7 +18,7 @@ export class Runtime extends FigureController {
   }
 
   /** Starts the core, if it is not running. Resolves when it has started or failed. */
-  start(): Promise<void> {
+  startCore(): Promise<void> {
     if (!this.simulation) this.#startPromise ??= this.#createCore();
     return this.#startPromise ?? Promise.resolve();
   }
@@ -26,21 +26,21 @@ export class Runtime extends FigureController {
   async #createCore() {
     try {
       const { localName, stateLink, settings, viewModel } = this.host;
-      const shownState = viewModel && this.host.snapshot();
+      const shownState = viewModel && this.host.takeSnapshot();
       const [motion] = await Promise.all([instantiateFor(localName), shownState ?? stateLink.applyStateInAddress()]);
       this.motion = motion;
       const simulation = this.host.createSimulation(motion);
       if (shownState) this.host.enterState(simulation, shownState);
       Object.assign(this, { simulation, failureMessage: undefined });
-      settings.resume(shownState);
+      settings.showNewSimulation(shownState);
       await this.#showContent();
     } catch (error) {
-      this.fail(error);
+      this.endWithError(error);
     } finally {
       this.#startPromise = undefined;
     }
     // The core may have trapped again. Otherwise this call of `start` does nothing.
-    if (this.failureMessage === undefined) void this.start();
+    if (this.failureMessage === undefined) void this.startCore();
   }
 
   async #showContent() {
@@ -58,25 +58,25 @@ export class Runtime extends FigureController {
   replaceSimulation(simulation: any) {
     this.simulation.free();
     this.simulation = simulation;
-    this.host.settings.reset();
+    this.host.settings.dropPendingChanges();
     this.host.onSimulationReplaced();
   }
 
   /** Calls `doWork`. After a trap, replaces the core and returns undefined. Other errors go to `handleError`, by default to the caller. */
-  attempt<Result>(doWork: () => Result, handleError = (error: unknown): void => { throw error; }): Result | undefined {
+  attemptWork<Result>(doWork: () => Result, handleError = (error: unknown): void => { throw error; }): Result | undefined {
     try {
       return doWork();
     } catch (error) {
-      if (isWasmTrap(error)) this.#recover(error);
+      if (isWasmTrap(error)) this.#replaceCoreAfterTrap(error);
       else handleError(error);
     }
   }
 
   /** Calls `doWork` as `attempt` does. If it throws, the figure ends with a message. */
-  attemptOrFail = <Result>(doWork: () => Result) => this.attempt(doWork, (error) => this.fail(error));
+  attemptOrFail = <Result>(doWork: () => Result) => this.attemptWork(doWork, (error) => this.endWithError(error));
 
   /** Calls `doWork` as `attempt` does. If it throws, an `error` event is fired. */
-  attemptOrReport = (doWork: () => void) => this.attempt(doWork, (error) => this.reportError(error));
+  attemptOrReport = (doWork: () => void) => this.attemptWork(doWork, (error) => this.reportError(error));
 
   /** Fires an `error` event, and warns on the console if no listener prevents that. */
   reportError(error: unknown) {
@@ -85,7 +85,7 @@ export class Runtime extends FigureController {
     if (isUnhandled) console.warn(message, this.host);
   }
 
-  fail(error: unknown) {
+  endWithError(error: unknown) {
     this.#abandonCore();
     this.hasTrapped = false;
     this.host.canvases.stopObserving();
@@ -95,20 +95,20 @@ export class Runtime extends FigureController {
   }
 
   /** Replaces the core after a trap, because its memory may be damaged. */
-  #recover(trap: unknown) {
+  #replaceCoreAfterTrap(trap: unknown) {
     if (this.hasTrapped) {
-      this.fail(trap);
+      this.endWithError(trap);
       return;
     }
     this.hasTrapped = true;
     this.#abandonCore();
     this.reportError(trap);
-    void this.start();
+    void this.startCore();
   }
 
   #abandonCore() {
     if (this.simulation) abandonSimulation(this.simulation);
-    this.host.settings.reset();
+    this.host.settings.dropPendingChanges();
     this.simulation = this.motion = undefined;
   }
 }

@@ -21,7 +21,7 @@ export class Settings extends FigureController {
   #pendingChanges: StateValues = {};
 
   /** Drops pending changes and stops the player, before the simulation is replaced. */
-  reset() {
+  dropPendingChanges() {
     this.host.player?.stop();
     this.isViewModelStale = true;
     this.#currentSettings = undefined;
@@ -62,10 +62,10 @@ export class Settings extends FigureController {
   }
 
   /** Changes values for the page, immediately and without an `input` event. Throws a TypeError or RangeError, and changes nothing, if a value is invalid. */
-  assign(values: StateValues) {
+  assignValues(values: StateValues) {
     const { host } = this;
     this.applyPending();
-    const elementValues = this.#checkElementValues('', values, () => host.snapshot());
+    const elementValues = this.#checkElementValues('', values, () => host.takeSnapshot());
     const settings = Object.entries(values).filter(([key]) => !(key in elementValues));
     if (settings.length > 0) this.#configure(Object.fromEntries(settings));
     Object.assign(this.elementState, elementValues);
@@ -97,9 +97,9 @@ export class Settings extends FigureController {
   }
 
   /** Applies early assignments of the page to a new simulation, and shows the simulation. `state` is the state restored after a trap, if any. */
-  resume(state?: StateValues) {
+  showNewSimulation(state?: StateValues) {
     const { host } = this;
-    this.reset();
+    this.dropPendingChanges();
     host.onSimulationReplaced();
     host.reflection.applyEarlyAssignments();
     // If an assignment has trapped, there is no simulation. If an assigned state is shown, the view model is already up to date.
@@ -113,7 +113,7 @@ export class Settings extends FigureController {
     const { widget, version } = Object(state);
     checkWord('state.widget', widget, [host.localName]);
     if (version !== STATE_VERSION) throw createRefusalError('state.version', version, String(STATE_VERSION));
-    const currentState = host.snapshot();
+    const currentState = host.takeSnapshot();
     const changes = checkObject('state', state, Object.keys(currentState));
     const wholeState: StateValues = { ...currentState, ...host.withDerivedFields(currentState, changes) };
     // Checks the settings first, because the number of samples limits other fields.
@@ -146,7 +146,7 @@ export class Settings extends FigureController {
   #showState(state?: StateValues) {
     const { host } = this;
     host.cloud?.showOrGrow(state);
-    this.#openingState ??= { ...host.snapshot(), ...(host.cloud && { shown: 0, playing: true }) };
+    this.#openingState ??= { ...host.takeSnapshot(), ...(host.cloud && { shown: 0, playing: true }) };
     host.updateViewModel();
     host.reflection.updateAttributes();
     host.renderer.requestFrame();

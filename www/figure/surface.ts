@@ -122,7 +122,7 @@ export class FocusKeeper extends FigureController {
 
 /** Moves the focus to the figure's first control, or to its last control if the focus comes from below the figure. */
 async function moveFocusInto(figure: Figure, previousFocus: EventTarget | null) {
-  await figure.runtime.start();
+  await figure.runtime.startCore();
   // Waits for the controls, which are rendered after the first picture.
   while (figure.renderer.isOpening) await new Promise(requestAnimationFrame);
   await figure.updateComplete;

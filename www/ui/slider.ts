@@ -136,11 +136,11 @@ const NUMBER_START = /^[\d.,+-]$/;
  * slider moves the focus into the field; Enter and Escape move it back.
  */
 export function sliderRowHtml(sliderRow: SliderRow) {
-  const { id, value, min, max, step, allowed, role, symbol, name, effect, formatValue, onInput, onCommit } = sliderRow;
+  const { id, value, min, max, step, allowedNumbers, role, symbol, name, effect, formatValue, onInput, onCommit } = sliderRow;
   const printedValue = formatValue(value);
   const longestText = [formatValue(min), formatValue(max)].reduce((longerText, candidate) => (candidate.length > longerText.length ? candidate : longerText), printedValue);
   // If the thumb is at an end of the slider, a text tells the user that values beyond that end can be typed.
-  const endAtThumb = value >= max && max < allowed.max ? max : value <= min && min > allowed.min ? min : undefined;
+  const endAtThumb = value >= max && max < allowedNumbers.max ? max : value <= min && min > allowedNumbers.min ? min : undefined;
   const applyTyped = (typedNumber: number, field: HTMLInputElement) => {
     onInput(typedNumber);
     onCommit();
@@ -157,7 +157,7 @@ export function sliderRowHtml(sliderRow: SliderRow) {
       ${sliderTrackHtml({ ...sliderRow, ...rangeOfStops(sliderRow), name: undefined, valueText: printedValue, describedBy: `${id}-effect`, onKeydown: focusField })}
       <form method="dialog" class="value notranslate" translate="no" dir="ltr" data-longest=${longestText} @submit=${focusTrack} @keydown=${(event: KeyboardEvent) => event.key === 'Escape' && focusTrack(event)}>
         <span>${printedValue}</span>
-        ${numberFieldHtml({ ...allowed, value: Number(value.toPrecision(MAX_FIELD_DIGITS)), arrowRange: { min, max, step }, labelId: `${id}-name`, onChange: applyTyped })}
+        ${numberFieldHtml({ ...allowedNumbers, value: Number(value.toPrecision(MAX_FIELD_DIGITS)), arrowRange: { min, max, step }, labelId: `${id}-name`, onChange: applyTyped })}
       </form>
       <p class="effect muted small" id="${id}-effect">${endAtThumb === undefined ? effect : words.sliderEndNote(formatValue(endAtThumb))}</p>
     </div>
@@ -194,7 +194,7 @@ export interface SliderRow extends SliderRange {
   /** HTML of a control in front of the label. */
   leadingControl?: unknown;
   /** Values that can be typed. */
-  allowed: AllowedNumbers;
+  allowedNumbers: AllowedNumbers;
 }
 
 /** Returns the range of a slider over stops, whose positions are the indices of the stops. A value beyond the last stop has the position after it. */

@@ -324,7 +324,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   async openLog(log: CalibrationLog | null, warnings: Warning[], checkSimulation?: (simulation: Simulation) => void) {
     const config = this.settings.pickSettings(this.settings.current) as Simulation['config'];
     const openedLog = log && { log, warnings, config, fit: await this.service.calibrate(config, log) };
-    this.runtime.attempt(() => {
+    this.runtime.attemptWork(() => {
       if (!this.simulation) return;
       this.settings.applyPending();
       const simulation = this.createSimulation(this.motion, openedLog);
@@ -345,10 +345,10 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     const { log, service, notice } = this;
     if (!log || service.isBusy || !this.isConnected) return;
     const stopFit = () => {
-      this.announcer.announce(words.progress.stoppedNotice);
+      this.announcer.announceText(words.progress.stoppedNotice);
       this.#revertSettings();
     };
-    const noticeTimerId = setTimeout(() => notice.show(() => html`<progress aria-label=${words.progress.label}></progress> ${words.progress.label}`, stopFit), NOTICE_DELAY_MS);
+    const noticeTimerId = setTimeout(() => notice.showNotice(() => html`<progress aria-label=${words.progress.label}></progress> ${words.progress.label}`, stopFit), NOTICE_DELAY_MS);
     try {
       await this.openLog(log, this.warnings);
     } catch (error) {
@@ -363,7 +363,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   /** Aborts a running fit, and restores the settings of the fit on screen. */
   #revertSettings() {
     this.service.stopRequest();
-    this.settings.assign(this.viewModel.fittedConfig);
+    this.settings.assignValues(this.viewModel.fittedConfig);
   }
 
   /** Warnings about the logs. They make the α's doubtful. */

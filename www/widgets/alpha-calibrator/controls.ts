@@ -17,7 +17,7 @@ export function legControlsHtml(figure: Figure) {
   const nextLeg = worstLegs[(worstLegs.indexOf(figure.settings.elementState.leg) + 1) % Math.max(1, worstLegs.length)];
   return html`${sliderRowHtml({
       id: 'leg',
-      allowed: { min: 1, max: legs.count, type: 'whole' },
+      allowedNumbers: { min: 1, max: legs.count, type: 'whole' },
       name: texts.name,
       value: chosenLegIndex + 1,
       min: 1,
@@ -28,7 +28,7 @@ export function legControlsHtml(figure: Figure) {
       role: 'truth',
       hasNoEffect: legs.count < 2,
       onInput: (legNumber) => figure.settings.requestChange({ leg: legNumber - 1 }),
-      onCommit: () => figure.gesture.commit(),
+      onCommit: () => figure.gesture.commitChange(),
     })}
     ${buttonHtml(texts.nextWorstLegLabel, () => figure.gesture.requestAndCommit({ leg: nextLeg }), { disabled: nextLeg === undefined })}`;
 }

@@ -176,7 +176,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       this.#moveArcEnd(clamp(x + KEY_STEP * keySteps[0], -maxX, maxX), y + KEY_STEP * keySteps[1]);
       return true;
     },
-    commit: () => this.gesture.commit(),
+    commit: () => this.gesture.commitChange(),
   });
 
   handles = [{
@@ -255,8 +255,8 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
 
   describePicture = ({ config }: ViewModel) => [this.#planeTitle, describeCommand(config.command)];
 
-  snapshot() {
-    return { ...super.snapshot(), alphas: ((this.settings.isViewModelStale && this.simulation) || this.viewModel).alphasOfModels };
+  takeSnapshot() {
+    return { ...super.takeSnapshot(), alphas: ((this.settings.isViewModelStale && this.simulation) || this.viewModel).alphasOfModels };
   }
 
   withDerivedFields(currentState: StateValues, changes: StateValues) {
@@ -373,7 +373,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
         value: omega,
         valueText: texts.chartSliderText(formatFixed(omega, 2), formatFixed(exactSkew, 3)),
         onInput: (newOmega) => this.settings.requestChange(({ command }) => ({ command: { ...command, omega: newOmega } })),
-        onCommit: () => this.gesture.commit(),
+        onCommit: () => this.gesture.commitChange(),
       },
     });
   }

@@ -34,7 +34,7 @@ function moreControlsHtml(figure: DeadReckoningElement) {
   const drivenTimeText = drivenTime(formatFixed(step * dt, 2), formatFixed(steps * dt, 2));
   return html`<div class="controls">
     ${fieldsetHtml(words.command, html`${settingSlidersHtml(figure, COMMAND_SLIDERS)}
-      ${settingSliderHtml(figure, 'step', { max: Math.max(2, steps), allowed: { min: 1, max: steps, type: 'whole' }, hasNoEffect: steps === 1, effect: drivenTimeText })}`)}
+      ${settingSliderHtml(figure, 'step', { max: Math.max(2, steps), allowedNumbers: { min: 1, max: steps, type: 'whole' }, hasNoEffect: steps === 1, effect: drivenTimeText })}`)}
     ${fieldsetHtml(words.noise, html`${settingSlidersHtml(figure, NOISE_SLIDERS)} ${settingRadiosHtml(figure, 'per', perNames)}`)}
     ${cloudControlsHtml(figure)}
   </div>`;

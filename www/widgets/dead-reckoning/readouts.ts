@@ -95,7 +95,7 @@ export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckonin
       value: step,
       valueText: texts.stepMark(step),
       onInput: (newStep) => figure.settings.requestChange({ step: Math.max(1, newStep) }),
-      onCommit: () => figure.gesture.commit(),
+      onCommit: () => figure.gesture.commitChange(),
     },
     legend: nothing,
   });

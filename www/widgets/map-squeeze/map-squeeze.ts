@@ -224,14 +224,14 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
 
   /** Name of the preset (a place in the apartment); null if the settings match no preset, or if another map is shown. */
   get preset(): string | null {
-    return (this.reflection.get('preset') as string | undefined) ?? null;
+    return (this.reflection.getProperty('preset') as string | undefined) ?? null;
   }
 
   set preset(name) {
     this.reflection.setProperty('preset', name, (newName) => {
       const presetSettings = PRESET_SETTING.changesFor(newName, {});
       if (this.map) this.#enterMap(null);
-      this.settings.assign(presetSettings);
+      this.settings.assignValues(presetSettings);
     });
   }
 
@@ -259,7 +259,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   }
 
   measureSamplerCosts() {
-    this.runtime.attempt(() => {
+    this.runtime.attemptWork(() => {
       const { simulation, settings: { current: config } } = this;
       if (simulation) this.#measurement = { config, samplerCosts: measureCosts(simulation, config.steps) };
       this.requestUpdate();
@@ -269,7 +269,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   /** Shows a map of the user, or for null the apartment, as one step that the user can undo. */
   openMap(map: UserMap | null) {
     if (!this.simulation) return;
-    this.runtime.attempt(() => {
+    this.runtime.attemptWork(() => {
       this.#enterMap(map);
       this.gesture.commitOneStep();
     });
@@ -320,7 +320,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     const { unknown, ...markStyles } = LINE_STYLES;
     return html`
       <div class="views">
-        ${pictureHtml(this, this.picture, floorTitle, { below: this.renderer.renderAfterFirstPicture(() => legendHtml(this, hasUnknownCells ? { ...markStyles, unknown } : markStyles)) })}
+        ${pictureHtml(this, this.picture, floorTitle, { contentBelow: this.renderer.renderAfterFirstPicture(() => legendHtml(this, hasUnknownCells ? { ...markStyles, unknown } : markStyles)) })}
         ${this.renderer.renderAfterFirstPicture(() => html`<div class="aside">
           <div class="result">
             <p class="headline">${headlineOf(stats)}</p>

@@ -106,7 +106,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
         else if (keySteps) callWithGrip(({ axis: [ux, uy] }) => (keySteps[0] * ux + keySteps[1] * uy ? moveBy(KEY_STEP * keySteps[0], KEY_STEP * keySteps[1]) : moveBy(KEY_STEP * keySteps[1], KEY_STEP * keySteps[0])));
         return keySteps !== undefined;
       },
-      commit: () => this.host.gesture.commit(),
+      commit: () => this.host.gesture.commitChange(),
     });
     this.#handles.set(name, handle);
     return handle;

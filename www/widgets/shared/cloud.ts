@@ -134,7 +134,7 @@ export class Cloud extends FigureController {
     return true;
   }
 
-  snapshot(): StateValues {
+  takeSnapshot(): StateValues {
     return { shown: this.targetCount, marked: this.#isSelectionPossible ? this.selectedIndex : null };
   }
 

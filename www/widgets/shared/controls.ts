@@ -51,7 +51,7 @@ export class Player<Key extends string> extends FigureController {
   #togglePlaying(settingKey: Key) {
     const { host: { gesture, renderer, settings } } = this;
     const willPlay = this.#playedKey !== settingKey;
-    if (this.#playedKey) gesture.commit();
+    if (this.#playedKey) gesture.commitChange();
     this.#playedKey = willPlay ? settingKey : undefined;
     this.host.requestUpdate();
     if (willPlay && this.#valueOf(settingKey) >= this.#playedSettings[settingKey].max) settings.requestChange({ [settingKey]: 0 });
@@ -68,7 +68,7 @@ export class Player<Key extends string> extends FigureController {
     this.host.settings.requestChange({ [this.#playedKey]: nextValue });
     if (nextValue < max) return true;
     this.stop();
-    this.host.gesture.commit();
+    this.host.gesture.commitChange();
     return false;
   }
 

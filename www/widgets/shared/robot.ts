@@ -72,7 +72,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     this.#settingKey = settingKey;
     this.#getRadius = getRadius;
     this.#getBounds = getBounds;
-    const handleCallbacks = { getView: () => host.pictures[0].view, commit: () => host.gesture.commit() };
+    const handleCallbacks = { getView: () => host.pictures[0].view, commit: () => host.gesture.commitChange() };
     this.#bodyHandle = new Handle(`body ${settingKey}`, {
       ...handleCallbacks,
       findGraspedPoint: () => [this.#pose.x, this.#pose.y],

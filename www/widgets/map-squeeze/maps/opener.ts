@@ -34,12 +34,12 @@ export class MapOpener extends FileOpener<MapSqueezeElement> {
 
   async chooseFiles(files: File[]) {
     if (files.reduce((sum, { size }) => sum + size, 0) > LARGE_MAP_BYTES) {
-      this.host.notice.show(() => words.squeeze.userMap.readingNotice);
+      this.host.notice.showNotice(() => words.squeeze.userMap.readingNotice);
       // Waits for two frames, because the notice is visible only after the first frame has been drawn.
       for (let frameIndex = 0; frameIndex < 2; frameIndex++) await new Promise(requestAnimationFrame);
     }
     await this.#readAndEnter(({ readMapFiles }) => readMapFiles(files, decodePng, words.squeeze.refusals));
-    this.host.notice.dismiss();
+    this.host.notice.dismissNotice();
   }
 
   openPasted(planJson: string) {

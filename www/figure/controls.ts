@@ -5,7 +5,7 @@ import { words } from '../messages/registry.ts';
 import { radioGroupHtml, formatMarkup, checkboxHtml, type AllowedNumbers } from '../ui/controls.ts';
 import { formatEditable, formatInteger } from '../ui/format.ts';
 import { sliderRowHtml, type SliderRow } from '../ui/slider.ts';
-import { swatchHtml, type LineStyle } from '../ui/swatch.ts';
+import { swatchHtml, type LineStyle } from '../ui/theme.ts';
 import { createFieldProperty } from './definition.ts';
 import { embeddingControlsHtml, exportButtonsHtml, linkButtonHtml } from './export.ts';
 import type { Declaration } from '../../build/settings.js';

@@ -3,7 +3,7 @@
 import { presets, settings, type Declaration } from '../../build/settings.js';
 import { checkNumber, checkWord, includesFields, type FieldRange } from '../data/checks.ts';
 import type { PropertyDeclaration } from 'lit';
-import type { LineStyle } from '../ui/swatch.ts';
+import type { LineStyle } from '../ui/theme.ts';
 import type { SliderSpec } from './controls.ts';
 import type { StateValues } from './settings.ts';
 

@@ -2,12 +2,11 @@
 
 import { greatest } from 'd3-array';
 import { limits } from '../../build/settings.js';
-import { colourChannelsOf, type Palette } from '../ui/theme.ts';
+import { colourChannelsOf, type LineStyle, type Palette } from '../ui/theme.ts';
 import type { LegendEntry } from './axes.ts';
 import { addLine, drawDisc, fillPath, paintWithOpacity, strokeLine, strokePath, type DrawContext, type LineStroke } from './canvas.ts';
 import { strokeInBatches } from './cache.ts';
 import type { Callout } from './labels.ts';
-import type { LineStyle } from '../ui/swatch.ts';
 
 /**
  * Number of heading ticks in one stroke. Ticks of the same stroke do not darken each other where they cross. A larger number would hide the

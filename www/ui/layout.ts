@@ -63,35 +63,6 @@ const figureLayout = css`
     gap: 0.5em 2.5em;
   }
 
-  /* A group of sliders is a row of three columns. */
-  @container (min-width: 38em) {
-    .simulation > .controls:has(> fieldset) {
-      grid-template-columns: repeat(3, minmax(min-content, 1fr));
-      column-gap: 1.25em;
-    }
-
-    .simulation > .controls > fieldset {
-      grid-column: 1 / -1;
-      grid-auto-flow: column;
-      grid-auto-columns: minmax(min-content, 1fr);
-      column-gap: inherit;
-    }
-
-    .simulation > .controls > :is(.single, .pair + .cloud) {
-      grid-column: auto;
-    }
-
-    .simulation > .controls > .single + .cloud {
-      grid-column: 2 / -1;
-      grid-template-columns: minmax(min-content, 1fr) minmax(0, 1.7fr);
-      align-items: start;
-    }
-
-    .simulation > .controls > .pair {
-      grid-column: span 2;
-    }
-  }
-
   /* Disclosures of less frequent controls stand side by side; an open one has the whole width. */
   .folds {
     display: flex;
@@ -196,6 +167,33 @@ const figureLayout = css`
   @container (min-width: 38em) {
     canvas {
       aspect-ratio: 8 / 5;
+    }
+
+    /* A group of sliders is a row of three columns. */
+    .simulation > .controls:has(> fieldset) {
+      grid-template-columns: repeat(3, minmax(min-content, 1fr));
+      column-gap: 1.25em;
+    }
+
+    .simulation > .controls > fieldset {
+      grid-column: 1 / -1;
+      grid-auto-flow: column;
+      grid-auto-columns: minmax(min-content, 1fr);
+      column-gap: inherit;
+    }
+
+    .simulation > .controls > :is(.single, .pair + .cloud) {
+      grid-column: auto;
+    }
+
+    .simulation > .controls > .single + .cloud {
+      grid-column: 2 / -1;
+      grid-template-columns: minmax(min-content, 1fr) minmax(0, 1.7fr);
+      align-items: start;
+    }
+
+    .simulation > .controls > .pair {
+      grid-column: span 2;
     }
   }
 

@@ -5,7 +5,7 @@ import { css, html, nothing, svg, unsafeCSS } from 'lit';
 import { formatMarkup } from './controls.ts';
 import { clamp, formatPowerOfTen, formatTick } from './format.ts';
 import { sliderTrackHtml } from './slider.ts';
-import { swatchHtml } from './swatch.ts';
+import { swatchHtml } from './theme.ts';
 
 const CHART_WIDTH = 380;
 const CHART_HEIGHT = 250;

@@ -14,7 +14,7 @@ export const LINE_STYLES = {
   odometry: { role: 'prior', width: 1.25, dash: [2.5, 3.5] },
   predicted: { role: 'prediction', width: 2, dash: [7, 4] },
   reference: { role: 'ink', width: 2.25, dash: [] },
-} satisfies Record<string, import('../../ui/swatch.ts').LineStyle>;
+} satisfies Record<string, import('../../ui/theme.ts').LineStyle>;
 
 export type LineName = keyof typeof LINE_STYLES;
 

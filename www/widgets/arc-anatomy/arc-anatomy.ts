@@ -5,7 +5,7 @@ import { pictureHtml, disclosuresHtml, settingCheckboxHtml, settingRadiosHtml, s
 import { FigureElement } from '../../figure/figure.ts';
 import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
-import { swatchHtml } from '../../ui/swatch.ts';
+import { swatchHtml } from '../../ui/theme.ts';
 import { fieldsetHtml, formatMarkup } from '../../ui/controls.ts';
 import { Player, presetButtonsHtml } from '../shared/controls.ts';
 import { PoseHandles } from '../shared/robot.ts';

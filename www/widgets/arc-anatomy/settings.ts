@@ -18,13 +18,13 @@ export const LINE_STYLES = {
   wedge: { role: 'accent', shape: 'area' },
   chord: { role: 'ink', width: 1, dash: [2, 3] },
   twist: { role: 'posterior', width: 2, dash: [7, 3] },
-} satisfies Record<string, import('../../ui/swatch.ts').LineStyle>;
+} satisfies Record<string, import('../../ui/theme.ts').LineStyle>;
 
 /** Styles of the contours. They are the same whether the heat map shows the density or the probability. */
 export const CONTOUR_STYLES = {
   prob: { role: 'ink', width: 1, dash: [5, 4] },
   density: { role: 'ink', width: 1, dash: [] },
-} satisfies Record<string, import('../../ui/swatch.ts').LineStyle>;
+} satisfies Record<string, import('../../ui/theme.ts').LineStyle>;
 
 export type LineName = keyof typeof LINE_STYLES;
 

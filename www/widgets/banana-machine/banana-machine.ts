@@ -86,13 +86,6 @@ function alphaSliderHtml(figure: BananaMachineElement, alphaNumber: number, [alp
 }
 
 const styles = css`
-  /* A narrow figure shows only the first picture, which can be morphed from the floor to exponential coordinates. */
-  @container (width < 30em) {
-    .views > .twist {
-      display: none;
-    }
-  }
-
   /* The margin keeps these controls clear of the gradient that fades scrolled text below the pictures. */
   .morphing {
     display: flex;
@@ -114,8 +107,15 @@ const styles = css`
     margin-bottom: 0;
   }
 
-  /* In a narrow figure, the slider of the morph is on a separate row, so that its track is long enough. */
+  /*
+   * A narrow figure shows only the first picture, which can be morphed from the floor to exponential coordinates. The slider of the morph is
+   * on a separate row, so that its track is long enough.
+   */
   @container (width < 30em) {
+    .views > .twist {
+      display: none;
+    }
+
     .morph {
       display: contents;
     }

@@ -14,7 +14,7 @@ export const LINE_STYLES = {
   exponential: { role: 'posterior', width: 2.25, dash: [] },
   linearized: { role: 'prediction', width: 1.75, dash: [9, 3, 2, 3] },
   additive: { role: 'prediction', width: 2.5, dash: [1.5, 5] },
-} satisfies Record<string, import('../../ui/swatch.ts').LineStyle>;
+} satisfies Record<string, import('../../ui/theme.ts').LineStyle>;
 
 export type LineName = keyof typeof LINE_STYLES;
 

@@ -103,7 +103,7 @@ export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckonin
 
 /** Returns the colour role, the dash and the highlight of a curve in the chart of predicted over measured variance. */
 function curveStyleOf(name: keyof typeof CURVE_STYLES, highlight: string | null) {
-  const { role, dash } = CURVE_STYLES[name] as import('../../ui/swatch.ts').LineStyle & { role: ColourRole };
+  const { role, dash } = CURVE_STYLES[name] as import('../../ui/theme.ts').LineStyle & { role: ColourRole };
   const isHighlighted = highlight !== null && highlight in CURVE_STYLES ? name === highlight : undefined;
   return { role, dash, isHighlighted };
 }

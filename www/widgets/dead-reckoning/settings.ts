@@ -17,7 +17,7 @@ export const CURVE_STYLES = {
   along: { role: 'ink', width: 1.9, dash: [8, 4] },
   heading: { role: 'muted', width: 1.9, dash: [9, 3, 2, 3] },
   tolerance: { role: 'truth', shape: 'area' },
-} satisfies Record<string, import('../../ui/swatch.ts').LineStyle>;
+} satisfies Record<string, import('../../ui/theme.ts').LineStyle>;
 
 /** Styles of the outlines in the pictures, in the order in which they are painted. */
 export const OUTLINE_STYLES = {
@@ -25,7 +25,7 @@ export const OUTLINE_STYLES = {
   measured: { role: 'truth', width: 2.25, dash: [3, 3] },
   ellipse: { role: 'prediction', width: 2, dash: [7, 4] },
   exponential: { role: 'posterior', width: 2.25, dash: [] },
-} satisfies Record<string, import('../../ui/swatch.ts').LineStyle>;
+} satisfies Record<string, import('../../ui/theme.ts').LineStyle>;
 
 export const COMMAND_SLIDERS: Record<string, import('../../figure/controls.ts').SliderSpec> = createCommandSliderSpecs(1);
 

@@ -22,7 +22,7 @@ export const LINE_STYLES = {
   rejected: { role: 'muted', shape: 'cross', width: 1.5 },
   commanded: { role: 'prior', width: 2.5, dash: COMMAND_DASH },
   unknown: { role: 'muted', shape: 'area' },
-} satisfies Record<string, import('../../ui/swatch.ts').LineStyle>;
+} satisfies Record<string, import('../../ui/theme.ts').LineStyle>;
 
 export const COMMAND_SLIDERS = createCommandSliderSpecs(4);
 

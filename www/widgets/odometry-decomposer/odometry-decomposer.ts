@@ -70,19 +70,17 @@ const styles = css`
       grid-template-columns: 1fr 1fr;
       column-gap: 2.5em;
     }
+
+    /* All presets are in one row. */
+    .presets {
+      --beside: 0.45em;
+      gap: 0.35em;
+    }
   }
 
   @container (min-width: 56em) {
     :host(:not([presentation])) .stage {
       height: clamp(16.4em, 100svh - 28.6em, min(45svh, 24em));
-    }
-  }
-
-  @container (38em <= width < 50em) {
-    /* All presets are in one row. */
-    .presets {
-      --beside: 0.45em;
-      gap: 0.35em;
     }
   }
 
@@ -100,10 +98,8 @@ const styles = css`
     padding-inline: clamp(0.05em, 4cqi - 1.1em, 0.54em);
   }
 
-  @container (width < 24em) {
-    .rules thead th:not(:first-child) {
-      font-size: 0.86em;
-    }
+  .rules thead th:not(:first-child) {
+    font-size: min(1em, 3.7cqi);
   }
 `;
 

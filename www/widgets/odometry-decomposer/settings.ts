@@ -12,7 +12,7 @@ export const LINE_STYLES = {
   prediction: { role: 'prediction', width: 2.5, dash: [] },
   odometry: { role: 'prior', width: 1.75, dash: [6, 4] },
   difference: { role: 'accent', width: 1.5, dash: [2, 4] },
-} satisfies Record<string, import('../../ui/swatch.ts').LineStyle>;
+} satisfies Record<string, import('../../ui/theme.ts').LineStyle>;
 
 /** Sliders of the noise parameters, and of the correlation between the noise of the two rotations. */
 export const NOISE_SLIDERS = {

@@ -25,7 +25,7 @@ export function drawAxes(drawContext: DrawContext, axisNames: { x: string, y: st
 
   const xTicks = ticksOfAxis(xMin, xMax, (right - left) / MIN_TICK_SPACING.x);
   Object.assign(context, { font, fillStyle: palette.muted, textAlign: 'center', textBaseline: 'top' });
-  // At the right end, the name of the axis replaces tick labels.
+  // The name of the x axis is at its right end, where it replaces tick labels.
   const xAxisName = axisNames.x.replace('(', `(${xTicks.unitFactor}`);
   const maxLabelX = right - context.measureText(xAxisName).width - 10;
   for (const tickValue of xTicks.tickValues) {
@@ -74,7 +74,7 @@ function drawLegend({ context, view, palette, font }: DrawContext, axisName: str
   }
 }
 
-/** Returns about `wantedTickCount` tick values, at least two if possible, with the power of ten before the unit, and a function that formats labels. */
+/** Returns the ticks of an axis: about `wantedTickCount` values, at least two if possible. Their labels may be multiples of a power of ten. */
 function ticksOfAxis(min: number, max: number, wantedTickCount: number) {
   const tickCount = Math.max(2, Math.floor(wantedTickCount));
   const candidateTicks = ticks(min, max, tickCount);

@@ -43,7 +43,7 @@ export class CachedLayer {
   }
 }
 
-/** Number of lines in one stroke. Browsers take far longer for one path with many lines. */
+/** Maximum number of lines in a path. Browsers take far longer to stroke one long path than several short ones. */
 export const LINES_PER_STROKE = 500;
 
 /** Strokes lines through points in pixels, `linesPerStroke` at a time. */

@@ -19,7 +19,7 @@ export interface DrawContext {
   palette: import('../ui/theme.ts').Palette;
   /** Device pixels per pixel of the view. */
   pixelRatio: number;
-  /** Font of the canvas's style. */
+  /** Font of labels, in CSS notation. */
   font: string;
   /** Boxes of the texts drawn so far. Further texts avoid them. */
   placedBoxes: TextBox[];

@@ -12,7 +12,7 @@ export class Canvases {
   #drawResized;
   /** Canvases whose sizes are observed; undefined until they are rendered. */
   canvasElements: HTMLCanvasElement[] | undefined;
-  /** Cached widths in CSS pixels. Reading them in a frame would cause a reflow. */
+  /** Cached widths of the canvases, CSS pixels. Reading a width from its element in a frame would cause a reflow. */
   #cssWidths: WeakMap<HTMLCanvasElement, number> = new WeakMap();
   #sizeObserver = new ResizeObserver((entries) => this.#resize(entries));
 

@@ -21,7 +21,7 @@ interface HandleLabels {
   valueRange: number[];
   value: number;
   valueText: string;
-  /** Text about the end of the range that the handle has reached, if any. */
+  /** Text about the limit of the range, if the handle has reached a limit. */
   limitText?: string | false;
   /** Hint for a user who has not used the handle yet, shown while the handle pulses once. */
   hint?: string | false;

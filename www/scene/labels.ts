@@ -21,13 +21,13 @@ function measureTextParts({ context, font }: DrawContext, { symbol = '', subscri
   });
 }
 
-const totalWidthOf = (parts: { width: number }[]) => parts.reduce((sum, { width }) => sum + width, 0);
+const totalWidthOf = (textParts: { width: number }[]) => textParts.reduce((sum, { width }) => sum + width, 0);
 
 /** Draws measured texts from left to right. x is the left end and y the middle of the line, in pixels. */
-function drawTextParts({ context }: DrawContext, parts: ReturnType<typeof measureTextParts>, x: number, y: number, colour: string) {
+function drawTextParts({ context }: DrawContext, textParts: ReturnType<typeof measureTextParts>, x: number, y: number, colour: string) {
   Object.assign(context, { textAlign: 'left', textBaseline: 'middle', fillStyle: colour });
   let partLeft = x;
-  for (const { text, style, baselineDrop, width } of parts) {
+  for (const { text, style, baselineDrop, width } of textParts) {
     context.font = style;
     context.fillText(text, partLeft, y + baselineDrop);
     partLeft += width;
@@ -101,7 +101,7 @@ export function drawCallouts(drawContext: DrawContext, callouts: Callout[], { sh
     drawDisc(context, [x, y], 2.5, colour);
     context.fillStyle = palette.paper;
     paintWithOpacity(context, 0.85, () => context.fillRect(bestBox.x - halfWidth, bestBox.y - halfHeight, 2 * halfWidth, 2 * halfHeight));
-    textLines.forEach((parts, i) => drawTextParts(drawContext, parts, bestBox.x - totalWidthOf(parts) / 2, bestBox.y + (i - (textLines.length - 1) / 2) * LINE_HEIGHT, colour));
+    textLines.forEach((textParts, i) => drawTextParts(drawContext, textParts, bestBox.x - totalWidthOf(textParts) / 2, bestBox.y + (i - (textLines.length - 1) / 2) * LINE_HEIGHT, colour));
   }
 }
 
@@ -111,14 +111,14 @@ const MAX_CHORD_POINTS = 200;
 /** Samples points of a line, in pixels. Their spacing is about twice the distance that a sentence keeps from lines. */
 function sampleLine([firstPoint, ...otherPoints]: number[][]) {
   let [lastX, lastY] = firstPoint;
-  const samples = [firstPoint];
+  const sampledPoints = [firstPoint];
   for (const [x, y] of otherPoints) {
     // If a chord is too short for a point, its length is added to that of the next chord.
     const pointCount = Math.min(MAX_CHORD_POINTS, Math.floor(Math.hypot(x - lastX, y - lastY) / (2 * MIN_TEXT_DISTANCE)));
-    for (let i = 1; i <= pointCount; i++) samples.push([lastX + (i / pointCount) * (x - lastX), lastY + (i / pointCount) * (y - lastY)]);
+    for (let i = 1; i <= pointCount; i++) sampledPoints.push([lastX + (i / pointCount) * (x - lastX), lastY + (i / pointCount) * (y - lastY)]);
     if (pointCount > 0) [lastX, lastY] = [x, y];
   }
-  return samples;
+  return sampledPoints;
 }
 
 /** Returns the maximum depth by which points and other boxes of texts reach into a box, pixels. The depth of boxes counts twice. */

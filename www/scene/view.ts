@@ -169,17 +169,17 @@ export class View {
 }
 
 /** Returns the middle of an interval after moving it between limits. An interval that is longer than their distance is centred on them. */
-function clampMiddle(middle: number, length: number, min: number, max: number) {
-  return max - min > length ? clamp(middle, min + length / 2, max - length / 2) : (min + max) / 2;
+function clampMiddle(intervalMiddle: number, intervalLength: number, lowerLimit: number, upperLimit: number) {
+  return upperLimit - lowerLimit > intervalLength ? clamp(intervalMiddle, lowerLimit + intervalLength / 2, upperLimit - intervalLength / 2) : (lowerLimit + upperLimit) / 2;
 }
 
-const isInside = (inner: Extent, outer: Extent) =>
-  inner.xMin >= outer.xMin && inner.xMax <= outer.xMax && inner.yMin >= outer.yMin && inner.yMax <= outer.yMax;
+const isInside = (innerExtent: Extent, outerExtent: Extent) =>
+  innerExtent.xMin >= outerExtent.xMin && innerExtent.xMax <= outerExtent.xMax && innerExtent.yMin >= outerExtent.yMin && innerExtent.yMax <= outerExtent.yMax;
 
 /** Returns the linear interpolation between two extents; `fraction` is 0 at `startExtent` and 1 at `endExtent`. */
 export function interpolateExtent(startExtent: Extent, endExtent: Extent, fraction: number): Extent {
-  const interpolate = (key: keyof Extent) => startExtent[key] + fraction * (endExtent[key] - startExtent[key]);
-  return { xMin: interpolate('xMin'), yMin: interpolate('yMin'), xMax: interpolate('xMax'), yMax: interpolate('yMax') };
+  const interpolateBound = (key: keyof Extent) => startExtent[key] + fraction * (endExtent[key] - startExtent[key]);
+  return { xMin: interpolateBound('xMin'), yMin: interpolateBound('yMin'), xMax: interpolateBound('xMax'), yMax: interpolateBound('yMax') };
 }
 
 /** Returns an extent widened by a margin on all sides; negative margins make it smaller. */
@@ -191,15 +191,15 @@ export const cornersAround = (x: number, y: number, halfWidth: number, halfHeigh
   [x - halfWidth, y - halfHeight, x + halfWidth, y + halfHeight];
 
 /** Returns the smallest extent that contains points and `initialExtent`. x and y are the first two of each `stride` numbers. */
-export function extentAround(numbers: ArrayLike<number>, stride: number, initialExtent: Extent = { xMin: Infinity, yMin: Infinity, xMax: -Infinity, yMax: -Infinity }) {
-  const bounds = { ...initialExtent };
-  for (let i = 0; i < numbers.length; i += stride) {
-    bounds.xMin = Math.min(bounds.xMin, numbers[i]);
-    bounds.xMax = Math.max(bounds.xMax, numbers[i]);
-    bounds.yMin = Math.min(bounds.yMin, numbers[i + 1]);
-    bounds.yMax = Math.max(bounds.yMax, numbers[i + 1]);
+export function extentAround(coordinates: ArrayLike<number>, stride: number, initialExtent: Extent = { xMin: Infinity, yMin: Infinity, xMax: -Infinity, yMax: -Infinity }) {
+  const pointBounds = { ...initialExtent };
+  for (let i = 0; i < coordinates.length; i += stride) {
+    pointBounds.xMin = Math.min(pointBounds.xMin, coordinates[i]);
+    pointBounds.xMax = Math.max(pointBounds.xMax, coordinates[i]);
+    pointBounds.yMin = Math.min(pointBounds.yMin, coordinates[i + 1]);
+    pointBounds.yMax = Math.max(pointBounds.yMax, coordinates[i + 1]);
   }
-  return bounds;
+  return pointBounds;
 }
 
 /** Returns the smallest extent that contains points (x, y pairs), with a minimum width and height. */

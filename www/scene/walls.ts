@@ -62,11 +62,11 @@ function hatchVisibleArea(context: LayerDrawContext['context'], { width, height 
 function findVisibleCellRange({ extent: { xMin, xMax, yMin, yMax } }: View, { columns, rows, resolution, origin: [x, y, yaw] }: CellGrid, cellsPerSquare: number): number[] {
   const [xStep, yStep] = [Math.cos(yaw) / resolution, Math.sin(yaw) / resolution];
   const viewCorners = [xMin - x, xMax - x].flatMap((dx) => [yMin - y, yMax - y].map((dy) => [dx * xStep + dy * yStep, dy * xStep - dx * yStep]));
-  const cellRanges = [columns, rows].map((count, i) => {
-    const cornerCells = viewCorners.map((corner) => clamp(corner[i], 0, count));
-    return [Math.floor(Math.min(...cornerCells) / cellsPerSquare) * cellsPerSquare, Math.min(count, Math.ceil(Math.max(...cornerCells) / cellsPerSquare) * cellsPerSquare)];
+  const cellRanges = [columns, rows].map((cellCount, i) => {
+    const cornerCells = viewCorners.map((viewCorner) => clamp(viewCorner[i], 0, cellCount));
+    return [Math.floor(Math.min(...cornerCells) / cellsPerSquare) * cellsPerSquare, Math.min(cellCount, Math.ceil(Math.max(...cornerCells) / cellsPerSquare) * cellsPerSquare)];
   });
-  return [0, 1].flatMap((end) => cellRanges.map((range) => range[end]));
+  return [0, 1].flatMap((rangeEnd) => cellRanges.map((cellRange) => cellRange[rangeEnd]));
 }
 
 /** Returns the position (m) of the lower left corner of a cell in the grid's own axes. */
@@ -79,23 +79,23 @@ export function cellCornerOf({ resolution, origin: [x, y, yaw] }: CellGrid, colu
  * Fills the cells whose value is 1. If cells are smaller than a pixel, squares of several cells are drawn. A square is filled if one of its
  * cells is filled, so that thin walls stay visible.
  */
-function fillCells({ context, view, pixelRatio }: LayerDrawContext, grid: CellGrid, cells: Uint8Array, colour: string) {
+function fillCells({ context, view, pixelRatio }: LayerDrawContext, grid: CellGrid, cellValues: Uint8Array, colour: string) {
   const cellsPerSquare = Math.max(1, Math.floor(1 / (grid.resolution * view.scaleX * pixelRatio)));
   const [left, bottom, right, top] = findVisibleCellRange(view, grid, cellsPerSquare);
   const [width, height] = [Math.ceil((right - left) / cellsPerSquare), Math.ceil((top - bottom) / cellsPerSquare)];
   if (width < 1 || height < 1) return;
   const squaresImage = new ImageData(width, height);
-  const pixels = new Uint32Array(squaresImage.data.buffer);
+  const squarePixels = new Uint32Array(squaresImage.data.buffer);
   const [pixelColour] = new Uint32Array(Uint8Array.of(...colourChannelsOf(colour), 255).buffer);
   for (let row = bottom; row < top; row++) {
     const rowEnd = row * grid.columns + right;
     let pixelIndex = Math.floor((row - bottom) / cellsPerSquare) * width;
     for (let i = row * grid.columns + left; i < rowEnd; pixelIndex++) {
-      for (const squareEnd = Math.min(i + cellsPerSquare, rowEnd); i < squareEnd; i++) if (cells[i]) pixels[pixelIndex] = pixelColour;
+      for (const squareEnd = Math.min(i + cellsPerSquare, rowEnd); i < squareEnd; i++) if (cellValues[i]) squarePixels[pixelIndex] = pixelColour;
     }
   }
-  const canvas = new OffscreenCanvas(width, height);
-  createHiddenContext(canvas).putImageData(squaresImage, 0, 0);
+  const squaresCanvas = new OffscreenCanvas(width, height);
+  createHiddenContext(squaresCanvas).putImageData(squaresImage, 0, 0);
   const cornerPixelOf = (column: number, row: number) => view.toPixel(...cellCornerOf(grid, column, row));
   // The first row of the image is the lowest one, as in the grid.
   const [[originX, originY], [rightX, rightY], [aboveX, aboveY]] = [cornerPixelOf(left, bottom), cornerPixelOf(left + cellsPerSquare, bottom), cornerPixelOf(left, bottom + cellsPerSquare)];
@@ -103,6 +103,6 @@ function fillCells({ context, view, pixelRatio }: LayerDrawContext, grid: CellGr
   context.transform(rightX - originX, rightY - originY, aboveX - originX, aboveY - originY, originX, originY);
   // Large cells have sharp edges.
   context.imageSmoothingEnabled = cellsPerSquare > 1;
-  context.drawImage(canvas, 0, 0);
+  context.drawImage(squaresCanvas, 0, 0);
   context.restore();
 }

@@ -219,13 +219,13 @@ export function formatMarkup(message: string) {
   return message.split(FORMULA_REGEXP).map((proseOrFormula, i) => (i % 2 ? untranslatedHtml(proseOrFormula.match(FORMULA_PIECE)?.map(formulaPieceHtml)) : proseOrFormula));
 }
 
-function formulaPieceHtml(piece: string) {
-  if (piece[0] === '*') return html`<i>${piece.slice(1, -1).replaceAll('\\*', '*')}</i>`;
-  return html`<sub>${piece[0] === '_' ? piece.slice(2, -1) : piece.charCodeAt(0) - 0x2080}</sub>`;
+function formulaPieceHtml(formulaPiece: string) {
+  if (formulaPiece[0] === '*') return html`<i>${formulaPiece.slice(1, -1).replaceAll('\\*', '*')}</i>`;
+  return html`<sub>${formulaPiece[0] === '_' ? formulaPiece.slice(2, -1) : formulaPiece.charCodeAt(0) - 0x2080}</sub>`;
 }
 
 /** Returns a value or formula with its own writing direction, which page translators leave unchanged. */
-export const untranslatedHtml = (content: unknown) => html`<bdi translate="no" class="notranslate">${content}</bdi>`;
+export const untranslatedHtml = (untranslatedContent: unknown) => html`<bdi translate="no" class="notranslate">${untranslatedContent}</bdi>`;
 
 export function fieldsetHtml(heading: unknown, controls: unknown, className?: string, cssPart?: string) {
   return html`<fieldset class=${className ?? nothing} part=${cssPart ?? nothing}>

@@ -45,23 +45,23 @@ const MAX_ERROR_DECIMALS = 5;
 const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 
 /** Prints a number with significant digits: "0.0070020"; below 0.0001 and from 100,000 on "1.2500·10⁻⁵". */
-export function formatSignificant(value: number, digits: number): string {
+export function formatSignificant(value: number, significantDigits: number): string {
   if (Math.abs(value) < MAX_ROUNDED_ZERO) return '0';
   if (!Number.isFinite(value)) return formatFixed(value, 0);
-  const [mantissa, exponent] = value.toExponential(digits - 1).split('e').map(Number);
-  if (exponent < -4 || exponent >= 5) return `${formatFixed(mantissa, digits - 1)}·${formatPowerOfTen(exponent)}`;
-  return formatFixed(Number(value.toPrecision(digits)), Math.max(0, digits - 1 - exponent));
+  const [mantissa, exponent] = value.toExponential(significantDigits - 1).split('e').map(Number);
+  if (exponent < -4 || exponent >= 5) return `${formatFixed(mantissa, significantDigits - 1)}·${formatPowerOfTen(exponent)}`;
+  return formatFixed(Number(value.toPrecision(significantDigits)), Math.max(0, significantDigits - 1 - exponent));
 }
 
 /** Prints a power of ten: "10⁻⁵". */
 export function formatPowerOfTen(exponent: number): string {
-  return `10${String(exponent).replace('-', '⁻').replace(/\d/g, (digit) => SUPERSCRIPTS[Number(digit)])}`;
+  return `10${String(exponent).replace('-', '⁻').replace(/\d/g, (decimalDigit) => SUPERSCRIPTS[Number(decimalDigit)])}`;
 }
 
 /** Prints a positive number rounded to significant digits: "0.47", "12", "1 200". */
-export function formatRounded(value: number, digits: number): string {
-  const roundedValue = Number(value.toPrecision(digits));
-  const decimals = digits - 1 - Math.floor(Math.log10(roundedValue));
+export function formatRounded(value: number, significantDigits: number): string {
+  const roundedValue = Number(value.toPrecision(significantDigits));
+  const decimals = significantDigits - 1 - Math.floor(Math.log10(roundedValue));
   return decimals > 0 ? formatFixed(roundedValue, decimals) : formatInteger(roundedValue);
 }
 
@@ -74,10 +74,10 @@ export function formatPercent(fraction: number, decimals: number = 1): string {
 }
 
 /** Prints a value with its standard error: "−0.412 ± 0.031". Infinity and NaN are printed without an error. Decimals are added until the error shows its first digit. */
-export function formatWithError(value: number, error: number, decimals: number): string {
+export function formatWithError(value: number, standardError: number, decimals: number): string {
   if (!Number.isFinite(value)) return formatFixed(value, 0);
-  const neededDecimals = error > 0 ? Math.max(decimals, Math.min(MAX_ERROR_DECIMALS, -Math.floor(Math.log10(error)))) : decimals;
-  return `${formatFixed(value, neededDecimals)} ± ${formatFixed(error, neededDecimals)}`;
+  const neededDecimals = standardError > 0 ? Math.max(decimals, Math.min(MAX_ERROR_DECIMALS, -Math.floor(Math.log10(standardError)))) : decimals;
+  return `${formatFixed(value, neededDecimals)} ± ${formatFixed(standardError, neededDecimals)}`;
 }
 
 /** Prints the label of an axis tick, with as many decimals as the step between ticks needs. */

@@ -233,7 +233,7 @@ const figureLayout = css`
     pointer-events: none;
   }
 
-  /* Text on the limit of a handle, while it is dragged or moved with keys. */
+  /* Text about a limit that a handle has reached, shown while the handle is dragged or moved with keys. */
   .handle[data-stop]:is(.held, :focus-visible)::before {
     content: attr(data-stop);
     top: 50%;
@@ -303,7 +303,7 @@ const figureLayout = css`
     border-left: 3px solid var(--accent);
   }
 
-  /* Height of two lines even for a short sentence, so that nothing moves when it changes. */
+  /* Two lines are reserved even for a short caption, so that a longer one moves nothing. */
   .caption {
     min-height: 2lh;
     margin: 0;

@@ -26,11 +26,11 @@ export function listElementAndAncestors(node: Node): Element[] {
 }
 
 /** Reads the colours around a figure. The scheme is dark if the background is darker than legible text, or than medium grey if the text is not legible. */
-export function readPageColours(probe: Element): PageColours {
-  const { color, borderTopColor: canvasColour, colorScheme } = getComputedStyle(probe);
+export function readPageColours(colourProbe: Element): PageColours {
+  const { color, borderTopColor: canvasColour, colorScheme } = getComputedStyle(colourProbe);
   const textColour = colourChannelsOf(color);
   const isDarkByDefault = colorScheme === 'normal' && lightnessOf(textColour) > 0.5;
-  const ancestorBackgrounds = listElementAndAncestors(probe).map((ancestor) => getComputedStyle(ancestor).backgroundColor);
+  const ancestorBackgrounds = listElementAndAncestors(colourProbe).map((ancestor) => getComputedStyle(ancestor).backgroundColor);
   const backgroundColour = colourChannelsOf(...[...ancestorBackgrounds, isDarkByDefault ? DARK_BACKGROUND : canvasColour].reverse());
   const backgroundLightness = lightnessOf(backgroundColour);
   const isLegible = contrastRatioOf(textColour, backgroundColour) >= MIN_CONTRAST;
@@ -44,8 +44,8 @@ export function readPageColours(probe: Element): PageColours {
 
 function contrastRatioOf(firstColour: number[], secondColour: number[]) {
   const linearizeChannel = (channel: number) => (channel > 10 ? ((channel / 255 + 0.055) / 1.055) ** 2.4 : channel / 3294.6);
-  const [low, high] = [firstColour, secondColour].map((colour) => lightnessOf(colour.map((channel) => 255 * linearizeChannel(channel)))).sort((a, b) => a - b);
-  return (high + 0.05) / (low + 0.05);
+  const [darkerLightness, lighterLightness] = [firstColour, secondColour].map((colour) => lightnessOf(colour.map((channel) => 255 * linearizeChannel(channel)))).sort((a, b) => a - b);
+  return (lighterLightness + 0.05) / (darkerLightness + 0.05);
 }
 
 /** Returns the lightness from 0, black, to 1, with the weights of Rec. 709. */

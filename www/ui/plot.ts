@@ -187,7 +187,7 @@ function axisLabelsOf({ min, max, isLogarithmic }: Axis, maxCount: number): [val
 
 function curvePathDataOf({ x, y }: Curve, toPixelX: (value: number) => number, toPixelY: (value: number) => number) {
   const points = Array.from(x, (value, i) => (Number.isNaN(value + y[i]) ? '' : `${toPixelX(value).toFixed(2)},${toPixelY(y[i]).toFixed(2)}`));
-  return points.map((point, i) => point && `${points[i - 1] ? 'L' : 'M'}${point}`).join('');
+  return points.map((pathPoint, i) => pathPoint && `${points[i - 1] ? 'L' : 'M'}${pathPoint}`).join('');
 }
 
 function bandPathDataOf({ x, y, errors = [] }: Curve, toPixelX: (value: number) => number, toPixelY: (value: number) => number) {
@@ -197,9 +197,9 @@ function bandPathDataOf({ x, y, errors = [] }: Curve, toPixelX: (value: number) 
 }
 
 /** Returns the line and text of a vertical mark. Each mark's text is in its own row, so that neighbouring texts do not touch. */
-function markSvg({ text }: VerticalMark, row: number, markX: number) {
-  // Text next to the line, on the side that has space.
+function markSvg({ text }: VerticalMark, labelRow: number, markX: number) {
+  // The text is on the side of the line that has more space.
   const [labelOffset, textAnchor] = 2 * markX > PLOT_LEFT + PLOT_RIGHT ? [-5, 'end'] : [5, 'start'];
   return svg`<line stroke="var(--accent)" stroke-dasharray="2 3" x1=${markX} x2=${markX} y1=${PLOT_TOP} y2=${PLOT_BOTTOM} />
-    <text class="marked" x=${markX + labelOffset} y=${PLOT_TOP + 13 + 16 * row} text-anchor=${textAnchor}>${text}</text>`;
+    <text class="marked" x=${markX + labelOffset} y=${PLOT_TOP + 13 + 16 * labelRow} text-anchor=${textAnchor}>${text}</text>`;
 }

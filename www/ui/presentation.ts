@@ -18,7 +18,7 @@ export const presentationStyles = css`
     font-size: max(1em, min(1.5em, 100vw / 44, 100vh / 36), min(100vw / 80, 100vh / 45)) !important;
   }
 
-  /* With controls, the font is smaller, because the controls need space. */
+  /* The font is smaller while the controls are shown, because they need space. */
   :host([presentation]) .with-controls {
     font-size: max(0.6em, min(1em, 100vw / 84, 100vh / 54));
   }
@@ -91,7 +91,7 @@ export const presentationStyles = css`
     }
   }
 
-  /* The buttons are in the row of the title. */
+  /* The buttons of the presentation are in the row of the title. */
   @media (width > 30em) and (height > 30em) {
     :host([presentation]) .title-slot {
       margin-top: -1.55em;

@@ -189,7 +189,7 @@ export interface SliderRow extends SliderRange {
   /** Text on the effect of the setting on the picture. */
   effect: unknown;
   role: 'prior' | 'prediction' | 'truth';
-  /** True if the value has no effect at present. */
+  /** True if the value has no effect on the simulation at present. */
   hasNoEffect?: boolean;
   /** HTML of a control in front of the label. */
   leadingControl?: unknown;

@@ -68,51 +68,51 @@ export class ArcPicture extends Picture<ArcScene> {
   paint: Picture<ArcScene>['paint'] = (drawContext, scene) => {
     const { config: { start, next, printed, map }, stats, paths, overlays } = scene;
     const { palette } = drawContext;
-    const lines = createLineStyles(drawContext, LINE_STYLES, overlays);
-    const contours = createLineStyles(drawContext, CONTOUR_STYLES, map === 'none' ? [] : Object.keys(CONTOUR_STYLES));
+    const lineStyles = createLineStyles(drawContext, LINE_STYLES, overlays);
+    const contourStyles = createLineStyles(drawContext, CONTOUR_STYLES, map === 'none' ? [] : Object.keys(CONTOUR_STYLES));
     drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, [
       // The last turn is labelled in the picture, and therefore not listed in the legend.
-      ...createLineLegend(drawContext, lines, ['inverted', 'commanded', 'chord', 'twist'], words.anatomy.overlays),
-      ...createLineLegend(drawContext, contours, ['prob', 'density'], words.anatomy.mapNames),
+      ...createLineLegend(drawContext, lineStyles, ['inverted', 'commanded', 'chord', 'twist'], words.anatomy.overlays),
+      ...createLineLegend(drawContext, contourStyles, ['prob', 'density'], words.anatomy.mapNames),
     ]);
     const callouts: Callout[] = [];
     clipToPlot(drawContext, () => {
       this.#drawHeatMap(drawContext, scene);
       const { commanded, inverted, driven, lastTurn } = stats;
-      if (lines.commanded) {
-        drawArcConstruction(drawContext, start, commanded, { ...lines.commanded, shiftSide: -1 });
-        callouts.push(...arcCalloutsOf(drawContext, start, commanded, lines.commanded.colour, `ωΔt = ${formatFixed(commanded.turn, 2)}`));
+      if (lineStyles.commanded) {
+        drawArcConstruction(drawContext, start, commanded, { ...lineStyles.commanded, shiftSide: -1 });
+        callouts.push(...arcCalloutsOf(drawContext, start, commanded, lineStyles.commanded.colour, `ωΔt = ${formatFixed(commanded.turn, 2)}`));
       }
-      if (lines.inverted) {
-        drawArcConstruction(drawContext, start, inverted, { ...lines.inverted, shiftSide: 1 });
+      if (lineStyles.inverted) {
+        drawArcConstruction(drawContext, start, inverted, { ...lineStyles.inverted, shiftSide: 1 });
         // The radius is positive if the centre is to the left. The radius has no sign in Table 5.1 as printed in the book.
         const radiusLabel = `r* = ${inverted.radius > 0 && !printed ? '+' : ''}${formatFixed(printed ? Math.abs(inverted.radius) : inverted.radius, 2)} m`;
-        callouts.push(...arcCalloutsOf(drawContext, start, inverted, lines.inverted.colour, `ω̂Δt = ${formatFixed(inverted.turn, 2)}`, radiusLabel));
+        callouts.push(...arcCalloutsOf(drawContext, start, inverted, lineStyles.inverted.colour, `ω̂Δt = ${formatFixed(inverted.turn, 2)}`, radiusLabel));
       }
-      if (lines.chord) strokeLines(drawContext, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...lines.chord }]);
-      if (lines.wedge) drawWedge(drawContext, next, lastTurn, lines.wedge.colour);
+      if (lineStyles.chord) strokeLines(drawContext, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...lineStyles.chord }]);
+      if (lineStyles.wedge) drawWedge(drawContext, next, lastTurn, lineStyles.wedge.colour);
       // Short lines across the path of the constant twist show its displacements in the lateral direction.
-      if (lines.twist) strokePath(drawContext.context, { colour: lines.twist.colour, width: 1.25 }, () => {
+      if (lineStyles.twist) strokePath(drawContext.context, { colour: lineStyles.twist.colour, width: 1.25 }, () => {
         for (let i = 0; i < paths.ticks.length; i += 4) addLine(drawContext.context, drawContext.view.toPixels(paths.ticks.subarray(i, i + 4)));
       });
       const drivenPaths = { commanded: paths.commanded, twist: paths.lie, inverted: paths.driven };
-      drawOutlines(drawContext, styleOutlines(lines, drivenPaths));
-      if (lines.inverted && driven.arcLength !== inverted.arcLength) {
-        drawOutlines(drawContext, [{ points: paths.inverted, colour: lines.inverted.colour, width: 1, dash: [2, 3] }]);
+      drawOutlines(drawContext, styleOutlines(lineStyles, drivenPaths));
+      if (lineStyles.inverted && driven.arcLength !== inverted.arcLength) {
+        drawOutlines(drawContext, [{ points: paths.inverted, colour: lineStyles.inverted.colour, width: 1, dash: [2, 3] }]);
       }
       drawTableLineConstruction(drawContext, scene);
-      if (lines.commanded) {
+      if (lineStyles.commanded) {
         const [endX, endY, endTheta] = commanded.end;
-        drawRobotOutline(drawContext, endX, endY, ROBOT_RADIUS, lines.commanded.colour);
-        strokeLine(drawContext.context, drawContext.view.headingLineFrom({ x: endX, y: endY, theta: endTheta }, HEADING_LINE_LENGTH), { colour: lines.commanded.colour, width: 1.5 });
+        drawRobotOutline(drawContext, endX, endY, ROBOT_RADIUS, lineStyles.commanded.colour);
+        strokeLine(drawContext.context, drawContext.view.headingLineFrom({ x: endX, y: endY, theta: endTheta }, HEADING_LINE_LENGTH), { colour: lineStyles.commanded.colour, width: 1.5 });
       }
       drawMovingRobots(drawContext, scene);
       drawDraggableRobot(drawContext, start, ROBOT_RADIUS, palette.truth);
       drawDraggableRobot(drawContext, next, ROBOT_RADIUS, palette.prediction);
-      if (lines.wedge) callouts.push(wedgeCalloutOf(drawContext, next, lastTurn, lines.wedge.colour));
+      if (lineStyles.wedge) callouts.push(wedgeCalloutOf(drawContext, next, lastTurn, lineStyles.wedge.colour));
     });
-    const radii = [stats.commanded, stats.inverted].flatMap(({ center, end }) => (center ? [Float64Array.of(start.x, start.y, ...center, end[0], end[1])] : []));
-    drawCallouts(drawContext, callouts, { shapeCentre: [(start.x + next.x) / 2, (start.y + next.y) / 2], lines: [paths.commanded, paths.driven, ...radii] });
+    const radiusLines = [stats.commanded, stats.inverted].flatMap(({ center, end }) => (center ? [Float64Array.of(start.x, start.y, ...center, end[0], end[1])] : []));
+    drawCallouts(drawContext, callouts, { shapeCentre: [(start.x + next.x) / 2, (start.y + next.y) / 2], lines: [paths.commanded, paths.driven, ...radiusLines] });
   };
 
   /** Draws the chosen heat map of the likelihood with its contours, if any. */
@@ -161,7 +161,7 @@ function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, en
 function arcCalloutsOf({ view }: DrawContext, start: Pose, { center }: ArcWithCircle, colour: string, angleLabel: string, radiusLabel?: string): Callout[] {
   if (!center) return [];
   const visibleFraction = visibleFractionOf(view.plotArea, view.toPixel(start.x, start.y), view.toPixel(center[0], center[1]));
-  const radiusPointAt = (fraction: number): [number, number] => [start.x + fraction * (center[0] - start.x), start.y + fraction * (center[1] - start.y)];
+  const radiusPointAt = (radiusFraction: number): [number, number] => [start.x + radiusFraction * (center[0] - start.x), start.y + radiusFraction * (center[1] - start.y)];
   return [{ text: angleLabel, point: radiusPointAt(visibleFraction), colour }, ...(radiusLabel ? [{ text: radiusLabel, point: radiusPointAt(visibleFraction / 2), colour }] : [])];
 }
 

@@ -15,13 +15,13 @@ addEnglishMessages({ anatomy: en });
 /** Absolute value below which a number is printed as a power of ten. The density p is a product of three densities, and spans many decades. */
 const MIN_PLAIN_NUMBER = 0.0005;
 
-function formatScientific(number: number) {
-  const [mantissa, exponent] = number.toExponential(1).split('e').map(Number);
+function formatScientific(printedNumber: number) {
+  const [mantissa, exponent] = printedNumber.toExponential(1).split('e').map(Number);
   return `${formatFixed(mantissa, 1)}·${formatPowerOfTen(exponent)}`;
 }
 
 /** Returns true if a number is printed as a power of ten. */
-const isPrintedAsPower = (number: number) => number > 0 && number < MIN_PLAIN_NUMBER;
+const isPrintedAsPower = (printedNumber: number) => printedNumber > 0 && printedNumber < MIN_PLAIN_NUMBER;
 
 const formatShare = (share: number) => (isPrintedAsPower(share) ? formatScientific(share) : formatPercent(share));
 

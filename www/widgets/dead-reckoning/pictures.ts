@@ -41,15 +41,15 @@ export class PathPicture extends SamplesPicture<Scene> {
 
   paint: Picture<Scene>['paint'] = (drawContext, { commanded, outlines, milestones, poses, commandedPose, markedPoses, overlays, config: { step } }) => {
     const { palette } = drawContext;
-    const lines = createLineStyles(drawContext, OUTLINE_STYLES, overlays);
-    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, lines, ['ellipse', 'exponential', 'command'], words.reckoning.overlays));
-    const outlinesOfStep = ({ ellipse, exponential }: Scene['outlines']) => styleOutlines(lines, { ellipse, exponential });
+    const lineStyles = createLineStyles(drawContext, OUTLINE_STYLES, overlays);
+    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, lineStyles, ['ellipse', 'exponential', 'command'], words.reckoning.overlays));
+    const outlinesOfStep = ({ ellipse, exponential }: Scene['outlines']) => styleOutlines(lineStyles, { ellipse, exponential });
     const callouts: Callout[] = [];
     clipToPlot(drawContext, () => {
       paintWithOpacity(drawContext.context, MILESTONE_DOTS.opacity, () => milestones.forEach((milestone) => drawDots(drawContext, milestone.poses.subarray(0, 3 * MILESTONE_DOTS.maxCount))));
       drawDots(drawContext, poses);
       const milestoneOutlines = milestones.flatMap((milestone) => outlinesOfStep(milestone.outlines)).map((outline) => ({ ...outline, width: 1 }));
-      drawOutlines(drawContext, [...styleOutlines(lines, { command: commanded }), ...milestoneOutlines]);
+      drawOutlines(drawContext, [...styleOutlines(lineStyles, { command: commanded }), ...milestoneOutlines]);
       if (drawContext.previousViewModel) callouts.push(...drawEarlierOutlines(drawContext, outlinesOfStep(drawContext.previousViewModel.outlines), [commandedPose, [0, 0]], words.earlierOutlinesLabel));
       drawOutlines(drawContext, outlinesOfStep(outlines));
       drawRobot(drawContext, { x: 0, y: 0, heading: 0, colour: palette.truth });

@@ -112,8 +112,8 @@ function curveStyleOf(name: keyof typeof CURVE_STYLES, highlight: string | null)
 export function headlineHtml({ config: { step }, curves, shown }: ViewModel, overlays: string[]) {
   const texts = words.reckoning;
   const componentIndex = worstComponentIndexOf(overlays, (i) => Math.abs(curves[i].ratio[step - 1] - 1));
-  const error = curves[componentIndex].error[step - 1];
-  const headlineDetail = texts.afterRatio(Number.isNaN(error) ? '' : formatFixed(error, 2), step, formatInteger(shown));
+  const ratioError = curves[componentIndex].error[step - 1];
+  const headlineDetail = texts.afterRatio(Number.isNaN(ratioError) ? '' : formatFixed(ratioError, 2), step, formatInteger(shown));
   return readoutsHtml([[texts.beforeRatio(texts.componentAdjectives[TWIST_COMPONENTS[componentIndex]]), formatFixed(curves[componentIndex].ratio[step - 1], 2), headlineDetail]], 0);
 }
 

@@ -17,7 +17,7 @@ import { headlineHtml, outcomeReadoutsHtml, spreadPlotHtml, driftDistanceOf, cap
 import { LINE_STYLES, definition, sliderSpecs, NOISE_SLIDERS, viewModelOf, type ViewModel } from './settings.ts';
 import type { Motion, OdometryDecomposer as Simulation } from '../../types.d.ts';
 
-/** Returns the table of standard deviations by noise model. Numbers that differ from the model of Table 5.6 are bold. */
+/** Returns the table of standard deviations by noise model. Numbers that differ from those of Table 5.6 are bold. */
 function noiseModelTableHtml(figure: OdometryDecomposerElement) {
   const { ruleNames, table: texts, settings } = words.decomposer;
   const { rules } = figure.viewModel;

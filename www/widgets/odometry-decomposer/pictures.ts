@@ -24,11 +24,11 @@ const ELLIPSE_POINT_COUNT = 64;
 
 /** Returns the points of an ellipse about a pose with semi-axes along and across its heading. Lengths are in metres. */
 function ellipsePointsOf({ x, y, theta }: Pose, alongRadius: number, acrossRadius: number) {
-  const [cos, sin] = [Math.cos(theta), Math.sin(theta)];
+  const [headingCos, headingSin] = [Math.cos(theta), Math.sin(theta)];
   return Array.from({ length: ELLIPSE_POINT_COUNT + 1 }, (_, i): [number, number] => {
-    const angle = (2 * Math.PI * i) / ELLIPSE_POINT_COUNT;
-    const [alongOffset, leftOffset] = [alongRadius * Math.cos(angle), acrossRadius * Math.sin(angle)];
-    return [x + alongOffset * cos - leftOffset * sin, y + alongOffset * sin + leftOffset * cos];
+    const ellipseAngle = (2 * Math.PI * i) / ELLIPSE_POINT_COUNT;
+    const [alongOffset, leftOffset] = [alongRadius * Math.cos(ellipseAngle), acrossRadius * Math.sin(ellipseAngle)];
+    return [x + alongOffset * headingCos - leftOffset * headingSin, y + alongOffset * headingSin + leftOffset * headingCos];
   });
 }
 
@@ -48,10 +48,10 @@ function drawTurn({ context, view }: DrawContext, startPose: Pose, turn: number,
 function drawDeviationFan({ context, view }: DrawContext, { x, y, theta }: Pose, deviation: number, fanRadius: number, colour: string) {
   const halfAngle = Math.min(deviation, Math.PI);
   if (halfAngle === 0) return;
-  const centre = view.toPixel(x, y);
+  const fanCentre = view.toPixel(x, y);
   const addFan = () => {
-    context.moveTo(...centre);
-    addTurnArc(context, centre, fanRadius, theta + halfAngle, -2 * halfAngle);
+    context.moveTo(...fanCentre);
+    addTurnArc(context, fanCentre, fanRadius, theta + halfAngle, -2 * halfAngle);
     context.closePath();
   };
   paintWithOpacity(context, 0.14, () => fillPath(context, colour, addFan));
@@ -211,8 +211,8 @@ export class WorldPicture extends SamplesPicture<Scene> {
 
   fitView(scene: Scene) {
     const { poses } = scene.drifted;
-    const robotBoxCorners = [0, 1, 2].flatMap((index) => {
-      const { x, y } = poseAt(poses, index);
+    const robotBoxCorners = [0, 1, 2].flatMap((poseIndex) => {
+      const { x, y } = poseAt(poses, poseIndex);
       return cornersAround(x, y, VIEW_MARGINS.aroundRobot);
     });
     this.view.fit(extentOf([...coordinatesToShowOf(scene), ...robotBoxCorners], 1.2));
@@ -258,10 +258,10 @@ export class WorldPicture extends SamplesPicture<Scene> {
 const segmentCoordinatesOf = (startPose: Pose, endPose: Pose) => Float64Array.of(startPose.x, startPose.y, endPose.x, endPose.y);
 
 /** Returns callouts for the poses before and after a motion. If the two poses are at the same place on the screen, returns only the second callout. */
-function createPoseCallouts({ view }: DrawContext, poses: Pose[], symbol: string, colours: string[]): Callout[] {
-  const [firstCallout, secondCallout] = poses.map(({ x, y }, i): Callout => ({ point: [x, y], symbol, subscript: ['t−1', 't'][i], colour: colours[i] }));
-  const distance = Math.hypot(poses[0].x - poses[1].x, poses[0].y - poses[1].y) * view.scaleX;
-  return distance > MIN_LABELLED_LENGTH ? [firstCallout, secondCallout] : [secondCallout];
+function createPoseCallouts({ view }: DrawContext, poses: Pose[], symbol: string, poseColours: string[]): Callout[] {
+  const [firstCallout, secondCallout] = poses.map(({ x, y }, i): Callout => ({ point: [x, y], symbol, subscript: ['t−1', 't'][i], colour: poseColours[i] }));
+  const pixelDistance = Math.hypot(poses[0].x - poses[1].x, poses[0].y - poses[1].y) * view.scaleX;
+  return pixelDistance > MIN_LABELLED_LENGTH ? [firstCallout, secondCallout] : [secondCallout];
 }
 
 const drawSegment = (drawContext: DrawContext, startPose: Pose, endPose: Pose, lineStroke: LineStroke) => strokeLines(drawContext, [{ points: segmentCoordinatesOf(startPose, endPose), ...lineStroke }]);

@@ -36,7 +36,7 @@ export function driftDistanceOf({ drifted, linkage }: ViewModel) {
   return Math.hypot(odometryPose.x - predictedPose.x, odometryPose.y - predictedPose.y);
 }
 
-const formatMetres = (metres: number) => `${formatFixed(metres, 3)} m`;
+const formatMetres = (lengthMetres: number) => `${formatFixed(lengthMetres, 3)} m`;
 
 /** Returns the headline: the ratio of the turn noise of Table 5.6 to the turn noise of Nav2. */
 export function headlineHtml({ rules: [thrun, nav2] }: ViewModel) {

@@ -92,21 +92,21 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
 /** Returns the dropped files, and all files in dropped folders. Files in folders have their paths in the property `path`. */
 async function readDroppedFiles({ items }: DataTransfer): Promise<File[]> {
   // All items are read before the first `await`, because the browser then empties the list.
-  const droppedItems = [...items].filter(({ kind }) => kind === 'file').map((item) => ({ entry: item.webkitGetAsEntry(), file: item.getAsFile() }));
-  const files = await Promise.all(droppedItems.map(({ entry, file }) => (entry?.isDirectory ? readDirectory(entry as FileSystemDirectoryEntry) : file ? [file] : [])));
-  return files.flat();
+  const droppedItems = [...items].filter(({ kind }) => kind === 'file').map((transferItem) => ({ entry: transferItem.webkitGetAsEntry(), file: transferItem.getAsFile() }));
+  const foundFiles = await Promise.all(droppedItems.map(({ entry, file }) => (entry?.isDirectory ? readDirectory(entry as FileSystemDirectoryEntry) : file ? [file] : [])));
+  return foundFiles.flat();
 }
 
-async function readDirectory(folder: FileSystemDirectoryEntry): Promise<File[]> {
-  const directoryReader = folder.createReader();
+async function readDirectory(directoryEntry: FileSystemDirectoryEntry): Promise<File[]> {
+  const directoryReader = directoryEntry.createReader();
   const entries: FileSystemEntry[] = [];
   const readEntries = () => new Promise<FileSystemEntry[]>((resolve, reject) => directoryReader.readEntries(resolve, reject));
   // In some browsers, a call of `readEntries` returns at most a hundred entries. It is called until it returns none.
   for (let entryBatch = await readEntries(); entryBatch.length > 0; entryBatch = await readEntries()) entries.push(...entryBatch);
-  const files = await Promise.all(entries.filter(({ name }) => !name.startsWith('.')).map(async (entry) => {
+  const foundFiles = await Promise.all(entries.filter(({ name }) => !name.startsWith('.')).map(async (entry) => {
     if (entry.isDirectory) return readDirectory(entry as FileSystemDirectoryEntry);
     const file = await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject));
     return [Object.assign(file, { path: entry.fullPath.slice(1) })];
   }));
-  return files.flat();
+  return foundFiles.flat();
 }

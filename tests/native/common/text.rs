@@ -37,8 +37,8 @@ impl PlainText {
             plain_text
                 .push_str(tag_and_text.split_once('>').map_or(tag_and_text, |(_, plain_part)| plain_part));
         }
-        for (entity, character) in [("*", ""), ("&nbsp;", " "), ("&#8239;", "\u{202f}"), ("&lt;", "<"), ("&gt;", ">")] {
-            plain_text = plain_text.replace(entity, character);
+        for (markup, character) in [("*", ""), ("&nbsp;", " "), ("&#8239;", "\u{202f}")] {
+            plain_text = plain_text.replace(markup, character);
         }
         Self::from_document(&plain_text)
     }

@@ -50,7 +50,7 @@ fn printed_variance_errors_of_the_recursion_equal_those_of_the_simulation() {
             0.0,
         );
     }
-    read_page_text().assert_contains("the Gaussian that the chapter predicts is a line, for its R, the noise covariance of one step, has no lateral noise");
+    read_page_text().assert_contains("The Gaussian that the chapter predicts is a line, for its R, the noise covariance of one step, has no lateral noise");
     assert_eq!(chapter_comparison.ratios[0].y, 0.0);
     assert!(initial_simulation.measured_moments()[0].cov[(1, 1)] > 0.0);
     let [printed_ratio_at_2, printed_ratio_at_5]: [PrintedNumber; 2] =
@@ -145,7 +145,7 @@ fn the_crossing_times_are_those_of_exercise_2() {
 #[test]
 fn with_two_hundred_steps_the_lateral_variance_is_wrong_for_half_a_second() {
     read_page_text().assert_contains(
-        "In 200 shorter steps, the predicted variance along the track stays within 5 %, and the lateral one is off for the first half second only, instead of three seconds:",
+        "In 200 shorter steps, the predicted variance along the track stays within 5 %. The lateral variance is off for the first half second only, instead of three seconds:",
     );
     let [chapter_simulation, fine_simulation] = ["chapter", "fine"].map(simulation_of_preset);
     assert_eq!(fine_simulation.settings().steps, 200);

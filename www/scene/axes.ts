@@ -85,17 +85,17 @@ function ticksOfAxis(min: number, max: number, wantedTickCount: number) {
     tickValues,
     /** Power of ten before the unit of the axis; empty for a factor of 1. */
     unitFactor: exponent < 0 ? `${formatPowerOfTen(exponent)} ` : '',
-    formatLabel: (value: number) => formatTick(value / 10 ** exponent, tickStep / 10 ** exponent),
+    formatLabel: (tickValue: number) => formatTick(tickValue / 10 ** exponent, tickStep / 10 ** exponent),
   };
 }
 
-/** Clips what `paint` draws to the plot area. */
-export function clipToPlot({ context, view }: DrawContext, paint: () => void) {
+/** Clips what `paintContents` draws to the plot area. */
+export function clipToPlot({ context, view }: DrawContext, paintContents: () => void) {
   const { left, right, top, bottom } = view.plotArea;
   context.save();
   context.beginPath();
   context.rect(left, top, right - left, bottom - top);
   context.clip();
-  paint();
+  paintContents();
   context.restore();
 }

@@ -8,9 +8,9 @@ export class Memo<Result> {
   #lastResult: Result | undefined;
 
   /** Returns the cached result, or computes a new one. @param dependencies values on which the result depends, compared by identity */
-  get(dependencies: unknown[], compute: () => Result): Result {
+  get(dependencies: unknown[], computeResult: () => Result): Result {
     if (dependencies.length !== this.#lastDependencies.length || dependencies.some((dependency, i) => dependency !== this.#lastDependencies[i])) {
-      this.#lastResult = compute();
+      this.#lastResult = computeResult();
       this.#lastDependencies = dependencies;
     }
     return this.#lastResult as Result;
@@ -47,9 +47,9 @@ export class CachedLayer {
 export const LINES_PER_STROKE = 500;
 
 /** Strokes lines through points in pixels, `linesPerStroke` at a time. */
-export function strokeInBatches(context: LayerDrawContext['context'], lines: number[][][], style: LineStroke, linesPerStroke = LINES_PER_STROKE) {
-  for (let i = 0; i < lines.length; i += linesPerStroke) {
-    strokePath(context, style, () => lines.slice(i, i + linesPerStroke).forEach((points) => addLine(context, points)));
+export function strokeInBatches(context: LayerDrawContext['context'], pixelLines: number[][][], style: LineStroke, linesPerStroke = LINES_PER_STROKE) {
+  for (let i = 0; i < pixelLines.length; i += linesPerStroke) {
+    strokePath(context, style, () => pixelLines.slice(i, i + linesPerStroke).forEach((points) => addLine(context, points)));
   }
 }
 

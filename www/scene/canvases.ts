@@ -59,14 +59,14 @@ export class Canvases {
       const canvas = target as HTMLCanvasElement;
       const { inlineSize: width, blockSize: height } = devicePixelContentBoxSize?.[0] ?? { inlineSize: 0, blockSize: 0 };
       const [estimatedWidth, estimatedHeight] = [devicePixelRatio * contentRect.width, devicePixelRatio * contentRect.height];
-      // Chromium gives CSS pixels for device pixels when developer tools imitate the screen of a phone.
+      // Chromium reports CSS pixels as device pixels while its developer tools emulate a phone.
       const isExact = Math.max(Math.abs(width - estimatedWidth), Math.abs(height - estimatedHeight)) < 1;
       [canvas.width, canvas.height] = (isExact ? [width, height] : [estimatedWidth, estimatedHeight]).map(Math.round);
     }
     this.#drawResized();
   }
 
-  /** Caches the CSS widths of the canvases. For print, it also sets their sizes in pixels, which then determine the layout and are not observed. */
+  /** Caches the CSS widths of the canvases. For print, it also sets the pixel sizes of the canvases, and stops observing them. */
   updateWidths(isPrinting: boolean) {
     if (isPrinting) this.#sizeObserver.disconnect();
     for (const canvas of this.canvasElements ?? []) {

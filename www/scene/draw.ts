@@ -47,14 +47,14 @@ export function drawDots(drawContext: DrawContext, poses: Float64Array, tickScal
 export function createDensityRamp(palette: Palette): Uint8Array {
   const cloudColour = colourChannelsOf(palette.cloud);
   const inkColour = colourChannelsOf(palette.ink);
-  const ramp = new Uint8Array(4 * limits.ramp);
+  const colourRamp = new Uint8Array(4 * limits.ramp);
   for (let i = 0; i < limits.ramp; i++) {
     const relativeCount = i / (limits.ramp - 1);
-    const darkening = 0.6 * Math.max(0, relativeCount - 0.5);
-    for (let k = 0; k < 3; k++) ramp[4 * i + k] = cloudColour[k] + darkening * (inkColour[k] - cloudColour[k]);
-    ramp[4 * i + 3] = 255 * (0.15 + 0.85 * relativeCount);
+    const inkShare = 0.6 * Math.max(0, relativeCount - 0.5);
+    for (let k = 0; k < 3; k++) colourRamp[4 * i + k] = cloudColour[k] + inkShare * (inkColour[k] - cloudColour[k]);
+    colourRamp[4 * i + 3] = 255 * (0.15 + 0.85 * relativeCount);
   }
-  return ramp;
+  return colourRamp;
 }
 
 interface Outline extends LineStroke {
@@ -82,17 +82,17 @@ export function createLineStyles<Name extends string>({ palette, highlight }: Pi
   return Object.fromEntries(styleEntries) as ShownLines<Name>;
 }
 
-/** Returns the shown lines with their points, in the order of the points. */
+/** Returns the shown lines as outlines with their points, in the order of `pointsByName`. */
 export const styleOutlines = <Name extends string>(lines: ShownLines<Name>, pointsByName: { [Key in Name]?: Float64Array }): Outline[] =>
   (Object.keys(pointsByName) as Name[]).flatMap((name) => {
     const style = lines[name];
     return style ? [{ points: pointsByName[name] as Float64Array, ...style }] : [];
   });
 
-/** Returns the legend of an exported picture: the shown ones among the named lines and marks. On the page there is a legend beside the picture. */
-export function createLineLegend<Name extends string>(drawContext: DrawContext, lines: ShownLines<Name>, lineNames: readonly Name[], labels: Record<Name, string>): LegendEntry[] {
+/** Returns the legend of an exported picture: those of the named lines and marks that are shown. On the page the legend is HTML beside the picture. */
+export function createLineLegend<Name extends string>(drawContext: DrawContext, lines: ShownLines<Name>, lineNames: readonly Name[], labelsByName: Record<Name, string>): LegendEntry[] {
   return drawContext.isExported ? lineNames.filter((name) => lines[name]).map((name) => ({
-    name: labels[name].replaceAll('*', ''),
+    name: labelsByName[name].replaceAll('*', ''),
     drawSample: (x, y, width) => drawSwatch(drawContext, lines[name] as ShownLine, [x, y], width),
   })) : [];
 }
@@ -116,7 +116,7 @@ function drawSwatch({ context }: DrawContext, { shape, ...style }: ShownLine, [x
 }
 
 /** Returns true if an outline is longer than rounding errors. The outline of robots that all stop at one point has no length. */
-export const hasLength = (points: Float64Array) => points.some((value, i) => Math.abs(value - points[i % 2]) > 1e-9);
+export const hasLength = (points: Float64Array) => points.some((coordinate, i) => Math.abs(coordinate - points[i % 2]) > 1e-9);
 
 /**
  * Draws polylines with halos in the background colour, so that they are visible on top of the cloud. The last line is on top. All halos are
@@ -147,7 +147,7 @@ export function drawEarlierOutlines(drawContext: DrawContext, outlines: Outline[
   const { xMin, xMax, yMin, yMax } = view.extent;
   const visiblePoints = visibleOutlines.flatMap(({ points }) => Array.from({ length: points.length / 2 }, (_, i): [number, number] => [points[2 * i], points[2 * i + 1]]))
     .filter(([x, y]) => x > xMin && x < xMax && y > yMin && y < yMax);
-  const calloutPoint = greatest(visiblePoints, ([x, y]) => Math.min(...currentPoints.map((point) => Math.hypot(view.scaleX * (x - point[0]), view.scaleY * (y - point[1])))));
+  const calloutPoint = greatest(visiblePoints, ([x, y]) => Math.min(...currentPoints.map((currentPoint) => Math.hypot(view.scaleX * (x - currentPoint[0]), view.scaleY * (y - currentPoint[1])))));
   return calloutPoint ? [{ text: calloutText, point: calloutPoint, colour: palette.muted }] : [];
 }
 

@@ -45,9 +45,9 @@ const SHIFT_STEP_FACTOR = 5;
 
 /** Returns the steps along x and y by which a key moves the target; undefined for other keys and for key shortcuts of the browser. */
 export function stepsOfKey({ key, shiftKey, ctrlKey, metaKey, altKey }: KeyboardEvent): [number, number] | undefined {
-  const steps = ctrlKey || metaKey || altKey ? undefined : KEY_STEPS[key];
-  if (!steps || !shiftKey || !key.startsWith('Arrow')) return steps;
-  return [SHIFT_STEP_FACTOR * steps[0], SHIFT_STEP_FACTOR * steps[1]];
+  const keySteps = ctrlKey || metaKey || altKey ? undefined : KEY_STEPS[key];
+  if (!keySteps || !shiftKey || !key.startsWith('Arrow')) return keySteps;
+  return [SHIFT_STEP_FACTOR * keySteps[0], SHIFT_STEP_FACTOR * keySteps[1]];
 }
 
 /** Steps of rotation by key, positive to the left. Comma and period are for keyboards on which brackets need a modifier key. */
@@ -100,14 +100,14 @@ export class Handle {
     ></div>`;
   }
 
-  /** Moves the middle of the handle's element in `root` to a point in pixels of the view. `size` (pixels) and `angle` (rad) replace those of its style. */
-  placeElementAt(root: ParentNode, x: number, y: number, { size, angle }: { size?: number, angle?: number } = {}) {
-    const handle = root.querySelector(`.handle.${this.#classNames.replace(' ', '.')}`) as HTMLElement | null;
-    if (!handle) return;
+  /** Moves the middle of the handle's element in `figureRoot` to a point in pixels of the view. `size` (pixels) and `angle` (rad) replace those of its style. */
+  placeElementAt(figureRoot: ParentNode, x: number, y: number, { size, angle }: { size?: number, angle?: number } = {}) {
+    const handleElement = figureRoot.querySelector(`.handle.${this.#classNames.replace(' ', '.')}`) as HTMLElement | null;
+    if (!handleElement) return;
     this.#middlePixels = [x, y];
-    if (size !== undefined) handle.style.width = handle.style.height = formatEm(size);
-    if (angle !== undefined) handle.style.rotate = `${angle}rad`;
-    handle.style.translate = `${formatEm(x)} ${formatEm(y)}`;
+    if (size !== undefined) handleElement.style.width = handleElement.style.height = formatEm(size);
+    if (angle !== undefined) handleElement.style.rotate = `${angle}rad`;
+    handleElement.style.translate = `${formatEm(x)} ${formatEm(y)}`;
   }
 
   #worldPointOf(event: PointerEvent) {

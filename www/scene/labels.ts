@@ -9,7 +9,7 @@ const SUBSCRIPT_SIZE = 0.78;
 const SUBSCRIPT_DROP = 3;
 
 function measureTextParts({ context, font }: DrawContext, { symbol = '', subscript = '', text = '' }: Pick<Callout, 'symbol' | 'subscript' | 'text'>) {
-  const subscriptFont = font.replace(/[\d.]+px/, (size) => `${SUBSCRIPT_SIZE * parseFloat(size)}px`);
+  const subscriptFont = font.replace(/[\d.]+px/, (sizeText) => `${SUBSCRIPT_SIZE * parseFloat(sizeText)}px`);
   const textParts = [
     { text: symbol, style: `italic ${font}`, baselineDrop: 0 },
     { text: subscript, style: subscriptFont, baselineDrop: SUBSCRIPT_DROP },
@@ -72,7 +72,7 @@ export interface Callout {
 export function drawCallouts(drawContext: DrawContext, callouts: Callout[], { shapeCentre, lines }: { shapeCentre: [number, number], lines: Float64Array[] }) {
   const { context, view, palette, placedBoxes } = drawContext;
   const [centreX, centreY] = view.toPixel(...shapeCentre);
-  const avoidedPoints = [...callouts.map(({ point }): number[] => view.toPixel(...point)), ...lines.filter(({ length }) => length > 0).flatMap((line) => sampleLine(view.toPixels(line)))];
+  const avoidedPoints = [...callouts.map(({ point }): number[] => view.toPixel(...point)), ...lines.filter(({ length }) => length > 0).flatMap((avoidedLine) => sampleLine(view.toPixels(avoidedLine)))];
   const { left, right, top, bottom } = view.plotArea;
   for (const { point, colour = palette.ink, text = '', ...symbolAndSubscript } of callouts) {
     const textLines = text.split('\n').map((textLine, i) => measureTextParts(drawContext, { text: textLine, ...(i === 0 && symbolAndSubscript) }));

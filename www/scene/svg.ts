@@ -7,7 +7,7 @@ export const escapeXml = (text: string) =>
   text.replace(INVALID_XML_CHARACTERS, '\ufffd').replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
 
 /** Prints a length in CSS pixels to a hundredth, which is finer than the resolution of printers. */
-export const formatLength = (length: number) => String(Math.round(100 * length) / 100);
+export const formatLength = (pixelLength: number) => String(Math.round(100 * pixelLength) / 100);
 
 /** Offsets of the alphabetic baseline from the baselines of the canvas, in em. */
 const BASELINE_SHIFTS = { top: '0.8em', middle: '0.33em' } as Record<string, string>;
@@ -94,9 +94,9 @@ export class SvgContext {
   };
 
   clip() {
-    const id = `${this.#idPrefix}-clip${++this.#clipCount}`;
+    const clipId = `${this.#idPrefix}-clip${++this.#clipCount}`;
     // The latest element is the group that `save` opened.
-    this.#elements.splice(-1, 1, `<clipPath id="${id}"><path d="${this.#path}"/></clipPath><g clip-path="url(#${id})">`);
+    this.#elements.splice(-1, 1, `<clipPath id="${clipId}"><path d="${this.#path}"/></clipPath><g clip-path="url(#${clipId})">`);
   }
 
   setLineDash(dash: number[]) {

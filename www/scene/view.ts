@@ -79,15 +79,15 @@ export class View {
   }
 
   /** Returns the scale (pixels per metre) at which a part of the world fits into the view with a margin in pixels. */
-  fittingScaleOf({ xMin, yMin, xMax, yMax }: Extent, margin = 0) {
+  fittingScaleOf({ xMin, yMin, xMax, yMax }: Extent, pixelMargin = 0) {
     const { left, right, top, bottom } = this.plotArea;
-    return Math.min((right - left - 2 * margin) / (xMax - xMin), (bottom - top - 2 * margin) / (yMax - yMin));
+    return Math.min((right - left - 2 * pixelMargin) / (xMax - xMin), (bottom - top - 2 * pixelMargin) / (yMax - yMin));
   }
 
-  /** Returns the length (m) of a mark that is `pixels` long, if the view fits the extent and the mark. A mark takes at most a quarter of the view. */
-  markLengthOf(extent: Extent, pixels: number) {
+  /** Returns the length (m) of a mark that is `pixelLength` long, if the view fits the extent and the mark. A mark takes at most a quarter of the view. */
+  markLengthOf(extent: Extent, pixelLength: number) {
     const { left, right, top, bottom } = this.plotArea;
-    const margin = Math.min(pixels, (right - left) / 4, (bottom - top) / 4);
+    const margin = Math.min(pixelLength, (right - left) / 4, (bottom - top) / 4);
     return margin / this.fittingScaleOf(extent, margin);
   }
 
@@ -141,8 +141,8 @@ export class View {
   moveTowardsTarget(elapsedMs: number, isImmediate: boolean): boolean {
     const targetExtent = this.#targetExtent;
     if (!targetExtent || targetExtent === this.extent) return false;
-    const progress = isImmediate ? 1 : 1 - Math.exp(-elapsedMs / EASING_MS);
-    const nextExtent = interpolateExtent(this.extent, targetExtent, progress);
+    const progressFraction = isImmediate ? 1 : 1 - Math.exp(-elapsedMs / EASING_MS);
+    const nextExtent = interpolateExtent(this.extent, targetExtent, progressFraction);
     const remainingDistanceOf = (minKey: keyof Extent, maxKey: keyof Extent) => Math.abs(nextExtent[minKey] - targetExtent[minKey]) + Math.abs(nextExtent[maxKey] - targetExtent[maxKey]);
     const hasArrived = remainingDistanceOf('xMin', 'xMax') * this.scaleX + remainingDistanceOf('yMin', 'yMax') * this.scaleY < 0.5;
     this.extent = hasArrived || isImmediate ? targetExtent : nextExtent;

@@ -141,7 +141,7 @@ export function plotHtml({ label, x, y, curves, points = [], marks = [], slider,
       <svg x=${PLOT_LEFT} y=${PLOT_TOP} width=${PLOT_RIGHT - PLOT_LEFT} height=${PLOT_BOTTOM - PLOT_TOP} viewBox="${PLOT_LEFT} ${PLOT_TOP} ${PLOT_RIGHT - PLOT_LEFT} ${PLOT_BOTTOM - PLOT_TOP}">
         ${curves.map((curve) => curve.errors && svg`<path class="band ${highlightClassOf(curve)}" opacity="0.22" fill="var(--${curve.role})" d=${bandPathDataOf(curve, toPixelX, toPixelY)} />`)}
         ${curves.map((curve) => !curve.isBandOnly && svg`<path class="curve ${highlightClassOf(curve)}" fill="none" stroke-width="1.9" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash?.join(' ') ?? nothing} d=${curvePathDataOf(curve, toPixelX, toPixelY)} />`)}
-        ${marks.map((mark, row) => markSvg(mark, row, toPixelX(mark.x)))}
+        ${marks.map((verticalMark, labelRow) => markSvg(verticalMark, labelRow, toPixelX(verticalMark.x)))}
         ${points.filter(({ y: value, error }) => !Number.isNaN(value + error)).map(
           ({ role, x: pointX, y: value, error }) => svg`<path
             stroke="var(--${role})"
@@ -192,7 +192,7 @@ function curvePathDataOf({ x, y }: Curve, toPixelX: (value: number) => number, t
 
 function bandPathDataOf({ x, y, errors = [] }: Curve, toPixelX: (value: number) => number, toPixelY: (value: number) => number) {
   const definedIndices = Array.from(x, (_, i) => i).filter((i) => !Number.isNaN(x[i] + y[i] + errors[i]));
-  const bandEdgeOf = (side: number) => definedIndices.map((i) => `${toPixelX(x[i]).toFixed(2)},${toPixelY(y[i] + side * errors[i]).toFixed(2)}`);
+  const bandEdgeOf = (bandSide: number) => definedIndices.map((i) => `${toPixelX(x[i]).toFixed(2)},${toPixelY(y[i] + bandSide * errors[i]).toFixed(2)}`);
   return definedIndices.length > 0 ? `M${[...bandEdgeOf(1), ...bandEdgeOf(-1).reverse()].join('L')}Z` : '';
 }
 

@@ -147,19 +147,19 @@ export function tableHtml({ caption, columnHeadings, rows }: TableContent) {
   const rowCellsHtml = ([firstCell, ...otherCells]: unknown[]) =>
     otherCells.length === 0
       ? html`<td colspan=${columnHeadings.length - 1}>${untranslatedHtml(firstCell)}</td>`
-      : [firstCell, ...otherCells].map((cell) => html`<td>${untranslatedHtml(cell)}</td>`);
+      : [firstCell, ...otherCells].map((tableCell) => html`<td>${untranslatedHtml(tableCell)}</td>`);
   return html`<table part="table">
     ${caption ? html`<caption>${caption}</caption>` : nothing}
     <thead>
       <tr>
-        ${columnHeadings.map((name) => html`<th scope="col">${name}</th>`)}
+        ${columnHeadings.map((columnHeading) => html`<th scope="col">${columnHeading}</th>`)}
       </tr>
     </thead>
     <tbody>
       ${rows.map(
-        ([name, ...row]) => html`<tr>
-          <th scope="row">${name}</th>
-          ${rowCellsHtml(row)}
+        ([rowName, ...rowCells]) => html`<tr>
+          <th scope="row">${rowName}</th>
+          ${rowCellsHtml(rowCells)}
         </tr>`,
       )}
     </tbody>

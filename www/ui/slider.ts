@@ -138,14 +138,14 @@ const NUMBER_START = /^[\d.,+-]$/;
 export function sliderRowHtml(sliderRow: SliderRow) {
   const { id, value, min, max, step, allowedNumbers, role, symbol, name, effect, formatValue, onInput, onCommit } = sliderRow;
   const printedValue = formatValue(value);
-  const longestText = [formatValue(min), formatValue(max)].reduce((longerText, candidate) => (candidate.length > longerText.length ? candidate : longerText), printedValue);
+  const longestText = [formatValue(min), formatValue(max)].reduce((longerText, candidateText) => (candidateText.length > longerText.length ? candidateText : longerText), printedValue);
   // If the thumb is at an end of the slider, a text tells the user that values beyond that end can be typed.
   const endAtThumb = value >= max && max < allowedNumbers.max ? max : value <= min && min > allowedNumbers.min ? min : undefined;
-  const applyTyped = (typedNumber: number, field: HTMLInputElement) => {
+  const applyTyped = (typedNumber: number, valueField: HTMLInputElement) => {
     onInput(typedNumber);
     onCommit();
     // The next key may come before the slider is rendered with the new value.
-    controlOfRow(field, 'input[type=range]').value = String(rangeOfStops({ ...sliderRow, value: typedNumber }).value ?? typedNumber);
+    controlOfRow(valueField, 'input[type=range]').value = String(rangeOfStops({ ...sliderRow, value: typedNumber }).value ?? typedNumber);
   };
   const focusTrack = (event: Event) => controlOfRow(event.target as Element, 'input[type=range]').focus();
   return html`
@@ -200,8 +200,8 @@ export interface SliderRow extends SliderRange {
 /** Returns the range of a slider over stops, whose positions are the indices of the stops. A value beyond the last stop has the position after it. */
 function rangeOfStops({ stops, value, onInput }: SliderRow): Partial<SliderRange> {
   if (!stops) return {};
-  const stopIndex = stops.findIndex((stop) => stop >= value);
-  return { min: 0, max: stops.length - 1, step: 1, value: stopIndex < 0 ? stops.length : stopIndex, onInput: (index) => onInput(stops[index]) };
+  const stopIndex = stops.findIndex((stopValue) => stopValue >= value);
+  return { min: 0, max: stops.length - 1, step: 1, value: stopIndex < 0 ? stops.length : stopIndex, onInput: (newStopIndex) => onInput(stops[newStopIndex]) };
 }
 
 interface SliderTrack extends SliderRange {

@@ -87,7 +87,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
   #picture = new ArcPicture();
   pictures = [this.#picture];
   /** Handles of the start pose and the final pose. If the poses are at the same place, the handle of the final pose is on top. */
-  handles: PoseHandles[] = ['start', 'next'].map((setting) => new PoseHandles(this, setting, () => ROBOT_RADIUS));
+  handles: PoseHandles[] = ['start', 'next'].map((settingKey) => new PoseHandles(this, settingKey, () => ROBOT_RADIUS));
 
   /** Player of the animation in which robots drive along the arcs. It takes the same time for every command. */
   player: Player<'underway'> = new Player(this, { underway: { max: UNDERWAY_AT_END, durationMs: 2000 } });

@@ -65,8 +65,8 @@ export function factorBarsHtml({ stats: { factors, weakest, share } }: ViewModel
   const texts = words.anatomy.factorBars;
   return html`<ul part="readouts" class="factors ${tableLine === TABLE_LINES ? 'lit' : ''}" aria-label=${texts.label}>
     ${factors.map((factor, i) => {
-      const { symbol, error, residualSign: sign, unit } = FACTOR_NOTATIONS[i];
-      const deviations = sign * factor.deviations;
+      const { symbol, error, residualSign, unit } = FACTOR_NOTATIONS[i];
+      const deviations = residualSign * factor.deviations;
       return html`<li class=${i === weakest && share < 1 ? 'weakest' : nothing}>
         <span class="estimate">${formatMarkup(symbol)} ${texts.estimateNames[i]} = ${formatFixed(factor.estimate, 2)} ${unit}</span>
         ${barHtml(deviations)}
@@ -78,7 +78,7 @@ export function factorBarsHtml({ stats: { factors, weakest, share } }: ViewModel
 }
 
 function barHtml(deviations: number) {
-  const barXOf = (number: number) => BAR_MIDDLE + BAR_SCALE.pixelsPerDeviation * clamp(number, -BAR_SCALE.maxDeviations, BAR_SCALE.maxDeviations);
+  const barXOf = (deviationCount: number) => BAR_MIDDLE + BAR_SCALE.pixelsPerDeviation * clamp(deviationCount, -BAR_SCALE.maxDeviations, BAR_SCALE.maxDeviations);
   const isBeyondScale = Math.abs(deviations) > BAR_SCALE.maxDeviations;
   const barEnd = barXOf(deviations);
   const barSide = Math.sign(deviations);
@@ -118,9 +118,9 @@ const TABLE_LINE_UNITS = ['', ' m', ' m', ' m', ' rad', ' m/s', ' rad/s', ' rad/
 /** Returns the lines of Table 5.1 with their values as radio buttons. The selected line highlights constructions in the picture. */
 export function tableLinesHtml({ viewModel: { table: { lines }, config: { printed } }, settings: { elementState }, gesture }: import('./arc-anatomy.ts').ArcAnatomyElement) {
   const texts = words.anatomy.table;
-  const lineTextOf = (formula: string, i: number) => {
+  const lineTextOf = (lineFormula: string, i: number) => {
     const valueText = i === TABLE_LINES - 1 ? formatDensity(lines[i]) : formatFixed(lines[i], 3);
-    return `${i + 1}. ${printed ? formula.replace('±', '') : formula} = ${valueText}${TABLE_LINE_UNITS[i]}`;
+    return `${i + 1}. ${printed ? lineFormula.replace('±', '') : lineFormula} = ${valueText}${TABLE_LINE_UNITS[i]}`;
   };
   return html`<p>${texts.introduction}</p>
     <div role="radiogroup" aria-label=${texts.label}><ul class="lines" part="table">

@@ -21,7 +21,7 @@ import type { DeadReckoning as Simulation, Motion } from '../../types.d.ts';
 const VARIANCE_UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
 
 /** Returns the names of an exported quantity's columns: one for each component of the exponential coordinates. */
-const columnTitlesOf = (quantity: string) => TWIST_COMPONENTS.map((name) => `${quantity}_${name}_${VARIANCE_UNITS[name]}`).join(' ');
+const columnTitlesOf = (quantityName: string) => TWIST_COMPONENTS.map((name) => `${quantityName}_${name}_${VARIANCE_UNITS[name]}`).join(' ');
 
 /** Returns settings that divide the same path into another number of steps. The selected step stays at about the same point of the path. */
 function settingsForSteps({ command, steps: previousSteps, step }: Record<string, any>, steps: number) {
@@ -133,10 +133,10 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   // The simulation starts without robots. The first frame then appears quickly, and the user sees the robots appear.
   createSimulation = ({ DeadReckoning }: Motion) => DeadReckoning.empty();
 
-  withDerivedFields(currentState: StateValues, changes: StateValues) {
+  withDerivedFields(currentState: StateValues, changedFields: StateValues) {
     // If the new path has fewer steps than the number of the selected step, its last step is selected.
-    const { steps = currentState.steps } = changes;
-    return { step: Math.min(currentState.step, steps), ...super.withDerivedFields(currentState, changes) };
+    const { steps = currentState.steps } = changedFields;
+    return { step: Math.min(currentState.step, steps), ...super.withDerivedFields(currentState, changedFields) };
   }
 
   readViewModel = viewModelOf;
@@ -185,7 +185,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
       ${this.renderer.renderAfterFirstPicture(() => html`
       ${legendHtml(this, OUTLINE_STYLES)} ${presetButtonsHtml(this)} 
       <div class="controls" part="controls">
-        ${settingSliderHtml(this, 'headingNoise')} ${settingSliderHtml(this, 'steps', { onInput: (steps) => this.settings.requestChange((requested) => settingsForSteps(requested, steps)) })}
+        ${settingSliderHtml(this, 'headingNoise')} ${settingSliderHtml(this, 'steps', { onInput: (newStepCount) => this.settings.requestChange((requestedSettings) => settingsForSteps(requestedSettings, newStepCount)) })}
       </div>
       ${disclosuresHtml(this, {
         renderControls: () => moreControlsHtml(this),

@@ -94,7 +94,7 @@ export class StepPicture extends Picture<Scene> {
 /** Ratio of the scales of x and y above which a reader sees that they differ. */
 const MIN_VISIBLE_SCALE_RATIO = 1.05;
 
-/** Returns two texts: the ratio of scale x to scale y, and its inverse. A ratio below 1, or nearly 1, has an empty text. */
+/** Returns two texts: the ratio of the x scale to the y scale, and the inverse ratio. The text of a ratio is empty unless it is clearly above 1. */
 export function formatScaleRatios({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>) {
   return [scaleX / scaleY, scaleY / scaleX].map((scaleRatio) => (scaleRatio > MIN_VISIBLE_SCALE_RATIO ? formatSignificant(scaleRatio, scaleRatio < 10 ? 2 : 1) : ''));
 }

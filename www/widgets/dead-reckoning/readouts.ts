@@ -34,7 +34,7 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, ratio
   if (recursionMisses.every(({ first }) => first === null)) return texts.correctPrediction(formatInteger(n));
   // `endIndex` is the component whose ratio is furthest from 1 at the last step. `worstIndex` is the component whose ratio is furthest from 1 at any step.
   const endIndex = worstComponentIndexOf(overlays, (componentIndex) => Math.abs(recursionMisses[componentIndex].end));
-  const worstIndex = worstComponentIndexOf(overlays, (componentIndex) => max(curves[componentIndex].ratio, (ratio) => Math.abs(ratio - 1)) ?? NaN);
+  const worstIndex = worstComponentIndexOf(overlays, (componentIndex) => max(curves[componentIndex].ratio, (varianceRatio) => Math.abs(varianceRatio - 1)) ?? NaN);
   const ratioList = formatRatiosAtSteps(Array.from(curves[worstIndex].ratio));
   return texts.wrongPrediction(texts.componentAdjectives[TWIST_COMPONENTS[worstIndex]], ratioList, formatSignedPercent(recursionMisses[endIndex].end), texts.componentAdjectives[TWIST_COMPONENTS[endIndex]]);
 }
@@ -45,8 +45,8 @@ function worstComponentIndexOf(overlays: string[], missOf: (componentIndex: numb
   return greatest(shownIndices, missOf) ?? shownIndices[0];
 }
 
-const formatRatiosAtSteps = (ratios: number[]) =>
-  CAPTION_STEPS.filter((step) => step <= ratios.length).map((step) => `${formatFixed(ratios[step - 1], 2)} (${words.reckoning.stepMark(step)})`).join(', ');
+const formatRatiosAtSteps = (ratiosByStep: number[]) =>
+  CAPTION_STEPS.filter((captionStep) => captionStep <= ratiosByStep.length).map((captionStep) => `${formatFixed(ratiosByStep[captionStep - 1], 2)} (${words.reckoning.stepMark(captionStep)})`).join(', ');
 
 /** Returns the components whose curves are shown, or all components if no curve is shown. */
 function shownComponentsOf(overlays: string[]): readonly (typeof TWIST_COMPONENTS)[number][] {

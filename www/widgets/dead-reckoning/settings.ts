@@ -69,7 +69,7 @@ export function viewModelOf(simulation: Simulation) {
 
 /** Returns the variance ratios of one component of ξ, and their standard errors. The arrays have the numbers of all three components for each step. */
 function curveOfComponent(ratios: Float64Array, relativeErrors: Float64Array, componentIndex: number) {
-  const componentOf = (triples: Float64Array) => triples.filter((_, i) => i % 3 === componentIndex);
+  const componentOf = (componentTriples: Float64Array) => componentTriples.filter((_, i) => i % 3 === componentIndex);
   const componentRatios = componentOf(ratios);
   return { ratio: componentRatios, error: componentOf(relativeErrors).map((error, i) => error * componentRatios[i]) };
 }

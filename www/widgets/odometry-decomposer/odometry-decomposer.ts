@@ -71,7 +71,7 @@ const styles = css`
       column-gap: 2.5em;
     }
 
-    /* All presets are in one row. */
+    /* Smaller gaps keep all presets in one row. */
     .presets {
       --beside: 0.45em;
       gap: 0.35em;
@@ -121,7 +121,7 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
   #worldPicture = new WorldPicture();
   pictures = [this.#legsPicture, this.#worldPicture];
   /** Handles of the poses before and after the motion. If both poses are at the same place, the handle of the second pose is on top. */
-  handles: PoseHandles[] = ['from', 'to'].map((setting) => new PoseHandles(this, setting, () => ROBOT_RADIUS));
+  handles: PoseHandles[] = ['from', 'to'].map((settingKey) => new PoseHandles(this, settingKey, () => ROBOT_RADIUS));
 
   createSimulation = ({ OdometryDecomposer }: Motion) => new OdometryDecomposer();
 

@@ -40,7 +40,7 @@ function drawTurn({ context, view }: DrawContext, startPose: Pose, turn: number,
   const arrowTip = view.headingLineFrom({ ...startPose, theta: startPose.theta + turn }, arcRadius)[1];
   const arrowBasePose = { ...startPose, theta: startPose.theta + turn - (Math.sign(turn) * arrowHeadLength) / arcRadius };
   const arrowHeadScale = arrowHeadLength / ARROW_HEAD_SIZE.length;
-  const arrowCornerOf = (side: number) => view.headingLineFrom(arrowBasePose, arcRadius + side * arrowHeadScale * ARROW_HEAD_SIZE.halfWidth)[1];
+  const arrowCornerOf = (arrowSide: number) => view.headingLineFrom(arrowBasePose, arcRadius + arrowSide * arrowHeadScale * ARROW_HEAD_SIZE.halfWidth)[1];
   fillPath(context, colour, () => addLine(context, [arrowTip, arrowCornerOf(1), arrowCornerOf(-1)]));
 }
 
@@ -143,10 +143,10 @@ export class LegsPicture extends SamplesPicture<Scene> {
   fitView(scene: Scene) {
     const { linkage, legs, overlays } = scene;
     const coordinatesToShow = coordinatesToShowOf(scene);
-    const extent = extentOf(coordinatesToShow, 1.2);
-    const arcRadii = turnRadiiOf({ scaleX: this.view.fittingScaleOf(extent) });
-    const turns = overlays.includes('legs') ? [legs.rot1, legs.rot2] : [];
-    const arcPoints = turns.flatMap((turn, i) => turnArcPoints(poseAt(linkage, 2 * i), turn, this.view.markLengthOf(extent, arcRadii[i])));
+    const shownExtent = extentOf(coordinatesToShow, 1.2);
+    const arcRadii = turnRadiiOf({ scaleX: this.view.fittingScaleOf(shownExtent) });
+    const shownTurns = overlays.includes('legs') ? [legs.rot1, legs.rot2] : [];
+    const arcPoints = shownTurns.flatMap((turn, i) => turnArcPoints(poseAt(linkage, 2 * i), turn, this.view.markLengthOf(shownExtent, arcRadii[i])));
     this.view.fit(extentOf([...coordinatesToShow, ...arcPoints], 1.2));
   }
 
@@ -184,7 +184,7 @@ export class LegsPicture extends SamplesPicture<Scene> {
   /** Returns callouts with the value and standard deviation of each leg that is long enough to see. */
   #createLegCallouts({ view, palette: { prior: colour } }: DrawContext, { legs, deviations }: Scene, turnArcs: TurnArc[]): Callout[] {
     const [startPose, drivenPose] = turnArcs.map(([turnPose]) => turnPose);
-    const middleOf = ([{ x, y, theta }, turn, radius]: TurnArc): [number, number] => view.toWorld(...view.headingLineFrom({ x, y, theta: theta + turn / 2 }, radius)[1]);
+    const middleOf = ([{ x, y, theta }, turn, arcRadius]: TurnArc): [number, number] => view.toWorld(...view.headingLineFrom({ x, y, theta: theta + turn / 2 }, arcRadius)[1]);
     const legCallouts = [
       { subscript: 'rot1', unit: 'rad', isShown: Math.abs(legs.rot1) >= MIN_DRAWN_TURN, point: middleOf(turnArcs[0]) },
       { subscript: 'trans', unit: 'm', isShown: legs.trans * view.scaleX >= MIN_LABELLED_LENGTH, point: [(startPose.x + drivenPose.x) / 2, (startPose.y + drivenPose.y) / 2] as [number, number] },

@@ -86,10 +86,10 @@ export class Cloud extends FigureController {
   }
 
   /** Starts to grow the cloud, or shows the samples of a given state. If the user prefers reduced motion, all samples are shown at once. */
-  showOrGrow(state?: StateValues) {
-    if (!state) this.#state.playing = true;
-    if (!state || this.isComplete) this.#state.shown = Infinity;
-    if (!state && !prefersReducedMotion()) this.#restartSampling();
+  showOrGrow(givenState?: StateValues) {
+    if (!givenState) this.#state.playing = true;
+    if (!givenState || this.isComplete) this.#state.shown = Infinity;
+    if (!givenState && !prefersReducedMotion()) this.#restartSampling();
     if (this.playing && prefersReducedMotion()) this.addAllSamples();
   }
 
@@ -211,9 +211,9 @@ export class Cloud extends FigureController {
     const togglePlaying = () => this.#runControl(!this.playing, () => {
       if (!this.playing && this.isComplete) this.#restartSampling();
     });
-    const [label, otherLabel] = this.playing ? [words.pause, cloudWords.play] : [cloudWords.play, words.pause];
+    const [currentLabel, otherLabel] = this.playing ? [words.pause, cloudWords.play] : [cloudWords.play, words.pause];
     return html`<div class="buttons">
-      ${buttonHtml(label, togglePlaying, { title: cloudWords.playTitle, otherLabel })}
+      ${buttonHtml(currentLabel, togglePlaying, { title: cloudWords.playTitle, otherLabel })}
       ${buttonHtml(words.step, () => this.#runControl(false, () => this.showSamples(this.#latestCounts.shown + this.#batchSize)), { title: cloudWords.stepTitle(formatInteger(this.#batchSize)), disabled: this.isComplete })}
       ${buttonHtml(words.clear, () => this.#runControl(false, () => this.#restartSampling()), { title: cloudWords.clearTitle })}
       ${seedFieldHtml(this.host)} ${buttonHtml(words.newSeed, () => this.host.gesture.requestAndCommit(() => ({ seed: this.host.motion.randomSeed() })), { title: cloudWords.newSeedTitle })}
@@ -230,9 +230,9 @@ export const cloudProperties: PropertyDescriptorMap & ThisType<Figure> = {
 type CloudFigure = Figure & { cloud: Cloud };
 
 /** Returns the specification of a slider for the number of samples. Its stops are 10, 20, 50, 100 and so on, up to a maximum. */
-export function createSamplesSliderSpec(max: number): SliderSpec {
-  const stops = range(1, 7).flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).filter((count) => count <= max);
-  return { symbol: '*N*', role: 'truth', min: stops[0], max, step: 1, decimals: 0, stops };
+export function createSamplesSliderSpec(maxSampleCount: number): SliderSpec {
+  const stops = range(1, 7).flatMap((decade) => [1, 2, 5].map((decadeFactor) => decadeFactor * 10 ** decade)).filter((sampleCount) => sampleCount <= maxSampleCount);
+  return { symbol: '*N*', role: 'truth', min: stops[0], max: maxSampleCount, step: 1, decimals: 0, stops };
 }
 
 /** Returns the controls of the cloud: its size, its growth and its seed. */

@@ -13,8 +13,8 @@ export function presetButtonsHtml(figure: import('../../figure/figure.ts').Figur
   const { presets } = (words as any)[definition.messageKey];
   const currentPreset = definition.attributes.preset.get(settings.requested);
   return html`<div class="buttons presets" role="group" aria-label=${words.presets}>
-    ${Object.entries(presets).map(([presetName, label]) =>
-      buttonHtml(label, () => settings.choosePreset(presetName), { pressed: presetName === currentPreset, className: 'preset' }))}
+    ${Object.entries(presets).map(([presetName, presetLabel]) =>
+      buttonHtml(presetLabel, () => settings.choosePreset(presetName), { pressed: presetName === currentPreset, className: 'preset' }))}
     ${startOverButtonHtml(figure)}
   </div>`;
 }

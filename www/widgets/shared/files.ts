@@ -38,8 +38,8 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     this.host.requestUpdate();
     try {
       await openFiles(isLatest);
-    } catch (error) {
-      if (isLatest()) await this.showRefusal(error);
+    } catch (openingError) {
+      if (isLatest()) await this.showRefusal(openingError);
     }
     return isLatest();
   }

@@ -51,11 +51,11 @@ export class Baseline {
     }
     this.counts.fill(0);
     const whiteningFactorsOf = (/** @type {number[][]} */ covMatrix, /** @type {number} */ secondIndex) => {
-      const factor00 = Math.sqrt(covMatrix[0][0]);
-      const factor10 = covMatrix[0][secondIndex] / factor00;
-      const factor11 = Math.sqrt(covMatrix[secondIndex][secondIndex] - factor10 * factor10);
+      const cholesky00 = Math.sqrt(covMatrix[0][0]);
+      const cholesky10 = covMatrix[0][secondIndex] / cholesky00;
+      const cholesky11 = Math.sqrt(covMatrix[secondIndex][secondIndex] - cholesky10 * cholesky10);
       // The whitening factors map the ellipse of two standard deviations to the unit circle.
-      return [0.5 / factor00, (-0.5 * factor10) / (factor00 * factor11), 0.5 / factor11];
+      return [0.5 / cholesky00, (-0.5 * cholesky10) / (cholesky00 * cholesky11), 0.5 / cholesky11];
     };
     const cloudCentre = [means.x, means.y, means.l, means.t];
     const normalization = [...cloudCentre, ...whiteningFactorsOf(cartesianMoments.cov, 1), ...whiteningFactorsOf(exponentialMoments.cov, 2), Math.sin(heading), Math.cos(heading)];

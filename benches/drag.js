@@ -46,7 +46,7 @@ export async function measureDrags(browser, pageUrl, stepCount) {
 
 /** Measures the times of one drag. Runs in the page. @param {{ widget: string, selector: string, i: number, steps: number }} options */
 async function measureDrag({ widget, selector, i, steps }) {
-  const MAX_FRAMES = 30;
+  const MAX_FRAMES_PER_STEP = 30;
   const figureElement = /** @type {any} */ (document.querySelector(widget));
   const shadowRoot = /** @type {ShadowRoot} */ (figureElement.shadowRoot);
   const draggedElement = /** @type {HTMLInputElement} */ (shadowRoot.querySelectorAll(selector)[i]);
@@ -107,7 +107,7 @@ async function measureDrag({ widget, selector, i, steps }) {
     let pictureTime = /** @type {number} */ (await picturePromise);
     // On a busy machine the picture may come an animation frame late.
     for (let frameNumber = 1; pictureCount === picturesBefore || JSON.stringify(figureElement.simulation.config) === configBefore; frameNumber++) {
-      if (frameNumber === MAX_FRAMES) throw new Error(`A step of ${draggedElement.id || draggedElement.className} has no picture after ${MAX_FRAMES} frames.`);
+      if (frameNumber === MAX_FRAMES_PER_STEP) throw new Error(`A step of ${draggedElement.id || draggedElement.className} has no picture after ${MAX_FRAMES_PER_STEP} frames.`);
       await new Promise(requestAnimationFrame);
       pictureTime = await waitForFrameEnd();
     }

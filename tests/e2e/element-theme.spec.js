@@ -171,7 +171,7 @@ const THEME_PROPERTIES = {
 
 test('the stylesheet adopts a theme’s colours of muted text and hairlines and its header height, and --motion- properties override them', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine', { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
-  const readAdoptedStyle = async () => [
+  const readStyleFromTheme = async () => [
     ...(await readColours(widget, ['muted', 'rule'])).map(toHexColor),
     await widget.locator('.surface').evaluate((element) => {
       const heightProbe = Object.assign(document.createElement('span'), { style: 'position: absolute; height: var(--top)' });
@@ -184,10 +184,10 @@ test('the stylesheet adopts a theme’s colours of muted text and hairlines and 
   const setStyle = (/** @type {string} */ styleText) => page.evaluate((cssText) => void (document.documentElement.style.cssText = cssText), styleText);
   for (const [themeName, [mutedProperty, ruleProperty, heightProperty]] of Object.entries(THEME_PROPERTIES)) {
     await setStyle(`${mutedProperty}: #112233; ${ruleProperty}: #445566; ${heightProperty}: 60px`);
-    expect.soft(await readAdoptedStyle(), themeName).toEqual(['#112233', '#445566', 60]);
+    expect.soft(await readStyleFromTheme(), themeName).toEqual(['#112233', '#445566', 60]);
   }
   await setStyle('--ifm-navbar-height: 60px; --motion-muted: #010203; --motion-rule: #040506; --motion-sticky-top: 7px');
-  expect(await readAdoptedStyle()).toEqual(['#010203', '#040506', 7]);
+  expect(await readStyleFromTheme()).toEqual(['#010203', '#040506', 7]);
 });
 
 test('--motion-paper and --motion-ink set the background and text colours of a figure', async ({ page, figureName }) => {

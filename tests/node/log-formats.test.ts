@@ -148,7 +148,7 @@ for (const [name, findBlocks] of Object.entries(BLOCK_FINDERS)) {
 
 test('all messages of a database with an unfinished transaction are read', async () => {
   const bytes = decompressFile('sqlite-sqlite.db3');
-  const rootPage = createRange(0, bytes.length / 4096).map((pageStart) => 4096 * pageStart).find((bytePosition) => bytes[bytePosition] === 5) ?? 0;
+  const rootPage = createRange(0, bytes.length / 4096).map((databasePageStart) => 4096 * databasePageStart).find((bytePosition) => bytes[bytePosition] === 5) ?? 0;
   // Overwrites the number of pages of the SQLite database with 8, and the first page of the messages with an empty page, as before the
   // transaction.
   bytes.writeUInt32BE(8, 28);

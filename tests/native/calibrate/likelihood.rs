@@ -252,8 +252,8 @@ fn alphas_and_their_intervals_scale_with_the_noise() {
             let Calibration { alphas, intervals, .. } = calibrate_log(&sim.simulate_log(), &exact_options);
             let divide_by_squared_factor = |interval_bound: f64| interval_bound / (std_factor * std_factor);
             let bounds_and_alphas = alphas.into_iter().zip(intervals).map(|(alpha, alpha_interval)| {
-                let [low, high] = alpha_interval.expect("identifiable");
-                [low, alpha.expect("identifiable"), high].map(divide_by_squared_factor)
+                let [lower_bound, upper_bound] = alpha_interval.expect("identifiable");
+                [lower_bound, alpha.expect("identifiable"), upper_bound].map(divide_by_squared_factor)
             });
             bounds_and_alphas.collect::<Vec<_>>()
         };

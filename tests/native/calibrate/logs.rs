@@ -18,7 +18,7 @@ fn remove_rows_between(trajectory: &Trajectory, first_row: usize, last_row: usiz
             .samples()
             .enumerate()
             .filter(|(row, _)| !(first_row < *row && *row < last_row))
-            .map(|(_, sample)| sample),
+            .map(|(_, timed_pose)| timed_pose),
     )
 }
 

@@ -16,7 +16,8 @@ use serde_json::Value;
 
 pub fn hash_banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
     let mut simulation = BananaMachine::new(configuration.read_settings()).expect("a valid setting");
-    let (reading, contours, table) = (simulation.reading(), simulation.contours(), simulation.table());
+    let (odometry_reading, contours, table) =
+        (simulation.reading(), simulation.contours(), simulation.table());
     let stats = *simulation.stats();
     let gain_fields_of = |likelihood_gain: LikelihoodGain| (likelihood_gain.pose, likelihood_gain.floor);
     let fields_of_column =
@@ -52,7 +53,7 @@ pub fn hash_banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
             (
                 simulation.shown_count(),
                 simulation.is_exponential_defined(),
-                (reading.rot1, reading.trans, reading.rot2),
+                (odometry_reading.rot1, odometry_reading.trans, odometry_reading.rot2),
                 stats,
             ),
         ),

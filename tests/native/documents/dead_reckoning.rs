@@ -43,10 +43,10 @@ fn printed_variance_errors_of_the_recursion_equal_those_of_the_simulation() {
         "After the chapter’s 20 steps the variance along the track is # % below that of 50\u{202f}000 robots. Across the track \
          it is 0 after step 1, and # % too small at the end.",
     );
-    for (printed_percentage, axis) in [(printed_along_loss, 0), (printed_lateral_loss, 1)] {
-        printed_percentage.assert_percent(-chapter_comparison.misses[axis].end, 0.0);
+    for (printed_percentage, axis_index) in [(printed_along_loss, 0), (printed_lateral_loss, 1)] {
+        printed_percentage.assert_percent(-chapter_comparison.misses[axis_index].end, 0.0);
         printed_percentage.assert_percent(
-            1.0 - divide_by_fourth_order(&initial_simulation, Compounding::Chapter, axis)[19],
+            1.0 - divide_by_fourth_order(&initial_simulation, Compounding::Chapter, axis_index)[19],
             0.0,
         );
     }
@@ -55,12 +55,12 @@ fn printed_variance_errors_of_the_recursion_equal_those_of_the_simulation() {
     assert!(initial_simulation.measured_moments()[0].cov[(1, 1)] > 0.0);
     let [printed_ratio_at_2, printed_ratio_at_5]: [PrintedNumber; 2] =
         read_page_text().sentence_numbers("At step 2 it predicts # of the lateral variance, at step 5 #.");
-    for lateral_ratios in [
+    for lateral_variance_ratios in [
         divide_by_fourth_order(&initial_simulation, Compounding::Chapter, 1),
         chapter_comparison.ratios.iter().map(|axis_ratios| axis_ratios.y).collect(),
     ] {
-        printed_ratio_at_2.assert_near(lateral_ratios[1], 0.0);
-        printed_ratio_at_5.assert_near(lateral_ratios[4], 0.0);
+        printed_ratio_at_2.assert_near(lateral_variance_ratios[1], 0.0);
+        printed_ratio_at_5.assert_near(lateral_variance_ratios[4], 0.0);
     }
     read_page_text().assert_contains(
         "With the right Jacobian Jr, the turn during a step, every ratio is 1 to a hundredth, and fourth order looks the same.",
@@ -81,8 +81,9 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
     let exercises_text = read_exercises();
     let simulations = ["chapter", "doubled"].map(simulation_of_preset);
     for k in [1, 2, 5, 10, 20] {
-        let step_ratios_of =
-            |recursion| [0, 1, 2].map(|axis| divide_by_fourth_order(&simulations[0], recursion, axis)[k - 1]);
+        let step_ratios_of = |recursion| {
+            [0, 1, 2].map(|axis_index| divide_by_fourth_order(&simulations[0], recursion, axis_index)[k - 1])
+        };
         let [[a, b, c], [d, e, f]] = [Compounding::Chapter, Compounding::FirstOrder].map(step_ratios_of);
         exercises_text.assert_numbers(&format!("| {k} | # | # | # | # | # | # |"), [a, b, c, d, e, f]);
     }

@@ -185,7 +185,8 @@ fn chords_of_an_arc_stay_within_a_twentieth_of_a_millimetre() {
             )) < 1e-14
         );
         for (i, chord_ends) in chord_points.windows(2).enumerate() {
-            let middle_of_chord = [0, 1].map(|axis| 0.5 * (chord_ends[0][axis] + chord_ends[1][axis]));
+            let middle_of_chord =
+                [0, 1].map(|axis_index| 0.5 * (chord_ends[0][axis_index] + chord_ends[1][axis_index]));
             let arc_middle =
                 to_absolute(&arc, position_along_arc(&arc, (i as f64 + 0.5) / chord_count as f64));
             let chord_deviation = norm_of(subtract_points(middle_of_chord, arc_middle));

@@ -23,25 +23,25 @@ proptest! {
         word_separators in vec(any_separator(), 40), cut_position in any::<usize>(),
     ) {
         let grey_values: Vec<u32> = grey_seeds.into_iter().take(width * height).map(|grey_seed| grey_seed % (max_value + 1)).collect();
-        let mut plain_file = "P2".to_owned();
+        let mut plain_pgm = "P2".to_owned();
         for (grey_or_header_value, word_separator) in [width as u32, height as u32, max_value].iter().chain(&grey_values).zip(&word_separators) {
-            plain_file.push_str(word_separator);
-            plain_file.push_str(&grey_or_header_value.to_string());
+            plain_pgm.push_str(word_separator);
+            plain_pgm.push_str(&grey_or_header_value.to_string());
         }
-        let mut binary_file = format!("P5{}{width}{}{height}{}{max_value}\n", word_separators[0], word_separators[1], word_separators[2]).into_bytes();
+        let mut binary_pgm = format!("P5{}{width}{}{height}{}{max_value}\n", word_separators[0], word_separators[1], word_separators[2]).into_bytes();
         for grey_value in &grey_values {
             let bytes_of_number = grey_value.to_be_bytes();
-            binary_file.extend(if max_value < 256 { &bytes_of_number[3..] } else { &bytes_of_number[2..] });
+            binary_pgm.extend(if max_value < 256 { &bytes_of_number[3..] } else { &bytes_of_number[2..] });
         }
-        let plain_image = read_pgm(plain_file.as_bytes()).expect("a plain file");
-        prop_assert!(plain_image.pixels == read_pgm(&binary_file).expect("a binary file").pixels);
+        let plain_image = read_pgm(plain_pgm.as_bytes()).expect("a plain file");
+        prop_assert!(plain_image.pixels == read_pgm(&binary_pgm).expect("a binary file").pixels);
         prop_assert_eq!((plain_image.width, plain_image.height), (width, height));
         for (pixel_shade, grey_value) in plain_image.pixels.iter().zip(&grey_values) {
             prop_assert_eq!(*pixel_shade, *grey_value as f32 / max_value as f32);
         }
         // A truncated binary file is refused. A truncated plain file is refused too, unless the cut is in or after its last number.
-        prop_assert!(read_pgm(&binary_file[..cut_position % binary_file.len()]).is_err());
-        let last_number_start = plain_file.trim_end_matches(|c: char| c.is_ascii_digit()).len();
-        prop_assert!(read_pgm(&plain_file.as_bytes()[..cut_position % (last_number_start + 1)]).is_err());
+        prop_assert!(read_pgm(&binary_pgm[..cut_position % binary_pgm.len()]).is_err());
+        let start_of_last_number = plain_pgm.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+        prop_assert!(read_pgm(&plain_pgm.as_bytes()[..cut_position % (start_of_last_number + 1)]).is_err());
     }
 }

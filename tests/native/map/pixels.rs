@@ -125,9 +125,9 @@ fn errors_of_malformed_pgm_files_name_line_field_and_value() {
 #[test]
 fn transparency_counts_as_a_colour_in_trinary() {
     let are_cells_occupied = |shades_and_opacities: &[(f32, f32)]| -> Vec<bool> {
-        let pixels: Vec<Pixel> =
+        let rgba_pixels: Vec<Pixel> =
             shades_and_opacities.iter().map(|&(brightness, opacity)| Pixel { brightness, opacity }).collect();
-        let image = Image { width: shades_and_opacities.len(), height: 1, pixels };
+        let image = Image { width: shades_and_opacities.len(), height: 1, pixels: rgba_pixels };
         let occupancy_grid = OccupancyGrid::new(&image, &PixelClassifier::default(), 0.05, SE2::identity());
         occupancy_grid.cells().map(|grid_cell| grid_cell == Cell::Occupied).collect()
     };

@@ -29,8 +29,8 @@ fn which_intervals_contain_truth(simulation: &AlphaCalibrator) -> Vec<bool> {
     let error_intervals = SystematicError::ALL.map(|error_kind| calibration.interval_of(error_kind));
     let intervals = calibration.intervals.iter().copied().chain(error_intervals);
     let contains_true_value = |(confidence_interval, true_value): (Option<[f64; 2]>, f64)| {
-        let [low, high] = confidence_interval.expect("the log turns and drives");
-        (low..=high).contains(&true_value)
+        let [lower_bound, upper_bound] = confidence_interval.expect("the log turns and drives");
+        (lower_bound..=upper_bound).contains(&true_value)
     };
     intervals.zip(truth.alphas.into_iter().chain(true_errors)).map(contains_true_value).collect()
 }
@@ -62,11 +62,11 @@ fn legs_end_after_a_duration_where_one_is_set() {
     for Leg { times: [start_time, end_time], .. } in simulation.legs() {
         assert!((end_time - start_time - 0.8).abs() < 0.06, "{start_time} {end_time}");
     }
-    let legs_before = simulation.legs().to_vec();
+    let default_legs = simulation.legs().to_vec();
     simulation.configure(Settings { distance: 3.0, angle: 2.0, ..new_settings }).expect("allowed");
-    assert_eq!(simulation.legs(), legs_before);
+    assert_eq!(simulation.legs(), default_legs);
     simulation.configure(Settings { distance: 3.0, angle: 2.0, ..Settings::default() }).expect("allowed");
-    assert!(simulation.legs().len() < legs_before.len() / 2);
+    assert!(simulation.legs().len() < default_legs.len() / 2);
 }
 
 /// A standard deviation set to 0 is estimated from the log. Any other standard deviation is used as stated.

@@ -100,7 +100,7 @@ test('a large clock offset is mentioned, and changes no verdict', () => {
   const { advice: [firstSentence], rating } = judgementOfClockOffset(86_400.06);
   assert.deepEqual([firstSentence, rating], ['The reference’s clock is 86\u202f400 s ahead of the odometry’s. The turns of the robot aligned both: check that they are of one drive.', 'consistent']);
   assert.match(judgementOfClockOffset(-3600).advice[0], /is 3\u202f600 s behind the/);
-  assert.deepEqual(judgementOfClockOffset(-9.5).advice, [en.useRecommended]);
+  assert.deepEqual(judgementOfClockOffset(-9.5).advice, [en.useRecommendedSentence]);
 });
 
 test('the leg settings of the simulated log equal the default settings', () => {

@@ -366,7 +366,7 @@ test('the report, the lines for Nav2 and the figure agree on whether a localizer
     const [{ stdout }, { stdout: jsonText }] = [await runCalibrate(args), await runCalibrate([...args, '--json'])];
     const { logs, ...stats } = JSON.parse(jsonText);
     const { rating } = judgeFit(/** @type {any} */ ({ viewModel: { stats, legs: stats.legs, fittedConfig: stats.systematicErrors }, warnings: warningsOf(logs) }));
-    const localizerNotes = [stdout.includes(`\nCaution. ${en.nav2.localizer}\n`) && !stdout.includes(en.useRecommendedAnyway), stdout.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
+    const localizerNotes = [stdout.includes(`\nCaution. ${en.nav2.localizer}\n`) && !stdout.includes(en.useAnywaySentence), stdout.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
     assert.deepEqual(localizerNotes, [isLocalizer, isLocalizer, isLocalizer], name);
   }
 });
@@ -375,7 +375,7 @@ test('the report advises against α’s that are too small because the odometry 
   const swappedPaths = [writeInFolder('first.csv', readFileSync(examplePathOf('reference'))), writeInFolder('second.csv', readFileSync(examplePathOf('odometry')))];
   const { stdout } = await runCalibrate(['--odometry', swappedPaths[0], '--reference', swappedPaths[1]]);
   assert.match(stdout, /^Caution\. [^]*sideways/m);
-  assert.ok(!stdout.includes(en.useRecommendedAnyway));
+  assert.ok(!stdout.includes(en.useAnywaySentence));
 });
 
 test('the report names failed checks, lost legs and unidentified α’s, and recommends motions', async () => {

@@ -378,7 +378,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   get exportData() {
     const { fittedConfig, legs } = this.currentViewModel;
-    const missingNote = this.log ? words.calibrator.logNotInCopies : '';
+    const missingNote = this.log ? words.calibrator.logNotInCopiesNote : '';
     const poseColumnsOf = (logName: string) => ['from', 'to'].flatMap((poseName) => ['x_m', 'y_m', 'theta_rad'].map((coordinateName) => `${logName}_${poseName}_${coordinateName}`)).join(' ');
     return {
       settings: { ...(this.log && { log: this.log.name }), ...fittedConfig },

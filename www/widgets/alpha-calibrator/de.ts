@@ -76,14 +76,14 @@ export const de: typeof import('./en.ts').en = {
   simulatedLogName: 'simulierte Aufzeichnung',
   legCountSentence: (logName, legs, outliers) => `${formatLegCount(legs)}${outliers ? `, davon ${outliers} Ausreißer` : ''}, ${logName}.`,
   ratingBadges: { consistent: 'Verwendbar', questionable: 'Vorsicht', unusable: 'Nicht verwenden' },
-  allChecksPassed: (count) => `Alle ${count} Prüfungen bestanden.`,
+  checksPassedSentence: (count) => `Alle ${count} Prüfungen bestanden.`,
   failedChecksSentence: (checkNames, failedCount, count) => `Nicht bestanden: ${checkNames} (${failedCount} von ${count} Prüfungen).`,
-  useRecommended: 'Die empfohlenen α mit Etappen dieser Länge verwenden.',
-  useRecommendedAnyway: 'Lässt sich die Aufzeichnung nicht verbessern, die empfohlenen α verwenden.',
+  useRecommendedSentence: 'Die empfohlenen α mit Etappen dieser Länge verwenden.',
+  useAnywaySentence: 'Lässt sich die Aufzeichnung nicht verbessern, die empfohlenen α verwenden.',
   missingAlphasSentence: (alphas, advisedDrive) => `Von dieser Aufzeichnung nicht bestimmt: ${alphas}; ${advisedDrive}.`,
-  noAlphaIdentified: 'Die Aufzeichnung bestimmt kein α.',
+  noAlphaSentence: 'Die Aufzeichnung bestimmt kein α.',
   clockOffsetNote: (seconds, isAhead) => `Die Uhr der Referenz geht gegen die der Odometrie ${seconds} s ${isAhead ? 'vor' : 'nach'}. Beide sind nach den Drehungen des Roboters ausgerichtet: prüfen, ob sie von derselben Fahrt sind.`,
-  tooFewLegs: 'Nicht genug Daten: Weniger als 8 Etappen haben Posen in beiden Aufzeichnungen. Beide Aufzeichnungen derselben Fahrt nehmen, kürzere Etappen wählen oder länger fahren.',
+  tooFewLegsSentence: 'Nicht genug Daten: Weniger als 8 Etappen haben Posen in beiden Aufzeichnungen. Beide Aufzeichnungen derselben Fahrt nehmen, kürzere Etappen wählen oder länger fahren.',
   checks: {
     title: 'Prüfungen',
     checkColumn: 'Prüfung',
@@ -111,7 +111,7 @@ export const de: typeof import('./en.ts').en = {
     },
     translateMessage: (name, englishMessage) => CHECK_MESSAGES[name] ?? englishMessage,
   },
-  noRecommendation: 'Es gibt keine empfohlenen α: Die Aufzeichnung ist unbrauchbar.',
+  noRecommendationSentence: 'Es gibt keine empfohlenen α: Die Aufzeichnung ist unbrauchbar.',
   translateRecommendationReason: (_englishReason, inflation, coverage, count, nees) =>
     `Empfohlen: angepasst × ${inflation}. Die Anpassung deckt ${coverage} von ${count} zurückgehaltenen Fenstern von ≥ 1 m (erwartet 95 %; nötig sind 20 Fenster); ihr quadrierter Fehler durch vorhergesagte Varianz (NEES) ist ${nees}, erwartet 1.`,
   alphas: {
@@ -120,7 +120,7 @@ export const de: typeof import('./en.ts').en = {
     fittedColumn: 'angepasst, 95 %',
     recommendedColumn: 'empfohlen',
     intervalColumn: '95-%-Intervall',
-    notDetermined: (missingMotion, advisedDrive) => `nicht bestimmt: ${missingMotion}; ${advisedDrive}`,
+    notDeterminedText: (missingMotion, advisedDrive) => `nicht bestimmt: ${missingMotion}; ${advisedDrive}`,
     missingMotions: {
       'insufficient-rotation': { lack: 'zu wenig Drehung', drive: '~50 Drehungen auf der Stelle ergänzen', byCommands: '~50 Etappen in engen Kurven ergänzen' },
       'insufficient-translation': { lack: 'zu wenig Strecke', drive: '~50 gerade Etappen ergänzen', byCommands: '~50 gerade Etappen und ~50 in Kurven ergänzen' },
@@ -140,7 +140,7 @@ export const de: typeof import('./en.ts').en = {
       distanceScale: 'Skalenfaktor, Strecke',
       turnScale: 'Skalenfaktor, Drehung',
     },
-    notDetermined: 'nicht bestimmt',
+    notDeterminedText: 'nicht bestimmt',
     treatmentColumn: 'Behandlung',
     correctedLabel: 'korrigiert',
     notCorrectedLabel: 'nicht korrigiert',
@@ -169,7 +169,7 @@ export const de: typeof import('./en.ts').en = {
   windowTable: {
     title: 'Zurückgehaltene Fenster',
     caption: 'Abdeckung durch die α der anderen Hälfte',
-    length: 'Strecke',
+    lengthLabel: 'Strecke',
     countColumn: 'Fenster',
     coverageColumn: 'innerhalb von 95 %',
     neesColumn: 'quadrierter Fehler durch vorhergesagte Varianz (NEES, erwartet 1)',
@@ -178,7 +178,7 @@ export const de: typeof import('./en.ts').en = {
     title: 'Rauschen der Referenz und Persistenz',
     quantityColumn: 'Größe',
     correlationName: 'Korrelation der Radfehler benachbarter Etappen',
-    length: 'Korrelationslänge',
+    lengthLabel: 'Korrelationslänge',
   },
   lostLegs: {
     title: 'Verlorene Etappen',
@@ -194,10 +194,10 @@ export const de: typeof import('./en.ts').en = {
     title: 'Aufzeichnung und Referenz',
     leaveLabel: 'Zurück zur simulierten Aufzeichnung',
     simulatedLogNote: 'Ein simulierter Roboter folgt einer Kurve und dreht sich ab und zu auf der Stelle. Die wahren Werte stehen neben den Schätzungen.',
-    resultsOfLog: (name) => `Ergebnisse von ${name}.`,
+    resultsOfLogNote: (name) => `Ergebnisse von ${name}.`,
 
-    refusedLog: (refusalMessage) => `Aufzeichnung abgelehnt: ${refusalMessage}`,
-    resultsOfOtherLog: (log) => `Gezeigt wird noch das vorige Ergebnis: ${log}. Die zuletzt gewählten Dateien werden nicht verwendet.`,
+    refusedLogSentence: (refusalMessage) => `Aufzeichnung abgelehnt: ${refusalMessage}`,
+    otherLogNote: (log) => `Gezeigt wird noch das vorige Ergebnis: ${log}. Die zuletzt gewählten Dateien werden nicht verwendet.`,
     dismissFilesLabel: 'Diese Dateien verwerfen',
   },
   nav2: {
@@ -214,5 +214,5 @@ export const de: typeof import('./en.ts').en = {
       `Zuerst in der Odometrie ${[distanceFactor && `Strecken mit ${distanceFactor}`, turnFactor && `Drehungen mit ${turnFactor}`].filter(Boolean).join(' und ')} multiplizieren: Die α gelten für den korrigierten Roboter.`,
   },
   csvTitle: 'Jede Etappe mit Odometrie, Referenz und Residuen',
-  logNotInCopies: 'Die eigene Aufzeichnung ist nicht dabei: Die Abbildung öffnet sich mit der simulierten.',
+  logNotInCopiesNote: 'Die eigene Aufzeichnung ist nicht dabei: Die Abbildung öffnet sich mit der simulierten.',
 };

@@ -78,7 +78,7 @@ export class LogOpener extends FileOpener<Figure> {
 
   /** Sentence which says that the results are those of another log, because the chosen files were refused; empty otherwise. */
   get otherResultsNote() {
-    return this.refusal === undefined || isAbortError(this.refusal) ? '' : words.calibrator.logControls.resultsOfOtherLog(this.host.logName);
+    return this.refusal === undefined || isAbortError(this.refusal) ? '' : words.calibrator.logControls.otherLogNote(this.host.logName);
   }
 
   stopReading() {
@@ -143,7 +143,7 @@ export class LogOpener extends FileOpener<Figure> {
     // The summary of the logs is shown while the logs are fitted.
     this.host.requestUpdate();
     await this.host.openLog(log, warnings, ({ count, stats }) => {
-      if (count === 0) throw new RangeError(words.calibrator.tooFewLegs);
+      if (count === 0) throw new RangeError(words.calibrator.tooFewLegsSentence);
       for (const question of this.logModule!.mirroringQuestionsOf(drives, stats.diagnostics.checks)) askQuestion(openedFiles, question);
     });
     openedFiles.isFitted = true;
@@ -154,7 +154,7 @@ export class LogOpener extends FileOpener<Figure> {
   explainRefusal(refusal: Refusal) {
     if (isAbortError(refusal)) return words.progress.stoppedNotice;
     const { message, sentences, question } = refusal;
-    const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? words.calibrator.logControls.refusedLog(message);
+    const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? words.calibrator.logControls.refusedLogSentence(message);
     return [refusalReason, ...(question?.option === 'other' && this.texts ? [this.texts.choose.bothFilesHint] : [])].join(' ');
   }
 
@@ -188,7 +188,7 @@ export function dropZoneHtml(figure: Figure, opener: LogOpener) {
     ${logModule?.logChoosersHtml(opener)}
     ${readFraction !== undefined
       ? html`<p><progress aria-label=${words.progress.label} .value=${readFraction}></progress> ${buttonHtml(words.progress.stopLabel, () => opener.stopReading())}</p>`
-      : figure.log ? html`<p><span class="present">${texts.resultsOfLog(figure.logName)}</span> ${buttonHtml(texts.leaveLabel, () => opener.closeLog())}</p>` : nothing}
+      : figure.log ? html`<p><span class="present">${texts.resultsOfLogNote(figure.logName)}</span> ${buttonHtml(texts.leaveLabel, () => opener.closeLog())}</p>` : nothing}
     ${opener.refusalNoteHtml}
     ${opener.otherResultsNote ? html`<p class="muted other-results">${opener.otherResultsNote} ${buttonHtml(texts.dismissFilesLabel, () => opener.restoreResults())}</p>` : nothing}
   </div>`;

@@ -89,7 +89,7 @@ const MIN_AXIS_END = 1e-6;
 export function regressionPanelsHtml({ viewModel: { fittedConfig: { model }, legs }, panels }: Figure) {
   const texts = words.calibrator.panels;
   const axisNames = model === 'velocity' ? { turn: texts.turnRateAxisLabel, distance: texts.speedAxisLabel } : { turn: texts.turnAxisLabel, distance: texts.distanceAxisLabel };
-  if (legs.count === 0) return html`<p>${words.calibrator.tooFewLegs}</p>`;
+  if (legs.count === 0) return html`<p>${words.calibrator.tooFewLegsSentence}</p>`;
   return html`<figure><div class="figures">
       ${panels.flatMap(({ regressor, componentPanels }) => componentPanels.map((panel, i) =>
         html`<figure>${plotHtml(panelPlotHtml(panel, texts.componentNames[NOISE_COMPONENTS[model][i]], axisNames[regressor]))}</figure>`))}

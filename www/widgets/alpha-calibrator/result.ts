@@ -198,14 +198,14 @@ export function judgementOf({ stats, legCount, model, corrections, warnings }: R
     ...(uncorrectedErrors.length ? [texts.systematic.uncorrectedSentence(describeSystematicErrors(uncorrectedErrors, stats, texts), correctionPlace)] : []),
   ];
   const warningTexts = warnings.map((name) => texts.nav2[name]);
-  const defectSentences = legCount === 0 ? [texts.tooFewLegs]
+  const defectSentences = legCount === 0 ? [texts.tooFewLegsSentence]
     : failedCheck ? [texts.failedChecksSentence(failedCheckNames.join('; '), String(failedChecks.length), String(checks.length))]
-      : verdict === 'unusable' ? [texts.noAlphaIdentified] : [];
+      : verdict === 'unusable' ? [texts.noAlphaSentence] : [];
   const findingSentences = verdict === 'unusable' ? [...defectSentences, ...warningTexts] : [...warningTexts, ...defectSentences];
-  const [finding = texts.allChecksPassed(String(checks.length)), ...otherFindings] = [...findingSentences, ...doubtSentences];
+  const [finding = texts.checksPassedSentence(String(checks.length)), ...otherFindings] = [...findingSentences, ...doubtSentences];
   const rating = verdict === 'consistent' && warnings.length + doubtSentences.length > 0 ? 'questionable' : verdict;
   const isUsable = rating !== 'unusable' && warnings.length === 0 && failedChecks.every(({ name }) => name !== 'sideways-rare');
-  const usageSentences = !isUsable ? [] : [rating === 'consistent' ? texts.useRecommended : texts.useRecommendedAnyway, ...adviseCorrection(stats, texts.nav2, localizeNumber)];
+  const usageSentences = !isUsable ? [] : [rating === 'consistent' ? texts.useRecommendedSentence : texts.useAnywaySentence, ...adviseCorrection(stats, texts.nav2, localizeNumber)];
   const clockOffset = systematicErrors.clockOffset.value ?? 0;
   const clockNote = Math.abs(clockOffset) > MENTIONED_CLOCK_OFFSET ? [texts.clockOffsetNote(formatInteger(Math.round(Math.abs(clockOffset))), clockOffset > 0)] : [];
   const advice = [...otherFindings, ...(failedCheck ? [checkMessage(failedCheck, texts)] : []), ...clockNote, ...usageSentences];
@@ -214,7 +214,7 @@ export function judgementOf({ stats, legCount, model, corrections, warnings }: R
 
 /** Returns a sentence on why these α's are recommended. The core has the English sentence. */
 export function explainRecommendation({ recommended, diagnostics: { windows } }: CalibrationStats, texts: Texts) {
-  if (!recommended) return texts.noRecommendation;
+  if (!recommended) return texts.noRecommendationSentence;
   const [{ count, coverage, nees }] = windows;
   return texts.translateRecommendationReason(recommended.reason.replaceAll("'", '’'), formatFixed(recommended.inflation, 2), formatPercent(coverage), formatInteger(count), formatFixed(nees, 2));
 }

@@ -22,7 +22,7 @@ export function alphaTableOf({ alphas, intervals, notIdentifiable, recommended }
     const reason = notIdentifiable[i];
     if (alpha === null) {
       const { lack, drive } = reason ? adviceOf(texts.missingMotions, model, reason) : {};
-      return [name, lack && drive ? texts.notDetermined(lack, drive) : NO_VALUE];
+      return [name, lack && drive ? texts.notDeterminedText(lack, drive) : NO_VALUE];
     }
     return [
       name,
@@ -39,7 +39,7 @@ export function systematicTableOf({ systematicErrors }: CalibrationStats, { cali
   const rows = SYSTEMATIC_ERRORS.map((errorName) => {
     const { corrected, constant } = systematicErrors[errorName];
     const components = errorComponentsOf(systematicErrors[errorName]);
-    if (components.some(({ value }) => value === null)) return [texts.errorNames[errorName], texts.notDetermined];
+    if (components.some(({ value }) => value === null)) return [texts.errorNames[errorName], texts.notDeterminedText];
     return [
       texts.errorNames[errorName],
       components.map(formatLocally).join('\n'),
@@ -63,7 +63,7 @@ export function noiseTableOf({ referenceNoise: { positionStd, yawStd }, persiste
       rowOf(`${settings.positionStd.name} (m)`, positionStd),
       rowOf(`${settings.yawStd.name} (rad)`, yawStd),
       rowOf(texts.correlationName, correlation),
-      [texts.length, length > 0 ? `${formatRounded(length, 2)} m` : NO_VALUE, NO_VALUE],
+      [texts.lengthLabel, length > 0 ? `${formatRounded(length, 2)} m` : NO_VALUE, NO_VALUE],
     ],
   };
 }
@@ -96,7 +96,7 @@ export function checkTableOf({ diagnostics: { checks } }: CalibrationStats, { ca
 /** Returns the table of prediction errors in held-out windows of the log. */
 export function windowTableOf({ diagnostics: { windows } }: CalibrationStats, { calibrator: { windowTable: texts } }: Words): ResultTable {
   return {
-    columnHeadings: [texts.length, texts.countColumn, texts.coverageColumn, texts.neesColumn],
+    columnHeadings: [texts.lengthLabel, texts.countColumn, texts.coverageColumn, texts.neesColumn],
     rows: windows.map(({ length, count, coverage, nees }) => [`${formatFixed(length, 1)} m`, formatInteger(count), formatPercent(coverage), formatFixed(nees, 2)]),
   };
 }

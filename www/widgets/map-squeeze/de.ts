@@ -21,14 +21,14 @@ export const de: typeof import('./en.ts').en = {
   unknownCellNames: { free: 'frei', blocked: 'gesperrt' },
   viewNames: { whole: 'ganze Karte', close: 'aus der Nähe' },
   robotAndMapTitle: 'Roboter und Karte',
-  mapNotInLink: 'Ihre Karte ist zu groß für einen Link und nicht dabei: Es öffnet sich die Wohnung.',
-  mapNotInCode: 'Ihre Karte ist nicht dabei: Geben Sie sie der Eigenschaft map; sonst öffnet sich die Wohnung.',
+  mapNotInLinkNote: 'Ihre Karte ist zu groß für einen Link und nicht dabei: Es öffnet sich die Wohnung.',
+  mapNotInCodeNote: 'Ihre Karte ist nicht dabei: Geben Sie sie der Eigenschaft map; sonst öffnet sich die Wohnung.',
   conditionedLabel: 'Stichproben mit der Karte prüfen',
   headline: {
-    noMotionTried: 'Noch keine Bewegung versucht',
-    noneAccepted: 'Keine Bewegung wurde angenommen',
-    noneThroughWall: 'Keine angenommene Bewegung ging durch eine Wand',
-    shareThroughWall: (sharePercent) => `${sharePercent} der angenommenen Bewegungen gingen durch eine Wand`,
+    noMotionHeadline: 'Noch keine Bewegung versucht',
+    noneAcceptedHeadline: 'Keine Bewegung wurde angenommen',
+    noneThroughWallHeadline: 'Keine angenommene Bewegung ging durch eine Wand',
+    shareThroughWallHeadline: (sharePercent) => `${sharePercent} der angenommenen Bewegungen gingen durch eine Wand`,
   },
   wedgedNote: (drawnCount, accepted, requestedCount, through) =>
     `Der Roboter sitzt fest: ${drawnCount} gezogene Teilschritte vollendeten nur ${accepted} von ${requestedCount} Bewegungen; ${through}.`,
@@ -56,10 +56,10 @@ export const de: typeof import('./en.ts').en = {
     hint: '□ ziehen: verschiebt eine Wand',
     keysHint: 'Pfeiltasten bewegen sie, mit Umschalt in größeren Schritten; Komma und Punkt oder [ und ] führen zu den anderen Wänden',
   },
-  tallyReadouts: {
-    drawnSamples: 'gezogen',
-    drawsPerAccepted: 'gezogene je angenommene Stichprobe',
-    wallTestsPerAccepted: 'berechnete Wandabstände je angenommene Stichprobe',
+  tallyLabels: {
+    drawnSamplesLabel: 'gezogen',
+    drawsPerAcceptedLabel: 'gezogene je angenommene Stichprobe',
+    wallTestsPerAcceptedLabel: 'berechnete Wandabstände je angenommene Stichprobe',
   },
   sample: 'Stichprobe',
   markHint: 'Zeig auf eine, um ihren Weg und ihr Urteil zu sehen.',
@@ -76,22 +76,22 @@ export const de: typeof import('./en.ts').en = {
   userMap: {
     readingNotice: 'Die Karte wird gelesen …',
     title: 'Eine eigene Karte',
-    instructions: 'Zieh Dateien irgendwo auf diese Abbildung oder wähle sie hier: einen Grundriss in JSON oder eine Karte des map_server von ROS, die YAML-Datei zusammen mit ihrem Bild in PGM oder PNG. Sie verlassen dieses Gerät nicht.',
+    instructionsText: 'Zieh Dateien irgendwo auf diese Abbildung oder wähle sie hier: einen Grundriss in JSON oder eine Karte des map_server von ROS, die YAML-Datei zusammen mit ihrem Bild in PGM oder PNG. Sie verlassen dieses Gerät nicht.',
     chooseFilesLabel: 'Kartendateien wählen',
     leaveLabel: 'Zurück in die Wohnung',
     planFieldLabel: 'Oder hier ein Grundriss, in Metern',
     usePlanLabel: 'Diesen Plan nehmen',
   },
   refusals: {
-    cannotOpen: (reason) => `Die Karte lässt sich nicht öffnen: ${reason}.`,
-    wrongFiles: (fileNames) => `${fileNames}: Erwartet wird ein Grundriss als .json oder eine .yaml-Datei zusammen mit ihrem Bild als .pgm oder .png.`,
-    fileTooLong: (name, byteCount, maxBytes) => `${name}: Die Datei hat ${byteCount} Bytes; erwartet werden höchstens ${maxBytes}.`,
-    invalidPlan: (name, reason) => `${name}: ${reason}; erwartet wird {"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]} in Metern.`,
-    invalidImageName: (name, imageField) =>
+    cannotOpenSentence: (reason) => `Die Karte lässt sich nicht öffnen: ${reason}.`,
+    wrongFilesSentence: (fileNames) => `${fileNames}: Erwartet wird ein Grundriss als .json oder eine .yaml-Datei zusammen mit ihrem Bild als .pgm oder .png.`,
+    largeFileSentence: (name, byteCount, maxBytes) => `${name}: Die Datei hat ${byteCount} Bytes; erwartet werden höchstens ${maxBytes}.`,
+    invalidPlanSentence: (name, reason) => `${name}: ${reason}; erwartet wird {"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]} in Metern.`,
+    invalidImageNameSentence: (name, imageField) =>
       `${name}: image ${imageField ? `ist ${imageField}` : 'fehlt'}; erwartet wird der Name einer .pgm- oder .png-Datei.`,
-    missingImage: (name, namedImage, givenImage) =>
+    missingImageSentence: (name, namedImage, givenImage) =>
       `${name}: image nennt ${namedImage}, das nicht dabei ist${givenImage && ` (dafür kam ${givenImage})`}; erwartet werden beide Dateien zusammen.`,
-    invalidYaml: (name, lineNumber, reason) => `${name}, Zeile ${lineNumber}: ${reason}; erwartet wird ein Feld je Zeile, wie in resolution: 0.05.`,
-    invalidLine: (name, lineNumber, reason) => `${name}, Zeile ${lineNumber}: ${reason}.`,
+    invalidYamlSentence: (name, lineNumber, reason) => `${name}, Zeile ${lineNumber}: ${reason}; erwartet wird ein Feld je Zeile, wie in resolution: 0.05.`,
+    invalidLineSentence: (name, lineNumber, reason) => `${name}, Zeile ${lineNumber}: ${reason}.`,
   },
 };

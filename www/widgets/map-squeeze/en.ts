@@ -23,14 +23,14 @@ export const en = {
   unknownCellNames: { free: 'free', blocked: 'blocked' },
   viewNames: { whole: 'whole map', close: 'close-up' },
   robotAndMapTitle: 'Robot and map',
-  mapNotInLink: 'Your map is too large for a link and is not in it: the figure opens with the apartment.',
-  mapNotInCode: 'Your map is not in it: give it to the property map, or the figure opens with the apartment.',
+  mapNotInLinkNote: 'Your map is too large for a link and is not in it: the figure opens with the apartment.',
+  mapNotInCodeNote: 'Your map is not in it: give it to the property map, or the figure opens with the apartment.',
   conditionedLabel: 'Check samples against the map',
   headline: {
-    noMotionTried: 'No motion has been tried yet',
-    noneAccepted: 'No motion was accepted',
-    noneThroughWall: 'No accepted motion went through a wall',
-    shareThroughWall: (sharePercent) => `${sharePercent} of the accepted motions went through a wall`,
+    noMotionHeadline: 'No motion has been tried yet',
+    noneAcceptedHeadline: 'No motion was accepted',
+    noneThroughWallHeadline: 'No accepted motion went through a wall',
+    shareThroughWallHeadline: (sharePercent) => `${sharePercent} of the accepted motions went through a wall`,
   },
   wedgedNote: (drawnCount, accepted, requestedCount, through) =>
     `The robot is wedged: ${drawnCount} sub-steps drawn completed only ${accepted} of ${requestedCount} motions; ${through}.`,
@@ -58,10 +58,10 @@ export const en = {
     hint: '□ Drag to move a wall',
     keysHint: 'Arrow keys move it, with Shift by larger steps; comma and period, or [ and ], go to the other walls',
   },
-  tallyReadouts: {
-    drawnSamples: 'drawn',
-    drawsPerAccepted: 'samples drawn per accepted sample',
-    wallTestsPerAccepted: 'wall distances computed per accepted sample',
+  tallyLabels: {
+    drawnSamplesLabel: 'drawn',
+    drawsPerAcceptedLabel: 'samples drawn per accepted sample',
+    wallTestsPerAcceptedLabel: 'wall distances computed per accepted sample',
   },
   sample: 'Sample',
   markHint: 'Point at one to see its path and its verdict.',
@@ -78,7 +78,7 @@ export const en = {
   userMap: {
     readingNotice: 'Reading the map …',
     title: 'A map of your own',
-    instructions: 'Drop files anywhere on this figure, or choose them here: a floor plan in JSON, or a map of ROS map_server, its YAML file and its PGM or PNG image together. They do not leave this device.',
+    instructionsText: 'Drop files anywhere on this figure, or choose them here: a floor plan in JSON, or a map of ROS map_server, its YAML file and its PGM or PNG image together. They do not leave this device.',
     chooseFilesLabel: 'Choose map files',
     leaveLabel: 'Back to the apartment',
     planFieldLabel: 'Or a floor plan here, in metres',
@@ -86,14 +86,14 @@ export const en = {
   },
   /** Reasons for refusing files. A reason names the file, the line or field, and what was expected. */
   refusals: {
-    cannotOpen: (reason) => `The map cannot be opened: ${reason}.`,
-    wrongFiles: (fileNames) => `${fileNames}: expected is one .json floor plan, or one .yaml file together with its .pgm or .png image.`,
-    fileTooLong: (name, byteCount, maxBytes) => `${name}: the file has ${byteCount} bytes; expected are at most ${maxBytes}.`,
-    invalidPlan: (name, reason) => `${name}: ${reason}; expected is {"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]} in metres.`,
-    invalidImageName: (name, imageField) => `${name}: image is ${imageField || 'missing'}; expected is the name of a .pgm or .png file.`,
-    missingImage: (name, namedImage, givenImage) =>
+    cannotOpenSentence: (reason) => `The map cannot be opened: ${reason}.`,
+    wrongFilesSentence: (fileNames) => `${fileNames}: expected is one .json floor plan, or one .yaml file together with its .pgm or .png image.`,
+    largeFileSentence: (name, byteCount, maxBytes) => `${name}: the file has ${byteCount} bytes; expected are at most ${maxBytes}.`,
+    invalidPlanSentence: (name, reason) => `${name}: ${reason}; expected is {"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]} in metres.`,
+    invalidImageNameSentence: (name, imageField) => `${name}: image is ${imageField || 'missing'}; expected is the name of a .pgm or .png file.`,
+    missingImageSentence: (name, namedImage, givenImage) =>
       `${name}: image names ${namedImage}, which is not there${givenImage && ` (${givenImage} came instead)`}; expected are both files together.`,
-    invalidYaml: (name, lineNumber, reason) => `${name}, line ${lineNumber}: ${reason}; expected is one field a line, as in resolution: 0.05.`,
-    invalidLine: (name, lineNumber, reason) => `${name}, line ${lineNumber}: ${reason}.`,
+    invalidYamlSentence: (name, lineNumber, reason) => `${name}, line ${lineNumber}: ${reason}; expected is one field a line, as in resolution: 0.05.`,
+    invalidLineSentence: (name, lineNumber, reason) => `${name}, line ${lineNumber}: ${reason}.`,
   },
 } satisfies import('../../messages/registry.ts').Message;

@@ -213,8 +213,8 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
         'x_m y_m theta_rad': poses,
         'end_free path_free accepted': [...verdicts].flatMap((verdict) => [bits.endFree, bits.pathFree, bits.accepted].map((bit) => Math.sign(verdict & bit))),
       },
-      linkNote: this.stateLink.lacksMap ? words.squeeze.mapNotInLink : '',
-      codeNote: this.map ? words.squeeze.mapNotInCode : '',
+      linkNote: this.stateLink.lacksMap ? words.squeeze.mapNotInLinkNote : '',
+      codeNote: this.map ? words.squeeze.mapNotInCodeNote : '',
     };
   }
 

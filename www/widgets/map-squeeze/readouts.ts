@@ -16,9 +16,9 @@ addEnglishMessages({ squeeze: en });
 /** Returns the headline: the share of accepted motions that go through a wall. */
 export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'attempts' | 'accepted' | 'throughWall'>) {
   const texts = words.squeeze.headline;
-  if (attempts === 0) return texts.noMotionTried;
-  if (accepted === 0) return texts.noneAccepted;
-  return throughWall === 0 ? texts.noneThroughWall : texts.shareThroughWall(formatPercent(throughWall / accepted));
+  if (attempts === 0) return texts.noMotionHeadline;
+  if (accepted === 0) return texts.noneAcceptedHeadline;
+  return throughWall === 0 ? texts.noneThroughWallHeadline : texts.shareThroughWallHeadline(formatPercent(throughWall / accepted));
 }
 
 /** Returns the caption: the numbers of samples by outcome, or the reason why the robot cannot move. */
@@ -27,7 +27,7 @@ export function captionOf({ config: { conditioned, sampler }, stats, stuckNote }
   const texts = words.squeeze;
   // The note about a robot that cannot move is complete: it also contains the number of motions.
   if (stuckNote && (accepted === 0 || gaveUp)) return stuckNote;
-  if (attempts === 0) return `${texts.headline.noMotionTried}.`;
+  if (attempts === 0) return `${texts.headline.noMotionHeadline}.`;
   const testedText = texts.testedSentences[conditioned ? sampler : 'off'](formatInteger(accepted), formatInteger(attempts));
   return `${testedText}; ${formatThroughWallRate(stats, conditioned && sampler === 'whole-arc')}. ${stuckNote}`.trim();
 }
@@ -39,11 +39,11 @@ export function describeMap(mapName: string, { bounds, walls }: Plan) {
 }
 
 export function tallyReadoutsHtml({ stats }: ViewModel) {
-  const { tallyReadouts: texts } = words.squeeze;
+  const { tallyLabels: texts } = words.squeeze;
   return readoutsHtml([
-    [texts.drawnSamples, formatInteger(stats.drawn)],
-    [texts.drawsPerAccepted, formatFixed(stats.drawsPerAccepted, 2)],
-    [texts.wallTestsPerAccepted, formatFixed(stats.wallTestsPerAccepted, 2)],
+    [texts.drawnSamplesLabel, formatInteger(stats.drawn)],
+    [texts.drawsPerAcceptedLabel, formatFixed(stats.drawsPerAccepted, 2)],
+    [texts.wallTestsPerAcceptedLabel, formatFixed(stats.wallTestsPerAccepted, 2)],
   ]);
 }
 

@@ -37,7 +37,7 @@ export async function readMapFiles(files: File[], decodePng: DecodePng, texts: R
   const filesOfPattern = (fileNamePattern: RegExp) => files.filter(({ name }) => fileNamePattern.test(name));
   const [planFiles, yamlFiles, imageFiles] = [filesOfPattern(/\.json$/i), filesOfPattern(/\.ya?ml$/i), filesOfPattern(/\.(pgm|png)$/i)];
   const isOneMap = planFiles.length + yamlFiles.length === 1 && planFiles.length + yamlFiles.length + imageFiles.length === files.length;
-  if (!isOneMap) throw new MapFileError(texts.wrongFiles(quoteText(files.map(({ name }) => name).join(', '))));
+  if (!isOneMap) throw new MapFileError(texts.wrongFilesSentence(quoteText(files.map(({ name }) => name).join(', '))));
   return planFiles.length ? readPlan(planFiles[0].name, await readText(planFiles[0], MAX_PLAN_BYTES, texts), texts) : readGrid(yamlFiles[0], imageFiles, decodePng, texts);
 }
 
@@ -50,7 +50,7 @@ async function readBytes(file: File, maxBytes: number, texts: RefusalWords) {
 const readText = async (file: File, maxBytes: number, texts: RefusalWords) => new TextDecoder().decode(await readBytes(file, maxBytes, texts));
 
 function checkSize(name: string, byteCount: number, maxBytes: number, texts: RefusalWords) {
-  if (byteCount > maxBytes) throw new MapFileError(texts.fileTooLong(quoteText(name), byteCount, maxBytes));
+  if (byteCount > maxBytes) throw new MapFileError(texts.largeFileSentence(quoteText(name), byteCount, maxBytes));
 }
 
 /** Shortens a text that a sentence quotes. */
@@ -61,7 +61,7 @@ function quoteText(quotedText: string) {
 /** Reads a floor plan from the JSON of a file; throws a MapFileError. */
 export function readPlan(name: string, planJson: string, texts: RefusalWords): UserMap {
   checkSize(name, planJson.length, MAX_PLAN_BYTES, texts);
-  const explainReason = (reason: string) => texts.invalidPlan(quoteText(name), quoteText(reason));
+  const explainReason = (reason: string) => texts.invalidPlanSentence(quoteText(name), quoteText(reason));
   const parsedPlan = explainErrors(() => JSON.parse(planJson), explainReason);
   return { name, applyTo: (simulation) => explainErrors(() => simulation.setPlan(parsedPlan), explainReason) };
 }
@@ -70,10 +70,10 @@ async function readGrid(file: File, imageFiles: File[], decodePng: DecodePng, te
   const quotedName = quoteText(file.name);
   const description = parseDescription(quotedName, await readText(file, MAX_YAML_BYTES, texts), texts);
   const { image: imagePath } = description;
-  if (typeof imagePath !== 'string' || imagePath === '') throw new MapFileError(texts.invalidImageName(quotedName, imagePath === undefined ? '' : quoteText(JSON.stringify(imagePath))));
+  if (typeof imagePath !== 'string' || imagePath === '') throw new MapFileError(texts.invalidImageNameSentence(quotedName, imagePath === undefined ? '' : quoteText(JSON.stringify(imagePath))));
   const imageName = imagePath.slice(Math.max(imagePath.lastIndexOf('/'), imagePath.lastIndexOf('\\')) + 1);
   const imageFile = imageFiles.find(({ name }) => name === imageName);
-  if (!imageFile) throw new MapFileError(texts.missingImage(quotedName, quoteText(imageName), quoteText(imageFiles.map(({ name }) => name).join(', '))));
+  if (!imageFile) throw new MapFileError(texts.missingImageSentence(quotedName, quoteText(imageName), quoteText(imageFiles.map(({ name }) => name).join(', '))));
   const imageBytes = await readBytes(imageFile, limits.bytes, texts);
   const isPng = PNG_MAGIC.every((byte, i) => byte === imageBytes[i]);
   const quotedImageName = quoteText(imageFile.name);
@@ -110,14 +110,14 @@ function parseDescription(quotedName: string, yamlText: string, texts: RefusalWo
     return fields;
   } catch (error) {
     if (!(error instanceof YAMLException)) throw error;
-    throw new MapFileError(texts.invalidYaml(quotedName, error.mark ? error.mark.line + 1 : 1, quoteText(error.reason)));
+    throw new MapFileError(texts.invalidYamlSentence(quotedName, error.mark ? error.mark.line + 1 : 1, quoteText(error.reason)));
   }
 }
 
 /** Returns a sentence about a grid that the core has refused. The sentence names the YAML file or the image. */
 function explainGridError(texts: RefusalWords, yamlName: string, imageName: string, reason: string) {
   const errorLine = /^line (\d+): (.*)$/.exec(reason);
-  if (errorLine) return texts.invalidLine(imageName, errorLine[1], errorLine[2]);
+  if (errorLine) return texts.invalidLineSentence(imageName, errorLine[1], errorLine[2]);
   return `${reason.startsWith('image') ? imageName : yamlName}: ${reason}.`;
 }
 

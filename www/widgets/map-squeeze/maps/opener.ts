@@ -54,7 +54,7 @@ export class MapOpener extends FileOpener<MapSqueezeElement> {
   }
 
   explainRefusal({ name, message }: Error) {
-    return name === 'MapFileError' ? message : words.squeeze.refusals.cannotOpen(message);
+    return name === 'MapFileError' ? message : words.squeeze.refusals.cannotOpenSentence(message);
   }
 }
 
@@ -64,7 +64,7 @@ export function userMapControlsHtml(figure: MapSqueezeElement, opener: MapOpener
   const pasteMap = () => opener.openPasted((figure.renderRoot.querySelector('#map-text') as HTMLTextAreaElement).value);
   return fieldsetHtml(texts.title, html`<div class="own-map figures">
     <div>
-      <p>${texts.instructions}</p>
+      <p>${texts.instructionsText}</p>
       <p>${opener.fileButtonHtml('map-files', texts.chooseFilesLabel, MAP_FILE_EXTENSIONS)}</p>
       ${opener.refusalNoteHtml}
       <p class="present muted">${mapText}.</p>

@@ -51,8 +51,8 @@ export async function insertTables(pageHtml) {
  * @param {(element: Element) => Item[]} itemsOf
  */
 function renderItemTable(elements, kind, tableCaption, columnHeadings, itemsOf) {
-  const itemsByName = new Map(elements.flatMap(itemsOf).map((elementItem) => [elementItem.name, elementItem]));
-  const findElementsWithItem = (/** @type {string} */ name) => elements.filter((documentedElement) => itemsOf(documentedElement).some((elementItem) => elementItem.name === name));
+  const itemsByName = new Map(elements.flatMap(itemsOf).map((manifestItem) => [manifestItem.name, manifestItem]));
+  const findElementsWithItem = (/** @type {string} */ name) => elements.filter((documentedElement) => itemsOf(documentedElement).some((manifestItem) => manifestItem.name === name));
   const itemRows = [...itemsByName.values()].map(({ name, description }) => {
     const owningElements = findElementsWithItem(name);
     const ownersSentence = owningElements.length < elements.length ? ` Only ${owningElements.map(({ tagName }) => renderCode(`<${tagName}>`)).join(' and ')}.` : '';

@@ -10,8 +10,8 @@ const MIN_PLAIN_STEP = 9e-4;
 /** Minimum distance between two ticks of an axis, CSS pixels. */
 const MIN_TICK_SPACING = { x: 60, y: 48 };
 
-/** Lengths in a legend, relative to the font size: gap between entries, width of a line sample, and space after the sample. */
-const LEGEND_LENGTHS_EM = { gap: 0.8, sample: 1.5, space: 0.35 };
+/** Lengths in a legend, relative to the font size: gap between entries, width of a line sample, and gap between the sample and its name. */
+const LEGEND_LENGTHS_EM = { entryGap: 0.8, lineSampleWidth: 1.5, nameGap: 0.35 };
 
 /**
  * Draws axes with ticks at the left and the bottom, and a faint grid. Above are the name of the vertical axis and a legend. Names have units in
@@ -65,12 +65,12 @@ function drawLegend({ context, view, palette, font }: DrawContext, axisName: str
   let entryEnd = 2 + context.measureText(axisName).width;
   Object.assign(context, { font, fillStyle: palette.ink });
   for (const { name, drawSample } of legendEntries) {
-    const sampleX = entryEnd + LEGEND_LENGTHS_EM.gap * fontSize;
-    const nameX = sampleX + (LEGEND_LENGTHS_EM.sample + LEGEND_LENGTHS_EM.space) * fontSize;
+    const sampleX = entryEnd + LEGEND_LENGTHS_EM.entryGap * fontSize;
+    const nameX = sampleX + (LEGEND_LENGTHS_EM.lineSampleWidth + LEGEND_LENGTHS_EM.nameGap) * fontSize;
     entryEnd = nameX + context.measureText(name).width;
     if (entryEnd > view.width) break;
     context.fillText(name, nameX, y);
-    drawSample(sampleX, y + fontSize / 2, LEGEND_LENGTHS_EM.sample * fontSize);
+    drawSample(sampleX, y + fontSize / 2, LEGEND_LENGTHS_EM.lineSampleWidth * fontSize);
   }
 }
 

@@ -65,7 +65,7 @@ export const themeStyles = css`
     display: none;
   }
 
-  /* Probe that inherits the page's colours. Its transition fires an event when a role changes. */
+  /* Probe that inherits the page's colours. Its transition fires an event when one of these colours changes. */
   .scheme-probe {
     forced-color-adjust: none;
     transition: 1ms;

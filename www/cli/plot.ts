@@ -44,7 +44,7 @@ function createDrivePanel({ odometry, reference }: Drive, { legs, systematicErro
   const drawContext = { context, view, palette: PALETTE, font: '13px sans-serif' } as unknown as DrawContext;
   const shownLines = [LINE_STYLES.reference, LINE_STYLES.odometry, ...(outlierLegs.length ? [LINE_STYLES.outlier] : [])];
   drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, shownLines.map(({ label, ...style }) => createLineLegendEntry(drawContext, label, style)));
-  const strokePoses = (poses: Pose[], breaks: Set<number>, style: (typeof shownLines)[number]) => strokePath(drawContext.context, style, () => poses.forEach(([x, y], i) => {
+  const strokePoses = (poses: Pose[], breaks: Set<number>, lineStyle: (typeof shownLines)[number]) => strokePath(drawContext.context, lineStyle, () => poses.forEach(([x, y], i) => {
     if (i === 0 || breaks.has(i)) context.moveTo(...view.toPixel(x, y));
     else context.lineTo(...view.toPixel(x, y));
   }));

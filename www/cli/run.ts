@@ -53,9 +53,9 @@ export async function run(args: string[], environment: CliEnvironment): Promise<
 
 /** Opens the recordings of all inputs, and returns each with the path of its input. */
 async function openInputs({ inputs, optionsByFile, userChoices }: Pick<CalibrateArguments, 'inputs' | 'optionsByFile' | 'userChoices'>, onSkip: (error: LogError) => void) {
-  const baseNames = inputs.map(({ path }) => basename(resolve(path)));
+  const pathBaseNames = inputs.map(({ path }) => basename(resolve(path)));
   // A file is named by its path if another file has the same base name.
-  const names = baseNames.map((baseName, i) => (baseNames.indexOf(baseName) === baseNames.lastIndexOf(baseName) ? baseName : inputs[i].path));
+  const names = pathBaseNames.map((baseName, i) => (pathBaseNames.indexOf(baseName) === pathBaseNames.lastIndexOf(baseName) ? baseName : inputs[i].path));
   const nameByPath = new Map(inputs.map(({ path }, i) => [path, names[i]]));
   const optionsOf = optionsByNameOf(optionsByFile.map(([file, options]) => [nameByPath.get(file) ?? file, options]));
   const givenRecordings: { recording: Recording; path: string }[] = [];

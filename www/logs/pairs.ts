@@ -67,7 +67,7 @@ function breakFrozenPoses(reference: Log, odometry: Log): Log {
   const { data, summary } = reference;
   const { t, x, y, theta } = data as Poses;
   const odometryPath = pathOf(odometry.data);
-  const breaks = new Set(data.breaks);
+  const breakRows = new Set(data.breaks);
   let frozenCount = 0;
   for (let runStart = 0, runEnd; runStart < t.length; runStart = runEnd) {
     for (runEnd = runStart + 1; runEnd < t.length && x[runEnd] === x[runStart] && y[runEnd] === y[runStart] && theta[runEnd] === theta[runStart]; ) runEnd += 1;
@@ -76,11 +76,11 @@ function breakFrozenPoses(reference: Log, odometry: Log): Log {
     const [[startX, startY, startHeading], [endX, endY, endHeading]] = [poseAt(odometryPath, start), poseAt(odometryPath, end)];
     if (Math.hypot(endX - startX, endY - startY) + Math.abs(wrapAngle(endHeading - startHeading)) <= MIN_ODOMETRY_MOTION) continue;
     frozenCount += runEnd - runStart - 1;
-    for (let row = runStart + 1; row <= Math.min(runEnd, t.length - 1); row++) breaks.add(row);
+    for (let row = runStart + 1; row <= Math.min(runEnd, t.length - 1); row++) breakRows.add(row);
   }
   if (frozenCount === 0) return reference;
   const dropped = { ...summary.dropped, held: { count: frozenCount, first: 0 } };
-  return { ...reference, data: { ...data, breaks: Uint32Array.from(breaks).sort() }, summary: { ...summary, used: summary.used - frozenCount, dropped } };
+  return { ...reference, data: { ...data, breaks: Uint32Array.from(breakRows).sort() }, summary: { ...summary, used: summary.used - frozenCount, dropped } };
 }
 
 export const warningsOf = (logs: Pick<Log, 'summary'>[]): Warning[] =>

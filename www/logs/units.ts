@@ -52,7 +52,7 @@ const [MIN_ALIGNMENT, MIN_ALIGNMENT_LEAD] = [0.8, 0.3];
 const isInRange = (value: number, [low, high]: readonly [number, number]) => value >= low && value <= high;
 
 /** Returns the unit of a time since 1970 by its size; undefined for smaller times. */
-export const epochTimeUnitOf = (time: number): TimeUnit | undefined => MIN_EPOCH_TIMES.find(([, minTime]) => Math.abs(time) >= minTime)?.[0];
+export const epochTimeUnitOf = (epochTime: number): TimeUnit | undefined => MIN_EPOCH_TIMES.find(([, minTime]) => Math.abs(epochTime) >= minTime)?.[0];
 
 /** Judges the units that no name or option states, and converts the columns to s, m and rad. Throws a LogError if a unit is in doubt. */
 export function judgeUnits(errorPlace: ErrorPlace, kind: LogKind, columns: Columns, assumedUnits: Units, options: OpenOptions, createColumnQuestion?: CreateColumnQuestion): Units {

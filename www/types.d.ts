@@ -105,7 +105,7 @@ export interface LoggedCommands extends Pick<LoggedPoses, 't' | 'breaks'> {
 export interface CalibrationOptions extends Partial<Pick<AlphaCalibratorSettings, 'model' | 'rule' | 'outliers'>> {
   /** Odometry of one drive, or of several. */
   odometry: LoggedPoses | LoggedCommands | (LoggedPoses | LoggedCommands)[];
-  /** Reference of each drive. */
+  /** Poses by the reference, one log for each drive. */
   reference: LoggedPoses | LoggedPoses[];
   /** Length of a leg: thresholds of translation (m, default 0.25) and rotation (rad, default 0.2), as AMCL's `update_min_d` and `update_min_a`, or a duration (s). */
   legs?: { distance?: number; angle?: number } | { duration: number };

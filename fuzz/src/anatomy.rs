@@ -29,11 +29,11 @@ pub fn check_input(fuzz_input_bytes: &[u8]) {
         }
     }
     assert_results(&simulation);
-    // The points of paths are checked in few runs, because each of a thousand points needs a sine and a cosine.
+    // The points of paths are checked for one input in four only, because each of a thousand points needs a sine and a cosine.
     if should_check_paths && is_selected_by_hash(4, fuzz_input_bytes) {
         assert_paths(&simulation);
     }
-    // Heat maps are checked in few runs, because a heat map takes as long as hundreds of other calls.
+    // Heat maps are checked for one input in 256 only, because a heat map takes as long as hundreds of other calls.
     if is_selected_by_hash(256, fuzz_input_bytes) {
         assert_surface(&simulation, &mut fuzz_input);
     }

@@ -243,7 +243,7 @@ pub(super) fn log_checks(leg_set: &LegSet, lost: &LostLegs, inflation: f64) -> V
     let legs_lost = Check::new(CheckName::LegsLost, lost_fraction, [0.0, 0.2]).with_cause(lost.main_cause());
     let mut checks = vec![
         Check::new(CheckName::EnoughLegs, leg_count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
-        // The inflation is infinite if no factor on the α's covers the windows.
+        // The factor on the α's is infinite if no factor makes the predictions cover the errors over windows.
         Check::new(CheckName::InflationBounded, inflation, [1.0, MAX_INFLATION]),
         legs_lost,
         Check::new(CheckName::SamplingDense, median(&mut length_ratios), [0.0, 1.5]),

@@ -218,7 +218,7 @@ impl Prediction {
     fn velocity(expected: &SE2, dt: f64) -> Self {
         let twist = expected.log().component_mul(&Vector3::new(1.0, 0.0, 1.0));
         let [v, omega] = [twist.x / dt, twist.z / dt];
-        // A change of v or ω changes the twist, and γ turns the end.
+        // Noise of v and ω changes the twist. Noise of γ turns the final pose on the spot.
         let mut noise_jacobian = SE2::right_jacobian(&twist) * dt;
         noise_jacobian.swap_columns(1, 2);
         noise_jacobian.set_column(2, &(Vector3::z() * dt));

@@ -138,8 +138,7 @@ impl Trajectory {
     /// Returns the pose and the velocity (m/s ahead and to the left, rad/s) at a time (s). None outside of the trajectory and inside of a gap.
     ///
     /// The velocity is interpolated between the samples before and after the time. Noise of a step is both in its velocity and in the residuals
-    /// of legs. Interpolated velocities have equal noise from the leg that ends and from the leg that begins. Otherwise the clock offset would
-    /// be biased.
+    /// of legs. A velocity from one side of a leg's end only would correlate with the residual of one leg, and bias the clock offset.
     // The function is not inlined, because two copies would make the module larger.
     #[inline(never)]
     pub(super) fn motion_at(&self, time: f64) -> Option<(SE2, Vector3<f64>)> {

@@ -121,7 +121,7 @@ impl SE2 {
         Matrix3::new(cos, -sin, self.y, sin, cos, -self.x, 0.0, 0.0, 1.0)
     }
 
-    /// Returns the right Jacobian J_r (eq. 163), 3 × 3: exp(τ + δ) = exp(τ) · exp(J_r(τ)·δ) to first order in δ.
+    /// Returns the right Jacobian J_r (Solà et al., eq. 163), 3 × 3: exp(τ + δ) = exp(τ) · exp(J_r(τ)·δ) to first order in δ.
     ///
     /// The error of each entry is at most 4e-16 · max(1, ‖τ‖) for |ω| ≤ π. det J_r = sinc²(ω/2).
     pub fn right_jacobian(twist: &Vector3<f64>) -> Matrix3<f64> {

@@ -165,7 +165,7 @@ impl WallTree {
 }
 
 impl WallNode {
-    /// Returns true only if no wall of the node comes within `distance` (m) of a point, because its capsule does not.
+    /// Returns true if the node's capsule is farther than `distance` (m) from a point. All walls of the node are then farther, too.
     #[inline(always)]
     pub fn is_farther_than(&self, point: [f64; 2], distance: f64) -> bool {
         let max_axis_distance = distance + self.capsule_radius;

@@ -37,8 +37,8 @@ const NO_BREAKS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 /// Motion whose bearing is near half the commanded turn, and not wrapped to ±π.
 struct BranchedMotion {
     polar_motion: PolarMotion,
-    /// Mean of the turn, standard deviation of the turn due to the noise of the bearing, and standard deviation of the turn after the
-    /// motion, rad.
+    /// Mean of the change of heading, its standard deviation due to the noise of the bearing, and the standard deviation of the last turn
+    /// on the spot, rad.
     turn_moments: [f64; 3],
 }
 

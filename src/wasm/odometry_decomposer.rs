@@ -25,7 +25,7 @@ cloud_simulation_class! {
         /// Pose of the robot at the progress that the setting `phase` gives.
         robot: "Start" = pose_to_js(simulation.robot_pose());
         drifted: "Drifted" = to_plain_js(&simulation.drifted_odometry());
-        /// The four poses of each of the first outcomes shown, one outcome after the other, in the form of `linkage`.
+        /// Poses of the outcomes that are shown, one outcome after the other. Each has four poses, in the form of `linkage`.
         sample_leg_poses as "ghosts": "Float64Array" =
             triple_array(simulation.sample_leg_poses(MAX_SHOWN_LINKAGES).into_iter().flatten());
     }

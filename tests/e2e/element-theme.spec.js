@@ -6,7 +6,7 @@ import { REDUCED_MOTION, readColours, mountFigure, countPixelsOfRole, showPage, 
 
 test.use(REDUCED_MOTION);
 
-/** Background and text colours of the most extreme of eighteen themes for books and documentation sites, as computed by a browser. */
+/** Computed colours of the background and the text, of themes for books and sites. Of eighteen themes, these have the highest and the lowest contrasts. */
 const THEME_COLORS = {
   'mdBook, light': ['#ffffff', '#000000'],
   'mdBook, rust': ['#e1e1db', '#262625'],

@@ -1,5 +1,5 @@
-// One drive in all formats of recordings, each written by the library of the format (tests/reference/logs/generate.py). Damaged inputs test
-// checks that give an error instead of a wrong result.
+// One drive in all formats of recordings, each written by the library of the format (tests/reference/logs/generate.py). Damaged recordings
+// must lead to an error, and not to a wrong result.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';

@@ -168,7 +168,7 @@ test('custom-elements.json lists the attributes, properties, events and parts of
       for (const disclosure of shadowRoot.querySelectorAll('details')) disclosure.open = true;
       // A disclosure renders its contents after the browser's `toggle` event.
       while (shadowRoot.querySelector('details[open] > .folded:empty')) await new Promise(requestAnimationFrame);
-      // Pressing this button of Map Squeeze adds a table.
+      // This button of Map Squeeze puts a table with four legs into the room.
       shadowRoot.querySelector('div.table button')?.click();
       await element.settled;
       const cssText = [...new Set(constructor.elementStyles.map(String))].join('');

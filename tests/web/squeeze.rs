@@ -1,4 +1,4 @@
-//! JavaScript interface of `MapSqueeze`: attempts, floor plans and maps.
+//! JavaScript interface of `MapSqueeze`: sampled motions, floor plans and maps.
 
 use crate::support::{JsObject, assert_near};
 use wasm_bindgen_test::wasm_bindgen_test;

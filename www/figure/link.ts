@@ -1,6 +1,6 @@
 /**
- * State in the page's address. Each figure has a part of the fragment: `#banana-machine.1=…&map-squeeze:my-id=…`. A figure opens its part
- * and keeps it up to date; with `share`, it adds its part.
+ * State in the page's address. Each figure has a part of the fragment: `#banana-machine.1=…&map-squeeze:my-id=…`. A figure with a part in
+ * the address takes its state from that part, and updates the part after each change. A figure with `share` also adds a missing part.
  */
 
 import { packJson, unpackJson } from '../data/packing.ts';

@@ -1,4 +1,4 @@
-/** Settings of the simulation, and state of a figure as plain data: the settings, and fields that the element keeps because the simulation does not have them. */
+/** Settings and state of a figure. The settings are those of the simulation. The state adds the fields of the element that the simulation does not have. */
 
 import { checkObject, checkValue, checkWord, createRefusalError } from '../data/checks.ts';
 import { FigureController } from './controller.ts';
@@ -96,7 +96,7 @@ export class Settings extends FigureController {
       [name, checkValue(path + name, values[name], { ...range, max: maxInState ? maxInState(getState()) : max })]));
   }
 
-  /** Applies early assignments of the page to a new simulation, and shows the simulation. `state` is the state restored after a trap, if any. */
+  /** Applies properties that the page assigned before the core was loaded, and shows the new simulation. `state` is the state restored after a WebAssembly trap, if any. */
   showNewSimulation(state?: StateValues) {
     const { host } = this;
     this.dropPendingChanges();

@@ -153,7 +153,7 @@ export class TextHeights extends FigureController {
     }
   }
 
-  /** Makes new heights of texts their minimum heights. After a change of width or language, measures all texts again. */
+  /** Sets the height that a text has reached as its minimum height, so that what is below stays in place. After a change of width or language, all texts are measured again. */
   #keepHeights(entries: ResizeObserverEntry[]) {
     const { clientWidth } = this.host;
     if (clientWidth === this.#lastWidth && language === this.#language) {

@@ -54,7 +54,7 @@ const [MAX_OVERLAP_STEPS, MAX_RUN_OVERLAPS, MAX_OVERLAP_FRACTION] = [0.75, 2, 0.
 /** Limits for rows that are late: maximum length of the path in order of time, relative to its length in order of the file, and minimum number of late rows. */
 const [MAX_LATE_PATH_RATIO, MIN_LATE_ROWS] = [0.75, 20];
 
-/** Limits for finding two paths in one log: minimum distance (m) between the paths, larger than vibrations, and minimum number of long steps, larger than a usual number of jumps. */
+/** Limits for finding a log whose rows alternate between two paths: minimum distance (m) between the paths, and minimum number of steps from one to the other. A single path has shorter or fewer such steps. */
 const [MIN_PATH_DISTANCE, MIN_LONG_STEPS] = [0.05, 20];
 
 /**

@@ -1,4 +1,4 @@
-/** Picture: a canvas that shows a simulation through its own view. */
+/** Picture: a canvas with a view, which is the visible part of the plane, and the drawing of a simulation in this view. */
 
 import { createDrawContext } from './canvas.ts';
 import type { DrawContext, DrawSurface } from './canvas.ts';

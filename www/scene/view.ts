@@ -51,7 +51,7 @@ export class View {
     const { left, right, top, bottom } = this.#margins;
     this.plotArea = { left, top, right: Math.max(left + 1, width - right), bottom: Math.max(top + 1, height - bottom) };
     if (this.#requiredExtent) this.extent = this.#targetExtent = this.#findCoveringExtent(this.#requiredExtent);
-    // On a small canvas, such as that of an unfinished layout, marks of a fixed pixel size need more metres. A larger canvas may zoom in.
+    // Marks have a fixed size in pixels, so that on a small canvas they need a view with more metres. A canvas is small before the layout is finished. The view may zoom in again when the canvas grows.
     this.allowZoomIn();
   }
 

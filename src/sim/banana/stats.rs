@@ -176,8 +176,8 @@ js_structs! {
 /// Ratio of the areas of the ellipse and the banana outline below which gaps are not searched, because both outlines nearly coincide.
 const MIN_AREA_RATIO: f64 = 1.15;
 
-/// Minimum Mahalanobis distance, in exponential coordinates, from the mean to a gap (a point inside the 2σ ellipse where practically no
-/// robot ends). One robot in 900 ends farther away than this distance.
+/// Minimum Mahalanobis distance, in exponential coordinates, from the mean to a gap: a point inside the 2σ ellipse of (x, y) where
+/// practically no robot ends. One robot in 900 ends farther away than this distance.
 const MIN_GAP_DISTANCE: f64 = 3.7;
 
 /// Distance of a gap from the centre of the 2σ ellipse, as a fraction of the radius of the ellipse in this direction. A point at this

@@ -181,7 +181,7 @@ impl NoisyDrive {
     }
 }
 
-/// Returns the poses at the given end points with the half headings of `turn`, and the logarithms of the poses.
+/// Returns four poses at the given end points, with their logarithms. `turn` has half of each heading, with its sine and cosine.
 #[inline(always)]
 fn with_logarithms([x, y]: [f64x4; 2], turn: (f64x4, SinCos)) -> FourPoses {
     let (half_heading, SinCos { sinc, sin, cos }) = turn;

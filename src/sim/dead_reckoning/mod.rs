@@ -426,7 +426,8 @@ js_structs! {
         pub along_first_order: Vec<f64> as "Float64Array",
         /// Variances across the track to first order in the noise, m²: ¼α₃v⁴Δt⁴.
         pub across_first_order: Vec<f64> as "Float64Array",
-        /// Duration (s) at which both first-order variances are equal: (2/|v|)·√(α₁/α₃). Null (None) if the variances are never equal.
+        /// Duration (s) at which the variances along and across the path are equal to first order: (2/|v|)·√(α₁/α₃). Null (None) if they never
+        /// are.
         pub crossing: Option<f64>,
     }
 }

@@ -14,8 +14,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use std::collections::TryReserveError;
 use wide::f64x4;
 
-/// Number of groups of four robots that are driven through all steps together: 256 rollouts, whose draws and poses take 8 kB. With fewer
-/// groups, compensated sums would take noticeable time. More groups would not fit into the first-level cache.
+/// Number of groups of four robots in a block. A block is driven through all steps before the next block; its 256 robots take 8 kB. The
+/// compensated sums of each block would take noticeable time in smaller blocks. Larger blocks would not fit into the first-level cache.
 const GROUPS_PER_BLOCK: usize = 64;
 pub const ROLLOUTS_PER_BLOCK: usize = GROUPS_PER_BLOCK * LANE_COUNT;
 

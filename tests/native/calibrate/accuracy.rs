@@ -39,8 +39,8 @@ const TRUE_SYSTEMATIC_ERRORS: Systematic = Systematic {
     turn_scale: 0.97,
 };
 
-/// Margin by which intervals of systematic errors (s, m, rad) are extended at both ends. The estimates neglect products of noises, and
-/// products of noise and clock offset within the 50 ms between two rows.
+/// Margin by which intervals of systematic errors (s, m, rad) are extended at both ends. The estimates neglect terms of second order:
+/// products of two noises, and products of a noise and the clock offset.
 const INTERVAL_MARGIN: f64 = 1e-3;
 
 struct StudyResults {

@@ -162,7 +162,7 @@ fn compounding_is_the_recursion_of_the_chapter() {
             assert_eq!(tangent_model.propagate(&sigma, &step_twist, Compounding::Chapter), compounded_cov);
         }
     }
-    // The chapter's R contains the variance of γ̂.
+    // The chapter's noise covariance R contains the variance of γ̂ in its last entry.
     let tangent_model = TangentNoiseModel::from_velocity(&new_velocity_model(FULL_RANK_ALPHAS), &U).unwrap();
     let expected_cov = Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.03125));
     assert!((tangent_model.compound(&Matrix3::zeros(), &Vector3::zeros()) - expected_cov).amax() < 1e-16);

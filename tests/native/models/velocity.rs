@@ -145,8 +145,8 @@ fn the_pose_density_integrates_to_one_for_large_noise() {
     }
 }
 
-/// The last turn γ̂ does not move the robot. Its noise therefore does not change the density of positions, even beyond a full turn. From a
-/// standard deviation of 0.1 on, the sum over equally spaced headings is accurate to 1e-12.
+/// The last turn γ̂ does not move the robot. Its noise therefore does not change the density of positions, even if the noise exceeds a full
+/// turn. The density is summed over equally spaced headings. For noise of at least 0.1 rad, the sum is accurate to 1e-12.
 #[test]
 fn the_noise_of_the_last_turn_does_not_change_the_density_of_positions() {
     const HEADING_COUNT: u32 = 128;

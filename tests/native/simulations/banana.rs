@@ -314,8 +314,7 @@ fn a_reverse_aware_robot_has_no_noise_of_half_turns() {
         [false, true].map(|reverse_aware| new_simulation(Settings { reverse_aware, ..odometry_settings }));
     let [alpha1, alpha2, ..] = odometry_settings.odometry_alphas;
     let reading = aware_and_unaware_simulations[0].reading();
-    // Without `reverse_aware`, both rotations are half a turn minus half the turn of the command. With `reverse_aware`, they are half the
-    // turn of the command.
+    // For a reverse command of turn θ, both rotations have the size π − θ/2 without `reverse_aware`, and θ/2 with it.
     let possible_rotations = [reading.rot1.abs(), PI - reading.rot1.abs()];
     for (simulation, expected_rotation) in aware_and_unaware_simulations.iter().zip(possible_rotations) {
         let heading_variance =

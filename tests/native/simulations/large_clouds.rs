@@ -37,7 +37,7 @@ fn assert_close(quantity_name: &str, actual: f64, exact: f64, magnitude: f64) {
     assert!((actual - exact).abs() <= 1e-12 * magnitude, "{quantity_name}: {actual} is not {exact}");
 }
 
-/// Asserts that statistics of a cloud equal their definitions. `cross_track` has the skew, the skew error and the correlation with the heading.
+/// Asserts that statistics of a cloud equal their definitions. `cross_track` holds three of them: skew, skew error, correlation with the heading.
 fn assert_exact_moments(poses: &[SE2], computed_moments: &CartesianMoments, cross_track: [f64; 3]) {
     let n = poses.len() as f64;
     let (sin, cos) = (

@@ -77,7 +77,7 @@ const styles = css`
  *
  * @attr preset - Command from the origin, and a final pose near its arc; null if the settings match no preset.
  * @attr overlays - The lines that are drawn, separated by spaces in the attribute.
- * @csspart chart - The plot of three forms of the arc near straight.
+ * @csspart chart - The plot of errors of three formulas of the arc, for nearly straight motions.
  */
 export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
   static styles = styles;

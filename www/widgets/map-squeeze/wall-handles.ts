@@ -85,7 +85,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 
   #handleOf(grip: Grip) {
     const name = nameOf(grip);
-    // Calls a function with the grip of this handle in the current plan. If the plan has no such grip, because it has changed, the function is not called.
+    // Calls a function with the part of the current floor plan that this handle moves. If the plan has changed and has no such part, nothing is called.
     const callWithGrip = <Result>(useGrip: (currentGrip: Grip) => Result) => {
       const currentGrip = this.#grips.find((otherGrip) => nameOf(otherGrip) === name);
       return currentGrip && useGrip(currentGrip);

@@ -124,11 +124,11 @@ test('numbers in German have a decimal comma, and may be typed with a comma or a
   await page.addScriptTag({ type: 'module', url: '/de.js' });
   await page.evaluate(() => (document.documentElement.lang = 'de'));
   await waitForFrames(page);
-  for (const [typedText, expectedValue] of [['0,35', 0.35], ['0.45', 0.45]]) {
-    await widget.locator('#alpha1').focus();
-    await page.keyboard.type(String(typedText));
+  for (const [name, typedText, expectedValue] of /** @type {const} */ ([['alpha1', '0,35', 0.35], ['alpha1', '0.45', 0.45], ['samples', '20.000', 20_000]])) {
+    await widget.locator(`#${name}`).focus();
+    await page.keyboard.type(typedText);
     await page.keyboard.press('Enter');
-    expect(await readProperty(widget, 'alpha1')).toBe(expectedValue);
+    expect(await readProperty(widget, name)).toBe(expectedValue);
   }
   await expect(printedValueOf(widget, 'alpha1')).toHaveText('0,450');
   await expect(helpOf(widget, 'alpha1')).toContainText('Endet bei 0,200');

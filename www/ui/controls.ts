@@ -2,6 +2,7 @@
 
 import { css, html, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
+import { language } from '../messages/registry.ts';
 import { MINUS } from './format.ts';
 
 export const controlStyles = css`
@@ -307,12 +308,14 @@ export function numberFieldHtml({ value, min, max, type, arrowRange, id, labelId
     // A handled Escape does not end a presentation.
     event.preventDefault();
   };
+  const groupSeparator = language === 'de' ? '.' : ',';
   // Browsers drop characters that are not in the notation of the browser's language: 0,35 would become 35.
   const replaceSigns = (event: InputEvent) => {
-    const replacedText = event.data?.replace(MINUS, '-').replace(',', type === 'whole' ? '' : '.');
-    if (!replacedText || replacedText === event.data) return;
+    const typedText = event.data ?? '';
+    const replacedText = (type === 'whole' ? typedText.replaceAll(groupSeparator, '') : typedText).replace(MINUS, '-').replace(',', '.');
+    if (replacedText === typedText) return;
     event.preventDefault();
-    document.execCommand('insertText', false, replacedText);
+    if (replacedText) document.execCommand('insertText', false, replacedText);
   };
   const enterNumber = (event: Event) => {
     const field = Object.assign(inputOf(event), typingRange);

@@ -135,27 +135,29 @@ impl Trajectory {
         self.poses.first().map(|_| 0.0).into_iter().chain(steps).collect()
     }
 
-    /// Returns the pose and the velocity (m/s ahead and to the left, rad/s) at a time (s). None outside of the trajectory and inside of a gap.
+    /// Returns the pose and the velocity (m/s ahead and to the left, rad/s) at a time (s). Between two samples the pose lies on the arc of
+    /// constant velocities that joins them. None outside of the trajectory and inside of a gap.
     ///
     /// The velocity is interpolated between the samples before and after the time. Noise of a step is both in its velocity and in the residuals
     /// of legs. A velocity from one side of a leg's end only would correlate with the residual of one leg, and bias the clock offset.
     // The function is not inlined, because two copies would make the module larger.
     #[inline(never)]
-    pub(super) fn motion_at(&self, time: f64) -> Option<(SE2, Vector3<f64>)> {
+    pub fn motion_at(&self, time: f64) -> Option<(SE2, Vector3<f64>)> {
         let (sample, fraction) = self.locate(time)?;
-        let velocity = match fraction {
-            1.0 => self.velocity_of_sample(sample),
-            _ => self.velocity_of_sample(sample - 1).lerp(&self.velocity_of_sample(sample), fraction),
-        };
-        Some((self.pose_in_step(sample, fraction), velocity))
+        let (pose, velocity) = (self.poses[sample], self.velocity_of_sample(sample));
+        if fraction == 1.0 {
+            return Some((pose, velocity));
+        }
+        let before = self.poses[sample - 1];
+        let pose_at_time = before.boxplus(pose.boxminus(&before) * fraction);
+        Some((pose_at_time, self.velocity_of_sample(sample - 1).lerp(&velocity, fraction)))
     }
 
     /// Returns the mean velocity over the steps before and after a sample.
     fn velocity_of_sample(&self, sample: usize) -> Vector3<f64> {
-        let last_sample = self.times.len() - 1;
-        let first_sample = if sample > 0 && !self.has_gap_before(sample) { sample - 1 } else { sample };
-        let end_sample =
-            if sample < last_sample && !self.has_gap_before(sample + 1) { sample + 1 } else { sample };
+        let is_known_step = |end: &usize| (1..self.times.len()).contains(end) && !self.has_gap_before(*end);
+        let known_steps = [sample, sample + 1].map(|end| usize::from(is_known_step(&end)));
+        let (first_sample, end_sample) = (sample - known_steps[0], sample + known_steps[1]);
         if first_sample == end_sample {
             return Vector3::zeros();
         }
@@ -197,24 +199,6 @@ impl Trajectory {
 
     pub(super) fn sample(&self, sample: usize) -> (f64, SE2) {
         (self.times[sample], self.poses[sample])
-    }
-
-    /// Returns the pose at `time` (s). Between two samples it lies on the arc of constant velocities that joins them. None outside of the
-    /// trajectory and inside of a gap.
-    pub fn pose_at(&self, time: f64) -> Option<SE2> {
-        self.locate(time).map(|(sample, fraction)| self.pose_in_step(sample, fraction))
-    }
-
-    /// Returns the pose after a fraction of the step to a sample.
-    // The function is not inlined, because the code for arcs is long.
-    #[inline(never)]
-    fn pose_in_step(&self, sample: usize, fraction: f64) -> SE2 {
-        let pose = self.poses[sample];
-        if fraction == 1.0 {
-            return pose;
-        }
-        let before = self.poses[sample - 1];
-        before.boxplus(pose.boxminus(&before) * fraction)
     }
 }
 

@@ -138,8 +138,8 @@ fn no_leg_leads_across_a_break() {
     assert_eq!(lost_legs, LostLegs { across_breaks: 4, ..LostLegs::default() });
     assert!([17, 34, 70].iter().all(|row| legs.iter().any(|leg| leg.times[0] == times_of(&drive)[*row])));
     // No pose exists between the two rows of a break. Breaks before the first row or after the last row are ignored.
-    assert!(drive_with_breaks.pose_at(times_of(&drive)[16] + 0.01).is_none());
-    assert!([16, 17].iter().all(|row| drive_with_breaks.pose_at(times_of(&drive)[*row]).is_some()));
+    assert!(drive_with_breaks.motion_at(times_of(&drive)[16] + 0.01).is_none());
+    assert!([16, 17].iter().all(|row| drive_with_breaks.motion_at(times_of(&drive)[*row]).is_some()));
     assert_eq!(drive.clone().with_breaks_before([0, 101]), drive);
 }
 
@@ -194,9 +194,9 @@ fn poses_between_samples_lie_on_an_arc() {
     let constant_twist = Vector3::new(0.5, 0.1, 0.8);
     let start_pose = SE2::new(2.0, 1.0, 3.0);
     let arc_trajectory = new_trajectory([(1.0, start_pose), (2.0, start_pose.boxplus(constant_twist))]);
-    let pose = arc_trajectory.pose_at(1.25).expect("inside");
+    let (pose, _) = arc_trajectory.motion_at(1.25).expect("inside");
     assert!(pose.boxminus(&start_pose.boxplus(constant_twist * 0.25)).norm() < 1e-12);
-    assert_eq!([0.99, 2.01].map(|time| arc_trajectory.pose_at(time)), [None; 2]);
+    assert_eq!([0.99, 2.01].map(|time| arc_trajectory.motion_at(time)), [None; 2]);
 }
 
 #[test]
@@ -225,7 +225,7 @@ fn commands_are_integrated_along_arcs() {
     let expected_poses =
         [SE2::identity(), SE2::new(1.0, 0.0, 0.0), arc_end, SE2::new(arc_end.x(), arc_end.y(), 0.0)];
     for (time, expected_pose) in [0.0, 1.0, 3.0, 4.0].into_iter().zip(expected_poses) {
-        let pose = trajectory.pose_at(time).expect("inside");
+        let (pose, _) = trajectory.motion_at(time).expect("inside");
         assert!(pose.boxminus(&expected_pose).norm() < 1e-12, "{pose:?} is not {expected_pose:?}");
     }
 }

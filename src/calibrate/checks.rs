@@ -349,7 +349,7 @@ fn scale_of(
     let mut mask = [false; ERROR_COUNT];
     mask[scale as usize] = true;
     let residuals = fit.sample.residuals(mask, |leg| select(leg) && !fit.sample.outliers[leg]);
-    if residuals.terms.len() < MIN_GROUP_LEGS {
+    if residuals.observations.len() < MIN_GROUP_LEGS {
         return None;
     }
     let filtered = residuals.filtered(&fit.maximum.parameters);

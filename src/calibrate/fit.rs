@@ -3,7 +3,7 @@
 use super::alignment::clock_offset;
 use super::legs::{Leg, LostLegs, MIN_LEGS};
 use super::likelihood::{
-    Expansion, LegTerm, POSITION_VARIANCE, Parameters, Residuals, YAW_VARIANCE, identifiable_errors,
+    Expansion, POSITION_VARIANCE, Parameters, Residuals, YAW_VARIANCE, identifiable_errors,
 };
 use super::optimizer::{EXACT_GAIN, maximize};
 use super::residuals::Observation;
@@ -19,7 +19,6 @@ pub(super) struct LegSet {
     pub options: Options,
     pub legs: Vec<Leg>,
     pub observations: Vec<Observation>,
-    pub terms: Vec<LegTerm>,
     pub outliers: Vec<bool>,
     /// Systematic errors with which the residuals were computed.
     pub systematic: Systematic,
@@ -33,9 +32,6 @@ pub(super) struct Fit {
     pub sample: LegSet,
     pub residuals: Residuals,
     pub maximum: Expansion,
-    /// All legs, at the clock offset before the fit.
-    uncorrected_legs: Vec<Leg>,
-    uncorrected_offset: f64,
     pub lost: LostLegs,
 }
 
@@ -54,8 +50,8 @@ const CONVERGENCE_TOLERANCE: f64 = 0.05;
 
 impl LegSet {
     fn new(legs: Vec<Leg>, systematic: &Systematic, estimated: ErrorMask, options: &Options) -> Self {
-        let (outliers, observations, terms) = (vec![false; legs.len()], Vec::new(), Vec::new());
-        Self { options: *options, legs, observations, terms, outliers, systematic: *systematic, estimated }
+        let (outliers, observations) = (vec![false; legs.len()], Vec::new());
+        Self { options: *options, legs, observations, outliers, systematic: *systematic, estimated }
     }
 
     /// Computes the residuals under the present systematic errors. `position_std` (m) is the standard deviation of the reference.
@@ -63,9 +59,6 @@ impl LegSet {
         let Self { systematic, options: Options { model, .. }, .. } = *self;
         let observe = |leg| Observation::new(model, leg, &systematic, position_std);
         self.observations = self.legs.iter().map(observe).collect();
-        let term =
-            |(leg, observation): (&Leg, &Observation)| LegTerm::new(model, leg, observation, &systematic);
-        self.terms = self.legs.iter().zip(&self.observations).map(term).collect();
     }
 
     /// Returns true if a leg and the previous leg are selected, and the leg starts where the previous leg ends.
@@ -77,14 +70,15 @@ impl LegSet {
     /// reference that the options do not state.
     pub fn residuals(&self, estimated: ErrorMask, select: impl Fn(usize) -> bool) -> Residuals {
         let selected_legs = (0..self.legs.len()).filter(|leg| select(*leg));
-        let term_of_leg = |leg: usize| self.terms[leg].with_follows(self.follows(leg, &select));
+        let observation_of =
+            |leg| Observation { follows: self.follows(leg, &select), ..self.observations[leg] };
         let Options { model, position_std, yaw_std, .. } = self.options;
         let free = std::array::from_fn(|parameter| match parameter {
             POSITION_VARIANCE => position_std.is_none(),
             YAW_VARIANCE => yaw_std.is_none(),
             alpha => alpha < model.alphas(),
         });
-        Residuals { model, free, estimated, terms: selected_legs.map(term_of_leg).collect() }
+        Residuals { model, free, estimated, observations: selected_legs.map(observation_of).collect() }
     }
 
     pub fn inlier_residuals(&self, range: Range<usize>) -> Residuals {
@@ -178,9 +172,9 @@ impl<'a> Log<'a> {
 }
 
 /// Returns all legs, or evenly spread blocks of neighbouring legs if there are more than [`MAX_LEGS`].
-fn with_max_legs(legs: &[Leg]) -> Vec<Leg> {
+fn with_max_legs(legs: Vec<Leg>) -> Vec<Leg> {
     if legs.len() <= MAX_LEGS {
-        return legs.to_vec();
+        return legs;
     }
     let block_count = MAX_LEGS / LEGS_PER_BLOCK;
     let blocks = (0..block_count).map(|block| block * (legs.len() - LEGS_PER_BLOCK) / (block_count - 1));
@@ -202,9 +196,8 @@ pub(super) fn fit(
     start: Option<(Systematic, Parameters)>,
 ) -> Result<Fit, CalibrateError> {
     let (start_errors, mut parameters) = start.unzip();
-    let uncorrected_offset = start_errors.unwrap_or(log.initial_errors()).clock_offset;
-    let (uncorrected_legs, lost) = log.legs(options, uncorrected_offset)?;
-    let legs = with_max_legs(&uncorrected_legs);
+    let (legs, lost) = log.legs(options, start_errors.unwrap_or(log.initial_errors()).clock_offset)?;
+    let legs = with_max_legs(legs);
     let systematic = start_errors.unwrap_or_else(|| Systematic {
         mount_yaw: Systematic::initial_mount_yaw(&legs),
         ..log.initial_errors()
@@ -219,14 +212,14 @@ pub(super) fn fit(
         let errors = solution.errors_in(&sample.estimated);
         let has_new_outliers = sample.mark_outliers(&start_parameters, &errors, round);
         let residuals = sample.inlier_residuals(all_legs.clone());
-        if residuals.terms.len() < MIN_LEGS {
-            return Err(CalibrateError::TooFewLegs { legs: residuals.terms.len() });
+        if residuals.observations.len() < MIN_LEGS {
+            return Err(CalibrateError::TooFewLegs { legs: residuals.observations.len() });
         }
         let maximum = maximize(&residuals, residuals.expansion_at(&start_parameters), ROUND_GAIN);
         let (corrected, is_small_change) = sample.corrected_errors(&maximum);
         if !has_new_outliers && round > 1 && is_small_change || round == MAX_ROUNDS {
             let maximum = maximize(&residuals, maximum, EXACT_GAIN);
-            return Ok(Fit { sample, residuals, maximum, uncorrected_legs, uncorrected_offset, lost });
+            return Ok(Fit { sample, residuals, maximum, lost });
         }
         log.realign(&mut sample.legs, corrected.clock_offset - sample.systematic.clock_offset);
         sample.systematic = corrected;
@@ -237,16 +230,15 @@ pub(super) fn fit(
 
 impl Fit {
     /// Returns all legs with their residuals. The sample that was fitted has only some of the legs if there are many.
-    pub fn all_legs(&self, log: &Log) -> LegSet {
+    pub fn all_legs(&self, log: &Log) -> Result<LegSet, CalibrateError> {
         let Self { sample, maximum, .. } = self;
-        if self.uncorrected_legs.len() == sample.legs.len() {
-            return sample.clone();
+        if sample.legs.len() < MAX_LEGS {
+            return Ok(sample.clone());
         }
-        let mut legs = self.uncorrected_legs.clone();
-        log.realign(&mut legs, sample.systematic.clock_offset - self.uncorrected_offset);
+        let (legs, _) = log.legs(&sample.options, sample.systematic.clock_offset)?;
         let mut all_legs = LegSet::new(legs, &sample.systematic, sample.estimated, &sample.options);
         all_legs.update_observations(maximum.parameters[POSITION_VARIANCE].sqrt());
         all_legs.mark_outliers(&maximum.parameters, &maximum.filtered.errors, 1);
-        all_legs
+        Ok(all_legs)
     }
 }

@@ -28,8 +28,8 @@ pub(super) fn intervals(
     Fit { residuals, maximum, .. }: &Fit,
     correlation: f64,
 ) -> impl Fn(usize) -> [f64; 2] {
-    let threshold = student_95(residuals.terms.len().saturating_sub(PARAMETER_COUNT));
-    let blocks = maximum.scores.chunks(legs_per_score_block(residuals.terms.len()));
+    let threshold = student_95(residuals.observations.len().saturating_sub(PARAMETER_COUNT));
+    let blocks = maximum.scores.chunks(legs_per_score_block(residuals.observations.len()));
     // At the maximum the mean score is 0, except for a variance that is 0.
     let mean_score = maximum.score / blocks.len() as f64;
     let block_scores: Vec<Parameters> =

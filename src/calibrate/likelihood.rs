@@ -13,11 +13,9 @@
 //! covariances Fᵢ. Derivatives of the innovations give the score and the Fisher information
 //! Σ ½ tr(F⁻¹ ∂ⱼF F⁻¹ ∂ₖF) + ∂ⱼνᵀ F⁻¹ ∂ₖν (Harvey 1989, 3.4).
 
-use super::legs::Leg;
 use super::residuals::{Model, Observation};
 use super::result::LegFit;
-use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
-use crate::geom::se2::SE2;
+use super::systematic::{ERROR_COUNT, ErrorMask, SystematicError};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use std::f64::consts::TAU;
 
@@ -37,32 +35,13 @@ pub(super) type Parameters = SVector<f64, PARAMETER_COUNT>;
 pub(super) type Information = SMatrix<f64, PARAMETER_COUNT, PARAMETER_COUNT>;
 
 /// Columns that the Kalman filter predicts: the Jacobian of the residual with respect to each systematic error, then the residual.
-type Columns = SMatrix<f64, 3, COLUMN_COUNT>;
+pub(super) type Columns = SMatrix<f64, 3, COLUMN_COUNT>;
 const COLUMN_COUNT: usize = ERROR_COUNT + 1;
 pub(super) type ErrorMatrix = SMatrix<f64, ERROR_COUNT, ERROR_COUNT>;
 pub(super) type ErrorVector = SVector<f64, ERROR_COUNT>;
 
 /// Minimum standard deviation of a residual (rad, m or their rates), which keeps the likelihood of a log without noise finite.
 const MIN_STD: f64 = 1e-7;
-
-/// Maximum absolute value of residuals, their derivatives, and coefficients of their variances. Legs with larger values are omitted,
-/// because their squares would overflow.
-const MAX_ENTRY: f64 = 1e30;
-
-/// Residuals of one leg in the form that the likelihood needs. The default has no observed component.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct LegTerm {
-    columns: Columns,
-    /// Coefficients of the α's in the variance of each component.
-    coefficients: [[f64; 2]; 3],
-    /// False for a component without a residual. The residual of such a component is stored as 0, and its variance as 1.
-    observed: [bool; 3],
-    /// Jacobians with respect to the reference's errors at the start and at the end of the leg.
-    start: Matrix3<f64>,
-    end: Matrix3<f64>,
-    /// True if the leg starts at the reference pose at which the previous leg ends.
-    pub follows: bool,
-}
 
 /// Mask of the parameters that are fitted. All other parameters are kept fixed.
 pub(super) type FreeMask = [bool; PARAMETER_COUNT];
@@ -73,7 +52,7 @@ pub(super) struct Residuals {
     pub model: Model,
     pub free: FreeMask,
     pub estimated: ErrorMask,
-    pub terms: Vec<LegTerm>,
+    pub observations: Vec<Observation>,
 }
 
 /// Innovation of one leg: its residual and the Jacobian of the residual, minus their predictions from the previous legs.
@@ -117,58 +96,34 @@ pub(super) struct Expansion {
     pub covariance: Information,
 }
 
-impl LegTerm {
-    pub fn new(model: Model, leg: &Leg, observation: &Observation, corrected: &Systematic) -> Self {
-        let Observation { residuals, coefficients, jacobian, expected, measured, .. } = observation;
-        let error_jacobian = jacobian * corrected.motion_jacobian(model, leg, expected);
-        let mut entries = residuals.iter().chain(&error_jacobian).chain(coefficients.as_flattened());
-        if entries.any(|entry| entry.abs() > MAX_ENTRY) {
-            return Self::default();
-        }
-        let observed = residuals.map(|residual| !residual.is_nan());
-        let observed_residuals = residuals.map(|residual| if residual.is_nan() { 0.0 } else { residual });
-        let mut columns = Columns::zeros();
-        columns.fixed_columns_mut::<ERROR_COUNT>(0).copy_from(&error_jacobian);
-        columns.set_column(ERROR_COUNT, &observed_residuals.into());
-        // Errors of the reference are given in the frame of the measured end pose. The Jacobian expects the frame of the expected end pose.
-        let heading_error = expected.between(measured).theta();
-        let end_jacobian = jacobian * SE2::new(0.0, 0.0, heading_error).adjoint();
-        let [start, end] =
-            corrected.reference_jacobians(measured).map(|pose_jacobian| end_jacobian * pose_jacobian);
-        Self { columns, coefficients: *coefficients, observed, start, end, follows: false }
-    }
-
-    pub fn with_follows(self, follows: bool) -> Self {
-        Self { follows, ..self }
-    }
-}
-
 /// Returns the innovations of legs, by a Kalman filter whose state is the error of the reference at the end of a leg. A leg that does not
 /// follow the previous leg starts at a new pose of the reference.
 // The function is not generic, because a second instance would make the module larger.
 pub(super) fn innovations<'a>(
     model: Model,
     parameters: &Parameters,
-    terms_with_follows: Box<dyn Iterator<Item = (&'a LegTerm, bool)> + 'a>,
+    observations_with_follows: Box<dyn Iterator<Item = (&'a Observation, bool)> + 'a>,
 ) -> impl Iterator<Item = Innovation> {
     let reference_covariance = reference_covariance(parameters);
     let (mut mean, mut prior) = (Columns::zeros(), reference_covariance);
-    terms_with_follows.map(move |(term, follows)| {
+    observations_with_follows.map(move |(leg, follows)| {
+        let [start, end] = &leg.reference_jacobians;
         if !follows {
             (mean, prior) = (Columns::zeros(), reference_covariance);
         }
-        let columns = term.columns - product(&term.start, &mean);
-        let scaled_end = product(&term.end, &reference_covariance);
-        let mut covariance = propagated(&term.start, &prior) + product(&scaled_end, &term.end.transpose());
-        let wheels = model.wheel_variances(&term.coefficients, parameters);
+        let columns = leg.columns - product(start, &mean);
+        let scaled_end = product(end, &reference_covariance);
+        let mut covariance = propagated(start, &prior) + product(&scaled_end, &end.transpose());
+        let wheels = model.wheel_variances(&leg.coefficients, parameters);
+        let is_unobserved = leg.residuals.map(f64::is_nan);
         for k in 0..3 {
-            covariance[(k, k)] += wheels[k] + if term.observed[k] { MIN_STD * MIN_STD } else { 1.0 };
+            covariance[(k, k)] += wheels[k] + if is_unobserved[k] { 1.0 } else { MIN_STD * MIN_STD };
         }
         let weight = covariance.try_inverse().unwrap_or_default();
         let gain = product(&scaled_end.transpose(), &weight);
         mean = product(&gain, &columns);
         prior = reference_covariance - product(&gain, &scaled_end);
-        let variances = std::array::from_fn(|k| if term.observed[k] { covariance[(k, k)] } else { f64::NAN });
+        let variances = std::array::from_fn(|k| if is_unobserved[k] { f64::NAN } else { covariance[(k, k)] });
         Innovation { columns, variances, weight, gain, determinant: covariance.determinant() }
     })
 }
@@ -230,30 +185,22 @@ impl Innovation {
 
 impl Residuals {
     pub fn filtered(&self, parameters: &Parameters) -> FilterResult {
-        let terms = Box::new(self.terms.iter().map(|term| (term, term.follows)));
-        let innovations: Vec<Innovation> = innovations(self.model, parameters, terms).collect();
+        let observations = Box::new(self.observations.iter().map(|leg| (leg, leg.follows)));
+        let innovations: Vec<Innovation> = innovations(self.model, parameters, observations).collect();
         let (mut log_det, mut gram) = (0.0, SMatrix::<f64, COLUMN_COUNT, COLUMN_COUNT>::zeros());
-        // Determinants are multiplied, because one logarithm is cheaper than many.
-        let mut det = 1.0;
-        for innovation in &innovations {
-            det *= innovation.determinant;
-            if innovation.determinant <= 0.0 {
-                // If variances differ by many orders of magnitude, rounding can make the covariance indefinite.
-                log_det = f64::INFINITY;
-            } else if !(1e-200..1e200).contains(&det) {
-                log_det += libm::log(det);
-                det = 1.0;
-            }
-            gram += innovation.columns.tr_mul(&product(&innovation.weight, &innovation.columns));
+        for Innovation { columns, weight, determinant, .. } in &innovations {
+            // If variances differ by many orders of magnitude, rounding can make the covariance indefinite.
+            log_det += if *determinant > 0.0 { libm::log(*determinant) } else { f64::INFINITY };
+            gram += columns.tr_mul(&product(weight, columns));
         }
-        log_det += libm::log(det.abs());
         let information: ErrorMatrix = gram.fixed_view::<ERROR_COUNT, ERROR_COUNT>(0, 0).into_owned();
         let (covariance, log_det_information) = masked_inverse(&information, &self.estimated);
         let weighted_residual: ErrorVector = gram.fixed_view::<ERROR_COUNT, 1>(0, ERROR_COUNT).into_owned();
         let errors = covariance * weighted_residual;
-        let count_true = |flags: &[bool]| flags.iter().filter(|is| **is).count() as f64;
-        let residual_count: f64 = self.terms.iter().map(|term| count_true(&term.observed)).sum();
-        let degrees_of_freedom = residual_count - count_true(&self.estimated);
+        let residuals = self.observations.iter().flat_map(|leg| leg.residuals);
+        let residual_count = residuals.filter(|residual| !residual.is_nan()).count();
+        let estimated_count = self.estimated.iter().filter(|is| **is).count();
+        let degrees_of_freedom = residual_count as f64 - estimated_count as f64;
         let deviance = log_det + log_det_information + gram[(ERROR_COUNT, ERROR_COUNT)]
             - weighted_residual.dot(&errors)
             + degrees_of_freedom * libm::log(TAU);
@@ -277,10 +224,10 @@ impl Residuals {
     ///
     /// With ν the innovation of (X, r) and w = F⁻¹ν, the score is −½ tr[(F⁻¹ − w M wᵀ) ∂F] − tr(M wᵀ ∂ν). The estimated errors β and
     /// their covariance C give M = (−β, 1)(−β, 1)ᵀ + C. The derivatives of a leg follow from those of the previous leg, which have a prime.
-    /// K is the gain of the previous leg, B its Jacobian, and T = A K.
+    /// K' is the gain of the previous leg, T = A K', and G = A − T B'.
     ///
-    /// - ∂F = T ∂F' Tᵀ + ∂D + A ∂R Aᵀ + Bᵢ ∂R Bᵢᵀ − C − Cᵀ with C = T B ∂R Aᵀ
-    /// - ∂ν = −T (∂ν' − ∂F' w') − A ∂R Bᵀ w'
+    /// - ∂F = S + B ∂R Bᵀ with S = T S' Tᵀ + G ∂R Gᵀ + ∂D
+    /// - ∂ν = −T (∂ν' − S' w') − G ∂R B'ᵀ w'
     fn derivatives(&self, filtered: &FilterResult) -> (Vec<Parameters>, Information) {
         let FilterResult { innovations, errors, covariance: error_covariance, .. } = filtered;
         let contrast = -errors.push(-1.0);
@@ -294,38 +241,40 @@ impl Residuals {
         let (mut gain_before, mut end_before) = (Matrix3::zeros(), Matrix3::zeros());
         let mut weighted_before = Columns::zeros();
         let (mut scores, mut information) =
-            (vec![Parameters::zeros(); self.terms.len()], Information::zeros());
-        for ((term, innovation), score) in self.terms.iter().zip(innovations).zip(&mut scores) {
-            if !term.follows {
+            (vec![Parameters::zeros(); self.observations.len()], Information::zeros());
+        for ((leg, innovation), score) in self.observations.iter().zip(innovations).zip(&mut scores) {
+            let [start, end] = &leg.reference_jacobians;
+            if !leg.follows {
                 (gain_before, end_before) = Default::default();
             }
             let weight = &innovation.weight;
             let weighted = product(weight, &innovation.columns);
             let score_columns = product(&weighted, &error_weights);
             let score_block = weight - product(&score_columns, &weighted.transpose());
-            let transition = product(&term.start, &gain_before);
-            let carried_end = product(&transition, &end_before);
-            let at_start = product(&end_before.transpose(), &weighted_before);
+            let transition = product(start, &gain_before);
+            let start_gain = start - product(&transition, &end_before);
+            let end_weighted = product(&end_before.transpose(), &weighted_before);
             let mut relative_derivatives = [Matrix3::zeros(); PARAMETER_COUNT];
             let mut residual_derivatives = [Vector3::zeros(); PARAMETER_COUNT];
             for j in (0..PARAMETER_COUNT).filter(|j| self.free[*j]) {
-                let (derivative, covariance) =
+                let (derivative, start_covariance) =
                     (&mut innovation_derivatives[j], &mut covariance_derivatives[j]);
-                *derivative = product(&transition, &(product(covariance, &weighted_before) - *derivative));
-                *covariance = propagated(&transition, covariance);
-                let wheels = self.model.wheel_variances(&term.coefficients, &units[j]);
+                let change = product(start_covariance, &weighted_before) - *derivative;
+                *derivative = product(&transition, &change);
+                *start_covariance = propagated(&transition, start_covariance);
+                let wheels = self.model.wheel_variances(&leg.coefficients, &units[j]);
                 for k in 0..3 {
-                    covariance[(k, k)] += wheels[k];
+                    start_covariance[(k, k)] += wheels[k];
                 }
+                let mut covariance = *start_covariance;
                 if j >= MAX_ALPHAS {
                     let reference = &reference_derivatives[j];
-                    *derivative -= product(&product(&term.start, reference), &at_start);
-                    let half_start = product(&(0.5 * term.start - carried_end), reference);
-                    let start_part = product(&half_start, &term.start.transpose());
-                    *covariance += propagated(&term.end, reference) + start_part + start_part.transpose();
+                    *derivative -= product(&product(&start_gain, reference), &end_weighted);
+                    *start_covariance += propagated(&start_gain, reference);
+                    covariance = *start_covariance + propagated(end, reference);
                 }
-                score[j] = -0.5 * score_block.dot(covariance) - score_columns.dot(derivative);
-                relative_derivatives[j] = product(weight, covariance);
+                score[j] = -0.5 * score_block.dot(&covariance) - score_columns.dot(derivative);
+                relative_derivatives[j] = product(weight, &covariance);
                 residual_derivatives[j] = product(derivative, &contrast);
                 let weighted_derivative = product(weight, &residual_derivatives[j]);
                 let transposed = relative_derivatives[j].transpose();
@@ -334,7 +283,7 @@ impl Residuals {
                         + weighted_derivative.dot(&residual_derivatives[k]);
                 }
             }
-            (gain_before, end_before, weighted_before) = (innovation.gain, term.end, weighted);
+            (gain_before, end_before, weighted_before) = (innovation.gain, *end, weighted);
         }
         information.fill_upper_triangle_with_lower_triangle();
         (scores, information)

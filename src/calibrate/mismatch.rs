@@ -5,6 +5,7 @@ use super::fit::LegSet;
 use super::legs::{MIN_DRIVE_DISTANCE, MIN_LEGS, MIN_TURN_ANGLE, distance, turn};
 use super::systematic::Systematic;
 use super::trajectory::median;
+use std::cmp::Ordering;
 
 /// Maximum mismatch of the turns and of the drives of a log. A wrong track width, or slip of skid steering, scales turns by a factor of up
 /// to two. Wheels never scale distances as much as a reference in feet (factor 0.305), or a reference whose y is a height (factor 0.5).
@@ -14,8 +15,7 @@ const MAX_DRIVE_MISMATCH: f64 = 0.4;
 /// Maximum fraction of the legs of one drive that may be outliers.
 const MAX_OUTLIERS_OF_DRIVE: f64 = 0.5;
 
-/// Median ratio of the turns of a mirrored reference to those of the odometry, up to a tolerance.
-const MIRRORED_TURN_RATIO: f64 = -1.0;
+/// Tolerance on the median ratio of the turns of a mirrored reference to those of the odometry, which is −1.
 const MIRRORED_TOLERANCE: f64 = 0.1;
 
 /// Relative error below which the reference is a copy of the odometry: wheels never measure every motion to a thousandth. A copy may be
@@ -28,16 +28,21 @@ pub(super) fn check_reference(
     systematic: &Systematic,
     alpha_intervals: &[Option<[f64; 2]>],
 ) -> Option<Check> {
+    // In the median over several drives, a short drive could not be recognized.
+    let check_drive = |drive| Some((drive, check_ratios_of_drive(leg_set, drive, systematic)?));
+    let drive_checks: Vec<(usize, Check)> =
+        (0..=leg_set.legs.last()?.drive).filter_map(check_drive).collect();
+    let failed_drives = drive_checks.iter().filter(|(_, check)| !check.passed);
+    let drives = failed_drives.map(|(drive, _)| *drive).collect();
+    let worst_check = drive_checks.into_iter().map(|(_, check)| check).max_by(compare_mismatches);
+    let ratio_check = worst_check.map(|check| Check { drives, ..check });
     // A reference that is a copy of the odometry is recognized by α's whose intervals start near 0: α's are squares of relative
     // errors. Any other unsuitable reference is recognized by the difference of its motions from the odometry's.
     let max_alpha = alpha_intervals.iter().flatten().map(|[start, _]| *start).reduce(f64::max);
     let copy_error = max_alpha.map(f64::sqrt).filter(|error| *error < MIN_RELATIVE_ERROR);
     let copy_check =
         copy_error.map(|error| new_match_check(error, MAX_DRIVE_MISMATCH).with_cause(FailureCause::Copied));
-    match (check_ratios(leg_set, systematic), copy_check) {
-        (Some(ratio_check), Some(copy_check)) if ratio_check.passed => Some(copy_check),
-        (ratio_check, copy_check) => ratio_check.or(copy_check),
-    }
+    ratio_check.filter(|check| copy_check.is_none() || !check.passed).or(copy_check)
 }
 
 /// Returns the check that the reference matches the odometry, from their mismatch or from the relative error of a copy.
@@ -45,25 +50,9 @@ fn new_match_check(value: f64, max_mismatch: f64) -> Check {
     Check::new(CheckName::ReferenceMatches, value, [MIN_RELATIVE_ERROR, max_mismatch])
 }
 
-/// Returns the check of the drive whose odometry and reference differ most. In the median over several drives, a short drive could not be
-/// recognized.
-fn check_ratios(leg_set: &LegSet, systematic: &Systematic) -> Option<Check> {
-    let (mut worst_check, mut failed_drives): (Option<Check>, _) = (None, Vec::new());
-    for drive in 0..=leg_set.legs.last()?.drive {
-        let Some(check) = check_ratios_of_drive(leg_set, drive, systematic) else { continue };
-        if !check.passed {
-            failed_drives.push(drive);
-        }
-        if worst_check.as_ref().is_none_or(|worst| relative_mismatch(&check) > relative_mismatch(worst)) {
-            worst_check = Some(check);
-        }
-    }
-    Some(Check { drives: failed_drives, ..worst_check? })
-}
-
-/// Returns the value of a check divided by the largest value that passes.
-fn relative_mismatch(check: &Check) -> f64 {
-    check.value / check.expected[1]
+/// Compares the values of two checks, divided by the largest values that pass.
+fn compare_mismatches(a: &Check, b: &Check) -> Ordering {
+    (a.value / a.expected[1]).total_cmp(&(b.value / b.expected[1]))
 }
 
 /// Returns the check of the mismatch of odometry and reference; `None` if too few legs turn and too few drive. Turns and drives have one
@@ -93,15 +82,14 @@ fn check_ratios_of_drive(leg_set: &LegSet, drive: usize, systematic: &Systematic
     // Values below the allowed range are reserved for a reference that is a copy of the odometry.
     let mismatch_of = |ratio: f64| (ratio - 1.0).abs().max(MIN_RELATIVE_ERROR);
     let turn_check = turn_ratio.map(|ratio| new_match_check(mismatch_of(ratio), MAX_TURN_MISMATCH));
-    let drive_check = drive_ratio.map(|ratio| new_match_check(mismatch_of(ratio), MAX_DRIVE_MISMATCH));
     // The drives of a mirrored reference differ by chance, because its mount yaw and lever arm are meaningless.
-    if turn_ratio.is_some_and(|ratio| (ratio - MIRRORED_TURN_RATIO).abs() < MIRRORED_TOLERANCE) {
+    if turn_ratio.is_some_and(|ratio| (ratio + 1.0).abs() < MIRRORED_TOLERANCE) {
         return turn_check.map(|check| check.with_cause(FailureCause::Mirrored));
     }
+    let drive_check = drive_ratio.map(|ratio| new_match_check(mismatch_of(ratio), MAX_DRIVE_MISMATCH));
     // If most legs are outliers, the fit to the other drives does not describe this drive.
     let outlier_fraction = outlier_count as f64 / leg_count as f64;
     let outlier_check = (leg_count >= MIN_LEGS && outlier_fraction > MAX_OUTLIERS_OF_DRIVE)
         .then(|| new_match_check(outlier_fraction, MAX_OUTLIERS_OF_DRIVE));
-    let checks = turn_check.into_iter().chain(drive_check).chain(outlier_check);
-    checks.max_by(|a, b| relative_mismatch(a).total_cmp(&relative_mismatch(b)))
+    [turn_check, drive_check, outlier_check].into_iter().flatten().max_by(compare_mismatches)
 }

@@ -133,12 +133,12 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         // Errors that are left uncorrected act as noise, which can make another error unidentifiable.
         (corrected, is_corrected) = (fit.sample.systematic, fit.sample.estimated);
     }
-    let all_legs = fit.all_legs(&log);
+    let all_legs = fit.all_legs(&log)?;
     let parameters = &fit.maximum.parameters;
     let not_identifiable = identifiability(&fit);
     let interval_of = intervals(&fit, correlation);
-    let identified_alphas = not_identifiable.iter().enumerate();
-    let identified_alphas = identified_alphas.map(|(alpha, reason)| reason.is_none().then_some(alpha));
+    let identified_alphas =
+        (0..).zip(&not_identifiable).map(|(alpha, reason)| reason.is_none().then_some(alpha));
     let alphas: Vec<Option<f64>> = identified_alphas.clone().map(|alpha| Some(parameters[alpha?])).collect();
     let alpha_intervals: Vec<Option<[f64; 2]>> =
         identified_alphas.map(|alpha| alpha.map(&interval_of)).collect();
@@ -183,7 +183,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
 fn neighbour_correlation(Fit { residuals, maximum, .. }: &Fit) -> (f64, f64) {
     let fits: Vec<LegFit> = maximum.filtered.leg_fits().collect();
     let (mut product_sum, mut square_sum, mut pair_count) = (0.0, 0.0, 0);
-    for (pair, _) in fits.windows(2).zip(&residuals.terms[1..]).filter(|(_, term)| term.follows) {
+    for (pair, _) in fits.windows(2).zip(&residuals.observations[1..]).filter(|(_, leg)| leg.follows) {
         for (before, after) in pair[0].standardized.into_iter().zip(pair[1].standardized) {
             if !before.is_nan() && !after.is_nan() {
                 product_sum += before * after;

@@ -23,8 +23,9 @@ impl LegSet {
     /// filtered independently of its neighbours.
     pub(super) fn leg_fits(&self, parameters: &Parameters, errors: &ErrorVector) -> Vec<LegFit> {
         let is_inlier = |leg: usize| !self.outliers[leg];
-        let terms = self.terms.iter().enumerate().map(|(leg, term)| (term, self.follows(leg, is_inlier)));
-        innovations(self.options.model, parameters, Box::new(terms))
+        let observations = self.observations.iter().enumerate();
+        let observations_with_follows = observations.map(|(i, leg)| (leg, self.follows(i, is_inlier)));
+        innovations(self.options.model, parameters, Box::new(observations_with_follows))
             .zip(&self.outliers)
             .map(|(innovation, is_outlier)| innovation.leg_fit(errors, *is_outlier))
             .collect()

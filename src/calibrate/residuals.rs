@@ -3,8 +3,8 @@
 //! Residuals are in the model's own coordinates, in which noise components are independent and have variances that are linear in the α's.
 
 use super::legs::{Leg, distance};
-use super::likelihood::Parameters;
-use super::systematic::Systematic;
+use super::likelihood::{Columns, Parameters};
+use super::systematic::{ERROR_COUNT, Systematic};
 use crate::geom::arc::invert_arc;
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::models::{LegVariances, MAX_SPIN_DISTANCE, OdomDelta, OdometryRule};
@@ -84,10 +84,14 @@ pub struct Observation {
     pub expected: SE2,
     /// Motion that the reference measured, in the frame of the leg's start.
     pub measured: SE2,
-    /// Jacobian of the residuals with respect to a displacement of the leg's end (x, y, θ), in the frame of the end.
-    pub(super) jacobian: Matrix3<f64>,
+    /// Jacobian of the residuals with respect to each systematic error, then the residuals, 0 where they are NaN.
+    pub(super) columns: Columns,
+    /// Jacobians of the residuals with respect to the reference's errors at the start and at the end of the leg.
+    pub(super) reference_jacobians: [Matrix3<f64>; 2],
     /// Jacobian of the displacement of the leg's end with respect to the wheels' noise in the model's coordinates.
     pub(super) noise_jacobian: Matrix3<f64>,
+    /// True if the leg starts at the reference pose at which the previous leg of the fit ends.
+    pub(super) follows: bool,
 }
 
 /// Maximum ratio of the reference's noise to the length of a leg for which directions are computed by atan2. With more noise atan2 is
@@ -115,34 +119,55 @@ impl Observation {
             || distance(&motion) >= MAX_SPIN_DISTANCE
                 && exact_residuals.is_none_or(|(length, _)| length >= MAX_SPIN_DISTANCE);
         let expected = if model == Model::Velocity { motion } else { expected };
+        let (mut jacobian, mut residuals) = (Matrix3::zeros(), [f64::NAN; 3]);
         let displacement = Vector3::from(<[f64; 3]>::from(motion.between(&measured)));
         if has_direction {
-            let jacobian = noise_jacobian.try_inverse().unwrap_or_default();
+            jacobian = noise_jacobian.try_inverse().unwrap_or_default();
             // Angles of linearized residuals are not wrapped at π, because their covariances are linearized too.
-            let residuals =
+            residuals =
                 exact_residuals.map_or_else(|| (jacobian * displacement).into(), |(_, residuals)| residuals);
-            return Self { residuals, coefficients, reading, expected, measured, jacobian, noise_jacobian };
-        }
-        let is_observed = match model {
-            Model::Velocity => [true, false, false],
-            // A leg without a direction has no first rotation. Its second rotation is the whole turn, with the noise of both rotations.
-            Model::Odometry(_) => [false, true, true],
-        };
-        if !is_observed[0] {
-            coefficients[2] = std::array::from_fn(|k| coefficients[0][k] + coefficients[2][k]);
-        }
-        // The observed columns of the noise's Jacobian are orthogonal, which makes their pseudoinverse simple.
-        let (mut residuals, mut jacobian) = ([f64::NAN; 3], Matrix3::zeros());
-        for k in 0..3 {
-            if is_observed[k] {
+        } else {
+            let observed_components: &[usize] = match model {
+                Model::Velocity => &[0],
+                // A leg without a direction has no first rotation. Its second rotation is the whole turn, with the noise of both rotations.
+                Model::Odometry(_) => &[1, 2],
+            };
+            // The observed columns of the noise's Jacobian are orthogonal, which makes their pseudoinverse simple.
+            for k in observed_components.iter().copied() {
                 let column = noise_jacobian.column(k);
                 jacobian.set_row(k, &(column.transpose() / column.norm_squared()));
                 residuals[k] = (jacobian.row(k) * displacement).x;
-            } else {
-                coefficients[k] = [0.0; 2];
+            }
+            if residuals[0].is_nan() {
+                coefficients[2] = std::array::from_fn(|k| coefficients[0][k] + coefficients[2][k]);
             }
         }
-        Self { residuals, coefficients, reading, expected, measured, jacobian, noise_jacobian }
+        let mut columns = Columns::zeros();
+        let error_jacobian = jacobian * corrected.motion_jacobian(model, leg, &expected);
+        columns.fixed_columns_mut::<ERROR_COUNT>(0).copy_from(&error_jacobian);
+        for k in 0..3 {
+            if residuals[k].is_nan() {
+                coefficients[k] = [0.0; 2];
+            } else {
+                columns[(k, ERROR_COUNT)] = residuals[k];
+            }
+        }
+        // Errors of the reference are given in the frame of the measured end pose. The Jacobian expects the frame of the expected end pose.
+        let heading_error = expected.between(&measured).theta();
+        let end_jacobian = jacobian * SE2::new(0.0, 0.0, heading_error).adjoint();
+        let reference_jacobians =
+            corrected.reference_jacobians(&measured).map(|pose_jacobian| end_jacobian * pose_jacobian);
+        Self {
+            residuals,
+            coefficients,
+            reading,
+            expected,
+            measured,
+            columns,
+            reference_jacobians,
+            noise_jacobian,
+            follows: leg.follows,
+        }
     }
 }
 

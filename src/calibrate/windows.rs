@@ -58,29 +58,16 @@ impl LegSet {
                 open_window = Some((first_leg, driven_distance, expected, wheel_covariance));
                 continue;
             }
-            let (measured, reference_covariance) = self.reference_motion(first_leg, leg, parameters);
+            let reference_poses = [self.legs[first_leg].reference[0], self.legs[leg].reference[1]];
+            let measured = self.systematic.motion(&Leg { reference: reference_poses, ..self.legs[leg] });
+            let [at_start, at_end] = self.systematic.reference_jacobians(&measured);
+            let pose_covariance = reference_covariance(parameters);
+            let reference_covariance = at_start * pose_covariance * at_start.transpose()
+                + at_end * pose_covariance * at_end.transpose();
             let error = measured.boxminus(&expected);
             windows.push(Window { length: driven_distance, error, wheel_covariance, reference_covariance });
         }
         windows
-    }
-
-    /// Returns the motion that the reference measured over several legs, and the covariance of its error in the frame of the last leg's
-    /// end.
-    fn reference_motion(
-        &self,
-        first_leg: usize,
-        last_leg: usize,
-        parameters: &Parameters,
-    ) -> (SE2, Matrix3<f64>) {
-        let [start_leg, end_leg] = [first_leg, last_leg].map(|leg| &self.legs[leg]);
-        let window = Leg { reference: [start_leg.reference[0], end_leg.reference[1]], ..*start_leg };
-        let measured = self.systematic.motion(&window);
-        let pose_covariance = reference_covariance(parameters);
-        let jacobians = self.systematic.reference_jacobians(&measured);
-        let covariance =
-            jacobians.map(|jacobian| jacobian * pose_covariance * jacobian.transpose()).iter().sum();
-        (measured, covariance)
     }
 
     /// Returns the covariance of the wheels' noise over one leg, in the frame of its end. None for an outlier, and for a leg whose residuals do not
@@ -153,17 +140,6 @@ fn coverage_range(count: usize, variance_std_error: f64) -> [f64; 2] {
     [0.95 - tolerance, (0.95 + tolerance).min(1.0)]
 }
 
-/// Returns the checks of windows, for the lengths with at least [`MIN_WINDOWS`] windows.
-fn window_checks(windows: &[WindowCoverage], variance_std_error: f64) -> Vec<Check> {
-    let check_names = [CheckName::Window1Covered, CheckName::Window2Covered, CheckName::Window5Covered];
-    let sufficient_windows =
-        windows.iter().zip(check_names).filter(|(window, _)| window.count >= MIN_WINDOWS);
-    let check_coverage = |(window, name): (&WindowCoverage, CheckName)| {
-        Check::new(name, window.coverage, coverage_range(window.count, variance_std_error))
-    };
-    sufficient_windows.map(check_coverage).collect()
-}
-
 /// Recommended α's, with the checks and windows of held-out data on which they are based.
 pub(super) struct CrossValidation {
     pub recommended: Option<Recommendation>,
@@ -182,7 +158,7 @@ pub(super) fn cross_validate(fit: &Fit, all_legs: &LegSet, alphas: &[Option<f64>
     let parameters_by_other_half = [parameters_of(&residuals[1]), parameters_of(&residuals[0])];
     let (mut covered_legs, mut compared_legs) = (0, 0);
     for (residuals, parameters) in residuals.iter().zip(&parameters_by_other_half) {
-        compared_legs += residuals.terms.len();
+        compared_legs += residuals.observations.len();
         covered_legs +=
             residuals.filtered(parameters).leg_fits().filter(|fit| fit.is_within(&CHI2_95)).count();
     }
@@ -205,7 +181,11 @@ pub(super) fn cross_validate(fit: &Fit, all_legs: &LegSet, alphas: &[Option<f64>
     let inflation = required_inflation(&windows[0]);
     let window_coverages: Vec<WindowCoverage> =
         windows.iter().zip(WINDOW_LENGTHS).map(|(windows, length)| coverage(windows, length, 1.0)).collect();
-    checks.extend(window_checks(&window_coverages, variance_std_error));
+    let check_names = [CheckName::Window1Covered, CheckName::Window2Covered, CheckName::Window5Covered];
+    let named_windows = check_names.into_iter().zip(&window_coverages);
+    checks.extend(named_windows.filter(|(_, window)| window.count >= MIN_WINDOWS).map(|(name, window)| {
+        Check::new(name, window.coverage, coverage_range(window.count, variance_std_error))
+    }));
     let recommendation = inflation.map(|inflation| Recommendation {
         alphas: alphas.iter().map(|alpha| alpha.map(|alpha| inflation * alpha)).collect(),
         inflation,
@@ -222,11 +202,6 @@ fn recommendation_reason(window: &WindowCoverage, inflation: f64) -> String {
         );
     }
     let coverage_percent = format_decimal(100.0 * coverage, 1);
-    if inflation == 1.0 {
-        return format!(
-            "The fit covers {coverage_percent} % of {count} held-out windows of ≥ 1 m; 95 % is expected."
-        );
-    }
     let [nees, inflation] = [nees, inflation].map(|number| format_decimal(number, 2));
     format!(
         "The fit covers {coverage_percent} % of {count} held-out windows of ≥ 1 m (squared error over predicted variance {nees}, expected 1). The fitted α's times {inflation} cover at least 95 %."

@@ -35,8 +35,8 @@ pub(super) struct Fit {
     pub lost: LostLegs,
 }
 
-/// Maximum number of legs that are fitted, in blocks spread over the log. With 5,000 legs the standard error of an α is about 3 %.
-const MAX_LEGS: usize = 5_000;
+/// Maximum number of legs that are fitted, in blocks spread over the log. With 6,000 legs the standard error of an α is about 3 %.
+const MAX_LEGS: usize = 6_000;
 const LEGS_PER_BLOCK: usize = 100;
 
 const MAX_ROUNDS: usize = 15;

@@ -10,7 +10,7 @@
 //! ℓ = −½ [ln|V| + ln|XᵀV⁻¹X| + rᵀV⁻¹r − rᵀV⁻¹X (XᵀV⁻¹X)⁻¹ XᵀV⁻¹r − (N − q) ln 2π],
 //!
 //! with N residuals and q errors. A Kalman filter with the state eᵢ gives ℓ: it turns residuals into innovations νᵢ, which are independent, with
-//! covariances Fᵢ. Derivatives of the innovations give the score and the Fisher information
+//! covariances Fᵢ. A backward pass gives the score (Koopman and Shephard 1992). Derivatives of the innovations give the Fisher information
 //! Σ ½ tr(F⁻¹ ∂ⱼF F⁻¹ ∂ₖF) + ∂ⱼνᵀ F⁻¹ ∂ₖν (Harvey 1989, 3.4).
 
 use super::residuals::{Model, Observation};
@@ -214,48 +214,78 @@ impl Residuals {
 
     /// Returns the expansion of the log-likelihood around parameters, from the result of the Kalman filter with these parameters.
     pub fn expansion(&self, parameters: &Parameters, filtered: FilterResult) -> Expansion {
-        let (scores, information) = self.derivatives(&filtered);
+        let (scores, information) = (self.scores(&filtered), self.information(&filtered));
         let (covariance, _) = masked_inverse(&information, &self.free);
         let score = scores.iter().sum();
         Expansion { parameters: *parameters, filtered, score, scores, information, covariance }
     }
 
-    /// Returns the score of each leg, and the Fisher information on the fitted parameters.
+    /// Returns the score of each leg: its part of −½ tr[(V⁻¹ − U M Uᵀ) ∂V], with U = V⁻¹ (X, r).
     ///
-    /// With ν the innovation of (X, r) and w = F⁻¹ν, the score is −½ tr[(F⁻¹ − w M wᵀ) ∂F] − tr(M wᵀ ∂ν). The estimated errors β and
-    /// their covariance C give M = (−β, 1)(−β, 1)ᵀ + C. The derivatives of a leg follow from those of the previous leg, which have a prime.
-    /// K' is the gain of the previous leg, T = A K', and G = A − T B'.
+    /// With the estimated errors β and their covariance C, M is (−β, 1)(−β, 1)ᵀ + C. A backward pass gives the blocks of U and V⁻¹
+    /// (disturbance smoother, Koopman and Shephard 1992). Blocks of the next leg have a prime, K is the gain, and T = A' K:
     ///
-    /// - ∂F = S + B ∂R Bᵀ with S = T S' Tᵀ + G ∂R Gᵀ + ∂D
-    /// - ∂ν = −T (∂ν' − S' w') − G ∂R B'ᵀ w'
-    fn derivatives(&self, filtered: &FilterResult) -> (Vec<Parameters>, Information) {
-        let FilterResult { innovations, errors, covariance: error_covariance, .. } = filtered;
+    /// - Uᵢ = F⁻¹ν − Tᵀ U'
+    /// - (V⁻¹)ᵢᵢ = F⁻¹ + Tᵀ (V⁻¹)' T, and (V⁻¹)ᵢ,ᵢ₊₁ = −Tᵀ (V⁻¹)'
+    fn scores(&self, FilterResult { innovations, errors, covariance, .. }: &FilterResult) -> Vec<Parameters> {
         let contrast = -errors.push(-1.0);
         let mut error_weights = contrast * contrast.transpose();
         let mut error_block = error_weights.fixed_view_mut::<ERROR_COUNT, ERROR_COUNT>(0, 0);
-        error_block += error_covariance;
+        error_block += covariance;
+        let mut scores = vec![Parameters::zeros(); self.observations.len()];
+        let (mut next_start, mut next_inverse) = (Matrix3::zeros(), Matrix3::zeros());
+        let mut next_smoothed = Columns::zeros();
+        let legs = self.observations.iter().zip(innovations).zip(&mut scores);
+        for ((leg, Innovation { columns, weight, gain, .. }), score) in legs.rev() {
+            let [start, end] = &leg.reference_jacobians;
+            let transition = product(&next_start, gain);
+            let smoothed = product(weight, columns) - product(&transition.transpose(), &next_smoothed);
+            let carried_inverse = product(&transition.transpose(), &next_inverse);
+            let inverse = weight + product(&carried_inverse, &transition);
+            let weighted = product(&smoothed, &error_weights);
+            let own_block = inverse - product(&weighted, &smoothed.transpose());
+            let next_block = carried_inverse + product(&weighted, &next_smoothed.transpose());
+            for (k, alphas) in self.model.component_alphas().into_iter().enumerate() {
+                for (alpha, coefficient) in alphas.into_iter().zip(leg.coefficients[k]) {
+                    score[alpha] -= 0.5 * coefficient * own_block[(k, k)];
+                }
+            }
+            let start_block = product(&own_block, start);
+            let end_block = product(&own_block, end) - 2.0 * product(&next_block, &next_start);
+            for (k, variance) in REFERENCE_VARIANCES.into_iter().enumerate() {
+                let start_part = start.column(k).dot(&start_block.column(k));
+                score[variance] -= 0.5 * (start_part + end.column(k).dot(&end_block.column(k)));
+            }
+            (next_start, next_smoothed, next_inverse) =
+                if leg.follows { (*start, smoothed, inverse) } else { Default::default() };
+        }
+        scores
+    }
+
+    /// Returns the Fisher information on the fitted parameters.
+    ///
+    /// The derivatives of a leg with respect to a parameter follow from those of the previous leg, which have a prime. K' is the gain of the
+    /// previous leg, T = A K', and G = A − T B'.
+    ///
+    /// - ∂F = S + B ∂R Bᵀ with S = T S' Tᵀ + G ∂R Gᵀ + ∂D
+    /// - ∂ν = −T (∂ν' − S' F'⁻¹ν') − G ∂R B'ᵀ F'⁻¹ν'
+    fn information(&self, FilterResult { innovations, errors, .. }: &FilterResult) -> Information {
         let units: [Parameters; PARAMETER_COUNT] = std::array::from_fn(|j| Parameters::ith(j, 1.0));
         let reference_derivatives = units.map(|unit| reference_covariance(&unit));
         let mut covariance_derivatives = [Matrix3::zeros(); PARAMETER_COUNT];
-        let mut innovation_derivatives = [Columns::zeros(); PARAMETER_COUNT];
+        let mut innovation_derivatives = [Vector3::zeros(); PARAMETER_COUNT];
         let (mut gain_before, mut end_before) = (Matrix3::zeros(), Matrix3::zeros());
-        let mut weighted_before = Columns::zeros();
-        let (mut scores, mut information) =
-            (vec![Parameters::zeros(); self.observations.len()], Information::zeros());
-        for ((leg, innovation), score) in self.observations.iter().zip(innovations).zip(&mut scores) {
+        let (mut weighted_before, mut information) = (Vector3::zeros(), Information::zeros());
+        for (leg, innovation) in self.observations.iter().zip(innovations) {
             let [start, end] = &leg.reference_jacobians;
             if !leg.follows {
                 (gain_before, end_before) = Default::default();
             }
             let weight = &innovation.weight;
-            let weighted = product(weight, &innovation.columns);
-            let score_columns = product(&weighted, &error_weights);
-            let score_block = weight - product(&score_columns, &weighted.transpose());
             let transition = product(start, &gain_before);
             let start_gain = start - product(&transition, &end_before);
             let end_weighted = product(&end_before.transpose(), &weighted_before);
             let mut relative_derivatives = [Matrix3::zeros(); PARAMETER_COUNT];
-            let mut residual_derivatives = [Vector3::zeros(); PARAMETER_COUNT];
             for j in (0..PARAMETER_COUNT).filter(|j| self.free[*j]) {
                 let (derivative, start_covariance) =
                     (&mut innovation_derivatives[j], &mut covariance_derivatives[j]);
@@ -273,20 +303,19 @@ impl Residuals {
                     *start_covariance += propagated(&start_gain, reference);
                     covariance = *start_covariance + propagated(end, reference);
                 }
-                score[j] = -0.5 * score_block.dot(&covariance) - score_columns.dot(derivative);
                 relative_derivatives[j] = product(weight, &covariance);
-                residual_derivatives[j] = product(derivative, &contrast);
-                let weighted_derivative = product(weight, &residual_derivatives[j]);
+                let weighted_derivative = product(weight, derivative);
                 let transposed = relative_derivatives[j].transpose();
                 for k in 0..=j {
                     information[(j, k)] += 0.5 * transposed.dot(&relative_derivatives[k])
-                        + weighted_derivative.dot(&residual_derivatives[k]);
+                        + weighted_derivative.dot(&innovation_derivatives[k]);
                 }
             }
-            (gain_before, end_before, weighted_before) = (innovation.gain, *end, weighted);
+            weighted_before = product(weight, &innovation.without(errors));
+            (gain_before, end_before) = (innovation.gain, *end);
         }
         information.fill_upper_triangle_with_lower_triangle();
-        (scores, information)
+        information
     }
 }
 

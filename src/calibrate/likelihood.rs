@@ -112,17 +112,17 @@ pub(super) fn innovations<'a>(
             (mean, prior) = (Columns::zeros(), reference_covariance);
         }
         let columns = leg.columns - product(start, &mean);
-        let scaled_end = product(end, &reference_covariance);
-        let mut covariance = propagated(start, &prior) + product(&scaled_end, &end.transpose());
+        let scaled_end = square_product(end, &reference_covariance);
+        let mut covariance = propagated(start, &prior) + square_product(&scaled_end, &end.transpose());
         let wheels = model.wheel_variances(&leg.coefficients, parameters);
         let is_unobserved = leg.residuals.map(f64::is_nan);
         for k in 0..3 {
             covariance[(k, k)] += wheels[k] + if is_unobserved[k] { 1.0 } else { MIN_STD * MIN_STD };
         }
         let weight = covariance.try_inverse().unwrap_or_default();
-        let gain = product(&scaled_end.transpose(), &weight);
+        let gain = square_product(&scaled_end.transpose(), &weight);
         mean = product(&gain, &columns);
-        prior = reference_covariance - product(&gain, &scaled_end);
+        prior = reference_covariance - square_product(&gain, &scaled_end);
         let variances = std::array::from_fn(|k| if is_unobserved[k] { f64::NAN } else { covariance[(k, k)] });
         Innovation { columns, variances, weight, gain, determinant: covariance.determinant() }
     })
@@ -238,10 +238,10 @@ impl Residuals {
         let legs = self.observations.iter().zip(innovations).zip(&mut scores);
         for ((leg, Innovation { columns, weight, gain, .. }), score) in legs.rev() {
             let [start, end] = &leg.reference_jacobians;
-            let transition = product(&next_start, gain);
+            let transition = square_product(&next_start, gain);
             let smoothed = product(weight, columns) - product(&transition.transpose(), &next_smoothed);
-            let carried_inverse = product(&transition.transpose(), &next_inverse);
-            let inverse = weight + product(&carried_inverse, &transition);
+            let carried_inverse = square_product(&transition.transpose(), &next_inverse);
+            let inverse = weight + square_product(&carried_inverse, &transition);
             let weighted = product(&smoothed, &error_weights);
             let own_block = inverse - product(&weighted, &smoothed.transpose());
             let next_block = carried_inverse + product(&weighted, &next_smoothed.transpose());
@@ -250,8 +250,8 @@ impl Residuals {
                     score[alpha] -= 0.5 * coefficient * own_block[(k, k)];
                 }
             }
-            let start_block = product(&own_block, start);
-            let end_block = product(&own_block, end) - 2.0 * product(&next_block, &next_start);
+            let start_block = square_product(&own_block, start);
+            let end_block = square_product(&own_block, end) - 2.0 * square_product(&next_block, &next_start);
             for (k, variance) in REFERENCE_VARIANCES.into_iter().enumerate() {
                 let start_part = start.column(k).dot(&start_block.column(k));
                 score[variance] -= 0.5 * (start_part + end.column(k).dot(&end_block.column(k)));
@@ -282,8 +282,8 @@ impl Residuals {
                 (gain_before, end_before) = Default::default();
             }
             let weight = &innovation.weight;
-            let transition = product(start, &gain_before);
-            let start_gain = start - product(&transition, &end_before);
+            let transition = square_product(start, &gain_before);
+            let start_gain = start - square_product(&transition, &end_before);
             let end_weighted = product(&end_before.transpose(), &weighted_before);
             let mut relative_derivatives = [Matrix3::zeros(); PARAMETER_COUNT];
             for j in (0..PARAMETER_COUNT).filter(|j| self.free[*j]) {
@@ -299,11 +299,11 @@ impl Residuals {
                 let mut covariance = *start_covariance;
                 if j >= MAX_ALPHAS {
                     let reference = &reference_derivatives[j];
-                    *derivative -= product(&product(&start_gain, reference), &end_weighted);
+                    *derivative -= product(&square_product(&start_gain, reference), &end_weighted);
                     *start_covariance += propagated(&start_gain, reference);
                     covariance = *start_covariance + propagated(end, reference);
                 }
-                relative_derivatives[j] = product(weight, &covariance);
+                relative_derivatives[j] = square_product(weight, &covariance);
                 let weighted_derivative = product(weight, derivative);
                 let transposed = relative_derivatives[j].transpose();
                 for k in 0..=j {
@@ -358,8 +358,16 @@ fn product<const N: usize, const K: usize>(
     product
 }
 
+/// Returns the product of two square matrices.
+// The function is not inlined, because several copies would make the module larger.
+#[inline(never)]
+fn square_product(left: &Matrix3<f64>, right: &Matrix3<f64>) -> Matrix3<f64> {
+    product(left, right)
+}
+
 /// Returns the covariance J C Jᵀ of a linear function with the Jacobian J.
-#[inline(always)]
+// The function is not inlined, because several copies would make the module larger.
+#[inline(never)]
 fn propagated(jacobian: &Matrix3<f64>, covariance: &Matrix3<f64>) -> Matrix3<f64> {
     product(&product(jacobian, covariance), &jacobian.transpose())
 }

@@ -32,6 +32,9 @@ pub(super) struct Fit {
     pub sample: LegSet,
     pub residuals: Residuals,
     pub maximum: Expansion,
+    /// All legs, at the clock offset before the fit.
+    uncorrected_legs: Vec<Leg>,
+    uncorrected_offset: f64,
     pub lost: LostLegs,
 }
 
@@ -172,9 +175,9 @@ impl<'a> Log<'a> {
 }
 
 /// Returns all legs, or evenly spread blocks of neighbouring legs if there are more than [`MAX_LEGS`].
-fn with_max_legs(legs: Vec<Leg>) -> Vec<Leg> {
+fn with_max_legs(legs: &[Leg]) -> Vec<Leg> {
     if legs.len() <= MAX_LEGS {
-        return legs;
+        return legs.to_vec();
     }
     let block_count = MAX_LEGS / LEGS_PER_BLOCK;
     let blocks = (0..block_count).map(|block| block * (legs.len() - LEGS_PER_BLOCK) / (block_count - 1));
@@ -196,8 +199,9 @@ pub(super) fn fit(
     start: Option<(Systematic, Parameters)>,
 ) -> Result<Fit, CalibrateError> {
     let (start_errors, mut parameters) = start.unzip();
-    let (legs, lost) = log.legs(options, start_errors.unwrap_or(log.initial_errors()).clock_offset)?;
-    let legs = with_max_legs(legs);
+    let uncorrected_offset = start_errors.unwrap_or(log.initial_errors()).clock_offset;
+    let (uncorrected_legs, lost) = log.legs(options, uncorrected_offset)?;
+    let legs = with_max_legs(&uncorrected_legs);
     let systematic = start_errors.unwrap_or_else(|| Systematic {
         mount_yaw: Systematic::initial_mount_yaw(&legs),
         ..log.initial_errors()
@@ -219,7 +223,7 @@ pub(super) fn fit(
         let (corrected, is_small_change) = sample.corrected_errors(&maximum);
         if !has_new_outliers && round > 1 && is_small_change || round == MAX_ROUNDS {
             let maximum = maximize(&residuals, maximum, EXACT_GAIN);
-            return Ok(Fit { sample, residuals, maximum, lost });
+            return Ok(Fit { sample, residuals, maximum, uncorrected_legs, uncorrected_offset, lost });
         }
         log.realign(&mut sample.legs, corrected.clock_offset - sample.systematic.clock_offset);
         sample.systematic = corrected;
@@ -230,15 +234,16 @@ pub(super) fn fit(
 
 impl Fit {
     /// Returns all legs with their residuals. The sample that was fitted has only some of the legs if there are many.
-    pub fn all_legs(&self, log: &Log) -> Result<LegSet, CalibrateError> {
+    pub fn all_legs(&self, log: &Log) -> LegSet {
         let Self { sample, maximum, .. } = self;
-        if sample.legs.len() < MAX_LEGS {
-            return Ok(sample.clone());
+        if self.uncorrected_legs.len() == sample.legs.len() {
+            return sample.clone();
         }
-        let (legs, _) = log.legs(&sample.options, sample.systematic.clock_offset)?;
+        let mut legs = self.uncorrected_legs.clone();
+        log.realign(&mut legs, sample.systematic.clock_offset - self.uncorrected_offset);
         let mut all_legs = LegSet::new(legs, &sample.systematic, sample.estimated, &sample.options);
         all_legs.update_observations(maximum.parameters[POSITION_VARIANCE].sqrt());
         all_legs.mark_outliers(&maximum.parameters, &maximum.filtered.errors, 1);
-        Ok(all_legs)
+        all_legs
     }
 }

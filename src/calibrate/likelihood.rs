@@ -112,17 +112,18 @@ pub(super) fn innovations<'a>(
             (mean, prior) = (Columns::zeros(), reference_covariance);
         }
         let columns = leg.columns - product(start, &mean);
-        let scaled_end = square_product(end, &reference_covariance);
-        let mut covariance = propagated(start, &prior) + square_product(&scaled_end, &end.transpose());
+        let scaled_end = product(end, &reference_covariance);
+        let mut covariance =
+            product(&product(start, &prior), &start.transpose()) + product(&scaled_end, &end.transpose());
         let wheels = model.wheel_variances(&leg.coefficients, parameters);
         let is_unobserved = leg.residuals.map(f64::is_nan);
         for k in 0..3 {
             covariance[(k, k)] += wheels[k] + if is_unobserved[k] { 1.0 } else { MIN_STD * MIN_STD };
         }
         let weight = covariance.try_inverse().unwrap_or_default();
-        let gain = square_product(&scaled_end.transpose(), &weight);
+        let gain = product(&scaled_end.transpose(), &weight);
         mean = product(&gain, &columns);
-        prior = reference_covariance - square_product(&gain, &scaled_end);
+        prior = reference_covariance - product(&gain, &scaled_end);
         let variances = std::array::from_fn(|k| if is_unobserved[k] { f64::NAN } else { covariance[(k, k)] });
         Innovation { columns, variances, weight, gain, determinant: covariance.determinant() }
     })
@@ -188,11 +189,20 @@ impl Residuals {
         let observations = Box::new(self.observations.iter().map(|leg| (leg, leg.follows)));
         let innovations: Vec<Innovation> = innovations(self.model, parameters, observations).collect();
         let (mut log_det, mut gram) = (0.0, SMatrix::<f64, COLUMN_COUNT, COLUMN_COUNT>::zeros());
+        // Determinants are multiplied, because one logarithm is cheaper than many.
+        let mut det = 1.0;
         for Innovation { columns, weight, determinant, .. } in &innovations {
-            // If variances differ by many orders of magnitude, rounding can make the covariance indefinite.
-            log_det += if *determinant > 0.0 { libm::log(*determinant) } else { f64::INFINITY };
+            det *= determinant;
+            if *determinant <= 0.0 {
+                // If variances differ by many orders of magnitude, rounding can make the covariance indefinite.
+                log_det = f64::INFINITY;
+            } else if !(1e-200..1e200).contains(&det) {
+                log_det += libm::log(det);
+                det = 1.0;
+            }
             gram += columns.tr_mul(&product(weight, columns));
         }
+        log_det += libm::log(det.abs());
         let information: ErrorMatrix = gram.fixed_view::<ERROR_COUNT, ERROR_COUNT>(0, 0).into_owned();
         let (covariance, log_det_information) = masked_inverse(&information, &self.estimated);
         let weighted_residual: ErrorVector = gram.fixed_view::<ERROR_COUNT, 1>(0, ERROR_COUNT).into_owned();

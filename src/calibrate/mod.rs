@@ -133,7 +133,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         // Errors that are left uncorrected act as noise, which can make another error unidentifiable.
         (corrected, is_corrected) = (fit.sample.systematic, fit.sample.estimated);
     }
-    let all_legs = fit.all_legs(&log)?;
+    let all_legs = fit.all_legs(&log);
     let parameters = &fit.maximum.parameters;
     let not_identifiable = identifiability(&fit);
     let interval_of = intervals(&fit, correlation);

@@ -2,7 +2,7 @@
 
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join, posix } from 'node:path';
-import { Marked } from 'marked';
+import { Lexer, Marked } from 'marked';
 import { settings } from '../build/settings.js';
 import { REPOSITORY_ROOT } from './process.mjs';
 import { escapeHtml, insertTables } from './tables.mjs';
@@ -58,6 +58,12 @@ function linkAddressOf(/** @type {string} */ codeText) {
   return `embed.html?${new URLSearchParams([['widget', widgetTag], ...attributePairs])}`;
 }
 
+/** Returns a button that sets the state of a figure, from a line with the button's label and the state. @param {string} line @param {(label: string) => string} renderInline */
+function tryButtonHtmlOf(line, renderInline) {
+  const [, label, state] = /** @type {RegExpExecArray} */ (/^(.+) (\{.*\})$/.exec(line));
+  return `<button data-try="${escapeHtml(state)}">${renderInline(label)}</button>`;
+}
+
 /** Returns the page of a document. @param {string} documentPath @param {Record<string, string>} pagePaths @param {boolean} hasNavigation */
 function renderPage(documentPath, pagePaths, hasNavigation) {
   const pagePath = pagePaths[documentPath];
@@ -89,6 +95,7 @@ function renderPage(documentPath, pagePaths, hasNavigation) {
         return siteAddress ? `<a href="${linkTo(escapeHtml(siteAddress))}">${codeHtml}</a>` : codeHtml;
       },
       code({ text, lang }) {
+        if (lang === 'try') return `<p>${text.split('\n').map((line) => tryButtonHtmlOf(line, (label) => this.parser.parseInline(Lexer.lexInline(label)))).join('\n')}</p>\n`;
         const liveFigures = lang === 'html' ? (text.match(FIGURE_PATTERN) ?? []).filter((figureHtml) => !figureHtml.includes('[') && !shownFigures.has(figureHtml)) : [];
         for (const figureHtml of liveFigures) shownFigures.add(figureHtml);
         return `<pre><code>${escapeHtml(text)}</code></pre>\n${liveFigures.join('\n')}\n`;

@@ -96,8 +96,8 @@ impl NoiseKind {
             // The series up to b⁴ is used for small b. Its next term is then smaller than the rounding error of 1 − sinc².
             Self::Triangular if b2 < 1e-5 => b2 * (1.0 - 0.8 * b2),
             Self::Triangular => {
-                let cosine = sinc(SQRT_6 * b2.sqrt());
-                0.5 * (1.0 - cosine * cosine)
+                let sinc_of_deviation = sinc(SQRT_6 * b2.sqrt());
+                0.5 * (1.0 - sinc_of_deviation * sinc_of_deviation)
             }
         }
     }
@@ -127,8 +127,8 @@ impl NoiseKind {
 }
 
 /// Returns the product of independent densities. The product is 0 if one density is 0, even if another density has overflowed to infinity.
-pub(crate) fn product_or_zero<const N: usize>(densities: [f64; N]) -> f64 {
-    if densities.contains(&0.0) { 0.0 } else { densities.into_iter().product() }
+pub(crate) fn product_or_zero<const N: usize>(density_factors: [f64; N]) -> f64 {
+    if density_factors.contains(&0.0) { 0.0 } else { density_factors.into_iter().product() }
 }
 
 /// Returns the density at the angle `a` of noise of variance `b2` wrapped around the circle: Σₖ prob(a + 2πk), per

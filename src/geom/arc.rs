@@ -12,11 +12,11 @@ use std::f64::consts::{PI, TAU};
 use std::ops::{Add, Mul};
 use wide::f64x4;
 
-/// Returns the end (x, y) of an arc of signed length `length` (m) that turns by `turn` (rad), in the frame of its start: x forward, y left.
+/// Returns the end (x, y) of an arc of signed length `arc_length` (m) that turns by `arc_turn` (rad), in the frame of its start: x forward, y left.
 /// The end is (s·sin φ/φ, s·(1 − cos φ)/φ), with (1 − cos φ)/φ = sin(φ/2)·sinc(φ/2).
-pub fn arc_end(length: f64, turn: f64) -> (f64, f64) {
-    let (forward_offset, left_offset) = unit_arc_end(turn);
-    (length * forward_offset, length * left_offset)
+pub fn arc_end(arc_length: f64, arc_turn: f64) -> (f64, f64) {
+    let (forward_offset, left_offset) = unit_arc_end(arc_turn);
+    (arc_length * forward_offset, arc_length * left_offset)
 }
 
 /// Controls that explain the motion between two poses: an arc at (v̂, ω̂), then a final rotation at the rate γ̂.
@@ -73,11 +73,11 @@ pub fn invert_arc(x: &SE2, x_next: &SE2, dt: f64) -> ArcInversion {
     }
     let drive_sign = if relative_pose.x() < 0.0 { -1.0 } else { 1.0 };
     let bearing = libm::atan2(drive_sign * relative_pose.y(), drive_sign * relative_pose.x());
-    let turn = 2.0 * bearing;
+    let arc_turn = 2.0 * bearing;
     ArcInversion {
         v_hat: drive_sign * end_distance / sinc(bearing) / dt,
-        omega_hat: turn / dt,
-        gamma_hat: wrap_angle(relative_pose.theta() - turn) / dt,
+        omega_hat: arc_turn / dt,
+        gamma_hat: wrap_angle(relative_pose.theta() - arc_turn) / dt,
     }
 }
 
@@ -87,13 +87,13 @@ pub fn invert_arc(x: &SE2, x_next: &SE2, dt: f64) -> ArcInversion {
 /// All such arcs lie on one circle, where the length driven is proportional to the turn. Without displacement the length
 /// is 0; along a straight line, which closes no circle, the turn is 0.
 pub fn arc_with_turn_near(x: &SE2, x_next: &SE2, near_turn: f64) -> (f64, f64) {
-    let ArcInversion { v_hat: length, omega_hat: turn, .. } = invert_arc(x, x_next, 1.0);
-    let full_circle_count = ((near_turn - turn) / TAU).round();
-    if full_circle_count == 0.0 || turn == 0.0 {
-        return (length, turn);
+    let ArcInversion { v_hat: arc_length, omega_hat: arc_turn, .. } = invert_arc(x, x_next, 1.0);
+    let full_circle_count = ((near_turn - arc_turn) / TAU).round();
+    if full_circle_count == 0.0 || arc_turn == 0.0 {
+        return (arc_length, arc_turn);
     }
-    let total_turn = turn + full_circle_count * TAU;
-    (length * (total_turn / turn), total_turn)
+    let total_turn = arc_turn + full_circle_count * TAU;
+    (arc_length * (total_turn / arc_turn), total_turn)
 }
 
 /// Path of a point that leaves `start` along its heading and drives the signed `length` (m) while it turns by `turn` (rad, any size).
@@ -124,9 +124,9 @@ impl Arc {
             .collect()
     }
 
-    /// Returns the first part of the arc, whose length is `fraction` of the length of the arc.
-    pub(crate) fn leading_part(&self, fraction: f64) -> Self {
-        Self { length: self.length * fraction, turn: self.turn * fraction, ..*self }
+    /// Returns the first part of the arc, whose length is `length_fraction` of the length of the arc.
+    pub(crate) fn leading_part(&self, length_fraction: f64) -> Self {
+        Self { length: self.length * length_fraction, turn: self.turn * length_fraction, ..*self }
     }
 
     pub(crate) fn local_arc(&self) -> LocalArc {
@@ -137,14 +137,14 @@ impl Arc {
         let turn = self.turn * drive_sign;
         let turn_sign = if turn < 0.0 { -1.0 } else { 1.0 };
         let turn = turn.abs();
-        let curvature = if length > MIN_ARC_LENGTH && turn > MIN_ARC_TURN { turn / length } else { 0.0 };
+        let arc_curvature = if length > MIN_ARC_LENGTH && turn > MIN_ARC_TURN { turn / length } else { 0.0 };
         LocalArc {
             origin: self.start.position(),
             forward: [drive_sign * cos, drive_sign * sin],
             left: [-turn_sign * sin, turn_sign * cos],
             length,
             turn,
-            curvature,
+            curvature: arc_curvature,
             end: arc_end(length, turn).into(),
         }
     }
@@ -196,24 +196,24 @@ impl PreparedPose {
     #[inline(always)]
     pub fn drive_four(
         &self,
-        trigonometry: &Trigonometry,
-        length: f64x4,
+        turn_trigonometry: &Trigonometry,
+        arc_length: f64x4,
         turn: f64x4,
     ) -> impl Fn(usize) -> DrivenArc {
         // The end of an arc is on the bearing φ/2, at the distance of the length of its chord.
-        let SinCos { sinc, sin, cos } = trigonometry.sin_cos(turn * 0.5);
-        let chord_length = length * sinc;
-        let (forward, left) = (chord_length * cos, chord_length * sin);
-        let x = (forward * self.cos - left * self.sin) + self.pose.x();
-        let y = (forward * self.sin + left * self.cos) + self.pose.y();
-        let [length, turn, sinc, x, y] = [length, turn, sinc, x, y].map(f64x4::to_array);
+        let SinCos { sinc, sin, cos } = turn_trigonometry.sin_cos(turn * 0.5);
+        let chord_length = arc_length * sinc;
+        let (forward_offset, left_offset) = (chord_length * cos, chord_length * sin);
+        let x = (forward_offset * self.cos - left_offset * self.sin) + self.pose.x();
+        let y = (forward_offset * self.sin + left_offset * self.cos) + self.pose.y();
+        let [arc_length, turn, sinc, x, y] = [arc_length, turn, sinc, x, y].map(f64x4::to_array);
         let start_pose = *self;
-        move |i| start_pose.create_driven_arc(length[i], turn[i], sinc[i], [x[i], y[i]])
+        move |i| start_pose.create_driven_arc(arc_length[i], turn[i], sinc[i], [x[i], y[i]])
     }
 
-    fn create_driven_arc(&self, length: f64, turn: f64, chord_ratio: f64, end: [f64; 2]) -> DrivenArc {
+    fn create_driven_arc(&self, arc_length: f64, turn: f64, chord_ratio: f64, end: [f64; 2]) -> DrivenArc {
         let heading = wrap_angle(self.pose.theta() + wrap_angle(turn));
-        DrivenArc { arc: Arc { start: self.pose, length, turn }, end, heading, chord_ratio }
+        DrivenArc { arc: Arc { start: self.pose, length: arc_length, turn }, end, heading, chord_ratio }
     }
 }
 
@@ -221,19 +221,20 @@ impl DrivenArc {
     /// Returns the arc as one or two pieces of up to half a turn. The part of the arc after a full turn is omitted, because it covers the
     /// same circle again.
     pub fn split_into_pieces(&self) -> impl Iterator<Item = ArcPiece> {
-        let Arc { start, length, turn } = self.arc;
+        let Arc { start, length: arc_length, turn: arc_turn } = self.arc;
         let start_point = start.position();
-        if turn.abs() <= PI {
-            let arc_piece = ArcPiece::new(start_point, self.end, length.abs(), turn, self.chord_ratio);
+        if arc_turn.abs() <= PI {
+            let arc_piece =
+                ArcPiece::new(start_point, self.end, arc_length.abs(), arc_turn, self.chord_ratio);
             return [Some(arc_piece), None].into_iter().flatten();
         }
-        let piece_fraction = 0.5 * (TAU / turn.abs()).min(1.0);
-        let (length, turn) = (piece_fraction * length, piece_fraction * turn);
+        let piece_fraction = 0.5 * (TAU / arc_turn.abs()).min(1.0);
+        let (arc_length, arc_turn) = (piece_fraction * arc_length, piece_fraction * arc_turn);
         let DrivenArc { end: middle_position, chord_ratio, .. } =
-            PreparedPose::new(start).drive(length, turn);
+            PreparedPose::new(start).drive(arc_length, arc_turn);
         let end_point = if piece_fraction < 0.5 { start_point } else { self.end };
         [(start_point, middle_position), (middle_position, end_point)]
-            .map(|(start, end)| Some(ArcPiece::new(start, end, length.abs(), turn, chord_ratio)))
+            .map(|(start, end)| Some(ArcPiece::new(start, end, arc_length.abs(), arc_turn, chord_ratio)))
             .into_iter()
             .flatten()
     }
@@ -274,21 +275,21 @@ pub(crate) struct ArcPiece {
 impl ArcPiece {
     /// Creates the piece between two points. `length` (m) is positive, `turn` is in rad, and `chord_ratio` is sinc(φ/2).
     fn new(start: [f64; 2], end: [f64; 2], length: f64, turn: f64, chord_ratio: f64) -> Self {
-        let (inverse_chord, curvature) =
+        let (inverse_chord, arc_curvature) =
             if length > MIN_ARC_LENGTH { (1.0 / (length * chord_ratio), turn / length) } else { (0.0, 0.0) };
-        let tangent = [(end[0] - start[0]) * inverse_chord, (end[1] - start[1]) * inverse_chord];
+        let chord_direction = [(end[0] - start[0]) * inverse_chord, (end[1] - start[1]) * inverse_chord];
         let half_length = 0.5 * length;
         let uncorrected_piece = Self {
             middle_point: [0.5 * (start[0] + end[0]), 0.5 * (start[1] + end[1])],
-            travel_direction: tangent,
-            curvature,
+            travel_direction: chord_direction,
+            curvature: arc_curvature,
             half_length,
             max_error: 0.0,
         };
         let [_, sagitta]: [f64; 2] = uncorrected_piece.local_point(half_length);
         let middle_point = [
-            uncorrected_piece.middle_point[0] + sagitta * tangent[1],
-            uncorrected_piece.middle_point[1] - sagitta * tangent[0],
+            uncorrected_piece.middle_point[0] + sagitta * chord_direction[1],
+            uncorrected_piece.middle_point[1] - sagitta * chord_direction[0],
         ];
         let half_turn_squared = 0.25 * turn * turn;
         Self {

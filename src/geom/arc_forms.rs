@@ -39,11 +39,13 @@ js_structs! {
 
 /// Returns the errors of the three formulas, relative to the same motion in double-double arithmetic.
 pub fn form_errors() -> FormErrors {
-    let [first_index, end_index] = FIRST_AND_LAST_DECADE.map(|exponent| exponent * POINTS_PER_DECADE);
+    let [first_index, end_index] =
+        FIRST_AND_LAST_DECADE.map(|decade_exponent| decade_exponent * POINTS_PER_DECADE);
     let omega: Vec<f64> =
         (first_index..=end_index).map(|i| libm::exp10(f64::from(i) / f64::from(POINTS_PER_DECADE))).collect();
     let rms_errors: Vec<[f64; 3]> = omega.iter().map(|omega| rms_errors_at(*omega)).collect();
-    let errors_of_form = |column: usize| rms_errors.iter().map(|form_errors| form_errors[column]).collect();
+    let errors_of_form =
+        |form_index: usize| rms_errors.iter().map(|form_errors| form_errors[form_index]).collect();
     FormErrors {
         arc: errors_of_form(0),
         straight: errors_of_form(1),
@@ -63,8 +65,8 @@ fn rms_errors_at(omega: f64) -> [f64; 3] {
         let form_ends =
             [end_by_arc(heading, omega), end_by_straight_line(heading), end_by_chord(heading, omega)];
         for (squared_error, form_end) in squared_errors.iter_mut().zip(form_ends) {
-            for (coordinate, exact_coordinate) in form_end.into_iter().zip(true_end) {
-                let coordinate_error = (DoubleDouble::from(coordinate) - exact_coordinate).to_f64();
+            for (form_coordinate, exact_coordinate) in form_end.into_iter().zip(true_end) {
+                let coordinate_error = (DoubleDouble::from(form_coordinate) - exact_coordinate).to_f64();
                 *squared_error += coordinate_error * coordinate_error;
             }
         }
@@ -168,8 +170,8 @@ impl Div for DoubleDouble {
     /// Returns the quotient, with a relative error of at most 2⁻¹⁰⁴: the quotient of doubles, corrected by its remainder.
     fn div(self, divisor: Self) -> Self {
         let quotient = self.high / divisor.high;
-        let remainder = self - divisor * Self::from(quotient);
-        quick_two_sum(quotient, remainder.high / divisor.high)
+        let division_remainder = self - divisor * Self::from(quotient);
+        quick_two_sum(quotient, division_remainder.high / divisor.high)
     }
 }
 
@@ -210,8 +212,8 @@ impl DoubleDouble {
         let mut sine_sum = a * sine_sum;
         let mut versine_sum = angle_squared * versine_sum / Self::from(2.0);
         for _ in 0..HALVING_COUNT {
-            let cosine = Self::from(1.0) - versine_sum;
-            let (half_sine, half_versine) = (sine_sum * cosine, sine_sum * sine_sum);
+            let small_cosine = Self::from(1.0) - versine_sum;
+            let (half_sine, half_versine) = (sine_sum * small_cosine, sine_sum * sine_sum);
             (sine_sum, versine_sum) = (half_sine + half_sine, half_versine + half_versine);
         }
         (sine_sum, Self::from(1.0) - versine_sum)

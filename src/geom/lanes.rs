@@ -65,8 +65,9 @@ impl Trigonometry {
         let reduced_sin_cos = self.sin_cos_small_angle(subtract_half_circles(x, half_circles));
         // Parity of `half_circles`: 0 if it is even, ±1 if it is odd. Adding and subtracting twice [`ROUND_TO_INTEGER`] rounds to the
         // nearest even number.
-        let parity = half_circles - (half_circles + 2.0 * ROUND_TO_INTEGER - 2.0 * ROUND_TO_INTEGER);
-        let parity_sign = f64x4::splat(1.0) - 2.0 * parity.abs();
+        let half_circle_parity =
+            half_circles - (half_circles + 2.0 * ROUND_TO_INTEGER - 2.0 * ROUND_TO_INTEGER);
+        let parity_sign = f64x4::splat(1.0) - 2.0 * half_circle_parity.abs();
         let (sin, cos) = (reduced_sin_cos.sin * parity_sign, reduced_sin_cos.cos * parity_sign);
         let sinc = half_circles.simd_eq(f64x4::splat(0.0)).bitselect(reduced_sin_cos.sinc, sin / x);
         SinCos { sinc, sin, cos }
@@ -104,8 +105,8 @@ impl Trigonometry {
 }
 
 #[inline(always)]
-fn is_any_lane_beyond(x: f64x4, limit: f64) -> bool {
-    is_any_lane_set(x.abs().simd_gt(f64x4::splat(limit)))
+fn is_any_lane_beyond(x: f64x4, magnitude_limit: f64) -> bool {
+    is_any_lane_set(x.abs().simd_gt(f64x4::splat(magnitude_limit)))
 }
 
 #[inline(always)]
@@ -137,7 +138,7 @@ pub(crate) fn ln(x: f64x4) -> f64x4 {
     const TWO_52: f64 = 4_503_599_627_370_496.0;
     let shifted_bits = x.to_bits() + u64x4::splat(BITS_OF_ONE - HALF_SQRT_2);
     let biased_exponent = f64x4::from_bits((shifted_bits >> 52) | u64x4::splat(TWO_52.to_bits()));
-    let exponent = biased_exponent - (TWO_52 + 1023.0);
+    let binary_exponent = biased_exponent - (TWO_52 + 1023.0);
     let f = f64x4::from_bits((shifted_bits & u64x4::splat((1 << 52) - 1)) + u64x4::splat(HALF_SQRT_2)) - 1.0;
     let half_f_squared = 0.5 * f * f;
     let s = f / (2.0 + f);
@@ -147,9 +148,9 @@ pub(crate) fn ln(x: f64x4) -> f64x4 {
     let odd_terms = z
         * (LOG_COEFFICIENTS[0]
             + w * (LOG_COEFFICIENTS[2] + w * (LOG_COEFFICIENTS[4] + w * LOG_COEFFICIENTS[6])));
-    s * (half_f_squared + (odd_terms + even_terms)) + exponent * LN_2_PARTS[1] - half_f_squared
+    s * (half_f_squared + (odd_terms + even_terms)) + binary_exponent * LN_2_PARTS[1] - half_f_squared
         + f
-        + exponent * LN_2_PARTS[0]
+        + binary_exponent * LN_2_PARTS[0]
 }
 
 /// ln 2 as the sum of two parts. The second part has the digits that the first part lacks.

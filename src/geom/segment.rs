@@ -64,14 +64,14 @@ impl Segment {
         let direction = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
         let direction_length = libm::hypot(direction[0], direction[1]);
         // The point of the arc that is furthest from the line is where the arc is parallel to the line.
-        let bearing = libm::atan2(direction[1], direction[0]) - arc.start.theta();
-        let parallel_turn = libm::remainder(bearing * arc.turn.signum(), PI);
+        let segment_bearing = libm::atan2(direction[1], direction[0]) - arc.start.theta();
+        let parallel_turn = libm::remainder(segment_bearing * arc.turn.signum(), PI);
         let first_parallel_turn = if parallel_turn < 0.0 { parallel_turn + PI } else { parallel_turn };
         [first_parallel_turn, first_parallel_turn + PI]
             .into_iter()
             .map(|parallel_turn| parallel_turn / arc.turn.abs())
             .filter(|arc_fraction| *arc_fraction < 1.0)
-            .map(|fraction| arc.leading_part(fraction).end())
+            .map(|arc_fraction| arc.leading_part(arc_fraction).end())
             .map(|pose| {
                 ((pose.x() - self.from[0]) * direction[1] - (pose.y() - self.from[1]) * direction[0])
                     / direction_length
@@ -81,19 +81,20 @@ impl Segment {
 
     /// Returns true if this segment, in the frame of the arc, has a point in common with the arc.
     fn crosses_arc(&self, arc: &LocalArc) -> bool {
-        let Self { from, to } = *self;
-        let direction = [to[0] - from[0], to[1] - from[1]];
+        let Self { from, to: end_point } = *self;
+        let direction = [end_point[0] - from[0], end_point[1] - from[1]];
         // The crossings of the segment with the circle solve a quadratic equation in the position along the segment.
         let a = 0.5 * arc.curvature * dot_product(direction, direction);
         let b = arc.curvature * dot_product(from, direction) - direction[1];
         let c = arc.circle_equation_value(from);
         // The discriminant b² − 4ac is rearranged to avoid cancellation if the segment is much longer than the radius.
         let line_offset = arc.curvature * (from[0] * direction[1] - from[1] * direction[0]);
-        let discriminant = direction[1] * direction[1] - line_offset * (line_offset + 2.0 * direction[0]);
-        if discriminant < 0.0 {
+        let quadratic_discriminant =
+            direction[1] * direction[1] - line_offset * (line_offset + 2.0 * direction[0]);
+        if quadratic_discriminant < 0.0 {
             return false;
         }
-        let q = -0.5 * (b + discriminant.sqrt().copysign(b));
+        let q = -0.5 * (b + quadratic_discriminant.sqrt().copysign(b));
         [q / a, c / q].into_iter().any(|t| {
             (0.0..=1.0).contains(&t)
                 && arc.contains_nearest_circle_point([from[0] + t * direction[0], from[1] + t * direction[1]])
@@ -102,12 +103,12 @@ impl Segment {
 
     /// Returns the distance between an arc and this segment, which is in the frame of the arc and does not cross it.
     fn distance_without_crossing(&self, arc: &LocalArc) -> f64 {
-        let Self { from, to } = *self;
-        let direction = [to[0] - from[0], to[1] - from[1]];
+        let Self { from, to: end_point } = *self;
+        let direction = [end_point[0] - from[0], end_point[1] - from[1]];
         let squared_length = dot_product(direction, direction);
         let mut min_distance = [
             arc.distance_to_point(from),
-            arc.distance_to_point(to),
+            arc.distance_to_point(end_point),
             self.distance_to_point([0.0, 0.0]),
             self.distance_to_point(arc.end),
         ]

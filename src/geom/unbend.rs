@@ -40,10 +40,10 @@ pub fn unbend_jacobian(twist: &Vector3<f64>, morph_fraction: f64) -> Matrix2x3<f
 /// as the end of the arc whose turn is nearest to `expected_turn` (rad).
 ///
 /// The result is empty if some of these arcs lead forward and others backward, as for a polyline around the start.
-pub fn unbend_line(positions: &[[f64; 2]], expected_turn: f64, morph_fraction: f64) -> Vec<[f64; 2]> {
+pub fn unbend_line(line_points: &[[f64; 2]], expected_turn: f64, morph_fraction: f64) -> Vec<[f64; 2]> {
     let arc_to_position =
         |[x, y]: &[f64; 2]| arc_with_turn_near(&SE2::identity(), &SE2::new(*x, *y, 0.0), expected_turn);
-    let arcs_to_points: Vec<_> = positions.iter().map(arc_to_position).collect();
+    let arcs_to_points: Vec<_> = line_points.iter().map(arc_to_position).collect();
     if arcs_to_points.windows(2).any(|adjacent_arcs| (adjacent_arcs[1].1 - adjacent_arcs[0].1).abs() > PI) {
         return Vec::new();
     }
@@ -62,13 +62,13 @@ pub fn find_arc(target_point: [f64; 2], initial_guess: [f64; 2], morph_fraction:
     let mut length_and_turn = Vector2::from(initial_guess);
     for _ in 0..MAX_NEWTON_STEPS {
         let twist = Vector3::new(length_and_turn.x, 0.0, length_and_turn.y);
-        let residual = Vector2::from(target_point) - Vector2::from(unbend(&twist, morph_fraction));
-        if residual.amax() < 1e-12 * (1.0 + length_and_turn.amax()) {
+        let position_error = Vector2::from(target_point) - Vector2::from(unbend(&twist, morph_fraction));
+        if position_error.amax() < 1e-12 * (1.0 + length_and_turn.amax()) {
             return Some(length_and_turn.into());
         }
         let jacobian = unbend_jacobian(&twist, morph_fraction);
         length_and_turn +=
-            Matrix2::from_columns(&[jacobian.column(0), jacobian.column(2)]).try_inverse()? * residual;
+            Matrix2::from_columns(&[jacobian.column(0), jacobian.column(2)]).try_inverse()? * position_error;
     }
     None
 }

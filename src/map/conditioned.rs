@@ -133,7 +133,7 @@ impl CollisionTester<'_> {
     /// rounding from those of [`CollisionTester::test_draw`].
     pub fn test_lanes(&self, unit_noise: &[f64x4; 3], lanes: Range<usize>, visit: impl FnMut(TestedDraw)) {
         let motion_of_lane = self.command.drive_four_with_noise(&self.start, &self.trigonometry, unit_noise);
-        lanes.map(|lane| self.test_motion(motion_of_lane(lane))).for_each(visit);
+        lanes.map(|lane_index| self.test_motion(motion_of_lane(lane_index))).for_each(visit);
     }
 
     fn test_motion(&self, (pose, driven_arc): (SE2, DrivenArc)) -> TestedDraw {
@@ -172,9 +172,10 @@ impl NoisyCommand {
         trigonometry: &Trigonometry,
         unit_noise: &[f64x4; 3],
     ) -> impl Fn(usize) -> (SE2, DrivenArc) {
-        let [length, turn, last_turn] = self.executed_motion(*unit_noise);
-        let (driven_arc, last_turn) = (start.drive_four(trigonometry, length, turn), last_turn.to_array());
-        move |lane| with_last_turn(driven_arc(lane), last_turn[lane])
+        let [arc_length, arc_turn, last_turn] = self.executed_motion(*unit_noise);
+        let (driven_arc, last_turn) =
+            (start.drive_four(trigonometry, arc_length, arc_turn), last_turn.to_array());
+        move |lane_index| with_last_turn(driven_arc(lane_index), last_turn[lane_index])
     }
 
     /// Returns the length (m) and turn of the arc, and the turn after it (rad): see [`VelocityModel::executed_motion`].
@@ -246,7 +247,7 @@ impl MapConditioned<'_> {
         u: &VelocityCmd,
         x: &SE2,
         rng: &mut R,
-        conditioned: bool,
+        is_conditioned: bool,
         visit_part: &mut dyn FnMut(&DrivenArc, CollisionVerdict),
     ) -> Result<(SE2, Cost), NoAcceptedSample> {
         let part_count = self.sampler.part_count().max(1);
@@ -255,7 +256,7 @@ impl MapConditioned<'_> {
         for _ in 0..part_count {
             let start = PreparedPose::new(pose);
             let (end_pose, arc, end_verdict) =
-                self.draw_until_accepted(&command, &start, rng, conditioned, &mut cost)?;
+                self.draw_until_accepted(&command, &start, rng, is_conditioned, &mut cost)?;
             visit_part(&arc, end_verdict);
             pose = end_pose;
         }
@@ -267,7 +268,7 @@ impl MapConditioned<'_> {
         command: &NoisyCommand,
         start: &PreparedPose,
         rng: &mut R,
-        conditioned: bool,
+        is_conditioned: bool,
         cost: &mut Cost,
     ) -> Result<(SE2, DrivenArc, CollisionVerdict), NoAcceptedSample> {
         for _ in 0..MAX_DRAWS {
@@ -275,7 +276,7 @@ impl MapConditioned<'_> {
                 command.drive_with_noise(start, self.model.noise.sample_unit_triple(rng));
             let end_verdict = self.plan.test_point(driven_arc.end, self.clearance);
             let deciding_verdict = match self.sampler {
-                _ if !conditioned => CollisionVerdict::FREE,
+                _ if !is_conditioned => CollisionVerdict::FREE,
                 Sampler::WholeArc => self.plan.test_arc_after_end(&driven_arc, end_verdict, self.clearance),
                 _ => end_verdict,
             };

@@ -62,10 +62,10 @@ impl DistanceField {
     #[inline(always)]
     pub fn lower_bound(&self, [x, y]: [f64; 2]) -> f64 {
         // Rounding can move a point slightly outside the bounds; it then belongs to the nearest cell.
-        let column =
+        let cell_column =
             (((x - self.min_corner[0]) * self.cells_per_metre) as u32 as usize).min(self.columns - 1);
-        let row = ((y - self.min_corner[1]) * self.cells_per_metre) as u32 as usize;
-        self.lower_bound_of_cell(row * self.columns + column)
+        let cell_row = ((y - self.min_corner[1]) * self.cells_per_metre) as u32 as usize;
+        self.lower_bound_of_cell(cell_row * self.columns + cell_column)
     }
 
     #[inline(always)]
@@ -79,14 +79,15 @@ impl DistanceField {
         let zero_lanes = f64x4::splat(0.0);
         // A point on the border between two cells may be rounded into either of them, because the lower bound of each cell includes its
         // border.
-        let [column, row] = [0, 1].map(|axis| {
-            let cell_coordinate = (points[axis] - self.min_corner[axis]) * self.cells_per_metre - 0.5;
-            cell_coordinate.fast_max(zero_lanes).fast_min(f64x4::splat(self.last_indices[axis]))
+        let [cell_column, cell_row] = [0, 1].map(|axis_index| {
+            let cell_coordinate =
+                (points[axis_index] - self.min_corner[axis_index]) * self.cells_per_metre - 0.5;
+            cell_coordinate.fast_max(zero_lanes).fast_min(f64x4::splat(self.last_indices[axis_index]))
                 + ROUND_TO_INTEGER
                 - ROUND_TO_INTEGER
         });
         // Adding this number to a small integer puts that integer into the last bits of the sum.
-        let cell_indices = (row * self.columns as f64 + column + ROUND_TO_INTEGER).to_array();
+        let cell_indices = (cell_row * self.columns as f64 + cell_column + ROUND_TO_INTEGER).to_array();
         from_lanes(|i| self.lower_bound_of_cell(cell_indices[i].to_bits() as u32 as usize))
     }
 
@@ -183,7 +184,7 @@ impl<'a> FieldBuilder<'a> {
             let max_lower_bound = max_distance + 2.0 * block_radius + self.rounding_slack;
             let is_near = |(lower_bound, _): &&(f64, WallSet)| *lower_bound <= max_lower_bound;
             let near_candidates: Vec<_> =
-                self.measured.iter().filter(is_near).map(|(_, candidate)| *candidate).collect();
+                self.measured.iter().filter(is_near).map(|(_, near_walls)| *near_walls).collect();
             let half_width = width / 2;
             for [column, row] in [[0, 0], [half_width, 0], [0, half_width], [half_width, half_width]] {
                 self.fill_block(&near_candidates, [first_column + column, first_row + row], half_width);
@@ -217,7 +218,7 @@ impl<'a> FieldBuilder<'a> {
     /// apart. None if too many walls are near. Afterwards `measured` has all walls or nodes that may be nearest to a point of the block.
     fn measure_candidates(
         &mut self,
-        candidates: &[WallSet],
+        candidate_walls: &[WallSet],
         block_centre: [f64; 2],
         width: usize,
         allowed_uncertainty: f64,
@@ -228,17 +229,17 @@ impl<'a> FieldBuilder<'a> {
         let max_excess = 2.0 * width as f64 * self.distance_field.cell_radius + self.rounding_slack;
         measured.clear();
         unmeasured.clear();
-        unmeasured.extend_from_slice(candidates);
+        unmeasured.extend_from_slice(candidate_walls);
         let mut least_upper_bound = f64::INFINITY;
         let mut measured_count = 0;
-        while let Some(candidate) = unmeasured.pop() {
+        while let Some(near_walls) = unmeasured.pop() {
             measured_count += 1;
             if measured_count > MAX_WALLS_PER_BLOCK + MAX_WALLS_PER_CELL * width * width {
                 return None;
             }
             let distance_to_wall =
                 |wall: usize| wall_tree.walls[wall].squared_distance_to_point(block_centre).sqrt();
-            let lower_bound = match candidate {
+            let lower_bound = match near_walls {
                 WallSet::Wall(wall) => distance_to_wall(wall as usize),
                 WallSet::Node(node) => wall_tree.nodes[node as usize].lower_bound(block_centre),
             };
@@ -246,7 +247,7 @@ impl<'a> FieldBuilder<'a> {
                 continue;
             }
             if lower_bound < least_upper_bound {
-                least_upper_bound = least_upper_bound.min(match candidate {
+                least_upper_bound = least_upper_bound.min(match near_walls {
                     WallSet::Wall(_) => lower_bound,
                     WallSet::Node(node) => distance_to_wall(wall_tree.wall_range(node as usize).start),
                 });
@@ -254,7 +255,7 @@ impl<'a> FieldBuilder<'a> {
             if width == 1 && least_upper_bound <= allowed_uncertainty {
                 return Some([0.0, least_upper_bound]);
             }
-            match candidate {
+            match near_walls {
                 WallSet::Node(node)
                     if lower_bound < least_upper_bound - allowed_uncertainty
                         || wall_tree.nodes[node as usize].capsule_radius > 0.5 * max_excess =>
@@ -265,7 +266,7 @@ impl<'a> FieldBuilder<'a> {
                         unmeasured.extend([2 * node, 2 * node + 1].map(WallSet::Node));
                     }
                 }
-                _ => measured.push((lower_bound, candidate)),
+                _ => measured.push((lower_bound, near_walls)),
             }
         }
         Some([
@@ -275,14 +276,14 @@ impl<'a> FieldBuilder<'a> {
     }
 
     fn block_centre(&self, first_cell: [usize; 2], width: usize) -> [f64; 2] {
-        std::array::from_fn(|axis| {
-            self.distance_field.min_corner[axis]
-                + (first_cell[axis] as f64 + 0.5 * width as f64) * self.cell_side
+        std::array::from_fn(|axis_index| {
+            self.distance_field.min_corner[axis_index]
+                + (first_cell[axis_index] as f64 + 0.5 * width as f64) * self.cell_side
         })
     }
 }
 
 #[inline(never)]
 pub(super) fn rounding_bound(coordinates: &[f64]) -> f64 {
-    1e-12 * coordinates.iter().fold(0.0, |largest: f64, coordinate| largest.max(coordinate.abs()))
+    1e-12 * coordinates.iter().fold(0.0, |largest: f64, plan_coordinate| largest.max(plan_coordinate.abs()))
 }

@@ -102,13 +102,13 @@ impl FloorPlan {
 
     /// Returns the floor plan of a grid. Its walls are the outlines of the blocked cells; its bounds are those of the grid. Fails with
     /// [`FloorPlanError`] if there are too many walls, or the grid is too large or too small.
-    pub fn from_grid(grid: OccupancyGrid) -> Result<Self, FloorPlanError> {
-        let walls = grid.outlines(Self::MAX_WALLS).map_err(FloorPlanError::TooManySides)?;
+    pub fn from_grid(occupancy_grid: OccupancyGrid) -> Result<Self, FloorPlanError> {
+        let walls = occupancy_grid.outlines(Self::MAX_WALLS).map_err(FloorPlanError::TooManySides)?;
         let mut bounds = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
-        for [x, y] in grid.corners() {
+        for [x, y] in occupancy_grid.corners() {
             bounds = [bounds[0].min(x), bounds[1].min(y), bounds[2].max(x), bounds[3].max(y)];
         }
-        Self::with_grid(walls, bounds, Some(grid))
+        Self::with_grid(walls, bounds, Some(occupancy_grid))
     }
 
     fn with_grid(
@@ -118,7 +118,7 @@ impl FloorPlan {
     ) -> Result<Self, FloorPlanError> {
         let [min_x, min_y, max_x, max_y] = bounds;
         let side_lengths = [max_x - min_x, max_y - min_y];
-        if !bounds.iter().all(|bound| COORDINATE_RANGE.contains(bound))
+        if !bounds.iter().all(|bound_coordinate| COORDINATE_RANGE.contains(bound_coordinate))
             || !side_lengths.iter().all(|side_length| SIDE_RANGE.contains(side_length))
         {
             let bounds_error =
@@ -135,7 +135,8 @@ impl FloorPlan {
                 && (min_y - rounding_slack..=max_y + rounding_slack).contains(&y)
         };
         for (wall_index, wall) in walls.iter().enumerate() {
-            if let Some(invalid_end) = [wall.from, wall.to].into_iter().find(|point| !is_inside(*point)) {
+            if let Some(invalid_end) = [wall.from, wall.to].into_iter().find(|wall_end| !is_inside(*wall_end))
+            {
                 return Err(FloorPlanError::BadWall { wall_index, invalid_end });
             }
         }
@@ -233,8 +234,8 @@ impl FloorPlan {
     /// Returns true if a point is on the map: on its grid, which may be rotated, or inside the bounds if there is no grid.
     #[inline(always)]
     fn contains(&self, point: [f64; 2]) -> bool {
-        if let Some(grid) = &self.occupied_grid {
-            return grid.contains(point);
+        if let Some(occupancy_grid) = &self.occupied_grid {
+            return occupancy_grid.contains(point);
         }
         let ([x, y], [min_x, min_y, max_x, max_y]) = (point, self.bounds);
         (min_x..=max_x).contains(&x) && (min_y..=max_y).contains(&y)

@@ -17,12 +17,12 @@ impl FloorPlan {
     pub fn find_free_pose(&self, clearance: f64) -> Option<SE2> {
         let occupancy_grid = self.grid().map_or_else(|| Cow::Owned(self.rasterize()), Cow::Borrowed);
         let does_disc_fit = |tested_point: &[f64; 2]| self.test_point(*tested_point, clearance).free;
-        let [columns, rows] = occupancy_grid.size();
-        let middle_coordinates =
-            (0..rows).flat_map(|row| (0..columns).map(move |column| [column as f64 + 0.5, row as f64 + 0.5]));
-        let mut cell_middles = middle_coordinates.map(|middle| occupancy_grid.world_point(middle));
-        let square_middle =
-            middle_of_largest_free_square(&occupancy_grid).map(|middle| occupancy_grid.world_point(middle));
+        let [column_count, row_count] = occupancy_grid.size();
+        let middle_coordinates = (0..row_count)
+            .flat_map(|row| (0..column_count).map(move |column| [column as f64 + 0.5, row as f64 + 0.5]));
+        let mut cell_middles = middle_coordinates.map(|grid_point| occupancy_grid.world_point(grid_point));
+        let square_middle = middle_of_largest_free_square(&occupancy_grid)
+            .map(|grid_point| occupancy_grid.world_point(grid_point));
         let [x, y] = square_middle.filter(does_disc_fit).or_else(|| cell_middles.find(does_disc_fit))?;
         Some(SE2::new(x, y, heading_of_longest_path(&occupancy_grid, [x, y], does_disc_fit)))
     }
@@ -32,29 +32,30 @@ impl FloorPlan {
         let [min_x, min_y, max_x, max_y] = self.bounds();
         let (map_width, map_height) = (max_x - min_x, max_y - min_y);
         let cell_side = (map_width.max(map_height) / CELLS_ALONG_LONGER_SIDE).min(map_width).min(map_height);
-        let [columns, rows] = [map_width, map_height].map(|side_length| (side_length / cell_side) as usize);
+        let [columns, row_count] =
+            [map_width, map_height].map(|side_length| (side_length / cell_side) as usize);
         let is_free = |i: usize| {
-            let [column, row] = [i % columns, rows - 1 - i / columns].map(|index| index as f64 + 0.5);
+            let [column, row] = [i % columns, row_count - 1 - i / columns].map(|index| index as f64 + 0.5);
             let cell_middle = [min_x + column * cell_side, min_y + row * cell_side];
             self.distance_field().lower_bound(cell_middle) > 0.75 * cell_side
         };
-        let pixels = (0..columns * rows).map(|i| f32::from(u8::from(is_free(i)))).collect();
-        let image = Image { width: columns, height: rows, pixels };
-        OccupancyGrid::new(&image, &PixelClassifier::default(), cell_side, SE2::new(min_x, min_y, 0.0))
+        let freedom_pixels = (0..columns * row_count).map(|i| f32::from(u8::from(is_free(i)))).collect();
+        let map_image = Image { width: columns, height: row_count, pixels: freedom_pixels };
+        OccupancyGrid::new(&map_image, &PixelClassifier::default(), cell_side, SE2::new(min_x, min_y, 0.0))
     }
 }
 
 /// Returns the middle of the largest square of free cells, in cells from the lower left corner; None if no cell is free. Of equally large
 /// squares, it is the one whose upper right corner comes first, row by row.
-fn middle_of_largest_free_square(grid: &OccupancyGrid) -> Option<[f64; 2]> {
-    let ([columns, rows], mut largest_side_so_far, mut square_middle) = (grid.size(), 0, None);
+fn middle_of_largest_free_square(occupancy_grid: &OccupancyGrid) -> Option<[f64; 2]> {
+    let ([column_count, rows], mut largest_side_so_far, mut square_middle) = (occupancy_grid.size(), 0, None);
     // For each column: side length (cells) of the largest free square whose upper right corner is the cell of the previous row.
-    let mut square_sides = vec![0u32; columns];
+    let mut square_sides = vec![0u32; column_count];
     for row in 0..rows {
         let [mut side_at_left, mut side_at_lower_left] = [0, 0];
         for (column, square_side) in square_sides.iter_mut().enumerate() {
             let side_below = *square_side;
-            let is_free = grid.is_known_free(column, row);
+            let is_free = occupancy_grid.is_known_free(column, row);
             *square_side = if is_free { 1 + side_below.min(side_at_left).min(side_at_lower_left) } else { 0 };
             (side_at_left, side_at_lower_left) = (*square_side, side_below);
             if *square_side > largest_side_so_far {
@@ -68,20 +69,20 @@ fn middle_of_largest_free_square(grid: &OccupancyGrid) -> Option<[f64; 2]> {
 }
 
 fn heading_of_longest_path(
-    grid: &OccupancyGrid,
+    occupancy_grid: &OccupancyGrid,
     [x, y]: [f64; 2],
     does_disc_fit: impl Fn(&[f64; 2]) -> bool,
 ) -> f64 {
     let is_free = |point: &[f64; 2]| {
-        let [column, row] = grid.cell_coordinates(*point);
-        column >= 0.0 && row >= 0.0 && grid.is_known_free(column as usize, row as usize)
+        let [column, row] = occupancy_grid.cell_coordinates(*point);
+        column >= 0.0 && row >= 0.0 && occupancy_grid.is_known_free(column as usize, row as usize)
     };
     let (mut max_steps, mut best_heading) = (0, 0.0);
     for i in 0..HEADING_COUNT {
         let tried_heading = TAU * f64::from(i) / f64::from(HEADING_COUNT);
         let (sin, cos) = libm::sincos(tried_heading);
         let free_steps = (1..)
-            .map(|half_cell_steps| 0.5 * grid.resolution() * f64::from(half_cell_steps))
+            .map(|half_cell_steps| 0.5 * occupancy_grid.resolution() * f64::from(half_cell_steps))
             .map(|tested_distance| [x + tested_distance * cos, y + tested_distance * sin])
             .take_while(|point| is_free(point) && does_disc_fit(point))
             .count();

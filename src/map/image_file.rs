@@ -16,13 +16,13 @@ pub struct ImageError(pub(super) String);
 /// file that is neither, or damaged.
 pub fn read_grid(
     file_bytes: &[u8],
-    classifier: &PixelClassifier,
-    resolution: f64,
-    origin: SE2,
+    pixel_classifier: &PixelClassifier,
+    cell_side: f64,
+    grid_pose: SE2,
 ) -> Result<OccupancyGrid, ImageError> {
     #[cfg(not(widget))]
     if file_bytes.starts_with(&PNG_SIGNATURE) {
-        return Ok(OccupancyGrid::new(&read_png(file_bytes)?, classifier, resolution, origin));
+        return Ok(OccupancyGrid::new(&read_png(file_bytes)?, pixel_classifier, cell_side, grid_pose));
     }
-    Ok(OccupancyGrid::new(&read_pgm(file_bytes)?, classifier, resolution, origin))
+    Ok(OccupancyGrid::new(&read_pgm(file_bytes)?, pixel_classifier, cell_side, grid_pose))
 }

@@ -97,16 +97,16 @@ impl PixelClassifier {
     /// Returns the state of the cell that a pixel shows.
     pub fn classify_pixel(&self, pixel: Pixel) -> Cell {
         let Pixel { brightness, opacity } = pixel;
-        let occupancy = if self.negate { brightness } else { 1.0 - brightness };
+        let occupancy_degree = if self.negate { brightness } else { 1.0 - brightness };
         // Thresholds are rounded to f32, as the brightness is, so that a pixel exactly at a threshold does not exceed the threshold.
         let (occupied_threshold, free_threshold) = (self.occupied_thresh as f32, self.free_thresh as f32);
         // The grey value is computed only if needed, because processors without an instruction for rounding are slow.
         let grey_value_of = || (brightness * 255.0).round();
         match self.mode {
             MapMode::Scale if opacity < 1.0 => Cell::Unknown,
-            MapMode::Trinary | MapMode::Scale if occupancy > occupied_threshold => Cell::Occupied,
+            MapMode::Trinary | MapMode::Scale if occupancy_degree > occupied_threshold => Cell::Occupied,
             // Rounding may make the occupancy of a pixel at the threshold slightly less than the threshold.
-            MapMode::Trinary if occupancy > free_threshold - f32::EPSILON => Cell::Unknown,
+            MapMode::Trinary if occupancy_degree > free_threshold - f32::EPSILON => Cell::Unknown,
             MapMode::Raw if grey_value_of() == 100.0 => Cell::Occupied,
             MapMode::Raw if grey_value_of() > 100.0 => Cell::Unknown,
             _ => Cell::Free,
@@ -139,31 +139,31 @@ impl OccupancyGrid {
     ///
     /// As in `map_server`, opacity counts as a fourth colour in mode trinary if the image has transparency.
     pub fn new<P: Copy + Into<Pixel>>(
-        image: &Image<P>,
-        classifier: &PixelClassifier,
+        map_image: &Image<P>,
+        pixel_classifier: &PixelClassifier,
         resolution: f64,
         origin: SE2,
     ) -> Self {
-        let Image { width, height, ref pixels } = *image;
+        let Image { width, height, ref pixels } = *map_image;
         let has_transparency = pixels.iter().any(|pixel| (*pixel).into().opacity < 1.0);
-        let opacity_is_colour = has_transparency && classifier.mode == MapMode::Trinary;
+        let opacity_is_colour = has_transparency && pixel_classifier.mode == MapMode::Trinary;
         let to_cell = |pixel: &P| {
             let mut pixel: Pixel = (*pixel).into();
             if opacity_is_colour {
                 pixel.brightness = (3.0 * pixel.brightness + pixel.opacity) / 4.0;
             }
-            classifier.classify_pixel(pixel)
+            pixel_classifier.classify_pixel(pixel)
         };
         // The first row of an image is the top row, but the first row of a grid is the bottom row.
         let cells = pixels.chunks(width.max(1)).rev().flatten().map(to_cell).collect();
-        let (plane_to_grid, treatment) = (PreparedPose::new(origin.inverse()), UnknownCells::default());
-        Self { width, height, resolution, origin, plane_to_grid, cells, unknown_treatment: treatment }
+        let (plane_to_grid, unknown_cells) = (PreparedPose::new(origin.inverse()), UnknownCells::default());
+        Self { width, height, resolution, origin, plane_to_grid, cells, unknown_treatment: unknown_cells }
     }
 
     /// Returns the grid with another treatment of unknown cells.
     #[must_use]
-    pub fn with_unknown(self, unknown: UnknownCells) -> Self {
-        Self { unknown_treatment: unknown, ..self }
+    pub fn with_unknown(self, unknown_treatment: UnknownCells) -> Self {
+        Self { unknown_treatment, ..self }
     }
 
     /// Returns the numbers of columns and rows.
@@ -220,7 +220,7 @@ impl OccupancyGrid {
 
     /// Returns the coordinates of a point of the plane, in cells from the origin.
     pub(super) fn cell_coordinates(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        self.plane_to_grid.transform_point([x, y]).map(|coordinate| coordinate / self.resolution)
+        self.plane_to_grid.transform_point([x, y]).map(|plane_coordinate| plane_coordinate / self.resolution)
     }
 
     /// Returns true if a cell of a row is an obstacle; false for a cell outside of the grid.
@@ -233,8 +233,8 @@ impl OccupancyGrid {
     }
 
     /// Returns the cells of a row, counted from the bottom; empty for a row outside of the grid.
-    fn row_cells(&self, row: usize) -> &[Cell] {
-        let first_cell_index = row.saturating_mul(self.width).min(self.cells.len());
+    fn row_cells(&self, cell_row: usize) -> &[Cell] {
+        let first_cell_index = cell_row.saturating_mul(self.width).min(self.cells.len());
         &self.cells[first_cell_index..(first_cell_index + self.width).min(self.cells.len())]
     }
 
@@ -242,12 +242,12 @@ impl OccupancyGrid {
     /// the distance to the cells. Lines along rows come first, then lines along columns. Fails with a lower bound of the number of
     /// outlines, if there are more than `max_outlines`.
     pub fn outlines(&self, max_outlines: usize) -> Result<Vec<Segment>, usize> {
-        let [columns, rows] = self.size();
+        let [column_count, row_count] = self.size();
         let (mut walls, mut vertical_walls) = (Vec::new(), Vec::new());
         // An outline separates blocked cells from all others. `outline_starts` has, for each grid line between columns, the
         // row at which the current outline began.
-        let mut outline_starts = vec![None; columns + 1];
-        for row in 0..=rows {
+        let mut outline_starts = vec![None; column_count + 1];
+        for row in 0..=row_count {
             let cells = self.row_cells(row);
             let cells_below = row.checked_sub(1).map_or(&[][..], |row_below| self.row_cells(row_below));
             if cells == cells_below {
@@ -287,11 +287,11 @@ impl OccupancyGrid {
     }
 }
 
-/// Advances the outline along a grid line to `position`. `is_outline` is true if the line separates cells after the position.
+/// Advances the outline along a grid line to `corner_index`. `is_outline` is true if the line separates cells after the position.
 /// `outline_start` is the position at which the current outline began, which is returned if the outline ends here.
-fn update_outline(outline_start: &mut Option<usize>, is_outline: bool, position: usize) -> Option<usize> {
+fn update_outline(outline_start: &mut Option<usize>, is_outline: bool, corner_index: usize) -> Option<usize> {
     match *outline_start {
-        None if is_outline => *outline_start = Some(position),
+        None if is_outline => *outline_start = Some(corner_index),
         Some(_) if !is_outline => return outline_start.take(),
         _ => (),
     }

@@ -26,8 +26,9 @@ pub fn read_pgm(file_bytes: &[u8]) -> Result<Image<f32>, ImageError> {
     let pixel_count = width * height;
     let brightness_of = |pixel_value: usize| pixel_value.min(max_value) as f32 / max_value as f32;
     if is_plain {
-        let pixels = (0..pixel_count).map(|_| tokens.read_number("a pixel", 0, max_value).map(brightness_of));
-        return Ok(Image { width, height, pixels: pixels.collect::<Result<_, _>>()? });
+        let pixel_results =
+            (0..pixel_count).map(|_| tokens.read_number("a pixel", 0, max_value).map(brightness_of));
+        return Ok(Image { width, height, pixels: pixel_results.collect::<Result<_, _>>()? });
     }
     let bytes_per_pixel = if max_value < 256 { 1 } else { 2 };
     let raster_byte_count = pixel_count * bytes_per_pixel;
@@ -35,16 +36,18 @@ pub fn read_pgm(file_bytes: &[u8]) -> Result<Image<f32>, ImageError> {
     let is_crlf = file_bytes[tokens.position..].starts_with(b"\r\n")
         && file_bytes.len() >= tokens.position + 2 + raster_byte_count;
     let available_bytes = file_bytes.get(tokens.position + if is_crlf { 2 } else { 1 }..).unwrap_or_default();
-    let Some(raster) = available_bytes.get(..raster_byte_count) else {
+    let Some(raster_bytes) = available_bytes.get(..raster_byte_count) else {
         let (line_number, byte_count) = (tokens.line, available_bytes.len());
         return Err(ImageError(format!(
             "line {line_number}: the length of the raster in bytes is {byte_count}; allowed is {raster_byte_count} for {width} × {height} pixels"
         )));
     };
     // A pixel of 16 bits has its higher byte first.
-    let decode_pixel = |pixel: &[u8]| pixel.iter().fold(0, |value, byte| 256 * value + usize::from(*byte));
-    let pixels = raster.chunks(bytes_per_pixel).map(|pixel| brightness_of(decode_pixel(pixel))).collect();
-    Ok(Image { width, height, pixels })
+    let decode_pixel =
+        |pixel: &[u8]| pixel.iter().fold(0, |pixel_value, byte| 256 * pixel_value + usize::from(*byte));
+    let brightness_values =
+        raster_bytes.chunks(bytes_per_pixel).map(|pixel| brightness_of(decode_pixel(pixel))).collect();
+    Ok(Image { width, height, pixels: brightness_values })
 }
 
 /// Tokenizer of the header and of the pixels of a plain file.
@@ -82,7 +85,7 @@ impl<'a> TokenReader<'a> {
         let digit_text = str::from_utf8(token).ok().filter(|_| token.iter().all(u8::is_ascii_digit));
         digit_text
             .and_then(|digit_text| digit_text.parse().ok())
-            .filter(|number| (min..=max).contains(number))
+            .filter(|parsed_number| (min..=max).contains(parsed_number))
             .ok_or_else(|| {
                 self.create_error(field_name, token, format!("a whole number from {min} to {max}"))
             })

@@ -20,8 +20,8 @@ pub fn read_png(png_bytes: &[u8]) -> Result<Image<[u8; 4]>, ImageError> {
         return Err(ImageError(error_message));
     }
     byte_cursor.set_position(0);
-    let pixels = decode_pixels(&mut byte_cursor).map_err(|_| damage_error(&byte_cursor))?;
-    Ok(Image { width: width as usize, height: height as usize, pixels })
+    let image_pixels = decode_pixels(&mut byte_cursor).map_err(|_| damage_error(&byte_cursor))?;
+    Ok(Image { width: width as usize, height: height as usize, pixels: image_pixels })
 }
 
 fn damage_error(byte_cursor: &Cursor<&[u8]>) -> ImageError {

@@ -33,8 +33,8 @@ const MAX_SINGLE_LEAF_WALLS: usize = 32;
 const ZERO_SEGMENT: Segment = Segment { from: [0.0; 2], to: [0.0; 2] };
 
 impl WallTree {
-    /// Creates the tree of the walls, all of which are inside `bounds`.
-    pub fn new(walls: &[Segment], bounds: [f64; 4]) -> Self {
+    /// Creates the tree of the walls, all of which are inside `plan_bounds`.
+    pub fn new(walls: &[Segment], plan_bounds: [f64; 4]) -> Self {
         // Copies of a wall would fill leaves of which every distance must be computed.
         let mut known_walls = BTreeSet::new();
         let is_new = |wall: &&Segment| {
@@ -51,11 +51,13 @@ impl WallTree {
             // Node 0 is unused. The root has no capsule, because it is always visited.
             nodes: vec![WallNode { capsule_axis: ZERO_SEGMENT, capsule_radius: f64::INFINITY }; 2],
             tree_depth: leaf_count.ilog2(),
-            rounding_slack: 1e-9 * bounds.iter().fold(0.0, |largest: f64, bound| largest.max(bound.abs())),
+            rounding_slack: 1e-9
+                * plan_bounds.iter().fold(0.0, |largest_bound: f64, bound| largest_bound.max(bound.abs())),
         };
-        for parent in 1..leaf_count {
-            wall_tree.sort_into_halves(parent);
-            let child_nodes = [2 * parent, 2 * parent + 1].map(|child_id| wall_tree.create_node(child_id));
+        for parent_index in 1..leaf_count {
+            wall_tree.sort_into_halves(parent_index);
+            let child_nodes =
+                [2 * parent_index, 2 * parent_index + 1].map(|child_id| wall_tree.create_node(child_id));
             wall_tree.nodes.extend(child_nodes);
         }
         wall_tree
@@ -85,7 +87,7 @@ impl WallTree {
             walls.iter().map(sort_keys).fold([0.0; 2], |[x, y], key| [x + key[2], y + key[3]]);
         let direction_sum_length = libm::hypot(direction_sum[0], direction_sum[1]);
         let mean_direction = if direction_sum_length > 0.0 {
-            direction_sum.map(|coordinate| coordinate / direction_sum_length)
+            direction_sum.map(|direction_coordinate| direction_coordinate / direction_sum_length)
         } else {
             [1.0, 0.0]
         };
@@ -125,9 +127,9 @@ impl WallTree {
     }
 
     pub fn wall_range(&self, node_index: usize) -> Range<usize> {
-        let depth = node_index.ilog2();
-        let (wall_count, index_in_level) = (self.walls.len() as u64, (node_index - (1 << depth)) as u64);
-        let end_index = |index: u64| ((wall_count * index) >> depth) as usize;
+        let tree_depth = node_index.ilog2();
+        let (wall_count, index_in_level) = (self.walls.len() as u64, (node_index - (1 << tree_depth)) as u64);
+        let end_index = |index: u64| ((wall_count * index) >> tree_depth) as usize;
         end_index(index_in_level)..end_index(index_in_level + 1)
     }
 
@@ -189,27 +191,27 @@ fn select_smallest(walls: &mut [Segment], smallest_count: usize, key_index: usiz
         }
         let key_of = |wall: &Segment| sort_keys(wall)[key_index];
         let pivot_key = key_of(&walls[(range_start + range_end) / 2]);
-        let (mut left, mut right) = (range_start, range_end);
+        let (mut left_index, mut right_index) = (range_start, range_end);
         loop {
-            while key_of(&walls[left]) < pivot_key {
-                left += 1;
+            while key_of(&walls[left_index]) < pivot_key {
+                left_index += 1;
             }
-            while key_of(&walls[right - 1]) > pivot_key {
-                right -= 1;
+            while key_of(&walls[right_index - 1]) > pivot_key {
+                right_index -= 1;
             }
-            if left < right {
-                walls.swap(left, right - 1);
-                (left, right) = (left + 1, right - 1);
+            if left_index < right_index {
+                walls.swap(left_index, right_index - 1);
+                (left_index, right_index) = (left_index + 1, right_index - 1);
             }
-            if left >= right {
+            if left_index >= right_index {
                 break;
             }
         }
-        // Walls before `right` have sort keys of at most the pivot key, and walls from `left` on of at least the pivot key.
-        if smallest_count < right {
-            range_end = right;
-        } else if smallest_count > left {
-            range_start = left;
+        // Walls before `right_index` have sort keys of at most the pivot key, and walls from `left_index` on of at least the pivot key.
+        if smallest_count < right_index {
+            range_end = right_index;
+        } else if smallest_count > left_index {
+            range_start = left_index;
         } else {
             return;
         }

@@ -73,8 +73,8 @@ pub trait RotTransRot {
     /// Returns the distribution of the noise.
     fn noise(&self) -> NoiseKind;
 
-    /// Returns the variances of rot1, trans and rot2 of `reading` (rad², m², rad²).
-    fn variances(&self, reading: &OdomDelta) -> [Variance; 3];
+    /// Returns the variances of rot1, trans and rot2 of `odometry_reading` (rad², m², rad²).
+    fn variances(&self, odometry_reading: &OdomDelta) -> [Variance; 3];
 
     /// Returns the rotation, translation and rotation that the robot executes. Their noises are `unit_noise` times their standard
     /// deviations. As in Table 5.6, noise is subtracted.
@@ -105,19 +105,19 @@ impl<M: RotTransRot> MotionModel for M {
     /// Returns the score of Table 5.5. As in the table, the variances are those of the hypothetical motion between the two poses, not of
     /// the reading.
     fn prob(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> f64 {
-        let (noise, hypothetical_legs) = (self.noise(), OdomDelta::from_poses(x, x_next));
+        let (noise_kind, hypothetical_legs) = (self.noise(), OdomDelta::from_poses(x, x_next));
         let [rot1_variance, trans_variance, rot2_variance] = self.variances(&hypothetical_legs);
         product_or_zero([
-            noise.prob(wrap_angle(u.rot1 - hypothetical_legs.rot1), rot1_variance),
-            noise.prob(u.trans - hypothetical_legs.trans, trans_variance),
-            noise.prob(wrap_angle(u.rot2 - hypothetical_legs.rot2), rot2_variance),
+            noise_kind.prob(wrap_angle(u.rot1 - hypothetical_legs.rot1), rot1_variance),
+            noise_kind.prob(u.trans - hypothetical_legs.trans, trans_variance),
+            noise_kind.prob(wrap_angle(u.rot2 - hypothetical_legs.rot2), rot2_variance),
         ])
     }
 
     /// The map from (δ̂_rot1, δ̂_trans, δ̂_rot2) to poses has the determinant δ̂_trans. Two such motions lead to each pose. One drives
     /// forward. The other drives in reverse, because noise has made the translation negative.
     fn pose_density(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> Option<f64> {
-        let (noise, variances) = (self.noise(), self.variances(u));
+        let (noise_kind, variances) = (self.noise(), self.variances(u));
         if variances.iter().any(|variance| variance.0 == 0.0) {
             return None;
         }
@@ -129,9 +129,9 @@ impl<M: RotTransRot> MotionModel for M {
             .into_iter()
             .map(|(rot1, trans)| {
                 product_or_zero([
-                    wrapped_density(noise, rot1 - u.rot1, rot1_variance),
-                    noise.prob(trans - u.trans, trans_variance),
-                    wrapped_density(noise, relative_pose.theta() - rot1 - u.rot2, rot2_variance),
+                    wrapped_density(noise_kind, rot1 - u.rot1, rot1_variance),
+                    noise_kind.prob(trans - u.trans, trans_variance),
+                    wrapped_density(noise_kind, relative_pose.theta() - rot1 - u.rot2, rot2_variance),
                 ])
             })
             .sum();
@@ -143,20 +143,20 @@ impl<M: RotTransRot> MotionModel for M {
     }
 }
 
-/// Returns the variances of rot1, trans and rot2 of `reading` (rad², m², rad²). If `is_reverse_aware`, a rotation δ counts as min(|δ|, |π −
+/// Returns the variances of rot1, trans and rot2 of `odometry_reading` (rad², m², rad²). If `is_reverse_aware`, a rotation δ counts as min(|δ|, |π −
 /// |δ||). This is the smallest turn of a robot that may drive in reverse instead.
 pub(super) fn leg_variances(
     alphas: OdomAlphas,
-    reading: &OdomDelta,
+    odometry_reading: &OdomDelta,
     is_reverse_aware: bool,
 ) -> [Variance; 3] {
     let [a1, a2, a3, a4] = alphas.0;
-    let [rot1_sq, rot2_sq] = [reading.rot1, reading.rot2].map(|rotation_angle| {
+    let [rot1_sq, rot2_sq] = [odometry_reading.rot1, odometry_reading.rot2].map(|rotation_angle| {
         let turn = rotation_angle.abs();
         let counted_turn = if is_reverse_aware { turn.min((PI - turn).abs()) } else { turn };
         counted_turn * counted_turn
     });
-    let trans_sq = reading.trans * reading.trans;
+    let trans_sq = odometry_reading.trans * odometry_reading.trans;
     [
         Variance(a1 * rot1_sq + a2 * trans_sq),
         Variance(a3 * trans_sq + a4 * (rot1_sq + rot2_sq)),
@@ -169,8 +169,8 @@ impl RotTransRot for OdometryModel {
         self.noise
     }
 
-    fn variances(&self, reading: &OdomDelta) -> [Variance; 3] {
-        leg_variances(self.alphas, reading, false)
+    fn variances(&self, odometry_reading: &OdomDelta) -> [Variance; 3] {
+        leg_variances(self.alphas, odometry_reading, false)
     }
 }
 
@@ -191,7 +191,7 @@ impl RotTransRot for ConfiguredOdometry {
         self.model.noise
     }
 
-    fn variances(&self, reading: &OdomDelta) -> [Variance; 3] {
-        leg_variances(self.model.alphas, reading, self.reverse_aware)
+    fn variances(&self, odometry_reading: &OdomDelta) -> [Variance; 3] {
+        leg_variances(self.model.alphas, odometry_reading, self.reverse_aware)
     }
 }

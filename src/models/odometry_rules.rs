@@ -138,12 +138,13 @@ impl LegVariances {
         (trans * trans + self.trans.0) * noise_kind.mean_squared_sine(self.rot1) + self.strafe.0
     }
 
-    /// Returns the variance (rad²) of the unwrapped turn, for a `correlation` of the noises of the two rotations: σ₁² + σ₂² + 2ρσ₁σ₂.
-    pub fn heading_variance(&self, correlation: f64) -> f64 {
+    /// Returns the variance (rad²) of the unwrapped turn, for a `rotation_correlation` of the noises of the two rotations: σ₁² + σ₂² + 2ρσ₁σ₂.
+    pub fn heading_variance(&self, rotation_correlation: f64) -> f64 {
         let [rot1_std, rot2_std] = [self.rot1, self.rot2].map(|variance| variance.0.sqrt());
         // The variance is computed as a sum of squares, which is never negative. The three terms might add up to slightly less than 0 for
         // equal variances and ρ = −1.
-        let correlated_std = rot1_std + correlation * rot2_std;
-        correlated_std * correlated_std + (1.0 - correlation * correlation) * rot2_std * rot2_std
+        let correlated_std = rot1_std + rotation_correlation * rot2_std;
+        correlated_std * correlated_std
+            + (1.0 - rotation_correlation * rotation_correlation) * rot2_std * rot2_std
     }
 }

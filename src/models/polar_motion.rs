@@ -30,12 +30,12 @@ pub struct PolarMotion {
 
 impl PolarMotion {
     /// Returns the motion of the velocity model under a command.
-    pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
-        let [length_std, turn_std, last_turn_std] = model.noise_stds(u).map(|std| std * u.dt);
-        let [v_variance, _, gamma_variance] = model.variances(u).map(|variance| variance.0);
+    pub fn of_velocity(velocity_model: &VelocityModel, u: &VelocityCmd) -> Self {
+        let [length_std, turn_std, last_turn_std] = velocity_model.noise_stds(u).map(|std| std * u.dt);
+        let [v_variance, _, gamma_variance] = velocity_model.variances(u).map(|variance| variance.0);
         let commanded_turn = u.omega * u.dt;
         Self {
-            noise_kind: model.noise,
+            noise_kind: velocity_model.noise,
             is_arc: true,
             length: [u.v * u.dt, length_std],
             length_variance: u.dt * u.dt * v_variance,
@@ -47,10 +47,11 @@ impl PolarMotion {
     }
 
     /// Returns the motion of the odometry model for a reading. `commanded_turn` (rad) is the turn of the command that caused the reading.
-    pub fn of_odometry(model: &impl RotTransRot, u: &OdomDelta, commanded_turn: f64) -> Self {
-        let [rot1_variance, trans_variance, rot2_variance] = model.variances(u).map(|variance| variance.0);
+    pub fn of_odometry(velocity_model: &impl RotTransRot, u: &OdomDelta, commanded_turn: f64) -> Self {
+        let [rot1_variance, trans_variance, rot2_variance] =
+            velocity_model.variances(u).map(|variance| variance.0);
         Self {
-            noise_kind: model.noise(),
+            noise_kind: velocity_model.noise(),
             is_arc: false,
             length: [u.trans, trans_variance.sqrt()],
             length_variance: trans_variance,

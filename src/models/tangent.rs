@@ -82,9 +82,9 @@ impl TangentNoiseModel {
     /// Returns the velocity model under one command, with the final turn γ̂Δt kept apart: R = R_u, and a turn of variance Δt²(α₅v² + α₆ω²)
     /// after the arc. Only the variances of the velocity model are used; the noise here is Gaussian. Fails with [`TangentNoiseError`] if
     /// the α's or the command make a variance negative or not finite.
-    pub fn from_velocity(model: &VelocityModel, u: &VelocityCmd) -> Result<Self, TangentNoiseError> {
+    pub fn from_velocity(velocity_model: &VelocityModel, u: &VelocityCmd) -> Result<Self, TangentNoiseError> {
         let [length_var, turn_var, last_turn_var] =
-            model.variances(u).map(|Variance(variance)| u.dt * u.dt * variance);
+            velocity_model.variances(u).map(|Variance(variance)| u.dt * u.dt * variance);
         Self::with_last_turn(Matrix3::from_diagonal(&Vector3::new(length_var, 0.0, turn_var)), last_turn_var)
     }
 
@@ -136,29 +136,29 @@ impl TangentNoiseModel {
     }
 
     /// Returns Σ_k from Σ_{k−1} by the chapter's recursion, which is `propagate` with [`Compounding::Chapter`].
-    pub fn compound(&self, sigma: &Matrix3<f64>, tau: &Vector3<f64>) -> Matrix3<f64> {
-        self.propagate(sigma, tau, Compounding::Chapter)
+    pub fn compound(&self, sigma: &Matrix3<f64>, step_twist: &Vector3<f64>) -> Matrix3<f64> {
+        self.propagate(sigma, step_twist, Compounding::Chapter)
     }
 
-    /// Returns the covariance of x_k ⊟ x̄_k after a step by the twist `tau`, from the covariance `sigma` of x_{k−1} ⊟ x̄_{k−1}. Both
+    /// Returns the covariance of x_k ⊟ x̄_k after a step by the twist `step_twist`, from the covariance `sigma` of x_{k−1} ⊟ x̄_{k−1}. Both
     /// covariances are 3 × 3, in the body frame of their pose. The turn after the arc happens at the end of the arc. Its variance is
     /// therefore added to that of the heading, without J_r.
     pub fn propagate(
         &self,
         sigma: &Matrix3<f64>,
-        tau: &Vector3<f64>,
-        recursion: Compounding,
+        step_twist: &Vector3<f64>,
+        cov_recursion: Compounding,
     ) -> Matrix3<f64> {
-        let inverse_adjoint = SE2::exp(tau).inverse().adjoint();
+        let inverse_adjoint = SE2::exp(step_twist).inverse().adjoint();
         let transported_cov = inverse_adjoint * sigma * inverse_adjoint.transpose();
         let last_turn_cov = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, self.last_turn_variance));
-        if recursion == Compounding::Chapter {
+        if cov_recursion == Compounding::Chapter {
             return transported_cov + self.r + last_turn_cov;
         }
-        let jacobian = SE2::right_jacobian(tau);
+        let jacobian = SE2::right_jacobian(step_twist);
         let step_cov = jacobian * self.r * jacobian.transpose() + last_turn_cov;
         let first_order_cov = transported_cov + step_cov;
-        match recursion {
+        match cov_recursion {
             Compounding::FourthOrder => first_order_cov + fourth_order_terms(&transported_cov, &step_cov),
             _ => first_order_cov,
         }
@@ -222,17 +222,18 @@ pub(crate) fn covariance_root(cov: &Matrix3<f64>) -> Result<Matrix3<f64>, Tangen
         let remaining_covariance =
             |row: usize| cov[(row, j)] - (0..j).map(|k| cov_root[(row, k)] * cov_root[(j, k)]).sum::<f64>();
         let remaining_column = [remaining_covariance(0), remaining_covariance(1), remaining_covariance(2)];
-        let (diagonal, rounding_variance) = (remaining_column[j], RELATIVE_TOLERANCE * cov[(j, j)].abs());
-        if diagonal > rounding_variance {
+        let (remaining_variance, rounding_variance) =
+            (remaining_column[j], RELATIVE_TOLERANCE * cov[(j, j)].abs());
+        if remaining_variance > rounding_variance {
             for row in j..3 {
-                cov_root[(row, j)] = remaining_column[row] / diagonal.sqrt();
+                cov_root[(row, j)] = remaining_column[row] / remaining_variance.sqrt();
             }
             continue;
         }
         // A coordinate without remaining variance must have no remaining covariance, because |c_ij| ≤ √(c_ii · c_jj).
         let has_no_covariance =
             |row: usize| remaining_column[row].abs() <= (rounding_variance * cov[(row, row)].abs()).sqrt();
-        if diagonal < -rounding_variance || !(j + 1..3).all(has_no_covariance) {
+        if remaining_variance < -rounding_variance || !(j + 1..3).all(has_no_covariance) {
             return Err(TangentNoiseError::NotPositiveSemidefinite);
         }
     }

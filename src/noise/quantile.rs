@@ -37,11 +37,11 @@ pub(super) fn replace_chunk_by_quantiles(centred_probabilities: &mut [f64x4]) {
     let mut tail_count = 0;
     for (vector_index, q) in centred_probabilities.iter_mut().enumerate() {
         let tail_mask = q.abs().simd_gt(f64x4::splat(CENTRE_HALF_WIDTH)).to_bitmask();
-        for (lane, number) in q.to_array().into_iter().enumerate() {
+        for (lane_index, lane_probability) in q.to_array().into_iter().enumerate() {
             // Each number is stored in the next free place. The next number overwrites a number that is not in a tail.
-            tail_numbers[tail_count] = number;
-            tail_indices[tail_count] = (LANE_COUNT * vector_index + lane) as u16;
-            tail_count += (tail_mask >> lane & 1) as usize;
+            tail_numbers[tail_count] = lane_probability;
+            tail_indices[tail_count] = (LANE_COUNT * vector_index + lane_index) as u16;
+            tail_count += (tail_mask >> lane_index & 1) as usize;
         }
         let r = f64x4::splat(0.180_625) - *q * *q;
         *q *= rational_function(r, &CENTRE_NUMERATOR, &CENTRE_DENOMINATOR);
@@ -50,9 +50,10 @@ pub(super) fn replace_chunk_by_quantiles(centred_probabilities: &mut [f64x4]) {
     for (tail_vector, vector_indices) in
         tail_numbers[..tail_count].chunks(LANE_COUNT).zip(tail_indices[..tail_count].chunks(LANE_COUNT))
     {
-        let tail_quantiles = tail_quantile_lanes(from_lanes(|lane| *tail_vector.get(lane).unwrap_or(&0.45)));
-        for (number_index, quantile) in vector_indices.iter().zip(tail_quantiles.to_array()) {
-            chunk_numbers[usize::from(*number_index)] = quantile;
+        let tail_quantiles =
+            tail_quantile_lanes(from_lanes(|lane_index| *tail_vector.get(lane_index).unwrap_or(&0.45)));
+        for (number_index, tail_quantile) in vector_indices.iter().zip(tail_quantiles.to_array()) {
+            chunk_numbers[usize::from(*number_index)] = tail_quantile;
         }
     }
 }
@@ -67,11 +68,11 @@ fn tail_quantile_lanes(q: f64x4) -> f64x4 {
 }
 
 #[inline(always)]
-fn rational_function<T>(r: T, numerator: &[f64; 8], denominator: &[f64; 8]) -> T
+fn rational_function<T>(r: T, numerator_coefficients: &[f64; 8], denominator_coefficients: &[f64; 8]) -> T
 where
     T: Copy + From<f64> + Mul<Output = T> + Add<f64, Output = T> + Div<Output = T>,
 {
-    evaluate_by_horner(r, numerator) / evaluate_by_horner(r, denominator)
+    evaluate_by_horner(r, numerator_coefficients) / evaluate_by_horner(r, denominator_coefficients)
 }
 
 #[inline(always)]

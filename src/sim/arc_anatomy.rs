@@ -217,23 +217,24 @@ impl ArcAnatomy {
 
     /// Returns the arcs of the command and to the final pose, with the likelihood of that pose.
     pub fn stats(&self) -> Stats {
-        let Settings { command, noise: noise_kind, .. } = &self.settings;
+        let Settings { command: motion_command, noise: noise_kind, .. } = &self.settings;
         let (start, next) = (self.settings.start(), self.settings.next());
         let controls = self.selected_inversion();
-        let factors = self.noise_residuals(&controls).map(|residual| ScoreFactor::new(*noise_kind, residual));
-        let size_of = |i: &usize| factors[*i].deviations.abs();
-        let weakest = (0..3).rev().max_by(|a, b| size_of(a).total_cmp(&size_of(b))).unwrap_or(0);
-        let [commanded, inverted, driven] = self.arcs().map(ArcWithCircle::from);
+        let score_factors =
+            self.noise_residuals(&controls).map(|residual| ScoreFactor::new(*noise_kind, residual));
+        let size_of = |i: &usize| score_factors[*i].deviations.abs();
+        let weakest_index = (0..3).rev().max_by(|a, b| size_of(a).total_cmp(&size_of(b))).unwrap_or(0);
+        let [commanded_arc, inverted_arc, driven_arc] = self.arcs().map(ArcWithCircle::from);
         Stats {
-            commanded,
-            inverted,
-            driven,
-            last_turn: controls.gamma_hat * command.dt,
-            factors,
-            weakest,
+            commanded: commanded_arc,
+            inverted: inverted_arc,
+            driven: driven_arc,
+            last_turn: controls.gamma_hat * motion_command.dt,
+            factors: score_factors,
+            weakest: weakest_index,
             prob: self.prob(),
-            share: factors.iter().map(|factor| factor.share).product(),
-            density: self.settings.model().pose_density(&next, command, &start),
+            share: score_factors.iter().map(|score_factor| score_factor.share).product(),
+            density: self.settings.model().pose_density(&next, motion_command, &start),
             xi: next.boxminus(&start).into(),
         }
     }
@@ -242,9 +243,10 @@ impl ArcAnatomy {
     /// only for the unsigned radius of Table 5.1.
     fn arcs(&self) -> [Arc; 3] {
         let VelocityCmd { v, omega, dt } = self.settings.command;
-        let (inverted, controls) = (self.signed_inversion(), self.selected_inversion());
-        let speeds = [[v, omega], [inverted.v_hat, inverted.omega_hat], [controls.v_hat, controls.omega_hat]];
-        speeds.map(|[v, omega]| Arc { start: self.settings.start(), length: v * dt, turn: omega * dt })
+        let (inverted_arc, controls) = (self.signed_inversion(), self.selected_inversion());
+        let arc_speeds =
+            [[v, omega], [inverted_arc.v_hat, inverted_arc.omega_hat], [controls.v_hat, controls.omega_hat]];
+        arc_speeds.map(|[v, omega]| Arc { start: self.settings.start(), length: v * dt, turn: omega * dt })
     }
 
     fn signed_inversion(&self) -> ArcInversion {
@@ -267,11 +269,11 @@ impl ArcAnatomy {
     /// Returns the estimate v̂, ω̂ or γ̂, its residual, and the variance of its noise, for each of the three controls.
     fn noise_residuals(&self, controls: &ArcInversion) -> [(f64, f64, Variance); 3] {
         let ArcInversion { v_hat, omega_hat, gamma_hat } = *controls;
-        let command = &self.settings.command;
-        let [v_variance, omega_variance, gamma_variance] = self.settings.model().variances(command);
+        let motion_command = &self.settings.command;
+        let [v_variance, omega_variance, gamma_variance] = self.settings.model().variances(motion_command);
         [
-            (v_hat, command.v - v_hat, v_variance),
-            (omega_hat, command.omega - omega_hat, omega_variance),
+            (v_hat, motion_command.v - v_hat, v_variance),
+            (omega_hat, motion_command.omega - omega_hat, omega_variance),
             (gamma_hat, gamma_hat, gamma_variance),
         ]
     }
@@ -286,12 +288,12 @@ impl ArcAnatomy {
     /// Returns the values of the lines of Table 5.1. With the displacement (a, b) in the frame of the start, line 1 is ½ · (−a)/(−b).
     pub fn table(&self) -> Table {
         let (start, next) = (self.settings.start(), self.settings.next());
-        let displacement = start.between(&next);
+        let relative_pose = start.between(&next);
         let signed_arc @ ArcInversion { v_hat, omega_hat, gamma_hat } = self.selected_inversion();
         // The centre does not depend on the sign of the radius.
         let [x, y] = self.signed_inversion().centre(&start).unwrap_or([f64::INFINITY; 2]);
         // The quotient is halved last, because half of the smallest double is 0.
-        let mu = 0.5 * (displacement.x() / displacement.y());
+        let mu = 0.5 * (relative_pose.x() / relative_pose.y());
         let arc_turn = omega_hat * self.settings.command.dt;
         Table {
             lines: [mu, x, y, signed_arc.radius(), arc_turn, v_hat, omega_hat, gamma_hat, self.prob()],
@@ -303,7 +305,7 @@ impl ArcAnatomy {
     /// Returns the arcs, the path of the constant twist and its sideways displacements, as lines of the picture.
     pub fn paths(&self) -> Paths {
         let (start, next) = (self.settings.start(), self.settings.next());
-        let [commanded, inverted, driven] = self.arcs().map(|picture_arc| picture_arc.points());
+        let [commanded_arc, inverted_arc, driven_arc] = self.arcs().map(|picture_arc| picture_arc.points());
         let xi = next.boxminus(&start);
         let pose_on_twist_path =
             |i: usize, segment_count: usize| start.boxplus(xi * (i as f64 / segment_count as f64));
@@ -313,9 +315,9 @@ impl ArcAnatomy {
             [pose.x(), pose.y(), x, y]
         };
         Paths {
-            commanded,
-            inverted,
-            driven,
+            commanded: commanded_arc,
+            inverted: inverted_arc,
+            driven: driven_arc,
             lie: (0..=TWIST_PATH_CHORDS)
                 .map(|i| pose_on_twist_path(i, TWIST_PATH_CHORDS).position())
                 .collect(),
@@ -327,42 +329,42 @@ impl ArcAnatomy {
     /// and on the path of the constant twist.
     pub fn poses_at(&self, fraction: f64) -> [SE2; 3] {
         let start_pose = self.settings.start();
-        let [commanded, _, driven] = self.arcs().map(|arc| arc.leading_part(fraction).end());
+        let [commanded_arc, _, driven_arc] = self.arcs().map(|arc| arc.leading_part(fraction).end());
         let xi = self.settings.next().boxminus(&start_pose);
-        [commanded, driven, start_pose.boxplus(xi * fraction)]
+        [commanded_arc, driven_arc, start_pose.boxplus(xi * fraction)]
     }
 
     /// Returns the heat map over the rectangle from `min_corner` to `max_corner` (m, `min_corner` below `max_corner` in x and in y); None
     /// if no heat map is selected.
     pub fn surface(&self, min_corner: [f64; 2], max_corner: [f64; 2]) -> Option<Surface> {
-        let Settings { command, map: heat_map, next: [.., theta], .. } = self.settings;
+        let Settings { command: motion_command, map: heat_map, next: [.., theta], .. } = self.settings;
         if heat_map == HeatMapKind::NoHeatMap {
             return None;
         }
         let (model, start) = (self.settings.model(), self.settings.start());
-        let winding_count = f64::from(2 * model.max_windings(&command) + 1);
+        let winding_count = f64::from(2 * model.max_windings(&motion_command) + 1);
         let max_cells =
             MAX_EXPONENTIALS / (3.0 + 2.0 * winding_count + MAX_LAST_TURNS.min(winding_count + 2.0));
         let [width, height] = [max_corner[0] - min_corner[0], max_corner[1] - min_corner[1]];
-        let columns = (max_cells * width / height).sqrt().max(1.0).min(max_cells).floor();
-        let rows = (max_cells / columns).max(1.0).floor();
-        let cell_size = [width / columns, height / rows];
-        let (columns, rows) = (columns as usize, rows as usize);
-        let cell_centre_at = |[column, row]: [f64; 2]| {
-            [min_corner[0] + (column + 0.5) * cell_size[0], max_corner[1] - (row + 0.5) * cell_size[1]]
+        let column_count = (max_cells * width / height).sqrt().max(1.0).min(max_cells).floor();
+        let row_count = (max_cells / column_count).max(1.0).floor();
+        let cell_size = [width / column_count, height / row_count];
+        let (column_count, row_count) = (column_count as usize, row_count as usize);
+        let cell_centre_at = |[cell_column, row]: [f64; 2]| {
+            [min_corner[0] + (cell_column + 0.5) * cell_size[0], max_corner[1] - (row + 0.5) * cell_size[1]]
         };
         let evaluate_cells = |score_at: &dyn Fn([f64; 3]) -> f64| -> Vec<f64> {
             let cell_score_at = |i: usize| {
-                let [x, y] = cell_centre_at([(i % columns) as f64, (i / columns) as f64]);
+                let [x, y] = cell_centre_at([(i % column_count) as f64, (i / column_count) as f64]);
                 // The density is infinite at the start pose.
                 score_at([x, y, theta]).min(f64::MAX)
             };
-            (0..columns * rows).map(cell_score_at).collect()
+            (0..column_count * row_count).map(cell_score_at).collect()
         };
         let prob_values =
             evaluate_cells(&|next| Self { settings: Settings { next, ..self.settings } }.prob());
         let density_values =
-            evaluate_cells(&|next| model.pose_density(&next.into(), &command, &start).unwrap_or(0.0));
+            evaluate_cells(&|next| model.pose_density(&next.into(), &motion_command, &start).unwrap_or(0.0));
         let shown_values = if heat_map == HeatMapKind::Prob { &prob_values } else { &density_values };
         let maximum_of = |field_values: &[f64]| field_values.iter().copied().fold(0.0, f64::max);
         let shown_maximum = maximum_of(shown_values);
@@ -378,12 +380,13 @@ impl ArcAnatomy {
                 .iter()
                 .filter(|_| max_value > 0.0)
                 .map(|fraction| libm::log(fraction * max_value));
-            let contour_lines = log_levels.flat_map(|level| trace_level_set(&log_values, columns, level));
+            let contour_lines =
+                log_levels.flat_map(|log_level| trace_level_set(&log_values, column_count, log_level));
             contour_lines.map(|contour_line| contour_line.into_iter().map(cell_centre_at).collect()).collect()
         };
         Some(Surface {
-            columns,
-            rows,
+            columns: column_count,
+            rows: row_count,
             shades: shown_values.iter().map(shade_of).collect(),
             prob: contours_of(&prob_values),
             density: contours_of(&density_values),
@@ -393,11 +396,11 @@ impl ArcAnatomy {
 
 impl From<Arc> for ArcWithCircle {
     fn from(arc: Arc) -> Self {
-        let Arc { start, length, turn } = arc;
-        let signed_arc = ArcInversion { v_hat: length, omega_hat: turn, gamma_hat: 0.0 };
+        let Arc { start, length, turn: arc_turn } = arc;
+        let signed_arc = ArcInversion { v_hat: length, omega_hat: arc_turn, gamma_hat: 0.0 };
         Self {
             arc_length: length,
-            turn,
+            turn: arc_turn,
             radius: signed_arc.radius(),
             centre: signed_arc.centre(&start),
             end: arc.end().into(),

@@ -16,9 +16,9 @@ macro_rules! cloud_simulation {
             /// Creates a simulation that shows the first `sample_count` samples. Errors are those of `new`.
             pub fn with_shown_count(settings: Settings, sample_count: usize) -> Result<Self, SettingsError> {
                 settings.check()?;
-                let mut simulation = Self::empty(settings)?;
-                simulation.show_samples(sample_count.min(settings.samples));
-                Ok(simulation)
+                let mut new_simulation = Self::empty(settings)?;
+                new_simulation.show_samples(sample_count.min(settings.samples));
+                Ok(new_simulation)
             }
 
             /// Returns the settings.

@@ -183,11 +183,12 @@ impl OdometryDecomposer {
     }
 
     fn executed_motions(&self, sample_count: usize) -> impl Iterator<Item = ExecutedLegs> + Clone + '_ {
-        let rho = self.settings.correlation;
+        let rotation_correlation = self.settings.correlation;
         let (legs, variances) = (self.legs(), self.variances());
         (0..sample_count).map(move |index| {
             let [rot1_noise, trans_noise, independent_noise] = self.draws.noise_of_sample(index);
-            let rot2_noise = rho * rot1_noise + (1.0 - rho * rho).sqrt() * independent_noise;
+            let rot2_noise = rotation_correlation * rot1_noise
+                + (1.0 - rotation_correlation * rotation_correlation).sqrt() * independent_noise;
             variances.executed_motion(&legs, [rot1_noise, trans_noise, rot2_noise])
         })
     }
@@ -202,10 +203,10 @@ impl OdometryDecomposer {
         ExecutedLegs { legs: self.legs(), strafe: 0.0 }.poses(&self.start_pose())
     }
 
-    /// Returns the poses of [`OdometryDecomposer::leg_poses`] for each of the first `count` outcomes shown.
-    pub fn sample_leg_poses(&self, count: usize) -> Vec<[SE2; 4]> {
+    /// Returns the poses of [`OdometryDecomposer::leg_poses`] for each of the first `pose_count` outcomes shown.
+    pub fn sample_leg_poses(&self, pose_count: usize) -> Vec<[SE2; 4]> {
         let start_pose = self.start_pose();
-        self.executed_motions(count.min(self.shown_count()))
+        self.executed_motions(pose_count.min(self.shown_count()))
             .map(|executed| executed.poses(&start_pose))
             .collect()
     }
@@ -224,17 +225,17 @@ impl OdometryDecomposer {
 
     /// Returns the decomposition of the reading and its noise by each of the four odometry rules, with the current α's.
     pub fn rule_noises(&self) -> [RuleNoise; 4] {
-        let Settings { alphas, noise, correlation: rotation_correlation, .. } = self.settings;
+        let Settings { alphas, noise: noise_kind, correlation: rotation_correlation, .. } = self.settings;
         let reading = self.reading();
-        OdometryRule::ALL.map(|rule| {
-            let legs = rule.legs(&reading);
-            let variances = rule.variances(&reading, &alphas);
-            let LegVariances { rot1, trans, rot2, strafe } = variances;
+        OdometryRule::ALL.map(|odometry_rule| {
+            let legs = odometry_rule.legs(&reading);
+            let variances = odometry_rule.variances(&reading, &alphas);
+            let LegVariances { rot1, trans, rot2, strafe: strafe_variance } = variances;
             RuleNoise {
-                rule,
+                rule: odometry_rule,
                 legs,
-                deviations: [rot1, trans, rot2, strafe].map(|variance| variance.0.sqrt()),
-                cross_track: variances.cross_track_variance(legs.trans, noise).sqrt(),
+                deviations: [rot1, trans, rot2, strafe_variance].map(|variance| variance.0.sqrt()),
+                cross_track: variances.cross_track_variance(legs.trans, noise_kind).sqrt(),
                 heading: variances.heading_variance(rotation_correlation).sqrt(),
             }
         })
@@ -242,13 +243,14 @@ impl OdometryDecomposer {
 
     /// Returns the measured and exact standard deviations of the end position and of the turn.
     pub fn stats(&self) -> Stats {
-        let Settings { noise, correlation: rotation_correlation, .. } = self.settings;
+        let Settings { noise: noise_kind, correlation: rotation_correlation, .. } = self.settings;
         let (legs, variances) = (self.legs(), self.variances());
         let executed_motions = self.executed_motions(self.shown_count());
-        let cross_track_offsets = executed_motions.clone().map(|ExecutedLegs { legs: executed, strafe }| {
-            let (sin, cos) = libm::sincos(executed.rot1 - legs.rot1);
-            executed.trans * sin + strafe * cos
-        });
+        let cross_track_offsets =
+            executed_motions.clone().map(|ExecutedLegs { legs: executed, strafe: strafe_variance }| {
+                let (sin, cos) = libm::sincos(executed.rot1 - legs.rot1);
+                executed.trans * sin + strafe_variance * cos
+            });
         let turn_offsets = executed_motions
             .map(|ExecutedLegs { legs: executed, .. }| executed.rot1 - legs.rot1 + executed.rot2 - legs.rot2);
         let [cross_track, cross_track_error] = rms_with_error(cross_track_offsets, self.shown_count());
@@ -257,7 +259,7 @@ impl OdometryDecomposer {
             n: self.shown_count(),
             cross_track,
             cross_track_error,
-            exact_cross_track: variances.cross_track_variance(legs.trans, noise).sqrt(),
+            exact_cross_track: variances.cross_track_variance(legs.trans, noise_kind).sqrt(),
             lever: legs.trans * variances.rot1.0.sqrt(),
             heading,
             heading_error,
@@ -270,14 +272,15 @@ impl OdometryDecomposer {
     /// of the curve has four numbers in m. They are the length of the drive, the standard deviation of the end position across the bearing,
     /// its part due to the first rotation, and the standard deviation of the length.
     pub fn deviation_curve(&self, max_length: f64, point_count: usize) -> Vec<[f64; 4]> {
-        let Settings { rule, alphas, noise, .. } = self.settings;
+        let Settings { rule: odometry_rule, alphas, noise: noise_kind, .. } = self.settings;
         let reading = self.reading();
         let length_step = max_length / point_count.saturating_sub(1).max(1) as f64;
         (0..point_count)
             .map(|i| {
                 let drive_length = length_step * i as f64;
-                let variances = rule.variances(&OdomDelta { trans: drive_length, ..reading }, &alphas);
-                let cross_track = variances.cross_track_variance(drive_length, noise).sqrt();
+                let variances =
+                    odometry_rule.variances(&OdomDelta { trans: drive_length, ..reading }, &alphas);
+                let cross_track = variances.cross_track_variance(drive_length, noise_kind).sqrt();
                 [drive_length, cross_track, drive_length * variances.rot1.0.sqrt(), variances.trans.0.sqrt()]
             })
             .collect()
@@ -300,15 +303,16 @@ impl OdometryDecomposer {
 
 /// Returns the root mean square of n offsets with mean 0, and its standard error by the delta method: √((m₄ − m₂²)/n)/(2√m₂) with their
 /// moments m₂ and m₄.
-fn rms_with_error(offsets: impl Iterator<Item = f64>, offset_count: usize) -> [f64; 2] {
+fn rms_with_error(pose_offsets: impl Iterator<Item = f64>, offset_count: usize) -> [f64; 2] {
     if offset_count == 0 {
         return [f64::NAN; 2];
     }
-    let (mut m2, mut m4) = (0.0, 0.0);
-    for squared_offset in offsets.map(|offset| offset * offset) {
-        m2 += squared_offset / offset_count as f64;
-        m4 += squared_offset * squared_offset / offset_count as f64;
+    let (mut square_sum, mut fourth_power_sum) = (0.0, 0.0);
+    for squared_offset in pose_offsets.map(|pose_offset| pose_offset * pose_offset) {
+        square_sum += squared_offset / offset_count as f64;
+        fourth_power_sum += squared_offset * squared_offset / offset_count as f64;
     }
-    let rms_error = ((m4 - m2 * m2).max(0.0) / offset_count as f64).sqrt() / (2.0 * m2.sqrt());
-    [m2.sqrt(), if m2 == 0.0 { 0.0 } else { rms_error }]
+    let rms_error = ((fourth_power_sum - square_sum * square_sum).max(0.0) / offset_count as f64).sqrt()
+        / (2.0 * square_sum.sqrt());
+    [square_sum.sqrt(), if square_sum == 0.0 { 0.0 } else { rms_error }]
 }

@@ -46,8 +46,8 @@ impl Ellipse {
     }
 
     /// Creates the 2σ ellipse of the position (x, y), m.
-    pub fn from_moments(moments: &CartesianMoments) -> Self {
-        Self::new(moments.mean.xy(), moments.cov.fixed_view::<2, 2>(0, 0).into_owned())
+    pub fn from_moments(cartesian_moments: &CartesianMoments) -> Self {
+        Self::new(cartesian_moments.mean.xy(), cartesian_moments.cov.fixed_view::<2, 2>(0, 0).into_owned())
     }
 
     /// Returns true if the ellipse has an area, so that points can be inside. A line or a point has none.
@@ -112,10 +112,10 @@ pub struct ExponentialContour {
 }
 
 impl ExponentialContour {
-    /// Creates the contour for `moments` of exponential coordinates about `start_pose`. The outline is in the reference frame of
+    /// Creates the contour for `exponential_moments` of exponential coordinates about `start_pose`. The outline is in the reference frame of
     /// `start_pose`.
-    pub fn new(moments: &ExponentialMoments, start_pose: &SE2) -> Self {
-        let ExponentialMoments { mean, cov } = *moments;
+    pub fn new(exponential_moments: &ExponentialMoments, start_pose: &SE2) -> Self {
+        let ExponentialMoments { mean, cov } = *exponential_moments;
         let along_heading = Matrix2::new(cov[(0, 0)], cov[(0, 2)], cov[(2, 0)], cov[(2, 2)]);
         Self {
             start_pose: *start_pose,
@@ -147,11 +147,12 @@ impl ExponentialContour {
         }
         // The sum has twice the signed areas of the triangles from the start to each chord. The sign is reversed for motions in reverse.
         let (mut doubled_area, mut previous_point) = (0.0, [0.0; 2]);
-        for (i, (along, [x, y])) in self.outline(segment_count).enumerate() {
+        for (i, (along_coordinate, [x, y])) in self.outline(segment_count).enumerate() {
             let [x, y] = [x - self.start_pose.x(), y - self.start_pose.y()];
             if i > 0 {
                 let doubled_triangle_area = previous_point[0] * y - previous_point[1] * x;
-                doubled_area += if along < 0.0 { -doubled_triangle_area } else { doubled_triangle_area };
+                doubled_area +=
+                    if along_coordinate < 0.0 { -doubled_triangle_area } else { doubled_triangle_area };
             }
             previous_point = [x, y];
         }
@@ -212,7 +213,7 @@ fn principal_direction(symmetric_matrix: &Matrix3<f64>) -> Vector3<f64> {
     }
     let longest_column =
         (0..3).map(|i| matrix_power.column(i).into_owned()).max_by(|a, b| a.norm().total_cmp(&b.norm()));
-    longest_column.and_then(|column| column.try_normalize(0.0)).unwrap_or_else(Vector3::y)
+    longest_column.and_then(|matrix_column| matrix_column.try_normalize(0.0)).unwrap_or_else(Vector3::y)
 }
 
 fn unit_circle_points(segment_count: usize) -> impl Iterator<Item = Vector2<f64>> {

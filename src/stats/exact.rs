@@ -149,7 +149,8 @@ struct MixtureComponent {
 
 /// Returns the skewness of the mixture; NaN if its variance is only rounding error relative to `squared_extent`.
 fn mixture_skew(components: impl Iterator<Item = MixtureComponent> + Clone, squared_extent: f64) -> f64 {
-    let mixture_mean: f64 = components.clone().map(|component| component.weight * component.mean).sum();
+    let mixture_mean: f64 =
+        components.clone().map(|mixture_component| mixture_component.weight * mixture_component.mean).sum();
     let (mut m2, mut m3) = (0.0, 0.0);
     for MixtureComponent { weight, mean, variance } in components {
         let mean_offset = mean - mixture_mean;

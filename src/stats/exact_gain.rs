@@ -106,7 +106,7 @@ impl BranchedMotion {
         let ([bearing, bearing_std], [turn, bearing_turn_std, last_turn_std]) =
             (self.polar_motion.bearing, self.turn_moments);
         let max_excess_turn = self.integration_limit(bearing_turn_std, last_turn_std);
-        let (mut moments, mut log_sum) = (UnitMotionMoments::default(), 0.0);
+        let (mut unit_moments, mut log_sum) = (UnitMotionMoments::default(), 0.0);
         let last_turn_nodes = self.nodes_up_to_limit(last_turn_std, NO_BREAKS);
         for bearing_node in self.nodes_up_to_limit(bearing_std, NO_BREAKS) {
             let bearing = bearing + bearing_std * bearing_node.value;
@@ -123,11 +123,11 @@ impl BranchedMotion {
                 let scaled_direction =
                     [cos, sin].map(|direction_component| direction_component * (chord_ratio / twist_sinc));
                 log_sum += node_weight * libm::log(twist_sinc * twist_sinc);
-                moments.add(node_weight, scaled_direction, excess_turn);
+                unit_moments.add(node_weight, scaled_direction, excess_turn);
             }
         }
-        let (mean, cov) = moments.mean_and_cov(self.polar_motion.length);
-        ((mean + Vector3::z() * turn, cov), log_sum / moments.weight_sum)
+        let (mean, cov) = unit_moments.mean_and_cov(self.polar_motion.length);
+        ((mean + Vector3::z() * turn, cov), log_sum / unit_moments.weight_sum)
     }
 
     /// Returns the moments of the length and turn φ of the arc that ends at the robot's final position. Also returns the
@@ -135,25 +135,25 @@ impl BranchedMotion {
     fn arc_moments(&self) -> (MeanAndCov, f64) {
         let ([bearing, bearing_std], half_commanded_turn) =
             (self.polar_motion.bearing, 0.5 * self.turn_moments[0]);
-        let (mut moments, mut log_sum) = (UnitMotionMoments::default(), 0.0);
+        let (mut unit_moments, mut log_sum) = (UnitMotionMoments::default(), 0.0);
         // Statistics of a cloud use the arc whose turn is nearest to the commanded turn. This arc is driven in the opposite direction if
         // the bearing differs from half the commanded turn by more than π/2.
         let break_points = [-0.5 * PI, 0.5 * PI]
             .map(|bearing_offset| (half_commanded_turn + bearing_offset - bearing) / bearing_std);
-        for node in self.nodes_up_to_limit(bearing_std, break_points) {
-            let driven_bearing = bearing + bearing_std * node.value;
+        for noise_node in self.nodes_up_to_limit(bearing_std, break_points) {
+            let driven_bearing = bearing + bearing_std * noise_node.value;
             let half_circles = ((driven_bearing - half_commanded_turn) / PI).round();
             let half_turn = driven_bearing - half_circles * PI;
             let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
             let arc_sinc = sinc(half_turn);
             let length_ratio =
                 drive_sign * if self.polar_motion.is_arc { sinc(driven_bearing) } else { 1.0 } / arc_sinc;
-            log_sum += node.weight * libm::log((length_ratio * arc_sinc * arc_sinc).abs());
-            moments.add(node.weight, [length_ratio, 0.0], 2.0 * (half_turn - bearing));
+            log_sum += noise_node.weight * libm::log((length_ratio * arc_sinc * arc_sinc).abs());
+            unit_moments.add(noise_node.weight, [length_ratio, 0.0], 2.0 * (half_turn - bearing));
         }
-        let (mean, cov) = moments.mean_and_cov(self.polar_motion.length);
+        let (mean, cov) = unit_moments.mean_and_cov(self.polar_motion.length);
         let cov = Matrix3::new(cov[(0, 0)], cov[(0, 2)], 0.0, cov[(0, 2)], cov[(2, 2)], 0.0, 0.0, 0.0, 0.0);
-        ((Vector3::new(mean.x, mean.z + 2.0 * bearing, 0.0), cov), log_sum / moments.weight_sum)
+        ((Vector3::new(mean.x, mean.z + 2.0 * bearing, 0.0), cov), log_sum / unit_moments.weight_sum)
     }
 
     fn mean_log_length(&self) -> f64 {
@@ -184,13 +184,13 @@ fn mean_log_abs_of_normal(m: f64) -> f64 {
         return libm::log(m) - inverse_square * (0.5 + inverse_square * (0.75 + inverse_square * 2.5));
     }
     let poisson_mean = 0.5 * m * m;
-    let (mut poisson_probability, mut psi, mut mean_log) = (libm::exp(-poisson_mean), DIGAMMA_HALF, LN_2);
+    let (mut poisson_probability, mut digamma, mut mean_log) = (libm::exp(-poisson_mean), DIGAMMA_HALF, LN_2);
     // The sum over j ends twelve standard deviations or more beyond the mean of the Poisson distribution, which is at most 450.
     for j in 0..720 {
         let j = f64::from(j);
-        mean_log += poisson_probability * psi;
+        mean_log += poisson_probability * digamma;
         poisson_probability *= poisson_mean / (j + 1.0);
-        psi += 1.0 / (j + 0.5);
+        digamma += 1.0 / (j + 0.5);
     }
     0.5 * mean_log
 }
@@ -200,13 +200,13 @@ fn mean_log_abs_of_normal(m: f64) -> f64 {
 fn triangular_mean_log(m: f64, half_width: f64) -> f64 {
     if half_width < 0.5 * m {
         let ratio_squared = (half_width / m) * (half_width / m);
-        let (mut ratio_power, mut sum) = (1.0, libm::log(m));
+        let (mut ratio_power, mut series_sum) = (1.0, libm::log(m));
         for k in 1..=24 {
             let even_index = f64::from(2 * k);
             ratio_power *= ratio_squared;
-            sum -= 2.0 * ratio_power / (even_index * (even_index + 1.0) * (even_index + 2.0));
+            series_sum -= 2.0 * ratio_power / (even_index * (even_index + 1.0) * (even_index + 2.0));
         }
-        return sum;
+        return series_sum;
     }
     let antiderivative_at = |x: f64| if x == 0.0 { 0.0 } else { x * x * (0.5 * libm::log(x.abs()) - 0.75) };
     (antiderivative_at(m + half_width) - 2.0 * antiderivative_at(m) + antiderivative_at(m - half_width))

@@ -120,8 +120,8 @@ impl LogDensityDifferences {
             self.squared_deviations[i] += log_density_differences * log_density_differences * robot_weights;
         }
         let (u, h) = (four_robots.jacobians[1] / *mean_jacobian - 1.0, squared_distance_differences[1] * 0.5);
-        for (sum, added_term) in self.area_sums.iter_mut().zip([u, u * u, h * u, h * h]) {
-            *sum += (added_term & has_robot) * robot_weights;
+        for (area_sum, added_term) in self.area_sums.iter_mut().zip([u, u * u, h * u, h * h]) {
+            *area_sum += (added_term & has_robot) * robot_weights;
         }
         self.weight_sums += robot_weights;
     }
@@ -146,7 +146,7 @@ impl LogDensityDifferences {
     /// same error as B to first order. With the presets the estimate is 0 to 14 % smaller than the standard deviation of the ratio.
     pub fn log_area_ratio_error(&self, pose_count: usize) -> f64 {
         let total_weight = self.weight_sums.reduce_add();
-        let [u, uu, hu, hh] = self.area_sums.map(|sum| sum.reduce_add() / total_weight);
+        let [u, uu, hu, hh] = self.area_sums.map(|area_sum| area_sum.reduce_add() / total_weight);
         let mean_jacobian = 1.0 + u;
         let influence_var = hh - 2.0 * hu / mean_jacobian + (uu - u * u) / (mean_jacobian * mean_jacobian);
         (non_negative(influence_var) / (total_weight - 1.0) * total_weight / pose_count as f64).sqrt()

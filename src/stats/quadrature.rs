@@ -66,12 +66,12 @@ pub(super) fn piecewise_nodes(noise_kind: NoiseKind, limit: f64, break_points: [
     /// this number. With fewer nodes, displayed digits would be wrong.
     const NODES_PER_PIECE: usize = 16;
     let unit_nodes = legendre_nodes(NODES_PER_PIECE);
-    let (mut nodes, mut piece_start) = (Vec::with_capacity(4 * NODES_PER_PIECE), -limit);
+    let (mut piece_nodes, mut piece_start) = (Vec::with_capacity(4 * NODES_PER_PIECE), -limit);
     // The triangular density has a kink at 0, which needs another break point.
     for piece_end in [break_points[0].max(-limit).min(0.0), 0.0, break_points[1].max(0.0).min(limit), limit] {
         if piece_end > piece_start {
             let half_width = 0.5 * (piece_end - piece_start);
-            nodes.extend(unit_nodes.iter().map(|unit_node| {
+            piece_nodes.extend(unit_nodes.iter().map(|unit_node| {
                 let value = piece_start + half_width * (1.0 + unit_node.value);
                 let noise_density = match noise_kind {
                     NoiseKind::Normal => libm::exp(-0.5 * value * value) / TAU.sqrt(),
@@ -82,7 +82,7 @@ pub(super) fn piecewise_nodes(noise_kind: NoiseKind, limit: f64, break_points: [
             piece_start = piece_end;
         }
     }
-    nodes
+    piece_nodes
 }
 
 /// Returns the Gauss–Legendre rule on (−1, 1): the roots of P_n by Newton's method.
@@ -94,12 +94,13 @@ fn legendre_nodes(node_count: usize) -> Vec<Node> {
             let mut x = libm::cos(PI * (i as f64 + 0.75) / (n + 0.5));
             let mut polynomial_derivative = 1.0;
             for _ in 0..4 {
-                let (mut previous, mut value) = (1.0, x);
+                let (mut previous_legendre, mut value) = (1.0, x);
                 for k in 2..=node_count {
                     let k = k as f64;
-                    (previous, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * previous) / k);
+                    (previous_legendre, value) =
+                        (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * previous_legendre) / k);
                 }
-                polynomial_derivative = n * (x * value - previous) / (x * x - 1.0);
+                polynomial_derivative = n * (x * value - previous_legendre) / (x * x - 1.0);
                 x -= value / polynomial_derivative;
             }
             Node { value: x, weight: 2.0 / ((1.0 - x * x) * polynomial_derivative * polynomial_derivative) }

@@ -33,16 +33,16 @@ impl<const N: usize> CompensatedSums<N> {
 fn flush_blocks(block_sums: &mut [f64x2], totals: &mut [f64x2], rounding_errors: &mut [f64x2]) {
     for ((block, total_sum), rounding_error) in block_sums.iter_mut().zip(totals).zip(rounding_errors) {
         let block_sum = std::mem::replace(block, f64x2::splat(0.0));
-        let sum = *total_sum + block_sum;
-        let rounded_term = sum - *total_sum;
-        *rounding_error += (*total_sum - (sum - rounded_term)) + (block_sum - rounded_term);
-        *total_sum = sum;
+        let new_total = *total_sum + block_sum;
+        let rounded_term = new_total - *total_sum;
+        *rounding_error += (*total_sum - (new_total - rounded_term)) + (block_sum - rounded_term);
+        *total_sum = new_total;
     }
 }
 
 #[inline(never)]
-fn compensated_total(total: f64x2, compensation: f64x2) -> f64 {
-    let ([a, b], [c, d]) = (total.to_array(), compensation.to_array());
+fn compensated_total(total_lanes: f64x2, compensation_lanes: f64x2) -> f64 {
+    let ([a, b], [c, d]) = (total_lanes.to_array(), compensation_lanes.to_array());
     (a + b) + (c + d)
 }
 

@@ -109,20 +109,20 @@ impl FirstPass {
 
     /// Multiplies the products by the Jacobians of the poses in the lanes that are set in `lane_mask`.
     #[inline(never)]
-    pub fn multiply_masked_jacobians(&mut self, poses: &FourPoses, arcs: &FourArcs, lane_mask: f64x4) {
-        let masked_or_one = |factors: f64x4| lane_mask.bitselect(factors, f64x4::splat(1.0));
-        let [twist, length, arc_factor] = [poses.sinc, arcs.length, arcs.sinc].map(masked_or_one);
+    pub fn multiply_masked_jacobians(&mut self, poses: &FourPoses, four_arcs: &FourArcs, lane_mask: f64x4) {
+        let masked_or_one = |lane_factors: f64x4| lane_mask.bitselect(lane_factors, f64x4::splat(1.0));
+        let [twist, length, arc_factor] = [poses.sinc, four_arcs.length, four_arcs.sinc].map(masked_or_one);
         self.multiply_jacobians(
             &FourPoses { sinc: twist, ..*poses },
-            &FourArcs { length, sinc: arc_factor, ..*arcs },
+            &FourArcs { length, sinc: arc_factor, ..*four_arcs },
         );
     }
 
     /// Adds the values of irregular arcs. Subtracts the values of the driven arcs (`regular_arcs`), for which the sums of the noise stand.
     #[inline(never)]
-    pub fn add_irregular_arcs(&mut self, arcs: &FourArcs, regular_arcs: [f64x4; 2], lane_mask: f64x4) {
+    pub fn add_irregular_arcs(&mut self, four_arcs: &FourArcs, regular_arcs: [f64x4; 2], lane_mask: f64x4) {
         let [.., length, half_turn] = self.reference_point;
-        self.irregular_arcs.add([arcs.length - length, arcs.half_turn - half_turn], lane_mask);
+        self.irregular_arcs.add([four_arcs.length - length, four_arcs.half_turn - half_turn], lane_mask);
         self.irregular_arcs.subtract(regular_arcs, lane_mask);
     }
 
@@ -189,13 +189,13 @@ impl FirstPass {
     /// of a small cloud is many of its standard deviations away from the reference point.
     pub fn better_reference_point(&self, pose_count: usize) -> Option<ReferencePoint> {
         let n = pose_count as f64;
-        let sums = self.summed_products.totals();
-        let means = [0, 1, 2, 3, 4].map(|i| sums[i] / n);
-        let mean_squares = [5, 7, 8, 10, 13].map(|i| sums[i] / n);
-        let has_lost_digits =
-            (0..5).any(|i| means[i] * means[i] > 0.99 * mean_squares[i] && mean_squares[i] > 0.0);
+        let product_sums = self.summed_products.totals();
+        let product_means = [0, 1, 2, 3, 4].map(|i| product_sums[i] / n);
+        let mean_squares = [5, 7, 8, 10, 13].map(|i| product_sums[i] / n);
+        let has_lost_digits = (0..5)
+            .any(|i| product_means[i] * product_means[i] > 0.99 * mean_squares[i] && mean_squares[i] > 0.0);
         has_lost_digits
-            .then(|| std::array::from_fn(|i| self.reference_point[i] + means.get(i).unwrap_or(&0.0)))
+            .then(|| std::array::from_fn(|i| self.reference_point[i] + product_means.get(i).unwrap_or(&0.0)))
     }
 }
 
@@ -277,26 +277,26 @@ impl SecondPass {
         self.summed_products.flush_block();
     }
 
-    /// Returns the statistics of `count` poses. `sample` is a weighted subsample of the poses, for the standard errors of the likelihood
+    /// Returns the statistics of `pose_count` poses. `robot_groups` is a weighted subsample of the poses, for the standard errors of the likelihood
     /// gain.
     pub fn stats(
         &self,
-        count: usize,
-        sample: impl Iterator<Item = (FourPoses, FourArcs, f64x4)>,
+        pose_count: usize,
+        robot_groups: impl Iterator<Item = (FourPoses, FourArcs, f64x4)>,
     ) -> CloudStats {
-        let n = count as f64;
-        let means = self.summed_products.totals().map(|sum| sum / n);
-        let [products @ .., mean_ta, fraction_in_ellipse, inside_contour] = means;
+        let n = pose_count as f64;
+        let product_means = self.summed_products.totals().map(|sum| sum / n);
+        let [products @ .., mean_ta, fraction_in_ellipse, inside_contour] = product_means;
         let [.., t, tt, td] = products;
         let FirstPassMoments { position: [x, y], position_cov: [xx, xy, yy], .. } = self.first_pass;
         let (sin, cos) = self.heading_sin_cos;
-        let bessel_factor = if count > 1 { n / (n - 1.0) } else { f64::NAN };
+        let bessel_factor = if pose_count > 1 { n / (n - 1.0) } else { f64::NAN };
         let [x_turn, y_turn, turn_variance] =
             [mean_ta * cos - td * sin, mean_ta * sin + td * cos, tt - t * t].map(|mean| bessel_factor * mean);
         let cov = Matrix3::new(xx, xy, x_turn, xy, yy, y_turn, x_turn, y_turn, turn_variance);
         let track_moments = TrackMoments {
             products,
-            squared_extent: x * x + y * y + if count > 1 { (xx + yy) / bessel_factor } else { 0.0 },
+            squared_extent: x * x + y * y + if pose_count > 1 { (xx + yy) / bessel_factor } else { 0.0 },
             resultant_length: self.first_pass.resultant_length,
         };
         let FirstPassMoments { exponential, arc, log_jacobians, .. } = self.first_pass;
@@ -307,14 +307,14 @@ impl SecondPass {
             log_jacobians,
         );
         let mut density_differences = LogDensityDifferences::new(fitted_gaussians);
-        for (poses, arcs, robot_weights) in sample {
+        for (poses, four_arcs, robot_weights) in robot_groups {
             let FourPoses { x, y, along, lateral, half_heading, sinc, .. } = poses;
             let turn_residual = wrap_turns(half_heading * 2.0 - self.first_pass.mean_turn);
             let four_robots = FourRobots {
                 cartesian: [x, y, turn_residual],
                 twist: [along, lateral, half_heading * 2.0],
-                arc: [arcs.length, arcs.half_turn * 2.0, f64x4::splat(0.0)],
-                jacobians: [sinc * sinc, arcs.length.abs() * 0.5 * (arcs.sinc * arcs.sinc)],
+                arc: [four_arcs.length, four_arcs.half_turn * 2.0, f64x4::splat(0.0)],
+                jacobians: [sinc * sinc, four_arcs.length.abs() * 0.5 * (four_arcs.sinc * four_arcs.sinc)],
             };
             density_differences.add(&four_robots, robot_weights);
         }
@@ -326,11 +326,11 @@ impl SecondPass {
                 cov,
             },
             exponential: self.first_pass.exponential,
-            cross_track: CrossTrackStats::from_moments(count, &track_moments),
+            cross_track: CrossTrackStats::from_moments(pose_count, &track_moments),
             fraction_in_ellipse: fraction_or_nan(&self.ellipse, fraction_in_ellipse),
             fraction_in_exponential: fraction_or_nan(&self.twist_ellipse, inside_contour),
-            gain: density_differences.measured_gain(count),
-            log_area_ratio_error: density_differences.log_area_ratio_error(count),
+            gain: density_differences.measured_gain(pose_count),
+            log_area_ratio_error: density_differences.log_area_ratio_error(pose_count),
         }
     }
 }

@@ -41,11 +41,11 @@ impl JsAlphaCalibrator {
     #[wasm_bindgen(js_name = restored)]
     pub fn restore(
         #[wasm_bindgen(unchecked_param_type = "Partial<AlphaCalibratorSettings>")] settings: &JsValue,
-        saved: &[u8],
+        saved_bytes: &[u8],
     ) -> Result<Self, JsValue> {
-        let calibration = postcard::from_bytes(saved)
+        let saved_calibration = postcard::from_bytes(saved_bytes)
             .map_err(|_| TypeError::new("saved is no fit; allowed is that of another simulation"))?;
-        Ok(Self(AlphaCalibrator::restore(read_initial_settings(settings)?, calibration)?))
+        Ok(Self(AlphaCalibrator::restore(read_initial_settings(settings)?, saved_calibration)?))
     }
 
     /// Returns the fit as bytes, from which `restored` creates a simulation.
@@ -57,10 +57,10 @@ impl JsAlphaCalibrator {
     #[wasm_bindgen(js_name = setLog)]
     pub fn set_log(
         &mut self,
-        #[wasm_bindgen(unchecked_param_type = "CalibrationOptions['odometry']")] odometry: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "CalibrationOptions['reference']")] reference: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "CalibrationOptions['odometry']")] odometry_value: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "CalibrationOptions['reference']")] reference_value: &JsValue,
     ) -> Result<(), JsValue> {
-        self.0.set_log(read_logs(odometry, reference)?);
+        self.0.set_log(read_logs(odometry_value, reference_value)?);
         Ok(())
     }
 
@@ -83,6 +83,6 @@ impl JsAlphaCalibrator {
 
     /// Returns the index of the leg whose path, as measured by the reference, is nearest to a point and within `radius` of it; −1 for none.
     pub fn nearest(&self, x: f64, y: f64, radius: f64) -> Result<i32, JsValue> {
-        nearest_index(x, y, radius, |target, radius| self.0.nearest(target, radius))
+        nearest_index(x, y, radius, |target_point, radius| self.0.nearest(target_point, radius))
     }
 }

@@ -81,8 +81,9 @@ impl JsBananaMachine {
     /// Returns a sample by its index among those shown, counted from 0.
     pub fn inspect(&self, index: f64) -> Result<Ts<Sample>, JsValue> {
         let index = read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize;
-        let sample = self.0.inspect(index).ok_or_else(|| not_shown_error(index, self.0.shown_count()))?;
-        Ok(to_ts(&sample))
+        let pose_sample =
+            self.0.inspect(index).ok_or_else(|| not_shown_error(index, self.0.shown_count()))?;
+        Ok(to_ts(&pose_sample))
     }
 
     /// Returns the index of the nearest sample inside the ellipse with these semi-axes around a point of the picture; −1 for none. `morph`
@@ -112,8 +113,8 @@ impl JsBananaMachine {
         columns: f64,
         rows: f64,
     ) -> Result<Uint32Array, JsValue> {
-        let grid = read_grid(bounds, columns, rows)?;
-        Ok(Uint32Array::from(&self.0.density(check_range("morph", morph, &MORPH_RANGE)?, &grid)[..]))
+        let view_grid = read_grid(bounds, columns, rows)?;
+        Ok(Uint32Array::from(&self.0.density(check_range("morph", morph, &MORPH_RANGE)?, &view_grid)[..]))
     }
 
     /// Returns the `density` of the samples as RGBA pixels. A count c has the colour ramp[255·√(c/max)], one of 256, where max is the
@@ -125,11 +126,11 @@ impl JsBananaMachine {
         #[wasm_bindgen(unchecked_param_type = "ArrayLike<number>")] bounds: &JsValue,
         columns: f64,
         rows: f64,
-        ramp: &[u8],
+        ramp_bytes: &[u8],
     ) -> Result<Uint8ClampedArray, JsValue> {
-        let grid = read_grid(bounds, columns, rows)?;
-        let [ramp] = read_ramps("ramp", ramp)?;
-        Ok(pixel_view(self.0.paint(check_range("morph", morph, &MORPH_RANGE)?, &grid, &ramp)))
+        let view_grid = read_grid(bounds, columns, rows)?;
+        let [colour_ramp] = read_ramps("ramp", ramp_bytes)?;
+        Ok(pixel_view(self.0.paint(check_range("morph", morph, &MORPH_RANGE)?, &view_grid, &colour_ramp)))
     }
 }
 

@@ -24,8 +24,8 @@ pub fn js_calibrate(
     const KEYS: [&str; 9] =
         ["odometry", "reference", "model", "rule", "legs", "outliers", "correct", "positionStd", "yawStd"];
     let fields = FieldReader::new("options", "", options, &KEYS)?;
-    let read_std = |key: &str| {
-        fields.read_optional(key, |field_path, value| read_value(field_path, value, 0.0, STD_RANGE))
+    let read_std = |option_key: &str| {
+        fields.read_optional(option_key, |field_path, value| read_value(field_path, value, 0.0, STD_RANGE))
     };
     let options = Options {
         model: read_model(&fields)?,
@@ -61,10 +61,11 @@ fn read_model(fields: &FieldReader) -> Result<Model, JsValue> {
     })
 }
 
-fn read_leg_length(field: &str, value: &JsValue) -> Result<LegLength, JsValue> {
-    let fields = FieldReader::new(field, "legs.", value, &["distance", "angle", "duration"])?;
-    let [leg_distance, leg_angle, leg_duration] = ["distance", "angle", "duration"]
-        .map(|key| fields.read_optional(key, |path, value| read_value(path, value, 1.0, LEG_LENGTH_RANGE)));
+fn read_leg_length(field_path: &str, value: &JsValue) -> Result<LegLength, JsValue> {
+    let fields = FieldReader::new(field_path, "legs.", value, &["distance", "angle", "duration"])?;
+    let [leg_distance, leg_angle, leg_duration] = ["distance", "angle", "duration"].map(|option_key| {
+        fields.read_optional(option_key, |path, value| read_value(path, value, 1.0, LEG_LENGTH_RANGE))
+    });
     let (leg_distance, leg_angle) = (leg_distance?, leg_angle?);
     match leg_duration? {
         Some(_) if leg_distance.is_some() || leg_angle.is_some() => {
@@ -80,19 +81,19 @@ fn read_leg_length(field: &str, value: &JsValue) -> Result<LegLength, JsValue> {
     }
 }
 
-fn read_corrections(field: &str, value: &JsValue) -> Result<[Option<bool>; ERROR_COUNT], JsValue> {
+fn read_corrections(field_path: &str, value: &JsValue) -> Result<[Option<bool>; ERROR_COUNT], JsValue> {
     if let Some(all_errors) = value.as_bool() {
         return Ok([Some(all_errors); ERROR_COUNT]);
     }
-    let error_keys = SYSTEMATIC_ERROR_KEYS.map(|(key, _)| key);
+    let error_keys = SYSTEMATIC_ERROR_KEYS.map(|(option_key, _)| option_key);
     if !value.is_object() {
         let allowed_text = format!("true, false or an object with keys from {}", error_keys.join(", "));
-        return Err(type_error(field, value, &allowed_text));
+        return Err(type_error(field_path, value, &allowed_text));
     }
-    let fields = FieldReader::new(field, "correct.", value, &error_keys)?;
+    let fields = FieldReader::new(field_path, "correct.", value, &error_keys)?;
     let mut should_correct = [None; ERROR_COUNT];
-    for (key, systematic_errors) in SYSTEMATIC_ERROR_KEYS {
-        let is_corrected = fields.read_optional(key, read_boolean)?;
+    for (option_key, systematic_errors) in SYSTEMATIC_ERROR_KEYS {
+        let is_corrected = fields.read_optional(option_key, read_boolean)?;
         systematic_errors.iter().for_each(|error| should_correct[*error as usize] = is_corrected);
     }
     Ok(should_correct)

@@ -108,7 +108,8 @@ fn systematic_errors(calibration: &Calibration) -> SystematicErrors {
         corrected: is_corrected[error as usize],
     };
     let lever_arm = [SystematicError::LeverArmAhead, SystematicError::LeverArmLeft];
-    let has_any = |flags: &[bool; ERROR_COUNT]| lever_arm.iter().any(|error| flags[*error as usize]);
+    let has_any =
+        |error_flags: &[bool; ERROR_COUNT]| lever_arm.iter().any(|error| error_flags[*error as usize]);
     SystematicErrors {
         clock_offset: scalar_value_of(SystematicError::ClockOffset),
         mount_yaw: scalar_value_of(SystematicError::MountYaw),
@@ -150,17 +151,17 @@ js_structs! {
 }
 
 pub fn legs_to_js(calibration: &Calibration) -> JsValue {
-    let Calibration { legs, observations, leg_fits, corrected, .. } = calibration;
+    let Calibration { legs, observations: leg_observations, leg_fits, corrected, .. } = calibration;
     let mut leg_columns = CalibrationLegs { count: legs.len(), ..Default::default() };
     let base_trajectory = corrected.base();
-    for ((leg, observation), leg_fit) in legs.iter().zip(observations).zip(leg_fits) {
+    for ((leg, leg_observation), leg_fit) in legs.iter().zip(leg_observations).zip(leg_fits) {
         leg_columns.times.extend_from_slice(&leg.times);
         for end_index in [0, 1] {
             leg_columns.odometry.extend(<[f64; 3]>::from(leg.odometry[end_index]));
             leg_columns.reference.extend(<[f64; 3]>::from(leg.reference[end_index] * base_trajectory));
         }
-        leg_columns.readings.extend_from_slice(&observation.reading);
-        leg_columns.residuals.extend_from_slice(&observation.residuals);
+        leg_columns.readings.extend_from_slice(&leg_observation.reading);
+        leg_columns.residuals.extend_from_slice(&leg_observation.residuals);
         leg_columns.standardized.extend_from_slice(&leg_fit.standardized);
         leg_columns.stds.extend_from_slice(&leg_fit.stds);
         leg_columns.squared.push(leg_fit.squared);

@@ -45,8 +45,8 @@ cloud_simulation_class! {
         /// Predicted variances of along, lateral (m²) and heading (rad²) after each step, three numbers a step; NaN if undefined.
         predicted: "ByRecursion<Float64Array>" = js_by_recursion(|recursion| {
             let to_variances = |cov: &Matrix3<f64>| cov.diagonal();
-            let covariances = simulation.predicted_covariances(recursion).iter();
-            triple_array(covariances.map(|cov| cov.as_ref().map_or(Vector3::repeat(f64::NAN), to_variances)))
+            let cov_matrices = simulation.predicted_covariances(recursion).iter();
+            triple_array(cov_matrices.map(|cov| cov.as_ref().map_or(Vector3::repeat(f64::NAN), to_variances)))
         });
         /// Measured variances, in the form of `predicted`.
         measured: "Float64Array" = triple_array(simulation.measured_moments().iter().map(|moments| moments.cov.diagonal()));
@@ -66,7 +66,7 @@ impl JsDeadReckoning {
 
     /// Returns the index in `poses` of the robot that is nearest to a point and within `radius` of it; −1 for none.
     pub fn nearest(&self, x: f64, y: f64, radius: f64) -> Result<i32, JsValue> {
-        nearest_index(x, y, radius, |target, radius| self.0.nearest(target, radius))
+        nearest_index(x, y, radius, |target_point, radius| self.0.nearest(target_point, radius))
     }
 }
 

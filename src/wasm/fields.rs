@@ -26,12 +26,13 @@ impl<'a> FieldReader<'a> {
         if Array::is_array(object) || !object.is_object() {
             return Err(type_error(name, object, &format!("an object with keys from {}", keys.join(", "))));
         }
-        for key in Reflect::own_keys(object)?.iter().filter_map(|key| key.as_string()) {
-            if !keys.contains(&key.as_str()) {
-                let (key, keys) = (shorten_text(&key), keys.join(", "));
-                return Err(
-                    TypeError::new(&format!("{prefix}{key} is an unknown key; allowed are {keys}")).into()
-                );
+        for object_key in Reflect::own_keys(object)?.iter().filter_map(|object_key| object_key.as_string()) {
+            if !keys.contains(&object_key.as_str()) {
+                let (object_key, keys) = (shorten_text(&object_key), keys.join(", "));
+                return Err(TypeError::new(&format!(
+                    "{prefix}{object_key} is an unknown key; allowed are {keys}"
+                ))
+                .into());
             }
         }
         Ok(Self { object, prefix })
@@ -117,8 +118,8 @@ fn set_keyword(field: &str, value: &JsValue, setting: &mut dyn KeywordSetting) -
     let allowed = |setting: &dyn KeywordSetting| {
         setting.all_keywords().into_iter().map(quote_text).collect::<Vec<_>>().join(" or ")
     };
-    let keyword = value.as_string().ok_or_else(|| type_error(field, value, &allowed(setting)))?;
-    if setting.set(&keyword) {
+    let setting_keyword = value.as_string().ok_or_else(|| type_error(field, value, &allowed(setting)))?;
+    if setting.set(&setting_keyword) {
         return Ok(());
     }
     Err(RangeError::new(&format!("{field} is {}; allowed is {}", describe_value(value), allowed(setting)))
@@ -127,9 +128,9 @@ fn set_keyword(field: &str, value: &JsValue, setting: &mut dyn KeywordSetting) -
 
 /// Reads an array (or typed array) of exactly N numbers without checking ranges.
 pub fn read_array<const N: usize>(field: &str, value: &JsValue) -> Result<[f64; N], JsValue> {
-    let mut numbers = [0.0; N];
-    fill_array(field, value, &mut numbers)?;
-    Ok(numbers)
+    let mut array_numbers = [0.0; N];
+    fill_array(field, value, &mut array_numbers)?;
+    Ok(array_numbers)
 }
 
 pub fn read_array_in_range<const N: usize>(
@@ -172,8 +173,8 @@ pub fn read_settings<S: SettingRules>(current_settings: &S, options: &JsValue) -
         if value.is_undefined() {
             return Ok(());
         }
-        if let Some(original) = declaration.of.filter(|original| given_keys.contains(original)) {
-            let error_message = format!("{key} is given beside {original}; allowed is one of the two");
+        if let Some(original_key) = declaration.of.filter(|original_key| given_keys.contains(original_key)) {
+            let error_message = format!("{key} is given beside {original_key}; allowed is one of the two");
             return Err(TypeError::new(&error_message).into());
         }
         given_keys.push(key);
@@ -236,9 +237,9 @@ pub fn type_error(field: &str, value: &JsValue, allowed: &str) -> JsValue {
 const MAX_QUOTED_CHARACTERS: usize = 40;
 
 fn shorten_text(original_text: &str) -> String {
-    let mut shown_characters = original_text
-        .chars()
-        .map(|character| if character.is_control() { char::REPLACEMENT_CHARACTER } else { character });
+    let mut shown_characters = original_text.chars().map(|text_character| {
+        if text_character.is_control() { char::REPLACEMENT_CHARACTER } else { text_character }
+    });
     let mut shortened_text: String = shown_characters.by_ref().take(MAX_QUOTED_CHARACTERS).collect();
     if shown_characters.next().is_some() {
         shortened_text.push('…');
@@ -258,8 +259,8 @@ fn describe_value(value: &JsValue) -> String {
     if let Some(number) = value.as_f64() {
         return format_number(number);
     }
-    if let Some(boolean) = value.as_bool() {
-        return boolean.to_string();
+    if let Some(js_boolean) = value.as_bool() {
+        return js_boolean.to_string();
     }
     if value.is_null() || value.is_undefined() {
         return if value.is_null() { "null" } else { "undefined" }.to_owned();

@@ -18,57 +18,57 @@ const TIME_RANGE: RangeInclusive<f64> = -1e12..=1e12;
 const COORDINATE_RANGE: RangeInclusive<f64> = -1e9..=1e9;
 
 /// Reads odometry and reference of one drive, or arrays with the logs of several drives.
-pub fn read_logs(odometry: &JsValue, reference: &JsValue) -> Result<Vec<Drive>, JsValue> {
-    let odometry = read_drives("odometry", odometry, read_odometry)?;
-    let reference = read_drives("reference", reference, read_poses)?;
-    if odometry.len() != reference.len() {
-        let [odometry, reference] = [odometry.len(), reference.len()];
+pub fn read_logs(odometry_value: &JsValue, reference_value: &JsValue) -> Result<Vec<Drive>, JsValue> {
+    let odometry_drives = read_drives("odometry", odometry_value, read_odometry)?;
+    let reference_drives = read_drives("reference", reference_value, read_poses)?;
+    let [odometry_count, reference_count] = [odometry_drives.len(), reference_drives.len()];
+    if odometry_count != reference_count {
         let error_message = format!(
-            "reference has {reference} drives; allowed is one for each of the {odometry} of odometry"
+            "reference has {reference_count} drives; allowed is one for each of the {odometry_count} of odometry"
         );
         return Err(RangeError::new(&error_message).into());
     }
-    Ok(odometry
+    Ok(odometry_drives
         .into_iter()
-        .zip(reference)
+        .zip(reference_drives)
         .map(|(odometry, reference)| Drive { odometry, reference })
         .collect())
 }
 
 fn read_drives(
-    field: &str,
+    field_path: &str,
     value: &JsValue,
     read_drive: fn(&str, &JsValue) -> Result<Trajectory, JsValue>,
 ) -> Result<Vec<Trajectory>, JsValue> {
     if !js_sys::Array::is_array(value) {
-        return Ok(vec![read_drive(field, value)?]);
+        return Ok(vec![read_drive(field_path, value)?]);
     }
-    let drive_count = array_length(field, value, "an array of drives")?;
+    let drive_count = array_length(field_path, value, "an array of drives")?;
     if drive_count == 0 {
-        return Err(RangeError::new(&format!("{field} is empty; allowed is one drive at least")).into());
+        return Err(RangeError::new(&format!("{field_path} is empty; allowed is one drive at least")).into());
     }
-    (0..drive_count).map(|i| read_drive(&format!("{field}[{i}]"), &array_item(value, i)?)).collect()
+    (0..drive_count).map(|i| read_drive(&format!("{field_path}[{i}]"), &array_item(value, i)?)).collect()
 }
 
-fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
-    let path_prefix = format!("{field}.");
+fn read_odometry(field_path: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
+    let path_prefix = format!("{field_path}.");
     let allowed_text = "an object with keys from t, x, y, theta, breaks or from t, v, omega, breaks";
-    let log_fields = FieldReader::with_any_keys(field, &path_prefix, value, allowed_text)?;
+    let log_fields = FieldReader::with_any_keys(field_path, &path_prefix, value, allowed_text)?;
     if log_fields.value("v")?.is_undefined() && log_fields.value("omega")?.is_undefined() {
-        return read_poses(field, value);
+        return read_poses(field_path, value);
     }
-    let log_fields = FieldReader::new(field, &path_prefix, value, &["t", "v", "omega", "breaks"])?;
-    let columns = read_columns(&log_fields, ["t", "v", "omega"])?;
-    let [t, v, omega] = &columns;
+    let log_fields = FieldReader::new(field_path, &path_prefix, value, &["t", "v", "omega", "breaks"])?;
+    let log_columns = read_columns(&log_fields, ["t", "v", "omega"])?;
+    let [t, v, omega] = &log_columns;
     let velocity_commands = t.iter().zip(v).zip(omega).map(|((t, v), omega)| (*t, *v, *omega));
     checked_trajectory(&log_fields, Trajectory::from_commands(velocity_commands))
 }
 
-fn read_poses(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
-    let path_prefix = format!("{field}.");
-    let log_fields = &FieldReader::new(field, &path_prefix, value, &["t", "x", "y", "theta", "breaks"])?;
-    let columns = read_columns(log_fields, ["t", "x", "y", "theta"])?;
-    let [t, x, y, theta] = &columns;
+fn read_poses(field_path: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
+    let path_prefix = format!("{field_path}.");
+    let log_fields = &FieldReader::new(field_path, &path_prefix, value, &["t", "x", "y", "theta", "breaks"])?;
+    let log_columns = read_columns(log_fields, ["t", "x", "y", "theta"])?;
+    let [t, x, y, theta] = &log_columns;
     let poses = x.iter().zip(y).zip(theta).map(|((x, y), theta)| SE2::new(*x, *y, *theta));
     checked_trajectory(log_fields, Trajectory::new(t.iter().copied().zip(poses)))
 }
@@ -83,44 +83,45 @@ fn checked_trajectory(
     let last_sample = trajectory.samples().len() as u64 - 1;
     let read_breaks = |field_path: &str, break_values: &JsValue| {
         let break_count = array_length(field_path, break_values, "an array of numbers")?;
-        let numbers = read_numbers_of_column(field_path, break_values, break_count)?;
-        let indexed_numbers = numbers.into_iter().enumerate();
-        let sample_range = indexed_numbers
-            .map(|(i, sample)| read_integer(&format!("{field_path}[{i}]"), sample, 1..=last_sample));
+        let break_numbers = read_numbers_of_column(field_path, break_values, break_count)?;
+        let indexed_numbers = break_numbers.into_iter().enumerate();
+        let sample_range = indexed_numbers.map(|(i, break_index)| {
+            read_integer(&format!("{field_path}[{i}]"), break_index, 1..=last_sample)
+        });
         sample_range.collect::<Result<Vec<u64>, JsValue>>()
     };
     let break_values = log_fields.read_optional("breaks", read_breaks)?.unwrap_or_default();
-    Ok(trajectory.with_breaks_before(break_values.into_iter().map(|sample| sample as usize)))
+    Ok(trajectory.with_breaks_before(break_values.into_iter().map(|break_index| break_index as usize)))
 }
 
 /// Reads arrays of numbers, all of which must have the length of the first array, the times.
 fn read_columns<const N: usize>(log_fields: &FieldReader, keys: [&str; N]) -> Result<[Vec<f64>; N], JsValue> {
-    let mut columns = [const { Vec::new() }; N];
-    for (i, key) in keys.into_iter().enumerate() {
-        let (field_path, value) = (log_fields.path(key), log_fields.value(key)?);
+    let mut log_columns = [const { Vec::new() }; N];
+    for (i, column_key) in keys.into_iter().enumerate() {
+        let (field_path, value) = (log_fields.path(column_key), log_fields.value(column_key)?);
         let expected_text = "an array of numbers";
         let row_count = array_length(&field_path, &value, expected_text)?;
-        let row_counts = if i == 0 { 2..=MAX_ROWS } else { columns[0].len()..=columns[0].len() };
+        let row_counts = if i == 0 { 2..=MAX_ROWS } else { log_columns[0].len()..=log_columns[0].len() };
         if !row_counts.contains(&row_count) {
             let row_counts = if i == 0 {
                 format!("2 to {MAX_ROWS}")
             } else {
-                format!("{}, as of {}", columns[0].len(), log_fields.path(keys[0]))
+                format!("{}, as of {}", log_columns[0].len(), log_fields.path(keys[0]))
             };
             return Err(RangeError::new(&format!(
                 "{field_path} has length {row_count}; allowed is {row_counts}"
             ))
             .into());
         }
-        columns[i] = read_numbers_of_column(&field_path, &value, row_count)?;
-        for (row, column_value) in columns[i].iter().enumerate() {
+        log_columns[i] = read_numbers_of_column(&field_path, &value, row_count)?;
+        for (row, column_value) in log_columns[i].iter().enumerate() {
             let column_range = if i == 0 { &TIME_RANGE } else { &COORDINATE_RANGE };
             if !column_range.contains(column_value) {
                 check_real(&format!("{field_path}[{row}]"), *column_value, column_range)?;
             }
         }
     }
-    Ok(columns)
+    Ok(log_columns)
 }
 
 fn read_numbers_of_column(field_path: &str, value: &JsValue, row_count: usize) -> Result<Vec<f64>, JsValue> {

@@ -24,8 +24,8 @@ impl From<FloorPlanError> for JsValue {
 }
 
 /// Reads a floor plan { bounds: [x, y, x, y], walls: [[x, y, x, y], …] }, as in JSON. The walls may also be a Float64Array.
-pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
-    let plan_fields = FieldReader::new("plan", "", plan, &["bounds", "walls"])?;
+pub fn read_plan(plan_value: &JsValue) -> Result<FloorPlan, JsValue> {
+    let plan_fields = FieldReader::new("plan", "", plan_value, &["bounds", "walls"])?;
     let bounds = read_array("bounds", &plan_fields.value("bounds")?)?;
     let walls = plan_fields.value("walls")?;
     if let Some(walls) = walls.dyn_ref::<Float64Array>() {
@@ -48,10 +48,10 @@ pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
 }
 
 /// Reads a map as `map_server` does: from an image (the bytes of a file, or pixels), and the fields of its YAML file with their defaults.
-pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid, JsValue> {
-    let map_fields = FieldReader::with_any_keys("description", "", description, "an object")?;
-    let resolution = check_range("resolution", map_fields.number("resolution")?, &RESOLUTION_RANGE)?;
-    let origin: [f64; 3] = read_array_in_range("origin", &map_fields.value("origin")?, &QUANTITY_RANGE)?;
+pub fn read_map(description_value: &JsValue, image_value: &JsValue) -> Result<OccupancyGrid, JsValue> {
+    let map_fields = FieldReader::with_any_keys("description", "", description_value, "an object")?;
+    let grid_resolution = check_range("resolution", map_fields.number("resolution")?, &RESOLUTION_RANGE)?;
+    let grid_origin: [f64; 3] = read_array_in_range("origin", &map_fields.value("origin")?, &QUANTITY_RANGE)?;
     let default_classifier = PixelClassifier::default();
     let is_negated = match map_fields.value("negate")?.as_bool() {
         Some(is_negated) => is_negated,
@@ -67,27 +67,29 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
             format!("free_thresh is {free_text}; allowed is at most occupied_thresh, {limit_text}");
         return Err(RangeError::new(&error_message).into());
     }
-    let mode = map_fields.read_or("mode", default_classifier.mode, ())?;
-    let classifier = PixelClassifier { mode, negate: is_negated, occupied_thresh, free_thresh };
-    let origin = SE2::from(origin);
-    if let Some(file_bytes) = image.dyn_ref::<Uint8Array>() {
+    let map_mode = map_fields.read_or("mode", default_classifier.mode, ())?;
+    let pixel_classifier =
+        PixelClassifier { mode: map_mode, negate: is_negated, occupied_thresh, free_thresh };
+    let grid_origin = SE2::from(grid_origin);
+    if let Some(file_bytes) = image_value.dyn_ref::<Uint8Array>() {
         read_integer("image.length", f64::from(file_bytes.length()), 0..=MAX_BYTES as u64)?;
-        return read_grid(&file_bytes.to_vec(), &classifier, resolution, origin)
+        return read_grid(&file_bytes.to_vec(), &pixel_classifier, grid_resolution, grid_origin)
             .map_err(|plan_error| RangeError::new(&plan_error.to_string()).into());
     }
-    let (width, height, pixel_bytes) = read_pixels(image)?;
+    let (width, height, pixel_bytes) = read_pixels(image_value)?;
     let pixels = pixel_bytes.as_chunks::<4>().0.to_vec();
-    Ok(OccupancyGrid::new(&Image { width, height, pixels }, &classifier, resolution, origin))
+    Ok(OccupancyGrid::new(&Image { width, height, pixels }, &pixel_classifier, grid_resolution, grid_origin))
 }
 
 /// Reads width, height, and the red, green, blue and opacity of each pixel of an ImageData. An object with the same properties is accepted,
 /// because Node has no such class.
-fn read_pixels(image: &JsValue) -> Result<(usize, usize, Vec<u8>), JsValue> {
-    let fields = FieldReader::with_any_keys("image", "image.", image, "an object")?;
-    let width = read_integer("image.width", fields.number("width")?, 1..=MAX_PIXELS as u64)? as usize;
+fn read_pixels(image_value: &JsValue) -> Result<(usize, usize, Vec<u8>), JsValue> {
+    let image_fields = FieldReader::with_any_keys("image", "image.", image_value, "an object")?;
+    let width = read_integer("image.width", image_fields.number("width")?, 1..=MAX_PIXELS as u64)? as usize;
     let height =
-        read_integer("image.height", fields.number("height")?, 1..=(MAX_PIXELS / width) as u64)? as usize;
-    let rgba = fields.value("data")?;
+        read_integer("image.height", image_fields.number("height")?, 1..=(MAX_PIXELS / width) as u64)?
+            as usize;
+    let rgba = image_fields.value("data")?;
     let Some(rgba) = rgba.dyn_ref::<Uint8ClampedArray>() else {
         return Err(type_error("image.data", &rgba, "a Uint8ClampedArray of red, green, blue, opacity"));
     };

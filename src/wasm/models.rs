@@ -181,20 +181,20 @@ pub fn propagate(options: &JsPropagation) -> Result<Array, JsValue> {
     let fields =
         FieldReader::new("options", "", options, &["sigma", "command", "alphas", "compounding", "steps"])?;
     let mut sigma = fields.read_optional("sigma", read_covariance)?.unwrap_or_default();
-    let command = read_command(&fields.value("command")?)?;
+    let motion_command = read_command(&fields.value("command")?)?;
     let model = VelocityModel { alphas: VelocityAlphas(read_alphas(&fields)?), noise: NoiseKind::Normal };
-    let recursion = fields.read_or("compounding", Compounding::Chapter, ())?;
+    let cov_recursion = fields.read_or("compounding", Compounding::Chapter, ())?;
     let step_count = fields.read_or("steps", 1u64, 1..=MAX_STEPS)?;
     // The ranges of the arguments exclude negative and infinite variances.
-    let noise_model = TangentNoiseModel::from_velocity(&model, &command)
+    let noise_model = TangentNoiseModel::from_velocity(&model, &motion_command)
         .map_err(|model_error| RangeError::new(&model_error.to_string()))?;
-    let twist = TangentNoiseModel::twist(&command);
-    for step in 0..step_count {
-        sigma = noise_model.propagate(&sigma, &twist, recursion);
+    let twist = TangentNoiseModel::twist(&motion_command);
+    for step_index in 0..step_count {
+        sigma = noise_model.propagate(&sigma, &twist, cov_recursion);
         // The first-order and chapter recursions only add covariances. Only the fourth order can give an indefinite matrix.
-        if recursion == Compounding::FourthOrder && covariance_root(&sigma).is_err() {
+        if cov_recursion == Compounding::FourthOrder && covariance_root(&sigma).is_err() {
             let error_message = format!(
-                "steps is {step_count}; allowed are at most {step} here: the next leaves no covariance, for the noise is too large"
+                "steps is {step_count}; allowed are at most {step_index} here: the next leaves no covariance, for the noise is too large"
             );
             return Err(RangeError::new(&error_message).into());
         }
@@ -258,38 +258,39 @@ fn read_noise(fields: &FieldReader) -> Result<NoiseKind, JsValue> {
     fields.read_or("noise", NoiseKind::Normal, ())
 }
 
-fn read_pose(field: &str, value: &JsValue) -> Result<SE2, JsValue> {
-    Ok(read_value(field, value, [0.0; 3], ())?.into())
+fn read_pose(field_path: &str, js_value: &JsValue) -> Result<SE2, JsValue> {
+    Ok(read_value(field_path, js_value, [0.0; 3], ())?.into())
 }
 
-fn read_command(value: &JsValue) -> Result<VelocityCmd, JsValue> {
-    read_value("command", value, VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 }, ())
+fn read_command(js_value: &JsValue) -> Result<VelocityCmd, JsValue> {
+    read_value("command", js_value, VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 }, ())
 }
 
-fn read_legs(value: &JsValue) -> Result<OdomDelta, JsValue> {
-    read_value("control", value, OdomDelta { rot1: 0.0, trans: 0.0, rot2: 0.0 }, ())
+fn read_legs(js_value: &JsValue) -> Result<OdomDelta, JsValue> {
+    read_value("control", js_value, OdomDelta { rot1: 0.0, trans: 0.0, rot2: 0.0 }, ())
 }
 
-fn read_twist(field: &str, value: &JsValue) -> Result<Vector3<f64>, JsValue> {
-    Ok(read_array_in_range(field, value, &QUANTITY_RANGE)?.into())
+fn read_twist(field_path: &str, js_value: &JsValue) -> Result<Vector3<f64>, JsValue> {
+    Ok(read_array_in_range(field_path, js_value, &QUANTITY_RANGE)?.into())
 }
 
-fn read_covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue> {
+fn read_covariance(field_path: &str, js_value: &JsValue) -> Result<Matrix3<f64>, JsValue> {
     let allowed_text = "three rows of three numbers";
-    let row_count = array_length(field, value, allowed_text)?;
+    let row_count = array_length(field_path, js_value, allowed_text)?;
     if row_count != 3 {
-        return Err(
-            RangeError::new(&format!("{field} has length {row_count}; allowed are {allowed_text}")).into()
-        );
+        return Err(RangeError::new(&format!(
+            "{field_path} has length {row_count}; allowed are {allowed_text}"
+        ))
+        .into());
     }
     let mut covariance_matrix = Matrix3::zeros();
     for i in 0..3 {
         let row: [f64; 3] =
-            read_array_in_range(&format!("{field}[{i}]"), &array_item(value, i)?, &QUANTITY_RANGE)?;
+            read_array_in_range(&format!("{field_path}[{i}]"), &array_item(js_value, i)?, &QUANTITY_RANGE)?;
         covariance_matrix.set_row(i, &Vector3::from(row).transpose());
     }
     covariance_root(&covariance_matrix)
-        .map_err(|model_error| RangeError::new(&format!("{field} is no covariance: {model_error}")))?;
+        .map_err(|model_error| RangeError::new(&format!("{field_path} is no covariance: {model_error}")))?;
     Ok(covariance_matrix)
 }
 

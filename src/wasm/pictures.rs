@@ -10,11 +10,11 @@ use wasm_bindgen::prelude::*;
 /// Allowed radii around a point. NaN is refused.
 pub const RADIUS_RANGE: RangeInclusive<f64> = 0.0..=f64::INFINITY;
 
-pub fn pixel_view(pixels: &[[u8; 4]]) -> Uint8ClampedArray {
-    let (first_byte, byte_count) = (pixels.as_ptr() as u32, pixels.as_flattened().len() as u32);
+pub fn pixel_view(rgba_pixels: &[[u8; 4]]) -> Uint8ClampedArray {
+    let (first_byte, byte_count) = (rgba_pixels.as_ptr() as u32, rgba_pixels.as_flattened().len() as u32);
     let create_view = || {
-        let memory: WebAssembly::Memory = wasm_bindgen::memory().unchecked_into();
-        Uint8ClampedArray::new_with_byte_offset_and_length(&memory.buffer(), first_byte, byte_count)
+        let module_memory: WebAssembly::Memory = wasm_bindgen::memory().unchecked_into();
+        Uint8ClampedArray::new_with_byte_offset_and_length(&module_memory.buffer(), first_byte, byte_count)
     };
     let first_view = create_view();
     // Creating the view may have grown the memory, which detaches existing views. The second view does not grow it.
@@ -35,10 +35,10 @@ pub fn nearest_index(
 pub fn read_bounds(bounds: &JsValue) -> Result<[[f64; 2]; 2], JsValue> {
     let [x_min, y_min, x_max, y_max] = read_array("bounds", bounds)?;
     let min_corner = [check_range("xMin", x_min, &EXTENT_RANGE)?, check_range("yMin", y_min, &EXTENT_RANGE)?];
-    let limit = *EXTENT_RANGE.end();
+    let extent_limit = *EXTENT_RANGE.end();
     let max_corner = [
-        check_range("xMax", x_max, &(min_corner[0]..=limit))?,
-        check_range("yMax", y_max, &(min_corner[1]..=limit))?,
+        check_range("xMax", x_max, &(min_corner[0]..=extent_limit))?,
+        check_range("yMax", y_max, &(min_corner[1]..=extent_limit))?,
     ];
     Ok([min_corner, max_corner])
 }

@@ -73,10 +73,10 @@ cloud_simulation_class! {
         };
         /// Cells of the map; null for a floor plan without cells.
         grid: "Grid | null" = to_plain_js(&simulation.plan().grid().map(|grid| {
-            let ([columns, rows], origin) = (grid.size(), grid.origin().into());
+            let ([column_count, row_count], grid_pose) = (grid.size(), grid.origin().into());
             let cell_flags_of = |cell_state| grid.cells().map(|grid_cell| u8::from(grid_cell == cell_state)).collect();
             let [occupied_flags, unknown_flags] = [Cell::Occupied, Cell::Unknown].map(cell_flags_of);
-            Grid { columns, rows, resolution: grid.resolution(), origin, occupied: occupied_flags, unknown: unknown_flags }
+            Grid { columns: column_count, rows: row_count, resolution: grid.resolution(), origin: grid_pose, occupied: occupied_flags, unknown: unknown_flags }
         }));
         /// Free start pose: in the middle of the largest square that is known to be free, heading where the path is free
         /// for longest. If the robot does not fit there, another pose where it fits; null if there is none.
@@ -121,7 +121,7 @@ impl JsMapSqueeze {
         self.0.first_contact(index).map(Vec::from)
     }
 
-    /// Draws `count` accepted samples with a sampler and discards them, to measure the time. Throws if too many draws are rejected.
+    /// Draws `attempt_count` accepted samples with a sampler and discards them, to measure the time. Throws if too many draws are rejected.
     pub fn trial(
         &self,
         #[wasm_bindgen(unchecked_param_type = "MapSqueezeSettings['sampler']")] sampler: &JsValue,
@@ -130,12 +130,12 @@ impl JsMapSqueeze {
     ) -> Result<Ts<Cost>, JsValue> {
         let steps = read_integer("steps", steps, 1..=MAX_STEPS)?;
         let sampler = read_value("sampler", sampler, Sampler::Endpoint, ())?.with_part_count(steps as u32);
-        let count = read_integer("count", count, 1..=MAX_TRIAL_PARTS / steps)? as usize;
-        let trial_cost = self.0.sampling_trial(sampler, count).map_err(|no_sample| {
-            let max_total_draws = max_draws(sampler.part_count() as usize * count);
+        let attempt_count = read_integer("count", attempt_count, 1..=MAX_TRIAL_PARTS / steps)? as usize;
+        let trial_cost = self.0.sampling_trial(sampler, attempt_count).map_err(|no_sample| {
+            let max_total_draws = max_draws(sampler.part_count() as usize * attempt_count);
             RangeError::new(&format!(
                 "sampler is {}, by which {no_sample}; allowed is one of at most {MAX_DRAWS} draws an accepted sample and {max_total_draws} \
-                 for {count} of them",
+                 for {attempt_count} of them",
                 quote_text(sampler.get()),
             ))
         })?;
@@ -162,12 +162,12 @@ impl JsMapSqueeze {
 
     /// Returns the index of the attempt that ends nearest to a point and within `radius` of it; −1 for none.
     pub fn nearest(&self, x: f64, y: f64, radius: f64) -> Result<i32, JsValue> {
-        nearest_index(x, y, radius, |target, radius| self.0.nearest(target, radius))
+        nearest_index(x, y, radius, |target_point, radius| self.0.nearest(target_point, radius))
     }
 }
 
-fn path_of(simulation: &MapSqueeze, index: usize) -> Float64Array {
-    flat_float_array(&simulation.arcs(index).iter().flat_map(Arc::points).collect::<Vec<_>>())
+fn path_of(map_simulation: &MapSqueeze, index: usize) -> Float64Array {
+    flat_float_array(&map_simulation.arcs(index).iter().flat_map(Arc::points).collect::<Vec<_>>())
 }
 
 /// Maximum number of paths shown. More paths would be indistinguishable, and take longer than a frame.

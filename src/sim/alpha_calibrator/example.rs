@@ -67,9 +67,10 @@ impl Controller {
             self.remaining_turn = rng.random_range(1.2..3.0) * if rng.random_bool(0.5) { 1.0 } else { -1.0 };
         }
         if self.remaining_turn != 0.0 {
-            let turn = self.remaining_turn.clamp(-MAX_TURN_RATE * ROW_INTERVAL, MAX_TURN_RATE * ROW_INTERVAL);
-            self.remaining_turn -= turn;
-            return [0.0, turn / ROW_INTERVAL];
+            let row_turn =
+                self.remaining_turn.clamp(-MAX_TURN_RATE * ROW_INTERVAL, MAX_TURN_RATE * ROW_INTERVAL);
+            self.remaining_turn -= row_turn;
+            return [0.0, row_turn / ROW_INTERVAL];
         }
         // The followed point stays 0.7 m or more ahead of the robot.
         let mut target_point = target_position(self.phase);
@@ -96,7 +97,7 @@ pub fn simulate_log(seed: u64) -> Drive {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let [x, y] = target_position(0.0);
     let start_pose = SE2::new(x, y, 1.6);
-    let mut controller = Controller { phase: 0.0, remaining_turn: 0.0, next_turn_time: 6.0 };
+    let mut drive_controller = Controller { phase: 0.0, remaining_turn: 0.0, next_turn_time: 6.0 };
     let mut odometry_poses = vec![(0.0, SE2::identity())];
     let mut true_poses = vec![(0.0, start_pose)];
     let mut current_leg = CurrentLeg {
@@ -105,10 +106,11 @@ pub fn simulate_log(seed: u64) -> Drive {
         timed_motions: vec![(0.0, SE2::identity())],
     };
     for row in 1..ROW_COUNT {
-        let time = ROW_INTERVAL * row as f64;
+        let row_time = ROW_INTERVAL * row as f64;
         let (_, leg_motion) = current_leg.timed_motions[current_leg.timed_motions.len() - 1];
         // The robot steers by its odometry. Steering by the true pose would correct the errors, and correlate them with the turns.
-        let [v, omega] = controller.next_speeds(time, &(start_pose * odometry_poses[row - 1].1), &mut rng);
+        let [v, omega] =
+            drive_controller.next_speeds(row_time, &(start_pose * odometry_poses[row - 1].1), &mut rng);
         let next_motion = leg_motion * SE2::exp(&Vector3::new(v * ROW_INTERVAL, 0.0, omega * ROW_INTERVAL));
         let odometry_twist = Vector3::new(
             v * ROW_INTERVAL / TRUTH.distance_scale,
@@ -116,9 +118,9 @@ pub fn simulate_log(seed: u64) -> Drive {
             omega * ROW_INTERVAL / TRUTH.turn_scale,
         );
         let odometry_pose = odometry_poses[row - 1].1 * SE2::exp(&odometry_twist);
-        odometry_poses.push((time, odometry_pose));
-        current_leg.timed_motions.push((time, next_motion));
-        let has_moved_far = |from: f64, to: f64| (to - from).abs() > LEG_DISTANCE;
+        odometry_poses.push((row_time, odometry_pose));
+        current_leg.timed_motions.push((row_time, next_motion));
+        let has_moved_far = |start_value: f64, end_value: f64| (end_value - start_value).abs() > LEG_DISTANCE;
         let has_turned =
             wrap_angle(odometry_pose.theta() - current_leg.odometry_start.theta()).abs() > LEG_ANGLE;
         if has_moved_far(current_leg.odometry_start.x(), odometry_pose.x())
@@ -129,7 +131,7 @@ pub fn simulate_log(seed: u64) -> Drive {
             current_leg = CurrentLeg {
                 odometry_start: odometry_pose,
                 true_start: leg_end,
-                timed_motions: vec![(time, SE2::identity())],
+                timed_motions: vec![(row_time, SE2::identity())],
             };
         }
     }
@@ -139,7 +141,7 @@ pub fn simulate_log(seed: u64) -> Drive {
             .timed_motions
             .iter()
             .skip(1)
-            .map(|(time, leg_motion)| (*time, current_leg.true_start * *leg_motion)),
+            .map(|(row_time, leg_motion)| (*row_time, current_leg.true_start * *leg_motion)),
     );
     let create_trajectory = |timed_poses| {
         // The times increase, so that the trajectory is valid.
@@ -163,10 +165,10 @@ fn finish_leg(leg: &CurrentLeg, true_poses: &mut Vec<(f64, SE2)>, rng: &mut Xosh
     let variance_per_row = Variance(1.0 / row_motions.len() as f64);
     let mut unit_noise = [0.0; 3];
     let mut leg_end = leg_motion;
-    for (time, row_motion) in row_motions {
+    for (row_time, row_motion) in row_motions {
         unit_noise.iter_mut().for_each(|noise| *noise += NoiseKind::Normal.sample(variance_per_row, rng));
         [.., leg_end] = leg_variances.executed_motion(&leg_reading, unit_noise).poses(&SE2::identity());
-        true_poses.push((*time, leg.true_start * row_motion.boxplus(leg_end.boxminus(&leg_motion))));
+        true_poses.push((*row_time, leg.true_start * row_motion.boxplus(leg_end.boxminus(&leg_motion))));
     }
     leg.true_start * leg_end
 }
@@ -176,7 +178,7 @@ fn simulate_reference(true_poses: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -
     let mut remaining_rows = 0;
     true_poses
         .iter()
-        .map(|(time, pose)| {
+        .map(|(row_time, pose)| {
             if remaining_rows > 0 {
                 remaining_rows -= 1;
             } else if rng.random_bool(JUMP_PROBABILITY) {
@@ -192,7 +194,7 @@ fn simulate_reference(true_poses: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -
                 sensor_pose.y() + current_offset.y(),
                 sensor_pose.theta(),
             );
-            (time + TRUTH.clock_offset, measured_pose)
+            (row_time + TRUTH.clock_offset, measured_pose)
         })
         .collect()
 }

@@ -151,13 +151,14 @@ impl AlphaCalibrator {
     pub fn calibration(&self) -> &Calibration {
         self.current_fit.calibration.get_or_init(|| {
             let Settings { seed, .. } = self.current_fit.settings;
-            let options = self.current_fit.settings.options();
+            let calibration_options = self.current_fit.settings.options();
             let drives = match &self.log_source {
                 LogSource::Simulated => &[example::simulate_log(seed)],
                 LogSource::Loaded(drives) => &drives[..],
                 LogSource::Restored => &[],
             };
-            calibrate(drives, &options).unwrap_or_else(|_| Calibration::empty(options.model))
+            calibrate(drives, &calibration_options)
+                .unwrap_or_else(|_| Calibration::empty(calibration_options.model))
         })
     }
 
@@ -197,26 +198,28 @@ impl AlphaCalibrator {
 
     /// Returns the end pose that the fitted model predicts for an odometry reading or command, with the noise `unit_noise` (three numbers
     /// of variance 1).
-    fn outcome_pose(&self, reading: &[f64; 3], unit_noise: [f64; 3]) -> SE2 {
+    fn outcome_pose(&self, leg_reading: &[f64; 3], unit_noise: [f64; 3]) -> SE2 {
         let (settings, calibration) = (&self.current_fit.settings, self.calibration());
         // An α that the log does not identify counts as 0.
         let inflated_alpha =
             |k: usize| settings.inflation * calibration.alphas.get(k).copied().flatten().unwrap_or(0.0);
-        let [first_coordinate, second_coordinate, third_coordinate] = *reading;
+        let [first_coordinate, second_coordinate, third_coordinate] = *leg_reading;
         if settings.model == Model::Velocity {
             let fitted_model = VelocityModel {
                 alphas: VelocityAlphas(std::array::from_fn(inflated_alpha)),
                 noise: settings.noise,
             };
-            let command = VelocityCmd { v: first_coordinate, omega: second_coordinate, dt: third_coordinate };
-            return fitted_model.apply_noise(&command, &SE2::identity(), unit_noise);
+            let velocity_command =
+                VelocityCmd { v: first_coordinate, omega: second_coordinate, dt: third_coordinate };
+            return fitted_model.apply_noise(&velocity_command, &SE2::identity(), unit_noise);
         }
-        let reading = OdomDelta { rot1: first_coordinate, trans: second_coordinate, rot2: third_coordinate };
+        let leg_reading =
+            OdomDelta { rot1: first_coordinate, trans: second_coordinate, rot2: third_coordinate };
         let alphas: RuleAlphas = std::array::from_fn(inflated_alpha);
         let [.., end_pose] = settings
             .rule
-            .variances(&reading, &alphas)
-            .executed_motion(&reading, unit_noise)
+            .variances(&leg_reading, &alphas)
+            .executed_motion(&leg_reading, unit_noise)
             .poses(&SE2::identity());
         end_pose
     }
@@ -290,13 +293,14 @@ fn create_panel(
     component: usize,
     regressor: Regressor,
 ) -> Panel {
-    let Calibration { alphas, intervals, observations, leg_fits, .. } = calibration;
+    let Calibration { alphas, intervals: alpha_intervals, observations: leg_observations, leg_fits, .. } =
+        calibration;
     let position_in_component =
         usize::from(is_translation_first(model, component) != (regressor == Regressor::Distance));
     let component_alphas = model.component_alphas()[component];
     let alpha_index = component_alphas[position_in_component];
-    let slope = alphas[alpha_index];
-    let leg_points: Vec<[f64; 3]> = observations
+    let fitted_alpha = alphas[alpha_index];
+    let leg_points: Vec<[f64; 3]> = leg_observations
         .iter()
         .zip(leg_fits)
         .filter(|(leg_observation, fit)| !leg_observation.residuals[component].is_nan() && !fit.is_outlier)
@@ -306,7 +310,7 @@ fn create_panel(
         .map(|(leg_observation, fit)| {
             let alpha_coefficient = leg_observation.coefficients[component][position_in_component];
             let total_variance = fit.stds[component] * fit.stds[component];
-            let variance_from_other_noise = total_variance - slope.unwrap_or(0.0) * alpha_coefficient;
+            let variance_from_other_noise = total_variance - fitted_alpha.unwrap_or(0.0) * alpha_coefficient;
             let squared_innovation =
                 fit.standardized[component] * fit.standardized[component] * total_variance;
             // The square of a normal variate of variance v has variance 2v².
@@ -317,38 +321,40 @@ fn create_panel(
             ]
         })
         .collect();
-    let mut panel = Panel {
+    let mut scatter_panel = Panel {
         alpha: alpha_index,
         x: Vec::new(),
         y: Vec::new(),
         error: Vec::new(),
-        slope,
-        interval: intervals[alpha_index],
+        slope: fitted_alpha,
+        interval: alpha_intervals[alpha_index],
     };
     // A panel has no bins if its α is not identified, for example the α of rotation for legs that hardly turn.
-    if slope.is_none() {
-        return panel;
+    if fitted_alpha.is_none() {
+        return scatter_panel;
     }
     let mut regressor_values: Vec<f64> = leg_points.iter().map(|point| point[0]).collect();
     regressor_values.sort_unstable_by(f64::total_cmp);
     let bin_size = leg_points.len().div_ceil(BIN_COUNT).max(MIN_LEGS_PER_BIN);
     let mut previous_limit = f64::NEG_INFINITY;
-    for bin in regressor_values.chunks(bin_size) {
-        let bin_limit = bin[bin.len() - 1];
-        let bin: Vec<&[f64; 3]> =
+    for leg_bin in regressor_values.chunks(bin_size) {
+        let bin_limit = leg_bin[leg_bin.len() - 1];
+        let leg_bin: Vec<&[f64; 3]> =
             leg_points.iter().filter(|point| point[0] > previous_limit && point[0] <= bin_limit).collect();
         previous_limit = bin_limit;
-        let leg_count = bin.len() as f64;
-        let sum_over_bin = |term_of: &dyn Fn(&[f64; 3]) -> f64| bin.iter().copied().map(term_of).sum::<f64>();
-        let [x, y] = [0, 1].map(|column| sum_over_bin(&|point| point[column]) / leg_count);
+        let leg_count = leg_bin.len() as f64;
+        let sum_over_bin =
+            |term_of: &dyn Fn(&[f64; 3]) -> f64| leg_bin.iter().copied().map(term_of).sum::<f64>();
+        let [x, y] =
+            [0, 1].map(|coordinate_index| sum_over_bin(&|point| point[coordinate_index]) / leg_count);
         let mean_variance =
             sum_over_bin(&|point| (point[1] - y) * (point[1] - y)) / (leg_count * (leg_count - 1.0));
         let model_variance = sum_over_bin(&|point| point[2]) / (leg_count * leg_count);
-        if bin.len() >= MIN_LEGS_PER_BIN {
-            panel.x.push(x);
-            panel.y.push(y);
-            panel.error.push(mean_variance.max(model_variance).sqrt());
+        if leg_bin.len() >= MIN_LEGS_PER_BIN {
+            scatter_panel.x.push(x);
+            scatter_panel.y.push(y);
+            scatter_panel.error.push(mean_variance.max(model_variance).sqrt());
         }
     }
-    panel
+    scatter_panel
 }

@@ -67,8 +67,8 @@ settings! {
 impl Settings {
     /// Copies the settings on which the fit does not depend: inflation, noise distribution and seed of the predicted outcomes.
     pub(super) fn copy_prediction_settings(&mut self, other_settings: &Self) {
-        let Self { inflation, noise, seed, .. } = *other_settings;
-        *self = Self { inflation, noise, seed, ..*self };
+        let Self { inflation: alpha_inflation, noise: noise_kind, seed, .. } = *other_settings;
+        *self = Self { inflation: alpha_inflation, noise: noise_kind, seed, ..*self };
     }
 
     /// Returns true if `other_settings` give the same fit, because they differ at most in settings of the predicted outcomes.

@@ -34,8 +34,8 @@ impl Settings {
     fn polar_motion(&self, command: &VelocityCmd) -> PolarMotion {
         match self.model_with_input(*command) {
             ModelWithInput::Velocity(model, command) => PolarMotion::of_velocity(&model, &command),
-            ModelWithInput::Odometry(model, reading) => {
-                PolarMotion::of_odometry(&model, &reading, command.omega * command.dt)
+            ModelWithInput::Odometry(model, odometry_reading) => {
+                PolarMotion::of_odometry(&model, &odometry_reading, command.omega * command.dt)
             }
         }
     }
@@ -49,11 +49,11 @@ impl Settings {
             }
             ModelKind::Odometry => {
                 let alphas = OdomAlphas(self.effective_alphas(self.odometry_alphas));
-                let reading = OdomDelta::from_poses(&START_POSE, &command_end(&command));
+                let odometry_reading = OdomDelta::from_poses(&START_POSE, &command_end(&command));
                 let model = OdometryModel { alphas, noise: self.noise };
                 ModelWithInput::Odometry(
                     ConfiguredOdometry { model, reverse_aware: self.reverse_aware },
-                    reading,
+                    odometry_reading,
                 )
             }
         }
@@ -73,8 +73,8 @@ impl ModelWithInput {
                 let ArcInversion { v_hat, omega_hat, gamma_hat } = model.executed_motion(command, unit_noise);
                 [v_hat, omega_hat, gamma_hat]
             }
-            Self::Odometry(model, reading) => {
-                let OdomDelta { rot1, trans, rot2 } = model.executed_motion(reading, unit_noise);
+            Self::Odometry(model, odometry_reading) => {
+                let OdomDelta { rot1, trans, rot2 } = model.executed_motion(odometry_reading, unit_noise);
                 [rot1, trans, rot2]
             }
         }
@@ -83,7 +83,7 @@ impl ModelWithInput {
     fn linearized_cov(&self) -> Matrix3<f64> {
         match self {
             Self::Velocity(model, command) => model.cartesian_cov(command, &START_POSE),
-            Self::Odometry(model, reading) => model.cartesian_cov(reading, &START_POSE),
+            Self::Odometry(model, odometry_reading) => model.cartesian_cov(odometry_reading, &START_POSE),
         }
     }
 }
@@ -155,9 +155,9 @@ impl BananaMachine {
     }
 
     fn show_samples(&mut self, sample_count: usize) {
-        let Settings { seed, noise, command, .. } = self.settings;
-        let drive = NoisyDrive::new(&self.settings.polar_motion(&command));
-        let cloud_stats = self.cloud.drive_and_summarize(seed, noise, drive, sample_count);
+        let Settings { seed, noise: noise_kind, command, .. } = self.settings;
+        let noisy_drive = NoisyDrive::new(&self.settings.polar_motion(&command));
+        let cloud_stats = self.cloud.drive_and_summarize(seed, noise_kind, noisy_drive, sample_count);
         self.stats = Stats::of_cloud(sample_count, &cloud_stats, self.defined_coordinates());
     }
 
@@ -245,7 +245,8 @@ impl BananaMachine {
     /// Returns the moments of the pose by three methods, and the model's moments of its exponential coordinates.
     pub fn table(&self) -> Table {
         let linearized = self.linearized_moments();
-        let Stats { cartesian, cross_track_skew, likelihood_gain, area_ratio, .. } = self.stats;
+        let Stats { cartesian: cartesian_moments, cross_track_skew, likelihood_gain, area_ratio, .. } =
+            self.stats;
         Table {
             // A Gaussian in (x, y) has no skew. To first order in the noise, its Gaussian is the same in all coordinate systems, so that
             // the likelihood gain is 0.
@@ -258,8 +259,8 @@ impl BananaMachine {
             },
             exact: self.exact_column(),
             measured: TableColumn {
-                mean: cartesian.mean,
-                cov: cartesian.cov,
+                mean: cartesian_moments.mean,
+                cov: cartesian_moments.cov,
                 cross_track_skew,
                 likelihood_gain,
                 area_ratio,
@@ -293,20 +294,21 @@ impl BananaMachine {
 
     /// Returns the commanded arc, and the 2σ outlines of the fitted and predicted Gaussians.
     pub fn contours(&self) -> Contours {
-        let Stats { cartesian, exponential, .. } = &self.stats;
-        let outline_or_empty =
-            |is_defined: bool, outline: Vec<[f64; 2]>| if is_defined { outline } else { Vec::new() };
+        let Stats { cartesian: cartesian_moments, exponential: exponential_moments, .. } = &self.stats;
+        let outline_or_empty = |is_defined: bool, outline_points: Vec<[f64; 2]>| {
+            if is_defined { outline_points } else { Vec::new() }
+        };
         let has_outlines = self.shown_count() > 1;
         let has_exponential = has_outlines && self.is_exponential_defined();
         let VelocityCmd { v, omega, dt } = self.settings.command;
-        let contour = ExponentialContour::new(exponential, &START_POSE);
+        let contour = ExponentialContour::new(exponential_moments, &START_POSE);
         let (linearized, additive_variance) =
             (self.linearized_moments(), ADDITIVE_NOISE_STD * ADDITIVE_NOISE_STD);
         Contours {
             command: arc_points(v * dt, omega * dt),
             ellipse: outline_or_empty(
                 has_outlines,
-                Ellipse::from_moments(cartesian).boundary(OUTLINE_SEGMENTS),
+                Ellipse::from_moments(cartesian_moments).boundary(OUTLINE_SEGMENTS),
             ),
             linearized: Ellipse::from_moments(&linearized).boundary(OUTLINE_SEGMENTS),
             exponential: outline_or_empty(has_exponential, contour.boundary(OUTLINE_SEGMENTS)),
@@ -321,18 +323,18 @@ impl BananaMachine {
         let pose = (index < self.shown_count()).then(|| self.cloud.pose(index))?;
         let model_with_input = self.settings.model_with_input(self.settings.command);
         let executed_motion = model_with_input.executed_motion(self.cloud.draws.noise_of_sample(index));
-        let ([v_hat, omega_hat, gamma_hat], legs, path) = match model_with_input {
+        let ([v_hat, omega_hat, gamma_hat], legs, path_points) = match model_with_input {
             ModelWithInput::Velocity(_, VelocityCmd { dt, .. }) => {
                 (executed_motion, None, arc_points(executed_motion[0] * dt, executed_motion[1] * dt))
             }
             ModelWithInput::Odometry(..) => {
                 let [rot1, trans, rot2] = executed_motion;
-                let path = vec![START_POSE.position(), pose.position()];
-                ([f64::NAN; 3], Some(OdomDelta { rot1, trans, rot2 }), path)
+                let path_points = vec![START_POSE.position(), pose.position()];
+                ([f64::NAN; 3], Some(OdomDelta { rot1, trans, rot2 }), path_points)
             }
         };
         let (pose, twist) = (pose.into(), self.twist(&pose).into());
-        Some(Sample { pose, twist, v_hat, omega_hat, gamma_hat, legs, path })
+        Some(Sample { pose, twist, v_hat, omega_hat, gamma_hat, legs, path: path_points })
     }
 
     /// Returns the executed motions of the samples shown: v̂ (m/s), ω̂ and γ̂ (rad/s). Under the odometry model they are
@@ -349,14 +351,15 @@ impl BananaMachine {
     }
 
     /// Counts the shown samples in each cell of a grid over a picture: see [`picture_pixels::count_samples_in_cells`].
-    pub fn density(&self, morph: f64, grid: &ViewGrid) -> Vec<u32> {
-        picture::count_samples_in_cells(&self.cloud, morph, grid)
+    pub fn density(&self, morph: f64, view_grid: &ViewGrid) -> Vec<u32> {
+        picture::count_samples_in_cells(&self.cloud, morph, view_grid)
     }
 
     /// Paints the density of the shown samples: see [`picture_pixels::paint_cell_counts`].
-    pub fn paint(&mut self, morph: f64, grid: &ViewGrid, ramp: &Ramp) -> &[[u8; 4]] {
-        let cell_counts = self.density(morph, grid);
-        self.picture_pixels = picture::paint_cell_counts(cell_counts.as_chunks().0, array::from_ref(ramp));
+    pub fn paint(&mut self, morph: f64, view_grid: &ViewGrid, colour_ramp: &Ramp) -> &[[u8; 4]] {
+        let cell_counts = self.density(morph, view_grid);
+        self.picture_pixels =
+            picture::paint_cell_counts(cell_counts.as_chunks().0, array::from_ref(colour_ramp));
         &self.picture_pixels
     }
 
@@ -364,7 +367,7 @@ impl BananaMachine {
     pub fn nearest(&self, morph: f64, target_point: [f64; 2], search_radii: [f64; 2]) -> Option<usize> {
         let points_of_group = |[x, y]: [f64x4; 2]| {
             let (x, y) = (x.to_array(), y.to_array());
-            (0..LANE_COUNT).map(move |lane| [x[lane], y[lane]])
+            (0..LANE_COUNT).map(move |lane_index| [x[lane_index], y[lane_index]])
         };
         nearest_index(self.cloud.point_groups(morph).flat_map(points_of_group), target_point, search_radii)
     }

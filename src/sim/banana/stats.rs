@@ -66,14 +66,14 @@ pub struct DefinedCoordinates {
 
 impl Stats {
     /// Returns the statistics of a cloud of `n` samples. Statistics in coordinates that are undefined for the cloud are NaN.
-    pub fn of_cloud(n: usize, cloud: &CloudStats, defined_coordinates: DefinedCoordinates) -> Self {
-        let CloudStats { cartesian, cross_track, gain, .. } = *cloud;
+    pub fn of_cloud(n: usize, cloud_stats: &CloudStats, defined_coordinates: DefinedCoordinates) -> Self {
+        let CloudStats { cartesian, cross_track, gain: measured_gain, .. } = *cloud_stats;
         let one_or_nan_of = |is_defined: bool| if is_defined { 1.0 } else { f64::NAN };
         let [pose_factor, arc_factor] =
             [defined_coordinates.pose, defined_coordinates.arc].map(one_or_nan_of);
         let exponential = ExponentialMoments {
-            mean: cloud.exponential.mean * pose_factor,
-            cov: cloud.exponential.cov * pose_factor,
+            mean: cloud_stats.exponential.mean * pose_factor,
+            cov: cloud_stats.exponential.cov * pose_factor,
         };
         let gain_if_defined = |LikelihoodGain { pose, floor: plane_gain }: LikelihoodGain| LikelihoodGain {
             pose: pose * pose_factor,
@@ -94,13 +94,13 @@ impl Stats {
             gaussian_skew: shape_factor * predicted_cross_track_skew(&exponential.mean, &exponential.cov),
             rho_cross_heading: cross_track.rho_heading,
             coverage: Coverage {
-                ellipse: cloud.fraction_in_ellipse,
-                exponential: shape_factor * cloud.fraction_in_exponential,
+                ellipse: cloud_stats.fraction_in_ellipse,
+                exponential: shape_factor * cloud_stats.fraction_in_exponential,
             },
-            likelihood_gain: gain_if_defined(gain.value),
-            likelihood_gain_error: gain_if_defined(gain.error),
+            likelihood_gain: gain_if_defined(measured_gain.value),
+            likelihood_gain_error: gain_if_defined(measured_gain.error),
             area_ratio,
-            area_ratio_error: area_ratio * cloud.log_area_ratio_error,
+            area_ratio_error: area_ratio * cloud_stats.log_area_ratio_error,
         }
     }
 }
@@ -199,13 +199,13 @@ impl BananaMachine {
         let gap_candidates: Vec<_> = plane_ellipse
             .boundary(OUTLINE_SEGMENTS)
             .into_iter()
-            .map(|point| {
+            .map(|sampled_point| {
                 let [x, y]: [f64; 2] =
-                    (ellipse_centre + (Vector2::from(point) - ellipse_centre) * GAP_FRACTION).into();
-                let (length, turn) = arc_with_turn_near(&START_POSE, &SE2::new(x, y, 0.0), twist_mean.z);
-                ([x, y], contour.ellipse.mahalanobis_distance([length, turn]), length < twist_mean.x)
+                    (ellipse_centre + (Vector2::from(sampled_point) - ellipse_centre) * GAP_FRACTION).into();
+                let (arc_length, turn) = arc_with_turn_near(&START_POSE, &SE2::new(x, y, 0.0), twist_mean.z);
+                ([x, y], contour.ellipse.mahalanobis_distance([arc_length, turn]), arc_length < twist_mean.x)
             })
-            .filter(|(_, distance, _)| *distance > MIN_GAP_DISTANCE)
+            .filter(|(_, gap_distance, _)| *gap_distance > MIN_GAP_DISTANCE)
             .collect();
         let find_furthest_candidate = |is_near_side: bool| {
             let candidates_of_side =
@@ -214,6 +214,6 @@ impl BananaMachine {
         };
         let mut gaps: Vec<_> = [true, false].into_iter().filter_map(find_furthest_candidate).collect();
         gaps.sort_by(|(_, a, _), (_, b, _)| b.total_cmp(a));
-        gaps.into_iter().map(|(point, _, _)| *point).collect()
+        gaps.into_iter().map(|(sampled_point, _, _)| *sampled_point).collect()
     }
 }

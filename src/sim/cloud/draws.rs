@@ -87,6 +87,7 @@ impl Draws {
     }
 
     pub fn noise_of_sample(&self, sample_index: usize) -> [f64; 3] {
-        self.unit_noise[sample_index / LANE_COUNT].map(|lanes| lanes.to_array()[sample_index % LANE_COUNT])
+        self.unit_noise[sample_index / LANE_COUNT]
+            .map(|noise_lanes| noise_lanes.to_array()[sample_index % LANE_COUNT])
     }
 }

@@ -133,11 +133,11 @@ impl NoisyDrive {
     /// [`crate::geom::unbend`].
     #[inline(always)]
     pub fn morphed_points(&self, motions: &FourMotions, end_points: &[f64x4; 2], morph: f64) -> [f64x4; 2] {
-        let FourPoses { along, lateral, half_heading, .. } = self.poses(motions, end_points);
+        let FourPoses { along: along_lanes, lateral, half_heading, .. } = self.poses(motions, end_points);
         let remaining_bend = 1.0 - morph;
         let SinCos { sinc, sin, cos } = self.trigonometry.sin_cos(half_heading * remaining_bend);
-        let (along, lateral) = (along * sinc, lateral * sinc * remaining_bend);
-        [along * cos - lateral * sin, along * sin + lateral * cos + half_heading * (2.0 * morph)]
+        let (along_lanes, lateral) = (along_lanes * sinc, lateral * sinc * remaining_bend);
+        [along_lanes * cos - lateral * sin, along_lanes * sin + lateral * cos + half_heading * (2.0 * morph)]
     }
 
     #[inline(always)]
@@ -169,7 +169,8 @@ impl NoisyDrive {
             // The length and half turn of the command are used, because inverting the end pose would change their last bits.
             [reference_coordinates[5], reference_coordinates[6]] = [self.length[0], self.bearing[0]];
         }
-        let [half_heading_sinc, arc_sinc] = [poses.sinc, arcs.sinc].map(|lanes| lanes.to_array()[0].abs());
+        let [half_heading_sinc, arc_sinc] =
+            [poses.sinc, arcs.sinc].map(|sinc_lanes| sinc_lanes.to_array()[0].abs());
         // The scale includes the noise of the length, because the commanded length may be 0.
         let length = libm::hypot(self.length[0], self.length[1]);
         (reference_coordinates, [1.0 / half_heading_sinc, 1.0 / (length * arc_sinc * arc_sinc)])
@@ -186,8 +187,8 @@ impl NoisyDrive {
 fn with_logarithms([x, y]: [f64x4; 2], turn: (f64x4, SinCos)) -> FourPoses {
     let (half_heading, SinCos { sinc, sin, cos }) = turn;
     let h_cot_h = cos / sinc;
-    let (along, lateral) = (h_cot_h * x + half_heading * y, h_cot_h * y - half_heading * x);
-    FourPoses { x, y, along, lateral, half_heading, half_sin: sin, half_cos: cos, sinc }
+    let (along_lanes, lateral) = (h_cot_h * x + half_heading * y, h_cot_h * y - half_heading * x);
+    FourPoses { x, y, along: along_lanes, lateral, half_heading, half_sin: sin, half_cos: cos, sinc }
 }
 
 /// Maximum angle (rad) for the sine and cosine formulas of small angles: π/2 minus a margin for rounding.

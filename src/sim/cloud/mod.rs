@@ -109,18 +109,19 @@ impl Cloud {
         let points_of_group = move |group_index: usize| match morph_fraction {
             0.0 => self.positions[group_index],
             1.0 => {
-                let motions = self.drive.compute_motions(&self.draws.unit_noise[group_index]);
-                let poses = self.drive.poses(&motions, &self.positions[group_index]);
+                let four_motions = self.drive.compute_motions(&self.draws.unit_noise[group_index]);
+                let poses = self.drive.poses(&four_motions, &self.positions[group_index]);
                 [poses.along, poses.half_heading * 2.0]
             }
             _ => {
-                let motions = self.drive.compute_motions(&self.draws.unit_noise[group_index]);
-                self.drive.morphed_points(&motions, &self.positions[group_index], morph_fraction)
+                let four_motions = self.drive.compute_motions(&self.draws.unit_noise[group_index]);
+                self.drive.morphed_points(&four_motions, &self.positions[group_index], morph_fraction)
             }
         };
         let (full_groups, used_lanes) = (self.shown_count / LANE_COUNT, self.shown_count % LANE_COUNT);
-        let mask_points =
-            move |points: f64x4| first_lanes_mask(used_lanes).bitselect(points, f64x4::splat(f64::INFINITY));
+        let mask_points = move |point_lanes: f64x4| {
+            first_lanes_mask(used_lanes).bitselect(point_lanes, f64x4::splat(f64::INFINITY))
+        };
         let last_group = (used_lanes > 0).then(|| points_of_group(full_groups).map(mask_points));
         (0..full_groups).map(points_of_group).chain(last_group)
     }
@@ -149,10 +150,10 @@ fn add_to_first_pass(
 ) {
     let is_full_group = lane_mask.all();
     for (noise, end_points) in noise.iter().zip(end_points) {
-        let motions = drive.compute_motions(noise);
+        let four_motions = drive.compute_motions(noise);
         let (four_arcs, is_regular);
-        (*end_points, four_arcs, is_regular) = drive.end_points(&motions);
-        let poses = drive.poses(&motions, end_points);
+        (*end_points, four_arcs, is_regular) = drive.end_points(&four_motions);
+        let poses = drive.poses(&four_motions, end_points);
         first_pass.add(&poses, [noise[0], noise[1]], lane_mask);
         if is_full_group {
             first_pass.multiply_jacobians(&poses, &four_arcs);

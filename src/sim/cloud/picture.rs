@@ -11,13 +11,13 @@ pub type Ramp = [[u8; 4]; RAMP_STEP_COUNT];
 pub const RAMP_STEP_COUNT: usize = 256;
 
 /// Counts the shown samples in each cell, row by row from the top (largest second coordinate). Samples outside of the grid are not counted.
-pub fn count_samples_in_cells(cloud: &Cloud, morph_fraction: f64, grid: &ViewGrid) -> Vec<u32> {
-    let (ViewGrid { min_corner, max_corner, .. }, cells_per_unit) = (*grid, grid.cells_per_unit());
-    let mut cell_counts = vec![0; grid.columns * grid.rows];
-    cloud.point_groups(morph_fraction).for_each(|[x, y]| {
+pub fn count_samples_in_cells(pose_cloud: &Cloud, morph_fraction: f64, view_grid: &ViewGrid) -> Vec<u32> {
+    let (ViewGrid { min_corner, max_corner, .. }, cells_per_unit) = (*view_grid, view_grid.cells_per_unit());
+    let mut cell_counts = vec![0; view_grid.columns * view_grid.rows];
+    pose_cloud.point_groups(morph_fraction).for_each(|[x, y]| {
         let column = ((x - min_corner[0]) * cells_per_unit[0]).floor().to_array();
         let row = ((max_corner[1] - y) * cells_per_unit[1]).floor().to_array();
-        for cell_index in (0..LANE_COUNT).filter_map(|lane| grid.cell_index(column[lane], row[lane])) {
+        for cell_index in (0..LANE_COUNT).filter_map(|lane| view_grid.cell_index(column[lane], row[lane])) {
             cell_counts[cell_index] += 1;
         }
     });
@@ -43,7 +43,7 @@ pub fn paint_cell_counts<const K: usize>(counts_of_cells: &[[u32; K]], ramps: &[
 }
 
 #[inline(always)]
-fn ramp_step(count: u32, max_count: u32) -> usize {
-    let root_of_fraction = (f64::from(count) / f64::from(max_count)).sqrt();
+fn ramp_step(sample_count: u32, max_count: u32) -> usize {
+    let root_of_fraction = (f64::from(sample_count) / f64::from(max_count)).sqrt();
     ((RAMP_STEP_COUNT - 1) as f64 * root_of_fraction + 0.5) as usize % RAMP_STEP_COUNT
 }

@@ -38,9 +38,10 @@ impl ViewGrid {
 
     /// Returns the index of the cell in a column and row, row by row from the top; None outside of the grid.
     #[inline(always)]
-    pub(in crate::sim) fn cell_index(&self, column: f64, row: f64) -> Option<usize> {
-        let is_inside = column >= 0.0 && column < self.columns as f64 && row >= 0.0 && row < self.rows as f64;
-        is_inside.then(|| row as usize * self.columns + column as usize)
+    pub(in crate::sim) fn cell_index(&self, cell_column: f64, row: f64) -> Option<usize> {
+        let is_inside =
+            cell_column >= 0.0 && cell_column < self.columns as f64 && row >= 0.0 && row < self.rows as f64;
+        is_inside.then(|| row as usize * self.columns + cell_column as usize)
     }
 }
 

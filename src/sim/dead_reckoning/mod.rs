@@ -105,7 +105,8 @@ impl DeadReckoning {
             value: f64::from(settings.steps),
             allowed: AllowedValues::FitsInMemory,
         })?;
-        let predicted_covariances = RECURSIONS.map(|recursion| propagate_covariances(&settings, recursion));
+        let predicted_covariances =
+            RECURSIONS.map(|cov_recursion| propagate_covariances(&settings, cov_recursion));
         let measured_moments = rollouts.measured_moments(0);
         let comparisons = compare_recursions(&settings, &predicted_covariances, &measured_moments);
         Ok(Self { settings, rollouts, shown_count: 0, predicted_covariances, measured_moments, comparisons })
@@ -159,13 +160,13 @@ impl DeadReckoning {
     }
 
     /// Returns the covariance that a recursion predicts after each step; None from the step on at which the covariance is undefined.
-    pub fn predicted_covariances(&self, recursion: Compounding) -> &[Option<Matrix3<f64>>] {
-        &self.predicted_covariances[recursion as usize]
+    pub fn predicted_covariances(&self, cov_recursion: Compounding) -> &[Option<Matrix3<f64>>] {
+        &self.predicted_covariances[cov_recursion as usize]
     }
 
     /// Returns the comparison of a recursion's predicted variances with those of the robots.
-    pub fn comparison(&self, recursion: Compounding) -> &RecursionComparison {
-        &self.comparisons[recursion as usize]
+    pub fn comparison(&self, cov_recursion: Compounding) -> &RecursionComparison {
+        &self.comparisons[cov_recursion as usize]
     }
 
     /// Returns the commanded pose after each step.
@@ -207,10 +208,10 @@ impl DeadReckoning {
         Stats {
             n: self.shown_count(),
             measured: ExponentialMoments { mean, cov },
-            predicted: evaluate_recursions(|recursion| {
-                self.predicted_covariances(recursion)[step_index].map(Into::into)
+            predicted: evaluate_recursions(|cov_recursion| {
+                self.predicted_covariances(cov_recursion)[step_index].map(Into::into)
             }),
-            misses: evaluate_recursions(|recursion| self.comparison(recursion).misses),
+            misses: evaluate_recursions(|cov_recursion| self.comparison(cov_recursion).misses),
         }
     }
 
@@ -219,12 +220,13 @@ impl DeadReckoning {
     pub fn straight_growth(&self) -> StraightGrowth {
         let Settings { command: VelocityCmd { v, .. }, alphas, .. } = self.settings;
         let [alpha1, _, alpha3, ..] = alphas;
-        let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
+        let velocity_model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
         let [first_tenth, last_tenth] = LOG10_DURATIONS_IN_TENTHS;
         let drive_durations: Vec<f64> =
             (first_tenth..=last_tenth).map(|i| libm::pow(10.0, f64::from(i) / 10.0)).collect();
         let exact_variances = drive_durations.iter().map(|dt| {
-            let straight_motion = PolarMotion::of_velocity(&model, &VelocityCmd { v, omega: 0.0, dt: *dt });
+            let straight_motion =
+                PolarMotion::of_velocity(&velocity_model, &VelocityCmd { v, omega: 0.0, dt: *dt });
             let cov = ExactMoments::new(&straight_motion).cov;
             (cov[(0, 0)], cov[(1, 1)])
         });
@@ -245,8 +247,8 @@ impl DeadReckoning {
 
     /// Returns the noise-free path of the command, as x, y pairs from the start.
     pub fn commanded_path(&self) -> Vec<[f64; 2]> {
-        let Settings { command, steps: step_count, .. } = self.settings;
-        let twist = TangentNoiseModel::twist(&command);
+        let Settings { command: step_command, steps: step_count, .. } = self.settings;
+        let twist = TangentNoiseModel::twist(&step_command);
         // A chord of 0.1 rad deviates from its arc by 1/800 of its length.
         let chords_per_step = ((twist.z.abs() * 10.0).ceil() as usize).clamp(1, MAX_CHORDS);
         (0..=chords_per_step * step_count as usize)
@@ -258,12 +260,14 @@ impl DeadReckoning {
     /// fewer entries.
     pub fn milestones(&self) -> Vec<Milestone> {
         let Settings { step: selected_step, steps: step_count, .. } = self.settings;
-        let mut quarter_ends: Vec<u32> =
-            (1..=4).map(|quarter| ((f64::from(quarter * step_count) / 4.0).round() as u32).max(1)).collect();
+        let mut quarter_ends: Vec<u32> = (1..=4)
+            .map(|quarter_number| ((f64::from(quarter_number * step_count) / 4.0).round() as u32).max(1))
+            .collect();
         quarter_ends.dedup();
-        quarter_ends.retain(|step| *step != selected_step);
-        let milestone_after =
-            |step| Some(Milestone { poses: self.poses(step).to_vec(), outlines: self.outlines(step)? });
+        quarter_ends.retain(|step_number| *step_number != selected_step);
+        let milestone_after = |step_number| {
+            Some(Milestone { poses: self.poses(step_number).to_vec(), outlines: self.outlines(step_number)? })
+        };
         quarter_ends.into_iter().filter_map(milestone_after).collect()
     }
 
@@ -363,14 +367,14 @@ impl RecursionComparison {
         };
         let ratios: Vec<_> =
             predicted.iter().zip(measured).map(|(cov, measured)| ratios_of(*cov, measured)).collect();
-        let misses = std::array::from_fn(|component| find_misses(&ratios, measured, component));
-        Self { ratios, misses }
+        let interval_misses = std::array::from_fn(|component| find_misses(&ratios, measured, component));
+        Self { ratios, misses: interval_misses }
     }
 }
 
 /// Returns the covariance of ξ that a recursion predicts after each step, from step 1. The start is known exactly. The covariance is None
 /// from the step at which the fourth-order terms make it indefinite.
-fn propagate_covariances(settings: &Settings, recursion: Compounding) -> Vec<Option<Matrix3<f64>>> {
+fn propagate_covariances(settings: &Settings, cov_recursion: Compounding) -> Vec<Option<Matrix3<f64>>> {
     let twist = TangentNoiseModel::twist(&settings.command);
     // `ok` hides no error, because all allowed settings have finite variances of 0 or more.
     let tangent_noise = TangentNoiseModel::from_velocity(&settings.model(), &settings.command).ok();
@@ -379,7 +383,7 @@ fn propagate_covariances(settings: &Settings, recursion: Compounding) -> Vec<Opt
         .map(|_| {
             predicted_cov = predicted_cov
                 .zip(tangent_noise)
-                .map(|(sigma, tangent_noise)| tangent_noise.propagate(&sigma, &twist, recursion))
+                .map(|(sigma, tangent_noise)| tangent_noise.propagate(&sigma, &twist, cov_recursion))
                 .filter(|next_sigma| covariance_root(next_sigma).is_ok());
             predicted_cov
         })

@@ -83,15 +83,15 @@ pub struct Rollouts {
 
 impl StepInErrorFrame {
     fn new(settings: &Settings) -> Self {
-        let PolarMotion { length, bearing, last_turn, .. } =
+        let PolarMotion { length: length_lanes, bearing: bearing_lanes, last_turn, .. } =
             PolarMotion::of_velocity(&settings.model(), &settings.command);
         let trigonometry = Trigonometry::default();
-        let mean_sin_cos = trigonometry.sin_cos(f64x4::splat(bearing[0]));
-        let chord_length = f64x4::splat(length[0]) * mean_sin_cos.sinc;
-        let (sin, cos) = libm::sincos(2.0 * bearing[0]);
+        let mean_sin_cos = trigonometry.sin_cos(f64x4::splat(bearing_lanes[0]));
+        let chord_length = f64x4::splat(length_lanes[0]) * mean_sin_cos.sinc;
+        let (sin, cos) = libm::sincos(2.0 * bearing_lanes[0]);
         Self {
-            length,
-            half_turn: bearing,
+            length: length_lanes,
+            half_turn: bearing_lanes,
             half_last_turn_std: 0.5 * last_turn[1],
             end: [chord_length * mean_sin_cos.cos, chord_length * mean_sin_cos.sin],
             sin,
@@ -103,10 +103,10 @@ impl StepInErrorFrame {
     /// Drives four robots by one step, and returns their exponential coordinates ξ.
     #[inline(always)]
     fn drive_one_step(&self, error_poses: &mut ErrorPoses, unit_noise: &[f64x4; 3]) -> [f64x4; 3] {
-        let length = unit_noise[0] * self.length[1] + self.length[0];
+        let length_lanes = unit_noise[0] * self.length[1] + self.length[0];
         let turn_noise = unit_noise[1] * self.half_turn[1];
         let SinCos { sinc, sin, cos } = self.trigonometry.sin_cos(turn_noise + self.half_turn[0]);
-        let chord_length = length * sinc;
+        let chord_length = length_lanes * sinc;
         // The bearing of the chord is the heading of the robot plus half the turn of its arc.
         let heading_sin = 2.0 * error_poses.sin * error_poses.cos;
         let heading_cos = 1.0 - 2.0 * error_poses.sin * error_poses.sin;
@@ -178,10 +178,11 @@ impl Rollouts {
 
     #[inline(never)]
     fn drive_next_block(&mut self, robot_count: usize, sums: &mut [CompensatedSums<SUMMED_TERM_COUNT>]) {
-        let Self { step_in_error_frame: step, block_rng, driven_count, nominal_poses, poses, .. } = self;
+        let Self { step_in_error_frame: error_step, block_rng, driven_count, nominal_poses, poses, .. } =
+            self;
         let mut robot_block = RobotBlock::new(block_rng.clone());
         for (k, (sums, nominal_poses)) in sums.iter_mut().zip(nominal_poses).enumerate() {
-            robot_block.drive_one_step(step);
+            robot_block.drive_one_step(error_step);
             for (i, xi) in robot_block.noise_or_xi.iter().enumerate() {
                 let remaining_lanes = robot_count.saturating_sub(LANE_COUNT * i);
                 if remaining_lanes >= LANE_COUNT {
@@ -245,12 +246,12 @@ impl RobotBlock {
     }
 
     #[inline(never)]
-    fn drive_one_step(&mut self, step: &StepInErrorFrame) {
+    fn drive_one_step(&mut self, error_step: &StepInErrorFrame) {
         let Self { rng, groups, noise_or_xi } = self;
-        noise_or_xi.iter_mut().for_each(|noise| *noise = draw_four_uniform_triples(rng));
+        noise_or_xi.iter_mut().for_each(|robot_noise| *robot_noise = draw_four_uniform_triples(rng));
         NoiseKind::Normal.replace_by_quantiles(noise_or_xi.as_flattened_mut());
-        for (error_poses, noise) in groups.iter_mut().zip(noise_or_xi) {
-            *noise = step.drive_one_step(error_poses, noise);
+        for (error_poses, robot_noise) in groups.iter_mut().zip(noise_or_xi) {
+            *robot_noise = error_step.drive_one_step(error_poses, robot_noise);
         }
     }
 }
@@ -267,7 +268,7 @@ fn add_to_sums(sums: &mut CompensatedSums<SUMMED_TERM_COUNT>, [a, l, h]: [f64x4;
 const MIN_RELIABLE_COUNT: f64 = 30.0;
 
 fn moments_from_sums(sums: &[f64; SUMMED_TERM_COUNT], n: f64) -> MeasuredMoments {
-    let [a, l, h, aa, ll, hh, .., al, ah, lh] = sums.map(|sum| sum / n);
+    let [a, l, h, aa, ll, hh, .., al, ah, lh] = sums.map(|product_sum| product_sum / n);
     let mean = Vector3::new(a, l, h);
     let mut covariance = Matrix3::new(aa, al, ah, al, ll, lh, ah, lh, hh) - mean * mean.transpose();
     for i in 0..3 {
@@ -275,9 +276,9 @@ fn moments_from_sums(sums: &[f64; SUMMED_TERM_COUNT], n: f64) -> MeasuredMoments
     }
     let relative_error = Vector3::from_fn(|i, _| {
         let [m, mean_square, mean_cube, mean_fourth] = [0, 3, 6, 9].map(|k| sums[k + i] / n);
-        let m2 = covariance[(i, i)];
+        let second_moment = covariance[(i, i)];
         let m4 = mean_fourth - 4.0 * m * mean_cube + 6.0 * m * m * mean_square - 3.0 * m * m * m * m;
-        let kurtosis = if m2 > 0.0 { m4 / (m2 * m2) } else { f64::NAN };
+        let kurtosis = if second_moment > 0.0 { m4 / (second_moment * second_moment) } else { f64::NAN };
         let kurtosis_error = non_negative(kurtosis - 1.0) / n;
         // The kurtosis of a few robots is unreliable; for two robots it is always 1. Therefore the standard error is at least that of a
         // normal distribution. `f64::max` would hide a NaN.

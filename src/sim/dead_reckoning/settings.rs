@@ -85,13 +85,13 @@ impl Settings {
     /// Returns true if rollouts under `other_settings` settings are equal to the last bit. The number of robots, the selected step and the
     /// recursion may differ.
     pub(super) fn has_same_rollouts(&self, other_settings: &Self) -> bool {
-        let Self { step, compounding, samples, .. } = *other_settings;
+        let Self { step: selected_step, compounding: selected_recursion, samples, .. } = *other_settings;
         // −0 equals 0, but leads to other signs of zeros in the results.
         let sign_bits_of = |settings: &Self| {
             let VelocityCmd { v, omega, dt } = settings.command;
             ([v, omega, dt].map(f64::is_sign_negative), settings.alphas.map(f64::is_sign_negative))
         };
-        Self { step, compounding, samples, ..*self } == *other_settings
+        Self { step: selected_step, compounding: selected_recursion, samples, ..*self } == *other_settings
             && sign_bits_of(self) == sign_bits_of(other_settings)
     }
 }
@@ -118,12 +118,12 @@ impl SettingRules for Settings {
     }
 }
 
-const fn path([v, omega, dt]: [f64; 3], steps: u32, heading_noise: f64) -> Settings {
+const fn path([v, omega, dt]: [f64; 3], step_count: u32, heading_noise: f64) -> Settings {
     let [h, last_turn_alpha] = [heading_noise, heading_noise / 4.0];
     Settings {
         command: VelocityCmd { v, omega, dt },
-        steps,
-        step: steps,
+        steps: step_count,
+        step: step_count,
         alphas: [0.02, 0.02, h, h, last_turn_alpha, last_turn_alpha],
         ..Settings::DEFAULT
     }

@@ -58,19 +58,19 @@ impl SettingsError {
 }
 
 pub(crate) fn check_real(
-    field: &str,
+    field_path: &str,
     value: f64,
     allowed: &RangeInclusive<f64>,
 ) -> Result<(), SettingsError> {
     if allowed.contains(&value) {
         return Ok(());
     }
-    Err(SettingsError { key: field.to_owned(), value, allowed: AllowedValues::Real(allowed.clone()) })
+    Err(SettingsError { key: field_path.to_owned(), value, allowed: AllowedValues::Real(allowed.clone()) })
 }
 
 /// Converts a double to an integer in the `allowed` range. The ends of the range must be exact as doubles.
 pub(crate) fn check_integer(
-    field: &str,
+    field_path: &str,
     value: f64,
     allowed: &RangeInclusive<u64>,
 ) -> Result<u64, SettingsError> {
@@ -78,5 +78,5 @@ pub(crate) fn check_integer(
     if whole_number as f64 == value && allowed.contains(&whole_number) {
         return Ok(whole_number);
     }
-    Err(SettingsError { key: field.to_owned(), value, allowed: AllowedValues::Integer(allowed.clone()) })
+    Err(SettingsError { key: field_path.to_owned(), value, allowed: AllowedValues::Integer(allowed.clone()) })
 }

@@ -14,11 +14,11 @@ pub struct GroupMember {
 impl GroupMember {
     const fn new(
         number_key: &'static str,
-        sentence: &'static str,
-        unit: &'static str,
+        member_sentence: &'static str,
+        number_unit: &'static str,
         allowed: RangeInclusive<f64>,
     ) -> Self {
-        Self { declaration: Declaration::new(number_key, "", sentence, unit, ""), allowed }
+        Self { declaration: Declaration::new(number_key, "", member_sentence, number_unit, ""), allowed }
     }
 }
 

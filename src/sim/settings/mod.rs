@@ -48,19 +48,19 @@ impl Declaration {
     pub(crate) const fn new(
         key: &'static str,
         of: &'static str,
-        sentence: &'static str,
-        unit: &'static str,
-        each: &'static str,
+        setting_sentence: &'static str,
+        setting_unit: &'static str,
+        number_sentence: &'static str,
     ) -> Self {
         Self {
             key,
             of: if of.is_empty() { None } else { Some(of) },
             #[cfg(not(target_arch = "wasm32"))]
-            sentence: sentence.trim_ascii(),
+            sentence: setting_sentence.trim_ascii(),
             #[cfg(not(target_arch = "wasm32"))]
-            unit,
+            unit: setting_unit,
             #[cfg(not(target_arch = "wasm32"))]
-            each,
+            each: number_sentence,
         }
     }
 }
@@ -89,20 +89,20 @@ impl Setting<'_> {
     /// Checks that the numbers are in their ranges. Fails with [`SettingsError`] for the first number out of its range.
     pub(crate) fn check(self, key: &str) -> Result<(), SettingsError> {
         match self {
-            Self::Number(number, allowed) => check_real(key, *number, &allowed),
+            Self::Number(set_number, allowed) => check_real(key, *set_number, &allowed),
             Self::Integer(integer, allowed) => check_integer(key, integer.get() as f64, &allowed).map(|_| ()),
             Self::OptionalInteger(Some(integer), allowed) => {
                 check_integer(key, *integer as f64, &allowed).map(|_| ())
             }
-            Self::Numbers(numbers, allowed) => {
-                let mut indexed_numbers = numbers.iter().enumerate();
+            Self::Numbers(set_numbers, allowed) => {
+                let mut indexed_numbers = set_numbers.iter().enumerate();
                 indexed_numbers
-                    .try_for_each(|(i, number)| check_real(&format!("{key}[{i}]"), *number, &allowed))
+                    .try_for_each(|(i, set_number)| check_real(&format!("{key}[{i}]"), *set_number, &allowed))
             }
-            Self::Group(members, numbers) => {
-                let mut declared_numbers = members.iter().zip(numbers);
-                declared_numbers.try_for_each(|(GroupMember { declaration, allowed }, number)| {
-                    check_real(&format!("{key}.{}", declaration.key), *number, allowed)
+            Self::Group(group_members, set_numbers) => {
+                let mut declared_numbers = group_members.iter().zip(set_numbers);
+                declared_numbers.try_for_each(|(GroupMember { declaration, allowed }, set_number)| {
+                    check_real(&format!("{key}.{}", declaration.key), *set_number, allowed)
                 })
             }
             // The α's that a noise level sets are checked instead of the level.
@@ -112,19 +112,19 @@ impl Setting<'_> {
 }
 
 impl Serialize for Setting<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+    fn serialize<S: Serializer>(&self, value_serializer: S) -> Result<S::Ok, S::Error> {
         match self {
-            Self::Number(number, _) => number.serialize(serializer),
-            Self::Integer(integer, _) => integer.get().serialize(serializer),
-            Self::OptionalInteger(integer, _) => integer.serialize(serializer),
-            Self::Boolean(value) => value.serialize(serializer),
-            Self::Keyword(keyword) => keyword.get().serialize(serializer),
-            Self::Numbers(numbers, _) => numbers.serialize(serializer),
-            Self::Level(level, _) => level.get().serialize(serializer),
-            Self::Group(members, numbers) => {
-                let mut serialized_object = serializer.serialize_struct("", numbers.len())?;
-                for (member, number) in members.iter().zip(numbers) {
-                    serialized_object.serialize_field(member.declaration.key, number)?;
+            Self::Number(set_number, _) => set_number.serialize(value_serializer),
+            Self::Integer(integer, _) => integer.get().serialize(value_serializer),
+            Self::OptionalInteger(integer, _) => integer.serialize(value_serializer),
+            Self::Boolean(boolean) => boolean.serialize(value_serializer),
+            Self::Keyword(setting_keyword) => setting_keyword.get().serialize(value_serializer),
+            Self::Numbers(set_numbers, _) => set_numbers.serialize(value_serializer),
+            Self::Level(noise_level, _) => noise_level.get().serialize(value_serializer),
+            Self::Group(group_members, set_numbers) => {
+                let mut serialized_object = value_serializer.serialize_struct("", set_numbers.len())?;
+                for (group_member, set_number) in group_members.iter().zip(set_numbers) {
+                    serialized_object.serialize_field(group_member.declaration.key, set_number)?;
                 }
                 serialized_object.end()
             }
@@ -135,14 +135,14 @@ impl Serialize for Setting<'_> {
 /// Serializes settings as an object, without settings that are alternative forms of others.
 pub(crate) fn serialize_settings<S: DeclaredSettings, Z: Serializer>(
     mut settings: S,
-    serializer: Z,
+    value_serializer: Z,
 ) -> Result<Z::Ok, Z::Error> {
-    let mut object = serializer.serialize_struct("", S::KEYS.len())?;
+    let mut settings_object = value_serializer.serialize_struct("", S::KEYS.len())?;
     settings.try_visit_settings(|declaration, setting| match declaration.of {
-        None => object.serialize_field(declaration.key, &setting),
+        None => settings_object.serialize_field(declaration.key, &setting),
         Some(_) => Ok(()),
     })?;
-    object.end()
+    settings_object.end()
 }
 
 /// Reference to an integer setting, whatever its integer type.
@@ -174,7 +174,7 @@ pub trait KeywordSetting {
     /// Returns the keyword of the value.
     fn get(&self) -> &'static str;
     /// Sets the value by its keyword. Returns false if the keyword is not in [`KeywordSetting::all_keywords`].
-    fn set(&mut self, keyword: &str) -> bool;
+    fn set(&mut self, setting_keyword: &str) -> bool;
     /// Returns the keywords of all values.
     fn all_keywords(&self) -> Vec<&'static str>;
 }
@@ -184,17 +184,18 @@ impl<T: HasKeywords> KeywordSetting for T {
         let enum_discriminant = std::mem::discriminant(self);
         T::KEYWORDS
             .iter()
-            .find(|(_, value)| std::mem::discriminant(value) == enum_discriminant)
-            .map_or("", |(keyword, _)| keyword)
+            .find(|(_, enum_value)| std::mem::discriminant(enum_value) == enum_discriminant)
+            .map_or("", |(setting_keyword, _)| setting_keyword)
     }
 
-    fn set(&mut self, keyword: &str) -> bool {
-        let matching_keyword = T::KEYWORDS.iter().find(|(known_keyword, _)| *known_keyword == keyword);
-        matching_keyword.inspect(|(_, value)| *self = *value).is_some()
+    fn set(&mut self, setting_keyword: &str) -> bool {
+        let matching_keyword =
+            T::KEYWORDS.iter().find(|(known_keyword, _)| *known_keyword == setting_keyword);
+        matching_keyword.inspect(|(_, enum_value)| *self = *enum_value).is_some()
     }
 
     fn all_keywords(&self) -> Vec<&'static str> {
-        T::KEYWORDS.iter().map(|(keyword, _)| *keyword).collect()
+        T::KEYWORDS.iter().map(|(setting_keyword, _)| *setting_keyword).collect()
     }
 }
 

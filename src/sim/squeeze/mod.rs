@@ -99,8 +99,8 @@ impl MapSqueeze {
 
     /// Replaces the map by a grid, as [`MapSqueeze::set_plan`] replaces it by a floor plan. The setting `unknown` defines whether unknown
     /// cells are obstacles. Errors are those of [`FloorPlan::from_grid`], and change nothing.
-    pub fn set_grid(&mut self, grid: OccupancyGrid) -> Result<(), FloorPlanError> {
-        self.set_plan(FloorPlan::from_grid(grid.with_unknown(self.settings.unknown))?);
+    pub fn set_grid(&mut self, map_grid: OccupancyGrid) -> Result<(), FloorPlanError> {
+        self.set_plan(FloorPlan::from_grid(map_grid.with_unknown(self.settings.unknown))?);
         Ok(())
     }
 
@@ -110,8 +110,8 @@ impl MapSqueeze {
     pub fn configure_first(&mut self, settings: Settings, target_count: usize) -> Result<(), SettingsError> {
         settings.check()?;
         let outdated_grid = self.floor_plan.grid().filter(|_| settings.unknown != self.settings.unknown);
-        let plan =
-            outdated_grid.map(|grid| FloorPlan::from_grid(grid.clone().with_unknown(settings.unknown)));
+        let plan = outdated_grid
+            .map(|map_grid| FloorPlan::from_grid(map_grid.clone().with_unknown(settings.unknown)));
         // A grid that was accepted before is refused only if its unknown cells, which are now obstacles, have too many outlines.
         let plan = plan.transpose().map_err(|_| SettingsError {
             key: "unknown".to_owned(),
@@ -142,8 +142,8 @@ impl MapSqueeze {
         self.draws.extend_to(target_count);
         let part_count = self.settings.part_count() as usize;
         let Self { floor_plan: plan, settings, draws, attempts, outcome_tally: tally, .. } = self;
-        let model = conditioned_model(settings, plan, settings.sampler);
-        let attempt_driver = AttemptDriver::new(&model, settings, draws);
+        let map_model = conditioned_model(settings, plan, settings.sampler);
+        let attempt_driver = AttemptDriver::new(&map_model, settings, draws);
         while attempts.len() < target_count && !tally.gave_up {
             attempt_driver.make_next_attempts(attempts.len()..target_count, |next_attempt, cost| {
                 tally.cost.add(cost);
@@ -174,7 +174,8 @@ impl MapSqueeze {
     pub fn stats(&self) -> Stats {
         let Tally { cost, accepted, through_wall, gave_up } = self.outcome_tally;
         // The ratio is NaN for 0/0, and infinite for another number over 0.
-        let ratio_of = |numerator: usize, denominator: usize| numerator as f64 / denominator as f64;
+        let ratio_of =
+            |counted_events: usize, counted_draws: usize| counted_events as f64 / counted_draws as f64;
         Stats {
             attempts: self.attempts.len(),
             drawn: cost.draws,
@@ -191,13 +192,14 @@ impl MapSqueeze {
     }
 
     /// Paints the density of the ends of the attempts shown, by [`Attempt::outcome_kind`]: see [`picture_pixels::paint_cell_counts`].
-    pub fn paint(&mut self, grid: &ViewGrid, colour_ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> &[[u8; 4]] {
-        let (ViewGrid { min_corner, max_corner, .. }, cells_per_metre) = (*grid, grid.cells_per_unit());
-        let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; grid.columns * grid.rows];
+    pub fn paint(&mut self, view_grid: &ViewGrid, colour_ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> &[[u8; 4]] {
+        let (ViewGrid { min_corner, max_corner, .. }, cells_per_metre) =
+            (*view_grid, view_grid.cells_per_unit());
+        let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; view_grid.columns * view_grid.rows];
         for shown_attempt in &self.attempts {
-            let column = ((shown_attempt.pose.x() - min_corner[0]) * cells_per_metre[0]).floor();
-            let row = ((max_corner[1] - shown_attempt.pose.y()) * cells_per_metre[1]).floor();
-            if let Some(cell_index) = grid.cell_index(column, row) {
+            let cell_column = ((shown_attempt.pose.x() - min_corner[0]) * cells_per_metre[0]).floor();
+            let cell_row = ((max_corner[1] - shown_attempt.pose.y()) * cells_per_metre[1]).floor();
+            if let Some(cell_index) = view_grid.cell_index(cell_column, cell_row) {
                 cell_counts[cell_index][shown_attempt.outcome_kind()] += 1;
             }
         }
@@ -216,8 +218,8 @@ impl MapSqueeze {
         if attempt_index >= self.attempts.len() {
             return Vec::new();
         }
-        let model = conditioned_model(&self.settings, &self.floor_plan, self.settings.sampler);
-        AttemptDriver::new(&model, &self.settings, &self.draws).arcs(attempt_index)
+        let map_model = conditioned_model(&self.settings, &self.floor_plan, self.settings.sampler);
+        AttemptDriver::new(&map_model, &self.settings, &self.draws).arcs(attempt_index)
     }
 
     /// Returns the point of a wall that the robot touches first in an attempt that is shown; None if it touches no wall.
@@ -231,21 +233,21 @@ impl MapSqueeze {
             *(if is_free(&arc.leading_part(middle)) { &mut fractions.start } else { &mut fractions.end }) =
                 middle;
         }
-        let point = arc.leading_part(fractions.end).end().position();
-        let distance_of = |wall: &Segment| wall.distance_to_point(point);
+        let stop_point = arc.leading_part(fractions.end).end().position();
+        let distance_of = |wall: &Segment| wall.distance_to_point(stop_point);
         let walls = self.floor_plan.walls().iter();
-        Some(walls.min_by(|a, b| distance_of(a).total_cmp(&distance_of(b)))?.nearest_point(point))
+        Some(walls.min_by(|a, b| distance_of(a).total_cmp(&distance_of(b)))?.nearest_point(stop_point))
     }
 
     /// Draws `sample_count` accepted samples with a sampler and returns their cost. The caller measures the time. Fails with
     /// [`NoAcceptedSample`] if one of the samples is not accepted, or if there are so many draws that the simulation would give up.
     pub fn sampling_trial(&self, sampler: Sampler, sample_count: usize) -> Result<Cost, NoAcceptedSample> {
-        let model = conditioned_model(&self.settings, &self.floor_plan, sampler);
+        let map_model = conditioned_model(&self.settings, &self.floor_plan, sampler);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.settings.seed);
         let mut total_cost = Cost::default();
         let part_count = sampler.part_count() as usize * sample_count;
         for _ in 0..sample_count {
-            let cost = model.sampling_cost(&self.settings.command, &self.settings.start(), &mut rng)?;
+            let cost = map_model.sampling_cost(&self.settings.command, &self.settings.start(), &mut rng)?;
             total_cost.add(cost);
             if total_cost.draws > max_draws(part_count) {
                 return Err(NoAcceptedSample(total_cost));
@@ -276,8 +278,8 @@ pub fn max_draws(part_count: usize) -> usize {
 }
 
 fn conditioned_model<'a>(settings: &Settings, plan: &'a FloorPlan, sampler: Sampler) -> MapConditioned<'a> {
-    let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
-    MapConditioned { model, plan, clearance: settings.clearance, sampler }
+    let velocity_model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
+    MapConditioned { model: velocity_model, plan, clearance: settings.clearance, sampler }
 }
 
 js_structs! {
@@ -373,10 +375,10 @@ struct AttemptDriver<'a> {
 }
 
 impl<'a> AttemptDriver<'a> {
-    fn new(model: &'a MapConditioned, settings: &'a Settings, draws: &'a Draws) -> Self {
+    fn new(map_model: &'a MapConditioned, settings: &'a Settings, draws: &'a Draws) -> Self {
         Self {
-            model,
-            collision_tester: model.collision_tester(&settings.command, &settings.start()),
+            model: map_model,
+            collision_tester: map_model.collision_tester(&settings.command, &settings.start()),
             settings,
             draws,
         }
@@ -416,12 +418,12 @@ impl<'a> AttemptDriver<'a> {
     }
 
     fn drive_parts(&self, attempt_index: usize, visit_arc: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {
-        let Settings { command, conditioned, seed, .. } = *self.settings;
+        let Settings { command: motion_command, conditioned: is_conditioned, seed, .. } = *self.settings;
         let start_pose = self.settings.start();
         // The number of random numbers that an attempt uses depends on the walls. Each attempt has its own stream of numbers, so that a
         // wall changes only attempts near the wall.
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (attempt_index as u64).rotate_left(32));
-        match self.model.sample_with_arcs(&command, &start_pose, &mut rng, conditioned, visit_arc) {
+        match self.model.sample_with_arcs(&motion_command, &start_pose, &mut rng, is_conditioned, visit_arc) {
             Ok(AcceptedMotion { pose, end_free, path_free, cost }) => {
                 (Attempt { pose, accepted: true, end_free, path_free }, cost)
             }

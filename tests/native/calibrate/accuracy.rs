@@ -59,8 +59,8 @@ fn count_covered(confidence_interval: Option<[f64; 2]>, true_value: f64) -> usiz
     usize::from(confidence_interval.is_some_and(|[low, high]| (low..=high).contains(&true_value)))
 }
 
-fn run_calibration_study(model: Model, scenario: &Scenario, log_count: usize) -> StudyResults {
-    let alpha_count = model.alphas();
+fn run_calibration_study(robot: Model, scenario: &Scenario, log_count: usize) -> StudyResults {
+    let alpha_count = robot.alphas();
     let mut study = StudyResults {
         alpha_ratios: vec![Vec::new(); alpha_count],
         covered_alphas: vec![0; alpha_count],
@@ -70,22 +70,22 @@ fn run_calibration_study(model: Model, scenario: &Scenario, log_count: usize) ->
         log_count,
     };
     for seed in 0..log_count as u64 {
-        let mut sim = Simulation::new(model, LEGS_PER_LOG, 5000 + seed);
+        let mut sim = Simulation::new(robot, LEGS_PER_LOG, 5000 + seed);
         (scenario.modify_simulation)(&mut sim);
-        let calibration = calibrate_simulation(&sim);
+        let log_calibration = calibrate_simulation(&sim);
         for (alpha_index, true_alpha) in ALPHAS.into_iter().enumerate().take(alpha_count) {
             study.alpha_ratios[alpha_index]
-                .extend(calibration.alphas[alpha_index].map(|fitted_alpha| fitted_alpha / true_alpha));
+                .extend(log_calibration.alphas[alpha_index].map(|fitted_alpha| fitted_alpha / true_alpha));
             study.covered_alphas[alpha_index] +=
-                count_covered(calibration.intervals[alpha_index], true_alpha);
+                count_covered(log_calibration.intervals[alpha_index], true_alpha);
         }
         for (error_kind, covered_count) in SystematicError::ALL.into_iter().zip(&mut study.covered_errors) {
-            let error_interval = calibration.interval_of(error_kind);
+            let error_interval = log_calibration.interval_of(error_kind);
             let extended_interval =
                 error_interval.map(|[low, high]| [low - INTERVAL_MARGIN, high + INTERVAL_MARGIN]);
             *covered_count += count_covered(extended_interval, sim.systematic_errors.get(error_kind));
         }
-        for (component_index, noise_estimate) in calibration.reference_noise.iter().enumerate() {
+        for (component_index, noise_estimate) in log_calibration.reference_noise.iter().enumerate() {
             study.reference_stds[component_index].push(noise_estimate.value);
             study.covered_std_counts[component_index] +=
                 count_covered(Some(noise_estimate.interval), sim.reference_stds[component_index]);
@@ -101,7 +101,7 @@ fn run_calibration_study(model: Model, scenario: &Scenario, log_count: usize) ->
     let StudyResults { covered_alphas, covered_errors, covered_std_counts: covered_stds, .. } = &study;
     let median_stds = [0, 1].map(|component_index| median_of(&study.reference_stds[component_index]));
     println!(
-        "{}, {model:?}: {median_ratios:.3?}, covered {covered_alphas:?}, σ {median_stds:.4?} {covered_stds:?}, errors {covered_errors:?}",
+        "{}, {robot:?}: {median_ratios:.3?}, covered {covered_alphas:?}, σ {median_stds:.4?} {covered_stds:?}, errors {covered_errors:?}",
         scenario.name
     );
     study
@@ -126,15 +126,15 @@ fn three_standard_errors_of(true_fraction: f64, log_count: usize) -> f64 {
 
 /// Reports the fraction of intervals that contain the truth, if it is outside of 92 to 98 % by more than three standard errors.
 fn report_wrong_coverage(quantity_name: &str, covered_count: usize, log_count: usize) -> Option<String> {
-    let coverage = covered_count as f64 / log_count as f64;
+    let covered_fraction = covered_count as f64 / log_count as f64;
     let allowed_coverage =
         0.92 - three_standard_errors_of(0.92, log_count)..=0.98 + three_standard_errors_of(0.98, log_count);
-    (!allowed_coverage.contains(&coverage))
+    (!allowed_coverage.contains(&covered_fraction))
         .then(|| format!("{covered_count} of {log_count} intervals hold {quantity_name}"))
 }
 
 /// Reports α's with a median error above the allowed bias plus three standard errors, or with too narrow or too wide intervals.
-fn report_wrong_alphas(model: Model, scenario: &Scenario, study: &StudyResults) -> Vec<String> {
+fn report_wrong_alphas(robot: Model, scenario: &Scenario, study: &StudyResults) -> Vec<String> {
     let report_wrong_alpha = |alpha_index: usize| {
         let (ratios, name) = (&study.alpha_ratios[alpha_index], format!("α{}", alpha_index + 1));
         let (median_ratio, standard_error) = (median_of(ratios), estimate_error_of_median(ratios));
@@ -146,7 +146,7 @@ fn report_wrong_alphas(model: Model, scenario: &Scenario, study: &StudyResults) 
         [median_report, report_wrong_coverage(&name, study.covered_alphas[alpha_index], study.log_count)]
     };
     let alpha_reports = (0..study.covered_alphas.len()).flat_map(report_wrong_alpha).flatten();
-    alpha_reports.map(|report| format!("{}, {model:?}: {report}", scenario.name)).collect()
+    alpha_reports.map(|report| format!("{}, {robot:?}: {report}", scenario.name)).collect()
 }
 
 /// Asserts that the α's of every model are right in a hundred logs, and that `further_reports_of` reports nothing.
@@ -156,11 +156,11 @@ fn assert_right_in_every_model(
 ) {
     let failure_reports: Vec<String> = MODELS
         .into_iter()
-        .flat_map(|model| {
-            let study = run_calibration_study(model, scenario, 100);
+        .flat_map(|robot| {
+            let study = run_calibration_study(robot, scenario, 100);
             let other_reports =
-                further_reports_of(&study).into_iter().map(move |report| format!("{model:?}: {report}"));
-            report_wrong_alphas(model, scenario, &study).into_iter().chain(other_reports).collect::<Vec<_>>()
+                further_reports_of(&study).into_iter().map(move |report| format!("{robot:?}: {report}"));
+            report_wrong_alphas(robot, scenario, &study).into_iter().chain(other_reports).collect::<Vec<_>>()
         })
         .collect();
     assert!(failure_reports.is_empty(), "{}", failure_reports.join("\n"));
@@ -176,7 +176,7 @@ fn report_wrong_std(study: &StudyResults, component_index: usize, true_std: f64)
 
 #[test]
 fn alphas_of_one_rule_are_right_in_every_kind_of_log() {
-    let model = MODELS[1];
+    let robot = MODELS[1];
     let tested_scenarios = [
         EXACT_REFERENCE,
         FINE_REFERENCE,
@@ -187,7 +187,7 @@ fn alphas_of_one_rule_are_right_in_every_kind_of_log() {
     ];
     for scenario in &tested_scenarios {
         assert_eq!(
-            report_wrong_alphas(model, scenario, &run_calibration_study(model, scenario, 10)),
+            report_wrong_alphas(robot, scenario, &run_calibration_study(robot, scenario, 10)),
             Vec::<String>::new()
         );
     }

@@ -96,8 +96,8 @@ fn one_bad_drive_of_two_is_recognized() {
     for (reference, failure_cause) in
         [(mirrored_reference, Some(FailureCause::Mirrored)), (other_reference, None)]
     {
-        let logs = [consistent_log.clone(), [odometry.clone(), reference]];
-        let drives = logs.map(|[odometry, reference]| Drive { odometry, reference });
+        let checked_logs = [consistent_log.clone(), [odometry.clone(), reference]];
+        let drives = checked_logs.map(|[odometry, reference]| Drive { odometry, reference });
         let calibration = calibrate(&drives, &new_passing_simulation(0, 0).calibration_options()).unwrap();
         let check = &calibration.diagnostics.checks[0];
         assert_eq!((check.cause, &check.drives), (failure_cause, &vec![1]));
@@ -252,8 +252,8 @@ fn a_log_that_no_inflation_covers_is_unusable() {
     let jumped_samples = reference.samples().map(|(sample_time, pose)| {
         (sample_time, if sample_time < jump_time { pose } else { jump_offset * pose })
     });
-    let options = Options { outliers: Outliers::Keep, ..sim.calibration_options() };
-    let calibration = calibrate_log(&[odometry, new_trajectory(jumped_samples)], &options);
+    let keep_options = Options { outliers: Outliers::Keep, ..sim.calibration_options() };
+    let calibration = calibrate_log(&[odometry, new_trajectory(jumped_samples)], &keep_options);
     assert_eq!(failed_check_names_of(&calibration)[0], InflationBounded);
     assert_unusable(&calibration, "a jump");
 }

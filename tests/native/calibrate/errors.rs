@@ -12,8 +12,8 @@ use nalgebra::Vector3;
 use rand::RngExt;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-fn simulation_with_errors(model: Model, leg_count: usize, systematic_errors: Systematic) -> Simulation {
-    Simulation { systematic_errors, ..Simulation::new(model, leg_count, 77) }
+fn simulation_with_errors(robot_model: Model, leg_count: usize, systematic_errors: Systematic) -> Simulation {
+    Simulation { systematic_errors, ..Simulation::new(robot_model, leg_count, 77) }
 }
 
 /// Asserts that an estimated error is within four standard errors of the truth. Standard errors below 1e-3 are raised to 1e-3, because they
@@ -29,16 +29,16 @@ fn assert_systematic_error_near(calibration: &Calibration, error_kind: Systemati
 
 #[test]
 fn a_mount_yaw_of_any_size_and_a_lever_arm_are_found() {
-    for (model, mount_yaw) in MODELS.into_iter().zip([0.07, FRAC_PI_2, -2.6, PI, -FRAC_PI_2]) {
+    for (robot_model, mount_yaw) in MODELS.into_iter().zip([0.07, FRAC_PI_2, -2.6, PI, -FRAC_PI_2]) {
         let true_errors = Systematic { mount_yaw, lever_arm: [0.3, -0.2], ..Systematic::NONE };
-        let calibration = calibrate_simulation(&simulation_with_errors(model, 500, true_errors));
+        let calibration = calibrate_simulation(&simulation_with_errors(robot_model, 500, true_errors));
         assert_systematic_error_near(&calibration, SystematicError::MountYaw, mount_yaw);
         assert_systematic_error_near(&calibration, SystematicError::LeverArmAhead, 0.3);
         assert_systematic_error_near(&calibration, SystematicError::LeverArmLeft, -0.2);
         // The ratio of fitted to true α may differ from 1 by four standard errors, which are at most 13 % each.
         for (fitted_alpha, true_alpha) in calibration.alphas.iter().zip(ALPHAS) {
             let alpha_ratio = fitted_alpha.expect("identifiable") / true_alpha;
-            assert!((alpha_ratio - 1.0).abs() < 0.5, "{model:?} {mount_yaw}: {:?}", calibration.alphas);
+            assert!((alpha_ratio - 1.0).abs() < 0.5, "{robot_model:?} {mount_yaw}: {:?}", calibration.alphas);
         }
     }
 }
@@ -89,8 +89,8 @@ fn trajectories_without_a_common_time_are_refused() {
         calibrate(&[Drive { odometry: odometry.clone(), reference: reference.clone() }], &options_of(NAV2))
             .map(|calibration| calibration.systematic)
     };
-    let delay_trajectory = |trajectory: &Trajectory, time_shift: f64| {
-        new_trajectory(trajectory.samples().map(|(time, pose)| (time + time_shift, pose)))
+    let delay_trajectory = |delayed_trajectory: &Trajectory, time_shift: f64| {
+        new_trajectory(delayed_trajectory.samples().map(|(time, pose)| (time + time_shift, pose)))
     };
     let [odometry, _] = Simulation::new(NAV2, 500, 6).simulate_log();
     let [_, other_reference] = Simulation::new(NAV2, 500, 7).simulate_log();
@@ -169,9 +169,9 @@ fn an_error_that_the_log_does_not_identify_is_not_corrected() {
 fn an_error_that_uncorrected_errors_hide_is_not_corrected() {
     let true_errors = Systematic { lever_arm: [0.3, -0.2], ..Systematic::NONE };
     let simulation = simulation_with_errors(NAV2, 300, true_errors);
-    let mut corrections = [None; 6];
-    corrections[SystematicError::LeverArmAhead as usize] = Some(false);
-    let options = Options { correct: corrections, ..simulation.calibration_options() };
+    let mut corrected_kinds = [None; 6];
+    corrected_kinds[SystematicError::LeverArmAhead as usize] = Some(false);
+    let options = Options { correct: corrected_kinds, ..simulation.calibration_options() };
     let calibration = calibrate_log(&simulation.simulate_log(), &options);
     let turn_scale_index = SystematicError::TurnScale as usize;
     assert!(calibration.is_constant[turn_scale_index]);
@@ -233,8 +233,8 @@ fn noise_of_the_odometry_does_not_bias_the_clock_offset() {
         }));
         let reference =
             true_trajectory.samples().step_by(2).map(|(time, true_pose)| (time + CLOCK_OFFSET, true_pose));
-        let log = [add_step_noise(&true_trajectory, [0.0015, 0.005], seed), new_trajectory(reference)];
-        let Calibration { systematic, systematic_stds, .. } = calibrate_log(&log, &options_of(NAV2));
+        let noisy_log = [add_step_noise(&true_trajectory, [0.0015, 0.005], seed), new_trajectory(reference)];
+        let Calibration { systematic, systematic_stds, .. } = calibrate_log(&noisy_log, &options_of(NAV2));
         let clock_offset_std = systematic_stds[SystematicError::ClockOffset as usize].expect("identifiable");
         error_sum += systematic.clock_offset - CLOCK_OFFSET;
         variance_sum += clock_offset_std * clock_offset_std;
@@ -248,13 +248,13 @@ fn four_drives_are_as_informative_as_one_of_the_same_length() {
         let true_errors = Systematic { clock_offset, ..Systematic::NONE };
         Simulation { seed, ..simulation_with_errors(NAV2, leg_count, true_errors) }
     };
-    let drives: Vec<Drive> = [0.0, 0.4, -3.0, 900.0]
+    let shifted_drives: Vec<Drive> = [0.0, 0.4, -3.0, 900.0]
         .into_iter()
         .zip(20..)
         .map(|(clock_offset, seed)| new_simulation_with_offset(clock_offset, 300, seed).simulate_log())
         .map(|[odometry, reference]| Drive { odometry, reference })
         .collect();
-    let fit_of_four_drives = calibrate(&drives, &options_of(NAV2)).expect("legs enough");
+    let fit_of_four_drives = calibrate(&shifted_drives, &options_of(NAV2)).expect("legs enough");
     let fit_of_one_drive = calibrate_simulation(&new_simulation_with_offset(0.0, 1200, 20));
     assert!(fit_of_four_drives.legs.len() > 1190, "{}", fit_of_four_drives.legs.len());
     for (alpha_index, true_alpha) in ALPHAS.into_iter().enumerate().take(4) {
@@ -297,10 +297,10 @@ fn encoder_jitter_of_a_standing_robot_does_not_change_the_scales() {
         };
         true_pose = true_pose.boxplus(twist + motion_noise);
     }
-    let log =
+    let noisy_log =
         [0, 1].map(|trajectory_index| new_trajectory(pose_rows.iter().map(|row| row[trajectory_index])));
     let options = Options { legs: LegLength::Duration { duration: 0.5 }, ..options_of(NAV2) };
-    let calibration = calibrate_log(&log, &options);
+    let calibration = calibrate_log(&noisy_log, &options);
     assert_systematic_error_near(&calibration, SystematicError::TurnScale, 1.0);
     assert_systematic_error_near(&calibration, SystematicError::DistanceScale, 1.0);
 }

@@ -20,8 +20,8 @@ fn new_bend_simulation(leg_count: usize) -> Simulation {
 /// Returns the Jacobian of a function at 0, by central differences. Angles are wrapped.
 fn jacobian_of(evaluate_at: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Matrix3<f64> {
     const H: f64 = 1e-6;
-    let jacobian_column_of = |axis: usize| {
-        let argument_offset = Vector3::from_fn(|k, _| if k == axis { H } else { 0.0 });
+    let jacobian_column_of = |axis_index: usize| {
+        let argument_offset = Vector3::from_fn(|k, _| if k == axis_index { H } else { 0.0 });
         let mut central_difference = evaluate_at(argument_offset) - evaluate_at(-argument_offset);
         central_difference.iter_mut().for_each(|difference| *difference = wrap_angle(*difference));
         central_difference / (2.0 * H)
@@ -132,7 +132,7 @@ fn compute_dense_log_likelihood(calibration: &Calibration, error_kinds: &[System
         2.0 * cholesky.l().diagonal().map(libm::log).sum()
     };
     let weighted_residuals = cholesky.solve(&stacked_residuals);
-    let mut deviance = log_det(&cholesky)
+    let mut minus_two_log_likelihood = log_det(&cholesky)
         + stacked_residuals.dot(&weighted_residuals)
         + (residual_count - error_kinds.len()) as f64 * libm::log(TAU);
     if !error_kinds.is_empty() {
@@ -140,10 +140,10 @@ fn compute_dense_log_likelihood(calibration: &Calibration, error_kinds: &[System
             .cholesky()
             .expect("positive definite");
         let error_gradient = design_matrix.transpose() * weighted_residuals;
-        deviance +=
+        minus_two_log_likelihood +=
             log_det(&error_information) - error_gradient.dot(&error_information.solve(&error_gradient));
     }
-    -0.5 * deviance
+    -0.5 * minus_two_log_likelihood
 }
 
 /// The tolerance allows for 120 residuals, whose Jacobians by central differences have a relative error of 1e-9.
@@ -180,10 +180,10 @@ fn rotations_of_a_short_leg_add_up_to_its_turn() {
         reference_stds: [0.02, 0.02],
         ..Simulation::new(NAV2, 200, 9)
     };
-    let residuals =
+    let reading_residuals =
         calibrate_simulation(&sim).observations.into_iter().map(|observation| observation.residuals);
     let (max_rotation, max_turn) =
-        residuals.fold((0.0, 0.0), |(rotation_so_far, turn_so_far), [rot1, _, rot2]| {
+        reading_residuals.fold((0.0, 0.0), |(rotation_so_far, turn_so_far), [rot1, _, rot2]| {
             (f64::max(rotation_so_far, rot2.abs()), f64::max(turn_so_far, (rot1 + rot2).abs()))
         });
     assert!(max_rotation > PI && max_turn < 0.2, "{max_rotation} {max_turn}");
@@ -201,8 +201,8 @@ fn an_outlier_shares_no_reference_error_with_its_neighbours() {
     assert!(leg_fits.iter().filter(|leg_fit| leg_fit.is_outlier).count() > 10);
     for (i, (leg_fit, observation)) in leg_fits.iter().zip(observations).enumerate() {
         let has_no_prior_error = !legs[i].follows || leg_fit.is_outlier || leg_fits[i - 1].is_outlier;
-        let innovation = leg_fit.standardized[1] * leg_fit.stds[1];
-        assert_eq!((innovation - observation.residuals[1]).abs() < 1e-12, has_no_prior_error, "leg {i}");
+        let leg_innovation = leg_fit.standardized[1] * leg_fit.stds[1];
+        assert_eq!((leg_innovation - observation.residuals[1]).abs() < 1e-12, has_no_prior_error, "leg {i}");
     }
 }
 
@@ -230,9 +230,9 @@ fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
         assert!((fitted_alpha / expected_alpha - 1.0).abs() < 1e-3, "{fitted_alpha} {expected_alpha}");
         for interval_bound in calibration.intervals[alpha_index].expect("identifiable") {
             let alpha_ratio = interval_bound / expected_alpha;
-            let deviance = leg_count * (libm::log(alpha_ratio) + 1.0 / alpha_ratio - 1.0);
+            let minus_two_log_likelihood = leg_count * (libm::log(alpha_ratio) + 1.0 / alpha_ratio - 1.0);
             // At the ends of a 95 % interval the deviance is 3.84, or higher if neighbouring squared residuals are correlated by chance.
-            assert!((3.7..5.2).contains(&deviance), "{deviance}");
+            assert!((3.7..5.2).contains(&minus_two_log_likelihood), "{minus_two_log_likelihood}");
         }
     }
 }
@@ -241,11 +241,11 @@ fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
 /// difference of a fortieth of an interval is allowed.
 #[test]
 fn alphas_and_their_intervals_scale_with_the_noise() {
-    for model in [MODELS[1], MODELS[3]] {
+    for robot_model in [MODELS[1], MODELS[3]] {
         let calibrate_scaled_noise = |std_factor: f64| {
             let sim = Simulation {
                 violation: Violation::ScaledNoise(std_factor),
-                ..Simulation::new(model, 1000, 103)
+                ..Simulation::new(robot_model, 1000, 103)
             };
             let exact_options =
                 Options { position_std: Some(0.0), yaw_std: Some(0.0), ..sim.calibration_options() };
@@ -265,7 +265,7 @@ fn alphas_and_their_intervals_scale_with_the_noise() {
                 let tolerance = 0.025 * (expected_bounds[2] - expected_bounds[0]);
                 assert!(
                     (interval_bound - expected_bound).abs() < tolerance,
-                    "{model:?} α{}: {scaled_bounds:?} {expected_bounds:?}",
+                    "{robot_model:?} α{}: {scaled_bounds:?} {expected_bounds:?}",
                     k + 1
                 );
             }
@@ -310,10 +310,10 @@ fn the_noise_of_the_reference_maximizes_the_likelihood() {
 /// reference noise.
 #[test]
 fn the_search_finds_the_larger_of_two_maxima() {
-    let Drive { odometry, reference } = simulate_log(3);
+    let Drive { odometry: odometry_log, reference: reference_log } = simulate_log(3);
     let log_likelihood_with = |position_std| {
-        let options = Options { outliers: Outliers::Keep, position_std, ..options_of(MODELS[0]) };
-        calibrate_log(&[odometry.clone(), reference.clone()], &options).log_likelihood
+        let keep_options = Options { outliers: Outliers::Keep, position_std, ..options_of(MODELS[0]) };
+        calibrate_log(&[odometry_log.clone(), reference_log.clone()], &keep_options).log_likelihood
     };
     let [likelihood_of_estimate, likelihood_of_option] = [None, Some(0.04)].map(log_likelihood_with);
     assert!(likelihood_of_estimate > likelihood_of_option, "{likelihood_of_estimate}");

@@ -17,7 +17,7 @@ fn remove_rows_between(trajectory: &Trajectory, first_row: usize, last_row: usiz
         trajectory
             .samples()
             .enumerate()
-            .filter(|(row, _)| !(first_row < *row && *row < last_row))
+            .filter(|(row_index, _)| !(first_row < *row_index && *row_index < last_row))
             .map(|(_, timed_pose)| timed_pose),
     )
 }
@@ -145,19 +145,19 @@ fn no_leg_leads_across_a_break() {
 
 #[test]
 fn velocities_are_not_computed_across_a_declared_jump() {
-    let jump_offset_at = |row: usize| if (40..43).contains(&row) { 5.0 } else { 0.0 };
+    let jump_offset_at = |row_index: usize| if (40..43).contains(&row_index) { 5.0 } else { 0.0 };
     let rows_with_jumps = new_straight_drive(101, 0.1);
     let rows_with_jumps = rows_with_jumps
         .samples()
         .enumerate()
-        .map(|(row, (time, pose))| (time, SE2::new(pose.x(), jump_offset_at(row), 0.0)));
+        .map(|(row_index, (time, pose))| (time, SE2::new(pose.x(), jump_offset_at(row_index), 0.0)));
     let drive_with_jumps = new_trajectory(rows_with_jumps).with_breaks_before([40, 43]);
     // The three rows between the jumps of the drive are long enough for a leg.
     let leg_length = LegLength::Displacement { distance: 0.15, angle: 0.2 };
     let legs = split_into_legs(&drive_with_jumps, &drive_with_jumps, leg_length, 0.0).0;
     assert!(legs.len() > 45 && legs.iter().any(|leg| leg.odometry[0].y() == 5.0));
     for leg in legs {
-        assert!(leg.velocities.iter().all(|velocity| (velocity - Vector3::x()).norm() < 1e-9));
+        assert!(leg.velocities.iter().all(|leg_velocity| (leg_velocity - Vector3::x()).norm() < 1e-9));
     }
 }
 

@@ -23,13 +23,13 @@ fn calibrate_simulation(simulation: &Simulation) -> Calibration {
     calibrate_log(&simulation.simulate_log(), &simulation.calibration_options())
 }
 
-fn calibrate_log(log: &[Trajectory; 2], options: &Options) -> Calibration {
-    let [odometry, reference] = log.clone();
-    calibrate(&[Drive { odometry, reference }], options).expect("enough legs")
+fn calibrate_log(odometry_and_reference: &[Trajectory; 2], calibration_options: &Options) -> Calibration {
+    let [odometry_log, reference] = odometry_and_reference.clone();
+    calibrate(&[Drive { odometry: odometry_log, reference }], calibration_options).expect("enough legs")
 }
 
-fn options_of(model: Model) -> Options {
-    Simulation::new(model, 0, 0).calibration_options()
+fn options_of(robot_model: Model) -> Options {
+    Simulation::new(robot_model, 0, 0).calibration_options()
 }
 
 fn new_trajectory(timed_poses: impl IntoIterator<Item = (f64, SE2)>) -> Trajectory {
@@ -37,9 +37,9 @@ fn new_trajectory(timed_poses: impl IntoIterator<Item = (f64, SE2)>) -> Trajecto
 }
 
 /// Returns the odometry with normal noise added to each step. `step_stds` are the standard deviations of distance (m) and heading (rad).
-fn add_step_noise(odometry: &Trajectory, step_stds: [f64; 2], rng_seed: u64) -> Trajectory {
+fn add_step_noise(odometry_log: &Trajectory, step_stds: [f64; 2], rng_seed: u64) -> Trajectory {
     let (mut rng, mut noisy_pose) = (seeded_rng(rng_seed), SE2::identity());
-    let odometry_samples: Vec<(f64, SE2)> = odometry.samples().collect();
+    let odometry_samples: Vec<(f64, SE2)> = odometry_log.samples().collect();
     new_trajectory(odometry_samples.windows(2).map(|sample_pair| {
         let [distance_noise, turn_noise] =
             step_stds.map(|step_std| NoiseKind::Normal.sample(Variance(step_std * step_std), &mut rng));

@@ -139,10 +139,10 @@ impl Simulation {
             // The noise of a leg is distributed evenly over its rows, plus a random walk that returns to 0.
             let row_count = leg_rows.len();
             let mut random_walk = vec![[0.0; 3]];
-            for row in 0..row_count {
+            for row_index in 0..row_count {
                 let step_std = 1.0 / (row_count as f64).sqrt();
                 random_walk
-                    .push(random_walk[row].map(|sum| sum + step_std * self.sample_walk_step(&mut rng)));
+                    .push(random_walk[row_index].map(|sum| sum + step_std * self.sample_walk_step(&mut rng)));
             }
             let twist_noise_of = |unit_noise| {
                 let duration = row_time - start_time;
@@ -150,10 +150,10 @@ impl Simulation {
                 (leg_motion.inverse() * noisy_motion).log()
             };
             let [leg_noise, mean_noise] = [unit_noise, [0.0; 3]].map(twist_noise_of);
-            for (row, (t, leg_pose)) in leg_rows.iter().enumerate() {
-                let leg_fraction = (row + 1) as f64 / row_count as f64;
+            for (row_index, (t, leg_pose)) in leg_rows.iter().enumerate() {
+                let leg_fraction = (row_index + 1) as f64 / row_count as f64;
                 let walk_bridge = std::array::from_fn(|k| {
-                    random_walk[row + 1][k] - leg_fraction * random_walk[row_count][k]
+                    random_walk[row_index + 1][k] - leg_fraction * random_walk[row_count][k]
                 });
                 let row_noise = leg_noise * leg_fraction + twist_noise_of(walk_bridge) - mean_noise;
                 base_poses.push((*t, base_start * leg_pose.boxplus(row_noise)));
@@ -221,9 +221,9 @@ impl Simulation {
                     let chi_squared: f64 = (0..degrees_of_freedom).map(sample_normal).map(|z| z * z).sum();
                     normal_noise * f64::sqrt((degrees_of_freedom as f64 - 2.0) / chi_squared)
                 }
-                Violation::AutocorrelatedNoise(autocorrelation) => {
-                    autocorrelation * previous_noise
-                        + (1.0 - autocorrelation * autocorrelation).sqrt() * normal_noise
+                Violation::AutocorrelatedNoise(noise_autocorrelation) => {
+                    noise_autocorrelation * previous_noise
+                        + (1.0 - noise_autocorrelation * noise_autocorrelation).sqrt() * normal_noise
                 }
                 Violation::ScaledNoise(std_factor) => std_factor * normal_noise,
                 Violation::ChangingNoise(noise_std_at) => noise_std_at(log_fraction) * normal_noise,
@@ -251,9 +251,9 @@ pub fn execute_motion(
         }
         Model::Velocity => {
             let twist = odometry_motion.log();
-            let command = VelocityCmd { v: twist.x / duration, omega: twist.z / duration, dt: duration };
+            let leg_command = VelocityCmd { v: twist.x / duration, omega: twist.z / duration, dt: duration };
             let model = VelocityModel { alphas: VelocityAlphas(*alphas), noise: NoiseKind::Normal };
-            model.apply_noise(&command, &origin_pose, unit_noise)
+            model.apply_noise(&leg_command, &origin_pose, unit_noise)
         }
     }
 }

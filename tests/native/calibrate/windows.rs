@@ -16,20 +16,20 @@ const SAMPLES_PER_WINDOW: usize = 400;
 /// Quantile 0.95 of χ² with 3 degrees of freedom.
 const CHI2_95: f64 = 7.815;
 
-fn odometry_motion_of(leg: &Leg) -> SE2 {
-    leg.odometry[0].inverse() * leg.odometry[1]
+fn odometry_motion_of(window_leg: &Leg) -> SE2 {
+    window_leg.odometry[0].inverse() * window_leg.odometry[1]
 }
 
 /// Returns true if the reference motion over the legs of a window is inside the 95 % ellipsoid of sampled motions, in exponential
 /// coordinates.
 fn is_window_covered(model: Model, alphas: &[f64; 6], window_legs: &[Leg], rng: &mut impl Rng) -> bool {
     let compose_motions = |motion_iter: &mut dyn Iterator<Item = SE2>| {
-        motion_iter.fold(SE2::identity(), |composed_motion, motion| composed_motion * motion)
+        motion_iter.fold(SE2::identity(), |composed_motion, leg_motion| composed_motion * leg_motion)
     };
     let odom_motion = compose_motions(&mut window_legs.iter().map(odometry_motion_of));
-    let mut sample_motion = |leg| {
+    let mut sample_motion = |window_leg| {
         let unit_noise = std::array::from_fn(|_| NoiseKind::Normal.sample(Variance(1.0), rng));
-        execute_motion(model, alphas, &odometry_motion_of(leg), leg.duration(), unit_noise)
+        execute_motion(model, alphas, &odometry_motion_of(window_leg), window_leg.duration(), unit_noise)
     };
     let window_samples: Vec<Vector3<f64>> = (0..SAMPLES_PER_WINDOW)
         .map(|_| compose_motions(&mut window_legs.iter().map(&mut sample_motion)).boxminus(&odom_motion))
@@ -57,11 +57,11 @@ fn count_covered_windows(model: Model, violation: Violation, log_count: u64) -> 
         let alphas = std::array::from_fn(|k| {
             recommended_alphas.get(k).map_or(0.0, |alpha| alpha.expect("identifiable"))
         });
-        let [odometry, reference] = Simulation { seed: 9000 + seed, ..simulation }.simulate_log();
-        let (log_legs, _) = split_into_legs(&odometry, &reference, simulation.leg_length, 0.0);
+        let [odometry_log, reference_log] = Simulation { seed: 9000 + seed, ..simulation }.simulate_log();
+        let (log_legs, _) = split_into_legs(&odometry_log, &reference_log, simulation.leg_length, 0.0);
         let (mut first_leg, mut window_length) = (0, 0.0);
-        for (last_leg, leg) in log_legs.iter().enumerate() {
-            window_length += odometry_motion_of(leg).x().hypot(odometry_motion_of(leg).y());
+        for (last_leg, window_leg) in log_legs.iter().enumerate() {
+            window_length += odometry_motion_of(window_leg).x().hypot(odometry_motion_of(window_leg).y());
             if window_length >= 1.0 {
                 covered_and_total_counts[0] +=
                     usize::from(is_window_covered(model, &alphas, &log_legs[first_leg..=last_leg], &mut rng));

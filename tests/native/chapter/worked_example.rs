@@ -100,7 +100,7 @@ fn exact_moments_equal_the_printed_table() {
 /// Compares estimates from 200 000 samples with the numbers that the chapter prints for its samples, and with exact values.
 #[test]
 fn measured_moments_agree_with_the_printed_table() {
-    let cloud = sample_cloud(&MODEL);
+    let pose_cloud = sample_cloud(&MODEL);
     let exact_moments = ExactMoments::new(&PolarMotion::of_velocity(&MODEL, &U));
     let exact_correlation =
         exact_moments.cov[(1, 2)] / (exact_moments.cov[(1, 1)] * exact_moments.cov[(2, 2)]).sqrt();
@@ -125,14 +125,14 @@ fn measured_moments_agree_with_the_printed_table() {
         ("E x", Box::new(|poses| CartesianMoments::from_poses(poses).mean.x), 0.955, 3, exact_moments.mean.x),
     ];
     for (quantity, statistic_of, printed, decimals, exact_value) in named_statistics {
-        let (measured, standard_error) = estimate_with_standard_error(&cloud, statistic_of);
+        let (measured, standard_error) = estimate_with_standard_error(&pose_cloud, statistic_of);
         assert!(
             (measured - exact_value).abs() < MAX_STANDARD_ERRORS * standard_error,
             "{quantity}: {measured} ± {standard_error}, exactly {exact_value}"
         );
         assert_printed_estimate(quantity, measured, standard_error, printed, decimals);
     }
-    let exponential_moments = ExponentialMoments::from_poses(&cloud, &SE2::identity());
+    let exponential_moments = ExponentialMoments::from_poses(&pose_cloud, &SE2::identity());
     assert!(
         exponential_moments.mean.y.abs() < 1e-15 && exponential_moments.cov[(1, 1)] < 1e-30,
         "printed 0.0000 and 0.00000"
@@ -144,7 +144,7 @@ fn measured_moments_agree_with_the_printed_table() {
 #[test]
 fn a_last_turn_adds_variance_to_the_lateral_coordinate() {
     let model = VelocityModel { alphas: VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.005, 0.005]), ..MODEL };
-    let cloud = sample_cloud(&model);
+    let pose_cloud = sample_cloud(&model);
     let tangent_model = TangentNoiseModel::from_velocity(&model, &U).unwrap();
     let predicted_cov = tangent_model.compound(&Matrix3::zeros(), &TangentNoiseModel::twist(&U));
     assert_relative_eq!(predicted_cov[(2, 2)], 0.03125, epsilon = 1e-16);
@@ -153,7 +153,7 @@ fn a_last_turn_adds_variance_to_the_lateral_coordinate() {
         |i| move |poses: &[SE2]| ExponentialMoments::from_poses(poses, &SE2::identity()).cov[(i, i)];
     for (xi_component, printed) in [(2, 0.0312), (1, 0.0016)] {
         let (measured, standard_error) =
-            estimate_with_standard_error(&cloud, exponential_variance(xi_component));
+            estimate_with_standard_error(&pose_cloud, exponential_variance(xi_component));
         assert_printed_estimate(&format!("axis {xi_component}"), measured, standard_error, printed, 4);
     }
 }

@@ -41,8 +41,8 @@ impl PolarGrid {
         cell_counts: [usize; 3],
     ) -> Self {
         let (dx, dy) = (middle_pose.x() - start_pose.x(), middle_pose.y() - start_pose.y());
-        let bearing = if dx.hypot(dy) > 0.0 { dy.atan2(dx) } else { start_pose.theta() };
-        let cell_centre = [dx.hypot(dy), bearing, middle_pose.theta() - slope * bearing];
+        let motion_bearing = if dx.hypot(dy) > 0.0 { dy.atan2(dx) } else { start_pose.theta() };
+        let cell_centre = [dx.hypot(dy), motion_bearing, middle_pose.theta() - slope * motion_bearing];
         let cell_size = [0, 1, 2].map(|axis| 2.0 * half_extent[axis] / cell_counts[axis] as f64);
         Self { start_pose: *start_pose, heading_slope: slope, middle: cell_centre, cell_size, cell_counts }
     }
@@ -59,9 +59,9 @@ impl PolarGrid {
         } else {
             (-dx.hypot(dy), bearing_offset - PI.copysign(bearing_offset))
         };
-        let bearing = self.middle[1] + bearing_offset;
-        let heading_offset = wrap_angle(pose.theta() - self.heading_slope * bearing - self.middle[2]);
-        [signed_distance, bearing, self.middle[2] + heading_offset]
+        let motion_bearing = self.middle[1] + bearing_offset;
+        let heading_offset = wrap_angle(pose.theta() - self.heading_slope * motion_bearing - self.middle[2]);
+        [signed_distance, motion_bearing, self.middle[2] + heading_offset]
     }
 
     fn lower_bound(&self, axis: usize, cell_index: usize) -> f64 {

@@ -58,8 +58,8 @@ pub fn settings_of_preset<S: SettingRules>(preset_name: &str) -> S {
     S::PRESETS.iter().find(|named_preset| named_preset.0 == preset_name).expect("a preset of that name").1
 }
 
-pub fn is_point_inside(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
-    let winding_count: i32 = outline
+pub fn is_point_inside(closed_outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
+    let winding_count: i32 = closed_outline
         .windows(2)
         .map(|segment_ends| {
             let [[start_x, start_y], [end_x, end_y]] = [segment_ends[0], segment_ends[1]];
@@ -83,8 +83,8 @@ pub struct ReferenceRow<'a> {
 }
 
 impl ReferenceTable {
-    pub fn parse(text: &'static str) -> Self {
-        let mut line_fields = text.lines().map(|csv_line| csv_line.split(',').collect::<Vec<_>>());
+    pub fn parse(csv_text: &'static str) -> Self {
+        let mut line_fields = csv_text.lines().map(|csv_line| csv_line.split(',').collect::<Vec<_>>());
         let column_names = line_fields.next().expect("a header");
         let rows: Vec<_> = line_fields.collect();
         assert!(!rows.is_empty(), "a table without rows");

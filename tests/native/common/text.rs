@@ -30,15 +30,15 @@ impl PrintedNumber {
 const THIN_SPACE: char = '\u{202f}';
 
 impl PlainText {
-    pub fn from_page(markdown: &str) -> Self {
+    pub fn from_page(markdown_page: &str) -> Self {
         let mut plain_text = String::new();
-        for tag_and_text in markdown.split('<') {
+        for tag_and_text in markdown_page.split('<') {
             // The text before the first tag has no markup.
             plain_text
                 .push_str(tag_and_text.split_once('>').map_or(tag_and_text, |(_, plain_part)| plain_part));
         }
-        for (markup, character) in [("*", ""), ("&nbsp;", " "), ("&#8239;", "\u{202f}")] {
-            plain_text = plain_text.replace(markup, character);
+        for (markup_text, replacement_text) in [("*", ""), ("&nbsp;", " "), ("&#8239;", "\u{202f}")] {
+            plain_text = plain_text.replace(markup_text, replacement_text);
         }
         Self::from_document(&plain_text)
     }
@@ -48,27 +48,27 @@ impl PlainText {
     }
 
     /// Returns the numbers that stand at each `#` of a sentence. The text must contain the sentence exactly once.
-    pub fn sentence_numbers<const N: usize>(&self, sentence: &str) -> [PrintedNumber; N] {
-        let sentence_parts: Vec<&str> = sentence.split('#').collect();
-        assert_eq!(sentence_parts.len(), N + 1, "numbers in: {sentence}");
+    pub fn sentence_numbers<const N: usize>(&self, sentence_pattern: &str) -> [PrintedNumber; N] {
+        let sentence_parts: Vec<&str> = sentence_pattern.split('#').collect();
+        assert_eq!(sentence_parts.len(), N + 1, "numbers in: {sentence_pattern}");
         let number_lists: Vec<Vec<PrintedNumber>> = self
             .0
             .match_indices(sentence_parts[0])
             .filter_map(|(sentence_start, _)| parse_numbers(&self.0[sentence_start..], &sentence_parts))
             .collect();
-        assert_eq!(number_lists.len(), 1, "times that the text says: {sentence}");
+        assert_eq!(number_lists.len(), 1, "times that the text says: {sentence_pattern}");
         std::array::from_fn(|i| number_lists[0][i])
     }
 
-    pub fn assert_numbers<const N: usize>(&self, sentence: &str, computed_numbers: [f64; N]) {
-        self.sentence_numbers::<N>(sentence)
+    pub fn assert_numbers<const N: usize>(&self, sentence_pattern: &str, computed_numbers: [f64; N]) {
+        self.sentence_numbers::<N>(sentence_pattern)
             .iter()
             .zip(computed_numbers)
             .for_each(|(printed_number, computed_value)| printed_number.assert_near(computed_value, 0.0));
     }
 
-    pub fn assert_contains(&self, sentence: &str) {
-        let [] = self.sentence_numbers(sentence);
+    pub fn assert_contains(&self, sentence_pattern: &str) {
+        let [] = self.sentence_numbers(sentence_pattern);
     }
 }
 
@@ -93,13 +93,13 @@ fn parse_numbers(remaining_text: &str, sentence_parts: &[&str]) -> Option<Vec<Pr
             }
             // The period at the end of a sentence is not a decimal point.
             number_end -= usize::from(remaining_text[..number_end].ends_with('.'));
-            let digits: String =
+            let number_digits: String =
                 remaining_text[..number_end].replace('−', "-").replace([THIN_SPACE, ' '], "");
             let decimal_count =
-                digits.split_once('.').map_or(0, |(_, decimal_digits)| decimal_digits.len() as i32);
+                number_digits.split_once('.').map_or(0, |(_, decimal_digits)| decimal_digits.len() as i32);
             remaining_text = remaining_text[number_end..].strip_prefix(sentence_part)?;
             Some(PrintedNumber {
-                value: digits.parse().ok()?,
+                value: number_digits.parse().ok()?,
                 rounding_error: 0.5 * 10f64.powi(-decimal_count),
             })
         })

@@ -20,11 +20,11 @@ pub fn parse_configurations() -> Value {
 
 pub fn configurations_of(configurations_json: &Value) -> impl Iterator<Item = Configuration<'_>> {
     let widgets_json = configurations_json["widgets"].as_object().expect("widgets");
-    widgets_json.iter().flat_map(move |(widget, widget_json)| {
+    widgets_json.iter().flat_map(move |(widget_name, widget_json)| {
         let settings_by_name = widget_json["configurations"].as_object().expect("configurations");
         settings_by_name.iter().map(move |(configuration_name, settings_json)| Configuration {
             configurations_json,
-            widget_tag: widget,
+            widget_tag: widget_name,
             configuration_name,
             settings_json,
         })
@@ -73,8 +73,8 @@ impl Configuration<'_> {
     }
 }
 
-fn set_from_json(setting: Setting, setting_json: &Value) {
-    match setting {
+fn set_from_json(changed_setting: Setting, setting_json: &Value) {
+    match changed_setting {
         Setting::Number(setting_value, _) => *setting_value = to_number(setting_json),
         Setting::Integer(setting_value, _) => {
             setting_value.set(setting_json.as_u64().expect("a whole number"))
@@ -96,8 +96,8 @@ fn set_from_json(setting: Setting, setting_json: &Value) {
         }
         Setting::Level(mut setting_value, _) => setting_value.set(to_number(setting_json)),
         Setting::Group(group_members, group_numbers) => {
-            for (group_member, number) in group_members.iter().zip(group_numbers) {
-                *number = to_number(&setting_json[group_member.declaration.key]);
+            for (group_member, group_number) in group_members.iter().zip(group_numbers) {
+                *group_number = to_number(&setting_json[group_member.declaration.key]);
             }
         }
     }

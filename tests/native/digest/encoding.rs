@@ -14,9 +14,9 @@ pub trait Encode {
 }
 
 impl Encode for f64 {
-    fn encode(&self, bytes: &mut Vec<u8>) {
+    fn encode(&self, encoded_bytes: &mut Vec<u8>) {
         let double_bits = if self.is_nan() { NAN_BITS } else { self.to_bits() };
-        bytes.extend(double_bits.to_le_bytes());
+        encoded_bytes.extend(double_bits.to_le_bytes());
     }
 }
 
@@ -42,29 +42,29 @@ encode_as! {
 }
 
 impl<T: Encode> Encode for [T] {
-    fn encode(&self, bytes: &mut Vec<u8>) {
-        self.len().encode(bytes);
-        self.iter().for_each(|list_item| list_item.encode(bytes));
+    fn encode(&self, encoded_bytes: &mut Vec<u8>) {
+        self.len().encode(encoded_bytes);
+        self.iter().for_each(|list_item| list_item.encode(encoded_bytes));
     }
 }
 
 impl<T: Encode, const N: usize> Encode for [T; N] {
-    fn encode(&self, bytes: &mut Vec<u8>) {
-        self.as_slice().encode(bytes);
+    fn encode(&self, encoded_bytes: &mut Vec<u8>) {
+        self.as_slice().encode(encoded_bytes);
     }
 }
 
 impl<T: Encode> Encode for Vec<T> {
-    fn encode(&self, bytes: &mut Vec<u8>) {
-        self.as_slice().encode(bytes);
+    fn encode(&self, encoded_bytes: &mut Vec<u8>) {
+        self.as_slice().encode(encoded_bytes);
     }
 }
 
 impl<T: Encode> Encode for Option<T> {
-    fn encode(&self, bytes: &mut Vec<u8>) {
+    fn encode(&self, encoded_bytes: &mut Vec<u8>) {
         match self {
-            Some(present_value) => present_value.encode(bytes),
-            None => f64::NAN.encode(bytes),
+            Some(present_value) => present_value.encode(encoded_bytes),
+            None => f64::NAN.encode(encoded_bytes),
         }
     }
 }
@@ -93,14 +93,14 @@ encode_fields! {
 pub struct HashedPart(pub &'static str, pub String);
 
 impl HashedPart {
-    pub fn new(part_name: &'static str, results: impl Encode) -> Self {
+    pub fn new(part_name: &'static str, part_results: impl Encode) -> Self {
         let mut encoded_bytes = Vec::new();
-        results.encode(&mut encoded_bytes);
+        part_results.encode(&mut encoded_bytes);
         // A hash of 64 bits is long enough. One change in 10¹⁹ would go unnoticed.
         Self(part_name, format_hex(&Sha256::digest(encoded_bytes))[..16].to_owned())
     }
 }
 
-pub fn format_hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|digest_byte| format!("{digest_byte:02x}")).collect()
+pub fn format_hex(encoded_bytes: &[u8]) -> String {
+    encoded_bytes.iter().map(|digest_byte| format!("{digest_byte:02x}")).collect()
 }

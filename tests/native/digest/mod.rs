@@ -12,10 +12,10 @@ const DIGEST_DIRECTORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/diges
 
 #[test]
 fn the_same_seed_gives_the_same_bits() {
-    let configurations = configuration::parse_configurations();
+    let tested_configurations = configuration::parse_configurations();
     let golden_text = std::fs::read_to_string(format!("{DIGEST_DIRECTORY}/golden.txt")).expect("golden.txt");
     let mut differing_parts = Vec::new();
-    for configuration in configuration::configurations_of(&configurations) {
+    for configuration in configuration::configurations_of(&tested_configurations) {
         let hashed_parts = match configuration.widget_tag {
             "banana-machine" => simulations::hash_banana_machine(&configuration),
             "map-squeeze" => simulations::hash_map_squeeze(&configuration),
@@ -51,10 +51,10 @@ fn the_same_seed_gives_the_same_bits() {
 fn the_changelog_names_the_digest() {
     let golden_bytes = std::fs::read(format!("{DIGEST_DIRECTORY}/golden.txt")).expect("golden.txt");
     let golden_digest = format_hex(&Sha256::digest(&golden_bytes));
-    let changelog =
+    let changelog_text =
         std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/CHANGELOG.md")).expect("a changelog");
     // The changelog names the newest digest first.
-    let printed_digest = changelog
+    let printed_digest = changelog_text
         .split(|c: char| !c.is_ascii_hexdigit())
         .find(|hexadecimal_digits| hexadecimal_digits.len() == golden_digest.len());
     assert_eq!(

@@ -16,7 +16,7 @@ use serde_json::Value;
 
 pub fn hash_banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
     let mut simulation = BananaMachine::new(configuration.read_settings()).expect("a valid setting");
-    let (odometry_reading, contours, table) =
+    let (odometry_reading, cloud_contours, table) =
         (simulation.reading(), simulation.contours(), simulation.table());
     let stats = *simulation.stats();
     let gain_fields_of = |likelihood_gain: LikelihoodGain| (likelihood_gain.pose, likelihood_gain.floor);
@@ -34,12 +34,12 @@ pub fn hash_banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
     let table_columns =
         (fields_of_column(table.linearized), fields_of_column(table.exact), fields_of_column(table.measured));
     let outline_coordinates = (
-        flatten(&contours.command),
-        flatten(&contours.ellipse),
-        flatten(&contours.linearized),
-        flatten(&contours.exponential),
-        flatten(&contours.twist_ellipse),
-        flatten(&contours.additive),
+        flatten(&cloud_contours.command),
+        flatten(&cloud_contours.ellipse),
+        flatten(&cloud_contours.linearized),
+        flatten(&cloud_contours.exponential),
+        flatten(&cloud_contours.twist_ellipse),
+        flatten(&cloud_contours.additive),
     );
     let mut paint_stage =
         |morph| flatten(simulation.paint(morph, &configuration.view_grid(), &new_test_ramp(0)));
@@ -76,7 +76,7 @@ pub fn hash_map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
         }
     }
     let (floor_plan, stats, noise) = (simulation.plan(), simulation.stats(), simulation.settings().noise());
-    let attempts = simulation.attempts();
+    let shown_attempts = simulation.attempts();
     let wall_ends: Vec<_> = floor_plan.walls().iter().map(|wall| [wall.from, wall.to]).collect();
     let grid_fields = floor_plan.grid().map(|grid| {
         let [column_count, rows] = grid.size();
@@ -93,13 +93,13 @@ pub fn hash_map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
         HashedPart::new("map", (floor_plan.bounds(), flatten(wall_ends.as_flattened()), grid_fields)),
         HashedPart::new(
             "poses",
-            attempts.iter().flat_map(|attempt| coordinates_of(attempt.pose)).collect::<Vec<_>>(),
+            shown_attempts.iter().flat_map(|attempt| coordinates_of(attempt.pose)).collect::<Vec<_>>(),
         ),
-        HashedPart::new("verdicts", attempts.iter().map(Attempt::verdict_bits).collect::<Vec<_>>()),
+        HashedPart::new("verdicts", shown_attempts.iter().map(Attempt::verdict_bits).collect::<Vec<_>>()),
         HashedPart::new(
             "statistics",
             (
-                attempts.len(),
+                shown_attempts.len(),
                 simulation.is_start_free(),
                 simulation.plan().find_free_pose(simulation.settings().clearance),
                 noise,
@@ -121,10 +121,10 @@ pub fn hash_dead_reckoning(configuration: &Configuration) -> Vec<HashedPart> {
     };
     let undefined_variances = Vector3::repeat(f64::NAN);
     let [variance_ratios, predicted_variances] = [
-        RECURSIONS.map(|recursion| flatten_by_step(&|k| simulation.comparison(recursion).ratios[k])),
-        RECURSIONS.map(|recursion| {
+        RECURSIONS.map(|cov_recursion| flatten_by_step(&|k| simulation.comparison(cov_recursion).ratios[k])),
+        RECURSIONS.map(|cov_recursion| {
             flatten_by_step(&|k| {
-                simulation.predicted_covariances(recursion)[k]
+                simulation.predicted_covariances(cov_recursion)[k]
                     .map_or(undefined_variances, |cov| cov.diagonal())
             })
         }),
@@ -135,11 +135,11 @@ pub fn hash_dead_reckoning(configuration: &Configuration) -> Vec<HashedPart> {
     let miss_fields = [stats.misses.chapter, stats.misses.first_order, stats.misses.fourth_order]
         .map(|axis_misses| axis_misses.map(|m: Misses| (m.decidable, m.first, m.last, m.end, m.error)));
     let predicted_covs = (stats.predicted.chapter, stats.predicted.first_order, stats.predicted.fourth_order);
-    let statistics =
+    let sum_statistics =
         (stats.n, (stats.measured.mean, stats.measured.cov), predicted_covs, <(_, _, _)>::from(miss_fields));
     let step_outlines = simulation.outlines(settings.step).expect("a step");
     vec![
-        HashedPart::new("statistics", (simulation.shown_count(), settings.heading_noise(), statistics)),
+        HashedPart::new("statistics", (simulation.shown_count(), settings.heading_noise(), sum_statistics)),
         HashedPart::new("steps", (variance_ratios, predicted_variances, measured_variances, relative_errors)),
         HashedPart::new(
             "poses",
@@ -164,7 +164,7 @@ pub fn hash_dead_reckoning(configuration: &Configuration) -> Vec<HashedPart> {
 pub fn hash_alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
     let simulation = AlphaCalibrator::new(configuration.read_settings()).expect("a valid setting");
     let calibration = simulation.calibration();
-    let estimate_fields_of = |estimate: &Estimate| (estimate.value, estimate.interval);
+    let estimate_fields_of = |error_estimate: &Estimate| (error_estimate.value, error_estimate.interval);
     let estimate_of = |error: SystematicError| {
         calibration.systematic_stds[error as usize].map(|_| calibration.systematic.get(error))
     };
@@ -201,7 +201,7 @@ pub fn hash_alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
     let recommendation_fields = calibration
         .recommended
         .as_ref()
-        .map(|recommendation| (recommendation.alphas.clone(), recommendation.inflation));
+        .map(|recommended_alphas| (recommended_alphas.alphas.clone(), recommended_alphas.inflation));
     let truth_fields = simulation.truth().map(|simulated_truth| {
         let first_fields = (simulated_truth.alphas, simulated_truth.clock_offset, simulated_truth.mount_yaw);
         (first_fields, simulated_truth.lever_arm, simulated_truth.distance_scale, simulated_truth.turn_scale)

@@ -40,12 +40,12 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
     let coverage_error = MAX_STANDARD_ERRORS * (0.117 / ROBOT_COUNT as f64).sqrt();
     let simulate_preset =
         |preset_name| new_simulation(Settings { samples: ROBOT_COUNT, ..settings_of_preset(preset_name) });
-    let assert_row = |simulation: &BananaMachine, printed_row: [PrintedNumber; 4]| {
+    let assert_row = |banana_machine: &BananaMachine, printed_row: [PrintedNumber; 4]| {
         let [printed_floor_gain, printed_area_ratio, printed_ellipse_percentage, printed_skew] = printed_row;
-        let exact_column = simulation.table().exact;
+        let exact_column = banana_machine.table().exact;
         printed_floor_gain.assert_near(exact_column.likelihood_gain.floor, 0.0);
         printed_area_ratio.assert_near(exact_column.area_ratio, 0.0);
-        printed_ellipse_percentage.assert_percent(simulation.stats().coverage.ellipse, coverage_error);
+        printed_ellipse_percentage.assert_percent(banana_machine.stats().coverage.ellipse, coverage_error);
         printed_skew.assert_near(exact_column.cross_track_skew, 1e-12);
         exact_column
     };
@@ -60,10 +60,10 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
     .map(|(preset_name, row_start)| {
         let [printed_pose_gain, printed_row @ ..]: [PrintedNumber; 5] =
             read_statistics_document().sentence_numbers(&format!("{row_start} | # | # | # | # % | # |"));
-        let simulation = simulate_preset(preset_name);
-        let exact_column = assert_row(&simulation, printed_row);
+        let banana_machine = simulate_preset(preset_name);
+        let exact_column = assert_row(&banana_machine, printed_row);
         printed_pose_gain.assert_near(exact_column.likelihood_gain.pose, 0.0);
-        (exact_column, simulation)
+        (exact_column, banana_machine)
     });
     let [printed_ellipse_percentage, printed_outline_percentage, printed_skew, printed_gaussian_skew] = read_page_text().sentence_numbers(
         "do not give the ellipse away, # % and # %. The cross-track skew, the lopsidedness across the path, does: #, \
@@ -87,7 +87,7 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
     read_statistics_document().assert_numbers(
         "α₁₋₄ = 0.02, α₅,₆ = 0: skew #; the Gentle arc's α = (0.05, 0.05, 0.05, 0.09, 0.01, 0.01): #.",
         [new_simulation(settings_of_preset("worked")), new_simulation(settings_of_preset("gentle"))]
-            .map(|simulation| simulation.exact_moments().cross_track_skew),
+            .map(|banana_machine| banana_machine.exact_moments().cross_track_skew),
     );
     read_statistics_document().assert_numbers(
         "The widget opens with # robots. They give the skew of the Banana to ±#.",
@@ -101,8 +101,8 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
     read_page_text().assert_contains(
         "where it alone lies, robots stop a seventh as densely as where the outline alone does.",
     );
-    let simulation = new_simulation(Settings { samples: 300_000, ..settings_of_preset("banana") });
-    let outlines = simulation.contours();
+    let banana_machine = new_simulation(Settings { samples: 300_000, ..settings_of_preset("banana") });
+    let outlines = banana_machine.contours();
     let is_inside_outlines = |floor_point| {
         [&outlines.ellipse, &outlines.exponential].map(|outline| is_point_inside(outline, floor_point))
     };
@@ -115,7 +115,7 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
         })
         .collect();
     let robot_flags: Vec<[bool; 2]> =
-        simulation.poses().map(|pose| is_inside_outlines([pose.x(), pose.y()])).collect();
+        banana_machine.poses().map(|pose| is_inside_outlines([pose.x(), pose.y()])).collect();
     let robot_density_in = |inside_outlines: [bool; 2]| {
         let count_points = |inside_flags: &[[bool; 2]]| {
             inside_flags.iter().filter(|point_flags| **point_flags == inside_outlines).count() as f64
@@ -138,8 +138,8 @@ fn a_tenth_of_the_time_shrinks_the_cloud_to_less_than_a_tenth() {
     };
     let [long_drive_simulation, short_drive_simulation] = [long_drive_settings, short_drive_settings]
         .map(|drive_settings| new_simulation(Settings { samples: 10, ..drive_settings }));
-    let position_std_of = |simulation: &BananaMachine| {
-        let exact_cov = simulation.table().exact.cov;
+    let position_std_of = |banana_machine: &BananaMachine| {
+        let exact_cov = banana_machine.table().exact.cov;
         (exact_cov[(0, 0)] + exact_cov[(1, 1)]).sqrt()
     };
     assert!(
@@ -158,9 +158,9 @@ fn the_predicted_skew_is_wrong_under_the_odometry_model() {
     let mut velocity_alphas = settings.velocity_alphas;
     velocity_alphas[4..].fill(0.0);
     let skew_miss_of = |settings| {
-        let simulation = new_simulation(settings);
-        let stats = simulation.stats();
-        (stats.cross_track_skew - stats.gaussian_skew).abs() / stats.cross_track_skew_error
+        let banana_machine = new_simulation(settings);
+        let cloud_stats = banana_machine.stats();
+        (cloud_stats.cross_track_skew - cloud_stats.gaussian_skew).abs() / cloud_stats.cross_track_skew_error
     };
     assert!(skew_miss_of(Settings { velocity_alphas, ..settings }) < MAX_STANDARD_ERRORS);
     assert!(skew_miss_of(Settings { model: ModelKind::Odometry, ..settings }) > min_standard_errors.value);

@@ -90,8 +90,8 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
     let first_missed_steps = simulations.map(|simulation| {
         let ratio_tolerance = MAX_STANDARD_ERRORS * (2.3 / simulation.settings().samples as f64).sqrt();
         let variance_ratios = &simulation.comparison(Compounding::FourthOrder).ratios;
-        assert!(variance_ratios.iter().all(|ratios| {
-            ratios.iter().all(|variance_ratio| (variance_ratio - 1.0).abs() < ratio_tolerance)
+        assert!(variance_ratios.iter().all(|recursion_ratios| {
+            recursion_ratios.iter().all(|variance_ratio| (variance_ratio - 1.0).abs() < ratio_tolerance)
         }));
         let first_missed_step = simulation.comparison(Compounding::Chapter).misses[0].first.expect("a miss");
         assert_eq!(

@@ -118,7 +118,7 @@ fn exercise_4_prints_the_effect_of_each_alpha() {
         "headings spread with a variance of # rad²",
         "its curve has a cross-track skew of #, which",
     ]
-    .map(|sentence| read_exercises().sentence_numbers::<1>(sentence)[0]);
+    .map(|sentence_pattern| read_exercises().sentence_numbers::<1>(sentence_pattern)[0]);
     assert_eq!(printed_alpha.value, 0.09);
     let [exact_with_alpha4, exact_with_alpha6] =
         [3, 5].map(|alpha_index| exact_column_and_uniqueness(alpha_index, turning_command).0);
@@ -131,14 +131,14 @@ fn exercise_4_prints_the_effect_of_each_alpha() {
 /// Equal seeds give equal motions. The computed fractions therefore equal those of the table in every digit.
 #[test]
 fn exercise_5_prints_the_fractions_through_walls() {
-    let new_settings = |noise_level: f64, omega: f64, sampler: Sampler| {
+    let new_settings = |noise_level: f64, omega: f64, map_sampler: Sampler| {
         let command = VelocityCmd { omega, ..squeeze::Settings::default().command };
         let (alphas, substep_count, sample_count) =
-            (alphas_of_noise_level(noise_level), sampler.part_count(), 20_000);
+            (alphas_of_noise_level(noise_level), map_sampler.part_count(), 20_000);
         squeeze::Settings {
             command,
             alphas,
-            sampler,
+            sampler: map_sampler,
             steps: substep_count,
             samples: sample_count,
             ..Default::default()
@@ -164,8 +164,8 @@ fn exercise_5_prints_the_fractions_through_walls() {
         "draws, and # % still go through one",
         "eight cost # draws",
     ]
-    .map(|sentence| read_exercises().sentence_numbers::<1>(sentence)[0]);
-    let stats_of_sampler = |sampler| squeeze_stats_of(new_settings(0.12, 0.6, sampler));
+    .map(|sentence_pattern| read_exercises().sentence_numbers::<1>(sentence_pattern)[0]);
+    let stats_of_sampler = |map_sampler| squeeze_stats_of(new_settings(0.12, 0.6, map_sampler));
     let whole_arc_stats = stats_of_sampler(Sampler::WholeArc);
     printed_arc_draws.assert_near(whole_arc_stats.draws_per_accepted, 0.0);
     assert_eq!(whole_arc_stats.through_wall, 0);

@@ -17,13 +17,13 @@ fn the_lateral_deviation_grows_faster_than_the_drive() {
         "the noise of the first rotation: ± # rad at the start are ± # m across at the end. Twice as far it is # times as much",
     );
     let settings = settings_of_preset("all");
-    let stats = new_simulation(settings).stats();
+    let leg_stats = new_simulation(settings).stats();
     printed_rot1_std.assert_near(find_rule_noise(settings, Table).deviations[0], 0.0);
-    printed_lateral_std.assert_near(stats.exact_cross_track, 0.0);
+    printed_lateral_std.assert_near(leg_stats.exact_cross_track, 0.0);
     let [x, y, final_heading] = settings.to;
     let long_drive_settings = Settings { to: [2.0 * x, 2.0 * y, final_heading], ..settings };
     printed_growth.assert_near(
-        new_simulation(long_drive_settings).stats().exact_cross_track / stats.exact_cross_track,
+        new_simulation(long_drive_settings).stats().exact_cross_track / leg_stats.exact_cross_track,
         0.0,
     );
 }
@@ -82,6 +82,6 @@ fn table_5_6_adds_heading_noise_to_encoders_at_rest() {
     read_page_text().assert_contains("The encoders have jittered by half a centimetre.");
     let [x, y, _] = settings_of_preset::<Settings>("rest").to;
     assert_eq!((1000.0 * x.hypot(y)).round(), 5.0);
-    let stats = new_simulation(settings_of_preset("rest")).stats();
-    printed_heading_std.assert_near(stats.exact_heading, 0.0);
+    let leg_stats = new_simulation(settings_of_preset("rest")).stats();
+    printed_heading_std.assert_near(leg_stats.exact_heading, 0.0);
 }

@@ -16,15 +16,15 @@ const DOORWAY_PRESET: usize = 0;
 const WALL_PRESET: usize = 1;
 const CORRIDOR_PRESET: usize = 2;
 
-fn new_settings(preset_index: usize, sampler: Sampler, omega: f64) -> Settings {
-    let command = VelocityCmd { omega, ..Settings::default().command };
-    let part_count = sampler.part_count();
+fn new_settings(preset_index: usize, map_sampler: Sampler, omega: f64) -> Settings {
+    let turned_command = VelocityCmd { omega, ..Settings::default().command };
+    let part_count = map_sampler.part_count();
     let sample_count = 100_000.min(800_000 / part_count as usize);
     Settings {
         start: Settings::PRESETS[preset_index].1.start,
-        sampler,
+        sampler: map_sampler,
         steps: part_count,
-        command,
+        command: turned_command,
         samples: sample_count,
         seed: 3,
         ..Settings::default()
@@ -72,8 +72,8 @@ fn most_accepted_samples_lie_behind_the_wall() {
         fraction_through_wall_of(new_settings(WALL_PRESET, Sampler::Endpoint, 0.0)),
         printed_fraction,
     );
-    let fraction_behind_wall = |sampler| {
-        let simulation = new_simulation(new_settings(WALL_PRESET, sampler, 0.0));
+    let fraction_behind_wall = |map_sampler| {
+        let simulation = new_simulation(new_settings(WALL_PRESET, map_sampler, 0.0));
         let accepted_ys: Vec<f64> =
             simulation.attempts().iter().filter(|a| a.accepted).map(|a| a.pose.y()).collect();
         // The wall ahead is at y = 3.8. Robots that turn aside also end before this wall.
@@ -131,10 +131,10 @@ fn fractions_through_walls_by_substeps_are_those_in_the_documents() {
             fraction_through_wall_of(new_settings(preset_index, Sampler::Endpoint, printed_omega.value)),
             printed_percentages[0],
         );
-        for (part_count, &percentage) in part_counts.into_iter().zip(&printed_percentages[1..]) {
+        for (part_count, &printed_percentage) in part_counts.into_iter().zip(&printed_percentages[1..]) {
             assert_printed_percentage(
                 fraction_in_parts(preset_index, part_count, printed_omega.value),
-                percentage,
+                printed_percentage,
             );
         }
     }
@@ -197,8 +197,8 @@ fn testing_the_geodesic_changes_the_documented_fraction_of_verdicts() {
                 VelocityModel { alphas: VelocityAlphas(alphas_of_noise_level(n)), noise: NoiseKind::Normal };
             let conditioned_model =
                 MapConditioned { model, plan: &floor_plan, clearance: 0.13, sampler: Sampler::Endpoint };
-            let command = VelocityCmd { v: 1.0, omega, dt: 2.0 };
-            let collision_tester = conditioned_model.collision_tester(&command, &start_pose);
+            let turned_command = VelocityCmd { v: 1.0, omega, dt: 2.0 };
+            let collision_tester = conditioned_model.collision_tester(&turned_command, &start_pose);
             let mut rng = seeded_rng(93);
             let (mut accepted_count, mut differing_count) = (0u32, 0u32);
             for _ in 0..40_000 {

@@ -76,8 +76,8 @@ fn sample_wall_near_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let other_end = if rng.next_u32().is_multiple_of(2) {
         sample_point(rng, 8.0)
     } else {
-        let (heading, distance) = (sample_uniform(rng, -PI, PI), sample_uniform(rng, -3.0, 3.0));
-        [near_end[0] + distance * heading.cos(), near_end[1] + distance * heading.sin()]
+        let (heading, point_distance) = (sample_uniform(rng, -PI, PI), sample_uniform(rng, -3.0, 3.0));
+        [near_end[0] + point_distance * heading.cos(), near_end[1] + point_distance * heading.sin()]
     };
     Segment { from: near_end, to: other_end }
 }
@@ -88,11 +88,11 @@ fn sample_wall_from_centre(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let mut sample_offset = || sample_signed_log_uniform(rng, 1e-16, 1e-1);
     let near_end =
         to_absolute(arc, [sample_offset() - radius * theta.sin(), sample_offset() + radius * theta.cos()]);
-    let distance = sample_uniform(rng, 0.0, 1.2) * radius;
+    let point_distance = sample_uniform(rng, 0.0, 1.2) * radius;
     let heading = sample_uniform(rng, -PI, PI);
     Segment {
         from: near_end,
-        to: [near_end[0] + distance * heading.cos(), near_end[1] + distance * heading.sin()],
+        to: [near_end[0] + point_distance * heading.cos(), near_end[1] + point_distance * heading.sin()],
     }
 }
 

@@ -23,8 +23,8 @@ fn list_tested_angles() -> Vec<f64> {
     tested_angles
 }
 
-fn first_lane_of(lanes: f64x4) -> f64 {
-    lanes.to_array()[0]
+fn first_lane_of(equal_lanes: f64x4) -> f64 {
+    equal_lanes.to_array()[0]
 }
 
 #[test]
@@ -75,12 +75,12 @@ fn half_headings_lie_on_the_requested_branch() {
                 (first_lane_of(sin_cos.sin) * first_lane_of(sin_cos.cos) - sin * cos).abs()
                     <= 2.0 * rounding_tolerance
             );
-            let cotangent = if half_turn == 0.0 { 1.0 } else { half_turn * cos / sin };
+            let half_turn_cotangent = if half_turn == 0.0 { 1.0 } else { half_turn * cos / sin };
             // The cotangent divides the error of the sine by the square of the sine.
             let cotangent_tolerance = 4.0 * rounding_tolerance * (1.0 + half_turn.abs())
                 / (sin * sin / (half_turn * half_turn).min(1.0)).max(1e-300);
             assert!(
-                (first_lane_of(sin_cos.cos / sin_cos.sinc) - cotangent).abs()
+                (first_lane_of(sin_cos.cos / sin_cos.sinc) - half_turn_cotangent).abs()
                     <= cotangent_tolerance.max(4.0 * MAX_SIN_COS_ERROR),
                 "{half_heading} {branch_centre}"
             );

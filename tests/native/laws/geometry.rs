@@ -114,13 +114,13 @@ fn assert_close(a: &Matrix3<f64>, b: &Matrix3<f64>, position_extent: f64) -> Res
     for i in 0..3 {
         for j in 0..3 {
             let tolerance_scale = if j == 2 { 1.0 + position_extent } else { 1.0 };
-            let difference = (a[(i, j)] - b[(i, j)]).abs();
+            let entry_difference = (a[(i, j)] - b[(i, j)]).abs();
             prop_assert!(
-                difference <= TOLERANCE_ULPS * f64::EPSILON * tolerance_scale,
+                entry_difference <= TOLERANCE_ULPS * f64::EPSILON * tolerance_scale,
                 "{} {}: off by {:e}",
                 a,
                 b,
-                difference
+                entry_difference
             );
         }
     }

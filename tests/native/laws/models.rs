@@ -122,8 +122,8 @@ fn assert_likelihoods_are_valid<M: MotionModel>(
     x_next: &SE2,
 ) -> Result<(), TestCaseError> {
     for x_next in [x_next, x] {
-        let likelihood = velocity_model.prob(x_next, u, x);
-        prop_assert!(likelihood >= 0.0, "prob is {}", likelihood);
+        let pose_likelihood = velocity_model.prob(x_next, u, x);
+        prop_assert!(pose_likelihood >= 0.0, "prob is {}", pose_likelihood);
         let density = velocity_model.pose_density(x_next, u, x);
         prop_assert!(density.is_none_or(|density| density >= 0.0), "pose_density is {:?}", density);
     }

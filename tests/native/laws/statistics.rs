@@ -97,7 +97,7 @@ proptest! {
         changed_cov[entry_indices] = invalid_entry;
         match TangentNoiseModel::new(changed_cov) {
             Ok(tangent_model) => prop_assert_eq!(tangent_model.r, changed_cov),
-            Err(refusal) => prop_assert_eq!(refusal == TangentNoiseError::NotFinite, !invalid_entry.is_finite()),
+            Err(covariance_error) => prop_assert_eq!(covariance_error == TangentNoiseError::NotFinite, !invalid_entry.is_finite()),
         }
         let indefinite_matrix = cov - Matrix3::identity() * (cov.symmetric_eigenvalues().min().max(0.0) + eigenvalue_reduction);
         prop_assert_eq!(TangentNoiseModel::new(indefinite_matrix), Err(TangentNoiseError::NotPositiveSemidefinite));

@@ -18,8 +18,8 @@ fn new_velocity_model() -> VelocityModel {
     VelocityModel { alphas: VelocityAlphas(alphas_of_noise_level(0.12)), noise: NoiseKind::Normal }
 }
 
-fn condition_on_map(plan: &FloorPlan, sampler: Sampler) -> MapConditioned<'_> {
-    MapConditioned { model: new_velocity_model(), plan, clearance: 0.13, sampler }
+fn condition_on_map(plan: &FloorPlan, map_sampler: Sampler) -> MapConditioned<'_> {
+    MapConditioned { model: new_velocity_model(), plan, clearance: 0.13, sampler: map_sampler }
 }
 
 fn start_pose_of(preset_name: &str) -> SE2 {
@@ -81,9 +81,9 @@ fn acceptance_and_wall_fractions_equal_the_published_ones() {
 fn samples_are_those_of_table_5_7() {
     let plan = FloorPlan::apartment();
     let command = VelocityCmd { omega: 0.2, ..STRAIGHT_COMMAND };
-    for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
+    for map_sampler in [Sampler::Endpoint, Sampler::WholeArc] {
         for (preset_name, _) in Settings::PRESETS {
-            let (start_pose, map_model) = (start_pose_of(preset_name), condition_on_map(&plan, sampler));
+            let (start_pose, map_model) = (start_pose_of(preset_name), condition_on_map(&plan, map_sampler));
             let (mut rng, mut expected_rng) = (seeded_rng(9), seeded_rng(9));
             for _ in 0..1000 {
                 let accepted_motion = map_model.sample(&command, &start_pose, &mut rng).expect("it fits");
@@ -93,7 +93,7 @@ fn samples_are_those_of_table_5_7() {
                     let drawn_pose = new_velocity_model().sample(&command, &start_pose, &mut expected_rng);
                     let executed_motion =
                         new_velocity_model().executed_motion(&command, sample_unit_noise(&mut noise_rng));
-                    let arc = Arc {
+                    let start_arc = Arc {
                         start: start_pose,
                         length: 2.0 * executed_motion.v_hat,
                         turn: 2.0 * executed_motion.omega_hat,
@@ -101,7 +101,7 @@ fn samples_are_those_of_table_5_7() {
                     draw_count += 1;
                     let is_end_free = plan.test_point([drawn_pose.x(), drawn_pose.y()], 0.13).free;
                     let is_accepted = is_end_free
-                        && (map_model.sampler == Sampler::Endpoint || plan.test_arc(&arc, 0.13).free);
+                        && (map_model.sampler == Sampler::Endpoint || plan.test_arc(&start_arc, 0.13).free);
                     if is_accepted {
                         break drawn_pose;
                     }
@@ -124,8 +124,8 @@ pub fn new_too_small_room() -> FloorPlan {
 fn a_robot_that_cannot_move_is_an_error_with_the_number_of_draws() {
     let plan = new_too_small_room();
     let start_pose = SE2::new(2.1, 2.1, 0.0);
-    for sampler in SAMPLERS {
-        let refusal = condition_on_map(&plan, sampler)
+    for map_sampler in SAMPLERS {
+        let refusal = condition_on_map(&plan, map_sampler)
             .sample(&STRAIGHT_COMMAND, &start_pose, &mut seeded_rng(12))
             .expect_err("no room");
         assert_eq!(refusal.0.draws, MAX_DRAWS);
@@ -137,9 +137,9 @@ fn a_robot_that_cannot_move_is_an_error_with_the_number_of_draws() {
             .expect("a valid plan");
     let precise_model =
         VelocityModel { alphas: VelocityAlphas([1e-6, 0.0, 0.0, 0.0, 0.0, 0.0]), noise: NoiseKind::Normal };
-    let sampler =
+    let map_sampler =
         MapConditioned { model: precise_model, ..condition_on_map(&dead_end_plan, Sampler::SubStepped(2)) };
-    let refusal = sampler
+    let refusal = map_sampler
         .sample(&STRAIGHT_COMMAND, &SE2::new(0.3, 1.0, 0.0), &mut seeded_rng(13))
         .expect_err("a dead end");
     assert_eq!(refusal.0.draws, MAX_DRAWS + 1);

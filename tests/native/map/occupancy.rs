@@ -97,9 +97,9 @@ fn distances_to_walls_equal_distances_to_cells() {
                 wall_distance == cell_distance || (wall_distance - cell_distance).abs() < 1e-13,
                 "{wall_distance}, {cell_distance}"
             );
-            let clearance = sample_uniform(&mut rng, 0.0, 1.0);
-            if (clearance - cell_distance).abs() > 1e-12 {
-                assert_eq!(plan.test_point(point, clearance).free, cell_distance > clearance);
+            let robot_radius = sample_uniform(&mut rng, 0.0, 1.0);
+            if (robot_radius - cell_distance).abs() > 1e-12 {
+                assert_eq!(plan.test_point(point, robot_radius).free, cell_distance > robot_radius);
             }
             outside_count += 1;
         }
@@ -155,9 +155,9 @@ fn a_grid_of_too_many_walls_is_refused() {
         origin: [0.0; 3],
     };
     // The grid has 160 · 160 single cells with four sides each.
-    let refusal = FloorPlan::from_grid(separate_cells.grid()).err();
-    assert_eq!(refusal, Some(FloorPlanError::TooManySides(20_001)));
-    let error_message = refusal.map(|refusal| refusal.to_string()).unwrap_or_default();
+    let plan_error = FloorPlan::from_grid(separate_cells.grid()).err();
+    assert_eq!(plan_error, Some(FloorPlanError::TooManySides(20_001)));
+    let error_message = plan_error.map(|plan_error| plan_error.to_string()).unwrap_or_default();
     assert_eq!(
         error_message,
         "image has blocked cells with 20001 sides or more; allowed are at most 20000: remove specks or use larger cells"
@@ -172,9 +172,9 @@ fn a_grid_outside_the_range_of_coordinates_is_refused() {
     };
     assert!(FloorPlan::from_grid(create_grid(0.5, [-1e6, 1e6 - 1.0, 0.0])).is_ok());
     for (resolution, origin) in [(0.5, [1e6 - 1.0, 0.0, 0.0]), (4e4, [0.0; 3]), (0.004, [0.0; 3])] {
-        let refusal = FloorPlan::from_grid(create_grid(resolution, origin)).err();
-        assert!(matches!(refusal, Some(FloorPlanError::BadGrid(_))), "{refusal:?}");
-        let refusal_message = refusal.map(|refusal| refusal.to_string()).unwrap_or_default();
+        let plan_error = FloorPlan::from_grid(create_grid(resolution, origin)).err();
+        assert!(matches!(plan_error, Some(FloorPlanError::BadGrid(_))), "{plan_error:?}");
+        let refusal_message = plan_error.map(|plan_error| plan_error.to_string()).unwrap_or_default();
         assert!(refusal_message.starts_with("origin has the cells from ["), "{refusal_message}");
     }
 }
@@ -214,9 +214,9 @@ fn the_free_pose_is_in_the_largest_free_square() {
         let straight_arc = Arc { start: free_pose, length: 0.5, turn: 0.0 };
         assert!(plan.test_arc(&straight_arc, 0.0).free && free_pose.theta().abs() < 0.5, "{free_pose:?}");
     }
-    let find_free_pose_in_rows = |drawn_rows: [&str; 3], unknown_cells, clearance| {
+    let find_free_pose_in_rows = |drawn_rows: [&str; 3], unknown_cells, robot_radius| {
         let plan = FloorPlan::from_grid(parse_drawn_grid(&drawn_rows, unknown_cells)).expect("a small grid");
-        plan.find_free_pose(clearance)
+        plan.find_free_pose(robot_radius)
     };
     // A robot that just fits cannot move. The heading is then 0.
     let free_pose = find_free_pose_in_rows(["###", "#.#", "###"], UnknownCells::Free, 0.0499);

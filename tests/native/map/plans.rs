@@ -87,9 +87,9 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
             .collect()
     };
     let new_pixel = |is_dark: bool| Pixel { brightness: if is_dark { 0.0 } else { 1.0 }, opacity: 1.0 };
-    let pixels: Vec<_> = (0..1600).map(|_| new_pixel(rng.next_u32().is_multiple_of(40))).collect();
-    let image = Image { width: 40, height: 40, pixels };
-    let grid = OccupancyGrid::new(&image, &PixelClassifier::default(), 0.25, SE2::new(3.0, -2.0, 0.4));
+    let cell_pixels: Vec<_> = (0..1600).map(|_| new_pixel(rng.next_u32().is_multiple_of(40))).collect();
+    let cell_image = Image { width: 40, height: 40, pixels: cell_pixels };
+    let grid = OccupancyGrid::new(&cell_image, &PixelClassifier::default(), 0.25, SE2::new(3.0, -2.0, 0.4));
     let new_room_plan = |walls| FloorPlan::new(walls, ROOM_BOUNDS).expect("a valid plan");
     let long_walls = sample_walls(12, 10.0, ROOM_BOUNDS, &mut rng);
     let tested_plans = [
@@ -172,16 +172,16 @@ fn touching_a_wall_is_not_free() {
 
 #[test]
 fn the_free_pose_is_in_the_largest_free_square() {
-    let apartment = FloorPlan::apartment();
+    let apartment_plan = FloorPlan::apartment();
     for clearance in [0.0, 0.13, 0.5, 1.0] {
-        let free_pose = apartment.find_free_pose(clearance).expect("there is room");
-        assert!(apartment.test_point([free_pose.x(), free_pose.y()], clearance).free);
+        let free_pose = apartment_plan.find_free_pose(clearance).expect("there is room");
+        assert!(apartment_plan.test_point([free_pose.x(), free_pose.y()], clearance).free);
         // The largest room has a free square of 4 m between the closet and the opposite wall.
         assert!((free_pose.x() - 4.0).abs() < 0.1 && (free_pose.y() - 7.0).abs() < 0.1, "{free_pose:?}");
         let straight_arc = Arc { start: free_pose, length: 2.0, turn: 0.0 };
-        assert!(apartment.test_arc(&straight_arc, 0.13).free, "{free_pose:?}");
+        assert!(apartment_plan.test_arc(&straight_arc, 0.13).free, "{free_pose:?}");
     }
-    assert_eq!(apartment.find_free_pose(2.5), None, "no room is that large");
+    assert_eq!(apartment_plan.find_free_pose(2.5), None, "no room is that large");
     for bounds in [[-3.0, -2.0, 7.0, 5.0], [3.0, 2.0, 7.0, 5.0]] {
         let empty_plan = FloorPlan::new(vec![], bounds).expect("a valid plan");
         let free_pose = empty_plan.find_free_pose(0.3).expect("there is room");

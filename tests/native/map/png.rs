@@ -22,7 +22,7 @@ fn encode_png(png_format: &PngFormat, image_width: u32, channel_values: &[u16]) 
         let binary_row: String =
             sample_row.iter().map(|channel_value| format!("{channel_value:0bit_depth$b}")).collect();
         let row_bytes = binary_row.as_bytes().chunks(8).map(|byte_digits| {
-            let byte_value = byte_digits.iter().fold(0, |byte, digit| 2 * byte + (digit - b'0'));
+            let byte_value = byte_digits.iter().fold(0, |bit_value, digit| 2 * bit_value + (digit - b'0'));
             byte_value << (8 - byte_digits.len())
         });
         packed_rows.extend(row_bytes);
@@ -104,19 +104,19 @@ fn every_kind_of_image_is_decoded_exactly() {
                                 let [red, green, blue] = [0, 1, 2].map(|k| palette[3 * palette_index + k]);
                                 [red, green, blue, opacity.copied().unwrap_or(255)]
                             }
-                            [grey] => [grey, grey, grey, opacity],
-                            [grey, opacity] => [grey, grey, grey, opacity],
+                            [grey_value] => [grey_value, grey_value, grey_value, opacity],
+                            [grey_value, opacity] => [grey_value, grey_value, grey_value, opacity],
                             [red, green, blue] => [red, green, blue, opacity],
                             [red, green, blue, opacity] => [red, green, blue, opacity],
                             _ => unreachable!("four samples at most"),
                         }
                     })
                     .collect();
-                let image =
+                let decoded_image =
                     read_png(&encode_png(&png_format, image_width, &channel_values)).expect("an image");
-                assert_eq!((image.width, image.height), (image_width as usize, image_height));
+                assert_eq!((decoded_image.width, decoded_image.height), (image_width as usize, image_height));
                 assert_eq!(
-                    image.pixels, expected_pixels,
+                    decoded_image.pixels, expected_pixels,
                     "{color_type:?} {bit_depth} {image_width} {has_transparency}"
                 );
             }

@@ -33,18 +33,18 @@ fn sample_odometry_readings() -> [OdomDelta; 6] {
 /// Returns the variances of Table 5.6. `angle_used_for` is the angle from which the noise of a rotation is computed.
 fn table_variances(reading: &OdomDelta, angle_used_for: impl Fn(f64) -> f64) -> [f64; 3] {
     let [a1, a2, a3, a4] = ALPHAS.0;
-    let [angle1, trans, angle2] =
+    let [first_angle, trans, angle2] =
         [angle_used_for(reading.rot1).powi(2), reading.trans.powi(2), angle_used_for(reading.rot2).powi(2)];
-    [a1 * angle1 + a2 * trans, a3 * trans + a4 * (angle1 + angle2), a1 * angle2 + a2 * trans]
+    [a1 * first_angle + a2 * trans, a3 * trans + a4 * (first_angle + angle2), a1 * angle2 + a2 * trans]
 }
 
 /// Without translation atan2 gives no bearing. The whole turn then counts as the second rotation.
 #[test]
 fn a_spin_on_the_spot_counts_as_the_second_rotation() {
     for spin_angle in [0.0, 0.4, -2.9, PI] {
-        for displacement in [0.0, 1e-13, -1e-10] {
+        for small_displacement in [0.0, 1e-13, -1e-10] {
             let previous_pose = SE2::new(3.0, -2.0, 1.0);
-            let second_pose = SE2::new(3.0 + displacement, -2.0 - displacement, 1.0 + spin_angle);
+            let second_pose = SE2::new(3.0 + small_displacement, -2.0 - small_displacement, 1.0 + spin_angle);
             let spin_reading = OdomDelta::from_poses(&previous_pose, &second_pose);
             assert_eq!((spin_reading.rot1, spin_reading.trans), (0.0, 0.0));
             assert!((spin_reading.rot2 - spin_angle).abs() < 1e-15);
@@ -53,7 +53,7 @@ fn a_spin_on_the_spot_counts_as_the_second_rotation() {
     // A translation of a nanometre or more has a direction.
     let previous_pose = SE2::identity();
     let reading_of_distance =
-        |distance: f64| OdomDelta::from_poses(&previous_pose, &SE2::new(0.0, distance, 0.5));
+        |drive_distance: f64| OdomDelta::from_poses(&previous_pose, &SE2::new(0.0, drive_distance, 0.5));
     assert_eq!(reading_of_distance(1e-9f64.next_down()), new_odom_delta(0.0, 0.0, 0.5));
     assert_eq!(reading_of_distance(1e-9), new_odom_delta(FRAC_PI_2, 1e-9, 0.5 - FRAC_PI_2));
     let u = new_odom_delta(0.0, 0.0, 0.8);

@@ -100,8 +100,8 @@ fn panel_points_are_means_of_squared_innovations() {
         .iter()
         .zip(leg_fits)
         .filter(|(_, leg_fit)| !leg_fit.is_outlier)
-        .map(|(observation, leg_fit)| {
-            let [rot1, _, rot2] = observation.reading;
+        .map(|(leg_observation, leg_fit)| {
+            let [rot1, _, rot2] = leg_observation.reading;
             let squared_turns = rot1 * rot1 + rot2 * rot2;
             let [innovation_variance, innovation] =
                 [leg_fit.stds[1].powi(2), leg_fit.standardized[1] * leg_fit.stds[1]];
@@ -183,11 +183,11 @@ fn turns_that_the_robot_did_not_make_are_in_no_panel() {
         let sample_error = |_| NoiseKind::Normal.sample(Variance(1e-6), &mut rng);
         (*sample_time, pose.boxplus([0; 3].map(sample_error).into()))
     });
-    let reference = Trajectory::new(reference_samples.collect::<Vec<_>>()).expect("times rise");
-    let odometry = Trajectory::new(odometry_samples).expect("times rise");
-    simulation.set_log(vec![Drive { odometry, reference }]);
+    let reference_log = Trajectory::new(reference_samples.collect::<Vec<_>>()).expect("times rise");
+    let odometry_log = Trajectory::new(odometry_samples).expect("times rise");
+    simulation.set_log(vec![Drive { odometry: odometry_log, reference: reference_log }]);
     let rot1_readings =
-        simulation.calibration().observations.iter().map(|observation| observation.reading[0]);
+        simulation.calibration().observations.iter().map(|leg_observation| leg_observation.reading[0]);
     assert!(rot1_readings.filter(|rot1| rot1.abs() > 3.0).count() > 50);
     for panel in simulation.panels(Regressor::Turn) {
         assert!(panel.x.iter().all(|turn_square| *turn_square < 1.0), "{:?}", panel.x);

@@ -25,12 +25,12 @@ fn sample_settings(seed: u64) -> impl Iterator<Item = Settings> {
         let mut sample_uniform_up_to = |max_abs: f64| sample_uniform(&mut rng, -max_abs, max_abs);
         let start_pose = [sample_uniform_up_to(3.0), sample_uniform_up_to(3.0), sample_uniform_up_to(PI)];
         let final_pose = [sample_uniform_up_to(3.0), sample_uniform_up_to(3.0), sample_uniform_up_to(PI)];
-        let command = VelocityCmd {
+        let motion_command = VelocityCmd {
             v: sample_uniform_up_to(1.5),
             omega: sample_uniform_up_to(2.0),
             dt: 0.1 + sample_uniform_up_to(1.0).abs(),
         };
-        Settings { start: start_pose, next: final_pose, command, ..Settings::default() }
+        Settings { start: start_pose, next: final_pose, command: motion_command, ..Settings::default() }
     })
 }
 
@@ -115,19 +115,19 @@ fn p_is_the_product_of_the_factors_and_that_of_the_model() {
         let settings = Settings { noise, ..settings };
         let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise };
         let (start_pose, next_pose) = start_and_next_pose_of(&settings);
-        let stats = stats_of(settings);
-        assert_eq!(stats.prob, model.prob(&next_pose, &settings.command, &start_pose));
-        assert_eq!(stats.density, model.pose_density(&next_pose, &settings.command, &start_pose));
+        let arc_stats = stats_of(settings);
+        assert_eq!(arc_stats.prob, model.prob(&next_pose, &settings.command, &start_pose));
+        assert_eq!(arc_stats.density, model.pose_density(&next_pose, &settings.command, &start_pose));
         let noise_free_pose = model.apply_noise(&settings.command, &start_pose, [0.0; 3]);
         let noise_peak: f64 =
             model.variances(&settings.command).iter().map(|variance| noise.prob(0.0, *variance)).product();
-        assert!((stats.share * noise_peak - stats.prob).abs() <= 1e-13 * noise_peak, "{settings:?}");
+        assert!((arc_stats.share * noise_peak - arc_stats.prob).abs() <= 1e-13 * noise_peak, "{settings:?}");
         // The inversion finds the shorter of the two arcs.
         if (settings.command.omega * settings.command.dt).abs() < PI {
             let peak_prob = model.prob(&noise_free_pose, &settings.command, &start_pose);
             assert!((peak_prob / noise_peak - 1.0).abs() < 1e-9, "{settings:?}");
         }
-        for factor in stats.factors.iter().filter(|_| noise == NoiseKind::Normal) {
+        for factor in arc_stats.factors.iter().filter(|_| noise == NoiseKind::Normal) {
             let expected_share = (-0.5 * factor.deviations.powi(2)).exp();
             assert!((factor.share - expected_share).abs() < 1e-13);
         }

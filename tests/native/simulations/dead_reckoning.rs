@@ -53,7 +53,7 @@ fn lanes_agree_with_poses_composed_one_by_one() {
     use motion::noise::draw_centred_uniform;
     for settings in list_challenging_settings() {
         let simulation = new_simulation(settings);
-        let (u, model) = (settings.command, settings.model());
+        let (u, velocity_model) = (settings.command, settings.model());
         // Robot 513 is the second robot of the third block of 256. Each block has its own stream of random numbers.
         let mut block_rng = seeded_rng(settings.seed);
         block_rng.jump();
@@ -66,11 +66,11 @@ fn lanes_agree_with_poses_composed_one_by_one() {
                 (0..256).map(|_| std::array::from_fn(|_| draw_centred_uniform(&mut block_rng))).collect();
             let unit_noise = uniform_draws[1].map(|q| NoiseKind::Normal.quantile(q));
             let previous_pose = composed_pose;
-            composed_pose = model.apply_noise(&u, &composed_pose, unit_noise);
+            composed_pose = velocity_model.apply_noise(&u, &composed_pose, unit_noise);
             // The rounding of a path grows with its length and its turn.
             path_size += (composed_pose.x() - previous_pose.x()).hypot(composed_pose.y() - previous_pose.y())
                 + (u.omega * u.dt).abs();
-            let turn_noise = model.variances(&u)[1].0.sqrt() * u.dt * unit_noise[1].abs();
+            let turn_noise = velocity_model.variances(&u)[1].0.sqrt() * u.dt * unit_noise[1].abs();
             assert_same_pose(rollout_pose, &composed_pose, path_size * (1.0 + turn_noise) * 4.0);
         }
     }
@@ -364,10 +364,10 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
         let simulation = new_simulation(Settings { command, alphas, ..robot_settings(1) });
         let straight_growth = simulation.straight_growth();
         let crossing_time = straight_growth.crossing.expect("a crossing");
-        let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
+        let velocity_model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
         let exact_variance_ratio_at = |dt: f64| {
             let position_cov = motion::stats::ExactMoments::new(&PolarMotion::of_velocity(
-                &model,
+                &velocity_model,
                 &VelocityCmd { v, omega: 0.0, dt },
             ))
             .cov;

@@ -16,25 +16,25 @@ struct CompensatedSum {
 }
 
 impl CompensatedSum {
-    fn add(&mut self, summand: f64) {
-        let sum = self.sum + summand;
-        let rounded_term = sum - self.sum;
-        self.rounding_errors += (self.sum - (sum - rounded_term)) + (summand - rounded_term);
-        self.sum = sum;
+    fn add(&mut self, added_term: f64) {
+        let running_sum = self.sum + added_term;
+        let rounded_term = running_sum - self.sum;
+        self.rounding_errors += (self.sum - (running_sum - rounded_term)) + (added_term - rounded_term);
+        self.sum = running_sum;
     }
 }
 
 fn exact_mean(added_terms: impl Iterator<Item = f64>) -> f64 {
-    let (mut sum, mut term_count) = (CompensatedSum::default(), 0.0);
-    for summand in added_terms {
-        sum.add(summand);
+    let (mut running_sum, mut term_count) = (CompensatedSum::default(), 0.0);
+    for added_term in added_terms {
+        running_sum.add(added_term);
         term_count += 1.0;
     }
-    (sum.sum + sum.rounding_errors) / term_count
+    (running_sum.sum + running_sum.rounding_errors) / term_count
 }
 
-fn assert_close(quantity_name: &str, actual: f64, exact: f64, magnitude: f64) {
-    assert!((actual - exact).abs() <= 1e-12 * magnitude, "{quantity_name}: {actual} is not {exact}");
+fn assert_close(quantity_name: &str, actual: f64, exact: f64, error_magnitude: f64) {
+    assert!((actual - exact).abs() <= 1e-12 * error_magnitude, "{quantity_name}: {actual} is not {exact}");
 }
 
 /// Asserts that statistics of a cloud equal their definitions. `cross_track` holds three of them: skew, skew error, correlation with the heading.
@@ -89,10 +89,10 @@ fn assert_exact_moments(poses: &[SE2], computed_moments: &CartesianMoments, cros
         * (expected_skew * along_lateral_mean / lateral_variance
             - along_lateral_square_mean / (lateral_variance * lateral_std))
         / mean_resultant_length;
-    let influence_on_skew = |(_, d, turn): (f64, f64, f64)| {
+    let influence_on_skew = |(_, d, twist_turn): (f64, f64, f64)| {
         let z = d / lateral_std;
         z * z * z - expected_skew - 3.0 * z - 1.5 * expected_skew * (z * z - 1.0)
-            + heading_factor * libm::sin(turn)
+            + heading_factor * libm::sin(twist_turn)
     };
     let expected_skew_error = (exact_mean(
         iter_track_coordinates().map(|track_coordinates| influence_on_skew(track_coordinates).powi(2)),
@@ -100,7 +100,7 @@ fn assert_exact_moments(poses: &[SE2], computed_moments: &CartesianMoments, cros
         .sqrt();
     assert_close("skew error", cross_track[1], expected_skew_error, expected_skew_error);
     let heading_variance = exact_mean(iter_pose_residuals().map(|r| (r.z - mean_heading_residual).powi(2)));
-    let expected_correlation = exact_mean(iter_track_coordinates().map(|(_, d, turn)| d * turn))
+    let expected_correlation = exact_mean(iter_track_coordinates().map(|(_, d, twist_turn)| d * twist_turn))
         / (lateral_variance * heading_variance).sqrt();
     assert_close("rho", cross_track[2], expected_correlation, 1.0);
 }
@@ -138,9 +138,9 @@ fn assert_stats_are_exact(simulation: &BananaMachine) {
 #[test]
 #[ignore = "nightly: 10 million robots"]
 fn statistics_of_ten_million_robots_agree_with_exact_sums() {
-    let command = VelocityCmd { v: 1.0, omega: 1.2, dt: 1.4 };
+    let motion_command = VelocityCmd { v: 1.0, omega: 1.2, dt: 1.4 };
     assert_stats_are_exact(&new_simulation(Settings {
-        command,
+        command: motion_command,
         samples: MAX_SAMPLES,
         ..settings_of_preset("gentle")
     }));

@@ -75,9 +75,9 @@ fn robots_move_smoothly_with_the_morph() {
 fn the_same_robots_stay_inside_an_outline() {
     let alphas = [0.002, 0.002, 0.1, 0.1, 0.0, 0.0];
     for omega in [0.0, 0.4] {
-        let command = VelocityCmd { v: 1.0, omega, dt: 2.0 };
+        let turn_command = VelocityCmd { v: 1.0, omega, dt: 2.0 };
         let simulation = new_simulation(Settings {
-            command,
+            command: turn_command,
             velocity_alphas: alphas,
             samples: 5000,
             ..settings_of_preset("banana")
@@ -107,8 +107,8 @@ fn the_same_robots_stay_inside_an_outline() {
 #[test]
 fn the_morphed_outline_equals_that_of_each_view_at_its_end() {
     let simulation = new_simulation(Settings { samples: 5000, ..settings_of_preset("hard") });
-    let stats = simulation.stats();
-    let xi_contour = ExponentialContour::new(&stats.exponential, &SE2::identity());
+    let cloud_stats = simulation.stats();
+    let xi_contour = ExponentialContour::new(&cloud_stats.exponential, &SE2::identity());
     assert_eq!(xi_contour.morphed_boundary(OUTLINE_SEGMENTS, 0.0), simulation.contours().exponential);
     for outline_point in xi_contour.morphed_boundary(OUTLINE_SEGMENTS, 1.0) {
         assert!((xi_contour.ellipse.mahalanobis_distance(outline_point) - 2.0).abs() < 1e-9);

@@ -16,11 +16,11 @@ fn the_outcomes_equal_samples_of_the_model() {
         let settings = Settings { from: [0.5, -1.0, 2.0], noise, samples: 1001, ..Settings::default() };
         let simulation = new_simulation(settings);
         let [alpha1, alpha2, alpha3, alpha4, _] = settings.alphas;
-        let model = OdometryModel { alphas: OdomAlphas([alpha1, alpha2, alpha3, alpha4]), noise };
+        let odometry_model = OdometryModel { alphas: OdomAlphas([alpha1, alpha2, alpha3, alpha4]), noise };
         let mut rng = seeded_rng(settings.seed);
         assert_eq!(simulation.poses().len(), 1001);
         for pose in simulation.poses() {
-            let expected_pose = model.sample(&simulation.reading(), &settings.from.into(), &mut rng);
+            let expected_pose = odometry_model.sample(&simulation.reading(), &settings.from.into(), &mut rng);
             assert!(max_difference(pose, &expected_pose) < 1e-14, "{pose:?}, drawn {expected_pose:?}");
         }
     }
@@ -71,10 +71,10 @@ fn the_leg_poses_follow_the_legs_of_the_reading() {
                 let settings = Settings { phase: animation_phase, ..*simulation.settings() };
                 OdometryDecomposer::new(settings).expect("a valid setting").robot_pose()
             };
-            for (phase, pose) in
+            for (motion_phase, pose) in
                 [(0.0, start_pose), (1.0, pose_after_rot1), (2.0, pose_after_drive), (3.0, final_pose)]
             {
-                assert!(max_difference(&robot_pose_at(phase), &pose) < 1e-15, "{phase}");
+                assert!(max_difference(&robot_pose_at(motion_phase), &pose) < 1e-15, "{motion_phase}");
             }
             assert!((robot_pose_at(1.5).x() - 0.5 * (start_pose.x() + final_pose.x())).abs() < 1e-15);
         }
@@ -115,7 +115,7 @@ fn the_prediction_does_not_depend_on_the_drift() {
 fn the_curve_contains_the_values_of_the_readouts() {
     for rule in OdometryRule::ALL {
         let simulation = new_simulation(Settings { rule, ..Settings::default() });
-        let stats = simulation.stats();
+        let leg_stats = simulation.stats();
         let drive_distance = simulation.legs().trans;
         let curve_points = simulation.deviation_curve(2.0 * drive_distance, 3);
         assert_eq!(
@@ -123,7 +123,7 @@ fn the_curve_contains_the_values_of_the_readouts() {
             [0.0, drive_distance, 2.0 * drive_distance]
         );
         let [_, cross_track, lever_estimate, along_deviation] = curve_points[1];
-        assert_eq!((cross_track, lever_estimate), (stats.exact_cross_track, stats.lever));
+        assert_eq!((cross_track, lever_estimate), (leg_stats.exact_cross_track, leg_stats.lever));
         let rule_noise =
             simulation.rule_noises().into_iter().find(|noise| noise.rule == rule).expect("all rules");
         assert_eq!((rule_noise.deviations[1], rule_noise.cross_track), (along_deviation, cross_track));

@@ -41,12 +41,12 @@ fn ramp_step_of(sample_count: u32, max_count: u32) -> u8 {
 fn pixels_show_the_density_of_the_cloud() {
     let settings = Settings { samples: 3000, ..settings_of_preset("gentle") };
     let mut simulation = BananaMachine::new(settings).expect("a valid setting");
-    let positions: Vec<[f64; 2]> = simulation.poses().map(|pose| [pose.x(), pose.y()]).collect();
+    let robot_positions: Vec<[f64; 2]> = simulation.poses().map(|pose| [pose.x(), pose.y()]).collect();
     let twist_points: Vec<[f64; 2]> = simulation.twists().map(|twist| [twist.x, twist.z]).collect();
-    let create_case = |morph, sample_points| move |grid| (morph, sample_points, grid);
-    let plane_cases = new_grids_over([0.75, -0.2], [1.2, 0.4]).map(create_case(0.0, &positions));
+    let create_case = |morph_fraction, sample_points| move |grid| (morph_fraction, sample_points, grid);
+    let plane_cases = new_grids_over([0.75, -0.2], [1.2, 0.4]).map(create_case(0.0, &robot_positions));
     let twist_cases = new_grids_over([0.75, 0.1], [1.2, 0.7]).map(create_case(1.0, &twist_points));
-    for (morph, cloud_points, grid) in plane_cases.into_iter().chain(twist_cases) {
+    for (morph_fraction, cloud_points, grid) in plane_cases.into_iter().chain(twist_cases) {
         let mut cell_counts = vec![0u32; grid.columns * grid.rows];
         cloud_points
             .iter()
@@ -56,14 +56,14 @@ fn pixels_show_the_density_of_the_cloud() {
         assert!((1..3000).contains(&cell_counts.iter().sum::<u32>()), "some are outside");
         // The picture is painted twice, because no pixel of the first painting may remain.
         for paint_pass in ["first", "second"] {
-            let pixels = simulation.paint(morph, &grid, &new_numbered_ramp(3));
+            let pixels = simulation.paint(morph_fraction, &grid, &new_numbered_ramp(3));
             assert_eq!(pixels.len(), cell_counts.len());
             for (i, (rgba, cell_count)) in pixels.iter().zip(&cell_counts).enumerate() {
                 let expected_pixel =
                     if *cell_count == 0 { [0; 4] } else { [ramp_step_of(*cell_count, max_count), 3, 7, 255] };
                 assert_eq!(*rgba, expected_pixel, "{paint_pass}, cell {i} of {grid:?}");
             }
-            assert_eq!(simulation.density(morph, &grid), cell_counts, "{paint_pass}");
+            assert_eq!(simulation.density(morph_fraction, &grid), cell_counts, "{paint_pass}");
         }
     }
 }

@@ -95,9 +95,9 @@ fn only_rejected_parts_move_samples() {
 fn the_arcs_of_an_attempt_end_at_its_pose() {
     for sampler in SAMPLERS {
         let simulation = new_simulation(Settings { sampler, samples: 2000, ..Settings::default() });
-        let (stats, attempts) = (simulation.stats(), simulation.attempts());
+        let (stats, shown_attempts) = (simulation.stats(), simulation.attempts());
         let part_count = if let Sampler::SubStepped(part_count) = sampler { part_count } else { 1 };
-        assert!(stats.drawn >= attempts.len() * part_count as usize);
+        assert!(stats.drawn >= shown_attempts.len() * part_count as usize);
         let acceptance_rate = stats.acceptance_rate;
         assert!(
             (acceptance_rate - (stats.accepted * part_count as usize) as f64 / stats.drawn as f64).abs()
@@ -107,18 +107,18 @@ fn the_arcs_of_an_attempt_end_at_its_pose() {
             stats.wall_tests_per_accepted > 0.0 && acceptance_rate > 0.4 && acceptance_rate < 1.0,
             "{stats:?}"
         );
-        for (attempt_index, attempt) in attempts.iter().enumerate().step_by(17) {
-            let arcs = simulation.arcs(attempt_index);
-            assert_eq!(arcs.len(), part_count as usize);
-            let arc_end = arcs[arcs.len() - 1].end();
+        for (attempt_index, attempt) in shown_attempts.iter().enumerate().step_by(17) {
+            let attempt_arcs = simulation.arcs(attempt_index);
+            assert_eq!(attempt_arcs.len(), part_count as usize);
+            let arc_end = attempt_arcs[attempt_arcs.len() - 1].end();
             assert!((arc_end.x() - attempt.pose.x()).abs() + (arc_end.y() - attempt.pose.y()).abs() < 1e-12);
-            let is_path_free = arcs.iter().all(|arc| simulation.plan().test_arc(arc, 0.13).free);
+            let is_path_free = attempt_arcs.iter().all(|arc| simulation.plan().test_arc(arc, 0.13).free);
             assert_eq!(attempt.path_free, is_path_free);
-            let are_joined = arcs.windows(2).all(|arc_pair| {
+            let are_joined = attempt_arcs.windows(2).all(|arc_pair| {
                 let first_end = arc_pair[0].end();
                 (first_end.x(), first_end.y()) == (arc_pair[1].start.x(), arc_pair[1].start.y())
             });
-            assert!(are_joined && (arcs[0].start.x(), arcs[0].start.y()) == (2.05, 2.6));
+            assert!(are_joined && (attempt_arcs[0].start.x(), attempt_arcs[0].start.y()) == (2.05, 2.6));
         }
     }
 }
@@ -145,9 +145,9 @@ fn the_commanded_arc_and_the_test_of_its_start_follow_the_settings() {
     assert!((arc.turn - 1.2).abs() < 1e-15);
     // The doorposts are 1.2 m ahead and 0.45 m to either side: √(1.2² + 0.45²) = 1.2816 m away.
     assert!(simulation.is_start_free());
-    for (clearance, is_start_free) in [(1.282, false), (1.281, true)] {
-        simulation.configure(Settings { clearance, ..Settings::default() }).expect("valid");
-        assert_eq!(simulation.is_start_free(), is_start_free, "{clearance}");
+    for (robot_radius, is_start_free) in [(1.282, false), (1.281, true)] {
+        simulation.configure(Settings { clearance: robot_radius, ..Settings::default() }).expect("valid");
+        assert_eq!(simulation.is_start_free(), is_start_free, "{robot_radius}");
     }
     simulation.set_plan(new_too_small_room());
     assert!(!simulation.is_start_free());

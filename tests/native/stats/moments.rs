@@ -30,8 +30,8 @@ fn the_exponential_contour_covers_the_fraction_of_two_sigma() {
     let mut rng = seeded_rng(134);
     let poses: Vec<SE2> = (0..200_000).map(|_| model.sample(&COMMAND, &start_pose, &mut rng)).collect();
     let inside_share_of = |cloud_moments: &ExponentialMoments| {
-        let outline = ExponentialContour::new(cloud_moments, &start_pose);
-        poses.iter().filter(|pose| outline.contains(pose)).count() as f64 / 200_000.0
+        let contour_outline = ExponentialContour::new(cloud_moments, &start_pose);
+        poses.iter().filter(|pose| contour_outline.contains(pose)).count() as f64 / 200_000.0
     };
     let standard_error = (TWO_SIGMA_FRACTION * (1.0 - TWO_SIGMA_FRACTION) / 200_000.0).sqrt();
     let exact_moments = ExponentialMoments {
@@ -49,8 +49,8 @@ fn the_exponential_contour_covers_the_fraction_of_two_sigma() {
         "{fitted_fraction}"
     );
 
-    let outline = ExponentialContour::new(&exact_moments, &start_pose);
-    let shadow_outline = outline.boundary(48);
+    let contour_outline = ExponentialContour::new(&exact_moments, &start_pose);
+    let shadow_outline = contour_outline.boundary(48);
     assert_eq!(shadow_outline.first(), shadow_outline.last());
     for &[x, y] in &shadow_outline {
         // In exponential coordinates the outline is the 2σ ellipse of (along, heading).
@@ -60,7 +60,7 @@ fn the_exponential_contour_covers_the_fraction_of_two_sigma() {
         for (scale_about_centre, is_inside) in [(0.99, true), (1.01, false)] {
             let v = 1.0 + scale_about_centre * (inversion.v_hat - 1.0);
             let omega = 0.5 + scale_about_centre * (inversion.omega_hat - 0.5);
-            assert_eq!(outline.contains(&start_pose.boxplus(Vector3::new(v, 0.0, omega))), is_inside);
+            assert_eq!(contour_outline.contains(&start_pose.boxplus(Vector3::new(v, 0.0, omega))), is_inside);
         }
     }
 }

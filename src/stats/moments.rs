@@ -75,11 +75,12 @@ pub(crate) fn non_negative(variance: f64) -> f64 {
 }
 
 fn mean_and_cov(
-    vectors: impl Iterator<Item = Vector3<f64>> + Clone,
+    sample_vectors: impl Iterator<Item = Vector3<f64>> + Clone,
     vector_count: usize,
 ) -> (Vector3<f64>, Matrix3<f64>) {
     let vector_count = vector_count as f64;
-    let mean = vectors.clone().sum::<Vector3<f64>>() / vector_count;
-    let scatter = vectors.map(|vector| (vector - mean) * (vector - mean).transpose()).sum::<Matrix3<f64>>();
-    (mean, if vector_count > 1.0 { scatter / (vector_count - 1.0) } else { Matrix3::repeat(f64::NAN) })
+    let mean = sample_vectors.clone().sum::<Vector3<f64>>() / vector_count;
+    let scatter_matrix =
+        sample_vectors.map(|vector| (vector - mean) * (vector - mean).transpose()).sum::<Matrix3<f64>>();
+    (mean, if vector_count > 1.0 { scatter_matrix / (vector_count - 1.0) } else { Matrix3::repeat(f64::NAN) })
 }

@@ -121,7 +121,7 @@ impl JsMapSqueeze {
         self.0.first_contact(index).map(Vec::from)
     }
 
-    /// Draws `attempt_count` accepted samples with a sampler and discards them, to measure the time. Throws if too many draws are rejected.
+    /// Draws `count` accepted samples with a sampler and discards them, to measure the time. Throws if too many draws are rejected.
     pub fn trial(
         &self,
         #[wasm_bindgen(unchecked_param_type = "MapSqueezeSettings['sampler']")] sampler: &JsValue,
@@ -130,7 +130,7 @@ impl JsMapSqueeze {
     ) -> Result<Ts<Cost>, JsValue> {
         let steps = read_integer("steps", steps, 1..=MAX_STEPS)?;
         let sampler = read_value("sampler", sampler, Sampler::Endpoint, ())?.with_part_count(steps as u32);
-        let attempt_count = read_integer("count", attempt_count, 1..=MAX_TRIAL_PARTS / steps)? as usize;
+        let attempt_count = read_integer("count", count, 1..=MAX_TRIAL_PARTS / steps)? as usize;
         let trial_cost = self.0.sampling_trial(sampler, attempt_count).map_err(|no_sample| {
             let max_total_draws = max_draws(sampler.part_count() as usize * attempt_count);
             RangeError::new(&format!(

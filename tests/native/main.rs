@@ -14,7 +14,6 @@ mod digest;
 mod documents;
 #[path = "../fuzz.rs"]
 mod fuzz;
-/// Poses, arcs, and the arithmetic that they use.
 mod geometry {
     mod arc;
     mod arc_forms;

@@ -119,7 +119,6 @@ fn estimate_error_of_median(sorted_numbers: &[f64]) -> f64 {
     1.25 * 0.5 * (high - low) / (number_count as f64).sqrt()
 }
 
-/// Returns three standard errors of a fraction that is estimated from `log_count` logs.
 fn three_standard_errors_of(true_fraction: f64, log_count: usize) -> f64 {
     3.0 * (true_fraction * (1.0 - true_fraction) / log_count as f64).sqrt()
 }
@@ -146,7 +145,7 @@ fn report_wrong_alphas(robot: Model, scenario: &Scenario, study: &StudyResults) 
         [median_report, report_wrong_coverage(&name, study.covered_alphas[alpha_index], study.log_count)]
     };
     let alpha_reports = (0..study.covered_alphas.len()).flat_map(report_wrong_alpha).flatten();
-    alpha_reports.map(|report| format!("{}, {robot:?}: {report}", scenario.name)).collect()
+    alpha_reports.map(|alpha_report| format!("{}, {robot:?}: {alpha_report}", scenario.name)).collect()
 }
 
 /// Asserts that the α's of every model are right in a hundred logs, and that `further_reports_of` reports nothing.
@@ -158,8 +157,9 @@ fn assert_right_in_every_model(
         .into_iter()
         .flat_map(|robot| {
             let study = run_calibration_study(robot, scenario, 100);
-            let other_reports =
-                further_reports_of(&study).into_iter().map(move |report| format!("{robot:?}: {report}"));
+            let other_reports = further_reports_of(&study)
+                .into_iter()
+                .map(move |alpha_report| format!("{robot:?}: {alpha_report}"));
             report_wrong_alphas(robot, scenario, &study).into_iter().chain(other_reports).collect::<Vec<_>>()
         })
         .collect();

@@ -97,8 +97,9 @@ fn one_bad_drive_of_two_is_recognized() {
         [(mirrored_reference, Some(FailureCause::Mirrored)), (other_reference, None)]
     {
         let checked_logs = [consistent_log.clone(), [odometry.clone(), reference]];
-        let drives = checked_logs.map(|[odometry, reference]| Drive { odometry, reference });
-        let calibration = calibrate(&drives, &new_passing_simulation(0, 0).calibration_options()).unwrap();
+        let checked_drives = checked_logs.map(|[odometry, reference]| Drive { odometry, reference });
+        let calibration =
+            calibrate(&checked_drives, &new_passing_simulation(0, 0).calibration_options()).unwrap();
         let check = &calibration.diagnostics.checks[0];
         assert_eq!((check.cause, &check.drives), (failure_cause, &vec![1]));
     }
@@ -144,8 +145,9 @@ fn a_copy_of_the_odometry_is_no_reference() {
     for (leg_count, decimal_count) in [(600, 6), (600, 3), (250, 3), (600, 2), (250, 2)] {
         let sim = new_passing_simulation(leg_count, 1);
         let [odometry, _] = sim.simulate_log();
-        let round_to_decimals =
-            |unrounded: f64| (unrounded * 10_f64.powi(decimal_count)).round() / 10_f64.powi(decimal_count);
+        let round_to_decimals = |exact_coordinate: f64| {
+            (exact_coordinate * 10_f64.powi(decimal_count)).round() / 10_f64.powi(decimal_count)
+        };
         let copied_samples = odometry.samples().map(|(sample_time, pose)| {
             let transformed_pose =
                 SE2::new(3.0, 1.0, 0.5) * SE2::new(1.02 * pose.x(), 1.02 * pose.y(), pose.theta());
@@ -198,7 +200,6 @@ fn few_legs_are_questionable_and_fewer_unusable() {
     assert_unusable(&fit_of_few_legs, "25 legs");
 }
 
-/// The reference is missing during 30 s of each 90 s.
 #[test]
 fn lost_legs_are_reported() {
     let sim = new_passing_simulation(600, 4);
@@ -216,7 +217,6 @@ fn lost_legs_are_reported() {
     );
 }
 
-/// The reference has only one row every two seconds.
 #[test]
 fn legs_that_are_longer_than_asked_for_are_reported() {
     let sim = new_passing_simulation(600, 5);
@@ -398,7 +398,6 @@ fn errors_that_persist_over_legs_are_correlated_and_leave_windows_uncovered() {
     assert!(calibration.recommended.expect("usable").inflation > 1.5);
 }
 
-/// Returns the number of consistent logs among `log_count` simulated logs, and prints the checks that failed.
 fn count_consistent_logs(model: Model, log_count: u64) -> usize {
     let mut failed_check_names = Vec::new();
     let calibrate_log_of_seed = |seed: u64| calibrate_simulation(&Simulation::new(model, 600, 3000 + seed));

@@ -130,8 +130,9 @@ fn an_uncorrected_error_appears_as_noise_of_the_wheels_or_of_the_reference() {
     let uncorrected_log = simulation.simulate_log();
     let exact_reference_options =
         Options { position_std: Some(0.0), yaw_std: Some(0.0), ..simulation.calibration_options() };
-    let calibrate_uncorrected =
-        |options: Options| calibrate_log(&uncorrected_log, &Options { correct: [Some(false); 6], ..options });
+    let calibrate_uncorrected = |error_options: Options| {
+        calibrate_log(&uncorrected_log, &Options { correct: [Some(false); 6], ..error_options })
+    };
     let [corrected_fit, fit_with_estimated_noise, uncorrected_fit] = [
         calibrate_log(&uncorrected_log, &exact_reference_options),
         calibrate_uncorrected(simulation.calibration_options()),
@@ -144,7 +145,6 @@ fn an_uncorrected_error_appears_as_noise_of_the_wheels_or_of_the_reference() {
     assert!((0.7..1.5).contains(&alpha2_ratio), "{alpha2_ratio}");
     let yaw_std = fit_with_estimated_noise.reference_noise[1].value;
     assert!((yaw_std / 0.07 - 1.0).abs() < 0.1, "{yaw_std}");
-    // The mount yaw is reported even if it is not corrected.
     let [uncorrected_interval, corrected_interval] = [&uncorrected_fit, &corrected_fit]
         .map(|calibration| calibration.interval_of(SystematicError::MountYaw));
     assert_eq!(uncorrected_interval, corrected_interval);
@@ -171,8 +171,8 @@ fn an_error_that_uncorrected_errors_hide_is_not_corrected() {
     let simulation = simulation_with_errors(NAV2, 300, true_errors);
     let mut corrected_kinds = [None; 6];
     corrected_kinds[SystematicError::LeverArmAhead as usize] = Some(false);
-    let options = Options { correct: corrected_kinds, ..simulation.calibration_options() };
-    let calibration = calibrate_log(&simulation.simulate_log(), &options);
+    let error_options = Options { correct: corrected_kinds, ..simulation.calibration_options() };
+    let calibration = calibrate_log(&simulation.simulate_log(), &error_options);
     let turn_scale_index = SystematicError::TurnScale as usize;
     assert!(calibration.is_constant[turn_scale_index]);
     assert!(calibration.systematic_stds[turn_scale_index].is_some());
@@ -234,9 +234,10 @@ fn noise_of_the_odometry_does_not_bias_the_clock_offset() {
         let reference =
             true_trajectory.samples().step_by(2).map(|(time, true_pose)| (time + CLOCK_OFFSET, true_pose));
         let noisy_log = [add_step_noise(&true_trajectory, [0.0015, 0.005], seed), new_trajectory(reference)];
-        let Calibration { systematic, systematic_stds, .. } = calibrate_log(&noisy_log, &options_of(NAV2));
+        let Calibration { systematic: fitted_errors, systematic_stds, .. } =
+            calibrate_log(&noisy_log, &options_of(NAV2));
         let clock_offset_std = systematic_stds[SystematicError::ClockOffset as usize].expect("identifiable");
-        error_sum += systematic.clock_offset - CLOCK_OFFSET;
+        error_sum += fitted_errors.clock_offset - CLOCK_OFFSET;
         variance_sum += clock_offset_std * clock_offset_std;
     }
     assert!(error_sum.abs() < 4.0 * variance_sum.sqrt(), "{error_sum} {}", variance_sum.sqrt());
@@ -299,8 +300,8 @@ fn encoder_jitter_of_a_standing_robot_does_not_change_the_scales() {
     }
     let noisy_log =
         [0, 1].map(|trajectory_index| new_trajectory(pose_rows.iter().map(|row| row[trajectory_index])));
-    let options = Options { legs: LegLength::Duration { duration: 0.5 }, ..options_of(NAV2) };
-    let calibration = calibrate_log(&noisy_log, &options);
+    let error_options = Options { legs: LegLength::Duration { duration: 0.5 }, ..options_of(NAV2) };
+    let calibration = calibrate_log(&noisy_log, &error_options);
     assert_systematic_error_near(&calibration, SystematicError::TurnScale, 1.0);
     assert_systematic_error_near(&calibration, SystematicError::DistanceScale, 1.0);
 }

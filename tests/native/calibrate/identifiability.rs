@@ -7,7 +7,6 @@ use motion::calibrate::NotIdentifiable::{
 };
 use motion::calibrate::{Calibration, Model, Options, Verdict};
 
-/// Function from the index of a leg to its v and ω.
 type VelocityOfLeg = fn(usize) -> [f64; 2];
 
 fn calibrate_velocities(robot_model: Model, velocity_of_leg: VelocityOfLeg) -> Calibration {
@@ -60,7 +59,6 @@ const INCOMPLETE_DRIVES: [IncompleteDrive; 3] = [
             },
         ],
     },
-    // The radii of the bends differ by a few percent only.
     IncompleteDrive {
         name: "one bend",
         velocity_of_leg: |leg_index| [0.3, if leg_index.is_multiple_of(2) { 0.29 } else { 0.31 }],
@@ -118,9 +116,10 @@ fn assert_reasons_and_intervals(robot_models: &[Model]) {
 /// The reference noise is set to 100 m and 100 rad. An α of 1 adds only about 0.3 m and 0.3 rad of noise to a leg.
 #[test]
 fn a_reference_that_hides_the_noise_of_the_wheels_is_too_noisy() {
-    let sim = Simulation::new(NAV2, 400, 32);
-    let options = Options { position_std: Some(100.0), yaw_std: Some(100.0), ..sim.calibration_options() };
-    let calibration = calibrate_log(&sim.simulate_log(), &options);
+    let simulation = Simulation::new(NAV2, 400, 32);
+    let known_noise_options =
+        Options { position_std: Some(100.0), yaw_std: Some(100.0), ..simulation.calibration_options() };
+    let calibration = calibrate_log(&simulation.simulate_log(), &known_noise_options);
     assert_eq!(calibration.not_identifiable, [Some(ReferenceTooNoisy); 4]);
     assert_eq!(calibration.diagnostics.verdict, Verdict::Unusable);
 }

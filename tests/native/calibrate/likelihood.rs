@@ -66,7 +66,6 @@ fn pose_jacobian(leg: &Leg, systematic_errors: &Systematic, end_index: usize) ->
     reading_jacobian_of(leg, systematic_errors) * jacobian_of(motion_with_pose_error)
 }
 
-/// Returns the derivative of the residuals with respect to a systematic error, for a leg without noise.
 fn error_derivative(leg: &Leg, systematic_errors: &Systematic, error_kind: SystematicError) -> Vector3<f64> {
     const H: f64 = 1e-6;
     let odometry_motion = expected_motion_of(leg, systematic_errors);
@@ -88,7 +87,8 @@ fn error_derivative(leg: &Leg, systematic_errors: &Systematic, error_kind: Syste
 
 /// Returns the restricted log-likelihood, from a dense covariance matrix of all residuals.
 fn compute_dense_log_likelihood(calibration: &Calibration, error_kinds: &[SystematicError]) -> f64 {
-    let Calibration { legs, observations, corrected, alphas, reference_noise, .. } = calibration;
+    let Calibration { legs, observations: leg_observations, corrected, alphas, reference_noise, .. } =
+        calibration;
     let residual_count = 3 * legs.len();
     let [position_variance, yaw_variance] =
         reference_noise.map(|std_estimate| std_estimate.value * std_estimate.value);
@@ -99,7 +99,7 @@ fn compute_dense_log_likelihood(calibration: &Calibration, error_kinds: &[System
     let mut residual_covariance = DMatrix::zeros(residual_count, residual_count);
     let mut stacked_residuals = DVector::zeros(residual_count);
     let mut design_matrix = DMatrix::zeros(residual_count, error_kinds.len());
-    for (i, (leg, observation)) in legs.iter().zip(observations).enumerate() {
+    for (i, (leg, observation)) in legs.iter().zip(leg_observations).enumerate() {
         if !leg.follows {
             pose_count += 1;
         }
@@ -158,10 +158,11 @@ fn the_filter_gives_the_likelihood_of_a_dense_covariance_matrix() {
         SystematicError::TurnScale,
     ];
     for corrected_kinds in [&five_errors[..0], &five_errors] {
-        let corrections = SystematicError::ALL.map(|error_kind| Some(corrected_kinds.contains(&error_kind)));
+        let correction_options =
+            SystematicError::ALL.map(|error_kind| Some(corrected_kinds.contains(&error_kind)));
         let calibration = calibrate_log(
             &sim.simulate_log(),
-            &Options { correct: corrections, ..sim.calibration_options() },
+            &Options { correct: correction_options, ..sim.calibration_options() },
         );
         assert_eq!(calibration.leg_fits.iter().filter(|leg_fit| leg_fit.is_outlier).count(), 0);
         let (log_likelihood, dense_value) =
@@ -196,10 +197,10 @@ fn an_outlier_shares_no_reference_error_with_its_neighbours() {
     let sim =
         Simulation { jump_fraction: 0.05, reference_stds: [0.005, 0.002], ..Simulation::new(NAV2, 300, 8) };
     let uncorrected_options = Options { correct: [Some(false); 6], ..sim.calibration_options() };
-    let Calibration { leg_fits, legs, observations, .. } =
+    let Calibration { leg_fits, legs, observations: leg_observations, .. } =
         calibrate_log(&sim.simulate_log(), &uncorrected_options);
     assert!(leg_fits.iter().filter(|leg_fit| leg_fit.is_outlier).count() > 10);
-    for (i, (leg_fit, observation)) in leg_fits.iter().zip(observations).enumerate() {
+    for (i, (leg_fit, observation)) in leg_fits.iter().zip(leg_observations).enumerate() {
         let has_no_prior_error = !legs[i].follows || leg_fit.is_outlier || leg_fits[i - 1].is_outlier;
         let leg_innovation = leg_fit.standardized[1] * leg_fit.stds[1];
         assert_eq!((leg_innovation - observation.residuals[1]).abs() < 1e-12, has_no_prior_error, "leg {i}");
@@ -220,7 +221,6 @@ fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
     };
     let calibration = calibrate_log(&sim.simulate_log(), &exact_options);
     let leg_count = calibration.legs.len() as f64;
-    // The noise of translation and strafe grows with the distance only.
     for (component_index, alpha_index) in [(1, 2), (2, 4)] {
         let estimate_alpha = |observation: &motion::calibrate::Observation| {
             observation.residuals[component_index].powi(2) / observation.coefficients[component_index][0]
@@ -249,9 +249,10 @@ fn alphas_and_their_intervals_scale_with_the_noise() {
             };
             let exact_options =
                 Options { position_std: Some(0.0), yaw_std: Some(0.0), ..sim.calibration_options() };
-            let Calibration { alphas, intervals, .. } = calibrate_log(&sim.simulate_log(), &exact_options);
+            let Calibration { alphas, intervals: alpha_intervals, .. } =
+                calibrate_log(&sim.simulate_log(), &exact_options);
             let divide_by_squared_factor = |interval_bound: f64| interval_bound / (std_factor * std_factor);
-            let bounds_and_alphas = alphas.into_iter().zip(intervals).map(|(alpha, alpha_interval)| {
+            let bounds_and_alphas = alphas.into_iter().zip(alpha_intervals).map(|(alpha, alpha_interval)| {
                 let [lower_bound, upper_bound] = alpha_interval.expect("identifiable");
                 [lower_bound, alpha.expect("identifiable"), upper_bound].map(divide_by_squared_factor)
             });

@@ -12,9 +12,9 @@ fn new_straight_drive(row_count: usize, step_length: f64) -> Trajectory {
     new_trajectory((0..row_count).map(|row| (0.1 * row as f64, SE2::new(step_length * row as f64, 0.0, 0.0))))
 }
 
-fn remove_rows_between(trajectory: &Trajectory, first_row: usize, last_row: usize) -> Trajectory {
+fn remove_rows_between(full_trajectory: &Trajectory, first_row: usize, last_row: usize) -> Trajectory {
     super::new_trajectory(
-        trajectory
+        full_trajectory
             .samples()
             .enumerate()
             .filter(|(row_index, _)| !(first_row < *row_index && *row_index < last_row))
@@ -26,31 +26,31 @@ fn times_of_legs(leg_list: &[Leg]) -> Vec<[f64; 2]> {
     leg_list.iter().map(|leg| leg.times).collect()
 }
 
-fn times_of(trajectory: &Trajectory) -> Vec<f64> {
-    trajectory.samples().map(|(time, _)| time).collect()
+fn times_of(full_trajectory: &Trajectory) -> Vec<f64> {
+    full_trajectory.samples().map(|(time, _)| time).collect()
 }
 
 #[test]
 fn legs_end_as_amcl_ends_them() {
-    let odometry = new_straight_drive(41, 0.0625);
-    let (legs, lost_legs) = split_into_legs(&odometry, &odometry, AMCL_LENGTH, 0.0);
+    let odometry_log = new_straight_drive(41, 0.0625);
+    let (legs, lost_legs) = split_into_legs(&odometry_log, &odometry_log, AMCL_LENGTH, 0.0);
     // Four steps reach exactly the limit of a quarter of a metre, at which no leg ends. Each leg therefore has five steps.
     assert_eq!((legs.len(), lost_legs), (8, LostLegs::default()));
     for (i, leg) in legs.iter().enumerate() {
         assert_eq!(leg.odometry[1].x() - leg.odometry[0].x(), 0.3125);
-        assert_eq!(leg.times[0], times_of(&odometry)[5 * i]);
+        assert_eq!(leg.times[0], times_of(&odometry_log)[5 * i]);
         assert_eq!(leg.follows, i > 0);
     }
     // Each axis has its own limit. A motion of 0.24 m along both axes ends no leg, although its distance is 0.34 m.
     let diagonal_drive =
         new_trajectory([(0.0, 0.0), (0.1, 0.24), (0.2, 0.26)].map(|(t, x)| (t, SE2::new(x, x, 0.0))));
     assert_eq!(split_into_legs(&diagonal_drive, &diagonal_drive, AMCL_LENGTH, 0.0).0[0].times, [0.0, 0.2]);
-    // Headings on both sides of π differ by a small angle.
     let turning_drive =
         [(0.0, 3.1), (0.1, -3.1), (0.2, -2.9)].map(|(t, theta)| (t, SE2::new(0.0, 0.0, theta)));
     let turning_drive = new_trajectory(turning_drive);
     assert_eq!(split_into_legs(&turning_drive, &turning_drive, AMCL_LENGTH, 0.0).0[0].times, [0.0, 0.2]);
-    let timed_legs = split_into_legs(&odometry, &odometry, LegLength::Duration { duration: 0.5 }, 0.0).0;
+    let timed_legs =
+        split_into_legs(&odometry_log, &odometry_log, LegLength::Duration { duration: 0.5 }, 0.0).0;
     assert_eq!(timed_legs.len(), 8);
 }
 
@@ -59,8 +59,9 @@ fn legs_end_as_amcl_ends_them() {
 fn rounding_does_not_decide_where_a_leg_ends() {
     let leg_end_times_with = |round_heading: fn(f64) -> f64| {
         let heading_at = |row: usize| round_heading(wrap_angle(0.123_456_7 + 0.02 * row as f64));
-        let turning_drive =
-            new_trajectory((0..400).map(|row| (0.1 * row as f64, SE2::new(0.0, 0.0, heading_at(row)))));
+        let turning_drive = new_trajectory(
+            (0..400).map(|row_index| (0.1 * row_index as f64, SE2::new(0.0, 0.0, heading_at(row_index)))),
+        );
         times_of_legs(&split_into_legs(&turning_drive, &turning_drive, AMCL_LENGTH, 0.0).0)
     };
     let exact_leg_times = leg_end_times_with(|exact_heading| exact_heading);
@@ -89,7 +90,6 @@ fn a_leg_leads_across_a_pause_if_it_stays_short_enough() {
             legs.iter().find(|leg| leg.times[0] == times_of(&drive)[next_leg_row]).expect("it goes on");
         assert_eq!(next_leg.follows, lost_across_pauses == 0);
     }
-    // If the reference lacks only rows between the ends of a leg, the leg is kept.
     let (legs, lost_legs) = split_into_legs(&drive, &remove_rows_between(&drive, 30, 35), AMCL_LENGTH, 0.0);
     assert_eq!((legs, lost_legs), split_into_legs(&drive, &drive, AMCL_LENGTH, 0.0));
 }
@@ -127,12 +127,10 @@ fn no_leg_leads_across_a_break() {
         break_rows.into_iter().any(contains_row)
     };
     let kept_legs: Vec<Leg> = all_legs.iter().filter(|leg| !spans_break(leg)).copied().collect();
-    // A break of the reference removes only the legs that contain the break.
     let (legs, lost_legs) = split_into_legs(&drive, &drive_with_breaks, AMCL_LENGTH, 0.0);
     assert_eq!(times_of_legs(&legs), times_of_legs(&kept_legs));
     let lost_across_breaks = all_legs.len() - kept_legs.len();
     assert_eq!(lost_legs, LostLegs { across_breaks: lost_across_breaks, ..LostLegs::default() });
-    // After a break of the odometry a leg begins at the break.
     let (legs, lost_legs) = split_into_legs(&drive_with_breaks, &drive, AMCL_LENGTH, 0.0);
     assert!(legs.len() > 25 && !legs.iter().any(spans_break));
     assert_eq!(lost_legs, LostLegs { across_breaks: 4, ..LostLegs::default() });
@@ -152,7 +150,6 @@ fn velocities_are_not_computed_across_a_declared_jump() {
         .enumerate()
         .map(|(row_index, (time, pose))| (time, SE2::new(pose.x(), jump_offset_at(row_index), 0.0)));
     let drive_with_jumps = new_trajectory(rows_with_jumps).with_breaks_before([40, 43]);
-    // The three rows between the jumps of the drive are long enough for a leg.
     let leg_length = LegLength::Displacement { distance: 0.15, angle: 0.2 };
     let legs = split_into_legs(&drive_with_jumps, &drive_with_jumps, leg_length, 0.0).0;
     assert!(legs.len() > 45 && legs.iter().any(|leg| leg.odometry[0].y() == 5.0));
@@ -216,16 +213,16 @@ fn times_must_rise_and_numbers_must_be_finite() {
 
 #[test]
 fn commands_are_integrated_along_arcs() {
-    let trajectory =
+    let full_trajectory =
         Trajectory::from_commands([(0.0, 1.0, 0.0), (1.0, 0.5, 1.0), (3.0, 0.0, -2.0), (4.0, 9.0, 9.0)]);
-    let trajectory = trajectory.expect("times rise");
+    let full_trajectory = full_trajectory.expect("times rise");
     // The commands are a metre straight ahead, an arc of a metre that turns by 2 rad, and a turn on the spot back to the first
     // heading. The radius of the arc is ½ m.
     let arc_end = SE2::new(1.0 + 0.5 * libm::sin(2.0), 0.5 * (1.0 - libm::cos(2.0)), 2.0);
     let expected_poses =
         [SE2::identity(), SE2::new(1.0, 0.0, 0.0), arc_end, SE2::new(arc_end.x(), arc_end.y(), 0.0)];
     for (time, expected_pose) in [0.0, 1.0, 3.0, 4.0].into_iter().zip(expected_poses) {
-        let (pose, _) = trajectory.motion_at(time).expect("inside");
+        let (pose, _) = full_trajectory.motion_at(time).expect("inside");
         assert!(pose.boxminus(&expected_pose).norm() < 1e-12, "{pose:?} is not {expected_pose:?}");
     }
 }
@@ -234,9 +231,10 @@ fn commands_are_integrated_along_arcs() {
 /// A leg is longer than 25 cm by at most one and a half steps, up to half a step at either end.
 #[test]
 fn a_long_command_is_split_into_legs_between_its_rows() {
-    let trajectory =
+    let full_trajectory =
         Trajectory::from_commands([(0.0, 0.5, 0.0), (20.0, 0.5, 0.0), (40.0, 0.0, 0.0)]).expect("times rise");
-    let (legs, lost_legs) = split_into_legs(&trajectory, &new_straight_drive(401, 0.05), AMCL_LENGTH, 0.0);
+    let (legs, lost_legs) =
+        split_into_legs(&full_trajectory, &new_straight_drive(401, 0.05), AMCL_LENGTH, 0.0);
     assert_eq!(lost_legs, LostLegs::default());
     assert!(legs.len() > 60, "{}", legs.len());
     for leg in legs {

@@ -24,8 +24,9 @@ fn calibrate_simulation(simulation: &Simulation) -> Calibration {
 }
 
 fn calibrate_log(odometry_and_reference: &[Trajectory; 2], calibration_options: &Options) -> Calibration {
-    let [odometry_log, reference] = odometry_and_reference.clone();
-    calibrate(&[Drive { odometry: odometry_log, reference }], calibration_options).expect("enough legs")
+    let [odometry_log, reference_log] = odometry_and_reference.clone();
+    calibrate(&[Drive { odometry: odometry_log, reference: reference_log }], calibration_options)
+        .expect("enough legs")
 }
 
 fn options_of(robot_model: Model) -> Options {

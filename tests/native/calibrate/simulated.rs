@@ -11,7 +11,6 @@ use motion::{NoiseKind, OdomDelta, Variance, VelocityAlphas, VelocityCmd, Veloci
 use nalgebra::Vector3;
 use rand::{Rng, RngExt};
 
-/// True α's of every simulated robot.
 pub const ALPHAS: [f64; 6] = [0.03, 0.01, 0.02, 0.005, 0.015, 0.008];
 
 pub const MODELS: [Model; 5] = [
@@ -28,9 +27,7 @@ pub enum Violation {
     None,
     /// Noise with Student's t distribution, with this number of degrees of freedom.
     HeavyTailedNoise(usize),
-    /// Autocorrelated noise, with this correlation between successive legs.
     AutocorrelatedNoise(f64),
-    /// Noise whose standard deviation is multiplied by this factor.
     ScaledNoise(f64),
     /// Noise whose standard deviation is a function of the position in the log, from 0 to 1.
     ChangingNoise(fn(f64) -> f64),
@@ -53,7 +50,6 @@ pub struct Simulation {
     pub times: SampleTimes,
 }
 
-/// Times of the samples of odometry and reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SampleTimes {
     /// Odometry and reference both have a sample each 50 ms.
@@ -94,7 +90,6 @@ impl Simulation {
         }
     }
 
-    /// Returns odometry and reference.
     pub fn simulate_log(&self) -> [Trajectory; 2] {
         let (step_seconds, [rows_per_reading, rows_per_reference]) = match self.times {
             SampleTimes::Synchronous => (STEP_SECONDS, [1, 1]),
@@ -242,11 +237,12 @@ pub fn execute_motion(
 ) -> SE2 {
     let origin_pose = SE2::identity();
     match model {
-        Model::Odometry(rule) => {
+        Model::Odometry(odometry_rule) => {
             let odom_delta = OdomDelta::from_poses(&origin_pose, odometry_motion);
             let true_alphas_of_model = std::array::from_fn(|k| alphas[k]);
-            rule.variances(&odom_delta, &true_alphas_of_model)
-                .executed_motion(&rule.legs(&odom_delta), unit_noise)
+            odometry_rule
+                .variances(&odom_delta, &true_alphas_of_model)
+                .executed_motion(&odometry_rule.legs(&odom_delta), unit_noise)
                 .poses(&origin_pose)[3]
         }
         Model::Velocity => {

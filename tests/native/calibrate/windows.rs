@@ -80,11 +80,12 @@ fn count_covered_windows(model: Model, violation: Violation, log_count: u64) -> 
 /// Reports a coverage outside of 93 to 97 % by more than three standard errors.
 fn report_wrong_coverage(model: Model, violation: Violation, log_count: u64) -> Option<String> {
     let [covered_count, window_count] = count_covered_windows(model, violation, log_count);
-    let coverage = covered_count as f64 / window_count as f64;
+    let covered_fraction = covered_count as f64 / window_count as f64;
     // The α's of a log and their inflation have standard errors of 5 % each, together 7 %. A relative error of the variances changes the
     // coverage of 95 % by 0.14 of that error, here by 0.01.
     let standard_error = (0.93 * 0.07 / window_count as f64 + 0.01_f64.powi(2) / log_count as f64).sqrt();
-    let is_coverage_allowed = (0.93 - 3.0 * standard_error..=0.97 + 3.0 * standard_error).contains(&coverage);
+    let is_coverage_allowed =
+        (0.93 - 3.0 * standard_error..=0.97 + 3.0 * standard_error).contains(&covered_fraction);
     (!is_coverage_allowed)
         .then(|| format!("{model:?}, {violation:?}: {covered_count} of {window_count} windows are covered"))
 }

@@ -36,8 +36,9 @@ impl MotionModel for RadiusModel {
     }
 
     fn prob(&self, x_next: &SE2, u: &VelocityCmd, x: &SE2) -> f64 {
-        let inversion = invert_arc(x, x_next, u.dt);
-        let noise_residuals = [u.v - inversion.v_hat, u.omega - inversion.omega_hat, inversion.gamma_hat];
+        let inverted_arc = invert_arc(x, x_next, u.dt);
+        let noise_residuals =
+            [u.v - inverted_arc.v_hat, u.omega - inverted_arc.omega_hat, inverted_arc.gamma_hat];
         self.variances(u)
             .iter()
             .zip(noise_residuals)
@@ -51,7 +52,6 @@ impl MotionModel for RadiusModel {
     }
 }
 
-/// Odometry model with only the required items of the trait.
 struct MinimalOdometryModel {
     alphas: OdomAlphas,
 }

@@ -18,9 +18,9 @@ const ALPHAS: VelocityAlphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0]
 const MODEL: VelocityModel = VelocityModel { alphas: ALPHAS, noise: NoiseKind::Normal };
 const SAMPLE_COUNT: usize = 200_000;
 
-fn sample_cloud(model: &VelocityModel) -> Vec<SE2> {
+fn sample_cloud(velocity_model: &VelocityModel) -> Vec<SE2> {
     let mut rng = SmallRng::seed_from_u64(7);
-    (0..SAMPLE_COUNT).map(|_| model.sample(&U, &SE2::identity(), &mut rng)).collect()
+    (0..SAMPLE_COUNT).map(|_| velocity_model.sample(&U, &SE2::identity(), &mut rng)).collect()
 }
 
 fn assert_equals_printed(computed_value: f64, printed: f64, decimals: i32, quantity: &str) {
@@ -39,8 +39,8 @@ fn assert_printed_estimate(quantity: &str, measured: f64, standard_error: f64, p
 
 #[test]
 fn the_arc_and_the_exponential_map_end_at_the_printed_pose() {
-    let model = VelocityModel { alphas: VelocityAlphas([0.0; 6]), noise: NoiseKind::Normal };
-    let end_of_arc = model.sample(&U, &SE2::identity(), &mut SmallRng::seed_from_u64(0));
+    let velocity_model = VelocityModel { alphas: VelocityAlphas([0.0; 6]), noise: NoiseKind::Normal };
+    let end_of_arc = velocity_model.sample(&U, &SE2::identity(), &mut SmallRng::seed_from_u64(0));
     let twist_end = SE2::exp(&Vector3::new(U.v * U.dt, 0.0, U.omega * U.dt));
     for end_pose in [end_of_arc, twist_end] {
         assert_relative_eq!(end_pose.x(), 0.958_851_077_208, epsilon = 1e-12);
@@ -69,8 +69,8 @@ fn linearized_moments_equal_the_printed_table() {
     // The columns of the Jacobian are the derivatives of the arc with respect to v and ω. With a single α of 1 the covariance is the
     // outer product of one column.
     let linearized_covariance_of = |alphas: [f64; 6]| {
-        let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
-        model.cartesian_cov(&U, &SE2::identity())
+        let velocity_model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
+        velocity_model.cartesian_cov(&U, &SE2::identity())
     };
     let covariance_by_v = linearized_covariance_of([1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
     let covariance_by_omega = linearized_covariance_of([0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
@@ -143,9 +143,10 @@ fn measured_moments_agree_with_the_printed_table() {
 /// to the lateral coordinate.
 #[test]
 fn a_last_turn_adds_variance_to_the_lateral_coordinate() {
-    let model = VelocityModel { alphas: VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.005, 0.005]), ..MODEL };
-    let pose_cloud = sample_cloud(&model);
-    let tangent_model = TangentNoiseModel::from_velocity(&model, &U).unwrap();
+    let velocity_model =
+        VelocityModel { alphas: VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.005, 0.005]), ..MODEL };
+    let pose_cloud = sample_cloud(&velocity_model);
+    let tangent_model = TangentNoiseModel::from_velocity(&velocity_model, &U).unwrap();
     let predicted_cov = tangent_model.compound(&Matrix3::zeros(), &TangentNoiseModel::twist(&U));
     assert_relative_eq!(predicted_cov[(2, 2)], 0.03125, epsilon = 1e-16);
     assert_eq!(predicted_cov[(1, 1)], 0.0);

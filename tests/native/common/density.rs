@@ -107,8 +107,9 @@ impl PolarGrid {
         let mut pose_counts = vec![0.0; self.cell_counts.iter().product()];
         for pose in counted_poses {
             let mut flat_index = Some(0);
-            for (axis, coordinate) in self.grid_coordinates_of(pose).into_iter().enumerate() {
-                let cell_index = ((coordinate - self.lower_bound(axis, 0)) / self.cell_size[axis]).floor();
+            for (axis, grid_coordinate) in self.grid_coordinates_of(pose).into_iter().enumerate() {
+                let cell_index =
+                    ((grid_coordinate - self.lower_bound(axis, 0)) / self.cell_size[axis]).floor();
                 let is_inside_grid = cell_index >= 0.0 && cell_index < self.cell_counts[axis] as f64;
                 flat_index = flat_index
                     .filter(|_| is_inside_grid)

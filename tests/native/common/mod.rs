@@ -158,13 +158,14 @@ pub fn chi_square_limit(cell_count: usize) -> f64 {
     k * (1.0 - 2.0 / (9.0 * k) + 3.719 * (2.0 / (9.0 * k)).sqrt()).powi(3)
 }
 
-pub fn mean_of(numbers: &[f64]) -> f64 {
-    numbers.iter().sum::<f64>() / numbers.len() as f64
+pub fn mean_of(averaged_numbers: &[f64]) -> f64 {
+    averaged_numbers.iter().sum::<f64>() / averaged_numbers.len() as f64
 }
 
-pub fn variance_of(numbers: &[f64]) -> f64 {
-    let mean_value = mean_of(numbers);
-    numbers.iter().map(|number| (number - mean_value).powi(2)).sum::<f64>() / (numbers.len() - 1) as f64
+pub fn variance_of(averaged_numbers: &[f64]) -> f64 {
+    let mean_value = mean_of(averaged_numbers);
+    averaged_numbers.iter().map(|sampled_number| (sampled_number - mean_value).powi(2)).sum::<f64>()
+        / (averaged_numbers.len() - 1) as f64
 }
 
 /// Returns a statistic of a sample and its standard error, from the spread of the statistic over 100 equal batches.

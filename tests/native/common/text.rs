@@ -26,14 +26,12 @@ impl PrintedNumber {
     }
 }
 
-/// Separator of thousands.
 const THIN_SPACE: char = '\u{202f}';
 
 impl PlainText {
     pub fn from_page(markdown_page: &str) -> Self {
         let mut plain_text = String::new();
         for tag_and_text in markdown_page.split('<') {
-            // The text before the first tag has no markup.
             plain_text
                 .push_str(tag_and_text.split_once('>').map_or(tag_and_text, |(_, plain_part)| plain_part));
         }
@@ -91,7 +89,6 @@ fn parse_numbers(remaining_text: &str, sentence_parts: &[&str]) -> Option<Vec<Pr
             {
                 number_end += 4;
             }
-            // The period at the end of a sentence is not a decimal point.
             number_end -= usize::from(remaining_text[..number_end].ends_with('.'));
             let number_digits: String =
                 remaining_text[..number_end].replace('−', "-").replace([THIN_SPACE, ' '], "");

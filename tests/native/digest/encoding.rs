@@ -20,7 +20,6 @@ impl Encode for f64 {
     }
 }
 
-/// Implements `Encode` for types that are encoded as another value.
 macro_rules! encode_as {
     ($($type:ty: |$value:ident| $other:expr;)+) => {$(
         impl Encode for $type {
@@ -89,7 +88,6 @@ encode_fields! {
     A B C D E F G;
 }
 
-/// Named part of a simulation's results, with its hash.
 pub struct HashedPart(pub &'static str, pub String);
 
 impl HashedPart {

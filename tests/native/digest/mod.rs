@@ -53,7 +53,6 @@ fn the_changelog_names_the_digest() {
     let golden_digest = format_hex(&Sha256::digest(&golden_bytes));
     let changelog_text =
         std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/CHANGELOG.md")).expect("a changelog");
-    // The changelog names the newest digest first.
     let printed_digest = changelog_text
         .split(|c: char| !c.is_ascii_hexdigit())
         .find(|hexadecimal_digits| hexadecimal_digits.len() == golden_digest.len());

@@ -41,8 +41,9 @@ pub fn hash_banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
         flatten(&cloud_contours.twist_ellipse),
         flatten(&cloud_contours.additive),
     );
-    let mut paint_stage =
-        |morph| flatten(simulation.paint(morph, &configuration.view_grid(), &new_test_ramp(0)));
+    let mut paint_stage = |morph_fraction| {
+        flatten(simulation.paint(morph_fraction, &configuration.view_grid(), &new_test_ramp(0)))
+    };
     let [plane_pixels, twist_pixels] = [0.0, 1.0].map(&mut paint_stage);
     vec![
         HashedPart::new("poses", simulation.poses().flat_map(coordinates_of).collect::<Vec<_>>()),
@@ -75,7 +76,8 @@ pub fn hash_map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
                 .expect("not too many walls"),
         }
     }
-    let (floor_plan, stats, noise) = (simulation.plan(), simulation.stats(), simulation.settings().noise());
+    let (floor_plan, stats, noise_level) =
+        (simulation.plan(), simulation.stats(), simulation.settings().noise());
     let shown_attempts = simulation.attempts();
     let wall_ends: Vec<_> = floor_plan.walls().iter().map(|wall| [wall.from, wall.to]).collect();
     let grid_fields = floor_plan.grid().map(|grid| {
@@ -102,7 +104,7 @@ pub fn hash_map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
                 shown_attempts.len(),
                 simulation.is_start_free(),
                 simulation.plan().find_free_pose(simulation.settings().clearance),
-                noise,
+                noise_level,
                 stat_fields,
             ),
         ),

@@ -37,7 +37,6 @@ fn the_printed_table_gives_nearly_no_probability_to_arcs_to_the_right() {
         let settings = Settings { printed: true, ..settings_of_preset(preset_name) };
         let Stats { factors: density_factors, share, inverted: inverted_arc, .. } = stats_of(settings);
         assert!(inverted_arc.radius < 0.0 && share < 1e-15);
-        // The estimated speed and the commanded speed have opposite signs.
         printed_speed.assert_near(-density_factors[0].estimate.abs(), 0.0);
         assert!(density_factors[0].estimate * settings.command.v < 0.0);
         // With the unsigned radius of the printed table, contours of equal score stay near the start. With the signed radius they do not.

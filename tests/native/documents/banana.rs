@@ -102,9 +102,10 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
         "where it alone lies, robots stop a seventh as densely as where the outline alone does.",
     );
     let banana_machine = new_simulation(Settings { samples: 300_000, ..settings_of_preset("banana") });
-    let outlines = banana_machine.contours();
+    let contour_outlines = banana_machine.contours();
     let is_inside_outlines = |floor_point| {
-        [&outlines.ellipse, &outlines.exponential].map(|outline| is_point_inside(outline, floor_point))
+        [&contour_outlines.ellipse, &contour_outlines.exponential]
+            .map(|contour_outline| is_point_inside(contour_outline, floor_point))
     };
     const CELL_SIZE: f64 = 0.02;
     let cell_indices =

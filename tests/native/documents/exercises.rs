@@ -176,7 +176,6 @@ fn exercise_5_prints_the_fractions_through_walls() {
     printed_eighths_draws.assert_near(eighths_stats.draws_per_accepted, 0.0);
     let [draws_per_second]: [PrintedNumber; 1] =
         read_exercises().sentence_numbers("at 20 Hz that is # draws a second");
-    // The number of random draws a second is printed in thousands.
     assert!((draws_per_second.value - 2000.0 * 20.0 * whole_arc_stats.draws_per_accepted).abs() <= 500.0);
 }
 

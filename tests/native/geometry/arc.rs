@@ -119,7 +119,6 @@ const SAMPLE_LONG_ARC: ArcGenerator = |rng| {
     new_arc_anywhere(rng, arc_length, arc_turn)
 };
 
-/// Kinds of arcs and walls, and the number of pairs of each.
 const ARC_AND_WALL_KINDS: [(&str, ArcGenerator, WallGenerator, u32); 14] = [
     ("any arc, any wall", sample_arc, sample_wall, 4000),
     ("any arc, tangent", sample_arc, sample_tangent_wall, 3000),

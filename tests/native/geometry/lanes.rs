@@ -16,7 +16,6 @@ fn list_tested_angles() -> Vec<f64> {
         let absolute_angle = libm::pow(10.0, rng.random_range(-17.0..15.0));
         tested_angles.push(if rng.random() { absolute_angle } else { -absolute_angle });
         tested_angles.push(rng.random_range(-2.0 * PI..2.0 * PI));
-        // Multiples of a quarter turn, and angles next to them.
         let multiple_of_quarter_turn = f64::from(rng.random_range(-2000..2000)) * FRAC_PI_2;
         tested_angles.push(multiple_of_quarter_turn + libm::pow(10.0, rng.random_range(-16.0..0.0)));
     }

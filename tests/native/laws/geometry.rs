@@ -17,7 +17,6 @@ const TOLERANCE_ULPS: f64 = 32.0;
 proptest! {
     #![proptest_config(new_proptest_config(400))]
 
-    /// The remainder of a division is exact, and the subtraction of a full turn is exact too.
     #[test]
     fn wrapped_angles_are_remainders(angle in finite_doubles()) {
         let wrapped_angle = wrap_angle(angle);
@@ -57,7 +56,6 @@ proptest! {
         assert_same_pose(&SE2::exp(&twist), &pose, TOLERANCE_ULPS, 2.0 * sum_of_coordinates(&pose))?;
     }
 
-    /// Turns are on the principal branch, where the logarithm returns the turn exactly.
     #[test]
     fn log_inverts_exp(twist in any_twist(3.1)) {
         let recovered_twist = SE2::exp(&twist).log();
@@ -109,7 +107,6 @@ proptest! {
     }
 }
 
-/// Asserts equality up to rounding, which is relative to 1 for turns and to `position_extent` for positions.
 fn assert_close(a: &Matrix3<f64>, b: &Matrix3<f64>, position_extent: f64) -> Result<(), TestCaseError> {
     for i in 0..3 {
         for j in 0..3 {

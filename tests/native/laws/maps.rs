@@ -39,7 +39,6 @@ proptest! {
         for (pixel_shade, grey_value) in plain_image.pixels.iter().zip(&grey_values) {
             prop_assert_eq!(*pixel_shade, *grey_value as f32 / max_value as f32);
         }
-        // A truncated binary file is refused. A truncated plain file is refused too, unless the cut is in or after its last number.
         prop_assert!(read_pgm(&binary_pgm[..cut_position % binary_pgm.len()]).is_err());
         let start_of_last_number = plain_pgm.trim_end_matches(|c: char| c.is_ascii_digit()).len();
         prop_assert!(read_pgm(&plain_pgm.as_bytes()[..cut_position % (start_of_last_number + 1)]).is_err());

@@ -16,8 +16,9 @@ fn any_noise_kind() -> impl Strategy<Value = NoiseKind> {
 
 fn numbers_in(setting_range: std::ops::RangeInclusive<f64>) -> impl Strategy<Value = f64> {
     let [range_start, range_end] = [*setting_range.start(), *setting_range.end()];
-    doubles_up_to(range_end)
-        .prop_map(move |number| if range_start >= 0.0 { number.abs().max(range_start) } else { number })
+    doubles_up_to(range_end).prop_map(move |drawn_number| {
+        if range_start >= 0.0 { drawn_number.abs().max(range_start) } else { drawn_number }
+    })
 }
 
 fn any_alphas<const N: usize>() -> impl Strategy<Value = [f64; N]> {

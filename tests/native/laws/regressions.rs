@@ -16,9 +16,10 @@ fn the_skew_error_is_not_zero_if_sixth_powers_underflow() {
         let skew_and_error = [cross_track.skew, cross_track.skew_error];
         assert!(skew_and_error.iter().all(|value| value.is_finite() == is_finite), "{unit}: {cross_track:?}");
     }
-    let command = VelocityCmd { v: 1e-60, omega: 0.5, dt: 1.0 };
+    let tiny_command = VelocityCmd { v: 1e-60, omega: 0.5, dt: 1.0 };
     let alphas = [0.05, 0.0, 0.05, 0.05, 0.0, 0.0];
-    let settings = Settings { command, velocity_alphas: alphas, samples: 100, ..Settings::default() };
+    let settings =
+        Settings { command: tiny_command, velocity_alphas: alphas, samples: 100, ..Settings::default() };
     let stats = *BananaMachine::new(settings).expect("allowed").stats();
     assert!(stats.cross_track_skew.is_nan() && stats.cross_track_skew_error.is_nan(), "{stats:?}");
 }

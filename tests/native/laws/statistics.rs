@@ -109,7 +109,6 @@ proptest! {
     }
 }
 
-/// Asserts that moments are equal up to the rounding errors of a cloud within 20 m of the origin.
 fn assert_same_moments(
     (mean, cov): (&Vector3<f64>, &Matrix3<f64>),
     (other_mean, other_cov): (&Vector3<f64>, &Matrix3<f64>),

@@ -91,16 +91,16 @@ fn sample_arc(rng: &mut impl Rng) -> Arc {
     }
 }
 
-/// Maximum mean number of walls whose distance is measured for an arc.
 const MAX_MEAN_WALL_TESTS: usize = FloorPlan::MAX_WALLS / 200;
 
 #[test]
 fn a_collision_check_in_a_hard_plan_measures_few_walls() {
     for (plan_name, walls) in create_hard_plans(FloorPlan::MAX_WALLS) {
-        let plan = FloorPlan::new(walls, ROOM_BOUNDS).expect("allowed");
-        assert_eq!(plan.walls().len(), FloorPlan::MAX_WALLS);
+        let floor_plan = FloorPlan::new(walls, ROOM_BOUNDS).expect("allowed");
+        assert_eq!(floor_plan.walls().len(), FloorPlan::MAX_WALLS);
         let mut rng = seeded_rng(9802);
-        let wall_tests: usize = (0..300).map(|_| plan.test_arc(&sample_arc(&mut rng), 0.13).wall_tests).sum();
+        let wall_tests: usize =
+            (0..300).map(|_| floor_plan.test_arc(&sample_arc(&mut rng), 0.13).wall_tests).sum();
         assert!(wall_tests < 300 * MAX_MEAN_WALL_TESTS, "{plan_name}: {wall_tests}");
     }
 }

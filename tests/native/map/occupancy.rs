@@ -154,7 +154,6 @@ fn a_grid_of_too_many_walls_is_refused() {
         resolution: 0.05,
         origin: [0.0; 3],
     };
-    // The grid has 160 · 160 single cells with four sides each.
     let plan_error = FloorPlan::from_grid(separate_cells.grid()).err();
     assert_eq!(plan_error, Some(FloorPlanError::TooManySides(20_001)));
     let error_message = plan_error.map(|plan_error| plan_error.to_string()).unwrap_or_default();
@@ -218,7 +217,6 @@ fn the_free_pose_is_in_the_largest_free_square() {
         let plan = FloorPlan::from_grid(parse_drawn_grid(&drawn_rows, unknown_cells)).expect("a small grid");
         plan.find_free_pose(robot_radius)
     };
-    // A robot that just fits cannot move. The heading is then 0.
     let free_pose = find_free_pose_in_rows(["###", "#.#", "###"], UnknownCells::Free, 0.0499);
     assert_eq!(free_pose.expect("there is room").theta(), 0.0);
     // All cells are unknown, and count as free or blocked as the setting says.

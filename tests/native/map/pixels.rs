@@ -52,9 +52,9 @@ fn pixels_are_read_as_map_server_reads_them() {
     }
 }
 
-fn shades_of(image: &Image<f32>) -> &[f32] {
-    assert_eq!(image.pixels.len(), image.width * image.height);
-    &image.pixels
+fn shades_of(shade_image: &Image<f32>) -> &[f32] {
+    assert_eq!(shade_image.pixels.len(), shade_image.width * shade_image.height);
+    &shade_image.pixels
 }
 
 #[test]
@@ -127,8 +127,9 @@ fn transparency_counts_as_a_colour_in_trinary() {
     let are_cells_occupied = |shades_and_opacities: &[(f32, f32)]| -> Vec<bool> {
         let rgba_pixels: Vec<Pixel> =
             shades_and_opacities.iter().map(|&(brightness, opacity)| Pixel { brightness, opacity }).collect();
-        let image = Image { width: shades_and_opacities.len(), height: 1, pixels: rgba_pixels };
-        let occupancy_grid = OccupancyGrid::new(&image, &PixelClassifier::default(), 0.05, SE2::identity());
+        let shade_image = Image { width: shades_and_opacities.len(), height: 1, pixels: rgba_pixels };
+        let occupancy_grid =
+            OccupancyGrid::new(&shade_image, &PixelClassifier::default(), 0.05, SE2::identity());
         occupancy_grid.cells().map(|grid_cell| grid_cell == Cell::Occupied).collect()
     };
     // Opaque black then has the shade (0 + 0 + 0 + 1)/4 = 0.25, dark grey of 60/255 has 0.43, and transparent white 0.75.

@@ -121,16 +121,17 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
             if (distance_to_end - clearance).abs() < 1e-12 || (distance_to_arc - clearance).abs() < 1e-12 {
                 continue;
             }
-            let is_point_on_map = |point: [f64; 2]| {
+            let is_point_on_map = |plan_point: [f64; 2]| {
                 (0..4).all(|i| {
                     let ([x0, y0], [x1, y1]) = (map_corners[i], map_corners[(i + 1) % 4]);
-                    (x1 - x0) * (point[1] - y0) - (y1 - y0) * (point[0] - x0) >= 0.0
+                    (x1 - x0) * (plan_point[1] - y0) - (y1 - y0) * (plan_point[0] - x0) >= 0.0
                 })
             };
             let map_edges = (0..4).map(|i| Segment { from: map_corners[i], to: map_corners[(i + 1) % 4] });
             let crosses_edge =
                 map_edges.map(|map_edge| map_edge.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min) == 0.0;
-            let is_in_occupied_cell = |point| plan.grid().is_some_and(|grid| grid.is_blocked_at(point));
+            let is_in_occupied_cell =
+                |plan_point| plan.grid().is_some_and(|grid| grid.is_blocked_at(plan_point));
             let is_end_free =
                 is_point_on_map(arc_end) && !is_in_occupied_cell(arc_end) && distance_to_end > clearance;
             let is_path_free = is_point_on_map(start_point)

@@ -22,25 +22,27 @@ fn encode_png(png_format: &PngFormat, image_width: u32, channel_values: &[u16]) 
         let binary_row: String =
             sample_row.iter().map(|channel_value| format!("{channel_value:0bit_depth$b}")).collect();
         let row_bytes = binary_row.as_bytes().chunks(8).map(|byte_digits| {
-            let byte_value = byte_digits.iter().fold(0, |bit_value, digit| 2 * bit_value + (digit - b'0'));
+            let byte_value =
+                byte_digits.iter().fold(0, |bit_value, bit_digit| 2 * bit_value + (bit_digit - b'0'));
             byte_value << (8 - byte_digits.len())
         });
         packed_rows.extend(row_bytes);
     }
     let mut file_bytes = Vec::new();
-    let mut encoder = Encoder::new(&mut file_bytes, image_width, (channel_values.len() / row_length) as u32);
-    encoder.set_color(png_format.color_type);
-    encoder.set_depth(BitDepth::from_u8(png_format.bit_depth as u8).expect("a depth"));
-    encoder.set_filter(Filter::Adaptive);
+    let mut png_encoder =
+        Encoder::new(&mut file_bytes, image_width, (channel_values.len() / row_length) as u32);
+    png_encoder.set_color(png_format.color_type);
+    png_encoder.set_depth(BitDepth::from_u8(png_format.bit_depth as u8).expect("a depth"));
+    png_encoder.set_filter(Filter::Adaptive);
     // A gamma chunk changes the shades in browsers. The tested reader must ignore this chunk.
-    encoder.set_source_gamma(png::ScaledFloat::new(0.3));
+    png_encoder.set_source_gamma(png::ScaledFloat::new(0.3));
     if let Some(palette) = &png_format.palette {
-        encoder.set_palette(palette.clone());
+        png_encoder.set_palette(palette.clone());
     }
     if let Some(transparency) = &png_format.transparency {
-        encoder.set_trns(transparency.clone());
+        png_encoder.set_trns(transparency.clone());
     }
-    encoder.write_header().expect("a header").write_image_data(&packed_rows).expect("an image");
+    png_encoder.write_header().expect("a header").write_image_data(&packed_rows).expect("an image");
     file_bytes
 }
 
@@ -70,11 +72,11 @@ fn every_kind_of_image_is_decoded_exactly() {
                 let channel_values: Vec<u16> =
                     (0..sample_count).map(|_| draw_below(1 << bit_depth)).collect();
                 let palette: Vec<u8> = (0..3 << bit_depth.min(8)).map(|_| draw_below(256) as u8).collect();
-                let opacities: Vec<u8> =
+                let palette_opacities: Vec<u8> =
                     (0..1 << (bit_depth.min(8) - 1)).map(|_| draw_below(256) as u8).collect();
                 let first_pixel = &channel_values[..color_type.samples()];
                 let transparency = match color_type {
-                    ColorType::Indexed => opacities.clone(),
+                    ColorType::Indexed => palette_opacities.clone(),
                     _ => first_pixel.iter().flat_map(|channel_value| channel_value.to_be_bytes()).collect(),
                 };
                 let has_transparent_colour =
@@ -100,7 +102,8 @@ fn every_kind_of_image_is_decoded_exactly() {
                         match *sample_bytes {
                             [_] if color_type == ColorType::Indexed => {
                                 let palette_index = usize::from(channel_values[0]);
-                                let opacity = opacities.get(palette_index).filter(|_| has_transparent_colour);
+                                let opacity =
+                                    palette_opacities.get(palette_index).filter(|_| has_transparent_colour);
                                 let [red, green, blue] = [0, 1, 2].map(|k| palette[3 * palette_index + k]);
                                 [red, green, blue, opacity.copied().unwrap_or(255)]
                             }

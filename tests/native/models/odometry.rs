@@ -50,7 +50,6 @@ fn a_spin_on_the_spot_counts_as_the_second_rotation() {
             assert!((spin_reading.rot2 - spin_angle).abs() < 1e-15);
         }
     }
-    // A translation of a nanometre or more has a direction.
     let previous_pose = SE2::identity();
     let reading_of_distance =
         |drive_distance: f64| OdomDelta::from_poses(&previous_pose, &SE2::new(0.0, drive_distance, 0.5));
@@ -170,8 +169,8 @@ fn sampler_and_density_agree() {
     let x = SE2::new(0.5, -0.25, 1.0);
     for (seed, u) in (100..).zip([sample_odometry_readings()[0], sample_odometry_readings()[3]]) {
         for noise in NOISE_KINDS {
-            let grid = grid_around(&u, &x, table_variances(&u, f64::abs));
-            grid.assert_samples_fit(&new_model(noise), &u, &x, seed);
+            let density_grid = grid_around(&u, &x, table_variances(&u, f64::abs));
+            density_grid.assert_samples_fit(&new_model(noise), &u, &x, seed);
         }
     }
 }
@@ -198,10 +197,10 @@ fn reverse_aware_noise_excludes_half_turns() {
     let effective_angle_of = |angle: f64| angle.abs().min((PI - angle.abs()).abs());
     for noise in NOISE_KINDS {
         let aware_model = ConfiguredOdometry { model: new_model(noise), reverse_aware: true };
-        let grid = grid_around(&backward_reading, &x, table_variances(&backward_reading, effective_angle_of));
-        grid.assert_samples_fit(&aware_model, &backward_reading, &x, 110);
+        let density_grid =
+            grid_around(&backward_reading, &x, table_variances(&backward_reading, effective_angle_of));
+        density_grid.assert_samples_fit(&aware_model, &backward_reading, &x, 110);
 
-        // As in Table 5.5, `prob` computes the variances from the hypothetical legs.
         let executed_legs = new_odom_delta(
             backward_reading.rot1 + 0.02,
             backward_reading.trans - 0.05,

@@ -19,8 +19,9 @@ fn new_odom_delta(rot1: f64, trans: f64, rot2: f64) -> OdomDelta {
 }
 
 fn leg_variances(rule: OdometryRule, odometry_reading: OdomDelta) -> [f64; 4] {
-    let LegVariances { rot1, trans, rot2, strafe: lateral } = rule.variances(&odometry_reading, &ALPHAS);
-    [rot1, trans, rot2, lateral].map(|variance| variance.0)
+    let LegVariances { rot1, trans, rot2, strafe: lateral_variance } =
+        rule.variances(&odometry_reading, &ALPHAS);
+    [rot1, trans, rot2, lateral_variance].map(|variance| variance.0)
 }
 
 /// Expected variances are computed by hand, to eight digits, with (π − 3)² = 0.02004848 and (π − 2.2)² = 0.88659673.
@@ -36,7 +37,6 @@ fn the_variances_of_each_rule_match_its_source() {
     let backward_reading = new_odom_delta(3.0, 1.0, -3.0);
     let table_reverse_variances = [1.1, 7.5, 1.1, 0.0];
     let nav2_reverse_variances = [0.202004848, 0.316038784, 0.202004848, 0.0];
-    // The robot turns on the spot by more than a quarter turn.
     let spin_reading = new_odom_delta(0.0, 0.0, 2.2);
     // While the robot stands, the odometry pose jitters half a centimetre to the left and half a centimetre back, and turns by 0.01 rad.
     let jitter_reading = new_odom_delta(2.0, 0.005, -1.99);

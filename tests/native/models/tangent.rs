@@ -128,7 +128,6 @@ fn sampler_and_density_agree() {
         let ks_statistic = scaled_ks_distance(whitened_component, |z| unit_cdf(NoiseKind::Normal, z));
         assert!(ks_statistic < MAX_KS_STATISTIC, "axis {xi_axis}: √n·D = {ks_statistic}");
     }
-    // Quartiles of χ² with three degrees of freedom.
     const CHI_SQUARE_QUARTILES: [f64; 3] =
         [1.212_532_903_045_966, 2.365_973_884_375_339, 4.108_344_935_632_316];
     let mut sample_counts = [0.0; 32];
@@ -143,7 +142,6 @@ fn sampler_and_density_agree() {
     assert!(chi_square < chi_square_limit(32), "χ² = {chi_square}");
 }
 
-/// The expected covariance is A Σ Aᵀ + R, where A is the inverse of the adjoint of exp τ.
 #[test]
 fn compounding_is_the_recursion_of_the_chapter() {
     let mut rng = seeded_rng(124);
@@ -162,7 +160,6 @@ fn compounding_is_the_recursion_of_the_chapter() {
             assert_eq!(tangent_model.propagate(&sigma, &step_twist, Compounding::Chapter), compounded_cov);
         }
     }
-    // The chapter's noise covariance R contains the variance of γ̂ in its last entry.
     let tangent_model = TangentNoiseModel::from_velocity(&new_velocity_model(FULL_RANK_ALPHAS), &U).unwrap();
     let expected_cov = Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.03125));
     assert!((tangent_model.compound(&Matrix3::zeros(), &Vector3::zeros()) - expected_cov).amax() < 1e-16);
@@ -175,8 +172,9 @@ fn first_order_transforms_the_noise_inside_the_arc_only() {
     let right_jacobian = SE2::right_jacobian(&step_twist);
     let arc_cov = Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.025));
     let turn_cov = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, 0.00625));
-    let cov_after_one_step =
-        |model: &TangentNoiseModel| model.propagate(&Matrix3::zeros(), &step_twist, Compounding::FirstOrder);
+    let cov_after_one_step = |noise_model: &TangentNoiseModel| {
+        noise_model.propagate(&Matrix3::zeros(), &step_twist, Compounding::FirstOrder)
+    };
     let separate_turn_model =
         TangentNoiseModel::from_velocity(&new_velocity_model(FULL_RANK_ALPHAS), &U).unwrap();
     let merged_turn_model = TangentNoiseModel::new(arc_cov + turn_cov).unwrap();
@@ -187,9 +185,9 @@ fn first_order_transforms_the_noise_inside_the_arc_only() {
     assert!((separate_cov - merged_cov).amax() > 1e-4);
 }
 
-fn propagate_twenty_steps(model: &TangentNoiseModel, cov_recursion: Compounding) -> Matrix3<f64> {
+fn propagate_twenty_steps(noise_model: &TangentNoiseModel, cov_recursion: Compounding) -> Matrix3<f64> {
     let step_twist = TangentNoiseModel::twist(&COMMAND_OF_STEP);
-    (0..20).fold(Matrix3::zeros(), |sigma, _| model.propagate(&sigma, &step_twist, cov_recursion))
+    (0..20).fold(Matrix3::zeros(), |sigma, _| noise_model.propagate(&sigma, &step_twist, cov_recursion))
 }
 
 #[test]

@@ -27,12 +27,12 @@ fn which_intervals_contain_truth(simulation: &AlphaCalibrator) -> Vec<bool> {
     let true_errors =
         [truth.clock_offset, truth.mount_yaw, lever_ahead, lever_left, distance_scale, turn_scale];
     let error_intervals = SystematicError::ALL.map(|error_kind| calibration.interval_of(error_kind));
-    let intervals = calibration.intervals.iter().copied().chain(error_intervals);
+    let all_intervals = calibration.intervals.iter().copied().chain(error_intervals);
     let contains_true_value = |(confidence_interval, true_value): (Option<[f64; 2]>, f64)| {
         let [lower_bound, upper_bound] = confidence_interval.expect("the log turns and drives");
         (lower_bound..=upper_bound).contains(&true_value)
     };
-    intervals.zip(truth.alphas.into_iter().chain(true_errors)).map(contains_true_value).collect()
+    all_intervals.zip(truth.alphas.into_iter().chain(true_errors)).map(contains_true_value).collect()
 }
 
 #[test]
@@ -47,8 +47,8 @@ fn the_initial_intervals_contain_the_true_values() {
 fn a_small_noise_of_the_reference_does_not_narrow_the_intervals_of_alphas() {
     for seed in [107, 178] {
         let simulation = new_simulation(Settings { seed, ..Settings::default() });
-        let Calibration { alphas, intervals, .. } = simulation.calibration();
-        for (fitted_alpha, interval) in alphas.iter().flatten().zip(intervals.iter().flatten()) {
+        let Calibration { alphas, intervals: all_intervals, .. } = simulation.calibration();
+        for (fitted_alpha, interval) in alphas.iter().flatten().zip(all_intervals.iter().flatten()) {
             assert!(interval[1] - interval[0] > 0.2 * fitted_alpha, "{seed}: {fitted_alpha} {interval:?}");
         }
     }
@@ -89,14 +89,15 @@ fn the_reference_noise_is_estimated_unless_it_is_stated() {
 #[test]
 fn panel_points_are_means_of_squared_innovations() {
     let simulation = new_simulation(Settings::default());
-    let Calibration { alphas, intervals, observations, leg_fits, .. } = simulation.calibration();
+    let Calibration { alphas, intervals: all_intervals, observations: leg_observations, leg_fits, .. } =
+        simulation.calibration();
     let [rot1_panel, trans_panel, rot2_panel] = simulation.panels(Regressor::Turn);
     assert_eq!([rot1_panel.alpha, trans_panel.alpha, rot2_panel.alpha], [0, 3, 0]);
     assert_eq!(simulation.panels(Regressor::Distance).map(|panel| panel.alpha), [1, 2, 1]);
-    assert_eq!((trans_panel.slope, trans_panel.interval), (alphas[3], intervals[3]));
+    assert_eq!((trans_panel.slope, trans_panel.interval), (alphas[3], all_intervals[3]));
     let fitted_slope = alphas[3].expect("the log turns");
     // By the rule of Table 5.6 the variance of `trans` is α₃·trans² + α₄·(rot1² + rot2²).
-    let mut regression_points: Vec<[f64; 2]> = observations
+    let mut regression_points: Vec<[f64; 2]> = leg_observations
         .iter()
         .zip(leg_fits)
         .filter(|(_, leg_fit)| !leg_fit.is_outlier)
@@ -110,7 +111,6 @@ fn panel_points_are_means_of_squared_innovations() {
         .collect();
     regression_points.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let bin_size = regression_points.len().div_ceil(8);
-    // Legs that turned by equal amounts are in the same bin.
     let end_of_bin = |i: usize| {
         regression_points.partition_point(|regression_point| {
             regression_point[0] <= regression_points[(i * bin_size).min(regression_points.len()) - 1][0]
@@ -148,7 +148,7 @@ fn error_bars_of_panels_overlap_the_fitted_lines() {
         let simulation = new_simulation(Settings { seed, ..Settings::default() });
         for panel in [Regressor::Distance, Regressor::Turn]
             .into_iter()
-            .flat_map(|regressor| simulation.panels(regressor))
+            .flat_map(|panel_regressor| simulation.panels(panel_regressor))
         {
             let line_slope = panel.slope.expect("the log turns and drives");
             for ((x, y), error_bar) in panel.x.iter().zip(&panel.y).zip(&panel.error) {
@@ -284,7 +284,8 @@ fn a_restored_fit_equals_the_saved_one_to_the_last_bit() {
     let mut restored_simulation = AlphaCalibrator::restore(new_settings, fit).expect("allowed");
     // Missing residuals are NaN, which does not equal itself. Results are therefore compared as text.
     let fit_results = |fit: &AlphaCalibrator| {
-        let all_panels = [Regressor::Turn, Regressor::Distance].map(|regressor| fit.panels(regressor));
+        let all_panels =
+            [Regressor::Turn, Regressor::Distance].map(|panel_regressor| fit.panels(panel_regressor));
         format!("{:?} {all_panels:?} {:?} {:?}", fit.calibration(), fit.leg(5), fit.nearest([0.5, 1.0], 3.0))
     };
     let results_before = fit_results(&simulation);
@@ -312,8 +313,9 @@ fn a_log_without_legs_gives_an_empty_calibration() {
     };
     simulation.set_log(vec![Drive { odometry: standing_trajectory(10), reference: standing_trajectory(10) }]);
     assert!(simulation.truth().is_none());
-    let Calibration { alphas, legs, diagnostics, recommended: recommendation, .. } = simulation.calibration();
-    assert!(legs.is_empty() && alphas.iter().all(Option::is_none) && recommendation.is_none());
+    let Calibration { alphas, legs, diagnostics, recommended: recommended_alphas, .. } =
+        simulation.calibration();
+    assert!(legs.is_empty() && alphas.iter().all(Option::is_none) && recommended_alphas.is_none());
     assert_eq!(diagnostics.verdict, Verdict::Unusable);
     assert!(simulation.leg(0).is_none() && simulation.nearest([0.0; 2], 1.0).is_none());
     assert!(

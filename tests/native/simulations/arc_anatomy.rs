@@ -122,7 +122,6 @@ fn p_is_the_product_of_the_factors_and_that_of_the_model() {
         let noise_peak: f64 =
             model.variances(&settings.command).iter().map(|variance| noise.prob(0.0, *variance)).product();
         assert!((arc_stats.share * noise_peak - arc_stats.prob).abs() <= 1e-13 * noise_peak, "{settings:?}");
-        // The inversion finds the shorter of the two arcs.
         if (settings.command.omega * settings.command.dt).abs() < PI {
             let peak_prob = model.prob(&noise_free_pose, &settings.command, &start_pose);
             assert!((peak_prob / noise_peak - 1.0).abs() < 1e-9, "{settings:?}");
@@ -182,7 +181,6 @@ fn a_last_turn_gives_the_twist_a_lateral_velocity() {
             assert!(((to_x - x).hypot(to_y - y) - lateral_speed).abs() < 1e-12 * (1.0 + lateral_speed));
             assert!((pose_before.x() - x).hypot(pose_before.y() - y) < 1e-12 * (1.0 + along_velocity.abs()));
         }
-        // Without the last turn the lateral component of the twist is 0.
         let Stats { driven, .. } = simulation.stats();
         let next_without_last_turn = [settings.next[0], settings.next[1], driven.end[2]];
         let twist_to_next = stats_of(Settings { next: next_without_last_turn, ..settings }).xi;

@@ -243,15 +243,16 @@ fn exponential_statistics_are_undefined_near_a_full_turn() {
     for (omega, is_defined) in [(0.9, true), (2.0, false), (-2.0, false)] {
         let simulation = simulate_turn(omega);
         assert_eq!(simulation.is_exponential_defined(), is_defined, "ω = {omega}");
-        let (stats, cloud_contours) = (simulation.stats(), simulation.contours());
-        let exponential_values = [stats.gaussian_skew, stats.coverage.exponential, stats.exponential.mean.x];
+        let (cloud_stats, cloud_contours) = (simulation.stats(), simulation.contours());
+        let exponential_values =
+            [cloud_stats.gaussian_skew, cloud_stats.coverage.exponential, cloud_stats.exponential.mean.x];
         assert!(
             exponential_values.iter().all(|exponential_value| exponential_value.is_nan() != is_defined),
-            "ω = {omega}: {stats:?}"
+            "ω = {omega}: {cloud_stats:?}"
         );
         assert_eq!(cloud_contours.exponential.is_empty(), !is_defined);
         assert_eq!(cloud_contours.twist_ellipse.is_empty(), !is_defined);
-        assert!(stats.cross_track_skew.is_finite() && stats.coverage.ellipse.is_finite());
+        assert!(cloud_stats.cross_track_skew.is_finite() && cloud_stats.coverage.ellipse.is_finite());
         assert_eq!(cloud_contours.ellipse.len(), cloud_contours.linearized.len());
     }
 }
@@ -313,12 +314,13 @@ fn a_reverse_aware_robot_has_no_noise_of_half_turns() {
     let aware_and_unaware_simulations =
         [false, true].map(|reverse_aware| new_simulation(Settings { reverse_aware, ..odometry_settings }));
     let [alpha1, alpha2, ..] = odometry_settings.odometry_alphas;
-    let reading = aware_and_unaware_simulations[0].reading();
+    let odometry_reading = aware_and_unaware_simulations[0].reading();
     // For a reverse command of turn θ, both rotations have the size π − θ/2 without `reverse_aware`, and θ/2 with it.
-    let possible_rotations = [reading.rot1.abs(), PI - reading.rot1.abs()];
+    let possible_rotations = [odometry_reading.rot1.abs(), PI - odometry_reading.rot1.abs()];
     for (simulation, expected_rotation) in aware_and_unaware_simulations.iter().zip(possible_rotations) {
-        let heading_variance =
-            2.0 * (alpha1 * expected_rotation * expected_rotation + alpha2 * reading.trans * reading.trans);
+        let heading_variance = 2.0
+            * (alpha1 * expected_rotation * expected_rotation
+                + alpha2 * odometry_reading.trans * odometry_reading.trans);
         assert!((simulation.exact_moments().cov[(2, 2)] / heading_variance - 1.0).abs() < 1e-12);
         assert!((simulation.linearized_moments().cov[(2, 2)] / heading_variance - 1.0).abs() < 1e-12);
     }

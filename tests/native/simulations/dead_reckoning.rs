@@ -131,12 +131,13 @@ fn moments_are_those_of_the_cloud() {
 #[test]
 fn ratios_and_misses_are_counted() {
     let simulation = new_simulation(Settings::default());
-    for recursion in RECURSIONS {
-        let variance_comparison = simulation.comparison(recursion);
+    for cov_recursion in RECURSIONS {
+        let variance_comparison = simulation.comparison(cov_recursion);
         for (axis, axis_misses) in variance_comparison.misses.iter().enumerate() {
             let expected_ratios: Vec<f64> = (0..20)
                 .map(|k| {
-                    let predicted_cov = simulation.predicted_covariances(recursion)[k].expect("a covariance");
+                    let predicted_cov =
+                        simulation.predicted_covariances(cov_recursion)[k].expect("a covariance");
                     predicted_cov[(axis, axis)] / simulation.measured_moments()[k].cov[(axis, axis)]
                 })
                 .collect();
@@ -194,7 +195,6 @@ fn a_zero_variance_has_no_relative_error() {
     assert!(errors_with(robot_settings(1)).iter().all(|relative_error| relative_error.is_nan()));
     // Two robots always have a kurtosis of 1. The formula for large clouds would therefore give an error of 0.
     assert!(errors_with(robot_settings(2)).iter().all(|error| error.is_finite() && *error >= 2f64.sqrt()));
-    // Robots that only turn have no variance along the track.
     let command_on_the_spot = VelocityCmd { v: 0.0, omega: 0.5, dt: 0.2 };
     let [along_error, _, heading_error] = errors_with(Settings {
         command: command_on_the_spot,
@@ -280,7 +280,6 @@ fn noise_of_the_whole_path_is_divided_among_its_steps() {
                 "{step_count}, {i}"
             );
         }
-        // The predicted heading variance is the sum of the heading variances of all steps.
         let covariance = new_simulation(settings).predicted_covariances(Compounding::FirstOrder)
             [step_count as usize - 1]
             .expect("a covariance");

@@ -105,12 +105,12 @@ fn assert_exact_moments(poses: &[SE2], computed_moments: &CartesianMoments, cros
     assert_close("rho", cross_track[2], expected_correlation, 1.0);
 }
 
-/// Asserts that the statistics of a simulation equal their definitions.
 fn assert_stats_are_exact(simulation: &BananaMachine) {
     let poses: Vec<SE2> = simulation.poses().collect();
     let n = poses.len() as f64;
-    let stats @ Stats { cartesian: cartesian_moments, exponential, .. } = *simulation.stats();
-    let cross_track = [stats.cross_track_skew, stats.cross_track_skew_error, stats.rho_cross_heading];
+    let cloud_stats @ Stats { cartesian: cartesian_moments, exponential, .. } = *simulation.stats();
+    let cross_track =
+        [cloud_stats.cross_track_skew, cloud_stats.cross_track_skew_error, cloud_stats.rho_cross_heading];
     assert_exact_moments(&poses, &cartesian_moments, cross_track);
 
     let pose_twist =
@@ -132,7 +132,7 @@ fn assert_stats_are_exact(simulation: &BananaMachine) {
     let covariance_ellipse = Ellipse::from_moments(&cartesian_moments);
     let inside_count = poses.iter().filter(|pose| covariance_ellipse.contains([pose.x(), pose.y()])).count();
     // Rounding may decide whether one robot on the contour is inside.
-    assert_close("coverage", stats.coverage.ellipse, inside_count as f64 / n, 1.5e12 / n);
+    assert_close("coverage", cloud_stats.coverage.ellipse, inside_count as f64 / n, 1.5e12 / n);
 }
 
 #[test]
@@ -152,8 +152,9 @@ fn statistics_of_small_and_unusual_clouds_agree_with_exact_sums() {
     check_in_varied_clouds([1.0, 3.0, 1.9], &[3, 257, 5003], |simulation, _| {
         assert_stats_are_exact(simulation);
         let poses: Vec<SE2> = simulation.poses().collect();
-        let CrossTrackStats { skew, skew_error, rho_heading } = CrossTrackStats::from_poses(&poses);
+        let CrossTrackStats { skew: track_skew, skew_error, rho_heading } =
+            CrossTrackStats::from_poses(&poses);
         let computed_moments = CartesianMoments::from_poses(&poses);
-        assert_exact_moments(&poses, &computed_moments, [skew, skew_error, rho_heading]);
+        assert_exact_moments(&poses, &computed_moments, [track_skew, skew_error, rho_heading]);
     });
 }

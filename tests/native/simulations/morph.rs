@@ -63,8 +63,9 @@ fn robots_move_smoothly_with_the_morph() {
     for twist in simulation.twists() {
         let max_speed = twist.y.abs() + twist.z.abs() * (1.0 + twist.x.abs() + twist.y.abs());
         for morph in (0..1000).map(|i| f64::from(i) * MORPH_STEP) {
-            let displacement = distance_between(unbend(&twist, morph), unbend(&twist, morph + MORPH_STEP));
-            assert!(displacement <= MORPH_STEP * max_speed * (1.0 + 1e-9), "{twist} at {morph}");
+            let step_displacement =
+                distance_between(unbend(&twist, morph), unbend(&twist, morph + MORPH_STEP));
+            assert!(step_displacement <= MORPH_STEP * max_speed * (1.0 + 1e-9), "{twist} at {morph}");
         }
     }
 }

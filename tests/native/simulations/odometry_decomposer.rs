@@ -40,7 +40,6 @@ fn changed_settings_move_the_same_outcomes() {
     for (length_before, length_after) in lengths_before.iter().zip(length_errors_of(&simulation)) {
         assert!((2.0 * length_before - length_after).abs() < 1e-14);
     }
-    // A larger cloud begins with the smaller one.
     let settings_with_more_samples = Settings { samples: 900, ..settings_with_alpha3_only(0.01) };
     simulation.configure_first(settings_with_more_samples, 700).expect("a valid setting");
     assert_eq!((simulation.poses().len(), &length_errors_of(&simulation)[..500]), (700, &lengths_before[..]));
@@ -99,7 +98,6 @@ fn the_prediction_does_not_depend_on_the_drift() {
     let [fixed_odometry, drifted_odometry] =
         [&simulation_without_drift, &simulation_with_long_drift].map(OdometryDecomposer::drifted_odometry);
     assert_eq!(fixed_odometry.poses[0], [0.0; 3]);
-    // The drift moves the poses by metres and keeps the legs of the reading.
     assert!(
         (drifted_odometry.poses[2][0] - fixed_odometry.poses[2][0])
             .hypot(drifted_odometry.poses[2][1] - fixed_odometry.poses[2][1])

@@ -24,9 +24,10 @@ fn new_numbered_ramp(ramp_number: u8) -> Ramp {
 
 /// Returns the index of the cell that contains a point, row by row from the top.
 fn find_cell_index(view_grid: &ViewGrid, [x, y]: [f64; 2]) -> Option<usize> {
-    let ViewGrid { min_corner: min, max_corner: max, columns: column_count, rows: row_count } = *view_grid;
-    let column_number = ((x - min[0]) / (max[0] - min[0]) * column_count as f64).floor();
-    let row_index = ((max[1] - y) / (max[1] - min[1]) * row_count as f64).floor();
+    let ViewGrid { min_corner: lower_corner, max_corner: max, columns: column_count, rows: row_count } =
+        *view_grid;
+    let column_number = ((x - lower_corner[0]) / (max[0] - lower_corner[0]) * column_count as f64).floor();
+    let row_index = ((max[1] - y) / (max[1] - lower_corner[1]) * row_count as f64).floor();
     let is_inside =
         (0.0..column_count as f64).contains(&column_number) && (0.0..row_count as f64).contains(&row_index);
     is_inside.then(|| row_index as usize * column_count + column_number as usize)
@@ -43,27 +44,28 @@ fn pixels_show_the_density_of_the_cloud() {
     let mut simulation = BananaMachine::new(settings).expect("a valid setting");
     let robot_positions: Vec<[f64; 2]> = simulation.poses().map(|pose| [pose.x(), pose.y()]).collect();
     let twist_points: Vec<[f64; 2]> = simulation.twists().map(|twist| [twist.x, twist.z]).collect();
-    let create_case = |morph_fraction, sample_points| move |grid| (morph_fraction, sample_points, grid);
+    let create_case =
+        |morph_fraction, sample_points| move |view_grid| (morph_fraction, sample_points, view_grid);
     let plane_cases = new_grids_over([0.75, -0.2], [1.2, 0.4]).map(create_case(0.0, &robot_positions));
     let twist_cases = new_grids_over([0.75, 0.1], [1.2, 0.7]).map(create_case(1.0, &twist_points));
-    for (morph_fraction, cloud_points, grid) in plane_cases.into_iter().chain(twist_cases) {
-        let mut cell_counts = vec![0u32; grid.columns * grid.rows];
+    for (morph_fraction, cloud_points, view_grid) in plane_cases.into_iter().chain(twist_cases) {
+        let mut cell_counts = vec![0u32; view_grid.columns * view_grid.rows];
         cloud_points
             .iter()
-            .filter_map(|sample_point| find_cell_index(&grid, *sample_point))
+            .filter_map(|sample_point| find_cell_index(&view_grid, *sample_point))
             .for_each(|cell_index| cell_counts[cell_index] += 1);
         let max_count = *cell_counts.iter().max().expect("there are cells");
         assert!((1..3000).contains(&cell_counts.iter().sum::<u32>()), "some are outside");
         // The picture is painted twice, because no pixel of the first painting may remain.
         for paint_pass in ["first", "second"] {
-            let pixels = simulation.paint(morph_fraction, &grid, &new_numbered_ramp(3));
+            let pixels = simulation.paint(morph_fraction, &view_grid, &new_numbered_ramp(3));
             assert_eq!(pixels.len(), cell_counts.len());
             for (i, (rgba, cell_count)) in pixels.iter().zip(&cell_counts).enumerate() {
                 let expected_pixel =
                     if *cell_count == 0 { [0; 4] } else { [ramp_step_of(*cell_count, max_count), 3, 7, 255] };
-                assert_eq!(*rgba, expected_pixel, "{paint_pass}, cell {i} of {grid:?}");
+                assert_eq!(*rgba, expected_pixel, "{paint_pass}, cell {i} of {view_grid:?}");
             }
-            assert_eq!(simulation.density(morph_fraction, &grid), cell_counts, "{paint_pass}");
+            assert_eq!(simulation.density(morph_fraction, &view_grid), cell_counts, "{paint_pass}");
         }
     }
 }
@@ -75,10 +77,10 @@ fn cells_have_the_colour_of_their_most_frequent_outcome() {
     let settings = squeeze::Settings { start: start_at_wall, samples: 3000, ..squeeze::Settings::default() };
     let mut simulation = MapSqueeze::new(settings).expect("a valid setting");
     let mut painted_cell_counts = [0; OUTCOME_KIND_COUNT];
-    for grid in new_grids_over([2.9, 3.4], [3.7, 4.9]) {
-        let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; grid.columns * grid.rows];
+    for view_grid in new_grids_over([2.9, 3.4], [3.7, 4.9]) {
+        let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; view_grid.columns * view_grid.rows];
         for attempt in simulation.attempts() {
-            if let Some(cell_index) = find_cell_index(&grid, [attempt.pose.x(), attempt.pose.y()]) {
+            if let Some(cell_index) = find_cell_index(&view_grid, [attempt.pose.x(), attempt.pose.y()]) {
                 cell_counts[cell_index][attempt.outcome_kind()] += 1;
             }
         }
@@ -88,7 +90,7 @@ fn cells_have_the_colour_of_their_most_frequent_outcome() {
         assert!((1..3000).contains(&cell_totals.iter().sum::<u32>()), "some are outside");
         for _ in 0..2 {
             let outcome_ramps = std::array::from_fn(|outcome_index| new_numbered_ramp(outcome_index as u8));
-            let pixels = simulation.paint(&grid, &outcome_ramps);
+            let pixels = simulation.paint(&view_grid, &outcome_ramps);
             assert_eq!(pixels.len(), cell_totals.len());
             for ((rgba, outcome_counts), cell_total) in pixels.iter().zip(&cell_counts).zip(&cell_totals) {
                 if *cell_total == 0 {

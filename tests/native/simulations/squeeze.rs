@@ -112,7 +112,8 @@ fn the_arcs_of_an_attempt_end_at_its_pose() {
             assert_eq!(attempt_arcs.len(), part_count as usize);
             let arc_end = attempt_arcs[attempt_arcs.len() - 1].end();
             assert!((arc_end.x() - attempt.pose.x()).abs() + (arc_end.y() - attempt.pose.y()).abs() < 1e-12);
-            let is_path_free = attempt_arcs.iter().all(|arc| simulation.plan().test_arc(arc, 0.13).free);
+            let is_path_free =
+                attempt_arcs.iter().all(|attempt_arc| simulation.plan().test_arc(attempt_arc, 0.13).free);
             assert_eq!(attempt.path_free, is_path_free);
             let are_joined = attempt_arcs.windows(2).all(|arc_pair| {
                 let first_end = arc_pair[0].end();
@@ -140,9 +141,9 @@ fn the_first_contact_is_at_the_first_wall_on_the_path() {
 fn the_commanded_arc_and_the_test_of_its_start_follow_the_settings() {
     let command = VelocityCmd { v: -0.5, omega: 0.8, dt: 1.5 };
     let mut simulation = new_simulation(Settings { command, ..Settings::default() });
-    let arc = simulation.commanded_arc();
-    assert_eq!((arc.start.x(), arc.start.y(), arc.length), (2.05, 2.6, -0.75));
-    assert!((arc.turn - 1.2).abs() < 1e-15);
+    let attempt_arc = simulation.commanded_arc();
+    assert_eq!((attempt_arc.start.x(), attempt_arc.start.y(), attempt_arc.length), (2.05, 2.6, -0.75));
+    assert!((attempt_arc.turn - 1.2).abs() < 1e-15);
     // The doorposts are 1.2 m ahead and 0.45 m to either side: √(1.2² + 0.45²) = 1.2816 m away.
     assert!(simulation.is_start_free());
     for (robot_radius, is_start_free) in [(1.282, false), (1.281, true)] {
@@ -166,7 +167,6 @@ fn the_product_of_samples_and_parts_is_limited() {
     }
 }
 
-/// The simulation continues as soon as the settings let the robot move.
 #[test]
 fn the_simulation_stops_after_a_bounded_number_of_draws() {
     let settings =
@@ -203,14 +203,15 @@ fn the_simulation_stops_after_a_bounded_number_of_draws() {
 fn a_trial_motion_reports_its_cost_and_changes_nothing() {
     let settings = Settings::default();
     let simulation = new_simulation(settings);
-    let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
+    let velocity_model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     let [x, y, theta] = settings.start;
     let start_pose = SE2::new(x, y, theta);
     let results_before = format_results(&simulation);
     for sampler in SAMPLERS {
         let trial_cost = simulation.sampling_trial(sampler, 500).expect("it fits");
         let floor_plan = FloorPlan::apartment();
-        let conditioned_model = MapConditioned { model, plan: &floor_plan, clearance: 0.13, sampler };
+        let conditioned_model =
+            MapConditioned { model: velocity_model, plan: &floor_plan, clearance: 0.13, sampler };
         let mut rng = seeded_rng(7);
         let mut expected_cost = (0, 0);
         for _ in 0..500 {

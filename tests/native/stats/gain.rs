@@ -191,8 +191,9 @@ fn the_area_ratio_is_that_of_the_drawn_outlines() {
         (VelocityCmd { v: -1.0, ..SHARP_TURN_COMMAND }, BANANA_ALPHAS),
     ] {
         let simulation = new_simulation(command, alphas, 5000);
-        let outlines = simulation.contours();
-        let expected_ratio = area_of_outline(&outlines.ellipse) / area_of_outline(&outlines.exponential);
+        let contour_outlines = simulation.contours();
+        let expected_ratio =
+            area_of_outline(&contour_outlines.ellipse) / area_of_outline(&contour_outlines.exponential);
         assert_close("ratio", simulation.stats().area_ratio, expected_ratio, 1e-12 * expected_ratio);
     }
 }
@@ -214,7 +215,6 @@ fn the_error_of_the_area_ratio_matches_its_deviation_over_clouds() {
             variance_of(&stats_of_clouds.iter().map(|cloud| cloud.area_ratio).collect::<Vec<_>>()).sqrt();
         let mean_error =
             mean_of(&stats_of_clouds.iter().map(|cloud| cloud.area_ratio_error).collect::<Vec<_>>());
-        // The relative standard error of a standard deviation is 1/√(2·CLOUD_COUNT).
         assert_close(name, mean_error / ratio_std, 0.94, 0.05 + 4.0 / (2.0 * CLOUD_COUNT as f64).sqrt());
     }
 }

@@ -17,7 +17,6 @@ use std::f64::consts::PI;
 
 const COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 
-/// Fraction 1 − exp(−2²/2) of a two-dimensional Gaussian that lies within two standard deviations.
 const TWO_SIGMA_FRACTION: f64 = 0.864_664_716_763_387_3;
 
 /// If ξ is a Gaussian of rank 2, its 2σ contour contains the same fraction of robots after mapping by exp. The outline separates inside from
@@ -54,12 +53,13 @@ fn the_exponential_contour_covers_the_fraction_of_two_sigma() {
     assert_eq!(shadow_outline.first(), shadow_outline.last());
     for &[x, y] in &shadow_outline {
         // In exponential coordinates the outline is the 2σ ellipse of (along, heading).
-        let inversion = motion::invert_arc(&start_pose, &SE2::new(x, y, 0.0), 1.0);
-        let squared_sigmas = ((inversion.v_hat - 1.0).powi(2) + (inversion.omega_hat - 0.5).powi(2)) / 0.025;
+        let inverted_arc = motion::invert_arc(&start_pose, &SE2::new(x, y, 0.0), 1.0);
+        let squared_sigmas =
+            ((inverted_arc.v_hat - 1.0).powi(2) + (inverted_arc.omega_hat - 0.5).powi(2)) / 0.025;
         assert!((squared_sigmas - 4.0).abs() < 1e-9, "{squared_sigmas}");
         for (scale_about_centre, is_inside) in [(0.99, true), (1.01, false)] {
-            let v = 1.0 + scale_about_centre * (inversion.v_hat - 1.0);
-            let omega = 0.5 + scale_about_centre * (inversion.omega_hat - 0.5);
+            let v = 1.0 + scale_about_centre * (inverted_arc.v_hat - 1.0);
+            let omega = 0.5 + scale_about_centre * (inverted_arc.omega_hat - 0.5);
             assert_eq!(contour_outline.contains(&start_pose.boxplus(Vector3::new(v, 0.0, omega))), is_inside);
         }
     }
@@ -216,8 +216,9 @@ fn a_width_of_the_size_of_rounding_counts_as_zero() {
     let reported_and_plain_skew = |motion_turn: f64| {
         let turn_per_speed = motion_turn / TINY_SPEED;
         let velocity_alphas = [1e6, 0.0, turn_per_speed * turn_per_speed, 0.0, 0.0, 0.0];
-        let command = VelocityCmd { v: TINY_SPEED, omega: 0.0, dt: 1.0 };
-        let settings = Settings { command, velocity_alphas, samples: 1000, ..Settings::default() };
+        let tiny_command = VelocityCmd { v: TINY_SPEED, omega: 0.0, dt: 1.0 };
+        let settings =
+            Settings { command: tiny_command, velocity_alphas, samples: 1000, ..Settings::default() };
         let simulation = BananaMachine::new(settings).expect("a valid setting");
         let poses: Vec<SE2> = simulation.poses().collect();
         [simulation.stats().cross_track_skew, CrossTrackStats::from_poses(&poses).skew]

@@ -1,9 +1,8 @@
 //! Checks of a fit: validity of the log, and goodness of fit of the model.
 
-use super::fit::{Fit, LegSet};
-use super::legs::{LostLegs, turn};
-use super::residuals::Model;
-use super::systematic::{ERROR_COUNT, ErrorMask, SystematicError};
+use super::legs::{LostLegs, MIN_DRIVE_DISTANCE, MIN_LEGS, MIN_TURN_ANGLE, distance, distance_along, turn};
+use super::optimizer::{Fit, LegSet};
+use super::residuals::{ERROR_COUNT, ErrorMask, Model, Systematic, SystematicError};
 use super::trajectory::median;
 use crate::models::OdometryRule;
 use serde::{Deserialize, Serialize};
@@ -260,7 +259,7 @@ pub(super) fn log_checks(leg_set: &LegSet, lost: &LostLegs, inflation: f64) -> V
 /// Turn (rad) above which a leg counts as turning. All other legs count as straight.
 const TURNING_LEG_ANGLE: f64 = 0.05;
 
-/// Minimum number of legs in each of two groups whose scales are compared.
+/// Minimum number of legs or windows in each of two groups whose scales are compared.
 const MIN_GROUP_LEGS: usize = 20;
 
 /// Maximum difference of two scales, in standard errors, that chance explains. Their 95 % intervals then overlap.
@@ -276,86 +275,160 @@ const NEGLIGIBLE_SCALE_DIFFERENCE: f64 = 0.01;
 pub(super) fn scale_checks(fit: &Fit, correlation: f64) -> (Vec<Check>, ErrorMask) {
     let (mut checks, mut is_constant) = (Vec::new(), [true; ERROR_COUNT]);
     let first_half_count = fit.sample.legs.len() / 2;
+    let is_in_first_half = |leg: usize| leg < first_half_count;
     let is_turning = |leg: usize| turn(&fit.sample.observations[leg].expected) > TURNING_LEG_ANGLE;
-    let checked_scales = [
-        (SystematicError::DistanceScale, CheckName::DistanceScaleConstant),
-        (SystematicError::TurnScale, CheckName::TurnScaleConstant),
+    let compare = |scale, is_in_first_group: &dyn Fn(usize) -> bool| {
+        let [a, a_std] = scale_of(fit, scale, correlation, is_in_first_group)?;
+        let [b, b_std] = scale_of(fit, scale, correlation, |leg| !is_in_first_group(leg))?;
+        Some([a - b, libm::hypot(a_std, b_std)])
+    };
+    let [distance_scale, turn_scale] = [SystematicError::DistanceScale, SystematicError::TurnScale];
+    let compared_scales = [
+        (CheckName::DistanceScaleConstant, distance_scale, compare(distance_scale, &is_turning)),
+        (CheckName::TurnScaleConstant, turn_scale, compare_long_turns(fit, correlation)),
     ];
-    for (scale, name) in checked_scales.into_iter().filter(|(scale, _)| fit.sample.estimated[*scale as usize])
-    {
-        // Difference of the scales of two groups, and its standard error.
-        let compare_groups = |is_in_first_group: &dyn Fn(usize) -> bool| {
-            let [a, a_std] = scale_of(fit, scale, correlation, is_in_first_group)?;
-            let [b, b_std] = scale_of(fit, scale, correlation, |leg| !is_in_first_group(leg))?;
-            Some((a - b, libm::hypot(a_std, b_std)))
-        };
-        let halves = compare_groups(&|leg| leg < first_half_count);
-        let other_comparison = match scale {
-            SystematicError::DistanceScale => compare_groups(&is_turning),
-            _ => compare_long_turns(fit, correlation),
-        };
-        let ratio_of = |(difference, tolerance): &(f64, f64)| difference.abs() / tolerance;
-        let comparisons = halves.into_iter().chain(other_comparison).map(|(difference, std)| {
-            (difference, NEGLIGIBLE_SCALE_DIFFERENCE.max(MAX_SCALE_STD_ERRORS * std))
-        });
-        let largest_difference = comparisons.max_by(|a, b| ratio_of(a).total_cmp(&ratio_of(b)));
-        let (difference, tolerance) = largest_difference.unwrap_or((0.0, NEGLIGIBLE_SCALE_DIFFERENCE));
-        let check = Check::new(name, difference, [-tolerance, tolerance]);
-        is_constant[scale as usize] = check.passed;
-        checks.push(check);
+    for (name, scale, difference) in compared_scales {
+        if fit.sample.estimated[scale as usize] {
+            let differences = [difference, compare(scale, &is_in_first_half)].into_iter().flatten();
+            let check = largest_of(differences.chain([[0.0; 2]]).map(|[difference, std]| {
+                let tolerance = NEGLIGIBLE_SCALE_DIFFERENCE.max(MAX_SCALE_STD_ERRORS * std);
+                Check::new(name, difference, [-tolerance, tolerance])
+            }));
+            is_constant[scale as usize] = check.iter().all(|check| check.passed);
+            checks.extend(check);
+        }
     }
     (checks, is_constant)
 }
 
-/// Number of neighbouring legs whose turns are added up.
-const RUN_LEGS: usize = 8;
-
-/// Returns the scale of turns of single legs minus that of runs of [`RUN_LEGS`] legs, and the standard error of this difference.
+/// Returns the scale of turns of single legs minus that of windows of 2 m, and the standard error of this difference.
 ///
-/// Noise of the odometry makes the scale of small turns too small (regression dilution). Over a run, turns add up more than their noise.
-fn compare_long_turns(Fit { sample, maximum, .. }: &Fit, correlation: f64) -> Option<(f64, f64)> {
-    let is_inlier = |leg: usize| !sample.outliers[leg];
-    let inliers: Vec<usize> = (0..sample.legs.len()).filter(|leg| is_inlier(*leg)).collect();
-    let sections = inliers.chunk_by(|_, next| sample.follows(*next, is_inlier));
-    // Turns by the corrected odometry and by the reference.
-    let turns_of_run = |run: &[usize]| {
-        let observations_of_run = || run.iter().map(|leg| &sample.observations[*leg]);
-        let expected_turn: f64 = observations_of_run().map(|leg| leg.expected.theta()).sum();
-        [expected_turn, observations_of_run().map(|leg| leg.measured.theta()).sum()]
-    };
-    let runs: Vec<[f64; 2]> =
-        sections.flat_map(|section| section.chunks_exact(RUN_LEGS)).map(turns_of_run).collect();
-    if runs.len() < MIN_GROUP_LEGS {
+/// Noise of the odometry makes the scale of small turns too small (regression dilution). Over a window, turns add up more than their noise.
+fn compare_long_turns(Fit { sample, maximum, .. }: &Fit, correlation: f64) -> Option<[f64; 2]> {
+    let [_, windows, _] = sample.windows(0..sample.legs.len(), &maximum.parameters);
+    if windows.len() < MIN_GROUP_LEGS {
         return None;
     }
-    let square_sum: f64 = runs.iter().map(|[read, _]| read * read).sum();
-    let slope = runs.iter().map(|[read, measured]| read * measured).sum::<f64>() / square_sum;
-    let score_squares = runs.iter().map(|[read, measured]| (read * (measured - slope * read)).powi(2));
-    let slope_std = score_squares.sum::<f64>().sqrt() / square_sum;
-    let scale_index = SystematicError::TurnScale as usize;
-    let mean_scale_std = maximum.filtered.error_stds(correlation)[scale_index];
+    // Regression of the errors of turns on the turns.
+    let square_sum: f64 = windows.iter().map(|window| window.turn * window.turn).sum();
+    let slope = windows.iter().map(|window| window.turn * window.error.z).sum::<f64>() / square_sum;
+    let scores = windows.iter().map(|window| window.turn * (window.error.z - slope * window.turn));
+    let slope_std = scores.map(|score| score * score).sum::<f64>().sqrt() / square_sum;
+    let mean_scale_std = maximum.filtered.error_stds(correlation)[SystematicError::TurnScale as usize];
     let turn_scale = sample.systematic.turn_scale;
-    Some((turn_scale * (1.0 - slope), libm::hypot(mean_scale_std, turn_scale * slope_std)))
+    Some([-turn_scale * slope, libm::hypot(mean_scale_std, turn_scale * slope_std)])
 }
 
 /// Returns the scale of the selected legs minus that of all legs, and the standard error of this difference. Other systematic errors are
 /// not estimated again. None if the legs do not identify the scale.
 fn scale_of(
-    fit: &Fit,
+    Fit { sample, maximum, .. }: &Fit,
     scale: SystematicError,
     correlation: f64,
     select: impl Fn(usize) -> bool,
 ) -> Option<[f64; 2]> {
     let mut mask = [false; ERROR_COUNT];
     mask[scale as usize] = true;
-    let residuals = fit.sample.residuals(mask, |leg| select(leg) && !fit.sample.outliers[leg]);
+    let residuals = sample.residuals(mask, |leg| select(leg) && !sample.outliers[leg]);
     if residuals.observations.len() < MIN_GROUP_LEGS {
         return None;
     }
-    let filtered = residuals.filtered(&fit.maximum.parameters);
+    let filtered = residuals.filtered(&maximum.parameters);
     let std = filtered.error_stds(correlation)[scale as usize];
-    let difference = -filtered.errors[scale as usize];
-    (std > 0.0 && std < scale.identifiability_limit()).then_some([difference, std])
+    (std > 0.0 && std < scale.identifiability_limit()).then_some([-filtered.errors[scale as usize], std])
+}
+
+/// Returns the check whose value is largest in relation to the largest value that passes.
+fn largest_of(checks: impl IntoIterator<Item = Check>) -> Option<Check> {
+    let relative_value_of = |check: &Check| check.value.abs() / check.expected[1];
+    checks.into_iter().max_by(|a, b| relative_value_of(a).total_cmp(&relative_value_of(b)))
+}
+
+/// Maximum mismatch of the turns and of the drives of a log. A wrong track width, or slip of skid steering, scales turns by a factor of up
+/// to two. Wheels never scale distances as much as a reference in feet (factor 0.305), or a reference whose y is a height (factor 0.5).
+const MAX_TURN_MISMATCH: f64 = 0.7;
+const MAX_DRIVE_MISMATCH: f64 = 0.4;
+
+/// Maximum fraction of the legs of one drive that may be outliers.
+const MAX_OUTLIERS_OF_DRIVE: f64 = 0.5;
+
+/// Tolerance on the median ratio of the turns of a mirrored reference to those of the odometry, which is −1.
+const MIRRORED_TOLERANCE: f64 = 0.1;
+
+/// Relative error below which the reference is a copy of the odometry: wheels never measure every motion to a thousandth. A copy may be
+/// rounded or have noise of its own, which does not accumulate.
+const MIN_RELATIVE_ERROR: f64 = 1e-3;
+
+/// Returns the check that the reference matches the odometry and is no copy of it; None if too few legs turn and too few drive.
+pub(super) fn reference_check(
+    leg_set: &LegSet,
+    systematic: &Systematic,
+    alpha_intervals: &[Option<[f64; 2]>],
+) -> Option<Check> {
+    // In the median over several drives, a short drive could not be recognized.
+    let checks = (0..=leg_set.legs.last()?.drive).filter_map(|drive| match_check(leg_set, drive, systematic));
+    let checks: Vec<Check> = checks.collect();
+    let drives = checks.iter().flat_map(|check| check.drives.clone()).collect();
+    let match_check = largest_of(checks).map(|check| Check { drives, ..check });
+    // A reference that is a copy of the odometry is recognized by α's whose intervals start near 0: α's are squares of relative
+    // errors. Any other unsuitable reference is recognized by the difference of its motions from the odometry's.
+    let max_alpha = alpha_intervals.iter().flatten().map(|[start, _]| *start).reduce(f64::max);
+    let copy_error = max_alpha.map(f64::sqrt).filter(|error| *error < MIN_RELATIVE_ERROR);
+    match copy_error {
+        Some(error) if match_check.iter().all(|check| check.passed) => {
+            Some(new_match_check(error, MAX_DRIVE_MISMATCH).with_cause(FailureCause::Copied))
+        }
+        _ => match_check,
+    }
+}
+
+/// Returns the check that the reference matches the odometry, from their mismatch or from the relative error of a copy.
+fn new_match_check(value: f64, max_mismatch: f64) -> Check {
+    Check::new(CheckName::ReferenceMatches, value, [MIN_RELATIVE_ERROR, max_mismatch])
+}
+
+/// Returns the check of one drive's mismatch of odometry and reference; None if too few legs turn and too few drive. Turns and drives have
+/// one mismatch each, and the one that is larger relative to its maximum counts. If most legs are outliers, the fit to the other drives
+/// does not describe this drive.
+///
+/// The mismatch is the distance from 1 of the median ratio: over the legs, the reference's motion along the odometry's motion is divided by
+/// the odometry's motion. Scales are not corrected, because a scale far from 1 is another unit.
+fn match_check(leg_set: &LegSet, drive: usize, systematic: &Systematic) -> Option<Check> {
+    let legs_of_drive = leg_set.legs.iter().zip(&leg_set.outliers).filter(|(leg, _)| leg.drive == drive);
+    let [mut turn_ratios, mut drive_ratios]: [Vec<f64>; 2] = Default::default();
+    let (mut leg_count, mut outlier_count) = (0, 0);
+    for (leg, is_outlier) in legs_of_drive {
+        leg_count += 1;
+        outlier_count += usize::from(*is_outlier);
+        let (expected, measured) = (leg.odometry[0].between(&leg.odometry[1]), systematic.motion(leg));
+        if turn(&expected) > MIN_TURN_ANGLE {
+            turn_ratios.push(measured.theta() / expected.theta());
+        }
+        if distance(&expected) > MIN_DRIVE_DISTANCE {
+            drive_ratios.push(distance_along(&measured, &expected) / distance(&expected));
+        }
+    }
+    let [turn_ratio, drive_ratio] = [&mut turn_ratios, &mut drive_ratios]
+        .map(|ratios| (ratios.len() >= MIN_LEGS).then(|| median(ratios)));
+    // Values below the allowed range are reserved for a reference that is a copy of the odometry.
+    let mismatch_of = |ratio: f64| (ratio - 1.0).abs().max(MIN_RELATIVE_ERROR);
+    let is_mirrored = turn_ratio.is_some_and(|ratio| (ratio + 1.0).abs() < MIRRORED_TOLERANCE);
+    let outlier_fraction = Some(outlier_count as f64 / leg_count as f64);
+    let mismatches = [
+        (turn_ratio.map(mismatch_of), MAX_TURN_MISMATCH),
+        // The drives of a mirrored reference differ by chance, because its mount yaw and lever arm are meaningless.
+        (drive_ratio.map(mismatch_of).filter(|_| !is_mirrored), MAX_DRIVE_MISMATCH),
+        (
+            outlier_fraction.filter(|fraction| {
+                leg_count >= MIN_LEGS && *fraction > MAX_OUTLIERS_OF_DRIVE && !is_mirrored
+            }),
+            MAX_OUTLIERS_OF_DRIVE,
+        ),
+    ];
+    let checks = mismatches.into_iter().filter_map(|(mismatch, max)| Some(new_match_check(mismatch?, max)));
+    let check = largest_of(checks)?;
+    let check = if is_mirrored { check.with_cause(FailureCause::Mirrored) } else { check };
+    Some(Check { drives: if check.passed { Vec::new() } else { vec![drive] }, ..check })
 }
 
 /// Returns the verdict that follows from all checks. `identifies` is true if the log identifies at least one α.

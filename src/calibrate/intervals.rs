@@ -1,8 +1,8 @@
 //! 95 % intervals of variances by the profile likelihood, and reasons for which a log does not identify an α.
 
-use super::fit::Fit;
 use super::legs::{MIN_DRIVE_DISTANCE, MIN_TURN_ANGLE, distance, turn};
 use super::likelihood::{PARAMETER_COUNT, Parameters, legs_per_score_block};
+use super::optimizer::Fit;
 use super::optimizer::feasible_parameters;
 use super::residuals::Observation;
 use serde::{Deserialize, Serialize};

@@ -128,6 +128,11 @@ pub(super) fn distance(motion: &SE2) -> f64 {
     libm::hypot(motion.x(), motion.y())
 }
 
+/// Returns the length (m) of a measured motion in the direction of the expected motion.
+pub(super) fn distance_along(measured: &SE2, expected: &SE2) -> f64 {
+    (measured.x() * expected.x() + measured.y() * expected.y()) / distance(expected)
+}
+
 /// Returns the turn of a motion, rad, 0 or more.
 pub(super) fn turn(motion: &SE2) -> f64 {
     motion.theta().abs()
@@ -179,9 +184,10 @@ impl Drive {
         })
     }
 
-    /// Moves a leg of this drive to another clock offset, `offset_change` (s) larger than before. An end beyond the first or last reading
-    /// of the odometry is extrapolated at its last velocity, so that neighbouring legs still share one end pose.
-    pub(super) fn realign(&self, leg: &mut Leg, offset_change: f64) {
+    /// Returns a leg of this drive at another clock offset, `offset_change` (s) larger than before. An end beyond the first or last reading
+    /// of the odometry is extrapolated at its velocity, so that neighbouring legs still share one end pose.
+    pub(super) fn aligned_leg(&self, leg: &Leg, offset_change: f64) -> Leg {
+        let mut leg = *leg;
         for end in 0..2 {
             leg.times[end] -= offset_change;
             let velocity = leg.velocities[end];
@@ -190,6 +196,7 @@ impl Drive {
                 .motion_at(leg.times[end])
                 .unwrap_or((leg.odometry[end].boxplus(-offset_change * velocity), velocity));
         }
+        leg
     }
 
     /// Adds the legs of this drive to `legs`, and the numbers of omitted legs to `lost`. Each leg begins where the previous one ended.

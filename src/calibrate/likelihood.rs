@@ -13,9 +13,8 @@
 //! covariances Fᵢ. A backward pass gives the score (Koopman and Shephard 1992). Derivatives of the innovations give the Fisher information
 //! Σ ½ tr(F⁻¹ ∂ⱼF F⁻¹ ∂ₖF) + ∂ⱼνᵀ F⁻¹ ∂ₖν (Harvey 1989, 3.4).
 
-use super::residuals::{Model, Observation};
+use super::residuals::{ERROR_COUNT, ErrorMask, Model, Observation, SystematicError};
 use super::result::LegFit;
-use super::systematic::{ERROR_COUNT, ErrorMask, SystematicError};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use std::f64::consts::TAU;
 
@@ -378,7 +377,7 @@ fn square_product(left: &Matrix3<f64>, right: &Matrix3<f64>) -> Matrix3<f64> {
 /// Returns the covariance J C Jᵀ of a linear function with the Jacobian J.
 // The function is not inlined, because several copies would make the module larger.
 #[inline(never)]
-fn propagated(jacobian: &Matrix3<f64>, covariance: &Matrix3<f64>) -> Matrix3<f64> {
+pub(super) fn propagated(jacobian: &Matrix3<f64>, covariance: &Matrix3<f64>) -> Matrix3<f64> {
     product(&product(jacobian, covariance), &jacobian.transpose())
 }
 

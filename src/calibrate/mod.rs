@@ -7,31 +7,27 @@
 
 mod alignment;
 mod checks;
-mod fit;
 mod intervals;
 mod legs;
 mod likelihood;
-mod mismatch;
 mod optimizer;
 mod outliers;
 mod residuals;
 mod result;
-mod systematic;
 mod trajectory;
 mod windows;
 
 pub use checks::{Check, CheckName, Diagnostics, FailureCause, Verdict, WindowCoverage};
 pub use intervals::NotIdentifiable;
 pub use legs::{Leg, LegLength, LostLegs, MIN_LEGS, split_into_legs};
-pub use residuals::{Model, Observation};
+pub use residuals::{ERROR_COUNT, ErrorMask, Model, Observation, Systematic, SystematicError};
 pub use result::{Calibration, Estimate, LegFit, Persistence, Recommendation};
-pub use systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 pub use trajectory::{Trajectory, TrajectoryError};
 
-use fit::{Fit, Log};
 use intervals::{NORMAL_95, identifiability, intervals};
 use legs::distance;
 use likelihood::{POSITION_VARIANCE, YAW_VARIANCE};
+use optimizer::{Fit, Log};
 use thiserror::Error;
 
 /// Odometry and reference of one drive.
@@ -115,24 +111,23 @@ pub enum CalibrateError {
 /// # Ok::<(), motion::calibrate::TrajectoryError>(())
 /// ```
 pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, CalibrateError> {
-    let log = Log::new(drives)?;
-    let mut fit = fit::fit(&log, options, [true; ERROR_COUNT], None)?;
+    let log = Log::new(drives, options.legs)?;
+    let mut fit = Fit::new(&log, options, [true; ERROR_COUNT], None);
     let systematic = fit.sample.systematic;
     let persistence = persistence(&fit);
     let correlation = persistence.correlation.value;
     let error_stds = fit.maximum.filtered.error_stds(correlation);
     let (scale_checks, is_constant) = checks::scale_checks(&fit, correlation);
-    let mut is_corrected: ErrorMask =
-        std::array::from_fn(|i| error_stds[i] > 0.0 && options.correct[i].unwrap_or(is_constant[i]));
-    let mut corrected = Systematic::NONE;
-    for error in SystematicError::ALL.into_iter().filter(|error| is_corrected[*error as usize]) {
-        *corrected.get_mut(error) = systematic.get(error);
+    let mut is_corrected: ErrorMask = std::array::from_fn(|i| options.correct[i].unwrap_or(is_constant[i]));
+    let mut corrected = systematic;
+    for error in SystematicError::ALL.into_iter().filter(|error| !is_corrected[*error as usize]) {
+        *corrected.get_mut(error) = Systematic::NONE.get(error);
     }
     if corrected != systematic {
-        fit = fit::fit(&log, options, is_corrected, Some((corrected, fit.maximum.parameters)))?;
-        // Errors that are left uncorrected act as noise, which can make another error unidentifiable.
-        (corrected, is_corrected) = (fit.sample.systematic, fit.sample.estimated);
+        fit = Fit::new(&log, options, is_corrected, Some((corrected, fit.maximum.parameters)));
     }
+    // Errors that are left uncorrected act as noise, which can make another error unidentifiable.
+    (corrected, is_corrected) = (fit.sample.systematic, fit.sample.estimated);
     let all_legs = fit.all_legs(&log);
     let parameters = &fit.maximum.parameters;
     let not_identifiable = identifiability(&fit);
@@ -147,16 +142,16 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         interval: interval_of(variance).map(f64::sqrt),
     });
     let leg_fits = all_legs.leg_fits(parameters, &fit.maximum.filtered.errors);
-    let cross_validation = windows::cross_validate(&fit, &all_legs, &alphas);
-    let inflation = cross_validation.recommended.as_ref().map_or(f64::INFINITY, |found| found.inflation);
+    let (recommended, window_checks, windows) = windows::cross_validate(&fit, &all_legs, &alphas);
+    let inflation = recommended.as_ref().map_or(f64::INFINITY, |found| found.inflation);
     let identifies_any_alpha = alphas.iter().any(Option::is_some);
     // The reference comes first, because the first failure is displayed.
-    let reference_check = mismatch::check_reference(&all_legs, &systematic, &alpha_intervals);
+    let reference_check = checks::reference_check(&all_legs, &systematic, &alpha_intervals);
     let mut checks = Vec::from_iter(reference_check);
-    checks.extend(checks::log_checks(&all_legs, &fit.lost, inflation));
+    checks.extend(checks::log_checks(&all_legs, &log.lost, inflation));
     checks.extend(scale_checks);
     checks.extend(outliers::residual_checks(&leg_fits, neighbour_correlation(&fit).0));
-    checks.extend(cross_validation.checks);
+    checks.extend(window_checks);
     let verdict = checks::verdict(&checks, identifies_any_alpha);
     Ok(Calibration {
         alphas,
@@ -173,9 +168,9 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         legs: all_legs.legs,
         observations: all_legs.observations,
         leg_fits,
-        lost: fit.lost,
-        diagnostics: Diagnostics { verdict, checks, windows: cross_validation.windows },
-        recommended: cross_validation.recommended.filter(|_| verdict != Verdict::Unusable),
+        lost: log.lost,
+        diagnostics: Diagnostics { verdict, checks, windows },
+        recommended: recommended.filter(|_| verdict != Verdict::Unusable),
     })
 }
 

@@ -1,6 +1,225 @@
-//! Maximum of the restricted likelihood over variances of 0 or more.
+//! Fit of the variances and the systematic errors: maximum of the restricted likelihood over variances of 0 or more.
 
-use super::likelihood::{Expansion, FreeMask, PARAMETER_COUNT, Parameters, Residuals, masked_inverse};
+use super::alignment::clock_offset;
+use super::legs::{Leg, LegLength, LostLegs, MIN_LEGS};
+use super::likelihood::{
+    Expansion, FreeMask, PARAMETER_COUNT, POSITION_VARIANCE, Parameters, Residuals, YAW_VARIANCE,
+    identifiable_errors, masked_inverse,
+};
+use super::residuals::{ErrorMask, Observation, Systematic, SystematicError};
+use super::{CalibrateError, Drive, Options};
+use crate::geom::se2::wrap_angle;
+use std::ops::Range;
+
+/// Legs of all drives.
+pub(super) struct Log<'a> {
+    drives: &'a [Drive],
+    pub legs: Vec<Leg>,
+    pub lost: LostLegs,
+    /// Clock offset (s) of the first drive, with which its legs were cut.
+    clock_offset: f64,
+}
+
+impl<'a> Log<'a> {
+    /// Cuts all drives into legs, at the clock offsets with the largest correlation of turn rates.
+    pub fn new(drives: &'a [Drive], leg_length: LegLength) -> Result<Self, CalibrateError> {
+        let mut log = Self { drives, legs: Vec::new(), lost: LostLegs::default(), clock_offset: 0.0 };
+        for (index, drive) in drives.iter().enumerate() {
+            let drive_offset =
+                clock_offset(&drive.odometry, &drive.reference).ok_or(CalibrateError::NoCommonTime)?;
+            if index == 0 {
+                log.clock_offset = drive_offset;
+            }
+            let first_leg = log.legs.len();
+            drive.cut_into_legs(leg_length, drive_offset, &mut log.legs, &mut log.lost);
+            log.legs[first_leg..].iter_mut().for_each(|leg| leg.drive = index);
+        }
+        if log.legs.len() < MIN_LEGS {
+            return Err(CalibrateError::TooFewLegs { legs: log.legs.len() });
+        }
+        Ok(log)
+    }
+
+    /// Returns legs of this log with their ends at another clock offset (s) of the first drive.
+    fn aligned_legs(&self, legs: &[Leg], clock_offset: f64) -> Vec<Leg> {
+        let offset_change = clock_offset - self.clock_offset;
+        legs.iter().map(|leg| self.drives[leg.drive].aligned_leg(leg, offset_change)).collect()
+    }
+}
+
+/// Legs of a log with their residuals, for given systematic errors.
+#[derive(Clone, Debug)]
+pub(super) struct LegSet {
+    pub options: Options,
+    pub legs: Vec<Leg>,
+    pub observations: Vec<Observation>,
+    pub outliers: Vec<bool>,
+    /// Systematic errors with which the residuals were computed.
+    pub systematic: Systematic,
+    /// Systematic errors that are estimated along with the variances.
+    pub estimated: ErrorMask,
+}
+
+impl LegSet {
+    fn new(legs: Vec<Leg>, estimated: ErrorMask, options: &Options) -> Self {
+        let (outliers, observations) = (vec![false; legs.len()], Vec::new());
+        Self { options: *options, legs, observations, outliers, systematic: Systematic::NONE, estimated }
+    }
+
+    /// Computes the residuals under systematic errors. `position_std` (m) is the standard deviation of the reference.
+    fn update_observations(&mut self, systematic: Systematic, position_std: f64) {
+        self.systematic = systematic;
+        let observe = |leg| Observation::new(self.options.model, leg, &systematic, position_std);
+        self.observations = self.legs.iter().map(observe).collect();
+    }
+
+    /// Returns true if a leg and the previous leg are selected, and the leg starts where the previous leg ends.
+    pub fn follows(&self, leg: usize, select: impl Fn(usize) -> bool) -> bool {
+        self.legs[leg].follows && leg > 0 && select(leg - 1) && select(leg)
+    }
+
+    /// Returns the residuals of the legs that `select` accepts. Fitted parameters are the α's of the model, and each variance of the
+    /// reference that the options do not state.
+    pub fn residuals(&self, estimated: ErrorMask, select: impl Fn(usize) -> bool) -> Residuals {
+        let selected_legs = (0..self.legs.len()).filter(|leg| select(*leg));
+        let observation_of =
+            |leg| Observation { follows: self.follows(leg, &select), ..self.observations[leg] };
+        let Options { model, position_std, yaw_std, .. } = self.options;
+        let free = std::array::from_fn(|parameter| match parameter {
+            POSITION_VARIANCE => position_std.is_none(),
+            YAW_VARIANCE => yaw_std.is_none(),
+            alpha => alpha < model.alphas(),
+        });
+        Residuals { model, free, estimated, observations: selected_legs.map(observation_of).collect() }
+    }
+
+    pub fn inlier_residuals(&self, range: Range<usize>) -> Residuals {
+        self.residuals(self.estimated, |leg| range.contains(&leg) && !self.outliers[leg])
+    }
+
+    /// Returns the systematic errors after a step of generalized least squares, and true if the step is small. Errors that are not
+    /// estimated are reset to their neutral value, except for the clock offset, which stays unchanged.
+    fn corrected_errors(&self, maximum: &Expansion) -> (Systematic, bool) {
+        let mut corrected = Systematic { clock_offset: self.systematic.clock_offset, ..Systematic::NONE };
+        let (mut is_small_change, solution) = (true, &maximum.filtered);
+        for error in SystematicError::ALL.into_iter().filter(|error| self.estimated[*error as usize]) {
+            let i = error as usize;
+            is_small_change &=
+                solution.errors[i].abs() <= CONVERGENCE_TOLERANCE * solution.covariance[(i, i)].sqrt();
+            *corrected.get_mut(error) = self.systematic.get(error) - solution.errors[i];
+        }
+        corrected.mount_yaw = wrap_angle(corrected.mount_yaw);
+        (corrected, is_small_change)
+    }
+}
+
+/// Maximum number of legs that are fitted, in blocks spread over the log. With 6,000 legs the standard error of an α is about 3 %.
+const MAX_LEGS: usize = 6_000;
+const LEGS_PER_BLOCK: usize = 100;
+
+/// Returns all legs, or every n-th block of neighbouring legs if there are more than [`MAX_LEGS`].
+fn sample_legs(legs: &[Leg]) -> Vec<Leg> {
+    let block_step = legs.len().div_ceil(MAX_LEGS);
+    let mut sample = legs.chunks(LEGS_PER_BLOCK).step_by(block_step).flatten().copied().collect::<Vec<_>>();
+    if block_step > 1 {
+        sample.iter_mut().step_by(LEGS_PER_BLOCK).for_each(|leg| leg.follows = false);
+    }
+    sample
+}
+
+const MAX_ROUNDS: usize = 15;
+
+/// Gain of log-likelihood (nats) below which the search in a round ends: that of a step of half a standard error. The next round continues
+/// the search.
+const ROUND_GAIN: f64 = 0.1;
+
+/// Change of a systematic error between rounds, relative to its standard error, below which the rounds end.
+const CONVERGENCE_TOLERANCE: f64 = 0.05;
+
+/// Fit to a sample of the legs.
+#[derive(Clone, Debug)]
+pub(super) struct Fit {
+    pub sample: LegSet,
+    pub residuals: Residuals,
+    pub maximum: Expansion,
+}
+
+/// Initial guess of α's.
+const INITIAL_ALPHA: f64 = 0.02;
+
+/// Initial guess of the standard deviations of the reference, m and rad. The guess is large: if outliers are kept, a search from a small
+/// guess can end at a local maximum of the likelihood at which the reference has no noise.
+const INITIAL_REFERENCE_STD: f64 = 1e-2;
+
+impl Options {
+    /// Returns the initial guess of the parameters.
+    fn initial_guess(&self) -> Parameters {
+        Parameters::from_fn(|parameter, _| match parameter {
+            POSITION_VARIANCE => self.position_std.unwrap_or(INITIAL_REFERENCE_STD).powi(2),
+            YAW_VARIANCE => self.yaw_std.unwrap_or(INITIAL_REFERENCE_STD).powi(2),
+            alpha => {
+                if alpha < self.model.alphas() {
+                    INITIAL_ALPHA
+                } else {
+                    0.0
+                }
+            }
+        })
+    }
+}
+
+impl Fit {
+    /// Fits the variances and the systematic errors in rounds, because residuals depend on the errors, weights on the variances, and
+    /// outliers on residuals and weights. Each round chooses the errors in `correctable` that are identifiable, and corrects them by
+    /// generalized least squares. The first round starts at the given errors and variances, or at a guess.
+    pub fn new(
+        log: &Log,
+        options: &Options,
+        correctable: ErrorMask,
+        start: Option<(Systematic, Parameters)>,
+    ) -> Self {
+        let (start_errors, mut parameters) = start.unzip();
+        let legs = sample_legs(&log.legs);
+        let mut systematic = start_errors.unwrap_or_else(|| Systematic {
+            mount_yaw: Systematic::initial_mount_yaw(&legs),
+            clock_offset: log.clock_offset,
+            ..Systematic::NONE
+        });
+        let mut sample = LegSet::new(legs.clone(), correctable, options);
+        for round in 1.. {
+            let position_std = parameters.map_or(f64::INFINITY, |found| found[POSITION_VARIANCE].sqrt());
+            sample.legs = log.aligned_legs(&legs, systematic.clock_offset);
+            sample.update_observations(systematic, position_std);
+            let start_parameters = parameters.unwrap_or_else(|| options.initial_guess());
+            let solution = sample.inlier_residuals(0..legs.len()).filtered(&start_parameters);
+            sample.estimated = identifiable_errors(&solution.information, correctable);
+            let errors = solution.errors_in(&sample.estimated);
+            let has_new_outliers = sample.mark_outliers(&start_parameters, &errors, round);
+            let residuals = sample.inlier_residuals(0..legs.len());
+            let maximum = maximize(&residuals, residuals.expansion_at(&start_parameters), ROUND_GAIN);
+            let (corrected, is_small_change) = sample.corrected_errors(&maximum);
+            if !has_new_outliers && round > 1 && is_small_change || round == MAX_ROUNDS {
+                let maximum = maximize(&residuals, maximum, EXACT_GAIN);
+                return Self { sample, residuals, maximum };
+            }
+            (systematic, parameters) = (corrected, Some(maximum.parameters));
+        }
+        unreachable!("the last round returns")
+    }
+
+    /// Returns all legs with their residuals. The sample that was fitted has only some of the legs if there are many.
+    pub fn all_legs(&self, log: &Log) -> LegSet {
+        let Self { sample, maximum, .. } = self;
+        if log.legs.len() == sample.legs.len() {
+            return sample.clone();
+        }
+        let legs = log.aligned_legs(&log.legs, sample.systematic.clock_offset);
+        let mut all_legs = LegSet::new(legs, sample.estimated, &sample.options);
+        all_legs.update_observations(sample.systematic, maximum.parameters[POSITION_VARIANCE].sqrt());
+        all_legs.mark_outliers(&maximum.parameters, &maximum.filtered.errors, 1);
+        all_legs
+    }
+}
 
 /// Gain of log-likelihood (nats) below which a search counts as exact: that of a step of 0.014 standard errors.
 pub(super) const EXACT_GAIN: f64 = 1e-4;

@@ -3,8 +3,8 @@
 
 use super::Outliers;
 use super::checks::{Check, CheckName, MAX_STD_ERRORS};
-use super::fit::LegSet;
 use super::likelihood::{ErrorVector, Parameters, innovations};
+use super::optimizer::LegSet;
 use super::result::LegFit;
 use super::trajectory::median;
 

@@ -1,14 +1,14 @@
 //! Residuals of a leg: the motion measured by the reference minus the motion measured by the odometry.
 //!
 //! Residuals are in the model's own coordinates, in which noise components are independent and have variances that are linear in the α's.
+//! Systematic errors of odometry and reference are equal in all legs.
 
-use super::legs::{Leg, distance};
+use super::legs::{Leg, distance, distance_along};
 use super::likelihood::{Columns, Parameters};
-use super::systematic::{ERROR_COUNT, Systematic};
 use crate::geom::arc::invert_arc;
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::models::{LegVariances, MAX_SPIN_DISTANCE, OdomDelta, OdometryRule};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Complex, Matrix3, SMatrix, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// Model whose α's are fitted.
@@ -68,6 +68,77 @@ impl Model {
             Self::Velocity => alpha % 2 == 1,
         }
     }
+
+    /// Returns the coordinates of a motion of duration `dt` (s): rot1, trans, rot2 (rad, m, rad), or v, ω, γ (m/s, rad/s, rad/s).
+    fn coordinates(self, motion: &SE2, dt: f64) -> [f64; 3] {
+        match self {
+            Self::Odometry(rule) => {
+                let OdomDelta { rot1, trans, rot2 } =
+                    rule.legs(&OdomDelta::from_poses(&SE2::identity(), motion));
+                [rot1, trans, rot2]
+            }
+            Self::Velocity => {
+                let arc = invert_arc(&SE2::identity(), motion, dt);
+                [arc.v_hat, arc.omega_hat, arc.gamma_hat]
+            }
+        }
+    }
+
+    /// Returns the difference of two coordinates of motions of duration `dt` (s), with angles in (−π, π].
+    fn difference(self, measured: [f64; 3], expected: [f64; 3], dt: f64) -> [f64; 3] {
+        let difference: [f64; 3] = std::array::from_fn(|k| measured[k] - expected[k]);
+        match self {
+            Self::Odometry(_) => [wrap_angle(difference[0]), difference[1], wrap_angle(difference[2])],
+            Self::Velocity => [difference[0], wrap_angle(difference[1] * dt) / dt, difference[2]],
+        }
+    }
+
+    /// Returns the coefficients of the α's in the variances: see [`Observation::coefficients`].
+    fn coefficients(self, [first, second, third]: [f64; 3]) -> [[f64; 2]; 3] {
+        let Self::Odometry(rule) = self else { return [[first * first, second * second]; 3] };
+        let reading = OdomDelta { rot1: first, trans: second, rot2: third };
+        // Variances per unit of the first α of each component, and per unit of the second α.
+        let [first, second] = [[1.0, 0.0, 1.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0, 0.0]].map(|alphas| {
+            let LegVariances { rot1, trans, rot2, strafe } = rule.variances(&reading, &alphas);
+            if self.drives_sideways() { [rot2, trans, strafe] } else { [rot1, trans, rot2] }
+        });
+        std::array::from_fn(|k| [first[k].0, second[k].0])
+    }
+
+    /// Returns the Jacobian of the end of a motion with respect to the noise of its coordinates, in the frame of the end. In a motion without
+    /// a direction, noise across the motion takes the place of the component that is then not observable.
+    fn noise_jacobian(
+        self,
+        motion: &SE2,
+        coordinates: [f64; 3],
+        dt: f64,
+        has_direction: bool,
+    ) -> Matrix3<f64> {
+        match self {
+            Self::Odometry(_) => {
+                let [_, trans, rot2] = coordinates;
+                let (sin, cos) = libm::sincos(rot2);
+                let [along, across] = [Vector3::new(cos, -sin, 0.0), Vector3::new(sin, cos, 0.0)];
+                let turn = Vector3::z();
+                Matrix3::from_columns(&match has_direction {
+                    _ if self.drives_sideways() => [turn, along, across],
+                    true => [trans * across + turn, along, turn],
+                    false => [across, along, turn],
+                })
+            }
+            Self::Velocity => {
+                // Noise of v and ω changes the twist. Noise of γ turns the final pose on the spot.
+                let jacobian = SE2::right_jacobian(&motion.log()) * dt;
+                let along = jacobian.column(0).into_owned();
+                let turn = if has_direction {
+                    jacobian.column(2).into_owned()
+                } else {
+                    Vector3::new(-along.y, along.x, 0.0)
+                };
+                Matrix3::from_columns(&[along, turn, Vector3::z() * dt])
+            }
+        }
+    }
 }
 
 /// Residuals of one leg, with the coefficients of their variances and their Jacobian.
@@ -94,69 +165,59 @@ pub struct Observation {
     pub(super) follows: bool,
 }
 
-/// Maximum ratio of the reference's noise to the length of a leg for which directions are computed by atan2. With more noise atan2 is
-/// biased, and directions are linearized in the displacement.
-const MAX_ATAN2_NOISE_RATIO: f64 = 0.05;
+/// Sine of the angle between a leg's displacement and its mean heading, above which the leg moves sideways. The sine is 0 for an arc.
+const MIN_SIDEWAYS_SINE: f64 = 0.5;
+
+/// Maximum ratio of the reference's noise to the length of a leg for which residuals are differences of coordinates. With more noise the
+/// direction by atan2 is biased, and residuals are linearized in the displacement.
+const MAX_EXACT_NOISE_RATIO: f64 = 0.05;
 
 impl Observation {
     /// Returns the residuals of a leg, with the systematic errors `corrected` removed.
     ///
     /// `position_std` (m) is the standard deviation of the reference.
     pub(super) fn new(model: Model, leg: &Leg, corrected: &Systematic, position_std: f64) -> Self {
-        let (expected, measured) = (corrected.expected(model, leg), corrected.motion(leg));
-        let Prediction { reading, motion, mut coefficients, noise_jacobian } = match model {
-            Model::Odometry(OdometryRule::Omni) => Prediction::omnidirectional(&expected),
-            Model::Odometry(rule) => Prediction::differential(rule, &expected),
-            Model::Velocity => Prediction::velocity(&expected, leg.duration()),
-        };
-        let exact_residuals = match model {
-            _ if position_std > MAX_ATAN2_NOISE_RATIO * distance(&expected) => None,
-            Model::Odometry(OdometryRule::Omni) => None,
-            Model::Odometry(_) => Some(exact_odometry_residuals(reading, &measured)),
-            Model::Velocity => Some(exact_velocity_residuals(reading, &measured)),
-        };
+        let (expected, measured, dt) =
+            (corrected.expected(model, leg), corrected.motion(leg), leg.duration());
+        let coordinates = model.coordinates(&expected, dt);
+        let mut coefficients = model.coefficients(coordinates);
+        let is_exact =
+            !model.drives_sideways() && position_std <= MAX_EXACT_NOISE_RATIO * distance(&expected);
         let has_direction = model.drives_sideways()
-            || distance(&motion) >= MAX_SPIN_DISTANCE
-                && exact_residuals.is_none_or(|(length, _)| length >= MAX_SPIN_DISTANCE);
-        let expected = if model == Model::Velocity { motion } else { expected };
-        let (mut jacobian, mut residuals) = (Matrix3::zeros(), [f64::NAN; 3]);
-        let displacement = Vector3::from(<[f64; 3]>::from(motion.between(&measured)));
-        if has_direction {
-            jacobian = noise_jacobian.try_inverse().unwrap_or_default();
-            // Angles of linearized residuals are not wrapped at π, because their covariances are linearized too.
-            residuals =
-                exact_residuals.map_or_else(|| (jacobian * displacement).into(), |(_, residuals)| residuals);
+            || distance(&expected) >= MAX_SPIN_DISTANCE
+                && (!is_exact || distance_along(&measured, &expected) >= MAX_SPIN_DISTANCE);
+        let noise_jacobian = model.noise_jacobian(&expected, coordinates, dt, has_direction);
+        let mut jacobian = noise_jacobian.try_inverse().unwrap_or_default();
+        let displacement = Vector3::from(<[f64; 3]>::from(expected.between(&measured)));
+        let mut residuals = if is_exact && has_direction {
+            model.difference(model.coordinates(&measured, dt), coordinates, dt)
         } else {
-            let observed_components: &[usize] = match model {
-                Model::Velocity => &[0],
-                // A leg without a direction has no first rotation. Its second rotation is the whole turn, with the noise of both rotations.
-                Model::Odometry(_) => &[1, 2],
-            };
-            // The observed columns of the noise's Jacobian are orthogonal, which makes their pseudoinverse simple.
-            for k in observed_components.iter().copied() {
-                let column = noise_jacobian.column(k);
-                jacobian.set_row(k, &(column.transpose() / column.norm_squared()));
-                residuals[k] = (jacobian.row(k) * displacement).x;
-            }
-            if residuals[0].is_nan() {
-                coefficients[2] = std::array::from_fn(|k| coefficients[0][k] + coefficients[2][k]);
-            }
-        }
+            // Angles are not wrapped at π, because their covariances are linearized too.
+            (jacobian * displacement).into()
+        };
         let mut columns = Columns::zeros();
+        let unobserved_components: &[usize] = match model {
+            _ if has_direction => &[],
+            Model::Velocity => &[1, 2],
+            Model::Odometry(_) => {
+                // The second rotation is the whole turn, with the noise of both rotations.
+                coefficients[2] = std::array::from_fn(|k| coefficients[0][k] + coefficients[2][k]);
+                &[0]
+            }
+        };
+        columns.set_column(ERROR_COUNT, &Vector3::from(residuals));
+        for &k in unobserved_components {
+            (residuals[k], coefficients[k], columns[(k, ERROR_COUNT)]) = (f64::NAN, [0.0; 2], 0.0);
+            jacobian.row_mut(k).fill(0.0);
+        }
         let error_jacobian = jacobian * corrected.motion_jacobian(model, leg, &expected);
         columns.fixed_columns_mut::<ERROR_COUNT>(0).copy_from(&error_jacobian);
-        for k in 0..3 {
-            if residuals[k].is_nan() {
-                coefficients[k] = [0.0; 2];
-            } else {
-                columns[(k, ERROR_COUNT)] = residuals[k];
-            }
-        }
         // Errors of the reference are given in the frame of the measured end pose. The Jacobian expects the frame of the expected end pose.
-        let heading_error = expected.between(&measured).theta();
-        let end_jacobian = jacobian * SE2::new(0.0, 0.0, heading_error).adjoint();
+        let end_jacobian = jacobian * SE2::new(0.0, 0.0, displacement.z).adjoint();
         let reference_jacobians =
             corrected.reference_jacobians(&measured).map(|pose_jacobian| end_jacobian * pose_jacobian);
+        let reading =
+            if model == Model::Velocity { [coordinates[0], coordinates[1], dt] } else { coordinates };
         Self {
             residuals,
             coefficients,
@@ -169,12 +230,7 @@ impl Observation {
             follows: leg.follows,
         }
     }
-}
 
-/// Sine of the angle between a leg's displacement and its mean heading, above which the leg moves sideways. The sine is 0 for an arc.
-const MIN_SIDEWAYS_SINE: f64 = 0.5;
-
-impl Observation {
     /// Returns true if the reading is a drive to the side, which the model's odometry rule decomposes into large turns. Under Table 5.6 a
     /// drive backwards also counts. A turn on the spot, with the first rotation 0, has no direction and does not count.
     pub(crate) fn moves_sideways(&self, model: Model) -> bool {
@@ -189,82 +245,175 @@ impl Observation {
     }
 }
 
-/// Returns the variances of an odometry reading per unit of the first α of each component, and per unit of the second α.
-fn unit_variances(rule: OdometryRule, reading: &OdomDelta) -> [LegVariances; 2] {
-    [[1.0, 0.0, 1.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0, 0.0]].map(|alphas| rule.variances(reading, &alphas))
+/// Systematic errors of odometry and reference.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Systematic {
+    /// Offset of the reference's clock from the odometry's clock, s.
+    pub clock_offset: f64,
+    /// Heading of the reference minus heading of the robot's base, rad.
+    pub mount_yaw: f64,
+    /// Position of the point that the reference measures, in the frame of the base, m.
+    pub lever_arm: [f64; 2],
+    /// True distance divided by odometry distance.
+    pub distance_scale: f64,
+    /// True turn divided by odometry turn.
+    pub turn_scale: f64,
 }
 
-/// Motion that a model expects from an odometry reading, and the noise of this motion.
-struct Prediction {
-    /// Odometry reading: see [`Observation::reading`].
-    reading: [f64; 3],
-    motion: SE2,
-    /// Coefficients of the α's in the variances: see [`Observation::coefficients`].
-    coefficients: [[f64; 2]; 3],
-    /// Jacobian of the end of the motion with respect to the noise, in the frame of the end.
-    noise_jacobian: Matrix3<f64>,
+/// One systematic error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SystematicError {
+    /// Offset of the clocks: [`Systematic::clock_offset`].
+    ClockOffset,
+    /// Yaw of the reference's mount: [`Systematic::mount_yaw`].
+    MountYaw,
+    /// First coordinate of [`Systematic::lever_arm`].
+    LeverArmAhead,
+    /// Second coordinate of [`Systematic::lever_arm`].
+    LeverArmLeft,
+    /// Scale of distances: [`Systematic::distance_scale`].
+    DistanceScale,
+    /// Scale of turns: [`Systematic::turn_scale`].
+    TurnScale,
 }
 
-impl Prediction {
-    /// Returns the prediction of an odometry rule, with noise of rot1, trans and rot2.
-    fn differential(rule: OdometryRule, expected: &SE2) -> Self {
-        let odometry_reading = OdomDelta::from_poses(&SE2::identity(), expected);
-        let OdomDelta { rot1, trans, rot2 } = rule.legs(&odometry_reading);
-        let variances = unit_variances(rule, &odometry_reading);
-        let coefficients = [
-            variances.map(|variances| variances.rot1.0),
-            variances.map(|variances| variances.trans.0),
-            variances.map(|variances| variances.rot2.0),
-        ];
-        let (sin, cos) = libm::sincos(rot1);
-        let motion = SE2::new(trans * cos, trans * sin, rot1 + rot2);
-        let (sin, cos) = libm::sincos(rot2);
-        let noise_jacobian = Matrix3::new(trans * sin, cos, 0.0, trans * cos, -sin, 0.0, 1.0, 0.0, 1.0);
-        Self { reading: [rot1, trans, rot2], motion, coefficients, noise_jacobian }
-    }
+/// Number of kinds of systematic errors.
+pub const ERROR_COUNT: usize = 6;
 
-    /// Returns the prediction of the omnidirectional rule, with noise of the turn, the translation, and the strafe across the translation.
-    fn omnidirectional(expected: &SE2) -> Self {
-        let odometry_reading = OdomDelta::from_poses(&SE2::identity(), expected);
-        let OdomDelta { rot1, trans, rot2 } = odometry_reading;
-        let variances = unit_variances(OdometryRule::Omni, &odometry_reading);
-        let coefficients = [
-            variances.map(|variances| variances.rot2.0),
-            variances.map(|variances| variances.trans.0),
-            variances.map(|variances| variances.strafe.0),
-        ];
-        let (sin, cos) = libm::sincos(rot2);
-        let noise_jacobian = Matrix3::new(0.0, cos, sin, 0.0, -sin, cos, 1.0, 0.0, 0.0);
-        Self { reading: [rot1, trans, rot2], motion: *expected, coefficients, noise_jacobian }
-    }
+impl SystematicError {
+    /// All systematic errors, in the order of masks and covariances.
+    pub const ALL: [Self; ERROR_COUNT] = [
+        Self::ClockOffset,
+        Self::MountYaw,
+        Self::LeverArmAhead,
+        Self::LeverArmLeft,
+        Self::DistanceScale,
+        Self::TurnScale,
+    ];
 
-    /// Returns the prediction with noise of v, ω and γ of the constant command that explains the odometry. A command has no sideways
-    /// component.
-    fn velocity(expected: &SE2, dt: f64) -> Self {
-        let twist = expected.log().component_mul(&Vector3::new(1.0, 0.0, 1.0));
-        let [v, omega] = [twist.x / dt, twist.z / dt];
-        // Noise of v and ω changes the twist. Noise of γ turns the final pose on the spot.
-        let mut noise_jacobian = SE2::right_jacobian(&twist) * dt;
-        noise_jacobian.swap_columns(1, 2);
-        noise_jacobian.set_column(2, &(Vector3::z() * dt));
-        let coefficients = [[v * v, omega * omega]; 3];
-        Self { reading: [v, omega, dt], motion: SE2::exp(&twist), coefficients, noise_jacobian }
+    /// Returns the maximum standard error (s, rad or m; no unit for a scale) with which a systematic error counts as identifiable. An error
+    /// this large is visible without a calibration.
+    pub(super) fn identifiability_limit(self) -> f64 {
+        match self {
+            Self::ClockOffset | Self::LeverArmAhead | Self::LeverArmLeft => 0.25,
+            Self::MountYaw => 0.1,
+            Self::DistanceScale | Self::TurnScale => 0.05,
+        }
     }
 }
 
-/// Returns the length (m) of a measured motion in the direction of the reading, and its residuals of rot1, trans and rot2.
-fn exact_odometry_residuals([rot1, trans, rot2]: [f64; 3], measured: &SE2) -> (f64, [f64; 3]) {
-    let (sin, cos) = libm::sincos(rot1);
-    let ahead = cos * measured.x() + sin * measured.y();
-    let left = cos * measured.y() - sin * measured.x();
-    let bearing_error = libm::atan2(left, ahead);
-    let turn_error = wrap_angle(measured.theta() - rot1 - rot2 - bearing_error);
-    (ahead, [bearing_error, libm::hypot(ahead, left) - trans, turn_error])
+impl Default for Systematic {
+    fn default() -> Self {
+        Self::NONE
+    }
 }
 
-/// Returns the length (m) of a measured motion in the direction of the reading, and its residuals of v, ω and γ.
-fn exact_velocity_residuals([v, omega, dt]: [f64; 3], measured: &SE2) -> (f64, [f64; 3]) {
-    let arc = invert_arc(&SE2::identity(), measured, dt);
-    let omega_error = wrap_angle((arc.omega_hat - omega) * dt) / dt;
-    (v.signum() * arc.v_hat * dt, [arc.v_hat - v, omega_error, arc.gamma_hat])
+impl Systematic {
+    /// No systematic errors.
+    pub const NONE: Self =
+        Self { clock_offset: 0.0, mount_yaw: 0.0, lever_arm: [0.0; 2], distance_scale: 1.0, turn_scale: 1.0 };
+
+    /// Returns the value of one systematic error.
+    pub fn get(mut self, error: SystematicError) -> f64 {
+        *self.get_mut(error)
+    }
+
+    /// Returns a reference to the value of one systematic error.
+    pub fn get_mut(&mut self, error: SystematicError) -> &mut f64 {
+        match error {
+            SystematicError::ClockOffset => &mut self.clock_offset,
+            SystematicError::MountYaw => &mut self.mount_yaw,
+            SystematicError::LeverArmAhead => &mut self.lever_arm[0],
+            SystematicError::LeverArmLeft => &mut self.lever_arm[1],
+            SystematicError::DistanceScale => &mut self.distance_scale,
+            SystematicError::TurnScale => &mut self.turn_scale,
+        }
+    }
+
+    /// Returns the initial guess of the mount's yaw: the mean angle between the directions of legs by odometry and by reference.
+    pub(super) fn initial_mount_yaw(legs: &[Leg]) -> f64 {
+        let rotation_of = |leg: &Leg| {
+            let [odometry, measured] = [leg.odometry, leg.reference].map(|[start, end]| {
+                let motion = start.between(&end);
+                Complex::new(motion.x(), motion.y())
+            });
+            odometry * measured.conj()
+        };
+        let rotation: Complex<f64> = legs.iter().map(rotation_of).sum();
+        libm::atan2(rotation.im, rotation.re)
+    }
+
+    /// Returns the pose that the reference measures, in the frame of the base.
+    fn mount(&self) -> SE2 {
+        SE2::new(self.lever_arm[0], self.lever_arm[1], self.mount_yaw)
+    }
+
+    /// Returns the pose of the base in the frame of the pose that the reference measures.
+    pub fn base(&self) -> SE2 {
+        self.mount().inverse()
+    }
+
+    /// Returns the motion of the base as measured by the reference, in the frame of the leg's start.
+    pub(crate) fn motion(&self, leg: &Leg) -> SE2 {
+        let base = self.base();
+        let [start, end] = leg.reference.map(|pose| pose * base);
+        start.between(&end)
+    }
+
+    /// Returns the motion that the odometry measured, with its scales corrected. The sideways motion of a robot that cannot drive sideways is a
+    /// product of distances and turns, and has both scales. The velocity model has no sideways motion.
+    pub(super) fn expected(&self, model: Model, leg: &Leg) -> SE2 {
+        let reading = leg.odometry[1].boxminus(&leg.odometry[0]);
+        let Self { distance_scale, turn_scale, .. } = *self;
+        let sideways_scale = match model {
+            Model::Odometry(OdometryRule::Omni) => distance_scale,
+            Model::Odometry(_) => distance_scale * turn_scale,
+            Model::Velocity => 0.0,
+        };
+        SE2::exp(&reading.component_mul(&Vector3::new(distance_scale, sideways_scale, turn_scale)))
+    }
+
+    /// Returns the Jacobians of the end of the base's motion with respect to the errors of the reference at the leg's start and end. An
+    /// error is a small motion (x, y, θ) in the frame of the reference pose. A change of the end is a small motion in the frame of the end.
+    pub(super) fn reference_jacobians(&self, measured: &SE2) -> [Matrix3<f64>; 2] {
+        let to_base = self.mount().adjoint();
+        [measured.inverse().adjoint() * -to_base, to_base]
+    }
+
+    /// Returns the Jacobian of the difference between reference motion and odometry motion, in the frame of the end, with respect to
+    /// [`SystematicError::ALL`].
+    ///
+    /// The Jacobian is evaluated at the reading, because the noise of the measured motion would bias the estimate.
+    pub(super) fn motion_jacobian(
+        &self,
+        model: Model,
+        leg: &Leg,
+        reading: &SE2,
+    ) -> SMatrix<f64, 3, ERROR_COUNT> {
+        let (to_end_frame, twist) = (reading.inverse().adjoint(), reading.log());
+        let [start_velocity, end_velocity] = leg.velocities;
+        // A change of the mount moves the start and the end of the leg by the same small motion.
+        let mount_derivative = |mount_change: Vector3<f64>| to_end_frame * mount_change - mount_change;
+        let yaw_change = self.mount().adjoint().column(2).into_owned();
+        let twist_per_turn_scale =
+            Vector3::new(0.0, if model.drives_sideways() { 0.0 } else { twist.y }, twist.z);
+        let twist_jacobian = SE2::right_jacobian(&twist);
+        let mut twist_per_second =
+            SE2::right_jacobian_inverse(&twist) * (end_velocity - to_end_frame * start_velocity);
+        // A command has no sideways component at any clock offset.
+        if model == Model::Velocity {
+            twist_per_second.y = 0.0;
+        }
+        SMatrix::from_columns(&[
+            twist_jacobian * twist_per_second,
+            mount_derivative(yaw_change),
+            mount_derivative(Vector3::x()),
+            mount_derivative(Vector3::y()),
+            twist_jacobian * Vector3::new(twist.x, twist.y, 0.0) / -self.distance_scale,
+            twist_jacobian * twist_per_turn_scale / -self.turn_scale,
+        ])
+    }
 }
+
+/// Mask of systematic errors: one boolean for each of [`SystematicError::ALL`].
+pub type ErrorMask = [bool; ERROR_COUNT];

@@ -3,8 +3,7 @@
 use super::checks::Diagnostics;
 use super::intervals::{NORMAL_95, NotIdentifiable};
 use super::legs::{Leg, LostLegs};
-use super::residuals::{Model, Observation};
-use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
+use super::residuals::{ERROR_COUNT, ErrorMask, Model, Observation, Systematic, SystematicError};
 use serde::{Deserialize, Serialize};
 
 /// Estimate with its 95 % interval.
@@ -84,7 +83,8 @@ pub struct Calibration {
     /// True for each systematic error that is the same on straight and turning legs, and in both halves of the log, up to its standard
     /// error. Only scales are tested; other errors count as constant.
     pub is_constant: ErrorMask,
-    /// Systematic errors that were corrected. An error that was not corrected is 0, or 1 if it is a scale.
+    /// Systematic errors that were corrected. An error that was not corrected is 0, or 1 if it is a scale. A clock offset that the log does
+    /// not identify is that with the largest correlation of turn rates.
     pub corrected: Systematic,
     /// True for each systematic error that was corrected.
     pub is_corrected: ErrorMask,

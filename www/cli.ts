@@ -3,7 +3,7 @@
 
 import { readFileSync } from 'node:fs';
 import { load } from './core.ts';
-import { run } from './cli/run.ts';
+import { runCommand } from './cli/run.ts';
 
 // A program that reads this output through a pipe, such as `head`, may close the pipe before the end. That is no error.
 process.stdout.on('error', (error) => {
@@ -14,7 +14,7 @@ const { stdout, stderr } = process;
 /** Percentage of progress that the terminal shows; −1 if it shows none. */
 let shownPercent = -1;
 
-process.exitCode = await run(process.argv.slice(2), {
+process.exitCode = await runCommand(process.argv.slice(2), {
   load,
   print: (text) => stdout.write(text),
   printError: (text) => stderr.write(text),

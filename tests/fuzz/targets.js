@@ -89,10 +89,10 @@ async function isLogRead(readRecordingLog) {
     assertProperMessage(error.message);
     return false;
   }
-  const { t, breaks, ...columns } = loadedLog.data;
+  const { t, breaks, ...columns } = loadedLog.motionData;
   assert.ok(t.length > 1 && t.every((rowTime, i) => Number.isFinite(rowTime) && rowTime > (t[i - 1] ?? -1)));
   for (const logColumn of Object.values(columns)) assert.ok(logColumn.length === t.length && logColumn.every(Number.isFinite));
-  const { rows, dropped } = loadedLog.summary;
+  const { rows, dropped } = loadedLog.logSummary;
   assert.equal(Object.values(dropped).reduce((rowSum, { count }) => rowSum + count, t.length), rows);
   assert.ok(breaks.every((breakRow, i) => breakRow > (breaks[i - 1] ?? 0) && breakRow < t.length));
   return true;
@@ -132,7 +132,7 @@ function readFixtures(...fixtureNames) {
 }
 
 /** Topics and frames that the targets read from a recording. */
-const TOPIC_CHOICES = [{ series: '/odom' }, { series: '/pose' }, { series: '/cmd_vel' }, { series: '/tf', frames: { parent: 'map', child: 'base' } }];
+const TOPIC_CHOICES = [{ seriesName: '/odom' }, { seriesName: '/pose' }, { seriesName: '/cmd_vel' }, { seriesName: '/tf', framePair: { parent: 'map', child: 'base' } }];
 
 /** Options of the fastest deflation. */
 const FASTEST_DEFLATE = { level: 0, memLevel: 1 };
@@ -167,7 +167,7 @@ export const fuzzTargets = {
       'ODOM 1 2 3 0.5 0.1 0 7 host 8\nODOM 1 2 3 0.5 0.1 0 8 host 8\nFLASER 2 1 1 1 2 3 1 2 3 7 host 8\n',
       'header.stamp.sec,header.stamp.nanosec,pose.pose.position.x,pose.pose.position.y,pose.pose.orientation.z,pose.pose.orientation.w\n7,5,1,2,0,1\n7,9,1,2,1,0\n',
     ),
-    run: (bytes) => isLogRead(() => readLog(new File([bytes], 'run.csv'), { kind: bytes[0] % 8 === 1 ? 'commands' : undefined })),
+    run: (bytes) => isLogRead(() => readLog(new File([bytes], 'run.csv'), { logKind: bytes[0] % 8 === 1 ? 'commands' : undefined })),
   },
   ...Object.fromEntries([['mcap', await createRecordings()], ['rosbag', readFixtures('small.bag')], ['sqlite', readFixtures('small.db3')]].map(([name, corpus]) => [name, {
     corpus,
@@ -179,7 +179,7 @@ export const fuzzTargets = {
       // For one input in four, the list of topics is read too.
       if (Math.floor(byteSum / length) % 4) return isRead;
       try {
-        for (const { name, count } of (await openRecordings([recordingFile]))[0].series) assert.ok(typeof name === 'string' && count >= 0);
+        for (const { seriesName: name, messageCount: count } of (await openRecordings([recordingFile]))[0].seriesList) assert.ok(typeof name === 'string' && count >= 0);
       } catch (error) {
         if (!(error instanceof LogError)) throw error;
         assertProperMessage(error.message);

@@ -9,10 +9,10 @@ import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { load } from '../../dist/core.js';
 import { TRUE_PARAMETERS } from '../../scripts/example-log.mjs';
-import { HELP } from '../../www/cli/options.ts';
+import { HELP_TEXT } from '../../www/cli/options.ts';
 import { createDrivesSvg } from '../../www/cli/plot.ts';
 import { formatReport } from '../../www/cli/report.ts';
-import { run } from '../../www/cli/run.ts';
+import { runCommand } from '../../www/cli/run.ts';
 import { warningsOf } from '../../www/logs/pairs.ts';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
 import { useLanguageOf } from '../../www/messages/registry.ts';
@@ -38,7 +38,7 @@ function writeInFolder(fileName, fileContents) {
 /** Runs the command in this process, and returns its exit code and its output. @param {string[]} cliArguments @param {() => Promise<any>} [loadCore] */
 async function runCalibrate(cliArguments, loadCore = load) {
   let [outputText, errorText] = ['', ''];
-  const exitCode = await run(['calibrate', ...cliArguments], { load: loadCore, print: (printedText) => (outputText += printedText), printError: (printedText) => (errorText += printedText), now: new Date('2026-01-02T03:04:05Z') });
+  const exitCode = await runCommand(['calibrate', ...cliArguments], { load: loadCore, print: (printedText) => (outputText += printedText), printError: (printedText) => (errorText += printedText), currentDate: new Date('2026-01-02T03:04:05Z') });
   return { exitCode, stdout: outputText, stderr: errorText };
 }
 
@@ -152,7 +152,7 @@ test('invalid input gives exit code 2 and an error message', async () => {
 
 test('run in a shell, the command prints help and errors, and tolerates a closed pipe', () => {
   const runInShell = (/** @type {string[]} */ ...args) => spawnSync(process.execPath, [CLI_PATH, ...args], { encoding: 'utf8' });
-  for (const helpOutput of [runInShell(), runInShell('calibrate', '--help')]) assert.deepEqual([helpOutput.status, helpOutput.stdout, helpOutput.stderr], [0, HELP, '']);
+  for (const helpOutput of [runInShell(), runInShell('calibrate', '--help')]) assert.deepEqual([helpOutput.status, helpOutput.stdout, helpOutput.stderr], [0, HELP_TEXT, '']);
   const refusalOutput = runInShell('calibrate', '--odometry', 'no.csv', '--reference', 'no.csv');
   assert.deepEqual([refusalOutput.status, refusalOutput.stdout, refusalOutput.stderr], [2, '', 'no.csv: there is no such file or folder.\n']);
   assert.match(runInShell('my/bag').stderr, /^the command must be calibrate or inspect \(got “my\/bag”\), as in npx motion-widgets inspect my\/bag; --help has examples\.$/m);
@@ -223,7 +223,7 @@ test('logs in a folder are read, and its other files are skipped', async () => {
   writeFileSync(join(driveFolder, 'README.md'), '# A drive\n\nwith words, and no numbers\n');
   writeFileSync(join(driveFolder, 'camera.mcap'), await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } }))));
   let inspectionText = '';
-  await run(['inspect', driveFolder], { load, print: (text) => (inspectionText += text), printError: () => {} });
+  await runCommand(['inspect', driveFolder], { load, print: (text) => (inspectionText += text), printError: () => {} });
   assert.match(inspectionText, /^ {2}npx motion-widgets calibrate \S+\/drive --rule nav2$/m);
   const { exitCode, stdout, stderr } = await runCalibrate(['metadata.yaml', 'odom.csv'].map((name) => join(driveFolder, name)));
   assert.deepEqual([exitCode, stdout.match(/^\w+: .*\.csv$/gm)], [0, ['Odometry: odom.csv', 'Reference: truth.csv']]);
@@ -241,7 +241,7 @@ test('a database journal next to a recording is reported, unless the journal is 
   writeInFolder('run.db3-wal', Buffer.from('377f0682', 'hex'));
   for (const jsonArgs of [[], ['--json']]) {
     let [stdout, stderr] = ['', ''];
-    const exitCode = await run(['inspect', databasePath, ...jsonArgs], { load, print: (text) => (stdout += text), printError: (text) => (stderr += text) });
+    const exitCode = await runCommand(['inspect', databasePath, ...jsonArgs], { load, print: (text) => (stdout += text), printError: (text) => (stderr += text) });
     assert.deepEqual([exitCode, stdout], [2, '']);
     assert.match(stderr, /^run\.db3-wal: it is a journal with messages that its \.db3 file lacks; /m);
   }
@@ -281,7 +281,7 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
   /** Returns a drive of ten seconds. The reference leads along x. The odometry leads along y, and begins half a second earlier. @returns {any} */
   const createDriveAt = (/** @type {number} */ startTime) => {
     const drivePositions = Float64Array.from({ length: 101 }, (_, i) => i / 10);
-    const createLog = (/** @type {string} */ logRole, /** @type {number} */ startDelay, /** @type {Float64Array} */ x, /** @type {Float64Array} */ y) => ({ name: `${logRole}${startTime}.csv`, data: { t: drivePositions.map((t) => startTime + t + startDelay), x, y, theta: drivePositions, breaks: [] } });
+    const createLog = (/** @type {string} */ logRole, /** @type {number} */ startDelay, /** @type {Float64Array} */ x, /** @type {Float64Array} */ y) => ({ logName: `${logRole}${startTime}.csv`, motionData: { t: drivePositions.map((t) => startTime + t + startDelay), x, y, theta: drivePositions, breaks: [] } });
     return { odometry: createLog('odom', 0, drivePositions.map(() => 7), drivePositions), reference: createLog('truth', 0.5, drivePositions, drivePositions.map(() => 2)) };
   };
   const legs = { count: 3, times: [1, 3, 4, 6, 21, 23], outliers: [0, 1, 0] };
@@ -304,14 +304,14 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
 
 test('output to a terminal has colours', async () => {
   let stdout = '';
-  await run(['calibrate', ...LOG_ARGS], { load, print: (text) => (stdout += text), printError: assert.fail, isColored: true });
+  await runCommand(['calibrate', ...LOG_ARGS], { load, print: (text) => (stdout += text), printError: assert.fail, isColored: true });
   assert.ok(stdout.includes('\n\x1b[32mTrust\x1b[0m. '), stdout);
 });
 
 test('inspect lists the contents of a file, and suggests the next command', async () => {
   const inspectionOf = async (/** @type {string[]} */ inspectArguments, expectedExitCode = 0) => {
     let [outputText, errorText] = ['', ''];
-    assert.equal(await run(['inspect', ...inspectArguments], { load, print: (text) => (outputText += text), printError: (text) => (errorText += text) }), expectedExitCode);
+    assert.equal(await runCommand(['inspect', ...inspectArguments], { load, print: (text) => (outputText += text), printError: (text) => (errorText += text) }), expectedExitCode);
     assert.equal(errorText === '', expectedExitCode === 0);
     return (outputText + errorText).replaceAll(temporaryFolder, 'DIR');
   };
@@ -365,7 +365,7 @@ test('the report, the lines for Nav2 and the figure agree on whether a localizer
     const args = [...LOG_ARGS.slice(0, 3), writeInFolder(`${name}.csv`, readFileSync(examplePathOf('reference')))];
     const [{ stdout }, { stdout: jsonText }] = [await runCalibrate(args), await runCalibrate([...args, '--json'])];
     const { logs, ...stats } = JSON.parse(jsonText);
-    const { rating } = judgeFit(/** @type {any} */ ({ viewModel: { stats, legs: stats.legs, fittedConfig: stats.systematicErrors }, warnings: warningsOf(logs) }));
+    const { rating } = judgeFit(/** @type {any} */ ({ viewModel: { stats, legs: stats.legs, fittedConfig: stats.systematicErrors }, warnings: warningsOf(logs.map((/** @type {any} */ { summary }) => summary)) }));
     const localizerNotes = [stdout.includes(`\nCaution. ${en.nav2.localizer}\n`) && !stdout.includes(en.useAnywaySentence), stdout.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
     assert.deepEqual(localizerNotes, [isLocalizer, isLocalizer, isLocalizer], name);
   }

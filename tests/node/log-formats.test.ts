@@ -8,7 +8,7 @@ import { gunzipSync } from 'node:zlib';
 import xxhash from 'xxhash-wasm';
 import { english } from '../../www/logs/en.ts';
 import { decompressLz4 } from '../../www/logs/formats/decompression.ts';
-import { summarySentencesOf, type LogChoice, type Commands, type Log, type Poses, type Recording, type Source } from '../../www/logs/log.ts';
+import { summarySentencesOf, type LogChoice, type Commands, type Log, type Poses, type Recording, type SourceFile } from '../../www/logs/log.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { odometryMessageOf, recordingOf, transformMessageOf, type Message } from '../mcap.js';
 import { catchRefusalError, catchRefusalSentence } from './log-support.js';
@@ -18,16 +18,16 @@ const COMPRESSED_FILES: Record<string, string> = JSON.parse(readFileSync(new URL
 
 const decompressFile = (fileName: string) => gunzipSync(Buffer.from(COMPRESSED_FILES[fileName], 'base64'));
 
-const createFile = (fileContents: Uint8Array | string, fileName: string, folderPath?: string): Source => Object.assign(new File([fileContents as BlobPart], fileName), folderPath ? { path: folderPath } : {});
+const createFile = (fileContents: Uint8Array | string, fileName: string, folderPath?: string): SourceFile => Object.assign(new File([fileContents as BlobPart], fileName), folderPath ? { path: folderPath } : {});
 
 /** Returns the files of a rosbag2 folder. In recordings.json their names begin with the name of the folder. */
-const folderFilesOf = (recordingName: string): Source[] =>
+const folderFilesOf = (recordingName: string): SourceFile[] =>
   Object.keys(COMPRESSED_FILES).filter((fileName) => fileName.startsWith(`${recordingName}-metadata`) || fileName.startsWith(`${recordingName}-${recordingName}.`)).map((fileName) => {
     const nameInFolder = fileName.slice(recordingName.length + 1);
     return createFile(decompressFile(fileName), nameInFolder, `${recordingName}/${nameInFolder}`);
   });
 
-async function openRecording(...fileSources: Source[]): Promise<Recording> {
+async function openRecording(...fileSources: SourceFile[]): Promise<Recording> {
   const recordings = await openRecordings(fileSources);
   assert.equal(recordings.length, 1);
   return recordings[0];
@@ -36,9 +36,9 @@ async function openRecording(...fileSources: Source[]): Promise<Recording> {
 const summaryTextOf = (log: Log) => summarySentencesOf(log, english.found).join('. ');
 
 /** Odometry and reference of the drive, read from its tables. */
-const tableLogPromises = (await openRecordings(['odometry.csv', 'reference.csv'].map((name) => createFile(decompressFile(name), name)))).map((tableName) => tableName.read([{ series: '' }]));
+const tableLogPromises = (await openRecordings(['odometry.csv', 'reference.csv'].map((name) => createFile(decompressFile(name), name)))).map((tableName) => tableName.readLogs([{ seriesName: '' }]));
 const [[odometryLog], [referenceLog]] = await Promise.all(tableLogPromises);
-const ODOMETRY_AND_REFERENCE: LogChoice[] = [{ series: '/odom' }, { series: '/truth' }];
+const ODOMETRY_AND_REFERENCE: LogChoice[] = [{ seriesName: '/odom' }, { seriesName: '/truth' }];
 
 const fileListOf = (name: string) => [createFile(decompressFile(name), name)];
 
@@ -49,7 +49,7 @@ const splitRecordingFilesOf = (...partNumbers: number[]) => [
   createFile(SPLIT_METADATA, 'metadata.yaml', 'drive/metadata.yaml'),
 ];
 
-const SOURCES_BY_RECORDING: Record<string, Source[]> = {
+const SOURCES_BY_RECORDING: Record<string, SourceFile[]> = {
   'none.bag': fileListOf('none.bag'), 'bz2.bag': fileListOf('bz2.bag'), 'lz4.bag': fileListOf('lz4.bag'),
   'none.mcap': fileListOf('none.mcap'), 'lz4.mcap': fileListOf('lz4.mcap'), 'zstd.mcap': fileListOf('zstd.mcap'), 'unindexed.mcap': fileListOf('unindexed.mcap'),
   'unchunked.mcap': fileListOf('unchunked.mcap'), 'ros1-support.mcap': fileListOf('ros1-support.mcap'), 'ros2-support.mcap': fileListOf('ros2-support.mcap'),
@@ -62,19 +62,19 @@ const SOURCES_BY_RECORDING: Record<string, Source[]> = {
 for (const [name, recordingSources] of Object.entries(SOURCES_BY_RECORDING)) {
   test(`${name} contains the same rows as the tables, to the last bit`, async () => {
     const recording = await openRecording(...recordingSources);
-    assert.deepEqual(recording.series.map(({ name: topic, kind, count }) => [topic, kind, count]), [['/odom', 'poses', 100], ['/truth', 'poses', 100]]);
-    const logs = await recording.read(ODOMETRY_AND_REFERENCE);
+    assert.deepEqual(recording.seriesList.map(({ seriesName: topic, seriesKind: kind, messageCount: count }) => [topic, kind, count]), [['/odom', 'poses', 100], ['/truth', 'poses', 100]]);
+    const logs = await recording.readLogs(ODOMETRY_AND_REFERENCE);
     for (const [i, tableLog] of [odometryLog, referenceLog].entries()) {
-      assert.deepEqual([logs[i].start, logs[i].data], [tableLog.start, tableLog.data]);
-      assert.deepEqual([logs[i].summary.dropped, logs[i].summary.notes, logs[i].summary.clock], [{}, [], 'header.stamp']);
+      assert.deepEqual([logs[i].startTime, logs[i].motionData], [tableLog.startTime, tableLog.motionData]);
+      assert.deepEqual([logs[i].logSummary.dropped, logs[i].logSummary.notes, logs[i].logSummary.clock], [{}, [], 'header.stamp']);
     }
   });
 }
 
 /** Returns the rows of the drive that a log has, and compares their poses. Headings may differ by `headingTolerance`. */
-function rowIndicesOf({ start, data }: Log, headingTolerance = 0): number[] {
-  const [logPoses, allPoses] = [data, odometryLog.data] as Poses[];
-  const rowIndices = Array.from(logPoses.t, (t) => Math.round(20 * (start - odometryLog.start + t - allPoses.t[0])));
+function rowIndicesOf({ startTime: start, motionData: data }: Log, headingTolerance = 0): number[] {
+  const [logPoses, allPoses] = [data, odometryLog.motionData] as Poses[];
+  const rowIndices = Array.from(logPoses.t, (t) => Math.round(20 * (start - odometryLog.startTime + t - allPoses.t[0])));
   for (const coordinate of ['x', 'y'] as const) assert.deepEqual([...logPoses[coordinate]], rowIndices.map((rowIndex) => allPoses[coordinate][rowIndex]));
   for (const [i, rowIndex] of rowIndices.entries()) assert.ok(Math.abs(logPoses.theta[i] - allPoses.theta[rowIndex]) <= headingTolerance, `${logPoses.theta[i]}, not ${allPoses.theta[rowIndex]}`);
   return rowIndices;
@@ -86,17 +86,17 @@ for (const name of ['types.bag', 'types.mcap']) {
   test(`${name}: poses and commands of all message types are read`, async () => {
     const recording = await openRecording(createFile(decompressFile(name), name));
     const framePair = { parent: 'odom', child: 'base_link' };
-    const poses = await recording.read([...['/fused', '/vicon', '/pose2d'].map((series) => ({ series })), { series: '/tf', frames: framePair }]);
+    const poses = await recording.readLogs([...['/fused', '/vicon', '/pose2d'].map((seriesName) => ({ seriesName })), { seriesName: '/tf', framePair }]);
     // Headings that are computed from quaternions are rounded to steps of 1e-12. Pose2D stores the heading itself.
-    for (const log of poses) assert.deepEqual(rowIndicesOf(log, log === poses[2] ? 0.5e-12 + Number.EPSILON : 0), createRange(0, 40), log.name);
+    for (const log of poses) assert.deepEqual(rowIndicesOf(log, log === poses[2] ? 0.5e-12 + Number.EPSILON : 0), createRange(0, 40), log.logName);
     // The expected commands have the same formulas as in tests/reference/logs/generate.py.
     const roundCommand = (commandValue: number) => Math.round(4096 * commandValue) / 4096;
     const expectedCommands = [createRange(0, 40).map((i) => roundCommand(0.5 + 0.2 * Math.sin(i / 9))), createRange(0, 40).map((i) => roundCommand(0.8 * Math.sin(i / 23)))];
-    const logs = await recording.read(['/cmd_vel', '/cmd_stamped', '/cmd_fused'].map((series) => ({ series })));
-    for (const { data, name: topic } of logs) assert.deepEqual([[...(data as Commands).v], [...(data as Commands).omega]], expectedCommands, topic);
-    assert.equal(logs[0].summary.clock, 'log time');
+    const logs = await recording.readLogs(['/cmd_vel', '/cmd_stamped', '/cmd_fused'].map((seriesName) => ({ seriesName })));
+    for (const { motionData: data, logName: topic } of logs) assert.deepEqual([[...(data as Commands).v], [...(data as Commands).omega]], expectedCommands, topic);
+    assert.equal(logs[0].logSummary.clock, 'log time');
     // Frames of wheels only turn, and are no candidates for a reference. A frame that is fixed to the moving base is a candidate.
-    const { frames: framePairs } = recording.series.find(({ name: topic }) => topic === '/tf') as Recording['series'][number];
+    const { framePairs } = recording.seriesList.find(({ seriesName: topic }) => topic === '/tf') as Recording['seriesList'][number];
     assert.deepEqual(framePairs?.map(({ parent, child }) => `${parent} → ${child}`), ['odom → base_link', 'odom → base_footprint']);
   });
 }
@@ -109,7 +109,7 @@ test('a recording with a missing file is refused', async () => {
 });
 
 /** Reads the odometry from a file's contents. */
-const readOdometry = async (fileBytes: Uint8Array, name: string) => (await (await openRecording(createFile(fileBytes, name))).read([{ series: '/odom' }]))[0];
+const readOdometry = async (fileBytes: Uint8Array, name: string) => (await (await openRecording(createFile(fileBytes, name))).readLogs([{ seriesName: '/odom' }]))[0];
 
 /** Reads the odometry from a file in which some bytes are overwritten. */
 const readDamagedOdometry = (name: string, damagePosition: number) => readOdometry(decompressFile(name).fill(0xff, damagePosition, damagePosition + 40), name);
@@ -162,7 +162,7 @@ test('a damaged message is dropped, and a file with damaged headers or compressi
   const name = 'mcap-messages-mcap-messages.mcap';
   // The file contains messages in Zstandard frames. Messages of the odometry and the reference alternate.
   const log = await readDamagedOdometry(name, findPositions(decompressFile(name), '\\(\xb5/\xfd')[6] + 20);
-  assert.deepEqual([rowIndicesOf(log), log.summary.dropped], [[...createRange(0, 3), ...createRange(4, 100)], { damaged: { count: 1, first: 4 } }]);
+  assert.deepEqual([rowIndicesOf(log), log.logSummary.dropped], [[...createRange(0, 3), ...createRange(4, 100)], { damaged: { count: 1, first: 4 } }]);
   const bagWithoutTopics = Buffer.from(decompressFile('none.bag').toString('latin1').replaceAll('topic=', 'topic-'), 'latin1');
   assert.match(await catchRefusalSentence(readOdometry(bagWithoutTopics, 'none.bag')), /^none\.bag: it is damaged or incomplete \(a record has no field topic\); copy/);
   assert.match(await catchRefusalSentence(readDamagedOdometry('sqlite-file-sqlite-file.db3.zstd', 4000)), /: it is damaged or incomplete \(.+\); copy it again from the robot\.$/);
@@ -215,7 +215,7 @@ test('files that are not recordings are refused', async () => {
   const largeFile = { name: 'run.db3', size: 2 ** 30 + 1, slice: () => new Blob(['\x28\xb5\x2f\xfd'].map((text) => Buffer.from(text, 'latin1'))) };
   assert.match(await catchRefusalSentence(openRecordings([largeFile])), /^run\.db3: it has more than 1073741824 bytes when it is decompressed; decompress it with “zstd -d”/);
   const shortRecording = await openRecording(...fileListOf('small.db3'));
-  assert.match(await catchRefusalSentence(shortRecording.read([{ series: '/pose' }])), /^small\.db3, topic \/pose: 0 of 0 rows can be used;/);
+  assert.match(await catchRefusalSentence(shortRecording.readLogs([{ seriesName: '/pose' }])), /^small\.db3, topic \/pose: 0 of 0 rows can be used;/);
 });
 
 const TF_TYPE = 'tf2_msgs/msg/TFMessage';
@@ -223,8 +223,8 @@ const timeOf = (i: number) => 1_700_000_000 + i / 20;
 const createTfMessage = (i: number, ...transforms: unknown[]): Message => ({ topic: '/tf', type: TF_TYPE, t: timeOf(i), message: { transforms } });
 const stepCount = 40;
 const createForEachStep = <T>(makeItem: (i: number) => T): T[] => Array.from({ length: stepCount }, (_, i) => makeItem(i));
-const readLogsOf = async (messages: Message[], ...logChoices: LogChoice[]) => (await openRecording(createFile(await recordingOf(messages), 'run.mcap'))).read(logChoices);
-const ODOM_TO_BASE_CHOICE = { series: '/tf', frames: { parent: 'odom', child: 'base_link' } };
+const readLogsOf = async (messages: Message[], ...logChoices: LogChoice[]) => (await openRecording(createFile(await recordingOf(messages), 'run.mcap'))).readLogs(logChoices);
+const ODOM_TO_BASE_CHOICE = { seriesName: '/tf', framePair: { parent: 'odom', child: 'base_link' } };
 const createMovingTransform = (i: number) => transformMessageOf(timeOf(i), 'odom', 'base_footprint', i / 50, 0, 0);
 
 test('a constant transform is not accepted as a log', async () => {
@@ -236,7 +236,7 @@ test('a constant transform is not accepted as a log', async () => {
 
 test('a constant transform that is published more often than the changing transform adds no rows', async () => {
   const messages = createForEachStep((i) => [createTfMessage(i, createMovingTransform(i)), ...[0.3, 0.6].map((timeOffset) => createTfMessage(i + timeOffset, transformMessageOf(timeOf(i + timeOffset), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
-  const [{ data }] = await readLogsOf(messages, ODOM_TO_BASE_CHOICE);
+  const [{ motionData: data }] = await readLogsOf(messages, ODOM_TO_BASE_CHOICE);
   assert.deepEqual([...data.t].map((t) => Math.round(20 * t)), [...Array(stepCount).keys()]);
   assert.deepEqual([...(data as Poses).x], createForEachStep((i) => i / 50 + 0.5));
 });
@@ -246,5 +246,5 @@ test('a topic with messages of two types is refused', async () => {
     const message = { topic: '/odom', type: 'nav_msgs/msg/Odometry', t: timeOf(i), message: odometryMessageOf(timeOf(i), i / 50, 0, 0) };
     return i % 2 ? { ...message, schema: 'geometry_msgs/msg/PoseStamped' } : message;
   });
-  assert.match(await catchRefusalSentence(readLogsOf(messages, { series: '/odom' })), /^run\.mcap, topic \/odom: its type is “nav_msgs\/msg\/Odometry, geometry_msgs\/msg\/PoseStamped”;/);
+  assert.match(await catchRefusalSentence(readLogsOf(messages, { seriesName: '/odom' })), /^run\.mcap, topic \/odom: its type is “nav_msgs\/msg\/Odometry, geometry_msgs\/msg\/PoseStamped”;/);
 });

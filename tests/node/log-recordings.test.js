@@ -51,23 +51,23 @@ const assertAllClose = (/** @type {ArrayLike<number>} */ actualValues, /** @type
 test('topics are listed, and logs of topics and of chains of frames are read in one pass', async () => {
   const mcapFile = mcapFileOf(await recordingOf(createDriveMessages()));
   const [recording] = await openRecordings([mcapFile]);
-  assert.equal(recording.format, 'mcap');
+  assert.equal(recording.recordingFormat, 'mcap');
   assert.deepEqual(
-    recording.series.map(({ name, count, kind }) => [name, count, kind]),
+    recording.seriesList.map(({ seriesName: name, messageCount: count, seriesKind: kind }) => [name, count, kind]),
     [
       ['/chatter', MESSAGE_COUNT, null], ['/cmd_vel', MESSAGE_COUNT, 'commands'], ['/mocap/pose', MESSAGE_COUNT, 'poses'], ['/odom', MESSAGE_COUNT, 'poses'],
       ['/tf', MESSAGE_COUNT + MESSAGE_COUNT / 5, 'transforms'], ['/tf_static', 1, 'transforms'],
     ],
   );
-  assert.equal(recording.series[3].type, ODOMETRY_TYPE);
+  assert.equal(recording.seriesList[3].messageType, ODOMETRY_TYPE);
 
-  const logs = await recording.read([
-    ...['/odom', '/cmd_vel'].map((seriesName) => ({ series: seriesName })),
-    ...[['map', '/base_link'], ['odom', 'base_footprint']].map(([parentFrame, childFrame]) => ({ series: '/tf', frames: { parent: parentFrame, child: childFrame } })),
+  const logs = await recording.readLogs([
+    ...['/odom', '/cmd_vel'].map((seriesName) => ({ seriesName })),
+    ...[['map', '/base_link'], ['odom', 'base_footprint']].map(([parentFrame, childFrame]) => ({ seriesName: '/tf', framePair: { parent: parentFrame, child: childFrame } })),
   ]);
-  for (const log of logs) assert.deepEqual([log.start, log.data.t.length, log.summary.notes], [START_TIME, MESSAGE_COUNT, []], log.name);
-  assert.deepEqual(await readLog(mcapFile, { series: '/odom' }), logs[0]);
-  const [odometryData, commandData, mapToBase, odomToFootprint] = logs.map(({ data }) => /** @type {any} */ (data));
+  for (const log of logs) assert.deepEqual([log.startTime, log.motionData.t.length, log.logSummary.notes], [START_TIME, MESSAGE_COUNT, []], log.logName);
+  assert.deepEqual(await readLog(mcapFile, { seriesName: '/odom' }), logs[0]);
+  const [odometryData, commandData, mapToBase, odomToFootprint] = logs.map(({ motionData: data }) => /** @type {any} */ (data));
   assertAllClose(odometryData.t, (i) => i / 20);
   // Messages of a type without a stamp have the time of recording.
   assertAllClose(commandData.t, (i) => i / 20 + 0.01);
@@ -81,7 +81,7 @@ test('topics are listed, and logs of topics and of chains of frames are read in 
 
 test('an incomplete index is not used', async () => {
   const recordingBytes = await recordingOf(createDriveMessages());
-  const logWithIndex = await readLog(mcapFileOf(recordingBytes), { series: '/odom' });
+  const logWithIndex = await readLog(mcapFileOf(recordingBytes), { seriesName: '/odom' });
   // The checksum of the summary is cleared, and an index of a chunk gets a code that readers skip.
   const footerStart = recordingBytes.length - 28;
   recordingBytes.writeUInt32LE(0, footerStart + 16);
@@ -89,24 +89,24 @@ test('an incomplete index is not used', async () => {
   let recordPosition = Number(recordingBytes.readBigUInt64LE(footerStart));
   while (recordingBytes[recordPosition] !== CHUNK_INDEX_CODE) recordPosition += 9 + Number(recordingBytes.readBigUInt64LE(recordPosition + 1));
   recordingBytes[recordPosition] = 0x80;
-  assert.deepEqual((await readLog(mcapFileOf(recordingBytes), { series: '/odom' })).data, logWithIndex.data);
+  assert.deepEqual((await readLog(mcapFileOf(recordingBytes), { seriesName: '/odom' })).motionData, logWithIndex.motionData);
 });
 
 test('stamps that begin at 0 are used; messages without stamps get the recording times, with a note in the summary', async () => {
   const readLogWithStamps = async (/** @type {(i: number) => number} */ frameStampOf) => {
     const messages = createOdometryMessages(100, (i) => odometryMessageOf(frameStampOf(i), i, 0, 0)).map((message, i) => ({ ...message, t: 1_700_000_000 + i / 20 }));
-    const log = await readLog(mcapFileOf(await recordingOf(messages)), { series: '/odom' });
+    const log = await readLog(mcapFileOf(await recordingOf(messages)), { seriesName: '/odom' });
     return { ...log, sentences: summarySentencesOf(log, english.found).join(' ') };
   };
   const simulatedLog = await readLogWithStamps((i) => i / 10);
-  assert.deepEqual([simulatedLog.start, simulatedLog.summary.rows, simulatedLog.data.t[0], simulatedLog.data.t[99]], [0, 100, 0, 9.9]);
+  assert.deepEqual([simulatedLog.startTime, simulatedLog.logSummary.rows, simulatedLog.motionData.t[0], simulatedLog.motionData.t[99]], [0, 100, 0, 9.9]);
   // Only 48 of the 100 messages have a stamp, and the others have the stamp 0.
   const unstampedLog = await readLogWithStamps((i) => (i < 48 ? i : 0));
-  assert.deepEqual([unstampedLog.start, unstampedLog.data.t.length, unstampedLog.data.t[20]], [1_700_000_000, 100, 1]);
+  assert.deepEqual([unstampedLog.startTime, unstampedLog.motionData.t.length, unstampedLog.motionData.t[20]], [1_700_000_000, 100, 1]);
   assert.match(unstampedLog.sentences, /times: when messages were recorded/);
   assert.doesNotMatch(simulatedLog.sentences, /recorded/);
   const recordingWithoutHeader = await recordingOf(createOdometryMessages(100).map((message, i) => ({ ...message, type: 'geometry_msgs/msg/Pose', t: 1_700_000_000 + i / 20, message: poseOf(i, 0, 0) })));
-  assert.deepEqual((await readLog(mcapFileOf(recordingWithoutHeader), { series: '/odom' })).data, unstampedLog.data);
+  assert.deepEqual((await readLog(mcapFileOf(recordingWithoutHeader), { seriesName: '/odom' })).motionData, unstampedLog.motionData);
 });
 
 test('poses with rotations about other axes than Z are refused', async () => {
@@ -114,12 +114,12 @@ test('poses with rotations about other axes than Z are refused', async () => {
     const message = odometryMessageOf(timeOf(i), 0, 0, 0);
     return { ...message, pose: { ...message.pose, pose: { position: { x: i / 100, y: 0, z: 0 }, orientation: { x: 0, y: Math.sin(i / 50), z: 0, w: Math.cos(i / 50) } } } };
   });
-  assert.match(await catchRefusalSentence(readLog(mcapFileOf(await recordingOf(messages)), { series: '/odom' })), /^run\.mcap, topic \/odom: the poses do not turn about a vertical Z axis; export or record them again with Z up\.$/);
+  assert.match(await catchRefusalSentence(readLog(mcapFileOf(await recordingOf(messages)), { seriesName: '/odom' })), /^run\.mcap, topic \/odom: the poses do not turn about a vertical Z axis; export or record them again with Z up\.$/);
 });
 
 test('unusable quaternions, numbers and times are left out', async () => {
   const messages = createOdometryMessages(20, (i) => odometryMessageOf(i === 8 ? timeOf(2) : timeOf(i), { 5: NaN, 11: 1e300 }[i] ?? i, 0, 0, i === 3 ? 0 : 1));
-  const { data, summary } = await readLog(mcapFileOf(await recordingOf(messages)), { series: '/odom' });
+  const { motionData: data, logSummary: summary } = await readLog(mcapFileOf(await recordingOf(messages)), { seriesName: '/odom' });
   assert.deepEqual([.../** @type {any} */ (data).x], Array.from({ length: 20 }, (_, i) => i).filter((i) => ![3, 5, 8, 11].includes(i)));
   assert.deepEqual(summary.dropped, { noRotation: { count: 1, first: 4 }, notFinite: { count: 2, first: 6 }, duplicate: { count: 1, first: 9 } });
   assert.deepEqual([...data.breaks], [3, 4, 8]);
@@ -128,7 +128,7 @@ test('unusable quaternions, numbers and times are left out', async () => {
 test('messages in chunks that overlap in time are read in the order of their times', async () => {
   const messages = createOdometryMessages(200);
   const shuffledMessages = messages.map((_, i) => messages[(i * 77) % 200]);
-  const { data } = await readLog(mcapFileOf(await recordingOf(shuffledMessages, { chunkSize: 4096 })), { series: '/odom' });
+  const { motionData: data } = await readLog(mcapFileOf(await recordingOf(shuffledMessages, { chunkSize: 4096 })), { seriesName: '/odom' });
   assert.deepEqual([.../** @type {any} */ (data).x], Array.from({ length: 200 }, (_, i) => i));
 });
 
@@ -137,10 +137,10 @@ test('topics and frames that cannot be read are refused', async () => {
   const commandTypes = 'geometry_msgs/Twist, TwistStamped or TwistWithCovarianceStamped';
   const mcapFile = mcapFileOf(await recordingOf(createDriveMessages()));
   for (const [logChoice, expectedError] of /** @type {const} */ ([
-    [{ series: '/chatter' }, `run.mcap, topic /chatter: its type is “std_msgs/msg/String”; expected is ${poseTypes}, or ${commandTypes} (encoded as cdr or ros1).`],
-    [{ series: '/cmd_vel', kind: 'poses' }, `run.mcap, topic /cmd_vel: its type is “geometry_msgs/msg/Twist”; expected is ${poseTypes} (encoded as cdr or ros1).`],
-    [{ series: '/odom', frames: { parent: 'map', child: 'odom' } }, 'run.mcap, topic /odom: its type is “nav_msgs/msg/Odometry”; expected is tf2_msgs/TFMessage, which has frames (encoded as cdr or ros1).'],
-    [{ series: '/tf', frames: { parent: 'map', child: 'laser' } }, 'run.mcap, topic /tf: no transforms connect map → laser; choose among the connected frames: base_footprint → base_link, map → odom, odom → base_footprint, base_link → wheel.'],
+    [{ seriesName: '/chatter' }, `run.mcap, topic /chatter: its type is “std_msgs/msg/String”; expected is ${poseTypes}, or ${commandTypes} (encoded as cdr or ros1).`],
+    [{ seriesName: '/cmd_vel', logKind: 'poses' }, `run.mcap, topic /cmd_vel: its type is “geometry_msgs/msg/Twist”; expected is ${poseTypes} (encoded as cdr or ros1).`],
+    [{ seriesName: '/odom', framePair: { parent: 'map', child: 'odom' } }, 'run.mcap, topic /odom: its type is “nav_msgs/msg/Odometry”; expected is tf2_msgs/TFMessage, which has frames (encoded as cdr or ros1).'],
+    [{ seriesName: '/tf', framePair: { parent: 'map', child: 'laser' } }, 'run.mcap, topic /tf: no transforms connect map → laser; choose among the connected frames: base_footprint → base_link, map → odom, odom → base_footprint, base_link → wheel.'],
   ])) assert.equal(await catchRefusalSentence(readLog(mcapFile, logChoice)), expectedError);
 });
 
@@ -150,14 +150,14 @@ test('a static transform is valid from the beginning, and a changing transform f
     ...(i % 3 === 0 && i >= 30 ? [transformMessageOf(i / 10, 'marker', 'base', mountXOfMessage(i), 0, 0)] : []),
   ].map((transform) => ({ topic: '/tf', type: TF_TYPE, t: i / 10, message: { transforms: [transform] } }))).flat();
   const readLogWithMount = async (/** @type {(i: number) => number} */ mountXOfMessage) => {
-    const { start, data, summary } = await readLog(mcapFileOf(await recordingOf(createTransformMessages(mountXOfMessage))), { series: '/tf', frames: { parent: 'world', child: 'base' } });
+    const { startTime: start, motionData: data, logSummary: summary } = await readLog(mcapFileOf(await recordingOf(createTransformMessages(mountXOfMessage))), { seriesName: '/tf', framePair: { parent: 'world', child: 'base' } });
     return [data.t.length, start + data.t[0], /** @type {any} */ (data).x[0], summary.rows];
   };
   assert.deepEqual(await readLogWithMount(() => 0.5), [60, 0, 0.5, 60]);
   // A static transform may be published again with another value. Its times are not times of the pose.
   const staticTransformMessages = [0, 3].map((t) => ({ topic: '/tf_static', type: TF_TYPE, t, message: { transforms: [transformMessageOf(t, 'base', 'laser', t, 0, 0)] } }));
   const recalibratedFile = mcapFileOf(await recordingOf([...createTransformMessages(() => 0.5), ...staticTransformMessages].sort((messageA, messageB) => messageA.t - messageB.t)));
-  const { data: { t } } = await readLog(recalibratedFile, { series: '/tf', frames: { parent: 'world', child: 'laser' } });
+  const { motionData: { t } } = await readLog(recalibratedFile, { seriesName: '/tf', framePair: { parent: 'world', child: 'laser' } });
   assert.equal(t.length, 60);
   // The pose is known from 3 s on. The log has the times of the transform whose child is the robot's own frame.
   assert.deepEqual(await readLogWithMount((i) => i / 100), [10, 3, 1.8, 10]);
@@ -170,11 +170,11 @@ test('positions without a heading are refused, and the message names their type'
   const [recording] = await openRecordings([mcapFileOf(await recordingOf([...createDriveMessages().filter(({ topic }) => topic === '/odom'), ...pointMessages]))]);
   const expectedError = /^run\.mcap: \/prism \(PointStamped\) are positions without a heading; give a reference that measures the heading, /;
   assert.match(await catchRefusalSentence((async () => planDrives([recording]))()), expectedError);
-  assert.match(await catchRefusalSentence(recording.read([{ series: '/prism' }])), /^run\.mcap, topic \/prism: geometry_msgs\/msg\/PointStamped are positions without a heading; /);
+  assert.match(await catchRefusalSentence(recording.readLogs([{ seriesName: '/prism' }])), /^run\.mcap, topic \/prism: geometry_msgs\/msg\/PointStamped are positions without a heading; /);
 });
 
 test('recordings with an unsupported compression or encoding, with too few messages or with too short ones are refused', async () => {
-  const refusalOf = async (/** @type {Parameters<typeof recordingOf>[1]} */ recordingOptions, messages = createDriveMessages()) => catchRefusalSentence(readLog(mcapFileOf(await recordingOf(messages, recordingOptions)), { series: '/odom' }));
+  const refusalOf = async (/** @type {Parameters<typeof recordingOf>[1]} */ recordingOptions, messages = createDriveMessages()) => catchRefusalSentence(readLog(mcapFileOf(await recordingOf(messages, recordingOptions)), { seriesName: '/odom' }));
   assert.equal(await refusalOf({ compression: 'odd' }), 'run.mcap, topic /odom: it is damaged or incomplete (compression by snappy, not by zstd or lz4); copy it again from the robot, or try “mcap recover”.');
   assert.match(await refusalOf({ encoding: 'json' }), /^run\.mcap, topic \/odom: its type is “nav_msgs\/msg\/Odometry as json”; /);
   const [jsonRecording] = await openRecordings([mcapFileOf(await recordingOf(createOdometryMessages(3), { encoding: 'json' }))]);
@@ -187,7 +187,7 @@ test('recordings with an unsupported compression or encoding, with too few messa
 });
 
 test('chunks with a wrong checksum or size are not read', async () => {
-  const readReason = async (/** @type {Buffer<ArrayBuffer>} */ bytes) => /: it is damaged or incomplete \((.+)\); copy/.exec(await catchRefusalSentence(readLog(mcapFileOf(bytes), { series: '/odom' })))?.[1];
+  const readReason = async (/** @type {Buffer<ArrayBuffer>} */ bytes) => /: it is damaged or incomplete \((.+)\); copy/.exec(await catchRefusalSentence(readLog(mcapFileOf(bytes), { seriesName: '/odom' })))?.[1];
   const damagedBytes = await recordingOf(createOdometryMessages(20), { chunkSize: 1e6 });
   damagedBytes[damagedBytes.length >> 2] ^= 1;
   assert.equal(await readReason(damagedBytes), 'the checksum of a chunk is wrong');

@@ -3,10 +3,10 @@ import { german } from '../../www/logs/de.ts';
 import { LogError } from '../../www/logs/log.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 
-/** Reads one log of a file. @param {import('../../www/logs/log.ts').Source} logFile @param {Partial<import('../../www/logs/log.ts').LogChoice>} [logChoice] */
+/** Reads one log of a file. @param {import('../../www/logs/log.ts').SourceFile} logFile @param {Partial<import('../../www/logs/log.ts').LogChoice>} [logChoice] */
 export async function readLog(logFile, logChoice) {
   const [recording] = await openRecordings([logFile]);
-  const [log] = await recording.read([{ series: '', ...logChoice }]);
+  const [log] = await recording.readLogs([{ seriesName: '', ...logChoice }]);
   return log;
 }
 

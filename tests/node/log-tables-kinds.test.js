@@ -10,8 +10,8 @@ import { catchRefusalError, catchRefusalSentence } from './log-support.js';
 /** Reads one log of a table. @param {string | Uint8Array<ArrayBuffer>} tableText @param {import('../../www/logs/log.ts').OpenOptions} [openOptions] @param {string} [seriesName] */
 async function readTable(tableText, openOptions, seriesName = '') {
   const [recording] = await openRecordings([new File([tableText], 'run.csv')], () => openOptions);
-  const [log] = await recording.read([{ series: seriesName }]);
-  return { ...log, data: /** @type {any} */ (log.data) };
+  const [log] = await recording.readLogs([{ seriesName }]);
+  return { ...log, data: /** @type {any} */ (log.motionData) };
 }
 
 /** Rows of a drive on a circle with a radius of 1 m, at 0.5 m/s, with 20 rows a second: time, x, y, heading. */
@@ -29,7 +29,7 @@ test('present Unix times keep their microseconds, in every unit', async () => {
   for (const [timeUnit, decimalDigits] of Object.entries({ ns: 0, us: 3, ms: 6, s: 9 })) {
     const [firstTime, secondTime] = nanosecondTexts.map((nanosecondText) => (decimalDigits ? `${nanosecondText.slice(0, -decimalDigits)}.${nanosecondText.slice(-decimalDigits)}` : nanosecondText));
     for (const headerLine of ['t', `t_${timeUnit}`]) {
-      const { data, start, summary } = await readTable(`${headerLine},x,y,yaw\n${firstTime},0,0,0\n${secondTime},0,0,0`);
+      const { data, startTime: start, logSummary: summary } = await readTable(`${headerLine},x,y,yaw\n${firstTime},0,0,0\n${secondTime},0,0,0`);
       assert.deepEqual([start, summary.units.time], [1_699_999_999, { unit: timeUnit, by: headerLine === 't' ? 'size' : 'name' }]);
       assert.deepEqual([...data.t].map((t) => Math.round(t * 1e6)), [999_999, 1_000_001]);
     }
@@ -44,25 +44,25 @@ test('numbers are read as the nearest doubles', async () => {
 
 test('unusable rows are dropped and interrupt the path; the summary names the first line of each cause', async () => {
   const tableRows = ['0,0,0,0', '1,nan,0,0', '2,,0,0', '3,0,0,0', '3,1,0,0', '4,0,0,0', '5,0,inf,0', 'NaN,0,0,0', '6,0,0,0', '7,0', ...createTimes(90, 8).map((t) => `${t},0,0,0`), '17,0', '17.1,0,0.0.1,0', '18,0,0,0', '19,0'];
-  const { data, summary: { dropped, rows: rowCount, notes } } = await readTable(`t,x,y,yaw\n${tableRows.join('\n')}`);
+  const { data, logSummary: { dropped, rows: rowCount, notes } } = await readTable(`t,x,y,yaw\n${tableRows.join('\n')}`);
   assert.deepEqual([[...data.t], [...data.breaks]], [[0, 3, 4, 6, ...createTimes(90, 8), 18], [1, 3, 4, 94]]);
   assert.deepEqual(dropped, { notFinite: { count: 4, first: 3 }, short: { count: 3, first: 11 }, text: { count: 1, first: 103 }, duplicate: { count: 1, first: 6 } });
   assert.deepEqual([rowCount, notes], [tableRows.length, [{ name: 'cutShort', values: [] }]]);
   // If the last number has fewer decimals than all others, and no line break follows, the number is taken for truncated.
-  const cutShortCounts = ['0.1', '0.1\n', '0.25'].map(async (lastYaw) => (await readTable(`t,x,y,yaw\n${createTimes(30).map((t) => `${t},0,0,0.25\n`).join('')}99,0,0,${lastYaw}`)).summary.notes.length);
+  const cutShortCounts = ['0.1', '0.1\n', '0.25'].map(async (lastYaw) => (await readTable(`t,x,y,yaw\n${createTimes(30).map((t) => `${t},0,0,0.25\n`).join('')}99,0,0,${lastYaw}`)).logSummary.notes.length);
   assert.deepEqual(await Promise.all(cutShortCounts), [1, 0, 0]);
 });
 
 test('late rows are sorted, and an isolated time has gaps before and after it', async () => {
   const nanosecondTexts = createTimes(50);
-  const { data, summary } = await readTable(createStraightTable([...nanosecondTexts.slice(0, 20), nanosecondTexts[22], nanosecondTexts[20], nanosecondTexts[21], ...nanosecondTexts.slice(23)]));
+  const { data, logSummary: summary } = await readTable(createStraightTable([...nanosecondTexts.slice(0, 20), nanosecondTexts[22], nanosecondTexts[20], nanosecondTexts[21], ...nanosecondTexts.slice(23)]));
   assert.deepEqual([[...data.t], [...data.breaks]], [nanosecondTexts, []]);
   assert.deepEqual([data.x[20], summary.notes], [21 / 50, [{ name: 'sorted', values: [2] }]]);
   const swappedLog = await readTable(createStraightTable([...createTimes(50, 100), ...createTimes(50)]));
   assert.deepEqual([swappedLog.data.t.length, swappedLog.data.t[0], swappedLog.data.x[0]], [100, 0, 1]);
   for (const [isolatedTime, expectedOrder] of /** @type {[number, number[]][]} */ ([[1e6, [...nanosecondTexts.keys()].toSpliced(20, 1).concat(20)], [-1e6, [20, ...[...nanosecondTexts.keys()].toSpliced(20, 1)]]])) {
     const logWithIsolatedTime = await readTable(createStraightTable(nanosecondTexts.with(20, isolatedTime)));
-    assert.deepEqual([[...logWithIsolatedTime.data.x], logWithIsolatedTime.summary.gaps.count], [expectedOrder.map((i) => i / 50), 1]);
+    assert.deepEqual([[...logWithIsolatedTime.data.x], logWithIsolatedTime.logSummary.gaps.count], [expectedOrder.map((i) => i / 50), 1]);
   }
 });
 
@@ -71,7 +71,7 @@ test('a shuffled log is sorted, but a log with alternating times of two clocks i
   const rowOrder = rowLines.map((_, i) => (i * 301) % rowLines.length);
   for (const shuffleRange of [8, rowLines.length]) {
     const shuffledIndices = rowLines.map((_, i) => i).toSorted((rowIndex, otherRowIndex) => rowIndex + (rowOrder[rowIndex] % shuffleRange) - otherRowIndex - (rowOrder[otherRowIndex] % shuffleRange));
-    const { data, summary } = await readTable([headerLine, ...shuffledIndices.map((i) => rowLines[i])].join('\n'));
+    const { data, logSummary: summary } = await readTable([headerLine, ...shuffledIndices.map((i) => rowLines[i])].join('\n'));
     assert.deepEqual([[...data.x], [...data.breaks], summary.used], [CIRCLE_ROWS.map(([, x]) => x), [], rowLines.length]);
     assert.ok(summary.notes[0].name === 'sorted' && Number(summary.notes[0].values[0]) > rowLines.length / 8, JSON.stringify(summary.notes));
   }
@@ -99,7 +99,7 @@ test('a log whose clock was set back is refused', async () => {
 test('zero bytes in a table remove only the row that contains them', async () => {
   const [header, ...tableRows] = circleTableOf().split('\n');
   for (const rowIndex of [100, 700]) {
-    const { data, summary } = await readTable([header, ...tableRows.with(rowIndex, `${tableRows[rowIndex].slice(0, 9)}${'\0'.repeat(100_000)}${tableRows[rowIndex + 1].slice(5)}`)].join('\n'));
+    const { data, logSummary: summary } = await readTable([header, ...tableRows.with(rowIndex, `${tableRows[rowIndex].slice(0, 9)}${'\0'.repeat(100_000)}${tableRows[rowIndex + 1].slice(5)}`)].join('\n'));
     assert.deepEqual([data.t.length, summary.dropped, [...data.breaks]], [tableRows.length - 1, { text: { count: 1, first: rowIndex + 2 } }, [rowIndex]]);
   }
   assert.match(await catchRefusalSentence(readTable([header, ...tableRows, '\0'.repeat(5_000_000)].join('\n'))), /^run\.csv, line 802: the line has more than 65536 bytes;/);
@@ -108,15 +108,15 @@ test('zero bytes in a table remove only the row that contains them', async () =>
 test('rows with the stamp 0 are dropped, and the other stamps are still used as the clock', async () => {
   const stampTextOf = (/** @type {number} */ i) => (i < 2 || i === 30 ? 0 : `${1_718_000_000 + Math.floor(i / 8)}${String((i % 8) * 125).padStart(3, '0')}000000`);
   const tableRows = Array.from({ length: 60 }, (_, i) => `${1_718_000_007 + i / 8},${stampTextOf(i)},${i / 20},0,0`);
-  const { start, data, summary } = await readTable(['time,header.stamp,x,y,yaw', ...tableRows].join('\n'));
+  const { startTime: start, data, logSummary: summary } = await readTable(['time,header.stamp,x,y,yaw', ...tableRows].join('\n'));
   assert.deepEqual([start, data.t.length, data.t[0], summary.clock, summary.units.time.unit], [1_718_000_000, 57, 0.25, 'header.stamp', 'ns']);
   assert.deepEqual([summary.dropped, [...data.breaks]], [{ noStamp: { count: 3, first: 2 } }, []]);
   const frozenStampLog = await readTable(['time,header.stamp,x,y,yaw', ...tableRows.map((row) => row.replace(/,\d+/, ',1718000000000000000'))].join('\n'));
-  assert.deepEqual([frozenStampLog.data.t.length, frozenStampLog.summary.clock, frozenStampLog.summary.columns?.t], [60, 'time', 'time']);
+  assert.deepEqual([frozenStampLog.data.t.length, frozenStampLog.logSummary.clock, frozenStampLog.logSummary.columns?.t], [60, 'time', 'time']);
 });
 
 test('poses that a table repeats at the rate of another log are used once', async () => {
-  const { data, summary } = await readTable(circleTableOf((row, i) => [row[0], ...CIRCLE_ROWS[i - (i % 5)].slice(1)]));
+  const { data, logSummary: summary } = await readTable(circleTableOf((row, i) => [row[0], ...CIRCLE_ROWS[i - (i % 5)].slice(1)]));
   assert.deepEqual([data.t.length, data.t[1], data.x[1]], [160, 0.25, CIRCLE_ROWS[5][1]]);
   assert.deepEqual([summary.dropped, [...data.breaks]], [{ repeated: { count: 640, first: 3 } }, []]);
   // The localizer publishes its last pose again and again until the robot has moved far enough.
@@ -132,11 +132,11 @@ test('pauses and jumps are found, and a heading that wraps around is not a jump'
   const delayOf = (/** @type {number} */ i) => (i >= 50 ? 0.19 : 0) + (i >= 60 ? 0.21 : 0) + (i >= 100 ? 3 : 0);
   const offsetOf = (/** @type {number} */ i) => (i >= 150 ? 0.34 : 0) + (i >= 200 ? 0.36 : 0);
   const tableRows = Array.from({ length: 400 }, (_, i) => [i / 20 + delayOf(i), i / 20 + offsetOf(i), 0, i / 500 + (i >= 300 ? 1.5 : 0)].join(','));
-  const { summary, data } = await readTable(`t,x,y,yaw\n${tableRows.join('\n')}`);
+  const { logSummary: summary, data } = await readTable(`t,x,y,yaw\n${tableRows.join('\n')}`);
   assert.deepEqual(summary.gaps, { count: 2, longest: 3.05, first: 59 / 20 + 0.19 });
   assert.deepEqual([summary.jumps, [...data.breaks]], [{ count: 2, first: 13.4 }, [200, 300]]);
   assert.ok(summary.distance > 20 && summary.distance < 20.3, `${summary.distance}`);
-  assert.equal((await readTable(circleTableOf())).summary.jumps.count, 0);
+  assert.equal((await readTable(circleTableOf())).logSummary.jumps.count, 0);
 });
 
 test('ordinary logs are not mistaken for two paths or for another unit', async () => {
@@ -150,7 +150,7 @@ test('ordinary logs are not mistaken for two paths or for another unit', async (
     circleTableOf(([t], i) => [t, ...CIRCLE_ROWS[Math.min(i, 799 - i)].slice(1)]),
     circleTableOf(([t]) => [t, 40 * Math.sin(0.3 * t), 0, 0]),
     circleTableOf(([t]) => [t, 15 * Math.sin(t), 0, 0], 't,x_m,y_m,yaw'),
-  ]) assert.equal((await readTable(tableText)).summary.units.length.unit, 'm');
+  ]) assert.equal((await readTable(tableText)).logSummary.units.length.unit, 'm');
 });
 
 test('units are guessed from two pieces of evidence', async () => {
@@ -168,7 +168,7 @@ test('units are guessed from two pieces of evidence', async () => {
     [circleTableOf(([t, x, y, yaw]) => [1e9 * t, x, y, yaw], '%time,field.x,field.y,field.theta'), 'ns', 'rad'],
   ];
   for (const [tableText, timeUnit, angleUnit] of unitCases) {
-    const { data, summary: { units } } = await readTable(tableText);
+    const { data, logSummary: { units } } = await readTable(tableText);
     assert.deepEqual([units.time.unit, units.angle.unit], [timeUnit, angleUnit]);
     assert.ok(Math.abs(data.t.at(-1) - data.t[0] - CIRCLE_ROWS[799][0]) < 1e-9, `${data.t[799]}`);
     assert.ok(Math.abs(Math.sin(data.theta[799] - CIRCLE_ROWS[799][3])) < 1e-9, `${data.theta[799]}`);
@@ -192,7 +192,7 @@ const UNIT_QUESTIONS = [
 
 test('columns of times in minutes or hours are refused because of their name', async () => {
   for (const [header, unit] of [['t_min', 'min'], ['Time [hours]', 'h']]) assert.match(await catchRefusalSentence(readTable(circleTableOf(undefined, `${header},x,y,yaw`))), new RegExp(`^run\\.csv: the unit ${unit} of a column is not known`));
-  assert.equal((await readTable(circleTableOf(([t, ...poseCells]) => [`0:00:${t.toFixed(3).padStart(6, '0')}`, ...poseCells], 'Time [HH:MM:SS],x,y,yaw'))).summary.units.time.by, 'date');
+  assert.equal((await readTable(circleTableOf(([t, ...poseCells]) => [`0:00:${t.toFixed(3).padStart(6, '0')}`, ...poseCells], 'Time [HH:MM:SS],x,y,yaw'))).logSummary.units.time.by, 'date');
 });
 
 for (const [name, tableText, expectedMessage, answerOptions, [fieldName, expectedValue]] of UNIT_QUESTIONS) {
@@ -200,9 +200,9 @@ for (const [name, tableText, expectedMessage, answerOptions, [fieldName, expecte
     const refusalError = await catchRefusalError(readTable(tableText));
     assert.match(refusalError.message, expectedMessage);
     const [[questionedUnit, chosenUnit]] = Object.entries(answerOptions);
-    assert.equal(refusalError.question?.option, questionedUnit);
-    assert.ok(refusalError.question.choices.includes(chosenUnit), String(refusalError.question.choices));
-    const { data, summary: { units } } = await readTable(tableText, answerOptions);
+    assert.equal(refusalError.userQuestion?.optionName, questionedUnit);
+    assert.ok(refusalError.userQuestion.possibleAnswers.includes(chosenUnit), String(refusalError.userQuestion.possibleAnswers));
+    const { data, logSummary: { units } } = await readTable(tableText, answerOptions);
     assert.deepEqual(units[/** @type {'time' | 'length' | 'angle'} */ (questionedUnit.replace('Unit', ''))], { unit: chosenUnit, by: 'option' });
     assert.ok(Math.abs(data[fieldName][9] - expectedValue) < 1e-12, `${data[fieldName][9]}, not ${expectedValue}`);
   });
@@ -243,7 +243,7 @@ const REFUSED_TABLES = [
   ['a program’s messages', '[INFO] [1718000000.1] [amcl]: at 1.0, 2.0\n'.repeat(3), /does not look like a log/],
   ['YAML', 'header:\n  seq: 1\n---\n', /it is YAML, not a table; write/],
   ['dates in an order that is not clear', 't,x,y,yaw\n6/10/2024 12:00:00,0,0,0\n6/10/2024 12:00:01,0,0,0\n', /, or a date as 2024-01-31 12:00:00\.5\.$/],
-  ['columns for a table of another width', '0 1 2 3 4\n1 1 2 3 4\n', /has 5 cells, and --columns names 4;/, { columns: ['t', 'x', 'y', 'yaw'] }],
+  ['columns for a table of another width', '0 1 2 3 4\n1 1 2 3 4\n', /has 5 cells, and --columns names 4;/, { columnNames: ['t', 'x', 'y', 'yaw'] }],
 ];
 
 for (const [name, tableText, expectedMessage, options] of REFUSED_TABLES) {
@@ -262,25 +262,25 @@ for (const [axesName, tableText] of [
   ['y negated', circleTableOf(([t, x, y, yaw]) => [t, x, -y, yaw])],
 ]) {
   test(`the columns proposed for a table with ${axesName} give the path on the floor`, async () => {
-    const { question } = await catchRefusalError(readTable(tableText));
-    const { data } = await readTable(tableText, { columns: question?.choices[0].split(',') });
-    assert.deepEqual([[...data.x], [...data.y]], [1, 2].map((columnIndex) => CIRCLE_ROWS.map((row) => row[columnIndex])));
+    const { userQuestion: question } = await catchRefusalError(readTable(tableText));
+    const { motionData: data } = await readTable(tableText, { columnNames: question?.possibleAnswers[0].split(',') });
+    assert.deepEqual([[.../** @type {any} */ (data).x], [.../** @type {any} */ (data).y]], [1, 2].map((columnIndex) => CIRCLE_ROWS.map((row) => row[columnIndex])));
   });
 }
 
 test('a heading without a prefix belongs to the only path of a table', async () => {
-  const { summary: { columns } } = await readTable(circleTableOf((row) => row, 'Frame Time,Center X,Center Y,Rotation'));
+  const { logSummary: { columns } } = await readTable(circleTableOf((row) => row, 'Frame Time,Center X,Center Y,Rotation'));
   assert.deepEqual(columns, { t: 'Frame Time', x: 'Center X', y: 'Center Y', yaw: 'Rotation' });
 });
 
 test('a heading beside velocities is not that of a path with a prefix', async () => {
-  const [{ series }] = await openRecordings([new File(['t,v,omega,theta,gps.x,gps.y\n0,1,0,0,0,0\n1,1,0,0,1,0\n'], 'run.csv')]);
-  assert.deepEqual(series.map(({ kind }) => kind), ['commands', 'positions']);
+  const [{ seriesList: series }] = await openRecordings([new File(['t,v,omega,theta,gps.x,gps.y\n0,1,0,0,0,0\n1,1,0,0,1,0\n'], 'run.csv')]);
+  assert.deepEqual(series.map(({ seriesKind: kind }) => kind), ['commands', 'positions']);
 });
 
 test('a table with more rows than a day at 100 Hz is refused', async () => {
-  const rows = Object.assign(new RowCollector({ file: 'run.csv' }), { rowCount: 1e7 - 1 });
-  const addRow = async () => rows.addRow({ time: 0, a: 0, b: 0, c: 0 }, 1);
+  const rows = Object.assign(new RowCollector({ fileName: 'run.csv' }), { rowCount: 1e7 - 1 });
+  const addRow = async () => rows.addRow({ sampleTime: 0, a: 0, b: 0, c: 0 }, 1);
   await addRow();
   assert.equal(await catchRefusalSentence(addRow()), 'run.csv: there are more rows; expected are at most 10000000.');
 });
@@ -292,6 +292,6 @@ test('a file that has been moved is refused', async () => {
 
 test('lines that span two pieces of a large file are read completely', async () => {
   const rows = Array.from({ length: 120_000 }, (_, i) => `${i},${i / 8},${'x'.repeat(i % 40)},0,0.125`);
-  const { data } = await readTable(['t,x,note,y,yaw', ...rows].join('\n'));
-  assert.deepEqual([...data.x], rows.map((_, i) => i / 8));
+  const { motionData: data } = await readTable(['t,x,note,y,yaw', ...rows].join('\n'));
+  assert.deepEqual([.../** @type {any} */ (data).x], rows.map((_, i) => i / 8));
 });

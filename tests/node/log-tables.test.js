@@ -96,7 +96,7 @@ const READABLE_TABLES = [
   { name: 'pandas: durations', tableText: pandasTableOf('timedelta') },
   { name: 'pandas: decimal commas in UTF-16', tableText: utf16BytesOf(pandasTableOf('german')) },
   { name: 'pandas: nanoseconds in quotes', start: EPOCH_SECONDS, tableText: pandasTableOf('nanoseconds') },
-  { name: 'pandas: a log of two that are merged', series: ['odom', 'gt'], choice: { series: 'odom' }, tableText: pandasTableOf('merged') },
+  { name: 'pandas: a log of two that are merged', series: ['odom', 'gt'], choice: { seriesName: 'odom' }, tableText: pandasTableOf('merged') },
   { name: 'blanks after commas, quoted names, units', tableText: tableOf('"time [s]", "x [m]", "y [m]", "yaw [rad]"', ({ t, x, y, theta }) => [t, x, y, theta], ', ') },
   { name: 'tabs, columns in another order', tableText: tableOf('heading\ttimestamp\tx\ty', ({ t, x, y, theta }) => [theta, t, x, y], '\t') },
   { name: 'a separator in quotes', tableText: tableOf('note,t,x,y,yaw', ({ t, x, y, theta }) => ['"a, b"', t, x, y, theta]) },
@@ -107,8 +107,8 @@ const READABLE_TABLES = [
   { name: 'units in a row below the header', tableText: tableOf('t,x,y,yaw,battery\n[ms],mm,mm,deg,V', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta), 24.5]), summaryPattern: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
   { name: 'quantities over their units', tableText: tableOf('t/ms,x pos/mm,y pos / mm,yaw in deg', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta)]), summaryPattern: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
   { name: 'bars, seconds and microseconds', start: EPOCH_SECONDS, tableText: tableOf('tv_sec|tv_usec|x|y|yaw', ({ t, x, y, theta }) => [EPOCH_SECONDS + Math.floor(t), (t % 1) * 1e6, x, y, theta], '|') },
-  { name: 'rows of two topics, each with columns of its own', series: ['a', 'b'], choice: { series: 'b' }, tableText: CIRCLE_ROWS.flatMap(({ t, x, y, theta }) => [`/a,${t},9,9,9,,,`, `/b,${t},,,,${x},${y},${theta}`]).toSpliced(0, 0, 'topic,t,a_x,a_y,a_yaw,b_x,b_y,b_yaw').join('\n') },
-  { name: 'two logs that are joined with NaN', series: ['a', 'b'], choice: { series: 'b' }, summaryPattern: /^24 of 24 rows/, tableText: CIRCLE_ROWS.flatMap(({ t, x, y, theta }) => [`${t + 0.01},9,9,9,NaN,NaN,NaN`, `${t},NaN,NaN,NaN,${x},${y},${theta}`]).toSpliced(0, 0, 't,a_x,a_y,a_yaw,b_x,b_y,b_yaw').join('\n') },
+  { name: 'rows of two topics, each with columns of its own', series: ['a', 'b'], choice: { seriesName: 'b' }, tableText: CIRCLE_ROWS.flatMap(({ t, x, y, theta }) => [`/a,${t},9,9,9,,,`, `/b,${t},,,,${x},${y},${theta}`]).toSpliced(0, 0, 'topic,t,a_x,a_y,a_yaw,b_x,b_y,b_yaw').join('\n') },
+  { name: 'two logs that are joined with NaN', series: ['a', 'b'], choice: { seriesName: 'b' }, summaryPattern: /^24 of 24 rows/, tableText: CIRCLE_ROWS.flatMap(({ t, x, y, theta }) => [`${t + 0.01},9,9,9,NaN,NaN,NaN`, `${t},NaN,NaN,NaN,${x},${y},${theta}`]).toSpliced(0, 0, 't,a_x,a_y,a_yaw,b_x,b_y,b_yaw').join('\n') },
   { name: 'numbers of laps and landmarks', tableText: tableOf('t,id,tag_id,x,y,yaw', ({ i, t, x, y, theta }) => [t, i >> 3, i >> 3, x, y, theta]) },
   { name: 'semicolons below a long preamble', tableText: `${'Parameter 1: value, 2\n'.repeat(80)}${tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [t, x, y, theta], ';')}` },
   { name: 'names of MATLAB', tableText: tableOf('Time,x_m_,y_m_,yaw_deg_', ({ t, x, y, theta }) => [t, x, y, toDegrees(theta)]), summaryPattern: /degrees/ },
@@ -116,7 +116,7 @@ const READABLE_TABLES = [
   { name: 'millimetres, degrees and milliseconds by name', tableText: tableOf('t_ms,x [mm],y [mm],yaw (deg)', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta)]) },
   { name: 'rostopic echo -p', start: EPOCH_SECONDS, tableText: rostopicTableOf(({ t }) => formatNanoseconds(t)) },
   { name: 'rostopic echo -p with stamps of 0', start: EPOCH_SECONDS, tableText: rostopicTableOf(() => 0) },
-  { name: 'rostopic echo -p, commands', start: EPOCH_SECONDS, kind: 'commands', choice: { kind: 'commands' }, tableText: rostopicTableOf(({ t }) => formatNanoseconds(t)) },
+  { name: 'rostopic echo -p, commands', start: EPOCH_SECONDS, kind: 'commands', choice: { logKind: 'commands' }, tableText: rostopicTableOf(({ t }) => formatNanoseconds(t)) },
   { name: 'bagpy', start: EPOCH_SECONDS, tableText: bagpyTableOf('header.stamp.secs', 'header.stamp.nsecs') },
   { name: 'stamp_sec, stamp_nsec', start: EPOCH_SECONDS, tableText: bagpyTableOf('stamp_sec', 'stamp_nsec') },
   { name: 'seconds, nanoseconds', start: EPOCH_SECONDS, tableText: bagpyTableOf('seconds', 'nanoseconds [ns]') },
@@ -125,14 +125,14 @@ const READABLE_TABLES = [
   { name: 'ros2 topic echo --csv --no-arr of poses with covariance', start: EPOCH_SECONDS, tableText: tableOf('', (row) => [...splitSeconds(row.t), 'map', ...poseCellsOf(row), ABBREVIATED_ARRAY]).slice(1) },
   { name: 'ros2 topic echo --csv of poses', start: EPOCH_SECONDS, tableText: tableOf('', (row) => [...splitSeconds(row.t), 'map', ...poseCellsOf(row)]).slice(1) },
   { name: 'ros2 topic echo --csv of commands', start: EPOCH_SECONDS, kind: 'commands', tableText: tableOf('', ({ t, v, omega }) => [...splitSeconds(t), 'base', v, 0, 0, 0, 0, omega]).slice(1) },
-  { name: 'PlotJuggler, a topic of two', start: EPOCH_SECONDS, series: ['odom', 'mocap', 'imu'], choice: { series: 'odom' }, tableText: plotjugglerTable },
+  { name: 'PlotJuggler, a topic of two', start: EPOCH_SECONDS, series: ['odom', 'mocap', 'imu'], choice: { seriesName: 'odom' }, tableText: plotjugglerTable },
   {
-    name: 'PlotJuggler, stamps of two topics', start: EPOCH_SECONDS, series: ['mocap.pose', 'cmd.vel'], choice: { series: 'mocap.pose' },
+    name: 'PlotJuggler, stamps of two topics', start: EPOCH_SECONDS, series: ['mocap.pose', 'cmd.vel'], choice: { seriesName: 'mocap.pose' },
     tableText: tableOf('__time,/mocap/pose/header/stamp,/mocap/pose/pose/position/x,/mocap/pose/pose/position/y,/mocap/pose/pose/orientation/yaw,/cmd_vel/header/stamp,/cmd_vel/twist/linear/x,/cmd_vel/twist/angular/z',
       ({ t, x, y, theta, v, omega }) => [EPOCH_SECONDS + t + 0.5, EPOCH_SECONDS + t, x, y, theta, EPOCH_SECONDS + t + 0.25, v, omega]),
   },
-  { name: 'a prefix', series: ['gt', 'odom'], choice: { series: 'odom' }, tableText: tableOf('t,gt_x,gt_y,gt_yaw,odom_x,odom_y,odom_yaw', ({ t, x, y, theta }) => [t, 7, 8, 9, x, y, theta]) },
-  { name: 'a suffix', series: ['gt', 'odom'], choice: { series: 'gt' }, tableText: tableOf('t,x_gt,y_gt,theta_gt,x_odom,y_odom,theta_odom', ({ t, x, y, theta }) => [t, x, y, theta, 7, 8, 9]) },
+  { name: 'a prefix', series: ['gt', 'odom'], choice: { seriesName: 'odom' }, tableText: tableOf('t,gt_x,gt_y,gt_yaw,odom_x,odom_y,odom_yaw', ({ t, x, y, theta }) => [t, 7, 8, 9, x, y, theta]) },
+  { name: 'a suffix', series: ['gt', 'odom'], choice: { seriesName: 'gt' }, tableText: tableOf('t,x_gt,y_gt,theta_gt,x_odom,y_odom,theta_odom', ({ t, x, y, theta }) => [t, x, y, theta, 7, 8, 9]) },
   { name: 'an own message before one that it contains', tableText: tableOf('time,object.pose.position.x,pose.position.x,pose.position.y,pose.yaw', ({ t, x, y, theta }) => [t, 9, x, y, theta]), series: ['', 'object'] },
   { name: 'Motive in metres, Y up', tableText: motiveTableOf('Meters', true), summaryPattern: /Y is the vertical axis/ },
   { name: 'Motive in millimetres, Z up', tableText: motiveTableOf('Millimeters', false) },
@@ -143,8 +143,8 @@ const READABLE_TABLES = [
   { name: 'UTIAS, commands', kind: 'commands', tableText: tableOf('# Time [s]    forward velocity [m/s]    angular velocity[rad/s]', ({ t, v, omega }) => [t, v, omega], '\t') },
   { name: 'a commented header in another order', tableText: tableOf('# ground truth\n# timestamp tx ty tz qw qx qy qz', ({ t, x, y, qz, qw }) => [t, x, y, 0, qw, 0, 0, qz], ' ') },
   { name: 'EuRoC', start: EPOCH_SECONDS, tableText: tableOf('#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1], v_RS_R_y [m s^-1]', ({ t, x, y, qz, qw }) => [formatNanoseconds(t), x, y, 0, qw, 0, 0, qz, 1, 1]) },
-  { name: 'columns that are given, some skipped', options: { columns: ['-', 't', 'x', 'y', 'yaw_deg'] }, tableText: tableOf('a,b,c,d,e', ({ i, t, x, y, theta }) => [i, t, x, y, toDegrees(theta)]) },
-  { name: 'columns that are given, with the units of the header', options: { columns: ['t', 'x', 'y', 'yaw'] }, tableText: tableOf('Zeit [ms],X [mm],Y [mm],Winkel [deg]', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta)]) },
+  { name: 'columns that are given, some skipped', options: { columnNames: ['-', 't', 'x', 'y', 'yaw_deg'] }, tableText: tableOf('a,b,c,d,e', ({ i, t, x, y, theta }) => [i, t, x, y, toDegrees(theta)]) },
+  { name: 'columns that are given, with the units of the header', options: { columnNames: ['t', 'x', 'y', 'yaw'] }, tableText: tableOf('Zeit [ms],X [mm],Y [mm],Winkel [deg]', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta)]) },
   { name: 'dates with a zone, in a column without a name', start: EPOCH_SECONDS, tableText: tableOf(',x,y,yaw', ({ t, x, y, theta }) => [`${isoDateOf(t + 7200)}+02:00`, x, y, theta]) },
   { name: 'times in ms, by rate and speed', tableText: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t * 1000, x, y, theta]), summaryPattern: /time in ms \(by rate and speed\)/ },
 ];
@@ -152,14 +152,14 @@ const READABLE_TABLES = [
 for (const { name, tableText, kind = 'poses', start = 0, series = [''], choice, options, summaryPattern } of READABLE_TABLES) {
   test(`the reader reads ${name}`, async () => {
     const [recording] = await openRecordings([new File([tableText], 'run.csv')], () => options);
-    assert.deepEqual(recording.series.map((foundSeries) => foundSeries.name), series);
-    const [log] = await recording.read([{ series: '', ...choice }]);
-    const { t, ...columns } = /** @type {any} */ (log.data);
-    assert.equal(log.kind, kind);
+    assert.deepEqual(recording.seriesList.map((foundSeries) => foundSeries.seriesName), series);
+    const [log] = await recording.readLogs([{ seriesName: '', ...choice }]);
+    const { t, ...columns } = /** @type {any} */ (log.motionData);
+    assert.equal(log.logKind, kind);
     const fieldNames = /** @type {(keyof Row)[]} */ (kind === 'poses' ? ['x', 'y', 'theta'] : ['v', 'omega']);
     assert.equal(t.length, CIRCLE_ROWS.length);
     for (const row of CIRCLE_ROWS) {
-      assert.equal(log.start - start + t[row.i], row.t);
+      assert.equal(log.startTime - start + t[row.i], row.t);
       // Conversion from other units or from quaternions rounds values, by up to 1.25 units in the last place.
       for (const fieldName of fieldNames) assert.ok(Math.abs(columns[fieldName][row.i] - row[fieldName]) <= Number.EPSILON, `${fieldName} ${columns[fieldName][row.i]} ${row[fieldName]}`);
     }

@@ -3,13 +3,13 @@
 import { basename, dirname } from 'node:path';
 import { parseArgs } from 'node:util';
 import { sort } from 'd3-array';
-import { truncate, ROLES, UNITS, type FileQuestion, type FramePair, type LogError, type OpenOptions, type Role } from '../logs/log.ts';
+import { truncate, LOG_ROLES, UNIT_NAMES, type FileQuestion, type FramePair, type LogError, type OpenOptions, type LogRole } from '../logs/log.ts';
 import { SYSTEMATIC_ERRORS } from '../widgets/alpha-calibrator/result.ts';
 
 /** Error about the options; its message is a sentence. */
 export class UsageError extends Error {}
 
-export const HELP = `motion-widgets: the α's of a robot's motion model, from logs of its odometry and of a reference
+export const HELP_TEXT = `motion-widgets: the α's of a robot's motion model, from logs of its odometry and of a reference
 
   npx motion-widgets inspect run.bag
       lists what is in a recording or table, what could be odometry or reference, and the command to go on with
@@ -68,7 +68,7 @@ const LOG_OPTIONS = {
   'reference-frames': textOption, columns: repeatedTextOption, 'time-unit': repeatedTextOption, 'length-unit': repeatedTextOption, 'angle-unit': repeatedTextOption,
 } as const;
 
-const OPTIONS = {
+const COMMAND_OPTIONS = {
   ...LOG_OPTIONS, model: textOption, rule: textOption, 'update-min-d': textOption, 'update-min-a': textOption, duration: textOption, outliers: textOption,
   'no-correct': textOption, correct: textOption, 'reference-position-std': textOption, 'reference-yaw-std': textOption, json: flagOption, yaml: flagOption, plot: textOption,
   help: { ...flagOption, short: 'h' }, version: flagOption,
@@ -81,57 +81,57 @@ const OPTION_BY_FIELD: Record<string, string> = {
 };
 
 /** Replaces the field name at the start of an error message of the core by the command-line option for this field. Returns undefined if the message starts with no such field. */
-export function replaceFieldByOption(message: string): string | undefined {
-  const [field] = message.split(' ');
-  return Object.hasOwn(OPTION_BY_FIELD, field) ? `--${OPTION_BY_FIELD[field]}${message.slice(field.length)}.` : undefined;
+export function replaceFieldByOption(errorMessage: string): string | undefined {
+  const [fieldName] = errorMessage.split(' ');
+  return Object.hasOwn(OPTION_BY_FIELD, fieldName) ? `--${OPTION_BY_FIELD[fieldName]}${errorMessage.slice(fieldName.length)}.` : undefined;
 }
 
 /** File or folder, with the role that the user chose for it. */
-export interface InputPath { path: string; role?: Role }
+export interface InputPath { inputPath: string; logRole?: LogRole }
 
 export type CalibrateArguments = Extract<ReturnType<typeof parseOptions>, { command: 'calibrate' }>;
 
 export function parseOptions(args: string[]) {
-  const { values: optionValues, positionals: [command, ...givenPaths] } = parseArguments(args);
+  const { values: optionValues, positionals: [commandName, ...givenPaths] } = parseArguments(args);
   // A path of a metadata.yaml stands for its folder. Other paths in that folder are left out, because a shell pattern may have expanded to all its files.
-  const listedFolders = givenPaths.filter((path) => basename(path) === 'metadata.yaml').map(dirname);
-  const positionalPaths = [...new Set(listedFolders), ...givenPaths.filter((path) => !listedFolders.includes(dirname(path)))];
+  const listedFolders = givenPaths.filter((inputPath) => basename(inputPath) === 'metadata.yaml').map(dirname);
+  const positionalPaths = [...new Set(listedFolders), ...givenPaths.filter((inputPath) => !listedFolders.includes(dirname(inputPath)))];
   if (optionValues.version) return 'version';
   if (optionValues.help || args.length === 0) return 'help';
-  const inputPathsOf = (paths: string[] = [], role?: Role) => paths.map((path): InputPath => ({ path, role }));
-  const seriesChoiceOf = (role: Role) => withoutUndefined({ series: optionValues[`${role}-topic`], frames: parseFrames(`${role}-frames`, optionValues[`${role}-frames`]) });
-  const logs = {
-    inputs: [...inputPathsOf(positionalPaths), ...inputPathsOf(optionValues.recording), ...ROLES.flatMap((role) => inputPathsOf(optionValues[role], role))],
+  const inputPathsOf = (inputPaths: string[] = [], logRole?: LogRole) => inputPaths.map((inputPath): InputPath => ({ inputPath, logRole }));
+  const seriesChoiceOf = (logRole: LogRole) => withoutUndefined({ seriesName: optionValues[`${logRole}-topic`], framePair: parseFrames(`${logRole}-frames`, optionValues[`${logRole}-frames`]) });
+  const robotLogs = {
+    inputPaths: [...inputPathsOf(positionalPaths), ...inputPathsOf(optionValues.recording), ...LOG_ROLES.flatMap((logRole) => inputPathsOf(optionValues[logRole], logRole))],
     optionsByFile: parseFileOptions(optionValues),
-    userChoices: { odometry: seriesChoiceOf('odometry'), reference: seriesChoiceOf('reference'), ...(optionValues.model === 'velocity' && { kind: 'commands' as const }) },
+    userChoices: { odometry: seriesChoiceOf('odometry'), reference: seriesChoiceOf('reference'), ...(optionValues.model === 'velocity' && { logKind: 'commands' as const }) },
   };
-  if (logs.inputs.length === 0 && (command === 'inspect' || command === 'calibrate')) throw new UsageError('no logs are given; give a recording, as in npx motion-widgets inspect run.bag, or two files, odometry and reference.');
-  if (command === 'inspect') {
-    const ignoredOption = Object.keys(optionValues).find((name) => !(name in LOG_OPTIONS) && name !== 'json');
+  if (robotLogs.inputPaths.length === 0 && (commandName === 'inspect' || commandName === 'calibrate')) throw new UsageError('no logs are given; give a recording, as in npx motion-widgets inspect run.bag, or two files, odometry and reference.');
+  if (commandName === 'inspect') {
+    const ignoredOption = Object.keys(optionValues).find((optionName) => !(optionName in LOG_OPTIONS) && optionName !== 'json');
     if (ignoredOption !== undefined) throw new UsageError(`--${ignoredOption} is an option of calibrate; inspect accepts only the options about logs, and --json.`);
-    return { command: 'inspect' as const, ...logs, isJson: optionValues.json ?? false };
+    return { command: 'inspect' as const, ...robotLogs, isJson: optionValues.json ?? false };
   }
-  if (command !== 'calibrate') {
-    const path = [command, ...positionalPaths].find(isPath) ?? 'run.bag';
-    throw new UsageError(`the command must be calibrate or inspect (got “${truncate(command ?? '')}”), as in npx motion-widgets inspect ${quoteForShell(path)}; --help has examples.`);
+  if (commandName !== 'calibrate') {
+    const pathOrCommand = [commandName, ...positionalPaths].find(isPath) ?? 'run.bag';
+    throw new UsageError(`the command must be calibrate or inspect (got “${truncate(commandName ?? '')}”), as in npx motion-widgets inspect ${quoteForShell(pathOrCommand)}; --help has examples.`);
   }
-  const readNumberOption = (name: 'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std') => {
-    const value = optionValues[name];
-    if (value === undefined) return undefined;
-    const parsedNumber = value.trim() === '' ? NaN : Number(value);
+  const readNumberOption = (optionName: 'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std') => {
+    const optionValue = optionValues[optionName];
+    if (optionValue === undefined) return undefined;
+    const parsedNumber = optionValue.trim() === '' ? NaN : Number(optionValue);
     if (Number.isFinite(parsedNumber)) return parsedNumber;
-    const decimalHint = /^-?\d*,\d+$/.test(value) ? ` with a decimal point, ${value.replace(',', '.')}` : '';
-    throw new UsageError(`--${name} must be a number${decimalHint} (got “${truncate(value)}”).`);
+    const decimalHint = /^-?\d*,\d+$/.test(optionValue) ? ` with a decimal point, ${optionValue.replace(',', '.')}` : '';
+    throw new UsageError(`--${optionName} must be a number${decimalHint} (got “${truncate(optionValue)}”).`);
   };
-  const [distance, angle, duration] = [readNumberOption('update-min-d'), readNumberOption('update-min-a'), readNumberOption('duration')];
-  if (duration !== undefined && (distance ?? angle) !== undefined) throw new UsageError('--duration excludes --update-min-d and --update-min-a: give one or the other.');
+  const [legDistance, angle, legDuration] = [readNumberOption('update-min-d'), readNumberOption('update-min-a'), readNumberOption('duration')];
+  if (legDuration !== undefined && (legDistance ?? angle) !== undefined) throw new UsageError('--duration excludes --update-min-d and --update-min-a: give one or the other.');
   if (optionValues.plot !== undefined && !/\.svg$/i.test(optionValues.plot)) throw new UsageError(`--plot writes SVG; the name must end in .svg (got “${truncate(optionValues.plot)}”).`);
   if (optionValues.json && optionValues.yaml) throw new UsageError('--json excludes --yaml: give one or the other.');
   return {
     command: 'calibrate' as const,
-    ...logs,
-    fit: withoutUndefined({
-      legs: duration === undefined ? { distance: distance ?? 0.25, angle: angle ?? 0.2 } : { duration },
+    ...robotLogs,
+    fitOptions: withoutUndefined({
+      legs: legDuration === undefined ? { distance: legDistance ?? 0.25, angle: angle ?? 0.2 } : { duration: legDuration },
       model: optionValues.model ?? (optionValues.rule === 'omni' ? 'omnidirectional' : undefined),
       rule: optionValues.rule,
       outliers: optionValues.outliers,
@@ -139,8 +139,8 @@ export function parseOptions(args: string[]) {
       positionStd: readNumberOption('reference-position-std'),
       yawStd: readNumberOption('reference-yaw-std'),
     }),
-    output: optionValues.json ? 'json' : optionValues.yaml ? 'yaml' : 'text',
-    plot: optionValues.plot,
+    outputFormat: optionValues.json ? 'json' : optionValues.yaml ? 'yaml' : 'text',
+    plotPath: optionValues.plot,
   };
 }
 
@@ -149,77 +149,77 @@ const FILE_OPTIONS = { columns: 'columns', 'time-unit': 'timeUnit', 'length-unit
 
 /** Returns the options for reading files, by file name: first those of all files, under the name "", then those of single files, as in `--length-unit odom.csv=ft`. */
 function parseFileOptions(optionValues: { [name in keyof typeof FILE_OPTIONS]?: string[] }): [file: string, OpenOptions][] {
-  const optionsByFile = (Object.entries(FILE_OPTIONS) as Entries<typeof FILE_OPTIONS>).flatMap(([name, field]) => (optionValues[name] ?? []).map((optionValue): [string, OpenOptions] => {
-    const [, file = '', answer = ''] = /^(?:(.*)=)?(.*)$/s.exec(optionValue) ?? [];
-    if (field === 'columns') return [file, { columns: answer.split(',').map((column) => column.trim()) }];
-    if (!(UNITS[field] as readonly string[]).includes(answer)) throw new UsageError(`--${name} must be ${formatAlternatives(UNITS[field])}, or FILE=${UNITS[field][0]} for one file (got “${truncate(optionValue)}”).`);
-    return [file, { [field]: answer }];
+  const optionsByFile = (Object.entries(FILE_OPTIONS) as EntriesOf<typeof FILE_OPTIONS>).flatMap(([optionName, fieldName]) => (optionValues[optionName] ?? []).map((optionValue): [string, OpenOptions] => {
+    const [, fileName = '', answerText = ''] = /^(?:(.*)=)?(.*)$/s.exec(optionValue) ?? [];
+    if (fieldName === 'columns') return [fileName, { columnNames: answerText.split(',').map((columnName) => columnName.trim()) }];
+    if (!(UNIT_NAMES[fieldName] as readonly string[]).includes(answerText)) throw new UsageError(`--${optionName} must be ${formatAlternatives(UNIT_NAMES[fieldName])}, or FILE=${UNIT_NAMES[fieldName][0]} for one file (got “${truncate(optionValue)}”).`);
+    return [fileName, { [fieldName]: answerText }];
   }));
-  return sort(optionsByFile, ([file]) => file !== '');
+  return sort(optionsByFile, ([fileName]) => fileName !== '');
 }
 
-type Entries<T> = { [key in keyof T]: [key, T[key]] }[keyof T][];
+type EntriesOf<T> = { [key in keyof T]: [key, T[key]] }[keyof T][];
 
 /** Returns command arguments in which the paths without roles have the options --odometry and --reference in turn; undefined for fewer than two such paths. */
 function nameRoles(args: string[]): string[] | undefined {
-  const { tokens } = parseArgs({ args, options: OPTIONS, allowPositionals: true, tokens: true });
-  const pathIndices = tokens.filter(({ kind }) => kind === 'positional').map(({ index }) => index).slice(1);
+  const { tokens } = parseArgs({ args, options: COMMAND_OPTIONS, allowPositionals: true, tokens: true });
+  const pathIndices = tokens.filter(({ kind: logKind }) => logKind === 'positional').map(({ index }) => index).slice(1);
   if (pathIndices.length < 2) return undefined;
-  return args.flatMap((arg, i) => (pathIndices.includes(i) ? [`--${ROLES[pathIndices.indexOf(i) % 2]}`, arg] : [arg]));
+  return args.flatMap((argument, i) => (pathIndices.includes(i) ? [`--${LOG_ROLES[pathIndices.indexOf(i) % 2]}`, argument] : [argument]));
 }
 
-const withoutUndefined = <T extends object>(object: T): T => Object.fromEntries(Object.entries(object).filter(([, value]) => value !== undefined)) as T;
+const withoutUndefined = <T extends object>(optionalFields: T): T => Object.fromEntries(Object.entries(optionalFields).filter(([, fieldValue]) => fieldValue !== undefined)) as T;
 
-const formatAlternatives = (names: readonly string[]) => new Intl.ListFormat('en', { type: 'disjunction' }).format(names);
+const formatAlternatives = (alternatives: readonly string[]) => new Intl.ListFormat('en', { type: 'disjunction' }).format(alternatives);
 
 /** Returns a flag for each named systematic error: true to correct it, false otherwise. A named error takes precedence over `all`. */
 function parseCorrections(uncorrectedNames?: string, correctedNames?: string): Record<string, boolean> | undefined {
-  const entries = ([['no-correct', uncorrectedNames], ['correct', correctedNames]] as const).flatMap(([option, names]) => (names?.split(',') ?? []).map((name) => ({ option, name: name.trim() })));
-  if (entries.length === 0) return undefined;
-  return Object.fromEntries(sort(entries, ({ name }) => name !== 'all').flatMap(({ option, name }) => {
-    if (!['all', ...SYSTEMATIC_ERRORS].includes(name)) throw new UsageError(`--${option} must be all, or names of ${SYSTEMATIC_ERRORS.join(', ')} (got “${truncate(name)}”).`);
-    return (name === 'all' ? SYSTEMATIC_ERRORS : [name]).map((errorName) => [errorName, option === 'correct']);
+  const correctionEntries = ([['no-correct', uncorrectedNames], ['correct', correctedNames]] as const).flatMap(([optionName, errorNames]) => (errorNames?.split(',') ?? []).map((errorName) => ({ option: optionName, errorName: errorName.trim() })));
+  if (correctionEntries.length === 0) return undefined;
+  return Object.fromEntries(sort(correctionEntries, ({ errorName }) => errorName !== 'all').flatMap(({ option: optionName, errorName }) => {
+    if (!['all', ...SYSTEMATIC_ERRORS].includes(errorName)) throw new UsageError(`--${optionName} must be all, or names of ${SYSTEMATIC_ERRORS.join(', ')} (got “${truncate(errorName)}”).`);
+    return (errorName === 'all' ? SYSTEMATIC_ERRORS : [errorName]).map((errorName) => [errorName, optionName === 'correct']);
   }));
 }
 
 function parseArguments(args: string[]) {
   try {
-    return parseArgs({ args, options: OPTIONS, allowPositionals: true });
+    return parseArgs({ args, options: COMMAND_OPTIONS, allowPositionals: true });
   } catch (error) {
-    const reason = (error as Error).message.replace(/ To specify a positional.*/, '').replaceAll('\n', ' ').replace(/\.$/, '');
-    throw new UsageError(`${reason}. --help lists all options.`);
+    const parseError = (error as Error).message.replace(/ To specify a positional.*/, '').replaceAll('\n', ' ').replace(/\.$/, '');
+    throw new UsageError(`${parseError}. --help lists all options.`);
   }
 }
 
 /** Quotes a text as one argument of a shell command, if necessary. */
-const quoteForShell = (text: string): string => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
+const quoteForShell = (shellArgument: string): string => (/^[\w./,@%+=:-]+$/.test(shellArgument) ? shellArgument : `'${shellArgument.replaceAll("'", "'\\''")}'`);
 
 /** Returns true if an argument has an extension or is in a folder. */
 const isPath = (argument = '') => /\.\w+$|\//.test(argument);
 
-function parseFrames(name: string, value: string | undefined): FramePair | undefined {
-  if (value === undefined) return undefined;
-  const [parent, child, ...excessNames] = value.split(',').map((name) => name.trim());
-  if (parent && child && excessNames.length === 0) return { parent, child };
-  throw new UsageError(`--${name} must be a parent and a child frame, as in map,base_link (got “${truncate(value)}”).`);
+function parseFrames(optionName: string, optionValue: string | undefined): FramePair | undefined {
+  if (optionValue === undefined) return undefined;
+  const [parentFrame, childFrame, ...excessNames] = optionValue.split(',').map((frameName) => frameName.trim());
+  if (parentFrame && childFrame && excessNames.length === 0) return { parent: parentFrame, child: childFrame };
+  throw new UsageError(`--${optionName} must be a parent and a child frame, as in map,base_link (got “${truncate(optionValue)}”).`);
 }
 
 export const formatCommand = (args: string[]): string => ['npx motion-widgets', ...args.map(quoteForShell)].join(' ');
 
 /** Returns the message of an error. If the error has a question, the typed command follows, with the option that answers the question. */
-export function explainWithCommand({ message, place: { file }, question }: LogError, typedArgs: string[]): string {
-  const answeringArgs = question && answerQuestion({ ...question, file }, typedArgs);
-  return answeringArgs ? `${message} For example:\n  ${formatCommand(answeringArgs)}` : message;
+export function explainWithCommand({ message: errorMessage, errorPlace: { fileName }, userQuestion }: LogError, typedArgs: string[]): string {
+  const answeringArgs = userQuestion && answerQuestion({ ...userQuestion, fileName }, typedArgs);
+  return answeringArgs ? `${errorMessage} For example:\n  ${formatCommand(answeringArgs)}` : errorMessage;
 }
 
 /** Returns the arguments of a command together with the option that answers a question; undefined if no option answers it. */
-export function answerQuestion({ file, option, role, choices }: FileQuestion, typedArgs: string[]): string[] | undefined {
-  const [likeliestChoice] = choices.filter(Boolean);
-  const logRole = role ?? 'odometry';
-  if (option === 'roles') return nameRoles(typedArgs);
-  if (option === 'other') return [...typedArgs, ...(role ? [`--${role === 'odometry' ? 'reference' : 'odometry'}`] : []), 'FILE'];
+export function answerQuestion({ fileName, optionName, logRole, possibleAnswers }: FileQuestion, typedArgs: string[]): string[] | undefined {
+  const [likeliestChoice] = possibleAnswers.filter(Boolean);
+  const chosenRole = logRole ?? 'odometry';
+  if (optionName === 'roles') return nameRoles(typedArgs);
+  if (optionName === 'other') return [...typedArgs, ...(logRole ? [`--${logRole === 'odometry' ? 'reference' : 'odometry'}`] : []), 'FILE'];
   if (likeliestChoice === undefined) return undefined;
-  if (option === 'columns') return [...typedArgs, '--columns', `${file}=${likeliestChoice}`];
-  if (option in UNITS) return [...typedArgs, `--${option.replace('Unit', '-unit')}`, `${file}=${likeliestChoice}`];
-  return [...typedArgs, `--${logRole}-${option === 'series' ? 'topic' : 'frames'}`, likeliestChoice];
+  if (optionName === 'columns') return [...typedArgs, '--columns', `${fileName}=${likeliestChoice}`];
+  if (optionName in UNIT_NAMES) return [...typedArgs, `--${optionName.replace('Unit', '-unit')}`, `${fileName}=${likeliestChoice}`];
+  return [...typedArgs, `--${chosenRole}-${optionName === 'series' ? 'topic' : 'frames'}`, likeliestChoice];
 }

@@ -1,7 +1,7 @@
 /** Calibration result as text and as JSON. */
 
 import { english } from '../logs/en.ts';
-import { ROLES, type Summary } from '../logs/log.ts';
+import { LOG_ROLES, type LogSummary } from '../logs/log.ts';
 import { warningsOf } from '../logs/pairs.ts';
 import { en as sharedTexts } from '../messages/en.ts';
 import { MINUS } from '../ui/format.ts';
@@ -11,7 +11,7 @@ import { alphaTableOf, checkTableOf, noiseTableOf, systematicTableOf, windowTabl
 import type { Calibration } from '../types.d.ts';
 
 /** Log that was read, with its summary as numbers and as sentences. */
-interface ReadLog { name: string; summary: Summary; sentences: string[] }
+interface ReadLog { name: string; summary: LogSummary; sentences: string[] }
 
 export interface CalibrationReport {
   calibration: Calibration;
@@ -27,9 +27,9 @@ export interface CalibrationReport {
   date: string;
 }
 
-const resultOf = ({ calibration, options: { model = 'odometry', rule = 'thrun', legs, correct = {} }, logs }: CalibrationReport): Result => ({
-  stats: calibration, legCount: calibration.legs.count, model, rule, legLength: legs, corrections: correct,
-  logName: new Intl.ListFormat('en').format(new Set(logs.map(({ name }) => name))), warnings: warningsOf(logs),
+const resultOf = ({ calibration, options: { model: modelName = 'odometry', rule: ruleName = 'thrun', legs, correct: corrections = {} }, logs: robotLogs }: CalibrationReport): Result => ({
+  stats: calibration, legCount: calibration.legs.count, model: modelName, rule: ruleName, legLength: legs, corrections,
+  logName: new Intl.ListFormat('en').format(new Set(robotLogs.map(({ name: logName }) => logName))), warnings: warningsOf(robotLogs.map(({ summary }) => summary)),
 });
 
 /** Labels and texts of the report's tables. */
@@ -38,33 +38,33 @@ const REPORT_WORDS = { alphas: sharedTexts.alphas, calibrator: en };
 const MAX_LISTED_OUTLIERS = 5;
 
 /** Returns the summaries of the logs (odometry and reference of each drive), without the result of the fit. */
-export const formatLogSummaries = (logs: ReadLog[]): string =>
-  logs.map(({ name, sentences }, i) => `${[`${english.choose.roleNames[ROLES[i % 2]]}: ${name}`, ...sentences].join('\n  ')}\n`).join('');
+export const formatLogSummaries = (robotLogs: ReadLog[]): string =>
+  robotLogs.map(({ name: logName, sentences: summarySentences }, i) => `${[`${english.choose.roleNames[LOG_ROLES[i % 2]]}: ${logName}`, ...summarySentences].join('\n  ')}\n`).join('');
 
 /** Codes of colours in a terminal. */
-const [RED, GREEN, YELLOW] = [31, 32, 33];
+const [RED_CODE, GREEN_CODE, YELLOW_CODE] = [31, 32, 33];
 
 /** Colours of the verdict's badge, by the rating of the α's. */
-const RATING_COLORS = { consistent: GREEN, questionable: YELLOW, unusable: RED };
+const RATING_COLORS = { consistent: GREEN_CODE, questionable: YELLOW_CODE, unusable: RED_CODE };
 
-const colorizeText = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;
+const colorizeText = (colorCode: number) => (plainText: string) => `\x1b[${colorCode}m${plainText}\x1b[0m`;
 
 /** Returns the text report, which follows the summaries of the logs. */
-export function formatReport(report: CalibrationReport, isColored = false): string {
-  const { calibration, driveStarts } = report;
-  const { legs, lost, recommended } = calibration;
-  const { model, rule, legLength } = resultOf(report);
-  const { yaml, notes } = formatYamlWithNotes(report);
-  const lostLegTexts = LOST_LEG_CAUSES.filter((cause) => lost[cause] > 0).map((cause) => `${lost[cause]} ${en.lostLegs[cause]}`);
+export function formatReport(calibrationReport: CalibrationReport, isColored = false): string {
+  const { calibration, driveStarts } = calibrationReport;
+  const { legs, lost: lostLegs, recommended: recommendation } = calibration;
+  const { model: modelName, rule: ruleName, legLength } = resultOf(calibrationReport);
+  const { yaml, notes: yamlNotes } = formatYamlWithNotes(calibrationReport);
+  const lostLegTexts = LOST_LEG_CAUSES.filter((lossCause) => lostLegs[lossCause] > 0).map((lossCause) => `${lostLegs[lossCause]} ${en.lostLegs[lossCause]}`);
   const excludedLegLines = [...(lostLegTexts.length ? [`lost legs: ${lostLegTexts.join(', ')}`] : []), ...formatOutliers(legs, driveStarts)];
   const uncoloredReport = [
     '',
-    ...formatVerdict(report),
+    ...formatVerdict(calibrationReport),
     '',
-    `${legs.count} legs ${describeLegLength(legLength)}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,
+    `${legs.count} legs ${describeLegLength(legLength)}; model ${modelName}${modelName === 'odometry' ? `, rule ${ruleName}` : ''}`,
     '',
-    ...formatTable(alphaTableOf(calibration, model, REPORT_WORDS)),
-    ...(recommended ? [explainRecommendation(calibration, en)] : []),
+    ...formatTable(alphaTableOf(calibration, modelName, REPORT_WORDS)),
+    ...(recommendation ? [explainRecommendation(calibration, en)] : []),
     '',
     ...formatTable(systematicTableOf(calibration, REPORT_WORDS)),
     '',
@@ -76,59 +76,59 @@ export function formatReport(report: CalibrationReport, isColored = false): stri
     `${en.windowTable.title}: ${en.windowTable.caption}`,
     ...formatTable(windowTableOf(calibration, REPORT_WORDS)),
     '',
-    ...notes,
+    ...yamlNotes,
     ...(yaml ? ['# nav2_params.yaml', yaml.trimEnd()] : []),
     '',
   ].join('\n');
   if (!isColored) return uncoloredReport;
-  const { rating, badge } = judgeReport(report);
-  return uncoloredReport.replace(badge, colorizeText(RATING_COLORS[rating])).replaceAll(/✓ \w+/g, colorizeText(GREEN)).replaceAll(/✕ \w+/g, colorizeText(RED));
+  const { rating: logRating, badge: ratingBadge } = judgeReport(calibrationReport);
+  return uncoloredReport.replace(ratingBadge, colorizeText(RATING_COLORS[logRating])).replaceAll(/✓ \w+/g, colorizeText(GREEN_CODE)).replaceAll(/✕ \w+/g, colorizeText(RED_CODE));
 }
 
-const judgeReport = (report: CalibrationReport) => judgementOf(resultOf(report), en, '--no-correct');
+const judgeReport = (calibrationReport: CalibrationReport) => judgementOf(resultOf(calibrationReport), en, '--no-correct');
 
 /** Returns the verdict as on the page, and the advice, with one sentence per line. */
-export function formatVerdict(report: CalibrationReport): string[] {
-  const { badge, finding, advice } = judgeReport(report);
-  return [`${badge}. ${finding}`, ...advice, ...(report.command ? [`  ${report.command}`] : [])];
+export function formatVerdict(calibrationReport: CalibrationReport): string[] {
+  const { badge: ratingBadge, finding: logFinding, advice } = judgeReport(calibrationReport);
+  return [`${ratingBadge}. ${logFinding}`, ...advice, ...(calibrationReport.command ? [`  ${calibrationReport.command}`] : [])];
 }
 
 /** Returns the lines of a table, as plain text: with minus signs that can be copied, and several values of a cell in one line. */
-function formatTable({ columnHeadings, rows }: ResultTable): string[] {
-  const toPlainText = (text: string) => text.replaceAll('*', '').replaceAll(MINUS, '-').replaceAll('\u202f', ' ').replaceAll('\n', ', ');
-  return alignRows([columnHeadings, ...rows].map((row) => row.map(toPlainText)));
+function formatTable({ columnHeadings, rows: tableRows }: ResultTable): string[] {
+  const toPlainText = (plainText: string) => plainText.replaceAll('*', '').replaceAll(MINUS, '-').replaceAll('\u202f', ' ').replaceAll('\n', ', ');
+  return alignRows([columnHeadings, ...tableRows].map((rowCells) => rowCells.map(toPlainText)));
 }
 
 /** Returns the table of the checks, and the message of each failed check. Checks have the same names as in JSON and in documents. */
 function formatChecks(calibration: Calibration): string[] {
-  const { checks } = calibration.diagnostics;
-  const { columnHeadings, rows } = checkTableOf(calibration, REPORT_WORDS);
-  const namedRows = rows.map(([description, ...cells], i) => [checks[i].name, ...cells, description]);
-  return [...formatTable({ columnHeadings: [...columnHeadings, ''], rows: namedRows }), ...checks.filter(({ passed }) => !passed).map(({ name, message }) => `${name}: ${message}`)];
+  const { checks: checkResults } = calibration.diagnostics;
+  const { columnHeadings, rows: tableRows } = checkTableOf(calibration, REPORT_WORDS);
+  const namedRows = tableRows.map(([checkDescription, ...rowCells], i) => [checkResults[i].name, ...rowCells, checkDescription]);
+  return [...formatTable({ columnHeadings: [...columnHeadings, ''], rows: namedRows }), ...checkResults.filter(({ passed: hasPassed }) => !hasPassed).map(({ name: checkName, message: failureMessage }) => `${checkName}: ${failureMessage}`)];
 }
 
 /** Lists outliers by their times, in seconds after the start of the odometry. */
-function formatOutliers({ count, times, outliers }: Calibration['legs'], driveStarts: number[]): string[] {
-  const outlierLegs = Array.from({ length: count }, (_, leg) => leg).filter((leg) => outliers[leg] === 1);
-  const timeTexts = outlierLegs.slice(0, MAX_LISTED_OUTLIERS).map((leg) => {
-    const driveStart = Math.max(...driveStarts.filter((start) => start <= times[2 * leg]));
-    return `${(times[2 * leg] - driveStart).toFixed(2)} s${driveStarts.length > 1 ? ` of drive ${driveStarts.indexOf(driveStart) + 1}` : ''}`;
+function formatOutliers({ count: legCount, times: legTimes, outliers: outlierFlags }: Calibration['legs'], driveStarts: number[]): string[] {
+  const outlierLegs = Array.from({ length: legCount }, (_, legIndex) => legIndex).filter((legIndex) => outlierFlags[legIndex] === 1);
+  const timeTexts = outlierLegs.slice(0, MAX_LISTED_OUTLIERS).map((legIndex) => {
+    const driveStart = Math.max(...driveStarts.filter((startTime) => startTime <= legTimes[2 * legIndex]));
+    return `${(legTimes[2 * legIndex] - driveStart).toFixed(2)} s${driveStarts.length > 1 ? ` of drive ${driveStarts.indexOf(driveStart) + 1}` : ''}`;
   }).join(', ');
-  return outlierLegs.length ? [`outliers: ${outlierLegs.length} of ${count} legs, at ${timeTexts}${outlierLegs.length > MAX_LISTED_OUTLIERS ? ', …' : ''} after the start`] : [];
+  return outlierLegs.length ? [`outliers: ${outlierLegs.length} of ${legCount} legs, at ${timeTexts}${outlierLegs.length > MAX_LISTED_OUTLIERS ? ', …' : ''} after the start`] : [];
 }
 
 /** Returns the lines for nav2_params.yaml. The notes say why there are no lines, or that the fit used another noise rule than Nav2's AMCL. */
-export function formatYamlWithNotes(report: CalibrationReport): { yaml: string; notes: string[] } {
-  const result = resultOf(report);
-  const yaml = formatNav2Yaml(result, report.date);
-  if (!yaml) return { yaml, notes: [`No lines for nav2_params.yaml: ${result.stats.recommended ? 'Nav2 has no velocity model' : 'the log is unusable'}.`] };
-  return { yaml, notes: isNav2Rule(result.model, result.rule) ? [] : ['Warning: fitted by another rule than Nav2’s; give --rule nav2.'] };
+export function formatYamlWithNotes(calibrationReport: CalibrationReport): { yaml: string; notes: string[] } {
+  const calibrationResult = resultOf(calibrationReport);
+  const yaml = formatNav2Yaml(calibrationResult, calibrationReport.date);
+  if (!yaml) return { yaml, notes: [`No lines for nav2_params.yaml: ${calibrationResult.stats.recommended ? 'Nav2 has no velocity model' : 'the log is unusable'}.`] };
+  return { yaml, notes: isNav2Rule(calibrationResult.model, calibrationResult.rule) ? [] : ['Warning: fitted by another rule than Nav2’s; give --rule nav2.'] };
 }
 
-export function alignRows(rows: string[][]): string[] {
+export function alignRows(tableRows: string[][]): string[] {
   // The last cell of a row does not count for the width of its column, because nothing follows it.
-  const columnWidths = rows[0].map((_, column) => Math.max(...rows.map((row) => (column < row.length - 1 ? row[column].length : 0))));
-  return rows.map((row) => row.map((cell, column) => cell.padEnd(columnWidths[column])).join('  ').trimEnd());
+  const columnWidths = tableRows[0].map((_, columnIndex) => Math.max(...tableRows.map((rowCells) => (columnIndex < rowCells.length - 1 ? rowCells[columnIndex].length : 0))));
+  return tableRows.map((rowCells) => rowCells.map((cell, columnIndex) => cell.padEnd(columnWidths[columnIndex])).join('  ').trimEnd());
 }
 
 export const formatReportJson = ({ calibration, options, logs, start, date }: CalibrationReport): string => `${formatJson({ date, options, logs, start, ...calibration })}\n`;

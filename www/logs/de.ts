@@ -1,7 +1,7 @@
 /** Sentences about logs, in German. */
 
 import { REPAIR_COMMANDS } from './en.ts';
-import type { Words, UnitBasis, DropCause, Summary } from './log.ts';
+import type { LogTexts, UnitBasis, DropCause, LogSummary } from './log.ts';
 
 const FIELD_NAMES: Record<string, string> = { t: 'Zeit', x: 'x', y: 'y', yaw: 'Gierwinkel', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'Geschwindigkeit v', omega: 'Drehrate ω' };
 
@@ -21,7 +21,7 @@ const withDecimalComma = (value: number, digits: number) => value.toFixed(digits
 
 const UNIT_BASIS_TEXTS: Record<UnitBasis, string> = { name: ' (nach dem Namen)', size: ' (nach der Größe)', rate: ' (nach Rate und Geschwindigkeit)', format: '', date: ' (aus Datumsangaben)', option: ' (wie angegeben)', usage: '' };
 
-const ANGLE_UNIT_TEXTS: Record<Summary['units']['angle']['unit'], string> = { rad: 'Richtung in rad', deg: 'Richtung in Grad', quaternion: 'Richtung aus einem Quaternion', none: '' };
+const ANGLE_UNIT_TEXTS: Record<LogSummary['units']['angle']['unit'], string> = { rad: 'Richtung in rad', deg: 'Richtung in Grad', quaternion: 'Richtung aus einem Quaternion', none: '' };
 
 const DROP_REASONS: Record<DropCause, string> = {
   damaged: 'beschädigte Nachrichten',
@@ -35,7 +35,7 @@ const DROP_REASONS: Record<DropCause, string> = {
   held: 'die Pose steht, während die Odometrie weitergeht',
 };
 
-export const german: Words = {
+export const german: LogTexts = {
   place: (file, line, topic) => `${file}${topic ? `, Topic ${topic}` : ''}${line ? `, ${topic ? 'Nachricht' : 'Zeile'} ${line}` : ''}`,
   refused: {
     unreadableFileReason: (reason) => (reason === 'ENOENT' ? 'es gibt keine solche Datei und keinen solchen Ordner.' : `die Datei lässt sich nicht lesen (${reason}); prüfen, ob sie da ist und gelesen werden darf.`),
@@ -60,7 +60,7 @@ export const german: Words = {
     tiltedPosesReason: 'die Posen drehen sich nicht um eine senkrechte Z-Achse; mit Z nach oben exportieren oder aufzeichnen.',
     yUpReason: 'die Richtungen folgen dem Weg in x und z, die senkrechte Achse ist also Y; mit Z nach oben exportieren, oder die Spalten in anderer Reihenfolge auswählen.',
     mirroredPathReason: 'die Richtungen drehen sich anders herum als der Weg; erwartet werden Richtungen, die gegen den Uhrzeigersinn wachsen, von x nach y; x und y vertauschen, oder eines davon negieren.',
-    mixedSourcesReason: (frames) => `die Zeilen gehören zu mehreren Frames, Topics oder Robotern (${frames}); nur die eines davon behalten.`,
+    mixedSourcesReason: (framePair) => `die Zeilen gehören zu mehreren Frames, Topics oder Robotern (${framePair}); nur die eines davon behalten.`,
     unknownUnitReason: (unit) => `die Einheit ${unit} einer Spalte ist unbekannt, oder nicht die einer anderen; erwartet wird s, ms, us oder ns, m, cm, mm, ft oder in, und rad oder deg.`,
     alternatingPathsReason: (metres) => `Posen zweier Wege wechseln sich ab, ${withDecimalComma(metres, 2)} m auseinander: Sie sind von zwei Robotern, oder von zwei Knoten, die auf einem Topic senden; nur die eines davon behalten.`,
     damagedRowsReason: (badCount, rows, percent) => `${badCount} von ${rows} Zeilen sind beschädigt; erlaubt sind höchstens ${percent} %.`,
@@ -86,17 +86,17 @@ export const german: Words = {
     missingFilesReason: (files) => `sie beschreibt eine Aufzeichnung in ${files}; auch diese Datei angeben, oder den ganzen Ordner.`,
     unknownTopicReason: (series) => `es gibt kein solches Topic, keine solche Gruppe von Spalten und keine solchen Transformationen; erwartet wird eines von ${series}.`,
     noLogTopicsReason: (topics) => `die Topics sind ${topics}; erwartet wird eines vom Typ ${MESSAGE_TYPES.either}.`,
-    singleLogReason: (series, role) =>
-      `es ist nur ein Log darin, ${series}${role ? `, nach Namen oder Typ die ${ROLE_NAMES[role]}` : ''}; gebraucht ${role ? `wird auch die ${ROLE_NAMES[role === 'odometry' ? 'reference' : 'odometry']}` : 'werden Odometrie und Referenz'}.`,
-    missingRoleReason: (role, series) => `nach Namen und Typen ist keine ${ROLE_NAMES[role]} darin, sondern ${series}; eines davon auswählen, oder auch eine Datei mit der ${ROLE_NAMES[role]} angeben.`,
-    ambiguousRoleReason: (role, series) => `es ist nicht klar, was die ${ROLE_NAMES[role]} ist: ${series}.`,
+    singleLogReason: (series, logRole) =>
+      `es ist nur ein Log darin, ${series}${logRole ? `, nach Namen oder Typ die ${ROLE_NAMES[logRole]}` : ''}; gebraucht ${logRole ? `wird auch die ${ROLE_NAMES[logRole === 'odometry' ? 'reference' : 'odometry']}` : 'werden Odometrie und Referenz'}.`,
+    missingRoleReason: (logRole, series) => `nach Namen und Typen ist keine ${ROLE_NAMES[logRole]} darin, sondern ${series}; eines davon auswählen, oder auch eine Datei mit der ${ROLE_NAMES[logRole]} angeben.`,
+    ambiguousRoleReason: (logRole, series) => `es ist nicht klar, was die ${ROLE_NAMES[logRole]} ist: ${series}.`,
     wrongTypeReason: (type, neededType) => `sein Typ ist „${type}“; erwartet wird ${MESSAGE_TYPES[neededType]} (kodiert als cdr oder ros1).`,
     unreadableMessageReason: (reason) => `sie lässt sich nicht lesen (${reason}); erwartet wird eine vom Typ des Topics.`,
     missingFramesReason: (knownFrames) => knownFrames ? `einen Parent- und einen Child-Frame angeben; verbunden sind ${knownFrames}.` : 'das Topic hat keine Transformationen; ein anderes Topic wählen.',
-    unconnectedFramesReason: (frames, knownFrames) =>
-      `keine Transformationen verbinden ${frames}; ${knownFrames ? `verbundene Frames wählen: ${knownFrames}` : 'ein anderes Topic wählen, denn dieses hat keine Transformationen'}.`,
-    constantTransformReason: (frames, otherFrames) =>
-      `die Transformation ${frames} ändert sich nie und ist daher kein Weg eines Roboters; erwartet werden Frames, die sich bewegen${otherFrames ? `, wie ${otherFrames}` : ''}.`,
+    unconnectedFramesReason: (framePair, knownFrames) =>
+      `keine Transformationen verbinden ${framePair}; ${knownFrames ? `verbundene Frames wählen: ${knownFrames}` : 'ein anderes Topic wählen, denn dieses hat keine Transformationen'}.`,
+    constantTransformReason: (framePair, otherFrames) =>
+      `die Transformation ${framePair} ändert sich nie und ist daher kein Weg eines Roboters; erwartet werden Frames, die sich bewegen${otherFrames ? `, wie ${otherFrames}` : ''}.`,
     sameLogReason: (name) => `${name} ist die Odometrie selbst; gebraucht wird eine Referenz, die nicht von den Rädern kommt, wie Motion-Capture oder Scan-Matching.`,
     otherUnitReason: (factor, otherName, unit) => `der Roboter führe ${Math.round(factor)}-mal so schnell wie in ${otherName}: Die Längen sind wohl in ${unit}; ihre Einheit angeben.`,
     frozenReferenceReason: 'ihre Pose steht, während die Odometrie weitergeht: Sie hat den Roboter verloren; gebraucht wird eine, die ihm folgt.',

@@ -1,18 +1,18 @@
 /** Search for the odometry and the reference of each drive in recordings. */
 
 import { sort } from 'd3-array';
-import { LogError, listNames, readableSeriesOf, ROLES, formatFramesOption, formatFrames, type LogChoice, type FramePair, type LogKind, type Recording, type Role, type Series } from './log.ts';
+import { LogError, listNames, readableSeriesOf, LOG_ROLES, formatFramesOption, formatFrames, type LogChoice, type FramePair, type LogKind, type Recording, type LogRole, type Series } from './log.ts';
 
 /** Recording, with the choice of the log to read for each role. A recording with only one log is paired with another recording after both have been read. */
-export interface PlannedRecording { recording: Recording; choices: Partial<Record<Role, LogChoice>> }
+export interface PlannedRecording { recording: Recording; logChoices: Partial<Record<LogRole, LogChoice>> }
 
 /** Choices of the user. The program guesses the choices that are missing. */
 export interface UserChoices {
   /** `series` is the name of a series. For a table, that is the common prefix of its columns without the separator at the end. `frames` selects a pair of frames among transforms. */
-  odometry?: { series?: string; frames?: FramePair };
-  reference?: { series?: string; frames?: FramePair };
+  odometry?: { seriesName?: string; framePair?: FramePair };
+  reference?: { seriesName?: string; framePair?: FramePair };
   /** Kind of odometry: `commands` prefers commands to poses, and `poses` excludes commands. By default poses come first. */
-  kind?: LogKind;
+  logKind?: LogKind;
 }
 
 /** Patterns of names of odometry and of commands, the likeliest first. */
@@ -37,52 +37,52 @@ const FIXED_FRAME_NAMES = { odometry: [/(^|[/_])odom(etry)?$/], reference: [/moc
 
 const ODOMETRY_FILE_NAMES = /odom|wheel|encoder|cmd/i;
 
-const describeSeries = (series: Series[]) => listNames(series.map(({ name, type }) => (name ? `${name} (${type.replace(/^\w+\/(msg\/)?(?=\w+( as |$))/, '')})` : type)));
+const describeSeries = (seriesList: Series[]) => listNames(seriesList.map(({ seriesName, messageType }) => (seriesName ? `${seriesName} (${messageType.replace(/^\w+\/(msg\/)?(?=\w+( as |$))/, '')})` : messageType)));
 
-const isSameChoice = (choice: LogChoice, otherChoice?: LogChoice) => choice.series === otherChoice?.series && choice.frames?.parent === otherChoice.frames?.parent && choice.frames?.child === otherChoice.frames?.child;
+const isSameChoice = (logChoice: LogChoice, otherChoice?: LogChoice) => logChoice.seriesName === otherChoice?.seriesName && logChoice.framePair?.parent === otherChoice.framePair?.parent && logChoice.framePair?.child === otherChoice.framePair?.child;
 
 /**
  * Chooses the logs of recordings that are read. Recordings with odometry come first. Throws a LogError, which has a question if the choice is ambiguous. Calls `onSkip` with the
  * error of each recording that is left out, because none of its series can be read.
  */
 export function planDrives(allRecordings: Recording[], userChoices: UserChoices = {}, onSkip?: (error: LogError) => void): PlannedRecording[] {
-  const usableRecordings = allRecordings.filter((recording) => recording.role || readableSeriesOf(recording).length > 0);
-  const recordings = usableRecordings.length > 0 ? usableRecordings : allRecordings;
-  for (const recording of allRecordings) if (!recordings.includes(recording)) onSkip?.(createUnusableError(recording));
-  const rolesByName = recordings.map((recording) => recording.role ?? (recordings.length > 1 ? roleOfRecording(recording, userChoices) : 'both'));
-  const isHalfOf = (role: Role) => 2 * rolesByName.filter((otherRole) => otherRole === role).length >= recordings.length;
-  const plan = recordings.map((recording, i): PlannedRecording => {
+  const usableRecordings = allRecordings.filter((recording) => recording.logRole || readableSeriesOf(recording).length > 0);
+  const usedRecordings = usableRecordings.length > 0 ? usableRecordings : allRecordings;
+  for (const recording of allRecordings) if (!usedRecordings.includes(recording)) onSkip?.(createUnusableError(recording));
+  const rolesByName = usedRecordings.map((recording) => recording.logRole ?? (usedRecordings.length > 1 ? roleOfRecording(recording, userChoices) : 'both'));
+  const isHalfOf = (logRole: LogRole) => 2 * rolesByName.filter((otherRole) => otherRole === logRole).length >= usedRecordings.length;
+  const drivePlan = usedRecordings.map((recording, i): PlannedRecording => {
     // If at least half of the recordings have the same role, a recording of unknown role gets the other role.
-    const role = rolesByName[i] ?? (isHalfOf('odometry') ? 'reference' : isHalfOf('reference') ? 'odometry' : undefined);
-    if (!role) throw new LogError({ file: recording.name }, (texts) => texts.unknownRoleReason, { option: 'roles', choices: [] });
-    return { recording, choices: role === 'both' ? chooseBothLogs(recording, userChoices) : { [role]: chooseLog(recording, role, userChoices) } };
+    const logRole = rolesByName[i] ?? (isHalfOf('odometry') ? 'reference' : isHalfOf('reference') ? 'odometry' : undefined);
+    if (!logRole) throw new LogError({ fileName: recording.recordingName }, (errorReasons) => errorReasons.unknownRoleReason, { optionName: 'roles', possibleAnswers: [] });
+    return { recording, logChoices: logRole === 'both' ? chooseBothLogs(recording, userChoices) : { [logRole]: chooseLog(recording, logRole, userChoices) } };
   });
-  const recordingsWith = (role: Role) => plan.filter(({ choices }) => choices[role]);
+  const recordingsWith = (logRole: LogRole) => drivePlan.filter(({ logChoices }) => logChoices[logRole]);
   // If there are separate files for one role, the logs of that role in recordings with odometry and reference are not used.
-  const [scarceRole, replacedRole] = recordingsWith('odometry').length < recordingsWith('reference').length ? ROLES : ROLES.toReversed();
-  const completeRecordings = plan.filter(({ choices }) => choices.odometry && choices.reference);
-  if (completeRecordings.length === recordingsWith(replacedRole).length - recordingsWith(scarceRole).length) for (const { choices } of completeRecordings) delete choices[replacedRole];
-  const [odometry, reference] = ROLES.map((role) => recordingsWith(role).map(({ recording }) => recording));
-  if (odometry.length !== reference.length) {
-    const unpairedRecordings = odometry.length > reference.length ? odometry : reference;
+  const [scarceRole, replacedRole] = recordingsWith('odometry').length < recordingsWith('reference').length ? LOG_ROLES : LOG_ROLES.toReversed();
+  const completeRecordings = drivePlan.filter(({ logChoices }) => logChoices.odometry && logChoices.reference);
+  if (completeRecordings.length === recordingsWith(replacedRole).length - recordingsWith(scarceRole).length) for (const { logChoices } of completeRecordings) delete logChoices[replacedRole];
+  const [odometryRecordings, referenceRecordings] = LOG_ROLES.map((logRole) => recordingsWith(logRole).map(({ recording }) => recording));
+  if (odometryRecordings.length !== referenceRecordings.length) {
+    const unpairedRecordings = odometryRecordings.length > referenceRecordings.length ? odometryRecordings : referenceRecordings;
     // If a recording has several candidates for the missing log, this call throws a LogError that asks which one to read. Such a question helps more than
     // the error that is thrown below.
-    for (const recording of unpairedRecordings) tryUnlessLogError(() => chooseBothLogs(recording, userChoices), ({ question }) => question?.option !== 'series');
-    const [odometryNames, referenceNames] = [odometry, reference].map((recordingsOfRole) => listNames(recordingsOfRole.map(({ name }) => name)));
-    throw new LogError({ file: unpairedRecordings[0].name }, (texts) => texts.unpairedLogsReason(odometryNames, referenceNames), { option: recordings.length === 1 ? 'other' : 'roles', role: odometryNames ? 'odometry' : 'reference', choices: [] });
+    for (const recording of unpairedRecordings) tryUnlessLogError(() => chooseBothLogs(recording, userChoices), ({ userQuestion }) => userQuestion?.optionName !== 'series');
+    const [odometryNames, referenceNames] = [odometryRecordings, referenceRecordings].map((recordingsOfRole) => listNames(recordingsOfRole.map(({ recordingName }) => recordingName)));
+    throw new LogError({ fileName: unpairedRecordings[0].recordingName }, (errorReasons) => errorReasons.unpairedLogsReason(odometryNames, referenceNames), { optionName: usedRecordings.length === 1 ? 'other' : 'roles', logRole: odometryNames ? 'odometry' : 'reference', possibleAnswers: [] });
   }
-  return sort(plan, ({ choices }) => Number(!choices.odometry));
+  return sort(drivePlan, ({ logChoices }) => Number(!logChoices.odometry));
 }
 
 /** Returns the role of one of several recordings: "both" if it has odometry and reference, and undefined if neither its name nor its contents show a role. */
-function roleOfRecording(recording: Recording, userChoices: UserChoices): Role | 'both' | undefined {
+function roleOfRecording(recording: Recording, userChoices: UserChoices): LogRole | 'both' | undefined {
   if (tryUnlessLogError(() => chooseBothLogs(recording, userChoices))) return 'both';
-  const [isOdometry, isReference] = ROLES.map((role) => tryUnlessLogError(() => chooseLog(recording, role, userChoices)) !== undefined);
+  const [isOdometry, isReference] = LOG_ROLES.map((logRole) => tryUnlessLogError(() => chooseLog(recording, logRole, userChoices)) !== undefined);
   if (isOdometry !== isReference) return isOdometry ? 'odometry' : 'reference';
   // A file with several rigid bodies has candidates for both roles, and therefore logs, although it is unclear which candidate to read.
-  const hasLogs = isOdometry || ROLES.every((role) => findCandidates(recording, role, userChoices).some(({ length }) => length > 0));
+  const hasLogs = isOdometry || LOG_ROLES.every((logRole) => findCandidates(recording, logRole, userChoices).some(({ length }) => length > 0));
   if (!hasLogs) return 'both';
-  return roleByName(recording.name) ?? (recording.series.some(({ hasCommands }) => hasCommands) ? 'odometry' : undefined);
+  return roleByName(recording.recordingName) ?? (recording.seriesList.some(({ hasCommands }) => hasCommands) ? 'odometry' : undefined);
 }
 
 /** Returns the result of a function, or undefined if it throws an expected LogError. */
@@ -95,134 +95,134 @@ function tryUnlessLogError<Result>(doWork: () => Result, isExpected: (error: Log
   }
 }
 
-function chooseBothLogs(recording: Recording, userChoices: UserChoices): Record<Role, LogChoice> {
+function chooseBothLogs(recording: Recording, userChoices: UserChoices): Record<LogRole, LogChoice> {
   // The reference that the user chose is excluded from the guess of the odometry.
-  const { series, frames } = userChoices.reference ?? {};
-  const chosenReference = series !== undefined || frames ? chooseLog(recording, 'reference', userChoices) : undefined;
-  const odometry = tryUnlessLogError(() => chooseLog(recording, 'odometry', userChoices, chosenReference)) ?? chooseLog(recording, 'odometry', userChoices);
-  const reference = chosenReference ?? chooseLog(recording, 'reference', userChoices, odometry);
-  if (isSameChoice(odometry, reference)) {
-    const question = { option: 'series' as const, role: 'reference' as const, choices: seriesNamesFor(recording, 'reference').filter((name) => name !== reference.series) };
-    throw new LogError({ file: recording.name, topic: reference.series }, (texts) => texts.sameLogReason(reference.frames ? formatFrames(reference.frames) : reference.series), question);
+  const { seriesName, framePair } = userChoices.reference ?? {};
+  const chosenReference = seriesName !== undefined || framePair ? chooseLog(recording, 'reference', userChoices) : undefined;
+  const odometryChoice = tryUnlessLogError(() => chooseLog(recording, 'odometry', userChoices, chosenReference)) ?? chooseLog(recording, 'odometry', userChoices);
+  const referenceChoice = chosenReference ?? chooseLog(recording, 'reference', userChoices, odometryChoice);
+  if (isSameChoice(odometryChoice, referenceChoice)) {
+    const userQuestion = { optionName: 'series' as const, logRole: 'reference' as const, possibleAnswers: seriesNamesFor(recording, 'reference').filter((seriesName) => seriesName !== referenceChoice.seriesName) };
+    throw new LogError({ fileName: recording.recordingName, topicName: referenceChoice.seriesName }, (errorReasons) => errorReasons.sameLogReason(referenceChoice.framePair ? formatFrames(referenceChoice.framePair) : referenceChoice.seriesName), userQuestion);
   }
-  return { odometry, reference };
+  return { odometry: odometryChoice, reference: referenceChoice };
 }
 
 /** Returns the likeliest candidates for a role among those for which `isPossible` returns true. */
-const findLikeliestChoices = (recording: Recording, role: Role, userChoices: UserChoices, isPossible: (choice: LogChoice) => boolean) =>
-  findCandidates(recording, role, userChoices).map((choiceTier) => choiceTier.filter(isPossible)).find(({ length }) => length) ?? [];
+const findLikeliestChoices = (recording: Recording, logRole: LogRole, userChoices: UserChoices, isPossible: (logChoice: LogChoice) => boolean) =>
+  findCandidates(recording, logRole, userChoices).map((choiceTier) => choiceTier.filter(isPossible)).find(({ length }) => length) ?? [];
 
 /** Returns the choice of a log for a role. It is another log than `otherRoleChoice`, the choice for the other role. */
-function chooseLog(recording: Recording, role: Role, userChoices: UserChoices, otherRoleChoice?: LogChoice): LogChoice {
-  const { series, frames } = userChoices[role] ?? {};
-  if (series === undefined && !frames) return guessChoice(recording, role, userChoices, otherRoleChoice);
-  const kind = role === 'reference' ? 'poses' : userChoices.kind;
-  const chosenSeries = series === undefined
-    ? recording.series.find((entry) => entry.frames)
-    : findSeriesByName(recording.series, series);
+function chooseLog(recording: Recording, logRole: LogRole, userChoices: UserChoices, otherRoleChoice?: LogChoice): LogChoice {
+  const { seriesName, framePair } = userChoices[logRole] ?? {};
+  if (seriesName === undefined && !framePair) return guessChoice(recording, logRole, userChoices, otherRoleChoice);
+  const logKind = logRole === 'reference' ? 'poses' : userChoices.logKind;
+  const chosenSeries = seriesName === undefined
+    ? recording.seriesList.find((seriesEntry) => seriesEntry.framePairs)
+    : findSeriesByName(recording.seriesList, seriesName);
   if (!chosenSeries) {
-    const names = seriesNamesFor(recording, role);
+    const seriesNames = seriesNamesFor(recording, logRole);
     throw new LogError(
-      { file: recording.name, topic: series },
-      (texts) => texts.unknownTopicReason(describeSeries(readableSeriesOf(recording))),
-      { option: 'series', role, choices: names },
+      { fileName: recording.recordingName, topicName: seriesName },
+      (errorReasons) => errorReasons.unknownTopicReason(describeSeries(readableSeriesOf(recording))),
+      { optionName: 'series', logRole, possibleAnswers: seriesNames },
     );
   }
-  if (chosenSeries.kind !== 'transforms' || frames) return { series: chosenSeries.name, ...(kind && { kind }), ...(frames && { frames }) };
-  const chains = findLikeliestChoices(recording, role, userChoices, (choice) => choice.series === chosenSeries.name);
-  if (chains.length === 1) return chains[0];
-  throw createFramesError(recording, chosenSeries, role);
+  if (chosenSeries.seriesKind !== 'transforms' || framePair) return { seriesName: chosenSeries.seriesName, ...(logKind && { logKind }), ...(framePair && { framePair }) };
+  const transformSeries = findLikeliestChoices(recording, logRole, userChoices, (logChoice) => logChoice.seriesName === chosenSeries.seriesName);
+  if (transformSeries.length === 1) return transformSeries[0];
+  throw createFramesError(recording, chosenSeries, logRole);
 }
 
-function createFramesError({ name: file }: Recording, { name: topic, frames = [] }: Series, role: Role): LogError {
-  const frameTexts = [...new Set([...findLikeliestFrames(frames, role), ...frames])].map(formatFramesOption);
-  return new LogError({ file, topic }, (texts) => texts.missingFramesReason(listNames(frames.map(formatFrames))), { option: 'frames', role, choices: frameTexts });
+function createFramesError({ recordingName }: Recording, { seriesName, framePairs = [] }: Series, logRole: LogRole): LogError {
+  const frameTexts = [...new Set([...findLikeliestFrames(framePairs, logRole), ...framePairs])].map(formatFramesOption);
+  return new LogError({ fileName: recordingName, topicName: seriesName }, (errorReasons) => errorReasons.missingFramesReason(listNames(framePairs.map(formatFrames))), { optionName: 'frames', logRole, possibleAnswers: frameTexts });
 }
 
-function guessChoice(recording: Recording, role: Role, userChoices: UserChoices, otherRoleChoice?: LogChoice): LogChoice {
-  const bestChoices = findLikeliestChoices(recording, role, userChoices, (choice) => !isSameChoice(choice, otherRoleChoice));
+function guessChoice(recording: Recording, logRole: LogRole, userChoices: UserChoices, otherRoleChoice?: LogChoice): LogChoice {
+  const bestChoices = findLikeliestChoices(recording, logRole, userChoices, (logChoice) => !isSameChoice(logChoice, otherRoleChoice));
   // Among equally likely choices, logs with the same robot frame as the other log are preferred.
-  const choicesOfSameRobot = bestChoices.filter(({ frames }) => frames && frames.child === otherRoleChoice?.frames?.child);
+  const choicesOfSameRobot = bestChoices.filter(({ framePair }) => framePair && framePair.child === otherRoleChoice?.framePair?.child);
   if (choicesOfSameRobot.length === 1) return choicesOfSameRobot[0];
   if (bestChoices.length === 1) return bestChoices[0];
-  const file = recording.name;
+  const recordingName = recording.recordingName;
   const usableSeries = readableSeriesOf(recording);
   if (usableSeries.length === 0) throw createUnusableError(recording);
-  const chains = usableSeries.filter(({ kind }) => kind === 'transforms');
-  const hasOnlyOtherChoice = otherRoleChoice && chains.every(({ name: series, frames = [] }) => frames.every((ends) => isSameChoice({ series, frames: ends }, otherRoleChoice)));
-  if (chains.length === usableSeries.length && !hasOnlyOtherChoice) throw createFramesError(recording, chains.find((chain) => chain.frames) ?? chains[0], role);
-  const positionSeries = usableSeries.filter(({ name, kind }) => kind === 'positions' && !GOAL_NAMES.test(name));
-  if (positionSeries.length === usableSeries.length || (role === 'reference' && bestChoices.length === 0 && positionSeries.length > 0)) {
-    throw new LogError({ file }, (texts) => texts.noHeadingReason(describeSeries(positionSeries)));
+  const transformSeries = usableSeries.filter(({ seriesKind }) => seriesKind === 'transforms');
+  const hasOnlyOtherChoice = otherRoleChoice && transformSeries.every(({ seriesName, framePairs = [] }) => framePairs.every((framePair) => isSameChoice({ seriesName, framePair }, otherRoleChoice)));
+  if (transformSeries.length === usableSeries.length && !hasOnlyOtherChoice) throw createFramesError(recording, transformSeries.find((transformSeries) => transformSeries.framePairs) ?? transformSeries[0], logRole);
+  const positionSeries = usableSeries.filter(({ seriesName, seriesKind }) => seriesKind === 'positions' && !GOAL_NAMES.test(seriesName));
+  if (positionSeries.length === usableSeries.length || (logRole === 'reference' && bestChoices.length === 0 && positionSeries.length > 0)) {
+    throw new LogError({ fileName: recordingName }, (errorReasons) => errorReasons.noHeadingReason(describeSeries(positionSeries)));
   }
   if (usableSeries.length === 1) {
-    const ownRole = roleOfSeries(recording, usableSeries[0]) ?? (otherRoleChoice?.frames && ROLES.find((otherRole) => otherRole !== role));
-    throw new LogError({ file }, (texts) => texts.singleLogReason(describeSeries(usableSeries), ownRole), { option: 'other', role: ownRole, choices: [] });
+    const ownRole = roleOfSeries(recording, usableSeries[0]) ?? (otherRoleChoice?.framePair && LOG_ROLES.find((otherRole) => otherRole !== logRole));
+    throw new LogError({ fileName: recordingName }, (errorReasons) => errorReasons.singleLogReason(describeSeries(usableSeries), ownRole), { optionName: 'other', logRole: ownRole, possibleAnswers: [] });
   }
   throw new LogError(
-    { file },
-    (texts) => (bestChoices.length > 0 ? texts.ambiguousRoleReason : texts.missingRoleReason)(role, describeSeries(usableSeries)),
-    { option: 'series', role, choices: bestChoices.length > 0 ? seriesNamesFor(recording, role).filter((name) => name !== otherRoleChoice?.series) : usableSeries.filter(({ kind }) => role === 'odometry' && kind === 'commands').map(({ name }) => name) },
+    { fileName: recordingName },
+    (errorReasons) => (bestChoices.length > 0 ? errorReasons.ambiguousRoleReason : errorReasons.missingRoleReason)(logRole, describeSeries(usableSeries)),
+    { optionName: 'series', logRole, possibleAnswers: bestChoices.length > 0 ? seriesNamesFor(recording, logRole).filter((seriesName) => seriesName !== otherRoleChoice?.seriesName) : usableSeries.filter(({ seriesKind }) => logRole === 'odometry' && seriesKind === 'commands').map(({ seriesName }) => seriesName) },
   );
 }
 
-function createUnusableError({ name: file, series }: Recording): LogError {
-  const shortSeries = series.find(({ kind }) => kind !== null);
-  return new LogError({ file, topic: shortSeries?.name }, (texts) => (shortSeries ? texts.fewRowsReason(shortSeries.count, shortSeries.count) : texts.noLogTopicsReason(describeSeries(series))));
+function createUnusableError({ recordingName, seriesList }: Recording): LogError {
+  const shortSeries = seriesList.find(({ seriesKind }) => seriesKind !== null);
+  return new LogError({ fileName: recordingName, topicName: shortSeries?.seriesName }, (errorReasons) => (shortSeries ? errorReasons.fewRowsReason(shortSeries.messageCount, shortSeries.messageCount) : errorReasons.noLogTopicsReason(describeSeries(seriesList))));
 }
 
 /** Returns the role of the only series in a recording, from the name of the series, its contents or the name of the file; undefined if none of these shows a role. */
-function roleOfSeries({ name: file }: Recording, { name, type, kind, hasCommands }: Series): Role | undefined {
-  if (kind === 'commands') return 'odometry';
-  return roleByName(name) ?? (hasCommands || /Odometry$/.test(type) ? 'odometry' : roleByName(file));
+function roleOfSeries({ recordingName }: Recording, { seriesName, messageType, seriesKind, hasCommands }: Series): LogRole | undefined {
+  if (seriesKind === 'commands') return 'odometry';
+  return roleByName(seriesName) ?? (hasCommands || /Odometry$/.test(messageType) ? 'odometry' : roleByName(recordingName));
 }
 
 /** Returns true if a localizer, or a filter of the odometry, probably estimated the poses of a log, judging by the log's name or frames. */
-export const isLocalizer = (name: string, frames?: FramePair): boolean => frames?.parent === 'map' || ((LOCALIZER_NAMES.test(name) || FILTER_NAMES.test(name)) && !MEASUREMENT_NAMES.test(name));
+export const isLocalizer = (seriesName: string, framePair?: FramePair): boolean => framePair?.parent === 'map' || ((LOCALIZER_NAMES.test(seriesName) || FILTER_NAMES.test(seriesName)) && !MEASUREMENT_NAMES.test(seriesName));
 
 /** Returns the role that the name of a file shows; undefined if it shows none. */
-export function roleByName(name: string): Role | undefined {
-  if (MEASUREMENT_NAMES.test(name) || LOCALIZER_NAMES.test(name)) return 'reference';
-  return ODOMETRY_FILE_NAMES.test(name) ? 'odometry' : undefined;
+export function roleByName(logName: string): LogRole | undefined {
+  if (MEASUREMENT_NAMES.test(logName) || LOCALIZER_NAMES.test(logName)) return 'reference';
+  return ODOMETRY_FILE_NAMES.test(logName) ? 'odometry' : undefined;
 }
 
 /** Returns the series with a name, or the series whose name differs only in separators and capitals. */
-function findSeriesByName(series: Series[], wantedName: string): Series | undefined {
-  const wordsOfName = (name: string) => name.toLowerCase().split(/[^\p{L}\p{N}]+/u).filter(Boolean).join('.');
-  return series.find(({ name }) => name === wantedName) ?? series.find(({ name }) => wordsOfName(name) !== '' && wordsOfName(name) === wordsOfName(wantedName));
+function findSeriesByName(seriesList: Series[], wantedSeriesName: string): Series | undefined {
+  const wordsOfName = (seriesName: string) => seriesName.toLowerCase().split(/[^\p{L}\p{N}]+/u).filter(Boolean).join('.');
+  return seriesList.find(({ seriesName }) => seriesName === wantedSeriesName) ?? seriesList.find(({ seriesName }) => wordsOfName(seriesName) !== '' && wordsOfName(seriesName) === wordsOfName(wantedSeriesName));
 }
 
 /** Returns the names of the series that could be the log of a role, the likeliest first. */
-function seriesNamesFor(recording: Recording, role: Role): string[] {
-  const usableSeries = readableSeriesOf(recording).filter(({ kind }) => role === 'odometry' || kind !== 'commands');
-  return [...new Set([...findCandidates(recording, role).flat().map(({ series }) => series), ...usableSeries.map(({ name }) => name)])];
+function seriesNamesFor(recording: Recording, logRole: LogRole): string[] {
+  const usableSeries = readableSeriesOf(recording).filter(({ seriesKind }) => logRole === 'odometry' || seriesKind !== 'commands');
+  return [...new Set([...findCandidates(recording, logRole).flat().map(({ seriesName }) => seriesName), ...usableSeries.map(({ seriesName }) => seriesName)])];
 }
 
 /** Returns the logs that could have a role, in tiers: groups of equal likelihood, the likeliest first. A tier of several logs is ambiguous. */
-export function findCandidates(recording: Recording, role: Role, { kind }: { kind?: LogKind } = {}): LogChoice[][] {
-  const isTableFile = recording.format === 'csv';
-  const seriesWithoutGoals = readableSeriesOf(recording).filter(({ name }) => !GOAL_NAMES.test(name));
-  const poseSeries = seriesWithoutGoals.filter((entry) => entry.kind === 'poses');
-  const chainChoices = seriesWithoutGoals.flatMap(({ name, frames = [] }) => findLikeliestFrames(frames, role).map((pair) => ({ series: name, frames: pair })));
-  if (role === 'reference') {
-    const unfilteredPaths = poseSeries.filter(({ name }) => !FILTER_NAMES.test(name) && !ODOMETRY_NAMES[0].test(name));
+export function findCandidates(recording: Recording, logRole: LogRole, { logKind }: { logKind?: LogKind } = {}): LogChoice[][] {
+  const isTableFile = recording.recordingFormat === 'csv';
+  const seriesWithoutGoals = readableSeriesOf(recording).filter(({ seriesName }) => !GOAL_NAMES.test(seriesName));
+  const poseSeries = seriesWithoutGoals.filter((seriesEntry) => seriesEntry.seriesKind === 'poses');
+  const chainChoices = seriesWithoutGoals.flatMap(({ seriesName, framePairs = [] }) => findLikeliestFrames(framePairs, logRole).map((framePair) => ({ seriesName, framePair })));
+  if (logRole === 'reference') {
+    const unfilteredPaths = poseSeries.filter(({ seriesName }) => !FILTER_NAMES.test(seriesName) && !ODOMETRY_NAMES[0].test(seriesName));
     return [...choiceTiersByName(poseSeries, [MEASUREMENT_NAMES, LOCALIZER_NAMES], 'poses'), choicesOf(unfilteredPaths, 'poses'), ...(isTableFile && seriesWithoutGoals.length === 1 ? [choicesOf(poseSeries, 'poses')] : []), chainChoices];
   }
   // A topic of the message type Odometry probably contains wheel odometry.
-  const wheelPaths = poseSeries.filter(({ name, type }) => !MEASUREMENT_NAMES.test(name) && !LOCALIZER_NAMES.test(name) && (isTableFile || /Odometry$/.test(type)));
+  const wheelPaths = poseSeries.filter(({ seriesName, messageType }) => !MEASUREMENT_NAMES.test(seriesName) && !LOCALIZER_NAMES.test(seriesName) && (isTableFile || /Odometry$/.test(messageType)));
   const poseTiers = [...choiceTiersByName(wheelPaths, ODOMETRY_NAMES), choicesOf(wheelPaths), chainChoices];
-  const commandSeries = seriesWithoutGoals.filter((entry) => entry.kind === 'commands' || entry.hasCommands);
+  const commandSeries = seriesWithoutGoals.filter((seriesEntry) => seriesEntry.seriesKind === 'commands' || seriesEntry.hasCommands);
   const commandTiers = [...choiceTiersByName(commandSeries, COMMAND_NAMES, 'commands'), choicesOf(commandSeries, 'commands')];
-  return kind === 'commands' ? [...commandTiers, ...poseTiers] : isTableFile ? [...poseTiers, ...commandTiers] : poseTiers;
+  return logKind === 'commands' ? [...commandTiers, ...poseTiers] : isTableFile ? [...poseTiers, ...commandTiers] : poseTiers;
 }
 
-const choicesOf = (series: Series[], kind?: LogKind): LogChoice[] => series.map(({ name }) => ({ series: name, ...(kind && { kind }) }));
+const choicesOf = (seriesList: Series[], logKind?: LogKind): LogChoice[] => seriesList.map(({ seriesName }) => ({ seriesName, ...(logKind && { logKind }) }));
 
-const choiceTiersByName = (series: Series[], names: RegExp[], kind?: LogKind): LogChoice[][] => names.map((pattern) => choicesOf(series.filter(({ name }) => pattern.test(name)), kind));
+const choiceTiersByName = (seriesList: Series[], namePatterns: RegExp[], logKind?: LogKind): LogChoice[][] => namePatterns.map((namePattern) => choicesOf(seriesList.filter(({ seriesName }) => namePattern.test(seriesName)), logKind));
 
 /** Returns the likeliest pairs of frames for a role, by the names of the frames. */
-function findLikeliestFrames(frames: FramePair[], role: Role): FramePair[] {
-  const findFirstMatchingFrames = (framePairs: FramePair[], names: RegExp[], end: keyof FramePair) => names.map((name) => framePairs.filter((pair) => name.test(pair[end]))).find(({ length }) => length);
-  const pairsWithFixedParent = findFirstMatchingFrames(frames, FIXED_FRAME_NAMES[role], 'parent') ?? [];
+function findLikeliestFrames(framePairs: FramePair[], logRole: LogRole): FramePair[] {
+  const findFirstMatchingFrames = (framePairs: FramePair[], namePatterns: RegExp[], frameEnd: keyof FramePair) => namePatterns.map((namePattern) => framePairs.filter((framePair) => namePattern.test(framePair[frameEnd]))).find(({ length }) => length);
+  const pairsWithFixedParent = findFirstMatchingFrames(framePairs, FIXED_FRAME_NAMES[logRole], 'parent') ?? [];
   return findFirstMatchingFrames(pairsWithFixedParent, BASE_FRAME_NAMES, 'child') ?? pairsWithFixedParent;
 }

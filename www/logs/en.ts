@@ -1,6 +1,6 @@
 /** Sentences about logs, in English. */
 
-import type { UnitBasis, DropCause, Recording, Role, Summary } from './log.ts';
+import type { UnitBasis, DropCause, Recording, LogRole, LogSummary } from './log.ts';
 
 const FIELD_NAMES: Record<string, string> = { t: 'time', x: 'x', y: 'y', yaw: 'yaw', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'speed v', omega: 'turn rate ω' };
 
@@ -15,7 +15,7 @@ const MESSAGE_TYPES = { poses: POSE_TYPES, either: `${POSE_TYPES}, or ${COMMAND_
 
 const UNIT_BASIS_TEXTS: Record<UnitBasis, string> = { name: ' (by name)', size: ' (by size)', rate: ' (by rate and speed)', format: '', date: ' (from dates)', option: ' (as stated)', usage: '' };
 
-const ANGLE_UNIT_TEXTS: Record<Summary['units']['angle']['unit'], string> = { rad: 'yaw in rad', deg: 'yaw in degrees', quaternion: 'yaw from a quaternion', none: '' };
+const ANGLE_UNIT_TEXTS: Record<LogSummary['units']['angle']['unit'], string> = { rad: 'yaw in rad', deg: 'yaw in degrees', quaternion: 'yaw from a quaternion', none: '' };
 
 const DROP_REASONS = {
   damaged: 'damaged messages',
@@ -29,7 +29,7 @@ const DROP_REASONS = {
   held: 'the pose stands still while the odometry moves on',
 };
 
-export const REPAIR_COMMANDS: Record<Recording['format'], string> = { mcap: 'mcap recover', rosbag: 'rosbag reindex', sqlite: 'sqlite3 FILE .recover | sqlite3 NEW.db3', csv: '' };
+export const REPAIR_COMMANDS: Record<Recording['recordingFormat'], string> = { mcap: 'mcap recover', rosbag: 'rosbag reindex', sqlite: 'sqlite3 FILE .recover | sqlite3 NEW.db3', csv: '' };
 
 export const english = {
   place: (file: string, line: number, topic: string) =>
@@ -60,7 +60,7 @@ export const english = {
     tiltedPosesReason: 'the poses do not turn about a vertical Z axis; export or record them again with Z up.',
     yUpReason: 'the headings follow the path in x and z, so the vertical axis is Y; export with Z up, or choose the columns in another order.',
     mirroredPathReason: 'the headings turn the other way than the path; expected are headings that grow counterclockwise, from x to y; swap x and y, or negate one of them.',
-    mixedSourcesReason: (frames: string) => `the rows are of several frames, topics or robots (${frames}); keep those of one.`,
+    mixedSourcesReason: (framePair: string) => `the rows are of several frames, topics or robots (${framePair}); keep those of one.`,
     unknownUnitReason: (unit: string) => `the unit ${unit} of a column is not known, or differs from that of another; expected is s, ms, us or ns, m, cm, mm, ft or in, and rad or deg.`,
     alternatingPathsReason: (metres: number) => `poses of two paths alternate, ${metres.toPrecision(2)} m apart: they are of two robots, or of two nodes that publish one topic; keep those of one.`,
     damagedRowsReason: (badCount: number, rows: number, percent: number) => `${badCount} of ${rows} rows are damaged; at most ${percent} % may be.`,
@@ -78,7 +78,7 @@ export const english = {
       `in ${unit}, the robot would drive at ${speed.toPrecision(3)} m/s; state the unit of lengths: ${choices.join(' or ')}.`,
     angleUnit: (turn: number, unit: string, choices: string[]) =>
       `headings in ${unit} would turn at ${turn.toPrecision(3)} rad/s; state their unit: ${choices.join(' or ')}.`,
-    damagedFileReason: (reason: string, format?: Recording['format']) => `it is damaged or incomplete (${reason}); copy it again from the robot${format ? `, or try “${REPAIR_COMMANDS[format]}”` : ''}.`,
+    damagedFileReason: (reason: string, format?: Recording['recordingFormat']) => `it is damaged or incomplete (${reason}); copy it again from the robot${format ? `, or try “${REPAIR_COMMANDS[format]}”` : ''}.`,
     largeFileReason: (command: string, max: number) => `it has more than ${max} bytes when it is decompressed; decompress it with “${command}”, and give the result.`,
     foreignDatabaseReason: 'it is an SQLite database without the tables “topics” and “messages” of rosbag2; expected is a recording of “ros2 bag record”.',
     listedFileReason: 'it is listed in the metadata.yaml of a recording, but is not a recording; expected is an MCAP or .db3 file.',
@@ -87,17 +87,17 @@ export const english = {
     missingFilesReason: (files: string) => `it describes a recording in ${files}; give that file too, or the whole folder.`,
     unknownTopicReason: (series: string) => `it has no such topic, group of columns or transforms; expected is one of ${series}.`,
     noLogTopicsReason: (topics: string) => `the topics are ${topics}; expected is one of type ${MESSAGE_TYPES.either}.`,
-    singleLogReason: (series: string, role: Role | undefined) =>
-      `it has one log only, ${series}${role ? `, by name or type the ${role}` : ''}; give ${role ? `the ${role === 'odometry' ? 'reference' : 'odometry'} too` : 'odometry and reference'}.`,
-    missingRoleReason: (role: Role, series: string) => `by its names and types it has no ${role}, but ${series}; choose one of these, or give a file with the ${role} too.`,
-    ambiguousRoleReason: (role: Role, series: string) => `it is not clear what the ${role} is: ${series}.`,
+    singleLogReason: (series: string, logRole: LogRole | undefined) =>
+      `it has one log only, ${series}${logRole ? `, by name or type the ${logRole}` : ''}; give ${logRole ? `the ${logRole === 'odometry' ? 'reference' : 'odometry'} too` : 'odometry and reference'}.`,
+    missingRoleReason: (logRole: LogRole, series: string) => `by its names and types it has no ${logRole}, but ${series}; choose one of these, or give a file with the ${logRole} too.`,
+    ambiguousRoleReason: (logRole: LogRole, series: string) => `it is not clear what the ${logRole} is: ${series}.`,
     wrongTypeReason: (type: string, neededType: keyof typeof MESSAGE_TYPES) => `its type is “${type}”; expected is ${MESSAGE_TYPES[neededType]} (encoded as cdr or ros1).`,
     unreadableMessageReason: (reason: string) => `it cannot be read (${reason}); expected is one of the topic's type.`,
     missingFramesReason: (knownFrames: string) => knownFrames ? `give a parent and a child frame; connected are ${knownFrames}.` : 'the topic has no transforms; choose another topic.',
-    unconnectedFramesReason: (frames: string, knownFrames: string) =>
-      `no transforms connect ${frames}; ${knownFrames ? `choose among the connected frames: ${knownFrames}` : 'choose another topic, since this one has no transforms'}.`,
-    constantTransformReason: (frames: string, otherFrames: string) =>
-      `the transform ${frames} never changes, so it is not the path of a robot; expected are frames that move${otherFrames ? `, such as ${otherFrames}` : ''}.`,
+    unconnectedFramesReason: (framePair: string, knownFrames: string) =>
+      `no transforms connect ${framePair}; ${knownFrames ? `choose among the connected frames: ${knownFrames}` : 'choose another topic, since this one has no transforms'}.`,
+    constantTransformReason: (framePair: string, otherFrames: string) =>
+      `the transform ${framePair} never changes, so it is not the path of a robot; expected are frames that move${otherFrames ? `, such as ${otherFrames}` : ''}.`,
     sameLogReason: (name: string) => `${name} is the odometry itself; choose a reference that does not come from the wheels, such as motion capture or scan matching.`,
     otherUnitReason: (factor: number, otherName: string, unit: string) => `the robot would drive ${Math.round(factor)} times as fast as in ${otherName}: its lengths seem to be in ${unit}; state their unit.`,
     frozenReferenceReason: 'its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.',
@@ -126,7 +126,7 @@ export const english = {
     rowLabels: { rows: 'read', columns: 'columns', units: 'units', frames: 'frames', clock: 'times', dropped: 'left out', gaps: 'gaps', jumps: 'jumps', notes: 'notes' },
     rowsSummary: (used: number, rows: number, seconds: number, rate: number, distance: number) =>
       `${used} of ${rows} rows, ${seconds.toFixed(1)} s at ${rate.toPrecision(3)} Hz, ${distance.toFixed(1)} m driven`,
-    unitsSummary: ({ time, length, angle }: Summary['units']) =>
+    unitsSummary: ({ time, length, angle }: LogSummary['units']) =>
       `time in ${time.unit}${UNIT_BASIS_TEXTS[time.by]}, lengths in ${length.unit}${UNIT_BASIS_TEXTS[length.by]}${ANGLE_UNIT_TEXTS[angle.unit] ? `, ${ANGLE_UNIT_TEXTS[angle.unit]}${UNIT_BASIS_TEXTS[angle.by]}` : ''}`,
     droppedRowsSummary: (reason: DropCause, count: number, line: number) =>
       `${count} ${count === 1 ? 'row' : 'rows'}${line ? (count === 1 ? `, line ${line}` : `, from line ${line} on`) : ''}: ${DROP_REASONS[reason]}`,

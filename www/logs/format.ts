@@ -6,7 +6,7 @@ import { epochTimeUnitOf } from './units.ts';
 
 export interface TableFormat {
   /** Separator of cells. A space stands for any number of spaces and tabs. */
-  separator: string;
+  cellSeparator: string;
   hasDecimalCommas: boolean;
   firstRowNumber: number;
   columnNames: string[];
@@ -49,17 +49,17 @@ const ISO_DATE = /^\s*(\d{4})[-/](\d{1,2})[-/](\d{1,2})(?:[T\s]+(\d{1,2}):(\d{2}
 const DURATION_TEXT = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*$/;
 
 /** Splits a line into cells, or at least into the first `neededCellCount` cells. A separator in quotes does not separate cells. */
-export function splitCells(line: string, separator: string, neededCellCount?: number): string[] {
-  if (separator === ' ') return line.trim().split(/[ \t]+/);
-  if (!line.includes('"')) return line.split(separator, neededCellCount);
-  const cells = [''];
+export function splitCells(lineText: string, cellSeparator: string, neededCellCount?: number): string[] {
+  if (cellSeparator === ' ') return lineText.trim().split(/[ \t]+/);
+  if (!lineText.includes('"')) return lineText.split(cellSeparator, neededCellCount);
+  const rowCells = [''];
   let isQuoted = false;
-  for (const character of line) {
-    if (character === '"') isQuoted = !isQuoted;
-    else if (character === separator && !isQuoted) cells.push('');
-    else cells[cells.length - 1] += character;
+  for (const textCharacter of lineText) {
+    if (textCharacter === '"') isQuoted = !isQuoted;
+    else if (textCharacter === cellSeparator && !isQuoted) rowCells.push('');
+    else rowCells[rowCells.length - 1] += textCharacter;
   }
-  return cells;
+  return rowCells;
 }
 
 const THOUSANDS_COMMA = /^\s*[+-]?[1-9]\d{0,2},\d{3}\s*$/;
@@ -67,140 +67,140 @@ const DECIMAL_COMMA = /^\s*[+-]?\d*,\d+(e[+-]?\d+)?\s*$/i;
 const isNumber = (cell: string) => cell.trim() !== '' && (parseNumber(cell) !== undefined || DECIMAL_COMMA.test(cell) || parseDate(cell) !== undefined);
 
 /** Returns true for a row of data: it has at least two cells, and at least half of the cells that are not empty are numbers or dates. */
-function isDataRow(cells: string[]): boolean {
-  const filledCells = cells.filter((cell) => cell.trim() !== '');
+function isDataRow(rowCells: string[]): boolean {
+  const filledCells = rowCells.filter((cell) => cell.trim() !== '');
   const numberCount = filledCells.filter(isNumber).length;
   return numberCount >= 2 && 2 * numberCount >= filledCells.length;
 }
 
 /** Returns the separator with which the lines have most numbers or, if they have no numbers, most cells. */
-function separatorOf(lines: string[]): string {
-  const declaredSeparator = lines.map((line) => /^"?sep=(.)"?$/i.exec(line)?.[1]).find((separatorMatch) => separatorMatch !== undefined);
+function separatorOf(lineTexts: string[]): string {
+  const declaredSeparator = lineTexts.map((lineText) => /^"?sep=(.)"?$/i.exec(lineText)?.[1]).find((separatorMatch) => separatorMatch !== undefined);
   if (declaredSeparator) return declaredSeparator;
-  const scoreOf = (separator: string) => {
-    const cellRows = lines.map((line) => splitCells(line, separator));
+  const scoreOf = (cellSeparator: string) => {
+    const cellRows = lineTexts.map((lineText) => splitCells(lineText, cellSeparator));
     return cellRows.filter(isDataRow).flat().filter(isNumber).length || cellRows.flat().length / 1e6;
   };
-  return [';', '\t', ',', '|', ' '].map((separator) => ({ separator, score: scoreOf(separator) })).reduce((best, candidate) => (candidate.score > best.score ? candidate : best)).separator;
+  return [';', '\t', ',', '|', ' '].map((cellSeparator) => ({ cellSeparator, separatorScore: scoreOf(cellSeparator) })).reduce((bestScored, scoredSeparator) => (scoredSeparator.separatorScore > bestScored.separatorScore ? scoredSeparator : bestScored)).cellSeparator;
 }
 
 /** Detects the format of a table from its first lines, which include a row if the file has any. Throws a LogError if the columns are ambiguous. */
-export function detectTableFormat(lines: string[], file: string, givenColumnNames: string[] | undefined): TableFormat {
-  const filledLines = lines.map((line, i) => ({ line, number: i + 1 })).filter(({ line }) => line.trim() !== '');
-  const isComment = ({ line }: { line: string }) => /^\s*(#|%|\/\/)/.test(line);
+export function detectTableFormat(lineTexts: string[], fileName: string, givenColumnNames: string[] | undefined): TableFormat {
+  const filledLines = lineTexts.map((lineText, i) => ({ lineText, lineNumber: i + 1 })).filter(({ lineText }) => lineText.trim() !== '');
+  const isComment = ({ lineText }: { lineText: string }) => /^\s*(#|%|\/\/)/.test(lineText);
   const textLines = filledLines.filter((textLine) => !isComment(textLine));
-  if (textLines.length === 0) throw new LogError({ file }, (texts) => texts.emptyFileReason);
-  const [, notation] = NON_TABLE_PATTERNS.find(([pattern]) => pattern.test(textLines[0].line)) ?? [];
-  if (notation !== undefined) throw new LogError({ file }, (texts) => texts.noTableReason(notation));
+  if (textLines.length === 0) throw new LogError({ fileName }, (errorReasons) => errorReasons.emptyFileReason);
+  const [, notation] = NON_TABLE_PATTERNS.find(([notationPattern]) => notationPattern.test(textLines[0].lineText)) ?? [];
+  if (notation !== undefined) throw new LogError({ fileName }, (errorReasons) => errorReasons.noTableReason(notation));
 
-  const separator = separatorOf([...textLines.slice(0, SAMPLED_LINE_COUNT), ...textLines.slice(-SAMPLED_LINE_COUNT)].map(({ line }) => line.trim()));
-  const cellsOfLine = (line: string) => splitCells(line, separator);
-  const firstRowLine = textLines.find(({ line }, i) => isDataRow(cellsOfLine(line)) && (i + 1 === textLines.length || isDataRow(cellsOfLine(textLines[i + 1].line)))) ?? textLines.findLast(({ line }) => isDataRow(cellsOfLine(line)));
-  const rows = firstRowLine ? textLines.filter(({ number }) => number >= firstRowLine.number).slice(0, SAMPLED_LINE_COUNT).map(({ line }) => cellsOfLine(line)) : [];
+  const cellSeparator = separatorOf([...textLines.slice(0, SAMPLED_LINE_COUNT), ...textLines.slice(-SAMPLED_LINE_COUNT)].map(({ lineText }) => lineText.trim()));
+  const cellsOfLine = (lineText: string) => splitCells(lineText, cellSeparator);
+  const firstRowLine = textLines.find(({ lineText }, i) => isDataRow(cellsOfLine(lineText)) && (i + 1 === textLines.length || isDataRow(cellsOfLine(textLines[i + 1].lineText)))) ?? textLines.findLast(({ lineText }) => isDataRow(cellsOfLine(lineText)));
+  const sampledRows = firstRowLine ? textLines.filter(({ lineNumber }) => lineNumber >= firstRowLine.lineNumber).slice(0, SAMPLED_LINE_COUNT).map(({ lineText }) => cellsOfLine(lineText)) : [];
   // If commas separate the cells, a comma within a quoted cell may be a thousands separator instead of a decimal comma.
-  const hasDecimalComma = (cell: string) => DECIMAL_COMMA.test(cell) && (separator !== ',' || !THOUSANDS_COMMA.test(cell));
-  const hasDecimalCommas = rows.flat().some(hasDecimalComma);
-  const rowWidth = Math.max(0, ...rows.map((row) => row.length - (row.at(-1)?.trim() === '' ? 1 : 0)));
-  const commonFormat = { separator, hasDecimalCommas, firstRowNumber: firstRowLine?.number ?? (filledLines.at(-1)?.number ?? 0) + 1, isSparse: false };
-  const errorPlace = { file, line: firstRowLine?.number ?? filledLines[0].number };
-  const noLogError = () => new LogError({ file }, (texts) => texts.noLogReason);
+  const hasDecimalComma = (cell: string) => DECIMAL_COMMA.test(cell) && (cellSeparator !== ',' || !THOUSANDS_COMMA.test(cell));
+  const hasDecimalCommas = sampledRows.flat().some(hasDecimalComma);
+  const rowWidth = Math.max(0, ...sampledRows.map((rowCells) => rowCells.length - (rowCells.at(-1)?.trim() === '' ? 1 : 0)));
+  const commonFormat = { cellSeparator, hasDecimalCommas, firstRowNumber: firstRowLine?.lineNumber ?? (filledLines.at(-1)?.lineNumber ?? 0) + 1, isSparse: false };
+  const errorPlace = { fileName, lineNumber: firstRowLine?.lineNumber ?? filledLines[0].lineNumber };
+  const noLogError = () => new LogError({ fileName }, (errorReasons) => errorReasons.noLogReason);
 
   if (givenColumnNames) {
-    if (firstRowLine && givenColumnNames.length !== rowWidth) throw new LogError(errorPlace, (texts) => texts.columnCountReason(rowWidth, givenColumnNames.length));
-    const namesInFile = textLines.filter(({ number }) => number < commonFormat.firstRowNumber).map(({ line }) => cellsOfLine(line)).findLast((cells) => cells.length === rowWidth);
-    const columnNames = givenColumnNames.map((name, i) => withUnitInFile(name, namesInFile?.[i] ?? ''));
-    return { ...commonFormat, columnNames, columnGroups: findColumnGroups(columnNames, rows[0]) };
+    if (firstRowLine && givenColumnNames.length !== rowWidth) throw new LogError(errorPlace, (errorReasons) => errorReasons.columnCountReason(rowWidth, givenColumnNames.length));
+    const namesInFile = textLines.filter(({ lineNumber }) => lineNumber < commonFormat.firstRowNumber).map(({ lineText }) => cellsOfLine(lineText)).findLast((rowCells) => rowCells.length === rowWidth);
+    const columnNames = givenColumnNames.map((columnName, i) => withUnitInFile(columnName, namesInFile?.[i] ?? ''));
+    return { ...commonFormat, columnNames, columnGroups: findColumnGroups(columnNames, sampledRows[0]) };
   }
   // At least half of the lines must be rows: prose can also contain single rows of numbers.
-  if (2 * rows.filter(isDataRow).length < rows.length) throw noLogError();
-  const preambleLines = filledLines.filter(({ number }) => number < commonFormat.firstRowNumber);
-  const motiveLayout = preambleLines.length > 0 && /^"?Format Version/.test(preambleLines[0].line) ? detectMotiveFormat(preambleLines.map(({ line }) => cellsOfLine(line)), errorPlace) : undefined;
+  if (2 * sampledRows.filter(isDataRow).length < sampledRows.length) throw noLogError();
+  const preambleLines = filledLines.filter(({ lineNumber }) => lineNumber < commonFormat.firstRowNumber);
+  const motiveLayout = preambleLines.length > 0 && /^"?Format Version/.test(preambleLines[0].lineText) ? detectMotiveFormat(preambleLines.map(({ lineText }) => cellsOfLine(lineText)), errorPlace) : undefined;
   if (motiveLayout) return { ...commonFormat, ...motiveLayout };
 
-  const header = headerOf(preambleLines, separator, rowWidth, rows[0]);
-  if (header) {
-    const { number } = header;
-    const columnNames = addUnits(header.names, preambleLines.flatMap((preambleLine) => (preambleLine.number > number ? [cellsOfLine(preambleLine.line)] : [])));
+  const tableHeader = headerOf(preambleLines, cellSeparator, rowWidth, sampledRows[0]);
+  if (tableHeader) {
+    const { lineNumber } = tableHeader;
+    const columnNames = addUnits(tableHeader.columnNames, preambleLines.flatMap((preambleLine) => (preambleLine.lineNumber > lineNumber ? [cellsOfLine(preambleLine.lineText)] : [])));
     // A row has more cells than the header if commas serve both as separator and as decimal comma.
-    if (rowWidth > columnNames.length) throw new LogError({ file, line: firstRowLine?.number }, (texts) => texts.wideRowReason(rowWidth, columnNames.length, number));
-    const columnGroups = findColumnGroups(columnNames, rows[0]);
-    if (!firstRowLine && columnGroups.every(({ kind }) => kind === null)) throw noLogError();
-    return { ...commonFormat, columnNames, columnGroups, isSparse: columnGroups.length > 1 || columnNames.some((name) => name.trim() === '__time') };
+    if (rowWidth > columnNames.length) throw new LogError({ fileName, lineNumber: firstRowLine?.lineNumber }, (errorReasons) => errorReasons.wideRowReason(rowWidth, columnNames.length, lineNumber));
+    const columnGroups = findColumnGroups(columnNames, sampledRows[0]);
+    if (!firstRowLine && columnGroups.every(({ groupKind }) => groupKind === null)) throw noLogError();
+    return { ...commonFormat, columnNames, columnGroups, isSparse: columnGroups.length > 1 || columnNames.some((columnName) => columnName.trim() === '__time') };
   }
   if (!firstRowLine) throw noLogError();
-  const names = columnsByContent(rows);
-  if (names) return { ...commonFormat, columnNames: names, columnGroups: findColumnGroups(names, rows[0]) };
-  throw new LogError(errorPlace, (texts) => texts.noHeaderReason(rowWidth, truncate(firstRowLine.line.trim().replaceAll('\t', ' '))), columnQuestionOf(rows[0].slice(0, rowWidth)));
+  const columnNames = columnsByContent(sampledRows);
+  if (columnNames) return { ...commonFormat, columnNames, columnGroups: findColumnGroups(columnNames, sampledRows[0]) };
+  throw new LogError(errorPlace, (errorReasons) => errorReasons.noHeaderReason(rowWidth, truncate(firstRowLine.lineText.trim().replaceAll('\t', ' '))), columnQuestionOf(sampledRows[0].slice(0, rowWidth)));
 }
 
 const stripUnitBrackets = (cell: string) => cell.replaceAll(/[\s"[\](){}]/g, '');
 
-function addUnits(names: string[], rowsBelowHeader: string[][]): string[] {
-  const unitTexts = rowsBelowHeader.map((row) => row.map(stripUnitBrackets)).find((row) => row.length === names.length && row.filter(isUnit).length >= 2);
-  return names.map((name, i) => (unitTexts && isUnit(unitTexts[i]) ? `${name} [${unitTexts[i]}]` : name));
+function addUnits(columnNames: string[], rowsBelowHeader: string[][]): string[] {
+  const unitTexts = rowsBelowHeader.map((rowCells) => rowCells.map(stripUnitBrackets)).find((rowCells) => rowCells.length === columnNames.length && rowCells.filter(isUnit).length >= 2);
+  return columnNames.map((columnName, i) => (unitTexts && isUnit(unitTexts[i]) ? `${columnName} [${unitTexts[i]}]` : columnName));
 }
 
 /** Groups columns by prefix. A column without a name holds times if its first cell is a date, a fraction or a time since 1970, and row numbers otherwise. */
-function findColumnGroups(names: string[], firstRow: string[] | undefined): ColumnGroup[] {
-  return groupColumnsByPrefix(names, (columnIndex) => {
+function findColumnGroups(columnNames: string[], firstRow: string[] | undefined): ColumnGroup[] {
+  return groupColumnsByPrefix(columnNames, (columnIndex) => {
     const cell = firstRow?.[columnIndex]?.trim() ?? '';
     return parseDate(cell) !== undefined || /^\d+[.,]\d+$/.test(cell) || epochTimeUnitOf(Number(cell)) !== undefined;
   });
 }
 
 /** Returns the header: the last line above the rows that contains names of fields, or a comment with as many names as a row has cells. */
-function headerOf(preambleLines: { line: string; number: number }[], separator: string, rowWidth: number, firstRow: string[] | undefined) {
-  for (const { line, number } of preambleLines.toReversed()) {
-    const textLine = line.trim().replace(/^\/\//, '');
-    const isComment = /^#|^%(?!time)/.test(textLine) || textLine !== line.trim();
+function headerOf(preambleLines: { lineText: string; lineNumber: number }[], cellSeparator: string, rowWidth: number, firstRow: string[] | undefined) {
+  for (const { lineText, lineNumber } of preambleLines.toReversed()) {
+    const textLine = lineText.trim().replace(/^\/\//, '');
+    const isComment = /^#|^%(?!time)/.test(textLine) || textLine !== lineText.trim();
     const commentText = textLine.replace(/^[#%]+\s*(?=[^,;])/, isComment ? '' : '$&');
     // A header in a comment may have another separator than the rows. Spaces, commas and semicolons are therefore tried too.
-    const possibleCells = [splitCells(commentText, separator), ...(isComment ? [commentText.split(/\s{2,}/), commentText.split(/[\s,;]+(?![[(])/)] : [])];
-    const names = possibleCells.find((cells) => cells.length === rowWidth) ?? possibleCells[0];
-    if (!isHeader(names)) continue;
-    const fieldNames = findColumnGroups(names, firstRow).flatMap(({ columns }) => Object.keys(columns));
+    const possibleCells = [splitCells(commentText, cellSeparator), ...(isComment ? [commentText.split(/\s{2,}/), commentText.split(/[\s,;]+(?![[(])/)] : [])];
+    const columnNames = possibleCells.find((rowCells) => rowCells.length === rowWidth) ?? possibleCells[0];
+    if (!isHeader(columnNames)) continue;
+    const fieldNames = findColumnGroups(columnNames, firstRow).flatMap(({ fieldColumns }) => Object.keys(fieldColumns));
     // In a row of units below the header, the unit V (volt) looks like the name of a speed. A line that consists mostly of units is therefore not the header.
-    if (names.filter((name) => isUnit(stripUnitBrackets(name))).length > fieldNames.length) continue;
-    if (isComment && (fieldNames.length < 3 || (names.length !== rowWidth && fieldNames.length < 4))) continue;
-    if (isComment || fieldNames.length > 0 || !preambleLines.some((earlierLine) => earlierLine.number < number && !/^\s*["#%]?sep=/i.test(earlierLine.line) && findColumnGroups(splitCells(earlierLine.line, separator), firstRow).length > 0)) {
-      return { names: names.map((name) => name.trim().replace(/^"(.*)"$/, '$1')), number };
+    if (columnNames.filter((columnName) => isUnit(stripUnitBrackets(columnName))).length > fieldNames.length) continue;
+    if (isComment && (fieldNames.length < 3 || (columnNames.length !== rowWidth && fieldNames.length < 4))) continue;
+    if (isComment || fieldNames.length > 0 || !preambleLines.some((earlierLine) => earlierLine.lineNumber < lineNumber && !/^\s*["#%]?sep=/i.test(earlierLine.lineText) && findColumnGroups(splitCells(earlierLine.lineText, cellSeparator), firstRow).length > 0)) {
+      return { columnNames: columnNames.map((columnName) => columnName.trim().replace(/^"(.*)"$/, '$1')), lineNumber };
     }
   }
   return undefined;
 }
 
 /** Returns the names of the columns of a table without a header, by their number and content. */
-function columnsByContent(rows: string[][]): string[] | undefined {
-  const [row] = rows;
-  const isQuaternion = (firstIndex: number) => Math.abs(Math.hypot(...row.slice(firstIndex, firstIndex + 4).map((cell) => Number(cell.replace(',', '.')))) - 1) < 0.1;
-  if (row.length === TUM_COLUMNS.length && row.every(isNumber)) return TUM_COLUMNS;
-  return ROS2_LAYOUTS.find((names) => {
-    const orientationIndex = names.indexOf('pose.orientation.x');
-    return row.length === names.length && /^\d+$/.test(row[0].trim()) && /^\d{1,9}$/.test(row[1].trim()) && !isNumber(row[2]) && (orientationIndex < 0 || isQuaternion(orientationIndex));
+function columnsByContent(sampledRows: string[][]): string[] | undefined {
+  const [rowCells] = sampledRows;
+  const isQuaternion = (firstIndex: number) => Math.abs(Math.hypot(...rowCells.slice(firstIndex, firstIndex + 4).map((cell) => Number(cell.replace(',', '.')))) - 1) < 0.1;
+  if (rowCells.length === TUM_COLUMNS.length && rowCells.every(isNumber)) return TUM_COLUMNS;
+  return ROS2_LAYOUTS.find((columnNames) => {
+    const orientationIndex = columnNames.indexOf('pose.orientation.x');
+    return rowCells.length === columnNames.length && /^\d+$/.test(rowCells[0].trim()) && /^\d{1,9}$/.test(rowCells[1].trim()) && !isNumber(rowCells[2]) && (orientationIndex < 0 || isQuaternion(orientationIndex));
   });
 }
 
 /** Returns the format of a Motive export, with a group for each rigid body. Throws a LogError if the rotations are Euler angles instead of quaternions. */
 function detectMotiveFormat(preambleRows: string[][], errorPlace: ErrorPlace): Pick<TableFormat, 'columnNames' | 'columnGroups'> | undefined {
-  const findRowByName = (name: string) => preambleRows.find((row) => row.slice(0, 3).some((cell) => cell.trim() === name));
+  const findRowByName = (columnName: string) => preambleRows.find((rowCells) => rowCells.slice(0, 3).some((cell) => cell.trim() === columnName));
   const [axisRow, quantityRow] = preambleRows.toReversed();
   const bodyNames = findRowByName('Name');
   if (!bodyNames || !quantityRow) return undefined;
   const exportSettings = new Map(preambleRows[0].flatMap((cell, i) => (i % 2 === 0 ? [[cell.trim(), preambleRows[0][i + 1]?.trim() ?? '']] : [])));
   const rotationType = exportSettings.get('Rotation Type') ?? 'Quaternion';
-  if (rotationType !== 'Quaternion') throw new LogError(errorPlace, (texts) => texts.eulerAnglesReason(truncate(rotationType)));
-  const unit = (exportSettings.get('Length Units') ?? exportSettings.get('Units') ?? 'Meters').toLowerCase();
+  if (rotationType !== 'Quaternion') throw new LogError(errorPlace, (errorReasons) => errorReasons.eulerAnglesReason(truncate(rotationType)));
+  const lengthUnitName = (exportSettings.get('Length Units') ?? exportSettings.get('Units') ?? 'Meters').toLowerCase();
   const bodyTypes = findRowByName('Type');
-  const names = axisRow.map((axis, i) => {
-    if (/^Time/.test(axis.trim())) return 't [s]';
+  const columnNames = axisRow.map((axisLetter, i) => {
+    if (/^Time/.test(axisLetter.trim())) return 't [s]';
     const isRigidBody = bodyTypes === undefined || bodyTypes[i]?.trim() === 'Rigid Body';
     const bodyName = bodyNames[i]?.trim() ?? '';
     if (!isRigidBody || bodyName === '') return '-';
-    const axisName = axis.trim().toLowerCase();
+    const axisName = axisLetter.trim().toLowerCase();
     if (quantityRow[i]?.trim() === 'Rotation') return `${bodyName}/q${axisName}`;
-    return quantityRow[i]?.trim() === 'Position' ? `${bodyName}/${axisName} [${unit}]` : '-';
+    return quantityRow[i]?.trim() === 'Position' ? `${bodyName}/${axisName} [${lengthUnitName}]` : '-';
   });
-  return { columnNames: names, columnGroups: groupColumnsByPrefix(names) };
+  return { columnNames, columnGroups: groupColumnsByPrefix(columnNames) };
 }
 
 /** Parses a number. Returns NaN for an empty cell or a word such as "nan", and undefined for any other text. */
@@ -224,14 +224,14 @@ export function parseTime(cell: string, unitExponent: number): number | undefine
 export function parseDate(cell: string): number | undefined {
   const dateMatch = ISO_DATE.exec(cell);
   if (dateMatch) {
-    const [, year, month, day, hour = '0', minute = '0', second = '0', fraction = '', zone] = dateMatch;
-    const [sign, hours, minutes] = /^([+-])(\d{2}):?(\d{2})?$/.exec(zone ?? '')?.slice(1) ?? ['+', '0', '0'];
-    const zoneOffset = (sign === '-' ? -60 : 60) * (60 * Number(hours) + Number(minutes ?? 0));
-    const seconds = Date.UTC(Number(year), Number(month) - 1, Number(day), Number(hour), Number(minute), Number(second)) / 1000 - zoneOffset;
-    return seconds + Number(`.${fraction}0`);
+    const [, yearText, monthText, dayText, hourText = '0', minuteText = '0', secondText = '0', fractionText = '', zoneText] = dateMatch;
+    const [zoneSign, zoneHours, zoneMinutes] = /^([+-])(\d{2}):?(\d{2})?$/.exec(zoneText ?? '')?.slice(1) ?? ['+', '0', '0'];
+    const zoneOffset = (zoneSign === '-' ? -60 : 60) * (60 * Number(zoneHours) + Number(zoneMinutes ?? 0));
+    const seconds = Date.UTC(Number(yearText), Number(monthText) - 1, Number(dayText), Number(hourText), Number(minuteText), Number(secondText)) / 1000 - zoneOffset;
+    return seconds + Number(`.${fractionText}0`);
   }
   const durationMatch = DURATION_TEXT.exec(cell);
   if (!durationMatch) return undefined;
-  const [days = '0', hours, minutes, seconds, fraction = ''] = durationMatch.slice(1);
-  return ((Number(days) * 24 + Number(hours)) * 60 + Number(minutes)) * 60 + Number(seconds) + Number(`.${fraction}0`);
+  const [dayCount = '0', hourCount, minuteCount, seconds, fractionText = ''] = durationMatch.slice(1);
+  return ((Number(dayCount) * 24 + Number(hourCount)) * 60 + Number(minuteCount)) * 60 + Number(seconds) + Number(`.${fractionText}0`);
 }

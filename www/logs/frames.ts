@@ -2,9 +2,9 @@
 
 import { bisector, sort } from 'd3-array';
 import { formatFrames, type FramePair } from './log.ts';
-import { rowOfPose, withoutSlash, type StampedTransform, type Transform } from './messages.ts';
+import { rowOfPose, withoutSlash, type StampedTransform, type FrameTransform } from './messages.ts';
 import { multiplyQuaternions } from './path.ts';
-import type { Sample } from './rows.ts';
+import type { LogSample } from './rows.ts';
 
 /** Minimum distance (m) that a frame moves if it counts as travelling. The frame of a joint only turns, and the frame of a suspension moves less. */
 const MIN_TRAVEL = 0.05;
@@ -21,12 +21,12 @@ const byRecordTime = bisector(({ recordTime }: RecordedTransform) => recordTime)
 interface FrameLink extends FramePair {
   isStatic: boolean;
   /** First recorded transform between the two frames. */
-  firstTransform: Transform;
+  firstTransform: FrameTransform;
   hasChanged: boolean;
   /** Largest distance (m) of the child frame from its first position, in the frame of the parent. */
   maxDistance: number;
   /** Recorded transforms in the order of their messages. The list is filled only if poses are read. */
-  samples: RecordedTransform[];
+  recordedTransforms: RecordedTransform[];
 }
 
 /**
@@ -34,7 +34,7 @@ interface FrameLink extends FramePair {
  * computes their relative poses, from the transforms on the chain between them.
  */
 export class FrameTree {
-  #links = new Map<string, FrameLink>();
+  #linkByName = new Map<string, FrameLink>();
   readonly #chainEnds: FramePair | undefined;
   /** Links of the chain between the two end frames, in order; empty until transforms connect the end frames. */
   #chainLinks: FrameLink[] = [];
@@ -45,36 +45,36 @@ export class FrameTree {
 
   /** Adds a transform to the link between its frames. */
   addTransform(stampedTransform: StampedTransform, isStatic: boolean, recordTime: number, messageNumber: number): void {
-    const { parent, child, transform } = stampedTransform;
-    const name = formatFrames({ parent, child });
-    const link = this.#links.get(name) ?? { parent, child, isStatic, firstTransform: transform, hasChanged: false, maxDistance: 0, samples: [] };
-    this.#links.set(name, link);
-    link.maxDistance = Math.max(link.maxDistance, Math.hypot(transform[0] - link.firstTransform[0], transform[1] - link.firstTransform[1]));
-    link.hasChanged ||= transform.some((transformValue, i) => transformValue !== link.firstTransform[i]);
+    const { parent: parentFrame, child: childFrame, frameTransform: transform } = stampedTransform;
+    const linkName = formatFrames({ parent: parentFrame, child: childFrame });
+    const frameLink = this.#linkByName.get(linkName) ?? { parent: parentFrame, child: childFrame, isStatic, firstTransform: transform, hasChanged: false, maxDistance: 0, recordedTransforms: [] };
+    this.#linkByName.set(linkName, frameLink);
+    frameLink.maxDistance = Math.max(frameLink.maxDistance, Math.hypot(transform[0] - frameLink.firstTransform[0], transform[1] - frameLink.firstTransform[1]));
+    frameLink.hasChanged ||= transform.some((transformValue, i) => transformValue !== frameLink.firstTransform[i]);
     if (!this.#chainEnds) return;
-    if (!this.isConnected || this.#chainLinks.includes(link)) link.samples.push({ ...stampedTransform, recordTime, messageNumber });
+    if (!this.isConnected || this.#chainLinks.includes(frameLink)) frameLink.recordedTransforms.push({ ...stampedTransform, recordTime, messageNumber });
     if (!this.isConnected) this.#chainLinks = this.#findChain(this.#chainEnds) ?? [];
   }
 
-  get links(): FrameLink[] {
-    return [...this.#links.values()];
+  get frameLinks(): FrameLink[] {
+    return [...this.#linkByName.values()];
   }
 
   get isConnected(): boolean {
     return this.#chainLinks.length > 0;
   }
 
-  #linksTo(child: string): FrameLink[] {
-    return this.links.filter((link) => link.child === child);
+  #linksTo(childFrame: string): FrameLink[] {
+    return this.frameLinks.filter((frameLink) => frameLink.child === childFrame);
   }
 
   /** Returns the links from one frame to another, or undefined if they are not connected. */
-  #findChain({ parent, child }: FramePair, visitedFrames = new Set<string>()): FrameLink[] | undefined {
-    if (visitedFrames.has(child)) return undefined;
-    visitedFrames.add(child);
-    for (const link of this.#linksTo(child)) {
-      const chain = link.parent === parent ? [] : this.#findChain({ parent, child: link.parent }, visitedFrames);
-      if (chain) return [...chain, link];
+  #findChain({ parent: parentFrame, child: childFrame }: FramePair, visitedFrames = new Set<string>()): FrameLink[] | undefined {
+    if (visitedFrames.has(childFrame)) return undefined;
+    visitedFrames.add(childFrame);
+    for (const frameLink of this.#linksTo(childFrame)) {
+      const linkChain = frameLink.parent === parentFrame ? [] : this.#findChain({ parent: parentFrame, child: frameLink.parent }, visitedFrames);
+      if (linkChain) return [...linkChain, frameLink];
     }
     return undefined;
   }
@@ -84,25 +84,25 @@ export class FrameTree {
    * frame that is fixed to such a frame. If no frame travels, all frames whose transform is not static count as travelling.
    */
   findPoseFrames(): FramePair[] {
-    const { links } = this;
-    const travellingLinks = links.filter(({ isStatic, maxDistance }) => !isStatic && maxDistance > MIN_TRAVEL);
-    const movingFrames = new Set((travellingLinks.length ? travellingLinks : links.filter(({ isStatic }) => !isStatic)).map(({ child }) => child));
-    const children = [...new Set(links.map(({ child }) => child))];
-    return children.flatMap((child) => {
-      const ancestors = this.#ancestorsOf(child);
-      const isMoving = movingFrames.has(child);
-      const hasMovingDescendant = isMoving && children.some((otherChild) => otherChild !== child && movingFrames.has(otherChild) && this.#ancestorsOf(otherChild).includes(child));
+    const { frameLinks } = this;
+    const travellingLinks = frameLinks.filter(({ isStatic, maxDistance }) => !isStatic && maxDistance > MIN_TRAVEL);
+    const movingFrames = new Set((travellingLinks.length ? travellingLinks : frameLinks.filter(({ isStatic }) => !isStatic)).map(({ child: childFrame }) => childFrame));
+    const childFrames = [...new Set(frameLinks.map(({ child: childFrame }) => childFrame))];
+    return childFrames.flatMap((childFrame) => {
+      const ancestorFrames = this.#ancestorsOf(childFrame);
+      const isMoving = movingFrames.has(childFrame);
+      const hasMovingDescendant = isMoving && childFrames.some((otherChild) => otherChild !== childFrame && movingFrames.has(otherChild) && this.#ancestorsOf(otherChild).includes(childFrame));
       // Example: the chain odom → base_footprint → base_link, in which only base_footprint moves. The pose of base_link is relative to odom: the moving
       // frame, and frames between it and the child, are skipped as parents.
-      const skipCount = isMoving || !BASE_FRAME.test(child) ? 0 : ancestors.findIndex((frame) => movingFrames.has(frame)) + 1;
-      return hasMovingDescendant || (!isMoving && skipCount === 0) ? [] : ancestors.slice(skipCount).map((parent) => ({ parent, child }));
+      const skipCount = isMoving || !BASE_FRAME.test(childFrame) ? 0 : ancestorFrames.findIndex((frameName) => movingFrames.has(frameName)) + 1;
+      return hasMovingDescendant || (!isMoving && skipCount === 0) ? [] : ancestorFrames.slice(skipCount).map((parentFrame) => ({ parent: parentFrame, child: childFrame }));
     });
   }
 
   /** Returns the ancestors of a frame: its parent, the parent of its parent, and so on. */
-  #ancestorsOf(frame: string): string[] {
-    const ancestorFrames = new Set<string>([frame]);
-    for (const ancestor of ancestorFrames) for (const { parent } of this.#linksTo(ancestor)) ancestorFrames.add(parent);
+  #ancestorsOf(frameName: string): string[] {
+    const ancestorFrames = new Set<string>([frameName]);
+    for (const ancestorFrame of ancestorFrames) for (const { parent: parentFrame } of this.#linksTo(ancestorFrame)) ancestorFrames.add(parentFrame);
     return [...ancestorFrames].slice(1);
   }
 
@@ -110,25 +110,25 @@ export class FrameTree {
    * Calls `onPose` for each message of one link: the changing link that is nearest to the child. The other links contribute their latest transforms. A
    * transform that never changes also holds before its first message. Returns false if all transforms are constant.
    */
-  readPoses(onPose: (poseSample: Sample, recordedTransform: RecordedTransform) => void): boolean {
+  readPoses(onPose: (poseSample: LogSample, recordedTransform: RecordedTransform) => void): boolean {
     // A static transform that is published again with other values does not count as motion.
     const nearestMovingLink = this.#chainLinks.findLast(({ isStatic, hasChanged }) => !isStatic && hasChanged);
-    const samplesByLink = new Map(this.#chainLinks.map((link) => [link, sort(link.samples, ({ recordTime }) => recordTime)]));
-    const transformAt = (link: FrameLink, time: number) => {
-      const samples = samplesByLink.get(link) ?? [];
-      return samples[Math.max(byRecordTime.right(samples, time) - 1, link.isStatic || !link.hasChanged ? 0 : -1)]?.transform;
+    const samplesByLink = new Map(this.#chainLinks.map((frameLink) => [frameLink, sort(frameLink.recordedTransforms, ({ recordTime }) => recordTime)]));
+    const transformAt = (frameLink: FrameLink, recordTime: number) => {
+      const recordedTransforms = samplesByLink.get(frameLink) ?? [];
+      return recordedTransforms[Math.max(byRecordTime.right(recordedTransforms, recordTime) - 1, frameLink.isStatic || !frameLink.hasChanged ? 0 : -1)]?.frameTransform;
     };
-    for (const sample of (nearestMovingLink && samplesByLink.get(nearestMovingLink)) ?? []) {
-      const transforms = this.#chainLinks.map((link) => (link === nearestMovingLink ? sample.transform : transformAt(link, sample.recordTime)));
-      if (transforms.every((transform) => transform !== undefined)) onPose(rowOfPose(sample.time, transforms.reduce(composeTransforms)), sample);
+    for (const recordedTransform of (nearestMovingLink && samplesByLink.get(nearestMovingLink)) ?? []) {
+      const chainTransforms = this.#chainLinks.map((frameLink) => (frameLink === nearestMovingLink ? recordedTransform.frameTransform : transformAt(frameLink, recordedTransform.recordTime)));
+      if (chainTransforms.every((transform) => transform !== undefined)) onPose(rowOfPose(recordedTransform.stampTime, chainTransforms.reduce(composeTransforms)), recordedTransform);
     }
     return nearestMovingLink !== undefined;
   }
 }
 
 /** Returns the composition of two transforms. The second transform is relative to the frame that the first one defines. */
-function composeTransforms([x, y, z, ...rotation]: Transform, [x2, y2, z2, ...rotation2]: Transform): Transform {
-  const [qx, qy, qz, qw] = rotation;
-  const [dx, dy, dz] = multiplyQuaternions(multiplyQuaternions(rotation, [x2, y2, z2, 0]), [-qx, -qy, -qz, qw]);
-  return [x + dx, y + dy, z + dz, ...multiplyQuaternions(rotation, rotation2)];
+function composeTransforms([x, y, z, ...rotationOfFirst]: FrameTransform, [x2, y2, z2, ...rotationOfSecond]: FrameTransform): FrameTransform {
+  const [qx, qy, qz, qw] = rotationOfFirst;
+  const [dx, dy, dz] = multiplyQuaternions(multiplyQuaternions(rotationOfFirst, [x2, y2, z2, 0]), [-qx, -qy, -qz, qw]);
+  return [x + dx, y + dy, z + dz, ...multiplyQuaternions(rotationOfFirst, rotationOfSecond)];
 }

@@ -4,98 +4,98 @@ import { english } from './en.ts';
 import type { CalibrationCheck } from '../types.d.ts';
 
 /** File, or other bytes with a name. `path` is the path of a file in a dropped folder. */
-export type Source = Pick<File, 'name' | 'size' | 'slice'> & { path?: string };
+export type SourceFile = Pick<File, 'name' | 'size' | 'slice'> & { path?: string };
 
 /** Contents of a log: poses of the robot, or velocity commands. */
 export type LogKind = 'poses' | 'commands';
 
-export const ROLES = ['odometry', 'reference'] as const;
+export const LOG_ROLES = ['odometry', 'reference'] as const;
 
-export type Role = (typeof ROLES)[number];
+export type LogRole = (typeof LOG_ROLES)[number];
 
 /** Part of a recording from which one log can be read: a topic, or a group of columns with a common prefix. */
 export interface Series {
   /** Topic, or prefix of the columns ("gt", "odom.pose"); empty where a table has one group only. */
-  name: string;
+  seriesName: string;
   /** Message type of a topic, or the names of the columns of a table. */
-  type: string;
+  messageType: string;
   /** Kind of log that can be read from the series; null if none. `positions` have no heading. */
-  kind: LogKind | 'positions' | 'transforms' | null;
+  seriesKind: LogKind | 'positions' | 'transforms' | null;
   /** True if a table has columns of poses and of commands. The commands are read if the user prefers commands. */
   hasCommands?: boolean;
   /** Number of messages; 0 for a table, whose rows are counted when it is read. */
-  count: number;
+  messageCount: number;
   /** Pairs of frames between which the transform may be the pose of the robot; undefined for static transforms. */
-  frames?: FramePair[];
+  framePairs?: FramePair[];
 }
 
 export interface FramePair { parent: string; child: string }
 
-export const formatFrames = ({ parent, child }: FramePair) => `${parent} → ${child}`;
+export const formatFrames = ({ parent: parentFrame, child: childFrame }: FramePair) => `${parentFrame} → ${childFrame}`;
 
-export const formatFramesOption = ({ parent, child }: FramePair) => `${parent},${child}`;
+export const formatFramesOption = ({ parent: parentFrame, child: childFrame }: FramePair) => `${parentFrame},${childFrame}`;
 
 export interface LogChoice {
-  series: string;
+  seriesName: string;
   /** Kind of log: `commands` prefers commands to poses, and `poses` excludes commands. By default poses come first. */
-  kind?: LogKind;
-  frames?: FramePair;
+  logKind?: LogKind;
+  framePair?: FramePair;
 }
 
 /** Returns the label of a choice of a log: the name of its series, and the two frames if the series has transforms. */
-export const choiceLabelOf = ({ series, frames }: LogChoice) => (frames ? `${series}: ${formatFrames(frames)}` : series);
+export const choiceLabelOf = ({ seriesName: series, framePair }: LogChoice) => (framePair ? `${series}: ${formatFrames(framePair)}` : series);
 
 /** File, or folder of files, from which logs are read. */
 export interface Recording {
-  name: string;
+  recordingName: string;
   /** Format of the messages, or `csv` for any table, whose series are groups of columns. */
-  format: 'mcap' | 'rosbag' | 'sqlite' | 'csv';
+  recordingFormat: 'mcap' | 'rosbag' | 'sqlite' | 'csv';
   /** Series in the order of their names, or of their columns. */
-  series: Series[];
+  seriesList: Series[];
   /** Role that the user chose for the log. */
-  role?: Role;
+  logRole?: LogRole;
   /** Reads one log for each of `choices`, all in one pass over the file; rejects with a LogError if a log cannot be read. */
-  read(choices: LogChoice[], onProgress?: (fraction: number) => void): Promise<Log[]>;
+  readLogs(choices: LogChoice[], onProgress?: (progressFraction: number) => void): Promise<Log[]>;
 }
 
 /** Returns the series that can be read. A topic needs at least two messages. */
-export const readableSeriesOf = ({ series, format }: Pick<Recording, 'series' | 'format'>): Series[] => series.filter(({ kind, count }) => kind !== null && (format === 'csv' || count > 1));
+export const readableSeriesOf = ({ seriesList, recordingFormat }: Pick<Recording, 'seriesList' | 'recordingFormat'>): Series[] => seriesList.filter(({ seriesKind, messageCount }) => seriesKind !== null && (recordingFormat === 'csv' || messageCount > 1));
 
 /** Units that logs may have, by the name of the option for the unit. */
-export const UNITS = { timeUnit: ['s', 'ms', 'us', 'ns'], lengthUnit: ['m', 'cm', 'mm', 'ft', 'in'], angleUnit: ['rad', 'deg'] } as const;
+export const UNIT_NAMES = { timeUnit: ['s', 'ms', 'us', 'ns'], lengthUnit: ['m', 'cm', 'mm', 'ft', 'in'], angleUnit: ['rad', 'deg'] } as const;
 
-export type TimeUnit = (typeof UNITS.timeUnit)[number];
-export type LengthUnit = (typeof UNITS.lengthUnit)[number];
-export type AngleUnit = (typeof UNITS.angleUnit)[number];
+export type TimeUnit = (typeof UNIT_NAMES.timeUnit)[number];
+export type LengthUnit = (typeof UNIT_NAMES.lengthUnit)[number];
+export type AngleUnit = (typeof UNIT_NAMES.angleUnit)[number];
 
 export interface OpenOptions {
   /** Names of the columns of a table. They replace its header, if it has one. */
-  columns?: string[];
+  columnNames?: string[];
   timeUnit?: TimeUnit;
   lengthUnit?: LengthUnit;
   angleUnit?: AngleUnit;
   /** Role of the logs that the user chose. By default it is guessed. */
-  role?: Role;
+  logRole?: LogRole;
 }
 
 /** Function that returns the options for reading the file or log with the given name. */
 export type OptionsByName = (name: string) => OpenOptions | undefined;
 
 /** Question of a LogError to the user: the option that answers it, and the possible answers. */
-export interface Question {
-  option: keyof typeof UNITS | 'series' | 'columns' | 'frames' | 'roles' | 'other';
+export interface UserQuestion {
+  optionName: keyof typeof UNIT_NAMES | 'series' | 'columns' | 'frames' | 'roles' | 'other';
   /** Role of the log that the user has to choose. If the option is `other`, one log of a pair is missing, and this is the role of the log that was found. */
-  role?: Role;
+  logRole?: LogRole;
   /** Possible answers, the likeliest first. */
-  choices: string[];
+  possibleAnswers: string[];
   /** Columns of the table: their names, or the cells of its first row. */
-  columns?: string[];
+  columnNames?: string[];
   /** Proposed field of each column, after a minus sign if the column's numbers are to be negated. If `fields` is missing, the names in `choices` are the proposed fields. */
-  fields?: string[];
+  proposedFields?: string[];
 }
 
 /** Question to the user about the file of the given name. */
-export type FileQuestion = Question & { file: string };
+export type FileQuestion = UserQuestion & { fileName: string };
 
 /** Poses in s, m and rad. `breaks` has the rising indices of rows before which the path is unknown: after unusable rows, and at jumps. */
 export interface Poses { t: Float64Array; x: Float64Array; y: Float64Array; theta: Float64Array; breaks: Uint32Array }
@@ -106,20 +106,20 @@ export interface Commands { t: Float64Array; v: Float64Array; omega: Float64Arra
 /** Log of one robot, as plain data that a worker can post. */
 export interface Log {
   /** Name of the file, with the series and the frames if it has several logs. */
-  name: string;
-  kind: LogKind;
+  logName: string;
+  logKind: LogKind;
   /** Whole seconds that were subtracted from all times of the log. */
-  start: number;
+  startTime: number;
   /** Rows in the form that the core takes: times rise strictly, and count in seconds from `start`. */
-  data: Poses | Commands;
-  summary: Summary;
+  motionData: Poses | Commands;
+  logSummary: LogSummary;
   /** Question that proposes to mirror the log by negating y and the headings; undefined for a topic, because the axes of a topic cannot be changed. */
-  mirroring?: FileQuestion;
+  mirroringQuestion?: FileQuestion;
 }
 
 /** Returns questions that propose to mirror one log of each drive whose odometry or reference is mirrored, as a check shows. Mirroring either log gives the same α's. */
-export const mirroringQuestionsOf = (drives: Record<Role, Log>[], checks: CalibrationCheck[]): FileQuestion[] =>
-  checks.filter(({ cause }) => cause === 'mirrored').flatMap((check) => check.drives.flatMap((drive) => drives[drive].reference.mirroring ?? drives[drive].odometry.mirroring ?? []));
+export const mirroringQuestionsOf = (drives: Record<LogRole, Log>[], checks: CalibrationCheck[]): FileQuestion[] =>
+  checks.filter(({ cause }) => cause === 'mirrored').flatMap((check) => check.drives.flatMap((drive) => drives[drive].reference.mirroringQuestion ?? drives[drive].odometry.mirroringQuestion ?? []));
 
 export type DropCause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'text' | 'duplicate' | 'repeated' | 'held';
 
@@ -127,16 +127,16 @@ export type DropCause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'sh
 export type UnitBasis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'usage';
 
 /** Notes that make the α's doubtful even if all checks pass. */
-export type Warning = Extract<Note['name'], 'localizer' | 'swappedRoles'>;
+export type LogWarning = Extract<LogNote['name'], 'localizer' | 'swappedRoles'>;
 
 /** Note about a log: key of its sentence in `found.notes` of the messages, and the values in that sentence. */
-export interface Note {
+export interface LogNote {
   name: 'cutShort' | 'damaged' | 'sorted' | 'yUp' | 'wFirst' | 'swappedRoles' | 'apart' | 'localizer';
   values: (string | number)[];
 }
 
 /** Summary of a log: statistics, and the decisions with which the log was read. */
-export interface Summary {
+export interface LogSummary {
   rows: number;
   used: number;
   /** Number of dropped rows by cause. `first` is the line or the message number of the first dropped row; 0 if unknown. */
@@ -159,67 +159,67 @@ export interface Summary {
   clock: string;
   frames?: FramePair;
   columns?: Record<string, string>;
-  notes: Note[];
+  notes: LogNote[];
 }
 
 /** Name of the clock of messages without stamps: the time of recording. */
 export const RECORDING_CLOCK = 'log time';
 
-type Label = keyof Words['found']['rowLabels'];
+type SummaryLabel = keyof LogTexts['found']['rowLabels'];
 
 /** Returns the lines of a log's summary by their labels. */
-export function summaryLinesOf({ summary }: Log, texts: Words['found']): Partial<Record<Label, string[]>> {
-  const { rows, used, dropped, seconds, rate, distance, units, clock, columns, frames, gaps, jumps, notes } = summary;
+export function summaryLinesOf({ logSummary: summary }: Log, summaryTexts: LogTexts['found']): Partial<Record<SummaryLabel, string[]>> {
+  const { rows, used, dropped, seconds, rate, distance, units, clock, columns, frames: framePair, gaps, jumps, notes } = summary;
   return {
-    rows: [texts.rowsSummary(used, rows, seconds, rate, distance)],
-    ...(columns && { columns: [Object.values(columns).join(', ')], units: [texts.unitsSummary(units)] }),
-    ...(frames && { frames: [formatFrames(frames)] }),
-    ...(clock === RECORDING_CLOCK && { clock: [texts.recordedTimesNote] }),
-    dropped: (Object.entries(dropped) as [DropCause, { count: number; first: number }][]).map(([cause, { count, first }]) => texts.droppedRowsSummary(cause, count, columns ? first : 0)),
-    gaps: [gaps.count ? texts.gapsSummary(gaps.count, gaps.first, gaps.longest) : texts.noGapsSummary],
-    ...(jumps.count && { jumps: [texts.jumpsSummary(jumps.count, jumps.first)] }),
+    rows: [summaryTexts.rowsSummary(used, rows, seconds, rate, distance)],
+    ...(columns && { columns: [Object.values(columns).join(', ')], units: [summaryTexts.unitsSummary(units)] }),
+    ...(framePair && { frames: [formatFrames(framePair)] }),
+    ...(clock === RECORDING_CLOCK && { clock: [summaryTexts.recordedTimesNote] }),
+    dropped: (Object.entries(dropped) as [DropCause, { count: number; first: number }][]).map(([cause, { count, first }]) => summaryTexts.droppedRowsSummary(cause, count, columns ? first : 0)),
+    gaps: [gaps.count ? summaryTexts.gapsSummary(gaps.count, gaps.first, gaps.longest) : summaryTexts.noGapsSummary],
+    ...(jumps.count && { jumps: [summaryTexts.jumpsSummary(jumps.count, jumps.first)] }),
     notes: notes.map(({ name, values }) => {
-      const noteText: string | ((...values: any[]) => string) = texts.notes[name];
+      const noteText: string | ((...values: any[]) => string) = summaryTexts.notes[name];
       return typeof noteText === 'string' ? noteText : noteText(...values);
     }),
   };
 }
 
 /** Returns the summary of a log as sentences. The first sentence is about the rows. */
-export function summarySentencesOf(log: Log, texts: Words['found']): string[] {
-  const { rows = [], ...otherLines } = summaryLinesOf(log, texts);
-  return [...rows, ...Object.entries(otherLines).flatMap(([label, lines]) => lines.map((line) => `${texts.rowLabels[label as Label]}: ${line}`))];
+export function summarySentencesOf(robotLog: Log, summaryTexts: LogTexts['found']): string[] {
+  const { rows = [], ...otherLines } = summaryLinesOf(robotLog, summaryTexts);
+  return [...rows, ...Object.entries(otherLines).flatMap(([label, lines]) => lines.map((line) => `${summaryTexts.rowLabels[label as SummaryLabel]}: ${line}`))];
 }
 
-export type Words = typeof english;
+export type LogTexts = typeof english;
 
 export interface ErrorPlace {
-  file: string;
+  fileName: string;
   /** Number of a line in a file, or of a message in a topic, counted from 1. */
-  line?: number;
-  topic?: string;
+  lineNumber?: number;
+  topicName?: string;
 }
 
 /** Function that returns the reason in an error message, in the language of the given words. The reason follows the place of the error. */
-export type ErrorReason = (texts: Words['refused']) => string;
+export type ErrorReason = (errorReasons: LogTexts['refused']) => string;
 
 /** Maximum number of characters of a quoted name or value, and of a quoted error message of a library. */
 const [MAX_QUOTED_LENGTH, MAX_REASON_LENGTH] = [40, 100];
 
 /** Error of a log. Its message is one sentence that names the file, the line or topic, the value, and what is expected. */
 export class LogError extends Error {
-  place: ErrorPlace;
+  errorPlace: ErrorPlace;
   /** Question whose answer resolves the error. */
-  question?: Question;
+  userQuestion?: UserQuestion;
   /** Returns the message in the language of the given words. */
-  messageIn: (texts: Words) => string;
+  messageIn: (errorReasons: LogTexts) => string;
 
-  constructor(place: ErrorPlace, formatReason: ErrorReason, question?: Question) {
-    const composeMessage = (texts: Words) => `${texts.place(truncate(place.file), place.line ?? 0, truncate(place.topic ?? ''))}: ${formatReason(texts.refused)}`;
+  constructor(place: ErrorPlace, formatReason: ErrorReason, userQuestion?: UserQuestion) {
+    const composeMessage = (summaryTexts: LogTexts) => `${summaryTexts.place(truncate(place.fileName), place.lineNumber ?? 0, truncate(place.topicName ?? ''))}: ${formatReason(summaryTexts.refused)}`;
     super(composeMessage(english));
     this.name = 'LogError';
-    this.place = place;
-    this.question = question;
+    this.errorPlace = place;
+    this.userQuestion = userQuestion;
     this.messageIn = composeMessage;
   }
 }
@@ -239,16 +239,16 @@ export function reasonOf(error: unknown): string {
 
 /** Returns the first eight names of a list, separated by commas, for use in a sentence. */
 export function listNames(names: string[]): string {
-  const maxNames = 8;
-  return [...names.slice(0, maxNames).map((name) => truncate(name)), ...(names.length > maxNames ? ['…'] : [])].join(', ');
+  const maxNameCount = 8;
+  return [...names.slice(0, maxNameCount).map((name) => truncate(name)), ...(names.length > maxNameCount ? ['…'] : [])].join(', ');
 }
 
 /** Reads bytes of a source; rejects with a LogError if the file has been moved or changed since it was chosen. */
-export async function readBytes(source: Source, start: number, end: number): Promise<Uint8Array<ArrayBuffer>> {
+export async function readBytes(sourceFile: SourceFile, start: number, end: number): Promise<Uint8Array<ArrayBuffer>> {
   try {
-    return new Uint8Array(await source.slice(start, end).arrayBuffer());
+    return new Uint8Array(await sourceFile.slice(start, end).arrayBuffer());
   } catch (error) {
     const reason = error instanceof Error ? error.name : String(error);
-    throw new LogError({ file: source.name }, (texts) => texts.unreadableFileReason(reason));
+    throw new LogError({ fileName: sourceFile.name }, (summaryTexts) => summaryTexts.unreadableFileReason(reason));
   }
 }

@@ -1,8 +1,8 @@
 /** Opens recordings. The first bytes of a file determine its format. A recording of rosbag2 may consist of several files, which its metadata.yaml lists. */
 
 import { group, sort } from 'd3-array';
-import type { Container } from './formats/container.ts';
-import { LogError, readBytes, type OpenOptions, type OptionsByName, type Recording, type Source } from './log.ts';
+import type { MessageContainer } from './formats/container.ts';
+import { LogError, readBytes, type OpenOptions, type OptionsByName, type Recording, type SourceFile } from './log.ts';
 import { openTable } from './table.ts';
 
 type FileFormat = 'mcap' | 'rosbag' | 'sqlite' | 'zstd' | 'metadata';
@@ -38,13 +38,13 @@ export const optionsByNameOf = (optionsByFile: [file: string, OpenOptions][]): O
  * @param optionsOf returns the options of a file, and of a log in it
  * @param onSkip called with the error of each file that is not a log, and is skipped; without `onSkip` the first error rejects
  */
-export async function openRecordings(givenFiles: Source[], optionsOf: OptionsByName = () => undefined, onSkip?: (error: LogError) => void): Promise<Recording[]> {
+export async function openRecordings(givenFiles: SourceFile[], optionsOf: OptionsByName = () => undefined, onSkip?: (error: LogError) => void): Promise<Recording[]> {
   const reportSkipped = (doWork: () => Promise<void>) => doWork().catch((error) => {
     if (!(error instanceof LogError) || !onSkip) throw error;
     onSkip(error);
   });
   const files = distinguishNames(givenFiles);
-  const formatByFile = new Map<Source, FileFormat | undefined>();
+  const formatByFile = new Map<SourceFile, FileFormat | undefined>();
   for (const file of files) {
     await reportSkipped(async () => {
       const fileFormat = await detectFormat(file);
@@ -54,26 +54,26 @@ export async function openRecordings(givenFiles: Source[], optionsOf: OptionsByN
   }
   const openedSources = [...formatByFile.keys()];
   const recordings: Recording[] = [];
-  const addRecording = (recording: Recording) => void recordings.push({ ...recording, role: optionsOf(recording.name)?.role });
+  const addRecording = (recording: Recording) => void recordings.push({ ...recording, logRole: optionsOf(recording.recordingName)?.logRole });
   // Files that a metadata.yaml lists are opened with the metadata.yaml, and not as recordings of their own.
-  for (const source of sort(openedSources, (opened) => Number(formatByFile.get(opened) !== 'metadata'))) {
-    if (!formatByFile.has(source)) continue;
+  for (const sourceFile of sort(openedSources, (opened) => Number(formatByFile.get(opened) !== 'metadata'))) {
+    if (!formatByFile.has(sourceFile)) continue;
     await reportSkipped(async () => {
-      const format = formatByFile.get(source);
-      formatByFile.delete(source);
-      if (!format) return addRecording(await openTable(source, optionsOf));
-      const { name, files: sources } = format === 'metadata' ? await (await import('./formats/metadata.ts')).findListedFiles(source, openedSources) : { name: source.name, files: [source] };
-      const partFormats = sources.map((part) => (part === source ? format : formatByFile.get(part)));
-      for (const part of sources) formatByFile.delete(part);
-      const container = joinContainers(await Promise.all(sources.map((part, i) => openContainer(part, partFormats[i]))));
-      addRecording(await (await import('./topics.ts')).createRecording(name, container, optionsOf));
+      const format = formatByFile.get(sourceFile);
+      formatByFile.delete(sourceFile);
+      if (!format) return addRecording(await openTable(sourceFile, optionsOf));
+      const { folderName, listedFiles } = format === 'metadata' ? await (await import('./formats/metadata.ts')).findListedFiles(sourceFile, openedSources) : { folderName: sourceFile.name, listedFiles: [sourceFile] };
+      const partFormats = listedFiles.map((part) => (part === sourceFile ? format : formatByFile.get(part)));
+      for (const part of listedFiles) formatByFile.delete(part);
+      const container = joinContainers(await Promise.all(listedFiles.map((part, i) => openContainer(part, partFormats[i]))));
+      addRecording(await (await import('./topics.ts')).createRecording(folderName, container, optionsOf));
     });
   }
   return recordings;
 }
 
 /** Returns files with distinct names: files of the same name are called by their paths, or are numbered. */
-function distinguishNames(files: Source[]): Source[] {
+function distinguishNames(files: SourceFile[]): SourceFile[] {
   return Array.from(group(files, ({ name }) => name).values()).flatMap((sameNamed) => sameNamed.map((file, i) => {
     if (sameNamed.length === 1) return file;
     const { name, path, size } = file;
@@ -82,27 +82,27 @@ function distinguishNames(files: Source[]): Source[] {
 }
 
 /** Returns the format of a file by its first bytes; undefined for a table. */
-async function detectFormat(source: Source): Promise<FileFormat | undefined> {
-  const firstBytes = String.fromCharCode(...(await readBytes(source, 0, MAX_MAGIC_BYTES)));
-  if (firstBytes.startsWith(JOURNAL_MAGIC)) throw new LogError({ file: source.name }, (texts) => texts.journalFileReason);
+async function detectFormat(sourceFile: SourceFile): Promise<FileFormat | undefined> {
+  const firstBytes = String.fromCharCode(...(await readBytes(sourceFile, 0, MAX_MAGIC_BYTES)));
+  if (firstBytes.startsWith(JOURNAL_MAGIC)) throw new LogError({ fileName: sourceFile.name }, (errorReasons) => errorReasons.journalFileReason);
   const unreadFormat = UNREAD_FORMATS.find(([magic]) => firstBytes.startsWith(magic));
-  if (unreadFormat) throw new LogError({ file: source.name }, (texts) => texts.unreadFormatReason(unreadFormat[1], unreadFormat[2]));
+  if (unreadFormat) throw new LogError({ fileName: sourceFile.name }, (errorReasons) => errorReasons.unreadFormatReason(unreadFormat[1], unreadFormat[2]));
   return (Object.keys(FORMAT_MAGIC) as FileFormat[]).find((format) => firstBytes.startsWith(FORMAT_MAGIC[format]));
 }
 
 /** Opens a container. The module for its format is imported only when it is needed. */
-async function openContainer(source: Source, format: FileFormat | undefined): Promise<Container> {
-  if (format === 'mcap') return (await import('./formats/mcap.ts')).openMcap(source);
-  if (format === 'rosbag') return (await import('./formats/rosbag.ts')).openRosbag(source);
-  if (format === 'sqlite') return (await import('./formats/sqlite.ts')).openSqlite(source);
-  throw new LogError({ file: source.name }, (texts) => texts.listedFileReason);
+async function openContainer(sourceFile: SourceFile, format: FileFormat | undefined): Promise<MessageContainer> {
+  if (format === 'mcap') return (await import('./formats/mcap.ts')).openMcap(sourceFile);
+  if (format === 'rosbag') return (await import('./formats/rosbag.ts')).openRosbag(sourceFile);
+  if (format === 'sqlite') return (await import('./formats/sqlite.ts')).openSqlite(sourceFile);
+  throw new LogError({ fileName: sourceFile.name }, (errorReasons) => errorReasons.listedFileReason);
 }
 
 /** Returns a container with the messages of several containers, one after the other. */
-function joinContainers(containers: Container[]): Container {
+function joinContainers(containers: MessageContainer[]): MessageContainer {
   return {
-    format: containers[0].format,
-    channels: containers.flatMap(({ channels }) => channels),
+    recordingFormat: containers[0].recordingFormat,
+    topicChannels: containers.flatMap(({ topicChannels: channels }) => channels),
     get truncationReason() {
       return containers.find(({ truncationReason }) => truncationReason)?.truncationReason;
     },
@@ -112,7 +112,7 @@ function joinContainers(containers: Container[]): Container {
     async readMessages(isWanted, onMessage, onProgress) {
       for (const [i, container] of containers.entries()) {
         let isStopped = false;
-        await container.readMessages(isWanted, onMessage, (fraction) => (isStopped = onProgress?.((i + fraction) / containers.length) === true));
+        await container.readMessages(isWanted, onMessage, (progressFraction) => (isStopped = onProgress?.((i + progressFraction) / containers.length) === true));
         if (isStopped) return;
       }
     },

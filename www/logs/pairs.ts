@@ -3,12 +3,12 @@
 import { min, zip } from 'd3-array';
 import type { CalibrationLog } from '../types.d.ts';
 import { isLocalizer, roleByName, type PlannedRecording } from './drives.ts';
-import { LogError, ROLES, UNITS, formatFrames, type Log, type LogChoice, type Note, type Poses, type Role, type Warning } from './log.ts';
+import { LogError, LOG_ROLES, UNIT_NAMES, formatFrames, type Log, type LogChoice, type LogNote, type Poses, type LogRole, type LogSummary, type LogWarning } from './log.ts';
 import { pathOf, poseAt, wrapAngle } from './path.ts';
 import { METRES_PER_UNIT, logSpeedOf } from './units.ts';
 
 /** Two logs of one drive. The times of both logs count from the same start. */
-export interface Drive { odometry: Log; reference: Log }
+export interface LoggedDrive { odometry: Log; reference: Log }
 
 /** Minimum overlap in time of odometry and reference, as a fraction of the shorter log's duration. */
 const MIN_OVERLAP = 0.5;
@@ -25,101 +25,101 @@ const MIN_COMPARED_SPEED = 0.02;
 /** Maximum factor between a ratio of two speeds and a ratio of two units. It allows for wheels of another size than the odometry assumes. */
 const MAX_UNIT_ERROR = 1.2;
 
-const timeSpanOf = ({ start, data: { t } }: Log): [number, number] => [start + t[0], start + t[t.length - 1]];
+const timeSpanOf = ({ startTime, motionData: { t } }: Log): [number, number] => [startTime + t[0], startTime + t[t.length - 1]];
 
-const formatTimeSpan = (log: Log) => timeSpanOf(log).map((time) => `${time.toFixed(2)} s`).join(' to ');
+const formatTimeSpan = (robotLog: Log) => timeSpanOf(robotLog).map((sampleTime) => `${sampleTime.toFixed(2)} s`).join(' to ');
 
 /** Returns the duration of the overlap of two logs; negative if there is a gap between them. */
-function overlapSecondsOf(log: Log, otherLog: Log): number {
-  const [[a, b], [c, d]] = [timeSpanOf(log), timeSpanOf(otherLog)];
+function overlapSecondsOf(robotLog: Log, otherLog: Log): number {
+  const [[a, b], [c, d]] = [timeSpanOf(robotLog), timeSpanOf(otherLog)];
   return Math.min(b, d) - Math.max(a, c);
 }
 
 /** Pairs odometry and reference logs of several drives. If each odometry overlaps exactly one reference in time, these two are a pair. Otherwise logs are paired in their order. */
-function matchLogs(odometry: Log[], reference: Log[]): Log[][] {
-  const partnersOfEach = odometry.map((odometryLog) => reference.filter((referenceLog) =>
-    overlapSecondsOf(odometryLog, referenceLog) > MIN_OVERLAP * Math.min(odometryLog.summary.seconds, referenceLog.summary.seconds)));
-  const hasUniquePartners = partnersOfEach.every(({ length }) => length === 1) && new Set(partnersOfEach.flat()).size === reference.length;
-  return odometry.map((odometryLog, i) => [odometryLog, hasUniquePartners ? partnersOfEach[i][0] : reference[i]]);
+function matchLogs(odometryLogs: Log[], referenceLogs: Log[]): Log[][] {
+  const partnersOfEach = odometryLogs.map((odometryLog) => referenceLogs.filter((referenceLog) =>
+    overlapSecondsOf(odometryLog, referenceLog) > MIN_OVERLAP * Math.min(odometryLog.logSummary.seconds, referenceLog.logSummary.seconds)));
+  const hasUniquePartners = partnersOfEach.every(({ length }) => length === 1) && new Set(partnersOfEach.flat()).size === referenceLogs.length;
+  return odometryLogs.map((odometryLog, i) => [odometryLog, hasUniquePartners ? partnersOfEach[i][0] : referenceLogs[i]]);
 }
 
 /** Pairs the odometry and reference of one drive, whose times count from the same start. Throws a LogError if the logs do not fit together, or one may have another unit of length. */
-export function pairLogs(odometry: Log, reference: Log): Drive {
-  const referencePlace = { file: reference.name };
-  if (reference.kind === 'commands') throw new LogError(referencePlace, (texts) => texts.missingColumnsReason('poses', 't, v, omega'));
-  const { frames } = reference.summary;
-  if (frames?.parent === 'odom') throw new LogError(referencePlace, (texts) => texts.sameLogReason(formatFrames(frames)));
-  const brokenReference = breakFrozenPoses(reference, odometry);
-  if (brokenReference.summary.used < 2) throw new LogError(referencePlace, (texts) => texts.frozenReferenceReason);
-  const logs = { odometry, reference: brokenReference };
-  checkLengthUnits(logs);
-  const notes: Note[] = [
-    ...brokenReference.summary.notes,
-    ...(roleByName(odometry.name) !== 'odometry' && roleByName(reference.name) === 'odometry' ? [{ name: 'swappedRoles' as const, values: [odometry.name] }] : []),
-    ...(isLocalizer(reference.name, frames) ? [{ name: 'localizer' as const, values: [] }] : []),
-    ...(overlapSecondsOf(odometry, reference) < 0 ? [{ name: 'apart' as const, values: [odometry.name, formatTimeSpan(reference), formatTimeSpan(odometry)] }] : []),
+export function pairLogs(odometryLog: Log, referenceLog: Log): LoggedDrive {
+  const referencePlace = { fileName: referenceLog.logName };
+  if (referenceLog.logKind === 'commands') throw new LogError(referencePlace, (errorReasons) => errorReasons.missingColumnsReason('poses', 't, v, omega'));
+  const { frames: framePair } = referenceLog.logSummary;
+  if (framePair?.parent === 'odom') throw new LogError(referencePlace, (errorReasons) => errorReasons.sameLogReason(formatFrames(framePair)));
+  const brokenReference = breakFrozenPoses(referenceLog, odometryLog);
+  if (brokenReference.logSummary.used < 2) throw new LogError(referencePlace, (errorReasons) => errorReasons.frozenReferenceReason);
+  const matchedLogs = { odometry: odometryLog, reference: brokenReference };
+  checkLengthUnits(matchedLogs);
+  const logNotes: LogNote[] = [
+    ...brokenReference.logSummary.notes,
+    ...(roleByName(odometryLog.logName) !== 'odometry' && roleByName(referenceLog.logName) === 'odometry' ? [{ name: 'swappedRoles' as const, values: [odometryLog.logName] }] : []),
+    ...(isLocalizer(referenceLog.logName, framePair) ? [{ name: 'localizer' as const, values: [] }] : []),
+    ...(overlapSecondsOf(odometryLog, referenceLog) < 0 ? [{ name: 'apart' as const, values: [odometryLog.logName, formatTimeSpan(referenceLog), formatTimeSpan(odometryLog)] }] : []),
   ];
-  return { ...logs, reference: { ...brokenReference, summary: { ...brokenReference.summary, notes } } };
+  return { ...matchedLogs, reference: { ...brokenReference, logSummary: { ...brokenReference.logSummary, notes: logNotes } } };
 }
 
 /** Returns the reference with a break at each pose that is repeated although the odometry moves: motion capture has probably lost the robot. */
-function breakFrozenPoses(reference: Log, odometry: Log): Log {
-  const { data, summary } = reference;
-  const { t, x, y, theta } = data as Poses;
-  const odometryPath = pathOf(odometry.data);
-  const breakRows = new Set(data.breaks);
+function breakFrozenPoses(referenceLog: Log, odometryLog: Log): Log {
+  const { motionData: poseData, logSummary } = referenceLog;
+  const { t, x, y, theta } = poseData as Poses;
+  const odometryPath = pathOf(odometryLog.motionData);
+  const breakRows = new Set(poseData.breaks);
   let frozenCount = 0;
   for (let runStart = 0, runEnd; runStart < t.length; runStart = runEnd) {
     for (runEnd = runStart + 1; runEnd < t.length && x[runEnd] === x[runStart] && y[runEnd] === y[runStart] && theta[runEnd] === theta[runStart]; ) runEnd += 1;
-    const [start, end] = [t[runStart] + END_MARGIN_SECONDS, t[runEnd - 1] - END_MARGIN_SECONDS];
-    if (!(end > start)) continue;
-    const [[startX, startY, startHeading], [endX, endY, endHeading]] = [poseAt(odometryPath, start), poseAt(odometryPath, end)];
+    const [runStartTime, runEndTime] = [t[runStart] + END_MARGIN_SECONDS, t[runEnd - 1] - END_MARGIN_SECONDS];
+    if (!(runEndTime > runStartTime)) continue;
+    const [[startX, startY, startHeading], [endX, endY, endHeading]] = [poseAt(odometryPath, runStartTime), poseAt(odometryPath, runEndTime)];
     if (Math.hypot(endX - startX, endY - startY) + Math.abs(wrapAngle(endHeading - startHeading)) <= MIN_ODOMETRY_MOTION) continue;
     frozenCount += runEnd - runStart - 1;
-    for (let row = runStart + 1; row <= Math.min(runEnd, t.length - 1); row++) breakRows.add(row);
+    for (let rowIndex = runStart + 1; rowIndex <= Math.min(runEnd, t.length - 1); rowIndex++) breakRows.add(rowIndex);
   }
-  if (frozenCount === 0) return reference;
-  const dropped = { ...summary.dropped, held: { count: frozenCount, first: 0 } };
-  return { ...reference, data: { ...data, breaks: Uint32Array.from(breakRows).sort() }, summary: { ...summary, used: summary.used - frozenCount, dropped } };
+  if (frozenCount === 0) return referenceLog;
+  const droppedRows = { ...logSummary.dropped, held: { count: frozenCount, first: 0 } };
+  return { ...referenceLog, motionData: { ...poseData, breaks: Uint32Array.from(breakRows).sort() }, logSummary: { ...logSummary, used: logSummary.used - frozenCount, dropped: droppedRows } };
 }
 
-export const warningsOf = (logs: Pick<Log, 'summary'>[]): Warning[] =>
-  (['localizer', 'swappedRoles'] as const).filter((warning) => logs.some(({ summary }) => summary.notes.some(({ name }) => name === warning)));
+export const warningsOf = (logSummaries: LogSummary[]): LogWarning[] =>
+  (['localizer', 'swappedRoles'] as const).filter((logWarning) => logSummaries.some(({ notes }) => notes.some(({ name: noteName }) => noteName === logWarning)));
 
 /** Returns the logs of drives in the form that the core takes: one log of each role, or an array for several drives. */
-export function calibrationLogOf(drives: Drive[]): Pick<CalibrationLog, Role> {
-  const odometry = drives.map((drive) => drive.odometry.data);
-  const reference = drives.map((drive) => drive.reference.data as Poses);
-  return drives.length === 1 ? { odometry: odometry[0], reference: reference[0] } : { odometry, reference };
+export function calibrationLogOf(loggedDrives: LoggedDrive[]): Pick<CalibrationLog, LogRole> {
+  const odometryData = loggedDrives.map((loggedDrive) => loggedDrive.odometry.motionData);
+  const referenceData = loggedDrives.map((loggedDrive) => loggedDrive.reference.motionData as Poses);
+  return loggedDrives.length === 1 ? { odometry: odometryData[0], reference: referenceData[0] } : { odometry: odometryData, reference: referenceData };
 }
 
 /** Reads the logs of planned recordings, and pairs them. All times count from the same start. Rejects with a LogError. */
-export async function readDrives(plan: PlannedRecording[], onProgress?: (fraction: number) => void): Promise<Drive[]> {
-  const logs: { log: Log; role: Role; isPaired: boolean }[] = [];
-  for (const [i, { recording, choices }] of plan.entries()) {
-    const roles = ROLES.filter((role) => choices[role]);
-    const logsOfRecording = await recording.read(roles.map((role) => choices[role] as LogChoice), (fraction) => onProgress?.((i + fraction) / plan.length));
-    logs.push(...logsOfRecording.map((log, k) => ({ log, role: roles[k], isPaired: roles.length === 2 })));
+export async function readDrives(drivePlan: PlannedRecording[], onProgress?: (progressFraction: number) => void): Promise<LoggedDrive[]> {
+  const plannedLogs: { robotLog: Log; logRole: LogRole; isPaired: boolean }[] = [];
+  for (const [i, { recording, logChoices }] of drivePlan.entries()) {
+    const logRoles = LOG_ROLES.filter((logRole) => logChoices[logRole]);
+    const logsOfRecording = await recording.readLogs(logRoles.map((logRole) => logChoices[logRole] as LogChoice), (progressFraction) => onProgress?.((i + progressFraction) / drivePlan.length));
+    plannedLogs.push(...logsOfRecording.map((robotLog, k) => ({ robotLog, logRole: logRoles[k], isPaired: logRoles.length === 2 })));
   }
-  const start = min(logs, ({ log }) => log.start) ?? 0;
-  const logsOf = (isWantedPaired: boolean) => ROLES.map((wantedRole) => logs.filter(({ role, isPaired }) => role === wantedRole && isPaired === isWantedPaired).map(({ log }): Log =>
-    ({ ...log, start, data: { ...log.data, t: log.data.t.map((time) => time + (log.start - start)) } })));
-  const [[odometry, reference], [unpairedOdometry, unpairedReference]] = [logsOf(true), logsOf(false)];
-  const logPairs = [...zip(odometry, reference), ...matchLogs(unpairedOdometry, unpairedReference)];
+  const startTime = min(plannedLogs, ({ robotLog }) => robotLog.startTime) ?? 0;
+  const logsOf = (isWantedPaired: boolean) => LOG_ROLES.map((wantedRole) => plannedLogs.filter(({ logRole, isPaired }) => logRole === wantedRole && isPaired === isWantedPaired).map(({ robotLog }): Log =>
+    ({ ...robotLog, startTime, motionData: { ...robotLog.motionData, t: robotLog.motionData.t.map((sampleTime) => sampleTime + (robotLog.startTime - startTime)) } })));
+  const [[pairedOdometry, pairedReference], [unpairedOdometry, unpairedReference]] = [logsOf(true), logsOf(false)];
+  const logPairs = [...zip(pairedOdometry, pairedReference), ...matchLogs(unpairedOdometry, unpairedReference)];
   return logPairs.map(([odometryLog, referenceLog]) => pairLogs(odometryLog, referenceLog));
 }
 
 /** Throws a LogError with a question if the ratio of two logs' speeds is that of two units of length, such as metres and feet. */
-function checkLengthUnits(logs: Record<Role, Log>): void {
-  const [odometrySpeed, referenceSpeed] = ROLES.map((role) => logSpeedOf(logs[role].data));
+function checkLengthUnits(logsOfDrive: Record<LogRole, Log>): void {
+  const [odometrySpeed, referenceSpeed] = LOG_ROLES.map((logRole) => logSpeedOf(logsOfDrive[logRole].motionData));
   if (Math.min(odometrySpeed, referenceSpeed) < MIN_COMPARED_SPEED) return;
-  for (const [role, otherRole, speedRatio] of [['reference', 'odometry', referenceSpeed / odometrySpeed], ['odometry', 'reference', odometrySpeed / referenceSpeed]] as const) {
-    const { unit: assumedUnit, by } = logs[role].summary.units.length;
-    const likelyUnit = UNITS.lengthUnit.find((unit) => {
-      const unitRatio = METRES_PER_UNIT[assumedUnit] / METRES_PER_UNIT[unit];
+  for (const [logRole, otherRole, speedRatio] of [['reference', 'odometry', referenceSpeed / odometrySpeed], ['odometry', 'reference', odometrySpeed / referenceSpeed]] as const) {
+    const { unit: assumedUnit, by: unitBasis } = logsOfDrive[logRole].logSummary.units.length;
+    const likelyUnit = UNIT_NAMES.lengthUnit.find((lengthUnit) => {
+      const unitRatio = METRES_PER_UNIT[assumedUnit] / METRES_PER_UNIT[lengthUnit];
       return unitRatio > 1 && Math.max(speedRatio / unitRatio, unitRatio / speedRatio) < MAX_UNIT_ERROR;
     });
-    if (!likelyUnit || by !== 'usage') continue;
-    throw new LogError({ file: logs[role].name }, (texts) => texts.otherUnitReason(speedRatio, logs[otherRole].name, likelyUnit), { option: 'lengthUnit', choices: [likelyUnit, assumedUnit] });
+    if (!likelyUnit || unitBasis !== 'usage') continue;
+    throw new LogError({ fileName: logsOfDrive[logRole].logName }, (errorReasons) => errorReasons.otherUnitReason(speedRatio, logsOfDrive[otherRole].logName, likelyUnit), { optionName: 'lengthUnit', possibleAnswers: [likelyUnit, assumedUnit] });
   }
 }

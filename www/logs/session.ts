@@ -4,26 +4,26 @@ import { transfer } from 'comlink';
 import type { AlphaCalibratorSettings, CalibrationLog, Motion } from '../types.d.ts';
 import { german } from './de.ts';
 import { planDrives, type PlannedRecording, type UserChoices } from './drives.ts';
-import { calibrationLogOf, readDrives, warningsOf, type Drive } from './pairs.ts';
+import { calibrationLogOf, readDrives, warningsOf, type LoggedDrive } from './pairs.ts';
 import { english } from './en.ts';
-import { LogError, choiceLabelOf, type OpenOptions, type Recording, type Source, type Warning } from './log.ts';
+import { LogError, choiceLabelOf, type OpenOptions, type Recording, type SourceFile, type LogWarning } from './log.ts';
 import { openRecordings, optionsByNameOf } from './open.ts';
 
 /** LogError as posted to the page, with its sentence in each language. */
-export type LogFailure = Pick<LogError, 'message' | 'place' | 'question'> & { sentences: Record<'en' | 'de', string> };
+export type LogFailure = Pick<LogError, 'message' | 'errorPlace' | 'userQuestion'> & { sentencesByLanguage: Record<'en' | 'de', string> };
 
 /** Contents of files as posted to the page. */
 export interface FileContents {
   /** Recordings without their methods, each with the choice of its logs. `choices` is missing if the logs were not chosen because of an error. */
-  recordings: (Pick<Recording, 'name' | 'format' | 'series'> & Partial<Pick<PlannedRecording, 'choices'>>)[];
+  openedRecordings: (Pick<Recording, 'recordingName' | 'recordingFormat' | 'seriesList'> & Partial<Pick<PlannedRecording, 'logChoices'>>)[];
   /** Errors of files that were skipped. */
-  skipped: LogFailure[];
+  skippedFiles: LogFailure[];
   /** Error because of which all files were refused. */
-  refusal?: LogFailure;
-  drives?: Drive[];
+  refusalOfAll?: LogFailure;
+  loggedDrives?: LoggedDrive[];
   /** Logs of all drives, and warnings that the α's are doubtful. */
-  log?: CalibrationLog;
-  warnings?: Warning[];
+  calibrationLog?: CalibrationLog;
+  logWarnings?: LogWarning[];
 }
 
 /** Minimum time (ms) between reports of progress, because the page renders the figure after each report. */
@@ -40,50 +40,50 @@ export class LogSession {
   }
 
   /** Opens files, chooses their logs and reads them. The user's choices have precedence over guesses. */
-  async read(sources: { file: Source; path: string }[], optionsByFile: Record<string, OpenOptions>, userChoices: UserChoices, onProgress: (fraction: number) => void): Promise<FileContents> {
-    const skipped: LogFailure[] = [];
-    const onSkip = (error: LogError) => void skipped.push(failureOf(error));
-    const files = sources.map(({ file, path }) => Object.assign(file, { path }));
-    let [recordings, plan]: [Recording[], PlannedRecording[] | undefined] = [[], undefined];
-    const describeRecordings = () => recordings.map(({ name, format, series }, i) => ({ name, format, series, choices: plan?.find(({ recording }) => recording === recordings[i])?.choices }));
+  async readFiles(droppedFiles: { file: SourceFile; path: string }[], optionsByFile: Record<string, OpenOptions>, userChoices: UserChoices, onProgress: (progressFraction: number) => void): Promise<FileContents> {
+    const skippedFiles: LogFailure[] = [];
+    const onSkip = (error: LogError) => void skippedFiles.push(failureOf(error));
+    const namedFiles = droppedFiles.map(({ file: droppedFile, path: folderPath }) => Object.assign(droppedFile, { path: folderPath }));
+    let [openedRecordings, drivePlan]: [Recording[], PlannedRecording[] | undefined] = [[], undefined];
+    const describeRecordings = () => openedRecordings.map(({ recordingName, recordingFormat, seriesList }, i) => ({ recordingName, recordingFormat, seriesList, logChoices: drivePlan?.find(({ recording }) => recording === openedRecordings[i])?.logChoices }));
     let nextProgress = 0;
     try {
-      recordings = await openRecordings(files, optionsByNameOf(Object.entries(optionsByFile)), onSkip);
-      if (recordings.length === 0) return { recordings, skipped, refusal: skipped[0] };
-      plan = planDrives(recordings, userChoices, onSkip);
-      const drives = await readDrives(plan, (fraction) => {
-        const now = performance.now();
-        if (now < nextProgress) return;
-        nextProgress = now + PROGRESS_INTERVAL_MS;
-        onProgress(fraction);
+      openedRecordings = await openRecordings(namedFiles, optionsByNameOf(Object.entries(optionsByFile)), onSkip);
+      if (openedRecordings.length === 0) return { openedRecordings, skippedFiles, refusalOfAll: skippedFiles[0] };
+      drivePlan = planDrives(openedRecordings, userChoices, onSkip);
+      const loggedDrives = await readDrives(drivePlan, (progressFraction) => {
+        const currentTime = performance.now();
+        if (currentTime < nextProgress) return;
+        nextProgress = currentTime + PROGRESS_INTERVAL_MS;
+        onProgress(progressFraction);
       });
-      const logs = drives.flatMap(({ odometry, reference }) => [odometry, reference]);
-      const columns = logs.flatMap(({ data }) => Object.values(data) as ArrayBufferView[]);
-      const contents = { recordings: describeRecordings(), skipped, drives, log: { name: nameOf(plan), ...calibrationLogOf(drives) }, warnings: warningsOf(logs) };
-      return transfer(contents, [...new Set(columns.map(({ buffer }) => buffer as ArrayBuffer))]);
+      const robotLogs = loggedDrives.flatMap(({ odometry: odometryLog, reference: referenceLog }) => [odometryLog, referenceLog]);
+      const dataColumns = robotLogs.flatMap(({ motionData }) => Object.values(motionData) as ArrayBufferView[]);
+      const fileContents = { openedRecordings: describeRecordings(), skippedFiles, loggedDrives, calibrationLog: { name: nameOf(drivePlan), ...calibrationLogOf(loggedDrives) }, logWarnings: warningsOf(robotLogs.map(({ logSummary }) => logSummary)) };
+      return transfer(fileContents, [...new Set(dataColumns.map(({ buffer: columnBuffer }) => columnBuffer as ArrayBuffer))]);
     } catch (error) {
       if (!(error instanceof LogError)) throw error;
       // If a file was skipped because of an open question, its log may be the missing one. That question is asked before the error is reported.
-      const questionAboutSkipped = plan ? undefined : skipped.find(({ question }) => question);
-      return { recordings: describeRecordings(), skipped, refusal: questionAboutSkipped ?? failureOf(error) };
+      const questionAboutSkipped = drivePlan ? undefined : skippedFiles.find(({ userQuestion }) => userQuestion);
+      return { openedRecordings: describeRecordings(), skippedFiles, refusalOfAll: questionAboutSkipped ?? failureOf(error) };
     }
   }
 
   /** Returns the serialized fit to a log, which `AlphaCalibrator.restored` reads. */
-  async calibrate(config: AlphaCalibratorSettings, { odometry, reference }: CalibrationLog): Promise<Uint8Array> {
+  async calibrate(calibratorSettings: AlphaCalibratorSettings, { odometry, reference }: CalibrationLog): Promise<Uint8Array> {
     this.#simulation.setLog(odometry, reference);
-    this.#simulation.configure(config);
+    this.#simulation.configure(calibratorSettings);
     return this.#simulation.save();
   }
 }
 
 /** Returns the name of a log: the names of its files. For a single recording with odometry and reference, the topics are added. */
-function nameOf(plan: PlannedRecording[]): string {
-  const [{ choices }] = plan;
-  const names = plan.map(({ recording }) => recording.name);
-  return [...names.slice(0, MAX_NAMED_FILES), ...(names.length > MAX_NAMED_FILES ? ['…'] : []), ...(names.length === 1 ? Object.values(choices).map(choiceLabelOf) : [])].filter(Boolean).join(', ');
+function nameOf(drivePlan: PlannedRecording[]): string {
+  const [{ logChoices }] = drivePlan;
+  const recordingNames = drivePlan.map(({ recording }) => recording.recordingName);
+  return [...recordingNames.slice(0, MAX_NAMED_FILES), ...(recordingNames.length > MAX_NAMED_FILES ? ['…'] : []), ...(recordingNames.length === 1 ? Object.values(logChoices).map(choiceLabelOf) : [])].filter(Boolean).join(', ');
 }
 
-function failureOf({ message, place, question, messageIn: formatMessage }: LogError): LogFailure {
-  return { message, place, question, sentences: { en: formatMessage(english), de: formatMessage(german) } };
+function failureOf({ message: errorMessage, errorPlace, userQuestion, messageIn: formatMessage }: LogError): LogFailure {
+  return { message: errorMessage, errorPlace, userQuestion, sentencesByLanguage: { en: formatMessage(english), de: formatMessage(german) } };
 }

@@ -1,9 +1,9 @@
 /** Reader of logs in text tables of robots, recorders and spreadsheets. */
 
-import { COLUMN_CHANGES, changeColumns, findLogLayout, type Clock, type ColumnGroup, type Field } from './columns.ts';
+import { COLUMN_CHANGES, changeColumns, findLogLayout, type RowClock, type ColumnGroup, type LogField } from './columns.ts';
 import { splitCells, detectTableFormat, parseDate, parseNumber, parseTime, type TableFormat } from './format.ts';
-import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Log, type Note, type OpenOptions, type OptionsByName, type Recording, type Series, type Source, type Summary, type TimeUnit } from './log.ts';
-import { rotationOf, type Quaternion } from './path.ts';
+import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Log, type LogNote, type OpenOptions, type OptionsByName, type Recording, type Series, type SourceFile, type LogSummary, type TimeUnit } from './log.ts';
+import { rotationOf, type UnitQuaternion } from './path.ts';
 import { RowCollector } from './rows.ts';
 import { UNIT_EXPONENTS, epochTimeUnitOf } from './units.ts';
 
@@ -27,62 +27,62 @@ const [MIN_TILT_SPREAD, MAX_TILT_RATIO] = [0.001, 0.1];
 /** Minimum number of rows with equally many decimals in the last column. If the last row after them has fewer decimals, the file is cut off. */
 const MIN_UNIFORM_ROWS = 20;
 
-export async function openTable(source: Source, optionsOf: OptionsByName): Promise<Recording> {
-  const headBytes = await readBytes(source, 0, Math.min(HEAD_BYTES, source.size));
+export async function openTable(sourceFile: SourceFile, optionsOf: OptionsByName): Promise<Recording> {
+  const headBytes = await readBytes(sourceFile, 0, Math.min(HEAD_BYTES, sourceFile.size));
   const encoding = detectEncoding(headBytes);
   const headText = new TextDecoder(encoding).decode(headBytes, { stream: true });
-  if (headText.slice(0, CHECKED_CHARACTERS).includes('\0')) throw new LogError({ file: source.name }, (texts) => texts.unknownFormatReason);
+  if (headText.slice(0, CHECKED_CHARACTERS).includes('\0')) throw new LogError({ fileName: sourceFile.name }, (errorReasons) => errorReasons.unknownFormatReason);
   const headLines = headText.split('\n');
   // The last line of the sampled text may be incomplete. It is dropped unless it is the only line.
-  if (source.size > HEAD_BYTES && headLines.length > 1) headLines.pop();
-  const format = detectTableFormat(headLines, source.name, optionsOf(source.name)?.columns);
-  const readableGroups = format.columnGroups.filter(({ kind }) => kind !== null);
-  const headerPlace = { file: source.name, line: Math.max(1, format.firstRowNumber - 1) };
+  if (sourceFile.size > HEAD_BYTES && headLines.length > 1) headLines.pop();
+  const tableFormat = detectTableFormat(headLines, sourceFile.name, optionsOf(sourceFile.name)?.columnNames);
+  const readableGroups = tableFormat.columnGroups.filter(({ groupKind: logKind }) => logKind !== null);
+  const headerPlace = { fileName: sourceFile.name, lineNumber: Math.max(1, tableFormat.firstRowNumber - 1) };
   // This call throws a LogError: it gives the reason why the group with most columns cannot be read.
-  if (readableGroups.length === 0) findLogLayout(format.columnGroups.toSorted((a, b) => Object.keys(b.columns).length - Object.keys(a.columns).length)[0], format.columnNames, headerPlace, undefined);
-  const seriesOfGroup = (group: ColumnGroup): Series => ({
-    name: readableGroups.length === 1 && group.kind !== null ? '' : group.name || listNames(columnNamesOf(group)),
-    type: listNames(columnNamesOf(group)),
-    kind: group.kind,
-    hasCommands: group.hasCommands,
-    count: 0,
+  if (readableGroups.length === 0) findLogLayout(tableFormat.columnGroups.toSorted((a, b) => Object.keys(b.fieldColumns).length - Object.keys(a.fieldColumns).length)[0], tableFormat.columnNames, headerPlace, undefined);
+  const seriesOfGroup = (columnGroup: ColumnGroup): Series => ({
+    seriesName: readableGroups.length === 1 && columnGroup.groupKind !== null ? '' : columnGroup.groupName || listNames(columnNamesOf(columnGroup)),
+    messageType: listNames(columnNamesOf(columnGroup)),
+    seriesKind: columnGroup.groupKind,
+    hasCommands: columnGroup.hasCommands,
+    messageCount: 0,
   });
-  const allSeries = format.columnGroups.map(seriesOfGroup);
+  const allSeries = tableFormat.columnGroups.map(seriesOfGroup);
   return {
-    name: source.name,
-    format: 'csv',
-    series: allSeries,
-    async read(choices, onProgress) {
+    recordingName: sourceFile.name,
+    recordingFormat: 'csv',
+    seriesList: allSeries,
+    async readLogs(logChoices, onProgress) {
       /** Reads the chosen logs. With a change of columns, it reads only logs that have all columns of the change. */
       const readWith = async (changeName?: TiltChange) => {
-        const readers = choices.map(({ series: seriesName, kind }) => {
-          const chosenGroup = format.columnGroups[allSeries.findIndex(({ name }) => name === seriesName)];
-          const name = readableGroups.length === 1 ? source.name : `${source.name}, ${seriesOfGroup(chosenGroup).name}`;
-          if (changeName && !(Object.keys(COLUMN_CHANGES[changeName][0]) as Field[]).every((field) => chosenGroup.columns[field])) return undefined;
-          const group = changeName ? { ...chosenGroup, columns: changeColumns(chosenGroup.columns, COLUMN_CHANGES[changeName]) } : chosenGroup;
-          return createLogReader(name, { file: source.name }, format, group, findLogLayout(group, format.columnNames, headerPlace, kind), optionsOf(name), chosenGroup.columns, changeName);
+        const logReaders = logChoices.map(({ seriesName, logKind }) => {
+          const chosenGroup = tableFormat.columnGroups[allSeries.findIndex(({ seriesName: candidateName }) => candidateName === seriesName)];
+          const logName = readableGroups.length === 1 ? sourceFile.name : `${sourceFile.name}, ${seriesOfGroup(chosenGroup).seriesName}`;
+          if (changeName && !(Object.keys(COLUMN_CHANGES[changeName][0]) as LogField[]).every((logField) => chosenGroup.fieldColumns[logField])) return undefined;
+          const columnGroup = changeName ? { ...chosenGroup, fieldColumns: changeColumns(chosenGroup.fieldColumns, COLUMN_CHANGES[changeName]) } : chosenGroup;
+          return createLogReader(logName, { fileName: sourceFile.name }, tableFormat, columnGroup, findLogLayout(columnGroup, tableFormat.columnNames, headerPlace, logKind), optionsOf(logName), chosenGroup.fieldColumns, changeName);
         });
-        await readLines(source, encoding, format.firstRowNumber, onProgress, (line, number, isUnterminated) => {
-          for (const reader of readers) reader?.addLine(line, number, isUnterminated);
+        await readLines(sourceFile, encoding, tableFormat.firstRowNumber, onProgress, (lineText, lineNumber, isUnterminated) => {
+          for (const logReader of logReaders) logReader?.addLine(lineText, lineNumber, isUnterminated);
         });
-        return readers;
+        return logReaders;
       };
-      let readers = (await readWith()) as LogReader[];
+      let logReaders = (await readWith()) as LogReader[];
       // A robot turns about its vertical axis, so that the tilt of this axis hardly varies. Columns are read in another order if the tilt of Z then varies far less.
       for (const changeName of ['yUp', 'wFirst'] as const) {
-        if (!readers.some(({ rows }) => rows.tiltCosineSpread > MIN_TILT_SPREAD)) break;
+        if (!logReaders.some(({ rows: rowCollector }) => rowCollector.tiltCosineSpread > MIN_TILT_SPREAD)) break;
         const changedReaders = await readWith(changeName);
-        readers = readers.map((reader, i) => {
+        logReaders = logReaders.map((logReader, i) => {
           const changedReader = changedReaders[i];
-          return changedReader && changedReader.rows.tiltCosineSpread < MAX_TILT_RATIO * reader.rows.tiltCosineSpread ? changedReader : reader;
+          return changedReader && changedReader.rows.tiltCosineSpread < MAX_TILT_RATIO * logReader.rows.tiltCosineSpread ? changedReader : logReader;
         });
       }
-      return readers.map((reader) => reader.buildLog());
+      return logReaders.map((logReader) => logReader.buildLog());
     },
   };
 }
 
-const columnNamesOf = ({ columns }: ColumnGroup) => Object.values(columns).toSorted((a, b) => a.index - b.index).map(({ name }) => name);
+const columnNamesOf = ({ fieldColumns }: ColumnGroup) => Object.values(fieldColumns).toSorted((a, b) => a.index - b.index).map(({ columnName }) => columnName);
 
 /** Detects the encoding of a text from a byte order mark, the zero bytes of UTF-16, or bytes that are invalid in UTF-8. */
 function detectEncoding(bytes: Uint8Array): string {
@@ -98,49 +98,49 @@ function detectEncoding(bytes: Uint8Array): string {
 }
 
 /** Calls `addLine` for each line from `firstLineNumber` on. `isUnterminated` is true for a last line without a line feed, because the file may be cut off there. */
-async function readLines(source: Source, encoding: string, firstLineNumber: number, onProgress: ((fraction: number) => void) | undefined, addLine: (line: string, number: number, isUnterminated: boolean) => void) {
-  const decoder = new TextDecoder(encoding);
-  let [incompleteLine, number] = ['', 0];
-  const passLine = (line: string, isUnterminated: boolean) => {
-    number += 1;
-    if (number >= firstLineNumber) addLine(line, number, isUnterminated);
+async function readLines(sourceFile: SourceFile, encoding: string, firstLineNumber: number, onProgress: ((progressFraction: number) => void) | undefined, addLine: (lineText: string, lineNumber: number, isUnterminated: boolean) => void) {
+  const textDecoder = new TextDecoder(encoding);
+  let [incompleteLine, lineNumber] = ['', 0];
+  const passLine = (lineText: string, isUnterminated: boolean) => {
+    lineNumber += 1;
+    if (lineNumber >= firstLineNumber) addLine(lineText, lineNumber, isUnterminated);
   };
-  for (let position = 0; position < source.size; position += BLOCK_BYTES) {
-    onProgress?.(position / source.size);
-    const text = incompleteLine + decoder.decode(await readBytes(source, position, Math.min(position + BLOCK_BYTES, source.size)), { stream: true });
-    const lines = text.split('\n');
-    incompleteLine = lines.pop() ?? '';
-    for (const line of lines) passLine(line, false);
-    if (incompleteLine.length > MAX_LINE_LENGTH) throw new LogError({ file: source.name, line: number + 1 }, (texts) => texts.longLineReason(MAX_LINE_LENGTH));
+  for (let byteOffset = 0; byteOffset < sourceFile.size; byteOffset += BLOCK_BYTES) {
+    onProgress?.(byteOffset / sourceFile.size);
+    const blockText = incompleteLine + textDecoder.decode(await readBytes(sourceFile, byteOffset, Math.min(byteOffset + BLOCK_BYTES, sourceFile.size)), { stream: true });
+    const lineTexts = blockText.split('\n');
+    incompleteLine = lineTexts.pop() ?? '';
+    for (const lineText of lineTexts) passLine(lineText, false);
+    if (incompleteLine.length > MAX_LINE_LENGTH) throw new LogError({ fileName: sourceFile.name, lineNumber: lineNumber + 1 }, (errorReasons) => errorReasons.longLineReason(MAX_LINE_LENGTH));
   }
-  passLine(incompleteLine + decoder.decode(), true);
+  passLine(incompleteLine + textDecoder.decode(), true);
 }
 
 /** Returns a reader of the times of a table. If the unit is not stated, the reader judges it by the size of the first time that is not 0. */
-function createClockReader({ columns: [{ index }, subseconds], unit: namedUnit }: Clock, statedUnit: TimeUnit | undefined, normalizeCell: (cell: string) => string) {
+function createClockReader({ clockColumns: [{ index }, subsecondColumn], timeUnit: namedUnit }: RowClock, statedUnit: TimeUnit | undefined, normalizeCell: (cell: string) => string) {
   const unitBasis = statedUnit ? 'option' : namedUnit ? 'name' : 'usage';
-  const judgedUnit: { unit?: TimeUnit; by: Summary['units']['time']['by'] } = { unit: statedUnit ?? namedUnit, by: unitBasis };
+  const judgedUnit: { timeUnit?: TimeUnit; unitBasis: LogSummary['units']['time']['by'] } = { timeUnit: statedUnit ?? namedUnit, unitBasis };
   let isDate: boolean | undefined;
   /** Returns the time of a row in seconds; undefined if the row's cell contains neither a number nor a date. */
-  const readTime = (cells: string[]): number | undefined => {
-    const text = normalizeCell(cells[index]);
-    if (subseconds) {
-      const [seconds, subsecondTicks] = [parseNumber(text), parseNumber(cells[subseconds.index])];
-      return seconds !== undefined && subsecondTicks !== undefined ? seconds + subsecondTicks / 10 ** UNIT_EXPONENTS[subseconds.unit as TimeUnit] : undefined;
+  const readTime = (rowCells: string[]): number | undefined => {
+    const cellText = normalizeCell(rowCells[index]);
+    if (subsecondColumn) {
+      const [seconds, subsecondTicks] = [parseNumber(cellText), parseNumber(rowCells[subsecondColumn.index])];
+      return seconds !== undefined && subsecondTicks !== undefined ? seconds + subsecondTicks / 10 ** UNIT_EXPONENTS[subsecondColumn.unitName as TimeUnit] : undefined;
     }
-    if (text.trim() === '') return NaN;
+    if (cellText.trim() === '') return NaN;
     if (isDate === undefined) {
-      isDate = parseDate(cells[index]) !== undefined;
-      if (isDate) Object.assign(judgedUnit, { unit: 's', by: 'date' });
+      isDate = parseDate(rowCells[index]) !== undefined;
+      if (isDate) Object.assign(judgedUnit, { timeUnit: 's', unitBasis: 'date' });
     }
-    if (isDate) return parseDate(cells[index]);
-    if (judgedUnit.unit === undefined) {
-      const timeNumber = parseNumber(text);
+    if (isDate) return parseDate(rowCells[index]);
+    if (judgedUnit.timeUnit === undefined) {
+      const timeNumber = parseNumber(cellText);
       const epochUnit = timeNumber && epochTimeUnitOf(timeNumber);
-      if (epochUnit) Object.assign(judgedUnit, { unit: epochUnit, by: 'size' });
-      else if (timeNumber) judgedUnit.unit = 's';
+      if (epochUnit) Object.assign(judgedUnit, { timeUnit: epochUnit, unitBasis: 'size' });
+      else if (timeNumber) judgedUnit.timeUnit = 's';
     }
-    return parseTime(text, UNIT_EXPONENTS[judgedUnit.unit ?? 's']);
+    return parseTime(cellText, UNIT_EXPONENTS[judgedUnit.timeUnit ?? 's']);
   };
   return { judgedUnit, readTime };
 }
@@ -148,86 +148,86 @@ function createClockReader({ columns: [{ index }, subseconds], unit: namedUnit }
 type LogReader = ReturnType<typeof createLogReader>;
 
 /** Returns a reader of the log of one series, line by line. `namedColumns` are the original columns; the columns in `group` may have been changed. */
-function createLogReader(name: string, errorPlace: ErrorPlace, format: TableFormat, group: ColumnGroup, layout: ReturnType<typeof findLogLayout>, options: OpenOptions = {}, namedColumns: ColumnGroup['columns'], changeName?: TiltChange) {
-  const { separator, hasDecimalCommas, isSparse, columnNames } = format;
-  const { clocks, columns, fields, kind, lengthUnit, angleUnit } = layout;
-  const rows = new RowCollector(errorPlace);
-  const notes: Note[] = changeName ? [{ name: changeName, values: [] }] : [];
+function createLogReader(logName: string, errorPlace: ErrorPlace, tableFormat: TableFormat, columnGroup: ColumnGroup, logLayout: ReturnType<typeof findLogLayout>, openOptions: OpenOptions = {}, namedColumns: ColumnGroup['fieldColumns'], changeName?: TiltChange) {
+  const { cellSeparator, hasDecimalCommas, isSparse, columnNames } = tableFormat;
+  const { clocks: rowClocks, usedColumns, fields: usedFields, kind: logKind, lengthUnit, angleUnit } = logLayout;
+  const rowCollector = new RowCollector(errorPlace);
+  const logNotes: LogNote[] = changeName ? [{ name: changeName, values: [] }] : [];
   const normalizeCell = hasDecimalCommas ? withDecimalPoint : (cell: string) => cell;
-  const clockReaders = clocks.map((clock, i) => createClockReader(clock, i === 0 ? options.timeUnit : undefined, normalizeCell));
+  const clockReaders = rowClocks.map((rowClock, i) => createClockReader(rowClock, i === 0 ? openOptions.timeUnit : undefined, normalizeCell));
   // Columns with the frames, the topic or the robot of a row.
-  const nameColumns = [group.columns.source, group.columns.frame, group.columns.child].filter((column) => column !== undefined);
-  const { z } = group.columns;
-  const hasHeight = fields.at(-1) === 'yaw' && z !== undefined;
-  const neededCellCount = Math.max(...[...columns, ...(hasHeight ? [z] : []), ...clocks.flatMap((clock) => clock.columns), ...nameColumns].map(({ index }) => index)) + 1;
+  const nameColumns = [columnGroup.fieldColumns.source, columnGroup.fieldColumns.frame, columnGroup.fieldColumns.child].filter((tableColumn) => tableColumn !== undefined);
+  const { z } = columnGroup.fieldColumns;
+  const hasHeight = usedFields.at(-1) === 'yaw' && z !== undefined;
+  const neededCellCount = Math.max(...[...usedColumns, ...(hasHeight ? [z] : []), ...rowClocks.flatMap((rowClock) => rowClock.clockColumns), ...nameColumns].map(({ index }) => index)) + 1;
   const rowNames = new Set<string>();
   /** Numbers of decimals that occur in the last column. */
   const decimalCounts = new Set<number>();
 
-  const dropTextRow = (line: number, columnName: string, cell: string) => rows.dropRow('text', line, (texts) => texts.notNumericReason(truncate(columnName), truncate(cell.trim())));
+  const dropTextRow = (lineNumber: number, columnName: string, cell: string) => rowCollector.dropRow('text', lineNumber, (errorReasons) => errorReasons.notNumericReason(truncate(columnName), truncate(cell.trim())));
 
-  const addCellsAsRow = (cells: string[], line: number) => {
-    const times: number[] = [];
-    for (let i = 0; i < clocks.length; i++) {
-      const time = clockReaders[i].readTime(cells);
-      if (time === undefined) return dropTextRow(line, clocks[i].name, cells[clocks[i].columns[0].index]);
-      times.push(time);
+  const addCellsAsRow = (rowCells: string[], lineNumber: number) => {
+    const rowTimes: number[] = [];
+    for (let i = 0; i < rowClocks.length; i++) {
+      const rowTime = clockReaders[i].readTime(rowCells);
+      if (rowTime === undefined) return dropTextRow(lineNumber, rowClocks[i].clockName, rowCells[rowClocks[i].clockColumns[0].index]);
+      rowTimes.push(rowTime);
     }
-    const values: number[] = [];
-    for (const { index, name: columnName, sign } of columns) {
-      const value = parseNumber(normalizeCell(cells[index]));
-      if (value === undefined) return dropTextRow(line, columnName, cells[index]);
-      values.push(sign * value);
+    const rowValues: number[] = [];
+    for (const { index, columnName, columnSign } of usedColumns) {
+      const cellValue = parseNumber(normalizeCell(rowCells[index]));
+      if (cellValue === undefined) return dropTextRow(lineNumber, columnName, rowCells[index]);
+      rowValues.push(columnSign * cellValue);
     }
-    if (nameColumns.length > 0) rowNames.add(nameColumns.map(({ index }) => cells[index].trim()).join(' to '));
-    const [[time, otherTime], [a, b, c = 0, ...quaternion]] = [times, values];
-    const rotation = fields.at(-1) === 'qw' ? rotationOf(...(fields.length === 6 ? [c, ...quaternion] : [0, 0, c, ...quaternion]) as Quaternion) : { c, tiltCosine: undefined };
-    rows.addRow({ time, a, b, c: rotation.c, tiltCosine: rotation.tiltCosine, z: hasHeight ? parseNumber(normalizeCell(cells[z.index])) : undefined }, line, otherTime);
+    if (nameColumns.length > 0) rowNames.add(nameColumns.map(({ index }) => rowCells[index].trim()).join(' to '));
+    const [[rowTime, otherTime], [a, b, c = 0, ...quaternion]] = [rowTimes, rowValues];
+    const headingWithTilt = usedFields.at(-1) === 'qw' ? rotationOf(...(usedFields.length === 6 ? [c, ...quaternion] : [0, 0, c, ...quaternion]) as UnitQuaternion) : { c, tiltCosine: undefined };
+    rowCollector.addRow({ sampleTime: rowTime, a, b, c: headingWithTilt.c, tiltCosine: headingWithTilt.tiltCosine, z: hasHeight ? parseNumber(normalizeCell(rowCells[z.index])) : undefined }, lineNumber, otherTime);
   };
 
   return {
-    rows,
+    rows: rowCollector,
 
-    addLine(line: string, number: number, isUnterminated: boolean): void {
-      if (/^\s*(?:[#%]|$)/.test(line)) return;
-      const cells = splitCells(line, separator, neededCellCount);
-      const lastCell = cells[neededCellCount - 1]?.trim() ?? '';
+    addLine(lineText: string, lineNumber: number, isUnterminated: boolean): void {
+      if (/^\s*(?:[#%]|$)/.test(lineText)) return;
+      const rowCells = splitCells(lineText, cellSeparator, neededCellCount);
+      const lastCell = rowCells[neededCellCount - 1]?.trim() ?? '';
       const decimalCount = /\.(\d*)/.exec(lastCell)?.[1].length ?? 0;
-      const isCutNumber = isUnterminated && rows.rowCount >= MIN_UNIFORM_ROWS && decimalCounts.size === 1 && decimalCount < Math.min(...decimalCounts) && line.trimEnd().endsWith(lastCell);
+      const isCutNumber = isUnterminated && rowCollector.rowCount >= MIN_UNIFORM_ROWS && decimalCounts.size === 1 && decimalCount < Math.min(...decimalCounts) && lineText.trimEnd().endsWith(lastCell);
       decimalCounts.add(decimalCount);
-      if (cells.length < neededCellCount || isCutNumber) {
-        if (!isUnterminated) return rows.dropRow('short', number, (texts) => texts.shortRowReason(cells.length, neededCellCount));
-        notes.push({ name: 'cutShort', values: [] });
-        return rows.dropRow('short', number);
+      if (rowCells.length < neededCellCount || isCutNumber) {
+        if (!isUnterminated) return rowCollector.dropRow('short', lineNumber, (errorReasons) => errorReasons.shortRowReason(rowCells.length, neededCellCount));
+        logNotes.push({ name: 'cutShort', values: [] });
+        return rowCollector.dropRow('short', lineNumber);
       }
       // In a table with several topics, a row of another topic has empty cells in the columns of this topic, and is skipped.
-      if (!(isSparse && columns.every(({ index }) => Number.isNaN(parseNumber(cells[index]))))) addCellsAsRow(cells, number);
+      if (!(isSparse && usedColumns.every(({ index }) => Number.isNaN(parseNumber(rowCells[index]))))) addCellsAsRow(rowCells, lineNumber);
     },
 
     buildLog(): Log {
-      if (rowNames.size > 1) throw new LogError(errorPlace, (texts) => texts.mixedSourcesReason(listNames([...rowNames])));
-      const { unit = 's', by } = clockReaders[0].judgedUnit;
-      if (!(unit in UNIT_EXPONENTS)) throw new LogError(errorPlace, (texts) => texts.unknownUnitReason(truncate(unit)));
-      return rows.buildLog(name, kind, {
-        units: {
-          time: { unit, by },
+      if (rowNames.size > 1) throw new LogError(errorPlace, (errorReasons) => errorReasons.mixedSourcesReason(listNames([...rowNames])));
+      const { timeUnit = 's', unitBasis } = clockReaders[0].judgedUnit;
+      if (!(timeUnit in UNIT_EXPONENTS)) throw new LogError(errorPlace, (errorReasons) => errorReasons.unknownUnitReason(truncate(timeUnit)));
+      return rowCollector.buildLog(logName, logKind, {
+        assumedUnits: {
+          time: { unit: timeUnit, by: unitBasis },
           length: { unit: lengthUnit ?? 'm', by: lengthUnit ? 'name' : 'usage' },
-          angle: fields.at(-1) === 'qw' ? { unit: 'quaternion', by: 'format' } : { unit: angleUnit ?? 'rad', by: angleUnit ? 'name' : 'usage' },
+          angle: usedFields.at(-1) === 'qw' ? { unit: 'quaternion', by: 'format' } : { unit: angleUnit ?? 'rad', by: angleUnit ? 'name' : 'usage' },
         },
-        clocks: [clocks[0].name, clocks[1]?.name],
-        columns: Object.fromEntries([['t', ''], ...fields.map((field, i) => [field, columns[i].name])]),
-        createColumnQuestion(change) {
-          const changedColumns = changeColumns(group.columns, change);
+        clockNames: [rowClocks[0].clockName, rowClocks[1]?.clockName],
+        columns: Object.fromEntries([['t', ''], ...usedFields.map((logField, i) => [logField, usedColumns[i].columnName])]),
+        createColumnQuestion(columnChange) {
+          const changedColumns = changeColumns(columnGroup.fieldColumns, columnChange);
           const newColumns = columnNames.map((oldName, i) => {
-            const field = (Object.keys(changedColumns) as Field[]).find((changedField) => changedColumns[changedField]?.index === i);
-            const sign = field && (changedColumns[field]?.sign ?? 1) < 0 ? '-' : '';
-            const name = ((field && namedColumns[field]?.name) ?? oldName.trim()).replace(/^-/, '');
-            return { name: `${sign}${name}`, field: field ? `${sign}${field}` : '-' };
+            const logField = (Object.keys(changedColumns) as LogField[]).find((changedField) => changedColumns[changedField]?.index === i);
+            const columnSign = logField && (changedColumns[logField]?.columnSign ?? 1) < 0 ? '-' : '';
+            const columnName = ((logField && namedColumns[logField]?.columnName) ?? oldName.trim()).replace(/^-/, '');
+            return { signedName: `${columnSign}${columnName}`, signedField: logField ? `${columnSign}${logField}` : '-' };
           });
-          return { file: errorPlace.file, option: 'columns', choices: [newColumns.map(({ name }) => name).join()], columns: columnNames, fields: newColumns.map(({ field }) => field) };
+          return { fileName: errorPlace.fileName, optionName: 'columns', possibleAnswers: [newColumns.map(({ signedName }) => signedName).join()], columnNames, proposedFields: newColumns.map(({ signedField }) => signedField) };
         },
-        notes,
-      }, options);
+        notes: logNotes,
+      }, openOptions);
     },
   };
 }

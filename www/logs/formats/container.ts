@@ -1,52 +1,52 @@
 /** Containers of messages: the interface that the readers of all formats share. */
 
-import { LogError, readBytes, reasonOf, type Recording, type Source } from '../log.ts';
+import { LogError, readBytes, reasonOf, type Recording, type SourceFile } from '../log.ts';
 
-export interface Channel {
-  topic: string;
+export interface TopicChannel {
+  topicName: string;
   /** Message type as it was recorded. */
-  type: string;
+  messageType: string;
   /** Serialization of the messages: "cdr" (ROS 2), "ros1", or another one, which is not read. */
   encoding: string;
-  count: number;
+  messageCount: number;
 }
 
-export interface Message {
-  channel: Channel;
+export interface RecordedMessage {
+  topicChannel: TopicChannel;
   /** Time of recording, s. */
-  time: number;
+  recordTime: number;
   /** View of the block that contains the serialized message. All messages of a block share one view, because creating a view takes as long as reading a message. */
-  block: DataView;
+  blockView: DataView;
   /** Range of the message in the block. */
-  start: number;
-  end: number;
+  messageStart: number;
+  messageEnd: number;
 }
 
-export type IsWanted = (channel: Channel) => boolean;
-export type OnMessage = (message: Message) => void;
+export type IsWanted = (topicChannel: TopicChannel) => boolean;
+export type OnMessage = (recordedMessage: RecordedMessage) => void;
 /** Callback after each block with the fraction of the file that has been read. If the callback returns true, reading stops. */
-export type OnBlock = (fraction: number) => boolean | void;
+export type OnBlock = (progressFraction: number) => boolean | void;
 
 /** Container of messages: one file, or several files of a recording. */
-export type Container = Pick<MessageFile, 'format' | 'channels' | 'truncationReason' | 'damageReasons' | 'readMessages'>;
+export type MessageContainer = Pick<MessageFile, 'recordingFormat' | 'topicChannels' | 'truncationReason' | 'damageReasons' | 'readMessages'>;
 
 /** Base class of readers of message files. It has the channels of the file by id. */
 export abstract class MessageFile {
-  abstract readonly format: Recording['format'];
+  abstract readonly recordingFormat: Recording['recordingFormat'];
   /** Reason why the end of the file cannot be read; undefined for a complete file. */
   truncationReason: string | undefined;
   /** Reasons why damaged blocks were skipped, by the positions of the blocks. */
   readonly #damageByPosition = new Map<number, string>();
-  protected readonly source: Source;
-  protected readonly channelsById = new Map<number, Channel>();
+  protected readonly sourceFile: SourceFile;
+  protected readonly channelsById = new Map<number, TopicChannel>();
   /** Chunks that the index of the file lists, each with the ids of its channels; undefined for a file without an index. */
-  protected chunks: { position: number; ids: number[] }[] | undefined;
+  protected indexedChunks: { chunkStart: number; channelIds: number[] }[] | undefined;
 
-  constructor(source: Source) {
-    this.source = source;
+  constructor(sourceFile: SourceFile) {
+    this.sourceFile = sourceFile;
   }
 
-  get channels() {
+  get topicChannels() {
     return [...this.channelsById.values()];
   }
 
@@ -58,28 +58,28 @@ export abstract class MessageFile {
   abstract readMessages(isWanted: IsWanted, onMessage: OnMessage, onBlock?: OnBlock): Promise<void>;
 
   /** Stores the reason why a block is damaged. An error while reading the file itself is thrown again. */
-  protected noteDamage(position: number, error: unknown): void {
+  protected noteDamage(blockStart: number, error: unknown): void {
     if (error instanceof LogError) throw error;
-    this.#damageByPosition.set(position, reasonOf(error));
+    this.#damageByPosition.set(blockStart, reasonOf(error));
   }
 
   /**
    * Reads the chunks that contain wanted messages, or all blocks in order if there is no index. Damaged blocks are recorded and skipped. `readBlock` calls
    * `setEnd` when it knows the end of its block. Without an index, reading stops at a damaged block whose end is unknown.
    */
-  protected async readBlocks(start: number, isWanted: IsWanted, readBlock: (position: number, setEnd: (end: number) => void) => Promise<void>, onBlock?: OnBlock): Promise<void> {
-    const { size } = this.source;
-    const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
-    const chunks = this.chunks?.filter(({ ids }) => ids.some((id) => wantedIds.has(id)));
+  protected async readBlocks(firstBlockStart: number, isWanted: IsWanted, readBlock: (blockStart: number, setEnd: (blockEnd: number) => void) => Promise<void>, onBlock?: OnBlock): Promise<void> {
+    const { size: byteCount } = this.sourceFile;
+    const wantedIds = new Set([...this.channelsById].filter(([, topicChannel]) => isWanted(topicChannel)).map(([id]) => id));
+    const wantedChunks = this.indexedChunks?.filter(({ channelIds }) => channelIds.some((id) => wantedIds.has(id)));
     this.truncationReason = undefined;
-    for (let i = 0, nextPosition = start; chunks ? i < chunks.length : nextPosition < size; i++) {
-      const position = chunks ? chunks[i].position : nextPosition;
+    for (let i = 0, nextPosition = firstBlockStart; wantedChunks ? i < wantedChunks.length : nextPosition < byteCount; i++) {
+      const blockStart = wantedChunks ? wantedChunks[i].chunkStart : nextPosition;
       nextPosition = 0;
-      await readBlock(position, (end) => (nextPosition = end)).catch((error) => {
-        if (chunks || nextPosition > 0 || error instanceof LogError) this.noteDamage(position, error);
-        else [this.truncationReason, nextPosition] = [reasonOf(error), size];
+      await readBlock(blockStart, (byteEnd) => (nextPosition = byteEnd)).catch((error) => {
+        if (wantedChunks || nextPosition > 0 || error instanceof LogError) this.noteDamage(blockStart, error);
+        else [this.truncationReason, nextPosition] = [reasonOf(error), byteCount];
       });
-      if (onBlock?.(chunks ? (i + 1) / chunks.length : nextPosition / size)) return;
+      if (onBlock?.(wantedChunks ? (i + 1) / wantedChunks.length : nextPosition / byteCount)) return;
     }
   }
 }
@@ -91,26 +91,26 @@ export const MAX_BLOCK_BYTES = 2 ** 26;
 const [PIECE_BYTES, PIECES_AHEAD] = [2 ** 22, 3];
 
 /** Returns a reader of bytes at increasing positions. The reader requests the next pieces in advance, which saves a quarter of the reading time in a browser. */
-export function createAheadReader(source: Source): (start: number, requestedEnd: number) => Promise<Uint8Array> {
-  const pieces = new Map<number, Promise<Uint8Array>>();
+export function createAheadReader(sourceFile: SourceFile): (byteStart: number, requestedEnd: number) => Promise<Uint8Array> {
+  const pieceReads = new Map<number, Promise<Uint8Array>>();
   let lastPieceIndex = -1;
-  return async (start, requestedEnd) => {
-    const end = Math.min(requestedEnd, source.size);
-    const firstPieceIndex = Math.floor(start / PIECE_BYTES);
+  return async (byteStart, requestedEnd) => {
+    const byteEnd = Math.min(requestedEnd, sourceFile.size);
+    const firstPieceIndex = Math.floor(byteStart / PIECE_BYTES);
     const piecesAhead = firstPieceIndex <= lastPieceIndex + 1 ? PIECES_AHEAD : 0;
-    lastPieceIndex = Math.max(firstPieceIndex, Math.floor((end - 1) / PIECE_BYTES));
-    for (const i of pieces.keys()) if (i < firstPieceIndex) pieces.delete(i);
-    for (let i = firstPieceIndex; i <= lastPieceIndex + piecesAhead && i * PIECE_BYTES < source.size; i++) {
-      if (pieces.has(i)) continue;
-      const piece = readBytes(source, i * PIECE_BYTES, Math.min((i + 1) * PIECE_BYTES, source.size));
+    lastPieceIndex = Math.max(firstPieceIndex, Math.floor((byteEnd - 1) / PIECE_BYTES));
+    for (const i of pieceReads.keys()) if (i < firstPieceIndex) pieceReads.delete(i);
+    for (let i = firstPieceIndex; i <= lastPieceIndex + piecesAhead && i * PIECE_BYTES < sourceFile.size; i++) {
+      if (pieceReads.has(i)) continue;
+      const pieceRead = readBytes(sourceFile, i * PIECE_BYTES, Math.min((i + 1) * PIECE_BYTES, sourceFile.size));
       // If reading a piece fails, the error is reported only when a caller needs that piece.
-      piece.catch(() => {});
-      pieces.set(i, piece);
+      pieceRead.catch(() => {});
+      pieceReads.set(i, pieceRead);
     }
-    const neededPartOf = async (i: number) => ((await pieces.get(i)) ?? new Uint8Array()).subarray(Math.max(start - i * PIECE_BYTES, 0), end - i * PIECE_BYTES);
+    const neededPartOf = async (i: number) => ((await pieceReads.get(i)) ?? new Uint8Array()).subarray(Math.max(byteStart - i * PIECE_BYTES, 0), byteEnd - i * PIECE_BYTES);
     if (lastPieceIndex === firstPieceIndex) return neededPartOf(firstPieceIndex);
-    const bytes = new Uint8Array(end - start);
-    for (let i = firstPieceIndex; i <= lastPieceIndex; i++) bytes.set(await neededPartOf(i), Math.max(i * PIECE_BYTES - start, 0));
+    const bytes = new Uint8Array(byteEnd - byteStart);
+    for (let i = firstPieceIndex; i <= lastPieceIndex; i++) bytes.set(await neededPartOf(i), Math.max(i * PIECE_BYTES - byteStart, 0));
     return bytes;
   };
 }
@@ -118,4 +118,4 @@ export function createAheadReader(source: Source): (start: number, requestedEnd:
 export const dataViewOf = ({ buffer, byteOffset, byteLength }: Uint8Array) => new DataView(buffer, byteOffset, byteLength);
 
 /** Returns an unsigned number of eight bytes. It is exact below 2^53, and rounded above. */
-export const readUint53 = (view: DataView, position: number) => view.getUint32(position, true) + 2 ** 32 * view.getUint32(position + 4, true);
+export const readUint53 = (dataView: DataView, byteOffset: number) => dataView.getUint32(byteOffset, true) + 2 ** 32 * dataView.getUint32(byteOffset + 4, true);

@@ -1,7 +1,7 @@
 /** Topics and messages of rosbag2's SQLite databases. https://www.sqlite.org/fileformat.html */
 
-import { LogError, readBytes, type Source } from '../log.ts';
-import { MessageFile, createAheadReader, dataViewOf, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
+import { LogError, readBytes, type SourceFile } from '../log.ts';
+import { MessageFile, createAheadReader, dataViewOf, type MessageContainer, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
 import { loadZstd } from './decompression.ts';
 
 /** First byte of pages with rows of a table, and largest first byte of all other pages: index pages, interior pages, and overflow pages of long rows. */
@@ -12,7 +12,7 @@ const HEADER_BYTES = 100;
 /** Maximum size of a row, bytes. The largest messages are point clouds and images. */
 const MAX_ROW_BYTES = 2 ** 28;
 
-interface Row {
+interface TableRow {
   /** Bytes of the row on the leaf page. All other bytes are on overflow pages. */
   localBytes: Uint8Array;
   /** Number of bytes of the row, including those on overflow pages. */
@@ -20,88 +20,88 @@ interface Row {
   /** Number of the first overflow page; 0 if there is none. */
   overflowPage: number;
   id: number;
-  columns: Column[];
+  rowColumns: RowColumn[];
 }
 
 /** Value in a row: its SQLite serial type, and the range of its bytes. */
-interface Column { type: number; start: number; end: number }
+interface RowColumn { serialType: number; valueStart: number; valueEnd: number }
 
-const isInteger = (type: number) => type > 0 && type < 10;
-const isBlob = (type: number) => type >= 12 && type % 2 === 0;
-const isText = (type: number) => type >= 13 && type % 2 === 1;
-const isRowId = (type: number) => type === 0;
+const isInteger = (serialType: number) => serialType > 0 && serialType < 10;
+const isBlob = (serialType: number) => serialType >= 12 && serialType % 2 === 0;
+const isText = (serialType: number) => serialType >= 13 && serialType % 2 === 1;
+const isRowId = (serialType: number) => serialType === 0;
 
 /** Types of the first columns of tables: messages (id, topic, time, data), topics (id, name, type, serialization), and the list of all tables. */
 const TABLE_COLUMNS = { messages: [isRowId, isInteger, isInteger, isBlob], topics: [isRowId, isText, isText, isText], tables: [isText, isText, isText, isInteger] };
 
-const isRowOf = (table: keyof typeof TABLE_COLUMNS, { columns }: Row) => TABLE_COLUMNS[table].every((hasType, i) => hasType(columns[i]?.type));
+const isRowOf = (tableName: keyof typeof TABLE_COLUMNS, { rowColumns }: TableRow) => TABLE_COLUMNS[tableName].every((hasType, i) => hasType(rowColumns[i]?.serialType));
 
-export async function openSqlite(source: Source): Promise<Container> {
+export async function openSqlite(sourceFile: SourceFile): Promise<MessageContainer> {
   await loadZstd();
-  const database = new Rosbag2(source);
-  await database.open();
-  return database;
+  const databaseFile = new Rosbag2(sourceFile);
+  await databaseFile.readSchema();
+  return databaseFile;
 }
 
 class Rosbag2 extends MessageFile {
-  readonly format = 'sqlite';
+  readonly recordingFormat = 'sqlite';
   #pageSize = 0;
   /** Number of bytes in a page, without the bytes that are reserved at its end. */
   #usableBytes = 0;
   #tableNames = new Set<string>();
-  #readBytesAt = createAheadReader(this.source);
+  #readBytesAt = createAheadReader(this.sourceFile);
 
-  async open(): Promise<void> {
-    const view = dataViewOf(await readBytes(this.source, 0, HEADER_BYTES));
-    const createNotRosbag2Error = () => new LogError({ file: this.source.name }, (texts) => texts.foreignDatabaseReason);
-    if (view.byteLength < HEADER_BYTES) {
+  async readSchema(): Promise<void> {
+    const headerView = dataViewOf(await readBytes(this.sourceFile, 0, HEADER_BYTES));
+    const createNotRosbag2Error = () => new LogError({ fileName: this.sourceFile.name }, (errorReasons) => errorReasons.foreignDatabaseReason);
+    if (headerView.byteLength < HEADER_BYTES) {
       this.truncationReason = 'its header is cut short';
       return;
     }
-    this.#pageSize = view.getUint16(16) === 1 ? 65536 : view.getUint16(16);
-    this.#usableBytes = this.#pageSize - view.getUint8(20);
+    this.#pageSize = headerView.getUint16(16) === 1 ? 65536 : headerView.getUint16(16);
+    this.#usableBytes = this.#pageSize - headerView.getUint8(20);
     if (this.#usableBytes < 480) throw createNotRosbag2Error();
     // The header has the number of pages of the last complete transaction. If the file has another size, the recorder did not close it.
-    const pageCount = view.getUint32(28);
-    if (pageCount > 0 && pageCount * this.#pageSize !== this.source.size) this.truncationReason = 'the recorder did not close it';
+    const pageCount = headerView.getUint32(28);
+    if (pageCount > 0 && pageCount * this.#pageSize !== this.sourceFile.size) this.truncationReason = 'the recorder did not close it';
     const countsById = new Map<number, number>();
-    await this.#visitRows((row) => {
-      if (!isRowOf('messages', row)) return this.#addTopic(row);
-      const topicId = integerOf(row.localBytes, row.columns[1]);
+    await this.#visitRows((tableRow) => {
+      if (!isRowOf('messages', tableRow)) return this.#addTopic(tableRow);
+      const topicId = integerOf(tableRow.localBytes, tableRow.rowColumns[1]);
       countsById.set(topicId, (countsById.get(topicId) ?? 0) + 1);
       return undefined;
     });
-    for (const [id, channel] of this.channelsById) channel.count = countsById.get(id) ?? 0;
-    if (!['topics', 'messages'].every((name) => this.#tableNames.has(name)) && !this.truncationReason) throw createNotRosbag2Error();
+    for (const [id, topicChannel] of this.channelsById) topicChannel.messageCount = countsById.get(id) ?? 0;
+    if (!['topics', 'messages'].every((tableName) => this.#tableNames.has(tableName)) && !this.truncationReason) throw createNotRosbag2Error();
   }
 
   /** Stores the topic from a row of the table `topics`, or the table name from a row of the list of all tables. Ignores other rows. */
-  async #addTopic(row: Row): Promise<void> {
-    const isTable = isRowOf('tables', row);
-    if (!isTable && !isRowOf('topics', row)) return;
-    const bytes = await this.#readWholeRow(row);
-    const [, name, type, encoding] = row.columns.map(({ start, end }) => new TextDecoder().decode(bytes.subarray(start, end)));
-    if (isTable) this.#tableNames.add(name);
+  async #addTopic(tableRow: TableRow): Promise<void> {
+    const isTable = isRowOf('tables', tableRow);
+    if (!isTable && !isRowOf('topics', tableRow)) return;
+    const bytes = await this.#readWholeRow(tableRow);
+    const [, topicName, serialType, encoding] = tableRow.rowColumns.map(({ valueStart, valueEnd }) => new TextDecoder().decode(bytes.subarray(valueStart, valueEnd)));
+    if (isTable) this.#tableNames.add(topicName);
     // Names of topics start with a slash. Other rows with the same columns are definitions of message types.
-    else if (name.startsWith('/')) this.channelsById.set(row.id, { topic: name, type, encoding, count: 0 });
+    else if (topicName.startsWith('/')) this.channelsById.set(tableRow.id, { topicName, messageType: serialType, encoding, messageCount: 0 });
   }
 
   async readMessages(isWanted: IsWanted, onMessage: OnMessage, onProgress?: OnBlock): Promise<void> {
-    const wantedChannels = new Map([...this.channelsById].filter(([, channel]) => isWanted(channel)));
-    await this.#visitRows((row) => {
-      const channel = isRowOf('messages', row) ? wantedChannels.get(integerOf(row.localBytes, row.columns[1])) : undefined;
-      if (!channel) return undefined;
+    const wantedChannels = new Map([...this.channelsById].filter(([, topicChannel]) => isWanted(topicChannel)));
+    await this.#visitRows((tableRow) => {
+      const topicChannel = isRowOf('messages', tableRow) ? wantedChannels.get(integerOf(tableRow.localBytes, tableRow.rowColumns[1])) : undefined;
+      if (!topicChannel) return undefined;
       const passMessage = (bytes: Uint8Array) => {
-        const block = dataViewOf(bytes.subarray(row.columns[3].start, row.columns[3].end));
-        onMessage({ channel, time: integerOf(bytes, row.columns[2]) / 1e9, block, start: 0, end: block.byteLength });
+        const blockView = dataViewOf(bytes.subarray(tableRow.rowColumns[3].valueStart, tableRow.rowColumns[3].valueEnd));
+        onMessage({ topicChannel, recordTime: integerOf(bytes, tableRow.rowColumns[2]) / 1e9, blockView, messageStart: 0, messageEnd: blockView.byteLength });
       };
-      return row.localBytes.length < row.byteCount ? this.#readWholeRow(row).then(passMessage) : passMessage(row.localBytes);
+      return tableRow.localBytes.length < tableRow.byteCount ? this.#readWholeRow(tableRow).then(passMessage) : passMessage(tableRow.localBytes);
     }, onProgress);
   }
 
   /** Calls `onRow` for the rows of all tables, in the order of the pages in the file. Damaged pages are skipped. */
-  async #visitRows(onRow: (row: Row) => void | Promise<void>, onProgress?: OnBlock): Promise<void> {
-    const pageCount = Math.floor(this.source.size / this.#pageSize) || 0;
+  async #visitRows(onRow: (tableRow: TableRow) => void | Promise<void>, onProgress?: OnBlock): Promise<void> {
+    const pageCount = Math.floor(this.sourceFile.size / this.#pageSize) || 0;
     for (let pageNumber = 1; pageNumber <= pageCount; pageNumber++) {
       try {
         const pageBytes = await this.#readPage(pageNumber);
@@ -118,62 +118,62 @@ class Rosbag2 extends MessageFile {
   }
 
   async #readPage(pageNumber: number): Promise<Uint8Array> {
-    const page = await this.#readBytesAt((pageNumber - 1) * this.#pageSize, pageNumber * this.#pageSize);
-    if (page.length < this.#pageSize) throw new RangeError('a page is cut short');
-    return page;
+    const pageBytes = await this.#readBytesAt((pageNumber - 1) * this.#pageSize, pageNumber * this.#pageSize);
+    if (pageBytes.length < this.#pageSize) throw new RangeError('a page is cut short');
+    return pageBytes;
   }
 
-  #rowAt(page: Uint8Array, cellOffset: number): Row {
-    const [length, afterLength] = varintAt(page, cellOffset);
-    const [id, start] = varintAt(page, afterLength);
-    const localEnd = start + this.#localByteCountOf(length);
-    if (localEnd > page.length || length > Math.min(MAX_ROW_BYTES, this.source.size)) throw new RangeError('a row is damaged');
-    const localBytes = page.subarray(start, localEnd);
-    return { id, localBytes, columns: columnsOf(localBytes, length), byteCount: length, overflowPage: localEnd - start < length ? dataViewOf(page).getUint32(localEnd) : 0 };
+  #rowAt(pageBytes: Uint8Array, cellOffset: number): TableRow {
+    const [payloadLength, afterLength] = varintAt(pageBytes, cellOffset);
+    const [id, payloadStart] = varintAt(pageBytes, afterLength);
+    const localEnd = payloadStart + this.#localByteCountOf(payloadLength);
+    if (localEnd > pageBytes.length || payloadLength > Math.min(MAX_ROW_BYTES, this.sourceFile.size)) throw new RangeError('a row is damaged');
+    const localBytes = pageBytes.subarray(payloadStart, localEnd);
+    return { id, localBytes, rowColumns: columnsOf(localBytes, payloadLength), byteCount: payloadLength, overflowPage: localEnd - payloadStart < payloadLength ? dataViewOf(pageBytes).getUint32(localEnd) : 0 };
   }
 
   /** Returns the number of bytes of a row that are stored on its own page. All other bytes are on overflow pages. */
-  #localByteCountOf(length: number): number {
+  #localByteCountOf(payloadLength: number): number {
     const maxLocalBytes = this.#usableBytes - 35;
-    if (length <= maxLocalBytes) return length;
+    if (payloadLength <= maxLocalBytes) return payloadLength;
     const minLocalBytes = Math.floor(((this.#usableBytes - 12) * 32) / 255) - 23;
-    const preferredLocalBytes = minLocalBytes + ((length - minLocalBytes) % (this.#usableBytes - 4));
+    const preferredLocalBytes = minLocalBytes + ((payloadLength - minLocalBytes) % (this.#usableBytes - 4));
     return preferredLocalBytes <= maxLocalBytes ? preferredLocalBytes : minLocalBytes;
   }
 
   /** Returns all bytes of a row, including those on overflow pages. */
-  async #readWholeRow({ localBytes, byteCount, overflowPage }: Row): Promise<Uint8Array> {
+  async #readWholeRow({ localBytes, byteCount, overflowPage }: TableRow): Promise<Uint8Array> {
     if (localBytes.length === byteCount) return localBytes;
-    const row = new Uint8Array(byteCount);
-    row.set(localBytes);
+    const rowBytes = new Uint8Array(byteCount);
+    rowBytes.set(localBytes);
     for (let filledBytes = localBytes.length; filledBytes < byteCount; ) {
-      const page = await this.#readPage(overflowPage);
-      const overflowPart = page.subarray(4, Math.min(this.#usableBytes, 4 + byteCount - filledBytes));
-      row.set(overflowPart, filledBytes);
+      const pageBytes = await this.#readPage(overflowPage);
+      const overflowPart = pageBytes.subarray(4, Math.min(this.#usableBytes, 4 + byteCount - filledBytes));
+      rowBytes.set(overflowPart, filledBytes);
       filledBytes += overflowPart.length;
-      overflowPage = dataViewOf(page).getUint32(0);
+      overflowPage = dataViewOf(pageBytes).getUint32(0);
     }
-    return row;
+    return rowBytes;
   }
 }
 
 /** Returns the positions of the rows on a page; an empty list for a page without rows of a table. Throws a RangeError if the type of the page is invalid. */
-function cellOffsetsOf(page: Uint8Array, pageNumber: number): number[] {
-  const view = dataViewOf(page);
-  const start = pageNumber === 1 ? HEADER_BYTES : 0;
-  if (page[start] <= MAX_OTHER_PAGE_TYPE) return [];
-  if (page[start] !== LEAF_PAGE_TYPE) throw new RangeError('a page is damaged');
-  return Array.from({ length: view.getUint16(start + 3) }, (_, i) => view.getUint16(start + 8 + 2 * i));
+function cellOffsetsOf(pageBytes: Uint8Array, pageNumber: number): number[] {
+  const pageView = dataViewOf(pageBytes);
+  const headerStart = pageNumber === 1 ? HEADER_BYTES : 0;
+  if (pageBytes[headerStart] <= MAX_OTHER_PAGE_TYPE) return [];
+  if (pageBytes[headerStart] !== LEAF_PAGE_TYPE) throw new RangeError('a page is damaged');
+  return Array.from({ length: pageView.getUint16(headerStart + 3) }, (_, i) => pageView.getUint16(headerStart + 8 + 2 * i));
 }
 
 /** Returns a variable-length integer of one to nine bytes, and the position after it. */
-function varintAt(bytes: Uint8Array, start: number): [value: number, next: number] {
-  let value = 0;
+function varintAt(bytes: Uint8Array, varintStart: number): [value: number, next: number] {
+  let varintValue = 0;
   for (let i = 0; i < 9; i++) {
-    if (start + i >= bytes.length) break;
-    const byte = bytes[start + i];
-    if (i < 8 && byte & 0x80) value = value * 128 + (byte & 0x7f);
-    else return [i < 8 ? value * 128 + byte : value * 256 + byte, start + i + 1];
+    if (varintStart + i >= bytes.length) break;
+    const byte = bytes[varintStart + i];
+    if (i < 8 && byte & 0x80) varintValue = varintValue * 128 + (byte & 0x7f);
+    else return [i < 8 ? varintValue * 128 + byte : varintValue * 256 + byte, varintStart + i + 1];
   }
   throw new RangeError('a row is damaged');
 }
@@ -182,23 +182,23 @@ function varintAt(bytes: Uint8Array, start: number): [value: number, next: numbe
 const INTEGER_BYTES = [0, 1, 2, 3, 4, 6, 8, 8, 0, 0];
 
 /** Returns the columns of a row of `byteCount` bytes; throws a RangeError if they do not fit into it. */
-function columnsOf(row: Uint8Array, byteCount: number): Column[] {
-  const columns: Column[] = [];
-  let [valueStart, typeStart] = varintAt(row, 0);
-  for (const end = valueStart; typeStart < end; ) {
-    const [type, nextTypeStart] = varintAt(row, typeStart);
-    const valueEnd = valueStart + (INTEGER_BYTES[type] ?? (type - 12 - (type % 2)) / 2);
-    columns.push({ type, start: valueStart, end: valueEnd });
+function columnsOf(rowBytes: Uint8Array, byteCount: number): RowColumn[] {
+  const rowColumns: RowColumn[] = [];
+  let [valueStart, typeStart] = varintAt(rowBytes, 0);
+  for (const headerEnd = valueStart; typeStart < headerEnd; ) {
+    const [serialType, nextTypeStart] = varintAt(rowBytes, typeStart);
+    const valueEnd = valueStart + (INTEGER_BYTES[serialType] ?? (serialType - 12 - (serialType % 2)) / 2);
+    rowColumns.push({ serialType, valueStart, valueEnd });
     [valueStart, typeStart] = [valueEnd, nextTypeStart];
   }
   if (valueStart !== byteCount) throw new RangeError('a row is damaged');
-  return columns;
+  return rowColumns;
 }
 
-function integerOf(row: Uint8Array, { type, start, end }: Column): number {
-  if (type === 6) return Number(dataViewOf(row).getBigInt64(start));
-  if (type === 8 || type === 9) return type - 8;
-  let value = 0;
-  for (let position = start; position < end; position++) value = value * 256 + (position === start ? (row[position] << 24) >> 24 : row[position]);
-  return value;
+function integerOf(rowBytes: Uint8Array, { serialType, valueStart, valueEnd }: RowColumn): number {
+  if (serialType === 6) return Number(dataViewOf(rowBytes).getBigInt64(valueStart));
+  if (serialType === 8 || serialType === 9) return serialType - 8;
+  let integerValue = 0;
+  for (let byteIndex = valueStart; byteIndex < valueEnd; byteIndex++) integerValue = integerValue * 256 + (byteIndex === valueStart ? (rowBytes[byteIndex] << 24) >> 24 : rowBytes[byteIndex]);
+  return integerValue;
 }

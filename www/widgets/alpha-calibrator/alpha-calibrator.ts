@@ -18,13 +18,13 @@ import { alphaTableHtml, captionOf, diagnosticsHtml, judgeFit, nav2ButtonHtml, n
 import { explainRecommendation } from './result.ts';
 import { NOISE_COMPONENTS, LINE_STYLES, REGRESSORS, definition, modelRuleOf, viewModelOf, type ViewModel } from './settings.ts';
 import type { AlphaCalibrator as Simulation, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
-import type { Warning } from '../../logs/log.ts';
+import type { LogWarning } from '../../logs/log.ts';
 
 /** Log of the user or of the page, with the serialized fit to the log and the settings of that fit. */
 interface OpenedLog {
   log: CalibrationLog;
   /** Warnings about the logs. They make the α's doubtful. */
-  warnings: Warning[];
+  warnings: LogWarning[];
   config: Simulation['config'];
   fit: Uint8Array;
 }
@@ -321,7 +321,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
    * Fits a log, and then shows it in place of the present log; null stands for the simulated log. If `checkSimulation` throws, the present log stays.
    * `warnings` are about the new log, and make its α's doubtful.
    */
-  async openLog(log: CalibrationLog | null, warnings: Warning[], checkSimulation?: (simulation: Simulation) => void) {
+  async openLog(log: CalibrationLog | null, warnings: LogWarning[], checkSimulation?: (simulation: Simulation) => void) {
     const config = this.settings.pickSettings(this.settings.current) as Simulation['config'];
     const openedLog = log && { log, warnings, config, fit: await this.service.calibrate(config, log) };
     this.runtime.attemptWork(() => {

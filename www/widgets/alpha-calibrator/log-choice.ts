@@ -4,13 +4,13 @@ import { html, nothing, svg } from 'lit';
 import { guard } from 'lit/directives/guard.js';
 import { keyed } from 'lit/directives/keyed.js';
 import { live } from 'lit/directives/live.js';
-import { ROLES, UNITS, choiceLabelOf, readableSeriesOf, summaryLinesOf, type FileQuestion, type LogChoice, type Question, type Role } from '../../logs/log.ts';
-import { alignPath, pathOf, svgPathDataOf, type Path } from '../../logs/path.ts';
+import { LOG_ROLES, UNIT_NAMES, choiceLabelOf, readableSeriesOf, summaryLinesOf, type FileQuestion, type LogChoice, type UserQuestion, type LogRole } from '../../logs/log.ts';
+import { alignPath, pathOf, svgPathDataOf, type TimedPath } from '../../logs/path.ts';
 import { language } from '../../messages/registry.ts';
 import { radioGroupHtml } from '../../ui/controls.ts';
 import { MINUS, formatFixed } from '../../ui/format.ts';
 import type { AlphaCalibratorElement } from './alpha-calibrator.ts';
-import type { Drive } from '../../logs/pairs.ts';
+import type { LoggedDrive } from '../../logs/pairs.ts';
 import type { FileContents } from '../../logs/session.ts';
 import type { ChosenFiles, LogOpener, LogWords } from './open.ts';
 
@@ -18,7 +18,7 @@ export { english as en } from '../../logs/en.ts';
 export { german as de } from '../../logs/de.ts';
 export { mirroringQuestionsOf } from '../../logs/log.ts';
 
-type Recording = FileContents['recordings'][number];
+type Recording = FileContents['openedRecordings'][number];
 
 const COLUMN_FIELDS = ['t', 'x', 'y', 'yaw', 'qx', 'qy', 'qz', 'qw', 'v', 'omega'] as const;
 
@@ -29,20 +29,20 @@ const MIN_QUATERNION_COLUMNS = 5;
 const MAX_CELL_LENGTH = 16;
 
 /** Returns all logs that can be chosen for a role, each with a label. Every pair of frames is a separate log. */
-function labelledChoicesOf(recording: Recording, role?: Role): [label: string, LogChoice][] {
-  const usableSeries = readableSeriesOf(recording).filter(({ kind }) => role !== 'reference' || kind !== 'commands');
-  const logChoices = usableSeries.flatMap(({ name: series, kind, frames = [] }): LogChoice[] => (kind === 'transforms' ? frames.map((framePair) => ({ series, frames: framePair })) : [{ series }]));
-  return logChoices.map((choice) => [choiceLabelOf(choice) || recording.name, choice]);
+function labelledChoicesOf(recording: Recording, role?: LogRole): [label: string, LogChoice][] {
+  const usableSeries = readableSeriesOf(recording).filter(({ seriesKind: kind }) => role !== 'reference' || kind !== 'commands');
+  const logChoices = usableSeries.flatMap(({ seriesName: series, seriesKind: kind, framePairs: frames = [] }): LogChoice[] => (kind === 'transforms' ? frames.map((framePair) => ({ seriesName: series, framePair })) : [{ seriesName: series }]));
+  return logChoices.map((choice) => [choiceLabelOf(choice) || recording.recordingName, choice]);
 }
 
 /** Returns the controls by which the user answers questions about the chosen files. */
 export function logChoosersHtml(opener: LogOpener) {
   const { chosenFiles, texts } = opener;
   if (!chosenFiles || !texts) return nothing;
-  const { recordings, skipped, questions } = chosenFiles;
+  const { openedRecordings: recordings, skippedFiles: skipped, questions } = chosenFiles;
   const hasOneLog = (recording: Recording) => labelledChoicesOf(recording).length === 1;
   const roleChoosers = [
-    ...(recordings.every(hasOneLog) ? [] : ROLES.map((role) => seriesSelectHtml(opener, chosenFiles, role, texts))),
+    ...(recordings.every(hasOneLog) ? [] : LOG_ROLES.map((role) => seriesSelectHtml(opener, chosenFiles, role, texts))),
     ...(recordings.length > 1 ? recordings.flatMap((recording, recordingIndex) => (hasOneLog(recording) ? [roleSelectHtml(opener, chosenFiles, recordingIndex, texts)] : [])) : []),
   ];
   return html`<div class="choosers">
@@ -62,34 +62,34 @@ function selectHtml(id: string, label: string, selectedValue: string, options: [
   </label>`;
 }
 
-function seriesSelectHtml(opener: LogOpener, { recordings, userChoices }: ChosenFiles, role: Role, { choose: texts }: LogWords) {
+function seriesSelectHtml(opener: LogOpener, { openedRecordings: recordings, userChoices }: ChosenFiles, role: LogRole, { choose: texts }: LogWords) {
   const choiceByLabel = new Map(recordings.flatMap((recording) => labelledChoicesOf(recording, role)));
-  const plannedRecording = recordings.find(({ choices }) => choices?.[role]);
-  const currentChoice = (userChoices[role] as LogChoice | undefined) ?? plannedRecording?.choices?.[role];
-  const currentLabel = currentChoice ? choiceLabelOf(currentChoice) || (plannedRecording ?? recordings[0]).name : '';
+  const plannedRecording = recordings.find(({ logChoices: choices }) => choices?.[role]);
+  const currentChoice = (userChoices[role] as LogChoice | undefined) ?? plannedRecording?.logChoices?.[role];
+  const currentLabel = currentChoice ? choiceLabelOf(currentChoice) || (plannedRecording ?? recordings[0]).recordingName : '';
   return selectHtml(`log-${role}`, texts.roleNames[role], currentLabel, [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
     const choice = choiceByLabel.get(label);
     if (choice) opener.changeChoices({ userChoices: { ...userChoices, [role]: choice } });
   }, texts.openPlaceholder);
 }
 
-function roleSelectHtml(opener: LogOpener, { recordings, answers }: ChosenFiles, recordingIndex: number, { choose: texts }: LogWords) {
-  const { name, choices } = recordings[recordingIndex];
-  const currentRole = answers[name]?.role ?? ROLES.find((role) => choices?.[role]);
-  return selectHtml(`log-role-${recordingIndex}`, name, currentRole ?? '', ROLES.map((role) => [role, texts.roleNames[role]]), (chosenValue) => {
-    const role = chosenValue as Role;
+function roleSelectHtml(opener: LogOpener, { openedRecordings: recordings, answers }: ChosenFiles, recordingIndex: number, { choose: texts }: LogWords) {
+  const { recordingName: name, logChoices: choices } = recordings[recordingIndex];
+  const currentRole = answers[name]?.logRole ?? LOG_ROLES.find((role) => choices?.[role]);
+  return selectHtml(`log-role-${recordingIndex}`, name, currentRole ?? '', LOG_ROLES.map((role) => [role, texts.roleNames[role]]), (chosenValue) => {
+    const role = chosenValue as LogRole;
     // If there are two files with one log each, and the user chooses the role of one file, the other file gets the other role.
     const otherRecording = recordings.length === 2 ? recordings[1 - recordingIndex] : undefined;
     const hasOtherRole = otherRecording && labelledChoicesOf(otherRecording).length === 1;
-    opener.answer({ ...(hasOtherRole && { [otherRecording.name]: { role: role === 'odometry' ? 'reference' : 'odometry' } }), [name]: { role } });
+    opener.answer({ ...(hasOtherRole && { [otherRecording.recordingName]: { logRole: role === 'odometry' ? 'reference' : 'odometry' } }), [name]: { logRole: role } });
   }, texts.openPlaceholder);
 }
 
 function questionHtml(opener: LogOpener, { answers }: ChosenFiles, question: FileQuestion, { choose: texts }: LogWords) {
-  const { file, option, choices: unitChoices } = question;
-  if (option === 'columns') return columnsFormHtml(opener, question, answers[file]?.columns?.join(), texts);
+  const { fileName: file, optionName: option, possibleAnswers: unitChoices } = question;
+  if (option === 'columns') return columnsFormHtml(opener, question, answers[file]?.columnNames?.join(), texts);
   if (option !== 'timeUnit' && option !== 'lengthUnit' && option !== 'angleUnit') return nothing;
-  const unitLabels: Record<string, string> = Object.fromEntries((unitChoices.length ? unitChoices : UNITS[option]).map((unit) => [unit, texts.unitNames[unit as keyof typeof texts.unitNames]]));
+  const unitLabels: Record<string, string> = Object.fromEntries((unitChoices.length ? unitChoices : UNIT_NAMES[option]).map((unit) => [unit, texts.unitNames[unit as keyof typeof texts.unitNames]]));
   return html`<div id=${questionIdOf(question)}>
     ${radioGroupHtml(texts[option](file), questionIdOf(question), unitLabels, answers[file]?.[option] ?? '', (unit) => opener.answer({ [file]: { [option]: unit } }))}
   </div>`;
@@ -97,7 +97,7 @@ function questionHtml(opener: LogOpener, { answers }: ChosenFiles, question: Fil
 
 /** Returns a form with a `<select>` for each field, by which the user assigns a column to the field. */
 function columnsFormHtml(opener: LogOpener, question: FileQuestion, answeredNames: string | undefined, texts: LogWords['choose']) {
-  const { file, choices: [chosenNames = ''], columns = [], fields = chosenNames.split(',') } = question;
+  const { fileName: file, possibleAnswers: [chosenNames = ''], columnNames: columns = [], proposedFields: fields = chosenNames.split(',') } = question;
   const columnNames = chosenNames.split(',');
   // Each column is offered twice: as it is, and with the opposite sign.
   const options = ['', '-'].flatMap((sign) => columns.map((headerCell, columnIndex) =>
@@ -111,7 +111,7 @@ function columnsFormHtml(opener: LogOpener, question: FileQuestion, answeredName
     // A column that keeps its field also keeps its name, because the name may contain a unit.
     const newNames = newFields.map((field, i) => (field === fields[i] ? columnNames[i] : field));
     Object.assign(question, { choices: [newNames.join()], fields: newFields });
-    opener.answer({ [file]: { columns: newNames } });
+    opener.answer({ [file]: { columnNames: newNames } });
   };
   return keyed(question, html`<form id=${questionIdOf(question)} @submit=${submitColumns}>
     <fieldset>
@@ -130,12 +130,12 @@ function columnsFormHtml(opener: LogOpener, question: FileQuestion, answeredName
   </form>`);
 }
 
-const questionIdOf = ({ file, option }: FileQuestion) => `log-${option}-${file.replaceAll(/[^\w-]/g, '_')}`;
+const questionIdOf = ({ fileName: file, optionName: option }: FileQuestion) => `log-${option}-${file.replaceAll(/[^\w-]/g, '_')}`;
 
 /** Moves the focus to the first control that answers a question, unless a control for the question already has the focus. Returns false if there is no such control. */
 export function focusChooser({ renderRoot }: AlphaCalibratorElement, question: FileQuestion): boolean {
-  const { option, role = 'odometry' } = question;
-  const selectors = { series: `#log-${role}`, frames: `#log-${role}`, roles: '[id^=log-role-]' } as Partial<Record<Question['option'], string>>;
+  const { optionName: option, logRole: role = 'odometry' } = question;
+  const selectors = { series: `#log-${role}`, frames: `#log-${role}`, roles: '[id^=log-role-]' } as Partial<Record<UserQuestion['optionName'], string>>;
   const chooserElement = renderRoot.querySelector<HTMLElement>(selectors[option] ?? `#${questionIdOf(question)}`);
   const firstControl = chooserElement?.matches('select') ? chooserElement : chooserElement?.querySelector<HTMLElement>('select, input');
   if (!firstControl) return false;
@@ -152,8 +152,8 @@ const MAX_PATH_POINTS = 1500;
 /** Returns the summary of the logs of each drive. The summary is shown during the fit, and later below the results. */
 export function logSummaryHtml({ chosenFiles, texts, host }: LogOpener) {
   // If the page has set another log in the meantime, no summary is shown.
-  if (!chosenFiles?.drives || !texts || (chosenFiles.isFitted && chosenFiles.log !== host.log)) return nothing;
-  const { drives } = chosenFiles;
+  if (!chosenFiles?.loggedDrives || !texts || (chosenFiles.isFitted && chosenFiles.calibrationLog !== host.log)) return nothing;
+  const { loggedDrives: drives } = chosenFiles;
   // The clock offset is known only after the fit. Until then it is taken as 0.
   const clockOffset = (chosenFiles.isFitted ? host.viewModel.stats.systematicErrors.clockOffset.value : undefined) ?? 0;
   return html`<details class="found" open>
@@ -165,7 +165,7 @@ export function logSummaryHtml({ chosenFiles, texts, host }: LogOpener) {
   </details>`;
 }
 
-function logTableHtml({ odometry, reference }: Drive, caption: string, { choose, found }: LogWords) {
+function logTableHtml({ odometry, reference }: LoggedDrive, caption: string, { choose, found }: LogWords) {
   const logs = [odometry, reference];
   const tableRows = logs.map((driveLog) => summaryLinesOf(driveLog, found));
   const tableCellHtml = (cellLines: string[] = []) => html`<td>${cellLines.length ? cellLines.map((cellLine, i) => html`${i ? html`<br />` : nothing}${cellLine}`) : '—'}</td>`;
@@ -173,7 +173,7 @@ function logTableHtml({ odometry, reference }: Drive, caption: string, { choose,
   return html`<table>
     ${caption ? html`<caption>${caption}</caption>` : nothing}
     <thead>
-      <tr><td></td>${ROLES.map((role, i) => html`<th scope="col">${choose.roleNames[role]}: ${logs[i].name}</th>`)}</tr>
+      <tr><td></td>${LOG_ROLES.map((role, i) => html`<th scope="col">${choose.roleNames[role]}: ${logs[i].logName}</th>`)}</tr>
     </thead>
     <tbody>
       ${labels.map((label) => html`<tr><th scope="row">${found.rowLabels[label]}</th>${tableRows.map((tableRow) => tableCellHtml(tableRow[label]))}</tr>`)}
@@ -182,14 +182,14 @@ function logTableHtml({ odometry, reference }: Drive, caption: string, { choose,
 }
 
 /** Returns a picture of the paths by odometry and reference. If the logs have times in common, the odometry is aligned to the reference, whose times are later by `clockOffset`. */
-function pathsPictureHtml({ odometry, reference }: Drive, clockOffset: number, { found }: LogWords) {
-  const [drivenPath, referencePath] = [odometry.data, reference.data].map((poseColumns) => pathOf(poseColumns, Math.ceil(poseColumns.t.length / MAX_PATH_POINTS)));
+function pathsPictureHtml({ odometry, reference }: LoggedDrive, clockOffset: number, { found }: LogWords) {
+  const [drivenPath, referencePath] = [odometry.motionData, reference.motionData].map((poseColumns) => pathOf(poseColumns, Math.ceil(poseColumns.t.length / MAX_PATH_POINTS)));
   const odometryPath = alignPath(drivenPath, referencePath, clockOffset);
   const allPoses = [...odometryPath.poses, ...referencePath.poses];
   const axisRanges = ([0, 1] as const).map((coordinateIndex) => [Math.min(...allPoses.map((pose) => pose[coordinateIndex])), Math.max(...allPoses.map((pose) => pose[coordinateIndex]))]);
   const [width, height] = axisRanges.map(([lowEnd, highEnd]) => highEnd - lowEnd);
   const pixelsPerMetre = Math.min((PICTURE_WIDTH - 2 * PICTURE_MARGIN) / Math.max(width, 0.1), (PICTURE_HEIGHT - 2 * PICTURE_MARGIN) / Math.max(height, 0.1));
-  const pathDataOf = (path: Path) => svgPathDataOf(path, ([x, y]) => [PICTURE_MARGIN + (x - axisRanges[0][0]) * pixelsPerMetre, PICTURE_HEIGHT - PICTURE_MARGIN - (y - axisRanges[1][0]) * pixelsPerMetre]);
+  const pathDataOf = (path: TimedPath) => svgPathDataOf(path, ([x, y]) => [PICTURE_MARGIN + (x - axisRanges[0][0]) * pixelsPerMetre, PICTURE_HEIGHT - PICTURE_MARGIN - (y - axisRanges[1][0]) * pixelsPerMetre]);
   const captionText = found.pathsCaption(odometryPath !== drivenPath, formatFixed(width, 1), formatFixed(height, 1));
   return html`<figure class="paths small">
     <svg viewBox="0 0 ${PICTURE_WIDTH} ${PICTURE_HEIGHT}" role="img" aria-label=${captionText}>

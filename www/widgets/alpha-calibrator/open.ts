@@ -7,7 +7,7 @@ import { FileOpener } from '../shared/files.ts';
 import { instantiateShared, moduleForWorker, startWorker } from '../../core.ts';
 import type { UserChoices } from '../../logs/drives.ts';
 import type { FileContents, LogFailure, LogSession } from '../../logs/session.ts';
-import type { FileQuestion, OpenOptions, Source } from '../../logs/log.ts';
+import type { FileQuestion, OpenOptions, SourceFile } from '../../logs/log.ts';
 import type { AlphaCalibratorSettings, CalibrationLog } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
@@ -56,7 +56,7 @@ export class LogOpener extends FileOpener<Figure> {
   /** Reads the files again if the user has changed the model, and the new model prefers another kind of odometry. */
   hostUpdated() {
     const { chosenFiles } = this;
-    if (chosenFiles?.isFitted && chosenFiles.log === this.host.log && this.readFraction === undefined && chosenFiles.userChoices.kind !== this.preferredKind) this.#open(chosenFiles);
+    if (chosenFiles?.isFitted && chosenFiles.calibrationLog === this.host.log && this.readFraction === undefined && chosenFiles.userChoices.logKind !== this.preferredKind) this.#open(chosenFiles);
   }
 
   /** Forgets the chosen files, and shows a log of the page, or the simulated log. */
@@ -71,7 +71,7 @@ export class LogOpener extends FileOpener<Figure> {
 
   /** Forgets files that were refused or not yet fitted. The files with the results on screen become the chosen files again. */
   restoreResults() {
-    this.chosenFiles = this.#resultFiles?.log === this.host.log ? this.#resultFiles : undefined;
+    this.chosenFiles = this.#resultFiles?.calibrationLog === this.host.log ? this.#resultFiles : undefined;
     this.refusal = undefined;
     this.host.requestUpdate();
   }
@@ -105,9 +105,9 @@ export class LogOpener extends FileOpener<Figure> {
   chooseFiles(files: File[]) {
     const logFiles = files.filter(isPossibleLog);
     const newFiles = logFiles.length ? logFiles : files;
-    const { files: previousFiles, answers, questions } = this.chosenFiles?.refusal?.question?.option === 'other' ? this.chosenFiles : { files: [], answers: {}, questions: [] };
+    const { files: previousFiles, answers, questions } = this.chosenFiles?.refusalOfAll?.userQuestion?.optionName === 'other' ? this.chosenFiles : { files: [], answers: {}, questions: [] };
     const loneFiles = previousFiles.filter((file) => !newFiles.some(({ name, size }) => name === file.name && size === file.size));
-    this.#open({ files: [...loneFiles, ...newFiles], recordings: [], skipped: [], answers, questions, userChoices: {} });
+    this.#open({ files: [...loneFiles, ...newFiles], openedRecordings: [], skippedFiles: [], answers, questions, userChoices: {} });
   }
 
   /** Opens the chosen files again, with answers to questions about them. The answers have the names of the files as keys. */
@@ -122,8 +122,8 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   /** Reads files and fits their logs. An earlier attempt that is still running is cancelled. */
-  async #open({ files, recordings, skipped, answers, questions, userChoices }: ChosenFiles) {
-    const openedFiles: ChosenFiles = (this.chosenFiles = { files, recordings, skipped, answers, questions, userChoices: { ...userChoices, kind: this.preferredKind } });
+  async #open({ files, openedRecordings: recordings, skippedFiles: skipped, answers, questions, userChoices }: ChosenFiles) {
+    const openedFiles: ChosenFiles = (this.chosenFiles = { files, openedRecordings: recordings, skippedFiles: skipped, answers, questions, userChoices: { ...userChoices, logKind: this.preferredKind } });
     this.host.service.stopRequest();
     this.readFraction = 0;
     const isLatest = await this.runAttempt(async () => {
@@ -132,14 +132,14 @@ export class LogOpener extends FileOpener<Figure> {
         this.readFraction = readFraction;
         this.host.requestUpdate();
       }));
-      if (openedFiles.refusal) throw openedFiles.refusal;
+      if (openedFiles.refusalOfAll) throw openedFiles.refusalOfAll;
       await this.#fit(openedFiles);
     });
     if (isLatest) this.#setIdle();
   }
 
   async #fit(openedFiles: ChosenFiles) {
-    const { log, warnings, drives } = openedFiles as Required<ChosenFiles>;
+    const { calibrationLog: log, logWarnings: warnings, loggedDrives: drives } = openedFiles as Required<ChosenFiles>;
     // The summary of the logs is shown while the logs are fitted.
     this.host.requestUpdate();
     await this.host.openLog(log, warnings, ({ count, stats }) => {
@@ -153,16 +153,16 @@ export class LogOpener extends FileOpener<Figure> {
 
   explainRefusal(refusal: Refusal) {
     if (isAbortError(refusal)) return words.progress.stoppedNotice;
-    const { message, sentences, question } = refusal;
+    const { message, sentencesByLanguage: sentences, userQuestion: question } = refusal;
     const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? words.calibrator.logControls.refusedLogSentence(message);
-    return [refusalReason, ...(question?.option === 'other' && this.texts ? [this.texts.choose.bothFilesHint] : [])].join(' ');
+    return [refusalReason, ...(question?.optionName === 'other' && this.texts ? [this.texts.choose.bothFilesHint] : [])].join(' ');
   }
 
   /** Shows why files were refused, and asks the user to answer the error's question if it has one. */
   async showRefusal(error: Refusal) {
     if (isAbortError(error)) return;
     const { chosenFiles } = this;
-    const newQuestion = error.question && { ...error.question, file: error.place?.file ?? '' };
+    const newQuestion = error.userQuestion && { ...error.userQuestion, fileName: error.errorPlace?.fileName ?? '' };
     if (newQuestion && chosenFiles) askQuestion(chosenFiles, newQuestion);
     await super.showRefusal(error, () => newQuestion && this.logModule?.focusChooser(this.host, newQuestion));
   }
@@ -170,7 +170,7 @@ export class LogOpener extends FileOpener<Figure> {
 
 /** Asks a question about a file. The question replaces an earlier question of the same kind. */
 function askQuestion(chosenFiles: ChosenFiles, newQuestion: FileQuestion) {
-  chosenFiles.questions = [...chosenFiles.questions.filter(({ file, option }) => file !== newQuestion.file || option !== newQuestion.option), newQuestion];
+  chosenFiles.questions = [...chosenFiles.questions.filter(({ fileName: file, optionName: option }) => file !== newQuestion.fileName || option !== newQuestion.optionName), newQuestion];
 }
 
 /** Returns true if a file may be a log. A dropped folder may also contain files of other kinds. */
@@ -196,7 +196,7 @@ export function dropZoneHtml(figure: Figure, opener: LogOpener) {
 
 /** Connection to the worker: its session, a function that ends the worker, and comlink's `proxy`, which makes a callback callable from the worker. */
 interface WorkerConnection {
-  session: Pick<LogSession, 'read' | 'calibrate'>;
+  session: Pick<LogSession, 'readFiles' | 'calibrate'>;
   endWorker(): void;
   proxy: typeof import('comlink').proxy;
 }
@@ -215,10 +215,10 @@ export class LogService {
   }
 
   /** Reads the logs of files. `answers` has the options for each file, by the name of the file. */
-  read(files: Source[], answers: Record<string, OpenOptions>, userChoices: UserChoices, onProgress: (fraction: number) => void) {
+  read(files: SourceFile[], answers: Record<string, OpenOptions>, userChoices: UserChoices, onProgress: (fraction: number) => void) {
     // The path is posted separately, because a copy of a `File` in the worker lacks the property `path`.
     const sources = files.map((file) => ({ file, path: file.path ?? '' }));
-    return this.#sendRequest(({ session, proxy }, signal) => session.read(sources, answers, userChoices, proxy((fraction) => void (signal.aborted || onProgress(fraction)))));
+    return this.#sendRequest(({ session, proxy }, signal) => session.readFiles(sources, answers, userChoices, proxy((fraction) => void (signal.aborted || onProgress(fraction)))));
   }
 
   /** Returns the serialized fit to a log, which `AlphaCalibrator.restored` reads. */

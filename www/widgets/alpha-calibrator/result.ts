@@ -4,7 +4,7 @@ import { MINUS, NO_VALUE, formatFixed, formatPercent, formatPowerOfTen, formatIn
 import { subscriptOf } from '../shared/sliders.ts';
 import { en, yamlWords } from './en.ts';
 import type { CalibrationCheck, CalibrationStats } from '../../types.d.ts';
-import type { Warning } from '../../logs/log.ts';
+import type { LogWarning } from '../../logs/log.ts';
 
 type Interval = [number, number] | null;
 
@@ -21,7 +21,7 @@ export interface Result {
   /** Names of the odometry and reference logs. */
   logName: string;
   /** Warnings about the logs. They make the α's doubtful. */
-  warnings: Warning[];
+  warnings: LogWarning[];
 }
 
 type Texts = typeof import('./en.ts').en;

@@ -4,7 +4,6 @@
 /// Rust's code for printing doubles would take an eighth of the module.
 pub(crate) fn format_number(number: f64) -> String {
     #[cfg(target_arch = "wasm32")]
-    // `toString` never throws for the radix 10.
     return js_sys::Number::from(number)
         .to_string_with_radix(10)
         .map_or_else(|_| String::new(), String::from);

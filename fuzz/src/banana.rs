@@ -242,13 +242,13 @@ pub fn read_view_grid(fuzz_input: &mut InputReader) -> ViewGrid {
     let view_min = [0; 2].map(|_| fuzz_input.draw_number_within(EXTENT_RANGE));
     let view_max = view_min.map(|min_coordinate| fuzz_input.draw_number_within(min_coordinate..=*EXTENT_RANGE.end()));
     let [column_count, row_count] = [0; 2].map(|_| 1 + fuzz_input.next_below(40));
-    ViewGrid { min_corner: view_min, max_corner: view_max, columns: column_count, rows: row_count }
+    ViewGrid { min_corner: view_min, max_corner: view_max, column_count, row_count }
 }
 
 fn assert_picture(simulation: &mut BananaMachine, fuzz_input: &mut InputReader) {
     let (morph, view_grid) = (fuzz_input.choose_one(&[0.0, 1.0]), read_view_grid(fuzz_input));
     let cell_counts = simulation.density(morph, &view_grid);
-    assert_eq!(cell_counts.len(), view_grid.columns * view_grid.rows);
+    assert_eq!(cell_counts.len(), view_grid.column_count * view_grid.row_count);
     assert!(cell_counts.iter().sum::<u32>() as usize <= simulation.shown_count(), "{view_grid:?}: {cell_counts:?}");
     let pixels = simulation.paint(morph, &view_grid, &[[1; 4]; RAMP_STEP_COUNT]);
     assert_eq!(pixels.len(), cell_counts.len());

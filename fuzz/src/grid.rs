@@ -31,7 +31,7 @@ pub fn check_input(input_bytes: &[u8]) {
     let grid = floor_plan.grid().expect("made of a grid");
     assert_outlines(grid, unknown_cell_rule);
     for (cell_middle, is_cell_obstacle) in find_middles_and_obstacles(grid, unknown_cell_rule) {
-        assert_eq!(floor_plan.test_point(cell_middle, 0.0).free, !is_cell_obstacle, "{cell_middle:?} in {grid:?}");
+        assert_eq!(floor_plan.test_point(cell_middle, 0.0).is_free, !is_cell_obstacle, "{cell_middle:?} in {grid:?}");
     }
     for _ in 0..MAX_ARCS {
         plan::assert_collision_verdicts(&floor_plan, &mut fuzz_input);

@@ -121,7 +121,7 @@ pub fn assert_collision_verdicts(floor_plan: &FloorPlan, fuzz_input: &mut InputR
     let is_in_obstacle = floor_plan.grid().is_some_and(|grid| grid.is_blocked_at([start_pose.x(), start_pose.y()]));
     let min_wall_distance = floor_plan.walls().iter().map(|wall| wall.distance_to_arc(&driven_arc)).fold(f64::INFINITY, f64::min);
 
-    let is_free = floor_plan.test_arc(&driven_arc, clearance).free;
+    let is_free = floor_plan.test_arc(&driven_arc, clearance).is_free;
     let failure_description = format!("{driven_arc:?} with {clearance} to spare: walls {min_wall_distance}, edge {min_edge_distance}");
     if is_free {
         assert!(min_wall_distance > clearance - distance_tolerance && min_edge_distance >= -distance_tolerance && !is_in_obstacle, "through a wall: {failure_description}");
@@ -133,7 +133,7 @@ pub fn assert_collision_verdicts(floor_plan: &FloorPlan, fuzz_input: &mut InputR
     let end_pose = driven_arc.end();
     let end_point = [end_pose.x(), end_pose.y()];
     let min_wall_distance = floor_plan.walls().iter().map(|wall| wall.distance_to_point(end_point)).fold(f64::INFINITY, f64::min);
-    let is_free = floor_plan.test_point(end_point, clearance).free;
+    let is_free = floor_plan.test_point(end_point, clearance).is_free;
     let is_in_obstacle = floor_plan.grid().is_some_and(|grid| grid.is_blocked_at(end_point));
     let edge_distance_of_end = edge_distance_at(end_point[0], end_point[1]);
     if is_free {

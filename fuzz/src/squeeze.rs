@@ -131,7 +131,7 @@ fn assert_equals_new_simulation(simulation: &MapSqueeze) {
 fn assert_free_pose(simulation: &MapSqueeze) {
     let Some(free_pose) = simulation.plan().find_free_pose(simulation.settings().clearance) else { return };
     assertions::assert_pose("a free pose", &free_pose);
-    let does_robot_fit = simulation.plan().test_point([free_pose.x(), free_pose.y()], simulation.settings().clearance).free;
+    let does_robot_fit = simulation.plan().test_point([free_pose.x(), free_pose.y()], simulation.settings().clearance).is_free;
     assert!(does_robot_fit, "{free_pose:?}");
 }
 
@@ -187,6 +187,6 @@ fn assert_picture(simulation: &mut MapSqueeze, fuzz_input: &mut InputReader) {
     let view_grid = banana::read_view_grid(fuzz_input);
     let shown_count = simulation.attempts().len();
     let pixels = simulation.paint(&view_grid, &[[[1; 4]; RAMP_STEP_COUNT]; OUTCOME_KIND_COUNT]);
-    assert_eq!(pixels.len(), view_grid.columns * view_grid.rows);
+    assert_eq!(pixels.len(), view_grid.column_count * view_grid.row_count);
     assert!(pixels.iter().filter(|pixel| pixel[3] > 0).count() <= shown_count);
 }

@@ -13,7 +13,7 @@ pub fn wrap_angle(angle: f64) -> f64 {
 
 #[inline(never)]
 fn wrap_far_angle(angle: f64) -> f64 {
-    // `libm::wrapped_angle` returns a value in [−π, π]. The value −π becomes π.
+    // `libm::remainder` returns a value in [−π, π]. The value −π becomes π.
     let wrapped_angle = libm::remainder(angle, TAU);
     if wrapped_angle == -PI { PI } else { wrapped_angle }
 }

@@ -12,7 +12,7 @@ use std::f64::consts::{PI, TAU};
 use std::ops::{Add, Mul};
 use wide::f64x4;
 
-/// Returns the end (x, y) of an arc of signed length `arc_length` (m) that turns by `arc_turn` (rad), in the frame of its start: x forward, y left.
+/// Returns the end of an arc of signed length `arc_length` (m) that turns by `arc_turn` (rad), in the frame of its start: x forward, y left.
 /// The end is (s·sin φ/φ, s·(1 − cos φ)/φ), with (1 − cos φ)/φ = sin(φ/2)·sinc(φ/2).
 pub fn arc_end(arc_length: f64, arc_turn: f64) -> (f64, f64) {
     let (forward_offset, left_offset) = unit_arc_end(arc_turn);
@@ -139,8 +139,8 @@ impl Arc {
         let turn = turn.abs();
         let arc_curvature = if length > MIN_ARC_LENGTH && turn > MIN_ARC_TURN { turn / length } else { 0.0 };
         LocalArc {
-            origin: self.start.position(),
-            forward: [drive_sign * cos, drive_sign * sin],
+            local_origin: self.start.position(),
+            forward_axis: [drive_sign * cos, drive_sign * sin],
             left: [-turn_sign * sin, turn_sign * cos],
             length,
             turn,
@@ -150,7 +150,6 @@ impl Arc {
     }
 }
 
-/// Pose with the sine and cosine of its heading, which many arcs from this pose need.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PreparedPose {
     pub pose: SE2,
@@ -158,7 +157,6 @@ pub(crate) struct PreparedPose {
     cos: f64,
 }
 
-/// Arc with its end pose, computed from its start.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DrivenArc {
     pub arc: Arc,
@@ -175,7 +173,6 @@ impl PreparedPose {
         Self { pose, sin, cos }
     }
 
-    /// Transforms a point from the frame of the pose to the reference frame.
     #[inline(always)]
     pub fn transform_point(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.pose.x() + (self.cos * x - self.sin * y), self.pose.y() + (self.sin * x + self.cos * y)]
@@ -263,7 +260,6 @@ impl DrivenArc {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ArcPiece {
     middle_point: [f64; 2],
-    /// Direction of travel (unit vector) in the middle of the arc piece.
     travel_direction: [f64; 2],
     curvature: f64,
     /// Half the length of the arc piece, m.
@@ -314,7 +310,6 @@ impl ArcPiece {
         ]
     }
 
-    /// Returns x and y of the points `s` metres after the middle of the piece.
     #[inline(always)]
     pub fn points_at(&self, s: f64x4) -> [f64x4; 2] {
         let [ahead_offset, left] = self.local_point(s);
@@ -337,8 +332,8 @@ const MIN_ARC_LENGTH: f64 = 1e-100;
 /// Arc in the frame of its start, mirrored so that it leads forward and to the left. It starts at the origin along x, with
 /// length, turn and curvature κ ≥ 0. No formula uses the centre, which is far away or undefined if κ is small.
 pub(crate) struct LocalArc {
-    origin: [f64; 2],
-    forward: [f64; 2],
+    local_origin: [f64; 2],
+    forward_axis: [f64; 2],
     left: [f64; 2],
     pub length: f64,
     pub turn: f64,
@@ -348,8 +343,8 @@ pub(crate) struct LocalArc {
 
 impl LocalArc {
     pub fn transform_to_local(&self, point: [f64; 2]) -> [f64; 2] {
-        let (dx, dy) = (point[0] - self.origin[0], point[1] - self.origin[1]);
-        [dx * self.forward[0] + dy * self.forward[1], dx * self.left[0] + dy * self.left[1]]
+        let (dx, dy) = (point[0] - self.local_origin[0], point[1] - self.local_origin[1]);
+        [dx * self.forward_axis[0] + dy * self.forward_axis[1], dx * self.left[0] + dy * self.left[1]]
     }
 
     /// Returns κ|p|²/2 − y of a point p: 0 on the circle (or line) of the arc, positive outside the circle (or right of the line).

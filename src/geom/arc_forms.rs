@@ -121,7 +121,6 @@ const SERIES_TERM_COUNT: i32 = 12;
 /// Number of times that the angle is halved before the series is evaluated, and doubled afterwards.
 const HALVING_COUNT: i32 = 4;
 
-/// Returns a + b without rounding error, if |a| ≥ |b|.
 fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
     DoubleDouble { high, low: b - (high - a) }
@@ -141,7 +140,6 @@ impl From<f64> for DoubleDouble {
 
 impl Add for DoubleDouble {
     type Output = Self;
-    /// Returns the sum, with a relative error of at most 2⁻¹⁰⁵.
     fn add(self, addend: Self) -> Self {
         let (high_sum, low_sum) = (two_sum(self.high, addend.high), two_sum(self.low, addend.low));
         let high_sum = quick_two_sum(high_sum.high, high_sum.low + low_sum.high);

@@ -39,8 +39,8 @@ impl Default for Trigonometry {
 }
 
 impl Trigonometry {
-    /// Returns the sines and cosines of angles up to a quarter turn (rad).
     #[inline(always)]
+    /// Returns the sines and cosines of angles up to a quarter turn (rad).
     pub fn sin_cos_small_angle(&self, x: f64x4) -> SinCos {
         let (sinc, cos) = self.sinc_and_cos(x * x);
         SinCos { sinc, sin: x * sinc, cos }
@@ -153,7 +153,6 @@ pub(crate) fn ln(x: f64x4) -> f64x4 {
         + binary_exponent * LN_2_PARTS[0]
 }
 
-/// ln 2 as the sum of two parts. The second part has the digits that the first part lacks.
 #[expect(clippy::excessive_precision, reason = "the digits as published")]
 const LN_2_PARTS: [f64; 2] = [6.931_471_803_691_238_164_90e-1, 1.908_214_929_270_587_700_02e-10];
 #[expect(clippy::excessive_precision, reason = "the digits as published")]

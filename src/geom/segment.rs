@@ -79,7 +79,6 @@ impl Segment {
             .fold(0.0, f64::max)
     }
 
-    /// Returns true if this segment, in the frame of the arc, has a point in common with the arc.
     fn crosses_arc(&self, arc: &LocalArc) -> bool {
         let Self { from, to: end_point } = *self;
         let direction = [end_point[0] - from[0], end_point[1] - from[1]];

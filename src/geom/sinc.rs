@@ -2,7 +2,6 @@
 
 /// Returns sinc(t) = sin(t)/t, with sinc(0) = 1. The result is correct to about 1.5 units in the last place for every t.
 pub fn sinc(t: f64) -> f64 {
-    // For the smallest t > 0 the quotient sin(t)/t is exactly 1. Only t = 0 is a special case.
     if t == 0.0 { 1.0 } else { libm::sin(t) / t }
 }
 

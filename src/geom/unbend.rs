@@ -53,7 +53,6 @@ pub fn unbend_line(line_points: &[[f64; 2]], expected_turn: f64, morph_fraction:
         .collect()
 }
 
-/// Maximum number of Newton steps. While a user drags a point, three steps per picture are enough.
 const MAX_NEWTON_STEPS: usize = 20;
 
 /// Returns the length and turn of the arc whose point F_μ is `target_point`, by Newton's method from an initial guess. Returns None if the

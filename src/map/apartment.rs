@@ -6,21 +6,17 @@ pub(super) const BOUNDS: [f64; 4] = [0.0, 0.0, 12.0, 9.0];
 
 /// Walls in the memory layout of a floor plan. Code that adds the walls one by one would take twice the bytes.
 pub(super) static WALLS: [Segment; 18] = [
-    // Outer walls.
     wall(0.0, 0.0, 12.0, 0.0),
     wall(12.0, 0.0, 12.0, 9.0),
     wall(12.0, 9.0, 0.0, 9.0),
     wall(0.0, 9.0, 0.0, 0.0),
-    // The corridor's lower wall, with three doorways.
     wall(0.0, 3.8, 1.6, 3.8),
     wall(2.5, 3.8, 5.5, 3.8),
     wall(6.5, 3.8, 9.5, 3.8),
     wall(10.4, 3.8, 12.0, 3.8),
-    // The corridor's upper wall, with two doorways.
     wall(0.0, 5.0, 2.8, 5.0),
     wall(3.7, 5.0, 7.4, 5.0),
     wall(8.3, 5.0, 12.0, 5.0),
-    // Walls between rooms, first below and then above the corridor.
     wall(4.0, 0.0, 4.0, 3.8),
     wall(8.0, 0.0, 8.0, 3.8),
     wall(6.0, 5.0, 6.0, 9.0),

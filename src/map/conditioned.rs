@@ -118,21 +118,22 @@ pub const MAX_DRAWS: usize = 10_000;
 #[derive(Clone, Copy, Debug)]
 pub struct CollisionTester<'a> {
     conditioned_model: &'a MapConditioned<'a>,
-    command: NoisyCommand,
-    start: PreparedPose,
+    noisy_command: NoisyCommand,
+    prepared_start: PreparedPose,
     trigonometry: Trigonometry,
 }
 
 impl CollisionTester<'_> {
     /// Returns the motion with the noise `unit_noise` (three random numbers of variance 1), and the results of its collision tests.
     pub fn test_draw(&self, unit_noise: [f64; 3]) -> TestedDraw {
-        self.test_motion(self.command.drive_with_noise(&self.start, unit_noise))
+        self.test_motion(self.noisy_command.drive_with_noise(&self.prepared_start, unit_noise))
     }
 
     /// Tests the motions in the range `lanes` of four SIMD lanes, and calls `visit` with each tested motion. The poses may differ by
     /// rounding from those of [`CollisionTester::test_draw`].
     pub fn test_lanes(&self, unit_noise: &[f64x4; 3], lanes: Range<usize>, visit: impl FnMut(TestedDraw)) {
-        let motion_of_lane = self.command.drive_four_with_noise(&self.start, &self.trigonometry, unit_noise);
+        let motion_of_lane =
+            self.noisy_command.drive_four_with_noise(&self.prepared_start, &self.trigonometry, unit_noise);
         lanes.map(|lane_index| self.test_motion(motion_of_lane(lane_index))).for_each(visit);
     }
 
@@ -145,12 +146,11 @@ impl CollisionTester<'_> {
 
     /// Returns the arc driven with the noise `unit_noise` (three random numbers of variance 1).
     pub fn arc(&self, unit_noise: [f64; 3]) -> Arc {
-        let [arc_length, arc_turn, _] = self.command.executed_motion(unit_noise);
-        Arc { start: self.start.pose, length: arc_length, turn: arc_turn }
+        let [arc_length, arc_turn, _] = self.noisy_command.executed_motion(unit_noise);
+        Arc { start: self.prepared_start.pose, length: arc_length, turn: arc_turn }
     }
 }
 
-/// Command of one part of a motion, and the standard deviations of its noise.
 #[derive(Clone, Copy, Debug)]
 struct NoisyCommand {
     u: VelocityCmd,
@@ -158,7 +158,6 @@ struct NoisyCommand {
 }
 
 impl NoisyCommand {
-    /// Returns the end pose and the driven arc for the noise `unit_noise` (three random numbers of variance 1).
     fn drive_with_noise(&self, start: &PreparedPose, unit_noise: [f64; 3]) -> (SE2, DrivenArc) {
         let [arc_length, arc_turn, last_turn] = self.executed_motion(unit_noise);
         with_last_turn(start.drive(arc_length, arc_turn), last_turn)
@@ -218,9 +217,9 @@ impl MapConditioned<'_> {
         let (mut end_free, mut path_free) = (true, true);
         let (pose, cost) = self.drive_parts(u, x, rng, is_conditioned, &mut |driven_arc, end_verdict| {
             visit_arc(&driven_arc.arc);
-            end_free = end_verdict.free;
+            end_free = end_verdict.is_free;
             path_free =
-                path_free && self.plan.test_arc_after_end(driven_arc, end_verdict, self.clearance).free;
+                path_free && self.plan.test_arc_after_end(driven_arc, end_verdict, self.clearance).is_free;
         })?;
         Ok(AcceptedMotion { pose, end_free, path_free, cost })
     }
@@ -281,7 +280,7 @@ impl MapConditioned<'_> {
                 _ => end_verdict,
             };
             cost.add(Cost { draws: 1, wall_tests: deciding_verdict.wall_tests });
-            if deciding_verdict.free {
+            if deciding_verdict.is_free {
                 return Ok((end_pose, driven_arc, end_verdict));
             }
         }
@@ -291,7 +290,12 @@ impl MapConditioned<'_> {
     /// Returns a collision tester for many draws from one pose. It computes terms that all draws have in common only once.
     pub fn collision_tester(&self, u: &VelocityCmd, x: &SE2) -> CollisionTester<'_> {
         let (command, start) = (self.noisy_command(u), PreparedPose::new(*x));
-        CollisionTester { conditioned_model: self, command, start, trigonometry: Trigonometry::default() }
+        CollisionTester {
+            conditioned_model: self,
+            noisy_command: command,
+            prepared_start: start,
+            trigonometry: Trigonometry::default(),
+        }
     }
 
     /// Returns the result of the collision test on which the acceptance of a draw depends: of the whole path for [`Sampler::WholeArc`], of

@@ -12,7 +12,7 @@ use wide::f64x4;
 pub(super) struct DistanceField {
     min_corner: [f64; 2],
     cells_per_metre: f64,
-    columns: usize,
+    column_count: usize,
     last_indices: [f64; 2],
     /// Half the diagonal of a cell, m: the resolution of the distance field.
     pub cell_radius: f64,
@@ -40,7 +40,6 @@ const MAX_WALLS_PER_CELL: usize = 3;
 /// together than this error are measured as one wall. A map whose walls fit into a single leaf of the wall tree is measured exactly.
 const RELATIVE_UNCERTAINTY: f64 = 0.125;
 
-/// Lower bound of a cell whose distance to the walls was not computed.
 const NOT_COMPUTED: f32 = f32::MIN;
 
 /// Distance from a block of cells to the nearest wall, in units of half the block's diagonal, beyond which the block is not divided.
@@ -53,7 +52,8 @@ impl DistanceField {
         let mut field_builder = FieldBuilder::new(wall_tree, map_bounds, occupied_grid);
         let root_candidates =
             if wall_tree.is_leaf(1) { walls_of_node(wall_tree, 1).collect() } else { vec![WallSet::Node(1)] };
-        let whole_width = field_builder.distance_field.columns.max(field_builder.rows).next_power_of_two();
+        let whole_width =
+            field_builder.distance_field.column_count.max(field_builder.row_count).next_power_of_two();
         field_builder.fill_block(&root_candidates, [0, 0], whole_width);
         field_builder.distance_field
     }
@@ -63,9 +63,9 @@ impl DistanceField {
     pub fn lower_bound(&self, [x, y]: [f64; 2]) -> f64 {
         // Rounding can move a point slightly outside the bounds; it then belongs to the nearest cell.
         let cell_column =
-            (((x - self.min_corner[0]) * self.cells_per_metre) as u32 as usize).min(self.columns - 1);
+            (((x - self.min_corner[0]) * self.cells_per_metre) as u32 as usize).min(self.column_count - 1);
         let cell_row = ((y - self.min_corner[1]) * self.cells_per_metre) as u32 as usize;
-        self.lower_bound_of_cell(cell_row * self.columns + cell_column)
+        self.lower_bound_of_cell(cell_row * self.column_count + cell_column)
     }
 
     #[inline(always)]
@@ -73,7 +73,6 @@ impl DistanceField {
         f64::from(self.lower_bounds.get(cell_index).copied().unwrap_or(NOT_COMPUTED))
     }
 
-    /// Returns [`DistanceField::lower_bound`] of four points, given as their x and y in SIMD lanes.
     #[inline(always)]
     pub fn lower_bounds(&self, points: &[f64x4; 2]) -> f64x4 {
         let zero_lanes = f64x4::splat(0.0);
@@ -87,7 +86,7 @@ impl DistanceField {
                 - ROUND_TO_INTEGER
         });
         // Adding this number to a small integer puts that integer into the last bits of the sum.
-        let cell_indices = (cell_row * self.columns as f64 + cell_column + ROUND_TO_INTEGER).to_array();
+        let cell_indices = (cell_row * self.column_count as f64 + cell_column + ROUND_TO_INTEGER).to_array();
         from_lanes(|i| self.lower_bound_of_cell(cell_indices[i].to_bits() as u32 as usize))
     }
 
@@ -104,15 +103,15 @@ impl DistanceField {
 }
 
 struct FieldBuilder<'a> {
-    tree: &'a WallTree,
+    wall_tree: &'a WallTree,
     occupied_grid: Option<&'a OccupancyGrid>,
     distance_field: DistanceField,
-    rows: usize,
+    row_count: usize,
     cell_side: f64,
     rounding_slack: f64,
     /// Candidates for the wall nearest to the current block: unmeasured walls, and measured walls with their distances (m).
     unmeasured_walls: Vec<WallSet>,
-    measured: Vec<(f64, WallSet)>,
+    measured_walls: Vec<(f64, WallSet)>,
 }
 
 /// Single wall, or node of the wall tree, which stands for all of its walls.
@@ -133,26 +132,27 @@ impl<'a> FieldBuilder<'a> {
         let cell_count = (CELLS_PER_WALL * wall_tree.walls.len() as f64).clamp(MIN_CELLS, MAX_CELLS);
         // A narrow map could otherwise get more than `cell_count` cells in a single row.
         let cell_side = (width * height / cell_count).sqrt().max(width.max(height) / cell_count);
-        let [columns, rows] =
+        let [column_count, row_count] =
             [width, height].map(|side_length| (side_length / cell_side).ceil() as usize + 1);
         let cell_radius = FRAC_1_SQRT_2 * cell_side;
         Self {
-            tree: wall_tree,
+            wall_tree,
             occupied_grid,
             distance_field: DistanceField {
                 min_corner: [min_x, min_y],
                 cells_per_metre: 1.0 / cell_side,
-                columns,
-                last_indices: [columns, rows].map(|cell_count_along_side| cell_count_along_side as f64 - 1.0),
+                column_count,
+                last_indices: [column_count, row_count]
+                    .map(|cell_count_along_side| cell_count_along_side as f64 - 1.0),
                 cell_radius,
                 cell_uncertainty: if wall_tree.is_leaf(1) { 0.0 } else { RELATIVE_UNCERTAINTY * cell_radius },
-                lower_bounds: vec![NOT_COMPUTED; columns * rows],
+                lower_bounds: vec![NOT_COMPUTED; column_count * row_count],
             },
-            rows,
+            row_count,
             cell_side,
             rounding_slack: rounding_bound(&map_bounds),
             unmeasured_walls: Vec::new(),
-            measured: Vec::new(),
+            measured_walls: Vec::new(),
         }
     }
 
@@ -164,11 +164,13 @@ impl<'a> FieldBuilder<'a> {
         [first_column, first_row]: [usize; 2],
         width: usize,
     ) {
-        if first_column >= self.distance_field.columns || first_row >= self.rows {
+        if first_column >= self.distance_field.column_count || first_row >= self.row_count {
             return;
         }
-        let [end_column, end_row] =
-            [(first_column + width).min(self.distance_field.columns), (first_row + width).min(self.rows)];
+        let [end_column, end_row] = [
+            (first_column + width).min(self.distance_field.column_count),
+            (first_row + width).min(self.row_count),
+        ];
         let block_centre = self.block_centre([first_column, first_row], width);
         let block_radius = width as f64 * self.distance_field.cell_radius;
         let block_uncertainty = width as f64 * self.distance_field.cell_uncertainty;
@@ -184,7 +186,7 @@ impl<'a> FieldBuilder<'a> {
             let max_lower_bound = max_distance + 2.0 * block_radius + self.rounding_slack;
             let is_near = |(lower_bound, _): &&(f64, WallSet)| *lower_bound <= max_lower_bound;
             let near_candidates: Vec<_> =
-                self.measured.iter().filter(is_near).map(|(_, near_walls)| *near_walls).collect();
+                self.measured_walls.iter().filter(is_near).map(|(_, near_walls)| *near_walls).collect();
             let half_width = width / 2;
             for [column, row] in [[0, 0], [half_width, 0], [0, half_width], [half_width, half_width]] {
                 self.fill_block(&near_candidates, [first_column + column, first_row + row], half_width);
@@ -208,14 +210,14 @@ impl<'a> FieldBuilder<'a> {
                 } else {
                     min_distance * (1.0 - 1e-6) - max_offset - self.rounding_slack
                 };
-                self.distance_field.lower_bounds[row * self.distance_field.columns + column] =
+                self.distance_field.lower_bounds[row * self.distance_field.column_count + column] =
                     cell_lower_bound as f32;
             }
         }
     }
 
     /// Returns a lower and an upper bound (m) on the distance from the middle of a block to the nearest wall, at most `allowed_uncertainty`
-    /// apart. None if too many walls are near. Afterwards `measured` has all walls or nodes that may be nearest to a point of the block.
+    /// apart. None if too many walls are near. Afterwards `measured_walls` has all walls or nodes that may be nearest to a point of the block.
     fn measure_candidates(
         &mut self,
         candidate_walls: &[WallSet],
@@ -223,11 +225,11 @@ impl<'a> FieldBuilder<'a> {
         width: usize,
         allowed_uncertainty: f64,
     ) -> Option<[f64; 2]> {
-        let Self { tree: wall_tree, unmeasured_walls: unmeasured, measured, .. } = self;
+        let Self { wall_tree, unmeasured_walls: unmeasured, measured_walls, .. } = self;
         // A wall can be nearest to a point of the block only if its distance from the middle exceeds the smallest distance by at most the
         // diameter of the block.
         let max_excess = 2.0 * width as f64 * self.distance_field.cell_radius + self.rounding_slack;
-        measured.clear();
+        measured_walls.clear();
         unmeasured.clear();
         unmeasured.extend_from_slice(candidate_walls);
         let mut least_upper_bound = f64::INFINITY;
@@ -241,7 +243,7 @@ impl<'a> FieldBuilder<'a> {
                 |wall: usize| wall_tree.walls[wall].squared_distance_to_point(block_centre).sqrt();
             let lower_bound = match near_walls {
                 WallSet::Wall(wall) => distance_to_wall(wall as usize),
-                WallSet::Node(node) => wall_tree.nodes[node as usize].lower_bound(block_centre),
+                WallSet::Node(node) => wall_tree.wall_nodes[node as usize].lower_bound(block_centre),
             };
             if lower_bound > least_upper_bound + max_excess {
                 continue;
@@ -258,7 +260,7 @@ impl<'a> FieldBuilder<'a> {
             match near_walls {
                 WallSet::Node(node)
                     if lower_bound < least_upper_bound - allowed_uncertainty
-                        || wall_tree.nodes[node as usize].capsule_radius > 0.5 * max_excess =>
+                        || wall_tree.wall_nodes[node as usize].capsule_radius > 0.5 * max_excess =>
                 {
                     if wall_tree.is_leaf(node as usize) {
                         unmeasured.extend(walls_of_node(wall_tree, node as usize));
@@ -266,11 +268,11 @@ impl<'a> FieldBuilder<'a> {
                         unmeasured.extend([2 * node, 2 * node + 1].map(WallSet::Node));
                     }
                 }
-                _ => measured.push((lower_bound, near_walls)),
+                _ => measured_walls.push((lower_bound, near_walls)),
             }
         }
         Some([
-            measured.iter().map(|(lower_bound, _)| *lower_bound).fold(least_upper_bound, f64::min),
+            measured_walls.iter().map(|(lower_bound, _)| *lower_bound).fold(least_upper_bound, f64::min),
             least_upper_bound,
         ])
     }

@@ -18,8 +18,7 @@ use wide::f64x4;
 #[derive(Clone, Debug)]
 pub struct FloorPlan {
     walls: Vec<Segment>,
-    /// Minimum x, minimum y, maximum x, maximum y, m.
-    bounds: [f64; 4],
+    plan_bounds: [f64; 4],
     /// Cells of the grid from which the plan was made, if any. The walls are the outlines of its occupied cells. A point inside an occupied
     /// cell is never free.
     occupied_grid: Option<OccupancyGrid>,
@@ -76,14 +75,14 @@ fn join_numbers(joined_numbers: &[f64]) -> String {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CollisionVerdict {
     /// True if the pose or the motion is free of collisions.
-    pub free: bool,
+    pub is_free: bool,
     /// Number of wall distances that were computed. A wall near several pieces of a motion counts once for each piece.
     pub wall_tests: usize,
 }
 
 impl CollisionVerdict {
-    pub(super) const FREE: Self = Self { free: true, wall_tests: 0 };
-    const BLOCKED: Self = Self { free: false, wall_tests: 0 };
+    pub(super) const FREE: Self = Self { is_free: true, wall_tests: 0 };
+    const BLOCKED: Self = Self { is_free: false, wall_tests: 0 };
 }
 
 /// Range of the coordinates of a plan's bounds, m. A robot's coordinates have the same range.
@@ -140,7 +139,7 @@ impl FloorPlan {
                 return Err(FloorPlanError::BadWall { wall_index, invalid_end });
             }
         }
-        Ok(Self { walls, bounds, occupied_grid, collision_index: OnceLock::new() })
+        Ok(Self { walls, plan_bounds: bounds, occupied_grid, collision_index: OnceLock::new() })
     }
 
     /// Creates the plan of the apartment of Map Squeeze: 12 m × 9 m, 18 walls.
@@ -156,7 +155,7 @@ impl FloorPlan {
 
     /// Returns the smallest x and y and the largest x and y, m.
     pub fn bounds(&self) -> [f64; 4] {
-        self.bounds
+        self.plan_bounds
     }
 
     /// Returns the cells of the grid from which the plan was made; None if the plan was made from walls.
@@ -185,7 +184,7 @@ impl FloorPlan {
             |wall_node| wall_node.is_farther_than(point, clearance),
             |wall| wall.distance_to_point(point) > clearance,
         );
-        CollisionVerdict { free: is_free, wall_tests }
+        CollisionVerdict { is_free, wall_tests }
     }
 
     /// Tests whether a disc of radius `clearance` (m) whose centre drives along `arc` touches no wall and stays inside the bounds.
@@ -202,8 +201,8 @@ impl FloorPlan {
         clearance: f64,
     ) -> CollisionVerdict {
         let start_point = driven_arc.arc.start.position();
-        if !end_verdict.free || self.leaves_bounds(driven_arc) || self.is_in_blocked_cell(start_point) {
-            return CollisionVerdict { free: false, ..end_verdict };
+        if !end_verdict.is_free || self.leaves_bounds(driven_arc) || self.is_in_blocked_cell(start_point) {
+            return CollisionVerdict { is_free: false, ..end_verdict };
         }
         let mut arc_sweep = ArcSweep {
             floor_plan: self,
@@ -216,13 +215,14 @@ impl FloorPlan {
         let is_free = driven_arc
             .split_into_pieces()
             .all(|arc_piece| arc_sweep.is_free(&arc_piece, -arc_piece.half_length, arc_piece.half_length));
-        CollisionVerdict { free: is_free, wall_tests: arc_sweep.wall_tests }
+        CollisionVerdict { is_free, wall_tests: arc_sweep.wall_tests }
     }
 
     fn collision_index(&self) -> &CollisionIndex {
         self.collision_index.get_or_init(|| {
-            let wall_tree = WallTree::new(&self.walls, self.bounds);
-            let distance_field = DistanceField::new(&wall_tree, self.bounds, self.occupied_grid.as_ref());
+            let wall_tree = WallTree::new(&self.walls, self.plan_bounds);
+            let distance_field =
+                DistanceField::new(&wall_tree, self.plan_bounds, self.occupied_grid.as_ref());
             CollisionIndex { wall_tree, distance_field }
         })
     }
@@ -237,12 +237,12 @@ impl FloorPlan {
         if let Some(occupancy_grid) = &self.occupied_grid {
             return occupancy_grid.contains(point);
         }
-        let ([x, y], [min_x, min_y, max_x, max_y]) = (point, self.bounds);
+        let ([x, y], [min_x, min_y, max_x, max_y]) = (point, self.plan_bounds);
         (min_x..=max_x).contains(&x) && (min_y..=max_y).contains(&y)
     }
 
     fn corners(&self) -> [[f64; 2]; 4] {
-        let [min_x, min_y, max_x, max_y] = self.bounds;
+        let [min_x, min_y, max_x, max_y] = self.plan_bounds;
         let bounds_corners = [[min_x, min_y], [max_x, min_y], [max_x, max_y], [min_x, max_y]];
         self.occupied_grid.as_ref().map_or(bounds_corners, OccupancyGrid::corners)
     }
@@ -295,7 +295,6 @@ impl FloorPlan {
     }
 }
 
-/// Collision test of a disc that moves along an arc.
 struct ArcSweep<'a> {
     floor_plan: &'a FloorPlan,
     distance_field: &'a DistanceField,

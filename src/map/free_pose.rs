@@ -16,7 +16,7 @@ impl FloorPlan {
     /// heading of the longest free path. If the disc does not fit there, the first cell where it fits is taken; None if it fits nowhere.
     pub fn find_free_pose(&self, clearance: f64) -> Option<SE2> {
         let occupancy_grid = self.grid().map_or_else(|| Cow::Owned(self.rasterize()), Cow::Borrowed);
-        let does_disc_fit = |tested_point: &[f64; 2]| self.test_point(*tested_point, clearance).free;
+        let does_disc_fit = |tested_point: &[f64; 2]| self.test_point(*tested_point, clearance).is_free;
         let [column_count, row_count] = occupancy_grid.size();
         let middle_coordinates = (0..row_count)
             .flat_map(|row| (0..column_count).map(move |column| [column as f64 + 0.5, row as f64 + 0.5]));

@@ -126,7 +126,6 @@ pub struct OccupancyGrid {
     resolution: f64,
     /// Frame of the grid: at the lower left corner of the lower left cell, with its axes along rows and columns.
     origin: SE2,
-    /// Transform from the reference frame of the map to the frame of the grid.
     plane_to_grid: PreparedPose,
     /// Cells row by row from the bottom.
     cells: Vec<Cell>,
@@ -192,7 +191,6 @@ impl OccupancyGrid {
         column >= 0.0 && row >= 0.0 && self.is_blocked(self.row_cells(row as usize), column as usize)
     }
 
-    /// Returns true if a cell is known to be free; false for a cell outside of the grid.
     pub(super) fn is_known_free(&self, column: usize, row: usize) -> bool {
         self.row_cells(row).get(column) == Some(&Cell::Free)
     }
@@ -223,7 +221,6 @@ impl OccupancyGrid {
         self.plane_to_grid.transform_point([x, y]).map(|plane_coordinate| plane_coordinate / self.resolution)
     }
 
-    /// Returns true if a cell of a row is an obstacle; false for a cell outside of the grid.
     fn is_blocked(&self, row: &[Cell], column: usize) -> bool {
         match row.get(column) {
             Some(Cell::Occupied) => true,

@@ -14,7 +14,7 @@ const MAX_QUOTED_CHARACTERS: usize = 20;
 /// Reads the brightness values of a PGM image, binary (P5) or plain (P2), of 8 or 16 bits. The maximum value of the header is white. Fails
 /// with [`ImageError`] with the line of the header, or the line where plain pixels end.
 pub fn read_pgm(file_bytes: &[u8]) -> Result<Image<f32>, ImageError> {
-    let mut tokens = TokenReader { bytes: file_bytes, position: 0, line: 1 };
+    let mut tokens = TokenReader { file_bytes, byte_position: 0, line: 1 };
     let is_plain = match tokens.next_token() {
         b"P5" => false,
         b"P2" => true,
@@ -33,16 +33,16 @@ pub fn read_pgm(file_bytes: &[u8]) -> Result<Image<f32>, ImageError> {
     let bytes_per_pixel = if max_value < 256 { 1 } else { 2 };
     let raster_byte_count = pixel_count * bytes_per_pixel;
     // One white space character ends the header. Windows editors write a line end of two characters: carriage return and line feed.
-    let is_crlf = file_bytes[tokens.position..].starts_with(b"\r\n")
-        && file_bytes.len() >= tokens.position + 2 + raster_byte_count;
-    let available_bytes = file_bytes.get(tokens.position + if is_crlf { 2 } else { 1 }..).unwrap_or_default();
+    let is_crlf = file_bytes[tokens.byte_position..].starts_with(b"\r\n")
+        && file_bytes.len() >= tokens.byte_position + 2 + raster_byte_count;
+    let available_bytes =
+        file_bytes.get(tokens.byte_position + if is_crlf { 2 } else { 1 }..).unwrap_or_default();
     let Some(raster_bytes) = available_bytes.get(..raster_byte_count) else {
         let (line_number, byte_count) = (tokens.line, available_bytes.len());
         return Err(ImageError(format!(
             "line {line_number}: the length of the raster in bytes is {byte_count}; allowed is {raster_byte_count} for {width} × {height} pixels"
         )));
     };
-    // A pixel of 16 bits has its higher byte first.
     let decode_pixel =
         |pixel: &[u8]| pixel.iter().fold(0, |pixel_value, byte| 256 * pixel_value + usize::from(*byte));
     let brightness_values =
@@ -50,10 +50,9 @@ pub fn read_pgm(file_bytes: &[u8]) -> Result<Image<f32>, ImageError> {
     Ok(Image { width, height, pixels: brightness_values })
 }
 
-/// Tokenizer of the header and of the pixels of a plain file.
 struct TokenReader<'a> {
-    bytes: &'a [u8],
-    position: usize,
+    file_bytes: &'a [u8],
+    byte_position: usize,
     line: usize,
 }
 
@@ -61,7 +60,7 @@ impl<'a> TokenReader<'a> {
     /// Returns the next run of characters that are neither white space nor in a comment; empty at the end.
     fn next_token(&mut self) -> &'a [u8] {
         let mut is_in_comment = false;
-        while let Some(byte) = self.bytes.get(self.position) {
+        while let Some(byte) = self.file_bytes.get(self.byte_position) {
             match byte {
                 b'\n' => {
                     self.line += 1;
@@ -71,13 +70,17 @@ impl<'a> TokenReader<'a> {
                 _ if is_in_comment || byte.is_ascii_whitespace() => (),
                 _ => break,
             }
-            self.position += 1;
+            self.byte_position += 1;
         }
-        let token_start = self.position;
-        while self.bytes.get(self.position).is_some_and(|byte| !byte.is_ascii_whitespace() && *byte != b'#') {
-            self.position += 1;
+        let token_start = self.byte_position;
+        while self
+            .file_bytes
+            .get(self.byte_position)
+            .is_some_and(|byte| !byte.is_ascii_whitespace() && *byte != b'#')
+        {
+            self.byte_position += 1;
         }
-        &self.bytes[token_start..self.position]
+        &self.file_bytes[token_start..self.byte_position]
     }
 
     fn read_number(&mut self, field_name: &'static str, min: usize, max: usize) -> Result<usize, ImageError> {

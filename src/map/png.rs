@@ -32,7 +32,6 @@ fn damage_error(byte_cursor: &Cursor<&[u8]>) -> ImageError {
 }
 
 fn decode_pixels(byte_cursor: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingError> {
-    // A decoded pixel has at most eight bytes.
     let mut png_decoder = Decoder::new_with_limits(byte_cursor, Limits { bytes: 8 * MAX_PIXELS });
     png_decoder.set_transformations(Transformations::EXPAND);
     png_decoder.set_ignore_text_chunk(true);

@@ -12,7 +12,7 @@ use std::ops::Range;
 pub(super) struct WallTree {
     /// Distinct walls, ordered so that the walls of each node are contiguous.
     pub walls: Vec<Segment>,
-    pub nodes: Vec<WallNode>,
+    pub wall_nodes: Vec<WallNode>,
     tree_depth: u32,
     rounding_slack: f64,
 }
@@ -49,7 +49,7 @@ impl WallTree {
         let mut wall_tree = Self {
             walls,
             // Node 0 is unused. The root has no capsule, because it is always visited.
-            nodes: vec![WallNode { capsule_axis: ZERO_SEGMENT, capsule_radius: f64::INFINITY }; 2],
+            wall_nodes: vec![WallNode { capsule_axis: ZERO_SEGMENT, capsule_radius: f64::INFINITY }; 2],
             tree_depth: leaf_count.ilog2(),
             rounding_slack: 1e-9
                 * plan_bounds.iter().fold(0.0, |largest_bound: f64, bound| largest_bound.max(bound.abs())),
@@ -58,7 +58,7 @@ impl WallTree {
             wall_tree.sort_into_halves(parent_index);
             let child_nodes =
                 [2 * parent_index, 2 * parent_index + 1].map(|child_id| wall_tree.create_node(child_id));
-            wall_tree.nodes.extend(child_nodes);
+            wall_tree.wall_nodes.extend(child_nodes);
         }
         wall_tree
     }
@@ -146,7 +146,7 @@ impl WallTree {
     ) -> bool {
         let mut node_index = 1;
         loop {
-            if node_index == 1 || !is_node_clear(&self.nodes[node_index]) {
+            if node_index == 1 || !is_node_clear(&self.wall_nodes[node_index]) {
                 if !self.is_leaf(node_index) {
                     node_index *= 2;
                     continue;
@@ -174,7 +174,6 @@ impl WallNode {
         self.capsule_axis.squared_distance_to_point(point) > max_axis_distance * max_axis_distance
     }
 
-    /// Returns a lower bound (m) on the distance from a point to the walls of the node.
     #[inline(always)]
     pub fn lower_bound(&self, point: [f64; 2]) -> f64 {
         (self.capsule_axis.squared_distance_to_point(point).sqrt() - self.capsule_radius).max(0.0)

@@ -143,8 +143,8 @@ impl<M: RotTransRot> MotionModel for M {
     }
 }
 
-/// Returns the variances of rot1, trans and rot2 of `odometry_reading` (rad², m², rad²). If `is_reverse_aware`, a rotation δ counts as min(|δ|, |π −
-/// |δ||). This is the smallest turn of a robot that may drive in reverse instead.
+/// Returns the variances of rot1, trans and rot2 of an odometry reading (rad², m², rad²). If `is_reverse_aware`, a rotation δ counts as
+/// min(|δ|, |π − |δ||). This is the smallest turn of a robot that may drive in reverse instead.
 pub(super) fn leg_variances(
     alphas: OdomAlphas,
     odometry_reading: &OdomDelta,

@@ -138,7 +138,7 @@ impl LegVariances {
         (trans * trans + self.trans.0) * noise_kind.mean_squared_sine(self.rot1) + self.strafe.0
     }
 
-    /// Returns the variance (rad²) of the unwrapped turn, for a `rotation_correlation` of the noises of the two rotations: σ₁² + σ₂² + 2ρσ₁σ₂.
+    /// Returns the variance (rad²) of the unwrapped turn, for a correlation ρ of the noises of both rotations: σ₁² + σ₂² + 2ρσ₁σ₂.
     pub fn heading_variance(&self, rotation_correlation: f64) -> f64 {
         let [rot1_std, rot2_std] = [self.rot1, self.rot2].map(|variance| variance.0.sqrt());
         // The variance is computed as a sum of squares, which is never negative. The three terms might add up to slightly less than 0 for

@@ -33,7 +33,6 @@ use thiserror::Error;
 pub struct TangentNoiseModel {
     /// Covariance R. To change it, create a model with [`TangentNoiseModel::new`], because the model also has its Cholesky factor.
     pub r: Matrix3<f64>,
-    /// Variance (rad²) of the turn after the arc.
     last_turn_variance: f64,
     cov_root: Matrix3<f64>,
 }
@@ -140,7 +139,7 @@ impl TangentNoiseModel {
         self.propagate(sigma, step_twist, Compounding::Chapter)
     }
 
-    /// Returns the covariance of x_k ⊟ x̄_k after a step by the twist `step_twist`, from the covariance `sigma` of x_{k−1} ⊟ x̄_{k−1}. Both
+    /// Returns the covariance of x_k ⊟ x̄_k after a step by `step_twist`, from the covariance `sigma` of x_{k−1} ⊟ x̄_{k−1}. Both
     /// covariances are 3 × 3, in the body frame of their pose. The turn after the arc happens at the end of the arc. Its variance is
     /// therefore added to that of the heading, without J_r.
     pub fn propagate(

@@ -6,7 +6,6 @@ use crate::geom::lanes::{LANE_COUNT, from_lanes, is_any_lane_set, ln};
 use std::ops::{Add, Div, Mul};
 use wide::{bytemuck, f64x4};
 
-/// Distance of a probability from ½ at which the tails of the quantile function begin.
 const CENTRE_HALF_WIDTH: f64 = 0.425;
 
 /// Returns Φ⁻¹(½ + q) by PPND16 of AS 241. It is a rational function of degree 7 over 7 in each of three ranges.

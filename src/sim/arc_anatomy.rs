@@ -290,7 +290,6 @@ impl ArcAnatomy {
         let (start, next) = (self.settings.start(), self.settings.next());
         let relative_pose = start.between(&next);
         let signed_arc @ ArcInversion { v_hat, omega_hat, gamma_hat } = self.selected_inversion();
-        // The centre does not depend on the sign of the radius.
         let [x, y] = self.signed_inversion().centre(&start).unwrap_or([f64::INFINITY; 2]);
         // The quotient is halved last, because half of the smallest double is 0.
         let mu = 0.5 * (relative_pose.x() / relative_pose.y());
@@ -356,7 +355,6 @@ impl ArcAnatomy {
         let evaluate_cells = |score_at: &dyn Fn([f64; 3]) -> f64| -> Vec<f64> {
             let cell_score_at = |i: usize| {
                 let [x, y] = cell_centre_at([(i % column_count) as f64, (i / column_count) as f64]);
-                // The density is infinite at the start pose.
                 score_at([x, y, theta]).min(f64::MAX)
             };
             (0..column_count * row_count).map(cell_score_at).collect()

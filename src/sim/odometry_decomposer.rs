@@ -125,7 +125,7 @@ js_structs! {
 #[derive(Clone, Debug)]
 pub struct OdometryDecomposer {
     settings: Settings,
-    draws: Draws,
+    noise_draws: Draws,
     poses: Vec<SE2>,
 }
 
@@ -134,7 +134,7 @@ cloud_simulation!(OdometryDecomposer);
 impl OdometryDecomposer {
     fn empty(settings: Settings) -> Result<Self, SettingsError> {
         let draws = Draws::new(settings.seed, settings.noise);
-        Ok(Self { settings, draws, poses: Vec::new() })
+        Ok(Self { settings, noise_draws: draws, poses: Vec::new() })
     }
 
     /// Changes the settings and shows the first `target_count` outcomes.
@@ -157,8 +157,8 @@ impl OdometryDecomposer {
     }
 
     fn show_samples(&mut self, sample_count: usize) {
-        self.draws.reset_if_changed(self.settings.seed, self.settings.noise);
-        self.draws.extend_to(sample_count);
+        self.noise_draws.reset_if_changed(self.settings.seed, self.settings.noise);
+        self.noise_draws.extend_to(sample_count);
         let start_pose = self.start_pose();
         self.poses =
             self.executed_motions(sample_count).map(|executed| executed.poses(&start_pose)[3]).collect();
@@ -186,7 +186,7 @@ impl OdometryDecomposer {
         let rotation_correlation = self.settings.correlation;
         let (legs, variances) = (self.legs(), self.variances());
         (0..sample_count).map(move |index| {
-            let [rot1_noise, trans_noise, independent_noise] = self.draws.noise_of_sample(index);
+            let [rot1_noise, trans_noise, independent_noise] = self.noise_draws.noise_of_sample(index);
             let rot2_noise = rotation_correlation * rot1_noise
                 + (1.0 - rotation_correlation * rotation_correlation).sqrt() * independent_noise;
             variances.executed_motion(&legs, [rot1_noise, trans_noise, rot2_noise])

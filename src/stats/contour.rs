@@ -83,7 +83,6 @@ impl Ellipse {
         self.contains_four(x, y).any()
     }
 
-    /// Returns [`Ellipse::contains`] for four points, as lane masks.
     #[inline(always)]
     pub(super) fn contains_four(&self, x: f64x4, y: f64x4) -> f64x4 {
         if !self.has_area() {
@@ -107,7 +106,6 @@ pub struct ExponentialContour {
     mean: Vector3<f64>,
     /// 2σ ellipse in (along, heading), m, rad.
     pub ellipse: Ellipse,
-    /// Root G of the covariance: G·Gᵀ = Σ.
     cov_root: Matrix3<f64>,
 }
 
@@ -160,7 +158,6 @@ impl ExponentialContour {
         ellipse.area() * sinc(TAU / segment_count as f64) / (0.5 * doubled_area.abs())
     }
 
-    /// Returns the coordinate along (m) and the position of each point of the outline.
     fn outline(&self, segment_count: usize) -> impl Iterator<Item = (f64, [f64; 2])> {
         self.silhouette_twists(segment_count, 0.0)
             .map(|twist| (twist.x, self.start_pose.boxplus(twist).position()))

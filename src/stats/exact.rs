@@ -23,9 +23,8 @@ pub struct ExactMoments {
 /// Node of the quadrature: motion of length 1, for one value of the noise that turns the robot. With a length L, the motion ends at
 /// L·`unit_end`.
 struct UnitMotion {
-    weight: f64,
+    node_weight: f64,
     unit_end: [f64; 2],
-    /// Turn at this noise value minus the mean turn, rad.
     excess_turn: f64,
 }
 
@@ -80,24 +79,24 @@ impl ExactMoments {
     pub fn new(motion: &PolarMotion) -> Self {
         let (turn_per_bearing, [mean_bearing, bearing_std]) = (motion.turn_per_bearing(), motion.bearing);
         let unit_motion_at = |noise_node: &Node| {
-            let excess_turn = turn_per_bearing * bearing_std * noise_node.value;
+            let excess_turn = turn_per_bearing * bearing_std * noise_node.node_value;
             let turn = turn_per_bearing * mean_bearing + excess_turn;
             let unit_end =
                 if motion.is_arc { unit_arc_end(turn).into() } else { [libm::cos(turn), libm::sin(turn)] };
-            UnitMotion { weight: noise_node.weight, unit_end, excess_turn }
+            UnitMotion { node_weight: noise_node.node_weight, unit_end, excess_turn }
         };
         let unit_motions: Vec<_> = noise_nodes(motion.noise_kind).iter().map(unit_motion_at).collect();
         let mut unit_sums = UnitMotionMoments::default();
         unit_motions
             .iter()
-            .for_each(|motion| unit_sums.add(motion.weight, motion.unit_end, motion.excess_turn));
+            .for_each(|motion| unit_sums.add(motion.node_weight, motion.unit_end, motion.excess_turn));
         let PolarMotion { length: [mean_length, _], length_variance, .. } = *motion;
         let (mean, mut cov) = unit_sums.mean_and_cov([mean_length, length_variance.sqrt()]);
         cov[(2, 2)] += motion.last_turn_variance;
         let mean_turn = motion.mean_turn();
         let (sin, cos) = libm::sincos(mean_turn);
         let lateral_components =
-            unit_motions.iter().map(|UnitMotion { weight, unit_end: end_point, .. }| {
+            unit_motions.iter().map(|UnitMotion { node_weight: weight, unit_end: end_point, .. }| {
                 let lateral_unit_end = end_point[1] * cos - end_point[0] * sin;
                 let (mean, variance) =
                     (mean_length * lateral_unit_end, length_variance * lateral_unit_end * lateral_unit_end);
@@ -127,12 +126,12 @@ pub fn predicted_cross_track_skew(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> f6
         - regression_coefficients * regression_coefficients.transpose() * heading_variance;
     let (sin, cos) = libm::sincos(mean.z);
     let lateral_components = noise_nodes(NoiseKind::Normal).iter().map(|noise_node| {
-        let excess_turn = heading_variance.max(0.0).sqrt() * noise_node.value;
+        let excess_turn = heading_variance.max(0.0).sqrt() * noise_node.node_value;
         let (a, b) = unit_arc_end(mean.z + excess_turn);
         // The lateral component of V(ω)·ξ, as a row over (along, lateral).
         let lateral_row = nalgebra::RowVector2::new(b * cos - a * sin, a * cos + b * sin);
         MixtureComponent {
-            weight: noise_node.weight,
+            weight: noise_node.node_weight,
             mean: (lateral_row * (mean.xy() + regression_coefficients * excess_turn)).x,
             variance: (lateral_row * residual_cov * lateral_row.transpose()).x.max(0.0),
         }
@@ -140,7 +139,6 @@ pub fn predicted_cross_track_skew(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> f6
     mixture_skew(lateral_components, mean.xy().norm_squared() + cov[(0, 0)] + cov[(1, 1)])
 }
 
-/// Component of a mixture of symmetric distributions, with its weight.
 struct MixtureComponent {
     weight: f64,
     mean: f64,

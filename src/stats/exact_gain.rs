@@ -22,9 +22,9 @@ use std::f64::consts::{LN_2, PI, TAU};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExactGain {
     /// Likelihood gain of exponential and arc coordinates, without sampling error.
-    pub value: LikelihoodGain,
+    pub likelihood_gain: LikelihoodGain,
     /// Mean and covariance of ξ, on the branch of the turn that was made.
-    pub exponential: ExponentialMoments,
+    pub exponential_moments: ExponentialMoments,
 }
 
 /// Integration limit of a normally distributed turn, in standard deviations. The largest of ten million samples is at 5.3 standard
@@ -61,12 +61,12 @@ impl ExactGain {
             },
             turn_moments: [turn, polar_motion.turn_per_bearing() * bearing_std, polar_motion.last_turn[1]],
         };
-        branched_motion.gain(&ExactMoments::new(polar_motion))
+        branched_motion.compute_gain(&ExactMoments::new(polar_motion))
     }
 }
 
 impl BranchedMotion {
-    fn gain(&self, cartesian: &ExactMoments) -> ExactGain {
+    fn compute_gain(&self, cartesian: &ExactMoments) -> ExactGain {
         let (mean_log_length, [bearing, bearing_std]) = (self.mean_log_length(), self.polar_motion.bearing);
         let (twist, twist_log_jacobian) = self.twist_moments();
         let (arc_moments, arc_log_jacobian) = self.arc_moments();
@@ -78,21 +78,26 @@ impl BranchedMotion {
             |turn: f64, max_excess_turn: f64| if turn.abs() + max_excess_turn < TAU { 1.0 } else { f64::NAN };
         let pose_factor = one_or_nan_of(turn, self.integration_limit(bearing_turn_std, last_turn_std));
         let floor_factor = one_or_nan_of(2.0 * bearing, self.integration_limit(2.0 * bearing_std, 0.0));
-        let gain = gaussians.gain;
+        let likelihood_gain = gaussians.likelihood_gain;
         ExactGain {
-            value: LikelihoodGain { pose: gain.pose * pose_factor, floor: gain.floor * floor_factor },
-            exponential: ExponentialMoments { mean: twist.0 * pose_factor, cov: twist.1 * pose_factor },
+            likelihood_gain: LikelihoodGain {
+                pose: likelihood_gain.pose * pose_factor,
+                floor: likelihood_gain.floor * floor_factor,
+            },
+            exponential_moments: ExponentialMoments {
+                mean: twist.0 * pose_factor,
+                cov: twist.1 * pose_factor,
+            },
         }
     }
 
     fn nodes_up_to_limit(&self, std: f64, break_points: [f64; 2]) -> Vec<Node> {
         if std == 0.0 {
-            return vec![Node { value: 0.0, weight: 1.0 }];
+            return vec![Node { node_value: 0.0, node_weight: 1.0 }];
         }
         piecewise_nodes(self.polar_motion.noise_kind, self.integration_limit(1.0, 0.0), break_points)
     }
 
-    /// Returns the integration limit of the sum of two noises with the given standard deviations.
     fn integration_limit(&self, first_std: f64, second_std: f64) -> f64 {
         match self.polar_motion.noise_kind {
             NoiseKind::Normal => MAX_SIGMAS * libm::hypot(first_std, second_std),
@@ -109,11 +114,12 @@ impl BranchedMotion {
         let (mut unit_moments, mut log_sum) = (UnitMotionMoments::default(), 0.0);
         let last_turn_nodes = self.nodes_up_to_limit(last_turn_std, NO_BREAKS);
         for bearing_node in self.nodes_up_to_limit(bearing_std, NO_BREAKS) {
-            let bearing = bearing + bearing_std * bearing_node.value;
+            let bearing = bearing + bearing_std * bearing_node.node_value;
             let chord_ratio = if self.polar_motion.is_arc { sinc(bearing) } else { 1.0 };
             for turn_node in &last_turn_nodes {
-                let excess_turn = bearing_turn_std * bearing_node.value + last_turn_std * turn_node.value;
-                let node_weight = bearing_node.weight * turn_node.weight;
+                let excess_turn =
+                    bearing_turn_std * bearing_node.node_value + last_turn_std * turn_node.node_value;
+                let node_weight = bearing_node.node_weight * turn_node.node_weight;
                 if excess_turn.abs() > max_excess_turn {
                     continue;
                 }
@@ -141,15 +147,15 @@ impl BranchedMotion {
         let break_points = [-0.5 * PI, 0.5 * PI]
             .map(|bearing_offset| (half_commanded_turn + bearing_offset - bearing) / bearing_std);
         for noise_node in self.nodes_up_to_limit(bearing_std, break_points) {
-            let driven_bearing = bearing + bearing_std * noise_node.value;
+            let driven_bearing = bearing + bearing_std * noise_node.node_value;
             let half_circles = ((driven_bearing - half_commanded_turn) / PI).round();
             let half_turn = driven_bearing - half_circles * PI;
             let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
             let arc_sinc = sinc(half_turn);
             let length_ratio =
                 drive_sign * if self.polar_motion.is_arc { sinc(driven_bearing) } else { 1.0 } / arc_sinc;
-            log_sum += noise_node.weight * libm::log((length_ratio * arc_sinc * arc_sinc).abs());
-            unit_moments.add(noise_node.weight, [length_ratio, 0.0], 2.0 * (half_turn - bearing));
+            log_sum += noise_node.node_weight * libm::log((length_ratio * arc_sinc * arc_sinc).abs());
+            unit_moments.add(noise_node.node_weight, [length_ratio, 0.0], 2.0 * (half_turn - bearing));
         }
         let (mean, cov) = unit_moments.mean_and_cov(self.polar_motion.length);
         let cov = Matrix3::new(cov[(0, 0)], cov[(0, 2)], 0.0, cov[(0, 2)], cov[(2, 2)], 0.0, 0.0, 0.0, 0.0);
@@ -176,7 +182,6 @@ fn mean_log_abs_of_normal(m: f64) -> f64 {
     /// Value of m from which the fourth term of the asymptotic series is below 1e-10. The other method would fail for large m, because
     /// exp(−m²/2) underflows.
     const MIN_ASYMPTOTIC_MEAN: f64 = 30.0;
-    /// ψ(½) = −γ − 2 ln 2.
     const DIGAMMA_HALF: f64 = -1.963_510_026_021_423_5;
     if m > MIN_ASYMPTOTIC_MEAN {
         // The terms of the asymptotic series contain the moments E (Z/m)²ᵏ = (2k − 1)!!/m²ᵏ.

@@ -28,20 +28,19 @@ pub struct LikelihoodGain {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredGain {
     /// Gain in mean log-likelihood of a cloud of samples by exponential or arc coordinates over (x, y, θ) or (x, y).
-    pub value: LikelihoodGain,
+    pub likelihood_gain: LikelihoodGain,
     /// Standard errors: the standard deviation, over all robots, of the difference of the two log-densities, divided by √n. The fitted
     /// moments add nothing to first order, because they maximize the likelihood of each Gaussian. NaN if the gain is not finite.
-    pub error: LikelihoodGain,
+    pub gain_error: LikelihoodGain,
 }
 
-/// End poses of four robots in three coordinate systems.
 #[derive(Clone, Copy)]
 pub(super) struct FourRobots {
     /// x and y (m), and the heading relative to the mean heading (rad).
-    pub cartesian: [f64x4; 3],
+    pub cartesian_points: [f64x4; 3],
     pub twist: [f64x4; 3],
     /// Length (m) and turn (rad) of the arc that ends at (x, y); the third component is 0.
-    pub arc: [f64x4; 3],
+    pub arc_points: [f64x4; 3],
     /// Jacobian determinants: dx dy dθ over dξ, and dx dy over ds dφ.
     pub jacobians: [f64x4; 2],
 }
@@ -52,8 +51,7 @@ pub(super) struct FittedGaussians {
     cartesian: Gaussian,
     twist: Gaussian,
     arc: Gaussian,
-    pub gain: LikelihoodGain,
-    /// Geometric mean of the Jacobian dx dy over ds dφ.
+    pub likelihood_gain: LikelihoodGain,
     mean_jacobian: f64,
 }
 
@@ -67,12 +65,12 @@ impl FittedGaussians {
         let gain_in = |dimensions: usize, curved_gaussian: &Gaussian| {
             let (cartesian, curved_gaussian) =
                 (cartesian.log_volumes[dimensions - 1], curved_gaussian.log_volumes[dimensions - 1]);
-            let gain = cartesian - curved_gaussian - log_jacobians[3 - dimensions];
+            let likelihood_gain = cartesian - curved_gaussian - log_jacobians[3 - dimensions];
             // The gain is undefined if the Gaussian in (x, y, θ), or in (x, y), has no volume, up to rounding.
-            if gain > f64::NEG_INFINITY { gain } else { f64::NAN }
+            if likelihood_gain > f64::NEG_INFINITY { likelihood_gain } else { f64::NAN }
         };
-        let gain = LikelihoodGain { pose: gain_in(3, &twist), floor: gain_in(2, &arc) };
-        Self { cartesian, twist, arc, gain, mean_jacobian: libm::exp(log_jacobians[1]) }
+        let likelihood_gain = LikelihoodGain { pose: gain_in(3, &twist), floor: gain_in(2, &arc) };
+        Self { cartesian, twist, arc, likelihood_gain, mean_jacobian: libm::exp(log_jacobians[1]) }
     }
 }
 
@@ -102,14 +100,15 @@ impl LogDensityDifferences {
     /// Adds four robots with their weights; lanes without a robot have the weight 0.
     #[inline(never)]
     pub fn add(&mut self, four_robots: &FourRobots, robot_weights: f64x4) {
-        let FittedGaussians { cartesian, twist, arc, gain, mean_jacobian } = &self.fitted_gaussians;
+        let FittedGaussians { cartesian, twist, arc, likelihood_gain, mean_jacobian } =
+            &self.fitted_gaussians;
         let has_robot = robot_weights.simd_gt(f64x4::splat(0.0));
-        let cartesian_distances = cartesian.squared_distances(&four_robots.cartesian);
+        let cartesian_distances = cartesian.squared_distances(&four_robots.cartesian_points);
         let twist_distance = twist.squared_distances(&four_robots.twist)[2];
-        let arc_distance = arc.squared_distances(&four_robots.arc)[1];
+        let arc_distance = arc.squared_distances(&four_robots.arc_points)[1];
         let cartesian_log_volumes = [2, 1].map(|last_coordinate| cartesian.log_volumes[last_coordinate]);
         let (curved_log_volumes, likelihood_gains) =
-            ([twist.log_volumes[2], arc.log_volumes[1]], [gain.pose, gain.floor]);
+            ([twist.log_volumes[2], arc.log_volumes[1]], [likelihood_gain.pose, likelihood_gain.floor]);
         let squared_distance_differences =
             [cartesian_distances[2] - twist_distance, cartesian_distances[1] - arc_distance];
         for i in 0..2 {
@@ -133,7 +132,10 @@ impl LogDensityDifferences {
         let [pose, floor] = self.squared_deviations.map(|squared_deviations| {
             (squared_deviations.reduce_add() / degrees_of_freedom / pose_count as f64).sqrt()
         });
-        MeasuredGain { value: self.fitted_gaussians.gain, error: LikelihoodGain { pose, floor } }
+        MeasuredGain {
+            likelihood_gain: self.fitted_gaussians.likelihood_gain,
+            gain_error: LikelihoodGain { pose, floor },
+        }
     }
 
     /// Returns the standard error of ln(A/B) by the delta method. A is the area of the 2σ ellipse of the Gaussian in (x, y). B is the area

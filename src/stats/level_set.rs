@@ -1,13 +1,12 @@
 //! Contour lines (level sets) of a field that is known at the points of a grid, by marching squares.
 
-/// Index that marks a missing edge of the grid.
 const NO_EDGE: usize = usize::MAX;
 
 /// Returns the lines on which a field has the value `contour_level`. Between neighbouring points the field is interpolated linearly. The
 /// mean of the four corners decides how a saddle is connected.
 ///
-/// `field_values` are finite, at the points of a grid, row by row with `column_count` in each row. The points of the returned lines are (column,
-/// row), in steps of the grid from its first point. A line ends where it began, or at the border of the grid.
+/// `field_values` are finite, at the points of a grid, row by row with `column_count` in each row. The points of the returned lines are
+/// (column, row), in steps of the grid from its first point. A line ends where it began, or at the border of the grid.
 pub fn trace_level_set(field_values: &[f64], column_count: usize, contour_level: f64) -> Vec<Vec<[f64; 2]>> {
     let row_count = field_values.len() / column_count.max(1);
     // For each edge of the grid that a line crosses: the previous and the next edge that the line crosses. Edge 2i leads from point i to
@@ -63,7 +62,6 @@ pub fn trace_level_set(field_values: &[f64], column_count: usize, contour_level:
             let next_edge =
                 if edge_a != NO_EDGE && edge_links[edge_a][0] != NO_EDGE { edge_a } else { edge_b };
             if next_edge == NO_EDGE || edge_links[next_edge][0] == NO_EDGE {
-                // The line is closed if its first and its last edge are linked.
                 if (edge_a == first_edge || edge_b == first_edge) && contour_line.len() > 2 {
                     contour_line.push(contour_line[0]);
                 }

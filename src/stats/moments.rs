@@ -56,7 +56,6 @@ impl ExponentialMoments {
     }
 }
 
-/// Returns the circular mean of the headings, atan2(Σ sin θ, Σ cos θ); NaN without poses.
 fn mean_heading(poses: &[SE2]) -> f64 {
     let Some(first_pose) = poses.first() else { return f64::NAN };
     let (mut sin_sum, mut cos_sum) = (0.0, 0.0);

@@ -8,9 +8,9 @@ use std::sync::OnceLock;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
     /// Value of the noise at the node, in standard deviations.
-    pub value: f64,
+    pub node_value: f64,
     /// Weight of the node.
-    pub weight: f64,
+    pub node_weight: f64,
 }
 
 /// Returns a rule with E[f(z)] = Σ weight · f(value) for a noise z of variance 1 and the given kind.
@@ -18,7 +18,6 @@ pub struct Node {
 /// The rule is correct to rounding if f is a polynomial times trigonometric functions of k·z with k below 16. The third moment of headings
 /// with a standard deviation of five radians needs that frequency.
 pub fn noise_nodes(noise_kind: NoiseKind) -> &'static [Node] {
-    // The nodes are cached, because every evaluation needs them.
     static NORMAL: OnceLock<Vec<Node>> = OnceLock::new();
     static TRIANGULAR: OnceLock<Vec<Node>> = OnceLock::new();
     match noise_kind {
@@ -37,12 +36,11 @@ fn normal_nodes() -> Vec<Node> {
     (-STEPS_PER_SIDE..=STEPS_PER_SIDE)
         .map(|i| {
             let value = STEP_SIZE * f64::from(i);
-            Node { value, weight: STEP_SIZE * libm::exp(-0.5 * value * value) / TAU.sqrt() }
+            Node { node_value: value, node_weight: STEP_SIZE * libm::exp(-0.5 * value * value) / TAU.sqrt() }
         })
         .collect()
 }
 
-/// Returns the Gauss–Legendre rule on each half of the triangular density, where the density is linear.
 fn triangular_nodes() -> Vec<Node> {
     /// Number of points on each half of the support. The rule is exact for polynomials of degree 63, which is accurate enough up to
     /// the frequency k ≈ 25: k·√6 ≈ 60.
@@ -50,10 +48,13 @@ fn triangular_nodes() -> Vec<Node> {
     let support_end = 6f64.sqrt();
     legendre_nodes(NODES_PER_HALF)
         .into_iter()
-        .flat_map(|Node { value, weight }| {
+        .flat_map(|Node { node_value: value, node_weight }| {
             let fraction = 0.5 * (1.0 + value);
-            let weight = 0.5 * weight * (1.0 - fraction);
-            [Node { value: -support_end * fraction, weight }, Node { value: support_end * fraction, weight }]
+            let node_weight = 0.5 * node_weight * (1.0 - fraction);
+            [
+                Node { node_value: -support_end * fraction, node_weight },
+                Node { node_value: support_end * fraction, node_weight },
+            ]
         })
         .collect()
 }
@@ -72,12 +73,12 @@ pub(super) fn piecewise_nodes(noise_kind: NoiseKind, limit: f64, break_points: [
         if piece_end > piece_start {
             let half_width = 0.5 * (piece_end - piece_start);
             piece_nodes.extend(unit_nodes.iter().map(|unit_node| {
-                let value = piece_start + half_width * (1.0 + unit_node.value);
+                let value = piece_start + half_width * (1.0 + unit_node.node_value);
                 let noise_density = match noise_kind {
                     NoiseKind::Normal => libm::exp(-0.5 * value * value) / TAU.sqrt(),
                     NoiseKind::Triangular => (6f64.sqrt() - value.abs()) / 6.0,
                 };
-                Node { value, weight: unit_node.weight * half_width * noise_density }
+                Node { node_value: value, node_weight: unit_node.node_weight * half_width * noise_density }
             }));
             piece_start = piece_end;
         }
@@ -103,7 +104,10 @@ fn legendre_nodes(node_count: usize) -> Vec<Node> {
                 polynomial_derivative = n * (x * value - previous_legendre) / (x * x - 1.0);
                 x -= value / polynomial_derivative;
             }
-            Node { value: x, weight: 2.0 / ((1.0 - x * x) * polynomial_derivative * polynomial_derivative) }
+            Node {
+                node_value: x,
+                node_weight: 2.0 / ((1.0 - x * x) * polynomial_derivative * polynomial_derivative),
+            }
         })
         .collect()
 }

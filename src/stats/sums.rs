@@ -4,7 +4,6 @@
 use crate::geom::lanes::split_into_lane_pairs;
 use wide::{f64x2, f64x4};
 
-/// Compensated sums of `N` quantities.
 #[derive(Clone, Debug)]
 pub struct CompensatedSums<const N: usize> {
     /// Sums of the current block, which [`add_to_block`] increases.

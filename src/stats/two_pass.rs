@@ -36,7 +36,7 @@ pub struct FourPoses {
 /// the arc whose turn is nearest to the commanded turn.
 #[derive(Clone, Copy)]
 pub struct FourArcs {
-    pub length: f64x4,
+    pub arc_length: f64x4,
     pub half_turn: f64x4,
     pub sinc: f64x4,
 }
@@ -104,25 +104,27 @@ impl FirstPass {
         let [twist_scale, arc_scale] = self.jacobian_scale;
         self.jacobian_products[0] *= twist_sincs * (twist_scale * twist_scale);
         self.jacobian_products[1] *=
-            multiply_lanes(four_arcs.length) * (arc_sincs * arc_sincs) * (arc_scale * arc_scale);
+            multiply_lanes(four_arcs.arc_length) * (arc_sincs * arc_sincs) * (arc_scale * arc_scale);
     }
 
     /// Multiplies the products by the Jacobians of the poses in the lanes that are set in `lane_mask`.
     #[inline(never)]
     pub fn multiply_masked_jacobians(&mut self, poses: &FourPoses, four_arcs: &FourArcs, lane_mask: f64x4) {
         let masked_or_one = |lane_factors: f64x4| lane_mask.bitselect(lane_factors, f64x4::splat(1.0));
-        let [twist, length, arc_factor] = [poses.sinc, four_arcs.length, four_arcs.sinc].map(masked_or_one);
+        let [twist, arc_length, arc_factor] =
+            [poses.sinc, four_arcs.arc_length, four_arcs.sinc].map(masked_or_one);
         self.multiply_jacobians(
             &FourPoses { sinc: twist, ..*poses },
-            &FourArcs { length, sinc: arc_factor, ..*four_arcs },
+            &FourArcs { arc_length, sinc: arc_factor, ..*four_arcs },
         );
     }
 
     /// Adds the values of irregular arcs. Subtracts the values of the driven arcs (`regular_arcs`), for which the sums of the noise stand.
     #[inline(never)]
     pub fn add_irregular_arcs(&mut self, four_arcs: &FourArcs, regular_arcs: [f64x4; 2], lane_mask: f64x4) {
-        let [.., length, half_turn] = self.reference_point;
-        self.irregular_arcs.add([four_arcs.length - length, four_arcs.half_turn - half_turn], lane_mask);
+        let [.., arc_length, half_turn] = self.reference_point;
+        self.irregular_arcs
+            .add([four_arcs.arc_length - arc_length, four_arcs.half_turn - half_turn], lane_mask);
         self.irregular_arcs.subtract(regular_arcs, lane_mask);
     }
 
@@ -146,12 +148,11 @@ impl FirstPass {
             self.summed_products.totals();
         let irregular_sums = self.irregular_arcs.totals();
         let [s, t, ss, st, tt] = std::array::from_fn(|i| regular_sums[i] + irregular_sums[i]);
-        // A covariance is the mean of the products minus the product of the means.
         let cov_of = |product_sum: f64, first_sum: f64, second_sum: f64| {
             if pose_count > 1 { (product_sum - first_sum * (second_sum / n)) / (n - 1.0) } else { f64::NAN }
         };
         let variance_of_sums = |square_sum: f64, sum: f64| non_negative(cov_of(square_sum, sum, sum));
-        let [x0, y0, along, lateral, half_heading, length, half_turn] = self.reference_point;
+        let [x0, y0, along, lateral, half_heading, arc_length, half_turn] = self.reference_point;
         // Sums of sin θ and cos θ, by the formulas for double angles. They are rotated into the frame in which the reference point has the
         // heading 0.
         let (sin, cos) = libm::sincos(2.0 * half_heading);
@@ -169,16 +170,16 @@ impl FirstPass {
         let [mean_log_twist, mean_log_arc] = [0, 1]
             .map(|i| (self.log_jacobian_sums[i] - scaled_lane_count * libm::log(self.jacobian_scale[i])) / n);
         FirstPassMoments {
-            position: [x0 + x / n, y0 + y / n],
+            mean_position: [x0 + x / n, y0 + y / n],
             position_cov,
             mean_turn,
             resultant_length: libm::hypot(rotated_sums.0, rotated_sums.1) / n,
-            exponential: ExponentialMoments {
+            exponential_moments: ExponentialMoments {
                 mean: Vector3::new(along + a / n, lateral + l / n, 2.0 * (half_heading + h / n)),
                 cov: Matrix3::new(aa, al, ah, al, ll, lh, ah, lh, hh),
             },
-            arc: (
-                Vector3::new(length + s / n, 2.0 * (half_turn + t / n), 0.0),
+            arc_moments: (
+                Vector3::new(arc_length + s / n, 2.0 * (half_turn + t / n), 0.0),
                 Matrix3::new(ss, st, 0.0, st, tt, 0.0, 0.0, 0.0, 0.0),
             ),
             log_jacobians: [2.0 * mean_log_twist, mean_log_arc - LN_2],
@@ -201,15 +202,14 @@ impl FirstPass {
 
 #[derive(Clone, Copy, Debug)]
 pub struct FirstPassMoments {
-    position: [f64; 2],
-    /// Entries xx, xy and yy of the covariance of the position.
+    mean_position: [f64; 2],
     position_cov: [f64; 3],
     /// Circular mean of the headings, in the turn of the noise-free heading. It may lie outside of (−π, π].
     mean_turn: f64,
     /// Length of the mean of the unit vectors in the directions of the headings.
     resultant_length: f64,
-    pub exponential: ExponentialMoments,
-    arc: MeanAndCov,
+    pub exponential_moments: ExponentialMoments,
+    arc_moments: MeanAndCov,
     /// Mean logarithms of the Jacobians of [`FourRobots`].
     log_jacobians: [f64; 2],
 }
@@ -219,21 +219,21 @@ pub struct FirstPassMoments {
 pub struct SecondPass {
     first_pass: FirstPassMoments,
     heading_sin_cos: (f64, f64),
-    ellipse: Ellipse,
+    cartesian_ellipse: Ellipse,
     twist_ellipse: Ellipse,
     summed_products: CompensatedSums<17>,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub struct CloudStats {
-    pub cartesian: CartesianMoments,
+    pub cartesian_moments: CartesianMoments,
     pub exponential: ExponentialMoments,
     pub cross_track: CrossTrackStats,
     /// Fractions of the poses inside the 2σ ellipse in (x, y) and inside the 2σ contour in exponential coordinates; NaN for a contour
     /// without area.
     pub fraction_in_ellipse: f64,
     pub fraction_in_exponential: f64,
-    pub gain: MeasuredGain,
+    pub measured_gain: MeasuredGain,
     /// Standard error of the logarithm of the ratio of two areas: of the ellipse in (x, y) and of the exponential contour.
     pub log_area_ratio_error: f64,
 }
@@ -245,8 +245,8 @@ impl SecondPass {
         Self {
             first_pass,
             heading_sin_cos: libm::sincos(first_pass.mean_turn),
-            ellipse: Ellipse::new(first_pass.position.into(), Matrix2::new(xx, xy, xy, yy)),
-            twist_ellipse: ExponentialContour::new(&first_pass.exponential, start_pose).ellipse,
+            cartesian_ellipse: Ellipse::new(first_pass.mean_position.into(), Matrix2::new(xx, xy, xy, yy)),
+            twist_ellipse: ExponentialContour::new(&first_pass.exponential_moments, start_pose).ellipse,
             summed_products: CompensatedSums::new(),
         }
     }
@@ -254,7 +254,7 @@ impl SecondPass {
     /// Adds the poses in the lanes that are set in `lane_mask`.
     #[inline(always)]
     pub fn add(&mut self, poses: &FourPoses, lane_mask: f64x4) {
-        let ([mean_x, mean_y], (sin, cos)) = (self.first_pass.position, self.heading_sin_cos);
+        let ([mean_x, mean_y], (sin, cos)) = (self.first_pass.mean_position, self.heading_sin_cos);
         let (x, y) = (poses.x - mean_x, poses.y - mean_y);
         let d = (y * cos - x * sin) & lane_mask;
         let a = (x * cos + y * sin) & lane_mask;
@@ -264,7 +264,7 @@ impl SecondPass {
         let theta_cos = 1.0 - poses.half_sin * poses.half_sin * 2.0;
         let s = (theta_sin * cos - theta_cos * sin) & lane_mask;
         let lane_counts = f64x4::splat(1.0) & lane_mask;
-        let ellipse_counts = self.ellipse.contains_four(poses.x, poses.y) & lane_counts;
+        let ellipse_counts = self.cartesian_ellipse.contains_four(poses.x, poses.y) & lane_counts;
         let contour_counts =
             self.twist_ellipse.contains_four(poses.along, poses.half_heading * 2.0) & lane_counts;
         let [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td] = track_products(a, d, s, t);
@@ -277,8 +277,8 @@ impl SecondPass {
         self.summed_products.flush_block();
     }
 
-    /// Returns the statistics of `pose_count` poses. `robot_groups` is a weighted subsample of the poses, for the standard errors of the likelihood
-    /// gain.
+    /// Returns the statistics of `pose_count` poses. `robot_groups` is a weighted subsample of the poses, from which the standard errors of
+    /// the likelihood gain are computed.
     pub fn stats(
         &self,
         pose_count: usize,
@@ -288,7 +288,7 @@ impl SecondPass {
         let product_means = self.summed_products.totals().map(|sum| sum / n);
         let [products @ .., mean_ta, fraction_in_ellipse, inside_contour] = product_means;
         let [.., t, tt, td] = products;
-        let FirstPassMoments { position: [x, y], position_cov: [xx, xy, yy], .. } = self.first_pass;
+        let FirstPassMoments { mean_position: [x, y], position_cov: [xx, xy, yy], .. } = self.first_pass;
         let (sin, cos) = self.heading_sin_cos;
         let bessel_factor = if pose_count > 1 { n / (n - 1.0) } else { f64::NAN };
         let [x_turn, y_turn, turn_variance] =
@@ -299,11 +299,11 @@ impl SecondPass {
             squared_extent: x * x + y * y + if pose_count > 1 { (xx + yy) / bessel_factor } else { 0.0 },
             resultant_length: self.first_pass.resultant_length,
         };
-        let FirstPassMoments { exponential, arc, log_jacobians, .. } = self.first_pass;
+        let FirstPassMoments { exponential_moments, arc_moments, log_jacobians, .. } = self.first_pass;
         let fitted_gaussians = FittedGaussians::new(
             (Vector3::new(x, y, t), cov),
-            (exponential.mean, exponential.cov),
-            arc,
+            (exponential_moments.mean, exponential_moments.cov),
+            arc_moments,
             log_jacobians,
         );
         let mut density_differences = LogDensityDifferences::new(fitted_gaussians);
@@ -311,25 +311,29 @@ impl SecondPass {
             let FourPoses { x, y, along, lateral, half_heading, sinc, .. } = poses;
             let turn_residual = wrap_turns(half_heading * 2.0 - self.first_pass.mean_turn);
             let four_robots = FourRobots {
-                cartesian: [x, y, turn_residual],
+                cartesian_points: [x, y, turn_residual],
                 twist: [along, lateral, half_heading * 2.0],
-                arc: [four_arcs.length, four_arcs.half_turn * 2.0, f64x4::splat(0.0)],
-                jacobians: [sinc * sinc, four_arcs.length.abs() * 0.5 * (four_arcs.sinc * four_arcs.sinc)],
+                arc_points: [four_arcs.arc_length, four_arcs.half_turn * 2.0, f64x4::splat(0.0)],
+                jacobians: [
+                    sinc * sinc,
+                    four_arcs.arc_length.abs() * 0.5 * (four_arcs.sinc * four_arcs.sinc),
+                ],
             };
             density_differences.add(&four_robots, robot_weights);
         }
-        let fraction_or_nan =
-            |ellipse: &Ellipse, share_inside: f64| if ellipse.has_area() { share_inside } else { f64::NAN };
+        let fraction_or_nan = |cartesian_ellipse: &Ellipse, share_inside: f64| {
+            if cartesian_ellipse.has_area() { share_inside } else { f64::NAN }
+        };
         CloudStats {
-            cartesian: CartesianMoments {
+            cartesian_moments: CartesianMoments {
                 mean: Vector3::new(x, y, wrap_angle(self.first_pass.mean_turn)),
                 cov,
             },
-            exponential: self.first_pass.exponential,
+            exponential: self.first_pass.exponential_moments,
             cross_track: CrossTrackStats::from_moments(pose_count, &track_moments),
-            fraction_in_ellipse: fraction_or_nan(&self.ellipse, fraction_in_ellipse),
+            fraction_in_ellipse: fraction_or_nan(&self.cartesian_ellipse, fraction_in_ellipse),
             fraction_in_exponential: fraction_or_nan(&self.twist_ellipse, inside_contour),
-            gain: density_differences.measured_gain(pose_count),
+            measured_gain: density_differences.measured_gain(pose_count),
             log_area_ratio_error: density_differences.log_area_ratio_error(pose_count),
         }
     }

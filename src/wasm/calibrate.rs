@@ -10,10 +10,8 @@ use js_sys::{RangeError, Reflect};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
 
-/// Allowed lengths of legs, m, rad or s.
 const LEG_LENGTH_RANGE: RangeInclusive<f64> = 1e-6..=1e6;
 
-/// Allowed standard deviations of a reference, m or rad.
 const STD_RANGE: RangeInclusive<f64> = 0.0..=1e3;
 
 /// Fits the α's of a robot to logs of its odometry (or its commands) and of a reference. `doc/calibration-method.md` describes the method.

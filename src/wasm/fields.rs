@@ -16,13 +16,13 @@ impl From<SettingsError> for JsValue {
 
 /// Reader of the fields of a JavaScript object, by their names.
 pub struct FieldReader<'a> {
-    object: &'a JsValue,
+    js_object: &'a JsValue,
     /// Path of the object in the argument with a final dot: "" at the top, "command." one level below.
-    prefix: &'a str,
+    key_prefix: &'a str,
 }
 
 impl<'a> FieldReader<'a> {
-    pub fn new(name: &str, prefix: &'a str, object: &'a JsValue, keys: &[&str]) -> Result<Self, JsValue> {
+    pub fn new(name: &str, key_prefix: &'a str, object: &'a JsValue, keys: &[&str]) -> Result<Self, JsValue> {
         if Array::is_array(object) || !object.is_object() {
             return Err(type_error(name, object, &format!("an object with keys from {}", keys.join(", "))));
         }
@@ -30,31 +30,35 @@ impl<'a> FieldReader<'a> {
             if !keys.contains(&object_key.as_str()) {
                 let (object_key, keys) = (shorten_text(&object_key), keys.join(", "));
                 return Err(TypeError::new(&format!(
-                    "{prefix}{object_key} is an unknown key; allowed are {keys}"
+                    "{key_prefix}{object_key} is an unknown key; allowed are {keys}"
                 ))
                 .into());
             }
         }
-        Ok(Self { object, prefix })
+        Ok(Self { js_object: object, key_prefix })
     }
 
     /// Returns the reader of an object that may also have other keys.
     pub fn with_any_keys(
         name: &str,
-        prefix: &'a str,
+        key_prefix: &'a str,
         object: &'a JsValue,
         allowed: &str,
     ) -> Result<Self, JsValue> {
-        if object.is_object() { Ok(Self { object, prefix }) } else { Err(type_error(name, object, allowed)) }
+        if object.is_object() {
+            Ok(Self { js_object: object, key_prefix })
+        } else {
+            Err(type_error(name, object, allowed))
+        }
     }
 
     pub fn path(&self, key: &str) -> String {
-        format!("{}{key}", self.prefix)
+        format!("{}{key}", self.key_prefix)
     }
 
     /// Returns the value of a field; undefined if the field is missing.
     pub fn value(&self, key: &str) -> Result<JsValue, JsValue> {
-        Reflect::get(self.object, &key.into())
+        Reflect::get(self.js_object, &key.into())
     }
 
     /// Reads a field with the function `read_value`; None if the field is missing or undefined.
@@ -202,8 +206,8 @@ fn read_setting(field: &str, value: &JsValue, setting: &mut Setting) -> Result<(
         // A group of numbers, such as a command, must be complete: speeds without their duration would mean another motion.
         Setting::Group(group_members, numbers) => {
             let keys = group_members.each_ref().map(|group_member| group_member.declaration.key);
-            let prefix = format!("{field}.");
-            let option_fields = FieldReader::new(field, &prefix, value, &keys)?;
+            let key_prefix = format!("{field}.");
+            let option_fields = FieldReader::new(field, &key_prefix, value, &keys)?;
             for (key, number) in keys.iter().zip(numbers) {
                 **number = option_fields.number(key)?;
             }

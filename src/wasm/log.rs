@@ -11,7 +11,6 @@ use wasm_bindgen::prelude::*;
 /// Maximum number of samples of a trajectory: a day at 100 Hz.
 const MAX_ROWS: usize = 10_000_000;
 
-/// Allowed times of a log, s, by any clock.
 const TIME_RANGE: RangeInclusive<f64> = -1e12..=1e12;
 
 /// Range of coordinates (m) and other numbers of a log. It includes the coordinates of any national map grid.

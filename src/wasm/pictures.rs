@@ -47,7 +47,7 @@ pub fn read_grid(bounds: &JsValue, columns: f64, rows: f64) -> Result<ViewGrid, 
     let [min_corner, max_corner] = read_bounds(bounds)?;
     let columns = read_integer("columns", columns, 1..=MAX_CELLS_PER_SIDE)?;
     let rows = read_integer("rows", rows, 1..=MAX_CELLS_PER_SIDE.min(MAX_CELLS / columns))?;
-    Ok(ViewGrid { min_corner, max_corner, columns: columns as usize, rows: rows as usize })
+    Ok(ViewGrid { min_corner, max_corner, column_count: columns as usize, row_count: rows as usize })
 }
 
 /// Reads consecutive colour ramps from their bytes.

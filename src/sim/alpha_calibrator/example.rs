@@ -42,7 +42,6 @@ const ROW_COUNT: usize = 9000;
 const MAX_SPEED: f64 = 0.6;
 const MAX_TURN_RATE: f64 = 0.8;
 
-/// Time between two turns on the spot, s.
 const TURN_INTERVAL: f64 = 20.0;
 
 /// Returns the point (m) that the robot follows, at a phase (rad) of its path: a rosette, which crosses the hall in all directions.
@@ -54,7 +53,6 @@ fn target_position(path_phase: f64) -> [f64; 2] {
 struct Controller {
     /// Phase of the point that the robot follows, rad: see [`target_position`].
     phase: f64,
-    /// Remaining angle of the turn on the spot, rad.
     remaining_turn: f64,
     next_turn_time: f64,
 }
@@ -135,7 +133,6 @@ pub fn simulate_log(seed: u64) -> Drive {
             };
         }
     }
-    // The motion after the last complete leg has no noise.
     true_poses.extend(
         current_leg
             .timed_motions
@@ -144,7 +141,6 @@ pub fn simulate_log(seed: u64) -> Drive {
             .map(|(row_time, leg_motion)| (*row_time, current_leg.true_start * *leg_motion)),
     );
     let create_trajectory = |timed_poses| {
-        // The times increase, so that the trajectory is valid.
         let Ok(trajectory) = Trajectory::new(timed_poses) else { unreachable!() };
         trajectory
     };

@@ -15,10 +15,8 @@ use crate::models::{OdomDelta, OdometryRule, RuleAlphas, VelocityAlphas, Velocit
 use crate::stats::{CartesianMoments, Ellipse};
 use std::cell::OnceCell;
 
-/// Number of end poses that are drawn from the model for a leg.
 const OUTCOME_COUNT: usize = 400;
 
-/// Number of chords of the outline of the predicted end poses of a leg.
 const OUTLINE_SEGMENTS: usize = 64;
 
 js_structs! {
@@ -65,9 +63,7 @@ pub struct AlphaCalibrator {
 
 #[derive(Clone, Debug)]
 enum LogSource {
-    /// Log that is simulated with the seed of the settings.
     Simulated,
-    /// Logs that the user has loaded, one for each drive.
     Loaded(Vec<Drive>),
     /// Log that is not known, because the fit comes from another simulation.
     Restored,
@@ -329,7 +325,6 @@ fn create_panel(
         slope: fitted_alpha,
         interval: alpha_intervals[alpha_index],
     };
-    // A panel has no bins if its α is not identified, for example the α of rotation for legs that hardly turn.
     if fitted_alpha.is_none() {
         return scatter_panel;
     }

@@ -66,7 +66,6 @@ enum ModelWithInput {
 }
 
 impl ModelWithInput {
-    /// Returns the executed v̂, ω̂ and γ̂ of the velocity model, or rot1, trans and rot2 of the odometry model.
     fn executed_motion(&self, unit_noise: [f64; 3]) -> [f64; 3] {
         match self {
             Self::Velocity(model, command) => {
@@ -274,9 +273,9 @@ impl BananaMachine {
         let (ExactMoments { mean, cov, cross_track_skew }, exact_gain) =
             (self.exact_moments(), self.exact_gain());
         let exact_ellipse = Ellipse::from_moments(&CartesianMoments { mean, cov });
-        let exact_contour = ExponentialContour::new(&exact_gain.exponential, &START_POSE);
+        let exact_contour = ExponentialContour::new(&exact_gain.exponential_moments, &START_POSE);
         let area_ratio = exact_contour.area_ratio(&exact_ellipse, OUTLINE_SEGMENTS);
-        TableColumn { mean, cov, cross_track_skew, likelihood_gain: exact_gain.value, area_ratio }
+        TableColumn { mean, cov, cross_track_skew, likelihood_gain: exact_gain.likelihood_gain, area_ratio }
     }
 
     /// Returns the exact cross-track skew at `point_count` evenly spaced turn rates from `first_omega` to `last_omega` (rad/s), with all

@@ -105,7 +105,6 @@ impl SettingRules for Settings {
     }
 }
 
-/// Noise parameters of the presets whose commands differ from the default command.
 const PRESET_ALPHAS: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 
 const fn create_preset([v, omega, dt]: [f64; 3], velocity_alphas: [f64; 6]) -> Settings {

@@ -67,7 +67,7 @@ pub struct DefinedCoordinates {
 impl Stats {
     /// Returns the statistics of a cloud of `n` samples. Statistics in coordinates that are undefined for the cloud are NaN.
     pub fn of_cloud(n: usize, cloud_stats: &CloudStats, defined_coordinates: DefinedCoordinates) -> Self {
-        let CloudStats { cartesian, cross_track, gain: measured_gain, .. } = *cloud_stats;
+        let CloudStats { cartesian_moments, cross_track, measured_gain, .. } = *cloud_stats;
         let one_or_nan_of = |is_defined: bool| if is_defined { 1.0 } else { f64::NAN };
         let [pose_factor, arc_factor] =
             [defined_coordinates.pose, defined_coordinates.arc].map(one_or_nan_of);
@@ -79,7 +79,7 @@ impl Stats {
             pose: pose * pose_factor,
             floor: plane_gain * arc_factor,
         };
-        let ellipse = Ellipse::from_moments(&cartesian);
+        let ellipse = Ellipse::from_moments(&cartesian_moments);
         // The cross-track statistics are undefined if all positions are equal. Statistics of exponential coordinates may still be defined,
         // because the headings may differ.
         let shape_factor = one_or_nan_of(defined_coordinates.pose && !ellipse.is_point());
@@ -87,7 +87,7 @@ impl Stats {
         let area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
         Self {
             n,
-            cartesian,
+            cartesian: cartesian_moments,
             exponential,
             cross_track_skew: cross_track.skew,
             cross_track_skew_error: cross_track.skew_error,
@@ -97,8 +97,8 @@ impl Stats {
                 ellipse: cloud_stats.fraction_in_ellipse,
                 exponential: shape_factor * cloud_stats.fraction_in_exponential,
             },
-            likelihood_gain: gain_if_defined(measured_gain.value),
-            likelihood_gain_error: gain_if_defined(measured_gain.error),
+            likelihood_gain: gain_if_defined(measured_gain.likelihood_gain),
+            likelihood_gain_error: gain_if_defined(measured_gain.gain_error),
             area_ratio,
             area_ratio_error: area_ratio * cloud_stats.log_area_ratio_error,
         }

@@ -6,7 +6,6 @@ use crate::stats::two_pass::{FourArcs, FourPoses, JacobianScale, ReferencePoint}
 use std::f64::consts::FRAC_PI_2;
 use wide::f64x4;
 
-/// Affine function of a noise of variance 1: mean + deviation · noise.
 type AffineInNoise = [f64; 2];
 
 /// Motion of all robots under given settings, as a function of three noises of variance 1, in the order in which the model draws them.
@@ -15,7 +14,6 @@ type AffineInNoise = [f64; 2];
 pub struct NoisyDrive {
     is_arc: bool,
     length: AffineInNoise,
-    /// Bearing of the end of the motion, seen from the origin, rad.
     bearing: AffineInNoise,
     /// Coefficients of half the heading angle: `bearing_weight` · bearing + `half_heading_offset` (rad).
     bearing_weight: f64,
@@ -85,7 +83,7 @@ impl NoisyDrive {
         if is_outside_short_formulas || !self.is_arc {
             return (end_positions, self.arcs_to_points(bearing, end_positions), false);
         }
-        (end_positions, FourArcs { length, half_turn: bearing, sinc: bearing_sin_cos.sinc }, true)
+        (end_positions, FourArcs { arc_length: length, half_turn: bearing, sinc: bearing_sin_cos.sinc }, true)
     }
 
     #[inline(always)]
@@ -110,12 +108,11 @@ impl NoisyDrive {
         [a * s, b * t, aa * (s * s), ab * (s * t), bb * (t * t)]
     }
 
-    /// Returns the arcs from the origin to the points (x, y), whose polar angles are `bearing`.
     #[inline(never)]
     fn arcs_to_points(&self, bearing: f64x4, [x, y]: [f64x4; 2]) -> FourArcs {
         let (half_turn, SinCos { sinc, sin, cos }) =
             self.trigonometry.sin_cos_on_branch(bearing, self.half_commanded_turn);
-        FourArcs { length: (x * cos + y * sin) / sinc, half_turn, sinc }
+        FourArcs { arc_length: (x * cos + y * sin) / sinc, half_turn, sinc }
     }
 
     /// Returns the poses of four motions that ended at `end_points`, and their logarithms on the branch of the commanded turn.
@@ -162,9 +159,16 @@ impl NoisyDrive {
     /// Returns the reference point of all sums (the noise-free end pose in all coordinates), and the scales of the Jacobians.
     pub fn nominal_coordinates(&self) -> (ReferencePoint, JacobianScale) {
         let (poses, arcs) = self.coordinates_of_four(&[f64x4::splat(0.0); 3]);
-        let mut reference_coordinates =
-            [poses.x, poses.y, poses.along, poses.lateral, poses.half_heading, arcs.length, arcs.half_turn]
-                .map(|coordinate_lanes| coordinate_lanes.to_array()[0]);
+        let mut reference_coordinates = [
+            poses.x,
+            poses.y,
+            poses.along,
+            poses.lateral,
+            poses.half_heading,
+            arcs.arc_length,
+            arcs.half_turn,
+        ]
+        .map(|coordinate_lanes| coordinate_lanes.to_array()[0]);
         if self.is_arc {
             // The length and half turn of the command are used, because inverting the end pose would change their last bits.
             [reference_coordinates[5], reference_coordinates[6]] = [self.length[0], self.bearing[0]];

@@ -76,7 +76,6 @@ impl Cloud {
         second_pass.stats(shown_count, weighted_robots)
     }
 
-    /// Draws the noise of all samples, drives them, and adds them to the sums of the first pass.
     fn run_first_pass(&mut self, mut first_pass: FirstPass) -> FirstPass {
         let Self { draws, drive, positions, shown_count } = self;
         for sample_block in sample_blocks(*shown_count) {
@@ -166,7 +165,6 @@ fn add_to_first_pass(
     }
 }
 
-/// Adds robots to the sums of the second pass, after [`add_to_first_pass`] has driven them.
 #[inline(never)]
 fn add_to_second_pass(
     drive: &NoisyDrive,

@@ -13,7 +13,7 @@ pub const RAMP_STEP_COUNT: usize = 256;
 /// Counts the shown samples in each cell, row by row from the top (largest second coordinate). Samples outside of the grid are not counted.
 pub fn count_samples_in_cells(pose_cloud: &Cloud, morph_fraction: f64, view_grid: &ViewGrid) -> Vec<u32> {
     let (ViewGrid { min_corner, max_corner, .. }, cells_per_unit) = (*view_grid, view_grid.cells_per_unit());
-    let mut cell_counts = vec![0; view_grid.columns * view_grid.rows];
+    let mut cell_counts = vec![0; view_grid.column_count * view_grid.row_count];
     pose_cloud.point_groups(morph_fraction).for_each(|[x, y]| {
         let column = ((x - min_corner[0]) * cells_per_unit[0]).floor().to_array();
         let row = ((max_corner[1] - y) * cells_per_unit[1]).floor().to_array();

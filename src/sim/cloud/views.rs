@@ -24,24 +24,26 @@ pub struct ViewGrid {
     /// Largest coordinates of the rectangle, finite and above the smallest coordinates.
     pub max_corner: [f64; 2],
     /// Number of cells along x.
-    pub columns: usize,
+    pub column_count: usize,
     /// Number of cells along y.
-    pub rows: usize,
+    pub row_count: usize,
 }
 
 impl ViewGrid {
     /// Returns the number of columns per unit of the first coordinate, and of rows per unit of the second coordinate.
     pub(in crate::sim) fn cells_per_unit(&self) -> [f64; 2] {
-        let Self { min_corner: [x_min, y_min], max_corner: [x_max, y_max], columns, rows } = *self;
-        [columns as f64 / (x_max - x_min), rows as f64 / (y_max - y_min)]
+        let Self { min_corner: [x_min, y_min], max_corner: [x_max, y_max], column_count, row_count } = *self;
+        [column_count as f64 / (x_max - x_min), row_count as f64 / (y_max - y_min)]
     }
 
     /// Returns the index of the cell in a column and row, row by row from the top; None outside of the grid.
     #[inline(always)]
     pub(in crate::sim) fn cell_index(&self, cell_column: f64, row: f64) -> Option<usize> {
-        let is_inside =
-            cell_column >= 0.0 && cell_column < self.columns as f64 && row >= 0.0 && row < self.rows as f64;
-        is_inside.then(|| row as usize * self.columns + cell_column as usize)
+        let is_inside = cell_column >= 0.0
+            && cell_column < self.column_count as f64
+            && row >= 0.0
+            && row < self.row_count as f64;
+        is_inside.then(|| row as usize * self.column_count + cell_column as usize)
     }
 }
 

@@ -35,7 +35,6 @@ pub struct DeadReckoning {
     settings: Settings,
     rollouts: Rollouts,
     shown_count: usize,
-    /// Predicted covariances after each step, by each of [`RECURSIONS`]; None where undefined.
     predicted_covariances: [Vec<Option<Matrix3<f64>>>; 3],
     measured_moments: Vec<MeasuredMoments>,
     comparisons: [RecursionComparison; 3],

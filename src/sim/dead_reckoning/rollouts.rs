@@ -29,17 +29,13 @@ struct StepInErrorFrame {
     /// Mean and standard deviation of the length of the arc (m) and of half its turn (rad).
     length: [f64; 2],
     half_turn: [f64; 2],
-    /// Standard deviation of half the turn after the arc, rad.
     half_last_turn_std: f64,
-    /// End position of the noise-free step, m.
-    end: [f64x4; 2],
-    /// Sine and cosine of the noise-free turn.
+    step_end: [f64x4; 2],
     sin: f64,
     cos: f64,
     trigonometry: Trigonometry,
 }
 
-/// Error poses of four robots, relative to the commanded pose.
 #[derive(Clone, Copy)]
 struct ErrorPoses {
     x: f64x4,
@@ -71,9 +67,7 @@ pub struct Rollouts {
     /// Random generator of the next block. Each block has its own stream of numbers, and a longer path continues that stream. The first
     /// steps of a robot therefore depend on the seed alone.
     block_rng: Xoshiro256PlusPlus,
-    /// Number of robots driven in complete blocks.
     driven_count: usize,
-    /// Sums over the robots of complete blocks, after each step.
     sums_by_step: Vec<CompensatedSums<SUMMED_TERM_COUNT>>,
     /// Commanded pose after each step.
     pub nominal_poses: Vec<SE2>,
@@ -93,7 +87,7 @@ impl StepInErrorFrame {
             length: length_lanes,
             half_turn: bearing_lanes,
             half_last_turn_std: 0.5 * last_turn[1],
-            end: [chord_length * mean_sin_cos.cos, chord_length * mean_sin_cos.sin],
+            step_end: [chord_length * mean_sin_cos.cos, chord_length * mean_sin_cos.sin],
             sin,
             cos,
             trigonometry,
@@ -110,8 +104,8 @@ impl StepInErrorFrame {
         // The bearing of the chord is the heading of the robot plus half the turn of its arc.
         let heading_sin = 2.0 * error_poses.sin * error_poses.cos;
         let heading_cos = 1.0 - 2.0 * error_poses.sin * error_poses.sin;
-        let x = error_poses.x + chord_length * (heading_cos * cos - heading_sin * sin) - self.end[0];
-        let y = error_poses.y + chord_length * (heading_sin * cos + heading_cos * sin) - self.end[1];
+        let x = error_poses.x + chord_length * (heading_cos * cos - heading_sin * sin) - self.step_end[0];
+        let y = error_poses.y + chord_length * (heading_sin * cos + heading_cos * sin) - self.step_end[1];
         let half_turn = error_poses.half_heading + (turn_noise + unit_noise[2] * self.half_last_turn_std);
         let is_outside_short_formula =
             is_any_lane_set(half_turn.abs().simd_gt(f64x4::splat(MAX_SHORT_FORMULA_ANGLE)));
@@ -222,7 +216,6 @@ impl Rollouts {
 }
 
 impl ErrorPoses {
-    /// Returns x, y (m) and θ (rad) of the robot in a lane.
     fn pose(&self, lane_index: usize, nominal_pose: &SE2) -> [f64; 3] {
         let [x, y, half_heading] =
             [self.x, self.y, self.half_heading].map(|lane_values| lane_values.to_array()[lane_index]);
@@ -230,7 +223,6 @@ impl ErrorPoses {
     }
 }
 
-/// Block of robots that are driven through all steps together.
 struct RobotBlock {
     rng: Xoshiro256PlusPlus,
     groups: [ErrorPoses; GROUPS_PER_BLOCK],

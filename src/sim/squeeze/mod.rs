@@ -34,18 +34,17 @@ pub const MAX_TRIAL_PARTS: u64 = 100_000;
 pub struct MapSqueeze {
     floor_plan: FloorPlan,
     settings: Settings,
-    draws: Draws,
-    attempts: Vec<Attempt>,
+    noise_draws: Draws,
+    tested_attempts: Vec<Attempt>,
     outcome_tally: Tally,
-    /// Latest picture, which JavaScript reads from the core's memory.
     picture_pixels: Vec<[u8; 4]>,
 }
 
 /// Numbers of the attempts shown that are accepted, or accepted through a wall, and the costs of the attempts.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tally {
-    cost: Cost,
-    accepted: usize,
+    total_cost: Cost,
+    accepted_count: usize,
     through_wall: usize,
     /// True if the simulation stopped before it had all samples.
     gave_up: bool,
@@ -66,8 +65,8 @@ impl MapSqueeze {
         let mut simulation = Self {
             floor_plan: FloorPlan::apartment(),
             settings,
-            draws: Draws::new(settings.seed, NoiseKind::Normal),
-            attempts: Vec::new(),
+            noise_draws: Draws::new(settings.seed, NoiseKind::Normal),
+            tested_attempts: Vec::new(),
             outcome_tally: Tally::default(),
             picture_pixels: Vec::new(),
         };
@@ -77,9 +76,9 @@ impl MapSqueeze {
 
     fn reserve_memory(&mut self, settings: &Settings) -> Result<(), SettingsError> {
         let to_memory_error = |_| SettingsError::out_of_memory(settings.samples);
-        let missing_attempts = settings.samples.saturating_sub(self.attempts.len());
-        self.attempts.try_reserve_exact(missing_attempts).map_err(to_memory_error)?;
-        self.draws.reserve(settings.samples).map_err(to_memory_error)
+        let missing_attempts = settings.samples.saturating_sub(self.tested_attempts.len());
+        self.tested_attempts.try_reserve_exact(missing_attempts).map_err(to_memory_error)?;
+        self.noise_draws.reserve(settings.samples).map_err(to_memory_error)
     }
 
     /// Returns the floor plan.
@@ -132,26 +131,27 @@ impl MapSqueeze {
     }
 
     fn clear_attempts(&mut self) {
-        self.attempts.clear();
+        self.tested_attempts.clear();
         self.outcome_tally = Tally::default();
     }
 
     /// Makes attempts up to a number. If nearly every draw collides, the simulation gives up, and further calls make no attempts.
     fn show_samples(&mut self, target_count: usize) {
-        self.draws.reset_if_changed(self.settings.seed, NoiseKind::Normal);
-        self.draws.extend_to(target_count);
+        self.noise_draws.reset_if_changed(self.settings.seed, NoiseKind::Normal);
+        self.noise_draws.extend_to(target_count);
         let part_count = self.settings.part_count() as usize;
-        let Self { floor_plan: plan, settings, draws, attempts, outcome_tally: tally, .. } = self;
+        let Self { floor_plan: plan, settings, noise_draws, tested_attempts, outcome_tally: tally, .. } =
+            self;
         let map_model = conditioned_model(settings, plan, settings.sampler);
-        let attempt_driver = AttemptDriver::new(&map_model, settings, draws);
-        while attempts.len() < target_count && !tally.gave_up {
-            attempt_driver.make_next_attempts(attempts.len()..target_count, |next_attempt, cost| {
-                tally.cost.add(cost);
-                tally.accepted += usize::from(next_attempt.accepted);
+        let attempt_driver = AttemptDriver::new(&map_model, settings, noise_draws);
+        while tested_attempts.len() < target_count && !tally.gave_up {
+            attempt_driver.make_next_attempts(tested_attempts.len()..target_count, |next_attempt, cost| {
+                tally.total_cost.add(cost);
+                tally.accepted_count += usize::from(next_attempt.accepted);
                 tally.through_wall += usize::from(next_attempt.is_through_wall());
-                attempts.push(next_attempt);
+                tested_attempts.push(next_attempt);
             });
-            tally.gave_up = tally.cost.draws > max_draws(part_count * attempts.len());
+            tally.gave_up = tally.total_cost.draws > max_draws(part_count * tested_attempts.len());
         }
     }
 
@@ -162,31 +162,31 @@ impl MapSqueeze {
 
     /// Returns the attempts shown, in sample order.
     pub fn attempts(&self) -> &[Attempt] {
-        &self.attempts
+        &self.tested_attempts
     }
 
     /// Returns the number of attempts shown.
     pub fn shown_count(&self) -> usize {
-        self.attempts.len()
+        self.tested_attempts.len()
     }
 
     /// Returns the statistics of the attempts shown.
     pub fn stats(&self) -> Stats {
-        let Tally { cost, accepted, through_wall, gave_up } = self.outcome_tally;
+        let Tally { total_cost: cost, accepted_count, through_wall, gave_up } = self.outcome_tally;
         // The ratio is NaN for 0/0, and infinite for another number over 0.
         let ratio_of =
             |counted_events: usize, counted_draws: usize| counted_events as f64 / counted_draws as f64;
         Stats {
-            attempts: self.attempts.len(),
+            attempts: self.tested_attempts.len(),
             drawn: cost.draws,
-            accepted,
+            accepted: accepted_count,
             // An accepted attempt of k parts has k accepted draws.
-            acceptance_rate: ratio_of(accepted * self.settings.part_count() as usize, cost.draws),
+            acceptance_rate: ratio_of(accepted_count * self.settings.part_count() as usize, cost.draws),
             through_wall,
-            through_wall_rate: ratio_of(through_wall, accepted),
-            through_wall_interval: wilson_interval(through_wall, accepted),
-            draws_per_accepted: ratio_of(cost.draws, accepted),
-            wall_tests_per_accepted: ratio_of(cost.wall_tests, accepted),
+            through_wall_rate: ratio_of(through_wall, accepted_count),
+            through_wall_interval: wilson_interval(through_wall, accepted_count),
+            draws_per_accepted: ratio_of(cost.draws, accepted_count),
+            wall_tests_per_accepted: ratio_of(cost.wall_tests, accepted_count),
             gave_up,
         }
     }
@@ -195,8 +195,8 @@ impl MapSqueeze {
     pub fn paint(&mut self, view_grid: &ViewGrid, colour_ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> &[[u8; 4]] {
         let (ViewGrid { min_corner, max_corner, .. }, cells_per_metre) =
             (*view_grid, view_grid.cells_per_unit());
-        let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; view_grid.columns * view_grid.rows];
-        for shown_attempt in &self.attempts {
+        let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; view_grid.column_count * view_grid.row_count];
+        for shown_attempt in &self.tested_attempts {
             let cell_column = ((shown_attempt.pose.x() - min_corner[0]) * cells_per_metre[0]).floor();
             let cell_row = ((max_corner[1] - shown_attempt.pose.y()) * cells_per_metre[1]).floor();
             if let Some(cell_index) = view_grid.cell_index(cell_column, cell_row) {
@@ -209,24 +209,23 @@ impl MapSqueeze {
 
     /// Returns the attempt that ends nearest to the point `target_point` (m), within `search_radius` (m).
     pub fn nearest(&self, target_point: [f64; 2], search_radius: f64) -> Option<usize> {
-        let end_positions = self.attempts.iter().map(|shown_attempt| shown_attempt.pose.position());
+        let end_positions = self.tested_attempts.iter().map(|shown_attempt| shown_attempt.pose.position());
         nearest_index(end_positions, target_point, [search_radius, search_radius])
     }
 
     /// Returns the arcs driven in an attempt that is shown.
     pub fn arcs(&self, attempt_index: usize) -> Vec<Arc> {
-        if attempt_index >= self.attempts.len() {
+        if attempt_index >= self.tested_attempts.len() {
             return Vec::new();
         }
         let map_model = conditioned_model(&self.settings, &self.floor_plan, self.settings.sampler);
-        AttemptDriver::new(&map_model, &self.settings, &self.draws).arcs(attempt_index)
+        AttemptDriver::new(&map_model, &self.settings, &self.noise_draws).arcs(attempt_index)
     }
 
     /// Returns the point of a wall that the robot touches first in an attempt that is shown; None if it touches no wall.
     pub fn first_contact(&self, attempt_index: usize) -> Option<[f64; 2]> {
-        let is_free = |arc: &Arc| self.floor_plan.test_arc(arc, self.settings.clearance).free;
+        let is_free = |arc: &Arc| self.floor_plan.test_arc(arc, self.settings.clearance).is_free;
         let arc = self.arcs(attempt_index).into_iter().find(|arc| !is_free(arc))?;
-        // Bisection for the fraction of the arc that the robot has driven at the contact.
         let mut fractions = 0.0..1.0;
         for _ in 0..CONTACT_BISECTIONS {
             let middle = 0.5 * (fractions.start + fractions.end);
@@ -259,7 +258,7 @@ impl MapSqueeze {
     /// Returns true if the robot collides with nothing at its start pose.
     pub fn is_start_free(&self) -> bool {
         let [x, y, _] = self.settings.start;
-        self.floor_plan.test_point([x, y], self.settings.clearance).free
+        self.floor_plan.test_point([x, y], self.settings.clearance).is_free
     }
 
     /// Returns the noise-free arc of the command.
@@ -366,21 +365,20 @@ impl Attempt {
     }
 }
 
-/// Generator of attempts. The index of an attempt selects its random numbers.
 struct AttemptDriver<'a> {
-    model: &'a MapConditioned<'a>,
+    map_model: &'a MapConditioned<'a>,
     collision_tester: CollisionTester<'a>,
     settings: &'a Settings,
     draws: &'a Draws,
 }
 
 impl<'a> AttemptDriver<'a> {
-    fn new(map_model: &'a MapConditioned, settings: &'a Settings, draws: &'a Draws) -> Self {
+    fn new(map_model: &'a MapConditioned, settings: &'a Settings, noise_draws: &'a Draws) -> Self {
         Self {
-            model: map_model,
+            map_model,
             collision_tester: map_model.collision_tester(&settings.command, &settings.start()),
             settings,
-            draws,
+            draws: noise_draws,
         }
     }
 
@@ -396,12 +394,12 @@ impl<'a> AttemptDriver<'a> {
         let (group_id, first_lane) = (attempt_indices.start / LANE_COUNT, attempt_indices.start % LANE_COUNT);
         let lane_range = first_lane..LANE_COUNT.min(first_lane + attempt_indices.len());
         self.collision_tester.test_lanes(&self.draws.unit_noise[group_id], lane_range, |tested_draw| {
-            let deciding_verdict = self.model.deciding_verdict(&tested_draw);
+            let deciding_verdict = self.map_model.deciding_verdict(&tested_draw);
             let new_attempt = Attempt {
                 pose: tested_draw.pose,
-                accepted: !is_conditioned || deciding_verdict.free,
-                end_free: tested_draw.end_verdict.free,
-                path_free: tested_draw.path_verdict.free,
+                accepted: !is_conditioned || deciding_verdict.is_free,
+                end_free: tested_draw.end_verdict.is_free,
+                path_free: tested_draw.path_verdict.is_free,
             };
             let wall_tests = if is_conditioned { deciding_verdict.wall_tests } else { 0 };
             visit(new_attempt, Cost { draws: 1, wall_tests });
@@ -423,7 +421,13 @@ impl<'a> AttemptDriver<'a> {
         // The number of random numbers that an attempt uses depends on the walls. Each attempt has its own stream of numbers, so that a
         // wall changes only attempts near the wall.
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (attempt_index as u64).rotate_left(32));
-        match self.model.sample_with_arcs(&motion_command, &start_pose, &mut rng, is_conditioned, visit_arc) {
+        match self.map_model.sample_with_arcs(
+            &motion_command,
+            &start_pose,
+            &mut rng,
+            is_conditioned,
+            visit_arc,
+        ) {
             Ok(AcceptedMotion { pose, end_free, path_free, cost }) => {
                 (Attempt { pose, accepted: true, end_free, path_free }, cost)
             }

@@ -7,14 +7,14 @@ use motion::calibrate::{ERROR_COUNT, Model, Systematic, SystematicError};
 const LEGS_PER_LOG: usize = 600;
 
 struct Scenario {
-    name: &'static str,
+    scenario_name: &'static str,
     modify_simulation: fn(&mut Simulation),
     /// Allowed bias of a median α, relative to the true α. Three standard errors are allowed in addition.
     allowed_bias: f64,
 }
 
 const fn new_scenario(name: &'static str, modify_simulation: fn(&mut Simulation)) -> Scenario {
-    Scenario { name, modify_simulation, allowed_bias: 0.05 }
+    Scenario { scenario_name: name, modify_simulation, allowed_bias: 0.05 }
 }
 
 const EXACT_REFERENCE: Scenario = new_scenario("exact reference", |_| ());
@@ -25,11 +25,11 @@ const SYSTEMATIC_ERRORS: Scenario =
 const JUMPING_REFERENCE: Scenario = new_scenario("jumps", |sim| sim.jump_fraction = 0.01);
 const PERSISTENT_ERRORS: Scenario = Scenario {
     allowed_bias: 0.1,
-    ..new_scenario("persistent", |sim| sim.violation = Violation::AutocorrelatedNoise(0.7))
+    ..new_scenario("persistent", |sim| sim.noise_violation = Violation::AutocorrelatedNoise(0.7))
 };
 
 const UNRELATED_TIMES: Scenario =
-    new_scenario("67 Hz and 29 Hz", |sim| sim.times = SampleTimes::Asynchronous([3, 7]));
+    new_scenario("67 Hz and 29 Hz", |sim| sim.sample_times = SampleTimes::Asynchronous([3, 7]));
 
 const TRUE_SYSTEMATIC_ERRORS: Systematic = Systematic {
     clock_offset: 0.12,
@@ -102,7 +102,7 @@ fn run_calibration_study(robot: Model, scenario: &Scenario, log_count: usize) ->
     let median_stds = [0, 1].map(|component_index| median_of(&study.reference_stds[component_index]));
     println!(
         "{}, {robot:?}: {median_ratios:.3?}, covered {covered_alphas:?}, σ {median_stds:.4?} {covered_stds:?}, errors {covered_errors:?}",
-        scenario.name
+        scenario.scenario_name
     );
     study
 }
@@ -145,7 +145,9 @@ fn report_wrong_alphas(robot: Model, scenario: &Scenario, study: &StudyResults) 
         [median_report, report_wrong_coverage(&name, study.covered_alphas[alpha_index], study.log_count)]
     };
     let alpha_reports = (0..study.covered_alphas.len()).flat_map(report_wrong_alpha).flatten();
-    alpha_reports.map(|alpha_report| format!("{}, {robot:?}: {alpha_report}", scenario.name)).collect()
+    alpha_reports
+        .map(|alpha_report| format!("{}, {robot:?}: {alpha_report}", scenario.scenario_name))
+        .collect()
 }
 
 /// Asserts that the α's of every model are right in a hundred logs, and that `further_reports_of` reports nothing.

@@ -170,7 +170,8 @@ fn a_copy_of_the_odometry_is_no_reference() {
     for seed in 1..=12 {
         for leg_count in [600, 200] {
             let violation = Violation::ScaledNoise(0.01);
-            let precise_simulation = Simulation { violation, ..new_passing_simulation(leg_count, seed) };
+            let precise_simulation =
+                Simulation { noise_violation: violation, ..new_passing_simulation(leg_count, seed) };
             let failed_checks = failed_check_names_of(&calibrate_simulation(&precise_simulation));
             assert!(!failed_checks.contains(&ReferenceMatches), "{leg_count} legs, seed {seed}");
         }
@@ -231,7 +232,8 @@ fn legs_that_are_longer_than_asked_for_are_reported() {
 #[test]
 fn violations_of_the_model_are_reported() {
     let noise_factor_at: fn(f64) -> f64 = |fraction_of_log| if fraction_of_log < 0.5 { 1.0 } else { 1.5 };
-    let simulate_violation = |violation, seed| Simulation { violation, ..new_passing_simulation(600, seed) };
+    let simulate_violation =
+        |violation, seed| Simulation { noise_violation: violation, ..new_passing_simulation(600, seed) };
     for (check_name, simulation) in [
         (OutliersFew, Simulation { jump_fraction: 0.1, ..new_passing_simulation(600, 6) }),
         (TailsNormal, simulate_violation(Violation::HeavyTailedNoise(4), 10)),
@@ -382,7 +384,7 @@ fn a_wrong_track_width_is_a_turn_scale_and_no_mismatch() {
 #[test]
 fn errors_that_persist_over_legs_are_correlated_and_leave_windows_uncovered() {
     let calibration = calibrate_simulation(&Simulation {
-        violation: Violation::AutocorrelatedNoise(0.7),
+        noise_violation: Violation::AutocorrelatedNoise(0.7),
         ..new_passing_simulation(600, 9)
     });
     for check_name in [ResidualsUncorrelated, Window1Covered, Window2Covered] {

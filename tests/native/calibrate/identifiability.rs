@@ -26,7 +26,7 @@ const LACKS_DISTANCE: Option<NotIdentifiable> = Some(InsufficientTranslation);
 
 /// Drive from which some α's are not identifiable, with the reason for each of them.
 struct IncompleteDrive {
-    name: &'static str,
+    drive_name: &'static str,
     velocity_of_leg: VelocityOfLeg,
     odometry_reasons: [Option<NotIdentifiable>; 5],
     velocity_reasons: [Option<NotIdentifiable>; 6],
@@ -37,7 +37,7 @@ struct IncompleteDrive {
 
 const INCOMPLETE_DRIVES: [IncompleteDrive; 3] = [
     IncompleteDrive {
-        name: "straight",
+        drive_name: "straight",
         velocity_of_leg: |_| STRAIGHT_LEG,
         odometry_reasons: [LACKS_TURNS, None, None, LACKS_TURNS, None],
         velocity_reasons: [None, LACKS_TURNS, None, LACKS_TURNS, None, LACKS_TURNS],
@@ -47,7 +47,7 @@ const INCOMPLETE_DRIVES: [IncompleteDrive; 3] = [
         ],
     },
     IncompleteDrive {
-        name: "on the spot",
+        drive_name: "on the spot",
         velocity_of_leg: |_| SPIN_LEG,
         odometry_reasons: [None, LACKS_DISTANCE, LACKS_DISTANCE, None, LACKS_DISTANCE],
         velocity_reasons: [LACKS_DISTANCE, None, LACKS_DISTANCE, LACKS_TURNS, LACKS_DISTANCE, LACKS_TURNS],
@@ -60,7 +60,7 @@ const INCOMPLETE_DRIVES: [IncompleteDrive; 3] = [
         ],
     },
     IncompleteDrive {
-        name: "one bend",
+        drive_name: "one bend",
         velocity_of_leg: |leg_index| [0.3, if leg_index.is_multiple_of(2) { 0.29 } else { 0.31 }],
         odometry_reasons: [Some(Collinear); 5],
         velocity_reasons: [Some(Collinear); 6],
@@ -90,7 +90,7 @@ fn assert_reasons_and_intervals(robot_models: &[Model]) {
             let expected_reasons: &[_] =
                 if is_velocity_model { &drive.velocity_reasons } else { &drive.odometry_reasons };
             let calibration = calibrate_velocities(robot_model, drive.velocity_of_leg);
-            let case_name = format!("{robot_model:?} {}", drive.name);
+            let case_name = format!("{robot_model:?} {}", drive.drive_name);
             assert_eq!(calibration.not_identifiable, expected_reasons[..robot_model.alphas()], "{case_name}");
             for (k, missing_reason) in calibration.not_identifiable.iter().enumerate() {
                 let has_alpha_and_interval =

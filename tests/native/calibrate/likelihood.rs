@@ -244,7 +244,7 @@ fn alphas_and_their_intervals_scale_with_the_noise() {
     for robot_model in [MODELS[1], MODELS[3]] {
         let calibrate_scaled_noise = |std_factor: f64| {
             let sim = Simulation {
-                violation: Violation::ScaledNoise(std_factor),
+                noise_violation: Violation::ScaledNoise(std_factor),
                 ..Simulation::new(robot_model, 1000, 103)
             };
             let exact_options =

@@ -35,7 +35,7 @@ pub enum Violation {
 
 #[derive(Clone, Copy, Debug)]
 pub struct Simulation {
-    pub model: Model,
+    pub robot_model: Model,
     pub leg_length: LegLength,
     pub leg_count: usize,
     pub systematic_errors: Systematic,
@@ -43,11 +43,11 @@ pub struct Simulation {
     pub jump_fraction: f64,
     /// Function from the index of a leg to its v and ω. `None` draws random velocities.
     pub velocity_of_leg: Option<fn(usize) -> [f64; 2]>,
-    pub violation: Violation,
+    pub noise_violation: Violation,
     pub seed: u64,
     /// Standard deviations of the reference, m and rad.
     pub reference_stds: [f64; 2],
-    pub times: SampleTimes,
+    pub sample_times: SampleTimes,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,25 +63,25 @@ const STEP_SECONDS: f64 = 0.05;
 const FINE_STEP_SECONDS: f64 = 0.005;
 
 impl Simulation {
-    pub fn new(model: Model, leg_count: usize, seed: u64) -> Self {
+    pub fn new(robot_model: Model, leg_count: usize, seed: u64) -> Self {
         Self {
-            model,
+            robot_model,
             leg_length: LegLength::AMCL,
             leg_count,
             systematic_errors: Systematic::NONE,
             jump_fraction: 0.0,
             velocity_of_leg: None,
-            violation: Violation::None,
+            noise_violation: Violation::None,
             seed,
             reference_stds: [0.0; 2],
-            times: SampleTimes::Synchronous,
+            sample_times: SampleTimes::Synchronous,
         }
     }
 
     pub fn calibration_options(&self) -> Options {
-        let Self { model, leg_length, .. } = *self;
+        let Self { robot_model, leg_length, .. } = *self;
         Options {
-            model,
+            model: robot_model,
             legs: leg_length,
             outliers: Outliers::Reject,
             correct: [None; 6],
@@ -91,7 +91,7 @@ impl Simulation {
     }
 
     pub fn simulate_log(&self) -> [Trajectory; 2] {
-        let (step_seconds, [rows_per_reading, rows_per_reference]) = match self.times {
+        let (step_seconds, [rows_per_reading, rows_per_reference]) = match self.sample_times {
             SampleTimes::Synchronous => (STEP_SECONDS, [1, 1]),
             SampleTimes::Asynchronous(sample_intervals) => (FINE_STEP_SECONDS, sample_intervals),
         };
@@ -141,7 +141,8 @@ impl Simulation {
             }
             let twist_noise_of = |unit_noise| {
                 let duration = row_time - start_time;
-                let noisy_motion = execute_motion(self.model, &ALPHAS, &leg_motion, duration, unit_noise);
+                let noisy_motion =
+                    execute_motion(self.robot_model, &ALPHAS, &leg_motion, duration, unit_noise);
                 (leg_motion.inverse() * noisy_motion).log()
             };
             let [leg_noise, mean_noise] = [unit_noise, [0.0; 3]].map(twist_noise_of);
@@ -186,7 +187,7 @@ impl Simulation {
     }
 
     fn sample_walk_step(&self, rng: &mut impl Rng) -> f64 {
-        if self.times == SampleTimes::Synchronous {
+        if self.sample_times == SampleTimes::Synchronous {
             0.0
         } else {
             NoiseKind::Normal.sample(Variance(1.0), rng)
@@ -197,9 +198,9 @@ impl Simulation {
     fn sample_velocity(&self, rng: &mut impl Rng) -> [f64; 2] {
         let [v, turn_rate] = [rng.random_range(0.2..0.6), rng.random_range(-0.5..0.5)];
         match rng.random_range(0..6) {
-            0 if self.model != Model::Velocity => [0.0, if turn_rate > 0.0 { 0.6 } else { -0.6 }],
+            0 if self.robot_model != Model::Velocity => [0.0, if turn_rate > 0.0 { 0.6 } else { -0.6 }],
             0 => [0.06, 2.0 * turn_rate],
-            1 if self.model != Model::Odometry(OdometryRule::Table) => [-v, turn_rate],
+            1 if self.robot_model != Model::Odometry(OdometryRule::Table) => [-v, turn_rate],
             2 => [v, 0.0],
             _ => [v, 2.0 * turn_rate],
         }
@@ -209,7 +210,7 @@ impl Simulation {
     fn sample_unit_noise(&self, log_fraction: f64, previous_noise: [f64; 3], rng: &mut impl Rng) -> [f64; 3] {
         previous_noise.map(|previous_noise| {
             let normal_noise = NoiseKind::Normal.sample(Variance(1.0), rng);
-            match self.violation {
+            match self.noise_violation {
                 Violation::None => normal_noise,
                 Violation::HeavyTailedNoise(degrees_of_freedom) => {
                     let sample_normal = |_| NoiseKind::Normal.sample(Variance(1.0), rng);
@@ -229,14 +230,14 @@ impl Simulation {
 
 /// Returns the motion that a robot executed while its odometry measured `odometry_motion` in the time `duration`.
 pub fn execute_motion(
-    model: Model,
+    robot_model: Model,
     alphas: &[f64; 6],
     odometry_motion: &SE2,
     duration: f64,
     unit_noise: [f64; 3],
 ) -> SE2 {
     let origin_pose = SE2::identity();
-    match model {
+    match robot_model {
         Model::Odometry(odometry_rule) => {
             let odom_delta = OdomDelta::from_poses(&origin_pose, odometry_motion);
             let true_alphas_of_model = std::array::from_fn(|k| alphas[k]);
@@ -248,8 +249,8 @@ pub fn execute_motion(
         Model::Velocity => {
             let twist = odometry_motion.log();
             let leg_command = VelocityCmd { v: twist.x / duration, omega: twist.z / duration, dt: duration };
-            let model = VelocityModel { alphas: VelocityAlphas(*alphas), noise: NoiseKind::Normal };
-            model.apply_noise(&leg_command, &origin_pose, unit_noise)
+            let robot_model = VelocityModel { alphas: VelocityAlphas(*alphas), noise: NoiseKind::Normal };
+            robot_model.apply_noise(&leg_command, &origin_pose, unit_noise)
         }
     }
 }

@@ -52,7 +52,7 @@ fn count_covered_windows(model: Model, violation: Violation, log_count: u64) -> 
     let mut rng = seeded_rng(log_count);
     let mut covered_and_total_counts = [0; 2];
     for seed in 0..log_count {
-        let simulation = Simulation { violation, ..Simulation::new(model, 600, 900 + seed) };
+        let simulation = Simulation { noise_violation: violation, ..Simulation::new(model, 600, 900 + seed) };
         let recommended_alphas = calibrate_simulation(&simulation).recommended.expect("a usable log").alphas;
         let alphas = std::array::from_fn(|k| {
             recommended_alphas.get(k).map_or(0.0, |alpha| alpha.expect("identifiable"))

@@ -11,7 +11,7 @@ use rand::{Rng, SeedableRng, rngs::SmallRng};
 /// Velocity model with centre and radius of the arc, as in a first solution of exercise 1.
 struct RadiusModel {
     alphas: VelocityAlphas,
-    noise: NoiseKind,
+    noise_kind: NoiseKind,
 }
 
 impl RadiusModel {
@@ -25,7 +25,7 @@ impl MotionModel for RadiusModel {
     type Control = VelocityCmd;
 
     fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> SE2 {
-        let [v, omega, gamma_hat] = self.variances(u).map(|variance| self.noise.sample(variance, rng));
+        let [v, omega, gamma_hat] = self.variances(u).map(|variance| self.noise_kind.sample(variance, rng));
         let (v_hat, omega_hat) = (u.v + v, u.omega + omega);
         let (arc_radius, end_heading) = (v_hat / omega_hat, x.theta() + omega_hat * u.dt);
         SE2::new(
@@ -42,7 +42,7 @@ impl MotionModel for RadiusModel {
         self.variances(u)
             .iter()
             .zip(noise_residuals)
-            .map(|(variance, noise_residual)| self.noise.prob(noise_residual, *variance))
+            .map(|(variance, noise_residual)| self.noise_kind.prob(noise_residual, *variance))
             .product()
     }
 
@@ -73,7 +73,7 @@ const ALPHAS: VelocityAlphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.01, 0.0
 
 #[test]
 fn a_readers_velocity_model_equals_the_crates_model() {
-    let readers_model = RadiusModel { alphas: ALPHAS, noise: NoiseKind::Normal };
+    let readers_model = RadiusModel { alphas: ALPHAS, noise_kind: NoiseKind::Normal };
     let crate_model = VelocityModel { alphas: ALPHAS, noise: NoiseKind::Normal };
     let x = SE2::new(2.0, -1.0, 0.4);
     let (mut rng1, mut crate_rng) = (SmallRng::seed_from_u64(7), SmallRng::seed_from_u64(7));

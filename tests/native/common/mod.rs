@@ -74,11 +74,11 @@ pub fn is_point_inside(closed_outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
 /// Table of reference values in tests/reference, written by generate.py.
 pub struct ReferenceTable {
     column_names: Vec<&'static str>,
-    rows: Vec<Vec<&'static str>>,
+    csv_rows: Vec<Vec<&'static str>>,
 }
 
 pub struct ReferenceRow<'a> {
-    table: &'a ReferenceTable,
+    reference_table: &'a ReferenceTable,
     row_cells: &'a [&'static str],
 }
 
@@ -88,17 +88,18 @@ impl ReferenceTable {
         let column_names = line_fields.next().expect("a header");
         let rows: Vec<_> = line_fields.collect();
         assert!(!rows.is_empty(), "a table without rows");
-        Self { column_names, rows }
+        Self { column_names, csv_rows: rows }
     }
 
     pub fn rows(&self) -> impl Iterator<Item = ReferenceRow<'_>> {
-        self.rows.iter().map(|row_cells| ReferenceRow { table: self, row_cells })
+        self.csv_rows.iter().map(|row_cells| ReferenceRow { reference_table: self, row_cells })
     }
 }
 
 impl ReferenceRow<'_> {
     pub fn cell_text(&self, column_name: &str) -> &'static str {
-        let column_index = self.table.column_names.iter().position(|known_name| *known_name == column_name);
+        let column_index =
+            self.reference_table.column_names.iter().position(|known_name| *known_name == column_name);
         self.row_cells[column_index.unwrap_or_else(|| panic!("no column {column_name}"))]
     }
 

@@ -67,8 +67,8 @@ impl Configuration<'_> {
         ViewGrid {
             min_corner: [x_min, y_min],
             max_corner: [x_max, y_max],
-            columns: view_size_of("columns"),
-            rows: view_size_of("rows"),
+            column_count: view_size_of("columns"),
+            row_count: view_size_of("rows"),
         }
     }
 }

@@ -205,7 +205,7 @@ fn testing_the_geodesic_changes_the_documented_fraction_of_verdicts() {
                 let unit_noise =
                     std::array::from_fn(|_| NoiseKind::Normal.quantile(draw_centred_uniform(&mut rng)));
                 let tested_draw = collision_tester.test_draw(unit_noise);
-                if !tested_draw.end_verdict.free {
+                if !tested_draw.end_verdict.is_free {
                     continue;
                 }
                 // The geodesic exp(s·ξ), 0 ≤ s ≤ 1, is also an arc. It starts in the direction of (ξ along, ξ lateral).
@@ -213,8 +213,9 @@ fn testing_the_geodesic_changes_the_documented_fraction_of_verdicts() {
                 let geodesic_start = SE2::new(x, y, theta + xi.y.atan2(xi.x));
                 let geodesic_arc = Arc { start: geodesic_start, length: xi.xy().norm(), turn: xi.z };
                 accepted_count += 1;
-                differing_count +=
-                    u32::from(floor_plan.test_arc(&geodesic_arc, 0.13).free != tested_draw.path_verdict.free);
+                differing_count += u32::from(
+                    floor_plan.test_arc(&geodesic_arc, 0.13).is_free != tested_draw.path_verdict.is_free,
+                );
             }
             let differing_fraction = f64::from(differing_count) / f64::from(accepted_count);
             let tolerance = MAX_STANDARD_ERRORS

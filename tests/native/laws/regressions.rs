@@ -31,8 +31,8 @@ fn an_arc_of_subnormal_length_is_tested_correctly() {
     for length in [0.0, 1e-300, 9.7e-310, 5e-324, -5e-324] {
         for turn in [0.0, 1.7e-308, 0.5, 3.0, 100.0] {
             let start_pose = SE2::new(2.05, 2.6, 1.0);
-            assert!(plan.test_arc(&Arc { start: start_pose, length, turn }, 0.13).free, "{length} {turn}");
-            assert!(!plan.test_arc(&Arc { start: SE2::new(2.05, 0.1, 1.0), length, turn }, 0.13).free);
+            assert!(plan.test_arc(&Arc { start: start_pose, length, turn }, 0.13).is_free, "{length} {turn}");
+            assert!(!plan.test_arc(&Arc { start: SE2::new(2.05, 0.1, 1.0), length, turn }, 0.13).is_free);
         }
     }
 }
@@ -75,6 +75,6 @@ fn a_narrow_plan_has_a_free_pose() {
     for plan_bounds in [[0.0, 0.0, 100.0, 0.3], [0.0, 0.0, 0.01, 100.0], [-1e6, 5.0, -9e5, 5.02]] {
         let plan = FloorPlan::new(Vec::new(), plan_bounds).expect("bounds");
         let free_pose = plan.find_free_pose(0.0).expect("nothing is in the way");
-        assert!(plan.test_point([free_pose.x(), free_pose.y()], 0.0).free, "{free_pose:?}");
+        assert!(plan.test_point([free_pose.x(), free_pose.y()], 0.0).is_free, "{free_pose:?}");
     }
 }

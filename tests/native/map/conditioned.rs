@@ -59,17 +59,18 @@ fn acceptance_and_wall_fractions_equal_the_published_ones() {
                 endpoint_model.collision_tester(&command, &start_pose).test_draw(sample_unit_noise(&mut rng))
             })
             .collect();
-        let accepted_count = tested_draws.iter().filter(|tested_draw| tested_draw.end_verdict.free).count();
+        let accepted_count =
+            tested_draws.iter().filter(|tested_draw| tested_draw.end_verdict.is_free).count();
         let through_wall_count = tested_draws
             .iter()
-            .filter(|tested_draw| tested_draw.end_verdict.free && !tested_draw.path_verdict.free)
+            .filter(|tested_draw| tested_draw.end_verdict.is_free && !tested_draw.path_verdict.is_free)
             .count();
         assert_fraction(preset_name, accepted_count, DRAW_COUNT, published_acceptance);
         assert_fraction(preset_name, through_wall_count, accepted_count, published_through_wall);
         assert!(
             tested_draws
                 .iter()
-                .all(|tested_draw| tested_draw.end_verdict.free || !tested_draw.path_verdict.free),
+                .all(|tested_draw| tested_draw.end_verdict.is_free || !tested_draw.path_verdict.is_free),
             "the end is part of the path"
         );
     }
@@ -99,9 +100,10 @@ fn samples_are_those_of_table_5_7() {
                         turn: 2.0 * executed_motion.omega_hat,
                     };
                     draw_count += 1;
-                    let is_end_free = plan.test_point([drawn_pose.x(), drawn_pose.y()], 0.13).free;
+                    let is_end_free = plan.test_point([drawn_pose.x(), drawn_pose.y()], 0.13).is_free;
                     let is_accepted = is_end_free
-                        && (map_model.sampler == Sampler::Endpoint || plan.test_arc(&start_arc, 0.13).free);
+                        && (map_model.sampler == Sampler::Endpoint
+                            || plan.test_arc(&start_arc, 0.13).is_free);
                     if is_accepted {
                         break drawn_pose;
                     }

@@ -84,7 +84,7 @@ fn distances_to_walls_equal_distances_to_cells() {
             let cell_distance = grid_cells.distance_to_occupied_cell(point);
             if cell_distance == 0.0 {
                 assert!(
-                    grid_cells.grid().is_blocked_at(point) && !plan.test_point(point, 0.0).free,
+                    grid_cells.grid().is_blocked_at(point) && !plan.test_point(point, 0.0).is_free,
                     "inside a cell"
                 );
                 inside_count += 1;
@@ -99,7 +99,7 @@ fn distances_to_walls_equal_distances_to_cells() {
             );
             let robot_radius = sample_uniform(&mut rng, 0.0, 1.0);
             if (robot_radius - cell_distance).abs() > 1e-12 {
-                assert_eq!(plan.test_point(point, robot_radius).free, cell_distance > robot_radius);
+                assert_eq!(plan.test_point(point, robot_radius).is_free, cell_distance > robot_radius);
             }
             outside_count += 1;
         }
@@ -209,9 +209,9 @@ fn the_free_pose_is_in_the_largest_free_square() {
         let free_pose = plan.find_free_pose(0.1).expect("there is room");
         // The pose is in the middle of the first square of four free cells, and heads through the door.
         assert!((free_pose.x() - 0.3).abs() + (free_pose.y() - 0.3).abs() < 1e-12, "{free_pose:?}");
-        assert!(plan.test_point([free_pose.x(), free_pose.y()], 0.1).free);
+        assert!(plan.test_point([free_pose.x(), free_pose.y()], 0.1).is_free);
         let straight_arc = Arc { start: free_pose, length: 0.5, turn: 0.0 };
-        assert!(plan.test_arc(&straight_arc, 0.0).free && free_pose.theta().abs() < 0.5, "{free_pose:?}");
+        assert!(plan.test_arc(&straight_arc, 0.0).is_free && free_pose.theta().abs() < 0.5, "{free_pose:?}");
     }
     let find_free_pose_in_rows = |drawn_rows: [&str; 3], unknown_cells, robot_radius| {
         let plan = FloorPlan::from_grid(parse_drawn_grid(&drawn_rows, unknown_cells)).expect("a small grid");

@@ -66,8 +66,8 @@ fn plans_with_too_many_walls_are_refused() {
     for wall_count in [0, 1, 16, 17, FloorPlan::MAX_WALLS] {
         let plan = FloorPlan::new(vec![repeated_wall; wall_count], ROOM_BOUNDS).expect("allowed");
         assert_eq!(plan.walls().len(), wall_count);
-        assert_eq!(plan.test_point([5.0, 1.5], 0.51).free, wall_count == 0);
-        assert!(plan.test_point([5.0, 1.5], 0.49).free);
+        assert_eq!(plan.test_point([5.0, 1.5], 0.51).is_free, wall_count == 0);
+        assert!(plan.test_point([5.0, 1.5], 0.49).is_free);
     }
 }
 
@@ -140,12 +140,12 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
                 && is_end_free
                 && distance_to_arc > clearance;
             assert_eq!(
-                plan.test_point(arc_end, clearance).free,
+                plan.test_point(arc_end, clearance).is_free,
                 is_end_free,
                 "{plan_index}: {arc:?} {clearance}"
             );
             assert_eq!(
-                plan.test_arc(&arc, clearance).free,
+                plan.test_arc(&arc, clearance).is_free,
                 is_path_free,
                 "{plan_index}: {arc:?} {clearance}"
             );
@@ -158,17 +158,17 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
 #[test]
 fn touching_a_wall_is_not_free() {
     let plan = FloorPlan::new(vec![new_wall(1.0, 2.0, 9.0, 2.0)], ROOM_BOUNDS).expect("a valid plan");
-    assert!(!plan.test_point([5.0, 2.25], 0.25).free);
-    assert!(plan.test_point([5.0, 2.25], 0.2499).free);
-    assert!(!plan.test_point([5.0, 2.0], 0.0).free, "a point on the wall");
+    assert!(!plan.test_point([5.0, 2.25], 0.25).is_free);
+    assert!(plan.test_point([5.0, 2.25], 0.2499).is_free);
+    assert!(!plan.test_point([5.0, 2.0], 0.0).is_free, "a point on the wall");
     let parallel_arc = Arc { start: SE2::new(4.0, 2.25, 0.0), length: 2.0, turn: 0.0 };
-    assert!(!plan.test_arc(&parallel_arc, 0.25).free);
-    assert!(plan.test_arc(&parallel_arc, 0.2499).free);
+    assert!(!plan.test_arc(&parallel_arc, 0.25).is_free);
+    assert!(plan.test_arc(&parallel_arc, 0.2499).is_free);
     // A half circle leads around the end of the wall. Its middle is 0.25 m from the wall's end. All other points are farther away.
     let half_circle = Arc { start: SE2::new(9.0, 2.25, 0.0), length: -0.25 * PI, turn: PI };
-    assert!(!plan.test_arc(&half_circle, 0.0).free, "in reverse it goes through the wall");
+    assert!(!plan.test_arc(&half_circle, 0.0).is_free, "in reverse it goes through the wall");
     let half_circle = Arc { length: 0.25 * PI, turn: -PI, ..half_circle };
-    assert!(plan.test_arc(&half_circle, 0.2499).free && !plan.test_arc(&half_circle, 0.2501).free);
+    assert!(plan.test_arc(&half_circle, 0.2499).is_free && !plan.test_arc(&half_circle, 0.2501).is_free);
 }
 
 #[test]
@@ -176,11 +176,11 @@ fn the_free_pose_is_in_the_largest_free_square() {
     let apartment_plan = FloorPlan::apartment();
     for clearance in [0.0, 0.13, 0.5, 1.0] {
         let free_pose = apartment_plan.find_free_pose(clearance).expect("there is room");
-        assert!(apartment_plan.test_point([free_pose.x(), free_pose.y()], clearance).free);
+        assert!(apartment_plan.test_point([free_pose.x(), free_pose.y()], clearance).is_free);
         // The largest room has a free square of 4 m between the closet and the opposite wall.
         assert!((free_pose.x() - 4.0).abs() < 0.1 && (free_pose.y() - 7.0).abs() < 0.1, "{free_pose:?}");
         let straight_arc = Arc { start: free_pose, length: 2.0, turn: 0.0 };
-        assert!(apartment_plan.test_arc(&straight_arc, 0.13).free, "{free_pose:?}");
+        assert!(apartment_plan.test_arc(&straight_arc, 0.13).is_free, "{free_pose:?}");
     }
     assert_eq!(apartment_plan.find_free_pose(2.5), None, "no room is that large");
     for bounds in [[-3.0, -2.0, 7.0, 5.0], [3.0, 2.0, 7.0, 5.0]] {

@@ -97,7 +97,9 @@ fn the_mean_squared_sine_is_that_of_the_noise() {
             let std = 10f64.powf(f64::from(decade_tenths) / 10.0);
             let expected_mean_square: f64 = noise_nodes(noise_kind)
                 .iter()
-                .map(|quadrature_node| quadrature_node.weight * (std * quadrature_node.value).sin().powi(2))
+                .map(|quadrature_node| {
+                    quadrature_node.node_weight * (std * quadrature_node.node_value).sin().powi(2)
+                })
                 .sum();
             let computed_mean_square = noise_kind.mean_squared_sine(Variance(std * std));
             assert!(

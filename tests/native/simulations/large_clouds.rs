@@ -11,16 +11,17 @@ use nalgebra::Vector3;
 /// Sum in twice the precision, which also sums the rounding errors (Knuth's two-sum). Its relative error is 1e-30.
 #[derive(Clone, Copy, Default)]
 struct CompensatedSum {
-    sum: f64,
+    rounded_sum: f64,
     rounding_errors: f64,
 }
 
 impl CompensatedSum {
     fn add(&mut self, added_term: f64) {
-        let running_sum = self.sum + added_term;
-        let rounded_term = running_sum - self.sum;
-        self.rounding_errors += (self.sum - (running_sum - rounded_term)) + (added_term - rounded_term);
-        self.sum = running_sum;
+        let running_sum = self.rounded_sum + added_term;
+        let rounded_term = running_sum - self.rounded_sum;
+        self.rounding_errors +=
+            (self.rounded_sum - (running_sum - rounded_term)) + (added_term - rounded_term);
+        self.rounded_sum = running_sum;
     }
 }
 
@@ -30,7 +31,7 @@ fn exact_mean(added_terms: impl Iterator<Item = f64>) -> f64 {
         running_sum.add(added_term);
         term_count += 1.0;
     }
-    (running_sum.sum + running_sum.rounding_errors) / term_count
+    (running_sum.rounded_sum + running_sum.rounding_errors) / term_count
 }
 
 fn assert_close(quantity_name: &str, actual: f64, exact: f64, error_magnitude: f64) {

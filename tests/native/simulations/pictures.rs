@@ -12,8 +12,8 @@ fn new_grids_over(min_corner: [f64; 2], max_corner: [f64; 2]) -> [ViewGrid; 4] {
     [(16, 9), (17, 1), (53, 40), (3, 2)].map(|(column_count, row_count)| ViewGrid {
         min_corner,
         max_corner,
-        columns: column_count,
-        rows: row_count,
+        column_count,
+        row_count,
     })
 }
 
@@ -24,8 +24,7 @@ fn new_numbered_ramp(ramp_number: u8) -> Ramp {
 
 /// Returns the index of the cell that contains a point, row by row from the top.
 fn find_cell_index(view_grid: &ViewGrid, [x, y]: [f64; 2]) -> Option<usize> {
-    let ViewGrid { min_corner: lower_corner, max_corner: max, columns: column_count, rows: row_count } =
-        *view_grid;
+    let ViewGrid { min_corner: lower_corner, max_corner: max, column_count, row_count } = *view_grid;
     let column_number = ((x - lower_corner[0]) / (max[0] - lower_corner[0]) * column_count as f64).floor();
     let row_index = ((max[1] - y) / (max[1] - lower_corner[1]) * row_count as f64).floor();
     let is_inside =
@@ -49,7 +48,7 @@ fn pixels_show_the_density_of_the_cloud() {
     let plane_cases = new_grids_over([0.75, -0.2], [1.2, 0.4]).map(create_case(0.0, &robot_positions));
     let twist_cases = new_grids_over([0.75, 0.1], [1.2, 0.7]).map(create_case(1.0, &twist_points));
     for (morph_fraction, cloud_points, view_grid) in plane_cases.into_iter().chain(twist_cases) {
-        let mut cell_counts = vec![0u32; view_grid.columns * view_grid.rows];
+        let mut cell_counts = vec![0u32; view_grid.column_count * view_grid.row_count];
         cloud_points
             .iter()
             .filter_map(|sample_point| find_cell_index(&view_grid, *sample_point))
@@ -78,7 +77,7 @@ fn cells_have_the_colour_of_their_most_frequent_outcome() {
     let mut simulation = MapSqueeze::new(settings).expect("a valid setting");
     let mut painted_cell_counts = [0; OUTCOME_KIND_COUNT];
     for view_grid in new_grids_over([2.9, 3.4], [3.7, 4.9]) {
-        let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; view_grid.columns * view_grid.rows];
+        let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; view_grid.column_count * view_grid.row_count];
         for attempt in simulation.attempts() {
             if let Some(cell_index) = find_cell_index(&view_grid, [attempt.pose.x(), attempt.pose.y()]) {
                 cell_counts[cell_index][attempt.outcome_kind()] += 1;

@@ -113,7 +113,7 @@ fn the_arcs_of_an_attempt_end_at_its_pose() {
             let arc_end = attempt_arcs[attempt_arcs.len() - 1].end();
             assert!((arc_end.x() - attempt.pose.x()).abs() + (arc_end.y() - attempt.pose.y()).abs() < 1e-12);
             let is_path_free =
-                attempt_arcs.iter().all(|attempt_arc| simulation.plan().test_arc(attempt_arc, 0.13).free);
+                attempt_arcs.iter().all(|attempt_arc| simulation.plan().test_arc(attempt_arc, 0.13).is_free);
             assert_eq!(attempt.path_free, is_path_free);
             let are_joined = attempt_arcs.windows(2).all(|arc_pair| {
                 let first_end = arc_pair[0].end();

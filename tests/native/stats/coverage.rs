@@ -42,7 +42,7 @@ fn assert_covered(case: &str, fraction: f64, seed_count: u64) {
 fn measure_error_coverage(settings: Settings, seed_count: u64) -> [f64; 3] {
     let mut simulation = BananaMachine::new(settings).expect("valid settings");
     let (exact_skew, exact_gain) =
-        (simulation.exact_moments().cross_track_skew, simulation.exact_gain().value);
+        (simulation.exact_moments().cross_track_skew, simulation.exact_gain().likelihood_gain);
     measure_coverage(seed_count, |seed| {
         simulation.configure(Settings { seed, ..settings }).expect("valid settings");
         let stats = simulation.stats();
@@ -117,9 +117,9 @@ fn integrate_fraction_through_walls(settings: &squeeze::Settings) -> f64 {
         for omega in (0..NODE_COUNT).map(unit_noise_at) {
             let noise_weight = libm::exp(-0.5 * (v * v + omega * omega));
             let tested_draw = collision_tester.test_draw([v, omega, 0.0]);
-            if tested_draw.end_verdict.free {
+            if tested_draw.end_verdict.is_free {
                 free_end_weight += noise_weight;
-                blocked_path_weight += if tested_draw.path_verdict.free { 0.0 } else { noise_weight };
+                blocked_path_weight += if tested_draw.path_verdict.is_free { 0.0 } else { noise_weight };
             }
         }
     }

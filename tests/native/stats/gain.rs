@@ -155,7 +155,7 @@ fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
         let gains_with = |last_turn_alpha: f64| {
             let simulation =
                 new_simulation(command, [0.05, 0.05, 0.05, 0.09, last_turn_alpha, last_turn_alpha], 10_000);
-            [simulation.stats().likelihood_gain.floor, simulation.exact_gain().value.floor]
+            [simulation.stats().likelihood_gain.floor, simulation.exact_gain().likelihood_gain.floor]
         };
         let gains_without_turn = gains_with(0.0);
         assert!(gains_without_turn.iter().all(|floor_gain| floor_gain.is_finite()), "{command:?}");

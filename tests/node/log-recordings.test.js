@@ -122,7 +122,7 @@ test('unusable quaternions, numbers and times are left out', async () => {
   const { motionData: data, logSummary: summary } = await readLog(mcapFileOf(await recordingOf(messages)), { seriesName: '/odom' });
   assert.deepEqual([.../** @type {any} */ (data).x], Array.from({ length: 20 }, (_, i) => i).filter((i) => ![3, 5, 8, 11].includes(i)));
   assert.deepEqual(summary.dropped, { noRotation: { count: 1, first: 4 }, notFinite: { count: 2, first: 6 }, duplicate: { count: 1, first: 9 } });
-  assert.deepEqual([...data.breaks], [3, 4, 8]);
+  assert.deepEqual([...data.breaks], []);
 });
 
 test('messages in chunks that overlap in time are read in the order of their times', async () => {

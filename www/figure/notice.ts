@@ -5,52 +5,64 @@ import { words } from '../messages/registry.ts';
 import { buttonHtml } from '../ui/controls.ts';
 import { FigureController } from './controller.ts';
 
-interface ShownNotice {
+interface WorkNotice {
   renderContent: () => unknown;
-  /** Stops the long work that the notice is about. */
-  stopWork?: () => void;
+  stopWork: () => void;
 }
 
 /** Notice at the lower edge of the figure or window. It moves no other content. */
 export class Notice extends FigureController {
-  #notice: ShownNotice | undefined;
+  #renderContent: (() => unknown) | undefined;
+  /** Notice about long work. It hides the other notice until the work has ended. */
+  #workNotice: WorkNotice | undefined;
 
-  /** Shows a notice with a button that closes it. A notice about long work has a button that calls `stopWork`, and stays until `endWork` is called. */
-  showNotice(renderContent: () => unknown, stopWork?: () => void) {
-    if (stopWork || !this.#notice?.stopWork) this.#setNotice({ renderContent, stopWork });
+  /** Shows a notice with a button that closes it. */
+  showNotice(renderContent: () => unknown) {
+    this.#renderContent = renderContent;
+    this.host.requestUpdate();
   }
 
-  /** Hides the notice, unless it is about long work. */
+  /** Shows a notice about long work, with a button that calls `stopWork`, until `endWork` is called. */
+  showWork(renderContent: () => unknown, stopWork: () => void) {
+    this.#workNotice = { renderContent, stopWork };
+    this.host.requestUpdate();
+  }
+
   dismissNotice() {
-    if (this.#notice && !this.#notice.stopWork) this.#setNotice();
+    if (!this.#renderContent) return;
+    this.#renderContent = undefined;
+    this.host.requestUpdate();
   }
 
   endWork() {
-    if (this.#notice?.stopWork) this.#setNotice();
-  }
-
-  #setNotice(notice?: ShownNotice) {
-    this.#notice = notice;
+    if (!this.#workNotice) return;
+    this.#workNotice = undefined;
     this.host.requestUpdate();
   }
 
   #stopOrClose = () => {
-    this.#notice?.stopWork?.();
-    this.#setNotice();
+    const workNotice = this.#workNotice;
+    if (!workNotice) return this.dismissNotice();
+    workNotice.stopWork();
+    this.endWork();
   };
 
   /** Stops the work or closes the notice when the user presses Escape. */
   stopOnEscape(event: KeyboardEvent) {
-    if (!this.#notice || event.key !== 'Escape' || event.defaultPrevented) return;
+    if (!(this.#workNotice ?? this.#renderContent) || event.key !== 'Escape' || event.defaultPrevented) return;
     event.preventDefault();
     this.#stopOrClose();
   }
 
   render() {
-    if (!this.#notice) return nothing;
-    const { stopLabel: stop, stopTitle } = words.progress;
+    const renderContent = this.#workNotice?.renderContent ?? this.#renderContent;
+    if (!renderContent) return nothing;
+    const { stopLabel, stopTitle } = words.progress;
+    const closeButtonHtml = this.#workNotice
+      ? buttonHtml(stopLabel, this.#stopOrClose, { title: stopTitle })
+      : buttonHtml(words.closeLabel, this.#stopOrClose);
     return html`<div class="notice"><div part="notice">
-      <div role="alert">${this.#notice.renderContent()}</div> ${this.#notice.stopWork ? buttonHtml(stop, this.#stopOrClose, { title: stopTitle }) : buttonHtml(words.closeLabel, this.#stopOrClose)}
+      <div role="alert">${renderContent()}</div> ${closeButtonHtml}
     </div></div>`;
   }
 }

@@ -97,7 +97,7 @@ export interface UserQuestion {
 /** Question to the user about the file of the given name. */
 export type FileQuestion = UserQuestion & { fileName: string };
 
-/** Poses in s, m and rad. `breaks` has the rising indices of rows before which the path is unknown: after unusable rows, and at jumps. */
+/** Poses in s, m and rad. `breaks` has the rising indices of rows before which the path is unknown, because the pose jumps. */
 export interface Poses { t: Float64Array; x: Float64Array; y: Float64Array; theta: Float64Array; breaks: Uint32Array }
 
 /** Commands in s, m/s and rad/s. */

@@ -80,13 +80,11 @@ const MAX_TILT_SPREAD = 0.5;
 
 export class RowCollector {
   #logPlace: ErrorPlace;
-  /** Columns of the rows that were added. `breakFlags` is 1 if the path before a row is unknown. */
-  #rowColumns = { rowTimes: [] as number[], a: [] as number[], b: [] as number[], c: [] as number[], z: [] as number[], lineNumbers: [] as number[], otherTime: [] as number[], breakFlags: [] as number[] };
+  /** Columns of the rows that were added. */
+  #rowColumns = { rowTimes: [] as number[], a: [] as number[], b: [] as number[], c: [] as number[], z: [] as number[], lineNumbers: [] as number[], otherTime: [] as number[] };
   #tiltCosines: number[] = [];
   /** Times of the clock in use, which is the first or the fallback clock. */
   #times = this.#rowColumns.rowTimes;
-  /** True if the path before the next row is unknown, because an unusable row was dropped. */
-  #isPathBroken = false;
   #droppedRows: LogSummary['dropped'] = {};
   /** Number of damaged rows, and line and reason of the first damaged row. */
   #damagedRows: { damagedCount: number; firstLine: number; formatReason: ErrorReason } | undefined;
@@ -103,7 +101,6 @@ export class RowCollector {
   dropRow(dropCause: DropCause, lineNumber: number, formatReason?: ErrorReason): void {
     this.rowCount += 1;
     this.#countDropped(dropCause, lineNumber);
-    this.#isPathBroken = true;
     if (formatReason) this.#damagedRows = { firstLine: lineNumber, formatReason, ...this.#damagedRows, damagedCount: (this.#damagedRows?.damagedCount ?? 0) + 1 };
   }
 
@@ -122,8 +119,6 @@ export class RowCollector {
     if (tiltCosine !== undefined) this.#tiltCosines.push(tiltCosine);
     rowColumns.lineNumbers.push(lineNumber);
     rowColumns.otherTime.push(otherTime);
-    rowColumns.breakFlags.push(Number(this.#isPathBroken));
-    this.#isPathBroken = false;
   }
 
   /** Spread of the cosine of the tilt: the difference between its 95 % and 5 % quantiles. A small spread shows that Z is the vertical axis. */
@@ -158,8 +153,8 @@ export class RowCollector {
     const judgedUnits = judgeUnits(this.#logPlace, logKind, logColumns, assumedUnits, openOptions, createColumnQuestion);
     const pathDistance = logKind === 'poses' ? distanceOfPaths(t, a, b) : 0;
     if (pathDistance > 0) throw new LogError(this.#logPlace, (errorReasons) => errorReasons.alternatingPathsReason(pathDistance));
-    const { breaks: breakIndices, jumpRows, ...foundGaps } = this.#findEvents(logKind, [t, a, b, c], (i) => this.#rowColumns.breakFlags[rowIndices[i]] === 1);
-    const motionData = { t, ...(logKind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks: breakIndices } as Log['motionData'];
+    const { jumpRows, ...foundGaps } = findEvents(logKind, [t, a, b, c]);
+    const motionData = { t, ...(logKind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks: Uint32Array.from(jumpRows) } as Log['motionData'];
     const logNotes: LogNote[] = [
       ...logDecisions.notes,
       ...(lateCount > 0 ? [{ name: 'sorted' as const, values: [lateCount] }] : []),
@@ -265,38 +260,33 @@ export class RowCollector {
     });
   }
 
-  /** Returns the rows for which `isDropped` is false. If the path is unknown before a dropped row, it is also unknown before the next row that is kept. */
+  /** Returns the rows for which `isDropped` is false. */
   #dropRows(rowIndices: Uint32Array, dropCause: DropCause, isDropped: (rowIndex: number, i: number) => boolean): Uint32Array {
-    const { lineNumbers: lineNumber, breakFlags } = this.#rowColumns;
+    const { lineNumbers } = this.#rowColumns;
     return rowIndices.filter((rowIndex, i) => {
       if (!isDropped(rowIndex, i)) return true;
-      this.#countDropped(dropCause, lineNumber[rowIndex]);
-      if (i + 1 < rowIndices.length) breakFlags[rowIndices[i + 1]] ||= breakFlags[rowIndex];
+      this.#countDropped(dropCause, lineNumbers[rowIndex]);
       return false;
     });
-  }
-
-  /** Returns the rate, the gaps, the jumps, and the breaks of a log. A break is a row before which the path is unknown. */
-  #findEvents(logKind: LogKind, [t, a, b, c]: Float64Array[], hasBreakBefore: (i: number) => boolean) {
-    const medianStep = quantileOf(sampleEvenly(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
-    const [gapRows, jumpRows, breakIndices]: number[][] = [[], [], []];
-    const isJump = logKind === 'poses' ? createJumpChecker(t, a, b, c) : () => false;
-    for (let i = 1; i < t.length; i++) {
-      if (t[i] - t[i - 1] > MIN_GAP_STEPS * medianStep) gapRows.push(i);
-      if (isJump(i)) jumpRows.push(i);
-      if (jumpRows.at(-1) === i || hasBreakBefore(i)) breakIndices.push(i);
-    }
-    return {
-      rate: 1 / medianStep, breaks: Uint32Array.from(breakIndices), jumpRows,
-      gaps: { count: gapRows.length, longest: max(gapRows, (i) => t[i] - t[i - 1]) ?? 0, first: t[gapRows[0] - 1] - t[0] },
-      jumps: { count: jumpRows.length, first: t[jumpRows[0]] - t[0] },
-    };
   }
 
   #countDropped(dropCause: DropCause, lineNumber: number): void {
     const droppedRows = (this.#droppedRows[dropCause] ??= { count: 0, first: lineNumber });
     droppedRows.count += 1;
   }
+}
+
+/** Returns the rate, the gaps and the jumps of a log. */
+function findEvents(logKind: LogKind, [t, a, b, c]: Float64Array[]) {
+  const medianStep = quantileOf(sampleEvenly(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
+  const rowIndices = range(1, t.length);
+  const gapRows = rowIndices.filter((i) => t[i] - t[i - 1] > MIN_GAP_STEPS * medianStep);
+  const jumpRows = logKind === 'poses' ? rowIndices.filter(createJumpChecker(t, a, b, c)) : [];
+  return {
+    rate: 1 / medianStep, jumpRows,
+    gaps: { count: gapRows.length, longest: max(gapRows, (i) => t[i] - t[i - 1]) ?? 0, first: t[gapRows[0] - 1] - t[0] },
+    jumps: { count: jumpRows.length, first: t[jumpRows[0]] - t[0] },
+  };
 }
 
 /** Returns the distance (m) between two paths whose poses alternate in a log; 0 for one path. With two paths, many poses are far from the next pose, but near a pose a few rows later. */

@@ -348,7 +348,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
       this.announcer.announceText(words.progress.stoppedNotice);
       this.#revertSettings();
     };
-    const noticeTimerId = setTimeout(() => notice.showNotice(() => html`<progress aria-label=${words.progress.label}></progress> ${words.progress.label}`, stopFit), NOTICE_DELAY_MS);
+    const noticeTimerId = setTimeout(() => notice.showWork(() => html`<progress aria-label=${words.progress.label}></progress> ${words.progress.label}`, stopFit), NOTICE_DELAY_MS);
     try {
       await this.openLog(log, this.warnings);
     } catch (error) {

@@ -127,7 +127,7 @@ export function describeWidgets() {
 /** Returns the description of a widget. @param {string} widgetTag @returns {Promise<Widget>} */
 async function describeWidget(widgetTag) {
   const { COMMON_PROPERTIES } = await importTypeScript('www/figure/definition.ts');
-  const { definition: { attributes, declarations, elementFields }, documentation } = await importTypeScript(`www/widgets/${widgetTag}/settings.ts`);
+  const { definition: { attributes, settingDeclarations: declarations, elementFields }, documentation } = await importTypeScript(`www/widgets/${widgetTag}/settings.ts`);
   /** @type {Documentation[]} */
   const memberDocumentations = [...('marked' in elementFields ? [CLOUD_DOCUMENTATION] : []), ...(documentation ? [documentation] : [])];
   const { classes } = await readClassComments();

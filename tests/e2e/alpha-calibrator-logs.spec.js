@@ -310,7 +310,7 @@ test('a log set by the page is fitted and not saved in states, and a refused log
   const widget = await openCalibrator(page);
   const stateBefore = await readState(widget);
   const captionBefore = await captionOf(widget).innerText();
-  const readLeftEdge = () => widget.evaluate((element) => /** @type {any} */ (element).pictures[0].view.extent.xMin);
+  const readLeftEdge = () => widget.evaluate((element) => /** @type {any} */ (element).pictures[0].pictureView.shownExtent.xMin);
   const leftEdgeBefore = await readLeftEdge();
   const refusalMessages = await widget.evaluate(async (element) => {
     const figure = /** @type {AlphaCalibratorElement} */ (element);

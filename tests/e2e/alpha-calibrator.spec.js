@@ -108,7 +108,7 @@ test('a leg is selected in the picture, by a slider, or by a button that leads t
   expect(await readState(widget)).toMatchObject({ leg: worstLegs[1] + 1 });
   const planeCanvas = widget.locator('canvas.plane');
   const clickTarget = await widget.evaluate((element) => {
-    const { pictures: [{ view }], simulation } = /** @type {any} */ (element);
+    const { pictures: [{ pictureView: view }], simulation } = /** @type {any} */ (element);
     const { reference } = simulation.legs;
     const legMidpoint = [0, 1].map((axisIndex) => (reference[6 * 40 + axisIndex] + reference[6 * 40 + 3 + axisIndex]) / 2);
     return { x: view.toPixelX(legMidpoint[0]), y: view.toPixelY(legMidpoint[1]), leg: simulation.nearest(legMidpoint[0], legMidpoint[1], 1) };

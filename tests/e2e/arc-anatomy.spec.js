@@ -118,7 +118,7 @@ test('a narrow picture contains the whole wedge of the final turn', async ({ pag
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openArcAnatomy(page, 'preset="straight"');
   const [wedgeEndX, plotRightX] = await widget.evaluate((element) => {
-    const { pictures: [{ view }], simulation: { config: { next }, stats: { lastTurn } } } = /** @type {any} */ (element);
+    const { pictures: [{ pictureView: view }], simulation: { config: { next }, stats: { lastTurn } } } = /** @type {any} */ (element);
     return [view.headingLineFrom({ ...next, theta: next.theta - lastTurn }, 64)[1][0], view.plotArea.right];
   });
   expect(wedgeEndX).toBeLessThan(plotRightX);

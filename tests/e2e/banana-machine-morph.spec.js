@@ -62,7 +62,7 @@ test('Pin keeps numbers and outlines for comparison, and a second press removes 
   await expect(areaReadout).toContainText(`pinned: ${areaTextBefore}`);
   const hiddenCoordinates = await widget.evaluate((element) => {
     const { scene, pictures: floorPictures } = /** @type {any} */ (element);
-    const { xMin, xMax, yMin, yMax } = floorPictures[0].view.extent;
+    const { xMin, xMax, yMin, yMax } = floorPictures[0].pictureView.shownExtent;
     return scene.pinnedPointsAt(0).filter((/** @type {number} */ coordinate, /** @type {number} */ i) => (i % 2 ? coordinate < yMin || coordinate > yMax : coordinate < xMin || coordinate > xMax));
   });
   expect(hiddenCoordinates).toEqual([]);

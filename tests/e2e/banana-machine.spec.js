@@ -9,7 +9,7 @@ const GENTLE_PRESET = 'preset="gentle"';
 /** Returns the fraction of the robots that are inside the view of exponential coordinates. @param {import('@playwright/test').Locator} widget @returns {Promise<number>} */
 const visibleTwistShareOf = (widget) => widget.evaluate((element) => {
   const { simulation: { twists }, pictures } = /** @type {any} */ (element);
-  const { xMin, xMax, yMin, yMax } = pictures[1].view.extent;
+  const { xMin, xMax, yMin, yMax } = pictures[1].pictureView.shownExtent;
   const isInView = (/** @type {number} */ twistCoordinate, /** @type {number} */ i) =>
     i % 3 === 0 && twistCoordinate >= xMin && twistCoordinate <= xMax && twists[i + 2] >= yMin && twists[i + 2] <= yMax;
   return twists.filter(isInView).length / (twists.length / 3);
@@ -18,7 +18,7 @@ const visibleTwistShareOf = (widget) => widget.evaluate((element) => {
 test('the view keeps its scale while its handle is dragged, and zooms out at the end of the drag', async ({ page }) => {
   const widget = await openBanana(page, 'preset="banana"');
   const arcEndHandle = widget.getByRole('slider', { name: 'End of the commanded arc' });
-  const readViewExtent = () => widget.evaluate((element) => ({ .../** @type {any} */ (element).pictures[0].view.extent }));
+  const readViewExtent = () => widget.evaluate((element) => ({ .../** @type {any} */ (element).pictures[0].pictureView.shownExtent }));
   const handleBefore = await readCentre(arcEndHandle);
   const extentBefore = await readViewExtent();
   await page.mouse.move(handleBefore.x, handleBefore.y);

@@ -11,7 +11,7 @@ const headingHandleOf = (/** @type {Locator} */ widget) => widget.getByRole('sli
 
 /** Returns the number of CSS pixels per metre of the map. @param {Locator} widget */
 const readPixelsPerMetre = (widget) => widget.evaluate((element) => {
-  const { view } = /** @type {any} */ (element).picture;
+  const { pictureView: view } = /** @type {any} */ (element).picture;
   return view.toPixelX(1) - view.toPixelX(0);
 });
 
@@ -302,7 +302,7 @@ test('both views stay inside the apartment, and the close view has an overview o
   const widget = await openSqueeze(page);
   const mapOverview = widget.locator('.overview');
   await expect(mapOverview).toBeVisible();
-  const readViewExtent = () => widget.evaluate((element) => /** @type {any} */ (element).picture.view.extent);
+  const readViewExtent = () => widget.evaluate((element) => /** @type {any} */ (element).picture.pictureView.shownExtent);
   const maxMargin = 0.301;
   for (const name of ['Facing a doorway', 'Facing a wall', 'Open corridor']) {
     await widget.getByRole('button', { name }).click();
@@ -341,7 +341,7 @@ test('many samples are drawn as a density, with a separate colour for samples th
   expect((await readSqueezeResults(widget)).stats.throughWall).toBeGreaterThan(4000);
   // All samples behind the wall at y = 5 went through a wall. Samples between the posts of the doorway hardly ever went through a wall.
   const [greenExcessBehindWall, greenExcessBetweenPosts] = await widget.evaluate((element) => {
-    const { picture: { view }, renderRoot } = /** @type {any} */ (element);
+    const { picture: { pictureView: view }, renderRoot } = /** @type {any} */ (element);
     const canvas = renderRoot.querySelector('canvas.plane');
     const pixelRatio = canvas.width / canvas.clientWidth;
     const pixelCopy = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });

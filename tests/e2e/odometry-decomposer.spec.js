@@ -26,10 +26,10 @@ test('the views contain the arcs of the turns and nearly all sampled poses', asy
   await waitForFrames(page);
   const viewMeasures = await widget.evaluate((element) => {
     const { pictures, scene } = /** @type {any} */ (element);
-    const outsideCounts = pictures.map((/** @type {any} */ { view: { extent } }) => Array.from({ length: scene.poses.length / 3 }, (_, i) => scene.poses.subarray(3 * i, 3 * i + 2))
+    const outsideCounts = pictures.map((/** @type {any} */ { pictureView: { shownExtent: extent } }) => Array.from({ length: scene.poses.length / 3 }, (_, i) => scene.poses.subarray(3 * i, 3 * i + 2))
       .filter(([x, y]) => x < extent.xMin || x > extent.xMax || y < extent.yMin || y > extent.yMax).length);
     // `pixelsBelow` is the space below the end of the drive. A half turn at that end is drawn as a ring with a radius of about 64 pixels.
-    const { view } = pictures[0];
+    const { pictureView: view } = pictures[0];
     return { outsideCounts, pixelsBelow: view.plotArea.bottom - view.toPixelY(scene.linkage[7]) };
   });
   expect(Math.max(...viewMeasures.outsideCounts)).toBeLessThanOrEqual(1);
@@ -42,7 +42,7 @@ test('the scale of the legs depends only on the size of the window @nightly', as
   const widget = await openDecomposer(page);
   const readLegScale = async () => {
     await waitForFrames(page);
-    return widget.evaluate((element) => /** @type {any} */ (element).pictures[0].view.scaleX);
+    return widget.evaluate((element) => /** @type {any} */ (element).pictures[0].pictureView.scaleX);
   };
   const scaleBefore = await readLegScale();
   for (const newSize of [{ width: 375, height: 1700 }, { width: 740, height: 375 }, windowSize]) {
@@ -73,7 +73,7 @@ test('the picture names the deviations of two noise models, which are drawn to t
   const readPictureFacts = async () => {
     await waitForFrames(page);
     return widget.evaluate((element) => {
-      const { pictures: [{ view }], toSVG } = /** @type {any} */ (element);
+      const { pictures: [{ pictureView: view }], toSVG } = /** @type {any} */ (element);
       const deviationTexts = toSVG.call(element).match(/(?<=>)by [^<]*/g);
       return { scale: view.scaleX, names: deviationTexts.toSorted() };
     });

@@ -204,7 +204,7 @@ test.describe('a finger on a figure', () => {
     const planeCanvas = widget.locator('canvas.plane');
     await widget.evaluate((element) => element.scrollIntoView());
     const [xShare, yShare] = await widget.evaluate((element) => {
-      const { pictures: [{ view }], poses, viewModel: { arcEnd } } = /** @type {any} */ (element);
+      const { pictures: [{ pictureView: view }], poses, viewModel: { arcEnd } } = /** @type {any} */ (element);
       const robotPixelOf = (/** @type {number} */ i) => [view.toPixelX(poses[3 * i]), view.toPixelY(poses[3 * i + 1])];
       const handlePixel = [view.toPixelX(arcEnd[0]), view.toPixelY(arcEnd[1])];
       // Finds a robot that is in the plot area and not covered by the handle.

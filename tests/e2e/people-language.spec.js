@@ -99,11 +99,11 @@ test('a page can replace messages and add languages; a text that is no language 
   await openDisclosures(widget);
   const refusalMessage = await page.evaluate(async () => {
     const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);
-    setMessages('fr', { cloud: { play: 'Jouer' }, banana: { robot: 'Automate', skewSentences: { bent: () => 'À droite.' } } });
-    setMessages('en', { pause: 'Hold' });
-    setMessages('ar', { cloud: { play: 'عيّن' } });
+    setMessages('fr', { cloud: { drawLabel: 'Jouer' }, banana: { robot: 'Automate', skewSentences: { bent: () => 'À droite.' } } });
+    setMessages('en', { pauseLabel: 'Hold' });
+    setMessages('ar', { cloud: { drawLabel: 'عيّن' } });
     try {
-      setMessages('de_AT', { play: 'Los' });
+      setMessages('de_AT', { playLabel: 'Los' });
     } catch (error) {
       return String(error);
     }
@@ -136,7 +136,7 @@ test('on a right-to-left page a figure has the same picture, and nothing overflo
 });
 
 test('signs are left of their numbers on a right-to-left page, even within right-to-left text', async ({ page, figureName }) => {
-  const headHtml = '<script type="module">import { setMessages } from "/motion-widgets.js"; setMessages("he", { play: "נגן" })</script>';
+  const headHtml = '<script type="module">import { setMessages } from "/motion-widgets.js"; setMessages("he", { playLabel: "נגן" })</script>';
   for (const [figureLanguage, textDirection, numberSelector] of [['en', 'ltr', '.simulation'], ['he', 'rtl', '.simulation :is(bdi, [dir=ltr])']]) {
     await showPage(page, `<div dir="rtl" lang="${figureLanguage}"><${figureName}><p slot="caption">נגן</p></${figureName}></div>`, { head: headHtml });
     const widget = page.locator(figureName);

@@ -4,7 +4,7 @@ import { computeDigest, computeHash } from '../digest/digest.js';
 
 /**
  * @typedef {{ x: number, y: number }} Point
- * @typedef {HTMLElement & { simulation: any, pictures: { view: import('../../www/scene/view.ts').View }[] }} Figure
+ * @typedef {HTMLElement & { simulation: any, pictures: { view: import('../../www/scene/view.ts').PictureView }[] }} Figure
  * @typedef {{ config: any, hash: string }} State settings of a simulation, and a hash of all bits of its results
  */
 
@@ -45,7 +45,7 @@ export async function simulationStateOf({ config, poses = null, stats, verdicts 
  * @returns {{ position: Point, target: Point, pixelSize: number }} points in pixels of the window; size of a pixel in m
  */
 export function measureHandle({ tag, handle, target: [x, y] }) {
-  const { view } = figureOf(tag).pictures[0];
+  const { pictureView: view } = figureOf(tag).pictures[0];
   const { left, top, width } = firstCanvasOf(tag).getBoundingClientRect();
   const pixelsPerViewPixel = width / view.width;
   const handleBox = /** @type {Element} */ (shadowRootOf(tag).querySelector(`.handle.${handle}`)).getBoundingClientRect();

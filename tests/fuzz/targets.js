@@ -230,7 +230,7 @@ export const fuzzTargets = {
       // Millions of samples would take too much memory.
       if (/^(samples|steps)$/.test(attributeName) && Number(valueParts.join('=')) > 1e5) return false;
       if (!isAccepted(() => simulation.configure(inputAttribute.changesFor(inputAttribute.converter.fromAttribute(valueParts.join('=')), simulation.config)))) return false;
-      assert.equal(typeof inputAttribute.converter.toAttribute(inputAttribute.get(simulation.config)), 'string');
+      assert.equal(typeof inputAttribute.converter.toAttribute(inputAttribute.getValue(simulation.config)), 'string');
       simulation.configure(opening);
       return true;
     },

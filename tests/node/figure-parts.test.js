@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { WORD_LIST_CONVERTER, propertiesOf, selectAttributes } from '../../www/figure/definition.ts';
-import { View } from '../../www/scene/view.ts';
+import { PictureView } from '../../www/scene/view.ts';
 import { settings } from '../../build/settings.js';
 import { formatScaleRatios } from '../../www/widgets/dead-reckoning/pictures.ts';
 
@@ -14,16 +14,16 @@ test('boolean attributes may be empty or "true", and lists may contain any white
 });
 
 test('a view that was fitted to a tiny canvas zooms in after its canvas has grown; other views do not zoom in', () => {
-  const pictureView = new View();
+  const pictureView = new PictureView();
   const fitViewTo = (/** @type {number} */ halfSize) => {
-    pictureView.fit({ xMin: -halfSize, xMax: halfSize, yMin: -halfSize, yMax: halfSize });
+    pictureView.fitExtent({ xMin: -halfSize, xMax: halfSize, yMin: -halfSize, yMax: halfSize });
     pictureView.moveTowardsTarget(0, true);
-    return pictureView.extent.xMax - pictureView.extent.xMin;
+    return pictureView.shownExtent.xMax - pictureView.shownExtent.xMin;
   };
-  pictureView.resize(100, 60);
+  pictureView.setSize(100, 60);
   // In a tiny view a mark of some pixels is many metres long.
   assert.ok(fitViewTo(20) >= 40);
-  pictureView.resize(600, 400);
+  pictureView.setSize(600, 400);
   assert.ok(fitViewTo(1) < 10);
   const [widthBefore, widthAfter] = [fitViewTo(2), fitViewTo(1)];
   assert.equal(widthAfter, widthBefore);

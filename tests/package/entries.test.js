@@ -197,7 +197,7 @@ test('external.js loads a widget when its tag appears, with messages that the pa
   const requestedPaths = [];
   page.on('request', (request) => requestedPaths.push(new URL(request.url()).pathname));
   const moduleScript = `<script type="module">import { setMessages } from '${DIST_PATH}external.js';
-    setMessages('fr', { step: 'Un pas', squeeze: { title: 'Le plan' } });</script>`;
+    setMessages('fr', { stepLabel: 'Un pas', squeeze: { title: 'Le plan' } });</script>`;
   const pageHtml = `<!doctype html><html lang="fr"><link rel="icon" href="data:,">${moduleScript}<banana-machine></banana-machine><x-late></x-late>`;
   await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
   await page.goto(`${installedProject.address}page.html`);

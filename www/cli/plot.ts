@@ -5,7 +5,7 @@ import { alignPath, pathOf, poseAt, type PlanarPose } from '../logs/path.ts';
 import { drawAxes, createLineLegendEntry } from '../scene/axes.ts';
 import { drawDisc, strokePath, type DrawContext } from '../scene/canvas.ts';
 import { SvgContext, escapeXml } from '../scene/svg.ts';
-import { View, extentOf } from '../scene/view.ts';
+import { PictureView, extentOf } from '../scene/view.ts';
 
 /** Size of the panel of a drive, and its margin at the top, with the title and the legend, in pixels. */
 const [PANEL_WIDTH, PANEL_HEIGHT, TOP_MARGIN] = [800, 700, 72];
@@ -14,9 +14,9 @@ const [PANEL_WIDTH, PANEL_HEIGHT, TOP_MARGIN] = [800, 700, 72];
 const MAX_PATH_POINTS = 10_000;
 
 /** Palette and line styles of the picture, as on a light page. */
-const PLOT_COLOURS = { inkColour: '#1f1e1b', mutedColour: '#57564f', ruleColour: '#c9c7bd' };
+const PLOT_COLOURS = { ink: '#1f1e1b', muted: '#57564f', rule: '#c9c7bd' };
 const LINE_STYLES = {
-  reference: { label: 'reference, with the ends of legs', colour: PLOT_COLOURS.inkColour, width: 1.5 },
+  reference: { label: 'reference, with the ends of legs', colour: PLOT_COLOURS.ink, width: 1.5 },
   odometry: { label: 'odometry, aligned', colour: '#0b61b0', width: 1.5, dash: [4, 2] },
   outlier: { label: 'outliers', colour: '#7a1560', width: 5, lineCap: 'round' as const },
 };
@@ -37,14 +37,14 @@ function createDrivePanel({ odometry: odometryLog, reference: referenceLog }: Lo
   const outlierLegs = legsOfDrive.filter(({ isOutlier }) => isOutlier);
   const referencePoseAt = (referenceTime: number) => poseAt(referencePath, referenceTime + clockOffset);
 
-  const plotView = new View({ left: 56, top: TOP_MARGIN });
-  plotView.resize(PANEL_WIDTH, PANEL_HEIGHT);
-  plotView.fit(extentOf([...referencePath.poses, ...odometryPath.poses].flatMap(([x, y]) => [x, y]), 0.1));
+  const plotView = new PictureView({ left: 56, top: TOP_MARGIN });
+  plotView.setSize(PANEL_WIDTH, PANEL_HEIGHT);
+  plotView.fitExtent(extentOf([...referencePath.poses, ...odometryPath.poses].flatMap(([x, y]) => [x, y]), 0.1));
   const svgContext = new SvgContext(idPrefix);
-  const drawContext = { context: svgContext, view: plotView, palette: PLOT_COLOURS, font: '13px sans-serif' } as unknown as DrawContext;
+  const drawContext = { canvasContext: svgContext, pictureView: plotView, palette: PLOT_COLOURS, font: '13px sans-serif' } as unknown as DrawContext;
   const shownLines = [LINE_STYLES.reference, LINE_STYLES.odometry, ...(outlierLegs.length ? [LINE_STYLES.outlier] : [])];
   drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, shownLines.map(({ label: lineLabel, ...lineStyle }) => createLineLegendEntry(drawContext, lineLabel, lineStyle)));
-  const strokePoses = (poses: PlanarPose[], breakIndices: Set<number>, lineStyle: (typeof shownLines)[number]) => strokePath(drawContext.context, lineStyle, () => poses.forEach(([x, y], i) => {
+  const strokePoses = (poses: PlanarPose[], breakIndices: Set<number>, lineStyle: (typeof shownLines)[number]) => strokePath(drawContext.canvasContext, lineStyle, () => poses.forEach(([x, y], i) => {
     if (i === 0 || breakIndices.has(i)) svgContext.moveTo(...plotView.toPixel(x, y));
     else svgContext.lineTo(...plotView.toPixel(x, y));
   }));
@@ -53,8 +53,8 @@ function createDrivePanel({ odometry: odometryLog, reference: referenceLog }: Lo
   for (const { times: legTimes } of outlierLegs) strokePoses(legTimes.map(referencePoseAt), new Set(), LINE_STYLES.outlier);
   for (const { times: [, endOfLeg] } of legsOfDrive) {
     const [x, y] = referencePoseAt(endOfLeg);
-    drawDisc(drawContext.context, plotView.toPixel(x, y), 2, PLOT_COLOURS.inkColour);
+    drawDisc(drawContext.canvasContext, plotView.toPixel(x, y), 2, PLOT_COLOURS.ink);
   }
   const plotTitle = escapeXml(`${odometryLog.logName} and ${referenceLog.logName}: ${legsOfDrive.length} legs, ${outlierLegs.length} ${outlierLegs.length === 1 ? 'outlier' : 'outliers'}`);
-  return `<title>${plotTitle}</title>\n<text x="2" y="22" style="font:16px sans-serif" fill="${PLOT_COLOURS.inkColour}">${plotTitle}</text>\n${svgContext.markup}`;
+  return `<title>${plotTitle}</title>\n<text x="2" y="22" style="font:16px sans-serif" fill="${PLOT_COLOURS.ink}">${plotTitle}</text>\n${svgContext.svgMarkup}`;
 }

@@ -4,7 +4,7 @@ import { english } from '../logs/en.ts';
 import { LOG_ROLES, type LogSummary } from '../logs/log.ts';
 import { warningsOf } from '../logs/pairs.ts';
 import { en as sharedTexts } from '../messages/en.ts';
-import { MINUS } from '../ui/format.ts';
+import { MINUS_SIGN } from '../ui/format.ts';
 import { en } from '../widgets/alpha-calibrator/en.ts';
 import { LOST_LEG_CAUSES, describeLegLength, explainRecommendation, formatJson, formatNav2Yaml, isNav2Rule, judgementOf, type Result } from '../widgets/alpha-calibrator/result.ts';
 import { alphaTableOf, checkTableOf, noiseTableOf, systematicTableOf, windowTableOf, type ResultTable } from '../widgets/alpha-calibrator/tables.ts';
@@ -95,7 +95,7 @@ export function formatVerdict(calibrationReport: CalibrationReport): string[] {
 
 /** Returns the lines of a table, as plain text: with minus signs that can be copied, and several values of a cell in one line. */
 function formatTable({ columnHeadings, rows: tableRows }: ResultTable): string[] {
-  const toPlainText = (plainText: string) => plainText.replaceAll('*', '').replaceAll(MINUS, '-').replaceAll('\u202f', ' ').replaceAll('\n', ', ');
+  const toPlainText = (plainText: string) => plainText.replaceAll('*', '').replaceAll(MINUS_SIGN, '-').replaceAll('\u202f', ' ').replaceAll('\n', ', ');
   return alignRows([columnHeadings, ...tableRows].map((rowCells) => rowCells.map(toPlainText)));
 }
 

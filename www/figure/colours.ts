@@ -1,18 +1,18 @@
 /** Colours of a figure: those of the page around it, those of its own theme, or light ones in print. */
 
 import { listElementAndAncestors, readPageColours } from '../ui/page-colours.ts';
-import { resolvePalette, type Palette } from '../ui/theme.ts';
+import { resolvePalette, type ColourPalette } from '../ui/theme.ts';
 import { FigureController } from './controller.ts';
 
-export class Colours extends FigureController {
-  #palette: Palette | undefined;
+export class FigureColours extends FigureController {
+  #palette: ColourPalette | undefined;
 
   hostConnected() {
     // If the page's background changes by a CSS transition, its final colour is known only at the end of the transition.
-    const onTransitionEnd = ({ target, propertyName }: TransitionEvent) => {
-      if (propertyName === 'background-color' && listElementAndAncestors(this.host).includes(target as Element)) this.applyAndDraw();
+    const onTransitionEnd = ({ target: transitionedElement, propertyName }: TransitionEvent) => {
+      if (propertyName === 'background-color' && listElementAndAncestors(this.figure).includes(transitionedElement as Element)) this.applyAndDraw();
     };
-    document.addEventListener('transitionend', onTransitionEnd, { signal: this.host.lifetime.signal });
+    document.addEventListener('transitionend', onTransitionEnd, { signal: this.figure.lifetime.signal });
   }
 
   /** Resolved CSS colours by role, for drawing on canvases. */
@@ -23,27 +23,27 @@ export class Colours extends FigureController {
   /** Applies the colours of the page or theme to the figure, and redraws its pictures. */
   applyAndDraw() {
     this.applyPageColours();
-    this.host.renderer.requestFrame();
+    this.figure.renderer.requestFrame();
   }
 
   /** Sets the figure's custom properties to the page's colours, or to its own if its theme differs from the page's. In print the theme is light. */
   applyPageColours() {
     const surfaceStyle = this.#findElement('.surface')?.style;
     if (!surfaceStyle) return;
-    const { renderer: { isPrinting }, theme } = this.host;
-    const { scheme, ...pageColours } = readPageColours(this.#findElement('.scheme-probe'));
+    const { renderer: { isPrinting }, theme } = this.figure;
+    const { scheme: colourScheme, ...pageColours } = readPageColours(this.#findElement('.scheme-probe'));
     // Forced colours override the theme.
     const followsPage = theme === 'auto' || matchMedia('(forced-colors: active)').matches;
-    surfaceStyle.colorScheme = isPrinting ? 'light' : followsPage ? scheme : theme;
-    const hasOwnColours = isPrinting || surfaceStyle.colorScheme !== scheme;
-    for (const [name, colour] of Object.entries(pageColours)) surfaceStyle.setProperty(`--${name}`, hasOwnColours ? '' : colour);
+    surfaceStyle.colorScheme = isPrinting ? 'light' : followsPage ? colourScheme : theme;
+    const hasOwnColours = isPrinting || surfaceStyle.colorScheme !== colourScheme;
+    for (const [colourName, cssColour] of Object.entries(pageColours)) surfaceStyle.setProperty(`--${colourName}`, hasOwnColours ? '' : cssColour);
     surfaceStyle.setProperty('--back', hasOwnColours ? 'var(--paper)' : '');
     // The page's colours for muted text and rules suit the page's background. On the figure's own background they would be illegible.
-    for (const role of ['muted', 'rule']) surfaceStyle.setProperty(`--mw-${role}`, hasOwnColours ? 'initial' : '');
+    for (const colourRole of ['muted', 'rule']) surfaceStyle.setProperty(`--mw-${colourRole}`, hasOwnColours ? 'initial' : '');
     this.#palette = undefined;
   }
 
-  #findElement(selector: string) {
-    return this.host.renderRoot?.querySelector(selector) as HTMLElement;
+  #findElement(probeSelector: string) {
+    return this.figure.renderRoot?.querySelector(probeSelector) as HTMLElement;
   }
 }

@@ -3,10 +3,10 @@
 import type { Figure } from './figure.ts';
 
 export class FigureController<Host extends Figure = Figure> {
-  host: Host;
+  figure: Host;
 
-  constructor(host: Host) {
-    this.host = host;
-    host.addController(this as object);
+  constructor(figure: Host) {
+    this.figure = figure;
+    figure.addController(this as object);
   }
 }

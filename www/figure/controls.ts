@@ -10,7 +10,7 @@ import { createFieldProperty } from './definition.ts';
 import { embeddingControlsHtml, exportButtonsHtml, linkButtonHtml } from './export.ts';
 import type { Declaration } from '../../build/settings.js';
 import type { Figure } from './figure.ts';
-import type { Picture } from '../scene/picture.ts';
+import type { FigurePicture } from '../scene/picture.ts';
 
 /** Specification of the slider of a numeric setting. */
 export interface SliderSpec {
@@ -25,53 +25,53 @@ export interface SliderSpec {
   /** Values of the slider, if they are not in equal steps. */
   stops?: readonly number[];
   /** Returns the value of a slider that shows several settings as one number. */
-  combinedValueOf?: (config: any) => number;
+  combinedValueOf?: (settingValues: any) => number;
   /** Noise parameter whose name and effect label the slider. */
   alpha?: [model: 'velocity' | 'odometry', index: number];
 }
 
 /** Returns the slider of a setting. `overrides` replaces fields of its slider row. */
-export function settingSliderHtml(figure: Figure, key: string, overrides?: Partial<SliderRow>, sliderSpec = figure.definition.sliderSpecs[key]) {
-  const { symbol, decimals, combinedValueOf, ...sliderFields } = sliderSpec;
-  const { name, effect } = wordsFor(figure, key);
-  const allowedNumbers = declarationOf(figure, key);
-  const { unit } = allowedNumbers;
-  const config = figure.settings.requested;
-  const attribute = figure.definition.attributes[key] ?? createFieldProperty(key);
+export function settingSliderHtml(figure: Figure, settingKey: string, rowOverrides?: Partial<SliderRow>, sliderSpec = figure.definition.sliderSpecs[settingKey]) {
+  const { symbol: settingSymbol, decimals, combinedValueOf, ...sliderFields } = sliderSpec;
+  const { name: settingName, effect: effectText } = wordsFor(figure, settingKey);
+  const allowedNumbers = declarationOf(figure, settingKey);
+  const { unit: unitText } = allowedNumbers;
+  const settingValues = figure.settings.requestedValues;
+  const elementAttribute = figure.definition.attributes[settingKey] ?? createFieldProperty(settingKey);
   return sliderRowHtml({
     ...sliderFields,
     allowedNumbers,
-    id: key,
-    symbol: symbol && formatMarkup(symbol),
-    name: formatMarkup(name),
-    value: combinedValueOf ? combinedValueOf(config) : (attribute.get(config) as number),
-    formatValue: (value) => (decimals === 0 ? formatInteger(value) : formatEditable(value, decimals)) + (unit ? ` ${unit}` : ''),
-    effect: effect && formatMarkup(effect),
-    onInput: (value) => figure.settings.requestChange((requested) => attribute.changesFor(value, requested)),
+    id: settingKey,
+    symbol: settingSymbol && formatMarkup(settingSymbol),
+    name: formatMarkup(settingName),
+    value: combinedValueOf ? combinedValueOf(settingValues) : (elementAttribute.getValue(settingValues) as number),
+    formatValue: (settingValue) => (decimals === 0 ? formatInteger(settingValue) : formatEditable(settingValue, decimals)) + (unitText ? ` ${unitText}` : ''),
+    effect: effectText && formatMarkup(effectText),
+    onInput: (settingValue) => figure.settings.requestChange((requestedValues) => elementAttribute.changesFor(settingValue, requestedValues)),
     onCommit: () => figure.gesture.commitChange(),
-    ...overrides,
+    ...rowOverrides,
   });
 }
 
 /** Returns a picture with its title. The pointer selects samples in the picture. The first picture has the handles. `Canvases` sizes the canvas. */
-export function pictureHtml(figure: Figure, picture: Picture<any>, title: string, options: { className?: string, description?: string, contentBelow?: unknown } = {}) {
+export function pictureHtml(figure: Figure, picture: FigurePicture<any>, title: string, pictureOptions: { className?: string, description?: string, contentBelow?: unknown } = {}) {
   const isFirst = picture === figure.pictures[0];
-  const { className, description = isFirst ? figure.description : title, contentBelow: below } = options;
-  const selectAtPointer = (event: PointerEvent) => figure.selectAtPointer(picture, event);
+  const { className, description: pictureDescription = isFirst ? figure.description : title, contentBelow } = pictureOptions;
+  const selectAtPointer = (domEvent: PointerEvent) => figure.selectAtPointer(picture, domEvent);
   return panelHtml(title, html`<div class="stage" part="picture">
-      <canvas width="0" class=${picture.name} role="img" aria-label=${description} @pointermove=${selectAtPointer} @click=${selectAtPointer} @contextrestored=${() => figure.renderer.requestFrame()}></canvas>
-      ${isFirst ? figure.handles.map((handles) => handles.render()) : nothing}
+      <canvas width="0" class=${picture.pictureName} role="img" aria-label=${pictureDescription} @pointermove=${selectAtPointer} @click=${selectAtPointer} @contextrestored=${() => figure.renderer.requestFrame()}></canvas>
+      ${isFirst ? figure.handles.map((pictureHandles) => pictureHandles.render()) : nothing}
     </div>
-    ${below}`, className);
+    ${contentBelow}`, className);
 }
 
-export const settingSlidersHtml = (figure: Figure, sliderSpecs: Record<string, SliderSpec>) => Object.keys(sliderSpecs).map((key) => settingSliderHtml(figure, key));
+export const settingSlidersHtml = (figure: Figure, sliderSpecs: Record<string, SliderSpec>) => Object.keys(sliderSpecs).map((settingKey) => settingSliderHtml(figure, settingKey));
 
-export const settingRadiosHtml = (figure: Figure, key: string, labels: Record<string, string>) =>
-  radioGroupHtml(wordsFor(figure, key).name, key, labels, figure.settings.requested[key], (word) => figure.gesture.requestAndCommit({ [key]: word }));
+export const settingRadiosHtml = (figure: Figure, settingKey: string, labelsByWord: Record<string, string>) =>
+  radioGroupHtml(wordsFor(figure, settingKey).name, settingKey, labelsByWord, figure.settings.requestedValues[settingKey], (chosenWord) => figure.gesture.requestAndCommit({ [settingKey]: chosenWord }));
 
-export const settingCheckboxHtml = (figure: Figure, key: string, label: unknown) =>
-  checkboxHtml({ label, checked: figure.settings.requested[key], onChange: (isChecked) => figure.gesture.requestAndCommit({ [key]: isChecked }) });
+export const settingCheckboxHtml = (figure: Figure, settingKey: string, checkboxLabel: unknown) =>
+  checkboxHtml({ labelContent: checkboxLabel, isChecked: figure.settings.requestedValues[settingKey], onChange: (isChecked) => figure.gesture.requestAndCommit({ [settingKey]: isChecked }) });
 
 interface DisclosureOptions {
   renderControls: () => unknown;
@@ -83,10 +83,10 @@ interface DisclosureOptions {
 }
 
 /** Returns a `details` element, whose content is rendered only while it is open. */
-function disclosureHtml(figure: Figure, name: string, id: string, renderContent: () => unknown) {
+function disclosureHtml(figure: Figure, disclosureName: string, id: string, renderContent: () => unknown) {
   const isOpen = figure.renderRoot.querySelector<HTMLDetailsElement>(`#${id}`)?.open;
   return html`<details part="fold" id=${id} @toggle=${() => figure.requestUpdate()}>
-    <summary>${name}</summary>
+    <summary>${disclosureName}</summary>
     <div class="folded">${isOpen ? renderContent() : noChange}</div>
   </details>`;
 }
@@ -101,45 +101,45 @@ export function disclosuresHtml(figure: Figure, { renderControls, renderNumbers,
   <p class="on-paper small">${noiseParametersHtml(figure)}</p>`;
 }
 
-function noiseParametersHtml({ definition: { attributes, sliderSpecs }, settings: { requested: config } }: Figure) {
-  return Object.entries(sliderSpecs).filter(([, { alpha }]) => alpha).flatMap(([key, { symbol = '', decimals }]) => {
-    const alphaValue = attributes[key].get(config) as number | null;
-    return alphaValue === null ? [] : html`${formatMarkup(`${symbol}\u00a0=\u00a0${formatEditable(alphaValue, decimals)}`)}\u2003 `;
+function noiseParametersHtml({ definition: { attributes, sliderSpecs }, settings: { requestedValues: settingValues } }: Figure) {
+  return Object.entries(sliderSpecs).filter(([, { alpha }]) => alpha).flatMap(([settingKey, { symbol: settingSymbol = '', decimals }]) => {
+    const alphaValue = attributes[settingKey].getValue(settingValues) as number | null;
+    return alphaValue === null ? [] : html`${formatMarkup(`${settingSymbol}\u00a0=\u00a0${formatEditable(alphaValue, decimals)}`)}\u2003 `;
   });
 }
 
 /** Returns a picture or chart below its title. */
-export function panelHtml(title: string, content: unknown, className?: string) {
+export function panelHtml(title: string, panelContent: unknown, className?: string) {
   return html`<figure class="panel ${className ?? ''}">
     <p class="panel-title">${title}</p>
-    ${content}
+    ${panelContent}
   </figure>`;
 }
 
-export const declarationOf = (figure: Figure, key: string): Declaration & AllowedNumbers =>
-  (figure.definition.declarations.find((declaration) => declaration.key === key) ?? figure.definition.elementFields[key]) as any;
+export const declarationOf = (figure: Figure, settingKey: string): Declaration & AllowedNumbers =>
+  (figure.definition.settingDeclarations.find((settingDeclaration) => settingDeclaration.key === settingKey) ?? figure.definition.elementFields[settingKey]) as any;
 
-function wordsFor(figure: Figure, key: string): { name: string, effect?: string } {
-  const [motionModel, index] = figure.definition.sliderSpecs[key]?.alpha ?? [];
+function wordsFor(figure: Figure, settingKey: string): { name: string, effect?: string } {
+  const [motionModel, index] = figure.definition.sliderSpecs[settingKey]?.alpha ?? [];
   const [alphaName, alphaEffect] = motionModel ? words.alphas[motionModel][index as number] : [];
-  return { ...(words.settings as any)[key], ...(motionModel && { name: alphaName, effect: alphaEffect }), ...(words as any)[figure.definition.messageKey].settings[key] };
+  return { ...(words.settings as any)[settingKey], ...(motionModel && { name: alphaName, effect: alphaEffect }), ...(words as any)[figure.definition.messageKey].settings[settingKey] };
 }
 
 /** Returns the legend of a figure's pictures, with names from the message catalogue. */
-export function legendHtml(figure: Figure, styles: Record<string, LineStyle>) {
-  const { overlays } = figure.settings.elementState;
+export function legendHtml(figure: Figure, stylesByLine: Record<string, LineStyle>) {
+  const { overlays: shownOverlays } = figure.settings.elementState;
   const { overlays: overlayNames } = (words as any)[figure.definition.messageKey];
-  const styleNames = Object.keys(styles);
+  const styleNames = Object.keys(stylesByLine);
   const allOverlays = figure.definition.attributes.overlays.words as string[];
-  const setOverlayShown = (name: string, isShown: boolean) =>
-    figure.gesture.setElementField('overlays', allOverlays.filter((overlay) => (overlay === name ? isShown : overlays.includes(overlay))));
-  const highlightLine = (name: string | null) => (figure.highlight = name);
+  const setOverlayShown = (toggledName: string, isShown: boolean) =>
+    figure.gesture.setElementField('overlays', allOverlays.filter((overlayName) => (overlayName === toggledName ? isShown : shownOverlays.includes(overlayName))));
+  const highlightLine = (lineName: string | null) => (figure.highlight = lineName);
   return html`<div class="legend" part="legend" role="group" aria-label=${words.legendLabel}>
-    ${styleNames.map((name) => html`<span @pointerenter=${() => highlightLine(name)} @pointerleave=${() => highlightLine(null)} @focusin=${() => highlightLine(name)} @focusout=${() => highlightLine(null)}>
+    ${styleNames.map((overlayName) => html`<span @pointerenter=${() => highlightLine(overlayName)} @pointerleave=${() => highlightLine(null)} @focusin=${() => highlightLine(overlayName)} @focusout=${() => highlightLine(null)}>
       ${checkboxHtml({
-        label: html`${swatchHtml(styles[name])}<span>${formatMarkup(overlayNames[name])}</span>`,
-        checked: overlays.includes(name),
-        onChange: (isShown) => setOverlayShown(name, isShown),
+        labelContent: html`${swatchHtml(stylesByLine[overlayName])}<span>${formatMarkup(overlayNames[overlayName])}</span>`,
+        isChecked: shownOverlays.includes(overlayName),
+        onChange: (isShown) => setOverlayShown(overlayName, isShown),
       })}
     </span>`)}
   </div>`;

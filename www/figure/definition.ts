@@ -9,17 +9,17 @@ import type { StateValues } from './settings.ts';
 
 /** Converter of Lit that returns an invalid text unchanged, which the check of the value then refuses. */
 interface AttributeConverter {
-  fromAttribute: (text: string | null) => unknown;
+  fromAttribute: (attributeText: string | null) => unknown;
   /** Converts a value to a text; null removes the attribute. Without this function, the attribute is read but not written. */
-  toAttribute?: (value: any) => string | null;
+  toAttribute?: (propertyValue: any) => string | null;
 }
 
 /** Reactive property of Lit whose value follows from the configuration. */
-interface Property extends PropertyDeclaration {
+interface ElementProperty extends PropertyDeclaration {
   converter?: AttributeConverter;
-  get: (config: StateValues) => unknown;
+  getValue: (settingValues: StateValues) => unknown;
   /** Returns the changed part of the configuration for a new value. */
-  changesFor: (value: any, config: StateValues) => StateValues;
+  changesFor: (propertyValue: any, settingValues: StateValues) => StateValues;
   /** Name of the setting in errors of the core, if it differs from the property's name. */
   corePath?: string;
   /** Words that are allowed as values of the property, if the declaration of the setting does not list them. */
@@ -27,41 +27,41 @@ interface Property extends PropertyDeclaration {
 }
 
 /** Properties by name, in the order in which they are applied. */
-type Properties = Record<string, Property>;
+type ElementProperties = Record<string, ElementProperty>;
 
 /** Property that is written to its attribute. */
-type Attribute = Property & { converter: Required<AttributeConverter> };
+type ElementAttribute = ElementProperty & { converter: Required<AttributeConverter> };
 
 const NUMBER_CONVERTER: AttributeConverter = {
-  fromAttribute: (text) => (text?.trim() && !Number.isNaN(Number(text)) ? Number(text) : text),
-  toAttribute: (value) => (value === null ? null : String(value)),
+  fromAttribute: (attributeText) => (attributeText?.trim() && !Number.isNaN(Number(attributeText)) ? Number(attributeText) : attributeText),
+  toAttribute: (propertyValue) => (propertyValue === null ? null : String(propertyValue)),
 };
 
 /** Converter of lists of numbers, such as "0.1,0.2" or "[0.1, 0.2]". */
 const NUMBERS_CONVERTER: AttributeConverter = {
-  fromAttribute: (text) => {
-    const numbers = text?.match(/[^\s,[\]]+/g)?.map(Number);
-    return numbers?.every(Number.isFinite) ? numbers : text;
+  fromAttribute: (attributeText) => {
+    const settingNumbers = attributeText?.match(/[^\s,[\]]+/g)?.map(Number);
+    return settingNumbers?.every(Number.isFinite) ? settingNumbers : attributeText;
   },
 };
 
-const WORD_CONVERTER: Required<AttributeConverter> = { fromAttribute: (text) => text, toAttribute: (value) => value };
+const WORD_CONVERTER: Required<AttributeConverter> = { fromAttribute: (attributeText) => attributeText, toAttribute: (propertyValue) => propertyValue };
 
 /** Converter of boolean attributes. Without a value they are true, as in HTML. The value "false" makes them false. Other values are refused. */
 const BOOLEAN_CONVERTER: AttributeConverter = {
-  fromAttribute: (text) => text !== 'false' && (text === '' || text === 'true' || text),
+  fromAttribute: (attributeText) => attributeText !== 'false' && (attributeText === '' || attributeText === 'true' || attributeText),
   toAttribute: String,
 };
 
 /** Converter of lists of words, which are separated by spaces in the text. */
-export const WORD_LIST_CONVERTER: AttributeConverter = { fromAttribute: (text) => text?.split(/\s/).filter(Boolean), toAttribute: (value) => value.join(' ') };
+export const WORD_LIST_CONVERTER: AttributeConverter = { fromAttribute: (attributeText) => attributeText?.split(/\s/).filter(Boolean), toAttribute: (propertyValue) => propertyValue.join(' ') };
 
 /** Converters by type of setting. A group of settings cannot be given as an attribute. */
-const CONVERTERS: Record<string, AttributeConverter> = {
+const CONVERTERS_BY_TYPE: Record<string, AttributeConverter> = {
   number: NUMBER_CONVERTER, whole: NUMBER_CONVERTER, numbers: NUMBERS_CONVERTER, word: WORD_CONVERTER, words: WORD_LIST_CONVERTER, boolean: BOOLEAN_CONVERTER,
 };
 
-export const THEMES = ['auto', 'light', 'dark'] as const;
+export const THEME_NAMES = ['auto', 'light', 'dark'] as const;
 
 export const HEADING_LEVELS = ['1', '2', '3', '4', '5', '6'] as const;
 
@@ -73,71 +73,71 @@ export interface CommonProperty extends PropertyDeclaration {
 
 /** Properties of every figure that are also attributes. */
 export const COMMON_PROPERTIES: Record<string, CommonProperty> = {
-  theme: { reflect: true, words: THEMES, default: 'auto' },
+  theme: { reflect: true, words: THEME_NAMES, default: 'auto' },
   share: { reflect: true, type: Boolean, default: false },
   presentation: { reflect: true, type: Boolean, default: false },
   headingLevel: { reflect: true, attribute: 'heading-level', words: HEADING_LEVELS, default: null },
 };
 
 /** Returns the checked value of a property that every figure has; null for the default. An empty text is true, as in HTML. */
-export function checkCommonValue(name: string, value: unknown, { words, type }: CommonProperty) {
-  if (type === Boolean) return value === '' || Boolean(value);
-  return words && (value ?? null) !== null ? checkWord(name, String(value), words) : value;
+export function checkCommonValue(propertyName: string, propertyValue: unknown, { words: allowedWords, type: propertyType }: CommonProperty) {
+  if (propertyType === Boolean) return propertyValue === '' || Boolean(propertyValue);
+  return allowedWords && (propertyValue ?? null) !== null ? checkWord(propertyName, String(propertyValue), allowedWords) : propertyValue;
 }
 
-export const propertiesOf = (declarations: Declaration[]): Properties => Object.fromEntries(declarations.map((declaration) => [declaration.key, propertyOf(declaration)]));
+export const propertiesOf = (settingDeclarations: Declaration[]): ElementProperties => Object.fromEntries(settingDeclarations.map((settingDeclaration) => [settingDeclaration.key, propertyOf(settingDeclaration)]));
 
-export const selectAttributes = (properties: Properties) =>
-  Object.fromEntries(Object.entries(properties).filter(([, { attribute, converter }]) => attribute !== false && converter?.toAttribute)) as Record<string, Attribute>;
+export const selectAttributes = (elementProperties: ElementProperties) =>
+  Object.fromEntries(Object.entries(elementProperties).filter(([, { attribute: attributeName, converter: attributeConverter }]) => attributeName !== false && attributeConverter?.toAttribute)) as Record<string, ElementAttribute>;
 
-export const createFieldProperty = (key: string, type = ''): Property => ({ converter: CONVERTERS[type], get: (config) => config[key], changesFor: (value) => ({ [key]: value }) });
+export const createFieldProperty = (settingKey: string, fieldType = ''): ElementProperty => ({ converter: CONVERTERS_BY_TYPE[fieldType], getValue: (settingValues) => settingValues[settingKey], changesFor: (propertyValue) => ({ [settingKey]: propertyValue }) });
 
-function propertyOf({ key, in: group, field = key, index, of, weights = [], type, min = -Infinity, max = Infinity }: Declaration): Property {
-  const plainProperty = createFieldProperty(key, type);
+function propertyOf({ key: settingKey, in: groupKey, field: fieldKey = settingKey, index, of: combinedKey, weights = [], type: fieldType, min: minValue = -Infinity, max: maxValue = Infinity }: Declaration): ElementProperty {
+  const plainProperty = createFieldProperty(settingKey, fieldType);
   // This property is a common factor: the last numbers of the list setting named by `of` are this factor times the `weights`.
-  if (of) {
+  if (combinedKey) {
     return {
       ...plainProperty,
-      get: (config) => commonFactorOf(config[of], weights),
-      changesFor: (commonFactor, { [of]: numbers }) => {
-        const scaledNumbers = weights.map((weight) => weight * checkNumber(key, commonFactor, min, max));
-        return { [of]: [...numbers.slice(0, -weights.length), ...scaledNumbers] };
+      getValue: (settingValues) => commonFactorOf(settingValues[combinedKey], weights),
+      changesFor: (commonFactor, { [combinedKey]: settingNumbers }) => {
+        const scaledNumbers = weights.map((numberWeight) => numberWeight * checkNumber(settingKey, commonFactor, minValue, maxValue));
+        return { [combinedKey]: [...settingNumbers.slice(0, -weights.length), ...scaledNumbers] };
       },
     };
   }
-  if (!group) return plainProperty;
-  const memberKey = index ?? field;
+  if (!groupKey) return plainProperty;
+  const memberKey = index ?? fieldKey;
   return {
     ...plainProperty,
-    corePath: index !== undefined ? `${group}[${index}]` : field === key ? undefined : `${group}.${field}`,
-    get: (config) => config[group][memberKey] ?? null,
-    changesFor: (fieldValue, { [group]: groupValue }) => ({ [group]: Object.assign(index === undefined ? { ...groupValue } : [...groupValue], { [memberKey]: fieldValue }) }),
+    corePath: index !== undefined ? `${groupKey}[${index}]` : fieldKey === settingKey ? undefined : `${groupKey}.${fieldKey}`,
+    getValue: (settingValues) => settingValues[groupKey][memberKey] ?? null,
+    changesFor: (fieldValue, { [groupKey]: groupValue }) => ({ [groupKey]: Object.assign(index === undefined ? { ...groupValue } : [...groupValue], { [memberKey]: fieldValue }) }),
   };
 }
 
 /** Returns the factor f for which the last numbers of a list are f times their weights; null if there is no such factor. */
-function commonFactorOf(numbers: number[], weights: number[]): number | null {
-  const lastNumbers = numbers.slice(-weights.length);
+function commonFactorOf(settingNumbers: number[], weights: number[]): number | null {
+  const lastNumbers = settingNumbers.slice(-weights.length);
   const commonFactor = lastNumbers[0] / weights[0];
-  return lastNumbers.every((number, i) => number === commonFactor * weights[i]) ? commonFactor : null;
+  return lastNumbers.every((settingNumber, i) => settingNumber === commonFactor * weights[i]) ? commonFactor : null;
 }
 
 const KEYS_KEPT_BY_PRESETS = ['samples', 'seed'];
 
 /** Returns the configuration that a figure opens with: the defaults of its settings. */
-export function defaultConfigOf(declarations: Declaration[]): StateValues {
-  return Object.fromEntries(declarations.filter((declaration) => !declaration.in && !declaration.of).map((declaration) => [declaration.key, declaration.default]));
+export function defaultConfigOf(settingDeclarations: Declaration[]): StateValues {
+  return Object.fromEntries(settingDeclarations.filter((settingDeclaration) => !settingDeclaration.in && !settingDeclaration.of).map((settingDeclaration) => [settingDeclaration.key, settingDeclaration.default]));
 }
 
 /** Returns the attribute `preset`, which selects one of a figure's presets. A preset sets all settings except samples and seed. */
-export function presetAttributeOf(presets: readonly { name: string, settings: StateValues }[]): Attribute {
-  const presetNames = presets.map(({ name }) => name);
-  const presetSettings = presets.map(({ settings }) => Object.fromEntries(Object.entries(settings).filter(([key]) => !KEYS_KEPT_BY_PRESETS.includes(key))));
+export function presetAttributeOf(widgetPresetList: readonly { name: string, settings: StateValues }[]): ElementAttribute {
+  const presetNames = widgetPresetList.map(({ name: presetName }) => presetName);
+  const presetSettings = widgetPresetList.map(({ settings: presetValues }) => Object.fromEntries(Object.entries(presetValues).filter(([settingKey]) => !KEYS_KEPT_BY_PRESETS.includes(settingKey))));
   return {
     converter: WORD_CONVERTER,
     words: presetNames,
-    get: (config) => presetNames[presetSettings.findIndex((settings) => includesFields(config, settings))] ?? null,
-    changesFor: (name) => presetSettings[presetNames.indexOf(checkWord('preset', name, presetNames))],
+    getValue: (settingValues) => presetNames[presetSettings.findIndex((presetValues) => includesFields(settingValues, presetValues))] ?? null,
+    changesFor: (presetName) => presetSettings[presetNames.indexOf(checkWord('preset', presetName, presetNames))],
   };
 }
 
@@ -150,20 +150,20 @@ interface ElementField extends FieldRange {
   /** Attribute or property by which a page sets the field. Without it, a page sets the field by `setState` only. */
   access?: 'attribute' | 'property';
   /** Returns the field's maximum for a state, if the maximum depends on other fields. */
-  maxInState?: (state: StateValues) => number;
+  maxInState?: (figureState: StateValues) => number;
 }
 
 export interface WidgetDefinition {
-  tag: string;
+  widgetTag: string;
   messageKey: string;
-  declarations: Declaration[];
-  properties: Properties;
-  attributes: Record<string, Attribute>;
+  settingDeclarations: Declaration[];
+  elementProperties: ElementProperties;
+  attributes: Record<string, ElementAttribute>;
   /** Fields of the state that the element keeps, because the simulation does not have them. */
   elementFields: Record<string, ElementField>;
   elementDefaults: StateValues;
   sliderSpecs: Record<string, SliderSpec>;
-  dependentDefaultsOf?: (config: StateValues) => StateValues;
+  dependentDefaultsOf?: (settingValues: StateValues) => StateValues;
 }
 
 interface DefinitionOptions extends Pick<WidgetDefinition, 'messageKey' | 'sliderSpecs' | 'dependentDefaultsOf'> {
@@ -171,7 +171,7 @@ interface DefinitionOptions extends Pick<WidgetDefinition, 'messageKey' | 'slide
   overlayStyles: Record<string, LineStyle>;
   openingOverlays?: readonly string[];
   /** Attribute `preset`, if a preset also depends on fields of the element. */
-  presetAttribute?: Attribute;
+  presetAttribute?: ElementAttribute;
   /** State fields of the widget, in addition to those of overlays and cloud. */
   elementFields?: Record<string, ElementField>;
 }
@@ -185,22 +185,22 @@ const CLOUD_FIELDS: Record<string, ElementField> = {
   marked: { type: 'whole', default: null, nullable: true, min: 0, maxInState: ({ playing, samples, shown }) => (playing ? samples : shown) - 1, access: 'property' },
 };
 
-export function createDefinition(tag: string, { overlayStyles, openingOverlays = Object.keys(overlayStyles), presetAttribute, elementFields: widgetFields, ...otherOptions }: DefinitionOptions): WidgetDefinition {
-  const declarations = settings[tag];
-  const widgetPresets = presets[tag as keyof typeof presets];
-  const overlays = Object.keys(overlayStyles);
+export function createDefinition(widgetTag: string, { overlayStyles, openingOverlays = Object.keys(overlayStyles), presetAttribute, elementFields: widgetFields, ...otherOptions }: DefinitionOptions): WidgetDefinition {
+  const settingDeclarations = settings[widgetTag];
+  const widgetPresets = presets[widgetTag as keyof typeof presets];
+  const overlayNames = Object.keys(overlayStyles);
   const elementFields: Record<string, ElementField> = {
-    ...(declarations.some(({ key }) => key === 'samples') && CLOUD_FIELDS),
+    ...(settingDeclarations.some(({ key: settingKey }) => settingKey === 'samples') && CLOUD_FIELDS),
     ...widgetFields,
-    overlays: { type: 'words', words: overlays, default: openingOverlays, access: 'attribute' },
+    overlays: { type: 'words', words: overlayNames, default: openingOverlays, access: 'attribute' },
   };
-  const properties: Properties = {
+  const elementProperties: ElementProperties = {
     ...(widgetPresets.length > 0 && { preset: presetAttribute ?? presetAttributeOf(widgetPresets) }),
-    ...propertiesOf(declarations),
+    ...propertiesOf(settingDeclarations),
   };
-  for (const [key, { type, words, access }] of Object.entries(elementFields)) {
-    if (access) properties[key] = { ...createFieldProperty(key, type), attribute: access === 'attribute', words };
+  for (const [settingKey, { type: fieldType, words: fieldWords, access: pageAccess }] of Object.entries(elementFields)) {
+    if (pageAccess) elementProperties[settingKey] = { ...createFieldProperty(settingKey, fieldType), attribute: pageAccess === 'attribute', words: fieldWords };
   }
-  const elementDefaults = Object.fromEntries(Object.entries(elementFields).map(([key, field]) => [key, field.default]));
-  return { ...otherOptions, tag, declarations, properties, attributes: selectAttributes(properties), elementFields, elementDefaults };
+  const elementDefaults = Object.fromEntries(Object.entries(elementFields).map(([settingKey, elementField]) => [settingKey, elementField.default]));
+  return { ...otherOptions, widgetTag, settingDeclarations, elementProperties, attributes: selectAttributes(elementProperties), elementFields, elementDefaults };
 }

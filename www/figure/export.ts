@@ -25,61 +25,61 @@ const PNG_PIXEL_RATIO = 2;
 const FALLBACK_SIZE = { width: 720, height: 432 };
 
 /** Draws the first picture for a file, in its size and font on the page. `ratio` is the number of pixels per CSS pixel. Returns the size in pixels and the view. */
-function drawForExport({ scene, pictures: [picture], canvases, colours }: Figure, ratio: number, contextOf: (size: { width: number, height: number }) => unknown) {
-  const pageCanvas = canvases.canvasOf(picture);
+function drawForExport({ scene: viewModel, pictures: [firstPicture], canvases, colours }: Figure, ratio: number, contextOf: (canvasSize: { width: number, height: number }) => unknown) {
+  const pageCanvas = canvases.canvasOf(firstPicture);
   const { width: clientWidth, height } = pageCanvas.clientWidth > 0 ? pageCanvas.getBoundingClientRect() : FALLBACK_SIZE;
   const exportSize = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
-  const exportSurface = { ...exportSize, clientWidth, fontStyle: getComputedStyle(pageCanvas), context: contextOf(exportSize) as CanvasRenderingContext2D };
-  picture.draw(exportSurface, scene, colours.palette, { keepsScale: true, isImmediate: true, isExported: true });
-  return { view: picture.view, ...exportSize };
+  const exportSurface = { ...exportSize, clientWidth, fontStyle: getComputedStyle(pageCanvas), canvasContext: contextOf(exportSize) as CanvasRenderingContext2D };
+  firstPicture.drawPicture(exportSurface, viewModel, colours.palette, { keepsScale: true, isImmediate: true, isExported: true });
+  return { view: firstPicture.pictureView, ...exportSize };
 }
 
 export async function pngOf(figure: Figure): Promise<Blob> {
   const exportCanvas = new OffscreenCanvas(1, 1);
-  const context = exportCanvas.getContext('2d') as OffscreenCanvasRenderingContext2D;
-  drawForExport(figure, PNG_PIXEL_RATIO, (size) => Object.assign(exportCanvas, size) && context);
-  context.resetTransform();
-  context.globalCompositeOperation = 'destination-over';
-  context.fillStyle = figure.colours.palette.paper;
-  context.fillRect(0, 0, exportCanvas.width, exportCanvas.height);
+  const canvasContext = exportCanvas.getContext('2d') as OffscreenCanvasRenderingContext2D;
+  drawForExport(figure, PNG_PIXEL_RATIO, (canvasSize) => Object.assign(exportCanvas, canvasSize) && canvasContext);
+  canvasContext.resetTransform();
+  canvasContext.globalCompositeOperation = 'destination-over';
+  canvasContext.fillStyle = figure.colours.palette.paper;
+  canvasContext.fillRect(0, 0, exportCanvas.width, exportCanvas.height);
   return exportCanvas.convertToBlob();
 }
 
 /** Returns a hash for ids of SVG elements: different for different figures on a page, and equal for equal figures. */
-function hashOf(text: string) {
+function hashOf(exportText: string) {
   let hashValue = 7;
-  for (let i = 0; i < text.length; i++) hashValue = (Math.imul(hashValue, 31) + text.charCodeAt(i)) >>> 0;
+  for (let i = 0; i < exportText.length; i++) hashValue = (Math.imul(hashValue, 31) + exportText.charCodeAt(i)) >>> 0;
   return hashValue.toString(36);
 }
 
-const createSettingsJson = ({ localName }: Figure, settings: object) => JSON.stringify({ element: localName, ...settings });
+const createSettingsJson = ({ localName }: Figure, exportedSettings: object) => JSON.stringify({ element: localName, ...exportedSettings });
 
 export function svgOf(figure: Figure) {
-  const { settings = figure.viewModel.config } = figure.exportData;
-  const idPrefix = `figure-${hashOf(createSettingsJson(figure, settings))}`;
+  const { settings: exportedSettings = figure.viewModel.config } = figure.exportData;
+  const idPrefix = `figure-${hashOf(createSettingsJson(figure, exportedSettings))}`;
   const svg = new SvgContext(idPrefix);
-  const { view, width, height } = drawForExport(figure, 1, () => svg);
-  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${formatLength(view.width)} ${formatLength(view.height)}" direction="ltr" role="img" aria-labelledby="${idPrefix}-title ${idPrefix}-text">
+  const { view: pictureView, width, height } = drawForExport(figure, 1, () => svg);
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${formatLength(pictureView.width)} ${formatLength(pictureView.height)}" direction="ltr" role="img" aria-labelledby="${idPrefix}-title ${idPrefix}-text">
 <title id="${idPrefix}-title">${escapeXml(accessibleNameOf(figure))}</title>
 <desc id="${idPrefix}-text">${escapeXml(figure.description)}</desc>
 <rect width="100%" height="100%" fill="${figure.colours.palette.paper}"/>
-${svg.markup}
+${svg.svgMarkup}
 </svg>
 `;
 }
 
 /** Returns CSV: a comment with settings and seed, a header, and a line for each sample with all digits. */
 export function csvOf(figure: Figure) {
-  const { settings = figure.viewModel.config, columns } = figure.exportData;
-  const columnGroups = Object.entries(columns).map(([columnNames, numbers]) => ({ columnNames: columnNames.split(' '), numbers }));
-  const rowOf = (i: number) => columnGroups.flatMap(({ columnNames, numbers }) => columnNames.map((_, columnIndex) => numbers[columnNames.length * i + columnIndex]));
-  const rows = Array.from({ length: columnGroups[0].numbers.length / columnGroups[0].columnNames.length }, (_, i) => rowOf(i));
-  const csvLines = [`# ${createSettingsJson(figure, settings)}`, columnGroups.flatMap(({ columnNames }) => columnNames), ...rows];
+  const { settings: exportedSettings = figure.viewModel.config, columns: exportedColumns } = figure.exportData;
+  const columnGroups = Object.entries(exportedColumns).map(([columnNames, columnNumbers]) => ({ columnNames: columnNames.split(' '), numbers: columnNumbers }));
+  const rowOf = (i: number) => columnGroups.flatMap(({ columnNames, numbers: columnNumbers }) => columnNames.map((_, columnIndex) => columnNumbers[columnNames.length * i + columnIndex]));
+  const csvRows = Array.from({ length: columnGroups[0].numbers.length / columnGroups[0].columnNames.length }, (_, i) => rowOf(i));
+  const csvLines = [`# ${createSettingsJson(figure, exportedSettings)}`, columnGroups.flatMap(({ columnNames }) => columnNames), ...csvRows];
   return `${csvLines.join('\n')}\n`;
 }
 
-export function downloadFile(fileName: string, blob: Blob) {
-  const downloadLink = Object.assign(document.createElement('a'), { href: URL.createObjectURL(blob), download: fileName });
+export function downloadFile(fileName: string, fileBlob: Blob) {
+  const downloadLink = Object.assign(document.createElement('a'), { href: URL.createObjectURL(fileBlob), download: fileName });
   downloadLink.click();
   // The file's object URL is released after a minute. By then the download has started.
   setTimeout(() => URL.revokeObjectURL(downloadLink.href), 60_000);
@@ -89,35 +89,35 @@ export function downloadFile(fileName: string, blob: Blob) {
 export function exportButtonsHtml(figure: Figure, fileNameSuffix: string | number, csvTitle: string = words.exports.csvTitle) {
   const exportWords = words.exports;
   const baseName = `${figure.localName}-${fileNameSuffix}`;
-  const saveText = (extension: string, mimeType: string, content: string) => downloadFile(`${baseName}.${extension}`, new Blob([content], { type: mimeType }));
+  const saveText = (fileExtension: string, mimeType: string, fileContent: string) => downloadFile(`${baseName}.${fileExtension}`, new Blob([fileContent], { type: mimeType }));
   return fieldsetHtml(exportWords.label, html`<div class="buttons">
-    ${buttonHtml(exportWords.png, () => figure.toPNG().then((blob) => downloadFile(`${baseName}.png`, blob), (error) => figure.runtime.reportError(error)), { title: exportWords.pngTitle })}
+    ${buttonHtml(exportWords.png, () => figure.toPNG().then((fileBlob) => downloadFile(`${baseName}.png`, fileBlob), (error) => figure.runtime.reportError(error)), { title: exportWords.pngTitle })}
     ${buttonHtml(exportWords.svg, () => saveText('svg', 'image/svg+xml', figure.toSVG()), { title: exportWords.svgTitle })}
     ${buttonHtml(exportWords.csv, () => saveText('csv', 'text/csv', figure.toCSV()), { title: csvTitle })}
   </div>`, 'exports', 'exports');
 }
 
 /** Returns a button that copies a text. A notice then confirms the copy, with a note on state that the text does not contain. */
-export function copyButtonHtml(figure: Figure, label: string, createText: () => string | Promise<string>, buttonOptions: { title?: string, disabled?: boolean }, createNote: () => string | undefined = () => '') {
+export function copyButtonHtml(figure: Figure, buttonLabel: string, createText: () => string | Promise<string>, buttonOptions: { title?: string, disabled?: boolean }, createNote: () => string | undefined = () => '') {
   const copyText = async () => {
-    const text = await createText();
+    const exportText = await createText();
     // Iframes without permission may not use the clipboard. Pages without HTTPS do not have it.
-    const isCopied = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => false);
-    const note = createNote() ?? '';
+    const isCopied = await Promise.resolve(navigator.clipboard?.writeText(exportText).then(() => true)).catch(() => false);
+    const copyNote = createNote() ?? '';
     figure.notice.showNotice(() => (isCopied
-      ? `${words.copies.copiedNotice} ${note}`
-      : html`${words.copies.manualCopyLabel} ${note} <textarea readonly rows="3" aria-label=${words.copies.manualCopyLabel} .value=${text}></textarea>`));
+      ? `${words.copies.copiedNotice} ${copyNote}`
+      : html`${words.copies.manualCopyLabel} ${copyNote} <textarea readonly rows="3" aria-label=${words.copies.manualCopyLabel} .value=${exportText}></textarea>`));
   };
-  return buttonHtml(label, copyText, buttonOptions);
+  return buttonHtml(buttonLabel, copyText, buttonOptions);
 }
 
 export const linkButtonHtml = (figure: Figure) =>
   copyButtonHtml(figure, words.copies.linkLabel, () => figure.shareLink(), { title: words.copies.linkTitle }, () => figure.exportData.linkNote);
 
 export function embeddingControlsHtml(figure: Figure) {
-  const { label, codeLabel: code, codeTitle } = words.copies;
-  const codeButtonHtml = copyButtonHtml(figure, code, () => figure.embedCode(), { title: codeTitle }, () => figure.exportData.codeNote);
-  return fieldsetHtml(label, html`<div class="buttons">${codeButtonHtml}</div>`, 'copies', 'copies');
+  const { label: buttonLabel, codeLabel, codeTitle } = words.copies;
+  const codeButtonHtml = copyButtonHtml(figure, codeLabel, () => figure.embedCode(), { title: codeTitle }, () => figure.exportData.codeNote);
+  return fieldsetHtml(buttonLabel, html`<div class="buttons">${codeButtonHtml}</div>`, 'copies', 'copies');
 }
 
 /** Address of the published script, used if the address of this script is unknown. */
@@ -131,9 +131,9 @@ export function embedCodeOf(figure: Figure) {
   const isWebAddress = /^https?:/.test(address);
   const typeAttribute = (isWebAddress && isClassic ? ['defer', ''] : ['type', 'module']) as [string, string];
   const scriptTag = tagHtml('script', [typeAttribute, ['src', isWebAddress ? address : PUBLISHED_SCRIPT_URL]]);
-  return `${scriptTag}\n${tagHtml(figure.localName, [...pageAttributes.filter(([, text]) => text !== ''), ...stateAttributes])}\n`;
+  return `${scriptTag}\n${tagHtml(figure.localName, [...pageAttributes.filter(([, attributeText]) => attributeText !== ''), ...stateAttributes])}\n`;
 }
 
-function tagHtml(name: string, attributes: [string, string][]) {
-  return `<${name}${attributes.map(([attribute, text]) => (text === '' ? ` ${attribute}` : ` ${attribute}="${escapeXml(text)}"`)).join('')}></${name}>`;
+function tagHtml(tagName: string, attributes: [string, string][]) {
+  return `<${tagName}${attributes.map(([attributeName, attributeText]) => (attributeText === '' ? ` ${attributeName}` : ` ${attributeName}="${escapeXml(attributeText)}"`)).join('')}></${tagName}>`;
 }

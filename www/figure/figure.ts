@@ -9,19 +9,19 @@ import { plotStyles } from '../ui/plot.ts';
 import { presentationStyles } from '../ui/presentation.ts';
 import { reservedHeightCssOf } from '../ui/reserved-height.ts';
 import { themeStyles } from '../ui/theme.ts';
-import { Colours } from './colours.ts';
-import { COMMON_PROPERTIES, checkCommonValue, type CommonProperty, type HEADING_LEVELS, type THEMES } from './definition.ts';
+import { FigureColours } from './colours.ts';
+import { COMMON_PROPERTIES, checkCommonValue, type CommonProperty, type HEADING_LEVELS, type THEME_NAMES } from './definition.ts';
 import { csvOf, embedCodeOf, pngOf, svgOf } from './export.ts';
-import { Gesture } from './gesture.ts';
+import { UserGesture } from './gesture.ts';
 import { StateLink } from './link.ts';
-import { Announcer, Notice } from './notice.ts';
-import { Presentation } from './presentation.ts';
-import { Reflection, settingAccessorsOf } from './reflection.ts';
-import { Renderer } from './renderer.ts';
-import { Runtime } from './runtime.ts';
-import { STATE_VERSION, Settings, type StateValues } from './settings.ts';
+import { Announcer, FigureNotice } from './notice.ts';
+import { PresentationMode } from './presentation.ts';
+import { AttributeReflection, settingAccessorsOf } from './reflection.ts';
+import { FigureRenderer } from './renderer.ts';
+import { CoreRuntime } from './runtime.ts';
+import { STATE_VERSION, FigureSettings, type StateValues } from './settings.ts';
 import { FocusKeeper, TextHeights, figureHtml } from './surface.ts';
-import type { Picture } from '../scene/picture.ts';
+import type { FigurePicture } from '../scene/picture.ts';
 import type { FigureState, Motion } from '../types.d.ts';
 
 export type Figure = FigureElement<any, any>;
@@ -82,12 +82,12 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   /** Puts the styles of all figures before those of the widget. */
   static finalizeStyles(widgetStyles: CSSResultGroup = []) {
     // Lit also calls this method on the base class, which has no definition.
-    const reservedStyles = this.definition ? reservedHeightCssOf(this.definition.tag) : [];
+    const reservedStyles = this.definition ? reservedHeightCssOf(this.definition.widgetTag) : [];
     return super.finalizeStyles([themeStyles, presentationStyles, reservedStyles, ...layoutStyles, plotStyles, widgetStyles]);
   }
 
   /** Colours: light, dark, or auto for those of the surroundings. */
-  declare theme: (typeof THEMES)[number];
+  declare theme: (typeof THEME_NAMES)[number];
   /** True if the page's address carries the state. */
   declare share: boolean;
   /** True while the figure is presented to an audience. */
@@ -101,27 +101,27 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   declare highlight: string | null;
   /** AbortController that is aborted when the element is removed from the page. Its signal removes the listeners on other objects. */
   lifetime = new AbortController();
-  runtime = new Runtime(this);
+  runtime = new CoreRuntime(this);
   canvases = new Canvases(() => this.renderer.drawResized());
-  renderer = new Renderer(this);
-  colours = new Colours(this);
-  gesture = new Gesture(this);
-  settings = new Settings(this);
-  reflection = new Reflection(this);
+  renderer = new FigureRenderer(this);
+  colours = new FigureColours(this);
+  gesture = new UserGesture(this);
+  settings = new FigureSettings(this);
+  reflection = new AttributeReflection(this);
   stateLink = new StateLink(this);
   announcer = new Announcer();
-  notice = new Notice(this);
+  notice = new FigureNotice(this);
   focusKeeper = new FocusKeeper(this);
-  presentationMode = new Presentation(this);
+  presentationMode = new PresentationMode(this);
   textHeights = new TextHeights(this);
   /** Cloud of a figure with samples. */
   cloud: import('../widgets/shared/cloud.ts').Cloud | undefined;
   /** Player of a figure that animates a slider. `advance` returns true while it plays. */
-  player: { advance(elapsed: number): boolean, stop(): void } | undefined;
+  player: { advance(elapsedMs: number): boolean, stop(): void } | undefined;
   /** Handlers for dragged files, if the figure accepts files. */
-  dropHandlers: Record<'onDragOver' | 'onDragLeave' | 'onDrop', (event: DragEvent) => void> | undefined;
+  dropHandlers: Record<'onDragOver' | 'onDragLeave' | 'onDrop', (domEvent: DragEvent) => void> | undefined;
   /** Pictures on the canvases. The first has the handles, and is exported. */
-  pictures: Picture<any>[] = [];
+  pictures: FigurePicture<any>[] = [];
   /** Handles: `render` returns their HTML, and `place` moves them to their places in the first picture. */
   handles: { render(): unknown, place(scene: any): void }[] = [];
   /** View model of the simulation: all values that pictures, texts and tables show, read at one time. Undefined before the first frame. */
@@ -137,13 +137,13 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   // Members that widgets override; the abstract ones are required.
 
   /** Creates a simulation with the opening settings. */
-  abstract createSimulation(motion: Motion): Simulation;
+  abstract createSimulation(motionCore: Motion): Simulation;
 
   /** Configures a new simulation for a state, and may add missing fields to the state. Throws a TypeError or RangeError for an invalid state. */
-  enterState(simulation: Simulation, state: StateValues) {
-    const settings = this.settings.pickSettings(state);
-    if (this.cloud) this.cloud.configure(simulation as any, settings, state.shown);
-    else simulation.configure(settings);
+  enterState(simulation: Simulation, figureState: StateValues) {
+    const stateSettings = this.settings.pickSettings(figureState);
+    if (this.cloud) this.cloud.configure(simulation as any, stateSettings, figureState.shown);
+    else simulation.configure(stateSettings);
   }
 
   /** Returns the view model of the simulation. Called once for each change. */
@@ -163,7 +163,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
 
   /** Text equivalent of the first picture, in the page and in exported files. */
   get description() {
-    return [...this.describePicture(this.viewModel).map((sentence) => `${sentence}.`), this.announcementOf(this.viewModel)].join(' ');
+    return [...this.describePicture(this.viewModel).map((descriptionSentence) => `${descriptionSentence}.`), this.announcementOf(this.viewModel)].join(' ');
   }
 
   /** Settings and columns for exported files, after all pending changes. */
@@ -173,20 +173,20 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   abstract announcementOf(viewModel: ViewModel): string;
 
   /** Selects the sample at the pointer when the pointer moves or clicks on a picture. */
-  selectAtPointer(picture: Picture<any>, event: PointerEvent) {
-    this.cloud?.selectAtPointer(picture, event);
+  selectAtPointer(picture: FigurePicture<any>, domEvent: PointerEvent) {
+    this.cloud?.selectAtPointer(picture, domEvent);
   }
 
   /** Runs after the simulation was replaced. */
   onSimulationReplaced() {}
 
   takeSnapshot(): StateValues {
-    return { widget: this.localName, version: STATE_VERSION, ...this.settings.elementState, ...this.settings.pickSettings(this.settings.current), ...this.cloud?.takeSnapshot() };
+    return { widget: this.localName, version: STATE_VERSION, ...this.settings.elementState, ...this.settings.pickSettings(this.settings.currentValues), ...this.cloud?.takeSnapshot() };
   }
 
   /** Returns a partial state, completed by the fields whose values follow from it. */
-  withDerivedFields(currentState: StateValues, changes: StateValues): StateValues {
-    return { ...this.cloud?.withDerivedFields(currentState, changes), ...changes };
+  withDerivedFields(currentState: StateValues, changedValues: StateValues): StateValues {
+    return { ...this.cloud?.withDerivedFields(currentState, changedValues), ...changedValues };
   }
 
   get simulation() {
@@ -194,7 +194,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   }
 
   get motion() {
-    return this.runtime.motion as Motion;
+    return this.runtime.motionCore as Motion;
   }
 
   updateViewModel() {
@@ -245,8 +245,8 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
    * @public
    */
   get settled(): Promise<void> {
-    return new Promise((resolve) => {
-      this.#settledResolvers.push(resolve);
+    return new Promise((resolveSettled) => {
+      this.#settledResolvers.push(resolveSettled);
       if (this.isConnected) void this.runtime.startCore();
       this.renderer.requestFrame();
     });
@@ -266,7 +266,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
     if (!this.isSettledAwaited) return;
     const { simulation, cloud, settings, runtime, renderer } = this;
     const isSettled = simulation ? !this.isBusy && !settings.hasPendingChanges && !renderer.hasPendingFrames && (cloud?.isSettled ?? true) : runtime.failureMessage !== undefined;
-    if (isSettled) for (const resolve of this.#settledResolvers.splice(0)) resolve();
+    if (isSettled) for (const resolveSettled of this.#settledResolvers.splice(0)) resolveSettled();
   }
 
   /**
@@ -284,8 +284,8 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
    * many sides is reported by an `error` event.
    * @public
    */
-  setState(state: Partial<StateValues> & FigureState) {
-    this.reflection.applyWhenReady(() => this.settings.applyState(state));
+  setState(figureState: Partial<StateValues> & FigureState) {
+    this.reflection.applyWhenReady(() => this.settings.applyState(figureState));
   }
 
   /**
@@ -355,7 +355,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
     if (!matchMedia('(forced-colors: active)').matches) {
       const reservedSpace = this.renderRoot.appendChild(document.createElement('div'));
       reservedSpace.className = 'reserved';
-      await new Promise((resolve) => setTimeout(resolve));
+      await new Promise((resolveTimeout) => setTimeout(resolveTimeout));
       reservedSpace.remove();
     }
     this.#isPlaceholderDue = true;

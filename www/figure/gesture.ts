@@ -3,7 +3,7 @@
 import { FigureController } from './controller.ts';
 import type { StateValues } from './settings.ts';
 
-export class Gesture extends FigureController {
+export class UserGesture extends FigureController {
   /** True between an `input` event and the `change` event that follows. */
   #isOpen = false;
   #pressListenerAbort: AbortController | undefined;
@@ -15,19 +15,19 @@ export class Gesture extends FigureController {
     return this.#pressListenerAbort !== undefined;
   }
 
-  onPointerDown({ button }: PointerEvent) {
-    if (button !== 0) return;
+  onPointerDown({ button: pressedButton }: PointerEvent) {
+    if (pressedButton !== 0) return;
     this.#endPress();
     this.#pressListenerAbort = new AbortController();
-    const { signal } = this.#pressListenerAbort;
+    const { signal: abortSignal } = this.#pressListenerAbort;
     // No `pointerup` arrives if the pointer is released over a list or dialog of the browser. The next event is then a `pointermove`.
-    for (const eventType of ['pointerup', 'pointercancel', 'pointermove'] as const) addEventListener(eventType, ({ buttons }) => buttons === 0 && this.#endPress(), { capture: true, signal });
+    for (const eventType of ['pointerup', 'pointercancel', 'pointermove'] as const) addEventListener(eventType, ({ buttons: pressedButtons }) => pressedButtons === 0 && this.#endPress(), { capture: true, signal: abortSignal });
   }
 
   #endPress() {
     this.#pressListenerAbort?.abort();
     this.#pressListenerAbort = undefined;
-    this.host.renderer.requestFrame();
+    this.figure.renderer.requestFrame();
   }
 
   hostDisconnected() {
@@ -37,22 +37,22 @@ export class Gesture extends FigureController {
 
   /** Begins a gesture if none is open, and fires `input` for a step of a change that may continue. */
   dispatchInput() {
-    if (!this.#isOpen) this.previousViewModel = this.host.viewModel;
+    if (!this.#isOpen) this.previousViewModel = this.figure.viewModel;
     this.#isOpen = true;
-    this.host.notice.dismissNotice();
+    this.figure.notice.dismissNotice();
     this.#dispatchEventOfType('input');
   }
 
   /** Ends a change: applies it and announces the outcome. */
   commitChange() {
-    const { host } = this;
-    host.settings.applyPending();
-    host.announcer.requestAnnouncement();
+    const { figure } = this;
+    figure.settings.applyPending();
+    figure.announcer.requestAnnouncement();
     this.#endGesture();
-    if (host.settings.isViewModelStale) host.renderer.requestFrame();
-    else if (host.simulation) {
-      host.announceOutcome();
-      host.requestUpdate();
+    if (figure.settings.isViewModelStale) figure.renderer.requestFrame();
+    else if (figure.simulation) {
+      figure.announceOutcome();
+      figure.requestUpdate();
     }
   }
 
@@ -63,26 +63,26 @@ export class Gesture extends FigureController {
   }
 
   /** Changes settings in one step, such as a click, and fires `input` and `change`. */
-  requestAndCommit(change: StateValues | ((requested: StateValues) => StateValues)) {
-    this.host.settings.requestChange(change);
+  requestAndCommit(settingChange: StateValues | ((requestedValues: StateValues) => StateValues)) {
+    this.figure.settings.requestChange(settingChange);
     this.commitChange();
   }
 
   /** Changes a field of the element's state in one step, and fires `change`. Screen readers get no announcement of an outcome. */
-  setElementField(name: string, value: unknown) {
-    this.host.settings.requestChange({ [name]: value });
+  setElementField(fieldName: string, fieldValue: unknown) {
+    this.figure.settings.requestChange({ [fieldName]: fieldValue });
     this.#endGesture();
   }
 
   #endGesture() {
     if (!this.#isOpen) return;
     this.#isOpen = false;
-    this.host.reflection.updateAttributes();
+    this.figure.reflection.updateAttributes();
     this.#dispatchEventOfType('change');
-    void this.host.stateLink.writeToAddress();
+    void this.figure.stateLink.writeToAddress();
   }
 
   #dispatchEventOfType(eventType: string) {
-    this.host.dispatchEvent(new Event(eventType, { bubbles: true, composed: true }));
+    this.figure.dispatchEvent(new Event(eventType, { bubbles: true, composed: true }));
   }
 }

@@ -20,7 +20,7 @@ export class StateLink extends FigureController {
     addEventListener('hashchange', () => {
       if (this.#isOwnFragmentPart(splitFragment()[0])) this.#scrollHere();
       void this.applyStateInAddress();
-    }, { signal: this.host.lifetime.signal });
+    }, { signal: this.figure.lifetime.signal });
     pendingLinkPart ??= wasOpenedByLink() ? splitFragment()[0] : '';
     if (!this.#isOwnFragmentPart(pendingLinkPart)) return;
     pendingLinkPart = '';
@@ -28,39 +28,39 @@ export class StateLink extends FigureController {
   }
 
   #isOwnFragmentPart(fragmentPart = '') {
-    return fragmentPart.startsWith(`${fragmentKeyOf(this.host)}=`);
+    return fragmentPart.startsWith(`${fragmentKeyOf(this.figure)}=`);
   }
 
   #scrollHere() {
-    const { host } = this;
+    const { figure } = this;
     // The page scrolls after the update, which gives the figure its height.
-    void host.updateComplete.then(() => host.scrollIntoView());
+    void figure.updateComplete.then(() => figure.scrollIntoView());
   }
 
   /** Applies the state in the page's address, if any, now or as soon as there is a simulation. */
   async applyStateInAddress() {
-    const { host } = this;
+    const { figure } = this;
     const ownPart = splitFragment().find((fragmentPart) => this.#isOwnFragmentPart(fragmentPart));
     if (ownPart === undefined) return;
     try {
-      const state = await unpackJson(ownPart.slice(ownPart.indexOf('=') + 1));
-      host.runtime.attemptOrReport(() => host.setState(state as any));
+      const figureState = await unpackJson(ownPart.slice(ownPart.indexOf('=') + 1));
+      figure.runtime.attemptOrReport(() => figure.setState(figureState as any));
     } catch (error) {
-      host.runtime.reportError(error);
-      host.notice.showNotice(() => words.unreadableLinkNotice);
+      figure.runtime.reportError(error);
+      figure.notice.showNotice(() => words.unreadableLinkNotice);
     }
   }
 
   /** Writes the state into the address, if `share` is set or the address has the figure's state. The page does not scroll, and its history gets no entry. */
   async writeToAddress() {
-    if (!this.host.share && !splitFragment().some((part) => this.#isOwnFragmentPart(part))) return;
+    if (!this.figure.share && !splitFragment().some((fragmentPart) => this.#isOwnFragmentPart(fragmentPart))) return;
     const writeToken = (this.#latestWriteToken = {});
     const packedState = await this.#packState();
-    if (writeToken !== this.#latestWriteToken || !this.host.isConnected) return;
-    const address = createAddress(fragmentKeyOf(this.host), packedState);
-    if (address === location.href) return;
+    if (writeToken !== this.#latestWriteToken || !this.figure.isConnected) return;
+    const pageAddress = createAddress(fragmentKeyOf(this.figure), packedState);
+    if (pageAddress === location.href) return;
     try {
-      history.replaceState(history.state, document.title, address);
+      history.replaceState(history.state, document.title, pageAddress);
     } catch {
       // On pages without an address of their own, such as about:srcdoc, `replaceState` throws.
     }
@@ -68,15 +68,15 @@ export class StateLink extends FigureController {
 
   /** Returns the address of this page with the state. The figure's part comes first, because a link scrolls to the figure of its first part. */
   async createShareAddress(): Promise<string> {
-    return createAddress(fragmentKeyOf(this.host), await this.#packState(), true);
+    return createAddress(fragmentKeyOf(this.figure), await this.#packState(), true);
   }
 
   async #packState() {
-    const state = this.host.getState() ?? {};
-    const packedState = await packJson(state);
+    const figureState = this.figure.getState() ?? {};
+    const packedState = await packJson(figureState);
     this.lacksMap = packedState.length > MAX_PACKED_LENGTH;
     // Without its map, the start pose may be invalid, and is left out too.
-    return this.lacksMap ? packJson({ ...state, map: undefined, start: undefined }) : packedState;
+    return this.lacksMap ? packJson({ ...figureState, map: undefined, start: undefined }) : packedState;
   }
 }
 
@@ -84,23 +84,23 @@ export class StateLink extends FigureController {
 function fragmentKeyOf(element: Element): string {
   const { localName, id } = element;
   const rootNode = element.getRootNode() as any;
-  const key = (rootNode.host ? `${fragmentKeyOf(rootNode.host)}/` : '') + encodeURIComponent(localName);
-  if (id) return `${key}:${encodeURIComponent(id)}`;
-  return `${key}.${[...rootNode.querySelectorAll(CSS.escape(localName))].indexOf(element) + 1}`;
+  const fragmentKey = (rootNode.host ? `${fragmentKeyOf(rootNode.host)}/` : '') + encodeURIComponent(localName);
+  if (id) return `${fragmentKey}:${encodeURIComponent(id)}`;
+  return `${fragmentKey}.${[...rootNode.querySelectorAll(CSS.escape(localName))].indexOf(element) + 1}`;
 }
 
 /** Returns the page's address with a figure's part added or replaced, or moved to the beginning if `isFirst`. */
-function createAddress(key: string, packedState: string, isFirst: boolean = false): string {
-  const part = `${key}=${packedState}`;
+function createAddress(fragmentKey: string, packedState: string, isFirst: boolean = false): string {
+  const fragmentPart = `${fragmentKey}=${packedState}`;
   const allParts = splitFragment();
-  const partIndex = allParts.findIndex((fragmentPart) => fragmentPart.startsWith(`${key}=`));
+  const partIndex = allParts.findIndex((fragmentPart) => fragmentPart.startsWith(`${fragmentKey}=`));
   const otherParts = allParts.filter((_, i) => i !== partIndex);
-  const newParts = isFirst ? [part, ...otherParts] : partIndex < 0 ? [...allParts, part] : allParts.with(partIndex, part);
+  const newParts = isFirst ? [fragmentPart, ...otherParts] : partIndex < 0 ? [...allParts, fragmentPart] : allParts.with(partIndex, fragmentPart);
   // The address is absolute, because a `base` element would redirect a relative one.
   return `${location.href.replace(/#.*/, '')}#${newParts.join('&')}`;
 }
 
-const splitFragment = () => location.hash.slice(1).split('&').filter((part) => part !== '');
+const splitFragment = () => location.hash.slice(1).split('&').filter((fragmentPart) => fragmentPart !== '');
 
 /** Fragment part of the figure to which a followed link still has to scroll. Empty after the scroll, and undefined until the first figure is connected. */
 let pendingLinkPart: string | undefined;

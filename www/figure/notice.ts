@@ -11,7 +11,7 @@ interface WorkNotice {
 }
 
 /** Notice at the lower edge of the figure or window. It moves no other content. */
-export class Notice extends FigureController {
+export class FigureNotice extends FigureController {
   #renderContent: (() => unknown) | undefined;
   /** Notice about long work. It hides the other notice until the work has ended. */
   #workNotice: WorkNotice | undefined;
@@ -19,25 +19,25 @@ export class Notice extends FigureController {
   /** Shows a notice with a button that closes it. */
   showNotice(renderContent: () => unknown) {
     this.#renderContent = renderContent;
-    this.host.requestUpdate();
+    this.figure.requestUpdate();
   }
 
   /** Shows a notice about long work, with a button that calls `stopWork`, until `endWork` is called. */
   showWork(renderContent: () => unknown, stopWork: () => void) {
     this.#workNotice = { renderContent, stopWork };
-    this.host.requestUpdate();
+    this.figure.requestUpdate();
   }
 
   dismissNotice() {
     if (!this.#renderContent) return;
     this.#renderContent = undefined;
-    this.host.requestUpdate();
+    this.figure.requestUpdate();
   }
 
   endWork() {
     if (!this.#workNotice) return;
     this.#workNotice = undefined;
-    this.host.requestUpdate();
+    this.figure.requestUpdate();
   }
 
   #stopOrClose = () => {

@@ -3,10 +3,10 @@
 import { nothing } from 'lit';
 import { onLanguage } from '../messages/registry.ts';
 import { hasPixels } from '../scene/canvases.ts';
-import { clamp } from '../ui/format.ts';
+import { clampNumber } from '../ui/format.ts';
 import { FigureController } from './controller.ts';
 
-type AnyPicture = import('../scene/picture.ts').Picture<any>;
+type AnyPicture = import('../scene/picture.ts').FigurePicture<any>;
 
 /** Maximum drawing time (ms) with which the text is rendered in the same frame. After a longer drawing, the text follows in the next frame. */
 const MAX_DRAW_MS_BEFORE_TEXT_OF_SAME_FRAME = 5;
@@ -27,16 +27,16 @@ const MAX_TIME_STEP_MS = 100;
 
 export const prefersReducedMotion = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
 
-export class Renderer extends FigureController {
+export class FigureRenderer extends FigureController {
   isVisible = false;
   #isNear = false;
   /** Observes the content, or the element before it has content. A sticky picture may be in sight while the element's own box is not. */
-  #visibleObserver = new IntersectionObserver((entries) => this.#updateVisible(entries));
+  #visibleObserver = new IntersectionObserver((observerEntries) => this.#updateVisible(observerEntries));
   #visibleTarget: Element | undefined;
-  #nearObserver = new IntersectionObserver((entries) => {
+  #nearObserver = new IntersectionObserver((observerEntries) => {
     // Starting depends on the visibility, but the order in which the two observers call back is undefined.
     this.#updateVisible(this.#visibleObserver.takeRecords());
-    for (const { isIntersecting } of entries) this.#setNear(isIntersecting);
+    for (const { isIntersecting } of observerEntries) this.#setNear(isIntersecting);
   }, { rootMargin: NEAR_MARGIN_CSS });
   #hasRenderedText = false;
   /** Queue of the pictures to draw. The picture that has waited longest is first. */
@@ -49,17 +49,17 @@ export class Renderer extends FigureController {
   isPrinting = false;
 
   hostConnected() {
-    const { signal } = this.host.lifetime;
-    this.host.canvases.followPixelRatio(signal);
-    addEventListener('beforeprint', () => this.#setPrinting(true), { signal });
-    addEventListener('afterprint', () => this.#setPrinting(false), { signal });
+    const { signal: abortSignal } = this.figure.lifetime;
+    this.figure.canvases.followPixelRatio(abortSignal);
+    addEventListener('beforeprint', () => this.#setPrinting(true), { signal: abortSignal });
+    addEventListener('afterprint', () => this.#setPrinting(false), { signal: abortSignal });
     // Some browsers do not fire `beforeprint` and `afterprint`, and others fire them too late.
     const printQuery = matchMedia('print');
-    printQuery.addEventListener('change', () => this.#setPrinting(printQuery.matches), { signal });
+    printQuery.addEventListener('change', () => this.#setPrinting(printQuery.matches), { signal: abortSignal });
     // An element that is removed during print gets no event at the end of the print.
     if (this.isPrinting !== printQuery.matches) this.#setPrinting(printQuery.matches);
-    onLanguage(this.host, () => this.#applyLanguage(), signal);
-    this.#nearObserver.observe(this.host);
+    onLanguage(this.figure, () => this.#applyLanguage(), abortSignal);
+    this.#nearObserver.observe(this.figure);
     // The figure starts in a microtask, because the script that defines the element may first call `load(source)`.
     queueMicrotask(() => {
       this.#checkPosition();
@@ -68,53 +68,53 @@ export class Renderer extends FigureController {
   }
 
   hostDisconnected() {
-    for (const observer of [this.#visibleObserver, this.#nearObserver]) observer.disconnect();
+    for (const visibilityObserver of [this.#visibleObserver, this.#nearObserver]) visibilityObserver.disconnect();
     this.#visibleTarget = undefined;
     this.#isNear = false;
     this.#setVisible(false);
   }
 
-  #updateVisible(entries: IntersectionObserverEntry[]) {
-    const isIntersecting = entries.at(-1)?.isIntersecting;
+  #updateVisible(observerEntries: IntersectionObserverEntry[]) {
+    const isIntersecting = observerEntries.at(-1)?.isIntersecting;
     if (isIntersecting !== undefined) this.#setVisible(isIntersecting);
   }
 
   #observeVisibility() {
-    const target = this.host.shadowRoot?.querySelector('.simulation') ?? this.host;
+    const observedElement = this.figure.shadowRoot?.querySelector('.simulation') ?? this.figure;
     // An element may still be updated after its removal. It is then not observed.
-    if (target === this.#visibleTarget || !this.host.isConnected) return;
+    if (observedElement === this.#visibleTarget || !this.figure.isConnected) return;
     if (this.#visibleTarget) this.#visibleObserver.unobserve(this.#visibleTarget);
-    this.#visibleTarget = target;
-    this.#visibleObserver.observe(target);
+    this.#visibleTarget = observedElement;
+    this.#visibleObserver.observe(observedElement);
   }
 
   /** Checks the position of the figure at once: the observers would report it a frame later. */
   #checkPosition() {
-    const { top, bottom } = this.host.getBoundingClientRect();
+    const { top: topEdge, bottom: bottomEdge } = this.figure.getBoundingClientRect();
     // The box of a removed element is all 0.
-    if (top >= innerHeight || bottom <= 0) return;
+    if (topEdge >= innerHeight || bottomEdge <= 0) return;
     this.#setVisible(true);
     this.#setNear(true);
   }
 
   #setNear(isNear: boolean) {
-    if (isNear && !this.#isNear) void this.host.runtime.startCore();
+    if (isNear && !this.#isNear) void this.figure.runtime.startCore();
     this.#isNear = isNear;
   }
 
   #applyLanguage() {
-    this.host.settings.isViewModelStale = true;
-    this.host.requestUpdate();
+    this.figure.settings.isViewModelStale = true;
+    this.figure.requestUpdate();
     this.requestFrame();
   }
 
   hostUpdated() {
-    const { host } = this;
+    const { figure } = this;
     this.#observeVisibility();
-    host.resolveIfSettled();
-    if (!host.canvases.canvasElements) host.colours.applyAndDraw();
-    if (!host.simulation || host.canvases.canvasElements) return;
-    host.canvases.findAndObserve(host.renderRoot);
+    figure.resolveIfSettled();
+    if (!figure.canvases.canvasElements) figure.colours.applyAndDraw();
+    if (!figure.simulation || figure.canvases.canvasElements) return;
+    figure.canvases.findAndObserve(figure.renderRoot);
     this.requestFrame();
     if (this.isPrinting) this.#setPrinting(true);
   }
@@ -124,13 +124,13 @@ export class Renderer extends FigureController {
     const hasAppeared = isVisible && !this.isVisible;
     this.isVisible = isVisible;
     // Changes of colours are not observed while the figure is out of the viewport. The colours are therefore applied again.
-    if (hasAppeared) this.host.colours.applyAndDraw();
-    else if (!isVisible && this.host.isSettledAwaited) this.requestFrame();
+    if (hasAppeared) this.figure.colours.applyAndDraw();
+    else if (!isVisible && this.figure.isSettledAwaited) this.requestFrame();
   }
 
   /** Allows the views of all pictures to zoom in and recenter, after the user or the page has chosen another scene. */
   letViewsZoomIn(minFill?: number) {
-    for (const { view } of this.host.pictures) view.allowZoomIn(minFill);
+    for (const { pictureView } of this.figure.pictures) pictureView.allowZoomIn(minFill);
   }
 
   /** Requests a frame, in which a visible figure draws all pictures. */
@@ -140,11 +140,11 @@ export class Renderer extends FigureController {
   }
 
   #scheduleFrame() {
-    if (!this.host.simulation || this.#frameRequest !== undefined) return;
+    if (!this.figure.simulation || this.#frameRequest !== undefined) return;
     this.#previousFrameMs = performance.now();
     this.#frameRequest = requestAnimationFrame((nowMs) => {
       this.#frameRequest = undefined;
-      const elapsedMs = clamp(nowMs - this.#previousFrameMs, 0, MAX_TIME_STEP_MS);
+      const elapsedMs = clampNumber(nowMs - this.#previousFrameMs, 0, MAX_TIME_STEP_MS);
       if (!this.isVisible) this.#updateUnseen();
       else if (this.#undrawnPictures.size > 0) this.#attemptDraw(elapsedMs);
       else this.#renderText();
@@ -154,16 +154,16 @@ export class Renderer extends FigureController {
 
   /** Applies changes and adds samples without drawing, while the figure is out of the viewport. */
   #updateUnseen() {
-    const { host } = this;
-    host.runtime.attemptOrFail(() => {
-      const { simulation, cloud, settings } = host;
+    const { figure } = this;
+    figure.runtime.attemptOrFail(() => {
+      const { simulation, cloud, settings } = figure;
       if (!simulation) return;
       settings.applyPending();
       // If a script waits for all samples, they are added at once, because nobody sees the cloud grow.
-      if (host.isSettledAwaited) cloud?.addAllSamples();
+      if (figure.isSettledAwaited) cloud?.addAllSamples();
       if (cloud && !cloud.addSamplesUnseen()) this.#scheduleFrame();
-      else if (settings.isViewModelStale) host.updateViewModel();
-      host.resolveIfSettled();
+      else if (settings.isViewModelStale) figure.updateViewModel();
+      figure.resolveIfSettled();
     });
   }
 
@@ -174,7 +174,7 @@ export class Renderer extends FigureController {
 
   /** True for a visible figure until its first picture is drawn and its text is rendered. */
   get isOpening() {
-    return this.host.simulation !== undefined && !this.#hasRenderedText && this.isVisible && !document.hidden;
+    return this.figure.simulation !== undefined && !this.#hasRenderedText && this.isVisible && !document.hidden;
   }
 
   /** Returns the content, or nothing in the first frame, so that the first picture is drawn earlier. */
@@ -185,36 +185,36 @@ export class Renderer extends FigureController {
   /** Draws the pending pictures, if a canvas is visible. During a resize no text is rendered, because it could change sizes again. */
   #attemptDraw(elapsedMs: number, isResizing = false) {
     // In a closed disclosure of the page, all canvases have size 0, and nothing is drawn.
-    if (!this.host.simulation || !this.host.canvases.canvasElements?.some(hasPixels)) return;
-    this.host.runtime.attemptOrFail(() => {
+    if (!this.figure.simulation || !this.figure.canvases.canvasElements?.some(hasPixels)) return;
+    this.figure.runtime.attemptOrFail(() => {
       this.#drawPictures(elapsedMs, isResizing);
-      if (this.host.simulation) this.host.runtime.hasTrapped = false;
+      if (this.figure.simulation) this.figure.runtime.hasTrapped = false;
     });
   }
 
   #drawPictures(elapsedMs: number, isResizing: boolean) {
-    const host = this.host;
-    const { viewModel } = host;
+    const figure = this.figure;
+    const { viewModel } = figure;
     const startTimeMs = performance.now();
-    host.settings.applyPending();
+    figure.settings.applyPending();
     // Without a simulation, as after a trap, nothing is drawn.
-    if (!host.simulation) return;
-    host.cloud?.addSamplesWhileDrawing();
-    const { scene } = host;
-    if (host.viewModel !== viewModel) this.#markAllUndrawn();
-    const { isPressed, previousViewModel } = host.gesture;
-    const drawOptions = { elapsedMs, isImmediate: this.isPrinting || prefersReducedMotion(), previousViewModel, highlight: host.highlight, drawsHandles: this.isPrinting };
+    if (!figure.simulation) return;
+    figure.cloud?.addSamplesWhileDrawing();
+    const { scene: drawnScene } = figure;
+    if (figure.viewModel !== viewModel) this.#markAllUndrawn();
+    const { isPressed, previousViewModel } = figure.gesture;
+    const drawOptions = { elapsedMs, isImmediate: this.isPrinting || prefersReducedMotion(), previousViewModel, highlight: figure.highlight, drawsHandles: this.isPrinting };
     let isMoving = false;
-    for (const picture of this.#undrawnPictures) {
-      this.#undrawnPictures.delete(picture);
-      const canvas = host.canvases.canvasOf(picture);
+    for (const undrawnPicture of this.#undrawnPictures) {
+      this.#undrawnPictures.delete(undrawnPicture);
+      const canvas = figure.canvases.canvasOf(undrawnPicture);
       if (!hasPixels(canvas)) continue;
       // A drag keeps the scale of pictures with handles, so that they stay under the pointer.
       const keepsScale = isPressed && canvas.parentElement!.querySelector('.handle') !== null;
-      isMoving = picture.draw(host.canvases.surfaceOf(canvas), scene, host.colours.palette, { ...drawOptions, keepsScale }) || isMoving;
+      isMoving = undrawnPicture.drawPicture(figure.canvases.surfaceOf(canvas), drawnScene, figure.colours.palette, { ...drawOptions, keepsScale }) || isMoving;
       if ((!isResizing || this.isOpening) && performance.now() - startTimeMs > MAX_DRAW_MS_PER_FRAME) break;
     }
-    for (const handles of host.handles) handles.place(scene);
+    for (const pictureHandles of figure.handles) pictureHandles.place(drawnScene);
     const nowMs = performance.now();
     const pendingSinceMs = this.#textPendingSince;
     // The first picture is drawn without text.
@@ -223,45 +223,45 @@ export class Renderer extends FigureController {
       this.#textPendingSince ??= startTimeMs;
       this.#scheduleFrame();
     }
-    host.resolveIfSettled();
-    const isPlaying = host.player?.advance(elapsedMs);
+    figure.resolveIfSettled();
+    const isPlaying = figure.player?.advance(elapsedMs);
     if (this.#undrawnPictures.size > 0) this.#scheduleFrame();
-    if (isPlaying || isMoving || host.cloud?.isSettled === false) this.requestFrame();
+    if (isPlaying || isMoving || figure.cloud?.isSettled === false) this.requestFrame();
   }
 
   /** Renders the text of the latest picture and writes the attributes. */
   #renderText() {
     this.#hasRenderedText = true;
     this.#textPendingSince = undefined;
-    this.host.reflection.updateAttributes();
-    this.host.requestUpdate();
+    this.figure.reflection.updateAttributes();
+    this.figure.requestUpdate();
   }
 
   #markAllUndrawn() {
-    for (const picture of this.host.pictures) this.#undrawnPictures.add(picture);
+    for (const undrawnPicture of this.figure.pictures) this.#undrawnPictures.add(undrawnPicture);
   }
 
   /** Draws at once, because resizing has cleared the canvases: a drawing in the next frame would flicker. */
   drawResized() {
-    this.host.canvases.updateWidths(this.isPrinting);
-    this.host.colours.applyPageColours();
+    this.figure.canvases.updateWidths(this.isPrinting);
+    this.figure.colours.applyPageColours();
     this.#markAllUndrawn();
     this.#attemptDraw(0, true);
   }
 
   /** Draws for print, in light colours and with all samples, or for the screen again. Printing starts a figure that is far from the viewport. */
   async #setPrinting(isPrinting: boolean) {
-    const { host } = this;
+    const { figure } = this;
     this.isPrinting = isPrinting;
     // Browsers run only microtasks before they print. Microtasks suffice to start this figure if another one has loaded the core.
-    if (isPrinting && !host.simulation) {
-      await host.runtime.startCore();
-      await host.updateComplete;
+    if (isPrinting && !figure.simulation) {
+      await figure.runtime.startCore();
+      await figure.updateComplete;
     }
-    host.settings.applyPending();
-    if (!host.simulation) return;
-    if (this.isPrinting) host.cloud?.addAllSamples();
-    else host.canvases.observeSizes();
+    figure.settings.applyPending();
+    if (!figure.simulation) return;
+    if (this.isPrinting) figure.cloud?.addAllSamples();
+    else figure.canvases.observeSizes();
     this.drawResized();
     this.#renderText();
   }

@@ -3,8 +3,8 @@
 import { abandonSimulation, instantiateFor, precompile } from '../core.ts';
 import { FigureController } from './controller.ts';
 
-export class Runtime extends FigureController {
-  motion: import('../types.d.ts').Motion | undefined;
+export class CoreRuntime extends FigureController {
+  motionCore: import('../types.d.ts').Motion | undefined;
   /** Simulation object of the core. */
   simulation: any;
   failureMessage: string | undefined;
@@ -25,12 +25,12 @@ export class Runtime extends FigureController {
 
   async #createCore() {
     try {
-      const { localName, stateLink, settings, viewModel } = this.host;
-      const shownState = viewModel && this.host.takeSnapshot();
-      const [motion] = await Promise.all([instantiateFor(localName), shownState ?? stateLink.applyStateInAddress()]);
-      this.motion = motion;
-      const simulation = this.host.createSimulation(motion);
-      if (shownState) this.host.enterState(simulation, shownState);
+      const { localName, stateLink, settings, viewModel } = this.figure;
+      const shownState = viewModel && this.figure.takeSnapshot();
+      const [motionCore] = await Promise.all([instantiateFor(localName), shownState ?? stateLink.applyStateInAddress()]);
+      this.motionCore = motionCore;
+      const simulation = this.figure.createSimulation(motionCore);
+      if (shownState) this.figure.enterState(simulation, shownState);
       Object.assign(this, { simulation, failureMessage: undefined });
       settings.showNewSimulation(shownState);
       await this.#showContent();
@@ -44,22 +44,22 @@ export class Runtime extends FigureController {
   }
 
   async #showContent() {
-    this.host.requestUpdate();
-    await this.host.updateComplete;
+    this.figure.requestUpdate();
+    await this.figure.updateComplete;
     // If rendering trapped, the simulation is removed.
     if (!this.simulation) return;
-    this.host.renderer.requestFrame();
+    this.figure.renderer.requestFrame();
     if (this.#hasLoaded) return;
     this.#hasLoaded = true;
-    this.host.dispatchEvent(new Event('load', { bubbles: true, composed: true }));
+    this.figure.dispatchEvent(new Event('load', { bubbles: true, composed: true }));
   }
 
   /** Replaces the simulation. Pending changes are dropped. */
   replaceSimulation(simulation: any) {
     this.simulation.free();
     this.simulation = simulation;
-    this.host.settings.dropPendingChanges();
-    this.host.onSimulationReplaced();
+    this.figure.settings.dropPendingChanges();
+    this.figure.onSimulationReplaced();
   }
 
   /** Calls `doWork`. After a trap, replaces the core and returns undefined. Other errors go to `handleError`, by default to the caller. */
@@ -80,36 +80,36 @@ export class Runtime extends FigureController {
 
   /** Fires an `error` event, and warns on the console if no listener prevents that. */
   reportError(error: unknown) {
-    const message = errorMessageOf(error);
-    const isUnhandled = this.host.dispatchEvent(new ErrorEvent('error', { error, message, cancelable: true }));
-    if (isUnhandled) console.warn(message, this.host);
+    const errorMessage = errorMessageOf(error);
+    const isUnhandled = this.figure.dispatchEvent(new ErrorEvent('error', { error, message: errorMessage, cancelable: true }));
+    if (isUnhandled) console.warn(errorMessage, this.figure);
   }
 
   endWithError(error: unknown) {
     this.#abandonCore();
     this.hasTrapped = false;
-    this.host.canvases.stopObserving();
+    this.figure.canvases.stopObserving();
     this.failureMessage = errorMessageOf(error);
     this.reportError(error);
-    this.host.requestUpdate();
+    this.figure.requestUpdate();
   }
 
   /** Replaces the core after a trap, because its memory may be damaged. */
-  #replaceCoreAfterTrap(trap: unknown) {
+  #replaceCoreAfterTrap(trapError: unknown) {
     if (this.hasTrapped) {
-      this.endWithError(trap);
+      this.endWithError(trapError);
       return;
     }
     this.hasTrapped = true;
     this.#abandonCore();
-    this.reportError(trap);
+    this.reportError(trapError);
     void this.startCore();
   }
 
   #abandonCore() {
     if (this.simulation) abandonSimulation(this.simulation);
-    this.host.settings.dropPendingChanges();
-    this.simulation = this.motion = undefined;
+    this.figure.settings.dropPendingChanges();
+    this.simulation = this.motionCore = undefined;
   }
 }
 
@@ -119,6 +119,6 @@ const isWasmTrap = (error: unknown) => typeof WebAssembly !== 'undefined' && err
 const TRUSTED_TYPES_ERROR = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";
 
 function errorMessageOf(error: unknown) {
-  const message = error instanceof Error ? error.message : String(error);
-  return message.includes('TrustedHTML') ? TRUSTED_TYPES_ERROR : message;
+  const errorMessage = error instanceof Error ? error.message : String(error);
+  return errorMessage.includes('TrustedHTML') ? TRUSTED_TYPES_ERROR : errorMessage;
 }

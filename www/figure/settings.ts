@@ -8,13 +8,13 @@ export type StateValues = Record<string, any>;
 
 export const STATE_VERSION = 1;
 
-export class Settings extends FigureController {
+export class FigureSettings extends FigureController {
   /** True if the simulation has changed since the view model was read. */
   isViewModelStale: boolean | undefined;
   #openingState: StateValues | undefined;
-  #elementFields = this.host.definition.elementFields;
+  #elementFields = this.figure.definition.elementFields;
   /** Values of the state fields that the simulation does not have. Changes take effect immediately. */
-  elementState: StateValues = { ...this.host.definition.elementDefaults };
+  elementState: StateValues = { ...this.figure.definition.elementDefaults };
   /** Cached settings that are in effect in the simulation; undefined until they are read. */
   #currentSettings: StateValues | undefined;
   /** Changes of settings by the user that wait for the next frame. */
@@ -22,28 +22,28 @@ export class Settings extends FigureController {
 
   /** Drops pending changes and stops the player, before the simulation is replaced. */
   dropPendingChanges() {
-    this.host.player?.stop();
+    this.figure.player?.stop();
     this.isViewModelStale = true;
     this.#currentSettings = undefined;
     this.#pendingChanges = {};
   }
 
   /** Returns those of the values that are declared settings. */
-  pickSettings(values: StateValues) {
-    const keys = this.host.definition.declarations.filter((declaration) => !declaration.in && !declaration.of).map(({ key }) => key);
-    return Object.fromEntries(keys.map((key) => [key, values[key]]));
+  pickSettings(settingValues: StateValues) {
+    const settingKeys = this.figure.definition.settingDeclarations.filter((settingDeclaration) => !settingDeclaration.in && !settingDeclaration.of).map(({ key: settingKey }) => settingKey);
+    return Object.fromEntries(settingKeys.map((settingKey) => [settingKey, settingValues[settingKey]]));
   }
 
   /** Settings of the simulation that are in effect, or after a trap those that were shown. */
-  get current(): StateValues {
-    const { simulation, viewModel } = this.host;
+  get currentValues(): StateValues {
+    const { simulation, viewModel } = this.figure;
     if (simulation) this.#currentSettings ??= simulation.config as StateValues;
     return this.#currentSettings ?? viewModel.config;
   }
 
   /** Settings in effect with the pending changes, and the element's own state fields. */
-  get requested(): StateValues {
-    return { ...this.current, ...this.#pendingChanges, ...this.elementState };
+  get requestedValues(): StateValues {
+    return { ...this.currentValues, ...this.#pendingChanges, ...this.elementState };
   }
 
   /** True if changes are pending or the view model does not contain them yet. */
@@ -52,26 +52,26 @@ export class Settings extends FigureController {
   }
 
   /** Changes values for the user, with an `input` event. Settings wait for the next frame, so that a drag configures the simulation once in each frame. */
-  requestChange(change: StateValues | ((requested: StateValues) => StateValues)) {
-    const { simulation, gesture, renderer } = this.host;
+  requestChange(settingChange: StateValues | ((requestedValues: StateValues) => StateValues)) {
+    const { simulation, gesture: userGesture, renderer: figureRenderer } = this.figure;
     if (!simulation) return;
-    const changedFields = typeof change === 'function' ? change(this.requested) : change;
-    for (const [key, value] of Object.entries(changedFields)) (key in this.elementState ? this.elementState : this.#pendingChanges)[key] = value;
-    gesture.dispatchInput();
-    renderer.requestFrame();
+    const changedFields = typeof settingChange === 'function' ? settingChange(this.requestedValues) : settingChange;
+    for (const [settingKey, fieldValue] of Object.entries(changedFields)) (settingKey in this.elementState ? this.elementState : this.#pendingChanges)[settingKey] = fieldValue;
+    userGesture.dispatchInput();
+    figureRenderer.requestFrame();
   }
 
   /** Changes values for the page, immediately and without an `input` event. Throws a TypeError or RangeError, and changes nothing, if a value is invalid. */
-  assignValues(values: StateValues) {
-    const { host } = this;
+  assignValues(settingValues: StateValues) {
+    const { figure } = this;
     this.applyPending();
-    const elementValues = this.#checkElementValues('', values, () => host.takeSnapshot());
-    const settings = Object.entries(values).filter(([key]) => !(key in elementValues));
-    if (settings.length > 0) this.#configure(Object.fromEntries(settings));
+    const elementValues = this.#checkElementValues('', settingValues, () => figure.takeSnapshot());
+    const settingEntries = Object.entries(settingValues).filter(([settingKey]) => !(settingKey in elementValues));
+    if (settingEntries.length > 0) this.#configureSimulation(Object.fromEntries(settingEntries));
     Object.assign(this.elementState, elementValues);
-    host.reflection.updateAttributes();
-    host.renderer.letViewsZoomIn();
-    host.renderer.requestFrame();
+    figure.reflection.updateAttributes();
+    figure.renderer.letViewsZoomIn();
+    figure.renderer.requestFrame();
   }
 
   /** Applies pending changes. Changes that the simulation refuses are reported and dropped. */
@@ -79,76 +79,76 @@ export class Settings extends FigureController {
     const pendingValues = this.#pendingChanges;
     if (Object.keys(pendingValues).length === 0) return;
     this.#pendingChanges = {};
-    this.host.runtime.attemptOrReport(() => this.#configure(pendingValues));
+    this.figure.runtime.attemptOrReport(() => this.#configureSimulation(pendingValues));
   }
 
-  #configure(values: StateValues) {
-    const { simulation, cloud } = this.host;
+  #configureSimulation(settingValues: StateValues) {
+    const { simulation, cloud } = this.figure;
     if (!simulation) return;
-    this.#currentSettings = Object.freeze(cloud ? cloud.configure(simulation, values) : simulation.configure(values));
+    this.#currentSettings = Object.freeze(cloud ? cloud.configure(simulation, settingValues) : simulation.configure(settingValues));
     this.isViewModelStale = true;
   }
 
   /** Checks the values of the element's own state fields, and returns them. Errors name a field with the prefix `path`. */
-  #checkElementValues(path: string, values: StateValues, getState: () => StateValues) {
-    const fields = Object.entries(this.#elementFields).filter(([name]) => name in values);
-    return Object.fromEntries(fields.map(([name, { maxInState, max, ...range }]) =>
-      [name, checkValue(path + name, values[name], { ...range, max: maxInState ? maxInState(getState()) : max })]));
+  #checkElementValues(statePath: string, settingValues: StateValues, getState: () => StateValues) {
+    const givenFields = Object.entries(this.#elementFields).filter(([fieldName]) => fieldName in settingValues);
+    return Object.fromEntries(givenFields.map(([fieldName, { maxInState, max: maxValue, ...fieldRange }]) =>
+      [fieldName, checkValue(statePath + fieldName, settingValues[fieldName], { ...fieldRange, max: maxInState ? maxInState(getState()) : maxValue })]));
   }
 
   /** Applies properties that the page assigned before the core was loaded, and shows the new simulation. `state` is the state restored after a WebAssembly trap, if any. */
-  showNewSimulation(state?: StateValues) {
-    const { host } = this;
+  showNewSimulation(figureState?: StateValues) {
+    const { figure } = this;
     this.dropPendingChanges();
-    host.onSimulationReplaced();
-    host.reflection.applyEarlyAssignments();
+    figure.onSimulationReplaced();
+    figure.reflection.applyEarlyAssignments();
     // If an assignment has trapped, there is no simulation. If an assigned state is shown, the view model is already up to date.
-    if (host.simulation && this.isViewModelStale) this.#showState(state);
+    if (figure.simulation && this.isViewModelStale) this.#showState(figureState);
   }
 
   /** Applies a state, which must name this widget and version. Fields that the state does not have keep their values. Throws an error for an invalid state, and then changes nothing. */
-  applyState(state: unknown) {
-    const { host } = this;
+  applyState(figureState: unknown) {
+    const { figure } = this;
     this.applyPending();
-    const { widget, version } = Object(state);
-    checkWord('state.widget', widget, [host.localName]);
-    if (version !== STATE_VERSION) throw createRefusalError('state.version', version, String(STATE_VERSION));
-    const currentState = host.takeSnapshot();
-    const changes = checkObject('state', state, Object.keys(currentState));
-    const wholeState: StateValues = { ...currentState, ...host.withDerivedFields(currentState, changes) };
+    const { widget, version: stateVersion } = Object(figureState);
+    checkWord('state.widget', widget, [figure.localName]);
+    if (stateVersion !== STATE_VERSION) throw createRefusalError('state.version', stateVersion, String(STATE_VERSION));
+    const currentState = figure.takeSnapshot();
+    const changedFields = checkObject('state', figureState, Object.keys(currentState));
+    const wholeState: StateValues = { ...currentState, ...figure.withDerivedFields(currentState, changedFields) };
     // Checks the settings first, because the number of samples limits other fields.
-    const simulation = host.createSimulation(host.motion);
-    host.enterState(simulation, wholeState);
-    const changedValues = Object.fromEntries(Object.keys(changes).map((key) => [key, wholeState[key]]));
+    const simulation = figure.createSimulation(figure.motion);
+    figure.enterState(simulation, wholeState);
+    const changedValues = Object.fromEntries(Object.keys(changedFields).map((settingKey) => [settingKey, wholeState[settingKey]]));
     Object.assign(wholeState, this.#checkElementValues('state.', changedValues, () => wholeState));
-    for (const name of Object.keys(this.elementState)) this.elementState[name] = wholeState[name];
-    host.runtime.replaceSimulation(simulation);
-    host.renderer.letViewsZoomIn(1);
+    for (const fieldName of Object.keys(this.elementState)) this.elementState[fieldName] = wholeState[fieldName];
+    figure.runtime.replaceSimulation(simulation);
+    figure.renderer.letViewsZoomIn(1);
     this.#showState(wholeState);
   }
 
   choosePreset(presetName: string) {
-    const { host } = this;
-    host.player?.stop();
-    host.renderer.letViewsZoomIn(1);
-    for (const [name, { isResetByPreset, default: openingValue }] of Object.entries(this.#elementFields)) if (isResetByPreset) this.elementState[name] = openingValue;
-    Object.assign(host, { preset: presetName });
-    host.gesture.commitOneStep();
+    const { figure } = this;
+    figure.player?.stop();
+    figure.renderer.letViewsZoomIn(1);
+    for (const [fieldName, { isResetByPreset, default: openingValue }] of Object.entries(this.#elementFields)) if (isResetByPreset) this.elementState[fieldName] = openingValue;
+    Object.assign(figure, { preset: presetName });
+    figure.gesture.commitOneStep();
   }
 
   /** Restores a state for the user, with a `change` event. By default this is the state that the figure opened with. */
-  restoreAsUser(state: StateValues | undefined = this.#openingState) {
-    this.applyState(state);
-    this.host.gesture.commitOneStep();
+  restoreAsUser(figureState: StateValues | undefined = this.#openingState) {
+    this.applyState(figureState);
+    this.figure.gesture.commitOneStep();
   }
 
   /** Shows a state of the simulation, by default the opening state. */
-  #showState(state?: StateValues) {
-    const { host } = this;
-    host.cloud?.showOrGrow(state);
-    this.#openingState ??= { ...host.takeSnapshot(), ...(host.cloud && { shown: 0, playing: true }) };
-    host.updateViewModel();
-    host.reflection.updateAttributes();
-    host.renderer.requestFrame();
+  #showState(figureState?: StateValues) {
+    const { figure } = this;
+    figure.cloud?.showOrGrow(figureState);
+    this.#openingState ??= { ...figure.takeSnapshot(), ...(figure.cloud && { shown: 0, playing: true }) };
+    figure.updateViewModel();
+    figure.reflection.updateAttributes();
+    figure.renderer.requestFrame();
   }
 }

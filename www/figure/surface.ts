@@ -14,7 +14,7 @@ export function figureHtml(figure: Figure) {
   const updateColours = () => colours.applyAndDraw();
   return html`
     <span class="scheme-probe" aria-hidden="true" @transitionend=${updateColours} @transitioncancel=${updateColours}></span>
-    <div class="surface ${presentationMode.showsControls ? 'with-controls' : ''}" @pointerdown=${(event: PointerEvent) => gesture.onPointerDown(event)} @input=${stopPropagation} @change=${stopPropagation} @keydown=${(event: KeyboardEvent) => stopUsedKey(figure, event)}>
+    <div class="surface ${presentationMode.showsControls ? 'with-controls' : ''}" @pointerdown=${(domEvent: PointerEvent) => gesture.onPointerDown(domEvent)} @input=${stopPropagation} @change=${stopPropagation} @keydown=${(domEvent: KeyboardEvent) => stopUsedKey(figure, domEvent)}>
       ${slotHtml(figure, 'title', presentation ? accessibleNameOf(figure) : '', headingLevel)}
       <div class="spoken" lang=${language} dir=${RIGHT_TO_LEFT_LANGUAGES.test(language) ? 'rtl' : 'ltr'}>
         ${contentHtml(figure)} ${notice.render()} ${presentationMode.render()}
@@ -47,7 +47,7 @@ function placeholderHtml(figure: Figure) {
   return html`<div class="reserved" tabindex="0" role="group" aria-label=${accessibleNameOf(figure)} @focus=${moveFocus}></div>`;
 }
 
-const slottedChildrenOf = (figure: Figure, name: string) => [...figure.children].filter(({ slot }) => slot === name);
+const slottedChildrenOf = (figure: Figure, slotName: string) => [...figure.children].filter(({ slot: childSlot }) => childSlot === slotName);
 
 /** Returns the name of a figure: the page's title, or the widget's own. */
 export function accessibleNameOf(figure: Figure) {
@@ -56,14 +56,14 @@ export function accessibleNameOf(figure: Figure) {
 }
 
 /** Returns a slot for content of the page, with a text shown while the slot is empty. With a heading level, the slot is a heading. */
-function slotHtml(figure: Figure, name: string, fallbackText = '', headingLevel: string | null = null) {
+function slotHtml(figure: Figure, slotName: string, fallbackText = '', headingLevel: string | null = null) {
   return html`<div
-    class="${name}-slot"
+    class="${slotName}-slot"
     role=${headingLevel ? 'heading' : nothing}
     aria-level=${headingLevel ?? nothing}
-    ?hidden=${!fallbackText && slottedChildrenOf(figure, name).length === 0}
+    ?hidden=${!fallbackText && slottedChildrenOf(figure, slotName).length === 0}
   >
-    <slot name=${name} @slotchange=${() => figure.requestUpdate()}>${fallbackText || nothing}</slot>
+    <slot name=${slotName} @slotchange=${() => figure.requestUpdate()}>${fallbackText || nothing}</slot>
   </div>`;
 }
 
@@ -77,22 +77,22 @@ const MOVE_KEYS = /Arrow|Page|Home|End/;
 const PRESS_KEYS = /^( |Enter)$/;
 
 /** Stops the propagation of a key event that a control has used, so that the shortcuts of a page, such as a slide deck, do not use the key again. */
-function stopUsedKey({ notice }: Figure, event: KeyboardEvent) {
-  notice.stopOnEscape(event);
-  const { key, ctrlKey, altKey, metaKey, defaultPrevented } = event;
-  const keyTarget = event.target as Element;
-  const isPressKey = PRESS_KEYS.test(key) && keyTarget.matches('button, input, summary');
-  const isUsedByControl = keyTarget.matches(TEXT_FIELD_SELECTOR) ? key !== 'Escape' : isPressKey || (keyTarget.matches('input') && MOVE_KEYS.test(key));
-  if (defaultPrevented || (isUsedByControl && !ctrlKey && !altKey && !metaKey)) event.stopPropagation();
+function stopUsedKey({ notice }: Figure, domEvent: KeyboardEvent) {
+  notice.stopOnEscape(domEvent);
+  const { key: pressedKey, ctrlKey, altKey, metaKey, defaultPrevented } = domEvent;
+  const keyTarget = domEvent.target as Element;
+  const isPressKey = PRESS_KEYS.test(pressedKey) && keyTarget.matches('button, input, summary');
+  const isUsedByControl = keyTarget.matches(TEXT_FIELD_SELECTOR) ? pressedKey !== 'Escape' : isPressKey || (keyTarget.matches('input') && MOVE_KEYS.test(pressedKey));
+  if (defaultPrevented || (isUsedByControl && !ctrlKey && !altKey && !metaKey)) domEvent.stopPropagation();
 }
 
 /** Stops the events of native controls, because the element fires its own. */
-const stopPropagation = (event: Event) => event.stopPropagation();
+const stopPropagation = (domEvent: Event) => domEvent.stopPropagation();
 
 const FOCUSABLE_SELECTOR = ':is(button, input, select, textarea):enabled:not([tabindex]), summary, [tabindex="0"]';
 
-function focusableElementsIn(root: ParentNode): HTMLElement[] {
-  return ([...root.querySelectorAll(FOCUSABLE_SELECTOR)] as HTMLElement[]).filter((element) => element.checkVisibility());
+function focusableElementsIn(searchRoot: ParentNode): HTMLElement[] {
+  return ([...searchRoot.querySelectorAll(FOCUSABLE_SELECTOR)] as HTMLElement[]).filter((element) => element.checkVisibility());
 }
 
 /** Keyboard focus. It stays in the figure when the focused control is removed, disabled or hidden. */
@@ -102,17 +102,17 @@ export class FocusKeeper extends FigureController {
 
   hostUpdate() {
     this.#focusPath = [];
-    const focusedControl = (this.host.renderRoot as ShadowRoot | undefined)?.activeElement;
+    const focusedControl = (this.figure.renderRoot as ShadowRoot | undefined)?.activeElement;
     // If the placeholder has the focus, the placeholder itself moves the focus to a control.
     if (!focusedControl || focusedControl.matches('.reserved')) return;
     for (let element = focusedControl as Element | null; element; element = element.parentElement) this.#focusPath.push(element);
   }
 
   hostUpdated() {
-    const [previousControl, ...ancestors] = this.#focusPath;
+    const [previousControl, ...focusAncestors] = this.#focusPath;
     if (!previousControl || (previousControl.isConnected && previousControl.checkVisibility() && !previousControl.matches(':disabled'))) return;
-    for (const ancestor of ancestors) {
-      const [nextControl] = ancestor.isConnected ? focusableElementsIn(ancestor) : [];
+    for (const ancestorElement of focusAncestors) {
+      const [nextControl] = ancestorElement.isConnected ? focusableElementsIn(ancestorElement) : [];
       if (!nextControl) continue;
       nextControl.focus({ preventScroll: true });
       return;
@@ -142,25 +142,25 @@ const CHANGING_TEXT_SELECTOR = ':is(p, dl, li, .result):not(.result > *, .slider
  */
 export class TextHeights extends FigureController {
   #textElements: Set<HTMLElement> = new Set();
-  #sizeObserver = new ResizeObserver((entries) => this.#keepHeights(entries));
+  #sizeObserver = new ResizeObserver((resizeEntries) => this.#keepHeights(resizeEntries));
   #lastWidth = 0;
-  #language = '';
+  #shownLanguage = '';
 
   hostUpdated() {
-    for (const textElement of this.host.renderRoot.querySelectorAll<HTMLElement>(CHANGING_TEXT_SELECTOR)) {
+    for (const textElement of this.figure.renderRoot.querySelectorAll<HTMLElement>(CHANGING_TEXT_SELECTOR)) {
       if (!this.#textElements.has(textElement)) this.#sizeObserver.observe(textElement);
       this.#textElements.add(textElement);
     }
   }
 
   /** Sets the height that a text has reached as its minimum height, so that what is below stays in place. After a change of width or language, all texts are measured again. */
-  #keepHeights(entries: ResizeObserverEntry[]) {
-    const { clientWidth } = this.host;
-    if (clientWidth === this.#lastWidth && language === this.#language) {
-      for (const { target, contentRect } of entries) (target as HTMLElement).style.minHeight = `${contentRect.height}px`;
+  #keepHeights(resizeEntries: ResizeObserverEntry[]) {
+    const { clientWidth } = this.figure;
+    if (clientWidth === this.#lastWidth && language === this.#shownLanguage) {
+      for (const { target: resizedElement, contentRect } of resizeEntries) (resizedElement as HTMLElement).style.minHeight = `${contentRect.height}px`;
       return;
     }
-    [this.#lastWidth, this.#language] = [clientWidth, language];
+    [this.#lastWidth, this.#shownLanguage] = [clientWidth, language];
     // Changing a size now would call the observer again in this frame.
     requestAnimationFrame(() => this.measureAgain());
   }

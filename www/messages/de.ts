@@ -2,9 +2,9 @@
 
 export const de: typeof import('./en.ts').en = {
   failureMessage: (reason) => `Diese interaktive Abbildung läuft hier nicht. ${reason}`,
-  presets: 'Voreinstellungen',
+  presetsHeading: 'Voreinstellungen',
   cloud: {
-    play: 'Stichproben ziehen',
+    drawLabel: 'Stichproben ziehen',
     playTitle: 'Immer ein paar',
     stepTitle: (batch) => `Zieht ${batch} weitere`,
     clearTitle: 'Entfernt die Stichproben; derselbe Startwert zieht dieselben Stichproben',
@@ -13,17 +13,17 @@ export const de: typeof import('./en.ts').en = {
   legendLabel: 'Legende',
   moreControls: 'Weitere Regler',
   numbersAndData: 'Zahlen und Daten',
-  samples: 'Stichproben',
-  play: 'Abspielen',
-  pause: 'Anhalten',
-  step: 'Schritt',
-  clear: 'Leeren',
+  samplesHeading: 'Stichproben',
+  playLabel: 'Abspielen',
+  pauseLabel: 'Anhalten',
+  stepLabel: 'Schritt',
+  clearLabel: 'Leeren',
   earlierOutlinesLabel: 'vorher',
   startOver: 'Von vorn',
   startOverTitle: 'Einstellungen, Ausschnitt und Startwert wie am Anfang',
   newSeed: 'Neuer Startwert',
   seed: 'Startwert',
-  command: 'Fahrbefehl',
+  commandHeading: 'Fahrbefehl',
   settings: {
     v: { name: 'Geschwindigkeit', effect: 'Wie weit der Roboter fährt: *vΔt*; unter null fährt er rückwärts.' },
     omega: { name: 'Drehrate', effect: 'Wie eng sein Weg ist: Radius *v*/*ω*, Drehung *ωΔt*; positiv ist links.' },
@@ -32,7 +32,7 @@ export const de: typeof import('./en.ts').en = {
     noise: { name: 'Verteilung' },
   },
   noiseNames: { normal: 'Normalverteilung', triangular: 'Dreiecksverteilung' },
-  noise: 'Rauschen',
+  noiseHeading: 'Rauschen',
   alphas: {
     velocity: [
       ['Geschwindigkeitsrauschen durch Fahren', '*v*² in *v̂*: streut Roboter den Bogen entlang.'],

@@ -3,32 +3,32 @@
  * selects the words. In HTML, *stars* make italics, and subscript digits and _{braces} make subscripts.
  */
 
-export const formatCount = (count: string, word: string) => `${count} ${word}${count === '1' ? '' : 's'}`;
+export const formatCount = (countText: string, singularWord: string) => `${countText} ${singularWord}${countText === '1' ? '' : 's'}`;
 
 export const en = {
-  failureMessage: (reason) => `This interactive figure cannot run here. ${reason}`,
-  presets: 'Presets',
+  failureMessage: (failureReason) => `This interactive figure cannot run here. ${failureReason}`,
+  presetsHeading: 'Presets',
   cloud: {
-    play: 'Draw samples',
+    drawLabel: 'Draw samples',
     playTitle: 'A few at a time',
-    stepTitle: (batch) => `Draw ${batch} more`,
+    stepTitle: (batchSize) => `Draw ${batchSize} more`,
     clearTitle: 'Clear the samples; the same seed draws the same ones',
     newSeedTitle: 'New random seed',
   },
   legendLabel: 'Legend',
   moreControls: 'More controls',
   numbersAndData: 'Numbers and data',
-  samples: 'Samples',
-  play: 'Play',
-  pause: 'Pause',
-  step: 'Step',
-  clear: 'Clear',
+  samplesHeading: 'Samples',
+  playLabel: 'Play',
+  pauseLabel: 'Pause',
+  stepLabel: 'Step',
+  clearLabel: 'Clear',
   earlierOutlinesLabel: 'before',
   startOver: 'Start over',
   startOverTitle: 'Settings, view and seed as the figure opened',
   newSeed: 'New seed',
   seed: 'seed',
-  command: 'Command',
+  commandHeading: 'Command',
   settings: {
     v: { name: 'speed', effect: 'How far the robot drives: *vΔt*; below zero it backs up.' },
     omega: { name: 'turn rate', effect: 'How sharply its path bends: radius *v*/*ω*, turn *ωΔt*; positive is left.' },
@@ -37,7 +37,7 @@ export const en = {
     noise: { name: 'Distribution' },
   },
   noiseNames: { normal: 'normal', triangular: 'triangular' },
-  noise: 'Noise',
+  noiseHeading: 'Noise',
   /** Names of the noise parameters (which noise grows with which motion), and their effects. */
   alphas: {
     velocity: [
@@ -63,7 +63,7 @@ export const en = {
     keysHint: 'Arrow keys move it, with Shift by larger steps; Page Up and Page Down move it far in y, Home and End to the ends along x; comma and period, or [ and ], turn it',
     headingKeysHint: 'Arrow keys turn it, with Shift by larger steps; Page Up and Page Down turn it far, Home and End to the back',
   },
-  sliderEndNote: (end) => `Ends at ${end}; type values beyond.`,
+  sliderEndNote: (sliderEnd) => `Ends at ${sliderEnd}; type values beyond.`,
   exports: {
     label: 'Save the figure',
     png: 'PNG',
@@ -91,4 +91,4 @@ export const en = {
     copiedNotice: 'Copied.',
     manualCopyLabel: 'Copy manually:',
   },
-} satisfies import('./registry.ts').Message;
+} satisfies import('./registry.ts').MessageEntry;

@@ -6,33 +6,33 @@
  * drawn, `useLanguageOf` makes that the current language. `words` and the numbers of ui/format.ts follow.
  */
 
-export type Message = string | ((...values: any[]) => string) | Message[] | { [key: string]: Message };
+export type MessageEntry = string | ((...messageValues: any[]) => string) | MessageEntry[] | { [messageKey: string]: MessageEntry };
 
-export type Messages = typeof import('./en.ts').en & import('../de.ts').WidgetWords;
+export type MessageCatalogue = typeof import('./en.ts').en & import('../de.ts').WidgetWords;
 
 /** Catalogues of words that all scripts of a page share, because each language may be in a separate script. */
 interface SharedCatalogues {
-  english: object;
-  catalogues: Record<string, Record<string, object>>;
+  englishMessages: object;
+  cataloguesByLanguage: Record<string, Record<string, object>>;
   /** Fires a `change` event when words or languages change. */
   changeEvents: EventTarget;
 }
 
 const REGISTRY_KEY = Symbol.for('motion-widgets.messages');
 
-const sharedCatalogues: SharedCatalogues = ((globalThis as any)[REGISTRY_KEY] ??= { english: {}, catalogues: {}, changeEvents: new EventTarget() });
+const sharedCatalogues: SharedCatalogues = ((globalThis as any)[REGISTRY_KEY] ??= { englishMessages: {}, cataloguesByLanguage: {}, changeEvents: new EventTarget() });
 
-export let words: Messages;
+export let words: MessageCatalogue;
 
 /** Current language as a BCP 47 tag, for the format of numbers. */
 export let language = 'en';
 
-const wordsByLanguage: Map<string, { words: Messages, language: string }> = new Map();
+const wordsByLanguage: Map<string, { words: MessageCatalogue, language: string }> = new Map();
 sharedCatalogues.changeEvents.addEventListener('change', () => wordsByLanguage.clear());
 
 /** Adds English words of the elements, which define the keys of all catalogues. */
-export function addEnglishMessages(messages: { [key: string]: Message }) {
-  sharedCatalogues.english = mergeMessages(sharedCatalogues.english, messages);
+export function addEnglishMessages(messageCatalogue: { [messageKey: string]: MessageEntry }) {
+  sharedCatalogues.englishMessages = mergeMessages(sharedCatalogues.englishMessages, messageCatalogue);
   notifyListeners();
 }
 
@@ -40,22 +40,22 @@ export function addEnglishMessages(messages: { [key: string]: Message }) {
  * Sets words of the elements in a language, immediately and on the whole page. Words that are left out stay as they were, and are English
  * in a new language.
  *
- * @param lang a BCP 47 tag: "de", "pt-BR"
- * @param messages in the shape of the English ones, or a part of it. A list must have as many entries as the English one
+ * @param languageTag a BCP 47 tag: "de", "pt-BR"
+ * @param messageCatalogue in the shape of the English ones, or a part of it. A list must have as many entries as the English one
  * @throws {RangeError} if there is no such language
  */
-export function setMessages(lang: string, messages: object) {
-  const { catalogues } = sharedCatalogues;
-  if (!isLanguageTag(lang)) throw new RangeError(`messages: lang is ${JSON.stringify(lang)}; allowed is a BCP 47 tag, as "de" or "pt-BR".`);
-  const catalogueKey = lang.toLowerCase();
-  catalogues[catalogueKey] = mergeMessages(catalogues[catalogueKey] ?? {}, messages);
+export function setMessages(languageTag: string, messageCatalogue: object) {
+  const { cataloguesByLanguage } = sharedCatalogues;
+  if (!isLanguageTag(languageTag)) throw new RangeError(`messages: lang is ${JSON.stringify(languageTag)}; allowed is a BCP 47 tag, as "de" or "pt-BR".`);
+  const catalogueKey = languageTag.toLowerCase();
+  cataloguesByLanguage[catalogueKey] = mergeMessages(cataloguesByLanguage[catalogueKey] ?? {}, messageCatalogue);
   notifyListeners();
 }
 
-function mergeMessages(baseMessages: any, overrides: any) {
+function mergeMessages(baseMessages: any, overridingMessages: any) {
   const mergedMessages = { ...baseMessages };
-  for (const [key, message] of Object.entries(overrides)) {
-    mergedMessages[key] = typeof message === 'object' && !Array.isArray(message) ? mergeMessages(baseMessages[key] ?? {}, message) : message;
+  for (const [messageKey, overridingMessage] of Object.entries(overridingMessages)) {
+    mergedMessages[messageKey] = typeof overridingMessage === 'object' && !Array.isArray(overridingMessage) ? mergeMessages(baseMessages[messageKey] ?? {}, overridingMessage) : overridingMessage;
   }
   return mergedMessages;
 }
@@ -65,18 +65,18 @@ export function useLanguageOf(element: Element) {
   let cachedWords = wordsByLanguage.get(wantedLanguage);
   if (!cachedWords) {
     const [primaryTag] = wantedLanguage.split('-');
-    const foundLanguage = [wantedLanguage, primaryTag].find((tag) => Object.hasOwn(sharedCatalogues.catalogues, tag)) ?? 'en';
+    const foundLanguage = [wantedLanguage, primaryTag].find((languageTag) => Object.hasOwn(sharedCatalogues.cataloguesByLanguage, languageTag)) ?? 'en';
     const language = primaryTag === foundLanguage && isLanguageTag(wantedLanguage) ? wantedLanguage : foundLanguage;
-    const { english, catalogues } = sharedCatalogues;
-    const mergedWords = [catalogues.en, catalogues[foundLanguage]].reduce((base, overrides) => mergeMessages(base, overrides ?? {}), english);
-    wordsByLanguage.set(wantedLanguage, (cachedWords = { language, words: mergedWords as Messages }));
+    const { englishMessages, cataloguesByLanguage } = sharedCatalogues;
+    const mergedWords = [cataloguesByLanguage.en, cataloguesByLanguage[foundLanguage]].reduce((mergedMessages, overridingMessages) => mergeMessages(mergedMessages, overridingMessages ?? {}), englishMessages);
+    wordsByLanguage.set(wantedLanguage, (cachedWords = { language, words: mergedWords as MessageCatalogue }));
   }
   ({ words, language } = cachedWords);
 }
 
-function isLanguageTag(text: unknown) {
+function isLanguageTag(tagText: unknown) {
   try {
-    return typeof text === 'string' && Intl.getCanonicalLocales(text).length > 0;
+    return typeof tagText === 'string' && Intl.getCanonicalLocales(tagText).length > 0;
   } catch {
     return false;
   }
@@ -101,11 +101,11 @@ function notifyListeners() {
 }
 
 /** Calls `listener` when the words or the language of an element may have changed, until the signal is aborted. */
-export function onLanguage(element: Element, listener: () => void, signal: AbortSignal) {
+export function onLanguage(element: Element, listener: () => void, abortSignal: AbortSignal) {
   languageObserver ??= new MutationObserver(notifyListeners);
   const observeOptions = { attributeFilter: ['lang'], subtree: true };
   languageObserver.observe(document, observeOptions);
   const rootNode = element.getRootNode();
   if (rootNode !== document) languageObserver.observe(rootNode, observeOptions);
-  sharedCatalogues.changeEvents.addEventListener('change', listener, { signal });
+  sharedCatalogues.changeEvents.addEventListener('change', listener, { signal: abortSignal });
 }

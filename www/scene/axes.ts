@@ -18,35 +18,35 @@ const LEGEND_LENGTHS_EM = { entryGap: 0.8, lineSampleWidth: 1.5, nameGap: 0.35 }
  * brackets. Entries of the legend are in the order of their importance: the last ones are omitted if there is no space.
  */
 export function drawAxes(drawContext: DrawContext, axisNames: { x: string, y: string }, legendEntries: LegendEntry[] = [], gridOpacity: number = 0.5) {
-  const { context, view, palette, font } = drawContext;
-  const { left, right, top, bottom } = view.plotArea;
-  const { xMin, xMax, yMin, yMax } = view.extent;
-  const drawHairline = (opacity: number, ...points: number[][]) => paintWithOpacity(context, opacity, () => strokeLine(context, points, { colour: palette.rule, width: 1 }));
+  const { canvasContext, pictureView, palette, font } = drawContext;
+  const { left, right, top, bottom } = pictureView.plotArea;
+  const { xMin, xMax, yMin, yMax } = pictureView.shownExtent;
+  const drawHairline = (opacity: number, ...pixelPoints: number[][]) => paintWithOpacity(canvasContext, opacity, () => strokeLine(canvasContext, pixelPoints, { colour: palette.rule, width: 1 }));
 
   const xTicks = ticksOfAxis(xMin, xMax, (right - left) / MIN_TICK_SPACING.x);
-  Object.assign(context, { font, fillStyle: palette.muted, textAlign: 'center', textBaseline: 'top' });
+  Object.assign(canvasContext, { font, fillStyle: palette.muted, textAlign: 'center', textBaseline: 'top' });
   // The name of the x axis is at its right end, where it replaces tick labels.
   const xAxisName = axisNames.x.replace('(', `(${xTicks.unitFactor}`);
-  const maxLabelX = right - context.measureText(xAxisName).width - 10;
+  const maxLabelX = right - canvasContext.measureText(xAxisName).width - 10;
   for (const tickValue of xTicks.tickValues) {
-    const x = Math.round(view.toPixelX(tickValue)) + 0.5;
+    const x = Math.round(pictureView.toPixelX(tickValue)) + 0.5;
     drawHairline(gridOpacity, [x, top], [x, bottom]);
     const tickLabel = xTicks.formatLabel(tickValue);
-    if (x + context.measureText(tickLabel).width / 2 < maxLabelX) context.fillText(tickLabel, x, bottom + 6);
+    if (x + canvasContext.measureText(tickLabel).width / 2 < maxLabelX) canvasContext.fillText(tickLabel, x, bottom + 6);
   }
   const yTicks = ticksOfAxis(yMin, yMax, (bottom - top) / MIN_TICK_SPACING.y);
-  Object.assign(context, { textAlign: 'right', textBaseline: 'middle' });
+  Object.assign(canvasContext, { textAlign: 'right', textBaseline: 'middle' });
   for (const tickValue of yTicks.tickValues) {
-    const y = Math.round(view.toPixelY(tickValue)) + 0.5;
+    const y = Math.round(pictureView.toPixelY(tickValue)) + 0.5;
     drawHairline(gridOpacity, [left, y], [right, y]);
-    context.fillText(yTicks.formatLabel(tickValue), left - 6, y);
+    canvasContext.fillText(yTicks.formatLabel(tickValue), left - 6, y);
   }
 
   drawHairline(1, [left, bottom + 0.5], [right, bottom + 0.5]);
   drawHairline(1, [left - 0.5, top], [left - 0.5, bottom]);
-  Object.assign(context, { font: `italic ${font}`, textBaseline: 'top' });
-  context.fillText(xAxisName, right, bottom + 6);
-  context.textAlign = 'left';
+  Object.assign(canvasContext, { font: `italic ${font}`, textBaseline: 'top' });
+  canvasContext.fillText(xAxisName, right, bottom + 6);
+  canvasContext.textAlign = 'left';
   drawLegend(drawContext, axisNames.y.replace('(', `(${yTicks.unitFactor}`), legendEntries);
 }
 
@@ -56,29 +56,29 @@ export interface LegendEntry {
   drawSample: (x: number, y: number, width: number) => void;
 }
 
-export const createLineLegendEntry = ({ context }: DrawContext, name: string, style: LineStroke): LegendEntry => ({ name, drawSample: (x, y, width) => strokeLine(context, [[x, y], [x + width, y]], style) });
+export const createLineLegendEntry = ({ canvasContext }: DrawContext, legendLabel: string, lineStroke: LineStroke): LegendEntry => ({ name: legendLabel, drawSample: (x, y, width) => strokeLine(canvasContext, [[x, y], [x + width, y]], lineStroke) });
 
-function drawLegend({ context, view, palette, font }: DrawContext, axisName: string, legendEntries: LegendEntry[]) {
+function drawLegend({ canvasContext, pictureView, palette, font }: DrawContext, axisName: string, legendEntries: LegendEntry[]) {
   const fontSize = parseFloat(font);
-  const y = view.plotArea.top - 22;
-  context.fillText(axisName, 2, y);
-  let entryEnd = 2 + context.measureText(axisName).width;
-  Object.assign(context, { font, fillStyle: palette.ink });
-  for (const { name, drawSample } of legendEntries) {
+  const y = pictureView.plotArea.top - 22;
+  canvasContext.fillText(axisName, 2, y);
+  let entryEnd = 2 + canvasContext.measureText(axisName).width;
+  Object.assign(canvasContext, { font, fillStyle: palette.ink });
+  for (const { name: legendLabel, drawSample } of legendEntries) {
     const sampleX = entryEnd + LEGEND_LENGTHS_EM.entryGap * fontSize;
     const nameX = sampleX + (LEGEND_LENGTHS_EM.lineSampleWidth + LEGEND_LENGTHS_EM.nameGap) * fontSize;
-    entryEnd = nameX + context.measureText(name).width;
-    if (entryEnd > view.width) break;
-    context.fillText(name, nameX, y);
+    entryEnd = nameX + canvasContext.measureText(legendLabel).width;
+    if (entryEnd > pictureView.width) break;
+    canvasContext.fillText(legendLabel, nameX, y);
     drawSample(sampleX, y + fontSize / 2, LEGEND_LENGTHS_EM.lineSampleWidth * fontSize);
   }
 }
 
 /** Returns the ticks of an axis: about `wantedTickCount` values, at least two if possible. Their labels may be multiples of a power of ten. */
-function ticksOfAxis(min: number, max: number, wantedTickCount: number) {
+function ticksOfAxis(minValue: number, maxValue: number, wantedTickCount: number) {
   const tickCount = Math.max(2, Math.floor(wantedTickCount));
-  const candidateTicks = ticks(min, max, tickCount);
-  const tickValues = candidateTicks.length > 1 ? candidateTicks : ticks(min, max, 2 * tickCount);
+  const candidateTicks = ticks(minValue, maxValue, tickCount);
+  const tickValues = candidateTicks.length > 1 ? candidateTicks : ticks(minValue, maxValue, 2 * tickCount);
   const tickStep = tickValues.length > 1 ? tickValues[1] - tickValues[0] : 1;
   const exponent = tickStep < MIN_PLAIN_STEP ? Math.floor(Math.log10(tickStep) + 1e-9) : 0;
   return {
@@ -90,12 +90,12 @@ function ticksOfAxis(min: number, max: number, wantedTickCount: number) {
 }
 
 /** Clips what `paintContents` draws to the plot area. */
-export function clipToPlot({ context, view }: DrawContext, paintContents: () => void) {
-  const { left, right, top, bottom } = view.plotArea;
-  context.save();
-  context.beginPath();
-  context.rect(left, top, right - left, bottom - top);
-  context.clip();
+export function clipToPlot({ canvasContext, pictureView }: DrawContext, paintContents: () => void) {
+  const { left, right, top, bottom } = pictureView.plotArea;
+  canvasContext.save();
+  canvasContext.beginPath();
+  canvasContext.rect(left, top, right - left, bottom - top);
+  canvasContext.clip();
   paintContents();
-  context.restore();
+  canvasContext.restore();
 }

@@ -3,12 +3,12 @@
 import { addLine, createHiddenContext, strokePath, type DrawContext, type LineStroke } from './canvas.ts';
 
 /** Cache of one result, valid while its dependencies are the same. */
-export class Memo<Result> {
+export class MemoizedResult<Result> {
   #lastDependencies: unknown[] = [];
   #lastResult: Result | undefined;
 
   /** Returns the cached result, or computes a new one. @param dependencies values on which the result depends, compared by identity */
-  get(dependencies: unknown[], computeResult: () => Result): Result {
+  getResult(dependencies: unknown[], computeResult: () => Result): Result {
     if (dependencies.length !== this.#lastDependencies.length || dependencies.some((dependency, i) => dependency !== this.#lastDependencies[i])) {
       this.#lastResult = computeResult();
       this.#lastDependencies = dependencies;
@@ -17,29 +17,29 @@ export class Memo<Result> {
   }
 }
 
-export type LayerDrawContext = Pick<DrawContext, 'view' | 'palette' | 'pixelRatio' | 'highlight'> & { context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D };
+export type LayerDrawContext = Pick<DrawContext, 'pictureView' | 'palette' | 'pixelRatio' | 'highlight'> & { canvasContext: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D };
 
 /** Cached drawing of thousands of lines, which change only with the view, the colours, or the data. */
 export class CachedLayer {
   #canvas = new OffscreenCanvas(1, 1);
-  #drawingMemo: Memo<void> = new Memo();
+  #drawingMemo: MemoizedResult<void> = new MemoizedResult();
 
   /**
    * Draws the layer.
    *
    * @param cacheKey values, besides the view and the colours, on which the drawing depends. When one changes, `paint` is called again
    */
-  draw({ context, view, palette, pixelRatio, highlight }: DrawContext, cacheKey: unknown[], paint: (drawContext: LayerDrawContext) => void) {
-    const { extent, plotArea, width, height } = view;
-    this.#drawingMemo.get([...cacheKey, JSON.stringify([extent, plotArea, width, height, palette, pixelRatio])], () => {
+  drawLayer({ canvasContext, pictureView, palette, pixelRatio, highlight }: DrawContext, cacheKey: unknown[], paintLayer: (drawContext: LayerDrawContext) => void) {
+    const { shownExtent, plotArea, width, height } = pictureView;
+    this.#drawingMemo.getResult([...cacheKey, JSON.stringify([shownExtent, plotArea, width, height, palette, pixelRatio])], () => {
       // Setting the size clears the canvas.
       this.#canvas.width = Math.round(width * pixelRatio);
       this.#canvas.height = Math.round(height * pixelRatio);
       const layerContext = createHiddenContext(this.#canvas);
       layerContext.scale(pixelRatio, pixelRatio);
-      paint({ context: layerContext, view, palette, pixelRatio, highlight });
+      paintLayer({ canvasContext: layerContext, pictureView, palette, pixelRatio, highlight });
     });
-    context.drawImage(this.#canvas, 0, 0, width, height);
+    canvasContext.drawImage(this.#canvas, 0, 0, width, height);
   }
 }
 
@@ -47,16 +47,16 @@ export class CachedLayer {
 export const LINES_PER_STROKE = 500;
 
 /** Strokes lines through points in pixels, `linesPerStroke` at a time. */
-export function strokeInBatches(context: LayerDrawContext['context'], pixelLines: number[][][], style: LineStroke, linesPerStroke = LINES_PER_STROKE) {
+export function strokeInBatches(canvasContext: LayerDrawContext['canvasContext'], pixelLines: number[][][], lineStroke: LineStroke, linesPerStroke = LINES_PER_STROKE) {
   for (let i = 0; i < pixelLines.length; i += linesPerStroke) {
-    strokePath(context, style, () => pixelLines.slice(i, i + linesPerStroke).forEach((points) => addLine(context, points)));
+    strokePath(canvasContext, lineStroke, () => pixelLines.slice(i, i + linesPerStroke).forEach((linePoints) => addLine(canvasContext, linePoints)));
   }
 }
 
 /** Cached image of pixels, which covers the plot area. */
 export class CachedImage {
   #canvas = new OffscreenCanvas(1, 1);
-  #pixelsMemo: Memo<void> = new Memo();
+  #pixelsMemo: MemoizedResult<void> = new MemoizedResult();
 
   /**
    * Draws the image.
@@ -64,15 +64,15 @@ export class CachedImage {
    * @param cacheKey values on which the pixels depend; they are cached until one changes
    * @param computePixels returns the pixels, whose first row is at the top
    */
-  draw({ context, view }: DrawContext, cacheKey: unknown[], computePixels: () => { pixels: Uint8ClampedArray<ArrayBuffer>, columns: number }) {
-    this.#pixelsMemo.get(cacheKey, () => {
-      const { pixels, columns } = computePixels();
-      const rows = pixels.length / (4 * columns);
-      Object.assign(this.#canvas, { width: columns, height: rows });
-      createHiddenContext(this.#canvas).putImageData(new ImageData(pixels, columns, rows), 0, 0);
+  drawImage({ canvasContext, pictureView }: DrawContext, cacheKey: unknown[], computePixels: () => { rgbaPixels: Uint8ClampedArray<ArrayBuffer>, columnCount: number }) {
+    this.#pixelsMemo.getResult(cacheKey, () => {
+      const { rgbaPixels, columnCount } = computePixels();
+      const rowCount = rgbaPixels.length / (4 * columnCount);
+      Object.assign(this.#canvas, { width: columnCount, height: rowCount });
+      createHiddenContext(this.#canvas).putImageData(new ImageData(rgbaPixels, columnCount, rowCount), 0, 0);
     });
-    const { left, right, top, bottom } = view.plotArea;
-    context.drawImage(this.#canvas, left, top, right - left, bottom - top);
+    const { left, right, top, bottom } = pictureView.plotArea;
+    canvasContext.drawImage(this.#canvas, left, top, right - left, bottom - top);
   }
 
   /**
@@ -82,10 +82,10 @@ export class CachedImage {
    * @param cacheKey values, besides the view, on which the pixels depend
    * @param computePixels returns the pixels of the density in a part of the plane, whose bounds are xMin, yMin, xMax and yMax
    */
-  drawDensity(drawContext: DrawContext, cellSide: number, cacheKey: unknown[], computePixels: (bounds: number[], columns: number, rows: number) => Uint8ClampedArray<ArrayBuffer>) {
-    const { left, right, top, bottom } = drawContext.view.plotArea;
-    const { xMin, yMin, xMax, yMax } = drawContext.view.extent;
-    const [columns, rows] = [right - left, bottom - top].map((length) => Math.max(1, Math.round(length / cellSide)));
-    this.draw(drawContext, [...cacheKey, xMin, yMin, xMax, yMax, columns, rows], () => ({ pixels: computePixels([xMin, yMin, xMax, yMax], columns, rows), columns }));
+  drawDensity(drawContext: DrawContext, cellSide: number, cacheKey: unknown[], computePixels: (worldBounds: number[], columnCount: number, rowCount: number) => Uint8ClampedArray<ArrayBuffer>) {
+    const { left, right, top, bottom } = drawContext.pictureView.plotArea;
+    const { xMin, yMin, xMax, yMax } = drawContext.pictureView.shownExtent;
+    const [columnCount, rowCount] = [right - left, bottom - top].map((sideLength) => Math.max(1, Math.round(sideLength / cellSide)));
+    this.drawImage(drawContext, [...cacheKey, xMin, yMin, xMax, yMax, columnCount, rowCount], () => ({ rgbaPixels: computePixels([xMin, yMin, xMax, yMax], columnCount, rowCount), columnCount }));
   }
 }

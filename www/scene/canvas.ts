@@ -6,7 +6,7 @@ export interface DrawSurface {
   height: number;
   clientWidth: number;
   fontStyle: { fontFamily: string, fontSize: string };
-  context: CanvasRenderingContext2D;
+  canvasContext: CanvasRenderingContext2D;
 }
 
 /** Box of a text in a picture: middle, half width and half height, pixels. */
@@ -14,9 +14,9 @@ export type TextBox = { x: number, y: number, halfWidth: number, halfHeight: num
 
 /** Canvas context, view and colours for drawing a picture. Pixels of the view scale with the font size: at 13 px, a pixel of the view is a CSS pixel. */
 export interface DrawContext {
-  context: CanvasRenderingContext2D;
-  view: import('./view.ts').View;
-  palette: import('../ui/theme.ts').Palette;
+  canvasContext: CanvasRenderingContext2D;
+  pictureView: import('./view.ts').PictureView;
+  palette: import('../ui/theme.ts').ColourPalette;
   /** Device pixels per pixel of the view. */
   pixelRatio: number;
   /** Font of labels, in CSS notation. */
@@ -37,12 +37,12 @@ export interface DrawContext {
 const FONT_SIZE_PX = 13;
 
 /** Returns a length in pixels of a view as CSS em of the figure. */
-export const formatEm = (pixels: number) => `${pixels / 16}em`;
+export const formatEm = (pixelCount: number) => `${pixelCount / 16}em`;
 
 /** Converts a point of the window to pixels of the view that an element shows. The page may have scaled the element. */
-export function toViewPixels(element: Element, view: import('./view.ts').View, { clientX, clientY }: { clientX: number, clientY: number }): [x: number, y: number] {
+export function toViewPixels(element: Element, pictureView: import('./view.ts').PictureView, { clientX, clientY }: { clientX: number, clientY: number }): [x: number, y: number] {
   const { left, top, width } = element.getBoundingClientRect();
-  const elementScale = width / view.width;
+  const elementScale = width / pictureView.width;
   return [(clientX - left) / elementScale, (clientY - top) / elementScale];
 }
 
@@ -52,53 +52,53 @@ export function createHiddenContext(canvas: OffscreenCanvas) {
 }
 
 /** Clears a canvas, sets the view to its size, and returns the context with which a picture is drawn. */
-export function createDrawContext({ width, height, clientWidth, fontStyle: { fontFamily, fontSize }, context }: DrawSurface, view: import('./view.ts').View, palette: import('../ui/theme.ts').Palette) {
+export function createDrawContext({ width, height, clientWidth, fontStyle: { fontFamily, fontSize }, canvasContext }: DrawSurface, pictureView: import('./view.ts').PictureView, palette: import('../ui/theme.ts').ColourPalette) {
   const pixelRatio = ((width / Math.max(1, clientWidth)) * parseFloat(fontSize)) / FONT_SIZE_PX;
-  view.resize(width / pixelRatio, height / pixelRatio);
-  context.setTransform(pixelRatio, 0, 0, pixelRatio, 0, 0);
-  context.clearRect(0, 0, view.width, view.height);
+  pictureView.setSize(width / pixelRatio, height / pixelRatio);
+  canvasContext.setTransform(pixelRatio, 0, 0, pixelRatio, 0, 0);
+  canvasContext.clearRect(0, 0, pictureView.width, pictureView.height);
   // Labels are drawn from left to right, also in right-to-left languages, so that the unit follows the number.
-  context.direction = 'ltr';
-  return { context, view, palette, pixelRatio, font: `${FONT_SIZE_PX}px ${fontFamily}`, placedBoxes: [] as TextBox[] };
+  canvasContext.direction = 'ltr';
+  return { canvasContext, pictureView, palette, pixelRatio, font: `${FONT_SIZE_PX}px ${fontFamily}`, placedBoxes: [] as TextBox[] };
 }
 
 type AnyContext2D = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
 
 /** Calls `paint` with the context's opacity multiplied by `opacity`. */
-export function paintWithOpacity(context: AnyContext2D, opacity: number, paint: () => void) {
-  const { globalAlpha } = context;
-  context.globalAlpha = opacity * globalAlpha;
-  paint();
-  context.globalAlpha = globalAlpha;
+export function paintWithOpacity(canvasContext: AnyContext2D, opacity: number, paintContents: () => void) {
+  const { globalAlpha } = canvasContext;
+  canvasContext.globalAlpha = opacity * globalAlpha;
+  paintContents();
+  canvasContext.globalAlpha = globalAlpha;
 }
 
 /** Style of a line; dashes in pixels. */
 export interface LineStroke { colour: string, width: number, dash?: number[], lineCap?: CanvasLineCap }
 
-export function strokePath(context: AnyContext2D, { colour, width, dash = [], lineCap = 'butt' }: LineStroke, addPath: () => void) {
-  context.strokeStyle = colour;
-  context.lineWidth = width;
-  context.lineCap = lineCap;
-  context.setLineDash(dash);
-  context.beginPath();
+export function strokePath(canvasContext: AnyContext2D, { colour: lineColour, width, dash = [], lineCap = 'butt' }: LineStroke, addPath: () => void) {
+  canvasContext.strokeStyle = lineColour;
+  canvasContext.lineWidth = width;
+  canvasContext.lineCap = lineCap;
+  canvasContext.setLineDash(dash);
+  canvasContext.beginPath();
   addPath();
-  context.stroke();
-  context.setLineDash([]);
+  canvasContext.stroke();
+  canvasContext.setLineDash([]);
 }
 
-export function fillPath(context: AnyContext2D, colour: string, addPath: () => void) {
-  context.fillStyle = colour;
-  context.beginPath();
+export function fillPath(canvasContext: AnyContext2D, lineColour: string, addPath: () => void) {
+  canvasContext.fillStyle = lineColour;
+  canvasContext.beginPath();
   addPath();
-  context.fill();
+  canvasContext.fill();
 }
 
-export const addLine = (context: AnyContext2D, points: number[][]) => points.forEach(([x, y], i) => (i ? context.lineTo(x, y) : context.moveTo(x, y)));
+export const addLine = (canvasContext: AnyContext2D, pixelPoints: number[][]) => pixelPoints.forEach(([x, y], i) => (i ? canvasContext.lineTo(x, y) : canvasContext.moveTo(x, y)));
 
-export const strokeLine = (context: AnyContext2D, points: number[][], style: LineStroke) => strokePath(context, style, () => addLine(context, points));
+export const strokeLine = (canvasContext: AnyContext2D, pixelPoints: number[][], lineStroke: LineStroke) => strokePath(canvasContext, lineStroke, () => addLine(canvasContext, pixelPoints));
 
-export function drawDisc(context: AnyContext2D, [x, y]: number[], radius: number, fillColour?: string, edgeStroke?: LineStroke) {
-  const addCircle = () => context.arc(x, y, radius, 0, 2 * Math.PI);
-  if (fillColour) fillPath(context, fillColour, addCircle);
-  if (edgeStroke) strokePath(context, edgeStroke, addCircle);
+export function drawDisc(canvasContext: AnyContext2D, [x, y]: number[], radius: number, fillColour?: string, edgeStroke?: LineStroke) {
+  const addCircle = () => canvasContext.arc(x, y, radius, 0, 2 * Math.PI);
+  if (fillColour) fillPath(canvasContext, fillColour, addCircle);
+  if (edgeStroke) strokePath(canvasContext, edgeStroke, addCircle);
 }

@@ -14,15 +14,15 @@ export class Canvases {
   canvasElements: HTMLCanvasElement[] | undefined;
   /** Cached widths of the canvases, CSS pixels. Reading a width from its element in a frame would cause a reflow. */
   #cssWidths: WeakMap<HTMLCanvasElement, number> = new WeakMap();
-  #sizeObserver = new ResizeObserver((entries) => this.#resize(entries));
+  #sizeObserver = new ResizeObserver((resizeEntries) => this.#resizeCanvases(resizeEntries));
 
   /** Creates the canvases of a figure. `drawResized` draws them again after a change of their size, which clears them. */
   constructor(drawResized: () => void) {
     this.#drawResized = drawResized;
   }
 
-  findAndObserve(root: ParentNode) {
-    this.canvasElements = [...root.querySelectorAll('canvas')];
+  findAndObserve(figureRoot: ParentNode) {
+    this.canvasElements = [...figureRoot.querySelectorAll('canvas')];
     this.observeSizes();
   }
 
@@ -33,12 +33,12 @@ export class Canvases {
   }
 
   /** Measures the canvases again after a change of the pixel ratio. WebKit's ResizeObserver does not measure in device pixels. */
-  followPixelRatio(signal: AbortSignal) {
+  followPixelRatio(abortSignal: AbortSignal) {
     const onRatioChange = () => {
       this.observeSizes();
-      this.followPixelRatio(signal);
+      this.followPixelRatio(abortSignal);
     };
-    matchMedia(`(resolution:${devicePixelRatio}dppx)`).addEventListener('change', onRatioChange, { once: true, signal });
+    matchMedia(`(resolution:${devicePixelRatio}dppx)`).addEventListener('change', onRatioChange, { once: true, signal: abortSignal });
   }
 
   /** Observes the sizes of the canvases. The observer reports the present sizes first. */
@@ -54,9 +54,9 @@ export class Canvases {
   }
 
   /** Sets the size of each observed canvas in device pixels, and draws. */
-  #resize(entries: ResizeObserverEntry[]) {
-    for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
-      const canvas = target as HTMLCanvasElement;
+  #resizeCanvases(resizeEntries: ResizeObserverEntry[]) {
+    for (const { target: resizedCanvas, contentRect, devicePixelContentBoxSize } of resizeEntries) {
+      const canvas = resizedCanvas as HTMLCanvasElement;
       const { inlineSize: width, blockSize: height } = devicePixelContentBoxSize?.[0] ?? { inlineSize: 0, blockSize: 0 };
       const [estimatedWidth, estimatedHeight] = [devicePixelRatio * contentRect.width, devicePixelRatio * contentRect.height];
       // Chromium reports CSS pixels as device pixels while its developer tools emulate a phone.
@@ -76,13 +76,13 @@ export class Canvases {
     }
   }
 
-  canvasOf({ name }: { name: string }) {
-    return this.canvasElements?.find(({ className }) => className === name) as HTMLCanvasElement;
+  canvasOf({ pictureName }: { pictureName: string }) {
+    return this.canvasElements?.find(({ className }) => className === pictureName) as HTMLCanvasElement;
   }
 
   surfaceOf(canvas: HTMLCanvasElement): DrawSurface {
     const { width, height } = canvas;
     const clientWidth = this.#cssWidths.get(canvas) ?? canvas.clientWidth;
-    return { width, height, clientWidth, fontStyle: getComputedStyle(canvas), context: canvas.getContext('2d') as CanvasRenderingContext2D };
+    return { width, height, clientWidth, fontStyle: getComputedStyle(canvas), canvasContext: canvas.getContext('2d') as CanvasRenderingContext2D };
   }
 }

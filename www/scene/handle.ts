@@ -5,26 +5,26 @@ import { formatEm, toViewPixels } from './canvas.ts';
 
 /** Callbacks of a handle; lengths in metres. */
 interface HandleCallbacks {
-  getView: () => import('./view.ts').View;
+  getView: () => import('./view.ts').PictureView;
   /** Returns the point (x, y) that a pointer at `pointerPoint` grasps; by default the middle of the handle. */
   findGraspedPoint?: (pointerPoint: number[]) => number[] | undefined;
-  drag: (x: number, y: number) => void;
+  dragTo: (x: number, y: number) => void;
   /** Handles a key. Returns true if the key moved the handle's target. */
-  handleKey: (event: KeyboardEvent) => boolean;
+  handleKey: (domEvent: KeyboardEvent) => boolean;
   commit: () => void;
 }
 
 interface HandleLabels {
-  name: string;
+  handleName: string;
   keysHint: string;
   title: string;
   valueRange: number[];
-  value: number;
+  sliderValue: number;
   valueText: string;
   /** Text about the limit of the range, if the handle has reached a limit. */
   limitText?: string | false;
   /** Hint for a user who has not used the handle yet, shown while the handle pulses once. */
-  hint?: string | false;
+  hintText?: string | false;
   /** Tab index of the element. The default is 0: the Tab key reaches the handle. */
   tabIndex?: number;
 }
@@ -44,9 +44,9 @@ const KEY_STEPS: Record<string, [number, number]> = {
 const SHIFT_STEP_FACTOR = 5;
 
 /** Returns the steps along x and y by which a key moves the target; undefined for other keys and for key shortcuts of the browser. */
-export function stepsOfKey({ key, shiftKey, ctrlKey, metaKey, altKey }: KeyboardEvent): [number, number] | undefined {
-  const keySteps = ctrlKey || metaKey || altKey ? undefined : KEY_STEPS[key];
-  if (!keySteps || !shiftKey || !key.startsWith('Arrow')) return keySteps;
+export function stepsOfKey({ key: pressedKey, shiftKey, ctrlKey, metaKey, altKey }: KeyboardEvent): [number, number] | undefined {
+  const keySteps = ctrlKey || metaKey || altKey ? undefined : KEY_STEPS[pressedKey];
+  if (!keySteps || !shiftKey || !pressedKey.startsWith('Arrow')) return keySteps;
   return [SHIFT_STEP_FACTOR * keySteps[0], SHIFT_STEP_FACTOR * keySteps[1]];
 }
 
@@ -54,7 +54,7 @@ export function stepsOfKey({ key, shiftKey, ctrlKey, metaKey, altKey }: Keyboard
 const KEY_TURN_STEPS: Record<string, number> = { ',': 1, '.': -1, '[': 1, ']': -1 };
 
 /** Returns the steps by which a key turns the target, positive to the left; undefined for other keys. */
-export const turnStepsOfKey = ({ key, metaKey }: KeyboardEvent): number | undefined => (metaKey ? undefined : KEY_TURN_STEPS[key]);
+export const turnStepsOfKey = ({ key: pressedKey, metaKey }: KeyboardEvent): number | undefined => (metaKey ? undefined : KEY_TURN_STEPS[pressedKey]);
 
 export class Handle {
   #classNames;
@@ -76,21 +76,21 @@ export class Handle {
     return this.#heldPointer?.element.hasPointerCapture(this.#heldPointer.id) ?? false;
   }
 
-  handleHtml({ name, keysHint, title, valueRange, value, valueText, limitText, hint, tabIndex = 0 }: HandleLabels) {
+  handleHtml({ handleName, keysHint, title, valueRange, sliderValue, valueText, limitText, hintText, tabIndex = 0 }: HandleLabels) {
     // The text about the limit is on the side that faces the middle of the picture.
     const limitTextSide = 2 * this.#middlePixels[0] > this.#callbacks.getView().width ? 'right' : '';
     return html`<div
       class="handle ${this.#classNames} ${limitTextSide} ${this.isHeld ? 'held' : ''}"
       role="slider"
       tabindex=${tabIndex}
-      aria-label=${name}
+      aria-label=${handleName}
       aria-description=${keysHint}
       aria-valuemin=${valueRange[0]}
       aria-valuemax=${valueRange[1]}
-      aria-valuenow=${value}
+      aria-valuenow=${sliderValue}
       aria-valuetext=${limitText ? `${valueText}. ${limitText}` : valueText}
       data-stop=${limitText || nothing}
-      data-hint=${hint || nothing}
+      data-hint=${hintText || nothing}
       title=${title}
       @pointerdown=${this.#onPointerDown}
       @pointermove=${this.#onPointerMove}
@@ -101,34 +101,34 @@ export class Handle {
   }
 
   /** Moves the middle of the handle's element in `figureRoot` to a point in pixels of the view. `size` (pixels) and `angle` (rad) replace those of its style. */
-  placeElementAt(figureRoot: ParentNode, x: number, y: number, { size, angle }: { size?: number, angle?: number } = {}) {
+  placeElementAt(figureRoot: ParentNode, x: number, y: number, { size: handleSize, angle }: { size?: number, angle?: number } = {}) {
     const handleElement = figureRoot.querySelector(`.handle.${this.#classNames.replace(' ', '.')}`) as HTMLElement | null;
     if (!handleElement) return;
     this.#middlePixels = [x, y];
-    if (size !== undefined) handleElement.style.width = handleElement.style.height = formatEm(size);
+    if (handleSize !== undefined) handleElement.style.width = handleElement.style.height = formatEm(handleSize);
     if (angle !== undefined) handleElement.style.rotate = `${angle}rad`;
     handleElement.style.translate = `${formatEm(x)} ${formatEm(y)}`;
   }
 
-  #worldPointOf(event: PointerEvent) {
-    const view = this.#callbacks.getView();
-    return view.toWorld(...toViewPixels((event.currentTarget as Element).parentElement as Element, view, event));
+  #worldPointOf(domEvent: PointerEvent) {
+    const pictureView = this.#callbacks.getView();
+    return pictureView.toWorld(...toViewPixels((domEvent.currentTarget as Element).parentElement as Element, pictureView, domEvent));
   }
 
-  #onPointerDown = (event: PointerEvent) => {
-    if (event.button !== 0) return;
-    const handle = event.currentTarget as Element;
-    handle.setPointerCapture(event.pointerId);
-    this.#heldPointer = { id: event.pointerId, element: handle };
-    const pointerInWorld = this.#worldPointOf(event);
+  #onPointerDown = (domEvent: PointerEvent) => {
+    if (domEvent.button !== 0) return;
+    const handleElement = domEvent.currentTarget as Element;
+    handleElement.setPointerCapture(domEvent.pointerId);
+    this.#heldPointer = { id: domEvent.pointerId, element: handleElement };
+    const pointerInWorld = this.#worldPointOf(domEvent);
     const graspedPoint = this.#callbacks.findGraspedPoint?.(pointerInWorld) ?? this.#callbacks.getView().toWorld(...this.#middlePixels);
     this.#gripOffset = [graspedPoint[0] - pointerInWorld[0], graspedPoint[1] - pointerInWorld[1]];
   };
 
-  #onPointerMove = (event: PointerEvent) => {
+  #onPointerMove = (domEvent: PointerEvent) => {
     if (!this.isHeld) return;
-    const [x, y] = this.#worldPointOf(event);
-    this.#callbacks.drag(x + this.#gripOffset[0], y + this.#gripOffset[1]);
+    const [x, y] = this.#worldPointOf(domEvent);
+    this.#callbacks.dragTo(x + this.#gripOffset[0], y + this.#gripOffset[1]);
   };
 
   #onPointerUp = () => {
@@ -137,9 +137,9 @@ export class Handle {
     this.#callbacks.commit();
   };
 
-  #onKeyDown = (event: KeyboardEvent) => {
-    if (!this.#callbacks.handleKey(event)) return;
-    event.preventDefault();
+  #onKeyDown = (domEvent: KeyboardEvent) => {
+    if (!this.#callbacks.handleKey(domEvent)) return;
+    domEvent.preventDefault();
     this.#callbacks.commit();
   };
 }

@@ -1,35 +1,35 @@
 /** Callouts in pictures: texts about a point, each with a line to the point. A text may have a symbol with a subscript before it. */
 
 import { sort } from 'd3-array';
-import { clamp } from '../ui/format.ts';
+import { clampNumber } from '../ui/format.ts';
 import { drawDisc, paintWithOpacity, strokeLine, type TextBox, type DrawContext } from './canvas.ts';
 
 /** Font size of a subscript relative to its text, and offset of the subscript below the baseline in pixels. */
 const SUBSCRIPT_SIZE = 0.78;
 const SUBSCRIPT_DROP = 3;
 
-function measureTextParts({ context, font }: DrawContext, { symbol = '', subscript = '', text = '' }: Pick<Callout, 'symbol' | 'subscript' | 'text'>) {
+function measureTextParts({ canvasContext, font }: DrawContext, { symbol: mathSymbol = '', subscript: symbolSubscript = '', text: labelText = '' }: Pick<Callout, 'symbol' | 'subscript' | 'text'>) {
   const subscriptFont = font.replace(/[\d.]+px/, (sizeText) => `${SUBSCRIPT_SIZE * parseFloat(sizeText)}px`);
   const textParts = [
-    { text: symbol, style: `italic ${font}`, baselineDrop: 0 },
-    { text: subscript, style: subscriptFont, baselineDrop: SUBSCRIPT_DROP },
-    { text: symbol && text ? ` ${text}` : text, style: font, baselineDrop: 0 },
+    { text: mathSymbol, style: `italic ${font}`, baselineDrop: 0 },
+    { text: symbolSubscript, style: subscriptFont, baselineDrop: SUBSCRIPT_DROP },
+    { text: mathSymbol && labelText ? ` ${labelText}` : labelText, style: font, baselineDrop: 0 },
   ].filter((textPart) => textPart.text);
   return textParts.map((textPart) => {
-    context.font = textPart.style;
-    return { ...textPart, width: context.measureText(textPart.text).width };
+    canvasContext.font = textPart.style;
+    return { ...textPart, width: canvasContext.measureText(textPart.text).width };
   });
 }
 
-const totalWidthOf = (textParts: { width: number }[]) => textParts.reduce((sum, { width }) => sum + width, 0);
+const totalWidthOf = (textParts: { width: number }[]) => textParts.reduce((widthSum, { width }) => widthSum + width, 0);
 
 /** Draws measured texts from left to right. x is the left end and y the middle of the line, in pixels. */
-function drawTextParts({ context }: DrawContext, textParts: ReturnType<typeof measureTextParts>, x: number, y: number, colour: string) {
-  Object.assign(context, { textAlign: 'left', textBaseline: 'middle', fillStyle: colour });
+function drawTextParts({ canvasContext }: DrawContext, textParts: ReturnType<typeof measureTextParts>, x: number, y: number, textColour: string) {
+  Object.assign(canvasContext, { textAlign: 'left', textBaseline: 'middle', fillStyle: textColour });
   let partLeft = x;
-  for (const { text, style, baselineDrop, width } of textParts) {
-    context.font = style;
-    context.fillText(text, partLeft, y + baselineDrop);
+  for (const { text: partText, style: fontStyle, baselineDrop, width } of textParts) {
+    canvasContext.font = fontStyle;
+    canvasContext.fillText(partText, partLeft, y + baselineDrop);
     partLeft += width;
   }
 }
@@ -52,8 +52,8 @@ const COST_PER_PIXEL = 0.1;
 
 /** Candidate positions of a callout's sentence around its point, with the costs of their leaders, the cheapest first. */
 const CANDIDATE_POSITIONS = sort(
-  LEADER_LENGTHS.flatMap((length) => CANDIDATE_ANGLES.map((turn) => ({ turn, length, cost: COST_PER_RADIAN * Math.abs(turn) + COST_PER_PIXEL * length }))),
-  ({ cost }) => cost,
+  LEADER_LENGTHS.flatMap((leaderLength) => CANDIDATE_ANGLES.map((leaderAngle) => ({ turn: leaderAngle, length: leaderLength, cost: COST_PER_RADIAN * Math.abs(leaderAngle) + COST_PER_PIXEL * leaderLength }))),
+  ({ cost: positionCost }) => positionCost,
 );
 
 /** Text with line breaks about a point of the view's world. A symbol and its subscript stand before the text. The default colour is that of text. */
@@ -69,39 +69,39 @@ export interface Callout {
  * Draws sentences about points on the outline of a shape with the centre `shapeCentre`. A sentence is outside of the shape, where it covers
  * the fewest lines (x, y pairs) and texts. The cost of a position is continuous in all points, so that a sentence seldom jumps.
  */
-export function drawCallouts(drawContext: DrawContext, callouts: Callout[], { shapeCentre, lines }: { shapeCentre: [number, number], lines: Float64Array[] }) {
-  const { context, view, palette, placedBoxes } = drawContext;
-  const [centreX, centreY] = view.toPixel(...shapeCentre);
-  const avoidedPoints = [...callouts.map(({ point }): number[] => view.toPixel(...point)), ...lines.filter(({ length }) => length > 0).flatMap((avoidedLine) => sampleLine(view.toPixels(avoidedLine)))];
-  const { left, right, top, bottom } = view.plotArea;
-  for (const { point, colour = palette.ink, text = '', ...symbolAndSubscript } of callouts) {
-    const textLines = text.split('\n').map((textLine, i) => measureTextParts(drawContext, { text: textLine, ...(i === 0 && symbolAndSubscript) }));
+export function drawCallouts(drawContext: DrawContext, callouts: Callout[], { shapeCentre, avoidedLines }: { shapeCentre: [number, number], avoidedLines: Float64Array[] }) {
+  const { canvasContext, pictureView, palette, placedBoxes } = drawContext;
+  const [centreX, centreY] = pictureView.toPixel(...shapeCentre);
+  const avoidedPoints = [...callouts.map(({ point: anchorPoint }): number[] => pictureView.toPixel(...anchorPoint)), ...avoidedLines.filter(({ length }) => length > 0).flatMap((avoidedLine) => sampleLine(pictureView.toPixels(avoidedLine)))];
+  const { left, right, top, bottom } = pictureView.plotArea;
+  for (const { point: anchorPoint, colour: textColour = palette.ink, text: labelText = '', ...symbolAndSubscript } of callouts) {
+    const textLines = labelText.split('\n').map((textLine, i) => measureTextParts(drawContext, { text: textLine, ...(i === 0 && symbolAndSubscript) }));
     const halfWidth = Math.max(...textLines.map(totalWidthOf)) / 2 + TEXT_MARGIN;
     const halfHeight = (LINE_HEIGHT * textLines.length) / 2 + TEXT_MARGIN;
-    const [x, y] = view.toPixel(...point);
+    const [x, y] = pictureView.toPixel(...anchorPoint);
     const outwardAngle = Math.atan2(y - centreY, x - centreX);
     let bestBox = { x, y, halfWidth, halfHeight, cost: Infinity };
-    for (const { turn, length, cost } of CANDIDATE_POSITIONS) {
+    for (const { turn: leaderAngle, length: leaderLength, cost: positionCost } of CANDIDATE_POSITIONS) {
       // The candidates are sorted by the cost of their leader, to which overlaps only add. No later candidate can cost less than the best box.
-      if (cost >= bestBox.cost) break;
-      const [idealX, idealY] = [x + (length + halfWidth) * Math.cos(outwardAngle + turn), y + (length + halfHeight) * Math.sin(outwardAngle + turn)];
+      if (positionCost >= bestBox.cost) break;
+      const [idealX, idealY] = [x + (leaderLength + halfWidth) * Math.cos(outwardAngle + leaderAngle), y + (leaderLength + halfHeight) * Math.sin(outwardAngle + leaderAngle)];
       const textBox = {
-        x: clamp(idealX, left + halfWidth, Math.max(left + halfWidth, right - halfWidth)),
-        y: clamp(idealY, top + halfHeight, Math.max(top + halfHeight, bottom - halfHeight)),
+        x: clampNumber(idealX, left + halfWidth, Math.max(left + halfWidth, right - halfWidth)),
+        y: clampNumber(idealY, top + halfHeight, Math.max(top + halfHeight, bottom - halfHeight)),
         halfWidth, halfHeight,
       };
-      const totalCost = cost + maxOverlapOf(textBox, avoidedPoints, placedBoxes);
+      const totalCost = positionCost + maxOverlapOf(textBox, avoidedPoints, placedBoxes);
       if (totalCost < bestBox.cost) bestBox = { ...textBox, cost: totalCost };
     }
-    const leaderStart = [clamp(x, bestBox.x - halfWidth, bestBox.x + halfWidth), clamp(y, bestBox.y - halfHeight, bestBox.y + halfHeight)];
+    const leaderStart = [clampNumber(x, bestBox.x - halfWidth, bestBox.x + halfWidth), clampNumber(y, bestBox.y - halfHeight, bestBox.y + halfHeight)];
     placedBoxes.push(bestBox);
     avoidedPoints.push(...sampleLine([leaderStart, [x, y]]));
 
-    strokeLine(context, [leaderStart, [x, y]], { colour, width: 1 });
-    drawDisc(context, [x, y], 2.5, colour);
-    context.fillStyle = palette.paper;
-    paintWithOpacity(context, 0.85, () => context.fillRect(bestBox.x - halfWidth, bestBox.y - halfHeight, 2 * halfWidth, 2 * halfHeight));
-    textLines.forEach((textParts, i) => drawTextParts(drawContext, textParts, bestBox.x - totalWidthOf(textParts) / 2, bestBox.y + (i - (textLines.length - 1) / 2) * LINE_HEIGHT, colour));
+    strokeLine(canvasContext, [leaderStart, [x, y]], { colour: textColour, width: 1 });
+    drawDisc(canvasContext, [x, y], 2.5, textColour);
+    canvasContext.fillStyle = palette.paper;
+    paintWithOpacity(canvasContext, 0.85, () => canvasContext.fillRect(bestBox.x - halfWidth, bestBox.y - halfHeight, 2 * halfWidth, 2 * halfHeight));
+    textLines.forEach((textParts, i) => drawTextParts(drawContext, textParts, bestBox.x - totalWidthOf(textParts) / 2, bestBox.y + (i - (textLines.length - 1) / 2) * LINE_HEIGHT, textColour));
   }
 }
 
@@ -122,11 +122,11 @@ function sampleLine([firstPoint, ...otherPoints]: number[][]) {
 }
 
 /** Returns the maximum depth by which points and other boxes of texts reach into a box, pixels. The depth of boxes counts twice. */
-function maxOverlapOf({ x, y, halfWidth, halfHeight }: TextBox, points: number[][], otherBoxes: TextBox[]) {
+function maxOverlapOf({ x, y, halfWidth, halfHeight }: TextBox, avoidedPoints: number[][], otherBoxes: TextBox[]) {
   const overlapDepthOf = (otherX: number, otherY: number, otherHalfWidth = 0, otherHalfHeight = 0) =>
     Math.min(halfWidth + otherHalfWidth + MIN_TEXT_DISTANCE - Math.abs(otherX - x), halfHeight + otherHalfHeight + MIN_TEXT_DISTANCE - Math.abs(otherY - y));
   let maxDepth = 0;
-  for (const [pointX, pointY] of points) maxDepth = Math.max(maxDepth, overlapDepthOf(pointX, pointY));
+  for (const [pointX, pointY] of avoidedPoints) maxDepth = Math.max(maxDepth, overlapDepthOf(pointX, pointY));
   for (const otherBox of otherBoxes) maxDepth = Math.max(maxDepth, 2 * overlapDepthOf(otherBox.x, otherBox.y, otherBox.halfWidth, otherBox.halfHeight));
   return maxDepth;
 }

@@ -2,8 +2,8 @@
 
 import { createDrawContext } from './canvas.ts';
 import type { DrawContext, DrawSurface } from './canvas.ts';
-import type { View } from './view.ts';
-import type { Palette } from '../ui/theme.ts';
+import type { PictureView } from './view.ts';
+import type { ColourPalette } from '../ui/theme.ts';
 
 interface DrawOptions extends Pick<DrawContext, 'isExported' | 'drawsHandles' | 'highlight' | 'previousViewModel'> {
   elapsedMs?: number;
@@ -13,30 +13,30 @@ interface DrawOptions extends Pick<DrawContext, 'isExported' | 'drawsHandles' | 
   isImmediate?: boolean;
 }
 
-export class Picture<Scene, Name extends string = string> {
+export class FigurePicture<Scene, Name extends string = string> {
   /** `previousViewModel` of the latest drawing. Another object means that a new gesture began, in which the view has not zoomed out yet. */
   #previousViewModel: any;
 
-  declare name: Name;
-  declare view: View;
+  declare pictureName: Name;
+  declare pictureView: PictureView;
 
   /** Sets the extent that the view has to show. */
   fitView(_scene: Scene) {}
 
   /** Paints the scene. */
-  paint(_drawContext: DrawContext, _scene: Scene) {}
+  paintPicture(_drawContext: DrawContext, _scene: Scene) {}
 
   /** Draws the scene. Returns true if the view is still moving. */
-  draw(surface: DrawSurface, scene: Scene, palette: Palette, { elapsedMs = 0, keepsScale = false, isImmediate = false, previousViewModel, isExported, drawsHandles = isExported, highlight }: DrawOptions = {}): boolean {
-    const { view } = this;
-    const drawContext = createDrawContext(surface, view, palette);
+  drawPicture(drawSurface: DrawSurface, scene: Scene, palette: ColourPalette, { elapsedMs = 0, keepsScale = false, isImmediate = false, previousViewModel, isExported, drawsHandles = isExported, highlight }: DrawOptions = {}): boolean {
+    const { pictureView } = this;
+    const drawContext = createDrawContext(drawSurface, pictureView, palette);
     if (previousViewModel !== this.#previousViewModel && !isExported) {
       this.#previousViewModel = previousViewModel;
-      view.hasZoomedOut = false;
+      pictureView.hasZoomedOut = false;
     }
-    if (!keepsScale || !view.hasTarget) this.fitView(scene);
-    const isViewMoving = view.moveTowardsTarget(elapsedMs, isImmediate);
-    this.paint({ ...drawContext, highlight, isExported, drawsHandles, previousViewModel: view.hasZoomedOut && !isExported ? previousViewModel : undefined }, scene);
+    if (!keepsScale || !pictureView.hasTarget) this.fitView(scene);
+    const isViewMoving = pictureView.moveTowardsTarget(elapsedMs, isImmediate);
+    this.paintPicture({ ...drawContext, highlight, isExported, drawsHandles, previousViewModel: pictureView.hasZoomedOut && !isExported ? previousViewModel : undefined }, scene);
     return isViewMoving;
   }
 
@@ -50,6 +50,6 @@ export class Picture<Scene, Name extends string = string> {
 const SELECTION_RADIUS = 14;
 
 /** Picture of samples that the pointer can select, with the same scale on both axes. */
-export class SamplesPicture<Scene> extends Picture<Scene> {
-  findNearestSample: Picture<any>['findNearestSample'] = (simulation, x, y) => simulation.nearest(...this.view.toWorld(x, y), SELECTION_RADIUS / this.view.scaleX);
+export class SamplesPicture<Scene> extends FigurePicture<Scene> {
+  findNearestSample: FigurePicture<any>['findNearestSample'] = (simulation, x, y) => simulation.nearest(...this.pictureView.toWorld(x, y), SELECTION_RADIUS / this.pictureView.scaleX);
 }

@@ -3,8 +3,8 @@
 /** Characters that are not allowed in XML. */
 const INVALID_XML_CHARACTERS = /[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\u{10000}-\u{10ffff}]/gu;
 
-export const escapeXml = (text: string) =>
-  text.replace(INVALID_XML_CHARACTERS, '\ufffd').replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
+export const escapeXml = (plainText: string) =>
+  plainText.replace(INVALID_XML_CHARACTERS, '\ufffd').replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
 
 /** Prints a length in CSS pixels to a hundredth, which is finer than the resolution of printers. */
 export const formatLength = (pixelLength: number) => String(Math.round(100 * pixelLength) / 100);
@@ -25,9 +25,9 @@ export class SvgContext {
   font = '';
   textAlign = 'left';
   textBaseline = 'alphabetic';
-  #path = '';
+  #pathData = '';
   #dash: number[] = [];
-  #elements: string[] = [];
+  #elementTexts: string[] = [];
   #clipCount = 0;
   #idPrefix;
   #measuringContext: OffscreenCanvasRenderingContext2D | undefined;
@@ -37,8 +37,8 @@ export class SvgContext {
     this.#idPrefix = idPrefix;
   }
 
-  get markup() {
-    return this.#elements.join('\n');
+  get svgMarkup() {
+    return this.#elementTexts.join('\n');
   }
 
   // Transforms and clearing are not needed in SVG: the unit is the CSS pixel, and the drawing is empty at first.
@@ -46,24 +46,24 @@ export class SvgContext {
   clearRect() {}
 
   save() {
-    this.#elements.push('<g>');
+    this.#elementTexts.push('<g>');
   }
 
   restore() {
-    this.#elements.push('</g>');
+    this.#elementTexts.push('</g>');
   }
 
   beginPath() {
-    this.#path = '';
+    this.#pathData = '';
   }
 
   moveTo: CanvasPath['moveTo'] = (x, y) => {
-    this.#path += `M${formatLength(x)},${formatLength(y)}`;
+    this.#pathData += `M${formatLength(x)},${formatLength(y)}`;
   };
 
   lineTo: CanvasPath['lineTo'] = (x, y) => {
     // The first point of a path is a move, as on a canvas.
-    this.#path += `${this.#path ? 'L' : 'M'}${formatLength(x)},${formatLength(y)}`;
+    this.#pathData += `${this.#pathData ? 'L' : 'M'}${formatLength(x)},${formatLength(y)}`;
   };
 
   arc: CanvasPath['arc'] = (x, y, radius, startAngle, endAngle, isCounterclockwise = false) => {
@@ -71,32 +71,32 @@ export class SvgContext {
     const sweepAngle = isCounterclockwise ? startAngle - endAngle : endAngle - startAngle;
     if (sweepAngle >= 2 * Math.PI) {
       const diameter = formatLength(2 * radius);
-      this.#path += `M${formatLength(x - radius)},${formatLength(y)}a${r},${r} 0 1 0 ${diameter},0a${r},${r} 0 1 0 -${diameter},0Z`;
+      this.#pathData += `M${formatLength(x - radius)},${formatLength(y)}a${r},${r} 0 1 0 ${diameter},0a${r},${r} 0 1 0 -${diameter},0Z`;
       return;
     }
     const pointAt = (angle: number) => `${formatLength(x + radius * Math.cos(angle))},${formatLength(y + radius * Math.sin(angle))}`;
     const [largeArcFlag, clockwiseFlag] = [sweepAngle > Math.PI, !isCounterclockwise].map(Number);
-    this.#path += `${this.#path ? 'L' : 'M'}${pointAt(startAngle)}A${r},${r} 0 ${largeArcFlag} ${clockwiseFlag} ${pointAt(endAngle)}`;
+    this.#pathData += `${this.#pathData ? 'L' : 'M'}${pointAt(startAngle)}A${r},${r} 0 ${largeArcFlag} ${clockwiseFlag} ${pointAt(endAngle)}`;
   };
 
   rect: CanvasPath['rect'] = (x, y, width, height) => {
-    this.#path += `M${formatLength(x)},${formatLength(y)}h${formatLength(width)}v${formatLength(height)}h${formatLength(-width)}Z`;
+    this.#pathData += `M${formatLength(x)},${formatLength(y)}h${formatLength(width)}v${formatLength(height)}h${formatLength(-width)}Z`;
   };
 
   closePath() {
-    this.#path += 'Z';
+    this.#pathData += 'Z';
   }
 
-  fillRect: CanvasRect['fillRect'] = (...rectangle) => {
-    this.#path = '';
-    this.rect(...rectangle);
+  fillRect: CanvasRect['fillRect'] = (...rectangleBounds) => {
+    this.#pathData = '';
+    this.rect(...rectangleBounds);
     this.fill();
   };
 
   clip() {
     const clipId = `${this.#idPrefix}-clip${++this.#clipCount}`;
     // The latest element is the group that `save` opened.
-    this.#elements.splice(-1, 1, `<clipPath id="${clipId}"><path d="${this.#path}"/></clipPath><g clip-path="url(#${clipId})">`);
+    this.#elementTexts.splice(-1, 1, `<clipPath id="${clipId}"><path d="${this.#pathData}"/></clipPath><g clip-path="url(#${clipId})">`);
   }
 
   setLineDash(dash: number[]) {
@@ -104,11 +104,11 @@ export class SvgContext {
   }
 
   stroke() {
-    this.#elements.push(`<path d="${this.#path}" fill="none"${this.#strokeAttributes()}/>`);
+    this.#elementTexts.push(`<path d="${this.#pathData}" fill="none"${this.#strokeAttributes()}/>`);
   }
 
   fill() {
-    this.#elements.push(`<path d="${this.#path}" fill="${this.fillStyle}"${this.#formatOpacityAttribute()}/>`);
+    this.#elementTexts.push(`<path d="${this.#pathData}" fill="${this.fillStyle}"${this.#formatOpacityAttribute()}/>`);
   }
 
   #formatOpacityAttribute() {
@@ -122,28 +122,28 @@ export class SvgContext {
     return ` stroke="${this.strokeStyle}" stroke-width="${this.lineWidth}"${dashAttribute}${capAttribute}${lineJoinAttribute}${this.#formatOpacityAttribute()}`;
   }
 
-  measureText(text: string): { width: number } {
+  measureText(labelText: string): { width: number } {
     // Node has no canvas to measure text. Letters of most fonts are about half as wide as high.
-    if (typeof OffscreenCanvas === 'undefined') return { width: 0.55 * text.length * parseFloat(this.font.replace('italic ', '')) };
+    if (typeof OffscreenCanvas === 'undefined') return { width: 0.55 * labelText.length * parseFloat(this.font.replace('italic ', '')) };
     this.#measuringContext ??= new OffscreenCanvas(1, 1).getContext('2d') as OffscreenCanvasRenderingContext2D;
     this.#measuringContext.font = this.font;
-    return this.#measuringContext.measureText(text);
+    return this.#measuringContext.measureText(labelText);
   }
 
-  fillText: CanvasText['fillText'] = (text, x, y) => this.#addText(text, x, y, ` fill="${this.fillStyle}"${this.#formatOpacityAttribute()}`);
+  fillText: CanvasText['fillText'] = (labelText, x, y) => this.#addText(labelText, x, y, ` fill="${this.fillStyle}"${this.#formatOpacityAttribute()}`);
 
-  #addText(text: string, x: number, y: number, paintAttributes: string) {
+  #addText(labelText: string, x: number, y: number, paintAttributes: string) {
     const dy = BASELINE_SHIFTS[this.textBaseline] ?? '0';
     const textAnchor = TEXT_ANCHORS[this.textAlign] ?? 'start';
     const positionAttributes = `x="${formatLength(x)}" y="${formatLength(y)}" dy="${dy}" text-anchor="${textAnchor}"`;
-    this.#elements.push(`<text ${positionAttributes} style="font:${escapeXml(this.font)}"${paintAttributes}>${escapeXml(text)}</text>`);
+    this.#elementTexts.push(`<text ${positionAttributes} style="font:${escapeXml(this.font)}"${paintAttributes}>${escapeXml(labelText)}</text>`);
   }
 
-  drawImage(image: OffscreenCanvas, ...rectangle: [x: number, y: number, width: number, height: number]) {
-    const [x, y, width, height] = rectangle.map(formatLength);
-    const canvas = Object.assign(document.createElement('canvas'), { width: image.width, height: image.height });
-    (canvas.getContext('2d') as CanvasRenderingContext2D).drawImage(image, 0, 0);
+  drawImage(rasterImage: OffscreenCanvas, ...rectangleBounds: [x: number, y: number, width: number, height: number]) {
+    const [x, y, width, height] = rectangleBounds.map(formatLength);
+    const canvas = Object.assign(document.createElement('canvas'), { width: rasterImage.width, height: rasterImage.height });
+    (canvas.getContext('2d') as CanvasRenderingContext2D).drawImage(rasterImage, 0, 0);
     const imageAttributes = `x="${x}" y="${y}" width="${width}" height="${height}"`;
-    this.#elements.push(`<image ${imageAttributes} preserveAspectRatio="none" href="${canvas.toDataURL()}"${this.#formatOpacityAttribute()}/>`);
+    this.#elementTexts.push(`<image ${imageAttributes} preserveAspectRatio="none" href="${canvas.toDataURL()}"${this.#formatOpacityAttribute()}/>`);
   }
 }

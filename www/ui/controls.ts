@@ -3,7 +3,7 @@
 import { css, html, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
 import { language } from '../messages/registry.ts';
-import { MINUS } from './format.ts';
+import { MINUS_SIGN } from './format.ts';
 
 export const controlStyles = css`
   fieldset {
@@ -215,9 +215,9 @@ const FORMULA_PIECE = new RegExp(FORMULA_PIECE_PATTERN, 'g');
 const FORMULA_REGEXP = new RegExp(`((?:${FORMULA_PIECE_PATTERN})+)`);
 
 /** Returns a message as HTML, with italics and subscripts in its formulas. The text \\* is an asterisk. */
-export function formatMarkup(message: string) {
+export function formatMarkup(markedUpText: string) {
   // Formulas and other text alternate in the split message. Parts with odd indices are formulas.
-  return message.split(FORMULA_REGEXP).map((proseOrFormula, i) => (i % 2 ? untranslatedHtml(proseOrFormula.match(FORMULA_PIECE)?.map(formulaPieceHtml)) : proseOrFormula));
+  return markedUpText.split(FORMULA_REGEXP).map((proseOrFormula, i) => (i % 2 ? untranslatedHtml(proseOrFormula.match(FORMULA_PIECE)?.map(formulaPieceHtml)) : proseOrFormula));
 }
 
 function formulaPieceHtml(formulaPiece: string) {
@@ -228,34 +228,34 @@ function formulaPieceHtml(formulaPiece: string) {
 /** Returns a value or formula with its own writing direction, which page translators leave unchanged. */
 export const untranslatedHtml = (untranslatedContent: unknown) => html`<bdi translate="no" class="notranslate">${untranslatedContent}</bdi>`;
 
-export function fieldsetHtml(heading: unknown, controls: unknown, className?: string, cssPart?: string) {
+export function fieldsetHtml(heading: unknown, fieldsetContent: unknown, className?: string, cssPart?: string) {
   return html`<fieldset class=${className ?? nothing} part=${cssPart ?? nothing}>
     <legend>${heading}</legend>
-    ${controls}
+    ${fieldsetContent}
   </fieldset>`;
 }
 
 /** Returns a radio button of a group. `name` is its name for screen readers, if it has no label. */
-export function radioButtonHtml({ group, label, name, checked, onChoose }: { group: string, label?: unknown, name?: string, checked: boolean, onChoose: () => void }) {
+export function radioButtonHtml({ groupName, labelContent, name, isChecked, onChoose }: { groupName: string, labelContent?: unknown, name?: string, isChecked: boolean, onChoose: () => void }) {
   return html`<label class="choice">
-    <input type="radio" name=${group} aria-label=${name ?? nothing} .checked=${live(checked)} @change=${onChoose} />
-    ${label ? html`<span>${label}</span>` : nothing}
+    <input type="radio" name=${groupName} aria-label=${name ?? nothing} .checked=${live(isChecked)} @change=${onChoose} />
+    ${labelContent ? html`<span>${labelContent}</span>` : nothing}
   </label>`;
 }
 
-export function checkboxHtml({ label, checked, onChange }: { label: unknown, checked: boolean, onChange: (checked: boolean) => void }) {
+export function checkboxHtml({ labelContent, isChecked, onChange }: { labelContent: unknown, isChecked: boolean, onChange: (isChecked: boolean) => void }) {
   return html`<label class="toggle">
     <input
       type="checkbox"
-      .checked=${live(checked)}
-      @change=${(event: Event) => onChange(inputOf(event).checked)}
+      .checked=${live(isChecked)}
+      @change=${(domEvent: Event) => onChange(inputOf(domEvent).checked)}
     />
-    ${label}
+    ${labelContent}
   </label>`;
 }
 
 /** Returns a button. It is wide enough for `otherLabel`, so that no other control moves when the label changes. */
-export function buttonHtml(label: unknown, onPress: () => void, { pressed, disabled = false, title, className, otherLabel }: { pressed?: boolean, disabled?: boolean, title?: string, className?: string, otherLabel?: string } = {}) {
+export function buttonHtml(labelContent: unknown, onPress: () => void, { isPressed, disabled = false, title, className, otherLabel }: { isPressed?: boolean, disabled?: boolean, title?: string, className?: string, otherLabel?: string } = {}) {
   return html`<button
     type="button"
     class=${className ?? nothing}
@@ -263,10 +263,10 @@ export function buttonHtml(label: unknown, onPress: () => void, { pressed, disab
     part="button"
     ?disabled=${disabled}
     title=${title ?? nothing}
-    aria-pressed=${pressed ?? nothing}
+    aria-pressed=${isPressed ?? nothing}
     @click=${onPress}
   >
-    ${label}
+    ${labelContent}
   </button>`;
 }
 
@@ -290,73 +290,73 @@ interface NumberField extends AllowedNumbers {
   placeholder?: string;
   isDisabled?: boolean;
   /** Called for each allowed number that the user has entered, with NaN for an empty field. */
-  onChange: (value: number, field: HTMLInputElement) => void;
+  onChange: (newValue: number, numberField: HTMLInputElement) => void;
 }
 
 /**
  * Returns a number field, which must be in a form of its own. The browser checks what the user types, and says on Enter why it is not
  * allowed. Escape, or leaving the field, restores the number.
  */
-export function numberFieldHtml({ value, min, max, type, arrowRange, id, labelId, isOptional = false, placeholder, isDisabled = false, onChange }: NumberField) {
-  const typingRange = { min, max, step: type === 'whole' ? '1' : 'any' };
-  const handleKey = (event: KeyboardEvent) => {
-    const field = inputOf(event);
+export function numberFieldHtml({ value: fieldValue, min: minValue, max: maxValue, type: numberType, arrowRange, id, labelId, isOptional = false, placeholder, isDisabled = false, onChange }: NumberField) {
+  const typingRange = { min: minValue, max: maxValue, step: numberType === 'whole' ? '1' : 'any' };
+  const handleKey = (domEvent: KeyboardEvent) => {
+    const numberField = inputOf(domEvent);
     // The steps of the arrow keys count from `min`.
-    Object.assign(field, event.key.startsWith('Arrow') ? arrowRange : typingRange);
-    if (event.key !== 'Escape') return;
-    field.form?.reset();
+    Object.assign(numberField, domEvent.key.startsWith('Arrow') ? arrowRange : typingRange);
+    if (domEvent.key !== 'Escape') return;
+    numberField.form?.reset();
     // A handled Escape does not end a presentation.
-    event.preventDefault();
+    domEvent.preventDefault();
   };
   const groupSeparator = language === 'de' ? '.' : ',';
   // Browsers drop characters that are not in the notation of the browser's language: 0,35 would become 35.
-  const replaceSigns = (event: InputEvent) => {
-    const typedText = event.data ?? '';
-    const replacedText = (type === 'whole' ? typedText.replaceAll(groupSeparator, '') : typedText).replace(MINUS, '-').replace(',', '.');
+  const replaceSigns = (domEvent: InputEvent) => {
+    const typedText = domEvent.data ?? '';
+    const replacedText = (numberType === 'whole' ? typedText.replaceAll(groupSeparator, '') : typedText).replace(MINUS_SIGN, '-').replace(',', '.');
     if (replacedText === typedText) return;
-    event.preventDefault();
+    domEvent.preventDefault();
     if (replacedText) document.execCommand('insertText', false, replacedText);
   };
-  const enterNumber = (event: Event) => {
-    const field = Object.assign(inputOf(event), typingRange);
-    if (!field.validity.valid) return;
-    onChange(field.valueAsNumber, field);
+  const enterNumber = (domEvent: Event) => {
+    const numberField = Object.assign(inputOf(domEvent), typingRange);
+    if (!numberField.validity.valid) return;
+    onChange(numberField.valueAsNumber, numberField);
     // After a reset, the browser shows the value of the next rendering.
-    field.defaultValue = field.value;
-    field.form?.reset();
+    numberField.defaultValue = numberField.value;
+    numberField.form?.reset();
   };
   return html`<input
     type="number"
     class=${labelId ? 'typed' : nothing}
     id=${id ?? nothing}
     tabindex=${labelId ? -1 : nothing}
-    min=${min}
-    max=${max}
+    min=${minValue}
+    max=${maxValue}
     step=${typingRange.step}
-    value=${live(String(value ?? ''))}
+    value=${live(String(fieldValue ?? ''))}
     placeholder=${placeholder ?? nothing}
     aria-labelledby=${labelId ?? nothing}
     autocomplete="off"
     ?required=${!isOptional}
     ?disabled=${isDisabled}
-    @focus=${(event: Event) => inputOf(event).select()}
+    @focus=${(domEvent: Event) => inputOf(domEvent).select()}
     @beforeinput=${replaceSigns}
     @keydown=${handleKey}
     @change=${enterNumber}
-    @blur=${(event: Event) => inputOf(event).form?.reset()}
+    @blur=${(domEvent: Event) => inputOf(domEvent).form?.reset()}
   />`;
 }
 
-export const inputOf = (event: Event) => event.target as HTMLInputElement;
+export const inputOf = (domEvent: Event) => domEvent.target as HTMLInputElement;
 
 /** Returns radio buttons in a row under one name, in the order of the labels. */
-export function radioGroupHtml<Name extends string>(label: string, group: string, labels: Record<Name, string>, checkedName: Name, onChoose: (name: Name) => void) {
-  const choiceNames = Object.keys(labels) as Name[];
-  return html`<div class="choices" role="radiogroup" aria-label=${label}>
-    <span aria-hidden="true">${label}</span>
+export function radioGroupHtml<Name extends string>(groupLabel: string, groupName: string, labelsByName: Record<Name, string>, checkedName: Name, onChoose: (name: Name) => void) {
+  const choiceNames = Object.keys(labelsByName) as Name[];
+  return html`<div class="choices" role="radiogroup" aria-label=${groupLabel}>
+    <span aria-hidden="true">${groupLabel}</span>
     <div class="options">
-      ${choiceNames.map((name) =>
-        radioButtonHtml({ group, label: labels[name], checked: name === checkedName, onChoose: () => onChoose(name) }),
+      ${choiceNames.map((choiceName) =>
+        radioButtonHtml({ groupName, labelContent: labelsByName[choiceName], isChecked: choiceName === checkedName, onChoose: () => onChoose(choiceName) }),
       )}
     </div>
   </div>`;

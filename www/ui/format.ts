@@ -2,7 +2,7 @@
 
 import { language } from '../messages/registry.ts';
 
-export const MINUS = '\u2212';
+export const MINUS_SIGN = '\u2212';
 const THIN_SPACE = '\u202f';
 export const NO_VALUE = '\u2014';
 
@@ -16,12 +16,12 @@ function getDecimalSeparator(): string {
 }
 
 /** Prints a number with decimals: "−0.301"; "0.000" rather than "−0.000"; "∞"; "—" for NaN. */
-export function formatFixed(value: number, decimals: number): string {
-  if (Number.isNaN(value)) return NO_VALUE;
+export function formatFixed(formattedNumber: number, decimals: number): string {
+  if (Number.isNaN(formattedNumber)) return NO_VALUE;
   // `toFixed` rounds the exact binary number. `Intl` rounds its shortest decimal form, and may round a false tie up.
-  const digits = Math.abs(value).toFixed(decimals);
-  const sign = value < 0 && Number(digits) !== 0 ? MINUS : '';
-  return sign + (Number.isFinite(value) ? digits.replace('.', getDecimalSeparator()) : '∞');
+  const digits = Math.abs(formattedNumber).toFixed(decimals);
+  const minusOrNothing = formattedNumber < 0 && Number(digits) !== 0 ? MINUS_SIGN : '';
+  return minusOrNothing + (Number.isFinite(formattedNumber) ? digits.replace('.', getDecimalSeparator()) : '∞');
 }
 
 /** Maximum number of decimals of an editable value beyond the usual number. */
@@ -31,9 +31,9 @@ const MAX_EXTRA_DECIMALS = 2;
  * Prints a value as it was typed: with up to two more decimals than usual, if they print it exactly. With 3 decimals 0.0525 is "0.0525",
  * but 0.05210987 is "0.052".
  */
-export function formatEditable(value: number, decimals: number): string {
-  const typedDecimals = String(value).split('.')[1]?.length ?? 0;
-  return formatFixed(value, typedDecimals > decimals && typedDecimals <= decimals + MAX_EXTRA_DECIMALS ? typedDecimals : decimals);
+export function formatEditable(formattedNumber: number, decimals: number): string {
+  const typedDecimals = String(formattedNumber).split('.')[1]?.length ?? 0;
+  return formatFixed(formattedNumber, typedDecimals > decimals && typedDecimals <= decimals + MAX_EXTRA_DECIMALS ? typedDecimals : decimals);
 }
 
 /** Magnitude below which a number counts as a rounded 0. */
@@ -42,50 +42,50 @@ const MAX_ROUNDED_ZERO = 1e-13;
 /** Maximum number of decimals of a standard error. With ten million robots the standard error is 0.0008. */
 const MAX_ERROR_DECIMALS = 5;
 
-const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
+const SUPERSCRIPT_DIGITS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 
 /** Prints a number with significant digits: "0.0070020"; below 0.0001 and from 100,000 on "1.2500·10⁻⁵". */
-export function formatSignificant(value: number, significantDigits: number): string {
-  if (Math.abs(value) < MAX_ROUNDED_ZERO) return '0';
-  if (!Number.isFinite(value)) return formatFixed(value, 0);
-  const [mantissa, exponent] = value.toExponential(significantDigits - 1).split('e').map(Number);
+export function formatSignificant(formattedNumber: number, significantDigits: number): string {
+  if (Math.abs(formattedNumber) < MAX_ROUNDED_ZERO) return '0';
+  if (!Number.isFinite(formattedNumber)) return formatFixed(formattedNumber, 0);
+  const [mantissa, exponent] = formattedNumber.toExponential(significantDigits - 1).split('e').map(Number);
   if (exponent < -4 || exponent >= 5) return `${formatFixed(mantissa, significantDigits - 1)}·${formatPowerOfTen(exponent)}`;
-  return formatFixed(Number(value.toPrecision(significantDigits)), Math.max(0, significantDigits - 1 - exponent));
+  return formatFixed(Number(formattedNumber.toPrecision(significantDigits)), Math.max(0, significantDigits - 1 - exponent));
 }
 
 /** Prints a power of ten: "10⁻⁵". */
 export function formatPowerOfTen(exponent: number): string {
-  return `10${String(exponent).replace('-', '⁻').replace(/\d/g, (decimalDigit) => SUPERSCRIPTS[Number(decimalDigit)])}`;
+  return `10${String(exponent).replace('-', '⁻').replace(/\d/g, (decimalDigit) => SUPERSCRIPT_DIGITS[Number(decimalDigit)])}`;
 }
 
 /** Prints a positive number rounded to significant digits: "0.47", "12", "1 200". */
-export function formatRounded(value: number, significantDigits: number): string {
-  const roundedValue = Number(value.toPrecision(significantDigits));
+export function formatRounded(formattedNumber: number, significantDigits: number): string {
+  const roundedValue = Number(formattedNumber.toPrecision(significantDigits));
   const decimals = significantDigits - 1 - Math.floor(Math.log10(roundedValue));
   return decimals > 0 ? formatFixed(roundedValue, decimals) : formatInteger(roundedValue);
 }
 
 /** Prints a count: "100 000". */
-export const formatInteger = (count: number): string => formatFixed(count, 0).replace(/\B(?=(\d{3})+$)/g, THIN_SPACE);
+export const formatInteger = (integerValue: number): string => formatFixed(integerValue, 0).replace(/\B(?=(\d{3})+$)/g, THIN_SPACE);
 
 /** Prints a fraction from 0 to 1 in percent: "86.5 %". */
-export function formatPercent(fraction: number, decimals: number = 1): string {
-  return Number.isNaN(fraction) ? NO_VALUE : `${formatFixed(100 * fraction, decimals)}${THIN_SPACE}%`;
+export function formatPercent(proportion: number, decimals: number = 1): string {
+  return Number.isNaN(proportion) ? NO_VALUE : `${formatFixed(100 * proportion, decimals)}${THIN_SPACE}%`;
 }
 
 /** Prints a value with its standard error: "−0.412 ± 0.031". Infinity and NaN are printed without an error. Decimals are added until the error shows its first digit. */
-export function formatWithError(value: number, standardError: number, decimals: number): string {
-  if (!Number.isFinite(value)) return formatFixed(value, 0);
+export function formatWithError(formattedNumber: number, standardError: number, decimals: number): string {
+  if (!Number.isFinite(formattedNumber)) return formatFixed(formattedNumber, 0);
   const neededDecimals = standardError > 0 ? Math.max(decimals, Math.min(MAX_ERROR_DECIMALS, -Math.floor(Math.log10(standardError)))) : decimals;
-  return `${formatFixed(value, neededDecimals)} ± ${formatFixed(standardError, neededDecimals)}`;
+  return `${formatFixed(formattedNumber, neededDecimals)} ± ${formatFixed(standardError, neededDecimals)}`;
 }
 
 /** Prints the label of an axis tick, with as many decimals as the step between ticks needs. */
-export function formatTick(value: number, step: number) {
-  return formatFixed(value, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
+export function formatTick(formattedNumber: number, tickStep: number) {
+  return formatFixed(formattedNumber, Math.max(0, -Math.floor(Math.log10(tickStep) + 1e-9)));
 }
 
 /** Returns the value, or the nearer limit if the value is not between `min` and `max`. */
-export function clamp(value: number, min: number, max: number) {
-  return Math.min(max, Math.max(min, value));
+export function clampNumber(wantedNumber: number, lowerLimit: number, upperLimit: number) {
+  return Math.min(upperLimit, Math.max(lowerLimit, wantedNumber));
 }

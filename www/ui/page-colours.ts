@@ -18,11 +18,11 @@ const MUTED_SHARES = [75, 80, 85, 90, 95];
 const MIN_CONTRAST = 4.55;
 
 /** Returns a node's element and its ancestors across shadow roots, the nearest first. */
-export function listElementAndAncestors(node: Node): Element[] {
-  const elements = [];
-  let ancestor: any = node;
-  for (; ancestor; ancestor = ancestor.assignedSlot ?? ancestor.parentNode ?? ancestor.host) if (ancestor.nodeType === 1) elements.push(ancestor);
-  return elements;
+export function listElementAndAncestors(startNode: Node): Element[] {
+  const elementsUpwards = [];
+  let ancestorElement: any = startNode;
+  for (; ancestorElement; ancestorElement = ancestorElement.assignedSlot ?? ancestorElement.parentNode ?? ancestorElement.host) if (ancestorElement.nodeType === 1) elementsUpwards.push(ancestorElement);
+  return elementsUpwards;
 }
 
 /** Reads the colours around a figure. The scheme is dark if the background is darker than legible text, or than medium grey if the text is not legible. */
@@ -30,25 +30,25 @@ export function readPageColours(colourProbe: Element): PageColours {
   const { color, borderTopColor: canvasColour, colorScheme } = getComputedStyle(colourProbe);
   const textColour = colourChannelsOf(color);
   const isDarkByDefault = colorScheme === 'normal' && lightnessOf(textColour) > 0.5;
-  const ancestorBackgrounds = listElementAndAncestors(colourProbe).map((ancestor) => getComputedStyle(ancestor).backgroundColor);
+  const ancestorBackgrounds = listElementAndAncestors(colourProbe).map((ancestorElement) => getComputedStyle(ancestorElement).backgroundColor);
   const backgroundColour = colourChannelsOf(...[...ancestorBackgrounds, isDarkByDefault ? DARK_BACKGROUND : canvasColour].reverse());
   const backgroundLightness = lightnessOf(backgroundColour);
   const isLegible = contrastRatioOf(textColour, backgroundColour) >= MIN_CONTRAST;
-  const scheme = backgroundLightness < (isLegible ? lightnessOf(textColour) : 0.5) ? 'dark' : 'light';
+  const colourScheme = backgroundLightness < (isLegible ? lightnessOf(textColour) : 0.5) ? 'dark' : 'light';
   // Darker backgrounds need darker lines. Nearly white backgrounds need no darkening.
-  const darkening = scheme === 'light' && backgroundLightness < 0.97 ? `${100 * (1 - backgroundLightness ** 2.2)}%` : '';
-  const mixMutedColour = (share: number) => backgroundColour.map((channel, i) => channel + (share / 100) * (textColour[i] - channel));
-  const mutedShare = isLegible ? `${MUTED_SHARES.find((share) => contrastRatioOf(mixMutedColour(share), backgroundColour) >= MIN_CONTRAST) ?? 100}%` : '';
-  return { background: `rgb(${backgroundColour})`, text: isLegible ? color : '', darkening, mutedShare, scheme };
+  const darkening = colourScheme === 'light' && backgroundLightness < 0.97 ? `${100 * (1 - backgroundLightness ** 2.2)}%` : '';
+  const mixMutedColour = (textShare: number) => backgroundColour.map((channelValue, i) => channelValue + (textShare / 100) * (textColour[i] - channelValue));
+  const mutedShare = isLegible ? `${MUTED_SHARES.find((textShare) => contrastRatioOf(mixMutedColour(textShare), backgroundColour) >= MIN_CONTRAST) ?? 100}%` : '';
+  return { background: `rgb(${backgroundColour})`, text: isLegible ? color : '', darkening, mutedShare, scheme: colourScheme };
 }
 
 function contrastRatioOf(firstColour: number[], secondColour: number[]) {
-  const linearizeChannel = (channel: number) => (channel > 10 ? ((channel / 255 + 0.055) / 1.055) ** 2.4 : channel / 3294.6);
-  const [darkerLightness, lighterLightness] = [firstColour, secondColour].map((colour) => lightnessOf(colour.map((channel) => 255 * linearizeChannel(channel)))).sort((a, b) => a - b);
+  const linearizeChannel = (channelValue: number) => (channelValue > 10 ? ((channelValue / 255 + 0.055) / 1.055) ** 2.4 : channelValue / 3294.6);
+  const [darkerLightness, lighterLightness] = [firstColour, secondColour].map((rgbColour) => lightnessOf(rgbColour.map((channelValue) => 255 * linearizeChannel(channelValue)))).sort((a, b) => a - b);
   return (lighterLightness + 0.05) / (darkerLightness + 0.05);
 }
 
 /** Returns the lightness from 0, black, to 1, with the weights of Rec. 709. */
-function lightnessOf([red, green, blue]: number[]): number {
-  return (0.2126 * red + 0.7152 * green + 0.0722 * blue) / 255;
+function lightnessOf([redValue, greenValue, blueValue]: number[]): number {
+  return (0.2126 * redValue + 0.7152 * greenValue + 0.0722 * blueValue) / 255;
 }

@@ -3,7 +3,7 @@
 import { ticks } from 'd3-array';
 import { css, html, nothing, svg, unsafeCSS } from 'lit';
 import { formatMarkup } from './controls.ts';
-import { clamp, formatPowerOfTen, formatTick } from './format.ts';
+import { clampNumber, formatPowerOfTen, formatTick } from './format.ts';
 import { sliderTrackHtml } from './slider.ts';
 import { swatchHtml } from './theme.ts';
 
@@ -76,8 +76,8 @@ export const plotStyles = css`
   }
 `;
 
-interface Axis {
-  name: string;
+interface PlotAxis {
+  axisLabel: string;
   min: number;
   /** Largest value on the axis, greater than `min`. */
   max: number;
@@ -85,9 +85,9 @@ interface Axis {
   isLogarithmic?: boolean;
 }
 
-export type ColourRole = Exclude<keyof import('./theme.ts').Palette, 'paper' | 'rule'>;
+export type ColourRole = Exclude<keyof import('./theme.ts').ColourPalette, 'paper' | 'rule'>;
 
-export interface Curve {
+export interface PlotCurve {
   /** Name in the legend; *stars* make italics. */
   name: string;
   role: ColourRole;
@@ -118,88 +118,88 @@ interface VerticalMark {
 
 export interface PlotOptions {
   /** Description for screen readers, a sentence. */
-  label: string;
-  x: Axis;
-  y: Axis;
-  curves: Curve[];
-  points?: DataPoint[];
-  marks?: VerticalMark[];
+  plotLabel: string;
+  x: PlotAxis;
+  y: PlotAxis;
+  plotCurves: PlotCurve[];
+  dataPoints?: DataPoint[];
+  verticalMarks?: VerticalMark[];
   /** Slider that covers the plot and sets a value on the x axis. */
   slider?: Omit<Parameters<typeof sliderTrackHtml>[0], 'min' | 'max'>;
   /** Legend that replaces the default one. */
-  legend?: unknown;
+  legendContent?: unknown;
 }
 
-export function plotHtml({ label, x, y, curves, points = [], marks = [], slider, legend = curveLegendHtml(curves) }: PlotOptions) {
+export function plotHtml({ plotLabel, x, y, plotCurves, dataPoints = [], verticalMarks = [], slider, legendContent = curveLegendHtml(plotCurves) }: PlotOptions) {
   const [toPixelX, toPixelY] = [createPixelScale(x, PLOT_LEFT, PLOT_RIGHT), createPixelScale(y, PLOT_BOTTOM, PLOT_TOP)];
   return html`<div class="plotted" dir="ltr">
-    <svg class="plot" viewBox="0 0 ${CHART_WIDTH} ${CHART_HEIGHT}" role="img" aria-label=${label} part="chart">
-      ${axisLabelsOf(x, MAX_LABEL_COUNTS.x).map(([value, text]) => gridLineSvg(toPixelX(value), toPixelX(value), PLOT_TOP, PLOT_BOTTOM, { x: toPixelX(value), y: PLOT_BOTTOM + 18, textAnchor: 'middle', text }))}
-      ${axisLabelsOf(y, MAX_LABEL_COUNTS.y).map(([value, text]) => gridLineSvg(PLOT_LEFT, PLOT_RIGHT, toPixelY(value), toPixelY(value), { x: PLOT_LEFT - 6, y: toPixelY(value) + 4, textAnchor: 'end', text }))}
-      <text font-style="italic" x=${PLOT_RIGHT} y=${PLOT_BOTTOM + 30} text-anchor="end">${x.name}</text>
-      <text font-style="italic" x="0" y="12">${y.name}</text>
+    <svg class="plot" viewBox="0 0 ${CHART_WIDTH} ${CHART_HEIGHT}" role="img" aria-label=${plotLabel} part="chart">
+      ${axisLabelsOf(x, MAX_LABEL_COUNTS.x).map(([axisValue, tickText]) => gridLineSvg(toPixelX(axisValue), toPixelX(axisValue), PLOT_TOP, PLOT_BOTTOM, { x: toPixelX(axisValue), y: PLOT_BOTTOM + 18, textAnchor: 'middle', gridLabel: tickText }))}
+      ${axisLabelsOf(y, MAX_LABEL_COUNTS.y).map(([axisValue, tickText]) => gridLineSvg(PLOT_LEFT, PLOT_RIGHT, toPixelY(axisValue), toPixelY(axisValue), { x: PLOT_LEFT - 6, y: toPixelY(axisValue) + 4, textAnchor: 'end', gridLabel: tickText }))}
+      <text font-style="italic" x=${PLOT_RIGHT} y=${PLOT_BOTTOM + 30} text-anchor="end">${x.axisLabel}</text>
+      <text font-style="italic" x="0" y="12">${y.axisLabel}</text>
       <svg x=${PLOT_LEFT} y=${PLOT_TOP} width=${PLOT_RIGHT - PLOT_LEFT} height=${PLOT_BOTTOM - PLOT_TOP} viewBox="${PLOT_LEFT} ${PLOT_TOP} ${PLOT_RIGHT - PLOT_LEFT} ${PLOT_BOTTOM - PLOT_TOP}">
-        ${curves.map((curve) => curve.errors && svg`<path class="band ${highlightClassOf(curve)}" opacity="0.22" fill="var(--${curve.role})" d=${bandPathDataOf(curve, toPixelX, toPixelY)} />`)}
-        ${curves.map((curve) => !curve.isBandOnly && svg`<path class="curve ${highlightClassOf(curve)}" fill="none" stroke-width="1.9" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash?.join(' ') ?? nothing} d=${curvePathDataOf(curve, toPixelX, toPixelY)} />`)}
-        ${marks.map((verticalMark, labelRow) => markSvg(verticalMark, labelRow, toPixelX(verticalMark.x)))}
-        ${points.filter(({ y: value, error }) => !Number.isNaN(value + error)).map(
-          ({ role, x: pointX, y: value, error }) => svg`<path
-            stroke="var(--${role})"
+        ${plotCurves.map((plotCurve) => plotCurve.errors && svg`<path class="band ${highlightClassOf(plotCurve)}" opacity="0.22" fill="var(--${plotCurve.role})" d=${bandPathDataOf(plotCurve, toPixelX, toPixelY)} />`)}
+        ${plotCurves.map((plotCurve) => !plotCurve.isBandOnly && svg`<path class="curve ${highlightClassOf(plotCurve)}" fill="none" stroke-width="1.9" stroke="var(--${plotCurve.role})" stroke-dasharray=${plotCurve.dash?.join(' ') ?? nothing} d=${curvePathDataOf(plotCurve, toPixelX, toPixelY)} />`)}
+        ${verticalMarks.map((verticalMark, labelRow) => markSvg(verticalMark, labelRow, toPixelX(verticalMark.x)))}
+        ${dataPoints.filter(({ y: axisValue, error }) => !Number.isNaN(axisValue + error)).map(
+          ({ role: colourRole, x: pointX, y: axisValue, error }) => svg`<path
+            stroke="var(--${colourRole})"
             stroke-width="1.9"
-            d="M${toPixelX(pointX) - ERROR_BAR_CAP},${toPixelY(value - error)}h${2 * ERROR_BAR_CAP}m${-ERROR_BAR_CAP},0V${toPixelY(value + error)}m${-ERROR_BAR_CAP},0h${2 * ERROR_BAR_CAP}"
-          /><circle cx=${toPixelX(pointX)} cy=${toPixelY(value)} r="3" fill="var(--${role})" />`,
+            d="M${toPixelX(pointX) - ERROR_BAR_CAP},${toPixelY(axisValue - error)}h${2 * ERROR_BAR_CAP}m${-ERROR_BAR_CAP},0V${toPixelY(axisValue + error)}m${-ERROR_BAR_CAP},0h${2 * ERROR_BAR_CAP}"
+          /><circle cx=${toPixelX(pointX)} cy=${toPixelY(axisValue)} r="3" fill="var(--${colourRole})" />`,
         )}
       </svg>
       ${slider ? svg`<rect class="grip" fill="var(--accent)" stroke="var(--paper)" stroke-width="3" paint-order="stroke" rx="4" width=${GRIP_SIZE.width} height=${GRIP_SIZE.height} x=${toPixelX(slider.value) - GRIP_SIZE.width / 2} y=${(PLOT_TOP + PLOT_BOTTOM - GRIP_SIZE.height) / 2} />` : nothing}
     </svg>
     ${slider ? sliderTrackHtml({ ...slider, min: x.min, max: x.max }) : nothing}
     </div>
-    ${legend}
+    ${legendContent}
   `;
 }
 
-const gridLineSvg = (x1: number, x2: number, y1: number, y2: number, { x, y, textAnchor, text }: { x: number, y: number, textAnchor: string, text: string }) => svg`
+const gridLineSvg = (x1: number, x2: number, y1: number, y2: number, { x, y, textAnchor, gridLabel }: { x: number, y: number, textAnchor: string, gridLabel: string }) => svg`
   <line stroke="var(--rule)" x1=${x1} x2=${x2} y1=${y1} y2=${y2} />
-  <text class="notranslate" translate="no" x=${x} y=${y} text-anchor=${textAnchor}>${text}</text>`;
+  <text class="notranslate" translate="no" x=${x} y=${y} text-anchor=${textAnchor}>${gridLabel}</text>`;
 
-const highlightClassOf = ({ isHighlighted }: Curve) => (isHighlighted === undefined ? '' : isHighlighted ? 'lit' : 'unlit');
+const highlightClassOf = ({ isHighlighted }: PlotCurve) => (isHighlighted === undefined ? '' : isHighlighted ? 'lit' : 'unlit');
 
-function curveLegendHtml(curves: Curve[]) {
+function curveLegendHtml(plotCurves: PlotCurve[]) {
   return html`<ul class="plot-key" part="legend">
-    ${curves.map(({ name, isBandOnly, ...style }) => html`<li>${swatchHtml({ ...style, shape: isBandOnly ? 'area' : 'line' })} ${formatMarkup(name)}</li>`)}
+    ${plotCurves.map(({ name: curveName, isBandOnly, ...lineStyle }) => html`<li>${swatchHtml({ ...lineStyle, shape: isBandOnly ? 'area' : 'line' })} ${formatMarkup(curveName)}</li>`)}
   </ul>`;
 }
 
 /** Returns a function that converts a value on an axis to a pixel, and NaN to NaN. On a logarithmic axis, values of 0 or less are far below the axis. */
-function createPixelScale({ min, max, isLogarithmic }: Axis, firstPixel: number, lastPixel: number): (value: number) => number {
-  const toLinear = isLogarithmic ? (value: number) => Math.log10(Math.max(value, 0)) : Number;
-  const [startValue, endValue] = [toLinear(min), toLinear(max)];
-  return (value) => clamp(firstPixel + ((toLinear(value) - startValue) * (lastPixel - firstPixel)) / (endValue - startValue), -FAR_OUTSIDE_PX, FAR_OUTSIDE_PX);
+function createPixelScale({ min: minValue, max: maxValue, isLogarithmic }: PlotAxis, firstPixel: number, lastPixel: number): (axisValue: number) => number {
+  const toLinear = isLogarithmic ? (axisValue: number) => Math.log10(Math.max(axisValue, 0)) : Number;
+  const [startValue, endValue] = [toLinear(minValue), toLinear(maxValue)];
+  return (axisValue) => clampNumber(firstPixel + ((toLinear(axisValue) - startValue) * (lastPixel - firstPixel)) / (endValue - startValue), -FAR_OUTSIDE_PX, FAR_OUTSIDE_PX);
 }
 
-function axisLabelsOf({ min, max, isLogarithmic }: Axis, maxCount: number): [value: number, text: string][] {
-  if (!isLogarithmic) return ticks(min, max, maxCount - 1).map((value, _, values) => [value, formatTick(value, values.length > 1 ? values[1] - values[0] : 1)]);
-  const [firstExponent, lastExponent] = [Math.ceil(Math.log10(min) - 1e-9), Math.floor(Math.log10(max) + 1e-9)];
+function axisLabelsOf({ min: minValue, max: maxValue, isLogarithmic }: PlotAxis, maxCount: number): [value: number, text: string][] {
+  if (!isLogarithmic) return ticks(minValue, maxValue, maxCount - 1).map((axisValue, _, tickValues) => [axisValue, formatTick(axisValue, tickValues.length > 1 ? tickValues[1] - tickValues[0] : 1)]);
+  const [firstExponent, lastExponent] = [Math.ceil(Math.log10(minValue) - 1e-9), Math.floor(Math.log10(maxValue) + 1e-9)];
   const exponentStep = Math.max(1, Math.ceil((lastExponent - firstExponent + 1) / maxCount));
   const exponents = Array.from({ length: Math.floor((lastExponent - firstExponent) / exponentStep) + 1 }, (_, i) => firstExponent + i * exponentStep);
   return exponents.map((exponent) => [10 ** exponent, formatPowerOfTen(exponent)]);
 }
 
-function curvePathDataOf({ x, y }: Curve, toPixelX: (value: number) => number, toPixelY: (value: number) => number) {
-  const points = Array.from(x, (value, i) => (Number.isNaN(value + y[i]) ? '' : `${toPixelX(value).toFixed(2)},${toPixelY(y[i]).toFixed(2)}`));
-  return points.map((pathPoint, i) => pathPoint && `${points[i - 1] ? 'L' : 'M'}${pathPoint}`).join('');
+function curvePathDataOf({ x, y }: PlotCurve, toPixelX: (axisValue: number) => number, toPixelY: (axisValue: number) => number) {
+  const pathPoints = Array.from(x, (axisValue, i) => (Number.isNaN(axisValue + y[i]) ? '' : `${toPixelX(axisValue).toFixed(2)},${toPixelY(y[i]).toFixed(2)}`));
+  return pathPoints.map((pathPoint, i) => pathPoint && `${pathPoints[i - 1] ? 'L' : 'M'}${pathPoint}`).join('');
 }
 
-function bandPathDataOf({ x, y, errors = [] }: Curve, toPixelX: (value: number) => number, toPixelY: (value: number) => number) {
+function bandPathDataOf({ x, y, errors = [] }: PlotCurve, toPixelX: (axisValue: number) => number, toPixelY: (axisValue: number) => number) {
   const definedIndices = Array.from(x, (_, i) => i).filter((i) => !Number.isNaN(x[i] + y[i] + errors[i]));
   const bandEdgeOf = (bandSide: number) => definedIndices.map((i) => `${toPixelX(x[i]).toFixed(2)},${toPixelY(y[i] + bandSide * errors[i]).toFixed(2)}`);
   return definedIndices.length > 0 ? `M${[...bandEdgeOf(1), ...bandEdgeOf(-1).reverse()].join('L')}Z` : '';
 }
 
 /** Returns the line and text of a vertical mark. Each mark's text is in its own row, so that neighbouring texts do not touch. */
-function markSvg({ text }: VerticalMark, labelRow: number, markX: number) {
+function markSvg({ text: markText }: VerticalMark, labelRow: number, markX: number) {
   // The text is on the side of the line that has more space.
   const [labelOffset, textAnchor] = 2 * markX > PLOT_LEFT + PLOT_RIGHT ? [-5, 'end'] : [5, 'start'];
   return svg`<line stroke="var(--accent)" stroke-dasharray="2 3" x1=${markX} x2=${markX} y1=${PLOT_TOP} y2=${PLOT_BOTTOM} />
-    <text class="marked" x=${markX + labelOffset} y=${PLOT_TOP + 13 + 16 * labelRow} text-anchor=${textAnchor}>${text}</text>`;
+    <text class="marked" x=${markX + labelOffset} y=${PLOT_TOP + 13 + 16 * labelRow} text-anchor=${textAnchor}>${markText}</text>`;
 }

@@ -123,13 +123,13 @@ export const readoutStyles = css`
 `;
 
 /** Returns a list of readouts. Each may have a detail below it, and an earlier value beside it. One may be the headline of the figure. */
-export function readoutsHtml(readouts: [name: string, value: string, detail?: string, earlier?: string][], headlineIndex?: number) {
+export function readoutsHtml(readoutRows: [name: string, value: string, detail?: string, earlier?: string][], headlineIndex?: number) {
   return html`<dl class="readouts" part="readouts">
-    ${readouts.map(
-      ([name, value, detail, earlierValue], i) => html`<div class=${i === headlineIndex ? 'headline' : nothing}>
-        <dt>${formatMarkup(name)}</dt>
-        <dd>${untranslatedHtml(value)}${earlierValue ? html` <span class="earlier">${untranslatedHtml(earlierValue)}</span>` : nothing}</dd>
-        ${detail ? html`<dd class="detail">${formatMarkup(detail)}</dd>` : nothing}
+    ${readoutRows.map(
+      ([readoutName, readoutValue, readoutDetail, earlierValue], i) => html`<div class=${i === headlineIndex ? 'headline' : nothing}>
+        <dt>${formatMarkup(readoutName)}</dt>
+        <dd>${untranslatedHtml(readoutValue)}${earlierValue ? html` <span class="earlier">${untranslatedHtml(earlierValue)}</span>` : nothing}</dd>
+        ${readoutDetail ? html`<dd class="detail">${formatMarkup(readoutDetail)}</dd>` : nothing}
       </div>`,
     )}
   </dl>`;
@@ -143,7 +143,7 @@ interface TableContent {
   rows: unknown[][];
 }
 
-export function tableHtml({ caption, columnHeadings, rows }: TableContent) {
+export function tableHtml({ caption, columnHeadings, rows: tableRows }: TableContent) {
   const rowCellsHtml = ([firstCell, ...otherCells]: unknown[]) =>
     otherCells.length === 0
       ? html`<td colspan=${columnHeadings.length - 1}>${untranslatedHtml(firstCell)}</td>`
@@ -156,7 +156,7 @@ export function tableHtml({ caption, columnHeadings, rows }: TableContent) {
       </tr>
     </thead>
     <tbody>
-      ${rows.map(
+      ${tableRows.map(
         ([rowName, ...rowCells]) => html`<tr>
           <th scope="row">${rowName}</th>
           ${rowCellsHtml(rowCells)}

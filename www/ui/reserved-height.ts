@@ -17,33 +17,33 @@ const HEIGHTS_EM: Record<string, ([number, number] | string)[]> = {
 };
 
 /** Returns the height for any width as a CSS maximum over the classes. Outside of its class, the term of a class is a large negative number. */
-function heightCssOf(tag: string, unit: '%' | 'cqi') {
-  const heightTerms = HEIGHTS_EM[tag].map((height, i, { length }) => {
+function heightCssOf(elementTag: string, lengthUnit: '%' | 'cqi') {
+  const heightTerms = HEIGHTS_EM[elementTag].map((height, i, { length }) => {
     const [lowerBoundEm, upperBoundEm] = [WIDTH_CLASS_BOUNDS_EM[i], WIDTH_CLASS_BOUNDS_EM[i + 1]];
-    const clampedWidth = `min(100${unit},${upperBoundEm}em)`;
+    const clampedWidth = `min(100${lengthUnit},${upperBoundEm}em)`;
     const interpolateHeight = (startEm: number, endEm: number) => `${startEm}em + ${((endEm - startEm) / (upperBoundEm - lowerBoundEm)).toFixed(3)}*(${clampedWidth} - ${lowerBoundEm}em)`;
-    const penaltyBelow = i > 0 ? ` - 1e6*max(0em,${lowerBoundEm}em - 100${unit})` : '';
-    const penaltyAbove = i === length - 1 ? '' : ` - 1e6*max(0em,100${unit} - ${upperBoundEm - 0.001}em)`;
+    const penaltyBelow = i > 0 ? ` - 1e6*max(0em,${lowerBoundEm}em - 100${lengthUnit})` : '';
+    const penaltyAbove = i === length - 1 ? '' : ` - 1e6*max(0em,100${lengthUnit} - ${upperBoundEm - 0.001}em)`;
     return `${typeof height === 'string' ? height : interpolateHeight(...height)}${penaltyBelow}${penaltyAbove}`;
   });
   return `max(${heightTerms})`;
 }
 
-export const reservedHeightCssOf = (tag: string) =>
-  unsafeCSS(`.reserved,.simulation{--height:${heightCssOf(tag, 'cqi')};min-height:var(--height)}.simulation{min-height:calc(var(--height) + var(--motion-sticky-bottom,0px))}`);
+export const reservedHeightCssOf = (elementTag: string) =>
+  unsafeCSS(`.reserved,.simulation{--height:${heightCssOf(elementTag, 'cqi')};min-height:var(--height)}.simulation{min-height:calc(var(--height) + var(--motion-sticky-bottom,0px))}`);
 
 /** Returns the style sheet that reserves heights until the elements are defined. */
 export function createPreUpgradeCss() {
-  const tags = Object.keys(HEIGHTS_EM);
-  const undefinedSelectorFor = (selectors: string | string[]) => `:is(${selectors}):not(:defined)`;
+  const elementTags = Object.keys(HEIGHTS_EM);
+  const undefinedSelectorFor = (elementSelectors: string | string[]) => `:is(${elementSelectors}):not(:defined)`;
   return [
-    `${undefinedSelectorFor(tags)}{display:flow-root;position:relative;min-width:0;max-width:100%}`,
-    `${undefinedSelectorFor(tags)}::before{${preferredWidthCss}}`,
-    `${undefinedSelectorFor(tags)}>:not([slot]){position:absolute;top:0;margin:0}`,
+    `${undefinedSelectorFor(elementTags)}{display:flow-root;position:relative;min-width:0;max-width:100%}`,
+    `${undefinedSelectorFor(elementTags)}::before{${preferredWidthCss}}`,
+    `${undefinedSelectorFor(elementTags)}>:not([slot]){position:absolute;top:0;margin:0}`,
     // The title and caption of an element that is not defined yet look as they do in the figure.
-    `:where(${undefinedSelectorFor(tags)}>[slot=title]){display:block;font-size:1.1em;line-height:1.4}`,
-    `:where(${undefinedSelectorFor(tags)}:has(>[slot=title]))::before{margin-bottom:.297em}`,
-    `:where(${undefinedSelectorFor(tags)}>[slot=caption]){font-size:.95em;line-height:1.4}`,
-    ...tags.map((tag) => `${undefinedSelectorFor(tag)}::before{padding-top:${heightCssOf(tag, '%')}}`),
+    `:where(${undefinedSelectorFor(elementTags)}>[slot=title]){display:block;font-size:1.1em;line-height:1.4}`,
+    `:where(${undefinedSelectorFor(elementTags)}:has(>[slot=title]))::before{margin-bottom:.297em}`,
+    `:where(${undefinedSelectorFor(elementTags)}>[slot=caption]){font-size:.95em;line-height:1.4}`,
+    ...elementTags.map((elementTag) => `${undefinedSelectorFor(elementTag)}::before{padding-top:${heightCssOf(elementTag, '%')}}`),
   ].join('\n');
 }

@@ -126,7 +126,7 @@ const MIN_TOUCH_MOVE = 8;
  */
 let undecidedTouch: PointerEvent | undefined;
 
-const beginTouch = (event: PointerEvent) => (undecidedTouch = event.pointerType === 'touch' ? event : undefined);
+const beginTouch = (domEvent: PointerEvent) => (undecidedTouch = domEvent.pointerType === 'touch' ? domEvent : undefined);
 
 /** First character of a number that is typed on a slider. */
 const NUMBER_START = /^[\d.,+-]$/;
@@ -136,30 +136,30 @@ const NUMBER_START = /^[\d.,+-]$/;
  * slider moves the focus into the field; Enter and Escape move it back.
  */
 export function sliderRowHtml(sliderRow: SliderRow) {
-  const { id, value, min, max, step, allowedNumbers, role, symbol, name, effect, formatValue, onInput, onCommit } = sliderRow;
-  const printedValue = formatValue(value);
-  const longestText = [formatValue(min), formatValue(max)].reduce((longerText, candidateText) => (candidateText.length > longerText.length ? candidateText : longerText), printedValue);
+  const { id, value: sliderValue, min: minValue, max: maxValue, step: sliderStep, allowedNumbers, role: colourRole, symbol: rowSymbol, name: rowName, effect: effectText, formatValue, onInput, onCommit } = sliderRow;
+  const printedValue = formatValue(sliderValue);
+  const longestText = [formatValue(minValue), formatValue(maxValue)].reduce((longerText, candidateText) => (candidateText.length > longerText.length ? candidateText : longerText), printedValue);
   // If the thumb is at an end of the slider, a text tells the user that values beyond that end can be typed.
-  const endAtThumb = value >= max && max < allowedNumbers.max ? max : value <= min && min > allowedNumbers.min ? min : undefined;
+  const endAtThumb = sliderValue >= maxValue && maxValue < allowedNumbers.max ? maxValue : sliderValue <= minValue && minValue > allowedNumbers.min ? minValue : undefined;
   const applyTyped = (typedNumber: number, valueField: HTMLInputElement) => {
     onInput(typedNumber);
     onCommit();
     // The next key may come before the slider is rendered with the new value.
     controlOfRow(valueField, 'input[type=range]').value = String(rangeOfStops({ ...sliderRow, value: typedNumber }).value ?? typedNumber);
   };
-  const focusTrack = (event: Event) => controlOfRow(event.target as Element, 'input[type=range]').focus();
+  const focusTrack = (domEvent: Event) => controlOfRow(domEvent.target as Element, 'input[type=range]').focus();
   return html`
-    <div class="slider ${sliderRow.hasNoEffect ? 'off' : ''}" part="slider" data-role=${role}>
+    <div class="slider ${sliderRow.hasNoEffect ? 'off' : ''}" part="slider" data-role=${colourRole}>
       <span>
         ${sliderRow.leadingControl ?? nothing}
-        <label for=${id} id="${id}-name">${symbol ? html`<bdi class="symbol notranslate" translate="no">${symbol}</bdi>` : nothing}${name}</label>
+        <label for=${id} id="${id}-name">${rowSymbol ? html`<bdi class="symbol notranslate" translate="no">${rowSymbol}</bdi>` : nothing}${rowName}</label>
       </span>
       ${sliderTrackHtml({ ...sliderRow, ...rangeOfStops(sliderRow), name: undefined, valueText: printedValue, describedBy: `${id}-effect`, onKeydown: focusField })}
-      <form method="dialog" class="value notranslate" translate="no" dir="ltr" data-longest=${longestText} @submit=${focusTrack} @keydown=${(event: KeyboardEvent) => event.key === 'Escape' && focusTrack(event)}>
+      <form method="dialog" class="value notranslate" translate="no" dir="ltr" data-longest=${longestText} @submit=${focusTrack} @keydown=${(domEvent: KeyboardEvent) => domEvent.key === 'Escape' && focusTrack(domEvent)}>
         <span>${printedValue}</span>
-        ${numberFieldHtml({ ...allowedNumbers, value: Number(value.toPrecision(MAX_FIELD_DIGITS)), arrowRange: { min, max, step }, labelId: `${id}-name`, onChange: applyTyped })}
+        ${numberFieldHtml({ ...allowedNumbers, value: Number(sliderValue.toPrecision(MAX_FIELD_DIGITS)), arrowRange: { min: minValue, max: maxValue, step: sliderStep }, labelId: `${id}-name`, onChange: applyTyped })}
       </form>
-      <p class="effect muted small" id="${id}-effect">${endAtThumb === undefined ? effect : words.sliderEndNote(formatValue(endAtThumb))}</p>
+      <p class="effect muted small" id="${id}-effect">${endAtThumb === undefined ? effectText : words.sliderEndNote(formatValue(endAtThumb))}</p>
     </div>
   `;
 }
@@ -175,7 +175,7 @@ interface SliderRange {
   max: number;
   step: number;
   /** Called while the thumb moves. */
-  onInput: (value: number) => void;
+  onInput: (sliderValue: number) => void;
   /** Called when the thumb comes to rest. */
   onCommit: () => void;
 }
@@ -185,7 +185,7 @@ export interface SliderRow extends SliderRange {
   name: unknown;
   /** Values of the slider, if they are not in equal steps. */
   stops?: readonly number[];
-  formatValue: (value: number) => string;
+  formatValue: (sliderValue: number) => string;
   /** Text on the effect of the setting on the picture. */
   effect: unknown;
   role: 'prior' | 'prediction' | 'truth';
@@ -198,10 +198,10 @@ export interface SliderRow extends SliderRange {
 }
 
 /** Returns the range of a slider over stops, whose positions are the indices of the stops. A value beyond the last stop has the position after it. */
-function rangeOfStops({ stops, value, onInput }: SliderRow): Partial<SliderRange> {
-  if (!stops) return {};
-  const stopIndex = stops.findIndex((stopValue) => stopValue >= value);
-  return { min: 0, max: stops.length - 1, step: 1, value: stopIndex < 0 ? stops.length : stopIndex, onInput: (newStopIndex) => onInput(stops[newStopIndex]) };
+function rangeOfStops({ stops: sliderStops, value: sliderValue, onInput }: SliderRow): Partial<SliderRange> {
+  if (!sliderStops) return {};
+  const stopIndex = sliderStops.findIndex((stopValue) => stopValue >= sliderValue);
+  return { min: 0, max: sliderStops.length - 1, step: 1, value: stopIndex < 0 ? sliderStops.length : stopIndex, onInput: (newStopIndex) => onInput(sliderStops[newStopIndex]) };
 }
 
 interface SliderTrack extends SliderRange {
@@ -209,37 +209,37 @@ interface SliderTrack extends SliderRange {
   name?: string;
   valueText: string;
   describedBy?: string;
-  onKeydown?: (event: KeyboardEvent) => void;
+  onKeydown?: (domEvent: KeyboardEvent) => void;
 }
 
 /** Returns the track of a slider. A finger that moves up or down over it scrolls the page. */
-export function sliderTrackHtml({ id, name, min, max, step, value, valueText, describedBy, onKeydown: keydown, onInput, onCommit }: SliderTrack) {
+export function sliderTrackHtml({ id, name: accessibleName, min: minValue, max: maxValue, step: sliderStep, value: sliderValue, valueText, describedBy, onKeydown: handleKeydown, onInput, onCommit }: SliderTrack) {
   // A browser changes a slider as soon as it is touched. The change is applied only after the touch proves to be a tap or a sideways move.
-  const setValue = (event: Event) => {
-    if (!undecidedTouch) onInput(inputOf(event).valueAsNumber);
+  const setValue = (domEvent: Event) => {
+    if (!undecidedTouch) onInput(inputOf(domEvent).valueAsNumber);
   };
-  const moveTouch = (event: PointerEvent) => {
-    const horizontalMove = Math.abs(event.clientX - (undecidedTouch?.clientX ?? NaN));
-    if (horizontalMove > MIN_TOUCH_MOVE && horizontalMove > Math.abs(event.clientY - (undecidedTouch?.clientY ?? NaN))) undecidedTouch = undefined;
-    if (event.pointerType === 'touch') setValue(event);
+  const moveTouch = (domEvent: PointerEvent) => {
+    const horizontalMove = Math.abs(domEvent.clientX - (undecidedTouch?.clientX ?? NaN));
+    if (horizontalMove > MIN_TOUCH_MOVE && horizontalMove > Math.abs(domEvent.clientY - (undecidedTouch?.clientY ?? NaN))) undecidedTouch = undefined;
+    if (domEvent.pointerType === 'touch') setValue(domEvent);
   };
-  const endPointer = (event: PointerEvent) => {
+  const endPointer = (domEvent: PointerEvent) => {
     if (!undecidedTouch) return;
     undecidedTouch = undefined;
-    if (event.type === 'pointerup') setValue(event);
-    else inputOf(event).value = String(value);
+    if (domEvent.type === 'pointerup') setValue(domEvent);
+    else inputOf(domEvent).value = String(sliderValue);
   };
   return html`<input
     id=${id}
     type="range"
-    min=${min}
-    max=${max}
-    step=${step}
-    .value=${undecidedTouch ? noChange : live(String(value))}
-    aria-label=${name ?? nothing}
+    min=${minValue}
+    max=${maxValue}
+    step=${sliderStep}
+    .value=${undecidedTouch ? noChange : live(String(sliderValue))}
+    aria-label=${accessibleName ?? nothing}
     aria-valuetext=${valueText}
     aria-describedby=${describedBy ?? nothing}
-    @keydown=${keydown}
+    @keydown=${handleKeydown}
     @pointerdown=${beginTouch}
     @pointermove=${moveTouch}
     @pointerup=${endPointer}
@@ -250,15 +250,15 @@ export function sliderTrackHtml({ id, name, min, max, step, value, valueText, de
 }
 
 /** Moves the focus from a slider to its field and selects the field's text, so that the pressed key replaces it. */
-function focusField(event: KeyboardEvent) {
-  const { key, ctrlKey, altKey, metaKey } = event;
-  if (ctrlKey || altKey || metaKey || (key !== 'Enter' && !NUMBER_START.test(key))) return;
-  const slider = inputOf(event);
+function focusField(domEvent: KeyboardEvent) {
+  const { key: pressedKey, ctrlKey, altKey, metaKey } = domEvent;
+  if (ctrlKey || altKey || metaKey || (pressedKey !== 'Enter' && !NUMBER_START.test(pressedKey))) return;
+  const slider = inputOf(domEvent);
   // Digits select presets in a presentation.
-  if (/\d/.test(key) && (slider.getRootNode() as any).host?.presentation) return;
-  if (key === 'Enter') event.preventDefault();
-  event.stopPropagation();
+  if (/\d/.test(pressedKey) && (slider.getRootNode() as any).host?.presentation) return;
+  if (pressedKey === 'Enter') domEvent.preventDefault();
+  domEvent.stopPropagation();
   controlOfRow(slider, '.typed').focus();
 }
 
-const controlOfRow = (element: Element, selector: string) => (element.closest('.slider') as Element).querySelector(selector) as HTMLInputElement;
+const controlOfRow = (element: Element, controlSelector: string) => (element.closest('.slider') as Element).querySelector(controlSelector) as HTMLInputElement;

@@ -21,7 +21,7 @@ export const preferredWidthCss =
   "content:'. .';display:block;height:0;overflow:hidden;visibility:hidden;white-space:normal;word-spacing:44em";
 
 /** Resolved CSS colours by role. */
-export type Palette = Record<(typeof COLOUR_ROLES)[number], string>;
+export type ColourPalette = Record<(typeof COLOUR_ROLES)[number], string>;
 
 export const themeStyles = css`
   :host {
@@ -59,7 +59,7 @@ export const themeStyles = css`
   }
 
   /* These colours are set in a style sheet, because extensions that darken pages do not rewrite custom properties of elements. */
-  ${unsafeCSS(COLOUR_ROLES.map((role) => `[data-role='${role}'] { --role: var(--${role}); }`).join('\n'))}
+  ${unsafeCSS(COLOUR_ROLES.map((colourRole) => `[data-role='${colourRole}'] { --role: var(--${colourRole}); }`).join('\n'))}
 
   :host([hidden]) {
     display: none;
@@ -188,48 +188,48 @@ export const themeStyles = css`
 `;
 
 /** Returns the palette of an element with its current style. */
-export function resolvePalette(parent: HTMLElement) {
+export function resolvePalette(colourParent: HTMLElement) {
   // All probes, one for each role, are created before the first is read, so that the browser computes styles only once.
-  const colourProbes = COLOUR_ROLES.map((role) => {
+  const colourProbes = COLOUR_ROLES.map((colourRole) => {
     const colourProbe = document.createElement('span');
     colourProbe.hidden = true;
-    colourProbe.style.color = `var(--${role})`;
+    colourProbe.style.color = `var(--${colourRole})`;
     // Without this property, forced colours would replace the hues of the colour roles.
     colourProbe.style.forcedColorAdjust = 'none';
     return colourProbe;
   });
-  parent.append(...colourProbes);
+  colourParent.append(...colourProbes);
   const paletteEntries = colourProbes.map((colourProbe, i) => {
     const { color } = getComputedStyle(colourProbe);
     // Mixed colours are serialized in notations that few programs read.
     return [COLOUR_ROLES[i], /^rgb/.test(color) ? color : `rgb(${colourChannelsOf(color)})`];
   });
   for (const colourProbe of colourProbes) colourProbe.remove();
-  return Object.fromEntries(paletteEntries) as Palette;
+  return Object.fromEntries(paletteEntries) as ColourPalette;
 }
 
 let pixelContext: OffscreenCanvasRenderingContext2D | undefined;
 
 /** Returns red, green and blue from 0 to 255 of colours in any CSS notation, each painted over the previous ones. */
-export function colourChannelsOf(...colours: string[]): [number, number, number] {
+export function colourChannelsOf(...cssColours: string[]): [number, number, number] {
   // Browsers serialize most colours in this notation.
-  const rgbMatch = colours.at(-1)?.match(/^rgb\((\d+), (\d+), (\d+)\)$/);
+  const rgbMatch = cssColours.at(-1)?.match(/^rgb\((\d+), (\d+), (\d+)\)$/);
   if (rgbMatch) return [Number(rgbMatch[1]), Number(rgbMatch[2]), Number(rgbMatch[3])];
-  const context = (pixelContext ??= (
+  const canvasContext = (pixelContext ??= (
     new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true }) as OffscreenCanvasRenderingContext2D
   ));
-  context.clearRect(0, 0, 1, 1);
-  for (const colour of colours) {
-    context.fillStyle = colour;
-    context.fillRect(0, 0, 1, 1);
+  canvasContext.clearRect(0, 0, 1, 1);
+  for (const lineColour of cssColours) {
+    canvasContext.fillStyle = lineColour;
+    canvasContext.fillRect(0, 0, 1, 1);
   }
-  const [red, green, blue] = context.getImageData(0, 0, 1, 1).data;
-  return [red, green, blue];
+  const [redValue, greenValue, blueValue] = canvasContext.getImageData(0, 0, 1, 1).data;
+  return [redValue, greenValue, blueValue];
 }
 
 /** Style of a line or mark, in the picture and in the legend. */
 export interface LineStyle {
-  role: keyof Palette;
+  role: keyof ColourPalette;
   /** Dash pattern, CSS pixels. */
   dash?: number[];
   /** Line width, CSS pixels. */
@@ -239,13 +239,13 @@ export interface LineStyle {
 }
 
 /** Returns the symbol of a legend item: a line, dot, ring or area in its style. */
-export function swatchHtml({ role, dash, width = 2.25, shape = 'line' }: LineStyle) {
-  const shapes = {
+export function swatchHtml({ role: colourRole, dash, width = 2.25, shape: swatchShape = 'line' }: LineStyle) {
+  const svgByShape = {
     line: svg`<line x1="1" x2="29" y1="6" y2="6" stroke-width=${width} stroke-dasharray=${dash?.join(' ') ?? nothing} />`,
     dot: svg`<circle fill="var(--role)" cx="15" cy="6" r="3" />`,
     ring: svg`<circle cx="15" cy="6" r="4" stroke-width=${width} />`,
     area: svg`<rect fill="var(--role)" x="4" y="1" width="22" height="10" opacity="0.4" />`,
     cross: svg`<path d="M11 2l8 8m0 -8l-8 8" stroke-width=${width} />`,
   };
-  return html`<svg class="swatch" viewBox="0 0 30 12" aria-hidden="true" data-role=${role}>${shapes[shape]}</svg>`;
+  return html`<svg class="swatch" viewBox="0 0 30 12" aria-hidden="true" data-role=${colourRole}>${svgByShape[swatchShape]}</svg>`;
 }

@@ -7,7 +7,7 @@ import { FigureElement } from '../../figure/figure.ts';
 import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { toViewPixels } from '../../scene/canvas.ts';
-import { Memo } from '../../scene/cache.ts';
+import { MemoizedResult } from '../../scene/cache.ts';
 import { fieldsetHtml } from '../../ui/controls.ts';
 import { formatInteger } from '../../ui/format.ts';
 import { startOverButtonHtml } from '../shared/controls.ts';
@@ -215,9 +215,9 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   #opener = new LogOpener(this);
   dropHandlers = this.#opener;
   service = new LogService();
-  #fit: Parameters<typeof viewModelOf>[2] = new Memo();
-  #predictedLegMemo: Memo<LegView | null> = new Memo();
-  #panelsMemo: Memo<{ regressor: (typeof REGRESSORS)[number], componentPanels: CalibrationPanel[] }[]> = new Memo();
+  #fit: Parameters<typeof viewModelOf>[2] = new MemoizedResult();
+  #predictedLegMemo: MemoizedResult<LegView | null> = new MemoizedResult();
+  #panelsMemo: MemoizedResult<{ regressor: (typeof REGRESSORS)[number], componentPanels: CalibrationPanel[] }[]> = new MemoizedResult();
   /** Log of the user or of the page; null for the simulated log. */
   #givenLog: OpenedLog | null = null;
   /** Log of the page; null for the simulated log. */
@@ -265,13 +265,13 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   /** Selected leg in the latest complete fit: its predicted cloud, start pose, and end poses by odometry and reference. Null if the fit has no legs. */
   get predictedLeg() {
     const { chosenLegIndex, simulation, viewModel: { config } } = this;
-    return chosenLegIndex < 0 || !simulation ? null : this.#predictedLegMemo.get([config, chosenLegIndex], () => simulation.leg(chosenLegIndex));
+    return chosenLegIndex < 0 || !simulation ? null : this.#predictedLegMemo.getResult([config, chosenLegIndex], () => simulation.leg(chosenLegIndex));
   }
 
   /** Squared residuals of each noise component, binned by squared rotation and by squared translation; empty without legs. */
   get panels() {
     const { simulation, viewModel: { stats, legs } } = this;
-    return legs.count > 0 && simulation ? this.#panelsMemo.get([stats], () => REGRESSORS.map((regressor) => ({ regressor, componentPanels: simulation.panels(regressor) }))) : [];
+    return legs.count > 0 && simulation ? this.#panelsMemo.getResult([stats], () => REGRESSORS.map((regressor) => ({ regressor, componentPanels: simulation.panels(regressor) }))) : [];
   }
 
   get scene() {
@@ -280,10 +280,10 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   }
 
   /** Chooses the leg that is clicked in the picture of the path. */
-  selectAtPointer(picture: PathPicture | LegPicture, event: PointerEvent) {
+  selectAtPointer(picture: PathPicture | LegPicture, domEvent: PointerEvent) {
     const { simulation } = this;
-    if (!simulation || event.type !== 'click') return;
-    const leg = picture.findNearestSample(simulation, ...toViewPixels(event.target as Element, picture.view, event));
+    if (!simulation || domEvent.type !== 'click') return;
+    const leg = picture.findNearestSample(simulation, ...toViewPixels(domEvent.target as Element, picture.pictureView, domEvent));
     if (leg >= 0) this.gesture.requestAndCommit({ leg });
   }
 
@@ -322,17 +322,17 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
    * `warnings` are about the new log, and make its α's doubtful.
    */
   async openLog(log: CalibrationLog | null, warnings: LogWarning[], checkSimulation?: (simulation: Simulation) => void) {
-    const config = this.settings.pickSettings(this.settings.current) as Simulation['config'];
+    const config = this.settings.pickSettings(this.settings.currentValues) as Simulation['config'];
     const openedLog = log && { log, warnings, config, fit: await this.service.calibrate(config, log) };
     this.runtime.attemptWork(() => {
       if (!this.simulation) return;
       this.settings.applyPending();
       const simulation = this.createSimulation(this.motion, openedLog);
-      this.enterState(simulation, this.settings.current);
+      this.enterState(simulation, this.settings.currentValues);
       checkSimulation?.(simulation);
       if (log !== this.log) {
         this.settings.elementState.leg = null;
-        for (const { view } of this.pictures) view.clearTarget();
+        for (const { pictureView } of this.pictures) pictureView.clearTarget();
       }
       this.#givenLog = openedLog;
       this.runtime.replaceSimulation(simulation);
@@ -403,7 +403,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   renderContent(viewModel: ViewModel) {
     const texts = words.calibrator;
     const { chosenLegIndex } = this;
-    const hasDuration = this.settings.requested.duration > 0;
+    const hasDuration = this.settings.requestedValues.duration > 0;
     return html`
       ${dropZoneHtml(this, this.#opener)}
       <div class="views">

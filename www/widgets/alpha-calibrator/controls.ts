@@ -46,7 +46,7 @@ export function modelControlsHtml(figure: Figure) {
   const { modelAndFitTitle, settings: { model }, modelRuleNames, outlierTreatments } = words.calibrator;
   const formatDuration = (seconds: number) => (seconds > 0 ? `${formatEditable(seconds, 2)} s` : NO_VALUE);
   const chooseModel = (modelRule: import('./settings.ts').ModelRule) => figure.gesture.requestAndCommit(settingsOfModelRule(modelRule));
-  return fieldsetHtml(modelAndFitTitle, html`${radioGroupHtml(model.name, 'kind', modelRuleNames, modelRuleOf(figure.settings.requested as any), chooseModel)}
+  return fieldsetHtml(modelAndFitTitle, html`${radioGroupHtml(model.name, 'kind', modelRuleNames, modelRuleOf(figure.settings.requestedValues as any), chooseModel)}
     ${settingRadiosHtml(figure, 'outliers', outlierTreatments)} ${settingSliderHtml(figure, 'duration', { formatValue: formatDuration })}`, 'fit');
 }
 

@@ -16,7 +16,7 @@ export const yamlWords = {
   failedChecksNote: (checkNames) => `Caution, these checks failed: ${checkNames}`,
   correctedErrorsNote: (errorList) => `with these systematic errors corrected: ${errorList}`,
   fifthAlphaNote: 'alpha5 belongs to the omnidirectional model only',
-} satisfies import('../../messages/registry.ts').Message;
+} satisfies import('../../messages/registry.ts').MessageEntry;
 
 export const en = {
   title: 'The Alpha Calibrator',
@@ -190,4 +190,4 @@ export const en = {
   },
   csvTitle: 'Every leg, with odometry, reference and residuals',
   logNotInCopiesNote: 'Your log is not in it: the figure opens with the simulated one.',
-} satisfies import('../../messages/registry.ts').Message;
+} satisfies import('../../messages/registry.ts').MessageEntry;

@@ -8,7 +8,7 @@ import { LOG_ROLES, UNIT_NAMES, choiceLabelOf, readableSeriesOf, summaryLinesOf,
 import { alignPath, pathOf, svgPathDataOf, type TimedPath } from '../../logs/path.ts';
 import { language } from '../../messages/registry.ts';
 import { radioGroupHtml } from '../../ui/controls.ts';
-import { MINUS, formatFixed } from '../../ui/format.ts';
+import { MINUS_SIGN, formatFixed } from '../../ui/format.ts';
 import type { AlphaCalibratorElement } from './alpha-calibrator.ts';
 import type { LoggedDrive } from '../../logs/pairs.ts';
 import type { FileContents } from '../../logs/session.ts';
@@ -56,7 +56,7 @@ function selectHtml(id: string, label: string, selectedValue: string, options: [
   const allOptions = options.some(([optionValue]) => optionValue === selectedValue) ? options : [['', placeholder], ...options];
   return html`<label>
     ${label}
-    <select id=${id} aria-label=${label} aria-describedby="refusal" @change=${(event: Event) => chooseOption((event.target as HTMLSelectElement).value)}>
+    <select id=${id} aria-label=${label} aria-describedby="refusal" @change=${(domEvent: Event) => chooseOption((domEvent.target as HTMLSelectElement).value)}>
       ${allOptions.map(([optionValue, optionLabel]) => html`<option value=${optionValue} .selected=${live(optionValue === selectedValue || (selectedValue === '' && optionValue === ''))}>${optionLabel}</option>`)}
     </select>
   </label>`;
@@ -101,11 +101,11 @@ function columnsFormHtml(opener: LogOpener, question: FileQuestion, answeredName
   const columnNames = chosenNames.split(',');
   // Each column is offered twice: as it is, and with the opposite sign.
   const options = ['', '-'].flatMap((sign) => columns.map((headerCell, columnIndex) =>
-    ({ sign, columnIndex, label: `${sign && `${MINUS} `}${texts.columnLabel(columnIndex + 1, headerCell.trim().slice(0, MAX_CELL_LENGTH))}` })));
-  const submitColumns = (event: Event) => {
-    event.preventDefault();
+    ({ sign, columnIndex, label: `${sign && `${MINUS_SIGN} `}${texts.columnLabel(columnIndex + 1, headerCell.trim().slice(0, MAX_CELL_LENGTH))}` })));
+  const submitColumns = (domEvent: Event) => {
+    domEvent.preventDefault();
     const newFields = columns.map(() => '-');
-    for (const [field, optionIndex] of new FormData(event.target as HTMLFormElement)) {
+    for (const [field, optionIndex] of new FormData(domEvent.target as HTMLFormElement)) {
       if (optionIndex !== '') newFields[options[Number(optionIndex)].columnIndex] = `${options[Number(optionIndex)].sign}${field}`;
     }
     // A column that keeps its field also keeps its name, because the name may contain a unit.
@@ -150,12 +150,12 @@ const [PICTURE_WIDTH, PICTURE_HEIGHT, PICTURE_MARGIN] = [220, 150, 4];
 const MAX_PATH_POINTS = 1500;
 
 /** Returns the summary of the logs of each drive. The summary is shown during the fit, and later below the results. */
-export function logSummaryHtml({ chosenFiles, texts, host }: LogOpener) {
+export function logSummaryHtml({ chosenFiles, texts, figure }: LogOpener) {
   // If the page has set another log in the meantime, no summary is shown.
-  if (!chosenFiles?.loggedDrives || !texts || (chosenFiles.isFitted && chosenFiles.calibrationLog !== host.log)) return nothing;
+  if (!chosenFiles?.loggedDrives || !texts || (chosenFiles.isFitted && chosenFiles.calibrationLog !== figure.log)) return nothing;
   const { loggedDrives: drives } = chosenFiles;
   // The clock offset is known only after the fit. Until then it is taken as 0.
-  const clockOffset = (chosenFiles.isFitted ? host.viewModel.stats.systematicErrors.clockOffset.value : undefined) ?? 0;
+  const clockOffset = (chosenFiles.isFitted ? figure.viewModel.stats.systematicErrors.clockOffset.value : undefined) ?? 0;
   return html`<details class="found" open>
     <summary>${texts.found.summaryTitle}</summary>
     ${guard([drives, texts, language, clockOffset], () => drives.map((drive, i) => html`<div class="drive">

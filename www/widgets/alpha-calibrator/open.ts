@@ -45,7 +45,7 @@ export class LogOpener extends FileOpener<Figure> {
 
   /** Kind of log that is preferred as odometry if a file has several: commands for the velocity model. */
   get preferredKind(): 'commands' | undefined {
-    return this.host.viewModel.config.model === 'velocity' ? 'commands' : undefined;
+    return this.figure.viewModel.config.model === 'velocity' ? 'commands' : undefined;
   }
 
   /** Texts about logs in the current language; undefined until the module with the texts is loaded. */
@@ -56,7 +56,7 @@ export class LogOpener extends FileOpener<Figure> {
   /** Reads the files again if the user has changed the model, and the new model prefers another kind of odometry. */
   hostUpdated() {
     const { chosenFiles } = this;
-    if (chosenFiles?.isFitted && chosenFiles.calibrationLog === this.host.log && this.readFraction === undefined && chosenFiles.userChoices.logKind !== this.preferredKind) this.#open(chosenFiles);
+    if (chosenFiles?.isFitted && chosenFiles.calibrationLog === this.figure.log && this.readFraction === undefined && chosenFiles.userChoices.logKind !== this.preferredKind) this.#open(chosenFiles);
   }
 
   /** Forgets the chosen files, and shows a log of the page, or the simulated log. */
@@ -64,21 +64,21 @@ export class LogOpener extends FileOpener<Figure> {
     this.#endReading();
     this.#resultFiles = undefined;
     this.restoreResults();
-    if (log === this.host.log) return;
-    await this.host.openLog(log, []);
-    this.host.gesture.commitOneStep();
+    if (log === this.figure.log) return;
+    await this.figure.openLog(log, []);
+    this.figure.gesture.commitOneStep();
   }
 
   /** Forgets files that were refused or not yet fitted. The files with the results on screen become the chosen files again. */
   restoreResults() {
-    this.chosenFiles = this.#resultFiles?.calibrationLog === this.host.log ? this.#resultFiles : undefined;
+    this.chosenFiles = this.#resultFiles?.calibrationLog === this.figure.log ? this.#resultFiles : undefined;
     this.refusal = undefined;
-    this.host.requestUpdate();
+    this.figure.requestUpdate();
   }
 
   /** Sentence which says that the results are those of another log, because the chosen files were refused; empty otherwise. */
   get otherResultsNote() {
-    return this.refusal === undefined || isAbortError(this.refusal) ? '' : words.calibrator.logControls.otherLogNote(this.host.logName);
+    return this.refusal === undefined || isAbortError(this.refusal) ? '' : words.calibrator.logControls.otherLogNote(this.figure.logName);
   }
 
   stopReading() {
@@ -89,16 +89,16 @@ export class LogOpener extends FileOpener<Figure> {
 
   #endReading() {
     this.cancel();
-    this.host.service.stopRequest();
+    this.figure.service.stopRequest();
     this.#setIdle();
   }
 
   /** Ends the display of progress. The figure then applies the changes of settings that were postponed until the log was read. */
   #setIdle() {
     this.readFraction = undefined;
-    this.host.settings.isViewModelStale = true;
-    this.host.renderer.requestFrame();
-    this.host.requestUpdate();
+    this.figure.settings.isViewModelStale = true;
+    this.figure.renderer.requestFrame();
+    this.figure.requestUpdate();
   }
 
   /** Reads files. If the previous file lacked the other log of its drive, it is read again together with them. */
@@ -124,13 +124,13 @@ export class LogOpener extends FileOpener<Figure> {
   /** Reads files and fits their logs. An earlier attempt that is still running is cancelled. */
   async #open({ files, openedRecordings: recordings, skippedFiles: skipped, answers, questions, userChoices }: ChosenFiles) {
     const openedFiles: ChosenFiles = (this.chosenFiles = { files, openedRecordings: recordings, skippedFiles: skipped, answers, questions, userChoices: { ...userChoices, logKind: this.preferredKind } });
-    this.host.service.stopRequest();
+    this.figure.service.stopRequest();
     this.readFraction = 0;
     const isLatest = await this.runAttempt(async () => {
       this.logModule ??= await import('./log-choice.ts');
-      Object.assign(openedFiles, await this.host.service.read(files, answers, openedFiles.userChoices, (readFraction) => {
+      Object.assign(openedFiles, await this.figure.service.read(files, answers, openedFiles.userChoices, (readFraction) => {
         this.readFraction = readFraction;
-        this.host.requestUpdate();
+        this.figure.requestUpdate();
       }));
       if (openedFiles.refusalOfAll) throw openedFiles.refusalOfAll;
       await this.#fit(openedFiles);
@@ -141,14 +141,14 @@ export class LogOpener extends FileOpener<Figure> {
   async #fit(openedFiles: ChosenFiles) {
     const { calibrationLog: log, logWarnings: warnings, loggedDrives: drives } = openedFiles as Required<ChosenFiles>;
     // The summary of the logs is shown while the logs are fitted.
-    this.host.requestUpdate();
-    await this.host.openLog(log, warnings, ({ count, stats }) => {
+    this.figure.requestUpdate();
+    await this.figure.openLog(log, warnings, ({ count, stats }) => {
       if (count === 0) throw new RangeError(words.calibrator.tooFewLegsSentence);
       for (const question of this.logModule!.mirroringQuestionsOf(drives, stats.diagnostics.checks)) askQuestion(openedFiles, question);
     });
     openedFiles.isFitted = true;
     this.#resultFiles = openedFiles;
-    this.host.gesture.commitOneStep();
+    this.figure.gesture.commitOneStep();
   }
 
   explainRefusal(refusal: Refusal) {
@@ -164,7 +164,7 @@ export class LogOpener extends FileOpener<Figure> {
     const { chosenFiles } = this;
     const newQuestion = error.userQuestion && { ...error.userQuestion, fileName: error.errorPlace?.fileName ?? '' };
     if (newQuestion && chosenFiles) askQuestion(chosenFiles, newQuestion);
-    await super.showRefusal(error, () => newQuestion && this.logModule?.focusChooser(this.host, newQuestion));
+    await super.showRefusal(error, () => newQuestion && this.logModule?.focusChooser(this.figure, newQuestion));
   }
 }
 
@@ -274,7 +274,7 @@ async function connectWorker(): Promise<WorkerConnection> {
   return { session: new LogSession(await instantiateShared(sharedCore)), endWorker, proxy };
 }
 
-const rejectOnError = (worker: Worker) => new Promise<never>((_, reject) => worker.addEventListener('error', (event) => {
-  event.preventDefault();
-  reject(event);
+const rejectOnError = (worker: Worker) => new Promise<never>((_, reject) => worker.addEventListener('error', (domEvent) => {
+  domEvent.preventDefault();
+  reject(domEvent);
 }));

@@ -3,11 +3,11 @@
 import { range } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { LINES_PER_STROKE, CachedLayer, Memo, strokeInBatches, type LayerDrawContext } from '../../scene/cache.ts';
+import { LINES_PER_STROKE, CachedLayer, MemoizedResult, strokeInBatches, type LayerDrawContext } from '../../scene/cache.ts';
 import { strokePath } from '../../scene/canvas.ts';
 import { drawDots, drawCrosshair, drawOutline, drawOutlines, drawRobot, createLineLegend, createLineStyles, styleOutlines } from '../../scene/draw.ts';
-import { Picture, SamplesPicture } from '../../scene/picture.ts';
-import { View, extentAround, extentOf, widenExtent } from '../../scene/view.ts';
+import { FigurePicture, SamplesPicture } from '../../scene/picture.ts';
+import { PictureView, extentAround, extentOf, widenExtent } from '../../scene/view.ts';
 import { LEG_CLASSES, LINE_STYLES, type LineName, type ViewModel } from './settings.ts';
 import type { CalibrationLegs, LegView } from '../../types.d.ts';
 
@@ -28,15 +28,15 @@ const DRIFT_MARGIN = 0.15;
 
 /** Picture of the path from above, in the frame of the reference. */
 export class PathPicture extends SamplesPicture<Scene> {
-  name = 'plane';
-  view: View = new View();
+  pictureName = 'plane';
+  pictureView: PictureView = new PictureView();
   /** Cached drawing of the path, which may have a hundred thousand legs. It changes only with the log, the view or the colours. */
   #pathLayer = new CachedLayer();
-  #odometryPathMemo: Memo<Float64Array> = new Memo();
+  #odometryPathMemo: MemoizedResult<Float64Array> = new MemoizedResult();
 
   /** Returns the end points of the legs by odometry, as x, y pairs. The path starts at the first pose of the reference. */
   #odometryPathOf(legs: CalibrationLegs): Float64Array {
-    return this.#odometryPathMemo.get([legs], () => {
+    return this.#odometryPathMemo.getResult([legs], () => {
       const { count, odometry, reference } = legs;
       const frameRotation = reference[2] - odometry[2];
       const [cos, sin] = [Math.cos(frameRotation), Math.sin(frameRotation)];
@@ -51,21 +51,21 @@ export class PathPicture extends SamplesPicture<Scene> {
   }
 
   fitView({ legs }: Scene) {
-    this.view.allowZoomIn();
+    this.pictureView.allowZoomIn();
     const extent = legs.count > 0 ? extentAround(legs.reference, 3) : extentOf([0, 0], 1);
-    this.view.fit(widenExtent(extent, DRIFT_MARGIN * Math.max(1, extent.xMax - extent.xMin, extent.yMax - extent.yMin)));
+    this.pictureView.fitExtent(widenExtent(extent, DRIFT_MARGIN * Math.max(1, extent.xMax - extent.xMin, extent.yMax - extent.yMin)));
     // The view changes without animation, because an animation would draw all legs in each frame.
-    this.view.moveTowardsTarget(0, true);
+    this.pictureView.moveTowardsTarget(0, true);
   }
 
-  paint: Picture<Scene>['paint'] = (drawContext, { legs, legClasses, chosenLegIndex, overlays }) => {
+  paintPicture: FigurePicture<Scene>['paintPicture'] = (drawContext, { legs, legClasses, chosenLegIndex, overlays }) => {
     const { palette } = drawContext;
     const lines = createLineStyles(drawContext, LINE_STYLES, overlays);
     drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, lines, [...LEG_CLASSES.toReversed(), 'odometry'], words.calibrator.overlays));
     clipToPlot(drawContext, () => {
       const paintLegs = (layerContext: LayerDrawContext) => drawPath(layerContext, legs, this.#odometryPathOf(legs), legClasses, overlays);
-      if ('isVector' in drawContext.context || legs.count <= MAX_WIDE_LEGS) paintLegs(drawContext);
-      else this.#pathLayer.draw(drawContext, [legs, overlays, drawContext.highlight], paintLegs);
+      if ('isVector' in drawContext.canvasContext || legs.count <= MAX_WIDE_LEGS) paintLegs(drawContext);
+      else this.#pathLayer.drawLayer(drawContext, [legs, overlays, drawContext.highlight], paintLegs);
       if (chosenLegIndex < 0) return;
       const [startX, startY, , x, y, heading] = legs.reference.subarray(6 * chosenLegIndex);
       drawOutline(drawContext, Float64Array.of(startX, startY, x, y), { colour: palette.ink, width: 3.25, dash: [] });
@@ -75,27 +75,27 @@ export class PathPicture extends SamplesPicture<Scene> {
 }
 
 function drawPath(drawContext: LayerDrawContext, legs: CalibrationLegs, odometry: Float64Array, legClasses: Uint8Array, overlays: LineName[]) {
-  const { context, view } = drawContext;
+  const { canvasContext, pictureView } = drawContext;
   const { count, reference, outliers } = legs;
   const lines = createLineStyles(drawContext, LINE_STYLES, overlays);
   if (lines.odometry) {
-    const odometryPixels = view.toPixels(odometry);
+    const odometryPixels = pictureView.toPixels(odometry);
     const pathPieces = range(0, odometryPixels.length, LINES_PER_STROKE).map((pieceStart) => odometryPixels.slice(pieceStart, pieceStart + LINES_PER_STROKE + 1));
-    strokeInBatches(context, pathPieces, lines.odometry, 1);
+    strokeInBatches(canvasContext, pathPieces, lines.odometry, 1);
   }
   for (const [classIndex, name] of LEG_CLASSES.entries()) {
     const lineStyle = lines[name];
     if (!lineStyle) continue;
     const legsOfClass = [...legClasses.keys()].filter((leg) => legClasses[leg] === classIndex);
-    const legLines = legsOfClass.map((leg) => [0, 3].map((poseOffset) => view.toPixel(reference[6 * leg + poseOffset], reference[6 * leg + poseOffset + 1])));
+    const legLines = legsOfClass.map((leg) => [0, 3].map((poseOffset) => pictureView.toPixel(reference[6 * leg + poseOffset], reference[6 * leg + poseOffset + 1])));
     const legStyle = { ...lineStyle, lineCap: 'round' } as const;
-    strokeInBatches(context, legLines, count > MAX_WIDE_LEGS ? { ...legStyle, width: HAIRLINE_WIDTH } : legStyle);
+    strokeInBatches(canvasContext, legLines, count > MAX_WIDE_LEGS ? { ...legStyle, width: HAIRLINE_WIDTH } : legStyle);
   }
-  if (lines.outlier) strokePath(context, lines.outlier, () => {
+  if (lines.outlier) strokePath(canvasContext, lines.outlier, () => {
     for (const leg of [...outliers.keys()].filter((leg) => outliers[leg] > 0)) {
-      const [x, y] = view.toPixel(reference[6 * leg + 3], reference[6 * leg + 4]);
-      context.moveTo(x + OUTLIER_RING_RADIUS, y);
-      context.arc(x, y, OUTLIER_RING_RADIUS, 0, 2 * Math.PI);
+      const [x, y] = pictureView.toPixel(reference[6 * leg + 3], reference[6 * leg + 4]);
+      canvasContext.moveTo(x + OUTLIER_RING_RADIUS, y);
+      canvasContext.arc(x, y, OUTLIER_RING_RADIUS, 0, 2 * Math.PI);
     }
   });
 }
@@ -104,20 +104,20 @@ function drawPath(drawContext: LayerDrawContext, legs: CalibrationLegs, odometry
 const RELATIVE_MARK_MARGIN = 0.08;
 
 /** Picture of one leg in the frame of its start pose: the predicted end poses, and the end poses by odometry and by reference. */
-export class LegPicture extends Picture<Scene> {
-  name = 'leg';
-  view: View = new View({ left: 50 });
+export class LegPicture extends FigurePicture<Scene> {
+  pictureName = 'leg';
+  pictureView: PictureView = new PictureView({ left: 50 });
 
   fitView({ leg }: Scene) {
     if (!leg) return;
     const { outline, read, ended } = leg;
-    this.view.allowZoomIn();
+    this.pictureView.allowZoomIn();
     const markMargin = RELATIVE_MARK_MARGIN * Math.hypot(ended[0], ended[1]);
     const markCorners = [read, ended].flatMap(([x, y]) => [x - markMargin, y - markMargin, x + markMargin, y + markMargin]);
-    this.view.fit(extentOf([0, 0, ...outline, ...markCorners], 0.05));
+    this.pictureView.fitExtent(extentOf([0, 0, ...outline, ...markCorners], 0.05));
   }
 
-  paint: Picture<Scene>['paint'] = (drawContext, { leg, overlays }) => {
+  paintPicture: FigurePicture<Scene>['paintPicture'] = (drawContext, { leg, overlays }) => {
     const { palette } = drawContext;
     drawAxes(drawContext, { x: words.calibrator.aheadAxisLabel, y: words.calibrator.leftAxisLabel }, []);
     if (!leg) return;

@@ -5,7 +5,7 @@ import { copyButtonHtml, downloadFile } from '../../figure/export.ts';
 import { addEnglishMessages, words } from '../../messages/registry.ts';
 import { buttonHtml, fieldsetHtml, formatMarkup, checkboxHtml } from '../../ui/controls.ts';
 import { NO_VALUE, formatInteger, formatPowerOfTen } from '../../ui/format.ts';
-import { plotHtml, type Curve, type PlotOptions } from '../../ui/plot.ts';
+import { plotHtml, type PlotCurve, type PlotOptions } from '../../ui/plot.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { en } from './en.ts';
@@ -62,9 +62,9 @@ export function alphaTableHtml(viewModel: ViewModel) {
 
 /** Returns the table of the systematic errors. Each row has a checkbox by which the user corrects the error. */
 export function systematicTableHtml(figure: Figure) {
-  const { viewModel: { stats, truth }, settings: { requested } } = figure;
+  const { viewModel: { stats, truth }, settings: { requestedValues: requested } } = figure;
   const { columnHeadings, rows } = systematicTableOf(stats, words, truth);
-  const checkboxOf = (label: string, errorName: string) => checkboxHtml({ label, checked: requested[errorName], onChange: (isChecked) => figure.gesture.requestAndCommit({ [errorName]: isChecked }) });
+  const checkboxOf = (label: string, errorName: string) => checkboxHtml({ labelContent: label, isChecked: requested[errorName], onChange: (isChecked) => figure.gesture.requestAndCommit({ [errorName]: isChecked }) });
   return html`<div class="systematic">
     ${tableHtml({ columnHeadings, rows: rows.map(([name, ...cells], i) => [checkboxOf(name, SYSTEMATIC_ERRORS[i]), ...cells.map(stackedTextsHtml)]) })}
   </div>`;
@@ -112,16 +112,16 @@ function panelPlotHtml({ alpha, x, y, error, slope, interval }: CalibrationPanel
   const subscript = subscriptOf(alpha);
   const [low, high] = interval ?? [NaN, NaN];
   const slopeMiddle = (low + high) / 2;
-  const slopeLines: Curve[] = slope === null ? [] : [
+  const slopeLines: PlotCurve[] = slope === null ? [] : [
     { name: texts.slopeName(subscript), role: 'prediction', x: [0, axisEnd], y: [0, scaleToAxis(slope * axisEnd)] },
     { name: words.calibrator.alphas.intervalColumn, role: 'cloud', isBandOnly: true, x: [0, axisEnd], y: [0, scaleToAxis(slopeMiddle * axisEnd)], errors: [0, scaleToAxis(((high - low) / 2) * axisEnd)] },
   ];
   return {
-    label: `${panelTitle}, α${subscript}: ${slope === null ? NO_VALUE : localizeNumber(formatAlphaOrBound(slope, interval))}`,
-    x: { name: regressorLabel, min: 0, max: axisEnd },
-    y: { name: `${panelTitle}, ${texts.squaredResidualLabel}${exponent < 0 ? ` (${formatPowerOfTen(exponent)})` : ''}`, min: scaleToAxis(axisBottom), max: scaleToAxis(axisTop) },
-    curves: [...slopeLines, { name: texts.binMeansName, role: 'ink', x: [], y: [] }],
-    points: x.map((value, i) => ({ role: 'ink' as const, x: value, y: scaleToAxis(y[i]), error: scaleToAxis(error[i]) })),
+    plotLabel: `${panelTitle}, α${subscript}: ${slope === null ? NO_VALUE : localizeNumber(formatAlphaOrBound(slope, interval))}`,
+    x: { axisLabel: regressorLabel, min: 0, max: axisEnd },
+    y: { axisLabel: `${panelTitle}, ${texts.squaredResidualLabel}${exponent < 0 ? ` (${formatPowerOfTen(exponent)})` : ''}`, min: scaleToAxis(axisBottom), max: scaleToAxis(axisTop) },
+    plotCurves: [...slopeLines, { name: texts.binMeansName, role: 'ink', x: [], y: [] }],
+    dataPoints: x.map((value, i) => ({ role: 'ink' as const, x: value, y: scaleToAxis(y[i]), error: scaleToAxis(error[i]) })),
   };
 }
 

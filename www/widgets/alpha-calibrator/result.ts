@@ -1,6 +1,6 @@
 /** Results of a fit as text, for the page and the command line: numbers, the verdict, and lines for nav2_params.yaml. */
 
-import { MINUS, NO_VALUE, formatFixed, formatPercent, formatPowerOfTen, formatInteger } from '../../ui/format.ts';
+import { MINUS_SIGN, NO_VALUE, formatFixed, formatPercent, formatPowerOfTen, formatInteger } from '../../ui/format.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { en, yamlWords } from './en.ts';
 import type { CalibrationCheck, CalibrationStats } from '../../types.d.ts';
@@ -81,7 +81,7 @@ const isPrintedAsZero = (alpha: number | null, interval: Interval | undefined) =
 
 /** Converts a printed number such as -1.5e-7 to the decimal sign and minus sign of the language, and a power of ten. */
 export const localizeNumber = (numberText: string) =>
-  numberText.replace(/^-/, MINUS).replace('.', formatFixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${formatPowerOfTen(Number(exponent))}`);
+  numberText.replace(/^-/, MINUS_SIGN).replace('.', formatFixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${formatPowerOfTen(Number(exponent))}`);
 
 /** Prints an interval in the current language; a dash if one of its bounds is not finite. */
 export const localizeInterval = (interval: Interval | undefined) =>

@@ -1,7 +1,7 @@
 /** Settings of the Alpha Calibrator: their attributes, state fields and sliders. Also the data that the figure shows, derived from a fit. */
 
 import { createDefinition } from '../../figure/definition.ts';
-import type { Memo } from '../../scene/cache.ts';
+import type { MemoizedResult } from '../../scene/cache.ts';
 import type { AlphaCalibrator as Simulation, AlphaCalibratorSettings, CalibrationLegs, CalibrationLog } from '../../types.d.ts';
 
 /** Styles of lines and marks in the pictures: first the classes of legs in the order of `LEG_CLASSES`, then all other lines. */
@@ -72,10 +72,10 @@ export const definition = createDefinition('alpha-calibrator', {
 export type ViewModel = ReturnType<typeof viewModelOf>;
 
 /** Returns the data that the figure shows: the latest complete fit of a simulation, and the requested settings. */
-export function viewModelOf(simulation: Simulation, log: CalibrationLog | null, fitMemo: Memo<ReturnType<typeof readFit>>) {
+export function viewModelOf(simulation: Simulation, log: CalibrationLog | null, fitMemo: MemoizedResult<ReturnType<typeof readFit>>) {
   // `fits` is a counter that increases with each complete fit, and serves as the cache key.
   const { config, fittedConfig, fits, isPending } = simulation.read();
-  return { ...fitMemo.get([simulation, fits], () => readFit(simulation, fittedConfig)), log, config, fittedConfig, isPending };
+  return { ...fitMemo.getResult([simulation, fits], () => readFit(simulation, fittedConfig)), log, config, fittedConfig, isPending };
 }
 
 /** Returns the fit of a simulation, the true values if the log is simulated, and the legs that are selected by default. */

@@ -4,12 +4,12 @@ import { NO_VALUE, formatFixed, formatInteger, formatPercent, formatRounded, for
 import { subscriptOf } from '../shared/sliders.ts';
 import { SYSTEMATIC_ERRORS, adviceOf, errorComponentsOf, formatAlphaOrBound, formatEstimate, formatNumber, localizeInterval, localizeNumber } from './result.ts';
 import type { CalibrationCheck, CalibrationStats, CalibrationTruth, Estimate } from '../../types.d.ts';
-import type { Messages } from '../../messages/registry.ts';
+import type { MessageCatalogue } from '../../messages/registry.ts';
 
 /** Table of texts. If a cell contains several values, each is on its own line. If a row has only one cell after its name, the cell spans all columns. */
 export interface ResultTable { columnHeadings: string[]; rows: string[][] }
 
-type Words = Pick<Messages, 'alphas' | 'calibrator'>;
+type Words = Pick<MessageCatalogue, 'alphas' | 'calibrator'>;
 
 const formatLocally = ({ value, interval }: { value: number | null; interval: [number, number] | null }) => localizeNumber(formatEstimate(value, interval));
 

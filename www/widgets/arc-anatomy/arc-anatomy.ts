@@ -18,7 +18,7 @@ import type { ArcAnatomy as Simulation, Motion } from '../../types.d.ts';
 /** Returns the controls of the likelihood: a checkbox that switches to the printed sign of the radius, radio buttons that choose a heat map, and a legend of the contours. */
 function likelihoodControlsHtml(figure: ArcAnatomyElement) {
   const { likelihoodTitle, mapNames, printedRadiusLabel } = words.anatomy;
-  const { map } = figure.settings.requested;
+  const { map } = figure.settings.requestedValues;
   const contourEntryHtml = (name: 'prob' | 'density') => html`<span>${swatchHtml(CONTOUR_STYLES[name])} ${mapNames[name]}</span>`;
   return fieldsetHtml(likelihoodTitle, html`${settingCheckboxHtml(figure, 'printed', formatMarkup(printedRadiusLabel))} ${settingRadiosHtml(figure, 'map', mapNames)}
     ${map === 'none' ? nothing : html`<p class="legend">${contourEntryHtml('prob')} ${contourEntryHtml('density')}</p>`}`);
@@ -122,10 +122,10 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
       ${legendHtml(this, LINE_STYLES)}
       <p class="verdict caption" part="caption">${captionOf(viewModel)}</p>
       ${presetButtonsHtml(this)}
-      <div class="controls" part="controls">${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${fieldsetHtml(texts.timeTitle, this.player.sliderHtml('underway', words.play))}</div>
+      <div class="controls" part="controls">${fieldsetHtml(words.commandHeading, settingSlidersHtml(this, COMMAND_SLIDERS))} ${fieldsetHtml(texts.timeTitle, this.player.sliderHtml('underway', words.playLabel))}</div>
       ${disclosuresHtml(this, {
         renderControls: () => html`<div class="controls">${likelihoodControlsHtml(this)}
-          ${fieldsetHtml(words.noise, html`${settingRadiosHtml(this, 'noise', words.noiseNames)} ${settingSlidersHtml(this, ALPHA_SLIDERS)}`, 'alphas')}</div>`,
+          ${fieldsetHtml(words.noiseHeading, html`${settingRadiosHtml(this, 'noise', words.noiseNames)} ${settingSlidersHtml(this, ALPHA_SLIDERS)}`, 'alphas')}</div>`,
         renderNumbers: () => html`${tableLinesHtml(this)} ${likelihoodReadoutsHtml(viewModel)} ${formErrorsPlotHtml(this.motion)}`,
         fileNameSuffix: 'figure',
         csvTitle: texts.csvTitle,

@@ -48,4 +48,4 @@ export const en = {
     introduction: 'Table 5.1 of Probabilistic Robotics, the velocity model’s density, line by line: each line highlights its construction in the picture.',
     signNote: 'The sign of *r\\** is that of the side: positive with the centre to the left of the heading. The table prints the root alone, so that *v̂* has the sign of Δ*θ*: wrong wherever the centre is to the right.',
   },
-} satisfies import('../../messages/registry.ts').Message;
+} satisfies import('../../messages/registry.ts').MessageEntry;

@@ -5,10 +5,10 @@ import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { addLine, drawDisc, fillPath, paintWithOpacity, strokePath, strokeLine, type DrawContext, type LineStroke } from '../../scene/canvas.ts';
 import { addTurnArc, drawOutlines, drawRobot, createLineLegend, createLineStyles, strokeLines, styleOutlines, createDensityRamp } from '../../scene/draw.ts';
 import { drawCallouts, type Callout } from '../../scene/labels.ts';
-import { Memo, CachedImage } from '../../scene/cache.ts';
-import { Picture } from '../../scene/picture.ts';
-import { View, extentAround, widenExtent } from '../../scene/view.ts';
-import { clamp, formatFixed } from '../../ui/format.ts';
+import { MemoizedResult, CachedImage } from '../../scene/cache.ts';
+import { FigurePicture } from '../../scene/picture.ts';
+import { PictureView, extentAround, widenExtent } from '../../scene/view.ts';
+import { clampNumber, formatFixed } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
 import { CONTOUR_STYLES, LINE_STYLES, UNDERWAY_AT_END, type LineName, type ViewModel } from './settings.ts';
 import type { ArcAnatomy, ArcWithCircle, Pose, AnatomySurface } from '../../types.d.ts';
@@ -48,11 +48,11 @@ const CONSTRUCTIONS_BY_LINE: Record<number, string[]> = {
   8: ['wedge'],
 };
 
-export class ArcPicture extends Picture<ArcScene> {
-  name = 'plane';
-  view: View = new View();
+export class ArcPicture extends FigurePicture<ArcScene> {
+  pictureName = 'plane';
+  pictureView: PictureView = new PictureView();
   #heatMapImage = new CachedImage();
-  #surfaceMemo: Memo<AnatomySurface | null> = new Memo();
+  #surfaceMemo: MemoizedResult<AnatomySurface | null> = new MemoizedResult();
 
   fitView({ config: { start, next }, stats: { commanded, inverted, lastTurn }, paths, overlays }: ArcScene) {
     const shownCoordinates = [start.x, start.y, next.x, next.y, ...paths.commanded, ...paths.inverted, ...paths.driven];
@@ -60,12 +60,12 @@ export class ArcPicture extends Picture<ArcScene> {
     const maxRadius = Math.max(MAX_CENTRE_RADIUS.metres, MAX_CENTRE_RADIUS.pathLengths * Math.hypot(xMax - xMin, yMax - yMin));
     for (const { center, radius } of [commanded, inverted]) if (center && Math.abs(radius) < maxRadius) shownCoordinates.push(...center);
     const extentWithMargin = widenExtent(extentAround(shownCoordinates, 2), MARGIN_METRES);
-    const wedgeRadius = this.view.markLengthOf(extentWithMargin, WEDGE_RADIUS);
+    const wedgeRadius = this.pictureView.markLengthOf(extentWithMargin, WEDGE_RADIUS);
     const wedgeHeadings = overlays.includes('wedge') ? [next.theta, next.theta - lastTurn] : [];
-    this.view.fit(extentAround(wedgeHeadings.flatMap((theta) => [next.x + wedgeRadius * Math.cos(theta), next.y + wedgeRadius * Math.sin(theta)]), 2, extentWithMargin));
+    this.pictureView.fitExtent(extentAround(wedgeHeadings.flatMap((theta) => [next.x + wedgeRadius * Math.cos(theta), next.y + wedgeRadius * Math.sin(theta)]), 2, extentWithMargin));
   }
 
-  paint: Picture<ArcScene>['paint'] = (drawContext, scene) => {
+  paintPicture: FigurePicture<ArcScene>['paintPicture'] = (drawContext, scene) => {
     const { config: { start, next, printed, map }, stats, paths, overlays } = scene;
     const { palette } = drawContext;
     const lineStyles = createLineStyles(drawContext, LINE_STYLES, overlays);
@@ -92,8 +92,8 @@ export class ArcPicture extends Picture<ArcScene> {
       if (lineStyles.chord) strokeLines(drawContext, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...lineStyles.chord }]);
       if (lineStyles.wedge) drawWedge(drawContext, next, lastTurn, lineStyles.wedge.colour);
       // Short lines across the path of the constant twist show its displacements in the lateral direction.
-      if (lineStyles.twist) strokePath(drawContext.context, { colour: lineStyles.twist.colour, width: 1.25 }, () => {
-        for (let i = 0; i < paths.ticks.length; i += 4) addLine(drawContext.context, drawContext.view.toPixels(paths.ticks.subarray(i, i + 4)));
+      if (lineStyles.twist) strokePath(drawContext.canvasContext, { colour: lineStyles.twist.colour, width: 1.25 }, () => {
+        for (let i = 0; i < paths.ticks.length; i += 4) addLine(drawContext.canvasContext, drawContext.pictureView.toPixels(paths.ticks.subarray(i, i + 4)));
       });
       const drivenPaths = { commanded: paths.commanded, twist: paths.lie, inverted: paths.driven };
       drawOutlines(drawContext, styleOutlines(lineStyles, drivenPaths));
@@ -104,7 +104,7 @@ export class ArcPicture extends Picture<ArcScene> {
       if (lineStyles.commanded) {
         const [endX, endY, endTheta] = commanded.end;
         drawRobotOutline(drawContext, endX, endY, ROBOT_RADIUS, lineStyles.commanded.colour);
-        strokeLine(drawContext.context, drawContext.view.headingLineFrom({ x: endX, y: endY, theta: endTheta }, HEADING_LINE_LENGTH), { colour: lineStyles.commanded.colour, width: 1.5 });
+        strokeLine(drawContext.canvasContext, drawContext.pictureView.headingLineFrom({ x: endX, y: endY, theta: endTheta }, HEADING_LINE_LENGTH), { colour: lineStyles.commanded.colour, width: 1.5 });
       }
       drawMovingRobots(drawContext, scene);
       drawDraggableRobot(drawContext, start, ROBOT_RADIUS, palette.truth);
@@ -112,25 +112,25 @@ export class ArcPicture extends Picture<ArcScene> {
       if (lineStyles.wedge) callouts.push(wedgeCalloutOf(drawContext, next, lastTurn, lineStyles.wedge.colour));
     });
     const radiusLines = [stats.commanded, stats.inverted].flatMap(({ center, end }) => (center ? [Float64Array.of(start.x, start.y, ...center, end[0], end[1])] : []));
-    drawCallouts(drawContext, callouts, { shapeCentre: [(start.x + next.x) / 2, (start.y + next.y) / 2], lines: [paths.commanded, paths.driven, ...radiusLines] });
+    drawCallouts(drawContext, callouts, { shapeCentre: [(start.x + next.x) / 2, (start.y + next.y) / 2], avoidedLines: [paths.commanded, paths.driven, ...radiusLines] });
   };
 
   /** Draws the chosen heat map of the likelihood with its contours, if any. */
   #drawHeatMap(drawContext: DrawContext, { simulation, config }: ArcScene) {
-    const { context, palette, view } = drawContext;
-    const { xMin, yMin, xMax, yMax } = view.extent;
+    const { canvasContext, palette, pictureView } = drawContext;
+    const { xMin, yMin, xMax, yMax } = pictureView.shownExtent;
     // `config` is a new object after every change of settings. The cached heat map is used until `config` or the view changes.
-    const likelihoodSurface = this.#surfaceMemo.get([config, xMin, yMin, xMax, yMax], () => simulation.surface([xMin, yMin, xMax, yMax]));
+    const likelihoodSurface = this.#surfaceMemo.getResult([config, xMin, yMin, xMax, yMax], () => simulation.surface([xMin, yMin, xMax, yMax]));
     if (!likelihoodSurface) return;
-    this.#heatMapImage.draw(drawContext, [likelihoodSurface, palette], () => {
+    this.#heatMapImage.drawImage(drawContext, [likelihoodSurface, palette], () => {
       const rampColours = new Uint32Array(createDensityRamp(palette).buffer);
       // The lowest colour of the heat map is transparent, so that the axes remain visible.
       rampColours[0] = 0;
-      return { pixels: new Uint8ClampedArray(Uint32Array.from(likelihoodSurface.shades, (shade) => rampColours[shade]).buffer), columns: likelihoodSurface.columns };
+      return { rgbaPixels: new Uint8ClampedArray(Uint32Array.from(likelihoodSurface.shades, (shade) => rampColours[shade]).buffer), columnCount: likelihoodSurface.columns };
     });
     for (const name of ['prob', 'density'] as const) {
       const { role, ...style } = CONTOUR_STYLES[name];
-      paintWithOpacity(context, 0.7, () => strokePath(context, { ...style, colour: palette[role] }, () => likelihoodSurface[name].forEach((contourLine) => addLine(context, view.toPixels(contourLine)))));
+      paintWithOpacity(canvasContext, 0.7, () => strokePath(canvasContext, { ...style, colour: palette[role] }, () => likelihoodSurface[name].forEach((contourLine) => addLine(canvasContext, pictureView.toPixels(contourLine)))));
     }
   }
 }
@@ -139,53 +139,53 @@ export class ArcPicture extends Picture<ArcScene> {
  * Draws the centre of an arc, the radii to both of its ends, and the turn between the radii. The first radius is shifted slightly in the direction
  * `shiftSide` (±1), so that it does not hide another radius.
  */
-function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, end, turn }: ArcWithCircle, { colour, dash, shiftSide }: { colour: string, dash: number[], shiftSide: number }) {
+function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, end, turn }: ArcWithCircle, { colour: lineColour, dash, shiftSide }: { colour: string, dash: number[], shiftSide: number }) {
   if (!center) return;
-  const { context, view } = drawContext;
-  const [x, y] = view.toPixel(center[0], center[1]);
-  const [startX, startY] = view.toPixel(start.x, start.y);
-  const startDirection = view.pixelDirectionOf(start.theta);
+  const { canvasContext, pictureView } = drawContext;
+  const [x, y] = pictureView.toPixel(center[0], center[1]);
+  const [startX, startY] = pictureView.toPixel(start.x, start.y);
+  const startDirection = pictureView.pixelDirectionOf(start.theta);
   const [shiftX, shiftY] = [1.5 * shiftSide * startDirection.x, 1.5 * shiftSide * startDirection.y];
-  strokePath(context, { colour, width: 1.25, dash }, () => {
-    addLine(context, [[startX + shiftX, startY + shiftY], [x + shiftX, y + shiftY]]);
-    addLine(context, [[x, y], view.toPixel(end[0], end[1])]);
+  strokePath(canvasContext, { colour: lineColour, width: 1.25, dash }, () => {
+    addLine(canvasContext, [[startX + shiftX, startY + shiftY], [x + shiftX, y + shiftY]]);
+    addLine(canvasContext, [[x, y], pictureView.toPixel(end[0], end[1])]);
   });
-  strokePath(context, { colour, width: 2 }, () => {
-    addLine(context, [[x - CROSS_HALF_SIZE, y], [x + CROSS_HALF_SIZE, y]]);
-    addLine(context, [[x, y - CROSS_HALF_SIZE], [x, y + CROSS_HALF_SIZE]]);
+  strokePath(canvasContext, { colour: lineColour, width: 2 }, () => {
+    addLine(canvasContext, [[x - CROSS_HALF_SIZE, y], [x + CROSS_HALF_SIZE, y]]);
+    addLine(canvasContext, [[x, y - CROSS_HALF_SIZE], [x, y + CROSS_HALF_SIZE]]);
   });
-  strokeAngleArc(context, [x, y], [startX, startY], turn, { colour, width: 1.5 });
+  strokeAngleArc(canvasContext, [x, y], [startX, startY], turn, { colour: lineColour, width: 1.5 });
 }
 
 /** Returns callouts for the turn, at the centre of an arc, and for its radius. If the centre is outside the picture, both callouts are at the visible part of the radius. */
-function arcCalloutsOf({ view }: DrawContext, start: Pose, { center }: ArcWithCircle, colour: string, angleLabel: string, radiusLabel?: string): Callout[] {
+function arcCalloutsOf({ pictureView }: DrawContext, start: Pose, { center }: ArcWithCircle, lineColour: string, angleLabel: string, radiusLabel?: string): Callout[] {
   if (!center) return [];
-  const visibleFraction = visibleFractionOf(view.plotArea, view.toPixel(start.x, start.y), view.toPixel(center[0], center[1]));
+  const visibleFraction = visibleFractionOf(pictureView.plotArea, pictureView.toPixel(start.x, start.y), pictureView.toPixel(center[0], center[1]));
   const radiusPointAt = (radiusFraction: number): [number, number] => [start.x + radiusFraction * (center[0] - start.x), start.y + radiusFraction * (center[1] - start.y)];
-  return [{ text: angleLabel, point: radiusPointAt(visibleFraction), colour }, ...(radiusLabel ? [{ text: radiusLabel, point: radiusPointAt(visibleFraction / 2), colour }] : [])];
+  return [{ text: angleLabel, point: radiusPointAt(visibleFraction), colour: lineColour }, ...(radiusLabel ? [{ text: radiusLabel, point: radiusPointAt(visibleFraction / 2), colour: lineColour }] : [])];
 }
 
 /** Returns the visible fraction of a line. The first point of the line is visible. */
-function visibleFractionOf({ left, right, top, bottom }: import('../../scene/view.ts').View['plotArea'], [startX, startY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
+function visibleFractionOf({ left, right, top, bottom }: import('../../scene/view.ts').PictureView['plotArea'], [startX, startY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
   const visibleFractionOfRange = (start: number, end: number, min: number, max: number) =>
-    end >= min && end <= max ? 1 : (clamp(end, min, max) - start) / (end - start);
+    end >= min && end <= max ? 1 : (clampNumber(end, min, max) - start) / (end - start);
   return Math.min(visibleFractionOfRange(startX, x, left, right), visibleFractionOfRange(startY, y, top, bottom));
 }
 
 /** Draws a wedge for the last turn (rad), by which the final heading differs from the heading at the end of the arc. */
-function drawWedge({ context, view }: DrawContext, finalPose: Pose, lastTurn: number, colour: string) {
-  const [x, y] = view.toPixel(finalPose.x, finalPose.y);
-  paintWithOpacity(context, 0.32, () => fillPath(context, colour, () => {
-    context.moveTo(x, y);
-    addTurnArc(context, [x, y], WEDGE_RADIUS, finalPose.theta - lastTurn, lastTurn);
+function drawWedge({ canvasContext, pictureView }: DrawContext, finalPose: Pose, lastTurn: number, lineColour: string) {
+  const [x, y] = pictureView.toPixel(finalPose.x, finalPose.y);
+  paintWithOpacity(canvasContext, 0.32, () => fillPath(canvasContext, lineColour, () => {
+    canvasContext.moveTo(x, y);
+    addTurnArc(canvasContext, [x, y], WEDGE_RADIUS, finalPose.theta - lastTurn, lastTurn);
   }));
   // This edge of the wedge shows the heading at the end of the arc, before the last turn.
-  strokeLine(context, view.headingLineFrom({ ...finalPose, theta: finalPose.theta - lastTurn }, WEDGE_RADIUS), { colour, width: 1.25 });
+  strokeLine(canvasContext, pictureView.headingLineFrom({ ...finalPose, theta: finalPose.theta - lastTurn }, WEDGE_RADIUS), { colour: lineColour, width: 1.25 });
 }
 
-function wedgeCalloutOf({ view }: DrawContext, finalPose: Pose, lastTurn: number, colour: string): Callout {
-  const [, wedgeEdgeMiddle] = view.headingLineFrom({ ...finalPose, theta: finalPose.theta - lastTurn / 2 }, WEDGE_RADIUS);
-  return { text: `γ̂Δt = ${formatFixed(lastTurn, 2)}`, point: view.toWorld(...wedgeEdgeMiddle), colour };
+function wedgeCalloutOf({ pictureView }: DrawContext, finalPose: Pose, lastTurn: number, lineColour: string): Callout {
+  const [, wedgeEdgeMiddle] = pictureView.headingLineFrom({ ...finalPose, theta: finalPose.theta - lastTurn / 2 }, WEDGE_RADIUS);
+  return { text: `γ̂Δt = ${formatFixed(lastTurn, 2)}`, point: pictureView.toWorld(...wedgeEdgeMiddle), colour: lineColour };
 }
 
 /** Draws a robot on each visible path. All robots have driven for the same time. */
@@ -202,9 +202,9 @@ function drawMovingRobots(drawContext: DrawContext, { simulation, underway, over
 /** Draws the construction of the highlighted line of Table 5.1. */
 function drawTableLineConstruction(drawContext: DrawContext, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, line }: ArcScene) {
   const highlightedConstructions = CONSTRUCTIONS_BY_LINE[line] ?? [];
-  const { context, view, palette: { accent } } = drawContext;
-  const toPixel = ([x, y]: number[]) => view.toPixel(x, y);
-  const drawAccentLine = (width: number, ...points: number[][]) => strokeLine(context, points, { colour: accent, width });
+  const { canvasContext, pictureView, palette: { accent } } = drawContext;
+  const toPixel = ([x, y]: number[]) => pictureView.toPixel(x, y);
+  const drawAccentLine = (width: number, ...points: number[][]) => strokeLine(canvasContext, points, { colour: accent, width });
   const startPixel = toPixel([start.x, start.y]);
   const endPixel = toPixel([next.x, next.y]);
   if (highlightedConstructions.includes('arc')) drawOutlines(drawContext, [{ points: paths.driven, colour: accent, width: 5, dash: [] }]);
@@ -212,17 +212,17 @@ function drawTableLineConstruction(drawContext: DrawContext, { config: { start, 
   if (!inverted.center) return;
   const centrePixel = toPixel(inverted.center);
   if (highlightedConstructions.includes('bisector')) {
-    strokeLine(context, [toPixel(middle), centrePixel], { colour: accent, width: 2.5, dash: [6, 4] });
+    strokeLine(canvasContext, [toPixel(middle), centrePixel], { colour: accent, width: 2.5, dash: [6, 4] });
     drawAccentLine(2.5, startPixel, centrePixel);
     drawAccentLine(2.5, startPixel, endPixel);
   }
   if (highlightedConstructions.includes('radius')) drawAccentLine(3, startPixel, centrePixel, endPixel);
-  if (highlightedConstructions.includes('centre')) drawDisc(context, centrePixel, 8, undefined, { colour: accent, width: 3 });
-  if (highlightedConstructions.includes('angle')) strokeAngleArc(context, centrePixel, startPixel, inverted.turn, { colour: accent, width: 4 });
+  if (highlightedConstructions.includes('centre')) drawDisc(canvasContext, centrePixel, 8, undefined, { colour: accent, width: 3 });
+  if (highlightedConstructions.includes('angle')) strokeAngleArc(canvasContext, centrePixel, startPixel, inverted.turn, { colour: accent, width: 4 });
 }
 
 /** Strokes an arc that marks an angle. The arc starts in the direction from its centre to another point, and spans `turn` radians. Points are in pixels. */
-function strokeAngleArc(context: DrawContext['context'], [x, y]: number[], [startX, startY]: number[], turn: number, style: LineStroke) {
+function strokeAngleArc(canvasContext: DrawContext['canvasContext'], [x, y]: number[], [startX, startY]: number[], turn: number, style: LineStroke) {
   const radius = Math.min(MAX_ANGLE_MARK_RADIUS, 0.4 * Math.hypot(startX - x, startY - y));
-  strokePath(context, style, () => addTurnArc(context, [x, y], radius, Math.atan2(y - startY, startX - x), turn));
+  strokePath(canvasContext, style, () => addTurnArc(canvasContext, [x, y], radius, Math.atan2(y - startY, startX - x), turn));
 }

@@ -3,7 +3,7 @@
 import { html, nothing, svg } from 'lit';
 import { addEnglishMessages, words } from '../../messages/registry.ts';
 import { formatMarkup, radioButtonHtml } from '../../ui/controls.ts';
-import { clamp, formatFixed, formatPercent, formatPowerOfTen, formatSignificant } from '../../ui/format.ts';
+import { clampNumber, formatFixed, formatPercent, formatPowerOfTen, formatSignificant } from '../../ui/format.ts';
 import { plotHtml } from '../../ui/plot.ts';
 import { readoutsHtml } from '../../ui/readouts.ts';
 import { en } from './en.ts';
@@ -78,7 +78,7 @@ export function factorBarsHtml({ stats: { factors, weakest, share } }: ViewModel
 }
 
 function barHtml(deviations: number) {
-  const barXOf = (deviationCount: number) => BAR_MIDDLE + BAR_SCALE.pixelsPerDeviation * clamp(deviationCount, -BAR_SCALE.maxDeviations, BAR_SCALE.maxDeviations);
+  const barXOf = (deviationCount: number) => BAR_MIDDLE + BAR_SCALE.pixelsPerDeviation * clampNumber(deviationCount, -BAR_SCALE.maxDeviations, BAR_SCALE.maxDeviations);
   const isBeyondScale = Math.abs(deviations) > BAR_SCALE.maxDeviations;
   const barEnd = barXOf(deviations);
   const barSide = Math.sign(deviations);
@@ -125,7 +125,7 @@ export function tableLinesHtml({ viewModel: { table: { lines }, config: { printe
   return html`<p>${texts.introduction}</p>
     <div role="radiogroup" aria-label=${texts.label}><ul class="lines" part="table">
       ${[texts.noLine, ...TABLE_LINE_FORMULAS.map(lineTextOf)].map((lineText, lineNumber) => html`<li>
-        ${radioButtonHtml({ group: 'line', label: formatMarkup(lineText), checked: lineNumber === elementState.line, onChoose: () => gesture.setElementField('line', lineNumber) })}
+        ${radioButtonHtml({ groupName: 'line', labelContent: formatMarkup(lineText), isChecked: lineNumber === elementState.line, onChoose: () => gesture.setElementField('line', lineNumber) })}
       </li>`)}
     </ul></div>
     <p class="muted">${formatMarkup(texts.signNote)}</p>`;
@@ -142,15 +142,15 @@ export function formErrorsPlotHtml({ ArcAnatomy }: Motion) {
   const { omega, arc, straight, chord, estimatedCrossover, threshold } = (cachedFormErrors ??= ArcAnatomy.formErrors());
   return html`<figure class="forms">
     ${plotHtml({
-      label: texts.errorAxis,
-      x: { name: '|ω̂| (rad/s)', min: omega[0], max: omega[omega.length - 1], isLogarithmic: true },
-      y: { name: texts.errorAxis, ...ERROR_AXIS_RANGE, isLogarithmic: true },
-      curves: [
+      plotLabel: texts.errorAxis,
+      x: { axisLabel: '|ω̂| (rad/s)', min: omega[0], max: omega[omega.length - 1], isLogarithmic: true },
+      y: { axisLabel: texts.errorAxis, ...ERROR_AXIS_RANGE, isLogarithmic: true },
+      plotCurves: [
         { name: texts.arcFormula, role: 'prediction', x: omega, y: arc },
         { name: texts.straightLineFormula, role: 'prior', dash: [2.5, 3.5], x: omega, y: straight },
         { name: words.anatomy.overlays.chord, role: 'posterior', dash: [7, 3], x: omega, y: chord },
       ],
-      marks: [
+      verticalMarks: [
         { x: estimatedCrossover, text: `2·${formatPowerOfTen(-8)}/Δt` },
         { x: threshold, text: formatPowerOfTen(Math.log10(threshold)) },
       ],

@@ -8,10 +8,10 @@ import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { hasLength } from '../../scene/draw.ts';
 import { Handle, stepsOfKey } from '../../scene/handle.ts';
-import { Memo } from '../../scene/cache.ts';
+import { MemoizedResult } from '../../scene/cache.ts';
 import { openingAlphas } from '../../../build/settings.js';
 import { buttonHtml, formatMarkup, radioButtonHtml, fieldsetHtml, checkboxHtml } from '../../ui/controls.ts';
-import { clamp, formatFixed, formatEditable } from '../../ui/format.ts';
+import { clampNumber, formatFixed, formatEditable } from '../../ui/format.ts';
 import { plotHtml } from '../../ui/plot.ts';
 import { cloudProperties } from '../shared/cloud.ts';
 import { Player, presetButtonsHtml } from '../shared/controls.ts';
@@ -48,8 +48,8 @@ function modelControlsHtml(figure: BananaMachineElement) {
   return fieldsetHtml(texts.modelGroupTitle, html`${settingRadiosHtml(figure, 'model', texts.modelNames)} ${settingRadiosHtml(figure, 'noise', words.noiseNames)}
     ${model === 'odometry' ? settingCheckboxHtml(figure, 'reverseAware', texts.reverseAwareLabel) : nothing}
     ${checkboxHtml({
-      label: texts.isolateLabel,
-      checked: isolate !== null,
+      labelContent: texts.isolateLabel,
+      isChecked: isolate !== null,
       onChange: (isChecked) => figure.gesture.requestAndCommit({ isolate: isChecked ? FIRST_ISOLATED_ALPHA : null }),
     })}`);
 }
@@ -64,7 +64,7 @@ const VISIBLE_ALPHAS: Record<string, number[]> = { velocity: [0, 2], odometry: [
 function alphaGroupHtml(figure: BananaMachineElement, isVisible: boolean) {
   const { model, alphas } = figure.viewModel.config;
   const alphaIndices = [...alphas.keys()].filter((alphaIndex) => VISIBLE_ALPHAS[model].includes(alphaIndex) === isVisible);
-  return fieldsetHtml(words.noise, alphaIndices.map((alphaIndex) => alphaSliderHtml(figure, alphaIndex + 1, words.alphas[model as 'velocity' | 'odometry'][alphaIndex])), isVisible ? 'pair' : 'alphas');
+  return fieldsetHtml(words.noiseHeading, alphaIndices.map((alphaIndex) => alphaSliderHtml(figure, alphaIndex + 1, words.alphas[model as 'velocity' | 'odometry'][alphaIndex])), isVisible ? 'pair' : 'alphas');
 }
 
 /** Returns the slider of an α. α's are numbered from 1. */
@@ -76,7 +76,7 @@ function alphaSliderHtml(figure: BananaMachineElement, alphaNumber: number, [alp
     name: alphaLabel,
     effect: formatMarkup(effectText),
     hasNoEffect,
-    leadingControl: isolate === null ? undefined : radioButtonHtml({ group: 'isolate', name: words.banana.isolateAlphaLabel(`α${subscriptOf(alphaNumber - 1)}`), checked: !hasNoEffect, onChoose: chooseAlpha }),
+    leadingControl: isolate === null ? undefined : radioButtonHtml({ groupName: 'isolate', name: words.banana.isolateAlphaLabel(`α${subscriptOf(alphaNumber - 1)}`), isChecked: !hasNoEffect, onChoose: chooseAlpha }),
     formatValue: (newAlpha) => (hasNoEffect ? words.banana.ignoredAlphaText(formatEditable(newAlpha, 3)) : formatEditable(newAlpha, 3)),
     onInput: (newAlpha) => {
       if (hasNoEffect) chooseAlpha();
@@ -158,22 +158,22 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   static definition = definition;
 
   cloud = new IntroducedCloud(this);
-  #executedMotionMemo: Memo<Inspection> = new Memo();
-  #skewCurveMemo: Memo<Float64Array> = new Memo();
+  #executedMotionMemo: MemoizedResult<Inspection> = new MemoizedResult();
+  #skewCurveMemo: MemoizedResult<Float64Array> = new MemoizedResult();
   #planePicture = new PlanePicture();
   #twistPicture = new TwistPicture();
   pictures = [this.#planePicture, this.#twistPicture];
   /** Handle at the end of the commanded arc, drawn as a ring. */
   #arcEndHandle = new Handle('end', {
-    getView: () => this.#planePicture.view,
-    drag: (x, y) => this.#moveArcEnd(x, y),
-    handleKey: (event) => {
-      const keySteps = stepsOfKey(event);
+    getView: () => this.#planePicture.pictureView,
+    dragTo: (x, y) => this.#moveArcEnd(x, y),
+    handleKey: (domEvent) => {
+      const keySteps = stepsOfKey(domEvent);
       if (!keySteps || !this.simulation) return false;
       const [x, y] = this.visibleArcEnd;
       // At the maximum speed, the straight arc ends further from the start than any other arc. Its length therefore limits x.
-      const maxX = sliderSpecs.v.max * this.settings.requested.command.dt;
-      this.#moveArcEnd(clamp(x + KEY_STEP * keySteps[0], -maxX, maxX), y + KEY_STEP * keySteps[1]);
+      const maxX = sliderSpecs.v.max * this.settings.requestedValues.command.dt;
+      this.#moveArcEnd(clampNumber(x + KEY_STEP * keySteps[0], -maxX, maxX), y + KEY_STEP * keySteps[1]);
       return true;
     },
     commit: () => this.gesture.commitChange(),
@@ -181,10 +181,10 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
 
   handles = [{
     render: () => this.#handleHtml(this.viewModel.config.command),
-    place: () => this.#arcEndHandle.placeElementAt(this.renderRoot, ...this.#planePicture.view.toPixel(...this.visibleArcEnd)),
+    place: () => this.#arcEndHandle.placeElementAt(this.renderRoot, ...this.#planePicture.pictureView.toPixel(...this.visibleArcEnd)),
   }];
 
-  #pinnedViewModelMemo: Memo<ViewModel> = new Memo();
+  #pinnedViewModelMemo: MemoizedResult<ViewModel> = new MemoizedResult();
 
   player: Player<'morph'> = new Player(this, { morph: { max: 1, durationMs: MORPH_DURATION_MS } });
 
@@ -234,7 +234,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   }
 
   #viewModelOfPinned(pinned: Settings | null): ViewModel | undefined {
-    return pinned ? this.#pinnedViewModelMemo.get([pinned], () => viewModelOfSettings(this.motion, pinned)) : undefined;
+    return pinned ? this.#pinnedViewModelMemo.getResult([pinned], () => viewModelOfSettings(this.motion, pinned)) : undefined;
   }
 
   /** Pins the current settings (saves them for comparison), or unpins them. The pinned results are those of the complete cloud, even while the cloud grows. */
@@ -273,7 +273,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   /** Executed motion of the selected robot; undefined if no robot is selected, or the selected robot is not shown. */
   get #selectedMotion() {
     const { simulation, viewModel, cloud: { isSelectionShown, selectedIndex } } = this;
-    return isSelectionShown && simulation ? this.#executedMotionMemo.get([viewModel.stats, selectedIndex], () => simulation.inspect(selectedIndex)) : undefined;
+    return isSelectionShown && simulation ? this.#executedMotionMemo.getResult([viewModel.stats, selectedIndex], () => simulation.inspect(selectedIndex)) : undefined;
   }
 
   /**
@@ -283,7 +283,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   #moveArcEnd(x: number, y: number) {
     this.settings.requestChange(({ command }) => {
       const { v, omega } = this.motion.commandReaching(x, y, command, this.settings.elementState.morph);
-      const clampToSlider = (commandNumber: number, { min, max }: { min: number, max: number }) => clamp(commandNumber, min, max);
+      const clampToSlider = (commandNumber: number, { min, max }: { min: number, max: number }) => clampNumber(commandNumber, min, max);
       return { command: { ...command, v: clampToSlider(v, sliderSpecs.v), omega: clampToSlider(omega, sliderSpecs.omega) } };
     });
   }
@@ -294,14 +294,14 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const { min, max } = sliderSpecs.omega;
     const isAtLimit = [v - sliderSpecs.v.min, sliderSpecs.v.max - v, omega - min, max - omega].some((distanceToLimit) => distanceToLimit <= 0);
     return this.#arcEndHandle.handleHtml({
-      name: texts.handleName,
+      handleName: texts.handleName,
       keysHint: texts.handleKeysHint,
       title: words.pose.moveTitle,
       valueRange: [min, max],
-      value: omega,
+      sliderValue: omega,
       valueText: `v = ${formatFixed(v, 2)} m/s, ω = ${formatFixed(omega, 2)} rad/s`,
       limitText: isAtLimit && texts.sliderLimitText,
-      hint: this.cloud.isAsking && texts.dragHint,
+      hintText: this.cloud.isAsking && texts.dragHint,
     });
   }
 
@@ -327,10 +327,10 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       <p part="caption" class="caption ${unusualCloudNote && 'note'}">${captionOf(viewModel)}</p>
       ${mainReadoutsHtml(viewModel, this.#pinnedViewModel)} ${presetButtonsHtml(this)}
       <div class="controls" part="controls">
-        ${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${alphaGroupHtml(this, true)} ${fieldsetHtml(words.samples, this.cloud.buttonsHtml(), 'cloud')}
+        ${fieldsetHtml(words.commandHeading, settingSlidersHtml(this, COMMAND_SLIDERS))} ${alphaGroupHtml(this, true)} ${fieldsetHtml(words.samplesHeading, this.cloud.buttonsHtml(), 'cloud')}
       </div>
       ${disclosuresHtml(this, {
-        renderControls: () => html`<div class="controls">${alphaGroupHtml(this, false)} ${modelControlsHtml(this)} ${fieldsetHtml(words.samples, settingSliderHtml(this, 'samples'))}</div>`,
+        renderControls: () => html`<div class="controls">${alphaGroupHtml(this, false)} ${modelControlsHtml(this)} ${fieldsetHtml(words.samplesHeading, settingSliderHtml(this, 'samples'))}</div>`,
         renderNumbers: () => html`${markedRobotFieldHtml(this, this.#selectedMotion)} ${this.#numbersHtml(viewModel)}`,
       })}`)}
     `;
@@ -350,19 +350,19 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const texts = words.banana;
     const { min, max, step } = sliderSpecs.omega;
     // The cached curve is computed again only if a setting that affects it changes.
-    const skews = this.#skewCurveMemo.get([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.simulation as Simulation).skewCurve(min, max, CURVE_POINT_COUNT));
+    const skews = this.#skewCurveMemo.getResult([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.simulation as Simulation).skewCurve(min, max, CURVE_POINT_COUNT));
     const maxSkew = skews.reduce((largest, skew) => Math.max(largest, Math.abs(skew) || 0), 0);
     const chartMaximum = CHART_MAXIMA.find((maxShownSkew) => maxShownSkew >= maxSkew) ?? maxSkew;
     const omegaRange = [min, max];
     return plotHtml({
-      label: texts.chartDescription,
-      x: { name: 'ω (rad/s)', min, max },
-      y: { name: texts.readouts.skew, min: -chartMaximum, max: chartMaximum },
-      curves: [
+      plotLabel: texts.chartDescription,
+      x: { axisLabel: 'ω (rad/s)', min, max },
+      y: { axisLabel: texts.readouts.skew, min: -chartMaximum, max: chartMaximum },
+      plotCurves: [
         { name: texts.readouts.skew, role: 'ink', x: skews.map((_, i) => min + (i * (max - min)) / (skews.length - 1)), y: skews },
         { name: texts.gaussianLineName, role: 'prediction', dash: [7, 4], x: omegaRange, y: [0, 0] },
       ],
-      points: [
+      dataPoints: [
         { role: 'prior', x: omega, y: exactSkew, error: 0 },
         { role: 'prediction', x: omega, y: stats.crossTrackSkew, error: stats.crossTrackSkewError },
       ],

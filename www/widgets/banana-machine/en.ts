@@ -111,4 +111,4 @@ export const en = {
     measured: 'measured',
     mean: (symbol) => `mean ${symbol}`,
   },
-} satisfies import('../../messages/registry.ts').Message;
+} satisfies import('../../messages/registry.ts').MessageEntry;

@@ -45,9 +45,9 @@ export class IntroducedCloud extends Cloud {
   showOrGrow(state: Parameters<Cloud['showOrGrow']>[0]) {
     this.#phase = 'none';
     super.showOrGrow(state);
-    const { host } = this;
-    const isConfigured = host.presentation || Object.keys(host.definition.attributes).some((attributeName) => host.hasAttribute(attributeName));
-    if (state || !this.playing || isConfigured || host.settings.current.samples < DRIVING_ROBOT_COUNT || !isFirstInSession()) return;
+    const { figure } = this;
+    const isConfigured = figure.presentation || Object.keys(figure.definition.attributes).some((attributeName) => figure.hasAttribute(attributeName));
+    if (state || !this.playing || isConfigured || figure.settings.currentValues.samples < DRIVING_ROBOT_COUNT || !isFirstInSession()) return;
     this.#phase = 'driving';
     this.showSamples(DRIVING_ROBOT_COUNT);
     for (const eventType of ['pointerdown', 'keydown']) addEventListener(eventType, this.skip, { capture: true });
@@ -57,7 +57,7 @@ export class IntroducedCloud extends Cloud {
   skip = () => {
     this.#phase = 'none';
     for (const eventType of ['pointerdown', 'keydown']) removeEventListener(eventType, this.skip, { capture: true });
-    this.host.requestUpdate();
+    this.figure.requestUpdate();
   };
 
   hostDisconnected() {

@@ -2,7 +2,7 @@
 
 import { ticks } from 'd3-array';
 import { addLine, paintWithOpacity, strokePath, type DrawContext } from '../../scene/canvas.ts';
-import { View, interpolateExtent, type Extent } from '../../scene/view.ts';
+import { PictureView, interpolateExtent, type WorldExtent } from '../../scene/view.ts';
 import type { Motion } from '../../types.d.ts';
 import type { ViewModel } from './settings.ts';
 
@@ -39,7 +39,7 @@ export function morphOutlines(motion: Motion, viewModel: ViewModel, morph: numbe
 }
 
 /** View at a stage of the morph: it interpolates between a view of the floor and a view of exponential coordinates. Each of these two views has its own target extent. */
-export class MorphView extends View {
+export class MorphView extends PictureView {
   /** Stage of the morph: 0 is the floor, 1 is exponential coordinates. */
   morph = 0;
   /** Views at the two ends of the morph: first the floor, then exponential coordinates. */
@@ -47,12 +47,12 @@ export class MorphView extends View {
 
   constructor(margins: { left: number, right: number }) {
     super(margins);
-    this.endViews = [new View(margins), new View({ ...margins, hasEqualScales: false })];
+    this.endViews = [new PictureView(margins), new PictureView({ ...margins, hasEqualScales: false })];
   }
 
-  resize(width: Parameters<View['resize']>[0], height: Parameters<View['resize']>[1]) {
-    super.resize(width, height);
-    for (const endView of this.endViews) endView.resize(width, height);
+  setSize(width: Parameters<PictureView['setSize']>[0], height: Parameters<PictureView['setSize']>[1]) {
+    super.setSize(width, height);
+    for (const endView of this.endViews) endView.setSize(width, height);
   }
 
   allowZoomIn(minFill?: number) {
@@ -68,16 +68,16 @@ export class MorphView extends View {
   }
 
   /** Sets the region that the view shows at one end of the morph: `endIndex` is 0 for the floor, 1 for exponential coordinates. */
-  fitEnd(shownExtent: Extent, endIndex: 0 | 1) {
-    const view = this.endViews[endIndex];
-    view.hasZoomedOut = false;
-    view.fit(shownExtent);
-    this.hasZoomedOut ||= view.hasZoomedOut;
+  fitEnd(shownExtent: WorldExtent, endIndex: 0 | 1) {
+    const pictureView = this.endViews[endIndex];
+    pictureView.hasZoomedOut = false;
+    pictureView.fitExtent(shownExtent);
+    this.hasZoomedOut ||= pictureView.hasZoomedOut;
   }
 
-  moveTowardsTarget(elapsedMs: Parameters<View['moveTowardsTarget']>[0], isImmediate: Parameters<View['moveTowardsTarget']>[1]) {
+  moveTowardsTarget(elapsedMs: Parameters<PictureView['moveTowardsTarget']>[0], isImmediate: Parameters<PictureView['moveTowardsTarget']>[1]) {
     const isMoving = this.endViews.map((endView) => endView.moveTowardsTarget(elapsedMs, isImmediate)).includes(true);
-    this.extent = interpolateExtent(this.endViews[0].extent, this.endViews[1].extent, this.morph);
+    this.shownExtent = interpolateExtent(this.endViews[0].shownExtent, this.endViews[1].shownExtent, this.morph);
     return isMoving;
   }
 }
@@ -87,13 +87,13 @@ const GRID_LINE_COUNT = 7;
 const CHORDS_PER_LINE = 32;
 
 /** Draws the grid of exponential coordinates at a stage of the morph. The second parameter is the view of exponential coordinates. */
-export function drawMorphGrid({ context, view, palette }: DrawContext, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
-  const drawGridLine = (pointOfFraction: (fraction: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS_PER_LINE + 1 }, (_, i) => {
+export function drawMorphGrid({ canvasContext, pictureView, palette }: DrawContext, { shownExtent: { xMin, xMax, yMin, yMax } }: PictureView, morph: number) {
+  const drawGridLine = (pointOfFraction: (fraction: number) => [along: number, heading: number]) => addLine(canvasContext, Array.from({ length: CHORDS_PER_LINE + 1 }, (_, i) => {
     const [along, heading] = pointOfFraction(i / CHORDS_PER_LINE);
-    return view.toPixel(...morphPoint([along, 0, heading], morph));
+    return pictureView.toPixel(...morphPoint([along, 0, heading], morph));
   }));
   // The grid fades in at the start of the morph. At the end it coincides with the straight grid of the axes.
-  paintWithOpacity(context, 0.7 * Math.min(1, 5 * morph), () => strokePath(context, { colour: palette.rule, width: 1 }, () => {
+  paintWithOpacity(canvasContext, 0.7 * Math.min(1, 5 * morph), () => strokePath(canvasContext, { colour: palette.rule, width: 1 }, () => {
     for (const along of ticks(xMin, xMax, GRID_LINE_COUNT)) drawGridLine((fraction) => [along, yMin + fraction * (yMax - yMin)]);
     for (const heading of ticks(yMin, yMax, GRID_LINE_COUNT)) drawGridLine((fraction) => [xMin + fraction * (xMax - xMin), heading]);
   }));

@@ -5,8 +5,8 @@ import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/labels.ts';
 import { addTurnArc, createDensityRamp, drawDots, drawEarlierOutlines, drawHandle, drawCrosshair, drawOutline, drawOutlines, drawRobot, hasLength, createLineLegend, createLineStyles, styleOutlines } from '../../scene/draw.ts';
-import { Memo, CachedImage } from '../../scene/cache.ts';
-import { Picture } from '../../scene/picture.ts';
+import { MemoizedResult, CachedImage } from '../../scene/cache.ts';
+import { FigurePicture } from '../../scene/picture.ts';
 import { cornersAround, extentOf } from '../../scene/view.ts';
 import { formatInteger } from '../../ui/format.ts';
 import { drawMorphGrid, MorphView, morphPoint, type Outlines } from './morph.ts';
@@ -40,35 +40,35 @@ const PAINT_ORDER = ['additive', 'linearized', 'ellipse', 'exponential', 'comman
 const LEGEND_ORDER = ['ellipse', 'exponential', 'linearized', 'additive', 'command'] as const satisfies LineName[];
 
 /** Picture of the robots at a stage of the morph, from the floor (0) to exponential coordinates (1). */
-class MorphPicture extends Picture<Scene, 'plane' | 'twist'> {
-  view: MorphView = new MorphView({ left: 46, right: 10 });
+class MorphPicture extends FigurePicture<Scene, 'plane' | 'twist'> {
+  pictureView: MorphView = new MorphView({ left: 46, right: 10 });
   /** Names of the outlines that the picture may draw. */
   outlineNames: readonly LineName[] = PAINT_ORDER;
   #densityImage = new CachedImage();
-  #dotPositionsMemo: Memo<Float64Array> = new Memo();
+  #dotPositionsMemo: MemoizedResult<Float64Array> = new MemoizedResult();
 
   /** Returns the index of the robot nearest to a point (CSS pixels); −1 if no robot is near enough. */
   findNearestSample(simulation: BananaMachine, x: number, y: number) {
-    const { view } = this;
-    return simulation.nearest(view.morph, ...view.toWorld(x, y), SELECTION_RADIUS / view.scaleX, SELECTION_RADIUS / view.scaleY);
+    const { pictureView } = this;
+    return simulation.nearest(pictureView.morph, ...pictureView.toWorld(x, y), SELECTION_RADIUS / pictureView.scaleX, SELECTION_RADIUS / pictureView.scaleY);
   }
 
   /** Returns the outlines at the stage of the morph that the picture shows. */
   outlinesOf(viewModel: ViewModel, scene: Scene): Outlines {
-    return scene.outlinesOf(viewModel, this.view.morph);
+    return scene.outlinesOf(viewModel, this.pictureView.morph);
   }
 
   /** Returns the poses of the robots that are drawn as dots. Towards exponential coordinates, the morph scales their headings down to 0. */
   #dotPositionsOf({ simulation, stats }: Scene): Float64Array {
-    const { morph } = this.view;
-    return this.#dotPositionsMemo.get([stats, morph], () => (morph === 0 ? simulation.firstPoses(MAX_DOT_COUNT) : morphPoses(simulation.firstTwists(MAX_DOT_COUNT), morph)));
+    const { morph } = this.pictureView;
+    return this.#dotPositionsMemo.getResult([stats, morph], () => (morph === 0 ? simulation.firstPoses(MAX_DOT_COUNT) : morphPoses(simulation.firstTwists(MAX_DOT_COUNT), morph)));
   }
 
-  paint: Picture<Scene>['paint'] = (drawContext, scene) => {
-    const { context, view, palette } = drawContext;
+  paintPicture: FigurePicture<Scene>['paintPicture'] = (drawContext, scene) => {
+    const { canvasContext, pictureView, palette } = drawContext;
     const { simulation, overlays, markedMotion, pinned } = scene;
-    const { morph, endViews: [floorView, twistView] } = this.view;
-    const isFloorPicture = this.name === 'plane';
+    const { morph, endViews: [floorView, twistView] } = this.pictureView;
+    const isFloorPicture = this.pictureName === 'plane';
     const outlines = this.outlinesOf(scene, scene);
     const lines = createLineStyles(drawContext, LINE_STYLES, overlays);
     const legendNames = LEGEND_ORDER.filter((name) => this.outlineNames.includes(name) && hasLength(outlines[name]));
@@ -81,7 +81,7 @@ class MorphPicture extends Picture<Scene, 'plane' | 'twist'> {
     for (const { view: axesView, opacity, axisLabels } of axesOfEndViews) {
       // Before the last stage of the morph, the grid of exponential coordinates is curved, and `drawMorphGrid` draws it.
       const gridOpacity = axesView === twistView && morph < 1 ? 0 : undefined;
-      if (opacity > 0) paintWithOpacity(context, Math.min(1, opacity), () => drawAxes({ ...drawContext, view: axesView }, axisLabels, legendEntries, gridOpacity));
+      if (opacity > 0) paintWithOpacity(canvasContext, Math.min(1, opacity), () => drawAxes({ ...drawContext, pictureView: axesView }, axisLabels, legendEntries, gridOpacity));
     }
     const cloudMean = morphPoint(twistMomentsOf(scene)[0].mean, morph);
     const styledOutlinesOf = (outlinePoints: Outlines) => styleOutlines(lines, Object.fromEntries(this.outlineNames.map((name) => [name, outlinePoints[name]])));
@@ -104,9 +104,9 @@ class MorphPicture extends Picture<Scene, 'plane' | 'twist'> {
       if (isFloorPicture) {
         if (lines.command && scene.odometryReading && morph === 0) callouts.push(...drawOdometryReading(drawContext, scene.odometryReading, scene.arcEnd));
         if (isSinglePoint && scene.shown > 0) callouts.push(drawCoincidentRobots(drawContext, this.#dotPositionsOf(scene), scene.shown));
-        drawHandle(drawContext, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: HANDLE_RADIUS, colour: palette.prior });
+        drawHandle(drawContext, { x: pictureView.toPixelX(endX), y: pictureView.toPixelY(endY), radius: HANDLE_RADIUS, colour: palette.prior });
       } else if (lines.command) {
-        drawDisc(context, view.toPixel(endX, endY), 5, palette.paper, { ...lines.command, dash: [] });
+        drawDisc(canvasContext, pictureView.toPixel(endX, endY), 5, palette.paper, { ...lines.command, dash: [] });
       }
       if (markedMotion) {
         if (morph === 0) drawOutline(drawContext, markedMotion.path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
@@ -115,17 +115,17 @@ class MorphPicture extends Picture<Scene, 'plane' | 'twist'> {
       }
     });
     const calloutLines = isFloorPicture ? [outlines.command, outlines.ellipse, outlines.exponential] : [outlines.exponential];
-    drawCallouts(drawContext, callouts, { shapeCentre: cloudMean, lines: [...calloutLines, ...earlierOutlines.map(({ points }) => points)] });
+    drawCallouts(drawContext, callouts, { shapeCentre: cloudMean, avoidedLines: [...calloutLines, ...earlierOutlines.map(({ points }) => points)] });
   };
 
   /** Returns true if all robots are so close together on the floor that they are drawn as one point. */
   #isSinglePoint({ table: { exact: { cov } } }: Scene) {
-    return this.view.morph === 0 && stdOfVariance(cov[0][0] + cov[1][1]) * this.view.scaleX < MIN_CLOUD_DEVIATION;
+    return this.pictureView.morph === 0 && stdOfVariance(cov[0][0] + cov[1][1]) * this.pictureView.scaleX < MIN_CLOUD_DEVIATION;
   }
 
   /** Draws the robots as dots or, if there are many, as a density. */
   #paintCloud(drawContext: DrawContext, scene: Scene) {
-    const { view: { morph, scaleX, scaleY } } = this;
+    const { pictureView: { morph, scaleX, scaleY } } = this;
     const { simulation, shown, stats, table: { exact: { cov } } } = scene;
     if (shown <= MAX_DOT_COUNT) {
       // The lines that show the robots' headings shrink during the morph, because exponential coordinates show the turn as an axis.
@@ -154,11 +154,11 @@ function morphPoses(twists: Float64Array, morph: number) {
 
 /** Picture of the floor from above, which the user morphs to exponential coordinates. */
 export class PlanePicture extends MorphPicture {
-  name = 'plane' as const;
+  pictureName = 'plane' as const;
 
-  draw(...[surface, scene, ...drawOptions]: Parameters<Picture<Scene>['draw']>) {
-    this.view.morph = scene.morph;
-    return super.draw(surface, scene, ...drawOptions);
+  drawPicture(...[surface, scene, ...drawOptions]: Parameters<FigurePicture<Scene>['drawPicture']>) {
+    this.pictureView.morph = scene.morph;
+    return super.drawPicture(surface, scene, ...drawOptions);
   }
 
   fitView(scene: Scene) {
@@ -171,20 +171,20 @@ export class PlanePicture extends MorphPicture {
     const floorExtent = extentOf(shownCoordinates, 0.4);
     // Adds space around the end of the arc for a fan of headings. If all robots stop at the same point, only this fan is visible.
     const fanMargin = 0.2 * (floorExtent.xMax - floorExtent.xMin);
-    this.view.fitEnd(extentOf([...shownCoordinates, ...cornersAround(x, y, fanMargin)], 0.4), 0);
+    this.pictureView.fitEnd(extentOf([...shownCoordinates, ...cornersAround(x, y, fanMargin)], 0.4), 0);
     if (scene.morph === 0) return;
-    this.view.fitEnd(extentOf([...twistCoordinatesToShowOf(scene), ...(overlays.includes('ellipse') ? scene.outlinesOf(scene, 1).ellipse : []), ...pinnedPointsAt(1)], 0.1), 1);
+    this.pictureView.fitEnd(extentOf([...twistCoordinatesToShowOf(scene), ...(overlays.includes('ellipse') ? scene.outlinesOf(scene, 1).ellipse : []), ...pinnedPointsAt(1)], 0.1), 1);
   }
 }
 
 /** Picture of the same robots in exponential coordinates, with the outline of the Gaussian in these coordinates. */
 export class TwistPicture extends MorphPicture {
-  name = 'twist' as const;
+  pictureName = 'twist' as const;
   outlineNames = ['exponential'] as const;
 
   constructor() {
     super();
-    this.view.morph = 1;
+    this.pictureView.morph = 1;
   }
 
   /** Returns the outline of the Gaussian in exponential coordinates, and the command as a point. This picture has no floor outlines that would have to be transformed. */
@@ -193,7 +193,7 @@ export class TwistPicture extends MorphPicture {
   }
 
   fitView(scene: Scene) {
-    this.view.fitEnd(extentOf([...twistCoordinatesToShowOf(scene), ...(scene.pinned?.contours.twistEllipse ?? [])], 0.1), 1);
+    this.pictureView.fitEnd(extentOf([...twistCoordinatesToShowOf(scene), ...(scene.pinned?.contours.twistEllipse ?? [])], 0.1), 1);
   }
 }
 
@@ -219,38 +219,38 @@ const TURN_LINE_LENGTH = 38;
 
 /** Draws the odometry reading of the command: rotation, drive and rotation. The drive ends at x, y (m). Returns callouts that name the three motions. */
 function drawOdometryReading(drawContext: DrawContext, { rot1, trans, rot2 }: import('../../types.d.ts').OdomDelta, [x, y]: [number, number]): Callout[] {
-  const { context, view, palette } = drawContext;
+  const { canvasContext, pictureView, palette } = drawContext;
   const [startPose, drivenPose] = [{ x: 0, y: 0, theta: 0 }, { x, y, theta: rot1 }];
-  const [startPixel, startHeadingEnd] = view.headingLineFrom(startPose, TURN_LINE_LENGTH);
-  const [endPixel, continuationEnd] = view.headingLineFrom(drivenPose, TURN_LINE_LENGTH);
-  const colour = palette.prior;
-  const lineStroke = { colour, width: 1.5 };
-  strokePath(context, lineStroke, () => {
+  const [startPixel, startHeadingEnd] = pictureView.headingLineFrom(startPose, TURN_LINE_LENGTH);
+  const [endPixel, continuationEnd] = pictureView.headingLineFrom(drivenPose, TURN_LINE_LENGTH);
+  const lineColour = palette.prior;
+  const lineStroke = { colour: lineColour, width: 1.5 };
+  strokePath(canvasContext, lineStroke, () => {
     // Three lines: the heading at the start, the drive, and the continuation of the drive, from which the second rotation starts.
-    addLine(context, [startHeadingEnd, startPixel, endPixel, continuationEnd]);
-    addLine(context, view.headingLineFrom({ x, y, theta: rot1 + rot2 }, TURN_LINE_LENGTH));
+    addLine(canvasContext, [startHeadingEnd, startPixel, endPixel, continuationEnd]);
+    addLine(canvasContext, pictureView.headingLineFrom({ x, y, theta: rot1 + rot2 }, TURN_LINE_LENGTH));
   });
   const legTurns = [['rot1', startPose, rot1], ['rot2', drivenPose, rot2]] as const;
-  for (const [, pose, turn] of legTurns) strokePath(context, lineStroke, () => addTurnArc(context, view.toPixel(pose.x, pose.y), TURN_RADIUS, pose.theta, turn));
+  for (const [, pose, turn] of legTurns) strokePath(canvasContext, lineStroke, () => addTurnArc(canvasContext, pictureView.toPixel(pose.x, pose.y), TURN_RADIUS, pose.theta, turn));
   const turnCallouts = legTurns.map(([legName, pose, turn]): Callout => {
-    const [, arcMiddle] = view.headingLineFrom({ ...pose, theta: pose.theta + turn / 2 }, TURN_RADIUS);
-    return { symbol: 'δ', subscript: legName, point: view.toWorld(...arcMiddle), colour };
+    const [, arcMiddle] = pictureView.headingLineFrom({ ...pose, theta: pose.theta + turn / 2 }, TURN_RADIUS);
+    return { symbol: 'δ', subscript: legName, point: pictureView.toWorld(...arcMiddle), colour: lineColour };
   });
-  return [...turnCallouts, ...(trans > 0 ? [{ symbol: 'δ', subscript: 'trans', point: [x / 2, y / 2] as [number, number], colour }] : [])];
+  return [...turnCallouts, ...(trans > 0 ? [{ symbol: 'δ', subscript: 'trans', point: [x / 2, y / 2] as [number, number], colour: lineColour }] : [])];
 }
 
 /** Draws robots at the same position as one disc. Rays show the headings of the first robots. Returns a callout with the number of robots. */
 function drawCoincidentRobots(drawContext: DrawContext, poses: Float64Array, shown: number): Callout {
-  const { context, view, palette: { prediction: colour } } = drawContext;
+  const { canvasContext, pictureView, palette: { prediction: lineColour } } = drawContext;
   const headings = [...poses.subarray(0, 3 * MAX_HEADING_RAYS)].filter((_, i) => i % 3 === 2);
   const [x, y] = poses;
-  paintWithOpacity(context, Math.min(1, 30 / headings.length), () => {
-    for (const theta of headings) strokeLine(context, view.headingLineFrom({ x, y, theta }, 64), { colour, width: 1 });
+  paintWithOpacity(canvasContext, Math.min(1, 30 / headings.length), () => {
+    for (const theta of headings) strokeLine(canvasContext, pictureView.headingLineFrom({ x, y, theta }, 64), { colour: lineColour, width: 1 });
   });
   // The disc is larger than the handle at the end of the arc, which often hides its middle.
-  const [pixelX, pixelY] = view.toPixel(x, y);
-  drawDisc(context, [pixelX, pixelY], 14, colour);
-  return { text: words.banana.robotCountLabel(formatInteger(shown)), point: view.toWorld(pixelX, pixelY - 14), colour };
+  const [pixelX, pixelY] = pictureView.toPixel(x, y);
+  drawDisc(canvasContext, [pixelX, pixelY], 14, lineColour);
+  return { text: words.banana.robotCountLabel(formatInteger(shown)), point: pictureView.toWorld(pixelX, pixelY - 14), colour: lineColour };
 }
 
 /**

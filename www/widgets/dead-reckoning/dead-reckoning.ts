@@ -5,7 +5,7 @@ import { pictureHtml, settingRadiosHtml, disclosuresHtml, panelHtml, settingSlid
 import { FigureElement } from '../../figure/figure.ts';
 import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
-import { Memo } from '../../scene/cache.ts';
+import { MemoizedResult } from '../../scene/cache.ts';
 import { fieldsetHtml } from '../../ui/controls.ts';
 import { formatFixed } from '../../ui/format.ts';
 import { Cloud, cloudControlsHtml, cloudProperties } from '../shared/cloud.ts';
@@ -29,13 +29,13 @@ function settingsForSteps({ command, steps: previousSteps, step }: Record<string
 }
 
 function moreControlsHtml(figure: DeadReckoningElement) {
-  const { steps, step, command: { dt } } = figure.settings.requested;
+  const { steps, step, command: { dt } } = figure.settings.requestedValues;
   const { drivenTime, perNames } = words.reckoning;
   const drivenTimeText = drivenTime(formatFixed(step * dt, 2), formatFixed(steps * dt, 2));
   return html`<div class="controls">
-    ${fieldsetHtml(words.command, html`${settingSlidersHtml(figure, COMMAND_SLIDERS)}
+    ${fieldsetHtml(words.commandHeading, html`${settingSlidersHtml(figure, COMMAND_SLIDERS)}
       ${settingSliderHtml(figure, 'step', { max: Math.max(2, steps), allowedNumbers: { min: 1, max: steps, type: 'whole' }, hasNoEffect: steps === 1, effect: drivenTimeText })}`)}
-    ${fieldsetHtml(words.noise, html`${settingSlidersHtml(figure, NOISE_SLIDERS)} ${settingRadiosHtml(figure, 'per', perNames)}`)}
+    ${fieldsetHtml(words.noiseHeading, html`${settingSlidersHtml(figure, NOISE_SLIDERS)} ${settingRadiosHtml(figure, 'per', perNames)}`)}
     ${cloudControlsHtml(figure)}
   </div>`;
 }
@@ -127,8 +127,8 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   #stepPicture = new StepPicture();
   pictures = [this.#floorPicture, this.#stepPicture];
 
-  #rolloutMemo: Memo<Float64Array> = new Memo();
-  #straightGrowthMemo: Memo<Simulation['straightGrowth']> = new Memo();
+  #rolloutMemo: MemoizedResult<Float64Array> = new MemoizedResult();
+  #straightGrowthMemo: MemoizedResult<Simulation['straightGrowth']> = new MemoizedResult();
 
   // The simulation starts without robots. The first frame then appears quickly, and the user sees the robots appear.
   createSimulation = ({ DeadReckoning }: Motion) => DeadReckoning.empty();
@@ -165,7 +165,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   /** Poses of the selected robot after each step; undefined if no robot is selected, or the selected robot is not shown. */
   get #markedPoses() {
     const { simulation, viewModel, cloud: { isSelectionShown, selectedIndex } } = this;
-    return isSelectionShown && simulation ? this.#rolloutMemo.get([viewModel.stats, selectedIndex], () => simulation.rollout(selectedIndex)) : undefined;
+    return isSelectionShown && simulation ? this.#rolloutMemo.getResult([viewModel.stats, selectedIndex], () => simulation.rollout(selectedIndex)) : undefined;
   }
 
   renderContent(viewModel: ViewModel) {
@@ -189,7 +189,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
       </div>
       ${disclosuresHtml(this, {
         renderControls: () => moreControlsHtml(this),
-        renderNumbers: () => html`${missTableHtml(viewModel, overlays)} ${markedRobotFieldHtml(this, this.#markedPoses)} ${straightGrowthPlotHtml(this.#straightGrowthMemo.get([viewModel.stats], () => (this.simulation as Simulation).straightGrowth))}`,
+        renderNumbers: () => html`${missTableHtml(viewModel, overlays)} ${markedRobotFieldHtml(this, this.#markedPoses)} ${straightGrowthPlotHtml(this.#straightGrowthMemo.getResult([viewModel.stats], () => (this.simulation as Simulation).straightGrowth))}`,
       })}`)}
     `;
   }

@@ -70,4 +70,4 @@ export const en = {
   },
   robot: 'Robot',
   markHint: 'Point at one on the floor to see its way.',
-} satisfies import('../../messages/registry.ts').Message;
+} satisfies import('../../messages/registry.ts').MessageEntry;

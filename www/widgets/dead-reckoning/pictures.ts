@@ -4,8 +4,8 @@ import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/labels.ts';
 import { drawDots, drawEarlierOutlines, drawCrosshair, drawOutlines, drawRobot, createLineLegend, createLineStyles, strokeLines, styleOutlines } from '../../scene/draw.ts';
-import { Picture, SamplesPicture } from '../../scene/picture.ts';
-import { View, cornersAround, extentAround, extentOf } from '../../scene/view.ts';
+import { FigurePicture, SamplesPicture } from '../../scene/picture.ts';
+import { PictureView, cornersAround, extentAround, extentOf } from '../../scene/view.ts';
 import { formatSignificant } from '../../ui/format.ts';
 import { OUTLINE_STYLES } from './settings.ts';
 import { drawDisc, paintWithOpacity } from '../../scene/canvas.ts';
@@ -28,25 +28,25 @@ const END_MARK_RADIUS = 4;
 
 /** Picture of the floor from above, with the path. */
 export class PathPicture extends SamplesPicture<Scene> {
-  name = 'plane';
-  view: View = new View();
+  pictureName = 'plane';
+  pictureView: PictureView = new PictureView();
 
   fitView({ commanded, outlines, milestones, poses }: Scene) {
     const outlineCoordinates = [outlines, ...milestones.map((milestone) => milestone.outlines)].flatMap(({ ellipse, exponential }) => [...ellipse, ...exponential]);
     const shownCoordinates = [...commanded, ...outlineCoordinates];
     // If no outline is defined, the view includes the robots instead.
     if (outlineCoordinates.length === 0) shownCoordinates.push(...poses.filter((_, i) => i % 3 < 2));
-    this.view.fit(extentOf(shownCoordinates, 0.4));
+    this.pictureView.fitExtent(extentOf(shownCoordinates, 0.4));
   }
 
-  paint: Picture<Scene>['paint'] = (drawContext, { commanded, outlines, milestones, poses, commandedPose, markedPoses, overlays, config: { step } }) => {
+  paintPicture: FigurePicture<Scene>['paintPicture'] = (drawContext, { commanded, outlines, milestones, poses, commandedPose, markedPoses, overlays, config: { step } }) => {
     const { palette } = drawContext;
     const lineStyles = createLineStyles(drawContext, OUTLINE_STYLES, overlays);
     drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, lineStyles, ['ellipse', 'exponential', 'command'], words.reckoning.overlays));
     const outlinesOfStep = ({ ellipse, exponential }: Scene['outlines']) => styleOutlines(lineStyles, { ellipse, exponential });
     const callouts: Callout[] = [];
     clipToPlot(drawContext, () => {
-      paintWithOpacity(drawContext.context, MILESTONE_DOTS.opacity, () => milestones.forEach((milestone) => drawDots(drawContext, milestone.poses.subarray(0, 3 * MILESTONE_DOTS.maxCount))));
+      paintWithOpacity(drawContext.canvasContext, MILESTONE_DOTS.opacity, () => milestones.forEach((milestone) => drawDots(drawContext, milestone.poses.subarray(0, 3 * MILESTONE_DOTS.maxCount))));
       drawDots(drawContext, poses);
       const milestoneOutlines = milestones.flatMap((milestone) => outlinesOfStep(milestone.outlines)).map((outline) => ({ ...outline, width: 1 }));
       drawOutlines(drawContext, [...styleOutlines(lineStyles, { command: commanded }), ...milestoneOutlines]);
@@ -54,20 +54,20 @@ export class PathPicture extends SamplesPicture<Scene> {
       drawOutlines(drawContext, outlinesOfStep(outlines));
       drawRobot(drawContext, { x: 0, y: 0, heading: 0, colour: palette.truth });
       // The mark at the commanded position is small, so that it does not hide the cloud.
-      drawDisc(drawContext.context, drawContext.view.toPixel(commandedPose[0], commandedPose[1]), END_MARK_RADIUS, palette.prior, { colour: palette.paper, width: 1.5 });
+      drawDisc(drawContext.canvasContext, drawContext.pictureView.toPixel(commandedPose[0], commandedPose[1]), END_MARK_RADIUS, palette.prior, { colour: palette.paper, width: 1.5 });
       if (!markedPoses) return;
       strokeLines(drawContext, [{ points: Float64Array.from([0, 0, ...markedPoses.filter((_, i) => i % 3 < 2)]), colour: palette.accent, width: 1.25, dash: [6, 2] }]);
       const [x, y, heading] = markedPoses.subarray(3 * (step - 1));
       drawCrosshair(drawContext, { x, y, heading });
     });
-    drawCallouts(drawContext, callouts, { shapeCentre: [commandedPose[0], commandedPose[1]], lines: [commanded, outlines.ellipse, outlines.exponential] });
+    drawCallouts(drawContext, callouts, { shapeCentre: [commandedPose[0], commandedPose[1]], avoidedLines: [commanded, outlines.ellipse, outlines.exponential] });
   };
 }
 
 /** Picture of the selected step in the coordinates ξ along and ξ lateral about the commanded pose. The axes have different scales, because the lateral spread is small at first. */
-export class StepPicture extends Picture<Scene> {
-  name = 'twist';
-  view: View = new View({ hasEqualScales: false, left: 52, right: 10 });
+export class StepPicture extends FigurePicture<Scene> {
+  pictureName = 'twist';
+  pictureView: PictureView = new PictureView({ hasEqualScales: false, left: 52, right: 10 });
 
   fitView({ outlines: { predicted }, stats: { measured: { mean, cov } } }: Scene) {
     const shownCoordinates = [0, 0, ...predicted];
@@ -75,19 +75,19 @@ export class StepPicture extends Picture<Scene> {
     if (alongExtent + lateralExtent > 0) shownCoordinates.push(...cornersAround(mean[0], mean[1], alongExtent, lateralExtent));
     const { xMin, xMax } = extentAround(shownCoordinates, 2);
     // The minimum width and height of the view keep the scales of both axes finite if all robots are at nearly the same position.
-    this.view.fit(extentOf(shownCoordinates, MIN_STEP_VIEW_WIDTH, Math.max(MIN_STEP_VIEW_WIDTH, MIN_STEP_VIEW_ASPECT * (xMax - xMin))));
+    this.pictureView.fitExtent(extentOf(shownCoordinates, MIN_STEP_VIEW_WIDTH, Math.max(MIN_STEP_VIEW_WIDTH, MIN_STEP_VIEW_ASPECT * (xMax - xMin))));
   }
 
-  paint: Picture<Scene>['paint'] = (drawContext, { outlines: { predicted, measured }, overlays, twists }) => {
+  paintPicture: FigurePicture<Scene>['paintPicture'] = (drawContext, { outlines: { predicted, measured }, overlays, twists }) => {
     const lines = createLineStyles(drawContext, OUTLINE_STYLES, overlays);
-    drawAxes(drawContext, axisNamesOf(this.view));
+    drawAxes(drawContext, axisNamesOf(this.pictureView));
     const callouts: Callout[] = [];
     clipToPlot(drawContext, () => {
       drawDots(drawContext, twists);
       if (drawContext.previousViewModel) callouts.push(...drawEarlierOutlines(drawContext, styleOutlines(lines, { exponential: drawContext.previousViewModel.outlines.predicted }), [[0, 0]], words.earlierOutlinesLabel));
       drawOutlines(drawContext, styleOutlines(lines, { exponential: predicted, measured }));
     });
-    drawCallouts(drawContext, callouts, { shapeCentre: [0, 0], lines: [predicted, measured] });
+    drawCallouts(drawContext, callouts, { shapeCentre: [0, 0], avoidedLines: [predicted, measured] });
   };
 }
 
@@ -95,14 +95,14 @@ export class StepPicture extends Picture<Scene> {
 const MIN_VISIBLE_SCALE_RATIO = 1.05;
 
 /** Returns two texts: the ratio of the x scale to the y scale, and the inverse ratio. The text of a ratio is empty unless it is clearly above 1. */
-export function formatScaleRatios({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>) {
+export function formatScaleRatios({ scaleX, scaleY }: Pick<PictureView, 'scaleX' | 'scaleY'>) {
   return [scaleX / scaleY, scaleY / scaleX].map((scaleRatio) => (scaleRatio > MIN_VISIBLE_SCALE_RATIO ? formatSignificant(scaleRatio, scaleRatio < 10 ? 2 : 1) : ''));
 }
 
 /** Returns the labels of the axes. The label of the lateral axis includes the ratio of the scales. In the other label, the ratio would hide ticks. */
-function axisNamesOf(view: View) {
+function axisNamesOf(pictureView: PictureView) {
   const { alongAxisLabel, lateralAxisLabel, enlargementNotes } = words.reckoning;
-  const [alongRatio, lateralRatio] = formatScaleRatios(view);
+  const [alongRatio, lateralRatio] = formatScaleRatios(pictureView);
   const ratioText = alongRatio ? enlargementNotes.along(alongRatio) : lateralRatio && enlargementNotes.lateral(lateralRatio);
   return { x: alongAxisLabel, y: ratioText ? `${lateralAxisLabel}, ${ratioText}` : lateralAxisLabel };
 }

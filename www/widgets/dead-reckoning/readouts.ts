@@ -79,15 +79,15 @@ export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckonin
   const shownCurves = TWIST_COMPONENTS.map((name, componentIndex) => ({ ...curveStyleOf(name, figure.highlight), name, ...curves[componentIndex] })).filter(({ name }) => overlays.includes(name));
   const toleranceBand = { name: texts.overlays.tolerance, ...curveStyleOf('tolerance', figure.highlight), x: [0, steps], y: [1, 1], errors: [RATIO_TOLERANCE, RATIO_TOLERANCE], isBandOnly: true };
   return plotHtml({
-    label: describeRatios(viewModel, overlays),
-    x: { name: texts.stepAxisLabel, min: 0, max: steps },
-    y: { name: texts.ratioAxisLabel, min: 0, max: CHART_MAXIMA.find((maxRatio) => maxRatio >= highestRatio) ?? highestRatio },
-    curves: [
+    plotLabel: describeRatios(viewModel, overlays),
+    x: { axisLabel: texts.stepAxisLabel, min: 0, max: steps },
+    y: { axisLabel: texts.ratioAxisLabel, min: 0, max: CHART_MAXIMA.find((maxRatio) => maxRatio >= highestRatio) ?? highestRatio },
+    plotCurves: [
       ...(overlays.includes('tolerance') ? [toleranceBand] : []),
       ...shownCurves.map(({ ratio, error, ...curve }) => ({ ...curve, x: stepNumbers, y: ratio, errors: error })),
     ],
-    points: shownCurves.map(({ role, ratio, error }) => ({ role, x: step, y: ratio[step - 1], error: error[step - 1] })),
-    marks: [{ x: step, text: texts.stepMark(step) }],
+    dataPoints: shownCurves.map(({ role, ratio, error }) => ({ role, x: step, y: ratio[step - 1], error: error[step - 1] })),
+    verticalMarks: [{ x: step, text: texts.stepMark(step) }],
     slider: {
       id: 'chart-step',
       name: texts.settings.step.name,
@@ -97,7 +97,7 @@ export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckonin
       onInput: (newStep) => figure.settings.requestChange({ step: Math.max(1, newStep) }),
       onCommit: () => figure.gesture.commitChange(),
     },
-    legend: nothing,
+    legendContent: nothing,
   });
 }
 
@@ -128,16 +128,16 @@ export function straightGrowthPlotHtml({ durations: x, along, across, alongFirst
   return html`<figure>
     <p class="panel-title">${texts.title}</p>
     ${plotHtml({
-      label: `${texts.title}${crossingText && `: ${crossingText} s`}`,
-      x: { name: 'Δt (s)', min: minDuration, max: maxDuration, isLogarithmic: true },
-      y: { name: texts.varianceAxisLabel, min: minVariance, max: maxVariance, isLogarithmic: true },
-      curves: [
+      plotLabel: `${texts.title}${crossingText && `: ${crossingText} s`}`,
+      x: { axisLabel: 'Δt (s)', min: minDuration, max: maxDuration, isLogarithmic: true },
+      y: { axisLabel: texts.varianceAxisLabel, min: minVariance, max: maxVariance, isLogarithmic: true },
+      plotCurves: [
         { name: texts.alongCurve, role: 'ink', dash: [8, 4], x, y: alongFirstOrder },
         { name: texts.acrossCurve, role: 'prediction', x, y: acrossFirstOrder },
         // The exact curves along and across the track are drawn as one curve with a gap, so that the legend lists them once.
         { name: texts.exactCurves, role: 'truth', dash: [2, 3], x: [...x, NaN, ...x], y: [...along, NaN, ...across] },
       ],
-      marks: crossing !== null && crossing >= minDuration && crossing <= maxDuration ? [{ x: crossing, text: `${crossingText} s` }] : [],
+      verticalMarks: crossing !== null && crossing >= minDuration && crossing <= maxDuration ? [{ x: crossing, text: `${crossingText} s` }] : [],
     })}
     <figcaption>${formatMarkup(texts.caption)}</figcaption>
   </figure>`;

@@ -96,4 +96,4 @@ export const en = {
     invalidYamlSentence: (name, lineNumber, reason) => `${name}, line ${lineNumber}: ${reason}; expected is one field a line, as in resolution: 0.05.`,
     invalidLineSentence: (name, lineNumber, reason) => `${name}, line ${lineNumber}: ${reason}.`,
   },
-} satisfies import('../../messages/registry.ts').Message;
+} satisfies import('../../messages/registry.ts').MessageEntry;

@@ -5,7 +5,7 @@ import { pictureHtml, disclosuresHtml, settingCheckboxHtml, settingRadiosHtml, s
 import { FigureElement } from '../../figure/figure.ts';
 import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
-import { Memo } from '../../scene/cache.ts';
+import { MemoizedResult } from '../../scene/cache.ts';
 import { verdict as bits } from '../../../build/settings.js';
 import { buttonHtml, fieldsetHtml, radioGroupHtml } from '../../ui/controls.ts';
 import { Cloud, cloudControlsHtml, cloudProperties, sampleFieldHtml } from '../shared/cloud.ts';
@@ -158,9 +158,9 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   /** Measured costs of the samplers, and the settings with which they were measured. */
   #measurement: { config: StateValues, samplerCosts: ReturnType<typeof measureCosts> } | undefined;
   /** Path of the selected sample. */
-  #pathMemo: Memo<Float64Array> = new Memo();
+  #pathMemo: MemoizedResult<Float64Array> = new MemoizedResult();
   /** Cached grid of the map in a simulation, because copying a large grid takes long. */
-  #gridMemo: Memo<CellGrid | null> = new Memo();
+  #gridMemo: MemoizedResult<CellGrid | null> = new MemoizedResult();
 
   createSimulation = ({ MapSqueeze }: Motion) => MapSqueeze.empty();
 
@@ -173,14 +173,14 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   }
 
   #gridOf(simulation: Simulation) {
-    return this.#gridMemo.get([simulation], () => gridOf(simulation));
+    return this.#gridMemo.getResult([simulation], () => gridOf(simulation));
   }
 
   onSimulationReplaced() {
     const { simulation } = this;
     if (!simulation) return;
     this.#opener.refusal = undefined;
-    this.#unknownCellsOfPicture = this.settings.current.unknown;
+    this.#unknownCellsOfPicture = this.settings.currentValues.unknown;
     this.picture.setMap(simulation.plan, this.#gridOf(simulation));
   }
 
@@ -200,7 +200,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   /** Returns the pose and the path of the marked sample. If the sample was accepted although its path goes through a wall, `contact` is the first point of contact. */
   #markedSampleOf(sampleIndex: number) {
     const { poses, verdicts } = this.currentViewModel;
-    const path = this.#pathMemo.get([poses, sampleIndex], () => (this.simulation as Simulation).path(sampleIndex));
+    const path = this.#pathMemo.getResult([poses, sampleIndex], () => (this.simulation as Simulation).path(sampleIndex));
     const isThroughWall = outcomeOf(verdicts[sampleIndex]) === 'through';
     return { pose: poses.subarray(3 * sampleIndex), path, contact: isThroughWall ? this.simulation?.firstContact(sampleIndex) : undefined };
   }
@@ -255,12 +255,12 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
 
   /** Costs of the samplers with the present settings; undefined if they have not been measured with these settings. */
   get samplerCosts() {
-    return this.#measurement?.config === this.settings.current ? this.#measurement.samplerCosts : undefined;
+    return this.#measurement?.config === this.settings.currentValues ? this.#measurement.samplerCosts : undefined;
   }
 
   measureSamplerCosts() {
     this.runtime.attemptWork(() => {
-      const { simulation, settings: { current: config } } = this;
+      const { simulation, settings: { currentValues: config } } = this;
       if (simulation) this.#measurement = { config, samplerCosts: measureCosts(simulation, config.steps) };
       this.requestUpdate();
     });
@@ -281,7 +281,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     const name = this.map?.name ?? words.squeeze.editedMapName;
     const applyTo: UserMap['applyTo'] = (simulation) => simulation.setPlan({ bounds: [...bounds], walls });
     this.runtime.attemptOrReport(() => {
-      this.#enterMap({ name, applyTo, start: this.settings.requested.start });
+      this.#enterMap({ name, applyTo, start: this.settings.requestedValues.start });
       this.gesture.dispatchInput();
     });
     this.renderer.requestFrame();
@@ -296,7 +296,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     if (!motion) return;
     settings.applyPending();
     const simulation = motion.MapSqueeze.empty();
-    simulation.configureFirst(settings.pickSettings(settings.requested), 0);
+    simulation.configureFirst(settings.pickSettings(settings.requestedValues), 0);
     map?.applyTo(simulation);
     // In an occupancy grid, the robot is moved to a free pose, because its present pose may be outside the mapped area.
     const needsFreePose = this.#gridOf(simulation) !== null || !simulation.startFree;
@@ -331,7 +331,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`
       <div class="controls" part="controls">
-        ${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${fieldsetHtml(words.noise, settingSliderHtml(this, 'noise'), 'single')} ${cloudControlsHtml(this)}
+        ${fieldsetHtml(words.commandHeading, settingSlidersHtml(this, COMMAND_SLIDERS))} ${fieldsetHtml(words.noiseHeading, settingSliderHtml(this, 'noise'), 'single')} ${cloudControlsHtml(this)}
       </div>
       ${posesByOutcome ? nothing : html`<p class="about muted">${densityNote}</p>`}
       ${disclosuresHtml(this, {

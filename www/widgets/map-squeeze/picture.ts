@@ -4,13 +4,13 @@ import { range } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { addCross, createDensityRamp, createLineLegend, drawCrosshair, drawOutline, createLineStyles } from '../../scene/draw.ts';
-import { CachedImage, Memo, strokeInBatches } from '../../scene/cache.ts';
+import { CachedImage, MemoizedResult, strokeInBatches } from '../../scene/cache.ts';
 import { drawCallouts } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
-import { View, cornersAround, extentAround, widenExtent } from '../../scene/view.ts';
+import { PictureView, cornersAround, extentAround, widenExtent } from '../../scene/view.ts';
 import { WallLayer, cellCornerOf, type CellGrid } from '../../scene/walls.ts';
 import { limits } from '../../../build/settings.js';
-import { clamp } from '../../ui/format.ts';
+import { clampNumber } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
 import { LINE_STYLES, type ViewModel } from './settings.ts';
 import type { MapSqueeze, Plan } from '../../types.d.ts';
@@ -48,24 +48,24 @@ const PATHS_PER_STROKE = 10;
 const TRANSPARENT_RAMP = new Uint8Array(4 * limits.ramp);
 
 export class FloorPicture extends SamplesPicture<Scene> {
-  name = 'plane';
-  view: View = new View({ relativeMargin: 0 });
+  pictureName = 'plane';
+  pictureView: PictureView = new PictureView({ relativeMargin: 0 });
   plan: Plan = { bounds: new Float64Array(4), walls: new Float64Array() };
   /** True if the map has unknown cells. */
   hasUnknownCells = false;
   /** True for a floor plan, false for a grid. The walls of a grid outline its cells, and cannot be moved. */
   hasMovableWalls = true;
-  #closeView = new View();
-  #wholeView = this.view;
+  #closeView = new PictureView();
+  #wholeView = this.pictureView;
   #wallLayer = new WallLayer(this.plan, null);
   /** Corners of cells around the known part of the map. This part may be much smaller than the map. */
   #knownCorners: ArrayLike<number> = [];
   #densityImage = new CachedImage();
-  #wallPathMemo: Memo<string> = new Memo();
+  #wallPathMemo: MemoizedResult<string> = new MemoizedResult();
 
   /** Sets the map. If the new map has the same bounds as the previous one, the views do not change. */
   setMap(plan: Plan, grid: CellGrid | null) {
-    if (plan.bounds.some((bound, i) => bound !== this.plan.bounds[i])) for (const view of [this.#closeView, this.#wholeView]) view.clearTarget();
+    if (plan.bounds.some((bound, i) => bound !== this.plan.bounds[i])) for (const pictureView of [this.#closeView, this.#wholeView]) pictureView.clearTarget();
     this.plan = plan;
     this.hasUnknownCells = grid?.unknown !== undefined;
     this.hasMovableWalls = grid === null;
@@ -76,24 +76,24 @@ export class FloorPicture extends SamplesPicture<Scene> {
   /** Walls as an SVG path (attribute `d`), in metres. */
   get wallPathData() {
     const { walls } = this.plan;
-    return this.#wallPathMemo.get([walls], () => range(0, walls.length, 4).map((i) => `M${walls[i]} ${walls[i + 1]}L${walls[i + 2]} ${walls[i + 3]}`).join(''));
+    return this.#wallPathMemo.getResult([walls], () => range(0, walls.length, 4).map((i) => `M${walls[i]} ${walls[i + 1]}L${walls[i + 2]} ${walls[i + 3]}`).join(''));
   }
 
   /** True for a close view, which shows only the surroundings of the robot. */
   get isCloseView() {
-    return this.view === this.#closeView;
+    return this.pictureView === this.#closeView;
   }
 
   set isCloseView(isCloseView) {
     if (isCloseView === this.isCloseView) return;
-    this.view = isCloseView ? this.#closeView : this.#wholeView;
-    this.view.clearTarget();
+    this.pictureView = isCloseView ? this.#closeView : this.#wholeView;
+    this.pictureView.clearTarget();
   }
 
   fitView({ commanded, config }: Scene) {
     const mappedExtent = this.knownExtentOf(config.start);
     if (!this.isCloseView) {
-      this.#wholeView.fit(mappedExtent);
+      this.#wholeView.fitExtent(mappedExtent);
       return;
     }
     const driveLength = Math.abs(config.command.v * config.command.dt);
@@ -101,7 +101,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const [x, y] = commanded.slice(-2);
     const neededExtent = extentAround(cornersAround(x, y, halfSize), 2, widenExtent(extentAround(commanded, 2), PATH_MARGIN));
     this.#closeView.extentLimits = mappedExtent;
-    this.#closeView.fit({
+    this.#closeView.fitExtent({
       xMin: Math.max(neededExtent.xMin, mappedExtent.xMin),
       yMin: Math.max(neededExtent.yMin, mappedExtent.yMin),
       xMax: Math.min(neededExtent.xMax, mappedExtent.xMax),
@@ -118,7 +118,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     return widenExtent(extent, MAP_MARGIN * Math.max(extent.xMax - extent.xMin, extent.yMax - extent.yMin));
   }
 
-  paint: SamplesPicture<Scene>['paint'] = (drawContext, scene) => {
+  paintPicture: SamplesPicture<Scene>['paintPicture'] = (drawContext, scene) => {
     const { posesByOutcome, paths, commanded, config, markedSample, overlays } = scene;
     const { palette } = drawContext;
     const { accepted, through, rejected, commanded: commandStyle, unknown } = createLineStyles(drawContext, LINE_STYLES, overlays);
@@ -129,11 +129,11 @@ export class FloorPicture extends SamplesPicture<Scene> {
         if (through) drawPaths(drawContext, paths, through.colour);
         if (accepted) drawSamples(drawContext, posesByOutcome.accepted, accepted.colour);
         if (through) drawSamples(drawContext, posesByOutcome.through, through.colour);
-        this.#wallLayer.draw(drawContext, unknown !== undefined);
+        this.#wallLayer.drawWalls(drawContext, unknown !== undefined);
         if (rejected) drawCrosses(drawContext, posesByOutcome.rejected, rejected.colour);
       } else {
         this.#drawDensity(drawContext, scene);
-        this.#wallLayer.draw(drawContext, unknown !== undefined);
+        this.#wallLayer.drawWalls(drawContext, unknown !== undefined);
         if (through) drawPaths(drawContext, paths.slice(0, MAX_PATHS_ON_DENSITY), through.colour);
       }
       const { start, clearance } = config;
@@ -147,7 +147,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
         const { pose, path, contact } = markedSample;
         drawOutline(drawContext, path, { colour: palette.ink, width: 1.5, dash: [2, 3] });
         drawCrosshair(drawContext, { x: pose[0], y: pose[1], heading: pose[2] }, palette.ink);
-        if (contact) drawCallouts(drawContext, [{ text: words.squeeze.contactLabel, point: [contact[0], contact[1]] }], { shapeCentre: [start.x, start.y], lines: [path] });
+        if (contact) drawCallouts(drawContext, [{ text: words.squeeze.contactLabel, point: [contact[0], contact[1]] }], { shapeCentre: [start.x, start.y], avoidedLines: [path] });
       }
     });
   };
@@ -156,7 +156,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const { palette } = drawContext;
     const outcomeColours = [['rejected', palette.truth], ['accepted', palette.cloud], ['through', palette.accent]] as const;
     const outcomeRamps = outcomeColours.flatMap(([name, cloud]) => [...(overlays.includes(name) ? createDensityRamp({ ...palette, cloud }) : TRANSPARENT_RAMP)]);
-    const cellSize = clamp(DENSITY_CELL.maxSize * Math.sqrt(DENSITY_CELL.samplesAtHalfSize / stats.attempts) / 2, DENSITY_CELL.minSize, DENSITY_CELL.maxSize);
+    const cellSize = clampNumber(DENSITY_CELL.maxSize * Math.sqrt(DENSITY_CELL.samplesAtHalfSize / stats.attempts) / 2, DENSITY_CELL.minSize, DENSITY_CELL.maxSize);
     this.#densityImage.drawDensity(drawContext, cellSize, [stats, palette, overlays], (...viewPart) => simulation.picture(...viewPart, Uint8Array.from(outcomeRamps)));
   }
 }
@@ -171,20 +171,20 @@ function knownCornersOf(grid: CellGrid, unknownFlags: Uint8Array) {
   }).flat();
 }
 
-function drawCrosses({ context, view }: DrawContext, poses: Float64Array, colour: string) {
-  paintWithOpacity(context, 0.5, () => strokePath(context, { colour, width: 1 }, () => {
-    for (let i = 0; i < poses.length; i += 3) addCross(context, ...view.toPixel(poses[i], poses[i + 1]));
+function drawCrosses({ canvasContext, pictureView }: DrawContext, poses: Float64Array, lineColour: string) {
+  paintWithOpacity(canvasContext, 0.5, () => strokePath(canvasContext, { colour: lineColour, width: 1 }, () => {
+    for (let i = 0; i < poses.length; i += 3) addCross(canvasContext, ...pictureView.toPixel(poses[i], poses[i + 1]));
   }));
 }
 
-function drawPaths({ context, view }: DrawContext, paths: Float64Array[], colour: string) {
-  paintWithOpacity(context, 0.3, () => strokeInBatches(context, paths.map((points) => view.toPixels(points)), { colour, width: 1 }, PATHS_PER_STROKE));
+function drawPaths({ canvasContext, pictureView }: DrawContext, paths: Float64Array[], lineColour: string) {
+  paintWithOpacity(canvasContext, 0.3, () => strokeInBatches(canvasContext, paths.map((points) => pictureView.toPixels(points)), { colour: lineColour, width: 1 }, PATHS_PER_STROKE));
 }
 
 /** Draws samples as transparent dots, which look darker where they overlap. */
-function drawSamples({ context, view }: DrawContext, poses: Float64Array, colour: string) {
-  const dotRadius = clamp(view.width / SAMPLE_DOT.widthPerRadius, SAMPLE_DOT.minRadius, SAMPLE_DOT.maxRadius);
-  paintWithOpacity(context, SAMPLE_DOT.opacity, () => {
-    for (let i = 0; i < poses.length; i += 3) drawDisc(context, view.toPixel(poses[i], poses[i + 1]), dotRadius, colour);
+function drawSamples({ canvasContext, pictureView }: DrawContext, poses: Float64Array, lineColour: string) {
+  const dotRadius = clampNumber(pictureView.width / SAMPLE_DOT.widthPerRadius, SAMPLE_DOT.minRadius, SAMPLE_DOT.maxRadius);
+  paintWithOpacity(canvasContext, SAMPLE_DOT.opacity, () => {
+    for (let i = 0; i < poses.length; i += 3) drawDisc(canvasContext, pictureView.toPixel(poses[i], poses[i + 1]), dotRadius, lineColour);
   });
 }

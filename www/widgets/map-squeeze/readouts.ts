@@ -99,7 +99,7 @@ const MAX_SHOWN_FRACTION = 0.6;
 export function overviewMapHtml(picture: import('./picture.ts').FloorPicture, { config, commanded }: import('./settings.ts').ViewModel) {
   const { xMin, yMin, xMax, yMax } = picture.knownExtentOf(config.start);
   const [width, height] = [xMax - xMin, yMax - yMin];
-  const { extent } = picture.view;
+  const { shownExtent: extent } = picture.pictureView;
   const shownSize = [extent.xMax - extent.xMin, extent.yMax - extent.yMin];
   if (!picture.isCloseView || shownSize[0] * shownSize[1] > MAX_SHOWN_FRACTION * width * height) return nothing;
   return html`<svg class="overview" viewBox=${`${xMin} ${-yMax} ${width} ${height}`} aria-hidden="true">

@@ -40,7 +40,7 @@ export const definition = createDefinition('map-squeeze', {
     steps: { role: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
   },
   // Presets are places in the apartment, so that no preset matches on another map.
-  presetAttribute: { ...PRESET_SETTING, get: (config) => (config.map ? null : PRESET_SETTING.get(config)) },
+  presetAttribute: { ...PRESET_SETTING, getValue: (config) => (config.map ? null : PRESET_SETTING.getValue(config)) },
   elementFields: {
     view: { type: 'word', words: VIEW_NAMES, default: VIEW_NAMES[0], access: 'attribute' },
     /** Map of the user; null for the apartment. Only maps that a simulation has accepted are stored. */

@@ -5,7 +5,7 @@ import { html, nothing } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
 import { words } from '../../messages/registry.ts';
 import { Handle, stepsOfKey, turnStepsOfKey } from '../../scene/handle.ts';
-import { Memo } from '../../scene/cache.ts';
+import { MemoizedResult } from '../../scene/cache.ts';
 import { formatFixed } from '../../ui/format.ts';
 import { gripsOf, moveWall, type Grip } from './walls.ts';
 
@@ -24,22 +24,22 @@ const MAX_EDGE_INSET = 1 / 6;
 
 export class WallHandles extends FigureController<import('./map-squeeze.ts').MapSqueezeElement> {
   #handles: Map<string, Handle> = new Map();
-  #gripsMemo: Memo<Grip[]> = new Memo();
+  #gripsMemo: MemoizedResult<Grip[]> = new MemoizedResult();
   /** Name of the handle that is in the tab order. If this handle does not exist, the first handle is in the tab order. */
   #tabbableName = '';
 
   get #grips() {
-    const { plan, hasMovableWalls } = this.host.picture;
-    return this.#gripsMemo.get([plan], () => (hasMovableWalls && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? gripsOf(plan) : []));
+    const { plan, hasMovableWalls } = this.figure.picture;
+    return this.#gripsMemo.getResult([plan], () => (hasMovableWalls && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? gripsOf(plan) : []));
   }
 
   /** Visible grips, each with its handle and its point in the picture. While a handle is dragged, its grip counts as visible. */
   get #shownGrips() {
-    const { plan: { walls }, view } = this.host.picture;
-    const { xMin, xMax, yMin, yMax } = view.extent;
+    const { plan: { walls }, pictureView } = this.figure.picture;
+    const { xMin, xMax, yMin, yMax } = pictureView.shownExtent;
     const shownGrips = this.#grips.flatMap((grip) => {
       const [x0, y0, x1, y1] = walls.subarray(grip.wallOffset, grip.wallOffset + 4);
-      const insetFraction = Math.min(MAX_EDGE_INSET, EDGE_INSET_PX / (view.scaleX * Math.hypot(x1 - x0, y1 - y0)));
+      const insetFraction = Math.min(MAX_EDGE_INSET, EDGE_INSET_PX / (pictureView.scaleX * Math.hypot(x1 - x0, y1 - y0)));
       const handleFractions = { from: [insetFraction], to: [1 - insetFraction], side: SIDE_FRACTIONS }[grip.grippedPart];
       const handlePoints = handleFractions.map((fraction): [x: number, y: number] => [x0 + fraction * (x1 - x0), y0 + fraction * (y1 - y0)]);
       const visiblePoints = handlePoints.filter(([x, y]) => x > xMin && x < xMax && y > yMin && y < yMax);
@@ -53,18 +53,18 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 
   render() {
     const texts = words.squeeze.wallHandles;
-    const { bounds: [left, bottom, right, top] } = this.host.picture.plan;
+    const { bounds: [left, bottom, right, top] } = this.figure.picture.plan;
     const shownGrips = this.#shownGrips;
     const hintHtml = shownGrips.length > 0 ? html`<span class="wall-hint muted small" aria-hidden="true">${texts.hint}</span>` : nothing;
-    return this.host.renderer.renderAfterFirstPicture(() => [hintHtml, ...shownGrips.map(({ grip, handle, isTabbable }) => {
+    return this.figure.renderer.renderAfterFirstPicture(() => [hintHtml, ...shownGrips.map(({ grip, handle, isTabbable }) => {
       const { grippedPart: part, axis: [ux, uy] } = grip;
       const [x, y] = this.#gripPointOf(grip);
       return handle.handleHtml({
-        name: part === 'side' ? texts.wallName : texts.doorwayEdgeName,
+        handleName: part === 'side' ? texts.wallName : texts.doorwayEdgeName,
         keysHint: texts.keysHint,
         title: words.pose.moveTitle,
         valueRange: Math.abs(ux) > Math.abs(uy) ? [left, right] : [bottom, top],
-        value: Math.abs(ux) > Math.abs(uy) ? x : y,
+        sliderValue: Math.abs(ux) > Math.abs(uy) ? x : y,
         valueText: `x = ${formatFixed(x, 2)} m, y = ${formatFixed(y, 2)} m`,
         tabIndex: isTabbable ? 0 : -1,
       });
@@ -77,9 +77,9 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   }
 
   place() {
-    const { view } = this.host.picture;
+    const { pictureView } = this.figure.picture;
     for (const { grip: { axis, grippedPart: part }, handle, point: [x, y] } of this.#shownGrips) {
-      handle.placeElementAt(this.host.renderRoot, view.toPixelX(x), view.toPixelY(y), { angle: part === 'side' ? Math.atan(axis[0] / axis[1]) : 0 });
+      handle.placeElementAt(this.figure.renderRoot, pictureView.toPixelX(x), pictureView.toPixelY(y), { angle: part === 'side' ? Math.atan(axis[0] / axis[1]) : 0 });
     }
   }
 
@@ -93,20 +93,20 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const moveBy = (dx: number, dy: number) => callWithGrip((currentGrip) => {
       const axisDistance = dx * currentGrip.axis[0] + dy * currentGrip.axis[1];
       this.#tabbableName = name;
-      this.host.moveWalls(moveWall(this.host.picture.plan, currentGrip, axisDistance));
+      this.figure.moveWalls(moveWall(this.figure.picture.plan, currentGrip, axisDistance));
     });
     const handle = this.#handles.get(name) ?? new Handle(`${grip.grippedPart === 'side' ? 'side' : 'jamb'} ${name}`, {
-      getView: () => this.host.picture.view,
+      getView: () => this.figure.picture.pictureView,
       findGraspedPoint: () => callWithGrip((currentGrip) => [...this.#gripPointOf(currentGrip)]),
-      drag: (x, y) => callWithGrip((currentGrip) => moveBy(x - this.#gripPointOf(currentGrip)[0], y - this.#gripPointOf(currentGrip)[1])),
-      handleKey: (event) => {
-        const [keyTurns, keySteps] = [turnStepsOfKey(event), stepsOfKey(event)];
+      dragTo: (x, y) => callWithGrip((currentGrip) => moveBy(x - this.#gripPointOf(currentGrip)[0], y - this.#gripPointOf(currentGrip)[1])),
+      handleKey: (domEvent) => {
+        const [keyTurns, keySteps] = [turnStepsOfKey(domEvent), stepsOfKey(domEvent)];
         if (keyTurns) this.#focusHandle(name, -keyTurns);
         // Arrow keys perpendicular to the axis also move the handle, like the arrow keys of any slider.
         else if (keySteps) callWithGrip(({ axis: [ux, uy] }) => (keySteps[0] * ux + keySteps[1] * uy ? moveBy(KEY_STEP * keySteps[0], KEY_STEP * keySteps[1]) : moveBy(KEY_STEP * keySteps[1], KEY_STEP * keySteps[0])));
         return keySteps !== undefined;
       },
-      commit: () => this.host.gesture.commitChange(),
+      commit: () => this.figure.gesture.commitChange(),
     });
     this.#handles.set(name, handle);
     return handle;
@@ -114,15 +114,15 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 
   /** Returns the end of the wall that a grip moves. For a grip that moves the whole wall, returns the first end of the wall. */
   #gripPointOf({ wallOffset, grippedPart: part }: Grip) {
-    return this.host.picture.plan.walls.subarray(part === 'to' ? wallOffset + 2 : wallOffset, wallOffset + 4);
+    return this.figure.picture.plan.walls.subarray(part === 'to' ? wallOffset + 2 : wallOffset, wallOffset + 4);
   }
 
   /** Moves the focus to another handle: from the named handle, `indexOffset` places further in the list of visible handles. */
   #focusHandle(name: string, indexOffset: number) {
     const handleNames = this.#shownGrips.map((shownGrip) => shownGrip.name);
     this.#tabbableName = handleNames[(handleNames.indexOf(name) + indexOffset + handleNames.length) % handleNames.length];
-    this.host.requestUpdate();
-    (this.host.renderRoot.querySelector(`.handle.${this.#tabbableName}`) as HTMLElement | null)?.focus();
+    this.figure.requestUpdate();
+    (this.figure.renderRoot.querySelector(`.handle.${this.#tabbableName}`) as HTMLElement | null)?.focus();
   }
 }
 

@@ -1,6 +1,6 @@
 /** Moving of walls. Lengths are in metres. */
 
-import { clamp } from '../../ui/format.ts';
+import { clampNumber } from '../../ui/format.ts';
 import type { Plan } from '../../types.d.ts';
 
 /** Maximum distance between two walls that touch, m. */
@@ -13,7 +13,7 @@ const MIN_WALL_GAP = 0.05;
 function distanceToWall(walls: ArrayLike<number>, k: number, x: number, y: number) {
   const [x0, y0] = [walls[k], walls[k + 1]];
   const [dx, dy] = [walls[k + 2] - x0, walls[k + 3] - y0];
-  const fraction = clamp(((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy || 1), 0, 1);
+  const fraction = clampNumber(((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy || 1), 0, 1);
   return Math.hypot(x - x0 - fraction * dx, y - y0 - fraction * dy);
 }
 
@@ -76,7 +76,7 @@ export function moveWall({ bounds, walls }: Plan, { wallOffset, grippedPart: par
 function limitToBounds(distance: number, bounds: ArrayLike<number>, points: number[][], axis: number[]) {
   const limits = points.flatMap((point) => [0, 1].filter((i) => Math.abs(axis[i]) > TOUCH_DISTANCE).map((i) => [bounds[i] + MIN_WALL_GAP, bounds[i + 2] - MIN_WALL_GAP].map((bound) => (bound - point[i]) / axis[i])));
   return limits.reduce((limitedDistance, [distanceToBound, distanceToOtherBound]) =>
-    clamp(limitedDistance, Math.min(0, distanceToBound, distanceToOtherBound), Math.max(0, distanceToBound, distanceToOtherBound)), distance);
+    clampNumber(limitedDistance, Math.min(0, distanceToBound, distanceToOtherBound), Math.max(0, distanceToBound, distanceToOtherBound)), distance);
 }
 
 /** Returns the distance that the end of a wall can move along an axis before it comes too close to another wall; at most the requested distance. */

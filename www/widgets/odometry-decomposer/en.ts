@@ -76,4 +76,4 @@ export const en = {
     caption: 'The rotations as they were read. The point is that of the outcomes, with its standard error.',
   },
   readingDescription: (rot1, trans, rot2) => `The reading: a first rotation by ${rot1} rad, a drive of ${trans} m, a second rotation by ${rot2} rad`,
-} satisfies import('../../messages/registry.ts').Message;
+} satisfies import('../../messages/registry.ts').MessageEntry;

@@ -5,7 +5,7 @@ import { pictureHtml, disclosuresHtml, settingRadiosHtml, settingSlidersHtml, le
 import { FigureElement } from '../../figure/figure.ts';
 import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
-import { Memo } from '../../scene/cache.ts';
+import { MemoizedResult } from '../../scene/cache.ts';
 import { formatMarkup, radioButtonHtml, fieldsetHtml } from '../../ui/controls.ts';
 import { formatFixed } from '../../ui/format.ts';
 import { tableHtml } from '../../ui/readouts.ts';
@@ -21,14 +21,14 @@ import type { Motion, OdometryDecomposer as Simulation } from '../../types.d.ts'
 function noiseModelTableHtml(figure: OdometryDecomposerElement) {
   const { ruleNames, table: texts, settings } = words.decomposer;
   const { rules } = figure.viewModel;
-  const currentRule = figure.settings.requested.rule;
+  const currentRule = figure.settings.requestedValues.rule;
   const printedRows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((noiseValue) => formatFixed(noiseValue, 3)));
   return html`<div class="rules" role="radiogroup" aria-label=${settings.rule.name}>
     ${tableHtml({
       caption: formatMarkup(texts.caption),
       columnHeadings: [settings.rule.name, ...texts.columns.map(formatMarkup)],
       rows: rules.map(({ rule }, i) => [
-        radioButtonHtml({ group: 'rule', label: ruleNames[rule], checked: rule === currentRule, onChoose: () => figure.gesture.requestAndCommit({ rule }) }),
+        radioButtonHtml({ groupName: 'rule', labelContent: ruleNames[rule], isChecked: rule === currentRule, onChoose: () => figure.gesture.requestAndCommit({ rule }) }),
         ...printedRows[i].map((printedValue, columnIndex) => (printedValue === printedRows[0][columnIndex] ? printedValue : html`<strong>${printedValue}</strong>`)),
       ]),
     })}
@@ -37,7 +37,7 @@ function noiseModelTableHtml(figure: OdometryDecomposerElement) {
 
 function noiseControlsHtml(figure: OdometryDecomposerElement) {
   return html`<div class="controls">
-      ${fieldsetHtml(words.noise, html`${settingSlidersHtml(figure, NOISE_SLIDERS)} ${settingRadiosHtml(figure, 'noise', words.noiseNames)}`, 'alphas')}
+      ${fieldsetHtml(words.noiseHeading, html`${settingSlidersHtml(figure, NOISE_SLIDERS)} ${settingRadiosHtml(figure, 'noise', words.noiseNames)}`, 'alphas')}
       ${cloudControlsHtml(figure)}
     </div>
     <p>${formatMarkup(words.decomposer.correlationNote)}</p>`;
@@ -125,9 +125,9 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
 
   createSimulation = ({ OdometryDecomposer }: Motion) => new OdometryDecomposer();
 
-  #spreadCurveMemo: Memo<Float64Array> = new Memo();
+  #spreadCurveMemo: MemoizedResult<Float64Array> = new MemoizedResult();
   #spreadCurveOf = (maxLength: number, pointCount: number) =>
-    this.#spreadCurveMemo.get([this.viewModel.stats, maxLength, pointCount], () => (this.simulation as Simulation).curve(maxLength, pointCount));
+    this.#spreadCurveMemo.getResult([this.viewModel.stats, maxLength, pointCount], () => (this.simulation as Simulation).curve(maxLength, pointCount));
 
   readViewModel = viewModelOf;
 

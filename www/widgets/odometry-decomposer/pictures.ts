@@ -7,7 +7,7 @@ import { drawCallouts, type Callout } from '../../scene/labels.ts';
 import { addLine, fillPath, paintWithOpacity, strokePath, strokeLine, type DrawContext, type LineStroke } from '../../scene/canvas.ts';
 import { addTurnArc, drawDots, drawCrosshair, drawOutlines, drawRobot, hasLength, createLineLegend, createLineStyles, strokeLines } from '../../scene/draw.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
-import { View, cornersAround, extentOf } from '../../scene/view.ts';
+import { PictureView, cornersAround, extentOf } from '../../scene/view.ts';
 import { formatFixed } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline, turnHandleDistanceOf } from '../shared/robot.ts';
 import { poseAt, LINE_STYLES } from './settings.ts';
@@ -33,29 +33,29 @@ function ellipsePointsOf({ x, y, theta }: Pose, alongRadius: number, acrossRadiu
 }
 
 /** Draws a turn (rad) as an arc with an arrow head. The arc starts at the heading of a pose, and its radius is in pixels. */
-function drawTurn({ context, view }: DrawContext, startPose: Pose, turn: number, arcRadius: number, colour: string) {
-  strokePath(context, { colour, width: 1.75 }, () => addTurnArc(context, view.toPixel(startPose.x, startPose.y), arcRadius, startPose.theta, turn));
+function drawTurn({ canvasContext, pictureView }: DrawContext, startPose: Pose, turn: number, arcRadius: number, lineColour: string) {
+  strokePath(canvasContext, { colour: lineColour, width: 1.75 }, () => addTurnArc(canvasContext, pictureView.toPixel(startPose.x, startPose.y), arcRadius, startPose.theta, turn));
   // The arrow head is smaller on a short arc.
   const arrowHeadLength = Math.min(ARROW_HEAD_SIZE.length, arcRadius * Math.abs(turn));
-  const arrowTip = view.headingLineFrom({ ...startPose, theta: startPose.theta + turn }, arcRadius)[1];
+  const arrowTip = pictureView.headingLineFrom({ ...startPose, theta: startPose.theta + turn }, arcRadius)[1];
   const arrowBasePose = { ...startPose, theta: startPose.theta + turn - (Math.sign(turn) * arrowHeadLength) / arcRadius };
   const arrowHeadScale = arrowHeadLength / ARROW_HEAD_SIZE.length;
-  const arrowCornerOf = (arrowSide: number) => view.headingLineFrom(arrowBasePose, arcRadius + arrowSide * arrowHeadScale * ARROW_HEAD_SIZE.halfWidth)[1];
-  fillPath(context, colour, () => addLine(context, [arrowTip, arrowCornerOf(1), arrowCornerOf(-1)]));
+  const arrowCornerOf = (arrowSide: number) => pictureView.headingLineFrom(arrowBasePose, arcRadius + arrowSide * arrowHeadScale * ARROW_HEAD_SIZE.halfWidth)[1];
+  fillPath(canvasContext, lineColour, () => addLine(canvasContext, [arrowTip, arrowCornerOf(1), arrowCornerOf(-1)]));
 }
 
 /** Draws a standard deviation (rad) as a fan to both sides of a heading. The radius of the fan is in pixels. */
-function drawDeviationFan({ context, view }: DrawContext, { x, y, theta }: Pose, deviation: number, fanRadius: number, colour: string) {
+function drawDeviationFan({ canvasContext, pictureView }: DrawContext, { x, y, theta }: Pose, deviation: number, fanRadius: number, lineColour: string) {
   const halfAngle = Math.min(deviation, Math.PI);
   if (halfAngle === 0) return;
-  const fanCentre = view.toPixel(x, y);
+  const fanCentre = pictureView.toPixel(x, y);
   const addFan = () => {
-    context.moveTo(...fanCentre);
-    addTurnArc(context, fanCentre, fanRadius, theta + halfAngle, -2 * halfAngle);
-    context.closePath();
+    canvasContext.moveTo(...fanCentre);
+    addTurnArc(canvasContext, fanCentre, fanRadius, theta + halfAngle, -2 * halfAngle);
+    canvasContext.closePath();
   };
-  paintWithOpacity(context, 0.14, () => fillPath(context, colour, addFan));
-  paintWithOpacity(context, 0.75, () => strokePath(context, { colour, width: 1, dash: [5, 3] }, addFan));
+  paintWithOpacity(canvasContext, 0.14, () => fillPath(canvasContext, lineColour, addFan));
+  paintWithOpacity(canvasContext, 0.75, () => strokePath(canvasContext, { colour: lineColour, width: 1, dash: [5, 3] }, addFan));
 }
 
 /** Data that the two pictures show: results of the simulation, and the names of the visible lines. */
@@ -110,11 +110,11 @@ function spreadEllipsesOf({ palette }: DrawContext, { linkage, rules, config }: 
   const hasOtherDeviations = comparedNoise.deviations.some((deviation, i) => Math.abs(deviation - currentNoise.deviations[i]) > 1e-9);
   return [currentNoise, ...(hasOtherDeviations ? [comparedNoise] : [])].map(({ rule, deviations, crossTrack }) => {
     const ellipsePoints = ellipsePointsOf(poseAt(linkage, 2), 2 * deviations[1], 2 * crossTrack);
-    const colour = rule === config.rule ? palette.prediction : palette.ink;
+    const lineColour = rule === config.rule ? palette.prediction : palette.ink;
     // The callouts are placed apart: at the front of the ellipse of Table 5.6, and at the top of the smaller ellipse of another noise model.
     const calloutPoint = rule === 'thrun' ? ellipsePoints[0] : greatest(ellipsePoints, ([, y]) => y) as [number, number];
-    const callout: Callout = { text: words.decomposer.spreadLabel(words.decomposer.ruleNames[rule]), point: calloutPoint, colour };
-    return { points: Float64Array.from(ellipsePoints.flat()), colour, width: 2, callout };
+    const callout: Callout = { text: words.decomposer.spreadLabel(words.decomposer.ruleNames[rule]), point: calloutPoint, colour: lineColour };
+    return { points: Float64Array.from(ellipsePoints.flat()), colour: lineColour, width: 2, callout };
   }).filter(({ points: ellipsePoints }) => hasLength(ellipsePoints));
 }
 
@@ -126,7 +126,7 @@ function drawMarkedPose(drawContext: DrawContext, { markedPose }: Scene) {
 type TurnArc = [Pose, turn: number, radius: number];
 
 /** Returns the radii (pixels) of the arcs that show the two turns. */
-const turnRadiiOf = (view: Pick<View, 'scaleX'>) => [0, 1].map((arcIndex) => turnHandleDistanceOf(view, ROBOT_RADIUS) + ARC_GAPS.afterHandle + arcIndex * ARC_GAPS.betweenArcs);
+const turnRadiiOf = (pictureView: Pick<PictureView, 'scaleX'>) => [0, 1].map((arcIndex) => turnHandleDistanceOf(pictureView, ROBOT_RADIUS) + ARC_GAPS.afterHandle + arcIndex * ARC_GAPS.betweenArcs);
 
 /** Returns points of an arc about a pose as x, y pairs. The arc starts at the heading of the pose. Its turn is in radians, and its radius in metres. */
 function turnArcPoints({ x, y, theta }: Pose, turn: number, arcRadius: number) {
@@ -137,30 +137,30 @@ function turnArcPoints({ x, y, theta }: Pose, turn: number, arcRadius: number) {
 
 /** Picture in the odometry frame: the three legs (rotation, drive, rotation) as a linkage, and the effect of noise on them. */
 export class LegsPicture extends SamplesPicture<Scene> {
-  name = 'plane';
-  view: View = new View({ relativeMargin: 0 });
+  pictureName = 'plane';
+  pictureView: PictureView = new PictureView({ relativeMargin: 0 });
 
   fitView(scene: Scene) {
     const { linkage, legs, overlays } = scene;
     const coordinatesToShow = coordinatesToShowOf(scene);
     const shownExtent = extentOf(coordinatesToShow, 1.2);
-    const arcRadii = turnRadiiOf({ scaleX: this.view.fittingScaleOf(shownExtent) });
+    const arcRadii = turnRadiiOf({ scaleX: this.pictureView.fittingScaleOf(shownExtent) });
     const shownTurns = overlays.includes('legs') ? [legs.rot1, legs.rot2] : [];
-    const arcPoints = shownTurns.flatMap((turn, i) => turnArcPoints(poseAt(linkage, 2 * i), turn, this.view.markLengthOf(shownExtent, arcRadii[i])));
-    this.view.fit(extentOf([...coordinatesToShow, ...arcPoints], 1.2));
+    const arcPoints = shownTurns.flatMap((turn, i) => turnArcPoints(poseAt(linkage, 2 * i), turn, this.pictureView.markLengthOf(shownExtent, arcRadii[i])));
+    this.pictureView.fitExtent(extentOf([...coordinatesToShow, ...arcPoints], 1.2));
   }
 
-  paint: SamplesPicture<Scene>['paint'] = (drawContext, scene) => {
+  paintPicture: SamplesPicture<Scene>['paintPicture'] = (drawContext, scene) => {
     const { palette } = drawContext;
     const { linkage, legs, deviations, config, overlays } = scene;
     const [startPose, turnedPose, drivenPose] = [0, 1, 2].map((poseIndex) => poseAt(linkage, poseIndex));
     const lines = createLineStyles(drawContext, LINE_STYLES, overlays);
     drawAxes(drawContext, AXIS_NAMES, createLineLegend(drawContext, lines, ['legs', 'deviation', 'outcomes'], words.decomposer.overlays));
-    const [firstTurnRadius, secondTurnRadius] = turnRadiiOf(this.view);
+    const [firstTurnRadius, secondTurnRadius] = turnRadiiOf(this.pictureView);
     const turnArcs: TurnArc[] = [[startPose, legs.rot1, firstTurnRadius], [drivenPose, legs.rot2, secondTurnRadius]];
     const spreadEllipses = lines.deviation ? spreadEllipsesOf(drawContext, scene) : [];
     clipToPlot(drawContext, () => {
-      if (lines.deviation) drawDeviationFan(drawContext, turnedPose, deviations.rot1, Math.max(legs.trans * this.view.scaleX, secondTurnRadius), lines.deviation.colour);
+      if (lines.deviation) drawDeviationFan(drawContext, turnedPose, deviations.rot1, Math.max(legs.trans * this.pictureView.scaleX, secondTurnRadius), lines.deviation.colour);
       if (lines.outcomes) this.#paintGhosts(drawContext, scene);
       drawOutcomes(drawContext, scene);
       drawOutlines(drawContext, spreadEllipses);
@@ -174,40 +174,40 @@ export class LegsPicture extends SamplesPicture<Scene> {
       }
       drawMarkedPose(drawContext, scene);
     });
-    const turnArcOutlines = turnArcs.map(([turnPose, turn, turnRadius]) => Float64Array.from(turnArcPoints(turnPose, turn, turnRadius / this.view.scaleX)));
+    const turnArcOutlines = turnArcs.map(([turnPose, turn, turnRadius]) => Float64Array.from(turnArcPoints(turnPose, turn, turnRadius / this.pictureView.scaleX)));
     const legCallouts = lines.legs ? this.#createLegCallouts(drawContext, scene, turnArcs) : [];
     drawCallouts(drawContext, [...legCallouts, ...spreadEllipses.map(({ callout }) => callout)], {
-      shapeCentre: [drivenPose.x, drivenPose.y], lines: [...spreadEllipses.map(({ points }) => points), ...turnArcOutlines, segmentCoordinatesOf(startPose, drivenPose)],
+      shapeCentre: [drivenPose.x, drivenPose.y], avoidedLines: [...spreadEllipses.map(({ points }) => points), ...turnArcOutlines, segmentCoordinatesOf(startPose, drivenPose)],
     });
   };
 
   /** Returns callouts with the value and standard deviation of each leg that is long enough to see. */
-  #createLegCallouts({ view, palette: { prior: colour } }: DrawContext, { legs, deviations }: Scene, turnArcs: TurnArc[]): Callout[] {
+  #createLegCallouts({ pictureView, palette: { prior: lineColour } }: DrawContext, { legs, deviations }: Scene, turnArcs: TurnArc[]): Callout[] {
     const [startPose, drivenPose] = turnArcs.map(([turnPose]) => turnPose);
-    const middleOf = ([{ x, y, theta }, turn, arcRadius]: TurnArc): [number, number] => view.toWorld(...view.headingLineFrom({ x, y, theta: theta + turn / 2 }, arcRadius)[1]);
+    const middleOf = ([{ x, y, theta }, turn, arcRadius]: TurnArc): [number, number] => pictureView.toWorld(...pictureView.headingLineFrom({ x, y, theta: theta + turn / 2 }, arcRadius)[1]);
     const legCallouts = [
       { subscript: 'rot1', unit: 'rad', isShown: Math.abs(legs.rot1) >= MIN_DRAWN_TURN, point: middleOf(turnArcs[0]) },
-      { subscript: 'trans', unit: 'm', isShown: legs.trans * view.scaleX >= MIN_LABELLED_LENGTH, point: [(startPose.x + drivenPose.x) / 2, (startPose.y + drivenPose.y) / 2] as [number, number] },
+      { subscript: 'trans', unit: 'm', isShown: legs.trans * pictureView.scaleX >= MIN_LABELLED_LENGTH, point: [(startPose.x + drivenPose.x) / 2, (startPose.y + drivenPose.y) / 2] as [number, number] },
       { subscript: 'rot2', unit: 'rad', isShown: Math.abs(legs.rot2) >= MIN_DRAWN_TURN, point: middleOf(turnArcs[1]) },
     ] as const;
     return legCallouts.filter(({ isShown }) => isShown).map(({ subscript, unit, point }) => {
       const deviationText = deviations[subscript] > 0 ? ` ± ${formatFixed(deviations[subscript], 2)}` : '';
-      return { point, symbol: 'δ', subscript, text: `${formatFixed(legs[subscript], 2)}${deviationText} ${unit}`, colour };
+      return { point, symbol: 'δ', subscript, text: `${formatFixed(legs[subscript], 2)}${deviationText} ${unit}`, colour: lineColour };
     });
   }
 
-  #paintGhosts({ context, view, palette }: DrawContext, { ghosts }: Scene) {
-    const ghostPixelOf = (pointIndex: number) => view.toPixel(ghosts[3 * pointIndex], ghosts[3 * pointIndex + 1]);
-    paintWithOpacity(context, 0.5, () => strokePath(context, { colour: palette.cloud, width: 1 }, () => {
-      for (let i = 0; i < ghosts.length / 3; i += 4) addLine(context, [0, 1, 2, 3].map((k) => ghostPixelOf(i + k)));
+  #paintGhosts({ canvasContext, pictureView, palette }: DrawContext, { ghosts }: Scene) {
+    const ghostPixelOf = (pointIndex: number) => pictureView.toPixel(ghosts[3 * pointIndex], ghosts[3 * pointIndex + 1]);
+    paintWithOpacity(canvasContext, 0.5, () => strokePath(canvasContext, { colour: palette.cloud, width: 1 }, () => {
+      for (let i = 0; i < ghosts.length / 3; i += 4) addLine(canvasContext, [0, 1, 2, 3].map((k) => ghostPixelOf(i + k)));
     }));
   }
 }
 
 /** Picture of the world frame, in which the odometry frame has drifted. */
 export class WorldPicture extends SamplesPicture<Scene> {
-  name = 'world';
-  view: View = new View({ relativeMargin: 0 });
+  pictureName = 'world';
+  pictureView: PictureView = new PictureView({ relativeMargin: 0 });
 
   fitView(scene: Scene) {
     const { poses } = scene.drifted;
@@ -215,24 +215,24 @@ export class WorldPicture extends SamplesPicture<Scene> {
       const { x, y } = poseAt(poses, poseIndex);
       return cornersAround(x, y, VIEW_MARGINS.aroundRobot);
     });
-    this.view.fit(extentOf([...coordinatesToShowOf(scene), ...robotBoxCorners], 1.2));
+    this.pictureView.fitExtent(extentOf([...coordinatesToShowOf(scene), ...robotBoxCorners], 1.2));
   }
 
-  paint: SamplesPicture<Scene>['paint'] = (drawContext, scene) => {
-    const { palette, context, view } = drawContext;
+  paintPicture: SamplesPicture<Scene>['paintPicture'] = (drawContext, scene) => {
+    const { palette, canvasContext, pictureView } = drawContext;
     const lines = createLineStyles(drawContext, LINE_STYLES, scene.overlays);
     const [framePose, odometryStart, odometryEnd] = [0, 1, 2].map((poseIndex) => poseAt(scene.drifted.poses, poseIndex));
     const [startPose, predictedPose] = [poseAt(scene.linkage, 0), poseAt(scene.linkage, 3)];
     drawAxes(drawContext, AXIS_NAMES);
     clipToPlot(drawContext, () => {
       if (lines.odometry) {
-        const axisLength = FRAME_AXIS_LENGTH * view.scaleX;
-        const [, yAxisEnd] = view.headingLineFrom({ ...framePose, theta: framePose.theta + Math.PI / 2 }, axisLength);
-        strokeLine(context, [yAxisEnd, ...view.headingLineFrom(framePose, axisLength)], { colour: palette.prior, width: 1.25 });
+        const axisLength = FRAME_AXIS_LENGTH * pictureView.scaleX;
+        const [, yAxisEnd] = pictureView.headingLineFrom({ ...framePose, theta: framePose.theta + Math.PI / 2 }, axisLength);
+        strokeLine(canvasContext, [yAxisEnd, ...pictureView.headingLineFrom(framePose, axisLength)], { colour: palette.prior, width: 1.25 });
         drawSegment(drawContext, odometryStart, odometryEnd, lines.odometry);
         for (const pose of [odometryStart, odometryEnd]) {
           drawRobotOutline(drawContext, pose.x, pose.y, ROBOT_RADIUS, palette.prior);
-          strokeLine(context, view.headingLineFrom(pose, ROBOT_RADIUS * view.scaleX + 8), { colour: palette.prior, width: 1.5 });
+          strokeLine(canvasContext, pictureView.headingLineFrom(pose, ROBOT_RADIUS * pictureView.scaleX + 8), { colour: palette.prior, width: 1.5 });
         }
       }
       drawOutcomes(drawContext, scene);
@@ -249,7 +249,7 @@ export class WorldPicture extends SamplesPicture<Scene> {
       ...(lines.outcomes && lowestOutcome >= 0 ? [{ text: outcomesLabel(ruleNames[scene.config.rule]), point: [scene.poses[3 * lowestOutcome], scene.poses[3 * lowestOutcome + 1]] as [number, number], colour: palette.prediction }] : []),
     ];
     drawCallouts(drawContext, callouts, {
-      shapeCentre: [(startPose.x + predictedPose.x) / 2, (startPose.y + predictedPose.y) / 2], lines: [segmentCoordinatesOf(startPose, predictedPose), segmentCoordinatesOf(odometryStart, odometryEnd)],
+      shapeCentre: [(startPose.x + predictedPose.x) / 2, (startPose.y + predictedPose.y) / 2], avoidedLines: [segmentCoordinatesOf(startPose, predictedPose), segmentCoordinatesOf(odometryStart, odometryEnd)],
     });
   };
 }
@@ -258,9 +258,9 @@ export class WorldPicture extends SamplesPicture<Scene> {
 const segmentCoordinatesOf = (startPose: Pose, endPose: Pose) => Float64Array.of(startPose.x, startPose.y, endPose.x, endPose.y);
 
 /** Returns callouts for the poses before and after a motion. If the two poses are at the same place on the screen, returns only the second callout. */
-function createPoseCallouts({ view }: DrawContext, poses: Pose[], symbol: string, poseColours: string[]): Callout[] {
+function createPoseCallouts({ pictureView }: DrawContext, poses: Pose[], symbol: string, poseColours: string[]): Callout[] {
   const [firstCallout, secondCallout] = poses.map(({ x, y }, i): Callout => ({ point: [x, y], symbol, subscript: ['t−1', 't'][i], colour: poseColours[i] }));
-  const pixelDistance = Math.hypot(poses[0].x - poses[1].x, poses[0].y - poses[1].y) * view.scaleX;
+  const pixelDistance = Math.hypot(poses[0].x - poses[1].x, poses[0].y - poses[1].y) * pictureView.scaleX;
   return pixelDistance > MIN_LABELLED_LENGTH ? [firstCallout, secondCallout] : [secondCallout];
 }
 

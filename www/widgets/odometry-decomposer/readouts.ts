@@ -71,16 +71,16 @@ export function spreadPlotHtml(readCurve: (maxLength: number, pointCount: number
   return html`<figure>
     <p class="panel-title">${texts.title}</p>
     ${plotHtml({
-      label: `${texts.title}, ${texts.acrossCurve}: ${formatMetres(stats.exactCrossTrack)}`,
-      x: { name: 'δ trans (m)', min: 0, max: maxLength },
-      y: { name: 'σ (m)', min: 0, max: 1.08 * maxDeviation },
-      curves: [
+      plotLabel: `${texts.title}, ${texts.acrossCurve}: ${formatMetres(stats.exactCrossTrack)}`,
+      x: { axisLabel: 'δ trans (m)', min: 0, max: maxLength },
+      y: { axisLabel: 'σ (m)', min: 0, max: 1.08 * maxDeviation },
+      plotCurves: [
         { name: texts.acrossCurve, role: 'prediction', x: driveLengths, y: acrossDeviations },
         { name: words.decomposer.readouts.firstRotationDeviation, role: 'muted', dash: [2, 4], x: driveLengths, y: leverDeviations },
         { name: texts.alongCurve, role: 'prior', dash: [7, 4], x: driveLengths, y: alongDeviations },
       ],
-      points: [{ role: 'prediction', x: legs.trans, y: stats.crossTrack, error: stats.crossTrackError }],
-      marks: [{ x: legs.trans, text: texts.readingMark }],
+      dataPoints: [{ role: 'prediction', x: legs.trans, y: stats.crossTrack, error: stats.crossTrackError }],
+      verticalMarks: [{ x: legs.trans, text: texts.readingMark }],
     })}
     <figcaption>${formatMarkup(texts.caption)}</figcaption>
   </figure>`;

@@ -11,7 +11,7 @@ import { buttonHtml, fieldsetHtml, numberFieldHtml } from '../../ui/controls.ts'
 import { formatInteger } from '../../ui/format.ts';
 import type { Figure } from '../../figure/figure.ts';
 import type { StateValues } from '../../figure/settings.ts';
-import type { Picture } from '../../scene/picture.ts';
+import type { FigurePicture } from '../../scene/picture.ts';
 
 /** Numbers of samples in a simulation, or in the data that was read from it. */
 interface SampleCount {
@@ -37,14 +37,14 @@ export class Cloud extends FigureController {
   #hasGivenUp;
 
   /** Creates the cloud. `hasGivenUp` returns true if a simulation stopped before it had drawn all requested samples. Its argument is the simulation, or data that was read from it. */
-  constructor(host: Figure, hasGivenUp: (latestCounts: any) => boolean = () => false) {
-    super(host);
+  constructor(figure: Figure, hasGivenUp: (latestCounts: any) => boolean = () => false) {
+    super(figure);
     this.#hasGivenUp = hasGivenUp;
   }
 
   /** Fields in the state of the element that belong to the cloud. */
   get #state() {
-    return this.host.settings.elementState as { playing: boolean, shown: number, marked: number | null };
+    return this.figure.settings.elementState as { playing: boolean, shown: number, marked: number | null };
   }
 
   /** True while the cloud grows. */
@@ -53,12 +53,12 @@ export class Cloud extends FigureController {
   }
 
   get #simulation(): GrowingSimulation {
-    return this.host.simulation as GrowingSimulation;
+    return this.figure.simulation as GrowingSimulation;
   }
 
   /** Latest numbers of samples: those in the data on screen, or if the simulation has changed since then, those of the simulation. */
   get #latestCounts(): SampleCount {
-    const { settings, viewModel } = this.host;
+    const { settings, viewModel } = this.figure;
     return (settings.isViewModelStale && this.#simulation) || viewModel;
   }
 
@@ -68,7 +68,7 @@ export class Cloud extends FigureController {
   }
 
   get #requestedCount(): number {
-    return this.host.settings.current.samples;
+    return this.figure.settings.currentValues.samples;
   }
 
   get #batchSize() {
@@ -101,7 +101,7 @@ export class Cloud extends FigureController {
   #restartSampling() {
     this.#state.shown = 0;
     if (this.#latestCounts.shown > 0) this.configure(this.#simulation, {});
-    this.host.settings.isViewModelStale = true;
+    this.figure.settings.isViewModelStale = true;
   }
 
   /** Shows all requested samples at once. If the cloud was growing, it is then complete. */
@@ -129,7 +129,7 @@ export class Cloud extends FigureController {
       shown = this.#simulation.addSamples(Math.min(targetCount - shown, block));
       // If no sample was added, the simulation has given up.
       if (shown === shownBefore) break;
-      this.host.settings.isViewModelStale = true;
+      this.figure.settings.isViewModelStale = true;
     }
     return true;
   }
@@ -151,16 +151,16 @@ export class Cloud extends FigureController {
   select(sampleIndex: number) {
     if (sampleIndex === this.selectedIndex) return;
     this.#state.marked = sampleIndex < 0 ? null : sampleIndex;
-    this.host.renderer.requestFrame();
+    this.figure.renderer.requestFrame();
   }
 
-  selectAtPointer(picture: Picture<any>, event: PointerEvent) {
-    const { simulation, gesture } = this.host;
+  selectAtPointer(picture: FigurePicture<any>, domEvent: PointerEvent) {
+    const { simulation, gesture } = this.figure;
     // On a touch screen a moving finger scrolls the page, so that only a tap selects a sample.
-    if (!simulation || gesture.isPressed || (event.pointerType === 'touch' && event.type !== 'click')) return;
-    const [x, y] = toViewPixels(event.currentTarget as Element, picture.view, event);
+    if (!simulation || gesture.isPressed || (domEvent.pointerType === 'touch' && domEvent.type !== 'click')) return;
+    const [x, y] = toViewPixels(domEvent.currentTarget as Element, picture.pictureView, domEvent);
     const sampleIndex = picture.findNearestSample(simulation, x, y);
-    if (sampleIndex >= 0 || event.type === 'click') this.select(sampleIndex);
+    if (sampleIndex >= 0 || domEvent.type === 'click') this.select(sampleIndex);
   }
 
   /** True if the selected sample is shown. */
@@ -186,7 +186,7 @@ export class Cloud extends FigureController {
   /** Adds samples during a frame. In the first frame after a change no samples are added to the first block, so that dragging a slider stays smooth. */
   addSamplesWhileDrawing() {
     if (this.playing) this.addGrowthStep();
-    else if (!this.host.settings.isViewModelStale) this.addSamplesUnseen();
+    else if (!this.figure.settings.isViewModelStale) this.addSamplesUnseen();
   }
 
   addGrowthStep() {
@@ -194,16 +194,16 @@ export class Cloud extends FigureController {
     if (!this.isComplete) return;
     this.#state.shown = Infinity;
     this.#state.playing = false;
-    this.host.announcer.requestAnnouncement();
+    this.figure.announcer.requestAnnouncement();
   }
 
   /** Runs the action of a button below the cloud. After the action the cloud grows if `shouldPlay` is true, and stops otherwise. */
   #runControl(shouldPlay: boolean, runAction: () => void) {
-    if (!this.host.simulation) return;
+    if (!this.figure.simulation) return;
     runAction();
     this.#state.playing = shouldPlay;
-    this.host.gesture.commitOneStep();
-    this.host.renderer.requestFrame();
+    this.figure.gesture.commitOneStep();
+    this.figure.renderer.requestFrame();
   }
 
   buttonsHtml() {
@@ -211,12 +211,12 @@ export class Cloud extends FigureController {
     const togglePlaying = () => this.#runControl(!this.playing, () => {
       if (!this.playing && this.isComplete) this.#restartSampling();
     });
-    const [currentLabel, otherLabel] = this.playing ? [words.pause, cloudWords.play] : [cloudWords.play, words.pause];
+    const [currentLabel, otherLabel] = this.playing ? [words.pauseLabel, cloudWords.drawLabel] : [cloudWords.drawLabel, words.pauseLabel];
     return html`<div class="buttons">
       ${buttonHtml(currentLabel, togglePlaying, { title: cloudWords.playTitle, otherLabel })}
-      ${buttonHtml(words.step, () => this.#runControl(false, () => this.showSamples(this.#latestCounts.shown + this.#batchSize)), { title: cloudWords.stepTitle(formatInteger(this.#batchSize)), disabled: this.isComplete })}
-      ${buttonHtml(words.clear, () => this.#runControl(false, () => this.#restartSampling()), { title: cloudWords.clearTitle })}
-      ${seedFieldHtml(this.host)} ${buttonHtml(words.newSeed, () => this.host.gesture.requestAndCommit(() => ({ seed: this.host.motion.randomSeed() })), { title: cloudWords.newSeedTitle })}
+      ${buttonHtml(words.stepLabel, () => this.#runControl(false, () => this.showSamples(this.#latestCounts.shown + this.#batchSize)), { title: cloudWords.stepTitle(formatInteger(this.#batchSize)), disabled: this.isComplete })}
+      ${buttonHtml(words.clearLabel, () => this.#runControl(false, () => this.#restartSampling()), { title: cloudWords.clearTitle })}
+      ${seedFieldHtml(this.figure)} ${buttonHtml(words.newSeed, () => this.figure.gesture.requestAndCommit(() => ({ seed: this.figure.motion.randomSeed() })), { title: cloudWords.newSeedTitle })}
     </div>`;
   }
 }
@@ -237,12 +237,12 @@ export function createSamplesSliderSpec(maxSampleCount: number): SliderSpec {
 
 /** Returns the controls of the cloud: its size, its growth and its seed. */
 export function cloudControlsHtml(figure: CloudFigure) {
-  return fieldsetHtml(words.samples, html`${settingSliderHtml(figure, 'samples')} ${figure.cloud.buttonsHtml()}`, 'cloud');
+  return fieldsetHtml(words.samplesHeading, html`${settingSliderHtml(figure, 'samples')} ${figure.cloud.buttonsHtml()}`, 'cloud');
 }
 
 function seedFieldHtml(figure: Figure) {
   return html`<form method="dialog">
-    <label class="seed">${words.seed} ${numberFieldHtml({ ...declarationOf(figure, 'seed'), value: figure.settings.requested.seed, onChange: (seed) => figure.gesture.requestAndCommit({ seed }) })}</label>
+    <label class="seed">${words.seed} ${numberFieldHtml({ ...declarationOf(figure, 'seed'), value: figure.settings.requestedValues.seed, onChange: (seed) => figure.gesture.requestAndCommit({ seed }) })}</label>
   </form>`;
 }
 

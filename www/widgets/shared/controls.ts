@@ -11,10 +11,10 @@ import { buttonHtml } from '../../ui/controls.ts';
 export function presetButtonsHtml(figure: import('../../figure/figure.ts').Figure) {
   const { definition, settings } = figure;
   const { presets } = (words as any)[definition.messageKey];
-  const currentPreset = definition.attributes.preset.get(settings.requested);
-  return html`<div class="buttons presets" role="group" aria-label=${words.presets}>
+  const currentPreset = definition.attributes.preset.getValue(settings.requestedValues);
+  return html`<div class="buttons presets" role="group" aria-label=${words.presetsHeading}>
     ${Object.entries(presets).map(([presetName, presetLabel]) =>
-      buttonHtml(presetLabel, () => settings.choosePreset(presetName), { pressed: presetName === currentPreset, className: 'preset' }))}
+      buttonHtml(presetLabel, () => settings.choosePreset(presetName), { isPressed: presetName === currentPreset, className: 'preset' }))}
     ${startOverButtonHtml(figure)}
   </div>`;
 }
@@ -29,8 +29,8 @@ export class Player<Key extends string> extends FigureController {
   #playedSettings;
 
   /** Creates the player. `animatedSettings` has the maximum of each animated setting, and the duration of an animation from 0 to this maximum. */
-  constructor(host: import('../../figure/figure.ts').Figure, animatedSettings: Record<Key, { max: number, durationMs: number }>) {
-    super(host);
+  constructor(figure: import('../../figure/figure.ts').Figure, animatedSettings: Record<Key, { max: number, durationMs: number }>) {
+    super(figure);
     this.#playedSettings = animatedSettings;
   }
 
@@ -41,19 +41,19 @@ export class Player<Key extends string> extends FigureController {
   /** Sets a setting to the value that the user has chosen, and stops the animation. */
   #setByUser(settingKey: Key, newValue: number) {
     this.stop();
-    this.host.settings.requestChange({ [settingKey]: newValue });
+    this.figure.settings.requestChange({ [settingKey]: newValue });
   }
 
   #valueOf(settingKey: Key): number {
-    return this.host.settings.requested[settingKey];
+    return this.figure.settings.requestedValues[settingKey];
   }
 
   #togglePlaying(settingKey: Key) {
-    const { host: { gesture, renderer, settings } } = this;
+    const { figure: { gesture, renderer, settings } } = this;
     const willPlay = this.#playedKey !== settingKey;
     if (this.#playedKey) gesture.commitChange();
     this.#playedKey = willPlay ? settingKey : undefined;
-    this.host.requestUpdate();
+    this.figure.requestUpdate();
     if (willPlay && this.#valueOf(settingKey) >= this.#playedSettings[settingKey].max) settings.requestChange({ [settingKey]: 0 });
     renderer.requestFrame();
   }
@@ -65,18 +65,18 @@ export class Player<Key extends string> extends FigureController {
     if (elapsedMs === 0) return true;
     const { max, durationMs } = this.#playedSettings[this.#playedKey];
     const nextValue = Math.min(max, this.#valueOf(this.#playedKey) + (max * elapsedMs) / durationMs);
-    this.host.settings.requestChange({ [this.#playedKey]: nextValue });
+    this.figure.settings.requestChange({ [this.#playedKey]: nextValue });
     if (nextValue < max) return true;
     this.stop();
-    this.host.gesture.commitChange();
+    this.figure.gesture.commitChange();
     return false;
   }
 
   /** Returns the slider of a setting with the button that plays and pauses. If the user prefers reduced motion, there is only the slider. */
   sliderHtml(key: Key, playLabel: string) {
-    const [currentLabel, otherLabel] = this.#playedKey === key ? [words.pause, playLabel] : [playLabel, words.pause];
+    const [currentLabel, otherLabel] = this.#playedKey === key ? [words.pauseLabel, playLabel] : [playLabel, words.pauseLabel];
     return html`<div class="playable with-button ${key}">
-      ${settingSliderHtml(this.host, key, { onInput: (value) => this.#setByUser(key, value) })}
+      ${settingSliderHtml(this.figure, key, { onInput: (value) => this.#setByUser(key, value) })}
       ${prefersReducedMotion() ? nothing : buttonHtml(currentLabel, () => this.#togglePlaying(key), { otherLabel })}
     </div>`;
   }

@@ -35,7 +35,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     const attemptId = ++this.#latestAttemptId;
     const isLatest = () => attemptId === this.#latestAttemptId;
     this.refusal = undefined;
-    this.host.requestUpdate();
+    this.figure.requestUpdate();
     try {
       await openFiles(isLatest);
     } catch (openingError) {
@@ -46,39 +46,39 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
 
   /** Shows why files were refused. `focusAnswer` moves the focus to a control by which the user can correct the cause. It returns false if there is no such control. */
   async showRefusal(error: unknown, focusAnswer: () => boolean | undefined = () => false) {
-    const { host } = this;
+    const { figure } = this;
     this.refusal = error;
-    host.requestUpdate();
-    await host.updateComplete;
-    if (!focusAnswer()) host.renderRoot.querySelector('#refusal')?.scrollIntoView({ block: 'nearest' });
+    figure.requestUpdate();
+    await figure.updateComplete;
+    if (!focusAnswer()) figure.renderRoot.querySelector('#refusal')?.scrollIntoView({ block: 'nearest' });
   }
 
-  onDragOver = (event: DragEvent) => {
-    if (!event.dataTransfer?.types.includes('Files')) return;
-    event.preventDefault();
-    (event.currentTarget as HTMLElement).classList.add('dropping');
+  onDragOver = (domEvent: DragEvent) => {
+    if (!domEvent.dataTransfer?.types.includes('Files')) return;
+    domEvent.preventDefault();
+    (domEvent.currentTarget as HTMLElement).classList.add('dropping');
   };
 
-  onDragLeave = (event: DragEvent) => {
-    const figureSection = event.currentTarget as HTMLElement;
-    const enteredElement = event.relatedTarget as Node | null;
+  onDragLeave = (domEvent: DragEvent) => {
+    const figureSection = domEvent.currentTarget as HTMLElement;
+    const enteredElement = domEvent.relatedTarget as Node | null;
     if (!figureSection.contains(enteredElement)) figureSection.classList.remove('dropping');
   };
 
-  onDrop = (event: DragEvent) => {
-    (event.currentTarget as HTMLElement).classList.remove('dropping');
-    if (!event.dataTransfer?.types.includes('Files')) return;
+  onDrop = (domEvent: DragEvent) => {
+    (domEvent.currentTarget as HTMLElement).classList.remove('dropping');
+    if (!domEvent.dataTransfer?.types.includes('Files')) return;
     // Without this call, the browser would leave the page and open the dropped file.
-    event.preventDefault();
-    const resultElement = this.host.renderRoot.querySelector(`#${this.resultElementId}`);
+    domEvent.preventDefault();
+    const resultElement = this.figure.renderRoot.querySelector(`#${this.resultElementId}`);
     if (resultElement instanceof HTMLDetailsElement) resultElement.open = true;
-    readDroppedFiles(event.dataTransfer).then((files) => files.length > 0 && this.chooseFiles(files));
+    readDroppedFiles(domEvent.dataTransfer).then((files) => files.length > 0 && this.chooseFiles(files));
   };
 
   /** Returns a button that opens a file dialog for files with the given extensions. */
   fileButtonHtml(id: string, label: string, extensions: string[]) {
-    const openChosenFiles = (event: Event) => {
-      const fileInput = inputOf(event);
+    const openChosenFiles = (domEvent: Event) => {
+      const fileInput = inputOf(domEvent);
       this.chooseFiles([...(fileInput.files ?? [])]);
       // The input is cleared. Otherwise, choosing a file with the same name again after a correction would not fire a `change` event.
       fileInput.value = '';

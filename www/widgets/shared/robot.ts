@@ -5,8 +5,8 @@ import { words } from '../../messages/registry.ts';
 import { drawDisc, strokeLine, type DrawContext } from '../../scene/canvas.ts';
 import { drawHandle } from '../../scene/draw.ts';
 import { Handle, stepsOfKey, turnStepsOfKey } from '../../scene/handle.ts';
-import { clamp, formatFixed } from '../../ui/format.ts';
-import type { View } from '../../scene/view.ts';
+import { clampNumber, formatFixed } from '../../ui/format.ts';
+import type { PictureView } from '../../scene/view.ts';
 import type { Pose } from '../../types.d.ts';
 
 /** Minimum radius of a drawn robot, CSS pixels. */
@@ -16,30 +16,30 @@ const MIN_ROBOT_RADIUS = 3;
 const TURN_HANDLE_RADIUS = 5.5;
 
 /** Returns the distance (CSS pixels) from the centre of a robot to the handle that turns it. The radius of the robot is in metres. */
-export function turnHandleDistanceOf(view: Pick<View, 'scaleX'>, robotRadius: number): number {
-  return Math.max(34, robotRadius * view.scaleX + 22);
+export function turnHandleDistanceOf(pictureView: Pick<PictureView, 'scaleX'>, robotRadius: number): number {
+  return Math.max(34, robotRadius * pictureView.scaleX + 22);
 }
 
 /** Draws a robot that the user can drag and turn. Its radius is in metres. Labels that are drawn later do not overlap the robot. */
-export function drawDraggableRobot(drawContext: DrawContext, pose: Pose, robotRadius: number, colour: string) {
-  const { context, view, palette, placedBoxes } = drawContext;
-  const [centre, turnHandle] = view.headingLineFrom(pose, turnHandleDistanceOf(view, robotRadius));
-  const edgeStyle = { colour, width: 2.25 };
-  const pixelRadius = pixelRadiusOf(view, robotRadius);
-  drawDisc(context, centre, pixelRadius, palette.paper, edgeStyle);
-  strokeLine(context, [centre, turnHandle], edgeStyle);
+export function drawDraggableRobot(drawContext: DrawContext, pose: Pose, robotRadius: number, lineColour: string) {
+  const { canvasContext, pictureView, palette, placedBoxes } = drawContext;
+  const [centre, turnHandle] = pictureView.headingLineFrom(pose, turnHandleDistanceOf(pictureView, robotRadius));
+  const edgeStyle = { colour: lineColour, width: 2.25 };
+  const pixelRadius = pixelRadiusOf(pictureView, robotRadius);
+  drawDisc(canvasContext, centre, pixelRadius, palette.paper, edgeStyle);
+  strokeLine(canvasContext, [centre, turnHandle], edgeStyle);
   for (const [[x, y], halfSize] of [[centre, pixelRadius], [turnHandle, TURN_HANDLE_RADIUS + 3]] as const) placedBoxes.push({ x, y, halfWidth: halfSize, halfHeight: halfSize });
-  drawHandle(drawContext, { x: turnHandle[0], y: turnHandle[1], radius: TURN_HANDLE_RADIUS, colour });
+  drawHandle(drawContext, { x: turnHandle[0], y: turnHandle[1], radius: TURN_HANDLE_RADIUS, colour: lineColour });
 }
 
 /** Draws the dashed outline of a robot at the end of a command. Lengths are in metres. */
-export function drawRobotOutline({ context, view }: DrawContext, x: number, y: number, robotRadius: number, colour: string) {
-  drawDisc(context, view.toPixel(x, y), pixelRadiusOf(view, robotRadius), undefined, { colour, width: 1.5, dash: [3, 3] });
+export function drawRobotOutline({ canvasContext, pictureView }: DrawContext, x: number, y: number, robotRadius: number, lineColour: string) {
+  drawDisc(canvasContext, pictureView.toPixel(x, y), pixelRadiusOf(pictureView, robotRadius), undefined, { colour: lineColour, width: 1.5, dash: [3, 3] });
 }
 
 /** Converts the radius of a robot from metres to CSS pixels. */
-function pixelRadiusOf(view: View, robotRadius: number): number {
-  return Math.max(MIN_ROBOT_RADIUS, robotRadius * view.scaleX);
+function pixelRadiusOf(pictureView: PictureView, robotRadius: number): number {
+  return Math.max(MIN_ROBOT_RADIUS, robotRadius * pictureView.scaleX);
 }
 
 /** Displacement (m) and turn (rad) of a robot per key press. */
@@ -67,68 +67,68 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
    * Creates the handles for a setting whose value is a pose. `getRadius` returns the radius of the robot (m). `getBounds` returns left, bottom, right and
    * top of the allowed positions (m). The messages of the figure have the names of the handles under the key `handles`.
    */
-  constructor(host: import('../../figure/figure.ts').Figure, settingKey: string, getRadius: (config: Record<string, any>) => number, getBounds: () => number[] | Float64Array = () => DEFAULT_BOUNDS) {
-    super(host);
+  constructor(figure: import('../../figure/figure.ts').Figure, settingKey: string, getRadius: (config: Record<string, any>) => number, getBounds: () => number[] | Float64Array = () => DEFAULT_BOUNDS) {
+    super(figure);
     this.#settingKey = settingKey;
     this.#getRadius = getRadius;
     this.#getBounds = getBounds;
-    const handleCallbacks = { getView: () => host.pictures[0].view, commit: () => host.gesture.commitChange() };
+    const handleCallbacks = { getView: () => figure.pictures[0].pictureView, commit: () => figure.gesture.commitChange() };
     this.#bodyHandle = new Handle(`body ${settingKey}`, {
       ...handleCallbacks,
       findGraspedPoint: () => [this.#pose.x, this.#pose.y],
-      drag: (x, y) => this.#moveTo(x, y),
-      handleKey: (event) => this.#applyKey(stepsOfKey(event), turnStepsOfKey(event)),
+      dragTo: (x, y) => this.#moveTo(x, y),
+      handleKey: (domEvent) => this.#applyKey(stepsOfKey(domEvent), turnStepsOfKey(domEvent)),
     });
     this.#turnHandle = new Handle(`turn ${settingKey}`, {
       ...handleCallbacks,
       findGraspedPoint: (pointer) => pointer,
-      drag: (x, y) => this.#turnTo(Math.atan2(y - this.#pose.y, x - this.#pose.x)),
-      handleKey: (event) => {
-        const keySteps = stepsOfKey(event);
+      dragTo: (x, y) => this.#turnTo(Math.atan2(y - this.#pose.y, x - this.#pose.x)),
+      handleKey: (domEvent) => {
+        const keySteps = stepsOfKey(domEvent);
         // The left arrow key turns the robot counter-clockwise (to the left, from the driver's seat).
-        return this.#applyKey(undefined, turnStepsOfKey(event) ?? (keySteps && keySteps[1] - keySteps[0]));
+        return this.#applyKey(undefined, turnStepsOfKey(domEvent) ?? (keySteps && keySteps[1] - keySteps[0]));
       },
     });
   }
 
   get #pose(): Pose {
-    return this.host.settings.requested[this.#settingKey];
+    return this.figure.settings.requestedValues[this.#settingKey];
   }
 
   render() {
-    const [bodyName, headingName] = (words as any)[this.host.definition.messageKey].handles[this.#settingKey];
+    const [bodyName, headingName] = (words as any)[this.figure.definition.messageKey].handles[this.#settingKey];
     const { keysHint: keys, headingKeysHint: headingKeys, moveTitle, turnTitle, floorEndNote: ends } = words.pose;
     const { x, y, theta } = this.#pose;
     const [left, bottom, right, top] = this.#getBounds();
     return [
       this.#bodyHandle.handleHtml({
-        name: bodyName,
+        handleName: bodyName,
         keysHint: keys,
         title: moveTitle,
         valueRange: [left, right],
-        value: x,
+        sliderValue: x,
         valueText: `x = ${formatFixed(x, 2)} m, y = ${formatFixed(y, 2)} m`,
         limitText: (x <= left || x >= right || y <= bottom || y >= top) && ends,
       }),
       this.#turnHandle.handleHtml({
-        name: headingName,
+        handleName: headingName,
         keysHint: headingKeys,
         title: turnTitle,
         valueRange: [-Math.PI, Math.PI],
-        value: theta,
+        sliderValue: theta,
         valueText: `${formatFixed(theta, 2)} rad`,
       }),
     ];
   }
 
   place({ config }: { config: Record<string, any> }) {
-    const { view } = this.host.pictures[0];
+    const { pictureView } = this.figure.pictures[0];
     const robotRadius = this.#getRadius(config);
-    const figureRoot = this.host.renderRoot;
-    const [[x, y], [turnX, turnY]] = view.headingLineFrom(config[this.#settingKey], turnHandleDistanceOf(view, robotRadius));
-    const clampToPicture = (coordinate: number, pictureSize: number) => clamp(coordinate, MIN_EDGE_DISTANCE, pictureSize - MIN_EDGE_DISTANCE);
-    this.#bodyHandle.placeElementAt(figureRoot, x, y, { size: Math.max(MIN_BODY_HANDLE_SIZE, 2 * robotRadius * view.scaleX) });
-    this.#turnHandle.placeElementAt(figureRoot, clampToPicture(turnX, view.width), clampToPicture(turnY, view.height));
+    const figureRoot = this.figure.renderRoot;
+    const [[x, y], [turnX, turnY]] = pictureView.headingLineFrom(config[this.#settingKey], turnHandleDistanceOf(pictureView, robotRadius));
+    const clampToPicture = (coordinate: number, pictureSize: number) => clampNumber(coordinate, MIN_EDGE_DISTANCE, pictureSize - MIN_EDGE_DISTANCE);
+    this.#bodyHandle.placeElementAt(figureRoot, x, y, { size: Math.max(MIN_BODY_HANDLE_SIZE, 2 * robotRadius * pictureView.scaleX) });
+    this.#turnHandle.placeElementAt(figureRoot, clampToPicture(turnX, pictureView.width), clampToPicture(turnY, pictureView.height));
   }
 
   /** Moves the robot by steps along x and y, and turns it by steps counter-clockwise. ±∞ steps turn it to a heading of ±π. Returns false if no steps are given. */
@@ -142,7 +142,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   /** Moves the robot to a point (m). If the point is out of bounds, moves the robot to the nearest allowed position. */
   #moveTo(x: number, y: number) {
     const [left, bottom, right, top] = this.#getBounds();
-    this.#requestPose({ ...this.#pose, x: clamp(x, left, right), y: clamp(y, bottom, top) });
+    this.#requestPose({ ...this.#pose, x: clampNumber(x, left, right), y: clampNumber(y, bottom, top) });
   }
 
   /** Turns the robot to a heading in radians. */
@@ -152,6 +152,6 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   }
 
   #requestPose(pose: Pose) {
-    this.host.settings.requestChange({ [this.#settingKey]: pose });
+    this.figure.settings.requestChange({ [this.#settingKey]: pose });
   }
 }

@@ -16,7 +16,7 @@ export const createCommandSliderSpecs = (maxDuration: number) => ({
 });
 
 export function describeCommand({ v, omega, dt }: import('../../types.d.ts').Command) {
-  return `${words.command}: v = ${formatFixed(v, 2)} m/s, ω = ${formatFixed(omega, 2)} rad/s, Δt = ${formatFixed(dt, 2)} s`;
+  return `${words.commandHeading}: v = ${formatFixed(v, 2)} m/s, ω = ${formatFixed(omega, 2)} rad/s, Δt = ${formatFixed(dt, 2)} s`;
 }
 
 /** Returns the subscript for the index of an α: ₁ for index 0. */

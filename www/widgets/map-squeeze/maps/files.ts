@@ -4,7 +4,7 @@ import { YAMLException, load } from 'js-yaml';
 import { limits } from '../../../../build/settings.js';
 import type { MapSqueeze } from '../../../types.d.ts';
 
-type RefusalWords = import('../../../messages/registry.ts').Messages['squeeze']['refusals'];
+type RefusalWords = import('../../../messages/registry.ts').MessageCatalogue['squeeze']['refusals'];
 
 /** Decodes a PNG image. Throws a RangeError for other files. */
 export type DecodePng = (imageBytes: Uint8Array) => Promise<Pick<ImageData, 'width' | 'height' | 'data'>>;

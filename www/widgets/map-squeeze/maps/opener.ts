@@ -34,12 +34,12 @@ export class MapOpener extends FileOpener<MapSqueezeElement> {
 
   async chooseFiles(files: File[]) {
     if (files.reduce((sum, { size }) => sum + size, 0) > LARGE_MAP_BYTES) {
-      this.host.notice.showNotice(() => words.squeeze.userMap.readingNotice);
+      this.figure.notice.showNotice(() => words.squeeze.userMap.readingNotice);
       // Waits for two frames, because the notice is visible only after the first frame has been drawn.
       for (let frameIndex = 0; frameIndex < 2; frameIndex++) await new Promise(requestAnimationFrame);
     }
     await this.#readAndEnter(({ readMapFiles }) => readMapFiles(files, decodePng, words.squeeze.refusals));
-    this.host.notice.dismissNotice();
+    this.figure.notice.dismissNotice();
   }
 
   openPasted(planJson: string) {
@@ -49,7 +49,7 @@ export class MapOpener extends FileOpener<MapSqueezeElement> {
   #readAndEnter(readMap: (mapReader: typeof import('./files.ts')) => UserMap | Promise<UserMap>) {
     return this.runAttempt(async (isLatest) => {
       const map = await readMap(await import('./files.ts'));
-      if (isLatest()) this.host.openMap(map);
+      if (isLatest()) this.figure.openMap(map);
     });
   }
 

@@ -250,7 +250,7 @@ fn assert_picture(simulation: &mut BananaMachine, fuzz_input: &mut InputReader) 
     let cell_counts = simulation.density(morph, &view_grid);
     assert_eq!(cell_counts.len(), view_grid.column_count * view_grid.row_count);
     assert!(cell_counts.iter().sum::<u32>() as usize <= simulation.shown_count(), "{view_grid:?}: {cell_counts:?}");
-    let pixels = simulation.paint(morph, &view_grid, &[[1; 4]; RAMP_STEP_COUNT]);
+    let pixels = simulation.paint_picture(morph, &view_grid, &[[1; 4]; RAMP_STEP_COUNT]);
     assert_eq!(pixels.len(), cell_counts.len());
     assert!(pixels.iter().zip(&cell_counts).all(|(pixel_rgba, cell_count)| (pixel_rgba[3] > 0) == (*cell_count > 0)), "{view_grid:?}");
 }
@@ -258,7 +258,7 @@ fn assert_picture(simulation: &mut BananaMachine, fuzz_input: &mut InputReader) 
 fn assert_nearest_pose(simulation: &BananaMachine, fuzz_input: &mut InputReader) {
     let search_point = [0; 2].map(|_| fuzz_input.next_number());
     let search_radii = [0; 2].map(|_| fuzz_input.draw_number_within(0.0..=f64::INFINITY));
-    let Some(nearest_index) = simulation.nearest(0.0, search_point, search_radii) else { return };
+    let Some(nearest_index) = simulation.find_nearest(0.0, search_point, search_radii) else { return };
     let nearest_pose: SE2 = simulation.poses().nth(nearest_index).expect("a sample that is shown");
     let relative_distance_to = |pose: &SE2| ((pose.x() - search_point[0]) / search_radii[0]).hypot((pose.y() - search_point[1]) / search_radii[1]);
     // The absolute tolerance is 1e-150, because squares of distances below 1e-154 underflow to 0.

@@ -83,7 +83,7 @@ fn assert_deviation_curve(simulation: &OdometryDecomposer, max_distance: f64, po
 fn assert_nearest_pose(simulation: &OdometryDecomposer, fuzz_input: &mut InputReader) {
     let search_point = [0; 2].map(|_| fuzz_input.next_number());
     let search_radius = fuzz_input.draw_number_within(0.0..=f64::INFINITY);
-    let Some(nearest_index) = simulation.nearest(search_point, search_radius) else { return };
+    let Some(nearest_index) = simulation.find_nearest(search_point, search_radius) else { return };
     let relative_distance_to = |pose: &SE2| ((pose.x() - search_point[0]) / search_radius).hypot((pose.y() - search_point[1]) / search_radius);
     let min_relative_distance = simulation.poses().iter().map(relative_distance_to).fold(f64::INFINITY, f64::min);
     // The absolute tolerance allows for distances below 1e-154 of the radius, whose squares underflow to 0.

@@ -239,7 +239,7 @@ fn assert_rollout(simulation: &DeadReckoning, robot_index: usize) {
 fn assert_nearest_pose(simulation: &DeadReckoning, fuzz_input: &mut InputReader) {
     let search_point = [0; 2].map(|_| fuzz_input.next_number());
     let search_radius = fuzz_input.draw_number_within(0.0..=f64::INFINITY);
-    let Some(nearest_index) = simulation.nearest(search_point, search_radius) else { return };
+    let Some(nearest_index) = simulation.find_nearest(search_point, search_radius) else { return };
     let poses = simulation.poses(simulation.settings().step);
     let relative_distance_to = |[x, y, _]: &[f64; 3]| ((x - search_point[0]) / search_radius).hypot((y - search_point[1]) / search_radius);
     let min_relative_distance = poses.iter().map(relative_distance_to).fold(f64::INFINITY, f64::min);

@@ -16,7 +16,7 @@ pub fn change_settings<S: SettingRules>(current_settings: &S, fuzz_input: &mut I
         }
         Ok(())
     });
-    changed_settings.adjust(current_settings, &changed_keys);
+    changed_settings.adjust_settings(current_settings, &changed_keys);
     changed_settings
 }
 

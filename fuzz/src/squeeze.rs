@@ -79,7 +79,7 @@ fn call_method(simulation: &mut MapSqueeze, fuzz_input: &mut InputReader) {
         7 => {
             let search_point = [0; 2].map(|_| fuzz_input.next_number());
             let search_radius = fuzz_input.draw_number_within(0.0..=f64::INFINITY);
-            let nearest_index = simulation.nearest(search_point, search_radius);
+            let nearest_index = simulation.find_nearest(search_point, search_radius);
             assert!(nearest_index.is_none_or(|attempt_index| attempt_index < simulation.attempts().len()));
         }
         // The search for a free pose is tested in few runs. It tries 72 headings, and takes as long as ten other calls.
@@ -186,7 +186,7 @@ fn assert_finite_plan(floor_plan: &FloorPlan) {
 fn assert_picture(simulation: &mut MapSqueeze, fuzz_input: &mut InputReader) {
     let view_grid = banana::read_view_grid(fuzz_input);
     let shown_count = simulation.attempts().len();
-    let pixels = simulation.paint(&view_grid, &[[[1; 4]; RAMP_STEP_COUNT]; OUTCOME_KIND_COUNT]);
+    let pixels = simulation.paint_picture(&view_grid, &[[[1; 4]; RAMP_STEP_COUNT]; OUTCOME_KIND_COUNT]);
     assert_eq!(pixels.len(), view_grid.column_count * view_grid.row_count);
     assert!(pixels.iter().filter(|pixel| pixel[3] > 0).count() <= shown_count);
 }

@@ -400,7 +400,7 @@ fn match_check(leg_set: &LegSet, drive: usize, systematic: &Systematic) -> Optio
     for (leg, is_outlier) in legs_of_drive {
         leg_count += 1;
         outlier_count += usize::from(*is_outlier);
-        let (expected, measured) = (leg.odometry[0].between(&leg.odometry[1]), systematic.motion(leg));
+        let (expected, measured) = (leg.odometry[0].motion_to(&leg.odometry[1]), systematic.motion(leg));
         if turn(&expected) > MIN_TURN_ANGLE {
             turn_ratios.push(measured.theta() / expected.theta());
         }

@@ -225,7 +225,7 @@ impl Drive {
             }
             let (start, end) = (*start, self.leg_end(reading, clock_offset));
             let (times, poses) = ([start.time, end.time], [start.odometry, end.odometry]);
-            let motion = start.odometry.between(&end.odometry);
+            let motion = start.odometry.motion_to(&end.odometry);
             let is_too_long = length.ratio(&poses, end.time - start.time) > MAX_RATIO_ACROSS_PAUSE;
             // The leg stays open until the reference has another sample, or the leg is too long.
             let is_unknown = end.reference.is_none() && !is_too_long || end.time <= start.time;

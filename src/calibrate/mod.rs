@@ -199,7 +199,7 @@ fn persistence(fit: &Fit) -> Persistence {
     let interval =
         [clamp_correlation(correlation - NORMAL_95 * std), clamp_correlation(correlation + NORMAL_95 * std)];
     let legs = &fit.sample.legs;
-    let driven_distance_of = |leg: &Leg| distance(&leg.odometry[0].between(&leg.odometry[1]));
+    let driven_distance_of = |leg: &Leg| distance(&leg.odometry[0].motion_to(&leg.odometry[1]));
     let mean_leg_distance = legs.iter().map(driven_distance_of).sum::<f64>() / legs.len() as f64;
     let correlation_length = if value > 0.0 { -mean_leg_distance / libm::log(value) } else { 0.0 };
     Persistence { correlation: Estimate { value, interval }, length: correlation_length }

@@ -188,7 +188,7 @@ impl Observation {
                 && (!is_exact || distance_along(&measured, &expected) >= MAX_SPIN_DISTANCE);
         let noise_jacobian = model.noise_jacobian(&expected, coordinates, dt, has_direction);
         let mut jacobian = noise_jacobian.try_inverse().unwrap_or_default();
-        let displacement = Vector3::from(<[f64; 3]>::from(expected.between(&measured)));
+        let displacement = Vector3::from(<[f64; 3]>::from(expected.motion_to(&measured)));
         let mut residuals = if is_exact && has_direction {
             model.difference(model.coordinates(&measured, dt), coordinates, dt)
         } else {
@@ -334,7 +334,7 @@ impl Systematic {
     pub(super) fn initial_mount_yaw(legs: &[Leg]) -> f64 {
         let rotation_of = |leg: &Leg| {
             let [odometry, measured] = [leg.odometry, leg.reference].map(|[start, end]| {
-                let motion = start.between(&end);
+                let motion = start.motion_to(&end);
                 Complex::new(motion.x(), motion.y())
             });
             odometry * measured.conj()
@@ -357,7 +357,7 @@ impl Systematic {
     pub(crate) fn motion(&self, leg: &Leg) -> SE2 {
         let base = self.base();
         let [start, end] = leg.reference.map(|pose| pose * base);
-        start.between(&end)
+        start.motion_to(&end)
     }
 
     /// Returns the motion that the odometry measured, with its scales corrected. The sideways motion of a robot that cannot drive sideways is a

@@ -66,7 +66,7 @@ impl ArcInversion {
 /// assert!((arc.omega_hat + arc.gamma_hat - 2.0).abs() < 1e-12);
 /// ```
 pub fn invert_arc(x: &SE2, x_next: &SE2, dt: f64) -> ArcInversion {
-    let relative_pose = x.between(x_next);
+    let relative_pose = x.motion_to(x_next);
     let end_distance = libm::hypot(relative_pose.x(), relative_pose.y());
     if end_distance == 0.0 {
         return ArcInversion { v_hat: 0.0, omega_hat: relative_pose.theta() / dt, gamma_hat: 0.0 };

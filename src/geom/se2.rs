@@ -94,7 +94,7 @@ impl SE2 {
 
     /// Returns x ⊟ y = log(y⁻¹ · x), the twist in the body frame of `other` that takes `other` to this pose (eq. 26).
     pub fn boxminus(&self, other: &Self) -> Vector3<f64> {
-        other.between(self).log()
+        other.motion_to(self).log()
     }
 
     /// Returns the inverse, which is the pose of the reference frame in the body frame.
@@ -104,7 +104,7 @@ impl SE2 {
     }
 
     /// Returns x⁻¹ · y, which is the pose of `other` in the frame of this pose.
-    pub(crate) fn between(&self, other: &Self) -> Self {
+    pub(crate) fn motion_to(&self, other: &Self) -> Self {
         let (sin, cos) = libm::sincos(self.theta);
         let (x, y) = (-cos * self.x - sin * self.y, sin * self.x - cos * self.y);
         Self::new(

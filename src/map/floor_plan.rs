@@ -165,7 +165,7 @@ impl FloorPlan {
 
     /// Tests whether a disc of radius `clearance` (m) around a point touches no wall and its centre is inside the bounds.
     pub fn test_point(&self, point: [f64; 2], clearance: f64) -> CollisionVerdict {
-        if !self.contains(point) {
+        if !self.contains_point(point) {
             return CollisionVerdict::BLOCKED;
         }
         let distance_field = self.distance_field();
@@ -233,7 +233,7 @@ impl FloorPlan {
 
     /// Returns true if a point is on the map: on its grid, which may be rotated, or inside the bounds if there is no grid.
     #[inline(always)]
-    fn contains(&self, point: [f64; 2]) -> bool {
+    fn contains_point(&self, point: [f64; 2]) -> bool {
         if let Some(occupancy_grid) = &self.occupied_grid {
             return occupancy_grid.contains(point);
         }
@@ -241,7 +241,7 @@ impl FloorPlan {
         (min_x..=max_x).contains(&x) && (min_y..=max_y).contains(&y)
     }
 
-    fn corners(&self) -> [[f64; 2]; 4] {
+    fn list_corners(&self) -> [[f64; 2]; 4] {
         let [min_x, min_y, max_x, max_y] = self.plan_bounds;
         let bounds_corners = [[min_x, min_y], [max_x, min_y], [max_x, max_y], [min_x, max_y]];
         self.occupied_grid.as_ref().map_or(bounds_corners, OccupancyGrid::corners)
@@ -255,15 +255,15 @@ impl FloorPlan {
     fn leaves_bounds(&self, driven_arc: &DrivenArc) -> bool {
         let (arc, [min_x, min_y, max_x, max_y]) = (&driven_arc.arc, driven_arc.bounding_box());
         let mut box_corners = [[min_x, min_y], [max_x, min_y], [max_x, max_y], [min_x, max_y]].into_iter();
-        if box_corners.all(|box_corner| self.contains(box_corner)) {
+        if box_corners.all(|box_corner| self.contains_point(box_corner)) {
             return false;
         }
-        if !self.contains(arc.start.position()) || !self.contains(driven_arc.end) {
+        if !self.contains_point(arc.start.position()) || !self.contains_point(driven_arc.end) {
             return true;
         }
         // Both ends of the arc are inside the map if this line is reached. An arc that only touches an edge of the map counts as inside, up
         // to rounding.
-        let corners = self.corners();
+        let corners = self.list_corners();
         let rounding_slack = rounding_bound(corners.as_flattened());
         (0..4).any(|i| {
             let map_edge = Segment { from: corners[i], to: corners[(i + 1) % 4] };

@@ -122,7 +122,7 @@ impl<M: RotTransRot> MotionModel for M {
             return None;
         }
         let [rot1_variance, trans_variance, rot2_variance] = variances;
-        let relative_pose = x.between(x_next);
+        let relative_pose = x.motion_to(x_next);
         let end_distance = libm::hypot(relative_pose.x(), relative_pose.y());
         let bearing = libm::atan2(relative_pose.y(), relative_pose.x());
         let leg_density: f64 = [(bearing, end_distance), (bearing + PI, -end_distance)]

@@ -128,7 +128,7 @@ impl TangentNoiseModel {
             self.r[(2, 2)] + PADDING_VARIANCE,
             self.last_turn_variance,
         );
-        let twist_sinc = sinc(0.5 * x.between(x_next).theta());
+        let twist_sinc = sinc(0.5 * x.motion_to(x_next).theta());
         let arc_sinc = sinc(0.5 * arc_turn);
         log_gaussian_density(&residual, &Matrix3::from_diagonal(&noise_variances))
             + libm::log(2.0 * twist_sinc * twist_sinc / (arc_length.abs() * arc_sinc * arc_sinc))

@@ -128,7 +128,7 @@ impl MotionModel for VelocityModel {
         }
         let [v_variance, omega_variance, gamma_variance] = variances;
         let inverted_arc = invert_arc(x, x_next, u.dt);
-        let relative_pose = x.between(x_next);
+        let relative_pose = x.motion_to(x_next);
         let end_distance = libm::hypot(relative_pose.x(), relative_pose.y());
         let shortest_turn = inverted_arc.omega_hat * u.dt;
         let squared_distance_times_dt = end_distance * end_distance * u.dt;

@@ -58,15 +58,15 @@ const fn create_preset([v, omega]: [f64; 2], next_pose: [f64; 3]) -> Settings {
 }
 
 impl Settings {
-    fn start(&self) -> SE2 {
+    fn start_pose(&self) -> SE2 {
         self.start.into()
     }
 
-    fn next(&self) -> SE2 {
+    fn next_pose(&self) -> SE2 {
         self.next.into()
     }
 
-    fn model(&self) -> VelocityModel {
+    fn velocity_model(&self) -> VelocityModel {
         VelocityModel { alphas: VelocityAlphas(self.alphas), noise: self.noise }
     }
 }
@@ -218,13 +218,13 @@ impl ArcAnatomy {
     /// Returns the arcs of the command and to the final pose, with the likelihood of that pose.
     pub fn stats(&self) -> Stats {
         let Settings { command: motion_command, noise: noise_kind, .. } = &self.settings;
-        let (start, next) = (self.settings.start(), self.settings.next());
+        let (start, next) = (self.settings.start_pose(), self.settings.next_pose());
         let controls = self.selected_inversion();
         let score_factors =
             self.noise_residuals(&controls).map(|residual| ScoreFactor::new(*noise_kind, residual));
         let size_of = |i: &usize| score_factors[*i].deviations.abs();
         let weakest_index = (0..3).rev().max_by(|a, b| size_of(a).total_cmp(&size_of(b))).unwrap_or(0);
-        let [commanded_arc, inverted_arc, driven_arc] = self.arcs().map(ArcWithCircle::from);
+        let [commanded_arc, inverted_arc, driven_arc] = self.list_arcs().map(ArcWithCircle::from);
         Stats {
             commanded: commanded_arc,
             inverted: inverted_arc,
@@ -234,23 +234,28 @@ impl ArcAnatomy {
             weakest: weakest_index,
             prob: self.prob(),
             share: score_factors.iter().map(|score_factor| score_factor.share).product(),
-            density: self.settings.model().pose_density(&next, motion_command, &start),
+            density: self.settings.velocity_model().pose_density(&next, motion_command, &start),
             xi: next.boxminus(&start).into(),
         }
     }
 
     /// Returns the arc of the command, the arc to the final position, and the arc that the estimates v̂ and ω̂ drive. The last two differ
     /// only for the unsigned radius of Table 5.1.
-    fn arcs(&self) -> [Arc; 3] {
+    fn list_arcs(&self) -> [Arc; 3] {
         let VelocityCmd { v, omega, dt } = self.settings.command;
         let (inverted_arc, controls) = (self.signed_inversion(), self.selected_inversion());
         let arc_speeds =
             [[v, omega], [inverted_arc.v_hat, inverted_arc.omega_hat], [controls.v_hat, controls.omega_hat]];
-        arc_speeds.map(|[v, omega]| Arc { start: self.settings.start(), length: v * dt, turn: omega * dt })
+        arc_speeds.map(|[v, omega]| Arc {
+            start: self.settings.start_pose(),
+            length: v * dt,
+            turn: omega * dt,
+        })
     }
 
     fn signed_inversion(&self) -> ArcInversion {
-        let signed_arc = invert_arc(&self.settings.start(), &self.settings.next(), self.settings.command.dt);
+        let signed_arc =
+            invert_arc(&self.settings.start_pose(), &self.settings.next_pose(), self.settings.command.dt);
         // A straight drive in reverse has the turn rate −0. Adding 0 makes it 0, so that no minus is shown.
         ArcInversion { omega_hat: signed_arc.omega_hat + 0.0, ..signed_arc }
     }
@@ -270,7 +275,8 @@ impl ArcAnatomy {
     fn noise_residuals(&self, controls: &ArcInversion) -> [(f64, f64, Variance); 3] {
         let ArcInversion { v_hat, omega_hat, gamma_hat } = *controls;
         let motion_command = &self.settings.command;
-        let [v_variance, omega_variance, gamma_variance] = self.settings.model().variances(motion_command);
+        let [v_variance, omega_variance, gamma_variance] =
+            self.settings.velocity_model().variances(motion_command);
         [
             (v_hat, motion_command.v - v_hat, v_variance),
             (omega_hat, motion_command.omega - omega_hat, omega_variance),
@@ -287,8 +293,8 @@ impl ArcAnatomy {
 
     /// Returns the values of the lines of Table 5.1. With the displacement (a, b) in the frame of the start, line 1 is ½ · (−a)/(−b).
     pub fn table(&self) -> Table {
-        let (start, next) = (self.settings.start(), self.settings.next());
-        let relative_pose = start.between(&next);
+        let (start, next) = (self.settings.start_pose(), self.settings.next_pose());
+        let relative_pose = start.motion_to(&next);
         let signed_arc @ ArcInversion { v_hat, omega_hat, gamma_hat } = self.selected_inversion();
         let [x, y] = self.signed_inversion().centre(&start).unwrap_or([f64::INFINITY; 2]);
         // The quotient is halved last, because half of the smallest double is 0.
@@ -303,8 +309,9 @@ impl ArcAnatomy {
 
     /// Returns the arcs, the path of the constant twist and its sideways displacements, as lines of the picture.
     pub fn paths(&self) -> Paths {
-        let (start, next) = (self.settings.start(), self.settings.next());
-        let [commanded_arc, inverted_arc, driven_arc] = self.arcs().map(|picture_arc| picture_arc.points());
+        let (start, next) = (self.settings.start_pose(), self.settings.next_pose());
+        let [commanded_arc, inverted_arc, driven_arc] =
+            self.list_arcs().map(|picture_arc| picture_arc.points());
         let xi = next.boxminus(&start);
         let pose_on_twist_path =
             |i: usize, segment_count: usize| start.boxplus(xi * (i as f64 / segment_count as f64));
@@ -327,9 +334,9 @@ impl ArcAnatomy {
     /// Returns the poses after a fraction of the time, from 0 to 1: on the commanded arc, on the arc that the estimates v̂ and ω̂ drive,
     /// and on the path of the constant twist.
     pub fn poses_at(&self, fraction: f64) -> [SE2; 3] {
-        let start_pose = self.settings.start();
-        let [commanded_arc, _, driven_arc] = self.arcs().map(|arc| arc.leading_part(fraction).end());
-        let xi = self.settings.next().boxminus(&start_pose);
+        let start_pose = self.settings.start_pose();
+        let [commanded_arc, _, driven_arc] = self.list_arcs().map(|arc| arc.leading_part(fraction).end());
+        let xi = self.settings.next_pose().boxminus(&start_pose);
         [commanded_arc, driven_arc, start_pose.boxplus(xi * fraction)]
     }
 
@@ -340,7 +347,7 @@ impl ArcAnatomy {
         if heat_map == HeatMapKind::NoHeatMap {
             return None;
         }
-        let (model, start) = (self.settings.model(), self.settings.start());
+        let (model, start) = (self.settings.velocity_model(), self.settings.start_pose());
         let winding_count = f64::from(2 * model.max_windings(&motion_command) + 1);
         let max_cells =
             MAX_EXPONENTIALS / (3.0 + 2.0 * winding_count + MAX_LAST_TURNS.min(winding_count + 2.0));

@@ -16,7 +16,7 @@ macro_rules! cloud_simulation {
             /// Creates a simulation that shows the first `sample_count` samples. Errors are those of `new`.
             pub fn with_shown_count(settings: Settings, sample_count: usize) -> Result<Self, SettingsError> {
                 settings.check()?;
-                let mut new_simulation = Self::empty(settings)?;
+                let mut new_simulation = Self::new_empty(settings)?;
                 new_simulation.show_samples(sample_count.min(settings.samples));
                 Ok(new_simulation)
             }

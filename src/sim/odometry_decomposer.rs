@@ -132,7 +132,7 @@ pub struct OdometryDecomposer {
 cloud_simulation!(OdometryDecomposer);
 
 impl OdometryDecomposer {
-    fn empty(settings: Settings) -> Result<Self, SettingsError> {
+    fn new_empty(settings: Settings) -> Result<Self, SettingsError> {
         let draws = Draws::new(settings.seed, settings.noise);
         Ok(Self { settings, noise_draws: draws, poses: Vec::new() })
     }
@@ -296,7 +296,7 @@ impl OdometryDecomposer {
     }
 
     /// Returns the outcome shown that ends nearest to a point (m), within `search_radius`.
-    pub fn nearest(&self, target_point: [f64; 2], search_radius: f64) -> Option<usize> {
+    pub fn find_nearest(&self, target_point: [f64; 2], search_radius: f64) -> Option<usize> {
         nearest_index(self.poses.iter().map(SE2::position), target_point, [search_radius, search_radius])
     }
 }

@@ -125,7 +125,7 @@ impl ExponentialContour {
 
     /// Returns the closed outline in the plane as `segment_count` chords: `segment_count` + 1 points, the last equal to the first.
     pub fn boundary(&self, segment_count: usize) -> Vec<[f64; 2]> {
-        self.outline(segment_count).map(|(_, point)| point).collect()
+        self.iter_outline(segment_count).map(|(_, point)| point).collect()
     }
 
     /// Returns the closed outline, in the frame of the start, at a stage `morph` of the transition from positions to exponential
@@ -145,7 +145,7 @@ impl ExponentialContour {
         }
         // The sum has twice the signed areas of the triangles from the start to each chord. The sign is reversed for motions in reverse.
         let (mut doubled_area, mut previous_point) = (0.0, [0.0; 2]);
-        for (i, (along_coordinate, [x, y])) in self.outline(segment_count).enumerate() {
+        for (i, (along_coordinate, [x, y])) in self.iter_outline(segment_count).enumerate() {
             let [x, y] = [x - self.start_pose.x(), y - self.start_pose.y()];
             if i > 0 {
                 let doubled_triangle_area = previous_point[0] * y - previous_point[1] * x;
@@ -158,7 +158,7 @@ impl ExponentialContour {
         ellipse.area() * sinc(TAU / segment_count as f64) / (0.5 * doubled_area.abs())
     }
 
-    fn outline(&self, segment_count: usize) -> impl Iterator<Item = (f64, [f64; 2])> {
+    fn iter_outline(&self, segment_count: usize) -> impl Iterator<Item = (f64, [f64; 2])> {
         self.silhouette_twists(segment_count, 0.0)
             .map(|twist| (twist.x, self.start_pose.boxplus(twist).position()))
     }
@@ -191,7 +191,7 @@ impl ExponentialContour {
 
     /// Returns true if the exponential coordinates of `pose` lie inside the ellipse.
     pub fn contains(&self, pose: &SE2) -> bool {
-        let twist = self.start_pose.between(pose).log_near(self.mean.z);
+        let twist = self.start_pose.motion_to(pose).log_near(self.mean.z);
         self.ellipse.contains([twist.x, twist.z])
     }
 }

@@ -100,7 +100,7 @@ impl JsBananaMachine {
             check_range("radiusX", radius_x, &RADIUS_RANGE)?,
             check_range("radiusY", radius_y, &RADIUS_RANGE)?,
         ];
-        let nearest = self.0.nearest(check_range("morph", morph, &MORPH_RANGE)?, [x, y], search_radii);
+        let nearest = self.0.find_nearest(check_range("morph", morph, &MORPH_RANGE)?, [x, y], search_radii);
         Ok(nearest.map_or(-1, |index| index as i32))
     }
 
@@ -130,7 +130,11 @@ impl JsBananaMachine {
     ) -> Result<Uint8ClampedArray, JsValue> {
         let view_grid = read_grid(bounds, columns, rows)?;
         let [colour_ramp] = read_ramps("ramp", ramp_bytes)?;
-        Ok(pixel_view(self.0.paint(check_range("morph", morph, &MORPH_RANGE)?, &view_grid, &colour_ramp)))
+        Ok(pixel_view(self.0.paint_picture(
+            check_range("morph", morph, &MORPH_RANGE)?,
+            &view_grid,
+            &colour_ramp,
+        )))
     }
 }
 

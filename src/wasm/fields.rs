@@ -184,7 +184,7 @@ pub fn read_settings<S: SettingRules>(current_settings: &S, options: &JsValue) -
         given_keys.push(key);
         read_setting(key, &value, &mut setting)
     })?;
-    settings.adjust(current_settings, &given_keys);
+    settings.adjust_settings(current_settings, &given_keys);
     Ok(settings)
 }
 

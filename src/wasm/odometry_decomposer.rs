@@ -45,7 +45,7 @@ impl JsOdometryDecomposer {
 
     /// Returns the index of the outcome that ends nearest to a point and within `radius` of it; −1 for none.
     pub fn nearest(&self, x: f64, y: f64, radius: f64) -> Result<i32, JsValue> {
-        nearest_index(x, y, radius, |target_point, radius| self.0.nearest(target_point, radius))
+        nearest_index(x, y, radius, |target_point, radius| self.0.find_nearest(target_point, radius))
     }
 }
 

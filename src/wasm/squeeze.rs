@@ -157,12 +157,12 @@ impl JsMapSqueeze {
     ) -> Result<Uint8ClampedArray, JsValue> {
         let grid = read_grid(bounds, columns, rows)?;
         let ramps = read_ramps("ramps", ramps)?;
-        Ok(pixel_view(self.0.paint(&grid, &ramps)))
+        Ok(pixel_view(self.0.paint_picture(&grid, &ramps)))
     }
 
     /// Returns the index of the attempt that ends nearest to a point and within `radius` of it; −1 for none.
     pub fn nearest(&self, x: f64, y: f64, radius: f64) -> Result<i32, JsValue> {
-        nearest_index(x, y, radius, |target_point, radius| self.0.nearest(target_point, radius))
+        nearest_index(x, y, radius, |target_point, radius| self.0.find_nearest(target_point, radius))
     }
 }
 

@@ -221,7 +221,7 @@ impl AlphaCalibrator {
     }
 
     /// Returns the index of the leg whose path is nearest to a point (m), within `radius`.
-    pub fn nearest(&self, point: [f64; 2], radius: f64) -> Option<usize> {
+    pub fn find_nearest(&self, point: [f64; 2], radius: f64) -> Option<usize> {
         let corrected_errors = &self.calibration().corrected;
         let distance_to_path_of = |leg: &Leg| {
             let [leg_start, leg_end] = leg.reference.map(|pose| (pose * corrected_errors.base()).position());

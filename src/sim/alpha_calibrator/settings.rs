@@ -117,7 +117,7 @@ impl Settings {
 impl SettingRules for Settings {
     /// Keeps model and odometry rule consistent: if the chosen model does not have the rule, it changes the rule; if the chosen rule
     /// belongs to another model, it changes the model.
-    fn adjust(&mut self, _: &Self, changed_keys: &[&str]) {
+    fn adjust_settings(&mut self, _: &Self, changed_keys: &[&str]) {
         let does_model_fit_rule = self.is_omnidirectional() == (self.rule == OdometryRule::Omni);
         match [changed_keys.contains(&"model"), changed_keys.contains(&"rule")] {
             [true, false] if !does_model_fit_rule => {

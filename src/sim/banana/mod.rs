@@ -134,7 +134,7 @@ pub struct BananaMachine {
 cloud_simulation!(BananaMachine);
 
 impl BananaMachine {
-    fn empty(settings: Settings) -> Result<Self, SettingsError> {
+    fn new_empty(settings: Settings) -> Result<Self, SettingsError> {
         let noisy_drive = NoisyDrive::new(&settings.polar_motion(&settings.command));
         let mut cloud = Cloud::new(settings.seed, settings.noise, noisy_drive);
         cloud.reserve(settings.samples).map_err(|_| SettingsError::out_of_memory(settings.samples))?;
@@ -355,7 +355,7 @@ impl BananaMachine {
     }
 
     /// Paints the density of the shown samples: see [`picture_pixels::paint_cell_counts`].
-    pub fn paint(&mut self, morph: f64, view_grid: &ViewGrid, colour_ramp: &Ramp) -> &[[u8; 4]] {
+    pub fn paint_picture(&mut self, morph: f64, view_grid: &ViewGrid, colour_ramp: &Ramp) -> &[[u8; 4]] {
         let cell_counts = self.density(morph, view_grid);
         self.picture_pixels =
             picture::paint_cell_counts(cell_counts.as_chunks().0, array::from_ref(colour_ramp));
@@ -363,7 +363,7 @@ impl BananaMachine {
     }
 
     /// Returns the shown sample nearest to a point of the picture, inside the ellipse of the given radii around it.
-    pub fn nearest(&self, morph: f64, target_point: [f64; 2], search_radii: [f64; 2]) -> Option<usize> {
+    pub fn find_nearest(&self, morph: f64, target_point: [f64; 2], search_radii: [f64; 2]) -> Option<usize> {
         let points_of_group = |[x, y]: [f64x4; 2]| {
             let (x, y) = (x.to_array(), y.to_array());
             (0..LANE_COUNT).map(move |lane_index| [x[lane_index], y[lane_index]])

@@ -97,7 +97,7 @@ impl SettingRules for Settings {
         ("worked", create_preset([1.0, 0.5, 1.0], [0.02, 0.02, 0.02, 0.02, 0.0, 0.0])),
     ];
 
-    fn adjust(&mut self, previous_settings: &Self, changed_keys: &[&str]) {
+    fn adjust_settings(&mut self, previous_settings: &Self, changed_keys: &[&str]) {
         // A change of the model deselects the isolated α, because the α with the same number has another meaning in the other model.
         if self.model != previous_settings.model && !changed_keys.contains(&"isolate") {
             self.isolate = None;

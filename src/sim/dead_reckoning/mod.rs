@@ -98,7 +98,7 @@ js_structs! {
 cloud_simulation!(DeadReckoning);
 
 impl DeadReckoning {
-    fn empty(settings: Settings) -> Result<Self, SettingsError> {
+    fn new_empty(settings: Settings) -> Result<Self, SettingsError> {
         let mut rollouts = Rollouts::new(&settings).map_err(|_| SettingsError {
             key: "steps".to_owned(),
             value: f64::from(settings.steps),
@@ -118,7 +118,7 @@ impl DeadReckoning {
         if self.settings.has_same_rollouts(&settings) {
             self.settings = settings;
         } else {
-            *self = Self::empty(settings)?;
+            *self = Self::new_empty(settings)?;
         }
         self.show_samples(
             target_count
@@ -194,7 +194,7 @@ impl DeadReckoning {
     }
 
     /// Returns the robot in the picture that is nearest to a point (m) after the selected step, within `search_radius`.
-    pub fn nearest(&self, target_point: [f64; 2], search_radius: f64) -> Option<usize> {
+    pub fn find_nearest(&self, target_point: [f64; 2], search_radius: f64) -> Option<usize> {
         let robot_positions = self.poses(self.settings.step).iter().map(|[x, y, _]| [*x, *y]);
         nearest_index(robot_positions, target_point, [search_radius, search_radius])
     }

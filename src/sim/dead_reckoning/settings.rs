@@ -107,7 +107,7 @@ impl SettingRules for Settings {
     ];
 
     /// Selects the last step if the path does not contain the selected step.
-    fn adjust(&mut self, _: &Self, changed_keys: &[&str]) {
+    fn adjust_settings(&mut self, _: &Self, changed_keys: &[&str]) {
         if !changed_keys.contains(&"step") {
             self.step = self.step.min(self.steps);
         }

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 /// Error for a setting whose value is not allowed. The message has the field, the value and the allowed values.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("{}", self.message())]
+#[error("{}", self.format_message())]
 pub struct SettingsError {
     /// Name of the setting, as in attributes and states.
     pub key: String,
@@ -40,7 +40,7 @@ impl SettingsError {
         Self { key: "samples".to_owned(), value: sample_count as f64, allowed: AllowedValues::FitsInMemory }
     }
 
-    fn message(&self) -> String {
+    fn format_message(&self) -> String {
         let allowed_text = match &self.allowed {
             AllowedValues::Keyword { given_keyword: given, allowed } => {
                 return format!("{} is {given}; allowed is {allowed}", self.key);

@@ -292,7 +292,7 @@ pub trait SettingRules: DeclaredSettings + 'static {
     const PRESETS: &'static [(&'static str, Self)] = &[];
 
     /// Adjusts other settings to the settings whose keys are `changed_keys`.
-    fn adjust(&mut self, _previous: &Self, _changed_keys: &[&str]) {}
+    fn adjust_settings(&mut self, _previous: &Self, _changed_keys: &[&str]) {}
 
     /// Checks combinations of settings, each of which is in its range. Fails with [`SettingsError`] for settings that contradict each
     /// other.

@@ -61,7 +61,7 @@ const PARTS_PER_BLOCK: usize = 4096;
 cloud_simulation!(MapSqueeze);
 
 impl MapSqueeze {
-    fn empty(settings: Settings) -> Result<Self, SettingsError> {
+    fn new_empty(settings: Settings) -> Result<Self, SettingsError> {
         let mut simulation = Self {
             floor_plan: FloorPlan::apartment(),
             settings,
@@ -192,7 +192,11 @@ impl MapSqueeze {
     }
 
     /// Paints the density of the ends of the attempts shown, by [`Attempt::outcome_kind`]: see [`picture_pixels::paint_cell_counts`].
-    pub fn paint(&mut self, view_grid: &ViewGrid, colour_ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> &[[u8; 4]] {
+    pub fn paint_picture(
+        &mut self,
+        view_grid: &ViewGrid,
+        colour_ramps: &[Ramp; OUTCOME_KIND_COUNT],
+    ) -> &[[u8; 4]] {
         let (ViewGrid { min_corner, max_corner, .. }, cells_per_metre) =
             (*view_grid, view_grid.cells_per_unit());
         let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; view_grid.column_count * view_grid.row_count];
@@ -208,7 +212,7 @@ impl MapSqueeze {
     }
 
     /// Returns the attempt that ends nearest to the point `target_point` (m), within `search_radius` (m).
-    pub fn nearest(&self, target_point: [f64; 2], search_radius: f64) -> Option<usize> {
+    pub fn find_nearest(&self, target_point: [f64; 2], search_radius: f64) -> Option<usize> {
         let end_positions = self.tested_attempts.iter().map(|shown_attempt| shown_attempt.pose.position());
         nearest_index(end_positions, target_point, [search_radius, search_radius])
     }
@@ -246,7 +250,8 @@ impl MapSqueeze {
         let mut total_cost = Cost::default();
         let part_count = sampler.part_count() as usize * sample_count;
         for _ in 0..sample_count {
-            let cost = map_model.sampling_cost(&self.settings.command, &self.settings.start(), &mut rng)?;
+            let cost =
+                map_model.sampling_cost(&self.settings.command, &self.settings.start_pose(), &mut rng)?;
             total_cost.add(cost);
             if total_cost.draws > max_draws(part_count) {
                 return Err(NoAcceptedSample(total_cost));
@@ -264,7 +269,7 @@ impl MapSqueeze {
     /// Returns the noise-free arc of the command.
     pub fn commanded_arc(&self) -> Arc {
         let VelocityCmd { v, omega, dt } = self.settings.command;
-        Arc { start: self.settings.start(), length: v * dt, turn: omega * dt }
+        Arc { start: self.settings.start_pose(), length: v * dt, turn: omega * dt }
     }
 }
 
@@ -376,7 +381,7 @@ impl<'a> AttemptDriver<'a> {
     fn new(map_model: &'a MapConditioned, settings: &'a Settings, noise_draws: &'a Draws) -> Self {
         Self {
             map_model,
-            collision_tester: map_model.collision_tester(&settings.command, &settings.start()),
+            collision_tester: map_model.collision_tester(&settings.command, &settings.start_pose()),
             settings,
             draws: noise_draws,
         }
@@ -417,7 +422,7 @@ impl<'a> AttemptDriver<'a> {
 
     fn drive_parts(&self, attempt_index: usize, visit_arc: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {
         let Settings { command: motion_command, conditioned: is_conditioned, seed, .. } = *self.settings;
-        let start_pose = self.settings.start();
+        let start_pose = self.settings.start_pose();
         // The number of random numbers that an attempt uses depends on the walls. Each attempt has its own stream of numbers, so that a
         // wall changes only attempts near the wall.
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (attempt_index as u64).rotate_left(32));

@@ -68,7 +68,7 @@ impl Settings {
         self.sampler.part_count()
     }
 
-    pub(super) fn start(&self) -> SE2 {
+    pub(super) fn start_pose(&self) -> SE2 {
         self.start.into()
     }
 }
@@ -81,7 +81,7 @@ impl SettingRules for Settings {
     ];
 
     /// Copies the setting `steps` into the sub-stepped sampler. Other samplers have no number of steps, and stay unchanged.
-    fn adjust(&mut self, _: &Self, _: &[&str]) {
+    fn adjust_settings(&mut self, _: &Self, _: &[&str]) {
         self.sampler = self.sampler.with_part_count(self.steps);
     }
 

@@ -52,7 +52,7 @@ impl Configuration<'_> {
                 set_from_json(setting_value, setting_json);
             }
         });
-        configured_settings.adjust(&default_settings, &given_keys);
+        configured_settings.adjust_settings(&default_settings, &given_keys);
         configured_settings
     }
 

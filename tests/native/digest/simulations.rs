@@ -42,7 +42,7 @@ pub fn hash_banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
         flatten(&cloud_contours.additive),
     );
     let mut paint_stage = |morph_fraction| {
-        flatten(simulation.paint(morph_fraction, &configuration.view_grid(), &new_test_ramp(0)))
+        flatten(simulation.paint_picture(morph_fraction, &configuration.view_grid(), &new_test_ramp(0)))
     };
     let [plane_pixels, twist_pixels] = [0.0, 1.0].map(&mut paint_stage);
     vec![
@@ -110,7 +110,7 @@ pub fn hash_map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
         ),
         HashedPart::new(
             "picture",
-            flatten(simulation.paint(&configuration.view_grid(), &[0, 1, 2].map(new_test_ramp))),
+            flatten(simulation.paint_picture(&configuration.view_grid(), &[0, 1, 2].map(new_test_ramp))),
         ),
     ]
 }

@@ -34,7 +34,7 @@ impl DrawnGrid {
         Self { width, height, occupied, resolution: sample_uniform(rng, 0.02, 0.5), origin }
     }
 
-    fn grid(&self) -> OccupancyGrid {
+    fn create_grid(&self) -> OccupancyGrid {
         let cell_pixels =
             self.occupied.iter().map(|occupied| if *occupied { BLACK_PIXEL } else { WHITE_PIXEL }).collect();
         let image = Image { width: self.width, height: self.height, pixels: cell_pixels };
@@ -74,7 +74,7 @@ fn distances_to_walls_equal_distances_to_cells() {
     let (mut inside_count, mut outside_count) = (0, 0);
     for _ in 0..100 {
         let grid_cells = DrawnGrid::new_random(&mut rng);
-        let plan = FloorPlan::from_grid(grid_cells.grid()).expect("a small grid");
+        let plan = FloorPlan::from_grid(grid_cells.create_grid()).expect("a small grid");
         let [map_left, map_bottom, map_right, map_top] = plan.bounds();
         for _ in 0..50 {
             let column_coordinate = sample_uniform(&mut rng, 0.0, grid_cells.width as f64);
@@ -84,7 +84,7 @@ fn distances_to_walls_equal_distances_to_cells() {
             let cell_distance = grid_cells.distance_to_occupied_cell(point);
             if cell_distance == 0.0 {
                 assert!(
-                    grid_cells.grid().is_blocked_at(point) && !plan.test_point(point, 0.0).is_free,
+                    grid_cells.create_grid().is_blocked_at(point) && !plan.test_point(point, 0.0).is_free,
                     "inside a cell"
                 );
                 inside_count += 1;
@@ -116,7 +116,7 @@ fn sides_of_neighbouring_cells_form_one_wall() {
         .flat_map(|drawn_row| drawn_row.chars().map(|drawn_cell| drawn_cell == '#'))
         .collect();
     let grid_cells = DrawnGrid { width: 3, height: 3, occupied, resolution: 0.5, origin: [1.0, 2.0, 0.0] };
-    let plan = FloorPlan::from_grid(grid_cells.grid()).expect("a small grid");
+    let plan = FloorPlan::from_grid(grid_cells.create_grid()).expect("a small grid");
     let mut walls: Vec<[f64; 4]> =
         plan.walls().iter().map(|wall| [wall.from[0], wall.from[1], wall.to[0], wall.to[1]]).collect();
     walls.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
@@ -135,7 +135,7 @@ fn sides_of_neighbouring_cells_form_one_wall() {
     assert_eq!(walls, expected_bound);
     assert_eq!(plan.bounds(), [1.0, 2.0, 2.5, 3.5]);
     let rotated_cells = DrawnGrid { origin: [1.0, 2.0, FRAC_PI_2], ..grid_cells };
-    let map_bounds = FloorPlan::from_grid(rotated_cells.grid()).expect("a small grid").bounds();
+    let map_bounds = FloorPlan::from_grid(rotated_cells.create_grid()).expect("a small grid").bounds();
     for (map_bound, expected_bound) in map_bounds.into_iter().zip([-0.5, 2.0, 1.0, 3.5]) {
         assert!((map_bound - expected_bound).abs() < 1e-15, "{map_bounds:?}");
     }
@@ -154,7 +154,7 @@ fn a_grid_of_too_many_walls_is_refused() {
         resolution: 0.05,
         origin: [0.0; 3],
     };
-    let plan_error = FloorPlan::from_grid(separate_cells.grid()).err();
+    let plan_error = FloorPlan::from_grid(separate_cells.create_grid()).err();
     assert_eq!(plan_error, Some(FloorPlanError::TooManySides(20_001)));
     let error_message = plan_error.map(|plan_error| plan_error.to_string()).unwrap_or_default();
     assert_eq!(
@@ -167,7 +167,7 @@ fn a_grid_of_too_many_walls_is_refused() {
 #[test]
 fn a_grid_outside_the_range_of_coordinates_is_refused() {
     let create_grid = |resolution, origin| {
-        DrawnGrid { width: 3, height: 2, occupied: vec![false; 6], resolution, origin }.grid()
+        DrawnGrid { width: 3, height: 2, occupied: vec![false; 6], resolution, origin }.create_grid()
     };
     assert!(FloorPlan::from_grid(create_grid(0.5, [-1e6, 1e6 - 1.0, 0.0])).is_ok());
     for (resolution, origin) in [(0.5, [1e6 - 1.0, 0.0, 0.0]), (4e4, [0.0; 3]), (0.004, [0.0; 3])] {

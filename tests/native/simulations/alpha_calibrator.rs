@@ -243,7 +243,7 @@ fn the_nearest_leg_passes_through_the_point() {
     let calibration = simulation.calibration();
     let [start_pose, end_pose] = base_poses_of_leg(calibration, 7);
     let leg_midpoint = [0.5 * (start_pose.x() + end_pose.x()), 0.5 * (start_pose.y() + end_pose.y())];
-    let nearest_index = simulation.nearest(leg_midpoint, 1e-9).expect("it leads through there");
+    let nearest_index = simulation.find_nearest(leg_midpoint, 1e-9).expect("it leads through there");
     let distance_between = |a: [f64; 2], b: [f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]);
     let [leg_start, leg_end] = base_poses_of_leg(calibration, nearest_index).map(|pose| [pose.x(), pose.y()]);
     assert!(
@@ -251,8 +251,8 @@ fn the_nearest_leg_passes_through_the_point() {
             - distance_between(leg_start, leg_end)
             < 1e-9
     );
-    assert_eq!(simulation.nearest([1e6, 0.0], 1.0), None);
-    assert_eq!(simulation.nearest(leg_midpoint, 0.0), None);
+    assert_eq!(simulation.find_nearest([1e6, 0.0], 1.0), None);
+    assert_eq!(simulation.find_nearest(leg_midpoint, 0.0), None);
 }
 
 #[test]
@@ -262,7 +262,7 @@ fn changing_the_model_or_the_rule_adjusts_the_other() {
         let settings_before = Settings::default();
         let mut new_settings = settings_before;
         apply_change(&mut new_settings);
-        new_settings.adjust(&settings_before, &[changed_key]);
+        new_settings.adjust_settings(&settings_before, &[changed_key]);
         new_settings
     };
     assert_eq!(change_settings(|s| s.model = Model::Omnidirectional, "model").rule, OdometryRule::Omni);
@@ -286,7 +286,12 @@ fn a_restored_fit_equals_the_saved_one_to_the_last_bit() {
     let fit_results = |fit: &AlphaCalibrator| {
         let all_panels =
             [Regressor::Turn, Regressor::Distance].map(|panel_regressor| fit.panels(panel_regressor));
-        format!("{:?} {all_panels:?} {:?} {:?}", fit.calibration(), fit.leg(5), fit.nearest([0.5, 1.0], 3.0))
+        format!(
+            "{:?} {all_panels:?} {:?} {:?}",
+            fit.calibration(),
+            fit.leg(5),
+            fit.find_nearest([0.5, 1.0], 3.0)
+        )
     };
     let results_before = fit_results(&simulation);
     assert!(
@@ -317,7 +322,7 @@ fn a_log_without_legs_gives_an_empty_calibration() {
         simulation.calibration();
     assert!(legs.is_empty() && alphas.iter().all(Option::is_none) && recommended_alphas.is_none());
     assert_eq!(diagnostics.verdict, Verdict::Unusable);
-    assert!(simulation.leg(0).is_none() && simulation.nearest([0.0; 2], 1.0).is_none());
+    assert!(simulation.leg(0).is_none() && simulation.find_nearest([0.0; 2], 1.0).is_none());
     assert!(
         simulation.panels(Regressor::Turn).iter().all(|panel| panel.x.is_empty() && panel.slope.is_none())
     );

@@ -266,8 +266,8 @@ fn both_views_find_the_nearest_sample() {
             .zip(simulation.twists())
             .map(|(pose, twist)| if morph == 0.0 { [pose.x(), pose.y()] } else { [twist.x, twist.z] })
             .collect();
-        assert_eq!(simulation.nearest(morph, view_points[17], [1e-9, 1e-9]), Some(17));
-        assert_eq!(simulation.nearest(morph, [50.0, 50.0], [1.0, 1.0]), None);
+        assert_eq!(simulation.find_nearest(morph, view_points[17], [1e-9, 1e-9]), Some(17));
+        assert_eq!(simulation.find_nearest(morph, [50.0, 50.0], [1.0, 1.0]), None);
         // The search finds the outermost sample from a position just inside of the search radius, and not from a position just outside.
         let rightmost_index =
             (0..view_points.len()).max_by(|&a, &b| view_points[a][0].total_cmp(&view_points[b][0])).unwrap();
@@ -275,10 +275,10 @@ fn both_views_find_the_nearest_sample() {
             [view_points[rightmost_index][0] + target_distance, view_points[rightmost_index][1]]
         };
         assert_eq!(
-            simulation.nearest(morph, position_right_of_rightmost(0.0099), [0.01, 1e-9]),
+            simulation.find_nearest(morph, position_right_of_rightmost(0.0099), [0.01, 1e-9]),
             Some(rightmost_index)
         );
-        assert_eq!(simulation.nearest(morph, position_right_of_rightmost(0.0101), [0.01, 1e-9]), None);
+        assert_eq!(simulation.find_nearest(morph, position_right_of_rightmost(0.0101), [0.01, 1e-9]), None);
     }
 }
 

@@ -39,7 +39,7 @@ fn nearest_finds_robots_at_their_morphed_positions() {
             for morph in MORPH_FRACTIONS {
                 let morphed_position = unbend(&twist, morph);
                 assert_eq!(
-                    simulation.nearest(morph, morphed_position, [1e-10; 2]),
+                    simulation.find_nearest(morph, morphed_position, [1e-10; 2]),
                     Some(robot_index),
                     "{morph}"
                 );
@@ -152,7 +152,7 @@ fn gaps_of_a_cloud_are_inside_the_ellipse_only_and_contain_no_robot() {
     assert_eq!(empty_regions.len(), 2);
     for gap in empty_regions {
         assert!(is_point_inside(&contours.ellipse, gap) && !is_point_inside(&contours.exponential, gap));
-        assert_eq!(simulation.nearest(0.0, gap, [0.03; 2]), None, "{gap:?}");
+        assert_eq!(simulation.find_nearest(0.0, gap, [0.03; 2]), None, "{gap:?}");
     }
     for preset_name in ["straight", "gentle", "hard", "pivot", "worked"] {
         assert!(self::new_simulation(settings_of_preset(preset_name)).gaps().is_empty(), "{preset_name}");

@@ -57,7 +57,7 @@ fn pixels_show_the_density_of_the_cloud() {
         assert!((1..3000).contains(&cell_counts.iter().sum::<u32>()), "some are outside");
         // The picture is painted twice, because no pixel of the first painting may remain.
         for paint_pass in ["first", "second"] {
-            let pixels = simulation.paint(morph_fraction, &view_grid, &new_numbered_ramp(3));
+            let pixels = simulation.paint_picture(morph_fraction, &view_grid, &new_numbered_ramp(3));
             assert_eq!(pixels.len(), cell_counts.len());
             for (i, (rgba, cell_count)) in pixels.iter().zip(&cell_counts).enumerate() {
                 let expected_pixel =
@@ -89,7 +89,7 @@ fn cells_have_the_colour_of_their_most_frequent_outcome() {
         assert!((1..3000).contains(&cell_totals.iter().sum::<u32>()), "some are outside");
         for _ in 0..2 {
             let outcome_ramps = std::array::from_fn(|outcome_index| new_numbered_ramp(outcome_index as u8));
-            let pixels = simulation.paint(&view_grid, &outcome_ramps);
+            let pixels = simulation.paint_picture(&view_grid, &outcome_ramps);
             assert_eq!(pixels.len(), cell_totals.len());
             for ((rgba, outcome_counts), cell_total) in pixels.iter().zip(&cell_counts).zip(&cell_totals) {
                 if *cell_total == 0 {

@@ -17,7 +17,7 @@ export class Baseline {
     this.unitNoise = unitNoise;
     /** Offsets of each sample from the noise-free motion: x, y, length of the arc, heading. */
     this.cloud = new Float64Array(4 * this.samples);
-    this.counts = new Uint32Array(0);
+    this.cellCounts = new Uint32Array(0);
     this.pixels = new Uint32Array(0);
   }
 
@@ -37,19 +37,19 @@ export class Baseline {
     const chordLength = halfTurn === 0 ? v * dt : (v * dt * Math.sin(halfTurn)) / halfTurn;
     const noiseFree = { x: chordLength * Math.cos(halfTurn), y: chordLength * Math.sin(halfTurn), l: v * dt, t: 2 * halfTurn };
     const sampleSums = driveBaselineCloud(this.unitNoise, this.cloud, [v, omega, dt], noiseStds, noiseFree);
-    const means = Object.fromEntries(MEAN_KEYS.map((meanKey, i) => [meanKey, sampleSums[i] / n]));
-    const covarianceOf = (/** @type {string} */ a, /** @type {string} */ b) => (n / (n - 1)) * ((means[a + b] ?? means[b + a]) - means[a] * means[b]);
+    const meanValues = Object.fromEntries(MEAN_KEYS.map((meanKey, i) => [meanKey, sampleSums[i] / n]));
+    const covarianceOf = (/** @type {string} */ a, /** @type {string} */ b) => (n / (n - 1)) * ((meanValues[a + b] ?? meanValues[b + a]) - meanValues[a] * meanValues[b]);
     const covarianceMatrixOf = (/** @type {string[]} */ meanKeys) => meanKeys.map((a) => meanKeys.map((b) => covarianceOf(a, b)));
-    const heading = noiseFree.t + Math.atan2(means.s, means.c);
-    const cartesianMoments = { mean: [noiseFree.x + means.x, noiseFree.y + means.y, heading], cov: covarianceMatrixOf(['x', 'y', 't']) };
-    const exponentialMoments = { mean: [noiseFree.l + means.l, means.m, noiseFree.t + means.t], cov: covarianceMatrixOf(['l', 'm', 't']) };
+    const heading = noiseFree.t + Math.atan2(meanValues.s, meanValues.c);
+    const cartesianMoments = { mean: [noiseFree.x + meanValues.x, noiseFree.y + meanValues.y, heading], cov: covarianceMatrixOf(['x', 'y', 't']) };
+    const exponentialMoments = { mean: [noiseFree.l + meanValues.l, meanValues.m, noiseFree.t + meanValues.t], cov: covarianceMatrixOf(['l', 'm', 't']) };
 
-    const { columns: columnCount, rows: rowCount } = pictureView;
-    if (this.counts.length !== columnCount * rowCount) {
-      this.counts = new Uint32Array(columnCount * rowCount);
+    const { columnCount, rowCount } = pictureView;
+    if (this.cellCounts.length !== columnCount * rowCount) {
+      this.cellCounts = new Uint32Array(columnCount * rowCount);
       this.pixels = new Uint32Array(columnCount * rowCount);
     }
-    this.counts.fill(0);
+    this.cellCounts.fill(0);
     const whiteningFactorsOf = (/** @type {number[][]} */ covMatrix, /** @type {number} */ secondIndex) => {
       const cholesky00 = Math.sqrt(covMatrix[0][0]);
       const cholesky10 = covMatrix[0][secondIndex] / cholesky00;
@@ -57,13 +57,13 @@ export class Baseline {
       // The whitening factors map the ellipse of two standard deviations to the unit circle.
       return [0.5 / cholesky00, (-0.5 * cholesky10) / (cholesky00 * cholesky11), 0.5 / cholesky11];
     };
-    const cloudCentre = [means.x, means.y, means.l, means.t];
-    const normalization = [...cloudCentre, ...whiteningFactorsOf(cartesianMoments.cov, 1), ...whiteningFactorsOf(exponentialMoments.cov, 2), Math.sin(heading), Math.cos(heading)];
+    const cloudCentre = [meanValues.x, meanValues.y, meanValues.l, meanValues.t];
+    const normalizers = [...cloudCentre, ...whiteningFactorsOf(cartesianMoments.cov, 1), ...whiteningFactorsOf(exponentialMoments.cov, 2), Math.sin(heading), Math.cos(heading)];
     const [pixelsPerMetreX, pixelsPerMetreY] = [columnCount / (pictureView.xMax - pictureView.xMin), rowCount / (pictureView.yMax - pictureView.yMin)];
     const [inEllipse, inExponential, sumOfSquares, sumOfCubes, maxCount] = countCells(
-      this.cloud, this.counts, normalization, [(noiseFree.x - pictureView.xMin) * pixelsPerMetreX, pixelsPerMetreX, (pictureView.yMax - noiseFree.y) * pixelsPerMetreY, pixelsPerMetreY, columnCount, rowCount],
+      this.cloud, this.cellCounts, normalizers, [(noiseFree.x - pictureView.xMin) * pixelsPerMetreX, pixelsPerMetreX, (pictureView.yMax - noiseFree.y) * pixelsPerMetreY, pixelsPerMetreY, columnCount, rowCount],
     );
-    this.#paint(colourRamp, maxCount);
+    this.#paintPixels(colourRamp, maxCount);
     return {
       stats: {
         n,
@@ -77,12 +77,12 @@ export class Baseline {
   }
 
   /** Paints each pixel in the colour for its number of samples. @param {Uint8Array} colourRamp @param {number} maxCount */
-  #paint(colourRamp, maxCount) {
-    const { counts, pixels } = this;
+  #paintPixels(colourRamp, maxCount) {
+    const { cellCounts, pixels } = this;
     const rampColours = new Uint32Array(colourRamp.buffer, colourRamp.byteOffset, 256);
     const colourOfCount = new Uint32Array(maxCount + 1);
     for (let sampleCount = 1; sampleCount <= maxCount; sampleCount++) colourOfCount[sampleCount] = rampColours[Math.round(255 * Math.sqrt(sampleCount / maxCount))];
-    for (let i = 0; i < counts.length; i++) pixels[i] = colourOfCount[counts[i]];
+    for (let i = 0; i < cellCounts.length; i++) pixels[i] = colourOfCount[cellCounts[i]];
   }
 }
 
@@ -145,28 +145,28 @@ function driveBaselineCloud(unitNoise, cloudOffsets, commandVector, noiseStds, n
 /**
  * Second pass: counts the samples in both contours and in the cells of the picture, and adds up central moments across the mean heading.
  *
- * @param {Float64Array} cloud
- * @param {Uint32Array} counts numbers of samples in the cells, which the function increases
- * @param {number[]} normalization centre, whitening of both ellipses, sine and cosine of the mean heading
+ * @param {Float64Array} cloudOffsets
+ * @param {Uint32Array} cellCounts numbers of samples in the cells, which the function increases
+ * @param {number[]} normalizers centre, whitening of both ellipses, sine and cosine of the mean heading
  * @param {number[]} pixelTransform offset and pixels a metre of both axes, columns and rows
  * @returns {number[]} samples inside each contour, sums of squares and cubes, largest count
  */
-function countCells(cloud, counts, normalization, pixelTransform) {
-  const [meanX, meanY, meanLength, meanTurn, ellipse00, ellipse10, ellipse11, exponential00, exponential10, exponential11, sin, cos] = normalization;
+function countCells(cloudOffsets, cellCounts, normalizers, pixelTransform) {
+  const [meanX, meanY, meanLength, meanTurn, ellipse00, ellipse10, ellipse11, exponential00, exponential10, exponential11, sin, cos] = normalizers;
   const [xOriginPixels, pixelsPerMetreX, yOriginPixels, pixelsPerMetreY, columnCount, rowCount] = pixelTransform;
   let inEllipse = 0, inExponential = 0, sumOfSquares = 0, sumOfCubes = 0, maxCount = 0;
-  for (let j = 0; j < cloud.length; j += 4) {
-    const x = cloud[j];
-    const y = cloud[j + 1];
+  for (let j = 0; j < cloudOffsets.length; j += 4) {
+    const x = cloudOffsets[j];
+    const y = cloudOffsets[j + 1];
     const dx = x - meanX;
     const dy = y - meanY;
     const a = ellipse00 * dx;
     const b = ellipse10 * dx + ellipse11 * dy;
     // Adding 0 or 1 is faster than a branch that cannot be predicted.
     inEllipse += +(a * a + b * b <= 1);
-    const dLength = cloud[j + 2] - meanLength;
+    const dLength = cloudOffsets[j + 2] - meanLength;
     const e = exponential00 * dLength;
-    const f = exponential10 * dLength + exponential11 * (cloud[j + 3] - meanTurn);
+    const f = exponential10 * dLength + exponential11 * (cloudOffsets[j + 3] - meanTurn);
     inExponential += +(e * e + f * f <= 1);
     const z = cos * dy - sin * dx;
     sumOfSquares += z * z;
@@ -174,8 +174,8 @@ function countCells(cloud, counts, normalization, pixelTransform) {
     const pixelColumn = xOriginPixels + x * pixelsPerMetreX;
     const pixelRow = yOriginPixels - y * pixelsPerMetreY;
     if (pixelColumn >= 0 && pixelRow >= 0 && pixelColumn < columnCount && pixelRow < rowCount) {
-      const count = ++counts[(pixelRow | 0) * columnCount + (pixelColumn | 0)];
-      if (count > maxCount) maxCount = count;
+      const cellCount = ++cellCounts[(pixelRow | 0) * columnCount + (pixelColumn | 0)];
+      if (cellCount > maxCount) maxCount = cellCount;
     }
   }
   return [inEllipse, inExponential, sumOfSquares, sumOfCubes, maxCount];

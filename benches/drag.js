@@ -10,11 +10,11 @@ const DRAGGABLE_SELECTOR = '.slider input[type=range]:not(.playable *), .handle:
 
 /**
  * @typedef {object} Drag times in ms, step by step
- * @property {string} widget
- * @property {string} control the slider or handle that is dragged
- * @property {number[]} picture from the start of the frame after a step until the browser has finished a frame with the new picture
- * @property {number[]} text from the end of that frame until the browser has finished a frame with the new text
- * @property {number[]} steady from one frame to the next, if every frame has a step
+ * @property {string} widgetTag
+ * @property {string} controlName of the slider or handle that is dragged
+ * @property {number[]} pictureTimes from the start of the frame after a step until the browser has finished a frame with the new picture
+ * @property {number[]} textTimes from the end of that frame until the browser has finished a frame with the new text
+ * @property {number[]} frameTimes from one frame to the next, if every frame has a step
  *
  * @param {import('@playwright/test').Browser} browser
  * @param {string} pageUrl of page.html
@@ -36,7 +36,7 @@ export async function measureDrags(browser, pageUrl, stepCount) {
     const draggedCount = await page.locator(widgetTag).locator(DRAGGABLE_SELECTOR).count();
     await cdpSession.send('Emulation.setCPUThrottlingRate', { rate: CPU_SLOWDOWN });
     for (let i = 0; i < draggedCount; i++) {
-      dragTimings.push({ widget: widgetTag, ...(await page.evaluate(measureDrag, { widget: widgetTag, selector: DRAGGABLE_SELECTOR, i, steps: stepCount })) });
+      dragTimings.push({ widgetTag, ...(await page.evaluate(measureDrag, { widgetTag, draggableSelector: DRAGGABLE_SELECTOR, i, stepCount })) });
     }
     await cdpSession.send('Emulation.setCPUThrottlingRate', { rate: 1 });
   }
@@ -44,12 +44,12 @@ export async function measureDrags(browser, pageUrl, stepCount) {
   return dragTimings;
 }
 
-/** Measures the times of one drag. Runs in the page. @param {{ widget: string, selector: string, i: number, steps: number }} options */
-async function measureDrag({ widget, selector, i, steps }) {
+/** Measures the times of one drag. Runs in the page. @param {{ widgetTag: string, draggableSelector: string, i: number, stepCount: number }} options */
+async function measureDrag({ widgetTag, draggableSelector, i, stepCount }) {
   const MAX_FRAMES_PER_STEP = 30;
-  const figureElement = /** @type {any} */ (document.querySelector(widget));
+  const figureElement = /** @type {any} */ (document.querySelector(widgetTag));
   const shadowRoot = /** @type {ShadowRoot} */ (figureElement.shadowRoot);
-  const draggedElement = /** @type {HTMLInputElement} */ (shadowRoot.querySelectorAll(selector)[i]);
+  const draggedElement = /** @type {HTMLInputElement} */ (shadowRoot.querySelectorAll(draggableSelector)[i]);
   const isSlider = draggedElement.localName === 'input';
   // A late update after the previous drag could still set the value of the slider.
   await figureElement.settled;
@@ -88,10 +88,10 @@ async function measureDrag({ widget, selector, i, steps }) {
       draggedElement.dispatchEvent(new KeyboardEvent('keydown', { key: stepNumber % 2 ? 'ArrowLeft' : 'ArrowRight', bubbles: true, composed: true }));
     }
   };
-  /** @type {{ picture: number[], text: number[], steady: number[] }} */
-  const durationsByKind = { picture: [], text: [], steady: [] };
+  /** @type {{ pictureTimes: number[], textTimes: number[], frameTimes: number[] }} */
+  const dragTimes = { pictureTimes: [], textTimes: [], frameTimes: [] };
   // During the first six steps, which are not counted, the browser compiles the code.
-  for (let stepNumber = -6; stepNumber < steps; stepNumber++) {
+  for (let stepNumber = -6; stepNumber < stepCount; stepNumber++) {
     await new Promise(requestAnimationFrame);
     const [configBefore, picturesBefore] = [JSON.stringify(figureElement.simulation.config), pictureCount];
     let frameStart = 0;
@@ -113,13 +113,13 @@ async function measureDrag({ widget, selector, i, steps }) {
     }
     const textTime = await textPromise;
     if (stepNumber < 0) continue;
-    durationsByKind.picture.push(pictureTime - frameStart);
-    durationsByKind.text.push(Math.max(0, textTime - pictureTime));
+    dragTimes.pictureTimes.push(pictureTime - frameStart);
+    dragTimes.textTimes.push(Math.max(0, textTime - pictureTime));
   }
   let previousFrameTime = 0;
-  for (let stepIndex = 0; stepIndex <= steps; stepIndex++) {
+  for (let stepIndex = 0; stepIndex <= stepCount; stepIndex++) {
     const frameTime = /** @type {number} */ (await new Promise(requestAnimationFrame));
-    if (stepIndex > 0) durationsByKind.steady.push(frameTime - previousFrameTime);
+    if (stepIndex > 0) dragTimes.frameTimes.push(frameTime - previousFrameTime);
     previousFrameTime = frameTime;
     sendStep(stepIndex);
   }
@@ -129,5 +129,5 @@ async function measureDrag({ widget, selector, i, steps }) {
     for (const eventName of ['input', 'change']) draggedElement.dispatchEvent(new Event(eventName, { bubbles: true, composed: true }));
     await new Promise(requestAnimationFrame);
   }
-  return { control: draggedElement.id || (draggedElement.getAttribute('aria-label') ?? ''), ...durationsByKind };
+  return { controlName: draggedElement.id || (draggedElement.getAttribute('aria-label') ?? ''), ...dragTimes };
 }

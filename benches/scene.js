@@ -7,7 +7,7 @@
 export const ALPHAS = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 
 /** View with 400 pixels per metre around the whole cloud. */
-export const PICTURE_VIEW = { xMin: -0.2, yMin: -0.6, xMax: 2.2, yMax: 1.2, columns: 960, rows: 720 };
+export const PICTURE_VIEW = { xMin: -0.2, yMin: -0.6, xMax: 2.2, yMax: 1.2, columnCount: 960, rowCount: 720 };
 
 /** @typedef {typeof PICTURE_VIEW} Picture */
 
@@ -31,12 +31,12 @@ export function commandAt(eventNumber) {
  * @param {Picture} [picture]
  * @returns {Uint8ClampedArray}
  */
-export function readDensityPixels(simulation, { xMin, yMin, xMax, yMax, columns, rows } = PICTURE_VIEW) {
-  return simulation.picture(0, [xMin, yMin, xMax, yMax], columns, rows, COLOUR_RAMP);
+export function readDensityPixels(simulation, { xMin, yMin, xMax, yMax, columnCount, rowCount } = PICTURE_VIEW) {
+  return simulation.picture(0, [xMin, yMin, xMax, yMax], columnCount, rowCount, COLOUR_RAMP);
 }
 
-/** Returns everything that a page needs after an event, except for the pixels of the picture. @param {BananaMachine} simulation @param {number} event */
-export function readStatsAndContours(simulation, event) {
-  simulation.configure({ command: commandAt(event) });
+/** Returns everything that a page needs after an event, except for the pixels of the picture. @param {BananaMachine} simulation @param {number} eventNumber */
+export function readStatsAndContours(simulation, eventNumber) {
+  simulation.configure({ command: commandAt(eventNumber) });
   return { stats: simulation.stats, contours: simulation.contours };
 }

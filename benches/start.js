@@ -27,8 +27,8 @@ export async function measureStarts(browser, pageUrl, loadCount) {
     await page.addInitScript(() => sessionStorage.setItem('motion-widgets.introduced', 'yes'));
     await page.goto(pageUrl);
     await page.waitForFunction(() => performance.getEntriesByName('shown').length > 0);
-    for (const [markName, stage] of Object.entries(STAGE_OF_MARK)) {
-      stageTimes[stage].push(await page.evaluate((markName) => performance.measure('', 'begin', markName).duration, markName));
+    for (const [markName, stageName] of Object.entries(STAGE_OF_MARK)) {
+      stageTimes[stageName].push(await page.evaluate((markName) => performance.measure('', 'begin', markName).duration, markName));
     }
     await browserContext.close();
   }

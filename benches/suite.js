@@ -9,8 +9,8 @@ import { raceContenders } from './timing.js';
 
 /**
  * @typedef {object} Timings in ms, one time for each round
- * @property {{ samples: number, core: number[], baseline: number[] }[]} refresh one event of the slider, by core and baseline
- * @property {number[]} calibration of the example log
+ * @property {{ samples: number, core: number[], baseline: number[] }[]} refreshTimings one event of the slider, by core and baseline
+ * @property {number[]} calibrationTimes of the example log
  */
 
 /**
@@ -39,8 +39,8 @@ export async function measureCore(core, { quick: isQuickRun, log: logCsv }) {
     simulation.free();
   }
   const [odometry, reference] = [logCsv.odometry, logCsv.reference].map(parseCSVColumns);
-  const { calibration } = await raceContenders({ calibration: () => void core.calibrate({ odometry, reference }) }, secondsPerRace);
-  return { refresh: refreshTimings, calibration };
+  const { calibration: calibrationTimes } = await raceContenders({ calibration: () => void core.calibrate({ odometry, reference }) }, secondsPerRace);
+  return { refreshTimings, calibrationTimes };
 }
 
 /** Parses a log in CSV format into columns. @param {string} csvText */

@@ -5,7 +5,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { cpus } from 'node:os';
 import { join } from 'node:path';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
-import { build } from './build.mjs';
+import { buildProject } from './build.mjs';
 import { EXAMPLE_LOG_PATHS } from './example-log.mjs';
 import { REPOSITORY_ROOT, UserError, printStep, runProgram, runAsScript } from './process.mjs';
 import { startServer } from './serve.mjs';
@@ -40,9 +40,9 @@ async function measureInChromium(executablePath, benchOptions) {
   const { chromium: chromiumLauncher } = await import('@playwright/test');
   const { measureDrags } = await import('../benches/drag.js');
   const { measureStarts } = await import('../benches/start.js');
-  const { address, close } = await startServer(REPOSITORY_ROOT.replace(/[\\/]$/, ''), { port: 0, headers: ISOLATION_HEADERS });
+  const { address: serverAddress, close: closeServer } = await startServer(REPOSITORY_ROOT.replace(/[\\/]$/, ''), { port: 0, headers: ISOLATION_HEADERS });
   const browser = await chromiumLauncher.launch({ executablePath, args: CHROME_ARGUMENTS });
-  const figuresAddress = `${address}benches/page.html`;
+  const figuresAddress = `${serverAddress}benches/page.html`;
   try {
     printStep('First cloud');
     const pageStartTimes = await measureStarts(browser, figuresAddress, benchOptions.quick ? 5 : 11);
@@ -51,17 +51,17 @@ async function measureInChromium(executablePath, benchOptions) {
     printStep('Refresh and calibration');
     // The page "empty" has no figures, so that its times are those of the page alone.
     const page = await browser.newPage();
-    await page.route(`${address}empty`, (route) => route.fulfill({ headers: ISOLATION_HEADERS, contentType: 'text/html', body: '' }));
-    await page.goto(`${address}empty`);
+    await page.route(`${serverAddress}empty`, (route) => route.fulfill({ headers: ISOLATION_HEADERS, contentType: 'text/html', body: '' }));
+    await page.goto(`${serverAddress}empty`);
     if (!(await page.evaluate('crossOriginIsolated'))) throw new Error('The page is not isolated, and its clock too coarse.');
     const chromiumTimings = await page.evaluate(async ({ modules: [coreModule, suiteModule], given: suiteOptions }) => {
-      const [{ load }, { measureCore }] = await Promise.all([import(coreModule), import(suiteModule)]);
-      return measureCore(await load(), suiteOptions);
-    }, { modules: [`${address}dist/core.js`, `${address}benches/suite.js`], given: benchOptions });
+      const [{ load: loadCore }, { measureCore }] = await Promise.all([import(coreModule), import(suiteModule)]);
+      return measureCore(await loadCore(), suiteOptions);
+    }, { modules: [`${serverAddress}dist/core.js`, `${serverAddress}benches/suite.js`], given: benchOptions });
     return { chromium: chromiumTimings, start: pageStartTimes, drags: dragTimes };
   } finally {
     await browser.close();
-    close();
+    closeServer();
   }
 }
 
@@ -71,14 +71,14 @@ await runAsScript(import.meta.url, async () => {
   if (unknownOption !== undefined) throw new UserError(`"${unknownOption}" is not an option; \`npm run bench\` takes only --quick.`);
   const isQuickRun = commandOptions.length > 0;
   // The full build is measured, because it is published. The local build is not optimized.
-  await build();
+  await buildProject();
   const [odometry, reference] = [EXAMPLE_LOG_PATHS.odometry, EXAMPLE_LOG_PATHS.reference].map((logPath) => readFileSync(join(REPOSITORY_ROOT, logPath), 'utf8'));
   const benchOptions = { quick: isQuickRun, log: { odometry, reference } };
   printStep('Node');
   // The modules of benches/ import dist/, which exists only after the build.
   const { measureCore } = await import('../benches/suite.js');
-  const { load } = await import('../dist/core.js');
-  const nodeTimings = await measureCore(/** @type {import('../www/types.d.ts').Motion} */ (await load()), benchOptions);
+  const { load: loadCore } = await import('../dist/core.js');
+  const nodeTimings = await measureCore(/** @type {import('../www/types.d.ts').Motion} */ (await loadCore()), benchOptions);
   const browser = await ensureBrowser();
   printStep('Chromium');
   const benchResults = { ranOn: await describeMachine(browser.version), quick: isQuickRun, node: nodeTimings, ...(await measureInChromium(browser.chrome, benchOptions)) };

@@ -4,16 +4,16 @@
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { REPOSITORY_ROOT, UserError, filesOf, isProgram, memoize, printStep, runProgram } from './process.mjs';
+import { REPOSITORY_ROOT, UserError, filesOf, isProgram, memoizeWork, printStep, runProgram } from './process.mjs';
 import { CACHE_DIRECTORY, readManifestValue, ensureNativeRust } from './toolchain.mjs';
 
 const BINDGEN_CRATE = 'scripts/bind';
 
 /** Returns the path of the program that generates the core's JavaScript glue. The first call builds it. */
-export const ensureBindProgram = memoize(() => compileProgram('bind', []));
+export const ensureBindProgram = memoizeWork(() => compileProgram('bind', []));
 
 /** Returns the path of the program that runs WebAssembly tests in a browser. The first call builds it. */
-export const ensureTestRunner = memoize(async () => {
+export const ensureTestRunner = memoizeWork(async () => {
   // The generator of JavaScript glue is built first, because its build compiles most crates that the test runner needs too.
   await ensureBindProgram();
   return compileProgram('test-runner', ['--features', 'test-runner']);

@@ -86,8 +86,8 @@ async function installChromeForTesting() {
   const browsersDirectory = join(CACHE_DIRECTORY, 'browsers');
   const browserPathsFile = join(browsersDirectory, 'paths.json');
   if (existsSync(browserPathsFile)) {
-    const { chrome, driver } = JSON.parse(readFileSync(browserPathsFile, 'utf8'));
-    const existingBrowser = await pairBrowserWithDriver(chrome, driver);
+    const { chrome, driver: driverPath } = JSON.parse(readFileSync(browserPathsFile, 'utf8'));
+    const existingBrowser = await pairBrowserWithDriver(chrome, driverPath);
     if (existingBrowser !== undefined) return existingBrowser;
   }
   printStep('Downloading Chrome for Testing');
@@ -98,9 +98,9 @@ async function installChromeForTesting() {
     const installLibraries = [absolutePath('node_modules/@playwright/test/cli.js'), 'install-deps', 'chromium'];
     await runOrThrow('Libraries that Chrome needs are missing: run `npx playwright install-deps chromium` and start again.', process.execPath, installLibraries, { seconds: 600 });
   }
-  const driver = await downloadProgram(browsersDirectory, `chromedriver@${await readVersion(chrome)}`);
-  writeFileSync(browserPathsFile, JSON.stringify({ chrome, driver }));
-  return pairBrowserWithDriver(chrome, driver);
+  const driverPath = await downloadProgram(browsersDirectory, `chromedriver@${await readVersion(chrome)}`);
+  writeFileSync(browserPathsFile, JSON.stringify({ chrome, driver: driverPath }));
+  return pairBrowserWithDriver(chrome, driverPath);
 }
 
 /** Downloads a program, and returns its path. @param {string} installDirectory @param {string} programAndVersion @returns {Promise<string | undefined>} */

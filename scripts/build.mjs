@@ -35,7 +35,7 @@ const CORE_SOURCES = [
  * @param {boolean} [options.isLocal] true for a server on this machine. All figures then share the whole core, compiled with the profile
  *   `web` and not shrunk, unless the modules for publication exist already.
  */
-export async function build({ isLocal = false } = {}) {
+export async function buildProject({ isLocal = false } = {}) {
   const coreHash = hashOfFiles(CORE_SOURCES);
   const coreProducts = ['build/motion.js', 'build/motion.wasm', 'build/core.d.ts', 'build/crates.json', 'build/settings.js'];
   const isPublishedCoreUpToDate = isUpToDate('build/core.sha256', coreHash, coreProducts);
@@ -81,7 +81,7 @@ async function buildIfStale(stampName, sourceHash, productPaths, buildProducts) 
  * @param {string} stampPath @param {string} sourceHash @param {string[]} productPaths
  */
 function isUpToDate(stampPath, sourceHash, productPaths) {
-  return [stampPath, ...productPaths].every((path) => existsSync(absolutePath(path))) && readFileSync(absolutePath(stampPath), 'utf8') === sourceHash;
+  return [stampPath, ...productPaths].every((filePath) => existsSync(absolutePath(filePath))) && readFileSync(absolutePath(stampPath), 'utf8') === sourceHash;
 }
 
 /**
@@ -123,7 +123,7 @@ async function compileCore(rustTools, coreName, isLocal) {
   // contain paths. In a published module the paths of this machine are removed.
   const registrySources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
   const { stdout: sysroot } = await runProgram(join(rustTools.cargoDirectory, 'rustc'), ['--print', 'sysroot'], { env: rustTools.env, quiet: true });
-  const pathRemovalFlags = [registrySources, join(sysroot.trim(), 'lib/rustlib/src/rust')].map((path) => `"--remap-path-prefix=${path}="`);
+  const pathRemovalFlags = [registrySources, join(sysroot.trim(), 'lib/rustlib/src/rust')].map((filePath) => `"--remap-path-prefix=${filePath}="`);
   const pathRemovalOption = `target.wasm32-unknown-unknown.rustflags=[${pathRemovalFlags}]`;
   const cargoProfile = isLocal ? 'web' : 'release';
   const cargoOptions = ['--quiet', '--locked', '--profile', cargoProfile, '--lib', '--crate-type', 'cdylib', ...(isLocal ? [] : ['--config', pathRemovalOption])];
@@ -144,8 +144,8 @@ async function writeSettings() {
   const cargoArguments = ['run', '--quiet', '--locked', '--example', 'declarations'];
   const { stdout } = await runOrThrow('The settings could not be listed: see above.', join(cargoDirectory, 'cargo'), cargoArguments, { env, quiet: true });
   const [widgetDeclarations, otherConstants] = JSON.parse(stdout);
-  const settings = Object.fromEntries(widgetDeclarations.map((/** @type {any[]} */ [tag, settingsOfWidget]) => [tag, declarationsOf(settingsOfWidget)]));
-  const presetsByTag = Object.fromEntries(widgetDeclarations.map((/** @type {any[]} */ [tag, , presetsOfWidget]) => [tag, presetsOfWidget.map((/** @type {any[]} */ [name, settings]) => ({ name, settings }))]));
+  const settings = Object.fromEntries(widgetDeclarations.map((/** @type {any[]} */ [widgetTag, settingsOfWidget]) => [widgetTag, declarationsOf(settingsOfWidget)]));
+  const presetsByTag = Object.fromEntries(widgetDeclarations.map((/** @type {any[]} */ [widgetTag, , presetsOfWidget]) => [widgetTag, presetsOfWidget.map((/** @type {any[]} */ [moduleName, settings]) => ({ name: moduleName, settings }))]));
   const typeLines = "/** @typedef {import('../www/types.d.ts').Declaration} Declaration */\n\n/** @type {Record<string, Declaration[]>} */\n";
   const constantLines = Object.entries({ settings, presets: presetsByTag, ...otherConstants }).map(([constantName, constantValue]) => `export const ${constantName} = ${JSON.stringify(constantValue, null, 1)};\n`);
   writeFileSync(absolutePath('build/settings.js'), typeLines + constantLines.join('\n'));
@@ -158,70 +158,70 @@ async function writeSettings() {
  * @returns {import('../www/types.d.ts').Declaration[]}
  */
 function declarationsOf(settingsOfWidget) {
-  const fieldKeys = settingsOfWidget.flatMap(([, { fields = [] }]) => fields.map((/** @type {any[]} */ [{ key }]) => key));
+  const fieldKeys = settingsOfWidget.flatMap(([, { fields = [] }]) => fields.map((/** @type {any[]} */ [{ key: settingKey }]) => settingKey));
   // If several groups have a field of the same name, as two poses have, the group is part of the field's name.
   const isInSeveralGroups = (/** @type {string} */ fieldKey) => fieldKeys.indexOf(fieldKey) < fieldKeys.lastIndexOf(fieldKey);
-  return settingsOfWidget.flatMap(([{ key, of, unit, sentence, each }, { type, allowed, nullable, weights, words, fields, minLength }, defaultValue]) => {
-    const rangeLimits = { min: allowed?.start, max: allowed?.end };
+  return settingsOfWidget.flatMap(([{ key: settingKey, of, unit: unitText, sentence: docSentence, each }, { type, allowed: allowedText, nullable, weights, words, fields, minLength }, defaultValue]) => {
+    const rangeLimits = { min: allowedText?.start, max: allowedText?.end };
     const listItems = type === 'numbers' && each ? defaultValue : [];
     return [
-      { key, of: of ?? undefined, weights, type, words, fields: fields?.map((/** @type {any[]} */ [groupField]) => groupField.key), unit: unit || undefined, nullable, ...rangeLimits, default: defaultValue, sentence },
+      { key: settingKey, of: of ?? undefined, weights, type, words, fields: fields?.map((/** @type {any[]} */ [groupField]) => groupField.key), unit: unitText || undefined, nullable, ...rangeLimits, default: defaultValue, sentence: docSentence },
       ...listItems.map((/** @type {number} */ listItem, /** @type {number} */ itemIndex) => (
-        { key: `alpha${itemIndex + 1}`, in: key, index: itemIndex, type: 'number', nullable: itemIndex >= minLength || undefined, ...rangeLimits, default: listItem, sentence: each }
+        { key: `alpha${itemIndex + 1}`, in: settingKey, index: itemIndex, type: 'number', nullable: itemIndex >= minLength || undefined, ...rangeLimits, default: listItem, sentence: each }
       )),
-      ...(fields ?? []).map((/** @type {any[]} */ [field, { start: min, end: max }]) => ({
-        key: isInSeveralGroups(field.key) ? `${key}${field.key[0].toUpperCase()}${field.key.slice(1)}` : field.key, in: key, field: isInSeveralGroups(field.key) ? field.key : undefined,
-        type: 'number', unit: field.unit, min, max, default: defaultValue[field.key], sentence: each ? `${field.sentence} ${each}.` : field.sentence,
+      ...(fields ?? []).map((/** @type {any[]} */ [field, { start: minValue, end: maxValue }]) => ({
+        key: isInSeveralGroups(field.key) ? `${settingKey}${field.key[0].toUpperCase()}${field.key.slice(1)}` : field.key, in: settingKey, field: isInSeveralGroups(field.key) ? field.key : undefined,
+        type: 'number', unit: field.unit, min: minValue, max: maxValue, default: defaultValue[field.key], sentence: each ? `${field.sentence} ${each}.` : field.sentence,
       })),
     ];
   });
 }
 
-/** Writes the module of a core and its JavaScript glue, from the files that wasm-bindgen wrote. @param {string} name @param {boolean} isLocal */
-async function completeCore(name, isLocal) {
-  copyFileSync(absolutePath(`build/bound/${name}/motion_bg.wasm`), absolutePath(`build/${name}.wasm`));
+/** Writes the module of a core and its JavaScript glue, from the files that wasm-bindgen wrote. @param {string} moduleName @param {boolean} isLocal */
+async function completeCore(moduleName, isLocal) {
+  copyFileSync(absolutePath(`build/bound/${moduleName}/motion_bg.wasm`), absolutePath(`build/${moduleName}.wasm`));
   if (!isLocal) {
-    await replacePanicsByTraps(`build/${name}.wasm`);
-    await optimizeModule(`build/${name}.wasm`);
+    await replacePanicsByTraps(`build/${moduleName}.wasm`);
+    await optimizeModule(`build/${moduleName}.wasm`);
   }
-  await writeGlue(name, isLocal ? readGlueNames(name) : await shortenNames(name));
+  await writeGlue(moduleName, isLocal ? readGlueNames(moduleName) : await shortenNames(moduleName));
 }
 
 /**
  * Replaces every panic by a bare trap. Browsers do not show the message, and the code that formats it takes 2 kB on the wire.
  *
- * @param {string} path of the module, with the names of its functions
+ * @param {string} filePath of the module, with the names of its functions
  */
-async function replacePanicsByTraps(path) {
+async function replacePanicsByTraps(filePath) {
   // The package name is a variable, because only full builds install the package. The type checker would require a package with a constant name.
   const packageName = 'binaryen';
   const { default: binaryen } = await import(packageName);
-  const binaryenModule = binaryen.readBinary(readFileSync(absolutePath(path)));
+  const binaryenModule = binaryen.readBinary(readFileSync(absolutePath(filePath)));
   const { BulkMemory, Multivalue, MutableGlobals, NontrappingFPToInt, ReferenceTypes, SignExt, SIMD128 } = binaryen.Features;
   binaryenModule.setFeatures(BulkMemory | Multivalue | MutableGlobals | NontrappingFPToInt | ReferenceTypes | SignExt | SIMD128);
   const { Function: functionWrapper } = binaryen;
   const panicNamePattern = /(^|::)(panicking::\w*(panic|assert)\w*|panic_\w+|rust_panic\w*|\w+_failed|slice_\w*fail\w*|handle_(alloc_)?error|capacity_overflow)(::|$)/;
   for (let i = 0; i < binaryenModule.getNumFunctions(); i++) {
     const panicFunction = binaryenModule.getFunctionByIndex(i);
-    const { name, base } = binaryen.getFunctionInfo(panicFunction);
-    if (base === '' && /^<?(core|alloc|std|__rustc)(\[|::)/.test(name) && panicNamePattern.test(name)) {
+    const { name: moduleName, base: functionBody } = binaryen.getFunctionInfo(panicFunction);
+    if (functionBody === '' && /^<?(core|alloc|std|__rustc)(\[|::)/.test(moduleName) && panicNamePattern.test(moduleName)) {
       functionWrapper.setBody(panicFunction, binaryenModule.unreachable());
     }
   }
-  writeFileSync(absolutePath(path), binaryenModule.emitBinary());
+  writeFileSync(absolutePath(filePath), binaryenModule.emitBinary());
   binaryenModule.dispose();
 }
 
 /** Passes of the optimizer. The usual passes are followed by a second merge of variables with equal values. */
 const OPTIMIZER_PASSES = ['-O3', '--converge', '--rse', '--vacuum', '--coalesce-locals', '--reorder-locals'];
 
-/** Optimizes a module in its file, and returns the output of the optimizer. @param {string} path @param {string[]} optimizerPasses */
-async function optimizeModule(path, optimizerPasses = OPTIMIZER_PASSES) {
+/** Optimizes a module in its file, and returns the output of the optimizer. @param {string} filePath @param {string[]} optimizerPasses */
+async function optimizeModule(filePath, optimizerPasses = OPTIMIZER_PASSES) {
   // Features that rustc enables by default for WebAssembly, and SIMD from .cargo/config.toml.
   const wasmFeatures = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
   const { stdout } = await runOrThrow('wasm-opt failed: see above.', process.execPath, [
-    absolutePath('node_modules/binaryen/bin/wasm-opt'), ...optimizerPasses, ...wasmFeatures.map((name) => `--enable-${name}`), absolutePath(path),
-    '-o', absolutePath(path)], { quiet: true });
+    absolutePath('node_modules/binaryen/bin/wasm-opt'), ...optimizerPasses, ...wasmFeatures.map((moduleName) => `--enable-${moduleName}`), absolutePath(filePath),
+    '-o', absolutePath(filePath)], { quiet: true });
   return stdout;
 }
 
@@ -233,29 +233,29 @@ async function optimizeModule(path, optimizerPasses = OPTIMIZER_PASSES) {
  * @property {[name: string, short: string][]} exports
  */
 
-/** Returns the names that wasm-bindgen has given to imports and exports. @param {string} name of the core @returns {Names} */
-function readGlueNames(name) {
-  const wasmModule = new WebAssembly.Module(readFileSync(absolutePath(`build/${name}.wasm`)));
+/** Returns the names that wasm-bindgen has given to imports and exports. @param {string} moduleName of the core @returns {Names} */
+function readGlueNames(moduleName) {
+  const wasmModule = new WebAssembly.Module(readFileSync(absolutePath(`build/${moduleName}.wasm`)));
   return {
     imports: WebAssembly.Module.imports(wasmModule).map((importEntry) => [importEntry.module, importEntry.name, importEntry.name]),
     exports: WebAssembly.Module.exports(wasmModule).map((exportEntry) => [exportEntry.name, exportEntry.name]),
   };
 }
 
-/** Shortens the names of imports and exports, which saves some 2 kB of transfer. @param {string} name of the core @returns {Promise<Names>} */
-async function shortenNames(name) {
-  const { imports, exports } = JSON.parse(await optimizeModule(`build/${name}.wasm`, ['--minify-imports-and-exports-and-modules']));
-  return { exports, imports: imports.map((/** @type {string[]} */ [, importName, shortName]) => ['a', importName, shortName]) };
+/** Shortens the names of imports and exports, which saves some 2 kB of transfer. @param {string} moduleName of the core @returns {Promise<Names>} */
+async function shortenNames(moduleName) {
+  const { imports: wasmImports, exports: wasmExports } = JSON.parse(await optimizeModule(`build/${moduleName}.wasm`, ['--minify-imports-and-exports-and-modules']));
+  return { exports: wasmExports, imports: wasmImports.map((/** @type {string[]} */ [, importName, shortName]) => ['a', importName, shortName]) };
 }
 
 /**
  * Converts wasm-bindgen's glue to a module that exports a function, which creates a new instance of the core. The original glue has exactly
  * one instance. Exports that nobody imports are left out.
  *
- * @param {string} name of the core
+ * @param {string} moduleName of the core
  * @param {Names} glueNames by which the module and its glue call each other
  */
-async function writeGlue(name, glueNames) {
+async function writeGlue(moduleName, glueNames) {
   const glueChanges = /** @type {[RegExp, string][]} */ ([
     // An error that wasm-bindgen itself throws makes a core unusable, like a trap. Errors of other classes come from callbacks of the page.
     [/throw new Error\((?=getStringFromWasm)/g, 'throw new WebAssembly.RuntimeError('],
@@ -265,16 +265,16 @@ async function writeGlue(name, glueNames) {
     // wasm-bindgen adds the members of a namespace one by one. Bundlers take that for side effects, and therefore keep unused namespaces.
     [/^export const (\w+) = \{\};\n((?:\1\.\w+ = \w+;\n)+)/gm, 'export const $1 = /* @__PURE__ */ (($1) => {\n$2return $1;\n})({});\n'],
   ]);
-  const bindgenGlue = readFileSync(absolutePath(`build/bound/${name}/motion_bg.js`), 'utf8');
+  const bindgenGlue = readFileSync(absolutePath(`build/bound/${moduleName}/motion_bg.js`), 'utf8');
   // The core of a widget has no namespaces.
-  const missingChange = name === 'motion' && glueChanges.find(([gluePattern]) => !bindgenGlue.match(gluePattern));
+  const missingChange = moduleName === 'motion' && glueChanges.find(([gluePattern]) => !bindgenGlue.match(gluePattern));
   if (missingChange) throw new Error(`wasm-bindgen's glue has no ${missingChange[0]}, which scripts/build.mjs replaces.`);
   const changedGlue = glueChanges.reduce((glueText, [gluePattern, glueReplacement]) => glueText.replace(gluePattern, glueReplacement), bindgenGlue);
   const exportNames = [...bindgenGlue.matchAll(/^export (?:class|function|const|let) (?!__)(\w+)/gm)].map(([, exportName]) => exportName);
   const { build: bundleScript } = await import('esbuild');
   const gluePlugin = { name: 'glue', setup: (/** @type {import('esbuild').PluginBuild} */ { onLoad }) => onLoad({ filter: /motion_bg\.js$/ }, () => ({ contents: changedGlue })) };
   const { outputFiles } = await bundleScript({
-    stdin: { contents: `export { ${[...exportNames, ...glueNames.imports.map(([, importName]) => importName), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: absolutePath(`build/bound/${name}`) },
+    stdin: { contents: `export { ${[...exportNames, ...glueNames.imports.map(([, importName]) => importName), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: absolutePath(`build/bound/${moduleName}`) },
     bundle: true,
     format: 'esm',
     write: false,
@@ -282,7 +282,7 @@ async function writeGlue(name, glueNames) {
     plugins: [gluePlugin],
   });
   const shortNameByExport = new Map(glueNames.exports);
-  const shortNameOf = (/** @type {string} */ exportName) => shortNameByExport.get(exportName) ?? (() => { throw new Error(`The core of ${name} does not export ${exportName}.`); })();
+  const shortNameOf = (/** @type {string} */ exportName) => shortNameByExport.get(exportName) ?? (() => { throw new Error(`The core of ${moduleName} does not export ${exportName}.`); })();
   const glueBody = outputFiles[0].text.replace(/^export \{[^}]*\};\s*$/m, '').replaceAll(/\bwasm\.(\w+)/g, (_, exportName) => `wasm.${shortNameOf(exportName)}`);
   const moduleLines = [
     'export default async (module) => {',
@@ -293,12 +293,12 @@ async function writeGlue(name, glueNames) {
     `return { ${exportNames} };`,
     '};',
   ];
-  writeFileSync(absolutePath(`build/${name}.js`), `${moduleLines.join('\n')}\n`);
+  writeFileSync(absolutePath(`build/${moduleName}.js`), `${moduleLines.join('\n')}\n`);
   const declarationLine = 'declare const instantiate: (module: WebAssembly.Module) => Promise<typeof import("./simulations.d.ts")>;\n';
-  writeFileSync(absolutePath(`build/${name}.d.ts`), `${declarationLine}export default instantiate;\n`);
+  writeFileSync(absolutePath(`build/${moduleName}.d.ts`), `${declarationLine}export default instantiate;\n`);
 }
 
 await runAsScript(import.meta.url, async () => {
-  await build({ isLocal: process.argv.includes('--local') });
+  await buildProject({ isLocal: process.argv.includes('--local') });
   console.log('\ndist/ is up to date.');
 });

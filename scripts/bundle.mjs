@@ -60,7 +60,7 @@ const MODULE_SOURCES = {
    * @param {RegExp} shiftedCharacters characters to whose code 256 is added
    */
   bytes: (bytes, shiftedCharacters) => {
-    const byteText = Buffer.from(bytes).toString('latin1').replaceAll(shiftedCharacters, (character) => String.fromCharCode(character.charCodeAt(0) + 256));
+    const byteText = Buffer.from(bytes).toString('latin1').replaceAll(shiftedCharacters, (textCharacter) => String.fromCharCode(textCharacter.charCodeAt(0) + 256));
     return (
       `const text = ${JSON.stringify(byteText)};` +
       // `Uint8Array.from` would take ten times as long, because it uses the string's iterator.
@@ -106,8 +106,8 @@ const MODULE_SOURCES = {
   },
 };
 
-/** Returns the module that a widget needs, without the simulations of other widgets. @param {string} tag */
-const moduleFileOf = (tag) => hashedFileOf(tag, '.wasm', readFileSync(absolutePath(`build/${tag}.wasm`)));
+/** Returns the module that a widget needs, without the simulations of other widgets. @param {string} widgetTag */
+const moduleFileOf = (widgetTag) => hashedFileOf(widgetTag, '.wasm', readFileSync(absolutePath(`build/${widgetTag}.wasm`)));
 
 /**
  * Returns a file of dist/chunks/ with a hash of its contents in the name.
@@ -151,7 +151,7 @@ export declare function isFigureTag(tag: string): boolean;
  * @param {object} [options]
  * @param {string[]} [options.tags] the figures that have a module of their own; the others share the whole core
  */
-export async function bundlePages({ tags = WIDGET_TAGS } = {}) {
+export async function bundlePages({ tags: widgetTags = WIDGET_TAGS } = {}) {
   printStep('Bundling the pages');
   await writeTypes();
   await writeComponents();
@@ -167,13 +167,13 @@ export async function bundlePages({ tags = WIDGET_TAGS } = {}) {
    */
   const bundleScripts = (entryPoints, bundleForm, buildOptions) =>
     build({
-      entryPoints: Object.entries(entryPoints).map(([outputName, path]) => ({ in: join('www', path), out: outputName })),
+      entryPoints: Object.entries(entryPoints).map(([outputName, filePath]) => ({ in: join('www', filePath), out: outputName })),
       absWorkingDir: REPOSITORY_ROOT,
       outdir: absolutePath('dist'),
       bundle: true,
       minify: true,
       // Only a local build has source maps. In such a build no figure has a module of its own.
-      sourcemap: tags.length === 0,
+      sourcemap: widgetTags.length === 0,
       format: 'esm',
       target: 'es2022',
       charset: 'utf8',
@@ -186,34 +186,34 @@ export async function bundlePages({ tags = WIDGET_TAGS } = {}) {
           setup({ onLoad, onResolve }) {
             const moduleSources = {
               core: MODULE_SOURCES.core,
-              external: () => MODULE_SOURCES.external(tags),
-              worker: () => MODULE_SOURCES.worker(tags.filter((tag) => LOG_FIGURE_TAGS.includes(tag))),
+              external: () => MODULE_SOURCES.external(widgetTags),
+              worker: () => MODULE_SOURCES.worker(widgetTags.filter((widgetTag) => LOG_FIGURE_TAGS.includes(widgetTag))),
               inlined: () => MODULE_SOURCES.inlined(buildOptions.format === 'iife'),
             };
             onLoad({ filter: /\.wasm$/ }, () => ({ contents: moduleSources[bundleForm](), loader: 'js' }));
             if (buildOptions.platform === 'node') onResolve({ filter: /^\.\/core\.ts$/ }, () => ({ path: './core.js', external: true }));
             // Scripts of the form `core` or `external` import the bytes of the core from a shared chunk.
             const bytesPath = { core: `./chunks/${basename(bytesScript.path)}`, external: `./${basename(bytesScript.path)}`, inlined: undefined, worker: undefined }[bundleForm];
-            onResolve({ filter: new RegExp(`^${BYTES_MODULE_NAME}$`) }, ({ path }) => (bytesPath ? { path: bytesPath, external: true } : { path, namespace: 'core' }));
+            onResolve({ filter: new RegExp(`^${BYTES_MODULE_NAME}$`) }, ({ path: filePath }) => (bytesPath ? { path: bytesPath, external: true } : { path: filePath, namespace: 'core' }));
             onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE_SOURCES.bytes(moduleBytes, SHIFTED_CHARACTERS[buildOptions.charset === 'ascii' ? 'ascii' : 'utf8']) }));
             // A page that cannot start a worker runs the worker's script itself.
             if (bundleForm === 'external') onResolve({ filter: /\/logs\/session\.ts$/ }, () => ({ path: `./${basename(LOG_WORKER_PATH)}`, external: true }));
             onLoad({ filter: /[/\\]build[/\\]settings\.js$/ }, () => ({ contents: composeMinimalDeclarations(), loader: 'js' }));
-            onLoad({ filter: /[/\\]www[/\\]address\.ts$/ }, ({ path }) => ({
-              contents: buildOptions.format === 'iife' ? ADDRESS_MODULES.classic : buildOptions.splitting ? ADDRESS_MODULES.chunk : readFileSync(path, 'utf8'),
+            onLoad({ filter: /[/\\]www[/\\]address\.ts$/ }, ({ path: filePath }) => ({
+              contents: buildOptions.format === 'iife' ? ADDRESS_MODULES.classic : buildOptions.splitting ? ADDRESS_MODULES.chunk : readFileSync(filePath, 'utf8'),
               loader: 'js',
             }));
-            onLoad({ filter: /[/\\](?:js-yaml|d3-array)\.mjs$/ }, ({ path }) => ({
-              contents: markConstantsPure(readFileSync(path, 'utf8')),
+            onLoad({ filter: /[/\\](?:js-yaml|d3-array)\.mjs$/ }, ({ path: filePath }) => ({
+              contents: markConstantsPure(readFileSync(filePath, 'utf8')),
               loader: 'js',
             }));
-            onLoad({ filter: /[/\\](?:zstddec-stream\.mjs|lit-html\.js)$/ }, ({ path }) => ({
-              contents: replacePassages(readFileSync(path, 'utf8'), /** @type {keyof typeof REPLACED_PASSAGES} */ (basename(path))),
+            onLoad({ filter: /[/\\](?:zstddec-stream\.mjs|lit-html\.js)$/ }, ({ path: filePath }) => ({
+              contents: replacePassages(readFileSync(filePath, 'utf8'), /** @type {keyof typeof REPLACED_PASSAGES} */ (basename(filePath))),
               loader: 'js',
             }));
-            onLoad({ filter: /[/\\]www[/\\].+\.[jt]s$/ }, ({ path }) => ({
-              contents: removeIndentation(minifyStyles(readFileSync(path, 'utf8'))),
-              loader: path.endsWith('.ts') ? 'ts' : 'js',
+            onLoad({ filter: /[/\\]www[/\\].+\.[jt]s$/ }, ({ path: filePath }) => ({
+              contents: removeIndentation(minifyStyles(readFileSync(filePath, 'utf8'))),
+              loader: filePath.endsWith('.ts') ? 'ts' : 'js',
             }));
           },
         },
@@ -236,21 +236,21 @@ export async function bundlePages({ tags = WIDGET_TAGS } = {}) {
     bundleScripts({ cli: 'cli.ts' }, 'inlined', { platform: 'node', sourcemap: false, inject: [] }),
     bundleScripts({ embed: 'embed.ts' }, 'inlined', { format: 'iife', sourcemap: false, inject: [] }),
   ]).catch(() => []);
-  if (!bundleResults.length || bundleResults.some(({ warnings }) => warnings.length)) {
+  if (!bundleResults.length || bundleResults.some(({ warnings: bundleWarnings }) => bundleWarnings.length)) {
     throw new UserError('The pages do not bundle: see the messages above.');
   }
 
   rmSync(absolutePath('dist'), { recursive: true, force: true });
-  const writeOutput = (/** @type {string} */ path, /** @type {string | Uint8Array} */ contents) => {
-    mkdirSync(dirname(path), { recursive: true });
-    writeFileSync(path, contents);
+  const writeOutput = (/** @type {string} */ filePath, /** @type {string | Uint8Array} */ fileContents) => {
+    mkdirSync(dirname(filePath), { recursive: true });
+    writeFileSync(filePath, fileContents);
   };
-  for (const { path, contents, text } of bundleResults.flatMap(({ outputFiles }) => outputFiles)) {
-    const outputContents = text.includes(CHUNK_PLACEHOLDER) ? text.replaceAll(CHUNK_PLACEHOLDER, basename(path, '.map')) : contents;
-    writeOutput(path, path.endsWith('.iife.js') ? escapeNonAscii(text) : outputContents);
+  for (const { path: filePath, contents: fileContents, text } of bundleResults.flatMap(({ outputFiles }) => outputFiles)) {
+    const outputContents = text.includes(CHUNK_PLACEHOLDER) ? text.replaceAll(CHUNK_PLACEHOLDER, basename(filePath, '.map')) : fileContents;
+    writeOutput(filePath, filePath.endsWith('.iife.js') ? escapeNonAscii(text) : outputContents);
   }
   writeOutput(absolutePath('dist/custom-elements.json'), `${JSON.stringify(await createManifest(), null, 1)}\n`);
-  for (const path of filesOf('www').filter((path) => /\.(html|css)$/.test(path))) copyFileSync(absolutePath(path), absolutePath(join('dist', relative('www', path))));
+  for (const filePath of filesOf('www').filter((filePath) => /\.(html|css)$/.test(filePath))) copyFileSync(absolutePath(filePath), absolutePath(join('dist', relative('www', filePath))));
   await writePages('dist', MAIN_PAGES);
   const { createPreUpgradeCss } = await importTypeScript('www/ui/reserved-height.ts');
   // Figures need scripts. If scripts are disabled, no height is reserved for figures.
@@ -259,9 +259,9 @@ export async function bundlePages({ tags = WIDGET_TAGS } = {}) {
   const slideCss = `:where(.reveal) :where(${WIDGET_TAGS}){font-size:.27em;text-align:start}`;
   appendFileSync(absolutePath('dist/motion-widgets.css'), `\n:where(${WIDGET_TAGS}){margin-block:1em}\n${slideCss}\n${reservedHeightCss}\n`);
   writeOutput(absolutePath('dist/motion.wasm'), moduleBytes);
-  for (const { path, contents } of [bytesScript, ...tags.map(moduleFileOf)]) writeOutput(absolutePath(path), contents);
+  for (const { path: filePath, contents: fileContents } of [bytesScript, ...widgetTags.map(moduleFileOf)]) writeOutput(absolutePath(filePath), fileContents);
   const declarationPaths = { core: 'www/types.d.ts', simulations: 'build/simulations.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts', solid: 'build/solid.d.ts', svelte: 'build/svelte.d.ts' };
-  for (const [name, path] of Object.entries(declarationPaths)) writeOutput(absolutePath(`dist/${name}.d.ts`), flattenImports(readFileSync(absolutePath(path), 'utf8')));
+  for (const [name, filePath] of Object.entries(declarationPaths)) writeOutput(absolutePath(`dist/${name}.d.ts`), flattenImports(readFileSync(absolutePath(filePath), 'utf8')));
   writeOutput(absolutePath('dist/external.d.ts'), ELEMENT_DECLARATIONS);
   for (const name of ['de', 'motion-widgets.css']) writeOutput(absolutePath(`dist/${name}.d.ts`), 'export {};\n');
   chmodSync(absolutePath('dist/cli.js'), 0o755);
@@ -293,8 +293,8 @@ function minifyStyles(scriptSource) {
       const expressionPlaceholder = `expression${templateExpressions.push(templateExpression)}`;
       return /(^|\n) *$/.test(styleText.slice(0, expressionPosition)) ? `@${expressionPlaceholder};` : expressionPlaceholder;
     });
-    const { code: minifiedStyle, warnings } = transformSync(plainStyle, { loader: 'css', minify: true });
-    if (warnings.length > 0) throw new UserError(`Style that cannot be read: ${warnings[0].text} in ${plainStyle}`);
+    const { code: minifiedStyle, warnings: bundleWarnings } = transformSync(plainStyle, { loader: 'css', minify: true });
+    if (bundleWarnings.length > 0) throw new UserError(`Style that cannot be read: ${bundleWarnings[0].text} in ${plainStyle}`);
     return minifiedStyle.trim().replace(/@expression(\d+);|expression(\d+)/g, (_, statementNumber, valueNumber) => templateExpressions[Number(statementNumber ?? valueNumber) - 1]);
   });
 }
@@ -314,7 +314,7 @@ function escapeNonAscii(script) {
 
 /** Returns a module with the loaders of the widgets for external.js. */
 const composeWidgetLoaders = () =>
-  `/** @type {Record<string, () => Promise<unknown>>} by their tags */\nexport const widgets = {\n${WIDGET_TAGS.map((tag) => `  '${tag}': () => import('../www/widgets/${tag}/${tag}.ts'),\n`).join('')}};\n`;
+  `/** @type {Record<string, () => Promise<unknown>>} by their tags */\nexport const widgets = {\n${WIDGET_TAGS.map((widgetTag) => `  '${widgetTag}': () => import('../www/widgets/${widgetTag}/${widgetTag}.ts'),\n`).join('')}};\n`;
 
 /**
  * Returns the declarations of settings without documentation, and without defaults that the default of the group contains. No page uses
@@ -380,15 +380,15 @@ function flattenImports(typesSource) {
  * @param {string} name
  */
 function composeInlinedPage(name) {
-  const readDistFile = (/** @type {string} */ path) => readFileSync(absolutePath(join('dist', path)), 'utf8').replace(/\n?\/\/# sourceMappingURL=\S+\s*$/, '');
+  const readDistFile = (/** @type {string} */ filePath) => readFileSync(absolutePath(join('dist', filePath)), 'utf8').replace(/\n?\/\/# sourceMappingURL=\S+\s*$/, '');
   const styleLink = /<link rel="stylesheet" href="([\w.-]+)">/g;
   const scriptTag = /<script type="module" src="([\w.-]+)"><\/script>/g;
   const pageHtml = readDistFile(name);
-  const inlineScript = (/** @type {string} */ path) =>
-    `<script type="module">${readDistFile(path).replaceAll(/<(?=\/script|!--)/gi, '\\x3C')}</script>`;
+  const inlineScript = (/** @type {string} */ filePath) =>
+    `<script type="module">${readDistFile(filePath).replaceAll(/<(?=\/script|!--)/gi, '\\x3C')}</script>`;
   // Links to other pages are replaced by their text, because a copied file does not have the other pages next to it.
   return pageHtml
     .replaceAll(/<a href="(?!#)[^"]*">([^<]*)<\/a>/g, '$1')
-    .replace(styleLink, (_, path) => `<style>\n${readDistFile(path)}</style>`)
-    .replace(scriptTag, (_, path) => inlineScript(path === 'external.js' ? 'motion-widgets.iife.js' : path));
+    .replace(styleLink, (_, filePath) => `<style>\n${readDistFile(filePath)}</style>`)
+    .replace(scriptTag, (_, filePath) => inlineScript(filePath === 'external.js' ? 'motion-widgets.iife.js' : filePath));
 }

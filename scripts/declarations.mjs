@@ -5,7 +5,7 @@ import { pathToFileURL } from 'node:url';
 import { isDeepStrictEqual } from 'node:util';
 import { register } from 'tsx/esm/api';
 import { presets, settings } from '../build/settings.js';
-import { REPOSITORY_ROOT, absolutePath, memoize } from './process.mjs';
+import { REPOSITORY_ROOT, absolutePath, memoizeWork } from './process.mjs';
 
 // tsx lets Node import TypeScript modules.
 register();
@@ -58,7 +58,7 @@ const CLOUD_DOCUMENTATION = {
 
 /** Returns the name of the class or type for a tag or key. Throws if the name is invalid or taken in JavaScript. @param {string} tagOrKey */
 export function toPascalCase(tagOrKey) {
-  const scriptName = tagOrKey.replaceAll(/(?:^|-)(.)/g, (_, letter) => letter.toUpperCase());
+  const scriptName = tagOrKey.replaceAll(/(?:^|-)(.)/g, (_, firstLetter) => firstLetter.toUpperCase());
   if (!/^[A-Z]\w*$/.test(scriptName)) throw new Error(`${scriptName} cannot name a declaration in JavaScript: rename it.`);
   // A type with the name of a global type, such as Map or Event, would hide the global type in every script.
   if (scriptName in globalThis) throw new Error(`${scriptName} is a global of JavaScript: give the setting or element another name.`);
@@ -69,8 +69,8 @@ export function toPascalCase(tagOrKey) {
 export const unionTypeOf = (allowedWords) => allowedWords.map((allowedWord) => `'${allowedWord}'`).join(' | ');
 
 /** Returns the TypeScript type of a setting. @param {Declaration} declaration */
-function typeTextOf({ key, type, words, nullable }) {
-  const typeText = words ? unionTypeOf(words) : (TYPE_NAMES[type] ?? toPascalCase(key));
+function typeTextOf({ key: settingKey, type: fieldType, words, nullable }) {
+  const typeText = words ? unionTypeOf(words) : (TYPE_NAMES[fieldType] ?? toPascalCase(settingKey));
   return nullable ? `${typeText} | null` : typeText;
 }
 
@@ -81,17 +81,17 @@ function typeTextOf({ key, type, words, nullable }) {
  * @param {string} [openingValue] the default as text
  */
 function descriptionOf(settingDeclaration, openingValue) {
-  const { sentence, type } = settingDeclaration;
+  const { sentence: docSentence, type: fieldType } = settingDeclaration;
   const rangeText = rangeTextOf(settingDeclaration);
-  const numberKind = { whole: 'a whole number', numbers: 'each' }[/** @type {string} */ (type)] ?? '';
+  const numberKind = { whole: 'a whole number', numbers: 'each' }[/** @type {string} */ (fieldType)] ?? '';
   const allowedText = rangeText && `${numberKind} from ${rangeText}`.trim();
   const rangeAndOpeningText = [allowedText, openingValue && `opens with ${openingValue}`].filter(Boolean).join('; ');
-  return rangeAndOpeningText ? `${sentence} ${rangeAndOpeningText[0].toUpperCase()}${rangeAndOpeningText.slice(1)}.` : sentence;
+  return rangeAndOpeningText ? `${docSentence} ${rangeAndOpeningText[0].toUpperCase()}${rangeAndOpeningText.slice(1)}.` : docSentence;
 }
 
 /** Returns the range of a setting as text. @param {Declaration} declaration */
-function rangeTextOf({ min, max, unit }) {
-  return min === undefined || max === undefined ? undefined : `${numberTextOf(min)} to ${numberTextOf(max)}${unit ? ` ${unit}` : ''}`;
+function rangeTextOf({ min: minValue, max: maxValue, unit: unitText }) {
+  return minValue === undefined || maxValue === undefined ? undefined : `${numberTextOf(minValue)} to ${numberTextOf(maxValue)}${unitText ? ` ${unitText}` : ''}`;
 }
 
 /** Returns the limit or default of a setting as text. @param {number} limitValue */
@@ -105,7 +105,7 @@ function numberTextOf(limitValue) {
 export const importTypeScript = (repositoryPath) => import(pathToFileURL(absolutePath(repositoryPath)).href);
 
 /** Returns the comments of the elements' classes by the names of the classes. */
-export const readClassComments = memoize(async () => {
+export const readClassComments = memoizeWork(async () => {
   // @ts-expect-error The analyzer has no types.
   const { cli } = await import('@custom-elements-manifest/analyzer/cli.js');
   // With `noWrite` the analyzer returns the manifest and does not write it. It still writes the manifest's path in dist/ into package.json.
@@ -113,7 +113,7 @@ export const readClassComments = memoize(async () => {
   const { schemaVersion, modules } = await cli({ argv: analyzerArguments, cwd: REPOSITORY_ROOT, noWrite: true });
   /** @type {any[]} */
   const classDeclarations = modules.flatMap((/** @type {any} */ { declarations }) => declarations ?? []);
-  return { schemaVersion, classes: new Map(classDeclarations.map((declaration) => [declaration.name, declaration])) };
+  return { schemaVersion, classes: new Map(classDeclarations.map((settingDeclaration) => [settingDeclaration.name, settingDeclaration])) };
 });
 
 /** Returns a description without the line breaks of its comment. @param {string} commentText */
@@ -130,62 +130,62 @@ async function describeWidget(widgetTag) {
   const { definition: { attributes, settingDeclarations: declarations, elementFields }, documentation } = await importTypeScript(`www/widgets/${widgetTag}/settings.ts`);
   /** @type {Documentation[]} */
   const memberDocumentations = [...('marked' in elementFields ? [CLOUD_DOCUMENTATION] : []), ...(documentation ? [documentation] : [])];
-  const { classes } = await readClassComments();
-  const elementClass = classes.get(`${toPascalCase(widgetTag)}Element`);
+  const { classes: classesByName } = await readClassComments();
+  const elementClass = classesByName.get(`${toPascalCase(widgetTag)}Element`);
   /** @type {Record<string, string>} */
-  const attributeSentences = Object.fromEntries(elementClass.attributes.map((/** @type {any} */ { name, description }) => [name, description]));
-  const documentedProperties = Object.assign({}, ...memberDocumentations.map(({ properties }) => properties));
-  const documentedState = Object.assign({}, ...memberDocumentations.map(({ state }) => state));
-  const settingOf = (/** @type {string} */ name) => declarations.find((/** @type {Declaration} */ { key }) => key === name);
+  const attributeSentences = Object.fromEntries(elementClass.attributes.map((/** @type {any} */ { name: fieldName, description }) => [fieldName, description]));
+  const documentedProperties = Object.assign({}, ...memberDocumentations.map(({ properties: elementProperties }) => elementProperties));
+  const documentedState = Object.assign({}, ...memberDocumentations.map(({ state: stateDocumentation }) => stateDocumentation));
+  const settingOf = (/** @type {string} */ fieldName) => declarations.find((/** @type {Declaration} */ { key: settingKey }) => settingKey === fieldName);
 
   /** Returns the description of an attribute. @returns {Omit<Attribute, 'isCommon'>} */
   const describeAttribute = (/** @type {[string, any]} */ [propertyName, propertyDefinition]) => {
-    const declaration = settingOf(propertyName);
-    if (declaration) {
-      const defaultValue = declaration.default;
+    const settingDeclaration = settingOf(propertyName);
+    if (settingDeclaration) {
+      const defaultValue = settingDeclaration.default;
       const openingText = defaultValue === null ? undefined : String(defaultValue);
       const formattedDefault = typeof defaultValue === 'number' ? numberTextOf(defaultValue) : openingText;
-      const withoutRange = descriptionOf({ ...declaration, min: undefined }, formattedDefault);
-      return { name: propertyName, type: typeTextOf(declaration), description: descriptionOf(declaration, formattedDefault), opening: openingText, allowed: rangeTextOf(declaration), withoutRange };
+      const withoutRange = descriptionOf({ ...settingDeclaration, min: undefined }, formattedDefault);
+      return { name: propertyName, type: typeTextOf(settingDeclaration), description: descriptionOf(settingDeclaration, formattedDefault), opening: openingText, allowed: rangeTextOf(settingDeclaration), withoutRange };
     }
     const { words, attribute, default: commonDefault } = propertyDefinition;
-    const name = typeof attribute === 'string' ? attribute : propertyName;
+    const fieldName = typeof attribute === 'string' ? attribute : propertyName;
     const elementField = elementFields[propertyName];
     const isPreset = propertyName === 'preset';
     const nullable = isPreset || commonDefault === null;
     const openingText = elementField?.default ?? (isPreset ? openingPresetOf(widgetTag) : commonDefault || undefined);
-    const type = elementField?.type === 'number' ? 'number' : words === undefined ? 'boolean' : elementField?.type === 'words' ? `(${unionTypeOf(words)})[]` : unionTypeOf(words);
+    const fieldType = elementField?.type === 'number' ? 'number' : words === undefined ? 'boolean' : elementField?.type === 'words' ? `(${unionTypeOf(words)})[]` : unionTypeOf(words);
     const typeText = Array.isArray(openingText) ? openingText.join(' ') : openingText;
-    const description = descriptionOf({ ...propertyDefinition, ...elementField, sentence: attributeSentences[name] }, typeText);
-    return { name, property: propertyName, type: nullable ? `${type} | null` : type, description, opening: typeText, allowed: elementField && rangeTextOf(elementField), withoutRange: description };
+    const description = descriptionOf({ ...propertyDefinition, ...elementField, sentence: attributeSentences[fieldName] }, typeText);
+    return { name: fieldName, property: propertyName, type: nullable ? `${fieldType} | null` : fieldType, description, opening: typeText, allowed: elementField && rangeTextOf(elementField), withoutRange: description };
   };
-  const toNamedDescription = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
+  const toNamedDescription = (/** @type {[string, any]} */ [fieldName, { sentence: docSentence, ...otherFields }]) => ({ name: fieldName, description: docSentence, ...otherFields });
 
   const describedAttributes = Object.entries({ ...attributes, ...COMMON_PROPERTIES }).map((propertyEntry) => ({ ...describeAttribute(propertyEntry), isCommon: propertyEntry[0] in COMMON_PROPERTIES }));
   /** @type {Declaration[]} */
-  const topLevelSettings = declarations.filter((/** @type {Declaration} */ declaration) => !declaration.in && !declaration.of);
-  const groupFields = topLevelSettings.filter(({ key }) => !(key in attributes)).map(fieldOf);
+  const topLevelSettings = declarations.filter((/** @type {Declaration} */ settingDeclaration) => !settingDeclaration.in && !settingDeclaration.of);
+  const groupFields = topLevelSettings.filter(({ key: settingKey }) => !(settingKey in attributes)).map(fieldOf);
   const classFields = elementClass.members
-    .filter((/** @type {any} */ { kind, privacy, inheritedFrom }) => kind === 'field' && privacy === 'public' && !inheritedFrom)
-    .map((/** @type {any} */ { name, description, readonly, type }) => ({ name, description: joinLines(description), readonly, type: type.text }));
-  const properties = [...groupFields, ...Object.entries(documentedProperties).map(toNamedDescription), ...classFields];
-  const documentedElementFields = Object.keys(elementFields).map((name) => {
-    const { type, description } = /** @type {Field} */ ([...describedAttributes, ...properties].find((describedField) => describedField.name === name) ?? {});
-    return { name, type, description };
+    .filter((/** @type {any} */ { kind, privacy: memberPrivacy, inheritedFrom }) => kind === 'field' && memberPrivacy === 'public' && !inheritedFrom)
+    .map((/** @type {any} */ { name: fieldName, description, readonly, type: fieldType }) => ({ name: fieldName, description: joinLines(description), readonly, type: fieldType.text }));
+  const elementProperties = [...groupFields, ...Object.entries(documentedProperties).map(toNamedDescription), ...classFields];
+  const documentedElementFields = Object.keys(elementFields).map((fieldName) => {
+    const { type: fieldType, description } = /** @type {Field} */ ([...describedAttributes, ...elementProperties].find((describedField) => describedField.name === fieldName) ?? {});
+    return { name: fieldName, type: fieldType, description };
   });
   const stateFields = new Map([...topLevelSettings.map(fieldOf), ...documentedElementFields, ...Object.entries(documentedState).map(toNamedDescription)].map((stateField) => [stateField.name, stateField]));
-  for (const { name, type } of stateFields.values()) if (!type) throw new Error(`${widgetTag}: nothing says what ${name} is in its state.`);
-  return { tag: widgetTag, className: toPascalCase(widgetTag), attributes: describedAttributes, properties, state: [...stateFields.values()] };
+  for (const { name: fieldName, type: fieldType } of stateFields.values()) if (!fieldType) throw new Error(`${widgetTag}: nothing says what ${fieldName} is in its state.`);
+  return { tag: widgetTag, className: toPascalCase(widgetTag), attributes: describedAttributes, properties: elementProperties, state: [...stateFields.values()] };
 }
 
-/** Returns the description of a setting, or of a number of a group, as a field. @param {Declaration} declaration */
-export function fieldOf(declaration) {
-  return { name: declaration.field ?? declaration.key, type: typeTextOf(declaration), description: descriptionOf(declaration) };
+/** Returns the description of a setting, or of a number of a group, as a field. @param {Declaration} settingDeclaration */
+export function fieldOf(settingDeclaration) {
+  return { name: settingDeclaration.field ?? settingDeclaration.key, type: typeTextOf(settingDeclaration), description: descriptionOf(settingDeclaration) };
 }
 
-/** Returns the preset with which the widget opens, if there is one. @param {string} tag */
-function openingPresetOf(tag) {
-  const defaultOf = (/** @type {string} */ name) => settings[tag].find(({ key }) => key === name)?.default;
-  const presetsOfTag = presets[/** @type {keyof typeof presets} */ (tag)];
-  return presetsOfTag.find((preset) => Object.entries(preset.settings).every(([settingKey, settingValue]) => isDeepStrictEqual(settingValue, defaultOf(settingKey))))?.name;
+/** Returns the preset with which the widget opens, if there is one. @param {string} widgetTag */
+function openingPresetOf(widgetTag) {
+  const defaultOf = (/** @type {string} */ fieldName) => settings[widgetTag].find(({ key: settingKey }) => settingKey === fieldName)?.default;
+  const presetsOfTag = presets[/** @type {keyof typeof presets} */ (widgetTag)];
+  return presetsOfTag.find((widgetPreset) => Object.entries(widgetPreset.settings).every(([settingKey, settingValue]) => isDeepStrictEqual(settingValue, defaultOf(settingKey))))?.name;
 }

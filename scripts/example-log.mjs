@@ -55,18 +55,18 @@ function* generateCommands() {
   }
 }
 
-/** Returns the poses of the odometry, one for each row. @param {Motion} core @returns {Pose[]} */
-function simulateOdometry(core) {
+/** Returns the poses of the odometry, one for each row. @param {Motion} coreModule @returns {Pose[]} */
+function simulateOdometry(coreModule) {
   const approachValue = (/** @type {number} */ currentValue, /** @type {number} */ targetValue, /** @type {number} */ maxChange) => currentValue + Math.max(-maxChange, Math.min(maxChange, targetValue - currentValue));
   let odometryPose = { x: 0, y: 0, theta: 0 };
   const odometryPoses = [odometryPose];
   let [v, omega, stepCount] = [0, 0, 0];
-  for (const command of generateCommands()) {
-    for (let remainingSteps = Math.round(command.seconds / TIME_STEP); remainingSteps > 0; remainingSteps--) {
+  for (const programName of generateCommands()) {
+    for (let remainingSteps = Math.round(programName.seconds / TIME_STEP); remainingSteps > 0; remainingSteps--) {
       if (stepCount >= DRIVE_DURATION / TIME_STEP) return odometryPoses;
-      v = approachValue(v, command.v, MAX_ACCELERATIONS.v * TIME_STEP);
-      omega = approachValue(omega, command.omega, MAX_ACCELERATIONS.omega * TIME_STEP);
-      if (v !== 0 || omega !== 0) odometryPose = core.se2.boxplus(odometryPose, [v * TIME_STEP, 0, omega * TIME_STEP]);
+      v = approachValue(v, programName.v, MAX_ACCELERATIONS.v * TIME_STEP);
+      omega = approachValue(omega, programName.omega, MAX_ACCELERATIONS.omega * TIME_STEP);
+      if (v !== 0 || omega !== 0) odometryPose = coreModule.se2.boxplus(odometryPose, [v * TIME_STEP, 0, omega * TIME_STEP]);
       stepCount += 1;
       if (stepCount % STEPS_PER_ROW === 0) odometryPoses.push(odometryPose);
     }
@@ -86,8 +86,8 @@ function findLegEnds(poseRows) {
   const legEnds = [0];
   for (const [i, [x, y, theta]] of poseRows.entries()) {
     const [legStartX, legStartY, legStartTheta] = poseRows[legEnds[legEnds.length - 1]];
-    const turn = Math.atan2(Math.sin(theta - legStartTheta), Math.cos(theta - legStartTheta));
-    if (Math.abs(x - legStartX) > AMCL_LEG_LENGTH.distance || Math.abs(y - legStartY) > AMCL_LEG_LENGTH.distance || Math.abs(turn) > AMCL_LEG_LENGTH.angle) legEnds.push(i);
+    const turnAngle = Math.atan2(Math.sin(theta - legStartTheta), Math.cos(theta - legStartTheta));
+    if (Math.abs(x - legStartX) > AMCL_LEG_LENGTH.distance || Math.abs(y - legStartY) > AMCL_LEG_LENGTH.distance || Math.abs(turnAngle) > AMCL_LEG_LENGTH.angle) legEnds.push(i);
   }
   return legEnds;
 }
@@ -95,16 +95,16 @@ function findLegEnds(poseRows) {
 /**
  * Returns the true poses of the robot. The odometry model moves it leg by leg, and within a leg the error grows smoothly.
  *
- * @param {Motion} motion
+ * @param {Motion} motionCore
  * @param {Pose[]} measuredPoses poses of the odometry, one for each row
  * @returns {Pose[]} one for each row, up to the end of the last complete leg
  */
-function simulateTruth(motion, measuredPoses) {
-  const { se2 } = motion;
+function simulateTruth(motionCore, measuredPoses) {
+  const { se2 } = motionCore;
   const roundedPoses = measuredPoses.map(roundPose);
   const scalePosition = (/** @type {Pose} */ { x, y, theta }) => ({ x: TRUE_PARAMETERS.distanceScale * x, y: TRUE_PARAMETERS.distanceScale * y, theta });
   const toPose = (/** @type {[number, number, number]} */ [x, y, theta]) => ({ x, y, theta });
-  const odometryModel = new motion.OdometryModel({ alphas: TRUE_PARAMETERS.alphas });
+  const odometryModel = new motionCore.OdometryModel({ alphas: TRUE_PARAMETERS.alphas });
   const truePoses = [scalePosition(measuredPoses[0])];
   const legEnds = findLegEnds(roundedPoses);
   for (const [legIndex, legEndRow] of legEnds.entries()) {
@@ -112,7 +112,7 @@ function simulateTruth(motion, measuredPoses) {
     const legStartRow = legEnds[legIndex - 1];
     const [legStart, legEnd] = [legStartRow, legEndRow].map((rowIndex) => scalePosition(toPose(roundedPoses[rowIndex])));
     const trueLegStart = truePoses[legStartRow];
-    const [x, y, theta] = odometryModel.sample(motion.decompose(legStart, legEnd), trueLegStart, 1, NOISE_SEED + legIndex);
+    const [x, y, theta] = odometryModel.sample(motionCore.decompose(legStart, legEnd), trueLegStart, 1, NOISE_SEED + legIndex);
     const computeMotionFromStart = (/** @type {Pose} */ measuredPose) => se2.compose(se2.inverse(legStart), measuredPose);
     const legError = se2.boxminus(se2.compose(se2.inverse(trueLegStart), { x, y, theta }), computeMotionFromStart(legEnd));
     for (let i = legStartRow + 1; i <= legEndRow; i++) {
@@ -127,10 +127,10 @@ function simulateTruth(motion, measuredPoses) {
 
 /** Writes the two logs. dist/core.js must be built. */
 export async function writeExampleLog() {
-  const { load } = await import('../dist/core.js');
-  const motion = await load();
-  const measuredPoses = simulateOdometry(motion);
-  const truePoses = simulateTruth(motion, measuredPoses);
+  const { load: loadCore } = await import('../dist/core.js');
+  const motionCore = await loadCore();
+  const measuredPoses = simulateOdometry(motionCore);
+  const truePoses = simulateTruth(motionCore, measuredPoses);
   const extraRowCount = Math.round(EXTRA_REFERENCE_TIME / ROW_INTERVAL);
   const csvLineOf = (/** @type {number} */ t, /** @type {Pose} */ pose) => `${[t.toFixed(3), ...roundPose(pose)].join(',')}\n`;
   const csvTableOf = (/** @type {string[]} */ csvLines) => `t,x,y,yaw\n${csvLines.join('')}`;
@@ -140,7 +140,7 @@ export async function writeExampleLog() {
   const referenceLines = Array.from({ length: truePoses.length + 2 * extraRowCount }, (_, rowIndex) => {
     const i = rowIndex - extraRowCount;
     const pose = truePoses[Math.max(0, Math.min(i, lastRow))];
-    return csvLineOf(START_TIME + i * ROW_INTERVAL + TRUE_PARAMETERS.clockOffset, motion.se2.compose(pose, mountPose));
+    return csvLineOf(START_TIME + i * ROW_INTERVAL + TRUE_PARAMETERS.clockOffset, motionCore.se2.compose(pose, mountPose));
   });
   writeFileSync(join(REPOSITORY_ROOT, EXAMPLE_LOG_PATHS.odometry), csvTableOf(odometryLines));
   writeFileSync(join(REPOSITORY_ROOT, EXAMPLE_LOG_PATHS.reference), csvTableOf(referenceLines));

@@ -45,10 +45,10 @@ async function runCargoFuzz(targetName, inputFolders, fuzzerOptions) {
 async function runFuzzTarget(targetName, runCount, seed) {
   unpackInputs(targetName);
   const fuzzOptions = [`-runs=${runCount}`, `-seed=${seed}`, ...INPUT_LIMITS];
-  const { ok, output } = await runCargoFuzz(targetName, [inputFolderOf(targetName, 'found'), inputFolderOf(targetName, 'known')], fuzzOptions);
-  if (!ok) console.error(output.split('\n').slice(-60).join('\n'));
-  const coveredEdgeCount = [...output.matchAll(/ cov: (\d+)/g)].pop()?.[1];
-  console.log(`${ok ? 'ok    ' : 'FAILED'} ${targetName.padEnd(12)} edges ${coveredEdgeCount}, ${output.match(/^Done .*$/m)?.[0]}`);
+  const { ok, output: programOutput } = await runCargoFuzz(targetName, [inputFolderOf(targetName, 'found'), inputFolderOf(targetName, 'known')], fuzzOptions);
+  if (!ok) console.error(programOutput.split('\n').slice(-60).join('\n'));
+  const coveredEdgeCount = [...programOutput.matchAll(/ cov: (\d+)/g)].pop()?.[1];
+  console.log(`${ok ? 'ok    ' : 'FAILED'} ${targetName.padEnd(12)} edges ${coveredEdgeCount}, ${programOutput.match(/^Done .*$/m)?.[0]}`);
   return ok;
 }
 
@@ -60,8 +60,8 @@ async function keepInputs(fuzzTargetName) {
   mkdirSync(mergedFolder);
   // The merge keeps one input for each control-flow edge. With hit counts of edges, the corpus would be five times as large.
   const mergeOptions = ['-set_cover_merge=1', '-use_counters=0', ...INPUT_LIMITS];
-  const { ok, output } = await runCargoFuzz(fuzzTargetName, [mergedFolder, inputFolderOf(fuzzTargetName, 'known'), inputFolderOf(fuzzTargetName, 'found')], mergeOptions);
-  if (!ok) throw new UserError(output);
+  const { ok, output: programOutput } = await runCargoFuzz(fuzzTargetName, [mergedFolder, inputFolderOf(fuzzTargetName, 'known'), inputFolderOf(fuzzTargetName, 'found')], mergeOptions);
+  if (!ok) throw new UserError(programOutput);
   const inputLines = readdirSync(mergedFolder).map((inputName) => readFileSync(join(mergedFolder, inputName)).toString('hex'));
   writeFileSync(packedPathOf(fuzzTargetName), inputLines.sort().map((hexLine) => `${hexLine}\n`).join(''));
   console.log(`${fuzzTargetName}: ${inputLines.length} inputs`);

@@ -16,11 +16,11 @@ const STANDARD_LIBRARY_NOTICE = 'The standard library of Rust (MIT OR Apache-2.0
  * @param {{ packages: any[] }} metadata output of `cargo metadata`, with all crates that any target or feature would need
  * @returns {Package[]}
  */
-export function listCrates(crateTree, { packages }) {
+export function listCrates(crateTree, { packages: listedPackages }) {
   const crateLines = new Set(crateTree.match(/^\S+ v\S+/gm));
-  return packages
-    .filter(({ name, version, source }) => source !== null && crateLines.has(`${name} v${version}`))
-    .map(({ name, version, license, manifest_path: manifest }) => ({ name, version, licence: license, directory: dirname(manifest) }));
+  return listedPackages
+    .filter(({ name: packageName, version: packageVersion, source }) => source !== null && crateLines.has(`${packageName} v${packageVersion}`))
+    .map(({ name: packageName, version: packageVersion, license, manifest_path: manifest }) => ({ name: packageName, version: packageVersion, licence: license, directory: dirname(manifest) }));
 }
 
 /**
@@ -32,24 +32,24 @@ export function listCrates(crateTree, { packages }) {
 export function listBundledPackages(bundleOutputs) {
   const bundledFiles = Object.values(bundleOutputs).flatMap(({ inputs }) => Object.keys(inputs).filter((inputPath) => inputs[inputPath].bytesInOutput > 0));
   const packageDirectories = bundledFiles.flatMap((bundledFile) => bundledFile.match(/^.*node_modules\/(?:@[^/]+\/)?[^/]+/) ?? []);
-  return [...new Set(packageDirectories)].map((path) => {
-    const directory = join(REPOSITORY_ROOT, path);
-    const { name, version, license } = JSON.parse(readFileSync(join(directory, 'package.json'), 'utf8'));
-    return { name, version, licence: license, directory };
+  return [...new Set(packageDirectories)].map((filePath) => {
+    const packageDirectory = join(REPOSITORY_ROOT, filePath);
+    const { name: packageName, version: packageVersion, license } = JSON.parse(readFileSync(join(packageDirectory, 'package.json'), 'utf8'));
+    return { name: packageName, version: packageVersion, licence: license, directory: packageDirectory };
   });
 }
 
-/** Returns each licence text once, below the names of the packages that have this licence. @param {Package[]} packages */
-export function readLicenceTexts(packages) {
+/** Returns each licence text once, below the names of the packages that have this licence. @param {Package[]} listedPackages */
+export function readLicenceTexts(listedPackages) {
   /** @type {Map<string, string[]>} */
   const packagesByText = new Map();
-  for (const { name, version, licence, directory } of packages) {
-    const licenceFiles = readdirSync(directory).filter((fileName) => /^(licen[cs]e|copying)/i.test(fileName));
+  for (const { name: packageName, version: packageVersion, licence: packageLicence, directory: packageDirectory } of listedPackages) {
+    const licenceFiles = readdirSync(packageDirectory).filter((fileName) => /^(licen[cs]e|copying)/i.test(fileName));
     // From the licences that a package offers, MIT is chosen, because its text is the shortest.
     const licenceFile = licenceFiles.find((licenceFileName) => /mit/i.test(licenceFileName)) ?? licenceFiles[0];
-    if (licenceFile === undefined) throw new Error(`${name} ${version} (${licence}) comes without the text of its licence.`);
-    const licenceText = readFileSync(join(directory, licenceFile), 'utf8').replaceAll('\r', '').trim();
-    packagesByText.set(licenceText, [...(packagesByText.get(licenceText) ?? []), `${name} ${version} (${licence})`]);
+    if (licenceFile === undefined) throw new Error(`${packageName} ${packageVersion} (${packageLicence}) comes without the text of its licence.`);
+    const licenceText = readFileSync(join(packageDirectory, licenceFile), 'utf8').replaceAll('\r', '').trim();
+    packagesByText.set(licenceText, [...(packagesByText.get(licenceText) ?? []), `${packageName} ${packageVersion} (${packageLicence})`]);
   }
   const licenceSections = [...packagesByText].map(([licenceText, packageNames]) => [packageNames.sort().join('\n'), licenceText]);
   const sectionTexts = licenceSections.sort(([a], [b]) => (a < b ? -1 : 1)).map((namesAndText) => namesAndText.join('\n\n'));

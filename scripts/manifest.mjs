@@ -25,39 +25,39 @@ import { readClassComments, joinLines, describeWidgets } from './declarations.mj
  * @returns {Promise<{ schemaVersion: string, modules: { kind: string, path: string, declarations: Element[], exports: object[] }[] }>}
  */
 export async function createManifest() {
-  const { schemaVersion, classes } = await readClassComments();
-  const elementDeclarations = (await describeWidgets()).map(({ tag, className, attributes, properties }) => {
+  const { schemaVersion, classes: classesByName } = await readClassComments();
+  const elementDeclarations = (await describeWidgets()).map(({ tag: widgetTag, className, attributes, properties: elementProperties }) => {
     const elementName = `${className}Element`;
-    const analyzedClass = classes.get(elementName);
+    const analyzedClass = classesByName.get(elementName);
     /** Replaces the general type names of the common class by those of the element's class. @param {string} typeText */
     const specializeType = (typeText) => ({ text: typeText.replace(/\bSimulation\b/, className).replace(/\bStateValues\b/, `${className}State`) });
-    const itemOf = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: specializeType(type.text) }), description: description && joinLines(description) });
+    const itemOf = (/** @type {any} */ { name: memberName, type, description }) => ({ name: memberName, ...(type && { type: specializeType(type.text) }), description: description && joinLines(description) });
     const documentedItemsOf = (/** @type {any[]} */ memberItems) => memberItems.filter(({ description }) => description).map(itemOf);
-    const memberOf = (/** @type {any} */ { kind, parameters, return: returnType, readonly, ...rest }) => ({
-      kind,
-      ...itemOf(rest),
-      ...(parameters && { parameters: parameters.map(itemOf) }),
-      ...(kind === 'method' && returnType && { return: { type: specializeType(returnType.type.text) } }),
+    const memberOf = (/** @type {any} */ { kind: memberKind, parameters: methodParameters, return: returnType, readonly, ...otherFields }) => ({
+      kind: memberKind,
+      ...itemOf(otherFields),
+      ...(methodParameters && { parameters: methodParameters.map(itemOf) }),
+      ...(memberKind === 'method' && returnType && { return: { type: specializeType(returnType.type.text) } }),
       ...(readonly && { readonly }),
     });
     return {
       kind: 'class',
       name: elementName,
-      tagName: tag,
+      tagName: widgetTag,
       customElement: true,
       description: analyzedClass.description,
-      attributes: attributes.map(({ name, property = name, type, description, opening }) => ({
-        name,
+      attributes: attributes.map(({ name: memberName, property: propertyName = memberName, type, description, opening: openingText }) => ({
+        name: memberName,
         type: { text: type.replace(' | null', '') },
         description,
-        fieldName: property,
-        ...(opening !== undefined && { default: `${opening}` }),
+        fieldName: propertyName,
+        ...(openingText !== undefined && { default: `${openingText}` }),
       })),
       members: [
-        ...attributes.map(({ name, property = name, type, description }) => ({ kind: 'field', name: property, type: { text: type }, description, attribute: name, reflects: true })),
-        ...properties.map(({ name, type, description, readonly }) => ({ kind: 'field', name, type: { text: type }, description, ...(readonly && { readonly }) })),
+        ...attributes.map(({ name: memberName, property: propertyName = memberName, type, description }) => ({ kind: 'field', name: propertyName, type: { text: type }, description, attribute: memberName, reflects: true })),
+        ...elementProperties.map(({ name: memberName, type, description, readonly }) => ({ kind: 'field', name: memberName, type: { text: type }, description, ...(readonly && { readonly }) })),
         ...analyzedClass.members
-          .filter((/** @type {any} */ { name, privacy }) => privacy === 'public' && !properties.some((property) => property.name === name))
+          .filter((/** @type {any} */ { name: memberName, privacy: memberPrivacy }) => memberPrivacy === 'public' && !elementProperties.some((property) => property.name === memberName))
           .map(memberOf),
       ],
       events: documentedItemsOf(analyzedClass.events),
@@ -67,6 +67,6 @@ export async function createManifest() {
     };
   });
   const modulePath = 'dist/external.js';
-  const manifestExports = elementDeclarations.map(({ name, tagName }) => ({ kind: 'custom-element-definition', name: tagName, declaration: { name, module: modulePath } }));
+  const manifestExports = elementDeclarations.map(({ name: memberName, tagName }) => ({ kind: 'custom-element-definition', name: tagName, declaration: { name: memberName, module: modulePath } }));
   return { schemaVersion, modules: [{ kind: 'javascript-module', path: modulePath, declarations: elementDeclarations, exports: manifestExports }] };
 }

@@ -4,7 +4,7 @@ import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
-import { build } from './build.mjs';
+import { buildProject } from './build.mjs';
 import { REPOSITORY_ROOT, runOrThrow, runAsScript } from './process.mjs';
 import { startServer } from './serve.mjs';
 
@@ -17,14 +17,14 @@ const FRAME_COUNT = 24;
 const FRAME_DURATIONS_MS = { each: 100, end: 1600 };
 
 await runAsScript(import.meta.url, async () => {
-  await build({ isLocal: true });
+  await buildProject({ isLocal: true });
   const { chromium } = await import('@playwright/test');
   const browser = await chromium.launch({ executablePath: (await ensureBrowser()).chrome, args: CHROME_ARGUMENTS });
-  const { address, close } = await startServer(join(REPOSITORY_ROOT, 'dist'), { port: 0 });
+  const { address: serverAddress, close: closeServer } = await startServer(join(REPOSITORY_ROOT, 'dist'), { port: 0 });
   const frameDirectory = mkdtempSync(join(tmpdir(), 'morph-'));
   try {
     const page = await browser.newPage({ viewport: { width: FIGURE_WIDTH_PX, height: 1350 } });
-    await page.goto(`${address}embed.html?widget=banana-machine`);
+    await page.goto(`${serverAddress}embed.html?widget=banana-machine`);
     await page.addStyleTag({ content: `body { margin: 0; font-size: ${FONT_SIZE_PX}px }` });
     const bananaMachine = page.locator('banana-machine');
     await bananaMachine.locator('.folds').waitFor();
@@ -44,7 +44,7 @@ await runAsScript(import.meta.url, async () => {
     await runOrThrow('img2webp is missing: install the package webp.', 'img2webp', ['-loop', '0', '-lossy', '-q', '50', '-m', '6', ...frameArguments, '-o', join(REPOSITORY_ROOT, 'doc/morph.webp')]);
   } finally {
     await browser.close();
-    close();
+    closeServer();
     rmSync(frameDirectory, { recursive: true });
   }
 });

@@ -58,10 +58,10 @@ function linkAddressOf(/** @type {string} */ codeText) {
   return `embed.html?${new URLSearchParams([['widget', widgetTag], ...attributePairs])}`;
 }
 
-/** Returns a button that sets the state of a figure, from a line with the button's label and the state. @param {string} line @param {(label: string) => string} renderInline */
-function tryButtonHtmlOf(line, renderInline) {
-  const [, label, state] = /** @type {RegExpExecArray} */ (/^(.+) (\{.*\})$/.exec(line));
-  return `<button data-try="${escapeHtml(state)}">${renderInline(label)}</button>`;
+/** Returns a button that sets the state of a figure, from a line with the button's label and the state. @param {string} buttonLine @param {(label: string) => string} renderInline */
+function tryButtonHtmlOf(buttonLine, renderInline) {
+  const [, buttonLabel, buttonState] = /** @type {RegExpExecArray} */ (/^(.+) (\{.*\})$/.exec(buttonLine));
+  return `<button data-try="${escapeHtml(buttonState)}">${renderInline(buttonLabel)}</button>`;
 }
 
 /** Returns the page of a document. @param {string} documentPath @param {Record<string, string>} pagePaths @param {boolean} hasNavigation */
@@ -80,25 +80,25 @@ function renderPage(documentPath, pagePaths, hasNavigation) {
   const documentHtml = /** @type {string} */ (new Marked({
     walkTokens: (markdownToken) => void (markdownToken.type === 'link' && (markdownToken.href = linkTargetOf(markdownToken.href))),
     renderer: {
-      heading({ tokens, depth }) {
+      heading({ tokens, depth: headingDepth }) {
         // The anchor has the form that GitHub gives it. Of several equal headings, the first has an anchor.
         const headingText = this.parser.parseInline(tokens, this.parser.textRenderer).replaceAll(/<[^>]*>/g, '');
-        const anchor = headingText.toLowerCase().replace(/[^\p{L}\p{N} _-]/gu, '').replaceAll(' ', '-');
-        const idAttribute = usedAnchors.has(anchor) ? '' : ` id="${anchor}"`;
-        usedAnchors.add(anchor);
-        return `<h${depth}${idAttribute}>${this.parser.parseInline(tokens)}</h${depth}>\n`;
+        const headingAnchor = headingText.toLowerCase().replace(/[^\p{L}\p{N} _-]/gu, '').replaceAll(' ', '-');
+        const idAttribute = usedAnchors.has(headingAnchor) ? '' : ` id="${headingAnchor}"`;
+        usedAnchors.add(headingAnchor);
+        return `<h${headingDepth}${idAttribute}>${this.parser.parseInline(tokens)}</h${headingDepth}>\n`;
       },
-      image: ({ href, text }) => `<img src="${escapeHtml(href)}" alt="${escapeHtml(text)}">`,
-      codespan({ text }) {
-        const siteAddress = linkAddressOf(text);
-        const codeHtml = `<code>${escapeHtml(text)}</code>`;
+      image: ({ href, text: sourceText }) => `<img src="${escapeHtml(href)}" alt="${escapeHtml(sourceText)}">`,
+      codespan({ text: sourceText }) {
+        const siteAddress = linkAddressOf(sourceText);
+        const codeHtml = `<code>${escapeHtml(sourceText)}</code>`;
         return siteAddress ? `<a href="${linkTo(escapeHtml(siteAddress))}">${codeHtml}</a>` : codeHtml;
       },
-      code({ text, lang }) {
-        if (lang === 'try') return `<p>${text.split('\n').map((line) => tryButtonHtmlOf(line, (label) => this.parser.parseInline(Lexer.lexInline(label)))).join('\n')}</p>\n`;
-        const liveFigures = lang === 'html' ? (text.match(FIGURE_PATTERN) ?? []).filter((figureHtml) => !figureHtml.includes('[') && !shownFigures.has(figureHtml)) : [];
+      code({ text: sourceText, lang }) {
+        if (lang === 'try') return `<p>${sourceText.split('\n').map((buttonLine) => tryButtonHtmlOf(buttonLine, (buttonLabel) => this.parser.parseInline(Lexer.lexInline(buttonLabel)))).join('\n')}</p>\n`;
+        const liveFigures = lang === 'html' ? (sourceText.match(FIGURE_PATTERN) ?? []).filter((figureHtml) => !figureHtml.includes('[') && !shownFigures.has(figureHtml)) : [];
         for (const figureHtml of liveFigures) shownFigures.add(figureHtml);
-        return `<pre><code>${escapeHtml(text)}</code></pre>\n${liveFigures.join('\n')}\n`;
+        return `<pre><code>${escapeHtml(sourceText)}</code></pre>\n${liveFigures.join('\n')}\n`;
       },
     },
   }).parse(markdownText, { async: false }));
@@ -112,8 +112,8 @@ function renderPage(documentPath, pagePaths, hasNavigation) {
 <title>${escapeHtml(markdownText.match(/^# (.*)$/m)?.[1])}</title>
 <meta name="description" content="${description}">
 <link rel="icon" href="data:,">
-${['page', 'motion-widgets'].map((name) => `<link rel="stylesheet" href="${linkTo(name)}.css">`).join('\n')}
-${scriptNames.map((name) => `<script type="module" src="${linkTo(name)}.js"></script>`).join('\n')}
+${['page', 'motion-widgets'].map((fileName) => `<link rel="stylesheet" href="${linkTo(fileName)}.css">`).join('\n')}
+${scriptNames.map((fileName) => `<script type="module" src="${linkTo(fileName)}.js"></script>`).join('\n')}
 </head>
 <body>
 ${hasNavigation ? navigationHtmlOf(linkTo, pagePath) : ''}<main>

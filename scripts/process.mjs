@@ -18,7 +18,7 @@ export class UserError extends Error {}
 const collectedOutputStore = new AsyncLocalStorage();
 
 /** Prints text, or adds the text to the collected output. @param {string} printedText @param {NodeJS.WriteStream} [outputStream] */
-function print(printedText, outputStream = process.stdout) {
+function printText(printedText, outputStream = process.stdout) {
   const outputTexts = collectedOutputStore.getStore();
   if (outputTexts === undefined) outputStream.write(printedText);
   else outputTexts.push(printedText);
@@ -37,13 +37,13 @@ export async function collectOutputOf(doWork) {
   try {
     return await collectedOutputStore.run(outputTexts, doWork);
   } finally {
-    print(outputTexts.join(''));
+    printText(outputTexts.join(''));
   }
 }
 
 /** Prints the name of the step that begins. @param {string} stepText */
 export function printStep(stepText) {
-  print(`\n▸ ${stepText}\n`);
+  printText(`\n▸ ${stepText}\n`);
 }
 
 /**
@@ -53,7 +53,7 @@ export function printStep(stepText) {
  * @param {() => Promise<T>} doWork
  * @returns {() => Promise<T>}
  */
-export function memoize(doWork) {
+export function memoizeWork(doWork) {
   /** @type {Promise<T> | undefined} */
   let resultPromise;
   return () => (resultPromise ??= doWork());
@@ -74,12 +74,12 @@ export function createTaskQueue() {
  * Waits until all promises are settled. If work continued after a failure, it would write files that the next run reads.
  *
  * @template {Promise<unknown>[] | []} T
- * @param {T} promises
+ * @param {T} pendingPromises
  * @returns {Promise<{ -readonly [K in keyof T]: Awaited<T[K]> }>} rejected with the first failure
  */
-export async function settleAll(promises) {
-  await Promise.allSettled(promises);
-  return /** @type {Promise<any>} */ (Promise.all(promises));
+export async function settleAll(pendingPromises) {
+  await Promise.allSettled(pendingPromises);
+  return /** @type {Promise<any>} */ (Promise.all(pendingPromises));
 }
 
 /**
@@ -123,7 +123,7 @@ function endAfterSignal() {
 /** Arranges that a process group ends when this process ends. @param {number} processGroupId */
 export function endGroupWithProcess(processGroupId) {
   processGroups.add(processGroupId);
-  for (const signal of ['SIGINT', 'SIGTERM']) process.off(signal, endAfterSignal).on(signal, endAfterSignal);
+  for (const processSignal of ['SIGINT', 'SIGTERM']) process.off(processSignal, endAfterSignal).on(processSignal, endAfterSignal);
 }
 
 /** Removes an ended process group from `processGroups`. @param {number} processGroupId */
@@ -143,16 +143,16 @@ const MAX_SILENCE_MS = 30_000;
 /**
  * Runs a program. Shows the program's output as it arrives, and the program's name if there is no output for a while.
  *
- * @param {string} command
+ * @param {string} programName
  * @param {string[]} commandArguments
  * @param {RunOptions} [options]
  * @returns {Promise<{ ok: boolean, timedOut: boolean, stdout: string, output: string }>} `output` is stdout and
  *   stderr in order of arrival; a program that cannot be started is not ok
  */
-export function runProgram(command, commandArguments, { env = {}, cwd = REPOSITORY_ROOT, seconds, quiet = false } = {}) {
-  return new Promise((resolve) => {
+export function runProgram(programName, commandArguments, { env = {}, cwd = REPOSITORY_ROOT, seconds, quiet: isQuiet = false } = {}) {
+  return new Promise((resolveResult) => {
     // A program with a time limit leads its own process group, so that its children end with it.
-    const childProcess = spawn(command, commandArguments, {
+    const childProcess = spawn(programName, commandArguments, {
       cwd,
       env: { ...process.env, ...env },
       stdio: ['ignore', 'pipe', 'pipe'],
@@ -163,7 +163,7 @@ export function runProgram(command, commandArguments, { env = {}, cwd = REPOSITO
     let timedOut = false;
     const startTime = Date.now();
     const silenceTimer = collectedOutputStore.getStore() ? undefined : setInterval(() => {
-      print(`  ${basename(command)} ${basename(commandArguments[0] ?? '')} has been running for ${Math.round((Date.now() - startTime) / 1000)} s\n`);
+      printText(`  ${basename(programName)} ${basename(commandArguments[0] ?? '')} has been running for ${Math.round((Date.now() - startTime) / 1000)} s\n`);
     }, MAX_SILENCE_MS);
     const processGroupId = seconds === undefined ? undefined : childProcess.pid;
     /** @type {NodeJS.Timeout | undefined} */
@@ -179,18 +179,18 @@ export function runProgram(command, commandArguments, { env = {}, cwd = REPOSITO
       stdoutText += outputText;
       combinedOutput += outputText;
       silenceTimer?.refresh();
-      if (!quiet) print(outputText);
+      if (!isQuiet) printText(outputText);
     });
     childProcess.stderr.setEncoding('utf8').on('data', (text) => {
       combinedOutput += text;
       silenceTimer?.refresh();
-      if (!quiet) print(text, process.stderr);
+      if (!isQuiet) printText(text, process.stderr);
     });
     const finishRun = (/** @type {boolean} */ hasSucceeded) => {
       clearTimeout(limitTimer);
       clearInterval(silenceTimer);
       if (processGroupId !== undefined) forgetGroup(processGroupId);
-      resolve({ ok: hasSucceeded, timedOut, stdout: stdoutText, output: combinedOutput });
+      resolveResult({ ok: hasSucceeded, timedOut, stdout: stdoutText, output: combinedOutput });
     };
     childProcess.on('error', () => finishRun(false));
     childProcess.on('close', (exitCode) => finishRun(exitCode === 0));
@@ -201,14 +201,14 @@ export function runProgram(command, commandArguments, { env = {}, cwd = REPOSITO
  * Runs a program that must succeed.
  *
  * @param {string} failureMessage message of the `UserError` that is thrown if the program fails
- * @param {string} command
+ * @param {string} programName
  * @param {string[]} commandArguments
  * @param {RunOptions} [runOptions]
  */
-export async function runOrThrow(failureMessage, command, commandArguments, runOptions) {
-  const runResult = await runProgram(command, commandArguments, runOptions);
+export async function runOrThrow(failureMessage, programName, commandArguments, runOptions) {
+  const runResult = await runProgram(programName, commandArguments, runOptions);
   if (!runResult.ok) {
-    if (runOptions?.quiet) print(runResult.output, process.stderr);
+    if (runOptions?.quiet) printText(runResult.output, process.stderr);
     throw new UserError(failureMessage);
   }
   return runResult;

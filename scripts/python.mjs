@@ -55,12 +55,12 @@ export async function writePython() {
 /** Returns the source of the Python module of the elements. */
 async function createElementsSource() {
   const { GLOBAL_ATTRIBUTES } = await importTypeScript('www/named.ts');
-  const { classes } = await readClassComments();
-  const widgetClasses = (await describeWidgets()).map(({ tag, className, attributes, properties }) => {
-    const documentedFields = [...attributes.map(({ property, name, ...rest }) => ({ ...rest, name: property ?? name })), ...properties];
-    const traitFields = documentedFields.filter(({ readonly }) => !readonly).map((settingField) => ({ ...settingField, trait: traitCallOf(settingField, tag) }));
-    const globalTraits = GLOBAL_ATTRIBUTES.map((/** @type {string} */ name) => ({ name, trait: TRAITS_WITHOUT_RANGE.Unicode, description: `As the attribute \`${name}\` of HTML.` }));
-    return { className, tag, sentence: joinLines(classes.get(`${className}Element`).description), traits: [...traitFields, ...globalTraits] };
+  const { classes: classesByName } = await readClassComments();
+  const widgetClasses = (await describeWidgets()).map(({ tag: widgetTag, className, attributes, properties: elementProperties }) => {
+    const documentedFields = [...attributes.map(({ property, name: fieldName, ...otherFields }) => ({ ...otherFields, name: property ?? fieldName })), ...elementProperties];
+    const traitFields = documentedFields.filter(({ readonly }) => !readonly).map((settingField) => ({ ...settingField, trait: traitCallOf(settingField, widgetTag) }));
+    const globalTraits = GLOBAL_ATTRIBUTES.map((/** @type {string} */ fieldName) => ({ name: fieldName, trait: TRAITS_WITHOUT_RANGE.Unicode, description: `As the attribute \`${fieldName}\` of HTML.` }));
+    return { className, tag: widgetTag, sentence: joinLines(classesByName.get(`${className}Element`).description), traits: [...traitFields, ...globalTraits] };
   });
   const sourceLines = [
     '# Generated from the declarations by `npm run build`: not to be edited.',
@@ -74,31 +74,31 @@ async function createElementsSource() {
     '',
     `__all__ = [${widgetClasses.map(({ className }) => quotePython(className)).join(', ')}]`,
   ];
-  for (const { className, tag, sentence, traits } of widgetClasses) {
-    sourceLines.push('', '', '@t.signature_has_traits', `class ${className}(Figure):`, `    """${sentence}`, '');
-    for (const { name, description, trait } of traits) sourceLines.push(`    ${pythonNameOf(name)}:`, `        ${translateNamesToPython(description)}${describeAllowedWords(trait)}`);
-    sourceLines.push('    """', '', `    widget = t.Unicode(${quotePython(tag)}, read_only=True).tag(sync=True)`);
-    for (const { name, trait } of traits) sourceLines.push(`    ${pythonNameOf(name)} = ${trait}`);
+  for (const { className, tag: widgetTag, sentence: docSentence, traits: traitDeclarations } of widgetClasses) {
+    sourceLines.push('', '', '@t.signature_has_traits', `class ${className}(Figure):`, `    """${docSentence}`, '');
+    for (const { name: fieldName, description, trait: traitCall } of traitDeclarations) sourceLines.push(`    ${pythonNameOf(fieldName)}:`, `        ${translateNamesToPython(description)}${describeAllowedWords(traitCall)}`);
+    sourceLines.push('    """', '', `    widget = t.Unicode(${quotePython(widgetTag)}, read_only=True).tag(sync=True)`);
+    for (const { name: fieldName, trait: traitCall } of traitDeclarations) sourceLines.push(`    ${pythonNameOf(fieldName)} = ${traitCall}`);
   }
   return `${sourceLines.join('\n')}\n`;
 }
 
-/** Returns the call that creates a trait. @param {Field & { allowed?: string }} field @param {string} tag */
-function traitCallOf({ name, type, allowed }, tag) {
-  const settingDeclaration = settings[tag].find(({ key }) => key === name);
-  if (settingDeclaration) return settingTraitCallOf(settingDeclaration, tag);
-  if (type === 'number' && allowed) return `Number(${allowed.replace(' to ', ', ')})`;
-  const allowedWords = [...type.matchAll(/'([^']+)'/g)].map(([, allowedWord]) => quotePython(allowedWord)).join(', ');
-  if (type.includes('[]')) return `Sequence(Word(${allowedWords}))`;
+/** Returns the call that creates a trait. @param {Field & { allowed?: string }} field @param {string} widgetTag */
+function traitCallOf({ name: fieldName, type: fieldType, allowed: allowedText }, widgetTag) {
+  const settingDeclaration = settings[widgetTag].find(({ key: settingKey }) => settingKey === fieldName);
+  if (settingDeclaration) return settingTraitCallOf(settingDeclaration, widgetTag);
+  if (fieldType === 'number' && allowedText) return `Number(${allowedText.replace(' to ', ', ')})`;
+  const allowedWords = [...fieldType.matchAll(/'([^']+)'/g)].map(([, allowedWord]) => quotePython(allowedWord)).join(', ');
+  if (fieldType.includes('[]')) return `Sequence(Word(${allowedWords}))`;
   if (allowedWords) return `Word(${allowedWords})`;
-  const optionalTrait = { boolean: TRAITS_WITHOUT_RANGE.Bool, number: 'Whole(0)' }[type.replace(' | null', '')];
+  const optionalTrait = { boolean: TRAITS_WITHOUT_RANGE.Bool, number: 'Whole(0)' }[fieldType.replace(' | null', '')];
   return optionalTrait ?? TRAITS_WITHOUT_RANGE.Dict;
 }
 
-/** Returns the type of a setting, as Python source. @param {Declaration} declaration @param {string} tag @returns {string} */
-function settingTraitCallOf({ key, type, words: allowedWords = [], min, max }, tag) {
-  const rangeText = `${min}, ${max}`;
-  switch (type) {
+/** Returns the type of a setting, as Python source. @param {Declaration} declaration @param {string} widgetTag @returns {string} */
+function settingTraitCallOf({ key: settingKey, type: fieldType, words: allowedWords = [], min: minValue, max: maxValue }, widgetTag) {
+  const rangeText = `${minValue}, ${maxValue}`;
+  switch (fieldType) {
     case 'number': return `Number(${rangeText})`;
     case 'whole': return `Whole(${rangeText})`;
     case 'numbers': return `Sequence(Number(${rangeText}))`;
@@ -106,14 +106,14 @@ function settingTraitCallOf({ key, type, words: allowedWords = [], min, max }, t
     case 'word': return `Word(${allowedWords.map(quotePython).join(', ')})`;
     case 'group': {
       const memberNameOf = (/** @type {Declaration} */ groupMember) => groupMember.field ?? groupMember.key;
-      return `Group(${settings[tag].filter((groupMember) => groupMember.in === key).map((groupMember) => `${memberNameOf(groupMember)}=${settingTraitCallOf(groupMember, tag)}`).join(', ')})`;
+      return `Group(${settings[widgetTag].filter((groupMember) => groupMember.in === settingKey).map((groupMember) => `${memberNameOf(groupMember)}=${settingTraitCallOf(groupMember, widgetTag)}`).join(', ')})`;
     }
   }
 }
 
-/** Returns the words that a trait accepts, as a sentence. @param {string} trait */
-function describeAllowedWords(trait) {
-  const [, sequencePrefix, allowedWords] = trait.match(/^(Sequence\()?Word\(([^)]+)\)/) ?? [];
+/** Returns the words that a trait accepts, as a sentence. @param {string} traitCall */
+function describeAllowedWords(traitCall) {
+  const [, sequencePrefix, allowedWords] = traitCall.match(/^(Sequence\()?Word\(([^)]+)\)/) ?? [];
   return allowedWords ? ` ${sequencePrefix ? 'Some' : 'One'} of ${allowedWords}.` : '';
 }
 
@@ -122,7 +122,7 @@ const PYTHON_CONSTANTS = { null: 'None', true: 'True', false: 'False' };
 
 /** Replaces names of properties and constants by their Python names. @param {string} description with properties in backticks */
 const translateNamesToPython = (description) =>
-  description.replaceAll(/`([a-z]+[A-Z]\w*)`/g, (_, name) => `\`${pythonNameOf(name)}\``).replaceAll(/\b(null|true|false)\b/g, (constantName) => PYTHON_CONSTANTS[constantName]);
+  description.replaceAll(/`([a-z]+[A-Z]\w*)`/g, (_, fieldName) => `\`${pythonNameOf(fieldName)}\``).replaceAll(/\b(null|true|false)\b/g, (constantName) => PYTHON_CONSTANTS[constantName]);
 
 /** Returns a Python string literal. @param {string} stringValue */
 const quotePython = (stringValue) => JSON.stringify(stringValue);

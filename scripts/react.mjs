@@ -18,14 +18,14 @@ export async function writeComponents() {
 }
 
 /** Returns the source of a component. @param {Widget} widget */
-function componentSourceOf({ tag, className, attributes, properties }) {
+function componentSourceOf({ tag: widgetTag, className, attributes, properties: elementProperties }) {
   const propNames = {
-    attributes: Object.fromEntries(attributes.map(({ name, property = name }) => [property, name])),
+    attributes: Object.fromEntries(attributes.map(({ name: attributeName, property: propertyName = attributeName }) => [propertyName, attributeName])),
     // Boolean attributes without a default are true if they are present. Other boolean attributes are written as true or false.
-    flags: attributes.filter(({ type, opening }) => type === 'boolean' && opening === undefined).map(({ name }) => name),
-    properties: properties.filter(({ readonly }) => !readonly).map(({ name }) => name),
+    flags: attributes.filter(({ type, opening: openingText }) => type === 'boolean' && openingText === undefined).map(({ name: attributeName }) => attributeName),
+    properties: elementProperties.filter(({ readonly }) => !readonly).map(({ name: attributeName }) => attributeName),
   };
-  return `export const ${className} = createComponent('${className}', '${tag}', ${JSON.stringify(propNames)});\n`;
+  return `export const ${className} = createComponent('${className}', '${widgetTag}', ${JSON.stringify(propNames)});\n`;
 }
 
 /** Returns the imports of the types. @param {Widget[]} allWidgets */
@@ -85,20 +85,20 @@ type Tag<Element extends FigureElement<any, any>, Names extends keyof Element> =
 `;
 
 /** Returns the types of a component. @param {Widget} widget */
-function componentTypesOf({ tag, className, attributes, properties }) {
-  const attributeNames = unionTypeOf(attributes.map(({ name, property = name }) => property));
-  const propertyNames = unionTypeOf(properties.filter(({ readonly }) => !readonly).map(({ name }) => name));
+function componentTypesOf({ tag: widgetTag, className, attributes, properties: elementProperties }) {
+  const attributeNames = unionTypeOf(attributes.map(({ name: attributeName, property: propertyName = attributeName }) => propertyName));
+  const propertyNames = unionTypeOf(elementProperties.filter(({ readonly }) => !readonly).map(({ name: attributeName }) => attributeName));
   return (
     `type ${className}Attributes = ${attributeNames};\n\n` +
     `/** Props of \`<${className}>\`. */\n` +
     `export type ${className}Props = Props<${className}Element, ${className}Attributes | ${propertyNames}>;\n\n` +
-    `/** \`<${tag}>\` as a component. */\n` +
+    `/** \`<${widgetTag}>\` as a component. */\n` +
     `export declare const ${className}: ForwardRefExoticComponent<${className}Props & RefAttributes<${className}Element>>;\n`
   );
 }
 
 /** Returns the types of the tags in JSX. @param {Widget[]} allWidgets */
 function jsxTagsOf(allWidgets) {
-  const tagLines = allWidgets.map(({ tag, className }) => `      '${tag}': Tag<${className}Element, ${className}Attributes>;\n`);
+  const tagLines = allWidgets.map(({ tag: widgetTag, className }) => `      '${widgetTag}': Tag<${className}Element, ${className}Attributes>;\n`);
   return `declare module 'react' {\n  namespace JSX {\n    interface IntrinsicElements {\n${tagLines.join('')}    }\n  }\n}\n`;
 }

@@ -4,7 +4,7 @@
 import { once } from 'node:events';
 import { createServer } from 'node:http';
 import { join } from 'node:path';
-import { build } from './build.mjs';
+import { buildProject } from './build.mjs';
 import { REPOSITORY_ROOT, UserError, runAsScript } from './process.mjs';
 
 /**
@@ -17,22 +17,22 @@ import { REPOSITORY_ROOT, UserError, runAsScript } from './process.mjs';
  * @param {Record<string, string>} [options.headers] headers of every response
  * @returns {Promise<{ address: string, close: () => void }>}
  */
-export async function startServer(servedDirectory, { port, base: basePath = '/', headers = {} } = {}) {
+export async function startServer(servedDirectory, { port, base: basePath = '/', headers: httpHeaders = {} } = {}) {
   // A static import of sirv would fail in a bare clone, in which sirv is not installed yet.
   const { default: sirv } = await import('sirv');
-  const serveFile = sirv(servedDirectory, { dev: true, etag: true, setHeaders: (response) => response.setHeaders(new Map(Object.entries(headers))) });
-  const httpServer = createServer((request, response) => {
-    const sendNotFound = () => void response.writeHead(404, { 'content-type': 'text/plain; charset=utf-8' }).end('There is no such page.');
-    if (!request.url?.startsWith(basePath)) return sendNotFound();
-    request.url = request.url.slice(basePath.length - 1);
-    serveFile(request, response, sendNotFound);
+  const serveFile = sirv(servedDirectory, { dev: true, etag: true, setHeaders: (httpResponse) => httpResponse.setHeaders(new Map(Object.entries(httpHeaders))) });
+  const httpServer = createServer((httpRequest, httpResponse) => {
+    const sendNotFound = () => void httpResponse.writeHead(404, { 'content-type': 'text/plain; charset=utf-8' }).end('There is no such page.');
+    if (!httpRequest.url?.startsWith(basePath)) return sendNotFound();
+    httpRequest.url = httpRequest.url.slice(basePath.length - 1);
+    serveFile(httpRequest, httpResponse, sendNotFound);
   });
   for (let portToTry = port ?? 4173; !httpServer.listening; portToTry++) {
     try {
       await once(httpServer.listen(portToTry, 'localhost'), 'listening');
     } catch (error) {
-      const { code } = /** @type {NodeJS.ErrnoException} */ (error);
-      if (code !== 'EADDRINUSE' && code !== 'EACCES') throw error;
+      const { code: errorCode } = /** @type {NodeJS.ErrnoException} */ (error);
+      if (errorCode !== 'EADDRINUSE' && errorCode !== 'EACCES') throw error;
       if (port !== undefined) throw new UserError(`Port ${port} is not free: set PORT to another one, or leave it unset.`);
     }
   }
@@ -54,7 +54,7 @@ function readRequestedPort() {
 
 await runAsScript(import.meta.url, async () => {
   const port = readRequestedPort();
-  await build({ isLocal: true });
-  const { address } = await startServer(join(REPOSITORY_ROOT, 'dist'), { port });
-  console.log(`\nThe widgets are at ${address} (Ctrl-C stops).`);
+  await buildProject({ isLocal: true });
+  const { address: serverAddress } = await startServer(join(REPOSITORY_ROOT, 'dist'), { port });
+  console.log(`\nThe widgets are at ${serverAddress} (Ctrl-C stops).`);
 });

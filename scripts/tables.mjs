@@ -17,63 +17,63 @@ import { absolutePath } from './process.mjs';
 const TABLE_BUILDERS = {
   attributes: (_, widgets) =>
     widgets
-      .map(({ tag, attributes }) => {
+      .map(({ tag: widgetTag, attributes }) => {
         const attributeRows = attributes.map((attributeDescription) => [renderCode(attributeDescription.name), renderValues(attributeDescription), renderProse(attributeDescription.withoutRange)]);
-        return renderTable(tag, 'attribute', renderCode(`<${tag}>`), ['attribute', 'values', 'description'], attributeRows);
+        return renderTable(widgetTag, 'attribute', renderCode(`<${widgetTag}>`), ['attribute', 'values', 'description'], attributeRows);
       })
       .join('\n\n'),
-  events: (elements) => renderItemTable(elements, 'event', 'Events; all bubble except <code>error</code>', ['event', 'fired when'], ({ events }) => events),
-  methods: (elements) =>
-    renderItemTable(elements, 'method', 'Methods', ['method', 'description'], ({ members }) =>
-      members
-        .filter(({ kind }) => kind === 'method')
-        .map(({ name, parameters = [], description }) => ({ name: `${name}(${parameters.map((methodParameter) => methodParameter.name).join(', ')})`, description })),
+  events: (elementDeclarations) => renderItemTable(elementDeclarations, 'event', 'Events; all bubble except <code>error</code>', ['event', 'fired when'], ({ events: elementEvents }) => elementEvents),
+  methods: (elementDeclarations) =>
+    renderItemTable(elementDeclarations, 'method', 'Methods', ['method', 'description'], ({ members: classMembers }) =>
+      classMembers
+        .filter(({ kind: itemKind }) => itemKind === 'method')
+        .map(({ name: itemName, parameters: methodParameters = [], description }) => ({ name: `${itemName}(${methodParameters.map((methodParameter) => methodParameter.name).join(', ')})`, description })),
     ),
-  slots: (elements) => renderItemTable(elements, 'slot', 'Slots', ['slot', 'content'], ({ slots }) => slots),
-  properties: (elements) => renderItemTable(elements, 'property', 'Custom properties', ['property', 'description'], ({ cssProperties }) => cssProperties),
-  parts: (elements) => renderItemTable(elements, 'part', 'Parts, for <code>::part()</code>', ['part', 'description'], ({ cssParts }) => cssParts),
+  slots: (elementDeclarations) => renderItemTable(elementDeclarations, 'slot', 'Slots', ['slot', 'content'], ({ slots: elementSlots }) => elementSlots),
+  properties: (elementDeclarations) => renderItemTable(elementDeclarations, 'property', 'Custom properties', ['property', 'description'], ({ cssProperties }) => cssProperties),
+  parts: (elementDeclarations) => renderItemTable(elementDeclarations, 'part', 'Parts, for <code>::part()</code>', ['part', 'description'], ({ cssParts }) => cssParts),
 };
 
 /** Returns a page with tables in place of comments like `<!-- table of events -->`. @param {string} pageHtml */
 export async function insertTables(pageHtml) {
   const { modules } = JSON.parse(readFileSync(absolutePath('dist/custom-elements.json'), 'utf8'));
   const widgets = await describeWidgets();
-  return pageHtml.replaceAll(/<!-- table of (\w+) -->/g, (_, name) => TABLE_BUILDERS[name](modules[0].declarations, widgets));
+  return pageHtml.replaceAll(/<!-- table of (\w+) -->/g, (_, itemName) => TABLE_BUILDERS[itemName](modules[0].declarations, widgets));
 }
 
 /**
  * Returns a table of the items of all elements. If only some elements have an item, the item names these elements.
  *
- * @param {Element[]} elements
- * @param {string} kind
+ * @param {Element[]} elementDeclarations
+ * @param {string} itemKind
  * @param {string} tableCaption
  * @param {string[]} columnHeadings
  * @param {(element: Element) => Item[]} itemsOf
  */
-function renderItemTable(elements, kind, tableCaption, columnHeadings, itemsOf) {
-  const itemsByName = new Map(elements.flatMap(itemsOf).map((manifestItem) => [manifestItem.name, manifestItem]));
-  const findElementsWithItem = (/** @type {string} */ name) => elements.filter((documentedElement) => itemsOf(documentedElement).some((manifestItem) => manifestItem.name === name));
-  const itemRows = [...itemsByName.values()].map(({ name, description }) => {
-    const owningElements = findElementsWithItem(name);
-    const ownersSentence = owningElements.length < elements.length ? ` Only ${owningElements.map(({ tagName }) => renderCode(`<${tagName}>`)).join(' and ')}.` : '';
-    return [renderCode(name), renderProse(description) + ownersSentence];
+function renderItemTable(elementDeclarations, itemKind, tableCaption, columnHeadings, itemsOf) {
+  const itemsByName = new Map(elementDeclarations.flatMap(itemsOf).map((manifestItem) => [manifestItem.name, manifestItem]));
+  const findElementsWithItem = (/** @type {string} */ itemName) => elementDeclarations.filter((documentedElement) => itemsOf(documentedElement).some((manifestItem) => manifestItem.name === itemName));
+  const itemRows = [...itemsByName.values()].map(({ name: itemName, description }) => {
+    const owningElements = findElementsWithItem(itemName);
+    const ownersSentence = owningElements.length < elementDeclarations.length ? ` Only ${owningElements.map(({ tagName }) => renderCode(`<${tagName}>`)).join(' and ')}.` : '';
+    return [renderCode(itemName), renderProse(description) + ownersSentence];
   });
-  return renderTable('both', kind, tableCaption, columnHeadings, itemRows);
+  return renderTable('both', itemKind, tableCaption, columnHeadings, itemRows);
 }
 
 /**
  * Returns a table of attributes or other items.
  *
  * @param {string} tableOwner tag of the element that has the items, or "both" for all elements
- * @param {string} kind
+ * @param {string} itemKind
  * @param {string} tableCaption
  * @param {string[]} columnHeadings
  * @param {string[][]} tableRows of HTML
  */
-function renderTable(tableOwner, kind, tableCaption, columnHeadings, tableRows) {
+function renderTable(tableOwner, itemKind, tableCaption, columnHeadings, tableRows) {
   const headCells = columnHeadings.map((headingText) => `<th scope="col">${headingText}</th>`).join('');
-  const bodyRows = tableRows.map(([name, ...rowCells]) => `            <tr><th scope="row">${name}</th>${rowCells.map((cellHtml) => `<td>${cellHtml}</td>`).join('')}</tr>`);
-  return `        <table class="api" data-of="${tableOwner}" data-kind="${kind}">
+  const bodyRows = tableRows.map(([itemName, ...rowCells]) => `            <tr><th scope="row">${itemName}</th>${rowCells.map((cellHtml) => `<td>${cellHtml}</td>`).join('')}</tr>`);
+  return `        <table class="api" data-of="${tableOwner}" data-kind="${itemKind}">
           <caption>${tableCaption}</caption>
           <thead><tr>${headCells}</tr></thead>
           <tbody>
@@ -83,9 +83,9 @@ ${bodyRows.join('\n')}
 }
 
 /** Returns the allowed values of an attribute. @param {import('./declarations.mjs').Attribute} attribute */
-function renderValues({ type, allowed }) {
+function renderValues({ type, allowed: allowedText }) {
   const allowedWords = [...type.matchAll(/'([^']+)'/g)].map(([, allowedWord]) => renderCode(allowedWord));
-  return allowedWords.length ? allowedWords.join(', ') : (allowed ?? type);
+  return allowedWords.length ? allowedWords.join(', ') : (allowedText ?? type);
 }
 
 /** Returns text as HTML, with code between backticks marked up. @param {string} [proseText] */

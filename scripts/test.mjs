@@ -9,8 +9,8 @@ import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
 import { ensureTestRunner } from './bindgen.mjs';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
-import { build } from './build.mjs';
-import { UserError, absolutePath, filesOf, collectOutputOf, memoize, printStep, runProgram, runAsScript, settleAll } from './process.mjs';
+import { buildProject } from './build.mjs';
+import { UserError, absolutePath, filesOf, collectOutputOf, memoizeWork, printStep, runProgram, runAsScript, settleAll } from './process.mjs';
 import { ensureLints, ensurePackages, ensureNativeRust, ensureRustForWasm } from './toolchain.mjs';
 
 /** @typedef {{ passed: number, failed: number, skipped: number }} Tally */
@@ -36,7 +36,7 @@ const TEST_WORKSPACES = IS_NIGHTLY ? ['tests', 'tests/package', 'tests/engines']
  * Builds dist/ and installs the packages of the tests. Daily tests use the common core in all figures. Nightly tests also use the core of
  * each figure.
  */
-const ensureBuilt = memoize(() => settleAll([build({ isLocal: !IS_NIGHTLY }), ...TEST_WORKSPACES.map((workspaceName) => ensurePackages(workspaceName))]));
+const ensureBuilt = memoizeWork(() => settleAll([buildProject({ isLocal: !IS_NIGHTLY }), ...TEST_WORKSPACES.map((workspaceName) => ensurePackages(workspaceName))]));
 
 /** Versions of the tools that the parts of this test run have used so far. */
 const toolVersions = new Set([`Node ${process.versions.node}`]);
@@ -48,10 +48,10 @@ const toolVersions = new Set([`Node ${process.versions.node}`]);
  * @param {() => Promise<Tool>} ensureTool
  * @param {(tool: Tool) => string} versionOf
  */
-const recordVersionOf = (ensureTool, versionOf) => memoize(async () => {
-  const tool = await ensureTool();
-  toolVersions.add(versionOf(tool));
-  return tool;
+const recordVersionOf = (ensureTool, versionOf) => memoizeWork(async () => {
+  const requiredTool = await ensureTool();
+  toolVersions.add(versionOf(requiredTool));
+  return requiredTool;
 });
 
 const ensureRust = recordVersionOf(ensureNativeRust, ({ description }) => description);
@@ -219,19 +219,19 @@ async function runParts(cliArguments) {
  * @returns {Promise<Outcome>}
  */
 async function runPart(partName, programArgs) {
-  const { prepare, counts } = TEST_PARTS[partName];
+  const { prepare: prepareJob, counts: countPatterns } = TEST_PARTS[partName];
   let startTime = Date.now();
   const getElapsedSeconds = () => (Date.now() - startTime) / 1000;
   try {
-    const runJob = await prepare(programArgs);
+    const runJob = await prepareJob(programArgs);
     printStep(partName);
     startTime = Date.now();
-    const { ok, output, timedOut } = await runJob();
-    const addUpMatches = (/** @type {RegExp} */ numberPattern) => [...output.matchAll(numberPattern)].reduce((sumSoFar, [, matchedCount]) => sumSoFar + Number(matchedCount), 0);
-    const testTally = counts && { passed: addUpMatches(counts.passed), failed: addUpMatches(counts.failed), skipped: addUpMatches(counts.skipped) };
+    const { ok, output: programOutput, timedOut } = await runJob();
+    const addUpMatches = (/** @type {RegExp} */ numberPattern) => [...programOutput.matchAll(numberPattern)].reduce((sumSoFar, [, matchedCount]) => sumSoFar + Number(matchedCount), 0);
+    const testTally = countPatterns && { passed: addUpMatches(countPatterns.passed), failed: addUpMatches(countPatterns.failed), skipped: addUpMatches(countPatterns.skipped) };
     const hasRunNoTest = testTally !== undefined && testTally.passed + testTally.failed === 0;
     const outcomeNote = timedOut ? `ended after ${TIME_LIMIT_SECONDS} s` : hasRunNoTest ? 'no test ran' : undefined;
-    return { name: partName, ok: ok && !hasRunNoTest && !testTally?.failed, seconds: getElapsedSeconds(), output, tally: testTally, note: outcomeNote };
+    return { name: partName, ok: ok && !hasRunNoTest && !testTally?.failed, seconds: getElapsedSeconds(), output: programOutput, tally: testTally, note: outcomeNote };
   } catch (error) {
     printStep(`${partName}: ${error instanceof UserError ? error.message : (error instanceof Error && error.stack) || error}`);
     return { name: partName, ok: false, seconds: getElapsedSeconds(), note: 'not run: see above' };
@@ -244,13 +244,13 @@ async function runPart(partName, programArgs) {
  * @param {string} runnerPath of wasm-bindgen
  * @param {import('./browser.mjs').Browser} browser
  */
-function createBrowserEnvironment(runnerPath, { chrome, driver }) {
+function createBrowserEnvironment(runnerPath, { chrome, driver: driverPath }) {
   const capabilitiesFile = absolutePath('test-results/webdriver.json');
   const chromeSettings = { binary: chrome, args: ['--headless', ...CHROME_ARGUMENTS] };
   writeFileSync(capabilitiesFile, JSON.stringify({ 'goog:chromeOptions': chromeSettings }));
   return {
     CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER: runnerPath,
-    CHROMEDRIVER: driver,
+    CHROMEDRIVER: driverPath,
     WASM_BINDGEN_TEST_WEBDRIVER_JSON: capabilitiesFile,
     // Time limit in seconds for all tests of a file. The runner's own limit of 20 s is too short on a busy machine.
     WASM_BINDGEN_TEST_TIMEOUT: '180',
@@ -265,11 +265,11 @@ function createBrowserEnvironment(runnerPath, { chrome, driver }) {
  * @param {Record<string, string>} [env]
  */
 async function createNodeTestJob(testDirectory, programArgs, env) {
-  const testFiles = filesOf(testDirectory).filter((path) => /\.test\.[jt]s$/.test(path) && (IS_NIGHTLY || !path.endsWith('.nightly.test.js')));
-  const namedFiles = testFiles.filter((path) => programArgs.some((argument) => !argument.startsWith('-') && path.includes(argument)));
-  const unknownName = programArgs.find((argument, i) => !argument.startsWith('-') && !programArgs[i - 1]?.startsWith('-') && !testFiles.some((path) => path.includes(argument)));
-  if (unknownName !== undefined) throw new UserError(`"${unknownName}" is in no name of a test file; ${testDirectory} has ${testFiles.map((path) => path.slice(testDirectory.length + 1)).join(', ')}.`);
-  const nodeOptions = programArgs.filter((argument) => !namedFiles.some((path) => path.includes(argument)));
+  const testFiles = filesOf(testDirectory).filter((filePath) => /\.test\.[jt]s$/.test(filePath) && (IS_NIGHTLY || !filePath.endsWith('.nightly.test.js')));
+  const namedFiles = testFiles.filter((filePath) => programArgs.some((programArgument) => !programArgument.startsWith('-') && filePath.includes(programArgument)));
+  const unknownName = programArgs.find((programArgument, i) => !programArgument.startsWith('-') && !programArgs[i - 1]?.startsWith('-') && !testFiles.some((filePath) => filePath.includes(programArgument)));
+  if (unknownName !== undefined) throw new UserError(`"${unknownName}" is in no name of a test file; ${testDirectory} has ${testFiles.map((filePath) => filePath.slice(testDirectory.length + 1)).join(', ')}.`);
+  const nodeOptions = programArgs.filter((programArgument) => !namedFiles.some((filePath) => filePath.includes(programArgument)));
   // Node runs a test if the name of the test or of a parent matches. The root of all tests is named "<root>", and must not match.
   const grepOptions = IS_NIGHTLY ? [] : ['--test-name-pattern', '/^(?!<root>|.*@nightly)/'];
   await ensureBuilt();
@@ -286,17 +286,17 @@ function printSummary(partOutcomes) {
   console.log(`${[...toolVersions].join('; ')}\n`);
   let passedCount = 0;
   let failedCount = 0;
-  for (const { name, ok, seconds, tally, note } of partOutcomes) {
-    const testCountTexts = tally === undefined ? [] : [`${tally.passed} passed`, `${tally.failed} failed`];
-    if (tally?.skipped) testCountTexts.push(`${tally.skipped} skipped`);
-    if (note !== undefined) testCountTexts.push(note);
+  for (const { name, ok, seconds, tally: testTally, note: outcomeNote } of partOutcomes) {
+    const testCountTexts = testTally === undefined ? [] : [`${testTally.passed} passed`, `${testTally.failed} failed`];
+    if (testTally?.skipped) testCountTexts.push(`${testTally.skipped} skipped`);
+    if (outcomeNote !== undefined) testCountTexts.push(outcomeNote);
     console.log(`${ok ? 'ok    ' : 'FAILED'} ${name.padEnd(12)} ${seconds.toFixed(0).padStart(4)} s  ${testCountTexts.join(', ')}`);
-    passedCount += tally?.passed ?? 0;
+    passedCount += testTally?.passed ?? 0;
     // A part that fails without a failed test is counted as one failed test.
-    failedCount += ok ? 0 : Math.max(1, tally?.failed ?? 0);
+    failedCount += ok ? 0 : Math.max(1, testTally?.failed ?? 0);
   }
-  for (const { name, ok, output } of partOutcomes) {
-    if (!ok && output && partOutcomes.length > 1) console.log(`\n${name}: …\n${output.trimEnd().split('\n').slice(-SHOWN_ERROR_LINES).join('\n')}`);
+  for (const { name, ok, output: programOutput } of partOutcomes) {
+    if (!ok && programOutput && partOutcomes.length > 1) console.log(`\n${name}: …\n${programOutput.trimEnd().split('\n').slice(-SHOWN_ERROR_LINES).join('\n')}`);
   }
   console.log(`\n${passedCount} passed, ${failedCount} failed`);
   return failedCount === 0;

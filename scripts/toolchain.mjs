@@ -5,7 +5,7 @@ import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { homedir } from 'node:os';
 import { delimiter, dirname, join } from 'node:path';
-import { REPOSITORY_ROOT, UserError, findProgram, runOrThrow, memoize, printStep, createTaskQueue, runProgram, runAsScript } from './process.mjs';
+import { REPOSITORY_ROOT, UserError, findProgram, runOrThrow, memoizeWork, printStep, createTaskQueue, runProgram, runAsScript } from './process.mjs';
 
 const WASM_TARGET = 'wasm32-unknown-unknown';
 const RUSTUP_BIN = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'bin');
@@ -74,11 +74,11 @@ export const installByApt = (debianPackages, purposeSentence) => enqueueForApt(a
   const rootCommand = process.getuid?.() === 0 ? [] : ['sudo', '-n'];
   if (rootCommand.length > 0 && !(await runProgram('sudo', ['-n', 'true'], { quiet: true })).ok) throw new UserError(purposeSentence);
   printStep(`Installing ${debianPackages.join(' ')} by apt`);
-  const [command, ...firstArguments] = [...rootCommand, 'env', 'DEBIAN_FRONTEND=noninteractive', 'apt-get'];
-  await runProgram(command, [...firstArguments, 'update', '-qq'], { seconds: 300 });
+  const [programName, ...firstArguments] = [...rootCommand, 'env', 'DEBIAN_FRONTEND=noninteractive', 'apt-get'];
+  await runProgram(programName, [...firstArguments, 'update', '-qq'], { seconds: 300 });
   // Apt must not remove an installed package, in particular not another installation of Rust.
   const aptOptions = ['-y', '-qq', '--no-remove', '--no-install-recommends', '-o', 'DPkg::Lock::Timeout=300'];
-  await runOrThrow(purposeSentence, command, [...firstArguments, 'install', ...aptOptions, ...debianPackages], { seconds: 900 });
+  await runOrThrow(purposeSentence, programName, [...firstArguments, 'install', ...aptOptions, ...debianPackages], { seconds: 900 });
 });
 
 /** Ensures that Python and pip, which build the Python package, are installed. */
@@ -96,7 +96,7 @@ export async function ensurePip() {
  */
 
 /** Finds or installs Rust for this machine: by rustup, or from Debian if rustup's server cannot be reached. */
-export const ensureNativeRust = memoize(/** @returns {Promise<Rust>} */ async () => {
+export const ensureNativeRust = memoizeWork(/** @returns {Promise<Rust>} */ async () => {
   let cargoPath = findProgram('cargo', [RUSTUP_BIN]);
   if (cargoPath === undefined) {
     if (!(await installRustup())) {
@@ -126,7 +126,7 @@ async function installRustup() {
  * Finds or installs Rust for WebAssembly. The standard library of the target comes from rustup. If rustup's server cannot be reached, Debian's
  * compiler builds that library from Debian's sources.
  */
-export const ensureRustForWasm = memoize(/** @returns {Promise<Rust>} */ async () => {
+export const ensureRustForWasm = memoizeWork(/** @returns {Promise<Rust>} */ async () => {
   const nativeToolchain = await ensureNativeRust();
   if (nativeToolchain.cargoDirectory !== DEBIAN_BIN && (await enqueueForRustup(() => hasWasmTarget(nativeToolchain)))) {
     return { ...nativeToolchain, target: ['--target', WASM_TARGET], description: `${nativeToolchain.description}, ${WASM_TARGET} of rustup` };

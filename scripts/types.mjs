@@ -34,17 +34,17 @@ export async function writeTypes() {
   const coreTypes = readFileSync(join(REPOSITORY_ROOT, 'build/core.d.ts'), 'utf8').replaceAll('* r" ', '* ');
   writeFileSync(join(REPOSITORY_ROOT, 'build/simulations.d.ts'), [DISPOSABLE_LIBRARY, GENERATED_HEADER, OPTIONS_IMPORT, ...composeGroupInterfaces(), ...Object.keys(settings).map(settingsInterfaceOf), coreTypes].join('\n'));
   writeFileSync(join(REPOSITORY_ROOT, 'build/elements.d.ts'), [GENERATED_HEADER, importLineOf(widgetDescriptions), await composeFigureTypes(widgetDescriptions), ...widgetDescriptions.map(elementTypesOf), tagTypesOf(widgetDescriptions)].join('\n'));
-  for (const [frameworkName, { module, namespace, any, prefix }] of Object.entries(TEMPLATE_FRAMEWORKS)) {
+  for (const [frameworkName, { module: moduleName, namespace: namespaceText, any: anyAttributes, prefix: attributePrefix }] of Object.entries(TEMPLATE_FRAMEWORKS)) {
     writeFileSync(
       join(REPOSITORY_ROOT, `build/${frameworkName}.d.ts`),
       `${GENERATED_HEADER}
 import type { FigureTags } from '../build/elements.d.ts';
 
-type WithPrefixed<Fields> = Fields & { [Name in keyof Fields as \`${prefix}\${Name & string}\`]?: Fields[Name] };
-type Tags = { [Tag in keyof FigureTags]: Omit<${any}<HTMLElementTagNameMap[Tag]>, keyof FigureTags[Tag]> & WithPrefixed<FigureTags[Tag]> };
+type WithPrefixed<Fields> = Fields & { [Name in keyof Fields as \`${attributePrefix}\${Name & string}\`]?: Fields[Name] };
+type Tags = { [Tag in keyof FigureTags]: Omit<${anyAttributes}<HTMLElementTagNameMap[Tag]>, keyof FigureTags[Tag]> & WithPrefixed<FigureTags[Tag]> };
 
-declare module '${module}' {
-  ${namespace}
+declare module '${moduleName}' {
+  ${namespaceText}
 }
 `);
   }
@@ -55,12 +55,12 @@ function composeGroupInterfaces() {
   /** @type {Map<string, string>} */
   const interfaceByGroup = new Map();
   for (const [widgetTag, declaredSettings] of Object.entries(settings)) {
-    for (const { key, type } of declaredSettings) {
-      if (type !== 'group') continue;
-      const groupFields = declaredSettings.filter((groupPart) => groupPart.in === key).map(fieldOf);
-      const interfaceText = interfaceOf(toPascalCase(key), groupFields);
-      if ((interfaceByGroup.get(key) ?? interfaceText) !== interfaceText) throw new Error(`${widgetTag}: ${key} is not the group that it is in another widget; call it otherwise.`);
-      interfaceByGroup.set(key, interfaceText);
+    for (const { key: settingKey, type: fieldType } of declaredSettings) {
+      if (fieldType !== 'group') continue;
+      const groupFields = declaredSettings.filter((groupPart) => groupPart.in === settingKey).map(fieldOf);
+      const interfaceText = interfaceOf(toPascalCase(settingKey), groupFields);
+      if ((interfaceByGroup.get(settingKey) ?? interfaceText) !== interfaceText) throw new Error(`${widgetTag}: ${settingKey} is not the group that it is in another widget; call it otherwise.`);
+      interfaceByGroup.set(settingKey, interfaceText);
     }
   }
   return interfaceByGroup.values();
@@ -73,19 +73,19 @@ function settingsInterfaceOf(widgetTag) {
 
 /** Returns the text of the types that all figures share; any widget has their common attributes. @param {import('./declarations.mjs').Widget[]} widgets */
 async function composeFigureTypes([{ attributes }]) {
-  const { classes } = await readClassComments();
+  const { classes: classesByName } = await readClassComments();
   /** @type {any[]} */
-  const publicMembers = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
+  const publicMembers = classesByName.get('FigureElement').members.filter((/** @type {any} */ { privacy: memberPrivacy }) => memberPrivacy === 'public');
   /** Returns a type, with type parameters in place of types that depend on the widget. @param {{ type: { text: string } }} [typedItem] */
   const specializedTypeOf = (typedItem) => (typedItem?.type.text ?? 'void').replace(/\bSimulation\['stats'\]/, 'Stats').replace(/\bStateValues\b/, 'State');
-  const memberFields = publicMembers.map(({ kind, name, description, parameters = [], type, return: returnType, readonly }) => {
-    const parameterTexts = parameters.map((/** @type {any} */ methodParameter) => `${methodParameter.name}: ${specializedTypeOf(methodParameter)}`);
-    return { name: kind === 'method' ? `${name}(${parameterTexts.join(', ')})` : name, type: specializedTypeOf(kind === 'method' ? returnType : { type }), description: joinLines(description), readonly };
+  const memberFields = publicMembers.map(({ kind: memberKind, name: fieldName, description, parameters: methodParameters = [], type: fieldType, return: returnType, readonly }) => {
+    const parameterTexts = methodParameters.map((/** @type {any} */ methodParameter) => `${methodParameter.name}: ${specializedTypeOf(methodParameter)}`);
+    return { name: memberKind === 'method' ? `${fieldName}(${parameterTexts.join(', ')})` : fieldName, type: specializedTypeOf(memberKind === 'method' ? returnType : { type: fieldType }), description: joinLines(description), readonly };
   });
-  const commonFields = attributes.filter(({ isCommon }) => isCommon).map(({ property, ...rest }) => ({ ...rest, name: property ?? rest.name }));
-  const eventFields = classes.get('FigureElement').events.map((/** @type {any} */ { name, type, description }) => {
-    const typeText = type?.text ?? 'Event';
-    return { name, type: typeText === 'CustomEvent' ? `CustomEvent<${name[0].toUpperCase()}${name.slice(1)}>` : typeText, description: joinLines(description) };
+  const commonFields = attributes.filter(({ isCommon }) => isCommon).map(({ property: propertyName, ...otherFields }) => ({ ...otherFields, name: propertyName ?? otherFields.name }));
+  const eventFields = classesByName.get('FigureElement').events.map((/** @type {any} */ { name: fieldName, type: fieldType, description }) => {
+    const typeText = fieldType?.text ?? 'Event';
+    return { name: fieldName, type: typeText === 'CustomEvent' ? `CustomEvent<${fieldName[0].toUpperCase()}${fieldName.slice(1)}>` : typeText, description: joinLines(description) };
   });
   return (
     `/** Events of an element for \`addEventListener\`; \`Stats\` are those of its class. */\n${interfaceOf('FigureEvents<Stats>', eventFields)}\n` +
@@ -103,36 +103,36 @@ const LISTENER_METHODS = ['add', 'remove'].flatMap((listenerVerb) => {
   const listenerOverloadOf = (/** @type {string} */ eventsType) =>
     `${listenerVerb}EventListener<Type extends keyof ${eventsType}>(type: Type, listener: (this: FigureElement<State, Stats>, event: ${eventsType}[Type]) => unknown, ${optionsParameter})`;
   const overloadLines = [listenerOverloadOf('FigureEvents<Stats>'), listenerOverloadOf('HTMLElementEventMap'), `${listenerVerb}EventListener(type: string, listener: EventListenerOrEventListenerObject, ${optionsParameter})`];
-  return overloadLines.map((name) => ({ name, type: 'void', description: '' }));
+  return overloadLines.map((fieldName) => ({ name: fieldName, type: 'void', description: '' }));
 });
 
 /** Returns the text of the types of an element and of its state. @param {import('./declarations.mjs').Widget} widget */
-function elementTypesOf({ tag, className, attributes, properties, state }) {
+function elementTypesOf({ tag: widgetTag, className, attributes, properties: elementProperties, state: stateFields }) {
   const baseType = `FigureElement<${className}State, ${className}['stats']>`;
-  const widgetField = { name: 'widget', type: `'${tag}'`, description: '' };
+  const widgetField = { name: 'widget', type: `'${widgetTag}'`, description: '' };
   // The members that every figure has are in FigureElement.
   const widgetFields = attributes.filter(({ isCommon }) => !isCommon).map((attributeDescription) => ({ ...attributeDescription, isText: true }));
   return (
-    `${interfaceOf(`${className}State`, [widgetField, ...state], 'FigureState')}\n` +
-    `/** \`<${tag}>\`. Its attributes have the properties' names. */\n` +
-    interfaceOf(`${className}Element`, [...widgetFields, ...properties], baseType)
+    `${interfaceOf(`${className}State`, [widgetField, ...stateFields], 'FigureState')}\n` +
+    `/** \`<${widgetTag}>\`. Its attributes have the properties' names. */\n` +
+    interfaceOf(`${className}Element`, [...widgetFields, ...elementProperties], baseType)
   );
 }
 
 /** Returns the text of the import of the types that the elements use. @param {import('./declarations.mjs').Widget[]} widgets */
 function importLineOf(widgets) {
-  const typeNames = widgets.flatMap(({ properties, state }) => [...properties, ...state]).flatMap(({ type }) => type.match(/\b[A-Z]\w*/g) ?? []);
+  const typeNames = widgets.flatMap(({ properties: elementProperties, state: stateFields }) => [...elementProperties, ...stateFields]).flatMap(({ type: fieldType }) => fieldType.match(/\b[A-Z]\w*/g) ?? []);
   const neededTypeNames = new Set(['FigureState', ...widgets.map(({ className }) => className), ...typeNames]);
-  const importedNames = [...neededTypeNames].filter((name) => !(name in globalThis));
+  const importedNames = [...neededTypeNames].filter((fieldName) => !(fieldName in globalThis));
   return `import type { ${importedNames.sort().join(', ')} } from '../www/types.d.ts';\n`;
 }
 
 /** Returns the text of the types of the elements by tag. @param {import('./declarations.mjs').Widget[]} widgets */
 function tagTypesOf(widgets) {
-  const tagMapLines = widgets.map(({ tag, className }) => `    '${tag}': ${className}Element;\n`);
-  const tagLines = widgets.map(({ tag, className, attributes, properties }) => {
-    const propertyNames = [...attributes.map(({ name, property = name }) => property), ...properties.filter(({ readonly }) => !readonly).map(({ name }) => name)];
-    return `  '${tag}': TemplateValues<${className}Element, ${unionTypeOf(propertyNames)}>;\n`;
+  const tagMapLines = widgets.map(({ tag: widgetTag, className }) => `    '${widgetTag}': ${className}Element;\n`);
+  const tagLines = widgets.map(({ tag: widgetTag, className, attributes, properties: elementProperties }) => {
+    const propertyNames = [...attributes.map(({ name: fieldName, property: propertyName = fieldName }) => propertyName), ...elementProperties.filter(({ readonly }) => !readonly).map(({ name: fieldName }) => fieldName)];
+    return `  '${widgetTag}': TemplateValues<${className}Element, ${unionTypeOf(propertyNames)}>;\n`;
   });
   return `/** Values that a template gives to an element: numbers and lists also as text, as attributes have them. */
 type TemplateValues<Element, Names extends keyof Element> = { [Name in Names]?: Element[Name] | string | null } & { 'heading-level'?: string };
@@ -150,10 +150,10 @@ ${tagMapLines.join('')}  }
 
 /** Returns an interface as TypeScript text. @param {string} interfaceName @param {Field[]} interfaceFields @param {string} [baseInterface] */
 function interfaceOf(interfaceName, interfaceFields, baseInterface) {
-  const memberLines = interfaceFields.map(({ name: key, type, description, readonly, isText }) => {
+  const memberLines = interfaceFields.map(({ name: settingKey, type: fieldType, description, readonly, isText }) => {
     const commentText = description && `  /** ${description} */\n`;
-    if (isText) return `${commentText}  get ${key}(): ${type};\n  set ${key}(value: ${type.replace(' | null', '')} | string | null | undefined);\n`;
-    return `${commentText}  ${readonly ? 'readonly ' : ''}${key}: ${type};\n`;
+    if (isText) return `${commentText}  get ${settingKey}(): ${fieldType};\n  set ${settingKey}(value: ${fieldType.replace(' | null', '')} | string | null | undefined);\n`;
+    return `${commentText}  ${readonly ? 'readonly ' : ''}${settingKey}: ${fieldType};\n`;
   });
   return `export interface ${interfaceName}${baseInterface ? ` extends ${baseInterface}` : ''} {\n${memberLines.join('')}}\n`;
 }

@@ -37,7 +37,7 @@ test('two tables of a user replace the simulated log, and a button restores the 
   await expect(calibrator.locator('.drop-zone .muted')).toContainText(outdatedResultsText);
   await expect(calibrator.locator('.to-do')).toHaveText(outdatedResultsText);
   await openDisclosures(calibrator);
-  const resultButtons = ['Fit for Nav2', 'Save all as JSON'].map((name) => calibrator.getByRole('button', { name }));
+  const resultButtons = ['Fit for Nav2', 'Save all as JSON'].map((fileName) => calibrator.getByRole('button', { name: fileName }));
   for (const resultButton of resultButtons) await expect(resultButton).toBeDisabled();
   await calibrator.getByRole('button', { name: 'Dismiss these files' }).click();
   for (const resultButton of resultButtons) await expect(resultButton).toBeEnabled();
@@ -64,12 +64,12 @@ test('the figure and the command line give the same results to the last bit, als
     const { simulation: { stats, legs } } = /** @type {AlphaCalibratorElement} */ (element);
     return JSON.stringify({ ...stats, legs }, (_, jsonValue) => (ArrayBuffer.isView(jsonValue) ? [.../** @type {Float64Array} */ (jsonValue)] : jsonValue));
   });
-  const fileArguments = ['odometry', 'reference'].flatMap((name) => [`--${name}`, `examples/calibration/${name}.csv`]);
+  const fileArguments = ['odometry', 'reference'].flatMap((fileName) => [`--${fileName}`, `examples/calibration/${fileName}.csv`]);
   const { stdout } = spawnSync(process.execPath, ['dist/cli.js', 'calibrate', ...fileArguments, '--json'], {
     encoding: 'utf8', cwd: new URL('../..', import.meta.url), maxBuffer: 2 ** 28,
   });
-  const { date, options, logs, start, ...cliResults } = JSON.parse(stdout);
-  expect([options, logs.length, start, typeof date]).toEqual([{ legs: { distance: 0.25, angle: 0.2 } }, 2, 9, 'string']);
+  const { date, options, logs: reportedLogs, start, ...cliResults } = JSON.parse(stdout);
+  expect([options, reportedLogs.length, start, typeof date]).toEqual([{ legs: { distance: 0.25, angle: 0.2 } }, 2, 9, 'string']);
   expect(JSON.parse(figureResults)).toEqual(cliResults);
 
   await chooseRecording(widget, 'run.mcap', await createExampleRecording(['/mocap/pose', '/vicon/pose']));
@@ -107,8 +107,8 @@ test('the velocity model uses the commands of a file, and other models use the p
 
 test('files of several drives are read together, and the user assigns the roles that file names leave open @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const splitExampleTable = (/** @type {'odometry' | 'reference'} */ name) => {
-    const [headerLine, ...rowLines] = readExampleTable(name).trim().split('\n');
+  const splitExampleTable = (/** @type {'odometry' | 'reference'} */ fileName) => {
+    const [headerLine, ...rowLines] = readExampleTable(fileName).trim().split('\n');
     const middleTime = Number(rowLines.at(-1)?.split(',')[0]) / 2;
     return [false, true].map((isSecondHalf) => [headerLine, ...rowLines.filter((rowLine) => Number(rowLine.split(',')[0]) > middleTime === isSecondHalf)].join('\n'));
   };
@@ -116,7 +116,7 @@ test('files of several drives are read together, and the user assigns the roles 
   await chooseTables(widget, { 'a.csv': a, 'b.csv': b, 'c.csv': c, 'd.csv': d });
   await expect(widget.getByRole('alert')).toHaveText(/^a\.csv: its name does not say whether it is odometry or reference;/);
   await expect(widget.getByLabel('a.csv')).toBeFocused();
-  for (const [name, logRole] of [['a', 'Odometry'], ['b', 'Reference'], ['c', 'Odometry'], ['d', 'Reference']]) await widget.getByLabel(`${name}.csv`).selectOption(logRole);
+  for (const [fileName, logRole] of [['a', 'Odometry'], ['b', 'Reference'], ['c', 'Odometry'], ['d', 'Reference']]) await widget.getByLabel(`${fileName}.csv`).selectOption(logRole);
   await expect(captionOf(widget)).toHaveText(/of a\.csv, c\.csv, b\.csv, d\.csv[.,]/);
   await expect(widget.locator('.found caption')).toHaveText(['Drive 1', 'Drive 2']);
 });
@@ -176,7 +176,7 @@ test('a log with too few legs is refused, and the figure still shows the previou
   const captionBefore = await captionOf(widget).textContent();
   const { alphas } = await readStats(widget);
   const standstillTable = Buffer.from('t,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n');
-  await dropFiles(widget.locator('.stage').first(), ['odom.csv', 'truth.csv'].map((name) => ({ name, buffer: standstillTable })));
+  await dropFiles(widget.locator('.stage').first(), ['odom.csv', 'truth.csv'].map((fileName) => ({ name: fileName, buffer: standstillTable })));
   await expect(widget.locator('.drop-zone').getByRole('alert')).toBeInViewport();
   await expect(widget.getByRole('alert')).toHaveText('Log refused: Not enough data: fewer than 8 legs have poses in both logs. Take both logs from one drive, choose shorter legs, or drive longer.');
   await waitUntilSettled(widget);
@@ -199,11 +199,11 @@ const chooseLongTables = (widget) => widget.evaluate((element) => {
     const [t, angle] = [i / 100, i / 400];
     return [t, 3 * Math.sin(angle), 3 - 3 * Math.cos(angle) + swayAmplitude * Math.sin(7 * t), angle % 6].join(',');
   };
-  const { files, items } = new DataTransfer();
-  for (const [name, swayAmplitude] of /** @type {const} */ ([['odom.csv', 0], ['truth.csv', 0.02]])) {
-    items.add(new File([['t,x,y,yaw', ...Array.from({ length: 90_000 }, (_, i) => csvRowOf(i, swayAmplitude))].join('\n')], name));
+  const { files: transferFiles, items: transferItems } = new DataTransfer();
+  for (const [fileName, swayAmplitude] of /** @type {const} */ ([['odom.csv', 0], ['truth.csv', 0.02]])) {
+    transferItems.add(new File([['t,x,y,yaw', ...Array.from({ length: 90_000 }, (_, i) => csvRowOf(i, swayAmplitude))].join('\n')], fileName));
   }
-  fileInput.files = files;
+  fileInput.files = transferFiles;
   const startTime = performance.now();
   fileInput.dispatchEvent(new Event('change'));
   return startTime;
@@ -222,7 +222,7 @@ test('a log is read and fitted in a worker, so that the page stays responsive', 
   expect(page.workers().map((worker) => new URL(worker.url()).pathname)).toEqual(['/chunks/log-worker.js']);
   const { longestTaskShare, layoutShifts } = await page.evaluate((startTime) => {
     const recentEntries = /** @type {(PerformanceEntry & { value?: number, hadRecentInput?: boolean })[]} */ (Reflect.get(window, 'entries')).filter((performanceEntry) => performanceEntry.startTime > startTime);
-    const taskDurations = recentEntries.filter(({ entryType }) => entryType === 'longtask').map(({ duration }) => duration);
+    const taskDurations = recentEntries.filter(({ entryType }) => entryType === 'longtask').map(({ duration: taskDuration }) => taskDuration);
     return { longestTaskShare: Math.max(0, ...taskDurations) / (performance.now() - startTime), layoutShifts: recentEntries.flatMap(({ value, hadRecentInput }) => (value && !hadRecentInput ? value : [])) };
   }, startTime);
   // A worker reads the log. On the main thread, reading would be a single task of a third of the measured time.
@@ -242,7 +242,7 @@ test('a log is read and fitted in a worker, so that the page stays responsive', 
 });
 
 testWithWarnings('a log is read even if the page’s security policy forbids workers @nightly', async ({ page }) => {
-  await page.route('**/bare.html', (route) => route.fulfill({
+  await page.route('**/bare.html', (pageRoute) => pageRoute.fulfill({
     contentType: 'text/html',
     headers: { 'content-security-policy': "worker-src 'none'" },
     body: '<script type="module" src="/external.js"></script><alpha-calibrator></alpha-calibrator>',
@@ -284,7 +284,7 @@ test('a new log replaces a log that is being fitted, and a removed figure has no
       const circleAngles = Float64Array.from({ length: 60_000 }, (_, i) => i / 400);
       return { t: circleAngles.map((angle) => 4 * angle), x: circleAngles.map(Math.sin), y: circleAngles.map((angle) => swayAmplitude * Math.sin(28 * angle) - Math.cos(angle)), theta: circleAngles };
     };
-    const [firstLog, secondLog] = ['first', 'second'].map((name) => ({ name, odometry: poseColumnsOf(0), reference: poseColumnsOf(0.02) }));
+    const [firstLog, secondLog] = ['first', 'second'].map((fileName) => ({ name: fileName, odometry: poseColumnsOf(0), reference: poseColumnsOf(0.02) }));
     calibratorElement.log = firstLog;
     calibratorElement.log = secondLog;
     await calibratorElement.settled;
@@ -298,10 +298,10 @@ test('a new log replaces a log that is being fitted, and a removed figure has no
     element.remove();
   });
   await expect.poll(() => page.workers().length).toBe(0);
-  const fittedDistance = await widgetHandle?.evaluate(async (/** @type {any} */ figure) => {
-    document.body.append(figure);
-    await figure.settled;
-    return figure.viewModel.fittedConfig.distance;
+  const fittedDistance = await widgetHandle?.evaluate(async (/** @type {any} */ figureElement) => {
+    document.body.append(figureElement);
+    await figureElement.settled;
+    return figureElement.viewModel.fittedConfig.distance;
   });
   expect(fittedDistance).toBe(0.5);
 });
@@ -313,32 +313,32 @@ test('a log set by the page is fitted and not saved in states, and a refused log
   const readLeftEdge = () => widget.evaluate((element) => /** @type {any} */ (element).pictures[0].pictureView.shownExtent.xMin);
   const leftEdgeBefore = await readLeftEdge();
   const refusalMessages = await widget.evaluate(async (element) => {
-    const figure = /** @type {AlphaCalibratorElement} */ (element);
-    const { legs } = figure.simulation;
+    const figureElement = /** @type {AlphaCalibratorElement} */ (element);
+    const { legs } = figureElement.simulation;
     const t = Array.from({ length: legs.count }, (_, legIndex) => legIndex);
     const poseComponentOf = (/** @type {Float64Array} */ legPoses, /** @type {number} */ componentIndex) => t.map((legIndex) => legPoses[6 * legIndex + componentIndex]);
     const poseColumnsOf = (/** @type {Float64Array} */ legPoses) => ({ t, x: poseComponentOf(legPoses, 0).map((x) => x + 0.01), y: poseComponentOf(legPoses, 1), theta: poseComponentOf(legPoses, 2) });
     const pageLog = { name: 'of the page', odometry: poseColumnsOf(legs.odometry), reference: poseColumnsOf(legs.reference) };
-    const waitForErrorMessage = () => new Promise((resolve) => {
-      figure.addEventListener('error', (event) => {
-        event.preventDefault();
-        resolve(/** @type {ErrorEvent} */ (event).message);
+    const waitForErrorMessage = () => new Promise((resolvePromise) => {
+      figureElement.addEventListener('error', (domEvent) => {
+        domEvent.preventDefault();
+        resolvePromise(/** @type {ErrorEvent} */ (domEvent).message);
       }, { once: true });
     });
-    figure.log = pageLog;
-    await new Promise((resolve) => figure.addEventListener('stats', resolve, { once: true }));
+    figureElement.log = pageLog;
+    await new Promise((resolvePromise) => figureElement.addEventListener('stats', resolvePromise, { once: true }));
     const errorMessages = [];
     for (const refusedLog of [{ ...pageLog, odometry: { ...pageLog.odometry, t: t.with(3, 1) } }, 5]) {
       const messagePromise = waitForErrorMessage();
-      Object.assign(figure, { log: refusedLog });
+      Object.assign(figureElement, { log: refusedLog });
       errorMessages.push(await messagePromise);
     }
     return errorMessages;
   });
   expect(refusalMessages).toEqual([expect.stringMatching(/^odometry: sample 3 is not later than the one before/), 'log is 5; allowed is an object with keys from name, odometry, reference']);
   expect(await widget.evaluate((element) => {
-    const { log, simulation: { count } } = /** @type {AlphaCalibratorElement} */ (element);
-    return [log?.name, count > 100];
+    const { log, simulation: { count: legCount } } = /** @type {AlphaCalibratorElement} */ (element);
+    return [log?.name, legCount > 100];
   })).toEqual(['of the page', true]);
   expect(await readState(widget)).toEqual(stateBefore);
   // The view is fitted to the new path, although the new path would fit into the previous view.

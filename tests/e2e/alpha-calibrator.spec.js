@@ -9,8 +9,8 @@ test('the figure opens with a simulated log, which is labelled as simulated, and
   const widget = await openCalibrator(page);
   await expect(captionOf(widget)).toHaveText(/^✓ Trust\s+All 14 checks passed\. \d+ legs of the simulated log, \d outliers\.$/);
   await expect(widget.locator('.to-do')).toHaveText(/^Use the recommended α’s with legs of this length\. First multiply the odometry’s distances by 1\.0\d\d and turns by 0\.9\d\d: the α’s are those of the corrected robot\.$/);
-  const { truth } = await widget.evaluate((element) => /** @type {any} */ (element).viewModel);
-  await expect(widget.locator('.alphas tr > :last-child')).toHaveText(['simulated', ...truth.alphas.map(String)]);
+  const { truth: trueParameters } = await widget.evaluate((element) => /** @type {any} */ (element).viewModel);
+  await expect(widget.locator('.alphas tr > :last-child')).toHaveText(['simulated', ...trueParameters.alphas.map(String)]);
   for (const colorRole of /** @type {const} */ (['truth', 'prediction', 'accent'])) {
     expect(await countPixelsOfRole(widget.locator('canvas.plane'), colorRole), colorRole).toBeGreaterThan(20);
   }
@@ -59,7 +59,7 @@ test('outliers are marked by rings, and change the fit strongly if they are not 
   const statsAfter = await readStats(widget);
   expect(statsAfter.referenceNoise.positionStd.value).toBeGreaterThan(10 * statsBefore.referenceNoise.positionStd.interval[1]);
   // The ratios in the text of www/index.md must equal the computed ratios.
-  const outlierCheck = statsBefore.diagnostics.checks.find(({ name }) => name === 'outliers-few');
+  const outlierCheck = statsBefore.diagnostics.checks.find(({ name: checkName }) => checkName === 'outliers-few');
   const [outlierRatioText, alpha3RatioText] = [10 * Math.round(0.1 / (outlierCheck?.value ?? NaN)), Number(statsAfter.alphas[2]) / Number(statsBefore.alphas[2])].map((computedRatio) => ({ 6: 'six', 60: 'sixty' })[Math.round(computedRatio)]);
   expect(readFileSync(new URL('../../www/index.md', import.meta.url), 'utf8')).toMatch(RegExp(`One in ${outlierRatioText} is an outlier[^]* becomes ${alpha3RatioText} times as large, and two checks fail`));
   await expect(captionOf(widget)).toHaveText(/^! Caution\s+Failed: correlation of neighbouring residuals; .* \(2 of 14 checks\)\. \d+ legs of the simulated log\.$/);
@@ -86,11 +86,11 @@ test('a systematic error that is not corrected is named in the advice', async ({
 test('every check shows its value and the range that passes, and a failed check shows what to do', async ({ page }) => {
   const widget = await openCalibrator(page, 'outliers="keep" lang="de"');
   await openDisclosures(widget);
-  const { diagnostics: { checks } } = await readStats(widget);
+  const { diagnostics: { checks: checkResults } } = await readStats(widget);
   const checkRows = findFoldedGroup(widget, 'Prüfungen').locator('tbody tr');
-  await expect(checkRows).toHaveCount(checks.length);
-  expect(checks.filter(({ passed }) => !passed).length).toBeGreaterThan(1);
-  for (const [i, { passed }] of checks.entries()) await expect(checkRows.nth(i)).toContainText(passed ? '✓ bestanden' : '✕ nicht bestanden');
+  await expect(checkRows).toHaveCount(checkResults.length);
+  expect(checkResults.filter(({ passed: hasPassed }) => !hasPassed).length).toBeGreaterThan(1);
+  for (const [i, { passed: hasPassed }] of checkResults.entries()) await expect(checkRows.nth(i)).toContainText(hasPassed ? '✓ bestanden' : '✕ nicht bestanden');
   await expect(checkRows.filter({ hasText: 'Korrelation benachbarter Residuen' })).toContainText('Fehler benachbarter Etappen sind korreliert');
   await expect(checkRows.filter({ hasText: 'Anzahl der Etappen' })).toContainText('≥ 100');
 });
@@ -108,10 +108,10 @@ test('a leg is selected in the picture, by a slider, or by a button that leads t
   expect(await readState(widget)).toMatchObject({ leg: worstLegs[1] + 1 });
   const planeCanvas = widget.locator('canvas.plane');
   const clickTarget = await widget.evaluate((element) => {
-    const { pictures: [{ pictureView: view }], simulation } = /** @type {any} */ (element);
+    const { pictures: [{ pictureView }], simulation } = /** @type {any} */ (element);
     const { reference } = simulation.legs;
     const legMidpoint = [0, 1].map((axisIndex) => (reference[6 * 40 + axisIndex] + reference[6 * 40 + 3 + axisIndex]) / 2);
-    return { x: view.toPixelX(legMidpoint[0]), y: view.toPixelY(legMidpoint[1]), leg: simulation.nearest(legMidpoint[0], legMidpoint[1], 1) };
+    return { x: pictureView.toPixelX(legMidpoint[0]), y: pictureView.toPixelY(legMidpoint[1]), leg: simulation.nearest(legMidpoint[0], legMidpoint[1], 1) };
   });
   await planeCanvas.click({ position: { x: clickTarget.x, y: clickTarget.y } });
   expect(await readState(widget)).toMatchObject({ leg: clickTarget.leg });
@@ -121,16 +121,16 @@ test('a leg is selected in the picture, by a slider, or by a button that leads t
 test('an exported picture has a legend, and describes the verdict @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   const captionText = ((await captionOf(widget).textContent()) ?? '').replace(/^\s*✓?!?\s*/, '').replace(/\s+/g, ' ').trim();
-  const { texts, description } = await widget.evaluate((element) => {
+  const { texts: svgTexts, description } = await widget.evaluate((element) => {
     const { documentElement: svgRoot } = new DOMParser().parseFromString(/** @type {any} */ (element).toSVG(), 'image/svg+xml');
     return { texts: [...svgRoot.querySelectorAll('text')].map((textElement) => textElement.textContent), description: svgRoot.querySelector('desc')?.textContent ?? '' };
   });
   expect(description.replaceAll(/(Trust|Caution)\./g, '$1')).toContain(captionText);
-  for (const legendText of ['p > 0.5', 'p 0.05–0.5', 'p 0.001–0.05', 'p < 0.001']) expect(texts).toContain(legendText);
+  for (const legendText of ['p > 0.5', 'p 0.05–0.5', 'p 0.001–0.05', 'p < 0.001']) expect(svgTexts).toContain(legendText);
 });
 
-test('the lines for Nav2 contain the numbers of the table, and the button next to the α’s copies them', async ({ page, context }) => {
-  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+test('the lines for Nav2 contain the numbers of the table, and the button next to the α’s copies them', async ({ page, context: browserContext }) => {
+  await browserContext.grantPermissions(['clipboard-read', 'clipboard-write']);
   const widget = await openCalibrator(page, 'rule="nav2" distance="0.3"');
   await openDisclosures(widget);
   const nav2Yaml = await widget.locator('textarea.yaml').inputValue();

@@ -14,8 +14,8 @@ const openArcAnatomy = (page, attributes) => mountFigure(page, 'arc-anatomy', { 
 async function readResults(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {
-    const { config, stats, table } = /** @type {ArcAnatomyElement} */ (element).simulation;
-    return { config, stats, table };
+    const { config: figureConfig, stats, table: resultTable } = /** @type {ArcAnatomyElement} */ (element).simulation;
+    return { config: figureConfig, stats, table: resultTable };
   });
 }
 
@@ -26,18 +26,18 @@ const verdictOf = (/** @type {Locator} */ widget) => widget.locator('.verdict');
 
 test('the figure opens with the robot beside the commanded arc, and names the least likely factor', async ({ page }) => {
   const widget = await openArcAnatomy(page);
-  const { config, stats } = await readResults(widget);
-  expect(config).toMatchObject({ start: { x: 0, y: 0, theta: 0 }, next: { x: 1.1, y: 0.5, theta: 1.1 }, command: { v: 1, omega: 0.5, dt: 1 } });
+  const { config: figureConfig, stats } = await readResults(widget);
+  expect(figureConfig).toMatchObject({ start: { x: 0, y: 0, theta: 0 }, next: { x: 1.1, y: 0.5, theta: 1.1 }, command: { v: 1, omega: 0.5, dt: 1 } });
   await expect(widget.getByRole('button', { name: 'Left turn' })).toHaveAttribute('aria-pressed', 'true');
   await expect(verdictOf(widget)).toContainText('The last turn γ̂ fits worst: 2.2 standard deviations off');
   await expect(widget.locator('.headline')).toHaveText(new RegExp(`^\\s*The robot’s pose is\\s+${(100 * stats.share).toFixed(1)}\u202f%\\s+as likely as the best pose`));
   const factorRows = widget.locator('.factors li');
   await expect(factorRows).toHaveCount(3);
   await expect(factorRows.nth(2)).toHaveClass(/weakest/);
-  for (const [i, { estimate, deviations, share }] of stats.factors.entries()) {
-    expect(parseNumberIn(((await factorRows.nth(i).locator('.estimate').textContent()) ?? '').split('=')[1].split(' ')[1])).toBeCloseTo(estimate, 2);
-    expect(parseNumberIn(((await factorRows.nth(i).locator('.off').textContent()) ?? '').split('= ')[1])).toBeCloseTo([-1, -1, 1][i] * deviations, 1);
-    await expect(factorRows.nth(i).locator('.keeps')).toHaveText(`factor: ${(100 * share).toFixed(1)}\u202f% of its peak`);
+  for (const [i, { estimate: factorEstimate, deviations: factorDeviations, share: factorShare }] of stats.factors.entries()) {
+    expect(parseNumberIn(((await factorRows.nth(i).locator('.estimate').textContent()) ?? '').split('=')[1].split(' ')[1])).toBeCloseTo(factorEstimate, 2);
+    expect(parseNumberIn(((await factorRows.nth(i).locator('.off').textContent()) ?? '').split('= ')[1])).toBeCloseTo([-1, -1, 1][i] * factorDeviations, 1);
+    await expect(factorRows.nth(i).locator('.keeps')).toHaveText(`factor: ${(100 * factorShare).toFixed(1)}\u202f% of its peak`);
   }
   await openDisclosures(widget);
   expect(parseNumberIn(await readoutValueOf(widget, 'p of the tables').textContent())).toBeCloseTo(stats.prob, 3);
@@ -88,7 +88,7 @@ test('the robot moves and turns by keyboard, and stops where the floor ends', as
 
 test('the handles of the start move the commanded arc, and the robot’s end pose stays', async ({ page }) => {
   const widget = await openArcAnatomy(page);
-  const [startHandle, startHeadingHandle] = ['Start', 'Heading at the start'].map((name) => widget.getByRole('slider', { name, exact: true }));
+  const [startHandle, startHeadingHandle] = ['Start', 'Heading at the start'].map((accessibleName) => widget.getByRole('slider', { name: accessibleName, exact: true }));
   const resultsBefore = await readResults(widget);
   await startHandle.press('ArrowRight');
   await startHandle.press('ArrowDown');
@@ -118,8 +118,8 @@ test('a narrow picture contains the whole wedge of the final turn', async ({ pag
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openArcAnatomy(page, 'preset="straight"');
   const [wedgeEndX, plotRightX] = await widget.evaluate((element) => {
-    const { pictures: [{ pictureView: view }], simulation: { config: { next }, stats: { lastTurn } } } = /** @type {any} */ (element);
-    return [view.headingLineFrom({ ...next, theta: next.theta - lastTurn }, 64)[1][0], view.plotArea.right];
+    const { pictures: [{ pictureView }], simulation: { config: { next }, stats: { lastTurn } } } = /** @type {any} */ (element);
+    return [pictureView.headingLineFrom({ ...next, theta: next.theta - lastTurn }, 64)[1][0], pictureView.plotArea.right];
   });
   expect(wedgeEndX).toBeLessThan(plotRightX);
 });
@@ -163,8 +163,8 @@ test('heat maps of p and of the density are drawn below the arcs, with contours 
   const widget = await openArcAnatomy(page);
   await openDisclosures(widget);
   const planePictures = [await readPicture(canvasOf(widget))];
-  for (const name of ['p', 'density']) {
-    await widget.getByRole('radio', { name, exact: true }).check();
+  for (const accessibleName of ['p', 'density']) {
+    await widget.getByRole('radio', { name: accessibleName, exact: true }).check();
     planePictures.push(await readPicture(canvasOf(widget)));
   }
   expect(new Set(planePictures).size).toBe(3);
@@ -176,18 +176,18 @@ test('entries of the legend show and hide the lines', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   expect(await countPixelsOfRole(canvasOf(widget), 'posterior')).toBe(0);
   // A toggle in the legend highlights its line while the pointer or the focus is on the toggle.
-  const clickToggle = async (/** @type {string} */ name) => {
-    await widget.getByRole('checkbox', { name }).click();
+  const clickToggle = async (/** @type {string} */ accessibleName) => {
+    await widget.getByRole('checkbox', { name: accessibleName }).click();
     await page.mouse.move(0, 0);
-    await widget.getByRole('checkbox', { name }).blur();
+    await widget.getByRole('checkbox', { name: accessibleName }).blur();
     await waitForFrames(page);
   };
   await clickToggle('constant twist');
   expect(await countPixelsOfRole(canvasOf(widget), 'posterior')).toBeGreaterThan(20);
-  for (const [name, colorRole] of /** @type {const} */ ([['commanded arc', 'prior'], ['the one arc to the robot', 'prediction'], ['last turn', 'accent'], ['constant twist', 'posterior']])) {
+  for (const [accessibleName, colorRole] of /** @type {const} */ ([['commanded arc', 'prior'], ['the one arc to the robot', 'prediction'], ['last turn', 'accent'], ['constant twist', 'posterior']])) {
     const pixelCountBefore = await countPixelsOfRole(canvasOf(widget), colorRole);
-    await clickToggle(name);
-    expect(await countPixelsOfRole(canvasOf(widget), colorRole), name).toBeLessThan(pixelCountBefore);
+    await clickToggle(accessibleName);
+    expect(await countPixelsOfRole(canvasOf(widget), colorRole), accessibleName).toBeLessThan(pixelCountBefore);
   }
   await expect(widget).toHaveAttribute('overlays', 'chord');
 });
@@ -211,7 +211,7 @@ test('the factors are exported as CSV', async ({ page }) => {
   expect(JSON.parse(settingsLine.slice(2))).toMatchObject({ element: 'arc-anatomy', next: { x: 1.1, y: 0.5, theta: 1.1 } });
   expect(headerLine).toBe('estimate,residual,standard_deviation,residual_over_deviation,prob,share_of_peak');
   expect(dataLines.map((csvRow) => csvRow.split(',').map(Number))).toEqual(
-    stats.factors.map(({ estimate, residual, deviation, deviations, value, share }) => [estimate, residual, deviation, deviations, value, share]),
+    stats.factors.map(({ estimate: factorEstimate, residual: factorResidual, deviation: factorDeviation, deviations: factorDeviations, value, share: factorShare }) => [factorEstimate, factorResidual, factorDeviation, factorDeviations, value, factorShare]),
   );
 });
 

@@ -45,28 +45,28 @@ test('the cloud grows automatically, and can be paused and resumed', async ({ pa
 
 test('the figure opens with the whole cloud of the default command, and shows the statistics of the simulation', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
-  const { config, shown: shownCount, stats, table } = await readBananaResults(widget);
-  expect(config).toMatchObject({ model: 'velocity', noise: 'normal', command: { v: 1, omega: 0, dt: 2 }, alphas: OPENING_ALPHAS, isolate: null });
-  expect(shownCount).toBe(config.samples);
-  expect(Math.abs(table.exact.areaRatio - 1.967)).toBeLessThan(5e-4);
-  const readReadoutText = async (/** @type {string | RegExp} */ name) => (await readoutValueOf(widget, name).textContent()) ?? '';
+  const { config: figureConfig, shown: shownCount, stats, table: resultTable } = await readBananaResults(widget);
+  expect(figureConfig).toMatchObject({ model: 'velocity', noise: 'normal', command: { v: 1, omega: 0, dt: 2 }, alphas: OPENING_ALPHAS, isolate: null });
+  expect(shownCount).toBe(figureConfig.samples);
+  expect(Math.abs(resultTable.exact.areaRatio - 1.967)).toBeLessThan(5e-4);
+  const readReadoutText = async (/** @type {string | RegExp} */ accessibleName) => (await readoutValueOf(widget, accessibleName).textContent()) ?? '';
   const [printedSkew, skewError] = (await readReadoutText('cross-track skew')).split(' ± ').map(parseNumberIn);
   expect(printedSkew).toBeCloseTo(stats.crossTrackSkew, 3);
   expect(skewError).toBeCloseTo(stats.crossTrackSkewError, 3);
   await expect(readoutDetailOf(widget, 'cross-track skew')).toHaveText('exactly 0.000');
   expect(parseNumberIn(await readReadoutText('predicts'))).toBeCloseTo(stats.gaussianSkew, 3);
   expect(parseNumberIn(await readReadoutText('ρ'))).toBeCloseTo(stats.rhoCrossHeading, 3);
-  expect((await readReadoutText('robots shown')).split(' of ').map(parseNumberIn)).toEqual([stats.n, config.samples]);
+  expect((await readReadoutText('robots shown')).split(' of ').map(parseNumberIn)).toEqual([stats.n, figureConfig.samples]);
   const [printedGain, gainError] = (await readReadoutText('gain in fit')).split(' ± ').map(parseNumberIn);
   expect(printedGain).toBeCloseTo(stats.likelihoodGain.pose, 3);
   expect(gainError).toBeCloseTo(stats.likelihoodGainError.pose, 3);
   expect(await readReadoutText('area covered')).toBe(`${stats.areaRatio.toFixed(2)} ×`);
   const coverageTexts = [stats.coverage.ellipse, stats.coverage.exponential].map((coverageShare) => `${(100 * coverageShare).toFixed(1)}\u202f%`);
   await expect(readoutDetailOf(widget, 'area covered')).toHaveText(`± ${stats.areaRatioError.toPrecision(1)}; inside: ellipse ${coverageTexts.join(', outline ')}`);
-  await expect(readoutDetailOf(widget, 'gain in fit')).toHaveText(new RegExp(`^exactly ${table.exact.likelihoodGain.pose.toFixed(3)}; a robot is \\d\\.\\d\\d times as likely$`));
+  await expect(readoutDetailOf(widget, 'gain in fit')).toHaveText(new RegExp(`^exactly ${resultTable.exact.likelihoodGain.pose.toFixed(3)}; a robot is \\d\\.\\d\\d times as likely$`));
   const varianceRow = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name: 'Σxx', exact: true }) });
   const xVariances = (await varianceRow.getByRole('cell').allTextContents()).map(parseNumberIn);
-  for (const [i, tableColumn] of [table.linearized, table.exact, table.measured].entries()) expect(xVariances[i] / tableColumn.cov[0][0]).toBeCloseTo(1, 2);
+  for (const [i, tableColumn] of [resultTable.linearized, resultTable.exact, resultTable.measured].entries()) expect(xVariances[i] / tableColumn.cov[0][0]).toBeCloseTo(1, 2);
   const floorCanvas = widget.locator('canvas.plane');
   await expect(floorCanvas).toHaveAttribute('aria-label', /^On the floor: no ellipse fits\. Command: v = .*\. The cloud is bent: /);
 });
@@ -147,7 +147,7 @@ test('a robot under the pointer is marked in both views, with the motion that it
 
 test('the caption states the exact statistics of the model, and those of the robots', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page, 'preset="gentle"');
-  const pressPreset = (/** @type {string} */ name) => widget.getByRole('button', { name, exact: true }).click();
+  const pressPreset = (/** @type {string} */ accessibleName) => widget.getByRole('button', { name: accessibleName, exact: true }).click();
   await expect(captionOf(widget)).toHaveText(/^The cloud is bent, with its tail to the right of the mean heading: skew −0\.4\d\d\s±\s0\.01\d, where any Gaussian in \(x, y\) has 0\.$/);
   await widget.locator('#omega').fill('-0.5');
   await expect(captionOf(widget)).toHaveText(/tail to the left/);
@@ -155,9 +155,9 @@ test('the caption states the exact statistics of the model, and those of the rob
   // The cloud of the preset "Banana" is symmetric: its exact skew is 0. Its 2σ ellipse has twice the area of the outline in ξ.
   await pressPreset('Banana');
   await waitForFrames(page);
-  const { table } = await readBananaResults(widget);
-  expect(Math.abs(table.exact.crossTrackSkew)).toBeLessThan(1e-9);
-  expect(Math.abs(table.exact.areaRatio - 1.97)).toBeLessThan(0.005);
+  const { table: resultTable } = await readBananaResults(widget);
+  expect(Math.abs(resultTable.exact.crossTrackSkew)).toBeLessThan(1e-9);
+  expect(Math.abs(resultTable.exact.areaRatio - 1.97)).toBeLessThan(0.005);
   const [areaRatioText] = (await readoutValueOf(widget, 'area covered').innerText()).split(' ');
   await expect(captionOf(widget)).toHaveText(
     new RegExp(`^The cloud is bent: its ellipse covers ${areaRatioText} times the area of the ξ outline\\. Both sides are alike: skew −?0\\.\\d+\\s±\\s0\\.\\d+, exactly 0 by symmetry\\.$`),
@@ -174,12 +174,12 @@ test('the caption states the exact statistics of the model, and those of the rob
 test('the caption explains the bow-tie shape of the preset Pivot, and claims no lean if there are few robots @nightly', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
   await widget.getByRole('button', { name: 'Pivot' }).click();
-  const { table, config, stats: { exponential: { mean, cov } } } = await readBananaResults(widget);
+  const { table: resultTable, config: figureConfig, stats: { exponential: { mean, cov } } } = await readBananaResults(widget);
   const cloudSizeText = `a drive of ${mean[0].toFixed(2)} m by ${Math.sqrt(cov[0][0]).toFixed(2)} m, ahead of the start and behind it`;
   await expect(captionOf(widget)).toContainText(cloudSizeText);
-  expect(Math.abs(table.exact.crossTrackSkew)).toBeGreaterThan(0.01);
+  expect(Math.abs(resultTable.exact.crossTrackSkew)).toBeGreaterThan(0.01);
   const behindCount = (await readPoses(widget)).filter((x, i) => i % 3 === 0 && x < 0).length;
-  expect(behindCount / config.samples).toBeGreaterThan(0.3);
+  expect(behindCount / figureConfig.samples).toBeGreaterThan(0.3);
 
   await widget.getByRole('button', { name: 'Gentle arc' }).click();
   await widget.locator('#samples').fill('3');

@@ -24,9 +24,9 @@ test('a slider morphs the floor into exponential coordinates and back, and callo
 
 test('every preset ends the morph, even the preset that is selected already', async ({ page }) => {
   const widget = await openBanana(page);
-  for (const name of ['Hard arc', 'Hard arc']) {
+  for (const accessibleName of ['Hard arc', 'Hard arc']) {
     await widget.getByRole('slider', { name: 'From the floor' }).fill('1');
-    await widget.getByRole('button', { name }).click();
+    await widget.getByRole('button', { name: accessibleName }).click();
     await expect(widget).toHaveAttribute('morph', '0');
   }
 });
@@ -36,17 +36,17 @@ test('the handle at the end of the arc can be dragged during the morph @nightly'
   const arcEndHandle = widget.locator('.handle');
   await arcEndHandle.press('ArrowUp');
   await arcEndHandle.press('ArrowRight');
-  let { command } = (await readBananaResults(widget)).config;
-  expect(command.omega * command.dt).toBeCloseTo(0.02, 9);
-  expect(command.v * command.dt).toBeCloseTo(2.02, 9);
+  let { command: driveCommand } = (await readBananaResults(widget)).config;
+  expect(driveCommand.omega * driveCommand.dt).toBeCloseTo(0.02, 9);
+  expect(driveCommand.v * driveCommand.dt).toBeCloseTo(2.02, 9);
   await widget.evaluate((element) => void Reflect.set(element, 'morph', 0.4));
   const [x, y] = /** @type {number[]} */ (await readProperty(widget, 'visibleArcEnd'));
   await arcEndHandle.press('ArrowUp');
   const [shownX, shownY] = /** @type {number[]} */ (await readProperty(widget, 'visibleArcEnd'));
   expect(shownX).toBeCloseTo(x, 9);
   expect(shownY).toBeCloseTo(y + 0.02, 9);
-  ({ command } = (await readBananaResults(widget)).config);
-  expect(command.omega).toBeGreaterThan(0.01);
+  ({ command: driveCommand } = (await readBananaResults(widget)).config);
+  expect(driveCommand.omega).toBeGreaterThan(0.01);
 });
 
 test('Pin keeps numbers and outlines for comparison, and a second press removes them', async ({ page }) => {
@@ -61,9 +61,9 @@ test('Pin keeps numbers and outlines for comparison, and a second press removes 
   await widget.getByRole('button', { name: 'Hard arc' }).click();
   await expect(areaReadout).toContainText(`pinned: ${areaTextBefore}`);
   const hiddenCoordinates = await widget.evaluate((element) => {
-    const { scene, pictures: floorPictures } = /** @type {any} */ (element);
+    const { scene: drawnScene, pictures: floorPictures } = /** @type {any} */ (element);
     const { xMin, xMax, yMin, yMax } = floorPictures[0].pictureView.shownExtent;
-    return scene.pinnedPointsAt(0).filter((/** @type {number} */ coordinate, /** @type {number} */ i) => (i % 2 ? coordinate < yMin || coordinate > yMax : coordinate < xMin || coordinate > xMax));
+    return drawnScene.pinnedPointsAt(0).filter((/** @type {number} */ pointCoordinate, /** @type {number} */ i) => (i % 2 ? pointCoordinate < yMin || pointCoordinate > yMax : pointCoordinate < xMin || pointCoordinate > xMax));
   });
   expect(hiddenCoordinates).toEqual([]);
   const pinnedState = await readState(widget);
@@ -100,7 +100,7 @@ test('the title of the floor view states how well the ellipse fits', async ({ pa
     // In 3 s some robots turn by π or more, where no exact statistics exist.
     [{ preset: 'straight', alpha3: 0.2, dt: 3 }, 'the ellipse fits in size only', 0],
   ])) {
-    await widget.evaluate((element, settings) => void Object.assign(element, settings), changedSettings);
+    await widget.evaluate((element, figureSettings) => void Object.assign(element, figureSettings), changedSettings);
     await expect(panelTitle).toHaveText(`On the floor: ${expectedTitle}`);
     expect(await countCalloutsOf(widget)).toBe(expectedCallouts);
   }

@@ -8,8 +8,8 @@ const GENTLE_PRESET = 'preset="gentle"';
 
 /** Returns the fraction of the robots that are inside the view of exponential coordinates. @param {import('@playwright/test').Locator} widget @returns {Promise<number>} */
 const visibleTwistShareOf = (widget) => widget.evaluate((element) => {
-  const { simulation: { twists }, pictures } = /** @type {any} */ (element);
-  const { xMin, xMax, yMin, yMax } = pictures[1].pictureView.shownExtent;
+  const { simulation: { twists }, pictures: figurePictures } = /** @type {any} */ (element);
+  const { xMin, xMax, yMin, yMax } = figurePictures[1].pictureView.shownExtent;
   const isInView = (/** @type {number} */ twistCoordinate, /** @type {number} */ i) =>
     i % 3 === 0 && twistCoordinate >= xMin && twistCoordinate <= xMax && twists[i + 2] >= yMin && twists[i + 2] <= yMax;
   return twists.filter(isInView).length / (twists.length / 3);
@@ -59,8 +59,8 @@ test('the keys Home and End set v to the ends of its range, and no key of the ha
   await page.evaluate(() => scrollTo(0, 100));
   for (const [keyName, expectedSpeed] of /** @type {const} */ ([['End', 1.5], ['Home', -1.5], ['PageDown', undefined], ['ArrowDown', undefined]])) {
     await page.keyboard.press(keyName);
-    const { command } = (await readBananaResults(widget)).config;
-    if (expectedSpeed) expect(command.v).toBeCloseTo(expectedSpeed, 1);
+    const { command: driveCommand } = (await readBananaResults(widget)).config;
+    if (expectedSpeed) expect(driveCommand.v).toBeCloseTo(expectedSpeed, 1);
   }
   expect(await page.evaluate(() => scrollY)).toBe(100);
 });
@@ -90,9 +90,9 @@ test('clicks and keys in the skew chart set ω', async ({ page }) => {
   await skewChart.scrollIntoViewIfNeeded();
   const { x, y } = await readCentre(skewChart);
   await page.mouse.click(x + 80, y);
-  const { config, table } = await readBananaResults(widget);
-  expect(config.command.omega).toBeGreaterThan(0.51);
-  await expect(omegaMarker).toHaveAttribute('aria-valuetext', new RegExp(`skew −${Math.abs(table.exact.crossTrackSkew).toFixed(3)}`));
+  const { config: figureConfig, table: resultTable } = await readBananaResults(widget);
+  expect(figureConfig.command.omega).toBeGreaterThan(0.51);
+  await expect(omegaMarker).toHaveAttribute('aria-valuetext', new RegExp(`skew −${Math.abs(resultTable.exact.crossTrackSkew).toFixed(3)}`));
 });
 
 test('a change of an α moves the same robots, and updates the figure once per frame', async ({ page }) => {
@@ -134,8 +134,8 @@ test('Isolate sets all α’s except one to 0, marks them as off, and can be swi
   await widget.getByRole('radio', { name: 'Only α₁' }).check();
   expect((await readBananaResults(widget)).config.isolate).toBe(1);
   await widget.getByRole('slider', { name: 'α3' }).fill('0.06');
-  const { config } = await readBananaResults(widget);
-  expect(config).toMatchObject({ isolate: 3, alphas: resultsBefore.config.alphas.with(2, 0.06) });
+  const { config: figureConfig } = await readBananaResults(widget);
+  expect(figureConfig).toMatchObject({ isolate: 3, alphas: resultsBefore.config.alphas.with(2, 0.06) });
   await widget.getByLabel('Isolate one').uncheck();
   expect((await readBananaResults(widget)).config.isolate).toBeNull();
   await expect(widget.locator('.slider .value', { hasText: ' off' })).toHaveCount(0);

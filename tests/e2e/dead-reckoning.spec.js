@@ -53,7 +53,7 @@ test('the line in the chart selects a step by pointer or keyboard, and starts no
   const widget = await openDeadReckoning(page);
   const stepSlider = widget.getByRole('slider', { name: 'selected step', exact: true });
   const variancesBefore = await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).simulation.measured);
-  const takePictures = () => Promise.all(['plane', 'twist'].map((name) => readPicture(widget.locator(`canvas.${name}`))));
+  const takePictures = () => Promise.all(['plane', 'twist'].map((accessibleName) => readPicture(widget.locator(`canvas.${accessibleName}`))));
   const [floorPictureAtEnd, twistPictureAtEnd] = await takePictures();
   await stepSlider.press('ArrowLeft');
   await waitForFrames(page);
@@ -74,8 +74,8 @@ test('the line in the chart selects a step by pointer or keyboard, and starts no
 
 test('with the right Jacobian J_r and fourth-order terms, every predicted variance is correct', async ({ page }) => {
   const widget = await openDeadReckoning(page);
-  for (const [i, name] of ['with Jᵣ, the turn during a step', 'fourth order'].entries()) {
-    await widget.getByRole('radio', { name }).check();
+  for (const [i, accessibleName] of ['with Jᵣ, the turn during a step', 'fourth order'].entries()) {
+    await widget.getByRole('radio', { name: accessibleName }).check();
     await waitForFrames(page);
     expect(await readMissedSteps(widget, i + 1)).toEqual(['never', 'never', 'never']);
     await expect(captionOf(widget)).toHaveText('Within 5 % of what 50\u202f000 robots do, in every component at every step.');
@@ -98,7 +98,7 @@ test('entries of the legends show and hide curves and outlines', async ({ page }
 
 test('presets set the path, and the button of the present path is marked', async ({ page }) => {
   const widget = await openDeadReckoning(page);
-  const presetButtonOf = (/** @type {string} */ name) => widget.getByRole('button', { name });
+  const presetButtonOf = (/** @type {string} */ accessibleName) => widget.getByRole('button', { name: accessibleName });
   await expect(presetButtonOf('The chapter’s 20 steps')).toHaveAttribute('aria-pressed', 'true');
   await presetButtonOf('Heading σ doubled').click();
   await waitUntilSettled(widget);
@@ -121,10 +121,10 @@ test('more steps divide the same path into shorter steps, and the views stay', a
   const [xBefore, yBefore] = await commandedEndOf(widget);
   await dragSlider(widget.locator('#steps'), 0.5);
   await waitUntilSettled(widget);
-  const { steps, step, command } = await readConfig(widget);
-  expect(steps).toBeGreaterThan(80);
-  expect(Math.abs(steps * command.dt - 4)).toBeLessThan(1e-12);
-  expect(Math.abs(step / steps - 0.5)).toBeLessThan(0.02);
+  const { steps: stepCount, step: selectedStep, command: driveCommand } = await readConfig(widget);
+  expect(stepCount).toBeGreaterThan(80);
+  expect(Math.abs(stepCount * driveCommand.dt - 4)).toBeLessThan(1e-12);
+  expect(Math.abs(selectedStep / stepCount - 0.5)).toBeLessThan(0.02);
   const [endX, endY] = await commandedEndOf(widget);
   expect(Math.hypot(endX - xBefore, endY - yBefore)).toBeLessThan(1e-12);
 });
@@ -174,7 +174,7 @@ test('the exported CSV has a row for each step', async ({ page }) => {
   const [, headerLine, ...dataLines] = csvLines;
   const columnNames = headerLine.split(',');
   expect(dataLines).toHaveLength(20);
-  const readCsvValue = (/** @type {number} */ lineIndex, /** @type {string} */ name) => Number(dataLines[lineIndex].split(',')[columnNames.indexOf(name)]);
+  const readCsvValue = (/** @type {number} */ lineIndex, /** @type {string} */ accessibleName) => Number(dataLines[lineIndex].split(',')[columnNames.indexOf(accessibleName)]);
   expect(readCsvValue(0, 'step')).toBe(1);
   expect(readCsvValue(4, 'measured_lateral_m2')).toBe(measured[13]);
   expect(readCsvValue(19, 'first_order_heading_rad2')).toBe(predicted[59]);

@@ -42,16 +42,16 @@ test('attributes of every type set the opening state of a figure', async ({ page
     seed: 5,
   });
   expect(await readProperty(squeezeWidget, 'view')).toBe('close');
-  expect((await takeEvents(page)).map(({ name, target }) => [name, target])).toEqual(TWO_FIGURE_NAMES.map((name) => ['load', name]));
+  expect((await takeEvents(page)).map(({ name, target: eventTarget }) => [name, eventTarget])).toEqual(TWO_FIGURE_NAMES.map((name) => ['load', name]));
 });
 
 test('attributes stay as written until their setting changes, and then reflect the setting', async ({ page }) => {
   await showPage(page, '<banana-machine preset="hard" seed="3"></banana-machine><map-squeeze></map-squeeze>');
-  const [bananaMachine, mapSqueeze] = TWO_FIGURE_NAMES.map((name) => page.locator(name));
+  const [bananaMachine, mapSqueeze] = TWO_FIGURE_NAMES.map((tagName) => page.locator(tagName));
   await waitUntilReady(bananaMachine);
   await openDisclosures(bananaMachine);
   const readAttributes = (/** @type {import('@playwright/test').Locator} */ widget) =>
-    widget.evaluate((element) => Object.fromEntries([...element.attributes].map(({ name, value }) => [name, value])));
+    widget.evaluate((element) => Object.fromEntries([...element.attributes].map(({ name: attributeName, value }) => [attributeName, value])));
   expect(await readAttributes(bananaMachine)).toEqual({ preset: 'hard', seed: '3' });
   // After a change the settings differ from the preset "hard". The values of the preset are then reflected as attributes.
   const alphaAttributes = { alpha1: '0.05', alpha2: '0.05', alpha3: '0.05', alpha4: '0.09', alpha5: '0.01', alpha6: '0.01' };
@@ -94,18 +94,18 @@ test('controls of a figure change its attributes, and removing an attribute rest
 
 test('refused attributes are reported with the core’s error message, and the last valid value stays', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine', { attributes: 'v="fast" omega="0.7" model="walking" samples="0" overlays="ellipse stars"' });
-  const errorMessages = (await takeEvents(page, ['error'])).map(({ message }) => message);
+  const errorMessages = (await takeEvents(page, ['error'])).map(({ message: errorMessage }) => errorMessage);
   expect(errorMessages).toEqual([
     'model is "walking"; allowed is "velocity" or "odometry"',
     'command.v is "fast"; allowed is a number',
     'samples is 0; allowed is a whole number from 1 to 10000000',
     'overlays[1] is "stars"; allowed is "command" or "ellipse" or "exponential" or "linearized" or "additive"',
   ]);
-  const readProperties = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((name) => readProperty(widget, name)));
+  const readProperties = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((propertyName) => readProperty(widget, propertyName)));
   expect(await readProperties()).toEqual([1, 0.7, 'velocity', 50000]);
   // A blank attribute is refused as a number, and does not count as zero.
   await widget.evaluate((element) => element.setAttribute('omega', ' '));
-  expect((await takeEvents(page, ['error'])).map(({ message }) => message)).toEqual(['command.omega is " "; allowed is a number']);
+  expect((await takeEvents(page, ['error'])).map(({ message: errorMessage }) => errorMessage)).toEqual(['command.omega is " "; allowed is a number']);
   expect(await readProperty(widget, 'omega')).toBe(0.7);
   await widget.evaluate((element) => element.setAttribute('dt', '3'));
   expect(await readProperty(widget, 'dt')).toBe(3);
@@ -115,11 +115,11 @@ test('refused attributes are reported with the core’s error message, and the l
 
 test('elements have the attributes that the table of doc/embedding/figures.md shows', async ({ page, figureName }) => {
   const figuresDocument = readFileSync(new URL('../../doc/embedding/figures.md', import.meta.url), 'utf8');
-  const tableExamples = [...figuresDocument.matchAll(/^\| [^|]* \| `<([a-z-]+)( [^`]*)>` \|$/gm)].map(([, name, attributes]) => ({ name, attributes }));
-  expect(new Set(tableExamples.map(({ name }) => name)).size).toBe(ALL_FIGURE_NAMES.length);
-  await showPage(page, tableExamples.map(({ name, attributes }) => `<${name} class="example" ${attributes}></${name}>`).join(''));
+  const tableExamples = [...figuresDocument.matchAll(/^\| [^|]* \| `<([a-z-]+)( [^`]*)>` \|$/gm)].map(([, tagName, attributes]) => ({ name: tagName, attributes }));
+  expect(new Set(tableExamples.map(({ name: tagName }) => tagName)).size).toBe(ALL_FIGURE_NAMES.length);
+  await showPage(page, tableExamples.map(({ name: tagName, attributes }) => `<${tagName} class="example" ${attributes}></${tagName}>`).join(''));
   const unknownAttributes = await page.locator('.example').evaluateAll((exampleElements) => exampleElements.flatMap(({ attributes, constructor }) =>
-    [...attributes].map(({ name }) => name).filter((name) => name !== 'class' && !Reflect.get(constructor, 'observedAttributes').includes(name))));
+    [...attributes].map(({ name: attributeName }) => attributeName).filter((attributeName) => attributeName !== 'class' && !Reflect.get(constructor, 'observedAttributes').includes(attributeName))));
   expect(unknownAttributes).toEqual([]);
   for (const widget of await page.locator(`${figureName}.example`).all()) {
     await widget.scrollIntoViewIfNeeded();
@@ -131,20 +131,20 @@ test('elements have the attributes that the table of doc/embedding/figures.md sh
 /** Fields of states that no single attribute can set. No attribute holds a map. No single attribute sets a list of six α's. */
 const VALUES_WITHOUT_ATTRIBUTES = { 'map-squeeze': { map: null, alphas: [0.2, 0.2, 0.2, 0.2, 0.05, 0.05] } };
 
-testEach('the code to embed a figure reproduces the settings of its state, with the attributes in any order', async (page, name, isNightly) => {
-  await showPage(page, `<${name}></${name}>`);
-  const widget = page.locator(name).first();
+testEach('the code to embed a figure reproduces the settings of its state, with the attributes in any order', async (page, figureName, isNightly) => {
+  await showPage(page, `<${figureName}></${figureName}>`);
+  const widget = page.locator(figureName).first();
   await waitUntilReady(widget);
   for (const seed of isNightly ? STATE_SEEDS : STATE_SEEDS.slice(0, 2)) {
-    const randomState = { ...createRandomStates(seed)[name], ...Reflect.get(VALUES_WITHOUT_ATTRIBUTES, name) };
+    const randomState = { ...createRandomStates(seed)[figureName], ...Reflect.get(VALUES_WITHOUT_ATTRIBUTES, figureName) };
     const [originalConfig, ...copiedConfigs] = await widget.evaluate(async (element, newState) => {
       /** @type {any} */ (element).setState(newState);
       const codeContainer = document.createElement('div');
       codeContainer.innerHTML = /** @type {AnyElement} */ (element).embedCode().split('\n')[1];
       const embeddedCopy = /** @type {HTMLElement} */ (codeContainer.firstElementChild);
       const reorderedCopy = document.createElement(element.localName);
-      for (const { name, value } of [...embeddedCopy.attributes].reverse()) reorderedCopy.setAttribute(name, value);
-      const loadPromises = [embeddedCopy, reorderedCopy].map((figureCopy) => new Promise((resolve) => figureCopy.addEventListener('load', resolve)));
+      for (const { name: attributeName, value } of [...embeddedCopy.attributes].reverse()) reorderedCopy.setAttribute(attributeName, value);
+      const loadPromises = [embeddedCopy, reorderedCopy].map((figureCopy) => new Promise((resolvePromise) => figureCopy.addEventListener('load', resolvePromise)));
       // A figure that is visible in the window starts at once.
       for (const figureCopy of [embeddedCopy, reorderedCopy]) figureCopy.style.cssText = 'position: fixed; inset: 0';
       element.before(embeddedCopy, reorderedCopy);
@@ -166,34 +166,34 @@ test('a list property accepts a list written as text, and other text is reported
     const figureContainer = document.createElement('div');
     document.body.prepend(figureContainer);
     /** @type {Promise<string>} */
-    const messagePromise = new Promise((resolve) => figureContainer.addEventListener('error', ({ message }) => resolve(message), true));
+    const messagePromise = new Promise((resolvePromise) => figureContainer.addEventListener('error', ({ message: errorMessage }) => resolvePromise(errorMessage), true));
     figureContainer.innerHTML = '<banana-machine alphas="0.1,0.2,0.1,0.1,0,0" command="[object Object]"></banana-machine><arc-anatomy alphas="[0.1, 0.2, 0.1, 0.1, 0, 0]"></arc-anatomy>';
     return messagePromise;
   });
   expect(errorMessage).toMatch(/^command is "\[object Object\]"; allowed is an object/);
-  for (const name of ['banana-machine', 'arc-anatomy']) await expect(page.locator(name)).toHaveJSProperty('alphas', [0.1, 0.2, 0.1, 0.1, 0, 0]);
+  for (const tagName of ['banana-machine', 'arc-anatomy']) await expect(page.locator(tagName)).toHaveJSProperty('alphas', [0.1, 0.2, 0.1, 0.1, 0, 0]);
 });
 
 test('properties that were set before the element was defined are applied, in any order', async ({ page }) => {
   await showPage(page, '', { script: '' });
   const propertyValues = await page.evaluate(async () => {
-    const map = { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] };
+    const floorPlan = { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] };
     const propertyCases = /** @type {[string, Record<string, unknown>, string[]][]} */ ([
       ['banana-machine', { v: 3, alphas: [0.1, 0.1, 0.1, 0.1, 0, 0], overlays: ['ellipse'], theme: 'dark' }, ['v', 'alphas', 'overlays', 'theme']],
       ['banana-machine', { omega: 0.7, preset: 'hard', alpha2: 0.3, alphas: [0.1, 0.1, 0.1, 0.1], model: 'odometry' }, ['omega', 'v', 'dt', 'alphas']],
       ['banana-machine', { marked: 60_000, samples: 70_000 }, ['marked', 'samples']],
       ['dead-reckoning', { step: 30, steps: 40 }, ['step', 'steps']],
-      ['map-squeeze', { marked: 3, start: { x: 3, y: 1, theta: 0 }, map }, ['marked', 'start']],
+      ['map-squeeze', { marked: 3, start: { x: 3, y: 1, theta: 0 }, map: floorPlan }, ['marked', 'start']],
     ]);
     const figureElements = propertyCases.flatMap(([widgetTag, propertyValues]) => [Object.entries(propertyValues), Object.entries(propertyValues).reverse()].map((propertyEntries) =>
       Object.assign(document.createElement(widgetTag), Object.fromEntries(propertyEntries))));
-    const loadPromises = figureElements.map((figureElement) => new Promise((resolve) => figureElement.addEventListener('load', resolve)));
+    const loadPromises = figureElements.map((figureElement) => new Promise((resolvePromise) => figureElement.addEventListener('load', resolvePromise)));
     await import(/** @type {any} */ ('/motion-widgets.js'));
-    for (const figure of figureElements) figure.style.cssText = 'position: fixed; inset: 0';
+    for (const figureElement of figureElements) figureElement.style.cssText = 'position: fixed; inset: 0';
     document.body.append(...figureElements);
     await Promise.all(loadPromises);
     const namesByFigure = propertyCases.flatMap(([, , checkedNames]) => [checkedNames, checkedNames]);
-    return figureElements.map((figure, i) => namesByFigure[i].map((name) => Reflect.get(figure, name)));
+    return figureElements.map((figureElement, i) => namesByFigure[i].map((propertyName) => Reflect.get(figureElement, propertyName)));
   });
   const makePair = (/** @type {unknown[]} */ repeatedValues) => [repeatedValues, repeatedValues];
   expect(propertyValues).toEqual([
@@ -211,10 +211,10 @@ test('properties that are assigned their own value change nothing @nightly', asy
   await widget.evaluate((element, newState) => /** @type {any} */ (element).setState(newState), /** @type {any} */ (createRandomStates(2)[figureName]));
   await takeEvents(page, ['stats']);
   const assignedCount = await widget.evaluate((element, propertyKeys) => {
-    const figure = /** @type {any} */ (element);
-    const propertyNames = propertyKeys.filter((propertyKey) => propertyKey in figure && propertyKey !== 'playing');
-    for (const key of propertyNames) figure[key] = structuredClone(figure[key]);
-    for (const { name, value } of [...element.attributes]) element.setAttribute(name, value);
+    const figureElement = /** @type {any} */ (element);
+    const propertyNames = propertyKeys.filter((propertyKey) => propertyKey in figureElement && propertyKey !== 'playing');
+    for (const pressedKey of propertyNames) figureElement[pressedKey] = structuredClone(figureElement[pressedKey]);
+    for (const { name: attributeName, value } of [...element.attributes]) element.setAttribute(attributeName, value);
     return propertyNames.length;
   }, Object.keys(createRandomStates(2)[figureName]));
   expect(assignedCount).toBeGreaterThan(6);
@@ -237,7 +237,7 @@ test('refused properties fire an error event that does not bubble; without a lis
   const widget = await mountFigure(page, 'banana-machine');
   const firedMessages = await widget.evaluate((element) => {
     const firedMessages = /** @type {string[]} */ ([]);
-    for (const target of [window, document, document.body]) target.addEventListener('error', () => firedMessages.push('above'));
+    for (const eventTarget of [window, document, document.body]) eventTarget.addEventListener('error', () => firedMessages.push('above'));
     element.addEventListener('error', (errorEvent) => firedMessages.push(/** @type {ErrorEvent} */ (errorEvent).message));
     Object.assign(element, { omega: NaN });
     return firedMessages;
@@ -246,7 +246,7 @@ test('refused properties fire an error event that does not bubble; without a lis
   // A page without listeners for errors gets a warning in the console.
   const otherPage = await page.context().newPage();
   await otherPage.goto('/embed.html?widget=banana-machine');
-  const warningPromise = otherPage.waitForEvent('console', (message) => message.type() === 'warning');
+  const warningPromise = otherPage.waitForEvent('console', (errorMessage) => errorMessage.type() === 'warning');
   await otherPage.locator('banana-machine').evaluate((element) => Object.assign(element, { theme: 'sepia' }));
   const consoleWarning = await warningPromise;
   expect(consoleWarning.text()).toContain('theme is "sepia"; allowed is "auto" or "light" or "dark"');

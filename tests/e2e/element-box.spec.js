@@ -54,8 +54,8 @@ const partBoxesOf = (page, figureName, pixelsPerEm) =>
     (element, emPixels) => {
       const elementBox = element.getBoundingClientRect();
       return [...(element.shadowRoot?.querySelectorAll('.surface *') ?? [])].map((partElement) => {
-        const { left, top, width, height } = partElement.getBoundingClientRect();
-        const boxInEm = [left - elementBox.left, top - elementBox.top, width, height].map((boxPixels) => boxPixels / emPixels);
+        const { left: leftEdge, top: topEdge, width, height } = partElement.getBoundingClientRect();
+        const boxInEm = [leftEdge - elementBox.left, topEdge - elementBox.top, width, height].map((boxPixels) => boxPixels / emPixels);
         return { part: `${partElement.localName}.${partElement.getAttribute('class')}`, numbers: boxInEm };
       });
     },
@@ -75,10 +75,10 @@ test('the size of a figure is proportional to the surrounding font size, and doe
     partLayouts.push({ root: rootFontSize, em: fontSize, boxes: await partBoxesOf(page, figureName, Number(fontSize)) });
   }
   const [firstLayout, ...otherLayouts] = partLayouts;
-  for (const { root, em, boxes } of otherLayouts) {
-    expect(boxes.map(({ part }) => part)).toEqual(firstLayout.boxes.map(({ part }) => part));
+  for (const { root, em, boxes: elementBoxes } of otherLayouts) {
+    expect(elementBoxes.map(({ part: figurePart }) => figurePart)).toEqual(firstLayout.boxes.map(({ part: figurePart }) => figurePart));
     // Browsers round the widths of letters to pixels. Boxes may therefore differ by a quarter of the font size.
-    const differingBoxes = boxes.filter(({ numbers }, i) => numbers.some((boxNumber, k) => Math.abs(boxNumber - firstLayout.boxes[i].numbers[k]) > 0.25));
+    const differingBoxes = elementBoxes.filter(({ numbers: boxNumbers }, i) => boxNumbers.some((boxNumber, k) => Math.abs(boxNumber - firstLayout.boxes[i].numbers[k]) > 0.25));
     expect(differingBoxes, `${em} px, root ${root}`).toEqual([]);
   }
 });
@@ -108,8 +108,8 @@ for (const figureName of ['map-squeeze', 'dead-reckoning']) {
       await rangeInput.evaluate((element) => element.scrollIntoView({ block: 'start' }));
       await waitForFrames(page);
       expect(await rangeInput.evaluate((element) => {
-        const { left, top, width, height } = element.getBoundingClientRect();
-        return /** @type {ShadowRoot} */ (element.getRootNode()).elementFromPoint(left + width / 2, top + height / 2) === element;
+        const { left: leftEdge, top: topEdge, width, height } = element.getBoundingClientRect();
+        return /** @type {ShadowRoot} */ (element.getRootNode()).elementFromPoint(leftEdge + width / 2, topEdge + height / 2) === element;
       })).toBe(true);
       await expect(widget.locator('.plotted, .stage[part=picture]').first()).toBeInViewport({ ratio: 0.9 });
     }
@@ -126,8 +126,8 @@ test('tables scroll over the sticky picture of a figure, unless a handle of the 
   await numbersTable.evaluate((element) => element.scrollIntoView({ block: 'start' }));
   await waitForFrames(page);
   const isTableOnTop = () => numbersTable.evaluate((element) => {
-    const { left, top } = element.getBoundingClientRect();
-    return element.contains(/** @type {ShadowRoot} */ (element.getRootNode()).elementFromPoint(left + 5, Math.max(top, 0) + 5));
+    const { left: leftEdge, top: topEdge } = element.getBoundingClientRect();
+    return element.contains(/** @type {ShadowRoot} */ (element.getRootNode()).elementFromPoint(leftEdge + 5, Math.max(topEdge, 0) + 5));
   });
   expect(await isTableOnTop()).toBe(true);
   await widget.locator('#numbers button').last().focus();
@@ -135,8 +135,8 @@ test('tables scroll over the sticky picture of a figure, unless a handle of the 
   await stepHandle.press('ArrowLeft');
   await waitForFrames(page);
   expect(await stepHandle.evaluate((element) => {
-    const { left, top, width, height } = element.getBoundingClientRect();
-    return /** @type {ShadowRoot} */ (element.getRootNode()).elementFromPoint(left + width / 2, top + height / 2)?.closest('#numbers') === null;
+    const { left: leftEdge, top: topEdge, width, height } = element.getBoundingClientRect();
+    return /** @type {ShadowRoot} */ (element.getRootNode()).elementFromPoint(leftEdge + width / 2, topEdge + height / 2)?.closest('#numbers') === null;
   })).toBe(true);
 });
 
@@ -179,9 +179,9 @@ for (const [figureName, figureLanguage, pageWidth, sliderId, sliderValues] of SL
     }
     expect(Math.max(...sliderTops) - Math.min(...sliderTops)).toBeLessThan(0.5);
     const textBoxes = await widget.locator('.controls .slider [for], .controls .slider .value, .controls button').evaluateAll((textElements) =>
-      textElements.map((element) => ({ text: element.textContent, box: element.getBoundingClientRect() })).filter(({ box }) => box.width > 0));
-    const overlappingTexts = textBoxes.flatMap((textBox, i) => textBoxes.slice(i + 1).filter(({ box }) =>
-      box.left < textBox.box.right - 1 && box.right - 1 > textBox.box.left && box.top < textBox.box.bottom - 1 && box.bottom - 1 > textBox.box.top).map((otherBox) => [textBox.text, otherBox.text]));
+      textElements.map((element) => ({ text: element.textContent, box: element.getBoundingClientRect() })).filter(({ box: elementBox }) => elementBox.width > 0));
+    const overlappingTexts = textBoxes.flatMap((textBox, i) => textBoxes.slice(i + 1).filter(({ box: elementBox }) =>
+      elementBox.left < textBox.box.right - 1 && elementBox.right - 1 > textBox.box.left && elementBox.top < textBox.box.bottom - 1 && elementBox.bottom - 1 > textBox.box.top).map((otherBox) => [textBox.text, otherBox.text]));
     expect([textBoxes.length > 3, overlappingTexts]).toEqual([true, []]);
   });
 }

@@ -8,7 +8,7 @@ import { REDUCED_MOTION, setProperty, readBox, readCentre, dragSlider, waitForFr
 test.use(REDUCED_MOTION);
 
 /** @param {{ name: string }[]} recordedEvents */
-const eventNamesOf = (recordedEvents) => recordedEvents.map(({ name }) => name);
+const eventNamesOf = (recordedEvents) => recordedEvents.map(({ name: eventName }) => eventName);
 
 test('a drag fires an input event at each step and one change event at its end, both composed', async ({ page }) => {
   await showPage(page, '<div id="host"></div>');
@@ -17,10 +17,10 @@ test('a drag fires an input event at each step and one change event at its end, 
     shadowRoot.innerHTML = '<banana-machine></banana-machine>';
     const recordedEvents = /** @type {unknown[]} */ ([]);
     Object.assign(window, { recordedEvents });
-    for (const name of ['input', 'change', 'load', 'stats']) {
-      document.addEventListener(name, (recordedEvent) => {
+    for (const eventName of ['input', 'change', 'load', 'stats']) {
+      document.addEventListener(eventName, (recordedEvent) => {
         const [eventOrigin] = recordedEvent.composedPath();
-        recordedEvents.push([name, /** @type {Element} */ (eventOrigin).localName, Reflect.get(eventOrigin, 'v'), recordedEvent.bubbles, recordedEvent.composed]);
+        recordedEvents.push([eventName, /** @type {Element} */ (eventOrigin).localName, Reflect.get(eventOrigin, 'v'), recordedEvent.bubbles, recordedEvent.composed]);
       });
     }
   });
@@ -28,19 +28,19 @@ test('a drag fires an input event at each step and one change event at its end, 
   await waitUntilReady(widget);
   const takeRecordedEvents = () => page.evaluate(() => /** @type {unknown[][]} */ (Reflect.get(window, 'recordedEvents')).splice(0));
   const openingEvents = await takeRecordedEvents();
-  expect(openingEvents.map(([name]) => name).sort()).toEqual(['load', 'stats']);
+  expect(openingEvents.map(([eventName]) => eventName).sort()).toEqual(['load', 'stats']);
   await dragSlider(widget.locator('#v'), 0.75);
   await waitForFrames(page);
   const recordedEvents = await takeRecordedEvents();
   // All recorded events come from the element itself. None comes from a native control inside the element.
   for (const [, eventOrigin, , bubbles, composed] of [...openingEvents, ...recordedEvents]) expect([eventOrigin, bubbles, composed]).toEqual(['banana-machine', true, true]);
-  const gestureEvents = recordedEvents.filter(([name]) => name !== 'stats');
+  const gestureEvents = recordedEvents.filter(([eventName]) => eventName !== 'stats');
   expect(gestureEvents.length).toBeGreaterThan(3);
-  expect(gestureEvents.map(([name]) => name)).toEqual([...Array(gestureEvents.length - 1).fill('input'), 'change']);
+  expect(gestureEvents.map(([eventName]) => eventName)).toEqual([...Array(gestureEvents.length - 1).fill('input'), 'change']);
   const eventSpeeds = gestureEvents.map(([, , v]) => v);
   expect(eventSpeeds.at(-1)).toBe(Number(await widget.locator('#v').inputValue()));
   expect(new Set(eventSpeeds).size).toBeGreaterThan(2);
-  expect(recordedEvents.some(([name]) => name === 'stats')).toBe(true);
+  expect(recordedEvents.some(([eventName]) => eventName === 'stats')).toBe(true);
 });
 
 /** Actions of a user other than dragging. All disclosures are open. @type {Record<Name, [string, (widget: Locator) => Promise<void>][]>} */
@@ -125,8 +125,8 @@ const USER_ACTIONS = {
   ],
 };
 
-testEach('a frame after an input event calls the core at most six times, and the end of a drag only to zoom views in', async (page, name) => {
-  const widget = await mountFigure(page, name);
+testEach('a frame after an input event calls the core at most six times, and the end of a drag only to zoom views in', async (page, figureName) => {
+  const widget = await mountFigure(page, figureName);
   await openDisclosures(widget);
   await waitUntilSettled(widget);
   await widget.evaluate((element) => {
@@ -152,30 +152,30 @@ testEach('a frame after an input event calls the core at most six times, and the
     await waitUntilSettled(widget);
     return widget.evaluate((element) => /** @type {string[][]} */ (Reflect.get(element, 'callsByFrame')).splice(0, Infinity, []));
   };
-  const figureSlider = widget.locator(`#${FIGURE_FACTS[name].sliderId}`);
+  const figureSlider = widget.locator(`#${FIGURE_FACTS[figureName].sliderId}`);
   await figureSlider.scrollIntoViewIfNeeded();
   await takeCallsByFrame();
   const { x, y, width, height } = await readBox(figureSlider);
   const thumbShare = await figureSlider.evaluate((rangeInput) => {
-    const { value, min, max } = /** @type {HTMLInputElement} */ (rangeInput);
-    return (Number(value) - Number(min)) / (Number(max) - Number(min));
+    const { value, min: minValue, max: maxValue } = /** @type {HTMLInputElement} */ (rangeInput);
+    return (Number(value) - Number(minValue)) / (Number(maxValue) - Number(minValue));
   });
   await page.mouse.move(x + thumbShare * width, y + height / 2);
   await page.mouse.down();
   await page.mouse.move(x + (thumbShare < 0.5 ? thumbShare + 0.1 : thumbShare - 0.1) * width, y + height / 2, { steps: 3 });
   const callsByFrame = await takeCallsByFrame();
   const callsSinceInput = callsByFrame.slice(callsByFrame.findIndex((frameCalls) => frameCalls.some((calledMember) => calledMember.startsWith('configure'))));
-  expect(Math.max(...callsSinceInput.map(({ length }) => length)), `${name}: ${JSON.stringify(callsSinceInput)}`).toBeLessThanOrEqual(6);
-  expect(callsSinceInput.flat(), name).toEqual(expect.arrayContaining([expect.stringMatching(/^configure/), 'read']));
+  expect(Math.max(...callsSinceInput.map(({ length }) => length)), `${figureName}: ${JSON.stringify(callsSinceInput)}`).toBeLessThanOrEqual(6);
+  expect(callsSinceInput.flat(), figureName).toEqual(expect.arrayContaining([expect.stringMatching(/^configure/), 'read']));
   await page.mouse.up();
-  expect((await takeCallsByFrame()).flat().filter((memberName) => !['picture', 'surface'].includes(memberName)), name).toEqual([]);
+  expect((await takeCallsByFrame()).flat().filter((memberName) => !['picture', 'surface'].includes(memberName)), figureName).toEqual([]);
 });
 
-testEach('each control of a figure fires one input event and one change event', async (page, name) => {
-  const widget = await mountFigure(page, name);
+testEach('each control of a figure fires one input event and one change event', async (page, figureName) => {
+  const widget = await mountFigure(page, figureName);
   await openDisclosures(widget);
   await takeEvents(page);
-  for (const [actionName, runAction] of USER_ACTIONS[name]) {
+  for (const [actionName, runAction] of USER_ACTIONS[figureName]) {
     await runAction(widget);
     expect.soft(eventNamesOf(await takeEvents(page, ['input', 'change', 'error'])), actionName).toEqual(['input', 'change']);
   }
@@ -245,12 +245,12 @@ test('the page receives all keys except arrow keys and spaces that a control has
     await page.evaluate(() => {
       const pressedKeys = /** @type {string[]} */ ([]);
       Object.assign(window, { keys: pressedKeys });
-      addEventListener('keydown', ({ key }) => pressedKeys.push(key));
+      addEventListener('keydown', ({ key: pressedKey }) => pressedKeys.push(pressedKey));
     });
     for (const controlSelector of controlSelectors) {
       await widget.locator(controlSelector).focus();
       const usedKeys = controlSelector === '.to-present' ? ['Space'] : ['ArrowRight', 'ArrowLeft'];
-      for (const key of [...usedKeys, 's', '/', 'Escape']) await page.keyboard.press(key);
+      for (const pressedKey of [...usedKeys, 's', '/', 'Escape']) await page.keyboard.press(pressedKey);
       const keysReceivedByPage = await page.evaluate(() => /** @type {string[]} */ (Reflect.get(window, 'keys')).splice(0));
       expect(keysReceivedByPage, controlSelector).toEqual(['s', '/', 'Escape']);
     }

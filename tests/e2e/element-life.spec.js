@@ -57,7 +57,7 @@ test('figures far from the window fetch and compute nothing, and all figures sha
     await waitUntilReady(page.locator(figureName));
   }
   expect(await readPageCounts(page)).toMatchObject({ compiled: 1, instances: TWO_FIGURE_NAMES.length });
-  expect(fetchedPaths.filter((path) => path.endsWith('.wasm'))).toEqual(['/motion.wasm']);
+  expect(fetchedPaths.filter((requestPath) => requestPath.endsWith('.wasm'))).toEqual(['/motion.wasm']);
 });
 
 test('a page with one figure fetches the module of that figure @nightly', async ({ page }) => {
@@ -102,12 +102,12 @@ test('a cloud that is out of sight requests no frames, and resumes its growth wh
   const readShownCount = () => widget.evaluate((element) => /** @type {AnyElement} */ (element).simulation.shown);
   const sampleCount = Number(await readProperty(widget, 'samples'));
   await widget.evaluate(async (element) => {
-    const statsEvent = new Promise((resolve) => element.addEventListener('stats', resolve, { once: true }));
+    const statsEvent = new Promise((resolvePromise) => element.addEventListener('stats', resolvePromise, { once: true }));
     /** @type {AnyElement} */ (element).setState({ widget: element.localName, version: 1, shown: 0, playing: true });
     await statsEvent;
     scrollTo(0, 6000);
     // The test's intersection observer fires in the same animation frame as that of the figure.
-    await new Promise((resolve) => new IntersectionObserver(([{ isIntersecting }]) => isIntersecting || resolve(undefined)).observe(element));
+    await new Promise((resolvePromise) => new IntersectionObserver(([{ isIntersecting }]) => isIntersecting || resolvePromise(undefined)).observe(element));
   });
   expect(await readProperty(widget, 'playing')).toBe(true);
   await waitForSixFrames(page);
@@ -137,12 +137,12 @@ test('the promise `settled` waits for texts that a slow device renders later tha
   const cdpSession = await page.context().newCDPSession(page);
   await cdpSession.send('Emulation.setCPUThrottlingRate', { rate: 6 });
   const sliderSpeeds = await widget.evaluate(async (element) => {
-    const figure = /** @type {any} */ (element);
+    const figureElement = /** @type {any} */ (element);
     const sliderSpeeds = [];
     for (const v of [0.5, 1.5, 0.6]) {
-      figure.v = v;
-      await figure.settled;
-      sliderSpeeds.push(figure.shadowRoot.getElementById('v').valueAsNumber);
+      figureElement.v = v;
+      await figureElement.settled;
+      sliderSpeeds.push(figureElement.shadowRoot.getElementById('v').valueAsNumber);
     }
     return sliderSpeeds;
   });
@@ -376,10 +376,10 @@ test('removed figures free their memory, observers and DOM nodes @nightly', NEW_
     for (let roundIndex = 0; roundIndex < roundCount; roundIndex++) {
       for (const name of ALL_FIGURE_NAMES) {
         await page.evaluate(async ([widgetTag, sampleCount]) => {
-          const figure = /** @type {any} */ (Object.assign(document.createElement(widgetTag), sampleCount));
-          document.body.append(figure);
-          await figure.settled;
-          figure.remove();
+          const figureElement = /** @type {any} */ (Object.assign(document.createElement(widgetTag), sampleCount));
+          document.body.append(figureElement);
+          await figureElement.settled;
+          figureElement.remove();
         }, /** @type {const} */ ([name, CLOUD_FIGURE_NAMES.includes(name) ? { samples: 200 } : {}]));
       }
     }

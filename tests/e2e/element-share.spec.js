@@ -20,7 +20,7 @@ const THREE_FIGURES_HTML = `<banana-machine share></banana-machine>
   <banana-machine share id="second one"></banana-machine>
   <banana-machine></banana-machine>`;
 
-test('a link with the states of two figures and an anchor in its fragment restores both figures', NEW_PAGE_TAG, async ({ page, context }) => {
+test('a link with the states of two figures and an anchor in its fragment restores both figures', NEW_PAGE_TAG, async ({ page, context: browserContext }) => {
   await showPage(page, THREE_FIGURES_HTML, { fragment: '#what-to-try&theme=a%20b' });
   const [firstFigure, secondFigure, thirdFigure] = [0, 1, 2].map((i) => page.locator('banana-machine').nth(i));
   await firstFigure.scrollIntoViewIfNeeded();
@@ -47,7 +47,7 @@ test('a link with the states of two figures and an anchor in its fragment restor
   // The fragment of the link begins with the state of the shared figure, because a page scrolls to the first figure of its fragment.
   const [pageAnchor, themePart, firstFigurePart, secondFigurePart] = hashBefore.slice(1).split('&');
   expect(new URL(sharedLink).hash).toBe(`#${[firstFigurePart, pageAnchor, themePart, secondFigurePart].join('&')}`);
-  const newPage = await context.newPage();
+  const newPage = await browserContext.newPage();
   await showPage(newPage, THREE_FIGURES_HTML, { fragment: new URL(sharedLink).hash });
   const [firstCopy, secondCopy, thirdCopy] = [0, 1, 2].map((i) => newPage.locator('banana-machine').nth(i));
   for (const [copiedFigure, originalFigure] of [[firstCopy, firstFigure], [secondCopy, secondFigure]]) {
@@ -76,20 +76,20 @@ test('figures in open and closed shadow roots have their own parts in the fragme
   const linkKeys = await page.evaluate(async () => {
     const shadowFigures = [...document.querySelectorAll('open-host, closed-host')].map((hostElement) => Reflect.get(hostElement, 'figure'));
     const figureElements = /** @type {AnyElement[]} */ ([...shadowFigures, document.querySelector('body > banana-machine')]);
-    return Promise.all(figureElements.map(async (figure) => new URL(await figure.shareLink()).hash.slice(1).split('=')[0]));
+    return Promise.all(figureElements.map(async (figureElement) => new URL(await figureElement.shareLink()).hash.slice(1).split('=')[0]));
   });
   expect(linkKeys).toEqual([
     'open-host.1/banana-machine.1', 'open-host.2/banana-machine.1', 'closed-host:c/banana-machine.1', 'banana-machine.1',
   ]);
 });
 
-test('a link scrolls once to the figure from which it was copied, and a reload does not scroll', NEW_PAGE_TAG, async ({ page, context }) => {
+test('a link scrolls once to the figure from which it was copied, and a reload does not scroll', NEW_PAGE_TAG, async ({ page, context: browserContext }) => {
   const spacerHtml = '<p style="margin: 2000px 0">Between</p>';
   const pageBody = `${spacerHtml}<banana-machine></banana-machine>${spacerHtml}<banana-machine></banana-machine>${spacerHtml}`;
   await showPage(page, pageBody);
   const nthFigureOf = (/** @type {import('@playwright/test').Page} */ openPage, /** @type {number} */ i) => openPage.locator('banana-machine').nth(i);
   const readFigureTops = (/** @type {import('@playwright/test').Page} */ openPage) =>
-    openPage.locator('banana-machine').evaluateAll((figureElements) => figureElements.map((figure) => Math.round(figure.getBoundingClientRect().top)));
+    openPage.locator('banana-machine').evaluateAll((figureElements) => figureElements.map((figureElement) => Math.round(figureElement.getBoundingClientRect().top)));
   const linkFragments = [];
   for (const i of [0, 1]) {
     await nthFigureOf(page, i).scrollIntoViewIfNeeded();
@@ -101,9 +101,9 @@ test('a link scrolls once to the figure from which it was copied, and a reload d
   expect(linkFragments[1]).toMatch(/^#banana-machine\.2=.*&banana-machine\.1=/);
   // If the address already contains the state of a figure, a link to the figure contains that state only once.
   expect(await readLinkFragment(nthFigureOf(page, 1))).toBe(linkFragments[1]);
-  for (const [i, fragment] of linkFragments.entries()) {
-    const newPage = await context.newPage();
-    await showPage(newPage, pageBody, { fragment });
+  for (const [i, urlFragment] of linkFragments.entries()) {
+    const newPage = await browserContext.newPage();
+    await showPage(newPage, pageBody, { fragment: urlFragment });
     await waitUntilReady(nthFigureOf(newPage, i));
     await expect.poll(async () => (await readFigureTops(newPage))[i]).toBeCloseTo(0);
     // The page does not scroll to elements that are added or moved later.
@@ -111,7 +111,7 @@ test('a link scrolls once to the figure from which it was copied, and a reload d
       scrollTo(0, 100);
       document.body.append(document.createElement('banana-machine'));
       document.body.append(/** @type {Element} */ (document.querySelector('banana-machine')));
-      await new Promise((resolve) => setTimeout(resolve));
+      await new Promise((resolvePromise) => setTimeout(resolvePromise));
       return scrollY;
     });
     expect(scrollYAfterMove).toBe(100);
@@ -150,7 +150,7 @@ test('a page with a <base> element keeps its own address @nightly', async ({ pag
   expect(await readAddress()).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
 });
 
-test('a figure without the attribute share adds nothing to the address, but opens a linked state and updates that part of the address', NEW_PAGE_TAG, async ({ page, context, figureName }) => {
+test('a figure without the attribute share adds nothing to the address, but opens a linked state and updates that part of the address', NEW_PAGE_TAG, async ({ page, context: browserContext, figureName }) => {
   const { sliderId, sliderValues, buttonLabel } = FIGURE_FACTS[figureName];
   const widget = await mountFigure(page, figureName, { fragment: '#elsewhere' });
   await widget.evaluate((element, [settingKey, settingValue]) => void Reflect.set(element, settingKey, settingValue), /** @type {const} */ ([sliderId, sliderValues[0]]));
@@ -159,7 +159,7 @@ test('a figure without the attribute share adds nothing to the address, but open
   expect(await page.evaluate(() => location.hash)).toBe('#elsewhere');
   const sharedLink = await readShareLink(widget);
   expect(sharedLink.split('#')[0]).toBe(page.url().split('#')[0]);
-  const newPage = await context.newPage();
+  const newPage = await browserContext.newPage();
   await showPage(newPage, `<${figureName}></${figureName}>`, { fragment: new URL(sharedLink).hash });
   await waitUntilReady(newPage.locator(figureName));
   const openedState = await readState(newPage.locator(figureName));
@@ -188,14 +188,14 @@ test('a figure with the attribute share keeps its state in the address, and foll
   await widget.getByRole('button', { name: buttonLabel, exact: true }).click();
   await expect.poll(readHash).not.toBe(previousHash);
   expect(await readState(widget)).not.toEqual(stateBefore);
-  await page.evaluate((fragment) => (location.hash = fragment), previousHash);
+  await page.evaluate((urlFragment) => (location.hash = urlFragment), previousHash);
   await expect.poll(() => readState(widget)).toEqual(stateBefore);
   await page.evaluate(() => (location.hash = '#end'));
   await waitForFrames(page);
   expect(await page.evaluate(() => document.querySelector(':target')?.id)).toBe('end');
   expect(await readState(widget)).toEqual(stateBefore);
   expect(await takeEvents(page, ['error'])).toEqual([]);
-  await page.evaluate((fragment) => (location.hash = fragment.slice(0, -9)), previousHash);
+  await page.evaluate((urlFragment) => (location.hash = urlFragment.slice(0, -9)), previousHash);
   await expect(widget.getByRole('alert')).toHaveText('This link cannot be read: it may be cut off. The figure stays as it was.');
   expect(await readState(widget)).toEqual(stateBefore);
 });
@@ -237,13 +237,13 @@ test('copies a link, and the code to embed with the address of the script', asyn
     // A map of random cells cannot be compressed, and is too long for a link.
     const [columnCount, rowCount] = [4000, 2000];
     const byteCount = (columnCount * rowCount) / 8;
-    const map = { columns: columnCount, rows: rowCount, resolution: 0.05, origin: [0, 0, 0], occupied: Buffer.alloc(byteCount).toString('base64'), unknown: Buffer.from(Array.from({ length: byteCount }, () => 256 * drawRandom())).toString('base64') };
-    await widget.evaluate((element, newMap) => void Object.assign(element, { map: newMap }), map);
+    const floorPlan = { columns: columnCount, rows: rowCount, resolution: 0.05, origin: [0, 0, 0], occupied: Buffer.alloc(byteCount).toString('base64'), unknown: Buffer.from(Array.from({ length: byteCount }, () => 256 * drawRandom())).toString('base64') };
+    await widget.evaluate((element, newMap) => void Object.assign(element, { map: newMap }), floorPlan);
     await widget.getByRole('button', { name: 'Copy link' }).click();
     await expect(widget.getByText('Copied.')).toContainText('Your map is too large for a link and is not in it');
-    const [stateBefore, fragment] = [await readState(widget), await readLinkFragment(widget)];
+    const [stateBefore, urlFragment] = [await readState(widget), await readLinkFragment(widget)];
     await page.goto('about:blank');
-    const openedFigure = await mountFigure(page, 'map-squeeze', { attributes: 'seed="3"', fragment });
+    const openedFigure = await mountFigure(page, 'map-squeeze', { attributes: 'seed="3"', fragment: urlFragment });
     expect(await readState(openedFigure)).toEqual({ ...stateBefore, map: null, start: await readProperty(await mountFigure(page, 'map-squeeze'), 'start') });
   });
 });

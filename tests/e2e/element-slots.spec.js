@@ -26,7 +26,7 @@ test('a figure shows the page’s title above its picture and the page’s capti
 
 test('heading-level accepts the levels 1 to 6, as an attribute and as a property @nightly', async ({ page }) => {
   const widget = await mountFigure(page, 'map-squeeze', { attributes: 'heading-level="9"' });
-  expect((await takeEvents(page, ['error'])).map(({ message }) => message)).toEqual(['headingLevel is "9"; allowed is "1" or "2" or "3" or "4" or "5" or "6"']);
+  expect((await takeEvents(page, ['error'])).map(({ message: errorMessage }) => errorMessage)).toEqual(['headingLevel is "9"; allowed is "1" or "2" or "3" or "4" or "5" or "6"']);
   expect(await setProperty(widget, 'headingLevel', 7)).toContain('RangeError: headingLevel is "7"');
   expect(await setProperty(widget, 'headingLevel', 2)).toBe('');
   expect([await readProperty(widget, 'headingLevel'), await widget.getAttribute('heading-level')]).toEqual(['2', '2']);

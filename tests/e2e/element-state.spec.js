@@ -102,8 +102,8 @@ test('a partial state keeps the fraction of shown samples, and the marked sample
     const partialStates = [{ shown: 100, marked: 50 }, { seed: 5 }, { shown: 50 }, { samples: 30 }, { samples: 300 }, { shown: 100, playing: true }];
     return partialStates.map((partialState) => {
       figureElement.setState({ widget: element.localName, version: 1, ...partialState });
-      const { shown, playing, marked } = /** @type {any} */ (figureElement.getState());
-      return [shown, playing, marked];
+      const { shown: shownCount, playing, marked } = /** @type {any} */ (figureElement.getState());
+      return [shownCount, playing, marked];
     });
   });
   expect(statesAfter).toEqual([[100, false, 50], [100, false, 50], [50, false, null], [30, false, null], [300, false, null], [300, false, null]]);

@@ -40,13 +40,13 @@ test('a JSON floor plan replaces the apartment, and the robot starts at a free p
   await widget.getByRole('button', { name: 'Open corridor' }).click();
   await chooseFiles(widget, [makeMapFile('room.json', JSON.stringify(ROOM_PLAN))]);
   await expect(currentMapOf(widget)).toHaveText('room.json: 6.0 m × 4.0 m, 5 walls.');
-  const { bounds, walls, startFree, openPlace, config, shown } = await readSqueezeResults(widget);
-  expect(bounds).toEqual(ROOM_PLAN.bounds);
+  const { bounds: mapBounds, walls, startFree, openPlace, config: figureConfig, shown: shownCount } = await readSqueezeResults(widget);
+  expect(mapBounds).toEqual(ROOM_PLAN.bounds);
   expect(walls).toEqual(ROOM_PLAN.walls.flat());
   // The start in the corridor, (1.4, 4.4), is outside of the tested room.
   expect(startFree).toBe(true);
-  expect(config.start).toEqual(openPlace);
-  expect(shown).toBe(config.samples);
+  expect(figureConfig.start).toEqual(openPlace);
+  expect(shownCount).toBe(figureConfig.samples);
   expect(await readPicture(widget.locator('canvas.plane'))).not.toBe(pictureBefore);
   await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /room\.json/);
 
@@ -123,12 +123,12 @@ test('a YAML file and an image for map_server can be dropped on the figure', asy
   await dropFiles(widget.locator('.stage'), [makeYamlFile('room.yaml', YAML_FIELDS), makePgmFile('room.pgm', ROOM_COLUMNS, ROOM_ROWS, isOnBorder)]);
   await expect(currentMapOf(widget)).toContainText('room.yaml: 3.0 m × 2.0 m');
   await expect(currentMapOf(widget)).toBeVisible();
-  const { bounds, walls, startFree, config, openPlace } = await readSqueezeResults(widget);
-  expect(bounds.map((planBound) => Number(planBound.toFixed(12)))).toEqual([0, 0, 3, 2]);
+  const { bounds: mapBounds, walls, startFree, config: figureConfig, openPlace } = await readSqueezeResults(widget);
+  expect(mapBounds.map((planBound) => Number(planBound.toFixed(12)))).toEqual([0, 0, 3, 2]);
   // The floor plan has eight walls: four along the outer outline of the border, and four along the inner one.
   expect(walls).toHaveLength(8 * 4);
   expect(startFree).toBe(true);
-  expect(config.start).toEqual(openPlace);
+  expect(figureConfig.start).toEqual(openPlace);
   expect(await countPixelsOfRole(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(1000);
 });
 
@@ -169,11 +169,11 @@ test('a map set by a page is shown, an equal one changes nothing, and an incompl
   const mapOutcomes = await widget.evaluate(async (element, roomPlan) => {
     const mapSqueeze = /** @type {any} */ (element);
     /** Sets a map, and returns the keys of the map or the error message. @param {any} newMap @returns {Promise<string>} */
-    const setMap = (newMap) => new Promise((resolve) => {
-      mapSqueeze.addEventListener('stats', () => resolve(Object.keys(mapSqueeze.map).join()), { once: true });
+    const setMap = (newMap) => new Promise((resolvePromise) => {
+      mapSqueeze.addEventListener('stats', () => resolvePromise(Object.keys(mapSqueeze.map).join()), { once: true });
       mapSqueeze.addEventListener('error', (/** @type {ErrorEvent} */ errorEvent) => {
         errorEvent.preventDefault();
-        resolve(errorEvent.message);
+        resolvePromise(errorEvent.message);
       }, { once: true });
       mapSqueeze.map = newMap;
     });
@@ -198,8 +198,8 @@ test('a message is shown while a large map is opened, and another map can replac
   const isPost = (/** @type {number} */ c, /** @type {number} */ r) => c === 0 || r === 0 || c === gridSide - 1 || r === gridSide - 1 || (c % 100 === 50 && r % 100 === 50);
   await chooseFiles(widget, [makeYamlFile('hall.yaml', { ...YAML_FIELDS, image: 'hall.pgm' }), makePgmFile('hall.pgm', gridSide, gridSide, isPost)]);
   await expect(currentMapOf(widget)).toContainText('hall.yaml: 200.0 m × 200.0 m', { timeout: 60_000 });
-  const { stats, config } = await readSqueezeResults(widget);
-  expect(stats.attempts).toBe(config.samples);
+  const { stats, config: figureConfig } = await readSqueezeResults(widget);
+  expect(stats.attempts).toBe(figureConfig.samples);
   await chooseFiles(widget, [makeMapFile('room.json', JSON.stringify(ROOM_PLAN))]);
   await expect(currentMapOf(widget)).toContainText('room.json');
   await waitForFrames(page);

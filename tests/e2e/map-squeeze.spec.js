@@ -11,8 +11,8 @@ const headingHandleOf = (/** @type {Locator} */ widget) => widget.getByRole('sli
 
 /** Returns the number of CSS pixels per metre of the map. @param {Locator} widget */
 const readPixelsPerMetre = (widget) => widget.evaluate((element) => {
-  const { pictureView: view } = /** @type {any} */ (element).picture;
-  return view.toPixelX(1) - view.toPixelX(0);
+  const { pictureView } = /** @type {any} */ (element).picture;
+  return pictureView.toPixelX(1) - pictureView.toPixelX(0);
 });
 
 test('the robot moves and turns by keyboard', async ({ page }) => {
@@ -95,8 +95,8 @@ test('the sampler is selected by its name, and the readouts show the results of 
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   for (const [samplerLabel, samplerName] of Object.entries(samplersByLabel)) {
     await widget.getByLabel(samplerLabel, { exact: true }).check();
-    const { config, stats } = await readSqueezeResults(widget);
-    expect(config.sampler).toBe(samplerName);
+    const { config: figureConfig, stats } = await readSqueezeResults(widget);
+    expect(figureConfig.sampler).toBe(samplerName);
     const readNumber = async (/** @type {string | RegExp} */ name) => parseNumberIn(await readoutValueOf(widget, name).textContent());
     expect(await readNumber(/^\s*drawn/)).toBe(stats.drawn);
     expect(await readNumber('samples drawn per accepted sample')).toBeCloseTo(stats.drawsPerAccepted, 2);
@@ -152,13 +152,13 @@ test('for a robot without any free path, the figure states the number of attempt
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   await widget.getByLabel('Each sub-step').check();
   await widget.getByRole('slider', { name: 'sub-steps' }).fill('32');
-  const { stats, config } = await readSqueezeResults(widget);
+  const { stats, config: figureConfig } = await readSqueezeResults(widget);
   expect(stats.gaveUp).toBe(true);
   await expect(verdictNote).toContainText('The robot is wedged');
   const noteText = ((await verdictNote.textContent()) ?? '').replaceAll('\u202f', '');
   // The note is a single sentence. It states only once how many motions went through a wall.
   const throughWallText = stats.throughWall === 0 ? 'none of them' : `${stats.throughWall} of them, ${(100 * stats.throughWallRate).toFixed(1)}%,`;
-  const completedText = `completed only ${stats.accepted} of ${config.samples} motions; ${throughWallText} went through a wall`;
+  const completedText = `completed only ${stats.accepted} of ${figureConfig.samples} motions; ${throughWallText} went through a wall`;
   expect(noteText.trim()).toBe(`The robot is wedged: ${stats.drawn} sub-steps drawn ${completedText}.`);
   expect(((await widget.locator('canvas.plane').getAttribute('aria-label')) ?? '').replaceAll('\u202f', '')).toContain(noteText.trim());
 
@@ -179,9 +179,9 @@ test('for a robot without any free path, the figure states the number of attempt
 
 test('a sample under the pointer, or with an entered number, shows its verdict', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { verdicts, poses } = await readSqueezeResults(widget);
-  const throughWallIndex = verdicts.indexOf(5);
-  const rejectedIndex = verdicts.findIndex((verdictBits) => (verdictBits & 4) === 0);
+  const { verdicts: poseVerdicts, poses } = await readSqueezeResults(widget);
+  const throughWallIndex = poseVerdicts.indexOf(5);
+  const rejectedIndex = poseVerdicts.findIndex((verdictBits) => (verdictBits & 4) === 0);
   const sampleField = widget.getByRole('spinbutton', { name: 'Sample', exact: true });
   const verdictOutput = widget.locator('.marked output');
   const planeCanvas = widget.locator('canvas.plane');
@@ -198,14 +198,14 @@ test('a sample under the pointer, or with an entered number, shows its verdict',
   expect(await readPicture(planeCanvas)).not.toBe(pictureBefore);
   await enterSampleNumber(rejectedIndex + 1);
   await expect(verdictOutput).toHaveText('rejected');
-  await enterSampleNumber(verdicts.indexOf(7) + 1);
+  await enterSampleNumber(poseVerdicts.indexOf(7) + 1);
   await expect(verdictOutput).toHaveText('accepted');
   await enterSampleNumber('');
   expect(await readPicture(planeCanvas)).toBe(pictureBefore);
 
   // The pointer is moved to the rightmost sample, because it has no near neighbour.
   let rightmostIndex = 0;
-  for (let i = 0; i < verdicts.length; i++) if (poses[3 * i] > poses[3 * rightmostIndex]) rightmostIndex = i;
+  for (let i = 0; i < poseVerdicts.length; i++) if (poses[3 * i] > poses[3 * rightmostIndex]) rightmostIndex = i;
   const { x, y } = await readCentre(bodyHandleOf(widget));
   const pixelsPerMetre = await readPixelsPerMetre(widget);
   await page.mouse.move(x + (poses[3 * rightmostIndex] - 2.05) * pixelsPerMetre, y - (poses[3 * rightmostIndex + 1] - 2.6) * pixelsPerMetre);
@@ -214,14 +214,14 @@ test('a sample under the pointer, or with an entered number, shows its verdict',
 
 test('only a marked motion through a wall has a label at that wall @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { verdicts } = await readSqueezeResults(widget);
+  const { verdicts: poseVerdicts } = await readSqueezeResults(widget);
   const hasWallLabel = (/** @type {number | null} */ attemptIndex) => widget.evaluate((element, markedIndex) => {
     Object.assign(element, { marked: markedIndex });
     return /** @type {any} */ (element).toSVG().includes('through this wall');
   }, attemptIndex);
   expect(await hasWallLabel(null)).toBe(false);
-  expect(await hasWallLabel(verdicts.indexOf(5))).toBe(true);
-  expect(await hasWallLabel(verdicts.indexOf(7))).toBe(false);
+  expect(await hasWallLabel(poseVerdicts.indexOf(5))).toBe(true);
+  expect(await hasWallLabel(poseVerdicts.indexOf(7))).toBe(false);
 });
 
 test('the edge of a doorway and a wall can be dragged, and Back to the apartment restores the walls', async ({ page }) => {
@@ -341,14 +341,14 @@ test('many samples are drawn as a density, with a separate colour for samples th
   expect((await readSqueezeResults(widget)).stats.throughWall).toBeGreaterThan(4000);
   // All samples behind the wall at y = 5 went through a wall. Samples between the posts of the doorway hardly ever went through a wall.
   const [greenExcessBehindWall, greenExcessBetweenPosts] = await widget.evaluate((element) => {
-    const { picture: { pictureView: view }, renderRoot } = /** @type {any} */ (element);
+    const { picture: { pictureView }, renderRoot } = /** @type {any} */ (element);
     const canvas = renderRoot.querySelector('canvas.plane');
     const pixelRatio = canvas.width / canvas.clientWidth;
     const pixelCopy = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });
     const pixelContext = /** @type {CanvasRenderingContext2D} */ (pixelCopy.getContext('2d', { willReadFrequently: true }));
     pixelContext.drawImage(canvas, 0, 0);
     return [[1.75, 5.4], [2.35, 4.2]].map(([x, y]) => {
-      const [sampledLeft, sampledTop] = [pixelRatio * view.toPixelX(x) - 8, pixelRatio * view.toPixelY(y) - 8];
+      const [sampledLeft, sampledTop] = [pixelRatio * pictureView.toPixelX(x) - 8, pixelRatio * pictureView.toPixelY(y) - 8];
       const { data } = pixelContext.getImageData(sampledLeft, sampledTop, 16, 16);
       let greenExcess = 0;
       for (let i = 0; i < data.length; i += 4) greenExcess += data[i + 3] * (data[i + 1] - data[i + 2]);

@@ -59,8 +59,8 @@ async function findReachablePart(page, randomSource, partSelector) {
       const pointedPart = visibleParts[Number(choiceNumber) % visibleParts.length];
       if (!pointedPart) return;
       pointedPart.scrollIntoView({ block: 'nearest', behavior: 'instant' });
-      const { left, top, width, height } = pointedPart.getBoundingClientRect();
-      return { left, top, width, height, description: `${pointedPart.localName} ${pointedPart.id || pointedPart.className} ${pointedPart.textContent?.trim().slice(0, 20)}` };
+      const { left: leftEdge, top: topEdge, width, height } = pointedPart.getBoundingClientRect();
+      return { left: leftEdge, top: topEdge, width, height, description: `${pointedPart.localName} ${pointedPart.id || pointedPart.className} ${pointedPart.textContent?.trim().slice(0, 20)}` };
     },
     [figureName, partSelector, choiceNumber],
   );
@@ -147,12 +147,12 @@ const RANDOM_ACTIONS = {
   },
   async dropFiles(page, randomSource) {
     const droppedFiles = randomSource.itemOf(DROPPABLE_FILE_GROUPS);
-    await page.evaluate(async (files) => {
+    await page.evaluate(async (transferFiles) => {
       const mapSection = document.querySelector('map-squeeze')?.shadowRoot?.querySelector('section');
       const dataTransfer = new DataTransfer();
-      for (const { name, bytes } of files) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
+      for (const { name, bytes } of transferFiles) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
       for (const eventType of ['dragover', 'drop']) mapSection?.dispatchEvent(new DragEvent(eventType, { dataTransfer, bubbles: true, composed: true, cancelable: true }));
-    }, droppedFiles.map(({ name, buffer }) => ({ name, bytes: [...buffer] })));
+    }, droppedFiles.map(({ name, buffer: fileBuffer }) => ({ name, bytes: [...fileBuffer] })));
     return droppedFiles.map(({ name }) => name).join(' ');
   },
   async setState(page, randomSource) {

@@ -13,8 +13,8 @@ const openDecomposer = (page, attributes) => mountFigure(page, 'odometry-decompo
 async function readResults(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {
-    const { config, stats, shown, poses, robot, drifted } = /** @type {DecomposerElement} */ (element).simulation;
-    return { config, stats, shown, poses: [...poses], robot, drifted: [...drifted.poses] };
+    const { config: figureConfig, stats, shown: shownCount, poses, robot, drifted } = /** @type {DecomposerElement} */ (element).simulation;
+    return { config: figureConfig, stats, shown: shownCount, poses: [...poses], robot, drifted: [...drifted.poses] };
   });
 }
 
@@ -25,12 +25,12 @@ test('the views contain the arcs of the turns and nearly all sampled poses', asy
   const widget = await openDecomposer(page);
   await waitForFrames(page);
   const viewMeasures = await widget.evaluate((element) => {
-    const { pictures, scene } = /** @type {any} */ (element);
-    const outsideCounts = pictures.map((/** @type {any} */ { pictureView: { shownExtent: extent } }) => Array.from({ length: scene.poses.length / 3 }, (_, i) => scene.poses.subarray(3 * i, 3 * i + 2))
+    const { pictures: figurePictures, scene: drawnScene } = /** @type {any} */ (element);
+    const outsideCounts = figurePictures.map((/** @type {any} */ { pictureView: { shownExtent: extent } }) => Array.from({ length: drawnScene.poses.length / 3 }, (_, i) => drawnScene.poses.subarray(3 * i, 3 * i + 2))
       .filter(([x, y]) => x < extent.xMin || x > extent.xMax || y < extent.yMin || y > extent.yMax).length);
     // `pixelsBelow` is the space below the end of the drive. A half turn at that end is drawn as a ring with a radius of about 64 pixels.
-    const { pictureView: view } = pictures[0];
-    return { outsideCounts, pixelsBelow: view.plotArea.bottom - view.toPixelY(scene.linkage[7]) };
+    const { pictureView } = figurePictures[0];
+    return { outsideCounts, pixelsBelow: pictureView.plotArea.bottom - pictureView.toPixelY(drawnScene.linkage[7]) };
   });
   expect(Math.max(...viewMeasures.outsideCounts)).toBeLessThanOrEqual(1);
   expect(viewMeasures.pixelsBelow).toBeGreaterThan(64);
@@ -54,15 +54,15 @@ test('the scale of the legs depends only on the size of the window @nightly', as
 
 test('the figure opens with the preset Reverse, and presets set the odometry readings', async ({ page }) => {
   const widget = await openDecomposer(page);
-  const { config, shown } = await readResults(widget);
-  expect(shown).toBe(config.samples);
+  const { config: figureConfig, shown: shownCount } = await readResults(widget);
+  expect(shownCount).toBe(figureConfig.samples);
   await expect(widget).toHaveJSProperty('preset', 'reverse');
   await expect(widget.locator('[part=caption]')).toContainText('two rotations beyond π/2');
   // The heading deviations are 0.743 rad by Table 5.6 and 0.182 rad by Nav2.
   await expect(readoutValueOf(widget, 'Table 5.6 expects')).toHaveText('4.1 ×');
   await widget.getByRole('button', { name: 'Turn, drive, turn' }).click();
   const resultsAfter = await readResults(widget);
-  expect(resultsAfter.config).toEqual({ ...config, to: { x: 1.2, y: 1, theta: 1.2 } });
+  expect(resultsAfter.config).toEqual({ ...figureConfig, to: { x: 1.2, y: 1, theta: 1.2 } });
   await expect(widget).toHaveJSProperty('preset', 'all');
   await expect(widget).toHaveAttribute('preset', 'all');
   await expect(readoutValueOf(widget, 'Table 5.6 expects')).toHaveText('1.0 ×');
@@ -73,9 +73,9 @@ test('the picture names the deviations of two noise models, which are drawn to t
   const readPictureFacts = async () => {
     await waitForFrames(page);
     return widget.evaluate((element) => {
-      const { pictures: [{ pictureView: view }], toSVG } = /** @type {any} */ (element);
+      const { pictures: [{ pictureView }], toSVG } = /** @type {any} */ (element);
       const deviationTexts = toSVG.call(element).match(/(?<=>)by [^<]*/g);
-      return { scale: view.scaleX, names: deviationTexts.toSorted() };
+      return { scale: pictureView.scaleX, names: deviationTexts.toSorted() };
     });
   };
   const factsBefore = await readPictureFacts();
@@ -164,8 +164,8 @@ test('a slider moves along the path, and Play runs it to its end and again from 
   // Users who prefer reduced motion get no play button.
   await expect(widget.locator('.playable button')).toHaveCount(0);
   await sliderOf(widget, 'progress of the motion').press('Home');
-  const { robot, config } = await readResults(widget);
-  expect(robot).toEqual(config.from);
+  const { robot, config: figureConfig } = await readResults(widget);
+  expect(robot).toEqual(figureConfig.from);
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const secondWidget = await openDecomposer(page, 'phase="2.8"');
   const playButton = secondWidget.locator('.playable.phase button');

@@ -137,7 +137,7 @@ test('the touch targets of a figure are large enough for a finger', async ({ pag
     [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('button, input[type=range], label:has(input):not(td label, th label), .handle')]
       .filter((touchTarget) => touchTarget.checkVisibility())
       .map((touchTarget) => ({ html: touchTarget.outerHTML.slice(0, 80), box: touchTarget.getBoundingClientRect() }))
-      .filter(({ box }) => Math.min(box.width, box.height) < 24));
+      .filter(({ box: elementBox }) => Math.min(elementBox.width, elementBox.height) < 24));
   expect(smallTargets).toEqual([]);
 });
 
@@ -159,8 +159,8 @@ test.describe('a finger on a figure', () => {
   /** Scrolls a part of a figure to the lower half of the screen, because a sticky picture covers the upper half. @param {Locator} partLocator */
   async function scrollToLowerHalf(partLocator) {
     await partLocator.evaluate((element) => {
-      const { top, height } = element.getBoundingClientRect();
-      scrollBy({ top: top + height / 2 - 0.7 * innerHeight, behavior: 'instant' });
+      const { top: topEdge, height } = element.getBoundingClientRect();
+      scrollBy({ top: topEdge + height / 2 - 0.7 * innerHeight, behavior: 'instant' });
     });
     await waitForFrames(partLocator.page());
   }
@@ -204,19 +204,19 @@ test.describe('a finger on a figure', () => {
     const planeCanvas = widget.locator('canvas.plane');
     await widget.evaluate((element) => element.scrollIntoView());
     const [xShare, yShare] = await widget.evaluate((element) => {
-      const { pictures: [{ pictureView: view }], poses, viewModel: { arcEnd } } = /** @type {any} */ (element);
-      const robotPixelOf = (/** @type {number} */ i) => [view.toPixelX(poses[3 * i]), view.toPixelY(poses[3 * i + 1])];
-      const handlePixel = [view.toPixelX(arcEnd[0]), view.toPixelY(arcEnd[1])];
+      const { pictures: [{ pictureView }], poses, viewModel: { arcEnd } } = /** @type {any} */ (element);
+      const robotPixelOf = (/** @type {number} */ i) => [pictureView.toPixelX(poses[3 * i]), pictureView.toPixelY(poses[3 * i + 1])];
+      const handlePixel = [pictureView.toPixelX(arcEnd[0]), pictureView.toPixelY(arcEnd[1])];
       // Finds a robot that is in the plot area and not covered by the handle.
       for (let i = 0; i < poses.length / 3; i++) {
         const [x, y] = robotPixelOf(i);
-        const { left, right, top, bottom } = view.plotArea;
-        if (Math.hypot(x - handlePixel[0], y - handlePixel[1]) > 60 && x > left && x < right && y > top && y < bottom) return [x / view.width, y / view.height];
+        const { left: leftEdge, right: rightEdge, top: topEdge, bottom: bottomEdge } = pictureView.plotArea;
+        if (Math.hypot(x - handlePixel[0], y - handlePixel[1]) > 60 && x > leftEdge && x < rightEdge && y > topEdge && y < bottomEdge) return [x / pictureView.width, y / pictureView.height];
       }
       throw new Error('No robot is clear of the handle.');
     });
-    const box = await readBox(planeCanvas);
-    await page.touchscreen.tap(box.x + xShare * box.width, box.y + yShare * box.height);
+    const elementBox = await readBox(planeCanvas);
+    await page.touchscreen.tap(elementBox.x + xShare * elementBox.width, elementBox.y + yShare * elementBox.height);
     await expect(widget.locator('#robot')).not.toHaveValue('');
   });
 });
@@ -249,7 +249,7 @@ test('a printed figure has its picture and settings in light colours, and no con
   }
   // On paper the pixel size of a canvas determines its aspect ratio. Setting it in every animation frame would change the ratio.
   await page.evaluate(() => {
-    addEventListener('error', ({ message }) => Object.assign(window, { recordedError: message }));
+    addEventListener('error', ({ message: errorMessage }) => Object.assign(window, { recordedError: errorMessage }));
     document.querySelector('banana-machine')?.replaceWith(document.createElement('banana-machine'));
   });
   await waitUntilReady(widget);
@@ -296,16 +296,16 @@ test('a printed page contains figures far from the window, with their pictures @
 
 test('a print shows the disclosures that the user opened, and no controls @nightly', async ({ page, figureName }) => {
   const widget = await mountFigure(page, figureName);
-  const { disclosureIndex, part } = FIGURE_FACTS[figureName].printedPart;
+  const { disclosureIndex, part: figurePart } = FIGURE_FACTS[figureName].printedPart;
   const foldDisclosure = widget.locator('.folds details').nth(disclosureIndex);
   await expect(foldDisclosure).toBeVisible();
   await page.emulateMedia({ media: 'print' });
-  await expect(foldDisclosure.locator(part).first()).toBeHidden();
+  await expect(foldDisclosure.locator(figurePart).first()).toBeHidden();
   await page.emulateMedia({ media: 'screen' });
   await foldDisclosure.locator('summary').click();
-  await expect(foldDisclosure.locator(part).first()).toBeVisible();
+  await expect(foldDisclosure.locator(figurePart).first()).toBeVisible();
   await page.emulateMedia({ media: 'print' });
-  await expect(foldDisclosure.locator(part).first()).toBeVisible();
+  await expect(foldDisclosure.locator(figurePart).first()).toBeVisible();
   await expect(widget.locator('.readouts').first()).toBeVisible();
   await expect(widget.locator('[part=caption]')).toBeVisible();
   await expect(widget.locator(':is(button, input, summary, textarea):visible')).toHaveCount(0);
@@ -317,11 +317,11 @@ testEach('a figure with all disclosures open fits into a width of 320 px', async
   /** Returns the widths of the page, and the elements beyond the right edge of the window that cannot be scrolled to. */
   const findOverflow = () => widget.evaluate((element) => {
     const { body } = document;
-    const isVisibleOverflow = (/** @type {Element} */ part) => {
-      for (let ancestorElement = part.parentElement; ancestorElement; ancestorElement = ancestorElement.parentElement) if (getComputedStyle(ancestorElement).overflowX !== 'visible') return false;
-      return part.checkVisibility({ visibilityProperty: true });
+    const isVisibleOverflow = (/** @type {Element} */ figurePart) => {
+      for (let ancestorElement = figurePart.parentElement; ancestorElement; ancestorElement = ancestorElement.parentElement) if (getComputedStyle(ancestorElement).overflowX !== 'visible') return false;
+      return figurePart.checkVisibility({ visibilityProperty: true });
     };
-    const overflowingParts = [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('*')].filter((part) => part.getBoundingClientRect().right > innerWidth + 0.5 && isVisibleOverflow(part));
+    const overflowingParts = [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('*')].filter((figurePart) => figurePart.getBoundingClientRect().right > innerWidth + 0.5 && isVisibleOverflow(figurePart));
     return [document.documentElement.scrollWidth, body.scrollWidth, ...overflowingParts.map(({ outerHTML }) => outerHTML.slice(0, 80))];
   });
   for (const figureLanguage of isNightly ? ['en', 'de'] : ['en']) {
@@ -347,7 +347,7 @@ testEach('the help text of a slider covers no other slider and no separator line
         if (!helpBox) return [];
         return [.../** @type {Element} */ (sliderRow.closest('fieldset, .controls, .with-button')).querySelectorAll('.slider input[type=range]')]
           .map((controlElement) => controlElement.getBoundingClientRect())
-          .filter(({ top, bottom }) => bottom - 0.5 > helpBox.top && (top + bottom) / 2 < helpBox.bottom)
+          .filter(({ top: topEdge, bottom: bottomEdge }) => bottomEdge - 0.5 > helpBox.top && (topEdge + bottomEdge) / 2 < helpBox.bottom)
           .map(() => slider.id)
           .concat(helpBox.top < foldsTop && helpBox.bottom > foldsTop ? `${slider.id} on the rule` : []);
       });

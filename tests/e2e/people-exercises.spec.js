@@ -25,7 +25,7 @@ async function revealAnswer(betForm) {
 test('exercise 4: the figure shows the clouds with α₄ alone and α₆ alone, and says whether there is one', async ({ page }) => {
   const sectionArticle = await openSection(page, 'banana');
   const bananaMachine = sectionArticle.locator('banana-machine');
-  const readIsolateAndOmega = () => bananaMachine.evaluate((figure) => [Reflect.get(figure, 'isolate'), Reflect.get(figure, 'omega')]);
+  const readIsolateAndOmega = () => bananaMachine.evaluate((figureElement) => [Reflect.get(figureElement, 'isolate'), Reflect.get(figureElement, 'omega')]);
   /** @type {[string, number, number, RegExp][]} */
   const expectedOutcomes = [
     ['α4, straight ahead', 4, 0, /no noise at all, so every robot stops exactly where it was told to/],
@@ -38,8 +38,8 @@ test('exercise 4: the figure shows the clouds with α₄ alone and α₆ alone, 
     await expect(bananaMachine.locator('[part=caption]')).toHaveText(expectedCaption);
     expect(await readIsolateAndOmega()).toEqual([alphaNumber, omega]);
   }
-  const { alphas, command } = await bananaMachine.evaluate((figure) => /** @type {any} */ (figure).getState());
-  expect([alphas.velocity[3], alphas.velocity[5], command.v * command.dt, command.dt]).toEqual([0.09, 0.01, 2, 2]);
+  const { alphas, command: driveCommand } = await bananaMachine.evaluate((figureElement) => /** @type {any} */ (figureElement).getState());
+  expect([alphas.velocity[3], alphas.velocity[5], driveCommand.v * driveCommand.dt, driveCommand.dt]).toEqual([0.09, 0.01, 2, 2]);
 });
 
 test('exercise 5: noise alone leads less than 40 % of the motions through walls, and a curve more than 70 %', async ({ page }) => {
@@ -54,7 +54,7 @@ test('exercise 5: noise alone leads less than 40 % of the motions through walls,
   }
   expect(answerPercents[0]).toBeLessThan(40);
   expect(answerPercents[1]).toBeGreaterThan(70);
-  expect(await sectionArticle.locator('map-squeeze').evaluate((figure) => Reflect.get(figure, 'omega'))).toBe(0.6);
+  expect(await sectionArticle.locator('map-squeeze').evaluate((figureElement) => Reflect.get(figureElement, 'omega'))).toBe(0.6);
 });
 
 test('exercise 7: after the user has bet on the steps of both noises, the variance along the track is shown', async ({ page }) => {

@@ -39,35 +39,35 @@ function describeSVG(page, svgText) {
 test('CSV of the Banana Machine contains the samples, and the settings that reproduce them', async ({ page }) => {
   const widget = await openBanana(page, 'samples="2000"');
   await widget.getByRole('button', { name: 'Hard arc' }).click();
-  const { config, shown } = await readBananaResults(widget);
+  const { config: figureConfig, shown: shownCount } = await readBananaResults(widget);
   const cloudPoses = await readPoses(widget);
-  const { settings, columns, rows } = parseCSV(await readCSV(widget));
-  expect(columns).toEqual([
+  const { settings: figureSettings, columns: csvColumns, rows: csvRows } = parseCSV(await readCSV(widget));
+  expect(csvColumns).toEqual([
     ...['x_m', 'y_m', 'theta_rad', 'xi_along_m', 'xi_lateral_m', 'xi_heading_rad'],
     ...['v_hat_m_per_s', 'omega_hat_rad_per_s', 'gamma_hat_rad_per_s'],
   ]);
-  expect(rows).toHaveLength(shown);
-  expect(rows.flatMap((csvRow) => csvRow.slice(0, 3))).toEqual(cloudPoses);
-  expect(settings).toEqual({ element: 'banana-machine', ...config });
+  expect(csvRows).toHaveLength(shownCount);
+  expect(csvRows.flatMap((csvRow) => csvRow.slice(0, 3))).toEqual(cloudPoses);
+  expect(figureSettings).toEqual({ element: 'banana-machine', ...figureConfig });
   const recomputedPoses = await widget.evaluate((element, { element: _name, ...exportedSettings }) => {
     const { motion } = /** @type {import('./support.js').BananaMachineElement} */ (element);
     const simulation = new motion.BananaMachine(exportedSettings);
     const copiedPoses = [...simulation.poses];
     simulation.free();
     return copiedPoses;
-  }, settings);
+  }, figureSettings);
   expect(recomputedPoses).toEqual(cloudPoses);
 });
 
 test('CSV of Map Squeeze contains the verdicts, whose counts equal the readouts', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { config, stats } = await readSqueezeResults(widget);
-  const { settings, columns, rows } = parseCSV(await readCSV(widget));
-  expect(settings).toEqual({ element: 'map-squeeze', map: null, ...config });
-  expect(columns).toEqual(['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted']);
-  expect(rows).toHaveLength(stats.attempts);
-  expect(rows.filter((csvRow) => csvRow[5] === 1)).toHaveLength(stats.accepted);
-  expect(rows.filter((csvRow) => csvRow[5] === 1 && csvRow[4] === 0)).toHaveLength(stats.throughWall);
+  const { config: figureConfig, stats } = await readSqueezeResults(widget);
+  const { settings: figureSettings, columns: csvColumns, rows: csvRows } = parseCSV(await readCSV(widget));
+  expect(figureSettings).toEqual({ element: 'map-squeeze', map: null, ...figureConfig });
+  expect(csvColumns).toEqual(['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted']);
+  expect(csvRows).toHaveLength(stats.attempts);
+  expect(csvRows.filter((csvRow) => csvRow[5] === 1)).toHaveLength(stats.accepted);
+  expect(csvRows.filter((csvRow) => csvRow[5] === 1 && csvRow[4] === 0)).toHaveLength(stats.throughWall);
 });
 
 test('SVG has a title, a description and vector graphics; few samples are dots, and many samples are an image', async ({ page }) => {

@@ -49,7 +49,7 @@ testEach('each gallery item sets its complete state, independent of items presse
   };
   const firstStates = [];
   for (const itemButton of itemButtons) firstStates.push(await pressAndReadState(itemButton));
-  for (const [i, button] of [...itemButtons.entries()].reverse()) expect(await pressAndReadState(button)).toEqual(firstStates[i]);
+  for (const [i, pressedButton] of [...itemButtons.entries()].reverse()) expect(await pressAndReadState(pressedButton)).toEqual(firstStates[i]);
 });
 
 test('an entry of the legend highlights its curve in the chart', async ({ page }) => {
@@ -62,20 +62,20 @@ test('an entry of the legend highlights its curve in the chart', async ({ page }
 test('a term in the text and an entry of the legend highlight their line in the picture', async ({ page }) => {
   await page.goto('/');
   const figureArticle = page.locator('#banana');
-  const figure = figureArticle.locator('banana-machine');
-  await waitUntilReady(figure);
-  const planeCanvas = figure.locator('canvas.plane');
+  const figureElement = figureArticle.locator('banana-machine');
+  await waitUntilReady(figureElement);
+  const planeCanvas = figureElement.locator('canvas.plane');
   const pictureBefore = await readPicture(planeCanvas);
   const termElement = figureArticle.getByText('dashed ellipse', { exact: true });
   await termElement.focus();
-  expect(await readProperty(figure, 'highlight')).toBe('ellipse');
+  expect(await readProperty(figureElement, 'highlight')).toBe('ellipse');
   await waitForFrames(page);
   const highlightedPicture = await readPicture(planeCanvas);
   expect(highlightedPicture).not.toBe(pictureBefore);
   await termElement.blur();
   await waitForFrames(page);
   expect(await readPicture(planeCanvas)).toBe(pictureBefore);
-  await figure.locator('.legend').getByText('Gaussian in (x, y)').hover();
+  await figureElement.locator('.legend').getByText('Gaussian in (x, y)').hover();
   await waitForFrames(page);
   expect(await readPicture(planeCanvas)).toBe(highlightedPicture);
 });
@@ -95,7 +95,7 @@ for (const [pageWidth, pageHeight] of [[1280, 720], [375, 760]]) {
     await waitUntilReady(figureArticle.locator('banana-machine'));
     const [headingBox, pictureFrameBox] = [await readBox(figureArticle.locator('p').first()), await readBox(figureArticle.locator('.stand'))];
     expect(pictureFrameBox.y).toBeGreaterThanOrEqual(headingBox.y + headingBox.height);
-    await figureArticle.getByRole('button', { name: 'Odometry model' }).evaluate((button) => button.scrollIntoView({ block: 'end' }));
+    await figureArticle.getByRole('button', { name: 'Odometry model' }).evaluate((pressedButton) => pressedButton.scrollIntoView({ block: 'end' }));
     await waitForFrames(page);
     await expect(figureArticle.locator('canvas.plane')).toBeInViewport({ ratio: 0.95 });
     await expect(figureArticle.getByRole('button', { name: 'Odometry model' })).toBeInViewport();

@@ -148,18 +148,18 @@ testEach('a figure presented on a phone has its pictures below their titles, and
       const [titleBox, pictureBox] = ['.panel-title', '.stage, .plotted'].map((boxSelector) => panelElement.querySelector(boxSelector)?.getBoundingClientRect());
       return { title: titleBox, picture: pictureBox };
     }));
-    const shownPanels = panelTitles.filter(({ picture }) => picture && picture.height > 0);
+    const shownPanels = panelTitles.filter(({ picture: figurePicture }) => figurePicture && figurePicture.height > 0);
     expect(shownPanels.length).toBeGreaterThan(0);
-    for (const { title, picture } of shownPanels) {
-      expect(picture?.height).toBeGreaterThan(125);
-      expect(picture?.top).toBeGreaterThanOrEqual(Number(title?.bottom) - 1);
-      expect(picture?.left).toBeLessThan(Number(title?.right));
+    for (const { title, picture: figurePicture } of shownPanels) {
+      expect(figurePicture?.height).toBeGreaterThan(125);
+      expect(figurePicture?.top).toBeGreaterThanOrEqual(Number(title?.bottom) - 1);
+      expect(figurePicture?.left).toBeLessThan(Number(title?.right));
     }
     const overlapPixels = await widget.evaluate(({ shadowRoot }) => {
       const viewsElement = /** @type {Element} */ (shadowRoot?.querySelector('.views'));
       const lowestPicture = Math.max(...[...viewsElement.querySelectorAll('.stage')].map((pictureFrameElement) => pictureFrameElement.getBoundingClientRect().bottom));
       const elementsBelow = [...(viewsElement.parentElement?.children ?? [])].filter((element) => viewsElement.compareDocumentPosition(element) === Node.DOCUMENT_POSITION_FOLLOWING);
-      const followingTops = elementsBelow.map((element) => element.getBoundingClientRect()).filter(({ height }) => height > 0).map(({ top }) => top);
+      const followingTops = elementsBelow.map((element) => element.getBoundingClientRect()).filter(({ height }) => height > 0).map(({ top: topEdge }) => topEdge);
       return lowestPicture - Math.min(...followingTops);
     });
     expect(overlapPixels).toBeLessThanOrEqual(0);

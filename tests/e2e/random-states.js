@@ -9,7 +9,7 @@ export const STATE_SEEDS = [1, 2, 3, 4, 5, 6, 7, 8];
 export function createRandomStates(seed) {
   const drawUniform = createRandomGenerator(seed);
   const sampleNumber = (/** @type {number} */ minNumber, /** @type {number} */ maxNumber) => minNumber + (maxNumber - minNumber) * drawUniform();
-  const sampleInteger = (/** @type {number} */ min, /** @type {number} */ max) => Math.floor(sampleNumber(min, max + 1));
+  const sampleInteger = (/** @type {number} */ minValue, /** @type {number} */ maxValue) => Math.floor(sampleNumber(minValue, maxValue + 1));
   const sampleItem = (/** @type {readonly unknown[]} */ itemChoices) => itemChoices[sampleInteger(0, itemChoices.length - 1)];
   const sampleSublist = (/** @type {string} */ itemWords) => itemWords.split(' ').filter(() => drawUniform() < 0.5);
   const sampleAlphas = (/** @type {number} */ alphaCount) => Array.from({ length: alphaCount }, () => sampleNumber(0, 0.2));
@@ -22,12 +22,12 @@ export function createRandomStates(seed) {
     playing: false,
     marked: sampleItem([null, sampleInteger(0, 1)]),
   };
-  const command = { v: sampleNumber(-1, 2), omega: sampleNumber(-2, 2), dt: sampleNumber(0.1, 3) };
+  const driveCommand = { v: sampleNumber(-1, 2), omega: sampleNumber(-2, 2), dt: sampleNumber(0.1, 3) };
   const stepCount = sampleInteger(1, 40);
   const fieldsByTag = {
     'banana-machine': {
       ...cloudFields,
-      command,
+      command: driveCommand,
       alphas: { velocity: sampleAlphas(6), odometry: sampleAlphas(4) },
       isolate: sampleItem([null, sampleInteger(1, 4)]),
       pinned: sampleItem([
@@ -39,7 +39,7 @@ export function createRandomStates(seed) {
     },
     'map-squeeze': {
       ...cloudFields,
-      command,
+      command: driveCommand,
       start: { x: sampleNumber(1, 5), y: sampleNumber(1, 3), theta: sampleNumber(-3, 3) },
       alphas: sampleAlphas(6),
       clearance: sampleNumber(0, 0.2),
@@ -58,7 +58,7 @@ export function createRandomStates(seed) {
     'arc-anatomy': {
       start: samplePose(),
       next: samplePose(),
-      command,
+      command: driveCommand,
       alphas: sampleAlphas(6),
       overlays: sampleSublist('commanded inverted wedge chord twist'),
       line: sampleInteger(0, 9),
@@ -76,7 +76,7 @@ export function createRandomStates(seed) {
     },
     'dead-reckoning': {
       ...cloudFields,
-      command,
+      command: driveCommand,
       steps: stepCount,
       step: sampleInteger(1, stepCount),
       alphas: sampleAlphas(6),
@@ -101,7 +101,7 @@ export function createRandomStates(seed) {
   };
   return Object.fromEntries(Object.entries(fieldsByTag).map(([widgetTag, stateFields]) => {
     // Each keyword setting gets one of its allowed words, and each Boolean setting gets true or false.
-    const settingChoices = settings[widgetTag].flatMap(({ key, type, words = [true, false] }) => (['word', 'boolean'].includes(type) ? [[key, sampleItem(words)]] : []));
+    const settingChoices = settings[widgetTag].flatMap(({ key: pressedKey, type, words = [true, false] }) => (['word', 'boolean'].includes(type) ? [[pressedKey, sampleItem(words)]] : []));
     return [widgetTag, { version: 1, widget: widgetTag, ...Object.fromEntries(settingChoices), ...stateFields }];
   }));
 }

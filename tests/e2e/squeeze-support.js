@@ -22,11 +22,11 @@ export async function openSqueeze(page, attributes = '') {
 /** Waits for all requested animation frames, and returns the results of the simulation. @param {Locator} widget */
 export async function readSqueezeResults(widget) {
   await waitForFrames(widget.page());
-  const { plan: { bounds, walls }, poses, verdicts, ...otherResults } = await widget.evaluate((element) => {
-    const { config, shown, stats, startFree, openPlace, plan, poses, verdicts } = /** @type {MapSqueezeElement} */ (element).simulation;
-    return { config, shown, stats, startFree, openPlace, plan, poses, verdicts };
+  const { plan: { bounds: mapBounds, walls }, poses, verdicts: poseVerdicts, ...otherResults } = await widget.evaluate((element) => {
+    const { config: figureConfig, shown: shownCount, stats, startFree, openPlace, plan, poses, verdicts: poseVerdicts } = /** @type {MapSqueezeElement} */ (element).simulation;
+    return { config: figureConfig, shown: shownCount, stats, startFree, openPlace, plan, poses, verdicts: poseVerdicts };
   });
-  return { ...otherResults, bounds: [...bounds], walls: [...walls], poses: [...poses], verdicts: [...verdicts] };
+  return { ...otherResults, bounds: [...mapBounds], walls: [...walls], poses: [...poses], verdicts: [...poseVerdicts] };
 }
 
 /** Returns a file for a file input. @param {string} fileName @param {string | Uint8Array} fileContents @returns {MapFile} */

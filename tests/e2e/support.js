@@ -84,7 +84,7 @@ export const REDUCED_MOTION = { contextOptions: { reducedMotion: /** @type {cons
  * @param {string} bodyHtml
  * @param {{ head?: string, fragment?: string, script?: string }} [options]
  */
-export async function showPage(page, bodyHtml, { head = '', fragment = '', script = '<script type="module" src="/motion-widgets.js"></script>' } = {}) {
+export async function showPage(page, bodyHtml, { head = '', fragment: urlFragment = '', script = '<script type="module" src="/motion-widgets.js"></script>' } = {}) {
   await page.addInitScript(() => {
     const firedEvents = /** @type {FiredEvent[]} */ ([]);
     Object.assign(window, { firedEvents });
@@ -92,21 +92,21 @@ export async function showPage(page, bodyHtml, { head = '', fragment = '', scrip
       document.addEventListener(eventName, (figureEvent) => {
         const figureElement = /** @type {Element} */ (figureEvent.target);
         if (!(figureElement instanceof Element) || !figureElement.localName.includes('-')) return;
-        const { message = '' } = /** @type {ErrorEvent} */ (figureEvent);
+        const { message: errorMessage = '' } = /** @type {ErrorEvent} */ (figureEvent);
         // If a listener handles errors, the figure prints no warning.
         figureEvent.preventDefault();
-        firedEvents.push({ name: eventName, target: figureElement.localName, message });
+        firedEvents.push({ name: eventName, target: figureElement.localName, message: errorMessage });
         // Error events do not bubble.
       }, { capture: eventName === 'error' });
     }
   });
-  await page.route('**/bare.html', (route) =>
-    route.fulfill({
+  await page.route('**/bare.html', (pageRoute) =>
+    pageRoute.fulfill({
       contentType: 'text/html',
       body: `<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Bare</title><link rel="icon" href="data:,">${head}${script}</head><body>${bodyHtml}</body></html>`,
     }),
   );
-  await page.goto(`/bare.html${fragment}`);
+  await page.goto(`/bare.html${urlFragment}`);
 }
 
 /** Waits until an element has its simulation. If the element is visible, waits until it has drawn its picture. @param {Locator} widget */
@@ -156,7 +156,7 @@ export function setProperty(widget, name, propertyValue) {
   return widget.evaluate(
     (element, [propertyName, newValue]) => {
       let errorText = '';
-      const recordError = (/** @type {Event} */ event) => void (errorText = String(/** @type {ErrorEvent} */ (event).error));
+      const recordError = (/** @type {Event} */ domEvent) => void (errorText = String(/** @type {ErrorEvent} */ (domEvent).error));
       element.addEventListener('error', recordError);
       Reflect.set(element, /** @type {string} */ (propertyName), newValue);
       element.removeEventListener('error', recordError);
@@ -176,14 +176,14 @@ export function setProperty(widget, name, propertyValue) {
  */
 export function playSliderOf(widget, settingKey, maxSteps = Infinity) {
   return widget.evaluate(
-    (element, [key, maxSteps]) =>
-      new Promise((resolve) => {
+    (element, [pressedKey, maxSteps]) =>
+      new Promise((resolvePromise) => {
         const figureElement = /** @type {AnyElement} */ (element);
-        const playButton = /** @type {HTMLButtonElement} */ (figureElement.shadowRoot?.querySelector(`.${key} button`));
+        const playButton = /** @type {HTMLButtonElement} */ (figureElement.shadowRoot?.querySelector(`.${pressedKey} button`));
         const sliderValues = /** @type {number[]} */ ([]);
         let buttonLabel = '';
         const recordSliderValue = async () => {
-          sliderValues.push(/** @type {any} */ (figureElement.getState())[key]);
+          sliderValues.push(/** @type {any} */ (figureElement.getState())[pressedKey]);
           if (sliderValues.length === 1) {
             await /** @type {any} */ (figureElement).updateComplete;
             buttonLabel = playButton.innerText;
@@ -193,7 +193,7 @@ export function playSliderOf(widget, settingKey, maxSteps = Infinity) {
         figureElement.addEventListener('input', recordSliderValue);
         figureElement.addEventListener('change', () => {
           figureElement.removeEventListener('input', recordSliderValue);
-          resolve({ sliderValues, buttonLabel });
+          resolvePromise({ sliderValues, buttonLabel });
         }, { once: true });
         playButton.click();
       }),
@@ -209,10 +209,10 @@ export function readState(widget) {
 /** Holds requests of a page until the returned function is called. @param {Page} page @param {string} addressPattern */
 export async function holdRequests(page, addressPattern) {
   let allowRequests = () => {};
-  const permissionPromise = new Promise((resolve) => (allowRequests = () => resolve(undefined)));
-  await page.route(addressPattern, async (route) => {
+  const permissionPromise = new Promise((resolvePromise) => (allowRequests = () => resolvePromise(undefined)));
+  await page.route(addressPattern, async (pageRoute) => {
     await permissionPromise;
-    await route.continue();
+    await pageRoute.continue();
   });
   return allowRequests;
 }
@@ -252,11 +252,11 @@ export async function openDisclosures(widget) {
   await waitForFrames(widget.page());
 }
 
-/** Returns the printed value of a slider. @param {Locator} widget @param {string} key of the setting */
-export const printedValueOf = (widget, key) => widget.locator(`.slider:has(#${key}) .value`);
+/** Returns the printed value of a slider. @param {Locator} widget @param {string} pressedKey of the setting */
+export const printedValueOf = (widget, pressedKey) => widget.locator(`.slider:has(#${pressedKey}) .value`);
 
-/** Returns the field of a slider's value. @param {Locator} widget @param {string} key of the setting */
-export const valueFieldOf = (widget, key) => printedValueOf(widget, key).locator('input');
+/** Returns the field of a slider's value. @param {Locator} widget @param {string} pressedKey of the setting */
+export const valueFieldOf = (widget, pressedKey) => printedValueOf(widget, pressedKey).locator('input');
 
 /** Waits until all requested animation frames have been drawn. @param {Page} page */
 export async function waitForFrames(page) {
@@ -269,8 +269,8 @@ export async function waitForFrames(page) {
 export async function readBananaResults(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {
-    const { config, shown, stats, table, contours } = /** @type {BananaMachineElement} */ (element).simulation;
-    return { config, shown, stats, table, end: [...contours.command.slice(-2)] };
+    const { config: figureConfig, shown: shownCount, stats, table: resultTable, contours } = /** @type {BananaMachineElement} */ (element).simulation;
+    return { config: figureConfig, shown: shownCount, stats, table: resultTable, end: [...contours.command.slice(-2)] };
   });
 }
 
@@ -297,8 +297,8 @@ export async function dragSlider(sliderLocator, endShare) {
   await sliderLocator.scrollIntoViewIfNeeded();
   const { x, y, width, height } = await readBox(sliderLocator);
   const startShare = await sliderLocator.evaluate((element) => {
-    const { value, min, max } = /** @type {HTMLInputElement} */ (element);
-    return (Number(value) - Number(min)) / (Number(max) - Number(min));
+    const { value, min: minValue, max: maxValue } = /** @type {HTMLInputElement} */ (element);
+    return (Number(value) - Number(minValue)) / (Number(maxValue) - Number(minValue));
   });
   // The centre of the thumb moves over the width of the input, less the width of the thumb.
   const thumbXOf = (/** @type {number} */ widthShare) => x + height * 0.3 + widthShare * (width - height * 0.6);
@@ -383,18 +383,18 @@ export function readoutDetailOf(widget, name) {
 /** Drops files on a part of the widget. @param {Locator} dropTarget @param {{ name: string, buffer: Buffer }[]} droppedFiles */
 export function dropFiles(dropTarget, droppedFiles) {
   return dropTarget.evaluate(
-    (target, newFiles) => {
+    (eventTarget, newFiles) => {
       const dataTransfer = new DataTransfer();
       for (const { name, bytes } of newFiles) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
       const dragEvent = (/** @type {string} */ name) => new DragEvent(name, { dataTransfer, bubbles: true, composed: true, cancelable: true });
       const [dragOverEvent, dropEvent] = [dragEvent('dragover'), dragEvent('drop')];
-      target.dispatchEvent(dragOverEvent);
-      if (!dragOverEvent.defaultPrevented || !target.closest('.dropping')) throw new Error('It does not take files.');
-      target.dispatchEvent(dropEvent);
+      eventTarget.dispatchEvent(dragOverEvent);
+      if (!dragOverEvent.defaultPrevented || !eventTarget.closest('.dropping')) throw new Error('It does not take files.');
+      eventTarget.dispatchEvent(dropEvent);
       if (!dropEvent.defaultPrevented) throw new Error('The browser takes the file.');
-      if (target.closest('.dropping')) throw new Error('It is still marked.');
+      if (eventTarget.closest('.dropping')) throw new Error('It is still marked.');
     },
-    droppedFiles.map(({ name, buffer }) => ({ name, bytes: [...buffer] })),
+    droppedFiles.map(({ name, buffer: fileBuffer }) => ({ name, bytes: [...fileBuffer] })),
   );
 }
 

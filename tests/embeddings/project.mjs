@@ -5,7 +5,7 @@ import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, delimiter, join } from 'node:path';
-import { REPOSITORY_ROOT, runOrThrow, memoize, printStep } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT, runOrThrow, memoizeWork, printStep } from '../../scripts/process.mjs';
 import { startProgram } from './serving.mjs';
 import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
 
@@ -124,10 +124,10 @@ export function packNpmPackageInto(directory) {
 }
 
 /** Packs the npm package once, and returns the path of the packed file. */
-const packNpmPackage = memoize(async () => packNpmPackageInto(makeEmptyDirectory('npm')));
+const packNpmPackage = memoizeWork(async () => packNpmPackageInto(makeEmptyDirectory('npm')));
 
 /** Builds the wheel of the Python package once, and returns its path. */
-const buildPythonWheel = memoize(async () => {
+const buildPythonWheel = memoizeWork(async () => {
   const directory = makeEmptyDirectory('python');
   execFileSync('python3', ['-m', 'pip', 'wheel', '--quiet', '--no-deps', '--wheel-dir', directory, join(REPOSITORY_ROOT, 'python')]);
   return join(directory, readdirSync(directory)[0]);

@@ -5,7 +5,7 @@ import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { chromium } from '@playwright/test';
 import { CHROME_ARGUMENTS, ensureBrowser } from '../../scripts/browser.mjs';
-import { build } from '../../scripts/build.mjs';
+import { buildProject } from '../../scripts/build.mjs';
 import { REPOSITORY_ROOT, UserError, printStep, runAsScript } from '../../scripts/process.mjs';
 import { runChecks } from './checks.mjs';
 import { loadPlatform, findPlatformNames, prepareExample } from './project.mjs';
@@ -55,7 +55,7 @@ async function testPlatforms(platformNames) {
   const allPlatformNames = await findPlatformNames();
   const unknownName = platformNames.find((name) => !allPlatformNames.includes(name));
   if (unknownName !== undefined) throw new UserError(`"${unknownName}" is no platform that is tried; allowed are ${allPlatformNames.join(', ')}.`);
-  await build();
+  await buildProject();
   const { chrome, version } = await ensureBrowser();
   mkdirSync(join(REPOSITORY_ROOT, 'test-results/embeddings'), { recursive: true });
   // With the back/forward cache, going back restores a page in the state in which the user left it.

@@ -4,7 +4,7 @@
 import { mkdtempSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { build } from '../../scripts/build.mjs';
+import { buildProject } from '../../scripts/build.mjs';
 import { REPOSITORY_ROOT, UserError, printStep, runAsScript } from '../../scripts/process.mjs';
 import { startServer } from '../../scripts/serve.mjs';
 import { browserStarters } from './browsers.mjs';
@@ -58,7 +58,7 @@ async function testBrowserEngines(engineNames) {
   const allEngineNames = Object.keys(browserStarters);
   const unknownName = engineNames.find((name) => !allEngineNames.includes(name));
   if (unknownName !== undefined) throw new UserError(`"${unknownName}" is no engine that is tried; allowed are ${allEngineNames.join(', ')}.`);
-  await build();
+  await buildProject();
   const { address, stop } = await serveSite();
   const summaryLines = [];
   let failureCount = 0;

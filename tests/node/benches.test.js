@@ -6,13 +6,13 @@ import { differencesFromCore } from '../../benches/check.js';
 import { importFreshModule } from './support.js';
 
 test('the baseline computes the same statistics and picture as the core', async () => {
-  const core = await (await importFreshModule()).load();
-  assert.deepEqual(differencesFromCore(core, 2000), []);
+  const motionCore = await (await importFreshModule()).load();
+  assert.deepEqual(differencesFromCore(motionCore, 2000), []);
 });
 
 test('the comparison of baseline and core reports a different skew', async () => {
-  const core = await (await importFreshModule()).load();
-  class SimulationWithOtherSkew extends core.BananaMachine {
+  const motionCore = await (await importFreshModule()).load();
+  class SimulationWithOtherSkew extends motionCore.BananaMachine {
     get stats() {
       const stats = super.stats;
       return { ...stats, crossTrackSkew: stats.crossTrackSkew * 1.1 };

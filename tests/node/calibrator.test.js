@@ -8,8 +8,8 @@ import { SIMULATED_LEG_LENGTHS, legClassesOf, isTruthComparable } from '../../ww
 import { settings } from '../../build/settings.js';
 
 test('the class of a leg follows from its p-value, with as many degrees of freedom as observed residuals', () => {
-  const residuals = Float64Array.of(0, 0, 0, 0, 0, NaN, 0, NaN, NaN);
-  const classesOf = (/** @type {number[]} */ ...squaredResiduals) => [...legClassesOf({ count: 3, squared: Float64Array.from(squaredResiduals), residuals })];
+  const legResiduals = Float64Array.of(0, 0, 0, 0, 0, NaN, 0, NaN, NaN);
+  const classesOf = (/** @type {number[]} */ ...squaredResiduals) => [...legClassesOf({ count: 3, squared: Float64Array.from(squaredResiduals), residuals: legResiduals })];
   // Quantiles of χ² with 3, 2 and 1 degrees of freedom, from tables.
   assert.deepEqual(classesOf(2.36, 1.38, 0.45), [0, 0, 0]);
   assert.deepEqual(classesOf(7.81, 5.99, 3.84), [1, 1, 1]);
@@ -82,9 +82,9 @@ test('lines for Nav2 omit α’s that are not identifiable, and all α’s if no
 });
 
 test('lines for Nav2 warn of failed checks, and of another rule', () => {
-  const { diagnostics } = createCalibration();
-  const failedChecks = ['tails-normal', 'outliers-few'].map((name) => ({ name, passed: false, message: 'Drive on.' }));
-  assert.ok(nav2LinesOf({ diagnostics: { ...diagnostics, checks: failedChecks } }).includes('# Caution, these checks failed: tails-normal, outliers-few'));
+  const { diagnostics: fitDiagnostics } = createCalibration();
+  const failedChecks = ['tails-normal', 'outliers-few'].map((caseName) => ({ name: caseName, passed: false, message: 'Drive on.' }));
+  assert.ok(nav2LinesOf({ diagnostics: { ...fitDiagnostics, checks: failedChecks } }).includes('# Caution, these checks failed: tails-normal, outliers-few'));
   assert.deepEqual([{ rule: 'thrun' }, {}].map((changedOptions) => nav2LinesOf({}, changedOptions).includes(`# ${yamlWords.otherRuleNote}`)), [true, false]);
 });
 
@@ -97,14 +97,14 @@ test('a large clock offset is mentioned, and changes no verdict', () => {
     }),
     legCount: 500, model: 'odometry', rule: 'nav2', legLength: {}, corrections: {}, logName: '', warnings: [],
   }, en, '');
-  const { advice: [firstSentence], rating } = judgementOfClockOffset(86_400.06);
-  assert.deepEqual([firstSentence, rating], ['The reference’s clock is 86\u202f400 s ahead of the odometry’s. The turns of the robot aligned both: check that they are of one drive.', 'consistent']);
+  const { advice: [firstSentence], rating: logRating } = judgementOfClockOffset(86_400.06);
+  assert.deepEqual([firstSentence, logRating], ['The reference’s clock is 86\u202f400 s ahead of the odometry’s. The turns of the robot aligned both: check that they are of one drive.', 'consistent']);
   assert.match(judgementOfClockOffset(-3600).advice[0], /is 3\u202f600 s behind the/);
   assert.deepEqual(judgementOfClockOffset(-9.5).advice, [en.useRecommendedSentence]);
 });
 
 test('the leg settings of the simulated log equal the default settings', () => {
-  const defaultConfig = Object.fromEntries(settings['alpha-calibrator'].map((setting) => [setting.key, setting.default]));
+  const defaultConfig = Object.fromEntries(settings['alpha-calibrator'].map((settingDeclaration) => [settingDeclaration.key, settingDeclaration.default]));
   assert.deepEqual(SIMULATED_LEG_LENGTHS, { distance: defaultConfig.distance, angle: defaultConfig.angle });
   const hasTruth = (/** @type {object} */ changedFields) => isTruthComparable(/** @type {any} */ ({ truth: {}, fittedConfig: { ...defaultConfig, ...changedFields } }));
   assert.deepEqual([hasTruth({}), hasTruth({ distance: 0.3 }), hasTruth({ angle: 0.3 }), hasTruth({ duration: 1 }), hasTruth({ rule: 'nav2' })], [true, false, false, false, false]);

@@ -54,9 +54,9 @@ async function readCoreOptions(cliArguments) {
 useLanguageOf(/** @type {any} */ ({ closest: () => ({ getAttribute: () => 'en' }) }));
 
 test('options of the command line are passed to the core', async () => {
-  const { odometry, reference, ...fitOptions } = await readCoreOptions(LOG_ARGS);
+  const { odometry: odometryLog, reference: referenceLog, ...fitOptions } = await readCoreOptions(LOG_ARGS);
   assert.deepEqual(fitOptions, { legs: { distance: 0.25, angle: 0.2 } });
-  for (const coreLog of [...odometry, ...reference]) assert.deepEqual(Object.keys(coreLog), ['t', 'x', 'y', 'theta', 'breaks']);
+  for (const coreLog of [...odometryLog, ...referenceLog]) assert.deepEqual(Object.keys(coreLog), ['t', 'x', 'y', 'theta', 'breaks']);
   const optionsText = '--model omnidirectional --rule omni --update-min-d 0.5 --update-min-a 0.3 --outliers keep --reference-position-std 0.001 --reference-yaw-std 2e-3';
   const coreOptions = await readCoreOptions([...LOG_ARGS, ...optionsText.split(' ')]);
   assert.deepEqual({ ...coreOptions, odometry: [], reference: [] }, { odometry: [], reference: [], model: 'omnidirectional', rule: 'omni', legs: { distance: 0.5, angle: 0.3 }, outliers: 'keep', positionStd: 0.001, yawStd: 0.002 });
@@ -97,7 +97,7 @@ test('one recording can contain both logs, with topics and frames that are guess
     ];
   }).flat();
   const writeRecordingArgs = async (/** @type {string} */ recordingName, /** @type {string[]} */ ...recordedTopics) =>
-    ['--recording', writeInFolder(recordingName, await recordingOf(odometryMessages.filter(({ topic }) => recordedTopics.includes(topic)), { compression: 'zstd' }))];
+    ['--recording', writeInFolder(recordingName, await recordingOf(odometryMessages.filter(({ topic: topicName }) => recordedTopics.includes(topicName)), { compression: 'zstd' }))];
   const readFourthRow = async (/** @type {string[]} */ ...args) => {
     const coreOptions = await readCoreOptions(args);
     return [coreOptions.odometry[0].y?.[3], coreOptions.odometry[0].omega?.[3], coreOptions.reference[0].y[3]];
@@ -164,21 +164,21 @@ test('run in a shell, the command prints help and errors, and tolerates a closed
 
 test('the intervals for the example recording contain the true α’s, and the JSON output has the keys in doc/calibration.md', async () => {
   /** @type {import('../mcap.js').Message[]} */
-  const messages = [];
-  for (const [topic, name, type] of [['/odom', 'odometry', 'nav_msgs/msg/Odometry'], ['/truth', 'reference', 'geometry_msgs/msg/PoseStamped']]) {
-    for (const csvRow of readFileSync(examplePathOf(name), 'utf8').trim().split('\n').slice(1)) {
+  const rosMessages = [];
+  for (const [topicName, caseName, type] of [['/odom', 'odometry', 'nav_msgs/msg/Odometry'], ['/truth', 'reference', 'geometry_msgs/msg/PoseStamped']]) {
+    for (const csvRow of readFileSync(examplePathOf(caseName), 'utf8').trim().split('\n').slice(1)) {
       const [t, x, y, theta] = csvRow.split(',').map(Number);
-      const message = topic === '/odom' ? odometryMessageOf(t, x, y, theta) : { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, theta) };
-      messages.push({ topic, type, t, message });
+      const rosMessage = topicName === '/odom' ? odometryMessageOf(t, x, y, theta) : { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, theta) };
+      rosMessages.push({ topic: topicName, type, t, message: rosMessage });
     }
   }
-  const recordingPath = writeInFolder('example.mcap', await recordingOf(messages.sort((a, b) => a.t - b.t), { compression: 'zstd', chunkSize: 100_000 }));
+  const recordingPath = writeInFolder('example.mcap', await recordingOf(rosMessages.sort((a, b) => a.t - b.t), { compression: 'zstd', chunkSize: 100_000 }));
   const { status, stdout, stderr } = spawnSync(process.execPath, [CLI_PATH, 'calibrate', '--recording', recordingPath, '--json'], { encoding: 'utf8' });
   assert.equal(status, 0, stderr);
   const calibrationResult = JSON.parse(stdout);
   const assertInside = (/** @type {number} */ trueValue, /** @type {[number, number]} */ [lowerLimit, upperLimit]) => assert.ok(lowerLimit <= trueValue && trueValue <= upperLimit, `${trueValue}: ${lowerLimit} to ${upperLimit}`);
   for (const [i, trueAlpha] of TRUE_PARAMETERS.alphas.entries()) assertInside(trueAlpha, calibrationResult.intervals[i]);
-  for (const name of /** @type {const} */ (['mountYaw', 'clockOffset', 'distanceScale'])) assertInside(TRUE_PARAMETERS[name], calibrationResult.systematicErrors[name].interval);
+  for (const caseName of /** @type {const} */ (['mountYaw', 'clockOffset', 'distanceScale'])) assertInside(TRUE_PARAMETERS[caseName], calibrationResult.systematicErrors[caseName].interval);
   assert.deepEqual([calibrationResult.diagnostics.verdict, calibrationResult.start, calibrationResult.date.length], ['consistent', 9, 10]);
   const [, jsonSection] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n### JSON\n(.*?)\n### /s) ?? [];
   assert.deepEqual(Object.keys(calibrationResult).filter((resultKey) => !jsonSection.includes(`\`${resultKey}\``)), []);
@@ -201,15 +201,15 @@ test('the command below an error or a verdict answers the question about a file'
   for (const [logRole, headerLine, changeRow, ...answerOptions] of /** @type {[string, string, (row: number[]) => number[], ...string[]][]} */ ([
     ['odometry', 't,x,y,yaw', ([t, x, y, yaw]) => [t, x / 0.3048, y / 0.3048, yaw], '--length-unit', 'odometry.csv=ft'],
     ['reference', 't,x,y,yaw', ([t, x, y, yaw]) => [t, x, y, (180 / Math.PI) * yaw], '--angle-unit', 'rad', '--angle-unit', 'reference.csv=deg'],
-    ['reference', 'zeit,ost,nord,richtung', (row) => row, '--columns', 'reference.csv=t,x,y,yaw'],
+    ['reference', 'zeit,ost,nord,richtung', (tableRow) => tableRow, '--columns', 'reference.csv=t,x,y,yaw'],
     ['odometry', 't,x,y,yaw', ([t, x, y, yaw]) => [t, x, -y, yaw], '--columns', 'odometry.csv=t,x,-y,yaw'],
     ['reference', 't,x [m],y [m],yaw', ([t, x, y, yaw]) => [t, x, -y, -yaw], '--columns', 'reference.csv=t,x [m],-y [m],-yaw'],
   ])) {
     const changedRows = readFileSync(examplePathOf(logRole), 'utf8').trim().split('\n').slice(1).map((csvRow) => changeRow(csvRow.split(',').map(Number)).join(','));
     const logPaths = [writeInFolder(`${logRole}.csv`, [headerLine, ...changedRows].join('\n')), examplePathOf(logRole === 'odometry' ? 'reference' : 'odometry')];
     const { stdout, stderr } = await runCalibrate([...logPaths, ...answerOptions.slice(0, -2)]);
-    const [, command = ''] = /^ {2}npx motion-widgets calibrate (.*)$/m.exec(stdout + stderr) ?? [];
-    const commandArgs = [...command.matchAll(/'([^']*)'|\S+/g)].map(([shellWord, quotedText]) => quotedText ?? shellWord);
+    const [, proposedCommand = ''] = /^ {2}npx motion-widgets calibrate (.*)$/m.exec(stdout + stderr) ?? [];
+    const commandArgs = [...proposedCommand.matchAll(/'([^']*)'|\S+/g)].map(([shellWord, quotedText]) => quotedText ?? shellWord);
     assert.deepEqual(commandArgs, [...logPaths, ...answerOptions], stderr);
     const resultOfAnswer = JSON.parse((await runCalibrate([...commandArgs, '--json'])).stdout);
     for (const [i, alpha] of alphas.entries()) assert.ok(Math.abs(resultOfAnswer.alphas[i] / alpha - 1) < 1e-6, `${logRole} ${headerLine} ${resultOfAnswer.alphas}`);
@@ -219,13 +219,13 @@ test('the command below an error or a verdict answers the question about a file'
 test('logs in a folder are read, and its other files are skipped', async () => {
   const driveFolder = join(temporaryFolder, 'drive');
   mkdirSync(driveFolder);
-  for (const [name, exampleName] of [['odom.csv', 'odometry'], ['truth.csv', 'reference'], ['._odom.csv', 'odometry'], ['run.db3-shm', 'odometry']]) writeFileSync(join(driveFolder, name), readFileSync(examplePathOf(exampleName)));
+  for (const [caseName, exampleName] of [['odom.csv', 'odometry'], ['truth.csv', 'reference'], ['._odom.csv', 'odometry'], ['run.db3-shm', 'odometry']]) writeFileSync(join(driveFolder, caseName), readFileSync(examplePathOf(exampleName)));
   writeFileSync(join(driveFolder, 'README.md'), '# A drive\n\nwith words, and no numbers\n');
   writeFileSync(join(driveFolder, 'camera.mcap'), await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } }))));
   let inspectionText = '';
-  await runCommand(['inspect', driveFolder], { load, print: (text) => (inspectionText += text), printError: () => {} });
+  await runCommand(['inspect', driveFolder], { load, print: (plainText) => (inspectionText += plainText), printError: () => {} });
   assert.match(inspectionText, /^ {2}npx motion-widgets calibrate \S+\/drive --rule nav2$/m);
-  const { exitCode, stdout, stderr } = await runCalibrate(['metadata.yaml', 'odom.csv'].map((name) => join(driveFolder, name)));
+  const { exitCode, stdout, stderr } = await runCalibrate(['metadata.yaml', 'odom.csv'].map((caseName) => join(driveFolder, caseName)));
   assert.deepEqual([exitCode, stdout.match(/^\w+: .*\.csv$/gm)], [0, ['Odometry: odom.csv', 'Reference: truth.csv']]);
   assert.match(stderr, /^skipped: README\.md: it does not look like a log, .*\nskipped: camera\.mcap: the topics are \/image \(String\); .*\n$/);
 });
@@ -241,7 +241,7 @@ test('a database journal next to a recording is reported, unless the journal is 
   writeInFolder('run.db3-wal', Buffer.from('377f0682', 'hex'));
   for (const jsonArgs of [[], ['--json']]) {
     let [stdout, stderr] = ['', ''];
-    const exitCode = await runCommand(['inspect', databasePath, ...jsonArgs], { load, print: (text) => (stdout += text), printError: (text) => (stderr += text) });
+    const exitCode = await runCommand(['inspect', databasePath, ...jsonArgs], { load, print: (plainText) => (stdout += plainText), printError: (plainText) => (stderr += plainText) });
     assert.deepEqual([exitCode, stdout], [2, '']);
     assert.match(stderr, /^run\.db3-wal: it is a journal with messages that its \.db3 file lacks; /m);
   }
@@ -249,8 +249,8 @@ test('a database journal next to a recording is reported, unless the journal is 
 
 /** Writes the reference of another drive: the path of the example from end to start. */
 const writeReversedReference = () => {
-  const [header, ...rowsOfCells] = readFileSync(examplePathOf('reference'), 'utf8').trim().split('\n').map((row) => row.split(','));
-  return writeInFolder('other.csv', [header, ...rowsOfCells.map(([t], i) => [t, ...rowsOfCells[rowsOfCells.length - 1 - i].slice(1)])].join('\n'));
+  const [headerLine, ...rowsOfCells] = readFileSync(examplePathOf('reference'), 'utf8').trim().split('\n').map((tableRow) => tableRow.split(','));
+  return writeInFolder('other.csv', [headerLine, ...rowsOfCells.map(([t], i) => [t, ...rowsOfCells[rowsOfCells.length - 1 - i].slice(1)])].join('\n'));
 };
 
 test('--yaml prints only the lines for Nav2, and nothing for an unusable log', async () => {
@@ -262,8 +262,8 @@ test('--yaml prints only the lines for Nav2, and nothing for an unusable log', a
   const swappedOutput = await runCalibrate(['--odometry', examplePathOf('reference'), '--reference', examplePathOf('odometry'), '--yaml']);
   assert.match(swappedOutput.stderr, /^Caution. Warning: by their names, odometry and reference seem to be swapped\. .*: exchange the two\.$/m);
   // The legs of a reference at 1 Hz are longer than requested.
-  const [header, ...tableRows] = readFileSync(examplePathOf('reference'), 'utf8').trim().split('\n');
-  const sparsePath = writeInFolder('sparse.csv', [header, ...tableRows.filter((_, i) => i % 20 === 0)].join('\n'));
+  const [headerLine, ...tableRows] = readFileSync(examplePathOf('reference'), 'utf8').trim().split('\n');
+  const sparsePath = writeInFolder('sparse.csv', [headerLine, ...tableRows.filter((_, i) => i % 20 === 0)].join('\n'));
   const sparseOutput = await runCalibrate([...LOG_ARGS.slice(0, 3), sparsePath, '--yaml', '--rule', 'nav2']);
   const [, lengthRatio, printedDistance, printedAngle] = /legs are (\S+) times as long as requested\. .*\n +update_min_d: (\S+)\n +update_min_a: (\S+)\n$/.exec(sparseOutput.stdout)?.map(Number) ?? [];
   assert.ok(lengthRatio > 1.5, sparseOutput.stdout);
@@ -304,29 +304,29 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
 
 test('output to a terminal has colours', async () => {
   let stdout = '';
-  await runCommand(['calibrate', ...LOG_ARGS], { load, print: (text) => (stdout += text), printError: assert.fail, isColored: true });
+  await runCommand(['calibrate', ...LOG_ARGS], { load, print: (plainText) => (stdout += plainText), printError: assert.fail, isColored: true });
   assert.ok(stdout.includes('\n\x1b[32mTrust\x1b[0m. '), stdout);
 });
 
 test('inspect lists the contents of a file, and suggests the next command', async () => {
   const inspectionOf = async (/** @type {string[]} */ inspectArguments, expectedExitCode = 0) => {
     let [outputText, errorText] = ['', ''];
-    assert.equal(await runCommand(['inspect', ...inspectArguments], { load, print: (text) => (outputText += text), printError: (text) => (errorText += text) }), expectedExitCode);
+    assert.equal(await runCommand(['inspect', ...inspectArguments], { load, print: (plainText) => (outputText += plainText), printError: (plainText) => (errorText += plainText) }), expectedExitCode);
     assert.equal(errorText === '', expectedExitCode === 0);
     return (outputText + errorText).replaceAll(temporaryFolder, 'DIR');
   };
-  const messages = Array.from({ length: 40 }, (_, i) => {
+  const rosMessages = Array.from({ length: 40 }, (_, i) => {
     const t = 100 + i / 20;
-    const header = { stamp: stampOf(t), frame_id: 'map' };
+    const headerLine = { stamp: stampOf(t), frame_id: 'map' };
     return [
       { topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometryMessageOf(t, i, 1, 0) },
-      { topic: '/vicon/robot 1', type: 'geometry_msgs/msg/PoseStamped', t, message: { header, pose: poseOf(i, 2, 0) } },
+      { topic: '/vicon/robot 1', type: 'geometry_msgs/msg/PoseStamped', t, message: { header: headerLine, pose: poseOf(i, 2, 0) } },
       { topic: '/chatter', type: 'std_msgs/msg/String', t, message: { data: '' } },
-      { topic: '/lost', type: 'geometry_msgs/msg/PoseStamped', t, message: { header, pose: poseOf(NaN, 2, 0) } },
+      { topic: '/lost', type: 'geometry_msgs/msg/PoseStamped', t, message: { header: headerLine, pose: poseOf(NaN, 2, 0) } },
       { topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transformMessageOf(t, 'map', 'base_link', i, 2, 0)] } },
     ];
   }).flat();
-  const recordingInspection = await inspectionOf([writeInFolder('run.mcap', await recordingOf(messages, { compression: 'zstd' }))]);
+  const recordingInspection = await inspectionOf([writeInFolder('run.mcap', await recordingOf(rosMessages, { compression: 'zstd' }))]);
   for (const linePattern of [
     /^run\.mcap: MCAP recording$/m, /^ {2}\/chatter +std_msgs\/msg\/String +40$/m, /^ {2}\/odom +nav_msgs\/msg\/Odometry +40 +20\.0 Hz +odometry$/m,
     /^ {2}\/vicon\/robot 1 +geometry_msgs\/msg\/PoseStamped +40 +20\.0 Hz +reference$/m,
@@ -343,9 +343,9 @@ test('inspect lists the contents of a file, and suggests the next command', asyn
   assert.doesNotMatch(await inspectionOf([examplePathOf('odometry'), millimetrePath], 2), /give the reference too/);
   assert.match(await inspectionOf(['--odometry', examplePathOf('odometry'), '--reference', millimetrePath, '--length-unit', 'mm.csv=mm']), /^ {2}npx motion-widgets calibrate --odometry \S+odometry\.csv --reference DIR\/mm\.csv --length-unit mm\.csv=mm --rule nav2$/m);
   const positionsPath = writeInFolder('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
-  const { recordings: [{ series }], ...inspection } = JSON.parse(await inspectionOf([positionsPath, '--json']));
-  assert.deepEqual(series.map((/** @type {any} */ { name, rows, uses, summary }) => [name, rows, uses, summary?.seconds]), [['odom', 40, ['odometry'], 1.95], ['gt', 0, [], undefined]]);
-  assert.deepEqual([inspection.missing.split(';')[0], inspection.command], ['positions.csv: gt (gt_x, gt_y) are positions without a heading', undefined]);
+  const { recordings: [{ series: seriesNames }], ...otherInspection } = JSON.parse(await inspectionOf([positionsPath, '--json']));
+  assert.deepEqual(seriesNames.map((/** @type {any} */ { name: caseName, rows: tableRows, uses: possibleUses, summary: logSummary }) => [caseName, tableRows, possibleUses, logSummary?.seconds]), [['odom', 40, ['odometry'], 1.95], ['gt', 0, [], undefined]]);
+  assert.deepEqual([otherInspection.missing.split(';')[0], otherInspection.command], ['positions.csv: gt (gt_x, gt_y) are positions without a heading', undefined]);
 });
 
 test('for an unusable log the command prints a reason and no lines for Nav2', async () => {
@@ -361,13 +361,13 @@ test('for an unusable log the command prints a reason and no lines for Nav2', as
 });
 
 test('the report, the lines for Nav2 and the figure agree on whether a localizer made the reference', async () => {
-  for (const [name, isLocalizer] of /** @type {const} */ ([['slam_pose', true], ['cartographer', true], ['truth_amcl', false]])) {
-    const args = [...LOG_ARGS.slice(0, 3), writeInFolder(`${name}.csv`, readFileSync(examplePathOf('reference')))];
+  for (const [caseName, isLocalizer] of /** @type {const} */ ([['slam_pose', true], ['cartographer', true], ['truth_amcl', false]])) {
+    const args = [...LOG_ARGS.slice(0, 3), writeInFolder(`${caseName}.csv`, readFileSync(examplePathOf('reference')))];
     const [{ stdout }, { stdout: jsonText }] = [await runCalibrate(args), await runCalibrate([...args, '--json'])];
-    const { logs, ...stats } = JSON.parse(jsonText);
-    const { rating } = judgeFit(/** @type {any} */ ({ viewModel: { stats, legs: stats.legs, fittedConfig: stats.systematicErrors }, warnings: warningsOf(logs.map((/** @type {any} */ { summary }) => summary)) }));
-    const localizerNotes = [stdout.includes(`\nCaution. ${en.nav2.localizer}\n`) && !stdout.includes(en.useAnywaySentence), stdout.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
-    assert.deepEqual(localizerNotes, [isLocalizer, isLocalizer, isLocalizer], name);
+    const { logs: robotLogs, ...stats } = JSON.parse(jsonText);
+    const { rating: logRating } = judgeFit(/** @type {any} */ ({ viewModel: { stats, legs: stats.legs, fittedConfig: stats.systematicErrors }, warnings: warningsOf(robotLogs.map((/** @type {any} */ { summary: logSummary }) => logSummary)) }));
+    const localizerNotes = [stdout.includes(`\nCaution. ${en.nav2.localizer}\n`) && !stdout.includes(en.useAnywaySentence), stdout.includes(`# ${en.nav2.localizer}`), logRating === 'questionable'];
+    assert.deepEqual(localizerNotes, [isLocalizer, isLocalizer, isLocalizer], caseName);
   }
 });
 
@@ -379,18 +379,18 @@ test('the report advises against α’s that are too small because the odometry 
 });
 
 test('the report names failed checks, lost legs and unidentified α’s, and recommends motions', async () => {
-  const { odometry: odometryLogs, reference, ...options } = await readCoreOptions(LOG_ARGS);
-  const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: odometryLogs, reference });
-  const { diagnostics, lost, persistence, systematicErrors } = calibration;
+  const { odometry: odometryLogs, reference: referenceLog, ...options } = await readCoreOptions(LOG_ARGS);
+  const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: odometryLogs, reference: referenceLog });
+  const { diagnostics: fitDiagnostics, lost, persistence, systematicErrors } = calibration;
   const formatChangedReport = (/** @type {any} */ calibrationChange, optionsChange = {}) => formatReport({ calibration: { ...calibration, ...calibrationChange }, options: { ...options, ...optionsChange }, logs: [], command: '', start: 0, driveStarts: [10, 1000], date: '' });
   const failedChecks = [{ name: 'enough-legs', value: 20, expected: [100, Infinity], passed: false, message: 'Drive on.' }];
-  const reportOfFailure = formatChangedReport({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: failedChecks } });
+  const reportOfFailure = formatChangedReport({ diagnostics: { ...fitDiagnostics, verdict: 'questionable', checks: failedChecks } });
   assert.match(reportOfFailure, /^\nCaution\. Failed: number of legs \(1 of 1 checks\)\.\nDrive on\.\nIf the log .*\n[^]*^enough-legs +20 +≥ 100 +✕ failed +number of legs\nenough-legs: Drive on\.$/m);
   const roundedChecks = [{ name: 'window-2m-covered', value: 0.8636, expected: [0.8641, 1], passed: false, message: '' }];
-  assert.match(formatChangedReport({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: roundedChecks } }), /^window-2m-covered +86\.36 % +86\.41 % – 100\.00 % +✕ failed +held-out windows of ≥ 2 m within 95 %$/m);
-  assert.match(formatChangedReport({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable' } }), /^\nDo not use\. The log identifies no α\.\n\n/);
+  assert.match(formatChangedReport({ diagnostics: { ...fitDiagnostics, verdict: 'questionable', checks: roundedChecks } }), /^window-2m-covered +86\.36 % +86\.41 % – 100\.00 % +✕ failed +held-out windows of ≥ 2 m within 95 %$/m);
+  assert.match(formatChangedReport({ recommended: null, diagnostics: { ...fitDiagnostics, verdict: 'unusable' } }), /^\nDo not use\. The log identifies no α\.\n\n/);
   const inflationChecks = [{ name: 'inflation-bounded', value: Infinity, expected: [1, 30], passed: false, message: 'Find the cause.' }];
-  assert.match(formatChangedReport({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable', checks: inflationChecks } }), /^\nDo not use\. Failed: inflation .*\nFind the cause\.\n\n/);
+  assert.match(formatChangedReport({ recommended: null, diagnostics: { ...fitDiagnostics, verdict: 'unusable', checks: inflationChecks } }), /^\nDo not use\. Failed: inflation .*\nFind the cause\.\n\n/);
   const legsWithOutliers = { count: 3, times: [12, 13, 14, 15, 1005, 1006], outliers: [1, 0, 1] };
   assert.match(formatChangedReport({ legs: legsWithOutliers }), /^outliers: 2 of 3 legs, at 2\.00 s of drive 1, 5\.00 s of drive 2 after the start$/m);
   assert.match(formatChangedReport({ lost: { ...lost, withoutReference: 3, standing: 7 } }), /^lost legs: 3 without reference, 7 standing still$/m);
@@ -401,8 +401,8 @@ test('the report names failed checks, lost legs and unidentified α’s, and rec
   const reportOfUnidentified = formatChangedReport(unidentifiedAlphas);
   assert.match(reportOfUnidentified, /^\nCaution\. Not determined by this log: α₂, α₄; add ~50 straight legs and ~50 in-place rotations\.\nIf the log /);
   assert.match(reportOfUnidentified, /^α₂ rotation noise from translation +not determined: rotation and translation are collinear in this log; /m);
-  const { rating, finding } = judgeFit(/** @type {any} */ ({ viewModel: { stats: { ...calibration, ...unidentifiedAlphas }, legs: calibration.legs, fittedConfig: systematicErrors }, warnings: [] }));
-  assert.deepEqual([rating, finding], ['questionable', 'Not determined by this log: α₂, α₄; add ~50 straight legs and ~50 in-place rotations.']);
+  const { rating: logRating, finding } = judgeFit(/** @type {any} */ ({ viewModel: { stats: { ...calibration, ...unidentifiedAlphas }, legs: calibration.legs, fittedConfig: systematicErrors }, warnings: [] }));
+  assert.deepEqual([logRating, finding], ['questionable', 'Not determined by this log: α₂, α₄; add ~50 straight legs and ~50 in-place rotations.']);
   assert.match(formatChangedReport({ ...unidentifiedAlphas, notIdentifiable: [null, 'insufficient-rotation', null, null] }, { model: 'velocity' }), /^Caution\. Not determined by this log: α₂; add ~50 legs in tight bends\.$/m);
   assert.match(formatChangedReport({ alphas: [0, 0.1, 0.1, 0.1], intervals: [[0, 0.00123], [0.05, 0.2], null, null] }), /^α₁ rotation noise from rotation +≤ 0\.0012, 0\.0000 – 0\.0012 +≤ 0\.0015$/m);
   assert.match(formatChangedReport({}, { model: 'velocity' }), /^No lines for nav2_params\.yaml: Nav2 has no velocity model\.$/m);

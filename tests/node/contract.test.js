@@ -23,10 +23,10 @@ test('importing and loading use neither the DOM nor the network, and load always
     const loadedCore = await coreModule.load();
     assert.equal(await coreModule.load(), loadedCore);
   } finally {
-    browserGlobals.forEach((name, i) => {
+    browserGlobals.forEach((caseName, i) => {
       const globalDescriptor = descriptorsBefore[i];
-      if (globalDescriptor) Object.defineProperty(globalThis, name, globalDescriptor);
-      else Reflect.deleteProperty(globalThis, name);
+      if (globalDescriptor) Object.defineProperty(globalThis, caseName, globalDescriptor);
+      else Reflect.deleteProperty(globalThis, caseName);
     });
   }
   assert.deepEqual(accessedGlobals, []);
@@ -41,33 +41,33 @@ test('load accepts bytes, a compiled module or an address, and fails with a clea
     assert.equal(simulation.stats.n, 5);
     simulation.free();
   }
-  const core = await importFreshModule();
-  await assert.rejects(core.load(42), TypeError);
-  await assert.rejects(core.load(new Uint8Array([1, 2, 3])));
-  assert.ok((await core.load()).BananaMachine, 'a failed load can be tried again');
+  const motionCore = await importFreshModule();
+  await assert.rejects(motionCore.load(42), TypeError);
+  await assert.rejects(motionCore.load(new Uint8Array([1, 2, 3])));
+  assert.ok((await motionCore.load()).BananaMachine, 'a failed load can be tried again');
 });
 
 test('the core exports every public name', async () => {
-  const motion = await (await importFreshModule()).load();
+  const motionCore = await (await importFreshModule()).load();
   const simulationNames = ['AlphaCalibrator', 'ArcAnatomy', 'BananaMachine', 'DeadReckoning', 'MapSqueeze', 'OdometryDecomposer'];
   const modelNames = ['OdometryModel', 'VelocityModel'];
   const functionNames = ['calibrate', 'commandReaching', 'decompose', 'invertArc', 'propagate', 'randomSeed', 'readMapImage', 'unbendGaussian', 'unbendLine'];
-  assert.deepEqual(Object.keys(motion).sort(), [...simulationNames, ...modelNames, ...functionNames, 'se2'].sort());
+  assert.deepEqual(Object.keys(motionCore).sort(), [...simulationNames, ...modelNames, ...functionNames, 'se2'].sort());
   for (const [classNames, memberNames] of [[simulationNames, ['configure', 'config', 'stats']], [modelNames, ['prob', 'poseDensity', 'sample']]]) {
-    for (const name of classNames) {
-      for (const memberName of [...memberNames, 'free', Symbol.dispose]) assert.ok(memberName in motion[name].prototype, `${name}: ${String(memberName)}`);
+    for (const caseName of classNames) {
+      for (const memberName of [...memberNames, 'free', Symbol.dispose]) assert.ok(memberName in motionCore[caseName].prototype, `${caseName}: ${String(memberName)}`);
     }
   }
   const se2FunctionNames = ['adjoint', 'boxminus', 'boxplus', 'compose', 'exp', 'inverse', 'log', 'rightJacobian'];
-  assert.deepEqual(Object.keys(motion.se2).sort(), se2FunctionNames);
+  assert.deepEqual(Object.keys(motionCore.se2).sort(), se2FunctionNames);
 });
 
 test('a new simulation has the default settings of its declarations', async () => {
-  const motion = await (await importFreshModule()).load();
+  const motionCore = await (await importFreshModule()).load();
   for (const [widgetTag, declaredSettings] of Object.entries(settings)) {
-    const SimulationClass = motion[toPascalCase(widgetTag)];
-    const fieldsOf = (/** @type {string} */ groupKey) => declaredSettings.filter((setting) => setting.in === groupKey).map(({ key, field = key, default: value }) => [field, value]);
-    const topLevelSettings = declaredSettings.filter((setting) => !setting.in && !setting.of).map(({ key, type, default: value }) => [key, type === 'group' ? Object.fromEntries(fieldsOf(key)) : value]);
+    const SimulationClass = motionCore[toPascalCase(widgetTag)];
+    const fieldsOf = (/** @type {string} */ groupKey) => declaredSettings.filter((settingDeclaration) => settingDeclaration.in === groupKey).map(({ key: settingKey, field = settingKey, default: settingValue }) => [field, settingValue]);
+    const topLevelSettings = declaredSettings.filter((settingDeclaration) => !settingDeclaration.in && !settingDeclaration.of).map(({ key: settingKey, type, default: settingValue }) => [settingKey, type === 'group' ? Object.fromEntries(fieldsOf(settingKey)) : settingValue]);
     assert.deepEqual(new SimulationClass().config, Object.fromEntries(topLevelSettings), widgetTag);
   }
 });
@@ -86,9 +86,9 @@ test('a simulation computes, rejects invalid input with an error class and messa
 
 test('calibrate accepts coordinates up to the same limit as the readers of logs', async () => {
   const { calibrate } = await (await importFreshModule()).load();
-  const reference = { t: [0, 1], x: [0, 1], y: [0, 0], theta: [0, 0] };
-  const createOdometryTo = (/** @type {number} */ x) => ({ ...reference, x: [0, x] });
-  assert.throws(() => calibrate({ odometry: createOdometryTo(MAX_VALUE), reference }), { message: /^not enough data: \d legs/ });
+  const referenceLog = { t: [0, 1], x: [0, 1], y: [0, 0], theta: [0, 0] };
+  const createOdometryTo = (/** @type {number} */ x) => ({ ...referenceLog, x: [0, x] });
+  assert.throws(() => calibrate({ odometry: createOdometryTo(MAX_VALUE), reference: referenceLog }), { message: /^not enough data: \d legs/ });
   const expectedError = { message: /^odometry\.x\[1\] is 2000000000; allowed / };
-  assert.throws(() => calibrate({ odometry: createOdometryTo(2 * MAX_VALUE), reference }), expectedError);
+  assert.throws(() => calibrate({ odometry: createOdometryTo(2 * MAX_VALUE), reference: referenceLog }), expectedError);
 });

@@ -11,14 +11,14 @@ const readText = (/** @type {string} */ repositoryPath) => readFileSync(new URL(
 
 /** @type {import('../digest/digest.js').Configurations} */
 const configurationList = JSON.parse(readText('tests/digest/configurations.json'));
-const core = await (await importFreshModule()).load();
+const motionCore = await (await importFreshModule()).load();
 
 /** Exports that the digest leaves to tests/web and tests/native: functions without random numbers, and the models. */
 const EXCLUDED_EXPORTS = new Set(['VelocityModel', 'OdometryModel', 'invertArc', 'decompose', 'propagate', 'se2', 'calibrate']);
 
 /** Classes of the simulations in core.js, by tag name. @type {Map<string, any>} */
 const simulationClasses = new Map(
-  Object.entries(core)
+  Object.entries(motionCore)
     .filter(([exportName, exportedValue]) => 'free' in (exportedValue.prototype ?? {}) && !EXCLUDED_EXPORTS.has(exportName))
     .map(([className, exportedClass]) => [className.replace(/\B[A-Z]/g, '-$&').toLowerCase(), exportedClass]),
 );
@@ -26,7 +26,7 @@ const simulationClasses = new Map(
 const goldenDigest = readText('tests/digest/golden.txt');
 
 test('the results of each seed equal the golden digest, to the last bit', async () => {
-  const computedDigest = await computeDigest(core, configurationList);
+  const computedDigest = await computeDigest(motionCore, configurationList);
   if (process.env.UPDATE_DIGEST) writeFileSync(new URL('../digest/golden.txt', import.meta.url), computedDigest);
   else assert.deepEqual(findDifferences(goldenDigest, computedDigest), []);
 });
@@ -36,8 +36,8 @@ test('every widget and class of the core has configurations, and the digest call
   assert.deepEqual(Object.keys(configurationList.widgets).sort(), listedTags.sort(), 'www/motion-widgets.ts');
   assert.deepEqual(Object.keys(configurationList.widgets).sort(), [...simulationClasses.keys()].sort(), 'core.js');
   assert.deepEqual(Object.keys(resultFunctions).sort(), listedTags, 'digest.js');
-  const functionNames = Object.keys(core).filter((name) => !('free' in (core[name].prototype ?? {})) && !MEMBERS_TESTED_ELSEWHERE.has(name) && !EXCLUDED_EXPORTS.has(name));
-  for (const name of functionNames) assert.match(readText('tests/digest/digest.js'), new RegExp(`\\b${name}\\(`));
+  const functionNames = Object.keys(motionCore).filter((caseName) => !('free' in (motionCore[caseName].prototype ?? {})) && !MEMBERS_TESTED_ELSEWHERE.has(caseName) && !EXCLUDED_EXPORTS.has(caseName));
+  for (const caseName of functionNames) assert.match(readText('tests/digest/digest.js'), new RegExp(`\\b${caseName}\\(`));
   const configurationCount = Object.values(configurationList.widgets).reduce((countSum, { configurations }) => countSum + Object.keys(configurations).length, 0);
   // golden.txt must have no lines of configurations that were removed.
   assert.equal(configurationCount, readText('tests/digest/golden.txt').match(/^.+$/gm)?.length);
@@ -47,24 +47,24 @@ for (const [widgetTag, { configurations }] of Object.entries(configurationList.w
   const coveredValuesOf = (/** @type {string} */ settingKey) => new Set(Object.values(configurations).map((configuration) => JSON.stringify(configuration.settings[settingKey])));
 
   test(`configurations of ${widgetTag} cover every setting, every keyword and every preset`, () => {
-    for (const { key, type, words, nullable, default: defaultValue, in: groupKey } of settings[widgetTag]) {
+    for (const { key: settingKey, type, words, nullable, default: defaultValue, in: groupKey } of settings[widgetTag]) {
       if (groupKey) continue;
-      const coveredValues = coveredValuesOf(key);
+      const coveredValues = coveredValuesOf(settingKey);
       const allowedValues = type === 'boolean' ? [true, false] : (words ?? []);
-      for (const allowedValue of allowedValues) assert.ok(coveredValues.has(JSON.stringify(allowedValue)) || allowedValue === defaultValue, `${key}: ${allowedValue}`);
+      for (const allowedValue of allowedValues) assert.ok(coveredValues.has(JSON.stringify(allowedValue)) || allowedValue === defaultValue, `${settingKey}: ${allowedValue}`);
       const otherValues = [...coveredValues].filter((coveredValue) => coveredValue !== undefined && coveredValue !== JSON.stringify(defaultValue));
-      assert.ok(otherValues.length > 0, `${key} is never set`);
-      if (nullable && defaultValue !== null && type !== 'number') assert.ok(coveredValues.has('null'), `${key}: null`);
+      assert.ok(otherValues.length > 0, `${settingKey} is never set`);
+      if (nullable && defaultValue !== null && type !== 'number') assert.ok(coveredValues.has('null'), `${settingKey}: null`);
     }
-    for (const { name } of presets[/** @type {keyof typeof presets} */ (widgetTag)]) {
-      assert.ok(Object.values(configurations).some(({ preset }) => preset === name), `preset ${name}`);
+    for (const { name: caseName } of presets[/** @type {keyof typeof presets} */ (widgetTag)]) {
+      assert.ok(Object.values(configurations).some(({ preset }) => preset === caseName), `preset ${caseName}`);
     }
   });
 
   test(`the digest of ${widgetTag} contains every result of its simulation`, () => {
     const functionText = resultFunctions[widgetTag].toString();
     const memberNames = Object.getOwnPropertyNames(simulationClasses.get(widgetTag).prototype);
-    const missingNames = memberNames.filter((name) => !MEMBERS_TESTED_ELSEWHERE.has(name) && !new RegExp(`\\b${name}\\b`).test(functionText));
+    const missingNames = memberNames.filter((caseName) => !MEMBERS_TESTED_ELSEWHERE.has(caseName) && !new RegExp(`\\b${caseName}\\b`).test(functionText));
     assert.deepEqual(missingNames, [], `ask for them in digest.js and in tests/digest/`);
   });
 }

@@ -27,7 +27,7 @@ function createDriveMessages() {
     // Messages are recorded a little later than their stamps.
     const [t, recordingTime] = [timeOf(i), timeOf(i) + 0.01];
     const [x, y, theta] = [i / 100, i / 200, i / 50];
-    const addMessage = (/** @type {string} */ topic, /** @type {string} */ type, /** @type {any} */ message) => driveMessages.push({ topic, type, t: recordingTime, message });
+    const addMessage = (/** @type {string} */ topicName, /** @type {string} */ type, /** @type {any} */ rosMessage) => driveMessages.push({ topic: topicName, type, t: recordingTime, message: rosMessage });
     if (i === MESSAGE_COUNT - 1) addMessage('/tf_static', TF_TYPE, { transforms: [transformMessageOf(t, '/base_footprint', 'base_link', 0.5, 0, 0)] });
     if (i % 5 === 0) addMessage('/tf', TF_TYPE, { transforms: [transformMessageOf(t + 1, 'map', 'odom', 1, 2, Math.PI / 2)] });
     addMessage('/tf', TF_TYPE, { transforms: [transformMessageOf(t, 'odom', 'base_footprint', x, y, theta), transformMessageOf(t, 'base_link', 'wheel', 0, 0, 9 * theta)] });
@@ -53,7 +53,7 @@ test('topics are listed, and logs of topics and of chains of frames are read in 
   const [recording] = await openRecordings([mcapFile]);
   assert.equal(recording.recordingFormat, 'mcap');
   assert.deepEqual(
-    recording.seriesList.map(({ seriesName: name, messageCount: count, seriesKind: kind }) => [name, count, kind]),
+    recording.seriesList.map(({ seriesName: caseName, messageCount: count, seriesKind: kind }) => [caseName, count, kind]),
     [
       ['/chatter', MESSAGE_COUNT, null], ['/cmd_vel', MESSAGE_COUNT, 'commands'], ['/mocap/pose', MESSAGE_COUNT, 'poses'], ['/odom', MESSAGE_COUNT, 'poses'],
       ['/tf', MESSAGE_COUNT + MESSAGE_COUNT / 5, 'transforms'], ['/tf_static', 1, 'transforms'],
@@ -61,13 +61,13 @@ test('topics are listed, and logs of topics and of chains of frames are read in 
   );
   assert.equal(recording.seriesList[3].messageType, ODOMETRY_TYPE);
 
-  const logs = await recording.readLogs([
+  const robotLogs = await recording.readLogs([
     ...['/odom', '/cmd_vel'].map((seriesName) => ({ seriesName })),
     ...[['map', '/base_link'], ['odom', 'base_footprint']].map(([parentFrame, childFrame]) => ({ seriesName: '/tf', framePair: { parent: parentFrame, child: childFrame } })),
   ]);
-  for (const log of logs) assert.deepEqual([log.startTime, log.motionData.t.length, log.logSummary.notes], [START_TIME, MESSAGE_COUNT, []], log.logName);
-  assert.deepEqual(await readLog(mcapFile, { seriesName: '/odom' }), logs[0]);
-  const [odometryData, commandData, mapToBase, odomToFootprint] = logs.map(({ motionData: data }) => /** @type {any} */ (data));
+  for (const log of robotLogs) assert.deepEqual([log.startTime, log.motionData.t.length, log.logSummary.notes], [START_TIME, MESSAGE_COUNT, []], log.logName);
+  assert.deepEqual(await readLog(mcapFile, { seriesName: '/odom' }), robotLogs[0]);
+  const [odometryData, commandData, mapToBase, odomToFootprint] = robotLogs.map(({ motionData: logColumns }) => /** @type {any} */ (logColumns));
   assertAllClose(odometryData.t, (i) => i / 20);
   // Messages of a type without a stamp have the time of recording.
   assertAllClose(commandData.t, (i) => i / 20 + 0.01);
@@ -94,8 +94,8 @@ test('an incomplete index is not used', async () => {
 
 test('stamps that begin at 0 are used; messages without stamps get the recording times, with a note in the summary', async () => {
   const readLogWithStamps = async (/** @type {(i: number) => number} */ frameStampOf) => {
-    const messages = createOdometryMessages(100, (i) => odometryMessageOf(frameStampOf(i), i, 0, 0)).map((message, i) => ({ ...message, t: 1_700_000_000 + i / 20 }));
-    const log = await readLog(mcapFileOf(await recordingOf(messages)), { seriesName: '/odom' });
+    const rosMessages = createOdometryMessages(100, (i) => odometryMessageOf(frameStampOf(i), i, 0, 0)).map((rosMessage, i) => ({ ...rosMessage, t: 1_700_000_000 + i / 20 }));
+    const log = await readLog(mcapFileOf(await recordingOf(rosMessages)), { seriesName: '/odom' });
     return { ...log, sentences: summarySentencesOf(log, english.found).join(' ') };
   };
   const simulatedLog = await readLogWithStamps((i) => i / 10);
@@ -105,31 +105,31 @@ test('stamps that begin at 0 are used; messages without stamps get the recording
   assert.deepEqual([unstampedLog.startTime, unstampedLog.motionData.t.length, unstampedLog.motionData.t[20]], [1_700_000_000, 100, 1]);
   assert.match(unstampedLog.sentences, /times: when messages were recorded/);
   assert.doesNotMatch(simulatedLog.sentences, /recorded/);
-  const recordingWithoutHeader = await recordingOf(createOdometryMessages(100).map((message, i) => ({ ...message, type: 'geometry_msgs/msg/Pose', t: 1_700_000_000 + i / 20, message: poseOf(i, 0, 0) })));
+  const recordingWithoutHeader = await recordingOf(createOdometryMessages(100).map((rosMessage, i) => ({ ...rosMessage, type: 'geometry_msgs/msg/Pose', t: 1_700_000_000 + i / 20, message: poseOf(i, 0, 0) })));
   assert.deepEqual((await readLog(mcapFileOf(recordingWithoutHeader), { seriesName: '/odom' })).motionData, unstampedLog.motionData);
 });
 
 test('poses with rotations about other axes than Z are refused', async () => {
-  const messages = createOdometryMessages(100, (i) => {
-    const message = odometryMessageOf(timeOf(i), 0, 0, 0);
-    return { ...message, pose: { ...message.pose, pose: { position: { x: i / 100, y: 0, z: 0 }, orientation: { x: 0, y: Math.sin(i / 50), z: 0, w: Math.cos(i / 50) } } } };
+  const rosMessages = createOdometryMessages(100, (i) => {
+    const rosMessage = odometryMessageOf(timeOf(i), 0, 0, 0);
+    return { ...rosMessage, pose: { ...rosMessage.pose, pose: { position: { x: i / 100, y: 0, z: 0 }, orientation: { x: 0, y: Math.sin(i / 50), z: 0, w: Math.cos(i / 50) } } } };
   });
-  assert.match(await catchRefusalSentence(readLog(mcapFileOf(await recordingOf(messages)), { seriesName: '/odom' })), /^run\.mcap, topic \/odom: the poses do not turn about a vertical Z axis; export or record them again with Z up\.$/);
+  assert.match(await catchRefusalSentence(readLog(mcapFileOf(await recordingOf(rosMessages)), { seriesName: '/odom' })), /^run\.mcap, topic \/odom: the poses do not turn about a vertical Z axis; export or record them again with Z up\.$/);
 });
 
 test('unusable quaternions, numbers and times are left out', async () => {
-  const messages = createOdometryMessages(20, (i) => odometryMessageOf(i === 8 ? timeOf(2) : timeOf(i), { 5: NaN, 11: 1e300 }[i] ?? i, 0, 0, i === 3 ? 0 : 1));
-  const { motionData: data, logSummary: summary } = await readLog(mcapFileOf(await recordingOf(messages)), { seriesName: '/odom' });
-  assert.deepEqual([.../** @type {any} */ (data).x], Array.from({ length: 20 }, (_, i) => i).filter((i) => ![3, 5, 8, 11].includes(i)));
-  assert.deepEqual(summary.dropped, { noRotation: { count: 1, first: 4 }, notFinite: { count: 2, first: 6 }, duplicate: { count: 1, first: 9 } });
-  assert.deepEqual([...data.breaks], []);
+  const rosMessages = createOdometryMessages(20, (i) => odometryMessageOf(i === 8 ? timeOf(2) : timeOf(i), { 5: NaN, 11: 1e300 }[i] ?? i, 0, 0, i === 3 ? 0 : 1));
+  const { motionData: logColumns, logSummary } = await readLog(mcapFileOf(await recordingOf(rosMessages)), { seriesName: '/odom' });
+  assert.deepEqual([.../** @type {any} */ (logColumns).x], Array.from({ length: 20 }, (_, i) => i).filter((i) => ![3, 5, 8, 11].includes(i)));
+  assert.deepEqual(logSummary.dropped, { noRotation: { count: 1, first: 4 }, notFinite: { count: 2, first: 6 }, duplicate: { count: 1, first: 9 } });
+  assert.deepEqual([...logColumns.breaks], []);
 });
 
 test('messages in chunks that overlap in time are read in the order of their times', async () => {
-  const messages = createOdometryMessages(200);
-  const shuffledMessages = messages.map((_, i) => messages[(i * 77) % 200]);
-  const { motionData: data } = await readLog(mcapFileOf(await recordingOf(shuffledMessages, { chunkSize: 4096 })), { seriesName: '/odom' });
-  assert.deepEqual([.../** @type {any} */ (data).x], Array.from({ length: 200 }, (_, i) => i));
+  const rosMessages = createOdometryMessages(200);
+  const shuffledMessages = rosMessages.map((_, i) => rosMessages[(i * 77) % 200]);
+  const { motionData: logColumns } = await readLog(mcapFileOf(await recordingOf(shuffledMessages, { chunkSize: 4096 })), { seriesName: '/odom' });
+  assert.deepEqual([.../** @type {any} */ (logColumns).x], Array.from({ length: 200 }, (_, i) => i));
 });
 
 test('topics and frames that cannot be read are refused', async () => {
@@ -150,8 +150,8 @@ test('a static transform is valid from the beginning, and a changing transform f
     ...(i % 3 === 0 && i >= 30 ? [transformMessageOf(i / 10, 'marker', 'base', mountXOfMessage(i), 0, 0)] : []),
   ].map((transform) => ({ topic: '/tf', type: TF_TYPE, t: i / 10, message: { transforms: [transform] } }))).flat();
   const readLogWithMount = async (/** @type {(i: number) => number} */ mountXOfMessage) => {
-    const { startTime: start, motionData: data, logSummary: summary } = await readLog(mcapFileOf(await recordingOf(createTransformMessages(mountXOfMessage))), { seriesName: '/tf', framePair: { parent: 'world', child: 'base' } });
-    return [data.t.length, start + data.t[0], /** @type {any} */ (data).x[0], summary.rows];
+    const { startTime: start, motionData: logColumns, logSummary } = await readLog(mcapFileOf(await recordingOf(createTransformMessages(mountXOfMessage))), { seriesName: '/tf', framePair: { parent: 'world', child: 'base' } });
+    return [logColumns.t.length, start + logColumns.t[0], /** @type {any} */ (logColumns).x[0], logSummary.rows];
   };
   assert.deepEqual(await readLogWithMount(() => 0.5), [60, 0, 0.5, 60]);
   // A static transform may be published again with another value. Its times are not times of the pose.
@@ -167,14 +167,14 @@ test('positions without a heading are refused, and the message names their type'
   const pointMessages = Array.from({ length: 20 }, (_, i) => ({
     topic: '/prism', type: 'geometry_msgs/msg/PointStamped', t: i / 10, message: { header: { stamp: stampOf(i / 10), frame_id: 'world' }, point: { x: i / 20, y: 0, z: 0 } },
   }));
-  const [recording] = await openRecordings([mcapFileOf(await recordingOf([...createDriveMessages().filter(({ topic }) => topic === '/odom'), ...pointMessages]))]);
+  const [recording] = await openRecordings([mcapFileOf(await recordingOf([...createDriveMessages().filter(({ topic: topicName }) => topicName === '/odom'), ...pointMessages]))]);
   const expectedError = /^run\.mcap: \/prism \(PointStamped\) are positions without a heading; give a reference that measures the heading, /;
   assert.match(await catchRefusalSentence((async () => planDrives([recording]))()), expectedError);
   assert.match(await catchRefusalSentence(recording.readLogs([{ seriesName: '/prism' }])), /^run\.mcap, topic \/prism: geometry_msgs\/msg\/PointStamped are positions without a heading; /);
 });
 
 test('recordings with an unsupported compression or encoding, with too few messages or with too short ones are refused', async () => {
-  const refusalOf = async (/** @type {Parameters<typeof recordingOf>[1]} */ recordingOptions, messages = createDriveMessages()) => catchRefusalSentence(readLog(mcapFileOf(await recordingOf(messages, recordingOptions)), { seriesName: '/odom' }));
+  const refusalOf = async (/** @type {Parameters<typeof recordingOf>[1]} */ recordingOptions, rosMessages = createDriveMessages()) => catchRefusalSentence(readLog(mcapFileOf(await recordingOf(rosMessages, recordingOptions)), { seriesName: '/odom' }));
   assert.equal(await refusalOf({ compression: 'odd' }), 'run.mcap, topic /odom: it is damaged or incomplete (compression by snappy, not by zstd or lz4); copy it again from the robot, or try “mcap recover”.');
   assert.match(await refusalOf({ encoding: 'json' }), /^run\.mcap, topic \/odom: its type is “nav_msgs\/msg\/Odometry as json”; /);
   const [jsonRecording] = await openRecordings([mcapFileOf(await recordingOf(createOdometryMessages(3), { encoding: 'json' }))]);
@@ -182,7 +182,7 @@ test('recordings with an unsupported compression or encoding, with too few messa
   assert.equal(await refusalOf({}, []), 'run.mcap: 0 of 0 rows can be used; expected are at least 2.');
   assert.equal(await refusalOf({}, createDriveMessages().slice(0, 6)), 'run.mcap, topic /odom: 1 of 1 rows can be used; expected are at least 2.');
   // The type of these messages is odometry, and their contents are too short.
-  const shortMessages = createOdometryMessages(3, () => ({ data: 'x' })).map((message) => ({ ...message, type: 'std_msgs/msg/String', schema: ODOMETRY_TYPE }));
+  const shortMessages = createOdometryMessages(3, () => ({ data: 'x' })).map((rosMessage) => ({ ...rosMessage, type: 'std_msgs/msg/String', schema: ODOMETRY_TYPE }));
   assert.match(await refusalOf({}, shortMessages), /^run\.mcap, topic \/odom, message 1: it cannot be read \(.+\); expected is one of the topic's type\.$/);
 });
 

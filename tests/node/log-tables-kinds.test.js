@@ -18,7 +18,7 @@ async function readTable(tableText, openOptions, seriesName = '') {
 const CIRCLE_ROWS = Array.from({ length: 800 }, (_, i) => [i / 20, Math.sin(i / 40), -Math.cos(i / 40), Math.atan2(Math.sin(i / 40), Math.cos(i / 40))]);
 
 /** Returns a table of the drive on the circle. @param {(row: number[], i: number) => (string | number)[]} [cellsOf] of each row @param {string} [headerLine] */
-const circleTableOf = (cellsOf = (row) => row, headerLine = 't,x,y,yaw') => [headerLine, ...CIRCLE_ROWS.map((row, i) => cellsOf(row, i).join(','))].join('\n');
+const circleTableOf = (cellsOf = (tableRow) => tableRow, headerLine = 't,x,y,yaw') => [headerLine, ...CIRCLE_ROWS.map((tableRow, i) => cellsOf(tableRow, i).join(','))].join('\n');
 
 /** Returns a table of a robot that drives straight on, with a row at each time. @param {(number | string)[]} rowTimes */
 const createStraightTable = (rowTimes) => ['t,x,y,yaw', ...rowTimes.map((t, i) => `${t},${i / 50},0,0`)].join('\n');
@@ -29,9 +29,9 @@ test('present Unix times keep their microseconds, in every unit', async () => {
   for (const [timeUnit, decimalDigits] of Object.entries({ ns: 0, us: 3, ms: 6, s: 9 })) {
     const [firstTime, secondTime] = nanosecondTexts.map((nanosecondText) => (decimalDigits ? `${nanosecondText.slice(0, -decimalDigits)}.${nanosecondText.slice(-decimalDigits)}` : nanosecondText));
     for (const headerLine of ['t', `t_${timeUnit}`]) {
-      const { data, startTime: start, logSummary: summary } = await readTable(`${headerLine},x,y,yaw\n${firstTime},0,0,0\n${secondTime},0,0,0`);
-      assert.deepEqual([start, summary.units.time], [1_699_999_999, { unit: timeUnit, by: headerLine === 't' ? 'size' : 'name' }]);
-      assert.deepEqual([...data.t].map((t) => Math.round(t * 1e6)), [999_999, 1_000_001]);
+      const { data: logColumns, startTime: start, logSummary } = await readTable(`${headerLine},x,y,yaw\n${firstTime},0,0,0\n${secondTime},0,0,0`);
+      assert.deepEqual([start, logSummary.units.time], [1_699_999_999, { unit: timeUnit, by: headerLine === 't' ? 'size' : 'name' }]);
+      assert.deepEqual([...logColumns.t].map((t) => Math.round(t * 1e6)), [999_999, 1_000_001]);
     }
   }
 });
@@ -44,8 +44,8 @@ test('numbers are read as the nearest doubles', async () => {
 
 test('unusable rows are dropped and do not interrupt the path; the summary names the first line of each cause', async () => {
   const tableRows = ['0,0,0,0', '1,nan,0,0', '2,,0,0', '3,0,0,0', '3,1,0,0', '4,0,0,0', '5,0,inf,0', 'NaN,0,0,0', '6,0,0,0', '7,0', ...createTimes(90, 8).map((t) => `${t},0,0,0`), '17,0', '17.1,0,0.0.1,0', '18,0,0,0', '19,0'];
-  const { data, logSummary: { dropped, rows: rowCount, notes } } = await readTable(`t,x,y,yaw\n${tableRows.join('\n')}`);
-  assert.deepEqual([[...data.t], [...data.breaks]], [[0, 3, 4, 6, ...createTimes(90, 8), 18], []]);
+  const { data: logColumns, logSummary: { dropped, rows: rowCount, notes } } = await readTable(`t,x,y,yaw\n${tableRows.join('\n')}`);
+  assert.deepEqual([[...logColumns.t], [...logColumns.breaks]], [[0, 3, 4, 6, ...createTimes(90, 8), 18], []]);
   assert.deepEqual(dropped, { notFinite: { count: 4, first: 3 }, short: { count: 3, first: 11 }, text: { count: 1, first: 103 }, duplicate: { count: 1, first: 6 } });
   assert.deepEqual([rowCount, notes], [tableRows.length, [{ name: 'cutShort', values: [] }]]);
   // If the last number has fewer decimals than all others, and no line break follows, the number is taken for truncated.
@@ -55,9 +55,9 @@ test('unusable rows are dropped and do not interrupt the path; the summary names
 
 test('late rows are sorted, and an isolated time has gaps before and after it', async () => {
   const nanosecondTexts = createTimes(50);
-  const { data, logSummary: summary } = await readTable(createStraightTable([...nanosecondTexts.slice(0, 20), nanosecondTexts[22], nanosecondTexts[20], nanosecondTexts[21], ...nanosecondTexts.slice(23)]));
-  assert.deepEqual([[...data.t], [...data.breaks]], [nanosecondTexts, []]);
-  assert.deepEqual([data.x[20], summary.notes], [21 / 50, [{ name: 'sorted', values: [2] }]]);
+  const { data: logColumns, logSummary } = await readTable(createStraightTable([...nanosecondTexts.slice(0, 20), nanosecondTexts[22], nanosecondTexts[20], nanosecondTexts[21], ...nanosecondTexts.slice(23)]));
+  assert.deepEqual([[...logColumns.t], [...logColumns.breaks]], [nanosecondTexts, []]);
+  assert.deepEqual([logColumns.x[20], logSummary.notes], [21 / 50, [{ name: 'sorted', values: [2] }]]);
   const swappedLog = await readTable(createStraightTable([...createTimes(50, 100), ...createTimes(50)]));
   assert.deepEqual([swappedLog.data.t.length, swappedLog.data.t[0], swappedLog.data.x[0]], [100, 0, 1]);
   for (const [isolatedTime, expectedOrder] of /** @type {[number, number[]][]} */ ([[1e6, [...nanosecondTexts.keys()].toSpliced(20, 1).concat(20)], [-1e6, [20, ...[...nanosecondTexts.keys()].toSpliced(20, 1)]]])) {
@@ -71,15 +71,15 @@ test('a shuffled log is sorted, but a log with alternating times of two clocks i
   const rowOrder = rowLines.map((_, i) => (i * 301) % rowLines.length);
   for (const shuffleRange of [8, rowLines.length]) {
     const shuffledIndices = rowLines.map((_, i) => i).toSorted((rowIndex, otherRowIndex) => rowIndex + (rowOrder[rowIndex] % shuffleRange) - otherRowIndex - (rowOrder[otherRowIndex] % shuffleRange));
-    const { data, logSummary: summary } = await readTable([headerLine, ...shuffledIndices.map((i) => rowLines[i])].join('\n'));
-    assert.deepEqual([[...data.x], [...data.breaks], summary.used], [CIRCLE_ROWS.map(([, x]) => x), [], rowLines.length]);
-    assert.ok(summary.notes[0].name === 'sorted' && Number(summary.notes[0].values[0]) > rowLines.length / 8, JSON.stringify(summary.notes));
+    const { data: logColumns, logSummary } = await readTable([headerLine, ...shuffledIndices.map((i) => rowLines[i])].join('\n'));
+    assert.deepEqual([[...logColumns.x], [...logColumns.breaks], logSummary.used], [CIRCLE_ROWS.map(([, x]) => x), [], rowLines.length]);
+    assert.ok(logSummary.notes[0].name === 'sorted' && Number(logSummary.notes[0].values[0]) > rowLines.length / 8, JSON.stringify(logSummary.notes));
   }
   // Times of rows vary by a fifth of a step, and every third row comes late.
   const jitteredRows = CIRCLE_ROWS.map(([t, ...poseCells], i) => [t + ((rowOrder[i] % 21) - 10) / 1000, ...poseCells]);
   const tableWithLateRows = jitteredRows.map((_, i) => i).toSorted((index, otherIndex) => index + (index % 3 ? 0 : 3.5) - otherIndex - (otherIndex % 3 ? 0 : 3.5)).map((i) => jitteredRows[i].join(','));
   assert.deepEqual([...(await readTable([headerLine, ...tableWithLateRows].join('\n'))).data.x], CIRCLE_ROWS.map(([, x]) => x));
-  const rowsOfTwoClocks = rowLines.flatMap((row, i) => [row, [CIRCLE_ROWS[i][0] + 5.02, ...CIRCLE_ROWS[rowLines.length - 1 - i].slice(1)].join(',')]);
+  const rowsOfTwoClocks = rowLines.flatMap((tableRow, i) => [tableRow, [CIRCLE_ROWS[i][0] + 5.02, ...CIRCLE_ROWS[rowLines.length - 1 - i].slice(1)].join(',')]);
   assert.match(await catchRefusalSentence(readTable([headerLine, ...rowsOfTwoClocks].join('\n'))), /^run\.csv, line 202: times go back by 4\.97 s and repeat those before;/);
 });
 
@@ -97,31 +97,31 @@ test('a log whose clock was set back is refused', async () => {
 });
 
 test('zero bytes in a table remove only the row that contains them', async () => {
-  const [header, ...tableRows] = circleTableOf().split('\n');
+  const [headerLine, ...tableRows] = circleTableOf().split('\n');
   for (const rowIndex of [100, 700]) {
-    const { data, logSummary: summary } = await readTable([header, ...tableRows.with(rowIndex, `${tableRows[rowIndex].slice(0, 9)}${'\0'.repeat(100_000)}${tableRows[rowIndex + 1].slice(5)}`)].join('\n'));
-    assert.deepEqual([data.t.length, summary.dropped, [...data.breaks]], [tableRows.length - 1, { text: { count: 1, first: rowIndex + 2 } }, []]);
+    const { data: logColumns, logSummary } = await readTable([headerLine, ...tableRows.with(rowIndex, `${tableRows[rowIndex].slice(0, 9)}${'\0'.repeat(100_000)}${tableRows[rowIndex + 1].slice(5)}`)].join('\n'));
+    assert.deepEqual([logColumns.t.length, logSummary.dropped, [...logColumns.breaks]], [tableRows.length - 1, { text: { count: 1, first: rowIndex + 2 } }, []]);
   }
-  assert.match(await catchRefusalSentence(readTable([header, ...tableRows, '\0'.repeat(5_000_000)].join('\n'))), /^run\.csv, line 802: the line has more than 65536 bytes;/);
+  assert.match(await catchRefusalSentence(readTable([headerLine, ...tableRows, '\0'.repeat(5_000_000)].join('\n'))), /^run\.csv, line 802: the line has more than 65536 bytes;/);
 });
 
 test('rows with the stamp 0 are dropped, and the other stamps are still used as the clock', async () => {
   const stampTextOf = (/** @type {number} */ i) => (i < 2 || i === 30 ? 0 : `${1_718_000_000 + Math.floor(i / 8)}${String((i % 8) * 125).padStart(3, '0')}000000`);
   const tableRows = Array.from({ length: 60 }, (_, i) => `${1_718_000_007 + i / 8},${stampTextOf(i)},${i / 20},0,0`);
-  const { startTime: start, data, logSummary: summary } = await readTable(['time,header.stamp,x,y,yaw', ...tableRows].join('\n'));
-  assert.deepEqual([start, data.t.length, data.t[0], summary.clock, summary.units.time.unit], [1_718_000_000, 57, 0.25, 'header.stamp', 'ns']);
-  assert.deepEqual([summary.dropped, [...data.breaks]], [{ noStamp: { count: 3, first: 2 } }, []]);
-  const frozenStampLog = await readTable(['time,header.stamp,x,y,yaw', ...tableRows.map((row) => row.replace(/,\d+/, ',1718000000000000000'))].join('\n'));
+  const { startTime: start, data: logColumns, logSummary } = await readTable(['time,header.stamp,x,y,yaw', ...tableRows].join('\n'));
+  assert.deepEqual([start, logColumns.t.length, logColumns.t[0], logSummary.clock, logSummary.units.time.unit], [1_718_000_000, 57, 0.25, 'header.stamp', 'ns']);
+  assert.deepEqual([logSummary.dropped, [...logColumns.breaks]], [{ noStamp: { count: 3, first: 2 } }, []]);
+  const frozenStampLog = await readTable(['time,header.stamp,x,y,yaw', ...tableRows.map((tableRow) => tableRow.replace(/,\d+/, ',1718000000000000000'))].join('\n'));
   assert.deepEqual([frozenStampLog.data.t.length, frozenStampLog.logSummary.clock, frozenStampLog.logSummary.columns?.t], [60, 'time', 'time']);
 });
 
 test('poses that a table repeats at the rate of another log are used once', async () => {
-  const { data, logSummary: summary } = await readTable(circleTableOf((row, i) => [row[0], ...CIRCLE_ROWS[i - (i % 5)].slice(1)]));
-  assert.deepEqual([data.t.length, data.t[1], data.x[1]], [160, 0.25, CIRCLE_ROWS[5][1]]);
-  assert.deepEqual([summary.dropped, [...data.breaks]], [{ repeated: { count: 640, first: 3 } }, []]);
+  const { data: logColumns, logSummary } = await readTable(circleTableOf((tableRow, i) => [tableRow[0], ...CIRCLE_ROWS[i - (i % 5)].slice(1)]));
+  assert.deepEqual([logColumns.t.length, logColumns.t[1], logColumns.x[1]], [160, 0.25, CIRCLE_ROWS[5][1]]);
+  assert.deepEqual([logSummary.dropped, [...logColumns.breaks]], [{ repeated: { count: 640, first: 3 } }, []]);
   // The localizer publishes its last pose again and again until the robot has moved far enough.
   const poseOfRow = Array.from({ length: 700 }, (_, i) => Math.floor(i / 10) * 10 - (i % 70 >= 10 && i % 70 < 16 ? 10 : 0));
-  const republishedLog = await readTable(circleTableOf((row, i) => [row[0], ...CIRCLE_ROWS[poseOfRow[i] ?? 690].slice(1)]));
+  const republishedLog = await readTable(circleTableOf((tableRow, i) => [tableRow[0], ...CIRCLE_ROWS[poseOfRow[i] ?? 690].slice(1)]));
   const timesOfFirstRows = poseOfRow.flatMap((pose, i) => (pose === poseOfRow[i - 1] ? [] : [i / 20]));
   assert.deepEqual([...republishedLog.data.t].slice(0, timesOfFirstRows.length), timesOfFirstRows);
   assert.deepEqual([...republishedLog.data.t].slice(timesOfFirstRows.length).map((t) => Math.round(20 * t)), [700, 710, 720, 730, 740, 750, 760, 770, 780, 790]);
@@ -132,10 +132,10 @@ test('pauses and jumps are found, and a heading that wraps around is not a jump'
   const delayOf = (/** @type {number} */ i) => (i >= 50 ? 0.19 : 0) + (i >= 60 ? 0.21 : 0) + (i >= 100 ? 3 : 0);
   const offsetOf = (/** @type {number} */ i) => (i >= 150 ? 0.34 : 0) + (i >= 200 ? 0.36 : 0);
   const tableRows = Array.from({ length: 400 }, (_, i) => [i / 20 + delayOf(i), i / 20 + offsetOf(i), 0, i / 500 + (i >= 300 ? 1.5 : 0)].join(','));
-  const { logSummary: summary, data } = await readTable(`t,x,y,yaw\n${tableRows.join('\n')}`);
-  assert.deepEqual(summary.gaps, { count: 2, longest: 3.05, first: 59 / 20 + 0.19 });
-  assert.deepEqual([summary.jumps, [...data.breaks]], [{ count: 2, first: 13.4 }, [200, 300]]);
-  assert.ok(summary.distance > 20 && summary.distance < 20.3, `${summary.distance}`);
+  const { logSummary, data: logColumns } = await readTable(`t,x,y,yaw\n${tableRows.join('\n')}`);
+  assert.deepEqual(logSummary.gaps, { count: 2, longest: 3.05, first: 59 / 20 + 0.19 });
+  assert.deepEqual([logSummary.jumps, [...logColumns.breaks]], [{ count: 2, first: 13.4 }, [200, 300]]);
+  assert.ok(logSummary.distance > 20 && logSummary.distance < 20.3, `${logSummary.distance}`);
   assert.equal((await readTable(circleTableOf())).logSummary.jumps.count, 0);
 });
 
@@ -168,10 +168,10 @@ test('units are guessed from two pieces of evidence', async () => {
     [circleTableOf(([t, x, y, yaw]) => [1e9 * t, x, y, yaw], '%time,field.x,field.y,field.theta'), 'ns', 'rad'],
   ];
   for (const [tableText, timeUnit, angleUnit] of unitCases) {
-    const { data, logSummary: { units } } = await readTable(tableText);
+    const { data: logColumns, logSummary: { units } } = await readTable(tableText);
     assert.deepEqual([units.time.unit, units.angle.unit], [timeUnit, angleUnit]);
-    assert.ok(Math.abs(data.t.at(-1) - data.t[0] - CIRCLE_ROWS[799][0]) < 1e-9, `${data.t[799]}`);
-    assert.ok(Math.abs(Math.sin(data.theta[799] - CIRCLE_ROWS[799][3])) < 1e-9, `${data.theta[799]}`);
+    assert.ok(Math.abs(logColumns.t.at(-1) - logColumns.t[0] - CIRCLE_ROWS[799][0]) < 1e-9, `${logColumns.t[799]}`);
+    assert.ok(Math.abs(Math.sin(logColumns.theta[799] - CIRCLE_ROWS[799][3])) < 1e-9, `${logColumns.theta[799]}`);
   }
 });
 
@@ -191,20 +191,20 @@ const UNIT_QUESTIONS = [
 ];
 
 test('columns of times in minutes or hours are refused because of their name', async () => {
-  for (const [header, unit] of [['t_min', 'min'], ['Time [hours]', 'h']]) assert.match(await catchRefusalSentence(readTable(circleTableOf(undefined, `${header},x,y,yaw`))), new RegExp(`^run\\.csv: the unit ${unit} of a column is not known`));
+  for (const [headerLine, unit] of [['t_min', 'min'], ['Time [hours]', 'h']]) assert.match(await catchRefusalSentence(readTable(circleTableOf(undefined, `${headerLine},x,y,yaw`))), new RegExp(`^run\\.csv: the unit ${unit} of a column is not known`));
   assert.equal((await readTable(circleTableOf(([t, ...poseCells]) => [`0:00:${t.toFixed(3).padStart(6, '0')}`, ...poseCells], 'Time [HH:MM:SS],x,y,yaw'))).logSummary.units.time.by, 'date');
 });
 
-for (const [name, tableText, expectedMessage, answerOptions, [fieldName, expectedValue]] of UNIT_QUESTIONS) {
-  test(`the reader asks about ${name}`, async () => {
+for (const [caseName, tableText, expectedMessage, answerOptions, [fieldName, expectedValue]] of UNIT_QUESTIONS) {
+  test(`the reader asks about ${caseName}`, async () => {
     const refusalError = await catchRefusalError(readTable(tableText));
     assert.match(refusalError.message, expectedMessage);
     const [[questionedUnit, chosenUnit]] = Object.entries(answerOptions);
     assert.equal(refusalError.userQuestion?.optionName, questionedUnit);
     assert.ok(refusalError.userQuestion.possibleAnswers.includes(chosenUnit), String(refusalError.userQuestion.possibleAnswers));
-    const { data, logSummary: { units } } = await readTable(tableText, answerOptions);
+    const { data: logColumns, logSummary: { units } } = await readTable(tableText, answerOptions);
     assert.deepEqual(units[/** @type {'time' | 'length' | 'angle'} */ (questionedUnit.replace('Unit', ''))], { unit: chosenUnit, by: 'option' });
-    assert.ok(Math.abs(data[fieldName][9] - expectedValue) < 1e-12, `${data[fieldName][9]}, not ${expectedValue}`);
+    assert.ok(Math.abs(logColumns[fieldName][9] - expectedValue) < 1e-12, `${logColumns[fieldName][9]}, not ${expectedValue}`);
   });
 }
 
@@ -231,13 +231,13 @@ const REFUSED_TABLES = [
   ['a long line', `t,x,y,yaw\n0,0,0,0\n${'1'.repeat(400_000)}`, /, line 3: the line has more than 65536 bytes;/],
   ['few rows', 't,x,y,yaw\nnan,0,0,0\n1,0,0,0', /, line 2: 1 of 2 rows can be used \(a value that is not finite, or above a billion\);/],
   ['a large value', 't,x,y,yaw\n1,0,0,0\n2,0,1e300,0\n', /, line 3: 1 of 2 rows can be used \(a value that is not finite, or above a billion\);/],
-  ['two logs at the same times', circleTableOf((row, i) => row.with(0, CIRCLE_ROWS[i - (i % 2)][0])), /, line 3: 400 of 800 rows, this one first, have the time of another row/],
+  ['two logs at the same times', circleTableOf((tableRow, i) => tableRow.with(0, CIRCLE_ROWS[i - (i % 2)][0])), /, line 3: 400 of 800 rows, this one first, have the time of another row/],
   ['nanoseconds without leading zeros', circleTableOf(([t, ...pose]) => [`${Math.floor(t)}.${Math.round((t % 1) * 1e9)}`, ...pose]), /, line 4: times go back by 0\.400 s and repeat those before; .* write fractions with their leading zeros \(1\.050000000 for 1 s and 50000000 ns\)\.$/],
   ['a height in y, and headings from x to z', circleTableOf(([t, x, y, yaw]) => [t, x, 0.1, y, yaw], 't,x,y,z,yaw'), /the headings follow the path in x and z, so the vertical axis is Y;/],
-  ['several frames', circleTableOf((row, i) => [...row, i % 2 ? 'base' : 'wheel'], 't,x,y,yaw,child_frame_id'), /of several frames, topics or robots \(wheel, base\); keep/],
-  ['robots one after the other', circleTableOf((row, i) => [...row, i >> 9], 't,x,y,yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
-  ['robots one after the other, with a prefix', circleTableOf((row, i) => [...row, i >> 9], 't,odom_x,odom_y,odom_yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
-  ['two robots in turns', circleTableOf((row, i) => [...row, i % 2], 't,x,y,yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
+  ['several frames', circleTableOf((tableRow, i) => [...tableRow, i % 2 ? 'base' : 'wheel'], 't,x,y,yaw,child_frame_id'), /of several frames, topics or robots \(wheel, base\); keep/],
+  ['robots one after the other', circleTableOf((tableRow, i) => [...tableRow, i >> 9], 't,x,y,yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
+  ['robots one after the other, with a prefix', circleTableOf((tableRow, i) => [...tableRow, i >> 9], 't,odom_x,odom_y,odom_yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
+  ['two robots in turns', circleTableOf((tableRow, i) => [...tableRow, i % 2], 't,x,y,yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
   ['two paths', circleTableOf(([t, x, ...yawAndRest], i) => [t, i % 6 ? x : x + 1, ...yawAndRest]), /poses of two paths alternate, 1\.\d m apart: .*; keep those of one\.$/],
   ['Euler angles of Motive', 'Format Version,1.23,Take Name,x,Rotation Type,XYZ,Length Units,Meters\n\n,Type,Rigid Body\n,Name,Robot\n,ID,1\n,,Rotation\nFrame,Time (Seconds),X\n0,0.0,1\n1,0.1,1\n', /Euler angles \(XYZ\); export/],
   ['a program’s messages', '[INFO] [1718000000.1] [amcl]: at 1.0, 2.0\n'.repeat(3), /does not look like a log/],
@@ -246,8 +246,8 @@ const REFUSED_TABLES = [
   ['columns for a table of another width', '0 1 2 3 4\n1 1 2 3 4\n', /has 5 cells, and --columns names 4;/, { columnNames: ['t', 'x', 'y', 'yaw'] }],
 ];
 
-for (const [name, tableText, expectedMessage, options] of REFUSED_TABLES) {
-  test(`the reader refuses ${name}`, async () => {
+for (const [caseName, tableText, expectedMessage, options] of REFUSED_TABLES) {
+  test(`the reader refuses ${caseName}`, async () => {
     const refusalError = await catchRefusalError(readTable(tableText, options));
     assert.match(refusalError.message, expectedMessage);
     assert.match(refusalError.message, /; [a-z].+\.$/);
@@ -262,25 +262,25 @@ for (const [axesName, tableText] of [
   ['y negated', circleTableOf(([t, x, y, yaw]) => [t, x, -y, yaw])],
 ]) {
   test(`the columns proposed for a table with ${axesName} give the path on the floor`, async () => {
-    const { userQuestion: question } = await catchRefusalError(readTable(tableText));
-    const { motionData: data } = await readTable(tableText, { columnNames: question?.possibleAnswers[0].split(',') });
-    assert.deepEqual([[.../** @type {any} */ (data).x], [.../** @type {any} */ (data).y]], [1, 2].map((columnIndex) => CIRCLE_ROWS.map((row) => row[columnIndex])));
+    const { userQuestion } = await catchRefusalError(readTable(tableText));
+    const { motionData: logColumns } = await readTable(tableText, { columnNames: userQuestion?.possibleAnswers[0].split(',') });
+    assert.deepEqual([[.../** @type {any} */ (logColumns).x], [.../** @type {any} */ (logColumns).y]], [1, 2].map((columnIndex) => CIRCLE_ROWS.map((tableRow) => tableRow[columnIndex])));
   });
 }
 
 test('a heading without a prefix belongs to the only path of a table', async () => {
-  const { logSummary: { columns } } = await readTable(circleTableOf((row) => row, 'Frame Time,Center X,Center Y,Rotation'));
-  assert.deepEqual(columns, { t: 'Frame Time', x: 'Center X', y: 'Center Y', yaw: 'Rotation' });
+  const { logSummary: { columns: tableColumns } } = await readTable(circleTableOf((tableRow) => tableRow, 'Frame Time,Center X,Center Y,Rotation'));
+  assert.deepEqual(tableColumns, { t: 'Frame Time', x: 'Center X', y: 'Center Y', yaw: 'Rotation' });
 });
 
 test('a heading beside velocities is not that of a path with a prefix', async () => {
-  const [{ seriesList: series }] = await openRecordings([new File(['t,v,omega,theta,gps.x,gps.y\n0,1,0,0,0,0\n1,1,0,0,1,0\n'], 'run.csv')]);
-  assert.deepEqual(series.map(({ seriesKind: kind }) => kind), ['commands', 'positions']);
+  const [{ seriesList: seriesNames }] = await openRecordings([new File(['t,v,omega,theta,gps.x,gps.y\n0,1,0,0,0,0\n1,1,0,0,1,0\n'], 'run.csv')]);
+  assert.deepEqual(seriesNames.map(({ seriesKind: kind }) => kind), ['commands', 'positions']);
 });
 
 test('a table with more rows than a day at 100 Hz is refused', async () => {
-  const rows = Object.assign(new RowCollector({ fileName: 'run.csv' }), { rowCount: 1e7 - 1 });
-  const addRow = async () => rows.addRow({ sampleTime: 0, a: 0, b: 0, c: 0 }, 1);
+  const tableRows = Object.assign(new RowCollector({ fileName: 'run.csv' }), { rowCount: 1e7 - 1 });
+  const addRow = async () => tableRows.addRow({ sampleTime: 0, a: 0, b: 0, c: 0 }, 1);
   await addRow();
   assert.equal(await catchRefusalSentence(addRow()), 'run.csv: there are more rows; expected are at most 10000000.');
 });
@@ -291,7 +291,7 @@ test('a file that has been moved is refused', async () => {
 });
 
 test('lines that span two pieces of a large file are read completely', async () => {
-  const rows = Array.from({ length: 120_000 }, (_, i) => `${i},${i / 8},${'x'.repeat(i % 40)},0,0.125`);
-  const { motionData: data } = await readTable(['t,x,note,y,yaw', ...rows].join('\n'));
-  assert.deepEqual([.../** @type {any} */ (data).x], rows.map((_, i) => i / 8));
+  const tableRows = Array.from({ length: 120_000 }, (_, i) => `${i},${i / 8},${'x'.repeat(i % 40)},0,0.125`);
+  const { motionData: logColumns } = await readTable(['t,x,note,y,yaw', ...tableRows].join('\n'));
+  assert.deepEqual([.../** @type {any} */ (logColumns).x], tableRows.map((_, i) => i / 8));
 });

@@ -43,21 +43,21 @@ const isoDateOf = (/** @type {number} */ t) => new Date((EPOCH_SECONDS + Math.fl
 const poseCellsOf = (/** @type {Row} */ { x, y, qz, qw }) => [x, y, 0, 0, 0, qz, qw];
 const zerosOf = (/** @type {number} */ zeroCount) => Array.from({ length: zeroCount }, () => 0);
 const ABBREVIATED_ARRAY = '<array type: double[36]>';
-const utf16BytesOf = (/** @type {string} */ text) => new Uint8Array(Buffer.from(`\ufeff${text}`, 'utf16le'));
+const utf16BytesOf = (/** @type {string} */ plainText) => new Uint8Array(Buffer.from(`\ufeff${plainText}`, 'utf16le'));
 
 const ODOMETRY_COLUMNS = 'seq header.frame_id child_frame_id pose.pose.position.x pose.pose.position.y pose.pose.position.z pose.pose.orientation.x pose.pose.orientation.y pose.pose.orientation.z pose.pose.orientation.w'.split(' ');
 const VELOCITY_COLUMNS = ['twist.twist.linear.x', 'twist.twist.linear.y', 'twist.twist.angular.x', 'twist.twist.angular.z'];
 const rostopicTableOf = (/** @type {(row: Row) => string | number} */ stampOf) =>
-  tableOf(['%time', 'field.header.stamp', ...[...ODOMETRY_COLUMNS, 'pose.covariance0', ...VELOCITY_COLUMNS].map((fieldName) => `field.${fieldName}`)].join(','), (row) => [formatNanoseconds(row.t), stampOf(row), row.i, 'odom', 'base', ...poseCellsOf(row), 9, row.v, 9, 9, row.omega]);
+  tableOf(['%time', 'field.header.stamp', ...[...ODOMETRY_COLUMNS, 'pose.covariance0', ...VELOCITY_COLUMNS].map((fieldName) => `field.${fieldName}`)].join(','), (tableRow) => [formatNanoseconds(tableRow.t), stampOf(tableRow), tableRow.i, 'odom', 'base', ...poseCellsOf(tableRow), 9, tableRow.v, 9, 9, tableRow.omega]);
 const bagpyTableOf = (/** @type {string} */ secondsColumn, /** @type {string} */ nanosecondsColumn) =>
-  tableOf(['Time', secondsColumn, nanosecondsColumn, ...ODOMETRY_COLUMNS, ...VELOCITY_COLUMNS].join(','), (row) => [EPOCH_SECONDS + row.t + 7, ...splitSeconds(row.t), row.i, 'odom', 'base', ...poseCellsOf(row), row.v, 9, 9, row.omega]);
+  tableOf(['Time', secondsColumn, nanosecondsColumn, ...ODOMETRY_COLUMNS, ...VELOCITY_COLUMNS].join(','), (tableRow) => [EPOCH_SECONDS + tableRow.t + 7, ...splitSeconds(tableRow.t), tableRow.i, 'odom', 'base', ...poseCellsOf(tableRow), tableRow.v, 9, 9, tableRow.omega]);
 
 /** PlotJuggler's table of two topics, in which each sample of a topic has its own row. */
 const plotjugglerTable = [
-  ['__time', ...['position/x', 'position/y', 'orientation/x', 'orientation/y', 'orientation/z', 'orientation/w'].flatMap((name) => [`/odom/pose/pose/${name}`, `/mocap/pose/${name}`]), '/imu/angular_velocity/z'].join(','),
+  ['__time', ...['position/x', 'position/y', 'orientation/x', 'orientation/y', 'orientation/z', 'orientation/w'].flatMap((caseName) => [`/odom/pose/pose/${caseName}`, `/mocap/pose/${caseName}`]), '/imu/angular_velocity/z'].join(','),
   ...CIRCLE_ROWS.flatMap(({ t, x, y, qz, qw }) => [
     [EPOCH_SECONDS + t, ...[x, y, 0, 0, qz, qw].flatMap((poseNumber) => [poseNumber, '']), ''],
-    [EPOCH_SECONDS + t + 0.01, ...[x + 4, y, 0, 0, qz, qw].flatMap((value) => ['', value]), ''],
+    [EPOCH_SECONDS + t + 0.01, ...[x + 4, y, 0, 0, qz, qw].flatMap((settingValue) => ['', settingValue]), ''],
     [EPOCH_SECONDS + t + 0.02, ...Array.from({ length: 12 }, () => ''), 0.5],
   ]).map((rowCells) => rowCells.join(',')),
 ].join('\n');
@@ -65,7 +65,7 @@ const plotjugglerTable = [
 /** Returns a Motive export: preamble, and columns of a body and a marker. @param {'Meters' | 'Millimeters'} lengthUnit @param {boolean} isYUp */
 function motiveTableOf(lengthUnit, isYUp) {
   const unitsPerMetre = lengthUnit === 'Meters' ? 1 : 1000;
-  const repeatCell = (/** @type {string} */ text, /** @type {number} */ repeatCount) => Array.from({ length: repeatCount }, () => text).join(',');
+  const repeatCell = (/** @type {string} */ plainText, /** @type {number} */ repeatCount) => Array.from({ length: repeatCount }, () => plainText).join(',');
   return [
     `Format Version,1.25,Take Name,drive,Take Notes,,Capture Frame Rate,16.000000,Export Frame Rate,16.000000,Capture Start Time,2024-06-10 06.13.20.000 AM,Total Frames in Take,60,Rotation Type,Quaternion,Length Units,${lengthUnit},Coordinate Space,Global`,
     '',
@@ -85,7 +85,7 @@ function motiveTableOf(lengthUnit, isYUp) {
 /** Lines of tables that pandas wrote, by tests/reference/logs/tables.py. */
 const PANDAS_TABLES = JSON.parse(readFileSync(new URL('../reference/logs/tables.json', import.meta.url), 'utf8'));
 
-const pandasTableOf = (/** @type {string} */ name) => `${PANDAS_TABLES[name].join('\n')}\n`;
+const pandasTableOf = (/** @type {string} */ caseName) => `${PANDAS_TABLES[caseName].join('\n')}\n`;
 
 /** @type {TableCase[]} */
 const READABLE_TABLES = [
@@ -102,7 +102,7 @@ const READABLE_TABLES = [
   { name: 'a separator in quotes', tableText: tableOf('note,t,x,y,yaw', ({ t, x, y, theta }) => ['"a, b"', t, x, y, theta]) },
   { name: 'semicolons, decimal commas, sep=', tableText: `\ufeffsep=;\r\n${tableOf('Time [s];X [m];Y [m];Yaw [rad]', ({ t, x, y, theta }) => [t, x, y, theta].map(useDecimalComma), ';').replaceAll('\n', '\r\n')}` },
   { name: 'a spreadsheet in UTF-16', tableText: utf16BytesOf(tableOf('t\tx\ty\tyaw', ({ t, x, y, theta }) => [t, x, y, theta].map(useDecimalComma), '\t')) },
-  { name: 'commas in quotes', tableText: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta].map((value) => `"${useDecimalComma(value)}"`)) },
+  { name: 'commas in quotes', tableText: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta].map((settingValue) => `"${useDecimalComma(settingValue)}"`)) },
   { name: 'times with exponents', start: EPOCH_SECONDS, tableText: tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [`1,${formatNanoseconds(t).slice(1)}E+18`, ...[x, y, theta].map(useDecimalComma)], ';') },
   { name: 'units in a row below the header', tableText: tableOf('t,x,y,yaw,battery\n[ms],mm,mm,deg,V', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta), 24.5]), summaryPattern: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
   { name: 'quantities over their units', tableText: tableOf('t/ms,x pos/mm,y pos / mm,yaw in deg', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta)]), summaryPattern: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
@@ -120,10 +120,10 @@ const READABLE_TABLES = [
   { name: 'bagpy', start: EPOCH_SECONDS, tableText: bagpyTableOf('header.stamp.secs', 'header.stamp.nsecs') },
   { name: 'stamp_sec, stamp_nsec', start: EPOCH_SECONDS, tableText: bagpyTableOf('stamp_sec', 'stamp_nsec') },
   { name: 'seconds, nanoseconds', start: EPOCH_SECONDS, tableText: bagpyTableOf('seconds', 'nanoseconds [ns]') },
-  { name: 'ros2 topic echo --csv of odometry', start: EPOCH_SECONDS, tableText: tableOf('', (row) => [...splitSeconds(row.t), 'odom', 'base', ...poseCellsOf(row), ...zerosOf(36), row.v, 0, 0, 0, 0, row.omega, ...zerosOf(36)]).slice(1) },
-  { name: 'ros2 topic echo --csv --no-arr of odometry', start: EPOCH_SECONDS, tableText: tableOf('', (row) => [...splitSeconds(row.t), 'odom', 'base', ...poseCellsOf(row), ABBREVIATED_ARRAY, row.v, 0, 0, 0, 0, row.omega, ABBREVIATED_ARRAY]).slice(1) },
-  { name: 'ros2 topic echo --csv --no-arr of poses with covariance', start: EPOCH_SECONDS, tableText: tableOf('', (row) => [...splitSeconds(row.t), 'map', ...poseCellsOf(row), ABBREVIATED_ARRAY]).slice(1) },
-  { name: 'ros2 topic echo --csv of poses', start: EPOCH_SECONDS, tableText: tableOf('', (row) => [...splitSeconds(row.t), 'map', ...poseCellsOf(row)]).slice(1) },
+  { name: 'ros2 topic echo --csv of odometry', start: EPOCH_SECONDS, tableText: tableOf('', (tableRow) => [...splitSeconds(tableRow.t), 'odom', 'base', ...poseCellsOf(tableRow), ...zerosOf(36), tableRow.v, 0, 0, 0, 0, tableRow.omega, ...zerosOf(36)]).slice(1) },
+  { name: 'ros2 topic echo --csv --no-arr of odometry', start: EPOCH_SECONDS, tableText: tableOf('', (tableRow) => [...splitSeconds(tableRow.t), 'odom', 'base', ...poseCellsOf(tableRow), ABBREVIATED_ARRAY, tableRow.v, 0, 0, 0, 0, tableRow.omega, ABBREVIATED_ARRAY]).slice(1) },
+  { name: 'ros2 topic echo --csv --no-arr of poses with covariance', start: EPOCH_SECONDS, tableText: tableOf('', (tableRow) => [...splitSeconds(tableRow.t), 'map', ...poseCellsOf(tableRow), ABBREVIATED_ARRAY]).slice(1) },
+  { name: 'ros2 topic echo --csv of poses', start: EPOCH_SECONDS, tableText: tableOf('', (tableRow) => [...splitSeconds(tableRow.t), 'map', ...poseCellsOf(tableRow)]).slice(1) },
   { name: 'ros2 topic echo --csv of commands', start: EPOCH_SECONDS, kind: 'commands', tableText: tableOf('', ({ t, v, omega }) => [...splitSeconds(t), 'base', v, 0, 0, 0, 0, omega]).slice(1) },
   { name: 'PlotJuggler, a topic of two', start: EPOCH_SECONDS, series: ['odom', 'mocap', 'imu'], choice: { seriesName: 'odom' }, tableText: plotjugglerTable },
   {
@@ -137,8 +137,8 @@ const READABLE_TABLES = [
   { name: 'Motive in metres, Y up', tableText: motiveTableOf('Meters', true), summaryPattern: /Y is the vertical axis/ },
   { name: 'Motive in millimetres, Z up', tableText: motiveTableOf('Millimeters', false) },
   { name: 'quaternions that start with w, against their header', tableText: tableOf('t,x,y,z,qx,qy,qz,qw', ({ t, x, y, qz, qw }) => [t, x, y, 0, qw, 0, 0, qz]), summaryPattern: /the quaternions start with w/ },
-  { name: 'TUM', start: EPOCH_SECONDS, tableText: tableOf('# timestamp tx ty tz qx qy qz qw', (row) => [EPOCH_SECONDS + row.t, ...poseCellsOf(row)], ' ') },
-  { name: 'TUM without a header, tabs', tableText: tableOf('', (row) => [row.t, ...poseCellsOf(row)], '\t').slice(1) },
+  { name: 'TUM', start: EPOCH_SECONDS, tableText: tableOf('# timestamp tx ty tz qx qy qz qw', (tableRow) => [EPOCH_SECONDS + tableRow.t, ...poseCellsOf(tableRow)], ' ') },
+  { name: 'TUM without a header, tabs', tableText: tableOf('', (tableRow) => [tableRow.t, ...poseCellsOf(tableRow)], '\t').slice(1) },
   { name: 'UTIAS', start: EPOCH_SECONDS, tableText: tableOf('# Ground truth\n# Time [s]    x [m]    y [m]    orientation [rad]', ({ t, x, y, theta }) => [EPOCH_SECONDS + t, x, y, theta], '    ') },
   { name: 'UTIAS, commands', kind: 'commands', tableText: tableOf('# Time [s]    forward velocity [m/s]    angular velocity[rad/s]', ({ t, v, omega }) => [t, v, omega], '\t') },
   { name: 'a commented header in another order', tableText: tableOf('# ground truth\n# timestamp tx ty tz qw qx qy qz', ({ t, x, y, qz, qw }) => [t, x, y, 0, qw, 0, 0, qz], ' ') },
@@ -149,19 +149,19 @@ const READABLE_TABLES = [
   { name: 'times in ms, by rate and speed', tableText: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t * 1000, x, y, theta]), summaryPattern: /time in ms \(by rate and speed\)/ },
 ];
 
-for (const { name, tableText, kind = 'poses', start = 0, series = [''], choice, options, summaryPattern } of READABLE_TABLES) {
-  test(`the reader reads ${name}`, async () => {
+for (const { name: caseName, tableText, kind = 'poses', start = 0, series: seriesNames = [''], choice, options, summaryPattern } of READABLE_TABLES) {
+  test(`the reader reads ${caseName}`, async () => {
     const [recording] = await openRecordings([new File([tableText], 'run.csv')], () => options);
-    assert.deepEqual(recording.seriesList.map((foundSeries) => foundSeries.seriesName), series);
+    assert.deepEqual(recording.seriesList.map((foundSeries) => foundSeries.seriesName), seriesNames);
     const [log] = await recording.readLogs([{ seriesName: '', ...choice }]);
-    const { t, ...columns } = /** @type {any} */ (log.motionData);
+    const { t, ...tableColumns } = /** @type {any} */ (log.motionData);
     assert.equal(log.logKind, kind);
     const fieldNames = /** @type {(keyof Row)[]} */ (kind === 'poses' ? ['x', 'y', 'theta'] : ['v', 'omega']);
     assert.equal(t.length, CIRCLE_ROWS.length);
-    for (const row of CIRCLE_ROWS) {
-      assert.equal(log.startTime - start + t[row.i], row.t);
+    for (const tableRow of CIRCLE_ROWS) {
+      assert.equal(log.startTime - start + t[tableRow.i], tableRow.t);
       // Conversion from other units or from quaternions rounds values, by up to 1.25 units in the last place.
-      for (const fieldName of fieldNames) assert.ok(Math.abs(columns[fieldName][row.i] - row[fieldName]) <= Number.EPSILON, `${fieldName} ${columns[fieldName][row.i]} ${row[fieldName]}`);
+      for (const fieldName of fieldNames) assert.ok(Math.abs(tableColumns[fieldName][tableRow.i] - tableRow[fieldName]) <= Number.EPSILON, `${fieldName} ${tableColumns[fieldName][tableRow.i]} ${tableRow[fieldName]}`);
     }
     const summaryLines = summarySentencesOf(log, english.found);
     if (summaryPattern) assert.match(summaryLines.join('\n'), summaryPattern);

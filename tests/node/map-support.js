@@ -5,9 +5,9 @@ import { de } from '../../www/widgets/map-squeeze/de.ts';
 import { en } from '../../www/widgets/map-squeeze/en.ts';
 import { MapFileError, readMapFiles } from '../../www/widgets/map-squeeze/maps/files.ts';
 
-const core = await load();
+const motionCore = await load();
 
-const decodePng = async (/** @type {Uint8Array} */ pngBytes) => core.readMapImage(pngBytes);
+const decodePng = async (/** @type {Uint8Array} */ pngBytes) => motionCore.readMapImage(pngBytes);
 
 /** Returns a file with a name and contents. @param {string} fileName @param {BlobPart} fileContents */
 export const createFile = (fileName, fileContents) => new File([fileContents], fileName);
@@ -20,13 +20,13 @@ export function createMapYamlFile(changedFields) {
 
 /** Returns a simulation with the map that is read from files. @param {File[]} mapFiles */
 export async function createSimulationWithMap(...mapFiles) {
-  const simulation = new core.MapSqueeze({ samples: 1 });
+  const simulation = new motionCore.MapSqueeze({ samples: 1 });
   (await readMapFiles(mapFiles, decodePng, en.refusals)).applyTo(simulation);
   return simulation;
 }
 
 /** Simulation to which `catchRefusalMessage` applies one map after the other. */
-const trialSimulation = new core.MapSqueeze({ samples: 1 });
+const trialSimulation = new motionCore.MapSqueeze({ samples: 1 });
 
 /** Returns the message with which map files are refused, or an empty text. Other errors are rethrown. @param {File[]} mapFiles @param {'en' | 'de'} [language] */
 export async function catchRefusalMessage(mapFiles, language = 'en') {

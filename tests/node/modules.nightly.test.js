@@ -18,10 +18,10 @@ for (const widgetTag of Object.keys(resultFunctions)) {
     const moduleNames = readdirSync(new URL('chunks', DIST_DIRECTORY)).filter((fileName) => fileName.startsWith(`${widgetTag}-`) && fileName.endsWith('.wasm'));
     assert.equal(moduleNames.length, 1, `one module for ${widgetTag}`);
     const { default: instantiateCore } = await import(`../../build/${widgetTag}.js`);
-    const core = await instantiateCore(new WebAssembly.Module(readFileSync(new URL(`chunks/${moduleNames[0]}`, DIST_DIRECTORY))));
-    const simulationNames = Object.keys(resultFunctions).map(toPascalCase).filter((simulationName) => simulationName in core);
+    const motionCore = await instantiateCore(new WebAssembly.Module(readFileSync(new URL(`chunks/${moduleNames[0]}`, DIST_DIRECTORY))));
+    const simulationNames = Object.keys(resultFunctions).map(toPascalCase).filter((simulationName) => simulationName in motionCore);
     assert.deepEqual(simulationNames, [toPascalCase(widgetTag)]);
     const goldenDigestOfTag = goldenDigest.split('\n').filter((digestLine) => digestLine.startsWith(`${widgetTag}/`)).map((digestLine) => `${digestLine}\n`).join('');
-    assert.deepEqual(findDifferences(goldenDigestOfTag, await computeDigest(core, configurations, [widgetTag])), []);
+    assert.deepEqual(findDifferences(goldenDigestOfTag, await computeDigest(motionCore, configurations, [widgetTag])), []);
   });
 }

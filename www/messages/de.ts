@@ -37,8 +37,8 @@ export const de: typeof import('./en.ts').en = {
     velocity: [
       ['Geschwindigkeitsrauschen durch Fahren', '*v*² in *v̂*: streut Roboter den Bogen entlang.'],
       ['Geschwindigkeitsrauschen durch Drehen', '*ω*² in *v̂*: ebenso, aber nur in Kurven.'],
-      ['Drehratenrauschen durch Fahren', '*v*² in *ω̂*: fächert Roboter auf und biegt ihre Wolke, wenn *α*₁ das nicht verwischt.'],
-      ['Drehratenrauschen durch Drehen', '*ω*² in *ω̂*: ebenso, aber nur in Kurven.'],
+      ['Drehraten\u00adrauschen durch Fahren', '*v*² in *ω̂*: fächert Roboter auf und biegt ihre Wolke, wenn *α*₁ das nicht verwischt.'],
+      ['Drehraten\u00adrauschen durch Drehen', '*ω*² in *ω̂*: ebenso, aber nur in Kurven.'],
       ['Rauschen der letzten Drehung durch Fahren', '*v*² in *γ̂*: dreht jeden Roboter, wo er hält.'],
       ['Rauschen der letzten Drehung durch Drehen', '*ω*² in *γ̂*: ebenso, wenn *ω* ≠ 0.'],
     ],

@@ -6,7 +6,7 @@ import 'motion-widgets';
 export type Props = Record<string, any>;
 
 /** Names of the props of an element. */
-export interface PropNames {
+interface PropNames {
   /** Names of attributes by the names of their props. */
   attributes: Record<string, string>;
   /** Names of the props of boolean attributes, which are present or absent. */

@@ -84,13 +84,13 @@ fn checked_trajectory(
         let break_count = array_length(field_path, break_values, "an array of numbers")?;
         let break_numbers = read_numbers_of_column(field_path, break_values, break_count)?;
         let indexed_numbers = break_numbers.into_iter().enumerate();
-        let sample_range = indexed_numbers.map(|(i, break_index)| {
+        let break_indices = indexed_numbers.map(|(i, break_index)| {
             read_integer(&format!("{field_path}[{i}]"), break_index, 1..=last_sample)
         });
-        sample_range.collect::<Result<Vec<u64>, JsValue>>()
+        break_indices.collect::<Result<Vec<u64>, JsValue>>()
     };
-    let break_values = log_fields.read_optional("breaks", read_breaks)?.unwrap_or_default();
-    Ok(trajectory.with_breaks_before(break_values.into_iter().map(|break_index| break_index as usize)))
+    let break_indices = log_fields.read_optional("breaks", read_breaks)?.unwrap_or_default();
+    Ok(trajectory.with_breaks_before(break_indices.into_iter().map(|break_index| break_index as usize)))
 }
 
 /// Reads arrays of numbers, all of which must have the length of the first array, the times.

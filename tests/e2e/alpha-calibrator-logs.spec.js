@@ -132,7 +132,7 @@ test('the figure asks for missing names and units of columns, and the answer app
   await expect(errorAlert).toHaveText(/^odom\.csv, line 1: the table has no header, .* name its 4 columns\.$/);
   await expect(widget.getByRole('group', { name: 'Columns of odom.csv (proposed): choose, then read' }).getByLabel('time', { exact: true })).toBeFocused();
   await widget.getByRole('button', { name: 'Read', exact: true }).press('Enter');
-  await expect(errorAlert).toHaveText(/in m, the robot would drive at .* state the unit of lengths: mm or cm or m or in or ft\.$/);
+  await expect(errorAlert).toHaveText(/in m, the robot would drive at .* state the unit of lengths: mm \(.* or cm \(.* or m \(.* or in \(.* or ft \(.* m\/s\)\.$/);
   await widget.getByRole('radiogroup', { name: 'Unit of lengths in odom.csv' }).getByRole('radio', { name: 'millimetres (mm)' }).check();
   await expect(captionOf(widget)).toHaveText(/of odom\.csv, slam\.csv[.,]/);
   await expect(widget.getByText('Warning: the reference is a localizer’s own estimate.').first()).toBeVisible();

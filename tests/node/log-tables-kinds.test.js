@@ -181,8 +181,8 @@ test('units are guessed from two pieces of evidence', async () => {
  * @type {[string, string, RegExp, import('../../www/logs/log.ts').OpenOptions, [string, number]][]}
  */
 const UNIT_QUESTIONS = [
-  ['millimetres', circleTableOf(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .*: mm or cm or m or in or ft\.$/, { lengthUnit: 'mm' }, ['x', CIRCLE_ROWS[9][1]]],
-  ['centimetres of a slow robot', circleTableOf(([t]) => [t, 15 * Math.sin(t), 0, 0]), /in m, the robot would drive at 1\d\.\d m\/s; .*: cm or m or mm or in or ft\.$/, { lengthUnit: 'cm' }, ['x', 0.15 * Math.sin(0.45)]],
+  ['millimetres', circleTableOf(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .*: mm \(0\.\d+ m\/s\) or cm \(\d.* or m \(.* or in \(.* or ft \(\d+ m\/s\)\.$/, { lengthUnit: 'mm' }, ['x', CIRCLE_ROWS[9][1]]],
+  ['centimetres of a slow robot', circleTableOf(([t]) => [t, 15 * Math.sin(t), 0, 0]), /in m, the robot would drive at 1\d\.\d m\/s; .*: cm \(0\.15 m\/s\) or m \(15 m\/s\) or mm \(0\.015 m\/s\) or in \(0\.37 m\/s\) or ft \(4\.5 m\/s\)\.$/, { lengthUnit: 'cm' }, ['x', 0.15 * Math.sin(0.45)]],
   ['commands in centimetres', ['t,v,omega', ...createTimes(50).map((t) => `${t},${10 * Math.sin(2 * t)},0`)].join('\n'), /in m, the robot would drive at \d\.\d+ m\/s;/, { lengthUnit: 'cm' }, ['v', 0.1 * Math.sin(1.8)]],
   ['commands in milliseconds', ['t,v,omega', ...createTimes(50).map((t, i) => `${1000 * t},${i % 2},0.5`)].join('\n'), /in s, the times would mean 0\.01\d* rows a second; state their unit/, { timeUnit: 'ms' }, ['t', 0.9]],
   ['degrees of a robot that drives straight on', circleTableOf(([t]) => [t, t / 2, 0, 20 * Math.sin(t / 9)]), /headings in rad .*: rad or deg\.$/, { angleUnit: 'deg' }, ['theta', (Math.sin(0.05) * Math.PI) / 9]],

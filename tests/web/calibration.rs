@@ -71,6 +71,11 @@ fn alphas_of_a_log_are_found_with_their_intervals() {
         "{leg_count} {time_count} {squared_count}"
     );
     assert_eq!(js_logs.get::<Vec<Option<String>>>("it.found.notIdentifiable"), [None, None, None, None]);
+    js_logs.run(
+        "it.broken = motion.calibrate({ odometry: it.odometry, reference: { ...it.reference, breaks: [1005, 2005] },
+            legs: { duration: 1 } })",
+    );
+    js_logs.assert("it.broken.lost.acrossBreaks === 2 && it.found.lost.acrossBreaks === 0");
     js_logs.assert(
         "it.found.recommended.alphas.every((alpha, i) =>
         alpha === it.found.recommended.inflation * it.found.alphas[i])",

@@ -67,7 +67,10 @@ export function judgeUnits(errorPlace: ErrorPlace, logKind: LogKind, sampleColum
   const isDoubtful = pathSpeed > MAX_VEHICLE_SPEED || (pathSpeed > DOUBTFUL_SPEED && accelerationOf(logKind, sampleColumns) > MAX_ACCELERATION);
   // Feet and inches are proposed last, because robots rarely use them.
   const likelyUnits = sort(UNIT_NAMES.lengthUnit, (unitName) => Number(unitName === 'ft' || unitName === 'in'), (unitName) => Math.abs(Math.log((pathSpeed * METRES_PER_UNIT[unitName]) / USUAL_SPEED)));
-  if (isJudged && lengthUnit.by === 'usage' && isDoubtful) throw createUnitError(errorPlace, 'lengthUnit', pathSpeed, lengthUnit.unit, likelyUnits);
+  if (isJudged && lengthUnit.by === 'usage' && isDoubtful) {
+    const unitChoices = likelyUnits.map((unitName) => `${unitName} (${Number((pathSpeed * METRES_PER_UNIT[unitName]).toPrecision(2))} m/s)`);
+    throw createUnitError(errorPlace, 'lengthUnit', pathSpeed, lengthUnit.unit, likelyUnits, unitChoices);
+  }
 
   const { unit: unitName, by: unitBasis } = openOptions.angleUnit ? { unit: openOptions.angleUnit, by: 'option' as const } : assumedUnits.angle;
   const pathAlignment = isJudged && logKind === 'poses' ? alignmentWithPath(t, a, b, c) : undefined;
@@ -88,9 +91,9 @@ export function judgeUnits(errorPlace: ErrorPlace, logKind: LogKind, sampleColum
   return { time: timeUnit, length: lengthUnit, angle };
 }
 
-/** Returns an error with a question for the unit. If no unit is possible, the error has no question. */
-const createUnitError = (errorPlace: ErrorPlace, unitOption: keyof typeof UNIT_NAMES, wrongValue: number, assumedUnit: string, possibleUnits: string[]) =>
-  new LogError(errorPlace, (errorReasons) => errorReasons[unitOption](wrongValue, assumedUnit, possibleUnits), possibleUnits.length > 0 ? { optionName: unitOption, possibleAnswers: sort(possibleUnits, (unitName) => Number(unitName === assumedUnit)) } : undefined);
+/** Returns an error with a question for the unit. If no unit is possible, the error has no question. `unitChoices` are the units as the message lists them. */
+const createUnitError = (errorPlace: ErrorPlace, unitOption: keyof typeof UNIT_NAMES, wrongValue: number, assumedUnit: string, possibleUnits: string[], unitChoices = possibleUnits) =>
+  new LogError(errorPlace, (errorReasons) => errorReasons[unitOption](wrongValue, assumedUnit, unitChoices), possibleUnits.length > 0 ? { optionName: unitOption, possibleAnswers: sort(possibleUnits, (unitName) => Number(unitName === assumedUnit)) } : undefined);
 
 /** Judges a unit of time that is not stated, from the rate of the rows and the speed of the robot. */
 function judgeTimeUnit(errorPlace: ErrorPlace, logKind: LogKind, { t, a, b }: SampleColumns, assumedUnit: LogUnits['time']): LogUnits['time'] {

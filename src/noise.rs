@@ -174,7 +174,9 @@ pub fn draw_centred_uniform<R: Rng + ?Sized>(rng: &mut R) -> f64 {
 pub(crate) fn draw_four_uniform_triples<R: Rng + ?Sized>(rng: &mut R) -> [f64x4; 3] {
     let mut uniform_triples = [[0.0; LANE_COUNT]; 3];
     for lane_index in 0..LANE_COUNT {
-        uniform_triples.iter_mut().for_each(|numbers| numbers[lane_index] = draw_centred_uniform(rng));
+        uniform_triples
+            .iter_mut()
+            .for_each(|uniform_numbers| uniform_numbers[lane_index] = draw_centred_uniform(rng));
     }
     uniform_triples.map(f64x4::from)
 }

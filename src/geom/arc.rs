@@ -236,7 +236,6 @@ impl DrivenArc {
             .flatten()
     }
 
-    /// Returns the bounding box of the arc: minimum x, minimum y, maximum x, maximum y.
     pub fn bounding_box(&self) -> [f64; 4] {
         let ([x0, y0], [x1, y1]) = (self.arc.start.position(), self.end);
         if self.arc.turn.abs() > PI {
@@ -262,7 +261,6 @@ pub(crate) struct ArcPiece {
     middle_point: [f64; 2],
     travel_direction: [f64; 2],
     curvature: f64,
-    /// Half the length of the arc piece, m.
     pub half_length: f64,
     /// Maximum error of a computed point of the arc, m.
     pub max_error: f64,
@@ -361,7 +359,6 @@ impl LocalArc {
         (if bearing < 0.0 { bearing + TAU } else { bearing }) <= self.turn
     }
 
-    /// Returns the distance from a point to the arc.
     pub fn distance_to_point(&self, point: [f64; 2]) -> f64 {
         let distance_to_ends =
             libm::hypot(point[0], point[1]).min(libm::hypot(point[0] - self.end[0], point[1] - self.end[1]));

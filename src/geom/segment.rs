@@ -100,7 +100,6 @@ impl Segment {
         })
     }
 
-    /// Returns the distance between an arc and this segment, which is in the frame of the arc and does not cross it.
     fn distance_without_crossing(&self, arc: &LocalArc) -> f64 {
         let Self { from, to: end_point } = *self;
         let direction = [end_point[0] - from[0], end_point[1] - from[1]];

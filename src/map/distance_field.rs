@@ -114,7 +114,6 @@ struct FieldBuilder<'a> {
     measured_walls: Vec<(f64, WallSet)>,
 }
 
-/// Single wall, or node of the wall tree, which stands for all of its walls.
 #[derive(Clone, Copy, Debug)]
 enum WallSet {
     Wall(u32),
@@ -156,8 +155,6 @@ impl<'a> FieldBuilder<'a> {
         }
     }
 
-    /// Computes the lower bounds of the cells of a block, or divides the block into four. `candidate_walls` has every wall that may be
-    /// nearest to a point of the block.
     fn fill_block(
         &mut self,
         candidate_walls: &[WallSet],

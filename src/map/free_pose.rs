@@ -18,8 +18,9 @@ impl FloorPlan {
         let occupancy_grid = self.grid().map_or_else(|| Cow::Owned(self.rasterize()), Cow::Borrowed);
         let does_disc_fit = |tested_point: &[f64; 2]| self.test_point(*tested_point, clearance).is_free;
         let [column_count, row_count] = occupancy_grid.size();
-        let middle_coordinates = (0..row_count)
-            .flat_map(|row| (0..column_count).map(move |column| [column as f64 + 0.5, row as f64 + 0.5]));
+        let middle_coordinates = (0..row_count).flat_map(|cell_row| {
+            (0..column_count).map(move |cell_column| [cell_column as f64 + 0.5, cell_row as f64 + 0.5])
+        });
         let mut cell_middles = middle_coordinates.map(|grid_point| occupancy_grid.world_point(grid_point));
         let square_middle = middle_of_largest_free_square(&occupancy_grid)
             .map(|grid_point| occupancy_grid.world_point(grid_point));
@@ -32,15 +33,16 @@ impl FloorPlan {
         let [min_x, min_y, max_x, max_y] = self.bounds();
         let (map_width, map_height) = (max_x - min_x, max_y - min_y);
         let cell_side = (map_width.max(map_height) / CELLS_ALONG_LONGER_SIDE).min(map_width).min(map_height);
-        let [columns, row_count] =
+        let [column_count, row_count] =
             [map_width, map_height].map(|side_length| (side_length / cell_side) as usize);
         let is_free = |i: usize| {
-            let [column, row] = [i % columns, row_count - 1 - i / columns].map(|index| index as f64 + 0.5);
-            let cell_middle = [min_x + column * cell_side, min_y + row * cell_side];
+            let [cell_column, cell_row] =
+                [i % column_count, row_count - 1 - i / column_count].map(|index| index as f64 + 0.5);
+            let cell_middle = [min_x + cell_column * cell_side, min_y + cell_row * cell_side];
             self.distance_field().lower_bound(cell_middle) > 0.75 * cell_side
         };
-        let freedom_pixels = (0..columns * row_count).map(|i| f32::from(u8::from(is_free(i)))).collect();
-        let map_image = Image { width: columns, height: row_count, pixels: freedom_pixels };
+        let freedom_pixels = (0..column_count * row_count).map(|i| f32::from(u8::from(is_free(i)))).collect();
+        let map_image = Image { width: column_count, height: row_count, pixels: freedom_pixels };
         OccupancyGrid::new(&map_image, &PixelClassifier::default(), cell_side, SE2::new(min_x, min_y, 0.0))
     }
 }
@@ -51,17 +53,17 @@ fn middle_of_largest_free_square(occupancy_grid: &OccupancyGrid) -> Option<[f64;
     let ([column_count, rows], mut largest_side_so_far, mut square_middle) = (occupancy_grid.size(), 0, None);
     // For each column: side length (cells) of the largest free square whose upper right corner is the cell of the previous row.
     let mut square_sides = vec![0u32; column_count];
-    for row in 0..rows {
+    for cell_row in 0..rows {
         let [mut side_at_left, mut side_at_lower_left] = [0, 0];
-        for (column, square_side) in square_sides.iter_mut().enumerate() {
+        for (cell_column, square_side) in square_sides.iter_mut().enumerate() {
             let side_below = *square_side;
-            let is_free = occupancy_grid.is_known_free(column, row);
+            let is_free = occupancy_grid.is_known_free(cell_column, cell_row);
             *square_side = if is_free { 1 + side_below.min(side_at_left).min(side_at_lower_left) } else { 0 };
             (side_at_left, side_at_lower_left) = (*square_side, side_below);
             if *square_side > largest_side_so_far {
                 largest_side_so_far = *square_side;
                 let half_side = 0.5 * f64::from(largest_side_so_far);
-                square_middle = Some([column, row].map(|index| index as f64 + 1.0 - half_side));
+                square_middle = Some([cell_column, cell_row].map(|index| index as f64 + 1.0 - half_side));
             }
         }
     }
@@ -74,8 +76,10 @@ fn heading_of_longest_path(
     does_disc_fit: impl Fn(&[f64; 2]) -> bool,
 ) -> f64 {
     let is_free = |point: &[f64; 2]| {
-        let [column, row] = occupancy_grid.cell_coordinates(*point);
-        column >= 0.0 && row >= 0.0 && occupancy_grid.is_known_free(column as usize, row as usize)
+        let [cell_column, cell_row] = occupancy_grid.cell_coordinates(*point);
+        cell_column >= 0.0
+            && cell_row >= 0.0
+            && occupancy_grid.is_known_free(cell_column as usize, cell_row as usize)
     };
     let (mut max_steps, mut best_heading) = (0, 0.0);
     for i in 0..HEADING_COUNT {

@@ -229,7 +229,6 @@ impl OccupancyGrid {
         }
     }
 
-    /// Returns the cells of a row, counted from the bottom; empty for a row outside of the grid.
     fn row_cells(&self, cell_row: usize) -> &[Cell] {
         let first_cell_index = cell_row.saturating_mul(self.width).min(self.cells.len());
         &self.cells[first_cell_index..(first_cell_index + self.width).min(self.cells.len())]

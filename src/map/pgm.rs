@@ -14,31 +14,31 @@ const MAX_QUOTED_CHARACTERS: usize = 20;
 /// Reads the brightness values of a PGM image, binary (P5) or plain (P2), of 8 or 16 bits. The maximum value of the header is white. Fails
 /// with [`ImageError`] with the line of the header, or the line where plain pixels end.
 pub fn read_pgm(file_bytes: &[u8]) -> Result<Image<f32>, ImageError> {
-    let mut tokens = TokenReader { file_bytes, byte_position: 0, line: 1 };
-    let is_plain = match tokens.next_token() {
+    let mut token_reader = TokenReader { file_bytes, byte_position: 0, line: 1 };
+    let is_plain = match token_reader.next_token() {
         b"P5" => false,
         b"P2" => true,
-        token => return Err(tokens.create_error("the magic number", token, "P5 or P2".to_owned())),
+        token => return Err(token_reader.create_error("the magic number", token, "P5 or P2".to_owned())),
     };
-    let width = tokens.read_number("the width", 1, MAX_PIXELS)?;
-    let height = tokens.read_number("the height", 1, MAX_PIXELS / width)?;
-    let max_value = tokens.read_number("the maximum value", 1, 65_535)?;
+    let width = token_reader.read_number("the width", 1, MAX_PIXELS)?;
+    let height = token_reader.read_number("the height", 1, MAX_PIXELS / width)?;
+    let max_value = token_reader.read_number("the maximum value", 1, 65_535)?;
     let pixel_count = width * height;
     let brightness_of = |pixel_value: usize| pixel_value.min(max_value) as f32 / max_value as f32;
     if is_plain {
         let pixel_results =
-            (0..pixel_count).map(|_| tokens.read_number("a pixel", 0, max_value).map(brightness_of));
+            (0..pixel_count).map(|_| token_reader.read_number("a pixel", 0, max_value).map(brightness_of));
         return Ok(Image { width, height, pixels: pixel_results.collect::<Result<_, _>>()? });
     }
     let bytes_per_pixel = if max_value < 256 { 1 } else { 2 };
     let raster_byte_count = pixel_count * bytes_per_pixel;
     // One white space character ends the header. Windows editors write a line end of two characters: carriage return and line feed.
-    let is_crlf = file_bytes[tokens.byte_position..].starts_with(b"\r\n")
-        && file_bytes.len() >= tokens.byte_position + 2 + raster_byte_count;
+    let is_crlf = file_bytes[token_reader.byte_position..].starts_with(b"\r\n")
+        && file_bytes.len() >= token_reader.byte_position + 2 + raster_byte_count;
     let available_bytes =
-        file_bytes.get(tokens.byte_position + if is_crlf { 2 } else { 1 }..).unwrap_or_default();
+        file_bytes.get(token_reader.byte_position + if is_crlf { 2 } else { 1 }..).unwrap_or_default();
     let Some(raster_bytes) = available_bytes.get(..raster_byte_count) else {
-        let (line_number, byte_count) = (tokens.line, available_bytes.len());
+        let (line_number, byte_count) = (token_reader.line, available_bytes.len());
         return Err(ImageError(format!(
             "line {line_number}: the length of the raster in bytes is {byte_count}; allowed is {raster_byte_count} for {width} × {height} pixels"
         )));

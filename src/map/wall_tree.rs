@@ -33,7 +33,6 @@ const MAX_SINGLE_LEAF_WALLS: usize = 32;
 const ZERO_SEGMENT: Segment = Segment { from: [0.0; 2], to: [0.0; 2] };
 
 impl WallTree {
-    /// Creates the tree of the walls, all of which are inside `plan_bounds`.
     pub fn new(walls: &[Segment], plan_bounds: [f64; 4]) -> Self {
         // Copies of a wall would fill leaves of which every distance must be computed.
         let mut known_walls = BTreeSet::new();
@@ -52,7 +51,9 @@ impl WallTree {
             wall_nodes: vec![WallNode { capsule_axis: ZERO_SEGMENT, capsule_radius: f64::INFINITY }; 2],
             tree_depth: leaf_count.ilog2(),
             rounding_slack: 1e-9
-                * plan_bounds.iter().fold(0.0, |largest_bound: f64, bound| largest_bound.max(bound.abs())),
+                * plan_bounds
+                    .iter()
+                    .fold(0.0, |largest_bound: f64, plan_bound| largest_bound.max(plan_bound.abs())),
         };
         for parent_index in 1..leaf_count {
             wall_tree.sort_into_halves(parent_index);
@@ -84,7 +85,7 @@ impl WallTree {
         let walls = &self.walls[self.wall_range(node_index)];
         // The axis of the capsule has the mean direction of the walls, or is parallel to x or y, whichever makes the capsule narrowest.
         let direction_sum =
-            walls.iter().map(sort_keys).fold([0.0; 2], |[x, y], key| [x + key[2], y + key[3]]);
+            walls.iter().map(sort_keys).fold([0.0; 2], |[x, y], sort_key| [x + sort_key[2], y + sort_key[3]]);
         let direction_sum_length = libm::hypot(direction_sum[0], direction_sum[1]);
         let mean_direction = if direction_sum_length > 0.0 {
             direction_sum.map(|direction_coordinate| direction_coordinate / direction_sum_length)

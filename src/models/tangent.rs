@@ -121,7 +121,7 @@ impl TangentNoiseModel {
         }
         let inverted_arc = invert_arc(x, x_next, u.dt);
         let (arc_length, arc_turn) = (inverted_arc.v_hat * u.dt, inverted_arc.omega_hat * u.dt);
-        let residual =
+        let twist_residual =
             Vector3::new(arc_length - u.v * u.dt, arc_turn - u.omega * u.dt, inverted_arc.gamma_hat * u.dt);
         let noise_variances = Vector3::new(
             self.r[(0, 0)] + PADDING_VARIANCE,
@@ -130,7 +130,7 @@ impl TangentNoiseModel {
         );
         let twist_sinc = sinc(0.5 * x.motion_to(x_next).theta());
         let arc_sinc = sinc(0.5 * arc_turn);
-        log_gaussian_density(&residual, &Matrix3::from_diagonal(&noise_variances))
+        log_gaussian_density(&twist_residual, &Matrix3::from_diagonal(&noise_variances))
             + libm::log(2.0 * twist_sinc * twist_sinc / (arc_length.abs() * arc_sinc * arc_sinc))
     }
 
@@ -194,17 +194,18 @@ fn expected_adjoint_product(
     expectation_sum
 }
 
-/// Returns the 3 × 3 matrix ad(ξ) with ad(ξ)·ζ = [ξ, ζ].
 fn small_adjoint(twist: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::new(0.0, -twist.z, twist.y, twist.z, 0.0, -twist.x, 0.0, 0.0, 0.0)
 }
 
 /// Returns log N(residual; 0, cov) for a positive definite `cov`. The result is −∞ if `cov` is not positive definite after rounding.
-fn log_gaussian_density(residual: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
+fn log_gaussian_density(twist_residual: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
     let Some(cov_root) = cov.cholesky().map(|cholesky| cholesky.unpack()) else { return f64::NEG_INFINITY };
     let log_det: f64 = (0..3).map(|i| 2.0 * libm::log(cov_root[(i, i)])).sum();
     // The squared norm of the whitened residual avoids a division by a variance, which may underflow.
-    let Some(whitened_residual) = cov_root.solve_lower_triangular(residual) else { return f64::NEG_INFINITY };
+    let Some(whitened_residual) = cov_root.solve_lower_triangular(twist_residual) else {
+        return f64::NEG_INFINITY;
+    };
     -0.5 * (whitened_residual.norm_squared() + log_det + 3.0 * libm::log(2.0 * PI))
 }
 

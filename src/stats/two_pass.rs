@@ -151,7 +151,9 @@ impl FirstPass {
         let cov_of = |product_sum: f64, first_sum: f64, second_sum: f64| {
             if pose_count > 1 { (product_sum - first_sum * (second_sum / n)) / (n - 1.0) } else { f64::NAN }
         };
-        let variance_of_sums = |square_sum: f64, sum: f64| non_negative(cov_of(square_sum, sum, sum));
+        let variance_of_sums = |square_sum: f64, coordinate_sum: f64| {
+            non_negative(cov_of(square_sum, coordinate_sum, coordinate_sum))
+        };
         let [x0, y0, along, lateral, half_heading, arc_length, half_turn] = self.reference_point;
         // Sums of sin θ and cos θ, by the formulas for double angles. They are rotated into the frame in which the reference point has the
         // heading 0.
@@ -285,7 +287,7 @@ impl SecondPass {
         robot_groups: impl Iterator<Item = (FourPoses, FourArcs, f64x4)>,
     ) -> CloudStats {
         let n = pose_count as f64;
-        let product_means = self.summed_products.totals().map(|sum| sum / n);
+        let product_means = self.summed_products.totals().map(|coordinate_sum| coordinate_sum / n);
         let [products @ .., mean_ta, fraction_in_ellipse, inside_contour] = product_means;
         let [.., t, tt, td] = products;
         let FirstPassMoments { mean_position: [x, y], position_cov: [xx, xy, yy], .. } = self.first_pass;

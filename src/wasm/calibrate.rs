@@ -46,8 +46,10 @@ fn read_model(fields: &FieldReader) -> Result<Model, JsValue> {
     let read_rule = |path: &str, model_name: &JsValue| read_value(path, model_name, OdometryRule::Table, ());
     Ok(match (fields.read_optional("model", read_model_name)?, fields.read_optional("rule", read_rule)?) {
         (None | Some(ModelChoice::Odometry), None) => Model::Odometry(OdometryRule::Table),
-        (None, Some(rule)) => Model::Odometry(rule),
-        (Some(ModelChoice::Odometry), Some(rule)) if rule != OdometryRule::Omni => Model::Odometry(rule),
+        (None, Some(odometry_rule)) => Model::Odometry(odometry_rule),
+        (Some(ModelChoice::Odometry), Some(odometry_rule)) if odometry_rule != OdometryRule::Omni => {
+            Model::Odometry(odometry_rule)
+        }
         (Some(ModelChoice::Omnidirectional), None | Some(OdometryRule::Omni)) => {
             Model::Odometry(OdometryRule::Omni)
         }

@@ -154,11 +154,13 @@ pub fn legs_to_js(calibration: &Calibration) -> JsValue {
     let Calibration { legs, observations: leg_observations, leg_fits, corrected, .. } = calibration;
     let mut leg_columns = CalibrationLegs { count: legs.len(), ..Default::default() };
     let base_trajectory = corrected.base();
-    for ((leg, leg_observation), leg_fit) in legs.iter().zip(leg_observations).zip(leg_fits) {
-        leg_columns.times.extend_from_slice(&leg.times);
+    for ((calibrated_leg, leg_observation), leg_fit) in legs.iter().zip(leg_observations).zip(leg_fits) {
+        leg_columns.times.extend_from_slice(&calibrated_leg.times);
         for end_index in [0, 1] {
-            leg_columns.odometry.extend(<[f64; 3]>::from(leg.odometry[end_index]));
-            leg_columns.reference.extend(<[f64; 3]>::from(leg.reference[end_index] * base_trajectory));
+            leg_columns.odometry.extend(<[f64; 3]>::from(calibrated_leg.odometry[end_index]));
+            leg_columns
+                .reference
+                .extend(<[f64; 3]>::from(calibrated_leg.reference[end_index] * base_trajectory));
         }
         leg_columns.readings.extend_from_slice(&leg_observation.reading);
         leg_columns.residuals.extend_from_slice(&leg_observation.residuals);

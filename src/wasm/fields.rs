@@ -156,8 +156,8 @@ fn fill_array(field: &str, value: &JsValue, numbers: &mut [f64]) -> Result<(), J
         ))
         .into());
     }
-    for (i, slot) in numbers.iter_mut().enumerate() {
-        *slot = read_number(&format!("{field}[{i}]"), &array_item(value, i)?)?;
+    for (i, number_slot) in numbers.iter_mut().enumerate() {
+        *number_slot = read_number(&format!("{field}[{i}]"), &array_item(value, i)?)?;
     }
     Ok(())
 }
@@ -188,26 +188,29 @@ pub fn read_settings<S: SettingRules>(current_settings: &S, options: &JsValue) -
     Ok(settings)
 }
 
-fn read_setting(field: &str, value: &JsValue, setting: &mut Setting) -> Result<(), JsValue> {
+fn read_setting(field: &str, js_value: &JsValue, setting: &mut Setting) -> Result<(), JsValue> {
     match setting {
-        Setting::Number(slot, _) => **slot = read_number(field, value)?,
-        Setting::Integer(slot, allowed) => {
-            slot.set(read_integer(field, read_number(field, value)?, allowed.clone())?)
+        Setting::Number(setting_slot, _) => **setting_slot = read_number(field, js_value)?,
+        Setting::Integer(setting_slot, allowed) => {
+            setting_slot.set(read_integer(field, read_number(field, js_value)?, allowed.clone())?)
         }
-        Setting::OptionalInteger(slot, _) if value.is_null() => **slot = None,
-        Setting::OptionalInteger(slot, allowed) => {
-            **slot = Some(read_integer(field, read_number(field, value)?, allowed.clone())? as usize);
+        Setting::OptionalInteger(setting_slot, _) if js_value.is_null() => **setting_slot = None,
+        Setting::OptionalInteger(setting_slot, allowed) => {
+            **setting_slot =
+                Some(read_integer(field, read_number(field, js_value)?, allowed.clone())? as usize);
         }
-        Setting::Boolean(slot) => **slot = read_boolean(field, value)?,
-        Setting::Keyword(slot) => set_keyword(field, value, *slot)?,
-        Setting::Numbers(number_slots, _) => fill_array(field, value, number_slots)?,
+        Setting::Boolean(setting_slot) => **setting_slot = read_boolean(field, js_value)?,
+        Setting::Keyword(setting_slot) => set_keyword(field, js_value, *setting_slot)?,
+        Setting::Numbers(setting_slots, _) => fill_array(field, js_value, setting_slots)?,
         // The level is checked before it is converted to α's, because a later error message would name an α.
-        Setting::Level(slot, allowed) => slot.set(check_range(field, read_number(field, value)?, allowed)?),
+        Setting::Level(setting_slot, allowed) => {
+            setting_slot.set(check_range(field, read_number(field, js_value)?, allowed)?)
+        }
         // A group of numbers, such as a command, must be complete: speeds without their duration would mean another motion.
         Setting::Group(group_members, numbers) => {
             let keys = group_members.each_ref().map(|group_member| group_member.declaration.key);
             let key_prefix = format!("{field}.");
-            let option_fields = FieldReader::new(field, &key_prefix, value, &keys)?;
+            let option_fields = FieldReader::new(field, &key_prefix, js_value, &keys)?;
             for (key, number) in keys.iter().zip(numbers) {
                 **number = option_fields.number(key)?;
             }
@@ -216,25 +219,25 @@ fn read_setting(field: &str, value: &JsValue, setting: &mut Setting) -> Result<(
     Ok(())
 }
 
-pub fn read_boolean(field: &str, value: &JsValue) -> Result<bool, JsValue> {
-    value.as_bool().ok_or_else(|| type_error(field, value, "true or false"))
+pub fn read_boolean(field: &str, js_value: &JsValue) -> Result<bool, JsValue> {
+    js_value.as_bool().ok_or_else(|| type_error(field, js_value, "true or false"))
 }
 
-pub fn array_length(field: &str, value: &JsValue, expected_text: &str) -> Result<usize, JsValue> {
-    if !value.is_object() {
-        return Err(type_error(field, value, expected_text));
+pub fn array_length(field: &str, js_value: &JsValue, expected_text: &str) -> Result<usize, JsValue> {
+    if !js_value.is_object() {
+        return Err(type_error(field, js_value, expected_text));
     }
-    let length = Reflect::get(value, &"length".into())?;
-    let length = length.as_f64().ok_or_else(|| type_error(field, value, expected_text))?;
+    let length = Reflect::get(js_value, &"length".into())?;
+    let length = length.as_f64().ok_or_else(|| type_error(field, js_value, expected_text))?;
     Ok(check_integer(&format!("{field}.length"), length, &(0..=u64::from(u32::MAX)))? as usize)
 }
 
-pub fn array_item(value: &JsValue, index: usize) -> Result<JsValue, JsValue> {
-    Reflect::get_u32(value, index as u32)
+pub fn array_item(js_value: &JsValue, index: usize) -> Result<JsValue, JsValue> {
+    Reflect::get_u32(js_value, index as u32)
 }
 
-pub fn type_error(field: &str, value: &JsValue, allowed: &str) -> JsValue {
-    TypeError::new(&format!("{field} is {}; allowed is {allowed}", describe_value(value))).into()
+pub fn type_error(field: &str, js_value: &JsValue, allowed: &str) -> JsValue {
+    TypeError::new(&format!("{field} is {}; allowed is {allowed}", describe_value(js_value))).into()
 }
 
 /// Maximum number of quoted characters. It suffices to recognize a text, and is longer than any key or keyword.

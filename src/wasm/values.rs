@@ -90,8 +90,10 @@ pub fn float_array(js_numbers: &[f64]) -> JsValue {
 }
 
 #[inline(never)]
-pub fn js_object(entries: &[(&str, JsValue)]) -> JsValue {
-    let entries: Array =
-        entries.iter().map(|(key, serialized_value)| Array::of2(&(*key).into(), serialized_value)).collect();
-    Object::from_entries(&entries).unwrap_or_else(|_| Object::new()).into()
+pub fn js_object(object_entries: &[(&str, JsValue)]) -> JsValue {
+    let object_entries: Array = object_entries
+        .iter()
+        .map(|(entry_key, serialized_value)| Array::of2(&(*entry_key).into(), serialized_value))
+        .collect();
+    Object::from_entries(&object_entries).unwrap_or_else(|_| Object::new()).into()
 }

@@ -162,7 +162,9 @@ fn finish_leg(leg: &CurrentLeg, true_poses: &mut Vec<(f64, SE2)>, rng: &mut Xosh
     let mut unit_noise = [0.0; 3];
     let mut leg_end = leg_motion;
     for (row_time, row_motion) in row_motions {
-        unit_noise.iter_mut().for_each(|noise| *noise += NoiseKind::Normal.sample(variance_per_row, rng));
+        unit_noise
+            .iter_mut()
+            .for_each(|row_noise| *row_noise += NoiseKind::Normal.sample(variance_per_row, rng));
         [.., leg_end] = leg_variances.executed_motion(&leg_reading, unit_noise).poses(&SE2::identity());
         true_poses.push((*row_time, leg.true_start * row_motion.boxplus(leg_end.boxminus(&leg_motion))));
     }

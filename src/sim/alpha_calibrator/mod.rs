@@ -170,8 +170,10 @@ impl AlphaCalibrator {
 
     /// Returns a diagram for each noise component of the model: squared residuals against the regressor.
     pub fn panels(&self, regressor: Regressor) -> [Panel; 3] {
-        let model = self.current_fit.settings.model();
-        [0, 1, 2].map(|component_index| create_panel(model, self.calibration(), component_index, regressor))
+        let calibration_model = self.current_fit.settings.model();
+        [0, 1, 2].map(|component_index| {
+            create_panel(calibration_model, self.calibration(), component_index, regressor)
+        })
     }
 
     /// Returns one leg in the frame of the leg's start; None if the index is too large.
@@ -275,8 +277,8 @@ js_structs! {
 
 /// Returns true if the first α of a noise component multiplies the squared translation or speed. For rotations of the odometry models
 /// it multiplies the squared rotation.
-fn is_translation_first(model: calibrate::Model, component: usize) -> bool {
-    match model {
+fn is_translation_first(calibration_model: calibrate::Model, component: usize) -> bool {
+    match calibration_model {
         calibrate::Model::Odometry(OdometryRule::Omni) => component > 0,
         calibrate::Model::Odometry(_) => component == 1,
         calibrate::Model::Velocity => true,
@@ -284,7 +286,7 @@ fn is_translation_first(model: calibrate::Model, component: usize) -> bool {
 }
 
 fn create_panel(
-    model: calibrate::Model,
+    calibration_model: calibrate::Model,
     calibration: &Calibration,
     component: usize,
     regressor: Regressor,
@@ -292,23 +294,25 @@ fn create_panel(
     let Calibration { alphas, intervals: alpha_intervals, observations: leg_observations, leg_fits, .. } =
         calibration;
     let position_in_component =
-        usize::from(is_translation_first(model, component) != (regressor == Regressor::Distance));
-    let component_alphas = model.component_alphas()[component];
+        usize::from(is_translation_first(calibration_model, component) != (regressor == Regressor::Distance));
+    let component_alphas = calibration_model.component_alphas()[component];
     let alpha_index = component_alphas[position_in_component];
     let fitted_alpha = alphas[alpha_index];
     let leg_points: Vec<[f64; 3]> = leg_observations
         .iter()
         .zip(leg_fits)
-        .filter(|(leg_observation, fit)| !leg_observation.residuals[component].is_nan() && !fit.is_outlier)
+        .filter(|(leg_observation, leg_fit)| {
+            !leg_observation.residuals[component].is_nan() && !leg_fit.is_outlier
+        })
         // Legs with sideways motion are omitted, because their odometry readings have large rotations that the robot did not make. A check
         // of the diagnostics counts these legs.
-        .filter(|(leg_observation, _)| !leg_observation.moves_sideways(model))
-        .map(|(leg_observation, fit)| {
+        .filter(|(leg_observation, _)| !leg_observation.moves_sideways(calibration_model))
+        .map(|(leg_observation, leg_fit)| {
             let alpha_coefficient = leg_observation.coefficients[component][position_in_component];
-            let total_variance = fit.stds[component] * fit.stds[component];
+            let total_variance = leg_fit.stds[component] * leg_fit.stds[component];
             let variance_from_other_noise = total_variance - fitted_alpha.unwrap_or(0.0) * alpha_coefficient;
             let squared_innovation =
-                fit.standardized[component] * fit.standardized[component] * total_variance;
+                leg_fit.standardized[component] * leg_fit.standardized[component] * total_variance;
             // The square of a normal variate of variance v has variance 2v².
             [
                 alpha_coefficient,

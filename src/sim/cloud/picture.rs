@@ -15,9 +15,11 @@ pub fn count_samples_in_cells(pose_cloud: &Cloud, morph_fraction: f64, view_grid
     let (ViewGrid { min_corner, max_corner, .. }, cells_per_unit) = (*view_grid, view_grid.cells_per_unit());
     let mut cell_counts = vec![0; view_grid.column_count * view_grid.row_count];
     pose_cloud.point_groups(morph_fraction).for_each(|[x, y]| {
-        let column = ((x - min_corner[0]) * cells_per_unit[0]).floor().to_array();
-        let row = ((max_corner[1] - y) * cells_per_unit[1]).floor().to_array();
-        for cell_index in (0..LANE_COUNT).filter_map(|lane| view_grid.cell_index(column[lane], row[lane])) {
+        let cell_columns = ((x - min_corner[0]) * cells_per_unit[0]).floor().to_array();
+        let cell_rows = ((max_corner[1] - y) * cells_per_unit[1]).floor().to_array();
+        for cell_index in (0..LANE_COUNT)
+            .filter_map(|lane_index| view_grid.cell_index(cell_columns[lane_index], cell_rows[lane_index]))
+        {
             cell_counts[cell_index] += 1;
         }
     });

@@ -38,12 +38,12 @@ impl ViewGrid {
 
     /// Returns the index of the cell in a column and row, row by row from the top; None outside of the grid.
     #[inline(always)]
-    pub(in crate::sim) fn cell_index(&self, cell_column: f64, row: f64) -> Option<usize> {
+    pub(in crate::sim) fn cell_index(&self, cell_column: f64, cell_row: f64) -> Option<usize> {
         let is_inside = cell_column >= 0.0
             && cell_column < self.column_count as f64
-            && row >= 0.0
-            && row < self.row_count as f64;
-        is_inside.then(|| row as usize * self.column_count + cell_column as usize)
+            && cell_row >= 0.0
+            && cell_row < self.row_count as f64;
+        is_inside.then(|| cell_row as usize * self.column_count + cell_column as usize)
     }
 }
 

@@ -269,8 +269,10 @@ fn moments_from_sums(sums: &[f64; SUMMED_TERM_COUNT], n: f64) -> MeasuredMoments
     let relative_error = Vector3::from_fn(|i, _| {
         let [m, mean_square, mean_cube, mean_fourth] = [0, 3, 6, 9].map(|k| sums[k + i] / n);
         let second_moment = covariance[(i, i)];
-        let m4 = mean_fourth - 4.0 * m * mean_cube + 6.0 * m * m * mean_square - 3.0 * m * m * m * m;
-        let kurtosis = if second_moment > 0.0 { m4 / (second_moment * second_moment) } else { f64::NAN };
+        let fourth_moment =
+            mean_fourth - 4.0 * m * mean_cube + 6.0 * m * m * mean_square - 3.0 * m * m * m * m;
+        let kurtosis =
+            if second_moment > 0.0 { fourth_moment / (second_moment * second_moment) } else { f64::NAN };
         let kurtosis_error = non_negative(kurtosis - 1.0) / n;
         // The kurtosis of a few robots is unreliable; for two robots it is always 1. Therefore the standard error is at least that of a
         // normal distribution. `f64::max` would hide a NaN.

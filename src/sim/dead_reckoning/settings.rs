@@ -85,13 +85,15 @@ impl Settings {
     /// Returns true if rollouts under `other_settings` settings are equal to the last bit. The number of robots, the selected step and the
     /// recursion may differ.
     pub(super) fn has_same_rollouts(&self, other_settings: &Self) -> bool {
-        let Self { step: selected_step, compounding: selected_recursion, samples, .. } = *other_settings;
+        let Self { step: selected_step, compounding: selected_recursion, samples: sample_count, .. } =
+            *other_settings;
         // −0 equals 0, but leads to other signs of zeros in the results.
         let sign_bits_of = |settings: &Self| {
             let VelocityCmd { v, omega, dt } = settings.command;
             ([v, omega, dt].map(f64::is_sign_negative), settings.alphas.map(f64::is_sign_negative))
         };
-        Self { step: selected_step, compounding: selected_recursion, samples, ..*self } == *other_settings
+        Self { step: selected_step, compounding: selected_recursion, samples: sample_count, ..*self }
+            == *other_settings
             && sign_bits_of(self) == sign_bits_of(other_settings)
     }
 }

@@ -89,20 +89,21 @@ impl Setting<'_> {
     /// Checks that the numbers are in their ranges. Fails with [`SettingsError`] for the first number out of its range.
     pub(crate) fn check(self, key: &str) -> Result<(), SettingsError> {
         match self {
-            Self::Number(set_number, allowed) => check_real(key, *set_number, &allowed),
+            Self::Number(setting_number, allowed) => check_real(key, *setting_number, &allowed),
             Self::Integer(integer, allowed) => check_integer(key, integer.get() as f64, &allowed).map(|_| ()),
             Self::OptionalInteger(Some(integer), allowed) => {
                 check_integer(key, *integer as f64, &allowed).map(|_| ())
             }
-            Self::Numbers(set_numbers, allowed) => {
-                let mut indexed_numbers = set_numbers.iter().enumerate();
-                indexed_numbers
-                    .try_for_each(|(i, set_number)| check_real(&format!("{key}[{i}]"), *set_number, &allowed))
+            Self::Numbers(setting_numbers, allowed) => {
+                let mut indexed_numbers = setting_numbers.iter().enumerate();
+                indexed_numbers.try_for_each(|(i, setting_number)| {
+                    check_real(&format!("{key}[{i}]"), *setting_number, &allowed)
+                })
             }
-            Self::Group(group_members, set_numbers) => {
-                let mut declared_numbers = group_members.iter().zip(set_numbers);
-                declared_numbers.try_for_each(|(GroupMember { declaration, allowed }, set_number)| {
-                    check_real(&format!("{key}.{}", declaration.key), *set_number, allowed)
+            Self::Group(group_members, setting_numbers) => {
+                let mut declared_numbers = group_members.iter().zip(setting_numbers);
+                declared_numbers.try_for_each(|(GroupMember { declaration, allowed }, setting_number)| {
+                    check_real(&format!("{key}.{}", declaration.key), *setting_number, allowed)
                 })
             }
             // The α's that a noise level sets are checked instead of the level.
@@ -114,17 +115,17 @@ impl Setting<'_> {
 impl Serialize for Setting<'_> {
     fn serialize<S: Serializer>(&self, value_serializer: S) -> Result<S::Ok, S::Error> {
         match self {
-            Self::Number(set_number, _) => set_number.serialize(value_serializer),
+            Self::Number(setting_number, _) => setting_number.serialize(value_serializer),
             Self::Integer(integer, _) => integer.get().serialize(value_serializer),
             Self::OptionalInteger(integer, _) => integer.serialize(value_serializer),
             Self::Boolean(boolean) => boolean.serialize(value_serializer),
             Self::Keyword(setting_keyword) => setting_keyword.get().serialize(value_serializer),
-            Self::Numbers(set_numbers, _) => set_numbers.serialize(value_serializer),
+            Self::Numbers(setting_numbers, _) => setting_numbers.serialize(value_serializer),
             Self::Level(noise_level, _) => noise_level.get().serialize(value_serializer),
-            Self::Group(group_members, set_numbers) => {
-                let mut serialized_object = value_serializer.serialize_struct("", set_numbers.len())?;
-                for (group_member, set_number) in group_members.iter().zip(set_numbers) {
-                    serialized_object.serialize_field(group_member.declaration.key, set_number)?;
+            Self::Group(group_members, setting_numbers) => {
+                let mut serialized_object = value_serializer.serialize_struct("", setting_numbers.len())?;
+                for (group_member, setting_number) in group_members.iter().zip(setting_numbers) {
+                    serialized_object.serialize_field(group_member.declaration.key, setting_number)?;
                 }
                 serialized_object.end()
             }

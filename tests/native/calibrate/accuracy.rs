@@ -44,7 +44,6 @@ const TRUE_SYSTEMATIC_ERRORS: Systematic = Systematic {
 const INTERVAL_MARGIN: f64 = 1e-3;
 
 struct StudyResults {
-    /// Sorted ratios of fitted α to true α, for each α.
     alpha_ratios: Vec<Vec<f64>>,
     /// Number of 95 % intervals that contain the true value, for each α.
     covered_alphas: Vec<usize>,
@@ -168,7 +167,6 @@ fn assert_right_in_every_model(
     assert!(failure_reports.is_empty(), "{}", failure_reports.join("\n"));
 }
 
-/// Reports a standard deviation of the reference whose error is larger than 10 % plus three standard errors.
 fn report_wrong_std(study: &StudyResults, component_index: usize, true_std: f64) -> Vec<String> {
     let median_std = median_of(&study.reference_stds[component_index]);
     let tolerance = 0.1 * true_std + 3.0 * estimate_error_of_median(&study.reference_stds[component_index]);

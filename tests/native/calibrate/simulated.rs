@@ -45,7 +45,6 @@ pub struct Simulation {
     pub velocity_of_leg: Option<fn(usize) -> [f64; 2]>,
     pub noise_violation: Violation,
     pub seed: u64,
-    /// Standard deviations of the reference, m and rad.
     pub reference_stds: [f64; 2],
     pub sample_times: SampleTimes,
 }

@@ -77,7 +77,6 @@ fn count_covered_windows(model: Model, violation: Violation, log_count: u64) -> 
     covered_and_total_counts
 }
 
-/// Reports a coverage outside of 93 to 97 % by more than three standard errors.
 fn report_wrong_coverage(model: Model, violation: Violation, log_count: u64) -> Option<String> {
     let [covered_count, window_count] = count_covered_windows(model, violation, log_count);
     let covered_fraction = covered_count as f64 / window_count as f64;

@@ -32,7 +32,6 @@ pub struct PolarGrid {
 }
 
 impl PolarGrid {
-    /// Returns the box around the pose `middle_pose` that extends by `half_extent` to either side.
     pub fn new(
         start_pose: &SE2,
         middle_pose: &SE2,

@@ -5,7 +5,6 @@ use motion::geom::segment::Segment;
 
 pub type Point = [f64; 2];
 
-/// Returns the position after a fraction `f` of the arc, relative to its start.
 pub fn position_along_arc(arc: &Arc, f: f64) -> Point {
     let (length, turn) = (f * arc.length, f * arc.turn);
     let (forward_offset, left_offset) = if turn == 0.0 {

@@ -35,7 +35,6 @@ fn new_simulation(settings: Settings) -> MapSqueeze {
     MapSqueeze::new(settings).expect("valid settings")
 }
 
-/// Returns the fraction of accepted samples whose path crosses a wall, and its standard error.
 fn fraction_through_wall_of(settings: Settings) -> (f64, f64) {
     let simulation = new_simulation(settings);
     assert!(!simulation.stats().gave_up, "{settings:?}");

@@ -48,7 +48,6 @@ fn to_absolute(arc: &Arc, relative_point: Point) -> Point {
     [arc.start.x() + relative_point[0], arc.start.y() + relative_point[1]]
 }
 
-/// Returns a wall along a tangent of the arc, at a tiny distance.
 fn sample_tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let arc_fraction = sample_uniform(rng, 0.0, 1.0);
     let tangent_heading = arc.start.theta() + arc_fraction * arc.turn;

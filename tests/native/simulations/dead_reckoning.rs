@@ -67,7 +67,6 @@ fn lanes_agree_with_poses_composed_one_by_one() {
             let unit_noise = uniform_draws[1].map(|q| NoiseKind::Normal.quantile(q));
             let previous_pose = composed_pose;
             composed_pose = velocity_model.apply_noise(&u, &composed_pose, unit_noise);
-            // The rounding of a path grows with its length and its turn.
             path_size += (composed_pose.x() - previous_pose.x()).hypot(composed_pose.y() - previous_pose.y())
                 + (u.omega * u.dt).abs();
             let turn_noise = velocity_model.variances(&u)[1].0.sqrt() * u.dt * unit_noise[1].abs();

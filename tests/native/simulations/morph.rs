@@ -15,7 +15,6 @@ fn distance_between(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Returns the final position of a body with a constant twist, by steps of the midpoint rule.
 fn integrate_twist([v_along, v_lateral, omega]: [f64; 3]) -> [f64; 2] {
     const STEP_COUNT: usize = 2000;
     let time_step = 1.0 / STEP_COUNT as f64;

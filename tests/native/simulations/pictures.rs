@@ -22,7 +22,6 @@ fn new_numbered_ramp(ramp_number: u8) -> Ramp {
     std::array::from_fn(|ramp_step| [ramp_step as u8, ramp_number, 7, 255])
 }
 
-/// Returns the index of the cell that contains a point, row by row from the top.
 fn find_cell_index(view_grid: &ViewGrid, [x, y]: [f64; 2]) -> Option<usize> {
     let ViewGrid { min_corner: lower_corner, max_corner: max, column_count, row_count } = *view_grid;
     let column_number = ((x - lower_corner[0]) / (max[0] - lower_corner[0]) * column_count as f64).floor();

@@ -41,9 +41,9 @@ impl JsAlphaCalibrator {
     #[wasm_bindgen(js_name = restored)]
     pub fn restore(
         #[wasm_bindgen(unchecked_param_type = "Partial<AlphaCalibratorSettings>")] settings: &JsValue,
-        saved_bytes: &[u8],
+        saved: &[u8],
     ) -> Result<Self, JsValue> {
-        let saved_calibration = postcard::from_bytes(saved_bytes)
+        let saved_calibration = postcard::from_bytes(saved)
             .map_err(|_| TypeError::new("saved is no fit; allowed is that of another simulation"))?;
         Ok(Self(AlphaCalibrator::restore(read_initial_settings(settings)?, saved_calibration)?))
     }
@@ -57,10 +57,10 @@ impl JsAlphaCalibrator {
     #[wasm_bindgen(js_name = setLog)]
     pub fn set_log(
         &mut self,
-        #[wasm_bindgen(unchecked_param_type = "CalibrationOptions['odometry']")] odometry_value: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "CalibrationOptions['reference']")] reference_value: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "CalibrationOptions['odometry']")] odometry: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "CalibrationOptions['reference']")] reference: &JsValue,
     ) -> Result<(), JsValue> {
-        self.0.set_log(read_logs(odometry_value, reference_value)?);
+        self.0.set_log(read_logs(odometry, reference)?);
         Ok(())
     }
 

@@ -126,10 +126,10 @@ impl JsBananaMachine {
         #[wasm_bindgen(unchecked_param_type = "ArrayLike<number>")] bounds: &JsValue,
         columns: f64,
         rows: f64,
-        ramp_bytes: &[u8],
+        ramp: &[u8],
     ) -> Result<Uint8ClampedArray, JsValue> {
         let view_grid = read_grid(bounds, columns, rows)?;
-        let [colour_ramp] = read_ramps("ramp", ramp_bytes)?;
+        let [colour_ramp] = read_ramps("ramp", ramp)?;
         Ok(pixel_view(self.0.paint_picture(
             check_range("morph", morph, &MORPH_RANGE)?,
             &view_grid,

@@ -12,22 +12,22 @@ import { COMMON_PROPERTIES } from './figure/definition.ts';
 import { includesFields } from './data/checks.ts';
 import { GLOBAL_ATTRIBUTES, createWidget, createErrorParagraph } from './named.ts';
 
-export interface Model {
+export interface WidgetModel {
   /** Returns the value of a trait; undefined if the model does not have it. */
-  get: (name: string) => any;
-  set: (name: string, value: unknown) => void;
-  on: (event: string, listener: () => void) => void;
-  off: (event: string, listener: () => void) => void;
+  get: (traitName: string) => any;
+  set: (traitName: string, traitValue: unknown) => void;
+  on: (modelEvent: string, listener: () => void) => void;
+  off: (modelEvent: string, listener: () => void) => void;
   save_changes: () => void;
 }
 
 /** Renders the widget of a model. @returns a function that removes it again */
-function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) | undefined {
+function renderWidget({ model: widgetModel, el: outputElement }: { model: WidgetModel, el: HTMLElement }): (() => void) | undefined {
   let element: any;
   try {
-    element = createWidget(model.get('widget'));
+    element = createWidget(widgetModel.get('widget'));
   } catch (error) {
-    el.append(createErrorParagraph('This cell', error));
+    outputElement.append(createErrorParagraph('This cell', error));
     return;
   }
   // Without this attribute, JupyterLab would treat letters and digits typed in a figure as shortcuts, and change the cell.
@@ -36,19 +36,19 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
   element.style.color = 'var(--jp-content-font-color1, inherit)';
 
   let hasUnsavedChanges = false;
-  const setTrait = (trait: string, value: unknown) => {
-    const currentValue = model.get(trait);
-    if (currentValue === undefined || includesFields(currentValue, value)) return;
+  const setTrait = (traitName: string, traitValue: unknown) => {
+    const currentValue = widgetModel.get(traitName);
+    if (currentValue === undefined || includesFields(currentValue, traitValue)) return;
     hasUnsavedChanges = true;
-    model.set(trait, value);
+    widgetModel.set(traitName, traitValue);
   };
   const saveChanges = () => {
     if (!hasUnsavedChanges) return;
     hasUnsavedChanges = false;
-    withoutKernel(() => model.save_changes());
+    withoutKernel(() => widgetModel.save_changes());
   };
 
-  const traits = traitsOf(element);
+  const traitPairs = traitsOf(element);
   let isScheduled = false;
   let isWriting = false;
   /** Writes the figure's values into the model. Several calls in the same task cause one write. */
@@ -59,23 +59,23 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
       isScheduled = false;
       // The figure has no values before its simulation starts. Its start calls `sendValues` again.
       if (!element.simulation) return;
-      const ownTraits = traits.filter(([, property]) => !GLOBAL_ATTRIBUTES.includes(property));
-      const traitValues = ownTraits.map(([trait, property]) => [trait, toJsonValue(element[property])] as [string, unknown]);
+      const ownTraits = traitPairs.filter(([, propertyName]) => !GLOBAL_ATTRIBUTES.includes(propertyName));
+      const traitValues = ownTraits.map(([traitName, propertyName]) => [traitName, toJsonValue(element[propertyName])] as [string, unknown]);
       // Null values are written last. A null such as "no preset" follows from the other values, and other views of the model apply the values in this order.
       isWriting = true;
-      for (const isNull of [false, true]) for (const [trait, value] of traitValues) if ((value === null) === isNull) setTrait(trait, value);
+      for (const isNull of [false, true]) for (const [traitName, traitValue] of traitValues) if ((traitValue === null) === isNull) setTrait(traitName, traitValue);
       isWriting = false;
       // `_shown` has the values of all traits at one moment, and the number of the latest request that the figure has applied. The kernel ignores the
       // values of settings for which it has sent newer requests.
-      setTrait('_shown', { heard: model.get('_asked'), settings: Object.fromEntries(traitValues.filter(([trait]) => model.get(trait) !== undefined)) });
+      setTrait('_shown', { heard: widgetModel.get('_asked'), settings: Object.fromEntries(traitValues.filter(([traitName]) => widgetModel.get(traitName) !== undefined)) });
       saveChanges();
     });
   };
 
-  element.addEventListener('error', (event: ErrorEvent) => {
-    if (model.get('error') === undefined) return;
-    event.preventDefault();
-    setTrait('error', event.message);
+  element.addEventListener('error', (errorEvent: ErrorEvent) => {
+    if (widgetModel.get('error') === undefined) return;
+    errorEvent.preventDefault();
+    setTrait('error', errorEvent.message);
     saveChanges();
   });
   element.addEventListener('load', sendValues);
@@ -83,26 +83,26 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
     setTrait('error', '');
     sendValues();
   });
-  element.addEventListener('stats', ({ detail }: CustomEvent) => {
-    if (model.get('stats') === undefined) return;
-    setTrait('stats', toJsonValue(detail));
+  element.addEventListener('stats', ({ detail: statsDetail }: CustomEvent) => {
+    if (widgetModel.get('stats') === undefined) return;
+    setTrait('stats', toJsonValue(statsDetail));
     saveChanges();
   });
 
-  const stopFunctions = traits.map(([trait, property]) => {
+  const stopFunctions = traitPairs.map(([traitName, propertyName]) => {
     const applyTrait = () => {
       if (isWriting) return;
       setTrait('error', '');
       // A global attribute such as `lang` is a string; the empty string stands for a missing attribute.
-      element[property] = model.get(trait) ?? (GLOBAL_ATTRIBUTES.includes(property) ? '' : null);
+      element[propertyName] = widgetModel.get(traitName) ?? (GLOBAL_ATTRIBUTES.includes(propertyName) ? '' : null);
       sendValues();
     };
-    const value = model.get(trait);
-    if (value !== undefined && value !== null) element[property] = value;
-    model.on(`change:${trait}`, applyTrait);
-    return () => model.off(`change:${trait}`, applyTrait);
+    const traitValue = widgetModel.get(traitName);
+    if (traitValue !== undefined && traitValue !== null) element[propertyName] = traitValue;
+    widgetModel.on(`change:${traitName}`, applyTrait);
+    return () => widgetModel.off(`change:${traitName}`, applyTrait);
   });
-  el.append(element);
+  outputElement.append(element);
 
   return () => {
     for (const stopListeningToTrait of stopFunctions) withoutKernel(stopListeningToTrait);
@@ -121,22 +121,22 @@ function withoutKernel(callKernel: () => void) {
 
 /** Returns the names of all traits, in JavaScript's and in Python's spelling, each with the property that it sets. Properties on which others depend come first. */
 function traitsOf(element: any): [trait: string, property: string][] {
-  const { properties } = element.constructor.definition;
-  const propertiesByName: Record<string, { attribute?: boolean | string }> = { ...properties, ...COMMON_PROPERTIES, ...Object.fromEntries(GLOBAL_ATTRIBUTES.map((name) => [name, {}])) };
-  return Object.entries(propertiesByName).flatMap(([property, { attribute }]) => {
-    const pythonName = property.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);
+  const { elementProperties } = element.constructor.definition;
+  const propertiesByName: Record<string, { attribute?: boolean | string }> = { ...elementProperties, ...COMMON_PROPERTIES, ...Object.fromEntries(GLOBAL_ATTRIBUTES.map((traitName) => [traitName, {}])) };
+  return Object.entries(propertiesByName).flatMap(([propertyName, { attribute: attributeName }]) => {
+    const pythonName = propertyName.replaceAll(/[A-Z]/g, (capitalLetter) => `_${capitalLetter.toLowerCase()}`);
     // In Python a name that is a keyword ends with an underscore, as in `from_`.
-    const spellings = new Set([typeof attribute === 'string' ? attribute : property, property, pythonName, `${pythonName}_`]);
-    return [...spellings].map((trait) => [trait, property] as [string, string]);
+    const traitSpellings = new Set([typeof attributeName === 'string' ? attributeName : propertyName, propertyName, pythonName, `${pythonName}_`]);
+    return [...traitSpellings].map((traitName) => [traitName, propertyName] as [string, string]);
   });
 }
 
 /** Returns a value as JSON can represent it: lists for typed arrays, null for numbers that are not finite. */
-function toJsonValue(value: unknown): unknown {
-  if (typeof value === 'number') return Number.isFinite(value) ? value : null;
-  if (typeof value !== 'object' || value === null) return value;
-  if (Array.isArray(value) || ArrayBuffer.isView(value)) return Array.from(value as ArrayLike<unknown>, toJsonValue);
-  return Object.fromEntries(Object.entries(value).map(([key, member]) => [key, toJsonValue(member)]));
+function toJsonValue(propertyValue: unknown): unknown {
+  if (typeof propertyValue === 'number') return Number.isFinite(propertyValue) ? propertyValue : null;
+  if (typeof propertyValue !== 'object' || propertyValue === null) return propertyValue;
+  if (Array.isArray(propertyValue) || ArrayBuffer.isView(propertyValue)) return Array.from(propertyValue as ArrayLike<unknown>, toJsonValue);
+  return Object.fromEntries(Object.entries(propertyValue).map(([fieldKey, fieldValue]) => [fieldKey, toJsonValue(fieldValue)]));
 }
 
-export default { render };
+export default { render: renderWidget };

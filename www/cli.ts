@@ -16,14 +16,14 @@ let shownPercent = -1;
 
 process.exitCode = await runCommand(process.argv.slice(2), {
   load,
-  print: (text) => stdout.write(text),
-  printError: (text) => stderr.write(text),
+  print: (outputText) => stdout.write(outputText),
+  printError: (outputText) => stderr.write(outputText),
   version: JSON.parse(readFileSync(new URL('../package.json', import.meta.url), 'utf8')).version,
   isColored: stdout.isTTY && !process.env.NO_COLOR,
-  onProgress(fraction) {
-    const newPercent = fraction === undefined ? -1 : Math.floor(100 * fraction);
+  onProgress(progressFraction) {
+    const newPercent = progressFraction === undefined ? -1 : Math.floor(100 * progressFraction);
     if (!stderr.isTTY || newPercent === shownPercent) return;
     shownPercent = newPercent;
-    stderr.write(fraction === undefined ? '\r\x1b[K' : `\rreading ${newPercent} %`);
+    stderr.write(progressFraction === undefined ? '\r\x1b[K' : `\rreading ${newPercent} %`);
   },
 });

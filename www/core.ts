@@ -29,8 +29,8 @@ let corePromise: Promise<Motion> | undefined;
  * `motion.wasm` next to it, or if the file cannot be fetched, the copy embedded in a script. The first caller with a source determines the
  * source for the page. A script may import the elements before it calls `load(source)`, but must not await anything in between.
  */
-export function load(source?: ModuleSource): Promise<Motion> {
-  requestedSource ??= source;
+export function load(moduleSource?: ModuleSource): Promise<Motion> {
+  requestedSource ??= moduleSource;
   corePromise ??= instantiate().catch((error) => {
     corePromise = undefined;
     throw error;
@@ -42,8 +42,8 @@ export function load(source?: ModuleSource): Promise<Motion> {
  * Returns another core from the same compiled module, with its own memory. A trap in the new core does not affect other cores. The memory is freed when
  * nothing refers to the new core any more.
  */
-export function instantiate(source?: ModuleSource): Promise<Motion> {
-  requestedSource ??= source;
+export function instantiate(moduleSource?: ModuleSource): Promise<Motion> {
+  requestedSource ??= moduleSource;
   return instantiateFor('motion');
 }
 
@@ -52,12 +52,12 @@ export async function instantiateFor(widgetTag: string): Promise<Motion> {
   if (typeof WebAssembly === 'undefined') {
     throw new Error('WebAssembly is not available here, and motion-widgets needs it.');
   }
-  let motion;
+  let motionCore;
   try {
     // Waits, because the script that imports the elements can call `load(source)` only after they are defined.
     await null;
-    const [module, { default: createCore }] = await loadModuleAndGlue(widgetTag);
-    motion = await createCore(module);
+    const [wasmModule, { default: createCore }] = await loadModuleAndGlue(widgetTag);
+    motionCore = await createCore(wasmModule);
   } catch (error) {
     if (!isWasmForbidden()) throw error;
     throw new Error(
@@ -65,8 +65,8 @@ export async function instantiateFor(widgetTag: string): Promise<Motion> {
       { cause: error },
     );
   }
-  for (const [className, { prototype }] of Object.entries<any>(motion)) if (prototype?.free) makeDisposable(className, prototype);
-  return motion;
+  for (const [className, { prototype }] of Object.entries<any>(motionCore)) if (prototype?.free) makeDisposable(className, prototype);
+  return motionCore;
 }
 
 /** Compiled WebAssembly module of a widget, and the key of its wasm-bindgen JavaScript in `bundledCores`. A worker instantiates the core from these. */
@@ -77,15 +77,15 @@ export interface SharedCore {
 
 /** Returns what a worker needs to instantiate a widget's core. */
 export async function moduleForWorker(widgetTag: string): Promise<SharedCore> {
-  const [module] = await loadModuleAndGlue(widgetTag);
+  const [wasmModule] = await loadModuleAndGlue(widgetTag);
   const bundledCore = bundledCoreOf(widgetTag);
-  return { module, glueKey: Object.keys(bundledCores).find((key) => bundledCores[key] === bundledCore) ?? 'motion' };
+  return { module: wasmModule, glueKey: Object.keys(bundledCores).find((glueKey) => bundledCores[glueKey] === bundledCore) ?? 'motion' };
 }
 
 /** Returns a core from a module that another thread has compiled. */
-export async function instantiateShared({ module, glueKey }: SharedCore): Promise<Motion> {
+export async function instantiateShared({ module: wasmModule, glueKey }: SharedCore): Promise<Motion> {
   const { default: createCore } = await (bundledCores[glueKey] ?? bundledCores.motion).glue();
-  return createCore(module);
+  return createCore(wasmModule);
 }
 
 /** Prevents the garbage collector from freeing a simulation after a trap in its core, because the core's memory may be damaged. */
@@ -123,20 +123,20 @@ function bundledCoreOf(widgetTag: string) {
 
 function compileOnce(bundledCore: BundledCore): Promise<WebAssembly.Module> {
   const cacheKey = requestedSource ?? bundledCore;
-  let module = modulesBySource.get(cacheKey);
-  if (!module) {
-    module = compileSource(requestedSource ?? bundledCore.source()).catch((error) => {
+  let wasmModule = modulesBySource.get(cacheKey);
+  if (!wasmModule) {
+    wasmModule = compileSource(requestedSource ?? bundledCore.source()).catch((error) => {
       requestedSource = undefined;
       modulesBySource.delete(cacheKey);
       throw error;
     });
-    modulesBySource.set(cacheKey, module);
+    modulesBySource.set(cacheKey, wasmModule);
   }
-  return module;
+  return wasmModule;
 }
 
 /** Compiles the module that is embedded in the bundle, if any, in the background while this thread evaluates scripts. */
-export function precompile() {
+export function precompileModule() {
   // If `embedded` is set, the embedded core is only a fallback for cores in separate files, which are not compiled in advance.
   if (!bundledCores.embedded && requestedSource === undefined) compileOnce(bundledCores.motion).catch(() => {});
 }
@@ -150,15 +150,15 @@ const MAX_ADDRESS_LENGTH = 200;
 
 async function compileSource(sourceOrPromise: ModuleSource | Promise<BufferSource> | undefined) {
   // There is no `await` for a source of bytes, so that its compilation starts at once and not in a later task.
-  const source = (sourceOrPromise instanceof Promise ? await sourceOrPromise : sourceOrPromise) as ModuleSource;
-  if (source instanceof WebAssembly.Module) return source;
-  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);
-  if (source instanceof URL || typeof source === 'string') {
-    const fileContents = readNodeFile(source);
-    return fileContents ? WebAssembly.compile(await fileContents) : compileStreamed(source);
+  const moduleSource = (sourceOrPromise instanceof Promise ? await sourceOrPromise : sourceOrPromise) as ModuleSource;
+  if (moduleSource instanceof WebAssembly.Module) return moduleSource;
+  if (moduleSource instanceof ArrayBuffer || ArrayBuffer.isView(moduleSource)) return WebAssembly.compile(moduleSource);
+  if (moduleSource instanceof URL || typeof moduleSource === 'string') {
+    const fileContents = readNodeFile(moduleSource);
+    return fileContents ? WebAssembly.compile(await fileContents) : compileStreamed(moduleSource);
   }
   throw new TypeError(
-    `load: source is of the type ${typeof source}; allowed are the module's bytes, a URL or string, and a WebAssembly.Module.`,
+    `load: source is of the type ${typeof moduleSource}; allowed are the module's bytes, a URL or string, and a WebAssembly.Module.`,
   );
 }
 
@@ -172,10 +172,10 @@ function isWasmForbidden() {
 }
 
 /** Compiles a module during its download, or after the download if its MIME type is not application/wasm. */
-async function compileStreamed(source: URL | string) {
-  const moduleResponse = await fetch(source).catch((error) => {
+async function compileStreamed(moduleSource: URL | string) {
+  const moduleResponse = await fetch(moduleSource).catch((error) => {
     throw new Error(
-      `load: ${String(source).slice(0, MAX_ADDRESS_LENGTH)} cannot be fetched (${error.message}); a Content-Security-Policy has to allow it by connect-src. ${MISSING_MODULE_ADVICE}`,
+      `load: ${String(moduleSource).slice(0, MAX_ADDRESS_LENGTH)} cannot be fetched (${error.message}); a Content-Security-Policy has to allow it by connect-src. ${MISSING_MODULE_ADVICE}`,
       { cause: error },
     );
   });
@@ -186,17 +186,17 @@ async function compileStreamed(source: URL | string) {
     if (/^application\/wasm\s*$/i.test(contentType)) return await WebAssembly.compileStreaming(moduleResponse);
     return await WebAssembly.compile(await moduleResponse.arrayBuffer());
   } catch (error) {
-    const reason = (error as Error).message;
-    throw new Error(`load: ${url} answers with ${contentType}, which is no WebAssembly module: ${reason}. ${MISSING_MODULE_ADVICE}`, { cause: error });
+    const failureReason = (error as Error).message;
+    throw new Error(`load: ${url} answers with ${contentType}, which is no WebAssembly module: ${failureReason}. ${MISSING_MODULE_ADVICE}`, { cause: error });
   }
 }
 
 /** Reads a file in Node, whose `fetch` refuses file: addresses and paths. Returns undefined for addresses that `fetch` can read. */
-function readNodeFile(source: URL | string): Promise<BufferSource> | undefined {
-  if (/^(https?|data|blob):/.test(String(source))) return undefined;
+function readNodeFile(moduleSource: URL | string): Promise<BufferSource> | undefined {
+  if (/^(https?|data|blob):/.test(String(moduleSource))) return undefined;
   // A static import of node:fs would fail in bundlers for browsers.
   const nodeFileSystem = globalThis.process?.getBuiltinModule?.('node:fs/promises');
-  return nodeFileSystem?.readFile(String(source).startsWith('file:') ? new URL(source) : source);
+  return nodeFileSystem?.readFile(String(moduleSource).startsWith('file:') ? new URL(moduleSource) : moduleSource);
 }
 
 /**
@@ -205,10 +205,10 @@ function readNodeFile(source: URL | string): Promise<BufferSource> | undefined {
  */
 function makeDisposable(className: string, prototype: any) {
   if (!Symbol.dispose) Object.defineProperty(Symbol, 'dispose', { value: Symbol('Symbol.dispose') });
-  const { free } = prototype;
+  const { free: freeObject } = prototype;
   prototype.free = prototype[Symbol.dispose] = function () {
     if (!Object.getOwnPropertyDescriptor(this, '__wbg_ptr')?.value) return;
-    free.call(this);
+    freeObject.call(this);
     const throwFreed = () => {
       throw new TypeError(`this ${className} was freed; create a new one.`);
     };

@@ -8,17 +8,17 @@ import './de.ts';
 import { GLOBAL_ATTRIBUTES, createWidget, createErrorParagraph } from './named.ts';
 
 /** Returns the widget that a query describes. If a parameter is not allowed, throws an error that names it and lists the allowed ones. */
-function widgetFromQuery(query: URLSearchParams) {
-  const widget = createWidget(query.get('widget'));
+function widgetFromQuery(urlQuery: URLSearchParams) {
+  const widget = createWidget(urlQuery.get('widget'));
   const tagName = widget.localName;
   const allowedParameters = [...(widget.constructor as any).observedAttributes, ...GLOBAL_ATTRIBUTES];
-  for (const [parameter, value] of query) {
-    if (parameter === 'widget') continue;
-    if (!allowedParameters.includes(parameter)) {
-      throw new Error(`${parameter} is an unknown parameter of ${tagName}; allowed are ${allowedParameters.sort().join(', ')}`);
+  for (const [parameterName, parameterValue] of urlQuery) {
+    if (parameterName === 'widget') continue;
+    if (!allowedParameters.includes(parameterName)) {
+      throw new Error(`${parameterName} is an unknown parameter of ${tagName}; allowed are ${allowedParameters.sort().join(', ')}`);
     }
-    if (query.getAll(parameter).length > 1) throw new Error(`${parameter} is given more than once; allowed is once`);
-    widget.setAttribute(parameter, value);
+    if (urlQuery.getAll(parameterName).length > 1) throw new Error(`${parameterName} is given more than once; allowed is once`);
+    widget.setAttribute(parameterName, parameterValue);
   }
   return widget;
 }

@@ -11,14 +11,14 @@ export { load } from './core.ts';
 export { setMessages } from './messages/registry.ts';
 
 /** Returns true if a tag is that of a figure. Template compilers, such as Vue's, use this function to recognize custom elements. */
-export const isFigureTag = (tag: string) => tag in widgets;
+export const isFigureTag = (figureTag: string) => figureTag in widgets;
 
 /** Tags of widgets whose scripts are not loaded yet. */
-const undefinedTags = new Set(Object.keys(widgets).filter((tag) => !customElements.get(tag)));
+const undefinedTags = new Set(Object.keys(widgets).filter((figureTag) => !customElements.get(figureTag)));
 
-/** Loads the widgets whose tags are in `root`. @param root a document, a shadow root, or an element with its descendants */
-function defineWidgetsIn(root: ParentNode) {
-  for (const element of [root, ...root.querySelectorAll('*')]) {
+/** Loads the widgets whose tags are in `root`. @param searchRoot a document, a shadow root, or an element with its descendants */
+function defineWidgetsIn(searchRoot: ParentNode) {
+  for (const element of [searchRoot, ...searchRoot.querySelectorAll('*')]) {
     if (!(element instanceof Element)) continue;
     const { localName } = element;
     if (undefinedTags.delete(localName)) {
@@ -32,18 +32,18 @@ function defineWidgetsIn(root: ParentNode) {
   }
 }
 
-const elementObserver: MutationObserver | undefined = globalThis.MutationObserver && new MutationObserver((mutations) => {
-  for (const { addedNodes } of mutations) for (const node of addedNodes) if (node instanceof Element) defineWidgetsIn(node);
+const elementObserver: MutationObserver | undefined = globalThis.MutationObserver && new MutationObserver((domMutations) => {
+  for (const { addedNodes } of domMutations) for (const addedNode of addedNodes) if (addedNode instanceof Element) defineWidgetsIn(addedNode);
   if (undefinedTags.size === 0) elementObserver?.disconnect();
 });
 
 const watchedRoots: WeakSet<Node> = new WeakSet();
 
-function watchRoot(root: Document | ShadowRoot) {
-  if (undefinedTags.size === 0 || watchedRoots.has(root)) return;
-  watchedRoots.add(root);
-  elementObserver?.observe(root, { childList: true, subtree: true });
-  defineWidgetsIn(root);
+function watchRoot(searchRoot: Document | ShadowRoot) {
+  if (undefinedTags.size === 0 || watchedRoots.has(searchRoot)) return;
+  watchedRoots.add(searchRoot);
+  elementObserver?.observe(searchRoot, { childList: true, subtree: true });
+  defineWidgetsIn(searchRoot);
 }
 
 // Without a DOM, as in Node, there is no document to search for tags.

@@ -7,6 +7,6 @@ import { LogSession } from './logs/session.ts';
 export { LogSession };
 
 /** Starts a session with the WebAssembly module that the page has compiled. */
-export const startSession = async (core: SharedCore) => proxy(new LogSession(await instantiateShared(core)));
+export const startSession = async (sharedCore: SharedCore) => proxy(new LogSession(await instantiateShared(sharedCore)));
 
 if ('DedicatedWorkerGlobalScope' in globalThis) expose(startSession);

@@ -6,73 +6,73 @@
  */
 
 /** Custom element of a figure. */
-type Figure = HTMLElement & Record<string, any>;
+type FigureElement = HTMLElement & Record<string, any>;
 
 /** Initial states of the figures, as `getState` returned them. */
 const openingStates: WeakMap<Element, Record<string, any>> = new WeakMap();
 
 /** Returns the figure of the article that contains an element. */
-const figureOf = (pageElement: Element) => pageElement.closest('article')?.querySelector('.stand') as Figure;
+const figureOf = (pageElement: Element) => pageElement.closest('article')?.querySelector('.stand') as FigureElement;
 
 /**
  * Restores the initial state of a figure, and then sets values in their order. The key of a value is a property of the element, or else a
  * field of its state. A preset has to be the first value, because it replaces the others.
  */
-async function enterState(figure: Figure, values: Record<string, unknown>) {
-  if (!openingStates.has(figure)) await new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
-  const openingState = openingStates.get(figure) ?? {};
+async function enterState(figureElement: FigureElement, settingValues: Record<string, unknown>) {
+  if (!openingStates.has(figureElement)) await new Promise((resolveLoad) => figureElement.addEventListener('load', resolveLoad, { once: true }));
+  const openingState = openingStates.get(figureElement) ?? {};
   // All samples are shown at once, because the text of the page describes the complete cloud.
   const completeCloudFields = 'shown' in openingState ? { shown: openingState.samples, playing: false } : {};
-  const { widget, version } = openingState;
-  figure.setState({ ...openingState, ...completeCloudFields });
-  for (const [settingKey, settingValue] of Object.entries(values)) {
-    if (settingKey in figure) figure[settingKey] = settingValue;
-    else figure.setState({ widget, version, [settingKey]: settingValue });
+  const { widget, version: stateVersion } = openingState;
+  figureElement.setState({ ...openingState, ...completeCloudFields });
+  for (const [settingKey, settingValue] of Object.entries(settingValues)) {
+    if (settingKey in figureElement) figureElement[settingKey] = settingValue;
+    else figureElement.setState({ widget, version: stateVersion, [settingKey]: settingValue });
   }
 }
 
 async function enterTriedState(tryButton: HTMLElement) {
-  const figure = figureOf(tryButton);
+  const figureElement = figureOf(tryButton);
   for (const triedButton of tryButton.closest('article')?.querySelectorAll('[data-try]') ?? []) triedButton.removeAttribute('aria-current');
-  await enterState(figure, JSON.parse(tryButton.dataset.try ?? '{}'));
+  await enterState(figureElement, JSON.parse(tryButton.dataset.try ?? '{}'));
   tryButton.setAttribute('aria-current', 'true');
-  figure.addEventListener('input', () => tryButton.removeAttribute('aria-current'), { once: true });
+  figureElement.addEventListener('input', () => tryButton.removeAttribute('aria-current'), { once: true });
 }
 
 /** Highlights the line that a term names while the pointer or the focus is on the term. */
-function highlightTerm({ type, target }: Event) {
-  const term = target instanceof Element ? (target.closest('[data-line]') as HTMLElement | null) : null;
-  if (!term) return;
-  figureOf(term).highlight = /over|in$/.test(type) ? term.dataset.line : null;
+function highlightTerm({ type: eventType, target: eventTarget }: Event) {
+  const highlightedTerm = eventTarget instanceof Element ? (eventTarget.closest('[data-line]') as HTMLElement | null) : null;
+  if (!highlightedTerm) return;
+  figureOf(highlightedTerm).highlight = /over|in$/.test(eventType) ? highlightedTerm.dataset.line : null;
 }
 
 /** Keeps each figure's picture in sight while the reader scrolls through the list of things to try, if the list is below the figure. */
 function keepPicturesInSight() {
   const listSizeObserver = new ResizeObserver((listSizeEntries) => {
-    for (const { target, borderBoxSize: [{ blockSize }] } of listSizeEntries) {
-      (target.parentElement as HTMLElement).style.setProperty('--below', `${blockSize}px`);
+    for (const { target: eventTarget, borderBoxSize: [{ blockSize }] } of listSizeEntries) {
+      (eventTarget.parentElement as HTMLElement).style.setProperty('--below', `${blockSize}px`);
     }
   });
   for (const tryList of document.querySelectorAll('.try')) listSizeObserver.observe(tryList);
 }
 
 /** Returns the number at a path of keys separated by dots; null if there is none. */
-const findNumberAtPath = (stats: Record<string, any>, keyPath: string): number | null => keyPath.split('.').reduce((valueSoFar: any, key) => valueSoFar?.[key], stats) ?? null;
+const findNumberAtPath = (stats: Record<string, any>, keyPath: string): number | null => keyPath.split('.').reduce((valueSoFar: any, pathKey) => valueSoFar?.[pathKey], stats) ?? null;
 
 /**
  * Completes a form in which the reader bets on a number by a slider. `data-try` is the state of the figure that has the answer, and `data-answer`
  * the path of the answer in `stats`. `data-hides` names the overlay that shows the answer; it is hidden until the reader submits the bet.
  */
 function prepareBet(betForm: HTMLFormElement) {
-  const figure = figureOf(betForm);
-  const { try: stateText = '{}', answer: answerPath = '', unit = '', hides: hiddenOverlay } = betForm.dataset;
+  const figureElement = figureOf(betForm);
+  const { try: stateText = '{}', answer: answerPath = '', unit: answerUnit = '', hides: hiddenOverlay } = betForm.dataset;
   const answerState = JSON.parse(stateText);
   betForm.insertAdjacentHTML('beforeend', '<span class="value" aria-hidden="true"></span> <button disabled>Reveal</button><p role="status"></p>');
   const slider = betForm.querySelector('input') as HTMLInputElement;
-  const [valueOutput, submitButton, answerOutput] = ['.value', 'button', '[role=status]'].map((selector) => betForm.querySelector(selector) as HTMLButtonElement);
+  const [valueOutput, submitButton, answerOutput] = ['.value', 'button', '[role=status]'].map((elementSelector) => betForm.querySelector(elementSelector) as HTMLButtonElement);
   const [sliderMin, sliderMax] = [Number(slider.min), Number(slider.max)];
-  const isPercent = unit === '%';
-  const formatValue = (value: number) => `${isPercent ? value.toFixed(slider.valueAsNumber === value ? 0 : 1) + '\u00a0%' : value}`;
+  const isPercent = answerUnit === '%';
+  const formatValue = (guessedValue: number) => `${isPercent ? guessedValue.toFixed(slider.valueAsNumber === guessedValue ? 0 : 1) + '\u00a0%' : guessedValue}`;
   const showValue = () => (slider.ariaValueText = valueOutput.textContent = formatValue(slider.valueAsNumber));
 
   // The bet can be submitted only after the slider has been moved.
@@ -82,14 +82,14 @@ function prepareBet(betForm: HTMLFormElement) {
   });
   showValue();
   if (hiddenOverlay) {
-    const overlaysWithoutAnswer = answerState.overlays.filter((name: string) => name !== hiddenOverlay);
-    betForm.addEventListener('focusin', () => void enterState(figure, { ...answerState, overlays: overlaysWithoutAnswer }), { once: true });
+    const overlaysWithoutAnswer = answerState.overlays.filter((overlayName: string) => overlayName !== hiddenOverlay);
+    betForm.addEventListener('focusin', () => void enterState(figureElement, { ...answerState, overlays: overlaysWithoutAnswer }), { once: true });
   }
   betForm.addEventListener('submit', async (submitEvent) => {
     submitEvent.preventDefault();
-    await enterState(figure, answerState);
-    await figure.settled;
-    const answerNumber = findNumberAtPath(figure.stats, answerPath);
+    await enterState(figureElement, answerState);
+    await figureElement.settled;
+    const answerNumber = findNumberAtPath(figureElement.stats, answerPath);
     const actualValue = answerNumber === null ? null : isPercent ? 100 * answerNumber : answerNumber;
     betForm.style.setProperty('--truth', String(((actualValue ?? sliderMax) - sliderMin) / (sliderMax - sliderMin)));
     betForm.classList.add('revealed');
@@ -98,14 +98,14 @@ function prepareBet(betForm: HTMLFormElement) {
   });
 }
 
-document.addEventListener('load', ({ target }) => {
-  const figure = target as Figure;
-  if (figure.getState && !openingStates.has(figure)) openingStates.set(figure, figure.getState());
+document.addEventListener('load', ({ target: eventTarget }) => {
+  const figureElement = eventTarget as FigureElement;
+  if (figureElement.getState && !openingStates.has(figureElement)) openingStates.set(figureElement, figureElement.getState());
 }, { capture: true });
-document.addEventListener('click', ({ target }) => {
-  const button = target instanceof Element ? target.closest('button[data-try]') : null;
-  if (button) void enterTriedState(button as HTMLElement);
+document.addEventListener('click', ({ target: eventTarget }) => {
+  const tryButton = eventTarget instanceof Element ? eventTarget.closest('button[data-try]') : null;
+  if (tryButton) void enterTriedState(tryButton as HTMLElement);
 });
-for (const type of ['pointerover', 'pointerout', 'focusin', 'focusout']) document.addEventListener(type, highlightTerm);
-for (const form of document.querySelectorAll('form')) prepareBet(form);
+for (const eventType of ['pointerover', 'pointerout', 'focusin', 'focusout']) document.addEventListener(eventType, highlightTerm);
+for (const betForm of document.querySelectorAll('form')) prepareBet(betForm);
 keepPicturesInSight();

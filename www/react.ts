@@ -3,7 +3,7 @@
 import { createElement, forwardRef, useEffect, useImperativeHandle, useLayoutEffect, useRef, useState } from 'react';
 import 'motion-widgets';
 
-export type Props = Record<string, any>;
+export type ReactProps = Record<string, any>;
 
 /** Names of the props of an element. */
 interface PropNames {
@@ -32,59 +32,59 @@ class PropWriter {
   element: any;
   propNames: PropNames;
   /** Props of the previous rendering. */
-  props: Props | undefined;
+  props: ReactProps | undefined;
 
   constructor(propNames: PropNames) {
     this.propNames = propNames;
   }
 
   /** Returns the text of a prop's attribute, or null. */
-  attributeTextOf(name: string, { [name]: value = null }: Props) {
-    if (value === null || (value === false && this.propNames.flags.includes(name))) return null;
-    return Array.isArray(value) ? value.join(' ') : value === true ? '' : String(value);
+  attributeTextOf(propName: string, { [propName]: propValue = null }: ReactProps) {
+    if (propValue === null || (propValue === false && this.propNames.flags.includes(propName))) return null;
+    return Array.isArray(propValue) ? propValue.join(' ') : propValue === true ? '' : String(propValue);
   }
 
-  update(element: any, props: Props) {
+  update(element: any, reactProps: ReactProps) {
     const { props: previousProps } = this;
-    Object.assign(this, { element, props });
+    Object.assign(this, { element, props: reactProps });
     for (const eventType of EVENT_TYPES) element.addEventListener(eventType, this);
     if (!previousProps && element.stats) {
       // An element in the server's HTML may have started before React attached the listeners. Its first events are therefore fired again.
       element.dispatchEvent(new Event('load'));
       element.dispatchEvent(new CustomEvent('stats', { detail: element.stats }));
     }
-    for (const [name, attribute] of Object.entries(this.propNames.attributes)) {
-      const text = this.attributeTextOf(name, props);
+    for (const [propName, attributeName] of Object.entries(this.propNames.attributes)) {
+      const attributeText = this.attributeTextOf(propName, reactProps);
       // Attributes that the server has sent are kept at first, because the user may have changed the figure in the meantime.
-      if (previousProps ? text === this.attributeTextOf(name, previousProps) : text === null || element.hasAttribute(attribute)) continue;
-      if (text === null) element.removeAttribute(attribute);
-      else element.setAttribute(attribute, text);
+      if (previousProps ? attributeText === this.attributeTextOf(propName, previousProps) : attributeText === null || element.hasAttribute(attributeName)) continue;
+      if (attributeText === null) element.removeAttribute(attributeName);
+      else element.setAttribute(attributeName, attributeText);
     }
-    const isChanged = (name: string) => previousProps?.[name] !== props[name] && JSON.stringify(previousProps?.[name]) !== JSON.stringify(props[name]);
-    for (const name of this.propNames.properties.filter(isChanged)) element[name] = props[name];
+    const isChanged = (propName: string) => previousProps?.[propName] !== reactProps[propName] && JSON.stringify(previousProps?.[propName]) !== JSON.stringify(reactProps[propName]);
+    for (const propName of this.propNames.properties.filter(isChanged)) element[propName] = reactProps[propName];
   }
 
-  handleEvent(event: Event) {
-    this.props?.[HANDLER_PROPS[(event.type as keyof typeof HANDLER_PROPS)]]?.(event);
+  handleEvent(domEvent: Event) {
+    this.props?.[HANDLER_PROPS[(domEvent.type as keyof typeof HANDLER_PROPS)]]?.(domEvent);
   }
 
   removeListeners() {
-    for (const type of EVENT_TYPES) this.element.removeEventListener(type, this);
+    for (const eventType of EVENT_TYPES) this.element.removeEventListener(eventType, this);
   }
 }
 
-export function createComponent(displayName: string, tag: string, propNames: PropNames) {
+export function createComponent(displayName: string, elementTag: string, propNames: PropNames) {
   const ownProps = new Set([...Object.keys(propNames.attributes), ...propNames.properties, ...Object.values(HANDLER_PROPS)]);
-  const render = (props: Props, ref: import('react').ForwardedRef<unknown>) => {
+  const renderComponent = (reactProps: ReactProps, forwardedRef: import('react').ForwardedRef<unknown>) => {
     const elementRef = useRef(null);
     const [propWriter] = useState(() => new PropWriter(propNames));
-    useImperativeHandle(ref, () => elementRef.current, []);
-    useLayout(() => propWriter.update(elementRef.current, props));
+    useImperativeHandle(forwardedRef, () => elementRef.current, []);
+    useLayout(() => propWriter.update(elementRef.current, reactProps));
     useLayout(() => () => propWriter.removeListeners(), [propWriter]);
     // `className` is passed as `class`, because React 18 does not translate it for custom elements.
-    const { className, ...otherProps } = Object.fromEntries(Object.entries(props).filter(([name]) => !ownProps.has(name)));
-    const attributeTexts = isOnServer ? Object.entries(propNames.attributes).map(([name, attribute]) => [attribute, propWriter.attributeTextOf(name, props)]) : [];
-    return createElement(tag, { ...otherProps, ...Object.fromEntries(attributeTexts), class: className, ref: elementRef, suppressHydrationWarning: true });
+    const { className, ...otherProps } = Object.fromEntries(Object.entries(reactProps).filter(([propName]) => !ownProps.has(propName)));
+    const attributeTexts = isOnServer ? Object.entries(propNames.attributes).map(([propName, attributeName]) => [attributeName, propWriter.attributeTextOf(propName, reactProps)]) : [];
+    return createElement(elementTag, { ...otherProps, ...Object.fromEntries(attributeTexts), class: className, ref: elementRef, suppressHydrationWarning: true });
   };
-  return Object.assign(forwardRef(render), { displayName });
+  return Object.assign(forwardRef(renderComponent), { displayName });
 }

@@ -12,12 +12,12 @@ const TIMEOUT_MS = 90_000;
 
 /** Runs the checks of a site. @param {import('@playwright/test').Browser} browser @param {Site} servedSite */
 export async function runChecks(browser, servedSite) {
-  const { definition, serving } = servedSite;
+  const { definition: platformDefinition, serving: currentServing } = servedSite;
   /** @type {string[]} */
   const consoleMessages = [];
   const failedChecks = [];
   let passedCount = 0;
-  for (const [checkName, checkFunction] of Object.entries(serving.checks ?? checksOf(servedSite))) {
+  for (const [checkName, checkFunction] of Object.entries(currentServing.checks ?? checksOf(servedSite))) {
     const browserContext = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: 'light' });
     const page = await browserContext.newPage();
     page.setDefaultTimeout(TIMEOUT_MS);
@@ -28,57 +28,57 @@ export async function runChecks(browser, servedSite) {
     } catch (error) {
       failedChecks.push(`${checkName}: ${error instanceof Error ? error.message : error}`);
     }
-    await page.screenshot({ path: join(REPOSITORY_ROOT, `test-results/embeddings/${[servedSite.name, serving.name, checkName].join(' ').replaceAll(' ', '-')}.png`) }).catch(() => {});
+    await page.screenshot({ path: join(REPOSITORY_ROOT, `test-results/embeddings/${[servedSite.name, currentServing.name, checkName].join(' ').replaceAll(' ', '-')}.png`) }).catch(() => {});
     await browserContext.close();
   }
   // An aborted request means that the browser has left the page.
-  const allowedPatterns = [/ net::ERR_ABORTED$/, ...(definition.allowedMessages ?? []).map(({ message }) => message)];
-  const unexpectedMessages = [...new Set(consoleMessages)].filter((message) => !allowedPatterns.some((allowedPattern) => allowedPattern.test(message)));
+  const allowedPatterns = [/ net::ERR_ABORTED$/, ...(platformDefinition.allowedMessages ?? []).map(({ message: consoleMessage }) => consoleMessage)];
+  const unexpectedMessages = [...new Set(consoleMessages)].filter((consoleMessage) => !allowedPatterns.some((allowedPattern) => allowedPattern.test(consoleMessage)));
   if (unexpectedMessages.length > 0) failedChecks.push(`console: ${unexpectedMessages.join('\n')}`);
   else passedCount++;
   return { passed: passedCount, failures: failedChecks };
 }
 
 /** Returns the checks of a site, by name. @param {Site} site @returns {NonNullable<import('./project.mjs').Serving['checks']>} */
-function checksOf({ definition, serving }) {
-  const { goToPage, pages } = definition;
+function checksOf({ definition: platformDefinition, serving: currentServing }) {
+  const { goToPage, pages: pagePaths } = platformDefinition;
   return {
     'first load': checkFirstLoad,
     ...(goToPage && { 'away and back': checkAwayAndBack }),
-    ...(goToPage && pages.second && { 'from a page without figures': checkFromOtherPage }),
-    ...((serving.setDarkMode ?? definition.setDarkMode) && { 'dark mode': checkDarkMode }),
+    ...(goToPage && pagePaths.second && { 'from a page without figures': checkFromOtherPage }),
+    ...((currentServing.setDarkMode ?? platformDefinition.setDarkMode) && { 'dark mode': checkDarkMode }),
   };
 }
 
-/** Collects errors and warnings of the console and failed requests of a page. @param {Page} page @param {string[]} messages */
-export function recordMessages(page, messages) {
-  page.on('console', (message) => {
+/** Collects errors and warnings of the console and failed requests of a page. @param {Page} page @param {string[]} consoleMessages */
+export function recordMessages(page, consoleMessages) {
+  page.on('console', (consoleMessage) => {
     // This message does not name the address. The events requestfailed and response do, and are recorded below.
-    if (/^Failed to load resource/.test(message.text())) return;
-    if (['error', 'warning', 'assert'].includes(message.type())) messages.push(message.text());
+    if (/^Failed to load resource/.test(consoleMessage.text())) return;
+    if (['error', 'warning', 'assert'].includes(consoleMessage.type())) consoleMessages.push(consoleMessage.text());
   });
-  page.on('pageerror', (error) => messages.push(String(error)));
-  page.on('requestfailed', (failedRequest) => messages.push(`${failedRequest.url()} ${failedRequest.failure()?.errorText}`));
+  page.on('pageerror', (error) => consoleMessages.push(String(error)));
+  page.on('requestfailed', (failedRequest) => consoleMessages.push(`${failedRequest.url()} ${failedRequest.failure()?.errorText}`));
   page.on('response', (pageResponse) => {
     // Browsers request the site's icon by themselves. A missing icon is not a failure.
     const isIcon = new URL(pageResponse.url()).pathname === '/favicon.ico';
-    if (pageResponse.status() >= 400 && !isIcon) messages.push(`${pageResponse.url()} ${pageResponse.status()}`);
+    if (pageResponse.status() >= 400 && !isIcon) consoleMessages.push(`${pageResponse.url()} ${pageResponse.status()}`);
   });
 }
 
-/** Returns the address of a page of the site. @param {Site} site @param {string} path */
-const addressOf = ({ url }, path) => new URL(path.replace(/^\//, ''), url).href;
+/** Returns the address of a page of the site. @param {Site} site @param {string} filePath */
+const addressOf = ({ url }, filePath) => new URL(filePath.replace(/^\//, ''), url).href;
 
 /** Waits until every figure has drawn its present settings. @param {Page} page @param {Site} site */
-export async function waitUntilLive(page, { definition }) {
-  assert.ok(definition.expectedFigures.length > 0, 'No figure is expected.');
-  for (const { selector, properties } of definition.expectedFigures) {
-    const figureLocator = page.locator(selector);
+export async function waitUntilLive(page, { definition: platformDefinition }) {
+  assert.ok(platformDefinition.expectedFigures.length > 0, 'No figure is expected.');
+  for (const { selector: figureSelector, properties: figureProperties } of platformDefinition.expectedFigures) {
+    const figureLocator = page.locator(figureSelector);
     await figureLocator.waitFor({ state: 'attached' });
     // An element without height is not visible, so that a locator would wait for it.
     await figureLocator.evaluate((element) => element.scrollIntoView({ block: 'center' }));
     await figureLocator.locator('canvas').first().waitFor();
-    assert.deepEqual(await figureLocator.evaluate(propertiesOf, Object.keys(properties)), properties, selector);
+    assert.deepEqual(await figureLocator.evaluate(propertiesOf, Object.keys(figureProperties)), figureProperties, figureSelector);
     await figureLocator.evaluate(waitUntilComplete);
   }
 }
@@ -91,20 +91,20 @@ export function propertiesOf(element, propertyNames) {
 
 /** Resolves when a figure has all its samples, and its picture has more than one colour. Runs in the page. @param {Element} element */
 export async function waitUntilComplete(element) {
-  const figure = /** @type {any} */ (element);
-  const firstCanvas = /** @type {HTMLCanvasElement} */ (figure.shadowRoot.querySelector('canvas'));
+  const figureElement = /** @type {any} */ (element);
+  const firstCanvas = /** @type {HTMLCanvasElement} */ (figureElement.shadowRoot.querySelector('canvas'));
   const isDrawn = () => {
     const canvasContext = /** @type {CanvasRenderingContext2D} */ (Object.assign(document.createElement('canvas'), { width: 64, height: 64 }).getContext('2d'));
     canvasContext.drawImage(firstCanvas, 0, 0, 64, 64);
     return new Set(new Uint32Array(canvasContext.getImageData(0, 0, 64, 64).data.buffer)).size > 1;
   };
-  while ((figure.stats?.n ?? figure.stats?.drawn ?? figure.stats?.attempts) !== figure.samples || !isDrawn()) await new Promise(requestAnimationFrame);
+  while ((figureElement.stats?.n ?? figureElement.stats?.drawn ?? figureElement.stats?.attempts) !== figureElement.samples || !isDrawn()) await new Promise(requestAnimationFrame);
 }
 
 /** Opens the page of the figures. @type {(page: Page, site: Site) => Promise<void>} */
-async function checkFirstLoad(page, site) {
-  await page.goto(addressOf(site, site.definition.pages.first));
-  await waitUntilLive(page, site);
+async function checkFirstLoad(page, servedSite) {
+  await page.goto(addressOf(servedSite, servedSite.definition.pages.first));
+  await waitUntilLive(page, servedSite);
 }
 
 /**
@@ -114,17 +114,17 @@ async function checkFirstLoad(page, site) {
  * @param {Site} site
  * @param {'first' | 'second'} linkKind
  */
-async function followLink(page, { definition }, linkKind) {
-  await definition.goToPage?.(page, definition.pages[linkKind] ?? linkKind);
-  await page.locator(definition.expectedFigures[0].selector).waitFor({ state: linkKind === 'first' ? 'attached' : 'detached' });
+async function followLink(page, { definition: platformDefinition }, linkKind) {
+  await platformDefinition.goToPage?.(page, platformDefinition.pages[linkKind] ?? linkKind);
+  await page.locator(platformDefinition.expectedFigures[0].selector).waitFor({ state: linkKind === 'first' ? 'attached' : 'detached' });
 }
 
 /** Follows a link away from the figures, and a link back to them. @type {(page: Page, site: Site) => Promise<void>} */
-async function checkAwayAndBack(page, site) {
-  await checkFirstLoad(page, site);
-  await followLink(page, site, 'second');
-  await followLink(page, site, 'first');
-  await waitUntilLive(page, site);
+async function checkAwayAndBack(page, servedSite) {
+  await checkFirstLoad(page, servedSite);
+  await followLink(page, servedSite, 'second');
+  await followLink(page, servedSite, 'first');
+  await waitUntilLive(page, servedSite);
 }
 
 /**
@@ -132,26 +132,26 @@ async function checkAwayAndBack(page, site) {
  * before.
  * @type {(page: Page, site: Site) => Promise<void>}
  */
-async function checkFromOtherPage(page, site) {
-  await page.goto(addressOf(site, site.definition.pages.second ?? ''));
+async function checkFromOtherPage(page, servedSite) {
+  await page.goto(addressOf(servedSite, servedSite.definition.pages.second ?? ''));
   // The platform handles clicks on links only after its script has loaded. The network is idle then.
   await page.waitForLoadState('networkidle');
-  await followLink(page, site, 'first');
-  await waitUntilLive(page, site);
+  await followLink(page, servedSite, 'first');
+  await waitUntilLive(page, servedSite);
 }
 
 /** Turns dark mode on and off again. @type {(page: Page, site: Site) => Promise<void>} */
-async function checkDarkMode(page, site) {
-  const setDarkMode = site.serving.setDarkMode ?? site.definition.setDarkMode;
-  await checkFirstLoad(page, site);
+async function checkDarkMode(page, servedSite) {
+  const setDarkMode = servedSite.serving.setDarkMode ?? servedSite.definition.setDarkMode;
+  await checkFirstLoad(page, servedSite);
   for (const isDark of [true, false]) {
     await setDarkMode?.(page, isDark);
-    await page.locator(site.definition.expectedFigures[0].selector).evaluate(waitForColorScheme, isDark ? 'dark' : 'light');
+    await page.locator(servedSite.definition.expectedFigures[0].selector).evaluate(waitForColorScheme, isDark ? 'dark' : 'light');
   }
 }
 
-/** Resolves when a figure has a given colour scheme. Runs in the page. @param {Element} figure @param {string} expectedScheme "dark" or "light" */
-export async function waitForColorScheme(figure, expectedScheme) {
-  const figureSurface = /** @type {HTMLElement} */ (figure.shadowRoot?.querySelector('.surface'));
+/** Resolves when a figure has a given colour scheme. Runs in the page. @param {Element} figureElement @param {string} expectedScheme "dark" or "light" */
+export async function waitForColorScheme(figureElement, expectedScheme) {
+  const figureSurface = /** @type {HTMLElement} */ (figureElement.shadowRoot?.querySelector('.surface'));
   while (getComputedStyle(figureSurface).colorScheme !== expectedScheme) await new Promise(requestAnimationFrame);
 }

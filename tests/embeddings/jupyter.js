@@ -33,9 +33,9 @@ async function chooseMenuItem(page, menuName, ...itemNames) {
   }
 }
 
-/** Opens the notebook as if for the first time, and runs it. @param {Page} page @param {Site} site */
-async function runNotebook(page, site) {
-  await page.goto(new URL('lab/tree/motion.ipynb?reset', site.url).href);
+/** Opens the notebook as if for the first time, and runs it. @param {Page} page @param {Site} servedSite */
+async function runNotebook(page, servedSite) {
+  await page.goto(new URL('lab/tree/motion.ipynb?reset', servedSite.url).href);
   await page.locator('.jp-Notebook-ExecutionIndicator[data-status="idle"]').waitFor();
   // Asks the server for a running kernel, because the page says "Idle" even without a kernel.
   await page.waitForFunction(async () => {
@@ -48,7 +48,7 @@ async function runNotebook(page, site) {
   await page.locator('.jp-Dialog .jp-mod-accept').click();
   // JupyterLab shows the number of a cell after it has run the cell.
   await page.locator('.jp-CodeCell .jp-InputArea-prompt', { hasText: '[4]:' }).waitFor();
-  await waitUntilLive(page, site);
+  await waitUntilLive(page, servedSite);
 }
 
 /** Returns the Banana Machine of a page. @param {Page} page */
@@ -88,8 +88,8 @@ async function waitForPythonValue(page, pythonCode, expectedValue) {
 
 /** @type {import('./project.mjs').Serving['checks']} */
 const JUPYTERLAB_CHECKS = {
-  async 'what Python sets is shown, and what is shown is known to Python'(page, site) {
-    await runNotebook(page, site);
+  async 'what Python sets is shown, and what is shown is known to Python'(page, servedSite) {
+    await runNotebook(page, servedSite);
     await waitForPythonValue(page, '[machine.stats["n"], machine.v, machine.preset, machine.error]', [20000, 1, null, '']);
     assert.ok((await evaluatePython(page, 'len(skews)')) > 0);
     // The second assignment does not wait for the result of the first assignment.
@@ -97,8 +97,8 @@ const JUPYTERLAB_CHECKS = {
     await waitForPythonValue(page, '[machine.preset, machine.omega, machine.dt, machine.command]', [null, 0.2, 1.4, { v: 1, omega: 0.2, dt: 1.4 }]);
     assert.deepEqual(await bananaMachineOf(page).evaluate(propertiesOf, ['preset', 'omega', 'dt']), { preset: null, omega: 0.2, dt: 1.4 });
   },
-  async 'changes by the user reach Python, and keys do not reach the notebook'(page, site) {
-    await runNotebook(page, site);
+  async 'changes by the user reach Python, and keys do not reach the notebook'(page, servedSite) {
+    await runNotebook(page, servedSite);
     const omegaSlider = bananaMachineOf(page).getByRole('slider', { name: /ω/ }).first();
     await omegaSlider.focus();
     const cellCount = await page.locator('.jp-Cell').count();
@@ -111,8 +111,8 @@ const JUPYTERLAB_CHECKS = {
     assert.notEqual(omega, ORIGINAL_SETTINGS.omega);
     await waitForPythonValue(page, '[machine.omega, machine.command["omega"]]', [omega, omega]);
   },
-  async 'light and dark with JupyterLab'(page, site) {
-    await runNotebook(page, site);
+  async 'light and dark with JupyterLab'(page, servedSite) {
+    await runNotebook(page, servedSite);
     for (const [themeName, colorScheme] of /** @type {const} */ ([['JupyterLab Dark', 'dark'], ['JupyterLab Light', 'light']])) {
       await chooseMenuItem(page, 'Settings', 'Theme', themeName);
       await bananaMachineOf(page).evaluate(waitForColorScheme, colorScheme);
@@ -122,12 +122,12 @@ const JUPYTERLAB_CHECKS = {
 
 /** @type {import('./project.mjs').Serving['checks']} */
 const EXPORT_CHECKS = {
-  async 'live without a kernel, as it was when it was run'(page, site) {
-    for (const [urlPattern, packagePath] of Object.entries(PACKAGE_FILES)) await page.route(urlPattern, (route) => route.fulfill({ path: join(packagesDirectory, packagePath) }));
+  async 'live without a kernel, as it was when it was run'(page, servedSite) {
+    for (const [urlPattern, packagePath] of Object.entries(PACKAGE_FILES)) await page.route(urlPattern, (pageRoute) => pageRoute.fulfill({ path: join(packagesDirectory, packagePath) }));
     // The page has no formulas, so that an empty MathJax is enough.
-    await page.route('**/mathjax/**', (route) => route.fulfill({ contentType: 'text/javascript', body: '' }));
-    await page.goto(new URL('motion.html', site.url).href);
-    await waitUntilLive(page, site);
+    await page.route('**/mathjax/**', (pageRoute) => pageRoute.fulfill({ contentType: 'text/javascript', body: '' }));
+    await page.goto(new URL('motion.html', servedSite.url).href);
+    await waitUntilLive(page, servedSite);
     const omegaSlider = bananaMachineOf(page).getByRole('slider', { name: /ω/ }).first();
     await omegaSlider.focus();
     await page.keyboard.press('ArrowRight');
@@ -137,12 +137,12 @@ const EXPORT_CHECKS = {
 
 /** @type {import('./project.mjs').Serving['checks']} */
 const VOILA_CHECKS = {
-  async 'live with a kernel'(page, site) {
+  async 'live with a kernel'(page, servedSite) {
     // Voilà loads style sheets of icons from other servers. Empty style sheets replace them.
-    await page.route('**/font-awesome*/**', (route) => route.fulfill({ contentType: 'text/css', body: '' }));
-    await page.route('**/fontawesome-free*/**', (route) => route.fulfill({ contentType: 'text/css', body: '' }));
-    await page.goto(site.url);
-    await waitUntilLive(page, site);
+    await page.route('**/font-awesome*/**', (pageRoute) => pageRoute.fulfill({ contentType: 'text/css', body: '' }));
+    await page.route('**/fontawesome-free*/**', (pageRoute) => pageRoute.fulfill({ contentType: 'text/css', body: '' }));
+    await page.goto(servedSite.url);
+    await waitUntilLive(page, servedSite);
   },
 };
 
@@ -151,36 +151,36 @@ export default {
   heading: 'Jupyter',
   readVersions: () => pinnedVersionsOf('jupyter', 'jupyterlab', 'anywidget', 'nbconvert', 'voila'),
   python: true,
-  async install(directory, { run: runInExample, start, pythonWheel }) {
-    const toolsDirectory = pythonDirectoryOf(directory);
-    await installPythonPackages(directory, { run: runInExample, start }, [pythonWheel]);
+  async install(projectDirectory, { run: runInExample, start, pythonWheel }) {
+    const toolsDirectory = pythonDirectoryOf(projectDirectory);
+    await installPythonPackages(projectDirectory, { run: runInExample, start }, [pythonWheel]);
     await runInExample('npm', ['install', '--prefix', toolsDirectory, '--ignore-scripts', '--no-audit', '--no-fund', '--loglevel', 'error', ...NPM_PACKAGES]);
     // JupyterLab would otherwise ask for permission to fetch news.
     const settingsDirectory = join(toolsDirectory, 'share/jupyter/lab/settings');
     mkdirSync(settingsDirectory, { recursive: true });
     writeFileSync(join(settingsDirectory, 'overrides.json'), '{ "@jupyterlab/apputils-extension:notification": { "fetchNews": "false" } }');
   },
-  async build(directory, { run: runInExample }) {
-    packagesDirectory = join(pythonDirectoryOf(directory), 'node_modules');
+  async build(projectDirectory, { run: runInExample }) {
+    packagesDirectory = join(pythonDirectoryOf(projectDirectory), 'node_modules');
     const nbconvertArguments = ['nbconvert', '--execute', '--to', 'html', '--output-dir', '_build'];
-    await runInExample(pythonProgramPathOf(directory, 'jupyter'), [...nbconvertArguments, 'motion.ipynb']);
-    assert.ok(readFileSync(join(directory, '_build/motion.html'), 'utf8').includes('widget-state+json'));
+    await runInExample(pythonProgramPathOf(projectDirectory, 'jupyter'), [...nbconvertArguments, 'motion.ipynb']);
+    assert.ok(readFileSync(join(projectDirectory, '_build/motion.html'), 'utf8').includes('widget-state+json'));
   },
   servings: [
     {
       name: 'JupyterLab',
-      serve: serveByProgram((port, directory) => {
+      serve: serveByProgram((port, projectDirectory) => {
         const jupyterLabArguments = ['--no-browser', '--allow-root', '--IdentityProvider.token=', '--ServerApp.port_retries=0'];
         // JupyterLab has a separate configuration directory, so that this user's settings do not affect the test.
-        const ownDirectoryOf = (/** @type {string} */ name) => join(pythonDirectoryOf(directory), 'own', name);
+        const ownDirectoryOf = (/** @type {string} */ name) => join(pythonDirectoryOf(projectDirectory), 'own', name);
         const jupyterEnvironment = { JUPYTER_CONFIG_DIR: ownDirectoryOf('config'), JUPYTERLAB_SETTINGS_DIR: ownDirectoryOf('settings'), JUPYTERLAB_WORKSPACES_DIR: ownDirectoryOf('workspaces') };
-        return [pythonProgramPathOf(directory, 'jupyter'), ['lab', ...jupyterLabArguments, '--port', port], jupyterEnvironment];
+        return [pythonProgramPathOf(projectDirectory, 'jupyter'), ['lab', ...jupyterLabArguments, '--port', port], jupyterEnvironment];
       }),
       checks: JUPYTERLAB_CHECKS,
     },
     {
       name: 'Voilà',
-      serve: serveByProgram((port, directory) => [pythonProgramPathOf(directory, 'voila'), ['motion.ipynb', '--no-browser', '--port', port]]),
+      serve: serveByProgram((port, projectDirectory) => [pythonProgramPathOf(projectDirectory, 'voila'), ['motion.ipynb', '--no-browser', '--port', port]]),
       checks: VOILA_CHECKS,
     },
     { name: 'exported by nbconvert', serve: serveFiles('_build'), checks: EXPORT_CHECKS },

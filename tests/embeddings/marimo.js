@@ -4,9 +4,9 @@ import { serveByProgram } from './serving.mjs';
 
 /** @type {NonNullable<import('./project.mjs').Serving['checks']>} */
 const MARIMO_CHECKS = {
-  async 'changes by the user reach Python, and changes by Python reach the figure'(page, site) {
-    await page.goto(site.url);
-    await waitUntilLive(page, site);
+  async 'changes by the user reach Python, and changes by Python reach the figure'(page, servedSite) {
+    await page.goto(servedSite.url);
+    await waitUntilLive(page, servedSite);
     await page.locator('banana-machine').getByRole('slider', { name: /ω/ }).first().press('ArrowRight');
     await page.getByText('turn rate 0.81 rad/s').first().waitFor();
     await page.getByRole('button', { name: 'Hard arc' }).last().click();
@@ -19,11 +19,11 @@ export default {
   heading: 'marimo',
   readVersions: () => pinnedVersionsOf('marimo', 'marimo', 'anywidget'),
   python: true,
-  install: (directory, exampleTools) => installPythonPackages(directory, exampleTools, [exampleTools.pythonWheel]),
+  install: (projectDirectory, exampleTools) => installPythonPackages(projectDirectory, exampleTools, [exampleTools.pythonWheel]),
   servings: [
     {
       name: 'app',
-      serve: serveByProgram((port, directory) => [pythonProgramPathOf(directory, 'marimo'), ['run', 'motion.py', '--headless', '--no-token', '--port', port]]),
+      serve: serveByProgram((port, projectDirectory) => [pythonProgramPathOf(projectDirectory, 'marimo'), ['run', 'motion.py', '--headless', '--no-token', '--port', port]]),
       checks: MARIMO_CHECKS,
     },
   ],

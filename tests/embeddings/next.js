@@ -3,31 +3,31 @@ import { join } from 'node:path';
 import { installNpmPackages, pinnedVersionsOf } from './project.mjs';
 import { serveFiles, serveByProgram } from './serving.mjs';
 
-/** Returns a function that serves a site by the server of Next. @param {string} command @param {string[]} nextArguments */
-const serveWithNext = (command, ...nextArguments) => serveByProgram((port) => ['npx', ['next', command, '--port', port, ...nextArguments]]);
+/** Returns a function that serves a site by the server of Next. @param {string} nextCommand @param {string[]} nextArguments */
+const serveWithNext = (nextCommand, ...nextArguments) => serveByProgram((port) => ['npx', ['next', nextCommand, '--port', port, ...nextArguments]]);
 
 /** @type {import('./project.mjs').Platform} */
 export default {
   heading: 'Next',
   readVersions: () => pinnedVersionsOf('next', 'next', 'react'),
   install: installNpmPackages,
-  build: (_directory, { run }) => run('npm', ['run', 'build']),
+  build: (_directory, { run: runInProject }) => runInProject('npm', ['run', 'build']),
   servings: [
     { name: 'production', serve: serveWithNext('start') },
     { name: 'development', serve: serveWithNext('dev') },
     {
       name: 'static export',
-      async serve(directory, exampleTools) {
+      async serve(projectDirectory, exampleTools) {
         // A static export cannot contain partially prerendered pages, which the configuration of the example enables. Trailing slashes suit
         // any file server.
-        writeFileSync(join(directory, 'next.config.ts'), "export default { output: 'export', basePath: '/book', trailingSlash: true };\n");
+        writeFileSync(join(projectDirectory, 'next.config.ts'), "export default { output: 'export', basePath: '/book', trailingSlash: true };\n");
         await exampleTools.run('npm', ['run', 'build']);
-        return serveFiles('out', '/book/')(directory, exampleTools);
+        return serveFiles('out', '/book/')(projectDirectory, exampleTools);
       },
     },
   ],
   pages: { first: '/', second: '/sensors' },
-  goToPage: (page, path) => page.getByRole('link', { name: path === '/' ? 'Motion' : 'Sensors' }).click(),
+  goToPage: (page, filePath) => page.getByRole('link', { name: filePath === '/' ? 'Motion' : 'Sensors' }).click(),
   setDarkMode: (page, isDark) => page.emulateMedia({ colorScheme: isDark ? 'dark' : 'light' }),
   // After the user has left a page, Next.js keeps the page in the DOM and hides it. For that reason the selectors contain `:visible`.
   expectedFigures: [

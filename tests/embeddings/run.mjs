@@ -30,13 +30,13 @@ async function testPlatform(browser, platformName) {
   };
   let servingName = 'build';
   try {
-    const { directory, tools: exampleTools } = await prepareExample(platformName, platformDefinition);
+    const { directory: projectDirectory, tools: exampleTools } = await prepareExample(platformName, platformDefinition);
     printStep(`${platformName}: building`);
-    await platformDefinition.build?.(directory, exampleTools);
+    await platformDefinition.build?.(projectDirectory, exampleTools);
     for (const currentServing of platformDefinition.servings) {
       servingName = currentServing.name;
       printStep(`${platformName}: ${servingName}`);
-      const { url, stop } = await currentServing.serve(directory, exampleTools);
+      const { url, stop } = await currentServing.serve(projectDirectory, exampleTools);
       try {
         const { passed, failures } = await runChecks(browser, { name: platformName, definition: platformDefinition, serving: currentServing, url });
         addOutcome(servingName, passed, failures);
@@ -56,7 +56,7 @@ async function testPlatforms(platformNames) {
   const unknownName = platformNames.find((name) => !allPlatformNames.includes(name));
   if (unknownName !== undefined) throw new UserError(`"${unknownName}" is no platform that is tried; allowed are ${allPlatformNames.join(', ')}.`);
   await buildProject();
-  const { chrome, version } = await ensureBrowser();
+  const { chrome, version: packageVersion } = await ensureBrowser();
   mkdirSync(join(REPOSITORY_ROOT, 'test-results/embeddings'), { recursive: true });
   // With the back/forward cache, going back restores a page in the state in which the user left it.
   const browser = await chromium.launch({ executablePath: chrome, args: CHROME_ARGUMENTS, ignoreDefaultArgs: ['--disable-back-forward-cache'] });
@@ -67,18 +67,18 @@ async function testPlatforms(platformNames) {
   } finally {
     await browser.close();
   }
-  await printSummary(allOutcomes, version);
+  await printSummary(allOutcomes, packageVersion);
   return allOutcomes.every(({ failures }) => failures.length === 0);
 }
 
-/** Prints the versions of the packages and the outcomes. @param {Outcome[]} outcomes @param {string} version of the browser */
-async function printSummary(outcomes, version) {
-  printStep(`Versions: Node ${process.versions.node}, Chromium ${version}`);
+/** Prints the versions of the packages and the outcomes. @param {Outcome[]} outcomes @param {string} packageVersion of the browser */
+async function printSummary(outcomes, packageVersion) {
+  printStep(`Versions: Node ${process.versions.node}, Chromium ${packageVersion}`);
   for (const name of new Set(outcomes.map(({ name }) => name))) console.log(`${name.padEnd(16)} ${(await loadPlatform(name)).readVersions()}`);
   printStep('Summary');
-  for (const { name, serving, passed, failures, seconds } of outcomes) {
+  for (const { name, serving: currentServing, passed, failures, seconds } of outcomes) {
     const countText = `${passed} passed, ${failures.length} failed`;
-    console.log(`${failures.length === 0 ? 'ok    ' : 'FAILED'} ${name.padEnd(16)} ${serving.padEnd(20)} ${seconds.toFixed(0).padStart(4)} s  ${countText}`);
+    console.log(`${failures.length === 0 ? 'ok    ' : 'FAILED'} ${name.padEnd(16)} ${currentServing.padEnd(20)} ${seconds.toFixed(0).padStart(4)} s  ${countText}`);
   }
 }
 

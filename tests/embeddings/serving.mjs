@@ -15,22 +15,22 @@ const TIMEOUT_SECONDS = 120;
  * @param {string} [basePath] configured path of the site, with a slash at both ends
  * @returns {import('./project.mjs').Serving['serve']}
  */
-export const serveFiles = (outputDirectory, basePath) => async (directory) => {
-  const { address, close } = await startServer(join(directory, outputDirectory), { port: 0, base: basePath });
-  return { url: address, stop: close };
+export const serveFiles = (outputDirectory, basePath) => async (projectDirectory) => {
+  const { address: pageAddress, close: stopServer } = await startServer(join(projectDirectory, outputDirectory), { port: 0, base: basePath });
+  return { url: pageAddress, stop: stopServer };
 };
 
 /**
  * Starts the server of a site generator or framework, and waits until the server answers.
  *
  * @param {(port: string, directory: string) => [command: string, args: string[], env?: Record<string, string>]} commandOf returns the command that starts the server
- * @param {string} [base] the path of the site, with a slash at both ends
+ * @param {string} [basePath] the path of the site, with a slash at both ends
  * @returns {import('./project.mjs').Serving['serve']}
  */
-export const serveByProgram = (commandOf, base = '/') => async (directory, { start }) => {
+export const serveByProgram = (commandOf, basePath = '/') => async (projectDirectory, { start }) => {
   const port = await findFreePort();
-  const url = `http://localhost:${port}${base}`;
-  const platformServer = start(...commandOf(port, directory));
+  const url = `http://localhost:${port}${basePath}`;
+  const platformServer = start(...commandOf(port, projectDirectory));
   const earlyEndPromise = platformServer.whenEnded.then(() => {
     throw new Error(`The server has ended:\n${platformServer.getOutput()}`);
   });
@@ -47,16 +47,16 @@ export const serveByProgram = (commandOf, base = '/') => async (directory, { sta
 
 /** Returns a free port, which a temporary server has just released. */
 async function findFreePort() {
-  const { address, close } = await startServer(REPOSITORY_ROOT, { port: 0 });
-  close();
-  return new URL(address).port;
+  const { address: pageAddress, close: stopServer } = await startServer(REPOSITORY_ROOT, { port: 0 });
+  stopServer();
+  return new URL(pageAddress).port;
 }
 
 /** Waits until a server answers with status 200. @param {string} url */
 async function waitUntilAnswered(url) {
   const answerDeadline = Date.now() + TIMEOUT_SECONDS * 1000;
   for (;;) {
-    const lastStatus = await fetch(url, { signal: AbortSignal.timeout(TIMEOUT_SECONDS * 1000) }).then(({ status }) => status, String);
+    const lastStatus = await fetch(url, { signal: AbortSignal.timeout(TIMEOUT_SECONDS * 1000) }).then(({ status: exitStatus }) => exitStatus, String);
     if (lastStatus === 200) return;
     if (Date.now() > answerDeadline) throw new Error(`${url} has not answered for ${TIMEOUT_SECONDS} s; the last was ${lastStatus}.`);
     // A server sends no event when it begins to listen, so that it must be polled.
@@ -67,15 +67,15 @@ async function waitUntilAnswered(url) {
 /**
  * Starts a program. The program and its children end with this process at the latest.
  *
- * @param {string} command
+ * @param {string} nextCommand
  * @param {string[]} commandArguments
  * @param {{ env?: Record<string, string>, cwd?: string }} [options]
  * @returns {{ getOutput: () => string, waitForOutput: (pattern: RegExp) => Promise<string>, whenEnded: Promise<void>, stop: () => Promise<void> }}
  *   `getOutput` returns the text printed so far; `waitForOutput` waits for a match of a pattern and returns its first group;
  *   `whenEnded`, and the promise of `stop`, are resolved when the program has ended
  */
-export function startProgram(command, commandArguments, { env = {}, cwd = REPOSITORY_ROOT } = {}) {
-  const childProcess = spawn(command, commandArguments, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'], detached: true });
+export function startProgram(nextCommand, commandArguments, { env = {}, cwd = REPOSITORY_ROOT } = {}) {
+  const childProcess = spawn(nextCommand, commandArguments, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'], detached: true });
   const groupId = childProcess.pid;
   if (groupId !== undefined) endGroupWithProcess(groupId);
   let outputText = '';
@@ -100,7 +100,7 @@ export function startProgram(command, commandArguments, { env = {}, cwd = REPOSI
           if (outputMatch) resolve(outputMatch[1]);
         };
         for (const stream of [childProcess.stdout, childProcess.stderr]) stream.on('data', checkOutput);
-        endPromise.then(() => reject(new Error(`${command} has ended:\n${outputText}`)));
+        endPromise.then(() => reject(new Error(`${nextCommand} has ended:\n${outputText}`)));
         checkOutput();
       }),
     whenEnded: endPromise,

@@ -27,19 +27,19 @@ const themeNames = Object.keys(DARK_SWITCH_OF_THEME);
 export default {
   heading: 'Sphinx',
   readVersions: () => pinnedVersionsOf('sphinx', 'sphinx', ...themeNames.map((themeName) => themeName.replaceAll('_', '-'))),
-  async install(directory, exampleTools) {
-    await installPythonPackages(directory, exampleTools, []);
+  async install(projectDirectory, exampleTools) {
+    await installPythonPackages(projectDirectory, exampleTools, []);
   },
-  async build(directory, { run }) {
-    copySingleFiles(join(directory, '_static'));
+  async build(projectDirectory, { run: runInProject }) {
+    copySingleFiles(join(projectDirectory, '_static'));
     for (const sphinxTheme of themeNames) {
       const sphinxArguments = ['--fail-on-warning', '--quiet', '--define', `html_theme=${sphinxTheme}`];
-      await run(pythonProgramPathOf(directory, 'sphinx-build'), [...sphinxArguments, '.', `_build/${sphinxTheme}`]);
+      await runInProject(pythonProgramPathOf(projectDirectory, 'sphinx-build'), [...sphinxArguments, '.', `_build/${sphinxTheme}`]);
     }
   },
   servings: themeNames.map((sphinxTheme) => ({ name: sphinxTheme, serve: serveFiles(`_build/${sphinxTheme}`, '/a/book/'), setDarkMode: DARK_SWITCH_OF_THEME[sphinxTheme] })),
   pages: { first: 'index.html', second: 'map.html' },
-  goToPage: (page, path) => page.locator(`a[href$="${path}"]`).filter({ visible: true }).first().click(),
+  goToPage: (page, filePath) => page.locator(`a[href$="${filePath}"]`).filter({ visible: true }).first().click(),
   expectedFigures: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],
   allowedMessages: [{ message: /^Got invalid theme mode: \. Resetting to auto\.$/, reason: 'pydata_sphinx_theme warns readers who have chosen no mode.' }],
 };

@@ -7,26 +7,26 @@ import { test } from 'node:test';
 import { REPOSITORY_ROOT, filesOf } from '../../scripts/process.mjs';
 import { loadPlatform, findPlatformNames } from '../embeddings/project.mjs';
 
-const embeddingDocuments = filesOf('doc').filter((path) => /embedding.*\.md$/.test(path)).map((path) => readFileSync(join(REPOSITORY_ROOT, path), 'utf8')).join('\n');
-const linesOf = (/** @type {string} */ sourceText) => sourceText.split('\n').map((line) => line.trim()).filter((line) => line !== '');
+const embeddingDocuments = filesOf('doc').filter((filePath) => /embedding.*\.md$/.test(filePath)).map((filePath) => readFileSync(join(REPOSITORY_ROOT, filePath), 'utf8')).join('\n');
+const linesOf = (/** @type {string} */ sourceText) => sourceText.split('\n').map((textLine) => textLine.trim()).filter((textLine) => textLine !== '');
 
-/** Returns the lines of a file, or the lines of a notebook's cells. @param {string} path @returns {string[]} */
-function fileLinesOf(path) {
-  const fileText = readFileSync(join(REPOSITORY_ROOT, path), 'utf8');
-  return linesOf(path.endsWith('.ipynb') ? JSON.parse(fileText).cells.map((/** @type {any} */ { source }) => source.join('')).join('\n') : fileText);
+/** Returns the lines of a file, or the lines of a notebook's cells. @param {string} filePath @returns {string[]} */
+function fileLinesOf(filePath) {
+  const fileText = readFileSync(join(REPOSITORY_ROOT, filePath), 'utf8');
+  return linesOf(filePath.endsWith('.ipynb') ? JSON.parse(fileText).cells.map((/** @type {any} */ { source }) => source.join('')).join('\n') : fileText);
 }
 
 for (const platformName of await findPlatformNames()) {
   const { heading, readVersions: packageVersions } = await loadPlatform(platformName);
 
   test(`${heading}: the document quotes the example, and states the tested versions`, () => {
-    const tableRow = embeddingDocuments.split('\n').find((line) => line.startsWith(`| ${heading} |`));
+    const tableRow = embeddingDocuments.split('\n').find((textLine) => textLine.startsWith(`| ${heading} |`));
     assert.ok(tableRow?.includes(` ${packageVersions()} `), `The row "${heading}" of what was tried has to say ${packageVersions()}.`);
     const documentSection = embeddingDocuments.split(/^## /m).find((text) => text.startsWith(`${heading}\n`)) ?? '';
     // Shell commands are left out, because the files of the example contain none.
     const codeBlocks = [...documentSection.matchAll(/^```(\w*)\n(.*?)^```$/gms)].filter(([, codeLanguage]) => codeLanguage !== 'sh');
     const exampleLines = new Set(filesOf(join('examples', platformName)).flatMap(fileLinesOf));
-    const missingLines = codeBlocks.flatMap(([, , codeBlock]) => linesOf(codeBlock)).filter((line) => !exampleLines.has(line));
+    const missingLines = codeBlocks.flatMap(([, , codeBlock]) => linesOf(codeBlock)).filter((textLine) => !exampleLines.has(textLine));
     assert.deepEqual(missingLines, [], `examples/${platformName} does not have these lines of the document.`);
   });
 }

@@ -120,8 +120,8 @@ test('TypeScript finds the types of elements, React components and core under ev
     const compilerOptions = ['--noEmit', '--strict', '--jsx', 'react-jsx', '--target', 'es2023', '--lib', 'es2023,esnext.disposable,dom,dom.iterable', '--types', ''];
     const sourceFiles = ['typed.ts', 'typed.tsx'];
     const compilerArguments = [join(REPOSITORY_ROOT, 'node_modules/typescript/bin/tsc'), ...compilerOptions, '--module', moduleOption, '--moduleResolution', resolutionOption, ...sourceFiles];
-    const { status, stdout } = spawnSync(process.execPath, compilerArguments, { cwd: installedProject.directory, encoding: 'utf8' });
-    assert.equal(status, 0, stdout);
+    const { status: exitStatus, stdout } = spawnSync(process.execPath, compilerArguments, { cwd: installedProject.directory, encoding: 'utf8' });
+    assert.equal(exitStatus, 0, stdout);
   }
 });
 
@@ -137,8 +137,8 @@ async function openPageWith(scriptNames) {
   /** @type {string[]} */
   const requestedUrls = [];
   page.on('request', (pageRequest) => requestedUrls.push(pageRequest.url()));
-  await page.route('**/page.html', (route) => {
-    route.fulfill({ contentType: 'text/html', body: `<!doctype html><link rel="icon" href="data:,">${scriptNames}${elementsHtml}` });
+  await page.route('**/page.html', (pageRoute) => {
+    pageRoute.fulfill({ contentType: 'text/html', body: `<!doctype html><link rel="icon" href="data:,">${scriptNames}${elementsHtml}` });
   });
   await page.goto(`${installedProject.address}page.html`);
   for (const figureElement of await page.locator('banana-machine, map-squeeze').all()) {
@@ -152,20 +152,20 @@ const DIST_PATH = '/node_modules/motion-widgets/dist/';
 const scriptTagOf = (/** @type {string} */ name) => `<script type="module" src="${DIST_PATH}${name}"></script>`;
 
 test('custom-elements.json lists the attributes, properties, events and parts of the elements', async () => {
-  const { modules } = JSON.parse(readFileSync(packagedPathOf('dist/custom-elements.json'), 'utf8'));
+  const { modules: manifestModules } = JSON.parse(readFileSync(packagedPathOf('dist/custom-elements.json'), 'utf8'));
   /** @type {any[]} */
-  const declarations = modules[0].declarations;
-  assert.deepEqual(declarations.map(({ tagName }) => tagName).sort(), Object.keys(settings).sort());
+  const elementDeclarations = manifestModules[0].declarations;
+  assert.deepEqual(elementDeclarations.map(({ tagName }) => tagName).sort(), Object.keys(settings).sort());
   const page = await installedProject.browser.newPage();
   await page.goto(`${installedProject.address}plain/`);
-  for (const { tagName, attributes, members, events, cssParts, cssProperties } of declarations) {
+  for (const { tagName, attributes, members: classMembers, events: elementEvents, cssParts, cssProperties } of elementDeclarations) {
     const sortedNamesOf = (/** @type {{ name: string }[]} */ namedItems) => namedItems.map(({ name }) => name).sort();
     const actualNames = await page.evaluate(async ([widgetTag, memberNames]) => {
       const element = /** @type {any} */ (document.body.appendChild(document.createElement(widgetTag)));
       await customElements.whenDefined(widgetTag);
       await element.settled;
       const { shadowRoot, constructor } = element;
-      for (const disclosure of shadowRoot.querySelectorAll('details')) disclosure.open = true;
+      for (const detailsElement of shadowRoot.querySelectorAll('details')) detailsElement.open = true;
       // A disclosure renders its contents after the browser's `toggle` event.
       while (shadowRoot.querySelector('details[open] > .folded:empty')) await new Promise(requestAnimationFrame);
       // This button of Map Squeeze puts a table with four legs into the room.
@@ -175,16 +175,16 @@ test('custom-elements.json lists the attributes, properties, events and parts of
       return {
         attributes: [...constructor.elementProperties].flatMap(([name, { attribute, reflect, converter }]) => (attribute !== false && (reflect || converter?.toAttribute) ? [(typeof attribute === 'string' ? attribute : name).toLowerCase()] : [])),
         missingMembers: memberNames.filter((name) => !(name in element)),
-        parts: [...shadowRoot.querySelectorAll('[part]')].flatMap(({ part }) => [...part]),
+        parts: [...shadowRoot.querySelectorAll('[part]')].flatMap(({ part: partNames }) => [...partNames]),
         properties: [...new Set(cssText.match(/--motion-[a-z-]+/g))],
       };
-    }, /** @type {[string, string[]]} */ ([tagName, sortedNamesOf(members)]));
+    }, /** @type {[string, string[]]} */ ([tagName, sortedNamesOf(classMembers)]));
     // Names of HTML attributes have no capital letters.
     assert.deepEqual(sortedNamesOf(attributes).map((name) => name.toLowerCase()).sort(), actualNames.attributes.sort(), tagName);
     assert.deepEqual(actualNames.missingMembers, [], tagName);
-    for (const { name, return: returnType } of members) if (name === 'getState') assert.equal(returnType.type.text, `${toPascalCase(tagName)}State | null`);
-    for (const { name, description } of [...attributes, ...members, ...events, ...cssParts, ...cssProperties]) assert.ok(description, `${name} of ${tagName}`);
-    assert.deepEqual(sortedNamesOf(events), ['change', 'error', 'input', 'load', 'stats']);
+    for (const { name, return: returnType } of classMembers) if (name === 'getState') assert.equal(returnType.type.text, `${toPascalCase(tagName)}State | null`);
+    for (const { name, description } of [...attributes, ...classMembers, ...elementEvents, ...cssParts, ...cssProperties]) assert.ok(description, `${name} of ${tagName}`);
+    assert.deepEqual(sortedNamesOf(elementEvents), ['change', 'error', 'input', 'load', 'stats']);
     // The element with the part `notice` exists only while there is a notice.
     assert.deepEqual(sortedNamesOf(cssParts), [...new Set([...actualNames.parts, 'notice'])].sort(), `parts of ${tagName}`);
     assert.deepEqual(sortedNamesOf(cssProperties), actualNames.properties.sort(), `properties of ${tagName}`);
@@ -195,14 +195,14 @@ test('external.js loads a widget when its tag appears, with messages that the pa
   const page = await installedProject.browser.newPage();
   /** @type {string[]} */
   const requestedPaths = [];
-  page.on('request', (request) => requestedPaths.push(new URL(request.url()).pathname));
+  page.on('request', (httpRequest) => requestedPaths.push(new URL(httpRequest.url()).pathname));
   const moduleScript = `<script type="module">import { setMessages } from '${DIST_PATH}external.js';
     setMessages('fr', { stepLabel: 'Un pas', squeeze: { title: 'Le plan' } });</script>`;
   const pageHtml = `<!doctype html><html lang="fr"><link rel="icon" href="data:,">${moduleScript}<banana-machine></banana-machine><x-late></x-late>`;
-  await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
+  await page.route('**/page.html', (pageRoute) => pageRoute.fulfill({ contentType: 'text/html', body: pageHtml }));
   await page.goto(`${installedProject.address}page.html`);
   await page.locator('banana-machine canvas').first().waitFor();
-  const listSqueezeRequestPaths = () => requestedPaths.filter((path) => path.includes('/map-squeeze-'));
+  const listSqueezeRequestPaths = () => requestedPaths.filter((filePath) => filePath.includes('/map-squeeze-'));
   assert.deepEqual(listSqueezeRequestPaths(), []);
   // The element that is defined later has a Map Squeeze in its shadow root.
   await page.evaluate(() => {
@@ -224,12 +224,12 @@ test('package.json names no file that the package leaves out', () => {
   const pathsOf = (exportTarget) => (typeof exportTarget === 'string' ? [exportTarget] : Object.values(exportTarget).flatMap(pathsOf));
   const allPaths = [...pathsOf(bin), ...pathsOf(exports), main, types, unpkg, jsdelivr, customElements];
   assert.ok(allPaths.length > 10, allPaths.join(' '));
-  assert.deepEqual(allPaths.filter((path) => !existsSync(packagedPathOf(path))), []);
+  assert.deepEqual(allPaths.filter((filePath) => !existsSync(packagedPathOf(filePath))), []);
 });
 
 test('doc/calibration.md describes every option of the command that the package installs', () => {
-  const { status, stdout } = spawnSync(process.execPath, [packagedPathOf('dist/cli.js'), '--help'], { encoding: 'utf8' });
-  assert.equal(status, 0);
+  const { status: exitStatus, stdout } = spawnSync(process.execPath, [packagedPathOf('dist/cli.js'), '--help'], { encoding: 'utf8' });
+  assert.equal(exitStatus, 0);
   const commandOptions = new Set(stdout.match(/--[a-z-]+/g));
   assert.ok(commandOptions.size > 15, [...commandOptions].join(' '));
   const calibrationDocument = readFileSync(join(REPOSITORY_ROOT, 'doc/calibration.md'), 'utf8');
@@ -237,9 +237,9 @@ test('doc/calibration.md describes every option of the command that the package 
 });
 
 test('all released packages have the same version', () => {
-  const { version } = JSON.parse(readFileSync(packagedPathOf('package.json'), 'utf8'));
-  for (const path of ['Cargo.toml', 'python/pyproject.toml']) {
-    assert.equal(readFileSync(join(REPOSITORY_ROOT, path), 'utf8').match(/^version = "(.+)"$/m)?.[1], version, path);
+  const { version: packageVersion } = JSON.parse(readFileSync(packagedPathOf('package.json'), 'utf8'));
+  for (const filePath of ['Cargo.toml', 'python/pyproject.toml']) {
+    assert.equal(readFileSync(join(REPOSITORY_ROOT, filePath), 'utf8').match(/^version = "(.+)"$/m)?.[1], packageVersion, filePath);
   }
 });
 
@@ -257,8 +257,8 @@ test('two copies of the bundle on a page cause no error @nightly', async () => {
 
 test('a script that imports external.js can set the address of the WebAssembly module', async () => {
   const moduleAddress = `${DIST_PATH}motion.wasm?mine`;
-  const modules = await openPageWith(`<script type="module">import { load } from '${DIST_PATH}external.js'; load('${moduleAddress}');</script>`);
-  assert.deepEqual(modules, [new URL(moduleAddress, installedProject.address).href]);
+  const manifestModules = await openPageWith(`<script type="module">import { load } from '${DIST_PATH}external.js'; load('${moduleAddress}');</script>`);
+  assert.deepEqual(manifestModules, [new URL(moduleAddress, installedProject.address).href]);
 });
 
 /** Opens a page with a figure. Its server answers requests for modules with HTML, as some servers do for missing files. @param {string} scriptTag */
@@ -267,9 +267,9 @@ async function openWithoutModules(scriptTag) {
   /** @type {string[]} */
   const consoleWarnings = [];
   page.on('console', (consoleMessage) => void (consoleMessage.type() === 'warning' && consoleWarnings.push(consoleMessage.text())));
-  await page.route('**/*.wasm', (route) => route.fulfill({ contentType: 'text/html', body: '<!doctype html>' }));
+  await page.route('**/*.wasm', (pageRoute) => pageRoute.fulfill({ contentType: 'text/html', body: '<!doctype html>' }));
   const pageHtml = `<!doctype html><link rel="icon" href="data:,">${scriptTag}<banana-machine></banana-machine>`;
-  await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
+  await page.route('**/page.html', (pageRoute) => pageRoute.fulfill({ contentType: 'text/html', body: pageHtml }));
   await page.goto(`${installedProject.address}page.html`);
   return { page, warnings: consoleWarnings };
 }
@@ -277,15 +277,15 @@ async function openWithoutModules(scriptTag) {
 const LOAD_ADVICE = "Copy motion.wasm from the package's dist/ into the site and give its address to load(), or leave the address out";
 
 test('if a module’s file cannot be fetched, the embedded module is used, and a warning names the address and the remedy', async () => {
-  const { page, warnings } = await openWithoutModules(scriptTagOf('external.js'));
+  const { page, warnings: consoleWarnings } = await openWithoutModules(scriptTagOf('external.js'));
   await page.locator('banana-machine canvas').first().waitFor();
-  assert.equal(warnings.length, 1);
-  assert.match(warnings[0], new RegExp(`${installedProject.address}\\S+\\.wasm answers with text/html, which is no WebAssembly module`));
-  assert.ok(warnings[0].includes(LOAD_ADVICE));
+  assert.equal(consoleWarnings.length, 1);
+  assert.match(consoleWarnings[0], new RegExp(`${installedProject.address}\\S+\\.wasm answers with text/html, which is no WebAssembly module`));
+  assert.ok(consoleWarnings[0].includes(LOAD_ADVICE));
 });
 
 test('an address without a module is refused, and the message names the remedy @nightly', async () => {
   const { page } = await openWithoutModules('');
   const loadPromise = page.evaluate(async (importAddress) => (await import(importAddress)).load('/none.wasm'), `${DIST_PATH}external.js`);
-  await assert.rejects(loadPromise, (/** @type {Error} */ { message }) => message.includes('/none.wasm answers with text/html') && message.includes(LOAD_ADVICE));
+  await assert.rejects(loadPromise, (/** @type {Error} */ { message: consoleMessage }) => consoleMessage.includes('/none.wasm answers with text/html') && consoleMessage.includes(LOAD_ADVICE));
 });

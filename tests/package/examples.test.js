@@ -53,8 +53,8 @@ test('an iframe names the error in its address @nightly', async () => {
 test('the example page with a classic script works from a server and from a disk', async () => {
   const fileAddress = pathToFileURL(join(installedProject.directory, 'classic-script/index.html')).href;
   for (const pageUrl of [`${installedProject.address}classic-script/`, fileAddress]) {
-    const { requests } = await openWithCloud(installedProject, pageUrl);
-    assert.equal(requests.length, 3, requests.join(' '));
+    const { requests: requestedUrls } = await openWithCloud(installedProject, pageUrl);
+    assert.equal(requestedUrls.length, 3, requestedUrls.join(' '));
   }
 });
 
@@ -68,8 +68,8 @@ test('the single-file page for classrooms works from a disk', async () => {
 /** Returns a function by which esbuild bundles main.js into a directory. @param {import('esbuild').BuildOptions} buildOptions */
 const createEsbuildBundler = (buildOptions) => async (/** @type {string} */ outputDirectory) => {
   const entryPoints = [join(installedProject.directory, 'main.js')];
-  const { warnings } = await build({ entryPoints, outdir: outputDirectory, bundle: true, minify: true, logLevel: 'silent', ...buildOptions });
-  assert.deepEqual(warnings, []);
+  const { warnings: consoleWarnings } = await build({ entryPoints, outdir: outputDirectory, bundle: true, minify: true, logLevel: 'silent', ...buildOptions });
+  assert.deepEqual(consoleWarnings, []);
 };
 
 /** Bundlers by the names of their tests. Each bundler writes main.js into a directory. @type {Record<string, (outdir: string) => Promise<void>>} */
@@ -92,7 +92,7 @@ for (const [bundlerName, writeBundle] of Object.entries(BUNDLERS)) {
     await writeBundle(outputDirectory);
     const scriptTag = `<script ${bundlerName.endsWith('classic script') ? 'defer' : 'type="module"'} src="main.js"></script>`;
     writeFileSync(join(outputDirectory, 'index.html'), `<!doctype html><link rel="icon" href="data:,">${scriptTag}<banana-machine></banana-machine>`);
-    const { requests } = await openWithCloud(installedProject, `${installedProject.address}${directoryName}/`);
-    assert.deepEqual(requests.filter((address) => address.includes('.wasm')), []);
+    const { requests: requestedUrls } = await openWithCloud(installedProject, `${installedProject.address}${directoryName}/`);
+    assert.deepEqual(requestedUrls.filter((pageAddress) => pageAddress.includes('.wasm')), []);
   });
 }

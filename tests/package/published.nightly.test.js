@@ -26,14 +26,14 @@ before(() => {
 after(() => rmSync(temporaryDirectory, { recursive: true, force: true }));
 
 test('the package has at most 1.5 MB', () => {
-  const { size } = statSync(tarballPath);
-  assert.ok(size <= 1_500_000, `${size} bytes`);
+  const { size: byteCount } = statSync(tarballPath);
+  assert.ok(byteCount <= 1_500_000, `${byteCount} bytes`);
 });
 
 test('publint reports no problem', async () => {
-  const { buffer } = readFileSync(tarballPath);
-  const { messages } = await publint({ pack: { tarball: /** @type {ArrayBuffer} */ (buffer) }, strict: true });
-  assert.deepEqual(messages.map((publintMessage) => formatMessage(publintMessage, packageManifest)), []);
+  const { buffer: fileBuffer } = readFileSync(tarballPath);
+  const { messages: consoleMessages } = await publint({ pack: { tarball: /** @type {ArrayBuffer} */ (fileBuffer) }, strict: true });
+  assert.deepEqual(consoleMessages.map((publintMessage) => formatMessage(publintMessage, packageManifest)), []);
 });
 
 test('the tool "Are the types wrong?" reports no problem', () => {
@@ -42,16 +42,16 @@ test('the tool "Are the types wrong?" reports no problem', () => {
   const attwPath = join(REPOSITORY_ROOT, 'node_modules/@arethetypeswrong/cli/dist/index.js');
   // All scripts are modules. `require` and resolution without `exports` are not supported.
   const attwArguments = [attwPath, tarballPath, '--profile', 'esm-only', '--exclude-entrypoints', ...entriesWithoutTypes];
-  const { status, stdout } = spawnSync(process.execPath, attwArguments, { encoding: 'utf8' });
-  assert.equal(status, 0, stdout);
+  const { status: exitStatus, stdout } = spawnSync(process.execPath, attwArguments, { encoding: 'utf8' });
+  assert.equal(exitStatus, 0, stdout);
   assert.match(stdout, /"motion-widgets\/core"/);
 });
 
 test('the licence file names every library in the bundles, with its licence', () => {
   const licenceText = readFileSync(join(REPOSITORY_ROOT, 'dist/LICENSE-third-party.txt'), 'utf8');
   const esbuildOutputs = JSON.parse(readFileSync(join(REPOSITORY_ROOT, 'build/outputs.json'), 'utf8'));
-  const bundledPaths = Object.values(esbuildOutputs).flatMap(({ inputs }) => Object.keys(inputs).filter((path) => inputs[path].bytesInOutput > 0));
-  const packageNames = bundledPaths.flatMap((path) => path.match(/(?<=node_modules\/)(?:@[^/]+\/)?[^/]+/) ?? []);
+  const bundledPaths = Object.values(esbuildOutputs).flatMap(({ inputs: bundleInputs }) => Object.keys(bundleInputs).filter((filePath) => bundleInputs[filePath].bytesInOutput > 0));
+  const packageNames = bundledPaths.flatMap((filePath) => filePath.match(/(?<=node_modules\/)(?:@[^/]+\/)?[^/]+/) ?? []);
   const [, crateList] = readFileSync(join(REPOSITORY_ROOT, 'Cargo.toml'), 'utf8').match(/\n\[dependencies\]\n(.*?)\n\n/s) ?? [];
   const dependencyNames = [...new Set(packageNames), ...[...(crateList ?? '').matchAll(/^[\w-]+/gm)].map(String)];
   assert.ok(dependencyNames.includes('lit-html') && dependencyNames.includes('nalgebra'), dependencyNames.join(' '));

@@ -49,8 +49,8 @@ before(async () => {
   const dependencyDirectory = installDependencies();
   runPip(['wheel', '--no-deps', '--no-build-isolation', '--wheel-dir', temporaryDirectory, SOURCE_DIRECTORY], dependencyDirectory);
   const [pythonWheelFileName] = readdirSync(temporaryDirectory);
-  const { version } = JSON.parse(readFileSync(join(REPOSITORY_ROOT, 'package.json'), 'utf8'));
-  assert.equal(pythonWheelFileName, `motion_widgets-${version}-py3-none-any.whl`);
+  const { version: packageVersion } = JSON.parse(readFileSync(join(REPOSITORY_ROOT, 'package.json'), 'utf8'));
+  assert.equal(pythonWheelFileName, `motion_widgets-${packageVersion}-py3-none-any.whl`);
   const installDirectory = join(temporaryDirectory, 'site');
   runPip(['install', '--no-deps', '--target', installDirectory, join(temporaryDirectory, pythonWheelFileName)]);
   pythonSearchPath = [installDirectory, dependencyDirectory].join(delimiter);

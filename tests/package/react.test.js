@@ -96,18 +96,18 @@ function renderServerHtml(figureProps) {
 /** Waits until the last `stats` event of the first figure has 2000 samples. */
 const waitUntilComplete = () => page.getByText('of 2000').waitFor();
 
-/** Opens a page of the application. @param {string} name of the file */
-async function openPage(name) {
+/** Opens a page of the application. @param {string} pageName of the file */
+async function openPage(pageName) {
   page = await installedProject.openPage();
-  await page.goto(new URL(`react/${name}`, installedProject.address).href);
+  await page.goto(new URL(`react/${pageName}`, installedProject.address).href);
   await page.waitForFunction(() => 'hydrate' in globalThis);
 }
 
 /** Sets the props of the first figure, or removes it. @param {Record<string, unknown> | null} props */
 const setProps = (props) => page.evaluate((newProps) => /** @type {any} */ (globalThis).page.setProps(newProps), props);
 
-/** Returns a property of the first figure. @param {string} name */
-const readProperty = (name) => page.evaluate((propertyName) => /** @type {any} */ (document.querySelector('banana-machine'))[propertyName], name);
+/** Returns a property of the first figure. @param {string} propertyName */
+const readProperty = (propertyName) => page.evaluate((propertyName) => /** @type {any} */ (document.querySelector('banana-machine'))[propertyName], propertyName);
 
 /** Returns the events that the page received. @returns {Promise<[name: string, onFigure: boolean, message?: string][]>} */
 const readReceivedEvents = () => page.evaluate(() => /** @type {any} */ (globalThis).receivedEvents);
@@ -136,7 +136,7 @@ test('a new rendering keeps the user’s changes, and properties and events do n
   await page.evaluate(() => /** @type {any} */ (globalThis).show({}));
   await waitUntilComplete();
   await page.locator('banana-machine').first().locator('#v').press('ArrowRight');
-  await page.waitForFunction(() => /** @type {any} */ (globalThis).receivedEvents.some((/** @type {string[]} */ [name]) => name === 'onChange'));
+  await page.waitForFunction(() => /** @type {any} */ (globalThis).receivedEvents.some((/** @type {string[]} */ [eventName]) => eventName === 'onChange'));
   await setProps({ omega: 0.3 });
   await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine')).omega === 0.3);
   assert.notEqual(await readProperty('v'), 1);
@@ -156,7 +156,7 @@ test('a refused prop calls onError, and removing a prop restores the opening val
   await waitUntilComplete();
   assert.equal(await readProperty('marked'), 7);
   await page.evaluate(() => /** @type {any} */ (globalThis).page.setProps({ omega: NaN, alphas: [1, 2] }));
-  await page.waitForFunction(() => /** @type {any} */ (globalThis).receivedEvents.filter((/** @type {string[]} */ [name]) => name === 'onError').length === 2);
+  await page.waitForFunction(() => /** @type {any} */ (globalThis).receivedEvents.filter((/** @type {string[]} */ [eventName]) => eventName === 'onError').length === 2);
   assert.equal(await readProperty('omega'), 0.8);
   assert.deepEqual(await readProperty('alphas'), [0.1, 0.1, 0.1, 0.1, 0, 0]);
   await page.evaluate(() => /** @type {any} */ (globalThis).page.setProps({ alphas: undefined }));

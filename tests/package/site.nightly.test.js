@@ -14,11 +14,11 @@ const builtSite = serveDirectory(() => {
 
 test('pages of the site fit a phone, load without errors, and start their figures', async () => {
   const page = await builtSite.openPage({ viewport: { width: 375, height: 800 } });
-  const pagePaths = filesOf('build/site').map((path) => path.slice('build/site/'.length)).filter((path) => /^(?!rust|classroom|embed\.).*html$/.test(path));
+  const pagePaths = filesOf('build/site').map((filePath) => filePath.slice('build/site/'.length)).filter((filePath) => /^(?!rust|classroom|embed\.).*html$/.test(filePath));
   let figureCount = 0;
-  for (const path of pagePaths) {
-    await page.goto(builtSite.address + path);
-    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${path} is too wide`);
+  for (const filePath of pagePaths) {
+    await page.goto(builtSite.address + filePath);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${filePath} is too wide`);
     for (const figureLocator of await page.locator('main :is(banana-machine, map-squeeze)').all()) {
       await figureLocator.evaluate((figureElement) => figureElement.scrollIntoView());
       await figureLocator.locator('canvas').first().waitFor();

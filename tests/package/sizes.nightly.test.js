@@ -13,11 +13,11 @@ const pathOf = (/** @type {string} */ repositoryPath) => join(REPOSITORY_ROOT, r
 /** Report of esbuild on each written file, by the path from the root. @type {Record<string, { entryPoint?: string, imports: { path: string, kind: string }[] }>} */
 const esbuildOutputs = JSON.parse(readFileSync(pathOf('build/outputs.json'), 'utf8'));
 
-/** Returns the paths of a module and of its static imports, which a browser loads together. Dynamic imports are left out. @param {string} path */
-function loadedFilesOf(path) {
-  const loadedPaths = new Set([path]);
+/** Returns the paths of a module and of its static imports, which a browser loads together. Dynamic imports are left out. @param {string} filePath */
+function loadedFilesOf(filePath) {
+  const loadedPaths = new Set([filePath]);
   for (const loadedPath of loadedPaths) {
-    for (const { path: importedPath, kind } of esbuildOutputs[loadedPath].imports) if (kind === 'import-statement') loadedPaths.add(importedPath);
+    for (const { path: importedPath, kind: importKind } of esbuildOutputs[loadedPath].imports) if (importKind === 'import-statement') loadedPaths.add(importedPath);
   }
   return [...loadedPaths];
 }
@@ -33,17 +33,17 @@ function chunkFilesOf(sourcePath) {
 const scriptsOf = (widgetTags, coreEntry) =>
   [...new Set([...loadedFilesOf('dist/external.js'), ...widgetTags.flatMap((widgetTag) => chunkFilesOf(`www/widgets/${widgetTag}/${widgetTag}.ts`)), ...chunkFilesOf(`build/${coreEntry}.js`)])];
 
-/** Returns the path of the WebAssembly module of a widget. @param {string} tag */
-function modulePathOf(tag) {
-  const fileName = readdirSync(pathOf('dist/chunks')).find((wasmName) => wasmName.startsWith(`${tag}-`) && wasmName.endsWith('.wasm'));
-  assert.ok(fileName, `dist/chunks has no module for ${tag}.`);
+/** Returns the path of the WebAssembly module of a widget. @param {string} widgetTag */
+function modulePathOf(widgetTag) {
+  const fileName = readdirSync(pathOf('dist/chunks')).find((wasmName) => wasmName.startsWith(`${widgetTag}-`) && wasmName.endsWith('.wasm'));
+  assert.ok(fileName, `dist/chunks has no module for ${widgetTag}.`);
   return `dist/chunks/${fileName}`;
 }
 
 /** Asserts that files compressed by brotli are within a limit. @param {string} pageLoadName @param {string[]} filePaths @param {number} maxBytes */
 function assertSize(pageLoadName, filePaths, maxBytes) {
   const brotliOptions = { params: { [constants.BROTLI_PARAM_QUALITY]: 11 } };
-  const compressedBytes = filePaths.reduce((byteSum, path) => byteSum + brotliCompressSync(readFileSync(pathOf(path)), brotliOptions).length, 0);
+  const compressedBytes = filePaths.reduce((byteSum, filePath) => byteSum + brotliCompressSync(readFileSync(pathOf(filePath)), brotliOptions).length, 0);
   console.log(`${pageLoadName}: ${compressedBytes} of ${maxBytes} bytes`);
   assert.ok(compressedBytes <= maxBytes, `${pageLoadName}: ${filePaths.join(' + ')} are ${compressedBytes} bytes by brotli; allowed are ${maxBytes}`);
 }
@@ -61,10 +61,10 @@ const CALIBRATOR_TAG = 'alpha-calibrator';
 
 test('the files that a page loads stay within their size limits', () => {
   const widgetTags = Object.keys(settings);
-  for (const tag of widgetTags) {
-    const [pageLimit, moduleLimit] = tag === CALIBRATOR_TAG ? [LIMITS_KB.pageOfCalibrator, LIMITS_KB.moduleOfCalibrator] : [LIMITS_KB.page, LIMITS_KB.moduleOfWidget];
-    assertSize(tag, [...scriptsOf([tag], tag), modulePathOf(tag)], 1000 * pageLimit);
-    assertSize(`module of ${tag}`, [modulePathOf(tag)], 1000 * moduleLimit);
+  for (const widgetTag of widgetTags) {
+    const [pageLimit, moduleLimit] = widgetTag === CALIBRATOR_TAG ? [LIMITS_KB.pageOfCalibrator, LIMITS_KB.moduleOfCalibrator] : [LIMITS_KB.page, LIMITS_KB.moduleOfWidget];
+    assertSize(widgetTag, [...scriptsOf([widgetTag], widgetTag), modulePathOf(widgetTag)], 1000 * pageLimit);
+    assertSize(`module of ${widgetTag}`, [modulePathOf(widgetTag)], 1000 * moduleLimit);
   }
   assertSize('scripts of all widgets', scriptsOf(widgetTags, 'motion'), 125_000);
   assertSize('module', ['dist/motion.wasm'], 1000 * LIMITS_KB.module);

@@ -59,15 +59,15 @@ export function serveDirectory(prepareDirectory, basePath) {
   before(async () => {
     // Waits until the test file is evaluated, because `prepareDirectory` may use its variables.
     await null;
-    const { address, close } = await startServer(prepareDirectory(), { port: 0, base: basePath });
-    closeServer = close;
+    const { address: pageAddress, close: stopServer } = await startServer(prepareDirectory(), { port: 0, base: basePath });
+    closeServer = stopServer;
     const browser = await chromium.launch({ executablePath: process.env.CHROME ?? findChrome(), args: CHROME_ARGUMENTS });
-    Object.assign(siteServer, { address, browser });
+    Object.assign(siteServer, { address: pageAddress, browser });
   });
   afterEach(async () => {
     // A closed page aborts its requests, which is no error.
     const testMessages = [...siteServer.consoleMessages];
-    for (const context of siteServer.browser.contexts()) await context.close();
+    for (const browserContext of siteServer.browser.contexts()) await browserContext.close();
     siteServer.consoleMessages = [];
     assert.deepEqual(testMessages, []);
   });
@@ -78,25 +78,25 @@ export function serveDirectory(prepareDirectory, basePath) {
   return siteServer;
 }
 
-/** Installs and serves the package for all tests of a file. @param {() => unknown} [prepare] is called after the installation */
-export function serveProject(prepare) {
-  const directory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
-  after(() => rmSync(directory, { recursive: true, force: true }));
+/** Installs and serves the package for all tests of a file. @param {() => unknown} [prepareProject] is called after the installation */
+export function serveProject(prepareProject) {
+  const projectDirectory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
+  after(() => rmSync(projectDirectory, { recursive: true, force: true }));
   const siteServer = serveDirectory(() => {
-    installPackage(directory);
-    prepare?.();
-    return directory;
+    installPackage(projectDirectory);
+    prepareProject?.();
+    return projectDirectory;
   });
-  return Object.assign(siteServer, { directory });
+  return Object.assign(siteServer, { directory: projectDirectory });
 }
 
-/** Opens a page and waits until its figure has all its samples. @param {ReturnType<typeof serveDirectory>} siteServer @param {string} address */
-export async function openWithCloud(siteServer, address) {
+/** Opens a page and waits until its figure has all its samples. @param {ReturnType<typeof serveDirectory>} siteServer @param {string} pageAddress */
+export async function openWithCloud(siteServer, pageAddress) {
   const page = await siteServer.openPage();
   /** @type {string[]} */
   const requestedUrls = [];
-  page.on('request', (request) => requestedUrls.push(request.url()));
-  await page.goto(address);
+  page.on('request', (httpRequest) => requestedUrls.push(httpRequest.url()));
+  await page.goto(pageAddress);
   const figureFrame = (await page.locator('iframe').count()) > 0 ? page.frameLocator('iframe') : page;
   const cloudCanvas = figureFrame.locator('banana-machine canvas').first();
   await cloudCanvas.waitFor({ timeout: 10_000 }).catch((error) => {

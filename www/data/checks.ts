@@ -1,7 +1,7 @@
 /** Checks of values from the page. Error messages have the same form as those of the Rust core. */
 
-export function createRefusalError(field: string, value: unknown, allowed: string, ErrorClass = RangeError): TypeError | RangeError {
-  return new ErrorClass(`${field} is ${describeValue(value)}; allowed is ${allowed}`);
+export function createRefusalError(fieldName: string, checkedValue: unknown, allowedText: string, ErrorClass = RangeError): TypeError | RangeError {
+  return new ErrorClass(`${fieldName} is ${describeValue(checkedValue)}; allowed is ${allowedText}`);
 }
 
 /** Returns the error. If its message starts with `corePath`, the core's name of a field, the message gets `newName` instead. */
@@ -10,45 +10,45 @@ export function withFieldRenamed(error: unknown, newName: string, corePath: stri
   return error;
 }
 
-function describeValue(value: unknown) {
-  if (typeof value === 'string') return JSON.stringify(shortenText(value));
-  if (typeof value === 'object' && value !== null) return Array.isArray(value) ? 'an array' : 'an object';
-  return ['function', 'symbol', 'bigint'].includes(typeof value) ? `a ${typeof value}` : String(value);
+function describeValue(checkedValue: unknown) {
+  if (typeof checkedValue === 'string') return JSON.stringify(shortenText(checkedValue));
+  if (typeof checkedValue === 'object' && checkedValue !== null) return Array.isArray(checkedValue) ? 'an array' : 'an object';
+  return ['function', 'symbol', 'bigint'].includes(typeof checkedValue) ? `a ${typeof checkedValue}` : String(checkedValue);
 }
 
 /** Returns the first 40 characters of a text, without splitting a surrogate pair. */
-const shortenText = (text: string) => text.replace(/^(.{40}).+$/su, '$1…');
+const shortenText = (longText: string) => longText.replace(/^(.{40}).+$/su, '$1…');
 
-export function checkObject(field: string, value: unknown, keys: readonly string[]) {
-  if (typeof value !== 'object' || value === null || Array.isArray(value)) {
-    throw createRefusalError(field, value, `an object with keys from ${keys.join(', ')}`, TypeError);
+export function checkObject(fieldName: string, checkedValue: unknown, allowedKeys: readonly string[]) {
+  if (typeof checkedValue !== 'object' || checkedValue === null || Array.isArray(checkedValue)) {
+    throw createRefusalError(fieldName, checkedValue, `an object with keys from ${allowedKeys.join(', ')}`, TypeError);
   }
-  const unknownKey = Object.keys(value).find((key) => !keys.includes(key));
+  const unknownKey = Object.keys(checkedValue).find((objectKey) => !allowedKeys.includes(objectKey));
   if (unknownKey !== undefined) {
-    throw new TypeError(`${field}.${shortenText(unknownKey)} is an unknown key; allowed are ${keys.join(', ')}`);
+    throw new TypeError(`${fieldName}.${shortenText(unknownKey)} is an unknown key; allowed are ${allowedKeys.join(', ')}`);
   }
-  return value as Record<string, unknown>;
+  return checkedValue as Record<string, unknown>;
 }
 
-export function checkWord<Word extends string>(field: string, value: unknown, allowed: readonly Word[]) {
-  const matchingWord = allowed.find((word) => word === value);
+export function checkWord<Word extends string>(fieldName: string, checkedValue: unknown, allowedWords: readonly Word[]) {
+  const matchingWord = allowedWords.find((allowedWord) => allowedWord === checkedValue);
   if (matchingWord !== undefined) return matchingWord;
-  const ErrorClass = typeof value === 'string' ? RangeError : TypeError;
-  throw createRefusalError(field, value, allowed.map((word) => JSON.stringify(word)).join(' or '), ErrorClass);
+  const ErrorClass = typeof checkedValue === 'string' ? RangeError : TypeError;
+  throw createRefusalError(fieldName, checkedValue, allowedWords.map((allowedWord) => JSON.stringify(allowedWord)).join(' or '), ErrorClass);
 }
 
-export function checkNumber(field: string, value: unknown, min: number, max: number, isWhole = false) {
-  const allowed = `${isWhole ? 'a whole number from ' : ''}${min} to ${max}`;
-  if (typeof value !== 'number') throw createRefusalError(field, value, allowed, TypeError);
-  if (!(value >= min && value <= max) || (isWhole && !Number.isInteger(value))) throw createRefusalError(field, value, allowed);
-  return value;
+export function checkNumber(fieldName: string, checkedValue: unknown, minValue: number, maxValue: number, isWhole = false) {
+  const allowedText = `${isWhole ? 'a whole number from ' : ''}${minValue} to ${maxValue}`;
+  if (typeof checkedValue !== 'number') throw createRefusalError(fieldName, checkedValue, allowedText, TypeError);
+  if (!(checkedValue >= minValue && checkedValue <= maxValue) || (isWhole && !Number.isInteger(checkedValue))) throw createRefusalError(fieldName, checkedValue, allowedText);
+  return checkedValue;
 }
 
 /** Checks that an array contains only allowed names. Returns these names in the order of `allowed`. */
-function checkSubset(field: string, value: unknown, allowed: readonly string[]): string[] {
-  if (!Array.isArray(value)) throw createRefusalError(field, value, `an array of ${allowed.join(', ')}`, TypeError);
-  const checkedNames = value.map((name, i) => checkWord(`${field}[${i}]`, name, allowed));
-  return allowed.filter((name) => checkedNames.includes(name));
+function checkSubset(fieldName: string, checkedValue: unknown, allowedWords: readonly string[]): string[] {
+  if (!Array.isArray(checkedValue)) throw createRefusalError(fieldName, checkedValue, `an array of ${allowedWords.join(', ')}`, TypeError);
+  const checkedNames = checkedValue.map((checkedWord, i) => checkWord(`${fieldName}[${i}]`, checkedWord, allowedWords));
+  return allowedWords.filter((allowedWord) => checkedNames.includes(allowedWord));
 }
 
 /** Type and range of a field. `checkValue` accepts all values of a field without a type. */
@@ -61,18 +61,18 @@ export interface FieldRange {
 }
 
 /** Returns a value after a check; throws a TypeError or RangeError if it is out of range. */
-export function checkValue(field: string, value: unknown, { type, words = [], min = -Infinity, max = Infinity, nullable }: FieldRange): unknown {
-  if (type === undefined || (nullable && value === null)) return value;
-  if (type === 'words') return checkSubset(field, value, words);
-  if (type === 'word') return checkWord(field, value, words);
-  if (type !== 'boolean') return checkNumber(field, value, min, max, type === 'whole');
-  if (typeof value !== 'boolean') throw createRefusalError(field, value, 'true or false', TypeError);
-  return value;
+export function checkValue(fieldName: string, checkedValue: unknown, { type: valueType, words: allowedWords = [], min: minValue = -Infinity, max: maxValue = Infinity, nullable }: FieldRange): unknown {
+  if (valueType === undefined || (nullable && checkedValue === null)) return checkedValue;
+  if (valueType === 'words') return checkSubset(fieldName, checkedValue, allowedWords);
+  if (valueType === 'word') return checkWord(fieldName, checkedValue, allowedWords);
+  if (valueType !== 'boolean') return checkNumber(fieldName, checkedValue, minValue, maxValue, valueType === 'whole');
+  if (typeof checkedValue !== 'boolean') throw createRefusalError(fieldName, checkedValue, 'true or false', TypeError);
+  return checkedValue;
 }
 
 /** Returns true if `object` has all fields of `subset` with the same values. Objects are compared deeply. */
-export function includesFields(object: any, subset: any): boolean {
-  if (Object.is(object, subset)) return true;
-  if (typeof object !== 'object' || typeof subset !== 'object' || !object || !subset || object.length !== subset.length) return false;
-  return Object.keys(subset).every((key) => Object.hasOwn(object, key) && includesFields(object[key], subset[key]));
+export function includesFields(wholeObject: any, requiredFields: any): boolean {
+  if (Object.is(wholeObject, requiredFields)) return true;
+  if (typeof wholeObject !== 'object' || typeof requiredFields !== 'object' || !wholeObject || !requiredFields || wholeObject.length !== requiredFields.length) return false;
+  return Object.keys(requiredFields).every((objectKey) => Object.hasOwn(wholeObject, objectKey) && includesFields(wholeObject[objectKey], requiredFields[objectKey]));
 }

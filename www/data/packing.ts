@@ -6,26 +6,26 @@ import { createRefusalError } from './checks.ts';
 const MAX_UNPACKED_BYTES = 12_000_000;
 
 /** Returns a state as compressed JSON, written with letters, digits, - and _. */
-export async function packJson(state: object): Promise<string> {
-  const compressedStream = new Blob([JSON.stringify(state)]).stream().pipeThrough(new CompressionStream('deflate-raw'));
+export async function packJson(figureState: object): Promise<string> {
+  const compressedStream = new Blob([JSON.stringify(figureState)]).stream().pipeThrough(new CompressionStream('deflate-raw'));
   const compressedBytes = new Uint8Array(await new Response(compressedStream).arrayBuffer());
   return toBase64(compressedBytes).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
 }
 
 /** Returns the state that `packJson` packed into a text; throws a RangeError for any other text. */
-export async function unpackJson(text: string): Promise<unknown> {
+export async function unpackJson(packedText: string): Promise<unknown> {
   try {
-    const bytes = fromBase64(text.replaceAll('-', '+').replaceAll('_', '/'));
+    const bytes = fromBase64(packedText.replaceAll('-', '+').replaceAll('_', '/'));
     let byteCount = 0;
-    const checkSize = (chunk: Uint8Array, controller: TransformStreamDefaultController) => {
-      byteCount += chunk.length;
-      if (byteCount > MAX_UNPACKED_BYTES) controller.error();
-      else controller.enqueue(chunk);
+    const checkSize = (byteChunk: Uint8Array, streamController: TransformStreamDefaultController) => {
+      byteCount += byteChunk.length;
+      if (byteCount > MAX_UNPACKED_BYTES) streamController.error();
+      else streamController.enqueue(byteChunk);
     };
     const decompressedStream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw'));
     return await new Response(decompressedStream.pipeThrough(new TransformStream({ transform: checkSize }))).json();
   } catch {
-    throw createRefusalError('state in the address', text, 'what shareLink gives');
+    throw createRefusalError('state in the address', packedText, 'what shareLink gives');
   }
 }
 
@@ -35,7 +35,7 @@ export function toBase64(bytes: Uint8Array & { toBase64?: () => string }) {
 }
 
 /** Returns the bytes of a base64 text; throws a DOMException or SyntaxError for any other text. */
-export function fromBase64(text: string) {
-  const { fromBase64: nativeFromBase64 } = Uint8Array as { fromBase64?: (text: string) => Uint8Array<ArrayBuffer> };
-  return nativeFromBase64 ? nativeFromBase64.call(Uint8Array, text) : Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+export function fromBase64(packedText: string) {
+  const { fromBase64: nativeFromBase64 } = Uint8Array as { fromBase64?: (packedText: string) => Uint8Array<ArrayBuffer> };
+  return nativeFromBase64 ? nativeFromBase64.call(Uint8Array, packedText) : Uint8Array.from(atob(packedText), (binaryCharacter) => binaryCharacter.charCodeAt(0));
 }

@@ -1,6 +1,6 @@
 /** Wasm core of a figure: start, error reports, and replacement after a trap. The new core gets the state that was shown. */
 
-import { abandonSimulation, instantiateFor, precompile } from '../core.ts';
+import { abandonSimulation, instantiateFor, precompileModule } from '../core.ts';
 import { FigureController } from './controller.ts';
 
 export class CoreRuntime extends FigureController {
@@ -14,7 +14,7 @@ export class CoreRuntime extends FigureController {
   hasTrapped = false;
 
   hostConnected() {
-    precompile();
+    precompileModule();
   }
 
   /** Starts the core, if it is not running. Resolves when it has started or failed. */

@@ -32,18 +32,15 @@ const styles = css`
   }
 
   .factors li {
+    display: grid;
+    grid-template-columns: 1fr auto;
+    align-content: start;
     padding-left: calc(0.5em + 3px);
   }
 
   :is(.factors.lit li, .weakest) {
     padding-left: 0.5em;
     border-left: 3px solid var(--accent);
-  }
-
-  .factors li {
-    display: grid;
-    grid-template-columns: 1fr auto;
-    align-content: start;
   }
 
   .factors :is(.estimate, svg) {

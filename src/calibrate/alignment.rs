@@ -63,8 +63,7 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Opt
     best_match.map(|(offset, _)| offset).or((overlap >= 0.0).then_some(0.0))
 }
 
-/// Returns the offset within a range at which the turn rates correlate most, interpolated between steps. None if the largest correlation is
-/// below [`MIN_CORRELATION`].
+/// Returns the offset within a range at which the turn rates correlate most, interpolated between steps. None if the largest correlation is below [`MIN_CORRELATION`].
 fn best_match(
     odometry: &Trajectory,
     reference: &Trajectory,
@@ -76,51 +75,44 @@ fn best_match(
     let offset_count = ((max_offset - min_offset) / step).round() as usize + 1;
     let odometry_turns = turns_of_steps(odometry, start, step, turn_count);
     let reference_turns = turns_of_steps(reference, start + min_offset, step, turn_count + offset_count - 1);
-    let count_known = |turns: &[Option<f64>]| turns.iter().flatten().count();
+    let count_known = |turns: &[f64]| turns.iter().filter(|turn| !turn.is_nan()).count();
     let min_pairs = count_known(&odometry_turns).min(count_known(&reference_turns)) / 2;
     let correlation_of_offset = |offset: usize| {
         let correlation = correlation(&odometry_turns, &reference_turns[offset..], min_pairs);
         correlation.max(-MIRRORED_FACTOR * correlation)
     };
     let correlations: Vec<f64> = (0..offset_count).map(correlation_of_offset).collect();
-    let (best_offset, max_correlation) =
-        correlations.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    if max_correlation < MIN_CORRELATION {
-        return None;
-    }
+    let (best, &max) = correlations.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
     // Vertex of the parabola through the largest correlation and its neighbours.
-    let correlation_at = |offset: usize| correlations.get(offset).copied().unwrap_or(max_correlation);
-    let [before, after] = [best_offset.wrapping_sub(1), best_offset + 1].map(correlation_at);
-    let curvature = before - 2.0 * max_correlation + after;
+    let [before, after] =
+        [best.wrapping_sub(1), best + 1].map(|i| correlations.get(i).copied().unwrap_or(max));
+    let curvature = before - 2.0 * max + after;
     let fraction = if curvature < 0.0 { 0.5 * (before - after) / curvature } else { 0.0 };
-    Some((min_offset + (best_offset as f64 + fraction) * step, max_correlation))
+    (max >= MIN_CORRELATION).then_some((min_offset + (best as f64 + fraction) * step, max))
 }
 
-/// Returns the turns (rad) between successive times, which are `step` (s) apart. None outside of the trajectory, and across gaps.
-fn turns_of_steps(trajectory: &Trajectory, start_time: f64, step: f64, count: usize) -> Vec<Option<f64>> {
+/// Returns the turns (rad) between successive times, which are `step` (s) apart. NaN outside of the trajectory, and across gaps.
+fn turns_of_steps(trajectory: &Trajectory, start_time: f64, step: f64, count: usize) -> Vec<f64> {
     let headings = trajectory.unwrapped_heading();
     let heading_at = |time: f64| {
-        let (sample, fraction) = trajectory.locate(time)?;
+        let Some((sample, fraction)) = trajectory.locate(time) else { return f64::NAN };
         let before = headings[sample.saturating_sub(1)];
-        Some(before + fraction * (headings[sample] - before))
+        before + fraction * (headings[sample] - before)
     };
-    let time_of_step = |i: usize| start_time + i as f64 * step;
-    let step_headings: Vec<Option<f64>> = (0..=count).map(|i| heading_at(time_of_step(i))).collect();
-    let turn_of_step = |i: usize| {
-        let turn = step_headings[i + 1]? - step_headings[i]?;
-        Some(turn).filter(|_| !trajectory.has_gap(time_of_step(i), time_of_step(i + 1)))
-    };
-    (0..count).map(turn_of_step).collect()
+    let times: Vec<f64> = (0..=count).map(|i| start_time + i as f64 * step).collect();
+    let step_headings: Vec<f64> = times.iter().copied().map(heading_at).collect();
+    let has_gap = |step_times: &[f64]| trajectory.has_gap(step_times[0], step_times[1]);
+    let steps = times.windows(2).zip(step_headings.windows(2));
+    steps.map(|(times, headings)| if has_gap(times) { f64::NAN } else { headings[1] - headings[0] }).collect()
 }
 
-/// Returns Pearson's correlation of two lists, over the positions at which both numbers are known. 0 if there are fewer than `min_pairs`
-/// such positions, or a list is constant.
-fn correlation(a: &[Option<f64>], b: &[Option<f64>], min_pairs: usize) -> f64 {
-    let iter_known_pairs = || a.iter().zip(b).filter_map(|(a, b)| a.zip(*b));
+/// Returns Pearson's correlation of two lists, over the positions at which neither number is NaN. 0 if there are fewer than `min_pairs` such
+/// positions, or a list is constant.
+fn correlation(a: &[f64], b: &[f64], min_pairs: usize) -> f64 {
     let (mut count, mut sums) = (0.0, [0.0; 5]);
-    for (x, y) in iter_known_pairs() {
+    for (x, y) in a.iter().zip(b).filter(|(x, y)| !(**x + **y).is_nan()) {
         count += 1.0;
-        for (sum, term) in sums.iter_mut().zip([x, y, x * x, y * y, x * y]) {
+        for (sum, term) in sums.iter_mut().zip([*x, *y, x * x, y * y, x * y]) {
             *sum += term;
         }
     }

@@ -6,6 +6,7 @@ use super::residuals::{ERROR_COUNT, ErrorMask, Model, Systematic, SystematicErro
 use super::trajectory::median;
 use crate::models::OdometryRule;
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 /// Overall judgement of a calibration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -21,63 +22,118 @@ pub enum Verdict {
     Unusable,
 }
 
-/// Names of the checks that judge a calibration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// Names of the checks that judge a calibration. Messages say what a failure of the check means for the α's, and the remedy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Error)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
 pub enum CheckName {
     /// Mismatch of reference and odometry: difference from 1 of the median ratio of their turns, or of their driven distances. If the
     /// reference is a copy of the odometry, the value is the square root of the largest lower end of the α's 95 % intervals.
+    #[error(
+        "The reference does not follow the odometry: it may be of another drive, have other units (degrees, feet, millimetres), a mirrored y axis or another vertical axis than z, or its columns may be swapped. The α's mean nothing. Compare both files of each drive."
+    )]
     ReferenceMatches,
     /// Number of legs.
+    #[error(
+        "There are few legs, so the intervals are wide and the other checks weak. Record a longer drive: a quarter of an hour of straight drives, arcs and turns on the spot."
+    )]
     EnoughLegs,
     /// Fraction of the legs that were left out of the fit.
+    #[error("Many legs were lost. The α's describe the remaining legs.")]
     LegsLost,
     /// Median length of a leg, divided by the length that the options ask for.
+    #[error(
+        "Rows are too sparse for legs of this length: legs are longer than requested, and the α's are valid for that length. Record at a higher rate, or choose longer legs."
+    )]
     SamplingDense,
     /// Fraction of outliers.
+    #[error(
+        "Many legs are outliers. The α's describe the remaining legs, and are too small if the outliers are wheel slip. Look at the outliers: jumps of the reference, or slip?"
+    )]
     OutliersFew,
     /// Fraction of the legs in which the odometry moves sideways. Motion backwards also counts under rules that decompose it into two
     /// turns.
+    #[error(
+        "The odometry moves sideways, or backwards under Table 5.6: its positions are noisy, its frame is off the axle, it is swapped with the reference, or the robot reverses. α₁ and α₄ are too small. Use odometry of the axle, or the rule of Nav2."
+    )]
     SidewaysRare,
     /// Difference of the distance scales of straight and turning legs, or of both halves of the log, whichever is larger.
+    #[error(
+        "The odometry's distance scale is not constant, so it was corrected only if requested. Check wheel diameters, load and slip in turns; calibrate the wheels, then the noise."
+    )]
     DistanceScaleConstant,
-    /// Difference of the turn scales of both halves of the log.
+    /// Difference of the turn scales of single legs and windows of 2 m, or of both halves of the log, whichever is larger.
+    #[error(
+        "The odometry's turn scale is not constant, so it was corrected only if requested. Check the track width and slip on this floor, and try longer legs: noise hides small turns."
+    )]
     TurnScaleConstant,
     /// Inflation: smallest factor on the α's with which they cover 95 % of the windows of 1 m.
+    #[error(
+        "No inflation up to 30 covers the errors over 1 m: they are not noise of the wheels. Find their cause first: kept outliers, a reference that jumps or drifts, or slip."
+    )]
     InflationBounded,
     /// Correlation of the innovations of neighbouring legs.
+    #[error(
+        "Errors of neighbouring legs are correlated: they persist, a systematic error is left, or the reference is below 30 Hz. Over longer distances the fitted α's are too small if errors persist, too large if they cancel. Recommended α's hold over 1 m."
+    )]
     ResidualsUncorrelated,
     /// Kurtosis of the innovations. The kurtosis of a normal distribution is 3. Smaller values do no harm, and no distribution has less
     /// than 1.
+    #[error(
+        "A few errors are much larger than a normal distribution predicts. Intervals of the predicted pose are too narrow in the tails. Look at the largest residuals. Recommended α's allow for these errors."
+    )]
     TailsNormal,
     /// Fraction of the legs whose error is inside of the 95 % region that the fit to the other half of the log predicts.
+    #[error(
+        "The α's of one half of the log do not fit the other: floor, load or speed changed, or the reference drifts. Calibrate for each condition, with a reference that does not drift."
+    )]
     HoldoutCovered,
     /// Fraction of the windows of 1 m whose error is inside of the 95 % ellipsoid that the fit to the other half of the log predicts.
+    #[error("{WINDOW_MESSAGE}")]
     #[serde(rename = "window-1m-covered")]
     Window1Covered,
     /// Fraction of the windows of 2 m whose error is inside of the 95 % ellipsoid that the fit to the other half of the log predicts.
+    #[error("{WINDOW_MESSAGE}")]
     #[serde(rename = "window-2m-covered")]
     Window2Covered,
     /// Fraction of the windows of 5 m whose error is inside of the 95 % ellipsoid that the fit to the other half of the log predicts.
+    #[error("{WINDOW_MESSAGE}")]
     #[serde(rename = "window-5m-covered")]
     Window5Covered,
 }
 
-/// Causes of the failure of a check.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// Message of the checks of windows.
+const WINDOW_MESSAGE: &str = "Over windows of this length the fitted α's do not predict the error: it grows differently, as with unequal wheels, a heading error that grows along a leg, or a reference that drifts. Recommended α's hold over 1 m: use them if the filter corrects its pose that often.";
+
+/// Causes of the failure of a check. The message of a cause is more specific than that of the check.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Error)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "camelCase")]
 pub enum FailureCause {
     /// The reference is a copy of the odometry, computed from it, or too noisy.
+    #[error(
+        "No error of the odometry is visible: the reference is a copy of it, computed from it, or too noisy. The α's mean nothing. Use a precise and independent measurement, such as motion capture or SLAM."
+    )]
     Copied,
     /// The turns of the reference and of the odometry have opposite signs.
+    #[error(
+        "The reference turns left where the odometry turns right: one of the two has Z down or a mirrored axis. The α's mean nothing. Negate y and the heading of either: the logs cannot show which one is wrong, and the α's are the same."
+    )]
     Mirrored,
     /// Most lost legs lack a pose of the reference.
+    #[error(
+        "Many legs were lost. The α's describe the remaining legs. Most lack the reference: record it for the whole drive."
+    )]
     WithoutReference,
     /// Most lost legs cross a break, at which the pose may have jumped.
+    #[error(
+        "Many legs were lost. The α's describe the remaining legs. Most cross a break: look at the jumps and at the rows left out."
+    )]
     AcrossBreaks,
     /// Most lost legs are too long because of a pause of the recording.
+    #[error(
+        "Many legs were lost. The α's describe the remaining legs. Most are stretched by a pause: record both logs without gaps."
+    )]
     AcrossPauses,
 }
 
@@ -105,16 +161,13 @@ impl Check {
     /// Returns the check of a value. The check passes if the value is in the expected range.
     pub(super) fn new(name: CheckName, value: f64, expected: [f64; 2]) -> Self {
         let passed = (expected[0]..=expected[1]).contains(&value);
-        let message = if passed { "" } else { name.failure_message() };
-        Self { name, value, expected, passed, cause: None, drives: Vec::new(), message: message.to_owned() }
+        let message = if passed { String::new() } else { name.to_string() };
+        Self { name, value, expected, passed, cause: None, drives: Vec::new(), message }
     }
 
     /// Returns the check with the cause of its failure, and the message of that cause. A check that passed stays as it is.
     pub(super) fn with_cause(self, cause: FailureCause) -> Self {
-        if self.passed {
-            return self;
-        }
-        Self { cause: Some(cause), message: cause.message().to_owned(), ..self }
+        if self.passed { self } else { Self { cause: Some(cause), message: cause.to_string(), ..self } }
     }
 }
 
@@ -145,87 +198,11 @@ pub struct Diagnostics {
     pub windows: Vec<WindowCoverage>,
 }
 
-impl Diagnostics {
-    /// Returns the diagnostics of a log that could not be fitted.
-    pub(super) fn too_few_legs() -> Self {
-        let legs = Check::new(CheckName::EnoughLegs, 0.0, [SUFFICIENT_LEGS, f64::INFINITY]);
-        Self { checks: vec![legs], ..Self::default() }
-    }
-}
-
-impl CheckName {
-    /// Returns what a failure of the check means for the α's, and the remedy.
-    fn failure_message(self) -> &'static str {
-        match self {
-            Self::ReferenceMatches => {
-                "The reference does not follow the odometry: it may be of another drive, have other units (degrees, feet, millimetres), a mirrored y axis or another vertical axis than z, or its columns may be swapped. The α's mean nothing. Compare both files of each drive."
-            }
-            Self::EnoughLegs => {
-                "There are few legs, so the intervals are wide and the other checks weak. Record a longer drive: a quarter of an hour of straight drives, arcs and turns on the spot."
-            }
-            Self::LegsLost => "Many legs were lost. The α's describe the remaining legs.",
-            Self::SamplingDense => {
-                "Rows are too sparse for legs of this length: legs are longer than requested, and the α's are valid for that length. Record at a higher rate, or choose longer legs."
-            }
-            Self::OutliersFew => {
-                "Many legs are outliers. The α's describe the remaining legs, and are too small if the outliers are wheel slip. Look at the outliers: jumps of the reference, or slip?"
-            }
-            Self::SidewaysRare => {
-                "The odometry moves sideways, or backwards under Table 5.6: its positions are noisy, its frame is off the axle, it is swapped with the reference, or the robot reverses. α₁ and α₄ are too small. Use odometry of the axle, or the rule of Nav2."
-            }
-            Self::DistanceScaleConstant => {
-                "The odometry's distance scale is not constant, so it was corrected only if requested. Check wheel diameters, load and slip in turns; calibrate the wheels, then the noise."
-            }
-            Self::TurnScaleConstant => {
-                "The odometry's turn scale is not constant, so it was corrected only if requested. Check the track width and slip on this floor, and try longer legs: noise hides small turns."
-            }
-            Self::InflationBounded => {
-                "No inflation up to 30 covers the errors over 1 m: they are not noise of the wheels. Find their cause first: kept outliers, a reference that jumps or drifts, or slip."
-            }
-            Self::ResidualsUncorrelated => {
-                "Errors of neighbouring legs are correlated: they persist, a systematic error is left, or the reference is below 30 Hz. Over longer distances the fitted α's are too small if errors persist, too large if they cancel. Recommended α's hold over 1 m."
-            }
-            Self::TailsNormal => {
-                "A few errors are much larger than a normal distribution predicts. Intervals of the predicted pose are too narrow in the tails. Look at the largest residuals. Recommended α's allow for these errors."
-            }
-            Self::HoldoutCovered => {
-                "The α's of one half of the log do not fit the other: floor, load or speed changed, or the reference drifts. Calibrate for each condition, with a reference that does not drift."
-            }
-            Self::Window1Covered | Self::Window2Covered | Self::Window5Covered => {
-                "Over windows of this length the fitted α's do not predict the error: it grows differently, as with unequal wheels, a heading error that grows along a leg, or a reference that drifts. Recommended α's hold over 1 m: use them if the filter corrects its pose that often."
-            }
-        }
-    }
-}
-
-impl FailureCause {
-    /// Returns what a failure of this cause means for the α's, and the remedy.
-    fn message(self) -> &'static str {
-        match self {
-            Self::Copied => {
-                "No error of the odometry is visible: the reference is a copy of it, computed from it, or too noisy. The α's mean nothing. Use a precise and independent measurement, such as motion capture or SLAM."
-            }
-            Self::Mirrored => {
-                "The reference turns left where the odometry turns right: one of the two has Z down or a mirrored axis. The α's mean nothing. Negate y and the heading of either: the logs cannot show which one is wrong, and the α's are the same."
-            }
-            Self::WithoutReference => {
-                "Many legs were lost. The α's describe the remaining legs. Most lack the reference: record it for the whole drive."
-            }
-            Self::AcrossBreaks => {
-                "Many legs were lost. The α's describe the remaining legs. Most cross a break: look at the jumps and at the rows left out."
-            }
-            Self::AcrossPauses => {
-                "Many legs were lost. The α's describe the remaining legs. Most are stretched by a pause: record both logs without gaps."
-            }
-        }
-    }
-}
-
 /// Number of standard errors by which a sample statistic may differ from its expectation. Logs simulated by the model rarely differ more.
 pub(super) const MAX_STD_ERRORS: f64 = 3.0;
 
 /// Number of legs below which the check [`CheckName::EnoughLegs`] fails, and below which the log is unusable.
-const SUFFICIENT_LEGS: f64 = 100.0;
+pub(super) const SUFFICIENT_LEGS: f64 = 100.0;
 const MIN_USABLE_LEGS: f64 = 30.0;
 
 /// Maximum inflation (factor on the fitted α's). α's that need a larger factor do not describe the robot.
@@ -431,13 +408,14 @@ fn match_check(leg_set: &LegSet, drive: usize, systematic: &Systematic) -> Optio
     Some(Check { drives: if check.passed { Vec::new() } else { vec![drive] }, ..check })
 }
 
-/// Returns the verdict that follows from all checks. `identifies` is true if the log identifies at least one α.
-pub(super) fn verdict(checks: &[Check], identifies: bool) -> Verdict {
-    let has_failed = |name: CheckName| checks.iter().any(|check| check.name == name && !check.passed);
-    let leg_count =
-        checks.iter().find(|check| check.name == CheckName::EnoughLegs).map_or(0.0, |check| check.value);
-    let is_covered = !has_failed(CheckName::InflationBounded);
-    if has_failed(CheckName::ReferenceMatches) || leg_count < MIN_USABLE_LEGS || !identifies || !is_covered {
+/// Returns the verdict that follows from all checks. `identifies_any` is true if the log identifies at least one α.
+pub(super) fn verdict(checks: &[Check], identifies_any: bool) -> Verdict {
+    let is_unusable = |check: &Check| match check.name {
+        CheckName::ReferenceMatches | CheckName::InflationBounded => !check.passed,
+        CheckName::EnoughLegs => check.value < MIN_USABLE_LEGS,
+        _ => false,
+    };
+    if !identifies_any || checks.iter().any(is_unusable) {
         Verdict::Unusable
     } else if checks.iter().all(|check| check.passed) {
         Verdict::Consistent

@@ -68,12 +68,9 @@ pub(super) fn intervals(
 fn profile_end(deviance_root_at: impl Fn(f64) -> f64, guess: f64, min_distance: f64, threshold: f64) -> f64 {
     let mut distance = guess.max(min_distance);
     for _ in 0..MAX_SEARCH_STEPS {
-        if distance == 0.0 {
-            break;
-        }
         let last_distance = distance;
         distance = (distance * (threshold / deviance_root_at(distance)).clamp(0.25, 4.0)).max(min_distance);
-        if (distance / last_distance - 1.0).abs() < DISTANCE_TOLERANCE {
+        if (distance - last_distance).abs() <= DISTANCE_TOLERANCE * last_distance.abs() {
             break;
         }
     }
@@ -115,34 +112,28 @@ const MIN_MOVING_LEGS: usize = 50;
 
 /// Returns, for each α, the reason why it is not identifiable; None if it is identifiable.
 pub(super) fn identifiability(Fit { sample, maximum, .. }: &Fit) -> Vec<Option<NotIdentifiable>> {
-    let motion_model = sample.options.model;
+    let model = sample.options.model;
     let reason_for = |alpha: usize| {
         let marginal_information = maximum.information[(alpha, alpha)];
         let variance = maximum.covariance[(alpha, alpha)];
-        let free_information = if variance > 0.0 { 1.0 / variance } else { 0.0 };
-        if free_information >= MIN_INFORMATION
-            && free_information >= MIN_FREE_INFORMATION * marginal_information
-        {
-            return None;
-        }
         if marginal_information >= MIN_INFORMATION {
-            return Some(NotIdentifiable::Collinear);
+            let min_free_information = MIN_INFORMATION.max(MIN_FREE_INFORMATION * marginal_information);
+            let is_free = variance > 0.0 && 1.0 / variance >= min_free_information;
+            return (!is_free).then_some(NotIdentifiable::Collinear);
         }
-        let uses_turn = motion_model.grows_with_turn(alpha);
+        let uses_turn = model.grows_with_turn(alpha);
         let uses_alpha = |observation: &&Observation| {
-            let is_observed = |k: usize| {
-                motion_model.component_alphas()[k].contains(&alpha) && !observation.residuals[k].is_nan()
-            };
+            let mut components = model.component_alphas().into_iter().zip(observation.residuals);
             let motion = &observation.expected;
             let has_motion =
                 if uses_turn { turn(motion) > MIN_TURN_ANGLE } else { distance(motion) > MIN_DRIVE_DISTANCE };
-            has_motion && (0..3).any(is_observed)
+            has_motion && components.any(|(alphas, residual)| alphas.contains(&alpha) && !residual.is_nan())
         };
         Some(match sample.observations.iter().filter(uses_alpha).count() {
-            count if count >= MIN_MOVING_LEGS => NotIdentifiable::ReferenceTooNoisy,
+            MIN_MOVING_LEGS.. => NotIdentifiable::ReferenceTooNoisy,
             _ if uses_turn => NotIdentifiable::InsufficientRotation,
             _ => NotIdentifiable::InsufficientTranslation,
         })
     };
-    (0..motion_model.alphas()).map(reason_for).collect()
+    (0..model.alphas()).map(reason_for).collect()
 }

@@ -184,24 +184,11 @@ impl Drive {
         })
     }
 
-    /// Returns a leg of this drive at another clock offset, `offset_change` (s) larger than before. An end beyond the first or last reading
-    /// of the odometry is extrapolated at its velocity, so that neighbouring legs still share one end pose.
-    pub(super) fn aligned_leg(&self, leg: &Leg, offset_change: f64) -> Leg {
-        let mut leg = *leg;
-        for end in 0..2 {
-            leg.times[end] -= offset_change;
-            let velocity = leg.velocities[end];
-            (leg.odometry[end], leg.velocities[end]) = self
-                .odometry
-                .motion_at(leg.times[end])
-                .unwrap_or((leg.odometry[end].boxplus(-offset_change * velocity), velocity));
-        }
-        leg
-    }
-
-    /// Adds the legs of this drive to `legs`, and the numbers of omitted legs to `lost`. Each leg begins where the previous one ended.
+    /// Adds the legs of this drive, which has the index `drive`, to `legs`, and the numbers of omitted legs to `lost`. Each leg begins where
+    /// the previous one ended.
     pub(super) fn cut_into_legs(
         &self,
+        drive: usize,
         length: LegLength,
         clock_offset: f64,
         legs: &mut Vec<Leg>,
@@ -209,21 +196,19 @@ impl Drive {
     ) {
         let Self { odometry, reference } = self;
         let mut leg_start: Option<LegEnd> = None;
-        let mut follows_previous = false;
         for reading in odometry.samples() {
             let (reading_time, pose) = reading;
-            let has_break =
-                leg_start.as_ref().is_some_and(|start| odometry.has_break(start.time, reading_time));
+            let has_break = leg_start.is_some_and(|start| odometry.has_break(start.time, reading_time));
             lost.across_breaks += usize::from(has_break);
-            let Some(start) = leg_start.as_ref().filter(|_| !has_break) else {
-                (leg_start, follows_previous) = (Some(self.leg_end(reading, clock_offset)), false);
+            let Some(start) = leg_start.filter(|_| !has_break) else {
+                leg_start = Some(self.leg_end(reading, clock_offset));
                 continue;
             };
             let (start_time, start_reading) = start.reading;
             if !length.is_complete(&[start_reading, pose], reading_time - start_time) {
                 continue;
             }
-            let (start, end) = (*start, self.leg_end(reading, clock_offset));
+            let end = self.leg_end(reading, clock_offset);
             let (times, poses) = ([start.time, end.time], [start.odometry, end.odometry]);
             let motion = start.odometry.motion_to(&end.odometry);
             let is_too_long = length.ratio(&poses, end.time - start.time) > MAX_RATIO_ACROSS_PAUSE;
@@ -232,7 +217,6 @@ impl Drive {
             if start.reference.is_some() && is_unknown {
                 continue;
             }
-            let had_followed = std::mem::replace(&mut follows_previous, false);
             leg_start = Some(end);
             let (Some(start_reference), Some(end_reference)) = (start.reference, end.reference) else {
                 lost.without_reference += 1;
@@ -245,14 +229,14 @@ impl Drive {
             } else if turn(&motion) < MAX_STANDING_TURN && distance(&motion) < MAX_SPIN_DISTANCE {
                 lost.standing += 1;
             } else {
-                follows_previous = true;
+                let follows_leg = |before: &Leg| before.drive == drive && before.times[1] == start.time;
                 legs.push(Leg {
                     times,
                     odometry: poses,
                     velocities: [start.velocity, end.velocity],
                     reference: [start_reference, end_reference],
-                    follows: had_followed,
-                    drive: 0,
+                    follows: legs.last().is_some_and(follows_leg),
+                    drive,
                 });
             }
         }
@@ -271,6 +255,6 @@ pub fn split_into_legs(
 ) -> (Vec<Leg>, LostLegs) {
     let (mut legs, mut lost_legs) = (Vec::new(), LostLegs::default());
     let drive = Drive { odometry: odometry.clone(), reference: reference.clone() };
-    drive.cut_into_legs(length, clock_offset, &mut legs, &mut lost_legs);
+    drive.cut_into_legs(0, length, clock_offset, &mut legs, &mut lost_legs);
     (legs, lost_legs)
 }

@@ -112,8 +112,7 @@ pub(super) fn innovations<'a>(
         }
         let columns = leg.columns - product(start, &mean);
         let scaled_end = product(end, &reference_covariance);
-        let mut covariance =
-            product(&product(start, &prior), &start.transpose()) + product(&scaled_end, &end.transpose());
+        let mut covariance = propagated(start, &prior) + product(&scaled_end, &end.transpose());
         let wheels = model.wheel_variances(&leg.coefficients, parameters);
         let is_unobserved = leg.residuals.map(f64::is_nan);
         for k in 0..3 {
@@ -188,20 +187,11 @@ impl Residuals {
         let observations = Box::new(self.observations.iter().map(|leg| (leg, leg.follows)));
         let innovations: Vec<Innovation> = innovations(self.model, parameters, observations).collect();
         let (mut log_det, mut gram) = (0.0, SMatrix::<f64, COLUMN_COUNT, COLUMN_COUNT>::zeros());
-        // Determinants are multiplied, because one logarithm is cheaper than many.
-        let mut det = 1.0;
         for Innovation { columns, weight, determinant, .. } in &innovations {
-            det *= determinant;
-            if *determinant <= 0.0 {
-                // If variances differ by many orders of magnitude, rounding can make the covariance indefinite.
-                log_det = f64::INFINITY;
-            } else if !(1e-200..1e200).contains(&det) {
-                log_det += libm::log(det);
-                det = 1.0;
-            }
+            // If variances differ by many orders of magnitude, rounding can make the covariance indefinite.
+            log_det += if *determinant > 0.0 { libm::log(*determinant) } else { f64::INFINITY };
             gram += columns.tr_mul(&product(weight, columns));
         }
-        log_det += libm::log(det.abs());
         let information: ErrorMatrix = gram.fixed_view::<ERROR_COUNT, ERROR_COUNT>(0, 0).into_owned();
         let (covariance, log_det_information) = masked_inverse(&information, &self.estimated);
         let weighted_residual: ErrorVector = gram.fixed_view::<ERROR_COUNT, 1>(0, ERROR_COUNT).into_owned();
@@ -215,10 +205,6 @@ impl Residuals {
             + degrees_of_freedom * libm::log(TAU);
         let log_likelihood = -0.5 * deviance;
         FilterResult { innovations, log_likelihood, information, weighted_residual, errors, covariance }
-    }
-
-    pub fn expansion_at(&self, parameters: &Parameters) -> Expansion {
-        self.expansion(parameters, self.filtered(parameters))
     }
 
     /// Returns the expansion of the log-likelihood around parameters, from the result of the Kalman filter with these parameters.
@@ -247,10 +233,10 @@ impl Residuals {
         let legs = self.observations.iter().zip(innovations).zip(&mut scores);
         for ((leg, Innovation { columns, weight, gain, .. }), score) in legs.rev() {
             let [start, end] = &leg.reference_jacobians;
-            let transition = square_product(&next_start, gain);
+            let transition = product(&next_start, gain);
             let smoothed = product(weight, columns) - product(&transition.transpose(), &next_smoothed);
-            let carried_inverse = square_product(&transition.transpose(), &next_inverse);
-            let inverse = weight + square_product(&carried_inverse, &transition);
+            let carried_inverse = product(&transition.transpose(), &next_inverse);
+            let inverse = weight + product(&carried_inverse, &transition);
             let weighted = product(&smoothed, &error_weights);
             let own_block = inverse - product(&weighted, &smoothed.transpose());
             let next_block = carried_inverse + product(&weighted, &next_smoothed.transpose());
@@ -259,8 +245,8 @@ impl Residuals {
                     score[alpha] -= 0.5 * coefficient * own_block[(k, k)];
                 }
             }
-            let start_block = square_product(&own_block, start);
-            let end_block = square_product(&own_block, end) - 2.0 * square_product(&next_block, &next_start);
+            let start_block = product(&own_block, start);
+            let end_block = product(&own_block, end) - 2.0 * product(&next_block, &next_start);
             for (k, variance) in REFERENCE_VARIANCES.into_iter().enumerate() {
                 let start_part = start.column(k).dot(&start_block.column(k));
                 score[variance] -= 0.5 * (start_part + end.column(k).dot(&end_block.column(k)));
@@ -291,8 +277,8 @@ impl Residuals {
                 (gain_before, end_before) = Default::default();
             }
             let weight = &innovation.weight;
-            let transition = square_product(start, &gain_before);
-            let start_gain = start - square_product(&transition, &end_before);
+            let transition = product(start, &gain_before);
+            let start_gain = start - product(&transition, &end_before);
             let end_weighted = product(&end_before.transpose(), &weighted_before);
             let mut relative_derivatives = [Matrix3::zeros(); PARAMETER_COUNT];
             for j in (0..PARAMETER_COUNT).filter(|j| self.free[*j]) {
@@ -308,11 +294,11 @@ impl Residuals {
                 let mut covariance = *start_covariance;
                 if j >= MAX_ALPHAS {
                     let reference = &reference_derivatives[j];
-                    *derivative -= product(&square_product(&start_gain, reference), &end_weighted);
+                    *derivative -= product(&product(&start_gain, reference), &end_weighted);
                     *start_covariance += propagated(&start_gain, reference);
                     covariance = *start_covariance + propagated(end, reference);
                 }
-                relative_derivatives[j] = square_product(weight, &covariance);
+                relative_derivatives[j] = product(weight, &covariance);
                 let weighted_derivative = product(weight, derivative);
                 let transposed = relative_derivatives[j].transpose();
                 for k in 0..=j {
@@ -351,7 +337,8 @@ pub(super) fn identifiable_errors(information: &ErrorMatrix, candidates: ErrorMa
 }
 
 /// Returns the product of two matrices. In WebAssembly a call of nalgebra's general product takes longer than the product itself.
-#[inline(always)]
+// The function is not inlined, because many copies would make the module larger.
+#[inline(never)]
 fn product<const N: usize, const K: usize>(
     left: &SMatrix<f64, 3, K>,
     right: &SMatrix<f64, K, N>,
@@ -367,16 +354,7 @@ fn product<const N: usize, const K: usize>(
     product
 }
 
-/// Returns the product of two square matrices.
-// The function is not inlined, because several copies would make the module larger.
-#[inline(never)]
-fn square_product(left: &Matrix3<f64>, right: &Matrix3<f64>) -> Matrix3<f64> {
-    product(left, right)
-}
-
 /// Returns the covariance J C Jᵀ of a linear function with the Jacobian J.
-// The function is not inlined, because several copies would make the module larger.
-#[inline(never)]
 pub(super) fn propagated(jacobian: &Matrix3<f64>, covariance: &Matrix3<f64>) -> Matrix3<f64> {
     product(&product(jacobian, covariance), &jacobian.transpose())
 }

@@ -30,9 +30,7 @@ impl<'a> Log<'a> {
             if index == 0 {
                 log.clock_offset = drive_offset;
             }
-            let first_leg = log.legs.len();
-            drive.cut_into_legs(leg_length, drive_offset, &mut log.legs, &mut log.lost);
-            log.legs[first_leg..].iter_mut().for_each(|leg| leg.drive = index);
+            drive.cut_into_legs(index, leg_length, drive_offset, &mut log.legs, &mut log.lost);
         }
         if log.legs.len() < MIN_LEGS {
             return Err(CalibrateError::TooFewLegs { legs: log.legs.len() });
@@ -40,10 +38,27 @@ impl<'a> Log<'a> {
         Ok(log)
     }
 
-    /// Returns legs of this log with their ends at another clock offset (s) of the first drive.
+    /// Returns legs of this log with their ends at another clock offset (s) of the first drive. An end beyond the first or last reading of the
+    /// odometry is extrapolated at its velocity.
     fn aligned_legs(&self, legs: &[Leg], clock_offset: f64) -> Vec<Leg> {
         let offset_change = clock_offset - self.clock_offset;
-        legs.iter().map(|leg| self.drives[leg.drive].aligned_leg(leg, offset_change)).collect()
+        let mut aligned = legs.to_vec();
+        let mut previous_end = Default::default();
+        for leg in &mut aligned {
+            let align = |end: usize| {
+                let (time, velocity) = (leg.times[end] - offset_change, leg.velocities[end]);
+                let extrapolated = || (leg.odometry[end].boxplus(-offset_change * velocity), velocity);
+                let motion = self.drives[leg.drive].odometry.motion_at(time);
+                (time, motion.unwrap_or_else(extrapolated))
+            };
+            // Neighbouring legs share an end.
+            let ends = [if leg.follows { previous_end } else { align(0) }, align(1)];
+            leg.times = ends.map(|(time, _)| time);
+            leg.odometry = ends.map(|(_, (pose, _))| pose);
+            leg.velocities = ends.map(|(_, (_, velocity))| velocity);
+            previous_end = ends[1];
+        }
+        aligned
     }
 }
 
@@ -196,10 +211,10 @@ impl Fit {
             let errors = solution.errors_in(&sample.estimated);
             let has_new_outliers = sample.mark_outliers(&start_parameters, &errors, round);
             let residuals = sample.inlier_residuals(0..legs.len());
-            let maximum = maximize(&residuals, residuals.expansion_at(&start_parameters), ROUND_GAIN);
+            let maximum = maximize(&residuals, &start_parameters, ROUND_GAIN);
             let (corrected, is_small_change) = sample.corrected_errors(&maximum);
             if !has_new_outliers && round > 1 && is_small_change || round == MAX_ROUNDS {
-                let maximum = maximize(&residuals, maximum, EXACT_GAIN);
+                let maximum = maximize(&residuals, &maximum.parameters, EXACT_GAIN);
                 return Self { sample, residuals, maximum };
             }
             (systematic, parameters) = (corrected, Some(maximum.parameters));
@@ -232,9 +247,10 @@ const MAX_HALVINGS: i32 = 10;
 /// Relative rounding error of a step that makes a variance 0.
 const ROUNDING_TOLERANCE: f64 = 1e-9;
 
-/// Returns the expansion around the maximum, by Fisher scoring from another expansion. A step that does not increase the likelihood is
+/// Returns the expansion around the maximum, by Fisher scoring from given parameters. A step that does not increase the likelihood is
 /// halved. The search ends at a step whose predicted or actual gain of log-likelihood (nats) is below `min_gain`.
-pub(super) fn maximize(residuals: &Residuals, mut expansion: Expansion, min_gain: f64) -> Expansion {
+pub(super) fn maximize(residuals: &Residuals, start: &Parameters, min_gain: f64) -> Expansion {
+    let mut expansion = residuals.expansion(start, residuals.filtered(start));
     for _ in 0..MAX_STEPS {
         let Expansion { parameters, score, filtered, .. } = &expansion;
         let step = feasible_parameters(&expansion, residuals.free, Parameters::zeros()) - parameters;

@@ -16,7 +16,7 @@ const MEDIAN_CHI2: f64 = 2.366;
 
 /// Last round in which an outlier may become an inlier again. In later rounds a leg near the gate that defines outliers could otherwise
 /// alternate forever.
-const LAST_RETURN_ROUND: usize = 4;
+const LAST_RETURN_ROUND: usize = 2;
 
 impl LegSet {
     /// Returns the innovations of all legs under `parameters`, without the part that the systematic `errors` explain. Each outlier is

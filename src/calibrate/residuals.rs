@@ -49,11 +49,8 @@ impl Model {
         coefficients: &[[f64; 2]; 3],
         parameters: &Parameters,
     ) -> Vector3<f64> {
-        let mut variances = Vector3::zeros();
-        for (k, [first, second]) in self.component_alphas().into_iter().enumerate() {
-            variances[k] = parameters[first] * coefficients[k][0] + parameters[second] * coefficients[k][1];
-        }
-        variances
+        let alphas = self.component_alphas().map(|alphas| alphas.map(|alpha| parameters[alpha]));
+        Vector3::from_fn(|k, _| alphas[k][0] * coefficients[k][0] + alphas[k][1] * coefficients[k][1])
     }
 
     pub(super) fn drives_sideways(self) -> bool {
@@ -114,30 +111,22 @@ impl Model {
         dt: f64,
         has_direction: bool,
     ) -> Matrix3<f64> {
-        match self {
-            Self::Odometry(_) => {
-                let [_, trans, rot2] = coordinates;
-                let (sin, cos) = libm::sincos(rot2);
-                let [along, across] = [Vector3::new(cos, -sin, 0.0), Vector3::new(sin, cos, 0.0)];
-                let turn = Vector3::z();
-                Matrix3::from_columns(&match has_direction {
-                    _ if self.drives_sideways() => [turn, along, across],
-                    true => [trans * across + turn, along, turn],
-                    false => [across, along, turn],
-                })
-            }
-            Self::Velocity => {
-                // Noise of v and ω changes the twist. Noise of γ turns the final pose on the spot.
-                let jacobian = SE2::right_jacobian(&motion.log()) * dt;
-                let along = jacobian.column(0).into_owned();
-                let turn = if has_direction {
-                    jacobian.column(2).into_owned()
-                } else {
-                    Vector3::new(-along.y, along.x, 0.0)
-                };
-                Matrix3::from_columns(&[along, turn, Vector3::z() * dt])
-            }
+        let across = |along: Vector3<f64>| Vector3::new(-along.y, along.x, 0.0);
+        if self == Self::Velocity {
+            // Noise of v and ω changes the twist. Noise of γ turns the final pose on the spot.
+            let jacobian = SE2::right_jacobian(&motion.log()) * dt;
+            let [along, turn] = [0, 2].map(|twist_component| jacobian.column(twist_component).into_owned());
+            let second = if has_direction { turn } else { across(along) };
+            return Matrix3::from_columns(&[along, second, Vector3::z() * dt]);
         }
+        let [_, trans, rot2] = coordinates;
+        let (sin, cos) = libm::sincos(rot2);
+        let (along, turn) = (Vector3::new(cos, -sin, 0.0), Vector3::z());
+        Matrix3::from_columns(&match has_direction {
+            _ if self.drives_sideways() => [turn, along, across(along)],
+            true => [trans * across(along) + turn, along, turn],
+            false => [across(along), along, turn],
+        })
     }
 }
 

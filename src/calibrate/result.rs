@@ -1,6 +1,6 @@
 //! Result of a calibration.
 
-use super::checks::Diagnostics;
+use super::checks::{Check, CheckName, Diagnostics, SUFFICIENT_LEGS};
 use super::intervals::{NORMAL_95, NotIdentifiable};
 use super::legs::{Leg, LostLegs};
 use super::residuals::{ERROR_COUNT, ErrorMask, Model, Observation, Systematic, SystematicError};
@@ -117,7 +117,10 @@ impl Calibration {
             not_identifiable: vec![None; model.alphas()],
             is_constant: [true; ERROR_COUNT],
             log_likelihood: f64::NAN,
-            diagnostics: Diagnostics::too_few_legs(),
+            diagnostics: Diagnostics {
+                checks: vec![Check::new(CheckName::EnoughLegs, 0.0, [SUFFICIENT_LEGS, f64::INFINITY])],
+                ..Diagnostics::default()
+            },
             ..Self::default()
         }
     }

@@ -155,7 +155,8 @@ impl Trajectory {
 
     /// Returns the mean velocity over the steps before and after a sample.
     fn velocity_of_sample(&self, sample: usize) -> Vector3<f64> {
-        let is_known_step = |end: &usize| (1..self.times.len()).contains(end) && !self.has_gap_before(*end);
+        let is_known_step =
+            |end: &usize| (1..self.times.len()).contains(end) && self.gaps.binary_search(end).is_err();
         let known_steps = [sample, sample + 1].map(|end| usize::from(is_known_step(&end)));
         let (first_sample, end_sample) = (sample - known_steps[0], sample + known_steps[1]);
         if first_sample == end_sample {
@@ -165,12 +166,7 @@ impl Trajectory {
             / (self.times[end_sample] - self.times[first_sample])
     }
 
-    /// Returns true if there is a gap before a sample: a pause of the recording, or a break, where the pose may have jumped.
-    fn has_gap_before(&self, sample: usize) -> bool {
-        self.gaps.binary_search(&sample).is_ok()
-    }
-
-    /// Returns true if there is a gap, a pause of the recording or a break, between two times (s).
+    /// Returns true if a pause of the recording, or a break, is between two times (s).
     pub(super) fn has_gap(&self, start_time: f64, end_time: f64) -> bool {
         self.has_any_between(&self.gaps, start_time, end_time)
     }
@@ -193,7 +189,7 @@ impl Trajectory {
         if time_after == time {
             return Some((sample, 1.0));
         }
-        let before = sample.checked_sub(1).filter(|_| !self.has_gap_before(sample))?;
+        let before = sample.checked_sub(1).filter(|_| self.gaps.binary_search(&sample).is_err())?;
         Some((sample, (time - self.times[before]) / (time_after - self.times[before])))
     }
 

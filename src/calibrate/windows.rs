@@ -16,7 +16,7 @@ use std::ops::Range;
 const WINDOW_LENGTHS: [f64; 3] = [1.0, 2.0, 5.0];
 
 /// Window of several legs, with the covariances of its error due to wheels and reference.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Window {
     first_leg: usize,
     /// Length (m) and turn (rad) by the odometry.
@@ -56,15 +56,7 @@ impl LegSet {
                 if !has_noise {
                     continue;
                 }
-                let mut window = previous_legs.unwrap_or(Window {
-                    first_leg: index,
-                    length: 0.0,
-                    turn: 0.0,
-                    expected: SE2::identity(),
-                    error: Vector3::zeros(),
-                    wheel_covariance: Matrix3::zeros(),
-                    reference_covariance: Matrix3::zeros(),
-                });
+                let mut window = previous_legs.unwrap_or(Window { first_leg: index, ..Window::default() });
                 window.length += distance(expected);
                 window.turn += expected.theta();
                 window.expected = window.expected * *expected;
@@ -148,8 +140,7 @@ pub(super) fn cross_validate(
     let split_in_halves = |legs: usize| [0..legs / 2, legs / 2..legs];
     let leg_count = fit.sample.legs.len();
     let residuals = split_in_halves(leg_count).map(|half| fit.sample.inlier_residuals(half));
-    let parameters_of =
-        |half: &Residuals| maximize(half, half.expansion_at(&fit.maximum.parameters), EXACT_GAIN).parameters;
+    let parameters_of = |half: &Residuals| maximize(half, &fit.maximum.parameters, EXACT_GAIN).parameters;
     let parameters_by_other_half = [parameters_of(&residuals[1]), parameters_of(&residuals[0])];
     let (mut covered_legs, mut compared_legs) = (0, 0);
     for (residuals, parameters) in residuals.iter().zip(&parameters_by_other_half) {

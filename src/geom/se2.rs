@@ -21,7 +21,7 @@ use super::sinc::{sinc, unit_arc_end};
 /// assert!((end.boxminus(&start) - Vector3::new(1.0, 0.0, 0.5)).norm() < 1e-12);
 /// assert!((start.inverse() * end).log().y.abs() < 1e-12);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SE2 {
     x: f64,
     y: f64,

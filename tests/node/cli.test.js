@@ -353,7 +353,7 @@ test('for an unusable log the command prints a reason and no lines for Nav2', as
   const { exitCode, stdout } = await runCalibrate([...LOG_ARGS.slice(0, 3), reversedPath]);
   assert.equal(exitCode, 3);
   for (const linePattern of [
-    /^Do not use\. Failed: mismatch of odometry and reference; .*; … \(6 of 13 checks\)\.\nThe reference does not follow the odometry: /m,
+    /^Do not use\. Failed: mismatch of odometry and reference; .*; … \(5 of 12 checks\)\.\nThe reference does not follow the odometry: /m,
     /^reference-matches +\S+ +0\.00100 – 0\.700 +✕ failed +mismatch of odometry and reference$/m,
     /^α₁ rotation noise from rotation +\S.* —$/m, /^No lines for nav2_params\.yaml: the log is unusable\.$/m,
   ]) assert.match(stdout, linePattern);

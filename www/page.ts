@@ -42,8 +42,9 @@ async function enterTriedState(tryButton: HTMLElement) {
 /** Highlights the line that a term names while the pointer or the focus is on the term. */
 function highlightTerm({ type: eventType, target: eventTarget }: Event) {
   const highlightedTerm = eventTarget instanceof Element ? (eventTarget.closest('[data-line]') as HTMLElement | null) : null;
-  if (!highlightedTerm) return;
-  figureOf(highlightedTerm).highlight = /over|in$/.test(eventType) ? highlightedTerm.dataset.line : null;
+  const figureElement = highlightedTerm && figureOf(highlightedTerm);
+  // Another script may have removed the figure.
+  if (figureElement) figureElement.highlight = /over|in$/.test(eventType) ? highlightedTerm.dataset.line : null;
 }
 
 /** Keeps each figure's picture in sight while the reader scrolls through the list of things to try, if the list is below the figure. */

@@ -198,6 +198,11 @@ test('a figure with the attribute share keeps its state in the address, and foll
   await page.evaluate((urlFragment) => (location.hash = urlFragment.slice(0, -9)), previousHash);
   await expect(widget.getByRole('alert')).toHaveText('This link cannot be read: it may be cut off. The figure stays as it was.');
   expect(await readState(widget)).toEqual(stateBefore);
+  // A notice about long work hides the other notice until the work ends.
+  await widget.evaluate((/** @type {any} */ element) => element.notice.showWork(() => 'long work', () => {}));
+  await expect(widget.getByRole('alert')).toHaveText('long work');
+  await widget.evaluate((/** @type {any} */ element) => element.notice.endWork());
+  await expect(widget.getByRole('alert')).toHaveText(/^This link cannot be read/);
 });
 
 test.describe('the menu of a figure', () => {

@@ -25,11 +25,11 @@ const presetSettingsOf = (widgetTag, presetName) => presets[widgetTag].find(({ n
  * @type {Record<string, (motion: Motion, document: Configurations, configuration: Configuration) => Record<string, Encodable>>}
  */
 export const resultFunctions = {
-  'banana-machine'({ BananaMachine, commandReaching }, configurations, { preset, bounds = configurations.widgets['banana-machine'].bounds, settings }) {
+  'banana-machine'({ BananaMachine, commandReaching }, configurationFile, { preset, bounds = configurationFile.widgets['banana-machine'].bounds, settings }) {
     const { command: presetCommand } = presetSettingsOf('banana-machine', preset);
     const simulation = new BananaMachine({ command: presetCommand, ...settings });
     const { shown, config: { command } } = simulation;
-    const { columns, rows } = configurations.picture;
+    const { columns, rows } = configurationFile.picture;
     const readPictureOf = (/** @type {number} */ morph) =>
       simulation.picture(morph, bounds, columns, rows, createRamps(1)).slice();
     // The standard error of the area ratio is left out, because the native digest does not contain it.
@@ -56,14 +56,14 @@ export const resultFunctions = {
     return simulationResults;
   },
 
-  'map-squeeze'({ MapSqueeze }, configurations, { preset, map, bounds = configurations.widgets['map-squeeze'].bounds, settings }) {
+  'map-squeeze'({ MapSqueeze }, configurationFile, { preset, map, bounds = configurationFile.widgets['map-squeeze'].bounds, settings }) {
     const { start } = presetSettingsOf('map-squeeze', preset);
     const simulation = new MapSqueeze({ start, ...settings });
-    const { plan, description, image } = map === undefined ? {} : configurations.maps[map];
+    const { plan, description, image } = map === undefined ? {} : configurationFile.maps[map];
     if (plan) simulation.setPlan(plan);
-    if (description) simulation.setGrid(description, new TextEncoder().encode(`${configurations.images[image].join('\n')}\n`));
+    if (description) simulation.setGrid(description, new TextEncoder().encode(`${configurationFile.images[image].join('\n')}\n`));
     const { shown, startFree, openPlace, noise, stats } = simulation;
-    const { columns, rows } = configurations.picture;
+    const { columns, rows } = configurationFile.picture;
     const simulationResults = {
       map: { ...simulation.plan, grid: simulation.grid },
       poses: simulation.poses,
@@ -88,7 +88,7 @@ export const resultFunctions = {
     return simulationResults;
   },
 
-  'arc-anatomy'({ ArcAnatomy }, configurations, { preset, bounds = configurations.widgets['arc-anatomy'].bounds, settings }) {
+  'arc-anatomy'({ ArcAnatomy }, configurationFile, { preset, bounds = configurationFile.widgets['arc-anatomy'].bounds, settings }) {
     const { command, next } = presetSettingsOf('arc-anatomy', preset);
     const simulation = new ArcAnatomy({ command, next, ...settings });
     const simulationResults = {
@@ -228,14 +228,14 @@ const toHex = (hashBytes) => Array.from(new Uint8Array(hashBytes), (byte) => byt
  * Computes the digest: the text that golden.txt must equal, or only its lines about `widgetTags`.
  *
  * @param {Motion} core
- * @param {Configurations} configurations
+ * @param {Configurations} configurationFile
  * @param {string[]} [widgetTags] of these widgets
  */
-export async function computeDigest(core, configurations, widgetTags = Object.keys(configurations.widgets)) {
+export async function computeDigest(core, configurationFile, widgetTags = Object.keys(configurationFile.widgets)) {
   const digestLines = [];
   for (const widgetTag of widgetTags) {
-    for (const [configurationName, configuration] of Object.entries(configurations.widgets[widgetTag].configurations)) {
-      const resultParts = Object.entries(resultFunctions[widgetTag](core, configurations, configuration));
+    for (const [configurationName, configuration] of Object.entries(configurationFile.widgets[widgetTag].configurations)) {
+      const resultParts = Object.entries(resultFunctions[widgetTag](core, configurationFile, configuration));
       const partHashes = await Promise.all(resultParts.map(async ([partName, partResult]) => ` ${partName}:${await computeHash(partResult)}`));
       digestLines.push(`${widgetTag}/${configurationName}${partHashes.join('')}\n`);
     }

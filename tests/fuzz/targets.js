@@ -179,7 +179,7 @@ export const fuzzTargets = {
       // For one input in four, the list of topics is read too.
       if (Math.floor(byteSum / length) % 4) return isRead;
       try {
-        for (const { seriesName: name, messageCount: count } of (await openRecordings([recordingFile]))[0].seriesList) assert.ok(typeof name === 'string' && count >= 0);
+        for (const { seriesName, messageCount } of (await openRecordings([recordingFile]))[0].seriesList) assert.ok(typeof seriesName === 'string' && messageCount >= 0);
       } catch (error) {
         if (!(error instanceof LogError)) throw error;
         assertProperMessage(error.message);

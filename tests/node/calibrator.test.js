@@ -83,7 +83,7 @@ test('lines for Nav2 omit α’s that are not identifiable, and all α’s if no
 
 test('lines for Nav2 warn of failed checks, and of another rule', () => {
   const { diagnostics: fitDiagnostics } = createCalibration();
-  const failedChecks = ['tails-normal', 'outliers-few'].map((caseName) => ({ name: caseName, passed: false, message: 'Drive on.' }));
+  const failedChecks = ['tails-normal', 'outliers-few'].map((checkName) => ({ name: checkName, passed: false, message: 'Drive on.' }));
   assert.ok(nav2LinesOf({ diagnostics: { ...fitDiagnostics, checks: failedChecks } }).includes('# Caution, these checks failed: tails-normal, outliers-few'));
   assert.deepEqual([{ rule: 'thrun' }, {}].map((changedOptions) => nav2LinesOf({}, changedOptions).includes(`# ${yamlWords.otherRuleNote}`)), [true, false]);
 });

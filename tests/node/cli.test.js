@@ -165,8 +165,8 @@ test('run in a shell, the command prints help and errors, and tolerates a closed
 test('the intervals for the example recording contain the true α’s, and the JSON output has the keys in doc/calibration.md', async () => {
   /** @type {import('../mcap.js').Message[]} */
   const rosMessages = [];
-  for (const [topicName, caseName, type] of [['/odom', 'odometry', 'nav_msgs/msg/Odometry'], ['/truth', 'reference', 'geometry_msgs/msg/PoseStamped']]) {
-    for (const csvRow of readFileSync(examplePathOf(caseName), 'utf8').trim().split('\n').slice(1)) {
+  for (const [topicName, logRole, type] of [['/odom', 'odometry', 'nav_msgs/msg/Odometry'], ['/truth', 'reference', 'geometry_msgs/msg/PoseStamped']]) {
+    for (const csvRow of readFileSync(examplePathOf(logRole), 'utf8').trim().split('\n').slice(1)) {
       const [t, x, y, theta] = csvRow.split(',').map(Number);
       const rosMessage = topicName === '/odom' ? odometryMessageOf(t, x, y, theta) : { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, theta) };
       rosMessages.push({ topic: topicName, type, t, message: rosMessage });
@@ -178,7 +178,7 @@ test('the intervals for the example recording contain the true α’s, and the J
   const calibrationResult = JSON.parse(stdout);
   const assertInside = (/** @type {number} */ trueValue, /** @type {[number, number]} */ [lowerLimit, upperLimit]) => assert.ok(lowerLimit <= trueValue && trueValue <= upperLimit, `${trueValue}: ${lowerLimit} to ${upperLimit}`);
   for (const [i, trueAlpha] of TRUE_PARAMETERS.alphas.entries()) assertInside(trueAlpha, calibrationResult.intervals[i]);
-  for (const caseName of /** @type {const} */ (['mountYaw', 'clockOffset', 'distanceScale'])) assertInside(TRUE_PARAMETERS[caseName], calibrationResult.systematicErrors[caseName].interval);
+  for (const errorName of /** @type {const} */ (['mountYaw', 'clockOffset', 'distanceScale'])) assertInside(TRUE_PARAMETERS[errorName], calibrationResult.systematicErrors[errorName].interval);
   assert.deepEqual([calibrationResult.diagnostics.verdict, calibrationResult.start, calibrationResult.date.length], ['consistent', 9, 10]);
   const [, jsonSection] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n### JSON\n(.*?)\n### /s) ?? [];
   assert.deepEqual(Object.keys(calibrationResult).filter((resultKey) => !jsonSection.includes(`\`${resultKey}\``)), []);
@@ -219,13 +219,13 @@ test('the command below an error or a verdict answers the question about a file'
 test('logs in a folder are read, and its other files are skipped', async () => {
   const driveFolder = join(temporaryFolder, 'drive');
   mkdirSync(driveFolder);
-  for (const [caseName, exampleName] of [['odom.csv', 'odometry'], ['truth.csv', 'reference'], ['._odom.csv', 'odometry'], ['run.db3-shm', 'odometry']]) writeFileSync(join(driveFolder, caseName), readFileSync(examplePathOf(exampleName)));
+  for (const [fileName, exampleName] of [['odom.csv', 'odometry'], ['truth.csv', 'reference'], ['._odom.csv', 'odometry'], ['run.db3-shm', 'odometry']]) writeFileSync(join(driveFolder, fileName), readFileSync(examplePathOf(exampleName)));
   writeFileSync(join(driveFolder, 'README.md'), '# A drive\n\nwith words, and no numbers\n');
   writeFileSync(join(driveFolder, 'camera.mcap'), await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } }))));
   let inspectionText = '';
-  await runCommand(['inspect', driveFolder], { load, print: (plainText) => (inspectionText += plainText), printError: () => {} });
+  await runCommand(['inspect', driveFolder], { load, print: (printedText) => (inspectionText += printedText), printError: () => {} });
   assert.match(inspectionText, /^ {2}npx motion-widgets calibrate \S+\/drive --rule nav2$/m);
-  const { exitCode, stdout, stderr } = await runCalibrate(['metadata.yaml', 'odom.csv'].map((caseName) => join(driveFolder, caseName)));
+  const { exitCode, stdout, stderr } = await runCalibrate(['metadata.yaml', 'odom.csv'].map((fileName) => join(driveFolder, fileName)));
   assert.deepEqual([exitCode, stdout.match(/^\w+: .*\.csv$/gm)], [0, ['Odometry: odom.csv', 'Reference: truth.csv']]);
   assert.match(stderr, /^skipped: README\.md: it does not look like a log, .*\nskipped: camera\.mcap: the topics are \/image \(String\); .*\n$/);
 });
@@ -241,7 +241,7 @@ test('a database journal next to a recording is reported, unless the journal is 
   writeInFolder('run.db3-wal', Buffer.from('377f0682', 'hex'));
   for (const jsonArgs of [[], ['--json']]) {
     let [stdout, stderr] = ['', ''];
-    const exitCode = await runCommand(['inspect', databasePath, ...jsonArgs], { load, print: (plainText) => (stdout += plainText), printError: (plainText) => (stderr += plainText) });
+    const exitCode = await runCommand(['inspect', databasePath, ...jsonArgs], { load, print: (printedText) => (stdout += printedText), printError: (printedText) => (stderr += printedText) });
     assert.deepEqual([exitCode, stdout], [2, '']);
     assert.match(stderr, /^run\.db3-wal: it is a journal with messages that its \.db3 file lacks; /m);
   }
@@ -304,25 +304,25 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
 
 test('output to a terminal has colours', async () => {
   let stdout = '';
-  await runCommand(['calibrate', ...LOG_ARGS], { load, print: (plainText) => (stdout += plainText), printError: assert.fail, isColored: true });
+  await runCommand(['calibrate', ...LOG_ARGS], { load, print: (printedText) => (stdout += printedText), printError: assert.fail, isColored: true });
   assert.ok(stdout.includes('\n\x1b[32mTrust\x1b[0m. '), stdout);
 });
 
 test('inspect lists the contents of a file, and suggests the next command', async () => {
   const inspectionOf = async (/** @type {string[]} */ inspectArguments, expectedExitCode = 0) => {
     let [outputText, errorText] = ['', ''];
-    assert.equal(await runCommand(['inspect', ...inspectArguments], { load, print: (plainText) => (outputText += plainText), printError: (plainText) => (errorText += plainText) }), expectedExitCode);
+    assert.equal(await runCommand(['inspect', ...inspectArguments], { load, print: (printedText) => (outputText += printedText), printError: (printedText) => (errorText += printedText) }), expectedExitCode);
     assert.equal(errorText === '', expectedExitCode === 0);
     return (outputText + errorText).replaceAll(temporaryFolder, 'DIR');
   };
   const rosMessages = Array.from({ length: 40 }, (_, i) => {
     const t = 100 + i / 20;
-    const headerLine = { stamp: stampOf(t), frame_id: 'map' };
+    const rosHeader = { stamp: stampOf(t), frame_id: 'map' };
     return [
       { topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometryMessageOf(t, i, 1, 0) },
-      { topic: '/vicon/robot 1', type: 'geometry_msgs/msg/PoseStamped', t, message: { header: headerLine, pose: poseOf(i, 2, 0) } },
+      { topic: '/vicon/robot 1', type: 'geometry_msgs/msg/PoseStamped', t, message: { header: rosHeader, pose: poseOf(i, 2, 0) } },
       { topic: '/chatter', type: 'std_msgs/msg/String', t, message: { data: '' } },
-      { topic: '/lost', type: 'geometry_msgs/msg/PoseStamped', t, message: { header: headerLine, pose: poseOf(NaN, 2, 0) } },
+      { topic: '/lost', type: 'geometry_msgs/msg/PoseStamped', t, message: { header: rosHeader, pose: poseOf(NaN, 2, 0) } },
       { topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transformMessageOf(t, 'map', 'base_link', i, 2, 0)] } },
     ];
   }).flat();
@@ -343,8 +343,8 @@ test('inspect lists the contents of a file, and suggests the next command', asyn
   assert.doesNotMatch(await inspectionOf([examplePathOf('odometry'), millimetrePath], 2), /give the reference too/);
   assert.match(await inspectionOf(['--odometry', examplePathOf('odometry'), '--reference', millimetrePath, '--length-unit', 'mm.csv=mm']), /^ {2}npx motion-widgets calibrate --odometry \S+odometry\.csv --reference DIR\/mm\.csv --length-unit mm\.csv=mm --rule nav2$/m);
   const positionsPath = writeInFolder('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
-  const { recordings: [{ series: seriesNames }], ...otherInspection } = JSON.parse(await inspectionOf([positionsPath, '--json']));
-  assert.deepEqual(seriesNames.map((/** @type {any} */ { name: caseName, rows: tableRows, uses: possibleUses, summary: logSummary }) => [caseName, tableRows, possibleUses, logSummary?.seconds]), [['odom', 40, ['odometry'], 1.95], ['gt', 0, [], undefined]]);
+  const { recordings: [{ series: seriesList }], ...otherInspection } = JSON.parse(await inspectionOf([positionsPath, '--json']));
+  assert.deepEqual(seriesList.map((/** @type {any} */ { name: seriesName, rows: rowCount, uses: possibleUses, summary: logSummary }) => [seriesName, rowCount, possibleUses, logSummary?.seconds]), [['odom', 40, ['odometry'], 1.95], ['gt', 0, [], undefined]]);
   assert.deepEqual([otherInspection.missing.split(';')[0], otherInspection.command], ['positions.csv: gt (gt_x, gt_y) are positions without a heading', undefined]);
 });
 
@@ -361,13 +361,13 @@ test('for an unusable log the command prints a reason and no lines for Nav2', as
 });
 
 test('the report, the lines for Nav2 and the figure agree on whether a localizer made the reference', async () => {
-  for (const [caseName, isLocalizer] of /** @type {const} */ ([['slam_pose', true], ['cartographer', true], ['truth_amcl', false]])) {
-    const args = [...LOG_ARGS.slice(0, 3), writeInFolder(`${caseName}.csv`, readFileSync(examplePathOf('reference')))];
+  for (const [referenceName, isLocalizer] of /** @type {const} */ ([['slam_pose', true], ['cartographer', true], ['truth_amcl', false]])) {
+    const args = [...LOG_ARGS.slice(0, 3), writeInFolder(`${referenceName}.csv`, readFileSync(examplePathOf('reference')))];
     const [{ stdout }, { stdout: jsonText }] = [await runCalibrate(args), await runCalibrate([...args, '--json'])];
     const { logs: robotLogs, ...stats } = JSON.parse(jsonText);
     const { rating: logRating } = judgeFit(/** @type {any} */ ({ viewModel: { stats, legs: stats.legs, fittedConfig: stats.systematicErrors }, warnings: warningsOf(robotLogs.map((/** @type {any} */ { summary: logSummary }) => logSummary)) }));
     const localizerNotes = [stdout.includes(`\nCaution. ${en.nav2.localizer}\n`) && !stdout.includes(en.useAnywaySentence), stdout.includes(`# ${en.nav2.localizer}`), logRating === 'questionable'];
-    assert.deepEqual(localizerNotes, [isLocalizer, isLocalizer, isLocalizer], caseName);
+    assert.deepEqual(localizerNotes, [isLocalizer, isLocalizer, isLocalizer], referenceName);
   }
 });
 

@@ -23,10 +23,10 @@ test('importing and loading use neither the DOM nor the network, and load always
     const loadedCore = await coreModule.load();
     assert.equal(await coreModule.load(), loadedCore);
   } finally {
-    browserGlobals.forEach((caseName, i) => {
+    browserGlobals.forEach((globalName, i) => {
       const globalDescriptor = descriptorsBefore[i];
-      if (globalDescriptor) Object.defineProperty(globalThis, caseName, globalDescriptor);
-      else Reflect.deleteProperty(globalThis, caseName);
+      if (globalDescriptor) Object.defineProperty(globalThis, globalName, globalDescriptor);
+      else Reflect.deleteProperty(globalThis, globalName);
     });
   }
   assert.deepEqual(accessedGlobals, []);
@@ -54,8 +54,8 @@ test('the core exports every public name', async () => {
   const functionNames = ['calibrate', 'commandReaching', 'decompose', 'invertArc', 'propagate', 'randomSeed', 'readMapImage', 'unbendGaussian', 'unbendLine'];
   assert.deepEqual(Object.keys(motionCore).sort(), [...simulationNames, ...modelNames, ...functionNames, 'se2'].sort());
   for (const [classNames, memberNames] of [[simulationNames, ['configure', 'config', 'stats']], [modelNames, ['prob', 'poseDensity', 'sample']]]) {
-    for (const caseName of classNames) {
-      for (const memberName of [...memberNames, 'free', Symbol.dispose]) assert.ok(memberName in motionCore[caseName].prototype, `${caseName}: ${String(memberName)}`);
+    for (const className of classNames) {
+      for (const memberName of [...memberNames, 'free', Symbol.dispose]) assert.ok(memberName in motionCore[className].prototype, `${className}: ${String(memberName)}`);
     }
   }
   const se2FunctionNames = ['adjoint', 'boxminus', 'boxplus', 'compose', 'exp', 'inverse', 'log', 'rightJacobian'];
@@ -66,8 +66,8 @@ test('a new simulation has the default settings of its declarations', async () =
   const motionCore = await (await importFreshModule()).load();
   for (const [widgetTag, declaredSettings] of Object.entries(settings)) {
     const SimulationClass = motionCore[toPascalCase(widgetTag)];
-    const fieldsOf = (/** @type {string} */ groupKey) => declaredSettings.filter((settingDeclaration) => settingDeclaration.in === groupKey).map(({ key: settingKey, field = settingKey, default: settingValue }) => [field, settingValue]);
-    const topLevelSettings = declaredSettings.filter((settingDeclaration) => !settingDeclaration.in && !settingDeclaration.of).map(({ key: settingKey, type, default: settingValue }) => [settingKey, type === 'group' ? Object.fromEntries(fieldsOf(settingKey)) : settingValue]);
+    const fieldsOf = (/** @type {string} */ groupKey) => declaredSettings.filter((settingDeclaration) => settingDeclaration.in === groupKey).map(({ key: settingKey, field = settingKey, default: defaultValue }) => [field, defaultValue]);
+    const topLevelSettings = declaredSettings.filter((settingDeclaration) => !settingDeclaration.in && !settingDeclaration.of).map(({ key: settingKey, type, default: defaultValue }) => [settingKey, type === 'group' ? Object.fromEntries(fieldsOf(settingKey)) : defaultValue]);
     assert.deepEqual(new SimulationClass().config, Object.fromEntries(topLevelSettings), widgetTag);
   }
 });

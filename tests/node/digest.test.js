@@ -10,7 +10,7 @@ import { importFreshModule } from './support.js';
 const readText = (/** @type {string} */ repositoryPath) => readFileSync(new URL(`../../${repositoryPath}`, import.meta.url), 'utf8');
 
 /** @type {import('../digest/digest.js').Configurations} */
-const configurationList = JSON.parse(readText('tests/digest/configurations.json'));
+const configurationFile = JSON.parse(readText('tests/digest/configurations.json'));
 const motionCore = await (await importFreshModule()).load();
 
 /** Exports that the digest leaves to tests/web and tests/native: functions without random numbers, and the models. */
@@ -26,24 +26,24 @@ const simulationClasses = new Map(
 const goldenDigest = readText('tests/digest/golden.txt');
 
 test('the results of each seed equal the golden digest, to the last bit', async () => {
-  const computedDigest = await computeDigest(motionCore, configurationList);
+  const computedDigest = await computeDigest(motionCore, configurationFile);
   if (process.env.UPDATE_DIGEST) writeFileSync(new URL('../digest/golden.txt', import.meta.url), computedDigest);
   else assert.deepEqual(findDifferences(goldenDigest, computedDigest), []);
 });
 
 test('every widget and class of the core has configurations, and the digest calls every function', () => {
   const listedTags = [...readText('www/motion-widgets.ts').matchAll(/^import '\.\/widgets\/([\w-]+)\//gm)].map(([, widgetTag]) => widgetTag);
-  assert.deepEqual(Object.keys(configurationList.widgets).sort(), listedTags.sort(), 'www/motion-widgets.ts');
-  assert.deepEqual(Object.keys(configurationList.widgets).sort(), [...simulationClasses.keys()].sort(), 'core.js');
+  assert.deepEqual(Object.keys(configurationFile.widgets).sort(), listedTags.sort(), 'www/motion-widgets.ts');
+  assert.deepEqual(Object.keys(configurationFile.widgets).sort(), [...simulationClasses.keys()].sort(), 'core.js');
   assert.deepEqual(Object.keys(resultFunctions).sort(), listedTags, 'digest.js');
-  const functionNames = Object.keys(motionCore).filter((caseName) => !('free' in (motionCore[caseName].prototype ?? {})) && !MEMBERS_TESTED_ELSEWHERE.has(caseName) && !EXCLUDED_EXPORTS.has(caseName));
-  for (const caseName of functionNames) assert.match(readText('tests/digest/digest.js'), new RegExp(`\\b${caseName}\\(`));
-  const configurationCount = Object.values(configurationList.widgets).reduce((countSum, { configurations }) => countSum + Object.keys(configurations).length, 0);
+  const functionNames = Object.keys(motionCore).filter((exportName) => !('free' in (motionCore[exportName].prototype ?? {})) && !MEMBERS_TESTED_ELSEWHERE.has(exportName) && !EXCLUDED_EXPORTS.has(exportName));
+  for (const functionName of functionNames) assert.match(readText('tests/digest/digest.js'), new RegExp(`\\b${functionName}\\(`));
+  const configurationCount = Object.values(configurationFile.widgets).reduce((countSum, { configurations }) => countSum + Object.keys(configurations).length, 0);
   // golden.txt must have no lines of configurations that were removed.
   assert.equal(configurationCount, readText('tests/digest/golden.txt').match(/^.+$/gm)?.length);
 });
 
-for (const [widgetTag, { configurations }] of Object.entries(configurationList.widgets)) {
+for (const [widgetTag, { configurations }] of Object.entries(configurationFile.widgets)) {
   const coveredValuesOf = (/** @type {string} */ settingKey) => new Set(Object.values(configurations).map((configuration) => JSON.stringify(configuration.settings[settingKey])));
 
   test(`configurations of ${widgetTag} cover every setting, every keyword and every preset`, () => {
@@ -56,22 +56,22 @@ for (const [widgetTag, { configurations }] of Object.entries(configurationList.w
       assert.ok(otherValues.length > 0, `${settingKey} is never set`);
       if (nullable && defaultValue !== null && type !== 'number') assert.ok(coveredValues.has('null'), `${settingKey}: null`);
     }
-    for (const { name: caseName } of presets[/** @type {keyof typeof presets} */ (widgetTag)]) {
-      assert.ok(Object.values(configurations).some(({ preset }) => preset === caseName), `preset ${caseName}`);
+    for (const { name: presetName } of presets[/** @type {keyof typeof presets} */ (widgetTag)]) {
+      assert.ok(Object.values(configurations).some(({ preset }) => preset === presetName), `preset ${presetName}`);
     }
   });
 
   test(`the digest of ${widgetTag} contains every result of its simulation`, () => {
     const functionText = resultFunctions[widgetTag].toString();
     const memberNames = Object.getOwnPropertyNames(simulationClasses.get(widgetTag).prototype);
-    const missingNames = memberNames.filter((caseName) => !MEMBERS_TESTED_ELSEWHERE.has(caseName) && !new RegExp(`\\b${caseName}\\b`).test(functionText));
+    const missingNames = memberNames.filter((memberName) => !MEMBERS_TESTED_ELSEWHERE.has(memberName) && !new RegExp(`\\b${memberName}\\b`).test(functionText));
     assert.deepEqual(missingNames, [], `ask for them in digest.js and in tests/digest/`);
   });
 }
 
 test('every map is used by a configuration, and a difference is reported with its name', () => {
-  const usedMapNames = new Set(Object.values(configurationList.widgets['map-squeeze'].configurations).map(({ map }) => map));
-  for (const map of Object.keys(configurationList.maps)) assert.ok(usedMapNames.has(map), map);
+  const usedMapNames = new Set(Object.values(configurationFile.widgets['map-squeeze'].configurations).map(({ map }) => map));
+  for (const map of Object.keys(configurationFile.maps)) assert.ok(usedMapNames.has(map), map);
   assert.deepEqual(findDifferences('a/b poses:1 table:2\na/c poses:3\n', 'a/b poses:1 table:9\na/d poses:3\n'), [
     'a/b: table',
     'a/c is gone',

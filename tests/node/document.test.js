@@ -32,7 +32,7 @@ test('doc/model.md and doc/statistics.md state the same limits as the source cod
 test('README.md lists the presets of each figure', () => {
   const readmeText = readText('README.md').replace(/\s+/g, ' ');
   for (const [widgetTag, presetsOfTag] of Object.entries(presets)) {
-    if (presetsOfTag.length > 0) assert.ok(readmeText.includes(`\`${widgetTag}\` ${presetsOfTag.map(({ name: caseName }) => caseName).join(', ')}`), widgetTag);
+    if (presetsOfTag.length > 0) assert.ok(readmeText.includes(`\`${widgetTag}\` ${presetsOfTag.map(({ name: presetName }) => presetName).join(', ')}`), widgetTag);
   }
 });
 
@@ -47,9 +47,9 @@ test('the README of the example log states the true parameters', () => {
 test('files and commands named in doc/reliability.md exist', () => {
   const reliabilityText = readText('doc/reliability.md');
   const { scripts } = JSON.parse(readText('package.json'));
-  const commandNames = [...reliabilityText.matchAll(/`npm run ([\w:]+)/g)].map(([, caseName]) => caseName);
+  const commandNames = [...reliabilityText.matchAll(/`npm run ([\w:]+)/g)].map(([, commandName]) => commandName);
   assert.ok(commandNames.length >= 4, commandNames.join(', '));
-  for (const caseName of commandNames) assert.ok(Object.hasOwn(scripts, caseName), caseName);
+  for (const commandName of commandNames) assert.ok(Object.hasOwn(scripts, commandName), commandName);
   const documentedPaths = [...reliabilityText.matchAll(/`((?:tests|src|scripts|fuzz|www)\/[\w./-]*)`/g)].map(([, namedPath]) => namedPath);
   assert.ok(documentedPaths.length > 15, documentedPaths.join(', '));
   for (const path of documentedPaths) assert.ok(existsSync(new URL(`../../${path}`, import.meta.url)), path);
@@ -68,8 +68,8 @@ const linksOf = (/** @type {string} */ markdownText) =>
   [...markdownText.matchAll(/\]\((?!https?:)([^)#\s]*)#?([^)\s]*)\)/g)].map(([, path, anchor]) => ({ path, anchor }));
 
 test('links of the documents lead to files and headings that exist', () => {
-  for (const [documentPath, plainText] of TEXT_BY_DOCUMENT) {
-    for (const { path, anchor } of linksOf(plainText)) {
+  for (const [documentPath, documentText] of TEXT_BY_DOCUMENT) {
+    for (const { path, anchor } of linksOf(documentText)) {
       const targetPath = path === '' ? documentPath : join(dirname(documentPath), path);
       assert.ok(existsSync(join(REPOSITORY_ROOT, targetPath)), `${documentPath}: ${path}`);
       if (anchor !== '') assert.ok(anchorsOf(TEXT_BY_DOCUMENT.get(targetPath) ?? '').includes(anchor), `${documentPath}: ${path}#${anchor}`);
@@ -79,12 +79,12 @@ test('links of the documents lead to files and headings that exist', () => {
 
 test('documents have a limited length, and long documents have a table of contents', () => {
   const linkedDocuments = linksOf(TEXT_BY_DOCUMENT.get('doc/README.md') ?? '').map(({ path }) => join('doc', path));
-  for (const [documentPath, plainText] of TEXT_BY_DOCUMENT) {
+  for (const [documentPath, documentText] of TEXT_BY_DOCUMENT) {
     const lineCount = readText(documentPath).trimEnd().split('\n').length;
     assert.ok(lineCount <= (documentPath === 'README.md' ? 150 : 350), `${documentPath} has ${lineCount} lines`);
     if (documentPath.startsWith('doc/') && documentPath !== 'doc/README.md') assert.ok(linkedDocuments.includes(documentPath), `${documentPath} is not in doc/README.md`);
-    const headingAnchors = anchorsOf(plainText, '##');
-    const linkedAnchors = linksOf(plainText).filter(({ path }) => path === '').map(({ anchor }) => anchor);
+    const headingAnchors = anchorsOf(documentText, '##');
+    const linkedAnchors = linksOf(documentText).filter(({ path }) => path === '').map(({ anchor }) => anchor);
     if (headingAnchors.length > 6) assert.deepEqual(headingAnchors.filter((heading) => !linkedAnchors.includes(heading)), [], `contents of ${documentPath}`);
   }
 });

@@ -61,7 +61,7 @@ test('the class of a widget directly extends the base class, which directly exte
   );
   const elementClasses = classDeclarations.filter(({ base }) => /Element$/.test(base));
   assert.deepEqual(
-    elementClasses.filter(({ base }) => base !== 'FigureElement').map(({ file, name: caseName, base }) => [file, caseName, base]),
+    elementClasses.filter(({ base }) => base !== 'FigureElement').map(({ file, name: className, base }) => [file, className, base]),
     [['www/figure/figure.ts', 'FigureElement', 'LitElement']],
   );
   for (const widgetTag of Object.keys(settings)) {

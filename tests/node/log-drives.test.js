@@ -20,17 +20,17 @@ const SERIES_TYPE_AND_KIND = /** @type {const} */ ({
 /**
  * Returns a recording with series (topics or tables) whose rows are never read.
  *
- * @param {Record<string, keyof typeof SERIES_TYPE_AND_KIND>} kindsBySeries types by name
+ * @param {Record<string, keyof typeof SERIES_TYPE_AND_KIND>} typesBySeries types by name
  * @param {Partial<Recording>} [moreFields]
  * @param {string[]} [framePairs] of transforms, as "odom base_link"
  * @returns {Recording}
  */
-const createRecording = (kindsBySeries, moreFields, framePairs = []) => ({
+const createRecording = (typesBySeries, moreFields, framePairs = []) => ({
   recordingName: 'run.mcap',
   recordingFormat: 'mcap',
-  seriesList: Object.entries(kindsBySeries).map(([seriesName, seriesKind]) => {
-    const [messageType, logKind] = SERIES_TYPE_AND_KIND[seriesKind];
-    return { seriesName, messageType, seriesKind: logKind, messageCount: 9, ...(logKind === 'transforms' && { framePairs: framePairs.map((framePair) => ({ parent: framePair.split(' ')[0], child: framePair.split(' ')[1] })) }) };
+  seriesList: Object.entries(typesBySeries).map(([seriesName, typeName]) => {
+    const [messageType, seriesKind] = SERIES_TYPE_AND_KIND[typeName];
+    return { seriesName, messageType, seriesKind, messageCount: 9, ...(seriesKind === 'transforms' && { framePairs: framePairs.map((framePair) => ({ parent: framePair.split(' ')[0], child: framePair.split(' ')[1] })) }) };
   }),
   readLogs: () => Promise.reject(new Error('not read')),
   ...moreFields,
@@ -62,25 +62,25 @@ const UNAMBIGUOUS_ROLE_CASES = [
 ];
 
 test('odometry and reference are guessed from types, names and frames', () => {
-  for (const [seriesNames, odometryLog, referenceLog, frames, userChoices] of UNAMBIGUOUS_ROLE_CASES) {
-    const [{ logChoices: choices }] = planDrives([createRecording(seriesNames, {}, frames)], userChoices);
-    assert.deepEqual([choices.odometry, choices.reference].map(choiceTextOf), [odometryLog, referenceLog]);
+  for (const [typesBySeries, odometryName, referenceName, frames, userChoices] of UNAMBIGUOUS_ROLE_CASES) {
+    const [{ logChoices }] = planDrives([createRecording(typesBySeries, {}, frames)], userChoices);
+    assert.deepEqual([logChoices.odometry, logChoices.reference].map(choiceTextOf), [odometryName, referenceName]);
   }
 });
 
 test('groups of columns are guessed like topics, and may be named without the trailing separator', () => {
   const csvFields = /** @type {const} */ ({ recordingName: 'run.csv', recordingFormat: 'csv' });
-  for (const [seriesNames, odometryLog, referenceLog, userChoices] of /** @type {[Parameters<typeof createRecording>[0], string, string, any?][]} */ ([
+  for (const [typesBySeries, odometryName, referenceName, userChoices] of /** @type {[Parameters<typeof createRecording>[0], string, string, any?][]} */ ([
     [{ odom_: 'columns', gt_: 'columns' }, 'odom_', 'gt_'], [{ '': 'columns', gt_: 'columns' }, '', 'gt_'], [{ '': 'columns', _true: 'columns' }, '', '_true'], [{ '/truth': 'columns', '/odom': 'columns' }, '/odom', '/truth'],
     [{ a_: 'columns', b_: 'columns' }, 'b_', 'a_', { odometry: { seriesName: 'b' } }],
   ])) {
-    const [{ logChoices: choices }] = planDrives([createRecording(seriesNames, csvFields)], userChoices);
-    assert.deepEqual([choices.odometry?.seriesName, choices.reference?.seriesName], [odometryLog, referenceLog]);
+    const [{ logChoices }] = planDrives([createRecording(typesBySeries, csvFields)], userChoices);
+    assert.deepEqual([logChoices.odometry?.seriesName, logChoices.reference?.seriesName], [odometryName, referenceName]);
   }
 });
 
 test('ambiguous roles lead to a question', async () => {
-  for (const [seriesNames, expectedSentence, askedQuestion, logRole, expectedChoices, frames, userChoices] of /** @type {[Parameters<typeof createRecording>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
+  for (const [typesBySeries, expectedSentence, askedQuestion, logRole, expectedChoices, frames, userChoices] of /** @type {[Parameters<typeof createRecording>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
     [{ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' }, 'it is not clear what the reference is: /odom (Odometry), /a (PoseStamped), /b (PoseStamped).', 'series', 'reference', ['/a', '/b']],
     [{ '/odom': 'odometry', '/wheel/odometry': 'odometry', '/mocap': 'pose' }, 'it is not clear what the odometry is: ', 'series', 'odometry'],
     [{ '/odom': 'odometry', '/odometry/filtered': 'odometry', '/cmd_vel': 'twist' }, 'by its names and types it has no reference, but /odom (Odometry), ', 'series', 'reference', []],
@@ -99,9 +99,9 @@ test('ambiguous roles lead to a question', async () => {
     [{ '/odom': 'odometry', '/mocap': 'pose' }, '/odom is the odometry itself; ', 'series', 'reference', ['/mocap'], [], { reference: { seriesName: '/odom' } }],
     [{ '/tf': 'tf' }, 'odom → base is the odometry itself; ', 'series', 'reference', [], ['odom base', 'mocap robot'], { reference: { framePair: { parent: 'odom', child: 'base' } } }],
   ])) {
-    const { message: rosMessage, userQuestion } = await catchRefusalError(planDrivesAsync([createRecording(seriesNames, {}, frames)], userChoices));
-    assert.ok(rosMessage.startsWith('run.mcap') && rosMessage.includes(`: ${expectedSentence}`), rosMessage);
-    assert.deepEqual([userQuestion?.optionName, userQuestion?.logRole], [askedQuestion, logRole], rosMessage);
+    const { message: refusalMessage, userQuestion } = await catchRefusalError(planDrivesAsync([createRecording(typesBySeries, {}, frames)], userChoices));
+    assert.ok(refusalMessage.startsWith('run.mcap') && refusalMessage.includes(`: ${expectedSentence}`), refusalMessage);
+    assert.deepEqual([userQuestion?.optionName, userQuestion?.logRole], [askedQuestion, logRole], refusalMessage);
     if (expectedChoices) assert.deepEqual(userQuestion?.possibleAnswers, expectedChoices);
   }
 });
@@ -109,19 +109,19 @@ test('ambiguous roles lead to a question', async () => {
 test('several recordings are separate drives, or each contains one log of the same drive', async () => {
   const recordingWithBothLogs = createRecording({ '/odom': 'odometry', '/mocap': 'pose' });
   /** Returns the series that are chosen from each recording: odometry and reference. @param {Parameters<typeof planDrives>} planArguments */
-  const plannedSeriesOf = (...planArguments) => planDrives(...planArguments).map(({ logChoices: { odometry: odometryLog, reference: referenceLog } }) => [odometryLog?.seriesName, referenceLog?.seriesName]);
+  const plannedSeriesOf = (...planArguments) => planDrives(...planArguments).map(({ logChoices: { odometry, reference } }) => [odometry?.seriesName, reference?.seriesName]);
   assert.deepEqual(plannedSeriesOf([recordingWithBothLogs, recordingWithBothLogs]), [['/odom', '/mocap'], ['/odom', '/mocap']]);
   assert.deepEqual(plannedSeriesOf([createRecording({ '/mocap': 'pose' }), createRecording({ '/odom': 'odometry', '/cmd_vel': 'twist' })]), [['/odom', undefined], [undefined, '/mocap']]);
   assert.deepEqual(plannedSeriesOf([recordingWithBothLogs, createRecording({ '': 'columns' }, { recordingName: 'truth.csv', recordingFormat: 'csv' })]), [['/odom', undefined], [undefined, '']]);
   // A recording that has neither odometry nor reference is left out, unless the user chose it as odometry or reference.
   const cameraRecording = createRecording({ '/image': 'text' }, { recordingName: 'camera.mcap' });
   const skippedMessages = /** @type {string[]} */ ([]);
-  assert.deepEqual(plannedSeriesOf([cameraRecording, recordingWithBothLogs], {}, ({ message: rosMessage }) => void skippedMessages.push(rosMessage.slice(0, 48))), [['/odom', '/mocap']]);
+  assert.deepEqual(plannedSeriesOf([cameraRecording, recordingWithBothLogs], {}, ({ message: refusalMessage }) => void skippedMessages.push(refusalMessage.slice(0, 48))), [['/odom', '/mocap']]);
   assert.deepEqual(skippedMessages, ['camera.mcap: the topics are /image (String); exp']);
   assert.match(await catchRefusalSentence(planDrivesAsync([recordingWithBothLogs, { ...cameraRecording, logRole: 'reference' }])), /^camera\.mcap: the topics are \/image \(String\); /);
   const unpairedNamesOf = async (/** @type {string[]} */ ...recordingNames) => {
-    const drivePlan = planDrives(recordingNames.map((caseName) => createRecording({ '': 'columns' }, { recordingName: caseName, recordingFormat: 'csv' })));
-    return LOG_ROLES.map((role) => drivePlan.filter(({ logChoices: choices }) => choices[role]).map(({ recording: { recordingName: caseName } }) => caseName));
+    const drivePlan = planDrives(recordingNames.map((recordingName) => createRecording({ '': 'columns' }, { recordingName, recordingFormat: 'csv' })));
+    return LOG_ROLES.map((role) => drivePlan.filter(({ logChoices }) => logChoices[role]).map(({ recording: { recordingName } }) => recordingName));
   };
   assert.deepEqual(await unpairedNamesOf('truth.csv', 'a.csv'), [['a.csv'], ['truth.csv']]);
   assert.deepEqual(await unpairedNamesOf('odom1.csv', 'x.csv', 'y.csv', 'odom2.csv'), [['odom1.csv', 'odom2.csv'], ['x.csv', 'y.csv']]);
@@ -138,7 +138,7 @@ test('several recordings are separate drives, or each contains one log of the sa
 });
 
 /** Reads drives from tables, which are given by name. @param {Record<string, string>} textByName @param {import('../../www/logs/drives.ts').UserChoices} [userChoices] */
-const readDrivesOf = async (textByName, userChoices) => readDrives(planDrives(await openRecordings(Object.entries(textByName).map(([caseName, plainText]) => new File([plainText], caseName))), userChoices));
+const readDrivesOf = async (textByName, userChoices) => readDrives(planDrives(await openRecordings(Object.entries(textByName).map(([fileName, tableText]) => new File([tableText], fileName))), userChoices));
 
 /** Returns a table of poses with a time column. @param {number} rowCount @param {(i: number) => number[]} createRow */
 const poseTableOf = (rowCount, createRow) => ['t,x,y,yaw', ...Array.from({ length: rowCount }, (_, i) => createRow(i).join(','))].join('\n');
@@ -147,7 +147,7 @@ const poseTableOf = (rowCount, createRow) => ['t,x,y,yaw', ...Array.from({ lengt
 const straightTableOf = (xOfRow, startTime = 0) => poseTableOf(400, (i) => [startTime + i / 20, xOfRow(i), 0, 0]);
 
 test('logs of several drives are paired by their times, or in their order', async () => {
-  const pairedNamesOf = async (/** @type {Record<string, number>} */ startTimes) => (await readDrivesOf(Object.fromEntries(Object.entries(startTimes).map(([caseName, start], k) => [caseName, straightTableOf((i) => (i * (10 + k)) / 1000, start)])))).map(({ odometry: odometryLog, reference: referenceLog }) => [odometryLog.logName, referenceLog.logName]);
+  const pairedNamesOf = async (/** @type {Record<string, number>} */ startTimes) => (await readDrivesOf(Object.fromEntries(Object.entries(startTimes).map(([fileName, startTime], k) => [fileName, straightTableOf((i) => (i * (10 + k)) / 1000, startTime)])))).map(({ odometry: odometryLog, reference: referenceLog }) => [odometryLog.logName, referenceLog.logName]);
   assert.deepEqual(await pairedNamesOf({ 'odom1.csv': 100, 'odom2.csv': 500, 'truth_a.csv': 501, 'truth_b.csv': 99 }), [['odom1.csv', 'truth_b.csv'], ['odom2.csv', 'truth_a.csv']]);
   assert.deepEqual(await pairedNamesOf({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth_a.csv': 0, 'truth_b.csv': 0 }), [['odom1.csv', 'truth_a.csv'], ['odom2.csv', 'truth_b.csv']]);
 });
@@ -164,10 +164,10 @@ test('two logs get a common start time, and logs without common time are reporte
 });
 
 test('names that suggest a localizer, or swapped logs, are reported', async () => {
-  const noteNamesOf = async (/** @type {string} */ odometryLog, /** @type {string} */ referenceLog) => {
-    const logFiles = [odometryLog, referenceLog].map((caseName, k) => new File([straightTableOf((i) => (i * (k + 1)) / 100)], caseName));
-    const [drive] = await readDrives(planDrives(await openRecordings(logFiles, (caseName) => ({ logRole: caseName === odometryLog ? 'odometry' : 'reference' }))));
-    return drive.reference.logSummary.notes.map(({ name: caseName }) => caseName);
+  const noteNamesOf = async (/** @type {string} */ odometryName, /** @type {string} */ referenceName) => {
+    const logFiles = [odometryName, referenceName].map((fileName, k) => new File([straightTableOf((i) => (i * (k + 1)) / 100)], fileName));
+    const [drive] = await readDrives(planDrives(await openRecordings(logFiles, (fileName) => ({ logRole: fileName === odometryName ? 'odometry' : 'reference' }))));
+    return drive.reference.logSummary.notes.map(({ name: noteName }) => noteName);
   };
   assert.deepEqual(await noteNamesOf('truth.csv', 'wheels.csv'), ['swappedRoles']);
   assert.deepEqual(await noteNamesOf('odom.csv', 'amcl_pose.csv'), ['localizer']);
@@ -181,11 +181,11 @@ test('a frozen reference is interrupted only while the odometry moves', async ()
   const odometryXOf = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;
   const movingOdometryTable = straightTableOf(odometryXOf);
   const referenceXOf = (/** @type {number} */ i) => 1.01 * odometryXOf(i);
-  const readReference = async (/** @type {string} */ referenceLog, odometryTable = movingOdometryTable) => (await readDrivesOf({ 'odom.csv': odometryTable, 'truth.csv': referenceLog }))[0].reference;
+  const readReference = async (/** @type {string} */ referenceTable, odometryTable = movingOdometryTable) => (await readDrivesOf({ 'odom.csv': odometryTable, 'truth.csv': referenceTable }))[0].reference;
   assert.deepEqual([(await readReference(straightTableOf(referenceXOf))).logSummary.dropped, (await readReference(straightTableOf(referenceXOf))).logSummary.used], [{}, 400]);
   const tableWithFrozenPose = straightTableOf((i) => referenceXOf(i >= 200 && i < 300 ? 200 : i));
-  const { motionData: logColumns, logSummary } = await readReference(tableWithFrozenPose);
-  assert.deepEqual([logColumns.t.length, [...logColumns.breaks], logSummary.used, logSummary.dropped], [400, Array.from({ length: 100 }, (_, i) => 201 + i), 301, { held: { count: 99, first: 0 } }]);
+  const { motionData, logSummary } = await readReference(tableWithFrozenPose);
+  assert.deepEqual([motionData.t.length, [...motionData.breaks], logSummary.used, logSummary.dropped], [400, Array.from({ length: 100 }, (_, i) => 201 + i), 301, { held: { count: 99, first: 0 } }]);
   assert.equal(await catchRefusalSentence(readReference(straightTableOf(() => 7))), 'truth.csv: its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.');
   // The reference is not lost during a pause of two seconds, or a pause in which the odometry moves by five centimetres.
   const countDroppedDuring = async (/** @type {number} */ pauseSeconds, /** @type {number} */ pauseSpeed) => {
@@ -202,21 +202,21 @@ test('logs with mirrored axes, or with different units of length, are refused', 
   const exampleHeadings = Array.from({ length: 1200 }, (_, i) => 2 * Math.sin(i / 60) + Math.cos(i / 23) + i / 300);
   const pathPoints = [[0, 0]];
   for (const [i, stepHeading] of exampleHeadings.entries()) pathPoints.push([pathPoints[i][0] + Math.cos(stepHeading) / 40, pathPoints[i][1] + Math.sin(stepHeading) / 40]);
-  const createChangedTable = (/** @type {(row: number[]) => number[]} */ changeRow) => poseTableOf(1200, (i) => changeRow([i / 20, ...pathPoints[i], exampleHeadings[i]]).map((settingValue) => Number(settingValue.toFixed(6))));
+  const createChangedTable = (/** @type {(row: number[]) => number[]} */ changeRow) => poseTableOf(1200, (i) => changeRow([i / 20, ...pathPoints[i], exampleHeadings[i]]).map((cellValue) => Number(cellValue.toFixed(6))));
   const distortRow = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
   // The changed tables have mirrored axes, swapped axes, and compass headings, which are clockwise from north.
   const mirrorRows = /** @type {((row: number[]) => number[])[]} */ ([([t, x, y, yaw]) => [t, x, -y, yaw], ([t, x, y, yaw]) => [t, -x, y, yaw], ([t, x, y, yaw]) => [t, y, x, yaw], ([t, x, y, yaw]) => [t, x, y, Math.PI / 2 - yaw]]);
   for (const mirrorRow of mirrorRows) {
     const [mirroredTable, unmirroredTable] = [createChangedTable((tableRow) => mirrorRow(distortRow(tableRow))), createChangedTable(distortRow)];
-    for (const [odometryLog, referenceLog, questionedLog] of [[mirroredTable, unmirroredTable, 'odom'], [unmirroredTable, mirroredTable, 'truth'], [mirroredTable, mirroredTable, 'odom']]) {
-      assert.match(await catchRefusalSentence(readDrivesOf({ 'odom.csv': odometryLog, 'truth.csv': referenceLog })), RegExp(`^${questionedLog}\\.csv: the headings turn the other way than the path; expected`));
+    for (const [odometryTable, referenceTable, questionedLog] of [[mirroredTable, unmirroredTable, 'odom'], [unmirroredTable, mirroredTable, 'truth'], [mirroredTable, mirroredTable, 'odom']]) {
+      assert.match(await catchRefusalSentence(readDrivesOf({ 'odom.csv': odometryTable, 'truth.csv': referenceTable })), RegExp(`^${questionedLog}\\.csv: the headings turn the other way than the path; expected`));
     }
   }
   // If the log of a slow robot is read alone, no question about its unit is asked.
   const createSlowTable = (/** @type {number} */ lengthFactor) => createChangedTable(([t, x, y, yaw]) => [20 * t, lengthFactor * x, lengthFactor * y, yaw]);
-  for (const [odometryLog, referenceLog, refusedFile, expectedUnit] of /** @type {const} */ ([[1, 100, 'truth', 'cm'], [100, 1, 'odom', 'cm'], [3.281, 1, 'odom', 'ft']])) {
-    const { message: rosMessage, userQuestion } = await catchRefusalError(readDrivesOf({ 'odom.csv': createSlowTable(odometryLog), 'truth.csv': createSlowTable(referenceLog) }));
-    assert.match(rosMessage, RegExp(`^${refusedFile}\\.csv: the robot would drive \\d+ times as fast as in \\w+\\.csv: its lengths seem to be in ${expectedUnit}; state their unit\\.`));
+  for (const [odometryFactor, referenceFactor, refusedFile, expectedUnit] of /** @type {const} */ ([[1, 100, 'truth', 'cm'], [100, 1, 'odom', 'cm'], [3.281, 1, 'odom', 'ft']])) {
+    const { message: refusalMessage, userQuestion } = await catchRefusalError(readDrivesOf({ 'odom.csv': createSlowTable(odometryFactor), 'truth.csv': createSlowTable(referenceFactor) }));
+    assert.match(refusalMessage, RegExp(`^${refusedFile}\\.csv: the robot would drive \\d+ times as fast as in \\w+\\.csv: its lengths seem to be in ${expectedUnit}; state their unit\\.`));
     assert.deepEqual([userQuestion?.optionName, userQuestion?.possibleAnswers], ['lengthUnit', [expectedUnit, 'm']]);
   }
 });

@@ -36,11 +36,11 @@ async function openRecording(...fileSources: SourceFile[]): Promise<Recording> {
 const summaryTextOf = (log: Log) => summarySentencesOf(log, english.found).join('. ');
 
 /** Odometry and reference of the drive, read from its tables. */
-const tableLogPromises = (await openRecordings(['odometry.csv', 'reference.csv'].map((caseName) => createFile(decompressFile(caseName), caseName)))).map((tableName) => tableName.readLogs([{ seriesName: '' }]));
+const tableLogPromises = (await openRecordings(['odometry.csv', 'reference.csv'].map((fileName) => createFile(decompressFile(fileName), fileName)))).map((recording) => recording.readLogs([{ seriesName: '' }]));
 const [[odometryLog], [referenceLog]] = await Promise.all(tableLogPromises);
 const ODOMETRY_AND_REFERENCE: LogChoice[] = [{ seriesName: '/odom' }, { seriesName: '/truth' }];
 
-const fileListOf = (caseName: string) => [createFile(decompressFile(caseName), caseName)];
+const fileListOf = (fileName: string) => [createFile(decompressFile(fileName), fileName)];
 
 /** Metadata of a recording that consists of two files. */
 const SPLIT_METADATA = 'rosbag2_bagfile_information:\n  version: 5\n  relative_file_paths: [split0.mcap, split1.mcap]\n';
@@ -62,7 +62,7 @@ const SOURCES_BY_RECORDING: Record<string, SourceFile[]> = {
 for (const [caseName, recordingSources] of Object.entries(SOURCES_BY_RECORDING)) {
   test(`${caseName} contains the same rows as the tables, to the last bit`, async () => {
     const recording = await openRecording(...recordingSources);
-    assert.deepEqual(recording.seriesList.map(({ seriesName: topicName, seriesKind: kind, messageCount: count }) => [topicName, kind, count]), [['/odom', 'poses', 100], ['/truth', 'poses', 100]]);
+    assert.deepEqual(recording.seriesList.map(({ seriesName, seriesKind, messageCount }) => [seriesName, seriesKind, messageCount]), [['/odom', 'poses', 100], ['/truth', 'poses', 100]]);
     const robotLogs = await recording.readLogs(ODOMETRY_AND_REFERENCE);
     for (const [i, tableLog] of [odometryLog, referenceLog].entries()) {
       assert.deepEqual([robotLogs[i].startTime, robotLogs[i].motionData], [tableLog.startTime, tableLog.motionData]);
@@ -72,9 +72,9 @@ for (const [caseName, recordingSources] of Object.entries(SOURCES_BY_RECORDING))
 }
 
 /** Returns the rows of the drive that a log has, and compares their poses. Headings may differ by `headingTolerance`. */
-function rowIndicesOf({ startTime: start, motionData: logColumns }: Log, headingTolerance = 0): number[] {
-  const [logPoses, allPoses] = [logColumns, odometryLog.motionData] as Poses[];
-  const rowIndices = Array.from(logPoses.t, (t) => Math.round(20 * (start - odometryLog.startTime + t - allPoses.t[0])));
+function rowIndicesOf({ startTime, motionData }: Log, headingTolerance = 0): number[] {
+  const [logPoses, allPoses] = [motionData, odometryLog.motionData] as Poses[];
+  const rowIndices = Array.from(logPoses.t, (t) => Math.round(20 * (startTime - odometryLog.startTime + t - allPoses.t[0])));
   for (const coordinate of ['x', 'y'] as const) assert.deepEqual([...logPoses[coordinate]], rowIndices.map((rowIndex) => allPoses[coordinate][rowIndex]));
   for (const [i, rowIndex] of rowIndices.entries()) assert.ok(Math.abs(logPoses.theta[i] - allPoses.theta[rowIndex]) <= headingTolerance, `${logPoses.theta[i]}, not ${allPoses.theta[rowIndex]}`);
   return rowIndices;
@@ -82,9 +82,9 @@ function rowIndicesOf({ startTime: start, motionData: logColumns }: Log, heading
 
 const createRange = (firstInteger: number, endInteger: number) => Array.from({ length: endInteger - firstInteger }, (_, i) => firstInteger + i);
 
-for (const caseName of ['types.bag', 'types.mcap']) {
-  test(`${caseName}: poses and commands of all message types are read`, async () => {
-    const recording = await openRecording(createFile(decompressFile(caseName), caseName));
+for (const fileName of ['types.bag', 'types.mcap']) {
+  test(`${fileName}: poses and commands of all message types are read`, async () => {
+    const recording = await openRecording(createFile(decompressFile(fileName), fileName));
     const framePair = { parent: 'odom', child: 'base_link' };
     const poses = await recording.readLogs([...['/fused', '/vicon', '/pose2d'].map((seriesName) => ({ seriesName })), { seriesName: '/tf', framePair }]);
     // Headings that are computed from quaternions are rounded to steps of 1e-12. Pose2D stores the heading itself.
@@ -93,10 +93,10 @@ for (const caseName of ['types.bag', 'types.mcap']) {
     const roundCommand = (commandValue: number) => Math.round(4096 * commandValue) / 4096;
     const expectedCommands = [createRange(0, 40).map((i) => roundCommand(0.5 + 0.2 * Math.sin(i / 9))), createRange(0, 40).map((i) => roundCommand(0.8 * Math.sin(i / 23)))];
     const robotLogs = await recording.readLogs(['/cmd_vel', '/cmd_stamped', '/cmd_fused'].map((seriesName) => ({ seriesName })));
-    for (const { motionData: logColumns, logName: topicName } of robotLogs) assert.deepEqual([[...(logColumns as Commands).v], [...(logColumns as Commands).omega]], expectedCommands, topicName);
+    for (const { motionData, logName } of robotLogs) assert.deepEqual([[...(motionData as Commands).v], [...(motionData as Commands).omega]], expectedCommands, logName);
     assert.equal(robotLogs[0].logSummary.clock, 'log time');
     // Frames of wheels only turn, and are no candidates for a reference. A frame that is fixed to the moving base is a candidate.
-    const { framePairs } = recording.seriesList.find(({ seriesName: topicName }) => topicName === '/tf') as Recording['seriesList'][number];
+    const { framePairs } = recording.seriesList.find(({ seriesName }) => seriesName === '/tf') as Recording['seriesList'][number];
     assert.deepEqual(framePairs?.map(({ parent, child }) => `${parent} → ${child}`), ['odom → base_link', 'odom → base_footprint']);
   });
 }
@@ -109,10 +109,10 @@ test('a recording with a missing file is refused', async () => {
 });
 
 /** Reads the odometry from a file's contents. */
-const readOdometry = async (fileBytes: Uint8Array, caseName: string) => (await (await openRecording(createFile(fileBytes, caseName))).readLogs([{ seriesName: '/odom' }]))[0];
+const readOdometry = async (fileBytes: Uint8Array, fileName: string) => (await (await openRecording(createFile(fileBytes, fileName))).readLogs([{ seriesName: '/odom' }]))[0];
 
 /** Reads the odometry from a file in which some bytes are overwritten. */
-const readDamagedOdometry = (caseName: string, damagePosition: number) => readOdometry(decompressFile(caseName).fill(0xff, damagePosition, damagePosition + 40), caseName);
+const readDamagedOdometry = (fileName: string, damagePosition: number) => readOdometry(decompressFile(fileName).fill(0xff, damagePosition, damagePosition + 40), fileName);
 
 const findPositions = (bytes: Buffer, searchText: string) => Array.from(bytes.toString('latin1').matchAll(RegExp(searchText, 'g')), ({ index }) => index);
 
@@ -125,15 +125,15 @@ const BLOCK_FINDERS: Record<string, (bytes: Buffer) => number[]> = {
   'sqlite-sqlite.db3': (bytes) => [...new Set(findPositions(bytes, 'base_link').map((bytePosition) => bytePosition - (bytePosition % 4096)))],
 };
 
-for (const [caseName, findBlocks] of Object.entries(BLOCK_FINDERS)) {
-  test(`${caseName}: only the rows of a damaged block, or the rows after the end of a truncated file, are lost`, async () => {
+for (const [fileName, findBlocks] of Object.entries(BLOCK_FINDERS)) {
+  test(`${fileName}: only the rows of a damaged block, or the rows after the end of a truncated file, are lost`, async () => {
     const lostRowsSoFar: number[] = [];
-    for (const bytePosition of findBlocks(decompressFile(caseName))) {
-      const log = await readDamagedOdometry(caseName, bytePosition);
+    for (const bytePosition of findBlocks(decompressFile(fileName))) {
+      const log = await readDamagedOdometry(fileName, bytePosition);
       const keptRows = rowIndicesOf(log);
       const lostRows = createRange(0, 100).filter((tableRow) => !keptRows.includes(tableRow));
       if (lostRows.length > 0) assert.match(summaryTextOf(log), /1 damaged block skipped \(.+\)$/);
-      const truncatedLogPromise = readOdometry(decompressFile(caseName).subarray(0, bytePosition), caseName);
+      const truncatedLogPromise = readOdometry(decompressFile(fileName).subarray(0, bytePosition), fileName);
       if (lostRowsSoFar.length === 0) await catchRefusalError(truncatedLogPromise);
       else {
         assert.deepEqual(rowIndicesOf(await truncatedLogPromise), lostRowsSoFar);
@@ -148,7 +148,7 @@ for (const [caseName, findBlocks] of Object.entries(BLOCK_FINDERS)) {
 
 test('all messages of a database with an unfinished transaction are read', async () => {
   const bytes = decompressFile('sqlite-sqlite.db3');
-  const rootPage = createRange(0, bytes.length / 4096).map((databasePageStart) => 4096 * databasePageStart).find((bytePosition) => bytes[bytePosition] === 5) ?? 0;
+  const rootPage = createRange(0, bytes.length / 4096).map((pageIndex) => 4096 * pageIndex).find((bytePosition) => bytes[bytePosition] === 5) ?? 0;
   // Overwrites the number of pages of the SQLite database with 8, and the first page of the messages with an empty page, as before the
   // transaction.
   bytes.writeUInt32BE(8, 28);
@@ -159,9 +159,9 @@ test('all messages of a database with an unfinished transaction are read', async
 });
 
 test('a damaged message is dropped, and a file with damaged headers or compression is refused', async () => {
-  const caseName = 'mcap-messages-mcap-messages.mcap';
+  const fileName = 'mcap-messages-mcap-messages.mcap';
   // The file contains messages in Zstandard frames. Messages of the odometry and the reference alternate.
-  const log = await readDamagedOdometry(caseName, findPositions(decompressFile(caseName), '\\(\xb5/\xfd')[6] + 20);
+  const log = await readDamagedOdometry(fileName, findPositions(decompressFile(fileName), '\\(\xb5/\xfd')[6] + 20);
   assert.deepEqual([rowIndicesOf(log), log.logSummary.dropped], [[...createRange(0, 3), ...createRange(4, 100)], { damaged: { count: 1, first: 4 } }]);
   const bagWithoutTopics = Buffer.from(decompressFile('none.bag').toString('latin1').replaceAll('topic=', 'topic-'), 'latin1');
   assert.match(await catchRefusalSentence(readOdometry(bagWithoutTopics, 'none.bag')), /^none\.bag: it is damaged or incomplete \(a record has no field topic\); copy/);
@@ -198,10 +198,10 @@ test('unsupported formats are recognized by their contents, and refused with a c
 });
 
 test('a recording without a complete message is refused, and the message names a repair tool', async () => {
-  for (const [caseName, repairCommand] of [['none.bag', 'rosbag reindex'], ['unindexed.mcap', 'mcap recover'], ['sqlite-sqlite.db3', 'sqlite3 FILE .recover | sqlite3 NEW.db3']]) {
+  for (const [fileName, repairCommand] of [['none.bag', 'rosbag reindex'], ['unindexed.mcap', 'mcap recover'], ['sqlite-sqlite.db3', 'sqlite3 FILE .recover | sqlite3 NEW.db3']]) {
     for (const byteCount of [20, 200]) {
-      const rosMessage = await catchRefusalSentence(openRecordings([createFile(decompressFile(caseName).slice(0, byteCount), caseName)]));
-      assert.ok(rosMessage.startsWith(`${caseName}: it is damaged or incomplete (`) && rosMessage.includes(`“${repairCommand}”`), rosMessage);
+      const refusalMessage = await catchRefusalSentence(openRecordings([createFile(decompressFile(fileName).slice(0, byteCount), fileName)]));
+      assert.ok(refusalMessage.startsWith(`${fileName}: it is damaged or incomplete (`) && refusalMessage.includes(`“${repairCommand}”`), refusalMessage);
     }
   }
 });
@@ -212,7 +212,7 @@ test('files that are not recordings are refused', async () => {
   emptyDatabase[100] = 13;
   assert.match(await catchRefusalSentence(openRecordings([createFile(emptyDatabase, 'run.db3')])), /without the tables “topics” and “messages” of rosbag2; expected/);
   assert.match(await catchRefusalSentence(openRecordings([createFile('t,x,y,yaw\n', 'split0.mcap', 'drive/split0.mcap'), ...splitRecordingFilesOf(1)])), /^split0\.mcap: it is listed in the metadata\.yaml of a recording, but is not a recording;/);
-  const largeFile = { name: 'run.db3', size: 2 ** 30 + 1, slice: () => new Blob(['\x28\xb5\x2f\xfd'].map((plainText) => Buffer.from(plainText, 'latin1'))) };
+  const largeFile = { name: 'run.db3', size: 2 ** 30 + 1, slice: () => new Blob([Uint8Array.of(0x28, 0xb5, 0x2f, 0xfd)]) };
   assert.match(await catchRefusalSentence(openRecordings([largeFile])), /^run\.db3: it has more than 1073741824 bytes when it is decompressed; decompress it with “zstd -d”/);
   const shortRecording = await openRecording(...fileListOf('small.db3'));
   assert.match(await catchRefusalSentence(shortRecording.readLogs([{ seriesName: '/pose' }])), /^small\.db3, topic \/pose: 0 of 0 rows can be used;/);
@@ -236,9 +236,9 @@ test('a constant transform is not accepted as a log', async () => {
 
 test('a constant transform that is published more often than the changing transform adds no rows', async () => {
   const rosMessages = createForEachStep((i) => [createTfMessage(i, createMovingTransform(i)), ...[0.3, 0.6].map((timeOffset) => createTfMessage(i + timeOffset, transformMessageOf(timeOf(i + timeOffset), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
-  const [{ motionData: logColumns }] = await readLogsOf(rosMessages, ODOM_TO_BASE_CHOICE);
-  assert.deepEqual([...logColumns.t].map((t) => Math.round(20 * t)), [...Array(stepCount).keys()]);
-  assert.deepEqual([...(logColumns as Poses).x], createForEachStep((i) => i / 50 + 0.5));
+  const [{ motionData }] = await readLogsOf(rosMessages, ODOM_TO_BASE_CHOICE);
+  assert.deepEqual([...motionData.t].map((t) => Math.round(20 * t)), [...Array(stepCount).keys()]);
+  assert.deepEqual([...(motionData as Poses).x], createForEachStep((i) => i / 50 + 0.5));
 });
 
 test('a topic with messages of two types is refused', async () => {

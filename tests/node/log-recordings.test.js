@@ -53,7 +53,7 @@ test('topics are listed, and logs of topics and of chains of frames are read in 
   const [recording] = await openRecordings([mcapFile]);
   assert.equal(recording.recordingFormat, 'mcap');
   assert.deepEqual(
-    recording.seriesList.map(({ seriesName: caseName, messageCount: count, seriesKind: kind }) => [caseName, count, kind]),
+    recording.seriesList.map(({ seriesName, messageCount, seriesKind }) => [seriesName, messageCount, seriesKind]),
     [
       ['/chatter', MESSAGE_COUNT, null], ['/cmd_vel', MESSAGE_COUNT, 'commands'], ['/mocap/pose', MESSAGE_COUNT, 'poses'], ['/odom', MESSAGE_COUNT, 'poses'],
       ['/tf', MESSAGE_COUNT + MESSAGE_COUNT / 5, 'transforms'], ['/tf_static', 1, 'transforms'],
@@ -67,7 +67,7 @@ test('topics are listed, and logs of topics and of chains of frames are read in 
   ]);
   for (const log of robotLogs) assert.deepEqual([log.startTime, log.motionData.t.length, log.logSummary.notes], [START_TIME, MESSAGE_COUNT, []], log.logName);
   assert.deepEqual(await readLog(mcapFile, { seriesName: '/odom' }), robotLogs[0]);
-  const [odometryData, commandData, mapToBase, odomToFootprint] = robotLogs.map(({ motionData: logColumns }) => /** @type {any} */ (logColumns));
+  const [odometryData, commandData, mapToBase, odomToFootprint] = robotLogs.map(({ motionData }) => /** @type {any} */ (motionData));
   assertAllClose(odometryData.t, (i) => i / 20);
   // Messages of a type without a stamp have the time of recording.
   assertAllClose(commandData.t, (i) => i / 20 + 0.01);
@@ -119,17 +119,17 @@ test('poses with rotations about other axes than Z are refused', async () => {
 
 test('unusable quaternions, numbers and times are left out', async () => {
   const rosMessages = createOdometryMessages(20, (i) => odometryMessageOf(i === 8 ? timeOf(2) : timeOf(i), { 5: NaN, 11: 1e300 }[i] ?? i, 0, 0, i === 3 ? 0 : 1));
-  const { motionData: logColumns, logSummary } = await readLog(mcapFileOf(await recordingOf(rosMessages)), { seriesName: '/odom' });
-  assert.deepEqual([.../** @type {any} */ (logColumns).x], Array.from({ length: 20 }, (_, i) => i).filter((i) => ![3, 5, 8, 11].includes(i)));
+  const { motionData, logSummary } = await readLog(mcapFileOf(await recordingOf(rosMessages)), { seriesName: '/odom' });
+  assert.deepEqual([.../** @type {any} */ (motionData).x], Array.from({ length: 20 }, (_, i) => i).filter((i) => ![3, 5, 8, 11].includes(i)));
   assert.deepEqual(logSummary.dropped, { noRotation: { count: 1, first: 4 }, notFinite: { count: 2, first: 6 }, duplicate: { count: 1, first: 9 } });
-  assert.deepEqual([...logColumns.breaks], []);
+  assert.deepEqual([...motionData.breaks], []);
 });
 
 test('messages in chunks that overlap in time are read in the order of their times', async () => {
   const rosMessages = createOdometryMessages(200);
   const shuffledMessages = rosMessages.map((_, i) => rosMessages[(i * 77) % 200]);
-  const { motionData: logColumns } = await readLog(mcapFileOf(await recordingOf(shuffledMessages, { chunkSize: 4096 })), { seriesName: '/odom' });
-  assert.deepEqual([.../** @type {any} */ (logColumns).x], Array.from({ length: 200 }, (_, i) => i));
+  const { motionData } = await readLog(mcapFileOf(await recordingOf(shuffledMessages, { chunkSize: 4096 })), { seriesName: '/odom' });
+  assert.deepEqual([.../** @type {any} */ (motionData).x], Array.from({ length: 200 }, (_, i) => i));
 });
 
 test('topics and frames that cannot be read are refused', async () => {
@@ -150,8 +150,8 @@ test('a static transform is valid from the beginning, and a changing transform f
     ...(i % 3 === 0 && i >= 30 ? [transformMessageOf(i / 10, 'marker', 'base', mountXOfMessage(i), 0, 0)] : []),
   ].map((transform) => ({ topic: '/tf', type: TF_TYPE, t: i / 10, message: { transforms: [transform] } }))).flat();
   const readLogWithMount = async (/** @type {(i: number) => number} */ mountXOfMessage) => {
-    const { startTime: start, motionData: logColumns, logSummary } = await readLog(mcapFileOf(await recordingOf(createTransformMessages(mountXOfMessage))), { seriesName: '/tf', framePair: { parent: 'world', child: 'base' } });
-    return [logColumns.t.length, start + logColumns.t[0], /** @type {any} */ (logColumns).x[0], logSummary.rows];
+    const { startTime, motionData, logSummary } = await readLog(mcapFileOf(await recordingOf(createTransformMessages(mountXOfMessage))), { seriesName: '/tf', framePair: { parent: 'world', child: 'base' } });
+    return [motionData.t.length, startTime + motionData.t[0], /** @type {any} */ (motionData).x[0], logSummary.rows];
   };
   assert.deepEqual(await readLogWithMount(() => 0.5), [60, 0, 0.5, 60]);
   // A static transform may be published again with another value. Its times are not times of the pose.

@@ -29,8 +29,8 @@ test('present Unix times keep their microseconds, in every unit', async () => {
   for (const [timeUnit, decimalDigits] of Object.entries({ ns: 0, us: 3, ms: 6, s: 9 })) {
     const [firstTime, secondTime] = nanosecondTexts.map((nanosecondText) => (decimalDigits ? `${nanosecondText.slice(0, -decimalDigits)}.${nanosecondText.slice(-decimalDigits)}` : nanosecondText));
     for (const headerLine of ['t', `t_${timeUnit}`]) {
-      const { data: logColumns, startTime: start, logSummary } = await readTable(`${headerLine},x,y,yaw\n${firstTime},0,0,0\n${secondTime},0,0,0`);
-      assert.deepEqual([start, logSummary.units.time], [1_699_999_999, { unit: timeUnit, by: headerLine === 't' ? 'size' : 'name' }]);
+      const { data: logColumns, startTime, logSummary } = await readTable(`${headerLine},x,y,yaw\n${firstTime},0,0,0\n${secondTime},0,0,0`);
+      assert.deepEqual([startTime, logSummary.units.time], [1_699_999_999, { unit: timeUnit, by: headerLine === 't' ? 'size' : 'name' }]);
       assert.deepEqual([...logColumns.t].map((t) => Math.round(t * 1e6)), [999_999, 1_000_001]);
     }
   }
@@ -54,14 +54,14 @@ test('unusable rows are dropped and do not interrupt the path; the summary names
 });
 
 test('late rows are sorted, and an isolated time has gaps before and after it', async () => {
-  const nanosecondTexts = createTimes(50);
-  const { data: logColumns, logSummary } = await readTable(createStraightTable([...nanosecondTexts.slice(0, 20), nanosecondTexts[22], nanosecondTexts[20], nanosecondTexts[21], ...nanosecondTexts.slice(23)]));
-  assert.deepEqual([[...logColumns.t], [...logColumns.breaks]], [nanosecondTexts, []]);
+  const rowTimes = createTimes(50);
+  const { data: logColumns, logSummary } = await readTable(createStraightTable([...rowTimes.slice(0, 20), rowTimes[22], rowTimes[20], rowTimes[21], ...rowTimes.slice(23)]));
+  assert.deepEqual([[...logColumns.t], [...logColumns.breaks]], [rowTimes, []]);
   assert.deepEqual([logColumns.x[20], logSummary.notes], [21 / 50, [{ name: 'sorted', values: [2] }]]);
   const swappedLog = await readTable(createStraightTable([...createTimes(50, 100), ...createTimes(50)]));
   assert.deepEqual([swappedLog.data.t.length, swappedLog.data.t[0], swappedLog.data.x[0]], [100, 0, 1]);
-  for (const [isolatedTime, expectedOrder] of /** @type {[number, number[]][]} */ ([[1e6, [...nanosecondTexts.keys()].toSpliced(20, 1).concat(20)], [-1e6, [20, ...[...nanosecondTexts.keys()].toSpliced(20, 1)]]])) {
-    const logWithIsolatedTime = await readTable(createStraightTable(nanosecondTexts.with(20, isolatedTime)));
+  for (const [isolatedTime, expectedOrder] of /** @type {[number, number[]][]} */ ([[1e6, [...rowTimes.keys()].toSpliced(20, 1).concat(20)], [-1e6, [20, ...[...rowTimes.keys()].toSpliced(20, 1)]]])) {
+    const logWithIsolatedTime = await readTable(createStraightTable(rowTimes.with(20, isolatedTime)));
     assert.deepEqual([[...logWithIsolatedTime.data.x], logWithIsolatedTime.logSummary.gaps.count], [expectedOrder.map((i) => i / 50), 1]);
   }
 });
@@ -108,8 +108,8 @@ test('zero bytes in a table remove only the row that contains them', async () =>
 test('rows with the stamp 0 are dropped, and the other stamps are still used as the clock', async () => {
   const stampTextOf = (/** @type {number} */ i) => (i < 2 || i === 30 ? 0 : `${1_718_000_000 + Math.floor(i / 8)}${String((i % 8) * 125).padStart(3, '0')}000000`);
   const tableRows = Array.from({ length: 60 }, (_, i) => `${1_718_000_007 + i / 8},${stampTextOf(i)},${i / 20},0,0`);
-  const { startTime: start, data: logColumns, logSummary } = await readTable(['time,header.stamp,x,y,yaw', ...tableRows].join('\n'));
-  assert.deepEqual([start, logColumns.t.length, logColumns.t[0], logSummary.clock, logSummary.units.time.unit], [1_718_000_000, 57, 0.25, 'header.stamp', 'ns']);
+  const { startTime, data: logColumns, logSummary } = await readTable(['time,header.stamp,x,y,yaw', ...tableRows].join('\n'));
+  assert.deepEqual([startTime, logColumns.t.length, logColumns.t[0], logSummary.clock, logSummary.units.time.unit], [1_718_000_000, 57, 0.25, 'header.stamp', 'ns']);
   assert.deepEqual([logSummary.dropped, [...logColumns.breaks]], [{ noStamp: { count: 3, first: 2 } }, []]);
   const frozenStampLog = await readTable(['time,header.stamp,x,y,yaw', ...tableRows.map((tableRow) => tableRow.replace(/,\d+/, ',1718000000000000000'))].join('\n'));
   assert.deepEqual([frozenStampLog.data.t.length, frozenStampLog.logSummary.clock, frozenStampLog.logSummary.columns?.t], [60, 'time', 'time']);
@@ -263,8 +263,8 @@ for (const [axesName, tableText] of [
 ]) {
   test(`the columns proposed for a table with ${axesName} give the path on the floor`, async () => {
     const { userQuestion } = await catchRefusalError(readTable(tableText));
-    const { motionData: logColumns } = await readTable(tableText, { columnNames: userQuestion?.possibleAnswers[0].split(',') });
-    assert.deepEqual([[.../** @type {any} */ (logColumns).x], [.../** @type {any} */ (logColumns).y]], [1, 2].map((columnIndex) => CIRCLE_ROWS.map((tableRow) => tableRow[columnIndex])));
+    const { motionData } = await readTable(tableText, { columnNames: userQuestion?.possibleAnswers[0].split(',') });
+    assert.deepEqual([[.../** @type {any} */ (motionData).x], [.../** @type {any} */ (motionData).y]], [1, 2].map((columnIndex) => CIRCLE_ROWS.map((tableRow) => tableRow[columnIndex])));
   });
 }
 
@@ -274,13 +274,13 @@ test('a heading without a prefix belongs to the only path of a table', async () 
 });
 
 test('a heading beside velocities is not that of a path with a prefix', async () => {
-  const [{ seriesList: seriesNames }] = await openRecordings([new File(['t,v,omega,theta,gps.x,gps.y\n0,1,0,0,0,0\n1,1,0,0,1,0\n'], 'run.csv')]);
-  assert.deepEqual(seriesNames.map(({ seriesKind: kind }) => kind), ['commands', 'positions']);
+  const [{ seriesList }] = await openRecordings([new File(['t,v,omega,theta,gps.x,gps.y\n0,1,0,0,0,0\n1,1,0,0,1,0\n'], 'run.csv')]);
+  assert.deepEqual(seriesList.map(({ seriesKind }) => seriesKind), ['commands', 'positions']);
 });
 
 test('a table with more rows than a day at 100 Hz is refused', async () => {
-  const tableRows = Object.assign(new RowCollector({ fileName: 'run.csv' }), { rowCount: 1e7 - 1 });
-  const addRow = async () => tableRows.addRow({ sampleTime: 0, a: 0, b: 0, c: 0 }, 1);
+  const rowCollector = Object.assign(new RowCollector({ fileName: 'run.csv' }), { rowCount: 1e7 - 1 });
+  const addRow = async () => rowCollector.addRow({ sampleTime: 0, a: 0, b: 0, c: 0 }, 1);
   await addRow();
   assert.equal(await catchRefusalSentence(addRow()), 'run.csv: there are more rows; expected are at most 10000000.');
 });
@@ -292,6 +292,6 @@ test('a file that has been moved is refused', async () => {
 
 test('lines that span two pieces of a large file are read completely', async () => {
   const tableRows = Array.from({ length: 120_000 }, (_, i) => `${i},${i / 8},${'x'.repeat(i % 40)},0,0.125`);
-  const { motionData: logColumns } = await readTable(['t,x,note,y,yaw', ...tableRows].join('\n'));
-  assert.deepEqual([.../** @type {any} */ (logColumns).x], tableRows.map((_, i) => i / 8));
+  const { motionData } = await readTable(['t,x,note,y,yaw', ...tableRows].join('\n'));
+  assert.deepEqual([.../** @type {any} */ (motionData).x], tableRows.map((_, i) => i / 8));
 });

@@ -54,10 +54,10 @@ const bagpyTableOf = (/** @type {string} */ secondsColumn, /** @type {string} */
 
 /** PlotJuggler's table of two topics, in which each sample of a topic has its own row. */
 const plotjugglerTable = [
-  ['__time', ...['position/x', 'position/y', 'orientation/x', 'orientation/y', 'orientation/z', 'orientation/w'].flatMap((caseName) => [`/odom/pose/pose/${caseName}`, `/mocap/pose/${caseName}`]), '/imu/angular_velocity/z'].join(','),
+  ['__time', ...['position/x', 'position/y', 'orientation/x', 'orientation/y', 'orientation/z', 'orientation/w'].flatMap((fieldPath) => [`/odom/pose/pose/${fieldPath}`, `/mocap/pose/${fieldPath}`]), '/imu/angular_velocity/z'].join(','),
   ...CIRCLE_ROWS.flatMap(({ t, x, y, qz, qw }) => [
-    [EPOCH_SECONDS + t, ...[x, y, 0, 0, qz, qw].flatMap((poseNumber) => [poseNumber, '']), ''],
-    [EPOCH_SECONDS + t + 0.01, ...[x + 4, y, 0, 0, qz, qw].flatMap((settingValue) => ['', settingValue]), ''],
+    [EPOCH_SECONDS + t, ...[x, y, 0, 0, qz, qw].flatMap((cellValue) => [cellValue, '']), ''],
+    [EPOCH_SECONDS + t + 0.01, ...[x + 4, y, 0, 0, qz, qw].flatMap((cellValue) => ['', cellValue]), ''],
     [EPOCH_SECONDS + t + 0.02, ...Array.from({ length: 12 }, () => ''), 0.5],
   ]).map((rowCells) => rowCells.join(',')),
 ].join('\n');
@@ -65,7 +65,7 @@ const plotjugglerTable = [
 /** Returns a Motive export: preamble, and columns of a body and a marker. @param {'Meters' | 'Millimeters'} lengthUnit @param {boolean} isYUp */
 function motiveTableOf(lengthUnit, isYUp) {
   const unitsPerMetre = lengthUnit === 'Meters' ? 1 : 1000;
-  const repeatCell = (/** @type {string} */ plainText, /** @type {number} */ repeatCount) => Array.from({ length: repeatCount }, () => plainText).join(',');
+  const repeatCell = (/** @type {string} */ cellText, /** @type {number} */ repeatCount) => Array.from({ length: repeatCount }, () => cellText).join(',');
   return [
     `Format Version,1.25,Take Name,drive,Take Notes,,Capture Frame Rate,16.000000,Export Frame Rate,16.000000,Capture Start Time,2024-06-10 06.13.20.000 AM,Total Frames in Take,60,Rotation Type,Quaternion,Length Units,${lengthUnit},Coordinate Space,Global`,
     '',
@@ -85,7 +85,7 @@ function motiveTableOf(lengthUnit, isYUp) {
 /** Lines of tables that pandas wrote, by tests/reference/logs/tables.py. */
 const PANDAS_TABLES = JSON.parse(readFileSync(new URL('../reference/logs/tables.json', import.meta.url), 'utf8'));
 
-const pandasTableOf = (/** @type {string} */ caseName) => `${PANDAS_TABLES[caseName].join('\n')}\n`;
+const pandasTableOf = (/** @type {string} */ tableName) => `${PANDAS_TABLES[tableName].join('\n')}\n`;
 
 /** @type {TableCase[]} */
 const READABLE_TABLES = [
@@ -102,7 +102,7 @@ const READABLE_TABLES = [
   { name: 'a separator in quotes', tableText: tableOf('note,t,x,y,yaw', ({ t, x, y, theta }) => ['"a, b"', t, x, y, theta]) },
   { name: 'semicolons, decimal commas, sep=', tableText: `\ufeffsep=;\r\n${tableOf('Time [s];X [m];Y [m];Yaw [rad]', ({ t, x, y, theta }) => [t, x, y, theta].map(useDecimalComma), ';').replaceAll('\n', '\r\n')}` },
   { name: 'a spreadsheet in UTF-16', tableText: utf16BytesOf(tableOf('t\tx\ty\tyaw', ({ t, x, y, theta }) => [t, x, y, theta].map(useDecimalComma), '\t')) },
-  { name: 'commas in quotes', tableText: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta].map((settingValue) => `"${useDecimalComma(settingValue)}"`)) },
+  { name: 'commas in quotes', tableText: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta].map((cellValue) => `"${useDecimalComma(cellValue)}"`)) },
   { name: 'times with exponents', start: EPOCH_SECONDS, tableText: tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [`1,${formatNanoseconds(t).slice(1)}E+18`, ...[x, y, theta].map(useDecimalComma)], ';') },
   { name: 'units in a row below the header', tableText: tableOf('t,x,y,yaw,battery\n[ms],mm,mm,deg,V', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta), 24.5]), summaryPattern: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
   { name: 'quantities over their units', tableText: tableOf('t/ms,x pos/mm,y pos / mm,yaw in deg', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta)]), summaryPattern: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },

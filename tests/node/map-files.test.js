@@ -52,7 +52,7 @@ test('files that are not exactly one map, and a plan that is not JSON, are refus
   const yamlFile = createMapYamlFile({ image: 'map.pgm' });
   const planFile = createFile('plan.json', '{"bounds": [0, 0, 1, 1], "walls": []}');
   for (const fileSelection of [[yamlFile, PGM_FILE, planFile], [PGM_FILE], [yamlFile, PGM_FILE, createFile('notes.txt', '')]]) {
-    const fileNames = fileSelection.map(({ name: caseName }) => caseName).join(', ');
+    const fileNames = fileSelection.map(({ name: fileName }) => fileName).join(', ');
     assert.equal(await catchRefusalMessage(fileSelection), `${fileNames}: expected is one .json floor plan, or one .yaml file together with its .pgm or .png image.`);
   }
   assert.match(await catchRefusalMessage([createFile('plan.json', '{"bounds": [0, 0, 1, 1], "walls": [],}')]), /^plan\.json: .+; expected is \{"bounds"/);
@@ -75,27 +75,27 @@ test('invalid values of any type and length are refused with a readable message'
   const longText = 'x'.repeat(9e4);
   for (const yamlValue of [`"${longText}"`, `[${'[1], '.repeat(1e4)}]`, '{a: {b: [c]}}', 'null', 'true', '.nan', '1e999', '""']) {
     for (const fieldName of ['image', 'resolution', 'origin', 'negate', 'mode', 'occupied_thresh', 'free_thresh']) {
-      const rosMessage = await catchRefusalMessage([createMapYamlFile({ image: 'map.pgm', [fieldName]: yamlValue }), PGM_FILE]);
+      const refusalMessage = await catchRefusalMessage([createMapYamlFile({ image: 'map.pgm', [fieldName]: yamlValue }), PGM_FILE]);
       const isAccepted = fieldName === 'negate' && yamlValue === 'true';
-      assert.match(rosMessage, isAccepted ? /^$/ : new RegExp(`^map\\.yaml: ${fieldName}(\\[0\\])? .+; (allowed|expected) (is|are) .+\\.$`), `${fieldName}: ${yamlValue.slice(0, 30)}`);
-      assert.ok(rosMessage.length < 400, `${fieldName}: ${yamlValue.slice(0, 30)}: ${rosMessage.length} characters`);
+      assert.match(refusalMessage, isAccepted ? /^$/ : new RegExp(`^map\\.yaml: ${fieldName}(\\[0\\])? .+; (allowed|expected) (is|are) .+\\.$`), `${fieldName}: ${yamlValue.slice(0, 30)}`);
+      assert.ok(refusalMessage.length < 400, `${fieldName}: ${yamlValue.slice(0, 30)}: ${refusalMessage.length} characters`);
     }
   }
 });
 
 test('the size of a file is checked before the file is read', async () => {
-  for (const [caseName, maxBytes] of /** @type {[string, number][]} */ ([['plan.json', 2_000_000], ['map.yaml', 100_000], ['map.pgm', limits.bytes]])) {
-    const largeFile = createFile(caseName, '');
+  for (const [fileName, maxBytes] of /** @type {[string, number][]} */ ([['plan.json', 2_000_000], ['map.yaml', 100_000], ['map.pgm', limits.bytes]])) {
+    const largeFile = createFile(fileName, '');
     Object.defineProperty(largeFile, 'size', { value: maxBytes + 1 });
-    largeFile.arrayBuffer = () => assert.fail(`${caseName} is read.`);
-    const mapFiles = caseName === 'map.pgm' ? [createMapYamlFile({ image: caseName }), largeFile] : [largeFile];
-    assert.equal(await catchRefusalMessage(mapFiles), `${caseName}: the file has ${maxBytes + 1} bytes; expected are at most ${maxBytes}.`);
+    largeFile.arrayBuffer = () => assert.fail(`${fileName} is read.`);
+    const mapFiles = fileName === 'map.pgm' ? [createMapYamlFile({ image: fileName }), largeFile] : [largeFile];
+    assert.equal(await catchRefusalMessage(mapFiles), `${fileName}: the file has ${maxBytes + 1} bytes; expected are at most ${maxBytes}.`);
   }
 });
 
 test('a damaged or too large PNG image is refused with an error message', async () => {
-  const rosMessage = await catchRefusalMessage([createMapYamlFile(), createFile('map.png', PNG_BYTES.subarray(0, 50))]);
-  assert.match(rosMessage, /^map\.png: the PNG image is damaged or cut short before byte \d+ of 50; allowed is a complete one\.$/);
+  const refusalMessage = await catchRefusalMessage([createMapYamlFile(), createFile('map.png', PNG_BYTES.subarray(0, 50))]);
+  assert.match(refusalMessage, /^map\.png: the PNG image is damaged or cut short before byte \d+ of 50; allowed is a complete one\.$/);
   const largeImage = Buffer.from(PNG_BYTES);
   largeImage.fill(Buffer.of(0, 1, 0x86, 0xa0), 16, 24);
   // The checksum of the PNG header follows its type and its data.

@@ -10,7 +10,7 @@ import { findDifferences, computeDigest, resultFunctions } from '../digest/diges
 const DIST_DIRECTORY = new URL('../../dist/', import.meta.url);
 const DIGEST_DIRECTORY = new URL('../digest/', import.meta.url);
 
-const configurations = JSON.parse(readFileSync(new URL('configurations.json', DIGEST_DIRECTORY), 'utf8'));
+const configurationFile = JSON.parse(readFileSync(new URL('configurations.json', DIGEST_DIRECTORY), 'utf8'));
 const goldenDigest = readFileSync(new URL('golden.txt', DIGEST_DIRECTORY), 'utf8');
 
 for (const widgetTag of Object.keys(resultFunctions)) {
@@ -22,6 +22,6 @@ for (const widgetTag of Object.keys(resultFunctions)) {
     const simulationNames = Object.keys(resultFunctions).map(toPascalCase).filter((simulationName) => simulationName in motionCore);
     assert.deepEqual(simulationNames, [toPascalCase(widgetTag)]);
     const goldenDigestOfTag = goldenDigest.split('\n').filter((digestLine) => digestLine.startsWith(`${widgetTag}/`)).map((digestLine) => `${digestLine}\n`).join('');
-    assert.deepEqual(findDifferences(goldenDigestOfTag, await computeDigest(motionCore, configurations, [widgetTag])), []);
+    assert.deepEqual(findDifferences(goldenDigestOfTag, await computeDigest(motionCore, configurationFile, [widgetTag])), []);
   });
 }

@@ -266,7 +266,7 @@ async function writeGlue(moduleName, glueNames) {
     [/^export const (\w+) = \{\};\n((?:\1\.\w+ = \w+;\n)+)/gm, 'export const $1 = /* @__PURE__ */ (($1) => {\n$2return $1;\n})({});\n'],
   ]);
   const bindgenGlue = readFileSync(absolutePath(`build/bound/${moduleName}/motion_bg.js`), 'utf8');
-  // The core of a widget has no namespaces.
+  // Only the core of all widgets must match every pattern. The core of one widget has no namespaces, which the last pattern finds.
   const missingChange = moduleName === 'motion' && glueChanges.find(([gluePattern]) => !bindgenGlue.match(gluePattern));
   if (missingChange) throw new Error(`wasm-bindgen's glue has no ${missingChange[0]}, which scripts/build.mjs replaces.`);
   const changedGlue = glueChanges.reduce((glueText, [gluePattern, glueReplacement]) => glueText.replace(gluePattern, glueReplacement), bindgenGlue);

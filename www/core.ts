@@ -25,9 +25,9 @@ let corePromise: Promise<Motion> | undefined;
 /**
  * Returns the core, ready to use. Later calls get the same core, and a call after a failed one tries again.
  *
- * `source` is the module as bytes, an address, or compiled. By default it is the module of the bundle. For external.js that is the file
+ * `moduleSource` is the module as bytes, an address, or compiled. By default it is the module of the bundle. For external.js that is the file
  * `motion.wasm` next to it, or if the file cannot be fetched, the copy embedded in a script. The first caller with a source determines the
- * source for the page. A script may import the elements before it calls `load(source)`, but must not await anything in between.
+ * source for the page. A script may import the elements before it calls `load(moduleSource)`, but must not await anything in between.
  */
 export function load(moduleSource?: ModuleSource): Promise<Motion> {
   requestedSource ??= moduleSource;
@@ -54,7 +54,7 @@ export async function instantiateFor(widgetTag: string): Promise<Motion> {
   }
   let motionCore;
   try {
-    // Waits, because the script that imports the elements can call `load(source)` only after they are defined.
+    // Waits, because the script that imports the elements can call `load(moduleSource)` only after they are defined.
     await null;
     const [wasmModule, { default: createCore }] = await loadModuleAndGlue(widgetTag);
     motionCore = await createCore(wasmModule);
@@ -137,7 +137,7 @@ function compileOnce(bundledCore: BundledCore): Promise<WebAssembly.Module> {
 
 /** Compiles the module that is embedded in the bundle, if any, in the background while this thread evaluates scripts. */
 export function precompileModule() {
-  // If `embedded` is set, the embedded core is only a fallback for cores in separate files, which are not compiled in advance.
+  // With `embedded`, cores are in files, and compiled when a figure needs them. `embedded` is compiled only if a file cannot be fetched.
   if (!bundledCores.embedded && requestedSource === undefined) compileOnce(bundledCores.motion).catch(() => {});
 }
 

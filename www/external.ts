@@ -16,7 +16,7 @@ export const isFigureTag = (figureTag: string) => figureTag in widgets;
 /** Tags of widgets whose scripts are not loaded yet. */
 const undefinedTags = new Set(Object.keys(widgets).filter((figureTag) => !customElements.get(figureTag)));
 
-/** Loads the widgets whose tags are in `root`. @param searchRoot a document, a shadow root, or an element with its descendants */
+/** Loads the widgets whose tags are in `searchRoot`. @param searchRoot a document, a shadow root, or an element with its descendants */
 function defineWidgetsIn(searchRoot: ParentNode) {
   for (const element of [searchRoot, ...searchRoot.querySelectorAll('*')]) {
     if (!(element instanceof Element)) continue;

@@ -14,6 +14,6 @@ export function createWidget(widgetName: unknown): HTMLElement {
   throw new Error(`widget is ${widgetName === null || widgetName === undefined ? 'missing' : JSON.stringify(widgetName)}; allowed is ${WIDGET_TAGS.join(' or ')}`);
 }
 
-/** Returns a paragraph with the error instead of a figure. `requester` names the page or cell that requested the figure. */
+/** Returns a paragraph with the error instead of a figure. `requesterName` names the page or cell that requested the figure. */
 export const createErrorParagraph = (requesterName: string, error: unknown) =>
   Object.assign(document.createElement('p'), { role: 'alert', textContent: `${requesterName} shows no figure: ${(error as Error).message}.` });

@@ -283,8 +283,8 @@ impl OccupancyGrid {
     }
 }
 
-/// Advances the outline along a grid line to `corner_index`. `is_outline` is true if the line separates cells after the position.
-/// `outline_start` is the position at which the current outline began, which is returned if the outline ends here.
+/// Advances the outline along a grid line to `corner_index`. `is_outline` is true if the line separates cells after the corner.
+/// `outline_start` is the corner at which the current outline began, which is returned if the outline ends here.
 fn update_outline(outline_start: &mut Option<usize>, is_outline: bool, corner_index: usize) -> Option<usize> {
     match *outline_start {
         None if is_outline => *outline_start = Some(corner_index),

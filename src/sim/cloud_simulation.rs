@@ -2,7 +2,7 @@
 
 /// Implements the methods that create and configure a simulation, and show more of its samples.
 ///
-/// The simulation must have the field `settings`, a function `empty` that creates it without samples from valid settings, and the methods
+/// The simulation must have the field `settings`, a function `new_empty` that creates it without samples from valid settings, and the methods
 /// `configure_first`, `show_samples` and `shown_count`.
 macro_rules! cloud_simulation {
     ($simulation:ident) => {

@@ -21,7 +21,7 @@ use std::f64::consts::{LN_2, PI, TAU};
 /// wrapped. If many robots make such turns, [`LikelihoodGain::pose`] of the cloud differs from the exact gain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExactGain {
-    /// Likelihood gain of exponential and arc coordinates, without sampling error.
+    /// Gain of exponential coordinates over (x, y, θ), and of arc coordinates over (x, y), without sampling error.
     pub likelihood_gain: LikelihoodGain,
     /// Mean and covariance of ξ, on the branch of the turn that was made.
     pub exponential_moments: ExponentialMoments,

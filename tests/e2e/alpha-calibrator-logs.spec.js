@@ -147,6 +147,9 @@ test('two files of the same name get roles of their own, and columns are propose
   await expect(widget.getByRole('group', { name: 'Columns of log.csv (2) (proposed)' }).getByLabel('yaw', { exact: true }).locator('option:checked')).toHaveText('− column 4: yaw');
   await widget.getByRole('button', { name: 'Read', exact: true }).click();
   await expect(captionOf(widget)).toHaveText(/Trust/);
+  await widget.getByLabel('y', { exact: true }).selectOption('column 3: y');
+  await widget.getByRole('button', { name: 'Read', exact: true }).click();
+  await expect(widget.getByRole('group', { name: 'Columns of log.csv (2): choose, then read' })).toBeVisible();
 });
 
 test('the files of a dropped folder are one recording, and files that do not belong to it are ignored', async ({ page }) => {

@@ -8,7 +8,7 @@ import { openRecordings } from '../logs/open.ts';
 import type { InputPath } from './options.ts';
 
 /**
- * Opens the recordings of a file or folder. Error messages refer to it by `name`. Rejects with a LogError if it has no log. Calls `onSkip` with the error
+ * Opens the recordings of a file or folder. Error messages refer to it by `sourceName`. Rejects with a LogError if it has no log. Calls `onSkip` with the error
  * of each file that is not a log.
  */
 export async function openRecordingsAt({ inputPath, logRole }: InputPath, sourceName: string, optionsOf: OptionsByName, onSkip: (error: LogError) => void): Promise<Recording[]> {

@@ -44,7 +44,7 @@ export function checkNumber(fieldName: string, checkedValue: unknown, minValue: 
   return checkedValue;
 }
 
-/** Checks that an array contains only allowed names. Returns these names in the order of `allowed`. */
+/** Checks that an array contains only allowed names. Returns these names in the order of `allowedWords`. */
 function checkSubset(fieldName: string, checkedValue: unknown, allowedWords: readonly string[]): string[] {
   if (!Array.isArray(checkedValue)) throw createRefusalError(fieldName, checkedValue, `an array of ${allowedWords.join(', ')}`, TypeError);
   const checkedNames = checkedValue.map((checkedWord, i) => checkWord(`${fieldName}[${i}]`, checkedWord, allowedWords));
@@ -70,7 +70,7 @@ export function checkValue(fieldName: string, checkedValue: unknown, { type: val
   return checkedValue;
 }
 
-/** Returns true if `object` has all fields of `subset` with the same values. Objects are compared deeply. */
+/** Returns true if `wholeObject` has all fields of `requiredFields` with the same values. Objects are compared deeply. */
 export function includesFields(wholeObject: any, requiredFields: any): boolean {
   if (Object.is(wholeObject, requiredFields)) return true;
   if (typeof wholeObject !== 'object' || typeof requiredFields !== 'object' || !wholeObject || !requiredFields || wholeObject.length !== requiredFields.length) return false;

@@ -60,7 +60,7 @@ export class FigureRenderer extends FigureController {
     if (this.isPrinting !== printQuery.matches) this.#setPrinting(printQuery.matches);
     onLanguage(this.figure, () => this.#applyLanguage(), abortSignal);
     this.#nearObserver.observe(this.figure);
-    // The figure starts in a microtask, because the script that defines the element may first call `load(source)`.
+    // The figure starts in a microtask, because the script that defines the element may first call `load(moduleSource)`.
     queueMicrotask(() => {
       this.#checkPosition();
       this.#observeVisibility();

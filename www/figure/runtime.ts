@@ -39,7 +39,7 @@ export class CoreRuntime extends FigureController {
     } finally {
       this.#startPromise = undefined;
     }
-    // The core may have trapped again. Otherwise this call of `start` does nothing.
+    // The core may have trapped again. Otherwise this call of `startCore` does nothing.
     if (this.failureMessage === undefined) void this.startCore();
   }
 
@@ -72,10 +72,10 @@ export class CoreRuntime extends FigureController {
     }
   }
 
-  /** Calls `doWork` as `attempt` does. If it throws, the figure ends with a message. */
+  /** Calls `doWork` as `attemptWork` does. If it throws, the figure ends with a message. */
   attemptOrFail = <Result>(doWork: () => Result) => this.attemptWork(doWork, (error) => this.endWithError(error));
 
-  /** Calls `doWork` as `attempt` does. If it throws, an `error` event is fired. */
+  /** Calls `doWork` as `attemptWork` does. If it throws, an `error` event is fired. */
   attemptOrReport = (doWork: () => void) => this.attemptWork(doWork, (error) => this.reportError(error));
 
   /** Fires an `error` event, and warns on the console if no listener prevents that. */

@@ -89,7 +89,7 @@ export class FigureSettings extends FigureController {
     this.isViewModelStale = true;
   }
 
-  /** Checks the values of the element's own state fields, and returns them. Errors name a field with the prefix `path`. */
+  /** Checks the values of the element's own state fields, and returns them. Errors name a field with the prefix `statePath`. */
   #checkElementValues(statePath: string, settingValues: StateValues, getState: () => StateValues) {
     const givenFields = Object.entries(this.#elementFields).filter(([fieldName]) => fieldName in settingValues);
     return Object.fromEntries(givenFields.map(([fieldName, { maxInState, max: maxValue, ...fieldRange }]) =>

@@ -8,7 +8,7 @@ export interface PlannedRecording { recording: Recording; logChoices: Partial<Re
 
 /** Choices of the user. The program guesses the choices that are missing. */
 export interface UserChoices {
-  /** `series` is the name of a series. For a table, that is the common prefix of its columns without the separator at the end. `frames` selects a pair of frames among transforms. */
+  /** `seriesName` is the name of a series. For a table, that is the common prefix of its columns without the separator at the end. `framePair` selects a pair of frames among transforms. */
   odometry?: { seriesName?: string; framePair?: FramePair };
   reference?: { seriesName?: string; framePair?: FramePair };
   /** Kind of odometry: `commands` prefers commands to poses, and `poses` excludes commands. By default poses come first. */

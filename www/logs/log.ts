@@ -90,7 +90,7 @@ export interface UserQuestion {
   possibleAnswers: string[];
   /** Columns of the table: their names, or the cells of its first row. */
   columnNames?: string[];
-  /** Proposed field of each column, after a minus sign if the column's numbers are to be negated. If `fields` is missing, the names in `choices` are the proposed fields. */
+  /** Proposed field of each column, after a minus sign if the column's numbers are to be negated. If `proposedFields` is missing, the names in `possibleAnswers` are the proposed fields. */
   proposedFields?: string[];
 }
 
@@ -110,7 +110,7 @@ export interface Log {
   logKind: LogKind;
   /** Whole seconds that were subtracted from all times of the log. */
   startTime: number;
-  /** Rows in the form that the core takes: times rise strictly, and count in seconds from `start`. */
+  /** Rows in the form that the core takes: times rise strictly, and count in seconds from `startTime`. */
   motionData: Poses | Commands;
   logSummary: LogSummary;
   /** Question that proposes to mirror the log by negating y and the headings; undefined for a topic, because the axes of a topic cannot be changed. */

@@ -5,7 +5,7 @@ import type { Commands, Poses } from './log.ts';
 
 export type PlanarPose = [x: number, y: number, heading: number];
 
-/** Poses by time. `breaks` has the indices of poses before which the path is unknown. */
+/** Poses by time. `breakIndices` has the indices of poses before which the path is unknown. */
 export interface TimedPath { t: number[]; poses: PlanarPose[]; breakIndices: Set<number> }
 
 /** Returns an angle between −π and π. */
@@ -45,7 +45,7 @@ export const svgPathDataOf = ({ poses, breakIndices }: TimedPath, toPixel: (pose
   poses.map((pose, i) => `${i === 0 || breakIndices.has(i) ? 'M' : 'L'}${toPixel(pose).map((coordinate) => coordinate.toFixed(1)).join(' ')}`).join('');
 
 /**
- * Rotates and moves a path to minimize its squared distance to a target path. Times of the target are later by `offset`. A path that has no time in common
+ * Rotates and moves a path to minimize its squared distance to a target path. Times of the target are later by `timeOffset`. A path that has no time in common
  * with the target stays as it is.
  */
 export function alignPath(timedPath: TimedPath, targetPath: TimedPath, timeOffset = 0): TimedPath {
@@ -119,7 +119,7 @@ export const multiplyQuaternions = ([ax, ay, az, aw]: UnitQuaternion, [bx, by, b
 /** Maximum size of the sample from which a quantile is computed. */
 const MAX_SAMPLED_VALUES = 10_000;
 
-/** Returns a sample of `valueAt` at evenly spaced indices from 0 to `count`. The sample has at most `MAX_SAMPLED_VALUES` values. */
+/** Returns a sample of `valueAt` at evenly spaced indices from 0 to `valueCount`. The sample has at most `MAX_SAMPLED_VALUES` values. */
 export function sampleEvenly(valueCount: number, valueAt: (i: number) => number): Float64Array {
   const sampleStride = Math.max(1, Math.ceil(valueCount / MAX_SAMPLED_VALUES));
   const sampledValues = new Float64Array(Math.max(0, Math.ceil(valueCount / sampleStride)));

@@ -6,7 +6,7 @@ import { LogError, type ErrorPlace, type DropCause, type Log, type LogKind, type
 import { distanceOf, quantileOf, sampleEvenly, wrapAngle } from './path.ts';
 import { epochTimeUnitOf, judgeUnits, type SampleColumns, type CreateColumnQuestion, type LogUnits } from './units.ts';
 
-/** Sample of a log: a pose (x, y and heading) or a command (v, omega and 0). `time` is in s; 0 if unknown. The heading is undefined if the quaternion is not a rotation. */
+/** Sample of a log: a pose (x, y and heading) or a command (v, omega and 0). `sampleTime` is in s; 0 if unknown. The heading is undefined if the quaternion is not a rotation. */
 export interface LogSample {
   sampleTime: number;
   a: number;

@@ -14,7 +14,7 @@ export type LogFailure = Pick<LogError, 'message' | 'errorPlace' | 'userQuestion
 
 /** Contents of files as posted to the page. */
 export interface FileContents {
-  /** Recordings without their methods, each with the choice of its logs. `choices` is missing if the logs were not chosen because of an error. */
+  /** Recordings without their methods, each with the choice of its logs. `logChoices` is missing if the logs were not chosen because of an error. */
   openedRecordings: (Pick<Recording, 'recordingName' | 'recordingFormat' | 'seriesList'> & Partial<Pick<PlannedRecording, 'logChoices'>>)[];
   /** Errors of files that were skipped. */
   skippedFiles: LogFailure[];

@@ -147,7 +147,7 @@ function createClockReader({ clockColumns: [{ index }, subsecondColumn], timeUni
 
 type LogReader = ReturnType<typeof createLogReader>;
 
-/** Returns a reader of the log of one series, line by line. `namedColumns` are the original columns; the columns in `group` may have been changed. */
+/** Returns a reader of the log of one series, line by line. `namedColumns` are the original columns; the columns in `columnGroup` may have been changed. */
 function createLogReader(logName: string, errorPlace: ErrorPlace, tableFormat: TableFormat, columnGroup: ColumnGroup, logLayout: ReturnType<typeof findLogLayout>, openOptions: OpenOptions = {}, namedColumns: ColumnGroup['fieldColumns'], changeName?: TiltChange) {
   const { cellSeparator, hasDecimalCommas, isSparse, columnNames } = tableFormat;
   const { clocks: rowClocks, usedColumns, fields: usedFields, kind: logKind, lengthUnit, angleUnit } = logLayout;

@@ -7,7 +7,7 @@ import { quantileOf, sampleEvenly } from './path.ts';
 
 export type LogUnits = LogSummary['units'];
 
-/** Columns of a log in the units of its file: x, y, heading and height for poses; v, omega, 0 and 0 for commands. `start` (s) was subtracted from all times. */
+/** Columns of a log in the units of its file: x, y, heading and height for poses; v, omega, 0 and 0 for commands. `startTime` (s) was subtracted from all times. */
 export interface SampleColumns { startTime: number; t: Float64Array; a: Float64Array; b: Float64Array; c: Float64Array; z: Float64Array }
 
 /** Function that returns a question to the user, which proposes a change of a table's columns. */

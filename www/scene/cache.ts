@@ -27,7 +27,7 @@ export class CachedLayer {
   /**
    * Draws the layer.
    *
-   * @param cacheKey values, besides the view and the colours, on which the drawing depends. When one changes, `paint` is called again
+   * @param cacheKey values, besides the view and the colours, on which the drawing depends. When one changes, `paintLayer` is called again
    */
   drawLayer({ canvasContext, pictureView, palette, pixelRatio, highlight }: DrawContext, cacheKey: unknown[], paintLayer: (drawContext: LayerDrawContext) => void) {
     const { shownExtent, plotArea, width, height } = pictureView;

@@ -64,7 +64,7 @@ export function createDrawContext({ width, height, clientWidth, fontStyle: { fon
 
 type AnyContext2D = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
 
-/** Calls `paint` with the context's opacity multiplied by `opacity`. */
+/** Calls `paintContents` with the context's opacity multiplied by `opacity`. */
 export function paintWithOpacity(canvasContext: AnyContext2D, opacity: number, paintContents: () => void) {
   const { globalAlpha } = canvasContext;
   canvasContext.globalAlpha = opacity * globalAlpha;

@@ -176,7 +176,7 @@ function clampMiddle(intervalMiddle: number, intervalLength: number, lowerLimit:
 const isInside = (innerExtent: WorldExtent, outerExtent: WorldExtent) =>
   innerExtent.xMin >= outerExtent.xMin && innerExtent.xMax <= outerExtent.xMax && innerExtent.yMin >= outerExtent.yMin && innerExtent.yMax <= outerExtent.yMax;
 
-/** Returns the linear interpolation between two extents; `fraction` is 0 at `startExtent` and 1 at `endExtent`. */
+/** Returns the linear interpolation between two extents; `blendFraction` is 0 at `startExtent` and 1 at `endExtent`. */
 export function interpolateExtent(startExtent: WorldExtent, endExtent: WorldExtent, blendFraction: number): WorldExtent {
   const interpolateBound = (boundName: keyof WorldExtent) => startExtent[boundName] + blendFraction * (endExtent[boundName] - startExtent[boundName]);
   return { xMin: interpolateBound('xMin'), yMin: interpolateBound('yMin'), xMax: interpolateBound('xMax'), yMax: interpolateBound('yMax') };
@@ -190,7 +190,7 @@ export const widenExtent = ({ xMin, xMax, yMin, yMax }: WorldExtent, marginX: nu
 export const cornersAround = (x: number, y: number, halfWidth: number, halfHeight: number = halfWidth): number[] =>
   [x - halfWidth, y - halfHeight, x + halfWidth, y + halfHeight];
 
-/** Returns the smallest extent that contains points and `initialExtent`. x and y are the first two of each `stride` numbers. */
+/** Returns the smallest extent that contains points and `initialExtent`. x and y are the first two of each `coordinateStride` numbers. */
 export function extentAround(pointCoordinates: ArrayLike<number>, coordinateStride: number, initialExtent: WorldExtent = { xMin: Infinity, yMin: Infinity, xMax: -Infinity, yMax: -Infinity }) {
   const pointBounds = { ...initialExtent };
   for (let i = 0; i < pointCoordinates.length; i += coordinateStride) {

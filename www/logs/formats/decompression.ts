@@ -82,7 +82,7 @@ function assertValid(isValid: boolean): void {
 /** Hash function xxHash32, loaded with the first frame that has a checksum. */
 let xxhash32: ((bytes: Uint8Array) => number) | undefined;
 
-/** Decompresses an LZ4 frame; rejects with a RangeError if it is damaged, its content has another size than `size`, or a checksum is wrong. */
+/** Decompresses an LZ4 frame; rejects with a RangeError if it is damaged, its content has another size than `decompressedSize`, or a checksum is wrong. */
 export async function decompressLz4(bytes: Uint8Array, decompressedSize: number): Promise<Uint8Array<ArrayBuffer>> {
   const dataView = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const frameFlags = dataView.getUint8(4);
@@ -114,7 +114,7 @@ export async function decompressLz4(bytes: Uint8Array, decompressedSize: number)
   return decompressedBytes;
 }
 
-/** Appends a decompressed block to `output`, whose first `filledBytes` bytes are already filled. Returns the new number of filled bytes. */
+/** Appends a decompressed block to `decompressedBytes`, whose first `filledBytes` bytes are already filled. Returns the new number of filled bytes. */
 function decompressBlock(compressedBlock: Uint8Array, decompressedBytes: Uint8Array, filledBytes: number): number {
   let byteOffset = 0;
   /** Returns the length that starts with the given four bits. If these bits are 15, the following bytes are added, up to the first byte below 255. */

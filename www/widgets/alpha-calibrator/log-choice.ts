@@ -110,7 +110,7 @@ function columnsFormHtml(opener: LogOpener, question: FileQuestion, answeredName
     }
     // A column that keeps its field also keeps its name, because the name may contain a unit.
     const newNames = newFields.map((field, i) => (field === fields[i] ? columnNames[i] : field));
-    Object.assign(question, { choices: [newNames.join()], fields: newFields });
+    [question.possibleAnswers, question.proposedFields] = [[newNames.join()], newFields];
     opener.answer({ [file]: { columnNames: newNames } });
   };
   return keyed(question, html`<form id=${questionIdOf(question)} @submit=${submitColumns}>

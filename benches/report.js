@@ -22,9 +22,9 @@ const FRAME_MS = 16.7;
 export function formatReport({ ranOn: benchMachine, quick: isQuickRun, node: nodeTimings, chromium: chromiumTimings, start: pageStartTimes, drags: dragTimings }) {
   const slowestDrag = dragTimings.reduce((slowestSoFar, dragTiming) => (computeQuantile(dragTiming.pictureTimes) > computeQuantile(slowestSoFar.pictureTimes) ? dragTiming : slowestSoFar));
   const valuesByRuntime = (/** @type {(timings: Timings) => number[]} */ valuesOf) => ({ Node: valuesOf(nodeTimings), Chromium: valuesOf(chromiumTimings) });
-  const refreshOfSize = (/** @type {number} */ sampleCount) => (/** @type {Timings} */ { refreshTimings }) => refreshTimings.find((refreshRow) => refreshRow.samples === sampleCount) ?? refreshTimings[0];
+  const refreshTimingsOf = (/** @type {number} */ sampleCount) => (/** @type {Timings} */ { refreshTimings }) => refreshTimings.find((refreshRow) => refreshRow.samples === sampleCount) ?? refreshTimings[0];
   const computeSpeedRatios = (/** @type {Timings['refreshTimings'][number]} */ { core: coreTimes, baseline: baselineTimes }) => baselineTimes.map((baselineTime, turnIndex) => baselineTime / coreTimes[turnIndex]);
-  const [findLargestRefresh, findMiddleRefresh] = [1e6, 1e5].map(refreshOfSize);
+  const [findLargestRefresh, findMiddleRefresh] = [1e6, 1e5].map(refreshTimingsOf);
   /** @type {[string, '≤' | '≥', number, string, Record<string, number[]>][]} */
   const speedTargets = [
     ['Refresh of 1 000 000 poses', '≤', FRAME_MS, 'ms', valuesByRuntime((runtimeTimings) => findLargestRefresh(runtimeTimings).core)],

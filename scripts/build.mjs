@@ -145,7 +145,7 @@ async function writeSettings() {
   const { stdout } = await runOrThrow('The settings could not be listed: see above.', join(cargoDirectory, 'cargo'), cargoArguments, { env, quiet: true });
   const [widgetDeclarations, otherConstants] = JSON.parse(stdout);
   const settings = Object.fromEntries(widgetDeclarations.map((/** @type {any[]} */ [widgetTag, settingsOfWidget]) => [widgetTag, declarationsOf(settingsOfWidget)]));
-  const presetsByTag = Object.fromEntries(widgetDeclarations.map((/** @type {any[]} */ [widgetTag, , presetsOfWidget]) => [widgetTag, presetsOfWidget.map((/** @type {any[]} */ [moduleName, settings]) => ({ name: moduleName, settings }))]));
+  const presetsByTag = Object.fromEntries(widgetDeclarations.map((/** @type {any[]} */ [widgetTag, , presetsOfWidget]) => [widgetTag, presetsOfWidget.map((/** @type {any[]} */ [presetName, settings]) => ({ name: presetName, settings }))]));
   const typeLines = "/** @typedef {import('../www/types.d.ts').Declaration} Declaration */\n\n/** @type {Record<string, Declaration[]>} */\n";
   const constantLines = Object.entries({ settings, presets: presetsByTag, ...otherConstants }).map(([constantName, constantValue]) => `export const ${constantName} = ${JSON.stringify(constantValue, null, 1)};\n`);
   writeFileSync(absolutePath('build/settings.js'), typeLines + constantLines.join('\n'));
@@ -203,8 +203,8 @@ async function replacePanicsByTraps(filePath) {
   const panicNamePattern = /(^|::)(panicking::\w*(panic|assert)\w*|panic_\w+|rust_panic\w*|\w+_failed|slice_\w*fail\w*|handle_(alloc_)?error|capacity_overflow)(::|$)/;
   for (let i = 0; i < binaryenModule.getNumFunctions(); i++) {
     const panicFunction = binaryenModule.getFunctionByIndex(i);
-    const { name: moduleName, base: functionBody } = binaryen.getFunctionInfo(panicFunction);
-    if (functionBody === '' && /^<?(core|alloc|std|__rustc)(\[|::)/.test(moduleName) && panicNamePattern.test(moduleName)) {
+    const { name: functionName, base: importBase } = binaryen.getFunctionInfo(panicFunction);
+    if (importBase === '' && /^<?(core|alloc|std|__rustc)(\[|::)/.test(functionName) && panicNamePattern.test(functionName)) {
       functionWrapper.setBody(panicFunction, binaryenModule.unreachable());
     }
   }
@@ -220,7 +220,7 @@ async function optimizeModule(filePath, optimizerPasses = OPTIMIZER_PASSES) {
   // Features that rustc enables by default for WebAssembly, and SIMD from .cargo/config.toml.
   const wasmFeatures = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
   const { stdout } = await runOrThrow('wasm-opt failed: see above.', process.execPath, [
-    absolutePath('node_modules/binaryen/bin/wasm-opt'), ...optimizerPasses, ...wasmFeatures.map((moduleName) => `--enable-${moduleName}`), absolutePath(filePath),
+    absolutePath('node_modules/binaryen/bin/wasm-opt'), ...optimizerPasses, ...wasmFeatures.map((featureName) => `--enable-${featureName}`), absolutePath(filePath),
     '-o', absolutePath(filePath)], { quiet: true });
   return stdout;
 }

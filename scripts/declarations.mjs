@@ -58,11 +58,11 @@ const CLOUD_DOCUMENTATION = {
 
 /** Returns the name of the class or type for a tag or key. Throws if the name is invalid or taken in JavaScript. @param {string} tagOrKey */
 export function toPascalCase(tagOrKey) {
-  const scriptName = tagOrKey.replaceAll(/(?:^|-)(.)/g, (_, firstLetter) => firstLetter.toUpperCase());
-  if (!/^[A-Z]\w*$/.test(scriptName)) throw new Error(`${scriptName} cannot name a declaration in JavaScript: rename it.`);
+  const pascalCaseName = tagOrKey.replaceAll(/(?:^|-)(.)/g, (_, firstLetter) => firstLetter.toUpperCase());
+  if (!/^[A-Z]\w*$/.test(pascalCaseName)) throw new Error(`${pascalCaseName} cannot name a declaration in JavaScript: rename it.`);
   // A type with the name of a global type, such as Map or Event, would hide the global type in every script.
-  if (scriptName in globalThis) throw new Error(`${scriptName} is a global of JavaScript: give the setting or element another name.`);
-  return scriptName;
+  if (pascalCaseName in globalThis) throw new Error(`${pascalCaseName} is a global of JavaScript: give the setting or element another name.`);
+  return pascalCaseName;
 }
 
 /** Returns the TypeScript union type of some keywords. @param {readonly string[]} allowedWords */
@@ -113,7 +113,7 @@ export const readClassComments = memoizeWork(async () => {
   const { schemaVersion, modules } = await cli({ argv: analyzerArguments, cwd: REPOSITORY_ROOT, noWrite: true });
   /** @type {any[]} */
   const classDeclarations = modules.flatMap((/** @type {any} */ { declarations }) => declarations ?? []);
-  return { schemaVersion, classes: new Map(classDeclarations.map((settingDeclaration) => [settingDeclaration.name, settingDeclaration])) };
+  return { schemaVersion, classes: new Map(classDeclarations.map((classDeclaration) => [classDeclaration.name, classDeclaration])) };
 });
 
 /** Returns a description without the line breaks of its comment. @param {string} commentText */
@@ -127,16 +127,16 @@ export function describeWidgets() {
 /** Returns the description of a widget. @param {string} widgetTag @returns {Promise<Widget>} */
 async function describeWidget(widgetTag) {
   const { COMMON_PROPERTIES } = await importTypeScript('www/figure/definition.ts');
-  const { definition: { attributes, settingDeclarations: declarations, elementFields }, documentation } = await importTypeScript(`www/widgets/${widgetTag}/settings.ts`);
+  const { definition: { attributes, settingDeclarations, elementFields }, documentation } = await importTypeScript(`www/widgets/${widgetTag}/settings.ts`);
   /** @type {Documentation[]} */
   const memberDocumentations = [...('marked' in elementFields ? [CLOUD_DOCUMENTATION] : []), ...(documentation ? [documentation] : [])];
   const { classes: classesByName } = await readClassComments();
   const elementClass = classesByName.get(`${toPascalCase(widgetTag)}Element`);
   /** @type {Record<string, string>} */
-  const attributeSentences = Object.fromEntries(elementClass.attributes.map((/** @type {any} */ { name: fieldName, description }) => [fieldName, description]));
+  const attributeSentences = Object.fromEntries(elementClass.attributes.map((/** @type {any} */ { name: attributeName, description }) => [attributeName, description]));
   const documentedProperties = Object.assign({}, ...memberDocumentations.map(({ properties: elementProperties }) => elementProperties));
   const documentedState = Object.assign({}, ...memberDocumentations.map(({ state: stateDocumentation }) => stateDocumentation));
-  const settingOf = (/** @type {string} */ fieldName) => declarations.find((/** @type {Declaration} */ { key: settingKey }) => settingKey === fieldName);
+  const settingOf = (/** @type {string} */ fieldName) => settingDeclarations.find((/** @type {Declaration} */ { key: settingKey }) => settingKey === fieldName);
 
   /** Returns the description of an attribute. @returns {Omit<Attribute, 'isCommon'>} */
   const describeAttribute = (/** @type {[string, any]} */ [propertyName, propertyDefinition]) => {
@@ -163,7 +163,7 @@ async function describeWidget(widgetTag) {
 
   const describedAttributes = Object.entries({ ...attributes, ...COMMON_PROPERTIES }).map((propertyEntry) => ({ ...describeAttribute(propertyEntry), isCommon: propertyEntry[0] in COMMON_PROPERTIES }));
   /** @type {Declaration[]} */
-  const topLevelSettings = declarations.filter((/** @type {Declaration} */ settingDeclaration) => !settingDeclaration.in && !settingDeclaration.of);
+  const topLevelSettings = settingDeclarations.filter((/** @type {Declaration} */ settingDeclaration) => !settingDeclaration.in && !settingDeclaration.of);
   const groupFields = topLevelSettings.filter(({ key: settingKey }) => !(settingKey in attributes)).map(fieldOf);
   const classFields = elementClass.members
     .filter((/** @type {any} */ { kind, privacy: memberPrivacy, inheritedFrom }) => kind === 'field' && memberPrivacy === 'public' && !inheritedFrom)

@@ -55,18 +55,18 @@ function* generateCommands() {
   }
 }
 
-/** Returns the poses of the odometry, one for each row. @param {Motion} coreModule @returns {Pose[]} */
-function simulateOdometry(coreModule) {
+/** Returns the poses of the odometry, one for each row. @param {Motion} motionCore @returns {Pose[]} */
+function simulateOdometry(motionCore) {
   const approachValue = (/** @type {number} */ currentValue, /** @type {number} */ targetValue, /** @type {number} */ maxChange) => currentValue + Math.max(-maxChange, Math.min(maxChange, targetValue - currentValue));
   let odometryPose = { x: 0, y: 0, theta: 0 };
   const odometryPoses = [odometryPose];
   let [v, omega, stepCount] = [0, 0, 0];
-  for (const programName of generateCommands()) {
-    for (let remainingSteps = Math.round(programName.seconds / TIME_STEP); remainingSteps > 0; remainingSteps--) {
+  for (const driveCommand of generateCommands()) {
+    for (let remainingSteps = Math.round(driveCommand.seconds / TIME_STEP); remainingSteps > 0; remainingSteps--) {
       if (stepCount >= DRIVE_DURATION / TIME_STEP) return odometryPoses;
-      v = approachValue(v, programName.v, MAX_ACCELERATIONS.v * TIME_STEP);
-      omega = approachValue(omega, programName.omega, MAX_ACCELERATIONS.omega * TIME_STEP);
-      if (v !== 0 || omega !== 0) odometryPose = coreModule.se2.boxplus(odometryPose, [v * TIME_STEP, 0, omega * TIME_STEP]);
+      v = approachValue(v, driveCommand.v, MAX_ACCELERATIONS.v * TIME_STEP);
+      omega = approachValue(omega, driveCommand.omega, MAX_ACCELERATIONS.omega * TIME_STEP);
+      if (v !== 0 || omega !== 0) odometryPose = motionCore.se2.boxplus(odometryPose, [v * TIME_STEP, 0, omega * TIME_STEP]);
       stepCount += 1;
       if (stepCount % STEPS_PER_ROW === 0) odometryPoses.push(odometryPose);
     }

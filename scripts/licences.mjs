@@ -32,8 +32,8 @@ export function listCrates(crateTree, { packages: listedPackages }) {
 export function listBundledPackages(bundleOutputs) {
   const bundledFiles = Object.values(bundleOutputs).flatMap(({ inputs }) => Object.keys(inputs).filter((inputPath) => inputs[inputPath].bytesInOutput > 0));
   const packageDirectories = bundledFiles.flatMap((bundledFile) => bundledFile.match(/^.*node_modules\/(?:@[^/]+\/)?[^/]+/) ?? []);
-  return [...new Set(packageDirectories)].map((filePath) => {
-    const packageDirectory = join(REPOSITORY_ROOT, filePath);
+  return [...new Set(packageDirectories)].map((directoryPath) => {
+    const packageDirectory = join(REPOSITORY_ROOT, directoryPath);
     const { name: packageName, version: packageVersion, license } = JSON.parse(readFileSync(join(packageDirectory, 'package.json'), 'utf8'));
     return { name: packageName, version: packageVersion, licence: license, directory: packageDirectory };
   });

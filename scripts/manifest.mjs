@@ -31,7 +31,7 @@ export async function createManifest() {
     const analyzedClass = classesByName.get(elementName);
     /** Replaces the general type names of the common class by those of the element's class. @param {string} typeText */
     const specializeType = (typeText) => ({ text: typeText.replace(/\bSimulation\b/, className).replace(/\bStateValues\b/, `${className}State`) });
-    const itemOf = (/** @type {any} */ { name: memberName, type, description }) => ({ name: memberName, ...(type && { type: specializeType(type.text) }), description: description && joinLines(description) });
+    const itemOf = (/** @type {any} */ { name: itemName, type, description }) => ({ name: itemName, ...(type && { type: specializeType(type.text) }), description: description && joinLines(description) });
     const documentedItemsOf = (/** @type {any[]} */ memberItems) => memberItems.filter(({ description }) => description).map(itemOf);
     const memberOf = (/** @type {any} */ { kind: memberKind, parameters: methodParameters, return: returnType, readonly, ...otherFields }) => ({
       kind: memberKind,
@@ -46,16 +46,16 @@ export async function createManifest() {
       tagName: widgetTag,
       customElement: true,
       description: analyzedClass.description,
-      attributes: attributes.map(({ name: memberName, property: propertyName = memberName, type, description, opening: openingText }) => ({
-        name: memberName,
+      attributes: attributes.map(({ name: attributeName, property: propertyName = attributeName, type, description, opening: openingText }) => ({
+        name: attributeName,
         type: { text: type.replace(' | null', '') },
         description,
         fieldName: propertyName,
         ...(openingText !== undefined && { default: `${openingText}` }),
       })),
       members: [
-        ...attributes.map(({ name: memberName, property: propertyName = memberName, type, description }) => ({ kind: 'field', name: propertyName, type: { text: type }, description, attribute: memberName, reflects: true })),
-        ...elementProperties.map(({ name: memberName, type, description, readonly }) => ({ kind: 'field', name: memberName, type: { text: type }, description, ...(readonly && { readonly }) })),
+        ...attributes.map(({ name: attributeName, property: propertyName = attributeName, type, description }) => ({ kind: 'field', name: propertyName, type: { text: type }, description, attribute: attributeName, reflects: true })),
+        ...elementProperties.map(({ name: propertyName, type, description, readonly }) => ({ kind: 'field', name: propertyName, type: { text: type }, description, ...(readonly && { readonly }) })),
         ...analyzedClass.members
           .filter((/** @type {any} */ { name: memberName, privacy: memberPrivacy }) => memberPrivacy === 'public' && !elementProperties.some((property) => property.name === memberName))
           .map(memberOf),
@@ -67,6 +67,6 @@ export async function createManifest() {
     };
   });
   const modulePath = 'dist/external.js';
-  const manifestExports = elementDeclarations.map(({ name: memberName, tagName }) => ({ kind: 'custom-element-definition', name: tagName, declaration: { name: memberName, module: modulePath } }));
+  const manifestExports = elementDeclarations.map(({ name: className, tagName }) => ({ kind: 'custom-element-definition', name: tagName, declaration: { name: className, module: modulePath } }));
   return { schemaVersion, modules: [{ kind: 'javascript-module', path: modulePath, declarations: elementDeclarations, exports: manifestExports }] };
 }

@@ -57,9 +57,9 @@ async function createElementsSource() {
   const { GLOBAL_ATTRIBUTES } = await importTypeScript('www/named.ts');
   const { classes: classesByName } = await readClassComments();
   const widgetClasses = (await describeWidgets()).map(({ tag: widgetTag, className, attributes, properties: elementProperties }) => {
-    const documentedFields = [...attributes.map(({ property, name: fieldName, ...otherFields }) => ({ ...otherFields, name: property ?? fieldName })), ...elementProperties];
+    const documentedFields = [...attributes.map(({ property, name: attributeName, ...otherFields }) => ({ ...otherFields, name: property ?? attributeName })), ...elementProperties];
     const traitFields = documentedFields.filter(({ readonly }) => !readonly).map((settingField) => ({ ...settingField, trait: traitCallOf(settingField, widgetTag) }));
-    const globalTraits = GLOBAL_ATTRIBUTES.map((/** @type {string} */ fieldName) => ({ name: fieldName, trait: TRAITS_WITHOUT_RANGE.Unicode, description: `As the attribute \`${fieldName}\` of HTML.` }));
+    const globalTraits = GLOBAL_ATTRIBUTES.map((/** @type {string} */ attributeName) => ({ name: attributeName, trait: TRAITS_WITHOUT_RANGE.Unicode, description: `As the attribute \`${attributeName}\` of HTML.` }));
     return { className, tag: widgetTag, sentence: joinLines(classesByName.get(`${className}Element`).description), traits: [...traitFields, ...globalTraits] };
   });
   const sourceLines = [
@@ -122,7 +122,7 @@ const PYTHON_CONSTANTS = { null: 'None', true: 'True', false: 'False' };
 
 /** Replaces names of properties and constants by their Python names. @param {string} description with properties in backticks */
 const translateNamesToPython = (description) =>
-  description.replaceAll(/`([a-z]+[A-Z]\w*)`/g, (_, fieldName) => `\`${pythonNameOf(fieldName)}\``).replaceAll(/\b(null|true|false)\b/g, (constantName) => PYTHON_CONSTANTS[constantName]);
+  description.replaceAll(/`([a-z]+[A-Z]\w*)`/g, (_, propertyName) => `\`${pythonNameOf(propertyName)}\``).replaceAll(/\b(null|true|false)\b/g, (constantName) => PYTHON_CONSTANTS[constantName]);
 
 /** Returns a Python string literal. @param {string} stringValue */
 const quotePython = (stringValue) => JSON.stringify(stringValue);

@@ -23,7 +23,7 @@ function componentSourceOf({ tag: widgetTag, className, attributes, properties: 
     attributes: Object.fromEntries(attributes.map(({ name: attributeName, property: propertyName = attributeName }) => [propertyName, attributeName])),
     // Boolean attributes without a default are true if they are present. Other boolean attributes are written as true or false.
     flags: attributes.filter(({ type, opening: openingText }) => type === 'boolean' && openingText === undefined).map(({ name: attributeName }) => attributeName),
-    properties: elementProperties.filter(({ readonly }) => !readonly).map(({ name: attributeName }) => attributeName),
+    properties: elementProperties.filter(({ readonly }) => !readonly).map(({ name: propertyName }) => propertyName),
   };
   return `export const ${className} = createComponent('${className}', '${widgetTag}', ${JSON.stringify(propNames)});\n`;
 }
@@ -86,12 +86,12 @@ type Tag<Element extends FigureElement<any, any>, Names extends keyof Element> =
 
 /** Returns the types of a component. @param {Widget} widget */
 function componentTypesOf({ tag: widgetTag, className, attributes, properties: elementProperties }) {
-  const attributeNames = unionTypeOf(attributes.map(({ name: attributeName, property: propertyName = attributeName }) => propertyName));
-  const propertyNames = unionTypeOf(elementProperties.filter(({ readonly }) => !readonly).map(({ name: attributeName }) => attributeName));
+  const attributeUnion = unionTypeOf(attributes.map(({ name: attributeName, property: propertyName = attributeName }) => propertyName));
+  const propertyUnion = unionTypeOf(elementProperties.filter(({ readonly }) => !readonly).map(({ name: propertyName }) => propertyName));
   return (
-    `type ${className}Attributes = ${attributeNames};\n\n` +
+    `type ${className}Attributes = ${attributeUnion};\n\n` +
     `/** Props of \`<${className}>\`. */\n` +
-    `export type ${className}Props = Props<${className}Element, ${className}Attributes | ${propertyNames}>;\n\n` +
+    `export type ${className}Props = Props<${className}Element, ${className}Attributes | ${propertyUnion}>;\n\n` +
     `/** \`<${widgetTag}>\` as a component. */\n` +
     `export declare const ${className}: ForwardRefExoticComponent<${className}Props & RefAttributes<${className}Element>>;\n`
   );

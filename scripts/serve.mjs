@@ -20,12 +20,12 @@ import { REPOSITORY_ROOT, UserError, runAsScript } from './process.mjs';
 export async function startServer(servedDirectory, { port, base: basePath = '/', headers: httpHeaders = {} } = {}) {
   // A static import of sirv would fail in a bare clone, in which sirv is not installed yet.
   const { default: sirv } = await import('sirv');
-  const serveFile = sirv(servedDirectory, { dev: true, etag: true, setHeaders: (httpResponse) => httpResponse.setHeaders(new Map(Object.entries(httpHeaders))) });
-  const httpServer = createServer((httpRequest, httpResponse) => {
-    const sendNotFound = () => void httpResponse.writeHead(404, { 'content-type': 'text/plain; charset=utf-8' }).end('There is no such page.');
-    if (!httpRequest.url?.startsWith(basePath)) return sendNotFound();
-    httpRequest.url = httpRequest.url.slice(basePath.length - 1);
-    serveFile(httpRequest, httpResponse, sendNotFound);
+  const serveFile = sirv(servedDirectory, { dev: true, etag: true, setHeaders: (response) => response.setHeaders(new Map(Object.entries(httpHeaders))) });
+  const httpServer = createServer((request, response) => {
+    const sendNotFound = () => void response.writeHead(404, { 'content-type': 'text/plain; charset=utf-8' }).end('There is no such page.');
+    if (!request.url?.startsWith(basePath)) return sendNotFound();
+    request.url = request.url.slice(basePath.length - 1);
+    serveFile(request, response, sendNotFound);
   });
   for (let portToTry = port ?? 4173; !httpServer.listening; portToTry++) {
     try {

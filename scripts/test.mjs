@@ -20,7 +20,7 @@ import { ensureLints, ensurePackages, ensureNativeRust, ensureRustForWasm } from
  * @typedef {object} Part
  * @property {(programArgs: string[]) => Promise<Job>} prepare waits for the tools that the part needs, and installs missing ones. `programArgs` are
  *   additional arguments for its program
- * @property {Record<keyof Tally, RegExp>} [counts] patterns of the numbers of tests in the output, if the part runs tests
+ * @property {Record<keyof Tally, RegExp>} [countPatterns] patterns of the numbers of tests in the output, if the part runs tests
  */
 
 /** True if the nightly tests run as well. */
@@ -147,7 +147,7 @@ const TEST_PARTS = {
       const env = existsSync(absolutePath('target/debug')) ? undefined : { CARGO_INCREMENTAL: '0' };
       return createCargoJob(await ensureRust(), ['test', '--locked', '--no-fail-fast', ...programArgs, ...(IS_NIGHTLY ? ['--', '--include-ignored'] : [])], env);
     },
-    counts: COUNT_PATTERNS.cargo,
+    countPatterns: COUNT_PATTERNS.cargo,
   },
   wasm: {
     async prepare(programArgs) {
@@ -155,15 +155,15 @@ const TEST_PARTS = {
       const cargoTestOptions = ['--locked', '--profile', 'web', '--test', 'web', ...rustTools.target];
       return createCargoJob(rustTools, ['test', ...cargoTestOptions, ...programArgs], createBrowserEnvironment(await ensureTestRunner(), await ensureTestBrowser()));
     },
-    counts: COUNT_PATTERNS.cargo,
+    countPatterns: COUNT_PATTERNS.cargo,
   },
   node: {
     prepare: (programArgs) => createNodeTestJob('tests/node', programArgs),
-    counts: COUNT_PATTERNS.node,
+    countPatterns: COUNT_PATTERNS.node,
   },
   package: {
     prepare: async (programArgs) => createNodeTestJob('tests/package', programArgs, { CHROME: (await ensureTestBrowser()).chrome }),
-    counts: COUNT_PATTERNS.node,
+    countPatterns: COUNT_PATTERNS.node,
   },
   browser: {
     async prepare(programArgs) {
@@ -171,7 +171,7 @@ const TEST_PARTS = {
       const grepOptions = IS_NIGHTLY ? [] : ['--grep-invert', '@nightly'];
       return createNpmJob('@playwright/test/cli.js', ['test', ...grepOptions, ...programArgs], { CHROME: (await ensureTestBrowser()).chrome });
     },
-    counts: COUNT_PATTERNS.playwright,
+    countPatterns: COUNT_PATTERNS.playwright,
   },
   // The nightly tests run in Firefox and WebKit, and embed the package in projects.
   engines: { prepare: async () => createProgramJob([process.execPath, 'tests/engines/run.mjs']) },
@@ -219,7 +219,7 @@ async function runParts(cliArguments) {
  * @returns {Promise<Outcome>}
  */
 async function runPart(partName, programArgs) {
-  const { prepare: prepareJob, counts: countPatterns } = TEST_PARTS[partName];
+  const { prepare: prepareJob, countPatterns } = TEST_PARTS[partName];
   let startTime = Date.now();
   const getElapsedSeconds = () => (Date.now() - startTime) / 1000;
   try {

@@ -78,14 +78,14 @@ async function composeFigureTypes([{ attributes }]) {
   const publicMembers = classesByName.get('FigureElement').members.filter((/** @type {any} */ { privacy: memberPrivacy }) => memberPrivacy === 'public');
   /** Returns a type, with type parameters in place of types that depend on the widget. @param {{ type: { text: string } }} [typedItem] */
   const specializedTypeOf = (typedItem) => (typedItem?.type.text ?? 'void').replace(/\bSimulation\['stats'\]/, 'Stats').replace(/\bStateValues\b/, 'State');
-  const memberFields = publicMembers.map(({ kind: memberKind, name: fieldName, description, parameters: methodParameters = [], type: fieldType, return: returnType, readonly }) => {
+  const memberFields = publicMembers.map(({ kind: memberKind, name: memberName, description, parameters: methodParameters = [], type: fieldType, return: returnType, readonly }) => {
     const parameterTexts = methodParameters.map((/** @type {any} */ methodParameter) => `${methodParameter.name}: ${specializedTypeOf(methodParameter)}`);
-    return { name: memberKind === 'method' ? `${fieldName}(${parameterTexts.join(', ')})` : fieldName, type: specializedTypeOf(memberKind === 'method' ? returnType : { type: fieldType }), description: joinLines(description), readonly };
+    return { name: memberKind === 'method' ? `${memberName}(${parameterTexts.join(', ')})` : memberName, type: specializedTypeOf(memberKind === 'method' ? returnType : { type: fieldType }), description: joinLines(description), readonly };
   });
   const commonFields = attributes.filter(({ isCommon }) => isCommon).map(({ property: propertyName, ...otherFields }) => ({ ...otherFields, name: propertyName ?? otherFields.name }));
-  const eventFields = classesByName.get('FigureElement').events.map((/** @type {any} */ { name: fieldName, type: fieldType, description }) => {
+  const eventFields = classesByName.get('FigureElement').events.map((/** @type {any} */ { name: eventName, type: fieldType, description }) => {
     const typeText = fieldType?.text ?? 'Event';
-    return { name: fieldName, type: typeText === 'CustomEvent' ? `CustomEvent<${fieldName[0].toUpperCase()}${fieldName.slice(1)}>` : typeText, description: joinLines(description) };
+    return { name: eventName, type: typeText === 'CustomEvent' ? `CustomEvent<${eventName[0].toUpperCase()}${eventName.slice(1)}>` : typeText, description: joinLines(description) };
   });
   return (
     `/** Events of an element for \`addEventListener\`; \`Stats\` are those of its class. */\n${interfaceOf('FigureEvents<Stats>', eventFields)}\n` +
@@ -103,7 +103,7 @@ const LISTENER_METHODS = ['add', 'remove'].flatMap((listenerVerb) => {
   const listenerOverloadOf = (/** @type {string} */ eventsType) =>
     `${listenerVerb}EventListener<Type extends keyof ${eventsType}>(type: Type, listener: (this: FigureElement<State, Stats>, event: ${eventsType}[Type]) => unknown, ${optionsParameter})`;
   const overloadLines = [listenerOverloadOf('FigureEvents<Stats>'), listenerOverloadOf('HTMLElementEventMap'), `${listenerVerb}EventListener(type: string, listener: EventListenerOrEventListenerObject, ${optionsParameter})`];
-  return overloadLines.map((fieldName) => ({ name: fieldName, type: 'void', description: '' }));
+  return overloadLines.map((overloadLine) => ({ name: overloadLine, type: 'void', description: '' }));
 });
 
 /** Returns the text of the types of an element and of its state. @param {import('./declarations.mjs').Widget} widget */
@@ -123,7 +123,7 @@ function elementTypesOf({ tag: widgetTag, className, attributes, properties: ele
 function importLineOf(widgets) {
   const typeNames = widgets.flatMap(({ properties: elementProperties, state: stateFields }) => [...elementProperties, ...stateFields]).flatMap(({ type: fieldType }) => fieldType.match(/\b[A-Z]\w*/g) ?? []);
   const neededTypeNames = new Set(['FigureState', ...widgets.map(({ className }) => className), ...typeNames]);
-  const importedNames = [...neededTypeNames].filter((fieldName) => !(fieldName in globalThis));
+  const importedNames = [...neededTypeNames].filter((typeName) => !(typeName in globalThis));
   return `import type { ${importedNames.sort().join(', ')} } from '../www/types.d.ts';\n`;
 }
 
@@ -131,7 +131,7 @@ function importLineOf(widgets) {
 function tagTypesOf(widgets) {
   const tagMapLines = widgets.map(({ tag: widgetTag, className }) => `    '${widgetTag}': ${className}Element;\n`);
   const tagLines = widgets.map(({ tag: widgetTag, className, attributes, properties: elementProperties }) => {
-    const propertyNames = [...attributes.map(({ name: fieldName, property: propertyName = fieldName }) => propertyName), ...elementProperties.filter(({ readonly }) => !readonly).map(({ name: fieldName }) => fieldName)];
+    const propertyNames = [...attributes.map(({ name: attributeName, property: propertyName = attributeName }) => propertyName), ...elementProperties.filter(({ readonly }) => !readonly).map(({ name: propertyName }) => propertyName)];
     return `  '${widgetTag}': TemplateValues<${className}Element, ${unionTypeOf(propertyNames)}>;\n`;
   });
   return `/** Values that a template gives to an element: numbers and lists also as text, as attributes have them. */
@@ -150,10 +150,10 @@ ${tagMapLines.join('')}  }
 
 /** Returns an interface as TypeScript text. @param {string} interfaceName @param {Field[]} interfaceFields @param {string} [baseInterface] */
 function interfaceOf(interfaceName, interfaceFields, baseInterface) {
-  const memberLines = interfaceFields.map(({ name: settingKey, type: fieldType, description, readonly, isText }) => {
+  const memberLines = interfaceFields.map(({ name: fieldName, type: fieldType, description, readonly, isText }) => {
     const commentText = description && `  /** ${description} */\n`;
-    if (isText) return `${commentText}  get ${settingKey}(): ${fieldType};\n  set ${settingKey}(value: ${fieldType.replace(' | null', '')} | string | null | undefined);\n`;
-    return `${commentText}  ${readonly ? 'readonly ' : ''}${settingKey}: ${fieldType};\n`;
+    if (isText) return `${commentText}  get ${fieldName}(): ${fieldType};\n  set ${fieldName}(value: ${fieldType.replace(' | null', '')} | string | null | undefined);\n`;
+    return `${commentText}  ${readonly ? 'readonly ' : ''}${fieldName}: ${fieldType};\n`;
   });
   return `export interface ${interfaceName}${baseInterface ? ` extends ${baseInterface}` : ''} {\n${memberLines.join('')}}\n`;
 }

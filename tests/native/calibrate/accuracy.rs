@@ -58,8 +58,8 @@ fn count_covered(confidence_interval: Option<[f64; 2]>, true_value: f64) -> usiz
     usize::from(confidence_interval.is_some_and(|[low, high]| (low..=high).contains(&true_value)))
 }
 
-fn run_calibration_study(robot: Model, scenario: &Scenario, log_count: usize) -> StudyResults {
-    let alpha_count = robot.alphas();
+fn run_calibration_study(model: Model, scenario: &Scenario, log_count: usize) -> StudyResults {
+    let alpha_count = model.alphas();
     let mut study = StudyResults {
         alpha_ratios: vec![Vec::new(); alpha_count],
         covered_alphas: vec![0; alpha_count],
@@ -69,7 +69,7 @@ fn run_calibration_study(robot: Model, scenario: &Scenario, log_count: usize) ->
         log_count,
     };
     for seed in 0..log_count as u64 {
-        let mut sim = Simulation::new(robot, LEGS_PER_LOG, 5000 + seed);
+        let mut sim = Simulation::new(model, LEGS_PER_LOG, 5000 + seed);
         (scenario.modify_simulation)(&mut sim);
         let log_calibration = calibrate_simulation(&sim);
         for (alpha_index, true_alpha) in ALPHAS.into_iter().enumerate().take(alpha_count) {
@@ -100,7 +100,7 @@ fn run_calibration_study(robot: Model, scenario: &Scenario, log_count: usize) ->
     let StudyResults { covered_alphas, covered_errors, covered_std_counts: covered_stds, .. } = &study;
     let median_stds = [0, 1].map(|component_index| median_of(&study.reference_stds[component_index]));
     println!(
-        "{}, {robot:?}: {median_ratios:.3?}, covered {covered_alphas:?}, σ {median_stds:.4?} {covered_stds:?}, errors {covered_errors:?}",
+        "{}, {model:?}: {median_ratios:.3?}, covered {covered_alphas:?}, σ {median_stds:.4?} {covered_stds:?}, errors {covered_errors:?}",
         scenario.scenario_name
     );
     study
@@ -132,7 +132,7 @@ fn report_wrong_coverage(quantity_name: &str, covered_count: usize, log_count: u
 }
 
 /// Reports α's with a median error above the allowed bias plus three standard errors, or with too narrow or too wide intervals.
-fn report_wrong_alphas(robot: Model, scenario: &Scenario, study: &StudyResults) -> Vec<String> {
+fn report_wrong_alphas(model: Model, scenario: &Scenario, study: &StudyResults) -> Vec<String> {
     let report_wrong_alpha = |alpha_index: usize| {
         let (ratios, name) = (&study.alpha_ratios[alpha_index], format!("α{}", alpha_index + 1));
         let (median_ratio, standard_error) = (median_of(ratios), estimate_error_of_median(ratios));
@@ -145,7 +145,7 @@ fn report_wrong_alphas(robot: Model, scenario: &Scenario, study: &StudyResults) 
     };
     let alpha_reports = (0..study.covered_alphas.len()).flat_map(report_wrong_alpha).flatten();
     alpha_reports
-        .map(|alpha_report| format!("{}, {robot:?}: {alpha_report}", scenario.scenario_name))
+        .map(|alpha_report| format!("{}, {model:?}: {alpha_report}", scenario.scenario_name))
         .collect()
 }
 
@@ -156,12 +156,12 @@ fn assert_right_in_every_model(
 ) {
     let failure_reports: Vec<String> = MODELS
         .into_iter()
-        .flat_map(|robot| {
-            let study = run_calibration_study(robot, scenario, 100);
+        .flat_map(|model| {
+            let study = run_calibration_study(model, scenario, 100);
             let other_reports = further_reports_of(&study)
                 .into_iter()
-                .map(move |alpha_report| format!("{robot:?}: {alpha_report}"));
-            report_wrong_alphas(robot, scenario, &study).into_iter().chain(other_reports).collect::<Vec<_>>()
+                .map(move |alpha_report| format!("{model:?}: {alpha_report}"));
+            report_wrong_alphas(model, scenario, &study).into_iter().chain(other_reports).collect::<Vec<_>>()
         })
         .collect();
     assert!(failure_reports.is_empty(), "{}", failure_reports.join("\n"));
@@ -176,7 +176,7 @@ fn report_wrong_std(study: &StudyResults, component_index: usize, true_std: f64)
 
 #[test]
 fn alphas_of_one_rule_are_right_in_every_kind_of_log() {
-    let robot = MODELS[1];
+    let model = MODELS[1];
     let tested_scenarios = [
         EXACT_REFERENCE,
         FINE_REFERENCE,
@@ -187,7 +187,7 @@ fn alphas_of_one_rule_are_right_in_every_kind_of_log() {
     ];
     for scenario in &tested_scenarios {
         assert_eq!(
-            report_wrong_alphas(robot, scenario, &run_calibration_study(robot, scenario, 10)),
+            report_wrong_alphas(model, scenario, &run_calibration_study(model, scenario, 10)),
             Vec::<String>::new()
         );
     }

@@ -12,8 +12,8 @@ use nalgebra::Vector3;
 use rand::RngExt;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-fn simulation_with_errors(robot_model: Model, leg_count: usize, systematic_errors: Systematic) -> Simulation {
-    Simulation { systematic_errors, ..Simulation::new(robot_model, leg_count, 77) }
+fn simulation_with_errors(model: Model, leg_count: usize, systematic_errors: Systematic) -> Simulation {
+    Simulation { systematic_errors, ..Simulation::new(model, leg_count, 77) }
 }
 
 /// Asserts that an estimated error is within four standard errors of the truth. Standard errors below 1e-3 are raised to 1e-3, because they
@@ -29,16 +29,16 @@ fn assert_systematic_error_near(calibration: &Calibration, error_kind: Systemati
 
 #[test]
 fn a_mount_yaw_of_any_size_and_a_lever_arm_are_found() {
-    for (robot_model, mount_yaw) in MODELS.into_iter().zip([0.07, FRAC_PI_2, -2.6, PI, -FRAC_PI_2]) {
+    for (model, mount_yaw) in MODELS.into_iter().zip([0.07, FRAC_PI_2, -2.6, PI, -FRAC_PI_2]) {
         let true_errors = Systematic { mount_yaw, lever_arm: [0.3, -0.2], ..Systematic::NONE };
-        let calibration = calibrate_simulation(&simulation_with_errors(robot_model, 500, true_errors));
+        let calibration = calibrate_simulation(&simulation_with_errors(model, 500, true_errors));
         assert_systematic_error_near(&calibration, SystematicError::MountYaw, mount_yaw);
         assert_systematic_error_near(&calibration, SystematicError::LeverArmAhead, 0.3);
         assert_systematic_error_near(&calibration, SystematicError::LeverArmLeft, -0.2);
         // The ratio of fitted to true α may differ from 1 by four standard errors, which are at most 13 % each.
         for (fitted_alpha, true_alpha) in calibration.alphas.iter().zip(ALPHAS) {
             let alpha_ratio = fitted_alpha.expect("identifiable") / true_alpha;
-            assert!((alpha_ratio - 1.0).abs() < 0.5, "{robot_model:?} {mount_yaw}: {:?}", calibration.alphas);
+            assert!((alpha_ratio - 1.0).abs() < 0.5, "{model:?} {mount_yaw}: {:?}", calibration.alphas);
         }
     }
 }

@@ -9,10 +9,10 @@ use motion::calibrate::{Calibration, Model, Options, Verdict};
 
 type VelocityOfLeg = fn(usize) -> [f64; 2];
 
-fn calibrate_velocities(robot_model: Model, velocity_of_leg: VelocityOfLeg) -> Calibration {
+fn calibrate_velocities(model: Model, velocity_of_leg: VelocityOfLeg) -> Calibration {
     calibrate_simulation(&Simulation {
         velocity_of_leg: Some(velocity_of_leg),
-        ..Simulation::new(robot_model, 400, 17)
+        ..Simulation::new(model, 400, 17)
     })
 }
 
@@ -82,23 +82,23 @@ fn incomplete_drives_give_reasons_under_every_model() {
     assert_reasons_and_intervals(&MODELS);
 }
 
-fn assert_reasons_and_intervals(robot_models: &[Model]) {
+fn assert_reasons_and_intervals(models: &[Model]) {
     let (mut covered_count, mut interval_count) = (0, 0);
-    for &robot_model in robot_models {
+    for &model in models {
         for drive in &INCOMPLETE_DRIVES {
-            let is_velocity_model = robot_model == Model::Velocity;
+            let is_velocity_model = model == Model::Velocity;
             let expected_reasons: &[_] =
                 if is_velocity_model { &drive.velocity_reasons } else { &drive.odometry_reasons };
-            let calibration = calibrate_velocities(robot_model, drive.velocity_of_leg);
-            let case_name = format!("{robot_model:?} {}", drive.drive_name);
-            assert_eq!(calibration.not_identifiable, expected_reasons[..robot_model.alphas()], "{case_name}");
+            let calibration = calibrate_velocities(model, drive.velocity_of_leg);
+            let case_name = format!("{model:?} {}", drive.drive_name);
+            assert_eq!(calibration.not_identifiable, expected_reasons[..model.alphas()], "{case_name}");
             for (k, missing_reason) in calibration.not_identifiable.iter().enumerate() {
                 let has_alpha_and_interval =
                     [calibration.alphas[k].is_some(), calibration.intervals[k].is_some()];
                 assert_eq!(has_alpha_and_interval, [missing_reason.is_none(); 2], "{case_name}: α{}", k + 1);
             }
             let calibration_of_complete =
-                calibrate_velocities(robot_model, drive.completed_drives[usize::from(is_velocity_model)]);
+                calibrate_velocities(model, drive.completed_drives[usize::from(is_velocity_model)]);
             assert!(calibration_of_complete.not_identifiable.iter().all(Option::is_none), "{case_name}");
             for (alpha_interval, true_alpha) in calibration_of_complete.intervals.iter().zip(ALPHAS) {
                 let [interval_low, interval_high] = alpha_interval.expect("identifiable");

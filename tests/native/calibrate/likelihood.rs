@@ -241,11 +241,11 @@ fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
 /// difference of a fortieth of an interval is allowed.
 #[test]
 fn alphas_and_their_intervals_scale_with_the_noise() {
-    for robot_model in [MODELS[1], MODELS[3]] {
+    for model in [MODELS[1], MODELS[3]] {
         let calibrate_scaled_noise = |std_factor: f64| {
             let sim = Simulation {
                 noise_violation: Violation::ScaledNoise(std_factor),
-                ..Simulation::new(robot_model, 1000, 103)
+                ..Simulation::new(model, 1000, 103)
             };
             let exact_options =
                 Options { position_std: Some(0.0), yaw_std: Some(0.0), ..sim.calibration_options() };
@@ -266,7 +266,7 @@ fn alphas_and_their_intervals_scale_with_the_noise() {
                 let tolerance = 0.025 * (expected_bounds[2] - expected_bounds[0]);
                 assert!(
                     (interval_bound - expected_bound).abs() < tolerance,
-                    "{robot_model:?} α{}: {scaled_bounds:?} {expected_bounds:?}",
+                    "{model:?} α{}: {scaled_bounds:?} {expected_bounds:?}",
                     k + 1
                 );
             }

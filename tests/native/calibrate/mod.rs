@@ -29,8 +29,8 @@ fn calibrate_log(odometry_and_reference: &[Trajectory; 2], calibration_options: 
         .expect("enough legs")
 }
 
-fn options_of(robot_model: Model) -> Options {
-    Simulation::new(robot_model, 0, 0).calibration_options()
+fn options_of(model: Model) -> Options {
+    Simulation::new(model, 0, 0).calibration_options()
 }
 
 fn new_trajectory(timed_poses: impl IntoIterator<Item = (f64, SE2)>) -> Trajectory {

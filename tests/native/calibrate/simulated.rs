@@ -35,7 +35,7 @@ pub enum Violation {
 
 #[derive(Clone, Copy, Debug)]
 pub struct Simulation {
-    pub robot_model: Model,
+    pub model: Model,
     pub leg_length: LegLength,
     pub leg_count: usize,
     pub systematic_errors: Systematic,
@@ -62,9 +62,9 @@ const STEP_SECONDS: f64 = 0.05;
 const FINE_STEP_SECONDS: f64 = 0.005;
 
 impl Simulation {
-    pub fn new(robot_model: Model, leg_count: usize, seed: u64) -> Self {
+    pub fn new(model: Model, leg_count: usize, seed: u64) -> Self {
         Self {
-            robot_model,
+            model,
             leg_length: LegLength::AMCL,
             leg_count,
             systematic_errors: Systematic::NONE,
@@ -78,9 +78,9 @@ impl Simulation {
     }
 
     pub fn calibration_options(&self) -> Options {
-        let Self { robot_model, leg_length, .. } = *self;
+        let Self { model, leg_length, .. } = *self;
         Options {
-            model: robot_model,
+            model,
             legs: leg_length,
             outliers: Outliers::Reject,
             correct: [None; 6],
@@ -140,8 +140,7 @@ impl Simulation {
             }
             let twist_noise_of = |unit_noise| {
                 let duration = row_time - start_time;
-                let noisy_motion =
-                    execute_motion(self.robot_model, &ALPHAS, &leg_motion, duration, unit_noise);
+                let noisy_motion = execute_motion(self.model, &ALPHAS, &leg_motion, duration, unit_noise);
                 (leg_motion.inverse() * noisy_motion).log()
             };
             let [leg_noise, mean_noise] = [unit_noise, [0.0; 3]].map(twist_noise_of);
@@ -197,9 +196,9 @@ impl Simulation {
     fn sample_velocity(&self, rng: &mut impl Rng) -> [f64; 2] {
         let [v, turn_rate] = [rng.random_range(0.2..0.6), rng.random_range(-0.5..0.5)];
         match rng.random_range(0..6) {
-            0 if self.robot_model != Model::Velocity => [0.0, if turn_rate > 0.0 { 0.6 } else { -0.6 }],
+            0 if self.model != Model::Velocity => [0.0, if turn_rate > 0.0 { 0.6 } else { -0.6 }],
             0 => [0.06, 2.0 * turn_rate],
-            1 if self.robot_model != Model::Odometry(OdometryRule::Table) => [-v, turn_rate],
+            1 if self.model != Model::Odometry(OdometryRule::Table) => [-v, turn_rate],
             2 => [v, 0.0],
             _ => [v, 2.0 * turn_rate],
         }
@@ -229,14 +228,14 @@ impl Simulation {
 
 /// Returns the motion that a robot executed while its odometry measured `odometry_motion` in the time `duration`.
 pub fn execute_motion(
-    robot_model: Model,
+    model: Model,
     alphas: &[f64; 6],
     odometry_motion: &SE2,
     duration: f64,
     unit_noise: [f64; 3],
 ) -> SE2 {
     let origin_pose = SE2::identity();
-    match robot_model {
+    match model {
         Model::Odometry(odometry_rule) => {
             let odom_delta = OdomDelta::from_poses(&origin_pose, odometry_motion);
             let true_alphas_of_model = std::array::from_fn(|k| alphas[k]);
@@ -248,8 +247,8 @@ pub fn execute_motion(
         Model::Velocity => {
             let twist = odometry_motion.log();
             let leg_command = VelocityCmd { v: twist.x / duration, omega: twist.z / duration, dt: duration };
-            let robot_model = VelocityModel { alphas: VelocityAlphas(*alphas), noise: NoiseKind::Normal };
-            robot_model.apply_noise(&leg_command, &origin_pose, unit_noise)
+            let velocity_model = VelocityModel { alphas: VelocityAlphas(*alphas), noise: NoiseKind::Normal };
+            velocity_model.apply_noise(&leg_command, &origin_pose, unit_noise)
         }
     }
 }

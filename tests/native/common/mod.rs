@@ -165,7 +165,7 @@ pub fn mean_of(averaged_numbers: &[f64]) -> f64 {
 
 pub fn variance_of(averaged_numbers: &[f64]) -> f64 {
     let mean_value = mean_of(averaged_numbers);
-    averaged_numbers.iter().map(|sampled_number| (sampled_number - mean_value).powi(2)).sum::<f64>()
+    averaged_numbers.iter().map(|averaged_number| (averaged_number - mean_value).powi(2)).sum::<f64>()
         / (averaged_numbers.len() - 1) as f64
 }
 

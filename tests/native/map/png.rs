@@ -23,7 +23,7 @@ fn encode_png(png_format: &PngFormat, image_width: u32, channel_values: &[u16]) 
             sample_row.iter().map(|channel_value| format!("{channel_value:0bit_depth$b}")).collect();
         let row_bytes = binary_row.as_bytes().chunks(8).map(|byte_digits| {
             let byte_value =
-                byte_digits.iter().fold(0, |bit_value, bit_digit| 2 * bit_value + (bit_digit - b'0'));
+                byte_digits.iter().fold(0, |byte_so_far, bit_digit| 2 * byte_so_far + (bit_digit - b'0'));
             byte_value << (8 - byte_digits.len())
         });
         packed_rows.extend(row_bytes);

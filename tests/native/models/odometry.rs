@@ -33,9 +33,13 @@ fn sample_odometry_readings() -> [OdomDelta; 6] {
 /// Returns the variances of Table 5.6. `angle_used_for` is the angle from which the noise of a rotation is computed.
 fn table_variances(reading: &OdomDelta, angle_used_for: impl Fn(f64) -> f64) -> [f64; 3] {
     let [a1, a2, a3, a4] = ALPHAS.0;
-    let [first_angle, trans, angle2] =
+    let [rot1_squared, trans_squared, rot2_squared] =
         [angle_used_for(reading.rot1).powi(2), reading.trans.powi(2), angle_used_for(reading.rot2).powi(2)];
-    [a1 * first_angle + a2 * trans, a3 * trans + a4 * (first_angle + angle2), a1 * angle2 + a2 * trans]
+    [
+        a1 * rot1_squared + a2 * trans_squared,
+        a3 * trans_squared + a4 * (rot1_squared + rot2_squared),
+        a1 * rot2_squared + a2 * trans_squared,
+    ]
 }
 
 /// Without translation atan2 gives no bearing. The whole turn then counts as the second rotation.

@@ -34,8 +34,8 @@ fn exact_mean(added_terms: impl Iterator<Item = f64>) -> f64 {
     (running_sum.rounded_sum + running_sum.rounding_errors) / term_count
 }
 
-fn assert_close(quantity_name: &str, actual: f64, exact: f64, error_magnitude: f64) {
-    assert!((actual - exact).abs() <= 1e-12 * error_magnitude, "{quantity_name}: {actual} is not {exact}");
+fn assert_close(quantity_name: &str, actual: f64, exact: f64, value_magnitude: f64) {
+    assert!((actual - exact).abs() <= 1e-12 * value_magnitude, "{quantity_name}: {actual} is not {exact}");
 }
 
 /// Asserts that statistics of a cloud equal their definitions. `cross_track` holds three of them: skew, skew error, correlation with the heading.

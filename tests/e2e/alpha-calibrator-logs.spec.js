@@ -37,7 +37,7 @@ test('two tables of a user replace the simulated log, and a button restores the 
   await expect(calibrator.locator('.drop-zone .muted')).toContainText(outdatedResultsText);
   await expect(calibrator.locator('.to-do')).toHaveText(outdatedResultsText);
   await openDisclosures(calibrator);
-  const resultButtons = ['Fit for Nav2', 'Save all as JSON'].map((fileName) => calibrator.getByRole('button', { name: fileName }));
+  const resultButtons = ['Fit for Nav2', 'Save all as JSON'].map((buttonName) => calibrator.getByRole('button', { name: buttonName }));
   for (const resultButton of resultButtons) await expect(resultButton).toBeDisabled();
   await calibrator.getByRole('button', { name: 'Dismiss these files' }).click();
   for (const resultButton of resultButtons) await expect(resultButton).toBeEnabled();
@@ -64,7 +64,7 @@ test('the figure and the command line give the same results to the last bit, als
     const { simulation: { stats, legs } } = /** @type {AlphaCalibratorElement} */ (element);
     return JSON.stringify({ ...stats, legs }, (_, jsonValue) => (ArrayBuffer.isView(jsonValue) ? [.../** @type {Float64Array} */ (jsonValue)] : jsonValue));
   });
-  const fileArguments = ['odometry', 'reference'].flatMap((fileName) => [`--${fileName}`, `examples/calibration/${fileName}.csv`]);
+  const fileArguments = ['odometry', 'reference'].flatMap((logRole) => [`--${logRole}`, `examples/calibration/${logRole}.csv`]);
   const { stdout } = spawnSync(process.execPath, ['dist/cli.js', 'calibrate', ...fileArguments, '--json'], {
     encoding: 'utf8', cwd: new URL('../..', import.meta.url), maxBuffer: 2 ** 28,
   });
@@ -107,8 +107,8 @@ test('the velocity model uses the commands of a file, and other models use the p
 
 test('files of several drives are read together, and the user assigns the roles that file names leave open @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const splitExampleTable = (/** @type {'odometry' | 'reference'} */ fileName) => {
-    const [headerLine, ...rowLines] = readExampleTable(fileName).trim().split('\n');
+  const splitExampleTable = (/** @type {'odometry' | 'reference'} */ logRole) => {
+    const [headerLine, ...rowLines] = readExampleTable(logRole).trim().split('\n');
     const middleTime = Number(rowLines.at(-1)?.split(',')[0]) / 2;
     return [false, true].map((isSecondHalf) => [headerLine, ...rowLines.filter((rowLine) => Number(rowLine.split(',')[0]) > middleTime === isSecondHalf)].join('\n'));
   };
@@ -245,7 +245,7 @@ test('a log is read and fitted in a worker, so that the page stays responsive', 
 });
 
 testWithWarnings('a log is read even if the page’s security policy forbids workers @nightly', async ({ page }) => {
-  await page.route('**/bare.html', (pageRoute) => pageRoute.fulfill({
+  await page.route('**/bare.html', (route) => route.fulfill({
     contentType: 'text/html',
     headers: { 'content-security-policy': "worker-src 'none'" },
     body: '<script type="module" src="/external.js"></script><alpha-calibrator></alpha-calibrator>',
@@ -287,7 +287,7 @@ test('a new log replaces a log that is being fitted, and a removed figure has no
       const circleAngles = Float64Array.from({ length: 60_000 }, (_, i) => i / 400);
       return { t: circleAngles.map((angle) => 4 * angle), x: circleAngles.map(Math.sin), y: circleAngles.map((angle) => swayAmplitude * Math.sin(28 * angle) - Math.cos(angle)), theta: circleAngles };
     };
-    const [firstLog, secondLog] = ['first', 'second'].map((fileName) => ({ name: fileName, odometry: poseColumnsOf(0), reference: poseColumnsOf(0.02) }));
+    const [firstLog, secondLog] = ['first', 'second'].map((logName) => ({ name: logName, odometry: poseColumnsOf(0), reference: poseColumnsOf(0.02) }));
     calibratorElement.log = firstLog;
     calibratorElement.log = secondLog;
     await calibratorElement.settled;
@@ -322,14 +322,14 @@ test('a log set by the page is fitted and not saved in states, and a refused log
     const poseComponentOf = (/** @type {Float64Array} */ legPoses, /** @type {number} */ componentIndex) => t.map((legIndex) => legPoses[6 * legIndex + componentIndex]);
     const poseColumnsOf = (/** @type {Float64Array} */ legPoses) => ({ t, x: poseComponentOf(legPoses, 0).map((x) => x + 0.01), y: poseComponentOf(legPoses, 1), theta: poseComponentOf(legPoses, 2) });
     const pageLog = { name: 'of the page', odometry: poseColumnsOf(legs.odometry), reference: poseColumnsOf(legs.reference) };
-    const waitForErrorMessage = () => new Promise((resolvePromise) => {
-      figureElement.addEventListener('error', (domEvent) => {
-        domEvent.preventDefault();
-        resolvePromise(/** @type {ErrorEvent} */ (domEvent).message);
+    const waitForErrorMessage = () => new Promise((resolve) => {
+      figureElement.addEventListener('error', (event) => {
+        event.preventDefault();
+        resolve(/** @type {ErrorEvent} */ (event).message);
       }, { once: true });
     });
     figureElement.log = pageLog;
-    await new Promise((resolvePromise) => figureElement.addEventListener('stats', resolvePromise, { once: true }));
+    await new Promise((resolve) => figureElement.addEventListener('stats', resolve, { once: true }));
     const errorMessages = [];
     for (const refusedLog of [{ ...pageLog, odometry: { ...pageLog.odometry, t: t.with(3, 1) } }, 5]) {
       const messagePromise = waitForErrorMessage();

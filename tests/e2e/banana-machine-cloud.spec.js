@@ -49,7 +49,7 @@ test('the figure opens with the whole cloud of the default command, and shows th
   expect(figureConfig).toMatchObject({ model: 'velocity', noise: 'normal', command: { v: 1, omega: 0, dt: 2 }, alphas: OPENING_ALPHAS, isolate: null });
   expect(shownCount).toBe(figureConfig.samples);
   expect(Math.abs(resultTable.exact.areaRatio - 1.967)).toBeLessThan(5e-4);
-  const readReadoutText = async (/** @type {string | RegExp} */ accessibleName) => (await readoutValueOf(widget, accessibleName).textContent()) ?? '';
+  const readReadoutText = async (/** @type {string | RegExp} */ readoutName) => (await readoutValueOf(widget, readoutName).textContent()) ?? '';
   const [printedSkew, skewError] = (await readReadoutText('cross-track skew')).split(' ± ').map(parseNumberIn);
   expect(printedSkew).toBeCloseTo(stats.crossTrackSkew, 3);
   expect(skewError).toBeCloseTo(stats.crossTrackSkewError, 3);

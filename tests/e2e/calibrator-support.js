@@ -42,11 +42,11 @@ export async function chooseTables(widget, textByName) {
   await widget.locator('#log-files').setInputFiles(Object.entries(textByName).map(([fileName, tableText]) => ({ name: fileName, mimeType: 'text/csv', buffer: Buffer.from(tableText) })));
 }
 
-/** Returns a table of the example log. @param {'odometry' | 'reference'} fileName */
-export const readExampleTable = (fileName) => readFileSync(new URL(`../../examples/calibration/${fileName}.csv`, import.meta.url), 'utf8');
+/** Returns a table of the example log. @param {'odometry' | 'reference'} logRole */
+export const readExampleTable = (logRole) => readFileSync(new URL(`../../examples/calibration/${logRole}.csv`, import.meta.url), 'utf8');
 
-/** Returns t, x, y and yaw of each row of a table of the example log. @param {'odometry' | 'reference'} fileName */
-export const exampleRowsOf = (fileName) => readExampleTable(fileName).trim().split('\n').slice(1).map((csvLine) => csvLine.split(',').map(Number));
+/** Returns t, x, y and yaw of each row of a table of the example log. @param {'odometry' | 'reference'} logRole */
+export const exampleRowsOf = (logRole) => readExampleTable(logRole).trim().split('\n').slice(1).map((csvLine) => csvLine.split(',').map(Number));
 
 /** Returns the example log as a recording. @param {string[]} referenceTopics that have the poses of the reference */
 export async function createExampleRecording(referenceTopics) {

@@ -78,7 +78,7 @@ testWithWarnings('in a browser without WebAssembly, the figure states in the pag
   page.on('pageerror', (pageError) => pageErrors.push(pageError));
   await page.addInitScript(() => void Reflect.deleteProperty(globalThis, 'WebAssembly'));
   const pageHtml = '<style>body { background: #123; color: #eee }</style><script type="module" src="./motion-widgets.js"></script><banana-machine></banana-machine>';
-  await page.route('**/dark.html', (pageRoute) => pageRoute.fulfill({ contentType: 'text/html', body: pageHtml }));
+  await page.route('**/dark.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
   await openUnderPolicy(page, "script-src 'self'", 'dark.html');
   const widget = page.locator('banana-machine');
   await expect(widget.getByRole('alert')).toContainText('This interactive figure cannot run here.');
@@ -99,8 +99,8 @@ testWithWarnings('in a browser without WebAssembly, the figure states in the pag
 
 testWithWarnings('if the policy forbids fetching the module, the embedded module is used, and a warning names the directive @nightly', async ({ page }) => {
   const pageHtml = '<script type="module" src="./external.js"></script><banana-machine></banana-machine>';
-  await page.route('**/external.html', (pageRoute) =>
-    pageRoute.fulfill({ contentType: 'text/html', headers: { 'content-security-policy': STRICT_POLICY }, body: pageHtml }),
+  await page.route('**/external.html', (route) =>
+    route.fulfill({ contentType: 'text/html', headers: { 'content-security-policy': STRICT_POLICY }, body: pageHtml }),
   );
   const consoleWarning = page.waitForEvent('console', (consoleMessage) => consoleMessage.type() === 'warning');
   await openUnderPolicy(page, STRICT_POLICY, 'external.html');

@@ -53,7 +53,7 @@ test('the line in the chart selects a step by pointer or keyboard, and starts no
   const widget = await openDeadReckoning(page);
   const stepSlider = widget.getByRole('slider', { name: 'selected step', exact: true });
   const variancesBefore = await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).simulation.measured);
-  const takePictures = () => Promise.all(['plane', 'twist'].map((accessibleName) => readPicture(widget.locator(`canvas.${accessibleName}`))));
+  const takePictures = () => Promise.all(['plane', 'twist'].map((canvasClass) => readPicture(widget.locator(`canvas.${canvasClass}`))));
   const [floorPictureAtEnd, twistPictureAtEnd] = await takePictures();
   await stepSlider.press('ArrowLeft');
   await waitForFrames(page);
@@ -174,7 +174,7 @@ test('the exported CSV has a row for each step', async ({ page }) => {
   const [, headerLine, ...dataLines] = csvLines;
   const columnNames = headerLine.split(',');
   expect(dataLines).toHaveLength(20);
-  const readCsvValue = (/** @type {number} */ lineIndex, /** @type {string} */ accessibleName) => Number(dataLines[lineIndex].split(',')[columnNames.indexOf(accessibleName)]);
+  const readCsvValue = (/** @type {number} */ lineIndex, /** @type {string} */ columnName) => Number(dataLines[lineIndex].split(',')[columnNames.indexOf(columnName)]);
   expect(readCsvValue(0, 'step')).toBe(1);
   expect(readCsvValue(4, 'measured_lateral_m2')).toBe(measured[13]);
   expect(readCsvValue(19, 'first_order_heading_rad2')).toBe(predicted[59]);

@@ -47,7 +47,7 @@ test('attributes of every type set the opening state of a figure', async ({ page
 
 test('attributes stay as written until their setting changes, and then reflect the setting', async ({ page }) => {
   await showPage(page, '<banana-machine preset="hard" seed="3"></banana-machine><map-squeeze></map-squeeze>');
-  const [bananaMachine, mapSqueeze] = TWO_FIGURE_NAMES.map((tagName) => page.locator(tagName));
+  const [bananaMachine, mapSqueeze] = TWO_FIGURE_NAMES.map((figureName) => page.locator(figureName));
   await waitUntilReady(bananaMachine);
   await openDisclosures(bananaMachine);
   const readAttributes = (/** @type {import('@playwright/test').Locator} */ widget) =>
@@ -115,9 +115,9 @@ test('refused attributes are reported with the core’s error message, and the l
 
 test('elements have the attributes that the table of doc/embedding/figures.md shows', async ({ page, figureName }) => {
   const figuresDocument = readFileSync(new URL('../../doc/embedding/figures.md', import.meta.url), 'utf8');
-  const tableExamples = [...figuresDocument.matchAll(/^\| [^|]* \| `<([a-z-]+)( [^`]*)>` \|$/gm)].map(([, tagName, attributes]) => ({ name: tagName, attributes }));
-  expect(new Set(tableExamples.map(({ name: tagName }) => tagName)).size).toBe(ALL_FIGURE_NAMES.length);
-  await showPage(page, tableExamples.map(({ name: tagName, attributes }) => `<${tagName} class="example" ${attributes}></${tagName}>`).join(''));
+  const tableExamples = [...figuresDocument.matchAll(/^\| [^|]* \| `<([a-z-]+)( [^`]*)>` \|$/gm)].map(([, figureName, attributes]) => ({ name: figureName, attributes }));
+  expect(new Set(tableExamples.map(({ name: figureName }) => figureName)).size).toBe(ALL_FIGURE_NAMES.length);
+  await showPage(page, tableExamples.map(({ name: figureName, attributes }) => `<${figureName} class="example" ${attributes}></${figureName}>`).join(''));
   const unknownAttributes = await page.locator('.example').evaluateAll((exampleElements) => exampleElements.flatMap(({ attributes, constructor }) =>
     [...attributes].map(({ name: attributeName }) => attributeName).filter((attributeName) => attributeName !== 'class' && !Reflect.get(constructor, 'observedAttributes').includes(attributeName))));
   expect(unknownAttributes).toEqual([]);
@@ -144,7 +144,7 @@ testEach('the code to embed a figure reproduces the settings of its state, with 
       const embeddedCopy = /** @type {HTMLElement} */ (codeContainer.firstElementChild);
       const reorderedCopy = document.createElement(element.localName);
       for (const { name: attributeName, value } of [...embeddedCopy.attributes].reverse()) reorderedCopy.setAttribute(attributeName, value);
-      const loadPromises = [embeddedCopy, reorderedCopy].map((figureCopy) => new Promise((resolvePromise) => figureCopy.addEventListener('load', resolvePromise)));
+      const loadPromises = [embeddedCopy, reorderedCopy].map((figureCopy) => new Promise((resolve) => figureCopy.addEventListener('load', resolve)));
       // A figure that is visible in the window starts at once.
       for (const figureCopy of [embeddedCopy, reorderedCopy]) figureCopy.style.cssText = 'position: fixed; inset: 0';
       element.before(embeddedCopy, reorderedCopy);
@@ -166,12 +166,12 @@ test('a list property accepts a list written as text, and other text is reported
     const figureContainer = document.createElement('div');
     document.body.prepend(figureContainer);
     /** @type {Promise<string>} */
-    const messagePromise = new Promise((resolvePromise) => figureContainer.addEventListener('error', ({ message: errorMessage }) => resolvePromise(errorMessage), true));
+    const messagePromise = new Promise((resolve) => figureContainer.addEventListener('error', ({ message: errorMessage }) => resolve(errorMessage), true));
     figureContainer.innerHTML = '<banana-machine alphas="0.1,0.2,0.1,0.1,0,0" command="[object Object]"></banana-machine><arc-anatomy alphas="[0.1, 0.2, 0.1, 0.1, 0, 0]"></arc-anatomy>';
     return messagePromise;
   });
   expect(errorMessage).toMatch(/^command is "\[object Object\]"; allowed is an object/);
-  for (const tagName of ['banana-machine', 'arc-anatomy']) await expect(page.locator(tagName)).toHaveJSProperty('alphas', [0.1, 0.2, 0.1, 0.1, 0, 0]);
+  for (const figureName of ['banana-machine', 'arc-anatomy']) await expect(page.locator(figureName)).toHaveJSProperty('alphas', [0.1, 0.2, 0.1, 0.1, 0, 0]);
 });
 
 test('properties that were set before the element was defined are applied, in any order', async ({ page }) => {
@@ -187,7 +187,7 @@ test('properties that were set before the element was defined are applied, in an
     ]);
     const figureElements = propertyCases.flatMap(([widgetTag, propertyValues]) => [Object.entries(propertyValues), Object.entries(propertyValues).reverse()].map((propertyEntries) =>
       Object.assign(document.createElement(widgetTag), Object.fromEntries(propertyEntries))));
-    const loadPromises = figureElements.map((figureElement) => new Promise((resolvePromise) => figureElement.addEventListener('load', resolvePromise)));
+    const loadPromises = figureElements.map((figureElement) => new Promise((resolve) => figureElement.addEventListener('load', resolve)));
     await import(/** @type {any} */ ('/motion-widgets.js'));
     for (const figureElement of figureElements) figureElement.style.cssText = 'position: fixed; inset: 0';
     document.body.append(...figureElements);
@@ -213,7 +213,7 @@ test('properties that are assigned their own value change nothing @nightly', asy
   const assignedCount = await widget.evaluate((element, propertyKeys) => {
     const figureElement = /** @type {any} */ (element);
     const propertyNames = propertyKeys.filter((propertyKey) => propertyKey in figureElement && propertyKey !== 'playing');
-    for (const pressedKey of propertyNames) figureElement[pressedKey] = structuredClone(figureElement[pressedKey]);
+    for (const propertyName of propertyNames) figureElement[propertyName] = structuredClone(figureElement[propertyName]);
     for (const { name: attributeName, value } of [...element.attributes]) element.setAttribute(attributeName, value);
     return propertyNames.length;
   }, Object.keys(createRandomStates(2)[figureName]));
@@ -246,7 +246,7 @@ test('refused properties fire an error event that does not bubble; without a lis
   // A page without listeners for errors gets a warning in the console.
   const otherPage = await page.context().newPage();
   await otherPage.goto('/embed.html?widget=banana-machine');
-  const warningPromise = otherPage.waitForEvent('console', (errorMessage) => errorMessage.type() === 'warning');
+  const warningPromise = otherPage.waitForEvent('console', (consoleMessage) => consoleMessage.type() === 'warning');
   await otherPage.locator('banana-machine').evaluate((element) => Object.assign(element, { theme: 'sepia' }));
   const consoleWarning = await warningPromise;
   expect(consoleWarning.text()).toContain('theme is "sepia"; allowed is "auto" or "light" or "dark"');

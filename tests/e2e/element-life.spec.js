@@ -102,12 +102,12 @@ test('a cloud that is out of sight requests no frames, and resumes its growth wh
   const readShownCount = () => widget.evaluate((element) => /** @type {AnyElement} */ (element).simulation.shown);
   const sampleCount = Number(await readProperty(widget, 'samples'));
   await widget.evaluate(async (element) => {
-    const statsEvent = new Promise((resolvePromise) => element.addEventListener('stats', resolvePromise, { once: true }));
+    const statsEvent = new Promise((resolve) => element.addEventListener('stats', resolve, { once: true }));
     /** @type {AnyElement} */ (element).setState({ widget: element.localName, version: 1, shown: 0, playing: true });
     await statsEvent;
     scrollTo(0, 6000);
     // The test's intersection observer fires in the same animation frame as that of the figure.
-    await new Promise((resolvePromise) => new IntersectionObserver(([{ isIntersecting }]) => isIntersecting || resolvePromise(undefined)).observe(element));
+    await new Promise((resolve) => new IntersectionObserver(([{ isIntersecting }]) => isIntersecting || resolve(undefined)).observe(element));
   });
   expect(await readProperty(widget, 'playing')).toBe(true);
   await waitForSixFrames(page);

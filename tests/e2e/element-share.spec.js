@@ -111,7 +111,7 @@ test('a link scrolls once to the figure from which it was copied, and a reload d
       scrollTo(0, 100);
       document.body.append(document.createElement('banana-machine'));
       document.body.append(/** @type {Element} */ (document.querySelector('banana-machine')));
-      await new Promise((resolvePromise) => setTimeout(resolvePromise));
+      await new Promise((resolve) => setTimeout(resolve));
       return scrollY;
     });
     expect(scrollYAfterMove).toBe(100);

@@ -37,10 +37,10 @@ test('a refused state changes nothing, and the error message names the invalid f
     ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: '?' } }, 'RangeError: map.occupied is "?"; allowed is base64 of 1 bytes'],
     ['dead-reckoning', { steps: 1, step: 2 }, 'RangeError: step is 2; allowed is'],
   ]);
-  for (const figureName of new Set(refusedStates.map(([caseName]) => caseName))) {
+  for (const figureName of new Set(refusedStates.map(([widgetTag]) => widgetTag))) {
     const widget = await mountFigure(page, figureName);
     const stateBefore = await readState(widget);
-    for (const [, refusedFields, expectedMessage] of refusedStates.filter(([caseName]) => caseName === figureName)) {
+    for (const [, refusedFields, expectedMessage] of refusedStates.filter(([widgetTag]) => widgetTag === figureName)) {
       const [thrownMessage, stateAfter] = await widget.evaluate((element, statePart) => {
         const widget = /** @type {AnyElement} */ (element);
         try {

@@ -154,7 +154,7 @@ test('a figure whose theme differs from the page’s has its own background and 
   expect(await readSurfaceStyle(widget)).toMatchObject({ backgroundColor: 'rgb(22, 24, 27)', color: 'rgb(235, 233, 227)', colorScheme: 'dark' });
   // The page's colours for muted text and rules do not suit the dark background of the figure. The figure must not use them.
   const pageColors = ['#112233', '#445566'];
-  for (const pageColour of (await readColours(widget, ['muted', 'rule'])).map(toHexColor)) expect(pageColors).not.toContain(pageColour);
+  for (const figureColour of (await readColours(widget, ['muted', 'rule'])).map(toHexColor)) expect(pageColors).not.toContain(figureColour);
   await widget.evaluate((element) => element.setAttribute('theme', 'light'));
   await expect.poll(() => readSurfaceStyle(widget)).toMatchObject({ backgroundColor: 'rgba(0, 0, 0, 0)', color: 'rgb(51, 51, 51)', colorScheme: 'light' });
   expect((await readColours(widget, ['muted', 'rule'])).map(toHexColor)).toEqual(pageColors);

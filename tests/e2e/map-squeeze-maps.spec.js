@@ -169,11 +169,11 @@ test('a map set by a page is shown, an equal one changes nothing, and an incompl
   const mapOutcomes = await widget.evaluate(async (element, roomPlan) => {
     const mapSqueeze = /** @type {any} */ (element);
     /** Sets a map, and returns the keys of the map or the error message. @param {any} newMap @returns {Promise<string>} */
-    const setMap = (newMap) => new Promise((resolvePromise) => {
-      mapSqueeze.addEventListener('stats', () => resolvePromise(Object.keys(mapSqueeze.map).join()), { once: true });
+    const setMap = (newMap) => new Promise((resolve) => {
+      mapSqueeze.addEventListener('stats', () => resolve(Object.keys(mapSqueeze.map).join()), { once: true });
       mapSqueeze.addEventListener('error', (/** @type {ErrorEvent} */ errorEvent) => {
         errorEvent.preventDefault();
-        resolvePromise(errorEvent.message);
+        resolve(errorEvent.message);
       }, { once: true });
       mapSqueeze.map = newMap;
     });

@@ -46,18 +46,18 @@ function readVisibleTexts(widget) {
 test('the English and German catalogues have the same messages with the same parameters', async () => {
   const [englishMessages, germanMessages] = (await Promise.all(['en', 'de'].map(loadCatalogue))).map((catalogue) => listMessages(catalogue));
   const messageShapesOf = (/** @type {[string, string | Function][]} */ catalogueMessages) =>
-    catalogueMessages.map(([messagePath, errorMessage]) => [messagePath, typeof errorMessage, typeof errorMessage === 'function' ? errorMessage.length : 0]);
+    catalogueMessages.map(([messagePath, catalogueMessage]) => [messagePath, typeof catalogueMessage, typeof catalogueMessage === 'function' ? catalogueMessage.length : 0]);
   expect(messageShapesOf(germanMessages)).toEqual(messageShapesOf(englishMessages));
   expect(englishMessages.length).toBeGreaterThan(200);
 });
 
 testEach('a German figure contains no English text', async (page, figureName) => {
   const [englishCatalogue, germanCatalogue] = await Promise.all(['en', 'de'].map(loadCatalogue));
-  const germanTexts = new Set(listMessages(germanCatalogue).map(([, errorMessage]) => errorMessage));
+  const germanTexts = new Set(listMessages(germanCatalogue).map(([, catalogueMessage]) => catalogueMessage));
   const englishTexts = listMessages(englishCatalogue)
-    .map(([, errorMessage]) => (typeof errorMessage === 'string' ? errorMessage : String(errorMessage(...'\ue001\ue002\ue003\ue004\ue005'))))
+    .map(([, catalogueMessage]) => (typeof catalogueMessage === 'string' ? catalogueMessage : String(catalogueMessage(...'\ue001\ue002\ue003\ue004\ue005'))))
     // The values in a message split its text into parts. Each part is an English text too.
-    .flatMap((errorMessage) => errorMessage.replace(/[*]/g, '').split(/[\ue001-\ue005]/))
+    .flatMap((catalogueMessage) => catalogueMessage.replace(/[*]/g, '').split(/[\ue001-\ue005]/))
     .map((messagePart) => messagePart.replace(/[₀-₉]/g, (/** @type {string} */ subscriptDigit) => String(subscriptDigit.charCodeAt(0) - 0x2080)).trim())
     .filter((messagePart) => /\p{L}{4}/u.test(messagePart) && !UNTRANSLATED_NAMES.includes(messagePart) && !germanTexts.has(messagePart));
   expect(englishTexts.length).toBeGreaterThan(400);

@@ -101,7 +101,7 @@ export function createRandomStates(seed) {
   };
   return Object.fromEntries(Object.entries(fieldsByTag).map(([widgetTag, stateFields]) => {
     // Each keyword setting gets one of its allowed words, and each Boolean setting gets true or false.
-    const settingChoices = settings[widgetTag].flatMap(({ key: pressedKey, type, words = [true, false] }) => (['word', 'boolean'].includes(type) ? [[pressedKey, sampleItem(words)]] : []));
+    const settingChoices = settings[widgetTag].flatMap(({ key: settingKey, type, words = [true, false] }) => (['word', 'boolean'].includes(type) ? [[settingKey, sampleItem(words)]] : []));
     return [widgetTag, { version: 1, widget: widgetTag, ...Object.fromEntries(settingChoices), ...stateFields }];
   }));
 }

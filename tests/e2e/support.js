@@ -100,8 +100,8 @@ export async function showPage(page, bodyHtml, { head = '', fragment: urlFragmen
       }, { capture: eventName === 'error' });
     }
   });
-  await page.route('**/bare.html', (pageRoute) =>
-    pageRoute.fulfill({
+  await page.route('**/bare.html', (route) =>
+    route.fulfill({
       contentType: 'text/html',
       body: `<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Bare</title><link rel="icon" href="data:,">${head}${script}</head><body>${bodyHtml}</body></html>`,
     }),
@@ -156,7 +156,7 @@ export function setProperty(widget, name, propertyValue) {
   return widget.evaluate(
     (element, [propertyName, newValue]) => {
       let errorText = '';
-      const recordError = (/** @type {Event} */ domEvent) => void (errorText = String(/** @type {ErrorEvent} */ (domEvent).error));
+      const recordError = (/** @type {Event} */ event) => void (errorText = String(/** @type {ErrorEvent} */ (event).error));
       element.addEventListener('error', recordError);
       Reflect.set(element, /** @type {string} */ (propertyName), newValue);
       element.removeEventListener('error', recordError);
@@ -176,14 +176,14 @@ export function setProperty(widget, name, propertyValue) {
  */
 export function playSliderOf(widget, settingKey, maxSteps = Infinity) {
   return widget.evaluate(
-    (element, [pressedKey, maxSteps]) =>
-      new Promise((resolvePromise) => {
+    (element, [settingKey, maxSteps]) =>
+      new Promise((resolve) => {
         const figureElement = /** @type {AnyElement} */ (element);
-        const playButton = /** @type {HTMLButtonElement} */ (figureElement.shadowRoot?.querySelector(`.${pressedKey} button`));
+        const playButton = /** @type {HTMLButtonElement} */ (figureElement.shadowRoot?.querySelector(`.${settingKey} button`));
         const sliderValues = /** @type {number[]} */ ([]);
         let buttonLabel = '';
         const recordSliderValue = async () => {
-          sliderValues.push(/** @type {any} */ (figureElement.getState())[pressedKey]);
+          sliderValues.push(/** @type {any} */ (figureElement.getState())[settingKey]);
           if (sliderValues.length === 1) {
             await /** @type {any} */ (figureElement).updateComplete;
             buttonLabel = playButton.innerText;
@@ -193,7 +193,7 @@ export function playSliderOf(widget, settingKey, maxSteps = Infinity) {
         figureElement.addEventListener('input', recordSliderValue);
         figureElement.addEventListener('change', () => {
           figureElement.removeEventListener('input', recordSliderValue);
-          resolvePromise({ sliderValues, buttonLabel });
+          resolve({ sliderValues, buttonLabel });
         }, { once: true });
         playButton.click();
       }),
@@ -209,10 +209,10 @@ export function readState(widget) {
 /** Holds requests of a page until the returned function is called. @param {Page} page @param {string} addressPattern */
 export async function holdRequests(page, addressPattern) {
   let allowRequests = () => {};
-  const permissionPromise = new Promise((resolvePromise) => (allowRequests = () => resolvePromise(undefined)));
-  await page.route(addressPattern, async (pageRoute) => {
+  const permissionPromise = new Promise((resolve) => (allowRequests = () => resolve(undefined)));
+  await page.route(addressPattern, async (route) => {
     await permissionPromise;
-    await pageRoute.continue();
+    await route.continue();
   });
   return allowRequests;
 }
@@ -252,11 +252,11 @@ export async function openDisclosures(widget) {
   await waitForFrames(widget.page());
 }
 
-/** Returns the printed value of a slider. @param {Locator} widget @param {string} pressedKey of the setting */
-export const printedValueOf = (widget, pressedKey) => widget.locator(`.slider:has(#${pressedKey}) .value`);
+/** Returns the printed value of a slider. @param {Locator} widget @param {string} settingKey of the setting */
+export const printedValueOf = (widget, settingKey) => widget.locator(`.slider:has(#${settingKey}) .value`);
 
-/** Returns the field of a slider's value. @param {Locator} widget @param {string} pressedKey of the setting */
-export const valueFieldOf = (widget, pressedKey) => printedValueOf(widget, pressedKey).locator('input');
+/** Returns the field of a slider's value. @param {Locator} widget @param {string} settingKey of the setting */
+export const valueFieldOf = (widget, settingKey) => printedValueOf(widget, settingKey).locator('input');
 
 /** Waits until all requested animation frames have been drawn. @param {Page} page */
 export async function waitForFrames(page) {

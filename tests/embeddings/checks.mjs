@@ -1,7 +1,7 @@
 // Checks that run on the pages of every platform. A platform is a tool that makes web pages, such as Hugo, Next or JupyterLab.
 
-import assert from 'node:assert/strict';
 import { join } from 'node:path';
+import { expect } from '@playwright/test';
 import { REPOSITORY_ROOT } from '../../scripts/process.mjs';
 
 /** @typedef {import('@playwright/test').Page} Page */
@@ -32,14 +32,14 @@ export async function runChecks(browser, servedSite) {
     await browserContext.close();
   }
   // An aborted request means that the browser has left the page.
-  const allowedPatterns = [/ net::ERR_ABORTED$/, ...(platformDefinition.allowedMessages ?? []).map(({ message: consoleMessage }) => consoleMessage)];
+  const allowedPatterns = [/ net::ERR_ABORTED$/, ...(platformDefinition.allowedMessages ?? []).map(({ message: messagePattern }) => messagePattern)];
   const unexpectedMessages = [...new Set(consoleMessages)].filter((consoleMessage) => !allowedPatterns.some((allowedPattern) => allowedPattern.test(consoleMessage)));
   if (unexpectedMessages.length > 0) failedChecks.push(`console: ${unexpectedMessages.join('\n')}`);
   else passedCount++;
   return { passed: passedCount, failures: failedChecks };
 }
 
-/** Returns the checks of a site, by name. @param {Site} site @returns {NonNullable<import('./project.mjs').Serving['checks']>} */
+/** Returns the checks of a site, by name. @param {Site} servedSite @returns {NonNullable<import('./project.mjs').Serving['checks']>} */
 function checksOf({ definition: platformDefinition, serving: currentServing }) {
   const { goToPage, pages: pagePaths } = platformDefinition;
   return {
@@ -66,20 +66,22 @@ export function recordMessages(page, consoleMessages) {
   });
 }
 
-/** Returns the address of a page of the site. @param {Site} site @param {string} filePath */
-const addressOf = ({ url }, filePath) => new URL(filePath.replace(/^\//, ''), url).href;
+/** Returns the address of a page of the site. @param {Site} servedSite @param {string} pagePath */
+const addressOf = ({ url }, pagePath) => new URL(pagePath.replace(/^\//, ''), url).href;
 
-/** Waits until every figure has drawn its present settings. @param {Page} page @param {Site} site */
+/** Waits until every figure has drawn its present settings. @param {Page} page @param {Site} servedSite */
 export async function waitUntilLive(page, { definition: platformDefinition }) {
-  assert.ok(platformDefinition.expectedFigures.length > 0, 'No figure is expected.');
+  expect(platformDefinition.expectedFigures, 'No figure is expected.').not.toHaveLength(0);
   for (const { selector: figureSelector, properties: figureProperties } of platformDefinition.expectedFigures) {
     const figureLocator = page.locator(figureSelector);
-    await figureLocator.waitFor({ state: 'attached' });
-    // An element without height is not visible, so that a locator would wait for it.
-    await figureLocator.evaluate((element) => element.scrollIntoView({ block: 'center' }));
-    await figureLocator.locator('canvas').first().waitFor();
-    assert.deepEqual(await figureLocator.evaluate(propertiesOf, Object.keys(figureProperties)), figureProperties, figureSelector);
-    await figureLocator.evaluate(waitUntilComplete);
+    // A development server may reload the page at any moment. The figure is then awaited again.
+    await expect(async () => {
+      // An element without height is not visible, so that a locator would wait for it.
+      await figureLocator.evaluate((element) => element.scrollIntoView({ block: 'center' }));
+      await figureLocator.locator('canvas').first().waitFor();
+      expect(await figureLocator.evaluate(propertiesOf, Object.keys(figureProperties)), figureSelector).toEqual(figureProperties);
+      await figureLocator.evaluate(waitUntilComplete);
+    }).toPass({ timeout: TIMEOUT_MS });
   }
 }
 
@@ -111,7 +113,7 @@ async function checkFirstLoad(page, servedSite) {
  * Follows a link of the page, and waits until the first figure has appeared or disappeared.
  *
  * @param {Page} page
- * @param {Site} site
+ * @param {Site} servedSite
  * @param {'first' | 'second'} linkKind
  */
 async function followLink(page, { definition: platformDefinition }, linkKind) {

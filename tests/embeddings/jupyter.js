@@ -123,9 +123,9 @@ const JUPYTERLAB_CHECKS = {
 /** @type {import('./project.mjs').Serving['checks']} */
 const EXPORT_CHECKS = {
   async 'live without a kernel, as it was when it was run'(page, servedSite) {
-    for (const [urlPattern, packagePath] of Object.entries(PACKAGE_FILES)) await page.route(urlPattern, (pageRoute) => pageRoute.fulfill({ path: join(packagesDirectory, packagePath) }));
+    for (const [urlPattern, packagePath] of Object.entries(PACKAGE_FILES)) await page.route(urlPattern, (route) => route.fulfill({ path: join(packagesDirectory, packagePath) }));
     // The page has no formulas, so that an empty MathJax is enough.
-    await page.route('**/mathjax/**', (pageRoute) => pageRoute.fulfill({ contentType: 'text/javascript', body: '' }));
+    await page.route('**/mathjax/**', (route) => route.fulfill({ contentType: 'text/javascript', body: '' }));
     await page.goto(new URL('motion.html', servedSite.url).href);
     await waitUntilLive(page, servedSite);
     const omegaSlider = bananaMachineOf(page).getByRole('slider', { name: /ω/ }).first();
@@ -139,8 +139,8 @@ const EXPORT_CHECKS = {
 const VOILA_CHECKS = {
   async 'live with a kernel'(page, servedSite) {
     // Voilà loads style sheets of icons from other servers. Empty style sheets replace them.
-    await page.route('**/font-awesome*/**', (pageRoute) => pageRoute.fulfill({ contentType: 'text/css', body: '' }));
-    await page.route('**/fontawesome-free*/**', (pageRoute) => pageRoute.fulfill({ contentType: 'text/css', body: '' }));
+    await page.route('**/font-awesome*/**', (route) => route.fulfill({ contentType: 'text/css', body: '' }));
+    await page.route('**/fontawesome-free*/**', (route) => route.fulfill({ contentType: 'text/css', body: '' }));
     await page.goto(servedSite.url);
     await waitUntilLive(page, servedSite);
   },

@@ -27,7 +27,7 @@ export default {
     },
   ],
   pages: { first: '/', second: '/sensors' },
-  goToPage: (page, filePath) => page.getByRole('link', { name: filePath === '/' ? 'Motion' : 'Sensors' }).click(),
+  goToPage: (page, pagePath) => page.getByRole('link', { name: pagePath === '/' ? 'Motion' : 'Sensors' }).click(),
   setDarkMode: (page, isDark) => page.emulateMedia({ colorScheme: isDark ? 'dark' : 'light' }),
   // After the user has left a page, Next.js keeps the page in the DOM and hides it. For that reason the selectors contain `:visible`.
   expectedFigures: [

@@ -49,7 +49,7 @@ const PLATFORM_DEFINITIONS = {
     base: '/book/',
     devBase: '/book/',
     pages: { first: '/motion.html', second: '/sensors.html' },
-    goToPage: (page, filePath) => page.locator(`.VPSidebar a[href$="${filePath}"]`).click(),
+    goToPage: (page, pagePath) => page.locator(`.VPSidebar a[href$="${pagePath}"]`).click(),
     async setDarkMode(page, isDark) {
       const htmlElement = page.locator('html');
       if ((await htmlElement.getAttribute('class'))?.includes('dark') !== isDark) await page.locator('.VPNavBarAppearance .VPSwitchAppearance').click();
@@ -111,7 +111,7 @@ const platformEntries = Object.entries(PLATFORM_DEFINITIONS).map(([name, { packa
     { name: 'development', serve: serveByProgram((port) => ['npm', ['run', 'dev', '--', '--port', port]], devBase) },
   ].filter(({ name: servingName }) => !onlyServing || servingName === onlyServing),
   pages: { first: '/', second: '/sensors' },
-  goToPage: (page, filePath) => page.getByRole('link', { name: filePath === '/' ? 'Motion' : 'Sensors' }).first().click(),
+  goToPage: (page, pagePath) => page.getByRole('link', { name: pagePath === '/' ? 'Motion' : 'Sensors' }).first().click(),
   expectedFigures: [{ selector: 'banana-machine', properties: { ...FIGURE_SETTINGS, ...(hasListProperty && { alphas: FIGURE_ALPHAS }) } }],
   ...otherFields,
 }]);

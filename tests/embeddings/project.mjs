@@ -73,7 +73,7 @@ export async function loadPlatform(platformName) {
 /** Returns packages with the versions to which an example pins them. @param {string} exampleName @param {string[]} packageNames */
 export function pinnedVersionsOf(exampleName, ...packageNames) {
   const exampleDirectory = join(REPOSITORY_ROOT, 'examples', exampleName);
-  const readText = (/** @type {string} */ packageName) => (existsSync(join(exampleDirectory, packageName)) ? readFileSync(join(exampleDirectory, packageName), 'utf8') : '');
+  const readText = (/** @type {string} */ fileName) => (existsSync(join(exampleDirectory, fileName)) ? readFileSync(join(exampleDirectory, fileName), 'utf8') : '');
   const { dependencies = {}, devDependencies = {} } = JSON.parse(readText('package.json') || '{}');
   const versionByPackage = new Map(Object.entries({ ...dependencies, ...devDependencies }));
   for (const [, packageName, pinnedVersion] of readText('requirements.txt').matchAll(/^([\w.-]+)(?:\[[\w,]+\])?==(\S+)$/gm)) versionByPackage.set(packageName, pinnedVersion);
@@ -98,8 +98,8 @@ export async function installNpmPackages(_directory, { run: runInProject, npmTar
  */
 export const pythonDirectoryOf = (projectDirectory) => `${projectDirectory}.tools`;
 
-/** Returns the path of a program that `installPythonPackages` has installed. @param {string} projectDirectory @param {string} packageName */
-export const pythonProgramPathOf = (projectDirectory, packageName) => join(pythonDirectoryOf(projectDirectory), 'bin', packageName);
+/** Returns the path of a program that `installPythonPackages` has installed. @param {string} projectDirectory @param {string} programName */
+export const pythonProgramPathOf = (projectDirectory, programName) => join(pythonDirectoryOf(projectDirectory), 'bin', programName);
 
 /**
  * Installs the Python packages of a platform's example.
@@ -119,8 +119,8 @@ export async function installPythonPackages(projectDirectory, { run: runInProjec
 
 /** Packs the present build as npm would publish it, and returns the path of the package. @param {string} projectDirectory */
 export function packNpmPackageInto(projectDirectory) {
-  const packageName = execFileSync('npm', ['pack', REPOSITORY_ROOT, '--ignore-scripts', '--silent', '--pack-destination', projectDirectory], { encoding: 'utf8' });
-  return join(projectDirectory, packageName.trim());
+  const tarballName = execFileSync('npm', ['pack', REPOSITORY_ROOT, '--ignore-scripts', '--silent', '--pack-destination', projectDirectory], { encoding: 'utf8' });
+  return join(projectDirectory, tarballName.trim());
 }
 
 /** Packs the npm package once, and returns the path of the packed file. */
@@ -144,12 +144,12 @@ function makeEmptyDirectory(registryName) {
 /** Returns functions that run programs in the directory of an example. @param {string} projectDirectory @param {Record<string, string>} toolEnvironment @returns {Tools} */
 function createTools(projectDirectory, toolEnvironment) {
   return {
-    async run(nextCommand, commandArguments, moreOptions) {
-      const errorMessage = `\`${[nextCommand, ...commandArguments].join(' ')}\` fails: see above.`;
-      const runOptions = { cwd: projectDirectory, env: { ...toolEnvironment, ...moreOptions }, quiet: true, seconds: 900 };
-      return (await runOrThrow(errorMessage, nextCommand, commandArguments, runOptions)).output;
+    async run(programName, commandArguments, moreEnvironment) {
+      const errorMessage = `\`${[programName, ...commandArguments].join(' ')}\` fails: see above.`;
+      const runOptions = { cwd: projectDirectory, env: { ...toolEnvironment, ...moreEnvironment }, quiet: true, seconds: 900 };
+      return (await runOrThrow(errorMessage, programName, commandArguments, runOptions)).output;
     },
-    start: (nextCommand, programArguments, moreEnvironment) => startProgram(nextCommand, programArguments, { cwd: projectDirectory, env: { ...toolEnvironment, ...moreEnvironment } }),
+    start: (programName, programArguments, moreEnvironment) => startProgram(programName, programArguments, { cwd: projectDirectory, env: { ...toolEnvironment, ...moreEnvironment } }),
   };
 }
 
@@ -160,12 +160,12 @@ const KEPT_NAMES = ['node_modules', '.venv', '.installed'];
  * Makes a fresh copy of a platform's example with the package installed. The installation is kept until the pinned versions or the package
  * change.
  *
- * @param {string} packageName
+ * @param {string} platformName
  * @param {Platform} platformDefinition
  */
-export async function prepareExample(packageName, platformDefinition) {
-  const exampleDirectory = join(REPOSITORY_ROOT, 'examples', packageName);
-  const projectDirectory = join(SCRATCH_DIRECTORY, packageName);
+export async function prepareExample(platformName, platformDefinition) {
+  const exampleDirectory = join(REPOSITORY_ROOT, 'examples', platformName);
+  const projectDirectory = join(SCRATCH_DIRECTORY, platformName);
   const exampleTools = createTools(projectDirectory, { ...SILENT_ENVIRONMENT, ...(await ensureNode(platformDefinition)) });
   mkdirSync(projectDirectory, { recursive: true });
   for (const entryName of readdirSync(projectDirectory)) {
@@ -181,7 +181,7 @@ export async function prepareExample(packageName, platformDefinition) {
   if (existsSync(stampFile) && readFileSync(stampFile, 'utf8') === currentHash) return { directory: projectDirectory, tools: exampleTools };
   rmSync(stampFile, { force: true });
   removeCaches(join(projectDirectory, 'node_modules'));
-  printStep(`${packageName}: installing`);
+  printStep(`${platformName}: installing`);
   await platformDefinition.install(projectDirectory, { ...exampleTools, ...packagePaths });
   writeFileSync(stampFile, currentHash);
   return { directory: projectDirectory, tools: exampleTools };

@@ -56,7 +56,7 @@ async function testPlatforms(platformNames) {
   const unknownName = platformNames.find((name) => !allPlatformNames.includes(name));
   if (unknownName !== undefined) throw new UserError(`"${unknownName}" is no platform that is tried; allowed are ${allPlatformNames.join(', ')}.`);
   await buildProject();
-  const { chrome, version: packageVersion } = await ensureBrowser();
+  const { chrome, version: browserVersion } = await ensureBrowser();
   mkdirSync(join(REPOSITORY_ROOT, 'test-results/embeddings'), { recursive: true });
   // With the back/forward cache, going back restores a page in the state in which the user left it.
   const browser = await chromium.launch({ executablePath: chrome, args: CHROME_ARGUMENTS, ignoreDefaultArgs: ['--disable-back-forward-cache'] });
@@ -67,13 +67,13 @@ async function testPlatforms(platformNames) {
   } finally {
     await browser.close();
   }
-  await printSummary(allOutcomes, packageVersion);
+  await printSummary(allOutcomes, browserVersion);
   return allOutcomes.every(({ failures }) => failures.length === 0);
 }
 
-/** Prints the versions of the packages and the outcomes. @param {Outcome[]} outcomes @param {string} packageVersion of the browser */
-async function printSummary(outcomes, packageVersion) {
-  printStep(`Versions: Node ${process.versions.node}, Chromium ${packageVersion}`);
+/** Prints the versions of the packages and the outcomes. @param {Outcome[]} outcomes @param {string} browserVersion of the browser */
+async function printSummary(outcomes, browserVersion) {
+  printStep(`Versions: Node ${process.versions.node}, Chromium ${browserVersion}`);
   for (const name of new Set(outcomes.map(({ name }) => name))) console.log(`${name.padEnd(16)} ${(await loadPlatform(name)).readVersions()}`);
   printStep('Summary');
   for (const { name, serving: currentServing, passed, failures, seconds } of outcomes) {

@@ -56,7 +56,7 @@ async function findFreePort() {
 async function waitUntilAnswered(url) {
   const answerDeadline = Date.now() + TIMEOUT_SECONDS * 1000;
   for (;;) {
-    const lastStatus = await fetch(url, { signal: AbortSignal.timeout(TIMEOUT_SECONDS * 1000) }).then(({ status: exitStatus }) => exitStatus, String);
+    const lastStatus = await fetch(url, { signal: AbortSignal.timeout(TIMEOUT_SECONDS * 1000) }).then(({ status: httpStatus }) => httpStatus, String);
     if (lastStatus === 200) return;
     if (Date.now() > answerDeadline) throw new Error(`${url} has not answered for ${TIMEOUT_SECONDS} s; the last was ${lastStatus}.`);
     // A server sends no event when it begins to listen, so that it must be polled.
@@ -67,15 +67,15 @@ async function waitUntilAnswered(url) {
 /**
  * Starts a program. The program and its children end with this process at the latest.
  *
- * @param {string} nextCommand
+ * @param {string} programName
  * @param {string[]} commandArguments
  * @param {{ env?: Record<string, string>, cwd?: string }} [options]
  * @returns {{ getOutput: () => string, waitForOutput: (pattern: RegExp) => Promise<string>, whenEnded: Promise<void>, stop: () => Promise<void> }}
  *   `getOutput` returns the text printed so far; `waitForOutput` waits for a match of a pattern and returns its first group;
  *   `whenEnded`, and the promise of `stop`, are resolved when the program has ended
  */
-export function startProgram(nextCommand, commandArguments, { env = {}, cwd = REPOSITORY_ROOT } = {}) {
-  const childProcess = spawn(nextCommand, commandArguments, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'], detached: true });
+export function startProgram(programName, commandArguments, { env = {}, cwd = REPOSITORY_ROOT } = {}) {
+  const childProcess = spawn(programName, commandArguments, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'], detached: true });
   const groupId = childProcess.pid;
   if (groupId !== undefined) endGroupWithProcess(groupId);
   let outputText = '';
@@ -100,7 +100,7 @@ export function startProgram(nextCommand, commandArguments, { env = {}, cwd = RE
           if (outputMatch) resolve(outputMatch[1]);
         };
         for (const stream of [childProcess.stdout, childProcess.stderr]) stream.on('data', checkOutput);
-        endPromise.then(() => reject(new Error(`${nextCommand} has ended:\n${outputText}`)));
+        endPromise.then(() => reject(new Error(`${programName} has ended:\n${outputText}`)));
         checkOutput();
       }),
     whenEnded: endPromise,

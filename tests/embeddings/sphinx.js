@@ -39,7 +39,7 @@ export default {
   },
   servings: themeNames.map((sphinxTheme) => ({ name: sphinxTheme, serve: serveFiles(`_build/${sphinxTheme}`, '/a/book/'), setDarkMode: DARK_SWITCH_OF_THEME[sphinxTheme] })),
   pages: { first: 'index.html', second: 'map.html' },
-  goToPage: (page, filePath) => page.locator(`a[href$="${filePath}"]`).filter({ visible: true }).first().click(),
+  goToPage: (page, pagePath) => page.locator(`a[href$="${pagePath}"]`).filter({ visible: true }).first().click(),
   expectedFigures: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],
   allowedMessages: [{ message: /^Got invalid theme mode: \. Resetting to auto\.$/, reason: 'pydata_sphinx_theme warns readers who have chosen no mode.' }],
 };

@@ -4,7 +4,7 @@ import { computeDigest, computeHash } from '../digest/digest.js';
 
 /**
  * @typedef {{ x: number, y: number }} Point
- * @typedef {HTMLElement & { simulation: any, pictures: { view: import('../../www/scene/view.ts').PictureView }[] }} Figure
+ * @typedef {HTMLElement & { simulation: any, pictures: { pictureView: import('../../www/scene/view.ts').PictureView }[] }} Figure
  * @typedef {{ config: any, hash: string }} State settings of a simulation, and a hash of all bits of its results
  */
 
@@ -45,14 +45,14 @@ export async function simulationStateOf({ config, poses = null, stats, verdicts 
  * @returns {{ position: Point, target: Point, pixelSize: number }} points in pixels of the window; size of a pixel in m
  */
 export function measureHandle({ tag, handle, target: [x, y] }) {
-  const { pictureView: view } = figureOf(tag).pictures[0];
+  const { pictureView } = figureOf(tag).pictures[0];
   const { left, top, width } = firstCanvasOf(tag).getBoundingClientRect();
-  const pixelsPerViewPixel = width / view.width;
+  const pixelsPerViewPixel = width / pictureView.width;
   const handleBox = /** @type {Element} */ (shadowRootOf(tag).querySelector(`.handle.${handle}`)).getBoundingClientRect();
   return {
     position: { x: handleBox.x + handleBox.width / 2, y: handleBox.y + handleBox.height / 2 },
-    target: { x: left + pixelsPerViewPixel * view.toPixelX(x), y: top + pixelsPerViewPixel * view.toPixelY(y) },
-    pixelSize: 1 / (pixelsPerViewPixel * view.scaleX),
+    target: { x: left + pixelsPerViewPixel * pictureView.toPixelX(x), y: top + pixelsPerViewPixel * pictureView.toPixelY(y) },
+    pixelSize: 1 / (pixelsPerViewPixel * pictureView.scaleX),
   };
 }
 

@@ -19,7 +19,7 @@ const siteServer = serveDirectory(() => join(REPOSITORY_ROOT, 'dist'));
 async function openPageShowing(modelState, hostKind) {
   const page = await siteServer.openPage();
   const pageHtml = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><div id="cell"></div>';
-  await page.route('**/page.html', (pageRoute) => pageRoute.fulfill({ contentType: 'text/html', body: pageHtml }));
+  await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
   await page.goto(`${siteServer.address}page.html`);
   await page.evaluate(renderModel, { state: modelState, isInBook: hostKind === 'book' });
   return page;
@@ -95,11 +95,11 @@ test('the figure applies traits under either spelling of their names, and traits
   const modelState = { ...KERNEL_TRAITS, widget: 'banana-machine', omega: 0.8, samples: '2000', reverse_aware: true, 'heading-level': 3, v: null, alphas: null, preset: null, lang: 'de' };
   const page = await openPageShowing(modelState, 'notebook');
   await waitUntilComplete(page);
-  const { figure: figureElement, traits: traitValues } = await readTraitsAndProperties(page, ['omega', 'samples', 'reverseAware', 'headingLevel', 'v', 'preset', 'alphas', 'lang']);
-  assert.deepEqual(figureElement, { omega: 0.8, samples: 2000, reverseAware: true, headingLevel: '3', v: 1, preset: null, alphas: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002], lang: 'de' });
+  const { figure: figureValues, traits: traitValues } = await readTraitsAndProperties(page, ['omega', 'samples', 'reverseAware', 'headingLevel', 'v', 'preset', 'alphas', 'lang']);
+  assert.deepEqual(figureValues, { omega: 0.8, samples: 2000, reverseAware: true, headingLevel: '3', v: 1, preset: null, alphas: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002], lang: 'de' });
   assert.equal(traitValues.v, 1);
   assert.equal(traitValues.samples, 2000);
-  assert.deepEqual(traitValues.alphas, figureElement.alphas);
+  assert.deepEqual(traitValues.alphas, figureValues.alphas);
   await page.getByRole('button', { name: 'Neuer Startwert' }).waitFor();
   await setTraits(page, { lang: null, omega: null });
   assert.deepEqual((await readTraitsAndProperties(page, ['omega', 'lang'])).figure, { omega: 0, lang: '' });
@@ -112,18 +112,18 @@ test('a trait with a trailing underscore, as for Python keywords, is synchronize
   await page.locator('canvas').first().waitFor();
   assert.deepEqual((await readTraitsAndProperties(page, ['from'])).figure, { from: startPose });
   await setTraits(page, { from_: null });
-  const { figure: figureElement, traits: traitValues } = await readTraitsAndProperties(page, ['from', 'from_']);
-  assert.notDeepEqual(figureElement.from, startPose);
-  assert.deepEqual(traitValues.from_, figureElement.from);
+  const { figure: figureValues, traits: traitValues } = await readTraitsAndProperties(page, ['from', 'from_']);
+  assert.notDeepEqual(figureValues.from, startPose);
+  assert.deepEqual(traitValues.from_, figureValues.from);
 });
 
 test('a change of the model is applied to the figure, resulting changes return to the model, and an equal value has no effect', async () => {
   const page = await openPageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, preset: null, omega: null, v: null, dt: null, command: null, isolate: null }, 'notebook');
   await waitUntilComplete(page);
   await setTraits(page, { _asked: 1, preset: 'hard' });
-  const { traits: traitValues, figure: figureElement } = await readTraitsAndProperties(page, ['preset', 'v', 'omega', 'dt', 'command']);
-  assert.deepEqual(figureElement, { preset: 'hard', v: 1, omega: 1.2, dt: 1.4, command: { v: 1, omega: 1.2, dt: 1.4 } });
-  assert.deepEqual(traitValues, figureElement);
+  const { traits: traitValues, figure: figureValues } = await readTraitsAndProperties(page, ['preset', 'v', 'omega', 'dt', 'command']);
+  assert.deepEqual(figureValues, { preset: 'hard', v: 1, omega: 1.2, dt: 1.4, command: { v: 1, omega: 1.2, dt: 1.4 } });
+  assert.deepEqual(traitValues, figureValues);
   const { traits: { _shown } } = await readTraitsAndProperties(page, ['_shown']);
   assert.deepEqual(_shown, { heard: 1, settings: { ...traitValues, samples: 100, isolate: null } });
 
@@ -159,8 +159,8 @@ test('in a MyST book, whose models cannot save, the figure works, and a removed 
   for (const hostKind of /** @type {const} */ (['book', 'notebook'])) {
     const page = await openPageShowing({ widget: 'map-squeeze', preset: 'corridor', samples: '300', view: 'whole' }, hostKind);
     await waitUntilComplete(page);
-    const { figure: figureElement, traits: traitValues } = await readTraitsAndProperties(page, ['preset', 'samples', 'view']);
-    assert.deepEqual(figureElement, { preset: 'corridor', samples: 300, view: 'whole' });
+    const { figure: figureValues, traits: traitValues } = await readTraitsAndProperties(page, ['preset', 'samples', 'view']);
+    assert.deepEqual(figureValues, { preset: 'corridor', samples: 300, view: 'whole' });
     await page.getByRole('slider', { name: /noise level/ }).focus();
     await page.keyboard.press('ArrowRight');
     await page.keyboard.press('Tab');
@@ -171,7 +171,7 @@ test('in a MyST book, whose models cannot save, the figure works, and a removed 
     const remainsAfterRemoval = await page.evaluate(() => {
       const { el, end, listeners: modelListeners } = /** @type {any} */ (globalThis).view;
       end();
-      return { html: el.innerHTML, listeners: [...modelListeners.values()].reduce((sum, { size: byteCount }) => sum + byteCount, 0) };
+      return { html: el.innerHTML, listeners: [...modelListeners.values()].reduce((sum, { size: listenerCount }) => sum + listenerCount, 0) };
     });
     assert.equal(remainsAfterRemoval.html, '');
     if (hostKind === 'notebook') assert.equal(remainsAfterRemoval.listeners, 0);

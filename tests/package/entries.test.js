@@ -137,8 +137,8 @@ async function openPageWith(scriptNames) {
   /** @type {string[]} */
   const requestedUrls = [];
   page.on('request', (pageRequest) => requestedUrls.push(pageRequest.url()));
-  await page.route('**/page.html', (pageRoute) => {
-    pageRoute.fulfill({ contentType: 'text/html', body: `<!doctype html><link rel="icon" href="data:,">${scriptNames}${elementsHtml}` });
+  await page.route('**/page.html', (route) => {
+    route.fulfill({ contentType: 'text/html', body: `<!doctype html><link rel="icon" href="data:,">${scriptNames}${elementsHtml}` });
   });
   await page.goto(`${installedProject.address}page.html`);
   for (const figureElement of await page.locator('banana-machine, map-squeeze').all()) {
@@ -195,11 +195,11 @@ test('external.js loads a widget when its tag appears, with messages that the pa
   const page = await installedProject.browser.newPage();
   /** @type {string[]} */
   const requestedPaths = [];
-  page.on('request', (httpRequest) => requestedPaths.push(new URL(httpRequest.url()).pathname));
+  page.on('request', (request) => requestedPaths.push(new URL(request.url()).pathname));
   const moduleScript = `<script type="module">import { setMessages } from '${DIST_PATH}external.js';
     setMessages('fr', { stepLabel: 'Un pas', squeeze: { title: 'Le plan' } });</script>`;
   const pageHtml = `<!doctype html><html lang="fr"><link rel="icon" href="data:,">${moduleScript}<banana-machine></banana-machine><x-late></x-late>`;
-  await page.route('**/page.html', (pageRoute) => pageRoute.fulfill({ contentType: 'text/html', body: pageHtml }));
+  await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
   await page.goto(`${installedProject.address}page.html`);
   await page.locator('banana-machine canvas').first().waitFor();
   const listSqueezeRequestPaths = () => requestedPaths.filter((filePath) => filePath.includes('/map-squeeze-'));
@@ -267,9 +267,9 @@ async function openWithoutModules(scriptTag) {
   /** @type {string[]} */
   const consoleWarnings = [];
   page.on('console', (consoleMessage) => void (consoleMessage.type() === 'warning' && consoleWarnings.push(consoleMessage.text())));
-  await page.route('**/*.wasm', (pageRoute) => pageRoute.fulfill({ contentType: 'text/html', body: '<!doctype html>' }));
+  await page.route('**/*.wasm', (route) => route.fulfill({ contentType: 'text/html', body: '<!doctype html>' }));
   const pageHtml = `<!doctype html><link rel="icon" href="data:,">${scriptTag}<banana-machine></banana-machine>`;
-  await page.route('**/page.html', (pageRoute) => pageRoute.fulfill({ contentType: 'text/html', body: pageHtml }));
+  await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
   await page.goto(`${installedProject.address}page.html`);
   return { page, warnings: consoleWarnings };
 }
@@ -287,5 +287,5 @@ test('if a module’s file cannot be fetched, the embedded module is used, and a
 test('an address without a module is refused, and the message names the remedy @nightly', async () => {
   const { page } = await openWithoutModules('');
   const loadPromise = page.evaluate(async (importAddress) => (await import(importAddress)).load('/none.wasm'), `${DIST_PATH}external.js`);
-  await assert.rejects(loadPromise, (/** @type {Error} */ { message: consoleMessage }) => consoleMessage.includes('/none.wasm answers with text/html') && consoleMessage.includes(LOAD_ADVICE));
+  await assert.rejects(loadPromise, (/** @type {Error} */ { message: errorMessage }) => errorMessage.includes('/none.wasm answers with text/html') && errorMessage.includes(LOAD_ADVICE));
 });

@@ -32,8 +32,8 @@ test('the package has at most 1.5 MB', () => {
 
 test('publint reports no problem', async () => {
   const { buffer: fileBuffer } = readFileSync(tarballPath);
-  const { messages: consoleMessages } = await publint({ pack: { tarball: /** @type {ArrayBuffer} */ (fileBuffer) }, strict: true });
-  assert.deepEqual(consoleMessages.map((publintMessage) => formatMessage(publintMessage, packageManifest)), []);
+  const { messages: publintMessages } = await publint({ pack: { tarball: /** @type {ArrayBuffer} */ (fileBuffer) }, strict: true });
+  assert.deepEqual(publintMessages.map((publintMessage) => formatMessage(publintMessage, packageManifest)), []);
 });
 
 test('the tool "Are the types wrong?" reports no problem', () => {

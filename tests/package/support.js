@@ -95,7 +95,7 @@ export async function openWithCloud(siteServer, pageAddress) {
   const page = await siteServer.openPage();
   /** @type {string[]} */
   const requestedUrls = [];
-  page.on('request', (httpRequest) => requestedUrls.push(httpRequest.url()));
+  page.on('request', (request) => requestedUrls.push(request.url()));
   await page.goto(pageAddress);
   const figureFrame = (await page.locator('iframe').count()) > 0 ? page.frameLocator('iframe') : page;
   const cloudCanvas = figureFrame.locator('banana-machine canvas').first();

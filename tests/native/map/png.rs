@@ -22,9 +22,8 @@ fn encode_png(png_format: &PngFormat, image_width: u32, channel_values: &[u16]) 
         let binary_row: String =
             sample_row.iter().map(|channel_value| format!("{channel_value:0bit_depth$b}")).collect();
         let row_bytes = binary_row.as_bytes().chunks(8).map(|byte_digits| {
-            let byte_value =
-                byte_digits.iter().fold(0, |byte_so_far, bit_digit| 2 * byte_so_far + (bit_digit - b'0'));
-            byte_value << (8 - byte_digits.len())
+            let digits_and_places = byte_digits.iter().zip((0..8).rev());
+            digits_and_places.map(|(bit_digit, bit_place)| (bit_digit - b'0') << bit_place).sum::<u8>()
         });
         packed_rows.extend(row_bytes);
     }

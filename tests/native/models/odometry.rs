@@ -35,11 +35,9 @@ fn table_variances(reading: &OdomDelta, angle_used_for: impl Fn(f64) -> f64) -> 
     let [a1, a2, a3, a4] = ALPHAS.0;
     let [rot1_squared, trans_squared, rot2_squared] =
         [angle_used_for(reading.rot1).powi(2), reading.trans.powi(2), angle_used_for(reading.rot2).powi(2)];
-    [
-        a1 * rot1_squared + a2 * trans_squared,
-        a3 * trans_squared + a4 * (rot1_squared + rot2_squared),
-        a1 * rot2_squared + a2 * trans_squared,
-    ]
+    let compute_rot_variance = |rot_squared: f64| a1 * rot_squared + a2 * trans_squared;
+    let trans_variance = a3 * trans_squared + a4 * (rot1_squared + rot2_squared);
+    [compute_rot_variance(rot1_squared), trans_variance, compute_rot_variance(rot2_squared)]
 }
 
 /// Without translation atan2 gives no bearing. The whole turn then counts as the second rotation.

@@ -17,11 +17,10 @@ struct CompensatedSum {
 
 impl CompensatedSum {
     fn add(&mut self, added_term: f64) {
-        let running_sum = self.rounded_sum + added_term;
-        let rounded_term = running_sum - self.rounded_sum;
-        self.rounding_errors +=
-            (self.rounded_sum - (running_sum - rounded_term)) + (added_term - rounded_term);
-        self.rounded_sum = running_sum;
+        let new_sum = self.rounded_sum + added_term;
+        let rounded_term = new_sum - self.rounded_sum;
+        self.rounding_errors += (self.rounded_sum - (new_sum - rounded_term)) + (added_term - rounded_term);
+        self.rounded_sum = new_sum;
     }
 }
 

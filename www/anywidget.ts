@@ -48,7 +48,7 @@ function renderWidget({ model: widgetModel, el: outputElement }: { model: Widget
     withoutKernel(() => widgetModel.save_changes());
   };
 
-  const traitPairs = traitsOf(element);
+  const traitPairs = traitPairsOf(element);
   let isScheduled = false;
   let isWriting = false;
   /** Writes the figure's values into the model. Several calls in the same task cause one write. */
@@ -120,7 +120,7 @@ function withoutKernel(callKernel: () => void) {
 }
 
 /** Returns the names of all traits, in JavaScript's and in Python's spelling, each with the property that it sets. Properties on which others depend come first. */
-function traitsOf(element: any): [trait: string, property: string][] {
+function traitPairsOf(element: any): [trait: string, property: string][] {
   const { elementProperties } = element.constructor.definition;
   const propertiesByName: Record<string, { attribute?: boolean | string }> = { ...elementProperties, ...COMMON_PROPERTIES, ...Object.fromEntries(GLOBAL_ATTRIBUTES.map((traitName) => [traitName, {}])) };
   return Object.entries(propertiesByName).flatMap(([propertyName, { attribute: attributeName }]) => {

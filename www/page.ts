@@ -40,8 +40,8 @@ async function enterTriedState(tryButton: HTMLElement) {
 }
 
 /** Highlights the line that a term names while the pointer or the focus is on the term. */
-function highlightTerm({ type: eventType, target: eventTarget }: Event) {
-  const highlightedTerm = eventTarget instanceof Element ? (eventTarget.closest('[data-line]') as HTMLElement | null) : null;
+function highlightTerm({ type: eventType, target }: Event) {
+  const highlightedTerm = target instanceof Element ? (target.closest('[data-line]') as HTMLElement | null) : null;
   const figureElement = highlightedTerm && figureOf(highlightedTerm);
   // Another script may have removed the figure.
   if (figureElement) figureElement.highlight = /over|in$/.test(eventType) ? highlightedTerm.dataset.line : null;
@@ -50,8 +50,8 @@ function highlightTerm({ type: eventType, target: eventTarget }: Event) {
 /** Keeps each figure's picture in sight while the reader scrolls through the list of things to try, if the list is below the figure. */
 function keepPicturesInSight() {
   const listSizeObserver = new ResizeObserver((listSizeEntries) => {
-    for (const { target: eventTarget, borderBoxSize: [{ blockSize }] } of listSizeEntries) {
-      (eventTarget.parentElement as HTMLElement).style.setProperty('--below', `${blockSize}px`);
+    for (const { target, borderBoxSize: [{ blockSize }] } of listSizeEntries) {
+      (target.parentElement as HTMLElement).style.setProperty('--below', `${blockSize}px`);
     }
   });
   for (const tryList of document.querySelectorAll('.try')) listSizeObserver.observe(tryList);
@@ -73,7 +73,7 @@ function prepareBet(betForm: HTMLFormElement) {
   const [valueOutput, submitButton, answerOutput] = ['.value', 'button', '[role=status]'].map((elementSelector) => betForm.querySelector(elementSelector) as HTMLButtonElement);
   const [sliderMin, sliderMax] = [Number(slider.min), Number(slider.max)];
   const isPercent = answerUnit === '%';
-  const formatValue = (guessedValue: number) => `${isPercent ? guessedValue.toFixed(slider.valueAsNumber === guessedValue ? 0 : 1) + '\u00a0%' : guessedValue}`;
+  const formatValue = (printedValue: number) => `${isPercent ? printedValue.toFixed(slider.valueAsNumber === printedValue ? 0 : 1) + '\u00a0%' : printedValue}`;
   const showValue = () => (slider.ariaValueText = valueOutput.textContent = formatValue(slider.valueAsNumber));
 
   // The bet can be submitted only after the slider has been moved.
@@ -99,12 +99,12 @@ function prepareBet(betForm: HTMLFormElement) {
   });
 }
 
-document.addEventListener('load', ({ target: eventTarget }) => {
-  const figureElement = eventTarget as FigureElement;
+document.addEventListener('load', ({ target }) => {
+  const figureElement = target as FigureElement;
   if (figureElement.getState && !openingStates.has(figureElement)) openingStates.set(figureElement, figureElement.getState());
 }, { capture: true });
-document.addEventListener('click', ({ target: eventTarget }) => {
-  const tryButton = eventTarget instanceof Element ? eventTarget.closest('button[data-try]') : null;
+document.addEventListener('click', ({ target }) => {
+  const tryButton = target instanceof Element ? target.closest('button[data-try]') : null;
   if (tryButton) void enterTriedState(tryButton as HTMLElement);
 });
 for (const eventType of ['pointerover', 'pointerout', 'focusin', 'focusout']) document.addEventListener(eventType, highlightTerm);

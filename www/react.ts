@@ -64,8 +64,8 @@ class PropWriter {
     for (const propName of this.propNames.properties.filter(isChanged)) element[propName] = reactProps[propName];
   }
 
-  handleEvent(domEvent: Event) {
-    this.props?.[HANDLER_PROPS[(domEvent.type as keyof typeof HANDLER_PROPS)]]?.(domEvent);
+  handleEvent(event: Event) {
+    this.props?.[HANDLER_PROPS[(event.type as keyof typeof HANDLER_PROPS)]]?.(event);
   }
 
   removeListeners() {

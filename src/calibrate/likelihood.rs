@@ -153,8 +153,8 @@ impl FilterResult {
     }
 
     /// Returns the estimates of the systematic errors in a mask; 0 for all others.
-    pub fn errors_in(&self, mask: &ErrorMask) -> ErrorVector {
-        masked_inverse(&self.information, mask).0 * self.weighted_residual
+    pub fn errors_in(&self, error_mask: &ErrorMask) -> ErrorVector {
+        masked_inverse(&self.information, error_mask).0 * self.weighted_residual
     }
 }
 
@@ -322,16 +322,16 @@ pub(super) fn reference_covariance(parameters: &Parameters) -> Matrix3<f64> {
 /// Returns the mask of the systematic errors in `candidates` that are identifiable. The error with the largest standard error relative to
 /// its limit is removed until no error exceeds its limit.
 pub(super) fn identifiable_errors(information: &ErrorMatrix, candidates: ErrorMask) -> ErrorMask {
-    let mut mask: ErrorMask = std::array::from_fn(|i| candidates[i] && information[(i, i)] > 0.0);
+    let mut error_mask: ErrorMask = std::array::from_fn(|i| candidates[i] && information[(i, i)] > 0.0);
     loop {
-        let (covariance, _) = masked_inverse(information, &mask);
+        let (covariance, _) = masked_inverse(information, &error_mask);
         let relative_std_of = |error: &usize| {
             covariance[(*error, *error)].sqrt() / SystematicError::ALL[*error].identifiability_limit()
         };
-        let remaining = (0..ERROR_COUNT).filter(|error| mask[*error]);
+        let remaining = (0..ERROR_COUNT).filter(|error| error_mask[*error]);
         match remaining.max_by(|a, b| relative_std_of(a).total_cmp(&relative_std_of(b))) {
-            Some(worst) if relative_std_of(&worst) > 1.0 => mask[worst] = false,
-            _ => return mask,
+            Some(worst) if relative_std_of(&worst) > 1.0 => error_mask[worst] = false,
+            _ => return error_mask,
         }
     }
 }

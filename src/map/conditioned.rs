@@ -250,12 +250,12 @@ impl MapConditioned<'_> {
         visit_part: &mut dyn FnMut(&DrivenArc, CollisionVerdict),
     ) -> Result<(SE2, Cost), NoAcceptedSample> {
         let part_count = self.sampler.part_count().max(1);
-        let command = self.noisy_command(&VelocityCmd { dt: u.dt / f64::from(part_count), ..*u });
+        let noisy_command = self.noisy_command(&VelocityCmd { dt: u.dt / f64::from(part_count), ..*u });
         let (mut pose, mut cost) = (*x, Cost::default());
         for _ in 0..part_count {
             let start = PreparedPose::new(pose);
             let (end_pose, arc, end_verdict) =
-                self.draw_until_accepted(&command, &start, rng, is_conditioned, &mut cost)?;
+                self.draw_until_accepted(&noisy_command, &start, rng, is_conditioned, &mut cost)?;
             visit_part(&arc, end_verdict);
             pose = end_pose;
         }

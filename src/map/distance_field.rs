@@ -183,7 +183,7 @@ impl<'a> FieldBuilder<'a> {
             let max_lower_bound = max_distance + 2.0 * block_radius + self.rounding_slack;
             let is_near = |(lower_bound, _): &&(f64, WallSet)| *lower_bound <= max_lower_bound;
             let near_candidates: Vec<_> =
-                self.measured_walls.iter().filter(is_near).map(|(_, near_walls)| *near_walls).collect();
+                self.measured_walls.iter().filter(is_near).map(|(_, wall_set)| *wall_set).collect();
             let half_width = width / 2;
             for [column, row] in [[0, 0], [half_width, 0], [0, half_width], [half_width, half_width]] {
                 self.fill_block(&near_candidates, [first_column + column, first_row + row], half_width);
@@ -231,14 +231,14 @@ impl<'a> FieldBuilder<'a> {
         unmeasured.extend_from_slice(candidate_walls);
         let mut least_upper_bound = f64::INFINITY;
         let mut measured_count = 0;
-        while let Some(near_walls) = unmeasured.pop() {
+        while let Some(wall_set) = unmeasured.pop() {
             measured_count += 1;
             if measured_count > MAX_WALLS_PER_BLOCK + MAX_WALLS_PER_CELL * width * width {
                 return None;
             }
             let distance_to_wall =
                 |wall: usize| wall_tree.walls[wall].squared_distance_to_point(block_centre).sqrt();
-            let lower_bound = match near_walls {
+            let lower_bound = match wall_set {
                 WallSet::Wall(wall) => distance_to_wall(wall as usize),
                 WallSet::Node(node) => wall_tree.wall_nodes[node as usize].lower_bound(block_centre),
             };
@@ -246,7 +246,7 @@ impl<'a> FieldBuilder<'a> {
                 continue;
             }
             if lower_bound < least_upper_bound {
-                least_upper_bound = least_upper_bound.min(match near_walls {
+                least_upper_bound = least_upper_bound.min(match wall_set {
                     WallSet::Wall(_) => lower_bound,
                     WallSet::Node(node) => distance_to_wall(wall_tree.wall_range(node as usize).start),
                 });
@@ -254,7 +254,7 @@ impl<'a> FieldBuilder<'a> {
             if width == 1 && least_upper_bound <= allowed_uncertainty {
                 return Some([0.0, least_upper_bound]);
             }
-            match near_walls {
+            match wall_set {
                 WallSet::Node(node)
                     if lower_bound < least_upper_bound - allowed_uncertainty
                         || wall_tree.wall_nodes[node as usize].capsule_radius > 0.5 * max_excess =>
@@ -265,7 +265,7 @@ impl<'a> FieldBuilder<'a> {
                         unmeasured.extend([2 * node, 2 * node + 1].map(WallSet::Node));
                     }
                 }
-                _ => measured_walls.push((lower_bound, near_walls)),
+                _ => measured_walls.push((lower_bound, wall_set)),
             }
         }
         Some([

@@ -41,8 +41,9 @@ impl FloorPlan {
             let cell_middle = [min_x + cell_column * cell_side, min_y + cell_row * cell_side];
             self.distance_field().lower_bound(cell_middle) > 0.75 * cell_side
         };
-        let freedom_pixels = (0..column_count * row_count).map(|i| f32::from(u8::from(is_free(i)))).collect();
-        let map_image = Image { width: column_count, height: row_count, pixels: freedom_pixels };
+        let brightness_values =
+            (0..column_count * row_count).map(|i| f32::from(u8::from(is_free(i)))).collect();
+        let map_image = Image { width: column_count, height: row_count, pixels: brightness_values };
         OccupancyGrid::new(&map_image, &PixelClassifier::default(), cell_side, SE2::new(min_x, min_y, 0.0))
     }
 }

@@ -17,12 +17,12 @@ pub struct ImageError(pub(super) String);
 pub fn read_grid(
     file_bytes: &[u8],
     pixel_classifier: &PixelClassifier,
-    cell_side: f64,
-    grid_pose: SE2,
+    resolution: f64,
+    origin: SE2,
 ) -> Result<OccupancyGrid, ImageError> {
     #[cfg(not(widget))]
     if file_bytes.starts_with(&PNG_SIGNATURE) {
-        return Ok(OccupancyGrid::new(&read_png(file_bytes)?, pixel_classifier, cell_side, grid_pose));
+        return Ok(OccupancyGrid::new(&read_png(file_bytes)?, pixel_classifier, resolution, origin));
     }
-    Ok(OccupancyGrid::new(&read_pgm(file_bytes)?, pixel_classifier, cell_side, grid_pose))
+    Ok(OccupancyGrid::new(&read_pgm(file_bytes)?, pixel_classifier, resolution, origin))
 }

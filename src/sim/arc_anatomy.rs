@@ -217,24 +217,23 @@ impl ArcAnatomy {
 
     /// Returns the arcs of the command and to the final pose, with the likelihood of that pose.
     pub fn stats(&self) -> Stats {
-        let Settings { command: motion_command, noise: noise_kind, .. } = &self.settings;
+        let Settings { command, noise: noise_kind, .. } = &self.settings;
         let (start, next) = (self.settings.start_pose(), self.settings.next_pose());
         let controls = self.selected_inversion();
-        let score_factors =
-            self.noise_residuals(&controls).map(|residual| ScoreFactor::new(*noise_kind, residual));
-        let size_of = |i: &usize| score_factors[*i].deviations.abs();
+        let factors = self.noise_residuals(&controls).map(|residual| ScoreFactor::new(*noise_kind, residual));
+        let size_of = |i: &usize| factors[*i].deviations.abs();
         let weakest_index = (0..3).rev().max_by(|a, b| size_of(a).total_cmp(&size_of(b))).unwrap_or(0);
         let [commanded_arc, inverted_arc, driven_arc] = self.list_arcs().map(ArcWithCircle::from);
         Stats {
             commanded: commanded_arc,
             inverted: inverted_arc,
             driven: driven_arc,
-            last_turn: controls.gamma_hat * motion_command.dt,
-            factors: score_factors,
+            last_turn: controls.gamma_hat * command.dt,
+            factors,
             weakest: weakest_index,
             prob: self.prob(),
-            share: score_factors.iter().map(|score_factor| score_factor.share).product(),
-            density: self.settings.velocity_model().pose_density(&next, motion_command, &start),
+            share: factors.iter().map(|score_factor| score_factor.share).product(),
+            density: self.settings.velocity_model().pose_density(&next, command, &start),
             xi: next.boxminus(&start).into(),
         }
     }
@@ -274,12 +273,11 @@ impl ArcAnatomy {
     /// Returns the estimate v̂, ω̂ or γ̂, its residual, and the variance of its noise, for each of the three controls.
     fn noise_residuals(&self, controls: &ArcInversion) -> [(f64, f64, Variance); 3] {
         let ArcInversion { v_hat, omega_hat, gamma_hat } = *controls;
-        let motion_command = &self.settings.command;
-        let [v_variance, omega_variance, gamma_variance] =
-            self.settings.velocity_model().variances(motion_command);
+        let command = &self.settings.command;
+        let [v_variance, omega_variance, gamma_variance] = self.settings.velocity_model().variances(command);
         [
-            (v_hat, motion_command.v - v_hat, v_variance),
-            (omega_hat, motion_command.omega - omega_hat, omega_variance),
+            (v_hat, command.v - v_hat, v_variance),
+            (omega_hat, command.omega - omega_hat, omega_variance),
             (gamma_hat, gamma_hat, gamma_variance),
         ]
     }
@@ -343,12 +341,12 @@ impl ArcAnatomy {
     /// Returns the heat map over the rectangle from `min_corner` to `max_corner` (m, `min_corner` below `max_corner` in x and in y); None
     /// if no heat map is selected.
     pub fn surface(&self, min_corner: [f64; 2], max_corner: [f64; 2]) -> Option<Surface> {
-        let Settings { command: motion_command, map: heat_map, next: [.., theta], .. } = self.settings;
+        let Settings { command, map: heat_map, next: [.., theta], .. } = self.settings;
         if heat_map == HeatMapKind::NoHeatMap {
             return None;
         }
         let (model, start) = (self.settings.velocity_model(), self.settings.start_pose());
-        let winding_count = f64::from(2 * model.max_windings(&motion_command) + 1);
+        let winding_count = f64::from(2 * model.max_windings(&command) + 1);
         let max_cells =
             MAX_EXPONENTIALS / (3.0 + 2.0 * winding_count + MAX_LAST_TURNS.min(winding_count + 2.0));
         let [width, height] = [max_corner[0] - min_corner[0], max_corner[1] - min_corner[1]];
@@ -369,7 +367,7 @@ impl ArcAnatomy {
         let prob_values =
             evaluate_cells(&|next| Self { settings: Settings { next, ..self.settings } }.prob());
         let density_values =
-            evaluate_cells(&|next| model.pose_density(&next.into(), &motion_command, &start).unwrap_or(0.0));
+            evaluate_cells(&|next| model.pose_density(&next.into(), &command, &start).unwrap_or(0.0));
         let shown_values = if heat_map == HeatMapKind::Prob { &prob_values } else { &density_values };
         let maximum_of = |field_values: &[f64]| field_values.iter().copied().fold(0.0, f64::max);
         let shown_maximum = maximum_of(shown_values);

@@ -59,8 +59,8 @@ fn read_odometry(field_path: &str, value: &JsValue) -> Result<Trajectory, JsValu
     let log_fields = FieldReader::new(field_path, &path_prefix, value, &["t", "v", "omega", "breaks"])?;
     let log_columns = read_columns(&log_fields, ["t", "v", "omega"])?;
     let [t, v, omega] = &log_columns;
-    let velocity_commands = t.iter().zip(v).zip(omega).map(|((t, v), omega)| (*t, *v, *omega));
-    checked_trajectory(&log_fields, Trajectory::from_commands(velocity_commands))
+    let timed_commands = t.iter().zip(v).zip(omega).map(|((t, v), omega)| (*t, *v, *omega));
+    checked_trajectory(&log_fields, Trajectory::from_commands(timed_commands))
 }
 
 fn read_poses(field_path: &str, value: &JsValue) -> Result<Trajectory, JsValue> {

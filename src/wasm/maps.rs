@@ -50,8 +50,8 @@ pub fn read_plan(plan_value: &JsValue) -> Result<FloorPlan, JsValue> {
 /// Reads a map as `map_server` does: from an image (the bytes of a file, or pixels), and the fields of its YAML file with their defaults.
 pub fn read_map(description_value: &JsValue, image_value: &JsValue) -> Result<OccupancyGrid, JsValue> {
     let map_fields = FieldReader::with_any_keys("description", "", description_value, "an object")?;
-    let grid_resolution = check_range("resolution", map_fields.number("resolution")?, &RESOLUTION_RANGE)?;
-    let grid_origin: [f64; 3] = read_array_in_range("origin", &map_fields.value("origin")?, &QUANTITY_RANGE)?;
+    let resolution = check_range("resolution", map_fields.number("resolution")?, &RESOLUTION_RANGE)?;
+    let origin: [f64; 3] = read_array_in_range("origin", &map_fields.value("origin")?, &QUANTITY_RANGE)?;
     let default_classifier = PixelClassifier::default();
     let is_negated = match map_fields.value("negate")?.as_bool() {
         Some(is_negated) => is_negated,
@@ -70,15 +70,15 @@ pub fn read_map(description_value: &JsValue, image_value: &JsValue) -> Result<Oc
     let map_mode = map_fields.read_or("mode", default_classifier.mode, ())?;
     let pixel_classifier =
         PixelClassifier { mode: map_mode, negate: is_negated, occupied_thresh, free_thresh };
-    let grid_origin = SE2::from(grid_origin);
+    let origin = SE2::from(origin);
     if let Some(file_bytes) = image_value.dyn_ref::<Uint8Array>() {
         read_integer("image.length", f64::from(file_bytes.length()), 0..=MAX_BYTES as u64)?;
-        return read_grid(&file_bytes.to_vec(), &pixel_classifier, grid_resolution, grid_origin)
+        return read_grid(&file_bytes.to_vec(), &pixel_classifier, resolution, origin)
             .map_err(|plan_error| RangeError::new(&plan_error.to_string()).into());
     }
     let (width, height, pixel_bytes) = read_pixels(image_value)?;
     let pixels = pixel_bytes.as_chunks::<4>().0.to_vec();
-    Ok(OccupancyGrid::new(&Image { width, height, pixels }, &pixel_classifier, grid_resolution, grid_origin))
+    Ok(OccupancyGrid::new(&Image { width, height, pixels }, &pixel_classifier, resolution, origin))
 }
 
 /// Reads width, height, and the red, green, blue and opacity of each pixel of an ImageData. An object with the same properties is accepted,

@@ -181,14 +181,14 @@ pub fn propagate(options: &JsPropagation) -> Result<Array, JsValue> {
     let fields =
         FieldReader::new("options", "", options, &["sigma", "command", "alphas", "compounding", "steps"])?;
     let mut sigma = fields.read_optional("sigma", read_covariance)?.unwrap_or_default();
-    let motion_command = read_command(&fields.value("command")?)?;
+    let command = read_command(&fields.value("command")?)?;
     let model = VelocityModel { alphas: VelocityAlphas(read_alphas(&fields)?), noise: NoiseKind::Normal };
     let cov_recursion = fields.read_or("compounding", Compounding::Chapter, ())?;
     let step_count = fields.read_or("steps", 1u64, 1..=MAX_STEPS)?;
     // The ranges of the arguments exclude negative and infinite variances.
-    let noise_model = TangentNoiseModel::from_velocity(&model, &motion_command)
+    let noise_model = TangentNoiseModel::from_velocity(&model, &command)
         .map_err(|model_error| RangeError::new(&model_error.to_string()))?;
-    let twist = TangentNoiseModel::twist(&motion_command);
+    let twist = TangentNoiseModel::twist(&command);
     for step_index in 0..step_count {
         sigma = noise_model.propagate(&sigma, &twist, cov_recursion);
         // The first-order and chapter recursions only add covariances. Only the fourth order can give an indefinite matrix.

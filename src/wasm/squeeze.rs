@@ -73,10 +73,10 @@ cloud_simulation_class! {
         };
         /// Cells of the map; null for a floor plan without cells.
         grid: "Grid | null" = to_plain_js(&simulation.plan().grid().map(|grid| {
-            let ([column_count, row_count], grid_pose) = (grid.size(), grid.origin().into());
+            let ([column_count, row_count], origin) = (grid.size(), grid.origin().into());
             let cell_flags_of = |cell_state| grid.cells().map(|grid_cell| u8::from(grid_cell == cell_state)).collect();
             let [occupied_flags, unknown_flags] = [Cell::Occupied, Cell::Unknown].map(cell_flags_of);
-            Grid { columns: column_count, rows: row_count, resolution: grid.resolution(), origin: grid_pose, occupied: occupied_flags, unknown: unknown_flags }
+            Grid { columns: column_count, rows: row_count, resolution: grid.resolution(), origin, occupied: occupied_flags, unknown: unknown_flags }
         }));
         /// Free start pose: in the middle of the largest square that is known to be free, heading where the path is free
         /// for longest. If the robot does not fit there, another pose where it fits; null if there is none.

@@ -9,15 +9,15 @@ use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::*;
 
 /// Converts a value to a plain JavaScript value, in which None is null.
-pub fn to_plain_js<T: Serialize>(serialized_value: &T) -> JsValue {
+pub fn to_plain_js<T: Serialize>(rust_value: &T) -> JsValue {
     let js_serializer = serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true);
     // Serialization fails only for maps whose keys are not strings. Results of the core contain no such maps.
-    serialized_value.serialize(&js_serializer).unwrap_or(JsValue::NULL)
+    rust_value.serialize(&js_serializer).unwrap_or(JsValue::NULL)
 }
 
 /// Converts a value as [`to_plain_js`] does, with its TypeScript type.
-pub fn to_ts<T: Serialize + Tsify>(serialized_value: &T) -> Ts<T> {
-    Ts::new_unchecked(to_plain_js(serialized_value))
+pub fn to_ts<T: Serialize + Tsify>(rust_value: &T) -> Ts<T> {
+    Ts::new_unchecked(to_plain_js(rust_value))
 }
 
 /// Conversion of Rust values to JavaScript values that serde does not create, such as a Float64Array.
@@ -26,8 +26,8 @@ pub trait ToJs {
 }
 
 /// Serializes a field of a struct of [`crate::js::js_structs`] by the conversion of [`ToJs`].
-pub fn serialize<T: ToJs, S: Serializer>(serialized_value: &T, js_serializer: S) -> Result<S::Ok, S::Error> {
-    serde_wasm_bindgen::preserve::serialize(&serialized_value.to_js(), js_serializer)
+pub fn serialize<T: ToJs, S: Serializer>(rust_value: &T, js_serializer: S) -> Result<S::Ok, S::Error> {
+    serde_wasm_bindgen::preserve::serialize(&rust_value.to_js(), js_serializer)
 }
 
 macro_rules! to_js {
@@ -70,13 +70,13 @@ pub fn pose_to_js(pose: SE2) -> JsPose {
     to_plain_js(&<[f64; 3]>::from(pose).setting(())).unchecked_into()
 }
 
-pub fn js_array(js_numbers: &[f64]) -> JsValue {
-    js_numbers.iter().copied().map(JsValue::from).collect::<Array>().into()
+pub fn js_array(numbers: &[f64]) -> JsValue {
+    numbers.iter().copied().map(JsValue::from).collect::<Array>().into()
 }
 
 /// Returns a Float64Array of the numbers of all points or poses in order.
-pub fn flat_float_array<const N: usize>(js_numbers: &[[f64; N]]) -> Float64Array {
-    Float64Array::from(js_numbers.as_flattened())
+pub fn flat_float_array<const N: usize>(numbers: &[[f64; N]]) -> Float64Array {
+    Float64Array::from(numbers.as_flattened())
 }
 
 /// Returns a Float64Array of the three numbers of each pose or vector in order.
@@ -85,15 +85,15 @@ pub fn triple_array<T: Into<[f64; 3]>>(three_numbers: impl IntoIterator<Item = T
 }
 
 #[inline(never)]
-pub fn float_array(js_numbers: &[f64]) -> JsValue {
-    Float64Array::from(js_numbers).into()
+pub fn float_array(numbers: &[f64]) -> JsValue {
+    Float64Array::from(numbers).into()
 }
 
 #[inline(never)]
 pub fn js_object(object_entries: &[(&str, JsValue)]) -> JsValue {
     let object_entries: Array = object_entries
         .iter()
-        .map(|(entry_key, serialized_value)| Array::of2(&(*entry_key).into(), serialized_value))
+        .map(|(entry_key, entry_value)| Array::of2(&(*entry_key).into(), entry_value))
         .collect();
     Object::from_entries(&object_entries).unwrap_or_else(|_| Object::new()).into()
 }

@@ -36,17 +36,17 @@ test('the handle at the end of the arc can be dragged during the morph @nightly'
   const arcEndHandle = widget.locator('.handle');
   await arcEndHandle.press('ArrowUp');
   await arcEndHandle.press('ArrowRight');
-  let { command: driveCommand } = (await readBananaResults(widget)).config;
-  expect(driveCommand.omega * driveCommand.dt).toBeCloseTo(0.02, 9);
-  expect(driveCommand.v * driveCommand.dt).toBeCloseTo(2.02, 9);
+  let { command } = (await readBananaResults(widget)).config;
+  expect(command.omega * command.dt).toBeCloseTo(0.02, 9);
+  expect(command.v * command.dt).toBeCloseTo(2.02, 9);
   await widget.evaluate((element) => void Reflect.set(element, 'morph', 0.4));
   const [x, y] = /** @type {number[]} */ (await readProperty(widget, 'visibleArcEnd'));
   await arcEndHandle.press('ArrowUp');
   const [shownX, shownY] = /** @type {number[]} */ (await readProperty(widget, 'visibleArcEnd'));
   expect(shownX).toBeCloseTo(x, 9);
   expect(shownY).toBeCloseTo(y + 0.02, 9);
-  ({ command: driveCommand } = (await readBananaResults(widget)).config);
-  expect(driveCommand.omega).toBeGreaterThan(0.01);
+  ({ command } = (await readBananaResults(widget)).config);
+  expect(command.omega).toBeGreaterThan(0.01);
 });
 
 test('Pin keeps numbers and outlines for comparison, and a second press removes them', async ({ page }) => {

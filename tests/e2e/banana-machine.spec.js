@@ -59,8 +59,8 @@ test('the keys Home and End set v to the ends of its range, and no key of the ha
   await page.evaluate(() => scrollTo(0, 100));
   for (const [keyName, expectedSpeed] of /** @type {const} */ ([['End', 1.5], ['Home', -1.5], ['PageDown', undefined], ['ArrowDown', undefined]])) {
     await page.keyboard.press(keyName);
-    const { command: driveCommand } = (await readBananaResults(widget)).config;
-    if (expectedSpeed) expect(driveCommand.v).toBeCloseTo(expectedSpeed, 1);
+    const { command } = (await readBananaResults(widget)).config;
+    if (expectedSpeed) expect(command.v).toBeCloseTo(expectedSpeed, 1);
   }
   expect(await page.evaluate(() => scrollY)).toBe(100);
 });

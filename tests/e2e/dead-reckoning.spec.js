@@ -121,9 +121,9 @@ test('more steps divide the same path into shorter steps, and the views stay', a
   const [xBefore, yBefore] = await commandedEndOf(widget);
   await dragSlider(widget.locator('#steps'), 0.5);
   await waitUntilSettled(widget);
-  const { steps: stepCount, step: selectedStep, command: driveCommand } = await readConfig(widget);
+  const { steps: stepCount, step: selectedStep, command } = await readConfig(widget);
   expect(stepCount).toBeGreaterThan(80);
-  expect(Math.abs(stepCount * driveCommand.dt - 4)).toBeLessThan(1e-12);
+  expect(Math.abs(stepCount * command.dt - 4)).toBeLessThan(1e-12);
   expect(Math.abs(selectedStep / stepCount - 0.5)).toBeLessThan(0.02);
   const [endX, endY] = await commandedEndOf(widget);
   expect(Math.hypot(endX - xBefore, endY - yBefore)).toBeLessThan(1e-12);

@@ -42,7 +42,7 @@ test('attributes of every type set the opening state of a figure', async ({ page
     seed: 5,
   });
   expect(await readProperty(squeezeWidget, 'view')).toBe('close');
-  expect((await takeEvents(page)).map(({ name, target: eventTarget }) => [name, eventTarget])).toEqual(TWO_FIGURE_NAMES.map((name) => ['load', name]));
+  expect((await takeEvents(page)).map(({ name, target }) => [name, target])).toEqual(TWO_FIGURE_NAMES.map((name) => ['load', name]));
 });
 
 test('attributes stay as written until their setting changes, and then reflect the setting', async ({ page }) => {
@@ -237,7 +237,7 @@ test('refused properties fire an error event that does not bubble; without a lis
   const widget = await mountFigure(page, 'banana-machine');
   const firedMessages = await widget.evaluate((element) => {
     const firedMessages = /** @type {string[]} */ ([]);
-    for (const eventTarget of [window, document, document.body]) eventTarget.addEventListener('error', () => firedMessages.push('above'));
+    for (const target of [window, document, document.body]) target.addEventListener('error', () => firedMessages.push('above'));
     element.addEventListener('error', (errorEvent) => firedMessages.push(/** @type {ErrorEvent} */ (errorEvent).message));
     Object.assign(element, { omega: NaN });
     return firedMessages;

@@ -41,7 +41,7 @@ test('after a trap the core restarts with the same state and picture, and other 
   await trapNextCall(widget, sliderId);
   await expectRestarted(widget);
   const errorEvents = await takeEvents(page, ['error', 'load']);
-  expect(errorEvents.map(({ name, target: eventTarget }) => [name, eventTarget])).toEqual([['error', figureName]]);
+  expect(errorEvents.map(({ name, target }) => [name, target])).toEqual([['error', figureName]]);
   expect(errorEvents[0].message).toMatch(/memory access out of bounds|unreachable/);
   expect(await readState(widget)).toEqual(stateBefore);
   expect(await readPicture(widget.locator('canvas.plane'))).toBe(pictureBefore);

@@ -38,8 +38,8 @@ test('exercise 4: the figure shows the clouds with α₄ alone and α₆ alone, 
     await expect(bananaMachine.locator('[part=caption]')).toHaveText(expectedCaption);
     expect(await readIsolateAndOmega()).toEqual([alphaNumber, omega]);
   }
-  const { alphas, command: driveCommand } = await bananaMachine.evaluate((figureElement) => /** @type {any} */ (figureElement).getState());
-  expect([alphas.velocity[3], alphas.velocity[5], driveCommand.v * driveCommand.dt, driveCommand.dt]).toEqual([0.09, 0.01, 2, 2]);
+  const { alphas, command } = await bananaMachine.evaluate((figureElement) => /** @type {any} */ (figureElement).getState());
+  expect([alphas.velocity[3], alphas.velocity[5], command.v * command.dt, command.dt]).toEqual([0.09, 0.01, 2, 2]);
 });
 
 test('exercise 5: noise alone leads less than 40 % of the motions through walls, and a curve more than 70 %', async ({ page }) => {

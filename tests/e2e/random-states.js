@@ -22,12 +22,12 @@ export function createRandomStates(seed) {
     playing: false,
     marked: sampleItem([null, sampleInteger(0, 1)]),
   };
-  const driveCommand = { v: sampleNumber(-1, 2), omega: sampleNumber(-2, 2), dt: sampleNumber(0.1, 3) };
+  const command = { v: sampleNumber(-1, 2), omega: sampleNumber(-2, 2), dt: sampleNumber(0.1, 3) };
   const stepCount = sampleInteger(1, 40);
   const fieldsByTag = {
     'banana-machine': {
       ...cloudFields,
-      command: driveCommand,
+      command,
       alphas: { velocity: sampleAlphas(6), odometry: sampleAlphas(4) },
       isolate: sampleItem([null, sampleInteger(1, 4)]),
       pinned: sampleItem([
@@ -39,7 +39,7 @@ export function createRandomStates(seed) {
     },
     'map-squeeze': {
       ...cloudFields,
-      command: driveCommand,
+      command,
       start: { x: sampleNumber(1, 5), y: sampleNumber(1, 3), theta: sampleNumber(-3, 3) },
       alphas: sampleAlphas(6),
       clearance: sampleNumber(0, 0.2),
@@ -58,7 +58,7 @@ export function createRandomStates(seed) {
     'arc-anatomy': {
       start: samplePose(),
       next: samplePose(),
-      command: driveCommand,
+      command,
       alphas: sampleAlphas(6),
       overlays: sampleSublist('commanded inverted wedge chord twist'),
       line: sampleInteger(0, 9),
@@ -76,7 +76,7 @@ export function createRandomStates(seed) {
     },
     'dead-reckoning': {
       ...cloudFields,
-      command: driveCommand,
+      command,
       steps: stepCount,
       step: sampleInteger(1, stepCount),
       alphas: sampleAlphas(6),

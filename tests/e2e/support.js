@@ -383,16 +383,16 @@ export function readoutDetailOf(widget, name) {
 /** Drops files on a part of the widget. @param {Locator} dropTarget @param {{ name: string, buffer: Buffer }[]} droppedFiles */
 export function dropFiles(dropTarget, droppedFiles) {
   return dropTarget.evaluate(
-    (eventTarget, newFiles) => {
+    (dropTarget, newFiles) => {
       const dataTransfer = new DataTransfer();
       for (const { name, bytes } of newFiles) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
       const dragEvent = (/** @type {string} */ name) => new DragEvent(name, { dataTransfer, bubbles: true, composed: true, cancelable: true });
       const [dragOverEvent, dropEvent] = [dragEvent('dragover'), dragEvent('drop')];
-      eventTarget.dispatchEvent(dragOverEvent);
-      if (!dragOverEvent.defaultPrevented || !eventTarget.closest('.dropping')) throw new Error('It does not take files.');
-      eventTarget.dispatchEvent(dropEvent);
+      dropTarget.dispatchEvent(dragOverEvent);
+      if (!dragOverEvent.defaultPrevented || !dropTarget.closest('.dropping')) throw new Error('It does not take files.');
+      dropTarget.dispatchEvent(dropEvent);
       if (!dropEvent.defaultPrevented) throw new Error('The browser takes the file.');
-      if (eventTarget.closest('.dropping')) throw new Error('It is still marked.');
+      if (dropTarget.closest('.dropping')) throw new Error('It is still marked.');
     },
     droppedFiles.map(({ name, buffer: fileBuffer }) => ({ name, bytes: [...fileBuffer] })),
   );

@@ -364,8 +364,8 @@ test('the report, the lines for Nav2 and the figure agree on whether a localizer
   for (const [referenceName, isLocalizer] of /** @type {const} */ ([['slam_pose', true], ['cartographer', true], ['truth_amcl', false]])) {
     const args = [...LOG_ARGS.slice(0, 3), writeInFolder(`${referenceName}.csv`, readFileSync(examplePathOf('reference')))];
     const [{ stdout }, { stdout: jsonText }] = [await runCalibrate(args), await runCalibrate([...args, '--json'])];
-    const { logs: robotLogs, ...stats } = JSON.parse(jsonText);
-    const { rating: logRating } = judgeFit(/** @type {any} */ ({ viewModel: { stats, legs: stats.legs, fittedConfig: stats.systematicErrors }, warnings: warningsOf(robotLogs.map((/** @type {any} */ { summary: logSummary }) => logSummary)) }));
+    const { logs: allLogs, ...stats } = JSON.parse(jsonText);
+    const { rating: logRating } = judgeFit(/** @type {any} */ ({ viewModel: { stats, legs: stats.legs, fittedConfig: stats.systematicErrors }, warnings: warningsOf(allLogs.map((/** @type {any} */ { summary: logSummary }) => logSummary)) }));
     const localizerNotes = [stdout.includes(`\nCaution. ${en.nav2.localizer}\n`) && !stdout.includes(en.useAnywaySentence), stdout.includes(`# ${en.nav2.localizer}`), logRating === 'questionable'];
     assert.deepEqual(localizerNotes, [isLocalizer, isLocalizer, isLocalizer], referenceName);
   }

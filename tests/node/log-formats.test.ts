@@ -63,10 +63,10 @@ for (const [caseName, recordingSources] of Object.entries(SOURCES_BY_RECORDING))
   test(`${caseName} contains the same rows as the tables, to the last bit`, async () => {
     const recording = await openRecording(...recordingSources);
     assert.deepEqual(recording.seriesList.map(({ seriesName, seriesKind, messageCount }) => [seriesName, seriesKind, messageCount]), [['/odom', 'poses', 100], ['/truth', 'poses', 100]]);
-    const robotLogs = await recording.readLogs(ODOMETRY_AND_REFERENCE);
+    const allLogs = await recording.readLogs(ODOMETRY_AND_REFERENCE);
     for (const [i, tableLog] of [odometryLog, referenceLog].entries()) {
-      assert.deepEqual([robotLogs[i].startTime, robotLogs[i].motionData], [tableLog.startTime, tableLog.motionData]);
-      assert.deepEqual([robotLogs[i].logSummary.dropped, robotLogs[i].logSummary.notes, robotLogs[i].logSummary.clock], [{}, [], 'header.stamp']);
+      assert.deepEqual([allLogs[i].startTime, allLogs[i].motionData], [tableLog.startTime, tableLog.motionData]);
+      assert.deepEqual([allLogs[i].logSummary.dropped, allLogs[i].logSummary.notes, allLogs[i].logSummary.clock], [{}, [], 'header.stamp']);
     }
   });
 }
@@ -92,9 +92,9 @@ for (const fileName of ['types.bag', 'types.mcap']) {
     // The expected commands have the same formulas as in tests/reference/logs/generate.py.
     const roundCommand = (commandValue: number) => Math.round(4096 * commandValue) / 4096;
     const expectedCommands = [createRange(0, 40).map((i) => roundCommand(0.5 + 0.2 * Math.sin(i / 9))), createRange(0, 40).map((i) => roundCommand(0.8 * Math.sin(i / 23)))];
-    const robotLogs = await recording.readLogs(['/cmd_vel', '/cmd_stamped', '/cmd_fused'].map((seriesName) => ({ seriesName })));
-    for (const { motionData, logName } of robotLogs) assert.deepEqual([[...(motionData as Commands).v], [...(motionData as Commands).omega]], expectedCommands, logName);
-    assert.equal(robotLogs[0].logSummary.clock, 'log time');
+    const allLogs = await recording.readLogs(['/cmd_vel', '/cmd_stamped', '/cmd_fused'].map((seriesName) => ({ seriesName })));
+    for (const { motionData, logName } of allLogs) assert.deepEqual([[...(motionData as Commands).v], [...(motionData as Commands).omega]], expectedCommands, logName);
+    assert.equal(allLogs[0].logSummary.clock, 'log time');
     // Frames of wheels only turn, and are no candidates for a reference. A frame that is fixed to the moving base is a candidate.
     const { framePairs } = recording.seriesList.find(({ seriesName }) => seriesName === '/tf') as Recording['seriesList'][number];
     assert.deepEqual(framePairs?.map(({ parent, child }) => `${parent} → ${child}`), ['odom → base_link', 'odom → base_footprint']);

@@ -61,13 +61,13 @@ test('topics are listed, and logs of topics and of chains of frames are read in 
   );
   assert.equal(recording.seriesList[3].messageType, ODOMETRY_TYPE);
 
-  const robotLogs = await recording.readLogs([
+  const allLogs = await recording.readLogs([
     ...['/odom', '/cmd_vel'].map((seriesName) => ({ seriesName })),
     ...[['map', '/base_link'], ['odom', 'base_footprint']].map(([parentFrame, childFrame]) => ({ seriesName: '/tf', framePair: { parent: parentFrame, child: childFrame } })),
   ]);
-  for (const log of robotLogs) assert.deepEqual([log.startTime, log.motionData.t.length, log.logSummary.notes], [START_TIME, MESSAGE_COUNT, []], log.logName);
-  assert.deepEqual(await readLog(mcapFile, { seriesName: '/odom' }), robotLogs[0]);
-  const [odometryData, commandData, mapToBase, odomToFootprint] = robotLogs.map(({ motionData }) => /** @type {any} */ (motionData));
+  for (const log of allLogs) assert.deepEqual([log.startTime, log.motionData.t.length, log.logSummary.notes], [START_TIME, MESSAGE_COUNT, []], log.logName);
+  assert.deepEqual(await readLog(mcapFile, { seriesName: '/odom' }), allLogs[0]);
+  const [odometryData, commandData, mapToBase, odomToFootprint] = allLogs.map(({ motionData }) => /** @type {any} */ (motionData));
   assertAllClose(odometryData.t, (i) => i / 20);
   // Messages of a type without a stamp have the time of recording.
   assertAllClose(commandData.t, (i) => i / 20 + 0.01);

@@ -39,8 +39,8 @@ async function openSources(inputPath: string, sourceName: string): Promise<Sourc
 }
 
 /** Returns a file whose bytes are read when they are needed. */
-async function openSource(filePath: string, sourceName: string, folderPath?: string): Promise<SourceFile> {
+async function openSource(filePath: string, sourceName: string, pathInFolder?: string): Promise<SourceFile> {
   // A pipe, such as <(zcat odom.csv.gz) in a shell, can be read only once, and is therefore read into memory.
   const fileContents = (await stat(filePath)).isFile() ? await openAsBlob(filePath) : await readFile(filePath);
-  return Object.assign(new File([fileContents as BlobPart], sourceName), folderPath !== undefined && { path: folderPath });
+  return Object.assign(new File([fileContents as BlobPart], sourceName), pathInFolder !== undefined && { path: pathInFolder });
 }

@@ -40,8 +40,8 @@ async function contentsOf(recording: Recording, typedArgs: string[], onProgress?
     for (const { choice: logChoice, uses: possibleRoles } of possibleUses) {
       const seriesEntry = { name: logChoice.framePair ? `${seriesName} (${formatFrames(logChoice.framePair)})` : seriesName, type: messageType, rows: messageCount, uses: possibleRoles };
       try {
-        const [robotLog] = await recording.readLogs([logChoice], onProgress);
-        series.push({ ...seriesEntry, rows: robotLog.logSummary.rows, summary: robotLog.logSummary, sentences: summarySentencesOf(robotLog, english.found) });
+        const [log] = await recording.readLogs([logChoice], onProgress);
+        series.push({ ...seriesEntry, rows: log.logSummary.rows, summary: log.logSummary, sentences: summarySentencesOf(log, english.found) });
       } catch (error) {
         if (!(error instanceof LogError)) throw error;
         series.push(seriesEntry);

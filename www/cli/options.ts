@@ -100,16 +100,16 @@ export function parseOptions(args: string[]) {
   if (optionValues.help || args.length === 0) return 'help';
   const inputPathsOf = (inputPaths: string[] = [], logRole?: LogRole) => inputPaths.map((inputPath): InputPath => ({ inputPath, logRole }));
   const seriesChoiceOf = (logRole: LogRole) => withoutUndefined({ seriesName: optionValues[`${logRole}-topic`], framePair: parseFrames(`${logRole}-frames`, optionValues[`${logRole}-frames`]) });
-  const robotLogs = {
+  const logArguments = {
     inputPaths: [...inputPathsOf(positionalPaths), ...inputPathsOf(optionValues.recording), ...LOG_ROLES.flatMap((logRole) => inputPathsOf(optionValues[logRole], logRole))],
     optionsByFile: parseFileOptions(optionValues),
     userChoices: { odometry: seriesChoiceOf('odometry'), reference: seriesChoiceOf('reference'), ...(optionValues.model === 'velocity' && { logKind: 'commands' as const }) },
   };
-  if (robotLogs.inputPaths.length === 0 && (commandName === 'inspect' || commandName === 'calibrate')) throw new UsageError('no logs are given; give a recording, as in npx motion-widgets inspect run.bag, or two files, odometry and reference.');
+  if (logArguments.inputPaths.length === 0 && (commandName === 'inspect' || commandName === 'calibrate')) throw new UsageError('no logs are given; give a recording, as in npx motion-widgets inspect run.bag, or two files, odometry and reference.');
   if (commandName === 'inspect') {
     const ignoredOption = Object.keys(optionValues).find((optionName) => !(optionName in LOG_OPTIONS) && optionName !== 'json');
     if (ignoredOption !== undefined) throw new UsageError(`--${ignoredOption} is an option of calibrate; inspect accepts only the options about logs, and --json.`);
-    return { command: 'inspect' as const, ...robotLogs, isJson: optionValues.json ?? false };
+    return { command: 'inspect' as const, ...logArguments, isJson: optionValues.json ?? false };
   }
   if (commandName !== 'calibrate') {
     const pathOrCommand = [commandName, ...positionalPaths].find(isPath) ?? 'run.bag';
@@ -123,15 +123,15 @@ export function parseOptions(args: string[]) {
     const decimalHint = /^-?\d*,\d+$/.test(optionValue) ? ` with a decimal point, ${optionValue.replace(',', '.')}` : '';
     throw new UsageError(`--${optionName} must be a number${decimalHint} (got “${truncate(optionValue)}”).`);
   };
-  const [legDistance, angle, legDuration] = [readNumberOption('update-min-d'), readNumberOption('update-min-a'), readNumberOption('duration')];
-  if (legDuration !== undefined && (legDistance ?? angle) !== undefined) throw new UsageError('--duration excludes --update-min-d and --update-min-a: give one or the other.');
+  const [legDistance, legAngle, legDuration] = [readNumberOption('update-min-d'), readNumberOption('update-min-a'), readNumberOption('duration')];
+  if (legDuration !== undefined && (legDistance ?? legAngle) !== undefined) throw new UsageError('--duration excludes --update-min-d and --update-min-a: give one or the other.');
   if (optionValues.plot !== undefined && !/\.svg$/i.test(optionValues.plot)) throw new UsageError(`--plot writes SVG; the name must end in .svg (got “${truncate(optionValues.plot)}”).`);
   if (optionValues.json && optionValues.yaml) throw new UsageError('--json excludes --yaml: give one or the other.');
   return {
     command: 'calibrate' as const,
-    ...robotLogs,
+    ...logArguments,
     fitOptions: withoutUndefined({
-      legs: legDuration === undefined ? { distance: legDistance ?? 0.25, angle: angle ?? 0.2 } : { duration: legDuration },
+      legs: legDuration === undefined ? { distance: legDistance ?? 0.25, angle: legAngle ?? 0.2 } : { duration: legDuration },
       model: optionValues.model ?? (optionValues.rule === 'omni' ? 'omnidirectional' : undefined),
       rule: optionValues.rule,
       outliers: optionValues.outliers,
@@ -163,7 +163,7 @@ type EntriesOf<T> = { [key in keyof T]: [key, T[key]] }[keyof T][];
 /** Returns command arguments in which the paths without roles have the options --odometry and --reference in turn; undefined for fewer than two such paths. */
 function nameRoles(args: string[]): string[] | undefined {
   const { tokens } = parseArgs({ args, options: COMMAND_OPTIONS, allowPositionals: true, tokens: true });
-  const pathIndices = tokens.filter(({ kind: logKind }) => logKind === 'positional').map(({ index }) => index).slice(1);
+  const pathIndices = tokens.filter(({ kind: tokenKind }) => tokenKind === 'positional').map(({ index }) => index).slice(1);
   if (pathIndices.length < 2) return undefined;
   return args.flatMap((argument, i) => (pathIndices.includes(i) ? [`--${LOG_ROLES[pathIndices.indexOf(i) % 2]}`, argument] : [argument]));
 }
@@ -186,8 +186,8 @@ function parseArguments(args: string[]) {
   try {
     return parseArgs({ args, options: COMMAND_OPTIONS, allowPositionals: true });
   } catch (error) {
-    const parseError = (error as Error).message.replace(/ To specify a positional.*/, '').replaceAll('\n', ' ').replace(/\.$/, '');
-    throw new UsageError(`${parseError}. --help lists all options.`);
+    const parseReason = (error as Error).message.replace(/ To specify a positional.*/, '').replaceAll('\n', ' ').replace(/\.$/, '');
+    throw new UsageError(`${parseReason}. --help lists all options.`);
   }
 }
 

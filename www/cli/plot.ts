@@ -35,7 +35,7 @@ function createDrivePanel({ odometry: odometryLog, reference: referenceLog }: Lo
   const [startTime, endTime] = [odometryLog.motionData.t[0], odometryLog.motionData.t[odometryLog.motionData.t.length - 1]];
   const legsOfDrive = Array.from({ length: legs.count }, (_, legIndex) => ({ times: [legs.times[2 * legIndex], legs.times[2 * legIndex + 1]], isOutlier: legs.outliers[legIndex] === 1 })).filter(({ times: [legStart, legEnd] }) => legStart >= startTime && legEnd <= endTime);
   const outlierLegs = legsOfDrive.filter(({ isOutlier }) => isOutlier);
-  const referencePoseAt = (referenceTime: number) => poseAt(referencePath, referenceTime + clockOffset);
+  const referencePoseAt = (odometryTime: number) => poseAt(referencePath, odometryTime + clockOffset);
 
   const plotView = new PictureView({ left: 56, top: TOP_MARGIN });
   plotView.setSize(PANEL_WIDTH, PANEL_HEIGHT);

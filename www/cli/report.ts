@@ -27,9 +27,9 @@ export interface CalibrationReport {
   date: string;
 }
 
-const resultOf = ({ calibration, options: { model: modelName = 'odometry', rule: ruleName = 'thrun', legs, correct: corrections = {} }, logs: robotLogs }: CalibrationReport): Result => ({
+const resultOf = ({ calibration, options: { model: modelName = 'odometry', rule: ruleName = 'thrun', legs, correct: corrections = {} }, logs: reportedLogs }: CalibrationReport): Result => ({
   stats: calibration, legCount: calibration.legs.count, model: modelName, rule: ruleName, legLength: legs, corrections,
-  logName: new Intl.ListFormat('en').format(new Set(robotLogs.map(({ name: logName }) => logName))), warnings: warningsOf(robotLogs.map(({ summary }) => summary)),
+  logName: new Intl.ListFormat('en').format(new Set(reportedLogs.map(({ name: logName }) => logName))), warnings: warningsOf(reportedLogs.map(({ summary }) => summary)),
 });
 
 /** Labels and texts of the report's tables. */
@@ -38,8 +38,8 @@ const REPORT_WORDS = { alphas: sharedTexts.alphas, calibrator: en };
 const MAX_LISTED_OUTLIERS = 5;
 
 /** Returns the summaries of the logs (odometry and reference of each drive), without the result of the fit. */
-export const formatLogSummaries = (robotLogs: ReadLog[]): string =>
-  robotLogs.map(({ name: logName, sentences: summarySentences }, i) => `${[`${english.choose.roleNames[LOG_ROLES[i % 2]]}: ${logName}`, ...summarySentences].join('\n  ')}\n`).join('');
+export const formatLogSummaries = (reportedLogs: ReadLog[]): string =>
+  reportedLogs.map(({ name: logName, sentences: summarySentences }, i) => `${[`${english.choose.roleNames[LOG_ROLES[i % 2]]}: ${logName}`, ...summarySentences].join('\n  ')}\n`).join('');
 
 /** Codes of colours in a terminal. */
 const [RED_CODE, GREEN_CODE, YELLOW_CODE] = [31, 32, 33];

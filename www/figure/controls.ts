@@ -57,7 +57,7 @@ export function settingSliderHtml(figure: Figure, settingKey: string, rowOverrid
 export function pictureHtml(figure: Figure, picture: FigurePicture<any>, title: string, pictureOptions: { className?: string, description?: string, contentBelow?: unknown } = {}) {
   const isFirst = picture === figure.pictures[0];
   const { className, description: pictureDescription = isFirst ? figure.description : title, contentBelow } = pictureOptions;
-  const selectAtPointer = (domEvent: PointerEvent) => figure.selectAtPointer(picture, domEvent);
+  const selectAtPointer = (pointerEvent: PointerEvent) => figure.selectAtPointer(picture, pointerEvent);
   return panelHtml(title, html`<div class="stage" part="picture">
       <canvas width="0" class=${picture.pictureName} role="img" aria-label=${pictureDescription} @pointermove=${selectAtPointer} @click=${selectAtPointer} @contextrestored=${() => figure.renderer.requestFrame()}></canvas>
       ${isFirst ? figure.handles.map((pictureHandles) => pictureHandles.render()) : nothing}

@@ -198,9 +198,9 @@ export function createDefinition(widgetTag: string, { overlayStyles, openingOver
     ...(widgetPresets.length > 0 && { preset: presetAttribute ?? presetAttributeOf(widgetPresets) }),
     ...propertiesOf(settingDeclarations),
   };
-  for (const [settingKey, { type: fieldType, words: fieldWords, access: pageAccess }] of Object.entries(elementFields)) {
-    if (pageAccess) elementProperties[settingKey] = { ...createFieldProperty(settingKey, fieldType), attribute: pageAccess === 'attribute', words: fieldWords };
+  for (const [fieldName, { type: fieldType, words: fieldWords, access: pageAccess }] of Object.entries(elementFields)) {
+    if (pageAccess) elementProperties[fieldName] = { ...createFieldProperty(fieldName, fieldType), attribute: pageAccess === 'attribute', words: fieldWords };
   }
-  const elementDefaults = Object.fromEntries(Object.entries(elementFields).map(([settingKey, elementField]) => [settingKey, elementField.default]));
+  const elementDefaults = Object.fromEntries(Object.entries(elementFields).map(([fieldName, elementField]) => [fieldName, elementField.default]));
   return { ...otherOptions, widgetTag, settingDeclarations, elementProperties, attributes: selectAttributes(elementProperties), elementFields, elementDefaults };
 }

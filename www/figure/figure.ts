@@ -119,7 +119,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   /** Player of a figure that animates a slider. `advance` returns true while it plays. */
   player: { advance(elapsedMs: number): boolean, stop(): void } | undefined;
   /** Handlers for dragged files, if the figure accepts files. */
-  dropHandlers: Record<'onDragOver' | 'onDragLeave' | 'onDrop', (domEvent: DragEvent) => void> | undefined;
+  dropHandlers: Record<'onDragOver' | 'onDragLeave' | 'onDrop', (dragEvent: DragEvent) => void> | undefined;
   /** Pictures on the canvases. The first has the handles, and is exported. */
   pictures: FigurePicture<any>[] = [];
   /** Handles: `render` returns their HTML, and `place` moves them to their places in the first picture. */
@@ -173,8 +173,8 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   abstract announcementOf(viewModel: ViewModel): string;
 
   /** Selects the sample at the pointer when the pointer moves or clicks on a picture. */
-  selectAtPointer(picture: FigurePicture<any>, domEvent: PointerEvent) {
-    this.cloud?.selectAtPointer(picture, domEvent);
+  selectAtPointer(picture: FigurePicture<any>, pointerEvent: PointerEvent) {
+    this.cloud?.selectAtPointer(picture, pointerEvent);
   }
 
   /** Runs after the simulation was replaced. */

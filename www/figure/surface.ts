@@ -14,7 +14,7 @@ export function figureHtml(figure: Figure) {
   const updateColours = () => colours.applyAndDraw();
   return html`
     <span class="scheme-probe" aria-hidden="true" @transitionend=${updateColours} @transitioncancel=${updateColours}></span>
-    <div class="surface ${presentationMode.showsControls ? 'with-controls' : ''}" @pointerdown=${(domEvent: PointerEvent) => gesture.onPointerDown(domEvent)} @input=${stopPropagation} @change=${stopPropagation} @keydown=${(domEvent: KeyboardEvent) => stopUsedKey(figure, domEvent)}>
+    <div class="surface ${presentationMode.showsControls ? 'with-controls' : ''}" @pointerdown=${(pointerEvent: PointerEvent) => gesture.onPointerDown(pointerEvent)} @input=${stopPropagation} @change=${stopPropagation} @keydown=${(keyEvent: KeyboardEvent) => stopUsedKey(figure, keyEvent)}>
       ${slotHtml(figure, 'title', presentation ? accessibleNameOf(figure) : '', headingLevel)}
       <div class="spoken" lang=${language} dir=${RIGHT_TO_LEFT_LANGUAGES.test(language) ? 'rtl' : 'ltr'}>
         ${contentHtml(figure)} ${notice.render()} ${presentationMode.render()}
@@ -77,17 +77,17 @@ const MOVE_KEYS = /Arrow|Page|Home|End/;
 const PRESS_KEYS = /^( |Enter)$/;
 
 /** Stops the propagation of a key event that a control has used, so that the shortcuts of a page, such as a slide deck, do not use the key again. */
-function stopUsedKey({ notice }: Figure, domEvent: KeyboardEvent) {
-  notice.stopOnEscape(domEvent);
-  const { key: pressedKey, ctrlKey, altKey, metaKey, defaultPrevented } = domEvent;
-  const keyTarget = domEvent.target as Element;
+function stopUsedKey({ notice }: Figure, keyEvent: KeyboardEvent) {
+  notice.stopOnEscape(keyEvent);
+  const { key: pressedKey, ctrlKey, altKey, metaKey, defaultPrevented } = keyEvent;
+  const keyTarget = keyEvent.target as Element;
   const isPressKey = PRESS_KEYS.test(pressedKey) && keyTarget.matches('button, input, summary');
   const isUsedByControl = keyTarget.matches(TEXT_FIELD_SELECTOR) ? pressedKey !== 'Escape' : isPressKey || (keyTarget.matches('input') && MOVE_KEYS.test(pressedKey));
-  if (defaultPrevented || (isUsedByControl && !ctrlKey && !altKey && !metaKey)) domEvent.stopPropagation();
+  if (defaultPrevented || (isUsedByControl && !ctrlKey && !altKey && !metaKey)) keyEvent.stopPropagation();
 }
 
 /** Stops the events of native controls, because the element fires its own. */
-const stopPropagation = (domEvent: Event) => domEvent.stopPropagation();
+const stopPropagation = (event: Event) => event.stopPropagation();
 
 const FOCUSABLE_SELECTOR = ':is(button, input, select, textarea):enabled:not([tabindex]), summary, [tabindex="0"]';
 

@@ -129,8 +129,8 @@ function chooseLog(recording: Recording, logRole: LogRole, userChoices: UserChoi
     );
   }
   if (chosenSeries.seriesKind !== 'transforms' || framePair) return { seriesName: chosenSeries.seriesName, ...(logKind && { logKind }), ...(framePair && { framePair }) };
-  const transformSeries = findLikeliestChoices(recording, logRole, userChoices, (logChoice) => logChoice.seriesName === chosenSeries.seriesName);
-  if (transformSeries.length === 1) return transformSeries[0];
+  const frameChoices = findLikeliestChoices(recording, logRole, userChoices, (logChoice) => logChoice.seriesName === chosenSeries.seriesName);
+  if (frameChoices.length === 1) return frameChoices[0];
   throw createFramesError(recording, chosenSeries, logRole);
 }
 
@@ -150,7 +150,7 @@ function guessChoice(recording: Recording, logRole: LogRole, userChoices: UserCh
   if (usableSeries.length === 0) throw createUnusableError(recording);
   const transformSeries = usableSeries.filter(({ seriesKind }) => seriesKind === 'transforms');
   const hasOnlyOtherChoice = otherRoleChoice && transformSeries.every(({ seriesName, framePairs = [] }) => framePairs.every((framePair) => isSameChoice({ seriesName, framePair }, otherRoleChoice)));
-  if (transformSeries.length === usableSeries.length && !hasOnlyOtherChoice) throw createFramesError(recording, transformSeries.find((transformSeries) => transformSeries.framePairs) ?? transformSeries[0], logRole);
+  if (transformSeries.length === usableSeries.length && !hasOnlyOtherChoice) throw createFramesError(recording, transformSeries.find((seriesEntry) => seriesEntry.framePairs) ?? transformSeries[0], logRole);
   const positionSeries = usableSeries.filter(({ seriesName, seriesKind }) => seriesKind === 'positions' && !GOAL_NAMES.test(seriesName));
   if (positionSeries.length === usableSeries.length || (logRole === 'reference' && bestChoices.length === 0 && positionSeries.length > 0)) {
     throw new LogError({ fileName: recordingName }, (errorReasons) => errorReasons.noHeadingReason(describeSeries(positionSeries)));

@@ -45,12 +45,12 @@ export class FrameTree {
 
   /** Adds a transform to the link between its frames. */
   addTransform(stampedTransform: StampedTransform, isStatic: boolean, recordTime: number, messageNumber: number): void {
-    const { parent: parentFrame, child: childFrame, frameTransform: transform } = stampedTransform;
+    const { parent: parentFrame, child: childFrame, frameTransform } = stampedTransform;
     const linkName = formatFrames({ parent: parentFrame, child: childFrame });
-    const frameLink = this.#linkByName.get(linkName) ?? { parent: parentFrame, child: childFrame, isStatic, firstTransform: transform, hasChanged: false, maxDistance: 0, recordedTransforms: [] };
+    const frameLink = this.#linkByName.get(linkName) ?? { parent: parentFrame, child: childFrame, isStatic, firstTransform: frameTransform, hasChanged: false, maxDistance: 0, recordedTransforms: [] };
     this.#linkByName.set(linkName, frameLink);
-    frameLink.maxDistance = Math.max(frameLink.maxDistance, Math.hypot(transform[0] - frameLink.firstTransform[0], transform[1] - frameLink.firstTransform[1]));
-    frameLink.hasChanged ||= transform.some((transformValue, i) => transformValue !== frameLink.firstTransform[i]);
+    frameLink.maxDistance = Math.max(frameLink.maxDistance, Math.hypot(frameTransform[0] - frameLink.firstTransform[0], frameTransform[1] - frameLink.firstTransform[1]));
+    frameLink.hasChanged ||= frameTransform.some((transformValue, i) => transformValue !== frameLink.firstTransform[i]);
     if (!this.#chainEnds) return;
     if (!this.isConnected || this.#chainLinks.includes(frameLink)) frameLink.recordedTransforms.push({ ...stampedTransform, recordTime, messageNumber });
     if (!this.isConnected) this.#chainLinks = this.#findChain(this.#chainEnds) ?? [];

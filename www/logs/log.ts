@@ -43,7 +43,7 @@ export interface LogChoice {
 }
 
 /** Returns the label of a choice of a log: the name of its series, and the two frames if the series has transforms. */
-export const choiceLabelOf = ({ seriesName: series, framePair }: LogChoice) => (framePair ? `${series}: ${formatFrames(framePair)}` : series);
+export const choiceLabelOf = ({ seriesName, framePair }: LogChoice) => (framePair ? `${seriesName}: ${formatFrames(framePair)}` : seriesName);
 
 /** File, or folder of files, from which logs are read. */
 export interface Recording {
@@ -168,8 +168,8 @@ export const RECORDING_CLOCK = 'log time';
 type SummaryLabel = keyof LogTexts['found']['rowLabels'];
 
 /** Returns the lines of a log's summary by their labels. */
-export function summaryLinesOf({ logSummary: summary }: Log, summaryTexts: LogTexts['found']): Partial<Record<SummaryLabel, string[]>> {
-  const { rows, used, dropped, seconds, rate, distance, units, clock, columns, frames: framePair, gaps, jumps, notes } = summary;
+export function summaryLinesOf({ logSummary }: Log, summaryTexts: LogTexts['found']): Partial<Record<SummaryLabel, string[]>> {
+  const { rows, used, dropped, seconds, rate, distance, units, clock, columns, frames: framePair, gaps, jumps, notes } = logSummary;
   return {
     rows: [summaryTexts.rowsSummary(used, rows, seconds, rate, distance)],
     ...(columns && { columns: [Object.values(columns).join(', ')], units: [summaryTexts.unitsSummary(units)] }),
@@ -186,8 +186,8 @@ export function summaryLinesOf({ logSummary: summary }: Log, summaryTexts: LogTe
 }
 
 /** Returns the summary of a log as sentences. The first sentence is about the rows. */
-export function summarySentencesOf(robotLog: Log, summaryTexts: LogTexts['found']): string[] {
-  const { rows = [], ...otherLines } = summaryLinesOf(robotLog, summaryTexts);
+export function summarySentencesOf(log: Log, summaryTexts: LogTexts['found']): string[] {
+  const { rows = [], ...otherLines } = summaryLinesOf(log, summaryTexts);
   return [...rows, ...Object.entries(otherLines).flatMap(([label, lines]) => lines.map((line) => `${summaryTexts.rowLabels[label as SummaryLabel]}: ${line}`))];
 }
 

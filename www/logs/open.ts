@@ -102,7 +102,7 @@ async function openContainer(sourceFile: SourceFile, format: FileFormat | undefi
 function joinContainers(containers: MessageContainer[]): MessageContainer {
   return {
     recordingFormat: containers[0].recordingFormat,
-    topicChannels: containers.flatMap(({ topicChannels: channels }) => channels),
+    topicChannels: containers.flatMap(({ topicChannels }) => topicChannels),
     get truncationReason() {
       return containers.find(({ truncationReason }) => truncationReason)?.truncationReason;
     },

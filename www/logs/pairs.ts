@@ -27,11 +27,11 @@ const MAX_UNIT_ERROR = 1.2;
 
 const timeSpanOf = ({ startTime, motionData: { t } }: Log): [number, number] => [startTime + t[0], startTime + t[t.length - 1]];
 
-const formatTimeSpan = (robotLog: Log) => timeSpanOf(robotLog).map((sampleTime) => `${sampleTime.toFixed(2)} s`).join(' to ');
+const formatTimeSpan = (log: Log) => timeSpanOf(log).map((sampleTime) => `${sampleTime.toFixed(2)} s`).join(' to ');
 
 /** Returns the duration of the overlap of two logs; negative if there is a gap between them. */
-function overlapSecondsOf(robotLog: Log, otherLog: Log): number {
-  const [[a, b], [c, d]] = [timeSpanOf(robotLog), timeSpanOf(otherLog)];
+function overlapSecondsOf(firstLog: Log, secondLog: Log): number {
+  const [[a, b], [c, d]] = [timeSpanOf(firstLog), timeSpanOf(secondLog)];
   return Math.min(b, d) - Math.max(a, c);
 }
 
@@ -95,15 +95,15 @@ export function calibrationLogOf(loggedDrives: LoggedDrive[]): Pick<CalibrationL
 
 /** Reads the logs of planned recordings, and pairs them. All times count from the same start. Rejects with a LogError. */
 export async function readDrives(drivePlan: PlannedRecording[], onProgress?: (progressFraction: number) => void): Promise<LoggedDrive[]> {
-  const plannedLogs: { robotLog: Log; logRole: LogRole; isPaired: boolean }[] = [];
+  const plannedLogs: { log: Log; logRole: LogRole; isPaired: boolean }[] = [];
   for (const [i, { recording, logChoices }] of drivePlan.entries()) {
     const logRoles = LOG_ROLES.filter((logRole) => logChoices[logRole]);
     const logsOfRecording = await recording.readLogs(logRoles.map((logRole) => logChoices[logRole] as LogChoice), (progressFraction) => onProgress?.((i + progressFraction) / drivePlan.length));
-    plannedLogs.push(...logsOfRecording.map((robotLog, k) => ({ robotLog, logRole: logRoles[k], isPaired: logRoles.length === 2 })));
+    plannedLogs.push(...logsOfRecording.map((log, k) => ({ log, logRole: logRoles[k], isPaired: logRoles.length === 2 })));
   }
-  const startTime = min(plannedLogs, ({ robotLog }) => robotLog.startTime) ?? 0;
-  const logsOf = (isWantedPaired: boolean) => LOG_ROLES.map((wantedRole) => plannedLogs.filter(({ logRole, isPaired }) => logRole === wantedRole && isPaired === isWantedPaired).map(({ robotLog }): Log =>
-    ({ ...robotLog, startTime, motionData: { ...robotLog.motionData, t: robotLog.motionData.t.map((sampleTime) => sampleTime + (robotLog.startTime - startTime)) } })));
+  const startTime = min(plannedLogs, ({ log }) => log.startTime) ?? 0;
+  const logsOf = (isWantedPaired: boolean) => LOG_ROLES.map((wantedRole) => plannedLogs.filter(({ logRole, isPaired }) => logRole === wantedRole && isPaired === isWantedPaired).map(({ log }): Log =>
+    ({ ...log, startTime, motionData: { ...log.motionData, t: log.motionData.t.map((sampleTime) => sampleTime + (log.startTime - startTime)) } })));
   const [[pairedOdometry, pairedReference], [unpairedOdometry, unpairedReference]] = [logsOf(true), logsOf(false)];
   const logPairs = [...zip(pairedOdometry, pairedReference), ...matchLogs(unpairedOdometry, unpairedReference)];
   return logPairs.map(([odometryLog, referenceLog]) => pairLogs(odometryLog, referenceLog));

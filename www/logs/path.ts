@@ -36,9 +36,9 @@ export function pathOf(motionData: Poses | Commands, rowsPerPose = 1): TimedPath
 /** Returns the interpolated pose of a path at a time. Before the first time of the path it returns the first pose, and after the last time the last pose. */
 export function poseAt({ t, poses }: TimedPath, sampleTime: number): PlanarPose {
   const nextIndex = Math.min(Math.max(bisectLeft(t, sampleTime), 1), t.length - 1);
-  const progressFraction = Math.min(Math.max((sampleTime - t[nextIndex - 1]) / (t[nextIndex] - t[nextIndex - 1]), 0), 1);
+  const blendFraction = Math.min(Math.max((sampleTime - t[nextIndex - 1]) / (t[nextIndex] - t[nextIndex - 1]), 0), 1);
   const [a, b] = [poses[nextIndex - 1], poses[nextIndex]];
-  return [a[0] + progressFraction * (b[0] - a[0]), a[1] + progressFraction * (b[1] - a[1]), a[2] + progressFraction * wrapAngle(b[2] - a[2])];
+  return [a[0] + blendFraction * (b[0] - a[0]), a[1] + blendFraction * (b[1] - a[1]), a[2] + blendFraction * wrapAngle(b[2] - a[2])];
 }
 
 export const svgPathDataOf = ({ poses, breakIndices }: TimedPath, toPixel: (pose: PlanarPose) => number[]) =>
@@ -128,4 +128,4 @@ export function sampleEvenly(valueCount: number, valueAt: (i: number) => number)
 }
 
 /** Returns a quantile of an array, which it sorts in place; NaN for an empty array. */
-export const quantileOf = (sampledValues: Float64Array, progressFraction: number) => sampledValues.sort()[Math.floor(progressFraction * (sampledValues.length - 1))] ?? NaN;
+export const quantileOf = (sampledValues: Float64Array, quantileFraction: number) => sampledValues.sort()[Math.floor(quantileFraction * (sampledValues.length - 1))] ?? NaN;

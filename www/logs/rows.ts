@@ -149,8 +149,8 @@ export class RowCollector {
     }
     const [rowTimes, a, b, c, z] = [this.#times, this.#rowColumns.a, this.#rowColumns.b, this.#rowColumns.c, this.#rowColumns.z].map((rowColumn) => new Float64Array(rowIndices.length).map((_, i) => rowColumn[rowIndices[i]]));
     const t = rowTimes.map((rowTime) => rowTime - startTime);
-    const logColumns: SampleColumns = { startTime, t, a, b, c, z };
-    const judgedUnits = judgeUnits(this.#logPlace, logKind, logColumns, assumedUnits, openOptions, createColumnQuestion);
+    const sampleColumns: SampleColumns = { startTime, t, a, b, c, z };
+    const judgedUnits = judgeUnits(this.#logPlace, logKind, sampleColumns, assumedUnits, openOptions, createColumnQuestion);
     const pathDistance = logKind === 'poses' ? distanceOfPaths(t, a, b) : 0;
     if (pathDistance > 0) throw new LogError(this.#logPlace, (errorReasons) => errorReasons.alternatingPathsReason(pathDistance));
     const { jumpRows, ...foundGaps } = findEvents(logKind, [t, a, b, c]);
@@ -165,7 +165,7 @@ export class RowCollector {
       rows: rowCount, used: t.length, dropped: this.#droppedRows, seconds, distance: distanceOf(motionData, jumpRows), ...foundGaps,
       ...logDecisions, ...(logDecisions.columns && { columns: { ...logDecisions.columns, t: clockName } }), units: judgedUnits, clock: clockName, notes: logNotes,
     };
-    return { logName, logKind, startTime: logColumns.startTime, motionData, logSummary, ...(createColumnQuestion && { mirroringQuestion: createColumnQuestion(COLUMN_CHANGES.mirrored) }) };
+    return { logName, logKind, startTime: sampleColumns.startTime, motionData, logSummary, ...(createColumnQuestion && { mirroringQuestion: createColumnQuestion(COLUMN_CHANGES.mirrored) }) };
   }
 
   /** Returns true if most rows have the same time as the row before, because the stamps are 0 or never change. */

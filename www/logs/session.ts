@@ -40,10 +40,10 @@ export class LogSession {
   }
 
   /** Opens files, chooses their logs and reads them. The user's choices have precedence over guesses. */
-  async readFiles(droppedFiles: { file: SourceFile; path: string }[], optionsByFile: Record<string, OpenOptions>, userChoices: UserChoices, onProgress: (progressFraction: number) => void): Promise<FileContents> {
+  async readFiles(chosenFiles: { file: SourceFile; path: string }[], optionsByFile: Record<string, OpenOptions>, userChoices: UserChoices, onProgress: (progressFraction: number) => void): Promise<FileContents> {
     const skippedFiles: LogFailure[] = [];
     const onSkip = (error: LogError) => void skippedFiles.push(failureOf(error));
-    const namedFiles = droppedFiles.map(({ file: droppedFile, path: folderPath }) => Object.assign(droppedFile, { path: folderPath }));
+    const namedFiles = chosenFiles.map(({ file: chosenFile, path: pathInFolder }) => Object.assign(chosenFile, { path: pathInFolder }));
     let [openedRecordings, drivePlan]: [Recording[], PlannedRecording[] | undefined] = [[], undefined];
     const describeRecordings = () => openedRecordings.map(({ recordingName, recordingFormat, seriesList }, i) => ({ recordingName, recordingFormat, seriesList, logChoices: drivePlan?.find(({ recording }) => recording === openedRecordings[i])?.logChoices }));
     let nextProgress = 0;
@@ -57,9 +57,9 @@ export class LogSession {
         nextProgress = currentTime + PROGRESS_INTERVAL_MS;
         onProgress(progressFraction);
       });
-      const robotLogs = loggedDrives.flatMap(({ odometry: odometryLog, reference: referenceLog }) => [odometryLog, referenceLog]);
-      const dataColumns = robotLogs.flatMap(({ motionData }) => Object.values(motionData) as ArrayBufferView[]);
-      const fileContents = { openedRecordings: describeRecordings(), skippedFiles, loggedDrives, calibrationLog: { name: nameOf(drivePlan), ...calibrationLogOf(loggedDrives) }, logWarnings: warningsOf(robotLogs.map(({ logSummary }) => logSummary)) };
+      const allLogs = loggedDrives.flatMap(({ odometry: odometryLog, reference: referenceLog }) => [odometryLog, referenceLog]);
+      const dataColumns = allLogs.flatMap(({ motionData }) => Object.values(motionData) as ArrayBufferView[]);
+      const fileContents = { openedRecordings: describeRecordings(), skippedFiles, loggedDrives, calibrationLog: { name: nameOf(drivePlan), ...calibrationLogOf(loggedDrives) }, logWarnings: warningsOf(allLogs.map(({ logSummary }) => logSummary)) };
       return transfer(fileContents, [...new Set(dataColumns.map(({ buffer: columnBuffer }) => columnBuffer as ArrayBuffer))]);
     } catch (error) {
       if (!(error instanceof LogError)) throw error;

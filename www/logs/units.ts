@@ -49,7 +49,7 @@ const [MIN_STEP_LENGTH, MIN_STEPS] = [0.02, 20];
 /** Limits for accepting a unit and sign of headings: minimum mean resultant length of the angles between headings and path, and minimum lead over all other combinations. */
 const [MIN_ALIGNMENT, MIN_ALIGNMENT_LEAD] = [0.8, 0.3];
 
-const isInRange = (number: number, [lowLimit, highLimit]: readonly [number, number]) => number >= lowLimit && number <= highLimit;
+const isInRange = (checkedNumber: number, [lowLimit, highLimit]: readonly [number, number]) => checkedNumber >= lowLimit && checkedNumber <= highLimit;
 
 /** Returns the unit of a time since 1970 by its size; undefined for smaller times. */
 export const epochTimeUnitOf = (epochTime: number): TimeUnit | undefined => MIN_EPOCH_TIMES.find(([, minTime]) => Math.abs(epochTime) >= minTime)?.[0];
@@ -92,8 +92,8 @@ export function judgeUnits(errorPlace: ErrorPlace, logKind: LogKind, sampleColum
 }
 
 /** Returns an error with a question for the unit. If no unit is possible, the error has no question. `unitChoices` are the units as the message lists them. */
-const createUnitError = (errorPlace: ErrorPlace, unitOption: keyof typeof UNIT_NAMES, wrongValue: number, assumedUnit: string, possibleUnits: string[], unitChoices = possibleUnits) =>
-  new LogError(errorPlace, (errorReasons) => errorReasons[unitOption](wrongValue, assumedUnit, unitChoices), possibleUnits.length > 0 ? { optionName: unitOption, possibleAnswers: sort(possibleUnits, (unitName) => Number(unitName === assumedUnit)) } : undefined);
+const createUnitError = (errorPlace: ErrorPlace, unitOption: keyof typeof UNIT_NAMES, doubtfulRate: number, assumedUnit: string, possibleUnits: string[], unitChoices = possibleUnits) =>
+  new LogError(errorPlace, (errorReasons) => errorReasons[unitOption](doubtfulRate, assumedUnit, unitChoices), possibleUnits.length > 0 ? { optionName: unitOption, possibleAnswers: sort(possibleUnits, (unitName) => Number(unitName === assumedUnit)) } : undefined);
 
 /** Judges a unit of time that is not stated, from the rate of the rows and the speed of the robot. */
 function judgeTimeUnit(errorPlace: ErrorPlace, logKind: LogKind, { t, a, b }: SampleColumns, assumedUnit: LogUnits['time']): LogUnits['time'] {

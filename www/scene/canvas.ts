@@ -37,7 +37,7 @@ export interface DrawContext {
 const FONT_SIZE_PX = 13;
 
 /** Returns a length in pixels of a view as CSS em of the figure. */
-export const formatEm = (pixelCount: number) => `${pixelCount / 16}em`;
+export const formatEm = (pixelLength: number) => `${pixelLength / 16}em`;
 
 /** Converts a point of the window to pixels of the view that an element shows. The page may have scaled the element. */
 export function toViewPixels(element: Element, pictureView: import('./view.ts').PictureView, { clientX, clientY }: { clientX: number, clientY: number }): [x: number, y: number] {
@@ -86,8 +86,8 @@ export function strokePath(canvasContext: AnyContext2D, { colour: lineColour, wi
   canvasContext.setLineDash([]);
 }
 
-export function fillPath(canvasContext: AnyContext2D, lineColour: string, addPath: () => void) {
-  canvasContext.fillStyle = lineColour;
+export function fillPath(canvasContext: AnyContext2D, fillColour: string, addPath: () => void) {
+  canvasContext.fillStyle = fillColour;
   canvasContext.beginPath();
   addPath();
   canvasContext.fill();

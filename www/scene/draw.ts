@@ -108,10 +108,10 @@ export function addCross(canvasContext: DrawContext['canvasContext'], x: number,
 
 /** Draws the symbol of a legend entry, as `swatchHtml` does on the page. The point is its left end, in pixels. */
 function drawSwatch({ canvasContext }: DrawContext, { shape: swatchShape, ...lineStyle }: ShownLine, [x, y]: [x: number, y: number], width: number) {
-  const [middleX, { colour: lineColour }] = [x + width / 2, lineStyle];
-  if (swatchShape === 'area') fillPath(canvasContext, lineColour, () => canvasContext.rect(middleX - 5.5, y - 5.5, 11, 11));
-  else if (swatchShape === 'cross') strokePath(canvasContext, { colour: lineColour, width: 1 }, () => addCross(canvasContext, middleX, y));
-  else if (swatchShape === 'dot' || swatchShape === 'ring') drawDisc(canvasContext, [middleX, y], 3, swatchShape === 'dot' ? lineColour : undefined, { colour: lineColour, width: 1 });
+  const [middleX, { colour: swatchColour }] = [x + width / 2, lineStyle];
+  if (swatchShape === 'area') fillPath(canvasContext, swatchColour, () => canvasContext.rect(middleX - 5.5, y - 5.5, 11, 11));
+  else if (swatchShape === 'cross') strokePath(canvasContext, { colour: swatchColour, width: 1 }, () => addCross(canvasContext, middleX, y));
+  else if (swatchShape === 'dot' || swatchShape === 'ring') drawDisc(canvasContext, [middleX, y], 3, swatchShape === 'dot' ? swatchColour : undefined, { colour: swatchColour, width: 1 });
   else strokeLine(canvasContext, [[x, y], [x + width, y]], lineStyle);
 }
 

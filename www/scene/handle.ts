@@ -10,7 +10,7 @@ interface HandleCallbacks {
   findGraspedPoint?: (pointerPoint: number[]) => number[] | undefined;
   dragTo: (x: number, y: number) => void;
   /** Handles a key. Returns true if the key moved the handle's target. */
-  handleKey: (domEvent: KeyboardEvent) => boolean;
+  handleKey: (keyEvent: KeyboardEvent) => boolean;
   commit: () => void;
 }
 
@@ -110,24 +110,24 @@ export class Handle {
     handleElement.style.translate = `${formatEm(x)} ${formatEm(y)}`;
   }
 
-  #worldPointOf(domEvent: PointerEvent) {
+  #worldPointOf(pointerEvent: PointerEvent) {
     const pictureView = this.#callbacks.getView();
-    return pictureView.toWorld(...toViewPixels((domEvent.currentTarget as Element).parentElement as Element, pictureView, domEvent));
+    return pictureView.toWorld(...toViewPixels((pointerEvent.currentTarget as Element).parentElement as Element, pictureView, pointerEvent));
   }
 
-  #onPointerDown = (domEvent: PointerEvent) => {
-    if (domEvent.button !== 0) return;
-    const handleElement = domEvent.currentTarget as Element;
-    handleElement.setPointerCapture(domEvent.pointerId);
-    this.#heldPointer = { id: domEvent.pointerId, element: handleElement };
-    const pointerInWorld = this.#worldPointOf(domEvent);
+  #onPointerDown = (pointerEvent: PointerEvent) => {
+    if (pointerEvent.button !== 0) return;
+    const handleElement = pointerEvent.currentTarget as Element;
+    handleElement.setPointerCapture(pointerEvent.pointerId);
+    this.#heldPointer = { id: pointerEvent.pointerId, element: handleElement };
+    const pointerInWorld = this.#worldPointOf(pointerEvent);
     const graspedPoint = this.#callbacks.findGraspedPoint?.(pointerInWorld) ?? this.#callbacks.getView().toWorld(...this.#middlePixels);
     this.#gripOffset = [graspedPoint[0] - pointerInWorld[0], graspedPoint[1] - pointerInWorld[1]];
   };
 
-  #onPointerMove = (domEvent: PointerEvent) => {
+  #onPointerMove = (pointerEvent: PointerEvent) => {
     if (!this.isHeld) return;
-    const [x, y] = this.#worldPointOf(domEvent);
+    const [x, y] = this.#worldPointOf(pointerEvent);
     this.#callbacks.dragTo(x + this.#gripOffset[0], y + this.#gripOffset[1]);
   };
 
@@ -137,9 +137,9 @@ export class Handle {
     this.#callbacks.commit();
   };
 
-  #onKeyDown = (domEvent: KeyboardEvent) => {
-    if (!this.#callbacks.handleKey(domEvent)) return;
-    domEvent.preventDefault();
+  #onKeyDown = (keyEvent: KeyboardEvent) => {
+    if (!this.#callbacks.handleKey(keyEvent)) return;
+    keyEvent.preventDefault();
     this.#callbacks.commit();
   };
 }

@@ -79,14 +79,14 @@ export function cellCornerOf({ resolution: cellSide, origin: [x, y, yaw] }: Cell
  * Fills the cells whose value is 1. If cells are smaller than a pixel, squares of several cells are drawn. A square is filled if one of its
  * cells is filled, so that thin walls stay visible.
  */
-function fillCells({ canvasContext, pictureView, pixelRatio }: LayerDrawContext, cellGrid: CellGrid, cellValues: Uint8Array, lineColour: string) {
+function fillCells({ canvasContext, pictureView, pixelRatio }: LayerDrawContext, cellGrid: CellGrid, cellValues: Uint8Array, cellColour: string) {
   const cellsPerSquare = Math.max(1, Math.floor(1 / (cellGrid.resolution * pictureView.scaleX * pixelRatio)));
   const [left, bottom, right, top] = findVisibleCellRange(pictureView, cellGrid, cellsPerSquare);
   const [width, height] = [Math.ceil((right - left) / cellsPerSquare), Math.ceil((top - bottom) / cellsPerSquare)];
   if (width < 1 || height < 1) return;
   const squaresImage = new ImageData(width, height);
   const squarePixels = new Uint32Array(squaresImage.data.buffer);
-  const [pixelColour] = new Uint32Array(Uint8Array.of(...colourChannelsOf(lineColour), 255).buffer);
+  const [pixelColour] = new Uint32Array(Uint8Array.of(...colourChannelsOf(cellColour), 255).buffer);
   for (let cellRow = bottom; cellRow < top; cellRow++) {
     const rowEnd = cellRow * cellGrid.columns + right;
     let pixelIndex = Math.floor((cellRow - bottom) / cellsPerSquare) * width;

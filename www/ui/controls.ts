@@ -248,7 +248,7 @@ export function checkboxHtml({ labelContent, isChecked, onChange }: { labelConte
     <input
       type="checkbox"
       .checked=${live(isChecked)}
-      @change=${(domEvent: Event) => onChange(inputOf(domEvent).checked)}
+      @change=${(event: Event) => onChange(inputOf(event).checked)}
     />
     ${labelContent}
   </label>`;
@@ -299,26 +299,26 @@ interface NumberField extends AllowedNumbers {
  */
 export function numberFieldHtml({ value: fieldValue, min: minValue, max: maxValue, type: numberType, arrowRange, id, labelId, isOptional = false, placeholder, isDisabled = false, onChange }: NumberField) {
   const typingRange = { min: minValue, max: maxValue, step: numberType === 'whole' ? '1' : 'any' };
-  const handleKey = (domEvent: KeyboardEvent) => {
-    const numberField = inputOf(domEvent);
+  const handleKey = (keyEvent: KeyboardEvent) => {
+    const numberField = inputOf(keyEvent);
     // The steps of the arrow keys count from `min`.
-    Object.assign(numberField, domEvent.key.startsWith('Arrow') ? arrowRange : typingRange);
-    if (domEvent.key !== 'Escape') return;
+    Object.assign(numberField, keyEvent.key.startsWith('Arrow') ? arrowRange : typingRange);
+    if (keyEvent.key !== 'Escape') return;
     numberField.form?.reset();
     // A handled Escape does not end a presentation.
-    domEvent.preventDefault();
+    keyEvent.preventDefault();
   };
   const groupSeparator = language === 'de' ? '.' : ',';
   // Browsers drop characters that are not in the notation of the browser's language: 0,35 would become 35.
-  const replaceSigns = (domEvent: InputEvent) => {
-    const typedText = domEvent.data ?? '';
+  const replaceSigns = (inputEvent: InputEvent) => {
+    const typedText = inputEvent.data ?? '';
     const replacedText = (numberType === 'whole' ? typedText.replaceAll(groupSeparator, '') : typedText).replace(MINUS_SIGN, '-').replace(',', '.');
     if (replacedText === typedText) return;
-    domEvent.preventDefault();
+    inputEvent.preventDefault();
     if (replacedText) document.execCommand('insertText', false, replacedText);
   };
-  const enterNumber = (domEvent: Event) => {
-    const numberField = Object.assign(inputOf(domEvent), typingRange);
+  const enterNumber = (event: Event) => {
+    const numberField = Object.assign(inputOf(event), typingRange);
     if (!numberField.validity.valid) return;
     onChange(numberField.valueAsNumber, numberField);
     // After a reset, the browser shows the value of the next rendering.
@@ -339,15 +339,15 @@ export function numberFieldHtml({ value: fieldValue, min: minValue, max: maxValu
     autocomplete="off"
     ?required=${!isOptional}
     ?disabled=${isDisabled}
-    @focus=${(domEvent: Event) => inputOf(domEvent).select()}
+    @focus=${(event: Event) => inputOf(event).select()}
     @beforeinput=${replaceSigns}
     @keydown=${handleKey}
     @change=${enterNumber}
-    @blur=${(domEvent: Event) => inputOf(domEvent).form?.reset()}
+    @blur=${(event: Event) => inputOf(event).form?.reset()}
   />`;
 }
 
-export const inputOf = (domEvent: Event) => domEvent.target as HTMLInputElement;
+export const inputOf = (event: Event) => event.target as HTMLInputElement;
 
 /** Returns radio buttons in a row under one name, in the order of the labels. */
 export function radioGroupHtml<Name extends string>(groupLabel: string, groupName: string, labelsByName: Record<Name, string>, checkedName: Name, onChoose: (name: Name) => void) {

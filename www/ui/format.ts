@@ -16,12 +16,12 @@ function getDecimalSeparator(): string {
 }
 
 /** Prints a number with decimals: "−0.301"; "0.000" rather than "−0.000"; "∞"; "—" for NaN. */
-export function formatFixed(unformattedNumber: number, decimals: number): string {
-  if (Number.isNaN(unformattedNumber)) return NO_VALUE;
+export function formatFixed(number: number, decimals: number): string {
+  if (Number.isNaN(number)) return NO_VALUE;
   // `toFixed` rounds the exact binary number. `Intl` rounds its shortest decimal form, and may round a false tie up.
-  const digits = Math.abs(unformattedNumber).toFixed(decimals);
-  const minusOrNothing = unformattedNumber < 0 && Number(digits) !== 0 ? MINUS_SIGN : '';
-  return minusOrNothing + (Number.isFinite(unformattedNumber) ? digits.replace('.', getDecimalSeparator()) : '∞');
+  const digits = Math.abs(number).toFixed(decimals);
+  const sign = number < 0 && Number(digits) !== 0 ? MINUS_SIGN : '';
+  return sign + (Number.isFinite(number) ? digits.replace('.', getDecimalSeparator()) : '∞');
 }
 
 /** Maximum number of decimals of an editable value beyond the usual number. */
@@ -31,9 +31,9 @@ const MAX_EXTRA_DECIMALS = 2;
  * Prints a value as it was typed: with up to two more decimals than usual, if they print it exactly. With 3 decimals 0.0525 is "0.0525",
  * but 0.05210987 is "0.052".
  */
-export function formatEditable(unformattedNumber: number, decimals: number): string {
-  const typedDecimals = String(unformattedNumber).split('.')[1]?.length ?? 0;
-  return formatFixed(unformattedNumber, typedDecimals > decimals && typedDecimals <= decimals + MAX_EXTRA_DECIMALS ? typedDecimals : decimals);
+export function formatEditable(number: number, decimals: number): string {
+  const typedDecimals = String(number).split('.')[1]?.length ?? 0;
+  return formatFixed(number, typedDecimals > decimals && typedDecimals <= decimals + MAX_EXTRA_DECIMALS ? typedDecimals : decimals);
 }
 
 /** Magnitude below which a number counts as a rounded 0. */
@@ -45,12 +45,12 @@ const MAX_ERROR_DECIMALS = 5;
 const SUPERSCRIPT_DIGITS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 
 /** Prints a number with significant digits: "0.0070020"; below 0.0001 and from 100,000 on "1.2500·10⁻⁵". */
-export function formatSignificant(unformattedNumber: number, significantDigits: number): string {
-  if (Math.abs(unformattedNumber) < MAX_ROUNDED_ZERO) return '0';
-  if (!Number.isFinite(unformattedNumber)) return formatFixed(unformattedNumber, 0);
-  const [mantissa, exponent] = unformattedNumber.toExponential(significantDigits - 1).split('e').map(Number);
+export function formatSignificant(number: number, significantDigits: number): string {
+  if (Math.abs(number) < MAX_ROUNDED_ZERO) return '0';
+  if (!Number.isFinite(number)) return formatFixed(number, 0);
+  const [mantissa, exponent] = number.toExponential(significantDigits - 1).split('e').map(Number);
   if (exponent < -4 || exponent >= 5) return `${formatFixed(mantissa, significantDigits - 1)}·${formatPowerOfTen(exponent)}`;
-  return formatFixed(Number(unformattedNumber.toPrecision(significantDigits)), Math.max(0, significantDigits - 1 - exponent));
+  return formatFixed(Number(number.toPrecision(significantDigits)), Math.max(0, significantDigits - 1 - exponent));
 }
 
 /** Prints a power of ten: "10⁻⁵". */
@@ -59,15 +59,15 @@ export function formatPowerOfTen(exponent: number): string {
 }
 
 /** Prints a number from 0 on, rounded to significant digits: "0.47", "12", "1 200". */
-export function formatRounded(unformattedNumber: number, significantDigits: number): string {
-  if (unformattedNumber < MAX_ROUNDED_ZERO) return '0';
-  const roundedValue = Number(unformattedNumber.toPrecision(significantDigits));
+export function formatRounded(number: number, significantDigits: number): string {
+  if (number < MAX_ROUNDED_ZERO) return '0';
+  const roundedValue = Number(number.toPrecision(significantDigits));
   const decimals = significantDigits - 1 - Math.floor(Math.log10(roundedValue));
   return decimals > 0 ? formatFixed(roundedValue, decimals) : formatInteger(roundedValue);
 }
 
 /** Prints a count: "100 000". */
-export const formatInteger = (integerValue: number): string => formatFixed(integerValue, 0).replace(/\B(?=(\d{3})+$)/g, THIN_SPACE);
+export const formatInteger = (count: number): string => formatFixed(count, 0).replace(/\B(?=(\d{3})+$)/g, THIN_SPACE);
 
 /** Prints a fraction from 0 to 1 in percent: "86.5 %". */
 export function formatPercent(proportion: number, decimals: number = 1): string {
@@ -75,18 +75,18 @@ export function formatPercent(proportion: number, decimals: number = 1): string 
 }
 
 /** Prints a value with its standard error: "−0.412 ± 0.031". Infinity and NaN are printed without an error. Decimals are added until the error shows its first digit. */
-export function formatWithError(unformattedNumber: number, standardError: number, decimals: number): string {
-  if (!Number.isFinite(unformattedNumber)) return formatFixed(unformattedNumber, 0);
+export function formatWithError(number: number, standardError: number, decimals: number): string {
+  if (!Number.isFinite(number)) return formatFixed(number, 0);
   const neededDecimals = standardError > 0 ? Math.max(decimals, Math.min(MAX_ERROR_DECIMALS, -Math.floor(Math.log10(standardError)))) : decimals;
-  return `${formatFixed(unformattedNumber, neededDecimals)} ± ${formatFixed(standardError, neededDecimals)}`;
+  return `${formatFixed(number, neededDecimals)} ± ${formatFixed(standardError, neededDecimals)}`;
 }
 
 /** Prints the label of an axis tick, with as many decimals as the step between ticks needs. */
-export function formatTick(unformattedNumber: number, tickStep: number) {
-  return formatFixed(unformattedNumber, Math.max(0, -Math.floor(Math.log10(tickStep) + 1e-9)));
+export function formatTick(number: number, tickStep: number) {
+  return formatFixed(number, Math.max(0, -Math.floor(Math.log10(tickStep) + 1e-9)));
 }
 
 /** Returns the value, or the nearer limit if the value is not between `min` and `max`. */
-export function clampNumber(wantedNumber: number, lowerLimit: number, upperLimit: number) {
-  return Math.min(upperLimit, Math.max(lowerLimit, wantedNumber));
+export function clampNumber(number: number, lowerLimit: number, upperLimit: number) {
+  return Math.min(upperLimit, Math.max(lowerLimit, number));
 }

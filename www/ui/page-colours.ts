@@ -19,10 +19,10 @@ const MIN_CONTRAST = 4.55;
 
 /** Returns a node's element and its ancestors across shadow roots, the nearest first. */
 export function listElementAndAncestors(startNode: Node): Element[] {
-  const elementsUpwards = [];
-  let ancestorElement: any = startNode;
-  for (; ancestorElement; ancestorElement = ancestorElement.assignedSlot ?? ancestorElement.parentNode ?? ancestorElement.host) if (ancestorElement.nodeType === 1) elementsUpwards.push(ancestorElement);
-  return elementsUpwards;
+  const elementAndAncestors = [];
+  let currentNode: any = startNode;
+  for (; currentNode; currentNode = currentNode.assignedSlot ?? currentNode.parentNode ?? currentNode.host) if (currentNode.nodeType === 1) elementAndAncestors.push(currentNode);
+  return elementAndAncestors;
 }
 
 /** Reads the colours around a figure. The scheme is dark if the background is darker than legible text, or than medium grey if the text is not legible. */

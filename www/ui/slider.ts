@@ -126,7 +126,7 @@ const MIN_TOUCH_MOVE = 8;
  */
 let undecidedTouch: PointerEvent | undefined;
 
-const beginTouch = (domEvent: PointerEvent) => (undecidedTouch = domEvent.pointerType === 'touch' ? domEvent : undefined);
+const beginTouch = (pointerEvent: PointerEvent) => (undecidedTouch = pointerEvent.pointerType === 'touch' ? pointerEvent : undefined);
 
 /** First character of a number that is typed on a slider. */
 const NUMBER_START = /^[\d.,+-]$/;
@@ -147,7 +147,7 @@ export function sliderRowHtml(sliderRow: SliderRow) {
     // The next key may come before the slider is rendered with the new value.
     controlOfRow(valueField, 'input[type=range]').value = String(rangeOfStops({ ...sliderRow, value: typedNumber }).value ?? typedNumber);
   };
-  const focusTrack = (domEvent: Event) => controlOfRow(domEvent.target as Element, 'input[type=range]').focus();
+  const focusTrack = (event: Event) => controlOfRow(event.target as Element, 'input[type=range]').focus();
   return html`
     <div class="slider ${sliderRow.hasNoEffect ? 'off' : ''}" part="slider" data-role=${colourRole}>
       <span>
@@ -155,7 +155,7 @@ export function sliderRowHtml(sliderRow: SliderRow) {
         <label for=${id} id="${id}-name">${rowSymbol ? html`<bdi class="symbol notranslate" translate="no">${rowSymbol}</bdi>` : nothing}${rowName}</label>
       </span>
       ${sliderTrackHtml({ ...sliderRow, ...rangeOfStops(sliderRow), name: undefined, valueText: printedValue, describedBy: `${id}-effect`, onKeydown: focusField })}
-      <form method="dialog" class="value notranslate" translate="no" dir="ltr" data-longest=${longestText} @submit=${focusTrack} @keydown=${(domEvent: KeyboardEvent) => domEvent.key === 'Escape' && focusTrack(domEvent)}>
+      <form method="dialog" class="value notranslate" translate="no" dir="ltr" data-longest=${longestText} @submit=${focusTrack} @keydown=${(keyEvent: KeyboardEvent) => keyEvent.key === 'Escape' && focusTrack(keyEvent)}>
         <span>${printedValue}</span>
         ${numberFieldHtml({ ...allowedNumbers, value: Number(sliderValue.toPrecision(MAX_FIELD_DIGITS)), arrowRange: { min: minValue, max: maxValue, step: sliderStep }, labelId: `${id}-name`, onChange: applyTyped })}
       </form>
@@ -209,25 +209,25 @@ interface SliderTrack extends SliderRange {
   name?: string;
   valueText: string;
   describedBy?: string;
-  onKeydown?: (domEvent: KeyboardEvent) => void;
+  onKeydown?: (keyEvent: KeyboardEvent) => void;
 }
 
 /** Returns the track of a slider. A finger that moves up or down over it scrolls the page. */
 export function sliderTrackHtml({ id, name: accessibleName, min: minValue, max: maxValue, step: sliderStep, value: sliderValue, valueText, describedBy, onKeydown: handleKeydown, onInput, onCommit }: SliderTrack) {
   // A browser changes a slider as soon as it is touched. The change is applied only after the touch proves to be a tap or a sideways move.
-  const setValue = (domEvent: Event) => {
-    if (!undecidedTouch) onInput(inputOf(domEvent).valueAsNumber);
+  const setValue = (event: Event) => {
+    if (!undecidedTouch) onInput(inputOf(event).valueAsNumber);
   };
-  const moveTouch = (domEvent: PointerEvent) => {
-    const horizontalMove = Math.abs(domEvent.clientX - (undecidedTouch?.clientX ?? NaN));
-    if (horizontalMove > MIN_TOUCH_MOVE && horizontalMove > Math.abs(domEvent.clientY - (undecidedTouch?.clientY ?? NaN))) undecidedTouch = undefined;
-    if (domEvent.pointerType === 'touch') setValue(domEvent);
+  const moveTouch = (pointerEvent: PointerEvent) => {
+    const horizontalMove = Math.abs(pointerEvent.clientX - (undecidedTouch?.clientX ?? NaN));
+    if (horizontalMove > MIN_TOUCH_MOVE && horizontalMove > Math.abs(pointerEvent.clientY - (undecidedTouch?.clientY ?? NaN))) undecidedTouch = undefined;
+    if (pointerEvent.pointerType === 'touch') setValue(pointerEvent);
   };
-  const endPointer = (domEvent: PointerEvent) => {
+  const endPointer = (pointerEvent: PointerEvent) => {
     if (!undecidedTouch) return;
     undecidedTouch = undefined;
-    if (domEvent.type === 'pointerup') setValue(domEvent);
-    else inputOf(domEvent).value = String(sliderValue);
+    if (pointerEvent.type === 'pointerup') setValue(pointerEvent);
+    else inputOf(pointerEvent).value = String(sliderValue);
   };
   return html`<input
     id=${id}
@@ -250,14 +250,14 @@ export function sliderTrackHtml({ id, name: accessibleName, min: minValue, max: 
 }
 
 /** Moves the focus from a slider to its field and selects the field's text, so that the pressed key replaces it. */
-function focusField(domEvent: KeyboardEvent) {
-  const { key: pressedKey, ctrlKey, altKey, metaKey } = domEvent;
+function focusField(keyEvent: KeyboardEvent) {
+  const { key: pressedKey, ctrlKey, altKey, metaKey } = keyEvent;
   if (ctrlKey || altKey || metaKey || (pressedKey !== 'Enter' && !NUMBER_START.test(pressedKey))) return;
-  const slider = inputOf(domEvent);
+  const slider = inputOf(keyEvent);
   // Digits select presets in a presentation.
   if (/\d/.test(pressedKey) && (slider.getRootNode() as any).host?.presentation) return;
-  if (pressedKey === 'Enter') domEvent.preventDefault();
-  domEvent.stopPropagation();
+  if (pressedKey === 'Enter') keyEvent.preventDefault();
+  keyEvent.stopPropagation();
   controlOfRow(slider, '.typed').focus();
 }
 

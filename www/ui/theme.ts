@@ -219,8 +219,8 @@ export function colourChannelsOf(...cssColours: string[]): [number, number, numb
     new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true }) as OffscreenCanvasRenderingContext2D
   ));
   canvasContext.clearRect(0, 0, 1, 1);
-  for (const lineColour of cssColours) {
-    canvasContext.fillStyle = lineColour;
+  for (const cssColour of cssColours) {
+    canvasContext.fillStyle = cssColour;
     canvasContext.fillRect(0, 0, 1, 1);
   }
   const [redValue, greenValue, blueValue] = canvasContext.getImageData(0, 0, 1, 1).data;

@@ -207,9 +207,8 @@ impl AlphaCalibrator {
                 alphas: VelocityAlphas(std::array::from_fn(inflated_alpha)),
                 noise: settings.noise,
             };
-            let velocity_command =
-                VelocityCmd { v: first_coordinate, omega: second_coordinate, dt: third_coordinate };
-            return fitted_model.apply_noise(&velocity_command, &SE2::identity(), unit_noise);
+            let command = VelocityCmd { v: first_coordinate, omega: second_coordinate, dt: third_coordinate };
+            return fitted_model.apply_noise(&command, &SE2::identity(), unit_noise);
         }
         let leg_reading =
             OdomDelta { rot1: first_coordinate, trans: second_coordinate, rot2: third_coordinate };

@@ -174,8 +174,7 @@ impl MapSqueeze {
     pub fn stats(&self) -> Stats {
         let Tally { total_cost: cost, accepted_count, through_wall, gave_up } = self.outcome_tally;
         // The ratio is NaN for 0/0, and infinite for another number over 0.
-        let ratio_of =
-            |counted_events: usize, counted_draws: usize| counted_events as f64 / counted_draws as f64;
+        let ratio_of = |event_count: usize, total_count: usize| event_count as f64 / total_count as f64;
         Stats {
             attempts: self.tested_attempts.len(),
             drawn: cost.draws,
@@ -421,18 +420,12 @@ impl<'a> AttemptDriver<'a> {
     }
 
     fn drive_parts(&self, attempt_index: usize, visit_arc: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {
-        let Settings { command: motion_command, conditioned: is_conditioned, seed, .. } = *self.settings;
+        let Settings { command, conditioned: is_conditioned, seed, .. } = *self.settings;
         let start_pose = self.settings.start_pose();
         // The number of random numbers that an attempt uses depends on the walls. Each attempt has its own stream of numbers, so that a
         // wall changes only attempts near the wall.
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (attempt_index as u64).rotate_left(32));
-        match self.map_model.sample_with_arcs(
-            &motion_command,
-            &start_pose,
-            &mut rng,
-            is_conditioned,
-            visit_arc,
-        ) {
+        match self.map_model.sample_with_arcs(&command, &start_pose, &mut rng, is_conditioned, visit_arc) {
             Ok(AcceptedMotion { pose, end_free, path_free, cost }) => {
                 (Attempt { pose, accepted: true, end_free, path_free }, cost)
             }

@@ -25,12 +25,12 @@ fn sample_settings(seed: u64) -> impl Iterator<Item = Settings> {
         let mut sample_uniform_up_to = |max_abs: f64| sample_uniform(&mut rng, -max_abs, max_abs);
         let start_pose = [sample_uniform_up_to(3.0), sample_uniform_up_to(3.0), sample_uniform_up_to(PI)];
         let final_pose = [sample_uniform_up_to(3.0), sample_uniform_up_to(3.0), sample_uniform_up_to(PI)];
-        let motion_command = VelocityCmd {
+        let command = VelocityCmd {
             v: sample_uniform_up_to(1.5),
             omega: sample_uniform_up_to(2.0),
             dt: 0.1 + sample_uniform_up_to(1.0).abs(),
         };
-        Settings { start: start_pose, next: final_pose, command: motion_command, ..Settings::default() }
+        Settings { start: start_pose, next: final_pose, command, ..Settings::default() }
     })
 }
 

@@ -138,9 +138,9 @@ fn assert_stats_are_exact(simulation: &BananaMachine) {
 #[test]
 #[ignore = "nightly: 10 million robots"]
 fn statistics_of_ten_million_robots_agree_with_exact_sums() {
-    let motion_command = VelocityCmd { v: 1.0, omega: 1.2, dt: 1.4 };
+    let command = VelocityCmd { v: 1.0, omega: 1.2, dt: 1.4 };
     assert_stats_are_exact(&new_simulation(Settings {
-        command: motion_command,
+        command,
         samples: MAX_SAMPLES,
         ..settings_of_preset("gentle")
     }));

@@ -68,18 +68,18 @@ export abstract class MessageFile {
    * `setEnd` when it knows the end of its block. Without an index, reading stops at a damaged block whose end is unknown.
    */
   protected async readBlocks(firstBlockStart: number, isWanted: IsWanted, readBlock: (blockStart: number, setEnd: (blockEnd: number) => void) => Promise<void>, onBlock?: OnBlock): Promise<void> {
-    const { size: byteCount } = this.sourceFile;
+    const { size: fileSize } = this.sourceFile;
     const wantedIds = new Set([...this.channelsById].filter(([, topicChannel]) => isWanted(topicChannel)).map(([id]) => id));
     const wantedChunks = this.indexedChunks?.filter(({ channelIds }) => channelIds.some((id) => wantedIds.has(id)));
     this.truncationReason = undefined;
-    for (let i = 0, nextPosition = firstBlockStart; wantedChunks ? i < wantedChunks.length : nextPosition < byteCount; i++) {
+    for (let i = 0, nextPosition = firstBlockStart; wantedChunks ? i < wantedChunks.length : nextPosition < fileSize; i++) {
       const blockStart = wantedChunks ? wantedChunks[i].chunkStart : nextPosition;
       nextPosition = 0;
-      await readBlock(blockStart, (byteEnd) => (nextPosition = byteEnd)).catch((error) => {
+      await readBlock(blockStart, (blockEnd) => (nextPosition = blockEnd)).catch((error) => {
         if (wantedChunks || nextPosition > 0 || error instanceof LogError) this.noteDamage(blockStart, error);
-        else [this.truncationReason, nextPosition] = [reasonOf(error), byteCount];
+        else [this.truncationReason, nextPosition] = [reasonOf(error), fileSize];
       });
-      if (onBlock?.(wantedChunks ? (i + 1) / wantedChunks.length : nextPosition / byteCount)) return;
+      if (onBlock?.(wantedChunks ? (i + 1) / wantedChunks.length : nextPosition / fileSize)) return;
     }
   }
 }

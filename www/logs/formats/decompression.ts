@@ -27,36 +27,36 @@ export function decompressZstd(bytes: Uint8Array, decompressedSize: number): Uin
 
 /** Decompresses the pieces of a file or message. Returns undefined if the content has more than `maxBytes`; throws an error if the pieces are damaged. */
 function decompressZstdPieces(compressedPieces: Iterable<Uint8Array>, maxBytes: number): Uint8Array<ArrayBuffer>[] | undefined {
-  const outputParts: Uint8Array<ArrayBuffer>[] = [];
+  const decompressedPieces: Uint8Array<ArrayBuffer>[] = [];
   let [decompressedSize, emptyOutputCount] = [0, 0];
-  for (const outputPart of zstdDecoder.decodeStreaming(compressedPieces)) {
+  for (const decompressedPiece of zstdDecoder.decodeStreaming(compressedPieces)) {
     // The decoder does not report damaged data, but returns empty outputs without end.
-    emptyOutputCount = outputPart.length === 0 ? emptyOutputCount + 1 : 0;
+    emptyOutputCount = decompressedPiece.length === 0 ? emptyOutputCount + 1 : 0;
     if (emptyOutputCount > MAX_EMPTY_OUTPUTS) throw new RangeError('its compression is damaged');
-    outputParts.push(outputPart as Uint8Array<ArrayBuffer>);
-    decompressedSize += outputPart.length;
+    decompressedPieces.push(decompressedPiece as Uint8Array<ArrayBuffer>);
+    decompressedSize += decompressedPiece.length;
     if (decompressedSize > maxBytes) return undefined;
   }
-  return outputParts;
+  return decompressedPieces;
 }
 
 export function decompressZstdMessage(bytes: Uint8Array): Uint8Array {
-  const [messageBytes, ...otherParts] = decompressZstdPieces([bytes], MAX_LOG_MESSAGE_BYTES)?.filter(({ length }) => length > 0) ?? [];
-  if (!messageBytes || otherParts.length > 0) throw new RangeError('a message that is empty, or longer than any with poses');
+  const [messageBytes, ...otherPieces] = decompressZstdPieces([bytes], MAX_LOG_MESSAGE_BYTES)?.filter(({ length }) => length > 0) ?? [];
+  if (!messageBytes || otherPieces.length > 0) throw new RangeError('a message that is empty, or longer than any with poses');
   return messageBytes;
 }
 
 export async function decompressZstdFile(sourceFile: SourceFile): Promise<SourceFile> {
   await loadZstd();
-  let outputParts: Uint8Array<ArrayBuffer>[] | undefined;
+  let decompressedPieces: Uint8Array<ArrayBuffer>[] | undefined;
   try {
-    outputParts = sourceFile.size > MAX_FILE_BYTES ? undefined : decompressZstdPieces(piecesOf(await readBytes(sourceFile, 0, sourceFile.size)), MAX_FILE_BYTES);
+    decompressedPieces = sourceFile.size > MAX_FILE_BYTES ? undefined : decompressZstdPieces(piecesOf(await readBytes(sourceFile, 0, sourceFile.size)), MAX_FILE_BYTES);
   } catch (error) {
     if (error instanceof LogError) throw error;
     throw new LogError({ fileName: sourceFile.name }, (errorReasons) => errorReasons.damagedFileReason(reasonOf(error)));
   }
-  if (!outputParts) throw new LogError({ fileName: sourceFile.name }, (errorReasons) => errorReasons.largeFileReason('zstd -d', MAX_FILE_BYTES));
-  const decompressedFile = new Blob(outputParts);
+  if (!decompressedPieces) throw new LogError({ fileName: sourceFile.name }, (errorReasons) => errorReasons.largeFileReason('zstd -d', MAX_FILE_BYTES));
+  const decompressedFile = new Blob(decompressedPieces);
   return { name: sourceFile.name, path: sourceFile.path, size: decompressedFile.size, slice: (byteStart, byteEnd) => decompressedFile.slice(byteStart, byteEnd) };
 }
 
@@ -75,7 +75,7 @@ const UNCOMPRESSED_BIT = 0x80000000;
 /** Minimum length of a match. An LZ4 block stores the length of a match minus this minimum. */
 const MIN_MATCH = 4;
 
-function assertValid(isValid: boolean): void {
+function assertValidFrame(isValid: boolean): void {
   if (!isValid) throw new RangeError('a damaged LZ4 frame');
 }
 
@@ -86,9 +86,9 @@ let xxhash32: ((bytes: Uint8Array) => number) | undefined;
 export async function decompressLz4(bytes: Uint8Array, decompressedSize: number): Promise<Uint8Array<ArrayBuffer>> {
   const dataView = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const frameFlags = dataView.getUint8(4);
-  assertValid(dataView.getUint32(0, true) === LZ4_MAGIC && (frameFlags & VERSION_MASK) === VERSION_1 && !(frameFlags & HAS_DICTIONARY));
+  assertValidFrame(dataView.getUint32(0, true) === LZ4_MAGIC && (frameFlags & VERSION_MASK) === VERSION_1 && !(frameFlags & HAS_DICTIONARY));
   if (frameFlags & (BLOCK_CHECKSUMS | CONTENT_CHECKSUM)) xxhash32 ??= (await (await import('xxhash-wasm')).default()).h32Raw;
-  const verifyChecksum = (checkedBytes: Uint8Array, byteOffset: number) => assertValid(xxhash32?.(checkedBytes) === dataView.getUint32(byteOffset, true));
+  const verifyChecksum = (checkedBytes: Uint8Array, byteOffset: number) => assertValidFrame(xxhash32?.(checkedBytes) === dataView.getUint32(byteOffset, true));
   const decompressedBytes = new Uint8Array(decompressedSize);
   let filledBytes = 0;
   // The header of an LZ4 frame has a magic number, two bytes of flags, an optional content size, and a checksum.
@@ -100,7 +100,7 @@ export async function decompressLz4(bytes: Uint8Array, decompressedSize: number)
     }
     const blockStart = byteOffset + 4;
     const blockEnd = blockStart + (blockWord & ~UNCOMPRESSED_BIT);
-    assertValid(blockEnd <= bytes.length);
+    assertValidFrame(blockEnd <= bytes.length);
     if (blockWord & UNCOMPRESSED_BIT) {
       decompressedBytes.set(bytes.subarray(blockStart, blockEnd), filledBytes);
       filledBytes += blockEnd - blockStart;
@@ -110,7 +110,7 @@ export async function decompressLz4(bytes: Uint8Array, decompressedSize: number)
     if (frameFlags & BLOCK_CHECKSUMS) verifyChecksum(bytes.subarray(blockStart, blockEnd), blockEnd);
     byteOffset = blockEnd + (frameFlags & BLOCK_CHECKSUMS ? 4 : 0);
   }
-  assertValid(filledBytes === decompressedSize);
+  assertValidFrame(filledBytes === decompressedSize);
   return decompressedBytes;
 }
 
@@ -121,7 +121,7 @@ function decompressBlock(compressedBlock: Uint8Array, decompressedBytes: Uint8Ar
   const readLength = (lengthSoFar: number) => {
     if (lengthSoFar < 15) return lengthSoFar;
     for (let byte = 255; byte === 255; lengthSoFar += byte) {
-      assertValid(byteOffset < compressedBlock.length);
+      assertValidFrame(byteOffset < compressedBlock.length);
       byte = compressedBlock[byteOffset++];
     }
     return lengthSoFar;
@@ -129,7 +129,7 @@ function decompressBlock(compressedBlock: Uint8Array, decompressedBytes: Uint8Ar
   while (byteOffset < compressedBlock.length) {
     const lengthsToken = compressedBlock[byteOffset++];
     const literalLength = readLength(lengthsToken >> 4);
-    assertValid(literalLength <= compressedBlock.length - byteOffset && literalLength <= decompressedBytes.length - filledBytes);
+    assertValidFrame(literalLength <= compressedBlock.length - byteOffset && literalLength <= decompressedBytes.length - filledBytes);
     decompressedBytes.set(compressedBlock.subarray(byteOffset, byteOffset + literalLength), filledBytes);
     byteOffset += literalLength;
     filledBytes += literalLength;
@@ -138,7 +138,7 @@ function decompressBlock(compressedBlock: Uint8Array, decompressedBytes: Uint8Ar
     const matchDistance = compressedBlock[byteOffset] | (compressedBlock[byteOffset + 1] << 8);
     byteOffset += 2;
     const matchEnd = filledBytes + readLength(lengthsToken & 15) + MIN_MATCH;
-    assertValid(matchDistance > 0 && matchDistance <= filledBytes && matchEnd <= decompressedBytes.length);
+    assertValidFrame(matchDistance > 0 && matchDistance <= filledBytes && matchEnd <= decompressedBytes.length);
     // If a match is longer than its distance, the copy overlaps itself and repeats bytes that it has just written.
     for (const matchStart = filledBytes - matchDistance; filledBytes < matchEnd; ) {
       const copyLength = Math.min(matchEnd - filledBytes, filledBytes - matchStart);

@@ -51,16 +51,16 @@ class McapFile extends MessageFile {
   }
 
   async readMessages(isWanted: IsWanted, onMessage: OnMessage, onBlock?: OnBlock): Promise<void> {
-    const { size: byteCount } = this.sourceFile;
+    const { size: fileSize } = this.sourceFile;
     const readBytesAt = createAheadReader(this.sourceFile);
     let isFileComplete = this.indexedChunks !== undefined;
-    const readBlock = async (recordStart: number, setEnd: (recordEnd: number) => void) => {
+    const readBlock = async (recordStart: number, setEnd: (blockEnd: number) => void) => {
       const recordHead = await readBytesAt(recordStart, recordStart + RECORD_HEAD_BYTES);
       const [opcode, recordLength] = [recordHead[0], readUint53(dataViewOf(recordHead), 1)];
       const recordEnd = recordStart + RECORD_HEAD_BYTES + recordLength;
-      if (recordEnd > byteCount) throw new RangeError('a record is cut short');
+      if (recordEnd > fileSize) throw new RangeError('a record is cut short');
       isFileComplete ||= opcode === DATA_END_OPCODE;
-      setEnd(isFileComplete ? byteCount : recordEnd);
+      setEnd(isFileComplete ? fileSize : recordEnd);
       if (this.indexedChunks && opcode !== CHUNK_OPCODE) throw new RangeError('no chunk is there');
       if (![SCHEMA_OPCODE, CHANNEL_OPCODE, MESSAGE_OPCODE, CHUNK_OPCODE].includes(opcode)) return;
       if (recordLength > MAX_BLOCK_BYTES) throw new RangeError(`a record of ${recordLength} bytes`);

@@ -20,11 +20,11 @@ interface TableRow {
   /** Number of the first overflow page; 0 if there is none. */
   overflowPage: number;
   id: number;
-  rowColumns: RowColumn[];
+  rowValues: RowValue[];
 }
 
 /** Value in a row: its SQLite serial type, and the range of its bytes. */
-interface RowColumn { serialType: number; valueStart: number; valueEnd: number }
+interface RowValue { serialType: number; valueStart: number; valueEnd: number }
 
 const isInteger = (serialType: number) => serialType > 0 && serialType < 10;
 const isBlob = (serialType: number) => serialType >= 12 && serialType % 2 === 0;
@@ -34,7 +34,7 @@ const isRowId = (serialType: number) => serialType === 0;
 /** Types of the first columns of tables: messages (id, topic, time, data), topics (id, name, type, serialization), and the list of all tables. */
 const TABLE_COLUMNS = { messages: [isRowId, isInteger, isInteger, isBlob], topics: [isRowId, isText, isText, isText], tables: [isText, isText, isText, isInteger] };
 
-const isRowOf = (tableName: keyof typeof TABLE_COLUMNS, { rowColumns }: TableRow) => TABLE_COLUMNS[tableName].every((hasType, i) => hasType(rowColumns[i]?.serialType));
+const isRowOf = (tableName: keyof typeof TABLE_COLUMNS, { rowValues }: TableRow) => TABLE_COLUMNS[tableName].every((hasType, i) => hasType(rowValues[i]?.serialType));
 
 export async function openSqlite(sourceFile: SourceFile): Promise<MessageContainer> {
   await loadZstd();
@@ -67,7 +67,7 @@ class Rosbag2 extends MessageFile {
     const countsById = new Map<number, number>();
     await this.#visitRows((tableRow) => {
       if (!isRowOf('messages', tableRow)) return this.#addTopic(tableRow);
-      const topicId = integerOf(tableRow.localBytes, tableRow.rowColumns[1]);
+      const topicId = integerOf(tableRow.localBytes, tableRow.rowValues[1]);
       countsById.set(topicId, (countsById.get(topicId) ?? 0) + 1);
       return undefined;
     });
@@ -80,20 +80,20 @@ class Rosbag2 extends MessageFile {
     const isTable = isRowOf('tables', tableRow);
     if (!isTable && !isRowOf('topics', tableRow)) return;
     const bytes = await this.#readWholeRow(tableRow);
-    const [, topicName, serialType, encoding] = tableRow.rowColumns.map(({ valueStart, valueEnd }) => new TextDecoder().decode(bytes.subarray(valueStart, valueEnd)));
+    const [, topicName, messageType, encoding] = tableRow.rowValues.map(({ valueStart, valueEnd }) => new TextDecoder().decode(bytes.subarray(valueStart, valueEnd)));
     if (isTable) this.#tableNames.add(topicName);
     // Names of topics start with a slash. Other rows with the same columns are definitions of message types.
-    else if (topicName.startsWith('/')) this.channelsById.set(tableRow.id, { topicName, messageType: serialType, encoding, messageCount: 0 });
+    else if (topicName.startsWith('/')) this.channelsById.set(tableRow.id, { topicName, messageType, encoding, messageCount: 0 });
   }
 
   async readMessages(isWanted: IsWanted, onMessage: OnMessage, onProgress?: OnBlock): Promise<void> {
     const wantedChannels = new Map([...this.channelsById].filter(([, topicChannel]) => isWanted(topicChannel)));
     await this.#visitRows((tableRow) => {
-      const topicChannel = isRowOf('messages', tableRow) ? wantedChannels.get(integerOf(tableRow.localBytes, tableRow.rowColumns[1])) : undefined;
+      const topicChannel = isRowOf('messages', tableRow) ? wantedChannels.get(integerOf(tableRow.localBytes, tableRow.rowValues[1])) : undefined;
       if (!topicChannel) return undefined;
       const passMessage = (bytes: Uint8Array) => {
-        const blockView = dataViewOf(bytes.subarray(tableRow.rowColumns[3].valueStart, tableRow.rowColumns[3].valueEnd));
-        onMessage({ topicChannel, recordTime: integerOf(bytes, tableRow.rowColumns[2]) / 1e9, blockView, messageStart: 0, messageEnd: blockView.byteLength });
+        const blockView = dataViewOf(bytes.subarray(tableRow.rowValues[3].valueStart, tableRow.rowValues[3].valueEnd));
+        onMessage({ topicChannel, recordTime: integerOf(bytes, tableRow.rowValues[2]) / 1e9, blockView, messageStart: 0, messageEnd: blockView.byteLength });
       };
       return tableRow.localBytes.length < tableRow.byteCount ? this.#readWholeRow(tableRow).then(passMessage) : passMessage(tableRow.localBytes);
     }, onProgress);
@@ -129,7 +129,7 @@ class Rosbag2 extends MessageFile {
     const localEnd = payloadStart + this.#localByteCountOf(payloadLength);
     if (localEnd > pageBytes.length || payloadLength > Math.min(MAX_ROW_BYTES, this.sourceFile.size)) throw new RangeError('a row is damaged');
     const localBytes = pageBytes.subarray(payloadStart, localEnd);
-    return { id, localBytes, rowColumns: columnsOf(localBytes, payloadLength), byteCount: payloadLength, overflowPage: localEnd - payloadStart < payloadLength ? dataViewOf(pageBytes).getUint32(localEnd) : 0 };
+    return { id, localBytes, rowValues: rowValuesOf(localBytes, payloadLength), byteCount: payloadLength, overflowPage: localEnd - payloadStart < payloadLength ? dataViewOf(pageBytes).getUint32(localEnd) : 0 };
   }
 
   /** Returns the number of bytes of a row that are stored on its own page. All other bytes are on overflow pages. */
@@ -181,21 +181,21 @@ function varintAt(bytes: Uint8Array, varintStart: number): [value: number, next:
 /** Sizes in bytes of values, by their serial type from 0 to 9. Larger types are texts and blobs. */
 const INTEGER_BYTES = [0, 1, 2, 3, 4, 6, 8, 8, 0, 0];
 
-/** Returns the columns of a row of `byteCount` bytes; throws a RangeError if they do not fit into it. */
-function columnsOf(rowBytes: Uint8Array, byteCount: number): RowColumn[] {
-  const rowColumns: RowColumn[] = [];
+/** Returns the values of a row of `byteCount` bytes; throws a RangeError if they do not fit into it. */
+function rowValuesOf(rowBytes: Uint8Array, byteCount: number): RowValue[] {
+  const rowValues: RowValue[] = [];
   let [valueStart, typeStart] = varintAt(rowBytes, 0);
   for (const headerEnd = valueStart; typeStart < headerEnd; ) {
     const [serialType, nextTypeStart] = varintAt(rowBytes, typeStart);
     const valueEnd = valueStart + (INTEGER_BYTES[serialType] ?? (serialType - 12 - (serialType % 2)) / 2);
-    rowColumns.push({ serialType, valueStart, valueEnd });
+    rowValues.push({ serialType, valueStart, valueEnd });
     [valueStart, typeStart] = [valueEnd, nextTypeStart];
   }
   if (valueStart !== byteCount) throw new RangeError('a row is damaged');
-  return rowColumns;
+  return rowValues;
 }
 
-function integerOf(rowBytes: Uint8Array, { serialType, valueStart, valueEnd }: RowColumn): number {
+function integerOf(rowBytes: Uint8Array, { serialType, valueStart, valueEnd }: RowValue): number {
   if (serialType === 6) return Number(dataViewOf(rowBytes).getBigInt64(valueStart));
   if (serialType === 8 || serialType === 9) return serialType - 8;
   let integerValue = 0;

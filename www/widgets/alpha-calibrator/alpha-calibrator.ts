@@ -280,10 +280,10 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   }
 
   /** Chooses the leg that is clicked in the picture of the path. */
-  selectAtPointer(picture: PathPicture | LegPicture, domEvent: PointerEvent) {
+  selectAtPointer(picture: PathPicture | LegPicture, pointerEvent: PointerEvent) {
     const { simulation } = this;
-    if (!simulation || domEvent.type !== 'click') return;
-    const leg = picture.findNearestSample(simulation, ...toViewPixels(domEvent.target as Element, picture.pictureView, domEvent));
+    if (!simulation || pointerEvent.type !== 'click') return;
+    const leg = picture.findNearestSample(simulation, ...toViewPixels(pointerEvent.target as Element, picture.pictureView, pointerEvent));
     if (leg >= 0) this.gesture.requestAndCommit({ leg });
   }
 

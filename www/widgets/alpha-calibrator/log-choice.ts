@@ -30,8 +30,8 @@ const MAX_CELL_LENGTH = 16;
 
 /** Returns all logs that can be chosen for a role, each with a label. Every pair of frames is a separate log. */
 function labelledChoicesOf(recording: Recording, role?: LogRole): [label: string, LogChoice][] {
-  const usableSeries = readableSeriesOf(recording).filter(({ seriesKind: kind }) => role !== 'reference' || kind !== 'commands');
-  const logChoices = usableSeries.flatMap(({ seriesName: series, seriesKind: kind, framePairs: frames = [] }): LogChoice[] => (kind === 'transforms' ? frames.map((framePair) => ({ seriesName: series, framePair })) : [{ seriesName: series }]));
+  const usableSeries = readableSeriesOf(recording).filter(({ seriesKind }) => role !== 'reference' || seriesKind !== 'commands');
+  const logChoices = usableSeries.flatMap(({ seriesName, seriesKind, framePairs = [] }): LogChoice[] => (seriesKind === 'transforms' ? framePairs.map((framePair) => ({ seriesName, framePair })) : [{ seriesName }]));
   return logChoices.map((choice) => [choiceLabelOf(choice) || recording.recordingName, choice]);
 }
 
@@ -39,16 +39,16 @@ function labelledChoicesOf(recording: Recording, role?: LogRole): [label: string
 export function logChoosersHtml(opener: LogOpener) {
   const { chosenFiles, texts } = opener;
   if (!chosenFiles || !texts) return nothing;
-  const { openedRecordings: recordings, skippedFiles: skipped, questions } = chosenFiles;
+  const { openedRecordings, skippedFiles, questions } = chosenFiles;
   const hasOneLog = (recording: Recording) => labelledChoicesOf(recording).length === 1;
   const roleChoosers = [
-    ...(recordings.every(hasOneLog) ? [] : LOG_ROLES.map((role) => seriesSelectHtml(opener, chosenFiles, role, texts))),
-    ...(recordings.length > 1 ? recordings.flatMap((recording, recordingIndex) => (hasOneLog(recording) ? [roleSelectHtml(opener, chosenFiles, recordingIndex, texts)] : [])) : []),
+    ...(openedRecordings.every(hasOneLog) ? [] : LOG_ROLES.map((role) => seriesSelectHtml(opener, chosenFiles, role, texts))),
+    ...(openedRecordings.length > 1 ? openedRecordings.flatMap((recording, recordingIndex) => (hasOneLog(recording) ? [roleSelectHtml(opener, chosenFiles, recordingIndex, texts)] : [])) : []),
   ];
   return html`<div class="choosers">
     ${roleChoosers.length ? html`<div class="choices">${roleChoosers}</div>` : nothing}
     ${questions.map((question) => questionHtml(opener, chosenFiles, question, texts))}
-    ${skipped.filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${texts.choose.skippedFileNote(opener.explainRefusal(failure))}</p>`)}
+    ${skippedFiles.filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${texts.choose.skippedFileNote(opener.explainRefusal(failure))}</p>`)}
   </div>`;
 }
 
@@ -56,72 +56,72 @@ function selectHtml(id: string, label: string, selectedValue: string, options: [
   const allOptions = options.some(([optionValue]) => optionValue === selectedValue) ? options : [['', placeholder], ...options];
   return html`<label>
     ${label}
-    <select id=${id} aria-label=${label} aria-describedby="refusal" @change=${(domEvent: Event) => chooseOption((domEvent.target as HTMLSelectElement).value)}>
+    <select id=${id} aria-label=${label} aria-describedby="refusal" @change=${(event: Event) => chooseOption((event.target as HTMLSelectElement).value)}>
       ${allOptions.map(([optionValue, optionLabel]) => html`<option value=${optionValue} .selected=${live(optionValue === selectedValue || (selectedValue === '' && optionValue === ''))}>${optionLabel}</option>`)}
     </select>
   </label>`;
 }
 
-function seriesSelectHtml(opener: LogOpener, { openedRecordings: recordings, userChoices }: ChosenFiles, role: LogRole, { choose: texts }: LogWords) {
-  const choiceByLabel = new Map(recordings.flatMap((recording) => labelledChoicesOf(recording, role)));
-  const plannedRecording = recordings.find(({ logChoices: choices }) => choices?.[role]);
+function seriesSelectHtml(opener: LogOpener, { openedRecordings, userChoices }: ChosenFiles, role: LogRole, { choose: texts }: LogWords) {
+  const choiceByLabel = new Map(openedRecordings.flatMap((recording) => labelledChoicesOf(recording, role)));
+  const plannedRecording = openedRecordings.find(({ logChoices }) => logChoices?.[role]);
   const currentChoice = (userChoices[role] as LogChoice | undefined) ?? plannedRecording?.logChoices?.[role];
-  const currentLabel = currentChoice ? choiceLabelOf(currentChoice) || (plannedRecording ?? recordings[0]).recordingName : '';
+  const currentLabel = currentChoice ? choiceLabelOf(currentChoice) || (plannedRecording ?? openedRecordings[0]).recordingName : '';
   return selectHtml(`log-${role}`, texts.roleNames[role], currentLabel, [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
     const choice = choiceByLabel.get(label);
     if (choice) opener.changeChoices({ userChoices: { ...userChoices, [role]: choice } });
   }, texts.openPlaceholder);
 }
 
-function roleSelectHtml(opener: LogOpener, { openedRecordings: recordings, answers }: ChosenFiles, recordingIndex: number, { choose: texts }: LogWords) {
-  const { recordingName: name, logChoices: choices } = recordings[recordingIndex];
-  const currentRole = answers[name]?.logRole ?? LOG_ROLES.find((role) => choices?.[role]);
-  return selectHtml(`log-role-${recordingIndex}`, name, currentRole ?? '', LOG_ROLES.map((role) => [role, texts.roleNames[role]]), (chosenValue) => {
+function roleSelectHtml(opener: LogOpener, { openedRecordings, answers }: ChosenFiles, recordingIndex: number, { choose: texts }: LogWords) {
+  const { recordingName, logChoices } = openedRecordings[recordingIndex];
+  const currentRole = answers[recordingName]?.logRole ?? LOG_ROLES.find((role) => logChoices?.[role]);
+  return selectHtml(`log-role-${recordingIndex}`, recordingName, currentRole ?? '', LOG_ROLES.map((role) => [role, texts.roleNames[role]]), (chosenValue) => {
     const role = chosenValue as LogRole;
     // If there are two files with one log each, and the user chooses the role of one file, the other file gets the other role.
-    const otherRecording = recordings.length === 2 ? recordings[1 - recordingIndex] : undefined;
+    const otherRecording = openedRecordings.length === 2 ? openedRecordings[1 - recordingIndex] : undefined;
     const hasOtherRole = otherRecording && labelledChoicesOf(otherRecording).length === 1;
-    opener.answer({ ...(hasOtherRole && { [otherRecording.recordingName]: { logRole: role === 'odometry' ? 'reference' : 'odometry' } }), [name]: { logRole: role } });
+    opener.answer({ ...(hasOtherRole && { [otherRecording.recordingName]: { logRole: role === 'odometry' ? 'reference' : 'odometry' } }), [recordingName]: { logRole: role } });
   }, texts.openPlaceholder);
 }
 
 function questionHtml(opener: LogOpener, { answers }: ChosenFiles, question: FileQuestion, { choose: texts }: LogWords) {
-  const { fileName: file, optionName: option, possibleAnswers: unitChoices } = question;
-  if (option === 'columns') return columnsFormHtml(opener, question, answers[file]?.columnNames?.join(), texts);
-  if (option !== 'timeUnit' && option !== 'lengthUnit' && option !== 'angleUnit') return nothing;
-  const unitLabels: Record<string, string> = Object.fromEntries((unitChoices.length ? unitChoices : UNIT_NAMES[option]).map((unit) => [unit, texts.unitNames[unit as keyof typeof texts.unitNames]]));
+  const { fileName, optionName, possibleAnswers } = question;
+  if (optionName === 'columns') return columnsFormHtml(opener, question, answers[fileName]?.columnNames?.join(), texts);
+  if (optionName !== 'timeUnit' && optionName !== 'lengthUnit' && optionName !== 'angleUnit') return nothing;
+  const unitLabels: Record<string, string> = Object.fromEntries((possibleAnswers.length ? possibleAnswers : UNIT_NAMES[optionName]).map((unit) => [unit, texts.unitNames[unit as keyof typeof texts.unitNames]]));
   return html`<div id=${questionIdOf(question)}>
-    ${radioGroupHtml(texts[option](file), questionIdOf(question), unitLabels, answers[file]?.[option] ?? '', (unit) => opener.answer({ [file]: { [option]: unit } }))}
+    ${radioGroupHtml(texts[optionName](fileName), questionIdOf(question), unitLabels, answers[fileName]?.[optionName] ?? '', (unit) => opener.answer({ [fileName]: { [optionName]: unit } }))}
   </div>`;
 }
 
 /** Returns a form with a `<select>` for each field, by which the user assigns a column to the field. */
 function columnsFormHtml(opener: LogOpener, question: FileQuestion, answeredNames: string | undefined, texts: LogWords['choose']) {
-  const { fileName: file, possibleAnswers: [chosenNames = ''], columnNames: columns = [], proposedFields: fields = chosenNames.split(',') } = question;
-  const columnNames = chosenNames.split(',');
+  const { fileName, possibleAnswers: [chosenNames = ''], columnNames = [], proposedFields = chosenNames.split(',') } = question;
+  const proposedNames = chosenNames.split(',');
   // Each column is offered twice: as it is, and with the opposite sign.
-  const options = ['', '-'].flatMap((sign) => columns.map((headerCell, columnIndex) =>
+  const options = ['', '-'].flatMap((sign) => columnNames.map((headerCell, columnIndex) =>
     ({ sign, columnIndex, label: `${sign && `${MINUS_SIGN} `}${texts.columnLabel(columnIndex + 1, headerCell.trim().slice(0, MAX_CELL_LENGTH))}` })));
-  const submitColumns = (domEvent: Event) => {
-    domEvent.preventDefault();
-    const newFields = columns.map(() => '-');
-    for (const [field, optionIndex] of new FormData(domEvent.target as HTMLFormElement)) {
+  const submitColumns = (event: Event) => {
+    event.preventDefault();
+    const newFields = columnNames.map(() => '-');
+    for (const [field, optionIndex] of new FormData(event.target as HTMLFormElement)) {
       if (optionIndex !== '') newFields[options[Number(optionIndex)].columnIndex] = `${options[Number(optionIndex)].sign}${field}`;
     }
     // A column that keeps its field also keeps its name, because the name may contain a unit.
-    const newNames = newFields.map((field, i) => (field === fields[i] ? columnNames[i] : field));
+    const newNames = newFields.map((field, i) => (field === proposedFields[i] ? proposedNames[i] : field));
     [question.possibleAnswers, question.proposedFields] = [[newNames.join()], newFields];
-    opener.answer({ [file]: { columnNames: newNames } });
+    opener.answer({ [fileName]: { columnNames: newNames } });
   };
   return keyed(question, html`<form id=${questionIdOf(question)} @submit=${submitColumns}>
     <fieldset>
-      <legend>${texts.columnsLegend(file, chosenNames !== '' && chosenNames !== answeredNames)}</legend>
+      <legend>${texts.columnsLegend(fileName, chosenNames !== '' && chosenNames !== answeredNames)}</legend>
       <div class="choices">
-        ${COLUMN_FIELDS.filter((field) => !field.startsWith('q') || columns.length >= MIN_QUATERNION_COLUMNS).map((field) => html`<label>
+        ${COLUMN_FIELDS.filter((field) => !field.startsWith('q') || columnNames.length >= MIN_QUATERNION_COLUMNS).map((field) => html`<label>
           ${texts.fieldNames[field]}
           <select name=${field} aria-label=${texts.fieldNames[field]} aria-describedby="refusal">
             <option value="">${texts.noColumnLabel}</option>
-            ${options.slice(0, field === 't' ? columns.length : undefined).map(({ sign, columnIndex, label }, i) => html`<option value=${i} ?selected=${fields[columnIndex] === `${sign}${field}`}>${label}</option>`)}
+            ${options.slice(0, field === 't' ? columnNames.length : undefined).map(({ sign, columnIndex, label }, i) => html`<option value=${i} ?selected=${proposedFields[columnIndex] === `${sign}${field}`}>${label}</option>`)}
           </select>
         </label>`)}
         <button type="submit" part="button">${texts.readLabel}</button>
@@ -130,13 +130,13 @@ function columnsFormHtml(opener: LogOpener, question: FileQuestion, answeredName
   </form>`);
 }
 
-const questionIdOf = ({ fileName: file, optionName: option }: FileQuestion) => `log-${option}-${file.replaceAll(/[^\w-]/g, '_')}`;
+const questionIdOf = ({ fileName, optionName }: FileQuestion) => `log-${optionName}-${fileName.replaceAll(/[^\w-]/g, '_')}`;
 
 /** Moves the focus to the first control that answers a question, unless a control for the question already has the focus. Returns false if there is no such control. */
 export function focusChooser({ renderRoot }: AlphaCalibratorElement, question: FileQuestion): boolean {
-  const { optionName: option, logRole: role = 'odometry' } = question;
-  const selectors = { series: `#log-${role}`, frames: `#log-${role}`, roles: '[id^=log-role-]' } as Partial<Record<UserQuestion['optionName'], string>>;
-  const chooserElement = renderRoot.querySelector<HTMLElement>(selectors[option] ?? `#${questionIdOf(question)}`);
+  const { optionName, logRole = 'odometry' } = question;
+  const selectors = { series: `#log-${logRole}`, frames: `#log-${logRole}`, roles: '[id^=log-role-]' } as Partial<Record<UserQuestion['optionName'], string>>;
+  const chooserElement = renderRoot.querySelector<HTMLElement>(selectors[optionName] ?? `#${questionIdOf(question)}`);
   const firstControl = chooserElement?.matches('select') ? chooserElement : chooserElement?.querySelector<HTMLElement>('select, input');
   if (!firstControl) return false;
   if (!firstControl.closest('.choosers')?.contains((renderRoot as ShadowRoot).activeElement)) firstControl.focus();
@@ -153,13 +153,13 @@ const MAX_PATH_POINTS = 1500;
 export function logSummaryHtml({ chosenFiles, texts, figure }: LogOpener) {
   // If the page has set another log in the meantime, no summary is shown.
   if (!chosenFiles?.loggedDrives || !texts || (chosenFiles.isFitted && chosenFiles.calibrationLog !== figure.log)) return nothing;
-  const { loggedDrives: drives } = chosenFiles;
+  const { loggedDrives } = chosenFiles;
   // The clock offset is known only after the fit. Until then it is taken as 0.
   const clockOffset = (chosenFiles.isFitted ? figure.viewModel.stats.systematicErrors.clockOffset.value : undefined) ?? 0;
   return html`<details class="found" open>
     <summary>${texts.found.summaryTitle}</summary>
-    ${guard([drives, texts, language, clockOffset], () => drives.map((drive, i) => html`<div class="drive">
-      ${logTableHtml(drive, drives.length > 1 ? texts.found.driveCaption(i + 1) : '', texts)}
+    ${guard([loggedDrives, texts, language, clockOffset], () => loggedDrives.map((drive, i) => html`<div class="drive">
+      ${logTableHtml(drive, loggedDrives.length > 1 ? texts.found.driveCaption(i + 1) : '', texts)}
       ${pathsPictureHtml(drive, clockOffset, texts)}
     </div>`))}
   </details>`;

@@ -122,8 +122,8 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   /** Reads files and fits their logs. An earlier attempt that is still running is cancelled. */
-  async #open({ files, openedRecordings: recordings, skippedFiles: skipped, answers, questions, userChoices }: ChosenFiles) {
-    const openedFiles: ChosenFiles = (this.chosenFiles = { files, openedRecordings: recordings, skippedFiles: skipped, answers, questions, userChoices: { ...userChoices, logKind: this.preferredKind } });
+  async #open({ files, openedRecordings, skippedFiles, answers, questions, userChoices }: ChosenFiles) {
+    const openedFiles: ChosenFiles = (this.chosenFiles = { files, openedRecordings, skippedFiles, answers, questions, userChoices: { ...userChoices, logKind: this.preferredKind } });
     this.figure.service.stopRequest();
     this.readFraction = 0;
     const isLatest = await this.runAttempt(async () => {
@@ -139,12 +139,12 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   async #fit(openedFiles: ChosenFiles) {
-    const { calibrationLog: log, logWarnings: warnings, loggedDrives: drives } = openedFiles as Required<ChosenFiles>;
+    const { calibrationLog, logWarnings, loggedDrives } = openedFiles as Required<ChosenFiles>;
     // The summary of the logs is shown while the logs are fitted.
     this.figure.requestUpdate();
-    await this.figure.openLog(log, warnings, ({ count, stats }) => {
+    await this.figure.openLog(calibrationLog, logWarnings, ({ count, stats }) => {
       if (count === 0) throw new RangeError(words.calibrator.tooFewLegsSentence);
-      for (const question of this.logModule!.mirroringQuestionsOf(drives, stats.diagnostics.checks)) askQuestion(openedFiles, question);
+      for (const question of this.logModule!.mirroringQuestionsOf(loggedDrives, stats.diagnostics.checks)) askQuestion(openedFiles, question);
     });
     openedFiles.isFitted = true;
     this.#resultFiles = openedFiles;
@@ -153,9 +153,9 @@ export class LogOpener extends FileOpener<Figure> {
 
   explainRefusal(refusal: Refusal) {
     if (isAbortError(refusal)) return words.progress.stoppedNotice;
-    const { message, sentencesByLanguage: sentences, userQuestion: question } = refusal;
-    const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? words.calibrator.logControls.refusedLogSentence(message);
-    return [refusalReason, ...(question?.optionName === 'other' && this.texts ? [this.texts.choose.bothFilesHint] : [])].join(' ');
+    const { message, sentencesByLanguage, userQuestion } = refusal;
+    const refusalReason = sentencesByLanguage?.[language === 'de' ? 'de' : 'en'] ?? words.calibrator.logControls.refusedLogSentence(message);
+    return [refusalReason, ...(userQuestion?.optionName === 'other' && this.texts ? [this.texts.choose.bothFilesHint] : [])].join(' ');
   }
 
   /** Shows why files were refused, and asks the user to answer the error's question if it has one. */
@@ -170,7 +170,7 @@ export class LogOpener extends FileOpener<Figure> {
 
 /** Asks a question about a file. The question replaces an earlier question of the same kind. */
 function askQuestion(chosenFiles: ChosenFiles, newQuestion: FileQuestion) {
-  chosenFiles.questions = [...chosenFiles.questions.filter(({ fileName: file, optionName: option }) => file !== newQuestion.fileName || option !== newQuestion.optionName), newQuestion];
+  chosenFiles.questions = [...chosenFiles.questions.filter(({ fileName, optionName }) => fileName !== newQuestion.fileName || optionName !== newQuestion.optionName), newQuestion];
 }
 
 /** Returns true if a file may be a log. A dropped folder may also contain files of other kinds. */
@@ -274,7 +274,7 @@ async function connectWorker(): Promise<WorkerConnection> {
   return { session: new LogSession(await instantiateShared(sharedCore)), endWorker, proxy };
 }
 
-const rejectOnError = (worker: Worker) => new Promise<never>((_, reject) => worker.addEventListener('error', (domEvent) => {
-  domEvent.preventDefault();
-  reject(domEvent);
+const rejectOnError = (worker: Worker) => new Promise<never>((_, reject) => worker.addEventListener('error', (errorEvent) => {
+  errorEvent.preventDefault();
+  reject(errorEvent);
 }));

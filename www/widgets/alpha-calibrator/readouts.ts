@@ -62,9 +62,9 @@ export function alphaTableHtml(viewModel: ViewModel) {
 
 /** Returns the table of the systematic errors. Each row has a checkbox by which the user corrects the error. */
 export function systematicTableHtml(figure: Figure) {
-  const { viewModel: { stats, truth }, settings: { requestedValues: requested } } = figure;
+  const { viewModel: { stats, truth }, settings: { requestedValues } } = figure;
   const { columnHeadings, rows } = systematicTableOf(stats, words, truth);
-  const checkboxOf = (label: string, errorName: string) => checkboxHtml({ labelContent: label, isChecked: requested[errorName], onChange: (isChecked) => figure.gesture.requestAndCommit({ [errorName]: isChecked }) });
+  const checkboxOf = (labelContent: string, errorName: string) => checkboxHtml({ labelContent, isChecked: requestedValues[errorName], onChange: (isChecked) => figure.gesture.requestAndCommit({ [errorName]: isChecked }) });
   return html`<div class="systematic">
     ${tableHtml({ columnHeadings, rows: rows.map(([name, ...cells], i) => [checkboxOf(name, SYSTEMATIC_ERRORS[i]), ...cells.map(stackedTextsHtml)]) })}
   </div>`;

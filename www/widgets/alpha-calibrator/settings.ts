@@ -104,8 +104,8 @@ const CHI2_QUANTILES = [[0, 0, 0], [0.455, 3.841, 10.828], [1.386, 5.991, 13.816
 export function legClassesOf({ count, squared, residuals }: Pick<CalibrationLegs, 'count' | 'squared' | 'residuals'>) {
   return Uint8Array.from({ length: count }, (_, leg) => {
     const quantiles = CHI2_QUANTILES[countObserved(residuals, leg)];
-    const classIndex = quantiles.findIndex((quantile) => squared[leg] <= quantile);
-    return classIndex < 0 ? quantiles.length : classIndex;
+    const residualClass = quantiles.findIndex((quantile) => squared[leg] <= quantile);
+    return residualClass < 0 ? quantiles.length : residualClass;
   });
 }
 

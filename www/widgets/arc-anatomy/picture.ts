@@ -173,14 +173,14 @@ function visibleFractionOf({ left, right, top, bottom }: import('../../scene/vie
 }
 
 /** Draws a wedge for the last turn (rad), by which the final heading differs from the heading at the end of the arc. */
-function drawWedge({ canvasContext, pictureView }: DrawContext, finalPose: Pose, lastTurn: number, lineColour: string) {
+function drawWedge({ canvasContext, pictureView }: DrawContext, finalPose: Pose, lastTurn: number, wedgeColour: string) {
   const [x, y] = pictureView.toPixel(finalPose.x, finalPose.y);
-  paintWithOpacity(canvasContext, 0.32, () => fillPath(canvasContext, lineColour, () => {
+  paintWithOpacity(canvasContext, 0.32, () => fillPath(canvasContext, wedgeColour, () => {
     canvasContext.moveTo(x, y);
     addTurnArc(canvasContext, [x, y], WEDGE_RADIUS, finalPose.theta - lastTurn, lastTurn);
   }));
   // This edge of the wedge shows the heading at the end of the arc, before the last turn.
-  strokeLine(canvasContext, pictureView.headingLineFrom({ ...finalPose, theta: finalPose.theta - lastTurn }, WEDGE_RADIUS), { colour: lineColour, width: 1.25 });
+  strokeLine(canvasContext, pictureView.headingLineFrom({ ...finalPose, theta: finalPose.theta - lastTurn }, WEDGE_RADIUS), { colour: wedgeColour, width: 1.25 });
 }
 
 function wedgeCalloutOf({ pictureView }: DrawContext, finalPose: Pose, lastTurn: number, lineColour: string): Callout {

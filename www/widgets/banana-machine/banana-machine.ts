@@ -167,8 +167,8 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   #arcEndHandle = new Handle('end', {
     getView: () => this.#planePicture.pictureView,
     dragTo: (x, y) => this.#moveArcEnd(x, y),
-    handleKey: (domEvent) => {
-      const keySteps = stepsOfKey(domEvent);
+    handleKey: (keyEvent) => {
+      const keySteps = stepsOfKey(keyEvent);
       if (!keySteps || !this.simulation) return false;
       const [x, y] = this.visibleArcEnd;
       // At the maximum speed, the straight arc ends further from the start than any other arc. Its length therefore limits x.

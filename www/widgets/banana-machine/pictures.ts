@@ -241,16 +241,16 @@ function drawOdometryReading(drawContext: DrawContext, { rot1, trans, rot2 }: im
 
 /** Draws robots at the same position as one disc. Rays show the headings of the first robots. Returns a callout with the number of robots. */
 function drawCoincidentRobots(drawContext: DrawContext, poses: Float64Array, shown: number): Callout {
-  const { canvasContext, pictureView, palette: { prediction: lineColour } } = drawContext;
+  const { canvasContext, pictureView, palette: { prediction: robotColour } } = drawContext;
   const headings = [...poses.subarray(0, 3 * MAX_HEADING_RAYS)].filter((_, i) => i % 3 === 2);
   const [x, y] = poses;
   paintWithOpacity(canvasContext, Math.min(1, 30 / headings.length), () => {
-    for (const theta of headings) strokeLine(canvasContext, pictureView.headingLineFrom({ x, y, theta }, 64), { colour: lineColour, width: 1 });
+    for (const theta of headings) strokeLine(canvasContext, pictureView.headingLineFrom({ x, y, theta }, 64), { colour: robotColour, width: 1 });
   });
   // The disc is larger than the handle at the end of the arc, which often hides its middle.
   const [pixelX, pixelY] = pictureView.toPixel(x, y);
-  drawDisc(canvasContext, [pixelX, pixelY], 14, lineColour);
-  return { text: words.banana.robotCountLabel(formatInteger(shown)), point: pictureView.toWorld(pixelX, pixelY - 14), colour: lineColour };
+  drawDisc(canvasContext, [pixelX, pixelY], 14, robotColour);
+  return { text: words.banana.robotCountLabel(formatInteger(shown)), point: pictureView.toWorld(pixelX, pixelY - 14), colour: robotColour };
 }
 
 /**

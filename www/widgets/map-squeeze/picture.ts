@@ -182,9 +182,9 @@ function drawPaths({ canvasContext, pictureView }: DrawContext, paths: Float64Ar
 }
 
 /** Draws samples as transparent dots, which look darker where they overlap. */
-function drawSamples({ canvasContext, pictureView }: DrawContext, poses: Float64Array, lineColour: string) {
+function drawSamples({ canvasContext, pictureView }: DrawContext, poses: Float64Array, dotColour: string) {
   const dotRadius = clampNumber(pictureView.width / SAMPLE_DOT.widthPerRadius, SAMPLE_DOT.minRadius, SAMPLE_DOT.maxRadius);
   paintWithOpacity(canvasContext, SAMPLE_DOT.opacity, () => {
-    for (let i = 0; i < poses.length; i += 3) drawDisc(canvasContext, pictureView.toPixel(poses[i], poses[i + 1]), dotRadius, lineColour);
+    for (let i = 0; i < poses.length; i += 3) drawDisc(canvasContext, pictureView.toPixel(poses[i], poses[i + 1]), dotRadius, dotColour);
   });
 }

@@ -99,14 +99,14 @@ const MAX_SHOWN_FRACTION = 0.6;
 export function overviewMapHtml(picture: import('./picture.ts').FloorPicture, { config, commanded }: import('./settings.ts').ViewModel) {
   const { xMin, yMin, xMax, yMax } = picture.knownExtentOf(config.start);
   const [width, height] = [xMax - xMin, yMax - yMin];
-  const { shownExtent: extent } = picture.pictureView;
-  const shownSize = [extent.xMax - extent.xMin, extent.yMax - extent.yMin];
+  const { shownExtent } = picture.pictureView;
+  const shownSize = [shownExtent.xMax - shownExtent.xMin, shownExtent.yMax - shownExtent.yMin];
   if (!picture.isCloseView || shownSize[0] * shownSize[1] > MAX_SHOWN_FRACTION * width * height) return nothing;
   return html`<svg class="overview" viewBox=${`${xMin} ${-yMax} ${width} ${height}`} aria-hidden="true">
     <g transform="scale(1 -1)" fill="none">
       <path vector-effect="non-scaling-stroke" stroke="var(--muted)" d=${picture.wallPathData} />
       <polyline vector-effect="non-scaling-stroke" stroke="var(--prior)" stroke-width="2" points=${[...commanded].join(' ')} />
-      <rect vector-effect="non-scaling-stroke" stroke="var(--ink)" x=${extent.xMin} y=${extent.yMin} width=${shownSize[0]} height=${shownSize[1]} />
+      <rect vector-effect="non-scaling-stroke" stroke="var(--ink)" x=${shownExtent.xMin} y=${shownExtent.yMin} width=${shownSize[0]} height=${shownSize[1]} />
     </g>
   </svg>`;
 }

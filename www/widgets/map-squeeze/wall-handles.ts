@@ -99,8 +99,8 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
       getView: () => this.figure.picture.pictureView,
       findGraspedPoint: () => callWithGrip((currentGrip) => [...this.#gripPointOf(currentGrip)]),
       dragTo: (x, y) => callWithGrip((currentGrip) => moveBy(x - this.#gripPointOf(currentGrip)[0], y - this.#gripPointOf(currentGrip)[1])),
-      handleKey: (domEvent) => {
-        const [keyTurns, keySteps] = [turnStepsOfKey(domEvent), stepsOfKey(domEvent)];
+      handleKey: (keyEvent) => {
+        const [keyTurns, keySteps] = [turnStepsOfKey(keyEvent), stepsOfKey(keyEvent)];
         if (keyTurns) this.#focusHandle(name, -keyTurns);
         // Arrow keys perpendicular to the axis also move the handle, like the arrow keys of any slider.
         else if (keySteps) callWithGrip(({ axis: [ux, uy] }) => (keySteps[0] * ux + keySteps[1] * uy ? moveBy(KEY_STEP * keySteps[0], KEY_STEP * keySteps[1]) : moveBy(KEY_STEP * keySteps[1], KEY_STEP * keySteps[0])));

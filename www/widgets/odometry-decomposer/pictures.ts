@@ -33,19 +33,19 @@ function ellipsePointsOf({ x, y, theta }: Pose, alongRadius: number, acrossRadiu
 }
 
 /** Draws a turn (rad) as an arc with an arrow head. The arc starts at the heading of a pose, and its radius is in pixels. */
-function drawTurn({ canvasContext, pictureView }: DrawContext, startPose: Pose, turn: number, arcRadius: number, lineColour: string) {
-  strokePath(canvasContext, { colour: lineColour, width: 1.75 }, () => addTurnArc(canvasContext, pictureView.toPixel(startPose.x, startPose.y), arcRadius, startPose.theta, turn));
+function drawTurn({ canvasContext, pictureView }: DrawContext, startPose: Pose, turn: number, arcRadius: number, turnColour: string) {
+  strokePath(canvasContext, { colour: turnColour, width: 1.75 }, () => addTurnArc(canvasContext, pictureView.toPixel(startPose.x, startPose.y), arcRadius, startPose.theta, turn));
   // The arrow head is smaller on a short arc.
   const arrowHeadLength = Math.min(ARROW_HEAD_SIZE.length, arcRadius * Math.abs(turn));
   const arrowTip = pictureView.headingLineFrom({ ...startPose, theta: startPose.theta + turn }, arcRadius)[1];
   const arrowBasePose = { ...startPose, theta: startPose.theta + turn - (Math.sign(turn) * arrowHeadLength) / arcRadius };
   const arrowHeadScale = arrowHeadLength / ARROW_HEAD_SIZE.length;
   const arrowCornerOf = (arrowSide: number) => pictureView.headingLineFrom(arrowBasePose, arcRadius + arrowSide * arrowHeadScale * ARROW_HEAD_SIZE.halfWidth)[1];
-  fillPath(canvasContext, lineColour, () => addLine(canvasContext, [arrowTip, arrowCornerOf(1), arrowCornerOf(-1)]));
+  fillPath(canvasContext, turnColour, () => addLine(canvasContext, [arrowTip, arrowCornerOf(1), arrowCornerOf(-1)]));
 }
 
 /** Draws a standard deviation (rad) as a fan to both sides of a heading. The radius of the fan is in pixels. */
-function drawDeviationFan({ canvasContext, pictureView }: DrawContext, { x, y, theta }: Pose, deviation: number, fanRadius: number, lineColour: string) {
+function drawDeviationFan({ canvasContext, pictureView }: DrawContext, { x, y, theta }: Pose, deviation: number, fanRadius: number, fanColour: string) {
   const halfAngle = Math.min(deviation, Math.PI);
   if (halfAngle === 0) return;
   const fanCentre = pictureView.toPixel(x, y);
@@ -54,8 +54,8 @@ function drawDeviationFan({ canvasContext, pictureView }: DrawContext, { x, y, t
     addTurnArc(canvasContext, fanCentre, fanRadius, theta + halfAngle, -2 * halfAngle);
     canvasContext.closePath();
   };
-  paintWithOpacity(canvasContext, 0.14, () => fillPath(canvasContext, lineColour, addFan));
-  paintWithOpacity(canvasContext, 0.75, () => strokePath(canvasContext, { colour: lineColour, width: 1, dash: [5, 3] }, addFan));
+  paintWithOpacity(canvasContext, 0.14, () => fillPath(canvasContext, fanColour, addFan));
+  paintWithOpacity(canvasContext, 0.75, () => strokePath(canvasContext, { colour: fanColour, width: 1, dash: [5, 3] }, addFan));
 }
 
 /** Data that the two pictures show: results of the simulation, and the names of the visible lines. */

@@ -154,13 +154,13 @@ export class Cloud extends FigureController {
     this.figure.renderer.requestFrame();
   }
 
-  selectAtPointer(picture: FigurePicture<any>, domEvent: PointerEvent) {
+  selectAtPointer(picture: FigurePicture<any>, pointerEvent: PointerEvent) {
     const { simulation, gesture } = this.figure;
     // On a touch screen a moving finger scrolls the page, so that only a tap selects a sample.
-    if (!simulation || gesture.isPressed || (domEvent.pointerType === 'touch' && domEvent.type !== 'click')) return;
-    const [x, y] = toViewPixels(domEvent.currentTarget as Element, picture.pictureView, domEvent);
+    if (!simulation || gesture.isPressed || (pointerEvent.pointerType === 'touch' && pointerEvent.type !== 'click')) return;
+    const [x, y] = toViewPixels(pointerEvent.currentTarget as Element, picture.pictureView, pointerEvent);
     const sampleIndex = picture.findNearestSample(simulation, x, y);
-    if (sampleIndex >= 0 || domEvent.type === 'click') this.select(sampleIndex);
+    if (sampleIndex >= 0 || pointerEvent.type === 'click') this.select(sampleIndex);
   }
 
   /** True if the selected sample is shown. */

@@ -53,32 +53,32 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     if (!focusAnswer()) figure.renderRoot.querySelector('#refusal')?.scrollIntoView({ block: 'nearest' });
   }
 
-  onDragOver = (domEvent: DragEvent) => {
-    if (!domEvent.dataTransfer?.types.includes('Files')) return;
-    domEvent.preventDefault();
-    (domEvent.currentTarget as HTMLElement).classList.add('dropping');
+  onDragOver = (dragEvent: DragEvent) => {
+    if (!dragEvent.dataTransfer?.types.includes('Files')) return;
+    dragEvent.preventDefault();
+    (dragEvent.currentTarget as HTMLElement).classList.add('dropping');
   };
 
-  onDragLeave = (domEvent: DragEvent) => {
-    const figureSection = domEvent.currentTarget as HTMLElement;
-    const enteredElement = domEvent.relatedTarget as Node | null;
+  onDragLeave = (dragEvent: DragEvent) => {
+    const figureSection = dragEvent.currentTarget as HTMLElement;
+    const enteredElement = dragEvent.relatedTarget as Node | null;
     if (!figureSection.contains(enteredElement)) figureSection.classList.remove('dropping');
   };
 
-  onDrop = (domEvent: DragEvent) => {
-    (domEvent.currentTarget as HTMLElement).classList.remove('dropping');
-    if (!domEvent.dataTransfer?.types.includes('Files')) return;
+  onDrop = (dragEvent: DragEvent) => {
+    (dragEvent.currentTarget as HTMLElement).classList.remove('dropping');
+    if (!dragEvent.dataTransfer?.types.includes('Files')) return;
     // Without this call, the browser would leave the page and open the dropped file.
-    domEvent.preventDefault();
+    dragEvent.preventDefault();
     const resultElement = this.figure.renderRoot.querySelector(`#${this.resultElementId}`);
     if (resultElement instanceof HTMLDetailsElement) resultElement.open = true;
-    readDroppedFiles(domEvent.dataTransfer).then((files) => files.length > 0 && this.chooseFiles(files));
+    readDroppedFiles(dragEvent.dataTransfer).then((files) => files.length > 0 && this.chooseFiles(files));
   };
 
   /** Returns a button that opens a file dialog for files with the given extensions. */
   fileButtonHtml(id: string, label: string, extensions: string[]) {
-    const openChosenFiles = (domEvent: Event) => {
-      const fileInput = inputOf(domEvent);
+    const openChosenFiles = (event: Event) => {
+      const fileInput = inputOf(event);
       this.chooseFiles([...(fileInput.files ?? [])]);
       // The input is cleared. Otherwise, choosing a file with the same name again after a correction would not fire a `change` event.
       fileInput.value = '';

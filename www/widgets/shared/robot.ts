@@ -77,16 +77,16 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
       ...handleCallbacks,
       findGraspedPoint: () => [this.#pose.x, this.#pose.y],
       dragTo: (x, y) => this.#moveTo(x, y),
-      handleKey: (domEvent) => this.#applyKey(stepsOfKey(domEvent), turnStepsOfKey(domEvent)),
+      handleKey: (keyEvent) => this.#applyKey(stepsOfKey(keyEvent), turnStepsOfKey(keyEvent)),
     });
     this.#turnHandle = new Handle(`turn ${settingKey}`, {
       ...handleCallbacks,
       findGraspedPoint: (pointer) => pointer,
       dragTo: (x, y) => this.#turnTo(Math.atan2(y - this.#pose.y, x - this.#pose.x)),
-      handleKey: (domEvent) => {
-        const keySteps = stepsOfKey(domEvent);
+      handleKey: (keyEvent) => {
+        const keySteps = stepsOfKey(keyEvent);
         // The left arrow key turns the robot counter-clockwise (to the left, from the driver's seat).
-        return this.#applyKey(undefined, turnStepsOfKey(domEvent) ?? (keySteps && keySteps[1] - keySteps[0]));
+        return this.#applyKey(undefined, turnStepsOfKey(keyEvent) ?? (keySteps && keySteps[1] - keySteps[0]));
       },
     });
   }

@@ -44,10 +44,12 @@ register();
  */
 const TYPE_NAMES = { number: 'number', whole: 'number', boolean: 'boolean', numbers: 'number[]' };
 
+/** Documentation of the property of elements with a sample that the user can select. @type {Documentation} */
+const SELECTION_DOCUMENTATION = { properties: { marked: { type: 'number | null', sentence: 'The sample that is marked, counted from 0.' } } };
+
 /** Documentation of the properties and state fields that every element with a cloud has. @type {Documentation} */
 const CLOUD_DOCUMENTATION = {
   properties: {
-    marked: { type: 'number | null', sentence: 'The sample that is marked, counted from 0.' },
     poses: { type: 'Float64Array | null', readonly: true, sentence: 'x, y (m), θ (rad) of each sample shown; a copy.' },
   },
   state: {
@@ -129,7 +131,7 @@ async function describeWidget(widgetTag) {
   const { COMMON_PROPERTIES } = await importTypeScript('www/figure/definition.ts');
   const { definition: { attributes, settingDeclarations, elementFields }, documentation } = await importTypeScript(`www/widgets/${widgetTag}/settings.ts`);
   /** @type {Documentation[]} */
-  const memberDocumentations = [...('marked' in elementFields ? [CLOUD_DOCUMENTATION] : []), ...(documentation ? [documentation] : [])];
+  const memberDocumentations = [...('marked' in elementFields ? [SELECTION_DOCUMENTATION] : []), ...('shown' in elementFields ? [CLOUD_DOCUMENTATION] : []), ...(documentation ? [documentation] : [])];
   const { classes: classesByName } = await readClassComments();
   const elementClass = classesByName.get(`${toPascalCase(widgetTag)}Element`);
   /** @type {Record<string, string>} */

@@ -151,19 +151,6 @@ test('without noise, or if fourth-order terms leave no valid covariance, the fig
   await expect(captionOf(widget)).toHaveText(/gives no valid covariance/);
 });
 
-test('the path of a robot is shown if its number is entered', async ({ page }) => {
-  const widget = await openDeadReckoning(page, 'step="20"');
-  await openDisclosures(widget);
-  const floorCanvas = widget.locator('canvas.plane');
-  const pixelCountBefore = await countPixelsOfRole(floorCanvas, 'accent');
-  await widget.getByRole('spinbutton', { name: 'Robot', exact: true }).fill('40000');
-  await page.keyboard.press('Enter');
-  await waitForFrames(page);
-  expect(await countPixelsOfRole(floorCanvas, 'accent')).toBeGreaterThan(pixelCountBefore + 100);
-  const endPose = await widget.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).simulation.rollout(39_999)].slice(-3));
-  await expect(widget.locator('.marked output')).toContainText(`x ${endPose[0].toFixed(3)} m`);
-});
-
 test('the exported CSV has a row for each step', async ({ page }) => {
   const widget = await openDeadReckoning(page);
   const { text: csvText, measured, predicted } = await widget.evaluate((element) => {

@@ -95,8 +95,8 @@ test('a state that is set during playback of a slider replaces the playback @nig
   expect(/** @type {any} */ (await readState(widget)).phase).toBe(1);
 });
 
-test('a partial state keeps the fraction of shown samples, and the marked sample if it is shown @nightly', async ({ page, cloudFigureName }) => {
-  const widget = await mountFigure(page, cloudFigureName, { attributes: 'samples="300"' });
+test('a partial state keeps the fraction of shown samples, and the marked sample if it is shown @nightly', async ({ page }) => {
+  const widget = await mountFigure(page, 'banana-machine', { attributes: 'samples="300"' });
   const statesAfter = await widget.evaluate((element) => {
     const figureElement = /** @type {AnyElement} */ (element);
     const partialStates = [{ shown: 100, marked: 50 }, { seed: 5 }, { shown: 50 }, { samples: 30 }, { samples: 300 }, { shown: 100, playing: true }];

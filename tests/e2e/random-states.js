@@ -20,13 +20,14 @@ export function createRandomStates(seed) {
     seed: sampleInteger(0, 2 ** 53 - 1),
     shown: sampleItem([sampleCount, sampleInteger(2, sampleCount)]),
     playing: false,
-    marked: sampleItem([null, sampleInteger(0, 1)]),
   };
+  const selection = { marked: sampleItem([null, sampleInteger(0, 1)]) };
   const command = { v: sampleNumber(-1, 2), omega: sampleNumber(-2, 2), dt: sampleNumber(0.1, 3) };
   const stepCount = sampleInteger(1, 40);
   const fieldsByTag = {
     'banana-machine': {
       ...cloudFields,
+      ...selection,
       command,
       alphas: { velocity: sampleAlphas(6), odometry: sampleAlphas(4) },
       isolate: sampleItem([null, sampleInteger(1, 4)]),
@@ -39,6 +40,7 @@ export function createRandomStates(seed) {
     },
     'map-squeeze': {
       ...cloudFields,
+      ...selection,
       command,
       start: { x: sampleNumber(1, 5), y: sampleNumber(1, 3), theta: sampleNumber(-3, 3) },
       alphas: sampleAlphas(6),

@@ -181,7 +181,10 @@ const CLOUD_FIELDS: Record<string, ElementField> = {
   playing: { type: 'boolean', default: false },
   /** Number of samples to show; Infinity for all, also if their number changes. */
   shown: { type: 'whole', default: Infinity, min: 0, maxInState: ({ samples }) => samples },
-  /** Index of the selected sample. */
+};
+
+/** Index of the selected sample, for clouds of which the user can select a sample. */
+export const SELECTION_FIELD: Record<string, ElementField> = {
   marked: { type: 'whole', default: null, nullable: true, min: 0, maxInState: ({ playing, samples, shown }) => (playing ? samples : shown) - 1, access: 'property' },
 };
 

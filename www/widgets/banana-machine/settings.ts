@@ -1,7 +1,7 @@
 /** Settings of the Banana Machine: their attributes, state fields and sliders. Also line styles, and the data that the figure shows. */
 
 import { withFieldRenamed } from '../../data/checks.ts';
-import { createDefinition } from '../../figure/definition.ts';
+import { SELECTION_FIELD, createDefinition } from '../../figure/definition.ts';
 import { words } from '../../messages/registry.ts';
 import { openingAlphas } from '../../../build/settings.js';
 import { createSamplesSliderSpec } from '../shared/cloud.ts';
@@ -37,6 +37,7 @@ export const definition = createDefinition('banana-machine', {
   openingOverlays: ['command', 'ellipse', 'exponential'],
   sliderSpecs: { ...sliderSpecs, morph: { role: 'truth', min: 0, max: 1, step: 0.01, decimals: 2 }, samples: createSamplesSliderSpec(1_000_000) },
   elementFields: {
+    ...SELECTION_FIELD,
     /** Settings that the user has pinned (saved for comparison); null for none. `BananaMachineElement.enterState` checks them. */
     pinned: { default: null },
     morph: { type: 'number', default: 0, min: 0, max: 1, isResetByPreset: true, access: 'attribute' },

@@ -64,6 +64,4 @@ export const de: typeof import('./en.ts').en = {
     varianceAxisLabel: 'Varianz (m²)',
     caption: 'Geradeaus mit *v*, in erster Ordnung und exakt. Von der Kreuzung an, (2/*v*)·√(*α*₁/*α*₃), entscheidet die Richtung, so gut die Drehgeber auch sind.',
   },
-  robot: 'Roboter',
-  markHint: 'Auf einen am Boden zeigen, um seinen Weg zu sehen.',
 };

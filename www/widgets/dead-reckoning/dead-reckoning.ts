@@ -12,7 +12,7 @@ import { Cloud, cloudControlsHtml, cloudProperties } from '../shared/cloud.ts';
 import { presetButtonsHtml } from '../shared/controls.ts';
 import { describeCommand } from '../shared/sliders.ts';
 import { PathPicture, StepPicture } from './pictures.ts';
-import { headlineHtml, markedRobotFieldHtml, missTableHtml, ratioPlotHtml, straightGrowthPlotHtml, captionOf } from './readouts.ts';
+import { headlineHtml, missTableHtml, ratioPlotHtml, straightGrowthPlotHtml, captionOf } from './readouts.ts';
 import { CURVE_STYLES, OUTLINE_STYLES, RECURSIONS, definition, COMMAND_SLIDERS, NOISE_SLIDERS, TWIST_COMPONENTS, viewModelOf, type ViewModel } from './settings.ts';
 import type { StateValues } from '../../figure/settings.ts';
 import type { DeadReckoning as Simulation, Motion } from '../../types.d.ts';
@@ -127,7 +127,6 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   #stepPicture = new StepPicture();
   pictures = [this.#floorPicture, this.#stepPicture];
 
-  #rolloutMemo: MemoizedResult<Float64Array> = new MemoizedResult();
   #straightGrowthMemo: MemoizedResult<Simulation['straightGrowth']> = new MemoizedResult();
 
   // The simulation starts without robots. The first frame then appears quickly, and the user sees the robots appear.
@@ -140,10 +139,6 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   }
 
   readViewModel = viewModelOf;
-
-  get scene() {
-    return { ...super.scene, markedPoses: this.#markedPoses };
-  }
 
   get exportData() {
     const { config } = this.currentViewModel;
@@ -161,12 +156,6 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   describePicture = ({ config: { command, steps } }: ViewModel) => [words.reckoning.floorTitle, `${describeCommand(command)}; ${words.reckoning.settings.steps.name}: ${steps}`];
 
   announcementOf = (viewModel: ViewModel) => captionOf(viewModel, this.settings.elementState.overlays);
-
-  /** Poses of the selected robot after each step; undefined if no robot is selected, or the selected robot is not shown. */
-  get #markedPoses() {
-    const { simulation, viewModel, cloud: { isSelectionShown, selectedIndex } } = this;
-    return isSelectionShown && simulation ? this.#rolloutMemo.getResult([viewModel.stats, selectedIndex], () => simulation.rollout(selectedIndex)) : undefined;
-  }
 
   renderContent(viewModel: ViewModel) {
     const { ratioCondition, config: { step } } = viewModel;
@@ -189,7 +178,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
       </div>
       ${disclosuresHtml(this, {
         renderControls: () => moreControlsHtml(this),
-        renderNumbers: () => html`${missTableHtml(viewModel, overlays)} ${markedRobotFieldHtml(this, this.#markedPoses)} ${straightGrowthPlotHtml(this.#straightGrowthMemo.getResult([viewModel.stats], () => (this.simulation as Simulation).straightGrowth))}`,
+        renderNumbers: () => html`${missTableHtml(viewModel, overlays)} ${straightGrowthPlotHtml(this.#straightGrowthMemo.getResult([viewModel.stats], () => (this.simulation as Simulation).straightGrowth))}`,
       })}`)}
     `;
   }

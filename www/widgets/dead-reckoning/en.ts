@@ -68,6 +68,4 @@ export const en = {
     varianceAxisLabel: 'variance (m²)',
     caption: 'Straight ahead at *v*, to first order and exactly. From the crossing on, (2/*v*)·√(*α*₁/*α*₃), heading decides, however good the encoders.',
   },
-  robot: 'Robot',
-  markHint: 'Point at one on the floor to see its way.',
 } satisfies import('../../messages/registry.ts').MessageEntry;

@@ -3,15 +3,15 @@
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/labels.ts';
-import { drawDots, drawEarlierOutlines, drawCrosshair, drawOutlines, drawRobot, createLineLegend, createLineStyles, strokeLines, styleOutlines } from '../../scene/draw.ts';
-import { FigurePicture, SamplesPicture } from '../../scene/picture.ts';
+import { drawDots, drawEarlierOutlines, drawOutlines, drawRobot, createLineLegend, createLineStyles, styleOutlines } from '../../scene/draw.ts';
+import { FigurePicture } from '../../scene/picture.ts';
 import { PictureView, cornersAround, extentAround, extentOf } from '../../scene/view.ts';
 import { formatSignificant } from '../../ui/format.ts';
 import { OUTLINE_STYLES } from './settings.ts';
 import { drawDisc, paintWithOpacity } from '../../scene/canvas.ts';
 
-/** Data that the two pictures show: results of the simulation, and the poses of the selected robot after each step. */
-export type Scene = import('./settings.ts').ViewModel & { markedPoses: Float64Array | undefined, overlays: string[] };
+/** Data that the two pictures show: results of the simulation, and the names of the visible lines. */
+export type Scene = import('./settings.ts').ViewModel & { overlays: string[] };
 
 /** Distance from the mean of a cloud, in standard deviations, up to which the picture of a step shows the cloud. */
 const VIEWED_DEVIATIONS = 3.2;
@@ -27,7 +27,7 @@ const MIN_STEP_VIEW_ASPECT = 1e-3;
 const END_MARK_RADIUS = 4;
 
 /** Picture of the floor from above, with the path. */
-export class PathPicture extends SamplesPicture<Scene> {
+export class PathPicture extends FigurePicture<Scene> {
   pictureName = 'plane';
   pictureView: PictureView = new PictureView();
 
@@ -39,7 +39,7 @@ export class PathPicture extends SamplesPicture<Scene> {
     this.pictureView.fitExtent(extentOf(shownCoordinates, 0.4));
   }
 
-  paintPicture: FigurePicture<Scene>['paintPicture'] = (drawContext, { commanded, outlines, milestones, poses, commandedPose, markedPoses, overlays, config: { step } }) => {
+  paintPicture: FigurePicture<Scene>['paintPicture'] = (drawContext, { commanded, outlines, milestones, poses, commandedPose, overlays }) => {
     const { palette } = drawContext;
     const lineStyles = createLineStyles(drawContext, OUTLINE_STYLES, overlays);
     drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, lineStyles, ['ellipse', 'exponential', 'command'], words.reckoning.overlays));
@@ -55,10 +55,6 @@ export class PathPicture extends SamplesPicture<Scene> {
       drawRobot(drawContext, { x: 0, y: 0, heading: 0, colour: palette.truth });
       // The mark at the commanded position is small, so that it does not hide the cloud.
       drawDisc(drawContext.canvasContext, drawContext.pictureView.toPixel(commandedPose[0], commandedPose[1]), END_MARK_RADIUS, palette.prior, { colour: palette.paper, width: 1.5 });
-      if (!markedPoses) return;
-      strokeLines(drawContext, [{ points: Float64Array.from([0, 0, ...markedPoses.filter((_, i) => i % 3 < 2)]), colour: palette.accent, width: 1.25, dash: [6, 2] }]);
-      const [x, y, heading] = markedPoses.subarray(3 * (step - 1));
-      drawCrosshair(drawContext, { x, y, heading });
     });
     drawCallouts(drawContext, callouts, { shapeCentre: [commandedPose[0], commandedPose[1]], avoidedLines: [commanded, outlines.ellipse, outlines.exponential] });
   };

@@ -7,7 +7,6 @@ import { formatMarkup } from '../../ui/controls.ts';
 import { NO_VALUE, formatInteger, formatFixed, formatWithError, formatSignificant } from '../../ui/format.ts';
 import { plotHtml, type ColourRole } from '../../ui/plot.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
-import { sampleFieldHtml } from '../shared/cloud.ts';
 import { en } from './en.ts';
 import { TWIST_COMPONENTS, CURVE_STYLES, RECURSIONS, type ViewModel } from './settings.ts';
 import type { Misses } from '../../types.d.ts';
@@ -161,11 +160,4 @@ export function missTableHtml({ stats: { misses } }: ViewModel, overlays: string
       return [[texts.overlays[component], ...missesOfRecursions.map(formatMissRange)], [texts.missTable.atEndLabel(texts.overlays[component]), ...missesOfRecursions.map(formatFinalError)]];
     }),
   });
-}
-
-/** Returns the input field for the number of the marked robot, followed by the pose of that robot at the selected step. */
-export function markedRobotFieldHtml(figure: import('./dead-reckoning.ts').DeadReckoningElement, markedPoses: Float64Array | undefined): import('lit').TemplateResult {
-  const { config: { step }, shown } = figure.viewModel;
-  const [x, y, theta] = Array.from(markedPoses?.subarray(3 * (step - 1), 3 * step) ?? [], (coordinate) => formatFixed(coordinate, 3));
-  return sampleFieldHtml(figure, 'robot', shown, markedPoses && `x ${x} m, y ${y} m, θ ${theta} rad`);
 }

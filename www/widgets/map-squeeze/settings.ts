@@ -1,6 +1,6 @@
 /** Settings of Map Squeeze: their attributes, state fields and sliders. Also line styles, and the data that the figure shows. */
 
-import { presetAttributeOf, createDefinition } from '../../figure/definition.ts';
+import { SELECTION_FIELD, presetAttributeOf, createDefinition } from '../../figure/definition.ts';
 import { words } from '../../messages/registry.ts';
 import { presets, settings, verdict as bits } from '../../../build/settings.js';
 import { formatInteger, formatFixed, formatPercent } from '../../ui/format.ts';
@@ -42,6 +42,7 @@ export const definition = createDefinition('map-squeeze', {
   // Presets are places in the apartment, so that no preset matches on another map.
   presetAttribute: { ...PRESET_SETTING, getValue: (config) => (config.map ? null : PRESET_SETTING.getValue(config)) },
   elementFields: {
+    ...SELECTION_FIELD,
     view: { type: 'word', words: VIEW_NAMES, default: VIEW_NAMES[0], access: 'attribute' },
     /** Map of the user; null for the apartment. Only maps that a simulation has accepted are stored. */
     map: { default: null, access: 'property' },

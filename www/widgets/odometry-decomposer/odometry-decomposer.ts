@@ -131,12 +131,6 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
 
   readViewModel = viewModelOf;
 
-  get scene() {
-    const scene = super.scene;
-    const { selectedIndex, isSelectionShown } = this.cloud;
-    return { ...scene, markedPose: isSelectionShown ? scene.poses.subarray(3 * selectedIndex) : undefined };
-  }
-
   get exportData() {
     return { columns: { 'x_m y_m theta_rad': this.currentViewModel.poses } };
   }

@@ -5,8 +5,8 @@ import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/labels.ts';
 import { addLine, fillPath, paintWithOpacity, strokePath, strokeLine, type DrawContext, type LineStroke } from '../../scene/canvas.ts';
-import { addTurnArc, drawDots, drawCrosshair, drawOutlines, drawRobot, hasLength, createLineLegend, createLineStyles, strokeLines } from '../../scene/draw.ts';
-import { SamplesPicture } from '../../scene/picture.ts';
+import { addTurnArc, drawDots, drawOutlines, drawRobot, hasLength, createLineLegend, createLineStyles, strokeLines } from '../../scene/draw.ts';
+import { FigurePicture } from '../../scene/picture.ts';
 import { PictureView, cornersAround, extentOf } from '../../scene/view.ts';
 import { formatFixed } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline, turnHandleDistanceOf } from '../shared/robot.ts';
@@ -59,7 +59,7 @@ function drawDeviationFan({ canvasContext, pictureView }: DrawContext, { x, y, t
 }
 
 /** Data that the two pictures show: results of the simulation, and the names of the visible lines. */
-export type Scene = import('./settings.ts').ViewModel & { markedPose: Float64Array | undefined, overlays: string[] };
+export type Scene = import('./settings.ts').ViewModel & { overlays: string[] };
 
 /** Radius of the robot, m. */
 export const ROBOT_RADIUS = 0.11;
@@ -118,10 +118,6 @@ function spreadEllipsesOf({ palette }: DrawContext, { linkage, rules, config }: 
   }).filter(({ points: ellipsePoints }) => hasLength(ellipsePoints));
 }
 
-function drawMarkedPose(drawContext: DrawContext, { markedPose }: Scene) {
-  if (markedPose) drawCrosshair(drawContext, { x: markedPose[0], y: markedPose[1], heading: markedPose[2] });
-}
-
 /** Arc that shows a turn: the pose at whose heading the turn starts, the turn (rad), and the radius of the arc (pixels). */
 type TurnArc = [Pose, turn: number, radius: number];
 
@@ -136,7 +132,7 @@ function turnArcPoints({ x, y, theta }: Pose, turn: number, arcRadius: number) {
 }
 
 /** Picture in the odometry frame: the three legs (rotation, drive, rotation) as a linkage, and the effect of noise on them. */
-export class LegsPicture extends SamplesPicture<Scene> {
+export class LegsPicture extends FigurePicture<Scene> {
   pictureName = 'plane';
   pictureView: PictureView = new PictureView({ relativeMargin: 0 });
 
@@ -150,7 +146,7 @@ export class LegsPicture extends SamplesPicture<Scene> {
     this.pictureView.fitExtent(extentOf([...coordinatesToShow, ...arcPoints], 1.2));
   }
 
-  paintPicture: SamplesPicture<Scene>['paintPicture'] = (drawContext, scene) => {
+  paintPicture: FigurePicture<Scene>['paintPicture'] = (drawContext, scene) => {
     const { palette } = drawContext;
     const { linkage, legs, deviations, config, overlays } = scene;
     const [startPose, turnedPose, drivenPose] = [0, 1, 2].map((poseIndex) => poseAt(linkage, poseIndex));
@@ -172,7 +168,6 @@ export class LegsPicture extends SamplesPicture<Scene> {
       if (lines.legs) {
         for (const [turnPose, turn, turnRadius] of turnArcs) if (Math.abs(turn) >= MIN_DRAWN_TURN) drawTurn(drawContext, turnPose, turn, turnRadius, lines.legs.colour);
       }
-      drawMarkedPose(drawContext, scene);
     });
     const turnArcOutlines = turnArcs.map(([turnPose, turn, turnRadius]) => Float64Array.from(turnArcPoints(turnPose, turn, turnRadius / this.pictureView.scaleX)));
     const legCallouts = lines.legs ? this.#createLegCallouts(drawContext, scene, turnArcs) : [];
@@ -205,7 +200,7 @@ export class LegsPicture extends SamplesPicture<Scene> {
 }
 
 /** Picture of the world frame, in which the odometry frame has drifted. */
-export class WorldPicture extends SamplesPicture<Scene> {
+export class WorldPicture extends FigurePicture<Scene> {
   pictureName = 'world';
   pictureView: PictureView = new PictureView({ relativeMargin: 0 });
 
@@ -218,7 +213,7 @@ export class WorldPicture extends SamplesPicture<Scene> {
     this.pictureView.fitExtent(extentOf([...coordinatesToShowOf(scene), ...robotBoxCorners], 1.2));
   }
 
-  paintPicture: SamplesPicture<Scene>['paintPicture'] = (drawContext, scene) => {
+  paintPicture: FigurePicture<Scene>['paintPicture'] = (drawContext, scene) => {
     const { palette, canvasContext, pictureView } = drawContext;
     const lines = createLineStyles(drawContext, LINE_STYLES, scene.overlays);
     const [framePose, odometryStart, odometryEnd] = [0, 1, 2].map((poseIndex) => poseAt(scene.drifted.poses, poseIndex));
@@ -239,7 +234,6 @@ export class WorldPicture extends SamplesPicture<Scene> {
       if (lines.prediction) drawSegment(drawContext, startPose, predictedPose, lines.prediction);
       if (lines.difference) drawSegment(drawContext, odometryEnd, predictedPose, lines.difference);
       drawDraggableRobot(drawContext, startPose, ROBOT_RADIUS, palette.truth);
-      drawMarkedPose(drawContext, scene);
     });
     const { outcomesLabel, ruleNames } = words.decomposer;
     const lowestOutcome = leastIndex(scene.poses.filter((_, i) => i % 3 === 1)) ?? -1;

@@ -44,7 +44,7 @@ export class Cloud extends FigureController {
 
   /** Fields in the state of the element that belong to the cloud. */
   get #state() {
-    return this.figure.settings.elementState as { playing: boolean, shown: number, marked: number | null };
+    return this.figure.settings.elementState as { playing: boolean, shown: number, marked?: number | null };
   }
 
   /** True while the cloud grows. */
@@ -135,7 +135,7 @@ export class Cloud extends FigureController {
   }
 
   takeSnapshot(): StateValues {
-    return { shown: this.targetCount, marked: this.#isSelectionPossible ? this.selectedIndex : null };
+    return { shown: this.targetCount, ...(this.#state.marked !== undefined && { marked: this.#isSelectionPossible ? this.selectedIndex : null }) };
   }
 
   /** Returns the field `shown` (number of samples to show) for a change of settings that does not contain it. */

@@ -7,7 +7,7 @@ import { mountFigure, waitUntilSettled } from './support.js';
 /**
  * @import { Locator, Page } from '@playwright/test'
  * @typedef {import('../../www/types.d.ts').AlphaCalibrator} Simulation
- * @typedef {HTMLElement & { simulation: Simulation, log: import('../../www/types.d.ts').CalibrationLog | null, settings: any, service: { isBusy: boolean } }} AlphaCalibratorElement
+ * @typedef {HTMLElement & { simulation: Simulation, log: import('../../www/types.d.ts').CalibrationLog | null, settings: any, logService: { isBusy: boolean } }} AlphaCalibratorElement
  */
 
 /** Opens a page with the figure, and waits until its log is fitted. @param {Page} page @param {string} [attributes] */

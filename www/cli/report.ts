@@ -6,7 +6,7 @@ import { warningsOf } from '../logs/pairs.ts';
 import { en as sharedTexts } from '../messages/en.ts';
 import { MINUS_SIGN } from '../ui/format.ts';
 import { en } from '../widgets/alpha-calibrator/en.ts';
-import { LOST_LEG_CAUSES, describeLegLength, explainRecommendation, formatJson, formatNav2Yaml, isNav2Rule, judgementOf, type Result } from '../widgets/alpha-calibrator/result.ts';
+import { LOST_LEG_CAUSES, describeLegLength, explainRecommendation, formatJson, formatNav2Yaml, isNav2Rule, judgementOf, type CalibrationResult } from '../widgets/alpha-calibrator/result.ts';
 import { alphaTableOf, checkTableOf, noiseTableOf, systematicTableOf, windowTableOf, type ResultTable } from '../widgets/alpha-calibrator/tables.ts';
 import type { Calibration } from '../types.d.ts';
 
@@ -27,7 +27,7 @@ export interface CalibrationReport {
   date: string;
 }
 
-const resultOf = ({ calibration, options: { model: modelName = 'odometry', rule: ruleName = 'thrun', legs, correct: corrections = {} }, logs: reportedLogs }: CalibrationReport): Result => ({
+const resultOf = ({ calibration, options: { model: modelName = 'odometry', rule: ruleName = 'thrun', legs, correct: corrections = {} }, logs: reportedLogs }: CalibrationReport): CalibrationResult => ({
   stats: calibration, legCount: calibration.legs.count, model: modelName, rule: ruleName, legLength: legs, corrections,
   logName: new Intl.ListFormat('en').format(new Set(reportedLogs.map(({ name: logName }) => logName))), warnings: warningsOf(reportedLogs.map(({ summary }) => summary)),
 });

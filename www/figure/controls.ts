@@ -16,7 +16,7 @@ import type { FigurePicture } from '../scene/picture.ts';
 export interface SliderSpec {
   /** Mathematical symbol, in the markup of messages: see formatMarkup. */
   symbol?: string;
-  role: 'prior' | 'prediction' | 'truth';
+  colourRole: 'prior' | 'prediction' | 'truth';
   /** Minimum of the slider, within the allowed values. */
   min: number;
   max: number;

@@ -75,7 +75,7 @@ type ShownLines<Name extends string> = { [Key in Name]?: ShownLine };
 export function createLineStyles<Name extends string>({ palette, highlight }: Pick<DrawContext, 'palette' | 'highlight'>, lineStyles: Record<Name, LineStyle>, shownNames: readonly string[]) {
   const hasHighlight = Object.keys(lineStyles).some((lineName) => lineName === highlight);
   const shownStyles = Object.entries(lineStyles as Record<string, LineStyle>).filter(([lineName]) => shownNames.includes(lineName));
-  const styleEntries = shownStyles.map(([lineName, { role: colourRole, width = 2.25, dash = [], shape: swatchShape }]) => {
+  const styleEntries = shownStyles.map(([lineName, { colourRole, width = 2.25, dash = [], shape: swatchShape }]) => {
     const lineColour = hasHighlight && lineName !== highlight ? `rgb(${colourChannelsOf(palette[colourRole]).join(' ')} / ${DIMMED_OPACITY})` : palette[colourRole];
     return [lineName, { colour: lineColour, width: lineName === highlight ? HIGHLIGHT_WIDTH_FACTOR * width : width, dash, shape: swatchShape }];
   });

@@ -90,7 +90,7 @@ export type ColourRole = Exclude<keyof import('./theme.ts').ColourPalette, 'pape
 export interface PlotCurve {
   /** Name in the legend; *stars* make italics. */
   name: string;
-  role: ColourRole;
+  colourRole: ColourRole;
   /** Dash pattern, which distinguishes the curve without colours. */
   dash?: number[];
   x: ArrayLike<number>;
@@ -104,7 +104,7 @@ export interface PlotCurve {
 }
 
 interface DataPoint {
-  role: ColourRole;
+  colourRole: ColourRole;
   x: number;
   y: number;
   error: number;
@@ -139,11 +139,11 @@ export function plotHtml({ plotLabel, x, y, plotCurves, dataPoints = [], vertica
       <text font-style="italic" x=${PLOT_RIGHT} y=${PLOT_BOTTOM + 30} text-anchor="end">${x.axisLabel}</text>
       <text font-style="italic" x="0" y="12">${y.axisLabel}</text>
       <svg x=${PLOT_LEFT} y=${PLOT_TOP} width=${PLOT_RIGHT - PLOT_LEFT} height=${PLOT_BOTTOM - PLOT_TOP} viewBox="${PLOT_LEFT} ${PLOT_TOP} ${PLOT_RIGHT - PLOT_LEFT} ${PLOT_BOTTOM - PLOT_TOP}">
-        ${plotCurves.map((plotCurve) => plotCurve.errors && svg`<path class="band ${highlightClassOf(plotCurve)}" opacity="0.22" fill="var(--${plotCurve.role})" d=${bandPathDataOf(plotCurve, toPixelX, toPixelY)} />`)}
-        ${plotCurves.map((plotCurve) => !plotCurve.isBandOnly && svg`<path class="curve ${highlightClassOf(plotCurve)}" fill="none" stroke-width="1.9" stroke="var(--${plotCurve.role})" stroke-dasharray=${plotCurve.dash?.join(' ') ?? nothing} d=${curvePathDataOf(plotCurve, toPixelX, toPixelY)} />`)}
+        ${plotCurves.map((plotCurve) => plotCurve.errors && svg`<path class="band ${highlightClassOf(plotCurve)}" opacity="0.22" fill="var(--${plotCurve.colourRole})" d=${bandPathDataOf(plotCurve, toPixelX, toPixelY)} />`)}
+        ${plotCurves.map((plotCurve) => !plotCurve.isBandOnly && svg`<path class="curve ${highlightClassOf(plotCurve)}" fill="none" stroke-width="1.9" stroke="var(--${plotCurve.colourRole})" stroke-dasharray=${plotCurve.dash?.join(' ') ?? nothing} d=${curvePathDataOf(plotCurve, toPixelX, toPixelY)} />`)}
         ${verticalMarks.map((verticalMark, labelRow) => markSvg(verticalMark, labelRow, toPixelX(verticalMark.x)))}
         ${dataPoints.filter(({ y: axisValue, error }) => !Number.isNaN(axisValue + error)).map(
-          ({ role: colourRole, x: pointX, y: axisValue, error }) => svg`<path
+          ({ colourRole, x: pointX, y: axisValue, error }) => svg`<path
             stroke="var(--${colourRole})"
             stroke-width="1.9"
             d="M${toPixelX(pointX) - ERROR_BAR_CAP},${toPixelY(axisValue - error)}h${2 * ERROR_BAR_CAP}m${-ERROR_BAR_CAP},0V${toPixelY(axisValue + error)}m${-ERROR_BAR_CAP},0h${2 * ERROR_BAR_CAP}"

@@ -136,7 +136,7 @@ const NUMBER_START = /^[\d.,+-]$/;
  * slider moves the focus into the field; Enter and Escape move it back.
  */
 export function sliderRowHtml(sliderRow: SliderRow) {
-  const { id, value: sliderValue, min: minValue, max: maxValue, step: sliderStep, allowedNumbers, role: colourRole, symbol: rowSymbol, name: rowName, effect: effectText, formatValue, onInput, onCommit } = sliderRow;
+  const { id, value: sliderValue, min: minValue, max: maxValue, step: sliderStep, allowedNumbers, colourRole, symbol: rowSymbol, name: rowName, effect: effectText, formatValue, onInput, onCommit } = sliderRow;
   const printedValue = formatValue(sliderValue);
   const longestText = [formatValue(minValue), formatValue(maxValue)].reduce((longerText, candidateText) => (candidateText.length > longerText.length ? candidateText : longerText), printedValue);
   // If the thumb is at an end of the slider, a text tells the user that values beyond that end can be typed.
@@ -188,7 +188,7 @@ export interface SliderRow extends SliderRange {
   formatValue: (sliderValue: number) => string;
   /** Text on the effect of the setting on the picture. */
   effect: unknown;
-  role: 'prior' | 'prediction' | 'truth';
+  colourRole: 'prior' | 'prediction' | 'truth';
   /** True if the value has no effect on the simulation at present. */
   hasNoEffect?: boolean;
   /** HTML of a control in front of the label. */

@@ -229,7 +229,7 @@ export function colourChannelsOf(...cssColours: string[]): [number, number, numb
 
 /** Style of a line or mark, in the picture and in the legend. */
 export interface LineStyle {
-  role: keyof ColourPalette;
+  colourRole: keyof ColourPalette;
   /** Dash pattern, CSS pixels. */
   dash?: number[];
   /** Line width, CSS pixels. */
@@ -239,7 +239,7 @@ export interface LineStyle {
 }
 
 /** Returns the symbol of a legend item: a line, dot, ring or area in its style. */
-export function swatchHtml({ role: colourRole, dash, width = 2.25, shape: swatchShape = 'line' }: LineStyle) {
+export function swatchHtml({ colourRole, dash, width = 2.25, shape: swatchShape = 'line' }: LineStyle) {
   const svgByShape = {
     line: svg`<line x1="1" x2="29" y1="6" y2="6" stroke-width=${width} stroke-dasharray=${dash?.join(' ') ?? nothing} />`,
     dot: svg`<circle fill="var(--role)" cx="15" cy="6" r="3" />`,

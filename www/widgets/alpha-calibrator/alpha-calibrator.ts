@@ -212,10 +212,10 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   #pathPicture = new PathPicture();
   #legPicture = new LegPicture();
   pictures = [this.#pathPicture, this.#legPicture];
-  #opener = new LogOpener(this);
-  dropHandlers = this.#opener;
-  service = new LogService();
-  #fit: Parameters<typeof viewModelOf>[2] = new MemoizedResult();
+  #logOpener = new LogOpener(this);
+  dropHandlers = this.#logOpener;
+  logService = new LogService();
+  #fitMemo: Parameters<typeof viewModelOf>[2] = new MemoizedResult();
   #predictedLegMemo: MemoizedResult<LegView | null> = new MemoizedResult();
   #panelsMemo: MemoizedResult<{ regressor: (typeof REGRESSORS)[number], componentPanels: CalibrationPanel[] }[]> = new MemoizedResult();
   /** Log of the user or of the page; null for the simulated log. */
@@ -228,13 +228,13 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   createSimulation = ({ AlphaCalibrator }: Motion, givenLog = this.#givenLog) => (givenLog ? AlphaCalibrator.restored(givenLog.config, givenLog.fit) : new AlphaCalibrator());
 
   readViewModel(simulation: Simulation) {
-    const viewModel = viewModelOf(simulation, this.log, this.#fit);
+    const viewModel = viewModelOf(simulation, this.log, this.#fitMemo);
     if (viewModel.isPending) this.#refit();
     return viewModel;
   }
 
   get isBusy() {
-    return this.service.isBusy || this.#opener.readFraction !== undefined || this.viewModel?.isPending;
+    return this.logService.isBusy || this.#logOpener.readFraction !== undefined || this.viewModel?.isPending;
   }
 
   connectedCallback() {
@@ -245,7 +245,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   disconnectedCallback() {
     super.disconnectedCallback();
-    this.service.endWorker();
+    this.logService.endWorker();
   }
 
   updated() {
@@ -269,7 +269,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   }
 
   /** Squared residuals of each noise component, binned by squared rotation and by squared translation; empty without legs. */
-  get panels() {
+  get regressionPanels() {
     const { simulation, viewModel: { stats, legs } } = this;
     return legs.count > 0 && simulation ? this.#panelsMemo.getResult([stats], () => REGRESSORS.map((regressor) => ({ regressor, componentPanels: simulation.panels(regressor) }))) : [];
   }
@@ -299,7 +299,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   set log(log) {
     this.reflection.setProperty('log', log, (newLog) => {
       if (newLog !== null) checkObject('log', newLog, ['name', 'odometry', 'reference']);
-      this.service.stopRequest();
+      this.logService.stopRequest();
       const acceptLog = () => {
         this.#pageLog = newLog;
         this.reflection.updateAttributes();
@@ -310,7 +310,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   #startOver = () => {
     this.settings.restoreAsUser();
-    this.#opener.closeLog(this.#pageLog).catch(this.#reportError);
+    this.#logOpener.closeLog(this.#pageLog).catch(this.#reportError);
   };
 
   #reportError = (error: unknown) => {
@@ -323,7 +323,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
    */
   async openLog(log: CalibrationLog | null, warnings: LogWarning[], checkSimulation?: (simulation: Simulation) => void) {
     const config = this.settings.pickSettings(this.settings.currentValues) as Simulation['config'];
-    const openedLog = log && { log, warnings, config, fit: await this.service.calibrate(config, log) };
+    const openedLog = log && { log, warnings, config, fit: await this.logService.calibrate(config, log) };
     this.runtime.attemptWork(() => {
       if (!this.simulation) return;
       this.settings.applyPending();
@@ -342,8 +342,8 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   /** Fits the present log with the requested settings. Until the fit is complete, the figure shows the previous fit. */
   async #refit() {
-    const { log, service, notice } = this;
-    if (!log || service.isBusy || !this.isConnected) return;
+    const { log, logService, notice } = this;
+    if (!log || logService.isBusy || !this.isConnected) return;
     const stopFit = () => {
       this.announcer.announceText(words.progress.stoppedNotice);
       this.#revertSettings();
@@ -362,7 +362,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   /** Aborts a running fit, and restores the settings of the fit on screen. */
   #revertSettings() {
-    this.service.stopRequest();
+    this.logService.stopRequest();
     this.settings.assignValues(this.viewModel.fittedConfig);
   }
 
@@ -405,7 +405,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     const { chosenLegIndex } = this;
     const hasDuration = this.settings.requestedValues.duration > 0;
     return html`
-      ${dropZoneHtml(this, this.#opener)}
+      ${dropZoneHtml(this, this.#logOpener)}
       <div class="views">
         <p part="caption" class="caption verdict">${this.renderer.renderAfterFirstPicture(() => verdictHtml(this))}</p>
         ${pictureHtml(this, this.#pathPicture, texts.pathTitle)}
@@ -417,9 +417,9 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
         <div class="fitted" part="readouts">
           <div class="buttons result">
             <p class="panel-title">${texts.alphas.title(texts.modelRuleNames[modelRuleOf(viewModel.fittedConfig)])}</p>
-            ${nav2ButtonHtml(this, this.#opener.otherResultsNote)} ${startOverButtonHtml(this, this.#startOver)}
+            ${nav2ButtonHtml(this, this.#logOpener.otherResultsNote)} ${startOverButtonHtml(this, this.#startOver)}
           </div>
-          <p class="to-do">${this.#opener.otherResultsNote || judgeFit(this).advice.join(' ')}</p>
+          <p class="to-do">${this.#logOpener.otherResultsNote || judgeFit(this).advice.join(' ')}</p>
           ${alphaTableHtml(viewModel)}
           <p class="muted small">${explainRecommendation(viewModel.stats, texts)}</p>
         </div>`)}
@@ -437,10 +437,10 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
         renderNumbers: () => html`${fieldsetHtml(texts.legTitle(formatInteger(chosenLegIndex + 1)), legReadoutsHtml(this))}
           ${diagnosticsHtml(this)}
           ${fieldsetHtml(texts.panels.title, regressionPanelsHtml(this))}
-          ${fieldsetHtml(texts.nav2.title, nav2ExportControlsHtml(this, this.#opener.otherResultsNote))}`,
+          ${fieldsetHtml(texts.nav2.title, nav2ExportControlsHtml(this, this.#logOpener.otherResultsNote))}`,
         csvTitle: texts.csvTitle,
       })}
-      ${this.#opener.logModule?.logSummaryHtml(this.#opener)}`)}
+      ${this.#logOpener.logModule?.logSummaryHtml(this.#logOpener)}`)}
     `;
   }
 }

@@ -7,14 +7,14 @@ import { buttonHtml, fieldsetHtml, radioGroupHtml } from '../../ui/controls.ts';
 import { NO_VALUE, formatEditable, formatFixed, formatInteger } from '../../ui/format.ts';
 import { readoutsHtml } from '../../ui/readouts.ts';
 import { sliderRowHtml } from '../../ui/slider.ts';
-import { modelRuleOf, countObserved, settingsOfModelRule } from './settings.ts';
+import { modelRuleOf, countObservedResiduals, settingsOfModelRule } from './settings.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 export function legControlsHtml(figure: Figure) {
   const { viewModel: { legs, worstLegs }, chosenLegIndex } = figure;
   const texts = words.calibrator.leg;
   // The button selects the next leg in the list of the worst legs. After the last leg, or if the selected leg is not in the list, it selects the first.
-  const nextLeg = worstLegs[(worstLegs.indexOf(figure.settings.elementState.leg) + 1) % Math.max(1, worstLegs.length)];
+  const nextWorstLeg = worstLegs[(worstLegs.indexOf(figure.settings.elementState.leg) + 1) % Math.max(1, worstLegs.length)];
   return html`${sliderRowHtml({
       id: 'leg',
       allowedNumbers: { min: 1, max: legs.count, type: 'whole' },
@@ -25,12 +25,12 @@ export function legControlsHtml(figure: Figure) {
       step: 1,
       formatValue: formatInteger,
       effect: undefined,
-      role: 'truth',
+      colourRole: 'truth',
       hasNoEffect: legs.count < 2,
       onInput: (legNumber) => figure.settings.requestChange({ leg: legNumber - 1 }),
       onCommit: () => figure.gesture.commitChange(),
     })}
-    ${buttonHtml(texts.nextWorstLegLabel, () => figure.gesture.requestAndCommit({ leg: nextLeg }), { disabled: nextLeg === undefined })}`;
+    ${buttonHtml(texts.nextWorstLegLabel, () => figure.gesture.requestAndCommit({ leg: nextWorstLeg }), { disabled: nextWorstLeg === undefined })}`;
 }
 
 export function legReadoutsHtml({ viewModel: { legs }, chosenLegIndex, predictedLeg: leg }: Figure) {
@@ -38,7 +38,7 @@ export function legReadoutsHtml({ viewModel: { legs }, chosenLegIndex, predicted
   const endError = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
   return readoutsHtml([
     [texts.endErrorLabel, `${formatFixed(endError, 3)} m`],
-    [texts.squaredDistanceLabel(String(countObserved(legs.residuals, chosenLegIndex))), formatFixed(leg ? legs.squared[chosenLegIndex] : NaN, 1)],
+    [texts.squaredDistanceLabel(String(countObservedResiduals(legs.residuals, chosenLegIndex))), formatFixed(leg ? legs.squared[chosenLegIndex] : NaN, 1)],
   ]);
 }
 

@@ -29,26 +29,26 @@ const MIN_QUATERNION_COLUMNS = 5;
 const MAX_CELL_LENGTH = 16;
 
 /** Returns all logs that can be chosen for a role, each with a label. Every pair of frames is a separate log. */
-function labelledChoicesOf(recording: Recording, role?: LogRole): [label: string, LogChoice][] {
-  const usableSeries = readableSeriesOf(recording).filter(({ seriesKind }) => role !== 'reference' || seriesKind !== 'commands');
+function labelledChoicesOf(recording: Recording, logRole?: LogRole): [label: string, LogChoice][] {
+  const usableSeries = readableSeriesOf(recording).filter(({ seriesKind }) => logRole !== 'reference' || seriesKind !== 'commands');
   const logChoices = usableSeries.flatMap(({ seriesName, seriesKind, framePairs = [] }): LogChoice[] => (seriesKind === 'transforms' ? framePairs.map((framePair) => ({ seriesName, framePair })) : [{ seriesName }]));
-  return logChoices.map((choice) => [choiceLabelOf(choice) || recording.recordingName, choice]);
+  return logChoices.map((logChoice) => [choiceLabelOf(logChoice) || recording.recordingName, logChoice]);
 }
 
 /** Returns the controls by which the user answers questions about the chosen files. */
-export function logChoosersHtml(opener: LogOpener) {
-  const { chosenFiles, texts } = opener;
+export function logChoosersHtml(logOpener: LogOpener) {
+  const { chosenFiles, texts } = logOpener;
   if (!chosenFiles || !texts) return nothing;
   const { openedRecordings, skippedFiles, questions } = chosenFiles;
   const hasOneLog = (recording: Recording) => labelledChoicesOf(recording).length === 1;
   const roleChoosers = [
-    ...(openedRecordings.every(hasOneLog) ? [] : LOG_ROLES.map((role) => seriesSelectHtml(opener, chosenFiles, role, texts))),
-    ...(openedRecordings.length > 1 ? openedRecordings.flatMap((recording, recordingIndex) => (hasOneLog(recording) ? [roleSelectHtml(opener, chosenFiles, recordingIndex, texts)] : [])) : []),
+    ...(openedRecordings.every(hasOneLog) ? [] : LOG_ROLES.map((role) => seriesSelectHtml(logOpener, chosenFiles, role, texts))),
+    ...(openedRecordings.length > 1 ? openedRecordings.flatMap((recording, recordingIndex) => (hasOneLog(recording) ? [roleSelectHtml(logOpener, chosenFiles, recordingIndex, texts)] : [])) : []),
   ];
   return html`<div class="choosers">
     ${roleChoosers.length ? html`<div class="choices">${roleChoosers}</div>` : nothing}
-    ${questions.map((question) => questionHtml(opener, chosenFiles, question, texts))}
-    ${skippedFiles.filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${texts.choose.skippedFileNote(opener.explainRefusal(failure))}</p>`)}
+    ${questions.map((question) => questionHtml(logOpener, chosenFiles, question, texts))}
+    ${skippedFiles.filter((failure) => failure !== logOpener.refusal).map((failure) => html`<p class="muted">${texts.choose.skippedFileNote(logOpener.explainRefusal(failure))}</p>`)}
   </div>`;
 }
 
@@ -62,18 +62,18 @@ function selectHtml(id: string, label: string, selectedValue: string, options: [
   </label>`;
 }
 
-function seriesSelectHtml(opener: LogOpener, { openedRecordings, userChoices }: ChosenFiles, role: LogRole, { choose: texts }: LogWords) {
+function seriesSelectHtml(logOpener: LogOpener, { openedRecordings, userChoices }: ChosenFiles, role: LogRole, { choose: texts }: LogWords) {
   const choiceByLabel = new Map(openedRecordings.flatMap((recording) => labelledChoicesOf(recording, role)));
   const plannedRecording = openedRecordings.find(({ logChoices }) => logChoices?.[role]);
   const currentChoice = (userChoices[role] as LogChoice | undefined) ?? plannedRecording?.logChoices?.[role];
   const currentLabel = currentChoice ? choiceLabelOf(currentChoice) || (plannedRecording ?? openedRecordings[0]).recordingName : '';
   return selectHtml(`log-${role}`, texts.roleNames[role], currentLabel, [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
     const choice = choiceByLabel.get(label);
-    if (choice) opener.changeChoices({ userChoices: { ...userChoices, [role]: choice } });
+    if (choice) logOpener.changeChoices({ userChoices: { ...userChoices, [role]: choice } });
   }, texts.openPlaceholder);
 }
 
-function roleSelectHtml(opener: LogOpener, { openedRecordings, answers }: ChosenFiles, recordingIndex: number, { choose: texts }: LogWords) {
+function roleSelectHtml(logOpener: LogOpener, { openedRecordings, answers }: ChosenFiles, recordingIndex: number, { choose: texts }: LogWords) {
   const { recordingName, logChoices } = openedRecordings[recordingIndex];
   const currentRole = answers[recordingName]?.logRole ?? LOG_ROLES.find((role) => logChoices?.[role]);
   return selectHtml(`log-role-${recordingIndex}`, recordingName, currentRole ?? '', LOG_ROLES.map((role) => [role, texts.roleNames[role]]), (chosenValue) => {
@@ -81,22 +81,22 @@ function roleSelectHtml(opener: LogOpener, { openedRecordings, answers }: Chosen
     // If there are two files with one log each, and the user chooses the role of one file, the other file gets the other role.
     const otherRecording = openedRecordings.length === 2 ? openedRecordings[1 - recordingIndex] : undefined;
     const hasOtherRole = otherRecording && labelledChoicesOf(otherRecording).length === 1;
-    opener.answer({ ...(hasOtherRole && { [otherRecording.recordingName]: { logRole: role === 'odometry' ? 'reference' : 'odometry' } }), [recordingName]: { logRole: role } });
+    logOpener.answerQuestions({ ...(hasOtherRole && { [otherRecording.recordingName]: { logRole: role === 'odometry' ? 'reference' : 'odometry' } }), [recordingName]: { logRole: role } });
   }, texts.openPlaceholder);
 }
 
-function questionHtml(opener: LogOpener, { answers }: ChosenFiles, question: FileQuestion, { choose: texts }: LogWords) {
+function questionHtml(logOpener: LogOpener, { answers }: ChosenFiles, question: FileQuestion, { choose: texts }: LogWords) {
   const { fileName, optionName, possibleAnswers } = question;
-  if (optionName === 'columns') return columnsFormHtml(opener, question, answers[fileName]?.columnNames?.join(), texts);
+  if (optionName === 'columns') return columnsFormHtml(logOpener, question, answers[fileName]?.columnNames?.join(), texts);
   if (optionName !== 'timeUnit' && optionName !== 'lengthUnit' && optionName !== 'angleUnit') return nothing;
   const unitLabels: Record<string, string> = Object.fromEntries((possibleAnswers.length ? possibleAnswers : UNIT_NAMES[optionName]).map((unit) => [unit, texts.unitNames[unit as keyof typeof texts.unitNames]]));
   return html`<div id=${questionIdOf(question)}>
-    ${radioGroupHtml(texts[optionName](fileName), questionIdOf(question), unitLabels, answers[fileName]?.[optionName] ?? '', (unit) => opener.answer({ [fileName]: { [optionName]: unit } }))}
+    ${radioGroupHtml(texts[optionName](fileName), questionIdOf(question), unitLabels, answers[fileName]?.[optionName] ?? '', (unit) => logOpener.answerQuestions({ [fileName]: { [optionName]: unit } }))}
   </div>`;
 }
 
 /** Returns a form with a `<select>` for each field, by which the user assigns a column to the field. */
-function columnsFormHtml(opener: LogOpener, question: FileQuestion, answeredNames: string | undefined, texts: LogWords['choose']) {
+function columnsFormHtml(logOpener: LogOpener, question: FileQuestion, answeredNames: string | undefined, texts: LogWords['choose']) {
   const { fileName, possibleAnswers: [chosenNames = ''], columnNames = [], proposedFields = chosenNames.split(',') } = question;
   const proposedNames = chosenNames.split(',');
   // Each column is offered twice: as it is, and with the opposite sign.
@@ -111,7 +111,7 @@ function columnsFormHtml(opener: LogOpener, question: FileQuestion, answeredName
     // A column that keeps its field also keeps its name, because the name may contain a unit.
     const newNames = newFields.map((field, i) => (field === proposedFields[i] ? proposedNames[i] : field));
     [question.possibleAnswers, question.proposedFields] = [[newNames.join()], newFields];
-    opener.answer({ [fileName]: { columnNames: newNames } });
+    logOpener.answerQuestions({ [fileName]: { columnNames: newNames } });
   };
   return keyed(question, html`<form id=${questionIdOf(question)} @submit=${submitColumns}>
     <fieldset>
@@ -169,14 +169,14 @@ function logTableHtml({ odometry, reference }: LoggedDrive, caption: string, { c
   const logs = [odometry, reference];
   const tableRows = logs.map((driveLog) => summaryLinesOf(driveLog, found));
   const tableCellHtml = (cellLines: string[] = []) => html`<td>${cellLines.length ? cellLines.map((cellLine, i) => html`${i ? html`<br />` : nothing}${cellLine}`) : '—'}</td>`;
-  const labels = (Object.keys(found.rowLabels) as (keyof typeof found.rowLabels)[]).filter((label) => tableRows.some((tableRow) => tableRow[label]?.length));
+  const rowKeys = (Object.keys(found.rowLabels) as (keyof typeof found.rowLabels)[]).filter((label) => tableRows.some((tableRow) => tableRow[label]?.length));
   return html`<table>
     ${caption ? html`<caption>${caption}</caption>` : nothing}
     <thead>
       <tr><td></td>${LOG_ROLES.map((role, i) => html`<th scope="col">${choose.roleNames[role]}: ${logs[i].logName}</th>`)}</tr>
     </thead>
     <tbody>
-      ${labels.map((label) => html`<tr><th scope="row">${found.rowLabels[label]}</th>${tableRows.map((tableRow) => tableCellHtml(tableRow[label]))}</tr>`)}
+      ${rowKeys.map((label) => html`<tr><th scope="row">${found.rowLabels[label]}</th>${tableRows.map((tableRow) => tableCellHtml(tableRow[label]))}</tr>`)}
     </tbody>
   </table>`;
 }
@@ -187,10 +187,10 @@ function pathsPictureHtml({ odometry, reference }: LoggedDrive, clockOffset: num
   const odometryPath = alignPath(drivenPath, referencePath, clockOffset);
   const allPoses = [...odometryPath.poses, ...referencePath.poses];
   const axisRanges = ([0, 1] as const).map((coordinateIndex) => [Math.min(...allPoses.map((pose) => pose[coordinateIndex])), Math.max(...allPoses.map((pose) => pose[coordinateIndex]))]);
-  const [width, height] = axisRanges.map(([lowEnd, highEnd]) => highEnd - lowEnd);
-  const pixelsPerMetre = Math.min((PICTURE_WIDTH - 2 * PICTURE_MARGIN) / Math.max(width, 0.1), (PICTURE_HEIGHT - 2 * PICTURE_MARGIN) / Math.max(height, 0.1));
+  const [pathWidth, pathHeight] = axisRanges.map(([lowEnd, highEnd]) => highEnd - lowEnd);
+  const pixelsPerMetre = Math.min((PICTURE_WIDTH - 2 * PICTURE_MARGIN) / Math.max(pathWidth, 0.1), (PICTURE_HEIGHT - 2 * PICTURE_MARGIN) / Math.max(pathHeight, 0.1));
   const pathDataOf = (path: TimedPath) => svgPathDataOf(path, ([x, y]) => [PICTURE_MARGIN + (x - axisRanges[0][0]) * pixelsPerMetre, PICTURE_HEIGHT - PICTURE_MARGIN - (y - axisRanges[1][0]) * pixelsPerMetre]);
-  const captionText = found.pathsCaption(odometryPath !== drivenPath, formatFixed(width, 1), formatFixed(height, 1));
+  const captionText = found.pathsCaption(odometryPath !== drivenPath, formatFixed(pathWidth, 1), formatFixed(pathHeight, 1));
   return html`<figure class="paths small">
     <svg viewBox="0 0 ${PICTURE_WIDTH} ${PICTURE_HEIGHT}" role="img" aria-label=${captionText}>
       <g fill="none" stroke-width="1.25" stroke-linejoin="round">

@@ -37,7 +37,7 @@ export class LogOpener extends FileOpener<Figure> {
   resultElementId = 'log';
   chosenFiles: ChosenFiles | undefined;
   /** Files with the log whose results are on screen; undefined after the page or the user has set another log. */
-  #resultFiles: ChosenFiles | undefined;
+  #fittedFiles: ChosenFiles | undefined;
   /** Module with the code and the texts for choosing and showing logs. It is loaded when the user chooses a file. */
   logModule: LogModule | undefined;
   /** Fraction of the files that has been read; undefined if no file is being read. */
@@ -56,13 +56,13 @@ export class LogOpener extends FileOpener<Figure> {
   /** Reads the files again if the user has changed the model, and the new model prefers another kind of odometry. */
   hostUpdated() {
     const { chosenFiles } = this;
-    if (chosenFiles?.isFitted && chosenFiles.calibrationLog === this.figure.log && this.readFraction === undefined && chosenFiles.userChoices.logKind !== this.preferredKind) this.#open(chosenFiles);
+    if (chosenFiles?.isFitted && chosenFiles.calibrationLog === this.figure.log && this.readFraction === undefined && chosenFiles.userChoices.logKind !== this.preferredKind) this.#openFiles(chosenFiles);
   }
 
   /** Forgets the chosen files, and shows a log of the page, or the simulated log. */
   async closeLog(log: CalibrationLog | null = null) {
     this.#endReading();
-    this.#resultFiles = undefined;
+    this.#fittedFiles = undefined;
     this.restoreResults();
     if (log === this.figure.log) return;
     await this.figure.openLog(log, []);
@@ -71,7 +71,7 @@ export class LogOpener extends FileOpener<Figure> {
 
   /** Forgets files that were refused or not yet fitted. The files with the results on screen become the chosen files again. */
   restoreResults() {
-    this.chosenFiles = this.#resultFiles?.calibrationLog === this.figure.log ? this.#resultFiles : undefined;
+    this.chosenFiles = this.#fittedFiles?.calibrationLog === this.figure.log ? this.#fittedFiles : undefined;
     this.refusal = undefined;
     this.figure.requestUpdate();
   }
@@ -89,7 +89,7 @@ export class LogOpener extends FileOpener<Figure> {
 
   #endReading() {
     this.cancel();
-    this.figure.service.stopRequest();
+    this.figure.logService.stopRequest();
     this.#setIdle();
   }
 
@@ -107,38 +107,38 @@ export class LogOpener extends FileOpener<Figure> {
     const newFiles = logFiles.length ? logFiles : files;
     const { files: previousFiles, answers, questions } = this.chosenFiles?.refusalOfAll?.userQuestion?.optionName === 'other' ? this.chosenFiles : { files: [], answers: {}, questions: [] };
     const loneFiles = previousFiles.filter((file) => !newFiles.some(({ name, size }) => name === file.name && size === file.size));
-    this.#open({ files: [...loneFiles, ...newFiles], openedRecordings: [], skippedFiles: [], answers, questions, userChoices: {} });
+    this.#openFiles({ files: [...loneFiles, ...newFiles], openedRecordings: [], skippedFiles: [], answers, questions, userChoices: {} });
   }
 
   /** Opens the chosen files again, with answers to questions about them. The answers have the names of the files as keys. */
-  answer(newAnswers: ChosenFiles['answers']) {
+  answerQuestions(newAnswers: ChosenFiles['answers']) {
     const answers = { ...this.chosenFiles?.answers };
     for (const [file, answer] of Object.entries(newAnswers)) answers[file] = { ...answers[file], ...answer };
     this.changeChoices({ answers });
   }
 
   changeChoices(changedChoices: Partial<ChosenFiles>) {
-    if (this.chosenFiles) this.#open({ ...this.chosenFiles, ...changedChoices });
+    if (this.chosenFiles) this.#openFiles({ ...this.chosenFiles, ...changedChoices });
   }
 
   /** Reads files and fits their logs. An earlier attempt that is still running is cancelled. */
-  async #open({ files, openedRecordings, skippedFiles, answers, questions, userChoices }: ChosenFiles) {
+  async #openFiles({ files, openedRecordings, skippedFiles, answers, questions, userChoices }: ChosenFiles) {
     const openedFiles: ChosenFiles = (this.chosenFiles = { files, openedRecordings, skippedFiles, answers, questions, userChoices: { ...userChoices, logKind: this.preferredKind } });
-    this.figure.service.stopRequest();
+    this.figure.logService.stopRequest();
     this.readFraction = 0;
     const isLatest = await this.runAttempt(async () => {
       this.logModule ??= await import('./log-choice.ts');
-      Object.assign(openedFiles, await this.figure.service.read(files, answers, openedFiles.userChoices, (readFraction) => {
+      Object.assign(openedFiles, await this.figure.logService.readLogs(files, answers, openedFiles.userChoices, (readFraction) => {
         this.readFraction = readFraction;
         this.figure.requestUpdate();
       }));
       if (openedFiles.refusalOfAll) throw openedFiles.refusalOfAll;
-      await this.#fit(openedFiles);
+      await this.#fitLogs(openedFiles);
     });
     if (isLatest) this.#setIdle();
   }
 
-  async #fit(openedFiles: ChosenFiles) {
+  async #fitLogs(openedFiles: ChosenFiles) {
     const { calibrationLog, logWarnings, loggedDrives } = openedFiles as Required<ChosenFiles>;
     // The summary of the logs is shown while the logs are fitted.
     this.figure.requestUpdate();
@@ -147,7 +147,7 @@ export class LogOpener extends FileOpener<Figure> {
       for (const question of this.logModule!.mirroringQuestionsOf(loggedDrives, stats.diagnostics.checks)) askQuestion(openedFiles, question);
     });
     openedFiles.isFitted = true;
-    this.#resultFiles = openedFiles;
+    this.#fittedFiles = openedFiles;
     this.figure.gesture.commitOneStep();
   }
 
@@ -177,20 +177,20 @@ function askQuestion(chosenFiles: ChosenFiles, newQuestion: FileQuestion) {
 const isPossibleLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || [...LOG_FILE_EXTENSIONS.slice(0, -1), '-wal'].some((fileExtension) => name.endsWith(fileExtension));
 
 /** Returns the area on which logs are dropped. Below it are the questions about logs, the progress or the name of the log, and the reason for a refusal. */
-export function dropZoneHtml(figure: Figure, opener: LogOpener) {
+export function dropZoneHtml(figure: Figure, logOpener: LogOpener) {
   const texts = words.calibrator.logControls;
-  const { readFraction, logModule } = opener;
-  return html`<div class="drop-zone" id=${opener.resultElementId} part="drop">
+  const { readFraction, logModule } = logOpener;
+  return html`<div class="drop-zone" id=${logOpener.resultElementId} part="drop">
     <p title=${texts.dropZoneTooltip}>
       ${texts.dropZoneHint}
-      ${opener.fileButtonHtml('log-files', texts.chooseFilesLabel, LOG_FILE_EXTENSIONS)}
+      ${logOpener.fileButtonHtml('log-files', texts.chooseFilesLabel, LOG_FILE_EXTENSIONS)}
     </p>
-    ${logModule?.logChoosersHtml(opener)}
+    ${logModule?.logChoosersHtml(logOpener)}
     ${readFraction !== undefined
-      ? html`<p><progress aria-label=${words.progress.label} .value=${readFraction}></progress> ${buttonHtml(words.progress.stopLabel, () => opener.stopReading())}</p>`
-      : figure.log ? html`<p><span class="present">${texts.resultsOfLogNote(figure.logName)}</span> ${buttonHtml(texts.leaveLabel, () => opener.closeLog())}</p>` : nothing}
-    ${opener.refusalNoteHtml}
-    ${opener.otherResultsNote ? html`<p class="muted other-results">${opener.otherResultsNote} ${buttonHtml(texts.dismissFilesLabel, () => opener.restoreResults())}</p>` : nothing}
+      ? html`<p><progress aria-label=${words.progress.label} .value=${readFraction}></progress> ${buttonHtml(words.progress.stopLabel, () => logOpener.stopReading())}</p>`
+      : figure.log ? html`<p><span class="present">${texts.resultsOfLogNote(figure.logName)}</span> ${buttonHtml(texts.leaveLabel, () => logOpener.closeLog())}</p>` : nothing}
+    ${logOpener.refusalNoteHtml}
+    ${logOpener.otherResultsNote ? html`<p class="muted other-results">${logOpener.otherResultsNote} ${buttonHtml(texts.dismissFilesLabel, () => logOpener.restoreResults())}</p>` : nothing}
   </div>`;
 }
 
@@ -215,7 +215,7 @@ export class LogService {
   }
 
   /** Reads the logs of files. `answers` has the options for each file, by the name of the file. */
-  read(files: SourceFile[], answers: Record<string, OpenOptions>, userChoices: UserChoices, onProgress: (fraction: number) => void) {
+  readLogs(files: SourceFile[], answers: Record<string, OpenOptions>, userChoices: UserChoices, onProgress: (fraction: number) => void) {
     // The path is posted separately, because a copy of a `File` in the worker lacks the property `path`.
     const sources = files.map((file) => ({ file, path: file.path ?? '' }));
     return this.#sendRequest(({ session, proxy }, signal) => session.readFiles(sources, answers, userChoices, proxy((fraction) => void (signal.aborted || onProgress(fraction)))));
@@ -245,9 +245,9 @@ export class LogService {
     // If the worker cannot be started, the next request tries again.
     connection.catch(() => connection === this.#connection && (this.#connection = undefined));
     const { signal } = abortController;
-    const aborted = new Promise<never>((_, reject) => signal.addEventListener('abort', () => reject(signal.reason)));
+    const abortRejection = new Promise<never>((_, reject) => signal.addEventListener('abort', () => reject(signal.reason)));
     try {
-      return await Promise.race([aborted, sendTo(await Promise.race([aborted, connection]), signal)]);
+      return await Promise.race([abortRejection, sendTo(await Promise.race([abortRejection, connection]), signal)]);
     } finally {
       if (abortController === this.#abortController) this.#abortController = undefined;
     }

@@ -15,7 +15,7 @@ import type { CalibrationLegs, LegView } from '../../types.d.ts';
 export type Scene = ViewModel & { chosenLegIndex: number, leg: LegView | null, overlays: LineName[] };
 
 /** Number of legs above which the path is drawn as hairlines into a cached layer. Wide lines would hide each other. */
-const MAX_WIDE_LEGS = 2000;
+const MAX_WIDE_LINES = 2000;
 
 /** Radius of the rings around outliers, CSS pixels. */
 const OUTLIER_RING_RADIUS = 6;
@@ -60,11 +60,11 @@ export class PathPicture extends SamplesPicture<Scene> {
 
   paintPicture: FigurePicture<Scene>['paintPicture'] = (drawContext, { legs, legClasses, chosenLegIndex, overlays }) => {
     const { palette } = drawContext;
-    const lines = createLineStyles(drawContext, LINE_STYLES, overlays);
-    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, lines, [...LEG_CLASSES.toReversed(), 'odometry'], words.calibrator.overlays));
+    const lineStyles = createLineStyles(drawContext, LINE_STYLES, overlays);
+    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, lineStyles, [...LEG_CLASSES.toReversed(), 'odometry'], words.calibrator.overlays));
     clipToPlot(drawContext, () => {
       const paintLegs = (layerContext: LayerDrawContext) => drawPath(layerContext, legs, this.#odometryPathOf(legs), legClasses, overlays);
-      if ('isVector' in drawContext.canvasContext || legs.count <= MAX_WIDE_LEGS) paintLegs(drawContext);
+      if ('isVector' in drawContext.canvasContext || legs.count <= MAX_WIDE_LINES) paintLegs(drawContext);
       else this.#pathLayer.drawLayer(drawContext, [legs, overlays, drawContext.highlight], paintLegs);
       if (chosenLegIndex < 0) return;
       const [startX, startY, , x, y, heading] = legs.reference.subarray(6 * chosenLegIndex);
@@ -74,24 +74,24 @@ export class PathPicture extends SamplesPicture<Scene> {
   };
 }
 
-function drawPath(drawContext: LayerDrawContext, legs: CalibrationLegs, odometry: Float64Array, legClasses: Uint8Array, overlays: LineName[]) {
+function drawPath(drawContext: LayerDrawContext, legs: CalibrationLegs, odometryPath: Float64Array, legClasses: Uint8Array, overlays: LineName[]) {
   const { canvasContext, pictureView } = drawContext;
   const { count, reference, outliers } = legs;
-  const lines = createLineStyles(drawContext, LINE_STYLES, overlays);
-  if (lines.odometry) {
-    const odometryPixels = pictureView.toPixels(odometry);
+  const lineStyles = createLineStyles(drawContext, LINE_STYLES, overlays);
+  if (lineStyles.odometry) {
+    const odometryPixels = pictureView.toPixels(odometryPath);
     const pathPieces = range(0, odometryPixels.length, LINES_PER_STROKE).map((pieceStart) => odometryPixels.slice(pieceStart, pieceStart + LINES_PER_STROKE + 1));
-    strokeInBatches(canvasContext, pathPieces, lines.odometry, 1);
+    strokeInBatches(canvasContext, pathPieces, lineStyles.odometry, 1);
   }
-  for (const [classIndex, name] of LEG_CLASSES.entries()) {
-    const lineStyle = lines[name];
+  for (const [legClass, legClassName] of LEG_CLASSES.entries()) {
+    const lineStyle = lineStyles[legClassName];
     if (!lineStyle) continue;
-    const legsOfClass = [...legClasses.keys()].filter((leg) => legClasses[leg] === classIndex);
+    const legsOfClass = [...legClasses.keys()].filter((leg) => legClasses[leg] === legClass);
     const legLines = legsOfClass.map((leg) => [0, 3].map((poseOffset) => pictureView.toPixel(reference[6 * leg + poseOffset], reference[6 * leg + poseOffset + 1])));
     const legStyle = { ...lineStyle, lineCap: 'round' } as const;
-    strokeInBatches(canvasContext, legLines, count > MAX_WIDE_LEGS ? { ...legStyle, width: HAIRLINE_WIDTH } : legStyle);
+    strokeInBatches(canvasContext, legLines, count > MAX_WIDE_LINES ? { ...legStyle, width: HAIRLINE_WIDTH } : legStyle);
   }
-  if (lines.outlier) strokePath(canvasContext, lines.outlier, () => {
+  if (lineStyles.outlier) strokePath(canvasContext, lineStyles.outlier, () => {
     for (const leg of [...outliers.keys()].filter((leg) => outliers[leg] > 0)) {
       const [x, y] = pictureView.toPixel(reference[6 * leg + 3], reference[6 * leg + 4]);
       canvasContext.moveTo(x + OUTLIER_RING_RADIUS, y);
@@ -122,13 +122,13 @@ export class LegPicture extends FigurePicture<Scene> {
     drawAxes(drawContext, { x: words.calibrator.aheadAxisLabel, y: words.calibrator.leftAxisLabel }, []);
     if (!leg) return;
     const { outcomes, outline, read, ended } = leg;
-    const lines = createLineStyles(drawContext, LINE_STYLES, overlays);
+    const lineStyles = createLineStyles(drawContext, LINE_STYLES, overlays);
     clipToPlot(drawContext, () => {
-      if (lines.predicted) drawDots(drawContext, outcomes);
-      drawOutlines(drawContext, styleOutlines(lines, { predicted: outline, odometry: Float64Array.of(0, 0, read[0], read[1]), reference: Float64Array.of(0, 0, ended[0], ended[1]) }));
+      if (lineStyles.predicted) drawDots(drawContext, outcomes);
+      drawOutlines(drawContext, styleOutlines(lineStyles, { predicted: outline, odometry: Float64Array.of(0, 0, read[0], read[1]), reference: Float64Array.of(0, 0, ended[0], ended[1]) }));
       drawRobot(drawContext, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      if (lines.odometry) drawCrosshair(drawContext, { x: read[0], y: read[1], heading: read[2] }, palette.prior);
-      if (lines.reference) drawCrosshair(drawContext, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
+      if (lineStyles.odometry) drawCrosshair(drawContext, { x: read[0], y: read[1], heading: read[2] }, palette.prior);
+      if (lineStyles.reference) drawCrosshair(drawContext, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
     });
   };
 }

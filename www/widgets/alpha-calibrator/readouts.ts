@@ -9,7 +9,7 @@ import { plotHtml, type PlotCurve, type PlotOptions } from '../../ui/plot.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { en } from './en.ts';
-import { LOST_LEG_CAUSES, NAV2_RULES, SYSTEMATIC_ERRORS, checkMessage, formatAlphaOrBound, formatJson, judgementOf, localizeNumber, formatNav2Yaml, type Result } from './result.ts';
+import { LOST_LEG_CAUSES, NAV2_RULES, SYSTEMATIC_ERRORS, checkMessageOf, formatAlphaOrBound, formatJson, judgementOf, localizeNumber, formatNav2Yaml, type CalibrationResult } from './result.ts';
 import { alphaTableOf, checkTableOf, noiseTableOf, systematicTableOf, windowTableOf } from './tables.ts';
 import { NOISE_COMPONENTS, isTruthComparable, modelRuleOf, settingsOfModelRule, type ViewModel } from './settings.ts';
 import type { CalibrationPanel } from '../../types.d.ts';
@@ -18,23 +18,23 @@ import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 addEnglishMessages({ calibrator: en });
 
 /** Properties of the figure that are needed to describe its results in words. */
-type Fitted = Pick<Figure, 'viewModel' | 'warnings' | 'logName'>;
+type FittedFigure = Pick<Figure, 'viewModel' | 'warnings' | 'logName'>;
 
-function resultOf({ viewModel: { stats, legs, fittedConfig }, warnings, logName }: Fitted): Result {
+function resultOf({ viewModel: { stats, legs, fittedConfig }, warnings, logName }: FittedFigure): CalibrationResult {
   const { model, rule, distance, angle, duration } = fittedConfig;
   return { stats, legCount: legs.count, model, rule, legLength: duration > 0 ? { duration } : { distance, angle }, corrections: fittedConfig, logName, warnings };
 }
 
-export const judgeFit = (figure: Fitted) => judgementOf(resultOf(figure), words.calibrator, words.moreControls);
+export const judgeFit = (figure: FittedFigure) => judgementOf(resultOf(figure), words.calibrator, words.moreControls);
 
 /** Returns a sentence with the name of the log, and its numbers of legs and outliers; empty if there are no legs. */
-function describeLegs({ viewModel: { legs }, logName }: Fitted) {
+function describeLegs({ viewModel: { legs }, logName }: FittedFigure) {
   if (legs.count === 0) return '';
   const outlierCount = legs.outliers.reduce((sum, outlierFlag) => sum + outlierFlag, 0);
   return words.calibrator.legCountSentence(logName, formatInteger(legs.count), outlierCount > 0 ? formatInteger(outlierCount) : '');
 }
 
-export function captionOf(figure: Fitted) {
+export function captionOf(figure: FittedFigure) {
   const { badge, finding, advice } = judgeFit(figure);
   return [`${badge}.`, finding, describeLegs(figure), ...advice].filter(Boolean).join(' ');
 }
@@ -43,10 +43,10 @@ export function captionOf(figure: Fitted) {
 const RATING_ICONS = { consistent: ['✓', 'posterior'], questionable: ['!', 'prediction'], unusable: ['✕', 'accent'] };
 
 /** Returns the verdict: a badge with the rating of the α's, the main finding, and the number of legs. */
-export function verdictHtml(figure: Fitted) {
+export function verdictHtml(figure: FittedFigure) {
   const { rating, badge, finding } = judgeFit(figure);
-  const [icon, role] = RATING_ICONS[rating];
-  return html`<span class="badge" data-role=${role}><span aria-hidden="true">${icon}</span> ${badge}</span>
+  const [icon, colourRole] = RATING_ICONS[rating];
+  return html`<span class="badge" data-role=${colourRole}><span aria-hidden="true">${icon}</span> ${badge}</span>
     <strong>${finding}</strong> <span class="muted">${describeLegs(figure)}</span>`;
 }
 
@@ -54,8 +54,8 @@ export function verdictHtml(figure: Fitted) {
 export function alphaTableHtml(viewModel: ViewModel) {
   const { stats, truth, fittedConfig: { model } } = viewModel;
   const { columnHeadings, rows } = alphaTableOf(stats, model, words, isTruthComparable(viewModel) ? truth?.alphas : undefined);
-  const rowHtml = ([name, fitted, recommended, ...otherCells]: string[]) => [
-    formatMarkup(name), stackedTextsHtml(fitted), ...(recommended === undefined ? [] : [html`<strong>${recommended}</strong>`]), ...otherCells,
+  const rowHtml = ([nameText, fittedText, recommendedText, ...otherCells]: string[]) => [
+    formatMarkup(nameText), stackedTextsHtml(fittedText), ...(recommendedText === undefined ? [] : [html`<strong>${recommendedText}</strong>`]), ...otherCells,
   ];
   return html`<div class="alphas">${tableHtml({ columnHeadings, rows: rows.map(rowHtml) })}</div>`;
 }
@@ -70,12 +70,12 @@ export function systematicTableHtml(figure: Figure) {
   </div>`;
 }
 
-const stackedTextsHtml = (cell: string) => cell.split('\n').map((line) => html`<div>${line}</div>`);
+const stackedTextsHtml = (cellText: string) => cellText.split('\n').map((line) => html`<div>${line}</div>`);
 
 export function diagnosticsHtml({ viewModel: { stats } }: Figure) {
   const { checks, windowTable, noiseTable, lostLegs } = words.calibrator;
   const checkTable = checkTableOf(stats, words);
-  const checkRows = checkTable.rows.map(([name, ...cells], i) => [html`${name}<div class="muted">${checkMessage(stats.diagnostics.checks[i], words.calibrator)}</div>`, ...cells]);
+  const checkRows = checkTable.rows.map(([name, ...cells], i) => [html`${name}<div class="muted">${checkMessageOf(stats.diagnostics.checks[i], words.calibrator)}</div>`, ...cells]);
   return html`${fieldsetHtml(checks.title, tableHtml({ ...checkTable, rows: checkRows }))}
     ${fieldsetHtml(windowTable.title, tableHtml({ caption: windowTable.caption, ...windowTableOf(stats, words) }))}
     ${fieldsetHtml(noiseTable.title, tableHtml(noiseTableOf(stats, words)))}
@@ -86,13 +86,13 @@ export function diagnosticsHtml({ viewModel: { stats } }: Figure) {
 const MIN_AXIS_END = 1e-6;
 
 /** Returns two plots for each noise component: its squared residuals against squared rotation, and against squared translation. */
-export function regressionPanelsHtml({ viewModel: { fittedConfig: { model }, legs }, panels }: Figure) {
+export function regressionPanelsHtml({ viewModel: { fittedConfig: { model }, legs }, regressionPanels }: Figure) {
   const texts = words.calibrator.panels;
-  const axisNames = model === 'velocity' ? { turn: texts.turnRateAxisLabel, distance: texts.speedAxisLabel } : { turn: texts.turnAxisLabel, distance: texts.distanceAxisLabel };
+  const axisLabels = model === 'velocity' ? { turn: texts.turnRateAxisLabel, distance: texts.speedAxisLabel } : { turn: texts.turnAxisLabel, distance: texts.distanceAxisLabel };
   if (legs.count === 0) return html`<p>${words.calibrator.tooFewLegsSentence}</p>`;
   return html`<figure><div class="figures">
-      ${panels.flatMap(({ regressor, componentPanels }) => componentPanels.map((panel, i) =>
-        html`<figure>${plotHtml(panelPlotHtml(panel, texts.componentNames[NOISE_COMPONENTS[model][i]], axisNames[regressor]))}</figure>`))}
+      ${regressionPanels.flatMap(({ regressor, componentPanels }) => componentPanels.map((panel, i) =>
+        html`<figure>${plotHtml(panelPlotHtml(panel, texts.componentNames[NOISE_COMPONENTS[model][i]], axisLabels[regressor]))}</figure>`))}
     </div>
     <figcaption>${formatMarkup(texts.caption)}</figcaption></figure>`;
 }
@@ -104,24 +104,24 @@ function panelPlotHtml({ alpha, x, y, error, slope, interval }: CalibrationPanel
   // If the log lacks the motion (rotation or translation) of a plot's horizontal axis, this axis ends at 1.
   const axisEnd = maxRegressor > MIN_AXIS_END ? 1.06 * maxRegressor : 1;
   // The vertical axis leaves half as much space for error bars as for bins and line. Longer error bars are cut, so that they do not compress everything else.
-  const [minSquare, maxSquare] = [Math.min(0, ...y), Math.max(x.length ? 1e-12 : 1, (slope ?? 0) * axisEnd, ...y)];
-  const [axisBottom, axisTop] = [1.5 * minSquare, 1.5 * maxSquare];
+  const [minSquaredResidual, maxSquaredResidual] = [Math.min(0, ...y), Math.max(x.length ? 1e-12 : 1, (slope ?? 0) * axisEnd, ...y)];
+  const [axisBottom, axisTop] = [1.5 * minSquaredResidual, 1.5 * maxSquaredResidual];
   // Small numbers are scaled by a power of 1000, so that labels fit next to the axis.
   const exponent = Math.min(0, 3 * Math.floor(Math.log10(Math.max(axisTop, -axisBottom)) / 3));
   const scaleToAxis = (quantity: number) => quantity * 10 ** -exponent;
   const subscript = subscriptOf(alpha);
-  const [low, high] = interval ?? [NaN, NaN];
-  const slopeMiddle = (low + high) / 2;
+  const [lowSlope, highSlope] = interval ?? [NaN, NaN];
+  const middleSlope = (lowSlope + highSlope) / 2;
   const slopeLines: PlotCurve[] = slope === null ? [] : [
-    { name: texts.slopeName(subscript), role: 'prediction', x: [0, axisEnd], y: [0, scaleToAxis(slope * axisEnd)] },
-    { name: words.calibrator.alphas.intervalColumn, role: 'cloud', isBandOnly: true, x: [0, axisEnd], y: [0, scaleToAxis(slopeMiddle * axisEnd)], errors: [0, scaleToAxis(((high - low) / 2) * axisEnd)] },
+    { name: texts.slopeName(subscript), colourRole: 'prediction', x: [0, axisEnd], y: [0, scaleToAxis(slope * axisEnd)] },
+    { name: words.calibrator.alphas.intervalColumn, colourRole: 'cloud', isBandOnly: true, x: [0, axisEnd], y: [0, scaleToAxis(middleSlope * axisEnd)], errors: [0, scaleToAxis(((highSlope - lowSlope) / 2) * axisEnd)] },
   ];
   return {
     plotLabel: `${panelTitle}, α${subscript}: ${slope === null ? NO_VALUE : localizeNumber(formatAlphaOrBound(slope, interval))}`,
     x: { axisLabel: regressorLabel, min: 0, max: axisEnd },
     y: { axisLabel: `${panelTitle}, ${texts.squaredResidualLabel}${exponent < 0 ? ` (${formatPowerOfTen(exponent)})` : ''}`, min: scaleToAxis(axisBottom), max: scaleToAxis(axisTop) },
-    plotCurves: [...slopeLines, { name: texts.binMeansName, role: 'ink', x: [], y: [] }],
-    dataPoints: x.map((value, i) => ({ role: 'ink' as const, x: value, y: scaleToAxis(y[i]), error: scaleToAxis(error[i]) })),
+    plotCurves: [...slopeLines, { name: texts.binMeansName, colourRole: 'ink', x: [], y: [] }],
+    dataPoints: x.map((regressorValue, i) => ({ colourRole: 'ink' as const, x: regressorValue, y: scaleToAxis(y[i]), error: scaleToAxis(error[i]) })),
   };
 }
 

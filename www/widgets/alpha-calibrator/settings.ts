@@ -6,14 +6,14 @@ import type { AlphaCalibrator as Simulation, AlphaCalibratorSettings, Calibratio
 
 /** Styles of lines and marks in the pictures: first the classes of legs in the order of `LEG_CLASSES`, then all other lines. */
 export const LINE_STYLES = {
-  likely: { role: 'truth', width: 1.5, dash: [] },
-  plausible: { role: 'muted', width: 2, dash: [] },
-  unlikely: { role: 'prediction', width: 3.25, dash: [] },
-  implausible: { role: 'accent', width: 4.5, dash: [] },
-  outlier: { role: 'ink', width: 1.25, shape: 'ring' },
-  odometry: { role: 'prior', width: 1.25, dash: [2.5, 3.5] },
-  predicted: { role: 'prediction', width: 2, dash: [7, 4] },
-  reference: { role: 'ink', width: 2.25, dash: [] },
+  likely: { colourRole: 'truth', width: 1.5, dash: [] },
+  plausible: { colourRole: 'muted', width: 2, dash: [] },
+  unlikely: { colourRole: 'prediction', width: 3.25, dash: [] },
+  implausible: { colourRole: 'accent', width: 4.5, dash: [] },
+  outlier: { colourRole: 'ink', width: 1.25, shape: 'ring' },
+  odometry: { colourRole: 'prior', width: 1.25, dash: [2.5, 3.5] },
+  predicted: { colourRole: 'prediction', width: 2, dash: [7, 4] },
+  reference: { colourRole: 'ink', width: 2.25, dash: [] },
 } satisfies Record<string, import('../../ui/theme.ts').LineStyle>;
 
 export type LineName = keyof typeof LINE_STYLES;
@@ -57,12 +57,12 @@ export const definition = createDefinition('alpha-calibrator', {
   messageKey: 'calibrator',
   overlayStyles: LINE_STYLES,
   sliderSpecs: {
-    distance: { symbol: '*d*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
-    angle: { symbol: '*φ*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
-    duration: { symbol: '*T*', role: 'prior', min: 0, max: 5, step: 0.1, decimals: 2 },
-    positionStd: { symbol: '*σ*_{xy}', role: 'truth', min: 0, max: 0.05, step: 0.001, decimals: 3 },
-    yawStd: { symbol: '*σ*_{θ}', role: 'truth', min: 0, max: 0.05, step: 0.001, decimals: 3 },
-    inflation: { symbol: '*f*', role: 'prediction', min: 0.1, max: 5, step: 0.05, decimals: 2 },
+    distance: { symbol: '*d*', colourRole: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
+    angle: { symbol: '*φ*', colourRole: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
+    duration: { symbol: '*T*', colourRole: 'prior', min: 0, max: 5, step: 0.1, decimals: 2 },
+    positionStd: { symbol: '*σ*_{xy}', colourRole: 'truth', min: 0, max: 0.05, step: 0.001, decimals: 3 },
+    yawStd: { symbol: '*σ*_{θ}', colourRole: 'truth', min: 0, max: 0.05, step: 0.001, decimals: 3 },
+    inflation: { symbol: '*f*', colourRole: 'prediction', min: 0.1, max: 5, step: 0.05, decimals: 2 },
   },
   elementFields: {
     leg: { type: 'whole', default: null, nullable: true, min: 0, max: MAX_LEG_INDEX },
@@ -103,14 +103,14 @@ const CHI2_QUANTILES = [[0, 0, 0], [0.455, 3.841, 10.828], [1.386, 5.991, 13.816
 /** Returns the class of each leg: the index of the first quantile that its squared Mahalanobis distance does not exceed. */
 export function legClassesOf({ count, squared, residuals }: Pick<CalibrationLegs, 'count' | 'squared' | 'residuals'>) {
   return Uint8Array.from({ length: count }, (_, leg) => {
-    const quantiles = CHI2_QUANTILES[countObserved(residuals, leg)];
-    const residualClass = quantiles.findIndex((quantile) => squared[leg] <= quantile);
-    return residualClass < 0 ? quantiles.length : residualClass;
+    const quantiles = CHI2_QUANTILES[countObservedResiduals(residuals, leg)];
+    const legClass = quantiles.findIndex((quantile) => squared[leg] <= quantile);
+    return legClass < 0 ? quantiles.length : legClass;
   });
 }
 
 /** Returns the number of residuals that are defined for a leg. */
-export const countObserved = (residuals: Float64Array, leg: number) => residuals.subarray(3 * leg, 3 * leg + 3).reduce((count, residual) => count + Number(!Number.isNaN(residual)), 0);
+export const countObservedResiduals = (residuals: Float64Array, leg: number) => residuals.subarray(3 * leg, 3 * leg + 3).reduce((count, residual) => count + Number(!Number.isNaN(residual)), 0);
 
 function worstLegsOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
   const minListedSquare = squared.toSorted()[Math.max(0, squared.length - LISTED_LEG_COUNT)];

@@ -9,19 +9,19 @@ import type { MessageCatalogue } from '../../messages/registry.ts';
 /** Table of texts. If a cell contains several values, each is on its own line. If a row has only one cell after its name, the cell spans all columns. */
 export interface ResultTable { columnHeadings: string[]; rows: string[][] }
 
-type Words = Pick<MessageCatalogue, 'alphas' | 'calibrator'>;
+type TableWords = Pick<MessageCatalogue, 'alphas' | 'calibrator'>;
 
 const formatLocally = ({ value, interval }: { value: number | null; interval: [number, number] | null }) => localizeNumber(formatEstimate(value, interval));
 
 /** Returns the table of the α's, with the true values if there are any. */
-export function alphaTableOf({ alphas, intervals, notIdentifiable, recommended }: CalibrationStats, model: string, { alphas: alphaTexts, calibrator }: Words, trueAlphas?: number[]): ResultTable {
+export function alphaTableOf({ alphas, intervals, notIdentifiable, recommended }: CalibrationStats, model: string, { alphas: alphaTexts, calibrator }: TableWords, trueAlphas?: number[]): ResultTable {
   const texts = calibrator.alphas;
   const noiseTexts = alphaTexts[model === 'velocity' ? 'velocity' : 'odometry'];
   const rows = alphas.map((alpha, i) => {
     const name = `*α*${subscriptOf(i)} ${noiseTexts[i][0]}`;
-    const reason = notIdentifiable[i];
+    const missingAlphaReason = notIdentifiable[i];
     if (alpha === null) {
-      const { lack, drive } = reason ? adviceOf(texts.missingMotions, model, reason) : {};
+      const { lack, drive } = missingAlphaReason ? adviceOf(texts.missingMotions, model, missingAlphaReason) : {};
       return [name, lack && drive ? texts.notDeterminedText(lack, drive) : NO_VALUE];
     }
     return [
@@ -35,7 +35,7 @@ export function alphaTableOf({ alphas, intervals, notIdentifiable, recommended }
 }
 
 /** Returns the table of the systematic errors, with the true values if there are any. */
-export function systematicTableOf({ systematicErrors }: CalibrationStats, { calibrator: { systematic: texts, alphas: { intervalColumn } } }: Words, truth?: CalibrationTruth | null): ResultTable {
+export function systematicTableOf({ systematicErrors }: CalibrationStats, { calibrator: { systematic: texts, alphas: { intervalColumn } } }: TableWords, truth?: CalibrationTruth | null): ResultTable {
   const rows = SYSTEMATIC_ERRORS.map((errorName) => {
     const { corrected, constant } = systematicErrors[errorName];
     const components = errorComponentsOf(systematicErrors[errorName]);
@@ -52,7 +52,7 @@ export function systematicTableOf({ systematicErrors }: CalibrationStats, { cali
 }
 
 /** Returns the table of the reference's noise, and of the persistence (correlation) of the odometry's errors. */
-export function noiseTableOf({ referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } }: CalibrationStats, { calibrator }: Words): ResultTable {
+export function noiseTableOf({ referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } }: CalibrationStats, { calibrator }: TableWords): ResultTable {
   const { noiseTable: texts, systematic, settings, alphas: { intervalColumn } } = calibrator;
   // A standard deviation that the user has entered is not an estimate, and has no interval.
   const formatIntervalOf = ({ interval }: Estimate) => (interval[0] < interval[1] ? localizeInterval(interval) : NO_VALUE);
@@ -78,15 +78,15 @@ function formatCheckValue(checkName: CalibrationCheck['name'], checkValue: numbe
 }
 
 /** Returns the table of the checks, in the order of the fit. */
-export function checkTableOf({ diagnostics: { checks } }: CalibrationStats, { calibrator: { checks: texts } }: Words): ResultTable {
-  const rows = checks.map(({ name, value, expected: [low, high], passed }) => {
+export function checkTableOf({ diagnostics: { checks } }: CalibrationStats, { calibrator: { checks: texts } }: TableWords): ResultTable {
+  const rows = checks.map(({ name, value, expected: [lowLimit, highLimit], passed }) => {
     // More digits are printed if a failed value would otherwise look equal to the bound of the allowed range that it violates.
-    const digits = [3, 4, 6].find((count) => passed || [low, high].every((limit) => formatCheckValue(name, value, count) !== formatCheckValue(name, limit, count))) ?? 9;
-    const [lowText, highText] = [low, high].map((limit) => formatCheckValue(name, limit, digits));
+    const digits = [3, 4, 6].find((digitCount) => passed || [lowLimit, highLimit].every((limit) => formatCheckValue(name, value, digitCount) !== formatCheckValue(name, limit, digitCount))) ?? 9;
+    const [lowText, highText] = [lowLimit, highLimit].map((limit) => formatCheckValue(name, limit, digits));
     return [
       texts.checkNames[name],
       formatCheckValue(name, value, digits),
-      high === Infinity ? `≥ ${lowText}` : low === 0 ? `≤ ${highText}` : `${lowText} – ${highText}`,
+      highLimit === Infinity ? `≥ ${lowText}` : lowLimit === 0 ? `≤ ${highText}` : `${lowText} – ${highText}`,
       passed ? `✓ ${texts.passedLabel}` : `✕ ${texts.failedLabel}`,
     ];
   });
@@ -94,7 +94,7 @@ export function checkTableOf({ diagnostics: { checks } }: CalibrationStats, { ca
 }
 
 /** Returns the table of prediction errors in held-out windows of the log. */
-export function windowTableOf({ diagnostics: { windows } }: CalibrationStats, { calibrator: { windowTable: texts } }: Words): ResultTable {
+export function windowTableOf({ diagnostics: { windows } }: CalibrationStats, { calibrator: { windowTable: texts } }: TableWords): ResultTable {
   return {
     columnHeadings: [texts.lengthLabel, texts.countColumn, texts.coverageColumn, texts.neesColumn],
     rows: windows.map(({ length, count, coverage, nees }) => [`${formatFixed(length, 1)} m`, formatInteger(count), formatPercent(coverage), formatFixed(nees, 2)]),

@@ -129,8 +129,8 @@ export class ArcPicture extends FigurePicture<ArcScene> {
       return { rgbaPixels: new Uint8ClampedArray(Uint32Array.from(likelihoodSurface.shades, (shade) => rampColours[shade]).buffer), columnCount: likelihoodSurface.columns };
     });
     for (const name of ['prob', 'density'] as const) {
-      const { role, ...style } = CONTOUR_STYLES[name];
-      paintWithOpacity(canvasContext, 0.7, () => strokePath(canvasContext, { ...style, colour: palette[role] }, () => likelihoodSurface[name].forEach((contourLine) => addLine(canvasContext, pictureView.toPixels(contourLine)))));
+      const { colourRole, ...style } = CONTOUR_STYLES[name];
+      paintWithOpacity(canvasContext, 0.7, () => strokePath(canvasContext, { ...style, colour: palette[colourRole] }, () => likelihoodSurface[name].forEach((contourLine) => addLine(canvasContext, pictureView.toPixels(contourLine)))));
     }
   }
 }
@@ -195,7 +195,7 @@ function drawMovingRobots(drawContext: DrawContext, { simulation, underway, over
   for (const [i, name] of (['commanded', 'inverted', 'twist'] as const).entries()) {
     if (!overlays.includes(name)) continue;
     const [x, y, theta] = robotPoses.subarray(3 * i);
-    drawRobot(drawContext, { x, y, heading: theta, colour: drawContext.palette[LINE_STYLES[name].role] });
+    drawRobot(drawContext, { x, y, heading: theta, colour: drawContext.palette[LINE_STYLES[name].colourRole] });
   }
 }
 

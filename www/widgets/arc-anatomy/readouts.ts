@@ -146,9 +146,9 @@ export function formErrorsPlotHtml({ ArcAnatomy }: Motion) {
       x: { axisLabel: '|ω̂| (rad/s)', min: omega[0], max: omega[omega.length - 1], isLogarithmic: true },
       y: { axisLabel: texts.errorAxis, ...ERROR_AXIS_RANGE, isLogarithmic: true },
       plotCurves: [
-        { name: texts.arcFormula, role: 'prediction', x: omega, y: arc },
-        { name: texts.straightLineFormula, role: 'prior', dash: [2.5, 3.5], x: omega, y: straight },
-        { name: words.anatomy.overlays.chord, role: 'posterior', dash: [7, 3], x: omega, y: chord },
+        { name: texts.arcFormula, colourRole: 'prediction', x: omega, y: arc },
+        { name: texts.straightLineFormula, colourRole: 'prior', dash: [2.5, 3.5], x: omega, y: straight },
+        { name: words.anatomy.overlays.chord, colourRole: 'posterior', dash: [7, 3], x: omega, y: chord },
       ],
       verticalMarks: [
         { x: estimatedCrossover, text: `2·${formatPowerOfTen(-8)}/Δt` },

@@ -13,17 +13,17 @@ export const TABLE_LINES = 9;
 export const UNDERWAY_AT_END = 100;
 
 export const LINE_STYLES = {
-  commanded: { role: 'prior', width: 2.5, dash: COMMAND_DASH },
-  inverted: { role: 'prediction', width: 2.75, dash: [] },
-  wedge: { role: 'accent', shape: 'area' },
-  chord: { role: 'ink', width: 1, dash: [2, 3] },
-  twist: { role: 'posterior', width: 2, dash: [7, 3] },
+  commanded: { colourRole: 'prior', width: 2.5, dash: COMMAND_DASH },
+  inverted: { colourRole: 'prediction', width: 2.75, dash: [] },
+  wedge: { colourRole: 'accent', shape: 'area' },
+  chord: { colourRole: 'ink', width: 1, dash: [2, 3] },
+  twist: { colourRole: 'posterior', width: 2, dash: [7, 3] },
 } satisfies Record<string, import('../../ui/theme.ts').LineStyle>;
 
 /** Styles of the contours. They are the same whether the heat map shows the density or the probability. */
 export const CONTOUR_STYLES = {
-  prob: { role: 'ink', width: 1, dash: [5, 4] },
-  density: { role: 'ink', width: 1, dash: [] },
+  prob: { colourRole: 'ink', width: 1, dash: [5, 4] },
+  density: { colourRole: 'ink', width: 1, dash: [] },
 } satisfies Record<string, import('../../ui/theme.ts').LineStyle>;
 
 export type LineName = keyof typeof LINE_STYLES;
@@ -43,7 +43,7 @@ export const definition = createDefinition('arc-anatomy', {
   messageKey: 'anatomy',
   overlayStyles: LINE_STYLES,
   openingOverlays: ['commanded', 'inverted', 'wedge', 'chord'],
-  sliderSpecs: { ...COMMAND_SLIDERS, ...ALPHA_SLIDERS, underway: { symbol: '*t*', role: 'truth', min: 0, max: UNDERWAY_AT_END, step: 1, decimals: 0 } },
+  sliderSpecs: { ...COMMAND_SLIDERS, ...ALPHA_SLIDERS, underway: { symbol: '*t*', colourRole: 'truth', min: 0, max: UNDERWAY_AT_END, step: 1, decimals: 0 } },
   elementFields: {
     line: { type: 'whole', default: 0, min: 0, max: TABLE_LINES, isResetByPreset: true },
     underway: { type: 'number', unit: '%', default: UNDERWAY_AT_END, min: 0, max: UNDERWAY_AT_END, isResetByPreset: true },

@@ -359,12 +359,12 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       x: { axisLabel: 'ω (rad/s)', min, max },
       y: { axisLabel: texts.readouts.skew, min: -chartMaximum, max: chartMaximum },
       plotCurves: [
-        { name: texts.readouts.skew, role: 'ink', x: skews.map((_, i) => min + (i * (max - min)) / (skews.length - 1)), y: skews },
-        { name: texts.gaussianLineName, role: 'prediction', dash: [7, 4], x: omegaRange, y: [0, 0] },
+        { name: texts.readouts.skew, colourRole: 'ink', x: skews.map((_, i) => min + (i * (max - min)) / (skews.length - 1)), y: skews },
+        { name: texts.gaussianLineName, colourRole: 'prediction', dash: [7, 4], x: omegaRange, y: [0, 0] },
       ],
       dataPoints: [
-        { role: 'prior', x: omega, y: exactSkew, error: 0 },
-        { role: 'prediction', x: omega, y: stats.crossTrackSkew, error: stats.crossTrackSkewError },
+        { colourRole: 'prior', x: omega, y: exactSkew, error: 0 },
+        { colourRole: 'prediction', x: omega, y: stats.crossTrackSkew, error: stats.crossTrackSkewError },
       ],
       slider: {
         id: 'chart-omega',

@@ -9,11 +9,11 @@ import { COMMAND_DASH, createAlphaSliderSpecs, createCommandSliderSpecs } from '
 import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Motion, Stats, Table } from '../../types.d.ts';
 
 export const LINE_STYLES = {
-  command: { role: 'prior', width: 2.5, dash: COMMAND_DASH },
-  ellipse: { role: 'prediction', width: 2, dash: [7, 4] },
-  exponential: { role: 'posterior', width: 2.25, dash: [] },
-  linearized: { role: 'prediction', width: 1.75, dash: [9, 3, 2, 3] },
-  additive: { role: 'prediction', width: 2.5, dash: [1.5, 5] },
+  command: { colourRole: 'prior', width: 2.5, dash: COMMAND_DASH },
+  ellipse: { colourRole: 'prediction', width: 2, dash: [7, 4] },
+  exponential: { colourRole: 'posterior', width: 2.25, dash: [] },
+  linearized: { colourRole: 'prediction', width: 1.75, dash: [9, 3, 2, 3] },
+  additive: { colourRole: 'prediction', width: 2.5, dash: [1.5, 5] },
 } satisfies Record<string, import('../../ui/theme.ts').LineStyle>;
 
 export type LineName = keyof typeof LINE_STYLES;
@@ -35,7 +35,7 @@ export const definition = createDefinition('banana-machine', {
   messageKey: 'banana',
   overlayStyles: LINE_STYLES,
   openingOverlays: ['command', 'ellipse', 'exponential'],
-  sliderSpecs: { ...sliderSpecs, morph: { role: 'truth', min: 0, max: 1, step: 0.01, decimals: 2 }, samples: createSamplesSliderSpec(1_000_000) },
+  sliderSpecs: { ...sliderSpecs, morph: { colourRole: 'truth', min: 0, max: 1, step: 0.01, decimals: 2 }, samples: createSamplesSliderSpec(1_000_000) },
   elementFields: {
     ...SELECTION_FIELD,
     /** Settings that the user has pinned (saved for comparison); null for none. `BananaMachineElement.enterState` checks them. */

@@ -85,7 +85,7 @@ export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckonin
       ...(overlays.includes('tolerance') ? [toleranceBand] : []),
       ...shownCurves.map(({ ratio, error, ...curve }) => ({ ...curve, x: stepNumbers, y: ratio, errors: error })),
     ],
-    dataPoints: shownCurves.map(({ role, ratio, error }) => ({ role, x: step, y: ratio[step - 1], error: error[step - 1] })),
+    dataPoints: shownCurves.map(({ colourRole, ratio, error }) => ({ colourRole, x: step, y: ratio[step - 1], error: error[step - 1] })),
     verticalMarks: [{ x: step, text: texts.stepMark(step) }],
     slider: {
       id: 'chart-step',
@@ -102,9 +102,9 @@ export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckonin
 
 /** Returns the colour role, the dash and the highlight of a curve in the chart of predicted over measured variance. */
 function curveStyleOf(name: keyof typeof CURVE_STYLES, highlight: string | null) {
-  const { role, dash } = CURVE_STYLES[name] as import('../../ui/theme.ts').LineStyle & { role: ColourRole };
+  const { colourRole, dash } = CURVE_STYLES[name] as import('../../ui/theme.ts').LineStyle & { colourRole: ColourRole };
   const isHighlighted = highlight !== null && highlight in CURVE_STYLES ? name === highlight : undefined;
-  return { role, dash, isHighlighted };
+  return { colourRole, dash, isHighlighted };
 }
 
 /** Returns the headline of the figure: of the ratios at the selected step, the one that is furthest from 1. */
@@ -131,10 +131,10 @@ export function straightGrowthPlotHtml({ durations: x, along, across, alongFirst
       x: { axisLabel: 'Δt (s)', min: minDuration, max: maxDuration, isLogarithmic: true },
       y: { axisLabel: texts.varianceAxisLabel, min: minVariance, max: maxVariance, isLogarithmic: true },
       plotCurves: [
-        { name: texts.alongCurve, role: 'ink', dash: [8, 4], x, y: alongFirstOrder },
-        { name: texts.acrossCurve, role: 'prediction', x, y: acrossFirstOrder },
+        { name: texts.alongCurve, colourRole: 'ink', dash: [8, 4], x, y: alongFirstOrder },
+        { name: texts.acrossCurve, colourRole: 'prediction', x, y: acrossFirstOrder },
         // The exact curves along and across the track are drawn as one curve with a gap, so that the legend lists them once.
-        { name: texts.exactCurves, role: 'truth', dash: [2, 3], x: [...x, NaN, ...x], y: [...along, NaN, ...across] },
+        { name: texts.exactCurves, colourRole: 'truth', dash: [2, 3], x: [...x, NaN, ...x], y: [...along, NaN, ...across] },
       ],
       verticalMarks: crossing !== null && crossing >= minDuration && crossing <= maxDuration ? [{ x: crossing, text: `${crossingText} s` }] : [],
     })}

@@ -13,18 +13,18 @@ export const RECURSIONS = settingDeclarations.find(({ key }) => key === 'compoun
 
 /** Styles of the curves in the chart of predicted over measured variance. */
 export const CURVE_STYLES = {
-  lateral: { role: 'prediction', width: 1.9 },
-  along: { role: 'ink', width: 1.9, dash: [8, 4] },
-  heading: { role: 'muted', width: 1.9, dash: [9, 3, 2, 3] },
-  tolerance: { role: 'truth', shape: 'area' },
+  lateral: { colourRole: 'prediction', width: 1.9 },
+  along: { colourRole: 'ink', width: 1.9, dash: [8, 4] },
+  heading: { colourRole: 'muted', width: 1.9, dash: [9, 3, 2, 3] },
+  tolerance: { colourRole: 'truth', shape: 'area' },
 } satisfies Record<string, import('../../ui/theme.ts').LineStyle>;
 
 /** Styles of the outlines in the pictures, in the order in which they are painted. */
 export const OUTLINE_STYLES = {
-  command: { role: 'prior', width: 2.25, dash: COMMAND_DASH },
-  measured: { role: 'truth', width: 2.25, dash: [3, 3] },
-  ellipse: { role: 'prediction', width: 2, dash: [7, 4] },
-  exponential: { role: 'posterior', width: 2.25, dash: [] },
+  command: { colourRole: 'prior', width: 2.25, dash: COMMAND_DASH },
+  measured: { colourRole: 'truth', width: 2.25, dash: [3, 3] },
+  ellipse: { colourRole: 'prediction', width: 2, dash: [7, 4] },
+  exponential: { colourRole: 'posterior', width: 2.25, dash: [] },
 } satisfies Record<string, import('../../ui/theme.ts').LineStyle>;
 
 export const COMMAND_SLIDERS: Record<string, import('../../figure/controls.ts').SliderSpec> = createCommandSliderSpecs(1);
@@ -39,8 +39,8 @@ export const definition = createDefinition('dead-reckoning', {
     ...NOISE_SLIDERS,
     // A cloud of more robots would lag behind this slider during a drag.
     samples: createSamplesSliderSpec(200_000),
-    step: { symbol: '*k*', role: 'truth', min: 1, max: 200, step: 1, decimals: 0 },
-    steps: { symbol: '*K*', role: 'prior', min: 1, max: 200, step: 1, decimals: 0 },
+    step: { symbol: '*k*', colourRole: 'truth', min: 1, max: 200, step: 1, decimals: 0 },
+    steps: { symbol: '*K*', colourRole: 'prior', min: 1, max: 200, step: 1, decimals: 0 },
     // This slider sets α₃, and α₄ to α₆ in fixed ratios to α₃. It shows α₃ even if the user has set α₄ to α₆ to other ratios.
     headingNoise: { ...ALPHA_SLIDER, step: 0.005, combinedValueOf: ({ alphas }) => alphas[2] },
   },

@@ -17,11 +17,11 @@ export const PRESET_SETTING = presetAttributeOf(presets['map-squeeze']);
 export const OPENING_POSE = presets['map-squeeze'][0].settings.start;
 
 export const LINE_STYLES = {
-  accepted: { role: 'cloud', shape: 'dot' },
-  through: { role: 'accent', shape: 'dot' },
-  rejected: { role: 'muted', shape: 'cross', width: 1.5 },
-  commanded: { role: 'prior', width: 2.5, dash: COMMAND_DASH },
-  unknown: { role: 'muted', shape: 'area' },
+  accepted: { colourRole: 'cloud', shape: 'dot' },
+  through: { colourRole: 'accent', shape: 'dot' },
+  rejected: { colourRole: 'muted', shape: 'cross', width: 1.5 },
+  commanded: { colourRole: 'prior', width: 2.5, dash: COMMAND_DASH },
+  unknown: { colourRole: 'muted', shape: 'area' },
 } satisfies Record<string, import('../../ui/theme.ts').LineStyle>;
 
 export const COMMAND_SLIDERS = createCommandSliderSpecs(4);
@@ -34,10 +34,10 @@ export const definition = createDefinition('map-squeeze', {
   overlayStyles: LINE_STYLES,
   sliderSpecs: {
     ...COMMAND_SLIDERS,
-    noise: { role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, combinedValueOf: ({ alphas }) => alphas[0] },
-    clearance: { symbol: '*r*', role: 'truth', min: 0, max: 0.4, step: 0.01, decimals: 2 },
+    noise: { colourRole: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, combinedValueOf: ({ alphas }) => alphas[0] },
+    clearance: { symbol: '*r*', colourRole: 'truth', min: 0, max: 0.4, step: 0.01, decimals: 2 },
     samples: createSamplesSliderSpec(100_000),
-    steps: { role: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
+    steps: { colourRole: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
   },
   // Presets are places in the apartment, so that no preset matches on another map.
   presetAttribute: { ...PRESET_SETTING, getValue: (config) => (config.map ? null : PRESET_SETTING.getValue(config)) },

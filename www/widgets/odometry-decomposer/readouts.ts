@@ -75,11 +75,11 @@ export function spreadPlotHtml(readCurve: (maxLength: number, pointCount: number
       x: { axisLabel: 'δ trans (m)', min: 0, max: maxLength },
       y: { axisLabel: 'σ (m)', min: 0, max: 1.08 * maxDeviation },
       plotCurves: [
-        { name: texts.acrossCurve, role: 'prediction', x: driveLengths, y: acrossDeviations },
-        { name: words.decomposer.readouts.firstRotationDeviation, role: 'muted', dash: [2, 4], x: driveLengths, y: leverDeviations },
-        { name: texts.alongCurve, role: 'prior', dash: [7, 4], x: driveLengths, y: alongDeviations },
+        { name: texts.acrossCurve, colourRole: 'prediction', x: driveLengths, y: acrossDeviations },
+        { name: words.decomposer.readouts.firstRotationDeviation, colourRole: 'muted', dash: [2, 4], x: driveLengths, y: leverDeviations },
+        { name: texts.alongCurve, colourRole: 'prior', dash: [7, 4], x: driveLengths, y: alongDeviations },
       ],
-      dataPoints: [{ role: 'prediction', x: legs.trans, y: stats.crossTrack, error: stats.crossTrackError }],
+      dataPoints: [{ colourRole: 'prediction', x: legs.trans, y: stats.crossTrack, error: stats.crossTrackError }],
       verticalMarks: [{ x: legs.trans, text: texts.readingMark }],
     })}
     <figcaption>${formatMarkup(texts.caption)}</figcaption>

@@ -6,25 +6,25 @@ import { createAlphaSliderSpecs } from '../shared/sliders.ts';
 import type { OdometryDecomposer, RuleNoise } from '../../types.d.ts';
 
 export const LINE_STYLES = {
-  legs: { role: 'prior', width: 3, dash: [] },
-  deviation: { role: 'prediction', width: 1.25, dash: [5, 3] },
-  outcomes: { role: 'cloud', shape: 'dot' },
-  prediction: { role: 'prediction', width: 2.5, dash: [] },
-  odometry: { role: 'prior', width: 1.75, dash: [6, 4] },
-  difference: { role: 'accent', width: 1.5, dash: [2, 4] },
+  legs: { colourRole: 'prior', width: 3, dash: [] },
+  deviation: { colourRole: 'prediction', width: 1.25, dash: [5, 3] },
+  outcomes: { colourRole: 'cloud', shape: 'dot' },
+  prediction: { colourRole: 'prediction', width: 2.5, dash: [] },
+  odometry: { colourRole: 'prior', width: 1.75, dash: [6, 4] },
+  difference: { colourRole: 'accent', width: 1.5, dash: [2, 4] },
 } satisfies Record<string, import('../../ui/theme.ts').LineStyle>;
 
 /** Sliders of the noise parameters, and of the correlation between the noise of the two rotations. */
 export const NOISE_SLIDERS = {
   ...createAlphaSliderSpecs(5, 'odometry'),
-  correlation: { symbol: '*ρ*', role: 'prediction' as const, min: -1, max: 1, step: 0.05, decimals: 2 },
+  correlation: { symbol: '*ρ*', colourRole: 'prediction' as const, min: -1, max: 1, step: 0.05, decimals: 2 },
 };
 
 export const sliderSpecs: Record<string, import('../../figure/controls.ts').SliderSpec> = {
   ...NOISE_SLIDERS,
-  phase: { role: 'prior', min: 0, max: 3, step: 0.01, decimals: 2 },
+  phase: { colourRole: 'prior', min: 0, max: 3, step: 0.01, decimals: 2 },
   samples: createSamplesSliderSpec(5000),
-  drift: { role: 'truth', min: 0, max: 120, step: 1, decimals: 0 },
+  drift: { colourRole: 'truth', min: 0, max: 120, step: 1, decimals: 0 },
 };
 
 export const definition = createDefinition('odometry-decomposer', { messageKey: 'decomposer', overlayStyles: LINE_STYLES, sliderSpecs });

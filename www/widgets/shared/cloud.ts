@@ -232,7 +232,7 @@ type CloudFigure = Figure & { cloud: Cloud };
 /** Returns the specification of a slider for the number of samples. Its stops are 10, 20, 50, 100 and so on, up to a maximum. */
 export function createSamplesSliderSpec(maxSampleCount: number): SliderSpec {
   const stops = range(1, 7).flatMap((decade) => [1, 2, 5].map((decadeFactor) => decadeFactor * 10 ** decade)).filter((sampleCount) => sampleCount <= maxSampleCount);
-  return { symbol: '*N*', role: 'truth', min: stops[0], max: maxSampleCount, step: 1, decimals: 0, stops };
+  return { symbol: '*N*', colourRole: 'truth', min: stops[0], max: maxSampleCount, step: 1, decimals: 0, stops };
 }
 
 /** Returns the controls of the cloud: its size, its growth and its seed. */

@@ -6,7 +6,7 @@ import { formatFixed } from '../../ui/format.ts';
 /** Dash pattern of the commanded path (lengths of dash and gap), CSS pixels. */
 export const COMMAND_DASH = [2.5, 3.5];
 
-const SPEED_SLIDER = { role: 'prior' as const, step: 0.01, decimals: 2 };
+const SPEED_SLIDER = { colourRole: 'prior' as const, step: 0.01, decimals: 2 };
 
 /** Returns the sliders of a velocity command. `maxDuration` is in seconds. Handles and charts that change the command keep it within the ranges of these sliders. */
 export const createCommandSliderSpecs = (maxDuration: number) => ({
@@ -23,7 +23,7 @@ export function describeCommand({ v, omega, dt }: import('../../types.d.ts').Com
 export const subscriptOf = (alphaIndex: number) => String.fromCharCode(0x2081 + alphaIndex);
 
 /** Slider of a noise parameter α. The maximum of α gives a standard deviation of nearly half the command. */
-export const ALPHA_SLIDER = { role: 'prediction' as const, min: 0, max: 0.2, step: 0.001, decimals: 3 };
+export const ALPHA_SLIDER = { colourRole: 'prediction' as const, min: 0, max: 0.2, step: 0.001, decimals: 3 };
 
 /** Returns the sliders of the first `alphaCount` noise parameters of a motion model, by the names of their settings. */
 export function createAlphaSliderSpecs(alphaCount: number, model: 'velocity' | 'odometry' = 'velocity'): Record<string, import('../../figure/controls.ts').SliderSpec> {

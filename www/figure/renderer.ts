@@ -214,7 +214,7 @@ export class FigureRenderer extends FigureController {
       isMoving = undrawnPicture.drawPicture(figure.canvases.surfaceOf(canvas), drawnScene, figure.colours.palette, { ...drawOptions, keepsScale }) || isMoving;
       if ((!isResizing || this.isOpening) && performance.now() - startTimeMs > MAX_DRAW_MS_PER_FRAME) break;
     }
-    for (const pictureHandles of figure.handles) pictureHandles.place(drawnScene);
+    for (const pictureHandles of figure.handles) pictureHandles.placeHandles(drawnScene);
     const nowMs = performance.now();
     const pendingSinceMs = this.#textPendingSince;
     // The first picture is drawn without text.
@@ -224,7 +224,7 @@ export class FigureRenderer extends FigureController {
       this.#scheduleFrame();
     }
     figure.resolveIfSettled();
-    const isPlaying = figure.player?.advance(elapsedMs);
+    const isPlaying = figure.player?.advanceAnimation(elapsedMs);
     if (this.#undrawnPictures.size > 0) this.#scheduleFrame();
     if (isPlaying || isMoving || figure.cloud?.isSettled === false) this.requestFrame();
   }

@@ -22,7 +22,7 @@ export class FigureSettings extends FigureController {
 
   /** Drops pending changes and stops the player, before the simulation is replaced. */
   dropPendingChanges() {
-    this.figure.player?.stop();
+    this.figure.player?.stopAnimation();
     this.isViewModelStale = true;
     this.#currentSettings = undefined;
     this.#pendingChanges = {};
@@ -129,7 +129,7 @@ export class FigureSettings extends FigureController {
 
   choosePreset(presetName: string) {
     const { figure } = this;
-    figure.player?.stop();
+    figure.player?.stopAnimation();
     figure.renderer.letViewsZoomIn(1);
     for (const [fieldName, { isResetByPreset, default: openingValue }] of Object.entries(this.#elementFields)) if (isResetByPreset) this.elementState[fieldName] = openingValue;
     Object.assign(figure, { preset: presetName });

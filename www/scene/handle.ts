@@ -11,7 +11,7 @@ interface HandleCallbacks {
   dragTo: (x: number, y: number) => void;
   /** Handles a key. Returns true if the key moved the handle's target. */
   handleKey: (keyEvent: KeyboardEvent) => boolean;
-  commit: () => void;
+  commitChange: () => void;
 }
 
 interface HandleLabels {
@@ -134,12 +134,12 @@ export class Handle {
   #onPointerUp = () => {
     if (!this.#heldPointer) return;
     this.#heldPointer = undefined;
-    this.#callbacks.commit();
+    this.#callbacks.commitChange();
   };
 
   #onKeyDown = (keyEvent: KeyboardEvent) => {
     if (!this.#callbacks.handleKey(keyEvent)) return;
     keyEvent.preventDefault();
-    this.#callbacks.commit();
+    this.#callbacks.commitChange();
   };
 }

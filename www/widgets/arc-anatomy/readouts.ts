@@ -116,10 +116,10 @@ const TABLE_LINE_FORMULAS = [
 const TABLE_LINE_UNITS = ['', ' m', ' m', ' m', ' rad', ' m/s', ' rad/s', ' rad/s', ''];
 
 /** Returns the lines of Table 5.1 with their values as radio buttons. The selected line highlights constructions in the picture. */
-export function tableLinesHtml({ viewModel: { table: { lines }, config: { printed } }, settings: { elementState }, gesture }: import('./arc-anatomy.ts').ArcAnatomyElement) {
+export function tableLinesHtml({ viewModel: { table: { lines: lineValues }, config: { printed } }, settings: { elementState }, gesture }: import('./arc-anatomy.ts').ArcAnatomyElement) {
   const texts = words.anatomy.table;
   const lineTextOf = (lineFormula: string, i: number) => {
-    const valueText = i === TABLE_LINES - 1 ? formatDensity(lines[i]) : formatFixed(lines[i], 3);
+    const valueText = i === TABLE_LINES - 1 ? formatDensity(lineValues[i]) : formatFixed(lineValues[i], 3);
     return `${i + 1}. ${printed ? lineFormula.replace('±', '') : lineFormula} = ${valueText}${TABLE_LINE_UNITS[i]}`;
   };
   return html`<p>${texts.introduction}</p>

@@ -176,12 +176,12 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       this.#moveArcEnd(clampNumber(x + KEY_STEP * keySteps[0], -maxX, maxX), y + KEY_STEP * keySteps[1]);
       return true;
     },
-    commit: () => this.gesture.commitChange(),
+    commitChange: () => this.gesture.commitChange(),
   });
 
   handles = [{
     render: () => this.#handleHtml(this.viewModel.config.command),
-    place: () => this.#arcEndHandle.placeElementAt(this.renderRoot, ...this.#planePicture.pictureView.toPixel(...this.visibleArcEnd)),
+    placeHandles: () => this.#arcEndHandle.placeElementAt(this.renderRoot, ...this.#planePicture.pictureView.toPixel(...this.visibleArcEnd)),
   }];
 
   #pinnedViewModelMemo: MemoizedResult<ViewModel> = new MemoizedResult();
@@ -351,7 +351,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const { min, max, step } = sliderSpecs.omega;
     // The cached curve is computed again only if a setting that affects it changes.
     const skews = this.#skewCurveMemo.getResult([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.simulation as Simulation).skewCurve(min, max, CURVE_POINT_COUNT));
-    const maxSkew = skews.reduce((largest, skew) => Math.max(largest, Math.abs(skew) || 0), 0);
+    const maxSkew = skews.reduce((largestSoFar, skew) => Math.max(largestSoFar, Math.abs(skew) || 0), 0);
     const chartMaximum = CHART_MAXIMA.find((maxShownSkew) => maxShownSkew >= maxSkew) ?? maxSkew;
     const omegaRange = [min, max];
     return plotHtml({

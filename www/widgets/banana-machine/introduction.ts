@@ -28,48 +28,48 @@ export class IntroducedCloud extends Cloud {
   /** Time at which the first robot started, ms. */
   #startTimeMs: number | undefined;
   /** Phase of the introduction: first robots drive (`driving`), then the handle pulses while the cloud grows (`asking`). */
-  #phase: 'none' | 'driving' | 'asking' = 'none';
+  #introductionPhase: 'none' | 'driving' | 'asking' = 'none';
 
   /** True while the ring at the end of the arc pulses. The pulse invites the user to drag the ring. */
   get isAsking() {
-    return this.#phase === 'asking';
+    return this.#introductionPhase === 'asking';
   }
 
   /** Number of robots in the current drive of the introduction, and completed fraction of their paths. */
   get drivingProgress(): { robotCount: number, pathFraction: number } | undefined {
-    if (this.#phase !== 'driving') return undefined;
+    if (this.#introductionPhase !== 'driving') return undefined;
     const elapsedMs = performance.now() - (this.#startTimeMs ?? performance.now());
     return { robotCount: elapsedMs < DRIVE_DURATION_MS ? 1 : DRIVING_ROBOT_COUNT, pathFraction: Math.min(1, (elapsedMs % DRIVE_DURATION_MS) / DRIVE_DURATION_MS) };
   }
 
   showOrGrow(state: Parameters<Cloud['showOrGrow']>[0]) {
-    this.#phase = 'none';
+    this.#introductionPhase = 'none';
     super.showOrGrow(state);
     const { figure } = this;
     const isConfigured = figure.presentation || Object.keys(figure.definition.attributes).some((attributeName) => figure.hasAttribute(attributeName));
     if (state || !this.playing || isConfigured || figure.settings.currentValues.samples < DRIVING_ROBOT_COUNT || !isFirstInSession()) return;
-    this.#phase = 'driving';
+    this.#introductionPhase = 'driving';
     this.showSamples(DRIVING_ROBOT_COUNT);
-    for (const eventType of ['pointerdown', 'keydown']) addEventListener(eventType, this.skip, { capture: true });
+    for (const eventType of ['pointerdown', 'keydown']) addEventListener(eventType, this.skipIntroduction, { capture: true });
   }
 
   /** Ends the introduction after its last phase, or when the user presses a pointer or key. */
-  skip = () => {
-    this.#phase = 'none';
-    for (const eventType of ['pointerdown', 'keydown']) removeEventListener(eventType, this.skip, { capture: true });
+  skipIntroduction = () => {
+    this.#introductionPhase = 'none';
+    for (const eventType of ['pointerdown', 'keydown']) removeEventListener(eventType, this.skipIntroduction, { capture: true });
     this.figure.requestUpdate();
   };
 
   hostDisconnected() {
-    this.skip();
+    this.skipIntroduction();
   }
 
   addGrowthStep() {
-    if (this.#phase === 'driving') {
+    if (this.#introductionPhase === 'driving') {
       // The introduction starts when the figure is visible.
       this.#startTimeMs ??= performance.now();
       if (performance.now() - this.#startTimeMs < 2 * DRIVE_DURATION_MS) return;
-      this.#phase = 'asking';
+      this.#introductionPhase = 'asking';
     }
     super.addGrowthStep();
   }

@@ -70,9 +70,9 @@ class MorphPicture extends FigurePicture<Scene, 'plane' | 'twist'> {
     const { morph, endViews: [floorView, twistView] } = this.pictureView;
     const isFloorPicture = this.pictureName === 'plane';
     const outlines = this.outlinesOf(scene, scene);
-    const lines = createLineStyles(drawContext, LINE_STYLES, overlays);
+    const lineStyles = createLineStyles(drawContext, LINE_STYLES, overlays);
     const legendNames = LEGEND_ORDER.filter((name) => this.outlineNames.includes(name) && hasLength(outlines[name]));
-    const legendEntries = createLineLegend(drawContext, lines, legendNames, words.banana.overlays);
+    const legendEntries = createLineLegend(drawContext, lineStyles, legendNames, words.banana.overlays);
     // The axes of the floor fade out before the axes of exponential coordinates fade in.
     const axesOfEndViews = [
       { view: floorView, opacity: 1 - 2 * morph, axisLabels: { x: 'x (m)', y: 'y (m)' } },
@@ -84,7 +84,7 @@ class MorphPicture extends FigurePicture<Scene, 'plane' | 'twist'> {
       if (opacity > 0) paintWithOpacity(canvasContext, Math.min(1, opacity), () => drawAxes({ ...drawContext, pictureView: axesView }, axisLabels, legendEntries, gridOpacity));
     }
     const cloudMean = morphPoint(twistMomentsOf(scene)[0].mean, morph);
-    const styledOutlinesOf = (outlinePoints: Outlines) => styleOutlines(lines, Object.fromEntries(this.outlineNames.map((name) => [name, outlinePoints[name]])));
+    const styledOutlinesOf = (outlinePoints: Outlines) => styleOutlines(lineStyles, Object.fromEntries(this.outlineNames.map((name) => [name, outlinePoints[name]])));
     // For comparison, the picture also has the outlines of the pinned settings, or of the settings before the current drag.
     const earlierViewModel: ViewModel | undefined = pinned ?? drawContext.previousViewModel;
     const earlierOutlines = earlierViewModel ? styledOutlinesOf(this.outlinesOf(earlierViewModel, scene)) : [];
@@ -102,11 +102,11 @@ class MorphPicture extends FigurePicture<Scene, 'plane' | 'twist'> {
       drawOutlines(drawContext, styledOutlinesOf(outlines));
       const [endX, endY] = outlines.command.slice(-2);
       if (isFloorPicture) {
-        if (lines.command && scene.odometryReading && morph === 0) callouts.push(...drawOdometryReading(drawContext, scene.odometryReading, scene.arcEnd));
+        if (lineStyles.command && scene.odometryReading && morph === 0) callouts.push(...drawOdometryReading(drawContext, scene.odometryReading, scene.arcEnd));
         if (isSinglePoint && scene.shown > 0) callouts.push(drawCoincidentRobots(drawContext, this.#dotPositionsOf(scene), scene.shown));
         drawHandle(drawContext, { x: pictureView.toPixelX(endX), y: pictureView.toPixelY(endY), radius: HANDLE_RADIUS, colour: palette.prior });
-      } else if (lines.command) {
-        drawDisc(canvasContext, pictureView.toPixel(endX, endY), 5, palette.paper, { ...lines.command, dash: [] });
+      } else if (lineStyles.command) {
+        drawDisc(canvasContext, pictureView.toPixel(endX, endY), 5, palette.paper, { ...lineStyles.command, dash: [] });
       }
       if (markedMotion) {
         if (morph === 0) drawOutline(drawContext, markedMotion.path, { colour: palette.accent, width: 1.25, dash: [6, 2] });

@@ -75,13 +75,13 @@ export class StepPicture extends FigurePicture<Scene> {
   }
 
   paintPicture: FigurePicture<Scene>['paintPicture'] = (drawContext, { outlines: { predicted, measured }, overlays, twists }) => {
-    const lines = createLineStyles(drawContext, OUTLINE_STYLES, overlays);
+    const lineStyles = createLineStyles(drawContext, OUTLINE_STYLES, overlays);
     drawAxes(drawContext, axisNamesOf(this.pictureView));
     const callouts: Callout[] = [];
     clipToPlot(drawContext, () => {
       drawDots(drawContext, twists);
-      if (drawContext.previousViewModel) callouts.push(...drawEarlierOutlines(drawContext, styleOutlines(lines, { exponential: drawContext.previousViewModel.outlines.predicted }), [[0, 0]], words.earlierOutlinesLabel));
-      drawOutlines(drawContext, styleOutlines(lines, { exponential: predicted, measured }));
+      if (drawContext.previousViewModel) callouts.push(...drawEarlierOutlines(drawContext, styleOutlines(lineStyles, { exponential: drawContext.previousViewModel.outlines.predicted }), [[0, 0]], words.earlierOutlinesLabel));
+      drawOutlines(drawContext, styleOutlines(lineStyles, { exponential: predicted, measured }));
     });
     drawCallouts(drawContext, callouts, { shapeCentre: [0, 0], avoidedLines: [predicted, measured] });
   };

@@ -343,8 +343,8 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
 }
 
 /** Returns a free start pose. If the map has no free pose, returns its middle. */
-function freePoseOf({ openPlace, config, plan: { bounds: [left, bottom, right, top] } }: Simulation): Pose {
-  return openPlace ?? { ...config.start, x: (left + right) / 2, y: (bottom + top) / 2 };
+function freePoseOf({ openPlace, config, plan: { bounds: [xMin, yMin, xMax, yMax] } }: Simulation): Pose {
+  return openPlace ?? { ...config.start, x: (xMin + xMax) / 2, y: (yMin + yMax) / 2 };
 }
 
 defineElement(MapSqueezeElement, cloudProperties);

@@ -178,7 +178,7 @@ function drawCrosses({ canvasContext, pictureView }: DrawContext, poses: Float64
 }
 
 function drawPaths({ canvasContext, pictureView }: DrawContext, paths: Float64Array[], lineColour: string) {
-  paintWithOpacity(canvasContext, 0.3, () => strokeInBatches(canvasContext, paths.map((points) => pictureView.toPixels(points)), { colour: lineColour, width: 1 }, PATHS_PER_STROKE));
+  paintWithOpacity(canvasContext, 0.3, () => strokeInBatches(canvasContext, paths.map((path) => pictureView.toPixels(path)), { colour: lineColour, width: 1 }, PATHS_PER_STROKE));
 }
 
 /** Draws samples as transparent dots, which look darker where they overlap. */

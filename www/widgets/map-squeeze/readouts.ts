@@ -34,8 +34,8 @@ export function captionOf({ config: { conditioned, sampler }, stats, stuckNote }
 
 /** Returns the name of a map with its size. */
 export function describeMap(mapName: string, { bounds, walls }: Plan) {
-  const [left, bottom, right, top] = bounds;
-  return words.squeeze.mapDescription(mapName, formatFixed(right - left, 1), formatFixed(top - bottom, 1), formatInteger(walls.length / 4));
+  const [xMin, yMin, xMax, yMax] = bounds;
+  return words.squeeze.mapDescription(mapName, formatFixed(xMax - xMin, 1), formatFixed(yMax - yMin, 1), formatInteger(walls.length / 4));
 }
 
 export function tallyReadoutsHtml({ stats }: ViewModel) {
@@ -48,7 +48,7 @@ export function tallyReadoutsHtml({ stats }: ViewModel) {
 }
 
 /** Cost of an accepted sample: time in microseconds, number of draws, and number of wall tests; 'wedged' if no sample is accepted. */
-type SampleCost = { micros: number, drawCount: number, wallTestCount: number } | 'wedged';
+type SampleCost = { microseconds: number, drawCount: number, wallTestCount: number } | 'wedged';
 
 /** Samples per second that the chapter's exercise needs: 2000 particles, 20 updates per second. */
 const SAMPLES_PER_SECOND = 2000 * 20;
@@ -69,7 +69,7 @@ function measureCost(simulation: MapSqueeze, sampler: SamplerName, subStepCount:
       const startTime = performance.now();
       const { draws, wallTests } = simulation.trial(sampler, subStepCount, sampleCount);
       const elapsedMs = performance.now() - startTime;
-      if (elapsedMs >= MIN_RUN_MS || sampleCount === maxSampleCount) return { micros: (1000 * elapsedMs) / sampleCount, drawCount: draws / sampleCount, wallTestCount: wallTests / sampleCount };
+      if (elapsedMs >= MIN_RUN_MS || sampleCount === maxSampleCount) return { microseconds: (1000 * elapsedMs) / sampleCount, drawCount: draws / sampleCount, wallTestCount: wallTests / sampleCount };
       sampleCount = Math.min(maxSampleCount, 2 * sampleCount);
     }
   } catch (error) {
@@ -84,7 +84,7 @@ export function costTableHtml(figure: Figure) {
   const { samplerCosts, viewModel: { config } } = figure;
   const costRowOf = (sampler: SamplerName, sampleCost: SampleCost) => [
     sampler === 'sub-stepped' ? `${samplerNames[sampler]} (${config.steps})` : samplerNames[sampler],
-    ...(typeof sampleCost === 'string' ? [texts[sampleCost]] : [formatFixed(sampleCost.drawCount, 2), formatFixed(sampleCost.wallTestCount, 2), formatRounded(sampleCost.micros, 2), `${formatRounded(100 * sampleCost.micros * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`]),
+    ...(typeof sampleCost === 'string' ? [texts[sampleCost]] : [formatFixed(sampleCost.drawCount, 2), formatFixed(sampleCost.wallTestCount, 2), formatRounded(sampleCost.microseconds, 2), `${formatRounded(100 * sampleCost.microseconds * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`]),
   ];
   return html`<div class="table">
     ${buttonHtml(texts.measureLabel, () => figure.measureSamplerCosts())}

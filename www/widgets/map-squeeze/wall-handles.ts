@@ -23,12 +23,12 @@ const EDGE_INSET_PX = 12;
 const MAX_EDGE_INSET = 1 / 6;
 
 export class WallHandles extends FigureController<import('./map-squeeze.ts').MapSqueezeElement> {
-  #handles: Map<string, Handle> = new Map();
+  #handlesByName: Map<string, Handle> = new Map();
   #gripsMemo: MemoizedResult<Grip[]> = new MemoizedResult();
   /** Name of the handle that is in the tab order. If this handle does not exist, the first handle is in the tab order. */
   #tabbableName = '';
 
-  get #grips() {
+  get #movableGrips() {
     const { plan, hasMovableWalls } = this.figure.picture;
     return this.#gripsMemo.getResult([plan], () => (hasMovableWalls && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? gripsOf(plan) : []));
   }
@@ -37,7 +37,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   get #shownGrips() {
     const { plan: { walls }, pictureView } = this.figure.picture;
     const { xMin, xMax, yMin, yMax } = pictureView.shownExtent;
-    const shownGrips = this.#grips.flatMap((grip) => {
+    const shownGrips = this.#movableGrips.flatMap((grip) => {
       const [x0, y0, x1, y1] = walls.subarray(grip.wallOffset, grip.wallOffset + 4);
       const insetFraction = Math.min(MAX_EDGE_INSET, EDGE_INSET_PX / (pictureView.scaleX * Math.hypot(x1 - x0, y1 - y0)));
       const handleFractions = { from: [insetFraction], to: [1 - insetFraction], side: SIDE_FRACTIONS }[grip.grippedPart];
@@ -53,17 +53,17 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 
   render() {
     const texts = words.squeeze.wallHandles;
-    const { bounds: [left, bottom, right, top] } = this.figure.picture.plan;
+    const { bounds: [xMin, yMin, xMax, yMax] } = this.figure.picture.plan;
     const shownGrips = this.#shownGrips;
     const hintHtml = shownGrips.length > 0 ? html`<span class="wall-hint muted small" aria-hidden="true">${texts.hint}</span>` : nothing;
     return this.figure.renderer.renderAfterFirstPicture(() => [hintHtml, ...shownGrips.map(({ grip, handle, isTabbable }) => {
-      const { grippedPart: part, axis: [ux, uy] } = grip;
+      const { grippedPart, axis: [ux, uy] } = grip;
       const [x, y] = this.#gripPointOf(grip);
       return handle.handleHtml({
-        handleName: part === 'side' ? texts.wallName : texts.doorwayEdgeName,
+        handleName: grippedPart === 'side' ? texts.wallName : texts.doorwayEdgeName,
         keysHint: texts.keysHint,
         title: words.pose.moveTitle,
-        valueRange: Math.abs(ux) > Math.abs(uy) ? [left, right] : [bottom, top],
+        valueRange: Math.abs(ux) > Math.abs(uy) ? [xMin, xMax] : [yMin, yMax],
         sliderValue: Math.abs(ux) > Math.abs(uy) ? x : y,
         valueText: `x = ${formatFixed(x, 2)} m, y = ${formatFixed(y, 2)} m`,
         tabIndex: isTabbable ? 0 : -1,
@@ -73,13 +73,13 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 
   /** The handles are placed again after each rendering, because new handles are rendered after the picture was drawn. */
   hostUpdated() {
-    this.place();
+    this.placeHandles();
   }
 
-  place() {
+  placeHandles() {
     const { pictureView } = this.figure.picture;
-    for (const { grip: { axis, grippedPart: part }, handle, point: [x, y] } of this.#shownGrips) {
-      handle.placeElementAt(this.figure.renderRoot, pictureView.toPixelX(x), pictureView.toPixelY(y), { angle: part === 'side' ? Math.atan(axis[0] / axis[1]) : 0 });
+    for (const { grip: { axis, grippedPart }, handle, point: [x, y] } of this.#shownGrips) {
+      handle.placeElementAt(this.figure.renderRoot, pictureView.toPixelX(x), pictureView.toPixelY(y), { angle: grippedPart === 'side' ? Math.atan(axis[0] / axis[1]) : 0 });
     }
   }
 
@@ -87,7 +87,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const name = nameOf(grip);
     // Calls a function with the part of the current floor plan that this handle moves. If the plan has changed and has no such part, nothing is called.
     const callWithGrip = <Result>(useGrip: (currentGrip: Grip) => Result) => {
-      const currentGrip = this.#grips.find((otherGrip) => nameOf(otherGrip) === name);
+      const currentGrip = this.#movableGrips.find((otherGrip) => nameOf(otherGrip) === name);
       return currentGrip && useGrip(currentGrip);
     };
     const moveBy = (dx: number, dy: number) => callWithGrip((currentGrip) => {
@@ -95,7 +95,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
       this.#tabbableName = name;
       this.figure.moveWalls(moveWall(this.figure.picture.plan, currentGrip, axisDistance));
     });
-    const handle = this.#handles.get(name) ?? new Handle(`${grip.grippedPart === 'side' ? 'side' : 'jamb'} ${name}`, {
+    const handle = this.#handlesByName.get(name) ?? new Handle(`${grip.grippedPart === 'side' ? 'side' : 'jamb'} ${name}`, {
       getView: () => this.figure.picture.pictureView,
       findGraspedPoint: () => callWithGrip((currentGrip) => [...this.#gripPointOf(currentGrip)]),
       dragTo: (x, y) => callWithGrip((currentGrip) => moveBy(x - this.#gripPointOf(currentGrip)[0], y - this.#gripPointOf(currentGrip)[1])),
@@ -106,9 +106,9 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
         else if (keySteps) callWithGrip(({ axis: [ux, uy] }) => (keySteps[0] * ux + keySteps[1] * uy ? moveBy(KEY_STEP * keySteps[0], KEY_STEP * keySteps[1]) : moveBy(KEY_STEP * keySteps[1], KEY_STEP * keySteps[0])));
         return keySteps !== undefined;
       },
-      commit: () => this.figure.gesture.commitChange(),
+      commitChange: () => this.figure.gesture.commitChange(),
     });
-    this.#handles.set(name, handle);
+    this.#handlesByName.set(name, handle);
     return handle;
   }
 

@@ -39,7 +39,7 @@ export function gripsOf({ bounds, walls }: Plan): Grip[] {
     if (isOuterWall || wallLength < MIN_WALL_GAP) return [];
     const [ux, uy] = [(x1 - x0) / wallLength, (y1 - y0) / wallLength];
     const grips: Grip[] = [{ wallOffset, grippedPart: 'from', axis: [-ux, -uy] }, { wallOffset, grippedPart: 'to', axis: [ux, uy] }, { wallOffset, grippedPart: 'side', axis: [-uy, ux] }];
-    return grips.filter(({ grippedPart: part }) => part === 'side' || distanceToOtherWallsOf(walls, wallOffset, part === 'from' ? [x0, y0] : [x1, y1]) > TOUCH_DISTANCE);
+    return grips.filter(({ grippedPart }) => grippedPart === 'side' || distanceToOtherWallsOf(walls, wallOffset, grippedPart === 'from' ? [x0, y0] : [x1, y1]) > TOUCH_DISTANCE);
   });
 }
 
@@ -50,18 +50,18 @@ const distanceToOtherWallsOf = (walls: Float64Array, wallOffset: number, [x, y]:
  * Returns the walls after a grip has been moved along its axis, within the bounds of the plan. A moved end stops near the next wall. If a whole wall moves,
  * walls that end at it become longer or shorter, unless this would turn them.
  */
-export function moveWall({ bounds, walls }: Plan, { wallOffset, grippedPart: part, axis: [ux, uy] }: Grip, distance: number) {
+export function moveWall({ bounds, walls }: Plan, { wallOffset, grippedPart, axis: [ux, uy] }: Grip, distance: number) {
   const movedWalls = walls.slice();
   const [x0, y0, x1, y1] = walls.subarray(wallOffset, wallOffset + 4);
-  const movedPoints = { from: [[x0, y0]], to: [[x1, y1]], side: [[x0, y0], [x1, y1]] }[part];
+  const movedPoints = { from: [[x0, y0]], to: [[x1, y1]], side: [[x0, y0], [x1, y1]] }[grippedPart];
   const moveEnd = (coordinateIndex: number, endDistance: number) => {
     movedWalls[coordinateIndex] = walls[coordinateIndex] + endDistance * ux;
     movedWalls[coordinateIndex + 1] = walls[coordinateIndex + 1] + endDistance * uy;
   };
   const distanceInBounds = limitToBounds(distance, bounds, movedPoints, [ux, uy]);
-  if (part !== 'side') {
+  if (grippedPart !== 'side') {
     const freeDistance = Math.min(distanceInBounds, freeDistanceOf(walls, wallOffset, movedPoints[0], [ux, uy], distanceInBounds));
-    moveEnd(part === 'from' ? wallOffset : wallOffset + 2, Math.max(freeDistance, MIN_WALL_GAP - Math.hypot(x1 - x0, y1 - y0)));
+    moveEnd(grippedPart === 'from' ? wallOffset : wallOffset + 2, Math.max(freeDistance, MIN_WALL_GAP - Math.hypot(x1 - x0, y1 - y0)));
     return movedWalls;
   }
   for (const k of wallOffsetsOf(walls)) {
@@ -74,19 +74,19 @@ export function moveWall({ bounds, walls }: Plan, { wallOffset, grippedPart: par
 
 /** Returns the distance that points can move along an axis without leaving the bounds of a plan; at most the requested distance. */
 function limitToBounds(distance: number, bounds: ArrayLike<number>, points: number[][], axis: number[]) {
-  const limits = points.flatMap((point) => [0, 1].filter((i) => Math.abs(axis[i]) > TOUCH_DISTANCE).map((i) => [bounds[i] + MIN_WALL_GAP, bounds[i + 2] - MIN_WALL_GAP].map((bound) => (bound - point[i]) / axis[i])));
-  return limits.reduce((limitedDistance, [distanceToBound, distanceToOtherBound]) =>
+  const distanceLimits = points.flatMap((point) => [0, 1].filter((i) => Math.abs(axis[i]) > TOUCH_DISTANCE).map((i) => [bounds[i] + MIN_WALL_GAP, bounds[i + 2] - MIN_WALL_GAP].map((bound) => (bound - point[i]) / axis[i])));
+  return distanceLimits.reduce((limitedDistance, [distanceToBound, distanceToOtherBound]) =>
     clampNumber(limitedDistance, Math.min(0, distanceToBound, distanceToOtherBound), Math.max(0, distanceToBound, distanceToOtherBound)), distance);
 }
 
 /** Returns the distance that the end of a wall can move along an axis before it comes too close to another wall; at most the requested distance. */
 function freeDistanceOf(walls: Float64Array, wallOffset: number, [x, y]: number[], [ux, uy]: number[], distance: number) {
   let freeDistance = 0;
-  let gap = Infinity;
+  let freeGap = Infinity;
   // The end moves in steps. Each step is as long as the distance to the nearest wall allows.
-  while (freeDistance < distance && gap > TOUCH_DISTANCE) {
-    gap = distanceToOtherWallsOf(walls, wallOffset, [x + freeDistance * ux, y + freeDistance * uy]) - MIN_WALL_GAP;
-    freeDistance += Math.max(0, gap);
+  while (freeDistance < distance && freeGap > TOUCH_DISTANCE) {
+    freeGap = distanceToOtherWallsOf(walls, wallOffset, [x + freeDistance * ux, y + freeDistance * uy]) - MIN_WALL_GAP;
+    freeDistance += Math.max(0, freeGap);
   }
   return freeDistance;
 }

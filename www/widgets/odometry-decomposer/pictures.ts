@@ -150,27 +150,27 @@ export class LegsPicture extends FigurePicture<Scene> {
     const { palette } = drawContext;
     const { linkage, legs, deviations, config, overlays } = scene;
     const [startPose, turnedPose, drivenPose] = [0, 1, 2].map((poseIndex) => poseAt(linkage, poseIndex));
-    const lines = createLineStyles(drawContext, LINE_STYLES, overlays);
-    drawAxes(drawContext, AXIS_NAMES, createLineLegend(drawContext, lines, ['legs', 'deviation', 'outcomes'], words.decomposer.overlays));
+    const lineStyles = createLineStyles(drawContext, LINE_STYLES, overlays);
+    drawAxes(drawContext, AXIS_NAMES, createLineLegend(drawContext, lineStyles, ['legs', 'deviation', 'outcomes'], words.decomposer.overlays));
     const [firstTurnRadius, secondTurnRadius] = turnRadiiOf(this.pictureView);
     const turnArcs: TurnArc[] = [[startPose, legs.rot1, firstTurnRadius], [drivenPose, legs.rot2, secondTurnRadius]];
-    const spreadEllipses = lines.deviation ? spreadEllipsesOf(drawContext, scene) : [];
+    const spreadEllipses = lineStyles.deviation ? spreadEllipsesOf(drawContext, scene) : [];
     clipToPlot(drawContext, () => {
-      if (lines.deviation) drawDeviationFan(drawContext, turnedPose, deviations.rot1, Math.max(legs.trans * this.pictureView.scaleX, secondTurnRadius), lines.deviation.colour);
-      if (lines.outcomes) this.#paintGhosts(drawContext, scene);
+      if (lineStyles.deviation) drawDeviationFan(drawContext, turnedPose, deviations.rot1, Math.max(legs.trans * this.pictureView.scaleX, secondTurnRadius), lineStyles.deviation.colour);
+      if (lineStyles.outcomes) this.#paintGhosts(drawContext, scene);
       drawOutcomes(drawContext, scene);
       drawOutlines(drawContext, spreadEllipses);
-      if (lines.legs) drawSegment(drawContext, startPose, drivenPose, lines.legs);
+      if (lineStyles.legs) drawSegment(drawContext, startPose, drivenPose, lineStyles.legs);
       drawDraggableRobot(drawContext, startPose, ROBOT_RADIUS, palette.prior);
       drawDraggableRobot(drawContext, config.to, ROBOT_RADIUS, palette.prior);
-      if (lines.deviation) drawDeviationFan(drawContext, { ...drivenPose, theta: drivenPose.theta + legs.rot2 }, deviations.rot2, secondTurnRadius, lines.deviation.colour);
+      if (lineStyles.deviation) drawDeviationFan(drawContext, { ...drivenPose, theta: drivenPose.theta + legs.rot2 }, deviations.rot2, secondTurnRadius, lineStyles.deviation.colour);
       if (config.phase < 3) drawRobot(drawContext, { ...scene.robot, heading: scene.robot.theta, colour: palette.accent });
-      if (lines.legs) {
-        for (const [turnPose, turn, turnRadius] of turnArcs) if (Math.abs(turn) >= MIN_DRAWN_TURN) drawTurn(drawContext, turnPose, turn, turnRadius, lines.legs.colour);
+      if (lineStyles.legs) {
+        for (const [turnPose, turn, turnRadius] of turnArcs) if (Math.abs(turn) >= MIN_DRAWN_TURN) drawTurn(drawContext, turnPose, turn, turnRadius, lineStyles.legs.colour);
       }
     });
     const turnArcOutlines = turnArcs.map(([turnPose, turn, turnRadius]) => Float64Array.from(turnArcPoints(turnPose, turn, turnRadius / this.pictureView.scaleX)));
-    const legCallouts = lines.legs ? this.#createLegCallouts(drawContext, scene, turnArcs) : [];
+    const legCallouts = lineStyles.legs ? this.#createLegCallouts(drawContext, scene, turnArcs) : [];
     drawCallouts(drawContext, [...legCallouts, ...spreadEllipses.map(({ callout }) => callout)], {
       shapeCentre: [drivenPose.x, drivenPose.y], avoidedLines: [...spreadEllipses.map(({ points }) => points), ...turnArcOutlines, segmentCoordinatesOf(startPose, drivenPose)],
     });
@@ -215,32 +215,32 @@ export class WorldPicture extends FigurePicture<Scene> {
 
   paintPicture: FigurePicture<Scene>['paintPicture'] = (drawContext, scene) => {
     const { palette, canvasContext, pictureView } = drawContext;
-    const lines = createLineStyles(drawContext, LINE_STYLES, scene.overlays);
+    const lineStyles = createLineStyles(drawContext, LINE_STYLES, scene.overlays);
     const [framePose, odometryStart, odometryEnd] = [0, 1, 2].map((poseIndex) => poseAt(scene.drifted.poses, poseIndex));
     const [startPose, predictedPose] = [poseAt(scene.linkage, 0), poseAt(scene.linkage, 3)];
     drawAxes(drawContext, AXIS_NAMES);
     clipToPlot(drawContext, () => {
-      if (lines.odometry) {
+      if (lineStyles.odometry) {
         const axisLength = FRAME_AXIS_LENGTH * pictureView.scaleX;
         const [, yAxisEnd] = pictureView.headingLineFrom({ ...framePose, theta: framePose.theta + Math.PI / 2 }, axisLength);
         strokeLine(canvasContext, [yAxisEnd, ...pictureView.headingLineFrom(framePose, axisLength)], { colour: palette.prior, width: 1.25 });
-        drawSegment(drawContext, odometryStart, odometryEnd, lines.odometry);
+        drawSegment(drawContext, odometryStart, odometryEnd, lineStyles.odometry);
         for (const pose of [odometryStart, odometryEnd]) {
           drawRobotOutline(drawContext, pose.x, pose.y, ROBOT_RADIUS, palette.prior);
           strokeLine(canvasContext, pictureView.headingLineFrom(pose, ROBOT_RADIUS * pictureView.scaleX + 8), { colour: palette.prior, width: 1.5 });
         }
       }
       drawOutcomes(drawContext, scene);
-      if (lines.prediction) drawSegment(drawContext, startPose, predictedPose, lines.prediction);
-      if (lines.difference) drawSegment(drawContext, odometryEnd, predictedPose, lines.difference);
+      if (lineStyles.prediction) drawSegment(drawContext, startPose, predictedPose, lineStyles.prediction);
+      if (lineStyles.difference) drawSegment(drawContext, odometryEnd, predictedPose, lineStyles.difference);
       drawDraggableRobot(drawContext, startPose, ROBOT_RADIUS, palette.truth);
     });
     const { outcomesLabel, ruleNames } = words.decomposer;
     const lowestOutcome = leastIndex(scene.poses.filter((_, i) => i % 3 === 1)) ?? -1;
     const callouts = [
-      ...(lines.prediction ? createPoseCallouts(drawContext, [startPose, predictedPose], 'x', [palette.ink, palette.prediction]) : []),
-      ...(lines.odometry ? createPoseCallouts(drawContext, [odometryStart, odometryEnd], 'x̄', [palette.prior, palette.prior]) : []),
-      ...(lines.outcomes && lowestOutcome >= 0 ? [{ text: outcomesLabel(ruleNames[scene.config.rule]), point: [scene.poses[3 * lowestOutcome], scene.poses[3 * lowestOutcome + 1]] as [number, number], colour: palette.prediction }] : []),
+      ...(lineStyles.prediction ? createPoseCallouts(drawContext, [startPose, predictedPose], 'x', [palette.ink, palette.prediction]) : []),
+      ...(lineStyles.odometry ? createPoseCallouts(drawContext, [odometryStart, odometryEnd], 'x̄', [palette.prior, palette.prior]) : []),
+      ...(lineStyles.outcomes && lowestOutcome >= 0 ? [{ text: outcomesLabel(ruleNames[scene.config.rule]), point: [scene.poses[3 * lowestOutcome], scene.poses[3 * lowestOutcome + 1]] as [number, number], colour: palette.prediction }] : []),
     ];
     drawCallouts(drawContext, callouts, {
       shapeCentre: [(startPose.x + predictedPose.x) / 2, (startPose.y + predictedPose.y) / 2], avoidedLines: [segmentCoordinatesOf(startPose, predictedPose), segmentCoordinatesOf(odometryStart, odometryEnd)],

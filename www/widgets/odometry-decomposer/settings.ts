@@ -39,7 +39,7 @@ export function viewModelOf(simulation: OdometryDecomposer) {
 }
 
 /** Returns the pose with the given index from an array of x, y, θ triples. */
-export function poseAt(triples: Float64Array, poseIndex: number) {
-  const [x, y, theta] = triples.subarray(3 * poseIndex, 3 * poseIndex + 3);
+export function poseAt(poseTriples: Float64Array, poseIndex: number) {
+  const [x, y, theta] = poseTriples.subarray(3 * poseIndex, 3 * poseIndex + 3);
   return { x, y, theta };
 }

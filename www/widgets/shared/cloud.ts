@@ -43,13 +43,13 @@ export class Cloud extends FigureController {
   }
 
   /** Fields in the state of the element that belong to the cloud. */
-  get #state() {
+  get #elementState() {
     return this.figure.settings.elementState as { playing: boolean, shown: number, marked?: number | null };
   }
 
   /** True while the cloud grows. */
   get playing() {
-    return this.#state.playing;
+    return this.#elementState.playing;
   }
 
   get #simulation(): GrowingSimulation {
@@ -64,7 +64,7 @@ export class Cloud extends FigureController {
 
   /** True if the goal is the whole cloud: all requested samples, or as many as the simulation can draw. */
   get isComplete() {
-    return this.#state.shown >= this.#requestedCount || this.#hasGivenUp(this.#latestCounts);
+    return this.#elementState.shown >= this.#requestedCount || this.#hasGivenUp(this.#latestCounts);
   }
 
   get #requestedCount(): number {
@@ -77,7 +77,7 @@ export class Cloud extends FigureController {
 
   /** Number of samples up to which samples are added: the requested number if the cloud is complete, otherwise the number `shown` of the state. */
   get targetCount() {
-    return this.isComplete ? this.#requestedCount : this.#state.shown;
+    return this.isComplete ? this.#requestedCount : this.#elementState.shown;
   }
 
   /** True if the cloud does not grow, and has `targetCount` samples, or as many as the simulation can draw. */
@@ -87,32 +87,32 @@ export class Cloud extends FigureController {
 
   /** Starts to grow the cloud, or shows the samples of a given state. If the user prefers reduced motion, all samples are shown at once. */
   showOrGrow(givenState?: StateValues) {
-    if (!givenState) this.#state.playing = true;
-    if (!givenState || this.isComplete) this.#state.shown = Infinity;
+    if (!givenState) this.#elementState.playing = true;
+    if (!givenState || this.isComplete) this.#elementState.shown = Infinity;
     if (!givenState && !prefersReducedMotion()) this.#restartSampling();
     if (this.playing && prefersReducedMotion()) this.addAllSamples();
   }
 
   /** Changes settings, and draws one block of samples. Later frames add the other samples. Returns all settings. */
-  configure(simulation: GrowingSimulation, settings: StateValues, shownCount = this.#state.shown): StateValues {
+  configure(simulation: GrowingSimulation, settings: StateValues, shownCount = this.#elementState.shown): StateValues {
     return simulation.configureFirst(settings, shownCount);
   }
 
   #restartSampling() {
-    this.#state.shown = 0;
+    this.#elementState.shown = 0;
     if (this.#latestCounts.shown > 0) this.configure(this.#simulation, {});
     this.figure.settings.isViewModelStale = true;
   }
 
   /** Shows all requested samples at once. If the cloud was growing, it is then complete. */
   addAllSamples() {
-    if (this.playing) this.#state.shown = Infinity;
-    this.#state.playing = false;
+    if (this.playing) this.#elementState.shown = Infinity;
+    this.#elementState.playing = false;
     this.addSamplesUnseen(Infinity);
   }
 
   showSamples(sampleCount: number) {
-    this.#state.shown = Math.min(sampleCount, this.#requestedCount);
+    this.#elementState.shown = Math.min(sampleCount, this.#requestedCount);
     this.addSamplesUnseen(Infinity);
   }
 
@@ -135,7 +135,7 @@ export class Cloud extends FigureController {
   }
 
   takeSnapshot(): StateValues {
-    return { shown: this.targetCount, ...(this.#state.marked !== undefined && { marked: this.#isSelectionPossible ? this.selectedIndex : null }) };
+    return { shown: this.targetCount, ...(this.#elementState.marked !== undefined && { marked: this.#isSelectionPossible ? this.selectedIndex : null }) };
   }
 
   /** Returns the field `shown` (number of samples to show) for a change of settings that does not contain it. */
@@ -145,12 +145,12 @@ export class Cloud extends FigureController {
 
   /** Index of the selected sample; −1 for none. */
   get selectedIndex(): number {
-    return this.#state.marked ?? -1;
+    return this.#elementState.marked ?? -1;
   }
 
   select(sampleIndex: number) {
     if (sampleIndex === this.selectedIndex) return;
-    this.#state.marked = sampleIndex < 0 ? null : sampleIndex;
+    this.#elementState.marked = sampleIndex < 0 ? null : sampleIndex;
     this.figure.renderer.requestFrame();
   }
 
@@ -192,8 +192,8 @@ export class Cloud extends FigureController {
   addGrowthStep() {
     this.showSamples(this.#latestCounts.shown + this.#batchSize);
     if (!this.isComplete) return;
-    this.#state.shown = Infinity;
-    this.#state.playing = false;
+    this.#elementState.shown = Infinity;
+    this.#elementState.playing = false;
     this.figure.announcer.requestAnnouncement();
   }
 
@@ -201,7 +201,7 @@ export class Cloud extends FigureController {
   #runControl(shouldPlay: boolean, runAction: () => void) {
     if (!this.figure.simulation) return;
     runAction();
-    this.#state.playing = shouldPlay;
+    this.#elementState.playing = shouldPlay;
     this.figure.gesture.commitOneStep();
     this.figure.renderer.requestFrame();
   }
@@ -231,8 +231,8 @@ type CloudFigure = Figure & { cloud: Cloud };
 
 /** Returns the specification of a slider for the number of samples. Its stops are 10, 20, 50, 100 and so on, up to a maximum. */
 export function createSamplesSliderSpec(maxSampleCount: number): SliderSpec {
-  const stops = range(1, 7).flatMap((decade) => [1, 2, 5].map((decadeFactor) => decadeFactor * 10 ** decade)).filter((sampleCount) => sampleCount <= maxSampleCount);
-  return { symbol: '*N*', colourRole: 'truth', min: stops[0], max: maxSampleCount, step: 1, decimals: 0, stops };
+  const sliderStops = range(1, 7).flatMap((exponent) => [1, 2, 5].map((decadeFactor) => decadeFactor * 10 ** exponent)).filter((sampleCount) => sampleCount <= maxSampleCount);
+  return { symbol: '*N*', colourRole: 'truth', min: sliderStops[0], max: maxSampleCount, step: 1, decimals: 0, stops: sliderStops };
 }
 
 /** Returns the controls of the cloud: its size, its growth and its seed. */

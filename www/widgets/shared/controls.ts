@@ -34,13 +34,13 @@ export class Player<Key extends string> extends FigureController {
     this.#playedSettings = animatedSettings;
   }
 
-  stop() {
+  stopAnimation() {
     this.#playedKey = undefined;
   }
 
   /** Sets a setting to the value that the user has chosen, and stops the animation. */
   #setByUser(settingKey: Key, newValue: number) {
-    this.stop();
+    this.stopAnimation();
     this.figure.settings.requestChange({ [settingKey]: newValue });
   }
 
@@ -59,7 +59,7 @@ export class Player<Key extends string> extends FigureController {
   }
 
   /** Advances the animation by the time since the previous frame. Returns true if the animation has to continue. */
-  advance(elapsedMs: number): boolean {
+  advanceAnimation(elapsedMs: number): boolean {
     if (!this.#playedKey) return false;
     // No time has elapsed if the picture is drawn again only because its size has changed. The animation does not advance then.
     if (elapsedMs === 0) return true;
@@ -67,17 +67,17 @@ export class Player<Key extends string> extends FigureController {
     const nextValue = Math.min(max, this.#valueOf(this.#playedKey) + (max * elapsedMs) / durationMs);
     this.figure.settings.requestChange({ [this.#playedKey]: nextValue });
     if (nextValue < max) return true;
-    this.stop();
+    this.stopAnimation();
     this.figure.gesture.commitChange();
     return false;
   }
 
   /** Returns the slider of a setting with the button that plays and pauses. If the user prefers reduced motion, there is only the slider. */
-  sliderHtml(key: Key, playLabel: string) {
-    const [currentLabel, otherLabel] = this.#playedKey === key ? [words.pauseLabel, playLabel] : [playLabel, words.pauseLabel];
-    return html`<div class="playable with-button ${key}">
-      ${settingSliderHtml(this.figure, key, { onInput: (value) => this.#setByUser(key, value) })}
-      ${prefersReducedMotion() ? nothing : buttonHtml(currentLabel, () => this.#togglePlaying(key), { otherLabel })}
+  sliderHtml(settingKey: Key, playLabel: string) {
+    const [currentLabel, otherLabel] = this.#playedKey === settingKey ? [words.pauseLabel, playLabel] : [playLabel, words.pauseLabel];
+    return html`<div class="playable with-button ${settingKey}">
+      ${settingSliderHtml(this.figure, settingKey, { onInput: (newValue) => this.#setByUser(settingKey, newValue) })}
+      ${prefersReducedMotion() ? nothing : buttonHtml(currentLabel, () => this.#togglePlaying(settingKey), { otherLabel })}
     </div>`;
   }
 }

@@ -72,17 +72,17 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     this.#settingKey = settingKey;
     this.#getRadius = getRadius;
     this.#getBounds = getBounds;
-    const handleCallbacks = { getView: () => figure.pictures[0].pictureView, commit: () => figure.gesture.commitChange() };
+    const handleCallbacks = { getView: () => figure.pictures[0].pictureView, commitChange: () => figure.gesture.commitChange() };
     this.#bodyHandle = new Handle(`body ${settingKey}`, {
       ...handleCallbacks,
-      findGraspedPoint: () => [this.#pose.x, this.#pose.y],
+      findGraspedPoint: () => [this.#requestedPose.x, this.#requestedPose.y],
       dragTo: (x, y) => this.#moveTo(x, y),
       handleKey: (keyEvent) => this.#applyKey(stepsOfKey(keyEvent), turnStepsOfKey(keyEvent)),
     });
     this.#turnHandle = new Handle(`turn ${settingKey}`, {
       ...handleCallbacks,
-      findGraspedPoint: (pointer) => pointer,
-      dragTo: (x, y) => this.#turnTo(Math.atan2(y - this.#pose.y, x - this.#pose.x)),
+      findGraspedPoint: (pointerPoint) => pointerPoint,
+      dragTo: (x, y) => this.#turnTo(Math.atan2(y - this.#requestedPose.y, x - this.#requestedPose.x)),
       handleKey: (keyEvent) => {
         const keySteps = stepsOfKey(keyEvent);
         // The left arrow key turns the robot counter-clockwise (to the left, from the driver's seat).
@@ -91,28 +91,28 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     });
   }
 
-  get #pose(): Pose {
+  get #requestedPose(): Pose {
     return this.figure.settings.requestedValues[this.#settingKey];
   }
 
   render() {
     const [bodyName, headingName] = (words as any)[this.figure.definition.messageKey].handles[this.#settingKey];
-    const { keysHint: keys, headingKeysHint: headingKeys, moveTitle, turnTitle, floorEndNote: ends } = words.pose;
-    const { x, y, theta } = this.#pose;
-    const [left, bottom, right, top] = this.#getBounds();
+    const { keysHint, headingKeysHint, moveTitle, turnTitle, floorEndNote } = words.pose;
+    const { x, y, theta } = this.#requestedPose;
+    const [xMin, yMin, xMax, yMax] = this.#getBounds();
     return [
       this.#bodyHandle.handleHtml({
         handleName: bodyName,
-        keysHint: keys,
+        keysHint,
         title: moveTitle,
-        valueRange: [left, right],
+        valueRange: [xMin, xMax],
         sliderValue: x,
         valueText: `x = ${formatFixed(x, 2)} m, y = ${formatFixed(y, 2)} m`,
-        limitText: (x <= left || x >= right || y <= bottom || y >= top) && ends,
+        limitText: (x <= xMin || x >= xMax || y <= yMin || y >= yMax) && floorEndNote,
       }),
       this.#turnHandle.handleHtml({
         handleName: headingName,
-        keysHint: headingKeys,
+        keysHint: headingKeysHint,
         title: turnTitle,
         valueRange: [-Math.PI, Math.PI],
         sliderValue: theta,
@@ -121,7 +121,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     ];
   }
 
-  place({ config }: { config: Record<string, any> }) {
+  placeHandles({ config }: { config: Record<string, any> }) {
     const { pictureView } = this.figure.pictures[0];
     const robotRadius = this.#getRadius(config);
     const figureRoot = this.figure.renderRoot;
@@ -132,23 +132,23 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   }
 
   /** Moves the robot by steps along x and y, and turns it by steps counter-clockwise. ±∞ steps turn it to a heading of ±π. Returns false if no steps are given. */
-  #applyKey(steps: [number, number] | undefined, turnSteps: number | undefined): boolean {
-    const { x, y, theta } = this.#pose;
-    if (steps) this.#moveTo(x + KEY_STEP * steps[0], y + KEY_STEP * steps[1]);
+  #applyKey(moveSteps: [number, number] | undefined, turnSteps: number | undefined): boolean {
+    const { x, y, theta } = this.#requestedPose;
+    if (moveSteps) this.#moveTo(x + KEY_STEP * moveSteps[0], y + KEY_STEP * moveSteps[1]);
     if (turnSteps) this.#turnTo(Number.isFinite(turnSteps) ? theta + KEY_TURN * turnSteps : Math.sign(turnSteps) * Math.PI);
-    return steps !== undefined || turnSteps !== undefined;
+    return moveSteps !== undefined || turnSteps !== undefined;
   }
 
   /** Moves the robot to a point (m). If the point is out of bounds, moves the robot to the nearest allowed position. */
   #moveTo(x: number, y: number) {
-    const [left, bottom, right, top] = this.#getBounds();
-    this.#requestPose({ ...this.#pose, x: clampNumber(x, left, right), y: clampNumber(y, bottom, top) });
+    const [xMin, yMin, xMax, yMax] = this.#getBounds();
+    this.#requestPose({ ...this.#requestedPose, x: clampNumber(x, xMin, xMax), y: clampNumber(y, yMin, yMax) });
   }
 
   /** Turns the robot to a heading in radians. */
   #turnTo(theta: number) {
     // Wraps the heading to (−π, π] without sines. The last digits of sines differ between JavaScript engines, and equal key presses must give equal headings.
-    this.#requestPose({ ...this.#pose, theta: theta - 2 * Math.PI * Math.ceil(theta / (2 * Math.PI) - 0.5) });
+    this.#requestPose({ ...this.#requestedPose, theta: theta - 2 * Math.PI * Math.ceil(theta / (2 * Math.PI) - 0.5) });
   }
 
   #requestPose(pose: Pose) {

@@ -102,12 +102,12 @@ function parseDescription(quotedName: string, yamlText: string, texts: RefusalWo
   try {
     // YAML forbids indentation by tabs. Tabs are removed, because the fields need no indentation. Aliases are refused: no map needs them, and they let a
     // short text expand to billions of values, or contain itself.
-    const fields: Record<string, unknown> = { ...(load(yamlText.replaceAll(/^\t+/gm, '').replaceAll('\t', ' '), { maxAliases: 0 }) as object) };
-    for (const key of NUMBER_FIELDS) if (key in fields) fields[key] = parseQuotedNumber(fields[key]);
-    const { negate, mode } = fields;
-    if (typeof negate === 'string') fields.negate = BOOLEAN_WORDS.get(negate.toLowerCase()) ?? negate;
-    if (typeof mode === 'string') fields.mode = mode.toLowerCase();
-    return fields;
+    const yamlFields: Record<string, unknown> = { ...(load(yamlText.replaceAll(/^\t+/gm, '').replaceAll('\t', ' '), { maxAliases: 0 }) as object) };
+    for (const key of NUMBER_FIELDS) if (key in yamlFields) yamlFields[key] = parseQuotedNumber(yamlFields[key]);
+    const { negate, mode } = yamlFields;
+    if (typeof negate === 'string') yamlFields.negate = BOOLEAN_WORDS.get(negate.toLowerCase()) ?? negate;
+    if (typeof mode === 'string') yamlFields.mode = mode.toLowerCase();
+    return yamlFields;
   } catch (error) {
     if (!(error instanceof YAMLException)) throw error;
     throw new MapFileError(texts.invalidYamlSentence(quotedName, error.mark ? error.mark.line + 1 : 1, quoteText(error.reason)));

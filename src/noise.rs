@@ -141,8 +141,8 @@ pub(crate) fn wrapped_density(noise_kind: NoiseKind, a: f64, b2: Variance) -> f6
         NoiseKind::Normal if std > 9.0 => 1.0 / TAU,
         NoiseKind::Normal => {
             // A term at more than nine standard deviations is below the rounding error of the sum.
-            let max_turns = (9.0 * std / TAU).ceil() as i32;
-            (-max_turns..=max_turns).map(|k| noise_kind.prob(a + f64::from(k) * TAU, b2)).sum()
+            let max_full_turns = (9.0 * std / TAU).ceil() as i32;
+            (-max_full_turns..=max_full_turns).map(|k| noise_kind.prob(a + f64::from(k) * TAU, b2)).sum()
         }
         NoiseKind::Triangular if std == 0.0 => noise_kind.prob(a, b2),
         NoiseKind::Triangular => {

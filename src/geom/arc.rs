@@ -191,7 +191,7 @@ impl PreparedPose {
     /// Computes four arcs from this pose in SIMD lanes. Returns a function from the lane index to the arc. The ends differ from those of
     /// [`PreparedPose::drive`] by less than 2e-15 · length.
     #[inline(always)]
-    pub fn drive_four(
+    pub fn drive_four_arcs(
         &self,
         turn_trigonometry: &Trigonometry,
         arc_length: f64x4,
@@ -310,11 +310,11 @@ impl ArcPiece {
 
     #[inline(always)]
     pub fn points_at(&self, s: f64x4) -> [f64x4; 2] {
-        let [ahead_offset, left] = self.local_point(s);
+        let [ahead_offset, left_offset] = self.local_point(s);
         let [cos, sin] = self.travel_direction;
         [
-            (ahead_offset * cos - left * sin) + self.middle_point[0],
-            (ahead_offset * sin + left * cos) + self.middle_point[1],
+            (ahead_offset * cos - left_offset * sin) + self.middle_point[0],
+            (ahead_offset * sin + left_offset * cos) + self.middle_point[1],
         ]
     }
 }

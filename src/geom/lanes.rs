@@ -178,8 +178,8 @@ pub(crate) const ROUND_TO_INTEGER: f64 = 6_755_399_441_055_744.0;
 #[inline(always)]
 fn half_circle_count(x: f64x4) -> f64x4 {
     // Angles within ±π/2 stay as they are: at ±π/2, a rounded quotient might be ±1.
-    let is_small = x.abs().simd_le(f64x4::splat(FRAC_PI_2));
-    is_small.bitselect(f64x4::splat(0.0), x * FRAC_1_PI + ROUND_TO_INTEGER - ROUND_TO_INTEGER)
+    let is_angle_small = x.abs().simd_le(f64x4::splat(FRAC_PI_2));
+    is_angle_small.bitselect(f64x4::splat(0.0), x * FRAC_1_PI + ROUND_TO_INTEGER - ROUND_TO_INTEGER)
 }
 
 #[inline(always)]

@@ -17,21 +17,21 @@ use std::f64::consts::PI;
 /// Returns the point F_μ(ξ) of a twist ξ (m, m, rad) at a stage μ of the transition: 0 is the plane of positions, 1 exponential
 /// coordinates.
 pub fn unbend(twist: &Vector3<f64>, morph_fraction: f64) -> [f64; 2] {
-    let bend_factor = 1.0 - morph_fraction;
-    let pose = SE2::exp(&Vector3::new(twist.x, bend_factor * twist.y, bend_factor * twist.z));
+    let unmorphed_fraction = 1.0 - morph_fraction;
+    let pose = SE2::exp(&Vector3::new(twist.x, unmorphed_fraction * twist.y, unmorphed_fraction * twist.z));
     [pose.x(), pose.y() + morph_fraction * twist.z]
 }
 
 /// Returns the 2 × 3 Jacobian of [`unbend`] with respect to the twist ξ.
 pub fn unbend_jacobian(twist: &Vector3<f64>, morph_fraction: f64) -> Matrix2x3<f64> {
-    let bend_factor = 1.0 - morph_fraction;
-    let bent_twist = Vector3::new(twist.x, bend_factor * twist.y, bend_factor * twist.z);
+    let unmorphed_fraction = 1.0 - morph_fraction;
+    let bent_twist = Vector3::new(twist.x, unmorphed_fraction * twist.y, unmorphed_fraction * twist.z);
     // The Jacobian of the position of exp(ξ) with respect to ξ has the upper rows of R(ω)·J_r(ξ).
     let rotation_adjoint = SE2::new(0.0, 0.0, bent_twist.z).adjoint();
     let mut morph_jacobian =
         (rotation_adjoint * SE2::right_jacobian(&bent_twist)).fixed_view::<2, 3>(0, 0).into_owned();
-    morph_jacobian.column_mut(1).scale_mut(bend_factor);
-    morph_jacobian.column_mut(2).scale_mut(bend_factor);
+    morph_jacobian.column_mut(1).scale_mut(unmorphed_fraction);
+    morph_jacobian.column_mut(2).scale_mut(unmorphed_fraction);
     morph_jacobian[(1, 2)] += morph_fraction;
     morph_jacobian
 }

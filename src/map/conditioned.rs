@@ -158,22 +158,22 @@ struct NoisyCommand {
 }
 
 impl NoisyCommand {
-    fn drive_with_noise(&self, start: &PreparedPose, unit_noise: [f64; 3]) -> (SE2, DrivenArc) {
+    fn drive_with_noise(&self, prepared_start: &PreparedPose, unit_noise: [f64; 3]) -> (SE2, DrivenArc) {
         let [arc_length, arc_turn, last_turn] = self.executed_motion(unit_noise);
-        with_last_turn(start.drive(arc_length, arc_turn), last_turn)
+        with_last_turn(prepared_start.drive(arc_length, arc_turn), last_turn)
     }
 
     /// Computes four motions in SIMD lanes. Returns a function from the lane index to the end pose and the driven arc.
     #[inline(always)]
     fn drive_four_with_noise(
         &self,
-        start: &PreparedPose,
+        prepared_start: &PreparedPose,
         trigonometry: &Trigonometry,
         unit_noise: &[f64x4; 3],
     ) -> impl Fn(usize) -> (SE2, DrivenArc) {
         let [arc_length, arc_turn, last_turn] = self.executed_motion(*unit_noise);
         let (driven_arc, last_turn) =
-            (start.drive_four(trigonometry, arc_length, arc_turn), last_turn.to_array());
+            (prepared_start.drive_four_arcs(trigonometry, arc_length, arc_turn), last_turn.to_array());
         move |lane_index| with_last_turn(driven_arc(lane_index), last_turn[lane_index])
     }
 
@@ -214,14 +214,14 @@ impl MapConditioned<'_> {
         is_conditioned: bool,
         mut visit_arc: impl FnMut(&Arc),
     ) -> Result<AcceptedMotion, NoAcceptedSample> {
-        let (mut end_free, mut path_free) = (true, true);
+        let (mut is_end_free, mut is_path_free) = (true, true);
         let (pose, cost) = self.drive_parts(u, x, rng, is_conditioned, &mut |driven_arc, end_verdict| {
             visit_arc(&driven_arc.arc);
-            end_free = end_verdict.is_free;
-            path_free =
-                path_free && self.plan.test_arc_after_end(driven_arc, end_verdict, self.clearance).is_free;
+            is_end_free = end_verdict.is_free;
+            is_path_free =
+                is_path_free && self.plan.test_arc_after_end(driven_arc, end_verdict, self.clearance).is_free;
         })?;
-        Ok(AcceptedMotion { pose, end_free, path_free, cost })
+        Ok(AcceptedMotion { pose, end_free: is_end_free, path_free: is_path_free, cost })
     }
 
     /// Returns the number of draws and of computed wall distances for one accepted motion in a particle filter. A filter makes only the

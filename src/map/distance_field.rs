@@ -182,11 +182,11 @@ impl<'a> FieldBuilder<'a> {
         {
             let max_lower_bound = max_distance + 2.0 * block_radius + self.rounding_slack;
             let is_near = |(lower_bound, _): &&(f64, WallSet)| *lower_bound <= max_lower_bound;
-            let near_candidates: Vec<_> =
+            let nearby_wall_sets: Vec<_> =
                 self.measured_walls.iter().filter(is_near).map(|(_, wall_set)| *wall_set).collect();
             let half_width = width / 2;
             for [column, row] in [[0, 0], [half_width, 0], [0, half_width], [half_width, half_width]] {
-                self.fill_block(&near_candidates, [first_column + column, first_row + row], half_width);
+                self.fill_block(&nearby_wall_sets, [first_column + column, first_row + row], half_width);
             }
             return;
         }
@@ -222,16 +222,16 @@ impl<'a> FieldBuilder<'a> {
         width: usize,
         allowed_uncertainty: f64,
     ) -> Option<[f64; 2]> {
-        let Self { wall_tree, unmeasured_walls: unmeasured, measured_walls, .. } = self;
+        let Self { wall_tree, unmeasured_walls, measured_walls, .. } = self;
         // A wall can be nearest to a point of the block only if its distance from the middle exceeds the smallest distance by at most the
         // diameter of the block.
-        let max_excess = 2.0 * width as f64 * self.distance_field.cell_radius + self.rounding_slack;
+        let max_distance_excess = 2.0 * width as f64 * self.distance_field.cell_radius + self.rounding_slack;
         measured_walls.clear();
-        unmeasured.clear();
-        unmeasured.extend_from_slice(candidate_walls);
+        unmeasured_walls.clear();
+        unmeasured_walls.extend_from_slice(candidate_walls);
         let mut least_upper_bound = f64::INFINITY;
         let mut measured_count = 0;
-        while let Some(wall_set) = unmeasured.pop() {
+        while let Some(wall_set) = unmeasured_walls.pop() {
             measured_count += 1;
             if measured_count > MAX_WALLS_PER_BLOCK + MAX_WALLS_PER_CELL * width * width {
                 return None;
@@ -242,7 +242,7 @@ impl<'a> FieldBuilder<'a> {
                 WallSet::Wall(wall) => distance_to_wall(wall as usize),
                 WallSet::Node(node) => wall_tree.wall_nodes[node as usize].lower_bound(block_centre),
             };
-            if lower_bound > least_upper_bound + max_excess {
+            if lower_bound > least_upper_bound + max_distance_excess {
                 continue;
             }
             if lower_bound < least_upper_bound {
@@ -257,12 +257,12 @@ impl<'a> FieldBuilder<'a> {
             match wall_set {
                 WallSet::Node(node)
                     if lower_bound < least_upper_bound - allowed_uncertainty
-                        || wall_tree.wall_nodes[node as usize].capsule_radius > 0.5 * max_excess =>
+                        || wall_tree.wall_nodes[node as usize].capsule_radius > 0.5 * max_distance_excess =>
                 {
                     if wall_tree.is_leaf(node as usize) {
-                        unmeasured.extend(walls_of_node(wall_tree, node as usize));
+                        unmeasured_walls.extend(walls_of_node(wall_tree, node as usize));
                     } else {
-                        unmeasured.extend([2 * node, 2 * node + 1].map(WallSet::Node));
+                        unmeasured_walls.extend([2 * node, 2 * node + 1].map(WallSet::Node));
                     }
                 }
                 _ => measured_walls.push((lower_bound, wall_set)),

@@ -16,7 +16,7 @@ impl FloorPlan {
     /// heading of the longest free path. If the disc does not fit there, the first cell where it fits is taken; None if it fits nowhere.
     pub fn find_free_pose(&self, clearance: f64) -> Option<SE2> {
         let occupancy_grid = self.grid().map_or_else(|| Cow::Owned(self.rasterize()), Cow::Borrowed);
-        let does_disc_fit = |tested_point: &[f64; 2]| self.test_point(*tested_point, clearance).is_free;
+        let does_robot_fit = |tested_point: &[f64; 2]| self.test_point(*tested_point, clearance).is_free;
         let [column_count, row_count] = occupancy_grid.size();
         let middle_coordinates = (0..row_count).flat_map(|cell_row| {
             (0..column_count).map(move |cell_column| [cell_column as f64 + 0.5, cell_row as f64 + 0.5])
@@ -24,8 +24,8 @@ impl FloorPlan {
         let mut cell_middles = middle_coordinates.map(|grid_point| occupancy_grid.world_point(grid_point));
         let square_middle = middle_of_largest_free_square(&occupancy_grid)
             .map(|grid_point| occupancy_grid.world_point(grid_point));
-        let [x, y] = square_middle.filter(does_disc_fit).or_else(|| cell_middles.find(does_disc_fit))?;
-        Some(SE2::new(x, y, heading_of_longest_path(&occupancy_grid, [x, y], does_disc_fit)))
+        let [x, y] = square_middle.filter(does_robot_fit).or_else(|| cell_middles.find(does_robot_fit))?;
+        Some(SE2::new(x, y, heading_of_longest_path(&occupancy_grid, [x, y], does_robot_fit)))
     }
 
     /// Returns a grid for a plan of walls. Cells that may touch a wall are occupied.
@@ -74,7 +74,7 @@ fn middle_of_largest_free_square(occupancy_grid: &OccupancyGrid) -> Option<[f64;
 fn heading_of_longest_path(
     occupancy_grid: &OccupancyGrid,
     [x, y]: [f64; 2],
-    does_disc_fit: impl Fn(&[f64; 2]) -> bool,
+    does_robot_fit: impl Fn(&[f64; 2]) -> bool,
 ) -> f64 {
     let is_free = |point: &[f64; 2]| {
         let [cell_column, cell_row] = occupancy_grid.cell_coordinates(*point);
@@ -89,7 +89,7 @@ fn heading_of_longest_path(
         let free_steps = (1..)
             .map(|half_cell_steps| 0.5 * occupancy_grid.resolution() * f64::from(half_cell_steps))
             .map(|tested_distance| [x + tested_distance * cos, y + tested_distance * sin])
-            .take_while(|point| is_free(point) && does_disc_fit(point))
+            .take_while(|point| is_free(point) && does_robot_fit(point))
             .count();
         if free_steps > max_steps {
             (max_steps, best_heading) = (free_steps, tried_heading);

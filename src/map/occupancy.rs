@@ -249,21 +249,21 @@ impl OccupancyGrid {
             if cells == cells_below {
                 continue;
             }
-            let (mut row_start, mut was_left_different) = (None, false);
+            let (mut outline_start_column, mut is_left_blocked) = (None, false);
             for (column, outline_start) in outline_starts.iter_mut().enumerate() {
                 let [is_cell_blocked, is_below_blocked] =
                     [cells, cells_below].map(|row| self.is_blocked(row, column));
                 if let Some(from) =
-                    update_outline(&mut row_start, is_below_blocked != is_cell_blocked, column)
+                    update_outline(&mut outline_start_column, is_below_blocked != is_cell_blocked, column)
                 {
                     walls.push(self.wall_between([from, row], [column, row]));
                 }
                 if let Some(first_row) =
-                    update_outline(outline_start, was_left_different != is_cell_blocked, row)
+                    update_outline(outline_start, is_left_blocked != is_cell_blocked, row)
                 {
                     vertical_walls.push([column, first_row, row]);
                 }
-                was_left_different = is_cell_blocked;
+                is_left_blocked = is_cell_blocked;
             }
             if walls.len() + vertical_walls.len() > max_outlines {
                 return Err(max_outlines + 1);

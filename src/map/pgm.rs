@@ -15,7 +15,7 @@ const MAX_QUOTED_CHARACTERS: usize = 20;
 /// with [`ImageError`] with the line of the header, or the line where plain pixels end.
 pub fn read_pgm(file_bytes: &[u8]) -> Result<Image<f32>, ImageError> {
     let mut token_reader = TokenReader { file_bytes, byte_position: 0, line: 1 };
-    let is_plain = match token_reader.next_token() {
+    let is_plain_pgm = match token_reader.next_token() {
         b"P5" => false,
         b"P2" => true,
         token => return Err(token_reader.create_error("the magic number", token, "P5 or P2".to_owned())),
@@ -25,7 +25,7 @@ pub fn read_pgm(file_bytes: &[u8]) -> Result<Image<f32>, ImageError> {
     let max_value = token_reader.read_number("the maximum value", 1, 65_535)?;
     let pixel_count = width * height;
     let brightness_of = |pixel_value: usize| pixel_value.min(max_value) as f32 / max_value as f32;
-    if is_plain {
+    if is_plain_pgm {
         let pixel_results =
             (0..pixel_count).map(|_| token_reader.read_number("a pixel", 0, max_value).map(brightness_of));
         return Ok(Image { width, height, pixels: pixel_results.collect::<Result<_, _>>()? });

@@ -36,10 +36,10 @@ impl WallTree {
     pub fn new(walls: &[Segment], plan_bounds: [f64; 4]) -> Self {
         // Copies of a wall would fill leaves of which every distance must be computed.
         let mut known_walls = BTreeSet::new();
-        let is_new = |wall: &&Segment| {
+        let is_new_wall = |wall: &&Segment| {
             known_walls.insert([wall.from, wall.to].map(|wall_end| wall_end.map(f64::to_bits)))
         };
-        let walls: Vec<Segment> = walls.iter().filter(is_new).copied().collect();
+        let walls: Vec<Segment> = walls.iter().filter(is_new_wall).copied().collect();
         let leaf_count = if walls.len() <= MAX_SINGLE_LEAF_WALLS {
             1
         } else {
@@ -56,7 +56,7 @@ impl WallTree {
                     .fold(0.0, |largest_bound: f64, plan_bound| largest_bound.max(plan_bound.abs())),
         };
         for parent_index in 1..leaf_count {
-            wall_tree.sort_into_halves(parent_index);
+            wall_tree.sort_walls_into_halves(parent_index);
             let child_nodes =
                 [2 * parent_index, 2 * parent_index + 1].map(|child_id| wall_tree.create_node(child_id));
             wall_tree.wall_nodes.extend(child_nodes);
@@ -65,7 +65,7 @@ impl WallTree {
     }
 
     /// Sorts the walls of a node into two halves, one for each child. The sort key is the component of [`sort_keys`] with the widest range.
-    fn sort_into_halves(&mut self, node_index: usize) {
+    fn sort_walls_into_halves(&mut self, node_index: usize) {
         let (wall_range, middle_index) = (self.wall_range(node_index), self.wall_range(2 * node_index).end);
         let node_walls = &mut self.walls[wall_range.clone()];
         let mut key_ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
@@ -75,8 +75,8 @@ impl WallTree {
             }
         }
         let key_range_widths = key_ranges.map(|[min_key, max_key]| max_key - min_key);
-        let widest_key_index = (1..4).fold(0, |widest, key_index| {
-            if key_range_widths[key_index] > key_range_widths[widest] { key_index } else { widest }
+        let widest_key_index = (1..4).fold(0, |max_index, key_index| {
+            if key_range_widths[key_index] > key_range_widths[max_index] { key_index } else { max_index }
         });
         select_smallest(node_walls, middle_index - wall_range.start, widest_key_index);
     }
@@ -107,16 +107,16 @@ impl WallTree {
         for ([x, y], [min_along, min_across, max_along, max_across]) in
             candidate_axes.into_iter().zip(bounds_along_axes)
         {
-            let (axis_offset, width) = (0.5 * (min_across + max_across), max_across - min_across);
+            let (axis_offset, capsule_width) = (0.5 * (min_across + max_across), max_across - min_across);
             // The ends of a capsule are round, so that the axis of a capsule can be shorter than the walls inside.
-            let axis_shortening = (0.25 * width).min(0.5 * (max_along - min_along));
+            let axis_shortening = (0.25 * capsule_width).min(0.5 * (max_along - min_along));
             let point_at = |along: f64| [along * x - axis_offset * y, along * y + axis_offset * x];
-            if width < narrowest_capsule.0 {
-                let axis = Segment {
+            if capsule_width < narrowest_capsule.0 {
+                let candidate_axis = Segment {
                     from: point_at(min_along + axis_shortening),
                     to: point_at(max_along - axis_shortening),
                 };
-                narrowest_capsule = (width, axis);
+                narrowest_capsule = (capsule_width, candidate_axis);
             }
         }
         let capsule_axis = narrowest_capsule.1;

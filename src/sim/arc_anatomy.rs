@@ -105,7 +105,7 @@ js_structs! {
 
     /// One of the three factors of the score p of Table 5.1.
     #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct ScoreFactor {
+    pub struct ProbFactor {
         /// Value of v̂, ω̂ or γ̂ that the final pose implies (m/s, rad/s).
         pub estimate: f64,
         /// Residual v − v̂, ω − ω̂ or γ̂: the argument of `prob` in Table 5.1.
@@ -132,7 +132,7 @@ js_structs! {
         /// Final turn γ̂Δt, rad.
         pub last_turn: f64,
         /// Factors of the score p, for v̂, ω̂ and γ̂.
-        pub factors: [ScoreFactor; 3],
+        pub factors: [ProbFactor; 3],
         /// Index of the factor whose residual is the largest, in standard deviations.
         pub weakest: usize,
         /// p, the product of the three factors.
@@ -220,7 +220,7 @@ impl ArcAnatomy {
         let Settings { command, noise: noise_kind, .. } = &self.settings;
         let (start, next) = (self.settings.start_pose(), self.settings.next_pose());
         let controls = self.selected_inversion();
-        let factors = self.noise_residuals(&controls).map(|residual| ScoreFactor::new(*noise_kind, residual));
+        let factors = self.noise_residuals(&controls).map(|residual| ProbFactor::new(*noise_kind, residual));
         let size_of = |i: &usize| factors[*i].deviations.abs();
         let weakest_index = (0..3).rev().max_by(|a, b| size_of(a).total_cmp(&size_of(b))).unwrap_or(0);
         let [commanded_arc, inverted_arc, driven_arc] = self.list_arcs().map(ArcWithCircle::from);
@@ -232,7 +232,7 @@ impl ArcAnatomy {
             factors,
             weakest: weakest_index,
             prob: self.prob(),
-            share: factors.iter().map(|score_factor| score_factor.share).product(),
+            share: factors.iter().map(|prob_factor| prob_factor.share).product(),
             density: self.settings.velocity_model().pose_density(&next, command, &start),
             xi: next.boxminus(&start).into(),
         }
@@ -357,17 +357,16 @@ impl ArcAnatomy {
         let cell_centre_at = |[cell_column, row]: [f64; 2]| {
             [min_corner[0] + (cell_column + 0.5) * cell_size[0], max_corner[1] - (row + 0.5) * cell_size[1]]
         };
-        let evaluate_cells = |score_at: &dyn Fn([f64; 3]) -> f64| -> Vec<f64> {
+        let score_cells = |score_at: &dyn Fn([f64; 3]) -> f64| -> Vec<f64> {
             let cell_score_at = |i: usize| {
                 let [x, y] = cell_centre_at([(i % column_count) as f64, (i / column_count) as f64]);
                 score_at([x, y, theta]).min(f64::MAX)
             };
             (0..column_count * row_count).map(cell_score_at).collect()
         };
-        let prob_values =
-            evaluate_cells(&|next| Self { settings: Settings { next, ..self.settings } }.prob());
+        let prob_values = score_cells(&|next| Self { settings: Settings { next, ..self.settings } }.prob());
         let density_values =
-            evaluate_cells(&|next| model.pose_density(&next.into(), &command, &start).unwrap_or(0.0));
+            score_cells(&|next| model.pose_density(&next.into(), &command, &start).unwrap_or(0.0));
         let shown_values = if heat_map == HeatMapKind::Prob { &prob_values } else { &density_values };
         let maximum_of = |field_values: &[f64]| field_values.iter().copied().fold(0.0, f64::max);
         let shown_maximum = maximum_of(shown_values);
@@ -411,7 +410,7 @@ impl From<Arc> for ArcWithCircle {
     }
 }
 
-impl ScoreFactor {
+impl ProbFactor {
     fn new(noise_kind: NoiseKind, (estimate, residual, variance): (f64, f64, Variance)) -> Self {
         let (value, prob_at_zero) = (noise_kind.prob(residual, variance), noise_kind.prob(0.0, variance));
         let noise_std = variance.0.sqrt();

@@ -213,12 +213,12 @@ impl OdometryDecomposer {
 
     /// Returns the pose of the robot at the progress that the setting `phase` gives.
     pub fn robot_pose(&self) -> SE2 {
-        let done_fraction_from = |phase_before: f64| (self.settings.phase - phase_before).clamp(0.0, 1.0);
+        let driven_fraction_since = |start_phase: f64| (self.settings.phase - start_phase).clamp(0.0, 1.0);
         let OdomDelta { rot1, trans, rot2 } = self.legs();
         let legs = OdomDelta {
-            rot1: done_fraction_from(0.0) * rot1,
-            trans: done_fraction_from(1.0) * trans,
-            rot2: done_fraction_from(2.0) * rot2,
+            rot1: driven_fraction_since(0.0) * rot1,
+            trans: driven_fraction_since(1.0) * trans,
+            rot2: driven_fraction_since(2.0) * rot2,
         };
         legs.apply(&self.start_pose())
     }

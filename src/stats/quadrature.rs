@@ -35,8 +35,8 @@ fn normal_nodes() -> Vec<Node> {
     const STEPS_PER_SIDE: i32 = 36;
     (-STEPS_PER_SIDE..=STEPS_PER_SIDE)
         .map(|i| {
-            let value = STEP_SIZE * f64::from(i);
-            Node { node_value: value, node_weight: STEP_SIZE * libm::exp(-0.5 * value * value) / TAU.sqrt() }
+            let node = STEP_SIZE * f64::from(i);
+            Node { node_value: node, node_weight: STEP_SIZE * libm::exp(-0.5 * node * node) / TAU.sqrt() }
         })
         .collect()
 }

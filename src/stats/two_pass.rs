@@ -96,8 +96,8 @@ impl FirstPass {
 
     #[inline(always)]
     pub fn multiply_jacobians(&mut self, poses: &FourPoses, four_arcs: &FourArcs) {
-        let multiply_lanes = |four_factors: f64x4| {
-            let [low_lanes, high_lanes] = split_into_lane_pairs(four_factors);
+        let multiply_lanes = |factor_lanes: f64x4| {
+            let [low_lanes, high_lanes] = split_into_lane_pairs(factor_lanes);
             low_lanes * high_lanes
         };
         let (twist_sincs, arc_sincs) = (multiply_lanes(poses.sinc), multiply_lanes(four_arcs.sinc));
@@ -293,9 +293,9 @@ impl SecondPass {
         let FirstPassMoments { mean_position: [x, y], position_cov: [xx, xy, yy], .. } = self.first_pass;
         let (sin, cos) = self.heading_sin_cos;
         let bessel_factor = if pose_count > 1 { n / (n - 1.0) } else { f64::NAN };
-        let [x_turn, y_turn, turn_variance] =
+        let [x_turn_cov, y_turn_cov, turn_variance] =
             [mean_ta * cos - td * sin, mean_ta * sin + td * cos, tt - t * t].map(|mean| bessel_factor * mean);
-        let cov = Matrix3::new(xx, xy, x_turn, xy, yy, y_turn, x_turn, y_turn, turn_variance);
+        let cov = Matrix3::new(xx, xy, x_turn_cov, xy, yy, y_turn_cov, x_turn_cov, y_turn_cov, turn_variance);
         let track_moments = TrackMoments {
             products,
             squared_extent: x * x + y * y + if pose_count > 1 { (xx + yy) / bessel_factor } else { 0.0 },

@@ -39,7 +39,7 @@ impl<'a> FieldReader<'a> {
     }
 
     /// Returns the reader of an object that may also have other keys.
-    pub fn with_any_keys(
+    pub fn new_with_any_keys(
         name: &str,
         key_prefix: &'a str,
         object: &'a JsValue,

@@ -52,7 +52,7 @@ fn read_drives(
 fn read_odometry(field_path: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     let path_prefix = format!("{field_path}.");
     let allowed_text = "an object with keys from t, x, y, theta, breaks or from t, v, omega, breaks";
-    let log_fields = FieldReader::with_any_keys(field_path, &path_prefix, value, allowed_text)?;
+    let log_fields = FieldReader::new_with_any_keys(field_path, &path_prefix, value, allowed_text)?;
     if log_fields.value("v")?.is_undefined() && log_fields.value("omega")?.is_undefined() {
         return read_poses(field_path, value);
     }

@@ -49,7 +49,7 @@ pub fn read_plan(plan_value: &JsValue) -> Result<FloorPlan, JsValue> {
 
 /// Reads a map as `map_server` does: from an image (the bytes of a file, or pixels), and the fields of its YAML file with their defaults.
 pub fn read_map(description_value: &JsValue, image_value: &JsValue) -> Result<OccupancyGrid, JsValue> {
-    let map_fields = FieldReader::with_any_keys("description", "", description_value, "an object")?;
+    let map_fields = FieldReader::new_with_any_keys("description", "", description_value, "an object")?;
     let resolution = check_range("resolution", map_fields.number("resolution")?, &RESOLUTION_RANGE)?;
     let origin: [f64; 3] = read_array_in_range("origin", &map_fields.value("origin")?, &QUANTITY_RANGE)?;
     let default_classifier = PixelClassifier::default();
@@ -62,9 +62,9 @@ pub fn read_map(description_value: &JsValue, image_value: &JsValue) -> Result<Oc
     let default_free_thresh = default_classifier.free_thresh.min(occupied_thresh);
     let free_thresh = map_fields.read_or("free_thresh", default_free_thresh, 0.0..=1.0)?;
     if free_thresh > occupied_thresh {
-        let [free_text, limit_text] = [free_thresh, occupied_thresh].map(format_number);
+        let [free_thresh_text, occupied_text] = [free_thresh, occupied_thresh].map(format_number);
         let error_message =
-            format!("free_thresh is {free_text}; allowed is at most occupied_thresh, {limit_text}");
+            format!("free_thresh is {free_thresh_text}; allowed is at most occupied_thresh, {occupied_text}");
         return Err(RangeError::new(&error_message).into());
     }
     let map_mode = map_fields.read_or("mode", default_classifier.mode, ())?;
@@ -84,7 +84,7 @@ pub fn read_map(description_value: &JsValue, image_value: &JsValue) -> Result<Oc
 /// Reads width, height, and the red, green, blue and opacity of each pixel of an ImageData. An object with the same properties is accepted,
 /// because Node has no such class.
 fn read_pixels(image_value: &JsValue) -> Result<(usize, usize, Vec<u8>), JsValue> {
-    let image_fields = FieldReader::with_any_keys("image", "image.", image_value, "an object")?;
+    let image_fields = FieldReader::new_with_any_keys("image", "image.", image_value, "an object")?;
     let width = read_integer("image.width", image_fields.number("width")?, 1..=MAX_PIXELS as u64)? as usize;
     let height =
         read_integer("image.height", image_fields.number("height")?, 1..=(MAX_PIXELS / width) as u64)?

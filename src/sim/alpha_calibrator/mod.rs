@@ -334,12 +334,12 @@ fn create_panel(
     let mut regressor_values: Vec<f64> = leg_points.iter().map(|point| point[0]).collect();
     regressor_values.sort_unstable_by(f64::total_cmp);
     let bin_size = leg_points.len().div_ceil(BIN_COUNT).max(MIN_LEGS_PER_BIN);
-    let mut previous_limit = f64::NEG_INFINITY;
+    let mut previous_bin_end = f64::NEG_INFINITY;
     for leg_bin in regressor_values.chunks(bin_size) {
-        let bin_limit = leg_bin[leg_bin.len() - 1];
+        let bin_end = leg_bin[leg_bin.len() - 1];
         let leg_bin: Vec<&[f64; 3]> =
-            leg_points.iter().filter(|point| point[0] > previous_limit && point[0] <= bin_limit).collect();
-        previous_limit = bin_limit;
+            leg_points.iter().filter(|point| point[0] > previous_bin_end && point[0] <= bin_end).collect();
+        previous_bin_end = bin_end;
         let leg_count = leg_bin.len() as f64;
         let sum_over_bin =
             |term_of: &dyn Fn(&[f64; 3]) -> f64| leg_bin.iter().copied().map(term_of).sum::<f64>();

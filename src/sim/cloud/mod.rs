@@ -117,11 +117,11 @@ impl Cloud {
                 self.drive.morphed_points(&four_motions, &self.positions[group_index], morph_fraction)
             }
         };
-        let (full_groups, used_lanes) = (self.shown_count / LANE_COUNT, self.shown_count % LANE_COUNT);
+        let (full_groups, used_lane_count) = (self.shown_count / LANE_COUNT, self.shown_count % LANE_COUNT);
         let mask_points = move |point_lanes: f64x4| {
-            first_lanes_mask(used_lanes).bitselect(point_lanes, f64x4::splat(f64::INFINITY))
+            first_lanes_mask(used_lane_count).bitselect(point_lanes, f64x4::splat(f64::INFINITY))
         };
-        let last_group = (used_lanes > 0).then(|| points_of_group(full_groups).map(mask_points));
+        let last_group = (used_lane_count > 0).then(|| points_of_group(full_groups).map(mask_points));
         (0..full_groups).map(points_of_group).chain(last_group)
     }
 }
@@ -150,8 +150,8 @@ fn add_to_first_pass(
     let is_full_group = lane_mask.all();
     for (noise, end_points) in noise.iter().zip(end_points) {
         let four_motions = drive.compute_motions(noise);
-        let (four_arcs, is_regular);
-        (*end_points, four_arcs, is_regular) = drive.end_points(&four_motions);
+        let (four_arcs, are_arcs_regular);
+        (*end_points, four_arcs, are_arcs_regular) = drive.end_points(&four_motions);
         let poses = drive.poses(&four_motions, end_points);
         first_pass.add(&poses, [noise[0], noise[1]], lane_mask);
         if is_full_group {
@@ -159,7 +159,7 @@ fn add_to_first_pass(
         } else {
             first_pass.multiply_masked_jacobians(&poses, &four_arcs, lane_mask);
         }
-        if !is_regular {
+        if !are_arcs_regular {
             first_pass.add_irregular_arcs(&four_arcs, drive.regular_arc_deviations(noise), lane_mask);
         }
     }

@@ -177,8 +177,8 @@ impl DeadReckoning {
     /// no such step.
     pub fn poses(&self, step: u32) -> &[[f64; 3]] {
         let Self { settings, rollouts, shown_count, .. } = self;
-        let step_exists = (1..=settings.steps).contains(&step);
-        if step_exists { rollouts.poses(step as usize, *shown_count) } else { &[] }
+        let is_step_valid = (1..=settings.steps).contains(&step);
+        if is_step_valid { rollouts.poses(step as usize, *shown_count) } else { &[] }
     }
 
     /// Returns ξ = x_k ⊟ x̄_k of the robots in the picture after the selected step: along (m), lateral (m), heading (rad).
@@ -259,15 +259,15 @@ impl DeadReckoning {
     /// fewer entries.
     pub fn milestones(&self) -> Vec<Milestone> {
         let Settings { step: selected_step, steps: step_count, .. } = self.settings;
-        let mut quarter_ends: Vec<u32> = (1..=4)
+        let mut quarter_end_steps: Vec<u32> = (1..=4)
             .map(|quarter_number| ((f64::from(quarter_number * step_count) / 4.0).round() as u32).max(1))
             .collect();
-        quarter_ends.dedup();
-        quarter_ends.retain(|step_number| *step_number != selected_step);
-        let milestone_after = |step_number| {
+        quarter_end_steps.dedup();
+        quarter_end_steps.retain(|step_number| *step_number != selected_step);
+        let milestone_of_step = |step_number| {
             Some(Milestone { poses: self.poses(step_number).to_vec(), outlines: self.outlines(step_number)? })
         };
-        quarter_ends.into_iter().filter_map(milestone_after).collect()
+        quarter_end_steps.into_iter().filter_map(milestone_of_step).collect()
     }
 
     /// Returns the outlines after a step, by the selected recursion; None if there is no such step.
@@ -301,8 +301,8 @@ fn compare_recursions(
     predicted.each_ref().map(|predicted_covs| RecursionComparison::new(settings, predicted_covs, measured))
 }
 
-fn evaluate_recursions<T>(value_of: impl Fn(Compounding) -> T) -> ByRecursion<T> {
-    let [chapter, first_order, fourth_order] = RECURSIONS.map(value_of);
+fn evaluate_recursions<T>(evaluate_recursion: impl Fn(Compounding) -> T) -> ByRecursion<T> {
+    let [chapter, first_order, fourth_order] = RECURSIONS.map(evaluate_recursion);
     ByRecursion { chapter, first_order, fourth_order }
 }
 

@@ -178,11 +178,11 @@ impl Rollouts {
         for (k, (sums, nominal_poses)) in sums.iter_mut().zip(nominal_poses).enumerate() {
             robot_block.drive_one_step(error_step);
             for (i, xi) in robot_block.noise_or_xi.iter().enumerate() {
-                let remaining_lanes = robot_count.saturating_sub(LANE_COUNT * i);
-                if remaining_lanes >= LANE_COUNT {
+                let remaining_robot_count = robot_count.saturating_sub(LANE_COUNT * i);
+                if remaining_robot_count >= LANE_COUNT {
                     add_to_sums(sums, *xi);
                 } else {
-                    let lane_mask = first_lanes_mask(remaining_lanes);
+                    let lane_mask = first_lanes_mask(remaining_robot_count);
                     add_to_sums(sums, xi.map(|lane_values| lane_values & lane_mask));
                 }
             }
@@ -232,9 +232,9 @@ struct RobotBlock {
 
 impl RobotBlock {
     fn new(rng: Xoshiro256PlusPlus) -> Self {
-        let [zero, one_lanes] = [0.0, 1.0].map(f64x4::splat);
-        let zero_errors = ErrorPoses { x: zero, y: zero, half_heading: zero, sin: zero, cos: one_lanes };
-        Self { rng, groups: [zero_errors; GROUPS_PER_BLOCK], noise_or_xi: [[zero; 3]; GROUPS_PER_BLOCK] }
+        let [zeros, one_lanes] = [0.0, 1.0].map(f64x4::splat);
+        let zero_errors = ErrorPoses { x: zeros, y: zeros, half_heading: zeros, sin: zeros, cos: one_lanes };
+        Self { rng, groups: [zero_errors; GROUPS_PER_BLOCK], noise_or_xi: [[zeros; 3]; GROUPS_PER_BLOCK] }
     }
 
     #[inline(never)]

@@ -76,8 +76,8 @@ impl MapSqueeze {
 
     fn reserve_memory(&mut self, settings: &Settings) -> Result<(), SettingsError> {
         let to_memory_error = |_| SettingsError::out_of_memory(settings.samples);
-        let missing_attempts = settings.samples.saturating_sub(self.tested_attempts.len());
-        self.tested_attempts.try_reserve_exact(missing_attempts).map_err(to_memory_error)?;
+        let missing_attempt_count = settings.samples.saturating_sub(self.tested_attempts.len());
+        self.tested_attempts.try_reserve_exact(missing_attempt_count).map_err(to_memory_error)?;
         self.noise_draws.reserve(settings.samples).map_err(to_memory_error)
     }
 
@@ -140,18 +140,18 @@ impl MapSqueeze {
         self.noise_draws.reset_if_changed(self.settings.seed, NoiseKind::Normal);
         self.noise_draws.extend_to(target_count);
         let part_count = self.settings.part_count() as usize;
-        let Self { floor_plan: plan, settings, noise_draws, tested_attempts, outcome_tally: tally, .. } =
-            self;
+        let Self { floor_plan: plan, settings, noise_draws, tested_attempts, outcome_tally, .. } = self;
         let map_model = conditioned_model(settings, plan, settings.sampler);
         let attempt_driver = AttemptDriver::new(&map_model, settings, noise_draws);
-        while tested_attempts.len() < target_count && !tally.gave_up {
+        while tested_attempts.len() < target_count && !outcome_tally.gave_up {
             attempt_driver.make_next_attempts(tested_attempts.len()..target_count, |next_attempt, cost| {
-                tally.total_cost.add(cost);
-                tally.accepted_count += usize::from(next_attempt.accepted);
-                tally.through_wall += usize::from(next_attempt.is_through_wall());
+                outcome_tally.total_cost.add(cost);
+                outcome_tally.accepted_count += usize::from(next_attempt.accepted);
+                outcome_tally.through_wall += usize::from(next_attempt.is_through_wall());
                 tested_attempts.push(next_attempt);
             });
-            tally.gave_up = tally.total_cost.draws > max_draws(part_count * tested_attempts.len());
+            outcome_tally.gave_up =
+                outcome_tally.total_cost.draws > max_draws(part_count * tested_attempts.len());
         }
     }
 
@@ -229,13 +229,13 @@ impl MapSqueeze {
     pub fn first_contact(&self, attempt_index: usize) -> Option<[f64; 2]> {
         let is_free = |arc: &Arc| self.floor_plan.test_arc(arc, self.settings.clearance).is_free;
         let arc = self.arcs(attempt_index).into_iter().find(|arc| !is_free(arc))?;
-        let mut fractions = 0.0..1.0;
+        let mut bracket = 0.0..1.0;
         for _ in 0..CONTACT_BISECTIONS {
-            let middle = 0.5 * (fractions.start + fractions.end);
-            *(if is_free(&arc.leading_part(middle)) { &mut fractions.start } else { &mut fractions.end }) =
-                middle;
+            let midpoint = 0.5 * (bracket.start + bracket.end);
+            *(if is_free(&arc.leading_part(midpoint)) { &mut bracket.start } else { &mut bracket.end }) =
+                midpoint;
         }
-        let stop_point = arc.leading_part(fractions.end).end().position();
+        let stop_point = arc.leading_part(bracket.end).end().position();
         let distance_of = |wall: &Segment| wall.distance_to_point(stop_point);
         let walls = self.floor_plan.walls().iter();
         Some(walls.min_by(|a, b| distance_of(a).total_cmp(&distance_of(b)))?.nearest_point(stop_point))
@@ -426,8 +426,8 @@ impl<'a> AttemptDriver<'a> {
         // wall changes only attempts near the wall.
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (attempt_index as u64).rotate_left(32));
         match self.map_model.sample_with_arcs(&command, &start_pose, &mut rng, is_conditioned, visit_arc) {
-            Ok(AcceptedMotion { pose, end_free, path_free, cost }) => {
-                (Attempt { pose, accepted: true, end_free, path_free }, cost)
+            Ok(AcceptedMotion { pose, end_free: is_end_free, path_free: is_path_free, cost }) => {
+                (Attempt { pose, accepted: true, end_free: is_end_free, path_free: is_path_free }, cost)
             }
             Err(NoAcceptedSample(cost)) => {
                 (Attempt { pose: start_pose, accepted: false, end_free: false, path_free: false }, cost)

@@ -184,17 +184,19 @@ impl Drive {
         })
     }
 
-    /// Adds the legs of this drive, which has the index `drive`, to `legs`, and the numbers of omitted legs to `lost`. Each leg begins where
-    /// the previous one ended.
-    pub(super) fn cut_into_legs(
+    /// Cuts the drive, which has the index `drive`, into legs. Each leg begins where the previous leg ended. Omitted legs are added to `lost`.
+    ///
+    /// `clock_offset` (s) is the time of the reference's clock minus the time of the odometry's clock. A leg may lead across a pause of a
+    /// trajectory, because its start and end poses are known, but not across a break.
+    pub fn cut_into_legs(
         &self,
         drive: usize,
         length: LegLength,
         clock_offset: f64,
-        legs: &mut Vec<Leg>,
         lost: &mut LostLegs,
-    ) {
+    ) -> Vec<Leg> {
         let Self { odometry, reference } = self;
+        let mut legs: Vec<Leg> = Vec::new();
         let mut leg_start: Option<LegEnd> = None;
         for reading in odometry.samples() {
             let (reading_time, pose) = reading;
@@ -229,32 +231,16 @@ impl Drive {
             } else if turn(&motion) < MAX_STANDING_TURN && distance(&motion) < MAX_SPIN_DISTANCE {
                 lost.standing += 1;
             } else {
-                let follows_leg = |before: &Leg| before.drive == drive && before.times[1] == start.time;
                 legs.push(Leg {
                     times,
                     odometry: poses,
                     velocities: [start.velocity, end.velocity],
                     reference: [start_reference, end_reference],
-                    follows: legs.last().is_some_and(follows_leg),
+                    follows: legs.last().is_some_and(|before| before.times[1] == start.time),
                     drive,
                 });
             }
         }
+        legs
     }
-}
-
-/// Cuts a log into legs. Each leg begins where the previous leg ended.
-///
-/// `clock_offset` (s) is the time of the reference's clock minus the time of the odometry's clock. A leg may lead across a pause of a
-/// trajectory, because its start and end poses are known, but not across a break.
-pub fn split_into_legs(
-    odometry: &Trajectory,
-    reference: &Trajectory,
-    length: LegLength,
-    clock_offset: f64,
-) -> (Vec<Leg>, LostLegs) {
-    let (mut legs, mut lost_legs) = (Vec::new(), LostLegs::default());
-    let drive = Drive { odometry: odometry.clone(), reference: reference.clone() };
-    drive.cut_into_legs(0, length, clock_offset, &mut legs, &mut lost_legs);
-    (legs, lost_legs)
 }

@@ -19,7 +19,7 @@ mod windows;
 
 pub use checks::{Check, CheckName, Diagnostics, FailureCause, Verdict, WindowCoverage};
 pub use intervals::NotIdentifiable;
-pub use legs::{Leg, LegLength, LostLegs, MIN_LEGS, split_into_legs};
+pub use legs::{Leg, LegLength, LostLegs, MIN_LEGS};
 pub use residuals::{ERROR_COUNT, ErrorMask, Model, Observation, Systematic, SystematicError};
 pub use result::{Calibration, Estimate, LegFit, Persistence, Recommendation};
 pub use trajectory::{Trajectory, TrajectoryError};
@@ -92,22 +92,14 @@ pub enum CalibrateError {
 /// ```
 /// use motion::calibrate::{CalibrateError, Drive, LegLength, Model, Options, Outliers, Trajectory, calibrate};
 /// use motion::geom::se2::SE2;
-/// use motion::models::OdometryRule;
 ///
 /// let samples = (0..10).map(|i| (0.1 * f64::from(i), SE2::new(0.1 * f64::from(i), 0.0, 0.0)));
-/// let odometry = Trajectory::new(samples.clone())?;
-/// let reference = Trajectory::new(samples)?;
-/// let options = Options {
-///     model: Model::Odometry(OdometryRule::Nav2),
-///     legs: LegLength::AMCL,
-///     outliers: Outliers::Reject,
-///     correct: Default::default(),
-///     position_std: None,
-///     yaw_std: None,
-/// };
+/// let trajectory = Trajectory::new(samples)?;
+/// let drive = Drive { odometry: trajectory.clone(), reference: trajectory };
+/// let (model, legs, outliers) = (Model::Velocity, LegLength::AMCL, Outliers::Reject);
+/// let options = Options { model, legs, outliers, correct: [None; 6], position_std: None, yaw_std: None };
 /// // Ten samples are too short a log.
-/// let result = calibrate(&[Drive { odometry, reference }], &options);
-/// assert!(matches!(result, Err(CalibrateError::TooFewLegs { .. })));
+/// assert!(matches!(calibrate(&[drive], &options), Err(CalibrateError::TooFewLegs { .. })));
 /// # Ok::<(), motion::calibrate::TrajectoryError>(())
 /// ```
 pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, CalibrateError> {

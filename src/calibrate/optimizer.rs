@@ -30,7 +30,7 @@ impl<'a> Log<'a> {
             if index == 0 {
                 log.clock_offset = drive_offset;
             }
-            drive.cut_into_legs(index, leg_length, drive_offset, &mut log.legs, &mut log.lost);
+            log.legs.extend(drive.cut_into_legs(index, leg_length, drive_offset, &mut log.lost));
         }
         if log.legs.len() < MIN_LEGS {
             return Err(CalibrateError::TooFewLegs { legs: log.legs.len() });

@@ -1,7 +1,7 @@
 //! Trajectories, and their division into legs.
 
-use super::new_trajectory;
-use motion::calibrate::{Leg, LegLength, LostLegs, Trajectory, split_into_legs};
+use super::{new_trajectory, split_into_legs};
+use motion::calibrate::{Leg, LegLength, LostLegs, Trajectory};
 use motion::geom::se2::{SE2, wrap_angle};
 use nalgebra::Vector3;
 

@@ -10,7 +10,9 @@ mod simulated;
 mod windows;
 
 use crate::common::seeded_rng;
-use motion::calibrate::{Calibration, Drive, Model, Options, Trajectory, calibrate};
+use motion::calibrate::{
+    Calibration, Drive, Leg, LegLength, LostLegs, Model, Options, Trajectory, calibrate,
+};
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
 use motion::{NoiseKind, Variance};
@@ -27,6 +29,18 @@ fn calibrate_log(odometry_and_reference: &[Trajectory; 2], calibration_options: 
     let [odometry_log, reference_log] = odometry_and_reference.clone();
     calibrate(&[Drive { odometry: odometry_log, reference: reference_log }], calibration_options)
         .expect("enough legs")
+}
+
+/// Returns the legs of a log, and the numbers of omitted legs.
+fn split_into_legs(
+    odometry_log: &Trajectory,
+    reference_log: &Trajectory,
+    leg_length: LegLength,
+    clock_offset: f64,
+) -> (Vec<Leg>, LostLegs) {
+    let mut lost_legs = LostLegs::default();
+    let drive = Drive { odometry: odometry_log.clone(), reference: reference_log.clone() };
+    (drive.cut_into_legs(0, leg_length, clock_offset, &mut lost_legs), lost_legs)
 }
 
 fn options_of(model: Model) -> Options {

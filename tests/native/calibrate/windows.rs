@@ -1,9 +1,9 @@
 //! Recommended α's, tested on windows (successive legs of a metre in total) of another log of the same robot.
 
-use super::calibrate_simulation;
 use super::simulated::{MODELS, Simulation, Violation, execute_motion};
+use super::{calibrate_simulation, split_into_legs};
 use crate::common::seeded_rng;
-use motion::calibrate::{Leg, Model, split_into_legs};
+use motion::calibrate::{Leg, Model};
 use motion::geom::se2::SE2;
 use motion::{NoiseKind, Variance};
 use nalgebra::{Matrix3, Vector3};

@@ -41,7 +41,7 @@ pub struct Recommendation {
     pub alphas: Vec<Option<f64>>,
     /// Factor on the fitted α's, 1 or more.
     pub inflation: f64,
-    /// Sentence that names the windows on which the factor is based.
+    /// Sentence on the windows on which the factor is based.
     pub reason: String,
 }
 

@@ -170,28 +170,16 @@ pub(super) fn cross_validate(
     let recommendation = required_inflation(&windows[0]).map(|inflation| Recommendation {
         alphas: alphas.iter().map(|alpha| alpha.map(|alpha| inflation * alpha)).collect(),
         inflation,
-        reason: recommendation_reason(&coverages[0], inflation),
+        reason: recommendation_reason(windows[0].len()).to_string(),
     });
     (recommendation, checks, coverages)
 }
 
-fn recommendation_reason(window: &WindowCoverage, inflation: f64) -> String {
-    let WindowCoverage { count, coverage, nees, .. } = *window;
-    if count < MIN_WINDOWS {
-        return format!(
-            "The log has {count} windows of ≥ 1 m that were not used for the fit; {MIN_WINDOWS} are needed to judge it, so the fitted α's are recommended unchanged."
-        );
+/// Returns the sentence that names the windows on which the inflation is based.
+fn recommendation_reason(window_count: usize) -> &'static str {
+    if window_count < MIN_WINDOWS {
+        "Fewer than 20 windows of 1 m were held out of the fit, so the fitted α's are recommended unchanged."
+    } else {
+        "The fitted α's times the inflation cover at least 95 % of the held-out windows of 1 m."
     }
-    let coverage_percent = format_decimal(100.0 * coverage, 1);
-    let [nees, inflation] = [nees, inflation].map(|number| format_decimal(number, 2));
-    format!(
-        "The fit covers {coverage_percent} % of {count} held-out windows of ≥ 1 m (squared error over predicted variance {nees}, expected 1). The fitted α's times {inflation} cover at least 95 %."
-    )
-}
-
-/// Formats a positive number with decimals. The standard formatting of floating-point numbers would be 5 % of the wasm module of a page.
-fn format_decimal(number: f64, decimals: usize) -> String {
-    let power_of_ten = 10_u64.pow(decimals as u32);
-    let scaled_number = (number * power_of_ten as f64).round() as u64;
-    format!("{}.{:0decimals$}", scaled_number / power_of_ten, scaled_number % power_of_ten)
 }

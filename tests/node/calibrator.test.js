@@ -62,7 +62,7 @@ test('lines for Nav2 contain the recommended α’s, and the fitted α’s in co
   assert.deepEqual(nav2LinesOf(), [
     'amcl:', 'ros__parameters:',
     '# 9 legs of 0.25 m or 0.2 rad of a.csv and b.csv, 2026-01-02',
-    '# As measured.',
+    '# Inflation 2.00. As measured.',
     '# with these systematic errors corrected: mountYaw 0.050; distanceScale 0.990',
     '# First multiply the odometry’s distances by 0.990: the α’s are those of the corrected robot.',
     'robot_model_type: "nav2_amcl::DifferentialMotionModel"',

@@ -112,7 +112,7 @@ export const de: typeof import('./en.ts').en = {
     translateMessage: (name, englishMessage) => CHECK_MESSAGES[name] ?? englishMessage,
   },
   noRecommendationSentence: 'Es gibt keine empfohlenen α: Die Aufzeichnung ist unbrauchbar.',
-  translateRecommendationReason: (_englishReason, inflation, coverage, count, nees) =>
+  recommendationReason: (inflation, coverage, count, nees) =>
     `Empfohlen: angepasst × ${inflation}. Die Anpassung deckt ${coverage} von ${count} zurückgehaltenen Fenstern von ≥ 1 m (erwartet 95 %; nötig sind 20 Fenster); ihr quadrierter Fehler durch vorhergesagte Varianz (NEES) ist ${nees}, erwartet 1.`,
   alphas: {
     title: (modelRuleName) => `Angepasste Rauschparameter (${modelRuleName})`,

@@ -88,7 +88,8 @@ export const en = {
     translateMessage: (_name, englishMessage) => englishMessage.replaceAll("'", '’'),
   },
   noRecommendationSentence: 'There are no recommended α’s: the log is unusable.',
-  translateRecommendationReason: (englishReason, _inflation, _coverage, _count, _nees) => englishReason,
+  recommendationReason: (inflation: string, coverage: string, count: string, nees: string) =>
+    `Recommended: the fit × ${inflation}. The fit covers ${coverage} of ${count} held-out windows of ≥ 1 m (expected 95 %; 20 windows are needed). Its squared error over predicted variance (NEES) is ${nees}, expected 1.`,
   alphas: {
     title: (modelRuleName) => `Fitted noise parameters (${modelRuleName})`,
     noiseColumn: 'noise',

@@ -110,7 +110,7 @@ export function formatNav2Yaml({ stats, legCount, model, rule, legLength, logNam
   const failedCheckNames = failedChecksOf(checks).map(({ name }) => name).join(', ');
   const commentTexts = [
     yamlWords.logSource(String(legCount), describeLegLength(legLength), logName, date),
-    recommended.reason,
+    `Inflation ${inflation.toFixed(2)}. ${recommended.reason}`,
     ...(isNav2Rule(model, rule) ? [] : [yamlWords.otherRuleNote]),
     ...listCorrectedErrors(systematicErrors).map((errorList) => yamlWords.correctedErrorsNote(errorList)),
     ...adviseCorrection(stats, en.nav2),
@@ -212,11 +212,11 @@ export function judgementOf({ stats, legCount, model, corrections, warnings }: C
   return { rating, badge: texts.ratingBadges[rating], finding, advice };
 }
 
-/** Returns a sentence on why these α's are recommended. The core has the English sentence. */
+/** Returns a sentence on why these α's are recommended. */
 export function explainRecommendation({ recommended, diagnostics: { windows } }: CalibrationStats, texts: CalibratorTexts) {
   if (!recommended) return texts.noRecommendationSentence;
   const [{ count, coverage, nees }] = windows;
-  return texts.translateRecommendationReason(recommended.reason.replaceAll("'", '’'), formatFixed(recommended.inflation, 2), formatPercent(coverage), formatInteger(count), formatFixed(nees, 2));
+  return texts.recommendationReason(formatFixed(recommended.inflation, 2), formatPercent(coverage), formatInteger(count), formatFixed(nees, 2));
 }
 
 /** Causes for which legs of a log are not fitted. */

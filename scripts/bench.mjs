@@ -17,11 +17,11 @@ const ISOLATION_HEADERS = { 'cross-origin-opener-policy': 'same-origin', 'cross-
 
 /** Describes the machine and the versions of the programs. @param {string} chromiumVersion */
 async function describeMachine(chromiumVersion) {
-  const commitResult = await runProgram('git', ['describe', '--always', '--dirty'], { quiet: true });
+  const commitResult = await runProgram('git', ['describe', '--always', '--dirty'], { isQuiet: true });
   const { description } = await ensureNativeRust();
   return {
     'Measured on': new Date().toISOString().slice(0, 10),
-    commit: commitResult.ok ? commitResult.stdout.trim() : 'unknown',
+    commit: commitResult.hasSucceeded ? commitResult.stdout.trim() : 'unknown',
     processor: `${cpus()[0].model}, ${cpus().length} cores`,
     Node: process.versions.node,
     Chromium: chromiumVersion,

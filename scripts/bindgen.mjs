@@ -31,10 +31,10 @@ async function compileProgram(programName, cargoFeatures) {
   printStep(`Building ${programName} of wasm-bindgen ${bindgenVersion}, once`);
   const cargoArguments = ['install', '--quiet', '--debug', '--path', BINDGEN_CRATE, '--bin', programName, ...cargoFeatures, '--root', installDirectory, '--no-track', '--force'];
   // Cargo locks its target directory during a build. A separate target directory avoids waiting for other builds.
-  const cargoOptions = { env: { ...env, CARGO_TARGET_DIR: join(REPOSITORY_ROOT, 'target/bind') }, seconds: 1200 };
-  const installResult = await runProgram(join(cargoDirectory, 'cargo'), [...cargoArguments, '--locked'], { ...cargoOptions, quiet: true });
+  const cargoOptions = { env: { ...env, CARGO_TARGET_DIR: join(REPOSITORY_ROOT, 'target/bind') }, timeLimitSeconds: 1200 };
+  const installResult = await runProgram(join(cargoDirectory, 'cargo'), [...cargoArguments, '--locked'], { ...cargoOptions, isQuiet: true });
   // The second attempt ignores the lock file, because a mirror of the registry may lack a crate of the lock file.
-  if (installResult.ok || (await runProgram(join(cargoDirectory, 'cargo'), cargoArguments, cargoOptions)).ok) return programPath;
+  if (installResult.hasSucceeded || (await runProgram(join(cargoDirectory, 'cargo'), cargoArguments, cargoOptions)).hasSucceeded) return programPath;
   throw new UserError(
     `wasm-bindgen ${bindgenVersion} could not be built: check that this machine reaches the registry of Rust packages and start again.`,
   );

@@ -34,7 +34,7 @@ export async function ensureBrowser() {
   const browser = await ensureChrome();
   // The layout of the pages assumes a font as wide as Arial. If DejaVu is the only font, all text is a tenth wider.
   if (findProgram('fc-match') !== undefined && findProgram('apt-get') !== undefined) {
-    const { stdout: arialFamily } = await runProgram('fc-match', ['--format', '%{family}', 'Arial'], { quiet: true, seconds: 30 });
+    const { stdout: arialFamily } = await runProgram('fc-match', ['--format', '%{family}', 'Arial'], { isQuiet: true, timeLimitSeconds: 30 });
     if (!/Arial|Liberation|Arimo|Helvetica/.test(arialFamily)) await installByApt(['fonts-liberation'], 'A font as wide as Arial is missing: install fonts-liberation.');
   }
   return browser;
@@ -77,7 +77,7 @@ async function pairBrowserWithDriver(chromePath, driverPath) {
 
 /** Returns the version that a program prints, or undefined if the program does not run. @param {string} programPath */
 async function readVersion(programPath) {
-  const { stdout } = await runProgram(programPath, ['--version'], { quiet: true, seconds: 30 });
+  const { stdout } = await runProgram(programPath, ['--version'], { isQuiet: true, timeLimitSeconds: 30 });
   return stdout.match(/\d+(\.\d+){3}/)?.[0];
 }
 
@@ -96,7 +96,7 @@ async function installChromeForTesting() {
   if ((await readVersion(chrome)) === undefined) {
     // Installs the system libraries that Chrome needs, because a downloaded Chrome does not include them.
     const installLibraries = [absolutePath('node_modules/@playwright/test/cli.js'), 'install-deps', 'chromium'];
-    await runOrThrow('Libraries that Chrome needs are missing: run `npx playwright install-deps chromium` and start again.', process.execPath, installLibraries, { seconds: 600 });
+    await runOrThrow('Libraries that Chrome needs are missing: run `npx playwright install-deps chromium` and start again.', process.execPath, installLibraries, { timeLimitSeconds: 600 });
   }
   const driverPath = await downloadProgram(browsersDirectory, `chromedriver@${await readVersion(chrome)}`);
   writeFileSync(browserPathsFile, JSON.stringify({ chrome, driver: driverPath }));
@@ -106,6 +106,6 @@ async function installChromeForTesting() {
 /** Downloads a program, and returns its path. @param {string} installDirectory @param {string} programAndVersion @returns {Promise<string | undefined>} */
 async function downloadProgram(installDirectory, programAndVersion) {
   const installArguments = ['exec', '--yes', '--', '@puppeteer/browsers@2.13.2', 'install', programAndVersion];
-  const { ok, stdout } = await runProgram('npm', [...installArguments, '--path', installDirectory, '--format', '{{path}}'], { seconds: 900 });
-  return ok ? stdout.trim().split('\n').pop() : undefined;
+  const { hasSucceeded, stdout } = await runProgram('npm', [...installArguments, '--path', installDirectory, '--format', '{{path}}'], { timeLimitSeconds: 900 });
+  return hasSucceeded ? stdout.trim().split('\n').pop() : undefined;
 }

@@ -122,14 +122,14 @@ async function compileCore(rustTools, coreName, isLocal) {
   // `cargo build` also makes a Rust library, and then cannot optimize across crates. `cargo rustc` makes only the module. Panic locations
   // contain paths. In a published module the paths of this machine are removed.
   const registrySources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
-  const { stdout: sysroot } = await runProgram(join(rustTools.cargoDirectory, 'rustc'), ['--print', 'sysroot'], { env: rustTools.env, quiet: true });
+  const { stdout: sysroot } = await runProgram(join(rustTools.cargoDirectory, 'rustc'), ['--print', 'sysroot'], { env: rustTools.env, isQuiet: true });
   const pathRemovalFlags = [registrySources, join(sysroot.trim(), 'lib/rustlib/src/rust')].map((filePath) => `"--remap-path-prefix=${filePath}="`);
   const pathRemovalOption = `target.wasm32-unknown-unknown.rustflags=[${pathRemovalFlags}]`;
   const cargoProfile = isLocal ? 'web' : 'release';
   const cargoOptions = ['--quiet', '--locked', '--profile', cargoProfile, '--lib', '--crate-type', 'cdylib', ...(isLocal ? [] : ['--config', pathRemovalOption])];
   const widgetOptions = coreName === 'motion' ? [] : ['--', '--cfg', 'widget', '--cfg', `widget="${coreName}"`];
   await runOrThrow('The core does not compile: see the errors above.', cargoPath, ['rustc', ...cargoOptions, ...rustTools.target, ...widgetOptions], { env: rustTools.env });
-  const readCargoOutput = async (/** @type {string[]} */ ...cargoArguments) => (await runProgram(cargoPath, [...cargoArguments, '--locked'], { env: rustTools.env, quiet: true })).stdout;
+  const readCargoOutput = async (/** @type {string[]} */ ...cargoArguments) => (await runProgram(cargoPath, [...cargoArguments, '--locked'], { env: rustTools.env, isQuiet: true })).stdout;
   const cargoMetadata = JSON.parse(await readCargoOutput('metadata', '--format-version', '1'));
   if (coreName === 'motion') {
     const crateTree = await readCargoOutput('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
@@ -142,7 +142,7 @@ async function compileCore(rustTools, coreName, isLocal) {
 async function writeSettings() {
   const { cargoDirectory, env } = await ensureNativeRust();
   const cargoArguments = ['run', '--quiet', '--locked', '--example', 'declarations'];
-  const { stdout } = await runOrThrow('The settings could not be listed: see above.', join(cargoDirectory, 'cargo'), cargoArguments, { env, quiet: true });
+  const { stdout } = await runOrThrow('The settings could not be listed: see above.', join(cargoDirectory, 'cargo'), cargoArguments, { env, isQuiet: true });
   const [widgetDeclarations, otherConstants] = JSON.parse(stdout);
   const settings = Object.fromEntries(widgetDeclarations.map((/** @type {any[]} */ [widgetTag, settingsOfWidget]) => [widgetTag, declarationsOf(settingsOfWidget)]));
   const presetsByTag = Object.fromEntries(widgetDeclarations.map((/** @type {any[]} */ [widgetTag, , presetsOfWidget]) => [widgetTag, presetsOfWidget.map((/** @type {any[]} */ [presetName, settings]) => ({ name: presetName, settings }))]));
@@ -221,7 +221,7 @@ async function optimizeModule(filePath, optimizerPasses = OPTIMIZER_PASSES) {
   const wasmFeatures = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
   const { stdout } = await runOrThrow('wasm-opt failed: see above.', process.execPath, [
     absolutePath('node_modules/binaryen/bin/wasm-opt'), ...optimizerPasses, ...wasmFeatures.map((featureName) => `--enable-${featureName}`), absolutePath(filePath),
-    '-o', absolutePath(filePath)], { quiet: true });
+    '-o', absolutePath(filePath)], { isQuiet: true });
   return stdout;
 }
 

@@ -35,7 +35,7 @@ function unpackInputs(targetName) {
 async function runCargoFuzz(targetName, inputFolders, fuzzerOptions) {
   const { cargoDirectory, env } = await ensureNativeRust();
   const cargoArguments = ['+nightly', 'fuzz', 'run', ...BUILD_OPTIONS, 'target', ...inputFolders, '--', ...fuzzerOptions];
-  return runProgram(join(cargoDirectory, 'cargo'), cargoArguments, { env: { ...env, FUZZ_TARGET: targetName }, quiet: true });
+  return runProgram(join(cargoDirectory, 'cargo'), cargoArguments, { env: { ...env, FUZZ_TARGET: targetName }, isQuiet: true });
 }
 
 /**
@@ -45,11 +45,11 @@ async function runCargoFuzz(targetName, inputFolders, fuzzerOptions) {
 async function runFuzzTarget(targetName, runCount, seed) {
   unpackInputs(targetName);
   const fuzzOptions = [`-runs=${runCount}`, `-seed=${seed}`, ...INPUT_LIMITS];
-  const { ok, output: programOutput } = await runCargoFuzz(targetName, [inputFolderOf(targetName, 'found'), inputFolderOf(targetName, 'known')], fuzzOptions);
-  if (!ok) console.error(programOutput.split('\n').slice(-60).join('\n'));
+  const { hasSucceeded, output: programOutput } = await runCargoFuzz(targetName, [inputFolderOf(targetName, 'found'), inputFolderOf(targetName, 'known')], fuzzOptions);
+  if (!hasSucceeded) console.error(programOutput.split('\n').slice(-60).join('\n'));
   const coveredEdgeCount = [...programOutput.matchAll(/ cov: (\d+)/g)].pop()?.[1];
-  console.log(`${ok ? 'ok    ' : 'FAILED'} ${targetName.padEnd(12)} edges ${coveredEdgeCount}, ${programOutput.match(/^Done .*$/m)?.[0]}`);
-  return ok;
+  console.log(`${hasSucceeded ? 'ok    ' : 'FAILED'} ${targetName.padEnd(12)} edges ${coveredEdgeCount}, ${programOutput.match(/^Done .*$/m)?.[0]}`);
+  return hasSucceeded;
 }
 
 /** Packs the smallest set of known and found inputs that reaches the same code. @param {string} fuzzTargetName */
@@ -60,8 +60,8 @@ async function keepInputs(fuzzTargetName) {
   mkdirSync(mergedFolder);
   // The merge keeps one input for each control-flow edge. With hit counts of edges, the corpus would be five times as large.
   const mergeOptions = ['-set_cover_merge=1', '-use_counters=0', ...INPUT_LIMITS];
-  const { ok, output: programOutput } = await runCargoFuzz(fuzzTargetName, [mergedFolder, inputFolderOf(fuzzTargetName, 'known'), inputFolderOf(fuzzTargetName, 'found')], mergeOptions);
-  if (!ok) throw new UserError(programOutput);
+  const { hasSucceeded, output: programOutput } = await runCargoFuzz(fuzzTargetName, [mergedFolder, inputFolderOf(fuzzTargetName, 'known'), inputFolderOf(fuzzTargetName, 'found')], mergeOptions);
+  if (!hasSucceeded) throw new UserError(programOutput);
   const inputLines = readdirSync(mergedFolder).map((inputName) => readFileSync(join(mergedFolder, inputName)).toString('hex'));
   writeFileSync(packedPathOf(fuzzTargetName), inputLines.sort().map((hexLine) => `${hexLine}\n`).join(''));
   console.log(`${fuzzTargetName}: ${inputLines.length} inputs`);
@@ -82,7 +82,7 @@ await runAsScript(import.meta.url, async () => {
   printStep(`${isKeepMode ? 'keep' : `${runCount} inputs each, seed ${seed}`}: ${targetQueue.join(', ')}`);
   const { cargoDirectory, env } = await ensureNativeRust();
   const missingMessage = 'cargo-fuzz or a nightly Rust is missing: run `rustup toolchain install nightly` and `cargo install --locked cargo-fuzz`, and start again.';
-  await runOrThrow(missingMessage, join(cargoDirectory, 'cargo'), ['+nightly', 'fuzz', '--version'], { env, quiet: true });
+  await runOrThrow(missingMessage, join(cargoDirectory, 'cargo'), ['+nightly', 'fuzz', '--version'], { env, isQuiet: true });
   await runOrThrow('The targets do not compile: see above.', join(cargoDirectory, 'cargo'), ['+nightly', 'fuzz', 'build', ...BUILD_OPTIONS], { env });
   const runWaitingTargets = async () => {
     for (let fuzzTargetName = targetQueue.shift(); fuzzTargetName !== undefined; fuzzTargetName = targetQueue.shift()) {

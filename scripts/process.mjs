@@ -136,8 +136,8 @@ const MAX_SILENCE_MS = 30_000;
  * @typedef {object} RunOptions
  * @property {Record<string, string>} [env] added to the present environment
  * @property {string} [cwd] working directory; default: the root of the repository
- * @property {number} [seconds] time limit, after which the program and its children are killed
- * @property {boolean} [quiet] true if the output is not printed
+ * @property {number} [timeLimitSeconds] time limit, after which the program and its children are killed
+ * @property {boolean} [isQuiet] true if the output is not printed
  */
 
 /**
@@ -146,34 +146,34 @@ const MAX_SILENCE_MS = 30_000;
  * @param {string} programName
  * @param {string[]} commandArguments
  * @param {RunOptions} [options]
- * @returns {Promise<{ ok: boolean, timedOut: boolean, stdout: string, output: string }>} `output` is stdout and
- *   stderr in order of arrival; a program that cannot be started is not ok
+ * @returns {Promise<{ hasSucceeded: boolean, hasTimedOut: boolean, stdout: string, output: string }>} `output` is stdout and
+ *   stderr in order of arrival; a program that cannot be started has not succeeded
  */
-export function runProgram(programName, commandArguments, { env = {}, cwd = REPOSITORY_ROOT, seconds, quiet: isQuiet = false } = {}) {
+export function runProgram(programName, commandArguments, { env = {}, cwd = REPOSITORY_ROOT, timeLimitSeconds, isQuiet = false } = {}) {
   return new Promise((resolveResult) => {
     // A program with a time limit leads its own process group, so that its children end with it.
     const childProcess = spawn(programName, commandArguments, {
       cwd,
       env: { ...process.env, ...env },
       stdio: ['ignore', 'pipe', 'pipe'],
-      detached: seconds !== undefined,
+      detached: timeLimitSeconds !== undefined,
     });
     let stdoutText = '';
     let combinedOutput = '';
-    let timedOut = false;
+    let hasTimedOut = false;
     const startTime = Date.now();
     const silenceTimer = collectedOutputStore.getStore() ? undefined : setInterval(() => {
       printText(`  ${basename(programName)} ${basename(commandArguments[0] ?? '')} has been running for ${Math.round((Date.now() - startTime) / 1000)} s\n`);
     }, MAX_SILENCE_MS);
-    const processGroupId = seconds === undefined ? undefined : childProcess.pid;
+    const processGroupId = timeLimitSeconds === undefined ? undefined : childProcess.pid;
     /** @type {NodeJS.Timeout | undefined} */
     let limitTimer;
-    if (seconds !== undefined && processGroupId !== undefined) {
+    if (timeLimitSeconds !== undefined && processGroupId !== undefined) {
       endGroupWithProcess(processGroupId);
       limitTimer = setTimeout(() => {
-        timedOut = true;
+        hasTimedOut = true;
         killProcessGroup(processGroupId);
-      }, seconds * 1000);
+      }, timeLimitSeconds * 1000);
     }
     childProcess.stdout.setEncoding('utf8').on('data', (outputText) => {
       stdoutText += outputText;
@@ -190,7 +190,7 @@ export function runProgram(programName, commandArguments, { env = {}, cwd = REPO
       clearTimeout(limitTimer);
       clearInterval(silenceTimer);
       if (processGroupId !== undefined) forgetGroup(processGroupId);
-      resolveResult({ ok: hasSucceeded, timedOut, stdout: stdoutText, output: combinedOutput });
+      resolveResult({ hasSucceeded, hasTimedOut, stdout: stdoutText, output: combinedOutput });
     };
     childProcess.on('error', () => finishRun(false));
     childProcess.on('close', (exitCode) => finishRun(exitCode === 0));
@@ -207,8 +207,8 @@ export function runProgram(programName, commandArguments, { env = {}, cwd = REPO
  */
 export async function runOrThrow(failureMessage, programName, commandArguments, runOptions) {
   const runResult = await runProgram(programName, commandArguments, runOptions);
-  if (!runResult.ok) {
-    if (runOptions?.quiet) printText(runResult.output, process.stderr);
+  if (!runResult.hasSucceeded) {
+    if (runOptions?.isQuiet) printText(runResult.output, process.stderr);
     throw new UserError(failureMessage);
   }
   return runResult;

@@ -14,8 +14,8 @@ import { UserError, absolutePath, filesOf, collectOutputOf, memoizeWork, printSt
 import { ensureLints, ensurePackages, ensureNativeRust, ensureRustForWasm } from './toolchain.mjs';
 
 /** @typedef {{ passed: number, failed: number, skipped: number }} Tally */
-/** @typedef {{ name: string, ok: boolean, seconds: number, output?: string, tally?: Tally, note?: string }} Outcome */
-/** @typedef {() => Promise<{ ok: boolean, output: string, timedOut: boolean }>} Job */
+/** @typedef {{ name: string, hasSucceeded: boolean, seconds: number, output?: string, tally?: Tally, note?: string }} Outcome */
+/** @typedef {() => Promise<{ hasSucceeded: boolean, output: string, hasTimedOut: boolean }>} Job */
 /**
  * @typedef {object} Part
  * @property {(programArgs: string[]) => Promise<Job>} prepare waits for the tools that the part needs, and installs missing ones. `programArgs` are
@@ -65,7 +65,7 @@ const ensureTestBrowser = recordVersionOf(ensureBrowser, ({ version }) => `Chrom
  * @param {Record<string, string>} [programEnvironment]
  * @returns {Job}
  */
-const createProgramJob = ([programName, ...programArguments], programEnvironment) => () => runProgram(programName, programArguments, { env: programEnvironment, seconds: TIME_LIMIT_SECONDS });
+const createProgramJob = ([programName, ...programArguments], programEnvironment) => () => runProgram(programName, programArguments, { env: programEnvironment, timeLimitSeconds: TIME_LIMIT_SECONDS });
 
 /**
  * Returns a job that runs a script of a package.
@@ -118,7 +118,7 @@ const TEST_PARTS = {
     },
   },
   build: {
-    prepare: async () => () => ensureBuilt().then(() => ({ ok: true, output: '', timedOut: false })),
+    prepare: async () => () => ensureBuilt().then(() => ({ hasSucceeded: true, output: '', hasTimedOut: false })),
   },
   tsc: {
     async prepare(programArgs) {
@@ -226,15 +226,15 @@ async function runPart(partName, programArgs) {
     const runJob = await prepareJob(programArgs);
     printStep(partName);
     startTime = Date.now();
-    const { ok, output: programOutput, timedOut } = await runJob();
+    const { hasSucceeded, output: programOutput, hasTimedOut } = await runJob();
     const addUpMatches = (/** @type {RegExp} */ numberPattern) => [...programOutput.matchAll(numberPattern)].reduce((sumSoFar, [, matchedCount]) => sumSoFar + Number(matchedCount), 0);
     const testTally = countPatterns && { passed: addUpMatches(countPatterns.passed), failed: addUpMatches(countPatterns.failed), skipped: addUpMatches(countPatterns.skipped) };
     const hasRunNoTest = testTally !== undefined && testTally.passed + testTally.failed === 0;
-    const outcomeNote = timedOut ? `ended after ${TIME_LIMIT_SECONDS} s` : hasRunNoTest ? 'no test ran' : undefined;
-    return { name: partName, ok: ok && !hasRunNoTest && !testTally?.failed, seconds: getElapsedSeconds(), output: programOutput, tally: testTally, note: outcomeNote };
+    const outcomeNote = hasTimedOut ? `ended after ${TIME_LIMIT_SECONDS} s` : hasRunNoTest ? 'no test ran' : undefined;
+    return { name: partName, hasSucceeded: hasSucceeded && !hasRunNoTest && !testTally?.failed, seconds: getElapsedSeconds(), output: programOutput, tally: testTally, note: outcomeNote };
   } catch (error) {
     printStep(`${partName}: ${error instanceof UserError ? error.message : (error instanceof Error && error.stack) || error}`);
-    return { name: partName, ok: false, seconds: getElapsedSeconds(), note: 'not run: see above' };
+    return { name: partName, hasSucceeded: false, seconds: getElapsedSeconds(), note: 'not run: see above' };
   }
 }
 
@@ -286,17 +286,17 @@ function printSummary(partOutcomes) {
   console.log(`${[...toolVersions].join('; ')}\n`);
   let passedCount = 0;
   let failedCount = 0;
-  for (const { name, ok, seconds, tally: testTally, note: outcomeNote } of partOutcomes) {
+  for (const { name, hasSucceeded, seconds, tally: testTally, note: outcomeNote } of partOutcomes) {
     const testCountTexts = testTally === undefined ? [] : [`${testTally.passed} passed`, `${testTally.failed} failed`];
     if (testTally?.skipped) testCountTexts.push(`${testTally.skipped} skipped`);
     if (outcomeNote !== undefined) testCountTexts.push(outcomeNote);
-    console.log(`${ok ? 'ok    ' : 'FAILED'} ${name.padEnd(12)} ${seconds.toFixed(0).padStart(4)} s  ${testCountTexts.join(', ')}`);
+    console.log(`${hasSucceeded ? 'ok    ' : 'FAILED'} ${name.padEnd(12)} ${seconds.toFixed(0).padStart(4)} s  ${testCountTexts.join(', ')}`);
     passedCount += testTally?.passed ?? 0;
     // A part that fails without a failed test is counted as one failed test.
-    failedCount += ok ? 0 : Math.max(1, testTally?.failed ?? 0);
+    failedCount += hasSucceeded ? 0 : Math.max(1, testTally?.failed ?? 0);
   }
-  for (const { name, ok, output: programOutput } of partOutcomes) {
-    if (!ok && programOutput && partOutcomes.length > 1) console.log(`\n${name}: …\n${programOutput.trimEnd().split('\n').slice(-SHOWN_ERROR_LINES).join('\n')}`);
+  for (const { name, hasSucceeded, output: programOutput } of partOutcomes) {
+    if (!hasSucceeded && programOutput && partOutcomes.length > 1) console.log(`\n${name}: …\n${programOutput.trimEnd().split('\n').slice(-SHOWN_ERROR_LINES).join('\n')}`);
   }
   console.log(`\n${passedCount} passed, ${failedCount} failed`);
   return failedCount === 0;

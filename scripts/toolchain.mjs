@@ -55,7 +55,7 @@ async function installPackages(workspaceKey) {
     'The npm packages could not be installed: check that this machine reaches its npm registry and start again.',
     'npm',
     ['install', '--no-save', '--ignore-scripts', '--no-audit', '--no-fund', workspaceKey === 'root' ? '--workspaces=false' : `--workspace=${workspaceName}`],
-    { seconds: 600 },
+    { timeLimitSeconds: 600 },
   );
   writeFileSync(stampFile, lockHash);
 }
@@ -72,18 +72,18 @@ const [enqueueForApt, enqueueForRustup] = [createTaskQueue(), createTaskQueue()]
 export const installByApt = (debianPackages, purposeSentence) => enqueueForApt(async () => {
   if (findProgram('apt-get') === undefined) throw new UserError(purposeSentence);
   const rootCommand = process.getuid?.() === 0 ? [] : ['sudo', '-n'];
-  if (rootCommand.length > 0 && !(await runProgram('sudo', ['-n', 'true'], { quiet: true })).ok) throw new UserError(purposeSentence);
+  if (rootCommand.length > 0 && !(await runProgram('sudo', ['-n', 'true'], { isQuiet: true })).hasSucceeded) throw new UserError(purposeSentence);
   printStep(`Installing ${debianPackages.join(' ')} by apt`);
   const [programName, ...firstArguments] = [...rootCommand, 'env', 'DEBIAN_FRONTEND=noninteractive', 'apt-get'];
-  await runProgram(programName, [...firstArguments, 'update', '-qq'], { seconds: 300 });
+  await runProgram(programName, [...firstArguments, 'update', '-qq'], { timeLimitSeconds: 300 });
   // Apt must not remove an installed package, in particular not another installation of Rust.
   const aptOptions = ['-y', '-qq', '--no-remove', '--no-install-recommends', '-o', 'DPkg::Lock::Timeout=300'];
-  await runOrThrow(purposeSentence, programName, [...firstArguments, 'install', ...aptOptions, ...debianPackages], { seconds: 900 });
+  await runOrThrow(purposeSentence, programName, [...firstArguments, 'install', ...aptOptions, ...debianPackages], { timeLimitSeconds: 900 });
 });
 
 /** Ensures that Python and pip, which build the Python package, are installed. */
 export async function ensurePip() {
-  if ((await runProgram('python3', ['-m', 'pip', '--version'], { quiet: true })).ok) return;
+  if ((await runProgram('python3', ['-m', 'pip', '--version'], { isQuiet: true })).hasSucceeded) return;
   await installByApt(['python3', 'python3-pip'], 'Python 3 or its pip is missing: install them as python.org says and start again.');
 }
 
@@ -117,9 +117,9 @@ export const ensureNativeRust = memoizeWork(/** @returns {Promise<Rust>} */ asyn
 /** Installs Rust by rustup, and returns true if that succeeded. @returns {Promise<boolean>} */
 async function installRustup() {
   printStep('Installing Rust by rustup');
-  const rustupScript = await runProgram('curl', ['--proto', '=https', '--tlsv1.2', '-sSf', '--max-time', '60', 'https://sh.rustup.rs'], { quiet: true });
+  const rustupScript = await runProgram('curl', ['--proto', '=https', '--tlsv1.2', '-sSf', '--max-time', '60', 'https://sh.rustup.rs'], { isQuiet: true });
   const rustupArguments = ['-y', '--no-modify-path', '--profile', 'default', '--target', WASM_TARGET];
-  return rustupScript.ok && (await runProgram('sh', ['-c', rustupScript.stdout, 'sh', ...rustupArguments], { seconds: 600 })).ok;
+  return rustupScript.hasSucceeded && (await runProgram('sh', ['-c', rustupScript.stdout, 'sh', ...rustupArguments], { timeLimitSeconds: 600 })).hasSucceeded;
 }
 
 /**
@@ -155,7 +155,7 @@ export const ensureRustForWasm = memoizeWork(/** @returns {Promise<Rust>} */ asy
  * @param {Rust} native
  */
 async function hasWasmTarget({ cargoDirectory, env }) {
-  const sysrootResult = await runProgram(join(cargoDirectory, 'rustc'), ['--print', 'sysroot'], { env, quiet: true });
+  const sysrootResult = await runProgram(join(cargoDirectory, 'rustc'), ['--print', 'sysroot'], { env, isQuiet: true });
   if (existsSync(join(sysrootResult.stdout.trim(), 'lib/rustlib', WASM_TARGET))) return true;
   const rustupPath = findProgram('rustup', [cargoDirectory]);
   if (rustupPath === undefined) return false;
@@ -166,10 +166,10 @@ async function hasWasmTarget({ cargoDirectory, env }) {
   const dayInMs = 24 * 3600 * 1000;
   if (canFallBack && existsSync(unreachableMarkPath) && Date.now() - statSync(unreachableMarkPath).mtimeMs < dayInMs) return false;
   printStep(`Asking rustup for ${WASM_TARGET}`);
-  const installWasmTarget = () => runProgram(rustupPath, ['target', 'add', WASM_TARGET], { env, seconds: canFallBack ? 60 : 600 });
-  const { ok, timedOut } = canFallBack && (await isServerSilent()) ? { ok: false, timedOut: true } : await installWasmTarget();
-  if (ok) return true;
-  if (timedOut) {
+  const installWasmTarget = () => runProgram(rustupPath, ['target', 'add', WASM_TARGET], { env, timeLimitSeconds: canFallBack ? 60 : 600 });
+  const { hasSucceeded, hasTimedOut } = canFallBack && (await isServerSilent()) ? { hasSucceeded: false, hasTimedOut: true } : await installWasmTarget();
+  if (hasSucceeded) return true;
+  if (hasTimedOut) {
     console.log('rustup does not answer.');
     mkdirSync(CACHE_DIRECTORY, { recursive: true });
     writeFileSync(unreachableMarkPath, '');
@@ -187,7 +187,7 @@ async function isServerSilent() {
   const rustupServer = process.env.RUSTUP_DIST_SERVER ?? 'https://static.rust-lang.org';
   // Any answer shows that the server is reachable, even an answer with an unknown certificate.
   const curlArguments = ['--silent', '--head', '--insecure', '--output', '/dev/null', `${rustupServer}/dist/channel-rust-stable.toml.sha256`];
-  return (await runProgram('curl', curlArguments, { seconds: 15, quiet: true })).timedOut;
+  return (await runProgram('curl', curlArguments, { timeLimitSeconds: 15, isQuiet: true })).hasTimedOut;
 }
 
 /** Returns the environment of Debian's stable compiler, with the unstable features that `-Zbuild-std` needs. */
@@ -219,7 +219,7 @@ function createEnvironment(cargoDirectory) {
  */
 async function requireRustVersion(cargoDirectory, env, remedySentence) {
   const requiredVersion = readManifestValue('Cargo.toml', /^rust-version = "(.+)"$/m);
-  const { stdout } = await runProgram(join(cargoDirectory, 'rustc'), ['--version'], { env, quiet: true });
+  const { stdout } = await runProgram(join(cargoDirectory, 'rustc'), ['--version'], { env, isQuiet: true });
   const [, rustMajor, rustMinor] = stdout.match(/^rustc (\d+)\.(\d+)/) ?? ['', '0', '0'];
   const [minMajor, minMinor] = requiredVersion.split('.').map(Number);
   if (Number(rustMajor) < minMajor || (Number(rustMajor) === minMajor && Number(rustMinor) < minMinor)) {
@@ -231,8 +231,8 @@ async function requireRustVersion(cargoDirectory, env, remedySentence) {
 /** Ensures that rustfmt and clippy are installed for a cargo. @param {Rust} rust */
 export async function ensureLints({ cargoDirectory, env }) {
   const hasLints = async () => {
-    const versionResults = ['cargo-fmt', 'cargo-clippy'].map((lintName) => runProgram(join(cargoDirectory, lintName), ['--version'], { env, quiet: true }));
-    return (await Promise.all(versionResults)).every(({ ok }) => ok);
+    const versionResults = ['cargo-fmt', 'cargo-clippy'].map((lintName) => runProgram(join(cargoDirectory, lintName), ['--version'], { env, isQuiet: true }));
+    return (await Promise.all(versionResults)).every(({ hasSucceeded }) => hasSucceeded);
   };
   if (await hasLints()) return;
   const missingMessage = 'rustfmt or clippy is missing: run `rustup component add rustfmt clippy` and start again.';
@@ -241,7 +241,7 @@ export async function ensureLints({ cargoDirectory, env }) {
   } else {
     const rustupPath = findProgram('rustup', [cargoDirectory]);
     if (rustupPath === undefined) throw new UserError(missingMessage);
-    await enqueueForRustup(() => runOrThrow(missingMessage, rustupPath, ['component', 'add', 'rustfmt', 'clippy'], { env, seconds: 300 }));
+    await enqueueForRustup(() => runOrThrow(missingMessage, rustupPath, ['component', 'add', 'rustfmt', 'clippy'], { env, timeLimitSeconds: 300 }));
   }
   if (!(await hasLints())) throw new UserError(missingMessage);
 }

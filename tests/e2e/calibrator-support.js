@@ -13,7 +13,7 @@ import { mountFigure, waitUntilSettled } from './support.js';
 /** Opens a page with the figure, and waits until its log is fitted. @param {Page} page @param {string} [attributes] */
 export async function openCalibrator(page, attributes) {
   const widget = await mountFigure(page, 'alpha-calibrator', {
-    attributes, script: ['motion-widgets', 'de'].map((scriptName) => `<script type="module" src="/${scriptName}.js"></script>`).join(''),
+    attributes, scriptHtml: ['motion-widgets', 'de'].map((scriptName) => `<script type="module" src="/${scriptName}.js"></script>`).join(''),
   });
   await waitUntilSettled(widget);
   return widget;

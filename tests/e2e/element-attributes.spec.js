@@ -175,7 +175,7 @@ test('a list property accepts a list written as text, and other text is reported
 });
 
 test('properties that were set before the element was defined are applied, in any order', async ({ page }) => {
-  await showPage(page, '', { script: '' });
+  await showPage(page, '', { scriptHtml: '' });
   const propertyValues = await page.evaluate(async () => {
     const floorPlan = { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] };
     const propertyCases = /** @type {[string, Record<string, unknown>, string[]][]} */ ([

@@ -42,7 +42,7 @@ test('a figure has its preferred width or the available width in every kind of c
     return figureWidths.filter(([, figureWidth]) => Number(figureWidth) > pageWidth + 0.5 || Number(figureWidth) < Math.min(PREFERRED_WIDTH, pageWidth) - 0.5);
   };
   for (const scriptTag of ['', '<script type="module" src="/motion-widgets.js"></script>']) {
-    await showPage(page, htmlSections.join(''), { head: pageHead, script: scriptTag });
+    await showPage(page, htmlSections.join(''), { headHtml: pageHead, scriptHtml: scriptTag });
     if (scriptTag) await page.waitForFunction((widgetTag) => customElements.get(widgetTag) !== undefined, figureName);
     for (const w of [320, 600, 1280]) expect.soft(await findWrongWidths(w), `${scriptTag ? 'defined' : 'not defined'}, ${w} px`).toEqual([]);
   }
@@ -67,7 +67,7 @@ test('the size of a figure is proportional to the surrounding font size, and doe
   for (const [rootFontSize, fontSize] of [['100%', 16], ['62.5%', 24]]) {
     await page.setViewportSize({ width: 1400, height: 2400 });
     await showPage(page, `<div style="width: 43.75em"><${figureName}></${figureName}></div>`, {
-      head: `<style>html { font-size: ${rootFontSize} } body { margin: 0; font: ${fontSize}px/1.5 Arial, 'Liberation Sans', 'Nimbus Sans', sans-serif }</style>`,
+      headHtml: `<style>html { font-size: ${rootFontSize} } body { margin: 0; font: ${fontSize}px/1.5 Arial, 'Liberation Sans', 'Nimbus Sans', sans-serif }</style>`,
     });
     await waitUntilReady(page.locator(figureName));
     await expect(page.locator(figureName).locator('.folds')).toBeVisible();
@@ -86,7 +86,7 @@ test('the size of a figure is proportional to the surrounding font size, and doe
 test('the picture of a figure stays in sight on a phone, below the header of the site', async ({ page, figureName }) => {
   await page.setViewportSize({ width: 375, height: 812 });
   await showPage(page, `<header style="position: sticky; top: 0; height: 56px; z-index: 9; background: #fff">Site</header><${figureName}></${figureName}><div style="height: 2000px"></div>`, {
-    head: '<style>:root { --motion-sticky-top: 56px } body { margin: 0 }</style>',
+    headHtml: '<style>:root { --motion-sticky-top: 56px } body { margin: 0 }</style>',
   });
   const widget = page.locator(figureName);
   await waitUntilReady(widget);
@@ -170,7 +170,7 @@ for (const [figureName, figureLanguage, pageWidth, sliderId, sliderValues] of SL
   test(`texts do not move the slider ${sliderId} while it is dragged, and do not overlap: ${figureName}, ${figureLanguage}, ${pageWidth} px @nightly`, async ({ page }) => {
     await page.setViewportSize({ width: pageWidth, height: 900 });
     const scriptTag = ['motion-widgets', 'de'].map((scriptName) => `<script type="module" src="/${scriptName}.js"></script>`).join('');
-    const widget = await mountFigure(page, figureName, { attributes: `lang="${figureLanguage}"`, script: scriptTag, head: "<style>body { margin: 16px; font: 16px 'DejaVu Sans', Verdana }</style>" });
+    const widget = await mountFigure(page, figureName, { attributes: `lang="${figureLanguage}"`, scriptHtml: scriptTag, headHtml: "<style>body { margin: 16px; font: 16px 'DejaVu Sans', Verdana }</style>" });
     const sliderTops = [];
     for (const sliderValue of sliderValues) {
       await widget.locator(`#${sliderId}`).fill(sliderValue);

@@ -24,7 +24,7 @@ async function showFigureFarBelow(page, figureName) {
   await showPage(
     page,
     `<a id="before" tabindex="-1">Before</a><div style="position: absolute; top: 4000px; width: 600px"><${figureName}></${figureName}></div><button id="after">After</button>`,
-    { script: '<script type="module" src="/external.js"></script>' },
+    { scriptHtml: '<script type="module" src="/external.js"></script>' },
   );
   const widget = page.locator(figureName);
   await widget.locator('.reserved').waitFor({ state: 'attached' });

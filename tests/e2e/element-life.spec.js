@@ -45,7 +45,7 @@ test('figures far from the window fetch and compute nothing, and all figures sha
   page.on('request', (pageRequest) => fetchedPaths.push(new URL(pageRequest.url()).pathname));
   await countFramesAndModules(page);
   await showPage(page, `<div style="height: 5000px"></div>${TWO_FIGURE_NAMES.map((figureName) => `<${figureName}></${figureName}>`).join('')}`, {
-    script: '<script type="module" src="/external.js"></script>',
+    scriptHtml: '<script type="module" src="/external.js"></script>',
   });
   // The test avoids polling, because polling requests animation frames.
   await page.evaluate((widgetTags) => Promise.all(widgetTags.map((widgetTag) => customElements.whenDefined(widgetTag))).then(() => true), [...TWO_FIGURE_NAMES]);
@@ -63,7 +63,7 @@ test('figures far from the window fetch and compute nothing, and all figures sha
 test('a page with one figure fetches the module of that figure @nightly', async ({ page }) => {
   for (const figureName of ALL_FIGURE_NAMES) {
     const moduleRequest = page.waitForRequest(/\.wasm$/);
-    await showPage(page, `<${figureName}></${figureName}>`, { script: '<script type="module" src="/external.js"></script>' });
+    await showPage(page, `<${figureName}></${figureName}>`, { scriptHtml: '<script type="module" src="/external.js"></script>' });
     await waitUntilReady(page.locator(figureName));
     expect(new URL((await moduleRequest).url()).pathname).toMatch(new RegExp(`^/chunks/${figureName}-\\w+\\.wasm$`));
   }
@@ -73,7 +73,7 @@ test('a script that contains the module compiles the module at once, so that no 
   await countFramesAndModules(page);
   // The two imports are evaluated in one task, so that the second script sees what the first has compiled.
   const countRecorderUrl = 'data:text/javascript,window.compiledDuringScript = counts.compiled';
-  await showPage(page, '<banana-machine></banana-machine>', { script: `<script type="module">import '/motion-widgets.js'; import '${countRecorderUrl}'</script>` });
+  await showPage(page, '<banana-machine></banana-machine>', { scriptHtml: `<script type="module">import '/motion-widgets.js'; import '${countRecorderUrl}'</script>` });
   await waitUntilReady(page.locator('banana-machine'));
   expect(await page.evaluate(() => Reflect.get(window, 'compiledDuringScript'))).toBe(1);
   const [hasSimulation, hasPlaceholder] = await page.evaluate(async () => {
@@ -191,8 +191,8 @@ test('open disclosures, typed text and height are kept if a figure is moved, or 
   await openDisclosures(widget);
   const readOpenFolds = () => foldDisclosures.evaluateAll((foldElements) => foldElements.map((foldElement) => /** @type {HTMLDetailsElement} */ (foldElement).open));
   const openFoldsBefore = await readOpenFolds();
-  const fieldInDisclosure = foldDisclosures.nth(fieldInFold.disclosureIndex).locator(fieldInFold.field);
-  await fieldInDisclosure.fill(fieldInFold.value);
+  const fieldInDisclosure = foldDisclosures.nth(fieldInFold.disclosureIndex).locator(fieldInFold.fieldSelector);
+  await fieldInDisclosure.fill(fieldInFold.typedText);
   await widget.evaluate((element) => document.querySelector('#b')?.append(element));
   await waitForFrames(page);
   expect(await readOpenFolds()).toEqual(openFoldsBefore);
@@ -207,7 +207,7 @@ test('open disclosures, typed text and height are kept if a figure is moved, or 
   });
   await waitUntilReady(widget);
   expect(await readOpenFolds()).toEqual(openFoldsBefore);
-  await expect(fieldInDisclosure).toHaveValue(fieldInFold.value);
+  await expect(fieldInDisclosure).toHaveValue(fieldInFold.typedText);
   await expect(foldDisclosures.nth(fieldInFold.disclosureIndex).locator('.folded')).not.toBeEmpty();
   // In the first two animation frames after the figure is moved within the page, its height stays the same.
   expect(heightsAfter).toEqual([heightBefore, heightBefore]);

@@ -21,7 +21,7 @@ const THREE_FIGURES_HTML = `<banana-machine share></banana-machine>
   <banana-machine></banana-machine>`;
 
 test('a link with the states of two figures and an anchor in its fragment restores both figures', NEW_PAGE_TAG, async ({ page, context: browserContext }) => {
-  await showPage(page, THREE_FIGURES_HTML, { fragment: '#what-to-try&theme=a%20b' });
+  await showPage(page, THREE_FIGURES_HTML, { urlFragment: '#what-to-try&theme=a%20b' });
   const [firstFigure, secondFigure, thirdFigure] = [0, 1, 2].map((i) => page.locator('banana-machine').nth(i));
   await firstFigure.scrollIntoViewIfNeeded();
   await waitUntilReady(firstFigure);
@@ -48,7 +48,7 @@ test('a link with the states of two figures and an anchor in its fragment restor
   const [pageAnchor, themePart, firstFigurePart, secondFigurePart] = hashBefore.slice(1).split('&');
   expect(new URL(sharedLink).hash).toBe(`#${[firstFigurePart, pageAnchor, themePart, secondFigurePart].join('&')}`);
   const newPage = await browserContext.newPage();
-  await showPage(newPage, THREE_FIGURES_HTML, { fragment: new URL(sharedLink).hash });
+  await showPage(newPage, THREE_FIGURES_HTML, { urlFragment: new URL(sharedLink).hash });
   const [firstCopy, secondCopy, thirdCopy] = [0, 1, 2].map((i) => newPage.locator('banana-machine').nth(i));
   for (const [copiedFigure, originalFigure] of [[firstCopy, firstFigure], [secondCopy, secondFigure]]) {
     await copiedFigure.scrollIntoViewIfNeeded();
@@ -103,7 +103,7 @@ test('a link scrolls once to the figure from which it was copied, and a reload d
   expect(await readLinkFragment(nthFigureOf(page, 1))).toBe(linkFragments[1]);
   for (const [i, urlFragment] of linkFragments.entries()) {
     const newPage = await browserContext.newPage();
-    await showPage(newPage, pageBody, { fragment: urlFragment });
+    await showPage(newPage, pageBody, { urlFragment });
     await waitUntilReady(nthFigureOf(newPage, i));
     await expect.poll(async () => (await readFigureTops(newPage))[i]).toBeCloseTo(0);
     // The page does not scroll to elements that are added or moved later.
@@ -130,7 +130,7 @@ test('a link scrolls once to the figure from which it was copied, and a reload d
 test('a broken link is reported, and the figure opens with the settings of its attributes', async ({ page }) => {
   for (const brokenState of ['nonsense!', 'q1YqSy0qzszPU7JSMtAzUKoFAA']) {
     await page.goto('about:blank');
-    const widget = await mountFigure(page, 'banana-machine', { attributes: 'share v="0.5"', fragment: `#banana-machine.1=${brokenState}` });
+    const widget = await mountFigure(page, 'banana-machine', { attributes: 'share v="0.5"', urlFragment: `#banana-machine.1=${brokenState}` });
     const errorEvents = await takeEvents(page, ['error']);
     expect(errorEvents.length, brokenState).toBe(1);
     expect(errorEvents[0].message).toMatch(/^state.*; allowed (is|are) /);
@@ -139,7 +139,7 @@ test('a broken link is reported, and the figure opens with the settings of its a
 });
 
 test('a page with a <base> element keeps its own address @nightly', async ({ page }) => {
-  const widget = await mountFigure(page, 'map-squeeze', { attributes: 'share', head: '<base href="/somewhere/else/">' });
+  const widget = await mountFigure(page, 'map-squeeze', { attributes: 'share', headHtml: '<base href="/somewhere/else/">' });
   const readAddress = () => page.evaluate(() => location.href);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   await expect.poll(readAddress).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
@@ -152,7 +152,7 @@ test('a page with a <base> element keeps its own address @nightly', async ({ pag
 
 test('a figure without the attribute share adds nothing to the address, but opens a linked state and updates that part of the address', NEW_PAGE_TAG, async ({ page, context: browserContext, figureName }) => {
   const { sliderId, sliderValues, buttonLabel } = FIGURE_FACTS[figureName];
-  const widget = await mountFigure(page, figureName, { fragment: '#elsewhere' });
+  const widget = await mountFigure(page, figureName, { urlFragment: '#elsewhere' });
   await widget.evaluate((element, [settingKey, settingValue]) => void Reflect.set(element, settingKey, settingValue), /** @type {const} */ ([sliderId, sliderValues[0]]));
   await widget.getByRole('button', { name: buttonLabel, exact: true }).click();
   await waitForFrames(page);
@@ -160,7 +160,7 @@ test('a figure without the attribute share adds nothing to the address, but open
   const sharedLink = await readShareLink(widget);
   expect(sharedLink.split('#')[0]).toBe(page.url().split('#')[0]);
   const newPage = await browserContext.newPage();
-  await showPage(newPage, `<${figureName}></${figureName}>`, { fragment: new URL(sharedLink).hash });
+  await showPage(newPage, `<${figureName}></${figureName}>`, { urlFragment: new URL(sharedLink).hash });
   await waitUntilReady(newPage.locator(figureName));
   const openedState = await readState(newPage.locator(figureName));
   expect(openedState).toEqual(await readState(widget));
@@ -248,7 +248,7 @@ test('copies a link, and the code to embed with the address of the script', asyn
     await expect(widget.getByText('Copied.')).toContainText('Your map is too large for a link and is not in it');
     const [stateBefore, urlFragment] = [await readState(widget), await readLinkFragment(widget)];
     await page.goto('about:blank');
-    const openedFigure = await mountFigure(page, 'map-squeeze', { attributes: 'seed="3"', fragment: urlFragment });
+    const openedFigure = await mountFigure(page, 'map-squeeze', { attributes: 'seed="3"', urlFragment });
     expect(await readState(openedFigure)).toEqual({ ...stateBefore, map: null, start: await readProperty(await mountFigure(page, 'map-squeeze'), 'start') });
   });
 });
@@ -265,13 +265,13 @@ test('the menu shows a link that the browser refuses to copy to the clipboard @n
 });
 
 test('the code to embed names the script that defined the element', NEW_PAGE_TAG, async ({ page }) => {
-  const widget = await mountFigure(page, 'map-squeeze', { script: '<script defer src="/motion-widgets.iife.js"></script>' });
+  const widget = await mountFigure(page, 'map-squeeze', { scriptHtml: '<script defer src="/motion-widgets.iife.js"></script>' });
   const embedCode = await widget.evaluate((element) => /** @type {AnyElement} */ (element).embedCode());
   expect(embedCode).toContain(`<script defer src="${new URL(page.url()).origin}/motion-widgets.iife.js"></script>`);
 });
 
 test('the code to embed names the published script if other pages cannot load the script of this page @nightly', async ({ page }) => {
-  await showPage(page, '', { script: '' });
+  await showPage(page, '', { scriptHtml: '' });
   const embedCode = await page.evaluate(async () => {
     const scriptBlob = new Blob([await (await fetch('/motion-widgets.js')).text()], { type: 'text/javascript' });
     await import(URL.createObjectURL(scriptBlob));
@@ -286,7 +286,7 @@ test('an iframe shows the figure in its address, and reports its height to the p
     addEventListener('message', ({ data }) => data?.type === 'motion-widgets:height' && Reflect.get(window, 'heights').push(data.height));
   });
   const { sliderId, sliderValues: [sliderValue] } = FIGURE_FACTS[figureName];
-  await showPage(page, `<iframe src="/embed.html?widget=${figureName}&${sliderId}=${sliderValue}" width="700" height="900"></iframe>`, { script: '' });
+  await showPage(page, `<iframe src="/embed.html?widget=${figureName}&${sliderId}=${sliderValue}" width="700" height="900"></iframe>`, { scriptHtml: '' });
   const widget = page.frameLocator('iframe').locator(figureName);
   await expect(widget.locator('.folds')).toBeVisible();
   expect(await readProperty(widget, sliderId)).toBe(sliderValue);

@@ -55,7 +55,7 @@ const SCHEME_SOURCES = /** @type {[string, string, (scheme: 'light' | 'dark') =>
 
 for (const [sourceName, headHtml, schemeScriptOf] of SCHEME_SOURCES) {
   test(`a figure follows ${sourceName}`, async ({ page, figureName }) => {
-    const widget = await mountFigure(page, figureName, { attributes: 'id="it"', head: headHtml });
+    const widget = await mountFigure(page, figureName, { attributes: 'id="it"', headHtml });
     expect(await readColorScheme(widget)).toBe('light');
     for (const scheme of /** @type {const} */ (['dark', 'light'])) {
       await page.evaluate(schemeScriptOf(scheme));
@@ -68,14 +68,14 @@ for (const [sourceName, headHtml, schemeScriptOf] of SCHEME_SOURCES) {
 
 test('a figure follows the system’s colour scheme if the page does', async ({ page, figureName }) => {
   await page.emulateMedia({ colorScheme: 'dark' });
-  const widget = await mountFigure(page, figureName, { head: '<style>:root { color-scheme: light dark }</style>' });
+  const widget = await mountFigure(page, figureName, { headHtml: '<style>:root { color-scheme: light dark }</style>' });
   expect(await readColorScheme(widget)).toBe('dark');
   await page.emulateMedia({ colorScheme: 'light' });
   await expect.poll(() => readColorScheme(widget)).toBe('light');
 });
 
 test('on the background of any theme, a figure has the page’s text colour and font, and enough contrast', async ({ page }) => {
-  const widget = await mountFigure(page, 'banana-machine', { head: "<style>body { font: 17px 'DejaVu Sans', sans-serif }</style>" });
+  const widget = await mountFigure(page, 'banana-machine', { headHtml: "<style>body { font: 17px 'DejaVu Sans', sans-serif }</style>" });
   const { backgroundColor, fontFamily, fontSize } = await readSurfaceStyle(widget);
   expect({ backgroundColor, fontFamily, fontSize }).toEqual({ backgroundColor: 'rgba(0, 0, 0, 0)', fontFamily: '"DejaVu Sans", sans-serif', fontSize: '17px' });
   for (const [themeName, [backgroundColor, textColor]] of Object.entries(THEME_COLORS)) {
@@ -94,7 +94,7 @@ test('on the background of any theme, a figure has the page’s text colour and 
 
 test('a figure uses the nearest opaque background, through shadow roots and translucent elements @nightly', async ({ page }) => {
   await showPage(page, '<div id="card" style="background: rgb(0 0 0 / 50%)"></div>', {
-    head: '<style>body { background: rgb(200 100 50); color: white }</style>',
+    headHtml: '<style>body { background: rgb(200 100 50); color: white }</style>',
   });
   await page.locator('#card').evaluate((cardElement) => {
     cardElement.attachShadow({ mode: 'open' }).innerHTML = '<section><slot></slot></section>';
@@ -111,7 +111,7 @@ test('a figure uses the nearest opaque background, through shadow roots and tran
 
 test('after a transition of the page’s background, a figure has the final colours, even if the text colour changed earlier @nightly', async ({ page }) => {
   await showPage(page, '<banana-machine></banana-machine>', {
-    head: '<style>body { background: white; color: #222; transition: background-color 0.4s } .night body { background: #101418; color: #ddd }</style>',
+    headHtml: '<style>body { background: white; color: #222; transition: background-color 0.4s } .night body { background: #101418; color: #ddd }</style>',
   });
   const widget = page.locator('banana-machine');
   await waitUntilReady(widget);
@@ -122,7 +122,7 @@ test('after a transition of the page’s background, a figure has the final colo
 });
 
 test('a figure within light text on a background image gets a dark background @nightly', async ({ page }) => {
-  const widget = await mountFigure(page, 'banana-machine', { head: '<style>body { background: linear-gradient(#222, #333); color: #eee }</style>' });
+  const widget = await mountFigure(page, 'banana-machine', { headHtml: '<style>body { background: linear-gradient(#222, #333); color: #eee }</style>' });
   expect((await readColours(widget, ['paper']))[0]).toEqual([18, 18, 18]);
 });
 
@@ -135,7 +135,7 @@ const DARK_PAGES_WITH_BLACK_TEXT = /** @type {[string, Parameters<import('@playw
 for (const [situationName, emulatedMedia, pageStyle] of DARK_PAGES_WITH_BLACK_TEXT) {
   test(`a figure on a page with ${situationName} is legible`, async ({ page, figureName }) => {
     await page.emulateMedia(emulatedMedia);
-    const widget = await mountFigure(page, figureName, { attributes: 'theme="auto"', head: `<style>${pageStyle}</style>` });
+    const widget = await mountFigure(page, figureName, { attributes: 'theme="auto"', headHtml: `<style>${pageStyle}</style>` });
     const setTheme = (/** @type {string} */ themeName) => widget.evaluate((element, newTheme) => element.setAttribute('theme', newTheme), themeName);
     for (const themeName of emulatedMedia?.forcedColors ? ['auto', 'light', 'dark'] : ['auto']) {
       await setTheme(themeName);
@@ -150,7 +150,7 @@ for (const [situationName, emulatedMedia, pageStyle] of DARK_PAGES_WITH_BLACK_TE
 
 test('a figure whose theme differs from the page’s has its own background and text colours @nightly', async ({ page }) => {
   const pageStyle = 'body { background: #fff; color: #333; --color-foreground-muted: #112233; --color-background-border: #445566 }';
-  const widget = await mountFigure(page, 'banana-machine', { attributes: 'theme="dark"', head: `<style>${pageStyle}</style><link rel="stylesheet" href="/motion-widgets.css">` });
+  const widget = await mountFigure(page, 'banana-machine', { attributes: 'theme="dark"', headHtml: `<style>${pageStyle}</style><link rel="stylesheet" href="/motion-widgets.css">` });
   expect(await readSurfaceStyle(widget)).toMatchObject({ backgroundColor: 'rgb(22, 24, 27)', color: 'rgb(235, 233, 227)', colorScheme: 'dark' });
   // The page's colours for muted text and rules do not suit the dark background of the figure. The figure must not use them.
   const pageColors = ['#112233', '#445566'];
@@ -170,7 +170,7 @@ const THEME_PROPERTIES = {
 };
 
 test('the stylesheet adopts a theme’s colours of muted text and hairlines and its header height, and --motion- properties override them', async ({ page }) => {
-  const widget = await mountFigure(page, 'banana-machine', { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
+  const widget = await mountFigure(page, 'banana-machine', { headHtml: '<link rel="stylesheet" href="/motion-widgets.css">' });
   const readStyleFromTheme = async () => [
     ...(await readColours(widget, ['muted', 'rule'])).map(toHexColor),
     await widget.locator('.surface').evaluate((element) => {
@@ -191,7 +191,7 @@ test('the stylesheet adopts a theme’s colours of muted text and hairlines and 
 });
 
 test('--motion-paper and --motion-ink set the background and text colours of a figure', async ({ page, figureName }) => {
-  const widget = await mountFigure(page, figureName, { attributes: 'style="--motion-paper: #102030; --motion-ink: #f0f0f0"', head: '<style>body { background: #fff; color: #000 }</style>' });
+  const widget = await mountFigure(page, figureName, { attributes: 'style="--motion-paper: #102030; --motion-ink: #f0f0f0"', headHtml: '<style>body { background: #fff; color: #000 }</style>' });
   // A page with light text on a dark background gets the dark palette.
   expect(await readSurfaceStyle(widget)).toMatchObject({ backgroundColor: 'rgb(16, 32, 48)', color: 'rgb(240, 240, 240)', colorScheme: 'dark' });
   expect(await widget.locator('.slider .effect').first().evaluate((element) => getComputedStyle(element).backgroundColor)).toBe('rgb(16, 32, 48)');

@@ -12,12 +12,12 @@ test.use(REDUCED_MOTION);
  *
  * @param {Page} page
  * @param {string} figureName
- * @param {{ attributes?: string, before?: string, after?: string }} [options]
+ * @param {{ attributes?: string, htmlBefore?: string, htmlAfter?: string }} [options]
  */
-async function openWithDisclosures(page, figureName, { attributes = '', before = '', after = '' } = {}) {
-  await showPage(page, `<main><h1>Bare</h1>${before}<${figureName} heading-level="2" ${attributes}></${figureName}>${after}</main>`, {
-    head: '<meta name="viewport" content="width=device-width"><style>body { margin: 0 }</style>',
-    script: ['motion-widgets', 'de'].map((script) => `<script type="module" src="/${script}.js"></script>`).join(''),
+async function openWithDisclosures(page, figureName, { attributes = '', htmlBefore = '', htmlAfter = '' } = {}) {
+  await showPage(page, `<main><h1>Bare</h1>${htmlBefore}<${figureName} heading-level="2" ${attributes}></${figureName}>${htmlAfter}</main>`, {
+    headHtml: '<meta name="viewport" content="width=device-width"><style>body { margin: 0 }</style>',
+    scriptHtml: ['motion-widgets', 'de'].map((scriptName) => `<script type="module" src="/${scriptName}.js"></script>`).join(''),
   });
   const widget = page.locator(figureName);
   await waitUntilReady(widget);
@@ -55,7 +55,7 @@ test('in forced colours a figure keeps its colour roles, and its pressed button 
 });
 
 testEach('Tab reaches every handle and control of a figure exactly once, and then leaves the figure', async (page, name) => {
-  const widget = await openWithDisclosures(page, name, { before: '<a id="before" href="#">Before</a>', after: '<a id="after" href="#">After</a>' });
+  const widget = await openWithDisclosures(page, name, { htmlBefore: '<a id="before" href="#">Before</a>', htmlAfter: '<a id="after" href="#">After</a>' });
   await widget.evaluate((element) => {
     const shadowRoot = /** @type {ShadowRoot} */ (element.shadowRoot);
     const tabStops = [...shadowRoot.querySelectorAll('button, input, select, textarea, summary, a[href], .handle')].filter((tabStopElement) => {
@@ -164,7 +164,7 @@ test.describe('a finger on a figure', () => {
     });
     await waitForFrames(partLocator.page());
   }
-  const surroundingHtml = { before: '<div style="height: 300px"></div>', after: '<div style="height: 1500px"></div>' };
+  const surroundingHtml = { htmlBefore: '<div style="height: 300px"></div>', htmlAfter: '<div style="height: 1500px"></div>' };
 
   test('moves each handle without scrolling the page', async ({ page, handleFigureName }) => {
     const widget = await openWithDisclosures(page, handleFigureName, surroundingHtml);
@@ -223,7 +223,7 @@ test.describe('a finger on a figure', () => {
 
 test('a printed figure has its picture and settings in light colours, and no controls', async ({ page }) => {
   await page.emulateMedia({ colorScheme: 'light' });
-  const widget = await mountFigure(page, 'banana-machine', { head: '<style>:root { color-scheme: light dark }</style>' });
+  const widget = await mountFigure(page, 'banana-machine', { headHtml: '<style>:root { color-scheme: light dark }</style>' });
   const planeCanvas = widget.locator('canvas.plane');
   // The events `beforeprint` and `afterprint` are fired in one task, without an animation frame between them.
   const takePrintedPicture = () => planeCanvas.evaluate((element) => {
@@ -296,16 +296,16 @@ test('a printed page contains figures far from the window, with their pictures @
 
 test('a print shows the disclosures that the user opened, and no controls @nightly', async ({ page, figureName }) => {
   const widget = await mountFigure(page, figureName);
-  const { disclosureIndex, part: figurePart } = FIGURE_FACTS[figureName].printedPart;
+  const { disclosureIndex, partSelector } = FIGURE_FACTS[figureName].printedPart;
   const foldDisclosure = widget.locator('.folds details').nth(disclosureIndex);
   await expect(foldDisclosure).toBeVisible();
   await page.emulateMedia({ media: 'print' });
-  await expect(foldDisclosure.locator(figurePart).first()).toBeHidden();
+  await expect(foldDisclosure.locator(partSelector).first()).toBeHidden();
   await page.emulateMedia({ media: 'screen' });
   await foldDisclosure.locator('summary').click();
-  await expect(foldDisclosure.locator(figurePart).first()).toBeVisible();
+  await expect(foldDisclosure.locator(partSelector).first()).toBeVisible();
   await page.emulateMedia({ media: 'print' });
-  await expect(foldDisclosure.locator(figurePart).first()).toBeVisible();
+  await expect(foldDisclosure.locator(partSelector).first()).toBeVisible();
   await expect(widget.locator('.readouts').first()).toBeVisible();
   await expect(widget.locator('[part=caption]')).toBeVisible();
   await expect(widget.locator(':is(button, input, summary, textarea):visible')).toHaveCount(0);

@@ -27,10 +27,10 @@ function describeSVG(page, svgText) {
     return {
       title: svgDocument.querySelector('title')?.textContent,
       description: svgDocument.querySelector('desc')?.textContent,
-      paths: countElements('path'),
-      texts: countElements('text'),
-      images: countElements('image'),
-      dashed: countElements('[stroke-dasharray]'),
+      pathCount: countElements('path'),
+      textCount: countElements('text'),
+      imageCount: countElements('image'),
+      dashedElementCount: countElements('[stroke-dasharray]'),
       size: [svgDocument.documentElement.getAttribute('width'), svgDocument.documentElement.getAttribute('height')].map(Number),
     };
   }, svgText);
@@ -82,9 +82,9 @@ test('SVG has a title, a description and vector graphics; few samples are dots, 
   expect(svgOfFewSamples.title).toBe('The Banana Machine');
   expect(svgOfFewSamples.description).toBe(await floorCanvas.getAttribute('aria-label'));
   expect(svgOfFewSamples.size).toEqual([Math.round(width), Math.round(height)]);
-  expect(svgOfFewSamples.images).toBe(0);
-  expect(svgOfFewSamples.paths).toBeGreaterThan(1000);
-  expect(svgOfFewSamples.texts).toBeGreaterThan(8);
+  expect(svgOfFewSamples.imageCount).toBe(0);
+  expect(svgOfFewSamples.pathCount).toBeGreaterThan(1000);
+  expect(svgOfFewSamples.textCount).toBeGreaterThan(8);
   const svgText = await readSVG(widget);
   for (const labelText of ['Gaussian in (x, y)', 'Gaussian in ξ', 'command']) expect(svgText).toContain(`>${labelText}`);
   // The handle is an element on the page. In an export it is drawn as a ring.
@@ -92,13 +92,13 @@ test('SVG has a title, a description and vector graphics; few samples are dots, 
   await widget.locator('#samples').fill('9');
   await waitForFrames(page);
   const svgOfManySamples = await describeSVG(page, await readSVG(widget));
-  expect(svgOfManySamples.images).toBe(1);
-  expect(svgOfManySamples.paths).toBeLessThan(60);
+  expect(svgOfManySamples.imageCount).toBe(1);
+  expect(svgOfManySamples.pathCount).toBeLessThan(60);
 
   const svgOfMap = await describeSVG(page, await readSVG(await openSqueeze(page)));
   expect(svgOfMap.title).toBe('Map Squeeze');
-  expect(svgOfMap.images).toBe(0);
-  expect(svgOfMap.paths).toBeGreaterThan(400);
+  expect(svgOfMap.imageCount).toBe(0);
+  expect(svgOfMap.pathCount).toBeGreaterThan(400);
 });
 
 test('PNG of a figure has twice the resolution and an opaque background', async ({ page, figureName }) => {

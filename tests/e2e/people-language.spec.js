@@ -62,7 +62,7 @@ testEach('a German figure contains no English text', async (page, figureName) =>
     .filter((messagePart) => /\p{L}{4}/u.test(messagePart) && !UNTRANSLATED_NAMES.includes(messagePart) && !germanTexts.has(messagePart));
   expect(englishTexts.length).toBeGreaterThan(400);
   await showPage(page, `<${figureName} lang="de-AT"></${figureName}>`, {
-    script: ['motion-widgets', 'de'].map((script) => `<script type="module" src="/${script}.js"></script>`).join(''),
+    scriptHtml: ['motion-widgets', 'de'].map((scriptName) => `<script type="module" src="/${scriptName}.js"></script>`).join(''),
   });
   const widget = page.locator(figureName);
   await waitUntilReady(widget);
@@ -138,7 +138,7 @@ test('on a right-to-left page a figure has the same picture, and nothing overflo
 test('signs are left of their numbers on a right-to-left page, even within right-to-left text', async ({ page, figureName }) => {
   const headHtml = '<script type="module">import { setMessages } from "/motion-widgets.js"; setMessages("he", { playLabel: "נגן" })</script>';
   for (const [figureLanguage, textDirection, numberSelector] of [['en', 'ltr', '.simulation'], ['he', 'rtl', '.simulation :is(bdi, [dir=ltr])']]) {
-    await showPage(page, `<div dir="rtl" lang="${figureLanguage}"><${figureName}><p slot="caption">נגן</p></${figureName}></div>`, { head: headHtml });
+    await showPage(page, `<div dir="rtl" lang="${figureLanguage}"><${figureName}><p slot="caption">נגן</p></${figureName}></div>`, { headHtml });
     const widget = page.locator(figureName);
     await waitUntilReady(widget);
     await openDisclosures(widget);

@@ -9,8 +9,8 @@ const MAX_HEIGHT_DIFFERENCE_EM = 8;
 testEach('the height reserved for a figure until its script is loaded is about the height of the figure', async (page, figureName, isNightly) => {
   const pageWidths = isNightly ? [320, 375, 414, 480, 560, 640, 700, 760, 900, 1024, 1280] : [375, 700, 1280];
   await showPage(page, '', {
-    head: '<style>body { margin: 0; font: 16px "Liberation Serif", serif }</style>',
-    script: '<script type="module" src="/external.js"></script>',
+    headHtml: '<style>body { margin: 0; font: 16px "Liberation Serif", serif }</style>',
+    scriptHtml: '<script type="module" src="/external.js"></script>',
   });
   const allowScript = await holdRequests(page, '**/chunks/**');
   await page.evaluate((widgetTag) => document.body.append(document.createElement(widgetTag)), figureName);
@@ -43,7 +43,7 @@ testEach('the height reserved for a figure until its script is loaded is about t
 test('with a title and a caption, loading the script does not move the text below the figure', async ({ page }) => {
   const allowScript = await holdRequests(page, '**/motion-widgets.js');
   const pageBody = '<banana-machine><span slot="title">Figure 9.3</span><p slot="caption">Drag the ring.</p></banana-machine><p id="after">After</p>';
-  const pageOpening = showPage(page, pageBody, { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
+  const pageOpening = showPage(page, pageBody, { headHtml: '<link rel="stylesheet" href="/motion-widgets.css">' });
   const textBelow = page.locator('#after');
   const readTextTop = async () => (await readBox(textBelow)).y;
   await textBelow.waitFor();
@@ -57,7 +57,7 @@ test('with a title and a caption, loading the script does not move the text belo
 });
 
 testEach('a figure fits the width of a phone, a book column and a screen in a wide font, and is at most a third higher than a screen', async (page, figureName) => {
-  const widget = await mountFigure(page, figureName, { head: '<style>body { margin: 0 }</style>' });
+  const widget = await mountFigure(page, figureName, { headHtml: '<style>body { margin: 0 }</style>' });
   await expect(widget.locator('.folds')).toBeVisible();
   for (const width of [375, 480, 640, 900, 1280]) {
     await page.setViewportSize({ width, height: 720 });

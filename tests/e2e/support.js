@@ -82,9 +82,9 @@ export const REDUCED_MOTION = { contextOptions: { reducedMotion: /** @type {cons
  *
  * @param {Page} page
  * @param {string} bodyHtml
- * @param {{ head?: string, fragment?: string, script?: string }} [options]
+ * @param {{ headHtml?: string, urlFragment?: string, scriptHtml?: string }} [options]
  */
-export async function showPage(page, bodyHtml, { head = '', fragment: urlFragment = '', script = '<script type="module" src="/motion-widgets.js"></script>' } = {}) {
+export async function showPage(page, bodyHtml, { headHtml = '', urlFragment = '', scriptHtml = '<script type="module" src="/motion-widgets.js"></script>' } = {}) {
   await page.addInitScript(() => {
     const firedEvents = /** @type {FiredEvent[]} */ ([]);
     Object.assign(window, { firedEvents });
@@ -103,7 +103,7 @@ export async function showPage(page, bodyHtml, { head = '', fragment: urlFragmen
   await page.route('**/bare.html', (route) =>
     route.fulfill({
       contentType: 'text/html',
-      body: `<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Bare</title><link rel="icon" href="data:,">${head}${script}</head><body>${bodyHtml}</body></html>`,
+      body: `<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Bare</title><link rel="icon" href="data:,">${headHtml}${scriptHtml}</head><body>${bodyHtml}</body></html>`,
     }),
   );
   await page.goto(`/bare.html${urlFragment}`);
@@ -121,13 +121,13 @@ export async function waitUntilReady(widget) {
  * Opens a page with one figure.
  *
  * @param {Page} page
- * @param {string} name of the element
+ * @param {string} figureName
  * @param {Parameters<typeof showPage>[2] & { attributes?: string }} [options]
  * @returns {Promise<Locator>} the figure, running
  */
-export async function mountFigure(page, name, { attributes = '', ...options } = {}) {
-  await showPage(page, `<${name} ${attributes}></${name}>`, options);
-  const widget = page.locator(name);
+export async function mountFigure(page, figureName, { attributes = '', ...pageOptions } = {}) {
+  await showPage(page, `<${figureName} ${attributes}></${figureName}>`, pageOptions);
+  const widget = page.locator(figureName);
   await waitUntilReady(widget);
   return widget;
 }

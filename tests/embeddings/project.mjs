@@ -146,7 +146,7 @@ function createTools(projectDirectory, toolEnvironment) {
   return {
     async run(programName, commandArguments, moreEnvironment) {
       const errorMessage = `\`${[programName, ...commandArguments].join(' ')}\` fails: see above.`;
-      const runOptions = { cwd: projectDirectory, env: { ...toolEnvironment, ...moreEnvironment }, quiet: true, seconds: 900 };
+      const runOptions = { cwd: projectDirectory, env: { ...toolEnvironment, ...moreEnvironment }, isQuiet: true, timeLimitSeconds: 900 };
       return (await runOrThrow(errorMessage, programName, commandArguments, runOptions)).output;
     },
     start: (programName, programArguments, moreEnvironment) => startProgram(programName, programArguments, { cwd: projectDirectory, env: { ...toolEnvironment, ...moreEnvironment } }),
@@ -209,7 +209,7 @@ async function ensureNode({ node = 0 }) {
   const nodeBinDirectory = join(projectDirectory, 'node_modules/node/bin');
   if (!existsSync(nodeBinDirectory)) {
     const missingMessage = `Node ${node} is needed and this is ${process.versions.node}: install it from nodejs.org.`;
-    await runOrThrow(missingMessage, 'npm', ['install', '--prefix', projectDirectory, '--no-audit', '--no-fund', `node@${node}`], { quiet: true, seconds: 300 });
+    await runOrThrow(missingMessage, 'npm', ['install', '--prefix', projectDirectory, '--no-audit', '--no-fund', `node@${node}`], { isQuiet: true, timeLimitSeconds: 300 });
   }
   return { PATH: [nodeBinDirectory, process.env.PATH].join(delimiter) };
 }

@@ -15,7 +15,7 @@ export async function ensureFirefox() {
   const findFirefox = () => process.env.FIREFOX ?? FIREFOX_NAMES.map((programName) => findProgram(programName)).find((programPath) => programPath !== undefined);
   if (findFirefox() === undefined) await installByApt(['firefox-esr'], FIREFOX_MISSING_MESSAGE);
   const firefoxPath = findFirefox();
-  if (firefoxPath === undefined || !(await runProgram(firefoxPath, ['--version'], { quiet: true, seconds: 60 })).ok) throw new UserError(FIREFOX_MISSING_MESSAGE);
+  if (firefoxPath === undefined || !(await runProgram(firefoxPath, ['--version'], { isQuiet: true, timeLimitSeconds: 60 })).hasSucceeded) throw new UserError(FIREFOX_MISSING_MESSAGE);
   return { firefox: firefoxPath, driver: await ensureGeckodriver() };
 }
 
@@ -29,7 +29,7 @@ async function ensureGeckodriver() {
   const rustTools = await ensureNativeRust();
   printStep('Compiling geckodriver, once');
   const cargoArguments = ['install', '--quiet', '--locked', '--debug', 'geckodriver', '--root', join(CACHE_DIRECTORY, 'geckodriver')];
-  await runOrThrow(FIREFOX_MISSING_MESSAGE, join(rustTools.cargoDirectory, 'cargo'), cargoArguments, { env: rustTools.env, seconds: 1200 });
+  await runOrThrow(FIREFOX_MISSING_MESSAGE, join(rustTools.cargoDirectory, 'cargo'), cargoArguments, { env: rustTools.env, timeLimitSeconds: 1200 });
   return join(geckodriverDirectory, 'geckodriver');
 }
 

@@ -153,6 +153,8 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   #opener = new MapOpener(this);
   dropHandlers = this.#opener;
   handles: (WallHandles | PoseHandles)[] = [new WallHandles(this), new PoseHandles(this, 'start', ({ clearance }) => clearance, () => this.picture.plan.bounds)];
+  /** Value of the field `view` in the latest scene. */
+  #shownView = '';
   /** Value of the setting `unknown` (treatment of unknown cells) for which the picture was created. */
   #unknownCellsOfPicture = '';
   /** Measured costs of the samplers, and the settings with which they were measured. */
@@ -193,7 +195,8 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   get scene() {
     const scene = super.scene;
     const { selectedIndex, isSelectionShown } = this.cloud;
-    this.picture.isCloseView = scene.view === 'close';
+    if (scene.view !== this.#shownView) this.picture.pictureView.clearTarget();
+    this.#shownView = scene.view;
     return { ...scene, markedSample: isSelectionShown ? this.#markedSampleOf(selectedIndex) : undefined };
   }
 
@@ -326,7 +329,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
             <p class="headline">${headlineOf(stats)}</p>
             <p class="verdict caption ${stuckNote && 'note'}" part="caption">${captionOf(viewModel)}</p>
           </div>
-          ${startControlsHtml(this)} ${samplerControlsHtml(this)} ${overviewMapHtml(this.picture, viewModel)}
+          ${startControlsHtml(this)} ${samplerControlsHtml(this)} ${overviewMapHtml(this)}
         </div>`)}
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`

@@ -19,6 +19,7 @@ import { drawDisc, paintWithOpacity, strokePath, type DrawContext } from '../../
 export interface Scene extends ViewModel {
   simulation: MapSqueeze;
   overlays: string[];
+  view: string;
   markedSample: { pose: Float64Array, path: Float64Array, contact: ArrayLike<number> | undefined } | undefined;
 }
 
@@ -26,11 +27,11 @@ export interface Scene extends ViewModel {
 const SAMPLE_DOT = { minRadius: 2, maxRadius: 3, widthPerRadius: 240, opacity: 0.4 };
 
 /** A close view shows a square around the end of the command. Half of its side is the command's length times this factor, but at least this minimum (m). */
-const END_HALF_SIZE_FACTOR = 0.8;
-const MIN_END_HALF_SIZE = 0.8;
+const END_HALF_SIZE_FACTOR = 0.9;
+const MIN_END_HALF_SIZE = 0.9;
 
 /** Margin around the commanded path, metres. */
-const PATH_MARGIN = 0.45;
+const PATH_MARGIN = 0.55;
 
 /** Margin around the map, relative to its longer side. */
 const MAP_MARGIN = 0.025;
@@ -55,17 +56,15 @@ export class FloorPicture extends SamplesPicture<Scene> {
   hasUnknownCells = false;
   /** True for a floor plan, false for a grid. The walls of a grid outline its cells, and cannot be moved. */
   hasMovableWalls = true;
-  #closeView = new PictureView();
-  #wholeView = this.pictureView;
   #wallLayer = new WallLayer(this.plan, null);
   /** Corners of cells around the known part of the map. This part may be much smaller than the map. */
   #knownCorners: ArrayLike<number> = [];
   #densityImage = new CachedImage();
   #wallPathMemo: MemoizedResult<string> = new MemoizedResult();
 
-  /** Sets the map. If the new map has the same bounds as the previous one, the views do not change. */
+  /** Sets the map. If the new map has the same bounds as the previous one, the view does not change. */
   setMap(plan: Plan, grid: CellGrid | null) {
-    if (plan.bounds.some((bound, i) => bound !== this.plan.bounds[i])) for (const pictureView of [this.#closeView, this.#wholeView]) pictureView.clearTarget();
+    if (plan.bounds.some((bound, i) => bound !== this.plan.bounds[i])) this.pictureView.clearTarget();
     this.plan = plan;
     this.hasUnknownCells = grid?.unknown !== undefined;
     this.hasMovableWalls = grid === null;
@@ -79,29 +78,18 @@ export class FloorPicture extends SamplesPicture<Scene> {
     return this.#wallPathMemo.getResult([walls], () => range(0, walls.length, 4).map((i) => `M${walls[i]} ${walls[i + 1]}L${walls[i + 2]} ${walls[i + 3]}`).join(''));
   }
 
-  /** True for a close view, which shows only the surroundings of the robot. */
-  get isCloseView() {
-    return this.pictureView === this.#closeView;
-  }
-
-  set isCloseView(isCloseView) {
-    if (isCloseView === this.isCloseView) return;
-    this.pictureView = isCloseView ? this.#closeView : this.#wholeView;
-    this.pictureView.clearTarget();
-  }
-
-  fitView({ commanded, config }: Scene) {
+  fitView({ commanded, config, view }: Scene) {
     const mappedExtent = this.knownExtentOf(config.start);
-    if (!this.isCloseView) {
-      this.#wholeView.fitExtent(mappedExtent);
+    this.pictureView.extentLimits = mappedExtent;
+    if (view === 'whole') {
+      this.pictureView.fitExtent(mappedExtent);
       return;
     }
     const driveLength = Math.abs(config.command.v * config.command.dt);
     const halfSize = Math.max(MIN_END_HALF_SIZE, END_HALF_SIZE_FACTOR * driveLength) + config.clearance;
     const [x, y] = commanded.slice(-2);
     const neededExtent = extentAround(cornersAround(x, y, halfSize), 2, widenExtent(extentAround(commanded, 2), PATH_MARGIN));
-    this.#closeView.extentLimits = mappedExtent;
-    this.#closeView.fitExtent({
+    this.pictureView.fitExtent({
       xMin: Math.max(neededExtent.xMin, mappedExtent.xMin),
       yMin: Math.max(neededExtent.yMin, mappedExtent.yMin),
       xMax: Math.min(neededExtent.xMax, mappedExtent.xMax),

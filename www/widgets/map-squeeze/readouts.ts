@@ -96,12 +96,12 @@ export function costTableHtml(figure: Figure) {
 const MAX_SHOWN_FRACTION = 0.6;
 
 /** Returns the overview of the map, or nothing if the picture already shows most of the map. */
-export function overviewMapHtml(picture: import('./picture.ts').FloorPicture, { config, commanded }: import('./settings.ts').ViewModel) {
+export function overviewMapHtml({ picture, settings, viewModel: { config, commanded } }: Figure) {
   const { xMin, yMin, xMax, yMax } = picture.knownExtentOf(config.start);
   const [width, height] = [xMax - xMin, yMax - yMin];
   const { shownExtent } = picture.pictureView;
   const shownSize = [shownExtent.xMax - shownExtent.xMin, shownExtent.yMax - shownExtent.yMin];
-  if (!picture.isCloseView || shownSize[0] * shownSize[1] > MAX_SHOWN_FRACTION * width * height) return nothing;
+  if (settings.elementState.view === 'whole' || shownSize[0] * shownSize[1] > MAX_SHOWN_FRACTION * width * height) return nothing;
   return html`<svg class="overview" viewBox=${`${xMin} ${-yMax} ${width} ${height}`} aria-hidden="true">
     <g transform="scale(1 -1)" fill="none">
       <path vector-effect="non-scaling-stroke" stroke="var(--muted)" d=${picture.wallPathData} />

@@ -76,8 +76,6 @@ export const settingCheckboxHtml = (figure: Figure, settingKey: string, checkbox
 interface DisclosureOptions {
   renderControls: () => unknown;
   renderNumbers: () => unknown;
-  /** Suffix of the names of exported files. */
-  fileNameSuffix?: string | number;
   /** Tooltip of the button that saves a CSV file, if the file has something other than samples. */
   csvTitle?: string;
 }
@@ -92,10 +90,10 @@ function disclosureHtml(figure: Figure, disclosureName: string, id: string, rend
 }
 
 /** Returns the disclosures of controls and of numbers below a figure, the button that copies a link, and the button that starts the presentation. */
-export function disclosuresHtml(figure: Figure, { renderControls, renderNumbers, fileNameSuffix = figure.viewModel.config.seed, csvTitle }: DisclosureOptions) {
+export function disclosuresHtml(figure: Figure, { renderControls, renderNumbers, csvTitle }: DisclosureOptions) {
   return html`<div class="folds">
     ${disclosureHtml(figure, words.moreControls, 'more', renderControls)}
-    ${disclosureHtml(figure, words.numbersAndData, 'numbers', () => html`${renderNumbers()} ${exportButtonsHtml(figure, fileNameSuffix, csvTitle)} ${embeddingControlsHtml(figure)}`)}
+    ${disclosureHtml(figure, words.numbersAndData, 'numbers', () => html`${renderNumbers()} ${exportButtonsHtml(figure, csvTitle)} ${embeddingControlsHtml(figure)}`)}
     <div class="begin">${linkButtonHtml(figure)} ${figure.presentationMode.buttonHtml()}</div>
   </div>
   <p class="on-paper small">${noiseParametersHtml(figure)}</p>`;

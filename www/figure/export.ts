@@ -85,10 +85,10 @@ export function downloadFile(fileName: string, fileBlob: Blob) {
   setTimeout(() => URL.revokeObjectURL(downloadLink.href), 60_000);
 }
 
-/** Returns the buttons that save the figure. `fileNameSuffix` distinguishes the names of files from different states. */
-export function exportButtonsHtml(figure: Figure, fileNameSuffix: string | number, csvTitle: string = words.exports.csvTitle) {
+/** Returns the buttons that save the figure. Names of files contain the seed, if there is one. */
+export function exportButtonsHtml(figure: Figure, csvTitle: string = words.exports.csvTitle) {
   const exportWords = words.exports;
-  const baseName = `${figure.localName}-${fileNameSuffix}`;
+  const baseName = `${figure.localName}-${figure.viewModel.config.seed ?? 'figure'}`;
   const saveText = (fileExtension: string, mimeType: string, fileContent: string) => downloadFile(`${baseName}.${fileExtension}`, new Blob([fileContent], { type: mimeType }));
   return fieldsetHtml(exportWords.label, html`<div class="buttons">
     ${buttonHtml(exportWords.png, () => figure.toPNG().then((fileBlob) => downloadFile(`${baseName}.png`, fileBlob), (error) => figure.runtime.reportError(error)), { title: exportWords.pngTitle })}

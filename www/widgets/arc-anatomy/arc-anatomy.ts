@@ -124,7 +124,6 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
         renderControls: () => html`<div class="controls">${likelihoodControlsHtml(this)}
           ${fieldsetHtml(words.noiseHeading, html`${settingRadiosHtml(this, 'noise', words.noiseNames)} ${settingSlidersHtml(this, ALPHA_SLIDERS)}`, 'alphas')}</div>`,
         renderNumbers: () => html`${tableLinesHtml(this)} ${likelihoodReadoutsHtml(viewModel)} ${formErrorsPlotHtml(this.motion)}`,
-        fileNameSuffix: 'figure',
         csvTitle: texts.csvTitle,
       })}`)}
     `;

@@ -5,19 +5,19 @@ import { expect } from '@playwright/test';
 import { REPOSITORY_ROOT } from '../../scripts/process.mjs';
 
 /** @typedef {import('@playwright/test').Page} Page */
-/** @typedef {{ name: string, definition: import('./project.mjs').Platform, serving: import('./project.mjs').Serving, url: string }} Site */
+/** @typedef {{ name: string, definition: import('./project.mjs').Platform, serverMode: import('./project.mjs').ServerMode, url: string }} Site */
 
 /** Time limit in milliseconds. It is long, because a development server compiles a page at the first request. */
 const TIMEOUT_MS = 90_000;
 
 /** Runs the checks of a site. @param {import('@playwright/test').Browser} browser @param {Site} servedSite */
 export async function runChecks(browser, servedSite) {
-  const { definition: platformDefinition, serving: currentServing } = servedSite;
+  const { definition: platformDefinition, serverMode } = servedSite;
   /** @type {string[]} */
   const consoleMessages = [];
   const failedChecks = [];
   let passedCount = 0;
-  for (const [checkName, checkFunction] of Object.entries(currentServing.checks ?? checksOf(servedSite))) {
+  for (const [checkName, checkFunction] of Object.entries(serverMode.checks ?? checksOf(servedSite))) {
     const browserContext = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: 'light' });
     const page = await browserContext.newPage();
     page.setDefaultTimeout(TIMEOUT_MS);
@@ -28,25 +28,25 @@ export async function runChecks(browser, servedSite) {
     } catch (error) {
       failedChecks.push(`${checkName}: ${error instanceof Error ? error.message : error}`);
     }
-    await page.screenshot({ path: join(REPOSITORY_ROOT, `test-results/embeddings/${[servedSite.name, currentServing.name, checkName].join(' ').replaceAll(' ', '-')}.png`) }).catch(() => {});
+    await page.screenshot({ path: join(REPOSITORY_ROOT, `test-results/embeddings/${[servedSite.name, serverMode.name, checkName].join(' ').replaceAll(' ', '-')}.png`) }).catch(() => {});
     await browserContext.close();
   }
   // An aborted request means that the browser has left the page.
-  const allowedPatterns = [/ net::ERR_ABORTED$/, ...(platformDefinition.allowedMessages ?? []).map(({ message: messagePattern }) => messagePattern)];
+  const allowedPatterns = [/ net::ERR_ABORTED$/, ...(platformDefinition.allowedMessages ?? []).map(({ messagePattern }) => messagePattern)];
   const unexpectedMessages = [...new Set(consoleMessages)].filter((consoleMessage) => !allowedPatterns.some((allowedPattern) => allowedPattern.test(consoleMessage)));
   if (unexpectedMessages.length > 0) failedChecks.push(`console: ${unexpectedMessages.join('\n')}`);
   else passedCount++;
   return { passed: passedCount, failures: failedChecks };
 }
 
-/** Returns the checks of a site, by name. @param {Site} servedSite @returns {NonNullable<import('./project.mjs').Serving['checks']>} */
-function checksOf({ definition: platformDefinition, serving: currentServing }) {
+/** Returns the checks of a site, by name. @param {Site} servedSite @returns {NonNullable<import('./project.mjs').ServerMode['checks']>} */
+function checksOf({ definition: platformDefinition, serverMode }) {
   const { goToPage, pages: pagePaths } = platformDefinition;
   return {
     'first load': checkFirstLoad,
     ...(goToPage && { 'away and back': checkAwayAndBack }),
-    ...(goToPage && pagePaths.second && { 'from a page without figures': checkFromOtherPage }),
-    ...((currentServing.setDarkMode ?? platformDefinition.setDarkMode) && { 'dark mode': checkDarkMode }),
+    ...(goToPage && pagePaths.otherPath && { 'from a page without figures': checkFromOtherPage }),
+    ...((serverMode.setDarkMode ?? platformDefinition.setDarkMode) && { 'dark mode': checkDarkMode }),
   };
 }
 
@@ -105,7 +105,7 @@ export async function waitUntilComplete(element) {
 
 /** Opens the page of the figures. @type {(page: Page, site: Site) => Promise<void>} */
 async function checkFirstLoad(page, servedSite) {
-  await page.goto(addressOf(servedSite, servedSite.definition.pages.first));
+  await page.goto(addressOf(servedSite, servedSite.definition.pages.figuresPath));
   await waitUntilLive(page, servedSite);
 }
 
@@ -114,18 +114,18 @@ async function checkFirstLoad(page, servedSite) {
  *
  * @param {Page} page
  * @param {Site} servedSite
- * @param {'first' | 'second'} linkKind
+ * @param {'figuresPath' | 'otherPath'} linkKind
  */
 async function followLink(page, { definition: platformDefinition }, linkKind) {
   await platformDefinition.goToPage?.(page, platformDefinition.pages[linkKind] ?? linkKind);
-  await page.locator(platformDefinition.expectedFigures[0].selector).waitFor({ state: linkKind === 'first' ? 'attached' : 'detached' });
+  await page.locator(platformDefinition.expectedFigures[0].selector).waitFor({ state: linkKind === 'figuresPath' ? 'attached' : 'detached' });
 }
 
 /** Follows a link away from the figures, and a link back to them. @type {(page: Page, site: Site) => Promise<void>} */
 async function checkAwayAndBack(page, servedSite) {
   await checkFirstLoad(page, servedSite);
-  await followLink(page, servedSite, 'second');
-  await followLink(page, servedSite, 'first');
+  await followLink(page, servedSite, 'otherPath');
+  await followLink(page, servedSite, 'figuresPath');
   await waitUntilLive(page, servedSite);
 }
 
@@ -135,16 +135,16 @@ async function checkAwayAndBack(page, servedSite) {
  * @type {(page: Page, site: Site) => Promise<void>}
  */
 async function checkFromOtherPage(page, servedSite) {
-  await page.goto(addressOf(servedSite, servedSite.definition.pages.second ?? ''));
+  await page.goto(addressOf(servedSite, servedSite.definition.pages.otherPath ?? ''));
   // The platform handles clicks on links only after its script has loaded. The network is idle then.
   await page.waitForLoadState('networkidle');
-  await followLink(page, servedSite, 'first');
+  await followLink(page, servedSite, 'figuresPath');
   await waitUntilLive(page, servedSite);
 }
 
 /** Turns dark mode on and off again. @type {(page: Page, site: Site) => Promise<void>} */
 async function checkDarkMode(page, servedSite) {
-  const setDarkMode = servedSite.serving.setDarkMode ?? servedSite.definition.setDarkMode;
+  const setDarkMode = servedSite.serverMode.setDarkMode ?? servedSite.definition.setDarkMode;
   await checkFirstLoad(page, servedSite);
   for (const isDark of [true, false]) {
     await setDarkMode?.(page, isDark);

@@ -86,7 +86,7 @@ async function waitForPythonValue(page, pythonCode, expectedValue) {
   assert.deepEqual(actualValue, expectedValue, pythonCode);
 }
 
-/** @type {import('./project.mjs').Serving['checks']} */
+/** @type {import('./project.mjs').ServerMode['checks']} */
 const JUPYTERLAB_CHECKS = {
   async 'what Python sets is shown, and what is shown is known to Python'(page, servedSite) {
     await runNotebook(page, servedSite);
@@ -120,7 +120,7 @@ const JUPYTERLAB_CHECKS = {
   },
 };
 
-/** @type {import('./project.mjs').Serving['checks']} */
+/** @type {import('./project.mjs').ServerMode['checks']} */
 const EXPORT_CHECKS = {
   async 'live without a kernel, as it was when it was run'(page, servedSite) {
     for (const [urlPattern, packagePath] of Object.entries(PACKAGE_FILES)) await page.route(urlPattern, (route) => route.fulfill({ path: join(packagesDirectory, packagePath) }));
@@ -135,7 +135,7 @@ const EXPORT_CHECKS = {
   },
 };
 
-/** @type {import('./project.mjs').Serving['checks']} */
+/** @type {import('./project.mjs').ServerMode['checks']} */
 const VOILA_CHECKS = {
   async 'live with a kernel'(page, servedSite) {
     // Voilà loads style sheets of icons from other servers. Empty style sheets replace them.
@@ -150,8 +150,8 @@ const VOILA_CHECKS = {
 export default {
   heading: 'Jupyter',
   readVersions: () => pinnedVersionsOf('jupyter', 'jupyterlab', 'anywidget', 'nbconvert', 'voila'),
-  python: true,
-  async install(projectDirectory, { run: runInExample, start, pythonWheel }) {
+  usesPython: true,
+  async installPackages(projectDirectory, { run: runInExample, start, pythonWheel }) {
     const toolsDirectory = pythonDirectoryOf(projectDirectory);
     await installPythonPackages(projectDirectory, { run: runInExample, start }, [pythonWheel]);
     await runInExample('npm', ['install', '--prefix', toolsDirectory, '--ignore-scripts', '--no-audit', '--no-fund', '--loglevel', 'error', ...NPM_PACKAGES]);
@@ -166,7 +166,7 @@ export default {
     await runInExample(pythonProgramPathOf(projectDirectory, 'jupyter'), [...nbconvertArguments, 'motion.ipynb']);
     assert.ok(readFileSync(join(projectDirectory, '_build/motion.html'), 'utf8').includes('widget-state+json'));
   },
-  servings: [
+  serverModes: [
     {
       name: 'JupyterLab',
       serve: serveByProgram((port, projectDirectory) => {
@@ -185,19 +185,19 @@ export default {
     },
     { name: 'exported by nbconvert', serve: serveFiles('_build'), checks: EXPORT_CHECKS },
   ],
-  pages: { first: 'motion.ipynb' },
+  pages: { figuresPath: 'motion.ipynb' },
   expectedFigures: [
     { selector: 'banana-machine', properties: ORIGINAL_SETTINGS },
     { selector: 'map-squeeze', properties: { preset: 'corridor', samples: 1000 } },
   ],
   allowedMessages: [
-    { message: /^(Unsatisfied version|No satisfying version)/, reason: 'Voilà is built with another JupyterLab.' },
-    { message: /^Plugin .* (?:is taking too long to activate|took .* to activate)/, reason: 'JupyterLab on a busy machine.' },
-    { message: /^Connection lost, reconnecting/, reason: 'The kernel is started again.' },
-    { message: /^WebSocket connection to .* closed before the connection is established/, reason: 'The page was left while it was starting.' },
-    { message: /^Could not restore the debugger state/, reason: 'The kernel is started again.' },
-    { message: /^History was unable to be retrieved/, reason: 'The kernel is started again.' },
-    { message: /^strict mode: use allowUnionTypes/, reason: 'The widget manager that nbconvert loads warns of its own schema.' },
-    { message: /\/anywidget\.js 404$/, reason: 'The widget manager looks beside the page before it asks the network.' },
+    { messagePattern: /^(Unsatisfied version|No satisfying version)/, reason: 'Voilà is built with another JupyterLab.' },
+    { messagePattern: /^Plugin .* (?:is taking too long to activate|took .* to activate)/, reason: 'JupyterLab on a busy machine.' },
+    { messagePattern: /^Connection lost, reconnecting/, reason: 'The kernel is started again.' },
+    { messagePattern: /^WebSocket connection to .* closed before the connection is established/, reason: 'The page was left while it was starting.' },
+    { messagePattern: /^Could not restore the debugger state/, reason: 'The kernel is started again.' },
+    { messagePattern: /^History was unable to be retrieved/, reason: 'The kernel is started again.' },
+    { messagePattern: /^strict mode: use allowUnionTypes/, reason: 'The widget manager that nbconvert loads warns of its own schema.' },
+    { messagePattern: /\/anywidget\.js 404$/, reason: 'The widget manager looks beside the page before it asks the network.' },
   ],
 };

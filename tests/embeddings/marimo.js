@@ -2,7 +2,7 @@ import { waitUntilLive } from './checks.mjs';
 import { pinnedVersionsOf, installPythonPackages, pythonProgramPathOf } from './project.mjs';
 import { serveByProgram } from './serving.mjs';
 
-/** @type {NonNullable<import('./project.mjs').Serving['checks']>} */
+/** @type {NonNullable<import('./project.mjs').ServerMode['checks']>} */
 const MARIMO_CHECKS = {
   async 'changes by the user reach Python, and changes by Python reach the figure'(page, servedSite) {
     await page.goto(servedSite.url);
@@ -18,15 +18,15 @@ const MARIMO_CHECKS = {
 export default {
   heading: 'marimo',
   readVersions: () => pinnedVersionsOf('marimo', 'marimo', 'anywidget'),
-  python: true,
-  install: (projectDirectory, exampleTools) => installPythonPackages(projectDirectory, exampleTools, [exampleTools.pythonWheel]),
-  servings: [
+  usesPython: true,
+  installPackages: (projectDirectory, exampleTools) => installPythonPackages(projectDirectory, exampleTools, [exampleTools.pythonWheel]),
+  serverModes: [
     {
       name: 'app',
       serve: serveByProgram((port, projectDirectory) => [pythonProgramPathOf(projectDirectory, 'marimo'), ['run', 'motion.py', '--headless', '--no-token', '--port', port]]),
       checks: MARIMO_CHECKS,
     },
   ],
-  pages: { first: '/' },
+  pages: { figuresPath: '/' },
   expectedFigures: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],
 };

@@ -10,9 +10,9 @@ const serveWithNext = (nextCommand, ...nextArguments) => serveByProgram((port) =
 export default {
   heading: 'Next',
   readVersions: () => pinnedVersionsOf('next', 'next', 'react'),
-  install: installNpmPackages,
+  installPackages: installNpmPackages,
   build: (_directory, { run: runInProject }) => runInProject('npm', ['run', 'build']),
-  servings: [
+  serverModes: [
     { name: 'production', serve: serveWithNext('start') },
     { name: 'development', serve: serveWithNext('dev') },
     {
@@ -26,7 +26,7 @@ export default {
       },
     },
   ],
-  pages: { first: '/', second: '/sensors' },
+  pages: { figuresPath: '/', otherPath: '/sensors' },
   goToPage: (page, pagePath) => page.getByRole('link', { name: pagePath === '/' ? 'Motion' : 'Sensors' }).click(),
   setDarkMode: (page, isDark) => page.emulateMedia({ colorScheme: isDark ? 'dark' : 'light' }),
   // After the user has left a page, Next.js keeps the page in the DOM and hides it. For that reason the selectors contain `:visible`.

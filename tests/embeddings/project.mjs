@@ -15,24 +15,24 @@ import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
  * @typedef {object} Platform
  * @property {string} heading of its section in doc/embedding/, and its name in the table of doc/embedding.md
  * @property {() => string} readVersions of its packages, as the files of the example pin them
- * @property {boolean} [python] true if it uses the Python package
- * @property {number} [node] major version of Node that it needs, if newer than that of our package
- * @property {(directory: string, tools: Tools & PackagePaths) => Promise<unknown>} install installs the packages in a fresh copy of the example
+ * @property {boolean} [usesPython] true if it uses the Python package
+ * @property {number} [nodeMajor] major version of Node that it needs, if newer than that of our package
+ * @property {(directory: string, tools: Tools & PackagePaths) => Promise<unknown>} installPackages installs the packages in a fresh copy of the example
  * @property {(directory: string, tools: Tools) => Promise<unknown>} [build]
- * @property {Serving[]} servings ways to serve the site, such as a development server; readers get the first
- * @property {{ first: string, second?: string }} pages paths; the first has the figures
+ * @property {ServerMode[]} serverModes ways to serve the site, such as a development server; readers get the first
+ * @property {{ figuresPath: string, otherPath?: string }} pages paths of the page with the figures and of a page without
  * @property {(page: import('@playwright/test').Page, path: string) => Promise<unknown>} [goToPage] clicks a link to a path,
- *   or to "first" or "second" if both pages have the same address
+ *   or to "figuresPath" or "otherPath" if both pages have the same address
  * @property {(page: import('@playwright/test').Page, isDark: boolean) => Promise<unknown>} [setDarkMode] turns dark mode on or off
  * @property {ExpectedFigure[]} expectedFigures figures that the example contains
- * @property {{ message: RegExp, reason: string }[]} [allowedMessages] messages of the console that the platform causes
+ * @property {{ messagePattern: RegExp, reason: string }[]} [allowedMessages] messages of the console that the platform causes
  * 
- * @typedef {object} Serving
+ * @typedef {object} ServerMode
  * @property {string} name
  * @property {(directory: string, tools: Tools) => Promise<RunningServer>} serve
  * @property {Record<string, (page: import('@playwright/test').Page, site: import('./checks.mjs').Site) => Promise<void>>} [checks] for
- *   servings that are not sites, in place of the usual checks
- * @property {Platform['setDarkMode']} [setDarkMode] replaces that of the platform, if only some servings have dark mode
+ *   modes that are not sites, in place of the usual checks
+ * @property {Platform['setDarkMode']} [setDarkMode] replaces that of the platform, if only some modes have dark mode
  * 
  * @typedef {{ url: string, stop: () => unknown }} RunningServer
  * @typedef {{ selector: string, properties: Record<string, unknown> }} ExpectedFigure selector of a figure, and properties that it must have
@@ -172,7 +172,7 @@ export async function prepareExample(platformName, platformDefinition) {
     if (!KEPT_NAMES.includes(entryName)) rmSync(join(projectDirectory, entryName), { recursive: true });
   }
   cpSync(exampleDirectory, projectDirectory, { recursive: true, filter: (filePath) => !KEPT_NAMES.includes(basename(filePath)) });
-  const packagePaths = { npmTarball: await packNpmPackage(), pythonWheel: platformDefinition.python ? await buildPythonWheel() : '' };
+  const packagePaths = { npmTarball: await packNpmPackage(), pythonWheel: platformDefinition.usesPython ? await buildPythonWheel() : '' };
   const versionFiles = ['package.json', 'requirements.txt'].map((fileName) => join(exampleDirectory, fileName)).filter((filePath) => existsSync(filePath));
   const packageHash = createHash('sha256');
   for (const filePath of [...versionFiles, ...Object.values(packagePaths).filter((filePath) => filePath !== '')]) packageHash.update(readFileSync(filePath));
@@ -182,7 +182,7 @@ export async function prepareExample(platformName, platformDefinition) {
   rmSync(stampFile, { force: true });
   removeCaches(join(projectDirectory, 'node_modules'));
   printStep(`${platformName}: installing`);
-  await platformDefinition.install(projectDirectory, { ...exampleTools, ...packagePaths });
+  await platformDefinition.installPackages(projectDirectory, { ...exampleTools, ...packagePaths });
   writeFileSync(stampFile, currentHash);
   return { directory: projectDirectory, tools: exampleTools };
 }
@@ -203,13 +203,13 @@ function removeCaches(modulesDirectory) {
  * Returns an environment with the version of Node that a platform needs. That version is installed if the current one is older.
  * @param {Platform} definition @returns {Promise<Record<string, string>>}
  */
-async function ensureNode({ node = 0 }) {
-  if (Number.parseInt(process.versions.node) >= node) return {};
-  const projectDirectory = join(SCRATCH_DIRECTORY, `node-${node}`);
+async function ensureNode({ nodeMajor = 0 }) {
+  if (Number.parseInt(process.versions.node) >= nodeMajor) return {};
+  const projectDirectory = join(SCRATCH_DIRECTORY, `node-${nodeMajor}`);
   const nodeBinDirectory = join(projectDirectory, 'node_modules/node/bin');
   if (!existsSync(nodeBinDirectory)) {
-    const missingMessage = `Node ${node} is needed and this is ${process.versions.node}: install it from nodejs.org.`;
-    await runOrThrow(missingMessage, 'npm', ['install', '--prefix', projectDirectory, '--no-audit', '--no-fund', `node@${node}`], { isQuiet: true, timeLimitSeconds: 300 });
+    const missingMessage = `Node ${nodeMajor} is needed and this is ${process.versions.node}: install it from nodejs.org.`;
+    await runOrThrow(missingMessage, 'npm', ['install', '--prefix', projectDirectory, '--no-audit', '--no-fund', `node@${nodeMajor}`], { isQuiet: true, timeLimitSeconds: 300 });
   }
   return { PATH: [nodeBinDirectory, process.env.PATH].join(delimiter) };
 }

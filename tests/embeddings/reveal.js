@@ -3,7 +3,7 @@ import { waitUntilLive } from './checks.mjs';
 import { installNpmPackages, pinnedVersionsOf } from './project.mjs';
 import { serveFiles } from './serving.mjs';
 
-/** @type {NonNullable<import('./project.mjs').Serving['checks']>} */
+/** @type {NonNullable<import('./project.mjs').ServerMode['checks']>} */
 const SLIDE_CHECKS = {
   async 'a figure fits its slide, keeps its keys, and is presented'(page, servedSite) {
     await page.goto(new URL('index.html#/1', servedSite.url).href);
@@ -21,8 +21,8 @@ const SLIDE_CHECKS = {
 export default {
   heading: 'reveal.js',
   readVersions: () => pinnedVersionsOf('reveal', 'reveal.js'),
-  install: installNpmPackages,
-  servings: [{ name: 'page', serve: serveFiles('.'), checks: SLIDE_CHECKS }],
-  pages: { first: '/' },
+  installPackages: installNpmPackages,
+  serverModes: [{ name: 'page', serve: serveFiles('.'), checks: SLIDE_CHECKS }],
+  pages: { figuresPath: '/' },
   expectedFigures: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],
 };

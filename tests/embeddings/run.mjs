@@ -10,7 +10,7 @@ import { REPOSITORY_ROOT, UserError, printStep, runAsScript } from '../../script
 import { runChecks } from './checks.mjs';
 import { loadPlatform, findPlatformNames, prepareExample } from './project.mjs';
 
-/** @typedef {{ name: string, serving: string, passed: number, failures: string[], seconds: number }} Outcome */
+/** @typedef {{ name: string, serverMode: string, passed: number, failures: string[], seconds: number }} Outcome */
 
 /**
  * Returns an outcome for each way of serving a site. If the platform cannot be served, returns a single outcome.
@@ -21,33 +21,33 @@ import { loadPlatform, findPlatformNames, prepareExample } from './project.mjs';
 async function testPlatform(browser, platformName) {
   const platformDefinition = await loadPlatform(platformName);
   /** @type {Outcome[]} */
-  const servingOutcomes = [];
+  const platformOutcomes = [];
   let startTime = Date.now();
-  const addOutcome = (/** @type {string} */ servingName, /** @type {number} */ passedCount, /** @type {string[]} */ failures) => {
-    servingOutcomes.push({ name: platformName, serving: servingName, passed: passedCount, failures, seconds: (Date.now() - startTime) / 1000 });
+  const addOutcome = (/** @type {string} */ serverModeName, /** @type {number} */ passedCount, /** @type {string[]} */ failures) => {
+    platformOutcomes.push({ name: platformName, serverMode: serverModeName, passed: passedCount, failures, seconds: (Date.now() - startTime) / 1000 });
     for (const failureText of failures) console.log(`FAILED ${failureText}`);
     startTime = Date.now();
   };
-  let servingName = 'build';
+  let serverModeName = 'build';
   try {
     const { directory: projectDirectory, tools: exampleTools } = await prepareExample(platformName, platformDefinition);
     printStep(`${platformName}: building`);
     await platformDefinition.build?.(projectDirectory, exampleTools);
-    for (const currentServing of platformDefinition.servings) {
-      servingName = currentServing.name;
-      printStep(`${platformName}: ${servingName}`);
-      const { url, stop } = await currentServing.serve(projectDirectory, exampleTools);
+    for (const serverMode of platformDefinition.serverModes) {
+      serverModeName = serverMode.name;
+      printStep(`${platformName}: ${serverModeName}`);
+      const { url, stop } = await serverMode.serve(projectDirectory, exampleTools);
       try {
-        const { passed, failures } = await runChecks(browser, { name: platformName, definition: platformDefinition, serving: currentServing, url });
-        addOutcome(servingName, passed, failures);
+        const { passed, failures } = await runChecks(browser, { name: platformName, definition: platformDefinition, serverMode, url });
+        addOutcome(serverModeName, passed, failures);
       } finally {
         await stop();
       }
     }
   } catch (error) {
-    addOutcome(servingName, 0, [error instanceof UserError ? error.message : String(error instanceof Error ? error.stack : error)]);
+    addOutcome(serverModeName, 0, [error instanceof UserError ? error.message : String(error instanceof Error ? error.stack : error)]);
   }
-  return servingOutcomes;
+  return platformOutcomes;
 }
 
 /** Tests the named platforms, or all platforms if none is named. Returns true if all of them pass. @param {string[]} platformNames */
@@ -76,9 +76,9 @@ async function printSummary(outcomes, browserVersion) {
   printStep(`Versions: Node ${process.versions.node}, Chromium ${browserVersion}`);
   for (const name of new Set(outcomes.map(({ name }) => name))) console.log(`${name.padEnd(16)} ${(await loadPlatform(name)).readVersions()}`);
   printStep('Summary');
-  for (const { name, serving: currentServing, passed, failures, seconds } of outcomes) {
+  for (const { name, serverMode, passed, failures, seconds } of outcomes) {
     const countText = `${passed} passed, ${failures.length} failed`;
-    console.log(`${failures.length === 0 ? 'ok    ' : 'FAILED'} ${name.padEnd(16)} ${currentServing.padEnd(20)} ${seconds.toFixed(0).padStart(4)} s  ${countText}`);
+    console.log(`${failures.length === 0 ? 'ok    ' : 'FAILED'} ${name.padEnd(16)} ${serverMode.padEnd(20)} ${seconds.toFixed(0).padStart(4)} s  ${countText}`);
   }
 }
 

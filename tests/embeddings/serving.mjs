@@ -13,7 +13,7 @@ const TIMEOUT_SECONDS = 120;
  *
  * @param {string} outputDirectory directory of the files, relative to the copy of the example
  * @param {string} [basePath] configured path of the site, with a slash at both ends
- * @returns {import('./project.mjs').Serving['serve']}
+ * @returns {import('./project.mjs').ServerMode['serve']}
  */
 export const serveFiles = (outputDirectory, basePath) => async (projectDirectory) => {
   const { address: pageAddress, close: stopServer } = await startServer(join(projectDirectory, outputDirectory), { port: 0, base: basePath });
@@ -25,7 +25,7 @@ export const serveFiles = (outputDirectory, basePath) => async (projectDirectory
  *
  * @param {(port: string, directory: string) => [command: string, args: string[], env?: Record<string, string>]} commandOf returns the command that starts the server
  * @param {string} [basePath] the path of the site, with a slash at both ends
- * @returns {import('./project.mjs').Serving['serve']}
+ * @returns {import('./project.mjs').ServerMode['serve']}
  */
 export const serveByProgram = (commandOf, basePath = '/') => async (projectDirectory, { start }) => {
   const port = await findFreePort();

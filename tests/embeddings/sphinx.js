@@ -27,7 +27,7 @@ const themeNames = Object.keys(DARK_SWITCH_OF_THEME);
 export default {
   heading: 'Sphinx',
   readVersions: () => pinnedVersionsOf('sphinx', 'sphinx', ...themeNames.map((themeName) => themeName.replaceAll('_', '-'))),
-  async install(projectDirectory, exampleTools) {
+  async installPackages(projectDirectory, exampleTools) {
     await installPythonPackages(projectDirectory, exampleTools, []);
   },
   async build(projectDirectory, { run: runInProject }) {
@@ -37,9 +37,9 @@ export default {
       await runInProject(pythonProgramPathOf(projectDirectory, 'sphinx-build'), [...sphinxArguments, '.', `_build/${sphinxTheme}`]);
     }
   },
-  servings: themeNames.map((sphinxTheme) => ({ name: sphinxTheme, serve: serveFiles(`_build/${sphinxTheme}`, '/a/book/'), setDarkMode: DARK_SWITCH_OF_THEME[sphinxTheme] })),
-  pages: { first: 'index.html', second: 'map.html' },
+  serverModes: themeNames.map((sphinxTheme) => ({ name: sphinxTheme, serve: serveFiles(`_build/${sphinxTheme}`, '/a/book/'), setDarkMode: DARK_SWITCH_OF_THEME[sphinxTheme] })),
+  pages: { figuresPath: 'index.html', otherPath: 'map.html' },
   goToPage: (page, pagePath) => page.locator(`a[href$="${pagePath}"]`).filter({ visible: true }).first().click(),
   expectedFigures: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],
-  allowedMessages: [{ message: /^Got invalid theme mode: \. Resetting to auto\.$/, reason: 'pydata_sphinx_theme warns readers who have chosen no mode.' }],
+  allowedMessages: [{ messagePattern: /^Got invalid theme mode: \. Resetting to auto\.$/, reason: 'pydata_sphinx_theme warns readers who have chosen no mode.' }],
 };

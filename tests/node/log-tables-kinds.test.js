@@ -268,6 +268,20 @@ for (const [axesName, tableText] of [
   });
 }
 
+test('missing columns are proposed for columns of unknown names, unless no column fits', async () => {
+  for (const [headerLine, proposedNames] of /** @type {[string, string[]][]} */ ([
+    ['Zeit,PosX,PosY,Winkel', ['t,PosX,PosY,yaw']],
+    ['ID,Zeit,X [mm],Y [mm],Winkel', ['-,t,X [mm],Y [mm],yaw']],
+    ['Frame,RX,TX [mm],TY [mm]', []],
+    ['linear.x,linear.y,angular.z,angular.x', []],
+    ['time,latitude,longitude,heading', []],
+  ])) {
+    const rowPrefix = headerLine.startsWith('ID') ? ['7'] : [];
+    const { userQuestion } = await catchRefusalError(readTable(circleTableOf((tableRow) => [...rowPrefix, ...tableRow], headerLine)));
+    assert.deepEqual(userQuestion?.possibleAnswers, proposedNames, headerLine);
+  }
+});
+
 test('a heading without a prefix belongs to the only path of a table', async () => {
   const { logSummary: { columns: tableColumns } } = await readTable(circleTableOf((tableRow) => tableRow, 'Frame Time,Center X,Center Y,Rotation'));
   assert.deepEqual(tableColumns, { t: 'Frame Time', x: 'Center X', y: 'Center Y', yaw: 'Rotation' });

@@ -1,7 +1,8 @@
 /** Columns of a table, recognized by their names, in groups with a common prefix. */
 
 import { group } from 'd3-array';
-import { LogError, truncate, listNames, UNIT_NAMES, type ErrorPlace, type AngleUnit, type LengthUnit, type LogKind, type UserQuestion, type Series, type TimeUnit } from './log.ts';
+import type { TableFormat } from './format.ts';
+import { LogError, truncate, listNames, UNIT_NAMES, type ErrorPlace, type AngleUnit, type LengthUnit, type LogKind, type Series, type TimeUnit } from './log.ts';
 
 export type LogField = 't' | 'seconds' | 'subseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child' | 'source';
 
@@ -119,7 +120,7 @@ function toDottedName(columnName: string): string {
 interface ColumnMeaning { logField: LogField; matchRank: number; groupPrefix: string; unitName?: string }
 
 /** Returns the field, the prefix and the unit that the name of a column states; undefined if the column has none of the known fields. */
-function parseColumnName(columnName: string): ColumnMeaning | undefined {
+export function parseColumnName(columnName: string): ColumnMeaning | undefined {
   const [bracketedUnit = '', unitText = ''] = UNIT_IN_BRACKETS.exec(columnName) ?? [];
   const nameWithoutUnit = columnName.slice(0, columnName.length - bracketedUnit.length);
   const dottedPath = toDottedName(nameWithoutUnit);
@@ -142,6 +143,15 @@ function parseColumnName(columnName: string): ColumnMeaning | undefined {
   const [, baseName, nameSuffix] = SUFFIXED_NAME.exec(dottedPath) ?? [];
   const baseMeaning = baseName === undefined ? undefined : matchField(baseName);
   return baseMeaning && nameSuffix !== undefined && !UNREAD_QUANTITIES.test(nameSuffix) ? { ...baseMeaning, groupPrefix: nameSuffix } : undefined;
+}
+
+/** Pattern of names of row numbers, and of positions on the globe. */
+const ROW_NUMBERS_AND_GLOBE = /^(sub\.)?(frame|index|seq|count|row|id|lat|lon|lng|alt)/;
+
+/** Returns true for a column whose name says that it holds neither times nor coordinates in the plane. */
+export function isOtherQuantity(columnName: string): boolean {
+  const dottedName = toDottedName(columnName);
+  return UNREAD_QUANTITIES.test(dottedName) || ROW_NUMBERS_AND_GLOBE.test(dottedName);
 }
 
 /** Returns the name that the user gives a column. If this name states no unit, the unit that the file states for the column is added, where it fits. */
@@ -241,17 +251,9 @@ function clocksOf({ seconds: secondColumn, subseconds: subsecondColumn }: Column
   return singleColumnClocks.length > 0 || !timePartColumn ? singleColumnClocks : [clockOf(timePartColumn)];
 }
 
-/** Names that columns probably have, by the number of columns. */
-const LIKELY_NAMES: Record<number, string> = { 3: 't,v,omega', 4: 't,x,y,yaw', 7: 't,odom_x,odom_y,odom_yaw,ref_x,ref_y,ref_yaw' };
-
-/** Returns a question about the columns of a table, with the names that they probably have. */
-export const columnQuestionOf = (columnNames: string[]): UserQuestion =>
-  ({ optionName: 'columns', possibleAnswers: [LIKELY_NAMES[columnNames.length] ?? ['t,x,y,yaw', ...Array<string>(Math.max(0, columnNames.length - 4)).fill('-')].join()], columnNames });
-
 /** Returns the columns of a log: x, y and heading, or v and omega. Throws a LogError if one of these columns is missing, or if two columns may be the same field. */
-export function findLogLayout(columnGroup: ColumnGroup | undefined, rawColumnNames: string[], errorPlace: ErrorPlace, wantedKind: LogKind | undefined) {
+export function findLogLayout(columnGroup: ColumnGroup | undefined, { columnNames: rawColumnNames, columnQuestion: userQuestion }: Pick<TableFormat, 'columnNames' | 'columnQuestion'>, errorPlace: ErrorPlace, wantedKind: LogKind | undefined) {
   const columnNames = listNames(rawColumnNames.map((columnName) => columnName.trim()));
-  const userQuestion = columnQuestionOf(rawColumnNames);
   if (!columnGroup) throw new LogError(errorPlace, (errorReasons) => errorReasons.missingColumnsReason(wantedKind === 'poses' ? wantedKind : 'either', columnNames), userQuestion);
   const { fieldColumns, duplicateColumns, rowClocks } = columnGroup;
   if (rowClocks.length === 0) throw new LogError(errorPlace, (errorReasons) => errorReasons.noTimeColumnReason(columnNames), userQuestion);

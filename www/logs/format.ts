@@ -1,7 +1,7 @@
 /** Format of a table (separator, preamble and header) from its first lines, and parsers of the numbers and dates in its cells. */
 
-import { columnQuestionOf, groupColumnsByPrefix, isHeader, isUnit, withUnitInFile, type ColumnGroup } from './columns.ts';
-import { LogError, truncate, type ErrorPlace } from './log.ts';
+import { groupColumnsByPrefix, isHeader, isOtherQuantity, isUnit, parseColumnName, withUnitInFile, type ColumnGroup } from './columns.ts';
+import { LogError, truncate, type ErrorPlace, type UserQuestion } from './log.ts';
 import { epochTimeUnitOf } from './units.ts';
 
 export interface TableFormat {
@@ -11,6 +11,8 @@ export interface TableFormat {
   firstRowNumber: number;
   columnNames: string[];
   columnGroups: ColumnGroup[];
+  /** Question that proposes names for the columns. */
+  columnQuestion: UserQuestion;
   /** True if rows may have empty cells, because each row holds a sample of only one of several topics. */
   isSparse: boolean;
 }
@@ -103,19 +105,20 @@ export function detectTableFormat(lineTexts: string[], fileName: string, givenCo
   const rowWidth = Math.max(0, ...sampledRows.map((rowCells) => rowCells.length - (rowCells.at(-1)?.trim() === '' ? 1 : 0)));
   const commonFormat = { cellSeparator, hasDecimalCommas, firstRowNumber: firstRowLine?.lineNumber ?? (filledLines.at(-1)?.lineNumber ?? 0) + 1, isSparse: false };
   const errorPlace = { fileName, lineNumber: firstRowLine?.lineNumber ?? filledLines[0].lineNumber };
+  const formatOf = (columnNames: string[], columnGroups = findColumnGroups(columnNames, sampledRows[0])) => ({ ...commonFormat, columnNames, columnGroups, columnQuestion: columnQuestionOf(columnNames, sampledRows) });
   const noLogError = () => new LogError({ fileName }, (errorReasons) => errorReasons.noLogReason);
 
   if (givenColumnNames) {
     if (firstRowLine && givenColumnNames.length !== rowWidth) throw new LogError(errorPlace, (errorReasons) => errorReasons.columnCountReason(rowWidth, givenColumnNames.length));
     const namesInFile = textLines.filter(({ lineNumber }) => lineNumber < commonFormat.firstRowNumber).map(({ lineText }) => cellsOfLine(lineText)).findLast((rowCells) => rowCells.length === rowWidth);
     const columnNames = givenColumnNames.map((columnName, i) => withUnitInFile(columnName, namesInFile?.[i] ?? ''));
-    return { ...commonFormat, columnNames, columnGroups: findColumnGroups(columnNames, sampledRows[0]) };
+    return formatOf(columnNames);
   }
   // At least half of the lines must be rows: prose can also contain single rows of numbers.
   if (2 * sampledRows.filter(isDataRow).length < sampledRows.length) throw noLogError();
   const preambleLines = filledLines.filter(({ lineNumber }) => lineNumber < commonFormat.firstRowNumber);
   const motiveLayout = preambleLines.length > 0 && /^"?Format Version/.test(preambleLines[0].lineText) ? detectMotiveFormat(preambleLines.map(({ lineText }) => cellsOfLine(lineText)), errorPlace) : undefined;
-  if (motiveLayout) return { ...commonFormat, ...motiveLayout };
+  if (motiveLayout) return formatOf(motiveLayout.columnNames, motiveLayout.columnGroups);
 
   const tableHeader = headerOf(preambleLines, cellSeparator, rowWidth, sampledRows[0]);
   if (tableHeader) {
@@ -125,12 +128,33 @@ export function detectTableFormat(lineTexts: string[], fileName: string, givenCo
     if (rowWidth > columnNames.length) throw new LogError({ fileName, lineNumber: firstRowLine?.lineNumber }, (errorReasons) => errorReasons.wideRowReason(rowWidth, columnNames.length, lineNumber));
     const columnGroups = findColumnGroups(columnNames, sampledRows[0]);
     if (!firstRowLine && columnGroups.every(({ groupKind }) => groupKind === null)) throw noLogError();
-    return { ...commonFormat, columnNames, columnGroups, isSparse: columnGroups.length > 1 || columnNames.some((columnName) => columnName.trim() === '__time') };
+    return { ...formatOf(columnNames, columnGroups), isSparse: columnGroups.length > 1 || columnNames.some((columnName) => columnName.trim() === '__time') };
   }
   if (!firstRowLine) throw noLogError();
   const columnNames = columnsByContent(sampledRows);
-  if (columnNames) return { ...commonFormat, columnNames, columnGroups: findColumnGroups(columnNames, sampledRows[0]) };
-  throw new LogError(errorPlace, (errorReasons) => errorReasons.noHeaderReason(rowWidth, truncate(firstRowLine.lineText.trim().replaceAll('\t', ' '))), columnQuestionOf(sampledRows[0].slice(0, rowWidth)));
+  if (columnNames) return formatOf(columnNames);
+  throw new LogError(errorPlace, (errorReasons) => errorReasons.noHeaderReason(rowWidth, truncate(firstRowLine.lineText.trim().replaceAll('\t', ' '))), columnQuestionOf(sampledRows[0].slice(0, rowWidth), sampledRows));
+}
+
+/** Fields that the columns of a table without known names probably have, by the number of columns. */
+const LIKELY_FIELDS: Record<number, string[]> = { 3: ['t', 'v', 'omega'], 7: ['t', 'odom_x', 'odom_y', 'odom_yaw', 'ref_x', 'ref_y', 'ref_yaw'] };
+
+/** Returns the question for the columns of a table. Columns of known names keep them, and the missing fields are proposed for the other columns, in order. */
+function columnQuestionOf(columnNames: string[], sampledRows: string[][]): UserQuestion {
+  const meanings = columnNames.map((columnName) => parseColumnName(columnName));
+  const knownFields = meanings.map((meaning) => meaning && `${meaning.groupPrefix} ${meaning.logField}`);
+  const hasField = (...logFields: string[]) => meanings.some((meaning) => meaning && logFields.includes(meaning.logField));
+  const neededFields = hasField('v', 'omega') && !hasField('x', 'y') ? ['t', 'v', 'omega'] : ['t', 'x', 'y', 'yaw'];
+  const likelyFields = (knownFields.some(Boolean) ? undefined : LIKELY_FIELDS[columnNames.length]) ?? neededFields;
+  const missingFields = likelyFields.filter((logField) => !hasField(logField) && !(logField === 't' && hasField('seconds')) && !(logField === 'yaw' && hasField('qw')));
+  const timesOf = (columnIndex: number) => sampledRows.map((rowCells) => parseDate(rowCells[columnIndex]) ?? Number(rowCells[columnIndex]?.replace(',', '.')));
+  const isRising = (columnIndex: number) => timesOf(columnIndex).every((time, i, times) => i === 0 || time > times[i - 1]);
+  const proposedNames = columnNames.map((columnName, i) => {
+    if (knownFields[i]) return knownFields.indexOf(knownFields[i]) === i ? columnName.trim() : '-';
+    return isOtherQuantity(columnName) || (missingFields[0] === 't' && !isRising(i)) ? '-' : (missingFields.shift() ?? '-');
+  });
+  const proposedFields = proposedNames.map((proposedName, i) => (proposedName === columnNames[i].trim() && meanings[i]?.logField) || proposedName);
+  return { optionName: 'columns', possibleAnswers: missingFields.length === 0 ? [proposedNames.join()] : [], columnNames, proposedFields };
 }
 
 const stripUnitBrackets = (cell: string) => cell.replaceAll(/[\s"[\](){}]/g, '');

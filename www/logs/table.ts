@@ -39,7 +39,7 @@ export async function openTable(sourceFile: SourceFile, optionsOf: OptionsByName
   const readableGroups = tableFormat.columnGroups.filter(({ groupKind: logKind }) => logKind !== null);
   const headerPlace = { fileName: sourceFile.name, lineNumber: Math.max(1, tableFormat.firstRowNumber - 1) };
   // This call throws a LogError: it gives the reason why the group with most columns cannot be read.
-  if (readableGroups.length === 0) findLogLayout(tableFormat.columnGroups.toSorted((a, b) => Object.keys(b.fieldColumns).length - Object.keys(a.fieldColumns).length)[0], tableFormat.columnNames, headerPlace, undefined);
+  if (readableGroups.length === 0) findLogLayout(tableFormat.columnGroups.toSorted((a, b) => Object.keys(b.fieldColumns).length - Object.keys(a.fieldColumns).length)[0], tableFormat, headerPlace, undefined);
   const seriesOfGroup = (columnGroup: ColumnGroup): Series => ({
     seriesName: readableGroups.length === 1 && columnGroup.groupKind !== null ? '' : columnGroup.groupName || listNames(columnNamesOf(columnGroup)),
     messageType: listNames(columnNamesOf(columnGroup)),
@@ -60,7 +60,7 @@ export async function openTable(sourceFile: SourceFile, optionsOf: OptionsByName
           const logName = readableGroups.length === 1 ? sourceFile.name : `${sourceFile.name}, ${seriesOfGroup(chosenGroup).seriesName}`;
           if (changeName && !(Object.keys(COLUMN_CHANGES[changeName][0]) as LogField[]).every((logField) => chosenGroup.fieldColumns[logField])) return undefined;
           const columnGroup = changeName ? { ...chosenGroup, fieldColumns: changeColumns(chosenGroup.fieldColumns, COLUMN_CHANGES[changeName]) } : chosenGroup;
-          return createLogReader(logName, { fileName: sourceFile.name }, tableFormat, columnGroup, findLogLayout(columnGroup, tableFormat.columnNames, headerPlace, logKind), optionsOf(logName), chosenGroup.fieldColumns, changeName);
+          return createLogReader(logName, { fileName: sourceFile.name }, tableFormat, columnGroup, findLogLayout(columnGroup, tableFormat, headerPlace, logKind), optionsOf(logName), chosenGroup.fieldColumns, changeName);
         });
         await readLines(sourceFile, encoding, tableFormat.firstRowNumber, onProgress, (lineText, lineNumber, isUnterminated) => {
           for (const logReader of logReaders) logReader?.addLine(lineText, lineNumber, isUnterminated);

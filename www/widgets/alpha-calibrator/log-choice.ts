@@ -109,7 +109,7 @@ function columnsFormHtml(logOpener: LogOpener, question: FileQuestion, answeredN
       if (optionIndex !== '') newFields[options[Number(optionIndex)].columnIndex] = `${options[Number(optionIndex)].sign}${field}`;
     }
     // A column that keeps its field also keeps its name, because the name may contain a unit.
-    const newNames = newFields.map((field, i) => (field === proposedFields[i] ? proposedNames[i] : field));
+    const newNames = newFields.map((field, i) => ((field === proposedFields[i] && proposedNames[i]) || field));
     [question.possibleAnswers, question.proposedFields] = [[newNames.join()], newFields];
     logOpener.answerQuestions({ [fileName]: { columnNames: newNames } });
   };

@@ -99,6 +99,7 @@ export const german: LogTexts = {
       `die Transformation ${framePair} ändert sich nie und ist daher kein Weg eines Roboters; erwartet werden Frames, die sich bewegen${otherFrames ? `, wie ${otherFrames}` : ''}.`,
     sameLogReason: (name) => `${name} ist die Odometrie selbst; gebraucht wird eine Referenz, die nicht von den Rädern kommt, wie Motion-Capture oder Scan-Matching.`,
     otherUnitReason: (factor, otherName, unit) => `der Roboter führe ${Math.round(factor)}-mal so schnell wie in ${otherName}: Die Längen sind wohl in ${unit}; ihre Einheit angeben.`,
+    stillOdometryReason: 'ihre Pose ändert sich nie; gebraucht wird die Odometrie eines Roboters, der fährt.',
     frozenReferenceReason: 'ihre Pose steht, während die Odometrie weitergeht: Sie hat den Roboter verloren; gebraucht wird eine, die ihm folgt.',
     unknownRoleReason: 'ihr Name sagt nicht, ob sie Odometrie oder Referenz ist; die Dateien nach dem Muster odom1.csv, truth1.csv, odom2.csv, … benennen, oder die Rolle jeder auswählen.',
     unpairedLogsReason: (odometry, reference) => `die Odometrie ist in ${odometry || 'keiner Datei'}, und die Referenz in ${reference || 'keiner Datei'}; gebraucht wird je eines für eine Fahrt.`,

@@ -100,6 +100,7 @@ export const english = {
       `the transform ${framePair} never changes, so it is not the path of a robot; expected are frames that move${otherFrames ? `, such as ${otherFrames}` : ''}.`,
     sameLogReason: (name: string) => `${name} is the odometry itself; choose a reference that does not come from the wheels, such as motion capture or scan matching.`,
     otherUnitReason: (factor: number, otherName: string, unit: string) => `the robot would drive ${Math.round(factor)} times as fast as in ${otherName}: its lengths seem to be in ${unit}; state their unit.`,
+    stillOdometryReason: 'its pose never changes; give the odometry of a robot that drives.',
     frozenReferenceReason: 'its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.',
     unknownRoleReason: 'its name does not say whether it is odometry or reference; name the files as odom1.csv, truth1.csv, odom2.csv, …, or choose the role of each.',
     unpairedLogsReason: (odometry: string, reference: string) => `the odometry is in ${odometry || 'no file'}, and the reference in ${reference || 'no file'}; give one of each for a drive.`,

@@ -4,7 +4,7 @@ import { min, zip } from 'd3-array';
 import type { CalibrationLog } from '../types.d.ts';
 import { isLocalizer, roleByName, type PlannedRecording } from './drives.ts';
 import { LogError, LOG_ROLES, UNIT_NAMES, formatFrames, type Log, type LogChoice, type LogNote, type Poses, type LogRole, type LogSummary, type LogWarning } from './log.ts';
-import { pathOf, poseAt, wrapAngle } from './path.ts';
+import { pathOf, poseAt, wrapAngle, type TimedPath } from './path.ts';
 import { METRES_PER_UNIT, logSpeedOf } from './units.ts';
 
 /** Two logs of one drive. The times of both logs count from the same start. */
@@ -49,7 +49,10 @@ export function pairLogs(odometryLog: Log, referenceLog: Log): LoggedDrive {
   if (referenceLog.logKind === 'commands') throw new LogError(referencePlace, (errorReasons) => errorReasons.missingColumnsReason('poses', 't, v, omega'));
   const { frames: framePair } = referenceLog.logSummary;
   if (framePair?.parent === 'odom') throw new LogError(referencePlace, (errorReasons) => errorReasons.sameLogReason(formatFrames(framePair)));
-  const brokenReference = breakFrozenPoses(referenceLog, odometryLog);
+  const odometryPath = pathOf(odometryLog.motionData);
+  const [firstPose] = odometryPath.poses;
+  if (odometryPath.poses.every((pose) => pose.every((coordinate, i) => coordinate === firstPose[i]))) throw new LogError({ fileName: odometryLog.logName }, (errorReasons) => errorReasons.stillOdometryReason);
+  const brokenReference = breakFrozenPoses(referenceLog, odometryPath);
   if (brokenReference.logSummary.used < 2) throw new LogError(referencePlace, (errorReasons) => errorReasons.frozenReferenceReason);
   const matchedLogs = { odometry: odometryLog, reference: brokenReference };
   checkLengthUnits(matchedLogs);
@@ -63,10 +66,9 @@ export function pairLogs(odometryLog: Log, referenceLog: Log): LoggedDrive {
 }
 
 /** Returns the reference with a break at each pose that is repeated although the odometry moves: motion capture has probably lost the robot. */
-function breakFrozenPoses(referenceLog: Log, odometryLog: Log): Log {
+function breakFrozenPoses(referenceLog: Log, odometryPath: TimedPath): Log {
   const { motionData: poseData, logSummary } = referenceLog;
   const { t, x, y, theta } = poseData as Poses;
-  const odometryPath = pathOf(odometryLog.motionData);
   const breakRows = new Set(poseData.breaks);
   let frozenCount = 0;
   for (let runStart = 0, runEnd; runStart < t.length; runStart = runEnd) {

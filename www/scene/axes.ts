@@ -1,11 +1,7 @@
 /** Axes of a picture with ticks, names and a legend, and clipping to the plot area. */
 
-import { ticks } from 'd3-array';
-import { formatPowerOfTen, formatTick } from '../ui/format.ts';
+import { ticksOfAxis } from '../ui/format.ts';
 import { paintWithOpacity, strokeLine, type DrawContext, type LineStroke } from './canvas.ts';
-
-/** Tick step below which the axis has a power of ten before its unit. Labels with more zeros would not fit next to the axis. */
-const MIN_PLAIN_STEP = 9e-4;
 
 /** Minimum distance between two ticks of an axis, CSS pixels. */
 const MIN_TICK_SPACING = { x: 60, y: 48 };
@@ -23,18 +19,17 @@ export function drawAxes(drawContext: DrawContext, axisNames: { x: string, y: st
   const { xMin, xMax, yMin, yMax } = pictureView.shownExtent;
   const drawHairline = (opacity: number, ...pixelPoints: number[][]) => paintWithOpacity(canvasContext, opacity, () => strokeLine(canvasContext, pixelPoints, { colour: palette.rule, width: 1 }));
 
-  const xTicks = ticksOfAxis(xMin, xMax, (right - left) / MIN_TICK_SPACING.x);
+  const xTicks = ticksOfAxis(axisNames.x, xMin, xMax, (right - left) / MIN_TICK_SPACING.x);
   Object.assign(canvasContext, { font, fillStyle: palette.muted, textAlign: 'center', textBaseline: 'top' });
   // The name of the x axis is at its right end, where it replaces tick labels.
-  const xAxisName = axisNames.x.replace('(', `(${xTicks.unitFactor}`);
-  const maxLabelX = right - canvasContext.measureText(xAxisName).width - 10;
+  const maxLabelX = right - canvasContext.measureText(xTicks.axisName).width - 10;
   for (const tickValue of xTicks.tickValues) {
     const x = Math.round(pictureView.toPixelX(tickValue)) + 0.5;
     drawHairline(gridOpacity, [x, top], [x, bottom]);
     const tickLabel = xTicks.formatLabel(tickValue);
     if (x + canvasContext.measureText(tickLabel).width / 2 < maxLabelX) canvasContext.fillText(tickLabel, x, bottom + 6);
   }
-  const yTicks = ticksOfAxis(yMin, yMax, (bottom - top) / MIN_TICK_SPACING.y);
+  const yTicks = ticksOfAxis(axisNames.y, yMin, yMax, (bottom - top) / MIN_TICK_SPACING.y);
   Object.assign(canvasContext, { textAlign: 'right', textBaseline: 'middle' });
   for (const tickValue of yTicks.tickValues) {
     const y = Math.round(pictureView.toPixelY(tickValue)) + 0.5;
@@ -45,9 +40,9 @@ export function drawAxes(drawContext: DrawContext, axisNames: { x: string, y: st
   drawHairline(1, [left, bottom + 0.5], [right, bottom + 0.5]);
   drawHairline(1, [left - 0.5, top], [left - 0.5, bottom]);
   Object.assign(canvasContext, { font: `italic ${font}`, textBaseline: 'top' });
-  canvasContext.fillText(xAxisName, right, bottom + 6);
+  canvasContext.fillText(xTicks.axisName, right, bottom + 6);
   canvasContext.textAlign = 'left';
-  drawLegend(drawContext, axisNames.y.replace('(', `(${yTicks.unitFactor}`), legendEntries);
+  drawLegend(drawContext, yTicks.axisName, legendEntries);
 }
 
 export interface LegendEntry {
@@ -72,21 +67,6 @@ function drawLegend({ canvasContext, pictureView, palette, font }: DrawContext, 
     canvasContext.fillText(legendLabel, nameX, y);
     drawSample(sampleX, y + fontSize / 2, LEGEND_LENGTHS_EM.lineSampleWidth * fontSize);
   }
-}
-
-/** Returns the ticks of an axis: about `wantedTickCount` values, at least two if possible. Their labels may be multiples of a power of ten. */
-function ticksOfAxis(minValue: number, maxValue: number, wantedTickCount: number) {
-  const tickCount = Math.max(2, Math.floor(wantedTickCount));
-  const candidateTicks = ticks(minValue, maxValue, tickCount);
-  const tickValues = candidateTicks.length > 1 ? candidateTicks : ticks(minValue, maxValue, 2 * tickCount);
-  const tickStep = tickValues.length > 1 ? tickValues[1] - tickValues[0] : 1;
-  const exponent = tickStep < MIN_PLAIN_STEP ? Math.floor(Math.log10(tickStep) + 1e-9) : 0;
-  return {
-    tickValues,
-    /** Power of ten before the unit of the axis; empty for a factor of 1. */
-    unitFactor: exponent < 0 ? `${formatPowerOfTen(exponent)} ` : '',
-    formatLabel: (tickValue: number) => formatTick(tickValue / 10 ** exponent, tickStep / 10 ** exponent),
-  };
 }
 
 /** Clips what `paintContents` draws to the plot area. */

@@ -1,5 +1,6 @@
 /** Numbers, and their texts in the current language: a true minus sign, thin spaces between thousands, and a dash for NaN. */
 
+import { ticks } from 'd3-array';
 import { language } from '../messages/registry.ts';
 
 export const MINUS_SIGN = '\u2212';
@@ -81,9 +82,22 @@ export function formatWithError(number: number, standardError: number, decimals:
   return `${formatFixed(number, neededDecimals)} ± ${formatFixed(standardError, neededDecimals)}`;
 }
 
-/** Prints the label of an axis tick, with as many decimals as the step between ticks needs. */
-export function formatTick(number: number, tickStep: number) {
-  return formatFixed(number, Math.max(0, -Math.floor(Math.log10(tickStep) + 1e-9)));
+/** Tick step below which the labels of an axis are multiples of a power of ten. Labels with more zeros would not fit next to the axis. */
+const MIN_PLAIN_STEP = 9e-4;
+
+/** Returns the ticks of an axis: about `wantedTickCount` values, at least two if possible. If the labels are multiples of a power of ten, the name of the axis contains this factor. */
+export function ticksOfAxis(axisName: string, minValue: number, maxValue: number, wantedTickCount: number) {
+  const tickCount = Math.max(2, Math.floor(wantedTickCount));
+  const candidateTicks = ticks(minValue, maxValue, tickCount);
+  const tickValues = candidateTicks.length > 1 ? candidateTicks : ticks(minValue, maxValue, 2 * tickCount);
+  const tickStep = tickValues.length > 1 ? tickValues[1] - tickValues[0] : 1;
+  const stepExponent = Math.floor(Math.log10(tickStep) + 1e-9);
+  const exponent = tickStep < MIN_PLAIN_STEP ? stepExponent : 0;
+  return {
+    tickValues,
+    axisName: exponent < 0 ? axisName.replace(/\(|$/, (bracket) => (bracket ? `(${formatPowerOfTen(exponent)} ` : ` (${formatPowerOfTen(exponent)})`)) : axisName,
+    formatLabel: (tickValue: number) => formatFixed(tickValue / 10 ** exponent, Math.max(0, exponent - stepExponent)),
+  };
 }
 
 /** Returns the value, or the nearer limit if the value is not between `min` and `max`. */

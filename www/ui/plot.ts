@@ -1,9 +1,8 @@
 /** Chart in SVG: curves with bands, points with error bars, and marks, over linear or logarithmic axes. A slider over the chart may set an x. */
 
-import { ticks } from 'd3-array';
 import { css, html, nothing, svg, unsafeCSS } from 'lit';
 import { formatMarkup } from './controls.ts';
-import { clampNumber, formatPowerOfTen, formatTick } from './format.ts';
+import { clampNumber, formatPowerOfTen, ticksOfAxis } from './format.ts';
 import { sliderTrackHtml } from './slider.ts';
 import { swatchHtml } from './theme.ts';
 
@@ -132,12 +131,13 @@ export interface PlotOptions {
 
 export function plotHtml({ plotLabel, x, y, plotCurves, dataPoints = [], verticalMarks = [], slider, legendContent = curveLegendHtml(plotCurves) }: PlotOptions) {
   const [toPixelX, toPixelY] = [createPixelScale(x, PLOT_LEFT, PLOT_RIGHT), createPixelScale(y, PLOT_BOTTOM, PLOT_TOP)];
+  const [xTicks, yTicks] = [ticksOfPlotAxis(x, MAX_LABEL_COUNTS.x), ticksOfPlotAxis(y, MAX_LABEL_COUNTS.y)];
   return html`<div class="plotted" dir="ltr">
     <svg class="plot" viewBox="0 0 ${CHART_WIDTH} ${CHART_HEIGHT}" role="img" aria-label=${plotLabel} part="chart">
-      ${axisLabelsOf(x, MAX_LABEL_COUNTS.x).map(([axisValue, tickText]) => gridLineSvg(toPixelX(axisValue), toPixelX(axisValue), PLOT_TOP, PLOT_BOTTOM, { x: toPixelX(axisValue), y: PLOT_BOTTOM + 18, textAnchor: 'middle', gridLabel: tickText }))}
-      ${axisLabelsOf(y, MAX_LABEL_COUNTS.y).map(([axisValue, tickText]) => gridLineSvg(PLOT_LEFT, PLOT_RIGHT, toPixelY(axisValue), toPixelY(axisValue), { x: PLOT_LEFT - 6, y: toPixelY(axisValue) + 4, textAnchor: 'end', gridLabel: tickText }))}
-      <text font-style="italic" x=${PLOT_RIGHT} y=${PLOT_BOTTOM + 30} text-anchor="end">${x.axisLabel}</text>
-      <text font-style="italic" x="0" y="12">${y.axisLabel}</text>
+      ${xTicks.tickValues.map((tickValue) => gridLineSvg(toPixelX(tickValue), toPixelX(tickValue), PLOT_TOP, PLOT_BOTTOM, { x: toPixelX(tickValue), y: PLOT_BOTTOM + 18, textAnchor: 'middle', gridLabel: xTicks.formatLabel(tickValue) }))}
+      ${yTicks.tickValues.map((tickValue) => gridLineSvg(PLOT_LEFT, PLOT_RIGHT, toPixelY(tickValue), toPixelY(tickValue), { x: PLOT_LEFT - 6, y: toPixelY(tickValue) + 4, textAnchor: 'end', gridLabel: yTicks.formatLabel(tickValue) }))}
+      <text font-style="italic" x=${PLOT_RIGHT} y=${PLOT_BOTTOM + 30} text-anchor="end">${xTicks.axisName}</text>
+      <text font-style="italic" x="0" y="12">${yTicks.axisName}</text>
       <svg x=${PLOT_LEFT} y=${PLOT_TOP} width=${PLOT_RIGHT - PLOT_LEFT} height=${PLOT_BOTTOM - PLOT_TOP} viewBox="${PLOT_LEFT} ${PLOT_TOP} ${PLOT_RIGHT - PLOT_LEFT} ${PLOT_BOTTOM - PLOT_TOP}">
         ${plotCurves.map((plotCurve) => plotCurve.errors && svg`<path class="band ${highlightClassOf(plotCurve)}" opacity="0.22" fill="var(--${plotCurve.colourRole})" d=${bandPathDataOf(plotCurve, toPixelX, toPixelY)} />`)}
         ${plotCurves.map((plotCurve) => !plotCurve.isBandOnly && svg`<path class="curve ${highlightClassOf(plotCurve)}" fill="none" stroke-width="1.9" stroke="var(--${plotCurve.colourRole})" stroke-dasharray=${plotCurve.dash?.join(' ') ?? nothing} d=${curvePathDataOf(plotCurve, toPixelX, toPixelY)} />`)}
@@ -177,12 +177,12 @@ function createPixelScale({ min: minValue, max: maxValue, isLogarithmic }: PlotA
   return (axisValue) => clampNumber(firstPixel + ((toLinear(axisValue) - startValue) * (lastPixel - firstPixel)) / (endValue - startValue), -FAR_OUTSIDE_PX, FAR_OUTSIDE_PX);
 }
 
-function axisLabelsOf({ min: minValue, max: maxValue, isLogarithmic }: PlotAxis, maxCount: number): [value: number, text: string][] {
-  if (!isLogarithmic) return ticks(minValue, maxValue, maxCount - 1).map((axisValue, _, tickValues) => [axisValue, formatTick(axisValue, tickValues.length > 1 ? tickValues[1] - tickValues[0] : 1)]);
+function ticksOfPlotAxis({ axisLabel, min: minValue, max: maxValue, isLogarithmic }: PlotAxis, maxCount: number): ReturnType<typeof ticksOfAxis> {
+  if (!isLogarithmic) return ticksOfAxis(axisLabel, minValue, maxValue, maxCount - 1);
   const [firstExponent, lastExponent] = [Math.ceil(Math.log10(minValue) - 1e-9), Math.floor(Math.log10(maxValue) + 1e-9)];
   const exponentStep = Math.max(1, Math.ceil((lastExponent - firstExponent + 1) / maxCount));
   const exponents = Array.from({ length: Math.floor((lastExponent - firstExponent) / exponentStep) + 1 }, (_, i) => firstExponent + i * exponentStep);
-  return exponents.map((exponent) => [10 ** exponent, formatPowerOfTen(exponent)]);
+  return { tickValues: exponents.map((exponent) => 10 ** exponent), axisName: axisLabel, formatLabel: (tickValue) => formatPowerOfTen(Math.round(Math.log10(tickValue))) };
 }
 
 function curvePathDataOf({ x, y }: PlotCurve, toPixelX: (axisValue: number) => number, toPixelY: (axisValue: number) => number) {

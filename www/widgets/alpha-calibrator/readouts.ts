@@ -4,7 +4,7 @@ import { html } from 'lit';
 import { copyButtonHtml, downloadFile } from '../../figure/export.ts';
 import { addEnglishMessages, words } from '../../messages/registry.ts';
 import { buttonHtml, fieldsetHtml, formatMarkup, checkboxHtml } from '../../ui/controls.ts';
-import { NO_VALUE, formatInteger, formatPowerOfTen } from '../../ui/format.ts';
+import { NO_VALUE, formatInteger } from '../../ui/format.ts';
 import { plotHtml, type PlotCurve, type PlotOptions } from '../../ui/plot.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
@@ -106,22 +106,19 @@ function panelPlotHtml({ alpha, x, y, error, slope, interval }: CalibrationPanel
   // The vertical axis leaves half as much space for error bars as for bins and line. Longer error bars are cut, so that they do not compress everything else.
   const [minSquaredResidual, maxSquaredResidual] = [Math.min(0, ...y), Math.max(x.length ? 1e-12 : 1, (slope ?? 0) * axisEnd, ...y)];
   const [axisBottom, axisTop] = [1.5 * minSquaredResidual, 1.5 * maxSquaredResidual];
-  // Small numbers are scaled by a power of 1000, so that labels fit next to the axis.
-  const exponent = Math.min(0, 3 * Math.floor(Math.log10(Math.max(axisTop, -axisBottom)) / 3));
-  const scaleToAxis = (quantity: number) => quantity * 10 ** -exponent;
   const subscript = subscriptOf(alpha);
   const [lowSlope, highSlope] = interval ?? [NaN, NaN];
   const middleSlope = (lowSlope + highSlope) / 2;
   const slopeLines: PlotCurve[] = slope === null ? [] : [
-    { name: texts.slopeName(subscript), colourRole: 'prediction', x: [0, axisEnd], y: [0, scaleToAxis(slope * axisEnd)] },
-    { name: words.calibrator.alphas.intervalColumn, colourRole: 'cloud', isBandOnly: true, x: [0, axisEnd], y: [0, scaleToAxis(middleSlope * axisEnd)], errors: [0, scaleToAxis(((highSlope - lowSlope) / 2) * axisEnd)] },
+    { name: texts.slopeName(subscript), colourRole: 'prediction', x: [0, axisEnd], y: [0, slope * axisEnd] },
+    { name: words.calibrator.alphas.intervalColumn, colourRole: 'cloud', isBandOnly: true, x: [0, axisEnd], y: [0, middleSlope * axisEnd], errors: [0, ((highSlope - lowSlope) / 2) * axisEnd] },
   ];
   return {
     plotLabel: `${panelTitle}, α${subscript}: ${slope === null ? NO_VALUE : localizeNumber(formatAlphaOrBound(slope, interval))}`,
     x: { axisLabel: regressorLabel, min: 0, max: axisEnd },
-    y: { axisLabel: `${panelTitle}, ${texts.squaredResidualLabel}${exponent < 0 ? ` (${formatPowerOfTen(exponent)})` : ''}`, min: scaleToAxis(axisBottom), max: scaleToAxis(axisTop) },
+    y: { axisLabel: `${panelTitle}, ${texts.squaredResidualLabel}`, min: axisBottom, max: axisTop },
     plotCurves: [...slopeLines, { name: texts.binMeansName, colourRole: 'ink', x: [], y: [] }],
-    dataPoints: x.map((regressorValue, i) => ({ colourRole: 'ink' as const, x: regressorValue, y: scaleToAxis(y[i]), error: scaleToAxis(error[i]) })),
+    dataPoints: x.map((regressorValue, i) => ({ colourRole: 'ink' as const, x: regressorValue, y: y[i], error: error[i] })),
   };
 }
 

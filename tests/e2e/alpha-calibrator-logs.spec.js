@@ -178,8 +178,8 @@ test('a log with too few legs is refused, and the figure still shows the previou
   await waitUntilSettled(widget);
   const captionBefore = await captionOf(widget).textContent();
   const { alphas } = await readStats(widget);
-  const standstillTable = Buffer.from('t,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n');
-  await dropFiles(widget.locator('.stage').first(), ['odom.csv', 'truth.csv'].map((fileName) => ({ name: fileName, buffer: standstillTable })));
+  const shortDriveTable = Buffer.from('t,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0.01,0,0\n');
+  await dropFiles(widget.locator('.stage').first(), ['odom.csv', 'truth.csv'].map((fileName) => ({ name: fileName, buffer: shortDriveTable })));
   await expect(widget.locator('.drop-zone').getByRole('alert')).toBeInViewport();
   await expect(widget.getByRole('alert')).toHaveText('Log refused: Not enough data: fewer than 8 legs have poses in both logs. Take both logs from one drive, choose shorter legs, or drive longer.');
   await waitUntilSettled(widget);

@@ -153,7 +153,7 @@ test('logs of several drives are paired by their times, or in their order', asyn
 });
 
 test('two logs get a common start time, and logs without common time are reported', async () => {
-  const odometryTable = 't,x,y,yaw\n1700000000.25,0,0,0\n1700000009.5,0,0,0';
+  const odometryTable = 't,x,y,yaw\n1700000000.25,0,0,0\n1700000009.5,0.01,0,0';
   const [overlappingDrive] = await readDrivesOf({ 'odom.csv': odometryTable, 'truth.csv': 't,x,y,yaw\n1700000003.125,0,0,0\n1700000008.5,0,0,0' });
   assert.equal(overlappingDrive.odometry.startTime, 1_700_000_000);
   assert.deepEqual([[...overlappingDrive.odometry.motionData.t], [...overlappingDrive.reference.motionData.t]], [[0.25, 9.5], [3.125, 8.5]]);

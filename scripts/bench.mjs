@@ -81,7 +81,7 @@ await runAsScript(import.meta.url, async () => {
   const nodeTimings = await measureCore(/** @type {import('../www/types.d.ts').Motion} */ (await loadCore()), benchOptions);
   const browser = await ensureBrowser();
   printStep('Chromium');
-  const benchResults = { ranOn: await describeMachine(browser.version), quick: isQuickRun, node: nodeTimings, ...(await measureInChromium(browser.chrome, benchOptions)) };
+  const benchResults = { ranOn: await describeMachine(browser.version), quick: isQuickRun, node: nodeTimings, ...(await measureInChromium(browser.chromePath, benchOptions)) };
   writeFileSync(join(REPOSITORY_ROOT, 'build/bench.json'), `${JSON.stringify(benchResults, null, 2)}\n`);
   console.log(`\n${formatReport(benchResults)}\n\nbuild/bench.json has all measurements.`);
 });

@@ -27,7 +27,7 @@ export const CHROME_ARGUMENTS = [
   '--enable-crash-reporter',
 ];
 
-/** @typedef {{ chrome: string, driver: string, version: string }} Browser */
+/** @typedef {{ chromePath: string, driverPath: string, version: string }} Browser */
 
 /** Returns a browser with its driver, and installs what is missing. @returns {Promise<Browser>} */
 export async function ensureBrowser() {
@@ -72,7 +72,7 @@ async function pairBrowserWithDriver(chromePath, driverPath) {
   if (chromePath === undefined || driverPath === undefined) return undefined;
   const [chromeVersion, driverVersion] = await Promise.all([readVersion(chromePath), readVersion(driverPath)]);
   if (chromeVersion === undefined || chromeVersion.split('.')[0] !== driverVersion?.split('.')[0]) return undefined;
-  return { chrome: chromePath, driver: driverPath, version: chromeVersion };
+  return { chromePath, driverPath, version: chromeVersion };
 }
 
 /** Returns the version that a program prints, or undefined if the program does not run. @param {string} programPath */
@@ -86,21 +86,21 @@ async function installChromeForTesting() {
   const browsersDirectory = join(CACHE_DIRECTORY, 'browsers');
   const browserPathsFile = join(browsersDirectory, 'paths.json');
   if (existsSync(browserPathsFile)) {
-    const { chrome, driver: driverPath } = JSON.parse(readFileSync(browserPathsFile, 'utf8'));
-    const existingBrowser = await pairBrowserWithDriver(chrome, driverPath);
+    const { chrome: chromePath, driver: driverPath } = JSON.parse(readFileSync(browserPathsFile, 'utf8'));
+    const existingBrowser = await pairBrowserWithDriver(chromePath, driverPath);
     if (existingBrowser !== undefined) return existingBrowser;
   }
   printStep('Downloading Chrome for Testing');
-  const chrome = await downloadProgram(browsersDirectory, 'chrome@stable');
-  if (chrome === undefined) return undefined;
-  if ((await readVersion(chrome)) === undefined) {
+  const chromePath = await downloadProgram(browsersDirectory, 'chrome@stable');
+  if (chromePath === undefined) return undefined;
+  if ((await readVersion(chromePath)) === undefined) {
     // Installs the system libraries that Chrome needs, because a downloaded Chrome does not include them.
     const installLibraries = [absolutePath('node_modules/@playwright/test/cli.js'), 'install-deps', 'chromium'];
     await runOrThrow('Libraries that Chrome needs are missing: run `npx playwright install-deps chromium` and start again.', process.execPath, installLibraries, { timeLimitSeconds: 600 });
   }
-  const driverPath = await downloadProgram(browsersDirectory, `chromedriver@${await readVersion(chrome)}`);
-  writeFileSync(browserPathsFile, JSON.stringify({ chrome, driver: driverPath }));
-  return pairBrowserWithDriver(chrome, driverPath);
+  const driverPath = await downloadProgram(browsersDirectory, `chromedriver@${await readVersion(chromePath)}`);
+  writeFileSync(browserPathsFile, JSON.stringify({ chrome: chromePath, driver: driverPath }));
+  return pairBrowserWithDriver(chromePath, driverPath);
 }
 
 /** Downloads a program, and returns its path. @param {string} installDirectory @param {string} programAndVersion @returns {Promise<string | undefined>} */

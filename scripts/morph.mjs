@@ -19,7 +19,7 @@ const FRAME_DURATIONS_MS = { each: 100, end: 1600 };
 await runAsScript(import.meta.url, async () => {
   await buildProject({ isLocal: true });
   const { chromium } = await import('@playwright/test');
-  const browser = await chromium.launch({ executablePath: (await ensureBrowser()).chrome, args: CHROME_ARGUMENTS });
+  const browser = await chromium.launch({ executablePath: (await ensureBrowser()).chromePath, args: CHROME_ARGUMENTS });
   const { address: serverAddress, close: closeServer } = await startServer(join(REPOSITORY_ROOT, 'dist'), { port: 0 });
   const frameDirectory = mkdtempSync(join(tmpdir(), 'morph-'));
   try {

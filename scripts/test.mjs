@@ -162,14 +162,14 @@ const TEST_PARTS = {
     countPatterns: COUNT_PATTERNS.node,
   },
   package: {
-    prepare: async (programArgs) => createNodeTestJob('tests/package', programArgs, { CHROME: (await ensureTestBrowser()).chrome }),
+    prepare: async (programArgs) => createNodeTestJob('tests/package', programArgs, { CHROME: (await ensureTestBrowser()).chromePath }),
     countPatterns: COUNT_PATTERNS.node,
   },
   browser: {
     async prepare(programArgs) {
       await ensureBuilt();
       const grepOptions = IS_NIGHTLY ? [] : ['--grep-invert', '@nightly'];
-      return createNpmJob('@playwright/test/cli.js', ['test', ...grepOptions, ...programArgs], { CHROME: (await ensureTestBrowser()).chrome });
+      return createNpmJob('@playwright/test/cli.js', ['test', ...grepOptions, ...programArgs], { CHROME: (await ensureTestBrowser()).chromePath });
     },
     countPatterns: COUNT_PATTERNS.playwright,
   },
@@ -244,9 +244,9 @@ async function runPart(partName, programArgs) {
  * @param {string} runnerPath of wasm-bindgen
  * @param {import('./browser.mjs').Browser} browser
  */
-function createBrowserEnvironment(runnerPath, { chrome, driver: driverPath }) {
+function createBrowserEnvironment(runnerPath, { chromePath, driverPath }) {
   const capabilitiesFile = absolutePath('test-results/webdriver.json');
-  const chromeSettings = { binary: chrome, args: ['--headless', ...CHROME_ARGUMENTS] };
+  const chromeSettings = { binary: chromePath, args: ['--headless', ...CHROME_ARGUMENTS] };
   writeFileSync(capabilitiesFile, JSON.stringify({ 'goog:chromeOptions': chromeSettings }));
   return {
     CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER: runnerPath,

@@ -56,10 +56,10 @@ async function testPlatforms(platformNames) {
   const unknownName = platformNames.find((name) => !allPlatformNames.includes(name));
   if (unknownName !== undefined) throw new UserError(`"${unknownName}" is no platform that is tried; allowed are ${allPlatformNames.join(', ')}.`);
   await buildProject();
-  const { chrome, version: browserVersion } = await ensureBrowser();
+  const { chromePath, version: browserVersion } = await ensureBrowser();
   mkdirSync(join(REPOSITORY_ROOT, 'test-results/embeddings'), { recursive: true });
   // With the back/forward cache, going back restores a page in the state in which the user left it.
-  const browser = await chromium.launch({ executablePath: chrome, args: CHROME_ARGUMENTS, ignoreDefaultArgs: ['--disable-back-forward-cache'] });
+  const browser = await chromium.launch({ executablePath: chromePath, args: CHROME_ARGUMENTS, ignoreDefaultArgs: ['--disable-back-forward-cache'] });
   /** @type {Outcome[]} */
   const allOutcomes = [];
   try {

@@ -11,14 +11,14 @@ import { ensureFirefox, ensureWebKit } from './programs.mjs';
 
 /**
  * @typedef {object} BrowserSession
- * @property {string} version
- * @property {(url: string) => Promise<unknown>} open resolved when the page is loaded
+ * @property {string} browserVersion
+ * @property {(url: string) => Promise<unknown>} openPage resolved when the page is loaded
  * @property {<G, R>(work: (given: G) => R | Promise<R>, given: G) => Promise<R>} callInPage calls a function in the page; it has no access
  *   to variables around it, and its argument and result are JSON
- * @property {(points: [x: number, y: number][]) => Promise<unknown>} drag with the left button along points, in CSS pixels of the window
- * @property {(...keys: (keyof typeof KEY_CODES)[]) => Promise<unknown>} press keys one after the other, for the element with the focus
- * @property {() => Promise<Uint8Array>} screenshot as PNG
- * @property {() => Promise<unknown>} close
+ * @property {(points: [x: number, y: number][]) => Promise<unknown>} dragAlong with the left button along points, in CSS pixels of the window
+ * @property {(...keys: (keyof typeof KEY_CODES)[]) => Promise<unknown>} pressKeys keys one after the other, for the element with the focus
+ * @property {() => Promise<Uint8Array>} takeScreenshot as PNG
+ * @property {() => Promise<unknown>} endSession
  */
 
 /** Size of the page within the window of the browser, CSS pixels. */
@@ -31,30 +31,30 @@ const KEY_CODES = { ArrowRight: Key.ARROW_RIGHT, ArrowLeft: Key.ARROW_LEFT, Arro
 
 /** Starts Chromium. @returns {Promise<BrowserSession>} */
 async function startChromium() {
-  const { chrome, driver } = await ensureBrowser();
+  const { chromePath, driverPath } = await ensureBrowser();
   const chromeArguments = [...CHROME_ARGUMENTS, '--headless=new', '--force-prefers-reduced-motion'];
-  return startBrowserByDriver(driver, {}, { browserName: 'chrome', 'goog:chromeOptions': { binary: chrome, args: chromeArguments } });
+  return startBrowserByDriver(driverPath, {}, { browserName: 'chrome', 'goog:chromeOptions': { binary: chromePath, args: chromeArguments } });
 }
 
 /** Starts Firefox. @returns {Promise<BrowserSession>} */
 async function startFirefox() {
-  const { firefox, driver } = await ensureFirefox();
+  const { firefoxPath, driverPath } = await ensureFirefox();
   const firefoxPreferences = { 'ui.prefersReducedMotion': 1 };
-  return startBrowserByDriver(driver, {}, { browserName: 'firefox', 'moz:firefoxOptions': { binary: firefox, args: ['-headless'], prefs: firefoxPreferences } });
+  return startBrowserByDriver(driverPath, {}, { browserName: 'firefox', 'moz:firefoxOptions': { binary: firefoxPath, args: ['-headless'], prefs: firefoxPreferences } });
 }
 
 /** Starts WebKit's MiniBrowser on a virtual screen. @returns {Promise<BrowserSession>} */
 async function startWebKit() {
-  const { driver, display } = await ensureWebKit();
+  const { driverPath, xvfbPath } = await ensureWebKit();
   // Xvfb takes the first free display number, and prints it when it is ready.
-  const xvfbProcess = startProgram(display, ['-displayfd', '1', '-screen', '0', '1600x1200x24', '-nolisten', 'tcp']);
+  const xvfbProcess = startProgram(xvfbPath, ['-displayfd', '1', '-screen', '0', '1600x1200x24', '-nolisten', 'tcp']);
   const displayNumber = await xvfbProcess.waitForOutput(/^(\d+)\n/m);
   const configDirectory = mkdtempSync(join(tmpdir(), 'motion-engines-'));
   mkdirSync(join(configDirectory, 'gtk-3.0'));
   writeFileSync(join(configDirectory, 'gtk-3.0/settings.ini'), '[Settings]\ngtk-enable-animations=false\n');
   const displayEnvironment = { DISPLAY: `:${displayNumber}`, XDG_CONFIG_HOME: configDirectory };
   // WebKit's driver starts MiniBrowser by itself.
-  return startBrowserByDriver(driver, displayEnvironment, { browserName: 'MiniBrowser' }, async () => {
+  return startBrowserByDriver(driverPath, displayEnvironment, { browserName: 'MiniBrowser' }, async () => {
     await xvfbProcess.stop();
     rmSync(configDirectory, { recursive: true });
   });
@@ -102,8 +102,8 @@ async function openSession(driverUrl, capabilities, stopDriver) {
   const [innerWidth, innerHeight] = /** @type {number[]} */ (await driverSession.executeScript('return [innerWidth, innerHeight]'));
   await browserWindow.setRect({ width: 2 * PAGE_SIZE.width - innerWidth, height: 2 * PAGE_SIZE.height - innerHeight });
   return {
-    version: (await driverSession.getCapabilities()).get('browserVersion'),
-    open: (pageUrl) => driverSession.get(pageUrl),
+    browserVersion: (await driverSession.getCapabilities()).get('browserVersion'),
+    openPage: (pageUrl) => driverSession.get(pageUrl),
     async callInPage(pageFunction, functionArgument) {
       // A script of the page runs the function. Firefox runs scripts of WebDriver in a sandbox, whose arrays differ in type from arrays of
       // the page.
@@ -120,16 +120,16 @@ async function openSession(driverUrl, capabilities, stopDriver) {
       if (error) throw new Error(error);
       return functionResult;
     },
-    async drag([[x, y], ...nextPoints]) {
+    async dragAlong([[x, y], ...nextPoints]) {
       // The drag is one chain of actions, because some drivers release the mouse button between two chains. Each move takes longer than an
       // animation frame.
       const dragActions = driverSession.actions({ async: false }).move({ x, y, duration: 0 }).press();
       for (const [x, y] of nextPoints) dragActions.move({ x, y, duration: 40 });
       await dragActions.release().perform();
     },
-    press: (...keyNames) => driverSession.actions().sendKeys(...keyNames.map((keyName) => KEY_CODES[keyName])).perform(),
-    screenshot: async () => Buffer.from(await driverSession.takeScreenshot(), 'base64'),
-    async close() {
+    pressKeys: (...keyNames) => driverSession.actions().sendKeys(...keyNames.map((keyName) => KEY_CODES[keyName])).perform(),
+    takeScreenshot: async () => Buffer.from(await driverSession.takeScreenshot(), 'base64'),
+    async endSession() {
       await driverSession.quit();
       await stopDriver();
     },

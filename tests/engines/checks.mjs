@@ -38,14 +38,14 @@ class BrowserPage {
    */
   callInPage(functionName, functionArgument) {
     return this.session.callInPage(
-      async ({ name, given: functionArgument }) => (await import(new URL('/tests/engines/inside.js', location.href).href))[name](functionArgument),
-      { name: functionName, given: functionArgument },
+      async ({ name, functionArgument }) => (await import(new URL('/tests/engines/inside.js', location.href).href))[name](functionArgument),
+      { name: functionName, functionArgument },
     );
   }
 
   /** Loads the page again. @param {string} [widgetTag] of a figure to scroll to and wait for */
   async open(widgetTag) {
-    await this.session.open(this.address);
+    await this.session.openPage(this.address);
     if (widgetTag !== undefined) await this.waitUntilSettled(widgetTag);
   }
 
@@ -60,7 +60,7 @@ class BrowserPage {
   async saveScreenshot(screenshotName) {
     const screenshotDirectory = join(REPOSITORY_ROOT, 'test-results/engines');
     mkdirSync(screenshotDirectory, { recursive: true });
-    writeFileSync(join(screenshotDirectory, `${this.name}-${screenshotName}.png`), await this.session.screenshot());
+    writeFileSync(join(screenshotDirectory, `${this.name}-${screenshotName}.png`), await this.session.takeScreenshot());
   }
 
   /** Returns the new messages of the console. @returns {Promise<string[]>} */
@@ -97,15 +97,15 @@ export async function runChecks(name, browserSession, pageUrl) {
   };
 
   await runCheck('the digest', () => checkDigest(page));
-  for (const tag of Object.keys(settings)) {
-    await runCheck(`${tag} opens`, () => checkOpening(page, tag));
-    for (const figureHandle of handlesByTag[tag] ?? []) {
-      await runCheck(`${tag} is dragged by its handle "${figureHandle.name}"`, () => checkDragging(page, tag, figureHandle));
-      await runCheck(`the handle "${figureHandle.name}" of ${tag} follows the keyboard`, () => checkHandleKeys(page, tag, figureHandle));
+  for (const widgetTag of Object.keys(settings)) {
+    await runCheck(`${widgetTag} opens`, () => checkOpening(page, widgetTag));
+    for (const figureHandle of handlesByTag[widgetTag] ?? []) {
+      await runCheck(`${widgetTag} is dragged by its handle "${figureHandle.name}"`, () => checkDragging(page, widgetTag, figureHandle));
+      await runCheck(`the handle "${figureHandle.name}" of ${widgetTag} follows the keyboard`, () => checkHandleKeys(page, widgetTag, figureHandle));
     }
-    await runCheck(`sliders of ${tag} follow the keyboard`, () => checkSliderKeys(page, tag));
+    await runCheck(`sliders of ${widgetTag} follow the keyboard`, () => checkSliderKeys(page, widgetTag));
   }
-  return { passed: passedCount, failures: failedChecks };
+  return { passedCount, failedChecks };
 }
 
 /** Compares the digest of all configurations with golden.txt. @param {BrowserPage} page */
@@ -118,75 +118,75 @@ async function checkDigest(page) {
  * Compares the results of a figure with those of a simulation of the same settings in Node, to the last bit.
  *
  * @param {BrowserPage} page
- * @param {string} tag
- * @returns {Promise<{ simulation: any, hash: string }>} the simulation in Node
+ * @param {string} widgetTag
+ * @returns {Promise<{ simulation: any, resultHash: string }>} the simulation in Node
  */
-async function compareWithNode(page, tag) {
-  const { config, hash } = await page.callInPage('stateOf', tag);
-  const simulation = await createSimulation(tag, config);
-  assert.equal(hash, (await simulationStateOf(simulation)).hash, `Node has other bits for ${JSON.stringify(config)}.`);
-  return { simulation, hash };
+async function compareWithNode(page, widgetTag) {
+  const { config, resultHash } = await page.callInPage('stateOf', widgetTag);
+  const simulation = await createSimulation(widgetTag, config);
+  assert.equal(resultHash, (await simulationStateOf(simulation)).resultHash, `Node has other bits for ${JSON.stringify(config)}.`);
+  return { simulation, resultHash };
 }
 
-/** Compares the state of a figure that has just opened with that of a simulation in Node. @type {(page: BrowserPage, tag: string) => Promise<void>} */
-async function checkOpening(page, tag) {
-  await page.open(tag);
-  await compareWithNode(page, tag);
-  await page.saveScreenshot(`${tag}-opened`);
+/** Compares the state of a figure that has just opened with that of a simulation in Node. @type {(page: BrowserPage, widgetTag: string) => Promise<void>} */
+async function checkOpening(page, widgetTag) {
+  await page.open(widgetTag);
+  await compareWithNode(page, widgetTag);
+  await page.saveScreenshot(`${widgetTag}-opened`);
 }
 
 /**
  * Checks that a dragged handle moves to the pointer, to within a pixel.
  *
  * @param {BrowserPage} page
- * @param {string} tag
+ * @param {string} widgetTag
  * @param {import('./figures.mjs').Handle} handle
  */
-async function checkDragging(page, tag, { name, target, positionOf }) {
-  await page.open(tag);
-  const hashBefore = await page.callInPage('pictureHashOf', tag);
-  const handleMeasures = await page.callInPage('measureHandle', { tag, handle: name, target });
+async function checkDragging(page, widgetTag, { name, targetPoint, positionOf }) {
+  await page.open(widgetTag);
+  const hashBefore = await page.callInPage('pictureHashOf', widgetTag);
+  const handleMeasures = await page.callInPage('measureHandle', { widgetTag, handleName: name, targetPoint });
   // Pointer positions are whole pixels. A handle that is grabbed beside its centre keeps its offset from the pointer.
-  const grabPoint = [Math.round(handleMeasures.position.x), Math.round(handleMeasures.position.y)];
-  const dragVector = [handleMeasures.target.x - handleMeasures.position.x, handleMeasures.target.y - handleMeasures.position.y];
+  const grabPoint = [Math.round(handleMeasures.handlePoint.x), Math.round(handleMeasures.handlePoint.y)];
+  const dragVector = [handleMeasures.targetPoint.x - handleMeasures.handlePoint.x, handleMeasures.targetPoint.y - handleMeasures.handlePoint.y];
   const dragPointOf = (/** @type {number} */ dragFraction) => /** @type {[number, number]} */ (grabPoint.map((coordinate, i) => Math.round(coordinate + dragFraction * dragVector[i])));
-  await page.session.drag(Array.from({ length: DRAG_STEPS + 1 }, (_, i) => dragPointOf(i / DRAG_STEPS)));
-  await page.waitUntilSettled(tag);
-  await page.saveScreenshot(`${tag}-${name}-dragged`);
-  const { simulation } = await compareWithNode(page, tag);
-  const [x, y] = positionOf(simulation, target);
-  const pixelError = Math.hypot(x - target[0], y - target[1]) / handleMeasures.pixelSize;
+  await page.session.dragAlong(Array.from({ length: DRAG_STEPS + 1 }, (_, i) => dragPointOf(i / DRAG_STEPS)));
+  await page.waitUntilSettled(widgetTag);
+  await page.saveScreenshot(`${widgetTag}-${name}-dragged`);
+  const { simulation } = await compareWithNode(page, widgetTag);
+  const [x, y] = positionOf(simulation, targetPoint);
+  const pixelError = Math.hypot(x - targetPoint[0], y - targetPoint[1]) / handleMeasures.pixelSize;
   assert.ok(pixelError <= 1, `It is ${pixelError.toFixed(2)} pixels beside where it was dragged.`);
-  assert.notEqual(await page.callInPage('pictureHashOf', tag), hashBefore, 'The picture is as it was.');
+  assert.notEqual(await page.callInPage('pictureHashOf', widgetTag), hashBefore, 'The picture is as it was.');
 }
 
-/** Moves a handle by arrow keys, and checks its new position. @param {BrowserPage} page @param {string} tag @param {import('./figures.mjs').Handle} handle */
-async function checkHandleKeys(page, tag, { name }) {
-  await page.open(tag);
-  const { hash: hashBefore } = await page.callInPage('stateOf', tag);
-  assert.ok(await page.callInPage('focusElement', { tag, selector: `.handle.${name}` }), 'It does not take the focus.');
-  await page.session.press('ArrowUp', 'ArrowUp', 'ArrowLeft');
-  await page.waitUntilSettled(tag);
-  const { hash } = await compareWithNode(page, tag);
-  assert.notEqual(hash, hashBefore, 'Nothing has moved.');
+/** Moves a handle by arrow keys, and checks its new position. @param {BrowserPage} page @param {string} widgetTag @param {import('./figures.mjs').Handle} handle */
+async function checkHandleKeys(page, widgetTag, { name }) {
+  await page.open(widgetTag);
+  const { resultHash: hashBefore } = await page.callInPage('stateOf', widgetTag);
+  assert.ok(await page.callInPage('focusElement', { widgetTag, selector: `.handle.${name}` }), 'It does not take the focus.');
+  await page.session.pressKeys('ArrowUp', 'ArrowUp', 'ArrowLeft');
+  await page.waitUntilSettled(widgetTag);
+  const { resultHash } = await compareWithNode(page, widgetTag);
+  assert.notEqual(resultHash, hashBefore, 'Nothing has moved.');
 }
 
-/** Moves each slider by keys, and compares the setting with the expected value. @type {(page: BrowserPage, tag: string) => Promise<void>} */
-async function checkSliderKeys(page, tag) {
-  await page.open(tag);
-  await page.callInPage('renderAfterInputs', tag);
-  const sliderStates = await page.callInPage('sliderStatesOf', tag);
+/** Moves each slider by keys, and compares the setting with the expected value. @type {(page: BrowserPage, widgetTag: string) => Promise<void>} */
+async function checkSliderKeys(page, widgetTag) {
+  await page.open(widgetTag);
+  await page.callInPage('renderAfterInputs', widgetTag);
+  const sliderStates = await page.callInPage('sliderStatesOf', widgetTag);
   assert.ok(sliderStates.length >= 2, `${sliderStates.length} sliders are to be seen.`);
   for (const { key } of sliderStates) {
-    const readSlider = async () => (await page.callInPage('sliderStatesOf', tag)).find((sliderState) => sliderState.key === key);
+    const readSlider = async () => (await page.callInPage('sliderStatesOf', widgetTag)).find((sliderState) => sliderState.key === key);
     const sliderBefore = await readSlider();
-    assert.ok(sliderBefore && (await page.callInPage('focusElement', { tag, selector: `#${key}` })), `${key} does not take the focus.`);
-    await page.session.press('ArrowRight', 'ArrowRight', 'ArrowLeft');
-    await page.waitUntilSettled(tag);
+    assert.ok(sliderBefore && (await page.callInPage('focusElement', { widgetTag, selector: `#${key}` })), `${key} does not take the focus.`);
+    await page.session.pressKeys('ArrowRight', 'ArrowRight', 'ArrowLeft');
+    await page.waitUntilSettled(widgetTag);
     const sliderAfter = await readSlider();
     const expectedPosition = Math.min(sliderBefore.position + 2 * sliderBefore.step, sliderBefore.end) - sliderBefore.step;
     assert.ok(sliderAfter && Math.abs(sliderAfter.position - expectedPosition) < 1e-9, `The slider of ${key} was at ${sliderBefore.position} and is at ${sliderAfter?.position}.`);
     assert.ok((sliderAfter.value - sliderBefore.value) * (expectedPosition - sliderBefore.position) > 0, `${key} was ${sliderBefore.value} and is ${sliderAfter.value}.`);
   }
-  await compareWithNode(page, tag);
+  await compareWithNode(page, widgetTag);
 }

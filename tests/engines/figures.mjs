@@ -7,28 +7,28 @@ import { toPascalCase } from '../../scripts/declarations.mjs';
  * @typedef {object} Handle
  * @property {string} name class of its element
  * @property {number[]} target position to which it is dragged, m
- * @property {(simulation: any, target: number[]) => number[]} positionOf computes the position of the handle from the simulation's
+ * @property {(simulation: any, targetPoint: number[]) => number[]} positionOf computes the position of the handle from the simulation's
  *   settings after the drag to `target`
  */
 
 /** Handles of the figures by tag. Two figures have no handles. @type {Record<string, Handle[] | undefined>} */
 export const handlesByTag = {
-  'banana-machine': [{ name: 'end', target: [0.8, 0.4], positionOf: ({ contours }) => [...contours.command.slice(-2)] }],
+  'banana-machine': [{ name: 'end', targetPoint: [0.8, 0.4], positionOf: ({ contours }) => [...contours.command.slice(-2)] }],
   'map-squeeze': [
-    { name: 'body', target: [2.4, 2.3], positionOf: ({ config: { start } }) => [start.x, start.y] },
+    { name: 'body', targetPoint: [2.4, 2.3], positionOf: ({ config: { start } }) => [start.x, start.y] },
     {
       name: 'turn',
-      target: [2.6, 3.3],
+      targetPoint: [2.6, 3.3],
       positionOf({ config: { start } }, [x, y]) {
         const startDistance = Math.hypot(x - start.x, y - start.y);
         return [start.x + startDistance * Math.cos(start.theta), start.y + startDistance * Math.sin(start.theta)];
       },
     },
   ],
-  'arc-anatomy': [{ name: 'body.next', target: [0.8, 0.7], positionOf: ({ config: { next } }) => [next.x, next.y] }],
+  'arc-anatomy': [{ name: 'body.next', targetPoint: [0.8, 0.7], positionOf: ({ config: { next } }) => [next.x, next.y] }],
   'odometry-decomposer': [
-    { name: 'body.from', target: [0.3, -0.2], positionOf: ({ config: { from } }) => [from.x, from.y] },
-    { name: 'body.to', target: [0.9, 1.2], positionOf: ({ config: { to } }) => [to.x, to.y] },
+    { name: 'body.from', targetPoint: [0.3, -0.2], positionOf: ({ config: { from } }) => [from.x, from.y] },
+    { name: 'body.to', targetPoint: [0.9, 1.2], positionOf: ({ config: { to } }) => [to.x, to.y] },
   ],
 };
 

@@ -10,13 +10,13 @@ const FIREFOX_MISSING_MESSAGE =
 const WEBKIT_MISSING_MESSAGE =
   'WebKit is missing, or what shows and drives it: on Debian and Ubuntu `sudo apt-get install webkit2gtk-driver xvfb`.';
 
-/** Returns the programs of Firefox. Installs them if they are missing. @returns {Promise<{ firefox: string, driver: string }>} */
+/** Returns the programs of Firefox. Installs them if they are missing. @returns {Promise<{ firefoxPath: string, driverPath: string }>} */
 export async function ensureFirefox() {
   const findFirefox = () => process.env.FIREFOX ?? FIREFOX_NAMES.map((programName) => findProgram(programName)).find((programPath) => programPath !== undefined);
   if (findFirefox() === undefined) await installByApt(['firefox-esr'], FIREFOX_MISSING_MESSAGE);
   const firefoxPath = findFirefox();
   if (firefoxPath === undefined || !(await runProgram(firefoxPath, ['--version'], { isQuiet: true, timeLimitSeconds: 60 })).hasSucceeded) throw new UserError(FIREFOX_MISSING_MESSAGE);
-  return { firefox: firefoxPath, driver: await ensureGeckodriver() };
+  return { firefoxPath, driverPath: await ensureGeckodriver() };
 }
 
 /** Returns the path of geckodriver. A missing geckodriver is compiled once, because distributions have no package of it. */
@@ -39,5 +39,5 @@ export async function ensureWebKit() {
   if (findWebKit().includes(undefined)) await installByApt(['webkit2gtk-driver', 'xvfb'], WEBKIT_MISSING_MESSAGE);
   const [driverProgram, displayProgram] = findWebKit();
   if (driverProgram === undefined || displayProgram === undefined) throw new UserError(WEBKIT_MISSING_MESSAGE);
-  return { driver: driverProgram, display: displayProgram };
+  return { driverPath: driverProgram, xvfbPath: displayProgram };
 }

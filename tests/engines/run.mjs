@@ -22,11 +22,11 @@ async function serveSite() {
   for (const fileName of readdirSync(join(REPOSITORY_ROOT, 'dist'))) if (fileName !== PAGE_NAME) symlinkSync(join(REPOSITORY_ROOT, 'dist', fileName), join(siteDirectory, fileName));
   for (const folderName of ['tests', 'build']) symlinkSync(join(REPOSITORY_ROOT, folderName), join(siteDirectory, folderName));
   writeFileSync(join(siteDirectory, PAGE_NAME), readFileSync(join(REPOSITORY_ROOT, 'dist', PAGE_NAME), 'utf8').replace('<head>', `<head>${LISTENER_TAG}`));
-  const { address, close } = await startServer(siteDirectory, { port: 0 });
+  const { address, close: closeServer } = await startServer(siteDirectory, { port: 0 });
   return {
     address,
-    stop() {
-      close();
+    stopServer() {
+      closeServer();
       rmSync(siteDirectory, { recursive: true });
     },
   };
@@ -38,18 +38,18 @@ async function runChecksInBrowser(engineName, address) {
   let engineVersion = 'none';
   try {
     const browserSession = await browserStarters[engineName]();
-    engineVersion = browserSession.version;
+    engineVersion = browserSession.browserVersion;
     try {
       // checks.mjs is imported only here, because it imports dist/, which has to be built first.
       const { runChecks } = await import('./checks.mjs');
-      return { version: engineVersion, ...(await runChecks(engineName, browserSession, address)) };
+      return { engineVersion, ...(await runChecks(engineName, browserSession, address)) };
     } finally {
-      await browserSession.close();
+      await browserSession.endSession();
     }
   } catch (error) {
     const failureMessage = error instanceof UserError ? error.message : String(error instanceof Error ? error.stack : error);
     console.log(`FAILED ${engineName}: ${failureMessage}`);
-    return { version: engineVersion, passed: 0, failures: [failureMessage] };
+    return { engineVersion, passedCount: 0, failedChecks: [failureMessage] };
   }
 }
 
@@ -59,17 +59,17 @@ async function testBrowserEngines(engineNames) {
   const unknownName = engineNames.find((name) => !allEngineNames.includes(name));
   if (unknownName !== undefined) throw new UserError(`"${unknownName}" is no engine that is tried; allowed are ${allEngineNames.join(', ')}.`);
   await buildProject();
-  const { address, stop } = await serveSite();
+  const { address, stopServer } = await serveSite();
   const summaryLines = [];
   let failureCount = 0;
   try {
     for (const name of engineNames.length > 0 ? engineNames : allEngineNames) {
-      const { version: engineVersion, passed, failures } = await runChecksInBrowser(name, address);
-      failureCount += failures.length;
-      summaryLines.push(`${failures.length === 0 ? 'ok    ' : 'FAILED'} ${name.padEnd(10)} ${engineVersion.padEnd(16)} ${passed} passed, ${failures.length} failed`);
+      const { engineVersion, passedCount, failedChecks } = await runChecksInBrowser(name, address);
+      failureCount += failedChecks.length;
+      summaryLines.push(`${failedChecks.length === 0 ? 'ok    ' : 'FAILED'} ${name.padEnd(10)} ${engineVersion.padEnd(16)} ${passedCount} passed, ${failedChecks.length} failed`);
     }
   } finally {
-    stop();
+    stopServer();
   }
   printStep(`Summary, by Node ${process.versions.node}`);
   console.log(summaryLines.join('\n'));

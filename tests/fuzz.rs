@@ -106,8 +106,8 @@ fn sample_below(exclusive_limit: usize, rng: &mut impl Rng) -> usize {
     rng.next_u32() as usize % exclusive_limit
 }
 
-fn choose_item<'a, T>(choices: &'a [T], rng: &mut impl Rng) -> &'a T {
-    &choices[sample_below(choices.len(), rng)]
+fn choose_item<'a, T>(items: &'a [T], rng: &mut impl Rng) -> &'a T {
+    &items[sample_below(items.len(), rng)]
 }
 
 /// Returns the input with one of the changes that libFuzzer makes.

@@ -15,10 +15,10 @@ import { ensureFirefox, ensureWebKit } from './programs.mjs';
  * @property {(url: string) => Promise<unknown>} openPage resolved when the page is loaded
  * @property {<G, R>(work: (given: G) => R | Promise<R>, given: G) => Promise<R>} callInPage calls a function in the page; it has no access
  *   to variables around it, and its argument and result are JSON
- * @property {(points: [x: number, y: number][]) => Promise<unknown>} dragAlong with the left button along points, in CSS pixels of the window
- * @property {(...keys: (keyof typeof KEY_CODES)[]) => Promise<unknown>} pressKeys keys one after the other, for the element with the focus
- * @property {() => Promise<Uint8Array>} takeScreenshot as PNG
- * @property {() => Promise<unknown>} endSession
+ * @property {(points: [x: number, y: number][]) => Promise<unknown>} dragAlong drags with the left button along points, in CSS pixels of the window
+ * @property {(...keys: (keyof typeof KEY_CODES)[]) => Promise<unknown>} pressKeys presses keys one after the other, for the element with the focus
+ * @property {() => Promise<Uint8Array>} takeScreenshot returns a PNG
+ * @property {() => Promise<unknown>} endSession closes the browser
  */
 
 /** Size of the page within the window of the browser, CSS pixels. */

@@ -5,8 +5,8 @@ use wasm_bindgen_test::wasm_bindgen_test;
 
 #[wasm_bindgen_test]
 fn a_refused_call_changes_nothing() {
-    let js = JsObject::new("new motion.OdometryDecomposer()");
-    js.assert_refused(
+    let decomposer = JsObject::new("new motion.OdometryDecomposer()");
+    decomposer.assert_refused(
         "[it.config, it.stats]",
         r#"
         it.configure({ seed: 1, rule: 'amcl' })

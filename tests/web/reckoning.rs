@@ -5,8 +5,8 @@ use wasm_bindgen_test::wasm_bindgen_test;
 
 #[wasm_bindgen_test]
 fn a_refused_call_changes_nothing() {
-    let js = JsObject::new("new motion.DeadReckoning({ samples: 20 })");
-    js.assert_refused(
+    let reckoning = JsObject::new("new motion.DeadReckoning({ samples: 20 })");
+    reckoning.assert_refused(
         "[it.config, it.stats]",
         r#"
         it.configure({ seed: 1, steps: 201 })

@@ -15,44 +15,44 @@ const SIMULATION_STATE: &str = "[it.simulation.config, it.simulation.stats, it.s
 
 #[wasm_bindgen_test]
 fn a_noise_level_sets_all_alphas() {
-    let js = JsObject::new("new motion.MapSqueeze({ samples: 100 })");
-    assert_eq!(js.get::<[i32; 2]>("[it.nearest(1000, 0, 1), it.path(100).length]"), [-1, 0]);
-    js.run("it.configure({ noise: 0.2 })");
+    let squeeze = JsObject::new("new motion.MapSqueeze({ samples: 100 })");
+    assert_eq!(squeeze.get::<[i32; 2]>("[it.nearest(1000, 0, 1), it.path(100).length]"), [-1, 0]);
+    squeeze.run("it.configure({ noise: 0.2 })");
     assert_eq!(
-        js.get::<(f64, [f64; 6])>("[it.noise, it.config.alphas]"),
+        squeeze.get::<(f64, [f64; 6])>("[it.noise, it.config.alphas]"),
         (0.2, [0.2, 0.2, 0.2, 0.2, 0.05, 0.05])
     );
 }
 
 #[wasm_bindgen_test]
 fn a_floor_plan_replaces_the_apartment_and_can_be_removed() {
-    let js = JsObject::new("new motion.MapSqueeze({ samples: 100 })");
-    let accepted_before: usize = js.get("it.stats.accepted");
-    js.run(
+    let squeeze = JsObject::new("new motion.MapSqueeze({ samples: 100 })");
+    let accepted_before: usize = squeeze.get("it.stats.accepted");
+    squeeze.run(
         "it.setPlan({ bounds: new Float64Array([0, 0, 12, 9]), walls: [[10, 8, 11, 8],
         new Float64Array([0, 0, 12, 0])] })",
     );
-    assert_eq!(js.get::<[f64; 8]>("it.plan.walls"), [10.0, 8.0, 11.0, 8.0, 0.0, 0.0, 12.0, 0.0]);
-    assert!(js.get::<usize>("it.stats.accepted") > accepted_before);
-    let plan_fields: String = js.get("JSON.stringify(it.plan)");
-    js.run("it.setPlan(it.plan)");
-    assert_eq!(js.get::<String>("JSON.stringify(it.plan)"), plan_fields);
-    js.run("it.setPlan(undefined)");
-    assert_eq!(js.get::<[usize; 2]>("[it.plan.walls.length, it.stats.accepted]"), [72, accepted_before]);
+    assert_eq!(squeeze.get::<[f64; 8]>("it.plan.walls"), [10.0, 8.0, 11.0, 8.0, 0.0, 0.0, 12.0, 0.0]);
+    assert!(squeeze.get::<usize>("it.stats.accepted") > accepted_before);
+    let plan_fields: String = squeeze.get("JSON.stringify(it.plan)");
+    squeeze.run("it.setPlan(it.plan)");
+    assert_eq!(squeeze.get::<String>("JSON.stringify(it.plan)"), plan_fields);
+    squeeze.run("it.setPlan(undefined)");
+    assert_eq!(squeeze.get::<[usize; 2]>("[it.plan.walls.length, it.stats.accepted]"), [72, accepted_before]);
 }
 
 #[wasm_bindgen_test]
 fn a_map_is_read_from_a_file_or_from_pixels() {
-    let js = JsObject::new(MAP_FILES_AND_SIMULATION);
-    js.run("it.simulation.setGrid(it.yaml, it.pgm)");
-    let plan_json: String = js.get("JSON.stringify(it.simulation.plan)");
-    assert_eq!(js.get::<[f64; 4]>("it.simulation.plan.bounds"), [1.0, 2.0, 3.0, 3.5]);
-    assert_eq!(js.get::<Vec<f64>>("it.simulation.plan.walls.slice(0, 4)"), [1.0, 2.0, 1.5, 2.0]);
+    let squeeze = JsObject::new(MAP_FILES_AND_SIMULATION);
+    squeeze.run("it.simulation.setGrid(it.yaml, it.pgm)");
+    let plan_json: String = squeeze.get("JSON.stringify(it.simulation.plan)");
+    assert_eq!(squeeze.get::<[f64; 4]>("it.simulation.plan.bounds"), [1.0, 2.0, 3.0, 3.5]);
+    assert_eq!(squeeze.get::<Vec<f64>>("it.simulation.plan.walls.slice(0, 4)"), [1.0, 2.0, 1.5, 2.0]);
     let grid_fields: (usize, usize, f64, [f64; 3]) =
-        js.get("pick(it.simulation.grid, 'columns', 'rows', 'resolution', 'origin')");
+        squeeze.get("pick(it.simulation.grid, 'columns', 'rows', 'resolution', 'origin')");
     assert_eq!(grid_fields, (4, 3, 0.5, [1.0, 2.0, 0.0]));
-    assert_eq!(js.get::<Vec<u8>>("it.simulation.grid.occupied"), [1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
-    assert_eq!(js.get::<[f64; 2]>("pick(it.simulation.openPlace, 'x', 'y')"), [2.25, 2.75]);
+    assert_eq!(squeeze.get::<Vec<u8>>("it.simulation.grid.occupied"), [1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
+    assert_eq!(squeeze.get::<[f64; 2]>("pick(it.simulation.openPlace, 'x', 'y')"), [2.25, 2.75]);
     for js_call in [
         "{ resolution: 0.5, origin: [1, 2, 0] }, it.pgm",
         "it.yaml, it.image([...Array(8).fill(255), 0, 255, 255, 255])",
@@ -60,31 +60,31 @@ fn a_map_is_read_from_a_file_or_from_pixels() {
         "{ ...it.yaml, mode: 'raw' }, { width: 4, height: 3, data: it.image([...Array(8).fill(0), 100, 99, \
          101, 255]).data }",
     ] {
-        js.run(&format!("[it.simulation.setPlan(undefined), it.simulation.setGrid({js_call})]"));
-        assert_eq!(js.get::<String>("JSON.stringify(it.simulation.plan)"), plan_json, "{js_call}");
+        squeeze.run(&format!("[it.simulation.setPlan(undefined), it.simulation.setGrid({js_call})]"));
+        assert_eq!(squeeze.get::<String>("JSON.stringify(it.simulation.plan)"), plan_json, "{js_call}");
     }
-    js.run("it.simulation.setGrid({ ...it.yaml, origin: [1, 2, Math.PI / 2] }, it.pgm)");
-    assert_near([js.get("it.simulation.plan.bounds[0]")], [-0.5], 1e-12);
+    squeeze.run("it.simulation.setGrid({ ...it.yaml, origin: [1, 2, Math.PI / 2] }, it.pgm)");
+    assert_near([squeeze.get("it.simulation.plan.bounds[0]")], [-0.5], 1e-12);
 
     // The three cells of a row of the map are free, unknown and occupied.
-    js.run(
+    squeeze.run(
         "it.simulation.setGrid({ resolution: 1, origin: [0, 0, 0], free_thresh: 0.196 }, it.image([255,
         205, 0, 255, 205, 0], 255, 3))",
     );
     assert_eq!(
-        js.get::<(Vec<u8>, Vec<u8>)>("[it.simulation.grid.unknown, it.simulation.grid.occupied]"),
+        squeeze.get::<(Vec<u8>, Vec<u8>)>("[it.simulation.grid.unknown, it.simulation.grid.occupied]"),
         (vec![0, 1, 0, 0, 1, 0], vec![0, 0, 1, 0, 0, 1])
     );
-    js.run("it.simulation.configure({ start: { x: 1.5, y: 1, theta: 0 } })");
-    js.assert("it.simulation.startFree");
-    js.run("it.simulation.configure({ unknown: 'blocked' })");
-    assert!(!js.get::<bool>("it.simulation.startFree"));
+    squeeze.run("it.simulation.configure({ start: { x: 1.5, y: 1, theta: 0 } })");
+    squeeze.assert("it.simulation.startFree");
+    squeeze.run("it.simulation.configure({ unknown: 'blocked' })");
+    assert!(!squeeze.get::<bool>("it.simulation.startFree"));
 }
 
 #[wasm_bindgen_test]
 fn a_refused_call_changes_nothing() {
-    let js = JsObject::new(MAP_FILES_AND_SIMULATION);
-    js.assert_refused(
+    let squeeze = JsObject::new(MAP_FILES_AND_SIMULATION);
+    squeeze.assert_refused(
         SIMULATION_STATE,
         r#"
         it.simulation.configure({ seed: 9, clearance: -1 })
@@ -103,8 +103,8 @@ fn a_refused_call_changes_nothing() {
 
 #[wasm_bindgen_test]
 fn a_malformed_plan_or_map_is_refused_with_a_reason_and_the_current_one_stays() {
-    let js = JsObject::new(MAP_FILES_AND_SIMULATION);
-    js.assert_refused(
+    let squeeze = JsObject::new(MAP_FILES_AND_SIMULATION);
+    squeeze.assert_refused(
         SIMULATION_STATE,
         r#"
         it.simulation.setPlan('apartment')

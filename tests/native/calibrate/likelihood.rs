@@ -127,16 +127,16 @@ fn compute_dense_log_likelihood(calibration: &Calibration, error_kinds: &[System
         let pose_jacobian = pose_jacobians.columns(3 * pose_index, 3);
         residual_covariance += pose_jacobian * reference_covariance * pose_jacobian.transpose();
     }
-    let cholesky = residual_covariance.cholesky().expect("positive definite");
-    let log_det = |cholesky: &nalgebra::Cholesky<f64, nalgebra::Dyn>| {
-        2.0 * cholesky.l().diagonal().map(libm::log).sum()
+    let cholesky_factor = residual_covariance.cholesky().expect("positive definite");
+    let log_det = |cholesky_factor: &nalgebra::Cholesky<f64, nalgebra::Dyn>| {
+        2.0 * cholesky_factor.l().diagonal().map(libm::log).sum()
     };
-    let weighted_residuals = cholesky.solve(&stacked_residuals);
-    let mut minus_two_log_likelihood = log_det(&cholesky)
+    let weighted_residuals = cholesky_factor.solve(&stacked_residuals);
+    let mut minus_two_log_likelihood = log_det(&cholesky_factor)
         + stacked_residuals.dot(&weighted_residuals)
         + (residual_count - error_kinds.len()) as f64 * libm::log(TAU);
     if !error_kinds.is_empty() {
-        let error_information = (design_matrix.transpose() * cholesky.solve(&design_matrix))
+        let error_information = (design_matrix.transpose() * cholesky_factor.solve(&design_matrix))
             .cholesky()
             .expect("positive definite");
         let error_gradient = design_matrix.transpose() * weighted_residuals;
@@ -263,9 +263,9 @@ fn alphas_and_their_intervals_scale_with_the_noise() {
             calibrate_scaled_noise(0.001).into_iter().zip(bounds_of_larger_noise).enumerate()
         {
             for (interval_bound, expected_bound) in scaled_bounds.into_iter().zip(expected_bounds) {
-                let tolerance = 0.025 * (expected_bounds[2] - expected_bounds[0]);
+                let bound_tolerance = 0.025 * (expected_bounds[2] - expected_bounds[0]);
                 assert!(
-                    (interval_bound - expected_bound).abs() < tolerance,
+                    (interval_bound - expected_bound).abs() < bound_tolerance,
                     "{model:?} α{}: {scaled_bounds:?} {expected_bounds:?}",
                     k + 1
                 );
@@ -288,7 +288,7 @@ fn the_noise_of_the_reference_maximizes_the_likelihood() {
         )
     };
     let fit_with_estimated_noise = calibrate_with_stds(None, None);
-    let [position_std, yaw_std] = fit_with_estimated_noise.reference_noise.map(|std| std.value);
+    let [position_std, yaw_std] = fit_with_estimated_noise.reference_noise.map(|noise_std| noise_std.value);
     let log_likelihood_at = |position_std: f64, yaw_std: f64| {
         calibrate_with_stds(Some(position_std), Some(yaw_std)).log_likelihood
     };

@@ -181,8 +181,8 @@ fn a_leg_ends_at_the_sample_of_the_reference_nearest_to_a_reading() {
     let (legs, _) = split_into_legs(&sparse_odometry, &drive, leg_length, 0.01);
     assert!(legs.len() > 100);
     for leg in legs {
-        let offsets = [0, 1].map(|end_index| leg.reference[end_index].x() - leg.odometry[end_index].x());
-        assert!(offsets.iter().all(|position_offset| (position_offset - 0.005).abs() < 1e-9), "{leg:?}");
+        let end_offsets = [0, 1].map(|end_index| leg.reference[end_index].x() - leg.odometry[end_index].x());
+        assert!(end_offsets.iter().all(|position_offset| (position_offset - 0.005).abs() < 1e-9), "{leg:?}");
     }
 }
 

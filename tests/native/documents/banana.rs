@@ -119,7 +119,7 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
         banana_machine.poses().map(|pose| is_inside_outlines([pose.x(), pose.y()])).collect();
     let robot_density_in = |inside_outlines: [bool; 2]| {
         let count_points = |inside_flags: &[[bool; 2]]| {
-            inside_flags.iter().filter(|point_flags| **point_flags == inside_outlines).count() as f64
+            inside_flags.iter().filter(|flags| **flags == inside_outlines).count() as f64
         };
         count_points(&robot_flags) / (count_points(&cell_flags) * CELL_SIZE * CELL_SIZE)
     };

@@ -159,8 +159,8 @@ test('two logs get a common start time, and logs without common time are reporte
   assert.deepEqual([[...overlappingDrive.odometry.motionData.t], [...overlappingDrive.reference.motionData.t]], [[0.25, 9.5], [3.125, 8.5]]);
   const [disjointDrive] = await readDrivesOf({ 'odom.csv': odometryTable, 'truth.csv': 't,x,y,yaw\n0,0,0,0\n1,0,0,0' });
   assert.deepEqual([disjointDrive.odometry.startTime, [...disjointDrive.odometry.motionData.t]], [0, [1_700_000_000.25, 1_700_000_009.5]]);
-  assert.match(summarySentencesOf(disjointDrive.reference, english.found).at(-1) ?? '', /^notes: no time in common with odom\.csv \(0\.00 s to 1\.00 s, and 1700000000\.25 s to 1700000009\.50 s\): /);
-  assert.equal(summarySentencesOf(disjointDrive.reference, german.found).length, summarySentencesOf(overlappingDrive.reference, german.found).length + 1);
+  assert.match(summarySentencesOf(disjointDrive.reference, english.logSummaryTexts).at(-1) ?? '', /^notes: no time in common with odom\.csv \(0\.00 s to 1\.00 s, and 1700000000\.25 s to 1700000009\.50 s\): /);
+  assert.equal(summarySentencesOf(disjointDrive.reference, german.logSummaryTexts).length, summarySentencesOf(overlappingDrive.reference, german.logSummaryTexts).length + 1);
 });
 
 test('names that suggest a localizer, or swapped logs, are reported', async () => {
@@ -226,7 +226,7 @@ test('a summary contains the driven distance, units and their evidence, dropped 
   const tableRows = Array.from({ length: 200 }, (_, i) => `${1_700_000_000_000 + 50 * i + (i > 100 ? 3000 : 0)},${i === 9 ? 'nan' : i / 100},${(i % 2) / 1000},${i / 2}`);
   const [{ reference: referenceLog }] = await readDrivesOf({ 'odom.csv': straightTableOf((i) => i / 90, 1_700_000_000), 'truth.csv': ['t,x,y,yaw_deg', ...tableRows].join('\n') });
   assert.equal(referenceLog.logSummary.distance.toFixed(1), '2.0');
-  assert.deepEqual(summarySentencesOf(referenceLog, english.found), [
+  assert.deepEqual(summarySentencesOf(referenceLog, english.logSummaryTexts), [
     '199 of 200 rows, 13.0 s at 20.0 Hz, 2.0 m driven', 'columns: t, x, y, yaw_deg', 'units: time in ms (by size), lengths in m, yaw in degrees (by name)',
     'left out: 1 row, line 11: a value that is not finite, or above a billion', 'gaps: 1, the first 5.00 s after the start, the longest of 3.05 s',
   ]);

@@ -33,7 +33,7 @@ async function openRecording(...fileSources: SourceFile[]): Promise<Recording> {
   return recordings[0];
 }
 
-const summaryTextOf = (log: Log) => summarySentencesOf(log, english.found).join('. ');
+const summaryTextOf = (log: Log) => summarySentencesOf(log, english.logSummaryTexts).join('. ');
 
 /** Odometry and reference of the drive, read from its tables. */
 const tableLogPromises = (await openRecordings(['odometry.csv', 'reference.csv'].map((fileName) => createFile(decompressFile(fileName), fileName)))).map((recording) => recording.readLogs([{ seriesName: '' }]));

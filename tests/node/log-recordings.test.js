@@ -96,7 +96,7 @@ test('stamps that begin at 0 are used; messages without stamps get the recording
   const readLogWithStamps = async (/** @type {(i: number) => number} */ frameStampOf) => {
     const rosMessages = createOdometryMessages(100, (i) => odometryMessageOf(frameStampOf(i), i, 0, 0)).map((rosMessage, i) => ({ ...rosMessage, t: 1_700_000_000 + i / 20 }));
     const log = await readLog(mcapFileOf(await recordingOf(rosMessages)), { seriesName: '/odom' });
-    return { ...log, sentences: summarySentencesOf(log, english.found).join(' ') };
+    return { ...log, sentences: summarySentencesOf(log, english.logSummaryTexts).join(' ') };
   };
   const simulatedLog = await readLogWithStamps((i) => i / 10);
   assert.deepEqual([simulatedLog.startTime, simulatedLog.logSummary.rows, simulatedLog.motionData.t[0], simulatedLog.motionData.t[99]], [0, 100, 0, 9.9]);

@@ -163,8 +163,8 @@ for (const { name: caseName, tableText, kind = 'poses', start = 0, series: serie
       // Conversion from other units or from quaternions rounds values, by up to 1.25 units in the last place.
       for (const fieldName of fieldNames) assert.ok(Math.abs(tableColumns[fieldName][tableRow.i] - tableRow[fieldName]) <= Number.EPSILON, `${fieldName} ${tableColumns[fieldName][tableRow.i]} ${tableRow[fieldName]}`);
     }
-    const summaryLines = summarySentencesOf(log, english.found);
+    const summaryLines = summarySentencesOf(log, english.logSummaryTexts);
     if (summaryPattern) assert.match(summaryLines.join('\n'), summaryPattern);
-    assert.equal(summarySentencesOf(log, german.found).length, summaryLines.length);
+    assert.equal(summarySentencesOf(log, german.logSummaryTexts).length, summaryLines.length);
   });
 }

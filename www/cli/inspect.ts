@@ -41,7 +41,7 @@ async function contentsOf(recording: Recording, typedArgs: string[], onProgress?
       const seriesEntry = { name: logChoice.framePair ? `${seriesName} (${formatFrames(logChoice.framePair)})` : seriesName, type: messageType, rows: messageCount, uses: possibleRoles };
       try {
         const [log] = await recording.readLogs([logChoice], onProgress);
-        series.push({ ...seriesEntry, rows: log.logSummary.rows, summary: log.logSummary, sentences: summarySentencesOf(log, english.found) });
+        series.push({ ...seriesEntry, rows: log.logSummary.rows, summary: log.logSummary, sentences: summarySentencesOf(log, english.logSummaryTexts) });
       } catch (error) {
         if (!(error instanceof LogError)) throw error;
         series.push(seriesEntry);

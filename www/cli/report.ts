@@ -39,7 +39,7 @@ const MAX_LISTED_OUTLIERS = 5;
 
 /** Returns the summaries of the logs (odometry and reference of each drive), without the result of the fit. */
 export const formatLogSummaries = (reportedLogs: ReadLog[]): string =>
-  reportedLogs.map(({ name: logName, sentences: summarySentences }, i) => `${[`${english.choose.roleNames[LOG_ROLES[i % 2]]}: ${logName}`, ...summarySentences].join('\n  ')}\n`).join('');
+  reportedLogs.map(({ name: logName, sentences: summarySentences }, i) => `${[`${english.logChoiceTexts.roleNames[LOG_ROLES[i % 2]]}: ${logName}`, ...summarySentences].join('\n  ')}\n`).join('');
 
 /** Codes of colours in a terminal. */
 const [RED_CODE, GREEN_CODE, YELLOW_CODE] = [31, 32, 33];

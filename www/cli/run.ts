@@ -78,7 +78,7 @@ async function calibrateInputs({ fitOptions, outputFormat, plotPath, ...logArgum
   const loggedDrives = await readDrives(planDrives(givenRecordings.map(({ recording }) => recording), userChoices, onSkip), onProgress);
   onProgress?.(undefined);
   const [{ odometry: { startTime } }] = loggedDrives;
-  const reportedLogs = loggedDrives.flatMap(({ odometry: odometryLog, reference: referenceLog }) => [odometryLog, referenceLog]).map(({ logName, ...otherFields }) => ({ name: logName, summary: otherFields.logSummary, sentences: summarySentencesOf({ logName, ...otherFields }, english.found) }));
+  const reportedLogs = loggedDrives.flatMap(({ odometry: odometryLog, reference: referenceLog }) => [odometryLog, referenceLog]).map(({ logName, ...otherFields }) => ({ name: logName, summary: otherFields.logSummary, sentences: summarySentencesOf({ logName, ...otherFields }, english.logSummaryTexts) }));
   // The summaries are printed before the fit, so that the user sees them even if the fit is refused.
   if (outputFormat === 'text') printOutput(formatLogSummaries(reportedLogs));
   if (outputFormat === 'yaml') printError(formatLogSummaries(reportedLogs));

@@ -36,8 +36,8 @@ const DROP_REASONS: Record<DropCause, string> = {
 };
 
 export const german: LogTexts = {
-  place: (file, line, topic) => `${file}${topic ? `, Topic ${topic}` : ''}${line ? `, ${topic ? 'Nachricht' : 'Zeile'} ${line}` : ''}`,
-  refused: {
+  errorPlaceText: (file, line, topic) => `${file}${topic ? `, Topic ${topic}` : ''}${line ? `, ${topic ? 'Nachricht' : 'Zeile'} ${line}` : ''}`,
+  refusalReasons: {
     unreadableFileReason: (reason) => (reason === 'ENOENT' ? 'es gibt keine solche Datei und keinen solchen Ordner.' : `die Datei lässt sich nicht lesen (${reason}); prüfen, ob sie da ist und gelesen werden darf.`),
     emptyFileReason: 'es steht nichts darin; erwartet wird ein Log von Posen oder Befehlen.',
     unknownFormatReason: 'das ist weder Text noch eine bekannte Aufzeichnung; erwartet wird eine ROS-Bag, rosbag2, MCAP, oder eine Tabelle als CSV oder TUM, aus einem Archiv entpackt.',
@@ -104,7 +104,7 @@ export const german: LogTexts = {
     unknownRoleReason: 'ihr Name sagt nicht, ob sie Odometrie oder Referenz ist; die Dateien nach dem Muster odom1.csv, truth1.csv, odom2.csv, … benennen, oder die Rolle jeder auswählen.',
     unpairedLogsReason: (odometry, reference) => `die Odometrie ist in ${odometry || 'keiner Datei'}, und die Referenz in ${reference || 'keiner Datei'}; gebraucht wird je eines für eine Fahrt.`,
   },
-  choose: {
+  logChoiceTexts: {
     roleNames: ROLE_NAMES,
     openPlaceholder: 'auswählen',
     skippedFileNote: (reason) => `Nicht verwendet: ${reason}`,
@@ -119,7 +119,7 @@ export const german: LogTexts = {
     readLabel: 'Lesen',
     bothFilesHint: 'Die andere Datei auch hierher ziehen oder wählen, oder beide zugleich.',
   },
-  found: {
+  logSummaryTexts: {
     summaryTitle: 'Was gelesen wurde',
     driveCaption: (number) => `Fahrt ${number}`,
     pathsCaption: (isAligned, width, height) => `Wege von oben: Referenz (durchgezogen) und Odometrie (gestrichelt, ${isAligned ? 'an ihr' : 'nicht'} ausgerichtet); ${width} m mal ${height} m.`,

@@ -32,10 +32,10 @@ const DROP_REASONS = {
 export const REPAIR_COMMANDS: Record<Recording['recordingFormat'], string> = { mcap: 'mcap recover', rosbag: 'rosbag reindex', sqlite: 'sqlite3 FILE .recover | sqlite3 NEW.db3', csv: '' };
 
 export const english = {
-  place: (file: string, line: number, topic: string) =>
+  errorPlaceText: (file: string, line: number, topic: string) =>
     `${file}${topic ? `, topic ${topic}` : ''}${line ? `, ${topic ? 'message' : 'line'} ${line}` : ''}`,
   /** Reasons for refusing a log. In an error message, a reason follows the place of the error. */
-  refused: {
+  refusalReasons: {
     unreadableFileReason: (reason: string) => (reason === 'ENOENT' ? 'there is no such file or folder.' : `the file cannot be read (${reason}); check that it exists and may be read.`),
     emptyFileReason: 'there is nothing in it; expected is a log of poses or commands.',
     unknownFormatReason: 'it is neither text nor a known recording; expected is a ROS bag, rosbag2, MCAP, or a table as CSV or TUM, unpacked from an archive.',
@@ -105,7 +105,7 @@ export const english = {
     unknownRoleReason: 'its name does not say whether it is odometry or reference; name the files as odom1.csv, truth1.csv, odom2.csv, …, or choose the role of each.',
     unpairedLogsReason: (odometry: string, reference: string) => `the odometry is in ${odometry || 'no file'}, and the reference in ${reference || 'no file'}; give one of each for a drive.`,
   },
-  choose: {
+  logChoiceTexts: {
     roleNames: { odometry: 'Odometry', reference: 'Reference' },
     openPlaceholder: 'choose',
     skippedFileNote: (reason: string) => `Not used: ${reason}`,
@@ -120,7 +120,7 @@ export const english = {
     readLabel: 'Read',
     bothFilesHint: 'Drop or choose the other file too, or both at once.',
   },
-  found: {
+  logSummaryTexts: {
     summaryTitle: 'What was read',
     driveCaption: (number: number) => `Drive ${number}`,
     pathsCaption: (isAligned: boolean, width: string, height: string) => `Paths from above: reference (solid) and odometry (dashed, ${isAligned ? 'aligned with it' : 'not aligned'}); ${width} m by ${height} m.`,

@@ -165,10 +165,10 @@ export interface LogSummary {
 /** Name of the clock of messages without stamps: the time of recording. */
 export const RECORDING_CLOCK = 'log time';
 
-type SummaryLabel = keyof LogTexts['found']['rowLabels'];
+type SummaryLabel = keyof LogTexts['logSummaryTexts']['rowLabels'];
 
 /** Returns the lines of a log's summary by their labels. */
-export function summaryLinesOf({ logSummary }: Log, summaryTexts: LogTexts['found']): Partial<Record<SummaryLabel, string[]>> {
+export function summaryLinesOf({ logSummary }: Log, summaryTexts: LogTexts['logSummaryTexts']): Partial<Record<SummaryLabel, string[]>> {
   const { rows, used, dropped, seconds, rate, distance, units, clock, columns, frames: framePair, gaps, jumps, notes } = logSummary;
   return {
     rows: [summaryTexts.rowsSummary(used, rows, seconds, rate, distance)],
@@ -186,7 +186,7 @@ export function summaryLinesOf({ logSummary }: Log, summaryTexts: LogTexts['foun
 }
 
 /** Returns the summary of a log as sentences. The first sentence is about the rows. */
-export function summarySentencesOf(log: Log, summaryTexts: LogTexts['found']): string[] {
+export function summarySentencesOf(log: Log, summaryTexts: LogTexts['logSummaryTexts']): string[] {
   const { rows = [], ...otherLines } = summaryLinesOf(log, summaryTexts);
   return [...rows, ...Object.entries(otherLines).flatMap(([label, lines]) => lines.map((line) => `${summaryTexts.rowLabels[label as SummaryLabel]}: ${line}`))];
 }
@@ -201,7 +201,7 @@ export interface ErrorPlace {
 }
 
 /** Function that returns the reason in an error message, in the language of the given words. The reason follows the place of the error. */
-export type ErrorReason = (errorReasons: LogTexts['refused']) => string;
+export type ErrorReason = (errorReasons: LogTexts['refusalReasons']) => string;
 
 /** Maximum number of characters of a quoted name or value, and of a quoted error message of a library. */
 const [MAX_QUOTED_LENGTH, MAX_REASON_LENGTH] = [40, 100];
@@ -215,7 +215,7 @@ export class LogError extends Error {
   messageIn: (errorReasons: LogTexts) => string;
 
   constructor(place: ErrorPlace, formatReason: ErrorReason, userQuestion?: UserQuestion) {
-    const composeMessage = (summaryTexts: LogTexts) => `${summaryTexts.place(truncate(place.fileName), place.lineNumber ?? 0, truncate(place.topicName ?? ''))}: ${formatReason(summaryTexts.refused)}`;
+    const composeMessage = (summaryTexts: LogTexts) => `${summaryTexts.errorPlaceText(truncate(place.fileName), place.lineNumber ?? 0, truncate(place.topicName ?? ''))}: ${formatReason(summaryTexts.refusalReasons)}`;
     super(composeMessage(english));
     this.name = 'LogError';
     this.errorPlace = place;

@@ -132,7 +132,7 @@ export class RowCollector {
     const { rowCount } = this;
     const damagedRows = this.#damagedRows;
     if (damagedRows && damagedRows.damagedCount > MAX_DAMAGED_FRACTION * rowCount) {
-      const composeSentences = (errorReasons: LogTexts['refused']) => [damagedRows.formatReason(errorReasons), ...(damagedRows.damagedCount > 1 && damagedRows.damagedCount < rowCount ? [errorReasons.damagedRowsReason(damagedRows.damagedCount, rowCount, 100 * MAX_DAMAGED_FRACTION)] : [])];
+      const composeSentences = (errorReasons: LogTexts['refusalReasons']) => [damagedRows.formatReason(errorReasons), ...(damagedRows.damagedCount > 1 && damagedRows.damagedCount < rowCount ? [errorReasons.damagedRowsReason(damagedRows.damagedCount, rowCount, 100 * MAX_DAMAGED_FRACTION)] : [])];
       throw new LogError({ ...this.#logPlace, lineNumber: damagedRows.firstLine }, (errorReasons) => composeSentences(errorReasons).join(' '));
     }
     if (this.tiltCosineSpread > MAX_TILT_SPREAD) throw new LogError(this.#logPlace, (errorReasons) => errorReasons.tiltedPosesReason);

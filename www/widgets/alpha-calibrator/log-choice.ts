@@ -48,7 +48,7 @@ export function logChoosersHtml(logOpener: LogOpener) {
   return html`<div class="choosers">
     ${roleChoosers.length ? html`<div class="choices">${roleChoosers}</div>` : nothing}
     ${questions.map((question) => questionHtml(logOpener, chosenFiles, question, texts))}
-    ${skippedFiles.filter((failure) => failure !== logOpener.refusal).map((failure) => html`<p class="muted">${texts.choose.skippedFileNote(logOpener.explainRefusal(failure))}</p>`)}
+    ${skippedFiles.filter((failure) => failure !== logOpener.refusal).map((failure) => html`<p class="muted">${texts.logChoiceTexts.skippedFileNote(logOpener.explainRefusal(failure))}</p>`)}
   </div>`;
 }
 
@@ -62,7 +62,7 @@ function selectHtml(id: string, label: string, selectedValue: string, options: [
   </label>`;
 }
 
-function seriesSelectHtml(logOpener: LogOpener, { openedRecordings, userChoices }: ChosenFiles, role: LogRole, { choose: texts }: LogWords) {
+function seriesSelectHtml(logOpener: LogOpener, { openedRecordings, userChoices }: ChosenFiles, role: LogRole, { logChoiceTexts: texts }: LogWords) {
   const choiceByLabel = new Map(openedRecordings.flatMap((recording) => labelledChoicesOf(recording, role)));
   const plannedRecording = openedRecordings.find(({ logChoices }) => logChoices?.[role]);
   const currentChoice = (userChoices[role] as LogChoice | undefined) ?? plannedRecording?.logChoices?.[role];
@@ -73,7 +73,7 @@ function seriesSelectHtml(logOpener: LogOpener, { openedRecordings, userChoices 
   }, texts.openPlaceholder);
 }
 
-function roleSelectHtml(logOpener: LogOpener, { openedRecordings, answers }: ChosenFiles, recordingIndex: number, { choose: texts }: LogWords) {
+function roleSelectHtml(logOpener: LogOpener, { openedRecordings, answers }: ChosenFiles, recordingIndex: number, { logChoiceTexts: texts }: LogWords) {
   const { recordingName, logChoices } = openedRecordings[recordingIndex];
   const currentRole = answers[recordingName]?.logRole ?? LOG_ROLES.find((role) => logChoices?.[role]);
   return selectHtml(`log-role-${recordingIndex}`, recordingName, currentRole ?? '', LOG_ROLES.map((role) => [role, texts.roleNames[role]]), (chosenValue) => {
@@ -85,7 +85,7 @@ function roleSelectHtml(logOpener: LogOpener, { openedRecordings, answers }: Cho
   }, texts.openPlaceholder);
 }
 
-function questionHtml(logOpener: LogOpener, { answers }: ChosenFiles, question: FileQuestion, { choose: texts }: LogWords) {
+function questionHtml(logOpener: LogOpener, { answers }: ChosenFiles, question: FileQuestion, { logChoiceTexts: texts }: LogWords) {
   const { fileName, optionName, possibleAnswers } = question;
   if (optionName === 'columns') return columnsFormHtml(logOpener, question, answers[fileName]?.columnNames?.join(), texts);
   if (optionName !== 'timeUnit' && optionName !== 'lengthUnit' && optionName !== 'angleUnit') return nothing;
@@ -96,7 +96,7 @@ function questionHtml(logOpener: LogOpener, { answers }: ChosenFiles, question: 
 }
 
 /** Returns a form with a `<select>` for each field, by which the user assigns a column to the field. */
-function columnsFormHtml(logOpener: LogOpener, question: FileQuestion, answeredNames: string | undefined, texts: LogWords['choose']) {
+function columnsFormHtml(logOpener: LogOpener, question: FileQuestion, answeredNames: string | undefined, texts: LogWords['logChoiceTexts']) {
   const { fileName, possibleAnswers: [chosenNames = ''], columnNames = [], proposedFields = chosenNames.split(',') } = question;
   const proposedNames = chosenNames.split(',');
   // Each column is offered twice: as it is, and with the opposite sign.
@@ -157,15 +157,15 @@ export function logSummaryHtml({ chosenFiles, texts, figure }: LogOpener) {
   // The clock offset is known only after the fit. Until then it is taken as 0.
   const clockOffset = (chosenFiles.isFitted ? figure.viewModel.stats.systematicErrors.clockOffset.value : undefined) ?? 0;
   return html`<details class="found" open>
-    <summary>${texts.found.summaryTitle}</summary>
+    <summary>${texts.logSummaryTexts.summaryTitle}</summary>
     ${guard([loggedDrives, texts, language, clockOffset], () => loggedDrives.map((drive, i) => html`<div class="drive">
-      ${logTableHtml(drive, loggedDrives.length > 1 ? texts.found.driveCaption(i + 1) : '', texts)}
+      ${logTableHtml(drive, loggedDrives.length > 1 ? texts.logSummaryTexts.driveCaption(i + 1) : '', texts)}
       ${pathsPictureHtml(drive, clockOffset, texts)}
     </div>`))}
   </details>`;
 }
 
-function logTableHtml({ odometry, reference }: LoggedDrive, caption: string, { choose, found }: LogWords) {
+function logTableHtml({ odometry, reference }: LoggedDrive, caption: string, { logChoiceTexts: choose, logSummaryTexts: found }: LogWords) {
   const logs = [odometry, reference];
   const tableRows = logs.map((driveLog) => summaryLinesOf(driveLog, found));
   const tableCellHtml = (cellLines: string[] = []) => html`<td>${cellLines.length ? cellLines.map((cellLine, i) => html`${i ? html`<br />` : nothing}${cellLine}`) : '—'}</td>`;
@@ -182,7 +182,7 @@ function logTableHtml({ odometry, reference }: LoggedDrive, caption: string, { c
 }
 
 /** Returns a picture of the paths by odometry and reference. If the logs have times in common, the odometry is aligned to the reference, whose times are later by `clockOffset`. */
-function pathsPictureHtml({ odometry, reference }: LoggedDrive, clockOffset: number, { found }: LogWords) {
+function pathsPictureHtml({ odometry, reference }: LoggedDrive, clockOffset: number, { logSummaryTexts: found }: LogWords) {
   const [drivenPath, referencePath] = [odometry.motionData, reference.motionData].map((poseColumns) => pathOf(poseColumns, Math.ceil(poseColumns.t.length / MAX_PATH_POINTS)));
   const odometryPath = alignPath(drivenPath, referencePath, clockOffset);
   const allPoses = [...odometryPath.poses, ...referencePath.poses];

@@ -155,7 +155,7 @@ export class LogOpener extends FileOpener<Figure> {
     if (isAbortError(refusal)) return words.progress.stoppedNotice;
     const { message, sentencesByLanguage, userQuestion } = refusal;
     const refusalReason = sentencesByLanguage?.[language === 'de' ? 'de' : 'en'] ?? words.calibrator.logControls.refusedLogSentence(message);
-    return [refusalReason, ...(userQuestion?.optionName === 'other' && this.texts ? [this.texts.choose.bothFilesHint] : [])].join(' ');
+    return [refusalReason, ...(userQuestion?.optionName === 'other' && this.texts ? [this.texts.logChoiceTexts.bothFilesHint] : [])].join(' ');
   }
 
   /** Shows why files were refused, and asks the user to answer the error's question if it has one. */

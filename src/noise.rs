@@ -53,7 +53,7 @@ const SQRT_6: f64 = 2.449_489_742_783_178;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoiseKind {
-    /// Gaussian.
+    /// Normal distribution.
     Normal,
     /// Symmetric triangle on ±√6·b: bounded, so that there are no extreme draws.
     Triangular,

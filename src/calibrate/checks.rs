@@ -347,8 +347,8 @@ pub(super) fn reference_check(
     let checks: Vec<Check> = checks.collect();
     let drives = checks.iter().flat_map(|check| check.drives.clone()).collect();
     let match_check = largest_of(checks).map(|check| Check { drives, ..check });
-    // A reference that is a copy of the odometry is recognized by α's whose intervals start near 0: α's are squares of relative
-    // errors. Any other unsuitable reference is recognized by the difference of its motions from the odometry's.
+    // α's are squares of relative errors. If the reference is a copy of the odometry, these errors are nearly 0, and so are all ends of the
+    // intervals of the α's. Any other unsuitable reference is recognized by the difference of its motions from the odometry's.
     let max_alpha = alpha_intervals.iter().flatten().map(|[start, _]| *start).reduce(f64::max);
     let copy_error = max_alpha.map(f64::sqrt).filter(|error| *error < MIN_RELATIVE_ERROR);
     match copy_error {

@@ -95,7 +95,7 @@ pub struct LostLegs {
     pub without_reference: usize,
     /// Legs across a break, at which the pose of a trajectory may have jumped.
     pub across_breaks: usize,
-    /// Legs that a pause made more than twice as long as the options ask for.
+    /// Legs across a pause that are more than twice as long as the options ask for.
     pub across_pauses: usize,
     /// Legs of a standing robot: less than 1 cm and 0.02 rad.
     pub standing: usize,

@@ -28,7 +28,7 @@ impl Sampler {
         if let Self::SubStepped(part_count) = self { part_count } else { 1 }
     }
 
-    /// Returns the sampler with another number of parts, if it splits motions.
+    /// Returns the sampler with another number of parts. A sampler that does not split motions is returned unchanged.
     pub fn with_part_count(self, part_count: u32) -> Self {
         if let Self::SubStepped(_) = self { Self::SubStepped(part_count) } else { self }
     }

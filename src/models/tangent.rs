@@ -134,7 +134,7 @@ impl TangentNoiseModel {
             + libm::log(2.0 * twist_sinc * twist_sinc / (arc_length.abs() * arc_sinc * arc_sinc))
     }
 
-    /// Returns Σ_k from Σ_{k−1} by the chapter's recursion, which is `propagate` with [`Compounding::Chapter`].
+    /// Returns Σ_k from Σ_{k−1} by the recursion of the book's chapter, which is `propagate` with [`Compounding::Chapter`].
     pub fn compound(&self, sigma: &Matrix3<f64>, step_twist: &Vector3<f64>) -> Matrix3<f64> {
         self.propagate(sigma, step_twist, Compounding::Chapter)
     }

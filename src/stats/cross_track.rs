@@ -11,7 +11,7 @@ use std::ops::Mul;
 /// sample is biased towards 0, for ten poses by about half.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrossTrackStats {
-    /// Skewness m₃/m₂^1.5, with central moments over n; 0 for a Gaussian in (x, y).
+    /// Skewness m₃/m₂^1.5 of the residual d, with central moments over n. It is 0 if (x, y) is Gaussian.
     pub skew: f64,
     /// Standard error of `skew` by the delta method, from the moments of the sample up to the sixth. It includes the
     /// uncertainty of the mean heading.

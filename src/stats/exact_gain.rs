@@ -43,7 +43,7 @@ struct BranchedMotion {
 }
 
 impl ExactGain {
-    /// Returns the exact likelihood gain of a motion.
+    /// Prepares the computation for the outcomes of one motion.
     pub fn new(polar_motion: &PolarMotion) -> Self {
         let PolarMotion {
             length: [length, length_std], bearing: [bearing, bearing_std], commanded_turn, ..

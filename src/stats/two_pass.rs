@@ -57,7 +57,7 @@ pub struct FirstPass {
     summed_products: CompensatedSums<16>,
     /// Sums of the first two random numbers of variance 1 of each robot.
     pub unit_noise: PairSums,
-    /// Corrections for irregular arcs, which differ from the driven arcs (see `NoisyDrive::end_points`). The sums of the noise stand for
+    /// Corrections for irregular arcs, which differ from the driven arcs (see `NoisyDrive::end_points`). The sums of the noise contain
     /// the driven arcs. A correction therefore adds the values of an irregular arc, and subtracts those of its driven arc.
     irregular_arcs: PairSums,
     /// Products of the scaled factors sinc(ξ_ω/2) and |s|·sinc²(φ/2) over a block, and sums of the logarithms of these products. One
@@ -119,7 +119,7 @@ impl FirstPass {
         );
     }
 
-    /// Adds the values of irregular arcs. Subtracts the values of the driven arcs (`regular_arcs`), for which the sums of the noise stand.
+    /// Adds the values of irregular arcs, and subtracts the values of their driven arcs (`regular_arcs`), which the sums of the noise contain.
     #[inline(never)]
     pub fn add_irregular_arcs(&mut self, four_arcs: &FourArcs, regular_arcs: [f64x4; 2], lane_mask: f64x4) {
         let [.., arc_length, half_turn] = self.reference_point;

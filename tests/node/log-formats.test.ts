@@ -116,7 +116,7 @@ const readDamagedOdometry = (fileName: string, damagePosition: number) => readOd
 
 const findPositions = (bytes: Buffer, searchText: string) => Array.from(bytes.toString('latin1').matchAll(RegExp(searchText, 'g')), ({ index }) => index);
 
-/** Returns a function that finds a position inside each chunk of a file. The position is 60 bytes after a text in the header of the chunk. */
+/** Returns a function that finds one position in the compressed data of each chunk: 60 bytes after `headerText`, which the chunk's header contains. */
 const findPositionsInChunks = (headerText: string) => (bytes: Buffer) => findPositions(bytes, headerText).map((bytePosition) => bytePosition + 60);
 
 /** Functions that find positions in the blocks with messages of the odometry. In an MCAP file, chunk indexes name the compression too. */

@@ -17,7 +17,7 @@ async function readTable(tableText, openOptions, seriesName = '') {
 /** Rows of a drive on a circle with a radius of 1 m, at 0.5 m/s, with 20 rows a second: time, x, y, heading. */
 const CIRCLE_ROWS = Array.from({ length: 800 }, (_, i) => [i / 20, Math.sin(i / 40), -Math.cos(i / 40), Math.atan2(Math.sin(i / 40), Math.cos(i / 40))]);
 
-/** Returns a table of the drive on the circle. @param {(row: number[], i: number) => (string | number)[]} [cellsOf] of each row @param {string} [headerLine] */
+/** Returns a table of a robot that drives on a circle. @param {(row: number[], i: number) => (string | number)[]} [cellsOf] makes the cells of a row from its time and pose @param {string} [headerLine] */
 const circleTableOf = (cellsOf = (tableRow) => tableRow, headerLine = 't,x,y,yaw') => [headerLine, ...CIRCLE_ROWS.map((tableRow, i) => cellsOf(tableRow, i).join(','))].join('\n');
 
 /** Returns a table of a robot that drives straight on, with a row at each time. @param {(number | string)[]} rowTimes */

@@ -212,7 +212,7 @@ export function explainWithCommand({ message: errorMessage, errorPlace: { fileNa
   return answeringArgs ? `${errorMessage} For example:\n  ${formatCommand(answeringArgs)}` : errorMessage;
 }
 
-/** Returns the arguments of a command together with the option that answers a question; undefined if no option answers it. */
+/** Returns the typed arguments together with the option that answers a question of a log's reader; undefined if no option answers it. */
 export function answerQuestion({ fileName, optionName, logRole, possibleAnswers }: FileQuestion, typedArgs: string[]): string[] | undefined {
   const [likeliestChoice] = possibleAnswers.filter(Boolean);
   const chosenRole = logRole ?? 'odometry';

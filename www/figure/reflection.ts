@@ -9,7 +9,7 @@ import type { StateValues } from './settings.ts';
 export class AttributeReflection extends FigureController {
   #attributes = this.figure.definition.attributes;
   #elementProperties = this.figure.definition.elementProperties;
-  /** Names of properties in the order in which early assignments are applied. Properties on which others depend come first. A log comes last, because its fit takes long. */
+  /** Names of properties in the order in which assignments made before the start are applied. Properties on which others depend come first. A log comes last, because its fit takes long. */
   #applicationOrder = ['preset', 'map', ...Object.keys(this.#elementProperties), 'log'];
   /** Assignments made before the simulation exists. The key is the name of a property, or a new object for each assigned state. */
   #earlyAssignments: Map<unknown, { assignedValue?: unknown, applyAssignment: () => void }> = new Map();

@@ -182,7 +182,7 @@ export class FigureRenderer extends FigureController {
     return this.isOpening ? nothing : renderContent();
   }
 
-  /** Draws the pending pictures, if a canvas is visible. During a resize no text is rendered, because it could change sizes again. */
+  /** Draws the pending pictures, if a canvas is visible. During a resize the text around the pictures is not rendered, because it could change their sizes again. */
   #attemptDraw(elapsedMs: number, isResizing = false) {
     // In a closed disclosure of the page, all canvases have size 0, and nothing is drawn.
     if (!this.figure.simulation || !this.figure.canvases.canvasElements?.some(hasPixels)) return;

@@ -197,8 +197,8 @@ export class RowCollector {
     const sortedOrder = rowIndices.map((_, i) => i).sort((sortPosition, otherPosition) => rowTimes[sortPosition] - rowTimes[otherPosition] || sortPosition - otherPosition);
     const medianStep = quantileOf(sampleEvenly(rowTimes.length - 1, (i) => rowTimes[sortedOrder[i + 1]] - rowTimes[sortedOrder[i]]).filter((timeStep) => timeStep > 0), 0.5);
     const distanceBetween = (sortPosition: number, otherPosition: number) => Math.hypot(a[rowIndices[sortPosition]] - a[rowIndices[otherPosition]], b[rowIndices[sortPosition]] - b[rowIndices[otherPosition]]);
-    // Two rows from different runs overlap if their times are nearly equal. If the rows of a run were only written late, sorting by time shortens the path.
-    // If the clock was set back, sorting lengthens the path, because it mixes two parts of the drive.
+    // Two runs overlap where a row of one has nearly the time of a row of the other. If the rows of a run were only written late, sorting by time shortens
+    // the path. If the clock was set back, sorting lengthens the path, because it mixes two parts of the drive.
     const runOverlaps: { runIndex: number; sortedLength: number; fileLength: number }[] = [];
     for (let i = 1; i < sortedOrder.length; i++) {
       const [previousPosition, sortPosition] = [sortedOrder[i - 1], sortedOrder[i]];

@@ -9,7 +9,7 @@ export const NO_VALUE = '\u2014';
 
 const decimalSeparators: Map<string, string> = new Map([['en', '.']]);
 
-/** Returns the decimal separator of the current language between Latin digits. The first use of `Intl` takes longer than the rest of the first frame. */
+/** Returns the decimal separator of the current language between Latin digits. It is remembered, because the first use of `Intl` takes longer than the rest of the first frame. */
 function getDecimalSeparator(): string {
   // The decimal separator is the second character of "0.5" or "0,5".
   if (!decimalSeparators.has(language)) decimalSeparators.set(language, (0.5).toLocaleString(language, { numberingSystem: 'latn' })[1]);

@@ -173,7 +173,8 @@ js_structs! {
     }
 }
 
-/// Ratio of the areas of the ellipse and the banana outline below which gaps are not searched, because both outlines nearly coincide.
+/// Area of the 2σ ellipse divided by the area of the banana outline, below which both nearly coincide. No gap between them is then searched
+/// for.
 const MIN_AREA_RATIO: f64 = 1.15;
 
 /// Minimum Mahalanobis distance, in exponential coordinates, from the mean to a gap: a point inside the 2σ ellipse of (x, y) where

@@ -204,7 +204,7 @@ impl<T: HasKeywords> KeywordSetting for T {
 pub trait SettingValue {
     /// Type that states the allowed values of the setting in its declaration, for example a range.
     type Range;
-    /// Returns the setting that refers to this value, with the allowed values.
+    /// Returns a [`Setting`] that borrows this value, so that it can be read and changed. `allowed` are the values that are accepted.
     fn setting(&mut self, allowed: Self::Range) -> Setting<'_>;
 }
 

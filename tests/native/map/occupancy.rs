@@ -107,7 +107,7 @@ fn distances_to_walls_equal_distances_to_cells() {
     assert!(inside_count > 1000 && outside_count > 1000, "{inside_count} {outside_count}");
 }
 
-/// Neighbouring sides of cells form one wall. Between two occupied cells there is no wall, and walls meet at corners.
+/// Sides of neighbouring cells on one line form one wall. Between two occupied cells there is no wall, and walls meet at corners.
 #[test]
 fn sides_of_neighbouring_cells_form_one_wall() {
     let drawn_rows = ["##.", "#..", "..#"];

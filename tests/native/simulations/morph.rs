@@ -115,7 +115,8 @@ fn the_morphed_outline_equals_that_of_each_view_at_its_end() {
     }
 }
 
-/// An interpolated line that does not surround the start stays connected. A line around the start would be torn, and is omitted.
+/// A line that does not surround the start stays connected at all stages of the transition. A line around the start is omitted, because the
+/// direction of its points from the start jumps by a full circle.
 #[test]
 fn a_morphed_line_stays_connected_or_is_omitted() {
     let circle_at = |x: f64| -> Vec<[f64; 2]> {

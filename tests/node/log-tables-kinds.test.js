@@ -268,6 +268,11 @@ for (const [axesName, tableText] of [
   });
 }
 
+test('the unit of times is judged from the mean rate of rows that arrive in bursts', async () => {
+  const { logSummary } = await readTable(circleTableOf((tableRow, i) => tableRow.with(0, CIRCLE_ROWS[i - (i % 5)][0] + 1e-5 * (i % 5))));
+  assert.deepEqual(logSummary.units.time, { unit: 's', by: 'usage' });
+});
+
 test('missing columns are proposed for columns of unknown names, unless no column fits', async () => {
   for (const [headerLine, proposedNames] of /** @type {[string, string[]][]} */ ([
     ['Zeit,PosX,PosY,Winkel', ['t,PosX,PosY,yaw']],

@@ -166,7 +166,7 @@ fn assert_calibration(calibration: &Calibration, calibration_options: &Options) 
     let Calibration { alphas, intervals, not_identifiable, legs, observations, leg_fits, .. } = calibration;
     assert!(legs.len() >= MIN_LEGS);
     assert_eq!([observations.len(), leg_fits.len()], [legs.len(); 2]);
-    let alpha_count = calibration_options.model.alphas();
+    let alpha_count = calibration_options.model.alpha_count();
     assert_eq!([alphas.len(), intervals.len(), not_identifiable.len()], [alpha_count; 3]);
     for (k, fitted_alpha) in alphas.iter().enumerate() {
         assert_eq!([fitted_alpha.is_none(), intervals[k].is_none()], [not_identifiable[k].is_some(); 2]);

@@ -49,13 +49,13 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Opt
     if let Some((offset, _)) = near_match.filter(|(_, correlation)| *correlation >= CONFIDENT_CORRELATION) {
         return Some(offset);
     }
-    let range = [ref_start - odom_end + min_overlap, ref_end - odom_start - min_overlap];
-    let mut step = finest_step.max((range[1] - range[0]) / COARSE_OFFSETS);
-    let mut far_match = best_match(odometry, reference, range, step);
-    while let Some((rough_offset, _)) = far_match.filter(|_| step > finest_step) {
-        let nearby_range = [rough_offset - 2.0 * step, rough_offset + 2.0 * step];
-        step = finest_step.max(step / 50.0);
-        far_match = best_match(odometry, reference, nearby_range, step);
+    let offset_range = [ref_start - odom_end + min_overlap, ref_end - odom_start - min_overlap];
+    let mut offset_step = finest_step.max((offset_range[1] - offset_range[0]) / COARSE_OFFSETS);
+    let mut far_match = best_match(odometry, reference, offset_range, offset_step);
+    while let Some((rough_offset, _)) = far_match.filter(|_| offset_step > finest_step) {
+        let nearby_range = [rough_offset - 2.0 * offset_step, rough_offset + 2.0 * offset_step];
+        offset_step = finest_step.max(offset_step / 50.0);
+        far_match = best_match(odometry, reference, nearby_range, offset_step);
     }
     // An offset outside of the first scan is accepted only if its correlation is clearly larger.
     let near_match = near_match.map(|(offset, correlation)| (offset, correlation + MIN_CORRELATION_GAIN));
@@ -82,24 +82,24 @@ fn best_match(
         correlation.max(-MIRRORED_FACTOR * correlation)
     };
     let correlations: Vec<f64> = (0..offset_count).map(correlation_of_offset).collect();
-    let (best, &max) = correlations.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
+    let (best_index, &max) = correlations.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
     // Vertex of the parabola through the largest correlation and its neighbours.
-    let [before, after] =
-        [best.wrapping_sub(1), best + 1].map(|i| correlations.get(i).copied().unwrap_or(max));
-    let curvature = before - 2.0 * max + after;
-    let fraction = if curvature < 0.0 { 0.5 * (before - after) / curvature } else { 0.0 };
-    (max >= MIN_CORRELATION).then_some((min_offset + (best as f64 + fraction) * step, max))
+    let [correlation_before, after_best] =
+        [best_index.wrapping_sub(1), best_index + 1].map(|i| correlations.get(i).copied().unwrap_or(max));
+    let curvature = correlation_before - 2.0 * max + after_best;
+    let fraction = if curvature < 0.0 { 0.5 * (correlation_before - after_best) / curvature } else { 0.0 };
+    (max >= MIN_CORRELATION).then_some((min_offset + (best_index as f64 + fraction) * step, max))
 }
 
-/// Returns the turns (rad) between successive times, which are `step` (s) apart. NaN outside of the trajectory, and across gaps.
-fn turns_of_steps(trajectory: &Trajectory, start_time: f64, step: f64, count: usize) -> Vec<f64> {
+/// Returns the turns (rad) between successive times, which are `step_length` (s) apart. NaN outside of the trajectory, and across gaps.
+fn turns_of_steps(trajectory: &Trajectory, start_time: f64, step_length: f64, step_count: usize) -> Vec<f64> {
     let headings = trajectory.unwrapped_heading();
     let heading_at = |time: f64| {
-        let Some((sample, fraction)) = trajectory.locate(time) else { return f64::NAN };
-        let before = headings[sample.saturating_sub(1)];
-        before + fraction * (headings[sample] - before)
+        let Some((sample_index, fraction)) = trajectory.locate(time) else { return f64::NAN };
+        let correlation_before = headings[sample_index.saturating_sub(1)];
+        correlation_before + fraction * (headings[sample_index] - correlation_before)
     };
-    let times: Vec<f64> = (0..=count).map(|i| start_time + i as f64 * step).collect();
+    let times: Vec<f64> = (0..=step_count).map(|i| start_time + i as f64 * step_length).collect();
     let step_headings: Vec<f64> = times.iter().copied().map(heading_at).collect();
     let has_gap = |step_times: &[f64]| trajectory.has_gap(step_times[0], step_times[1]);
     let steps = times.windows(2).zip(step_headings.windows(2));
@@ -109,14 +109,14 @@ fn turns_of_steps(trajectory: &Trajectory, start_time: f64, step: f64, count: us
 /// Returns Pearson's correlation of two lists, over the positions at which neither number is NaN. 0 if there are fewer than `min_pairs` such
 /// positions, or a list is constant.
 fn correlation(a: &[f64], b: &[f64], min_pairs: usize) -> f64 {
-    let (mut count, mut sums) = (0.0, [0.0; 5]);
+    let (mut count, mut term_sums) = (0.0, [0.0; 5]);
     for (x, y) in a.iter().zip(b).filter(|(x, y)| !(**x + **y).is_nan()) {
         count += 1.0;
-        for (sum, term) in sums.iter_mut().zip([*x, *y, x * x, y * y, x * y]) {
+        for (sum, term) in term_sums.iter_mut().zip([*x, *y, x * x, y * y, x * y]) {
             *sum += term;
         }
     }
-    let [x, y, xx, yy, xy] = sums.map(|sum| sum / count);
+    let [x, y, xx, yy, xy] = term_sums.map(|sum| sum / count);
     let variance_product = (xx - x * x) * (yy - y * y);
     // Turns that are constant except for rounding count as constant.
     if count < min_pairs as f64 || variance_product <= 1e-18 * xx * yy || !variance_product.is_finite() {

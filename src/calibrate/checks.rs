@@ -213,7 +213,7 @@ pub(super) fn log_checks(leg_set: &LegSet, lost: &LostLegs, inflation: f64) -> V
     let leg_count = leg_set.legs.len();
     let mut length_ratios: Vec<f64> =
         leg_set.legs.iter().map(|leg| leg_set.options.legs.ratio(&leg.odometry, leg.duration())).collect();
-    let outlier_count = leg_set.outliers.iter().filter(|is| **is).count();
+    let outlier_count = leg_set.outliers.iter().filter(|is_outlier| **is_outlier).count();
     let lost_count = lost.total() - lost.standing;
     let lost_fraction = lost_count as f64 / (leg_count + lost_count) as f64;
     let legs_lost = Check::new(CheckName::LegsLost, lost_fraction, [0.0, 0.2]).with_cause(lost.main_cause());
@@ -251,22 +251,22 @@ const NEGLIGIBLE_SCALE_DIFFERENCE: f64 = 0.01;
 /// neighbouring legs.
 pub(super) fn scale_checks(fit: &Fit, correlation: f64) -> (Vec<Check>, ErrorMask) {
     let (mut checks, mut is_constant) = (Vec::new(), [true; ERROR_COUNT]);
-    let first_half_count = fit.sample.legs.len() / 2;
+    let first_half_count = fit.leg_set.legs.len() / 2;
     let is_in_first_half = |leg: usize| leg < first_half_count;
-    let is_turning = |leg: usize| turn(&fit.sample.observations[leg].expected) > TURNING_LEG_ANGLE;
-    let compare = |scale, is_in_first_group: &dyn Fn(usize) -> bool| {
+    let is_turning = |leg: usize| turn(&fit.leg_set.observations[leg].expected) > TURNING_LEG_ANGLE;
+    let compare_groups = |scale, is_in_first_group: &dyn Fn(usize) -> bool| {
         let [a, a_std] = scale_of(fit, scale, correlation, is_in_first_group)?;
         let [b, b_std] = scale_of(fit, scale, correlation, |leg| !is_in_first_group(leg))?;
         Some([a - b, libm::hypot(a_std, b_std)])
     };
     let [distance_scale, turn_scale] = [SystematicError::DistanceScale, SystematicError::TurnScale];
     let compared_scales = [
-        (CheckName::DistanceScaleConstant, distance_scale, compare(distance_scale, &is_turning)),
+        (CheckName::DistanceScaleConstant, distance_scale, compare_groups(distance_scale, &is_turning)),
         (CheckName::TurnScaleConstant, turn_scale, compare_long_turns(fit, correlation)),
     ];
     for (name, scale, difference) in compared_scales {
-        if fit.sample.estimated[scale as usize] {
-            let differences = [difference, compare(scale, &is_in_first_half)].into_iter().flatten();
+        if fit.leg_set.estimated[scale as usize] {
+            let differences = [difference, compare_groups(scale, &is_in_first_half)].into_iter().flatten();
             let check = largest_of(differences.chain([[0.0; 2]]).map(|[difference, std]| {
                 let tolerance = NEGLIGIBLE_SCALE_DIFFERENCE.max(MAX_SCALE_STD_ERRORS * std);
                 Check::new(name, difference, [-tolerance, tolerance])
@@ -281,8 +281,8 @@ pub(super) fn scale_checks(fit: &Fit, correlation: f64) -> (Vec<Check>, ErrorMas
 /// Returns the scale of turns of single legs minus that of windows of 2 m, and the standard error of this difference.
 ///
 /// Noise of the odometry makes the scale of small turns too small (regression dilution). Over a window, turns add up more than their noise.
-fn compare_long_turns(Fit { sample, maximum, .. }: &Fit, correlation: f64) -> Option<[f64; 2]> {
-    let [_, windows, _] = sample.windows(0..sample.legs.len(), &maximum.parameters);
+fn compare_long_turns(Fit { leg_set, maximum, .. }: &Fit, correlation: f64) -> Option<[f64; 2]> {
+    let [_, windows, _] = leg_set.windows(0..leg_set.legs.len(), &maximum.parameters);
     if windows.len() < MIN_GROUP_LEGS {
         return None;
     }
@@ -291,28 +291,28 @@ fn compare_long_turns(Fit { sample, maximum, .. }: &Fit, correlation: f64) -> Op
     let slope = windows.iter().map(|window| window.turn * window.error.z).sum::<f64>() / square_sum;
     let scores = windows.iter().map(|window| window.turn * (window.error.z - slope * window.turn));
     let slope_std = scores.map(|score| score * score).sum::<f64>().sqrt() / square_sum;
-    let mean_scale_std = maximum.filtered.error_stds(correlation)[SystematicError::TurnScale as usize];
-    let turn_scale = sample.systematic.turn_scale;
+    let mean_scale_std = maximum.filter_result.error_stds(correlation)[SystematicError::TurnScale as usize];
+    let turn_scale = leg_set.systematic.turn_scale;
     Some([-turn_scale * slope, libm::hypot(mean_scale_std, turn_scale * slope_std)])
 }
 
 /// Returns the scale of the selected legs minus that of all legs, and the standard error of this difference. Other systematic errors are
 /// not estimated again. None if the legs do not identify the scale.
 fn scale_of(
-    Fit { sample, maximum, .. }: &Fit,
+    Fit { leg_set, maximum, .. }: &Fit,
     scale: SystematicError,
     correlation: f64,
-    select: impl Fn(usize) -> bool,
+    is_selected: impl Fn(usize) -> bool,
 ) -> Option<[f64; 2]> {
-    let mut mask = [false; ERROR_COUNT];
-    mask[scale as usize] = true;
-    let residuals = sample.residuals(mask, |leg| select(leg) && !sample.outliers[leg]);
+    let mut error_mask = [false; ERROR_COUNT];
+    error_mask[scale as usize] = true;
+    let residuals = leg_set.residuals(error_mask, |leg| is_selected(leg) && !leg_set.outliers[leg]);
     if residuals.observations.len() < MIN_GROUP_LEGS {
         return None;
     }
-    let filtered = residuals.filtered(&maximum.parameters);
-    let std = filtered.error_stds(correlation)[scale as usize];
-    (std > 0.0 && std < scale.identifiability_limit()).then_some([-filtered.errors[scale as usize], std])
+    let filter_result = residuals.filter_result(&maximum.parameters);
+    let std = filter_result.error_stds(correlation)[scale as usize];
+    (std > 0.0 && std < scale.identifiability_limit()).then_some([-filter_result.errors[scale as usize], std])
 }
 
 /// Returns the check whose value is largest in relation to the largest value that passes.
@@ -349,7 +349,7 @@ pub(super) fn reference_check(
     let match_check = largest_of(checks).map(|check| Check { drives, ..check });
     // α's are squares of relative errors. If the reference is a copy of the odometry, these errors are nearly 0, and so are all ends of the
     // intervals of the α's. Any other unsuitable reference is recognized by the difference of its motions from the odometry's.
-    let max_alpha = alpha_intervals.iter().flatten().map(|[start, _]| *start).reduce(f64::max);
+    let max_alpha = alpha_intervals.iter().flatten().map(|[lower_end, _]| *lower_end).reduce(f64::max);
     let copy_error = max_alpha.map(f64::sqrt).filter(|error| *error < MIN_RELATIVE_ERROR);
     match copy_error {
         Some(error) if match_check.iter().all(|check| check.passed) => {

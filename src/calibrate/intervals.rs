@@ -29,11 +29,11 @@ pub(super) fn intervals(
     correlation: f64,
 ) -> impl Fn(usize) -> [f64; 2] {
     let threshold = student_95(residuals.observations.len().saturating_sub(PARAMETER_COUNT));
-    let blocks = maximum.scores.chunks(legs_per_score_block(residuals.observations.len()));
+    let score_blocks = maximum.scores.chunks(legs_per_score_block(residuals.observations.len()));
     // At the maximum the mean score is 0, except for a variance that is 0.
-    let mean_score = maximum.score / blocks.len() as f64;
+    let mean_score = maximum.score / score_blocks.len() as f64;
     let block_scores: Vec<Parameters> =
-        blocks.map(|block| block.iter().sum::<Parameters>() - mean_score).collect();
+        score_blocks.map(|score_block| score_block.iter().sum::<Parameters>() - mean_score).collect();
     let student_quantile = student_95(block_scores.len().saturating_sub(1));
     let squared_correlation = correlation * correlation;
     let min_widening = ((1.0 + squared_correlation) / (1.0 - squared_correlation)).sqrt();
@@ -51,8 +51,8 @@ pub(super) fn intervals(
         free_others[parameter] = false;
         let deviance_root_at = |distance: f64| {
             let candidate = feasible_parameters(maximum, free_others, Parameters::ith(parameter, distance));
-            let log_likelihood = residuals.filtered(&candidate).log_likelihood;
-            (2.0 * (maximum.filtered.log_likelihood - log_likelihood)).max(0.0).sqrt()
+            let log_likelihood = residuals.filter_result(&candidate).log_likelihood;
+            (2.0 * (maximum.filter_result.log_likelihood - log_likelihood)).max(0.0).sqrt()
         };
         let guessed_distance = threshold * variance.sqrt();
         let distance_to_end =
@@ -111,8 +111,8 @@ const MIN_FREE_INFORMATION: f64 = 0.02;
 const MIN_MOVING_LEGS: usize = 50;
 
 /// Returns, for each α, the reason why it is not identifiable; None if it is identifiable.
-pub(super) fn identifiability(Fit { sample, maximum, .. }: &Fit) -> Vec<Option<NotIdentifiable>> {
-    let model = sample.options.model;
+pub(super) fn identifiability(Fit { leg_set, maximum, .. }: &Fit) -> Vec<Option<NotIdentifiable>> {
+    let model = leg_set.options.model;
     let reason_for = |alpha: usize| {
         let marginal_information = maximum.information[(alpha, alpha)];
         let variance = maximum.covariance[(alpha, alpha)];
@@ -129,11 +129,11 @@ pub(super) fn identifiability(Fit { sample, maximum, .. }: &Fit) -> Vec<Option<N
                 if uses_turn { turn(motion) > MIN_TURN_ANGLE } else { distance(motion) > MIN_DRIVE_DISTANCE };
             has_motion && components.any(|(alphas, residual)| alphas.contains(&alpha) && !residual.is_nan())
         };
-        Some(match sample.observations.iter().filter(uses_alpha).count() {
+        Some(match leg_set.observations.iter().filter(uses_alpha).count() {
             MIN_MOVING_LEGS.. => NotIdentifiable::ReferenceTooNoisy,
             _ if uses_turn => NotIdentifiable::InsufficientRotation,
             _ => NotIdentifiable::InsufficientTranslation,
         })
     };
-    (0..model.alphas()).map(reason_for).collect()
+    (0..model.alpha_count()).map(reason_for).collect()
 }

@@ -42,19 +42,19 @@ impl LegLength {
     pub const AMCL_ANGLE: f64 = 0.2;
 
     /// Returns the displacement, turn or duration of a leg divided by its limit; for a displacement and a turn, the larger quotient.
-    pub(super) fn ratio(&self, [start, end]: &[SE2; 2], elapsed: f64) -> f64 {
+    pub(super) fn ratio(&self, [start, end]: &[SE2; 2], elapsed_time: f64) -> f64 {
         match *self {
             Self::Displacement { distance, angle } => ((end.x() - start.x()).abs() / distance)
                 .max((end.y() - start.y()).abs() / distance)
                 .max(wrap_angle(end.theta() - start.theta()).abs() / angle),
-            Self::Duration { duration } => elapsed / duration,
+            Self::Duration { duration } => elapsed_time / duration,
         }
     }
 
     /// Returns true if a leg with these start and end poses is complete. Displacements must exceed their limit by more than
     /// [`LENGTH_TOLERANCE`]. Durations may be shorter than their limit by this tolerance.
-    fn is_complete(&self, end_poses: &[SE2; 2], elapsed: f64) -> bool {
-        let excess_ratio = self.ratio(end_poses, elapsed) - 1.0;
+    fn is_complete(&self, end_poses: &[SE2; 2], elapsed_time: f64) -> bool {
+        let excess_ratio = self.ratio(end_poses, elapsed_time) - 1.0;
         match self {
             Self::Displacement { .. } => excess_ratio > LENGTH_TOLERANCE,
             Self::Duration { .. } => excess_ratio >= -LENGTH_TOLERANCE,
@@ -164,18 +164,18 @@ impl Drive {
     ///
     /// The odometry is interpolated. An interpolated reference would lose noise of the wheels, and mix the noise of neighbouring legs.
     fn leg_end(&self, reading: (f64, SE2), clock_offset: f64) -> LegEnd {
-        let located = self.reference.locate(reading.0 + clock_offset);
-        let neighbours = located.map(|(sample, fraction)| {
-            let before = sample.saturating_sub(1);
-            if fraction < 0.5 { [before, sample] } else { [sample, before] }
+        let reference_place = self.reference.locate(reading.0 + clock_offset);
+        let neighbour_samples = reference_place.map(|(sample_index, fraction)| {
+            let previous_index = sample_index.saturating_sub(1);
+            if fraction < 0.5 { [previous_index, sample_index] } else { [sample_index, previous_index] }
         });
-        let end_at_sample = |sample| {
-            let (reference_time, pose) = self.reference.sample(sample);
+        let end_at_sample = |sample_index| {
+            let (reference_time, pose) = self.reference.sample(sample_index);
             let time = reference_time - clock_offset;
             let (odometry, velocity) = self.odometry.motion_at(time)?;
             Some(LegEnd { reading, time, odometry, velocity, reference: Some(pose) })
         };
-        neighbours.into_iter().flatten().find_map(end_at_sample).unwrap_or(LegEnd {
+        neighbour_samples.into_iter().flatten().find_map(end_at_sample).unwrap_or(LegEnd {
             reading,
             time: reading.0,
             odometry: reading.1,
@@ -184,16 +184,16 @@ impl Drive {
         })
     }
 
-    /// Cuts the drive, which has the index `drive`, into legs. Each leg begins where the previous leg ended. Omitted legs are added to `lost`.
+    /// Cuts the drive, which has the index `drive`, into legs. Each leg begins where the previous leg ended. Omitted legs are added to `lost_legs`.
     ///
     /// `clock_offset` (s) is the time of the reference's clock minus the time of the odometry's clock. A leg may lead across a pause of a
     /// trajectory, because its start and end poses are known, but not across a break.
     pub fn cut_into_legs(
         &self,
         drive: usize,
-        length: LegLength,
+        leg_length: LegLength,
         clock_offset: f64,
-        lost: &mut LostLegs,
+        lost_legs: &mut LostLegs,
     ) -> Vec<Leg> {
         let Self { odometry, reference } = self;
         let mut legs: Vec<Leg> = Vec::new();
@@ -201,19 +201,19 @@ impl Drive {
         for reading in odometry.samples() {
             let (reading_time, pose) = reading;
             let has_break = leg_start.is_some_and(|start| odometry.has_break(start.time, reading_time));
-            lost.across_breaks += usize::from(has_break);
+            lost_legs.across_breaks += usize::from(has_break);
             let Some(start) = leg_start.filter(|_| !has_break) else {
                 leg_start = Some(self.leg_end(reading, clock_offset));
                 continue;
             };
             let (start_time, start_reading) = start.reading;
-            if !length.is_complete(&[start_reading, pose], reading_time - start_time) {
+            if !leg_length.is_complete(&[start_reading, pose], reading_time - start_time) {
                 continue;
             }
             let end = self.leg_end(reading, clock_offset);
             let (times, poses) = ([start.time, end.time], [start.odometry, end.odometry]);
             let motion = start.odometry.motion_to(&end.odometry);
-            let is_too_long = length.ratio(&poses, end.time - start.time) > MAX_RATIO_ACROSS_PAUSE;
+            let is_too_long = leg_length.ratio(&poses, end.time - start.time) > MAX_RATIO_ACROSS_PAUSE;
             // The leg stays open until the reference has another sample, or the leg is too long.
             let is_unknown = end.reference.is_none() && !is_too_long || end.time <= start.time;
             if start.reference.is_some() && is_unknown {
@@ -221,22 +221,22 @@ impl Drive {
             }
             leg_start = Some(end);
             let (Some(start_reference), Some(end_reference)) = (start.reference, end.reference) else {
-                lost.without_reference += 1;
+                lost_legs.without_reference += 1;
                 continue;
             };
             if reference.has_break(start.time + clock_offset, end.time + clock_offset) {
-                lost.across_breaks += 1;
+                lost_legs.across_breaks += 1;
             } else if is_too_long && odometry.has_gap(start.time, end.time) {
-                lost.across_pauses += 1;
+                lost_legs.across_pauses += 1;
             } else if turn(&motion) < MAX_STANDING_TURN && distance(&motion) < MAX_SPIN_DISTANCE {
-                lost.standing += 1;
+                lost_legs.standing += 1;
             } else {
                 legs.push(Leg {
                     times,
                     odometry: poses,
                     velocities: [start.velocity, end.velocity],
                     reference: [start_reference, end_reference],
-                    follows: legs.last().is_some_and(|before| before.times[1] == start.time),
+                    follows: legs.last().is_some_and(|previous_index| previous_index.times[1] == start.time),
                     drive,
                 });
             }

@@ -86,7 +86,7 @@ pub(super) struct FilterResult {
 #[derive(Clone, Debug)]
 pub(super) struct Expansion {
     pub parameters: Parameters,
-    pub filtered: FilterResult,
+    pub filter_result: FilterResult,
     /// Sum of the scores of all legs.
     pub score: Parameters,
     pub scores: Vec<Parameters>,
@@ -104,24 +104,24 @@ pub(super) fn innovations<'a>(
     observations_with_follows: Box<dyn Iterator<Item = (&'a Observation, bool)> + 'a>,
 ) -> impl Iterator<Item = Innovation> {
     let reference_covariance = reference_covariance(parameters);
-    let (mut mean, mut prior) = (Columns::zeros(), reference_covariance);
-    observations_with_follows.map(move |(leg, follows)| {
+    let (mut mean, mut prior_covariance) = (Columns::zeros(), reference_covariance);
+    observations_with_follows.map(move |(leg, follows_previous)| {
         let [start, end] = &leg.reference_jacobians;
-        if !follows {
-            (mean, prior) = (Columns::zeros(), reference_covariance);
+        if !follows_previous {
+            (mean, prior_covariance) = (Columns::zeros(), reference_covariance);
         }
         let columns = leg.columns - product(start, &mean);
         let scaled_end = product(end, &reference_covariance);
-        let mut covariance = propagated(start, &prior) + product(&scaled_end, &end.transpose());
-        let wheels = model.wheel_variances(&leg.coefficients, parameters);
+        let mut covariance = propagated(start, &prior_covariance) + product(&scaled_end, &end.transpose());
+        let wheel_variances = model.wheel_variances(&leg.coefficients, parameters);
         let is_unobserved = leg.residuals.map(f64::is_nan);
         for k in 0..3 {
-            covariance[(k, k)] += wheels[k] + if is_unobserved[k] { 1.0 } else { MIN_STD * MIN_STD };
+            covariance[(k, k)] += wheel_variances[k] + if is_unobserved[k] { 1.0 } else { MIN_STD * MIN_STD };
         }
         let weight = covariance.try_inverse().unwrap_or_default();
         let gain = product(&scaled_end.transpose(), &weight);
         mean = product(&gain, &columns);
-        prior = reference_covariance - product(&gain, &scaled_end);
+        prior_covariance = reference_covariance - product(&gain, &scaled_end);
         let variances = std::array::from_fn(|k| if is_unobserved[k] { f64::NAN } else { covariance[(k, k)] });
         Innovation { columns, variances, weight, gain, determinant: covariance.determinant() }
     })
@@ -135,11 +135,11 @@ impl FilterResult {
     pub fn error_stds(&self, correlation: f64) -> [f64; ERROR_COUNT] {
         let Self { innovations, errors, covariance, .. } = self;
         let score_of_leg = |innovation: &Innovation| {
-            let weighted = innovation.weight * innovation.without(errors);
-            innovation.columns.fixed_columns::<ERROR_COUNT>(0).tr_mul(&weighted)
+            let weighted_residual = innovation.weight * innovation.without(errors);
+            innovation.columns.fixed_columns::<ERROR_COUNT>(0).tr_mul(&weighted_residual)
         };
-        let scores = innovations.chunks(legs_per_score_block(innovations.len())).map(|block| {
-            let score: ErrorVector = block.iter().map(score_of_leg).sum();
+        let scores = innovations.chunks(legs_per_score_block(innovations.len())).map(|score_block| {
+            let score: ErrorVector = score_block.iter().map(score_of_leg).sum();
             score * score.transpose()
         });
         let sandwich = covariance * scores.sum::<ErrorMatrix>() * covariance;
@@ -159,8 +159,8 @@ impl FilterResult {
 }
 
 /// Returns the number of legs of a block whose scores are summed for a sandwich covariance.
-pub(super) fn legs_per_score_block(legs: usize) -> usize {
-    ((2.0 * (legs as f64).cbrt()).ceil() as usize).max(1)
+pub(super) fn legs_per_score_block(leg_count: usize) -> usize {
+    ((2.0 * (leg_count as f64).cbrt()).ceil() as usize).max(1)
 }
 
 impl Innovation {
@@ -183,7 +183,7 @@ impl Innovation {
 }
 
 impl Residuals {
-    pub fn filtered(&self, parameters: &Parameters) -> FilterResult {
+    pub fn filter_result(&self, parameters: &Parameters) -> FilterResult {
         let observations = Box::new(self.observations.iter().map(|leg| (leg, leg.follows)));
         let innovations: Vec<Innovation> = innovations(self.model, parameters, observations).collect();
         let (mut log_det, mut gram) = (0.0, SMatrix::<f64, COLUMN_COUNT, COLUMN_COUNT>::zeros());
@@ -198,7 +198,7 @@ impl Residuals {
         let errors = covariance * weighted_residual;
         let residuals = self.observations.iter().flat_map(|leg| leg.residuals);
         let residual_count = residuals.filter(|residual| !residual.is_nan()).count();
-        let estimated_count = self.estimated.iter().filter(|is| **is).count();
+        let estimated_count = self.estimated.iter().filter(|is_estimated| **is_estimated).count();
         let degrees_of_freedom = residual_count as f64 - estimated_count as f64;
         let deviance = log_det + log_det_information + gram[(ERROR_COUNT, ERROR_COUNT)]
             - weighted_residual.dot(&errors)
@@ -212,7 +212,7 @@ impl Residuals {
         let (scores, information) = (self.scores(&filtered), self.information(&filtered));
         let (covariance, _) = masked_inverse(&information, &self.free);
         let score = scores.iter().sum();
-        Expansion { parameters: *parameters, filtered, score, scores, information, covariance }
+        Expansion { parameters: *parameters, filter_result: filtered, score, scores, information, covariance }
     }
 
     /// Returns the score of each leg: its part of −½ tr[(V⁻¹ − U M Uᵀ) ∂V], with U = V⁻¹ (X, r).
@@ -223,23 +223,23 @@ impl Residuals {
     /// - Uᵢ = F⁻¹ν − Tᵀ U'
     /// - (V⁻¹)ᵢᵢ = F⁻¹ + Tᵀ (V⁻¹)' T, and (V⁻¹)ᵢ,ᵢ₊₁ = −Tᵀ (V⁻¹)'
     fn scores(&self, FilterResult { innovations, errors, covariance, .. }: &FilterResult) -> Vec<Parameters> {
-        let contrast = -errors.push(-1.0);
-        let mut error_weights = contrast * contrast.transpose();
+        let error_contrast = -errors.push(-1.0);
+        let mut error_weights = error_contrast * error_contrast.transpose();
         let mut error_block = error_weights.fixed_view_mut::<ERROR_COUNT, ERROR_COUNT>(0, 0);
         error_block += covariance;
         let mut scores = vec![Parameters::zeros(); self.observations.len()];
         let (mut next_start, mut next_inverse) = (Matrix3::zeros(), Matrix3::zeros());
         let mut next_smoothed = Columns::zeros();
-        let legs = self.observations.iter().zip(innovations).zip(&mut scores);
-        for ((leg, Innovation { columns, weight, gain, .. }), score) in legs.rev() {
+        let leg_count = self.observations.iter().zip(innovations).zip(&mut scores);
+        for ((leg, Innovation { columns, weight, gain, .. }), score) in leg_count.rev() {
             let [start, end] = &leg.reference_jacobians;
-            let transition = product(&next_start, gain);
-            let smoothed = product(weight, columns) - product(&transition.transpose(), &next_smoothed);
-            let carried_inverse = product(&transition.transpose(), &next_inverse);
-            let inverse = weight + product(&carried_inverse, &transition);
-            let weighted = product(&smoothed, &error_weights);
-            let own_block = inverse - product(&weighted, &smoothed.transpose());
-            let next_block = carried_inverse + product(&weighted, &next_smoothed.transpose());
+            let transition_matrix = product(&next_start, gain);
+            let smoothed = product(weight, columns) - product(&transition_matrix.transpose(), &next_smoothed);
+            let carried_inverse = product(&transition_matrix.transpose(), &next_inverse);
+            let inverse_covariance = weight + product(&carried_inverse, &transition_matrix);
+            let weighted_residual = product(&smoothed, &error_weights);
+            let own_block = inverse_covariance - product(&weighted_residual, &smoothed.transpose());
+            let next_block = carried_inverse + product(&weighted_residual, &next_smoothed.transpose());
             for (k, alphas) in self.model.component_alphas().into_iter().enumerate() {
                 for (alpha, coefficient) in alphas.into_iter().zip(leg.coefficients[k]) {
                     score[alpha] -= 0.5 * coefficient * own_block[(k, k)];
@@ -252,7 +252,7 @@ impl Residuals {
                 score[variance] -= 0.5 * (start_part + end.column(k).dot(&end_block.column(k)));
             }
             (next_start, next_smoothed, next_inverse) =
-                if leg.follows { (*start, smoothed, inverse) } else { Default::default() };
+                if leg.follows { (*start, smoothed, inverse_covariance) } else { Default::default() };
         }
         scores
     }
@@ -265,8 +265,8 @@ impl Residuals {
     /// - ∂F = S + B ∂R Bᵀ with S = T S' Tᵀ + G ∂R Gᵀ + ∂D
     /// - ∂ν = −T (∂ν' − S' F'⁻¹ν') − G ∂R B'ᵀ F'⁻¹ν'
     fn information(&self, FilterResult { innovations, errors, .. }: &FilterResult) -> Information {
-        let units: [Parameters; PARAMETER_COUNT] = std::array::from_fn(|j| Parameters::ith(j, 1.0));
-        let reference_derivatives = units.map(|unit| reference_covariance(&unit));
+        let unit_parameters: [Parameters; PARAMETER_COUNT] = std::array::from_fn(|j| Parameters::ith(j, 1.0));
+        let reference_derivatives = unit_parameters.map(|unit| reference_covariance(&unit));
         let mut covariance_derivatives = [Matrix3::zeros(); PARAMETER_COUNT];
         let mut innovation_derivatives = [Vector3::zeros(); PARAMETER_COUNT];
         let (mut gain_before, mut end_before) = (Matrix3::zeros(), Matrix3::zeros());
@@ -277,19 +277,19 @@ impl Residuals {
                 (gain_before, end_before) = Default::default();
             }
             let weight = &innovation.weight;
-            let transition = product(start, &gain_before);
-            let start_gain = start - product(&transition, &end_before);
+            let transition_matrix = product(start, &gain_before);
+            let start_gain = start - product(&transition_matrix, &end_before);
             let end_weighted = product(&end_before.transpose(), &weighted_before);
             let mut relative_derivatives = [Matrix3::zeros(); PARAMETER_COUNT];
             for j in (0..PARAMETER_COUNT).filter(|j| self.free[*j]) {
                 let (derivative, start_covariance) =
                     (&mut innovation_derivatives[j], &mut covariance_derivatives[j]);
                 let change = product(start_covariance, &weighted_before) - *derivative;
-                *derivative = product(&transition, &change);
-                *start_covariance = propagated(&transition, start_covariance);
-                let wheels = self.model.wheel_variances(&leg.coefficients, &units[j]);
+                *derivative = product(&transition_matrix, &change);
+                *start_covariance = propagated(&transition_matrix, start_covariance);
+                let wheel_variances = self.model.wheel_variances(&leg.coefficients, &unit_parameters[j]);
                 for k in 0..3 {
-                    start_covariance[(k, k)] += wheels[k];
+                    start_covariance[(k, k)] += wheel_variances[k];
                 }
                 let mut covariance = *start_covariance;
                 if j >= MAX_ALPHAS {
@@ -300,9 +300,9 @@ impl Residuals {
                 }
                 relative_derivatives[j] = product(weight, &covariance);
                 let weighted_derivative = product(weight, derivative);
-                let transposed = relative_derivatives[j].transpose();
+                let transposed_derivative = relative_derivatives[j].transpose();
                 for k in 0..=j {
-                    information[(j, k)] += 0.5 * transposed.dot(&relative_derivatives[k])
+                    information[(j, k)] += 0.5 * transposed_derivative.dot(&relative_derivatives[k])
                         + weighted_derivative.dot(&innovation_derivatives[k]);
                 }
             }
@@ -319,18 +319,18 @@ pub(super) fn reference_covariance(parameters: &Parameters) -> Matrix3<f64> {
     Matrix3::from_diagonal(&REFERENCE_VARIANCES.map(|variance| parameters[variance]).into())
 }
 
-/// Returns the mask of the systematic errors in `candidates` that are identifiable. The error with the largest standard error relative to
+/// Returns the mask of the systematic errors in `candidate_errors` that are identifiable. The error with the largest standard error relative to
 /// its limit is removed until no error exceeds its limit.
-pub(super) fn identifiable_errors(information: &ErrorMatrix, candidates: ErrorMask) -> ErrorMask {
-    let mut error_mask: ErrorMask = std::array::from_fn(|i| candidates[i] && information[(i, i)] > 0.0);
+pub(super) fn identifiable_errors(information: &ErrorMatrix, candidate_errors: ErrorMask) -> ErrorMask {
+    let mut error_mask: ErrorMask = std::array::from_fn(|i| candidate_errors[i] && information[(i, i)] > 0.0);
     loop {
         let (covariance, _) = masked_inverse(information, &error_mask);
         let relative_std_of = |error: &usize| {
             covariance[(*error, *error)].sqrt() / SystematicError::ALL[*error].identifiability_limit()
         };
-        let remaining = (0..ERROR_COUNT).filter(|error| error_mask[*error]);
-        match remaining.max_by(|a, b| relative_std_of(a).total_cmp(&relative_std_of(b))) {
-            Some(worst) if relative_std_of(&worst) > 1.0 => error_mask[worst] = false,
+        let remaining_errors = (0..ERROR_COUNT).filter(|error| error_mask[*error]);
+        match remaining_errors.max_by(|a, b| relative_std_of(a).total_cmp(&relative_std_of(b))) {
+            Some(worst_error) if relative_std_of(&worst_error) > 1.0 => error_mask[worst_error] = false,
             _ => return error_mask,
         }
     }
@@ -340,12 +340,12 @@ pub(super) fn identifiable_errors(information: &ErrorMatrix, candidates: ErrorMa
 // The function is not inlined, because many copies would make the module larger.
 #[inline(never)]
 fn product<const N: usize, const K: usize>(
-    left: &SMatrix<f64, 3, K>,
-    right: &SMatrix<f64, K, N>,
+    left_matrix: &SMatrix<f64, 3, K>,
+    right_matrix: &SMatrix<f64, K, N>,
 ) -> SMatrix<f64, 3, N> {
     let mut product = SMatrix::<f64, 3, N>::zeros();
-    for ([x, y, z], factors) in product.data.0.iter_mut().zip(&right.data.0) {
-        for ([a, b, c], factor) in left.data.0.iter().zip(factors) {
+    for ([x, y, z], factors) in product.data.0.iter_mut().zip(&right_matrix.data.0) {
+        for ([a, b, c], factor) in left_matrix.data.0.iter().zip(factors) {
             *x += a * factor;
             *y += b * factor;
             *z += c * factor;
@@ -366,19 +366,19 @@ const REGULARIZATION: f64 = 1e-9;
 /// submatrix's determinant. Variables without information are not selected.
 pub(super) fn masked_inverse<const N: usize>(
     information: &SMatrix<f64, N, N>,
-    mask: &[bool; N],
+    free_mask: &[bool; N],
 ) -> (SMatrix<f64, N, N>, f64) {
     // The diagonal is scaled to 1, because variables differ by orders of magnitude.
     let scales: [f64; N] = std::array::from_fn(|i| {
-        if mask[i] && information[(i, i)] > 0.0 { 1.0 / information[(i, i)].sqrt() } else { 0.0 }
+        if free_mask[i] && information[(i, i)] > 0.0 { 1.0 / information[(i, i)].sqrt() } else { 0.0 }
     });
     let scaled_information = SMatrix::<f64, N, N>::from_fn(|i, j| {
         if i == j { 1.0 + REGULARIZATION } else { information[(i, j)] * scales[i] * scales[j] }
     });
     let Some(cholesky) = nalgebra::Cholesky::new(scaled_information) else { return (SMatrix::zeros(), 0.0) };
-    let inverse = cholesky.inverse();
+    let inverse_covariance = cholesky.inverse();
     let selected_scales = scales.iter().filter(|scale| **scale > 0.0);
     let log_det =
         cholesky.ln_determinant() - 2.0 * selected_scales.map(|scale| libm::log(*scale)).sum::<f64>();
-    (SMatrix::from_fn(|i, j| inverse[(i, j)] * scales[i] * scales[j]), log_det)
+    (SMatrix::from_fn(|i, j| inverse_covariance[(i, j)] * scales[i] * scales[j]), log_det)
 }

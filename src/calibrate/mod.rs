@@ -105,10 +105,10 @@ pub enum CalibrateError {
 pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, CalibrateError> {
     let log = Log::new(drives, options.legs)?;
     let mut fit = Fit::new(&log, options, [true; ERROR_COUNT], None);
-    let systematic = fit.sample.systematic;
+    let systematic = fit.leg_set.systematic;
     let persistence = persistence(&fit);
     let correlation = persistence.correlation.value;
-    let error_stds = fit.maximum.filtered.error_stds(correlation);
+    let error_stds = fit.maximum.filter_result.error_stds(correlation);
     let (scale_checks, is_constant) = checks::scale_checks(&fit, correlation);
     let mut is_corrected: ErrorMask = std::array::from_fn(|i| options.correct[i].unwrap_or(is_constant[i]));
     let mut corrected = systematic;
@@ -119,7 +119,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         fit = Fit::new(&log, options, is_corrected, Some((corrected, fit.maximum.parameters)));
     }
     // Errors that are left uncorrected act as noise, which can make another error unidentifiable.
-    (corrected, is_corrected) = (fit.sample.systematic, fit.sample.estimated);
+    (corrected, is_corrected) = (fit.leg_set.systematic, fit.leg_set.estimated);
     let all_legs = fit.all_legs(&log);
     let parameters = &fit.maximum.parameters;
     let not_identifiable = identifiability(&fit);
@@ -133,9 +133,9 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         value: parameters[variance].sqrt(),
         interval: interval_of(variance).map(f64::sqrt),
     });
-    let leg_fits = all_legs.leg_fits(parameters, &fit.maximum.filtered.errors);
+    let leg_fits = all_legs.leg_fits(parameters, &fit.maximum.filter_result.errors);
     let (recommended, window_checks, windows) = windows::cross_validate(&fit, &all_legs, &alphas);
-    let inflation = recommended.as_ref().map_or(f64::INFINITY, |found| found.inflation);
+    let inflation = recommended.as_ref().map_or(f64::INFINITY, |recommendation| recommendation.inflation);
     let identifies_any_alpha = alphas.iter().any(Option::is_some);
     // The reference comes first, because the first failure is displayed.
     let reference_check = checks::reference_check(&all_legs, &systematic, &alpha_intervals);
@@ -156,7 +156,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         is_corrected,
         reference_noise,
         persistence,
-        log_likelihood: fit.maximum.filtered.log_likelihood,
+        log_likelihood: fit.maximum.filter_result.log_likelihood,
         legs: all_legs.legs,
         observations: all_legs.observations,
         leg_fits,
@@ -168,13 +168,13 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
 
 /// Returns the correlation of the innovations of neighbouring legs, and its standard error.
 fn neighbour_correlation(Fit { residuals, maximum, .. }: &Fit) -> (f64, f64) {
-    let fits: Vec<LegFit> = maximum.filtered.leg_fits().collect();
+    let fits: Vec<LegFit> = maximum.filter_result.leg_fits().collect();
     let (mut product_sum, mut square_sum, mut pair_count) = (0.0, 0.0, 0);
-    for (pair, _) in fits.windows(2).zip(&residuals.observations[1..]).filter(|(_, leg)| leg.follows) {
-        for (before, after) in pair[0].standardized.into_iter().zip(pair[1].standardized) {
-            if !before.is_nan() && !after.is_nan() {
-                product_sum += before * after;
-                square_sum += 0.5 * (before * before + after * after);
+    for (fit_pair, _) in fits.windows(2).zip(&residuals.observations[1..]).filter(|(_, leg)| leg.follows) {
+        for (residual_before, after) in fit_pair[0].standardized.into_iter().zip(fit_pair[1].standardized) {
+            if !residual_before.is_nan() && !after.is_nan() {
+                product_sum += residual_before * after;
+                square_sum += 0.5 * (residual_before * residual_before + after * after);
                 pair_count += 1;
             }
         }
@@ -190,7 +190,7 @@ fn persistence(fit: &Fit) -> Persistence {
     let value = if correlation > NORMAL_95 * std { clamp_correlation(correlation) } else { 0.0 };
     let interval =
         [clamp_correlation(correlation - NORMAL_95 * std), clamp_correlation(correlation + NORMAL_95 * std)];
-    let legs = &fit.sample.legs;
+    let legs = &fit.leg_set.legs;
     let driven_distance_of = |leg: &Leg| distance(&leg.odometry[0].motion_to(&leg.odometry[1]));
     let mean_leg_distance = legs.iter().map(driven_distance_of).sum::<f64>() / legs.len() as f64;
     let correlation_length = if value > 0.0 { -mean_leg_distance / libm::log(value) } else { 0.0 };

@@ -24,13 +24,13 @@ impl<'a> Log<'a> {
     /// Cuts all drives into legs, at the clock offsets with the largest correlation of turn rates.
     pub fn new(drives: &'a [Drive], leg_length: LegLength) -> Result<Self, CalibrateError> {
         let mut log = Self { drives, legs: Vec::new(), lost: LostLegs::default(), clock_offset: 0.0 };
-        for (index, drive) in drives.iter().enumerate() {
+        for (drive_index, drive) in drives.iter().enumerate() {
             let drive_offset =
                 clock_offset(&drive.odometry, &drive.reference).ok_or(CalibrateError::NoCommonTime)?;
-            if index == 0 {
+            if drive_index == 0 {
                 log.clock_offset = drive_offset;
             }
-            log.legs.extend(drive.cut_into_legs(index, leg_length, drive_offset, &mut log.lost));
+            log.legs.extend(drive.cut_into_legs(drive_index, leg_length, drive_offset, &mut log.lost));
         }
         if log.legs.len() < MIN_LEGS {
             return Err(CalibrateError::TooFewLegs { legs: log.legs.len() });
@@ -45,18 +45,18 @@ impl<'a> Log<'a> {
         let mut aligned = legs.to_vec();
         let mut previous_end = Default::default();
         for leg in &mut aligned {
-            let align = |end: usize| {
-                let (time, velocity) = (leg.times[end] - offset_change, leg.velocities[end]);
-                let extrapolated = || (leg.odometry[end].boxplus(-offset_change * velocity), velocity);
+            let align_end = |end_index: usize| {
+                let (time, velocity) = (leg.times[end_index] - offset_change, leg.velocities[end_index]);
+                let extrapolate = || (leg.odometry[end_index].boxplus(-offset_change * velocity), velocity);
                 let motion = self.drives[leg.drive].odometry.motion_at(time);
-                (time, motion.unwrap_or_else(extrapolated))
+                (time, motion.unwrap_or_else(extrapolate))
             };
             // Neighbouring legs share an end.
-            let ends = [if leg.follows { previous_end } else { align(0) }, align(1)];
-            leg.times = ends.map(|(time, _)| time);
-            leg.odometry = ends.map(|(_, (pose, _))| pose);
-            leg.velocities = ends.map(|(_, (_, velocity))| velocity);
-            previous_end = ends[1];
+            let aligned_ends = [if leg.follows { previous_end } else { align_end(0) }, align_end(1)];
+            leg.times = aligned_ends.map(|(time, _)| time);
+            leg.odometry = aligned_ends.map(|(_, (pose, _))| pose);
+            leg.velocities = aligned_ends.map(|(_, (_, velocity))| velocity);
+            previous_end = aligned_ends[1];
         }
         aligned
     }
@@ -84,26 +84,26 @@ impl LegSet {
     /// Computes the residuals under systematic errors. `position_std` (m) is the standard deviation of the reference.
     fn update_observations(&mut self, systematic: Systematic, position_std: f64) {
         self.systematic = systematic;
-        let observe = |leg| Observation::new(self.options.model, leg, &systematic, position_std);
-        self.observations = self.legs.iter().map(observe).collect();
+        let observe_leg = |leg| Observation::new(self.options.model, leg, &systematic, position_std);
+        self.observations = self.legs.iter().map(observe_leg).collect();
     }
 
     /// Returns true if a leg and the previous leg are selected, and the leg starts where the previous leg ends.
-    pub fn follows(&self, leg: usize, select: impl Fn(usize) -> bool) -> bool {
-        self.legs[leg].follows && leg > 0 && select(leg - 1) && select(leg)
+    pub fn follows(&self, leg: usize, is_selected: impl Fn(usize) -> bool) -> bool {
+        self.legs[leg].follows && leg > 0 && is_selected(leg - 1) && is_selected(leg)
     }
 
-    /// Returns the residuals of the legs that `select` accepts. Fitted parameters are the α's of the model, and each variance of the
+    /// Returns the residuals of the legs that `is_selected` accepts. Fitted parameters are the α's of the model, and each variance of the
     /// reference that the options do not state.
-    pub fn residuals(&self, estimated: ErrorMask, select: impl Fn(usize) -> bool) -> Residuals {
-        let selected_legs = (0..self.legs.len()).filter(|leg| select(*leg));
+    pub fn residuals(&self, estimated: ErrorMask, is_selected: impl Fn(usize) -> bool) -> Residuals {
+        let selected_legs = (0..self.legs.len()).filter(|leg| is_selected(*leg));
         let observation_of =
-            |leg| Observation { follows: self.follows(leg, &select), ..self.observations[leg] };
+            |leg| Observation { follows: self.follows(leg, &is_selected), ..self.observations[leg] };
         let Options { model, position_std, yaw_std, .. } = self.options;
         let free = std::array::from_fn(|parameter| match parameter {
             POSITION_VARIANCE => position_std.is_none(),
             YAW_VARIANCE => yaw_std.is_none(),
-            alpha => alpha < model.alphas(),
+            alpha => alpha < model.alpha_count(),
         });
         Residuals { model, free, estimated, observations: selected_legs.map(observation_of).collect() }
     }
@@ -116,12 +116,12 @@ impl LegSet {
     /// estimated are reset to their neutral value, except for the clock offset, which stays unchanged.
     fn corrected_errors(&self, maximum: &Expansion) -> (Systematic, bool) {
         let mut corrected = Systematic { clock_offset: self.systematic.clock_offset, ..Systematic::NONE };
-        let (mut is_small_change, solution) = (true, &maximum.filtered);
+        let (mut is_small_change, filter_result) = (true, &maximum.filter_result);
         for error in SystematicError::ALL.into_iter().filter(|error| self.estimated[*error as usize]) {
             let i = error as usize;
-            is_small_change &=
-                solution.errors[i].abs() <= CONVERGENCE_TOLERANCE * solution.covariance[(i, i)].sqrt();
-            *corrected.get_mut(error) = self.systematic.get(error) - solution.errors[i];
+            is_small_change &= filter_result.errors[i].abs()
+                <= CONVERGENCE_TOLERANCE * filter_result.covariance[(i, i)].sqrt();
+            *corrected.get_mut(error) = self.systematic.get(error) - filter_result.errors[i];
         }
         corrected.mount_yaw = wrap_angle(corrected.mount_yaw);
         (corrected, is_small_change)
@@ -154,7 +154,7 @@ const CONVERGENCE_TOLERANCE: f64 = 0.05;
 /// Fit to a sample of the legs.
 #[derive(Clone, Debug)]
 pub(super) struct Fit {
-    pub sample: LegSet,
+    pub leg_set: LegSet,
     pub residuals: Residuals,
     pub maximum: Expansion,
 }
@@ -173,7 +173,7 @@ impl Options {
             POSITION_VARIANCE => self.position_std.unwrap_or(INITIAL_REFERENCE_STD).powi(2),
             YAW_VARIANCE => self.yaw_std.unwrap_or(INITIAL_REFERENCE_STD).powi(2),
             alpha => {
-                if alpha < self.model.alphas() {
+                if alpha < self.model.alpha_count() {
                     INITIAL_ALPHA
                 } else {
                     0.0
@@ -185,37 +185,37 @@ impl Options {
 
 impl Fit {
     /// Fits the variances and the systematic errors in rounds, because residuals depend on the errors, weights on the variances, and
-    /// outliers on residuals and weights. Each round chooses the errors in `correctable` that are identifiable, and corrects them by
+    /// outliers on residuals and weights. Each round chooses the errors in `correctable_errors` that are identifiable, and corrects them by
     /// generalized least squares. The first round starts at the given errors and variances, or at a guess.
     pub fn new(
         log: &Log,
         options: &Options,
-        correctable: ErrorMask,
-        start: Option<(Systematic, Parameters)>,
+        correctable_errors: ErrorMask,
+        start_values: Option<(Systematic, Parameters)>,
     ) -> Self {
-        let (start_errors, mut parameters) = start.unzip();
+        let (start_errors, mut parameters) = start_values.unzip();
         let legs = sample_legs(&log.legs);
         let mut systematic = start_errors.unwrap_or_else(|| Systematic {
             mount_yaw: Systematic::initial_mount_yaw(&legs),
             clock_offset: log.clock_offset,
             ..Systematic::NONE
         });
-        let mut sample = LegSet::new(legs.clone(), correctable, options);
-        for round in 1.. {
+        let mut leg_set = LegSet::new(legs.clone(), correctable_errors, options);
+        for round_number in 1.. {
             let position_std = parameters.map_or(f64::INFINITY, |found| found[POSITION_VARIANCE].sqrt());
-            sample.legs = log.aligned_legs(&legs, systematic.clock_offset);
-            sample.update_observations(systematic, position_std);
+            leg_set.legs = log.aligned_legs(&legs, systematic.clock_offset);
+            leg_set.update_observations(systematic, position_std);
             let start_parameters = parameters.unwrap_or_else(|| options.initial_guess());
-            let solution = sample.inlier_residuals(0..legs.len()).filtered(&start_parameters);
-            sample.estimated = identifiable_errors(&solution.information, correctable);
-            let errors = solution.errors_in(&sample.estimated);
-            let has_new_outliers = sample.mark_outliers(&start_parameters, &errors, round);
-            let residuals = sample.inlier_residuals(0..legs.len());
+            let filter_result = leg_set.inlier_residuals(0..legs.len()).filter_result(&start_parameters);
+            leg_set.estimated = identifiable_errors(&filter_result.information, correctable_errors);
+            let errors = filter_result.errors_in(&leg_set.estimated);
+            let has_new_outliers = leg_set.mark_outliers(&start_parameters, &errors, round_number);
+            let residuals = leg_set.inlier_residuals(0..legs.len());
             let maximum = maximize(&residuals, &start_parameters, ROUND_GAIN);
-            let (corrected, is_small_change) = sample.corrected_errors(&maximum);
-            if !has_new_outliers && round > 1 && is_small_change || round == MAX_ROUNDS {
+            let (corrected, is_small_change) = leg_set.corrected_errors(&maximum);
+            if !has_new_outliers && round_number > 1 && is_small_change || round_number == MAX_ROUNDS {
                 let maximum = maximize(&residuals, &maximum.parameters, EXACT_GAIN);
-                return Self { sample, residuals, maximum };
+                return Self { leg_set, residuals, maximum };
             }
             (systematic, parameters) = (corrected, Some(maximum.parameters));
         }
@@ -224,14 +224,14 @@ impl Fit {
 
     /// Returns all legs with their residuals. The sample that was fitted has only some of the legs if there are many.
     pub fn all_legs(&self, log: &Log) -> LegSet {
-        let Self { sample, maximum, .. } = self;
-        if log.legs.len() == sample.legs.len() {
-            return sample.clone();
+        let Self { leg_set, maximum, .. } = self;
+        if log.legs.len() == leg_set.legs.len() {
+            return leg_set.clone();
         }
-        let legs = log.aligned_legs(&log.legs, sample.systematic.clock_offset);
-        let mut all_legs = LegSet::new(legs, sample.estimated, &sample.options);
-        all_legs.update_observations(sample.systematic, maximum.parameters[POSITION_VARIANCE].sqrt());
-        all_legs.mark_outliers(&maximum.parameters, &maximum.filtered.errors, 1);
+        let legs = log.aligned_legs(&log.legs, leg_set.systematic.clock_offset);
+        let mut all_legs = LegSet::new(legs, leg_set.estimated, &leg_set.options);
+        all_legs.update_observations(leg_set.systematic, maximum.parameters[POSITION_VARIANCE].sqrt());
+        all_legs.mark_outliers(&maximum.parameters, &maximum.filter_result.errors, 1);
         all_legs
     }
 }
@@ -250,21 +250,21 @@ const ROUNDING_TOLERANCE: f64 = 1e-9;
 /// Returns the expansion around the maximum, by Fisher scoring from given parameters. A step that does not increase the likelihood is
 /// halved. The search ends at a step whose predicted or actual gain of log-likelihood (nats) is below `min_gain`.
 pub(super) fn maximize(residuals: &Residuals, start: &Parameters, min_gain: f64) -> Expansion {
-    let mut expansion = residuals.expansion(start, residuals.filtered(start));
+    let mut expansion = residuals.expansion(start, residuals.filter_result(start));
     for _ in 0..MAX_STEPS {
-        let Expansion { parameters, score, filtered, .. } = &expansion;
+        let Expansion { parameters, score, filter_result: filtered, .. } = &expansion;
         let step = feasible_parameters(&expansion, residuals.free, Parameters::zeros()) - parameters;
         if 0.5 * score.dot(&step) < min_gain {
             break;
         }
-        let better_parameters = (0..=MAX_HALVINGS).find_map(|halvings| {
-            let candidate = parameters + step * 0.5_f64.powi(halvings);
-            let candidate_filtered = residuals.filtered(&candidate);
+        let better_parameters = (0..=MAX_HALVINGS).find_map(|halving_count| {
+            let candidate_parameters = parameters + step * 0.5_f64.powi(halving_count);
+            let candidate_filtered = residuals.filter_result(&candidate_parameters);
             let gain = candidate_filtered.log_likelihood - filtered.log_likelihood;
-            (gain > 0.0).then_some((candidate, candidate_filtered, gain))
+            (gain > 0.0).then_some((candidate_parameters, candidate_filtered, gain))
         });
-        let Some((candidate, filtered, gain)) = better_parameters else { break };
-        expansion = residuals.expansion(&candidate, filtered);
+        let Some((candidate_parameters, filtered, gain)) = better_parameters else { break };
+        expansion = residuals.expansion(&candidate_parameters, filtered);
         if gain < min_gain {
             break;
         }
@@ -272,20 +272,20 @@ pub(super) fn maximize(residuals: &Residuals, start: &Parameters, min_gain: f64)
     expansion
 }
 
-/// Returns the parameters after a scoring step of the parameters in `mask`. Other parameters move by `fixed_step`. A variance that would
+/// Returns the parameters after a scoring step of the parameters in `free_mask`. Other parameters move by `fixed_step`. A variance that would
 /// become negative is set to 0, and the steps of the remaining parameters are computed again.
 pub(super) fn feasible_parameters(
     Expansion { parameters, score, information, .. }: &Expansion,
-    mut mask: FreeMask,
+    mut free_mask: FreeMask,
     mut fixed_step: Parameters,
 ) -> Parameters {
     loop {
         let remaining_score = score - information * fixed_step;
-        let step = masked_inverse(information, &mask).0 * remaining_score + fixed_step;
+        let step = masked_inverse(information, &free_mask).0 * remaining_score + fixed_step;
         let is_negative =
-            |i: &usize| mask[*i] && parameters[*i] + step[*i] < -ROUNDING_TOLERANCE * parameters[*i];
+            |i: &usize| free_mask[*i] && parameters[*i] + step[*i] < -ROUNDING_TOLERANCE * parameters[*i];
         match (0..PARAMETER_COUNT).find(is_negative) {
-            Some(i) => (mask[i], fixed_step[i]) = (false, -parameters[i]),
+            Some(i) => (free_mask[i], fixed_step[i]) = (false, -parameters[i]),
             None => return (parameters + step).map(|parameter| parameter.max(0.0)),
         }
     }

@@ -42,14 +42,14 @@ impl LegSet {
         if self.options.outliers == Outliers::Keep {
             return false;
         }
-        let fits = self.leg_fits(parameters, errors);
+        let leg_fits = self.leg_fits(parameters, errors);
         // Variances may be too small in early rounds. The gate that defines outliers is then wider, so that at most half of the legs are
         // outliers.
-        let mut squared_distances: Vec<f64> = fits.iter().map(|fit| fit.squared).collect();
+        let mut squared_distances: Vec<f64> = leg_fits.iter().map(|fit| fit.squared).collect();
         let gate_factor = (median(&mut squared_distances) / MEDIAN_CHI2).max(1.0);
         let gate = CHI2_9999.map(|quantile| gate_factor * quantile);
         let is_marked = |fit: &LegFit| fit.is_outlier && round > LAST_RETURN_ROUND || !fit.is_within(&gate);
-        let new_outliers: Vec<bool> = fits.iter().map(is_marked).collect();
+        let new_outliers: Vec<bool> = leg_fits.iter().map(is_marked).collect();
         let has_changed = new_outliers != self.outliers;
         self.outliers = new_outliers;
         has_changed
@@ -61,8 +61,8 @@ const NEGLIGIBLE_CORRELATION: f64 = 0.1;
 const NEGLIGIBLE_KURTOSIS: f64 = 0.5;
 
 /// Returns the checks of the innovations of legs that are no outliers: correlation of neighbouring legs, and kurtosis.
-pub(super) fn residual_checks(fits: &[LegFit], correlation: f64) -> Vec<Check> {
-    let standardized = fits.iter().filter(|fit| !fit.is_outlier).flat_map(|fit| fit.standardized);
+pub(super) fn residual_checks(leg_fits: &[LegFit], correlation: f64) -> Vec<Check> {
+    let standardized = leg_fits.iter().filter(|fit| !fit.is_outlier).flat_map(|fit| fit.standardized);
     let standardized: Vec<f64> = standardized.filter(|residual| !residual.is_nan()).collect();
     let component_count = standardized.len() as f64;
     let mean_power =

@@ -22,7 +22,7 @@ pub enum Model {
 
 impl Model {
     /// Returns the number of α's.
-    pub fn alphas(self) -> usize {
+    pub fn alpha_count(self) -> usize {
         match self {
             Self::Odometry(OdometryRule::Omni) => 5,
             Self::Odometry(_) => 4,
@@ -49,7 +49,7 @@ impl Model {
         coefficients: &[[f64; 2]; 3],
         parameters: &Parameters,
     ) -> Vector3<f64> {
-        let alphas = self.component_alphas().map(|alphas| alphas.map(|alpha| parameters[alpha]));
+        let alphas = self.component_alphas().map(|alphas| alphas.map(|alpha_index| parameters[alpha_index]));
         Vector3::from_fn(|k, _| alphas[k][0] * coefficients[k][0] + alphas[k][1] * coefficients[k][1])
     }
 
@@ -111,21 +111,21 @@ impl Model {
         dt: f64,
         has_direction: bool,
     ) -> Matrix3<f64> {
-        let across = |along: Vector3<f64>| Vector3::new(-along.y, along.x, 0.0);
+        let perpendicular_of = |along: Vector3<f64>| Vector3::new(-along.y, along.x, 0.0);
         if self == Self::Velocity {
             // Noise of v and ω changes the twist. Noise of γ turns the final pose on the spot.
             let jacobian = SE2::right_jacobian(&motion.log()) * dt;
             let [along, turn] = [0, 2].map(|twist_component| jacobian.column(twist_component).into_owned());
-            let second = if has_direction { turn } else { across(along) };
+            let second = if has_direction { turn } else { perpendicular_of(along) };
             return Matrix3::from_columns(&[along, second, Vector3::z() * dt]);
         }
         let [_, trans, rot2] = coordinates;
         let (sin, cos) = libm::sincos(rot2);
         let (along, turn) = (Vector3::new(cos, -sin, 0.0), Vector3::z());
         Matrix3::from_columns(&match has_direction {
-            _ if self.drives_sideways() => [turn, along, across(along)],
-            true => [trans * across(along) + turn, along, turn],
-            false => [across(along), along, turn],
+            _ if self.drives_sideways() => [turn, along, perpendicular_of(along)],
+            true => [trans * perpendicular_of(along) + turn, along, turn],
+            false => [perpendicular_of(along), along, turn],
         })
     }
 }
@@ -333,13 +333,13 @@ impl Systematic {
     }
 
     /// Returns the pose that the reference measures, in the frame of the base.
-    fn mount(&self) -> SE2 {
+    fn mount_pose(&self) -> SE2 {
         SE2::new(self.lever_arm[0], self.lever_arm[1], self.mount_yaw)
     }
 
     /// Returns the pose of the base in the frame of the pose that the reference measures.
     pub fn base(&self) -> SE2 {
-        self.mount().inverse()
+        self.mount_pose().inverse()
     }
 
     /// Returns the motion of the base as measured by the reference, in the frame of the leg's start.
@@ -365,7 +365,7 @@ impl Systematic {
     /// Returns the Jacobians of the end of the base's motion with respect to the errors of the reference at the leg's start and end. An
     /// error is a small motion (x, y, θ) in the frame of the reference pose. A change of the end is a small motion in the frame of the end.
     pub(super) fn reference_jacobians(&self, measured: &SE2) -> [Matrix3<f64>; 2] {
-        let to_base = self.mount().adjoint();
+        let to_base = self.mount_pose().adjoint();
         [measured.inverse().adjoint() * -to_base, to_base]
     }
 
@@ -383,7 +383,7 @@ impl Systematic {
         let [start_velocity, end_velocity] = leg.velocities;
         // A change of the mount moves the start and the end of the leg by the same small motion.
         let mount_derivative = |mount_change: Vector3<f64>| to_end_frame * mount_change - mount_change;
-        let yaw_change = self.mount().adjoint().column(2).into_owned();
+        let yaw_change = self.mount_pose().adjoint().column(2).into_owned();
         let twist_per_turn_scale =
             Vector3::new(0.0, if model.drives_sideways() { 0.0 } else { twist.y }, twist.z);
         let twist_jacobian = SE2::right_jacobian(&twist);

@@ -112,9 +112,9 @@ impl Calibration {
     /// Returns the result of a log with too few legs for a fit.
     pub fn empty(model: Model) -> Self {
         Self {
-            alphas: vec![None; model.alphas()],
-            intervals: vec![None; model.alphas()],
-            not_identifiable: vec![None; model.alphas()],
+            alphas: vec![None; model.alpha_count()],
+            intervals: vec![None; model.alpha_count()],
+            not_identifiable: vec![None; model.alpha_count()],
             is_constant: [true; ERROR_COUNT],
             log_likelihood: f64::NAN,
             diagnostics: Diagnostics {

@@ -54,13 +54,13 @@ impl Trajectory {
             if ![time, pose.x(), pose.y(), pose.theta()].iter().all(|number| number.is_finite()) {
                 return Err(TrajectoryError::NotFinite { sample });
             }
-            if times.last().is_some_and(|before| time <= *before) {
+            if times.last().is_some_and(|previous_time| time <= *previous_time) {
                 return Err(TrajectoryError::NotLater { sample });
             }
             times.push(time);
             poses.push(pose);
         }
-        let mut periods: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let mut periods: Vec<f64> = times.windows(2).map(|time_pair| time_pair[1] - time_pair[0]).collect();
         let median_period = median(&mut periods);
         let is_pause = |sample: &usize| times[*sample] - times[sample - 1] > MAX_PERIOD_RATIO * median_period;
         let gaps = (1..times.len()).filter(is_pause).collect();
@@ -102,8 +102,8 @@ impl Trajectory {
             };
             let part_count = ((next_time - time) / (1.5 * command_step)).ceil().clamp(1.0, 1e3);
             let dt = (next_time - time) / part_count;
-            for part in 0..part_count as usize {
-                integrated_samples.push((time + part as f64 * dt, pose));
+            for part_index in 0..part_count as usize {
+                integrated_samples.push((time + part_index as f64 * dt, pose));
                 pose = pose.boxplus(Vector3::new(v * dt, 0.0, omega * dt));
             }
         }
@@ -128,11 +128,11 @@ impl Trajectory {
     /// Returns the unwrapped heading (rad) of each sample, relative to the first sample. Each step must turn by less than half a circle.
     pub(super) fn unwrapped_heading(&self) -> Vec<f64> {
         let mut heading = 0.0;
-        let steps = self.poses.windows(2).map(|pair| {
-            heading += wrap_angle(pair[1].theta() - pair[0].theta());
+        let heading_steps = self.poses.windows(2).map(|pose_pair| {
+            heading += wrap_angle(pose_pair[1].theta() - pose_pair[0].theta());
             heading
         });
-        self.poses.first().map(|_| 0.0).into_iter().chain(steps).collect()
+        self.poses.first().map(|_| 0.0).into_iter().chain(heading_steps).collect()
     }
 
     /// Returns the pose and the velocity (m/s ahead and to the left, rad/s) at a time (s). Between two samples the pose lies on the arc of
@@ -143,22 +143,22 @@ impl Trajectory {
     // The function is not inlined, because two copies would make the module larger.
     #[inline(never)]
     pub fn motion_at(&self, time: f64) -> Option<(SE2, Vector3<f64>)> {
-        let (sample, fraction) = self.locate(time)?;
-        let (pose, velocity) = (self.poses[sample], self.velocity_of_sample(sample));
+        let (sample_index, fraction) = self.locate(time)?;
+        let (pose, velocity) = (self.poses[sample_index], self.velocity_of_sample(sample_index));
         if fraction == 1.0 {
             return Some((pose, velocity));
         }
-        let before = self.poses[sample - 1];
-        let pose_at_time = before.boxplus(pose.boxminus(&before) * fraction);
-        Some((pose_at_time, self.velocity_of_sample(sample - 1).lerp(&velocity, fraction)))
+        let previous_time = self.poses[sample_index - 1];
+        let pose_at_time = previous_time.boxplus(pose.boxminus(&previous_time) * fraction);
+        Some((pose_at_time, self.velocity_of_sample(sample_index - 1).lerp(&velocity, fraction)))
     }
 
     /// Returns the mean velocity over the steps before and after a sample.
-    fn velocity_of_sample(&self, sample: usize) -> Vector3<f64> {
+    fn velocity_of_sample(&self, sample_index: usize) -> Vector3<f64> {
         let is_known_step =
             |end: &usize| (1..self.times.len()).contains(end) && self.gaps.binary_search(end).is_err();
-        let known_steps = [sample, sample + 1].map(|end| usize::from(is_known_step(&end)));
-        let (first_sample, end_sample) = (sample - known_steps[0], sample + known_steps[1]);
+        let known_steps = [sample_index, sample_index + 1].map(|end| usize::from(is_known_step(&end)));
+        let (first_sample, end_sample) = (sample_index - known_steps[0], sample_index + known_steps[1]);
         if first_sample == end_sample {
             return Vector3::zeros();
         }
@@ -189,8 +189,8 @@ impl Trajectory {
         if time_after == time {
             return Some((sample, 1.0));
         }
-        let before = sample.checked_sub(1).filter(|_| self.gaps.binary_search(&sample).is_err())?;
-        Some((sample, (time - self.times[before]) / (time_after - self.times[before])))
+        let previous_time = sample.checked_sub(1).filter(|_| self.gaps.binary_search(&sample).is_err())?;
+        Some((sample, (time - self.times[previous_time]) / (time_after - self.times[previous_time])))
     }
 
     pub(super) fn sample(&self, sample: usize) -> (f64, SE2) {

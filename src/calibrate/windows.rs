@@ -139,15 +139,15 @@ pub(super) fn cross_validate(
     alphas: &[Option<f64>],
 ) -> (Option<Recommendation>, Vec<Check>, Vec<WindowCoverage>) {
     let split_in_halves = |legs: usize| [0..legs / 2, legs / 2..legs];
-    let leg_count = fit.sample.legs.len();
-    let residuals = split_in_halves(leg_count).map(|half| fit.sample.inlier_residuals(half));
+    let leg_count = fit.leg_set.legs.len();
+    let residuals = split_in_halves(leg_count).map(|half| fit.leg_set.inlier_residuals(half));
     let parameters_of = |half: &Residuals| maximize(half, &fit.maximum.parameters, EXACT_GAIN).parameters;
     let parameters_by_other_half = [parameters_of(&residuals[1]), parameters_of(&residuals[0])];
     let (mut covered_legs, mut compared_legs) = (0, 0);
     for (residuals, parameters) in residuals.iter().zip(&parameters_by_other_half) {
         compared_legs += residuals.observations.len();
         covered_legs +=
-            residuals.filtered(parameters).leg_fits().filter(|fit| fit.is_within(&CHI2_95)).count();
+            residuals.filter_result(parameters).leg_fits().filter(|fit| fit.is_within(&CHI2_95)).count();
     }
     // Variances estimated from the 3n components of n legs have the relative variance 2/(3n). With k α's, each α has a k-th of the
     // components.

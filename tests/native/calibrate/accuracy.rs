@@ -59,7 +59,7 @@ fn count_covered(confidence_interval: Option<[f64; 2]>, true_value: f64) -> usiz
 }
 
 fn run_calibration_study(model: Model, scenario: &Scenario, log_count: usize) -> StudyResults {
-    let alpha_count = model.alphas();
+    let alpha_count = model.alpha_count();
     let mut study = StudyResults {
         alpha_ratios: vec![Vec::new(); alpha_count],
         covered_alphas: vec![0; alpha_count],

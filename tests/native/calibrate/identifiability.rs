@@ -91,7 +91,7 @@ fn assert_reasons_and_intervals(models: &[Model]) {
                 if is_velocity_model { &drive.velocity_reasons } else { &drive.odometry_reasons };
             let calibration = calibrate_velocities(model, drive.velocity_of_leg);
             let case_name = format!("{model:?} {}", drive.drive_name);
-            assert_eq!(calibration.not_identifiable, expected_reasons[..model.alphas()], "{case_name}");
+            assert_eq!(calibration.not_identifiable, expected_reasons[..model.alpha_count()], "{case_name}");
             for (k, missing_reason) in calibration.not_identifiable.iter().enumerate() {
                 let has_alpha_and_interval =
                     [calibration.alphas[k].is_some(), calibration.intervals[k].is_some()];

@@ -5,7 +5,6 @@
 
 use super::Drive;
 use super::checks::FailureCause;
-use super::trajectory::Trajectory;
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::models::MAX_SPIN_DISTANCE;
 use nalgebra::Vector3;

@@ -76,7 +76,7 @@ class BrowserPage {
  * @param {string} name of the engine
  * @param {BrowserSession} browserSession
  * @param {string} pageUrl
- * @returns {Promise<{ passed: number, failures: string[] }>}
+ * @returns {Promise<{ passedCount: number, failedChecks: string[] }>}
  */
 export async function runChecks(name, browserSession, pageUrl) {
   const page = new BrowserPage(name, browserSession, pageUrl);

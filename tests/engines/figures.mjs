@@ -6,9 +6,9 @@ import { toPascalCase } from '../../scripts/declarations.mjs';
 /**
  * @typedef {object} Handle
  * @property {string} name class of its element
- * @property {number[]} target position to which it is dragged, m
+ * @property {number[]} targetPoint position to which it is dragged, m
  * @property {(simulation: any, targetPoint: number[]) => number[]} positionOf computes the position of the handle from the simulation's
- *   settings after the drag to `target`
+ *   settings after the drag to `targetPoint`
  */
 
 /** Handles of the figures by tag. Two figures have no handles. @type {Record<string, Handle[] | undefined>} */

@@ -15,7 +15,7 @@ const LISTENER_TAG = '<script src="/tests/engines/listen.js"></script>';
 /**
  * Serves a copy of the page of `npm start` with two more scripts. The first script records errors. The second has functions that tests call.
  *
- * @returns {Promise<{ address: string, stop: () => void }>}
+ * @returns {Promise<{ address: string, stopServer: () => void }>}
  */
 async function serveSite() {
   const siteDirectory = mkdtempSync(join(tmpdir(), 'motion-engines-'));

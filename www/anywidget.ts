@@ -21,7 +21,7 @@ export interface WidgetModel {
   save_changes: () => void;
 }
 
-/** Renders the widget of a model. @returns a function that removes it again */
+/** Renders the widget of a model. Returns a function that removes the widget. */
 function renderWidget({ model: widgetModel, el: outputElement }: { model: WidgetModel, el: HTMLElement }): (() => void) | undefined {
   let element: any;
   try {
@@ -61,7 +61,7 @@ function renderWidget({ model: widgetModel, el: outputElement }: { model: Widget
       if (!element.simulation) return;
       const ownTraits = traitPairs.filter(([, propertyName]) => !GLOBAL_ATTRIBUTES.includes(propertyName));
       const traitValues = ownTraits.map(([traitName, propertyName]) => [traitName, toJsonValue(element[propertyName])] as [string, unknown]);
-      // Null values are written last. A null such as "no preset" follows from the other values, and other views of the model apply the values in this order.
+      // Null values, such as "no preset", are written last. Other views apply the values in this order, and a null that follows from the other values changes nothing.
       isWriting = true;
       for (const isNull of [false, true]) for (const [traitName, traitValue] of traitValues) if ((traitValue === null) === isNull) setTrait(traitName, traitValue);
       isWriting = false;

@@ -137,7 +137,7 @@ function compileOnce(bundledCore: BundledCore): Promise<WebAssembly.Module> {
 
 /** Compiles the module that is embedded in the bundle, if any, in the background while this thread evaluates scripts. */
 export function precompileModule() {
-  // With `embedded`, cores are in files, and compiled when a figure needs them. `embedded` is compiled only if a file cannot be fetched.
+  // A bundle with an embedded module also has modules in files. Nothing is compiled then: figures use the embedded module only if a file cannot be fetched.
   if (!bundledCores.embedded && requestedSource === undefined) compileOnce(bundledCores.motion).catch(() => {});
 }
 
@@ -162,7 +162,7 @@ async function compileSource(sourceOrPromise: ModuleSource | Promise<BufferSourc
   );
 }
 
-/** Returns true if a Content-Security-Policy forbids WebAssembly. WebKit then refuses to instantiate even an empty module, and other browsers to compile it. */
+/** Returns true if a Content-Security-Policy forbids WebAssembly. An empty module shows this: WebKit then refuses to instantiate it, and other browsers to compile it. */
 function isWasmForbidden() {
   try {
     return !new WebAssembly.Instance(new WebAssembly.Module(Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0)));

@@ -28,7 +28,7 @@ export async function inspectInputs({ givenRecordings, userChoices }: OpenedInpu
   return { inspection: { recordings: recordingContents, command: calibrateCommand, missing: missingSentence }, sentences: [...refusalErrors, ...(missingSentence ? [missingSentence] : [])], isUsable };
 }
 
-/** Returns the series of a recording with their logs, and sentences about the logs that cannot be read. */
+/** Returns the series of a recording (topics or groups of columns) with their logs, and sentences about the logs that cannot be read. */
 async function contentsOf(recording: Recording, typedArgs: string[], onProgress?: (progressFraction: number | undefined) => void) {
   const { recordingName, recordingFormat } = recording;
   const series: { name: string; type: string; rows: number; uses: string[]; summary?: LogSummary; sentences?: string[] }[] = [];
@@ -36,7 +36,7 @@ async function contentsOf(recording: Recording, typedArgs: string[], onProgress?
   for (const { seriesName, messageType, messageCount } of recording.seriesList) {
     const possibleUses = usesOfSeries(recording, seriesName);
     if (possibleUses.length === 0) series.push({ name: seriesName, type: messageType, rows: messageCount, uses: [] });
-    // Each chain of transforms that could be a log has its own entry.
+    // If a topic has transforms, the output lists each chain of transforms that could be a log.
     for (const { choice: logChoice, uses: possibleRoles } of possibleUses) {
       const seriesEntry = { name: logChoice.framePair ? `${seriesName} (${formatFrames(logChoice.framePair)})` : seriesName, type: messageType, rows: messageCount, uses: possibleRoles };
       try {
@@ -61,7 +61,7 @@ export function formatInspection({ inspection: { recordings, command: calibrateC
   return [...recordingLines, ...(isUsable ? sentences : []), ...(calibrateCommand ? ['', `  ${calibrateCommand}`] : []), ''].join('\n');
 }
 
-/** Returns the logs that can be read from a series, each with its possible roles in words. A series of transforms may have several logs. */
+/** Returns the logs that can be read from a topic or group of columns, each with its possible roles in words. A topic of transforms may have several logs. */
 function usesOfSeries(recording: Recording, seriesName: string): { choice: LogChoice; uses: string[] }[] {
   const rolesAndKinds: [LogRole, 'commands'?][] = [['odometry'], ['odometry', 'commands'], ['reference']];
   const possibleRoles = rolesAndKinds.flatMap(([logRole, wantedKind]) => {

@@ -74,7 +74,7 @@ const COMMAND_OPTIONS = {
   help: { ...flagOption, short: 'h' }, version: flagOption,
 } as const;
 
-/** Names of command-line options, by the option of `calibrate` in the core that they set. */
+/** Command-line options by the options of the core's `calibrate` that they set. */
 const OPTION_BY_FIELD: Record<string, string> = {
   'legs.distance': 'update-min-d', 'legs.angle': 'update-min-a', 'legs.duration': 'duration',
   positionStd: 'reference-position-std', yawStd: 'reference-yaw-std', model: 'model', rule: 'rule', outliers: 'outliers',
@@ -206,13 +206,13 @@ function parseFrames(optionName: string, optionValue: string | undefined): Frame
 
 export const formatCommand = (args: string[]): string => ['npx motion-widgets', ...args.map(quoteForShell)].join(' ');
 
-/** Returns the message of an error. If the error has a question, the typed command follows, with the option that answers the question. */
+/** Returns the message of an error. If the error asks the user a question, the typed command follows, with the option that answers it. */
 export function explainWithCommand({ message: errorMessage, errorPlace: { fileName }, userQuestion }: LogError, typedArgs: string[]): string {
   const answeringArgs = userQuestion && answerQuestion({ ...userQuestion, fileName }, typedArgs);
   return answeringArgs ? `${errorMessage} For example:\n  ${formatCommand(answeringArgs)}` : errorMessage;
 }
 
-/** Returns the typed arguments together with the option that answers a question of a log's reader; undefined if no option answers it. */
+/** Returns the typed arguments together with the option that answers the question of a LogError; undefined if no option answers it. */
 export function answerQuestion({ fileName, optionName, logRole, possibleAnswers }: FileQuestion, typedArgs: string[]): string[] | undefined {
   const [likeliestChoice] = possibleAnswers.filter(Boolean);
   const chosenRole = logRole ?? 'odometry';

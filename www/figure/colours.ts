@@ -8,7 +8,7 @@ export class FigureColours extends FigureController {
   #palette: ColourPalette | undefined;
 
   hostConnected() {
-    // If the page's background changes by a CSS transition, its final colour is known only at the end of the transition.
+    // If a CSS transition changes the page's background, the figure has read a colour in between. At the end of the transition the colours are applied again.
     const onTransitionEnd = ({ target: transitionedElement, propertyName }: TransitionEvent) => {
       if (propertyName === 'background-color' && listElementAndAncestors(this.figure).includes(transitionedElement as Element)) this.applyAndDraw();
     };
@@ -38,7 +38,7 @@ export class FigureColours extends FigureController {
     const hasOwnColours = isPrinting || surfaceStyle.colorScheme !== colourScheme;
     for (const [colourName, cssColour] of Object.entries(pageColours)) surfaceStyle.setProperty(`--${colourName}`, hasOwnColours ? '' : cssColour);
     surfaceStyle.setProperty('--back', hasOwnColours ? 'var(--paper)' : '');
-    // The page's colours for muted text and rules suit the page's background. On the figure's own background they would be illegible.
+    // The page's colours for muted text and rules would be illegible on the figure's own background, where they are not used.
     for (const colourRole of ['muted', 'rule']) surfaceStyle.setProperty(`--mw-${colourRole}`, hasOwnColours ? 'initial' : '');
     this.#palette = undefined;
   }

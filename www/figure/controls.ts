@@ -30,7 +30,7 @@ export interface SliderSpec {
   alpha?: [model: 'velocity' | 'odometry', index: number];
 }
 
-/** Returns the slider of a setting. `rowOverrides` replaces fields of its slider row. */
+/** Returns the slider of a setting. `rowOverrides` replaces fields of the slider's specification. */
 export function settingSliderHtml(figure: Figure, settingKey: string, rowOverrides?: Partial<SliderRow>, sliderSpec = figure.definition.sliderSpecs[settingKey]) {
   const { symbol: settingSymbol, decimals, combinedValueOf, ...sliderFields } = sliderSpec;
   const { name: settingName, effect: effectText } = wordsFor(figure, settingKey);

@@ -18,7 +18,7 @@ interface AttributeConverter {
 interface ElementProperty extends PropertyDeclaration {
   converter?: AttributeConverter;
   getValue: (settingValues: StateValues) => unknown;
-  /** Returns the changed part of the configuration for a new value. */
+  /** Returns the changes of the configuration that a new value of the property causes. */
   changesFor: (propertyValue: any, settingValues: StateValues) => StateValues;
   /** Name of the setting in errors of the core, if it differs from the property's name. */
   corePath?: string;

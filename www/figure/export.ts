@@ -9,7 +9,7 @@ import { accessibleNameOf } from './surface.ts';
 import type { Figure } from './figure.ts';
 
 export interface ExportData {
-  /** Settings, which exported files contain as JSON after the tag of the element; default: those of the simulation. */
+  /** Settings that exported files contain as JSON; by default, the settings of the simulation. */
   settings?: object;
   /** Numbers of the table. A key is the names of some columns, such as 'x_m y_m theta_rad'; its value has their numbers, row by row. */
   columns: Record<string, ArrayLike<number>>;

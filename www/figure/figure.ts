@@ -351,7 +351,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
 
   /** Reserves the figure's space until the next task of the event loop. If the core is ready by then, no placeholder is rendered. */
   async #delayPlaceholder() {
-    // In forced colours, Chromium keeps light colours in content that is rendered before `colours` has found a dark scheme.
+    // In forced colours no space is reserved: Chromium keeps light colours in content that is rendered before `colours` has found a dark scheme.
     if (!matchMedia('(forced-colors: active)').matches) {
       const reservedSpace = this.renderRoot.appendChild(document.createElement('div'));
       reservedSpace.className = 'reserved';
@@ -385,7 +385,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
       // After a trap the previous content stays. After a failure the message is rendered.
       if (!this.runtime.attemptOrFail(updateContent)) updateContent();
     } catch {
-      // No template can be rendered on this page, so that further updates are useless.
+      // Not even the failure message can be rendered as a template. It is set as plain text, and further updates are prevented.
       this.shouldUpdate = () => false;
       this.renderRoot.textContent = words.failureMessage(this.runtime.failureMessage ?? '');
     }

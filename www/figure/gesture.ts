@@ -20,7 +20,7 @@ export class UserGesture extends FigureController {
     this.#endPress();
     this.#pressListenerAbort = new AbortController();
     const { signal: abortSignal } = this.#pressListenerAbort;
-    // No `pointerup` arrives if the pointer is released over a list or dialog of the browser. The next event is then a `pointermove`.
+    // No `pointerup` arrives if the pointer is released over a list or dialog of the browser. The next `pointermove` then shows that no button is pressed.
     for (const eventType of ['pointerup', 'pointercancel', 'pointermove'] as const) addEventListener(eventType, ({ buttons: pressedButtons }) => pressedButtons === 0 && this.#endPress(), { capture: true, signal: abortSignal });
   }
 

@@ -11,11 +11,11 @@ export class AttributeReflection extends FigureController {
   #elementProperties = this.figure.definition.elementProperties;
   /** Names of properties in the order in which assignments made before the start are applied. Properties on which others depend come first. A log comes last, because its fit takes long. */
   #applicationOrder = ['preset', 'map', ...Object.keys(this.#elementProperties), 'log'];
-  /** Assignments made before the simulation exists. The key is the name of a property, or a new object for each assigned state. */
+  /** Assignments of the page before the simulation exists. The key is the name of a property, or a new object for each assigned state. */
   #earlyAssignments: Map<unknown, { assignedValue?: unknown, applyAssignment: () => void }> = new Map();
   #isWritingAttributes = false;
 
-  /** Applies the early assignments. Whole states keep their order in time. Properties assigned between two states are sorted by dependency. */
+  /** Applies assignments that the page made before the simulation existed. Whole states keep their order in time. Properties assigned between two states are sorted by dependency. */
   applyEarlyAssignments() {
     let stateOffset = 0;
     const orderedAssignments = [...this.#earlyAssignments].map(([propertyName, { applyAssignment }]) =>
@@ -77,10 +77,10 @@ export class AttributeReflection extends FigureController {
     return { ...defaultConfigOf(definition.settingDeclarations), ...definition.elementDefaults, ...definition.dependentDefaultsOf?.(settings.requestedValues) };
   }
 
-  /** Updates the attributes, so that a new figure with them has the present settings. Removes attributes that it would not need. */
+  /** Updates the attributes, so that a new figure with the same attributes opens with the present settings. Attributes that this does not require are removed. */
   updateAttributes() {
     const { simulation, viewModel } = this.figure;
-    // Before the first frame, the page's attributes still wait in `#earlyAssignments`.
+    // Before the first frame, values of the page's attributes may still wait in `#earlyAssignments`, and must not be overwritten.
     if (!simulation || !viewModel) return;
     const attributeTexts = this.findNeededAttributes(this.figure.getAttributeNames());
     this.#isWritingAttributes = true;

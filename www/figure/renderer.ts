@@ -34,7 +34,7 @@ export class FigureRenderer extends FigureController {
   #visibleObserver = new IntersectionObserver((observerEntries) => this.#updateVisible(observerEntries));
   #visibleTarget: Element | undefined;
   #nearObserver = new IntersectionObserver((observerEntries) => {
-    // Starting depends on the visibility, but the order in which the two observers call back is undefined.
+    // Whether a figure starts depends on its visibility. The observer of the visibility may call back later, so that its records are taken here.
     this.#updateVisible(this.#visibleObserver.takeRecords());
     for (const { isIntersecting } of observerEntries) this.#setNear(isIntersecting);
   }, { rootMargin: NEAR_MARGIN_CSS });

@@ -39,14 +39,14 @@ export class CoreRuntime extends FigureController {
     } finally {
       this.#startPromise = undefined;
     }
-    // The core may have trapped again. Otherwise this call of `startCore` does nothing.
+    // If the core has trapped again during this start, it is started again. Otherwise this call does nothing.
     if (this.failureMessage === undefined) void this.startCore();
   }
 
   async #showContent() {
     this.figure.requestUpdate();
     await this.figure.updateComplete;
-    // If rendering trapped, the simulation is removed.
+    // If rendering has trapped, there is no simulation that could be drawn.
     if (!this.simulation) return;
     this.figure.renderer.requestFrame();
     if (this.#hasLoaded) return;

@@ -102,7 +102,7 @@ export class FigureSettings extends FigureController {
     this.dropPendingChanges();
     figure.onSimulationReplaced();
     figure.reflection.applyEarlyAssignments();
-    // If an assignment has trapped, there is no simulation. If an assigned state is shown, the view model is already up to date.
+    // An assignment that has trapped has removed the simulation. A state that the page has assigned is already shown.
     if (figure.simulation && this.isViewModelStale) this.#showState(figureState);
   }
 

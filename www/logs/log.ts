@@ -200,7 +200,7 @@ export interface ErrorPlace {
   topicName?: string;
 }
 
-/** Function that returns the reason in an error message, in the language of the given words. The reason follows the place of the error. */
+/** Function that returns the reason in an error message, from the texts of a language. In the message, the reason follows the place of the error. */
 export type ErrorReason = (errorReasons: LogTexts['refusalReasons']) => string;
 
 /** Maximum number of characters of a quoted name or value, and of a quoted error message of a library. */

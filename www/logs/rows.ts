@@ -48,7 +48,7 @@ const MIN_POSES = 20;
 /** Minimum number of repetitions of a pose that shows a standing robot, as a multiple of the usual number. A localizer also repeats poses while the robot moves slowly. */
 const STANDSTILL_FACTOR = 8;
 
-/** Limits for overlaps of runs. A run is a sequence of rows with rising times. Maximum time between overlapping rows, in median steps; maximum number of overlaps of a run; maximum fraction of all rows. */
+/** Limits for overlaps of runs, which are sequences of rows with rising times: maximum time between overlapping rows, in median steps; maximum overlaps of a run; maximum fraction of all rows. */
 const [MAX_OVERLAP_STEPS, MAX_RUN_OVERLAPS, MAX_OVERLAP_FRACTION] = [0.75, 2, 0.02];
 
 /** Limits for rows that are late: maximum length of the path in order of time, relative to its length in order of the file, and minimum number of late rows. */
@@ -58,8 +58,8 @@ const [MAX_LATE_PATH_RATIO, MIN_LATE_ROWS] = [0.75, 20];
 const [MIN_PATH_DISTANCE, MIN_LONG_STEPS] = [0.05, 20];
 
 /**
- * Limits for two paths whose rows alternate: maximum rows and seconds until the same path continues; maximum number of long steps within a path, relative
- * to long steps between successive rows.
+ * Limits for two paths whose rows alternate: maximum number of rows, and of seconds, until the same path continues; maximum number of long steps
+ * within a path, as a fraction of the long steps between successive rows.
  */
 const [MAX_RETURN_ROWS, MAX_RETURN_SECONDS, MAX_LONG_FRACTION] = [8, 1, 0.2];
 
@@ -240,8 +240,8 @@ export class RowCollector {
   }
 
   /**
-   * Drops repetitions of poses of a moving robot, and returns the remaining rows. Slow topics in a table with faster ones, and localizers, repeat their
-   * last pose. While the robot stands, the usual fraction of rows is dropped.
+   * Drops rows that repeat the previous pose, and returns the others. Localizers, and slow topics in a table with faster ones, repeat their last pose
+   * until the next one. Of a standing robot, rows are kept at the rate of new poses of a moving robot.
    */
   #dropRepeatedPoses(rowIndices: Uint32Array): Uint32Array {
     const isRepeated = (i: number) => i > 0 && this.#hasSameValues(rowIndices[i - 1], rowIndices[i]);

@@ -38,7 +38,7 @@ export async function openTable(sourceFile: SourceFile, optionsOf: OptionsByName
   const tableFormat = detectTableFormat(headLines, sourceFile.name, optionsOf(sourceFile.name)?.columnNames);
   const readableGroups = tableFormat.columnGroups.filter(({ groupKind: logKind }) => logKind !== null);
   const headerPlace = { fileName: sourceFile.name, lineNumber: Math.max(1, tableFormat.firstRowNumber - 1) };
-  // This call throws a LogError: it gives the reason why the group with most columns cannot be read.
+  // No group of columns is a log. This call throws the LogError with the reason for the group with most columns.
   if (readableGroups.length === 0) findLogLayout(tableFormat.columnGroups.toSorted((a, b) => Object.keys(b.fieldColumns).length - Object.keys(a.fieldColumns).length)[0], tableFormat, headerPlace, undefined);
   const seriesOfGroup = (columnGroup: ColumnGroup): Series => ({
     seriesName: readableGroups.length === 1 && columnGroup.groupKind !== null ? '' : columnGroup.groupName || listNames(columnNamesOf(columnGroup)),

@@ -78,7 +78,7 @@ export function judgeUnits(errorPlace: ErrorPlace, logKind: LogKind, sampleColum
   const { unit: unitName, by: unitBasis } = openOptions.angleUnit ? { unit: openOptions.angleUnit, by: 'option' as const } : assumedUnits.angle;
   const pathAlignment = isJudged && logKind === 'poses' ? alignmentWithPath(t, a, b, c) : undefined;
   if (pathAlignment?.headingSign === -1) {
-    // The cosine is negative if x and y are swapped, because headings and path then differ by a right angle. Otherwise y has the wrong sign.
+    // `cosine`, that of twice the angle between headings and path, is negative if x and y are swapped: the angle is then a right angle. Otherwise y has the wrong sign.
     throw new LogError(errorPlace, (errorReasons) => errorReasons.mirroredPathReason, createColumnQuestion?.(COLUMN_CHANGES[pathAlignment.cosine < 0 ? 'swappedXAndY' : 'negatedY']));
   }
   const alignmentWithYUp = isJudged && logKind === 'poses' && createColumnQuestion && !pathAlignment ? alignmentWithPath(t, a, z, c) : undefined;

@@ -32,7 +32,7 @@ export class Canvases {
     this.canvasElements = undefined;
   }
 
-  /** Measures the canvases again after a change of the pixel ratio. WebKit's ResizeObserver does not measure in device pixels. */
+  /** Measures the canvases again when the pixel ratio changes. WebKit's ResizeObserver does not report this change, because it measures in CSS pixels. */
   followPixelRatio(abortSignal: AbortSignal) {
     const onRatioChange = () => {
       this.observeSizes();
@@ -59,7 +59,7 @@ export class Canvases {
       const canvas = resizedCanvas as HTMLCanvasElement;
       const { inlineSize: width, blockSize: height } = devicePixelContentBoxSize?.[0] ?? { inlineSize: 0, blockSize: 0 };
       const [estimatedWidth, estimatedHeight] = [devicePixelRatio * contentRect.width, devicePixelRatio * contentRect.height];
-      // Chromium reports CSS pixels as device pixels while its developer tools emulate a phone.
+      // While its developer tools emulate a phone, Chromium reports CSS pixels as device pixels. Reported sizes are used only if they agree with the estimate.
       const isExact = Math.max(Math.abs(width - estimatedWidth), Math.abs(height - estimatedHeight)) < 1;
       [canvas.width, canvas.height] = (isExact ? [width, height] : [estimatedWidth, estimatedHeight]).map(Math.round);
     }

@@ -9,8 +9,8 @@ import { strokeInBatches } from './cache.ts';
 import type { Callout } from './labels.ts';
 
 /**
- * Number of heading ticks in one stroke. Ticks of the same stroke do not darken each other where they cross. A larger number would hide the
- * density.
+ * Number of heading ticks drawn in one stroke. Where ticks of the same stroke cross, they are not darker. With more ticks in a stroke, dense regions
+ * would therefore not be visible.
  */
 const TICKS_PER_STROKE = 25;
 

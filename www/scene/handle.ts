@@ -77,7 +77,7 @@ export class Handle {
   }
 
   handleHtml({ handleName, keysHint, title, valueRange, sliderValue, valueText, limitText, hintText, tabIndex = 0 }: HandleLabels) {
-    // The text about the limit is on the side that faces the middle of the picture.
+    // The text about a limit that the handle has reached is on the side that faces the middle of the picture.
     const limitTextSide = 2 * this.#middlePixels[0] > this.#callbacks.getView().width ? 'right' : '';
     return html`<div
       class="handle ${this.#classNames} ${limitTextSide} ${this.isHeld ? 'held' : ''}"

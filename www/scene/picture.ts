@@ -14,7 +14,7 @@ interface DrawOptions extends Pick<DrawContext, 'isExported' | 'drawsHandles' | 
 }
 
 export class FigurePicture<Scene, Name extends string = string> {
-  /** `previousViewModel` of the latest drawing. Another object means that a new gesture began, in which the view has not zoomed out yet. */
+  /** View model before the gesture of the latest drawing. If it is replaced, a new gesture has begun, in which the view has not zoomed out yet. */
   #previousViewModel: any;
 
   declare pictureName: Name;

@@ -95,7 +95,7 @@ export class SvgContext {
 
   clip() {
     const clipId = `${this.#idPrefix}-clip${++this.#clipCount}`;
-    // The latest element is the group that `save` opened.
+    // The latest element is the group that `save` has opened. A group that is clipped to the path replaces it.
     this.#elementTexts.splice(-1, 1, `<clipPath id="${clipId}"><path d="${this.#pathData}"/></clipPath><g clip-path="url(#${clipId})">`);
   }
 

@@ -101,7 +101,7 @@ function fillCells({ canvasContext, pictureView, pixelRatio }: LayerDrawContext,
   const [[originX, originY], [rightX, rightY], [aboveX, aboveY]] = [cornerPixelOf(left, bottom), cornerPixelOf(left + cellsPerSquare, bottom), cornerPixelOf(left, bottom + cellsPerSquare)];
   canvasContext.save();
   canvasContext.transform(rightX - originX, rightY - originY, aboveX - originX, aboveY - originY, originX, originY);
-  // Large cells have sharp edges.
+  // Cells that are not smaller than a pixel have sharp edges.
   canvasContext.imageSmoothingEnabled = cellsPerSquare > 1;
   canvasContext.drawImage(squaresCanvas, 0, 0);
   canvasContext.restore();

@@ -305,7 +305,7 @@ export function numberFieldHtml({ value: fieldValue, min: minValue, max: maxValu
     Object.assign(numberField, keyEvent.key.startsWith('Arrow') ? arrowRange : typingRange);
     if (keyEvent.key !== 'Escape') return;
     numberField.form?.reset();
-    // A handled Escape does not end a presentation.
+    // Without this call, Escape would also end a presentation.
     keyEvent.preventDefault();
   };
   const groupSeparator = language === 'de' ? '.' : ',';
@@ -321,7 +321,7 @@ export function numberFieldHtml({ value: fieldValue, min: minValue, max: maxValu
     const numberField = Object.assign(inputOf(event), typingRange);
     if (!numberField.validity.valid) return;
     onChange(numberField.valueAsNumber, numberField);
-    // After a reset, the browser shows the value of the next rendering.
+    // After typing, browsers ignore the attribute `value` until the form is reset. The typed number is first made the default, which the reset restores.
     numberField.defaultValue = numberField.value;
     numberField.form?.reset();
   };

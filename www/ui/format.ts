@@ -9,7 +9,7 @@ export const NO_VALUE = '\u2014';
 
 const decimalSeparators: Map<string, string> = new Map([['en', '.']]);
 
-/** Returns the decimal separator of the current language between Latin digits. It is remembered, because the first use of `Intl` takes longer than the rest of the first frame. */
+/** Returns the decimal separator of the current language. It is cached, and fixed for English, because the first use of `Intl` delays a figure's first picture. */
 function getDecimalSeparator(): string {
   // The decimal separator is the second character of "0.5" or "0,5".
   if (!decimalSeparators.has(language)) decimalSeparators.set(language, (0.5).toLocaleString(language, { numberingSystem: 'latn' })[1]);
@@ -19,7 +19,7 @@ function getDecimalSeparator(): string {
 /** Prints a number with decimals: "−0.301"; "0.000" rather than "−0.000"; "∞"; "—" for NaN. */
 export function formatFixed(number: number, decimals: number): string {
   if (Number.isNaN(number)) return NO_VALUE;
-  // `toFixed` rounds the exact binary number. `Intl` rounds its shortest decimal form, and may round a false tie up.
+  // `toFixed` rounds the exact binary number. `Intl` rounds the number's shortest decimal form, and may therefore round up a number that is below a tie.
   const digits = Math.abs(number).toFixed(decimals);
   const sign = number < 0 && Number(digits) !== 0 ? MINUS_SIGN : '';
   return sign + (Number.isFinite(number) ? digits.replace('.', getDecimalSeparator()) : '∞');
@@ -40,7 +40,7 @@ export function formatEditable(number: number, decimals: number): string {
 /** Magnitude below which a number counts as a rounded 0. */
 const MAX_ROUNDED_ZERO = 1e-13;
 
-/** Maximum number of decimals of a standard error. With ten million robots the standard error is 0.0008. */
+/** Maximum number of decimals of a standard error. The smallest one, 0.0008 with ten million robots, needs four. */
 const MAX_ERROR_DECIMALS = 5;
 
 const SUPERSCRIPT_DIGITS = '⁰¹²³⁴⁵⁶⁷⁸⁹';

@@ -150,7 +150,7 @@ const figureLayout = css`
 
   .stage {
     position: relative;
-    /* After a change of the width, handles keep their old places until the next frame, and may lie outside of the picture. */
+    /* After a change of the width, handles may lie outside of the picture until the next frame. Without clipping, they would make the page wider. */
     overflow-x: clip;
   }
 
@@ -251,7 +251,7 @@ const figureLayout = css`
     background: var(--ring, var(--prior));
   }
 
-  /* A robot is drawn in the picture: the handle of its body is invisible. */
+  /* The handle of a robot's body is invisible, because the picture shows the robot. */
   .handle.body::after {
     content: none;
   }

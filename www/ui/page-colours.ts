@@ -25,7 +25,7 @@ export function listElementAndAncestors(startNode: Node): Element[] {
   return elementAndAncestors;
 }
 
-/** Reads the colours around a figure. The scheme is dark if the background is darker than legible text, or than medium grey if the text is not legible. */
+/** Reads the colours around a figure. The scheme is dark if the background is darker than the text, or darker than medium grey if the text is illegible. */
 export function readPageColours(colourProbe: Element): PageColours {
   const { color, borderTopColor: canvasColour, colorScheme } = getComputedStyle(colourProbe);
   const textColour = colourChannelsOf(color);

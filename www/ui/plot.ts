@@ -35,7 +35,7 @@ export const plotStyles = css`
     max-width: 26em;
   }
 
-  /* Invisible slider over the plot area, longer by half a thumb at both ends. The chart shows its value. */
+  /* Invisible slider over the plot area; the chart shows its value. It is longer, so that the middle of its thumb reaches both ends of the axis. */
   .plotted input {
     position: absolute;
     top: ${unsafeCSS((100 * PLOT_TOP) / CHART_HEIGHT)}%;

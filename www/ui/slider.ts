@@ -144,7 +144,7 @@ export function sliderRowHtml(sliderRow: SliderRow) {
   const applyTyped = (typedNumber: number, valueField: HTMLInputElement) => {
     onInput(typedNumber);
     onCommit();
-    // The next key may come before the slider is rendered with the new value.
+    // The slider gets its value at once, because the next key may be pressed before the next rendering.
     controlOfRow(valueField, 'input[type=range]').value = String(rangeOfStops({ ...sliderRow, value: typedNumber }).value ?? typedNumber);
   };
   const focusTrack = (event: Event) => controlOfRow(event.target as Element, 'input[type=range]').focus();

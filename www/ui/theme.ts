@@ -150,7 +150,7 @@ export const themeStyles = css`
       min-height: 0 !important;
     }
 
-    /* The printed page has another width than the window. */
+    /* The printed page has another width than the window. Canvases keep the aspect ratio of their pixels. */
     .stage canvas {
       height: auto !important;
       max-height: none !important;
@@ -201,7 +201,7 @@ export function resolvePalette(colourParent: HTMLElement) {
   colourParent.append(...colourProbes);
   const paletteEntries = colourProbes.map((colourProbe, i) => {
     const { color } = getComputedStyle(colourProbe);
-    // Mixed colours are serialized in notations that few programs read.
+    // Browsers serialize mixed colours in notations that few programs read. These are converted to rgb().
     return [COLOUR_ROLES[i], /^rgb/.test(color) ? color : `rgb(${colourChannelsOf(color)})`];
   });
   for (const colourProbe of colourProbes) colourProbe.remove();
@@ -212,7 +212,7 @@ let pixelContext: OffscreenCanvasRenderingContext2D | undefined;
 
 /** Returns red, green and blue from 0 to 255 of colours in any CSS notation, each painted over the previous ones. */
 export function colourChannelsOf(...cssColours: string[]): [number, number, number] {
-  // Browsers serialize most colours in this notation.
+  // An opaque colour in this notation, the most frequent one, is read without a canvas.
   const rgbMatch = cssColours.at(-1)?.match(/^rgb\((\d+), (\d+), (\d+)\)$/);
   if (rgbMatch) return [Number(rgbMatch[1]), Number(rgbMatch[2]), Number(rgbMatch[3])];
   const canvasContext = (pixelContext ??= (

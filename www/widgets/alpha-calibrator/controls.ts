@@ -50,7 +50,7 @@ export function modelControlsHtml(figure: Figure) {
     ${settingRadiosHtml(figure, 'outliers', outlierTreatments)} ${settingSliderHtml(figure, 'duration', { formatValue: formatDuration })}`, 'fit');
 }
 
-/** Returns the controls for the noise of the reference. If the log is simulated, a sentence describes it. */
+/** Returns the controls for the noise of the reference; before them, a note on a simulated log. */
 export function referenceControlsHtml(figure: Figure) {
   const stdSliderHtml = (stdSettingKey: string, unit: string) =>
     settingSliderHtml(figure, stdSettingKey, { formatValue: (std: number) => (std > 0 ? `${formatEditable(std, 3)} ${unit}` : words.calibrator.estimatedLabel) });

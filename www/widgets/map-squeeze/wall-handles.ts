@@ -33,7 +33,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     return this.#gripsMemo.getResult([plan], () => (hasMovableWalls && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? gripsOf(plan) : []));
   }
 
-  /** Visible grips, each with its handle and its point in the picture. While a handle is dragged, its grip counts as visible. */
+  /** Visible grips (movable ends of walls, or whole walls), each with its handle and its point in the picture. While a handle is dragged, its grip counts as visible. */
   get #shownGrips() {
     const { plan: { walls }, pictureView } = this.figure.picture;
     const { xMin, xMax, yMin, yMax } = pictureView.shownExtent;

@@ -131,13 +131,13 @@ pub(crate) fn product_or_zero<const N: usize>(density_factors: [f64; N]) -> f64 
     if density_factors.contains(&0.0) { 0.0 } else { density_factors.into_iter().product() }
 }
 
-/// Returns the density at the angle `a` of noise of variance `b2` wrapped around the circle: Σₖ prob(a + 2πk), per
-/// radian. 1 or 0 as [`NoiseKind::prob`] where the variance is 0.
+/// Returns the density at the angle `a` of noise of variance `b2` wrapped around the circle: Σₖ prob(a + 2πk), per radian. For a variance
+/// of 0 the result is that of [`NoiseKind::prob`].
 pub(crate) fn wrapped_density(noise_kind: NoiseKind, a: f64, b2: Variance) -> f64 {
     let a = wrap_angle(a);
     let std = b2.0.sqrt();
     match noise_kind {
-        // If the standard deviation is larger the wrapped Gaussian is uniform to the last bit: its first harmonic is exp(−b²/2) < 1e-17.
+        // For a standard deviation above 9 rad, the wrapped Gaussian is uniform to the last bit: its first harmonic is exp(−b²/2) < 1e-17.
         NoiseKind::Normal if std > 9.0 => 1.0 / TAU,
         NoiseKind::Normal => {
             // A term at more than nine standard deviations is below the rounding error of the sum.

@@ -115,8 +115,8 @@ impl Arc {
         SE2::new(x, y, heading)
     }
 
-    /// Returns the ends of chords of about one degree, for at most two revolutions. The chords are within 0.05 mm of an arc of 1 m and 1
-    /// rad.
+    /// Returns points on the arc that are at most about one degree of its turn apart. The polyline through them is within 0.05 mm of an arc
+    /// of 1 m and 1 rad. Arcs beyond two revolutions have points further apart.
     pub fn points(&self) -> Vec<[f64; 2]> {
         let chord_count = (self.turn.abs() / 0.02).clamp(1.0, 640.0).ceil();
         (0..=chord_count as u32)
@@ -197,7 +197,7 @@ impl PreparedPose {
         arc_length: f64x4,
         turn: f64x4,
     ) -> impl Fn(usize) -> DrivenArc {
-        // The end of an arc is on the bearing φ/2, at the distance of the length of its chord.
+        // The chord of an arc has the bearing φ/2.
         let SinCos { sinc, sin, cos } = turn_trigonometry.sin_cos(turn * 0.5);
         let chord_length = arc_length * sinc;
         let (forward_offset, left_offset) = (chord_length * cos, chord_length * sin);
@@ -242,8 +242,7 @@ impl DrivenArc {
             let circle_diameter = 2.0 * (self.arc.length / self.arc.turn).abs();
             return [x0 - circle_diameter, y0 - circle_diameter, x0 + circle_diameter, y0 + circle_diameter];
         }
-        // The arc lies in the rectangle between its chord and its midpoint. The midpoint is tan(φ/4)/2 chord lengths to the right of the
-        // chord, which is at most φ/2π chord lengths.
+        // The box contains the chord, and the chord shifted sideways by φ/2π of its length. The sagitta is less: tan(φ/4)/2 of the length.
         let sagitta_ratio = self.arc.turn / TAU;
         let (sagitta_x, sagitta_y) = (sagitta_ratio * (y1 - y0), sagitta_ratio * (x0 - x1));
         [
@@ -323,8 +322,8 @@ impl ArcPiece {
 /// cause visible errors. A much smaller limit would let the curvature underflow.
 const MIN_ARC_TURN: f64 = 1e-30;
 
-/// Length (m) below which arcs count as points. The product of a larger curvature and the area of a map (some km²) might exceed the range
-/// of doubles.
+/// Length (m) below which arcs count as points. The curvature of a shorter arc can be so large that its product with the area of a map
+/// (some km²) exceeds the range of doubles.
 const MIN_ARC_LENGTH: f64 = 1e-100;
 
 /// Arc in the frame of its start, mirrored so that it leads forward and to the left. It starts at the origin along x, with

@@ -30,7 +30,7 @@ js_structs! {
         pub straight: Vec<f64> as "Float64Array",
         /// Error (m) of the chord: the distance vΔt sinc(ωΔt/2) in the direction θ + ωΔt/2.
         pub chord: Vec<f64> as "Float64Array",
-        /// Turn rate √(2ε)/Δt (rad/s) at which the errors of arc and straight line are estimated to be equal.
+        /// Turn rate √(2ε)/Δt (rad/s), with the machine epsilon ε, at which the errors of arc and straight line are estimated to be equal.
         pub estimated_crossover: f64,
         /// Turn rate (rad/s) below which the chapter’s code uses the straight line.
         pub threshold: f64,

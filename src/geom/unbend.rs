@@ -26,7 +26,7 @@ pub fn unbend(twist: &Vector3<f64>, morph_fraction: f64) -> [f64; 2] {
 pub fn unbend_jacobian(twist: &Vector3<f64>, morph_fraction: f64) -> Matrix2x3<f64> {
     let unmorphed_fraction = 1.0 - morph_fraction;
     let bent_twist = Vector3::new(twist.x, unmorphed_fraction * twist.y, unmorphed_fraction * twist.z);
-    // The Jacobian of the position of exp(ξ) with respect to ξ has the upper rows of R(ω)·J_r(ξ).
+    // The Jacobian of the position of exp(ξ) with respect to ξ consists of the upper two rows of R(ω)·J_r(ξ).
     let rotation_adjoint = SE2::new(0.0, 0.0, bent_twist.z).adjoint();
     let mut morph_jacobian =
         (rotation_adjoint * SE2::right_jacobian(&bent_twist)).fixed_view::<2, 3>(0, 0).into_owned();

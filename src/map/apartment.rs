@@ -4,7 +4,7 @@ use crate::geom::segment::Segment;
 
 pub(super) const BOUNDS: [f64; 4] = [0.0, 0.0, 12.0, 9.0];
 
-/// Walls in the memory layout of a floor plan. Code that adds the walls one by one would take twice the bytes.
+/// Walls of the apartment, m. They are constant data, because code that creates them one by one would take twice as many bytes.
 pub(super) static WALLS: [Segment; 18] = [
     wall(0.0, 0.0, 12.0, 0.0),
     wall(12.0, 0.0, 12.0, 9.0),

@@ -13,12 +13,12 @@ use wide::f64x4;
 /// Condition under which a drawn motion is accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampler {
-    /// The end pose of the draw is free, as in Table 5.7. The path may lead through a wall.
+    /// A motion is accepted if its end pose is free, as in Table 5.7, even if its path leads through a wall.
     Endpoint,
-    /// The whole arc driven is free.
+    /// A motion is accepted if its whole arc is free.
     WholeArc,
-    /// The command is split into this many parts (1 or more). Each part is drawn until its end pose is free. Each part has its own noise,
-    /// so that the total spread shrinks with the root of the number of parts.
+    /// The command is split into this many parts (1 or more). Each part is drawn until its end pose is free. The noises of the parts are
+    /// independent, so that the spread of the whole motion is smaller by the root of the number of parts.
     SubStepped(u32),
 }
 
@@ -54,7 +54,7 @@ impl Sampler {
 pub struct MapConditioned<'a> {
     /// Model without the map.
     pub model: VelocityModel,
-    /// Walls and bounds.
+    /// Floor plan with which motions may collide.
     pub plan: &'a FloorPlan,
     /// Radius of the robot, m. The centre of the robot stays further away from walls than this radius.
     pub clearance: f64,

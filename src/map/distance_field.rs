@@ -76,7 +76,7 @@ impl DistanceField {
     #[inline(always)]
     pub fn lower_bounds(&self, points: &[f64x4; 2]) -> f64x4 {
         let zero_lanes = f64x4::splat(0.0);
-        // A point on the border between two cells may be rounded into either of them, because the lower bound of each cell includes its
+        // A point on the border between two cells may be rounded into either cell, because the lower bound of a cell also holds on its
         // border.
         let [cell_column, cell_row] = [0, 1].map(|axis_index| {
             let cell_coordinate =
@@ -85,7 +85,7 @@ impl DistanceField {
                 + ROUND_TO_INTEGER
                 - ROUND_TO_INTEGER
         });
-        // Adding this number to a small integer puts that integer into the last bits of the sum.
+        // The last bits of the sum of `ROUND_TO_INTEGER` and a small integer are that integer.
         let cell_indices = (cell_row * self.column_count as f64 + cell_column + ROUND_TO_INTEGER).to_array();
         from_lanes(|i| self.lower_bound_of_cell(cell_indices[i].to_bits() as u32 as usize))
     }
@@ -129,7 +129,7 @@ impl<'a> FieldBuilder<'a> {
         let [min_x, min_y, max_x, max_y] = map_bounds;
         let (width, height) = (max_x - min_x, max_y - min_y);
         let cell_count = (CELLS_PER_WALL * wall_tree.walls.len() as f64).clamp(MIN_CELLS, MAX_CELLS);
-        // A narrow map could otherwise get more than `cell_count` cells in a single row.
+        // The second term limits the number of cells in a row to `cell_count` if the map is narrow.
         let cell_side = (width * height / cell_count).sqrt().max(width.max(height) / cell_count);
         let [column_count, row_count] =
             [width, height].map(|side_length| (side_length / cell_side).ceil() as usize + 1);

@@ -35,16 +35,16 @@ struct CollisionIndex {
 /// Reason why a floor plan is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum FloorPlanError {
-    /// A bound is beyond ±10⁶ m, or a side shorter than a centimetre or longer than 100 km.
+    /// A bound of the plan is beyond ±10⁶ m, or the plan is narrower than a centimetre or wider than 100 km in x or y.
     #[error(
         "bounds is [{}]; allowed is min x, min y, max x, max y: numbers from -1000000 to 1000000, the sides from 0.01 to 100000",
         join_numbers(.0)
     )]
     BadBounds([f64; 4]),
-    /// A wall has an end that is not finite or outside the bounds.
+    /// An end of a wall is not finite or outside the bounds.
     #[error("walls[{wall_index}] ends at [{}]; allowed is a point inside the bounds", join_numbers(.invalid_end))]
     BadWall {
-        /// Index of the wall.
+        /// Index (from 0) of the wall with the invalid end.
         wall_index: usize,
         /// Position (m) of the invalid end of the wall, or of its start if neither end is valid.
         invalid_end: [f64; 2],
@@ -71,12 +71,12 @@ fn join_numbers(joined_numbers: &[f64]) -> String {
     joined_numbers.iter().copied().map(format_number).collect::<Vec<_>>().join(", ")
 }
 
-/// Verdict of a collision test. The distance field alone decides most tests.
+/// Result of a collision test, and the number of wall distances that it took.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CollisionVerdict {
     /// True if the pose or the motion is free of collisions.
     pub is_free: bool,
-    /// Number of wall distances that were computed. A wall near several pieces of a motion counts once for each piece.
+    /// Number of wall distances that were computed: 0 in most tests. A wall near several pieces of a motion counts for each piece.
     pub wall_tests: usize,
 }
 
@@ -261,7 +261,7 @@ impl FloorPlan {
         if !self.contains_point(arc.start.position()) || !self.contains_point(driven_arc.end) {
             return true;
         }
-        // Both ends of the arc are inside the map if this line is reached. An arc that only touches an edge of the map counts as inside, up
+        // Both ends of the arc were tested above and are inside the map. An arc that only touches an edge of the map counts as inside, up
         // to rounding.
         let corners = self.list_corners();
         let rounding_slack = rounding_bound(corners.as_flattened());
@@ -306,8 +306,8 @@ struct ArcSweep<'a> {
 }
 
 impl ArcSweep<'_> {
-    /// Tests whether the disc is free on an arc piece between `start_offset` and `end_offset` (m, from the middle of the piece). Tests four
-    /// parts of the interval in SIMD lanes.
+    /// Tests whether the disc is free on an arc piece between `start_offset` and `end_offset` (m, from the middle of the piece). The
+    /// interval is divided into four parts, one for each SIMD lane.
     fn is_free(&mut self, piece: &ArcPiece, start_offset: f64, end_offset: f64) -> bool {
         let distance_field = self.distance_field;
         let half_part_length = (end_offset - start_offset) / (2 * LANE_COUNT) as f64;

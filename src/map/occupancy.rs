@@ -100,12 +100,12 @@ impl PixelClassifier {
         let occupancy_degree = if self.negate { brightness } else { 1.0 - brightness };
         // Thresholds are rounded to f32, as the brightness is, so that a pixel exactly at a threshold does not exceed the threshold.
         let (occupied_threshold, free_threshold) = (self.occupied_thresh as f32, self.free_thresh as f32);
-        // The grey value is computed only if needed, because processors without an instruction for rounding are slow.
+        // The grey value is computed only if needed, because rounding is slow on processors without an instruction for it.
         let grey_value_of = || (brightness * 255.0).round();
         match self.mode {
             MapMode::Scale if opacity < 1.0 => Cell::Unknown,
             MapMode::Trinary | MapMode::Scale if occupancy_degree > occupied_threshold => Cell::Occupied,
-            // Rounding may make the occupancy of a pixel at the threshold slightly less than the threshold.
+            // Pixels at the threshold are unknown. Their occupancy may be slightly less than the threshold because of rounding.
             MapMode::Trinary if occupancy_degree > free_threshold - f32::EPSILON => Cell::Unknown,
             MapMode::Raw if grey_value_of() == 100.0 => Cell::Occupied,
             MapMode::Raw if grey_value_of() > 100.0 => Cell::Unknown,
@@ -283,8 +283,8 @@ impl OccupancyGrid {
     }
 }
 
-/// Advances the outline along a grid line to `corner_index`. `is_outline` is true if the line separates cells after the corner.
-/// `outline_start` is the corner at which the current outline began, which is returned if the outline ends here.
+/// Moves along a grid line to the corner `corner_index`. `is_outline` is true if the line separates blocked from other cells after the
+/// corner. `outline_start` is the corner at which the current outline began, if any. It is returned if the outline ends at the corner.
 fn update_outline(outline_start: &mut Option<usize>, is_outline: bool, corner_index: usize) -> Option<usize> {
     match *outline_start {
         None if is_outline => *outline_start = Some(corner_index),

@@ -32,7 +32,7 @@ pub fn read_pgm(file_bytes: &[u8]) -> Result<Image<f32>, ImageError> {
     }
     let bytes_per_pixel = if max_value < 256 { 1 } else { 2 };
     let raster_byte_count = pixel_count * bytes_per_pixel;
-    // One white space character ends the header. Windows editors write a line end of two characters: carriage return and line feed.
+    // One white space character ends the header. Carriage return and line feed count as one if all pixels follow them.
     let is_crlf = file_bytes[token_reader.byte_position..].starts_with(b"\r\n")
         && file_bytes.len() >= token_reader.byte_position + 2 + raster_byte_count;
     let available_bytes =

@@ -34,7 +34,7 @@ const ZERO_SEGMENT: Segment = Segment { from: [0.0; 2], to: [0.0; 2] };
 
 impl WallTree {
     pub fn new(walls: &[Segment], plan_bounds: [f64; 4]) -> Self {
-        // Copies of a wall would fill leaves of which every distance must be computed.
+        // Copies of a wall are left out. They could fill whole leaves, and searches would compute the distance to each of them.
         let mut known_walls = BTreeSet::new();
         let is_new_wall = |wall: &&Segment| {
             known_walls.insert([wall.from, wall.to].map(|wall_end| wall_end.map(f64::to_bits)))

@@ -19,8 +19,8 @@ pub struct OdomDelta {
     pub rot2: f64,
 }
 
-/// Displacement (m) below which a reading counts as a turn on the spot. The direction of such a displacement is only rounding, because no
-/// encoder resolves a nanometre. With a larger bound, slow drives would count as turns on the spot.
+/// Displacement (m) below which a reading counts as a turn on the spot. The direction of so small a displacement is only rounding error. No
+/// encoder resolves a nanometre, so that no real drive is affected. With a larger bound, slow drives would count as turns on the spot.
 const MIN_TRANSLATION: f64 = 1e-9;
 
 impl OdomDelta {

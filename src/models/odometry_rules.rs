@@ -40,7 +40,7 @@ pub struct LegVariances {
     pub trans: Variance,
     /// Variance of the second rotation, rad².
     pub rot2: Variance,
-    /// Variance of the displacement across the drive, m², which is 0 if the robot cannot slide.
+    /// Variance of the displacement across the drive, m², which is 0 if the robot cannot drive sideways.
     pub strafe: Variance,
 }
 
@@ -115,7 +115,7 @@ impl ExecutedLegs {
 
 impl LegVariances {
     /// Returns the executed motion when the noises are the given multiples of their standard deviations. `across_noise` is the noise of the
-    /// first rotation or of sliding, because no rule has both. `along_noise` is that of the drive, `turn_noise` that of the second
+    /// first rotation or of the strafe, because no rule has both. `along_noise` is that of the drive, `turn_noise` that of the second
     /// rotation. As in Table 5.6, noise is subtracted.
     pub fn executed_motion(
         &self,

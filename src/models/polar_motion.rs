@@ -24,7 +24,7 @@ pub struct PolarMotion {
     pub last_turn: [f64; 2],
     /// Variance of the last turn, rad².
     pub last_turn_variance: f64,
-    /// Turn of the command, rad. It selects the branch of a logarithm, and the arc to a position.
+    /// Turn of the command, rad. Of the logarithms of a pose, and of the arcs to a position, those with the turn nearest to it are used.
     pub commanded_turn: f64,
 }
 

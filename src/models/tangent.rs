@@ -31,7 +31,7 @@ use thiserror::Error;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TangentNoiseModel {
-    /// Covariance R. To change it, create a model with [`TangentNoiseModel::new`], because the model also has its Cholesky factor.
+    /// Covariance R. To change it, create a model with [`TangentNoiseModel::new`], because the model also stores the Cholesky factor of R.
     pub r: Matrix3<f64>,
     last_turn_variance: f64,
     cov_root: Matrix3<f64>,

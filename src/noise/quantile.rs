@@ -29,7 +29,7 @@ pub(super) fn normal_quantile(q: f64) -> f64 {
 pub(super) const CHUNK_VECTORS: usize = 256;
 
 /// Replaces each number q of a chunk by Φ⁻¹(½ + q), with the same bits as [`normal_quantile`]. One number in seven is in a tail, and every
-/// second vector has one. Gathering these numbers into full vectors saves most of their cost, and avoids unpredictable branches.
+/// second vector contains one. Gathering these numbers into full vectors saves most of their cost, and avoids unpredictable branches.
 pub(super) fn replace_chunk_by_quantiles(centred_probabilities: &mut [f64x4]) {
     let mut tail_numbers = [0.0; LANE_COUNT * CHUNK_VECTORS + LANE_COUNT];
     let mut tail_indices = [0u16; LANE_COUNT * CHUNK_VECTORS + LANE_COUNT];
@@ -37,7 +37,7 @@ pub(super) fn replace_chunk_by_quantiles(centred_probabilities: &mut [f64x4]) {
     for (vector_index, q) in centred_probabilities.iter_mut().enumerate() {
         let tail_mask = q.abs().simd_gt(f64x4::splat(CENTRE_HALF_WIDTH)).to_bitmask();
         for (lane_index, lane_probability) in q.to_array().into_iter().enumerate() {
-            // Each number is stored in the next free place. The next number overwrites a number that is not in a tail.
+            // Storing every number avoids a branch. Only numbers in a tail advance `tail_count`; other numbers are overwritten.
             tail_numbers[tail_count] = lane_probability;
             tail_indices[tail_count] = (LANE_COUNT * vector_index + lane_index) as u16;
             tail_count += (tail_mask >> lane_index & 1) as usize;

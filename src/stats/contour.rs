@@ -98,8 +98,8 @@ impl Ellipse {
 /// 2σ contour of a Gaussian N(m, Σ) in exponential coordinates.
 ///
 /// A pose counts as inside if its coordinates (along, heading) are inside their 2σ ellipse. The outline in the plane approximates the
-/// boundary of the image of the 2σ ellipsoid under exp. It is the image of a great circle of the ellipsoid. Without γ̂ the ellipsoid is
-/// flat, and this circle is its edge.
+/// boundary of the image of the 2σ ellipsoid under exp. It is the image of a great circle of the ellipsoid. Without noise of the final
+/// rotation γ̂, the ellipsoid is flat, and the great circle is its edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExponentialContour {
     start_pose: SE2,
@@ -134,7 +134,7 @@ impl ExponentialContour {
         self.silhouette_twists(segment_count, morph).map(|twist| unbend(&twist, morph)).collect()
     }
 
-    /// Returns the area of `ellipse`, which is in the plane, divided by the area of this outline. Both boundaries consist of
+    /// Returns the area of `ellipse`, which is in the plane, divided by the area of the outline of this contour. Both boundaries consist of
     /// `segment_count` chords. NaN if the ellipse, or the contour in (along, heading), has no area.
     ///
     /// Motions in reverse make the outline cross itself. The area is then the sum of the areas of the loops.
@@ -154,7 +154,7 @@ impl ExponentialContour {
             }
             previous_point = [x, y];
         }
-        // The polygon of n chords in a circle has sinc(2π/n) times the area of the circle.
+        // The ellipse also counts as a polygon of n chords, which has sinc(2π/n) times the area of the ellipse.
         ellipse.area() * sinc(TAU / segment_count as f64) / (0.5 * doubled_area.abs())
     }
 

@@ -43,7 +43,7 @@ struct BranchedMotion {
 }
 
 impl ExactGain {
-    /// Prepares the computation for the outcomes of one motion.
+    /// Computes the exact likelihood gain and moments for one motion.
     pub fn new(polar_motion: &PolarMotion) -> Self {
         let PolarMotion {
             length: [length, length_std], bearing: [bearing, bearing_std], commanded_turn, ..

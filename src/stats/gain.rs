@@ -27,7 +27,7 @@ pub struct LikelihoodGain {
 /// Likelihood gain with its standard errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredGain {
-    /// Gain in mean log-likelihood of a cloud of samples by exponential or arc coordinates over (x, y, θ) or (x, y).
+    /// Gain of a Gaussian in exponential coordinates over one in (x, y, θ), and of a Gaussian in arc coordinates over one in (x, y).
     pub likelihood_gain: LikelihoodGain,
     /// Standard errors: the standard deviation, over all robots, of the difference of the two log-densities, divided by √n. The fitted
     /// moments add nothing to first order, because they maximize the likelihood of each Gaussian. NaN if the gain is not finite.

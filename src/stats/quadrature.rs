@@ -42,8 +42,8 @@ fn normal_nodes() -> Vec<Node> {
 }
 
 fn triangular_nodes() -> Vec<Node> {
-    /// Number of points on each half of the support. The rule is exact for polynomials of degree 63, which is accurate enough up to
-    /// the frequency k ≈ 25: k·√6 ≈ 60.
+    /// Number of points on each half of the support. The rule is exact for polynomials of degree 63. It is accurate for frequencies up to k
+    /// ≈ 25, at which k·x is about 60 at the end x = √6 of the support.
     const NODES_PER_HALF: usize = 32;
     let support_end = 6f64.sqrt();
     legendre_nodes(NODES_PER_HALF)

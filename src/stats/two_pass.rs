@@ -57,8 +57,8 @@ pub struct FirstPass {
     summed_products: CompensatedSums<16>,
     /// Sums of the first two random numbers of variance 1 of each robot.
     pub unit_noise: PairSums,
-    /// Corrections for irregular arcs, which differ from the driven arcs (see `NoisyDrive::end_points`). The sums of the noise contain
-    /// the driven arcs. A correction therefore adds the values of an irregular arc, and subtracts those of its driven arc.
+    /// Corrections for robots whose arc in [`FourArcs`] is not the arc that they drove (see `NoisyDrive::end_points`). The sums of the
+    /// noise count the driven arc. A correction adds the values of the arc in [`FourArcs`], and subtracts those of the driven arc.
     irregular_arcs: PairSums,
     /// Products of the scaled factors sinc(ξ_ω/2) and |s|·sinc²(φ/2) over a block, and sums of the logarithms of these products. One
     /// logarithm for a block takes hardly any time. The factors are on average above e⁻¹, so that a product is above 1e-111.
@@ -119,7 +119,7 @@ impl FirstPass {
         );
     }
 
-    /// Adds the values of irregular arcs, and subtracts the values of their driven arcs (`regular_arcs`), which the sums of the noise contain.
+    /// Adds the values of arcs that the robots did not drive, and subtracts those of the driven arcs (`regular_arcs`).
     #[inline(never)]
     pub fn add_irregular_arcs(&mut self, four_arcs: &FourArcs, regular_arcs: [f64x4; 2], lane_mask: f64x4) {
         let [.., arc_length, half_turn] = self.reference_point;
@@ -141,7 +141,7 @@ impl FirstPass {
     }
 
     /// Returns the moments of `pose_count` poses. The Cartesian covariance contains only the position. `regular_sums` are the sums over the
-    /// driven arcs, in the order of [`PairSums`]; the corrections for irregular arcs are added to them.
+    /// driven arcs, in the order of [`PairSums`]; the corrections of [`FirstPass::add_irregular_arcs`] are added to them.
     pub fn moments(&self, pose_count: usize, regular_sums: [f64; 5]) -> FirstPassMoments {
         let n = pose_count as f64;
         let [x, y, a, l, h, xx, xy, yy, aa, al, ll, ah, lh, hh, sin_cos, sin_sin] =
@@ -206,7 +206,7 @@ impl FirstPass {
 pub struct FirstPassMoments {
     mean_position: [f64; 2],
     position_cov: [f64; 3],
-    /// Circular mean of the headings, in the turn of the noise-free heading. It may lie outside of (−π, π].
+    /// Circular mean of the headings (rad), on the branch within π of the reference heading, and therefore not wrapped to (−π, π].
     mean_turn: f64,
     /// Length of the mean of the unit vectors in the directions of the headings.
     resultant_length: f64,

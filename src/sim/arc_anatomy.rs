@@ -79,8 +79,8 @@ const TWIST_PATH_TICKS: usize = 8;
 /// full turns that noise may cause. If there are many such turns, the heat map has fewer and larger cells.
 const MAX_EXPONENTIALS: f64 = 1e5;
 
-/// Maximum number of full turns in each direction over which the density of the last turn is summed: nine standard deviations of up to nine
-/// radians.
+/// Maximum number of full turns in each direction over which the density of the last turn is summed. They suffice for standard deviations
+/// of up to nine radians, above which the density is uniform.
 const MAX_LAST_TURNS: f64 = 27.0;
 
 /// Heights of the contours, relative to the maximum of the heat map.

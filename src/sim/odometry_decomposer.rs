@@ -23,7 +23,7 @@ settings! {
     pub struct Settings {
         /// Odometry pose before the motion.
         from: [f64; 3] = [0.0; 3], each "that odometry reports";
-        // A drive in reverse, on which the odometry rules disagree.
+        // The default is a drive in reverse, for which the odometry rules give different results.
         /// Odometry pose after the motion.
         to: [f64; 3] = [-1.2, -0.3, 0.1], each "that odometry reports";
         /// Odometry rule, which decomposes the reading and relates the α’s to its noise.
@@ -48,11 +48,11 @@ settings! {
 }
 
 impl SettingRules for Settings {
-    /// Presets: readings with one, two or all three of rotation, translation and rotation; a drive in reverse and jitter of half a
-    /// centimetre, on which the rules disagree.
+    /// Presets: readings with one, two or all three of rotation, translation and rotation. The rules give different results for a drive in
+    /// reverse, and for jitter of half a centimetre.
     const PRESETS: &'static [(&'static str, Self)] = &[
         ("all", preset_ending_at([1.2, 1.0, 1.2])),
-        // 0.6435 rad is the direction of (4, 3).
+        // 0.6435 rad is the bearing of the end position (1.2, 0.9), so that there is no second rotation.
         ("turn-drive", preset_ending_at([1.2, 0.9, 0.6435])),
         ("drive-turn", preset_ending_at([1.5, 0.0, 1.0])),
         ("reverse", Self::DEFAULT),
@@ -68,7 +68,7 @@ const fn preset_ending_at(end_pose: [f64; 3]) -> Settings {
 /// Velocity of the odometry frame in the world (m/s, m/s, rad/s). The frame drifts on a slow curve, as with slightly wrong wheel diameters.
 const DRIFT_TWIST: [f64; 3] = [0.015, 0.008, -0.01];
 
-/// Maximum number of points of a deviation curve. Each point takes a microsecond.
+/// Maximum number of points of a deviation curve. As each point takes a microsecond, a curve takes at most 10 ms.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
 js_structs! {
@@ -121,7 +121,7 @@ js_structs! {
     }
 }
 
-/// Simulation of the Odometry Decomposer widget: settings, draws, and the outcomes shown.
+/// Simulation of the Odometry Decomposer widget: settings, random numbers, and the outcomes shown.
 #[derive(Clone, Debug)]
 pub struct OdometryDecomposer {
     settings: Settings,

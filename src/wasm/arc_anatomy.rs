@@ -11,7 +11,7 @@ use tsify::Ts;
 use wasm_bindgen::prelude::*;
 
 simulation_class! {
-    /// The arc between two poses, and how likely its end is after a command.
+    /// Arc between two poses, and how likely the second pose is after a command from the first.
     JsArcAnatomy(ArcAnatomy), "ArcAnatomy", "ArcAnatomySettings", "Partial<ArcAnatomySettings>", |simulation|
     /// All values that a figure shows, except for the heat map, in one call.
     read as "ArcAnatomyView" {
@@ -24,14 +24,14 @@ simulation_class! {
 
 #[wasm_bindgen(js_class = ArcAnatomy)]
 impl JsArcAnatomy {
-    /// Errors of three formulas for the end of an arc at small turn rates: exercise 1.
+    /// Returns the errors of the three formulas of exercise 1 for the end of an arc at small turn rates.
     #[wasm_bindgen(js_name = formErrors)]
     pub fn form_errors() -> Ts<FormErrors> {
         to_ts(&form_errors())
     }
 
-    /// Heat map over the positions of the rectangle with the bounds xMin, yMin, xMax and yMax (m), for the heading of the final pose; null
-    /// if no heat map is selected.
+    /// Returns a heat map of final positions in the rectangle with the bounds xMin, yMin, xMax and yMax (m), for the heading of the final
+    /// pose; null if no heat map is selected.
     #[wasm_bindgen(unchecked_return_type = "AnatomySurface | null")]
     pub fn surface(
         &self,

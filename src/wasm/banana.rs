@@ -78,7 +78,7 @@ impl JsBananaMachine {
         Ok(self.0.skew_curve(first_omega, last_omega, point_count as usize))
     }
 
-    /// Returns a sample by its index among those shown, counted from 0.
+    /// Returns a shown sample by its index, counted from 0.
     pub fn inspect(&self, index: f64) -> Result<Ts<Sample>, JsValue> {
         let index = read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize;
         let pose_sample =

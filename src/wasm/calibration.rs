@@ -19,7 +19,7 @@ pub const SYSTEMATIC_ERROR_KEYS: [(&str, &[SystematicError]); 5] = [
     ("turnScale", &[SystematicError::TurnScale]),
 ];
 
-/// Estimate of a systematic error; null if the log does not identify the error.
+/// Estimate of a systematic error of odometry or reference; null if the log does not identify the error.
 #[derive(Serialize, Tsify)]
 #[tsify(missing_as_null)]
 pub struct SystematicValue<Value, Interval> {
@@ -76,8 +76,8 @@ pub struct CalibrationStats<'a> {
     /// Restricted log-likelihood of the residuals (REML), nats.
     log_likelihood: f64,
     diagnostics: &'a Diagnostics,
-    /// Recommended α's for a filter: the fitted α's multiplied by the inflation under which held-out windows of 1 m are covered. Null if
-    /// the log is unusable.
+    /// Recommended α's for a filter: the fitted α's times an inflation (1 or more), with which the model covers 95 % of the pose errors
+    /// over held-out stretches of 1 m. Null if the log is unusable.
     recommended: Option<&'a Recommendation>,
 }
 
@@ -143,9 +143,9 @@ js_structs! {
         pub standardized: Vec<f64> as "Float64Array",
         /// Standard deviations of the innovations.
         pub stds: Vec<f64> as "Float64Array",
-        /// Squared Mahalanobis distance of the innovation.
+        /// Squared Mahalanobis distance of the innovation of each leg.
         pub squared: Vec<f64> as "Float64Array",
-        /// 1 for an outlier, otherwise 0.
+        /// Flag of each leg: 1 for an outlier, otherwise 0.
         pub outliers: Vec<f64> as "Float64Array",
     }
 }

@@ -162,7 +162,7 @@ fn fill_array(field: &str, value: &JsValue, numbers: &mut [f64]) -> Result<(), J
     Ok(())
 }
 
-/// Returns the initial settings of a simulation: the values in `options`, and defaults for the others.
+/// Returns the initial settings of a simulation: the values in `options`, and the default of every other setting.
 pub fn read_initial_settings<S: SettingRules>(options: &JsValue) -> Result<S, JsValue> {
     if options.is_undefined() { Ok(S::default()) } else { read_settings(&S::default(), options) }
 }
@@ -202,7 +202,7 @@ fn read_setting(field: &str, js_value: &JsValue, setting: &mut Setting) -> Resul
         Setting::Boolean(setting_slot) => **setting_slot = read_boolean(field, js_value)?,
         Setting::Keyword(setting_slot) => set_keyword(field, js_value, *setting_slot)?,
         Setting::Numbers(setting_slots, _) => fill_array(field, js_value, setting_slots)?,
-        // The level is checked before it is converted to α's, because a later error message would name an α.
+        // The level is checked before it is converted to α's. If the α's were checked instead, the error message would name an α.
         Setting::Level(setting_slot, allowed) => {
             setting_slot.set(check_range(field, read_number(field, js_value)?, allowed)?)
         }

@@ -64,7 +64,7 @@ extern "C" {
 /// Maximum number of steps of `propagate`, which take a fraction of a second.
 const MAX_STEPS: u64 = 100_000;
 
-/// The velocity motion model: noise on speed and turn rate, and a turn after the arc.
+/// Velocity motion model: noise of speed and turn rate on an arc, and of a final turn after the arc.
 #[wasm_bindgen(js_name = VelocityModel)]
 pub struct JsVelocityModel(VelocityModel);
 
@@ -77,7 +77,7 @@ impl JsVelocityModel {
     }
 }
 
-/// The odometry motion model: noise on the rotation, translation and rotation of a reading.
+/// Odometry motion model: noise of the rotation, translation and rotation into which an odometry reading is decomposed.
 #[wasm_bindgen(js_name = OdometryModel)]
 pub struct JsOdometryModel(ConfiguredOdometry);
 
@@ -185,7 +185,7 @@ pub fn propagate(options: &JsPropagation) -> Result<Array, JsValue> {
     let model = VelocityModel { alphas: VelocityAlphas(read_alphas(&fields)?), noise: NoiseKind::Normal };
     let cov_recursion = fields.read_or("compounding", Compounding::Chapter, ())?;
     let step_count = fields.read_or("steps", 1u64, 1..=MAX_STEPS)?;
-    // The ranges of the arguments exclude negative and infinite variances.
+    // `from_velocity` succeeds, because the ranges of the arguments exclude negative and infinite variances.
     let noise_model = TangentNoiseModel::from_velocity(&model, &command)
         .map_err(|model_error| RangeError::new(&model_error.to_string()))?;
     let twist = TangentNoiseModel::twist(&command);

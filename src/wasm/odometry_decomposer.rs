@@ -10,7 +10,7 @@ use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
 cloud_simulation_class! {
-    /// An odometry reading as rotate, drive, rotate, and its noise under the rules of several localizers.
+    /// Odometry reading as rotation, drive and rotation, and its noise under the rules of several localizers.
     JsOdometryDecomposer(OdometryDecomposer), "OdometryDecomposer", "OdometryDecomposerSettings",
     "Partial<OdometryDecomposerSettings>", MAX_SAMPLES, |simulation|
     /// All values that a figure shows, in one call.

@@ -7,7 +7,7 @@ use js_sys::{RangeError, Uint8ClampedArray, WebAssembly};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
 
-/// Allowed radii around a point. NaN is refused.
+/// Allowed radii for searches around a point: all but negative numbers and NaN.
 pub const RADIUS_RANGE: RangeInclusive<f64> = 0.0..=f64::INFINITY;
 
 pub fn pixel_view(rgba_pixels: &[[u8; 4]]) -> Uint8ClampedArray {
@@ -17,7 +17,7 @@ pub fn pixel_view(rgba_pixels: &[[u8; 4]]) -> Uint8ClampedArray {
         Uint8ClampedArray::new_with_byte_offset_and_length(&module_memory.buffer(), first_byte, byte_count)
     };
     let first_view = create_view();
-    // Creating the view may have grown the memory, which detaches existing views. The second view does not grow it.
+    // Creating a view may let the memory grow, which detaches the view: its length is then 0. A second view needs no more memory.
     if first_view.length() == byte_count { first_view } else { create_view() }
 }
 

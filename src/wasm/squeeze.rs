@@ -40,8 +40,8 @@ js_structs! {
 }
 
 cloud_simulation_class! {
-    /// One command on a map, tried many times by a round robot. At first the robot faces a doorway in the apartment. `noise` sets all of
-    /// `alphas`.
+    /// Many attempts of a round robot to drive one command on a map. At first the robot faces a doorway in the apartment. `noise` sets all
+    /// of `alphas`.
     JsMapSqueeze(MapSqueeze), "MapSqueeze", "MapSqueezeSettings",
     "Partial<MapSqueezeSettings> & { noise?: number }", MAX_SAMPLES, |simulation|
     /// All values that a figure shows, except for the map, in one call.
@@ -71,15 +71,15 @@ cloud_simulation_class! {
             let walls = simulation.plan().walls().iter().map(wall_coordinates_of).collect();
             to_plain_js(&Plan { bounds: simulation.plan().bounds(), walls })
         };
-        /// Cells of the map; null for a floor plan without cells.
+        /// Cells of the map; null for a floor plan that has walls only.
         grid: "Grid | null" = to_plain_js(&simulation.plan().grid().map(|grid| {
             let ([column_count, row_count], origin) = (grid.size(), grid.origin().into());
             let cell_flags_of = |cell_state| grid.cells().map(|grid_cell| u8::from(grid_cell == cell_state)).collect();
             let [occupied_flags, unknown_flags] = [Cell::Occupied, Cell::Unknown].map(cell_flags_of);
             Grid { columns: column_count, rows: row_count, resolution: grid.resolution(), origin, occupied: occupied_flags, unknown: unknown_flags }
         }));
-        /// Free start pose: in the middle of the largest square that is known to be free, heading where the path is free
-        /// for longest. If the robot does not fit there, another pose where it fits; null if there is none.
+        /// Free start pose: in the middle of the largest square that is known to be free, heading where the path is free for longest. If
+        /// the robot does not fit there, it is another pose where the robot fits; null if there is none.
         find_free_pose as "openPlace": "Start | null" =
             simulation.plan().find_free_pose(simulation.settings().clearance).map_or(JsValue::NULL, |pose| pose_to_js(pose).into());
     }
@@ -173,7 +173,7 @@ fn path_of(map_simulation: &MapSqueeze, index: usize) -> Float64Array {
 /// Maximum number of paths shown. More paths would be indistinguishable, and take longer than a frame.
 const MAX_SHOWN_PATHS: usize = 60;
 
-/// Decodes a PNG image to red, green, blue and opacity of its pixels, for cores of single widgets, which have no decoder.
+/// Decodes a PNG image to red, green, blue and opacity of its pixels, also for modules of single widgets, which have no decoder.
 #[cfg(not(widget))]
 #[wasm_bindgen(
     js_name = readMapImage,

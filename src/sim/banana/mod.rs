@@ -109,7 +109,7 @@ fn command_end(command: &VelocityCmd) -> SE2 {
 /// full circle the coordinates diverge. With a smaller distance, single samples of a large cloud would dominate the moments.
 const MIN_SIGMAS_TO_FULL_CIRCLE: f64 = 4.0;
 
-/// Maximum number of points of a curve of the exact skew. Each point takes about ten microseconds.
+/// Maximum number of points of a curve of the exact skew. As each point takes about ten microseconds, a curve takes at most 0.1 s.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
 /// Standard deviation (m) in x and y of additive noise, the model that the chapter argues against: x_t = x̄ + ε with the noise-free end x̄.
@@ -122,7 +122,7 @@ const FIRST_BLOCK_SAMPLES: usize = 10_000;
 /// Number of chords of an outline. The sagitta of 128 chords is 0.03 % of the radius, a fifth of a pixel on the largest screen.
 pub const OUTLINE_SEGMENTS: usize = 128;
 
-/// Simulation of the Banana Machine widget: settings, draws, and the cloud shown.
+/// Simulation of the Banana Machine widget: settings, random numbers, and the cloud shown.
 #[derive(Clone, Debug)]
 pub struct BananaMachine {
     settings: Settings,
@@ -241,14 +241,14 @@ impl BananaMachine {
         ExactGain::new(&self.settings.polar_motion(&self.settings.command))
     }
 
-    /// Returns the moments of the pose by three methods, and the model's moments of its exponential coordinates.
+    /// Returns linearized, exact and measured moments of the pose, and the model's moments of its exponential coordinates.
     pub fn table(&self) -> Table {
         let linearized = self.linearized_moments();
         let Stats { cartesian: cartesian_moments, cross_track_skew, likelihood_gain, area_ratio, .. } =
             self.stats;
         Table {
-            // A Gaussian in (x, y) has no skew. To first order in the noise, its Gaussian is the same in all coordinate systems, so that
-            // the likelihood gain is 0.
+            // The linearization is a Gaussian in (x, y, θ), which has no skew. Its likelihood gain is 0, because to first order in the
+            // noise the Gaussians in all coordinate systems are the same.
             linearized: TableColumn {
                 mean: linearized.mean,
                 cov: linearized.cov,
@@ -317,7 +317,7 @@ impl BananaMachine {
         }
     }
 
-    /// Returns sample `index` of the samples shown.
+    /// Returns the shown sample with the given index, from 0; None if fewer samples are shown.
     pub fn inspect(&self, index: usize) -> Option<Sample> {
         let pose = (index < self.shown_count()).then(|| self.cloud.pose(index))?;
         let model_with_input = self.settings.model_with_input(self.settings.command);

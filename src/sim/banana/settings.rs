@@ -24,7 +24,7 @@ pub const MAX_SAMPLES: usize = 10_000_000;
 /// error of the initial skew is 0.007.
 const INITIAL_SAMPLES: usize = 50_000;
 
-/// Seed from 0 to 99 with a typical initial cloud: its area ratio and likelihood gain are nearest to the exact values.
+/// Of the seeds 0 to 99, the one whose initial cloud has the area ratio and likelihood gain nearest to the exact values.
 const INITIAL_SEED: u64 = 87;
 
 settings! {
@@ -43,7 +43,7 @@ settings! {
             each "Noise parameter of the present model; only the velocity model has the fifth and the sixth.";
         /// True if a drive in reverse gets noise for the rotations that the robot made, and not for two additional half turns.
         reverse_aware as "reverseAware": bool = false;
-        /// Number of the only noise parameter in effect, from 1; null for all of them.
+        /// Number (from 1) of the only noise parameter in effect, while the others count as 0; null if all are in effect.
         isolate: Option<usize> = None, in 1..=6, up to alpha_count;
         /// Number of robots in the whole cloud.
         samples: usize = INITIAL_SAMPLES, in 1..=MAX_SAMPLES as u64;

@@ -122,7 +122,7 @@ js_structs! {
         pub area_ratio: f64,
     }
 
-    /// Moments of the pose by three methods, and moments of its exponential coordinates.
+    /// Moments of the pose by linearization, by quadrature and of the samples, and moments of its exponential coordinates.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Table {
         /// Noise-free end pose, and covariance to first order in the noise.
@@ -173,12 +173,12 @@ js_structs! {
     }
 }
 
-/// Area of the 2σ ellipse divided by the area of the banana outline, below which both nearly coincide. No gap between them is then searched
-/// for.
+/// Area of the 2σ ellipse divided by the area of the 2σ outline in exponential coordinates, below which the two nearly coincide, so that
+/// [`BananaMachine::gaps`] returns none.
 const MIN_AREA_RATIO: f64 = 1.15;
 
 /// Minimum Mahalanobis distance, in exponential coordinates, from the mean to a gap: a point inside the 2σ ellipse of (x, y) where
-/// practically no robot ends. One robot in 900 ends farther away than this distance.
+/// practically no robot ends. One robot in 900 is at a larger distance from the mean.
 const MIN_GAP_DISTANCE: f64 = 3.7;
 
 /// Distance of a gap from the centre of the 2σ ellipse, as a fraction of the radius of the ellipse in this direction. A point at this

@@ -18,7 +18,7 @@ pub struct NoisyDrive {
     /// Coefficients of half the heading angle: `bearing_weight` · bearing + `half_heading_offset` (rad).
     bearing_weight: f64,
     half_heading_offset: AffineInNoise,
-    /// Half of the commanded turn (rad), which selects the branches of the logarithm and of the arc to a position.
+    /// Half of the commanded turn (rad). Of all logarithms and arcs, those with the turn nearest to the commanded turn are used.
     half_commanded_turn: f64,
     /// Middle and half the width (rad) of the interval of half turns for which the formulas for angles up to π/2 suffice.
     short_formula_interval: [f64; 2],
@@ -67,9 +67,8 @@ impl NoisyDrive {
         }
     }
 
-    /// Returns the end points (x, y) of four motions, the arcs from the origin to these points, and a mask that is set for regular arcs. A
-    /// regular arc is the arc that the robot drove. Its length and half turn differ from the noise-free ones by
-    /// [`NoisyDrive::regular_arc_deviations`].
+    /// Returns the end points (x, y) of four motions, the arcs from the origin to these points, and true if these are regular arcs: those
+    /// that the robots drove. Noise changes the length and half turn of regular arcs by [`NoisyDrive::regular_arc_deviations`].
     #[inline(always)]
     pub fn end_points(&self, motions: &FourMotions) -> ([f64x4; 2], FourArcs, bool) {
         let FourMotions { length, bearing, .. } = *motions;
@@ -92,7 +91,7 @@ impl NoisyDrive {
         [chord_length * bearing_sin_cos.cos, chord_length * bearing_sin_cos.sin]
     }
 
-    /// Returns the deviations that noise adds to the length and half turn of regular arcs (see [`NoisyDrive::end_points`]).
+    /// Returns the deviations that noise adds to the length and half turn of regular arcs: the arcs that the robots drove.
     #[inline(always)]
     pub fn regular_arc_deviations(&self, unit_noise: &[f64x4; 3]) -> [f64x4; 2] {
         let noise_stds = if self.is_arc { [self.length[1], self.bearing[1]] } else { [0.0; 2] };
@@ -170,7 +169,7 @@ impl NoisyDrive {
         ]
         .map(|coordinate_lanes| coordinate_lanes.to_array()[0]);
         if self.is_arc {
-            // The length and half turn of the command are used, because inverting the end pose would change their last bits.
+            // The length and half turn of the command are known. Inverting the end pose would give them with other last bits.
             [reference_coordinates[5], reference_coordinates[6]] = [self.length[0], self.bearing[0]];
         }
         let [half_heading_sinc, arc_sinc] =

@@ -12,8 +12,8 @@ pub const EXTENT_RANGE: RangeInclusive<f64> = -1e18..=1e18;
 /// Maximum number of cells of a [`ViewGrid`], more than the pixels of any screen. The counts of so many cells take 64 MB.
 pub const MAX_CELLS: u64 = 1 << 24;
 
-/// Maximum number of rows or columns of a [`ViewGrid`], more than a browser's canvas may have on some devices. Margins of
-/// one cell around a longer grid would take more memory than the grid.
+/// Maximum number of rows or columns of a [`ViewGrid`], more than a browser's canvas may have on some devices. A margin of one cell around
+/// a longer, narrow grid would take more memory than the grid.
 pub const MAX_CELLS_PER_SIDE: u64 = 1 << 14;
 
 /// Rectangle of a picture, divided into cells of equal size.

@@ -317,8 +317,8 @@ pub const RECURSIONS: [Compounding; 3] =
 /// Relative error of a predicted variance above which the prediction at this step is wrong (a miss).
 pub const MISS_TOLERANCE: f64 = 0.05;
 
-/// Maximum relative standard error of a measured variance at which wrong predictions can be recognized: a quarter of [`MISS_TOLERANCE`]. Of
-/// dozens of variance ratios, some deviate by three standard errors by chance, but hardly any by four.
+/// Maximum relative standard error of a measured variance at which wrong predictions can be recognized: a quarter of [`MISS_TOLERANCE`]. By
+/// chance, some of the dozens of variance ratios deviate by three standard errors, but hardly any by four.
 const MAX_STANDARD_ERROR: f64 = MISS_TOLERANCE / 4.0;
 
 /// Standard deviation, relative to the length of the path or in radians, below which a measured spread counts as rounding error.
@@ -375,7 +375,7 @@ impl RecursionComparison {
 /// from the step at which the fourth-order terms make it indefinite.
 fn propagate_covariances(settings: &Settings, cov_recursion: Compounding) -> Vec<Option<Matrix3<f64>>> {
     let twist = TangentNoiseModel::twist(&settings.command);
-    // `ok` hides no error, because all allowed settings have finite variances of 0 or more.
+    // `ok` hides no error: `from_velocity` succeeds for all allowed settings, because their variances are finite and not negative.
     let tangent_noise = TangentNoiseModel::from_velocity(&settings.model(), &settings.command).ok();
     let mut predicted_cov = Some(Matrix3::zeros());
     (0..settings.steps)

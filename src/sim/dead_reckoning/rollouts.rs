@@ -22,8 +22,8 @@ pub const ROLLOUTS_PER_BLOCK: usize = GROUPS_PER_BLOCK * LANE_COUNT;
 /// Number of the summed powers and products of ξ = (a, l, h): a, l, h; their squares, cubes and fourth powers; al, ah, lh.
 const SUMMED_TERM_COUNT: usize = 15;
 
-/// Step of a robot, as a change of its error pose e = x̄⁻¹·x: e_k = exp(−τ)·e_{k−1}·exp(τ + w)·(a turn by γ̂Δt). No number grows with the
-/// length of the path.
+/// Step of a robot, as a change of its error pose e = x̄⁻¹·x: e_k = exp(−τ)·e_{k−1}·exp(τ + w)·(a turn by γ̂Δt). The numbers do not grow
+/// with the path, so that they keep their digits.
 #[derive(Clone, Copy, Debug)]
 struct StepInErrorFrame {
     /// Mean and standard deviation of the length of the arc (m) and of half its turn (rad).

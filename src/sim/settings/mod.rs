@@ -200,7 +200,7 @@ impl<T: HasKeywords> KeywordSetting for T {
     }
 }
 
-/// Types that a setting may have.
+/// Type that a setting may have, such as a number or a list of numbers.
 pub trait SettingValue {
     /// Type that states the allowed values of the setting in its declaration, for example a range.
     type Range;

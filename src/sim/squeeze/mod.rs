@@ -25,11 +25,11 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::ops::Range;
 
-/// Maximum number of parts of motions in a timing trial: number of samples times the number of parts of a motion. A longer trial would
-/// block the page.
+/// Maximum number of parts of motions in a timing trial: the number of samples times the parts of each. A longer trial would block the
+/// page.
 pub const MAX_TRIAL_PARTS: u64 = 100_000;
 
-/// Simulation of the Map Squeeze widget: a map, settings, draws, and the attempts shown.
+/// Simulation of the Map Squeeze widget: a map, settings, random numbers, and the attempts shown (see [`Attempt`]).
 #[derive(Clone, Debug)]
 pub struct MapSqueeze {
     floor_plan: FloorPlan,
@@ -40,7 +40,7 @@ pub struct MapSqueeze {
     picture_pixels: Vec<[u8; 4]>,
 }
 
-/// Numbers of the attempts shown that are accepted, or accepted through a wall, and the costs of the attempts.
+/// Counts of the attempts shown that are accepted, or accepted through a wall, and the cost of all attempts shown.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tally {
     total_cost: Cost,
@@ -312,8 +312,8 @@ js_structs! {
     }
 }
 
-/// Returns the 95 % interval of the fraction of which `success_count` in `trial_count` were observed (Wilson, 1927), which is also valid at
-/// 0 and 1.
+/// Returns the 95 % confidence interval of a probability, of which `success_count` successes in `trial_count` trials were observed (Wilson,
+/// 1927). It is also valid if there are no or only successes.
 pub fn wilson_interval(success_count: usize, trial_count: usize) -> [f64; 2] {
     let n = trial_count as f64;
     let p = success_count as f64 / n;
@@ -330,7 +330,7 @@ pub fn wilson_interval(success_count: usize, trial_count: usize) -> [f64; 2] {
 /// Number of kinds of outcomes, each with a colour ramp: rejected, accepted with a free path, and accepted through a wall.
 pub const OUTCOME_KIND_COUNT: usize = 3;
 
-/// Outcome of one attempt.
+/// Motion that is accepted or rejected by the map. The sub-stepped sampler draws each part of a motion until the part is accepted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attempt {
     /// Pose at the end of the motion.

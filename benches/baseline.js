@@ -54,7 +54,7 @@ export class Baseline {
       const cholesky00 = Math.sqrt(covMatrix[0][0]);
       const cholesky10 = covMatrix[0][secondIndex] / cholesky00;
       const cholesky11 = Math.sqrt(covMatrix[secondIndex][secondIndex] - cholesky10 * cholesky10);
-      // The whitening factors map the ellipse of two standard deviations to the unit circle.
+      // The whitening factors map the 2σ ellipse to the unit circle.
       return [0.5 / cholesky00, (-0.5 * cholesky10) / (cholesky00 * cholesky11), 0.5 / cholesky11];
     };
     const cloudCentre = [meanValues.x, meanValues.y, meanValues.l, meanValues.t];
@@ -94,7 +94,7 @@ export class Baseline {
  * @param {number[]} commandVector v, ω, Δt
  * @param {number[]} noiseStds standard deviations of v̂, ω̂, γ̂
  * @param {{ x: number, y: number, l: number, t: number }} noiseFree noise-free motion
- * @returns {number[]} sums in the order of SUM_NAMES
+ * @returns {number[]} sums in the order of MEAN_KEYS
  */
 function driveBaselineCloud(unitNoise, cloudOffsets, commandVector, noiseStds, noiseFree) {
   const [[v, omega, dt], [vStd, omegaStd, gammaStd], { x: noiseFreeX, y: noiseFreeY, l: noiseFreeLength, t: noiseFreeTurn }] = [commandVector, noiseStds, noiseFree];

@@ -51,7 +51,7 @@ async function measureDrag({ widgetTag, draggableSelector, i, stepCount }) {
   const shadowRoot = /** @type {ShadowRoot} */ (figureElement.shadowRoot);
   const draggedElement = /** @type {HTMLInputElement} */ (shadowRoot.querySelectorAll(draggableSelector)[i]);
   const isSlider = draggedElement.localName === 'input';
-  // A late update after the previous drag could still set the value of the slider.
+  // The drag begins after late updates of the previous drag, which could set the value of the slider.
   await figureElement.settled;
   const openingValue = draggedElement.value;
   // A figure clears the canvas before each picture, so that the number of `clearRect` calls is the number of pictures.
@@ -84,7 +84,7 @@ async function measureDrag({ widgetTag, draggableSelector, i, stepCount }) {
       else draggedElement.stepDown();
       draggedElement.dispatchEvent(new InputEvent('input', { bubbles: true, composed: true }));
     } else {
-      // Arrow keys move a handle by steps, with the same effects as a pointer.
+      // Handles are dragged by arrow keys, which have the same effects as a pointer.
       draggedElement.dispatchEvent(new KeyboardEvent('keydown', { key: stepNumber % 2 ? 'ArrowLeft' : 'ArrowRight', bubbles: true, composed: true }));
     }
   };

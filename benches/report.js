@@ -1,4 +1,4 @@
-// Report of the results of a run, as Markdown.
+// Report of the results of a benchmark, as Markdown.
 
 import { quantileSorted } from 'd3-array';
 import { CPU_SLOWDOWN } from './drag.js';

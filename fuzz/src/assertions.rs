@@ -46,7 +46,7 @@ pub fn assert_valid_moments(quantity_name: &str, mean: &Vector3<f64>, cov: &Matr
 /// Relative rounding error of a few dozen units in the last place.
 pub const ROUNDING_TOLERANCE: f64 = 64.0 * f64::EPSILON;
 
-/// Numbers below this limit may have a square that underflows to 0.
+/// Limit below which the square of a number may underflow to 0.
 pub const SQUARE_UNDERFLOW_LIMIT: f64 = 1e-161;
 
 /// Asserts that two lists have the same numbers, where NaN equals NaN.

@@ -11,8 +11,7 @@ use motion::sim::picture::RAMP_STEP_COUNT;
 use motion::sim::settings::QUANTITY_RANGE;
 use motion::sim::views::{EXTENT_RANGE, ViewGrid};
 
-/// Maximum numbers of samples and of calls in a run. The limits are large enough to reach every branch, and small enough to allow many
-/// runs.
+/// Maximum numbers of samples and of calls for one input: large enough to reach every branch, and small enough to test many inputs.
 const MAX_SAMPLES: usize = 12;
 const MAX_CALLS: usize = 4;
 

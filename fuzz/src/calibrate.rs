@@ -12,10 +12,10 @@ use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// Maximum number of sections of a drive after the first section. Each section has a constant velocity.
+/// Maximum number of sections of a drive, after the first. The velocity is constant in a section.
 const MAX_ADDED_SECTIONS: usize = 6;
 
-/// Maximum number of rows in a section of a drive, in most runs. The time of a calibration grows with the number of rows.
+/// Maximum number of rows in a section of a drive, for most inputs. The time of a calibration grows with the number of rows.
 const MAX_SECTION_ROWS_OF_MOST_RUNS: usize = 12;
 const MAX_SECTION_ROWS: usize = 64; // in a few long runs
 

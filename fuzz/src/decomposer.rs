@@ -8,7 +8,7 @@ use motion::models::{OdomDelta, MAX_SPIN_DISTANCE};
 use motion::sim::odometry_decomposer::{DriftedOdometry, OdometryDecomposer, Settings, Stats};
 use motion::sim::settings::QUANTITY_RANGE;
 
-/// Maximum numbers of outcomes, of points of a deviation curve, and of calls in a run.
+/// Maximum numbers of outcomes, of points of a deviation curve, and of calls for one input.
 const MAX_SAMPLES: usize = 12;
 const MAX_CURVE_POINTS: usize = 6;
 const MAX_CALLS: usize = 4;

@@ -18,7 +18,7 @@ pub fn check_input(input_bytes: &[u8]) {
     let Some((grid, unknown_cell_rule)) = read_random_grid(&mut fuzz_input) else { return };
     let [column_count, row_count] = grid.size();
     assert_eq!(grid.cells().len(), column_count * row_count);
-    // Most runs make no floor plan, because its distance field takes a hundred times as long as everything else.
+    // Most inputs make no floor plan, because its distance field takes a hundred times as long as everything else.
     if fuzz_input.next_below(16) != 1 {
         assert_outlines(&grid.with_unknown(unknown_cell_rule), unknown_cell_rule);
         return;

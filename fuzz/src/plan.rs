@@ -87,7 +87,7 @@ pub fn read_floor_plan(fuzz_input: &mut InputReader) -> Option<FloorPlan> {
     }
 }
 
-/// Returns a pose, mostly inside the bounds.
+/// Returns a random pose, mostly inside the bounds of the floor plan.
 pub fn draw_pose(floor_plan: &FloorPlan, fuzz_input: &mut InputReader) -> SE2 {
     let [left, bottom, right, top] = floor_plan.bounds();
     let [x, y] = [[left, right], [bottom, top]].map(|[min_coordinate, max_coordinate]| {
@@ -107,15 +107,15 @@ pub fn assert_collision_verdicts(floor_plan: &FloorPlan, fuzz_input: &mut InputR
     let distance_tolerance = rounding_tolerance_of(floor_plan, &driven_arc, clearance);
     let edge_distance_at = |x: f64, y: f64| signed_distance_from_edge(floor_plan, [x, y]);
 
-    // Upper bound of the distance between the path and the edge of the map: the smallest distance of the tested points of the path. A lower
-    // bound is `min_depth - max_distance_to_tested_point`.
+    // The smallest distance of the tested points of the path from the edge of the map is an upper bound of the distance of the path. A
+    // lower bound is `min_edge_distance - max_distance_to_tested_point`.
     const PATH_INTERVAL_COUNT: u32 = 16;
     let min_edge_distance = (0..=PATH_INTERVAL_COUNT).fold(f64::INFINITY, |min_so_far, i| {
         let path_fraction = f64::from(i) / f64::from(PATH_INTERVAL_COUNT);
         let point_on_path = Arc { length: path_fraction * arc_length, turn: path_fraction * arc_turn, ..driven_arc }.end();
         min_so_far.min(edge_distance_at(point_on_path.x(), point_on_path.y()))
     });
-    // Upper bound of the distance of any point of the arc from the nearest tested point.
+    // Maximum distance of a point of the arc from the nearest tested point.
     let circle_diameter = if arc_turn == 0.0 { f64::INFINITY } else { 2.0 * (arc_length / arc_turn).abs() };
     let max_distance_to_tested_point = (0.5 * arc_length.abs() / f64::from(PATH_INTERVAL_COUNT)).min(circle_diameter);
     let is_in_obstacle = floor_plan.grid().is_some_and(|grid| grid.is_blocked_at([start_pose.x(), start_pose.y()]));

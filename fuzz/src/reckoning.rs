@@ -8,8 +8,8 @@ use motion::sim::dead_reckoning::{
 };
 use nalgebra::Matrix3;
 
-/// Maximum numbers of robots, steps and calls in a run. The simulation drives robots in blocks of 256. Most runs need one block of robots,
-/// and a few need several blocks.
+/// Maximum numbers of robots, steps and calls for one input. The simulation drives robots in blocks of 256. Most inputs need one block of
+/// robots, and a few need several blocks.
 const MAX_SAMPLES_OF_MOST_RUNS: usize = 200;
 const MAX_SAMPLES: usize = 800;
 const MAX_STEPS: u32 = 5;

@@ -1,4 +1,4 @@
-//! Changes settings to arbitrary values, as a user can.
+//! Random changes of settings, as a user can make them.
 
 use super::input::InputReader;
 use motion::sim::settings::{AllowedValues, Setting, SettingRules, SettingsError};

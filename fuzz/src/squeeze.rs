@@ -9,7 +9,7 @@ use motion::sim::picture::RAMP_STEP_COUNT;
 use motion::sim::squeeze::{OUTCOME_KIND_COUNT, MapSqueeze, Settings};
 use std::cell::LazyCell;
 
-/// Maximum numbers of samples, of sub-steps (parts) of the command, and of calls in a run.
+/// Maximum numbers of samples, of sub-steps (parts) of the command, and of calls for one input.
 const MAX_SAMPLES: usize = 8;
 const MAX_SUB_STEPS: u32 = 3;
 const MAX_CALLS: usize = 3;
@@ -40,7 +40,7 @@ pub fn check_input(input_bytes: &[u8]) {
 
 /// Returns the settings with few samples, and with a sampler that divides the command into sub-steps only if `allows_sub_steps`.
 ///
-/// Divided commands are tested in few runs: a robot that cannot move in one of the sub-steps takes 10 000 draws.
+/// Few inputs divide the command, because a robot that cannot move in one of the sub-steps takes 10 000 draws.
 fn limit_settings(settings: Settings, allows_sub_steps: bool) -> Settings {
     let limited_part_count = settings.steps.min(MAX_SUB_STEPS);
     let sampler = if allows_sub_steps { settings.sampler.with_part_count(limited_part_count) } else { remove_sub_steps(settings.sampler) };
@@ -82,7 +82,7 @@ fn call_method(simulation: &mut MapSqueeze, fuzz_input: &mut InputReader) {
             let nearest_index = simulation.find_nearest(search_point, search_radius);
             assert!(nearest_index.is_none_or(|attempt_index| attempt_index < simulation.attempts().len()));
         }
-        // The search for a free pose is tested in few runs. It tries 72 headings, and takes as long as ten other calls.
+        // Few inputs test the search for a free pose. It tries 72 headings, and takes as long as ten other calls.
         8 => assert_equals_new_simulation(simulation),
         _ if fuzz_input.next_below(64) == 1 => assert_free_pose(simulation),
         _ => {}

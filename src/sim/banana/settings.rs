@@ -24,7 +24,7 @@ pub const MAX_SAMPLES: usize = 10_000_000;
 /// error of the initial skew is 0.007.
 const INITIAL_SAMPLES: usize = 50_000;
 
-/// Of the seeds 0 to 99, the one whose initial cloud has the area ratio and likelihood gain nearest to the exact values.
+/// Seed whose initial cloud has, among the seeds 0 to 99, the area ratio and likelihood gain nearest to the exact values.
 const INITIAL_SEED: u64 = 87;
 
 settings! {

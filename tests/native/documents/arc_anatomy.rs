@@ -6,7 +6,7 @@ use crate::common::text::PrintedNumber;
 use crate::simulations::arc_anatomy::stats_of;
 use motion::sim::arc_anatomy::{ArcAnatomy, HeatMapKind, Settings, Stats};
 
-/// Returns settings in which the final pose has the heading of the arc's end. The wedge of the final turn is then empty.
+/// Returns settings in which the final pose has the heading of the arc's end. The wedge that shows the final turn is then empty.
 fn remove_wedge(settings: Settings) -> Settings {
     let arc_heading = stats_of(settings).driven.end[2];
     Settings { next: [settings.next[0], settings.next[1], arc_heading], ..settings }

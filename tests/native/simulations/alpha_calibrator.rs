@@ -42,7 +42,7 @@ fn the_initial_intervals_contain_the_true_values() {
     assert_eq!(simulation.calibration().diagnostics.verdict, Verdict::Consistent);
 }
 
-/// With these seeds the variances of the reference are small, but not 0. The α's of some 450 legs have standard errors of a twentieth or more.
+/// With these seeds the variances of the reference are small, but not 0. Any α from some 450 legs has a standard error of 5 % or more.
 #[test]
 fn a_small_noise_of_the_reference_does_not_narrow_the_intervals_of_alphas() {
     for seed in [107, 178] {
@@ -129,7 +129,7 @@ fn panel_points_are_means_of_squared_innovations() {
         );
     }
     assert_eq!(trans_panel.x.len(), 8);
-    // Because the model is true, the bins differ from the line by their errors only.
+    // The bins differ from the line by their errors only, because the log is simulated with the model.
     let chi_square_term =
         |i: usize| ((trans_panel.y[i] - fitted_slope * trans_panel.x[i]) / trans_panel.error[i]).powi(2);
     assert!(
@@ -138,8 +138,8 @@ fn panel_points_are_means_of_squared_innovations() {
     );
 }
 
-/// If the model is true, bins that differ by over two or three error bars are as rare as normal errors of that size. This includes bins
-/// where one leg with a large turn dominates.
+/// The log is simulated with the model. Therefore bins that differ by over two or three error bars are as rare as normal errors of that
+/// size. This includes bins where one leg with a large turn dominates.
 #[test]
 #[ignore = "nightly: 40 calibrations"]
 fn error_bars_of_panels_overlap_the_fitted_lines() {

@@ -58,7 +58,7 @@ fn measure_error_coverage(settings: Settings, seed_count: u64) -> [f64; 3] {
     })
 }
 
-/// In the cloud of the banana preset, a few distant robots cause most of the variance.
+/// The banana preset is the hardest case, because a few distant robots cause most of the variance.
 #[test]
 #[ignore = "nightly: thousands of clouds"]
 fn standard_errors_cover_95_percent() {

@@ -131,8 +131,8 @@ fn the_gain_equals_its_definition_over_all_poses() {
     });
 }
 
-/// The tolerances are the errors of the reference values, which integrate each noise up to 6 or 6.6 standard deviations, in steps that may
-/// cross the jump of 2π in the turn. Where an outline crosses itself, a chord may belong to either loop.
+/// The tolerances are the errors of the reference values. Their integrals end at 6 or 6.6 standard deviations of each noise, and their
+/// steps may cross the jump of 2π in the turn. Where an outline crosses itself, a chord may belong to either loop.
 #[test]
 fn exact_gains_match_the_references() {
     for csv_row in ReferenceTable::parse(include_str!("../../reference/likelihood_gain.csv")).rows() {

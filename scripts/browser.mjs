@@ -32,7 +32,7 @@ export const CHROME_ARGUMENTS = [
 /** Returns a browser with its driver, and installs what is missing. @returns {Promise<Browser>} */
 export async function ensureBrowser() {
   const browser = await ensureChrome();
-  // The layout of the pages assumes a font as wide as Arial. If DejaVu is the only font, all text is a tenth wider.
+  // A font as wide as Arial is installed, because the layout of the pages is made for it. If DejaVu is the only font, all text is a tenth wider.
   if (findProgram('fc-match') !== undefined && findProgram('apt-get') !== undefined) {
     const { stdout: arialFamily } = await runProgram('fc-match', ['--format', '%{family}', 'Arial'], { isQuiet: true, timeLimitSeconds: 30 });
     if (!/Arial|Liberation|Arimo|Helvetica/.test(arialFamily)) await installByApt(['fonts-liberation'], 'A font as wide as Arial is missing: install fonts-liberation.');

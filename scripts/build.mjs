@@ -61,11 +61,11 @@ function hashOfFiles(hashedPaths, hashSeed = '') {
 }
 
 /**
- * Builds products if they are out of date.
+ * Calls `buildProducts` if the products are missing, or were built from other sources.
  *
  * @param {string} stampName path of the file with the hash of the sources of the last build
  * @param {string} sourceHash
- * @param {string[]} productPaths paths
+ * @param {string[]} productPaths
  * @param {() => Promise<void>} buildProducts
  */
 async function buildIfStale(stampName, sourceHash, productPaths, buildProducts) {
@@ -257,12 +257,12 @@ async function shortenNames(moduleName) {
  */
 async function writeGlue(moduleName, glueNames) {
   const glueChanges = /** @type {[RegExp, string][]} */ ([
-    // An error that wasm-bindgen itself throws makes a core unusable, like a trap. Errors of other classes come from callbacks of the page.
+    // Errors that wasm-bindgen itself throws get the class of traps, because they make a core unusable too.
     [/throw new Error\((?=getStringFromWasm)/g, 'throw new WebAssembly.RuntimeError('],
     // The lines for freeing objects are removed, because www/core.ts frees the objects of all classes.
     [/^if \(Symbol\.dispose\) .*$/gm, ''],
     [/new FinalizationRegistry\(/g, '/* @__PURE__ */ $&'],
-    // wasm-bindgen adds the members of a namespace one by one. Bundlers take that for side effects, and therefore keep unused namespaces.
+    // wasm-bindgen adds the members of a namespace one by one, which bundlers take for side effects. A single pure expression lets them drop unused namespaces.
     [/^export const (\w+) = \{\};\n((?:\1\.\w+ = \w+;\n)+)/gm, 'export const $1 = /* @__PURE__ */ (($1) => {\n$2return $1;\n})({});\n'],
   ]);
   const bindgenGlue = readFileSync(absolutePath(`build/bound/${moduleName}/motion_bg.js`), 'utf8');

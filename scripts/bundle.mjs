@@ -22,7 +22,7 @@ const BYTES_MODULE_NAME = 'motion.bytes';
 
 /**
  * Placeholder for the name of the chunk that contains `MODULE_SOURCES.external`. The placeholder has the same length as the name, so that
- * source maps stay valid. The chunk's address ends with that name in dist/, but not in the output of a bundler.
+ * source maps stay valid. If its own address lacks that name, a bundler has moved the chunk to another file.
  */
 const CHUNK_PLACEHOLDER = 'chunk-________.js';
 
@@ -196,7 +196,7 @@ export async function bundlePages({ tags: widgetTags = WIDGET_TAGS } = {}) {
             const bytesPath = { core: `./chunks/${basename(bytesScript.path)}`, external: `./${basename(bytesScript.path)}`, inlined: undefined, worker: undefined }[bundleForm];
             onResolve({ filter: new RegExp(`^${BYTES_MODULE_NAME}$`) }, ({ path: filePath }) => (bytesPath ? { path: bytesPath, external: true } : { path: filePath, namespace: 'core' }));
             onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE_SOURCES.bytes(moduleBytes, SHIFTED_CHARACTERS[buildOptions.charset === 'ascii' ? 'ascii' : 'utf8']) }));
-            // A page that cannot start a worker runs the worker's script itself.
+            // A page that cannot start a worker imports the worker's script instead, which exports the session.
             if (bundleForm === 'external') onResolve({ filter: /\/logs\/session\.ts$/ }, () => ({ path: `./${basename(LOG_WORKER_PATH)}`, external: true }));
             onLoad({ filter: /[/\\]build[/\\]settings\.js$/ }, () => ({ contents: composeMinimalDeclarations(), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]address\.ts$/ }, ({ path: filePath }) => ({
@@ -341,14 +341,14 @@ function markConstantsPure(librarySource) {
 
 /** Replaced passages of libraries, by the file name of the library. */
 const REPLACED_PASSAGES = {
-  // The library fetches its module from a data URL, which strict content security policies forbid. The module is decoded instead.
+  // This library fetches its WebAssembly module from a data URL, which strict content security policies forbid. The text of the URL is decoded instead.
   'zstddec-stream.mjs': [
     ['typeof fetch !== "undefined"', 'false'],
     ['Buffer.from(wasm, "base64")', 'Uint8Array.from(atob(wasm), (character) => character.charCodeAt(0))'],
   ],
   'lit-html.js': [
-    // The Trusted Types policy first tries its own name, because another copy of Lit on the page may use the name "lit-html". If its own
-    // name is refused, it tries "lit-html". If that name is refused too, loading continues, and only rendering fails.
+    // Lit's Trusted Types policy gets another name, because another copy of Lit on the page may use the name "lit-html". If the other name is
+    // refused, "lit-html" is tried. If that name is refused too, loading continues, and only rendering fails.
     [
       's.createPolicy("lit-html",{createHTML:t=>t})',
       '((...names)=>{for(const name of names)try{return s.createPolicy(name,{createHTML:t=>t})}catch{}})("motion-widgets","lit-html")',

@@ -143,7 +143,7 @@ const TEST_PARTS = {
   },
   rust: {
     async prepare(programArgs) {
-      // Incremental compilation makes the first compilation 18 % slower in processor time.
+      // The first compilation is not incremental, which would take 18 % more processor time.
       const env = existsSync(absolutePath('target/debug')) ? undefined : { CARGO_INCREMENTAL: '0' };
       return createCargoJob(await ensureRust(), ['test', '--locked', '--no-fail-fast', ...programArgs, ...(IS_NIGHTLY ? ['--', '--include-ignored'] : [])], env);
     },

@@ -181,7 +181,7 @@ async function hasWasmTarget({ cargoDirectory, env }) {
  * Returns true if rustup's server does not answer a small request within 15 s. Even a satellite link with three lost packets answers within
  * 10 s; a slower link could not transfer the 20 MB of the target.
  *
- * @returns {Promise<boolean>} false without curl to ask by
+ * @returns {Promise<boolean>} false if curl is missing
  */
 async function isServerSilent() {
   const rustupServer = process.env.RUSTUP_DIST_SERVER ?? 'https://static.rust-lang.org';

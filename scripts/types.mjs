@@ -30,7 +30,7 @@ const TEMPLATE_FRAMEWORKS = {
 /** Writes all declaration files. */
 export async function writeTypes() {
   const widgetDescriptions = await describeWidgets();
-  // wasm-bindgen writes the comments of Rust macros as raw string literals (r"…). Their prefix is removed here.
+  // wasm-bindgen writes doc comments from Rust macros as raw string literals, r"…. This call removes the prefix r".
   const coreTypes = readFileSync(join(REPOSITORY_ROOT, 'build/core.d.ts'), 'utf8').replaceAll('* r" ', '* ');
   writeFileSync(join(REPOSITORY_ROOT, 'build/simulations.d.ts'), [DISPOSABLE_LIBRARY, GENERATED_HEADER, OPTIONS_IMPORT, ...composeGroupInterfaces(), ...Object.keys(settings).map(settingsInterfaceOf), coreTypes].join('\n'));
   writeFileSync(join(REPOSITORY_ROOT, 'build/elements.d.ts'), [GENERATED_HEADER, importLineOf(widgetDescriptions), await composeFigureTypes(widgetDescriptions), ...widgetDescriptions.map(elementTypesOf), tagTypesOf(widgetDescriptions)].join('\n'));

@@ -234,7 +234,7 @@ test('without noise the figure says that there is none, and draws no heat map @n
 test('a resize during playback of a slider does not advance the slider', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const widget = await openArcAnatomy(page);
-  // After a change of its size, the figure draws again immediately. No time has elapsed since the previous animation frame.
+  // Each step of the animation changes the size of the figure, so that the figure draws again before any time has elapsed.
   await widget.evaluate((element) => element.addEventListener('input', () => {
     /** @type {HTMLElement} */ (element).style.width = `${element.clientWidth - 1}px`;
   }));

@@ -6,7 +6,7 @@ import axe from 'axe-core';
  *
  * @param {import('@playwright/test').Page} page
  * @param {string} [pageState]
- * @param {string} [testedSelector] a selector
+ * @param {string} [testedSelector]
  */
 export async function expectAccessible(page, pageState, testedSelector = ':root') {
   // The Playwright wrapper of axe also checks iframes, which takes twice as long. The tested pages have no iframes.

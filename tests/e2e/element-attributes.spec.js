@@ -145,7 +145,7 @@ testEach('the code to embed a figure reproduces the settings of its state, with 
       const reorderedCopy = document.createElement(element.localName);
       for (const { name: attributeName, value } of [...embeddedCopy.attributes].reverse()) reorderedCopy.setAttribute(attributeName, value);
       const loadPromises = [embeddedCopy, reorderedCopy].map((figureCopy) => new Promise((resolve) => figureCopy.addEventListener('load', resolve)));
-      // A figure that is visible in the window starts at once.
+      // The copies are placed in the window, because a figure starts only when it is near the window.
       for (const figureCopy of [embeddedCopy, reorderedCopy]) figureCopy.style.cssText = 'position: fixed; inset: 0';
       element.before(embeddedCopy, reorderedCopy);
       await Promise.all(loadPromises);

@@ -258,7 +258,7 @@ test('a canvas is drawn again after its lost context is restored', async ({ page
   const pictureBefore = await readPicture(planeCanvas);
   const blankPicture = await planeCanvas.evaluate((element) => {
     const canvasElement = /** @type {HTMLCanvasElement} */ (element);
-    // A browser that restores a lost context leaves the canvas blank and fires `contextrestored`.
+    // As after a lost context, the canvas is blank, and `contextrestored` is fired.
     canvasElement.getContext('2d')?.reset();
     const blankPicture = canvasElement.toDataURL();
     canvasElement.dispatchEvent(new Event('contextrestored'));

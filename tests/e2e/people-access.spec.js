@@ -247,7 +247,7 @@ test('a printed figure has its picture and settings in light colours, and no con
   for (const [settingKey, valueText] of [['v', '1.00 m/s'], ['dt', '2.00 s']]) {
     await expect(printedValueOf(widget, settingKey)).toHaveText(valueText);
   }
-  // On paper the pixel size of a canvas determines its aspect ratio. Setting it in every animation frame would change the ratio.
+  // In print, the height of a canvas follows from the aspect ratio of its pixels. If every frame set the pixel size again, the canvas would keep changing.
   await page.evaluate(() => {
     addEventListener('error', ({ message: errorMessage }) => Object.assign(window, { recordedError: errorMessage }));
     document.querySelector('banana-machine')?.replaceWith(document.createElement('banana-machine'));

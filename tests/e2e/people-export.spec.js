@@ -147,7 +147,7 @@ const replaceForbiddenCharacters = (originalText) => originalText.replace(/[\0-\
 test('SVG is well-formed even if names set by a page contain forbidden characters @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   await widget.evaluate(async (element, stateJson) => {
-    // JSON keeps unpaired surrogates.
+    // The text is passed as JSON, whose escapes keep unpaired surrogates.
     const hostileText = JSON.parse(stateJson);
     element.append(Object.assign(document.createElement('span'), { slot: 'title', textContent: hostileText }));
     element.style.setProperty('--motion-font', `"${hostileText.replaceAll('"', '').replaceAll('\0', '')}", serif`);

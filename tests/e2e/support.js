@@ -96,7 +96,7 @@ export async function showPage(page, bodyHtml, { headHtml = '', urlFragment = ''
         // If a listener handles errors, the figure prints no warning.
         figureEvent.preventDefault();
         firedEvents.push({ name: eventName, target: figureElement.localName, message: errorMessage });
-        // Error events do not bubble.
+        // Error events do not bubble. Only a capturing listener receives them here.
       }, { capture: eventName === 'error' });
     }
   });
@@ -341,7 +341,7 @@ export async function readColours(coloredPart, colorRoles) {
     const colorContext = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true }));
     return roleNames.map((name) => {
       const colourSwatch = document.createElement('span');
-      // In forced colours, figures keep their own colours. The tested element needs `forced-color-adjust: none` to keep them too.
+      // In forced colours, figures keep their own colours. The swatch keeps them only with `forced-color-adjust: none`.
       colourSwatch.style.cssText = `color: var(--${name}); forced-color-adjust: none`;
       (element.shadowRoot?.querySelector('.surface') ?? element).append(colourSwatch);
       // The canvas converts a colour of any notation to numbers.

@@ -7,7 +7,7 @@ import { REPOSITORY_ROOT } from '../../scripts/process.mjs';
 /** @typedef {import('@playwright/test').Page} Page */
 /** @typedef {{ name: string, definition: import('./project.mjs').Platform, serverMode: import('./project.mjs').ServerMode, url: string }} Site */
 
-/** Time limit in milliseconds. It is long, because a development server compiles a page at the first request. */
+/** Time limit (ms) of each step on a page. It is long, because a development server compiles a page at the first request. */
 const TIMEOUT_MS = 90_000;
 
 /** Runs the checks of a site. @param {import('@playwright/test').Browser} browser @param {Site} servedSite */

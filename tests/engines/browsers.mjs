@@ -24,7 +24,7 @@ import { ensureFirefox, ensureWebKit } from './programs.mjs';
 /** Size of the page within the window of the browser, CSS pixels. */
 const PAGE_SIZE = { width: 1280, height: 800 };
 
-/** Time limit of a script in a page, ms. The digest of all simulations takes longest. */
+/** Time limit of a script in a page, ms. The longest script computes hashes of the results of all simulations. */
 const SCRIPT_TIMEOUT_MS = 240_000;
 
 const KEY_CODES = { ArrowRight: Key.ARROW_RIGHT, ArrowLeft: Key.ARROW_LEFT, ArrowUp: Key.ARROW_UP, ArrowDown: Key.ARROW_DOWN };

@@ -108,7 +108,7 @@ export async function runChecks(name, browserSession, pageUrl) {
   return { passedCount, failedChecks };
 }
 
-/** Compares the digest of all configurations with golden.txt. @param {BrowserPage} page */
+/** Compares hashes of the results of all configurations (the digest) with those in golden.txt. @param {BrowserPage} page */
 async function checkDigest(page) {
   await page.open();
   assert.deepEqual(findDifferences(readSource('tests/digest/golden.txt'), await page.callInPage('computeWholeDigest')), []);

@@ -10,7 +10,7 @@ import { settings } from '../../build/settings.js';
 test('the class of a leg follows from its p-value, with as many degrees of freedom as observed residuals', () => {
   const legResiduals = Float64Array.of(0, 0, 0, 0, 0, NaN, 0, NaN, NaN);
   const classesOf = (/** @type {number[]} */ ...squaredResiduals) => [...legClassesOf({ count: 3, squared: Float64Array.from(squaredResiduals), residuals: legResiduals })];
-  // Quantiles of χ² with 3, 2 and 1 degrees of freedom, from tables.
+  // The squared residuals are just below, or in the last line just above, quantiles of χ² with 3, 2 and 1 degrees of freedom.
   assert.deepEqual(classesOf(2.36, 1.38, 0.45), [0, 0, 0]);
   assert.deepEqual(classesOf(7.81, 5.99, 3.84), [1, 1, 1]);
   assert.deepEqual(classesOf(16.2, 13.8, 10.8), [2, 2, 2]);

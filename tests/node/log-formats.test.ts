@@ -119,7 +119,7 @@ const findPositions = (bytes: Buffer, searchText: string) => Array.from(bytes.to
 /** Returns a function that finds one position in the compressed data of each chunk: 60 bytes after `headerText`, which the chunk's header contains. */
 const findPositionsInChunks = (headerText: string) => (bytes: Buffer) => findPositions(bytes, headerText).map((bytePosition) => bytePosition + 60);
 
-/** Functions that find positions in the blocks with messages of the odometry. In an MCAP file, chunk indexes name the compression too. */
+/** Functions that find a position in each block with messages of the odometry. In an MCAP file, they also find positions in chunk indexes, which name the compression too. */
 const BLOCK_FINDERS: Record<string, (bytes: Buffer) => number[]> = {
   'bz2.bag': findPositionsInChunks('compression='), 'lz4.bag': findPositionsInChunks('compression='), 'zstd.mcap': findPositionsInChunks('zstd'), 'lz4.mcap': findPositionsInChunks('lz4'),
   'sqlite-sqlite.db3': (bytes) => [...new Set(findPositions(bytes, 'base_link').map((bytePosition) => bytePosition - (bytePosition % 4096)))],
@@ -149,7 +149,7 @@ for (const [fileName, findBlocks] of Object.entries(BLOCK_FINDERS)) {
 test('all messages of a database with an unfinished transaction are read', async () => {
   const bytes = decompressFile('sqlite-sqlite.db3');
   const rootPage = createRange(0, bytes.length / 4096).map((pageIndex) => 4096 * pageIndex).find((bytePosition) => bytes[bytePosition] === 5) ?? 0;
-  // Overwrites the number of pages of the SQLite database with 8, and the first page of the messages with an empty page, as before the
+  // The header of the SQLite database gets 8 as the number of pages, and the first page of the messages becomes empty, as before the
   // transaction.
   bytes.writeUInt32BE(8, 28);
   bytes.fill(0, rootPage, rootPage + 5)[rootPage] = 13;
@@ -208,7 +208,7 @@ test('a recording without a complete message is refused, and the message names a
 
 test('files that are not recordings are refused', async () => {
   const emptyDatabase = Uint8Array.from({ length: 4096 }, (_, i) => 'SQLite format 3\0\x10'.charCodeAt(i) || 0);
-  // The first page of the database is a leaf without tables.
+  // The first page, which lists all tables, becomes a leaf without rows.
   emptyDatabase[100] = 13;
   assert.match(await catchRefusalSentence(openRecordings([createFile(emptyDatabase, 'run.db3')])), /without the tables “topics” and “messages” of rosbag2; expected/);
   assert.match(await catchRefusalSentence(openRecordings([createFile('t,x,y,yaw\n', 'split0.mcap', 'drive/split0.mcap'), ...splitRecordingFilesOf(1)])), /^split0\.mcap: it is listed in the metadata\.yaml of a recording, but is not a recording;/);

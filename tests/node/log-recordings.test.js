@@ -82,7 +82,7 @@ test('topics are listed, and logs of topics and of chains of frames are read in 
 test('an incomplete index is not used', async () => {
   const recordingBytes = await recordingOf(createDriveMessages());
   const logWithIndex = await readLog(mcapFileOf(recordingBytes), { seriesName: '/odom' });
-  // The checksum of the summary is cleared, and an index of a chunk gets a code that readers skip.
+  // One of the chunk indexes gets an opcode that readers skip. The checksum of the summary is cleared, so that it does not reveal this change.
   const footerStart = recordingBytes.length - 28;
   recordingBytes.writeUInt32LE(0, footerStart + 16);
   const CHUNK_INDEX_CODE = 8;
@@ -159,7 +159,7 @@ test('a static transform is valid from the beginning, and a changing transform f
   const recalibratedFile = mcapFileOf(await recordingOf([...createTransformMessages(() => 0.5), ...staticTransformMessages].sort((messageA, messageB) => messageA.t - messageB.t)));
   const { motionData: { t } } = await readLog(recalibratedFile, { seriesName: '/tf', framePair: { parent: 'world', child: 'laser' } });
   assert.equal(t.length, 60);
-  // The pose is known from 3 s on. The log has the times of the transform whose child is the robot's own frame.
+  // If the transform of the child frame changes, the log has one row for each message of this transform. The first one comes at 3 s.
   assert.deepEqual(await readLogWithMount((i) => i / 100), [10, 3, 1.8, 10]);
 });
 

@@ -142,8 +142,8 @@ test('pauses and jumps are found, and a heading that wraps around is not a jump'
 test('ordinary logs are not mistaken for two paths or for another unit', async () => {
   const wrapAngle = (/** @type {number} */ angle) => Math.atan2(Math.sin(angle), Math.cos(angle));
   for (const tableText of [
-    // The tables have few rows per lap, vibrations, a single distant pose, a robot that reverses on a curve, a car, and a column name with
-    // a unit.
+    // These logs have few rows per lap, vibrations, a single distant pose, a robot that drives a curve back, the speed of a car, and a
+    // column name with a unit.
     circleTableOf((_, i) => [2 * i, Math.sin(i), -Math.cos(i), wrapAngle(i)]),
     circleTableOf(([t, , , yaw], i) => [t, (i % 2) / 25, 0, yaw]),
     circleTableOf(([t], i) => (i < 10 ? [t, i === 4 ? 5 : 0, 0, 0] : [])),

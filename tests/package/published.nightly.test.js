@@ -40,7 +40,7 @@ test('the tool "Are the types wrong?" reports no problem', () => {
   // Only the entry points of scripts have types.
   const entriesWithoutTypes = Object.keys(packageManifest.exports).filter((entryName) => /\.(css|wasm|json)$/.test(entryName));
   const attwPath = join(REPOSITORY_ROOT, 'node_modules/@arethetypeswrong/cli/dist/index.js');
-  // All scripts are modules. `require` and resolution without `exports` are not supported.
+  // The profile skips checks of `require` and of resolution without `exports`, which the package does not support: all scripts are modules.
   const attwArguments = [attwPath, tarballPath, '--profile', 'esm-only', '--exclude-entrypoints', ...entriesWithoutTypes];
   const { status: exitStatus, stdout } = spawnSync(process.execPath, attwArguments, { encoding: 'utf8' });
   assert.equal(exitStatus, 0, stdout);

@@ -53,7 +53,7 @@ export function settingSliderHtml(figure: Figure, settingKey: string, rowOverrid
   });
 }
 
-/** Returns a picture with its title. The pointer selects samples in the picture. The first picture has the handles. `Canvases` sizes the canvas. */
+/** Returns the HTML of a picture with its title. The pointer selects samples in it. Only the first picture has handles. `Canvases` sets the size of its canvas. */
 export function pictureHtml(figure: Figure, picture: FigurePicture<any>, title: string, pictureOptions: { className?: string, description?: string, contentBelow?: unknown } = {}) {
   const isFirst = picture === figure.pictures[0];
   const { className, description: pictureDescription = isFirst ? figure.description : title, contentBelow } = pictureOptions;

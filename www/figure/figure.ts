@@ -116,13 +116,13 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   textHeights = new TextHeights(this);
   /** Cloud of a figure with samples. */
   cloud: import('../widgets/shared/cloud.ts').Cloud | undefined;
-  /** Player of a figure that animates a slider. `advance` returns true while it plays. */
+  /** Player of a figure that animates a slider. `advanceAnimation` returns true while it plays. */
   player: { advanceAnimation(elapsedMs: number): boolean, stopAnimation(): void } | undefined;
   /** Handlers for dragged files, if the figure accepts files. */
   dropHandlers: Record<'onDragOver' | 'onDragLeave' | 'onDrop', (dragEvent: DragEvent) => void> | undefined;
   /** Pictures on the canvases. The first has the handles, and is exported. */
   pictures: FigurePicture<any>[] = [];
-  /** Handles: `render` returns their HTML, and `place` moves them to their places in the first picture. */
+  /** Handles: `render` returns their HTML, and `placeHandles` moves them to their places in the first picture. */
   handles: { render(): unknown, placeHandles(scene: any): void }[] = [];
   /** View model of the simulation: all values that pictures, texts and tables show, read at one time. Undefined before the first frame. */
   viewModel: ViewModel = undefined as any;

@@ -68,7 +68,7 @@ export class PresentationMode extends FigureController {
     this.showsControls = false;
     await this.#exitFullScreen();
     await this.figure.updateComplete;
-    // Focusing the button scrolls the page back to the figure.
+    // The button that starts a presentation gets the focus, so that the page scrolls back to the figure.
     this.#focusElement('.to-present');
   }
 

@@ -88,7 +88,7 @@ export class AttributeReflection extends FigureController {
       const currentText = this.figure.getAttribute(propertyName);
       const attributeText = attributeTexts.get(propertyName);
       if (attributeText === undefined) this.figure.removeAttribute(propertyName);
-      // An attribute stays as the page wrote it if it has the same value.
+      // An attribute stays as the page wrote it if its text stands for the present value.
       else if (currentText === null || toAttribute(fromAttribute(currentText)) !== attributeText) this.figure.setAttribute(propertyName, attributeText);
     }
     this.#isWritingAttributes = false;

@@ -44,7 +44,7 @@ export class FigureRenderer extends FigureController {
   /** Time (ms) of the first picture that is newer than the text; undefined if the text is up to date. */
   #textPendingSince: number | undefined;
   #frameRequest: number | undefined;
-  /** Time (ms) of the previous frame, or of a later request of a frame. */
+  /** Start (ms) of the time step of the next frame: the previous frame if it has requested the next one, otherwise the time of the request. */
   #previousFrameMs = 0;
   isPrinting = false;
 

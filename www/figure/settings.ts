@@ -96,7 +96,7 @@ export class FigureSettings extends FigureController {
       [fieldName, checkValue(statePath + fieldName, settingValues[fieldName], { ...fieldRange, max: maxInState ? maxInState(getState()) : maxValue })]));
   }
 
-  /** Applies properties that the page assigned before the core was loaded, and shows the new simulation. `state` is the state restored after a WebAssembly trap, if any. */
+  /** Applies properties that the page assigned before the core was loaded, and shows the new simulation. `figureState` is the state restored after a WebAssembly trap, if any. */
   showNewSimulation(figureState?: StateValues) {
     const { figure } = this;
     this.dropPendingChanges();

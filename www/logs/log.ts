@@ -129,7 +129,7 @@ export type UnitBasis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' 
 /** Notes that make the α's doubtful even if all checks pass. */
 export type LogWarning = Extract<LogNote['name'], 'localizer' | 'swappedRoles'>;
 
-/** Note about a log: key of its sentence in `found.notes` of the messages, and the values in that sentence. */
+/** Note about a log: key of its sentence in `logSummaryTexts.notes`, and the values in that sentence. */
 export interface LogNote {
   name: 'cutShort' | 'damaged' | 'sorted' | 'yUp' | 'wFirst' | 'swappedRoles' | 'apart' | 'localizer';
   values: (string | number)[];

@@ -3,7 +3,7 @@
  * single widget have their own key.
  *
  * An element uses the language of its nearest `lang` attribute if there are words in it, and otherwise English. Before an element is rendered or
- * drawn, `useLanguageOf` makes that the current language. `words` and the numbers of ui/format.ts follow.
+ * drawn, `useLanguageOf` makes that the current language, which `words` and the numbers of ui/format.ts then have.
  */
 
 export type MessageEntry = string | ((...messageValues: any[]) => string) | MessageEntry[] | { [messageKey: string]: MessageEntry };

@@ -105,7 +105,7 @@ export function drawCallouts(drawContext: DrawContext, callouts: Callout[], { sh
   }
 }
 
-/** Maximum number of points that are sampled on a chord, because a line that leaves the picture may have any length. */
+/** Maximum number of points that are sampled on a chord (straight part of a line). A chord that leaves the picture may have any length. */
 const MAX_CHORD_POINTS = 200;
 
 /** Samples points of a line, in pixels. Their spacing is about twice the distance that a sentence keeps from lines. */

@@ -54,7 +54,7 @@ export const presentationStyles = css`
     align-self: stretch;
   }
 
-  /* Pictures of a narrow figure are not sticky here, so that they are below their titles. */
+  /* In a presentation, a narrow figure has no sticky picture, so that each picture is below its title. */
   :host([presentation]) .views > .panel:first-of-type {
     display: grid;
   }

@@ -15,7 +15,7 @@ import { formErrorsPlotHtml, factorBarsHtml, headlineHtml, likelihoodReadoutsHtm
 import { LINE_STYLES, UNDERWAY_AT_END, definition, CONTOUR_STYLES, ALPHA_SLIDERS, COMMAND_SLIDERS, type ViewModel } from './settings.ts';
 import type { ArcAnatomy as Simulation, Motion } from '../../types.d.ts';
 
-/** Returns the controls of the likelihood: a checkbox that switches to the printed sign of the radius, radio buttons that choose a heat map, and a legend of the contours. */
+/** Returns the controls of the likelihood: a checkbox that switches to the sign of the radius as printed in the book, radio buttons that choose a heat map, and a legend of the contours. */
 function likelihoodControlsHtml(figure: ArcAnatomyElement) {
   const { likelihoodTitle, mapNames, printedRadiusLabel } = words.anatomy;
   const { map } = figure.settings.requestedValues;

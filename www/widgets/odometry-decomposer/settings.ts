@@ -33,7 +33,7 @@ export type ViewModel = ReturnType<typeof viewModelOf>;
 
 export function viewModelOf(simulation: OdometryDecomposer) {
   const simulationResults = simulation.read();
-  // Legs and standard deviations of the selected noise rule.
+  // The legs (rotation, drive, rotation) and their standard deviations by the selected noise rule.
   const { legs, deviations: [rot1, trans, rot2, strafe] } = simulationResults.rules.find(({ rule }) => rule === simulationResults.config.rule) as RuleNoise;
   return { ...simulationResults, legs, deviations: { rot1, trans, rot2, strafe } };
 }

@@ -14,7 +14,6 @@ import { writePython } from './python.mjs';
 import { writeComponents } from './react.mjs';
 import { writeTypes } from './types.mjs';
 
-/** Tags of the elements. */
 export const WIDGET_TAGS = Object.keys(declared.settings);
 
 /** Name of the module with the bytes of the whole core. The module exports a function that returns the bytes. */
@@ -232,7 +231,7 @@ export async function bundlePages({ tags: widgetTags = WIDGET_TAGS } = {}) {
     bundleScripts({ 'motion-widgets.iife': 'motion-widgets.ts' }, 'inlined', { format: 'iife', charset: 'ascii', sourcemap: false }),
     bundleScripts({ react: '../build/react.js' }, 'inlined', { external: ['react', 'motion-widgets'], inject: [] }),
     bundleScripts({ de: 'de.ts', page: 'page.ts', 'server-component': 'server-component.ts' }, 'inlined', { inject: [] }),
-    // The script of the command line loads the core from the file in its directory.
+    // The script of the command line loads the core from core.js in its directory.
     bundleScripts({ cli: 'cli.ts' }, 'inlined', { platform: 'node', sourcemap: false, inject: [] }),
     bundleScripts({ embed: 'embed.ts' }, 'inlined', { format: 'iife', sourcemap: false, inject: [] }),
   ]).catch(() => []);

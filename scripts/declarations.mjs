@@ -110,7 +110,7 @@ export const importTypeScript = (repositoryPath) => import(pathToFileURL(absolut
 export const readClassComments = memoizeWork(async () => {
   // @ts-expect-error The analyzer has no types.
   const { cli } = await import('@custom-elements-manifest/analyzer/cli.js');
-  // With `noWrite` the analyzer returns the manifest and does not write it. It still writes the manifest's path in dist/ into package.json.
+  // With `noWrite` the analyzer returns the manifest and does not write it. It still writes the manifest's path, which `--outdir` sets, into package.json.
   const analyzerArguments = ['analyze', '--litelement', '--quiet', '--outdir', 'dist', '--globs', 'www/figure/figure.ts', 'www/widgets/*/*.ts'];
   const { schemaVersion, modules } = await cli({ argv: analyzerArguments, cwd: REPOSITORY_ROOT, noWrite: true });
   /** @type {any[]} */

@@ -173,7 +173,7 @@ const TEST_PARTS = {
     },
     countPatterns: COUNT_PATTERNS.playwright,
   },
-  // The nightly tests run in Firefox and WebKit, and embed the package in projects.
+  // Only `npm run test:all` runs the parts in Firefox and WebKit, and in projects that embed the package.
   engines: { prepare: async () => createProgramJob([process.execPath, 'tests/engines/run.mjs']) },
   embeddings: { prepare: async () => createProgramJob([process.execPath, 'tests/embeddings/run.mjs']) },
 };
@@ -273,7 +273,7 @@ async function createNodeTestJob(testDirectory, programArgs, env) {
   // Node runs a test if the name of the test or of a parent matches. The root of all tests is named "<root>", and must not match.
   const grepOptions = IS_NIGHTLY ? [] : ['--test-name-pattern', '/^(?!<root>|.*@nightly)/'];
   await ensureBuilt();
-  // With Node's default number of processes a processor core stays idle.
+  // Node's default number of processes would leave a processor core idle.
   return createProgramJob([process.execPath, '--import', 'tsx', '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...grepOptions, ...nodeOptions, ...(namedFiles.length > 0 ? namedFiles : testFiles)], env);
 }
 

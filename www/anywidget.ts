@@ -32,7 +32,7 @@ function renderWidget({ model: widgetModel, el: outputElement }: { model: Widget
   }
   // Without this attribute, JupyterLab would treat letters and digits typed in a figure as shortcuts, and change the cell.
   element.dataset.lmSuppressShortcuts = 'true';
-  // JupyterLab's themes change the background of a cell's output but leave its text black. This variable has the theme's text colour.
+  // JupyterLab's themes change the background of a cell's output but leave its text black. The figure therefore takes the theme's text colour from this variable.
   element.style.color = 'var(--jp-content-font-color1, inherit)';
 
   let hasUnsavedChanges = false;

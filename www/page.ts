@@ -5,7 +5,6 @@
  * @module
  */
 
-/** Custom element of a figure. */
 type FigureElement = HTMLElement & Record<string, any>;
 
 /** Initial states of the figures, as `getState` returned them. */

@@ -49,7 +49,7 @@ test('two tables of a user replace the simulated log, and a button restores the 
   await chooseTables(calibrator, { 'odom.csv': '', 'truth.csv': '' });
   await expect(errorAlert).toHaveText(/^odom\.csv: there is nothing in it/);
   await expect(calibrator.locator('.to-do')).toHaveText('The results are still those of odom.csv, truth.csv. The files chosen last are not used.');
-  // Keeping the results restores the controls with which the user chooses odometry and reference from the files.
+  // After the refused files are dismissed, the user can again choose odometry and reference from the earlier files.
   await calibrator.getByRole('button', { name: 'Dismiss these files' }).click();
   await calibrator.getByLabel('odom.csv', { exact: true }).selectOption('Reference');
   await expect(captionOf(calibrator)).toHaveText(/of truth\.csv, odom\.csv[.,]/);

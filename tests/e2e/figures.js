@@ -50,16 +50,13 @@ export const FIGURE_FACTS = {
   },
 };
 
-/** Names of all elements. */
 export const ALL_FIGURE_NAMES = /** @type {Name[]} */ (Object.keys(FIGURE_FACTS));
 
 /** Names of two elements, for tests of several figures on one page. */
 export const TWO_FIGURE_NAMES = /** @type {const} */ (['banana-machine', 'map-squeeze']);
 
-/** Names of the elements with a cloud. */
 export const CLOUD_FIGURE_NAMES = ALL_FIGURE_NAMES.filter((figureName) => FIGURE_FACTS[figureName].hasCloud);
 
-/** Names of the elements with a handle. */
 export const HANDLE_FIGURE_NAMES = ALL_FIGURE_NAMES.filter((figureName) => FIGURE_FACTS[figureName].handleSelectors);
 
 /**

@@ -140,7 +140,7 @@ test('the menu saves files with descriptive names, also by keyboard', async ({ p
 /** Characters that XML forbids, and character sequences that end a comment, a CDATA section or an element. */
 const HOSTILE_TEXT = ']]> --> <!-- <![CDATA[ </svg><script>alert(1)</script> & &amp; " \u0027 \u0000\u0001\u0008\u000b\u000c\u001f\ufffe\uffff \ud800 \udc00 \u{1f916} é';
 
-/** Returns a text with the replacements that an export to SVG makes. @param {string} originalText */
+/** Returns a text in which characters that XML forbids are replaced, as in an export to SVG. @param {string} originalText */
 // oxlint-disable-next-line no-control-regex
 const replaceForbiddenCharacters = (originalText) => originalText.replace(/[\0-\x08\x0b\x0c\x1f\ufffe\uffff\p{Cs}]/gu, '\ufffd');
 

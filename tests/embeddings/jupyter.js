@@ -18,7 +18,6 @@ const PACKAGE_FILES = {
 };
 const NPM_PACKAGES = ['requirejs@2.3.8', '@jupyter-widgets/html-manager@1.0.15', 'anywidget@0.11.0'];
 
-/** Directory of the npm packages. */
 let packagesDirectory = '';
 
 const ORIGINAL_SETTINGS = { omega: 0.8, samples: 20000, alphas: [0.1, 0.1, 0.1, 0.1, 0.01, 0.01], overlays: ['command', 'exponential'] };

@@ -98,7 +98,7 @@ export function sliderStatesOf(widgetTag) {
     });
 }
 
-/** Returns the digest of all configurations, computed by the published core. */
+/** Returns hashes of the results of all configurations (the digest), computed by the published core. */
 export async function computeWholeDigest() {
   const [{ load }, configurationsResponse] = await Promise.all([
     import(new URL('/core.js', location.href).href),

@@ -13,7 +13,7 @@ import { openRecordings } from '../../www/logs/open.ts';
 import { odometryMessageOf, recordingOf, transformMessageOf, type Message } from '../mcap.js';
 import { catchRefusalError, catchRefusalSentence } from './log-support.js';
 
-/** Compressed files of the drive, by name. */
+/** Compressed recordings of one drive, by file name. */
 const COMPRESSED_FILES: Record<string, string> = JSON.parse(readFileSync(new URL('../reference/logs/recordings.json', import.meta.url), 'utf8'));
 
 const decompressFile = (fileName: string) => gunzipSync(Buffer.from(COMPRESSED_FILES[fileName], 'base64'));

@@ -13,7 +13,7 @@ const installedProject = serveProject(prepareProject);
 /** @type {import('@playwright/test').Page} */
 let page;
 
-/** Source of a React application. Tests change the props through the browser page, and reads the received events in `receivedEvents`. */
+/** Source of a React application. Tests change the props by `page.setProps`, and read the events in `receivedEvents`. */
 const APPLICATION_SOURCE = `
   import { createElement, useRef, useState } from 'react';
   import { BananaMachine, MapSqueeze } from 'motion-widgets/react';

@@ -17,7 +17,7 @@ interface CliEnvironment {
   load(): Promise<any>;
   print(outputText: string): void;
   printError(errorText: string): void;
-  /** Shows the fraction that has been read; undefined hides it. */
+  /** Shows the fraction of a file that has been read. Undefined hides this display. */
   onProgress?(progressFraction: number | undefined): void;
   version?: string;
   isColored?: boolean;

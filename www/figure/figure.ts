@@ -81,7 +81,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
 
   /** Puts the styles of all figures before those of the widget. */
   static finalizeStyles(widgetStyles: CSSResultGroup = []) {
-    // Lit also calls this method on the base class, which has no definition.
+    // Lit also calls this method on the base class, which defines no widget.
     const reservedStyles = this.definition ? reservedHeightCssOf(this.definition.widgetTag) : [];
     return super.finalizeStyles([themeStyles, presentationStyles, reservedStyles, ...layoutStyles, plotStyles, widgetStyles]);
   }
@@ -382,7 +382,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
       return this;
     };
     try {
-      // After a trap the previous content stays. After a failure the message is rendered.
+      // After a failure, the second call renders the failure message. After a trap, it keeps the previous content.
       if (!this.runtime.attemptOrFail(updateContent)) updateContent();
     } catch {
       // Not even the failure message can be rendered as a template. It is set as plain text, and further updates are prevented.

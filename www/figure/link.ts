@@ -75,7 +75,7 @@ export class StateLink extends FigureController {
     const figureState = this.figure.getState() ?? {};
     const packedState = await packJson(figureState);
     this.lacksMap = packedState.length > MAX_PACKED_LENGTH;
-    // Without its map, the start pose may be invalid, and is left out too.
+    // A link without the map has no start pose either, because the pose may be invalid on another map.
     return this.lacksMap ? packJson({ ...figureState, map: undefined, start: undefined }) : packedState;
   }
 }

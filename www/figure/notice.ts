@@ -71,7 +71,6 @@ export class FigureNotice extends FigureController {
 export class Announcer {
   #isAnnouncementDue = false;
   #announcedText = '';
-  /** Latest announced outcome. */
   #latestOutcome: string | undefined;
 
   /** Requests an announcement of the next outcome. */

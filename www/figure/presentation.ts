@@ -49,7 +49,7 @@ export class PresentationMode extends FigureController {
     addEventListener('keydown', this.#onKeyDown, { signal: this.#keyListenerAbort.signal });
     const focusedButton = figure.renderRoot?.querySelector('.to-present:focus-visible');
     await figure.updateComplete;
-    // A click should leave no focus ring in the presentation.
+    // A button gets the focus only after a key press. After a click, its focus ring would distract the audience.
     this.#focusElement(focusedButton ? '.presenting button' : '.presenting');
     // Full screen may fail: browsers allow it only after a key press or a click, and some phones do not have it.
     if (navigator.userActivation.isActive) await figure.requestFullscreen?.().catch(() => {});

@@ -56,7 +56,7 @@ export class FigureRenderer extends FigureController {
     // Some browsers do not fire `beforeprint` and `afterprint`, and others fire them too late.
     const printQuery = matchMedia('print');
     printQuery.addEventListener('change', () => this.#setPrinting(printQuery.matches), { signal: abortSignal });
-    // An element that is removed during print gets no event at the end of the print.
+    // If the element was removed from the page during print, it has missed the event at the end of the print.
     if (this.isPrinting !== printQuery.matches) this.#setPrinting(printQuery.matches);
     onLanguage(this.figure, () => this.#applyLanguage(), abortSignal);
     this.#nearObserver.observe(this.figure);
@@ -91,7 +91,7 @@ export class FigureRenderer extends FigureController {
   /** Checks the position of the figure at once: the observers would report it a frame later. */
   #checkPosition() {
     const { top: topEdge, bottom: bottomEdge } = this.figure.getBoundingClientRect();
-    // The box of a removed element is all 0.
+    // An element out of the viewport does not start. Neither does a removed element, all of whose edges are 0.
     if (topEdge >= innerHeight || bottomEdge <= 0) return;
     this.#setVisible(true);
     this.#setNear(true);
@@ -217,7 +217,7 @@ export class FigureRenderer extends FigureController {
     for (const pictureHandles of figure.handles) pictureHandles.placeHandles(drawnScene);
     const nowMs = performance.now();
     const pendingSinceMs = this.#textPendingSince;
-    // The first picture is drawn without text.
+    // While the figure opens, its text waits for the frame after the first picture.
     if (this.isOpening ? pendingSinceMs : !isResizing && (nowMs - startTimeMs < MAX_DRAW_MS_BEFORE_TEXT_OF_SAME_FRAME || nowMs - (pendingSinceMs ?? nowMs) > MAX_TEXT_DELAY_MS)) this.#renderText();
     else {
       this.#textPendingSince ??= startTimeMs;

@@ -23,7 +23,6 @@ export class FigurePicture<Scene, Name extends string = string> {
   /** Sets the extent that the view has to show. */
   fitView(_scene: Scene) {}
 
-  /** Paints the scene. */
   paintPicture(_drawContext: DrawContext, _scene: Scene) {}
 
   /** Draws the scene. Returns true if the view is still moving. */

@@ -123,7 +123,7 @@ export class SvgContext {
   }
 
   measureText(labelText: string): { width: number } {
-    // Node has no canvas to measure text. Letters of most fonts are about half as wide as high.
+    // Node has no canvas to measure text. The width is estimated: letters of most fonts are about half as wide as high.
     if (typeof OffscreenCanvas === 'undefined') return { width: 0.55 * labelText.length * parseFloat(this.font.replace('italic ', '')) };
     this.#measuringContext ??= new OffscreenCanvas(1, 1).getContext('2d') as OffscreenCanvasRenderingContext2D;
     this.#measuringContext.font = this.font;

@@ -301,7 +301,7 @@ export function numberFieldHtml({ value: fieldValue, min: minValue, max: maxValu
   const typingRange = { min: minValue, max: maxValue, step: numberType === 'whole' ? '1' : 'any' };
   const handleKey = (keyEvent: KeyboardEvent) => {
     const numberField = inputOf(keyEvent);
-    // The steps of the arrow keys count from `min`.
+    // Arrow keys step in units of `step` from `min`, and need another range than typed numbers.
     Object.assign(numberField, keyEvent.key.startsWith('Arrow') ? arrowRange : typingRange);
     if (keyEvent.key !== 'Escape') return;
     numberField.form?.reset();

@@ -129,7 +129,7 @@ export const presentationStyles = css`
     padding: 0 0.53em;
   }
 
-  /* The key of a preset is shown in its button. */
+  /* The button of a preset shows the key that selects the preset. */
   :host([presentation]) .presets {
     counter-reset: key;
     margin: 0.2em 0 0;

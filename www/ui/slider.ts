@@ -82,7 +82,7 @@ export const sliderStyles = css`
     text-underline-offset: 0.25em;
   }
 
-  /* A text that is too long for this space covers the content below. */
+  /* A text that is too long for this space covers the content below, and does not move it. */
   .slider .effect {
     position: absolute;
     top: calc(100% - 1.1em);
@@ -254,7 +254,7 @@ function focusField(keyEvent: KeyboardEvent) {
   const { key: pressedKey, ctrlKey, altKey, metaKey } = keyEvent;
   if (ctrlKey || altKey || metaKey || (pressedKey !== 'Enter' && !NUMBER_START.test(pressedKey))) return;
   const slider = inputOf(keyEvent);
-  // Digits select presets in a presentation.
+  // In a presentation, digits select presets, and are not typed into the field.
   if (/\d/.test(pressedKey) && (slider.getRootNode() as any).host?.presentation) return;
   if (pressedKey === 'Enter') keyEvent.preventDefault();
   keyEvent.stopPropagation();

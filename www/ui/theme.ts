@@ -212,7 +212,7 @@ let pixelContext: OffscreenCanvasRenderingContext2D | undefined;
 
 /** Returns red, green and blue from 0 to 255 of colours in any CSS notation, each painted over the previous ones. */
 export function colourChannelsOf(...cssColours: string[]): [number, number, number] {
-  // An opaque colour in this notation, the most frequent one, is read without a canvas.
+  // An opaque colour in the notation rgb(r, g, b), the most frequent one, is read without a canvas.
   const rgbMatch = cssColours.at(-1)?.match(/^rgb\((\d+), (\d+), (\d+)\)$/);
   if (rgbMatch) return [Number(rgbMatch[1]), Number(rgbMatch[2]), Number(rgbMatch[3])];
   const canvasContext = (pixelContext ??= (

@@ -3,7 +3,6 @@
 /** Prints a number of legs. */
 const formatLegCount = (count: string) => `${count} Etappe${count === '1' ? '' : 'n'}`;
 
-/** Messages of failed checks. */
 const CHECK_MESSAGES: Record<string, string> = {
   'reference-matches-mirrored':
     'Die Referenz dreht sich nach links, wo sich die Odometrie nach rechts dreht: Bei einer von beiden zeigt Z nach unten, oder eine Achse ist gespiegelt. Die α sind bedeutungslos. Bei einer von beiden y und den Winkel negieren: Welche falsch ist, zeigen die Logs nicht, und die α sind dieselben.',

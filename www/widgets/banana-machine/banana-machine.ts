@@ -86,7 +86,7 @@ function alphaSliderHtml(figure: BananaMachineElement, alphaNumber: number, [alp
 }
 
 const styles = css`
-  /* The margin keeps these controls clear of the gradient that fades scrolled text below the pictures. */
+  /* The margin keeps the controls of the morph clear of the gradient that fades scrolled text below the pictures. */
   .morphing {
     display: flex;
     flex-wrap: wrap;

@@ -9,7 +9,6 @@ import type { ViewModel } from './settings.ts';
 /** Outlines by name, in floor coordinates or transformed to a stage of the morph. */
 export type Outlines = Omit<ViewModel['contours'], 'twistEllipse'>;
 
-/** Duration of the animated morph, ms. */
 export const MORPH_DURATION_MS = 5000;
 
 /** Returns the position of a twist (m, m, rad) in a picture at a stage of the morph: 0 is the floor, 1 is exponential coordinates. `geom::unbend` of the core has the same formula. */

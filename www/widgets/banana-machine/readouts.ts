@@ -97,7 +97,7 @@ export function mainReadoutsHtml(viewModel: ViewModel, pinnedViewModel?: ViewMod
   const coverages = [coverage.ellipse, coverage.exponential];
   return readoutsHtml([
     [texts.areaRatio, printedStatistics[0], coverages.every(Number.isNaN) ? NO_VALUE : texts.areaRatioDetail(Number.isNaN(areaRatioError) ? '' : formatSignificant(areaRatioError, 1), formatPercent(coverages[0]), formatPercent(coverages[1])), pinnedStatistics?.[0]],
-    // A gain of positions and a gain of poses are not comparable. If the gains in log-likelihood of the pinned and the current cloud differ in this, the pinned one is left out.
+    // A gain of positions and a gain of poses are not comparable. If only one of the two clouds (pinned and current) has a gain of positions, the pinned gain is left out.
     [gain.unbounded ? texts.gainOnFloor : texts.gain, printedStatistics[1], formatGain(gain), pinnedViewModel?.exponentialGain.unbounded === gain.unbounded ? pinnedStatistics?.[1] : undefined],
     [texts.skew, printedStatistics[2], Number.isNaN(exactSkew) ? NO_VALUE : texts.exactValue(formatFixed(exactSkew, 3)), pinnedStatistics?.[2]],
   ], 0);

@@ -37,7 +37,7 @@ export const definition = createDefinition('dead-reckoning', {
   sliderSpecs: {
     ...COMMAND_SLIDERS,
     ...NOISE_SLIDERS,
-    // A cloud of more robots would lag behind this slider during a drag.
+    // With more robots, the cloud would lag behind a slider that the user drags.
     samples: createSamplesSliderSpec(200_000),
     step: { symbol: '*k*', colourRole: 'truth', min: 1, max: 200, step: 1, decimals: 0 },
     steps: { symbol: '*K*', colourRole: 'prior', min: 1, max: 200, step: 1, decimals: 0 },

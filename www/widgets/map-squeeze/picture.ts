@@ -52,7 +52,6 @@ export class FloorPicture extends SamplesPicture<Scene> {
   pictureName = 'plane';
   pictureView: PictureView = new PictureView({ relativeMargin: 0 });
   plan: Plan = { bounds: new Float64Array(4), walls: new Float64Array() };
-  /** True if the map has unknown cells. */
   hasUnknownCells = false;
   /** True for a floor plan, false for a grid. The walls of a grid outline its cells, and cannot be moved. */
   hasMovableWalls = true;

@@ -25,7 +25,7 @@ export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'att
 export function captionOf({ config: { conditioned, sampler }, stats, stuckNote }: ViewModel) {
   const { accepted, attempts, gaveUp } = stats;
   const texts = words.squeeze;
-  // The note about a robot that cannot move is complete: it also contains the number of motions.
+  // The note about a robot that cannot move is the whole caption, because it also contains the number of motions.
   if (stuckNote && (accepted === 0 || gaveUp)) return stuckNote;
   if (attempts === 0) return `${texts.headline.noMotionHeadline}.`;
   const testedText = texts.testedSentences[conditioned ? sampler : 'off'](formatInteger(accepted), formatInteger(attempts));

@@ -30,7 +30,7 @@ export interface Grip {
   axis: number[];
 }
 
-/** Returns the grips of inner walls: one for each end that touches no other wall, and one for the whole wall. */
+/** Returns the grips (movable parts) of inner walls: one for each end that touches no other wall, and one for the whole wall. */
 export function gripsOf({ bounds, walls }: Plan): Grip[] {
   return wallOffsetsOf(walls).flatMap((wallOffset): Grip[] => {
     const [x0, y0, x1, y1] = walls.subarray(wallOffset, wallOffset + 4);

@@ -18,7 +18,6 @@ const EXAMPLE_PLAN = `{
   ]
 }`;
 
-/** Extensions of map files. */
 const MAP_FILE_EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];
 
 /** Total size of map files (bytes) above which a notice is shown while the files are read. */

@@ -359,7 +359,7 @@ const REPLACED_PASSAGES = {
   ],
 };
 
-/** Returns a library with its `REPLACED_PASSAGES` replaced. @param {string} librarySource @param {keyof typeof REPLACED_PASSAGES} libraryFileName of its file */
+/** Returns a library with its `REPLACED_PASSAGES` replaced. @param {string} librarySource @param {keyof typeof REPLACED_PASSAGES} libraryFileName */
 function replacePassages(librarySource, libraryFileName) {
   return REPLACED_PASSAGES[libraryFileName].reduce((text, [originalPassage, replacementPassage]) => {
     if (text.split(originalPassage).length !== 2) throw new Error(`${libraryFileName} does not have ${originalPassage} once, but scripts/bundle.mjs replaces it.`);

@@ -70,7 +70,7 @@ const createProgramJob = ([programName, ...programArguments], programEnvironment
 /**
  * Returns a job that runs a script of a package.
  *
- * @param {string} scriptPath of a script in node_modules
+ * @param {string} scriptPath in node_modules
  * @param {string[]} scriptArguments
  * @param {Record<string, string>} [env]
  */
@@ -214,7 +214,7 @@ async function runParts(cliArguments) {
 /**
  * Runs a part.
  *
- * @param {string} partName of a part
+ * @param {string} partName
  * @param {string[]} programArgs
  * @returns {Promise<Outcome>}
  */
@@ -241,7 +241,7 @@ async function runPart(partName, programArgs) {
 /**
  * Returns the environment in which `cargo test` runs its WebAssembly tests in the browser.
  *
- * @param {string} runnerPath of wasm-bindgen
+ * @param {string} runnerPath of the program that runs the tests
  * @param {import('./browser.mjs').Browser} browser
  */
 function createBrowserEnvironment(runnerPath, { chromePath, driverPath }) {

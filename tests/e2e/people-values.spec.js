@@ -6,7 +6,7 @@ import { REDUCED_MOTION, waitForFrames, openBananaWithDisclosures, printedValueO
 
 test.use(REDUCED_MOTION);
 
-/** Returns the help text of a slider. @param {Locator} widget @param {string} settingKey of the setting */
+/** Returns the help text of a slider. @param {Locator} widget @param {string} settingKey */
 const helpOf = (widget, settingKey) => widget.locator(`#${settingKey}-effect`);
 
 test('a digit typed on a slider edits its value, Enter returns to the slider, and the value may exceed the slider’s range', async ({ page }) => {

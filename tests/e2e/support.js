@@ -252,10 +252,10 @@ export async function openDisclosures(widget) {
   await waitForFrames(widget.page());
 }
 
-/** Returns the printed value of a slider. @param {Locator} widget @param {string} settingKey of the setting */
+/** Returns the printed value of a slider. @param {Locator} widget @param {string} settingKey */
 export const printedValueOf = (widget, settingKey) => widget.locator(`.slider:has(#${settingKey}) .value`);
 
-/** Returns the field of a slider's value. @param {Locator} widget @param {string} settingKey of the setting */
+/** Returns the field of a slider's value. @param {Locator} widget @param {string} settingKey */
 export const valueFieldOf = (widget, settingKey) => printedValueOf(widget, settingKey).locator('input');
 
 /** Waits until all requested animation frames have been drawn. @param {Page} page */

@@ -71,7 +71,7 @@ async function testPlatforms(platformNames) {
   return allOutcomes.every(({ failures }) => failures.length === 0);
 }
 
-/** Prints the versions of the packages and the outcomes. @param {Outcome[]} outcomes @param {string} browserVersion of the browser */
+/** Prints the versions of the packages and the outcomes. @param {Outcome[]} outcomes @param {string} browserVersion */
 async function printSummary(outcomes, browserVersion) {
   printStep(`Versions: Node ${process.versions.node}, Chromium ${browserVersion}`);
   for (const name of new Set(outcomes.map(({ name }) => name))) console.log(`${name.padEnd(16)} ${(await loadPlatform(name)).readVersions()}`);

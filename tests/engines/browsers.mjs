@@ -89,7 +89,7 @@ async function startBrowserByDriver(driverPath, driverEnvironment, browserCapabi
 /**
  * Opens a session of a running driver.
  *
- * @param {string} driverUrl of the driver
+ * @param {string} driverUrl
  * @param {object} capabilities
  * @param {() => Promise<void>} stopDriver
  * @returns {Promise<BrowserSession>}

@@ -74,7 +74,7 @@ const COMMAND_OPTIONS = {
   help: { ...flagOption, short: 'h' }, version: flagOption,
 } as const;
 
-/** Command-line options by the options of the core's `calibrate` that they set. */
+/** Options of the core's `calibrate`, each with the command-line option that sets it. */
 const OPTION_BY_FIELD: Record<string, string> = {
   'legs.distance': 'update-min-d', 'legs.angle': 'update-min-a', 'legs.duration': 'duration',
   positionStd: 'reference-position-std', yawStd: 'reference-yaw-std', model: 'model', rule: 'rule', outliers: 'outliers',

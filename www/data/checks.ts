@@ -4,7 +4,7 @@ export function createRefusalError(fieldName: string, checkedValue: unknown, all
   return new ErrorClass(`${fieldName} is ${describeValue(checkedValue)}; allowed is ${allowedText}`);
 }
 
-/** Returns the error. If its message starts with `corePath`, the core's name of a field, the message gets `newName` instead. */
+/** Returns the given error. If its message starts with `corePath`, which is the core's name of a field, `newName` replaces that name. */
 export function withFieldRenamed(error: unknown, newName: string, corePath: string = newName) {
   if (error instanceof Error && error.message.startsWith(corePath)) error.message = newName + error.message.slice(corePath.length);
   return error;
@@ -60,7 +60,7 @@ export interface FieldRange {
   nullable?: true;
 }
 
-/** Returns a value after a check; throws a TypeError or RangeError if it is out of range. */
+/** Returns a value that has the type and range of a field; throws a TypeError or RangeError for any other value. */
 export function checkValue(fieldName: string, checkedValue: unknown, { type: valueType, words: allowedWords = [], min: minValue = -Infinity, max: maxValue = Infinity, nullable }: FieldRange): unknown {
   if (valueType === undefined || (nullable && checkedValue === null)) return checkedValue;
   if (valueType === 'words') return checkSubset(fieldName, checkedValue, allowedWords);

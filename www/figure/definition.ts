@@ -7,7 +7,7 @@ import type { LineStyle } from '../ui/theme.ts';
 import type { SliderSpec } from './controls.ts';
 import type { StateValues } from './settings.ts';
 
-/** Converter of Lit that returns an invalid text unchanged, which the check of the value then refuses. */
+/** Lit's converter between attribute and property. It returns an invalid text unchanged, so that the check of the value refuses the text. */
 interface AttributeConverter {
   fromAttribute: (attributeText: string | null) => unknown;
   /** Converts a value to a text; null removes the attribute. Without this function, the attribute is read but not written. */
@@ -170,7 +170,7 @@ interface DefinitionOptions extends Pick<WidgetDefinition, 'messageKey' | 'slide
   /** Styles of the lines and marks in the pictures. The keys are the words of the attribute `overlays`. */
   overlayStyles: Record<string, LineStyle>;
   openingOverlays?: readonly string[];
-  /** Attribute `preset`, if a preset also depends on fields of the element. */
+  /** Attribute `preset` of a widget whose presets also depend on fields of the element. */
   presetAttribute?: ElementAttribute;
   /** State fields of the widget, in addition to those of overlays and cloud. */
   elementFields?: Record<string, ElementField>;

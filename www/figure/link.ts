@@ -105,7 +105,7 @@ const splitFragment = () => location.hash.slice(1).split('&').filter((fragmentPa
 /** Fragment part of the figure to which a followed link still has to scroll. Empty after the scroll, and undefined until the first figure is connected. */
 let pendingLinkPart: string | undefined;
 
-/** Returns true if the page was opened by a link: on a reload the browser restores the scroll position. */
+/** Returns true if the page was opened by a link. After a reload, no figure needs to scroll: the browser restores the scroll position. */
 function wasOpenedByLink() {
   const [navigationTiming] = performance.getEntriesByType('navigation') as PerformanceNavigationTiming[];
   return navigationTiming?.type === 'navigate';

@@ -13,7 +13,7 @@ interface WorkNotice {
 /** Notice at the lower edge of the figure or window. It moves no other content. */
 export class FigureNotice extends FigureController {
   #renderContent: (() => unknown) | undefined;
-  /** Notice about long work. It hides the other notice until the work has ended. */
+  /** Notice about long work. Until the work has ended, it hides the notice of `showNotice`. */
   #workNotice: WorkNotice | undefined;
 
   /** Shows a notice with a button that closes it. */

@@ -102,7 +102,7 @@ export class FigureSettings extends FigureController {
     this.dropPendingChanges();
     figure.onSimulationReplaced();
     figure.reflection.applyEarlyAssignments();
-    // An assignment that has trapped has removed the simulation. A state that the page has assigned is already shown.
+    // The state is shown, unless an assignment has trapped, which removes the simulation, or a state that the page assigned is already shown.
     if (figure.simulation && this.isViewModelStale) this.#showState(figureState);
   }
 

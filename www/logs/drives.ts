@@ -42,7 +42,7 @@ const describeSeries = (seriesList: Series[]) => listNames(seriesList.map(({ ser
 const isSameChoice = (logChoice: LogChoice, otherChoice?: LogChoice) => logChoice.seriesName === otherChoice?.seriesName && logChoice.framePair?.parent === otherChoice.framePair?.parent && logChoice.framePair?.child === otherChoice.framePair?.child;
 
 /**
- * Chooses the logs of recordings that are read. Recordings with odometry come first. Throws a LogError, which has a question if the choice is ambiguous. Calls `onSkip` with the
+ * Chooses which logs of the recordings are read. Recordings with odometry come first. Throws a LogError, which has a question if the choice is ambiguous. Calls `onSkip` with the
  * error of each recording that is left out, because none of its series can be read.
  */
 export function planDrives(allRecordings: Recording[], userChoices: UserChoices = {}, onSkip?: (error: LogError) => void): PlannedRecording[] {

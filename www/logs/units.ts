@@ -23,7 +23,7 @@ const RADIANS_PER_UNIT = { rad: 1, deg: Math.PI / 180 } as const;
 /** Minimum value of times since 1970, by unit. 1e8 s is the year 1973, and 1e11 s the year 5138. */
 const MIN_EPOCH_TIMES = [['ns', 1e17], ['us', 1e14], ['ms', 1e11], ['s', 1e8]] as const;
 
-/** Maximum heading (rad) of an angle that is wrapped at a full circle, with a margin for rounding. */
+/** Maximum absolute value (rad) of headings that are wrapped to a full circle, with a margin for rounding. Larger headings may be degrees. */
 const MAX_WRAPPED_HEADING = 2 * Math.PI + 0.1;
 
 const MIN_ROWS = 10;

@@ -71,7 +71,7 @@ export class Handle {
     this.#callbacks = callbacks;
   }
 
-  /** True while a pointer drags the handle. This is computed, because browsers release the pointer of a removed element without an event. */
+  /** True while a pointer drags the handle. The value is not stored, because browsers release the pointer of a removed element without an event. */
   get isHeld() {
     return this.#heldPointer?.element.hasPointerCapture(this.#heldPointer.id) ?? false;
   }

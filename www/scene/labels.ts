@@ -42,7 +42,7 @@ const TEXT_MARGIN = 4;
 /** Distance that a sentence keeps from lines and other sentences, pixels. */
 const MIN_TEXT_DISTANCE = 9;
 
-/** Candidate positions of a sentence: angles (rad) relative to the direction away from the centre, and lengths of the leader, pixels. */
+/** Candidate positions of a sentence: angles (rad) relative to the direction away from the shape's centre, and lengths of the leader, pixels. */
 const CANDIDATE_ANGLES = Array.from({ length: 24 }, (_, i) => (Math.PI * (i - 12)) / 12);
 const LEADER_LENGTHS = [MIN_LEADER_LENGTH, 2 * MIN_LEADER_LENGTH, 3 * MIN_LEADER_LENGTH];
 

@@ -309,7 +309,7 @@ export function numberFieldHtml({ value: fieldValue, min: minValue, max: maxValu
     keyEvent.preventDefault();
   };
   const groupSeparator = language === 'de' ? '.' : ',';
-  // Browsers drop characters that are not in the notation of the browser's language: 0,35 would become 35.
+  // Browsers drop characters that are not in the notation of the browser's language: 0,35 would become 35. Such characters are replaced.
   const replaceSigns = (inputEvent: InputEvent) => {
     const typedText = inputEvent.data ?? '';
     const replacedText = (numberType === 'whole' ? typedText.replaceAll(groupSeparator, '') : typedText).replace(MINUS_SIGN, '-').replace(',', '.');

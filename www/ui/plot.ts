@@ -1,4 +1,4 @@
-/** Chart in SVG: curves with bands, points with error bars, and marks, over linear or logarithmic axes. A slider over the chart may set an x. */
+/** Chart in SVG: curves with bands, points with error bars, and marks, over linear or logarithmic axes. A slider over the chart may set a value on the x axis. */
 
 import { css, html, nothing, svg, unsafeCSS } from 'lit';
 import { formatMarkup } from './controls.ts';

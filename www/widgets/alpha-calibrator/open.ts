@@ -101,7 +101,7 @@ export class LogOpener extends FileOpener<Figure> {
     this.figure.requestUpdate();
   }
 
-  /** Reads files. If the previous file lacked the other log of its drive, it is read again together with them. */
+  /** Reads files. If the file that was chosen before lacks the other log of its drive, it is read again together with the new files. */
   chooseFiles(files: File[]) {
     const logFiles = files.filter(isPossibleLog);
     const newFiles = logFiles.length ? logFiles : files;

@@ -39,7 +39,7 @@ const CURVE_POINT_COUNT = 241;
 /** Values that the maximum of the skew chart's vertical axis can have. They are few, so that the axis seldom changes during a drag. */
 const CHART_MAXIMA = [0.25, 0.5, 1, 2, 4, 8];
 
-/** Number of the α that is isolated first: with Isolate, only one α has an effect. α₄ is the noise of the turn rate from turning. */
+/** Number of the α that the checkbox Isolate selects first, so that only this α has an effect. α₄ is the noise of the turn rate from turning. */
 const FIRST_ISOLATED_ALPHA = 4;
 
 function modelControlsHtml(figure: BananaMachineElement) {

@@ -2,7 +2,7 @@
 
 import type { LoggedDrive } from '../logs/pairs.ts';
 import { alignPath, pathOf, poseAt, type PlanarPose } from '../logs/path.ts';
-import { drawAxes, createLineLegendEntry } from '../scene/axes.ts';
+import { drawAxes } from '../scene/axes.ts';
 import { drawDisc, strokePath, type DrawContext } from '../scene/canvas.ts';
 import { SvgContext, escapeXml } from '../scene/svg.ts';
 import { PictureView, extentOf } from '../scene/view.ts';
@@ -16,9 +16,9 @@ const MAX_PATH_POINTS = 10_000;
 /** Palette and line styles of the picture, as on a light page. */
 const PLOT_COLOURS = { ink: '#1f1e1b', muted: '#57564f', rule: '#c9c7bd' };
 const LINE_STYLES = {
-  reference: { label: 'reference, with the ends of legs', colour: PLOT_COLOURS.ink, width: 1.5 },
-  odometry: { label: 'odometry, aligned', colour: '#0b61b0', width: 1.5, dash: [4, 2] },
-  outlier: { label: 'outliers', colour: '#7a1560', width: 5, lineCap: 'round' as const },
+  reference: { name: 'reference, with the ends of legs', colour: PLOT_COLOURS.ink, width: 1.5 },
+  odometry: { name: 'odometry, aligned', colour: '#0b61b0', width: 1.5, dash: [4, 2] },
+  outlier: { name: 'outliers', colour: '#7a1560', width: 5, lineCap: 'round' as const },
 };
 
 export const createDrivesSvg = (loggedDrives: LoggedDrive[], calibration: any): string => `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${PANEL_WIDTH} ${PANEL_HEIGHT * loggedDrives.length}" width="${PANEL_WIDTH}" height="${PANEL_HEIGHT * loggedDrives.length}">
@@ -43,7 +43,7 @@ function createDrivePanel({ odometry: odometryLog, reference: referenceLog }: Lo
   const svgContext = new SvgContext(idPrefix);
   const drawContext = { canvasContext: svgContext, pictureView: plotView, palette: PLOT_COLOURS, font: '13px sans-serif' } as unknown as DrawContext;
   const shownLines = [LINE_STYLES.reference, LINE_STYLES.odometry, ...(outlierLegs.length ? [LINE_STYLES.outlier] : [])];
-  drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, shownLines.map(({ label: lineLabel, ...lineStyle }) => createLineLegendEntry(drawContext, lineLabel, lineStyle)));
+  drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, shownLines);
   const strokePoses = (poses: PlanarPose[], breakIndices: Set<number>, lineStyle: (typeof shownLines)[number]) => strokePath(drawContext.canvasContext, lineStyle, () => poses.forEach(([x, y], i) => {
     if (i === 0 || breakIndices.has(i)) svgContext.moveTo(...plotView.toPixel(x, y));
     else svgContext.lineTo(...plotView.toPixel(x, y));

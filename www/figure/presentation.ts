@@ -19,7 +19,7 @@ export class PresentationMode extends FigureController {
 
   hostConnected() {
     const { figure } = this;
-    this.#syncWithProperty();
+    this.hostUpdate();
     // The user can also leave full screen by keys of the browser.
     figure.addEventListener('fullscreenchange', () => {
       if (!figure.matches(':fullscreen')) figure.presentation = false;
@@ -30,11 +30,8 @@ export class PresentationMode extends FigureController {
     void this.#endPresentation();
   }
 
+  /** Begins or ends the presentation if the property `presentation` has changed. */
   hostUpdate() {
-    this.#syncWithProperty();
-  }
-
-  #syncWithProperty() {
     const { figure } = this;
     if (!figure.isConnected || figure.presentation === (this.#keyListenerAbort !== undefined)) return;
     if (figure.presentation) void this.#beginPresentation();

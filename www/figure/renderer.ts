@@ -58,7 +58,11 @@ export class FigureRenderer extends FigureController {
     printQuery.addEventListener('change', () => this.#setPrinting(printQuery.matches), { signal: abortSignal });
     // If the element was removed from the page during print, it has missed the event at the end of the print.
     if (this.isPrinting !== printQuery.matches) this.#setPrinting(printQuery.matches);
-    onLanguage(this.figure, () => this.#applyLanguage(), abortSignal);
+    onLanguage(this.figure, () => {
+      this.figure.settings.isViewModelStale = true;
+      this.figure.requestUpdate();
+      this.requestFrame();
+    }, abortSignal);
     this.#nearObserver.observe(this.figure);
     // The figure starts in a microtask, because the script that defines the element may first call `load(moduleSource)`.
     queueMicrotask(() => {
@@ -100,12 +104,6 @@ export class FigureRenderer extends FigureController {
   #setNear(isNear: boolean) {
     if (isNear && !this.#isNear) void this.figure.runtime.startCore();
     this.#isNear = isNear;
-  }
-
-  #applyLanguage() {
-    this.figure.settings.isViewModelStale = true;
-    this.figure.requestUpdate();
-    this.requestFrame();
   }
 
   hostUpdated() {

@@ -1,7 +1,8 @@
 /** Axes of a picture with ticks, names and a legend, and clipping to the plot area. */
 
 import { ticksOfAxis } from '../ui/format.ts';
-import { paintWithOpacity, strokeLine, type DrawContext, type LineStroke } from './canvas.ts';
+import { addCross, drawDisc, fillPath, paintWithOpacity, strokeLine, strokePath, type DrawContext, type LineStroke } from './canvas.ts';
+import type { LineStyle } from '../ui/theme.ts';
 
 /** Minimum distance between two ticks of an axis, CSS pixels. */
 const MIN_TICK_SPACING = { x: 60, y: 48 };
@@ -45,28 +46,33 @@ export function drawAxes(drawContext: DrawContext, axisNames: { x: string, y: st
   drawLegend(drawContext, yTicks.axisName, legendEntries);
 }
 
-export interface LegendEntry {
-  name: string;
-  /** Draws a line sample, from left to right in the middle of the text line; CSS pixels. */
-  drawSample: (x: number, y: number, width: number) => void;
-}
+/** Line or mark with its name in a legend. */
+export type LegendEntry = LineStroke & Pick<LineStyle, 'shape'> & { name: string };
 
-export const createLineLegendEntry = ({ canvasContext }: DrawContext, legendLabel: string, lineStroke: LineStroke): LegendEntry => ({ name: legendLabel, drawSample: (x, y, width) => strokeLine(canvasContext, [[x, y], [x + width, y]], lineStroke) });
-
-function drawLegend({ canvasContext, pictureView, palette, font }: DrawContext, axisName: string, legendEntries: LegendEntry[]) {
+function drawLegend(drawContext: DrawContext, axisName: string, legendEntries: LegendEntry[]) {
+  const { canvasContext, pictureView, palette, font } = drawContext;
   const fontSize = parseFloat(font);
   const y = pictureView.plotArea.top - 22;
   canvasContext.fillText(axisName, 2, y);
   let entryEnd = 2 + canvasContext.measureText(axisName).width;
   Object.assign(canvasContext, { font, fillStyle: palette.ink });
-  for (const { name: legendLabel, drawSample } of legendEntries) {
+  for (const { name: legendLabel, ...lineStyle } of legendEntries) {
     const sampleX = entryEnd + LEGEND_LENGTHS_EM.entryGap * fontSize;
     const nameX = sampleX + (LEGEND_LENGTHS_EM.lineSampleWidth + LEGEND_LENGTHS_EM.nameGap) * fontSize;
     entryEnd = nameX + canvasContext.measureText(legendLabel).width;
     if (entryEnd > pictureView.width) break;
     canvasContext.fillText(legendLabel, nameX, y);
-    drawSample(sampleX, y + fontSize / 2, LEGEND_LENGTHS_EM.lineSampleWidth * fontSize);
+    drawSwatch(drawContext, lineStyle, [sampleX, y + fontSize / 2], LEGEND_LENGTHS_EM.lineSampleWidth * fontSize);
   }
+}
+
+/** Draws the symbol of a legend entry, as `swatchHtml` does on the page. The point is its left end, in pixels. */
+function drawSwatch({ canvasContext }: DrawContext, { shape: swatchShape, ...lineStyle }: Omit<LegendEntry, 'name'>, [x, y]: [x: number, y: number], width: number) {
+  const [middleX, { colour: swatchColour }] = [x + width / 2, lineStyle];
+  if (swatchShape === 'area') fillPath(canvasContext, swatchColour, () => canvasContext.rect(middleX - 5.5, y - 5.5, 11, 11));
+  else if (swatchShape === 'cross') strokePath(canvasContext, { colour: swatchColour, width: 1 }, () => addCross(canvasContext, middleX, y));
+  else if (swatchShape === 'dot' || swatchShape === 'ring') drawDisc(canvasContext, [middleX, y], 3, swatchShape === 'dot' ? swatchColour : undefined, { colour: swatchColour, width: 1 });
+  else strokeLine(canvasContext, [[x, y], [x + width, y]], lineStyle);
 }
 
 /** Clips what `paintContents` draws to the plot area. */

@@ -102,3 +102,12 @@ export function drawDisc(canvasContext: AnyContext2D, [x, y]: number[], radius: 
   if (fillColour) fillPath(canvasContext, fillColour, addCircle);
   if (edgeStroke) strokePath(canvasContext, edgeStroke, addCircle);
 }
+
+/** Half the size of a cross, CSS pixels. */
+const CROSS_HALF_SIZE = 2.6;
+
+/** Adds a cross at a point in CSS pixels to the path. */
+export function addCross(canvasContext: AnyContext2D, x: number, y: number) {
+  addLine(canvasContext, [[x - CROSS_HALF_SIZE, y - CROSS_HALF_SIZE], [x + CROSS_HALF_SIZE, y + CROSS_HALF_SIZE]]);
+  addLine(canvasContext, [[x - CROSS_HALF_SIZE, y + CROSS_HALF_SIZE], [x + CROSS_HALF_SIZE, y - CROSS_HALF_SIZE]]);
+}

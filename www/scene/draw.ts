@@ -4,7 +4,7 @@ import { greatest } from 'd3-array';
 import { limits } from '../../build/settings.js';
 import { colourChannelsOf, type LineStyle, type ColourPalette } from '../ui/theme.ts';
 import type { LegendEntry } from './axes.ts';
-import { addLine, drawDisc, fillPath, paintWithOpacity, strokeLine, strokePath, type DrawContext, type LineStroke } from './canvas.ts';
+import { addLine, drawDisc, paintWithOpacity, strokeLine, strokePath, type DrawContext, type LineStroke } from './canvas.ts';
 import { strokeInBatches } from './cache.ts';
 import type { Callout } from './labels.ts';
 
@@ -66,7 +66,7 @@ const HIGHLIGHT_WIDTH_FACTOR = 1.9;
 
 const DIMMED_OPACITY = 0.3;
 
-type ShownLine = Required<Omit<LineStroke, 'lineCap'>> & Pick<LineStyle, 'shape'>;
+type ShownLine = Omit<LegendEntry, 'name'>;
 
 /** Styles of the lines and marks that are shown, by name. */
 type ShownLines<Name extends string> = { [Key in Name]?: ShownLine };
@@ -91,28 +91,7 @@ export const styleOutlines = <Name extends string>(shownLines: ShownLines<Name>,
 
 /** Returns the legend of an exported picture: those of the named lines and marks that are shown. On the page the legend is HTML beside the picture. */
 export function createLineLegend<Name extends string>(drawContext: DrawContext, shownLines: ShownLines<Name>, lineNames: readonly Name[], labelsByName: Record<Name, string>): LegendEntry[] {
-  return drawContext.isExported ? lineNames.filter((lineName) => shownLines[lineName]).map((lineName) => ({
-    name: labelsByName[lineName].replaceAll('*', ''),
-    drawSample: (x, y, width) => drawSwatch(drawContext, shownLines[lineName] as ShownLine, [x, y], width),
-  })) : [];
-}
-
-/** Half the size of a cross, CSS pixels. */
-const CROSS_HALF_SIZE = 2.6;
-
-/** Adds a cross at a point in CSS pixels to the path. */
-export function addCross(canvasContext: DrawContext['canvasContext'], x: number, y: number) {
-  addLine(canvasContext, [[x - CROSS_HALF_SIZE, y - CROSS_HALF_SIZE], [x + CROSS_HALF_SIZE, y + CROSS_HALF_SIZE]]);
-  addLine(canvasContext, [[x - CROSS_HALF_SIZE, y + CROSS_HALF_SIZE], [x + CROSS_HALF_SIZE, y - CROSS_HALF_SIZE]]);
-}
-
-/** Draws the symbol of a legend entry, as `swatchHtml` does on the page. The point is its left end, in pixels. */
-function drawSwatch({ canvasContext }: DrawContext, { shape: swatchShape, ...lineStyle }: ShownLine, [x, y]: [x: number, y: number], width: number) {
-  const [middleX, { colour: swatchColour }] = [x + width / 2, lineStyle];
-  if (swatchShape === 'area') fillPath(canvasContext, swatchColour, () => canvasContext.rect(middleX - 5.5, y - 5.5, 11, 11));
-  else if (swatchShape === 'cross') strokePath(canvasContext, { colour: swatchColour, width: 1 }, () => addCross(canvasContext, middleX, y));
-  else if (swatchShape === 'dot' || swatchShape === 'ring') drawDisc(canvasContext, [middleX, y], 3, swatchShape === 'dot' ? swatchColour : undefined, { colour: swatchColour, width: 1 });
-  else strokeLine(canvasContext, [[x, y], [x + width, y]], lineStyle);
+  return drawContext.isExported ? lineNames.filter((lineName) => shownLines[lineName]).map((lineName) => ({ ...shownLines[lineName] as ShownLine, name: labelsByName[lineName].replaceAll('*', '') })) : [];
 }
 
 /** Returns true if an outline is longer than rounding errors. The outline of robots that all stop at one point has no length. */

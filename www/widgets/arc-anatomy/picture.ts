@@ -139,7 +139,7 @@ export class ArcPicture extends FigurePicture<ArcScene> {
  * Draws the centre of an arc, the radii to both of its ends, and the turn between the radii. The first radius is shifted slightly in the direction
  * `shiftSide` (±1), so that it does not hide another radius.
  */
-function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, end, turn }: ArcWithCircle, { colour: lineColour, dash, shiftSide }: { colour: string, dash: number[], shiftSide: number }) {
+function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, end, turn }: ArcWithCircle, { colour: lineColour, dash, shiftSide }: LineStroke & { shiftSide: number }) {
   if (!center) return;
   const { canvasContext, pictureView } = drawContext;
   const [x, y] = pictureView.toPixel(center[0], center[1]);

@@ -13,10 +13,6 @@ import type { Inspection, Moments } from '../../types.d.ts';
 
 addEnglishMessages({ banana: en });
 
-function formatDeviation(variance: number) {
-  return formatFixed(stdOfVariance(variance), 2);
-}
-
 /** Absolute skew below which an exact skew counts as 0. Rounding errors of the quadrature are about 1e-15. */
 const MIN_NONZERO_SKEW = 1e-9;
 
@@ -55,7 +51,7 @@ function bendSentenceOf({ stats: { crossTrackSkew: skew, crossTrackSkewError: er
   const joinWithNonBreakingSpaces = (numberText: string) => numberText.replaceAll(' ', '\u00a0');
   const [skewText, exactText] = [joinWithNonBreakingSpaces(formatWithError(skew, error, 3)), formatFixed(exactSkew, 3)];
   // The cloud is shaped like a bow-tie, because some robots end ahead of the start, and others behind it.
-  if (stdOfVariance(cov[0][0]) > Math.abs(mean[0])) return texts.bowTie(formatFixed(mean[0], 2), formatDeviation(cov[0][0]), skewText);
+  if (stdOfVariance(cov[0][0]) > Math.abs(mean[0])) return texts.bowTie(formatFixed(mean[0], 2), formatFixed(stdOfVariance(cov[0][0]), 2), skewText);
   if (Math.abs(exactSkew) < VISIBLE_SKEW) {
     const skewSentence = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? texts.symmetric(skewText) : texts.nearlySymmetric(skewText, exactText);
     // Exact statistics are undefined if robots turn by more than π. Those of the samples are used then.

@@ -3,7 +3,7 @@
 import { range } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { addCross, createDensityRamp, createLineLegend, drawCrosshair, drawOutline, createLineStyles } from '../../scene/draw.ts';
+import { createDensityRamp, createLineLegend, drawCrosshair, drawOutline, createLineStyles } from '../../scene/draw.ts';
 import { CachedImage, MemoizedResult, strokeInBatches } from '../../scene/cache.ts';
 import { drawCallouts } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
@@ -14,7 +14,7 @@ import { clampNumber } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
 import { LINE_STYLES, type ViewModel } from './settings.ts';
 import type { MapSqueeze, Plan } from '../../types.d.ts';
-import { drawDisc, paintWithOpacity, strokePath, type DrawContext } from '../../scene/canvas.ts';
+import { addCross, drawDisc, paintWithOpacity, strokePath, type DrawContext } from '../../scene/canvas.ts';
 
 export interface Scene extends ViewModel {
   simulation: MapSqueeze;

@@ -12,21 +12,9 @@ import { formatInteger } from '../../ui/format.ts';
 import type { Figure } from '../../figure/figure.ts';
 import type { StateValues } from '../../figure/settings.ts';
 import type { FigurePicture } from '../../scene/picture.ts';
+import type { BananaMachine } from '../../types.d.ts';
 
-/** Numbers of samples in a simulation, or in the data that was read from it. */
-interface SampleCount {
-  shown: number;
-  /** Number of samples that the simulation can add in a few milliseconds. */
-  block: number;
-}
-
-interface GrowingSimulation extends SampleCount {
-  config: { samples: number, seed: number };
-  /** Changes settings, and draws the first block of at most `goalCount` samples. Returns all settings. */
-  configureFirst: (settings: StateValues, goalCount: number) => StateValues;
-  /** Adds samples, and returns the number of all samples. */
-  addSamples: (sampleCount: number) => number;
-}
+type GrowingSimulation = Pick<BananaMachine, 'shown' | 'block' | 'configureFirst' | 'addSamples'>;
 
 const GROWTH_STEP_COUNT = 150;
 
@@ -57,7 +45,7 @@ export class Cloud extends FigureController {
   }
 
   /** Latest numbers of samples: those in the data on screen, or if the simulation has changed since then, those of the simulation. */
-  get #latestCounts(): SampleCount {
+  get #latestCounts(): Pick<GrowingSimulation, 'shown' | 'block'> {
     const { settings, viewModel } = this.figure;
     return (settings.isViewModelStale && this.#simulation) || viewModel;
   }

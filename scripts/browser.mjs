@@ -53,7 +53,7 @@ async function ensureChrome() {
   return installedBrowser;
 }
 
-/** Returns the path of the first Chrome that is found. @param {string[]} [programNames] of programs, the preferred one first */
+/** Returns the path of the first Chrome that is found. @param {string[]} [programNames] names, the preferred one first */
 export function findChrome(programNames = CHROME_PROGRAM_NAMES) {
   return (
     programNames.map((programName) => findProgram(programName)).find((programPath) => programPath !== undefined) ??

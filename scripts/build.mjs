@@ -53,7 +53,7 @@ export async function buildProject({ isLocal = false } = {}) {
   await buildIfStale('build/example-log.sha256', hashOfFiles(['scripts/example-log.mjs'], coreHash), Object.values(EXAMPLE_LOG_PATHS), writeExampleLog);
 }
 
-/** Returns a hash of the names and contents of files. @param {string[]} hashedPaths of files and directories @param {string} [hashSeed] */
+/** Returns a hash of the names and contents of files. @param {string[]} hashedPaths paths of files and directories @param {string} [hashSeed] */
 function hashOfFiles(hashedPaths, hashSeed = '') {
   const fileHash = createHash('sha256').update(hashSeed);
   for (const hashedPath of hashedPaths.flatMap(filesOf)) fileHash.update(`\0${hashedPath}\0`).update(readFileSync(absolutePath(hashedPath)));
@@ -190,7 +190,7 @@ async function completeCore(moduleName, isLocal) {
 /**
  * Replaces every panic by a bare trap. Browsers do not show the message, and the code that formats it takes 2 kB on the wire.
  *
- * @param {string} filePath of the module, with the names of its functions
+ * @param {string} filePath path of a module that contains the names of its functions
  */
 async function replacePanicsByTraps(filePath) {
   // The package name is a variable, because only full builds install the package. The type checker would require a package with a constant name.
@@ -233,7 +233,7 @@ async function optimizeModule(filePath, optimizerPasses = OPTIMIZER_PASSES) {
  * @property {[name: string, short: string][]} exports
  */
 
-/** Returns the names that wasm-bindgen has given to imports and exports. @param {string} moduleName of the core @returns {Names} */
+/** Returns the names that wasm-bindgen has given to imports and exports. @param {string} moduleName @returns {Names} */
 function readGlueNames(moduleName) {
   const wasmModule = new WebAssembly.Module(readFileSync(absolutePath(`build/${moduleName}.wasm`)));
   return {
@@ -242,7 +242,7 @@ function readGlueNames(moduleName) {
   };
 }
 
-/** Shortens the names of imports and exports, which saves some 2 kB of transfer. @param {string} moduleName of the core @returns {Promise<Names>} */
+/** Shortens the names of imports and exports, which saves some 2 kB of transfer. @param {string} moduleName @returns {Promise<Names>} */
 async function shortenNames(moduleName) {
   const { imports: wasmImports, exports: wasmExports } = JSON.parse(await optimizeModule(`build/${moduleName}.wasm`, ['--minify-imports-and-exports-and-modules']));
   return { exports: wasmExports, imports: wasmImports.map((/** @type {string[]} */ [, importName, shortName]) => ['a', importName, shortName]) };
@@ -252,8 +252,8 @@ async function shortenNames(moduleName) {
  * Converts wasm-bindgen's glue to a module that exports a function, which creates a new instance of the core. The original glue has exactly
  * one instance. Exports that nobody imports are left out.
  *
- * @param {string} moduleName of the core
- * @param {Names} glueNames by which the module and its glue call each other
+ * @param {string} moduleName
+ * @param {Names} glueNames names by which the module and its glue call each other
  */
 async function writeGlue(moduleName, glueNames) {
   const glueChanges = /** @type {[RegExp, string][]} */ ([

@@ -70,7 +70,7 @@ const MODULE_SOURCES = {
   /**
    * JavaScript glue for the worker that reads logs, without WebAssembly modules. The page sends a compiled module to the worker.
    *
-   * @param {string[]} widgetTags of the figures with logs that have a module of their own
+   * @param {string[]} widgetTags tags of the figures with logs that have a module of their own
    */
   worker: (widgetTags) => {
     const glueLines = ['motion', ...widgetTags].map((widgetTag, i) => [`import * as glue${i} from './${widgetTag}.js';`, `'${widgetTag}': { glue: async () => glue${i} }`]);
@@ -85,7 +85,7 @@ const MODULE_SOURCES = {
    * esbuild and Rollup change nothing, so that the address in the bundled script is wrong. A classic script has no
    * `import.meta.url`. For these cases `embedded` loads a script with the bytes. external.js and the widgets share this chunk.
    *
-   * @param {string[]} widgetTags of the figures that have a separate module
+   * @param {string[]} widgetTags tags of the figures that have a separate module
    */
   external: (widgetTags) => {
     const modulePaths = [['motion', '../motion.wasm'], ...widgetTags.map((widgetTag) => [widgetTag, `./${basename(moduleFileOf(widgetTag).path)}`])];
@@ -330,7 +330,7 @@ function composeMinimalDeclarations() {
  * Marks the constants of a library as pure, so that the bundler drops unused ones, such as those for writing YAML. The bundler cannot know
  * that computing the constants has no side effects.
  *
- * @param {string} librarySource with each constant at the start of a line
+ * @param {string} librarySource source in which each constant starts a line
  */
 function markConstantsPure(librarySource) {
   return librarySource

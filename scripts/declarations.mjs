@@ -80,7 +80,7 @@ function typeTextOf({ key: settingKey, type: fieldType, words, nullable }) {
  * Returns the description of a setting, with its meaning, its allowed values and its default.
  *
  * @param {Declaration} settingDeclaration
- * @param {string} [openingValue] the default as text
+ * @param {string} [openingValue] default as text
  */
 function descriptionOf(settingDeclaration, openingValue) {
   const { sentence: docSentence, type: fieldType } = settingDeclaration;
@@ -103,7 +103,7 @@ function numberTextOf(limitValue) {
   return numberFormat.format(limitValue).replaceAll(',', '\u202f').replace('-', '−');
 }
 
-/** Imports a TypeScript module of www/. @param {string} repositoryPath from the root @returns {Promise<any>} */
+/** Imports a TypeScript module of www/. @param {string} repositoryPath relative to the root of the repository @returns {Promise<any>} */
 export const importTypeScript = (repositoryPath) => import(pathToFileURL(absolutePath(repositoryPath)).href);
 
 /** Returns the comments of the elements' classes by the names of the classes. */

@@ -31,7 +31,7 @@ function unpackInputs(targetName) {
   inputLines.forEach((hexLine, i) => writeFileSync(join(knownInputFolder, String(i)), Buffer.from(hexLine, 'hex')));
 }
 
-/** Runs a target with cargo-fuzz. @param {string} targetName @param {string[]} inputFolders @param {string[]} fuzzerOptions of libFuzzer */
+/** Runs a target with cargo-fuzz. @param {string} targetName @param {string[]} inputFolders @param {string[]} fuzzerOptions options of libFuzzer */
 async function runCargoFuzz(targetName, inputFolders, fuzzerOptions) {
   const { cargoDirectory, env } = await ensureNativeRust();
   const cargoArguments = ['+nightly', 'fuzz', 'run', ...BUILD_OPTIONS, 'target', ...inputFolders, '--', ...fuzzerOptions];

@@ -134,7 +134,7 @@ const MAX_SILENCE_MS = 30_000;
 
 /**
  * @typedef {object} RunOptions
- * @property {Record<string, string>} [env] added to the present environment
+ * @property {Record<string, string>} [env] variables that are added to the present environment
  * @property {string} [cwd] working directory; default: the root of the repository
  * @property {number} [timeLimitSeconds] time limit, after which the program and its children are killed
  * @property {boolean} [isQuiet] true if the output is not printed
@@ -237,7 +237,7 @@ export function isProgram(filePath) {
   }
 }
 
-/** Returns the sorted files in a directory. For a file, returns the file itself. @param {string} fileOrDirectory from the root */
+/** Returns the sorted files in a directory. For a file, returns the file itself. @param {string} fileOrDirectory relative to the root of the repository */
 export function filesOf(fileOrDirectory) {
   if (statSync(absolutePath(fileOrDirectory)).isFile()) return [fileOrDirectory];
   return readdirSync(absolutePath(fileOrDirectory), { withFileTypes: true, recursive: true })

@@ -120,7 +120,7 @@ function describeAllowedWords(traitCall) {
 /** Constants of JavaScript, with their names in Python. @type {Record<string, string>} */
 const PYTHON_CONSTANTS = { null: 'None', true: 'True', false: 'False' };
 
-/** Replaces names of properties and constants by their Python names. @param {string} description with properties in backticks */
+/** Replaces names of properties and constants by their Python names. @param {string} description text in which properties are in backticks */
 const translateNamesToPython = (description) =>
   description.replaceAll(/`([a-z]+[A-Z]\w*)`/g, (_, propertyName) => `\`${pythonNameOf(propertyName)}\``).replaceAll(/\b(null|true|false)\b/g, (constantName) => PYTHON_CONSTANTS[constantName]);
 

@@ -68,7 +68,7 @@ function renderItemTable(elementDeclarations, itemKind, tableCaption, columnHead
  * @param {string} itemKind
  * @param {string} tableCaption
  * @param {string[]} columnHeadings
- * @param {string[][]} tableRows of HTML
+ * @param {string[][]} tableRows cells as HTML
  */
 function renderTable(tableOwner, itemKind, tableCaption, columnHeadings, tableRows) {
   const headCells = columnHeadings.map((headingText) => `<th scope="col">${headingText}</th>`).join('');

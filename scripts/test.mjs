@@ -70,7 +70,7 @@ const createProgramJob = ([programName, ...programArguments], programEnvironment
 /**
  * Returns a job that runs a script of a package.
  *
- * @param {string} scriptPath in node_modules
+ * @param {string} scriptPath path in node_modules
  * @param {string[]} scriptArguments
  * @param {Record<string, string>} [env]
  */
@@ -189,7 +189,7 @@ const PART_LANES = [
   ['oxlint', 'tsc', 'node', 'package'],
 ];
 
-/** Runs a single part or all parts, and returns true if they pass. @param {string[]} cliArguments of the command line */
+/** Runs a single part or all parts, and returns true if they pass. @param {string[]} cliArguments */
 async function runParts(cliArguments) {
   const [partName, ...moreArguments] = cliArguments.filter((cliArgument) => cliArgument !== '--all');
   if (partName !== undefined && !Object.hasOwn(TEST_PARTS, partName)) {
@@ -241,7 +241,7 @@ async function runPart(partName, programArgs) {
 /**
  * Returns the environment in which `cargo test` runs its WebAssembly tests in the browser.
  *
- * @param {string} runnerPath of the program that runs the tests
+ * @param {string} runnerPath path of the program that runs the tests
  * @param {import('./browser.mjs').Browser} browser
  */
 function createBrowserEnvironment(runnerPath, { chromePath, driverPath }) {

@@ -89,9 +89,9 @@ export async function ensurePip() {
 
 /**
  * @typedef {object} Rust
- * @property {string} cargoDirectory the directory of cargo, cargo-fmt and cargo-clippy
+ * @property {string} cargoDirectory directory of cargo, cargo-fmt and cargo-clippy
  * @property {Record<string, string>} env
- * @property {string[]} target the arguments that make cargo build for this target
+ * @property {string[]} target arguments that make cargo build for this target
  * @property {string} description
  */
 

@@ -48,7 +48,7 @@ export const readExampleTable = (logRole) => readFileSync(new URL(`../../example
 /** Returns t, x, y and yaw of each row of a table of the example log. @param {'odometry' | 'reference'} logRole */
 export const exampleRowsOf = (logRole) => readExampleTable(logRole).trim().split('\n').slice(1).map((csvLine) => csvLine.split(',').map(Number));
 
-/** Returns the example log as a recording. @param {string[]} referenceTopics that have the poses of the reference */
+/** Returns the example log as a recording. @param {string[]} referenceTopics names of the topics with the poses of the reference */
 export async function createExampleRecording(referenceTopics) {
   const referenceMessages = referenceTopics.flatMap((referenceTopic) => exampleRowsOf('reference').map(([t, x, y, yaw]) => ({
     topic: referenceTopic, type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, yaw) },

@@ -62,7 +62,7 @@ export const HANDLE_FIGURE_NAMES = ALL_FIGURE_NAMES.filter((figureName) => FIGUR
 /**
  * Returns the figure with which a test of common behaviour runs. The choice depends on the title only, and every figure has some tests.
  *
- * @param {string} testTitle of the test; a tag at its end has no effect
+ * @param {string} testTitle title of the test; a tag at its end has no effect
  * @param {Name[]} [candidateNames]
  */
 export function chooseFigureName(testTitle, candidateNames = ALL_FIGURE_NAMES) {

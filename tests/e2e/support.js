@@ -170,7 +170,7 @@ export function setProperty(widget, name, propertyValue) {
  * Plays a slider by its button. The code runs in the page, where no step can be missed.
  *
  * @param {Locator} widget
- * @param {string} settingKey of the setting in a state, and class of its group
+ * @param {string} settingKey key of the setting in a state, and class of its group
  * @param {number} [maxSteps] steps until it is paused
  * @returns {Promise<{ sliderValues: number[], buttonLabel: string }>} value at each step, and the label of the button at the first step
  */
@@ -226,7 +226,7 @@ export async function openBanana(page, attributes = '') {
  * Pauses the first figure with this name after one step of its cloud's growth. The code runs in the page, because a call from the test
  * could come too late.
  *
- * @param {Page} page which is opened later
+ * @param {Page} page page that is opened later
  * @param {string} name of the widget
  */
 export async function pauseAfterFirstStep(page, name) {

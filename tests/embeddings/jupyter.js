@@ -22,7 +22,7 @@ let packagesDirectory = '';
 
 const ORIGINAL_SETTINGS = { omega: 0.8, samples: 20000, alphas: [0.1, 0.1, 0.1, 0.1, 0.01, 0.01], overlays: ['command', 'exponential'] };
 
-/** Chooses an item of JupyterLab's menus. @param {Page} page @param {string} menuName @param {string[]} itemNames names of the items in it */
+/** Chooses an item of JupyterLab's menus. @param {Page} page @param {string} menuName @param {string[]} itemNames */
 async function chooseMenuItem(page, menuName, ...itemNames) {
   await page.locator('.lm-MenuBar-item', { hasText: menuName }).click();
   for (const [i, itemName] of itemNames.entries()) {

@@ -24,7 +24,7 @@ export const serveFiles = (outputDirectory, basePath) => async (projectDirectory
  * Starts the server of a site generator or framework, and waits until the server answers.
  *
  * @param {(port: string, directory: string) => [command: string, args: string[], env?: Record<string, string>]} commandOf returns the command that starts the server
- * @param {string} [basePath] the path of the site, with a slash at both ends
+ * @param {string} [basePath] path of the site, with a slash at both ends
  * @returns {import('./project.mjs').ServerMode['serve']}
  */
 export const serveByProgram = (commandOf, basePath = '/') => async (projectDirectory, { start }) => {

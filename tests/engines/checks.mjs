@@ -43,7 +43,7 @@ class BrowserPage {
     );
   }
 
-  /** Loads the page again. @param {string} [widgetTag] of a figure to scroll to and wait for */
+  /** Loads the page again. @param {string} [widgetTag] tag of a figure to scroll to and wait for */
   async open(widgetTag) {
     await this.session.openPage(this.address);
     if (widgetTag !== undefined) await this.waitUntilSettled(widgetTag);

@@ -40,7 +40,7 @@ test('an α that rounds to 0 is shown as an upper bound instead of 0', () => {
   assert.deepEqual([formatAlphaOrBound(1e-7, [0, 0.0016]), formatAlphaOrBound(1e-7, [0, 0.0016], 2), formatAlphaOrBound(0.03, [0.024, 0.036], 2)], ['≤ 0.0016', '≤ 0.0032', '0.060']);
 });
 
-/** Returns the result of a calibration of two α's. @param {object} [changedFields] replaces fields @returns {any} */
+/** Returns the result of a calibration of two α's. @param {object} [changedFields] fields with other values than the default @returns {any} */
 const createCalibration = (changedFields) => ({
   alphas: [0.03, 0.008],
   intervals: [[0.024, 0.036], [0.007, 0.0091]],
@@ -53,7 +53,7 @@ const createCalibration = (changedFields) => ({
   ...changedFields,
 });
 
-/** Returns the lines for Nav2 without indentation. @param {object} [changedFields] of the calibration @param {object} [otherOptions] options */
+/** Returns the lines for Nav2 without indentation. @param {object} [changedFields] changed fields of the calibration @param {object} [otherOptions] changed options */
 const nav2LinesOf = (changedFields, otherOptions) =>
   formatNav2Yaml({ stats: createCalibration(changedFields), legCount: 9, model: 'odometry', rule: 'nav2', legLength: { distance: 0.25, angle: 0.2 }, corrections: {}, logName: 'a.csv and b.csv', warnings: [], ...otherOptions }, '2026-01-02')
     .trimEnd().split('\n').map((nav2Line) => nav2Line.trim());

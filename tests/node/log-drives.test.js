@@ -22,7 +22,7 @@ const SERIES_TYPE_AND_KIND = /** @type {const} */ ({
  *
  * @param {Record<string, keyof typeof SERIES_TYPE_AND_KIND>} typesBySeries types by name
  * @param {Partial<Recording>} [moreFields]
- * @param {string[]} [framePairs] of transforms, as "odom base_link"
+ * @param {string[]} [framePairs] pairs of frames, as "odom base_link"
  * @returns {Recording}
  */
 const createRecording = (typesBySeries, moreFields, framePairs = []) => ({

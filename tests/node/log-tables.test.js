@@ -16,7 +16,7 @@ import { summarySentencesOf } from '../../www/logs/log.ts';
  * @property {string | Uint8Array<ArrayBuffer>} tableText
  * @property {'poses' | 'commands'} [kind] default: poses
  * @property {number} [start] time of the first row; default 0
- * @property {string[]} [series] that the table has; default: one without a name
+ * @property {string[]} [series] names of the series; default: one series without a name
  * @property {Partial<LogChoice>} [choice]
  * @property {OpenOptions} [options]
  * @property {RegExp} [summaryPattern] pattern of sentences of the summary

@@ -12,7 +12,7 @@ const FLOOR_PLAN = { bounds: ROOM_BOUNDS, walls: ROOM_WALLS };
 /** Index in WALLS of the wall's part below the doorway. */
 const LOWER_WALL_OFFSET = OUTER_WALLS.length;
 
-/** Returns the drag handle (grip) of a part of a wall. @param {string} gripPart @param {number} [wallOffset] index in WALLS */
+/** Returns the drag handle (grip) of a part of a wall. @param {string} gripPart @param {number} [wallOffset] index of the wall in WALLS */
 const gripOf = (gripPart, wallOffset = LOWER_WALL_OFFSET) => gripsOf(FLOOR_PLAN).find((grip) => grip.grippedPart === gripPart && grip.wallOffset === wallOffset);
 
 test('free wall ends and inner walls have drag handles; outer walls and ends at other walls have none', () => {

@@ -79,7 +79,7 @@ function writeInProject(fileName, fileContents) {
   writeFileSync(join(installedProject.directory, 'react', fileName), fileContents);
 }
 
-/** Returns the HTML that a server renders for a figure. @param {object} figureProps of the figure; they may contain NaN */
+/** Returns the HTML that a server renders for a figure. @param {object} figureProps props, which may contain NaN */
 function renderServerHtml(figureProps) {
   const propsSource = JSON.stringify(figureProps, (_, propValue) => (Number.isNaN(propValue) ? 'NaN' : propValue)).replaceAll('"NaN"', 'NaN');
   const serverSource = `
@@ -96,7 +96,7 @@ function renderServerHtml(figureProps) {
 /** Waits until the last `stats` event of the first figure has 2000 samples. */
 const waitUntilComplete = () => page.getByText('of 2000').waitFor();
 
-/** Opens a page of the application. @param {string} pageName of the file */
+/** Opens a page of the application. @param {string} pageName */
 async function openPage(pageName) {
   page = await installedProject.openPage();
   await page.goto(new URL(`react/${pageName}`, installedProject.address).href);
